@@ -1,0 +1,39 @@
+#include "rotrocc/stereo_camera.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace rotrocc {
+namespace {
+
+void require(bool ok, const char* name, double value, const char* wanted) {
+  if (ok) return;
+  std::ostringstream message;
+  message << "stereo camera: " << name << " is " << value << ", but must be " << wanted;
+  throw std::invalid_argument(message.str());
+}
+
+}  // namespace
+
+void StereoCamera::check() const {
+  require(width > 0, "width", width, "positive");
+  require(height > 0, "height", height, "positive");
+  require(std::isfinite(fx) && fx > 0.0, "fx", fx, "positive");
+  require(std::isfinite(fy) && fy > 0.0, "fy", fy, "positive");
+  require(std::isfinite(cx), "cx", cx, "finite");
+  require(std::isfinite(cy), "cy", cy, "finite");
+  require(std::isfinite(cx_right), "cx_right", cx_right, "finite");
+  require(std::isfinite(baseline_m) && baseline_m > 0.0,
+          "baseline_m",
+          baseline_m,
+          "positive (are left and right exchanged?)");
+}
+
+bool StereoCamera::operator==(const StereoCamera& other) const {
+  return width == other.width && height == other.height && fx == other.fx && fy == other.fy &&
+         cx == other.cx && cy == other.cy && cx_right == other.cx_right &&
+         baseline_m == other.baseline_m;
+}
+
+}  // namespace rotrocc
