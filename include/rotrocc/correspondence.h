@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace rotrocc {
+
+/// One feature of the set F = {x_prev, x_cur, depth} (paper, section V-A), in left pixels.
+struct Correspondence {
+  Eigen::Vector2d prev_px;    ///< measured at t-1
+  Eigen::Vector2d cur_px;     ///< measured at t
+  double disparity_px = 0.0;  ///< x_left - x_right, measured at t
+  Eigen::Vector3d point_cur;  ///< triangulated, left camera frame at t [m]
+};
+
+using Correspondences = std::vector<Correspondence>;
+
+/// A flag for each correspondence, in their order: 1 if it belongs to the set, else 0.
+using FeatureSet = std::vector<char>;
+
+}  // namespace rotrocc

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+namespace rotrocc {
+
+/// Shi-Tomasi corners (Shi and Tomasi, CVPR 1994), spread over the image by a grid.
+class FeatureDetector {
+ public:
+  struct Config {
+    int max_features = 1500;
+    int block_size_px = 5;      ///< side of the window the gradients are summed over; odd
+    int nms_radius_px = 4;      ///< no stronger corner this near, in x and y
+    int cell_size_px = 32;      ///< side of a grid cell
+    double min_response = 2.0;  ///< least smaller eigenvalue: (grey levels / px)^2
+    int border_px = 8;          ///< no corners this near to the image's edge
+  };
+
+  explicit FeatureDetector(const Config& config) : config_(config) {}
+
+  /// Corners of `image` (CV_8UC1) at whole pixels, at most max_features. Every cell gives its
+  /// strongest before any gives its second, and so on. An image too small for a corner gives none.
+  void detect(const cv::Mat& image, std::vector<cv::Point2f>& corners);
+
+ private:
+  struct Candidate {
+    float response;
+    int x, y;
+  };
+  struct Strip {
+    cv::Mat gradient_x, gradient_y, sums, response, maximum;
+    std::vector<Candidate> candidates;
+  };
+
+  void findCandidates(const cv::Mat& image, int first_row, int last_row, Strip& strip) const;
+  void computeResponse(const cv::Mat& image, Strip& strip) const;
+  void selectByCells(const cv::Size& size, std::vector<cv::Point2f>& corners);
+
+  Config config_;
+  std::vector<Strip> strips_;
+  std::vector<std::vector<Candidate>> cells_;
+  std::vector<Candidate> rank_;
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "rotrocc/correspondence.h"
+#include "rotrocc/motion_solver.h"
+#include "rotrocc/outlier_rejection.h"
+#include "rotrocc/stereo_camera.h"
+
+namespace rotrocc {
+
+/// Which features may estimate the motion.
+enum class Criterion {
+  kRotrocc,       ///< reprojection error for rotation, then DNRE for translation (section V-B)
+  kReprojection,  ///< reprojection error alone: stage 1 and no more
+  kRocc,          ///< as kRotrocc, but normalized by the coupled flow (ROCC, Eq. 8)
+  kMeanBased,     ///< one stage, Eq. 32
+  kStdBased       ///< one stage, Eq. 31
+};
+
+/// "rotrocc", "reprojection", "rocc", "mean_based", "std_based".
+const std::vector<std::string>& criterionNames();
+
+/// The two-stage estimator: rotation, flow decoupling, translation (section V-B).
+class MotionEstimator {
+ public:
+  struct Config {
+    std::string criterion = "rotrocc";  ///< one of criterionNames()
+
+    // Stage 1: rotation.
+    double rotation_limit_px = 0.6;     ///< termination limit of the reprojection error, Eq. 26
+    double rotation_drop_share = 0.15;  ///< of the set, dropped at most by an iteration: b of Eq. 26
+    int rotation_max_iterations = 30;
+
+    // Stage 2: translation.
+    double translation_limit = 0.3;        ///< termination limit of the DNRE, Eq. 30
+    double translation_drop_share = 0.15;  ///< b of Eq. 30
+    int translation_max_iterations = 30;
+    double translation_initial_px = 1.5;  ///< stage-1 error below which a feature enters; 0: all do
+    double min_flow_px = 0.5;             ///< floor of the normalizing flow: its noise
+    double min_speed_mps = 1.0;           ///< below it stage 2 is skipped
+
+    // The comparison criteria.
+    double mean_factor = 9.0;       ///< of Eq. 32
+    double deviation_factor = 1.5;  ///< of Eq. 31
+    int comparison_iterations = 10;
+  };
+
+  struct Estimate {
+    bool valid = false;
+    Eigen::Isometry3d T_prev_cur = Eigen::Isometry3d::Identity();
+    Matrix6d covariance = Matrix6d::Zero();  ///< as OdometryResult::covariance
+    FeatureSet rotation_inliers;
+    FeatureSet translation_inliers;
+    bool has_translation_stage = false;
+  };
+
+  /// Throws std::invalid_argument on a criterion of another name.
+  explicit MotionEstimator(const Config& config);
+
+  /// Estimates the motion that took `dt_s` > 0 from the full feature set, beginning with `initial`.
+  /// Invalid if fewer than 3 features are left, or the equations have no unique solution.
+  Estimate estimate(const StereoCamera& camera, const Correspondences& features,
+                    const Eigen::Isometry3d& initial, double dt_s);
+
+ private:
+  bool estimateRotation(const StereoCamera& camera, const Correspondences& features,
+                        Estimate& estimate);
+  bool estimateTranslation(const StereoCamera& camera, const Correspondences& features,
+                           Estimate& estimate);
+  bool estimateCovariance(const StereoCamera& camera, const Correspondences& features,
+                          Estimate& estimate);
+
+  Config config_;
+  Criterion criterion_;
+  MotionSolver solver_;
+  std::vector<double> errors_;
+  std::vector<double> flow_px_;
+};
+
+}  // namespace rotrocc

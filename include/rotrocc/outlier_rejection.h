@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rotrocc/correspondence.h"
+
+namespace rotrocc {
+
+/// Where an iteration draws the line between inliers and outliers, from the errors of its set.
+class OutlierThreshold {
+ public:
+  /// Eq. 26 and 30: the larger of a fixed limit and the b-th highest error, where b is `drop_share` of
+  /// the set: no iteration drops more than that.
+  static OutlierThreshold fixedLimit(double limit, double drop_share);
+  /// Eq. 32: `factor` times the mean error.
+  static OutlierThreshold meanBased(double factor);
+  /// Eq. 31: `factor` standard deviations above the mean error.
+  static OutlierThreshold deviationBased(double factor);
+
+  /// The threshold for the errors of the features flagged in `set`; infinite if it is empty.
+  double operator()(const std::vector<double>& errors, const FeatureSet& set);
+
+ private:
+  enum class Rule { kFixedLimit, kMean, kDeviation };
+  OutlierThreshold(Rule rule, double limit, double drop_share)
+      : rule_(rule), limit_(limit), drop_share_(drop_share) {}
+
+  Rule rule_;
+  double limit_;
+  double drop_share_;
+  std::vector<double> sorted_;
+};
+
+/// Keeps in `set` just the features of `errors` below `threshold`; features once dropped may come
+/// back, as in Eq. 26. Returns whether the set changed.
+bool keepBelow(const std::vector<double>& errors, double threshold, FeatureSet& set);
+
+/// How many features a set has.
+int count(const FeatureSet& set);
+
+}  // namespace rotrocc

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+
+#include "rotrocc/parameter_table.h"
+#include "rotrocc/visual_odometry.h"
+
+namespace rotrocc {
+
+/// What the ROS side needs to know beside the estimator.
+struct NodeParameters {
+  std::string odom_frame = "odom";
+  std::string base_frame = "base_link";
+  bool publish_tf = true;
+  std::string image_transport = "raw";
+  double max_stamp_difference_s = 0.01;  ///< between the left and the right image of a pair
+  int queue_size = 4;                    ///< images that wait for their partner, on each side
+  int path_length = 10000;               ///< poses that the path topic keeps; 0: no path
+  double lost_speed_sigma_mps = 10.0;    ///< how fast the position gets uncertain while lost
+  double lost_turn_rate_sigma_rps = 0.5;
+  std::string trajectory_file;            ///< every pose is written there; empty: none
+  std::string trajectory_format = "tum";  ///< or "kitti"
+};
+
+/// All parameters of the package.
+struct Parameters {
+  VisualOdometry::Config odometry;
+  NodeParameters node;
+};
+
+/// The table that names and guards every member of `parameters`, which must outlive it.
+ParameterTable makeParameterTable(Parameters& parameters);
+
+/// Sets what the YAML file at `path` names. Throws std::invalid_argument with the path on a file that
+/// cannot be read, is no YAML, or names an unknown parameter or a value out of range.
+void loadYaml(const std::string& path, ParameterTable& table);
+
+/// The table as a YAML file, with unit, range and meaning of each parameter in a comment.
+std::string toYaml(const ParameterTable& table);
+
+}  // namespace rotrocc

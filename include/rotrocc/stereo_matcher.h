@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+namespace rotrocc {
+
+/// Sparse block matching along the row: sum of absolute differences (SAD) with a sub-pixel fit.
+class StereoMatcher {
+ public:
+  struct Config {
+    int max_disparity_px = 128;    ///< nearer points are not found
+    double min_disparity_px = 1.0;  ///< farther points are dropped
+    double max_mean_difference = 20.0;  ///< of the best match, grey levels per pixel
+    double uniqueness = 0.85;  ///< best SAD at most this times the best one elsewhere on the row
+  };
+
+  /// Disparity of a pixel without a match.
+  static constexpr float kNoDisparity = -1.0F;
+
+  explicit StereoMatcher(const Config& config) : config_(config) {}
+
+  /// Disparity x_left - x_right [px] of each left pixel, or kNoDisparity: too near to the edge, too
+  /// different, ambiguous, or outside of the range. `left` and `right` are CV_8UC1 of one size.
+  void match(const cv::Mat& left, const cv::Mat& right, const std::vector<cv::Point2f>& pixels,
+             std::vector<float>& disparities_px) const;
+
+  /// The same, but looks only within `radius_px` of the `expected_px` disparities and asks for no
+  /// uniqueness, which the expectation gives. Pixels whose expectation is kNoDisparity are skipped.
+  void matchNear(const cv::Mat& left, const cv::Mat& right, const std::vector<cv::Point2f>& pixels,
+                 const std::vector<float>& expected_px, int radius_px,
+                 std::vector<float>& disparities_px) const;
+
+ private:
+  void search(const cv::Mat& left, const cv::Mat& right, const std::vector<cv::Point2f>& pixels,
+              const std::function<cv::Range(std::size_t)>& columns_of, double uniqueness,
+              std::vector<float>& disparities_px) const;
+
+  Config config_;
+};
+
+}  // namespace rotrocc

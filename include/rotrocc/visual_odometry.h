@@ -1,0 +1,118 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "rotrocc/correspondence.h"
+#include "rotrocc/feature_detector.h"
+#include "rotrocc/feature_tracker.h"
+#include "rotrocc/motion_estimator.h"
+#include "rotrocc/motion_model.h"
+#include "rotrocc/stereo_camera.h"
+#include "rotrocc/stereo_matcher.h"
+#include "rotrocc/stereo_pair.h"
+
+namespace rotrocc {
+
+/// What can be said of the motion to the current pair.
+enum class State {
+  kInitialising,  ///< there is no earlier pair to compare this one with
+  kOk,
+  kDegraded,  ///< the motion is given, but rests on few features
+  kLost       ///< no motion was found
+};
+
+/// "initialising", "ok", "degraded" or "lost".
+const char* toString(State state);
+
+/// How many features are left after each stage.
+struct StageCounts {
+  int corners = 0;              ///< Shi-Tomasi corners at t-1
+  int with_depth = 0;           ///< with a disparity at t-1
+  int tracked = 0;              ///< tracked to t, left and right
+  int consistent = 0;           ///< left and right agree at t: the feature set F
+  int rotation_inliers = 0;     ///< left after stage 1
+  int translation_inliers = 0;  ///< left after stage 2; 0 if the criterion or the low speed skips it
+};
+
+/// Wall time of each stage [ms]; several rounds of a stage are added up.
+struct StageTimes {
+  double pyramids_ms = 0.0;
+  double corners_ms = 0.0;
+  double disparity_ms = 0.0;
+  double tracking_ms = 0.0;
+  double estimation_ms = 0.0;
+  double total_ms = 0.0;
+};
+
+/// The answer to one stereo pair.
+struct OdometryResult {
+  State state = State::kLost;
+  std::string reason;         ///< why the state is not ok, in one sentence; empty if it is
+  std::int64_t stamp_ns = 0;  ///< of the current pair
+  double dt_s = 0.0;          ///< since the previous pair; 0 if there is none
+  /// The motion of the left camera: maps points of its current frame to its previous one. Identity
+  /// unless the state is ok or degraded.
+  Eigen::Isometry3d T_prev_cur = Eigen::Isometry3d::Identity();
+  /// Covariance of T_prev_cur in axes of the previous camera frame, in the order of REP 103:
+  /// translation [m] x y z, then rotation [rad] about x y z, with R = Exp(error) R_estimated and
+  /// t = error + t_estimated. Zero unless the state is ok or degraded.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  StageCounts counts;
+  StageTimes times;
+
+  bool hasMotion() const { return state == State::kOk || state == State::kDegraded; }
+};
+
+/// Frame-to-frame stereo visual odometry: section V of Buczko and Willert, "Flow-Decoupled Normalized
+/// Reprojection Error for Visual Odometry", IV 2017.
+class VisualOdometry {
+ public:
+  struct Config {
+    FeatureDetector::Config feature_detector;
+    StereoMatcher::Config stereo_matcher;
+    MotionModel::Config motion_model;
+    FeatureTracker::Config feature_tracker;
+    MotionEstimator::Config motion_estimator;
+
+    int startup_rounds = 4;           ///< predict, track, estimate this often without a prediction
+    double startup_settled_px = 0.5;  ///< fewer rounds if the median prediction moved less than this
+    int min_inliers = 25;             ///< fewer: lost
+    double min_inlier_share = 0.15;   ///< of the consistent features; less: lost
+    int degraded_inliers = 80;        ///< fewer: degraded
+    double degraded_inlier_share = 0.35;  ///< less: degraded
+    double max_speed_mps = 70.0;          ///< a faster motion is none: lost
+    double max_turn_rate_rps = 6.0;       ///< likewise
+    double max_gap_s = 1.0;               ///< a longer gap: start anew
+  };
+
+  explicit VisualOdometry(const Config& config);
+  ~VisualOdometry();
+  VisualOdometry(VisualOdometry&&) noexcept;
+  VisualOdometry& operator=(VisualOdometry&&) noexcept;
+
+  /// Estimates the motion since the pair of the last call. Never throws: images that are empty, not
+  /// CV_8UC1, of different sizes or not of the camera's size, a bad camera, a stamp that does not
+  /// increase, and errors inside OpenCV or Ceres give the state lost and a reason. The first pair, a
+  /// new camera and a gap of more than max_gap_s give the state initialising.
+  OdometryResult process(const StereoPair& pair, const StereoCamera& camera);
+
+  /// Forgets the previous pair and the motion: the next pair is a first one.
+  void reset();
+
+  /// The feature set of the last call, empty if it did not get so far.
+  const Correspondences& correspondences() const;
+  /// The inliers of stage 1 and 2 among correspondences(). Where stage 2 was skipped both are alike.
+  const FeatureSet& rotationInliers() const;
+  const FeatureSet& translationInliers() const;
+
+ private:
+  class Pipeline;
+  std::unique_ptr<Pipeline> pipeline_;
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,71 @@
+#include "rotrocc/motion_solver.h"
+
+#include "rotrocc/outlier_rejection.h"
+
+namespace rotrocc {
+namespace {
+
+/// Steps of the translation [m] and rotation [rad] smaller than this change no pixel visibly.
+constexpr double kParameterTolerance = 1e-7;
+
+template <class Solver>
+void configure(Solver& solver, int max_iterations) {
+  solver.options.max_num_iterations = max_iterations;
+  solver.options.parameter_tolerance = kParameterTolerance;
+}
+
+}  // namespace
+
+bool MotionSolver::solveMotion(const StereoCamera& camera, const Correspondences& features,
+                               const FeatureSet& set, Eigen::Isometry3d& T_prev_cur) {
+  if (count(set) < 3) return false;
+  motion_problem_.assign(camera, features, set, T_prev_cur.linear());
+  Vector6d parameters;
+  parameters << Eigen::Vector3d::Zero(), T_prev_cur.translation();
+  configure(motion_solver_, max_iterations_);
+  motion_solver_.Solve(motion_problem_, &parameters);
+  if (!parameters.allFinite()) return false;
+
+  const Eigen::Matrix3d R = expRotation(parameters.head<3>()) * T_prev_cur.linear();
+  T_prev_cur.linear() = Eigen::Quaterniond(R).normalized().toRotationMatrix();
+  T_prev_cur.translation() = parameters.tail<3>();
+  return true;
+}
+
+bool MotionSolver::solveTranslation(const StereoCamera& camera, const Correspondences& features,
+                                    const FeatureSet& set, Eigen::Isometry3d& T_prev_cur) {
+  if (count(set) < 2) return false;
+  translation_problem_.assign(camera, features, set, T_prev_cur.linear());
+  Eigen::Vector3d translation = T_prev_cur.translation();
+  configure(translation_solver_, max_iterations_);
+  translation_solver_.Solve(translation_problem_, &translation);
+  if (!translation.allFinite()) return false;
+  T_prev_cur.translation() = translation;
+  return true;
+}
+
+MotionSolver::Information MotionSolver::information(const StereoCamera& camera,
+                                                    const Correspondences& features,
+                                                    const FeatureSet& set,
+                                                    const Eigen::Isometry3d& T_prev_cur,
+                                                    int estimated_parameters) {
+  motion_problem_.assign(camera, features, set, T_prev_cur.linear());
+  Vector6d parameters;
+  parameters << Eigen::Vector3d::Zero(), T_prev_cur.translation();
+  residuals_.resize(motion_problem_.NumResiduals());
+  jacobian_.resize(motion_problem_.NumResiduals(), 6);
+  motion_problem_(parameters.data(), residuals_.data(), jacobian_.data());
+
+  Information information;
+  const auto rotation = jacobian_.leftCols<3>();
+  const auto translation = jacobian_.rightCols<3>();
+  information.matrix.topLeftCorner<3, 3>() = translation.transpose() * translation;
+  information.matrix.topRightCorner<3, 3>() = translation.transpose() * rotation;
+  information.matrix.bottomLeftCorner<3, 3>() = rotation.transpose() * translation;
+  information.matrix.bottomRightCorner<3, 3>() = rotation.transpose() * rotation;
+  const auto freedom = static_cast<double>(residuals_.size() - estimated_parameters);
+  if (freedom > 0.0) information.residual_variance = residuals_.squaredNorm() / freedom;
+  return information;
+}
+
+}  // namespace rotrocc

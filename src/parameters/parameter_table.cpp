@@ -1,0 +1,127 @@
+#include "rotrocc/parameter_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+
+namespace rotrocc {
+namespace {
+
+template <class T>
+std::string toText(const T& value) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << value;
+  return text.str();
+}
+
+/// Parses the whole of `text`; throws if anything is left over.
+template <class T>
+T parseNumber(const std::string& text, const char* kind) {
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  T value{};
+  if (!(stream >> value) || !(stream >> std::ws).eof()) {
+    throw std::invalid_argument("is \"" + text + "\", but must be " + kind);
+  }
+  return value;
+}
+
+template <class T>
+ParameterTable::Parameter makeNumber(T& value, T min, T max, const char* kind) {
+  ParameterTable::Parameter parameter;
+  parameter.range = "[" + toText(min) + ", " + toText(max) + "]";
+  parameter.set = [&value, min, max, kind, range = parameter.range](const std::string& text) {
+    const T parsed = parseNumber<T>(text, kind);
+    if (!(parsed >= min && parsed <= max)) {
+      throw std::invalid_argument("is " + text + ", but must be in " + range);
+    }
+    value = parsed;
+  };
+  parameter.get = [&value] { return toText(value); };
+  return parameter;
+}
+
+std::string join(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+}  // namespace
+
+void ParameterTable::add(const std::string& name, int& value, int min, int max,
+                         const std::string& unit, const std::string& description) {
+  Parameter parameter = makeNumber(value, min, max, "a whole number");
+  parameter.name = name;
+  parameter.unit = unit;
+  parameter.description = description;
+  parameters_.push_back(std::move(parameter));
+}
+
+void ParameterTable::add(const std::string& name, double& value, double min, double max,
+                         const std::string& unit, const std::string& description) {
+  Parameter parameter = makeNumber(value, min, max, "a number");
+  parameter.name = name;
+  parameter.unit = unit;
+  parameter.description = description;
+  parameters_.push_back(std::move(parameter));
+}
+
+void ParameterTable::add(const std::string& name, bool& value, const std::string& description) {
+  Parameter parameter;
+  parameter.name = name;
+  parameter.range = "true or false";
+  parameter.description = description;
+  parameter.set = [&value](const std::string& text) {
+    if (text != "true" && text != "false") {
+      throw std::invalid_argument("is \"" + text + "\", but must be true or false");
+    }
+    value = text == "true";
+  };
+  parameter.get = [&value] { return std::string(value ? "true" : "false"); };
+  parameters_.push_back(std::move(parameter));
+}
+
+void ParameterTable::add(const std::string& name, std::string& value,
+                         const std::vector<std::string>& choices, const std::string& description) {
+  Parameter parameter;
+  parameter.name = name;
+  parameter.range = choices.empty() ? "any text" : "one of " + join(choices);
+  parameter.description = description;
+  parameter.set = [&value, choices, range = parameter.range](const std::string& text) {
+    if (!choices.empty() && std::find(choices.begin(), choices.end(), text) == choices.end()) {
+      throw std::invalid_argument("is \"" + text + "\", but must be " + range);
+    }
+    value = text;
+  };
+  parameter.get = [&value] { return value; };
+  parameters_.push_back(std::move(parameter));
+}
+
+void ParameterTable::set(const std::string& name, const std::string& text) {
+  const auto found = std::find_if(parameters_.begin(), parameters_.end(), [&](const Parameter& p) {
+    return p.name == name;
+  });
+  if (found == parameters_.end()) {
+    throw std::invalid_argument("there is no parameter \"" + name +
+                                "\"; config/default.yaml lists them all");
+  }
+  try {
+    found->set(text);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("parameter " + name + " " + error.what());
+  }
+}
+
+void ParameterTable::setAssignment(const std::string& assignment) {
+  const auto equals = assignment.find('=');
+  if (equals == std::string::npos) {
+    throw std::invalid_argument("\"" + assignment + "\" is no assignment; write name=value");
+  }
+  set(assignment.substr(0, equals), assignment.substr(equals + 1));
+}
+
+}  // namespace rotrocc

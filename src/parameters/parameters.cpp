@@ -1,0 +1,239 @@
+#include "rotrocc/parameters.h"
+
+#include <stdexcept>
+
+#include <yaml-cpp/yaml.h>
+
+namespace rotrocc {
+namespace {
+
+void addFeatureDetector(FeatureDetector::Config& c, ParameterTable& table) {
+  const std::string s = "feature_detector/";
+  table.add(s + "max_features", c.max_features, 50, 20000, "", "corners per image");
+  table.add(s + "block_size_px", c.block_size_px, 3, 31, "px", "window of the corner measure; odd");
+  table.add(s + "nms_radius_px", c.nms_radius_px, 1, 50, "px", "no two corners nearer than this");
+  table.add(s + "cell_size_px", c.cell_size_px, 8, 1000, "px", "grid that spreads the corners");
+  table.add(s + "min_response",
+            c.min_response,
+            0.0,
+            1e6,
+            "(grey levels/px)^2",
+            "least smaller eigenvalue of a corner");
+  table.add(s + "border_px", c.border_px, 1, 200, "px", "no corners this near to the edge");
+}
+
+void addStereoMatcher(StereoMatcher::Config& c, ParameterTable& table) {
+  const std::string s = "stereo_matcher/";
+  table.add(s + "max_disparity_px", c.max_disparity_px, 8, 2000, "px", "nearer points are dropped");
+  table.add(
+      s + "min_disparity_px", c.min_disparity_px, 0.1, 100.0, "px", "farther points are dropped");
+  table.add(s + "max_mean_difference",
+            c.max_mean_difference,
+            1.0,
+            255.0,
+            "grey levels",
+            "per pixel, of the best match");
+  table.add(s + "uniqueness",
+            c.uniqueness,
+            0.1,
+            1.0,
+            "",
+            "best SAD over the best elsewhere on the row, at most");
+}
+
+void addFeatureTracker(FeatureTracker::Config& c, ParameterTable& table) {
+  const std::string s = "feature_tracker/";
+  table.add(s + "window_px", c.window_px, 5, 51, "px", "Lucas-Kanade window; odd");
+  table.add(s + "levels", c.levels, 1, 8, "", "pyramid levels with a motion prediction");
+  table.add(s + "startup_levels", c.startup_levels, 1, 8, "", "pyramid levels without; at least levels");
+  table.add(s + "max_iterations", c.max_iterations, 1, 100, "", "per pyramid level");
+  table.add(s + "min_step_px", c.min_step_px, 0.0001, 1.0, "px", "iterations end below it");
+  table.add(s + "max_round_trip_px",
+            c.max_round_trip_px,
+            0.05,
+            10.0,
+            "px",
+            "tracked forward and back, a feature must return to within this");
+  table.add(s + "max_vertical_px",
+            c.max_vertical_px,
+            0.1,
+            20.0,
+            "px",
+            "row difference of left and right");
+  table.add(s + "max_disparity_difference_px",
+            c.max_disparity_difference_px,
+            0.1,
+            20.0,
+            "px",
+            "between the tracked and the matched disparity");
+}
+
+void addMotionEstimator(MotionEstimator::Config& c, ParameterTable& table) {
+  const std::string s = "motion_estimator/";
+  table.add(s + "criterion", c.criterion, criterionNames(), "which features are inliers");
+  table.add(s + "rotation_limit_px",
+            c.rotation_limit_px,
+            0.01,
+            100.0,
+            "px",
+            "stage 1: termination limit of the reprojection error (Eq. 26)");
+  table.add(s + "rotation_drop_share",
+            c.rotation_drop_share,
+            0.001,
+            1.0,
+            "",
+            "stage 1: share of the features an iteration drops at most (b of Eq. 26)");
+  table.add(s + "rotation_max_iterations", c.rotation_max_iterations, 1, 1000, "", "stage 1");
+  table.add(s + "translation_limit",
+            c.translation_limit,
+            0.001,
+            100.0,
+            "",
+            "stage 2: termination limit of the DNRE (Eq. 30)");
+  table.add(s + "translation_drop_share",
+            c.translation_drop_share,
+            0.001,
+            1.0,
+            "",
+            "stage 2: share of the features an iteration drops at most (b of Eq. 30)");
+  table.add(s + "translation_max_iterations", c.translation_max_iterations, 1, 1000, "", "stage 2");
+  table.add(s + "translation_initial_px",
+            c.translation_initial_px,
+            0.0,
+            1000.0,
+            "px",
+            "stage 2 begins with features whose stage-1 error is below; 0: with all");
+  table.add(s + "min_flow_px",
+            c.min_flow_px,
+            0.0,
+            100.0,
+            "px",
+            "least flow a DNRE is normalized with: the noise of the flow");
+  table.add(s + "min_speed_mps", c.min_speed_mps, 0.0, 1000.0, "m/s", "stage 2 is skipped below");
+  table.add(s + "mean_factor", c.mean_factor, 0.1, 1000.0, "", "mean_based: factor of Eq. 32");
+  table.add(
+      s + "deviation_factor", c.deviation_factor, 0.1, 1000.0, "", "std_based: factor of Eq. 31");
+  table.add(s + "comparison_iterations",
+            c.comparison_iterations,
+            1,
+            1000,
+            "",
+            "mean_based, std_based: iterations at most");
+}
+
+void addVisualOdometry(VisualOdometry::Config& c, ParameterTable& table) {
+  const std::string s = "visual_odometry/";
+  table.add(s + "max_prediction_age_s",
+            c.motion_model.max_age_s,
+            0.0,
+            100.0,
+            "s",
+            "after a longer gap the last motion predicts nothing");
+  table.add(s + "startup_rounds",
+            c.startup_rounds,
+            1,
+            20,
+            "",
+            "predict, track, estimate this often without a prediction");
+  table.add(s + "startup_settled_px",
+            c.startup_settled_px,
+            0.0,
+            100.0,
+            "px",
+            "fewer rounds if the prediction moved less");
+  table.add(s + "min_inliers", c.min_inliers, 3, 10000, "", "fewer: lost");
+  table.add(s + "min_inlier_share", c.min_inlier_share, 0.0, 1.0, "", "of the feature set; less: lost");
+  table.add(s + "degraded_inliers", c.degraded_inliers, 3, 10000, "", "fewer: degraded");
+  table.add(s + "degraded_inlier_share", c.degraded_inlier_share, 0.0, 1.0, "", "less: degraded");
+  table.add(s + "max_speed_mps", c.max_speed_mps, 0.1, 1000.0, "m/s", "faster: lost");
+  table.add(s + "max_turn_rate_rps", c.max_turn_rate_rps, 0.1, 100.0, "rad/s", "faster: lost");
+  table.add(s + "max_gap_s", c.max_gap_s, 0.01, 1000.0, "s", "longer between pairs: start anew");
+}
+
+void addNode(NodeParameters& n, ParameterTable& table) {
+  table.add("odom_frame", n.odom_frame, {}, "frame of the odometry's pose");
+  table.add("base_frame", n.base_frame, {}, "frame of the robot; its pose and twist are published");
+  table.add("publish_tf", n.publish_tf, "broadcast odom_frame -> base_frame");
+  table.add("image_transport", n.image_transport, {}, "transport of both images: raw, compressed, ...");
+  table.add("max_stamp_difference_s",
+            n.max_stamp_difference_s,
+            0.0,
+            1.0,
+            "s",
+            "between the left and the right image of a pair");
+  table.add("queue_size", n.queue_size, 1, 100, "", "images that wait for their partner, on each side");
+  table.add("path_length", n.path_length, 0, 1000000, "", "poses the path topic keeps");
+  table.add("lost_speed_sigma_mps",
+            n.lost_speed_sigma_mps,
+            0.0,
+            1000.0,
+            "m/s",
+            "how fast the position gets uncertain while lost");
+  table.add("lost_turn_rate_sigma_rps",
+            n.lost_turn_rate_sigma_rps,
+            0.0,
+            100.0,
+            "rad/s",
+            "how fast the orientation gets uncertain while lost");
+  table.add("trajectory_file", n.trajectory_file, {}, "left camera poses are written there; none if empty");
+  table.add("trajectory_format", n.trajectory_format, {"tum", "kitti"}, "of trajectory_file");
+}
+
+/// Sets every scalar below `node`, whose name so far is `prefix`.
+void setAll(const YAML::Node& node, const std::string& prefix, ParameterTable& table) {
+  if (node.IsScalar()) return table.set(prefix, node.Scalar());
+  if (!node.IsMap()) {
+    throw std::invalid_argument("parameter \"" + prefix + "\" is neither a value nor a section");
+  }
+  for (const auto& entry : node) {
+    const auto name = entry.first.as<std::string>();
+    setAll(entry.second, prefix.empty() ? name : prefix + "/" + name, table);
+  }
+}
+
+std::string comment(const ParameterTable::Parameter& p) {
+  std::string text = "  # ";
+  if (!p.unit.empty()) text += "[" + p.unit + "] ";
+  return text + p.description + "; " + p.range;
+}
+
+}  // namespace
+
+ParameterTable makeParameterTable(Parameters& parameters) {
+  ParameterTable table;
+  addNode(parameters.node, table);
+  addFeatureDetector(parameters.odometry.feature_detector, table);
+  addStereoMatcher(parameters.odometry.stereo_matcher, table);
+  addFeatureTracker(parameters.odometry.feature_tracker, table);
+  addMotionEstimator(parameters.odometry.motion_estimator, table);
+  addVisualOdometry(parameters.odometry, table);
+  return table;
+}
+
+void loadYaml(const std::string& path, ParameterTable& table) {
+  try {
+    const YAML::Node root = YAML::LoadFile(path);
+    if (!root.IsNull()) setAll(root, "", table);
+  } catch (const YAML::Exception& error) {
+    throw std::invalid_argument(path + ": " + error.what());
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(path + ": " + error.what());
+  }
+}
+
+std::string toYaml(const ParameterTable& table) {
+  std::string text;
+  std::string section;
+  for (const ParameterTable::Parameter& p : table.parameters()) {
+    const auto slash = p.name.find('/');
+    const std::string its_section = slash == std::string::npos ? "" : p.name.substr(0, slash);
+    if (its_section != section) text += "\n" + its_section + ":\n";
+    section = its_section;
+    std::string value = p.get();
+    if (value.empty()) value = "\"\"";
+    text += (section.empty() ? "" : "  ") + p.name.substr(slash + 1) + ": " + value + comment(p) + "\n";
+  }
+  return text;
+}
+
+}  // namespace rotrocc
