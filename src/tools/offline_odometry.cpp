@@ -1,0 +1,132 @@
+#include <ctime>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boost/program_options.hpp>
+#include <opencv2/core.hpp>
+
+#include "progress_bar.h"
+#include "rotrocc/parameters.h"
+#include "rotrocc/trajectory.h"
+#include "rotrocc/visual_odometry.h"
+#include "run_statistics.h"
+#include "stereo_source.h"
+
+namespace {
+
+namespace po = boost::program_options;
+using namespace rotrocc;
+
+struct Options {
+  std::string input;
+  std::string trajectory;
+  std::string format = "kitti";
+  std::string config;
+  std::vector<std::string> assignments;
+  std::string statistics;
+  int threads = -1;
+};
+
+/// Returns false if only the help was asked for; throws po::error on bad usage.
+bool parse(int argc, char** argv, Options& options) {
+  po::options_description visible("Options");
+  auto add = visible.add_options();
+  add("help,h", "show this text");
+  add("trajectory", po::value(&options.trajectory)->required(), "file for the poses");
+  add("format", po::value(&options.format)->default_value(options.format), "kitti or tum");
+  add("config", po::value(&options.config), "YAML file with parameters");
+  add("set", po::value(&options.assignments), "name=value: a parameter; may be repeated");
+  add("stats", po::value(&options.statistics), "CSV file for a row of figures per pair");
+  add("threads", po::value(&options.threads), "threads of OpenCV (default: one per core)");
+  po::options_description all;
+  all.add(visible).add_options()("input", po::value(&options.input)->required());
+  po::positional_options_description positional;
+  positional.add("input", 1);
+
+  po::variables_map variables;
+  po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(),
+            variables);
+  if (variables.count("help") > 0) {
+    std::cout << "Runs the odometry over every pair of a KITTI sequence directory or a bag, and "
+                 "writes the\npose of the left camera at each.\n"
+                 "usage: offline_odometry INPUT --trajectory OUT.txt [options]\n"
+              << visible;
+    return false;
+  }
+  po::notify(variables);
+  return true;
+}
+
+/// Time of a POSIX clock [ms].
+double now(clockid_t clock) {
+  timespec time;
+  clock_gettime(clock, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+PairRecord process(VisualOdometry& odometry, const StereoPair& pair, const StereoCamera& camera) {
+  const double wall_ms = now(CLOCK_MONOTONIC);
+  const double cpu_ms = now(CLOCK_PROCESS_CPUTIME_ID);
+  PairRecord record;
+  record.result = odometry.process(pair, camera);
+  record.cpu_ms = now(CLOCK_PROCESS_CPUTIME_ID) - cpu_ms;
+  record.wall_ms = now(CLOCK_MONOTONIC) - wall_ms;
+  return record;
+}
+
+Parameters readParameters(const Options& options) {
+  Parameters parameters;
+  ParameterTable table = makeParameterTable(parameters);
+  if (!options.config.empty()) loadYaml(options.config, table);
+  for (const std::string& assignment : options.assignments) table.setAssignment(assignment);
+  return parameters;
+}
+
+void run(const Options& options) {
+  const Parameters parameters = readParameters(options);
+  if (options.threads >= 0) cv::setNumThreads(options.threads);
+
+  const std::unique_ptr<StereoSource> source = openStereoSource(options.input);
+  TrajectoryWriter trajectory(options.trajectory, trajectoryFormat(options.format));
+  std::optional<StatisticsFile> statistics;
+  if (!options.statistics.empty()) statistics.emplace(options.statistics);
+
+  VisualOdometry odometry(parameters.odometry);
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  ProgressBar progress("odometry", source->size());
+  std::vector<PairRecord> records;
+  StereoPair pair;
+  StereoCamera camera;
+  while (source->next(pair, camera)) {
+    records.push_back(process(odometry, pair, camera));
+    T_world_camera = T_world_camera * records.back().result.T_prev_cur;
+    trajectory.write({pair.stamp_ns, T_world_camera});
+    if (statistics) statistics->write(records.back());
+    progress.advance();
+  }
+  progress.finish();
+  printSummary(std::cout, records);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  try {
+    if (!parse(argc, argv, options)) return 0;
+  } catch (const po::error& error) {
+    std::cerr << "offline_odometry: " << error.what() << "; --help shows the usage\n";
+    return 2;
+  }
+  try {
+    run(options);
+  } catch (const std::exception& error) {
+    std::cerr << "offline_odometry: " << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}

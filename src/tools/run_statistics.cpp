@@ -1,0 +1,97 @@
+#include "run_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <numeric>
+#include <stdexcept>
+
+#include "rotrocc/rigid_motion.h"
+
+namespace rotrocc {
+namespace {
+
+void checkFile(const std::ofstream& file, const std::string& path) {
+  if (!file) throw std::runtime_error(path + ": cannot write statistics");
+}
+
+std::size_t countState(const std::vector<PairRecord>& records, State state) {
+  return std::count_if(records.begin(), records.end(), [state](const PairRecord& record) {
+    return record.result.state == state;
+  });
+}
+
+/// The smallest of the sorted `values` that `share` of them do not exceed.
+double percentile(const std::vector<double>& values, double share) {
+  const double rank = std::ceil(share * static_cast<double>(values.size()));
+  return values.at(static_cast<std::size_t>(std::max(rank, 1.0)) - 1);
+}
+
+void printTimes(std::ostream& out,
+                const char* name,
+                const std::vector<PairRecord>& records,
+                const std::function<double(const PairRecord&)>& time_ms) {
+  std::vector<double> values;
+  for (const PairRecord& record : records) values.push_back(time_ms(record));
+  std::sort(values.begin(), values.end());
+  const double mean =
+      std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  char line[80];
+  std::snprintf(line,
+                sizeof(line),
+                "%-16s %8.2f %8.2f %8.2f\n",
+                name,
+                mean,
+                percentile(values, 0.5),
+                percentile(values, 0.95));
+  out << line;
+}
+
+}  // namespace
+
+StatisticsFile::StatisticsFile(const std::string& path) : path_(path), file_(path) {
+  file_ << "stamp_ns,state,dt_s,corners,with_depth,tracked,consistent,rotation_inliers,"
+           "translation_inliers,pyramids_ms,corners_ms,disparity_ms,tracking_ms,estimation_ms,"
+           "wall_ms,cpu_ms,x_m,y_m,z_m,rx_rad,ry_rad,rz_rad\n";
+  file_.flush();
+  checkFile(file_, path_);
+}
+
+void StatisticsFile::write(const PairRecord& record) {
+  const OdometryResult& result = record.result;
+  const StageCounts& counts = result.counts;
+  const StageTimes& times = result.times;
+  const Eigen::Vector3d translation = result.T_prev_cur.translation();
+  const Eigen::Vector3d rotation = logRotation(result.T_prev_cur.linear());
+  file_ << result.stamp_ns << ',' << toString(result.state) << ',' << result.dt_s << ','
+        << counts.corners << ',' << counts.with_depth << ',' << counts.tracked << ','
+        << counts.consistent << ',' << counts.rotation_inliers << ',' << counts.translation_inliers
+        << ',' << times.pyramids_ms << ',' << times.corners_ms << ',' << times.disparity_ms << ','
+        << times.tracking_ms << ',' << times.estimation_ms << ',' << record.wall_ms << ','
+        << record.cpu_ms;
+  for (const Eigen::Vector3d& part : {translation, rotation}) {
+    for (const double value : {part.x(), part.y(), part.z()}) file_ << ',' << value;
+  }
+  file_ << '\n';
+  checkFile(file_, path_);
+}
+
+void printSummary(std::ostream& out, const std::vector<PairRecord>& records) {
+  out << records.size() << " pairs: " << countState(records, State::kOk) << " ok, "
+      << countState(records, State::kDegraded) << " degraded, "
+      << countState(records, State::kLost) << " lost, "
+      << countState(records, State::kInitialising) << " initialising\n";
+  if (records.empty()) return;
+  out << "ms per pair          mean   median      p95\n";
+  printTimes(out, "wall", records, [](const PairRecord& record) { return record.wall_ms; });
+  printTimes(out, "cpu", records, [](const PairRecord& record) { return record.cpu_ms; });
+  printTimes(out, "  pyramids", records, [](const auto& r) { return r.result.times.pyramids_ms; });
+  printTimes(out, "  corners", records, [](const auto& r) { return r.result.times.corners_ms; });
+  printTimes(out, "  disparity", records, [](const auto& r) { return r.result.times.disparity_ms; });
+  printTimes(out, "  tracking", records, [](const auto& r) { return r.result.times.tracking_ms; });
+  printTimes(
+      out, "  estimation", records, [](const auto& r) { return r.result.times.estimation_ms; });
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,33 @@
+#include "stereo_source.h"
+
+#include "rotrocc/kitti.h"
+
+namespace rotrocc {
+namespace {
+
+class KittiSource : public StereoSource {
+ public:
+  explicit KittiSource(const std::string& directory) : sequence_(directory) {}
+
+  int size() const override { return sequence_.size(); }
+
+  bool next(StereoPair& pair, StereoCamera& camera) override {
+    if (next_ == sequence_.size()) return false;
+    pair = {sequence_.stamp_ns(next_), sequence_.readLeft(next_), sequence_.readRight(next_)};
+    camera = sequence_.camera();
+    ++next_;
+    return true;
+  }
+
+ private:
+  KittiSequence sequence_;
+  int next_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<StereoSource> openStereoSource(const std::string& path) {
+  return std::make_unique<KittiSource>(path);
+}
+
+}  // namespace rotrocc

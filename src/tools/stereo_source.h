@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "rotrocc/stereo_camera.h"
+#include "rotrocc/stereo_pair.h"
+
+namespace rotrocc {
+
+/// Stereo pairs in the order of their stamps, wherever they are stored.
+class StereoSource {
+ public:
+  virtual ~StereoSource() = default;
+
+  /// How many pairs there are at most.
+  virtual int size() const = 0;
+
+  /// Reads the next pair and its camera. Returns false, and leaves them alone, when there is none.
+  /// Throws std::runtime_error on images that cannot be read.
+  virtual bool next(StereoPair& pair, StereoCamera& camera) = 0;
+};
+
+/// Opens a sequence directory of the KITTI odometry benchmark.
+/// Throws std::runtime_error if `path` is not one.
+std::unique_ptr<StereoSource> openStereoSource(const std::string& path);
+
+}  // namespace rotrocc
