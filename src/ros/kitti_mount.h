@@ -1,0 +1,16 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace rotrocc {
+
+/// T_base_camera of KITTI's left gray camera: 1.65 m above the road, looking along the vehicle's x
+/// axis (cvlibs.net/datasets/kitti/setup.php; axes by REP 103). base_link is on the road below it.
+inline Eigen::Isometry3d kittiMount() {
+  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
+  T_base_camera.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  T_base_camera.translation() << 0, 0, 1.65;
+  return T_base_camera;
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,117 @@
+#include "recorded_tf.h"
+
+#include <algorithm>
+
+#include <rosbag/view.h>
+#include <tf2/buffer_core.h>
+#include <tf2_eigen/tf2_eigen.h>
+
+#include "ground_truth.h"
+#include "kitti_mount.h"
+
+namespace rotrocc {
+namespace {
+
+/// The frame kitti2bag gives the ground truth of odometry sequences; its images are in another.
+const char* const kKitti2bagCamera = "camera_left";
+
+/// In old bags names of frames begin with a slash, which tf2 does not take.
+std::string withoutSlash(const std::string& frame) {
+  return frame.empty() || frame.front() != '/' ? frame : frame.substr(1);
+}
+
+std::vector<geometry_msgs::TransformStamped> readTransforms(const rosbag::Bag& bag,
+                                                            const std::string& topic) {
+  std::vector<geometry_msgs::TransformStamped> transforms;
+  rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{topic, "/" + topic}));
+  for (const rosbag::MessageInstance& instance : view) {
+    const auto message = instance.instantiate<tf2_msgs::TFMessage>();
+    if (!message) continue;
+    transforms.insert(transforms.end(), message->transforms.begin(), message->transforms.end());
+  }
+  for (geometry_msgs::TransformStamped& transform : transforms) {
+    transform.header.frame_id = withoutSlash(transform.header.frame_id);
+    transform.child_frame_id = withoutSlash(transform.child_frame_id);
+  }
+  return transforms;
+}
+
+std::string nameOf(const geometry_msgs::TransformStamped& transform) {
+  return transform.header.frame_id + " -> " + transform.child_frame_id;
+}
+
+}  // namespace
+
+RecordedTf::RecordedTf(const rosbag::Bag& bag, const Frames& frames) : frames_(frames) {
+  const Transforms fixed = readTransforms(bag, "tf_static");
+  const Transforms moving = readTransforms(bag, "tf");
+  added_kitti_mount_ = !hasMount(fixed, moving);
+  for (const auto& transform : fixed) addStatic(transform);
+  if (added_kitti_mount_) addKittiMount();
+  buildTrajectory(moving);
+}
+
+bool RecordedTf::isTrajectory(const geometry_msgs::TransformStamped& transform) const {
+  const std::string child = withoutSlash(transform.child_frame_id);
+  if (child == frames_.base) return true;
+  return added_kitti_mount_ && (child == frames_.camera || child == kKitti2bagCamera);
+}
+
+bool RecordedTf::hasMount(const Transforms& fixed, const Transforms& moving) const {
+  tf2::BufferCore buffer;
+  for (const Transforms* transforms : {&fixed, &moving}) {
+    for (const auto& transform : *transforms) {
+      const bool is_mount = transform.child_frame_id != frames_.base;
+      if (is_mount) buffer.setTransform(transform, "bag", true);
+    }
+  }
+  return buffer.canTransform(frames_.base, frames_.camera, ros::Time());
+}
+
+void RecordedTf::addStatic(const geometry_msgs::TransformStamped& transform) {
+  if (isTrajectory(transform)) return;
+  auto& transforms = static_transforms_.transforms;
+  const auto known = std::find_if(transforms.begin(), transforms.end(), [&](const auto& other) {
+    return other.child_frame_id == transform.child_frame_id;
+  });
+  if (known == transforms.end()) {
+    transforms.push_back(transform);
+  } else {
+    *known = transform;
+  }
+}
+
+void RecordedTf::addKittiMount() {
+  geometry_msgs::TransformStamped mount = tf2::eigenToTransform(kittiMount());
+  mount.header.frame_id = frames_.base;
+  mount.child_frame_id = frames_.camera;
+  static_transforms_.transforms.push_back(mount);
+}
+
+tf2_msgs::TFMessage RecordedTf::transformsToPlay(const tf2_msgs::TFMessage& message) const {
+  tf2_msgs::TFMessage kept;
+  for (const auto& transform : message.transforms) {
+    if (!isTrajectory(transform)) kept.transforms.push_back(transform);
+  }
+  return kept;
+}
+
+void RecordedTf::buildTrajectory(const Transforms& moving) {
+  Trajectory recorded;
+  bool of_base = false;
+  for (const auto& transform : moving) {
+    if (!isTrajectory(transform)) continue;
+    if (recorded.empty()) {
+      trajectory_name_ = nameOf(transform);
+      of_base = transform.child_frame_id == frames_.base;
+    }
+    if (nameOf(transform) != trajectory_name_) continue;
+    recorded.push_back({static_cast<std::int64_t>(transform.header.stamp.toNSec()),
+                        tf2::transformToEigen(transform)});
+  }
+  const Eigen::Isometry3d T_base_body =
+      of_base ? Eigen::Isometry3d(Eigen::Isometry3d::Identity()) : kittiMount();
+  trajectory_ = groundTruthPath(recorded, T_base_body, frames_.odom);
+}
+
+}  // namespace rotrocc
