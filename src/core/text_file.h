@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rotrocc {
+
+/// A line of a text file, split at white space.
+struct TextLine {
+  std::string where;  ///< "path:12", for messages
+  std::vector<std::string> words;
+
+  /// The word at `index` as a number. Throws std::runtime_error if it is anything but a finite one.
+  double number(std::size_t index) const;
+
+  /// The word at `index`, a time [s], in nanoseconds, rounded. Throws like number(), and on times
+  /// beyond the range of 64 bit.
+  std::int64_t nanoseconds(std::size_t index) const;
+};
+
+/// The lines of a file but for blank ones and those that begin with '#'; line ends may be LF or
+/// CRLF. Throws std::runtime_error if the file cannot be read or no line is left.
+std::vector<TextLine> readTextLines(const std::string& path);
+
+}  // namespace rotrocc
