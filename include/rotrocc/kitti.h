@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "rotrocc/stereo_camera.h"
+#include "rotrocc/trajectory.h"
+
+namespace rotrocc {
+
+/// A sequence in the layout of the KITTI odometry benchmark:
+///   image_0/000000.png ...  rectified left grey images
+///   image_1/000000.png ...  rectified right grey images
+///   calib.txt               the 3x4 projection matrices `P0:` (left) and `P1:` (right), row by row
+///   times.txt               a time [s] a line
+///   poses.txt               ground truth, a pose of the left camera a line; may be missing
+class KittiSequence {
+ public:
+  /// Reads all but the images. Throws std::runtime_error that names the file and what is wrong with
+  /// it if one is missing or unreadable, the counts of images, times and poses differ, times do not
+  /// increase, or P0 and P1 are not those of a rectified stereo pair.
+  explicit KittiSequence(const std::string& directory);
+
+  /// Count of stereo pairs.
+  int size() const { return static_cast<int>(stamps_ns_.size()); }
+
+  /// Width and height are those of the first left image.
+  const StereoCamera& camera() const { return camera_; }
+
+  /// The time of pair `index`, in [0, size()); throws std::out_of_range beyond.
+  std::int64_t stamp_ns(int index) const { return stamps_ns_.at(index); }
+
+  /// The images of pair `index` as CV_8UC1. Throw std::runtime_error with the file's path if it is
+  /// missing, unreadable or not of the camera's size.
+  cv::Mat readLeft(int index) const;
+  cv::Mat readRight(int index) const;
+
+  bool hasGroundTruth() const { return !ground_truth_.empty(); }
+
+  /// size() poses of the left camera with the stamps of the pairs; empty if there is no poses.txt.
+  const Trajectory& groundTruth() const { return ground_truth_; }
+
+ private:
+  cv::Mat read(const char* folder, int index) const;
+
+  std::string directory_;
+  StereoCamera camera_;
+  std::vector<std::int64_t> stamps_ns_;
+  Trajectory ground_truth_;
+};
+
+}  // namespace rotrocc
