@@ -1,0 +1,190 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <boost/program_options.hpp>
+
+#include "rotrocc/trajectory.h"
+#include "rotrocc/trajectory_error.h"
+
+namespace {
+
+namespace po = boost::program_options;
+using namespace rotrocc;
+
+constexpr double kDegreesPerRadian = 180.0 / M_PI;
+
+struct Options {
+  std::string truth;
+  std::string estimate;
+  std::string times;
+  SegmentConfig segments;
+};
+
+/// Returns false if only the help was asked for; throws po::error on bad usage.
+bool parse(int argc, char** argv, Options& options) {
+  po::options_description visible("Options");
+  auto add = visible.add_options();
+  add("help,h", "show this text");
+  add("lengths",
+      po::value(&options.segments.lengths_m)->multitoken(),
+      "lengths of the segments [m] (default: 100 200 300 400 500 600 700 800)");
+  add("step",
+      po::value(&options.segments.step)->default_value(options.segments.step),
+      "segments begin at every N-th pose");
+  add("times",
+      po::value(&options.times),
+      "times.txt with the stamps of poses in KITTI format (default: 10 Hz)");
+  po::options_description all;
+  auto add_positional = all.add(visible).add_options();
+  add_positional("truth", po::value(&options.truth));
+  add_positional("estimate", po::value(&options.estimate));
+  po::positional_options_description positional;
+  positional.add("truth", 1).add("estimate", 1);
+
+  po::variables_map variables;
+  po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(),
+            variables);
+  if (variables.count("help") > 0) {
+    std::cout
+        << "usage: evaluate_trajectory GT EST [options]\n\n"
+           "Compares a trajectory with the true one by the metric of the KITTI odometry "
+           "devkit. Both are in\nKITTI or TUM format; two KITTI files are matched line by line, "
+           "others by stamps up to 10 ms apart.\n"
+           "The table by speed has the segments up to 2 m/s slower or faster, so each counts "
+           "twice.\n\n"
+        << visible;
+    return false;
+  }
+  po::notify(variables);
+  if (options.estimate.empty()) throw po::error("two trajectories GT and EST are needed");
+  return true;
+}
+
+bool isTum(const std::string& path) {
+  return detectTrajectoryFormat(path) == TrajectoryFormat::kTum;
+}
+
+std::string timeRange(const std::string& path, const Trajectory& trajectory) {
+  std::ostringstream range;
+  range << std::fixed << std::setprecision(2) << path << " covers "
+        << 1e-9 * static_cast<double>(trajectory.front().stamp_ns) << " to "
+        << 1e-9 * static_cast<double>(trajectory.back().stamp_ns) << " s";
+  return range.str();
+}
+
+MatchedTrajectories load(const Options& options) {
+  const bool truth_tum = isTum(options.truth);
+  const bool estimate_tum = isTum(options.estimate);
+  if (truth_tum != estimate_tum && options.times.empty()) {
+    throw std::runtime_error((truth_tum ? options.estimate : options.truth) +
+                             " has no stamps, but the other file has: give --times FILE");
+  }
+  if (truth_tum && estimate_tum && !options.times.empty()) {
+    throw std::runtime_error("both files have stamps: leave out --times " + options.times);
+  }
+  const Trajectory truth = readTrajectory(options.truth, truth_tum ? "" : options.times);
+  const Trajectory estimate = readTrajectory(options.estimate, estimate_tum ? "" : options.times);
+  if (!truth_tum && !estimate_tum) {
+    if (truth.size() != estimate.size()) {
+      std::cerr << "evaluate_trajectory: only the first poses of the longer file are used: "
+                << options.truth << " has " << truth.size() << ", " << options.estimate << " has "
+                << estimate.size() << '\n';
+    }
+    return matchByIndex(truth, estimate);
+  }
+  MatchedTrajectories matched = matchByStamp(truth, estimate);
+  if (matched.truth.size() < 2) {
+    throw std::runtime_error(
+        "hardly any stamps within 10 ms of each other: " + timeRange(options.truth, truth) + ", " +
+        timeRange(options.estimate, estimate));
+  }
+  return matched;
+}
+
+void requireSegments(const std::vector<SegmentError>& errors,
+                     const SegmentConfig& config,
+                     double path_m) {
+  if (!errors.empty()) return;
+  std::ostringstream message;
+  message.precision(3);
+  message << "no segment fits: the path is " << path_m << " m long, the shortest segment "
+          << *std::min_element(config.lengths_m.begin(), config.lengths_m.end())
+          << " m; give shorter ones, as in --lengths 5 10 20 30 40 --step 1";
+  throw std::runtime_error(message.str());
+}
+
+void printTable(const char* bin_name, const std::vector<MeanError>& means) {
+  std::printf(
+      "\n%12s  %8s  %14s  %18s\n", bin_name, "segments", "translation [%]", "rotation [deg/m]");
+  for (const MeanError& mean : means) {
+    std::printf("%12g  %8d  %15.3f  %16.5f\n",
+                mean.bin,
+                mean.segments,
+                100.0 * mean.translation,
+                kDegreesPerRadian * mean.rotation_rad_per_m);
+  }
+}
+
+void printDistribution(const char* name, const Distribution& values, double scale) {
+  std::printf("%-18s  %9.4f  %9.4f  %9.4f  %9.4f\n",
+              name,
+              scale * values.mean,
+              scale * values.rms,
+              scale * values.p95,
+              scale * values.max);
+}
+
+void run(const Options& options) {
+  const MatchedTrajectories matched = load(options);
+  const std::vector<SegmentError> errors = segmentErrors(matched, options.segments);
+  const double path_m = pathLengths(matched.truth).back();
+  requireSegments(errors, options.segments, path_m);
+
+  const MeanError mean = meanError(errors);
+  std::printf("translation %.3f %%, rotation %.5f deg/m (%d segments, %zu poses, %.1f m)\n",
+              100.0 * mean.translation,
+              kDegreesPerRadian * mean.rotation_rad_per_m,
+              mean.segments,
+              matched.truth.size(),
+              path_m);
+  printTable("length [m]", meanErrorByLength(errors));
+  printTable("speed [m/s]", meanErrorBySpeed(errors));
+
+  const StepErrors steps = stepErrors(matched);
+  std::printf("\n%-18s  %9s  %9s  %9s  %9s\n", "pose to pose", "mean", "rms", "p95", "max");
+  printDistribution("translation [m]", steps.translation_m, 1.0);
+  printDistribution("rotation [deg]", steps.rotation_rad, kDegreesPerRadian);
+
+  const Drift drift = finalDrift(matched);
+  std::printf("\nfinal drift: %.3f m (%.3f %% of the path), %.3f deg\n",
+              drift.translation_m,
+              100.0 * drift.translation_m / path_m,
+              kDegreesPerRadian * drift.rotation_rad);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  try {
+    if (!parse(argc, argv, options)) return 0;
+  } catch (const po::error& error) {
+    std::cerr << "evaluate_trajectory: " << error.what() << "; --help shows the usage\n";
+    return 2;
+  }
+  try {
+    run(options);
+  } catch (const std::exception& error) {
+    std::cerr << "evaluate_trajectory: " << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}
