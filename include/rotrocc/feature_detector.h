@@ -10,8 +10,8 @@ namespace rotrocc {
 class FeatureDetector {
  public:
   struct Config {
-    int max_features = 1500;
-    int block_size_px = 5;      ///< side of the window the gradients are summed over; odd
+    int max_features = 2000;
+    int block_radius_px = 2;    ///< the gradients are summed over a square of 2 radius + 1
     int nms_radius_px = 4;      ///< no stronger corner this near, in x and y
     int cell_size_px = 32;      ///< side of a grid cell
     double min_response = 2.0;  ///< least smaller eigenvalue: (grey levels / px)^2

@@ -10,35 +10,38 @@ namespace rotrocc {
 class FeatureTracker {
  public:
   struct Config {
-    int window_px = 11;                ///< side of the window; odd
-    int levels = 2;                    ///< pyramid levels when there is a prediction
-    int startup_levels = 5;            ///< when there is none
-    int max_iterations = 10;           ///< per level
-    double min_step_px = 0.02;         ///< iterations end when a step is shorter
-    double max_round_trip_px = 0.5;    ///< forward and backward must meet
-    double max_vertical_px = 1.0;      ///< left and right must be on the same row
+    int window_radius_px = 5;                  ///< the window is a square of 2 radius + 1
+    int levels = 2;                            ///< pyramid levels when there is a prediction
+    int startup_levels = 5;                    ///< when there is none
+    int max_iterations = 10;                   ///< per level
+    double min_step_px = 0.02;                 ///< iterations end when a step is shorter
+    double max_round_trip_px = 0.5;            ///< forward and backward must meet
+    double max_vertical_px = 1.0;              ///< left and right must be on the same row
     double max_disparity_difference_px = 1.0;  ///< of tracked and matched disparity at t
   };
 
   /// An image with its smaller copies and their gradients.
   using Pyramid = std::vector<cv::Mat>;
 
-  explicit FeatureTracker(const Config& config) : config_(config) {}
+  explicit FeatureTracker(const Config& config);
 
   /// Builds into `pyramid`, whose memory is used again.
   void buildPyramid(const cv::Mat& image, Pyramid& pyramid) const;
 
   /// Follows `prev` points from one image to another. `cur` holds the predictions and gets the
-  /// results; `tracked` gets 1 for points that came back to within max_round_trip_px, else 0. Points
-  /// whose `tracked` is 0 at the call are skipped. `levels` is the number of pyramid levels to use.
-  void track(const Pyramid& prev_pyramid, const Pyramid& cur_pyramid,
-             const std::vector<cv::Point2f>& prev, int levels, std::vector<cv::Point2f>& cur,
+  /// results; `tracked` gets 1 for points that came back to within max_round_trip_px, else 0.
+  /// Points whose `tracked` is 0 at the call are skipped. `levels` is the number of pyramid levels
+  /// to use.
+  void track(const Pyramid& prev_pyramid,
+             const Pyramid& cur_pyramid,
+             const std::vector<cv::Point2f>& prev,
+             int levels,
+             std::vector<cv::Point2f>& cur,
              std::vector<char>& tracked);
-
-  const Config& config() const { return config_; }
 
  private:
   Config config_;
+  cv::Size window_;
   std::vector<int> indices_;
   std::vector<cv::Point2f> from_, to_, back_;
   std::vector<unsigned char> found_, returned_;

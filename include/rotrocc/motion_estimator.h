@@ -30,14 +30,16 @@ class MotionEstimator {
  public:
   struct Config {
     std::string criterion = "rotrocc";  ///< one of criterionNames()
+    double noise_ratio = 3.0;  ///< disparity noise over flow noise, see whitening(); 0: the paper's
 
     // Stage 1: rotation.
-    double rotation_limit_px = 0.6;     ///< termination limit of the reprojection error, Eq. 26
-    double rotation_drop_share = 0.15;  ///< of the set, dropped at most by an iteration: b of Eq. 26
+    double rotation_limit_px = 0.6;  ///< termination limit of the reprojection error, Eq. 26
+    double rotation_drop_share =
+        0.15;  ///< of the set, dropped at most by an iteration: b of Eq. 26
     int rotation_max_iterations = 30;
 
     // Stage 2: translation.
-    double translation_limit = 0.3;        ///< termination limit of the DNRE, Eq. 30
+    double translation_limit = 0.05;       ///< termination limit of the DNRE, Eq. 30
     double translation_drop_share = 0.15;  ///< b of Eq. 30
     int translation_max_iterations = 30;
     double translation_initial_px = 1.5;  ///< stage-1 error below which a feature enters; 0: all do
@@ -64,15 +66,20 @@ class MotionEstimator {
 
   /// Estimates the motion that took `dt_s` > 0 from the full feature set, beginning with `initial`.
   /// Invalid if fewer than 3 features are left, or the equations have no unique solution.
-  Estimate estimate(const StereoCamera& camera, const Correspondences& features,
-                    const Eigen::Isometry3d& initial, double dt_s);
+  Estimate estimate(const StereoCamera& camera,
+                    const Correspondences& features,
+                    const Eigen::Isometry3d& initial,
+                    double dt_s);
 
  private:
-  bool estimateRotation(const StereoCamera& camera, const Correspondences& features,
+  bool estimateRotation(const StereoCamera& camera,
+                        const Correspondences& features,
                         Estimate& estimate);
-  bool estimateTranslation(const StereoCamera& camera, const Correspondences& features,
+  bool estimateTranslation(const StereoCamera& camera,
+                           const Correspondences& features,
                            Estimate& estimate);
-  bool estimateCovariance(const StereoCamera& camera, const Correspondences& features,
+  bool estimateCovariance(const StereoCamera& camera,
+                          const Correspondences& features,
                           Estimate& estimate);
 
   Config config_;

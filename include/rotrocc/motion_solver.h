@@ -1,8 +1,8 @@
 #pragma once
 
+#include <ceres/tiny_solver.h>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <ceres/tiny_solver.h>
 
 #include "rotrocc/correspondence.h"
 #include "rotrocc/reprojection_error.h"
@@ -14,18 +14,23 @@ namespace rotrocc {
 /// Least squares over the reprojection errors of a feature set, by Levenberg-Marquardt.
 class MotionSolver {
  public:
-  explicit MotionSolver(int max_iterations = 20) : max_iterations_(max_iterations) {}
+  /// `noise_ratio` weights the residuals, see whitening().
+  explicit MotionSolver(double noise_ratio) : noise_ratio_(noise_ratio) {}
 
   /// Minimises Eq. 25 over rotation and translation, from `T_prev_cur`, which gets the result.
   /// Returns false, and leaves it alone, if the set has fewer than 3 features or the result is not
   /// finite.
-  bool solveMotion(const StereoCamera& camera, const Correspondences& features,
-                   const FeatureSet& set, Eigen::Isometry3d& T_prev_cur);
+  bool solveMotion(const StereoCamera& camera,
+                   const Correspondences& features,
+                   const FeatureSet& set,
+                   Eigen::Isometry3d& T_prev_cur);
 
-  /// Minimises Eq. 29 over the translation, the rotation staying as it is. Returns as solveMotion(),
-  /// with 2 features at least.
-  bool solveTranslation(const StereoCamera& camera, const Correspondences& features,
-                        const FeatureSet& set, Eigen::Isometry3d& T_prev_cur);
+  /// Minimises Eq. 29 over the translation, the rotation staying as it is. Returns as
+  /// solveMotion(), with 2 features at least.
+  bool solveTranslation(const StereoCamera& camera,
+                        const Correspondences& features,
+                        const FeatureSet& set,
+                        Eigen::Isometry3d& T_prev_cur);
 
   /// Normal equations of the set at a motion: J^T J in the order translation [m], rotation [rad] of
   /// OdometryResult::covariance, and the variance of a residual [px^2] they leave.
@@ -33,12 +38,14 @@ class MotionSolver {
     Matrix6d matrix = Matrix6d::Zero();
     double residual_variance = 0.0;
   };
-  Information information(const StereoCamera& camera, const Correspondences& features,
-                          const FeatureSet& set, const Eigen::Isometry3d& T_prev_cur,
+  Information information(const StereoCamera& camera,
+                          const Correspondences& features,
+                          const FeatureSet& set,
+                          const Eigen::Isometry3d& T_prev_cur,
                           int estimated_parameters);
 
  private:
-  int max_iterations_;
+  double noise_ratio_;
   ReprojectionProblem<6> motion_problem_;
   ReprojectionProblem<3> translation_problem_;
   ceres::TinySolver<ReprojectionProblem<6>> motion_solver_;

@@ -10,8 +10,8 @@ namespace rotrocc {
 /// Where an iteration draws the line between inliers and outliers, from the errors of its set.
 class OutlierThreshold {
  public:
-  /// Eq. 26 and 30: the larger of a fixed limit and the b-th highest error, where b is `drop_share` of
-  /// the set: no iteration drops more than that.
+  /// Eq. 26 and 30: the larger of a fixed limit and the b-th highest error, where b is `drop_share`
+  /// of the set: no iteration drops more than that.
   static OutlierThreshold fixedLimit(double limit, double drop_share);
   /// Eq. 32: `factor` times the mean error.
   static OutlierThreshold meanBased(double factor);

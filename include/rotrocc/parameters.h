@@ -31,8 +31,8 @@ struct Parameters {
 /// The table that names and guards every member of `parameters`, which must outlive it.
 ParameterTable makeParameterTable(Parameters& parameters);
 
-/// Sets what the YAML file at `path` names. Throws std::invalid_argument with the path on a file that
-/// cannot be read, is no YAML, or names an unknown parameter or a value out of range.
+/// Sets what the YAML file at `path` names. Throws std::invalid_argument with the path on a file
+/// that cannot be read, is no YAML, or names an unknown parameter or a value out of range.
 void loadYaml(const std::string& path, ParameterTable& table);
 
 /// The table as a YAML file, with unit, range and meaning of each parameter in a comment.

@@ -18,8 +18,8 @@ Eigen::Vector3d logRotation(const Eigen::Matrix3d& R);
 /// Left Jacobian of the rotation group: expRotation(v + dv) = expRotation(J dv) * expRotation(v).
 Eigen::Matrix3d leftJacobian(const Eigen::Vector3d& v);
 
-/// The motion a body makes that moves with the constant twist [v; w] (m and rad, in axes of the body)
-/// for one unit of time, and the twist that makes a motion.
+/// The motion a body makes that moves with the constant twist [v; w] (m and rad, in axes of the
+/// body) for one unit of time, and the twist that makes a motion.
 Eigen::Isometry3d expMotion(const Vector6d& twist);
 Vector6d logMotion(const Eigen::Isometry3d& T);
 

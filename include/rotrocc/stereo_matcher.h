@@ -12,10 +12,10 @@ namespace rotrocc {
 class StereoMatcher {
  public:
   struct Config {
-    int max_disparity_px = 128;    ///< nearer points are not found
-    double min_disparity_px = 1.0;  ///< farther points are dropped
+    int max_disparity_px = 128;         ///< nearer points are not found
+    double min_disparity_px = 1.0;      ///< farther points are dropped
     double max_mean_difference = 20.0;  ///< of the best match, grey levels per pixel
-    double uniqueness = 0.85;  ///< best SAD at most this times the best one elsewhere on the row
+    double uniqueness = 0.92;  ///< best SAD at most this times the best one elsewhere on the row
   };
 
   /// Disparity of a pixel without a match.
@@ -25,18 +25,26 @@ class StereoMatcher {
 
   /// Disparity x_left - x_right [px] of each left pixel, or kNoDisparity: too near to the edge, too
   /// different, ambiguous, or outside of the range. `left` and `right` are CV_8UC1 of one size.
-  void match(const cv::Mat& left, const cv::Mat& right, const std::vector<cv::Point2f>& pixels,
+  void match(const cv::Mat& left,
+             const cv::Mat& right,
+             const std::vector<cv::Point2f>& pixels,
              std::vector<float>& disparities_px) const;
 
   /// The same, but looks only within `radius_px` of the `expected_px` disparities and asks for no
   /// uniqueness, which the expectation gives. Pixels whose expectation is kNoDisparity are skipped.
-  void matchNear(const cv::Mat& left, const cv::Mat& right, const std::vector<cv::Point2f>& pixels,
-                 const std::vector<float>& expected_px, int radius_px,
+  void matchNear(const cv::Mat& left,
+                 const cv::Mat& right,
+                 const std::vector<cv::Point2f>& pixels,
+                 const std::vector<float>& expected_px,
+                 int radius_px,
                  std::vector<float>& disparities_px) const;
 
  private:
-  void search(const cv::Mat& left, const cv::Mat& right, const std::vector<cv::Point2f>& pixels,
-              const std::function<cv::Range(std::size_t)>& columns_of, double uniqueness,
+  void search(const cv::Mat& left,
+              const cv::Mat& right,
+              const std::vector<cv::Point2f>& pixels,
+              const std::function<cv::Range(std::size_t)>& columns_of,
+              double uniqueness,
               std::vector<float>& disparities_px) const;
 
   Config config_;

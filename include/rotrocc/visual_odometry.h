@@ -8,12 +8,11 @@
 #include <Eigen/Geometry>
 
 #include "rotrocc/correspondence.h"
-#include "rotrocc/feature_detector.h"
-#include "rotrocc/feature_tracker.h"
+#include "rotrocc/correspondence_finder.h"
+#include "rotrocc/motion_check.h"
 #include "rotrocc/motion_estimator.h"
 #include "rotrocc/motion_model.h"
 #include "rotrocc/stereo_camera.h"
-#include "rotrocc/stereo_matcher.h"
 #include "rotrocc/stereo_pair.h"
 
 namespace rotrocc {
@@ -31,12 +30,13 @@ const char* toString(State state);
 
 /// How many features are left after each stage.
 struct StageCounts {
-  int corners = 0;              ///< Shi-Tomasi corners at t-1
-  int with_depth = 0;           ///< with a disparity at t-1
-  int tracked = 0;              ///< tracked to t, left and right
-  int consistent = 0;           ///< left and right agree at t: the feature set F
-  int rotation_inliers = 0;     ///< left after stage 1
-  int translation_inliers = 0;  ///< left after stage 2; 0 if the criterion or the low speed skips it
+  int corners = 0;           ///< Shi-Tomasi corners at t-1
+  int with_depth = 0;        ///< with a disparity at t-1
+  int tracked = 0;           ///< tracked to t, left and right
+  int consistent = 0;        ///< left and right agree at t: the feature set F
+  int rotation_inliers = 0;  ///< left after stage 1
+  int translation_inliers =
+      0;  ///< left after stage 2; 0 if the criterion or the low speed skips it
 };
 
 /// Wall time of each stage [ms]; several rounds of a stage are added up.
@@ -68,26 +68,19 @@ struct OdometryResult {
   bool hasMotion() const { return state == State::kOk || state == State::kDegraded; }
 };
 
-/// Frame-to-frame stereo visual odometry: section V of Buczko and Willert, "Flow-Decoupled Normalized
-/// Reprojection Error for Visual Odometry", IV 2017.
+/// Frame-to-frame stereo visual odometry: section V of Buczko and Willert, "Flow-Decoupled
+/// Normalized Reprojection Error for Visual Odometry", IV 2017.
 class VisualOdometry {
  public:
   struct Config {
-    FeatureDetector::Config feature_detector;
-    StereoMatcher::Config stereo_matcher;
+    CorrespondenceFinder::Config correspondence_finder;
     MotionModel::Config motion_model;
-    FeatureTracker::Config feature_tracker;
     MotionEstimator::Config motion_estimator;
+    MotionCheck::Config motion_check;
 
     int startup_rounds = 4;           ///< predict, track, estimate this often without a prediction
-    double startup_settled_px = 0.5;  ///< fewer rounds if the median prediction moved less than this
-    int min_inliers = 25;             ///< fewer: lost
-    double min_inlier_share = 0.15;   ///< of the consistent features; less: lost
-    int degraded_inliers = 80;        ///< fewer: degraded
-    double degraded_inlier_share = 0.35;  ///< less: degraded
-    double max_speed_mps = 70.0;          ///< a faster motion is none: lost
-    double max_turn_rate_rps = 6.0;       ///< likewise
-    double max_gap_s = 1.0;               ///< a longer gap: start anew
+    double startup_settled_px = 0.5;  ///< fewer rounds if the prediction moves less
+    double max_gap_s = 1.0;           ///< between two pairs; longer: start anew
   };
 
   explicit VisualOdometry(const Config& config);
@@ -97,8 +90,8 @@ class VisualOdometry {
 
   /// Estimates the motion since the pair of the last call. Never throws: images that are empty, not
   /// CV_8UC1, of different sizes or not of the camera's size, a bad camera, a stamp that does not
-  /// increase, and errors inside OpenCV or Ceres give the state lost and a reason. The first pair, a
-  /// new camera and a gap of more than max_gap_s give the state initialising.
+  /// increase, and errors inside OpenCV or Ceres give the state lost and a reason. The first pair,
+  /// a new camera and a gap of more than max_gap_s give the state initialising.
   OdometryResult process(const StereoPair& pair, const StereoCamera& camera);
 
   /// Forgets the previous pair and the motion: the next pair is a first one.
@@ -106,7 +99,8 @@ class VisualOdometry {
 
   /// The feature set of the last call, empty if it did not get so far.
   const Correspondences& correspondences() const;
-  /// The inliers of stage 1 and 2 among correspondences(). Where stage 2 was skipped both are alike.
+  /// The inliers of stage 1 and 2 among correspondences(). Where stage 2 was skipped both are
+  /// alike.
   const FeatureSet& rotationInliers() const;
   const FeatureSet& translationInliers() const;
 

@@ -43,12 +43,14 @@ void FeatureDetector::detect(const cv::Mat& image, std::vector<cv::Point2f>& cor
   selectByCells(image.size(), corners);
 }
 
-void FeatureDetector::findCandidates(const cv::Mat& image, int first_row, int last_row,
+void FeatureDetector::findCandidates(const cv::Mat& image,
+                                     int first_row,
+                                     int last_row,
                                      Strip& strip) const {
   strip.candidates.clear();
   if (first_row >= last_row) return;
   const int radius = config_.nms_radius_px;
-  const int margin = radius + config_.block_size_px / 2 + 1;
+  const int margin = radius + config_.block_radius_px + 1;
   const int top = std::max(first_row - margin, 0);
   const int bottom = std::min(last_row + margin, image.rows);
   computeResponse(image.rowRange(top, bottom), strip);
@@ -72,13 +74,13 @@ void FeatureDetector::computeResponse(const cv::Mat& image, Strip& strip) const 
   cv::Sobel(image, strip.gradient_x, CV_16S, 1, 0, 3, 1, 0, cv::BORDER_REPLICATE);
   cv::Sobel(image, strip.gradient_y, CV_16S, 0, 1, 3, 1, 0, cv::BORDER_REPLICATE);
 
-  const int block = config_.block_size_px;
-  const int half = block / 2;
+  const int half = config_.block_radius_px;
+  const int block = 2 * half + 1;
   const int width = image.cols;
   strip.response.create(image.size(), CV_32F);
   strip.response.setTo(0.0F);
-  // Rows of `sums`: the products xx, xy, yy summed over the block's rows, then along the row as well.
-  // Integers: the running sums over rows stay exact.
+  // Rows of `sums`: the products xx, xy, yy summed over the block's rows, then along the row as
+  // well. Integers: the running sums over rows stay exact.
   strip.sums.create(6, width, CV_32S);
   strip.sums.setTo(0);
   int* column_sums[3] = {strip.sums.ptr<int>(0), strip.sums.ptr<int>(1), strip.sums.ptr<int>(2)};

@@ -1,23 +1,31 @@
 #include "rotrocc/feature_tracker.h"
 
+#include <algorithm>
+
 #include <opencv2/video/tracking.hpp>
 
 namespace rotrocc {
 
+FeatureTracker::FeatureTracker(const Config& config)
+    : config_(config), window_(2 * config.window_radius_px + 1, 2 * config.window_radius_px + 1) {}
+
 void FeatureTracker::buildPyramid(const cv::Mat& image, Pyramid& pyramid) const {
   cv::buildOpticalFlowPyramid(image,
                               pyramid,
-                              cv::Size(config_.window_px, config_.window_px),
-                              config_.startup_levels - 1,
+                              window_,
+                              std::max(config_.levels, config_.startup_levels) - 1,
                               true,
                               cv::BORDER_REFLECT_101,
                               cv::BORDER_CONSTANT,
                               false);
 }
 
-void FeatureTracker::track(const Pyramid& prev_pyramid, const Pyramid& cur_pyramid,
-                           const std::vector<cv::Point2f>& prev, int levels,
-                           std::vector<cv::Point2f>& cur, std::vector<char>& tracked) {
+void FeatureTracker::track(const Pyramid& prev_pyramid,
+                           const Pyramid& cur_pyramid,
+                           const std::vector<cv::Point2f>& prev,
+                           int levels,
+                           std::vector<cv::Point2f>& cur,
+                           std::vector<char>& tracked) {
   indices_.clear();
   from_.clear();
   to_.clear();
@@ -29,8 +37,11 @@ void FeatureTracker::track(const Pyramid& prev_pyramid, const Pyramid& cur_pyram
   }
   if (from_.empty()) return;
 
-  const auto flow = [&](const Pyramid& a, const Pyramid& b, const std::vector<cv::Point2f>& points,
-                        int max_level, std::vector<cv::Point2f>& result,
+  const auto flow = [&](const Pyramid& a,
+                        const Pyramid& b,
+                        const std::vector<cv::Point2f>& points,
+                        int max_level,
+                        std::vector<cv::Point2f>& result,
                         std::vector<unsigned char>& found) {
     const cv::TermCriteria stop(cv::TermCriteria::COUNT | cv::TermCriteria::EPS,
                                 config_.max_iterations,
@@ -41,7 +52,7 @@ void FeatureTracker::track(const Pyramid& prev_pyramid, const Pyramid& cur_pyram
                              result,
                              found,
                              differences_,
-                             cv::Size(config_.window_px, config_.window_px),
+                             window_,
                              max_level,
                              stop,
                              cv::OPTFLOW_USE_INITIAL_FLOW);

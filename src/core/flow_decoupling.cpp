@@ -6,8 +6,10 @@
 
 namespace rotrocc {
 
-void decoupledFlow(const StereoCamera& camera, const Correspondences& features,
-                   const Eigen::Matrix3d& R_prev_cur, std::vector<double>& lengths_px) {
+void decoupledFlow(const StereoCamera& camera,
+                   const Correspondences& features,
+                   const Eigen::Matrix3d& R_prev_cur,
+                   std::vector<double>& lengths_px) {
   lengths_px.resize(features.size());
   for (std::size_t i = 0; i < features.size(); ++i) {
     Eigen::Vector3d rotated = R_prev_cur * features[i].point_cur;  // Eq. 27

@@ -8,21 +8,25 @@ namespace {
 /// Steps of the translation [m] and rotation [rad] smaller than this change no pixel visibly.
 constexpr double kParameterTolerance = 1e-7;
 
+constexpr int kMaxIterations = 20;
+
 template <class Solver>
-void configure(Solver& solver, int max_iterations) {
-  solver.options.max_num_iterations = max_iterations;
+void configure(Solver& solver) {
+  solver.options.max_num_iterations = kMaxIterations;
   solver.options.parameter_tolerance = kParameterTolerance;
 }
 
 }  // namespace
 
-bool MotionSolver::solveMotion(const StereoCamera& camera, const Correspondences& features,
-                               const FeatureSet& set, Eigen::Isometry3d& T_prev_cur) {
+bool MotionSolver::solveMotion(const StereoCamera& camera,
+                               const Correspondences& features,
+                               const FeatureSet& set,
+                               Eigen::Isometry3d& T_prev_cur) {
   if (count(set) < 3) return false;
-  motion_problem_.assign(camera, features, set, T_prev_cur.linear());
+  motion_problem_.assign(camera, features, set, T_prev_cur, noise_ratio_);
   Vector6d parameters;
   parameters << Eigen::Vector3d::Zero(), T_prev_cur.translation();
-  configure(motion_solver_, max_iterations_);
+  configure(motion_solver_);
   motion_solver_.Solve(motion_problem_, &parameters);
   if (!parameters.allFinite()) return false;
 
@@ -32,12 +36,14 @@ bool MotionSolver::solveMotion(const StereoCamera& camera, const Correspondences
   return true;
 }
 
-bool MotionSolver::solveTranslation(const StereoCamera& camera, const Correspondences& features,
-                                    const FeatureSet& set, Eigen::Isometry3d& T_prev_cur) {
+bool MotionSolver::solveTranslation(const StereoCamera& camera,
+                                    const Correspondences& features,
+                                    const FeatureSet& set,
+                                    Eigen::Isometry3d& T_prev_cur) {
   if (count(set) < 2) return false;
-  translation_problem_.assign(camera, features, set, T_prev_cur.linear());
+  translation_problem_.assign(camera, features, set, T_prev_cur, noise_ratio_);
   Eigen::Vector3d translation = T_prev_cur.translation();
-  configure(translation_solver_, max_iterations_);
+  configure(translation_solver_);
   translation_solver_.Solve(translation_problem_, &translation);
   if (!translation.allFinite()) return false;
   T_prev_cur.translation() = translation;
@@ -49,7 +55,7 @@ MotionSolver::Information MotionSolver::information(const StereoCamera& camera,
                                                     const FeatureSet& set,
                                                     const Eigen::Isometry3d& T_prev_cur,
                                                     int estimated_parameters) {
-  motion_problem_.assign(camera, features, set, T_prev_cur.linear());
+  motion_problem_.assign(camera, features, set, T_prev_cur, noise_ratio_);
   Vector6d parameters;
   parameters << Eigen::Vector3d::Zero(), T_prev_cur.translation();
   residuals_.resize(motion_problem_.NumResiduals());

@@ -12,7 +12,9 @@ OutlierThreshold OutlierThreshold::fixedLimit(double limit, double drop_share) {
   return {Rule::kFixedLimit, limit, drop_share};
 }
 
-OutlierThreshold OutlierThreshold::meanBased(double factor) { return {Rule::kMean, factor, 0.0}; }
+OutlierThreshold OutlierThreshold::meanBased(double factor) {
+  return {Rule::kMean, factor, 0.0};
+}
 
 OutlierThreshold OutlierThreshold::deviationBased(double factor) {
   return {Rule::kDeviation, factor, 0.0};

@@ -24,7 +24,9 @@ Row loadRow(const uchar* pixels) {
   return cv::v_load(pixels) & cv::v_load_aligned(mask.data());
 }
 
-int difference(const Row& a, const Row& b) { return static_cast<int>(cv::v_reduce_sad(a, b)); }
+int difference(const Row& a, const Row& b) {
+  return static_cast<int>(cv::v_reduce_sad(a, b));
+}
 #else
 using Row = std::array<uchar, kWindow>;
 
@@ -36,17 +38,20 @@ Row loadRow(const uchar* pixels) {
 
 int difference(const Row& a, const Row& b) {
   int sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(static_cast<int>(a[i]) - static_cast<int>(b[i]));
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sum += std::abs(static_cast<int>(a[i]) - static_cast<int>(b[i]));
   return sum;
 }
 #endif
 
-/// Sums of absolute differences between the window around a left pixel and windows of the same row of
-/// the right image. Pixels between the rows or columns are interpolated.
+/// Sums of absolute differences between the window around a left pixel and windows of the same row
+/// of the right image. Pixels between the rows or columns are interpolated.
 class RowSearch {
  public:
   /// `columns` of the right image are those that will be asked for.
-  RowSearch(const cv::Mat& left, const cv::Mat& right, const cv::Point2f& pixel,
+  RowSearch(const cv::Mat& left,
+            const cv::Mat& right,
+            const cv::Point2f& pixel,
             const cv::Range& columns)
       : first_(columns.start) {
     const int x = cvFloor(pixel.x);
@@ -77,8 +82,8 @@ class RowSearch {
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-  static void interpolate(const uchar* row, std::size_t step, float dx, float dy, int count,
-                          uchar* out) {
+  static void interpolate(
+      const uchar* row, std::size_t step, float dx, float dy, int count, uchar* out) {
     const uchar* below = dy != 0.0F ? row + step : row;
     const int right = dx != 0.0F ? 1 : 0;
     for (int i = 0; i < count; ++i) {
@@ -123,7 +128,8 @@ float subPixelOffset(int before, int at, int after) {
 }
 
 /// Whether a cost away from the minimum comes near to it. The slopes of the minimum are no rivals.
-bool hasRival(const std::vector<int>& costs, std::vector<int>::const_iterator best,
+bool hasRival(const std::vector<int>& costs,
+              std::vector<int>::const_iterator best,
               double uniqueness) {
   constexpr std::ptrdiff_t kSlope = 2;
   for (auto it = costs.begin(); it != costs.end(); ++it) {
@@ -132,9 +138,11 @@ bool hasRival(const std::vector<int>& costs, std::vector<int>::const_iterator be
   return false;
 }
 
-/// Column of the best match, or a negative number where it lies at the end of the range, differs too
-/// much or is ambiguous. `uniqueness` of 0 accepts rivals.
-float bestColumn(const RowSearch& sad, const cv::Range& columns, double max_mean_difference,
+/// Column of the best match, or a negative number where it lies at the end of the range, differs
+/// too much or is ambiguous. `uniqueness` of 0 accepts rivals.
+float bestColumn(const RowSearch& sad,
+                 const cv::Range& columns,
+                 double max_mean_difference,
                  double uniqueness) {
   constexpr float kNone = -1.0F;
   thread_local std::vector<int> costs;
@@ -151,7 +159,8 @@ float bestColumn(const RowSearch& sad, const cv::Range& columns, double max_mean
 
 }  // namespace
 
-void StereoMatcher::match(const cv::Mat& left, const cv::Mat& right,
+void StereoMatcher::match(const cv::Mat& left,
+                          const cv::Mat& right,
                           const std::vector<cv::Point2f>& pixels,
                           std::vector<float>& disparities_px) const {
   const auto columns = [&](std::size_t i) {
@@ -161,9 +170,11 @@ void StereoMatcher::match(const cv::Mat& left, const cv::Mat& right,
   search(left, right, pixels, columns, config_.uniqueness, disparities_px);
 }
 
-void StereoMatcher::matchNear(const cv::Mat& left, const cv::Mat& right,
+void StereoMatcher::matchNear(const cv::Mat& left,
+                              const cv::Mat& right,
                               const std::vector<cv::Point2f>& pixels,
-                              const std::vector<float>& expected_px, int radius_px,
+                              const std::vector<float>& expected_px,
+                              int radius_px,
                               std::vector<float>& disparities_px) const {
   const auto columns = [&](std::size_t i) {
     if (expected_px[i] == kNoDisparity) return cv::Range();
@@ -173,10 +184,12 @@ void StereoMatcher::matchNear(const cv::Mat& left, const cv::Mat& right,
   search(left, right, pixels, columns, 0.0, disparities_px);
 }
 
-void StereoMatcher::search(const cv::Mat& left, const cv::Mat& right,
+void StereoMatcher::search(const cv::Mat& left,
+                           const cv::Mat& right,
                            const std::vector<cv::Point2f>& pixels,
                            const std::function<cv::Range(std::size_t)>& columns_of,
-                           double uniqueness, std::vector<float>& disparities_px) const {
+                           double uniqueness,
+                           std::vector<float>& disparities_px) const {
   disparities_px.assign(pixels.size(), kNoDisparity);
   cv::parallel_for_(cv::Range(0, static_cast<int>(pixels.size())), [&](const cv::Range& range) {
     for (int k = range.start; k < range.end; ++k) {

@@ -52,8 +52,12 @@ std::string join(const std::vector<std::string>& words) {
 
 }  // namespace
 
-void ParameterTable::add(const std::string& name, int& value, int min, int max,
-                         const std::string& unit, const std::string& description) {
+void ParameterTable::add(const std::string& name,
+                         int& value,
+                         int min,
+                         int max,
+                         const std::string& unit,
+                         const std::string& description) {
   Parameter parameter = makeNumber(value, min, max, "a whole number");
   parameter.name = name;
   parameter.unit = unit;
@@ -61,8 +65,12 @@ void ParameterTable::add(const std::string& name, int& value, int min, int max,
   parameters_.push_back(std::move(parameter));
 }
 
-void ParameterTable::add(const std::string& name, double& value, double min, double max,
-                         const std::string& unit, const std::string& description) {
+void ParameterTable::add(const std::string& name,
+                         double& value,
+                         double min,
+                         double max,
+                         const std::string& unit,
+                         const std::string& description) {
   Parameter parameter = makeNumber(value, min, max, "a number");
   parameter.name = name;
   parameter.unit = unit;
@@ -85,8 +93,10 @@ void ParameterTable::add(const std::string& name, bool& value, const std::string
   parameters_.push_back(std::move(parameter));
 }
 
-void ParameterTable::add(const std::string& name, std::string& value,
-                         const std::vector<std::string>& choices, const std::string& description) {
+void ParameterTable::add(const std::string& name,
+                         std::string& value,
+                         const std::vector<std::string>& choices,
+                         const std::string& description) {
   Parameter parameter;
   parameter.name = name;
   parameter.range = choices.empty() ? "any text" : "one of " + join(choices);
@@ -102,9 +112,8 @@ void ParameterTable::add(const std::string& name, std::string& value,
 }
 
 void ParameterTable::set(const std::string& name, const std::string& text) {
-  const auto found = std::find_if(parameters_.begin(), parameters_.end(), [&](const Parameter& p) {
-    return p.name == name;
-  });
+  const auto found = std::find_if(
+      parameters_.begin(), parameters_.end(), [&](const Parameter& p) { return p.name == name; });
   if (found == parameters_.end()) {
     throw std::invalid_argument("there is no parameter \"" + name +
                                 "\"; config/default.yaml lists them all");

@@ -10,7 +10,12 @@ namespace {
 void addFeatureDetector(FeatureDetector::Config& c, ParameterTable& table) {
   const std::string s = "feature_detector/";
   table.add(s + "max_features", c.max_features, 50, 20000, "", "corners per image");
-  table.add(s + "block_size_px", c.block_size_px, 3, 31, "px", "window of the corner measure; odd");
+  table.add(s + "block_radius_px",
+            c.block_radius_px,
+            1,
+            15,
+            "px",
+            "the corner measure is taken over a square of 2 radius + 1");
   table.add(s + "nms_radius_px", c.nms_radius_px, 1, 50, "px", "no two corners nearer than this");
   table.add(s + "cell_size_px", c.cell_size_px, 8, 1000, "px", "grid that spreads the corners");
   table.add(s + "min_response",
@@ -43,9 +48,14 @@ void addStereoMatcher(StereoMatcher::Config& c, ParameterTable& table) {
 
 void addFeatureTracker(FeatureTracker::Config& c, ParameterTable& table) {
   const std::string s = "feature_tracker/";
-  table.add(s + "window_px", c.window_px, 5, 51, "px", "Lucas-Kanade window; odd");
+  table.add(s + "window_radius_px",
+            c.window_radius_px,
+            2,
+            25,
+            "px",
+            "the Lucas-Kanade window is a square of 2 radius + 1");
   table.add(s + "levels", c.levels, 1, 8, "", "pyramid levels with a motion prediction");
-  table.add(s + "startup_levels", c.startup_levels, 1, 8, "", "pyramid levels without; at least levels");
+  table.add(s + "startup_levels", c.startup_levels, 1, 8, "", "pyramid levels without one");
   table.add(s + "max_iterations", c.max_iterations, 1, 100, "", "per pyramid level");
   table.add(s + "min_step_px", c.min_step_px, 0.0001, 1.0, "px", "iterations end below it");
   table.add(s + "max_round_trip_px",
@@ -71,6 +81,13 @@ void addFeatureTracker(FeatureTracker::Config& c, ParameterTable& table) {
 void addMotionEstimator(MotionEstimator::Config& c, ParameterTable& table) {
   const std::string s = "motion_estimator/";
   table.add(s + "criterion", c.criterion, criterionNames(), "which features are inliers");
+  table.add(
+      s + "noise_ratio",
+      c.noise_ratio,
+      0.0,
+      100.0,
+      "",
+      "disparity noise over flow noise, weights the residuals; 0: all alike, as in the paper");
   table.add(s + "rotation_limit_px",
             c.rotation_limit_px,
             0.01,
@@ -121,14 +138,28 @@ void addMotionEstimator(MotionEstimator::Config& c, ParameterTable& table) {
             "mean_based, std_based: iterations at most");
 }
 
-void addVisualOdometry(VisualOdometry::Config& c, ParameterTable& table) {
-  const std::string s = "visual_odometry/";
-  table.add(s + "max_prediction_age_s",
-            c.motion_model.max_age_s,
+void addMotionModel(MotionModel::Config& c, ParameterTable& table) {
+  table.add("motion_model/max_age_s",
+            c.max_age_s,
             0.0,
             100.0,
             "s",
             "after a longer gap the last motion predicts nothing");
+}
+
+void addMotionCheck(MotionCheck::Config& c, ParameterTable& table) {
+  const std::string s = "motion_check/";
+  table.add(s + "min_inliers", c.min_inliers, 3, 10000, "", "fewer: lost");
+  table.add(
+      s + "min_inlier_share", c.min_inlier_share, 0.0, 1.0, "", "of the feature set; less: lost");
+  table.add(s + "degraded_inliers", c.degraded_inliers, 3, 10000, "", "fewer: degraded");
+  table.add(s + "degraded_inlier_share", c.degraded_inlier_share, 0.0, 1.0, "", "less: degraded");
+  table.add(s + "max_speed_mps", c.max_speed_mps, 0.1, 1000.0, "m/s", "faster: lost");
+  table.add(s + "max_turn_rate_rps", c.max_turn_rate_rps, 0.1, 100.0, "rad/s", "faster: lost");
+}
+
+void addVisualOdometry(VisualOdometry::Config& c, ParameterTable& table) {
+  const std::string s = "visual_odometry/";
   table.add(s + "startup_rounds",
             c.startup_rounds,
             1,
@@ -141,12 +172,6 @@ void addVisualOdometry(VisualOdometry::Config& c, ParameterTable& table) {
             100.0,
             "px",
             "fewer rounds if the prediction moved less");
-  table.add(s + "min_inliers", c.min_inliers, 3, 10000, "", "fewer: lost");
-  table.add(s + "min_inlier_share", c.min_inlier_share, 0.0, 1.0, "", "of the feature set; less: lost");
-  table.add(s + "degraded_inliers", c.degraded_inliers, 3, 10000, "", "fewer: degraded");
-  table.add(s + "degraded_inlier_share", c.degraded_inlier_share, 0.0, 1.0, "", "less: degraded");
-  table.add(s + "max_speed_mps", c.max_speed_mps, 0.1, 1000.0, "m/s", "faster: lost");
-  table.add(s + "max_turn_rate_rps", c.max_turn_rate_rps, 0.1, 100.0, "rad/s", "faster: lost");
   table.add(s + "max_gap_s", c.max_gap_s, 0.01, 1000.0, "s", "longer between pairs: start anew");
 }
 
@@ -154,14 +179,16 @@ void addNode(NodeParameters& n, ParameterTable& table) {
   table.add("odom_frame", n.odom_frame, {}, "frame of the odometry's pose");
   table.add("base_frame", n.base_frame, {}, "frame of the robot; its pose and twist are published");
   table.add("publish_tf", n.publish_tf, "broadcast odom_frame -> base_frame");
-  table.add("image_transport", n.image_transport, {}, "transport of both images: raw, compressed, ...");
+  table.add(
+      "image_transport", n.image_transport, {}, "transport of both images: raw, compressed, ...");
   table.add("max_stamp_difference_s",
             n.max_stamp_difference_s,
             0.0,
             1.0,
             "s",
             "between the left and the right image of a pair");
-  table.add("queue_size", n.queue_size, 1, 100, "", "images that wait for their partner, on each side");
+  table.add(
+      "queue_size", n.queue_size, 1, 100, "", "images that wait for their partner, on each side");
   table.add("path_length", n.path_length, 0, 1000000, "", "poses the path topic keeps");
   table.add("lost_speed_sigma_mps",
             n.lost_speed_sigma_mps,
@@ -175,7 +202,10 @@ void addNode(NodeParameters& n, ParameterTable& table) {
             100.0,
             "rad/s",
             "how fast the orientation gets uncertain while lost");
-  table.add("trajectory_file", n.trajectory_file, {}, "left camera poses are written there; none if empty");
+  table.add("trajectory_file",
+            n.trajectory_file,
+            {},
+            "left camera poses are written there; none if empty");
   table.add("trajectory_format", n.trajectory_format, {"tum", "kitti"}, "of trajectory_file");
 }
 
@@ -202,11 +232,14 @@ std::string comment(const ParameterTable::Parameter& p) {
 ParameterTable makeParameterTable(Parameters& parameters) {
   ParameterTable table;
   addNode(parameters.node, table);
-  addFeatureDetector(parameters.odometry.feature_detector, table);
-  addStereoMatcher(parameters.odometry.stereo_matcher, table);
-  addFeatureTracker(parameters.odometry.feature_tracker, table);
-  addMotionEstimator(parameters.odometry.motion_estimator, table);
-  addVisualOdometry(parameters.odometry, table);
+  VisualOdometry::Config& odometry = parameters.odometry;
+  addFeatureDetector(odometry.correspondence_finder.feature_detector, table);
+  addStereoMatcher(odometry.correspondence_finder.stereo_matcher, table);
+  addFeatureTracker(odometry.correspondence_finder.feature_tracker, table);
+  addMotionModel(odometry.motion_model, table);
+  addMotionEstimator(odometry.motion_estimator, table);
+  addMotionCheck(odometry.motion_check, table);
+  addVisualOdometry(odometry, table);
   return table;
 }
 
@@ -231,7 +264,8 @@ std::string toYaml(const ParameterTable& table) {
     section = its_section;
     std::string value = p.get();
     if (value.empty()) value = "\"\"";
-    text += (section.empty() ? "" : "  ") + p.name.substr(slash + 1) + ": " + value + comment(p) + "\n";
+    text +=
+        (section.empty() ? "" : "  ") + p.name.substr(slash + 1) + ": " + value + comment(p) + "\n";
   }
   return text;
 }

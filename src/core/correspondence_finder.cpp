@@ -1,0 +1,117 @@
+#include "rotrocc/correspondence_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "rotrocc/reprojection_error.h"
+
+namespace rotrocc {
+namespace {
+
+/// The tracked disparity says where to look for the match at t; this far around it [px].
+constexpr int kSearchRadius = 2;
+
+}  // namespace
+
+CorrespondenceFinder::CorrespondenceFinder(const Config& config)
+    : config_(config),
+      detector_(config.feature_detector),
+      matcher_(config.stereo_matcher),
+      tracker_(config.feature_tracker) {}
+
+void CorrespondenceFinder::advance(const StereoPair& pair, const StereoCamera& camera) {
+  camera_ = camera;
+  std::swap(prev_, cur_);
+  cv::parallel_for_(cv::Range(0, 2), [&](const cv::Range& sides) {
+    for (int side = sides.start; side < sides.end; ++side) {
+      tracker_.buildPyramid(side == 0 ? pair.left : pair.right, side == 0 ? cur_.left : cur_.right);
+    }
+  });
+}
+
+int CorrespondenceFinder::findCorners() {
+  detector_.detect(prev_.left.front(), corners_);
+  return static_cast<int>(corners_.size());
+}
+
+int CorrespondenceFinder::findDepths() {
+  prev_left_.clear();
+  prev_right_.clear();
+  prev_points_.clear();
+  matcher_.match(prev_.left.front(), prev_.right.front(), corners_, disparities_);
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const cv::Point2f& corner = corners_[i];
+    const float disparity_px = disparities_[i];
+    if (disparity_px == StereoMatcher::kNoDisparity) continue;
+    const double depth_m = camera_.depth(disparity_px);
+    if (!std::isfinite(depth_m) || depth_m < kMinDepth_m) continue;
+    prev_left_.push_back(corner);
+    prev_right_.emplace_back(corner.x - disparity_px, corner.y);
+    prev_points_.push_back(depth_m * camera_.ray({corner.x, corner.y}));
+  }
+  return static_cast<int>(prev_points_.size());
+}
+
+int CorrespondenceFinder::track(const Eigen::Isometry3d& T_prev_cur, int levels) {
+  const Eigen::Isometry3d T_cur_prev = T_prev_cur.inverse();
+  cur_left_.resize(prev_points_.size());
+  cur_right_.resize(prev_points_.size());
+  tracked_.assign(prev_points_.size(), 0);
+  for (std::size_t i = 0; i < prev_points_.size(); ++i) {
+    const Eigen::Vector3d point = T_cur_prev * prev_points_[i];
+    if (point.z() < kMinDepth_m) continue;
+    const Eigen::Vector2d left = camera_.project(point);
+    const double right_x = left.x() - camera_.disparity(point.z());
+    cur_left_[i] = {static_cast<float>(left.x()), static_cast<float>(left.y())};
+    cur_right_[i] = {static_cast<float>(right_x), static_cast<float>(left.y())};
+    tracked_[i] = 1;
+  }
+  tracker_.track(prev_.left, cur_.left, prev_left_, levels, cur_left_, tracked_);
+  tracker_.track(prev_.right, cur_.right, prev_right_, levels, cur_right_, tracked_);
+  return static_cast<int>(std::count(tracked_.begin(), tracked_.end(), 1));
+}
+
+void CorrespondenceFinder::closeCircle(Correspondences& features) {
+  const FeatureTracker::Config& limits = config_.feature_tracker;
+  expected_.assign(cur_left_.size(), StereoMatcher::kNoDisparity);
+  for (std::size_t i = 0; i < cur_left_.size(); ++i) {
+    const cv::Point2f offset = cur_left_[i] - cur_right_[i];
+    if (tracked_[i] != 0 && std::abs(offset.y) <= limits.max_vertical_px) expected_[i] = offset.x;
+  }
+  matcher_.matchNear(
+      cur_.left.front(), cur_.right.front(), cur_left_, expected_, kSearchRadius, disparities_);
+
+  features.clear();
+  for (std::size_t i = 0; i < cur_left_.size(); ++i) {
+    if (disparities_[i] == StereoMatcher::kNoDisparity) continue;
+    if (std::abs(disparities_[i] - expected_[i]) > limits.max_disparity_difference_px) continue;
+    const double depth_m = camera_.depth(disparities_[i]);
+    if (!std::isfinite(depth_m) || depth_m < kMinDepth_m) continue;
+    Correspondence feature;
+    feature.prev_px = {prev_left_[i].x, prev_left_[i].y};
+    feature.cur_px = {cur_left_[i].x, cur_left_[i].y};
+    feature.disparity_px = disparities_[i];
+    feature.point_cur = depth_m * camera_.ray(feature.cur_px);
+    features.push_back(feature);
+  }
+}
+
+double CorrespondenceFinder::medianShift(const Eigen::Isometry3d& T_prev_cur_a,
+                                         const Eigen::Isometry3d& T_prev_cur_b) {
+  const Eigen::Isometry3d T_cur_prev_a = T_prev_cur_a.inverse();
+  const Eigen::Isometry3d T_cur_prev_b = T_prev_cur_b.inverse();
+  shifts_px_.clear();
+  for (const Eigen::Vector3d& point : prev_points_) {
+    const Eigen::Vector3d a = T_cur_prev_a * point;
+    const Eigen::Vector3d b = T_cur_prev_b * point;
+    if (a.z() < kMinDepth_m || b.z() < kMinDepth_m) continue;
+    shifts_px_.push_back((camera_.project(a) - camera_.project(b)).norm());
+  }
+  if (shifts_px_.empty()) return 0.0;
+  const auto middle = shifts_px_.begin() + static_cast<std::ptrdiff_t>(shifts_px_.size() / 2);
+  std::nth_element(shifts_px_.begin(), middle, shifts_px_.end());
+  return *middle;
+}
+
+}  // namespace rotrocc
