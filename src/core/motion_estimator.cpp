@@ -9,6 +9,9 @@
 namespace rotrocc {
 namespace {
 
+/// Keeps a normalized error finite where there is no flow at all [px].
+constexpr double kLeastFlow_px = 1e-6;
+
 Criterion criterionOf(const std::string& name) {
   const auto& names = criterionNames();
   const auto found = std::find(names.begin(), names.end(), name);
@@ -100,7 +103,7 @@ bool MotionEstimator::estimateTranslation(const StereoCamera& camera,
       return false;  // Eq. 29
     reprojectionErrors(camera, features, estimate.T_prev_cur, config_.noise_ratio, errors_);
     for (std::size_t i = 0; i < errors_.size(); ++i) {
-      errors_[i] /= std::max(flow_px_[i], config_.min_flow_px);
+      errors_[i] /= std::max({flow_px_[i], config_.min_flow_px, kLeastFlow_px});
     }
     keepBelow(errors_, threshold(errors_, set), next);  // Eq. 30
     for (std::size_t i = 0; i < next.size(); ++i)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <locale>
 #include <sstream>
 #include <stdexcept>
@@ -13,6 +14,7 @@ template <class T>
 std::string toText(const T& value) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
+  text.precision(std::numeric_limits<double>::digits10);
   text << value;
   return text.str();
 }

@@ -221,8 +221,11 @@ void setAll(const YAML::Node& node, const std::string& prefix, ParameterTable& t
   }
 }
 
+/// Where the comments of a YAML file begin.
+constexpr std::size_t kCommentColumn = 34;
+
 std::string comment(const ParameterTable::Parameter& p) {
-  std::string text = "  # ";
+  std::string text = "# ";
   if (!p.unit.empty()) text += "[" + p.unit + "] ";
   return text + p.description + "; " + p.range;
 }
@@ -264,8 +267,10 @@ std::string toYaml(const ParameterTable& table) {
     section = its_section;
     std::string value = p.get();
     if (value.empty()) value = "\"\"";
-    text +=
-        (section.empty() ? "" : "  ") + p.name.substr(slash + 1) + ": " + value + comment(p) + "\n";
+    std::string line =
+        (section.empty() ? "" : "  ") + p.name.substr(slash + 1) + ": " + value + "  ";
+    if (line.size() < kCommentColumn) line.resize(kCommentColumn, ' ');
+    text += line + comment(p) + "\n";
   }
   return text;
 }

@@ -1,0 +1,143 @@
+/// What each stage of the pipeline costs on one stereo pair. With ROTROCC_KITTI_DIR the pairs are
+/// those of its 06_000_050 clip, else a rendered street of the same size.
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "../test/synthetic_scene.h"
+#include "rotrocc/correspondence_finder.h"
+#include "rotrocc/kitti.h"
+#include "rotrocc/motion_estimator.h"
+#include "rotrocc/outlier_rejection.h"
+#include "rotrocc/visual_odometry.h"
+
+namespace rotrocc {
+namespace {
+
+struct Drive {
+  StereoCamera camera;
+  std::vector<StereoPair> pairs;
+};
+
+Drive readKitti(const std::string& directory) {
+  const KittiSequence sequence(directory);
+  Drive drive;
+  drive.camera = sequence.camera();
+  for (int i = 0; i < sequence.size(); ++i) {
+    drive.pairs.push_back({sequence.stamp_ns(i), sequence.readLeft(i), sequence.readRight(i)});
+  }
+  return drive;
+}
+
+Drive renderStreet() {
+  StereoCamera camera;
+  camera.width = 1241;
+  camera.height = 376;
+  camera.fx = camera.fy = 718.856;
+  camera.cx = camera.cx_right = 607.19;
+  camera.cy = 185.22;
+  camera.baseline_m = 0.537;
+  const SyntheticScene scene(camera);
+  Drive drive{camera, {}};
+  for (int i = 0; i < 20; ++i) {
+    Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+    T_world_camera.translation().z() = i;
+    drive.pairs.push_back(scene.render(T_world_camera, i * 100'000'000LL));
+  }
+  return drive;
+}
+
+const Drive& drive() {
+  static const Drive drive = [] {
+    const char* kitti = std::getenv("ROTROCC_KITTI_DIR");
+    return kitti != nullptr ? readKitti(std::string(kitti) + "/06_000_050") : renderStreet();
+  }();
+  return drive;
+}
+
+/// A finder that has seen the first three pairs, and the motion between the last two of them.
+struct Middle {
+  CorrespondenceFinder finder{CorrespondenceFinder::Config{}};
+  Eigen::Isometry3d T_prev_cur = Eigen::Isometry3d::Identity();
+
+  Middle() {
+    VisualOdometry odometry{VisualOdometry::Config{}};
+    for (std::size_t i = 0; i < 3; ++i) {
+      T_prev_cur = odometry.process(drive().pairs[i], drive().camera).T_prev_cur;
+      finder.advance(drive().pairs[i], drive().camera);
+    }
+    finder.findCorners();
+    finder.findDepths();
+  }
+};
+
+void pyramids(benchmark::State& state) {
+  Middle middle;
+  for (auto _ : state) middle.finder.advance(drive().pairs[3], drive().camera);
+}
+
+void corners(benchmark::State& state) {
+  Middle middle;
+  for (auto _ : state) state.counters["corners"] = middle.finder.findCorners();
+}
+
+void disparities(benchmark::State& state) {
+  Middle middle;
+  for (auto _ : state) state.counters["matched"] = middle.finder.findDepths();
+}
+
+void tracking(benchmark::State& state) {
+  Middle middle;
+  const int levels = FeatureTracker::Config{}.levels;
+  for (auto _ : state) state.counters["tracked"] = middle.finder.track(middle.T_prev_cur, levels);
+}
+
+void closingTheCircle(benchmark::State& state) {
+  Middle middle;
+  middle.finder.track(middle.T_prev_cur, FeatureTracker::Config{}.levels);
+  Correspondences features;
+  for (auto _ : state) middle.finder.closeCircle(features);
+  state.counters["features"] = static_cast<double>(features.size());
+}
+
+void estimation(benchmark::State& state) {
+  Middle middle;
+  middle.finder.track(middle.T_prev_cur, FeatureTracker::Config{}.levels);
+  Correspondences features;
+  middle.finder.closeCircle(features);
+  MotionEstimator estimator{MotionEstimator::Config{}};
+  MotionEstimator::Estimate estimate;
+  for (auto _ : state) {
+    estimate = estimator.estimate(drive().camera, features, middle.T_prev_cur, 0.1);
+  }
+  state.counters["inliers"] = count(estimate.translation_inliers);
+}
+
+/// Everything, over the whole drive.
+void odometry(benchmark::State& state) {
+  for (auto _ : state) {
+    VisualOdometry odometry{VisualOdometry::Config{}};
+    for (const StereoPair& pair : drive().pairs) {
+      benchmark::DoNotOptimize(odometry.process(pair, drive().camera));
+    }
+  }
+  const auto pairs = static_cast<double>(drive().pairs.size());
+  state.counters["per_pair"] = benchmark::Counter(
+      pairs, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+BENCHMARK(pyramids)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(corners)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(disparities)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(tracking)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(closingTheCircle)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(estimation)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(odometry)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+
+}  // namespace
+}  // namespace rotrocc
+
+BENCHMARK_MAIN();
