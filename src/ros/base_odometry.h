@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+#include "rotrocc/pose_accumulator.h"
+#include "rotrocc/visual_odometry.h"
+#include "uncertain_transform.h"
+
+namespace rotrocc {
+
+/// Where the robot is after a stereo pair, and how it moves.
+struct BaseState {
+  std::int64_t stamp_ns = 0;
+  Eigen::Isometry3d T_first_camera =
+      Eigen::Isometry3d::Identity();  ///< in the first camera's frame
+  UncertainTransform T_odom_base;
+  UncertainTwist twist;  ///< in axes of the base
+};
+
+/// Adds up the camera's motions to the odometry of the base that it is fixed to. The odom frame is
+/// that of the base at the first pair.
+///
+/// While there is no motion the pose stays, the twist is zero with a covariance that says it is
+/// unknown, and the standard deviation of the pose grows with the time that has passed.
+class BaseOdometry {
+ public:
+  /// `lost_speed_sigma_mps` and `lost_turn_rate_sigma_rps`: the growth, along and about each axis.
+  BaseOdometry(const Eigen::Isometry3d& T_base_camera,
+               double lost_speed_sigma_mps,
+               double lost_turn_rate_sigma_rps);
+
+  BaseState add(const OdometryResult& result);
+
+ private:
+  Matrix6d growthWithoutMotion(std::int64_t stamp_ns);
+
+  Eigen::Isometry3d T_base_camera_;
+  Eigen::Isometry3d T_camera_base_;
+  double lost_speed_sigma_mps_;
+  double lost_turn_rate_sigma_rps_;
+
+  PoseAccumulator camera_;
+  UncertainTransform T_odom_base_;
+  std::optional<std::int64_t> last_stamp_ns_;
+  double without_motion_s_ = 0.0;
+};
+
+}  // namespace rotrocc
