@@ -2,6 +2,8 @@
 
 #include <tf2_eigen/tf2_eigen.h>
 
+#include "message_conversion.h"
+
 namespace rotrocc {
 
 nav_msgs::Path groundTruthPath(const Trajectory& recorded,
@@ -16,7 +18,7 @@ nav_msgs::Path groundTruthPath(const Trajectory& recorded,
     const Eigen::Isometry3d T_first_body = T_first_world * pose.T_world_body;
     geometry_msgs::PoseStamped message;
     message.header.frame_id = odom_frame;
-    message.header.stamp.fromNSec(static_cast<std::uint64_t>(pose.stamp_ns));
+    message.header.stamp = toRosTime(pose.stamp_ns);
     message.pose = tf2::toMsg(T_base_body * T_first_body * T_base_body.inverse());
     path.poses.push_back(message);
   }

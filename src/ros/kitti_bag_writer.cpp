@@ -16,6 +16,7 @@
 
 #include "ground_truth.h"
 #include "kitti_mount.h"
+#include "message_conversion.h"
 
 namespace rotrocc {
 namespace {
@@ -95,8 +96,7 @@ void KittiBagWriter::finish() {
 }
 
 ros::Time KittiBagWriter::stamp(int index) const {
-  return ros::Time().fromNSec(
-      static_cast<std::uint64_t>(start_time_s_ * kNsPerS + sequence_.stamp_ns(index)));
+  return toRosTime(start_time_s_ * kNsPerS + sequence_.stamp_ns(index));
 }
 
 void KittiBagWriter::beginStamp(const ros::Time& stamp) {

@@ -8,6 +8,7 @@
 
 #include "ground_truth.h"
 #include "kitti_mount.h"
+#include "message_conversion.h"
 
 namespace rotrocc {
 namespace {
@@ -42,7 +43,10 @@ std::string nameOf(const geometry_msgs::TransformStamped& transform) {
 
 }  // namespace
 
-RecordedTf::RecordedTf(const rosbag::Bag& bag, const Frames& frames) : frames_(frames) {
+RecordedTf::RecordedTf(const rosbag::Bag& bag,
+                       const std::string& base_frame,
+                       const std::string& camera_frame)
+    : base_frame_(withoutSlash(base_frame)), camera_frame_(withoutSlash(camera_frame)) {
   const Transforms fixed = readTransforms(bag, "tf_static");
   const Transforms moving = readTransforms(bag, "tf");
   added_kitti_mount_ = !hasMount(fixed, moving);
@@ -53,19 +57,19 @@ RecordedTf::RecordedTf(const rosbag::Bag& bag, const Frames& frames) : frames_(f
 
 bool RecordedTf::isTrajectory(const geometry_msgs::TransformStamped& transform) const {
   const std::string child = withoutSlash(transform.child_frame_id);
-  if (child == frames_.base) return true;
-  return added_kitti_mount_ && (child == frames_.camera || child == kKitti2bagCamera);
+  if (child == base_frame_) return true;
+  return added_kitti_mount_ && (child == camera_frame_ || child == kKitti2bagCamera);
 }
 
 bool RecordedTf::hasMount(const Transforms& fixed, const Transforms& moving) const {
   tf2::BufferCore buffer;
   for (const Transforms* transforms : {&fixed, &moving}) {
     for (const auto& transform : *transforms) {
-      const bool is_mount = transform.child_frame_id != frames_.base;
+      const bool is_mount = transform.child_frame_id != base_frame_;
       if (is_mount) buffer.setTransform(transform, "bag", true);
     }
   }
-  return buffer.canTransform(frames_.base, frames_.camera, ros::Time());
+  return buffer.canTransform(base_frame_, camera_frame_, ros::Time());
 }
 
 void RecordedTf::addStatic(const geometry_msgs::TransformStamped& transform) {
@@ -83,8 +87,8 @@ void RecordedTf::addStatic(const geometry_msgs::TransformStamped& transform) {
 
 void RecordedTf::addKittiMount() {
   geometry_msgs::TransformStamped mount = tf2::eigenToTransform(kittiMount());
-  mount.header.frame_id = frames_.base;
-  mount.child_frame_id = frames_.camera;
+  mount.header.frame_id = base_frame_;
+  mount.child_frame_id = camera_frame_;
   static_transforms_.transforms.push_back(mount);
 }
 
@@ -103,15 +107,14 @@ void RecordedTf::buildTrajectory(const Transforms& moving) {
     if (!isTrajectory(transform)) continue;
     if (recorded.empty()) {
       trajectory_name_ = nameOf(transform);
-      of_base = transform.child_frame_id == frames_.base;
+      of_base = transform.child_frame_id == base_frame_;
     }
     if (nameOf(transform) != trajectory_name_) continue;
-    recorded.push_back({static_cast<std::int64_t>(transform.header.stamp.toNSec()),
-                        tf2::transformToEigen(transform)});
+    recorded.push_back({toNanoseconds(transform.header.stamp), tf2::transformToEigen(transform)});
   }
   const Eigen::Isometry3d T_base_body =
       of_base ? Eigen::Isometry3d(Eigen::Isometry3d::Identity()) : kittiMount();
-  trajectory_ = groundTruthPath(recorded, T_base_body, frames_.odom);
+  trajectory_ = groundTruthPath(recorded, T_base_body, "odom");
 }
 
 }  // namespace rotrocc

@@ -10,20 +10,18 @@
 
 namespace rotrocc {
 
-/// The transforms of a bag, told apart into those to play and those that our odometry would contradict:
-/// what gives the base a parent is a trajectory, not a mount. kitti2bag records world -> base_link for
-/// raw drives; for odometry sequences it records world -> camera_left and no mount at all.
+/// The transforms of a bag, told apart into those to play and those that our odometry would
+/// contradict: what gives the base a parent is a trajectory, not a mount. kitti2bag records world
+/// -> base_link for raw drives; for odometry sequences it records world -> camera_left and no mount
+/// at all.
 class RecordedTf {
  public:
-  struct Frames {
-    std::string odom = "odom";
-    std::string base = "base_link";
-    std::string camera;  ///< frame_id of the left image
-  };
-
-  /// Reads all transforms of `bag`. If none leads from the base to the camera, KITTI's mount is added
-  /// to the static ones, and recorded poses of the camera are a trajectory too.
-  RecordedTf(const rosbag::Bag& bag, const Frames& frames);
+  /// Reads all transforms of `bag`. `camera_frame` is that of the left image. If no transform leads
+  /// from the base to the camera, KITTI's mount is added to the static ones, and recorded poses of
+  /// the camera are a trajectory too.
+  RecordedTf(const rosbag::Bag& bag,
+             const std::string& base_frame,
+             const std::string& camera_frame);
 
   bool addedKittiMount() const { return added_kitti_mount_; }
 
@@ -33,8 +31,8 @@ class RecordedTf {
   /// What is left of `message`, of the topic tf, to play.
   tf2_msgs::TFMessage transformsToPlay(const tf2_msgs::TFMessage& message) const;
 
-  /// Pose of the base at each recorded pose, in the odom frame: relative to the first one. Empty if the
-  /// bag records no trajectory.
+  /// Pose of the base at each recorded pose, relative to the first one and so in the frame "odom".
+  /// Empty if the bag records no trajectory.
   const nav_msgs::Path& trajectory() const { return trajectory_; }
 
   /// "world -> base_link", for messages.
@@ -49,7 +47,8 @@ class RecordedTf {
   void addKittiMount();
   void buildTrajectory(const Transforms& moving);
 
-  Frames frames_;
+  std::string base_frame_;
+  std::string camera_frame_;
   tf2_msgs::TFMessage static_transforms_;
   bool added_kitti_mount_ = false;
   nav_msgs::Path trajectory_;

@@ -3,7 +3,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include <image_transport/camera_common.h>
 #include <rosbag/view.h>
 
 namespace rotrocc {
@@ -21,11 +20,13 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
+/// The camera_info beside an image.
+std::string infoOf(const std::string& image) {
+  return image.substr(0, image.rfind('/') + 1) + "camera_info";
+}
+
 StereoTopics withInfos(const std::string& left_image, const std::string& right_image) {
-  return {left_image,
-          right_image,
-          image_transport::getCameraInfoTopic(left_image),
-          image_transport::getCameraInfoTopic(right_image)};
+  return {left_image, right_image, infoOf(left_image), infoOf(right_image)};
 }
 
 /// The name with its last "left" made "right"; empty if it has none.
@@ -101,14 +102,16 @@ StereoTopics findStereoTopics(const TopicTypes& types,
   }
   if (best.empty()) {
     throw std::runtime_error(
-        "no stereo pair (.../left/image..., .../right/image... and a camera_info beside each); name "
+        "no stereo pair (.../left/image..., .../right/image... and a camera_info beside each); "
+        "name "
         "the left and right image topics, image topics:" +
         imageTopics(types));
   }
   if (best.size() > 1) {
-    throw std::runtime_error("more than one stereo pair; name the left and right image topics of one"
-                             ", image topics:" +
-                             imageTopics(types));
+    throw std::runtime_error(
+        "more than one stereo pair; name the left and right image topics of one"
+        ", image topics:" +
+        imageTopics(types));
   }
   return best.front();
 }

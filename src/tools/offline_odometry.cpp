@@ -28,6 +28,8 @@ struct Options {
   std::string config;
   std::vector<std::string> assignments;
   std::string statistics;
+  std::string left_image;
+  std::string right_image;
   int threads = -1;
 };
 
@@ -41,6 +43,8 @@ bool parse(int argc, char** argv, Options& options) {
   add("config", po::value(&options.config), "YAML file with parameters");
   add("set", po::value(&options.assignments), "name=value: a parameter; may be repeated");
   add("stats", po::value(&options.statistics), "CSV file for a row of figures per pair");
+  add("left-image", po::value(&options.left_image), "topic, where a bag has several pairs");
+  add("right-image", po::value(&options.right_image), "topic of its partner");
   add("threads", po::value(&options.threads), "threads of OpenCV (default: one per core)");
   po::options_description all;
   all.add(visible).add_options()("input", po::value(&options.input)->required());
@@ -86,11 +90,16 @@ Parameters readParameters(const Options& options) {
   return parameters;
 }
 
+StereoBag::Options bagOptions(const Options& options, const NodeParameters& node) {
+  return {options.left_image, options.right_image, node.max_stamp_difference_s, node.queue_size};
+}
+
 void run(const Options& options) {
   const Parameters parameters = readParameters(options);
   if (options.threads >= 0) cv::setNumThreads(options.threads);
 
-  const std::unique_ptr<StereoSource> source = openStereoSource(options.input);
+  const std::unique_ptr<StereoSource> source =
+      openStereoSource(options.input, bagOptions(options, parameters.node));
   TrajectoryWriter trajectory(options.trajectory, trajectoryFormat(options.format));
   std::optional<StatisticsFile> statistics;
   if (!options.statistics.empty()) statistics.emplace(options.statistics);

@@ -1,5 +1,7 @@
 #include "stereo_source.h"
 
+#include <filesystem>
+
 #include "rotrocc/kitti.h"
 
 namespace rotrocc {
@@ -24,10 +26,23 @@ class KittiSource : public StereoSource {
   int next_ = 0;
 };
 
+class BagSource : public StereoSource {
+ public:
+  BagSource(const std::string& path, const StereoBag::Options& options) : bag_(path, options) {}
+
+  int size() const override { return bag_.size(); }
+  bool next(StereoPair& pair, StereoCamera& camera) override { return bag_.next(pair, camera); }
+
+ private:
+  StereoBag bag_;
+};
+
 }  // namespace
 
-std::unique_ptr<StereoSource> openStereoSource(const std::string& path) {
-  return std::make_unique<KittiSource>(path);
+std::unique_ptr<StereoSource> openStereoSource(const std::string& path,
+                                               const StereoBag::Options& bag_options) {
+  if (std::filesystem::is_directory(path)) return std::make_unique<KittiSource>(path);
+  return std::make_unique<BagSource>(path, bag_options);
 }
 
 }  // namespace rotrocc

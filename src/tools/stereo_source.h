@@ -5,6 +5,7 @@
 
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
+#include "stereo_bag.h"
 
 namespace rotrocc {
 
@@ -21,8 +22,9 @@ class StereoSource {
   virtual bool next(StereoPair& pair, StereoCamera& camera) = 0;
 };
 
-/// Opens a sequence directory of the KITTI odometry benchmark.
-/// Throws std::runtime_error if `path` is not one.
-std::unique_ptr<StereoSource> openStereoSource(const std::string& path);
+/// Opens a sequence directory of the KITTI odometry benchmark, or a bag with `bag_options`.
+/// Throws std::runtime_error if `path` is neither.
+std::unique_ptr<StereoSource> openStereoSource(const std::string& path,
+                                               const StereoBag::Options& bag_options);
 
 }  // namespace rotrocc

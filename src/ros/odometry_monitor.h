@@ -1,0 +1,59 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <string>
+
+#include <nav_msgs/Odometry.h>
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+#include <ros/time.h>
+
+#include "rotrocc/OdometryStatus.h"
+
+namespace rotrocc {
+
+/// Listens to the topics `odom` and `status` of an odometry that is given pair by pair.
+class OdometryMonitor {
+ public:
+  explicit OdometryMonitor(ros::NodeHandle& nh);
+
+  /// Whether there is an odometry to listen to.
+  bool connected() const { return odom_.getNumPublishers() > 0; }
+
+  /// To be called just before the last image of a pair is published; `stamp` is that of the left
+  /// one.
+  void expect(const ros::Time& stamp);
+
+  /// Waits until the odometry of the pair with this stamp is there. Returns whether it is.
+  bool wait(const ros::Time& stamp, std::chrono::duration<double> timeout);
+
+  /// Forgets the pairs whose odometry did not come, as when the time begins anew.
+  void restart();
+
+  /// "51 pairs played, 51 with odometry, 0 lost, 0 dropped, 9.8 ms from pair to odometry". Lost
+  /// ones have an odometry whose status says so; dropped ones have none.
+  std::string summary() const;
+
+ private:
+  using WallClock = std::chrono::steady_clock;
+
+  void onOdometry(const nav_msgs::Odometry::ConstPtr& message);
+  void onStatus(const OdometryStatus::ConstPtr& message);
+
+  mutable std::mutex mutex_;
+  std::condition_variable received_;
+  std::map<ros::Time, WallClock::time_point> pending_;
+  int pairs_expected_ = 0;
+  int pairs_received_ = 0;
+  int pairs_lost_ = 0;
+  std::chrono::duration<double, std::milli> latency_sum_{0.0};
+
+  // Last, so that no callback comes when the rest is gone.
+  ros::Subscriber odom_;
+  ros::Subscriber status_;
+};
+
+}  // namespace rotrocc

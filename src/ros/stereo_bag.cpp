@@ -1,0 +1,66 @@
+#include "stereo_bag.h"
+
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "bag_reading.h"
+#include "message_conversion.h"
+#include "to_text.h"
+
+namespace rotrocc {
+namespace {
+
+std::vector<std::string> names(const StereoTopics& topics) {
+  return {topics.left_image, topics.right_image, topics.left_info, topics.right_info};
+}
+
+int countMessages(const rosbag::Bag& bag, const std::string& topic) {
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  return static_cast<int>(view.size());
+}
+
+}  // namespace
+
+StereoBag::StereoBag(const std::string& path, const Options& options)
+    : bag_(openBag(path)),
+      topics_(findStereoTopics(topicTypes(bag_), options.left_image, options.right_image)),
+      size_(countMessages(bag_, topics_.left_image)),
+      view_(bag_, rosbag::TopicQuery(names(topics_))),
+      next_(view_.begin()),
+      synchronizer_(options.max_stamp_difference_s, options.queue_size),
+      left_info_(firstMessage<sensor_msgs::CameraInfo>(bag_, topics_.left_info)),
+      right_info_(firstMessage<sensor_msgs::CameraInfo>(bag_, topics_.right_info)) {}
+
+bool StereoBag::next(StereoPair& pair, StereoCamera& camera) {
+  bool complete = false;
+  for (; !complete && next_ != view_.end(); ++next_) complete = read(*next_);
+  if (!complete) return false;
+  try {
+    const StereoCamera current = toStereoCamera(*left_info_, *right_info_);
+    pair = converter_.convert(*images_.left, *images_.right);
+    camera = current;
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error("pair of " + toText(images_.left->header.stamp) +
+                             " s: " + error.what());
+  }
+  return true;
+}
+
+bool StereoBag::read(const rosbag::MessageInstance& message) {
+  const std::string& topic = message.getTopic();
+  std::optional<StereoImages> images;
+  if (topic == topics_.left_image) {
+    images = synchronizer_.addLeft(message.instantiate<sensor_msgs::Image>());
+  } else if (topic == topics_.right_image) {
+    images = synchronizer_.addRight(message.instantiate<sensor_msgs::Image>());
+  } else if (topic == topics_.left_info) {
+    left_info_ = message.instantiate<sensor_msgs::CameraInfo>();
+  } else {
+    right_info_ = message.instantiate<sensor_msgs::CameraInfo>();
+  }
+  if (images) images_ = *images;
+  return images.has_value();
+}
+
+}  // namespace rotrocc
