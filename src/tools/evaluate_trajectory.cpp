@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
@@ -25,6 +26,7 @@ struct Options {
   std::string truth;
   std::string estimate;
   std::string times;
+  std::string segments_file;
   SegmentConfig segments;
 };
 
@@ -42,6 +44,9 @@ bool parse(int argc, char** argv, Options& options) {
   add("times",
       po::value(&options.times),
       "times.txt with the stamps of poses in KITTI format (default: 10 Hz)");
+  add("segments",
+      po::value(&options.segments_file),
+      "CSV file for a row per segment: first pose, length, speed and errors");
   po::options_description all;
   auto add_positional = all.add(visible).add_options();
   add_positional("truth", po::value(&options.truth));
@@ -142,11 +147,23 @@ void printDistribution(const char* name, const Distribution& values, double scal
               scale * values.max);
 }
 
+void writeSegments(const std::vector<SegmentError>& errors, const std::string& path) {
+  std::ofstream file(path);
+  file << "first_pose,length_m,speed_mps,translation_percent,rotation_deg_per_m\n";
+  for (const SegmentError& error : errors) {
+    file << error.first_pose << ',' << error.length_m << ',' << error.speed_mps << ','
+         << 100.0 * error.translation << ',' << kDegreesPerRadian * error.rotation_rad_per_m
+         << '\n';
+  }
+  if (!file.flush()) throw std::runtime_error(path + " cannot be written");
+}
+
 void run(const Options& options) {
   const MatchedTrajectories matched = load(options);
   const std::vector<SegmentError> errors = segmentErrors(matched, options.segments);
   const double path_m = pathLengths(matched.truth).back();
   requireSegments(errors, options.segments, path_m);
+  if (!options.segments_file.empty()) writeSegments(errors, options.segments_file);
 
   const MeanError mean = meanError(errors);
   std::printf("translation %.3f %%, rotation %.5f deg/m (%d segments, %zu poses, %.1f m)\n",

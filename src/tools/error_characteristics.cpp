@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <boost/program_options.hpp>
+
+#include "error_characteristics.h"
+#include "rotrocc/kitti.h"
+#include "rotrocc/visual_odometry.h"
+
+namespace {
+
+namespace po = boost::program_options;
+using namespace rotrocc;
+
+struct Options {
+  std::string sequence;
+  std::string output;
+};
+
+/// Returns false if only the help was asked for; throws po::error on bad usage.
+bool parse(int argc, char** argv, Options& options) {
+  po::options_description visible("Options");
+  auto add = visible.add_options();
+  add("help,h", "show this text");
+  add("output", po::value(&options.output)->required(), "folder for fig4.csv and fig5.csv");
+  po::options_description all;
+  all.add(visible).add_options()("sequence", po::value(&options.sequence)->required());
+  po::positional_options_description positional;
+  positional.add("sequence", 1);
+
+  po::variables_map variables;
+  po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(),
+            variables);
+  if (variables.count("help") > 0) {
+    std::cout << "usage: error_characteristics SEQUENCE_DIR --output DIR\n\n"
+                 "Judges the features of a sequence's first two pairs by reprojection error, "
+                 "normalized and\ndecoupled normalized reprojection error under wrong motion "
+                 "hypotheses: Fig. 4 and 5 of the paper.\n\n"
+              << visible;
+    return false;
+  }
+  po::notify(variables);
+  return true;
+}
+
+/// The points that the odometry takes from the first two pairs, in reading order over the image.
+std::vector<Eigen::Vector3d> featurePoints(const KittiSequence& sequence) {
+  if (sequence.size() < 2) throw std::runtime_error("the sequence has fewer than two pairs");
+  VisualOdometry odometry{VisualOdometry::Config{}};
+  for (int i = 0; i < 2; ++i) {
+    odometry.process({sequence.stamp_ns(i), sequence.readLeft(i), sequence.readRight(i)},
+                     sequence.camera());
+  }
+  Correspondences features = odometry.correspondences();
+  std::sort(features.begin(), features.end(), [](const auto& a, const auto& b) {
+    return a.cur_px.y() < b.cur_px.y();
+  });
+  std::vector<Eigen::Vector3d> points;
+  for (const Correspondence& feature : features) points.push_back(feature.point_cur);
+  return points;
+}
+
+/// Every 100th feature up to the 500th is given too small a depth, as in Fig. 5.
+std::vector<double> depthFactors(std::size_t size) {
+  std::vector<double> factors(size, 1.0);
+  for (std::size_t i = 100; i <= 500 && i < size; i += 100) factors[i] = 0.95;
+  return factors;
+}
+
+void writeRows(const StereoCamera& camera,
+               const std::vector<Eigen::Vector3d>& points,
+               const Hypothesis& hypothesis,
+               const std::vector<double>& depth_factors,
+               std::ofstream& file) {
+  const auto errors = judgeFeatures(camera, points, hypothesis, depth_factors);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector2d pixel = camera.project(points[i]);
+    file << hypothesis.name << ',' << i << ',' << pixel.x() << ',' << pixel.y() << ','
+         << points[i].z() << ',' << depth_factors[i] << ',' << errors[i].reprojection_px << ','
+         << errors[i].normalized << ',' << errors[i].decoupled << '\n';
+  }
+}
+
+std::ofstream create(const std::string& path) {
+  std::ofstream file(path);
+  file.exceptions(std::ios::failbit | std::ios::badbit);
+  if (!file.is_open()) throw std::runtime_error(path + " cannot be written");
+  file << "motion,feature,x_px,y_px,depth_m,depth_factor,re_px,nre,dnre\n";
+  return file;
+}
+
+void run(const Options& options) {
+  const KittiSequence sequence(options.sequence);
+  const std::vector<Eigen::Vector3d> points = featurePoints(sequence);
+  const std::vector<double> right_depths(points.size(), 1.0);
+
+  std::ofstream fig4 = create(options.output + "/fig4.csv");
+  for (const Hypothesis& hypothesis : singleAxisHypotheses()) {
+    writeRows(sequence.camera(), points, hypothesis, right_depths, fig4);
+  }
+  std::ofstream fig5 = create(options.output + "/fig5.csv");
+  writeRows(sequence.camera(), points, turnHypothesis(), depthFactors(points.size()), fig5);
+  std::cout << points.size() << " features of " << options.sequence << '\n';
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  try {
+    if (!parse(argc, argv, options)) return 0;
+  } catch (const po::error& error) {
+    std::cerr << "error_characteristics: " << error.what() << "; --help shows the usage\n";
+    return 2;
+  }
+  try {
+    run(options);
+  } catch (const std::exception& error) {
+    std::cerr << "error_characteristics: " << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}
