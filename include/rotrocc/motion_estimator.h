@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -78,6 +79,13 @@ class MotionEstimator {
   bool estimateTranslation(const StereoCamera& camera,
                            const Correspondences& features,
                            Estimate& estimate);
+  /// Fits a motion to the set and draws the line anew, until the set stays (Eq. 26, 30, 31, 32).
+  /// `fit` returns false if it fails; `measure` fills errors_.
+  bool iterate(OutlierThreshold threshold,
+               int max_iterations,
+               const std::function<bool(const FeatureSet&)>& fit,
+               const std::function<void()>& measure,
+               FeatureSet& set);
   bool estimateCovariance(const StereoCamera& camera,
                           const Correspondences& features,
                           Estimate& estimate);

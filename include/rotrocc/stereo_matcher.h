@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -12,22 +13,24 @@ namespace rotrocc {
 class StereoMatcher {
  public:
   struct Config {
-    int max_disparity_px = 128;         ///< nearer points are not found
-    double min_disparity_px = 1.0;      ///< farther points are dropped
+    int max_disparity_px = 128;         ///< above that of infinity; nearer points are not found
+    double min_disparity_px = 1.0;      ///< above that of infinity; farther points are dropped
     double max_mean_difference = 20.0;  ///< of the best match, grey levels per pixel
     double uniqueness = 0.92;  ///< best SAD at most this times the best one elsewhere on the row
   };
 
   /// Disparity of a pixel without a match.
-  static constexpr float kNoDisparity = -1.0F;
+  static constexpr float kNoDisparity = std::numeric_limits<float>::lowest();
 
   explicit StereoMatcher(const Config& config) : config_(config) {}
 
   /// Disparity x_left - x_right [px] of each left pixel, or kNoDisparity: too near to the edge, too
-  /// different, ambiguous, or outside of the range. `left` and `right` are CV_8UC1 of one size.
+  /// different, ambiguous, or outside of the range. `left` and `right` are CV_8UC1 of one size;
+  /// `infinity_px` is StereoCamera::disparityAtInfinity().
   void match(const cv::Mat& left,
              const cv::Mat& right,
              const std::vector<cv::Point2f>& pixels,
+             double infinity_px,
              std::vector<float>& disparities_px) const;
 
   /// The same, but looks only within `radius_px` of the `expected_px` disparities and asks for no
@@ -37,6 +40,7 @@ class StereoMatcher {
                  const std::vector<cv::Point2f>& pixels,
                  const std::vector<float>& expected_px,
                  int radius_px,
+                 double infinity_px,
                  std::vector<float>& disparities_px) const;
 
  private:
@@ -45,6 +49,7 @@ class StereoMatcher {
               const std::vector<cv::Point2f>& pixels,
               const std::function<cv::Range(std::size_t)>& columns_of,
               double uniqueness,
+              double infinity_px,
               std::vector<float>& disparities_px) const;
 
   Config config_;

@@ -39,7 +39,11 @@ int CorrespondenceFinder::findDepths() {
   prev_left_.clear();
   prev_right_.clear();
   prev_points_.clear();
-  matcher_.match(prev_.left.front(), prev_.right.front(), corners_, disparities_);
+  matcher_.match(prev_.left.front(),
+                 prev_.right.front(),
+                 corners_,
+                 camera_.disparityAtInfinity(),
+                 disparities_);
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     const cv::Point2f& corner = corners_[i];
     const float disparity_px = disparities_[i];
@@ -79,8 +83,13 @@ void CorrespondenceFinder::closeCircle(Correspondences& features) {
     const cv::Point2f offset = cur_left_[i] - cur_right_[i];
     if (tracked_[i] != 0 && std::abs(offset.y) <= limits.max_vertical_px) expected_[i] = offset.x;
   }
-  matcher_.matchNear(
-      cur_.left.front(), cur_.right.front(), cur_left_, expected_, kSearchRadius, disparities_);
+  matcher_.matchNear(cur_.left.front(),
+                     cur_.right.front(),
+                     cur_left_,
+                     expected_,
+                     kSearchRadius,
+                     camera_.disparityAtInfinity(),
+                     disparities_);
 
   features.clear();
   for (std::size_t i = 0; i < cur_left_.size(); ++i) {

@@ -1,6 +1,7 @@
 #include "rotrocc/motion_estimator.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "rotrocc/flow_decoupling.h"
@@ -11,6 +12,9 @@ namespace {
 
 /// Keeps a normalized error finite where there is no flow at all [px].
 constexpr double kLeastFlow_px = 1e-6;
+
+/// The error of a feature that must not enter.
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 Criterion criterionOf(const std::string& name) {
   const auto& names = criterionNames();
@@ -57,66 +61,90 @@ MotionEstimator::Estimate MotionEstimator::estimate(const StereoCamera& camera,
 bool MotionEstimator::estimateRotation(const StereoCamera& camera,
                                        const Correspondences& features,
                                        Estimate& estimate) {
-  OutlierThreshold threshold =
-      criterion_ == Criterion::kMeanBased ? OutlierThreshold::meanBased(config_.mean_factor)
-      : criterion_ == Criterion::kStdBased
-          ? OutlierThreshold::deviationBased(config_.deviation_factor)
-          : OutlierThreshold::fixedLimit(config_.rotation_limit_px, config_.rotation_drop_share);
-  const bool fixed_limit =
-      criterion_ != Criterion::kMeanBased && criterion_ != Criterion::kStdBased;
-  const int iterations =
-      fixed_limit ? config_.rotation_max_iterations : config_.comparison_iterations;
-
+  Eigen::Isometry3d& T = estimate.T_prev_cur;
+  const auto fit = [&](const FeatureSet& set) {
+    return solver_.solveMotion(camera, features, set, T);  // Eq. 25
+  };
+  const auto measure = [&] {
+    reprojectionErrors(camera, features, T, config_.noise_ratio, errors_);
+  };
   FeatureSet& set = estimate.rotation_inliers;
-  FeatureSet next = set;
-  for (int i = 0; i < iterations; ++i) {
-    if (!solver_.solveMotion(camera, features, set, estimate.T_prev_cur)) return false;  // Eq. 25
-    reprojectionErrors(camera, features, estimate.T_prev_cur, config_.noise_ratio, errors_);
-    if (!keepBelow(errors_, threshold(errors_, set), next)) break;  // Eq. 26, 31, 32
-    set = next;
+  switch (criterion_) {
+    case Criterion::kMeanBased:
+      return iterate(OutlierThreshold::meanBased(config_.mean_factor),
+                     config_.comparison_iterations,
+                     fit,
+                     measure,
+                     set);
+    case Criterion::kStdBased:
+      return iterate(OutlierThreshold::deviationBased(config_.deviation_factor),
+                     config_.comparison_iterations,
+                     fit,
+                     measure,
+                     set);
+    default:
+      return iterate(
+          OutlierThreshold::fixedLimit(config_.rotation_limit_px, config_.rotation_drop_share),
+          config_.rotation_max_iterations,
+          fit,
+          measure,
+          set);
   }
-  return true;
 }
 
 bool MotionEstimator::estimateTranslation(const StereoCamera& camera,
                                           const Correspondences& features,
                                           Estimate& estimate) {
+  Eigen::Isometry3d& T = estimate.T_prev_cur;
   if (criterion_ == Criterion::kRotrocc) {
-    decoupledFlow(camera, features, estimate.T_prev_cur.linear(), flow_px_);  // Eq. 27, 28
+    decoupledFlow(camera, features, T.linear(), flow_px_);  // Eq. 27, 28
   } else {
     coupledFlow(features, flow_px_);
   }
 
-  FeatureSet& set = estimate.translation_inliers;
-  reprojectionErrors(camera, features, estimate.T_prev_cur, config_.noise_ratio, errors_);
-  const double initial_px = config_.translation_initial_px;
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    set[i] = initial_px == 0.0 || errors_[i] < initial_px ? 1 : 0;
+  reprojectionErrors(camera, features, T, config_.noise_ratio, errors_);
+  FeatureSet candidates(features.size(), 1);
+  if (config_.translation_initial_px > 0.0) {
+    keepBelow(errors_, config_.translation_initial_px, candidates);
   }
-  const FeatureSet candidates = set;
 
-  auto threshold =
-      OutlierThreshold::fixedLimit(config_.translation_limit, config_.translation_drop_share);
-  FeatureSet next = set;
-  for (int j = 0; j < config_.translation_max_iterations; ++j) {
-    if (!solver_.solveTranslation(camera, features, set, estimate.T_prev_cur))
-      return false;  // Eq. 29
-    reprojectionErrors(camera, features, estimate.T_prev_cur, config_.noise_ratio, errors_);
+  const auto fit = [&](const FeatureSet& set) {
+    return solver_.solveTranslation(camera, features, set, T);  // Eq. 29
+  };
+  const auto measure = [&] {
+    reprojectionErrors(camera, features, T, config_.noise_ratio, errors_);
     for (std::size_t i = 0; i < errors_.size(); ++i) {
-      errors_[i] /= std::max({flow_px_[i], config_.min_flow_px, kLeastFlow_px});
+      const double flow_px = std::max({flow_px_[i], config_.min_flow_px, kLeastFlow_px});
+      errors_[i] = candidates[i] != 0 ? errors_[i] / flow_px : kNever;
     }
-    keepBelow(errors_, threshold(errors_, set), next);  // Eq. 30
-    for (std::size_t i = 0; i < next.size(); ++i)
-      next[i] = static_cast<char>(next[i] & candidates[i]);
-    if (next == set) break;
+  };
+  estimate.translation_inliers = candidates;
+  return iterate(
+      OutlierThreshold::fixedLimit(config_.translation_limit, config_.translation_drop_share),
+      config_.translation_max_iterations,
+      fit,
+      measure,
+      estimate.translation_inliers);
+}
+
+bool MotionEstimator::iterate(OutlierThreshold threshold,
+                              int max_iterations,
+                              const std::function<bool(const FeatureSet&)>& fit,
+                              const std::function<void()>& measure,
+                              FeatureSet& set) {
+  FeatureSet next = set;
+  for (int i = 0; i < max_iterations; ++i) {
+    if (!fit(set)) return false;
+    measure();
+    if (!keepBelow(errors_, threshold(errors_, set), next)) break;
     set = next;
   }
   return true;
 }
 
 /// The rotation's covariance comes from stage 1 with its translation marginalized; the
-/// translation's from stage 2 plus what the rotation's error does to it: t(R) = t - (Jt^T Jt)^-1
-/// Jt^T Jr dR.
+/// translation's from stage 2, plus what the rotation's error dR does to it:
+/// dt = -(Jt^T Jt)^-1 Jt^T Jr dR.
 bool MotionEstimator::estimateCovariance(const StereoCamera& camera,
                                          const Correspondences& features,
                                          Estimate& estimate) {

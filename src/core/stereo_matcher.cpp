@@ -162,12 +162,15 @@ float bestColumn(const RowSearch& sad,
 void StereoMatcher::match(const cv::Mat& left,
                           const cv::Mat& right,
                           const std::vector<cv::Point2f>& pixels,
+                          double infinity_px,
                           std::vector<float>& disparities_px) const {
+  const int nearest = config_.max_disparity_px + cvCeil(infinity_px);
+  const int farthest = cvFloor(config_.min_disparity_px + infinity_px);
   const auto columns = [&](std::size_t i) {
     const int x = cvFloor(pixels[i].x);
-    return cv::Range(x - config_.max_disparity_px - 1, x - cvFloor(config_.min_disparity_px) + 2);
+    return cv::Range(x - nearest - 1, x - farthest + 2);
   };
-  search(left, right, pixels, columns, config_.uniqueness, disparities_px);
+  search(left, right, pixels, columns, config_.uniqueness, infinity_px, disparities_px);
 }
 
 void StereoMatcher::matchNear(const cv::Mat& left,
@@ -175,13 +178,14 @@ void StereoMatcher::matchNear(const cv::Mat& left,
                               const std::vector<cv::Point2f>& pixels,
                               const std::vector<float>& expected_px,
                               int radius_px,
+                              double infinity_px,
                               std::vector<float>& disparities_px) const {
   const auto columns = [&](std::size_t i) {
     if (expected_px[i] == kNoDisparity) return cv::Range();
     const int x = cvRound(pixels[i].x - expected_px[i]);
     return cv::Range(x - radius_px - 1, x + radius_px + 2);
   };
-  search(left, right, pixels, columns, 0.0, disparities_px);
+  search(left, right, pixels, columns, 0.0, infinity_px, disparities_px);
 }
 
 void StereoMatcher::search(const cv::Mat& left,
@@ -189,7 +193,9 @@ void StereoMatcher::search(const cv::Mat& left,
                            const std::vector<cv::Point2f>& pixels,
                            const std::function<cv::Range(std::size_t)>& columns_of,
                            double uniqueness,
+                           double infinity_px,
                            std::vector<float>& disparities_px) const {
+  const double least_px = config_.min_disparity_px + infinity_px;
   disparities_px.assign(pixels.size(), kNoDisparity);
   cv::parallel_for_(cv::Range(0, static_cast<int>(pixels.size())), [&](const cv::Range& range) {
     for (int k = range.start; k < range.end; ++k) {
@@ -199,8 +205,8 @@ void StereoMatcher::search(const cv::Mat& left,
       if (columns.size() < 3) continue;
       const RowSearch sad(left, right, pixels[i], columns);
       const float column = bestColumn(sad, columns, config_.max_mean_difference, uniqueness);
-      const float disparity = pixels[i].x - column;
-      if (column >= 0.0F && disparity >= config_.min_disparity_px) disparities_px[i] = disparity;
+      const float disparity_px = pixels[i].x - column;
+      if (column >= 0.0F && disparity_px >= least_px) disparities_px[i] = disparity_px;
     }
   });
 }
