@@ -1,0 +1,38 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+#include <Eigen/Geometry>
+
+#include "throttle.h"
+
+namespace rotrocc {
+
+/// Where a camera is mounted on the robot: from tf, which is waited for and never assumed. The
+/// mount is taken to be fixed: it is looked up once.
+class CameraMount {
+ public:
+  explicit CameraMount(const std::string& base_frame);
+
+  /// T_base_camera, or nothing as long as tf does not know it; does not wait. Says in the log where
+  /// the camera is, or, if asked again and again, which frames are missing.
+  const std::optional<Eigen::Isometry3d>& find(const std::string& camera_frame);
+
+ private:
+  std::string base_frame_;
+  std::optional<Eigen::Isometry3d> T_base_camera_;
+  int attempts_ = 0;
+  Throttle warning_{std::chrono::seconds(5)};
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_;
+};
+
+/// "at 0 0 1.65 m, looks along +x (forward), its image is upright": for a human to check a mount
+/// with.
+std::string describeMount(const Eigen::Isometry3d& T_base_camera);
+
+}  // namespace rotrocc

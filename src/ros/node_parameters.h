@@ -1,0 +1,19 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <xmlrpcpp/XmlRpcValue.h>
+
+#include "rotrocc/parameters.h"
+
+namespace rotrocc {
+
+/// The parameters in the namespace of `private_nh`, and the defaults of those that are not there.
+/// Throws std::invalid_argument as setParameters() does, and on names that are no frames of tf.
+Parameters readParameters(const ros::NodeHandle& private_nh);
+
+/// Sets every parameter of `tree`, whose structs are the sections of the table. Throws
+/// std::invalid_argument with name and range on an unknown parameter, a wrong type or a value out
+/// of range.
+void setParameters(const XmlRpc::XmlRpcValue& tree, ParameterTable& table);
+
+}  // namespace rotrocc
