@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <exception>
+#include <iostream>
 
 #include <ros/ros.h>
 
@@ -31,7 +32,7 @@ int main(int argc, char** argv) {
   try {
     play();
   } catch (const std::exception& error) {
-    ROS_FATAL("kitti_player: %s", error.what());
+    std::cerr << "kitti_player: " << error.what() << '\n';
     return 1;
   }
   return 0;

@@ -11,6 +11,7 @@
 
 #include "progress_bar.h"
 #include "rotrocc/parameters.h"
+#include "rotrocc/pose_accumulator.h"
 #include "rotrocc/trajectory.h"
 #include "rotrocc/visual_odometry.h"
 #include "run_statistics.h"
@@ -105,15 +106,14 @@ void run(const Options& options) {
   if (!options.statistics.empty()) statistics.emplace(options.statistics);
 
   VisualOdometry odometry(parameters.odometry);
-  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  PoseAccumulator accumulator;
   ProgressBar progress("odometry", source->size());
   std::vector<PairRecord> records;
   StereoPair pair;
   StereoCamera camera;
   while (source->next(pair, camera)) {
     records.push_back(process(odometry, pair, camera));
-    T_world_camera = T_world_camera * records.back().result.T_prev_cur;
-    trajectory.write({pair.stamp_ns, T_world_camera});
+    trajectory.write({pair.stamp_ns, accumulator.add(records.back().result.T_prev_cur)});
     if (statistics) statistics->write(records.back());
     progress.advance();
   }
