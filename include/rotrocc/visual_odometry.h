@@ -69,7 +69,7 @@ struct OdometryResult {
 };
 
 /// Frame-to-frame stereo visual odometry: section V of Buczko and Willert, "Flow-Decoupled
-/// Normalized Reprojection Error for Visual Odometry", IV 2017.
+/// Normalized Reprojection Error for Visual Odometry", 2017.
 class VisualOdometry {
  public:
   struct Config {
