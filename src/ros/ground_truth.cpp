@@ -26,4 +26,16 @@ nav_msgs::Path groundTruthPath(const Trajectory& recorded,
   return path;
 }
 
+void writeGroundTruth(const std::string& file,
+                      const nav_msgs::Path& path_of_base,
+                      const Eigen::Isometry3d& T_base_camera) {
+  TrajectoryWriter writer(file, TrajectoryFormat::kTum);
+  for (const geometry_msgs::PoseStamped& pose : path_of_base.poses) {
+    Eigen::Isometry3d T_first_base;
+    tf2::fromMsg(pose.pose, T_first_base);
+    writer.write(
+        {toNanoseconds(pose.header.stamp), T_base_camera.inverse() * T_first_base * T_base_camera});
+  }
+}
+
 }  // namespace rotrocc

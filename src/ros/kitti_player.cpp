@@ -12,6 +12,7 @@
 #include <sensor_msgs/Image.h>
 
 #include "bag_reading.h"
+#include "ground_truth.h"
 #include "to_text.h"
 
 namespace rotrocc {
@@ -71,8 +72,12 @@ KittiPlayer::KittiPlayer(ros::NodeHandle& nh,
       synchronizer_(options_.max_stamp_difference, kQueueSize),
       monitor_(nh),
       pause_service_(private_nh.advertiseService("pause", &KittiPlayer::onPause, this)),
-      on_end_(std::move(on_end)),
-      thread_(&KittiPlayer::run, this) {}
+      on_end_(std::move(on_end)) {
+  if (!options_.ground_truth_file.empty()) {
+    writeGroundTruth(options_.ground_truth_file, publisher_.truth(), tf_.T_base_camera());
+  }
+  thread_ = std::thread(&KittiPlayer::run, this);
+}
 
 KittiPlayer::~KittiPlayer() {
   clock_.stop();
@@ -130,6 +135,7 @@ void KittiPlayer::playOnce() {
   monitor_.restart();
   synchronizer_.reset();
   clock_.start(view.getBeginTime());
+  last_progress_ = WallClock::now();
   for (const rosbag::MessageInstance& message : view) {
     if (!clock_.waitUntil(message.getTime()) || stopped()) return;
     publisher_.publishTruthUntil(message.getTime());

@@ -29,6 +29,7 @@ PlayerOptions readPlayerOptions(const ros::NodeHandle& private_nh) {
   private_nh.param("lockstep_timeout", options.lockstep_timeout, options.lockstep_timeout);
   private_nh.param(
       "max_stamp_difference", options.max_stamp_difference, options.max_stamp_difference);
+  private_nh.param("ground_truth_file", options.ground_truth_file, options.ground_truth_file);
   private_nh.param("base_frame", options.base_frame, options.base_frame);
 
   if (options.bag.empty()) {

@@ -7,7 +7,6 @@
 #include <tf2_eigen/tf2_eigen.h>
 
 #include "ground_truth.h"
-#include "kitti_mount.h"
 #include "message_conversion.h"
 
 namespace rotrocc {
@@ -49,7 +48,7 @@ RecordedTf::RecordedTf(const rosbag::Bag& bag,
     : base_frame_(withoutSlash(base_frame)), camera_frame_(withoutSlash(camera_frame)) {
   const Transforms fixed = readTransforms(bag, "tf_static");
   const Transforms moving = readTransforms(bag, "tf");
-  added_kitti_mount_ = !hasMount(fixed, moving);
+  added_kitti_mount_ = !findMount(fixed, moving);
   for (const auto& transform : fixed) addStatic(transform);
   if (added_kitti_mount_) addKittiMount();
   buildTrajectory(moving);
@@ -61,7 +60,7 @@ bool RecordedTf::isTrajectory(const geometry_msgs::TransformStamped& transform) 
   return added_kitti_mount_ && (child == camera_frame_ || child == kKitti2bagCamera);
 }
 
-bool RecordedTf::hasMount(const Transforms& fixed, const Transforms& moving) const {
+bool RecordedTf::findMount(const Transforms& fixed, const Transforms& moving) {
   tf2::BufferCore buffer;
   for (const Transforms* transforms : {&fixed, &moving}) {
     for (const auto& transform : *transforms) {
@@ -69,7 +68,10 @@ bool RecordedTf::hasMount(const Transforms& fixed, const Transforms& moving) con
       if (is_mount) buffer.setTransform(transform, "bag", true);
     }
   }
-  return buffer.canTransform(base_frame_, camera_frame_, ros::Time());
+  if (!buffer.canTransform(base_frame_, camera_frame_, ros::Time())) return false;
+  T_base_camera_ =
+      tf2::transformToEigen(buffer.lookupTransform(base_frame_, camera_frame_, ros::Time()));
+  return true;
 }
 
 void RecordedTf::addStatic(const geometry_msgs::TransformStamped& transform) {
@@ -86,7 +88,7 @@ void RecordedTf::addStatic(const geometry_msgs::TransformStamped& transform) {
 }
 
 void RecordedTf::addKittiMount() {
-  geometry_msgs::TransformStamped mount = tf2::eigenToTransform(kittiMount());
+  geometry_msgs::TransformStamped mount = tf2::eigenToTransform(T_base_camera_);
   mount.header.frame_id = base_frame_;
   mount.child_frame_id = camera_frame_;
   static_transforms_.transforms.push_back(mount);
@@ -113,7 +115,7 @@ void RecordedTf::buildTrajectory(const Transforms& moving) {
     recorded.push_back({toNanoseconds(transform.header.stamp), tf2::transformToEigen(transform)});
   }
   const Eigen::Isometry3d T_base_body =
-      of_base ? Eigen::Isometry3d(Eigen::Isometry3d::Identity()) : kittiMount();
+      of_base ? Eigen::Isometry3d(Eigen::Isometry3d::Identity()) : T_base_camera_;
   trajectory_ = groundTruthPath(recorded, T_base_body, "odom");
 }
 

@@ -7,6 +7,9 @@
 #include <nav_msgs/Path.h>
 #include <rosbag/bag.h>
 #include <tf2_msgs/TFMessage.h>
+#include <Eigen/Geometry>
+
+#include "kitti_mount.h"
 
 namespace rotrocc {
 
@@ -24,6 +27,7 @@ class RecordedTf {
              const std::string& camera_frame);
 
   bool addedKittiMount() const { return added_kitti_mount_; }
+  const Eigen::Isometry3d& T_base_camera() const { return T_base_camera_; }
 
   /// The latest static transform of each child frame.
   const tf2_msgs::TFMessage& staticTransforms() const { return static_transforms_; }
@@ -42,7 +46,7 @@ class RecordedTf {
   using Transforms = std::vector<geometry_msgs::TransformStamped>;
 
   bool isTrajectory(const geometry_msgs::TransformStamped& transform) const;
-  bool hasMount(const Transforms& fixed, const Transforms& moving) const;
+  bool findMount(const Transforms& fixed, const Transforms& moving);
   void addStatic(const geometry_msgs::TransformStamped& transform);
   void addKittiMount();
   void buildTrajectory(const Transforms& moving);
@@ -51,6 +55,7 @@ class RecordedTf {
   std::string camera_frame_;
   tf2_msgs::TFMessage static_transforms_;
   bool added_kitti_mount_ = false;
+  Eigen::Isometry3d T_base_camera_ = kittiMount();
   nav_msgs::Path trajectory_;
   std::string trajectory_name_;
 };

@@ -30,6 +30,9 @@ class RecordingPublisher {
   /// Topics of the bag that publish() takes.
   std::vector<std::string> recordedTopics() const;
 
+  /// The true path of the base in the frame odom; empty if the bag has none.
+  const nav_msgs::Path& truth() const { return truth_; }
+
   /// Topics that an odometry needs and nobody has subscribed.
   std::vector<std::string> topicsWithoutSubscriber() const;
 
