@@ -1,0 +1,106 @@
+// Runs the program, as users do.
+
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "kitti_bag_writer.h"
+#include "read_file.h"
+#include "run_command.h"
+#include "synthetic_sequence.h"
+#include "temporary_directory.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr int kPairs = 12;
+
+class OfflineOdometryTest : public ::testing::Test {
+ protected:
+  OfflineOdometryTest() { writeSyntheticSequence(sequence(), kPairs); }
+
+  std::string sequence() const { return directory_ / "sequence"; }
+
+  CommandResult run(const std::string& arguments) const {
+    return runCommand(std::string(OFFLINE_ODOMETRY) + " " + arguments);
+  }
+
+  /// The poses of a run that must succeed.
+  std::string trajectoryOf(const std::string& input, const std::string& options = "") const {
+    const std::string file = directory_ / "trajectory.txt";
+    const CommandResult result = run(input + " --trajectory " + file + " " + options);
+    EXPECT_EQ(result.status, 0) << result.output;
+    return readFile(file);
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(OfflineOdometryTest, FollowsTheTruth) {
+  trajectoryOf(sequence());
+  const Trajectory estimate = readTrajectory(directory_ / "trajectory.txt");
+  const Trajectory truth = KittiSequence(sequence()).groundTruth();
+  ASSERT_EQ(estimate.size(), truth.size());
+  const Eigen::Isometry3d error =
+      truth.back().T_world_body.inverse() * estimate.back().T_world_body;
+  // 2 % of the 5.5 m: a pose that stayed at the start, or had wrong axes, is far off.
+  EXPECT_LT(error.translation().norm(), 0.11);
+}
+
+TEST_F(OfflineOdometryTest, GivesTheSameBytesEachTime) {
+  const std::string once = trajectoryOf(sequence(), "--threads 1");
+  EXPECT_FALSE(once.empty());
+  EXPECT_TRUE(once == trajectoryOf(sequence(), "--threads 1"));
+  EXPECT_TRUE(once == trajectoryOf(sequence(), "--threads 2"));
+}
+
+TEST_F(OfflineOdometryTest, GivesTheStampsOfTheBag) {
+  const KittiSequence kitti(sequence());
+  KittiBagWriter writer(directory_ / "sequence.bag", kitti, 1000);
+  for (int i = 0; i < kPairs; ++i) writer.writePair(i);
+  writer.finish();
+  trajectoryOf(directory_ / "sequence.bag", "--format tum");
+  const Trajectory estimate = readTrajectory(directory_ / "trajectory.txt");
+  ASSERT_EQ(estimate.size(), static_cast<std::size_t>(kPairs));
+  EXPECT_EQ(estimate.back().stamp_ns, 1000 * 1'000'000'000LL + kitti.stamp_ns(kPairs - 1));
+}
+
+TEST_F(OfflineOdometryTest, WritesARowOfFiguresPerPair) {
+  trajectoryOf(sequence(), "--stats " + directory_ / "stats.csv");
+  const std::string table = readFile(directory_ / "stats.csv");
+  EXPECT_EQ(table.compare(0, 15, "stamp_ns,state,"), 0) << table;
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + kPairs);
+  const std::string header = table.substr(0, table.find('\n'));
+  const auto columns = std::count(header.begin(), header.end(), ',');
+  EXPECT_EQ(std::count(table.begin(), table.end(), ','), (1 + kPairs) * columns);
+}
+
+TEST_F(OfflineOdometryTest, SumsUp) {
+  const CommandResult result = run(sequence() + " --trajectory /dev/null");
+  EXPECT_NE(result.output.find("12 pairs: 11 ok, 0 degraded, 0 lost, 1 initialising"),
+            std::string::npos)
+      << result.output;
+}
+
+TEST_F(OfflineOdometryTest, TakesParameters) {
+  const CommandResult refused =
+      run(sequence() + " --trajectory /dev/null --set feature_detector/max_features=5");
+  EXPECT_EQ(refused.status, 1) << refused.output;
+  EXPECT_NE(refused.output.find("[50, 20000]"), std::string::npos) << refused.output;
+  EXPECT_NE(trajectoryOf(sequence()),
+            trajectoryOf(sequence(), "--set feature_detector/max_features=300"));
+}
+
+TEST_F(OfflineOdometryTest, TellsBadUsageFromBadInput) {
+  EXPECT_EQ(run("").status, 2);
+  EXPECT_EQ(run(sequence()).status, 2) << "--trajectory is missing";
+  EXPECT_EQ(run(sequence() + " --trajectory /dev/null --nonsense").status, 2);
+  EXPECT_EQ(run("--help").status, 0);
+  EXPECT_EQ(run("/nowhere --trajectory /dev/null").status, 1);
+  EXPECT_EQ(run(sequence() + " --trajectory /nowhere/out.txt").status, 1);
+  EXPECT_EQ(run(sequence() + " --trajectory /dev/null --format xyz").status, 1);
+}
+
+}  // namespace
+}  // namespace rotrocc
