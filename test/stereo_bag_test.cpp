@@ -36,7 +36,6 @@ class StereoBagTest : public ::testing::Test {
       EXPECT_DOUBLE_EQ(camera.baseline_m, expected.camera().baseline_m);
     }
     EXPECT_FALSE(bag.next(pair, camera));
-    EXPECT_EQ(bag.unmatched(), 0u);
   }
 
   TemporaryDirectory directory_;
@@ -66,7 +65,7 @@ TEST_F(StereoBagTest, ConvertsColour) {
   expectAllPairs(bag);  // the colours are shades of gray, which stay as they are
 }
 
-TEST_F(StereoBagTest, CountsImagesWithoutAPartner) {
+TEST_F(StereoBagTest, LeavesOutImagesWithoutAPartner) {
   writeKitti2bagRaw(sequence(), directory_ / "raw.bag");
   StereoBag::Options strict;
   strict.max_stamp_difference_s = 0.0035;  // half of the largest difference in the bag
@@ -77,7 +76,6 @@ TEST_F(StereoBagTest, CountsImagesWithoutAPartner) {
   while (bag.next(pair, camera)) ++pairs;
   EXPECT_GT(pairs, 0);
   EXPECT_LT(pairs, kPairs);
-  EXPECT_GT(bag.unmatched(), 0u);
 }
 
 TEST_F(StereoBagTest, RefusesWhatIsNoBag) {

@@ -19,6 +19,7 @@ namespace rotrocc {
 namespace {
 
 constexpr std::chrono::milliseconds kPollPeriod(100);
+constexpr int kPollsPerWarning = 50;
 constexpr std::chrono::seconds kProgressPeriod(5);
 constexpr std::chrono::milliseconds kLastOdometryDelay(500);
 constexpr int kQueueSize = 10;
@@ -97,6 +98,13 @@ bool KittiPlayer::onPause(std_srvs::SetBool::Request& request,
 }
 
 void KittiPlayer::run() {
+  ROS_INFO("playing %s and %s of %s",
+           topics_.left_image.c_str(),
+           topics_.right_image.c_str(),
+           options_.bag.c_str());
+  if (!ros::Time::isSimTime()) {
+    ROS_WARN("use_sim_time is not set: nodes go by the clock of this machine, not by the bag's");
+  }
   try {
     waitForSubscribers();
     do {
@@ -104,6 +112,11 @@ void KittiPlayer::run() {
     } while (options_.loop && !stopped());
     std::this_thread::sleep_for(kLastOdometryDelay);
     ROS_INFO("%s", monitor_.summary().c_str());
+    if (synchronizer_.unmatched() > 0) {
+      ROS_WARN("%zu images had no partner within %g s (max_stamp_difference)",
+               static_cast<std::size_t>(synchronizer_.unmatched()),
+               options_.max_stamp_difference);
+    }
   } catch (const std::exception& error) {
     ROS_FATAL("playing %s: %s", options_.bag.c_str(), error.what());
   }
@@ -119,7 +132,7 @@ void KittiPlayer::waitForSubscribers() {
     const std::vector<std::string> missing = publisher_.topicsWithoutSubscriber();
     const bool odometry_missing = options_.lockstep && !monitor_.connected();
     if (missing.empty() && !odometry_missing) return;
-    if (polls % 50 == 49) {
+    if (polls % kPollsPerWarning == kPollsPerWarning - 1) {
       ROS_WARN("waiting for subscribers of %s%s",
                join(missing).c_str(),
                odometry_missing ? " and a publisher of odom" : "");

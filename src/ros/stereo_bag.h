@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include <rosbag/bag.h>
@@ -40,9 +39,6 @@ class StereoBag {
   /// and leaves both alone, when there is none. Throws std::runtime_error with its stamp on a pair
   /// that cannot be converted.
   bool next(StereoPair& pair, StereoCamera& camera);
-
-  /// Images so far that had no partner.
-  std::uint64_t unmatched() const { return synchronizer_.unmatched(); }
 
  private:
   bool read(const rosbag::MessageInstance& message);

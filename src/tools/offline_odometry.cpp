@@ -101,6 +101,7 @@ void run(const Options& options) {
 
   const std::unique_ptr<StereoSource> source =
       openStereoSource(options.input, bagOptions(options, parameters.node));
+  std::cerr << "offline_odometry: reading " << source->description() << '\n';
   TrajectoryWriter trajectory(options.trajectory, trajectoryFormat(options.format));
   std::optional<StatisticsFile> statistics;
   if (!options.statistics.empty()) statistics.emplace(options.statistics);
@@ -119,6 +120,10 @@ void run(const Options& options) {
   }
   progress.finish();
   printSummary(std::cout, records);
+  if (const int alone = source->size() - static_cast<int>(records.size())) {
+    std::cout << alone << " left images had no right one within "
+              << parameters.node.max_stamp_difference_s << " s (max_stamp_difference_s)\n";
+  }
 }
 
 }  // namespace

@@ -9,8 +9,10 @@ namespace {
 
 class KittiSource : public StereoSource {
  public:
-  explicit KittiSource(const std::string& directory) : sequence_(directory) {}
+  explicit KittiSource(const std::string& directory)
+      : directory_(directory), sequence_(directory) {}
 
+  std::string description() const override { return "the pairs of " + directory_; }
   int size() const override { return sequence_.size(); }
 
   bool next(StereoPair& pair, StereoCamera& camera) override {
@@ -22,6 +24,7 @@ class KittiSource : public StereoSource {
   }
 
  private:
+  std::string directory_;
   KittiSequence sequence_;
   int next_ = 0;
 };
@@ -30,6 +33,9 @@ class BagSource : public StereoSource {
  public:
   BagSource(const std::string& path, const StereoBag::Options& options) : bag_(path, options) {}
 
+  std::string description() const override {
+    return bag_.topics().left_image + " and " + bag_.topics().right_image;
+  }
   int size() const override { return bag_.size(); }
   bool next(StereoPair& pair, StereoCamera& camera) override { return bag_.next(pair, camera); }
 

@@ -14,7 +14,10 @@ class StereoSource {
  public:
   virtual ~StereoSource() = default;
 
-  /// How many pairs there are at most.
+  /// Where the pairs are from, for messages.
+  virtual std::string description() const = 0;
+
+  /// Count of left images: there cannot be more pairs.
   virtual int size() const = 0;
 
   /// Reads the next pair and its camera. Returns false, and leaves them alone, when there is none.
