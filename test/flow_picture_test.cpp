@@ -52,7 +52,7 @@ TEST_F(FlowPictureTest, IsAsWideAsTheImageAndALineHigher) {
 
 TEST_F(FlowPictureTest, ImageIsGreyAndDarkened) {
   draw();
-  EXPECT_EQ(colourAt(300, 100), cv::Vec3b(55, 55, 55));
+  EXPECT_EQ(colourAt(300, 100), cv::Vec3b(65, 65, 65));
 }
 
 TEST_F(FlowPictureTest, ColoursTellDepthAndStage) {

@@ -20,7 +20,7 @@ const cv::Scalar kOutlier(185, 60, 220);
 const cv::Scalar kText(230, 230, 230);
 const cv::Scalar kBand(35, 30, 30);
 
-constexpr double kBrightness = 0.55;
+constexpr double kBrightness = 0.65;
 constexpr double kNear_m = 5.0;
 constexpr double kFar_m = 50.0;
 constexpr int kBand_px = 24;
@@ -124,6 +124,7 @@ void drawLegend(const OdometryResult& result, std::size_t features, cv::Mat band
   legend.depthScale();
   legend.space();
   legend.sample(kRotationOnly, "rotation only");
+  legend.space();
   legend.sample(kOutlier, "outlier");
   legend.space();
   legend.text(Legend::format("%zu features, %d fit the rotation, %d the translation",
