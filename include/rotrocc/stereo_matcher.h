@@ -16,7 +16,7 @@ class StereoMatcher {
     int max_disparity_px = 128;         ///< above that of infinity; nearer points are not found
     double min_disparity_px = 1.0;      ///< above that of infinity; farther points are dropped
     double max_mean_difference = 20.0;  ///< of the best match, grey levels per pixel
-    double uniqueness = 0.92;  ///< best SAD at most this times the best one elsewhere on the row
+    double uniqueness = 0.92;  ///< best SAD below this times the best one elsewhere on the row
   };
 
   /// Disparity of a pixel without a match.

@@ -25,6 +25,20 @@ float smallerEigenvalue(float xx, float xy, float yy) {
   return 0.5F * (xx + yy - std::sqrt(difference * difference + 4.0F * xy * xy));
 }
 
+/// Whether a pixel above or to the left, within `radius`, has the same response. Of corners that
+/// are exactly alike, as in drawn patterns and saturated areas, the first one counts.
+bool hasEarlierTwin(const cv::Mat& response, int x, int y, int radius) {
+  const float value = response.at<float>(y, x);
+  for (int v = std::max(y - radius, 0); v <= y; ++v) {
+    const auto* row = response.ptr<float>(v);
+    const int end = v < y ? std::min(x + radius + 1, response.cols) : x;
+    for (int u = std::max(x - radius, 0); u < end; ++u) {
+      if (row[u] == value) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 void FeatureDetector::detect(const cv::Mat& image, std::vector<cv::Point2f>& corners) {
@@ -63,7 +77,8 @@ void FeatureDetector::findCandidates(const cv::Mat& image,
     const auto* response = strip.response.ptr<float>(y - top);
     const auto* maximum = strip.maximum.ptr<float>(y - top);
     for (int x = config_.border_px; x < image.cols - config_.border_px; ++x) {
-      if (response[x] >= least && response[x] == maximum[x]) {
+      if (response[x] >= least && response[x] == maximum[x] &&
+          !hasEarlierTwin(strip.response, x, y - top, radius)) {
         strip.candidates.push_back({response[x], x, y});
       }
     }

@@ -133,7 +133,7 @@ bool hasRival(const std::vector<int>& costs,
               double uniqueness) {
   constexpr std::ptrdiff_t kSlope = 2;
   for (auto it = costs.begin(); it != costs.end(); ++it) {
-    if (std::abs(it - best) > kSlope && *best > uniqueness * *it) return true;
+    if (std::abs(it - best) > kSlope && *best >= uniqueness * *it) return true;
   }
   return false;
 }
