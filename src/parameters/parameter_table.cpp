@@ -21,12 +21,12 @@ std::string toText(const T& value) {
 
 /// Parses the whole of `text`; throws if anything is left over.
 template <class T>
-T parseNumber(const std::string& text, const char* kind) {
+T parseNumber(const std::string& text, const std::string& wanted) {
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
   T value{};
   if (!(stream >> value) || !(stream >> std::ws).eof()) {
-    throw std::invalid_argument("is \"" + text + "\", but must be " + kind);
+    throw std::invalid_argument("is \"" + text + "\", but must be " + wanted);
   }
   return value;
 }
@@ -35,10 +35,12 @@ template <class T>
 ParameterTable::Parameter makeNumber(T& value, T min, T max, const char* kind) {
   ParameterTable::Parameter parameter;
   parameter.range = "[" + toText(min) + ", " + toText(max) + "]";
-  parameter.set = [&value, min, max, kind, range = parameter.range](const std::string& text) {
-    const T parsed = parseNumber<T>(text, kind);
+  const std::string in_range = "in " + parameter.range;
+  const std::string wanted = std::string(kind) + " " + in_range;
+  parameter.set = [&value, min, max, in_range, wanted](const std::string& text) {
+    const T parsed = parseNumber<T>(text, wanted);
     if (!(parsed >= min && parsed <= max)) {
-      throw std::invalid_argument("is " + text + ", but must be in " + range);
+      throw std::invalid_argument("is " + text + ", but must be " + in_range);
     }
     value = parsed;
   };
