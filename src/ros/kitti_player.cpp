@@ -39,14 +39,13 @@ std::string join(const std::vector<std::string>& words) {
 KittiPlayer::TimeRange KittiPlayer::rangeToPlay(const rosbag::Bag& bag,
                                                 const StereoTopics& topics,
                                                 const PlayerOptions& options) {
-  rosbag::View images(
-      bag, rosbag::TopicQuery(std::vector<std::string>{topics.left_image, topics.right_image}));
-  const double length_s = (images.getEndTime() - images.getBeginTime()).toSec();
+  rosbag::View view(bag, rosbag::TopicQuery(topics.all()));
+  const double length_s = (view.getEndTime() - view.getBeginTime()).toSec();
   if (options.start > length_s) {
     throw std::invalid_argument("parameter start is " + toText(options.start) +
                                 " s, but the bag is only " + toText(length_s) + " s long");
   }
-  TimeRange range = {images.getBeginTime() + ros::Duration(options.start), images.getEndTime()};
+  TimeRange range = {view.getBeginTime() + ros::Duration(options.start), view.getEndTime()};
   if (options.duration > 0.0) {
     range.end = std::min(range.end, range.begin + ros::Duration(options.duration));
   }

@@ -48,8 +48,9 @@ RecordingPublisher::RecordingPublisher(ros::NodeHandle& nh,
 }
 
 std::vector<std::string> RecordingPublisher::recordedTopics() const {
-  return {
-      topics_.left_image, topics_.right_image, topics_.left_info, topics_.right_info, "/tf", "tf"};
+  std::vector<std::string> topics = topics_.all();
+  topics.insert(topics.end(), {"/tf", "tf"});
+  return topics;
 }
 
 std::vector<std::string> RecordingPublisher::topicsWithoutSubscriber() const {

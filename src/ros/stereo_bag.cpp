@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <stdexcept>
-#include <vector>
 
 #include "bag_reading.h"
 #include "message_conversion.h"
@@ -10,10 +9,6 @@
 
 namespace rotrocc {
 namespace {
-
-std::vector<std::string> names(const StereoTopics& topics) {
-  return {topics.left_image, topics.right_image, topics.left_info, topics.right_info};
-}
 
 int countMessages(const rosbag::Bag& bag, const std::string& topic) {
   rosbag::View view(bag, rosbag::TopicQuery(topic));
@@ -26,7 +21,7 @@ StereoBag::StereoBag(const std::string& path, const Options& options)
     : bag_(openBag(path)),
       topics_(findStereoTopics(topicTypes(bag_), options.left_image, options.right_image)),
       size_(countMessages(bag_, topics_.left_image)),
-      view_(bag_, rosbag::TopicQuery(names(topics_))),
+      view_(bag_, rosbag::TopicQuery(topics_.all())),
       next_(view_.begin()),
       synchronizer_(options.max_stamp_difference_s, options.queue_size),
       left_info_(firstMessage<sensor_msgs::CameraInfo>(bag_, topics_.left_info)),
