@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <exception>
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
@@ -9,6 +8,7 @@
 #include <boost/program_options.hpp>
 
 #include "error_characteristics.h"
+#include "program.h"
 #include "rotrocc/kitti.h"
 #include "rotrocc/visual_odometry.h"
 
@@ -111,18 +111,5 @@ void run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Options options;
-  try {
-    if (!parse(argc, argv, options)) return 0;
-  } catch (const po::error& error) {
-    std::cerr << "error_characteristics: " << error.what() << "; --help shows the usage\n";
-    return 2;
-  }
-  try {
-    run(options);
-  } catch (const std::exception& error) {
-    std::cerr << "error_characteristics: " << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  return runProgram("error_characteristics", argc, argv, parse, run);
 }

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
@@ -12,6 +11,7 @@
 
 #include <boost/program_options.hpp>
 
+#include "program.h"
 #include "rotrocc/trajectory.h"
 #include "rotrocc/trajectory_error.h"
 
@@ -190,18 +190,5 @@ void run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Options options;
-  try {
-    if (!parse(argc, argv, options)) return 0;
-  } catch (const po::error& error) {
-    std::cerr << "evaluate_trajectory: " << error.what() << "; --help shows the usage\n";
-    return 2;
-  }
-  try {
-    run(options);
-  } catch (const std::exception& error) {
-    std::cerr << "evaluate_trajectory: " << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  return runProgram("evaluate_trajectory", argc, argv, parse, run);
 }

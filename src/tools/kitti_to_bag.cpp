@@ -1,11 +1,11 @@
 #include <cstdint>
-#include <exception>
 #include <iostream>
 #include <string>
 
 #include <boost/program_options.hpp>
 
 #include "kitti_bag_writer.h"
+#include "program.h"
 #include "progress_bar.h"
 #include "rotrocc/kitti.h"
 
@@ -66,18 +66,5 @@ void run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Options options;
-  try {
-    if (!parse(argc, argv, options)) return 0;
-  } catch (const po::error& error) {
-    std::cerr << "kitti_to_bag: " << error.what() << "; --help shows the usage\n";
-    return 2;
-  }
-  try {
-    run(options);
-  } catch (const std::exception& error) {
-    std::cerr << "kitti_to_bag: " << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  return runProgram("kitti_to_bag", argc, argv, parse, run);
 }

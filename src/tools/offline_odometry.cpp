@@ -1,5 +1,4 @@
 #include <ctime>
-#include <exception>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -9,6 +8,7 @@
 #include <boost/program_options.hpp>
 #include <opencv2/core.hpp>
 
+#include "program.h"
 #include "progress_bar.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/pose_accumulator.h"
@@ -129,18 +129,5 @@ void run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Options options;
-  try {
-    if (!parse(argc, argv, options)) return 0;
-  } catch (const po::error& error) {
-    std::cerr << "offline_odometry: " << error.what() << "; --help shows the usage\n";
-    return 2;
-  }
-  try {
-    run(options);
-  } catch (const std::exception& error) {
-    std::cerr << "offline_odometry: " << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  return runProgram("offline_odometry", argc, argv, parse, run);
 }

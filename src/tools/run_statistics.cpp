@@ -79,16 +79,16 @@ void StatisticsFile::write(const PairRecord& record) {
 
 void printSummary(std::ostream& out, const std::vector<PairRecord>& records) {
   out << records.size() << " pairs: " << countState(records, State::kOk) << " ok, "
-      << countState(records, State::kDegraded) << " degraded, "
-      << countState(records, State::kLost) << " lost, "
-      << countState(records, State::kInitialising) << " initialising\n";
+      << countState(records, State::kDegraded) << " degraded, " << countState(records, State::kLost)
+      << " lost, " << countState(records, State::kInitialising) << " initialising\n";
   if (records.empty()) return;
   out << "ms per pair          mean   median      p95\n";
   printTimes(out, "wall", records, [](const PairRecord& record) { return record.wall_ms; });
   printTimes(out, "cpu", records, [](const PairRecord& record) { return record.cpu_ms; });
   printTimes(out, "  pyramids", records, [](const auto& r) { return r.result.times.pyramids_ms; });
   printTimes(out, "  corners", records, [](const auto& r) { return r.result.times.corners_ms; });
-  printTimes(out, "  disparity", records, [](const auto& r) { return r.result.times.disparity_ms; });
+  printTimes(
+      out, "  disparity", records, [](const auto& r) { return r.result.times.disparity_ms; });
   printTimes(out, "  tracking", records, [](const auto& r) { return r.result.times.tracking_ms; });
   printTimes(
       out, "  estimation", records, [](const auto& r) { return r.result.times.estimation_ms; });
