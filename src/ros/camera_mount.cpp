@@ -38,8 +38,9 @@ std::string nameDirection(const Eigen::Vector3d& direction) {
 
 }  // namespace
 
-CameraMount::CameraMount(const std::string& base_frame)
-    : base_frame_(base_frame), listener_(buffer_) {}
+CameraMount::CameraMount(const std::string& base_frame) : base_frame_(base_frame) {
+  listener_.emplace(buffer_);
+}
 
 const std::optional<Eigen::Isometry3d>& CameraMount::find(const std::string& camera_frame) {
   if (T_base_camera_) return T_base_camera_;
@@ -48,6 +49,7 @@ const std::optional<Eigen::Isometry3d>& CameraMount::find(const std::string& cam
         toEigen(buffer_.lookupTransform(base_frame_, camera_frame, ros::Time(0)).transform);
     ROS_INFO_STREAM("camera " << camera_frame << " in " << base_frame_ << ": "
                               << describeMount(*T_base_camera_));
+    listener_.reset();
   } catch (const tf2::TransformException& error) {
     if (++attempts_ > kPatience && warning_.pass()) {
       ROS_WARN_STREAM("waiting for tf from " << base_frame_ << " to " << camera_frame

@@ -28,7 +28,7 @@ class CameraMount {
   int attempts_ = 0;
   Throttle warning_{std::chrono::seconds(5)};
   tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;
+  std::optional<tf2_ros::TransformListener> listener_;  // until the mount is found
 };
 
 /// "at 0 0 1.65 m, looks along +x (forward), its image is upright": for a human to check a mount

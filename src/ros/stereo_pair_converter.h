@@ -12,8 +12,9 @@ namespace rotrocc {
 /// mono16, 16UC1, rgb8, bgr8, rgba8, bgra8 and 8-bit Bayer.
 ///
 /// 16-bit images of 10 or 12-bit cameras use a part of their range only. They lose their last b - 8
-/// bits, where b is the number of bits of the greatest value in any image so far, at least 8. So the
-/// two images of a pair are scaled alike, and the scale stays once a camera has shown its range.
+/// bits, where b is the number of bits of the greatest value in any image so far, at least 8. So
+/// the two images of a pair are scaled alike, and the scale stays once a camera has shown its
+/// range.
 class StereoPairConverter {
  public:
   /// The images of the result refer to the bytes of `left` and `right` where these are grey

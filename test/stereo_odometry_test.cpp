@@ -1,0 +1,239 @@
+// The odometry as a robot sees it, be it a node or a nodelet. The tests are steps of one drive:
+// they run in the order in which they stand here, and each goes on where the one before it has
+// stopped.
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <nav_msgs/Path.h>
+#include <ros/ros.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+#include <Eigen/Eigenvalues>
+
+#include "rotrocc/rigid_motion.h"
+#include "run_command.h"
+#include "simulated_robot.h"
+
+namespace rotrocc {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+class StereoOdometryTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    spinner_ = std::make_unique<ros::AsyncSpinner>(2);
+    spinner_->start();
+    robot_ = std::make_unique<SimulatedRobot>();
+  }
+
+  static void TearDownTestSuite() {
+    robot_.reset();
+    spinner_.reset();
+  }
+
+  /// Drives a step and gives the odometry, after which its status is there as well.
+  static nav_msgs::Odometry drive() {
+    const ros::Time stamp = robot_->drive();
+    const auto odometry = robot_->odometryOf(stamp);
+    const auto status = robot_->statusOf(stamp);
+    EXPECT_TRUE(odometry) << "no odometry for " << stamp;
+    EXPECT_TRUE(status) << "no status for " << stamp;
+    if (!odometry || !status) return {};
+    status_ = *status;
+    return *odometry;
+  }
+
+  /// Drives on until the odometry has found its motion again.
+  static void recover() {
+    for (int i = 0; i < 5; ++i) {
+      drive();
+      if (status_.state == OdometryStatus::OK) return;
+    }
+    FAIL() << "state " << static_cast<int>(status_.state) << ": " << status_.reason;
+  }
+
+  static std::unique_ptr<ros::AsyncSpinner> spinner_;
+  static std::unique_ptr<SimulatedRobot> robot_;
+  static OdometryStatus status_;
+};
+
+std::unique_ptr<ros::AsyncSpinner> StereoOdometryTest::spinner_;
+std::unique_ptr<SimulatedRobot> StereoOdometryTest::robot_;
+OdometryStatus StereoOdometryTest::status_;
+
+using Array36 = nav_msgs::Odometry::_pose_type::_covariance_type;
+
+double smallestEigenvalue(const Array36& covariance) {
+  const Matrix6d matrix = Eigen::Map<const Matrix6d>(covariance.data());
+  return Eigen::SelfAdjointEigenSolver<Matrix6d>(matrix).eigenvalues().minCoeff();
+}
+
+/// The first message on a topic; null if none comes while the robot drives.
+template <class Message, class Drive>
+boost::shared_ptr<const Message> receiveWhile(const std::string& topic, Drive drive) {
+  boost::shared_ptr<const Message> received;
+  std::mutex mutex;
+  ros::NodeHandle nh;
+  const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
+      [&](const boost::shared_ptr<const Message>& message) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        received = message;
+      };
+  const ros::Subscriber subscriber = nh.subscribe<Message>(topic, 1, callback);
+  for (int i = 0; i < 20; ++i) {
+    drive();
+    std::this_thread::sleep_for(milliseconds(50));
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (received) return received;
+  }
+  return nullptr;
+}
+
+TEST_F(StereoOdometryTest, FirstPairWaitsForCameraInfoAndTf) {
+  const ros::Time stamp = robot_->drive();
+  EXPECT_FALSE(robot_->odometryOf(stamp, milliseconds(300)));
+  robot_->publishInfos();
+  EXPECT_FALSE(robot_->odometryOf(stamp, milliseconds(300)));
+  robot_->publishMount();
+  const auto odometry = robot_->odometryOf(stamp);
+  ASSERT_TRUE(odometry);
+  EXPECT_EQ(odometry->header.frame_id, "odom");
+  EXPECT_EQ(odometry->child_frame_id, "base_link");
+  EXPECT_EQ(odometry->pose.pose.position.x, 0.0);
+  EXPECT_EQ(odometry->pose.pose.orientation.w, 1.0);
+  EXPECT_EQ(odometry->twist.covariance[0], 9999.0);
+  const auto status = robot_->statusOf(stamp);
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->state, OdometryStatus::INITIALISING);
+}
+
+TEST_F(StereoOdometryTest, DrivesForwardInAxesOfTheBase) {
+  constexpr int kSteps = 8;
+  double variance = 0.0;
+  for (int i = 1; i <= kSteps; ++i) {
+    const nav_msgs::Odometry odometry = drive();
+    EXPECT_EQ(status_.state, OdometryStatus::OK) << status_.reason;
+    EXPECT_EQ(status_.pairs_processed, static_cast<std::uint64_t>(i + 1));
+    // 2 % of the way, which is short, and 5 % of a step's speed.
+    const double way_m = i * SimulatedRobot::kStep_m;
+    EXPECT_NEAR(odometry.pose.pose.position.x, way_m, 0.02 + 0.02 * way_m);
+    EXPECT_NEAR(odometry.pose.pose.position.y, 0.0, 0.02 + 0.02 * way_m);
+    EXPECT_NEAR(odometry.pose.pose.position.z, 0.0, 0.02 + 0.02 * way_m);
+    const double speed_mps = SimulatedRobot::kStep_m / SimulatedRobot::kPeriod_s;
+    EXPECT_NEAR(odometry.twist.twist.linear.x, speed_mps, 0.05 * speed_mps);
+    EXPECT_NEAR(odometry.twist.twist.linear.y, 0.0, 0.05 * speed_mps);
+    EXPECT_NEAR(odometry.twist.twist.angular.z, 0.0, 0.02);
+    EXPECT_GT(smallestEigenvalue(odometry.pose.covariance), 0.0);
+    EXPECT_GT(smallestEigenvalue(odometry.twist.covariance), 0.0);
+    EXPECT_LT(odometry.twist.covariance[0], 1.0);
+    EXPECT_GT(odometry.pose.covariance[0], variance);
+    variance = odometry.pose.covariance[0];
+  }
+  EXPECT_EQ(status_.pairs_dropped, 0u);
+  EXPECT_GT(status_.time_total, 0.0f);
+  EXPECT_GE(status_.latency, status_.time_total);
+}
+
+TEST_F(StereoOdometryTest, TfIsThePoseOfTheOdometry) {
+  tf2_ros::Buffer buffer;
+  const tf2_ros::TransformListener listener(buffer);
+  std::this_thread::sleep_for(seconds(1));  // until the odometry knows of the new subscriber
+  const nav_msgs::Odometry odometry = drive();
+  const geometry_msgs::TransformStamped transform =
+      buffer.lookupTransform("odom", "base_link", odometry.header.stamp, ros::Duration(5.0));
+  EXPECT_EQ(transform.transform.translation.x, odometry.pose.pose.position.x);
+  EXPECT_EQ(transform.transform.translation.z, odometry.pose.pose.position.z);
+  EXPECT_EQ(transform.transform.rotation.w, odometry.pose.pose.orientation.w);
+}
+
+TEST_F(StereoOdometryTest, PicturesComeForSubscribers) {
+  const auto path = receiveWhile<nav_msgs::Path>("path", drive);
+  ASSERT_TRUE(path);
+  EXPECT_EQ(path->header.frame_id, "odom");
+  EXPECT_GT(path->poses.size(), 9u) << "the path begins where the drive began";
+
+  const auto inliers = receiveWhile<sensor_msgs::PointCloud2>("inliers", drive);
+  ASSERT_TRUE(inliers);
+  EXPECT_EQ(inliers->header.frame_id, "camera_left");
+  EXPECT_GT(inliers->width, 50u);
+
+  const auto flow = receiveWhile<sensor_msgs::Image>("flow", drive);
+  ASSERT_TRUE(flow);
+  EXPECT_EQ(flow->encoding, "bgr8");
+  EXPECT_EQ(flow->data.size(), flow->step * flow->height);
+}
+
+TEST_F(StereoOdometryTest, LosesItselfInTheDarkAndRecovers) {
+  const nav_msgs::Odometry before = drive();
+  ros::Time dark;
+  for (int i = 0; i < 3; ++i) {
+    dark =
+        robot_->drive([](sensor_msgs::Image& image) { image.data.assign(image.data.size(), 0); });
+    ASSERT_TRUE(robot_->odometryOf(dark)) << "odometry comes for lost pairs, too";
+  }
+  const auto lost = robot_->odometryOf(dark);
+  const auto status = robot_->statusOf(dark);
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->state, OdometryStatus::LOST);
+  EXPECT_FALSE(status->reason.empty());
+  EXPECT_EQ(status->pairs_lost, 3u);
+  EXPECT_EQ(lost->pose.pose.position.x, before.pose.pose.position.x);
+  EXPECT_GT(lost->pose.covariance[0], before.pose.covariance[0] + 1.0);
+  EXPECT_EQ(lost->twist.twist.linear.x, 0.0);
+  EXPECT_EQ(lost->twist.covariance[0], 9999.0);
+  recover();
+  EXPECT_GT(drive().pose.pose.position.x,
+            before.pose.pose.position.x + 0.5 * SimulatedRobot::kStep_m);
+}
+
+TEST_F(StereoOdometryTest, MalformedImagesAreRejected) {
+  drive();
+  const std::uint64_t rejected = status_.inputs_rejected;
+  const ros::Time depth =
+      robot_->drive([](sensor_msgs::Image& image) { image.encoding = "32FC1"; });
+  const ros::Time truncated =
+      robot_->drive([](sensor_msgs::Image& image) { image.data.resize(100); });
+  const ros::Time cropped = robot_->drive([](sensor_msgs::Image& image) { image.height -= 10; });
+  recover();
+  EXPECT_FALSE(robot_->odometryOf(depth, milliseconds(0)));
+  EXPECT_FALSE(robot_->odometryOf(truncated, milliseconds(0)));
+  EXPECT_FALSE(robot_->odometryOf(cropped, milliseconds(0)));
+  // Those that were not dropped for the next one.
+  EXPECT_EQ(status_.inputs_rejected - rejected + status_.pairs_dropped, 3u);
+}
+
+TEST_F(StereoOdometryTest, GoesOnWhenTimeBeginsAnew) {
+  const nav_msgs::Odometry before = drive();
+  robot_->turnBackTime();
+  const nav_msgs::Odometry after = drive();
+  EXPECT_EQ(status_.state, OdometryStatus::INITIALISING);
+  EXPECT_LT(after.header.stamp, before.header.stamp);
+  EXPECT_EQ(after.pose.pose.position.x, before.pose.pose.position.x);
+  recover();
+}
+
+TEST_F(StereoOdometryTest, AnUnknownParameterIsRefused) {
+  std::string command;
+  ASSERT_TRUE(ros::param::get("~start_another", command));
+  const int status = runCommand(command + " __name:=another _max_gap:=1.0").status;
+  EXPECT_TRUE(status == 1 || status == 255) << "status " << status << " of a node, of nodelet load";
+  recover();
+}
+
+}  // namespace
+}  // namespace rotrocc
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "stereo_odometry_test");
+  const ros::NodeHandle keeps_ros_alive;
+  return RUN_ALL_TESTS();
+}
