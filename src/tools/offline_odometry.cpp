@@ -31,7 +31,7 @@ struct Options {
   std::string statistics;
   std::string left_image;
   std::string right_image;
-  int threads = -1;
+  int threads = cv::getNumThreads();
 };
 
 /// Returns false if only the help was asked for; throws po::error on bad usage.
@@ -46,7 +46,7 @@ bool parse(int argc, char** argv, Options& options) {
   add("stats", po::value(&options.statistics), "CSV file for a row of figures per pair");
   add("left-image", po::value(&options.left_image), "topic, where a bag has several pairs");
   add("right-image", po::value(&options.right_image), "topic of its partner");
-  add("threads", po::value(&options.threads), "threads of OpenCV (default: one per core)");
+  add("threads", po::value(&options.threads)->default_value(options.threads), "of OpenCV");
   po::options_description all;
   all.add(visible).add_options()("input", po::value(&options.input)->required());
   po::positional_options_description positional;
@@ -97,7 +97,7 @@ StereoBag::Options bagOptions(const Options& options, const NodeParameters& node
 
 void run(const Options& options) {
   const Parameters parameters = readParameters(options);
-  if (options.threads >= 0) cv::setNumThreads(options.threads);
+  cv::setNumThreads(options.threads);
 
   const std::unique_ptr<StereoSource> source =
       openStereoSource(options.input, bagOptions(options, parameters.node));
