@@ -1,6 +1,7 @@
 #include "rotrocc/motion_estimator.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -15,6 +16,23 @@ constexpr double kLeastFlow_px = 1e-6;
 
 /// The error of a feature that must not enter.
 constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// Errors that are Gaussian in x and y, of which only those shorter than `limit_px` are left with
+/// the variance `left_px2` in each direction: the share of the whole variance that this is. It is
+/// g = 1 - x / (e^x - 1) with x = limit^2 / (2 variance).
+double shareOfVariance(double left_px2, double limit_px) {
+  const auto g = [](double x) { return 1.0 - x / std::expm1(x); };
+  // Nearly even errors up to the limit say little of the variance: no less than one is assumed that
+  // makes the covariance 20 times as large.
+  double low = 0.5;
+  double high = 50.0;
+  const double wanted = 2.0 * left_px2 / (limit_px * limit_px);  // g(x) / x, which falls
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    (g(middle) / middle > wanted ? low : high) = middle;
+  }
+  return g(low);
+}
 
 Criterion criterionOf(const std::string& name) {
   const auto& names = criterionNames();
@@ -145,6 +163,10 @@ bool MotionEstimator::iterate(OutlierThreshold threshold,
 /// The rotation's covariance comes from stage 1 with its translation marginalized; the
 /// translation's from stage 2, plus what the rotation's error dR does to it:
 /// dt = -(Jt^T Jt)^-1 Jt^T Jr dR.
+///
+/// Features beyond the limit of stage 1 are dropped, though some are just noisy: what is left has
+/// only a share g of the errors' variance, and a fit to it the variance of one to untruncated
+/// errors over g (the sandwich formula, where both its parts are g).
 bool MotionEstimator::estimateCovariance(const StereoCamera& camera,
                                          const Correspondences& features,
                                          Estimate& estimate) {
@@ -152,7 +174,11 @@ bool MotionEstimator::estimateCovariance(const StereoCamera& camera,
       solver_.information(camera, features, estimate.rotation_inliers, estimate.T_prev_cur, 6);
   const Eigen::LDLT<Matrix6d> full(one.matrix);
   if (full.info() != Eigen::Success || !full.isPositive()) return false;
-  const Matrix6d both = one.residual_variance * full.solve(Matrix6d::Identity());
+  const bool truncated = criterion_ != Criterion::kMeanBased && criterion_ != Criterion::kStdBased;
+  const double share =
+      truncated ? shareOfVariance(one.residual_variance, config_.rotation_limit_px) : 1.0;
+  const double variance = one.residual_variance / share;
+  const Matrix6d both = variance / share * full.solve(Matrix6d::Identity());
   if (!both.allFinite()) return false;
   estimate.covariance = both;
   if (!estimate.has_translation_stage) return true;
@@ -164,7 +190,7 @@ bool MotionEstimator::estimateCovariance(const StereoCamera& camera,
   const Eigen::Matrix3d by_rotation = -translation.solve(two.matrix.topRightCorner<3, 3>());
   const Eigen::Matrix3d rotation = both.bottomRightCorner<3, 3>();
   estimate.covariance.topLeftCorner<3, 3>() =
-      two.residual_variance * translation.solve(Eigen::Matrix3d::Identity()) +
+      std::max(two.residual_variance, variance) * translation.solve(Eigen::Matrix3d::Identity()) +
       by_rotation * rotation * by_rotation.transpose();
   estimate.covariance.topRightCorner<3, 3>() = by_rotation * rotation;
   estimate.covariance.bottomLeftCorner<3, 3>() = rotation * by_rotation.transpose();
