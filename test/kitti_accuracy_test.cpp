@@ -1,0 +1,67 @@
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "rotrocc/kitti.h"
+#include "rotrocc/trajectory_error.h"
+#include "rotrocc/visual_odometry.h"
+
+namespace rotrocc {
+namespace {
+
+/// A clip of KITTI and the translation error that the odometry may have on it. A change of any
+/// default that loses accuracy is seen here.
+struct Clip {
+  const char* name;
+  double max_translation_error;  // [m/m]
+};
+
+class KittiAccuracyTest : public ::testing::TestWithParam<Clip> {
+ protected:
+  void SetUp() override {
+    const char* kitti = std::getenv("ROTROCC_KITTI_DIR");
+    if (kitti == nullptr) {
+      GTEST_SKIP()
+          << "set ROTROCC_KITTI_DIR to a directory of KITTI odometry sequences to run this";
+    }
+    directory_ = std::filesystem::path(kitti) / GetParam().name;
+    if (!std::filesystem::exists(directory_)) GTEST_SKIP() << directory_ << " is missing";
+  }
+
+  std::filesystem::path directory_;
+};
+
+TEST_P(KittiAccuracyTest, LosesNoPairAndStaysWithinTheError) {
+  const KittiSequence sequence(directory_.string());
+  VisualOdometry odometry({});
+  Trajectory estimate;
+  Eigen::Isometry3d T_start_cur = Eigen::Isometry3d::Identity();
+  for (int i = 0; i < sequence.size(); ++i) {
+    const StereoPair pair = {sequence.stamp_ns(i), sequence.readLeft(i), sequence.readRight(i)};
+    const OdometryResult result = odometry.process(pair, sequence.camera());
+    EXPECT_TRUE(i == 0 || result.hasMotion()) << "pair " << i << ": " << result.reason;
+    T_start_cur = T_start_cur * result.T_prev_cur;
+    estimate.push_back({pair.stamp_ns, T_start_cur});
+  }
+  SegmentConfig segments;
+  segments.lengths_m = {5.0, 10.0, 20.0, 30.0, 40.0};
+  segments.step = 1;
+  const MeanError error =
+      meanError(segmentErrors(matchByIndex(sequence.groundTruth(), estimate), segments));
+  ASSERT_GT(error.segments, 0);
+  EXPECT_LE(error.translation, GetParam().max_translation_error);
+  RecordProperty("translation_error_percent", std::to_string(100.0 * error.translation));
+}
+
+/// Measured: 0.67, 5.1 and 1.35 %.
+INSTANTIATE_TEST_SUITE_P(Clips,
+                         KittiAccuracyTest,
+                         ::testing::Values(Clip{"06_000_050", 0.011},
+                                           Clip{"01_000_050", 0.08},
+                                           Clip{"raw_0926_024_143", 0.014}),
+                         [](const auto& clip) { return "On_" + std::string(clip.param.name); });
+
+}  // namespace
+}  // namespace rotrocc

@@ -1,0 +1,125 @@
+#include "rotrocc/motion_solver.h"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "simulated_features.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kNoiseRatio = 3.0;
+
+Eigen::Isometry3d turnAhead() {
+  return motion({0.1, -0.02, 1.3}, {0.01, 0.06, -0.005});
+}
+
+Correspondences exactFeatures(int count) {
+  std::mt19937 generator(1);
+  return simulateFeatures(kittiCamera(), turnAhead(), count, {}, generator);
+}
+
+FeatureSet all(const Correspondences& features) {
+  return FeatureSet(features.size(), 1);
+}
+
+TEST(MotionSolverTest, RecoversAnExactMotion) {
+  for (const double noise_ratio : {0.0, kNoiseRatio}) {
+    for (const int features : {10, 300}) {
+      const Correspondences exact = exactFeatures(features);
+      Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+      ASSERT_TRUE(MotionSolver(noise_ratio).solveMotion(kittiCamera(), exact, all(exact), T));
+      // Gauss-Newton converges quadratically; the last step was below 1e-7.
+      EXPECT_LT(motionError(T, turnAhead()).norm(), 1e-9) << features << ' ' << noise_ratio;
+    }
+  }
+}
+
+TEST(MotionSolverTest, RecoversAMotionFromThreeFeatures) {
+  const Correspondences exact = exactFeatures(3);
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  ASSERT_TRUE(MotionSolver(kNoiseRatio).solveMotion(kittiCamera(), exact, all(exact), T));
+  // It ends when the residuals are below 1e-8 px, and three points determine little.
+  EXPECT_LT(motionError(T, turnAhead()).norm(), 1e-5);
+}
+
+TEST(MotionSolverTest, RecoversAnExactTranslationAndLeavesTheRotation) {
+  const Correspondences exact = exactFeatures(100);
+  Eigen::Isometry3d T = turnAhead();
+  T.translation().setZero();
+  ASSERT_TRUE(MotionSolver(kNoiseRatio).solveTranslation(kittiCamera(), exact, all(exact), T));
+  EXPECT_LT(motionError(T, turnAhead()).norm(), 1e-9);
+  EXPECT_EQ(T.linear(), turnAhead().linear());
+}
+
+TEST(MotionSolverTest, TakesOnlyTheFeaturesOfTheSet) {
+  Correspondences features = exactFeatures(100);
+  FeatureSet set = all(features);
+  for (std::size_t i = 0; i < features.size(); i += 3) {
+    features[i].prev_px.x() += 50.0;
+    set[i] = 0;
+  }
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  ASSERT_TRUE(MotionSolver(kNoiseRatio).solveMotion(kittiCamera(), features, set, T));
+  EXPECT_LT(motionError(T, turnAhead()).norm(), 1e-9);
+}
+
+TEST(MotionSolverTest, GivesARotationEvenAfterManySolutions) {
+  const Correspondences exact = exactFeatures(50);
+  MotionSolver solver(kNoiseRatio);
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_TRUE(solver.solveMotion(kittiCamera(), exact, all(exact), T));
+  }
+  EXPECT_LT((T.linear() * T.linear().transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+}
+
+TEST(MotionSolverTest, RefusesTooFewFeatures) {
+  const Eigen::Isometry3d before = motion({1.0, 2.0, 3.0}, {0.1, 0.2, 0.3});
+  Eigen::Isometry3d T = before;
+  const Correspondences two = exactFeatures(2);
+  const Correspondences one = exactFeatures(1);
+  MotionSolver solver(kNoiseRatio);
+  EXPECT_FALSE(solver.solveMotion(kittiCamera(), two, all(two), T));
+  EXPECT_FALSE(solver.solveTranslation(kittiCamera(), one, all(one), T));
+  EXPECT_FALSE(solver.solveMotion(kittiCamera(), {}, {}, T));
+  EXPECT_EQ(T.matrix(), before.matrix());
+  EXPECT_TRUE(solver.solveTranslation(kittiCamera(), two, all(two), T));
+}
+
+TEST(MotionSolverTest, InformationIsThatOfTheErrorsOfAMotion) {
+  std::mt19937 generator(2);
+  const Correspondences features =
+      simulateFeatures(kittiCamera(), turnAhead(), 200, {0.3, 0.9}, generator);
+  MotionSolver solver(kNoiseRatio);
+  const MotionSolver::Information information =
+      solver.information(kittiCamera(), features, all(features), turnAhead(), 6);
+  // The cost grows by half of e^T J^T J e for an error e, in the order of motionError().
+  const auto cost = [&](const Vector6d& error) {
+    Eigen::Isometry3d T = turnAhead();
+    T.linear() = expRotation(error.tail<3>()) * T.linear();
+    T.translation() += error.head<3>();
+    double sum = 0.0;
+    for (const Correspondence& feature : features) {
+      const Eigen::Vector2d residual =
+          feature.prev_px - kittiCamera().project(turnAhead() * feature.point_cur);
+      const Eigen::Vector2d moved = feature.prev_px - kittiCamera().project(T * feature.point_cur);
+      const Eigen::Matrix2d W = whitening(kittiCamera(), feature, turnAhead(), kNoiseRatio);
+      sum += (W * (moved - residual)).squaredNorm();
+    }
+    return sum;
+  };
+  for (int i = 0; i < 6; ++i) {
+    for (int k = 0; k <= i; ++k) {
+      const Vector6d e = 1e-6 * (Vector6d::Unit(i) + Vector6d::Unit(k));
+      const double expected = e.dot(information.matrix * e);
+      EXPECT_NEAR(cost(e), expected, 1e-3 * expected) << i << ' ' << k;
+    }
+  }
+  // 394 degrees of freedom: the standard deviation of the variance is 7 %.
+  EXPECT_NEAR(information.residual_variance, 0.3 * 0.3, 4.0 * 0.07 * 0.3 * 0.3);
+}
+
+}  // namespace
+}  // namespace rotrocc

@@ -1,0 +1,77 @@
+#include "rotrocc/rigid_motion.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace rotrocc {
+namespace {
+
+constexpr double kRounding = 1e-12;  // of some dozen operations on numbers near 1
+
+const Eigen::Vector3d kAxis = Eigen::Vector3d(1.0, -2.0, 0.5).normalized();
+
+TEST(RigidMotionTest, SkewIsTheCrossProduct) {
+  const Eigen::Vector3d a(1.0, 2.0, 3.0);
+  const Eigen::Vector3d b(-4.0, 0.5, 2.0);
+  EXPECT_LT((skew(a) * b - a.cross(b)).norm(), kRounding);
+}
+
+TEST(RigidMotionTest, RotatesByTheRightHand) {
+  const Eigen::Vector3d turned = expRotation({0.0, 0.0, M_PI / 2.0}) * Eigen::Vector3d::UnitX();
+  EXPECT_LT((turned - Eigen::Vector3d::UnitY()).norm(), kRounding);
+}
+
+TEST(RigidMotionTest, LogIsTheInverseOfExp) {
+  for (const double angle : {0.0, 1e-12, 1e-6, 9e-5, 1.1e-4, 0.3, 2.0, 3.14}) {
+    const Eigen::Vector3d v = angle * kAxis;
+    EXPECT_LT((logRotation(expRotation(v)) - v).norm(), 1e-9) << angle;
+    Vector6d twist;
+    twist << 1.0, -2.0, 3.0, v;
+    EXPECT_LT((logMotion(expMotion(twist)) - twist).norm(), 1e-8) << angle;
+  }
+}
+
+TEST(RigidMotionTest, AnglesAboveHalfATurnAreTakenTheShortWay) {
+  EXPECT_LT((logRotation(expRotation(4.0 * kAxis)) + (2.0 * M_PI - 4.0) * kAxis).norm(), 1e-9);
+}
+
+TEST(RigidMotionTest, LeftJacobianIsTheDerivativeOfExp) {
+  for (const double angle : {0.0, 1e-5, 9.9e-5, 1.01e-4, 0.4, 2.5}) {
+    const Eigen::Vector3d v = angle * kAxis;
+    Eigen::Matrix3d numeric;
+    constexpr double kStep = 1e-6;
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(i);
+      numeric.col(i) =
+          logRotation(expRotation(v + step) * expRotation(v - step).transpose()) / (2.0 * kStep);
+    }
+    // Central differences: rounding 1e-16 / step, and the square of the step.
+    EXPECT_LT((leftJacobian(v) - numeric).norm(), 1e-8) << angle;
+  }
+}
+
+TEST(RigidMotionTest, TheJacobianDoesNotJumpWhereTheSeriesEnds) {
+  const Eigen::Matrix3d below = leftJacobian(0.99999e-4 * kAxis);
+  const Eigen::Matrix3d above = leftJacobian(1.00001e-4 * kAxis);
+  EXPECT_LT((above - below).norm(), 1e-8);
+}
+
+TEST(RigidMotionTest, AConstantTwistMovesAlongAnArc) {
+  // A quarter turn to the left on a circle of 2 m, body axes x ahead and y to the left.
+  Vector6d twist;
+  twist << M_PI, 0.0, 0.0, 0.0, 0.0, M_PI / 2.0;
+  const Eigen::Isometry3d T = expMotion(twist);
+  EXPECT_LT((T.translation() - Eigen::Vector3d(2.0, 2.0, 0.0)).norm(), kRounding);
+  EXPECT_LT((T.linear() * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitY()).norm(), kRounding);
+}
+
+TEST(RigidMotionTest, HalfATwistTwiceIsTheWholeMotion) {
+  Vector6d twist;
+  twist << 1.0, 2.0, 3.0, 0.3, -0.2, 0.5;
+  const Eigen::Isometry3d half = expMotion(0.5 * twist);
+  EXPECT_LT(((half * half).matrix() - expMotion(twist).matrix()).norm(), kRounding);
+}
+
+}  // namespace
+}  // namespace rotrocc
