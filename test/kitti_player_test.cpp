@@ -188,7 +188,7 @@ TEST_F(KittiPlayerTest, BeginsAndEndsWhereItIsTold) {
 
 TEST_F(KittiPlayerTest, GoesOnWithoutOdometryAfterTheTimeout) {
   writeOwnBag();
-  private_nh_.setParam("lockstep_timeout", 0.1);
+  private_nh_.setParam("lockstep_timeout_s", 0.1);
   Listener listener(nh_);
   listener.fallSilent();
   const auto begin = std::chrono::steady_clock::now();

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <stdexcept>
 #include <string>
 
+#include <ros/message_traits.h>
 #include <rosbag/bag.h>
+#include <rosbag/message_instance.h>
 #include <rosbag/view.h>
 #include <boost/shared_ptr.hpp>
 
@@ -11,11 +14,24 @@ namespace rotrocc {
 /// Opens a bag to read it. Throws std::runtime_error if it is missing or no complete bag.
 rosbag::Bag openBag(const std::string& path);
 
-/// The first message of a topic; null if there is none, or it is of another type.
+/// A message of a bag. Throws std::runtime_error if it is of another type, or of an old version of
+/// it.
+template <typename Message>
+boost::shared_ptr<Message> readMessage(const rosbag::MessageInstance& instance) {
+  const auto message = instance.instantiate<Message>();
+  if (!message) {
+    throw std::runtime_error("a message of " + instance.getTopic() + " is no " +
+                             ros::message_traits::DataType<Message>::value() +
+                             " of this version of ROS");
+  }
+  return message;
+}
+
+/// The first message of a topic, as readMessage() does; null if there is none.
 template <typename Message>
 boost::shared_ptr<Message> firstMessage(const rosbag::Bag& bag, const std::string& topic) {
   rosbag::View view(bag, rosbag::TopicQuery(topic));
-  return view.size() == 0 ? nullptr : view.begin()->instantiate<Message>();
+  return view.size() == 0 ? nullptr : readMessage<Message>(*view.begin());
 }
 
 }  // namespace rotrocc

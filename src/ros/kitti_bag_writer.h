@@ -4,10 +4,10 @@
 #include <string>
 
 #include <nav_msgs/Path.h>
-#include <opencv2/core.hpp>
 #include <ros/time.h>
 #include <rosbag/bag.h>
 #include <sensor_msgs/CameraInfo.h>
+#include <opencv2/core.hpp>
 
 #include "rotrocc/kitti.h"
 
@@ -17,15 +17,16 @@ namespace rotrocc {
 ///   /stereo/{left,right}/image_rect    sensor_msgs/Image, mono8
 ///   /stereo/{left,right}/camera_info   sensor_msgs/CameraInfo
 ///   /tf_static                         base_link -> stereo_left_optical, see kittiMount()
-///   /ground_truth/path                 nav_msgs/Path of base_link in odom, once, if there are poses
-///   /ground_truth/pose                 geometry_msgs/PoseStamped, its poses one by one
-/// Images and infos of both cameras are in the frame of the left one: that is what the P of a rectified
-/// pair refers to (sensor_msgs/CameraInfo), and image_geometry wants the two frames alike.
+///   /ground_truth/path                 nav_msgs/Path of base_link in odom, once, if there are
+///   poses /ground_truth/pose                 geometry_msgs/PoseStamped, its poses one by one
+/// Images and infos of both cameras are in the frame of the left one: that is what the P of a
+/// rectified pair refers to (sensor_msgs/CameraInfo), and image_geometry wants the two frames
+/// alike.
 class KittiBagWriter {
  public:
   /// The first pair of a sequence gets the stamp `start_time_s` plus its time in the sequence.
-  /// Writes into `path`.part until finish(). Throws std::invalid_argument if ROS has no such stamps,
-  /// std::runtime_error if the file cannot be written.
+  /// Writes into `path`.part until finish(). Throws std::invalid_argument if ROS has no such
+  /// stamps, std::runtime_error if the file cannot be written.
   KittiBagWriter(const std::string& path, const KittiSequence& sequence, std::int64_t start_time_s);
 
   /// Removes what is not finished.

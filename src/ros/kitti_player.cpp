@@ -69,7 +69,7 @@ KittiPlayer::KittiPlayer(ros::NodeHandle& nh,
                message.clock = time;
                clock_publisher_.publish(message);
              }),
-      synchronizer_(options_.max_stamp_difference, kQueueSize),
+      synchronizer_(options_.max_stamp_difference_s, kQueueSize),
       monitor_(nh),
       pause_service_(private_nh.advertiseService("pause", &KittiPlayer::onPause, this)),
       on_end_(std::move(on_end)) {
@@ -112,9 +112,9 @@ void KittiPlayer::run() {
     std::this_thread::sleep_for(kLastOdometryDelay);
     ROS_INFO("%s", monitor_.summary().c_str());
     if (synchronizer_.unmatched() > 0) {
-      ROS_WARN("%zu images had no partner within %g s (max_stamp_difference)",
+      ROS_WARN("%zu images had no partner within %g s (max_stamp_difference_s)",
                static_cast<std::size_t>(synchronizer_.unmatched()),
-               options_.max_stamp_difference);
+               options_.max_stamp_difference_s);
     }
   } catch (const std::exception& error) {
     ROS_FATAL("playing %s: %s", options_.bag.c_str(), error.what());
@@ -161,7 +161,7 @@ void KittiPlayer::playOnce() {
 }
 
 void KittiPlayer::playImage(const rosbag::MessageInstance& message) {
-  const auto image = message.instantiate<sensor_msgs::Image>();
+  const auto image = readMessage<sensor_msgs::Image>(message);
   const bool left = message.getTopic() == topics_.left_image;
   const auto pair = left ? synchronizer_.addLeft(image) : synchronizer_.addRight(image);
   if (pair) monitor_.expect(pair->left->header.stamp);
@@ -174,13 +174,14 @@ void KittiPlayer::playImage(const rosbag::MessageInstance& message) {
 }
 
 void KittiPlayer::waitForOdometry(const ros::Time& stamp) {
-  const auto deadline = WallClock::now() + std::chrono::duration<double>(options_.lockstep_timeout);
+  const auto deadline =
+      WallClock::now() + std::chrono::duration<double>(options_.lockstep_timeout_s);
   while (!monitor_.wait(stamp, kPollPeriod)) {
     if (stopped()) return;
     if (WallClock::now() < deadline) continue;
     ROS_WARN("no odometry for the pair of %.6f s within %g s, going on without",
              stamp.toSec(),
-             options_.lockstep_timeout);
+             options_.lockstep_timeout_s);
     return;
   }
 }

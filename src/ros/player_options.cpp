@@ -26,9 +26,9 @@ PlayerOptions readPlayerOptions(const ros::NodeHandle& private_nh) {
   private_nh.param("loop", options.loop, options.loop);
   private_nh.param("paused", options.paused, options.paused);
   private_nh.param("lockstep", options.lockstep, options.lockstep);
-  private_nh.param("lockstep_timeout", options.lockstep_timeout, options.lockstep_timeout);
+  private_nh.param("lockstep_timeout_s", options.lockstep_timeout_s, options.lockstep_timeout_s);
   private_nh.param(
-      "max_stamp_difference", options.max_stamp_difference, options.max_stamp_difference);
+      "max_stamp_difference_s", options.max_stamp_difference_s, options.max_stamp_difference_s);
   private_nh.param("ground_truth_file", options.ground_truth_file, options.ground_truth_file);
   private_nh.param("base_frame", options.base_frame, options.base_frame);
 
@@ -38,8 +38,8 @@ PlayerOptions readPlayerOptions(const ros::NodeHandle& private_nh) {
   requireAtLeast(0.0, "rate", options.rate);
   requireAtLeast(0.0, "start", options.start);
   requireAtLeast(0.0, "duration", options.duration);
-  requireAtLeast(0.0, "lockstep_timeout", options.lockstep_timeout);
-  requireAtLeast(0.0, "max_stamp_difference", options.max_stamp_difference);
+  requireAtLeast(0.0, "lockstep_timeout_s", options.lockstep_timeout_s);
+  requireAtLeast(0.0, "max_stamp_difference_s", options.max_stamp_difference_s);
   return options;
 }
 

@@ -6,6 +6,7 @@
 #include <tf2/buffer_core.h>
 #include <tf2_eigen/tf2_eigen.h>
 
+#include "bag_reading.h"
 #include "ground_truth.h"
 #include "message_conversion.h"
 
@@ -25,8 +26,7 @@ std::vector<geometry_msgs::TransformStamped> readTransforms(const rosbag::Bag& b
   std::vector<geometry_msgs::TransformStamped> transforms;
   rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{topic, "/" + topic}));
   for (const rosbag::MessageInstance& instance : view) {
-    const auto message = instance.instantiate<tf2_msgs::TFMessage>();
-    if (!message) continue;
+    const auto message = readMessage<tf2_msgs::TFMessage>(instance);
     transforms.insert(transforms.end(), message->transforms.begin(), message->transforms.end());
   }
   for (geometry_msgs::TransformStamped& transform : transforms) {

@@ -73,10 +73,11 @@ void RecordingPublisher::publishBeginning() {
 void RecordingPublisher::publish(const rosbag::MessageInstance& message) {
   const std::string& topic = message.getTopic();
   if (topic == topics_.left_info) {
-    left_info_.publish(message.instantiate<sensor_msgs::CameraInfo>());
+    left_info_.publish(readMessage<sensor_msgs::CameraInfo>(message));
   } else if (topic == topics_.right_info) {
-    right_info_.publish(message.instantiate<sensor_msgs::CameraInfo>());
-  } else if (const auto transforms = message.instantiate<tf2_msgs::TFMessage>()) {
+    right_info_.publish(readMessage<sensor_msgs::CameraInfo>(message));
+  } else {
+    const auto transforms = readMessage<tf2_msgs::TFMessage>(message);
     const tf2_msgs::TFMessage kept = tf_.transformsToPlay(*transforms);
     if (!kept.transforms.empty()) moving_tf_.publish(kept);
   }

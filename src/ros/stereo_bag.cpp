@@ -46,13 +46,13 @@ bool StereoBag::read(const rosbag::MessageInstance& message) {
   const std::string& topic = message.getTopic();
   std::optional<StereoImages> images;
   if (topic == topics_.left_image) {
-    images = synchronizer_.addLeft(message.instantiate<sensor_msgs::Image>());
+    images = synchronizer_.addLeft(readMessage<sensor_msgs::Image>(message));
   } else if (topic == topics_.right_image) {
-    images = synchronizer_.addRight(message.instantiate<sensor_msgs::Image>());
+    images = synchronizer_.addRight(readMessage<sensor_msgs::Image>(message));
   } else if (topic == topics_.left_info) {
-    left_info_ = message.instantiate<sensor_msgs::CameraInfo>();
+    left_info_ = readMessage<sensor_msgs::CameraInfo>(message);
   } else {
-    right_info_ = message.instantiate<sensor_msgs::CameraInfo>();
+    right_info_ = readMessage<sensor_msgs::CameraInfo>(message);
   }
   if (images) images_ = *images;
   return images.has_value();

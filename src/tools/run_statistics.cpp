@@ -12,6 +12,17 @@
 namespace rotrocc {
 namespace {
 
+struct Stage {
+  const char* name;
+  double StageTimes::*time_ms;
+};
+
+constexpr Stage kStages[] = {{"  pyramids", &StageTimes::pyramids_ms},
+                             {"  corners", &StageTimes::corners_ms},
+                             {"  disparity", &StageTimes::disparity_ms},
+                             {"  tracking", &StageTimes::tracking_ms},
+                             {"  estimation", &StageTimes::estimation_ms}};
+
 void checkFile(const std::ofstream& file, const std::string& path) {
   if (!file) throw std::runtime_error(path + ": cannot write statistics");
 }
@@ -85,13 +96,11 @@ void printSummary(std::ostream& out, const std::vector<PairRecord>& records) {
   out << "ms per pair          mean   median      p95\n";
   printTimes(out, "wall", records, [](const PairRecord& record) { return record.wall_ms; });
   printTimes(out, "cpu", records, [](const PairRecord& record) { return record.cpu_ms; });
-  printTimes(out, "  pyramids", records, [](const auto& r) { return r.result.times.pyramids_ms; });
-  printTimes(out, "  corners", records, [](const auto& r) { return r.result.times.corners_ms; });
-  printTimes(
-      out, "  disparity", records, [](const auto& r) { return r.result.times.disparity_ms; });
-  printTimes(out, "  tracking", records, [](const auto& r) { return r.result.times.tracking_ms; });
-  printTimes(
-      out, "  estimation", records, [](const auto& r) { return r.result.times.estimation_ms; });
+  for (const Stage& stage : kStages) {
+    printTimes(out, stage.name, records, [&stage](const PairRecord& record) {
+      return record.result.times.*stage.time_ms;
+    });
+  }
 }
 
 }  // namespace rotrocc
