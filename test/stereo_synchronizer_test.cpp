@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include <boost/make_shared.hpp>
 #include <gtest/gtest.h>
+#include <boost/make_shared.hpp>
 
 #include "message_conversion.h"
 
