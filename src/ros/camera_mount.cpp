@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kDegree = M_PI / 180.0;
 constexpr double kUpright = 45.0 * kDegree;
-constexpr int kPatience = 10;  // attempts before a warning: tf needs a moment after the start
+constexpr int kPatience = 100;  // attempts before a warning: tf needs a moment after the start
 
 Eigen::Isometry3d toEigen(const geometry_msgs::Transform& transform) {
   const auto& t = transform.translation;

@@ -12,9 +12,11 @@
 namespace rotrocc {
 namespace {
 
-/// How often the worker looks for tf and for the end of the process while it has no pair. The end
-/// may come without a call of the destructor.
-constexpr std::chrono::milliseconds kPoll(100);
+/// How often the worker looks for the end of the process, which may come without a call of the
+/// destructor.
+constexpr std::chrono::milliseconds kIdlePoll(100);
+/// How often it looks for tf while a pair waits for it.
+constexpr std::chrono::milliseconds kTfPoll(10);
 
 double millisecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
@@ -60,7 +62,7 @@ void StereoOdometryNodelet::start(const Parameters& parameters) {
 void StereoOdometryNodelet::work() {
   std::optional<ReceivedPair> pair;
   while (ros::ok() && !mailbox_.closed()) {
-    if (auto newer = mailbox_.take(kPoll)) {
+    if (auto newer = mailbox_.take(pair ? kTfPoll : kIdlePoll)) {
       if (pair) ++counters_.pairs_dropped;
       pair = std::move(newer);
     }
