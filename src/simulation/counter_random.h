@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+
+namespace rotrocc {
+
+/// A random number that depends on nothing but its arguments: whichever thread asks, and in
+/// whatever order, the answer is the same. (A chain of the finalizer of SplitMix64, Steele et al.
+/// 2014.)
+inline std::uint64_t randomBits(std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0) {
+  const auto mix = [](std::uint64_t x) {
+    x += 0x9E3779B97F4A7C15ULL;
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
+    return x ^ (x >> 31);
+  };
+  return mix(mix(mix(a) ^ b) ^ c);
+}
+
+/// The same as a number in [0, 1).
+inline double randomUniform(std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0) {
+  return static_cast<double>(randomBits(a, b, c) >> 11) * 0x1.0p-53;
+}
+
+/// Random numbers one after another, for what is laid out in a fixed order.
+class RandomStream {
+ public:
+  /// Streams of different numbers are independent of each other.
+  RandomStream(std::uint64_t seed, std::uint64_t stream) : key_(randomBits(seed, stream)) {}
+
+  /// In [low, high).
+  double uniform(double low, double high) {
+    return low + (high - low) * randomUniform(key_, counter_++);
+  }
+
+  /// True with this probability.
+  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
+
+  /// One of 0 ... count - 1.
+  int index(int count) { return static_cast<int>(uniform(0.0, count)); }
+
+ private:
+  std::uint64_t key_;
+  std::uint64_t counter_ = 0;
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "path.h"
+#include "rotrocc/trajectory.h"
+
+namespace rotrocc {
+
+/// How the left camera moves. Poses are in the world of the simulation, where y points down.
+class Drive {
+ public:
+  virtual ~Drive() = default;
+
+  virtual double duration_s() const = 0;
+
+  /// The path of the camera; it stays at its height above the ground.
+  virtual const Path& path() const = 0;
+
+  /// How far along the path it is; before the start and after the end as at those.
+  virtual double station_m(double time_s) const = 0;
+
+  /// T_world_camera.
+  virtual Eigen::Isometry3d pose(double time_s) const = 0;
+};
+
+/// A stretch of a drive on which the speed goes smoothly, with continuous acceleration, from that
+/// of the stretch before it to its own.
+struct SpeedPhase {
+  double distance_m;
+  double speed_mps;      ///< at its end
+  double stand_s = 0.0;  ///< how long the car stands then, if that speed is 0
+};
+
+/// How much a car sways.
+struct Sway {
+  double pitch_rad_per_mps2 = 0.004;  ///< its nose dips when it brakes
+  double roll_rad_per_mps2 = 0.005;   ///< it leans out of a bend
+  double bump_rad = 0.0012;           ///< amplitude of pitch and roll on an uneven road
+  double bump_m = 0.006;              ///< amplitude of the height
+  double shake_pitch_rad = 0.0;       ///< amplitude of a steady pitching at 1.3 Hz
+  double shake_roll_rad = 0.0;        ///< of rolling at 0.9 Hz
+};
+
+/// A drive along a path by a plan of speeds.
+class ScriptedDrive : public Drive {
+ public:
+  /// Starts with `initial_speed_mps` at the start of the path. Throws std::invalid_argument if a
+  /// phase begins and ends at rest but has a length, or the phases are longer than the path.
+  ScriptedDrive(Path path,
+                std::vector<SpeedPhase> phases,
+                double initial_speed_mps,
+                const Sway& sway);
+
+  double duration_s() const override { return duration_s_; }
+  const Path& path() const override { return path_; }
+  double station_m(double time_s) const override;
+  Eigen::Isometry3d pose(double time_s) const override;
+
+ private:
+  double speed_mps(double time_s) const;
+
+  Path path_;
+  std::vector<SpeedPhase> phases_;
+  double initial_speed_mps_;
+  Sway sway_;
+  double duration_s_ = 0.0;
+};
+
+/// A recorded drive; between its poses the motion is interpolated smoothly.
+class RecordedDrive : public Drive {
+ public:
+  /// The stamps count from the first pose. Throws std::invalid_argument if there are fewer than two
+  /// poses or they do not leave the place.
+  explicit RecordedDrive(Trajectory trajectory);
+
+  double duration_s() const override { return times_s_.back(); }
+  const Path& path() const override { return path_; }
+  double station_m(double time_s) const override;
+  Eigen::Isometry3d pose(double time_s) const override;
+
+ private:
+  std::size_t intervalAt(double time_s) const;
+
+  Trajectory trajectory_;
+  std::vector<double> times_s_;
+  Path path_;
+  std::vector<double> stations_m_;
+};
+
+}  // namespace rotrocc

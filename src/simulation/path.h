@@ -1,0 +1,63 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace rotrocc {
+
+/// A smooth curve through points, by the length along it (its station). Axes as everywhere in the
+/// simulation: x right and z forward at the start, y down.
+class Path {
+ public:
+  /// A Catmull-Rom spline through the points. Throws std::invalid_argument if there are fewer than
+  /// two or two neighbours coincide.
+  explicit Path(std::vector<Eigen::Vector3d> points);
+
+  double length_m() const { return stations_.back(); }
+
+  /// Where the path is at `station_m`; beyond the ends it goes on straight and level.
+  Eigen::Vector3d position(double station_m) const;
+
+  /// Its direction there, of unit length.
+  Eigen::Vector3d direction(double station_m) const;
+
+  /// The direction to the right there, level and of unit length.
+  Eigen::Vector3d right(double station_m) const;
+
+  /// Heading [rad]: 0 along z, positive to the right.
+  double heading_rad(double station_m) const;
+
+  /// The path `right_m` beside this one, with a point every `spacing_m` of this one's stations,
+  /// also for `before_m` before its start and `after_m` beyond its end.
+  Path beside(double right_m, double spacing_m, double before_m = 0.0, double after_m = 0.0) const;
+
+ private:
+  struct Piece {
+    std::size_t index;
+    double t;  // 0 ... 1 between points index and index + 1
+  };
+  Piece pieceAt(double station_m) const;
+  Eigen::Vector3d tangent(std::size_t index) const;
+
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<double> stations_;
+};
+
+/// A stretch of a road whose curvature goes smoothly from that of the stretch before it to its own.
+struct PathPiece {
+  double length_m;
+  double curvature_per_m;  ///< at its end; positive to the right
+};
+
+/// The path of these pieces from the origin along z, on hills that lift it by
+/// `rise_m(station)`.
+Path layPath(const std::vector<PathPiece>& pieces, const std::function<double(double)>& rise_m);
+
+/// The pieces of a turn by `angle_rad` (positive to the right): over `transition_m` the curvature
+/// grows to 1 / radius and at the end it falls again. Throws std::invalid_argument if the angle is
+/// smaller than what the transitions turn.
+std::vector<PathPiece> turn(double angle_rad, double radius_m, double transition_m);
+
+}  // namespace rotrocc

@@ -1,0 +1,91 @@
+#include "renderer.h"
+
+#include <array>
+
+#include <opencv2/core/utility.hpp>
+
+namespace rotrocc {
+namespace {
+
+/// Where the samples of a pixel with an edge lie: no two in one row or column.
+constexpr std::array<std::array<double, 2>, 4> kSamples = {
+    {{-0.375, -0.125}, {-0.125, 0.375}, {0.125, -0.375}, {0.375, 0.125}}};
+
+class Rendering {
+ public:
+  Rendering(const World& world,
+            const MovingCars& cars,
+            const StereoCamera& camera,
+            double cx,
+            const Eigen::Isometry3d& T_world_camera)
+      : world_(world),
+        cars_(cars),
+        camera_(camera),
+        view_(world.bodies(), cars.bodies, camera, cx, T_world_camera),
+        surfaces_(camera.height, camera.width, CV_32SC1) {
+    picture_.brightness.create(camera.height, camera.width, CV_32FC1);
+    picture_.depth.create(camera.height, camera.width, CV_64FC1);
+    picture_.moving_car.create(camera.height, camera.width, CV_32SC1);
+  }
+
+  Picture run() {
+    const cv::Range rows(0, camera_.height);
+    cv::parallel_for_(rows, [this](const cv::Range& range) {
+      for (int y = range.start; y < range.end; ++y) lookAtCentres(y);
+    });
+    cv::parallel_for_(rows, [this](const cv::Range& range) {
+      for (int y = range.start; y < range.end; ++y) smoothEdges(y);
+    });
+    return picture_;
+  }
+
+ private:
+  void lookAtCentres(int y) {
+    for (int x = 0; x < camera_.width; ++x) {
+      const Sighting sighting = world_.look(view_, x, y);
+      picture_.brightness.at<float>(y, x) = static_cast<float>(sighting.brightness);
+      picture_.depth.at<double>(y, x) = sighting.depth;
+      picture_.moving_car.at<int>(y, x) =
+          sighting.moving_body < 0 ? -1 : cars_.cars[sighting.moving_body];
+      surfaces_.at<int>(y, x) = static_cast<int>(sighting.surface);
+    }
+  }
+
+  bool isAtEdge(int x, int y) const {
+    const int surface = surfaces_.at<int>(y, x);
+    return (x > 0 && surfaces_.at<int>(y, x - 1) != surface) ||
+           (x + 1 < camera_.width && surfaces_.at<int>(y, x + 1) != surface) ||
+           (y > 0 && surfaces_.at<int>(y - 1, x) != surface) ||
+           (y + 1 < camera_.height && surfaces_.at<int>(y + 1, x) != surface);
+  }
+
+  void smoothEdges(int y) {
+    for (int x = 0; x < camera_.width; ++x) {
+      if (!isAtEdge(x, y)) continue;
+      double sum = 0.0;
+      for (const auto& [dx, dy] : kSamples) {
+        sum += world_.look(view_, x + dx, y + dy).brightness;
+      }
+      picture_.brightness.at<float>(y, x) = static_cast<float>(sum / kSamples.size());
+    }
+  }
+
+  const World& world_;
+  const MovingCars& cars_;
+  const StereoCamera& camera_;
+  View view_;
+  cv::Mat surfaces_;
+  Picture picture_;
+};
+
+}  // namespace
+
+Picture render(const World& world,
+               const MovingCars& cars,
+               const StereoCamera& camera,
+               double cx,
+               const Eigen::Isometry3d& T_world_camera) {
+  return Rendering(world, cars, camera, cx, T_world_camera).run();
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "drive.h"
+#include "traffic.h"
+#include "world.h"
+
+namespace rotrocc {
+
+/// A drive, the world it leads through, and who else drives there.
+struct Scenario {
+  std::shared_ptr<const Drive> drive;
+  WorldPlan world;
+  TrafficPlan traffic;
+  std::vector<std::int64_t> stamps_ns;  ///< of the frames; empty: at any rate
+};
+
+/// The names scenario() knows.
+const std::vector<std::string>& scenarioNames();
+
+/// A scenario by its name; throws std::invalid_argument, with all names, if there is none.
+///   city       300 m through a town with two turns and a stop
+///   motorway   25 m/s on a nearly straight motorway, little texture near by
+///   slip_road  a bend of 22 m radius at 10 m/s, 26 deg/s, through a meadow
+///   parking    0.8 m/s in a car park, with a stop while a car passes close by
+///   shake      a town street with strong pitching and rolling
+Scenario scenario(const std::string& name, std::uint64_t seed);
+
+/// A town laid along a recorded drive, hills included. Where the drive comes back to a street it
+/// already has been in, there is one street only. The frames have the stamps of the poses, from 0.
+Scenario scenarioAlong(const Trajectory& trajectory, std::uint64_t seed);
+
+}  // namespace rotrocc

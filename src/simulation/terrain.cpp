@@ -1,0 +1,123 @@
+#include "terrain.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/core/utility.hpp>
+
+namespace rotrocc {
+namespace {
+
+constexpr double kSampling_m = 2.0;
+
+std::vector<Eigen::Vector3d> samples(const std::vector<Path>& paths) {
+  std::vector<Eigen::Vector3d> points;
+  for (const Path& path : paths) {
+    for (double s = 0.0; s < path.length_m() + kSampling_m; s += kSampling_m) {
+      points.push_back(path.position(s));
+    }
+  }
+  return points;
+}
+
+/// The mean height of the points, those near (x, z) first.
+double weightedHeight(const std::vector<Eigen::Vector3d>& points, double x, double z) {
+  double sum = 0.0;
+  double weights = 0.0;
+  for (const Eigen::Vector3d& point : points) {
+    const double dx = point.x() - x;
+    const double dz = point.z() - z;
+    const double nearness = 1.0 / (dx * dx + dz * dz + 4.0);
+    const double weight = nearness * nearness;
+    sum += weight * point.y();
+    weights += weight;
+  }
+  return sum / weights;
+}
+
+}  // namespace
+
+GroundGrid GroundGrid::around(const std::vector<Path>& paths, double margin_m, double cell_m) {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector3d& point : samples(paths)) {
+    box.extend(Eigen::Vector2d(point.x(), point.z()));
+  }
+  GroundGrid grid;
+  grid.cell_m = cell_m;
+  grid.origin = box.min() - Eigen::Vector2d::Constant(margin_m);
+  grid.columns = static_cast<int>(std::ceil((box.sizes().x() + 2.0 * margin_m) / cell_m));
+  grid.rows = static_cast<int>(std::ceil((box.sizes().y() + 2.0 * margin_m) / cell_m));
+  return grid;
+}
+
+Terrain::Terrain(const GroundGrid& grid, const std::vector<Path>& paths, double below_m)
+    : grid_(grid), heights_(static_cast<std::size_t>((grid.columns + 1) * (grid.rows + 1))) {
+  const std::vector<Eigen::Vector3d> points = samples(paths);
+  cv::parallel_for_(cv::Range(0, grid.rows + 1), [&](const cv::Range& rows) {
+    for (int row = rows.start; row < rows.end; ++row) {
+      for (int column = 0; column <= grid.columns; ++column) {
+        const Eigen::Vector2d at = grid.origin + grid.cell_m * Eigen::Vector2d(column, row);
+        heights_[row * (grid.columns + 1) + column] =
+            below_m + weightedHeight(points, at.x(), at.y());
+      }
+    }
+  });
+}
+
+Terrain::Patch Terrain::patch(int column, int row) const {
+  const double a = corner(column, row);
+  const double right = corner(column + 1, row);
+  const double ahead = corner(column, row + 1);
+  return {a, right - a, ahead - a, corner(column + 1, row + 1) - right - ahead + a};
+}
+
+double Terrain::height(double x, double z) const {
+  const int column = std::clamp(grid_.column(x), 0, grid_.columns - 1);
+  const int row = std::clamp(grid_.row(z), 0, grid_.rows - 1);
+  const Patch p = patch(column, row);
+  const double u = std::clamp((x - grid_.origin.x()) / grid_.cell_m - column, 0.0, 1.0);
+  const double v = std::clamp((z - grid_.origin.y()) / grid_.cell_m - row, 0.0, 1.0);
+  return p.a + p.b * u + p.c * v + p.d * u * v;
+}
+
+Eigen::Vector3d Terrain::normal(double x, double z) const {
+  const int column = std::clamp(grid_.column(x), 0, grid_.columns - 1);
+  const int row = std::clamp(grid_.row(z), 0, grid_.rows - 1);
+  const Patch p = patch(column, row);
+  const double u = (x - grid_.origin.x()) / grid_.cell_m - column;
+  const double v = (z - grid_.origin.y()) / grid_.cell_m - row;
+  return Eigen::Vector3d((p.b + p.d * v) / grid_.cell_m, -1.0, (p.c + p.d * u) / grid_.cell_m)
+      .normalized();
+}
+
+double Terrain::top(int column, int row) const {
+  return std::min({corner(column, row),
+                   corner(column + 1, row),
+                   corner(column, row + 1),
+                   corner(column + 1, row + 1)});
+}
+
+bool Terrain::intersect(
+    const Ray& ray, const RayRange& range, int column, int row, double& distance) const {
+  const Patch p = patch(column, row);
+  // Distances are counted from where the ray enters the cell, for the sake of accuracy.
+  const Eigen::Vector3d start = ray.at(range.from);
+  const double u = (start.x() - grid_.origin.x()) / grid_.cell_m - column;
+  const double v = (start.z() - grid_.origin.y()) / grid_.cell_m - row;
+  const double du = ray.direction.x() / grid_.cell_m;
+  const double dv = ray.direction.z() / grid_.cell_m;
+  // The height of the ray over the ground: y points down, so it is positive below.
+  const double constant = start.y() - (p.a + p.b * u + p.c * v + p.d * u * v);
+  const double linear = ray.direction.y() - p.b * du - p.c * dv - p.d * (u * dv + v * du);
+  const double square = -p.d * du * dv;
+  const double length = range.to - range.from;
+  if (constant > 0.0) return false;
+  if (constant + length * (linear + length * square) < 0.0) return false;
+  // One root lies in the cell; this form of it also holds where `square` is next to nothing.
+  const double root = std::sqrt(std::max(0.0, linear * linear - 4.0 * square * constant));
+  const double t = -2.0 * constant / (linear + root);
+  distance = range.from + std::clamp(t, 0.0, length);
+  return true;
+}
+
+}  // namespace rotrocc

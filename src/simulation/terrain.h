@@ -1,0 +1,63 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "coverage.h"
+#include "path.h"
+#include "shape.h"
+
+namespace rotrocc {
+
+/// A grid of square cells over the ground plane (x, z).
+struct GroundGrid {
+  double cell_m = 5.0;
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< the corner with least x and z
+  int columns = 0;                                   ///< cells along x
+  int rows = 0;                                      ///< cells along z
+
+  /// The grid that covers all paths and `margin_m` around them.
+  static GroundGrid around(const std::vector<Path>& paths, double margin_m, double cell_m);
+
+  int column(double x) const { return floorToInt((x - origin.x()) / cell_m); }
+  int row(double z) const { return floorToInt((z - origin.y()) / cell_m); }
+  bool contains(int column, int row) const {
+    return column >= 0 && row >= 0 && column < columns && row < rows;
+  }
+};
+
+/// The shape of the ground: smooth hills that the paths run over.
+class Terrain {
+ public:
+  /// The ground lies `below_m` below the paths, and at a mean of their heights away from them.
+  Terrain(const GroundGrid& grid, const std::vector<Path>& paths, double below_m);
+
+  const GroundGrid& grid() const { return grid_; }
+
+  /// The y coordinate of the ground, continued level beyond the grid.
+  double height(double x, double z) const;
+
+  /// Of unit length, upwards.
+  Eigen::Vector3d normal(double x, double z) const;
+
+  /// The least y (the highest ground) of a cell.
+  double top(int column, int row) const;
+
+  /// The first point of a ray on the ground of a cell; `range` is its way through that cell.
+  bool intersect(
+      const Ray& ray, const RayRange& range, int column, int row, double& distance) const;
+
+ private:
+  /// height = a + b u + c v + d u v over a cell, with u and v from 0 to 1.
+  struct Patch {
+    double a, b, c, d;
+  };
+  double corner(int column, int row) const { return heights_[row * (grid_.columns + 1) + column]; }
+  Patch patch(int column, int row) const;
+
+  GroundGrid grid_;
+  std::vector<double> heights_;  // at the corners of the cells
+};
+
+}  // namespace rotrocc

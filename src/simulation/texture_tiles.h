@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+
+#include "texture.h"
+
+namespace rotrocc {
+
+/// The textures a street is made of, each generated from the seed. All have a mean of about 0.5.
+struct TextureTiles {
+  explicit TextureTiles(std::uint64_t seed);
+
+  Texture asphalt;     ///< speckles, stains and cracks
+  Texture paving;      ///< concrete slabs
+  Texture grass;       ///< blades
+  Texture leaves;      ///< of trees and hedges, light and dark
+  Texture plaster;     ///< faint stains
+  Texture bricks;      ///< rows with mortar between
+  Texture roof_tiles;  ///< rows that overlap
+  Texture bark;        ///< grooves along the second coordinate
+  Texture writing;     ///< eight lines of words; 1 m stands for all of them
+  Texture blotches;    ///< soft and large: clouds, dirt, reflections
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "body.h"
+#include "counter_random.h"
+#include "texture_tiles.h"
+
+namespace rotrocc {
+
+/// A tree: a trunk under a crown of a few leafy balls with gaps between the leaves. Its origin is
+/// at the foot of the trunk. The textures must outlive it.
+Body makeTree(const TextureTiles& tiles, RandomStream& random);
+
+/// A hedge along x, `length_m` long, its origin in its middle.
+Body makeHedge(double length_m, const TextureTiles& tiles, RandomStream& random);
+
+/// A tall tree of a wood, without the detail that shows only near by.
+Body makeForestTree(const TextureTiles& tiles, RandomStream& random);
+
+}  // namespace rotrocc

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "body.h"
+#include "path.h"
+#include "road_surface.h"
+#include "scene_geometry.h"
+#include "sky.h"
+#include "street_map.h"
+#include "street_style.h"
+#include "sunlight.h"
+#include "texture_tiles.h"
+#include "view.h"
+
+namespace rotrocc {
+
+/// What the simulated world is made of.
+struct WorldPlan {
+  std::vector<Path> streets;  ///< centre lines, at the height of the camera
+  std::vector<Path> drives;   ///< where cars drive: nothing stands there
+  StreetStyle style;
+  std::vector<Crossing> crossings;
+  double camera_height_m = 1.65;
+  std::uint64_t seed = 1;
+};
+
+/// What is seen in a direction.
+struct Sighting {
+  double brightness;      ///< 1 is white
+  double depth;           ///< along the ray, in units of its length; infinite for the sky
+  std::uint32_t surface;  ///< alike where no edge lies between two pixels
+  int moving_body;        ///< index in View::moving() of the moving body that is seen; -1: none
+};
+
+/// A street with all that stands beside it, under the sky.
+class World {
+ public:
+  explicit World(const WorldPlan& plan);
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  const Terrain& terrain() const { return scene_.terrain(); }
+  const std::vector<Body>& bodies() const { return scene_.bodies(); }
+  const StreetMap& streets() const { return streets_; }
+
+  /// Looks through a pixel of a view, whose standing bodies are bodies(). Pixels may be fractions.
+  Sighting look(const View& view, double x, double y) const;
+
+  /// How much of the sun reaches a place on the ground, from 0 to 1.
+  double sunlit(double x, double z) const { return shadows_.sunlit(x, z); }
+
+ private:
+  double bodyBrightness(const Body& body,
+                        const BodyHit& hit,
+                        const Ray& ray,
+                        const PixelSpread& spread) const;
+  double groundBrightness(const SurfacePoint& point, const std::vector<Body>& moving) const;
+
+  StreetStyle style_;
+  TextureTiles tiles_;
+  StreetMap streets_;
+  RoadSurface road_;
+  SceneGeometry scene_;
+  SunShadows shadows_;
+  Sky sky_;
+};
+
+}  // namespace rotrocc

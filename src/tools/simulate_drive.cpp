@@ -1,0 +1,192 @@
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <boost/program_options.hpp>
+
+#include "kitti_bag_writer.h"
+#include "progress_bar.h"
+#include "rotrocc/kitti.h"
+#include "rotrocc/trajectory.h"
+#include "scenario.h"
+#include "sequence_writer.h"
+#include "simulator.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace po = boost::program_options;
+using namespace rotrocc;
+
+constexpr std::int64_t kStartTime_s = 1317600000;  // as kitti_to_bag: ROS takes no stamp 0
+
+const char* const kUsage =
+    "Renders a stereo drive with exact poses.\n"
+    "usage: simulate_drive SCENARIO OUT [options]\n"
+    "       simulate_drive --poses FILE OUT [options]\n"
+    "SCENARIO  city, motorway, slip_road, parking or shake\n"
+    "OUT       a new directory in the layout of the KITTI odometry benchmark, or a .bag\n";
+
+struct Options {
+  std::vector<std::string> names;
+  std::string poses;
+  std::string times;
+  std::string size = "1241x376";
+  double focal_px = kittiCamera().fx;
+  double baseline_m = kittiCamera().baseline_m;
+  std::vector<double> right_rotation_deg;
+  bool truth = false;
+  SimulationOptions simulation;
+};
+
+po::options_description describe(Options& options) {
+  SimulationOptions& simulation = options.simulation;
+  CameraFaults& faults = simulation.faults;
+  const auto number = [](double& value) { return po::value(&value)->default_value(value); };
+  po::options_description what("What is rendered");
+  what.add_options()("help,h", "show this text")(
+      "poses", po::value(&options.poses), "lay the street along these poses (KITTI or TUM format)")(
+      "times", po::value(&options.times), "times.txt of poses in KITTI format (default: 10 Hz)")(
+      "frames", po::value(&simulation.frames), "count of pairs at most")(
+      "duration", po::value(&simulation.duration_s), "[s] end after that")(
+      "rate", number(simulation.rate_hz), "[Hz] of the pairs of a scenario")(
+      "moving-share", number(simulation.moving_share), "share of places for moving cars taken")(
+      "seed", po::value(&simulation.seed)->default_value(simulation.seed), "same seed, same bytes")(
+      "truth", po::bool_switch(&options.truth), "write depth and flow of each pixel as well");
+  po::options_description camera("Camera");
+  camera.add_options()("size", po::value(&options.size)->default_value(options.size), "WxH [px]")(
+      "focal", number(options.focal_px), "focal length [px]")(
+      "baseline", number(options.baseline_m), "[m]");
+  po::options_description wrong("Faults, unknown to calib.txt");
+  wrong.add_options()(
+      "disparity-bias", number(faults.disparity_bias_px), "[px] disparities are too large by this")(
+      "right-rotation",
+      po::value(&options.right_rotation_deg)->multitoken(),
+      "ROLL PITCH YAW [deg] of the right camera")(
+      "time-skew", number(faults.time_skew_s), "[s] the right camera is exposed later")(
+      "drop-frames", number(simulation.drop_share), "share of pairs that get lost")(
+      "noise", number(faults.noise_sigma), "[grey levels] sigma")(
+      "vignetting", number(faults.vignetting), "share of light lost in the corners")(
+      "exposure-jumps", number(faults.exposure_jumps), "relative size of jumps of the gain")(
+      "motion-blur", number(faults.motion_blur_s), "[s] exposure time");
+  po::options_description all;
+  all.add(what).add(camera).add(wrong);
+  return all;
+}
+
+void setCamera(Options& options) {
+  StereoCamera& camera = options.simulation.camera;
+  const StereoCamera kitti = camera;
+  char by = 0;
+  std::istringstream size(options.size);
+  if (!(size >> camera.width >> by >> camera.height) || by != 'x' || !size.eof()) {
+    throw po::error("--size is '" + options.size + "', not WxH");
+  }
+  camera.fx = camera.fy = options.focal_px;
+  camera.baseline_m = options.baseline_m;
+  // The principal point stays at the same share of the image.
+  camera.cx = camera.cx_right = (kitti.cx + 0.5) * camera.width / kitti.width - 0.5;
+  camera.cy = (kitti.cy + 0.5) * camera.height / kitti.height - 0.5;
+}
+
+/// Returns false if only the help was asked for; throws po::error on bad usage.
+bool parse(int argc, char** argv, Options& options) {
+  const po::options_description visible = describe(options);
+  po::options_description all;
+  all.add(visible).add_options()("names", po::value(&options.names));
+  po::positional_options_description positional;
+  positional.add("names", -1);
+  po::variables_map variables;
+  const int style = po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
+  po::store(
+      po::command_line_parser(argc, argv).options(all).positional(positional).style(style).run(),
+      variables);
+  if (variables.count("help") > 0) {
+    std::cout << kUsage << visible;
+    return false;
+  }
+  po::notify(variables);
+  const std::size_t expected = options.poses.empty() ? 2 : 1;
+  if (options.names.size() != expected) {
+    throw po::error(expected == 2 ? "give a scenario and an output" : "give one output");
+  }
+  if (!options.right_rotation_deg.empty()) {
+    if (options.right_rotation_deg.size() != 3) throw po::error("--right-rotation takes 3 numbers");
+    options.simulation.faults.right_rotation_rad =
+        Eigen::Vector3d(options.right_rotation_deg.data()) * M_PI / 180.0;
+  }
+  setCamera(options);
+  return true;
+}
+
+Scenario chosenScenario(const Options& options) {
+  const std::uint64_t seed = options.simulation.seed;
+  if (options.poses.empty()) return scenario(options.names.front(), seed);
+  return scenarioAlong(readTrajectory(options.poses, options.times), seed);
+}
+
+void renderSequence(const Simulator& simulator, const std::string& directory, bool truth) {
+  SequenceWriter writer(directory, simulator.camera(), truth);
+  ProgressBar progress("simulate_drive", static_cast<std::size_t>(simulator.size()));
+  for (int index = 0; index < simulator.size(); ++index) {
+    writer.write(simulator.render(index, truth), simulator.pose(index));
+    progress.advance();
+  }
+  progress.finish();
+}
+
+/// A directory that is removed with all that is in it.
+struct ScratchDirectory {
+  ~ScratchDirectory() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  std::string path;
+};
+
+void renderBag(const Simulator& simulator, const std::string& bag) {
+  const ScratchDirectory frames{bag + ".frames"};
+  fs::remove_all(frames.path);
+  renderSequence(simulator, frames.path, false);
+  const KittiSequence sequence(frames.path);
+  KittiBagWriter writer(bag, sequence, kStartTime_s);
+  for (int index = 0; index < sequence.size(); ++index) writer.writePair(index);
+  writer.finish();
+}
+
+void run(const Options& options) {
+  const std::string& out = options.names.back();
+  const Simulator simulator(chosenScenario(options), options.simulation);
+  if (fs::path(out).extension() != ".bag") {
+    renderSequence(simulator, out, options.truth);
+    return;
+  }
+  if (options.truth) {
+    throw std::invalid_argument("a bag takes no depth and flow: give a directory for --truth");
+  }
+  renderBag(simulator, out);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  try {
+    if (!parse(argc, argv, options)) return 0;
+  } catch (const po::error& error) {
+    std::cerr << "simulate_drive: " << error.what() << "; --help shows the usage\n";
+    return 2;
+  }
+  try {
+    run(options);
+  } catch (const std::exception& error) {
+    std::cerr << "simulate_drive: " << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}
