@@ -90,15 +90,18 @@ TEST(FeatureDetectorTest, SpreadsCornersOverStrongAndWeakTexture) {
   EXPECT_NEAR(static_cast<double>(weak), 60.0, 12.0);
 }
 
-TEST(FeatureDetectorTest, TakesTheStrongestOfEachCellFirst) {
+TEST(FeatureDetectorTest, TakesTheStrongestFirst) {
   cv::Mat image = cv::Mat::zeros(64, 64, CV_8UC1);
   image(cv::Rect(12, 12, 6, 6)).setTo(60);
   image(cv::Rect(40, 40, 6, 6)).setTo(250);
   FeatureDetector::Config config;
   config.max_features = 1;
-  const Corners corners = detect(image, config);
-  ASSERT_EQ(corners.size(), 1u);
-  EXPECT_GT(corners[0].x, 32.0F);
+  for (const int cell_size_px : {32, 1000}) {  // each in a cell of its own, both in one
+    config.cell_size_px = cell_size_px;
+    const Corners corners = detect(image, config);
+    ASSERT_EQ(corners.size(), 1u);
+    EXPECT_GT(corners[0].x, 32.0F) << cell_size_px;
+  }
 }
 
 TEST(FeatureDetectorTest, LeavesTheBorderFree) {

@@ -159,6 +159,15 @@ TEST(MotionEstimatorTest, TheDecoupledFlowTellsAMovingObjectFromTheStreet) {
   EXPECT_LT(5.0 * error("rotrocc"), error("mean_based"));
 }
 
+TEST(MotionEstimatorTest, StageTwoBeginsWithWhatStageOneFoundNearlyRight) {
+  MotionEstimator::Config config;
+  config.translation_limit = 100.0;  // drops nothing by itself
+  const Correspondences features = withRandomMatches(0.3, 1);
+  EXPECT_LT(count(estimate(features, config).translation_inliers), kFeatures * 72 / 100);
+  config.translation_initial_px = 0.0;
+  EXPECT_EQ(count(estimate(features, config).translation_inliers), kFeatures);
+}
+
 TEST(MotionEstimatorTest, SkipsTheTranslationStageAtLowSpeed) {
   const auto has_stage = [](double step_m) {
     const Eigen::Isometry3d truth = motion({0.0, 0.0, step_m}, {0.0, 0.01, 0.0});
