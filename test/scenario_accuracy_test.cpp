@@ -1,0 +1,71 @@
+/// The whole pipeline on each simulated scenario, against exact truth.
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "rotrocc/visual_odometry.h"
+#include "scenario.h"
+#include "simulator.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr int kPairs = 13;
+
+struct Step {
+  OdometryResult estimate;
+  Eigen::Isometry3d T_prev_cur_true;
+};
+
+/// The motions between pairs in the middle of a scenario, where the car drives.
+std::vector<Step> drive(const std::string& name) {
+  const Simulator simulator(scenario(name, 1), SimulationOptions{});
+  const int first = simulator.size() / 4;
+  VisualOdometry odometry{VisualOdometry::Config{}};
+  std::vector<Step> steps;
+  for (int i = first; i < first + kPairs; ++i) {
+    const auto result = odometry.process(simulator.render(i, false).pair, simulator.camera());
+    if (i == first) continue;
+    steps.push_back({result, simulator.pose(i - 1).inverse() * simulator.pose(i)});
+  }
+  return steps;
+}
+
+class ScenarioAccuracyTest : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(ScenarioAccuracyTest, FollowsTheDriveWithoutABias) {
+  std::vector<double> errors;
+  for (const Step& step : drive(GetParam())) {
+    ASSERT_TRUE(step.estimate.hasMotion()) << step.estimate.reason;
+    const double length_m = step.T_prev_cur_true.translation().norm();
+    ASSERT_GT(length_m, 0.0);
+    errors.push_back(step.estimate.T_prev_cur.translation().norm() / length_m - 1.0);
+    const Eigen::AngleAxisd turn_error(step.T_prev_cur_true.linear().transpose() *
+                                       step.estimate.T_prev_cur.linear());
+    // A tenth of a pixel, far more than the mean of hundreds of features is off.
+    EXPECT_LT(turn_error.angle(), 0.1 / kittiCamera().fx);
+  }
+
+  double mean = 0.0;
+  double squares = 0.0;
+  for (const double error : errors) {
+    mean += error / static_cast<double>(errors.size());
+    squares += error * error;
+  }
+  // The bias over a whole drive is to be less than 0.3 %; this short part of it has a mean that is
+  // uncertain by its steps' errors.
+  const double uncertainty = std::sqrt(squares) / static_cast<double>(errors.size());
+  EXPECT_LT(std::abs(mean), 0.003 + 3.0 * uncertainty);
+  EXPECT_LT(uncertainty, 0.003);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios,
+                         ScenarioAccuracyTest,
+                         ::testing::ValuesIn(scenarioNames()),
+                         [](const auto& name) { return name.param; });
+
+}  // namespace
+}  // namespace rotrocc
