@@ -17,6 +17,8 @@ namespace rotrocc {
 class CameraMount {
  public:
   explicit CameraMount(const std::string& base_frame);
+  CameraMount(const CameraMount&) = delete;
+  CameraMount& operator=(const CameraMount&) = delete;
 
   /// T_base_camera, or nothing as long as tf does not know it; does not wait. Says in the log where
   /// the camera is, or, if asked again and again, which frames are missing.

@@ -1,6 +1,7 @@
 #include "kitti_player.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -119,6 +120,7 @@ void KittiPlayer::run() {
   } catch (const std::exception& error) {
     ROS_FATAL("playing %s: %s", options_.bag.c_str(), error.what());
   }
+  std::fflush(stdout);  // the nodelet manager of Debian 11 may crash while it ends
   on_end_();
 }
 

@@ -43,14 +43,14 @@ const Encoding kEncodings[] = {
     {encodings::BAYER_GBRG8, Layout::kColour, CV_8UC1, cv::COLOR_BayerGR2GRAY},
     {encodings::BAYER_GRBG8, Layout::kColour, CV_8UC1, cv::COLOR_BayerGB2GRAY}};
 
-const Encoding& findEncoding(const std::string& side, const sensor_msgs::Image& image) {
+const Encoding& findEncoding(const char* side, const sensor_msgs::Image& image) {
   std::string known;
   for (const Encoding& encoding : kEncodings) {
     if (encoding.name == image.encoding) return encoding;
     known += " " + encoding.name;
   }
-  throw std::invalid_argument("the " + side + " image has the encoding \"" + image.encoding +
-                              "\", but must have one of:" + known);
+  throw std::invalid_argument(std::string("the ") + side + " image has the encoding \"" +
+                              image.encoding + "\", but must have one of:" + known);
 }
 
 void checkLayout(const std::string& side,
