@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <opencv2/core/utility.hpp>
 
@@ -13,6 +14,17 @@ namespace {
 
 constexpr int kFramesPerExposure = 12;
 constexpr double kResponse = 0.8;  // grey level over brightness: exponent of the curve
+constexpr int kResponseSteps = 4096;
+
+/// The grey levels for brightness 0 ... 1 in equal steps.
+std::vector<float> responseTable() {
+  std::vector<float> table;
+  for (int i = 0; i <= kResponseSteps; ++i) {
+    table.push_back(
+        static_cast<float>(255.0 * std::pow(static_cast<double>(i) / kResponseSteps, kResponse)));
+  }
+  return table;
+}
 
 double exposureGain(const CameraFaults& faults, int frame, std::uint64_t seed) {
   const auto jump = static_cast<std::uint64_t>(frame / kFramesPerExposure);
@@ -67,6 +79,7 @@ cv::Mat develop(const cv::Mat& brightness,
   const std::uint64_t key = randomBits(seed, 0x4015E, stream);
   const cv::Point2d centre(0.5 * (image.cols - 1), 0.5 * (image.rows - 1));
   const double corner_squared = centre.ddot(centre);
+  const std::vector<float> response = responseTable();
   cv::parallel_for_(cv::Range(0, image.rows), [&](const cv::Range& rows) {
     for (int y = rows.start; y < rows.end; ++y) {
       for (int x = 0; x < image.cols; ++x) {
@@ -75,8 +88,8 @@ cv::Mat develop(const cv::Mat& brightness,
         const double light = std::min(1.0, gain * (1.0 - lost) * brightness.at<float>(y, x));
         const auto pixel = static_cast<std::uint64_t>(y) * image.cols + x;
         const double noise = faults.noise_sigma * gaussian(randomBits(key + pixel));
-        image.at<uchar>(y, x) =
-            cv::saturate_cast<uchar>(255.0 * std::pow(light, kResponse) + noise);
+        const auto step = static_cast<std::size_t>(light * kResponseSteps + 0.5);
+        image.at<uchar>(y, x) = cv::saturate_cast<uchar>(response[step] + noise);
       }
     }
   });

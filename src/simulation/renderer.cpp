@@ -1,6 +1,7 @@
 #include "renderer.h"
 
 #include <array>
+#include <cmath>
 
 #include <opencv2/core/utility.hpp>
 
@@ -33,6 +34,8 @@ class Rendering {
     cv::parallel_for_(rows, [this](const cv::Range& range) {
       for (int y = range.start; y < range.end; ++y) lookAtCentres(y);
     });
+    // Edges are found in the samples at the centres, not in what other threads have smoothed.
+    centres_ = picture_.brightness.clone();
     cv::parallel_for_(rows, [this](const cv::Range& range) {
       for (int y = range.start; y < range.end; ++y) smoothEdges(y);
     });
@@ -51,12 +54,17 @@ class Rendering {
     }
   }
 
+  /// Whether a neighbour belongs to another surface of another brightness.
   bool isAtEdge(int x, int y) const {
+    constexpr float kContrast = 0.03F;
     const int surface = surfaces_.at<int>(y, x);
-    return (x > 0 && surfaces_.at<int>(y, x - 1) != surface) ||
-           (x + 1 < camera_.width && surfaces_.at<int>(y, x + 1) != surface) ||
-           (y > 0 && surfaces_.at<int>(y - 1, x) != surface) ||
-           (y + 1 < camera_.height && surfaces_.at<int>(y + 1, x) != surface);
+    const float brightness = centres_.at<float>(y, x);
+    const auto differs = [&](int column, int row) {
+      return surfaces_.at<int>(row, column) != surface &&
+             std::abs(centres_.at<float>(row, column) - brightness) > kContrast;
+    };
+    return (x > 0 && differs(x - 1, y)) || (x + 1 < camera_.width && differs(x + 1, y)) ||
+           (y > 0 && differs(x, y - 1)) || (y + 1 < camera_.height && differs(x, y + 1));
   }
 
   void smoothEdges(int y) {
@@ -75,6 +83,7 @@ class Rendering {
   const StereoCamera& camera_;
   View view_;
   cv::Mat surfaces_;
+  cv::Mat centres_;
   Picture picture_;
 };
 

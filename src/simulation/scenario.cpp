@@ -61,7 +61,7 @@ Scenario city(std::uint64_t seed) {
                               turn(-kRight_rad, 12.5, 7.0),
                               {{34.0, 0.0}},
                               turn(0.3, 55.0, 8.0),
-                              {{45.0, 0.0}}});
+                              {{46.0, 0.0}}});
   const std::vector<SpeedPhase> phases = {{36.0, 9.0},
                                           {10.0, 9.0},
                                           {17.0, 5.0},
@@ -110,7 +110,7 @@ Scenario slipRoad(std::uint64_t seed) {
   auto drive = std::make_shared<ScriptedDrive>(
       layPath(pieces, level), std::vector<SpeedPhase>{{180.0, kSpeed_mps}}, kSpeed_mps, Sway());
   Scenario scenario = alongOneStreet(drive, rampStyle(), seed);
-  scenario.traffic.oncoming_m = 0.0;
+  scenario.traffic.oncoming_mps = 0.0;
   return scenario;
 }
 

@@ -54,7 +54,7 @@ ScriptedDrive::ScriptedDrive(Path path,
     distance += phase.distance_m;
     speed = phase.speed_mps;
   }
-  if (distance > path_.length_m() + 1.0) {
+  if (distance > path_.length_m()) {
     throw std::invalid_argument("a drive of " + std::to_string(distance) +
                                 " m does not fit a path of " + std::to_string(path_.length_m()) +
                                 " m: shorten it");

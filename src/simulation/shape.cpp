@@ -1,6 +1,7 @@
 #include "shape.h"
 
 #include <cmath>
+#include <limits>
 
 namespace rotrocc {
 namespace {
@@ -24,48 +25,73 @@ bool firstRoot(double a, double b, double c, const RayRange& range, double& root
 
 }  // namespace
 
-ConvexSolid::ConvexSolid(const Eigen::AlignedBox3d& box) : box_(box) {
-  for (int axis = 0; axis < 3; ++axis) {
-    planes_.push_back({Eigen::Vector3d::Unit(axis), box.max()[axis]});
-    planes_.push_back({-Eigen::Vector3d::Unit(axis), -box.min()[axis]});
-  }
-}
-
 ConvexSolid& ConvexSolid::cut(const Eigen::Vector3d& outwards, const Eigen::Vector3d& point) {
   const Eigen::Vector3d normal = outwards.normalized();
-  planes_.push_back({normal, normal.dot(point)});
+  cuts_.push_back({normal, normal.dot(point)});
   return *this;
 }
 
-bool ConvexSolid::intersect(const Ray& ray, const RayRange& range, ShapeHit& hit) const {
+/// The way of a ray through a convex solid, and the faces where it enters and leaves.
+struct ConvexSolid::Passage {
   double enter = -std::numeric_limits<double>::infinity();
   double leave = std::numeric_limits<double>::infinity();
   int entered = 0;
   int left = 0;
-  for (std::size_t i = 0; i < planes_.size(); ++i) {
-    const double approach = planes_[i].normal.dot(ray.direction);
-    const double height = planes_[i].normal.dot(ray.origin) - planes_[i].offset;
-    if (approach == 0.0) {
-      if (height > 0.0) return false;
-      continue;
-    }
-    const double distance = -height / approach;
-    if (approach < 0.0) {
-      if (distance > enter) {
-        enter = distance;
-        entered = static_cast<int>(i);
-      }
-    } else if (distance < leave) {
-      leave = distance;
-      left = static_cast<int>(i);
-    }
-    if (enter >= leave) return false;
+
+  void enterAt(double distance, int face) {
+    if (!(distance > enter)) return;
+    enter = distance;
+    entered = face;
   }
-  hit.distance = isIn(range, enter) ? enter : leave;
+  void leaveAt(double distance, int face) {
+    if (!(distance < leave)) return;
+    leave = distance;
+    left = face;
+  }
+};
+
+bool ConvexSolid::intersect(const Ray& ray, const RayRange& range, ShapeHit& hit) const {
+  Passage passage;
+  if (!passBox(ray, passage) || !passCuts(ray, passage)) return false;
+  hit.distance = isIn(range, passage.enter) ? passage.enter : passage.leave;
   if (!isIn(range, hit.distance)) return false;
-  hit.face = hit.distance == enter ? entered : left;
-  hit.normal = planes_[hit.face].normal;
+  hit.face = hit.distance == passage.enter ? passage.entered : passage.left;
+  hit.normal = normalOf(hit.face);
   return true;
+}
+
+/// Faces 2 axis and 2 axis + 1 are those of the box at its least and greatest coordinate.
+bool ConvexSolid::passBox(const Ray& ray, Passage& passage) const {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double inverse = 1.0 / ray.direction[axis];
+    const double low = (box_.min()[axis] - ray.origin[axis]) * inverse;
+    const double high = (box_.max()[axis] - ray.origin[axis]) * inverse;
+    const bool rises = inverse > 0.0;
+    passage.enterAt(rises ? low : high, 2 * axis + (rises ? 0 : 1));
+    passage.leaveAt(rises ? high : low, 2 * axis + (rises ? 1 : 0));
+  }
+  return passage.enter < passage.leave;
+}
+
+bool ConvexSolid::passCuts(const Ray& ray, Passage& passage) const {
+  int face = 6;
+  for (const Plane& plane : cuts_) {
+    const double approach = plane.normal.dot(ray.direction);
+    const double distance = (plane.offset - plane.normal.dot(ray.origin)) / approach;
+    if (approach < 0.0) {
+      passage.enterAt(distance, face);
+    } else {
+      passage.leaveAt(distance, face);
+    }
+    if (passage.enter >= passage.leave) return false;
+    ++face;
+  }
+  return true;
+}
+
+Eigen::Vector3d ConvexSolid::normalOf(int face) const {
+  if (face >= 6) return cuts_[static_cast<std::size_t>(face - 6)].normal;
+  return (face % 2 == 0 ? -1.0 : 1.0) * Eigen::Vector3d::Unit(face / 2);
 }
 
 Cylinder::Cylinder(int axis, const Eigen::Vector3d& centre, double radius, double half_length)

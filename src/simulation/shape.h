@@ -36,7 +36,7 @@ class Shape {
 /// What is left of a box after cuts.
 class ConvexSolid : public Shape {
  public:
-  explicit ConvexSolid(const Eigen::AlignedBox3d& box);
+  explicit ConvexSolid(const Eigen::AlignedBox3d& box) : box_(box) {}
 
   /// Takes away what lies beyond the plane through `point` whose normal is `outwards`.
   ConvexSolid& cut(const Eigen::Vector3d& outwards, const Eigen::Vector3d& point);
@@ -50,8 +50,13 @@ class ConvexSolid : public Shape {
     double offset;
   };
 
+  struct Passage;
+  bool passBox(const Ray& ray, Passage& passage) const;
+  bool passCuts(const Ray& ray, Passage& passage) const;
+  Eigen::Vector3d normalOf(int face) const;
+
   Eigen::AlignedBox3d box_;
-  std::vector<Plane> planes_;
+  std::vector<Plane> cuts_;
 };
 
 /// A closed cylinder along one of the axes of its body.

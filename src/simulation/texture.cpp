@@ -14,18 +14,17 @@ namespace rotrocc {
 namespace {
 
 constexpr int kMaxTaps = 4;          // along the longer side of a pixel
-constexpr double kLevelBias = 0.25;  // the box filter between levels lets some aliases pass
+constexpr float kLevelBias = 0.25F;  // the box filter between levels lets some aliases pass
 
 bool isPowerOfTwo(int value) {
   return value > 0 && (value & (value - 1)) == 0;
 }
 
 /// The logarithm to base 2, linear between powers of two: at most 0.09 too small, and fast.
-double roughLog2(double value) {
-  const auto single = static_cast<float>(value);
+float roughLog2(float value) {
   std::uint32_t bits = 0;
-  std::memcpy(&bits, &single, sizeof bits);
-  return static_cast<double>(bits) * 0x1.0p-23 - 127.0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return static_cast<float>(bits) * 0x1.0p-23F - 127.0F;
 }
 
 std::vector<std::uint8_t> quantize(const cv::Mat& tile) {
@@ -44,7 +43,9 @@ Texture::Texture(const cv::Mat& tile, double period_m) : texels_per_m_(tile.cols
   }
   cv::Mat level = tile;
   while (true) {
-    levels_.push_back({level.cols, static_cast<float>(level.cols / period_m), quantize(level)});
+    levels_.push_back({level.cols,
+                       static_cast<float>(level.cols) / static_cast<float>(tile.cols),
+                       quantize(level)});
     if (level.cols == 1) break;
     cv::Mat half;
     cv::resize(level, half, cv::Size(), 0.5, 0.5, cv::INTER_AREA);
@@ -53,35 +54,36 @@ Texture::Texture(const cv::Mat& tile, double period_m) : texels_per_m_(tile.cols
 }
 
 double Texture::at(const TexturePoint& point) const {
-  Eigen::Vector2d major = point.per_column;
-  Eigen::Vector2d minor = point.per_row;
+  // All in texels of the finest level.
+  Eigen::Vector2f major = (texels_per_m_ * point.per_column).cast<float>();
+  Eigen::Vector2f minor = (texels_per_m_ * point.per_row).cast<float>();
   if (major.squaredNorm() < minor.squaredNorm()) std::swap(major, minor);
-  const double length_m = major.norm();
+  const float length = std::max(major.norm(), 1e-6F);
   // The width of the parallelogram that the pixel covers, not the length of its other side.
-  const double width_m =
-      std::abs(major.x() * minor.y() - major.y() * minor.x()) / std::max(length_m, 1e-12);
-  // As many as the pixel is longer than wide, but no more than there are texels to see.
-  const double wanted = std::min(length_m / std::max(width_m, 1e-12), length_m * texels_per_m_);
-  const int taps = std::clamp(static_cast<int>(wanted), 1, kMaxTaps);
-  const double detail_m = std::max(width_m, length_m / taps);
+  const float width = std::abs(major.x() * minor.y() - major.y() * minor.x()) / length;
+  // As many taps as the pixel is longer than wide, but no more than there are texels to see.
+  int taps = 1;
+  while (taps < kMaxTaps && length >= static_cast<float>(taps + 1) * std::max(width, 1.0F)) ++taps;
+  const float per_tap = 1.0F / static_cast<float>(taps);
+  const float detail = std::max(width, length * per_tap);
 
-  const double last = static_cast<double>(levels_.size()) - 1.0;
-  const double level = std::clamp(roughLog2(detail_m * texels_per_m_) + kLevelBias, 0.0, last);
+  const float last = static_cast<float>(levels_.size()) - 1.0F;
+  const float level = std::clamp(roughLog2(detail) + kLevelBias, 0.0F, last);
   const int whole = static_cast<int>(level);
-  const auto share_of_next = static_cast<float>(level - whole);
+  const float share_of_next = level - static_cast<float>(whole);
 
-  // From here on single precision: what is left is less than a period.
-  const double period_m = levels_[0].size / texels_per_m_;
-  const Eigen::Vector2d tile(floorToInt(point.at.x() / period_m),
-                             floorToInt(point.at.y() / period_m));
-  const Eigen::Vector2f at = (point.at - period_m * tile).cast<float>();
-  const Eigen::Vector2f step = (major / taps).cast<float>();
-  Eigen::Vector2f tap = at - 0.5F * static_cast<float>(taps - 1) * step;
+  // Single precision is enough once whole periods are taken away.
+  const double size = levels_.front().size;
+  const Eigen::Vector2d at = texels_per_m_ * point.at;
+  const Eigen::Vector2d periods(floorToInt(at.x() / size), floorToInt(at.y() / size));
+  const Eigen::Vector2f step = per_tap * major;
+  Eigen::Vector2f tap =
+      (at - size * periods).cast<float>() - 0.5F * static_cast<float>(taps - 1) * step;
   float sum = 0.0F;
   for (int i = 0; i < taps; ++i, tap += step) {
     sum += trilinear(tap.x(), tap.y(), whole, share_of_next);
   }
-  return sum / static_cast<float>(255 * taps);
+  return sum * per_tap / 255.0F;
 }
 
 float Texture::trilinear(float u, float v, int level, float share_of_next) const {
@@ -91,8 +93,8 @@ float Texture::trilinear(float u, float v, int level, float share_of_next) const
 }
 
 float Texture::Level::bilinear(float u, float v) const {
-  const float x = u * texels_per_m - 0.5F;
-  const float y = v * texels_per_m - 0.5F;
+  const float x = u * scale - 0.5F;
+  const float y = v * scale - 0.5F;
   const int column = floorToInt(x);
   const int row = floorToInt(y);
   const float right = x - static_cast<float>(column);

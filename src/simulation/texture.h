@@ -23,7 +23,7 @@ class Texture {
  private:
   struct Level {
     int size;
-    float texels_per_m;
+    float scale;  // its texels per texel of the finest level
     std::vector<std::uint8_t> texels;
 
     float bilinear(float u, float v) const;

@@ -33,15 +33,18 @@ Traffic::Traffic(const TrafficPlan& plan,
                      0.0});
   }
   if (plan.leader && share > 0.0) cars_.push_back({makeCar(random), 0.0, 9.5, 0.0, 1.6});
-  const double way_m = drive.path().length_m() + plan.oncoming_mps * drive.duration_s();
-  for (double station = 20.0; station < way_m; station += kSpacing_m) {
-    add(plan.oncoming_m, station + random.uniform(-8.0, 8.0), -plan.oncoming_mps, 0.0);
+  if (plan.oncoming_mps > 0.0) {
+    const double way_m = drive.path().length_m() + plan.oncoming_mps * drive.duration_s();
+    for (double station = 20.0; station < way_m; station += kSpacing_m) {
+      add(plan.oncoming_m, station + random.uniform(-8.0, 8.0), -plan.oncoming_mps, 0.0);
+    }
   }
-  if (plan.overtaking_m == 0.0) return;
-  const double start_m =
-      drive.path().length_m() - plan.overtaking_mps * drive.duration_s() - kVisible_m;
-  for (double station = start_m; station < kVisible_m; station += 2.0 * kSpacing_m) {
-    add(plan.overtaking_m, station, plan.overtaking_mps, 0.0);
+  if (plan.overtaking_mps > 0.0) {
+    const double start_m =
+        drive.path().length_m() - plan.overtaking_mps * drive.duration_s() - kVisible_m;
+    for (double station = start_m; station < kVisible_m; station += 2.0 * kSpacing_m) {
+      add(plan.overtaking_m, station, plan.overtaking_mps, 0.0);
+    }
   }
 }
 

@@ -12,10 +12,10 @@ namespace rotrocc {
 /// Which cars drive, beside the one with the camera. Distances are from the path of the camera to
 /// the right.
 struct TrafficPlan {
-  double oncoming_m = -3.5;  ///< middle of the oncoming lane
-  double oncoming_mps = 9.0;
-  double overtaking_m = 0.0;  ///< middle of the lane of overtaking cars; 0: there are none
-  double overtaking_mps = 0.0;
+  double oncoming_m = -3.5;        ///< middle of the oncoming lane
+  double oncoming_mps = 9.0;       ///< 0: nothing comes
+  double overtaking_m = 0.0;       ///< middle of the lane of overtaking cars
+  double overtaking_mps = 0.0;     ///< 0: nothing overtakes
   bool leader = true;              ///< a car drives ahead of the camera
   std::vector<double> meetings_s;  ///< at these times an oncoming car is met for certain
 };

@@ -10,7 +10,7 @@ namespace rotrocc {
 namespace {
 
 constexpr double kGridMargin_m = 200.0;
-constexpr double kCell_m = 5.0;
+constexpr double kCell_m = 8.0;
 constexpr double kStreetReach_m = 20.5;
 constexpr double kShadowReach_m = 14.0;
 constexpr double kNearest_m = 0.2;
