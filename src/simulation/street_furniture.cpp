@@ -97,13 +97,25 @@ class LampBox : public Material {
   double bottom_;
 };
 
-/// Corrugated steel.
+/// Corrugated steel with stains, and at its left end the bolts of a joint.
 class Rail : public Material {
  public:
+  Rail(const Texture& stains, double left_end) : stains_(stains), left_end_(left_end) {}
+
   double reflectance(const SurfacePoint& point) const override {
     const TexturePoint at = faceCoordinates(point);
-    return 0.4 + 0.25 * coveragePeriodic(0.155, 0.08, at.at.y(), pixelHeight(at));
+    const double ridges = coveragePeriodic(0.155, 0.08, at.at.y(), pixelHeight(at));
+    const double along = at.at.x() - left_end_;
+    const double joint = coverageBetween(0.0, 0.35, along, pixelWidth(at));
+    const double bolts = joint * coveragePeriodic(0.12, 0.05, along, pixelWidth(at)) *
+                         coveragePeriodic(0.11, 0.05, at.at.y(), pixelHeight(at));
+    const double stain = 1.6 * (stains_.at(scaled(at, 0.7)) - 0.5);
+    return mix((0.38 + 0.22 * ridges) * (1.0 + stain - 0.25 * joint), 0.1, bolts);
   }
+
+ private:
+  const Texture& stains_;
+  double left_end_;
 };
 
 }  // namespace
@@ -147,9 +159,10 @@ Body makeKerb(double length_m, const TextureTiles& tiles, RandomStream& random) 
   return Body({{stone, std::make_shared<TexturedMaterial>(tiles.plaster, tone, tone)}});
 }
 
-Body makeGuardRail(double length_m) {
+Body makeGuardRail(double length_m, const TextureTiles& tiles) {
   const double half = 0.5 * length_m;
-  return Body({{box({-half, -0.75, -0.04}, {half, -0.44, 0.04}), std::make_shared<Rail>()},
+  return Body({{box({-half, -0.75, -0.04}, {half, -0.44, 0.04}),
+                std::make_shared<Rail>(tiles.plaster, -half)},
                {box({-0.06, -0.72, 0.04}, {0.06, 0.3, 0.14}), plain(0.35)}});
 }
 

@@ -22,7 +22,7 @@ Body makeTrafficLight();
 Body makeKerb(double length_m, const TextureTiles& tiles, RandomStream& random);
 
 /// A rail on a post, along x.
-Body makeGuardRail(double length_m);
+Body makeGuardRail(double length_m, const TextureTiles& tiles);
 
 /// A litter bin.
 Body makeBin(RandomStream& random);

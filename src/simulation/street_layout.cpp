@@ -182,7 +182,7 @@ class Layout {
     const Rules rules = {style_.clear_half_width_m, true, false, false};
     for (double station = 0.0; station < street.length_m();) {
       const double step = kLength / stretch(street, station, side * style_.guard_rail_m);
-      place(makeGuardRail(kLength),
+      place(makeGuardRail(kLength, tiles_),
             street,
             station + 0.5 * step,
             side * style_.guard_rail_m,

@@ -7,15 +7,17 @@
 namespace rotrocc {
 namespace {
 
-/// Foliage; holes are where its texture is darkest. They fade out with distance, as the texture is
-/// then a mean over many leaves.
+/// Foliage: leaves, and the same pattern enlarged to twigs, for what is seen from afar. Holes are
+/// where it is darkest; they fade out with distance, as the pattern is then a mean over many
+/// leaves.
 class Leaves : public Material {
  public:
-  Leaves(const Texture& texture, double mean, double hole_limit)
-      : texture_(texture), mean_(mean), hole_limit_(hole_limit) {}
+  /// Twigs are `twigs` times as large as leaves.
+  Leaves(const Texture& texture, double mean, double twigs, double hole_limit)
+      : texture_(texture), mean_(mean), twigs_(twigs), hole_limit_(hole_limit) {}
 
   double reflectance(const SurfacePoint& point) const override {
-    return mean_ * (0.25 + 1.6 * texture_.at(faceCoordinates(point)));
+    return mean_ * (0.1 + 1.9 * pattern(faceCoordinates(point)));
   }
 
   bool isHole(const Eigen::Vector3d& position,
@@ -23,12 +25,17 @@ class Leaves : public Material {
               double pixel_m) const override {
     if (hole_limit_ <= 0.0) return false;
     const Eigen::Vector2d at = faceCoordinates(position, normal);
-    return texture_.at({at, {pixel_m, 0.0}, {0.0, pixel_m}}) < hole_limit_;
+    return pattern({at, {pixel_m, 0.0}, {0.0, pixel_m}}) < hole_limit_;
   }
 
  private:
+  double pattern(const TexturePoint& at) const {
+    return 0.45 * texture_.at(at) + 0.55 * texture_.at(scaled(at, 1.0 / twigs_));
+  }
+
   const Texture& texture_;
   double mean_;
+  double twigs_;
   double hole_limit_;
 };
 
@@ -47,7 +54,7 @@ Part makeTrunk(double height, double radius, const TextureTiles& tiles) {
 Body makeTree(const TextureTiles& tiles, RandomStream& random) {
   const double trunk = random.uniform(2.2, 3.0);
   const double reach = random.uniform(1.3, 1.9);
-  const auto leaves = std::make_shared<Leaves>(tiles.leaves, random.uniform(0.28, 0.42), 0.36);
+  const auto leaves = std::make_shared<Leaves>(tiles.leaves, random.uniform(0.3, 0.44), 2.3, 0.39);
   std::vector<Part> parts = {makeTrunk(trunk + 0.6, random.uniform(0.11, 0.19), tiles)};
   parts.push_back(
       {ball({0.0, -trunk - 0.9 * reach, 0.0}, {0.85 * reach, 0.9 * reach, 0.85 * reach}), leaves});
@@ -67,15 +74,18 @@ Body makeTree(const TextureTiles& tiles, RandomStream& random) {
 Body makeForestTree(const TextureTiles& tiles, RandomStream& random) {
   const double height = random.uniform(9.0, 17.0);
   const double reach = random.uniform(2.2, 3.8);
-  const auto leaves = std::make_shared<Leaves>(tiles.leaves, random.uniform(0.14, 0.3), 0.24);
+  const auto leaves = std::make_shared<Leaves>(tiles.leaves, random.uniform(0.17, 0.34), 6.0, 0.36);
   std::vector<Part> parts = {makeTrunk(0.5 * height, 0.25, tiles)};
-  for (int i = 0; i < 3; ++i) {
-    const double share = (i + random.uniform(0.2, 0.8)) / 3.0;
-    const double size = reach * (1.0 - 0.5 * share);
-    const double x = reach * random.uniform(-0.3, 0.3);
-    const double z = reach * random.uniform(-0.3, 0.3);
+  constexpr int kBalls = 7;
+  for (int i = 0; i < kBalls; ++i) {
+    const double share = (i + random.uniform(0.1, 0.9)) / kBalls;
+    const double size = reach * random.uniform(0.4, 0.65) * (1.2 - 0.7 * share);
+    const double angle = random.uniform(0.0, 2.0 * M_PI);
+    const double away = 0.55 * reach * (1.0 - 0.8 * share);
     parts.push_back(
-        {ball({x, -height * (0.3 + 0.6 * share), z}, {size, 0.25 * height, size}), leaves});
+        {ball({away * std::cos(angle), -height * (0.25 + 0.7 * share), away * std::sin(angle)},
+              {size, random.uniform(0.11, 0.17) * height, size}),
+         leaves});
   }
   return Body(std::move(parts));
 }
@@ -86,7 +96,8 @@ Body makeHedge(double length_m, const TextureTiles& tiles, RandomStream& random)
       Eigen::Vector3d(-0.5 * length_m, -height, -0.4), Eigen::Vector3d(0.5 * length_m, 0.5, 0.4)));
   for (const double side : {-1.0, 1.0})
     solid->cut({0.0, -0.5, side}, {0.0, -height + 0.1, side * 0.4});
-  return Body({{solid, std::make_shared<Leaves>(tiles.leaves, random.uniform(0.2, 0.32), 0.0)}});
+  return Body(
+      {{solid, std::make_shared<Leaves>(tiles.leaves, random.uniform(0.2, 0.32), 2.3, 0.0)}});
 }
 
 }  // namespace rotrocc
