@@ -107,6 +107,28 @@ TEST(VisualOdometryTest, FollowsADriveAlongTheStreet) {
   }
 }
 
+TEST(VisualOdometryTest, StartsFromTheMotionThatIsExpected) {
+  VisualOdometry::Config config;
+  config.correspondence_finder.feature_tracker.startup_levels = 1;
+  config.startup_rounds = 1;  // too little for the flow of two steps
+  const Eigen::Isometry3d two_steps = bendStep() * bendStep();
+  VisualOdometry alone(config);
+  alone.process(bend(0), camera());
+  const int without = alone.process(bend(2), camera()).counts.consistent;
+  VisualOdometry told(config);
+  told.process(bend(0), camera());
+  const OdometryResult result = told.process(bend(2), camera(), two_steps);
+  EXPECT_GT(result.counts.consistent, 2 * without);
+  expectMotion(result, two_steps, 0.02);
+}
+
+TEST(VisualOdometryTest, SurvivesAWrongExpectation) {
+  VisualOdometry odometry = started(2);
+  const OdometryResult result =
+      odometry.process(bend(2), camera(), motion({0.0, 0.0, -3.0}, {0.0, 0.3, 0.0}));
+  expectMotion(result, bendStep());
+}
+
 TEST(VisualOdometryTest, TellsWhatIsLeftAfterEachStage) {
   VisualOdometry odometry = started(2);
   const OdometryResult result = odometry.process(bend(2), camera());

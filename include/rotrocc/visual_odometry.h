@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <Eigen/Core>
@@ -92,7 +93,11 @@ class VisualOdometry {
   /// CV_8UC1, of different sizes or not of the camera's size, a bad camera, a stamp that does not
   /// increase, and errors inside OpenCV or Ceres give the state lost and a reason. The first pair,
   /// a new camera and a gap of more than max_gap_s give the state initialising.
-  OdometryResult process(const StereoPair& pair, const StereoCamera& camera);
+  /// `expected` is what another sensor says of the motion T_prev_cur, for the tracker to start from
+  /// instead of the motion before.
+  OdometryResult process(const StereoPair& pair,
+                         const StereoCamera& camera,
+                         const std::optional<Eigen::Isometry3d>& expected = std::nullopt);
 
   /// Forgets the previous pair and the motion: the next pair is a first one.
   void reset();

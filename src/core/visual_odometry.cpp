@@ -82,13 +82,15 @@ class VisualOdometry::Pipeline {
         estimator_(config.motion_estimator),
         check_(config.motion_check) {}
 
-  OdometryResult process(const StereoPair& pair, const StereoCamera& camera) {
+  OdometryResult process(const StereoPair& pair,
+                         const StereoCamera& camera,
+                         const std::optional<Eigen::Isometry3d>& expected) {
     OdometryResult result;
     result.stamp_ns = pair.stamp_ns;
     forgetFeatures();
     const StageTimer timer(result.times.total_ms);
     try {
-      advance(pair, camera, result);
+      advance(pair, camera, expected, result);
     } catch (const Lost& lost) {
       giveUp(lost.what(), result);
     } catch (const std::exception& error) {
@@ -108,7 +110,10 @@ class VisualOdometry::Pipeline {
   const FeatureSet& translationInliers() const { return estimate_.translation_inliers; }
 
  private:
-  void advance(const StereoPair& pair, const StereoCamera& camera, OdometryResult& result) {
+  void advance(const StereoPair& pair,
+               const StereoCamera& camera,
+               const std::optional<Eigen::Isometry3d>& expected,
+               OdometryResult& result) {
     checkInput(pair, camera);
     const std::string why_start = whyStart(pair, camera);
     const std::int64_t previous_stamp_ns = stamp_ns_;
@@ -122,7 +127,7 @@ class VisualOdometry::Pipeline {
     result.dt_s = seconds(stamp_ns_ - previous_stamp_ns);
     findCorners(result);
     findDepths(result);
-    findMotion(result);
+    findMotion(expected ? expected : motion_model_.predict(result.dt_s), result);
     motion_model_.update(result.T_prev_cur, result.dt_s);
   }
 
@@ -169,9 +174,9 @@ class VisualOdometry::Pipeline {
 
   /// With a prediction one round is enough. Without one, or where it proves wrong, features tracked
   /// from a wrong place may agree on a wrong motion: predict, track and estimate until it settles.
-  void findMotion(OdometryResult& result) {
+  void findMotion(const std::optional<Eigen::Isometry3d>& predicted, OdometryResult& result) {
     const FeatureTracker::Config& tracker = config_.correspondence_finder.feature_tracker;
-    if (const auto predicted = motion_model_.predict(result.dt_s)) {
+    if (predicted) {
       trackAndEstimate(*predicted, tracker.levels, result);
       if (check_.whyLost(estimate_, result.dt_s).empty()) return accept(result);
     }
@@ -242,8 +247,10 @@ VisualOdometry::~VisualOdometry() = default;
 VisualOdometry::VisualOdometry(VisualOdometry&&) noexcept = default;
 VisualOdometry& VisualOdometry::operator=(VisualOdometry&&) noexcept = default;
 
-OdometryResult VisualOdometry::process(const StereoPair& pair, const StereoCamera& camera) {
-  return pipeline_->process(pair, camera);
+OdometryResult VisualOdometry::process(const StereoPair& pair,
+                                       const StereoCamera& camera,
+                                       const std::optional<Eigen::Isometry3d>& expected) {
+  return pipeline_->process(pair, camera, expected);
 }
 
 void VisualOdometry::reset() {
