@@ -39,11 +39,10 @@ Facade::Place Facade::placeOf(const SurfacePoint& point) const {
 }
 
 double Facade::wall(const Place& place) const {
-  const double stain = tiles_.blotches.at(scaled(place.point, 0.06)) - 0.5;
   const double grain = style_.bricks ? 0.9 * (tiles_.bricks.at(place.point) - 0.56)
                                      : 0.5 * (tiles_.plaster.at(place.point) - 0.5);
   const double damp = 0.8 + 0.2 * smoothStep(0.0, 1.5, place.v);
-  return style_.wall * damp * (1.0 + grain + 0.15 * stain);
+  return style_.wall * damp * (1.0 + grain);
 }
 
 double Facade::withLedges(const Place& place, double brightness) const {

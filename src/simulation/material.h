@@ -22,6 +22,9 @@ class Material {
                       double /*pixel_m*/) const {
     return false;
   }
+
+  /// Whether the edges between what is made of such materials need not be smooth: leaves.
+  virtual bool isTangle() const { return false; }
 };
 
 /// Alike everywhere.

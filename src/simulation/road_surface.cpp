@@ -36,18 +36,12 @@ double RoadSurface::reflectance(const SurfacePoint& point) const {
   Place place;
   if (!streets_.locate(at.at.x(), at.at.y(), place.street)) return pavement(Pavement::kGrass, at);
 
-  // The lines across the street are its gradient: two neighbours give the size of the pixel on it.
-  StreetPoint column = place.street;
-  StreetPoint row = place.street;
-  streets_.locate(at.at.x() + at.per_column.x(), at.at.y() + at.per_column.y(), column);
-  streets_.locate(at.at.x() + at.per_row.x(), at.at.y() + at.per_row.y(), row);
-  const auto spread = [&](double StreetPoint::*member) {
-    const double by_column = column.*member - place.street.*member;
-    const double by_row = row.*member - place.street.*member;
-    return std::clamp(1.2 * std::sqrt(by_column * by_column + by_row * by_row), 1e-4, 3.0);
+  const auto spread = [&](const Eigen::Vector2d& gradient) {
+    const Eigen::Vector2d change(gradient.dot(at.per_column), gradient.dot(at.per_row));
+    return std::clamp(1.2 * change.norm(), 1e-4, 3.0);
   };
-  place.length = spread(&StreetPoint::station_m);
-  place.width = spread(&StreetPoint::right_m);
+  place.length = spread(place.street.station_gradient);
+  place.width = spread(place.street.right_gradient);
 
   double brightness = 0.0;
   double rest = 1.0;
@@ -70,16 +64,15 @@ double RoadSurface::reflectance(const SurfacePoint& point) const {
 }
 
 double RoadSurface::pavement(Pavement kind, const TexturePoint& at) const {
-  const double stain = tiles_.blotches.at(scaled(at, 1.0 / 41.0)) - 0.5;
   switch (kind) {
-    case Pavement::kAsphalt: {
-      const double grain = tiles_.asphalt.at(at) - 0.47;
-      return 0.3 * (1.0 + style_.asphalt_contrast * (2.0 * grain + 0.22 * stain));
-    }
+    case Pavement::kAsphalt:
+      return 0.31 * (1.0 + 2.0 * style_.asphalt_contrast * (tiles_.asphalt.at(at) - 0.47));
     case Pavement::kSlabs:
-      return 0.42 * (1.0 + 0.9 * (tiles_.paving.at(at) - 0.5) + 0.4 * stain);
-    case Pavement::kGrass:
+      return 0.42 * (1.0 + 0.9 * (tiles_.paving.at(at) - 0.5));
+    case Pavement::kGrass: {
+      const double stain = tiles_.blotches.at(scaled(at, 1.0 / 41.0)) - 0.5;
       return 0.26 * (1.0 + 1.3 * (tiles_.grass.at(at) - 0.5) + 0.9 * stain);
+    }
   }
   return 0.0;
 }

@@ -53,10 +53,13 @@ class CellWalk {
   double delta_[2];
 };
 
-/// Up to which distance a ray is below the height `top` (y points down); it meets nothing beyond.
-double distanceBelow(const Ray& ray, double top) {
-  return ray.direction.y() < 0.0 ? (top - ray.origin.y()) / ray.direction.y()
-                                 : std::numeric_limits<double>::infinity();
+/// The part of `range` where a ray is below the height `top` (y points down), and a little more.
+RayRange belowHeight(const Ray& ray, const RayRange& range, double top) {
+  constexpr double kMargin_m = 0.01;
+  const double at_top = (top - kMargin_m - ray.origin.y()) / ray.direction.y();
+  if (ray.direction.y() < 0.0) return {range.from, std::min(range.to, at_top)};
+  if (ray.direction.y() > 0.0) return {std::max(range.from, at_top), range.to};
+  return range;
 }
 
 }  // namespace
@@ -110,10 +113,10 @@ bool SceneGeometry::trace(const Ray& ray,
                           SceneHit& hit) const {
   const BoxTest test(ray);
   const bool rises = ray.direction.y() < 0.0;
-  const double last = std::min(range.to, distanceBelow(ray, top_));
-  for (CellWalk walk(terrain_.grid(), ray, range); walk.onGrid(); walk.advance()) {
-    if (walk.enter() >= last) return false;
-    const RayRange in_cell = {walk.enter(), std::min(walk.leave(), range.to)};
+  const RayRange low = belowHeight(ray, range, top_);
+  for (CellWalk walk(terrain_.grid(), ray, low); walk.onGrid(); walk.advance()) {
+    if (walk.enter() >= low.to) return false;
+    const RayRange in_cell = {walk.enter(), std::min(walk.leave(), low.to)};
     const double lowest = ray.origin.y() + ray.direction.y() * (rises ? in_cell.from : in_cell.to);
     if (lowest < cell(walk.column(), walk.row()).top) continue;
     if (traceCell(ray, test, in_cell, walk.column(), walk.row(), pixel_m, hit)) return true;
@@ -122,10 +125,13 @@ bool SceneGeometry::trace(const Ray& ray,
 }
 
 bool SceneGeometry::traceGround(const Ray& ray, const RayRange& range, double& distance) const {
-  const double last = std::min(range.to, distanceBelow(ray, ground_top_));
-  for (CellWalk walk(terrain_.grid(), ray, range); walk.onGrid(); walk.advance()) {
-    if (walk.enter() >= last) return false;
-    const RayRange in_cell = {walk.enter(), std::min(walk.leave(), range.to)};
+  const RayRange low = belowHeight(ray, range, ground_top_);
+  const bool rises = ray.direction.y() < 0.0;
+  for (CellWalk walk(terrain_.grid(), ray, low); walk.onGrid(); walk.advance()) {
+    if (walk.enter() >= low.to) return false;
+    const RayRange in_cell = {walk.enter(), std::min(walk.leave(), low.to)};
+    const double lowest = ray.origin.y() + ray.direction.y() * (rises ? in_cell.from : in_cell.to);
+    if (lowest < terrain_.top(walk.column(), walk.row())) continue;
     if (terrain_.intersect(ray, in_cell, walk.column(), walk.row(), distance)) return true;
   }
   return false;

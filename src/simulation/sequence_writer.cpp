@@ -42,10 +42,7 @@ void writeCalibration(const fs::path& path, const StereoCamera& camera) {
 }
 
 void writeImage(const std::string& path, const cv::Mat& image) {
-  // KITTI images compress by a third: more effort than the least is lost on their noise.
-  if (!cv::imwrite(path, image, {cv::IMWRITE_PNG_COMPRESSION, 1})) {
-    throw std::runtime_error("cannot write " + path);
-  }
+  if (!cv::imwrite(path, image)) throw std::runtime_error("cannot write " + path);
 }
 
 cv::Mat storableDepth(const cv::Mat& depth) {

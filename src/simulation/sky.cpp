@@ -13,10 +13,9 @@ constexpr double kHillTop = 0.09;  // tangent of the highest elevation
 }  // namespace
 
 double Sky::brightness(const Eigen::Vector3d& direction, const PixelSpread& spread) const {
-  const double level = std::hypot(direction.x(), direction.z());
+  const double level = std::sqrt(direction.x() * direction.x() + direction.z() * direction.z());
   const double elevation = -direction.y() / level;
-  const double sky = clouds(direction, spread);
-  if (elevation > kHillTop) return sky;
+  if (elevation > kHillTop) return clouds(direction, spread);
 
   const double pixel = spread.per_row.norm() / level;
   const double azimuth = std::atan2(direction.x(), direction.z()) / (2.0 * M_PI);
@@ -24,14 +23,16 @@ double Sky::brightness(const Eigen::Vector3d& direction, const PixelSpread& spre
     return tiles_.blotches.at({{cycles * azimuth, row}, {cycles * pixel, 0.0}, {0.0, 1e-6}});
   };
   const double far_top = 0.015 + 0.10 * (ridge(0.3, 1.0) - 0.25);
+  const double far_share = 1.0 - coverageAbove(far_top, elevation, pixel);
+  const double sky = far_share < 1.0 ? clouds(direction, spread) : 0.0;
   const double near_top = -0.005 + 0.045 * (ridge(0.7, 2.0) - 0.25) + 0.012 * ridge(0.1, 24.0);
+  const double near_share = 1.0 - coverageAbove(near_top, elevation, pixel);
+  if (far_share <= 0.0 && near_share <= 0.0) return sky;
   const TexturePoint woods = {
       {48.0 * azimuth, 8.0 * elevation}, {8.0 * pixel, 0.0}, {0.0, 8.0 * pixel}};
   const double trees = tiles_.leaves.at(woods) - 0.45;
-  const double far = 0.52 + 0.08 * trees;
-  const double near = 0.30 + 0.18 * trees;
-  const double behind = mix(sky, far, 1.0 - coverageAbove(far_top, elevation, pixel));
-  return mix(behind, near, 1.0 - coverageAbove(near_top, elevation, pixel));
+  const double behind = mix(sky, 0.52 + 0.08 * trees, far_share);
+  return mix(behind, 0.30 + 0.18 * trees, near_share);
 }
 
 double Sky::clouds(const Eigen::Vector3d& direction, const PixelSpread& spread) const {

@@ -92,6 +92,8 @@ bool StreetMap::locate(double x, double z, StreetPoint& point) const {
   point.street = sample.street;
   point.station_m = sample.station_m + along / stretch;
   point.right_m = across - 0.5 * along * along * sample.curvature_per_m / stretch;
+  point.station_gradient = sample.ahead / stretch;
+  point.right_gradient = sample.right;
   return true;
 }
 

@@ -14,6 +14,9 @@ struct StreetPoint {
   int street = -1;         ///< index of its centre line
   double station_m = 0.0;  ///< along the centre line
   double right_m = 0.0;    ///< to the right of it
+  /// How station_m and right_m grow per metre along x and z.
+  Eigen::Vector2d station_gradient = Eigen::Vector2d::Zero();
+  Eigen::Vector2d right_gradient = Eigen::Vector2d::Zero();
 };
 
 /// Finds the street a point of the ground belongs to.

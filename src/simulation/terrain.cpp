@@ -44,6 +44,7 @@ GroundGrid GroundGrid::around(const std::vector<Path>& paths, double margin_m, d
   }
   GroundGrid grid;
   grid.cell_m = cell_m;
+  grid.cells_per_m = 1.0 / cell_m;
   grid.origin = box.min() - Eigen::Vector2d::Constant(margin_m);
   grid.columns = static_cast<int>(std::ceil((box.sizes().x() + 2.0 * margin_m) / cell_m));
   grid.rows = static_cast<int>(std::ceil((box.sizes().y() + 2.0 * margin_m) / cell_m));
@@ -51,61 +52,61 @@ GroundGrid GroundGrid::around(const std::vector<Path>& paths, double margin_m, d
 }
 
 Terrain::Terrain(const GroundGrid& grid, const std::vector<Path>& paths, double below_m)
-    : grid_(grid), heights_(static_cast<std::size_t>((grid.columns + 1) * (grid.rows + 1))) {
+    : grid_(grid) {
   const std::vector<Eigen::Vector3d> points = samples(paths);
+  const int corners = grid.columns + 1;  // in a row
+  std::vector<double> heights(static_cast<std::size_t>(corners) * (grid.rows + 1));
   cv::parallel_for_(cv::Range(0, grid.rows + 1), [&](const cv::Range& rows) {
     for (int row = rows.start; row < rows.end; ++row) {
-      for (int column = 0; column <= grid.columns; ++column) {
+      for (int column = 0; column < corners; ++column) {
         const Eigen::Vector2d at = grid.origin + grid.cell_m * Eigen::Vector2d(column, row);
-        heights_[row * (grid.columns + 1) + column] =
+        heights[static_cast<std::size_t>(row) * corners + column] =
             below_m + weightedHeight(points, at.x(), at.y());
       }
     }
   });
-}
-
-Terrain::Patch Terrain::patch(int column, int row) const {
-  const double a = corner(column, row);
-  const double right = corner(column + 1, row);
-  const double ahead = corner(column, row + 1);
-  return {a, right - a, ahead - a, corner(column + 1, row + 1) - right - ahead + a};
+  for (int row = 0; row < grid.rows; ++row) {
+    const double* near = heights.data() + static_cast<std::size_t>(row) * corners;
+    const double* far = near + corners;
+    for (int column = 0; column < grid.columns; ++column, ++near, ++far) {
+      patches_.push_back({near[0],
+                          near[1] - near[0],
+                          far[0] - near[0],
+                          far[1] - near[1] - far[0] + near[0],
+                          std::min({near[0], near[1], far[0], far[1]})});
+    }
+  }
 }
 
 double Terrain::height(double x, double z) const {
   const int column = std::clamp(grid_.column(x), 0, grid_.columns - 1);
   const int row = std::clamp(grid_.row(z), 0, grid_.rows - 1);
-  const Patch p = patch(column, row);
-  const double u = std::clamp((x - grid_.origin.x()) / grid_.cell_m - column, 0.0, 1.0);
-  const double v = std::clamp((z - grid_.origin.y()) / grid_.cell_m - row, 0.0, 1.0);
+  const Patch& p = patch(column, row);
+  const double u = std::clamp((x - grid_.origin.x()) * grid_.cells_per_m - column, 0.0, 1.0);
+  const double v = std::clamp((z - grid_.origin.y()) * grid_.cells_per_m - row, 0.0, 1.0);
   return p.a + p.b * u + p.c * v + p.d * u * v;
 }
 
 Eigen::Vector3d Terrain::normal(double x, double z) const {
   const int column = std::clamp(grid_.column(x), 0, grid_.columns - 1);
   const int row = std::clamp(grid_.row(z), 0, grid_.rows - 1);
-  const Patch p = patch(column, row);
-  const double u = (x - grid_.origin.x()) / grid_.cell_m - column;
-  const double v = (z - grid_.origin.y()) / grid_.cell_m - row;
-  return Eigen::Vector3d((p.b + p.d * v) / grid_.cell_m, -1.0, (p.c + p.d * u) / grid_.cell_m)
+  const Patch& p = patch(column, row);
+  const double u = (x - grid_.origin.x()) * grid_.cells_per_m - column;
+  const double v = (z - grid_.origin.y()) * grid_.cells_per_m - row;
+  return Eigen::Vector3d(
+             (p.b + p.d * v) * grid_.cells_per_m, -1.0, (p.c + p.d * u) * grid_.cells_per_m)
       .normalized();
-}
-
-double Terrain::top(int column, int row) const {
-  return std::min({corner(column, row),
-                   corner(column + 1, row),
-                   corner(column, row + 1),
-                   corner(column + 1, row + 1)});
 }
 
 bool Terrain::intersect(
     const Ray& ray, const RayRange& range, int column, int row, double& distance) const {
-  const Patch p = patch(column, row);
+  const Patch& p = patch(column, row);
   // Distances are counted from where the ray enters the cell, for the sake of accuracy.
   const Eigen::Vector3d start = ray.at(range.from);
-  const double u = (start.x() - grid_.origin.x()) / grid_.cell_m - column;
-  const double v = (start.z() - grid_.origin.y()) / grid_.cell_m - row;
-  const double du = ray.direction.x() / grid_.cell_m;
-  const double dv = ray.direction.z() / grid_.cell_m;
+  const double u = (start.x() - grid_.origin.x()) * grid_.cells_per_m - column;
+  const double v = (start.z() - grid_.origin.y()) * grid_.cells_per_m - row;
+  const double du = ray.direction.x() * grid_.cells_per_m;
+  const double dv = ray.direction.z() * grid_.cells_per_m;
   // The height of the ray over the ground: y points down, so it is positive below.
   const double constant = start.y() - (p.a + p.b * u + p.c * v + p.d * u * v);
   const double linear = ray.direction.y() - p.b * du - p.c * dv - p.d * (u * dv + v * du);

@@ -13,6 +13,7 @@ namespace rotrocc {
 /// A grid of square cells over the ground plane (x, z).
 struct GroundGrid {
   double cell_m = 5.0;
+  double cells_per_m = 0.2;                          ///< 1 / cell_m
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< the corner with least x and z
   int columns = 0;                                   ///< cells along x
   int rows = 0;                                      ///< cells along z
@@ -20,8 +21,8 @@ struct GroundGrid {
   /// The grid that covers all paths and `margin_m` around them.
   static GroundGrid around(const std::vector<Path>& paths, double margin_m, double cell_m);
 
-  int column(double x) const { return floorToInt((x - origin.x()) / cell_m); }
-  int row(double z) const { return floorToInt((z - origin.y()) / cell_m); }
+  int column(double x) const { return floorToInt((x - origin.x()) * cells_per_m); }
+  int row(double z) const { return floorToInt((z - origin.y()) * cells_per_m); }
   bool contains(int column, int row) const {
     return column >= 0 && row >= 0 && column < columns && row < rows;
   }
@@ -42,7 +43,7 @@ class Terrain {
   Eigen::Vector3d normal(double x, double z) const;
 
   /// The least y (the highest ground) of a cell.
-  double top(int column, int row) const;
+  double top(int column, int row) const { return patch(column, row).top; }
 
   /// The first point of a ray on the ground of a cell; `range` is its way through that cell.
   bool intersect(
@@ -52,12 +53,14 @@ class Terrain {
   /// height = a + b u + c v + d u v over a cell, with u and v from 0 to 1.
   struct Patch {
     double a, b, c, d;
+    double top;
   };
-  double corner(int column, int row) const { return heights_[row * (grid_.columns + 1) + column]; }
-  Patch patch(int column, int row) const;
+  const Patch& patch(int column, int row) const {
+    return patches_[static_cast<std::size_t>(row) * grid_.columns + column];
+  }
 
   GroundGrid grid_;
-  std::vector<double> heights_;  // at the corners of the cells
+  std::vector<Patch> patches_;  // of the cells, row by row
 };
 
 }  // namespace rotrocc

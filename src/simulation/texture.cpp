@@ -15,6 +15,8 @@ namespace {
 
 constexpr int kMaxTaps = 4;          // along the longer side of a pixel
 constexpr float kLevelBias = 0.25F;  // the box filter between levels lets some aliases pass
+constexpr float kOne = 65536.0F;     // a texel, in fixed point
+constexpr int kHalf = 32768;
 
 bool isPowerOfTwo(int value) {
   return value > 0 && (value & (value - 1)) == 0;
@@ -27,15 +29,25 @@ float roughLog2(float value) {
   return static_cast<float>(bits) * 0x1.0p-23F - 127.0F;
 }
 
+int sizeBits(const cv::Mat& tile) {
+  int bits = 0;
+  while (1 << bits < tile.cols) ++bits;
+  return bits;
+}
+
+/// With the first column and row once more at the end, so that a texel's neighbours follow it.
 std::vector<std::uint8_t> quantize(const cv::Mat& tile) {
+  cv::Mat repeated;
+  cv::copyMakeBorder(tile, repeated, 0, 1, 0, 1, cv::BORDER_WRAP);
   cv::Mat grey;
-  tile.convertTo(grey, CV_8U, 255.0);
+  repeated.convertTo(grey, CV_8U, 255.0);
   return {grey.begin<std::uint8_t>(), grey.end<std::uint8_t>()};
 }
 
 }  // namespace
 
-Texture::Texture(const cv::Mat& tile, double period_m) : texels_per_m_(tile.cols / period_m) {
+Texture::Texture(const cv::Mat& tile, double period_m)
+    : periods_per_m_(1.0 / period_m), texels_per_period_(static_cast<float>(tile.cols)) {
   if (tile.type() != CV_32FC1 || tile.rows != tile.cols || !isPowerOfTwo(tile.cols)) {
     throw std::invalid_argument("a texture tile of " + std::to_string(tile.cols) + " x " +
                                 std::to_string(tile.rows) +
@@ -43,9 +55,7 @@ Texture::Texture(const cv::Mat& tile, double period_m) : texels_per_m_(tile.cols
   }
   cv::Mat level = tile;
   while (true) {
-    levels_.push_back({level.cols,
-                       static_cast<float>(level.cols) / static_cast<float>(tile.cols),
-                       quantize(level)});
+    levels_.push_back({static_cast<int>(levels_.size()), sizeBits(level), quantize(level)});
     if (level.cols == 1) break;
     cv::Mat half;
     cv::resize(level, half, cv::Size(), 0.5, 0.5, cv::INTER_AREA);
@@ -55,58 +65,73 @@ Texture::Texture(const cv::Mat& tile, double period_m) : texels_per_m_(tile.cols
 
 double Texture::at(const TexturePoint& point) const {
   // All in texels of the finest level.
-  Eigen::Vector2f major = (texels_per_m_ * point.per_column).cast<float>();
-  Eigen::Vector2f minor = (texels_per_m_ * point.per_row).cast<float>();
+  const double texels_per_m = periods_per_m_ * texels_per_period_;
+  Eigen::Vector2f major = (texels_per_m * point.per_column).cast<float>();
+  Eigen::Vector2f minor = (texels_per_m * point.per_row).cast<float>();
   if (major.squaredNorm() < minor.squaredNorm()) std::swap(major, minor);
-  const float length = std::max(major.norm(), 1e-6F);
+  const float squared_length = std::max(major.squaredNorm(), 1e-12F);
   // The width of the parallelogram that the pixel covers, not the length of its other side.
-  const float width = std::abs(major.x() * minor.y() - major.y() * minor.x()) / length;
-  // As many taps as the pixel is longer than wide, but no more than there are texels to see.
-  int taps = 1;
-  while (taps < kMaxTaps && length >= static_cast<float>(taps + 1) * std::max(width, 1.0F)) ++taps;
-  const float per_tap = 1.0F / static_cast<float>(taps);
-  const float detail = std::max(width, length * per_tap);
+  const float area = major.x() * minor.y() - major.y() * minor.x();
+  const float squared_width = area * area / squared_length;
 
-  const float last = static_cast<float>(levels_.size()) - 1.0F;
-  const float level = std::clamp(roughLog2(detail) + kLevelBias, 0.0F, last);
-  const int whole = static_cast<int>(level);
-  const float share_of_next = level - static_cast<float>(whole);
+  const Taps taps = tapsAlong(major, squared_length, squared_width, point.at);
+  const float squared_detail = std::max(squared_width, squared_length * taps.share * taps.share);
+  const float level = std::clamp(0.5F * roughLog2(squared_detail) + kLevelBias,
+                                 0.0F,
+                                 static_cast<float>(levels_.size()) - 1.0F);
+  const int fine = static_cast<int>(level);
+  const float share_of_next = level - static_cast<float>(fine);
+  const float mean = levels_[fine].mean(taps);
+  if (share_of_next <= 0.0F) return mean;
+  return mean + share_of_next * (levels_[fine + 1].mean(taps) - mean);
+}
 
-  // Single precision is enough once whole periods are taken away.
-  const double size = levels_.front().size;
-  const Eigen::Vector2d at = texels_per_m_ * point.at;
-  const Eigen::Vector2d periods(floorToInt(at.x() / size), floorToInt(at.y() / size));
-  const Eigen::Vector2f step = per_tap * major;
-  Eigen::Vector2f tap =
-      (at - size * periods).cast<float>() - 0.5F * static_cast<float>(taps - 1) * step;
-  float sum = 0.0F;
-  for (int i = 0; i < taps; ++i, tap += step) {
-    sum += trilinear(tap.x(), tap.y(), whole, share_of_next);
+Texture::Taps Texture::tapsAlong(const Eigen::Vector2f& line,
+                                 float squared_length,
+                                 float squared_width,
+                                 const Eigen::Vector2d& middle_m) const {
+  // As many as the pixel is longer than wide, but no more than there are texels to see.
+  const float squared_tap = std::max(squared_width, 1.0F);
+  int count = 1;
+  while (count < kMaxTaps &&
+         squared_length >= static_cast<float>((count + 1) * (count + 1)) * squared_tap) {
+    ++count;
   }
-  return sum * per_tap / 255.0F;
+  constexpr float kShares[] = {0.0F, 1.0F, 1.0F / 2.0F, 1.0F / 3.0F, 1.0F / 4.0F};
+  static_assert(sizeof kShares == (kMaxTaps + 1) * sizeof kShares[0]);
+  const float share = kShares[count];
+
+  const float one_period = kOne * texels_per_period_;
+  const auto step = [&](float texels) {  // where the taps of a larger one lie does not matter
+    return static_cast<int>(std::clamp(kOne * texels * share, -one_period, one_period));
+  };
+  const auto inPeriod = [&](double at_m) {
+    const double periods = periods_per_m_ * at_m;
+    return static_cast<int>(one_period * (periods - floorToInt(periods)));
+  };
+  Taps taps = {count, share, 0, 0, step(line.x()), step(line.y())};
+  taps.u = inPeriod(middle_m.x()) - (count - 1) * taps.du / 2;
+  taps.v = inPeriod(middle_m.y()) - (count - 1) * taps.dv / 2;
+  return taps;
 }
 
-float Texture::trilinear(float u, float v, int level, float share_of_next) const {
-  const float fine = levels_[level].bilinear(u, v);
-  if (share_of_next <= 0.0F) return fine;
-  return fine + share_of_next * (levels_[level + 1].bilinear(u, v) - fine);
-}
-
-float Texture::Level::bilinear(float u, float v) const {
-  const float x = u * scale - 0.5F;
-  const float y = v * scale - 0.5F;
-  const int column = floorToInt(x);
-  const int row = floorToInt(y);
-  const float right = x - static_cast<float>(column);
-  const float down = y - static_cast<float>(row);
-  const int mask = size - 1;
-  const std::uint8_t* upper = texels.data() + (row & mask) * size;
-  const std::uint8_t* lower = texels.data() + ((row + 1) & mask) * size;
-  const int a = column & mask;
-  const int b = (column + 1) & mask;
-  const float top = upper[a] + right * static_cast<float>(upper[b] - upper[a]);
-  const float bottom = lower[a] + right * static_cast<float>(lower[b] - lower[a]);
-  return top + down * (bottom - top);
+float Texture::Level::mean(const Taps& taps) const {
+  const int mask = (1 << size_bits) - 1;
+  const int stride = mask + 2;
+  int sum = 0;
+  for (int i = 0; i < taps.count; ++i) {
+    // Bilinear; shares in 1/256, values in 1/65536.
+    const int x = ((taps.u + i * taps.du) >> number) - kHalf;
+    const int y = ((taps.v + i * taps.dv) >> number) - kHalf;
+    const int right = (x >> 8) & 0xFF;
+    const int down = (y >> 8) & 0xFF;
+    const std::uint8_t* upper = texels.data() + ((y >> 16) & mask) * stride + ((x >> 16) & mask);
+    const std::uint8_t* lower = upper + stride;
+    const int top = 256 * upper[0] + right * (upper[1] - upper[0]);
+    const int bottom = 256 * lower[0] + right * (lower[1] - lower[0]);
+    sum += 256 * top + down * (bottom - top);
+  }
+  return static_cast<float>(sum) * taps.share * (1.0F / (255.0F * kOne));
 }
 
 }  // namespace rotrocc

@@ -21,17 +21,29 @@ class Texture {
   double at(const TexturePoint& point) const;
 
  private:
-  struct Level {
-    int size;
-    float scale;  // its texels per texel of the finest level
-    std::vector<std::uint8_t> texels;
-
-    float bilinear(float u, float v) const;
+  /// Places in a line, in 1/65536 of a texel of the finest level.
+  struct Taps {
+    int count;
+    float share;  // 1 / count
+    int u, v;     // the first one
+    int du, dv;   // from each to the next
   };
 
-  float trilinear(float u, float v, int level, float share_of_next) const;
+  struct Level {
+    int number;                        // 0 is the finest
+    int size_bits;                     // 2^size_bits texels a side
+    std::vector<std::uint8_t> texels;  // with the first column and row once more at the end
 
-  double texels_per_m_;
+    float mean(const Taps& taps) const;
+  };
+
+  Taps tapsAlong(const Eigen::Vector2f& line,
+                 float squared_length,
+                 float squared_width,
+                 const Eigen::Vector2d& middle_m) const;
+
+  double periods_per_m_;
+  float texels_per_period_;
   std::vector<Level> levels_;  // each half the size of the one before it
 };
 

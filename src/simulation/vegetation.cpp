@@ -28,6 +28,8 @@ class Leaves : public Material {
     return pattern({at, {pixel_m, 0.0}, {0.0, pixel_m}}) < hole_limit_;
   }
 
+  bool isTangle() const override { return true; }
+
  private:
   double pattern(const TexturePoint& at) const {
     return 0.45 * texture_.at(at) + 0.55 * texture_.at(scaled(at, 1.0 / twigs_));

@@ -17,6 +17,7 @@ constexpr double kNearest_m = 0.2;
 
 constexpr std::uint32_t kSkySurface = 0xFFFFFFFF;
 constexpr std::uint32_t kGroundSurface = 0xFFFFFFFE;
+constexpr std::uint32_t kTangleSurface = 0xFFFFFFFD;
 
 std::vector<Path> joined(std::vector<Path> a, const std::vector<Path>& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -78,7 +79,9 @@ Sighting World::look(const View& view, double x, double y) const {
     return {sky_.brightness(ray.direction, view.spread()), kInfinity, kSkySurface, -1};
   }
   const Body& body = view.body(number);
-  const auto surface = static_cast<std::uint32_t>((number * 32 + hit.part) * 64 + hit.face);
+  const Part& part = body.parts()[static_cast<std::size_t>(hit.part)];
+  const auto face = static_cast<std::uint32_t>((number * 32 + hit.part) * 64 + hit.face);
+  const std::uint32_t surface = part.material->isTangle() ? kTangleSurface : face;
   return {bodyBrightness(body, hit, ray, view.spread()),
           hit.distance,
           surface,
