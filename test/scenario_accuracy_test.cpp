@@ -22,7 +22,7 @@ struct Step {
 
 /// The motions between pairs in the middle of a scenario, where the car drives.
 std::vector<Step> drive(const std::string& name) {
-  const Simulator simulator(scenario(name, 1), SimulationOptions{});
+  Simulator simulator(scenario(name, 1), SimulationOptions{});
   const int first = simulator.size() / 4;
   VisualOdometry odometry{VisualOdometry::Config{}};
   std::vector<Step> steps;

@@ -34,7 +34,8 @@ double hills(double station_m) {
 Scenario alongOneStreet(std::shared_ptr<const Drive> drive, StreetStyle style, std::uint64_t seed) {
   Scenario scenario;
   scenario.world.streets = {drive->path().beside(-style.lane_m, kSpacing_m, kBeyond_m, kBeyond_m)};
-  scenario.world.drives = {drive->path().beside(0.0, kSpacing_m, kBeyond_m, kBeyond_m)};
+  scenario.world.drives = {drive->path()};
+  scenario.world.beyond_m = kBeyond_m;
   scenario.traffic.oncoming_m = -2.0 * style.lane_m;
   scenario.world.style = std::move(style);
   scenario.world.seed = seed;

@@ -31,7 +31,8 @@ const std::vector<std::string>& scenarioNames();
 Scenario scenario(const std::string& name, std::uint64_t seed);
 
 /// A town laid along a recorded drive, hills included. Where the drive comes back to a street it
-/// already has been in, there is one street only. The frames have the stamps of the poses, from 0.
+/// already has been in, there is one street only; if it comes back at another height, the ground
+/// changes between the visits. The frames have the stamps of the poses, from 0.
 Scenario scenarioAlong(const Trajectory& trajectory, std::uint64_t seed);
 
 }  // namespace rotrocc

@@ -100,8 +100,9 @@ cv::Mat Simulator::brightness(double time_s, bool right) const {
   return sum / kBlurSteps;
 }
 
-SimulatedFrame Simulator::render(int index, bool with_flow) const {
+SimulatedFrame Simulator::render(int index, bool with_flow) {
   const double time = time_s(index);
+  world_->goTo(drive_->station_m(time));
   const Picture left = look(time, false);
   const bool blurred = options_.faults.motion_blur_s > 0.0;
   const cv::Mat left_light = blurred ? brightness(time, false) : left.brightness;

@@ -38,7 +38,7 @@ struct SimulatedFrame {
                  ///< empty for the last frame. Whether something hides the point then is not asked.
 };
 
-/// Renders a drive frame by frame.
+/// Renders a drive frame by frame, in any order.
 class Simulator {
  public:
   /// Throws std::invalid_argument on options out of their range.
@@ -55,8 +55,9 @@ class Simulator {
   /// T_first_left: the pose of the left camera in its first frame.
   Eigen::Isometry3d pose(int index) const;
 
-  /// Both images and the depth of a frame, and if asked for the flow.
-  SimulatedFrame render(int index, bool with_flow) const;
+  /// Both images and the depth of a frame, and if asked for the flow. Brings the world to where the
+  /// camera then is.
+  SimulatedFrame render(int index, bool with_flow);
 
  private:
   double time_s(int index) const { return 1e-9 * static_cast<double>(stamps_ns_.at(index)); }
@@ -66,7 +67,7 @@ class Simulator {
 
   SimulationOptions options_;
   std::shared_ptr<const Drive> drive_;
-  std::unique_ptr<const World> world_;
+  std::unique_ptr<World> world_;
   std::unique_ptr<const Traffic> traffic_;
   std::vector<std::int64_t> stamps_ns_;
 };

@@ -36,7 +36,7 @@ class Layout {
       : plan_(plan),
         style_(plan.style),
         streets_(streets),
-        drives_(plan.drives, kDriveClearance_m + 1.0),
+        drives_(plan.wholeDrives(), kDriveClearance_m + 1.0),
         terrain_(terrain),
         tiles_(tiles) {}
 

@@ -3,44 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include <opencv2/core/utility.hpp>
-
 namespace rotrocc {
 namespace {
 
 constexpr double kSampling_m = 2.0;
 
-std::vector<Eigen::Vector3d> samples(const std::vector<Path>& paths) {
-  std::vector<Eigen::Vector3d> points;
-  for (const Path& path : paths) {
-    for (double s = 0.0; s < path.length_m() + kSampling_m; s += kSampling_m) {
-      points.push_back(path.position(s));
-    }
-  }
-  return points;
-}
-
-/// The mean height of the points, those near (x, z) first.
-double weightedHeight(const std::vector<Eigen::Vector3d>& points, double x, double z) {
-  double sum = 0.0;
-  double weights = 0.0;
-  for (const Eigen::Vector3d& point : points) {
-    const double dx = point.x() - x;
-    const double dz = point.z() - z;
-    const double nearness = 1.0 / (dx * dx + dz * dz + 4.0);
-    const double weight = nearness * nearness;
-    sum += weight * point.y();
-    weights += weight;
-  }
-  return sum / weights;
-}
-
 }  // namespace
 
 GroundGrid GroundGrid::around(const std::vector<Path>& paths, double margin_m, double cell_m) {
   Eigen::AlignedBox2d box;
-  for (const Eigen::Vector3d& point : samples(paths)) {
-    box.extend(Eigen::Vector2d(point.x(), point.z()));
+  for (const Path& path : paths) {
+    for (double s = 0.0; s < path.length_m() + kSampling_m; s += kSampling_m) {
+      const Eigen::Vector3d point = path.position(s);
+      box.extend(Eigen::Vector2d(point.x(), point.z()));
+    }
   }
   GroundGrid grid;
   grid.cell_m = cell_m;
@@ -51,20 +27,8 @@ GroundGrid GroundGrid::around(const std::vector<Path>& paths, double margin_m, d
   return grid;
 }
 
-Terrain::Terrain(const GroundGrid& grid, const std::vector<Path>& paths, double below_m)
-    : grid_(grid) {
-  const std::vector<Eigen::Vector3d> points = samples(paths);
+Terrain::Terrain(const GroundGrid& grid, const std::vector<double>& heights) : grid_(grid) {
   const int corners = grid.columns + 1;  // in a row
-  std::vector<double> heights(static_cast<std::size_t>(corners) * (grid.rows + 1));
-  cv::parallel_for_(cv::Range(0, grid.rows + 1), [&](const cv::Range& rows) {
-    for (int row = rows.start; row < rows.end; ++row) {
-      for (int column = 0; column < corners; ++column) {
-        const Eigen::Vector2d at = grid.origin + grid.cell_m * Eigen::Vector2d(column, row);
-        heights[static_cast<std::size_t>(row) * corners + column] =
-            below_m + weightedHeight(points, at.x(), at.y());
-      }
-    }
-  });
   for (int row = 0; row < grid.rows; ++row) {
     const double* near = heights.data() + static_cast<std::size_t>(row) * corners;
     const double* far = near + corners;

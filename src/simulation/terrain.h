@@ -28,11 +28,11 @@ struct GroundGrid {
   }
 };
 
-/// The shape of the ground: smooth hills that the paths run over.
+/// The shape of the ground: smooth hills.
 class Terrain {
  public:
-  /// The ground lies `below_m` below the paths, and at a mean of their heights away from them.
-  Terrain(const GroundGrid& grid, const std::vector<Path>& paths, double below_m);
+  /// `heights` are the y coordinates at the corners of the cells, row by row.
+  Terrain(const GroundGrid& grid, const std::vector<double>& heights);
 
   const GroundGrid& grid() const { return grid_; }
 

@@ -24,15 +24,10 @@ std::vector<Path> joined(std::vector<Path> a, const std::vector<Path>& b) {
   return a;
 }
 
-Terrain makeTerrain(const WorldPlan& plan) {
-  const std::vector<Path> paths = joined(plan.drives, plan.streets);
-  return {GroundGrid::around(paths, kGridMargin_m, kCell_m), paths, plan.camera_height_m};
-}
-
 SceneGeometry makeScene(const WorldPlan& plan,
                         const StreetMap& streets,
+                        Terrain terrain,
                         const TextureTiles& tiles) {
-  Terrain terrain = makeTerrain(plan);
   std::vector<Body> bodies = layOutStreets(plan, streets, terrain, tiles);
   SceneGeometry scene(terrain, bodies);
   for (Body& body : bodies) {
@@ -52,14 +47,41 @@ double contactShade(const Body& body, const Eigen::Vector3d& position) {
 
 }  // namespace
 
+std::vector<Path> WorldPlan::wholeDrives() const {
+  constexpr double kSpacing_m = 0.5;
+  std::vector<Path> whole;
+  for (const Path& drive : drives)
+    whole.push_back(drive.beside(0.0, kSpacing_m, beyond_m, beyond_m));
+  return whole;
+}
+
 World::World(const WorldPlan& plan)
     : style_(plan.style),
       tiles_(plan.seed),
       streets_(plan.streets, kStreetReach_m),
       road_(streets_, style_, tiles_, plan.crossings, plan.seed),
-      scene_(makeScene(plan, streets_, tiles_)),
+      grid_(GroundGrid::around(joined(plan.wholeDrives(), plan.streets), kGridMargin_m, kCell_m)),
+      ground_(grid_, plan.drives.front(), plan.beyond_m, plan.streets, plan.camera_height_m),
+      start_(makeScene(plan, streets_, {grid_, ground_.heights(0)}, tiles_)),
+      scene_(start_),
       shadows_(scene_, streets_, kShadowReach_m),
       sky_(tiles_) {}
+
+void World::goTo(double station_m) {
+  const std::size_t stage = ground_.stage(station_m);
+  if (stage == stage_) return;
+  stage_ = stage;
+  Terrain terrain(grid_, ground_.heights(stage));
+  std::vector<Body> bodies = start_.bodies();
+  for (Body& body : bodies) {
+    Eigen::Isometry3d pose = body.T_world_body();
+    const Eigen::Vector3d at = pose.translation();
+    pose.translation().y() +=
+        terrain.height(at.x(), at.z()) - start_.terrain().height(at.x(), at.z());
+    body.place(pose);
+  }
+  scene_ = SceneGeometry(std::move(terrain), std::move(bodies));
+}
 
 Sighting World::look(const View& view, double x, double y) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

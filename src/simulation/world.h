@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "body.h"
+#include "ground_history.h"
 #include "path.h"
 #include "road_surface.h"
 #include "scene_geometry.h"
@@ -19,11 +20,15 @@ namespace rotrocc {
 /// What the simulated world is made of.
 struct WorldPlan {
   std::vector<Path> streets;  ///< centre lines, at the height of the camera
-  std::vector<Path> drives;   ///< where cars drive: nothing stands there
+  std::vector<Path> drives;   ///< where cars drive: nothing stands there. First: the camera
+  double beyond_m = 0.0;      ///< they go on before their starts and after their ends
   StreetStyle style;
   std::vector<Crossing> crossings;
   double camera_height_m = 1.65;
   std::uint64_t seed = 1;
+
+  /// The drives with how they go on.
+  std::vector<Path> wholeDrives() const;
 };
 
 /// What is seen in a direction.
@@ -45,6 +50,10 @@ class World {
   const std::vector<Body>& bodies() const { return scene_.bodies(); }
   const StreetMap& streets() const { return streets_; }
 
+  /// Makes the ground, with all that stands on it, what it is while the camera is at a station of
+  /// its path. It may differ from before where the path comes back to a place at another height.
+  void goTo(double station_m);
+
   /// Looks through a pixel of a view, whose standing bodies are bodies(). Pixels may be fractions.
   Sighting look(const View& view, double x, double y) const;
 
@@ -62,7 +71,11 @@ class World {
   TextureTiles tiles_;
   StreetMap streets_;
   RoadSurface road_;
-  SceneGeometry scene_;
+  GroundGrid grid_;
+  GroundHistory ground_;
+  SceneGeometry start_;  // the scene at the start of the drive
+  SceneGeometry scene_;  // as it is now
+  std::size_t stage_ = 0;
   SunShadows shadows_;
   Sky sky_;
 };

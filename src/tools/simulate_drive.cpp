@@ -130,7 +130,7 @@ Scenario chosenScenario(const Options& options) {
   return scenarioAlong(readTrajectory(options.poses, options.times), seed);
 }
 
-void renderSequence(const Simulator& simulator, const std::string& directory, bool truth) {
+void renderSequence(Simulator& simulator, const std::string& directory, bool truth) {
   SequenceWriter writer(directory, simulator.camera(), truth);
   ProgressBar progress("simulate_drive", static_cast<std::size_t>(simulator.size()));
   for (int index = 0; index < simulator.size(); ++index) {
@@ -149,7 +149,7 @@ struct ScratchDirectory {
   std::string path;
 };
 
-void renderBag(const Simulator& simulator, const std::string& bag) {
+void renderBag(Simulator& simulator, const std::string& bag) {
   const ScratchDirectory frames{bag + ".frames"};
   fs::remove_all(frames.path);
   renderSequence(simulator, frames.path, false);
@@ -161,7 +161,7 @@ void renderBag(const Simulator& simulator, const std::string& bag) {
 
 void run(const Options& options) {
   const std::string& out = options.names.back();
-  const Simulator simulator(chosenScenario(options), options.simulation);
+  Simulator simulator(chosenScenario(options), options.simulation);
   if (fs::path(out).extension() != ".bag") {
     renderSequence(simulator, out, options.truth);
     return;

@@ -1,0 +1,183 @@
+#include "ground_history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include <opencv2/core/utility.hpp>
+
+#include "coverage.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kSampling_m = 2.0;
+constexpr double kReach_m = 50.0;     // to the sides of the path: nearer places are visited
+constexpr double kOwn_m = 20.0;       // nearer ones have the height of that visit alone
+constexpr double kClearance_m = 0.4;  // of the camera over the corners of its cell
+constexpr double kReturn_m = 80.0;    // along the path; less is no return but the same visit
+constexpr double kStep_m = 0.05;      // smaller changes of height are left out
+constexpr double kStage_m = 20.0;     // changes are made after whole multiples of it
+
+/// A point of a path: (x, z) and the height.
+struct Sample {
+  Eigen::Vector2d at;
+  double height;
+  double station_m;
+};
+
+/// A stretch of the path of the camera near a place: samples `first` to `last`.
+struct Visit {
+  std::size_t first, last;
+  double distance_m;  // least
+};
+
+void append(const Path& path, double beyond_m, std::vector<Sample>& samples) {
+  for (double s = -beyond_m; s < path.length_m() + beyond_m + kSampling_m; s += kSampling_m) {
+    const Eigen::Vector3d position = path.position(s);
+    samples.push_back({{position.x(), position.z()}, position.y(), s});
+  }
+}
+
+/// What the ground at places of the map is like at times.
+class Surveyor {
+ public:
+  Surveyor(const GroundGrid& grid,
+           const Path& path,
+           double beyond_m,
+           const std::vector<Path>& others,
+           double below_m)
+      : path_(path), neighbour_m_(grid.cell_m * std::sqrt(2.0)), below_m_(below_m) {
+    append(path, beyond_m, samples_);
+    own_ = samples_.size();
+    for (const Path& other : others) append(other, 0.0, samples_);
+  }
+
+  std::vector<Visit> visits(const Eigen::Vector2d& place) const {
+    std::vector<Visit> visits;
+    for (std::size_t i = 0; i < own_; ++i) {
+      const double distance = (samples_[i].at - place).norm();
+      if (distance > kReach_m) continue;
+      if (visits.empty() ||
+          samples_[i].station_m - samples_[visits.back().last].station_m > kReturn_m) {
+        visits.push_back({i, i, distance});
+      }
+      visits.back().last = i;
+      visits.back().distance_m = std::min(visits.back().distance_m, distance);
+    }
+    return visits;
+  }
+
+  /// The height of the ground at a place. It is a mean of the samples, near ones first; away from
+  /// the path of a visit those of other visits and paths count as well.
+  double height(const Eigen::Vector2d& place, const Visit& visit) const {
+    double height = below_m_ + meanHeight(place, visit);
+    // Where recorded heights rise faster than any road, the camera at least is not buried.
+    for (std::size_t i = visit.first; i <= visit.last; ++i) {
+      if ((samples_[i].at - place).squaredNorm() > neighbour_m_ * neighbour_m_) continue;
+      height = std::max(height, samples_[i].height + kClearance_m);
+    }
+    return height;
+  }
+
+  /// The same where no visit comes near.
+  double remoteHeight(const Eigen::Vector2d& place) const {
+    return below_m_ + meanHeight(place, {0, 0, std::numeric_limits<double>::infinity()});
+  }
+
+  /// A station between two visits where a place is behind the camera, or most behind it.
+  double changeBetween(const Visit& before,
+                       const Visit& after,
+                       const Eigen::Vector2d& place) const {
+    const double end = samples_[after.first].station_m;
+    double best = samples_[before.last].station_m;
+    double best_ahead = std::numeric_limits<double>::infinity();
+    for (double s = kStage_m * std::ceil(best / kStage_m); s < end; s += kStage_m) {
+      const Eigen::Vector3d position = path_.position(s);
+      const Eigen::Vector3d direction = path_.direction(s);
+      const Eigen::Vector2d offset = place - Eigen::Vector2d(position.x(), position.z());
+      const double ahead = offset.dot(Eigen::Vector2d(direction.x(), direction.z()).normalized());
+      // What stands there is within 20 m; the camera may look a little aside, and turn by a frame.
+      if (ahead + 20.0 + 0.25 * offset.norm() < 0.0) return s;
+      if (ahead >= best_ahead) continue;
+      best = s;
+      best_ahead = ahead;
+    }
+    return best;
+  }
+
+ private:
+  double meanHeight(const Eigen::Vector2d& place, const Visit& visit) const {
+    const double others = smoothStep(kOwn_m, kReach_m, visit.distance_m);
+    double sum = 0.0;
+    double weights = 0.0;
+    const auto add = [&](std::size_t first, std::size_t end, double share) {
+      for (std::size_t i = first; i < end && share > 0.0; ++i) {
+        const double nearness = 1.0 / ((samples_[i].at - place).squaredNorm() + 4.0);
+        const double weight = share * nearness * nearness;
+        sum += weight * samples_[i].height;
+        weights += weight;
+      }
+    };
+    add(0, visit.first, others);
+    add(visit.first, visit.last + 1, 1.0);
+    add(visit.last + 1, samples_.size(), others);
+    return sum / weights;
+  }
+
+  const Path& path_;
+  double neighbour_m_;
+  double below_m_;
+  std::vector<Sample> samples_;  // of the path of the camera, then of the others
+  std::size_t own_ = 0;
+};
+
+}  // namespace
+
+GroundHistory::GroundHistory(const GroundGrid& grid,
+                             const Path& path,
+                             double beyond_m,
+                             const std::vector<Path>& others,
+                             double below_m)
+    : first_(static_cast<std::size_t>(grid.columns + 1) * (grid.rows + 1)) {
+  const Surveyor surveyor(grid, path, beyond_m, others, below_m);
+  std::vector<std::vector<Change>> changes(static_cast<std::size_t>(grid.rows) + 1);
+  cv::parallel_for_(cv::Range(0, grid.rows + 1), [&](const cv::Range& rows) {
+    for (int row = rows.start; row < rows.end; ++row) {
+      for (int column = 0; column <= grid.columns; ++column) {
+        const std::size_t corner = static_cast<std::size_t>(row) * (grid.columns + 1) + column;
+        const Eigen::Vector2d place = grid.origin + grid.cell_m * Eigen::Vector2d(column, row);
+        const std::vector<Visit> visits = surveyor.visits(place);
+        double height =
+            visits.empty() ? surveyor.remoteHeight(place) : surveyor.height(place, visits.front());
+        first_[corner] = height;
+        for (std::size_t i = 1; i < visits.size(); ++i) {
+          const double next = surveyor.height(place, visits[i]);
+          if (std::abs(next - height) < kStep_m) continue;
+          height = next;
+          const double station = surveyor.changeBetween(visits[i - 1], visits[i], place);
+          changes[static_cast<std::size_t>(row)].push_back({station, corner, height});
+        }
+      }
+    }
+  });
+  for (const auto& row : changes) changes_.insert(changes_.end(), row.begin(), row.end());
+  std::sort(changes_.begin(), changes_.end(), [](const Change& a, const Change& b) {
+    return std::tie(a.station_m, a.corner) < std::tie(b.station_m, b.corner);
+  });
+}
+
+std::size_t GroundHistory::stage(double station_m) const {
+  const auto after = std::partition_point(
+      changes_.begin(), changes_.end(), [&](const Change& c) { return c.station_m < station_m; });
+  return static_cast<std::size_t>(after - changes_.begin());
+}
+
+std::vector<double> GroundHistory::heights(std::size_t stage) const {
+  std::vector<double> heights = first_;
+  for (std::size_t i = 0; i < stage; ++i) heights[changes_[i].corner] = changes_[i].height;
+  return heights;
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "path.h"
+#include "terrain.h"
+
+namespace rotrocc {
+
+/// How high the ground is while the camera is where on its path. A recorded drive may come back to
+/// a place at another height, since recorded poses drift; the ground is then where each visit has
+/// it. It changes between two visits, and only while it lies behind the camera with all that stands
+/// there: consecutive frames show the same ground.
+class GroundHistory {
+ public:
+  /// The ground lies `below_m` below the path of the camera, which goes on `beyond_m` before its
+  /// start and after its end, and below the other paths.
+  GroundHistory(const GroundGrid& grid,
+                const Path& path,
+                double beyond_m,
+                const std::vector<Path>& others,
+                double below_m);
+
+  /// Count of the changes before the camera comes to a station.
+  std::size_t stage(double station_m) const;
+
+  /// The y coordinate at each corner of the grid, row by row, after the changes of a stage.
+  std::vector<double> heights(std::size_t stage) const;
+
+ private:
+  struct Change {
+    double station_m;
+    std::size_t corner;
+    double height;
+  };
+
+  std::vector<double> first_;    // heights at the start
+  std::vector<Change> changes_;  // by station
+};
+
+}  // namespace rotrocc
