@@ -8,6 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include "../test/synthetic_scene.h"
+#include "kitti_camera.h"
 #include "rotrocc/correspondence_finder.h"
 #include "rotrocc/kitti.h"
 #include "rotrocc/motion_estimator.h"
@@ -33,13 +34,7 @@ Drive readKitti(const std::string& directory) {
 }
 
 Drive renderStreet() {
-  StereoCamera camera;
-  camera.width = 1241;
-  camera.height = 376;
-  camera.fx = camera.fy = 718.856;
-  camera.cx = camera.cx_right = 607.19;
-  camera.cy = 185.22;
-  camera.baseline_m = 0.537;
+  const StereoCamera camera = kittiCamera();
   const SyntheticScene scene(camera);
   Drive drive{camera, {}};
   for (int i = 0; i < 20; ++i) {

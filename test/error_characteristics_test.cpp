@@ -8,20 +8,10 @@
 #include <gtest/gtest.h>
 
 #include "expect_error.h"
+#include "kitti_camera.h"
 
 namespace rotrocc {
 namespace {
-
-StereoCamera kittiCamera() {
-  StereoCamera camera;
-  camera.width = 1241;
-  camera.height = 376;
-  camera.fx = camera.fy = 718.856;
-  camera.cx = camera.cx_right = 607.19;
-  camera.cy = 185.22;
-  camera.baseline_m = 0.537;
-  return camera;
-}
 
 /// Points on the road, 1.65 m below the camera, and on house fronts 8 m to both sides, wherever a
 /// grid of pixels hits them within 80 m. The nearest is where the bottom of the image meets the

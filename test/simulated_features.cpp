@@ -4,17 +4,6 @@
 
 namespace rotrocc {
 
-StereoCamera kittiCamera() {
-  StereoCamera camera;
-  camera.width = 1241;
-  camera.height = 376;
-  camera.fx = camera.fy = 718.856;
-  camera.cx = camera.cx_right = 607.19;
-  camera.cy = 185.22;
-  camera.baseline_m = 0.537;
-  return camera;
-}
-
 bool measure(const StereoCamera& camera,
              const Eigen::Vector3d& point_cur,
              const Eigen::Isometry3d& T_prev_cur,

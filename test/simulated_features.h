@@ -4,14 +4,12 @@
 
 #include <Eigen/Geometry>
 
+#include "kitti_camera.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/rigid_motion.h"
 #include "rotrocc/stereo_camera.h"
 
 namespace rotrocc {
-
-/// A camera like those of KITTI's odometry benchmark.
-StereoCamera kittiCamera();
 
 /// Standard deviations of what is measured, Gaussian; all zero is exact.
 struct MeasurementNoise {

@@ -55,17 +55,6 @@ std::vector<std::int64_t> keptStamps(const Scenario& scenario, const SimulationO
 
 }  // namespace
 
-StereoCamera kittiCamera() {
-  StereoCamera camera;
-  camera.width = 1241;
-  camera.height = 376;
-  camera.fx = camera.fy = 718.856;
-  camera.cx = camera.cx_right = 607.1928;
-  camera.cy = 185.2157;
-  camera.baseline_m = 0.537;
-  return camera;
-}
-
 Simulator::Simulator(const Scenario& scenario, const SimulationOptions& options)
     : options_(checked(options)),
       drive_(scenario.drive),

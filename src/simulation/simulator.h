@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "camera_faults.h"
+#include "kitti_camera.h"
 #include "renderer.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
@@ -15,9 +16,6 @@
 #include "scenario.h"
 
 namespace rotrocc {
-
-/// The grey cameras of KITTI: 1241 x 376 px, 0.537 m apart.
-StereoCamera kittiCamera();
 
 struct SimulationOptions {
   StereoCamera camera = kittiCamera();

@@ -4,28 +4,15 @@
 #include <cmath>
 #include <utility>
 
+#include "building_ground.h"
 #include "car.h"
 #include "counter_random.h"
 #include "house.h"
-#include "placement.h"
 #include "street_furniture.h"
 #include "vegetation.h"
 
 namespace rotrocc {
 namespace {
-
-constexpr double kDriveClearance_m = 1.6;  // from where cars drive: half a car and something
-
-/// Which way a body beside a street looks: the direction of its z axis.
-enum class Facing { kAhead, kBack, kOutwards };
-
-/// What may stand where.
-struct Rules {
-  double clearance_m;        // from every centre line
-  bool may_overlap = false;  // with what stands already
-  bool upright = true;       // else it lies on the slope
-  bool contact_shadow = false;
-};
 
 class Layout {
  public:
@@ -33,12 +20,7 @@ class Layout {
          const StreetMap& streets,
          const Terrain& terrain,
          const TextureTiles& tiles)
-      : plan_(plan),
-        style_(plan.style),
-        streets_(streets),
-        drives_(plan.wholeDrives(), kDriveClearance_m + 1.0),
-        terrain_(terrain),
-        tiles_(tiles) {}
+      : plan_(plan), style_(plan.style), ground_(plan, streets, terrain), tiles_(tiles) {}
 
   std::vector<Body> build() {
     for (std::size_t i = 0; i < plan_.streets.size(); ++i) {
@@ -48,7 +30,7 @@ class Layout {
       }
       addGantries(plan_.streets[i], RandomStream(plan_.seed + 1, i));
     }
-    return std::move(bodies_);
+    return ground_.takeBodies();
   }
 
  private:
@@ -62,43 +44,6 @@ class Layout {
     if (style_.forest_m > 0.0) addForest(street, side, random);
   }
 
-  /// Stands a body beside a street, if the rules allow.
-  bool place(Body body,
-             const Path& street,
-             double station_m,
-             double right_m,
-             Facing facing,
-             const Rules& rules) {
-    const Eigen::Vector3d right = street.right(station_m);
-    const Eigen::Vector3d position = street.position(station_m) + right_m * right;
-    const Eigen::Vector2d at(position.x(), position.z());
-    Eigen::Vector3d ahead = std::copysign(1.0, right_m) * right;
-    if (facing != Facing::kOutwards) {
-      ahead = street.direction(station_m) * (facing == Facing::kAhead ? 1.0 : -1.0);
-      ahead.y() = 0.0;
-      ahead.normalize();
-    }
-    body.place(rules.upright ? standingUpright(terrain_, at, ahead)
-                             : lyingOnGround(terrain_, at, ahead));
-    const Footprint footprint = Footprint::of(body);
-    if (!isFree(footprint, rules)) return false;
-    if (!rules.may_overlap) taken_.push_back(footprint);
-    body.contact_shadow = rules.contact_shadow;
-    bodies_.push_back(std::move(body));
-    return true;
-  }
-
-  bool isFree(const Footprint& footprint, const Rules& rules) const {
-    for (const Eigen::Vector2d& point : footprint.border(0.8)) {
-      if (streets_.distance(point.x(), point.y()) < rules.clearance_m) return false;
-      if (drives_.distance(point.x(), point.y()) < kDriveClearance_m) return false;
-    }
-    if (rules.may_overlap) return true;
-    return std::none_of(taken_.begin(), taken_.end(), [&](const Footprint& other) {
-      return footprint.overlaps(other, 0.3);
-    });
-  }
-
   /// How much longer than the street a line `right_m` beside it is.
   static double stretch(const Path& street, double station_m, double right_m) {
     const Eigen::Vector3d before =
@@ -109,13 +54,13 @@ class Layout {
   }
 
   void addHouses(const Path& street, double side, RandomStream& random) {
-    const Rules rules = {style_.houses_m - 0.3, false, true, true};
+    const PlacementRules rules = {style_.houses_m - 0.3, false, true, true};
     for (double station = 0.0; station < street.length_m();) {
       const HouseSize size{random.uniform(8.0, 15.0), random.uniform(8.0, 11.0)};
       const double right = side * (style_.houses_m + 0.5 * size.depth + random.uniform(0.0, 0.4));
       const double front_stretch = stretch(street, station, side * style_.houses_m);
       const double middle = station + 0.5 * size.width / front_stretch;
-      if (!place(
+      if (!ground_.place(
               makeHouse(size, tiles_, random), street, middle, right, Facing::kOutwards, rules)) {
         station += 2.0;
         continue;
@@ -129,24 +74,24 @@ class Layout {
   double addGap(const Path& street, double side, double station, RandomStream& random) {
     const double length = random.uniform(4.0, 8.0);
     const double front = side * (style_.houses_m + 0.6);
-    const Rules rules = {style_.houses_m - 0.3, false, true, true};
-    place(makeHedge(length - 0.8, tiles_, random),
-          street,
-          station + 0.5 * length,
-          front,
-          Facing::kOutwards,
-          rules);
-    place(makeTree(tiles_, random),
-          street,
-          station + 0.5 * length,
-          side * (style_.houses_m + 4.0),
-          Facing::kOutwards,
-          {style_.houses_m, true});
+    const PlacementRules rules = {style_.houses_m - 0.3, false, true, true};
+    ground_.place(makeHedge(length - 0.8, tiles_, random),
+                  street,
+                  station + 0.5 * length,
+                  front,
+                  Facing::kOutwards,
+                  rules);
+    ground_.place(makeTree(tiles_, random),
+                  street,
+                  station + 0.5 * length,
+                  side * (style_.houses_m + 4.0),
+                  Facing::kOutwards,
+                  {style_.houses_m, true});
     return length;
   }
 
   void addParkedCars(const Path& street, double side, RandomStream& random) {
-    const Rules rules = {
+    const PlacementRules rules = {
         style_.clear_half_width_m - (style_.parked_across ? 0.2 : 2.3), false, false, true};
     const double spacing = style_.parked_across ? 2.6 : 6.0;
     for (double station = 0.5 * spacing; station < street.length_m(); station += spacing) {
@@ -158,98 +103,88 @@ class Layout {
       Facing facing = (side > 0.0) != other_way ? Facing::kAhead : Facing::kBack;
       if (style_.parked_across) facing = Facing::kOutwards;
       car.own_shade = true;
-      place(std::move(car), street, station + shift, right, facing, rules);
+      ground_.place(std::move(car), street, station + shift, right, facing, rules);
     }
   }
 
   void addKerbs(const Path& street, double side, RandomStream& random) {
     constexpr double kLength = 1.5;
-    const Rules rules = {style_.kerb_m - 0.3, true, false, false};
+    const PlacementRules rules = {style_.kerb_m - 0.3, true, false, false};
     for (double station = 0.0; station < street.length_m();) {
       const double step = kLength / stretch(street, station, side * style_.kerb_m);
-      place(makeKerb(kLength, tiles_, random),
-            street,
-            station + 0.5 * step,
-            side * style_.kerb_m,
-            Facing::kOutwards,
-            rules);
+      ground_.place(makeKerb(kLength, tiles_, random),
+                    street,
+                    station + 0.5 * step,
+                    side * style_.kerb_m,
+                    Facing::kOutwards,
+                    rules);
       station += step;
     }
   }
 
   void addGuardRails(const Path& street, double side) {
     constexpr double kLength = 4.0;
-    const Rules rules = {style_.clear_half_width_m, true, false, false};
+    const PlacementRules rules = {style_.clear_half_width_m, true, false, false};
     for (double station = 0.0; station < street.length_m();) {
       const double step = kLength / stretch(street, station, side * style_.guard_rail_m);
-      place(makeGuardRail(kLength, tiles_),
-            street,
-            station + 0.5 * step,
-            side * style_.guard_rail_m,
-            Facing::kOutwards,
-            rules);
+      ground_.place(makeGuardRail(kLength, tiles_),
+                    street,
+                    station + 0.5 * step,
+                    side * style_.guard_rail_m,
+                    Facing::kOutwards,
+                    rules);
       station += step;
     }
   }
 
   void addPosts(const Path& street, double side, RandomStream& random) {
-    const Rules rules = {style_.lamps_m - 1.8, true};
+    const PlacementRules rules = {style_.lamps_m - 1.8, true};
     const double start = side > 0.0 ? 6.0 : 6.0 + 0.5 * style_.lamp_spacing_m;
     for (double station = start; station < street.length_m(); station += style_.lamp_spacing_m) {
-      place(makeLamp(), street, station, side * style_.lamps_m, Facing::kOutwards, rules);
+      ground_.place(makeLamp(), street, station, side * style_.lamps_m, Facing::kOutwards, rules);
       const Facing facing = side > 0.0 ? Facing::kAhead : Facing::kBack;
       const double sign = station + random.uniform(3.0, 12.0);
       Body body = makeSign(tiles_, random);
       if (random.chance(0.7))
-        place(std::move(body), street, sign, side * style_.lamps_m, facing, rules);
+        ground_.place(std::move(body), street, sign, side * style_.lamps_m, facing, rules);
       const double bin = station + random.uniform(-8.0, 8.0);
       if (style_.houses_m > 0.0 && random.chance(0.4)) {
-        place(makeBin(random), street, bin, side * (style_.lamps_m + 0.5), facing, rules);
+        ground_.place(makeBin(random), street, bin, side * (style_.lamps_m + 0.5), facing, rules);
       }
     }
   }
 
   void addTrees(const Path& street, double side, RandomStream& random) {
-    const Rules rules = {style_.clear_half_width_m - 2.3, true};
+    const PlacementRules rules = {style_.clear_half_width_m - 2.3, true};
     for (double station = 3.0; station < street.length_m(); station += style_.tree_spacing_m) {
       Body tree = makeTree(tiles_, random);
       const double at = station + random.uniform(-2.0, 2.0);
       if (!random.chance(0.7)) continue;
-      place(std::move(tree), street, at, side * style_.trees_m, Facing::kOutwards, rules);
+      ground_.place(std::move(tree), street, at, side * style_.trees_m, Facing::kOutwards, rules);
     }
   }
 
   void addForest(const Path& street, double side, RandomStream& random) {
-    const Rules rules = {12.0, true};
+    const PlacementRules rules = {12.0, true};
     for (double station = 0.0; station < street.length_m(); station += 3.0) {
       const double right = style_.forest_m + 26.0 * std::pow(random.uniform(0.0, 1.0), 1.5);
       const double at = station + random.uniform(-1.5, 1.5);
-      place(makeForestTree(tiles_, random), street, at, side * right, Facing::kOutwards, rules);
+      ground_.place(
+          makeForestTree(tiles_, random), street, at, side * right, Facing::kOutwards, rules);
     }
   }
 
   void addGantries(const Path& street, RandomStream random) {
     if (style_.gantry_spacing_m <= 0.0) return;
     for (double station = 110.0; station < street.length_m(); station += style_.gantry_spacing_m) {
-      Body gantry = makeGantry(8.2, tiles_, random);
-      const Eigen::Vector3d position = street.position(station);
-      gantry.place(standingUpright(
-          terrain_,
-          {position.x(), position.z()},
-          Eigen::Vector3d(street.direction(station).x(), 0.0, street.direction(station).z())
-              .normalized()));
-      bodies_.push_back(std::move(gantry));
+      ground_.placeAcross(makeGantry(8.2, tiles_, random), street, station);
     }
   }
 
   const WorldPlan& plan_;
   const StreetStyle& style_;
-  const StreetMap& streets_;
-  StreetMap drives_;
-  const Terrain& terrain_;
+  BuildingGround ground_;
   const TextureTiles& tiles_;
-  std::vector<Footprint> taken_;
-  std::vector<Body> bodies_;
 };
 
 }  // namespace

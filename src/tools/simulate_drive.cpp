@@ -1,6 +1,5 @@
 #include <cmath>
 #include <cstdint>
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
@@ -10,6 +9,7 @@
 #include <boost/program_options.hpp>
 
 #include "kitti_bag_writer.h"
+#include "program.h"
 #include "progress_bar.h"
 #include "rotrocc/kitti.h"
 #include "rotrocc/trajectory.h"
@@ -175,18 +175,5 @@ void run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Options options;
-  try {
-    if (!parse(argc, argv, options)) return 0;
-  } catch (const po::error& error) {
-    std::cerr << "simulate_drive: " << error.what() << "; --help shows the usage\n";
-    return 2;
-  }
-  try {
-    run(options);
-  } catch (const std::exception& error) {
-    std::cerr << "simulate_drive: " << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  return runProgram("simulate_drive", argc, argv, parse, run);
 }
