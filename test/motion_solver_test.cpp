@@ -1,6 +1,8 @@
 #include "rotrocc/motion_solver.h"
 
+#include <cmath>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -78,6 +80,45 @@ TEST(MotionSolverTest, RefusesTooFewFeatures) {
   EXPECT_TRUE(solver.solveTranslation(kittiCamera(), two, all(two), T));
 }
 
+/// Mean signed error of the length of a step past far points, in shares of it, and its standard
+/// error. The disparities are some 2 to 6 px.
+std::pair<double, double> biasOfStep(double noise_ratio) {
+  constexpr int kDraws = 200;
+  const Eigen::Isometry3d truth = motion({0.0, 0.0, 2.5}, {0.0, 0.0, 0.0});
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> side_m(-30.0, 30.0);
+  std::uniform_real_distribution<double> height_m(-10.0, 2.0);
+  std::uniform_real_distribution<double> depth_m(70.0, 200.0);
+  MotionSolver solver(noise_ratio);
+  double sum = 0.0;
+  double squares = 0.0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Correspondences features;
+    while (features.size() < 300) {
+      const Eigen::Vector3d point(side_m(generator), height_m(generator), depth_m(generator));
+      Correspondence feature;
+      if (measure(kittiCamera(), point, truth, {0.1, 0.3}, generator, feature)) {
+        features.push_back(feature);
+      }
+    }
+    Eigen::Isometry3d T = truth;
+    for (int i = 0; i < 10; ++i) solver.solveTranslation(kittiCamera(), features, all(features), T);
+    const double error = T.translation().z() / 2.5 - 1.0;
+    sum += error;
+    squares += error * error;
+  }
+  const double mean = sum / kDraws;
+  return {mean, std::sqrt((squares / kDraws - mean * mean) / kDraws)};
+}
+
+TEST(MotionSolverTest, NoisyDisparitiesDoNotShortenTheStep) {
+  const auto [bias, standard_error] = biasOfStep(3.0);
+  // The share of the noise in the mean square of the disparities, 0.3^2 / 3.2^2 = 0.9 %, is what
+  // plain least squares loses. Of second order are some tenths of it.
+  EXPECT_NEAR(bias, 0.0, 0.002 + 3.0 * standard_error);
+  EXPECT_LT(biasOfStep(0.0).first, -0.005);
+}
+
 TEST(MotionSolverTest, InformationIsThatOfTheErrorsOfAMotion) {
   std::mt19937 generator(2);
   const Correspondences features =
@@ -92,11 +133,14 @@ TEST(MotionSolverTest, InformationIsThatOfTheErrorsOfAMotion) {
     T.translation() += error.head<3>();
     double sum = 0.0;
     for (const Correspondence& feature : features) {
-      const Eigen::Vector2d residual =
-          feature.prev_px - kittiCamera().project(turnAhead() * feature.point_cur);
-      const Eigen::Vector2d moved = feature.prev_px - kittiCamera().project(T * feature.point_cur);
-      const Eigen::Matrix2d W = whitening(kittiCamera(), feature, turnAhead(), kNoiseRatio);
-      sum += (W * (moved - residual)).squaredNorm();
+      const FittedFeature fitted =
+          fitDisparity(kittiCamera(), feature, turnAhead(), kNoiseRatio);
+      const Eigen::Vector3d turned =
+          T.linear() * turnAhead().linear().transpose() * fitted.rotated_point;
+      const Eigen::Vector2d shift_px =
+          kittiCamera().project(turned + T.translation()) -
+          kittiCamera().project(fitted.rotated_point + turnAhead().translation());
+      sum += (fitted.whitening * shift_px).squaredNorm();
     }
     return sum;
   };

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "rotrocc/stereo_camera.h"
+
 namespace rotrocc {
 
 /// One feature of the set F = {x_prev, x_cur, depth} (paper, section V-A), in left pixels.
@@ -18,5 +20,8 @@ using Correspondences = std::vector<Correspondence>;
 
 /// A flag for each correspondence, in their order: 1 if it belongs to the set, else 0.
 using FeatureSet = std::vector<char>;
+
+/// Computes point_cur of all features from their disparities, which must be above that of infinity.
+void triangulate(const StereoCamera& camera, Correspondences& features);
 
 }  // namespace rotrocc

@@ -14,7 +14,7 @@ namespace rotrocc {
 /// Least squares over the reprojection errors of a feature set, by Levenberg-Marquardt.
 class MotionSolver {
  public:
-  /// `noise_ratio` weights the residuals, see whitening().
+  /// `noise_ratio` weights the residuals, see fitDisparity().
   explicit MotionSolver(double noise_ratio) : noise_ratio_(noise_ratio) {}
 
   /// Minimises Eq. 25 over rotation and translation, from `T_prev_cur`, which gets the result.

@@ -13,6 +13,7 @@
 #include "rotrocc/motion_check.h"
 #include "rotrocc/motion_estimator.h"
 #include "rotrocc/motion_model.h"
+#include "rotrocc/stereo_calibrator.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
 
@@ -63,6 +64,7 @@ struct OdometryResult {
   /// translation [m] x y z, then rotation [rad] about x y z, with R = Exp(error) R_estimated and
   /// t = error + t_estimated. Zero unless the state is ok or degraded.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  DisparityBias disparity_bias;  ///< of the rig, as far as known
   StageCounts counts;
   StageTimes times;
 
@@ -78,6 +80,7 @@ class VisualOdometry {
     MotionModel::Config motion_model;
     MotionEstimator::Config motion_estimator;
     MotionCheck::Config motion_check;
+    StereoCalibrator::Config stereo_calibrator;
 
     int startup_rounds = 4;           ///< predict, track, estimate this often without a prediction
     double startup_settled_px = 0.5;  ///< fewer rounds if the prediction moves less

@@ -129,8 +129,10 @@ bool MotionEstimator::estimateTranslation(const StereoCamera& camera,
   const auto fit = [&](const FeatureSet& set) {
     return solver_.solveTranslation(camera, features, set, T);  // Eq. 29
   };
+  // Plain errors: only then is the DNRE the relative error of the depth, and wrong disparities of
+  // far points, which differ from the right one by a large part of it, are seen.
   const auto measure = [&] {
-    reprojectionErrors(camera, features, T, config_.noise_ratio, errors_);
+    reprojectionErrors(camera, features, T, 0.0, errors_);
     for (std::size_t i = 0; i < errors_.size(); ++i) {
       const double flow_px = std::max({flow_px_[i], config_.min_flow_px, kLeastFlow_px});
       errors_[i] = candidates[i] != 0 ? errors_[i] / flow_px : kNever;
@@ -157,7 +159,7 @@ bool MotionEstimator::iterate(OutlierThreshold threshold,
     if (!keepBelow(errors_, threshold(errors_, set), next)) break;
     set = next;
   }
-  return true;
+  return fit(set);  // once more, with the disparities fitted where the last one ended
 }
 
 /// The rotation's covariance comes from stage 1 with its translation marginalized; the

@@ -8,33 +8,63 @@
 namespace rotrocc {
 namespace {
 
-/// d pi(point) / d point [px/m].
-Eigen::Matrix<double, 2, 3> projectionJacobian(const StereoCamera& camera,
-                                               const Eigen::Vector3d& point) {
-  Eigen::Matrix<double, 2, 3> J;
-  const double z = point.z();
-  J << camera.fx / z, 0.0, -camera.fx * point.x() / (z * z), 0.0, camera.fy / z,
-      -camera.fy * point.y() / (z * z);
-  return J;
-}
+/// The fit is nearly linear: two steps leave less than a hundredth of the first.
+constexpr int kFitSteps = 2;
+
+/// No feature is fitted beyond this many times its depth: a wrong match is not to become a right one.
+constexpr double kMostStretch = 2.0;
+
+/// The view of a point along its ray, as a function of the disparity above that of infinity.
+struct RayView {
+  const StereoCamera& camera;
+  Eigen::Vector3d ray;          // R X times disparity
+  Eigen::Vector3d translation;
+
+  /// The point's place in the previous frame, times disparity.
+  Eigen::Vector3d place(double disparity_px) const {
+    Eigen::Vector3d q = ray + disparity_px * translation;
+    q.z() = std::max(q.z(), kMinDepth_m * disparity_px);
+    return q;
+  }
+  /// d pi / d disparity.
+  Eigen::Vector2d slope(const Eigen::Vector3d& q) const {
+    return {camera.fx * (translation.x() - q.x() / q.z() * translation.z()) / q.z(),
+            camera.fy * (translation.y() - q.y() / q.z() * translation.z()) / q.z()};
+  }
+};
 
 }  // namespace
 
-Eigen::Matrix2d whitening(const StereoCamera& camera,
-                          const Correspondence& feature,
-                          const Eigen::Isometry3d& T_prev_cur,
-                          double noise_ratio) {
-  if (noise_ratio == 0.0) return Eigen::Matrix2d::Identity();
-  Eigen::Vector3d point = T_prev_cur * feature.point_cur;
-  point.z() = std::max(point.z(), kMinDepth_m);
-  // A point moves along its ray: dX / d disparity = -X / (disparity above that of infinity).
-  const double disparity_px = feature.disparity_px - camera.disparityAtInfinity();
-  const Eigen::Vector2d j =
-      projectionJacobian(camera, point) * (T_prev_cur.linear() * feature.point_cur) / -disparity_px;
+FittedFeature fitDisparity(const StereoCamera& camera,
+                           const Correspondence& feature,
+                           const Eigen::Isometry3d& T_prev_cur,
+                           double noise_ratio) {
+  const Eigen::Vector3d rotated = T_prev_cur.linear() * feature.point_cur;
+  const double measured_px = feature.disparity_px - camera.disparityAtInfinity();
+  const RayView view = {camera, measured_px * rotated, T_prev_cur.translation()};
+  const double r2 = noise_ratio * noise_ratio;
+  double fitted_px = measured_px;
+  Eigen::Vector3d q = view.place(fitted_px);
+  Eigen::Vector2d j = view.slope(q);
+  for (int step = 0; step < kFitSteps && noise_ratio > 0.0; ++step) {
+    const Eigen::Vector2d error_px = feature.prev_px - camera.project(q);
+    fitted_px += (r2 * j.dot(error_px) - (fitted_px - measured_px)) / (1.0 + r2 * j.squaredNorm());
+    fitted_px = std::clamp(fitted_px, measured_px / kMostStretch, measured_px * kMostStretch);
+    q = view.place(fitted_px);
+    j = view.slope(q);
+  }
+
+  FittedFeature fitted;
+  fitted.target_px = feature.prev_px + (fitted_px - measured_px) * j;
+  fitted.rotated_point = measured_px / fitted_px * rotated;
+  fitted.whitening.setIdentity();
+  fitted.by_disparity = j;
   const double j2 = j.squaredNorm();
-  if (j2 == 0.0) return Eigen::Matrix2d::Identity();
-  const double along_j = 1.0 / std::sqrt(1.0 + noise_ratio * noise_ratio * j2);
-  return Eigen::Matrix2d::Identity() - (1.0 - along_j) / j2 * j * j.transpose();
+  if (j2 > 0.0) {
+    const double along_j = 1.0 / std::sqrt(1.0 + r2 * j2);
+    fitted.whitening -= (1.0 - along_j) / j2 * j * j.transpose();
+  }
+  return fitted;
 }
 
 template <int kParameters>
@@ -44,12 +74,9 @@ void ReprojectionProblem<kParameters>::assign(const StereoCamera& camera,
                                               const Eigen::Isometry3d& T_0,
                                               double noise_ratio) {
   camera_ = camera;
-  observations_.clear();
+  features_.clear();
   for (std::size_t i = 0; i < features.size(); ++i) {
-    if (set[i] == 0) continue;
-    observations_.push_back({features[i].prev_px,
-                             T_0.linear() * features[i].point_cur,
-                             whitening(camera, features[i], T_0, noise_ratio)});
+    if (set[i] != 0) features_.push_back(fitDisparity(camera, features[i], T_0, noise_ratio));
   }
 }
 
@@ -67,25 +94,25 @@ bool ReprojectionProblem<kParameters>::operator()(const double* parameters,
   }
   const Vector3 T(parameters + kParameters - 3);
 
-  const auto rows = static_cast<Eigen::Index>(2 * observations_.size());
+  const auto rows = static_cast<Eigen::Index>(2 * features_.size());
   Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, kParameters>> J(jacobian, rows, kParameters);
-  for (std::size_t i = 0; i < observations_.size(); ++i) {
-    const Eigen::Vector3d rotated = R * observations_[i].rotated_point;
+  for (std::size_t i = 0; i < features_.size(); ++i) {
+    const Eigen::Vector3d rotated = R * features_[i].rotated_point;
     const Eigen::Vector3d moved = rotated + T;
     const bool in_front = moved.z() >= kMinDepth_m;
     const double z = in_front ? moved.z() : kMinDepth_m;
     const double u = camera_.fx * moved.x() / z;
     const double v = camera_.fy * moved.y() / z;
-    const Observation& observation = observations_[i];
+    const FittedFeature& feature = features_[i];
     Eigen::Map<Eigen::Vector2d>(residuals + 2 * i) =
-        observation.whitening *
-        (observation.prev_px - Eigen::Vector2d(u + camera_.cx, v + camera_.cy));
+        feature.whitening *
+        (feature.target_px - Eigen::Vector2d(u + camera_.cx, v + camera_.cy));
     if (jacobian == nullptr) continue;
 
     Eigen::Matrix<double, 2, 3> by_point;
     by_point << -camera_.fx / z, 0.0, in_front ? u / z : 0.0, 0.0, -camera_.fy / z,
         in_front ? v / z : 0.0;
-    by_point = observation.whitening * by_point;
+    by_point = feature.whitening * by_point;
     const auto row = static_cast<Eigen::Index>(2 * i);
     J.template block<2, 3>(row, kParameters - 3) = by_point;
     if (kRotates) J.template block<2, 3>(row, 0) = -by_point * skew(rotated) * J_left;
@@ -103,10 +130,10 @@ void reprojectionErrors(const StereoCamera& camera,
                         std::vector<double>& errors_px) {
   errors_px.resize(features.size());
   for (std::size_t i = 0; i < features.size(); ++i) {
-    Eigen::Vector3d point = T_prev_cur * features[i].point_cur;
+    const FittedFeature fitted = fitDisparity(camera, features[i], T_prev_cur, noise_ratio);
+    Eigen::Vector3d point = fitted.rotated_point + T_prev_cur.translation();
     point.z() = std::max(point.z(), kMinDepth_m);
-    const Eigen::Vector2d error_px = features[i].prev_px - camera.project(point);
-    errors_px[i] = (whitening(camera, features[i], T_prev_cur, noise_ratio) * error_px).norm();
+    errors_px[i] = (fitted.whitening * (fitted.target_px - camera.project(point))).norm();
   }
 }
 

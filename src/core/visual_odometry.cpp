@@ -1,6 +1,7 @@
 #include "rotrocc/visual_odometry.h"
 
 #include <chrono>
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -36,6 +37,9 @@ std::string sentence(const Parts&... parts) {
   (text << ... << parts);
   return text.str();
 }
+
+constexpr int kCalibrationRounds = 3;
+constexpr double kCalibrationSettled_px = 0.02;
 
 void checkImage(const char* side, const cv::Mat& image, const StereoCamera& camera) {
   if (image.empty()) throw Lost(sentence("the ", side, " image is empty"));
@@ -80,7 +84,8 @@ class VisualOdometry::Pipeline {
         finder_(config.correspondence_finder),
         motion_model_(config.motion_model),
         estimator_(config.motion_estimator),
-        check_(config.motion_check) {}
+        check_(config.motion_check),
+        calibrator_(config.stereo_calibrator, config.motion_estimator.noise_ratio) {}
 
   OdometryResult process(const StereoPair& pair,
                          const StereoCamera& camera,
@@ -156,7 +161,10 @@ class VisualOdometry::Pipeline {
   void takePair(const StereoPair& pair, const StereoCamera& camera, StageTimes& times) {
     const StageTimer timer(times.pyramids_ms);
     has_previous_ = false;  // in case it throws
-    finder_.advance(pair, camera);
+    if (camera != camera_) calibrator_.reset();
+    calibrator_.advance();
+    corrected_ = calibrator_.correct(camera);
+    finder_.advance(pair, corrected_);
     stamp_ns_ = pair.stamp_ns;
     camera_ = camera;
     has_previous_ = true;
@@ -178,7 +186,10 @@ class VisualOdometry::Pipeline {
     const FeatureTracker::Config& tracker = config_.correspondence_finder.feature_tracker;
     if (predicted) {
       trackAndEstimate(*predicted, tracker.levels, result);
-      if (check_.whyLost(estimate_, result.dt_s).empty()) return accept(result);
+      if (check_.whyLost(estimate_, result.dt_s).empty()) {
+        calibrate(result);
+        return accept(result);
+      }
     }
     Eigen::Isometry3d T_prev_cur = Eigen::Isometry3d::Identity();
     for (int round = 0; round < config_.startup_rounds; ++round) {
@@ -190,6 +201,7 @@ class VisualOdometry::Pipeline {
     }
     const std::string why_lost = check_.whyLost(estimate_, result.dt_s);
     if (!why_lost.empty()) throw Lost(why_lost);
+    calibrate(result);
     accept(result);
   }
 
@@ -201,13 +213,37 @@ class VisualOdometry::Pipeline {
       result.counts.consistent = static_cast<int>(features_.size());
     }
     const StageTimer timer(result.times.estimation_ms);
-    estimate_ = estimator_.estimate(camera_, features_, predicted, result.dt_s);
+    estimate(predicted, result);
+  }
+
+  void estimate(const Eigen::Isometry3d& initial, OdometryResult& result) {
+    estimate_ = estimator_.estimate(corrected_, features_, initial, result.dt_s);
     result.counts.rotation_inliers = count(estimate_.rotation_inliers);
     result.counts.translation_inliers =
         estimate_.has_translation_stage ? count(estimate_.translation_inliers) : 0;
   }
 
+  /// The features show the rig's bias as well as the motion: both are found in turns.
+  void calibrate(OdometryResult& result) {
+    const StageTimer timer(result.times.estimation_ms);
+    for (int round = 0; round < kCalibrationRounds; ++round) {
+      calibrator_.observe(
+          corrected_, features_, estimate_.rotation_inliers, estimate_.T_prev_cur);
+      const StereoCamera corrected = calibrator_.correct(camera_);
+      if (std::abs(corrected.cx_right - corrected_.cx_right) < kCalibrationSettled_px) return;
+      const MotionEstimator::Estimate before = estimate_;
+      corrected_ = corrected;
+      triangulate(corrected_, features_);
+      estimate(estimate_.T_prev_cur, result);
+      if (!check_.whyLost(estimate_, result.dt_s).empty()) {
+        estimate_ = before;
+        return;
+      }
+    }
+  }
+
   void accept(OdometryResult& result) const {
+    result.disparity_bias = calibrator_.bias();
     result.T_prev_cur = estimate_.T_prev_cur;
     result.covariance = estimate_.covariance;
     result.reason = check_.whyDegraded(estimate_);
@@ -236,7 +272,8 @@ class VisualOdometry::Pipeline {
 
   bool has_previous_ = false;
   std::int64_t stamp_ns_ = 0;  // of the last pair taken
-  StereoCamera camera_;
+  StereoCamera camera_, corrected_;
+  StereoCalibrator calibrator_;
   Correspondences features_;
   MotionEstimator::Estimate estimate_;
 };

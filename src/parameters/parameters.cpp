@@ -158,6 +158,35 @@ void addMotionCheck(MotionCheck::Config& c, ParameterTable& table) {
   table.add(s + "max_turn_rate_rps", c.max_turn_rate_rps, 0.1, 100.0, "rad/s", "faster: lost");
 }
 
+void addStereoCalibrator(StereoCalibrator::Config& c, ParameterTable& table) {
+  const std::string section = "stereo_calibrator/";
+  table.add(section + "enabled", c.enabled, "estimate what all disparities are off by, and correct it");
+  table.add(section + "bias_px",
+            c.bias_px,
+            -20.0,
+            20.0,
+            "px",
+            "added to all disparities from the start; the estimate adds to it");
+  table.add(section + "memory_pairs",
+            c.memory_pairs,
+            2.0,
+            1e6,
+            "",
+            "over as many pairs the weight of one falls by 1/e");
+  table.add(section + "significance",
+            c.significance,
+            0.0,
+            100.0,
+            "",
+            "standard deviations of the estimate that count as doubt; only what exceeds them is corrected");
+  table.add(section + "prior_sigma_px",
+            c.prior_sigma_px,
+            0.001,
+            100.0,
+            "px",
+            "how far from bias_px a rig may be expected to be");
+}
+
 void addVisualOdometry(VisualOdometry::Config& c, ParameterTable& table) {
   const std::string s = "visual_odometry/";
   table.add(s + "startup_rounds",
@@ -242,6 +271,7 @@ ParameterTable makeParameterTable(Parameters& parameters) {
   addMotionModel(odometry.motion_model, table);
   addMotionEstimator(odometry.motion_estimator, table);
   addMotionCheck(odometry.motion_check, table);
+  addStereoCalibrator(odometry.stereo_calibrator, table);
   addVisualOdometry(odometry, table);
   return table;
 }

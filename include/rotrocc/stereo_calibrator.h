@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include "rotrocc/correspondence.h"
+#include "rotrocc/reprojection_error.h"
+#include "rotrocc/stereo_camera.h"
+
+namespace rotrocc {
+
+/// What is known of the bias of the disparities.
+struct DisparityBias {
+  double estimated_px = 0.0;  ///< to be added to every disparity
+  double sigma_px = 0.0;      ///< standard deviation of the estimate
+  double applied_px = 0.0;    ///< the part of it beyond doubt, which is added
+};
+
+/// Finds the constant error that a rig, not quite as its calibration says, has in all its
+/// disparities.
+///
+/// A wrong disparity puts near and far points to depths that no one motion explains: the bias is
+/// the one more unknown of Eq. 25 that makes them consistent, with the motion eliminated. Its normal
+/// equation is summed over the pairs. A real rig also has errors that differ over the image (lens,
+/// relative rotation) and push the estimate by more than its noise. They show as parts of the image
+/// that disagree with each other, so the uncertainty is taken from those: the cluster-robust
+/// variance (Liang and Zeger 1986) over a grid of cells. Only what exceeds this doubt is applied,
+/// shrunk as by the positive-part estimator of James and Stein.
+class StereoCalibrator {
+ public:
+  struct Config {
+    bool enabled = true;         ///< if not, bias_px is all that is applied
+    double bias_px = 0.0;        ///< known already, added to every disparity; the estimate adds to it
+    double memory_pairs = 100.0; ///< a pair's weight falls by 1/e over as many
+    double significance = 3.0;   ///< standard deviations that count as doubt
+    double prior_sigma_px = 1.0; ///< how far from bias_px a rig may be expected to be
+  };
+
+  /// `noise_ratio` weights the residuals, see fitDisparity().
+  StereoCalibrator(const Config& config, double noise_ratio);
+
+  const DisparityBias& bias() const { return bias_; }
+
+  /// The camera whose depths have the bias taken out.
+  StereoCamera correct(const StereoCamera& camera) const;
+
+  /// Takes a motion estimated from the flagged features, whose depths are those of `corrected`, as
+  /// correct() gave it last. Called again for the same pair, the last call counts.
+  void observe(const StereoCamera& corrected,
+               const Correspondences& features,
+               const FeatureSet& set,
+               const Eigen::Isometry3d& T_prev_cur);
+
+  /// What was observed since the last call is of an earlier pair.
+  void advance();
+
+  /// Forgets everything: the rig is another one.
+  void reset();
+
+ private:
+  static constexpr int kColumns = 6;
+  static constexpr int kRows = 3;
+
+  /// Normal equations of the bias, by cell of the image: information * bias = weighted [1/px^2, 1/px].
+  struct Evidence {
+    std::array<double, kColumns * kRows> information{};
+    std::array<double, kColumns * kRows> weighted{};
+  };
+
+  void linearise(const StereoCamera& corrected,
+                 const Correspondences& features,
+                 const FeatureSet& set,
+                 const Eigen::Isometry3d& T_prev_cur);
+  void eliminateMotion();
+  void collect(const StereoCamera& corrected,
+               const Correspondences& features,
+               const FeatureSet& set);
+  void update();
+
+  Config config_;
+  double noise_ratio_;
+  Evidence past_, current_;
+  DisparityBias bias_;
+
+  ReprojectionProblem<6> problem_;
+  Eigen::VectorXd residuals_, by_bias_;
+  Eigen::Matrix<double, Eigen::Dynamic, 6> by_motion_;
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,138 @@
+#include "rotrocc/stereo_calibrator.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rotrocc/outlier_rejection.h"
+#include "rotrocc/rigid_motion.h"
+
+namespace rotrocc {
+namespace {
+
+/// Fewer features tell a bias from a motion badly.
+constexpr int kLeastFeatures = 30;
+
+int cellIndex(double position, int size, int cells) {
+  return std::clamp(static_cast<int>(position / size * cells), 0, cells - 1);
+}
+
+}  // namespace
+
+StereoCalibrator::StereoCalibrator(const Config& config, double noise_ratio)
+    : config_(config), noise_ratio_(noise_ratio) {
+  update();
+}
+
+StereoCamera StereoCalibrator::correct(const StereoCamera& camera) const {
+  StereoCamera corrected = camera;
+  corrected.cx_right += bias_.applied_px;
+  return corrected;
+}
+
+void StereoCalibrator::observe(const StereoCamera& corrected,
+                               const Correspondences& features,
+                               const FeatureSet& set,
+                               const Eigen::Isometry3d& T_prev_cur) {
+  if (!config_.enabled) return;
+  current_ = {};
+  if (count(set) >= kLeastFeatures) {
+    linearise(corrected, features, set, T_prev_cur);
+    eliminateMotion();
+    collect(corrected, features, set);
+  }
+  update();
+}
+
+/// Residuals and their derivatives by the motion and the bias.
+void StereoCalibrator::linearise(const StereoCamera& corrected,
+                                 const Correspondences& features,
+                                 const FeatureSet& set,
+                                 const Eigen::Isometry3d& T_prev_cur) {
+  problem_.assign(corrected, features, set, T_prev_cur, noise_ratio_);
+  Vector6d parameters;
+  parameters << Eigen::Vector3d::Zero(), T_prev_cur.translation();
+  residuals_.resize(problem_.NumResiduals());
+  by_motion_.resize(problem_.NumResiduals(), 6);
+  by_bias_.resize(problem_.NumResiduals());
+  problem_(parameters.data(), residuals_.data(), by_motion_.data());
+
+  Eigen::Index row = 0;
+  for (const FittedFeature& feature : problem_.features()) {
+    by_bias_.segment<2>(row) = -feature.whitening * feature.by_disparity;
+    row += 2;
+  }
+}
+
+/// Leaves of residuals and derivative what no change of the motion can explain.
+void StereoCalibrator::eliminateMotion() {
+  const Matrix6d normal = by_motion_.transpose() * by_motion_;
+  const Eigen::LDLT<Matrix6d> solver(normal);
+  const Vector6d of_bias = solver.solve(by_motion_.transpose() * by_bias_);
+  const Vector6d of_residuals = solver.solve(by_motion_.transpose() * residuals_);
+  by_bias_.noalias() -= by_motion_ * of_bias;
+  residuals_.noalias() -= by_motion_ * of_residuals;
+}
+
+void StereoCalibrator::collect(const StereoCamera& corrected,
+                               const Correspondences& features,
+                               const FeatureSet& set) {
+  const double variance = residuals_.squaredNorm() / static_cast<double>(residuals_.size() - 7);
+  if (!(variance > 0.0) || !by_bias_.allFinite()) return;
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (set[i] == 0) continue;
+    const Eigen::Vector2d& pixel = features[i].cur_px;
+    const auto cell = static_cast<std::size_t>(
+        cellIndex(pixel.y(), corrected.height, kRows) * kColumns +
+        cellIndex(pixel.x(), corrected.width, kColumns));
+    const auto slope = by_bias_.segment<2>(row);
+    const double information = slope.squaredNorm() / variance;
+    current_.information[cell] += information;
+    current_.weighted[cell] +=
+        information * bias_.applied_px - slope.dot(residuals_.segment<2>(row)) / variance;
+    row += 2;
+  }
+}
+
+void StereoCalibrator::advance() {
+  const double kept = 1.0 - 1.0 / config_.memory_pairs;
+  for (std::size_t cell = 0; cell < past_.information.size(); ++cell) {
+    past_.information[cell] = kept * past_.information[cell] + current_.information[cell];
+    past_.weighted[cell] = kept * past_.weighted[cell] + current_.weighted[cell];
+  }
+  current_ = {};
+}
+
+void StereoCalibrator::reset() {
+  past_ = {};
+  current_ = {};
+  update();
+}
+
+void StereoCalibrator::update() {
+  double information = 0.0;
+  double weighted = 0.0;
+  for (std::size_t cell = 0; cell < past_.information.size(); ++cell) {
+    information += past_.information[cell] + current_.information[cell];
+    weighted += past_.weighted[cell] + current_.weighted[cell];
+  }
+  const double measured_px = information > 0.0 ? weighted / information : 0.0;
+  double disagreement = 0.0;
+  for (std::size_t cell = 0; cell < past_.information.size(); ++cell) {
+    const double score = past_.weighted[cell] + current_.weighted[cell] -
+                         (past_.information[cell] + current_.information[cell]) * measured_px;
+    disagreement += score * score;
+  }
+  if (disagreement > information) information *= information / disagreement;
+
+  const double prior = 1.0 / (config_.prior_sigma_px * config_.prior_sigma_px);
+  bias_.sigma_px = 1.0 / std::sqrt(information + prior);
+  const double found_px =
+      information * (measured_px - config_.bias_px) / (information + prior);
+  const double doubt_px = config_.significance * bias_.sigma_px;
+  bias_.estimated_px = config_.bias_px + found_px;
+  bias_.applied_px = config_.bias_px;
+  if (std::abs(found_px) > doubt_px) bias_.applied_px += found_px - doubt_px * doubt_px / found_px;
+}
+
+}  // namespace rotrocc
