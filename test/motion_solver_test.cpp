@@ -133,8 +133,7 @@ TEST(MotionSolverTest, InformationIsThatOfTheErrorsOfAMotion) {
     T.translation() += error.head<3>();
     double sum = 0.0;
     for (const Correspondence& feature : features) {
-      const FittedFeature fitted =
-          fitDisparity(kittiCamera(), feature, turnAhead(), kNoiseRatio);
+      const FittedFeature fitted = fitDisparity(kittiCamera(), feature, turnAhead(), kNoiseRatio);
       const Eigen::Vector3d turned =
           T.linear() * turnAhead().linear().transpose() * fitted.rotated_point;
       const Eigen::Vector2d shift_px =

@@ -50,6 +50,7 @@ TEST(OdometryMessagesTest, StatusHasStateCountsAndCounters) {
   result.dt_s = 0.1;
   result.counts = {6, 5, 4, 3, 2, 1};
   result.times.tracking_ms = 1.5;
+  result.disparity_bias = {0.75, 0.125, 0.5};
   const OdometryStatus message = toStatus(result, {9, 8, 7, 6, 5}, 12.5, "camera");
   EXPECT_EQ(message.header.stamp, ros::Time(5, 0));
   EXPECT_EQ(message.header.frame_id, "camera");
@@ -58,6 +59,9 @@ TEST(OdometryMessagesTest, StatusHasStateCountsAndCounters) {
   EXPECT_EQ(message.corners, 6u);
   EXPECT_EQ(message.translation_inliers, 1u);
   EXPECT_EQ(message.time_tracking, 1.5f);
+  EXPECT_EQ(message.disparity_bias, 0.75f);
+  EXPECT_EQ(message.disparity_bias_sigma, 0.125f);
+  EXPECT_EQ(message.disparity_bias_applied, 0.5f);
   EXPECT_EQ(message.latency, 12.5f);
   EXPECT_EQ(message.pairs_processed, 9u);
   EXPECT_EQ(message.inputs_rejected, 5u);

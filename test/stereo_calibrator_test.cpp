@@ -87,9 +87,8 @@ TEST(StereoCalibratorTest, LearnsNothingAtStandstill) {
   StereoCalibrator calibrator({}, kNoiseRatio);
   for (unsigned pair = 0; pair < 50; ++pair) {
     const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
-    show(biasedFeatures(still, pair, [](const Eigen::Vector2d&) { return 1.0; }),
-         still,
-         calibrator);
+    show(
+        biasedFeatures(still, pair, [](const Eigen::Vector2d&) { return 1.0; }), still, calibrator);
     EXPECT_EQ(calibrator.bias().applied_px, 0.0) << pair;
   }
   EXPECT_GT(calibrator.bias().sigma_px, 0.5);
@@ -103,9 +102,8 @@ TEST(StereoCalibratorTest, ForgetsNothingAtStandstillButWhatItsMemoryLoses) {
   const double before_px = calibrator.bias().applied_px;
   for (unsigned pair = 0; pair < 30; ++pair) {
     const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
-    show(biasedFeatures(still, pair, [](const Eigen::Vector2d&) { return 1.0; }),
-         still,
-         calibrator);
+    show(
+        biasedFeatures(still, pair, [](const Eigen::Vector2d&) { return 1.0; }), still, calibrator);
   }
   EXPECT_NEAR(calibrator.bias().applied_px, before_px, 0.02);
 }

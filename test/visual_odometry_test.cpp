@@ -129,6 +129,41 @@ TEST(VisualOdometryTest, SurvivesAWrongExpectation) {
   expectMotion(result, bendStep());
 }
 
+/// The camera as a calibration says that is wrong by a pixel of disparity.
+StereoCamera wronglyCalibrated() {
+  StereoCamera wrong = camera();
+  wrong.cx_right -= 1.0;
+  return wrong;
+}
+
+TEST(VisualOdometryTest, CorrectsTheBiasOfARig) {
+  VisualOdometry::Config uncorrected;
+  uncorrected.stereo_calibrator.enabled = false;
+  VisualOdometry with({});
+  VisualOdometry without(uncorrected);
+  OdometryResult corrected;
+  OdometryResult biased;
+  for (int i = 0; i < 8; ++i) {
+    corrected = with.process(bend(i), wronglyCalibrated());
+    biased = without.process(bend(i), wronglyCalibrated());
+  }
+  EXPECT_NEAR(corrected.disparity_bias.estimated_px, 1.0, 0.15);
+  EXPECT_EQ(biased.disparity_bias.applied_px, 0.0);
+  const double error_m = motionError(corrected.T_prev_cur, bendStep()).head<3>().norm();
+  EXPECT_LT(2.0 * error_m, motionError(biased.T_prev_cur, bendStep()).head<3>().norm());
+}
+
+TEST(VisualOdometryTest, KeepsTheBiasOverAResetButNotForAnotherCamera) {
+  VisualOdometry odometry({});
+  OdometryResult result;
+  for (int i = 0; i < 8; ++i) result = odometry.process(bend(i), wronglyCalibrated());
+  const double applied_px = result.disparity_bias.applied_px;
+  EXPECT_GT(applied_px, 0.5);
+  odometry.reset();
+  EXPECT_EQ(odometry.process(bend(0), wronglyCalibrated()).disparity_bias.applied_px, applied_px);
+  EXPECT_EQ(odometry.process(bend(1), camera()).disparity_bias.applied_px, 0.0);
+}
+
 TEST(VisualOdometryTest, TellsWhatIsLeftAfterEachStage) {
   VisualOdometry odometry = started(2);
   const OdometryResult result = odometry.process(bend(2), camera());

@@ -31,7 +31,8 @@ class MotionEstimator {
  public:
   struct Config {
     std::string criterion = "rotrocc";  ///< one of criterionNames()
-    double noise_ratio = 3.0;  ///< disparity noise over flow noise, see fitDisparity(); 0: the paper's
+    double noise_ratio =
+        3.0;  ///< disparity noise over flow noise, see fitDisparity(); 0: the paper's
 
     // Stage 1: rotation.
     double rotation_limit_px = 0.6;  ///< termination limit of the reprojection error, Eq. 26

@@ -15,7 +15,8 @@ namespace rotrocc {
 /// residual of a wrong match finite.
 constexpr double kMinDepth_m = 0.1;
 
-/// A feature as least squares over the motion alone may see it, although its disparity is noisy too.
+/// A feature as least squares over the motion alone may see it, although its disparity is noisy
+/// too.
 struct FittedFeature {
   Eigen::Vector2d target_px;      ///< what the projection should hit, in the previous image
   Eigen::Vector3d rotated_point;  ///< R X_cur of the fitted disparity [m]
@@ -27,17 +28,18 @@ struct FittedFeature {
 /// r = `noise_ratio`, the standard deviation of a disparity over that of a flow, and
 /// j = d pi(R X + T) / d disparity at the fitted disparity, the residual's covariance is
 /// S = I + r^2 j j^T in units of the flow's variance, of which `whitening` is the inverse root; the
-/// target is prev_px, moved to where it would be expected had the measured disparity been the fitted
-/// one. The least squares of such residuals have their minimum where those over motion and all true
-/// disparities have it (Deming's regression): taken at the measured disparities, noisy far points
-/// would pull the motion towards too short. A ratio of 0 changes nothing: the paper's least squares.
+/// target is prev_px, moved to where it would be expected had the measured disparity been the
+/// fitted one. The least squares of such residuals have their minimum where those over motion and
+/// all true disparities have it (Deming's regression): taken at the measured disparities, noisy far
+/// points would pull the motion towards too short. A ratio of 0 changes nothing: the paper's least
+/// squares.
 FittedFeature fitDisparity(const StereoCamera& camera,
                            const Correspondence& feature,
                            const Eigen::Isometry3d& T_prev_cur,
                            double noise_ratio);
 
-/// The residual of Eq. 2 for one fitted feature, W (target - pi(R X_cur + T)) [px], where the motion is a
-/// local increment on an initial one: R = Exp(p[0..2]) R_0, T = p[3..5].
+/// The residual of Eq. 2 for one fitted feature, W (target - pi(R X_cur + T)) [px], where the
+/// motion is a local increment on an initial one: R = Exp(p[0..2]) R_0, T = p[3..5].
 ///
 /// Templated for ceres::Jet: the reference that the analytic Jacobians are tested against.
 struct ReprojectionResidual {
@@ -46,7 +48,8 @@ struct ReprojectionResidual {
 
   template <typename T>
   bool operator()(const T* p, T* residual) const {
-    const T point[3] = {T(feature.rotated_point.x()), T(feature.rotated_point.y()), T(feature.rotated_point.z())};
+    const T point[3] = {
+        T(feature.rotated_point.x()), T(feature.rotated_point.y()), T(feature.rotated_point.z())};
     T moved[3];
     ceres::AngleAxisRotatePoint(p, point, moved);
     const T z = moved[2] + p[5] < T(kMinDepth_m) ? T(kMinDepth_m) : moved[2] + p[5];

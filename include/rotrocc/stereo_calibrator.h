@@ -21,20 +21,20 @@ struct DisparityBias {
 /// disparities.
 ///
 /// A wrong disparity puts near and far points to depths that no one motion explains: the bias is
-/// the one more unknown of Eq. 25 that makes them consistent, with the motion eliminated. Its normal
-/// equation is summed over the pairs. A real rig also has errors that differ over the image (lens,
-/// relative rotation) and push the estimate by more than its noise. They show as parts of the image
-/// that disagree with each other, so the uncertainty is taken from those: the cluster-robust
-/// variance (Liang and Zeger 1986) over a grid of cells. Only what exceeds this doubt is applied,
-/// shrunk as by the positive-part estimator of James and Stein.
+/// the one more unknown of Eq. 25 that makes them consistent, with the motion eliminated. Its
+/// normal equation is summed over the pairs. A real rig also has errors that differ over the image
+/// (lens, relative rotation) and push the estimate by more than its noise. They show as parts of
+/// the image that disagree with each other, so the uncertainty is taken from those: the
+/// cluster-robust variance (Liang and Zeger 1986) over a grid of cells. Only what exceeds this
+/// doubt is applied, shrunk as by the positive-part estimator of James and Stein.
 class StereoCalibrator {
  public:
   struct Config {
-    bool enabled = true;         ///< if not, bias_px is all that is applied
-    double bias_px = 0.0;        ///< known already, added to every disparity; the estimate adds to it
-    double memory_pairs = 100.0; ///< a pair's weight falls by 1/e over as many
-    double significance = 3.0;   ///< standard deviations that count as doubt
-    double prior_sigma_px = 1.0; ///< how far from bias_px a rig may be expected to be
+    bool enabled = true;   ///< if not, bias_px is all that is applied
+    double bias_px = 0.0;  ///< known already, added to every disparity; the estimate begins there
+    double prior_sigma_px = 1.0;  ///< how far from bias_px a rig may be expected to be
+    double memory_pairs = 100.0;  ///< the weight of a pair falls by 1/e over as many
+    double significance = 3.0;    ///< standard deviations that count as doubt
   };
 
   /// `noise_ratio` weights the residuals, see fitDisparity().
@@ -62,7 +62,8 @@ class StereoCalibrator {
   static constexpr int kColumns = 6;
   static constexpr int kRows = 3;
 
-  /// Normal equations of the bias, by cell of the image: information * bias = weighted [1/px^2, 1/px].
+  /// Normal equations of the bias, by cell of the image: information * bias = weighted [1/px^2,
+  /// 1/px].
   struct Evidence {
     std::array<double, kColumns * kRows> information{};
     std::array<double, kColumns * kRows> weighted{};

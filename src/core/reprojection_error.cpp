@@ -11,13 +11,14 @@ namespace {
 /// The fit is nearly linear: two steps leave less than a hundredth of the first.
 constexpr int kFitSteps = 2;
 
-/// No feature is fitted beyond this many times its depth: a wrong match is not to become a right one.
+/// No feature is fitted beyond this many times its depth: a wrong match is not to become a right
+/// one.
 constexpr double kMostStretch = 2.0;
 
 /// The view of a point along its ray, as a function of the disparity above that of infinity.
 struct RayView {
   const StereoCamera& camera;
-  Eigen::Vector3d ray;          // R X times disparity
+  Eigen::Vector3d ray;  // R X times disparity
   Eigen::Vector3d translation;
 
   /// The point's place in the previous frame, times disparity.
@@ -105,8 +106,7 @@ bool ReprojectionProblem<kParameters>::operator()(const double* parameters,
     const double v = camera_.fy * moved.y() / z;
     const FittedFeature& feature = features_[i];
     Eigen::Map<Eigen::Vector2d>(residuals + 2 * i) =
-        feature.whitening *
-        (feature.target_px - Eigen::Vector2d(u + camera_.cx, v + camera_.cy));
+        feature.whitening * (feature.target_px - Eigen::Vector2d(u + camera_.cx, v + camera_.cy));
     if (jacobian == nullptr) continue;
 
     Eigen::Matrix<double, 2, 3> by_point;

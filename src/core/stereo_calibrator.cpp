@@ -82,9 +82,9 @@ void StereoCalibrator::collect(const StereoCamera& corrected,
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (set[i] == 0) continue;
     const Eigen::Vector2d& pixel = features[i].cur_px;
-    const auto cell = static_cast<std::size_t>(
-        cellIndex(pixel.y(), corrected.height, kRows) * kColumns +
-        cellIndex(pixel.x(), corrected.width, kColumns));
+    const auto cell =
+        static_cast<std::size_t>(cellIndex(pixel.y(), corrected.height, kRows) * kColumns +
+                                 cellIndex(pixel.x(), corrected.width, kColumns));
     const auto slope = by_bias_.segment<2>(row);
     const double information = slope.squaredNorm() / variance;
     current_.information[cell] += information;
@@ -127,8 +127,7 @@ void StereoCalibrator::update() {
 
   const double prior = 1.0 / (config_.prior_sigma_px * config_.prior_sigma_px);
   bias_.sigma_px = 1.0 / std::sqrt(information + prior);
-  const double found_px =
-      information * (measured_px - config_.bias_px) / (information + prior);
+  const double found_px = information * (measured_px - config_.bias_px) / (information + prior);
   const double doubt_px = config_.significance * bias_.sigma_px;
   bias_.estimated_px = config_.bias_px + found_px;
   bias_.applied_px = config_.bias_px;

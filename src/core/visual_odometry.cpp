@@ -38,6 +38,8 @@ std::string sentence(const Parts&... parts) {
   return text.str();
 }
 
+/// The bias and the motion are estimated in turns, so often at most, until the bias that is applied
+/// changes by less than this.
 constexpr int kCalibrationRounds = 3;
 constexpr double kCalibrationSettled_px = 0.02;
 
@@ -123,6 +125,7 @@ class VisualOdometry::Pipeline {
     const std::string why_start = whyStart(pair, camera);
     const std::int64_t previous_stamp_ns = stamp_ns_;
     takePair(pair, camera, result.times);
+    result.disparity_bias = calibrator_.bias();
     if (!why_start.empty()) {
       motion_model_.reset();
       result.state = State::kInitialising;
@@ -227,8 +230,7 @@ class VisualOdometry::Pipeline {
   void calibrate(OdometryResult& result) {
     const StageTimer timer(result.times.estimation_ms);
     for (int round = 0; round < kCalibrationRounds; ++round) {
-      calibrator_.observe(
-          corrected_, features_, estimate_.rotation_inliers, estimate_.T_prev_cur);
+      calibrator_.observe(corrected_, features_, estimate_.rotation_inliers, estimate_.T_prev_cur);
       const StereoCamera corrected = calibrator_.correct(camera_);
       if (std::abs(corrected.cx_right - corrected_.cx_right) < kCalibrationSettled_px) return;
       const MotionEstimator::Estimate before = estimate_;

@@ -159,32 +159,32 @@ void addMotionCheck(MotionCheck::Config& c, ParameterTable& table) {
 }
 
 void addStereoCalibrator(StereoCalibrator::Config& c, ParameterTable& table) {
-  const std::string section = "stereo_calibrator/";
-  table.add(section + "enabled", c.enabled, "estimate what all disparities are off by, and correct it");
-  table.add(section + "bias_px",
+  const std::string s = "stereo_calibrator/";
+  table.add(s + "enabled", c.enabled, "estimate the bias of all disparities and correct it");
+  table.add(s + "bias_px",
             c.bias_px,
             -20.0,
             20.0,
             "px",
-            "added to all disparities from the start; the estimate adds to it");
-  table.add(section + "memory_pairs",
-            c.memory_pairs,
-            2.0,
-            1e6,
-            "",
-            "over as many pairs the weight of one falls by 1/e");
-  table.add(section + "significance",
-            c.significance,
-            0.0,
-            100.0,
-            "",
-            "standard deviations of the estimate that count as doubt; only what exceeds them is corrected");
-  table.add(section + "prior_sigma_px",
+            "known bias, added to all disparities; the estimate begins there");
+  table.add(s + "prior_sigma_px",
             c.prior_sigma_px,
             0.001,
             100.0,
             "px",
             "how far from bias_px a rig may be expected to be");
+  table.add(s + "memory_pairs",
+            c.memory_pairs,
+            2.0,
+            1e6,
+            "",
+            "the weight of a pair falls by 1/e over as many");
+  table.add(s + "significance",
+            c.significance,
+            0.0,
+            100.0,
+            "",
+            "so many standard deviations of the estimate are doubt, which is not corrected");
 }
 
 void addVisualOdometry(VisualOdometry::Config& c, ParameterTable& table) {
