@@ -1,0 +1,162 @@
+// Runs scripts/paper_experiments in its short form, and looks at what it has found.
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "read_file.h"
+#include "run_command.h"
+#include "temporary_directory.h"
+
+namespace rotrocc {
+namespace {
+
+using Row = std::map<std::string, std::string>;
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) {
+    while (!cell.empty() && cell.back() == '\r') cell.pop_back();
+    cells.push_back(cell);
+  }
+  return cells;
+}
+
+class PaperExperimentsTest : public ::testing::Test {
+ protected:
+  /// The script is run once for all tests.
+  static void SetUpTestSuite() {
+    directory_ = new TemporaryDirectory;
+    result_ = runCommand(std::string(PYTHON) + " " + PAPER_EXPERIMENTS + " --short --programs " +
+                         PROGRAMS + " --output " + *directory_ / "out");
+  }
+  static void TearDownTestSuite() { delete directory_; }
+
+  void SetUp() override { ASSERT_EQ(result_.status, 0) << result_.output; }
+
+  static std::string path(const std::string& name) { return *directory_ / "out/" + name; }
+
+  static std::vector<Row> readTable(const std::string& name) {
+    std::ifstream file(path(name));
+    std::string line;
+    std::getline(file, line);
+    const std::vector<std::string> names = split(line);
+    std::vector<Row> rows;
+    while (std::getline(file, line)) {
+      const std::vector<std::string> cells = split(line);
+      EXPECT_EQ(cells.size(), names.size()) << name;
+      Row row;
+      for (std::size_t i = 0; i < std::min(cells.size(), names.size()); ++i) {
+        row[names[i]] = cells[i];
+      }
+      rows.push_back(row);
+    }
+    EXPECT_FALSE(rows.empty()) << name;
+    return rows;
+  }
+
+  static double number(const Row& row, const std::string& column) {
+    return std::stod(row.at(column));
+  }
+
+  static TemporaryDirectory* directory_;
+  static CommandResult result_;
+};
+
+TemporaryDirectory* PaperExperimentsTest::directory_ = nullptr;
+CommandResult PaperExperimentsTest::result_;
+
+TEST_F(PaperExperimentsTest, DrawsAllFigures) {
+  for (const char* name : {"fig4", "fig5", "fig6_motorway", "fig6_slip_road", "fig7", "fig8"}) {
+    const std::string picture = readFile(path(name) + ".png");
+    EXPECT_EQ(picture.substr(0, 4), "\x89PNG") << name;
+    EXPECT_GT(picture.size(), 10000u) << name << " is next to empty";
+  }
+}
+
+TEST_F(PaperExperimentsTest, NormalizedErrorsLieAtATenthInSingleAxisMotions) {
+  std::map<std::string, int> features;
+  for (const Row& row : readTable("fig4.csv")) {
+    ++features[row.at("motion")];
+    if (number(row, "depth_m") < 6.04) continue;  // where the bound of the paper holds, by Eq. 17
+    EXPECT_NEAR(number(row, "nre"), 0.1, 0.0154) << row.at("motion");
+  }
+  EXPECT_EQ(features.size(), 6u);
+  EXPECT_GT(features["t_z"], 500);
+}
+
+TEST_F(PaperExperimentsTest, OnlyTheDecoupledErrorTellsWrongDepths) {
+  int wrong = 0;
+  double least_wrong = 1.0;
+  double greatest_right = 0.0;
+  double greatest_right_nre = 0.0;
+  double least_wrong_nre = 1.0;
+  for (const Row& row : readTable("fig5.csv")) {
+    const bool right = number(row, "depth_factor") == 1.0;
+    wrong += right ? 0 : 1;
+    if (right) {
+      EXPECT_LT(number(row, "dnre"), 0.0505);  // the translation is 5 % too long
+      greatest_right = std::max(greatest_right, number(row, "dnre"));
+      greatest_right_nre = std::max(greatest_right_nre, number(row, "nre"));
+    } else {
+      least_wrong = std::min(least_wrong, number(row, "dnre"));
+      least_wrong_nre = std::min(least_wrong_nre, number(row, "nre"));
+    }
+  }
+  EXPECT_EQ(wrong, 5);
+  EXPECT_GT(least_wrong, 1.5 * greatest_right);
+  EXPECT_LT(least_wrong_nre, greatest_right_nre);
+}
+
+TEST_F(PaperExperimentsTest, EveryCriterionFollowsTheDrives) {
+  for (const char* table : {"fig6_motorway.csv", "fig6_slip_road.csv"}) {
+    const std::vector<Row> frames = readTable(table);
+    EXPECT_EQ(frames.size(), 39u);
+    double squares = 0.0;
+    for (const Row& frame : frames) {
+      squares += std::pow(number(frame, "rotrocc") - number(frame, "truth"), 2) / 39.0;
+    }
+    EXPECT_LT(std::sqrt(squares), 0.015) << table;  // [m]; the steps are 1 and 2.5 m
+  }
+  for (const Row& row : readTable("summary.csv")) {
+    for (const std::string criterion : {"rotrocc", "reprojection", "rocc"}) {
+      EXPECT_LT(number(row, criterion + "_translation_percent"), 1.0) << row.at("drive");
+      EXPECT_LT(number(row, criterion + "_rotation_deg_per_m"), 0.005) << row.at("drive");
+    }
+  }
+}
+
+TEST_F(PaperExperimentsTest, ErrorsBySpeedAndLengthHaveBothCriteria) {
+  for (const std::string figure : {"fig7", "fig8"}) {
+    for (const std::string column : {"speed_mps", "length_m"}) {
+      std::map<std::string, int> rows;
+      for (const Row& row : readTable(figure + "_" + column + ".csv")) {
+        ++rows[row.at("criterion")];
+        EXPECT_GT(number(row, "segments"), 0.0);
+      }
+      EXPECT_EQ(rows.size(), 2u) << figure;
+      EXPECT_GE(rows["rotrocc"], 2) << figure << " by " << column;
+    }
+  }
+}
+
+TEST_F(PaperExperimentsTest, StepsHaveNoBias) {
+  for (const Row& row : readTable("bias.csv")) {
+    EXPECT_EQ(row.at("steps"), "39");
+    EXPECT_EQ(row.at("lost"), "0");
+    // 0.3 % over a whole drive; these are short.
+    EXPECT_LT(std::abs(number(row, "bias_percent")),
+              0.3 + 3.0 * number(row, "standard_error_percent"))
+        << row.at("drive");
+  }
+}
+
+}  // namespace
+}  // namespace rotrocc
