@@ -127,5 +127,51 @@ TEST_F(BaseOdometryTest, CameraPoseIsThatOfTheCamera) {
   EXPECT_TRUE(state.T_first_camera.isApprox(T_camera, 1e-12));
 }
 
+TEST_F(BaseOdometryTest, PoseThatIsSetIsWhereItGoesOn) {
+  move(makeMotion(1.0, 0.2));
+  lose(kPeriod_ns);
+  Eigen::Isometry3d T_odom_base = makeMotion(50.0, M_PI / 2.0);
+  odometry_.setPose(T_odom_base);
+  const BaseState state = move(makeMotion(1.0, 0.0));
+  EXPECT_TRUE(state.T_odom_base.T.isApprox(T_odom_base * makeMotion(1.0, 0.0), 1e-12));
+  EXPECT_LT(sigma(state, 0), 0.01);
+}
+
+TEST_F(BaseOdometryTest, GapsOfYearsLeaveNumbersThatFiltersCanUse) {
+  lose(0, State::kInitialising);
+  const BaseState state = lose(50'000'000LL * 1'000'000'000, State::kInitialising);
+  EXPECT_NEAR(sigma(state, 0), kSpeedSigma * 1000.0, 1.0);
+}
+
+TEST(PlanarOdometryTest, LeavesOutWhatIsNotInThePlane) {
+  BaseOdometry odometry(cameraMount(), kSpeedSigma, kTurnSigma, true);
+  Eigen::Isometry3d bump = makeMotion(1.0, 0.1);
+  bump.translation().z() = 0.3;
+  bump.rotate(Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY()));
+  BaseState state;
+  Eigen::Isometry3d expected = Eigen::Isometry3d::Identity();
+  for (int i = 0; i < 10; ++i) {
+    OdometryResult result;
+    result.state = State::kOk;
+    result.stamp_ns = i * kPeriod_ns;
+    result.dt_s = 0.1;
+    result.T_prev_cur = cameraMount().inverse() * bump * cameraMount();
+    result.covariance = 1e-6 * Matrix6d::Identity();
+    state = odometry.add(result);
+    expected = expected * makeMotion(1.0, 0.1);
+  }
+  EXPECT_TRUE(state.T_odom_base.T.isApprox(expected, 1e-9));
+  EXPECT_NEAR(state.twist.twist[2], 0.0, 1e-9);
+  EXPECT_NEAR(state.twist.twist[4], 0.0, 1e-9);
+  const Matrix6d& covariance = state.T_odom_base.covariance;
+  EXPECT_LT(covariance(2, 2), 1e-8);
+  EXPECT_GT(covariance(2, 2), 0.0);
+  EXPECT_LT(covariance(4, 4), 1e-8);
+  EXPECT_GT(covariance(0, 0), 1e-6);
+  EXPECT_GT(covariance(5, 5), 1e-6);
+  EXPECT_TRUE(
+      state.T_first_camera.isApprox(cameraMount().inverse() * expected * cameraMount(), 1e-9));
+}
+
 }  // namespace
 }  // namespace rotrocc

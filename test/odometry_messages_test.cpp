@@ -33,13 +33,14 @@ TEST(OdometryMessagesTest, OdometryHasPoseTwistAndFrames) {
 
 TEST(OdometryMessagesTest, TransformIsThePose) {
   const nav_msgs::Odometry odometry = toOdometry(makeState(), "odom", "base_link");
-  const geometry_msgs::TransformStamped message = toTransform(odometry);
+  const geometry_msgs::TransformStamped message =
+      toTransform(makeState().T_odom_base.T, makeState().stamp_ns, "odom", "base_link");
   EXPECT_EQ(message.header.stamp, odometry.header.stamp);
   EXPECT_EQ(message.header.frame_id, "odom");
   EXPECT_EQ(message.child_frame_id, "base_link");
   EXPECT_EQ(message.transform.translation.x, 1.0);
   EXPECT_EQ(message.transform.translation.z, 3.0);
-  EXPECT_EQ(message.transform.rotation.z, odometry.pose.pose.orientation.z);
+  EXPECT_NEAR(message.transform.rotation.z, odometry.pose.pose.orientation.z, 1e-15);
 }
 
 TEST(OdometryMessagesTest, StatusHasStateCountsAndCounters) {
@@ -51,7 +52,12 @@ TEST(OdometryMessagesTest, StatusHasStateCountsAndCounters) {
   result.counts = {6, 5, 4, 3, 2, 1};
   result.times.tracking_ms = 1.5;
   result.disparity_bias = {0.75, 0.125, 0.5};
-  const OdometryStatus message = toStatus(result, {9, 8, 7, 6, 5}, 12.5, "camera");
+  HealthReport health;
+  health.pairs_processed = 9;
+  health.pairs_lost = 7;
+  health.drops = {{DropReason::kStampZero, 5}};
+  health.hint = "frozen?";
+  const OdometryStatus message = toStatus(result, health, 12.5, "camera");
   EXPECT_EQ(message.header.stamp, ros::Time(5, 0));
   EXPECT_EQ(message.header.frame_id, "camera");
   EXPECT_EQ(message.state, OdometryStatus::DEGRADED);
@@ -64,7 +70,20 @@ TEST(OdometryMessagesTest, StatusHasStateCountsAndCounters) {
   EXPECT_EQ(message.disparity_bias_applied, 0.5f);
   EXPECT_EQ(message.latency, 12.5f);
   EXPECT_EQ(message.pairs_processed, 9u);
-  EXPECT_EQ(message.inputs_rejected, 5u);
+  EXPECT_EQ(message.pairs_lost, 7u);
+  EXPECT_EQ(message.hint, "frozen?");
+  ASSERT_EQ(message.drops.size(), 1u);
+  EXPECT_EQ(message.drops[0].reason, "stamp_zero");
+  EXPECT_EQ(message.drops[0].count, 5u);
+}
+
+TEST(OdometryMessagesTest, IdleStatusSaysWhyNothingComes) {
+  HealthReport health;
+  health.input.camera_error = "P is all zeros";
+  const OdometryStatus message = toIdleStatus(health, ros::Time(7, 0));
+  EXPECT_EQ(message.header.stamp, ros::Time(7, 0));
+  EXPECT_EQ(message.state, OdometryStatus::NO_CALIBRATION);
+  EXPECT_EQ(message.reason, "P is all zeros");
 }
 
 TEST(OdometryMessagesTest, CloudHasTheInliersAndTheirGreyLevels) {

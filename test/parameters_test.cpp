@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "expect_error.h"
+#include "expected_file.h"
 #include "temporary_directory.h"
 
 namespace rotrocc {
@@ -46,21 +47,16 @@ std::vector<std::string> allowedValues(const ParameterTable::Parameter& paramete
   return words;
 }
 
-std::string readFile(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 TEST(ParametersTest, TheDefaultFileHoldsEveryParameterAtItsDefault) {
-  const std::string file = readFile(fs::path(ROTROCC_CONFIG_DIR) / "default.yaml");
-  const std::string table = toYaml(Settings().table);
-  ASSERT_GT(file.size(), table.size());
-  // Above the table are only comments.
-  EXPECT_EQ(file.substr(file.size() - table.size()), table);
-  std::istringstream header(file.substr(0, file.size() - table.size()));
-  for (std::string line; std::getline(header, line);) {
+  const std::string path = std::string(ROTROCC_CONFIG_DIR) + "/default.yaml";
+  const std::string file = readFile(path);
+  // Above the table are only comments, which end with an empty line.
+  const std::string header = file.substr(0, file.find("\n\n") + 2);
+  std::istringstream lines(header);
+  for (std::string line; std::getline(lines, line);) {
     EXPECT_TRUE(line.empty() || line.front() == '#') << line;
   }
+  expectFileHolds(path, header + toYaml(Settings().table));
 }
 
 TEST(ParametersTest, EveryShippedFileLoads) {

@@ -5,7 +5,6 @@
 
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/init.h>
-#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/image_encodings.h>
 
 #include "message_conversion.h"
@@ -61,6 +60,9 @@ SimulatedRobot::SimulatedRobot() {
   status_subscriber_ = nh.subscribe<OdometryStatus>(
       "status", kQueueSize, [this](const OdometryStatus::ConstPtr& message) {
         keep(*message, status_);
+        const std::lock_guard<std::mutex> lock(mutex_);
+        last_status_ = *message;
+        received_.notify_all();
       });
   for (const ros::Publisher* publisher : {&left_image_publisher_,
                                           &right_image_publisher_,
@@ -70,10 +72,15 @@ SimulatedRobot::SimulatedRobot() {
   }
 }
 
-void SimulatedRobot::publishInfos() {
-  const StereoCamera& camera = scene_.camera();
-  left_info_publisher_.publish(toInfo(camera, 0.0));
-  right_info_publisher_.publish(toInfo(camera, camera.baseline_m));
+void SimulatedRobot::publishInfos(const std::function<void(sensor_msgs::CameraInfo&)>& change) {
+  sensor_msgs::CameraInfo left = toInfo(scene_.camera(), 0.0);
+  sensor_msgs::CameraInfo right = toInfo(scene_.camera(), scene_.camera().baseline_m);
+  if (change) {
+    change(left);
+    change(right);
+  }
+  left_info_publisher_.publish(left);
+  right_info_publisher_.publish(right);
 }
 
 void SimulatedRobot::publishMount() {
@@ -120,6 +127,14 @@ std::optional<nav_msgs::Odometry> SimulatedRobot::odometryOf(const ros::Time& st
 std::optional<OdometryStatus> SimulatedRobot::statusOf(const ros::Time& stamp,
                                                        std::chrono::milliseconds timeout) {
   return waitFor(stamp, status_, timeout);
+}
+
+std::optional<OdometryStatus> SimulatedRobot::statusWith(std::uint8_t state,
+                                                         std::chrono::milliseconds timeout) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  const bool there = received_.wait_for(lock, timeout, [&] { return last_status_.state == state; });
+  if (!there) return std::nullopt;
+  return last_status_;
 }
 
 template <class Message>

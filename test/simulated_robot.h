@@ -11,6 +11,7 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/subscriber.h>
+#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <Eigen/Geometry>
@@ -30,7 +31,8 @@ class SimulatedRobot {
   /// An odometry must subscribe within some seconds.
   SimulatedRobot();
 
-  void publishInfos();
+  /// After `change` of both.
+  void publishInfos(const std::function<void(sensor_msgs::CameraInfo&)>& change = {});
 
   /// The transform from base_link to the camera, which is ahead of and above it.
   void publishMount();
@@ -46,6 +48,10 @@ class SimulatedRobot {
       const ros::Time& stamp, std::chrono::milliseconds timeout = std::chrono::seconds(20));
   std::optional<OdometryStatus> statusOf(
       const ros::Time& stamp, std::chrono::milliseconds timeout = std::chrono::seconds(20));
+
+  /// Waits for a status with a state; empty if none comes in time.
+  std::optional<OdometryStatus> statusWith(
+      std::uint8_t state, std::chrono::milliseconds timeout = std::chrono::seconds(20));
 
  private:
   template <class Message>
@@ -63,6 +69,7 @@ class SimulatedRobot {
   std::condition_variable received_;
   std::map<ros::Time, nav_msgs::Odometry> odometry_;
   std::map<ros::Time, OdometryStatus> status_;
+  OdometryStatus last_status_;
 
   tf2_ros::StaticTransformBroadcaster tf_broadcaster_;
   ros::Publisher left_image_publisher_;

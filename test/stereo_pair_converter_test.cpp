@@ -1,11 +1,13 @@
 #include "stereo_pair_converter.h"
 
-#include <stdexcept>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <sensor_msgs/image_encodings.h>
 
 #include "expect_error.h"
+#include "image_validation.h"
+#include "input_error.h"
 
 namespace rotrocc {
 namespace {
@@ -71,8 +73,8 @@ bool equal(const cv::Mat& a, const cv::Mat& b) {
 
 void expectRefused(const sensor_msgs::Image& image, const std::string& part) {
   const sensor_msgs::Image good = makeImage("mono8", 1);
-  expectError<std::invalid_argument>([&] { StereoPairConverter().convert(image, good); }, part);
-  expectError<std::invalid_argument>([&] { StereoPairConverter().convert(good, image); }, part);
+  expectError<InputError>([&] { StereoPairConverter().convert(image, good); }, part);
+  expectError<InputError>([&] { StereoPairConverter().convert(good, image); }, part);
 }
 
 TEST(StereoPairConverterTest, GreyImagesAreNotCopied) {
@@ -199,16 +201,33 @@ TEST(StereoPairConverterTest, RefusesSizesThatDiffer) {
   expectRefused(image, "24x17 px");
 }
 
-TEST(RequireSizeTest, SaysBothSizes) {
+TEST(ImageValidationTest, ImagesMustBeOfTheCamerasSize) {
   const sensor_msgs::Image image = makeImage("mono8", 1);
-  const StereoPair pair = StereoPairConverter().convert(image, image);
   StereoCamera camera;
   camera.width = kWidth;
   camera.height = kHeight;
-  EXPECT_NO_THROW(requireSize(pair, camera));
+  EXPECT_NO_THROW(validateSize(image, camera));
   camera.height = 20;
-  expectError<std::invalid_argument>([&] { requireSize(pair, camera); },
-                                     "24x18 px, but camera_info is for 24x20");
+  expectError<InputError>([&] { validateSize(image, camera); },
+                          "24x18 px, but camera_info is for 24x20");
+}
+
+TEST(ImageValidationTest, GreatImagesAreRefusedByLimit) {
+  const sensor_msgs::Image image = makeImage("mono8", 1);
+  EXPECT_NO_THROW(validateImage("left", image, kWidth * kHeight));
+  expectError<InputError>([&] { validateImage("left", image, kWidth * kHeight - 1); },
+                          "24x18 px, more than max_image_pixels = 431");
+}
+
+TEST(ImageValidationTest, TextOfStrangersIsFitForALog) {
+  sensor_msgs::Image image = makeImage("mono8", 1);
+  image.encoding = "\x1b[2J\n" + std::string(1000, 'x');
+  expectError<InputError>([&] { encodingOf("left", image); }, "encoding \"?[2J?xxx");
+  try {
+    encodingOf("left", image);
+  } catch (const InputError& error) {
+    EXPECT_LT(std::string(error.what()).size(), 300u);
+  }
 }
 
 }  // namespace

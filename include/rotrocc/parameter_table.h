@@ -13,10 +13,15 @@ namespace rotrocc {
 class ParameterTable {
  public:
   struct Parameter {
+    enum class Type { kInt, kDouble, kBool, kText };
+
     std::string name;
-    std::string unit;         ///< "px", "m", ...; empty for plain numbers and words
-    std::string range;        ///< in words: "[1, 100]", "one of a, b"
-    std::string description;  ///< one line
+    Type type = Type::kText;
+    std::string unit;                  ///< "px", "m", ...; empty for plain numbers and words
+    std::string range;                 ///< in words: "[1, 100]", "one of a, b"
+    std::string min, max;              ///< of the range, as get() has them; words have none
+    std::vector<std::string> choices;  ///< of a word; empty: any text
+    std::string description;           ///< one line
     std::function<void(const std::string&)>
         set;                           ///< throws std::invalid_argument, without the name
     std::function<std::string()> get;  ///< the value as YAML has it

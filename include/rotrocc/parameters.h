@@ -11,13 +11,24 @@ namespace rotrocc {
 struct NodeParameters {
   std::string odom_frame = "odom";
   std::string base_frame = "base_link";
-  bool publish_tf = true;
+  std::string camera_frame;       ///< of the left images; empty: their frame_id
+  bool publish_tf = true;         ///< odom_frame -> base_frame
+  bool invert_tf = false;         ///< base_frame -> odom_frame instead
+  bool planar = false;            ///< the base moves in its x-y plane
+  std::string guess_frame;        ///< of another odometry of base_frame in tf; empty: none
+  double guess_timeout_s = 0.05;  ///< how long a pair waits for that
   std::string image_transport = "raw";
-  double max_stamp_difference_s = 0.01;  ///< between the left and the right image of a pair
-  int queue_size = 4;                    ///< images that wait for their partner, on each side
-  int path_length = 10000;               ///< poses that the path topic keeps; 0: no path
-  double lost_speed_sigma_mps = 10.0;    ///< how fast the position gets uncertain while lost
+  double max_stamp_difference_s = 0.01;       ///< between the left and the right image of a pair
+  int queue_size = 4;                         ///< images that wait for their partner, on each side
+  int max_image_pixels = 20'000'000;          ///< of an image; more are refused
+  double max_future_s = 10.0;                 ///< stamps further ahead of the clock are refused
+  double baseline_m = 0.0;                    ///< 0: that of camera_info
+  std::string pose_after_time_jump = "keep";  ///< or "zero": when stamps begin anew
+  double silence_s = 5.0;                     ///< without a pair, until the log says why
+  int path_length = 10000;                    ///< poses that the path topic keeps; 0: no path
+  double lost_speed_sigma_mps = 10.0;         ///< how fast the position gets uncertain while lost
   double lost_turn_rate_sigma_rps = 0.5;
+  int trajectory_length = 100'000;        ///< poses kept for ~save_trajectory
   std::string trajectory_file;            ///< every pose is written there; empty: none
   std::string trajectory_format = "tum";  ///< or "kitti"
 };

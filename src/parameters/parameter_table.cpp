@@ -6,6 +6,7 @@
 #include <locale>
 #include <sstream>
 #include <stdexcept>
+#include <type_traits>
 
 namespace rotrocc {
 namespace {
@@ -34,7 +35,11 @@ T parseNumber(const std::string& text, const std::string& wanted) {
 template <class T>
 ParameterTable::Parameter makeNumber(T& value, T min, T max, const char* kind) {
   ParameterTable::Parameter parameter;
-  parameter.range = "[" + toText(min) + ", " + toText(max) + "]";
+  parameter.type = std::is_integral<T>::value ? ParameterTable::Parameter::Type::kInt
+                                              : ParameterTable::Parameter::Type::kDouble;
+  parameter.min = toText(min);
+  parameter.max = toText(max);
+  parameter.range = "[" + parameter.min + ", " + parameter.max + "]";
   const std::string in_range = "in " + parameter.range;
   const std::string wanted = std::string(kind) + " " + in_range;
   parameter.set = [&value, min, max, in_range, wanted](const std::string& text) {
@@ -85,6 +90,9 @@ void ParameterTable::add(const std::string& name,
 void ParameterTable::add(const std::string& name, bool& value, const std::string& description) {
   Parameter parameter;
   parameter.name = name;
+  parameter.type = Parameter::Type::kBool;
+  parameter.min = "false";
+  parameter.max = "true";
   parameter.range = "true or false";
   parameter.description = description;
   parameter.set = [&value](const std::string& text) {
@@ -103,6 +111,7 @@ void ParameterTable::add(const std::string& name,
                          const std::string& description) {
   Parameter parameter;
   parameter.name = name;
+  parameter.choices = choices;
   parameter.range = choices.empty() ? "any text" : "one of " + join(choices);
   parameter.description = description;
   parameter.set = [&value, choices, range = parameter.range](const std::string& text) {

@@ -207,7 +207,24 @@ void addVisualOdometry(VisualOdometry::Config& c, ParameterTable& table) {
 void addNode(NodeParameters& n, ParameterTable& table) {
   table.add("odom_frame", n.odom_frame, {}, "frame of the odometry's pose");
   table.add("base_frame", n.base_frame, {}, "frame of the robot; its pose and twist are published");
+  table.add("camera_frame",
+            n.camera_frame,
+            {},
+            "frame of the left camera; if empty, the one the images name");
   table.add("publish_tf", n.publish_tf, "broadcast odom_frame -> base_frame");
+  table.add("invert_tf", n.invert_tf, "broadcast base_frame -> odom_frame instead");
+  table.add("planar", n.planar, "the base moves along its x and y and turns about its z only");
+  table.add("guess_frame",
+            n.guess_frame,
+            {},
+            "odom frame of another odometry in tf, taken as prediction; then odom_frame -> "
+            "guess_frame is broadcast; none if empty");
+  table.add("guess_timeout_s",
+            n.guess_timeout_s,
+            0.0,
+            1.0,
+            "s",
+            "how long a pair waits for the tf of guess_frame");
   table.add(
       "image_transport", n.image_transport, {}, "transport of both images: raw, compressed, ...");
   table.add("max_stamp_difference_s",
@@ -218,6 +235,34 @@ void addNode(NodeParameters& n, ParameterTable& table) {
             "between the left and the right image of a pair");
   table.add(
       "queue_size", n.queue_size, 1, 100, "", "images that wait for their partner, on each side");
+  table.add("max_image_pixels",
+            n.max_image_pixels,
+            256,
+            1000000000,
+            "px",
+            "width times height of an image; greater ones are dropped");
+  table.add("max_future_s",
+            n.max_future_s,
+            0.0,
+            1e9,
+            "s",
+            "images stamped further ahead of the clock are dropped");
+  table.add("baseline_m",
+            n.baseline_m,
+            0.0,
+            100.0,
+            "m",
+            "between the cameras, if P[3] of camera_info does not tell; 0: it does");
+  table.add("pose_after_time_jump",
+            n.pose_after_time_jump,
+            {"keep", "zero"},
+            "the pose when stamps begin anew, as a bag in a loop does");
+  table.add("silence_s",
+            n.silence_s,
+            0.5,
+            3600.0,
+            "s",
+            "without a pair, until the log says what came and what to change");
   table.add("path_length", n.path_length, 0, 1000000, "", "poses the path topic keeps");
   table.add("lost_speed_sigma_mps",
             n.lost_speed_sigma_mps,
@@ -231,6 +276,12 @@ void addNode(NodeParameters& n, ParameterTable& table) {
             100.0,
             "rad/s",
             "how fast the orientation gets uncertain while lost");
+  table.add("trajectory_length",
+            n.trajectory_length,
+            1,
+            10000000,
+            "",
+            "poses kept for the service save_trajectory");
   table.add("trajectory_file",
             n.trajectory_file,
             {},

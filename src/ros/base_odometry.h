@@ -28,19 +28,28 @@ struct BaseState {
 class BaseOdometry {
  public:
   /// `lost_speed_sigma_mps` and `lost_turn_rate_sigma_rps`: the growth, along and about each axis.
+  /// `planar`: the base moves along its x and y and turns about its z only; what else is measured
+  /// is left out.
   BaseOdometry(const Eigen::Isometry3d& T_base_camera,
                double lost_speed_sigma_mps,
-               double lost_turn_rate_sigma_rps);
+               double lost_turn_rate_sigma_rps,
+               bool planar = false);
 
   BaseState add(const OdometryResult& result);
 
+  /// The base is there, for certain. The camera's trajectory goes on as if nothing had happened.
+  void setPose(const Eigen::Isometry3d& T_odom_base);
+
  private:
   Matrix6d growthWithoutMotion(std::int64_t stamp_ns);
+  Eigen::Isometry3d T_start_base() const;
 
   Eigen::Isometry3d T_base_camera_;
   Eigen::Isometry3d T_camera_base_;
+  Eigen::Isometry3d T_odom_start_ = Eigen::Isometry3d::Identity();  // start: the base's first pose
   double lost_speed_sigma_mps_;
   double lost_turn_rate_sigma_rps_;
+  bool planar_;
 
   PoseAccumulator camera_;
   UncertainTransform T_odom_base_;

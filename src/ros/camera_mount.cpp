@@ -3,25 +3,19 @@
 #include <cmath>
 #include <iomanip>
 #include <sstream>
+#include <stdexcept>
 
 #include <ros/console.h>
-#include <tf2/exceptions.h>
+
+#include "to_text.h"
 
 namespace rotrocc {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
+constexpr double kMaxNormError = 0.01;
 constexpr double kUpright = 45.0 * kDegree;
 constexpr int kPatience = 100;  // attempts before a warning: tf needs a moment after the start
-
-Eigen::Isometry3d toEigen(const geometry_msgs::Transform& transform) {
-  const auto& t = transform.translation;
-  const auto& q = transform.rotation;
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.translation() = Eigen::Vector3d(t.x, t.y, t.z);
-  T.linear() = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized().toRotationMatrix();
-  return T;
-}
 
 /// The axis of the base that is nearest to a direction.
 std::string nameDirection(const Eigen::Vector3d& direction) {
@@ -38,6 +32,25 @@ std::string nameDirection(const Eigen::Vector3d& direction) {
 
 }  // namespace
 
+Eigen::Isometry3d toEigen(const geometry_msgs::Transform& transform) {
+  const auto& t = transform.translation;
+  const auto& q = transform.rotation;
+  for (const double value : {t.x, t.y, t.z, q.w, q.x, q.y, q.z}) {
+    if (std::isfinite(value)) continue;
+    throw std::invalid_argument("the transform holds " + toText(value) + ": correct its publisher");
+  }
+  const Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
+  if (std::abs(rotation.norm() - 1.0) > kMaxNormError) {
+    throw std::invalid_argument("the quaternion of the transform has the length " +
+                                toText(rotation.norm()) +
+                                ", but must have 1: correct its publisher");
+  }
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translation() = Eigen::Vector3d(t.x, t.y, t.z);
+  T.linear() = rotation.normalized().toRotationMatrix();
+  return T;
+}
+
 CameraMount::CameraMount(const std::string& base_frame) : base_frame_(base_frame) {
   listener_.emplace(buffer_);
 }
@@ -50,11 +63,11 @@ const std::optional<Eigen::Isometry3d>& CameraMount::find(const std::string& cam
     ROS_INFO_STREAM("camera " << camera_frame << " in " << base_frame_ << ": "
                               << describeMount(*T_base_camera_));
     listener_.reset();
-  } catch (const tf2::TransformException& error) {
-    if (++attempts_ > kPatience && warning_.pass()) {
-      ROS_WARN_STREAM("waiting for tf from " << base_frame_ << " to " << camera_frame
-                                             << ", where the camera is mounted: " << error.what());
-    }
+    missing_.clear();
+  } catch (const std::exception& error) {
+    missing_ = "no tf from " + base_frame_ + " to " + camera_frame +
+               ", where the camera is mounted: " + error.what();
+    if (++attempts_ > kPatience && warning_.pass()) ROS_WARN_STREAM("waiting: " << missing_);
   }
   return T_base_camera_;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include <geometry_msgs/Transform.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 #include <Eigen/Geometry>
@@ -24,14 +25,22 @@ class CameraMount {
   /// the camera is, or, if asked again and again, which frames are missing.
   const std::optional<Eigen::Isometry3d>& find(const std::string& camera_frame);
 
+  /// What find() looks for in vain, in one sentence; empty if it has found it.
+  const std::string& missing() const { return missing_; }
+
  private:
   std::string base_frame_;
   std::optional<Eigen::Isometry3d> T_base_camera_;
+  std::string missing_;
   int attempts_ = 0;
   Throttle warning_{std::chrono::seconds(5)};
   tf2_ros::Buffer buffer_;
   std::optional<tf2_ros::TransformListener> listener_;  // until the mount is found
 };
+
+/// Throws std::invalid_argument with the value if there is a number that is not finite, or the
+/// quaternion is not of unit length within 1 %.
+Eigen::Isometry3d toEigen(const geometry_msgs::Transform& transform);
 
 /// "at 0 0 1.65 m, looks along +x (forward), its image is upright": for a human to check a mount
 /// with.

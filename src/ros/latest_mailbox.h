@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <cstdint>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -13,12 +12,13 @@ namespace rotrocc {
 template <class Item>
 class LatestMailbox {
  public:
-  /// Replaces the item that nobody has taken yet.
-  void put(Item item) {
+  /// Replaces the item that nobody has taken yet. Returns whether there was one.
+  bool put(Item item) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (item_) ++replaced_;
+    const bool replaced = item_.has_value();
     item_ = std::move(item);
     changed_.notify_one();
+    return replaced;
   }
 
   /// Waits for an item. Nothing if none comes in time, or the mailbox is closed.
@@ -41,18 +41,11 @@ class LatestMailbox {
     return closed_;
   }
 
-  /// Items that were never taken, as a newer one came.
-  std::uint64_t replaced() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return replaced_;
-  }
-
  private:
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<Item> item_;
   bool closed_ = false;
-  std::uint64_t replaced_ = 0;
 };
 
 }  // namespace rotrocc

@@ -29,6 +29,18 @@ std::uint8_t toMessage(State state) {
   return OdometryStatus::LOST;
 }
 
+void addCounters(const HealthReport& health, OdometryStatus& message) {
+  message.hint = health.hint;
+  message.pairs_processed = health.pairs_processed;
+  message.pairs_lost = health.pairs_lost;
+  for (const auto& [reason, count] : health.drops) {
+    DropCount drop;
+    drop.reason = toString(reason);
+    drop.count = count;
+    message.drops.push_back(drop);
+  }
+}
+
 }  // namespace
 
 nav_msgs::Odometry toOdometry(const BaseState& state,
@@ -45,19 +57,19 @@ nav_msgs::Odometry toOdometry(const BaseState& state,
   return message;
 }
 
-geometry_msgs::TransformStamped toTransform(const nav_msgs::Odometry& odometry) {
-  geometry_msgs::TransformStamped message;
-  message.header = odometry.header;
-  message.child_frame_id = odometry.child_frame_id;
-  message.transform.translation.x = odometry.pose.pose.position.x;
-  message.transform.translation.y = odometry.pose.pose.position.y;
-  message.transform.translation.z = odometry.pose.pose.position.z;
-  message.transform.rotation = odometry.pose.pose.orientation;
+geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& T_parent_child,
+                                            std::int64_t stamp_ns,
+                                            const std::string& parent,
+                                            const std::string& child) {
+  geometry_msgs::TransformStamped message = tf2::eigenToTransform(T_parent_child);
+  message.header.stamp = toRosTime(stamp_ns);
+  message.header.frame_id = parent;
+  message.child_frame_id = child;
   return message;
 }
 
 OdometryStatus toStatus(const OdometryResult& result,
-                        const InputCounters& counters,
+                        const HealthReport& health,
                         double latency_ms,
                         const std::string& camera_frame) {
   OdometryStatus message;
@@ -85,11 +97,17 @@ OdometryStatus toStatus(const OdometryResult& result,
   message.time_total = static_cast<float>(result.times.total_ms);
   message.latency = static_cast<float>(latency_ms);
 
-  message.pairs_processed = counters.pairs_processed;
-  message.pairs_dropped = counters.pairs_dropped;
-  message.pairs_lost = counters.pairs_lost;
-  message.images_unmatched = counters.images_unmatched;
-  message.inputs_rejected = counters.inputs_rejected;
+  addCounters(health, message);
+  return message;
+}
+
+OdometryStatus toIdleStatus(const HealthReport& health, const ros::Time& stamp) {
+  const NodeState state = stateOf(health);
+  OdometryStatus message;
+  message.header.stamp = stamp;
+  message.state = state.state;
+  message.reason = state.reason;
+  addCounters(health, message);
   return message;
 }
 

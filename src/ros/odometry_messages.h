@@ -10,32 +10,30 @@
 #include <opencv2/core.hpp>
 
 #include "base_odometry.h"
+#include "odometry_health.h"
 #include "rotrocc/OdometryStatus.h"
 #include "rotrocc/visual_odometry.h"
 
 namespace rotrocc {
 
-/// What happened to the input since the start.
-struct InputCounters {
-  std::uint64_t pairs_processed = 0;
-  std::uint64_t pairs_dropped = 0;
-  std::uint64_t pairs_lost = 0;
-  std::uint64_t images_unmatched = 0;
-  std::uint64_t inputs_rejected = 0;
-};
-
 nav_msgs::Odometry toOdometry(const BaseState& state,
                               const std::string& odom_frame,
                               const std::string& base_frame);
 
-/// The transform from the frame of an odometry to its child frame.
-geometry_msgs::TransformStamped toTransform(const nav_msgs::Odometry& odometry);
+/// T_parent_child as tf takes it.
+geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& T_parent_child,
+                                            std::int64_t stamp_ns,
+                                            const std::string& parent,
+                                            const std::string& child);
 
-/// `latency_ms`: since the arrival of the pair.
+/// `latency_ms`: since the arrival of the pair. The stamp is that of the result.
 OdometryStatus toStatus(const OdometryResult& result,
-                        const InputCounters& counters,
+                        const HealthReport& health,
                         double latency_ms,
                         const std::string& camera_frame);
+
+/// The status while there is nothing to tell of a pair.
+OdometryStatus toIdleStatus(const HealthReport& health, const ros::Time& stamp);
 
 /// The points of the features in `set`, in the frame of the header, which must be the left
 /// camera's: x, y, z [m] and the intensity of the image there, all FLOAT32.

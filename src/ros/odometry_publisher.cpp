@@ -27,13 +27,33 @@ OdometryPublisher::OdometryPublisher(ros::NodeHandle& nh, const NodeParameters& 
   if (parameters.publish_tf) tf_broadcaster_.emplace();
 }
 
-void OdometryPublisher::publishMotion(const OdometryStatus& status, const BaseState& state) {
+void OdometryPublisher::publishMotion(const OdometryStatus& status,
+                                      const BaseState& state,
+                                      const std::optional<Eigen::Isometry3d>& T_guess_base) {
   const nav_msgs::Odometry odometry =
       toOdometry(state, parameters_.odom_frame, parameters_.base_frame);
   status_publisher_.publish(status);
-  if (tf_broadcaster_) tf_broadcaster_->sendTransform(toTransform(odometry));
+  if (tf_broadcaster_) publishTf(state, T_guess_base);
   odom_publisher_.publish(odometry);
   publishPath(odometry);
+}
+
+/// Where another odometry owns the base, our tf ends at its odom frame: a frame has one parent.
+void OdometryPublisher::publishTf(const BaseState& state,
+                                  const std::optional<Eigen::Isometry3d>& T_guess_base) {
+  const std::string& odom = parameters_.odom_frame;
+  const Eigen::Isometry3d& T_odom_base = state.T_odom_base.T;
+  if (!parameters_.guess_frame.empty()) {
+    if (!T_guess_base) return;
+    tf_broadcaster_->sendTransform(toTransform(
+        T_odom_base * T_guess_base->inverse(), state.stamp_ns, odom, parameters_.guess_frame));
+  } else if (parameters_.invert_tf) {
+    tf_broadcaster_->sendTransform(
+        toTransform(T_odom_base.inverse(), state.stamp_ns, parameters_.base_frame, odom));
+  } else {
+    tf_broadcaster_->sendTransform(
+        toTransform(T_odom_base, state.stamp_ns, odom, parameters_.base_frame));
+  }
 }
 
 void OdometryPublisher::publishPath(const nav_msgs::Odometry& odometry) {

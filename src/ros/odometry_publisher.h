@@ -26,7 +26,16 @@ class OdometryPublisher {
   OdometryPublisher(ros::NodeHandle& nh, const NodeParameters& parameters);
 
   /// The status first and tf next, so that they are known to whoever receives the odometry.
-  void publishMotion(const OdometryStatus& status, const BaseState& state);
+  /// `T_guess_base`: the pose of the base in guess_frame at that time, if there is such a frame and
+  /// tf knows it.
+  void publishMotion(const OdometryStatus& status,
+                     const BaseState& state,
+                     const std::optional<Eigen::Isometry3d>& T_guess_base);
+
+  void publishStatus(const OdometryStatus& status) { status_publisher_.publish(status); }
+
+  /// The path before has ended.
+  void forgetPath() { path_.clear(); }
 
   /// Inliers and flow of the last call of odometry.process(), which had `left` and gave `result`.
   void publishPictures(const cv::Mat& left,
@@ -35,6 +44,7 @@ class OdometryPublisher {
                        const std::string& camera_frame);
 
  private:
+  void publishTf(const BaseState& state, const std::optional<Eigen::Isometry3d>& T_guess_base);
   void publishPath(const nav_msgs::Odometry& odometry);
 
   NodeParameters parameters_;

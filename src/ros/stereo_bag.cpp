@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "bag_reading.h"
-#include "message_conversion.h"
+#include "camera_validation.h"
 #include "to_text.h"
 
 namespace rotrocc {

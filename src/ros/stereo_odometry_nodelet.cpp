@@ -1,32 +1,32 @@
 #include "stereo_odometry_nodelet.h"
 
+#include <cmath>
 #include <exception>
 #include <utility>
 
 #include <ros/init.h>
+#include <ros/time.h>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "message_conversion.h"
+#include "image_validation.h"
 #include "node_parameters.h"
+#include "odometry_messages.h"
 
 namespace rotrocc {
 namespace {
+
+using SteadyClock = std::chrono::steady_clock;
 
 /// How often the worker looks for the end of the process, which may come without a call of the
 /// destructor.
 constexpr std::chrono::milliseconds kIdlePoll(100);
 /// How often it looks for tf while a pair waits for it.
 constexpr std::chrono::milliseconds kTfPoll(10);
+/// How often diagnostics come, as REP 107 asks for.
+constexpr double kTick_s = 1.0;
 
-double millisecondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
-}
-
-/// The frame of an image, as tf2 knows it: older drivers lead it with a slash.
-std::string frameOf(const sensor_msgs::Image& image) {
-  const std::string& frame = image.header.frame_id;
-  return frame.compare(0, 1, "/") == 0 ? frame.substr(1) : frame;
+double millisecondsSince(SteadyClock::time_point start) {
+  return std::chrono::duration<double, std::milli>(SteadyClock::now() - start).count();
 }
 
 }  // namespace
@@ -46,103 +46,167 @@ void StereoOdometryNodelet::onInit() {
 }
 
 void StereoOdometryNodelet::start(const Parameters& parameters) {
+  ros::NodeHandle& nh = getNodeHandle();
+  ros::NodeHandle& private_nh = getPrivateNodeHandle();
   parameters_ = parameters.node;
   if (!parameters_.trajectory_file.empty()) {
-    trajectory_.emplace(parameters_.trajectory_file,
-                        trajectoryFormat(parameters_.trajectory_format));
+    trajectory_file_.emplace(parameters_.trajectory_file,
+                             trajectoryFormat(parameters_.trajectory_format));
   }
-  odometry_.emplace(parameters.odometry);
+  trajectory_.emplace(static_cast<std::size_t>(parameters_.trajectory_length));
+  processor_.emplace(parameters);
   mount_.emplace(parameters_.base_frame);
-  publisher_.emplace(getNodeHandle(), parameters_);
-  input_.emplace(
-      getNodeHandle(), parameters_, [this](ReceivedPair pair) { mailbox_.put(std::move(pair)); });
+  if (!parameters_.guess_frame.empty()) {
+    guess_.emplace(parameters_.guess_frame, parameters_.base_frame, parameters_.guess_timeout_s);
+  }
+  publisher_.emplace(nh, parameters_);
+  last_pair_time_ = SteadyClock::now();
+  input_.emplace(nh, parameters_, drops_, [this](ReceivedPair pair) { onPair(std::move(pair)); });
+  if (parameters_.publish_tf && !parameters_.invert_tf && !guess_) {
+    tf_conflict_.emplace(nh, parameters_.odom_frame, parameters_.base_frame);
+  }
+  diagnostics_.emplace(nh, private_nh, getName());
+  services_.emplace(private_nh, makeActions());
+  live_parameters_.emplace(private_nh, parameters, [this](const VisualOdometry::Config& config) {
+    processor_->requestConfig(config);
+  });
+  ticker_ = nh.createWallTimer(ros::WallDuration(kTick_s), &StereoOdometryNodelet::onTick, this);
   worker_ = std::thread(&StereoOdometryNodelet::work, this);
+}
+
+OdometryServices::Actions StereoOdometryNodelet::makeActions() {
+  OdometryServices::Actions actions;
+  actions.reset = [this] { processor_->requestReset(); };
+  actions.set_pose = [this](const Eigen::Isometry3d& T) { processor_->requestPose(T); };
+  actions.pause = [this](bool paused) { onPause(paused); };
+  actions.save_trajectory = [this](const std::string& path, const std::string& format) {
+    return trajectory_->save(path, format);
+  };
+  return actions;
+}
+
+void StereoOdometryNodelet::onPair(ReceivedPair pair) {
+  last_pair_time_ = SteadyClock::now();
+  if (health_.paused()) return drops_.count(DropReason::kPaused);
+  if (mailbox_.put(std::move(pair))) drops_.count(DropReason::kSuperseded);
+}
+
+void StereoOdometryNodelet::onPause(bool paused) {
+  if (health_.paused() && !paused) processor_->requestRestart();
+  health_.setPaused(paused);
+}
+
+/// Once a second: diagnostics, a status if no pair has made one, and a word on silence.
+void StereoOdometryNodelet::onTick(const ros::WallTimerEvent&) {
+  try {
+    const InputReport input = input_->report();
+    if (tf_conflict_) health_.setTfConflict(tf_conflict_->description());
+    const HealthReport report = health_.report(input, drops_);
+    diagnostics_->publish(report);
+    if (!report.answers || report.paused) {
+      publisher_->publishStatus(toIdleStatus(report, ros::Time::now()));
+    }
+    const std::chrono::duration<double> silence = SteadyClock::now() - last_pair_time_;
+    if (silence.count() < parameters_.silence_s || !silence_warning_.pass()) return;
+    const std::string why = whyNoPairs(input);
+    NODELET_WARN_STREAM("no stereo pair for "
+                        << std::lround(silence.count()) << " s. Messages in the last 5 s: "
+                        << describeTopics(input) << (why.empty() ? "" : ". Likely: ") << why);
+  } catch (const std::exception& error) {
+    NODELET_ERROR_STREAM("diagnostics: " << error.what());
+  }
 }
 
 void StereoOdometryNodelet::work() {
   std::optional<ReceivedPair> pair;
   while (ros::ok() && !mailbox_.closed()) {
     if (auto newer = mailbox_.take(pair ? kTfPoll : kIdlePoll)) {
-      if (pair) ++counters_.pairs_dropped;
+      if (pair) drops_.count(DropReason::kTfMissing);
       pair = std::move(newer);
     }
-    if (!pair) continue;
-    const auto& T_base_camera = mount_->find(frameOf(*pair->images.left));
-    if (!T_base_camera) continue;
-    processSafely(*pair, *T_base_camera);
+    if (!pair || waitsForMount(*pair)) continue;
+    processSafely(*pair);
     pair.reset();
   }
 }
 
-void StereoOdometryNodelet::processSafely(const ReceivedPair& received,
-                                          const Eigen::Isometry3d& T_base_camera) {
+/// Whether tf does not know yet where the camera is. A frame that is missing is left to process().
+bool StereoOdometryNodelet::waitsForMount(const ReceivedPair& received) {
+  const sensor_msgs::Image& left = *received.images.left;
+  if (parameters_.camera_frame.empty() && left.header.frame_id.empty()) return false;
+  if (mount_->find(cameraFrameOf(left, parameters_.camera_frame))) return false;
+  health_.setWaitsForTf(mount_->missing());
+  return true;
+}
+
+void StereoOdometryNodelet::processSafely(const ReceivedPair& received) {
   try {
-    process(received, T_base_camera);
+    const auto& T_base_camera =
+        mount_->find(cameraFrameOf(*received.images.left, parameters_.camera_frame));
+    if (T_base_camera) process(received, *T_base_camera);
+  } catch (const InputError& error) {
+    drops_.add(error);
   } catch (const std::exception& error) {
-    ++counters_.inputs_rejected;
-    if (rejected_warning_.pass()) NODELET_WARN_STREAM("pair not processed: " << error.what());
+    drops_.add(InputError(DropReason::kFailed, std::string("internal error: ") + error.what()));
   }
 }
 
 void StereoOdometryNodelet::process(const ReceivedPair& received,
                                     const Eigen::Isometry3d& T_base_camera) {
-  const StereoPair pair = converter_.convert(*received.images.left, *received.images.right);
-  requireSize(pair, received.camera);
-  restartIfTimeWentBack(pair.stamp_ns);
-  if (!base_odometry_) {
-    base_odometry_.emplace(
-        T_base_camera, parameters_.lost_speed_sigma_mps, parameters_.lost_turn_rate_sigma_rps);
+  PairProcessor::MotionSource expected;
+  if (guess_) {
+    expected = [this](std::int64_t prev_ns, std::int64_t cur_ns) {
+      return guess_->motion(prev_ns, cur_ns);
+    };
   }
+  const PairAnswer answer = processor_->process(received, T_base_camera, expected);
+  if (answer.begins_anew) endTrajectory();
+  writeTrajectory(answer.state);
+  logState(answer);
+  publish(answer, received);
+}
 
-  const OdometryResult result = odometry_->process(pair, received.camera);
-  const BaseState state = base_odometry_->add(result);
-  ++counters_.pairs_processed;
-  if (result.state == State::kLost) ++counters_.pairs_lost;
-  logState(result);
-  writeTrajectory(state);
-
-  const std::string camera_frame = frameOf(*received.images.left);
+void StereoOdometryNodelet::publish(const PairAnswer& answer, const ReceivedPair& received) {
+  const std::string camera_frame = cameraFrameOf(*received.images.left, parameters_.camera_frame);
+  std::optional<Eigen::Isometry3d> T_guess_base;
+  if (guess_) T_guess_base = guess_->pose(answer.result.stamp_ns);
+  const double latency_ms = millisecondsSince(received.arrival);
+  health_.addAnswer(answer.result, answer.hint, latency_ms);
   publisher_->publishMotion(
-      toStatus(result, countInputs(), millisecondsSince(received.arrival), camera_frame), state);
-  publisher_->publishPictures(pair.left, *odometry_, result, camera_frame);
+      toStatus(answer.result, health_.report({}, drops_), latency_ms, camera_frame),
+      answer.state,
+      T_guess_base);
+  publisher_->publishPictures(
+      answer.pair.left, processor_->odometry(), answer.result, camera_frame);
 }
 
-/// A bag that begins anew, or a simulation: the robot goes on from where it is.
-void StereoOdometryNodelet::restartIfTimeWentBack(std::int64_t stamp_ns) {
-  if (last_stamp_ns_ && stamp_ns < *last_stamp_ns_) {
-    NODELET_WARN_STREAM("time went back from " << toRosTime(*last_stamp_ns_) << " to "
-                                               << toRosTime(stamp_ns)
-                                               << ": starting anew at the last pose");
-    odometry_->reset();
+void StereoOdometryNodelet::endTrajectory() {
+  trajectory_->clear();
+  publisher_->forgetPath();
+  if (guess_) guess_->clear();
+}
+
+void StereoOdometryNodelet::writeTrajectory(const BaseState& state) {
+  const StampedPose pose = {state.stamp_ns, state.T_first_camera};
+  trajectory_->add(pose);
+  if (!trajectory_file_) return;
+  try {
+    trajectory_file_->write(pose);
+  } catch (const std::exception& error) {
+    NODELET_ERROR_STREAM("the trajectory ends here: " << error.what());
+    trajectory_file_.reset();
   }
-  last_stamp_ns_ = stamp_ns;
 }
 
-InputCounters StereoOdometryNodelet::countInputs() const {
-  InputCounters counters = counters_;
-  counters.pairs_dropped += mailbox_.replaced();
-  counters.images_unmatched = input_->unmatchedImages();
-  counters.inputs_rejected += input_->rejected();
-  return counters;
-}
-
-void StereoOdometryNodelet::logState(const OdometryResult& result) {
+void StereoOdometryNodelet::logState(const PairAnswer& answer) {
+  const OdometryResult& result = answer.result;
   const State before = std::exchange(last_state_, result.state);
   if (result.state == State::kLost) {
     if (lost_warning_.pass()) NODELET_WARN_STREAM("lost: " << result.reason);
   } else if (before == State::kLost) {
     NODELET_INFO_STREAM("no longer lost: " << toString(result.state));
   }
-}
-
-void StereoOdometryNodelet::writeTrajectory(const BaseState& state) {
-  if (!trajectory_) return;
-  try {
-    trajectory_->write({state.stamp_ns, state.T_first_camera});
-  } catch (const std::exception& error) {
-    NODELET_ERROR_STREAM("the trajectory ends here: " << error.what());
-    trajectory_.reset();
-  }
+  if (!answer.hint.empty() && hint_warning_.pass()) NODELET_WARN_STREAM(answer.hint);
 }
 
 }  // namespace rotrocc

@@ -1,24 +1,29 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <thread>
 
 #include <nodelet/nodelet.h>
+#include <ros/wall_timer.h>
 
-#include "base_odometry.h"
 #include "camera_mount.h"
+#include "diagnostics.h"
+#include "drop_log.h"
+#include "guess_odometry.h"
 #include "latest_mailbox.h"
-#include "odometry_messages.h"
+#include "live_parameters.h"
+#include "odometry_health.h"
 #include "odometry_publisher.h"
+#include "odometry_services.h"
+#include "pair_processor.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/trajectory.h"
-#include "rotrocc/visual_odometry.h"
 #include "stereo_input.h"
-#include "stereo_pair_converter.h"
+#include "tf_conflict.h"
 #include "throttle.h"
+#include "trajectory_history.h"
 
 namespace rotrocc {
 
@@ -26,7 +31,8 @@ namespace rotrocc {
 ///
 /// Subscribes to left/image_rect, right/image_rect (through image_transport), left/camera_info and
 /// right/camera_info; tf must lead from base_frame to the frame of the left images. Publishes odom,
-/// path, inliers, flow, status and tf. config/default.yaml lists the private parameters.
+/// path, inliers, flow, status, tf and /diagnostics, and has the services of OdometryServices.
+/// config/default.yaml lists the private parameters.
 ///
 /// The callbacks of the nodelet only make pairs of the images. A thread of its own processes them;
 /// if it is too slow it skips to the newest pair.
@@ -41,32 +47,45 @@ class StereoOdometryNodelet : public nodelet::Nodelet {
 
   // In the nodelet's thread.
   void start(const Parameters& parameters);
+  OdometryServices::Actions makeActions();
+  void onPair(ReceivedPair pair);
+  void onPause(bool paused);
+  void onTick(const ros::WallTimerEvent& event);
 
   // In the worker thread.
   void work();
-  void processSafely(const ReceivedPair& received, const Eigen::Isometry3d& T_base_camera);
+  void processSafely(const ReceivedPair& received);
   void process(const ReceivedPair& received, const Eigen::Isometry3d& T_base_camera);
-  void restartIfTimeWentBack(std::int64_t stamp_ns);
-  InputCounters countInputs() const;
-  void logState(const OdometryResult& result);
+  void publish(const PairAnswer& answer, const ReceivedPair& received);
+  bool waitsForMount(const ReceivedPair& received);
+  void endTrajectory();
   void writeTrajectory(const BaseState& state);
+  void logState(const PairAnswer& answer);
 
   NodeParameters parameters_;
-  std::optional<VisualOdometry> odometry_;
-  std::optional<BaseOdometry> base_odometry_;  // from the time on when the mount is known
+  DropLog drops_;
+  OdometryHealth health_;
+  std::optional<PairProcessor> processor_;
   std::optional<CameraMount> mount_;
+  std::optional<GuessOdometry> guess_;
   std::optional<OdometryPublisher> publisher_;
-  std::optional<TrajectoryWriter> trajectory_;
-  StereoPairConverter converter_;
+  std::optional<TrajectoryWriter> trajectory_file_;
+  std::optional<TrajectoryHistory> trajectory_;
 
-  InputCounters counters_;  // of the worker; countInputs() adds those of the input
-  std::optional<std::int64_t> last_stamp_ns_;
-  State last_state_ = State::kInitialising;
-  Throttle rejected_warning_{std::chrono::seconds(5)};
+  State last_state_ = State::kInitialising;  // of the worker
   Throttle lost_warning_{std::chrono::seconds(5)};
+  Throttle hint_warning_{std::chrono::seconds(5)};
+  Throttle silence_warning_{std::chrono::seconds(5)};  // of the callbacks
+  std::chrono::steady_clock::time_point last_pair_time_;
 
   LatestMailbox<ReceivedPair> mailbox_;
+  // From here on in the order in which nothing is called that is gone already.
   std::optional<StereoInput> input_;
+  std::optional<TfConflict> tf_conflict_;
+  std::optional<Diagnostics> diagnostics_;
+  std::optional<OdometryServices> services_;
+  std::optional<LiveParameters> live_parameters_;
+  ros::WallTimer ticker_;
   std::thread worker_;
 };
 

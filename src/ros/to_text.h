@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <iomanip>
+#include <limits>
 #include <sstream>
 #include <string>
 
@@ -11,6 +13,20 @@ template <class Number>
 std::string toText(Number value) {
   std::ostringstream text;
   text << value;
+  return text.str();
+}
+
+/// A number with all its digits, so that it can be read back.
+inline std::string exactText(double value) {
+  std::ostringstream text;
+  text << std::setprecision(std::numeric_limits<double>::max_digits10) << value;
+  return text.str();
+}
+
+/// A stamp in seconds, to the millisecond: 1600000000.123
+inline std::string stampText(std::int64_t stamp_ns) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(3) << 1e-9 * static_cast<double>(stamp_ns);
   return text.str();
 }
 

@@ -1,12 +1,13 @@
-#include "message_conversion.h"
+#include "camera_validation.h"
 
 #include <cmath>
 #include <functional>
-#include <stdexcept>
 
 #include <gtest/gtest.h>
 
 #include "expect_error.h"
+#include "input_error.h"
+#include "message_conversion.h"
 
 namespace rotrocc {
 namespace {
@@ -31,8 +32,8 @@ void expectRefused(const std::function<void(sensor_msgs::CameraInfo&)>& change,
   sensor_msgs::CameraInfo changed_right = right;
   change(changed_left);
   change(changed_right);
-  expectError<std::invalid_argument>([&] { toStereoCamera(changed_left, right); }, part);
-  expectError<std::invalid_argument>([&] { toStereoCamera(left, changed_right); }, part);
+  expectError<InputError>([&] { toStereoCamera(changed_left, right); }, part);
+  expectError<InputError>([&] { toStereoCamera(left, changed_right); }, part);
 }
 
 TEST(StereoCameraConversionTest, OnlyPCounts) {
@@ -94,7 +95,7 @@ TEST(StereoCameraConversionTest, BinningAndRegionOfInterest) {
 
 TEST(StereoCameraConversionTest, RefusesWhatIsNoRectifiedCamera) {
   using Info = sensor_msgs::CameraInfo;
-  expectRefused([](Info& info) { info.P.fill(0.0); }, "is the camera calibrated?");
+  expectRefused([](Info& info) { info.P.fill(0.0); }, "is all zeros: the camera is not calibrated");
   expectRefused([](Info& info) { info.P[2] = NAN; }, "P[2] of the");
   expectRefused([](Info& info) { info.P[3] = INFINITY; }, "camera_info is inf");
   expectRefused([](Info& info) { info.P[0] = -700.0; }, "P[0] = -700");
@@ -110,16 +111,31 @@ TEST(StereoCameraConversionTest, RefusesWhatIsNoRectifiedCamera) {
 }
 
 TEST(StereoCameraConversionTest, RefusesABaselineThatIsNotPositive) {
-  const std::string part = "are left and right exchanged";
-  expectError<std::invalid_argument>([] { toStereoCamera(makeInfo(0.0), makeInfo(0.0)); }, part);
-  expectError<std::invalid_argument>([] { toStereoCamera(makeInfo(0.5), makeInfo(0.0)); }, part);
+  expectError<InputError>([] { toStereoCamera(makeInfo(0.0), makeInfo(0.0)); },
+                          "the baseline is zero: P[3] of camera_info, which is -fx times the "
+                          "camera's position, is 0 left and 0 right");
+  expectError<InputError>([] { toStereoCamera(makeInfo(0.5), makeInfo(0.0)); },
+                          "are left and right exchanged?");
+}
+
+TEST(StereoCameraConversionTest, AnotherBaselineMayBeTold) {
+  EXPECT_EQ(toStereoCamera(makeInfo(0.0), makeInfo(0.0), 0.12).baseline_m, 0.12);
+  EXPECT_EQ(toStereoCamera(makeInfo(0.0), makeInfo(kBaseline), 0.12).baseline_m, 0.12);
+}
+
+TEST(StereoCameraConversionTest, UnlikelyBaselinesAreNamed) {
+  EXPECT_EQ(oddityOf(toStereoCamera(makeInfo(0.0), makeInfo(kBaseline))), "");
+  EXPECT_NE(oddityOf(toStereoCamera(makeInfo(0.0), makeInfo(120.0))).find("a baseline of 120 m"),
+            std::string::npos);
+  EXPECT_NE(oddityOf(toStereoCamera(makeInfo(0.0), makeInfo(0.0004))).find("0.0004 m"),
+            std::string::npos);
 }
 
 TEST(StereoCameraConversionTest, RefusesASizeOfZero) {
   sensor_msgs::CameraInfo left = makeInfo(0.0);
   sensor_msgs::CameraInfo right = makeInfo(kBaseline);
   left.width = right.width = 0;
-  expectError<std::invalid_argument>([&] { toStereoCamera(left, right); }, "width is 0");
+  expectError<InputError>([&] { toStereoCamera(left, right); }, "width is 0");
 }
 
 TEST(StampConversionTest, KeepsEveryNanosecond) {

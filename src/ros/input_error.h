@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rotrocc {
+
+/// Why something that was received gives no odometry.
+enum class DropReason {
+  kImageSize,          ///< an image is empty, too small or too large
+  kImageEncoding,      ///< unknown encoding
+  kImageStep,          ///< rows shorter than their pixels
+  kImageData,          ///< less data than the header says
+  kImageSizesDiffer,   ///< left and right differ
+  kImageNotOfCamera,   ///< the images are not of the size in camera_info
+  kCameraInfoInvalid,  ///< a camera_info that is no rectified stereo camera
+  kCameraInfoMissing,  ///< a pair while there is no valid camera_info
+  kFrameMissing,       ///< no frame_id in the left image
+  kTfMissing,          ///< a pair while tf does not know the camera's mount
+  kStampZero,
+  kStampRepeated,  ///< that of the image before
+  kStampBackward,  ///< slightly earlier than the image before
+  kStampFuture,    ///< too far ahead of the clock
+  kNoPartner,      ///< no image of the other side within max_stamp_difference_s
+  kSuperseded,     ///< a newer pair came while the estimator was busy
+  kPaused,
+  kFailed,  ///< an error inside
+  kCount
+};
+
+/// As status and diagnostics name it: "image_size", "no_partner", ...
+const char* toString(DropReason reason);
+
+/// Input that cannot be used; what() is one sentence with the value and what to change.
+class InputError : public std::invalid_argument {
+ public:
+  InputError(DropReason reason, const std::string& what)
+      : std::invalid_argument(what), reason_(reason) {}
+  DropReason reason() const { return reason_; }
+
+ private:
+  DropReason reason_;
+};
+
+/// Counts drops by reason, from any thread.
+class DropCounters {
+ public:
+  void add(DropReason reason, std::uint64_t count = 1) { at(reason) += count; }
+  void set(DropReason reason, std::uint64_t count) { at(reason) = count; }
+  std::uint64_t count(DropReason reason) const { return counts_[static_cast<std::size_t>(reason)]; }
+
+  /// The reasons that have occurred, in the order of DropReason.
+  std::vector<std::pair<DropReason, std::uint64_t>> nonZero() const;
+
+ private:
+  std::atomic<std::uint64_t>& at(DropReason reason) {
+    return counts_[static_cast<std::size_t>(reason)];
+  }
+
+  std::array<std::atomic<std::uint64_t>, static_cast<std::size_t>(DropReason::kCount)> counts_{};
+};
+
+}  // namespace rotrocc

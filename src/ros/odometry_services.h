@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <ros/node_handle.h>
+#include <ros/service_server.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+#include <Eigen/Geometry>
+
+#include "rotrocc/SaveTrajectory.h"
+#include "rotrocc/SetPose.h"
+
+namespace rotrocc {
+
+/// The services ~reset, ~set_pose, ~pause and ~save_trajectory. An action that throws gives an
+/// answer without success; nothing leaves a callback.
+class OdometryServices {
+ public:
+  struct Actions {
+    std::function<void()> reset;
+    std::function<void(const Eigen::Isometry3d& T_odom_base)> set_pose;
+    std::function<void(bool)> pause;
+    /// Returns what was written.
+    std::function<std::string(const std::string& path, const std::string& format)> save_trajectory;
+  };
+
+  OdometryServices(ros::NodeHandle& private_nh, Actions actions);
+
+ private:
+  bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool onSetPose(SetPose::Request& request, SetPose::Response& response);
+  bool onPause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
+  bool onSaveTrajectory(SaveTrajectory::Request& request, SaveTrajectory::Response& response);
+
+  Actions actions_;
+  ros::ServiceServer reset_, set_pose_, pause_, save_trajectory_;
+};
+
+}  // namespace rotrocc

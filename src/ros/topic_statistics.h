@@ -1,0 +1,35 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+
+namespace rotrocc {
+
+/// What came on a topic lately.
+class TopicStatistics {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  /// How far back rates and counts look.
+  static constexpr std::chrono::seconds kWindow{5};
+
+  void add(std::int64_t stamp_ns, Time now);
+
+  std::uint64_t total() const { return total_; }
+  /// Of the last message; there must have been one.
+  Time lastArrival() const { return arrivals_.back(); }
+  /// Messages within the window.
+  std::size_t recent(Time now) const;
+  /// Mean rate of these; 0 if there are fewer than two.
+  double rate_hz(Time now) const;
+  /// Stamps of the last messages, at most 16.
+  const std::deque<std::int64_t>& lastStamps_ns() const { return stamps_ns_; }
+
+ private:
+  std::uint64_t total_ = 0;
+  std::deque<Time> arrivals_;
+  std::deque<std::int64_t> stamps_ns_;
+};
+
+}  // namespace rotrocc
