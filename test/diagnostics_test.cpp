@@ -28,6 +28,7 @@ HealthReport goodReport() {
   report.latency_p95_ms = 15.0;
   report.last_result.state = State::kOk;
   report.last_result.counts.rotation_inliers = 512;
+  report.last_result.disparity_bias = {1.02, 0.05, 0.9};
   return report;
 }
 
@@ -91,6 +92,7 @@ TEST(DiagnosticsTest, AllIsWell) {
     EXPECT_FALSE(status->message.empty());
   }
   EXPECT_EQ(valueOf(odometry, "state"), "OK");
+  EXPECT_EQ(valueOf(odometry, "disparity bias"), "1.02 +- 0.05 px, 0.90 px corrected");
   EXPECT_EQ(valueOf(odometry, "inliers of the rotation"), "512");
   EXPECT_EQ(valueOf(input, "/r/image"), "10.0 Hz, 50 in 5 s, 500 in all, 1 publishers");
   EXPECT_EQ(valueOf(input, "largest stamp difference of left and right"), "2.000 ms");

@@ -61,6 +61,12 @@ void describeOdometry(const HealthReport& report, StatusWrapper& status) {
   status.add("features tracked and consistent", counts.consistent);
   status.add("inliers of the rotation", counts.rotation_inliers);
   status.add("inliers of the translation", counts.translation_inliers);
+  const DisparityBias& bias = report.last_result.disparity_bias;
+  status.addf("disparity bias",
+              "%.2f +- %.2f px, %.2f px corrected",
+              bias.estimated_px,
+              bias.sigma_px,
+              bias.applied_px);
   status.add("pairs processed", report.pairs_processed);
   status.add("pairs lost", report.pairs_lost);
 }
