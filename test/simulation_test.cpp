@@ -18,6 +18,7 @@
 #include "simulator.h"
 #include "small_camera.h"
 #include "temporary_directory.h"
+#include "truth_check.h"
 
 namespace rotrocc {
 namespace {
@@ -212,6 +213,30 @@ TEST(Simulation, DepthsOfTwoFramesAgree) {
   }
   EXPECT_GT(checked, 5000);
   EXPECT_GT(agreeing, 0.95 * checked);  // the rest are edges
+}
+
+TEST(Simulation, TruthHoldsWhereTheNextFrameIsLookedAt) {
+  Simulator& simulator = cleanCity();
+  SimulatedFrame frame = simulator.render(40, true);
+  TruthErrors errors;
+  checkTruth(simulator, 40, frame, errors);
+  EXPECT_GT(errors.right, 1000);
+  EXPECT_LT(errors.wrong, 0.01 * errors.right);
+  EXPECT_LT(errors.sum_px / errors.right, 1e-4);
+  // Flow and depth that agree with each other, but not with the world.
+  const StereoCamera camera = simulator.camera();
+  const Eigen::Isometry3d T_next_now = simulator.pose(41).inverse() * simulator.pose(40);
+  for (int y = 0; y < camera.height; ++y) {
+    for (int x = 0; x < camera.width; ++x) {
+      double& depth = frame.depth.at<double>(y, x);
+      depth *= 1.02;
+      const Eigen::Vector2d there = camera.project(T_next_now * (depth * camera.ray({x, y})));
+      frame.flow.at<cv::Vec2d>(y, x) = {there.x() - x, there.y() - y};
+    }
+  }
+  TruthErrors with_wrong_truth;
+  checkTruth(simulator, 40, frame, with_wrong_truth);
+  EXPECT_GT(with_wrong_truth.wrong, with_wrong_truth.right);
 }
 
 TEST(Simulation, DisparityBiasIsSeenInTheImages) {

@@ -105,6 +105,19 @@ SimulatedFrame Simulator::render(int index, bool with_flow) {
   return frame;
 }
 
+std::vector<double> Simulator::depthsAt(int index, const std::vector<Eigen::Vector2d>& pixels) {
+  const double time = time_s(index);
+  world_->goTo(drive_->station_m(time));
+  const MovingCars cars = traffic_->at(time);
+  const View view(
+      world_->bodies(), cars.bodies, options_.camera, options_.camera.cx, drive_->pose(time));
+  std::vector<double> depths;
+  for (const Eigen::Vector2d& pixel : pixels) {
+    depths.push_back(world_->look(view, pixel.x(), pixel.y()).depth);
+  }
+  return depths;
+}
+
 cv::Mat Simulator::flowToNext(int index, const Picture& left) const {
   const double now = time_s(index);
   const double then = time_s(index + 1);

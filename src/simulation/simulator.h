@@ -57,6 +57,10 @@ class Simulator {
   /// camera then is.
   SimulatedFrame render(int index, bool with_flow);
 
+  /// Depths [m] at places of the left image of a frame, also between its pixels; infinite for the
+  /// sky. Brings the world there, too.
+  std::vector<double> depthsAt(int index, const std::vector<Eigen::Vector2d>& pixels);
+
  private:
   double time_s(int index) const { return 1e-9 * static_cast<double>(stamps_ns_.at(index)); }
   Picture look(double time_s, bool right) const;

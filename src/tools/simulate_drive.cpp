@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -16,6 +17,7 @@
 #include "scenario.h"
 #include "sequence_writer.h"
 #include "simulator.h"
+#include "truth_check.h"
 
 namespace {
 
@@ -41,6 +43,7 @@ struct Options {
   double baseline_m = kittiCamera().baseline_m;
   std::vector<double> right_rotation_deg;
   bool truth = false;
+  bool check_truth = false;
   SimulationOptions simulation;
 };
 
@@ -57,7 +60,10 @@ po::options_description describe(Options& options) {
       "rate", number(simulation.rate_hz), "[Hz] of the pairs of a scenario")(
       "moving-share", number(simulation.moving_share), "share of places for moving cars taken")(
       "seed", po::value(&simulation.seed)->default_value(simulation.seed), "same seed, same bytes")(
-      "truth", po::bool_switch(&options.truth), "write depth and flow of each pixel as well");
+      "truth", po::bool_switch(&options.truth), "write depth and flow of each pixel as well")(
+      "check-truth",
+      po::bool_switch(&options.check_truth),
+      "look in the next frame for what poses, depth and flow say, and print how far they are off");
   po::options_description camera("Camera");
   camera.add_options()("size", po::value(&options.size)->default_value(options.size), "WxH [px]")(
       "focal", number(options.focal_px), "focal length [px]")(
@@ -130,14 +136,29 @@ Scenario chosenScenario(const Options& options) {
   return scenarioAlong(readTrajectory(options.poses, options.times), seed);
 }
 
-void renderSequence(Simulator& simulator, const std::string& directory, bool truth) {
-  SequenceWriter writer(directory, simulator.camera(), truth);
+void print(const TruthErrors& errors) {
+  const long long seen = std::max(1LL, errors.right + errors.wrong);
+  const long long right = std::max(1LL, errors.right);
+  std::cout << "truth: " << seen << " points seen again in the next frame, "
+            << 100.0 * static_cast<double>(errors.right) / static_cast<double>(seen)
+            << " % of them off by up to " << kTruthLimit_px << " px, in the mean "
+            << errors.sum_px / static_cast<double>(right) << " px; the rest are edges and leaves\n";
+}
+
+void renderSequence(Simulator& simulator, const std::string& directory, const Options& options) {
+  SequenceWriter writer(directory, simulator.camera(), options.truth);
   ProgressBar progress("simulate_drive", static_cast<std::size_t>(simulator.size()));
+  TruthErrors errors;
   for (int index = 0; index < simulator.size(); ++index) {
-    writer.write(simulator.render(index, truth), simulator.pose(index));
+    const SimulatedFrame frame = simulator.render(index, options.truth || options.check_truth);
+    writer.write(frame, simulator.pose(index));
+    if (options.check_truth && index + 1 < simulator.size()) {
+      checkTruth(simulator, index, frame, errors);
+    }
     progress.advance();
   }
   progress.finish();
+  if (options.check_truth) print(errors);
 }
 
 /// A directory that is removed with all that is in it.
@@ -149,10 +170,10 @@ struct ScratchDirectory {
   std::string path;
 };
 
-void renderBag(Simulator& simulator, const std::string& bag) {
+void renderBag(Simulator& simulator, const std::string& bag, const Options& options) {
   const ScratchDirectory frames{bag + ".frames"};
   fs::remove_all(frames.path);
-  renderSequence(simulator, frames.path, false);
+  renderSequence(simulator, frames.path, options);
   const KittiSequence sequence(frames.path);
   KittiBagWriter writer(bag, sequence, kStartTime_s);
   for (int index = 0; index < sequence.size(); ++index) writer.writePair(index);
@@ -163,13 +184,13 @@ void run(const Options& options) {
   const std::string& out = options.names.back();
   Simulator simulator(chosenScenario(options), options.simulation);
   if (fs::path(out).extension() != ".bag") {
-    renderSequence(simulator, out, options.truth);
+    renderSequence(simulator, out, options);
     return;
   }
   if (options.truth) {
     throw std::invalid_argument("a bag takes no depth and flow: give a directory for --truth");
   }
-  renderBag(simulator, out);
+  renderBag(simulator, out, options);
 }
 
 }  // namespace
