@@ -70,8 +70,8 @@ def plot_fig6(name, columns, path):
         if criterion != 'truth':
             below.plot(frames, 1e3 * (values - truth), color=COLOURS[criterion], lw=1.0)
     above.set_ylabel('forward translation [m]')
-    above.set_title(name)
-    above.legend(frameon=False, ncol=4)
+    above.set_title(name, loc='left')
+    above.legend(frameon=False, ncol=4, loc='lower right', bbox_to_anchor=(1.0, 1.0))
     below.axhline(0.0, color=COLOURS['truth'], lw=0.8)
     below.set_ylabel('error [mm]')
     below.set_xlabel('frame')
