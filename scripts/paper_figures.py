@@ -91,8 +91,11 @@ def plot_errors(title, tables, path):
             lines = [line for line in table if line[0] == criterion and line[4] >= FEWEST_SEGMENTS]
             keys = [line[1] for line in lines]
             for panel, index in zip(row, (2, 3)):
-                panel.plot(keys, [line[index] for line in lines], marker=MARKERS[criterion], ms=5,
-                           lw=1.6, color=COLOURS[criterion], label=criterion, clip_on=False)
+                # Two criteria may coincide: one is filled and small, the other open and large.
+                own = criterion == 'rotrocc'
+                panel.plot(keys, [line[index] for line in lines], marker=MARKERS[criterion],
+                           ms=4 if own else 9, mfc=COLOURS[criterion] if own else 'none', lw=1.6,
+                           color=COLOURS[criterion], label=criterion, clip_on=False)
                 if column == 'length_m':
                     panel.set_xscale('log')
                     panel.minorticks_off()
