@@ -1,5 +1,6 @@
 #include "node_parameters.h"
 
+#include <functional>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -71,6 +72,29 @@ TEST_F(NodeParametersTest, RefusesWrongTypes) {
   XmlRpcValue section;
   section["queue_size"]["left"] = 4;
   expectRefused(section, "queue_size/left");
+}
+
+TEST(RequireFramesTest, FramesAreThoseOfTf) {
+  const auto refuse = [](const std::function<void(NodeParameters&)>& change,
+                         const std::string& part) {
+    NodeParameters node;
+    change(node);
+    expectError<std::invalid_argument>([&] { requireFrames(node); }, part);
+  };
+  EXPECT_NO_THROW(requireFrames({}));
+  refuse([](NodeParameters& node) { node.odom_frame = "/odom"; }, "odom_frame is \"/odom\"");
+  refuse([](NodeParameters& node) { node.base_frame.clear(); }, "base_frame is \"\"");
+  refuse([](NodeParameters& node) { node.camera_frame = "/camera"; }, "camera_frame");
+  refuse([](NodeParameters& node) { node.odom_frame = "base_link"; },
+         "odom_frame and base_frame are both \"base_link\"");
+  refuse([](NodeParameters& node) { node.guess_frame = "odom"; },
+         "guess_frame and odom_frame are both \"odom\"");
+  refuse(
+      [](NodeParameters& node) {
+        node.guess_frame = "wheel_odom";
+        node.invert_tf = true;
+      },
+      "invert_tf is true");
 }
 
 }  // namespace

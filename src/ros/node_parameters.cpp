@@ -45,6 +45,20 @@ void requireFrame(const std::string& name, const std::string& frame) {
                               "\", but must be a frame of tf, which has no leading slash");
 }
 
+/// One that may be empty.
+void requireFrameIfAny(const std::string& name, const std::string& frame) {
+  if (!frame.empty()) requireFrame(name, frame);
+}
+
+void requireDifferent(const std::string& name,
+                      const std::string& frame,
+                      const std::string& other_name,
+                      const std::string& other_frame) {
+  if (frame != other_frame) return;
+  throw std::invalid_argument("parameters " + name + " and " + other_name + " are both \"" + frame +
+                              "\", but must differ");
+}
+
 }  // namespace
 
 Parameters readParameters(const ros::NodeHandle& private_nh) {
@@ -52,13 +66,23 @@ Parameters readParameters(const ros::NodeHandle& private_nh) {
   ParameterTable table = makeParameterTable(parameters);
   XmlRpc::XmlRpcValue tree;
   if (private_nh.getParam(private_nh.getNamespace(), tree)) setParameters(tree, table);
-  requireFrame("odom_frame", parameters.node.odom_frame);
-  requireFrame("base_frame", parameters.node.base_frame);
-  if (parameters.node.odom_frame == parameters.node.base_frame) {
-    throw std::invalid_argument("parameters odom_frame and base_frame are both \"" +
-                                parameters.node.odom_frame + "\", but must differ");
-  }
+  requireFrames(parameters.node);
   return parameters;
+}
+
+void requireFrames(const NodeParameters& node) {
+  requireFrame("odom_frame", node.odom_frame);
+  requireFrame("base_frame", node.base_frame);
+  requireFrameIfAny("camera_frame", node.camera_frame);
+  requireFrameIfAny("guess_frame", node.guess_frame);
+  requireDifferent("odom_frame", node.odom_frame, "base_frame", node.base_frame);
+  requireDifferent("guess_frame", node.guess_frame, "odom_frame", node.odom_frame);
+  requireDifferent("guess_frame", node.guess_frame, "base_frame", node.base_frame);
+  if (!node.guess_frame.empty() && node.invert_tf) {
+    throw std::invalid_argument(
+        "parameter invert_tf is true, but with guess_frame the transform is that of odom_frame to "
+        "guess_frame");
+  }
 }
 
 void setParameters(const XmlRpc::XmlRpcValue& tree, ParameterTable& table) {

@@ -8,8 +8,11 @@
 namespace rotrocc {
 
 /// The parameters in the namespace of `private_nh`, and the defaults of those that are not there.
-/// Throws std::invalid_argument as setParameters() does, and on names that are no frames of tf.
+/// Throws std::invalid_argument as setParameters() and requireFrames() do.
 Parameters readParameters(const ros::NodeHandle& private_nh);
+
+/// Throws std::invalid_argument with the name on frames that tf cannot have, or not all of them.
+void requireFrames(const NodeParameters& node);
 
 /// Sets every parameter of `tree`, whose structs are the sections of the table. Throws
 /// std::invalid_argument with name and range on an unknown parameter, a wrong type or a value out
