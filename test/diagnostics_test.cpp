@@ -122,6 +122,15 @@ TEST(DiagnosticsTest, RatesThatDifferAreAWarning) {
             "/l/image comes at 10.0 Hz, /r/image at 5.0 Hz: one camera loses images");
 }
 
+TEST(DiagnosticsTest, DropsBetweenPairsAreAWarning) {
+  HealthReport report = goodReport();
+  report.input.refused = "the left image has the stamp 0";
+  StatusWrapper status;
+  describeInput(report, status);
+  EXPECT_EQ(status.level, Level::WARN);
+  EXPECT_EQ(status.message, "dropped in the last 5 s: the left image has the stamp 0");
+}
+
 TEST(DiagnosticsTest, SilenceIsAnError) {
   HealthReport report = goodReport();
   report.input.recent_pairs = report.input.right_image.recent = 0;

@@ -197,12 +197,14 @@ TEST_F(NodeletLifecycleTest, GarbageDoesNoHarm) {
 TEST(NodeTest, EndsCleanlyAtAnyMoment) {
   for (int i = 0; i < 12; ++i) {
     const std::string delay_s = std::to_string(0.05 + 0.1 * i);
+    ros::param::set("/use_sim_time", i % 2 == 1);  // without a clock: time stands still
     const CommandResult result = runCommand("timeout --preserve-status -k 10 -s INT " + delay_s +
                                             " " STEREO_ODOMETRY " __name:=short_lived");
     // 130: before ROS has taken over the signal.
     EXPECT_TRUE(result.status == 0 || result.status == 130)
         << "status " << result.status << " after " << delay_s << " s: " << result.output;
   }
+  ros::param::set("/use_sim_time", false);
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ void describeInput(const HealthReport& report, StatusWrapper& status) {
                     input.right_image.topic.c_str(),
                     input.right_image.rate_hz);
   } else if (!why.empty()) {
-    status.summary(DiagnosticStatus::WARN, why);
+    status.summary(DiagnosticStatus::WARN, "dropped in the last 5 s: " + why);
   } else {
     status.summary(DiagnosticStatus::OK, "stereo pairs arrive");
   }
