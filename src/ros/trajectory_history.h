@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "rotrocc/trajectory.h"
 
@@ -13,7 +13,8 @@ namespace rotrocc {
 /// latest `max_length` of them. For any thread.
 class TrajectoryHistory {
  public:
-  explicit TrajectoryHistory(std::size_t max_length) : max_length_(max_length) {}
+  /// Takes all its memory now: a robot shall not find out after hours that it is too much.
+  explicit TrajectoryHistory(std::size_t max_length) : poses_(max_length) {}
 
   void add(const StampedPose& pose);
   void clear();
@@ -23,9 +24,10 @@ class TrajectoryHistory {
   std::string save(const std::string& path, const std::string& format) const;
 
  private:
-  std::size_t max_length_;
   mutable std::mutex mutex_;
-  std::deque<StampedPose> poses_;
+  std::vector<StampedPose> poses_;  // a ring
+  std::size_t next_ = 0;            // place of the next pose
+  std::size_t size_ = 0;
 };
 
 }  // namespace rotrocc
