@@ -62,7 +62,9 @@ struct Middle {
     VisualOdometry odometry{VisualOdometry::Config{}};
     for (std::size_t i = 0; i < 3; ++i) {
       T_prev_cur = odometry.process(drive().pairs[i], drive().camera).T_prev_cur;
-      finder.advance(drive().pairs[i], drive().camera);
+      finder.keep();
+      finder.refer();
+      finder.take(drive().pairs[i], drive().camera);
     }
     finder.findCorners();
     finder.findDepths();
@@ -71,7 +73,7 @@ struct Middle {
 
 void pyramids(benchmark::State& state) {
   Middle middle;
-  for (auto _ : state) middle.finder.advance(drive().pairs[3], drive().camera);
+  for (auto _ : state) middle.finder.take(drive().pairs[3], drive().camera);
 }
 
 void corners(benchmark::State& state) {

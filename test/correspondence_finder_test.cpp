@@ -31,8 +31,10 @@ Correspondences find(const StereoPair& prev,
                      const StereoCamera& camera,
                      const CorrespondenceFinder::Config& config = {}) {
   CorrespondenceFinder finder(config);
-  finder.advance(prev, camera);
-  finder.advance(cur, camera);
+  finder.take(prev, camera);
+  finder.keep();
+  finder.refer();
+  finder.take(cur, camera);
   finder.findCorners();
   finder.findDepths();
   finder.track(step(), kLevels);
@@ -100,8 +102,10 @@ TEST(CorrespondenceFinderTest, WantsTrackedAndMatchedDisparityToAgree) {
 TEST(CorrespondenceFinderTest, CountsWhatIsLeft) {
   const SyntheticScene scene;
   CorrespondenceFinder finder({});
-  finder.advance(view(scene, Eigen::Isometry3d::Identity()), scene.camera());
-  finder.advance(view(scene, step()), scene.camera());
+  finder.take(view(scene, Eigen::Isometry3d::Identity()), scene.camera());
+  finder.keep();
+  finder.refer();
+  finder.take(view(scene, step()), scene.camera());
   const int corners = finder.findCorners();
   const int with_depth = finder.findDepths();
   EXPECT_GT(with_depth, corners / 2);
@@ -120,8 +124,10 @@ TEST(CorrespondenceFinderTest, ShiftIsHowFarTheFeaturesMoveInTheImage) {
   const Eigen::Isometry3d none = Eigen::Isometry3d::Identity();
   const Eigen::Isometry3d yaw = motion({0.0, 0.0, 0.0}, {0.0, 0.01, 0.0});
   EXPECT_EQ(finder.medianShift(none, yaw), 0.0);  // there are no features yet
-  finder.advance(view(scene, none), scene.camera());
-  finder.advance(view(scene, none), scene.camera());
+  finder.take(view(scene, none), scene.camera());
+  finder.keep();
+  finder.refer();
+  finder.take(view(scene, none), scene.camera());
   finder.findCorners();
   finder.findDepths();
   EXPECT_EQ(finder.medianShift(yaw, yaw), 0.0);

@@ -251,8 +251,9 @@ double meanNees(const MotionEstimator::Config& config, MakeFeatures make) {
 }
 
 /// The mean of 300 draws of chi-square with 6 degrees of freedom is 6 +- 0.2. To that comes that a
-/// disparity of 4 +- 0.9 px is no longer a linear function of depth: 5.7 to 6.8 were measured.
-constexpr double kLeastNees = 5.0;
+/// disparity of 4 +- 0.9 px is no longer a linear function of depth, and that of the scatter over
+/// the cells only what enlarges the covariance is believed: 4.6 to 6.8 were measured.
+constexpr double kLeastNees = 4.2;
 constexpr double kMostNees = 8.0;
 
 TEST(MotionEstimatorTest, TheCovarianceIsThatOfTheErrors) {

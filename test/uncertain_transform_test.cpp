@@ -1,4 +1,4 @@
-#include "uncertain_transform.h"
+#include "base_motion.h"
 
 #include <random>
 
@@ -85,6 +85,15 @@ TEST(UncertainTransformTest, ComposedErrorsAreThoseOfSamples) {
   EXPECT_TRUE(c.T.isApprox(a.T * b.T));
   Noise noise;
   expectCovariance(c, [&] { return noise.sample(a) * noise.sample(b); });
+}
+
+TEST(UncertainTransformTest, InvertedErrorsAreThoseOfSamples) {
+  const UncertainTransform a{makeTransform({2.0, -1.0, 3.0}, {0.3, -0.2, 1.1}),
+                             makeCovariance(0.02, 0.004)};
+  const UncertainTransform back = inverse(a);
+  EXPECT_TRUE(back.T.isApprox(a.T.inverse()));
+  Noise noise;
+  expectCovariance(back, [&] { return noise.sample(a).inverse(); });
 }
 
 TEST(UncertainTransformTest, ErrorsOfTheBaseAreThoseOfSamples) {

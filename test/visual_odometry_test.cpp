@@ -188,8 +188,10 @@ TEST(VisualOdometryTest, TellsWhatIsLeftAfterEachStage) {
 }
 
 TEST(VisualOdometryTest, CorrespondencesAreThoseOfTheScene) {
-  VisualOdometry odometry = started(2);
-  odometry.process(bend(2), camera());
+  VisualOdometry::Config frame_to_frame;
+  frame_to_frame.reference_selector.adaptive = false;
+  VisualOdometry odometry(frame_to_frame);
+  for (int i = 0; i < 3; ++i) odometry.process(bend(i), camera());
   const Eigen::Isometry3d T_world_cur = bendStep() * bendStep();
   std::vector<double> errors_px;
   for (std::size_t i = 0; i < odometry.correspondences().size(); ++i) {
@@ -235,12 +237,75 @@ TEST(VisualOdometryTest, TakesADroppedPair) {
   expectMotion(odometry.process(bend(6), camera()), bendStep());
 }
 
-TEST(VisualOdometryTest, RecoversFromABlackPair) {
+TEST(VisualOdometryTest, RecoversFromABlackPairAtOnce) {
   VisualOdometry odometry = started(3);
   expectLost(odometry.process(black(3 * kPeriod_ns), camera()), "only 0 features were matched");
-  // Nor can the next pair be compared with the black one; the one after can.
-  expectLost(odometry.process(bend(4), camera()), "only 0 features were matched");
+  // The next pair is compared with the last good one.
+  const OdometryResult next = odometry.process(bend(4), camera());
+  EXPECT_NEAR(next.dt_s, 0.2, 1e-12);
+  expectMotion(next, bendStep() * bendStep());
   expectMotion(odometry.process(bend(5), camera()), bendStep());
+}
+
+TEST(VisualOdometryTest, GoesOnFromElsewhereAtOnce) {
+  // The last good pair is of no use any more.
+  const Eigen::Isometry3d elsewhere = motion({0.0, 0.0, 20.0}, {0.0, 0.6, 0.0});
+  VisualOdometry odometry = started(3);
+  const auto jumped = odometry.process(view(elsewhere, 3 * kPeriod_ns), camera());
+  EXPECT_EQ(jumped.state, State::kLost);
+  const auto next = odometry.process(view(elsewhere * bendStep(), 4 * kPeriod_ns), camera());
+  EXPECT_NEAR(next.dt_s, 0.1, 1e-12);
+  EXPECT_EQ(next.reference_stamp_ns, 3 * kPeriod_ns);
+  expectMotion(next, bendStep());
+}
+
+TEST(VisualOdometryTest, StartsWithABlackPairAndGoesOn) {
+  VisualOdometry odometry({});
+  odometry.process(black(0), camera());
+  EXPECT_EQ(odometry.process(bend(1), camera()).state, State::kLost);
+  expectMotion(odometry.process(bend(2), camera()), bendStep());
+}
+
+TEST(VisualOdometryTest, DoesNotCreepAtRest) {
+  VisualOdometry odometry({});
+  Eigen::Isometry3d T_start_cur = Eigen::Isometry3d::Identity();
+  double farthest_m = 0.0;
+  for (int i = 0; i < 40; ++i) {
+    const auto pair = view(Eigen::Isometry3d::Identity(), i * kPeriod_ns);
+    const OdometryResult result = odometry.process(pair, camera());
+    T_start_cur = T_start_cur * result.T_prev_cur;
+    farthest_m = std::max(farthest_m, T_start_cur.translation().norm());
+    EXPECT_EQ(result.reference_stamp_ns, 0);
+  }
+  // The noise of a single pair; measured: 0.6 mm.
+  EXPECT_LT(farthest_m, 0.002);
+}
+
+TEST(VisualOdometryTest, MeasuresSmallStepsAgainstOneReference) {
+  const Eigen::Isometry3d small = motion({0.0, 0.0, 0.06}, {0.0, 0.002, 0.0});
+  VisualOdometry odometry({});
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_start_cur = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_start_ref = Eigen::Isometry3d::Identity();
+  std::int64_t reference_ns = 0;
+  int references = 1;
+  for (int i = 0; i < 20; ++i, T_world_camera = T_world_camera * small) {
+    const OdometryResult result = odometry.process(view(T_world_camera, i * kPeriod_ns), camera());
+    if (i == 0) continue;
+    EXPECT_EQ(result.state, State::kOk) << result.reason;
+    if (result.reference_stamp_ns != reference_ns) {
+      // A new reference is the previous pair.
+      EXPECT_EQ(result.reference_stamp_ns, (i - 1) * kPeriod_ns);
+      reference_ns = result.reference_stamp_ns;
+      T_start_ref = T_start_cur;
+      ++references;
+    }
+    T_start_cur = T_start_cur * result.T_prev_cur;
+    // Both ways to the current pose are the same.
+    EXPECT_LT(motionError(T_start_ref * result.T_ref_cur.T, T_start_cur).norm(), 1e-9);
+  }
+  EXPECT_LT(references, 10);
+  EXPECT_GT(references, 1);
 }
 
 TEST(VisualOdometryTest, FindsNoMotionInNoise) {

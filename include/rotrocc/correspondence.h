@@ -8,12 +8,13 @@
 
 namespace rotrocc {
 
-/// One feature of the set F = {x_prev, x_cur, depth} (paper, section V-A), in left pixels.
+/// One feature of the set F = {x_prev, x_cur, depth} (paper, section V-A), in left pixels. The
+/// previous pair is the reference that the current one is compared with.
 struct Correspondence {
-  Eigen::Vector2d prev_px;    ///< measured at t-1
-  Eigen::Vector2d cur_px;     ///< measured at t
-  double disparity_px = 0.0;  ///< x_left - x_right, measured at t
-  Eigen::Vector3d point_cur;  ///< triangulated, left camera frame at t [m]
+  Eigen::Vector2d prev_px;    ///< measured in the reference
+  Eigen::Vector2d cur_px;     ///< measured in the current pair
+  double disparity_px = 0.0;  ///< x_left - x_right, measured in the current pair
+  Eigen::Vector3d point_cur;  ///< triangulated, current left camera frame [m]
 };
 
 using Correspondences = std::vector<Correspondence>;

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <cstdint>
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -16,9 +17,10 @@
 
 namespace rotrocc {
 
-/// Makes the feature set F of section V-A out of two stereo pairs: corners and their disparities at
-/// t-1, tracked from a predicted motion to the left and the right image of t, where they must match
-/// each other again. Keeps what it needs of the images; buffers are used again from pair to pair.
+/// Makes the feature set F of section V-A out of two stereo pairs, a reference (t-1 in the paper)
+/// and the current one (t): corners and their disparities at the reference, tracked from a
+/// predicted motion to the left and the right current image, where they must match each other
+/// again. Keeps what it needs of the images; buffers are used again from pair to pair.
 class CorrespondenceFinder {
  public:
   struct Config {
@@ -29,22 +31,30 @@ class CorrespondenceFinder {
 
   explicit CorrespondenceFinder(const Config& config);
 
-  /// The last pair becomes that of t-1 and `pair` that of t. The camera is that of both.
-  void advance(const StereoPair& pair, const StereoCamera& camera);
+  /// Makes `pair` the current one; the one before is dropped unless it was kept.
+  void take(const StereoPair& pair, const StereoCamera& camera);
+  /// Keeps the current pair as the last one.
+  void keep();
+  /// Keeps the current pair aside, in case the last one proves to be of no use ...
+  void setAside();
+  /// ... and makes the pair set aside the last one.
+  void takeUpAside();
+  /// Makes the last pair the reference.
+  void refer();
 
-  /// Finds the corners at t-1 and returns how many.
+  /// Finds the corners of the reference and returns how many.
   int findCorners();
-  /// Triangulates those that have a match in the right image of t-1, and returns how many.
+  /// Triangulates those that have a match in its right image, and returns how many.
   int findDepths();
 
   /// Tracks the triangulated corners from where the motion puts them, over `levels` of the
-  /// pyramids, and returns how many were found in both images of t.
-  int track(const Eigen::Isometry3d& T_prev_cur, int levels);
-  /// Keeps, in `features`, those whose left and right positions at t match each other.
+  /// pyramids, and returns how many were found in both current images.
+  int track(const Eigen::Isometry3d& T_ref_cur, int levels);
+  /// Keeps, in `features`, those whose left and right current positions match each other.
   void closeCircle(Correspondences& features);
 
-  /// Median distance [px] between where two motions put the features at t.
-  double medianShift(const Eigen::Isometry3d& T_prev_cur_a, const Eigen::Isometry3d& T_prev_cur_b);
+  /// Median distance [px] between where two motions put the features in the current image.
+  double medianShift(const Eigen::Isometry3d& T_ref_cur_a, const Eigen::Isometry3d& T_ref_cur_b);
 
  private:
   /// Level 0 of the pyramids are the images.
@@ -57,12 +67,16 @@ class CorrespondenceFinder {
   StereoMatcher matcher_;
   FeatureTracker tracker_;
   StereoCamera camera_;
-  StereoPyramid prev_, cur_;
+  std::array<StereoPyramid, 4> pyramids_;
+  std::size_t reference_ = 0;  // of pyramids_, as those below; all may be the same
+  std::size_t last_ = 0;
+  std::size_t aside_ = 0;
+  std::size_t current_ = 0;
 
   std::vector<cv::Point2f> corners_;
   std::vector<float> disparities_;
-  std::vector<cv::Point2f> prev_left_, prev_right_;  // the triangulated corners ...
-  std::vector<Eigen::Vector3d> prev_points_;         // ... and their places [m]
+  std::vector<cv::Point2f> ref_left_, ref_right_;  // the triangulated corners ...
+  std::vector<Eigen::Vector3d> ref_points_;        // ... and their places [m]
   std::vector<cv::Point2f> cur_left_, cur_right_;
   std::vector<char> tracked_;
   std::vector<float> expected_;

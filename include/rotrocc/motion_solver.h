@@ -32,11 +32,14 @@ class MotionSolver {
                         const FeatureSet& set,
                         Eigen::Isometry3d& T_prev_cur);
 
-  /// Normal equations of the set at a motion: J^T J in the order translation [m], rotation [rad] of
-  /// OdometryResult::covariance, and the variance of a residual [px^2] they leave.
+  /// Normal equations of the set at a motion, in the order translation [m], rotation [rad] of
+  /// OdometryResult::covariance.
   struct Information {
-    Matrix6d matrix = Matrix6d::Zero();
-    double residual_variance = 0.0;
+    Matrix6d matrix = Matrix6d::Zero();  ///< J^T J
+    /// Sum over the cells of a grid of g g^T [px^2], g = J^T r of the features in the cell: in the
+    /// mean the variance times J^T J if no two residuals are correlated, more if neighbours are.
+    Matrix6d scatter = Matrix6d::Zero();
+    double residual_variance = 0.0;  ///< [px^2]
   };
   Information information(const StereoCamera& camera,
                           const Correspondences& features,
@@ -45,6 +48,10 @@ class MotionSolver {
                           int estimated_parameters);
 
  private:
+  Matrix6d scatter(const StereoCamera& camera,
+                   const Correspondences& features,
+                   const FeatureSet& set) const;
+
   double noise_ratio_;
   ReprojectionProblem<6> motion_problem_;
   ReprojectionProblem<3> translation_problem_;

@@ -6,6 +6,7 @@
 
 #include "rotrocc/correspondence.h"
 #include "rotrocc/reprojection_error.h"
+#include "rotrocc/rigid_motion.h"
 #include "rotrocc/stereo_camera.h"
 
 namespace rotrocc {
@@ -52,6 +53,10 @@ class StereoCalibrator {
                const FeatureSet& set,
                const Eigen::Isometry3d& T_prev_cur);
 
+  /// Covariance that the doubt about the bias adds to that of the motion observed last, in the
+  /// order of OdometryResult::covariance.
+  Matrix6d motionCovariance() const;
+
   /// What was observed since the last call is of an earlier pair.
   void advance();
 
@@ -83,6 +88,7 @@ class StereoCalibrator {
   double noise_ratio_;
   Evidence past_, current_;
   DisparityBias bias_;
+  Vector6d motion_by_bias_ = Vector6d::Zero();  // translation, then rotation
 
   ReprojectionProblem<6> problem_;
   Eigen::VectorXd residuals_, by_bias_;

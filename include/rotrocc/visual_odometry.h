@@ -13,9 +13,11 @@
 #include "rotrocc/motion_check.h"
 #include "rotrocc/motion_estimator.h"
 #include "rotrocc/motion_model.h"
+#include "rotrocc/reference_selector.h"
 #include "rotrocc/stereo_calibrator.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
+#include "rotrocc/uncertain_transform.h"
 
 namespace rotrocc {
 
@@ -32,10 +34,10 @@ const char* toString(State state);
 
 /// How many features are left after each stage.
 struct StageCounts {
-  int corners = 0;           ///< Shi-Tomasi corners at t-1
-  int with_depth = 0;        ///< with a disparity at t-1
-  int tracked = 0;           ///< tracked to t, left and right
-  int consistent = 0;        ///< left and right agree at t: the feature set F
+  int corners = 0;           ///< Shi-Tomasi corners of the reference pair
+  int with_depth = 0;        ///< with a disparity there
+  int tracked = 0;           ///< tracked to the current pair, left and right
+  int consistent = 0;        ///< left and right agree there: the feature set F
   int rotation_inliers = 0;  ///< left after stage 1
   int translation_inliers =
       0;  ///< left after stage 2; 0 if the criterion or the low speed skips it
@@ -57,13 +59,19 @@ struct OdometryResult {
   std::string reason;         ///< why the state is not ok, in one sentence; empty if it is
   std::int64_t stamp_ns = 0;  ///< of the current pair
   double dt_s = 0.0;          ///< since the previous pair; 0 if there is none
-  /// The motion of the left camera: maps points of its current frame to its previous one. Identity
+  /// The motion of the left camera since the previous pair, which is the last one that was ok,
+  /// degraded or initialising: maps points of its current frame to its previous one. Identity
   /// unless the state is ok or degraded.
   Eigen::Isometry3d T_prev_cur = Eigen::Isometry3d::Identity();
   /// Covariance of T_prev_cur in axes of the previous camera frame, in the order of REP 103:
   /// translation [m] x y z, then rotation [rad] about x y z, with R = Exp(error) R_estimated and
   /// t = error + t_estimated. Zero unless the state is ok or degraded.
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  Matrix6d covariance = Matrix6d::Zero();
+  /// The stamp of the pair that the motion was measured against, an earlier one or the previous
+  /// one, and the motion since then. Errors add up from reference to reference, not from pair to
+  /// pair.
+  std::int64_t reference_stamp_ns = 0;
+  UncertainTransform T_ref_cur;
   DisparityBias disparity_bias;  ///< of the rig, as far as known
   StageCounts counts;
   StageTimes times;
@@ -71,8 +79,9 @@ struct OdometryResult {
   bool hasMotion() const { return state == State::kOk || state == State::kDegraded; }
 };
 
-/// Frame-to-frame stereo visual odometry: section V of Buczko and Willert, "Flow-Decoupled
-/// Normalized Reprojection Error for Visual Odometry", 2017.
+/// Stereo visual odometry: section V of Buczko and Willert, "Flow-Decoupled Normalized Reprojection
+/// Error for Visual Odometry", 2017. Motions are measured against a reference pair, which is the
+/// previous one, as in the paper, or an earlier one that still serves, see ReferenceSelector.
 class VisualOdometry {
  public:
   struct Config {
@@ -80,6 +89,7 @@ class VisualOdometry {
     MotionModel::Config motion_model;
     MotionEstimator::Config motion_estimator;
     MotionCheck::Config motion_check;
+    ReferenceSelector::Config reference_selector;
     StereoCalibrator::Config stereo_calibrator;
 
     int startup_rounds = 4;           ///< predict, track, estimate this often without a prediction

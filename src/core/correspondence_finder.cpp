@@ -20,27 +20,46 @@ CorrespondenceFinder::CorrespondenceFinder(const Config& config)
       matcher_(config.stereo_matcher),
       tracker_(config.feature_tracker) {}
 
-void CorrespondenceFinder::advance(const StereoPair& pair, const StereoCamera& camera) {
+void CorrespondenceFinder::take(const StereoPair& pair, const StereoCamera& camera) {
   camera_ = camera;
-  std::swap(prev_, cur_);
+  current_ = 0;
+  while (current_ == reference_ || current_ == last_ || current_ == aside_) ++current_;
+  StereoPyramid& current = pyramids_[current_];
   cv::parallel_for_(cv::Range(0, 2), [&](const cv::Range& sides) {
     for (int side = sides.start; side < sides.end; ++side) {
-      tracker_.buildPyramid(side == 0 ? pair.left : pair.right, side == 0 ? cur_.left : cur_.right);
+      tracker_.buildPyramid(side == 0 ? pair.left : pair.right,
+                            side == 0 ? current.left : current.right);
     }
   });
 }
 
+void CorrespondenceFinder::keep() {
+  last_ = current_;
+}
+
+void CorrespondenceFinder::setAside() {
+  aside_ = current_;
+}
+
+void CorrespondenceFinder::takeUpAside() {
+  last_ = aside_;
+}
+
+void CorrespondenceFinder::refer() {
+  reference_ = last_;
+}
+
 int CorrespondenceFinder::findCorners() {
-  detector_.detect(prev_.left.front(), corners_);
+  detector_.detect(pyramids_[reference_].left.front(), corners_);
   return static_cast<int>(corners_.size());
 }
 
 int CorrespondenceFinder::findDepths() {
-  prev_left_.clear();
-  prev_right_.clear();
-  prev_points_.clear();
-  matcher_.match(prev_.left.front(),
-                 prev_.right.front(),
+  ref_left_.clear();
+  ref_right_.clear();
+  ref_points_.clear();
+  matcher_.match(pyramids_[reference_].left.front(),
+                 pyramids_[reference_].right.front(),
                  corners_,
                  camera_.disparityAtInfinity(),
                  disparities_);
@@ -50,20 +69,20 @@ int CorrespondenceFinder::findDepths() {
     if (disparity_px == StereoMatcher::kNoDisparity) continue;
     const double depth_m = camera_.depth(disparity_px);
     if (!std::isfinite(depth_m) || depth_m < kMinDepth_m) continue;
-    prev_left_.push_back(corner);
-    prev_right_.emplace_back(corner.x - disparity_px, corner.y);
-    prev_points_.push_back(depth_m * camera_.ray({corner.x, corner.y}));
+    ref_left_.push_back(corner);
+    ref_right_.emplace_back(corner.x - disparity_px, corner.y);
+    ref_points_.push_back(depth_m * camera_.ray({corner.x, corner.y}));
   }
-  return static_cast<int>(prev_points_.size());
+  return static_cast<int>(ref_points_.size());
 }
 
-int CorrespondenceFinder::track(const Eigen::Isometry3d& T_prev_cur, int levels) {
-  const Eigen::Isometry3d T_cur_prev = T_prev_cur.inverse();
-  cur_left_.resize(prev_points_.size());
-  cur_right_.resize(prev_points_.size());
-  tracked_.assign(prev_points_.size(), 0);
-  for (std::size_t i = 0; i < prev_points_.size(); ++i) {
-    const Eigen::Vector3d point = T_cur_prev * prev_points_[i];
+int CorrespondenceFinder::track(const Eigen::Isometry3d& T_ref_cur, int levels) {
+  const Eigen::Isometry3d T_cur_ref = T_ref_cur.inverse();
+  cur_left_.resize(ref_points_.size());
+  cur_right_.resize(ref_points_.size());
+  tracked_.assign(ref_points_.size(), 0);
+  for (std::size_t i = 0; i < ref_points_.size(); ++i) {
+    const Eigen::Vector3d point = T_cur_ref * ref_points_[i];
     if (point.z() < kMinDepth_m) continue;
     const Eigen::Vector2d left = camera_.project(point);
     const double right_x = left.x() - camera_.disparity(point.z());
@@ -71,8 +90,14 @@ int CorrespondenceFinder::track(const Eigen::Isometry3d& T_prev_cur, int levels)
     cur_right_[i] = {static_cast<float>(right_x), static_cast<float>(left.y())};
     tracked_[i] = 1;
   }
-  tracker_.track(prev_.left, cur_.left, prev_left_, levels, cur_left_, tracked_);
-  tracker_.track(prev_.right, cur_.right, prev_right_, levels, cur_right_, tracked_);
+  tracker_.track(
+      pyramids_[reference_].left, pyramids_[current_].left, ref_left_, levels, cur_left_, tracked_);
+  tracker_.track(pyramids_[reference_].right,
+                 pyramids_[current_].right,
+                 ref_right_,
+                 levels,
+                 cur_right_,
+                 tracked_);
   return static_cast<int>(std::count(tracked_.begin(), tracked_.end(), 1));
 }
 
@@ -83,8 +108,8 @@ void CorrespondenceFinder::closeCircle(Correspondences& features) {
     const cv::Point2f offset = cur_left_[i] - cur_right_[i];
     if (tracked_[i] != 0 && std::abs(offset.y) <= limits.max_vertical_px) expected_[i] = offset.x;
   }
-  matcher_.matchNear(cur_.left.front(),
-                     cur_.right.front(),
+  matcher_.matchNear(pyramids_[current_].left.front(),
+                     pyramids_[current_].right.front(),
                      cur_left_,
                      expected_,
                      kSearchRadius,
@@ -98,7 +123,7 @@ void CorrespondenceFinder::closeCircle(Correspondences& features) {
     const double depth_m = camera_.depth(disparities_[i]);
     if (!std::isfinite(depth_m) || depth_m < kMinDepth_m) continue;
     Correspondence feature;
-    feature.prev_px = {prev_left_[i].x, prev_left_[i].y};
+    feature.prev_px = {ref_left_[i].x, ref_left_[i].y};
     feature.cur_px = {cur_left_[i].x, cur_left_[i].y};
     feature.disparity_px = disparities_[i];
     feature.point_cur = depth_m * camera_.ray(feature.cur_px);
@@ -106,14 +131,14 @@ void CorrespondenceFinder::closeCircle(Correspondences& features) {
   }
 }
 
-double CorrespondenceFinder::medianShift(const Eigen::Isometry3d& T_prev_cur_a,
-                                         const Eigen::Isometry3d& T_prev_cur_b) {
-  const Eigen::Isometry3d T_cur_prev_a = T_prev_cur_a.inverse();
-  const Eigen::Isometry3d T_cur_prev_b = T_prev_cur_b.inverse();
+double CorrespondenceFinder::medianShift(const Eigen::Isometry3d& T_ref_cur_a,
+                                         const Eigen::Isometry3d& T_ref_cur_b) {
+  const Eigen::Isometry3d T_cur_ref_a = T_ref_cur_a.inverse();
+  const Eigen::Isometry3d T_cur_ref_b = T_ref_cur_b.inverse();
   shifts_px_.clear();
-  for (const Eigen::Vector3d& point : prev_points_) {
-    const Eigen::Vector3d a = T_cur_prev_a * point;
-    const Eigen::Vector3d b = T_cur_prev_b * point;
+  for (const Eigen::Vector3d& point : ref_points_) {
+    const Eigen::Vector3d a = T_cur_ref_a * point;
+    const Eigen::Vector3d b = T_cur_ref_b * point;
     if (a.z() < kMinDepth_m || b.z() < kMinDepth_m) continue;
     shifts_px_.push_back((camera_.project(a) - camera_.project(b)).norm());
   }

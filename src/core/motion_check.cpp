@@ -1,20 +1,13 @@
 #include "rotrocc/motion_check.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "rotrocc/outlier_rejection.h"
 #include "rotrocc/rigid_motion.h"
+#include "sentence.h"
 
 namespace rotrocc {
 namespace {
-
-template <class... Parts>
-std::string sentence(const Parts&... parts) {
-  std::ostringstream text;
-  (text << ... << parts);
-  return text.str();
-}
 
 /// The smaller of the two stages' sets: both parts of the motion must rest on enough.
 int inliers(const MotionEstimator::Estimate& estimate) {

@@ -34,6 +34,13 @@ double shareOfVariance(double left_px2, double limit_px) {
   return g(low);
 }
 
+/// How much larger the covariance is than that of independent errors, by the variance per degree of
+/// freedom that the scatter of the cells shows and that of a residual: neighbours share texture, an
+/// object's motion and what is left of the lens.
+double inflation(double scatter_px2, double residual_px2) {
+  return residual_px2 > 0.0 ? std::max(1.0, scatter_px2 / residual_px2) : 1.0;
+}
+
 Criterion criterionOf(const std::string& name) {
   const auto& names = criterionNames();
   const auto found = std::find(names.begin(), names.end(), name);
@@ -180,7 +187,8 @@ bool MotionEstimator::estimateCovariance(const StereoCamera& camera,
   const double share =
       truncated ? shareOfVariance(one.residual_variance, config_.rotation_limit_px) : 1.0;
   const double variance = one.residual_variance / share;
-  const Matrix6d both = variance / share * full.solve(Matrix6d::Identity());
+  const double alike = inflation(full.solve(one.scatter).trace() / 6.0, one.residual_variance);
+  const Matrix6d both = alike * variance / share * full.solve(Matrix6d::Identity());
   if (!both.allFinite()) return false;
   estimate.covariance = both;
   if (!estimate.has_translation_stage) return true;
@@ -191,9 +199,13 @@ bool MotionEstimator::estimateCovariance(const StereoCamera& camera,
   if (translation.info() != Eigen::Success || !translation.isPositive()) return false;
   const Eigen::Matrix3d by_rotation = -translation.solve(two.matrix.topRightCorner<3, 3>());
   const Eigen::Matrix3d rotation = both.bottomRightCorner<3, 3>();
-  estimate.covariance.topLeftCorner<3, 3>() =
-      std::max(two.residual_variance, variance) * translation.solve(Eigen::Matrix3d::Identity()) +
-      by_rotation * rotation * by_rotation.transpose();
+  const Eigen::Matrix3d scatter = two.scatter.topLeftCorner<3, 3>();
+  const double alike_two =
+      inflation(translation.solve(scatter).trace() / 3.0, two.residual_variance);
+  estimate.covariance.topLeftCorner<3, 3>() = alike_two *
+                                                  std::max(two.residual_variance, variance) *
+                                                  translation.solve(Eigen::Matrix3d::Identity()) +
+                                              by_rotation * rotation * by_rotation.transpose();
   estimate.covariance.topRightCorner<3, 3>() = by_rotation * rotation;
   estimate.covariance.bottomLeftCorner<3, 3>() = rotation * by_rotation.transpose();
   return estimate.covariance.allFinite();

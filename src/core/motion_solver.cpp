@@ -1,5 +1,9 @@
 #include "rotrocc/motion_solver.h"
 
+#include <algorithm>
+#include <array>
+
+#include "image_grid.h"
 #include "rotrocc/outlier_rejection.h"
 
 namespace rotrocc {
@@ -9,6 +13,10 @@ namespace {
 constexpr double kParameterTolerance = 1e-7;
 
 constexpr int kMaxIterations = 20;
+
+/// Cells over which the errors of neighbours may be alike.
+constexpr int kScatterColumns = 8;
+constexpr int kScatterRows = 3;
 
 template <class Solver>
 void configure(Solver& solver) {
@@ -71,7 +79,35 @@ MotionSolver::Information MotionSolver::information(const StereoCamera& camera,
   information.matrix.bottomRightCorner<3, 3>() = rotation.transpose() * rotation;
   const auto freedom = static_cast<double>(residuals_.size() - estimated_parameters);
   if (freedom > 0.0) information.residual_variance = residuals_.squaredNorm() / freedom;
+  information.scatter = scatter(camera, features, set);
   return information;
+}
+
+Matrix6d MotionSolver::scatter(const StereoCamera& camera,
+                               const Correspondences& features,
+                               const FeatureSet& set) const {
+  const ImageGrid grid(camera, kScatterColumns, kScatterRows);
+  std::array<Vector6d, kScatterColumns * kScatterRows> gradients;
+  gradients.fill(Vector6d::Zero());
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (set[i] == 0) continue;
+    Vector6d& gradient = gradients[grid.cell(features[i].cur_px)];
+    const auto J = jacobian_.middleRows<2>(row);
+    const auto residual = residuals_.segment<2>(row);
+    gradient.head<3>() += J.rightCols<3>().transpose() * residual;
+    gradient.tail<3>() += J.leftCols<3>().transpose() * residual;
+    row += 2;
+  }
+  Matrix6d sum = Matrix6d::Zero();
+  int cells = 0;
+  for (const Vector6d& gradient : gradients) {
+    if (gradient.isZero(0.0)) continue;
+    sum += gradient * gradient.transpose();
+    ++cells;
+  }
+  // The motion was fitted to them, so that they scatter less than the errors do.
+  return sum * cells / std::max(1, cells - 6);
 }
 
 }  // namespace rotrocc

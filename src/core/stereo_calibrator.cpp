@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "image_grid.h"
 #include "rotrocc/outlier_rejection.h"
 #include "rotrocc/rigid_motion.h"
 
@@ -11,10 +12,6 @@ namespace {
 
 /// Fewer features tell a bias from a motion badly.
 constexpr int kLeastFeatures = 30;
-
-int cellIndex(double position, int size, int cells) {
-  return std::clamp(static_cast<int>(position / size * cells), 0, cells - 1);
-}
 
 }  // namespace
 
@@ -35,6 +32,7 @@ void StereoCalibrator::observe(const StereoCamera& corrected,
                                const Eigen::Isometry3d& T_prev_cur) {
   if (!config_.enabled) return;
   current_ = {};
+  motion_by_bias_.setZero();
   if (count(set) >= kLeastFeatures) {
     linearise(corrected, features, set, T_prev_cur);
     eliminateMotion();
@@ -69,6 +67,7 @@ void StereoCalibrator::eliminateMotion() {
   const Eigen::LDLT<Matrix6d> solver(normal);
   const Vector6d of_bias = solver.solve(by_motion_.transpose() * by_bias_);
   const Vector6d of_residuals = solver.solve(by_motion_.transpose() * residuals_);
+  motion_by_bias_ << -of_bias.tail<3>(), -of_bias.head<3>();
   by_bias_.noalias() -= by_motion_ * of_bias;
   residuals_.noalias() -= by_motion_ * of_residuals;
 }
@@ -78,13 +77,11 @@ void StereoCalibrator::collect(const StereoCamera& corrected,
                                const FeatureSet& set) {
   const double variance = residuals_.squaredNorm() / static_cast<double>(residuals_.size() - 7);
   if (!(variance > 0.0) || !by_bias_.allFinite()) return;
+  const ImageGrid grid(corrected, kColumns, kRows);
   Eigen::Index row = 0;
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (set[i] == 0) continue;
-    const Eigen::Vector2d& pixel = features[i].cur_px;
-    const auto cell =
-        static_cast<std::size_t>(cellIndex(pixel.y(), corrected.height, kRows) * kColumns +
-                                 cellIndex(pixel.x(), corrected.width, kColumns));
+    const std::size_t cell = grid.cell(features[i].cur_px);
     const auto slope = by_bias_.segment<2>(row);
     const double information = slope.squaredNorm() / variance;
     current_.information[cell] += information;
@@ -92,6 +89,12 @@ void StereoCalibrator::collect(const StereoCamera& corrected,
         information * bias_.applied_px - slope.dot(residuals_.segment<2>(row)) / variance;
     row += 2;
   }
+}
+
+Matrix6d StereoCalibrator::motionCovariance() const {
+  const double left_px = bias_.estimated_px - bias_.applied_px;
+  const double variance = bias_.sigma_px * bias_.sigma_px + left_px * left_px;
+  return variance * motion_by_bias_ * motion_by_bias_.transpose();
 }
 
 void StereoCalibrator::advance() {

@@ -187,6 +187,25 @@ void addStereoCalibrator(StereoCalibrator::Config& c, ParameterTable& table) {
             "so many standard deviations of the estimate are doubt, which is not corrected");
 }
 
+void addReferenceSelector(ReferenceSelector::Config& c, ParameterTable& table) {
+  const std::string s = "reference_selector/";
+  table.add(s + "adaptive",
+            c.adaptive,
+            "measure motions against a pair as long as it serves, not always the previous one");
+  table.add(s + "max_parallax_px",
+            c.max_parallax_px,
+            0.0,
+            1000.0,
+            "px",
+            "it serves until the translation's median flow is larger");
+  table.add(s + "min_seen_share",
+            c.min_seen_share,
+            0.0,
+            1.0,
+            "",
+            "it serves until fewer of the features that agreed on the first motion do");
+}
+
 void addVisualOdometry(VisualOdometry::Config& c, ParameterTable& table) {
   const std::string s = "visual_odometry/";
   table.add(s + "startup_rounds",
@@ -322,6 +341,7 @@ ParameterTable makeParameterTable(Parameters& parameters) {
   addMotionModel(odometry.motion_model, table);
   addMotionEstimator(odometry.motion_estimator, table);
   addMotionCheck(odometry.motion_check, table);
+  addReferenceSelector(odometry.reference_selector, table);
   addStereoCalibrator(odometry.stereo_calibrator, table);
   addVisualOdometry(odometry, table);
   return table;

@@ -53,13 +53,12 @@ BaseOdometry::BaseOdometry(const Eigen::Isometry3d& T_base_camera,
 BaseState BaseOdometry::add(const OdometryResult& result) {
   BaseState state;
   state.stamp_ns = result.stamp_ns;
-  UncertainTransform motion = motionOfBase({result.T_prev_cur, result.covariance}, T_base_camera_);
-  if (planar_) motion = {planar(motion.T), planar(motion.covariance)};
+  const UncertainTransform step = motionOfBase(result.T_prev_cur, result.covariance);
   state.T_first_camera =
-      camera_.add(planar_ ? T_camera_base_ * motion.T * T_base_camera_ : result.T_prev_cur);
+      camera_.add(planar_ ? T_camera_base_ * step.T * T_base_camera_ : result.T_prev_cur);
   if (result.hasMotion()) {
-    T_odom_base_ = compose(T_odom_base_, motion);
-    state.twist = twistOf(motion, result.dt_s);
+    addMotion(result, step);
+    state.twist = twistOf(step, result.dt_s);
     without_motion_s_ = 0.0;
   } else {
     T_odom_base_.covariance += growthWithoutMotion(result.stamp_ns);
@@ -68,15 +67,39 @@ BaseState BaseOdometry::add(const OdometryResult& result) {
   if (planar_) T_odom_base_.covariance = planar(T_odom_base_.covariance);
   // Not by compose(), which would add up rounding errors of its own.
   T_odom_base_.T = T_odom_start_ * T_start_base();
+  if (result.hasMotion()) {
+    known_stamp_ns_ = result.stamp_ns;
+    T_odom_known_ = T_odom_base_;
+  }
   state.T_odom_base = T_odom_base_;
   last_stamp_ns_ = result.stamp_ns;
   return state;
+}
+
+UncertainTransform BaseOdometry::motionOfBase(const Eigen::Isometry3d& T,
+                                              const Matrix6d& covariance) const {
+  const UncertainTransform motion = rotrocc::motionOfBase({T, covariance}, T_base_camera_);
+  return planar_ ? UncertainTransform{planar(motion.T), planar(motion.covariance)} : motion;
+}
+
+void BaseOdometry::addMotion(const OdometryResult& result, const UncertainTransform& step) {
+  if (result.reference_stamp_ns != reference_stamp_ns_) {
+    reference_stamp_ns_ = result.reference_stamp_ns;
+    // A pair that was lost can be a reference too: its pose is as uncertain as it was said to be.
+    T_odom_ref_ = reference_stamp_ns_ == known_stamp_ns_ ? T_odom_known_ : T_odom_base_;
+  }
+  T_odom_base_ =
+      T_odom_ref_
+          ? compose(*T_odom_ref_, motionOfBase(result.T_ref_cur.T, result.T_ref_cur.covariance))
+          : compose(T_odom_base_, step);
 }
 
 void BaseOdometry::setPose(const Eigen::Isometry3d& T_odom_base) {
   T_odom_start_ = T_odom_base * T_start_base().inverse();
   T_odom_base_.T = T_odom_base;
   T_odom_base_.covariance = kFirstVariance * Matrix6d::Identity();
+  T_odom_ref_.reset();
+  T_odom_known_ = T_odom_base_;
   without_motion_s_ = 0.0;
 }
 

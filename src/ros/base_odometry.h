@@ -5,9 +5,9 @@
 
 #include <Eigen/Geometry>
 
+#include "base_motion.h"
 #include "rotrocc/pose_accumulator.h"
 #include "rotrocc/visual_odometry.h"
-#include "uncertain_transform.h"
 
 namespace rotrocc {
 
@@ -41,6 +41,8 @@ class BaseOdometry {
   void setPose(const Eigen::Isometry3d& T_odom_base);
 
  private:
+  UncertainTransform motionOfBase(const Eigen::Isometry3d& T, const Matrix6d& covariance) const;
+  void addMotion(const OdometryResult& result, const UncertainTransform& step);
   Matrix6d growthWithoutMotion(std::int64_t stamp_ns);
   Eigen::Isometry3d T_start_base() const;
 
@@ -54,6 +56,12 @@ class BaseOdometry {
   PoseAccumulator camera_;
   UncertainTransform T_odom_base_;
   std::optional<std::int64_t> last_stamp_ns_;
+
+  // Errors add up from reference to reference.
+  std::optional<std::int64_t> reference_stamp_ns_;
+  std::optional<UncertainTransform> T_odom_ref_;  // none after setPose(), until the next reference
+  std::int64_t known_stamp_ns_ = 0;               // of the last pair with a motion ...
+  UncertainTransform T_odom_known_;               // ... and the base's pose then
   double without_motion_s_ = 0.0;
 };
 

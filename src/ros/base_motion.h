@@ -3,20 +3,9 @@
 #include <Eigen/Geometry>
 
 #include "rotrocc/rigid_motion.h"
+#include "rotrocc/uncertain_transform.h"
 
 namespace rotrocc {
-
-/// A transform T_a_b and the covariance of its error in axes of frame a, in the order of REP 103:
-/// translation [m] x y z, rotation [rad] about x y z. The true transform has the rotation
-/// Exp(rotation error) R and the translation t + translation error, as in OdometryResult and
-/// geometry_msgs/PoseWithCovariance.
-struct UncertainTransform {
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  Matrix6d covariance = Matrix6d::Zero();
-};
-
-/// T_a_c = T_a_b * T_b_c, whose errors are independent.
-UncertainTransform compose(const UncertainTransform& T_a_b, const UncertainTransform& T_b_c);
 
 /// The motion of the base that a camera is fixed to, where `camera_motion` is T_prev_cur of the
 /// camera: T_base_camera * T_prev_cur * T_base_camera^-1.

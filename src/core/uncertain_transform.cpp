@@ -1,4 +1,4 @@
-#include "uncertain_transform.h"
+#include "rotrocc/uncertain_transform.h"
 
 namespace rotrocc {
 namespace {
@@ -24,17 +24,11 @@ UncertainTransform compose(const UncertainTransform& T_a_b, const UncertainTrans
           J_ab * T_a_b.covariance * J_ab.transpose() + J_bc * T_b_c.covariance * J_bc.transpose()};
 }
 
-UncertainTransform motionOfBase(const UncertainTransform& camera_motion,
-                                const Eigen::Isometry3d& T_base_camera) {
-  const Eigen::Isometry3d T = T_base_camera * camera_motion.T * T_base_camera.inverse();
-  const Eigen::Matrix3d R = T_base_camera.linear();
-  // t_base = R t_camera + lever - R_base lever: a rotation error swings the lever.
-  const Matrix6d J = jacobian(R, skew(T.linear() * T_base_camera.translation()) * R);
-  return {T, J * camera_motion.covariance * J.transpose()};
-}
-
-UncertainTwist twistOf(const UncertainTransform& T_prev_cur, double dt_s) {
-  return {logMotion(T_prev_cur.T) / dt_s, T_prev_cur.covariance / (dt_s * dt_s)};
+UncertainTransform inverse(const UncertainTransform& T_a_b) {
+  // R^T Exp(-e) = Exp(-R^T e) R^T, and t_b_a = -R^T t: a rotation error swings it.
+  const Eigen::Matrix3d R_b_a = T_a_b.T.linear().transpose();
+  const Matrix6d J = jacobian(-R_b_a, -R_b_a * skew(T_a_b.T.translation()));
+  return {T_a_b.T.inverse(), J * T_a_b.covariance * J.transpose()};
 }
 
 }  // namespace rotrocc
