@@ -159,6 +159,23 @@ TEST(MotionEstimatorTest, TheDecoupledFlowTellsAMovingObjectFromTheStreet) {
   EXPECT_LT(5.0 * error("rotrocc"), error("mean_based"));
 }
 
+TEST(MotionEstimatorTest, IsNotMovedByATruckThatFillsMostOfThePicture) {
+  MotionEstimator::Config without;
+  without.doubt_agreement_px = 0.0;
+  double error_with = 0.0;
+  double error_without = 0.0;
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    const Correspondences features = withMovingObject(0.6, seed);
+    const Estimate found = estimate(features);
+    ASSERT_TRUE(found.valid);
+    EXPECT_LT(translationError(found), 0.03) << seed;  // the truck moves by 0.3
+    EXPECT_LT(rotationError(found), 1e-3) << seed;
+    error_with += translationError(found);
+    error_without += translationError(estimate(features, without));
+  }
+  EXPECT_LT(3.0 * error_with, error_without);  // what it is for
+}
+
 TEST(MotionEstimatorTest, StageTwoBeginsWithWhatStageOneFoundNearlyRight) {
   MotionEstimator::Config config;
   config.translation_limit = 100.0;  // drops nothing by itself
@@ -195,6 +212,7 @@ TEST(MotionEstimatorTest, ThePapersParametersWork) {
 TEST(MotionEstimatorTest, WeightingByDepthNoiseHelpsTheRotation) {
   MotionEstimator::Config unweighted;
   unweighted.noise_ratio = 0.0;
+  unweighted.doubt_agreement_px = 0.0;
   double weighted_sum = 0.0;
   double unweighted_sum = 0.0;
   for (unsigned seed = 0; seed < 20; ++seed) {

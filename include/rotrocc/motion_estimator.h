@@ -39,6 +39,10 @@ class MotionEstimator {
     double rotation_drop_share =
         0.15;  ///< of the set, dropped at most by an iteration: b of Eq. 26
     int rotation_max_iterations = 30;
+    double doubt_share =
+        0.6;  ///< of the set left by stage 1; less, and it is tried once more with ...
+    double doubt_agreement_px =
+        2.0;  ///< ... just the features this near to the prediction; 0: never
 
     // Stage 2: translation.
     double translation_limit = 0.05;       ///< termination limit of the DNRE, Eq. 30
@@ -68,12 +72,22 @@ class MotionEstimator {
 
   /// Estimates the motion that took `dt_s` > 0 from the full feature set, beginning with `initial`.
   /// Invalid if fewer than 3 features are left, or the equations have no unique solution.
+  ///
+  /// Where much of the image moves by itself, the full set may lead astray. If few features agree
+  /// with the motion found and `initial` is a prediction, the features near to it are tried too; of
+  /// two motions that many features agree with, the likelier one is that nearer to the prediction.
   Estimate estimate(const StereoCamera& camera,
                     const Correspondences& features,
                     const Eigen::Isometry3d& initial,
-                    double dt_s);
+                    double dt_s,
+                    bool is_prediction = true);
 
  private:
+  Estimate estimateFrom(const FeatureSet& set,
+                        const StereoCamera& camera,
+                        const Correspondences& features,
+                        const Eigen::Isometry3d& initial,
+                        double dt_s);
   bool estimateRotation(const StereoCamera& camera,
                         const Correspondences& features,
                         Estimate& estimate);

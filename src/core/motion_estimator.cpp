@@ -66,10 +66,34 @@ MotionEstimator::MotionEstimator(const Config& config)
 MotionEstimator::Estimate MotionEstimator::estimate(const StereoCamera& camera,
                                                     const Correspondences& features,
                                                     const Eigen::Isometry3d& initial,
-                                                    double dt_s) {
+                                                    double dt_s,
+                                                    bool is_prediction) {
+  const FeatureSet all(features.size(), 1);
+  Estimate found = estimateFrom(all, camera, features, initial, dt_s);
+  const int agree = found.valid ? count(found.rotation_inliers) : 0;
+  const bool doubtful = agree < config_.doubt_share * static_cast<double>(features.size());
+  if (!doubtful || !is_prediction || config_.doubt_agreement_px == 0.0) return found;
+
+  reprojectionErrors(camera, features, initial, config_.noise_ratio, errors_);
+  FeatureSet near = all;
+  keepBelow(errors_, config_.doubt_agreement_px, near);
+  Estimate other = estimateFrom(near, camera, features, initial, dt_s);
+  const auto deviation = [&](const Estimate& estimate) {
+    return (estimate.T_prev_cur.translation() - initial.translation()).norm();
+  };
+  const bool likelier = other.valid && 2 * count(other.rotation_inliers) >= agree &&
+                        (!found.valid || deviation(other) < deviation(found));
+  return likelier ? other : found;
+}
+
+MotionEstimator::Estimate MotionEstimator::estimateFrom(const FeatureSet& set,
+                                                        const StereoCamera& camera,
+                                                        const Correspondences& features,
+                                                        const Eigen::Isometry3d& initial,
+                                                        double dt_s) {
   Estimate estimate;
   estimate.T_prev_cur = initial;
-  estimate.rotation_inliers.assign(features.size(), 1);
+  estimate.rotation_inliers = set;
   estimate.valid = estimateRotation(camera, features, estimate);
   estimate.translation_inliers = estimate.rotation_inliers;
 

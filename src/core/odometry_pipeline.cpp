@@ -190,9 +190,8 @@ void VisualOdometry::Pipeline::referToLast(OdometryResult& result) {
 /// from a wrong place may agree on a wrong motion: predict, track and estimate until it settles.
 std::string VisualOdometry::Pipeline::findMotion(const std::optional<Eigen::Isometry3d>& T_last_cur,
                                                  OdometryResult& result) {
-  const FeatureTracker::Config& tracker = config_.correspondence_finder.feature_tracker;
   if (T_last_cur) {
-    trackAndEstimate(T_ref_last_.T * *T_last_cur, tracker.levels, result);
+    trackAndEstimate(T_ref_last_.T * *T_last_cur, true, result);
     if (whyLost().empty()) {
       calibrate(result);
       return "";
@@ -200,7 +199,7 @@ std::string VisualOdometry::Pipeline::findMotion(const std::optional<Eigen::Isom
   }
   Eigen::Isometry3d T_ref_cur = T_ref_last_.T;
   for (int round = 0; round < config_.startup_rounds; ++round) {
-    trackAndEstimate(T_ref_cur, tracker.startup_levels, result);
+    trackAndEstimate(T_ref_cur, false, result);
     if (!estimate_.valid) break;
     const double shift_px = finder_.medianShift(T_ref_cur, estimate_.T_prev_cur);
     T_ref_cur = estimate_.T_prev_cur;
@@ -216,23 +215,27 @@ std::string VisualOdometry::Pipeline::whyLost() const {
 }
 
 void VisualOdometry::Pipeline::trackAndEstimate(const Eigen::Isometry3d& T_ref_cur,
-                                                int levels,
+                                                bool is_prediction,
                                                 OdometryResult& result) {
   {
     const StageTimer timer(result.times.tracking_ms);
-    result.counts.tracked = finder_.track(T_ref_cur, levels);
+    const FeatureTracker::Config& tracker = config_.correspondence_finder.feature_tracker;
+    result.counts.tracked =
+        finder_.track(T_ref_cur, is_prediction ? tracker.levels : tracker.startup_levels);
     finder_.closeCircle(features_);
     result.counts.corners = reference_corners_;
     result.counts.with_depth = reference_with_depth_;
     result.counts.consistent = static_cast<int>(features_.size());
   }
   const StageTimer timer(result.times.estimation_ms);
-  estimate(T_ref_cur, result);
+  estimate(T_ref_cur, is_prediction, result);
 }
 
 void VisualOdometry::Pipeline::estimate(const Eigen::Isometry3d& T_ref_cur,
+                                        bool is_prediction,
                                         OdometryResult& result) {
-  estimate_ = estimator_.estimate(corrected_, features_, T_ref_cur, sinceReference_s());
+  estimate_ =
+      estimator_.estimate(corrected_, features_, T_ref_cur, sinceReference_s(), is_prediction);
   result.counts.rotation_inliers = count(estimate_.rotation_inliers);
   result.counts.translation_inliers =
       estimate_.has_translation_stage ? count(estimate_.translation_inliers) : 0;
@@ -249,7 +252,7 @@ void VisualOdometry::Pipeline::calibrate(OdometryResult& result) {
     const MotionEstimator::Estimate estimate_before = estimate_;
     corrected_ = corrected;
     triangulate(corrected_, features_);
-    estimate(estimate_.T_prev_cur, result);
+    estimate(estimate_.T_prev_cur, true, result);
     if (whyLost().empty()) continue;
     corrected_ = camera_before;
     estimate_ = estimate_before;

@@ -42,8 +42,10 @@ class VisualOdometry::Pipeline {
   std::string findMotion(const std::optional<Eigen::Isometry3d>& T_last_cur,
                          OdometryResult& result);
   std::string whyLost() const;
-  void trackAndEstimate(const Eigen::Isometry3d& T_ref_cur, int levels, OdometryResult& result);
-  void estimate(const Eigen::Isometry3d& T_ref_cur, OdometryResult& result);
+  void trackAndEstimate(const Eigen::Isometry3d& T_ref_cur,
+                        bool is_prediction,
+                        OdometryResult& result);
+  void estimate(const Eigen::Isometry3d& T_ref_cur, bool is_prediction, OdometryResult& result);
   void calibrate(OdometryResult& result);
 
   void accept(OdometryResult& result);

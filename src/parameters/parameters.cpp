@@ -101,6 +101,19 @@ void addMotionEstimator(MotionEstimator::Config& c, ParameterTable& table) {
             "",
             "stage 1: share of the features an iteration drops at most (b of Eq. 26)");
   table.add(s + "rotation_max_iterations", c.rotation_max_iterations, 1, 1000, "", "stage 1");
+  table.add(
+      s + "doubt_share",
+      c.doubt_share,
+      0.0,
+      1.0,
+      "",
+      "stage 1: if fewer of the features agree, it is tried from those near to the prediction");
+  table.add(s + "doubt_agreement_px",
+            c.doubt_agreement_px,
+            0.0,
+            1000.0,
+            "px",
+            "stage 1: how near that is; 0: never tried");
   table.add(s + "translation_limit",
             c.translation_limit,
             0.001,
