@@ -1,11 +1,14 @@
 // Runs the program, as users do.
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "kitti_bag_writer.h"
+#include "read_csv.h"
 #include "read_file.h"
 #include "run_command.h"
 #include "synthetic_sequence.h"
@@ -74,6 +77,33 @@ TEST_F(OfflineOdometryTest, WritesARowOfFiguresPerPair) {
   const std::string header = table.substr(0, table.find('\n'));
   const auto columns = std::count(header.begin(), header.end(), ',');
   EXPECT_EQ(std::count(table.begin(), table.end(), ','), (1 + kPairs) * columns);
+}
+
+TEST_F(OfflineOdometryTest, FiguresTellMotionCovarianceAndBias) {
+  const Trajectory truth = KittiSequence(sequence()).groundTruth();
+  trajectoryOf(sequence(),
+               "--stats " + directory_ / "stats.csv" + " --set stereo_calibrator/bias_px=0.05");
+  const std::vector<CsvRow> rows = readCsv(directory_ / "stats.csv");
+  ASSERT_EQ(rows.size(), truth.size());
+  EXPECT_EQ(rows.front().at("state"), "initialising");
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const auto number = [&](const std::string& column) { return std::stod(rows[i].at(column)); };
+    const Eigen::Isometry3d T_prev_cur =
+        truth[i - 1].T_world_body.inverse() * truth[i].T_world_body;
+    EXPECT_EQ(std::stoll(rows[i].at("stamp_ns")), truth[i].stamp_ns);
+    const double sigma_m = std::sqrt(number("covariance_z_z"));
+    EXPECT_GT(sigma_m, 0.0);
+    // Six standard deviations; 2 cm is what FollowsTheTruth allows for a step and more.
+    EXPECT_NEAR(number("z_m"), T_prev_cur.translation().z(), std::min(0.02, 6.0 * sigma_m + 0.01));
+    EXPECT_GT(number("covariance_ry_ry"), 0.0);
+    EXPECT_LT(number("covariance_ry_ry"), 1e-4);  // [rad^2]
+    EXPECT_LE(std::abs(number("covariance_x_ry")),
+              std::sqrt(number("covariance_x_x") * number("covariance_ry_ry")));
+    // What is known beforehand is where the estimate begins.
+    EXPECT_NEAR(number("bias_estimated_px"), 0.05, 0.5);
+    EXPECT_GT(number("bias_sigma_px"), 0.0);
+  }
+  EXPECT_EQ(rows.front().at("bias_applied_px"), "0.05");
 }
 
 TEST_F(OfflineOdometryTest, SumsUp) {

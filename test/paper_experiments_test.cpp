@@ -2,32 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "read_csv.h"
 #include "read_file.h"
 #include "run_command.h"
 #include "temporary_directory.h"
 
 namespace rotrocc {
 namespace {
-
-using Row = std::map<std::string, std::string>;
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) {
-    while (!cell.empty() && cell.back() == '\r') cell.pop_back();
-    cells.push_back(cell);
-  }
-  return cells;
-}
 
 class PaperExperimentsTest : public ::testing::Test {
  protected:
@@ -43,26 +30,13 @@ class PaperExperimentsTest : public ::testing::Test {
 
   static std::string path(const std::string& name) { return *directory_ / "out/" + name; }
 
-  static std::vector<Row> readTable(const std::string& name) {
-    std::ifstream file(path(name));
-    std::string line;
-    std::getline(file, line);
-    const std::vector<std::string> names = split(line);
-    std::vector<Row> rows;
-    while (std::getline(file, line)) {
-      const std::vector<std::string> cells = split(line);
-      EXPECT_EQ(cells.size(), names.size()) << name;
-      Row row;
-      for (std::size_t i = 0; i < std::min(cells.size(), names.size()); ++i) {
-        row[names[i]] = cells[i];
-      }
-      rows.push_back(row);
-    }
+  static std::vector<CsvRow> readTable(const std::string& name) {
+    const std::vector<CsvRow> rows = readCsv(path(name));
     EXPECT_FALSE(rows.empty()) << name;
     return rows;
   }
 
-  static double number(const Row& row, const std::string& column) {
+  static double number(const CsvRow& row, const std::string& column) {
     return std::stod(row.at(column));
   }
 
@@ -83,7 +57,7 @@ TEST_F(PaperExperimentsTest, DrawsAllFigures) {
 
 TEST_F(PaperExperimentsTest, NormalizedErrorsLieAtATenthInSingleAxisMotions) {
   std::map<std::string, int> features;
-  for (const Row& row : readTable("fig4.csv")) {
+  for (const CsvRow& row : readTable("fig4.csv")) {
     ++features[row.at("motion")];
     if (number(row, "depth_m") < 6.04) continue;  // where the bound of the paper holds, by Eq. 17
     EXPECT_NEAR(number(row, "nre"), 0.1, 0.0154) << row.at("motion");
@@ -98,7 +72,7 @@ TEST_F(PaperExperimentsTest, OnlyTheDecoupledErrorTellsWrongDepths) {
   double greatest_right = 0.0;
   double greatest_right_nre = 0.0;
   double least_wrong_nre = 1.0;
-  for (const Row& row : readTable("fig5.csv")) {
+  for (const CsvRow& row : readTable("fig5.csv")) {
     const bool right = number(row, "depth_factor") == 1.0;
     wrong += right ? 0 : 1;
     if (right) {
@@ -117,15 +91,15 @@ TEST_F(PaperExperimentsTest, OnlyTheDecoupledErrorTellsWrongDepths) {
 
 TEST_F(PaperExperimentsTest, EveryCriterionFollowsTheDrives) {
   for (const char* table : {"fig6_motorway.csv", "fig6_slip_road.csv"}) {
-    const std::vector<Row> frames = readTable(table);
+    const std::vector<CsvRow> frames = readTable(table);
     EXPECT_EQ(frames.size(), 39u);
     double squares = 0.0;
-    for (const Row& frame : frames) {
+    for (const CsvRow& frame : frames) {
       squares += std::pow(number(frame, "rotrocc") - number(frame, "truth"), 2) / 39.0;
     }
     EXPECT_LT(std::sqrt(squares), 0.015) << table;  // [m]; the steps are 1 and 2.5 m
   }
-  for (const Row& row : readTable("summary.csv")) {
+  for (const CsvRow& row : readTable("summary.csv")) {
     for (const std::string criterion : {"rotrocc", "reprojection", "rocc"}) {
       EXPECT_LT(number(row, criterion + "_translation_percent"), 1.0) << row.at("drive");
       EXPECT_LT(number(row, criterion + "_rotation_deg_per_m"), 0.005) << row.at("drive");
@@ -137,7 +111,7 @@ TEST_F(PaperExperimentsTest, ErrorsBySpeedAndLengthHaveBothCriteria) {
   for (const std::string figure : {"fig7", "fig8"}) {
     for (const std::string column : {"speed_mps", "length_m"}) {
       std::map<std::string, int> rows;
-      for (const Row& row : readTable(figure + "_" + column + ".csv")) {
+      for (const CsvRow& row : readTable(figure + "_" + column + ".csv")) {
         ++rows[row.at("criterion")];
         EXPECT_GT(number(row, "segments"), 0.0);
       }
@@ -148,7 +122,7 @@ TEST_F(PaperExperimentsTest, ErrorsBySpeedAndLengthHaveBothCriteria) {
 }
 
 TEST_F(PaperExperimentsTest, StepsHaveNoBias) {
-  for (const Row& row : readTable("bias.csv")) {
+  for (const CsvRow& row : readTable("bias.csv")) {
     EXPECT_EQ(row.at("steps"), "39");
     EXPECT_EQ(row.at("lost"), "0");
     // 0.3 % over a whole drive; these are short.

@@ -307,6 +307,20 @@ TEST(Simulation, NoiseHasItsSigma) {
   EXPECT_NEAR(deviation[0], 3.0, 0.15);
 }
 
+TEST(Simulation, NoiseSeedChangesTheNoiseOnly) {
+  SimulationOptions options = cleanOptions();
+  options.noise_seed = 2;
+  Simulator clean(scenario("city", 1), options);
+  EXPECT_EQ(
+      differingPixels(clean.render(5, false).pair.left, cleanCity().render(5, false).pair.left), 0);
+  options.faults.noise_sigma = 3.0;
+  const cv::Mat one = Simulator(scenario("city", 1), options).render(5, false).pair.left;
+  options.noise_seed = 3;
+  const cv::Mat other = Simulator(scenario("city", 1), options).render(5, false).pair.left;
+  // Two draws of 3 grey levels differ by 3.4 in the mean; where the sky is white, both are cut off.
+  EXPECT_GT(meanDifference(one, other), 1.0);
+}
+
 TEST(Simulation, VignettingDarkensTheCorners) {
   SimulationOptions options = cleanOptions();
   options.faults.vignetting = 0.5;

@@ -98,8 +98,8 @@ SimulatedFrame Simulator::render(int index, bool with_flow) {
   const cv::Mat right_light = brightness(time + options_.faults.time_skew_s, true);
   SimulatedFrame frame;
   frame.pair.stamp_ns = stamp_ns(index);
-  frame.pair.left = develop(left_light, options_.faults, {index, false}, options_.seed);
-  frame.pair.right = develop(right_light, options_.faults, {index, true}, options_.seed);
+  frame.pair.left = develop(left_light, options_.faults, {index, false}, options_.noise_seed);
+  frame.pair.right = develop(right_light, options_.faults, {index, true}, options_.noise_seed);
   frame.depth = left.depth;
   if (with_flow && index + 1 < size()) frame.flow = flowToNext(index, left);
   return frame;

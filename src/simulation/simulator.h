@@ -26,6 +26,7 @@ struct SimulationOptions {
   double duration_s = 0.0;     ///< frames after that are left out; 0: none
   int frames = 0;              ///< at most; 0: all
   std::uint64_t seed = 1;
+  std::uint64_t noise_seed = 1;  ///< of the noise and the exposure jumps of the images
 };
 
 /// A stereo pair with its truth for the left image.

@@ -60,6 +60,7 @@ po::options_description describe(Options& options) {
       "rate", number(simulation.rate_hz), "[Hz] of the pairs of a scenario")(
       "moving-share", number(simulation.moving_share), "share of places for moving cars taken")(
       "seed", po::value(&simulation.seed)->default_value(simulation.seed), "same seed, same bytes")(
+      "noise-seed", po::value(&simulation.noise_seed), "of the images' noise (default: seed)")(
       "truth", po::bool_switch(&options.truth), "write depth and flow of each pixel as well")(
       "check-truth",
       po::bool_switch(&options.check_truth),
@@ -117,6 +118,7 @@ bool parse(int argc, char** argv, Options& options) {
     return false;
   }
   po::notify(variables);
+  if (variables.count("noise-seed") == 0) options.simulation.noise_seed = options.simulation.seed;
   const std::size_t expected = options.poses.empty() ? 2 : 1;
   if (options.names.size() != expected) {
     throw po::error(expected == 2 ? "give a scenario and an output" : "give one output");
