@@ -1,0 +1,104 @@
+"""Drives, and runs of the package's programs on them: what the scripts of experiments share."""
+import collections
+import csv
+import os
+import pathlib
+import re
+import subprocess
+
+import numpy
+
+SCRIPTS = pathlib.Path(__file__).resolve().parent
+PAPER_CONFIG = SCRIPTS.parent / 'config/paper.yaml'
+SCENARIOS = ['city', 'motorway', 'slip_road', 'parking', 'shake']
+LENGTHS_M = [10, 20, 50, 100, 200]  # of the segments of simulated drives, where they fit
+STEP = 5  # they begin at every so many pairs
+
+
+class Programs:
+    """Runs the programs of the package."""
+
+    def __init__(self, folder=None):
+        self.folders = [folder] if folder else [SCRIPTS, SCRIPTS.parent / 'build/devel/lib/rotrocc']
+
+    def run(self, name, *arguments):
+        for folder in self.folders:
+            if (folder / name).is_file():
+                command = [str(part) for part in (folder / name, *arguments)]
+                return subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout.decode()
+        raise RuntimeError('%s is not built; run scripts/test or cmake --build build' % name)
+
+    def simulate(self, target, arguments):
+        """Renders a drive if it is not there yet."""
+        if target.is_dir():
+            return
+        print('rendering', target.name, flush=True)
+        part = target.with_name(target.name + '.part')
+        self.run('simulate_drive', *arguments, part)
+        os.replace(str(part), str(target))
+
+    def estimate(self, sequence, trajectory, *options):
+        """Writes the estimated trajectory; returns the count of pairs lost."""
+        report = self.run('offline_odometry', sequence, '--trajectory', trajectory, *options)
+        return int(re.search(r'(\d+) lost', report).group(1))
+
+    def segments(self, sequence, trajectory, table, lengths_m, step):
+        """The errors of all segments, also written to `table`: first_pose, length_m, speed_mps,
+        translation_percent, rotation_deg_per_m."""
+        self.run('evaluate_trajectory', sequence / 'poses.txt', trajectory,
+                 '--times', sequence / 'times.txt', '--step', step, '--segments', table,
+                 '--lengths', *lengths_m)
+        return [{name: float(value) for name, value in row.items()} for row in read_table(table)]
+
+
+def read_table(path):
+    with open(str(path)) as file:
+        return list(csv.DictReader(file))
+
+
+def write_table(path, names, rows):
+    with open(str(path), 'w') as file:
+        writer = csv.writer(file)
+        writer.writerow(names)
+        writer.writerows(rows)
+
+
+def read_poses(path):
+    """n x 3 x 4."""
+    return numpy.loadtxt(str(path)).reshape(-1, 3, 4)
+
+
+def add_drive_arguments(parser):
+    """What make_drives() reads."""
+    parser.add_argument('--output', type=pathlib.Path, required=True, help='folder for the results')
+    parser.add_argument('--scenarios', nargs='*', default=SCENARIOS, help='of simulate_drive')
+    parser.add_argument('--poses', nargs='*', type=pathlib.Path, default=[], metavar='FILE',
+                        help='KITTI pose files to lay a street along')
+    parser.add_argument('--times', type=pathlib.Path, metavar='DIR',
+                        help='folder with a times file for each pose file (default: 10 Hz)')
+    parser.add_argument('--frames', type=int, help='render only this many pairs of each drive')
+    parser.add_argument('--pose-frames', type=int, help='the same for drives along pose files')
+    parser.add_argument('--cache', type=pathlib.Path,
+                        help='folder for the drives; those it has are not rendered again')
+    parser.add_argument('--programs', type=pathlib.Path, help='folder of the programs')
+
+
+def cache_folder(options):
+    cache = options.cache or options.output / 'drives'
+    cache.mkdir(parents=True, exist_ok=True)
+    return cache
+
+
+def make_drives(programs, options):
+    """Folders of all drives, rendered if they are not there yet."""
+    cache = cache_folder(options)
+    frames = ['--frames', options.frames] if options.frames else []
+    drives = collections.OrderedDict((cache / name, [name, *frames]) for name in options.scenarios)
+    for poses in options.poses:
+        times = ['--times', options.times / poses.name] if options.times else []
+        length = ['--frames', options.pose_frames or options.frames]
+        drives[cache / ('along_' + poses.stem)] = ['--poses', poses, *times,
+                                                   *(length if length[1] else [])]
+    for drive, arguments in drives.items():
+        programs.simulate(drive, arguments)
+    return list(drives)

@@ -1,0 +1,130 @@
+// Runs scripts/accuracy in its short form, and looks at what it has found.
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "read_csv.h"
+#include "read_file.h"
+#include "run_command.h"
+#include "temporary_directory.h"
+
+namespace rotrocc {
+namespace {
+
+class AccuracyTest : public ::testing::Test {
+ protected:
+  /// The script is run once for all tests, on a copy of the report.
+  static void SetUpTestSuite() {
+    directory_ = new TemporaryDirectory;
+    std::ofstream(report()) << readFile(REPORT);
+    unsetenv("ROTROCC_KITTI_DIR");  // real clips would take their time
+    result_ = runCommand(std::string(PYTHON) + " " + ACCURACY + " --short --programs " + PROGRAMS +
+                         " --output " + *directory_ / "out" + " --report " + report());
+  }
+  static void TearDownTestSuite() { delete directory_; }
+
+  void SetUp() override { ASSERT_EQ(result_.status, 0) << result_.output; }
+
+  static std::string report() { return *directory_ / "accuracy.md"; }
+
+  static std::vector<CsvRow> readTable(const std::string& name) {
+    const std::vector<CsvRow> rows = readCsv(*directory_ / "out/" + name + ".csv");
+    EXPECT_FALSE(rows.empty()) << name;
+    return rows;
+  }
+
+  static double number(const CsvRow& row, const std::string& column) {
+    return std::stod(row.at(column));
+  }
+
+  static TemporaryDirectory* directory_;
+  static CommandResult result_;
+};
+
+TemporaryDirectory* AccuracyTest::directory_ = nullptr;
+CommandResult AccuracyTest::result_;
+
+/// What a text has outside of its tables.
+std::string proseOf(const std::string& text) {
+  std::string prose;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    if (line.empty() || line.front() != '|') prose += line + '\n';
+  }
+  return prose;
+}
+
+TEST_F(AccuracyTest, FillsTheTablesOfTheReportAndKeepsItsText) {
+  const std::string text = readFile(report());
+  EXPECT_EQ(proseOf(text), proseOf(readFile(REPORT)));
+  EXPECT_NE(text.find("| slip_road | 39 |"), std::string::npos) << text;
+  EXPECT_EQ(text.find("| motorway"), std::string::npos) << "rows of an earlier run are left";
+}
+
+TEST_F(AccuracyTest, EveryEstimatorFollowsTheDrive) {
+  const CsvRow translation = readTable("translation").front();
+  const CsvRow rotation = readTable("rotation").front();
+  for (const char* column : {"default", "paper", "reprojection"}) {
+    EXPECT_GT(number(translation, column), 0.0) << column;
+    EXPECT_LT(number(translation, column), 0.5) << column;  // [%] of 10 and 20 m
+    EXPECT_GT(number(rotation, column), 0.0) << column;
+    EXPECT_LT(number(rotation, column), 0.005) << column;
+    EXPECT_EQ(translation.at(column).find("lost"), std::string::npos) << column;
+  }
+  EXPECT_NE(translation.at("paper"), translation.at("default"));
+}
+
+TEST_F(AccuracyTest, FindsTheInjectedBias) {
+  const std::vector<CsvRow> rows = readTable("rigs");
+  ASSERT_EQ(rows.size(), 4u);
+  for (const CsvRow& row : rows) {
+    const double injected_px = number(row, "injected [px]");
+    EXPECT_NEAR(number(row, "estimate after 20 pairs [px]"), -injected_px, 0.1);
+    const double with = number(row, "whole drive [%]");
+    const double without = number(row, "whole drive without calibration [%]");
+    if (injected_px == 0.0) continue;
+    // Half a pixel is 1.3 % of the depth at 10 m, and more farther away.
+    EXPECT_GT(without, 0.5) << "the images do not have the bias";
+    EXPECT_LT(with, 0.5 * without);
+  }
+}
+
+TEST_F(AccuracyTest, AStandingCameraStays) {
+  const std::vector<CsvRow> rows = readTable("standstill");
+  ASSERT_EQ(rows.size(), 2u);
+  for (const CsvRow& row : rows) {
+    EXPECT_EQ(row.at("pairs"), "14");
+    EXPECT_GE(number(row, "default"), 0.0);
+    EXPECT_LT(number(row, "default"), 5.0);  // [mm]
+  }
+}
+
+TEST_F(AccuracyTest, NoiseMakesADifference) {
+  const std::vector<CsvRow> rows = readTable("noise");
+  ASSERT_EQ(rows.size(), 3u);
+  for (const CsvRow& row : rows) {
+    EXPECT_GT(number(row, "standard deviation"), 0.0);
+    EXPECT_LT(number(row, "standard deviation"), 0.2);  // [%]
+  }
+  EXPECT_NEAR(number(rows[2], "mean"), number(rows[0], "mean") - number(rows[1], "mean"), 1e-3);
+}
+
+TEST_F(AccuracyTest, CovarianceIsOfTheSizeOfTheErrors) {
+  const std::vector<CsvRow> rows = readTable("consistency");
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows.front().at("pairs"), "39");
+  for (const CsvRow& row : rows) {
+    // 6 are expected; errors three times too large or small would make it 54 or 0.7.
+    EXPECT_GT(number(row, "mean NEES (6)"), 1.0) << row.at("drive");
+    EXPECT_LT(number(row, "mean NEES (6)"), 30.0) << row.at("drive");
+  }
+}
+
+}  // namespace
+}  // namespace rotrocc
