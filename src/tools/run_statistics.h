@@ -16,8 +16,9 @@ struct PairRecord {
   double cpu_ms = 0.0;  ///< of all threads of the process
 };
 
-/// A CSV table with a row for each pair: stamp, state, counts, times, the disparity bias, the
-/// motion (rotation as axis times angle) and the upper triangle of its covariance, row by row.
+/// A CSV table with a row for each pair: stamp, state, counts, times, the reference, the disparity
+/// bias, the motion (rotation as axis times angle) and the upper triangle of its covariance, row by
+/// row.
 class StatisticsFile {
  public:
   /// Throws std::runtime_error if `path` cannot be written.
