@@ -166,6 +166,7 @@ TEST(ParametersTest, AFileNamesItselfWhenItIsRefused) {
   expect_refused("motion_check:\n  min_inliers: 1\n", "motion_check/min_inliers is 1");
   expect_refused("visual_odometry:\n  max_gap_s: .nan\n", "visual_odometry/max_gap_s is \".nan\"");
   expect_refused("motion_check: [1, 2]\n", "\"motion_check\" is neither a value nor a section");
+  expect_refused("motion_check: &loop {of: *loop}\n", "\"motion_check/of\" must be a value");
   expect_refused("motion_check\n", "");
   expect_refused("a: b: c\n", "");
   Settings settings;
@@ -189,6 +190,18 @@ TEST(ParametersTest, WhatIsWrittenIsReadBack) {
   Settings read;
   loadYaml(directory.write("all.yaml", toYaml(written.table)), read.table);
   EXPECT_EQ(values(read.table), values(written.table));
+}
+
+TEST(ParametersTest, TextsThatMeanSomethingInYamlAreReadBack) {
+  const TemporaryDirectory directory;
+  for (const char* text :
+       {"", "null", "~", "a: b", "run #1.txt", "- x", "*a", "\"q\"", "a\\b\tc"}) {
+    Settings written;
+    written.table.set("trajectory_file", text);
+    Settings read;
+    loadYaml(directory.write("text.yaml", toYaml(written.table)), read.table);
+    EXPECT_EQ(read.parameters.node.trajectory_file, text);
+  }
 }
 
 }  // namespace

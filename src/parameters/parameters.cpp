@@ -1,5 +1,7 @@
 #include "rotrocc/parameters.h"
 
+#include <algorithm>
+#include <cctype>
 #include <stdexcept>
 
 #include <yaml-cpp/yaml.h>
@@ -327,6 +329,10 @@ void setAll(const YAML::Node& node, const std::string& prefix, ParameterTable& t
   if (!node.IsMap()) {
     throw std::invalid_argument("parameter \"" + prefix + "\" is neither a value nor a section");
   }
+  // An alias may refer to what it is in, without end.
+  if (prefix.find('/') != std::string::npos) {
+    throw std::invalid_argument("\"" + prefix + "\" must be a value: sections have no sections");
+  }
   for (const auto& entry : node) {
     const auto name = entry.first.as<std::string>();
     setAll(entry.second, prefix.empty() ? name : prefix + "/" + name, table);
@@ -335,6 +341,18 @@ void setAll(const YAML::Node& node, const std::string& prefix, ParameterTable& t
 
 /// Where the comments of a YAML file begin.
 constexpr std::size_t kCommentColumn = 34;
+
+/// A text as YAML has it: in quotes if it might be read as something else without.
+std::string quoteIfNeeded(const std::string& text) {
+  const auto is_plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '/' || c == '.';
+  };
+  const bool is_null = text == "null" || text == "Null" || text == "NULL";
+  if (!text.empty() && !is_null && std::all_of(text.begin(), text.end(), is_plain)) return text;
+  YAML::Emitter quoted;
+  quoted << YAML::DoubleQuoted << text;
+  return quoted.c_str();
+}
 
 std::string comment(const ParameterTable::Parameter& p) {
   std::string text = "# ";
@@ -379,8 +397,8 @@ std::string toYaml(const ParameterTable& table) {
     const std::string its_section = slash == std::string::npos ? "" : p.name.substr(0, slash);
     if (its_section != section) text += "\n" + its_section + ":\n";
     section = its_section;
-    std::string value = p.get();
-    if (value.empty()) value = "\"\"";
+    const bool is_text = p.type == ParameterTable::Parameter::Type::kText;
+    const std::string value = is_text ? quoteIfNeeded(p.get()) : p.get();
     std::string line =
         (section.empty() ? "" : "  ") + p.name.substr(slash + 1) + ": " + value + "  ";
     if (line.size() < kCommentColumn) line.resize(kCommentColumn, ' ');
