@@ -77,6 +77,7 @@ TEST(StereoCameraTest, CheckNamesTheValueThatIsWrong) {
   expect_refused(&StereoCamera::cx, nan, "cx is nan");
   expect_refused(&StereoCamera::cy, nan, "cy is nan");
   expect_refused(&StereoCamera::cx_right, nan, "cx_right is nan");
+  expect_refused(&StereoCamera::cx_right, 1e300, "cx - cx_right is -1e+300");
   expect_refused(&StereoCamera::baseline_m, -0.5, "baseline_m is -0.5");
 }
 

@@ -19,7 +19,8 @@ struct StereoCamera {
   double baseline_m = 0.0;  ///< distance from the left to the right camera, positive
 
   /// Throws std::invalid_argument that names the first value no camera can have: sizes, focal
-  /// lengths and baseline must be positive and all values finite.
+  /// lengths and baseline must be positive, all values finite, and the disparity at infinity less
+  /// than the width.
   void check() const;
 
   /// Disparity x_left - x_right [px] of a point at infinity.

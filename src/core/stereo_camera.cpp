@@ -24,6 +24,10 @@ void StereoCamera::check() const {
   require(std::isfinite(cx), "cx", cx, "finite");
   require(std::isfinite(cy), "cy", cy, "finite");
   require(std::isfinite(cx_right), "cx_right", cx_right, "finite");
+  require(std::abs(disparityAtInfinity()) < width,
+          "cx - cx_right",
+          disparityAtInfinity(),
+          "less than the width: there is nothing that both cameras see");
   require(std::isfinite(baseline_m) && baseline_m > 0.0,
           "baseline_m",
           baseline_m,
