@@ -52,7 +52,7 @@ Eigen::Isometry3d toEigen(const geometry_msgs::Transform& transform) {
 }
 
 CameraMount::CameraMount(const std::string& base_frame) : base_frame_(base_frame) {
-  listener_.emplace(buffer_);
+  listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_);
 }
 
 const std::optional<Eigen::Isometry3d>& CameraMount::find(const std::string& camera_frame) {

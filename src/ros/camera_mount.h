@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -35,7 +36,7 @@ class CameraMount {
   int attempts_ = 0;
   Throttle warning_{std::chrono::seconds(5)};
   tf2_ros::Buffer buffer_;
-  std::optional<tf2_ros::TransformListener> listener_;  // until the mount is found
+  std::unique_ptr<tf2_ros::TransformListener> listener_;  // until the mount is found
 };
 
 /// Throws std::invalid_argument with the value if there is a number that is not finite, or the
