@@ -4,6 +4,7 @@
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${ROTROCC_BUILD_DIR:-$root/build}
 started=$SECONDS
+cmake_options=()
 
 # Announces a step, with the seconds since the script began.
 step() {
@@ -27,13 +28,13 @@ source_ros() {
 
 if [ -f /opt/ros/noetic/setup.bash ]; then source_ros /opt/ros/noetic/setup.bash; fi
 
-# Configures and builds the CMake targets given, or all but the tests. Then our programs and packages
-# can be found.
+# Configures, with cmake_options, and builds the CMake targets given, or all but the tests. Then our
+# programs and packages can be found.
 build_targets() {
   local log=$build/build.log
   step "building (log: $log)"
   mkdir -p "$build"
-  if ! { cmake -S "$root" -B "$build" -DPYTHON_EXECUTABLE=/usr/bin/python3 &&
+  if ! { cmake -S "$root" -B "$build" -DPYTHON_EXECUTABLE=/usr/bin/python3 "${cmake_options[@]}" &&
          cmake --build "$build" -j"$(nproc)" --target "${@:-all}"; } >"$log" 2>&1; then
     grep -E -A 5 'error|Error' "$log" | head -n 40 >&2 || true
     echo "$(basename "$0"): the build failed; all of its output is in $log" >&2

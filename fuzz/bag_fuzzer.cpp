@@ -1,0 +1,76 @@
+// Bags that hold made-up messages: seven numbers of a transform, then camera_info and images of
+// both cameras. A damaged file would crash rosbag before our code sees any of it:
+// ros::Header::parse() reads beyond its buffer. So the file itself is whole.
+
+#include <array>
+#include <cstring>
+#include <exception>
+
+#include <rosbag/bag.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "bag_reading.h"
+#include "input_file.h"
+#include "message_reader.h"
+#include "recorded_tf.h"
+#include "stereo_bag.h"
+
+namespace rotrocc {
+namespace {
+
+tf2_msgs::TFMessage toTf(const std::array<double, 7>& numbers) {
+  tf2_msgs::TFMessage message;
+  message.transforms.resize(1);
+  geometry_msgs::TransformStamped& transform = message.transforms[0];
+  transform.header.frame_id = "base_link";
+  transform.child_frame_id = "camera";
+  transform.transform.translation.x = numbers[0];
+  transform.transform.translation.y = numbers[1];
+  transform.transform.translation.z = numbers[2];
+  transform.transform.rotation.x = numbers[3];
+  transform.transform.rotation.y = numbers[4];
+  transform.transform.rotation.z = numbers[5];
+  transform.transform.rotation.w = numbers[6];
+  return message;
+}
+
+void writeBag(const std::string& path, const std::array<double, 7>& mount, MessageReader reader) {
+  rosbag::Bag bag(path, rosbag::bagmode::Write);
+  const ros::Time time(1000.0);
+  tf2_msgs::TFMessage tf = toTf(mount);
+  bag.write("/tf_static", time, tf);
+  std::swap(tf.transforms[0].header.frame_id, tf.transforms[0].child_frame_id);
+  bag.write("/tf", time, tf);  // a trajectory of the base
+  const char* const sides[] = {"/camera_left", "/camera_right"};
+  for (const std::string side : sides) {
+    if (const auto info = reader.cameraInfo()) bag.write(side + "/camera_info", time, *info);
+  }
+  for (const std::string side : sides) {
+    if (const auto image = reader.image()) bag.write(side + "/image_rect", time, *image);
+  }
+}
+
+}  // namespace
+}  // namespace rotrocc
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace rotrocc;
+  static const InputFile file("input.bag");
+  std::array<double, 7> mount;
+  if (size < sizeof(mount)) return -1;  // not to be kept
+  std::memcpy(mount.data(), data, sizeof(mount));
+  writeBag(file.path(), mount, MessageReader(data + sizeof(mount), size - sizeof(mount)));
+  try {
+    StereoBag bag(file.path(), {});
+    StereoPair pair;
+    StereoCamera camera;
+    while (bag.next(pair, camera)) cv::sum(pair.left + pair.right);
+  } catch (const std::runtime_error&) {  // programs end with what it says
+  }
+  try {
+    const rosbag::Bag bag = openBag(file.path());
+    RecordedTf(bag, "base_link", "camera").trajectory();
+  } catch (const std::runtime_error&) {
+  }
+  return 0;
+}

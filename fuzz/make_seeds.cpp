@@ -1,0 +1,115 @@
+// Valid inputs for the fuzzers to start from: fuzz_seeds DIRECTORY makes a directory for each
+// fuzzer in it.
+
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <string>
+
+#include <ros/serialization.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+
+namespace rotrocc {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint32_t kWidth = 64;
+constexpr std::uint32_t kHeight = 48;
+
+template <class... Messages>
+std::string serialized(const Messages&... messages) {
+  std::string text(std::size_t{(0 + ... + ros::serialization::serializationLength(messages))},
+                   '\0');
+  ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(text.data()),
+                                     static_cast<std::uint32_t>(text.size()));
+  (ros::serialization::serialize(stream, messages), ...);
+  return text;
+}
+
+/// A pattern with corners, `offset_px` to the left.
+sensor_msgs::Image makeImage(const std::string& encoding,
+                             std::uint32_t bytes,
+                             std::uint32_t offset_px,
+                             double stamp_s = 1000.0) {
+  sensor_msgs::Image image;
+  image.header.stamp = ros::Time(stamp_s);
+  image.header.frame_id = "camera_gray_left";
+  image.encoding = encoding;
+  image.width = kWidth;
+  image.height = kHeight;
+  image.step = kWidth * bytes;
+  for (std::uint32_t y = 0; y < kHeight; ++y) {
+    for (std::uint32_t x = offset_px; x < kWidth + offset_px; ++x) {
+      const std::uint32_t tile = (x / 5 * 7919 + y / 5 * 104729) % 251;
+      image.data.insert(image.data.end(), bytes, static_cast<std::uint8_t>(tile));
+    }
+  }
+  return image;
+}
+
+sensor_msgs::CameraInfo makeInfo(double baseline_m) {
+  sensor_msgs::CameraInfo info;
+  info.header.stamp = ros::Time(1000.0);
+  info.width = kWidth;
+  info.height = kHeight;
+  info.P = {60, 0, 31.5, -60 * baseline_m, 0, 60, 23.5, 0, 0, 0, 1, 0};
+  return info;
+}
+
+void write(const fs::path& path, const std::string& text) {
+  fs::create_directories(path.parent_path());
+  if (!(std::ofstream(path, std::ios::binary) << text)) {
+    throw std::runtime_error("cannot write " + path.string());
+  }
+}
+
+void writeSeeds(const fs::path& root) {
+  const struct {
+    const char* encoding;
+    std::uint32_t bytes;
+  } kEncodings[] = {{"mono8", 1}, {"mono16", 2}, {"bgr8", 3}, {"rgba8", 4}, {"bayer_rggb8", 1}};
+  const std::string infos = serialized(makeInfo(0.0), makeInfo(0.5));
+  const double kMount[] = {0.1, 0.0, 1.5, -0.5, 0.5, -0.5, 0.5};
+  const std::string mount(reinterpret_cast<const char*>(kMount), sizeof(kMount));
+  for (const auto& [encoding, bytes] : kEncodings) {
+    const std::string images =
+        serialized(makeImage(encoding, bytes, 0), makeImage(encoding, bytes, 3));
+    write(root / "image" / encoding, images);
+    write(root / "odometry" / encoding, infos + images);
+    write(root / "bag" / encoding, mount + infos + images);
+  }
+  write(root / "camera_info" / "infos", infos);
+
+  const std::string kitti_poses = "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0.1 0 0 -1 0 0 1 0 1e-3\n";
+  write(root / "trajectory" / "kitti", kitti_poses);
+  write(root / "trajectory" / "tum", "# t x y z\n0.5 0 0 0 0 0 0 1\n1.6e9 1 2 3 0 0.6 0 -0.8\n");
+  write(root / "trajectory" / "times", "0\n0.1\n");
+  write(root / "kitti" / "sequence",
+        "0\n0.1\n---\nP0: 60 0 3 0 0 60 2 0 0 0 1 0\nP1: 60 0 3 -30 0 60 2 0 0 0 1 0\n---\n" +
+            kitti_poses);
+  write(root / "yaml" / "alias", "motion_check: &a {min_inliers: 20}\nmotion_model: *a\n");
+  write(root / "yaml" / "kinds",
+        "planar: true\nqueue_size: 4\nsilence_s: 2.5 # s\nodom_frame: \"a b\"\n");
+  write(root / "yaml" / "choice",
+        "trajectory_format: kitti\nvisual_odometry:\n  max_gap_s: 1e-1\n");
+}
+
+}  // namespace
+}  // namespace rotrocc
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: fuzz_seeds DIRECTORY\n";
+    return 2;
+  }
+  try {
+    rotrocc::writeSeeds(argv[1]);
+  } catch (const std::exception& error) {
+    std::cerr << "fuzz_seeds: " << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,81 @@
+// Serialized camera_info and images of both cameras: all of the odometry that needs no master.
+
+#include <ros/console.h>
+#include <boost/make_shared.hpp>
+
+#include "drop_log.h"
+#include "kitti_mount.h"
+#include "message_conversion.h"
+#include "message_reader.h"
+#include "pair_processor.h"
+#include "require.h"
+#include "stereo_intake.h"
+
+namespace rotrocc {
+namespace {
+
+using Side = StereoIntake::Side;
+
+constexpr int kPairs = 3;  // the first one, one compared with it, one that follows a motion
+
+Parameters makeParameters() {
+  Parameters parameters;
+  parameters.node.max_image_pixels = 10'000;
+  return parameters;
+}
+
+void drive(const sensor_msgs::CameraInfo& left_info,
+           const sensor_msgs::CameraInfo& right_info,
+           sensor_msgs::Image left,
+           sensor_msgs::Image right) {
+  const Parameters parameters = makeParameters();
+  PairProcessor processor(parameters);
+  DropLog drops;
+  StereoIntake intake(parameters.node, drops, [&](const ReceivedPair& pair) {
+    try {
+      const PairAnswer answer = processor.process(pair, kittiMount());
+      require(answer.result.T_prev_cur.matrix().allFinite(), "the motion is finite");
+      require(answer.result.covariance.allFinite(), "the covariance is finite");
+      require(answer.state.T_odom_base.T.matrix().allFinite(), "the pose is finite");
+    } catch (const InputError& error) {
+      drops.add(error);
+    }
+  });
+  const std::chrono::steady_clock::time_point start;
+  intake.addInfo(Side::kLeft, boost::make_shared<sensor_msgs::CameraInfo>(left_info), {start, 0});
+  intake.addInfo(Side::kRight, boost::make_shared<sensor_msgs::CameraInfo>(right_info), {start, 0});
+  for (int i = 0; i < kPairs; ++i) {
+    const Arrival arrival{start + std::chrono::milliseconds(100 * i), 0};
+    intake.addImage(Side::kLeft, boost::make_shared<sensor_msgs::Image>(left), arrival);
+    intake.addImage(Side::kRight, boost::make_shared<sensor_msgs::Image>(right), arrival);
+    for (sensor_msgs::Image* image : {&left, &right}) {
+      image->header.stamp =
+          toRosTime(toNanoseconds(image->header.stamp) % 1'000'000'000'000 + 100'000'000);
+      // A row less each time, so that there is something to be seen of a motion.
+      if (image->step < image->data.size())
+        image->data.erase(image->data.begin(), image->data.begin() + image->step);
+    }
+  }
+  intake.report(start);
+}
+
+}  // namespace
+}  // namespace rotrocc
+
+extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
+  ros::console::set_logger_level(ROSCONSOLE_DEFAULT_NAME, ros::console::levels::Fatal);
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  rotrocc::MessageReader reader(data, size);
+  const auto left_info = reader.cameraInfo();
+  if (!left_info) return -1;  // not to be kept
+  const auto right_info = reader.cameraInfo();
+  if (!right_info) return -1;
+  const auto left = reader.image();
+  if (!left) return -1;
+  const auto right = reader.image();
+  rotrocc::drive(*left_info, *right_info, *left, right.value_or(*left));
+  return 0;
+}

@@ -1,0 +1,47 @@
+// Files of poses, KITTI's or TUM's, and of times.
+
+#include <stdexcept>
+
+#include "input_file.h"
+#include "require.h"
+#include "rotrocc/trajectory.h"
+
+namespace rotrocc {
+namespace {
+
+/// What was read can be written, and be read from what was written.
+void requireRoundTrip(const Trajectory& trajectory) {
+  static const InputFile file("written.txt");
+  {
+    TrajectoryWriter writer(file.path(), TrajectoryFormat::kTum);
+    for (const StampedPose& pose : trajectory) writer.write(pose);
+  }
+  const Trajectory again = readTrajectory(file.path());
+  require(again.size() == trajectory.size(), "no pose is lost");
+  for (std::size_t i = 0; i < again.size(); ++i) {
+    require(trajectory[i].T_world_body.matrix().allFinite(), "poses are finite");
+    require(again[i].stamp_ns == trajectory[i].stamp_ns, "stamps stay");
+  }
+}
+
+}  // namespace
+}  // namespace rotrocc
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace rotrocc;
+  static const InputFile file("poses.txt");
+  file.write(data, size);
+  try {
+    readTimes(file.path());
+  } catch (const std::runtime_error&) {
+  }
+  Trajectory trajectory;
+  try {
+    detectTrajectoryFormat(file.path());
+    trajectory = readTrajectory(file.path());
+  } catch (const std::runtime_error&) {
+    return 0;
+  }
+  requireRoundTrip(trajectory);
+  return 0;
+}
