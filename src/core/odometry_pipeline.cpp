@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "pair_check.h"
 #include "rotrocc/outlier_rejection.h"
 #include "sentence.h"
 #include "stage_timer.h"
@@ -25,24 +26,6 @@ struct Lost : std::runtime_error {
 
 double seconds(std::int64_t ns) {
   return static_cast<double>(ns) * 1e-9;
-}
-
-void checkImage(const char* side, const cv::Mat& image, const StereoCamera& camera) {
-  if (image.empty()) throw Lost(sentence("the ", side, " image is empty"));
-  if (image.type() != CV_8UC1) {
-    throw Lost(sentence("the ", side, " image is of OpenCV type ", image.type(), ", not CV_8UC1"));
-  }
-  if (image.cols == camera.width && image.rows == camera.height) return;
-  throw Lost(sentence("the ",
-                      side,
-                      " image has ",
-                      image.cols,
-                      "x",
-                      image.rows,
-                      " pixels, the camera ",
-                      camera.width,
-                      "x",
-                      camera.height));
 }
 
 }  // namespace
@@ -117,8 +100,8 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
 void VisualOdometry::Pipeline::checkInput(const StereoPair& pair,
                                           const StereoCamera& camera) const {
   camera.check();
-  checkImage("left", pair.left, camera);
-  checkImage("right", pair.right, camera);
+  const std::string why_unusable = whyUnusable(pair, camera);
+  if (!why_unusable.empty()) throw Lost(why_unusable);
   if (has_last_ && pair.stamp_ns <= stamp_ns_) {
     throw Lost(sentence("the stamp ",
                         pair.stamp_ns,
