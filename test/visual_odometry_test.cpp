@@ -79,6 +79,7 @@ void expectMotion(const OdometryResult& result,
 void expectLost(const OdometryResult& result, const std::string& reason) {
   EXPECT_EQ(result.state, State::kLost);
   EXPECT_NE(result.reason.find(reason), std::string::npos) << result.reason;
+  EXPECT_EQ(result.reason.find("internal error"), std::string::npos) << result.reason;
   EXPECT_EQ(result.T_prev_cur.matrix(), Eigen::Matrix4d::Identity());
   EXPECT_EQ(result.covariance, Matrix6d::Zero());
 }

@@ -51,6 +51,7 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
   } catch (const Lost& lost) {
     giveUp(lost.what(), result);
   } catch (const std::exception& error) {
+    has_last_ = false;  // what is kept may be the cause: the next pair is a first one
     giveUp(sentence("internal error: ", error.what()), result);
   }
   result.disparity_bias = calibrator_.bias();
@@ -99,7 +100,11 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
 
 void VisualOdometry::Pipeline::checkInput(const StereoPair& pair,
                                           const StereoCamera& camera) const {
-  camera.check();
+  try {
+    camera.check();
+  } catch (const std::invalid_argument& error) {
+    throw Lost(error.what());
+  }
   const std::string why_unusable = whyUnusable(pair, camera);
   if (!why_unusable.empty()) throw Lost(why_unusable);
   if (has_last_ && pair.stamp_ns <= stamp_ns_) {
