@@ -1,0 +1,80 @@
+#include "rotrocc/parameters.h"
+
+#include <algorithm>
+#include <cctype>
+#include <stdexcept>
+
+#include <yaml-cpp/yaml.h>
+
+namespace rotrocc {
+namespace {
+
+/// Sets every scalar below `node`, whose name so far is `prefix`.
+void setAll(const YAML::Node& node, const std::string& prefix, ParameterTable& table) {
+  if (node.IsScalar()) return table.set(prefix, node.Scalar());
+  if (!node.IsMap()) {
+    throw std::invalid_argument("parameter \"" + prefix + "\" is neither a value nor a section");
+  }
+  // An alias may refer to what it is in, without end.
+  if (prefix.find('/') != std::string::npos) {
+    throw std::invalid_argument("\"" + prefix + "\" must be a value: sections have no sections");
+  }
+  for (const auto& entry : node) {
+    const auto name = entry.first.as<std::string>();
+    setAll(entry.second, prefix.empty() ? name : prefix + "/" + name, table);
+  }
+}
+
+/// Where the comments of a YAML file begin.
+constexpr std::size_t kCommentColumn = 34;
+
+/// A text as YAML has it: in quotes if it might be read as something else without.
+std::string quoteIfNeeded(const std::string& text) {
+  const auto is_plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '/' || c == '.';
+  };
+  const bool is_null = text == "null" || text == "Null" || text == "NULL";
+  if (!text.empty() && !is_null && std::all_of(text.begin(), text.end(), is_plain)) return text;
+  YAML::Emitter quoted;
+  quoted << YAML::DoubleQuoted << text;
+  return quoted.c_str();
+}
+
+std::string comment(const ParameterTable::Parameter& p) {
+  std::string text = "# ";
+  if (!p.unit.empty()) text += "[" + p.unit + "] ";
+  return text + p.description + "; " + p.range;
+}
+
+}  // namespace
+
+void loadYaml(const std::string& path, ParameterTable& table) {
+  try {
+    const YAML::Node root = YAML::LoadFile(path);
+    if (!root.IsNull()) setAll(root, "", table);
+  } catch (const YAML::Exception& error) {
+    throw std::invalid_argument(path + ": " + error.what());
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(path + ": " + error.what());
+  }
+}
+
+std::string toYaml(const ParameterTable& table) {
+  std::string text;
+  std::string section;
+  for (const ParameterTable::Parameter& p : table.parameters()) {
+    const auto slash = p.name.find('/');
+    const std::string its_section = slash == std::string::npos ? "" : p.name.substr(0, slash);
+    if (its_section != section) text += "\n" + its_section + ":\n";
+    section = its_section;
+    const bool is_text = p.type == ParameterTable::Parameter::Type::kText;
+    const std::string value = is_text ? quoteIfNeeded(p.get()) : p.get();
+    std::string line =
+        (section.empty() ? "" : "  ") + p.name.substr(slash + 1) + ": " + value + "  ";
+    if (line.size() < kCommentColumn) line.resize(kCommentColumn, ' ');
+    text += line + comment(p) + "\n";
+  }
+  return text;
+}
+
+}  // namespace rotrocc
