@@ -1,14 +1,13 @@
 """The plots of paper_experiments. Each function writes one PNG."""
 import collections
 
-import matplotlib
-matplotlib.use('Agg')
 from matplotlib import pyplot
 import numpy
 
-# Okabe and Ito's colours, told apart by every kind of colour vision.
-COLOURS = {'rotrocc': '#0072B2', 'reprojection': '#D55E00', 'rocc': '#009E73', 'truth': '#000000',
-           'mean_based': '#E69F00', 'std_based': '#CC79A7'}
+from plot_style import BLACK, BLUE, GREEN, ORANGE, PURPLE, VERMILLION, save
+
+COLOURS = {'rotrocc': BLUE, 'reprojection': VERMILLION, 'rocc': GREEN, 'truth': BLACK,
+           'mean_based': ORANGE, 'std_based': PURPLE}
 MARKERS = {'rotrocc': 'o', 'reprojection': 's', 'rocc': '^'}
 FEWEST_SEGMENTS = 10  # of a point of Fig. 7 and 8
 
@@ -19,8 +18,7 @@ def finish(figure, path):
         for side in ('top', 'right'):
             axes.spines[side].set_visible(False)
     figure.tight_layout()
-    figure.savefig(str(path), dpi=120)
-    pyplot.close(figure)
+    save(figure, path, dpi=120)
 
 
 def plot_fig4(rows, path):

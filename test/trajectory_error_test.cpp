@@ -76,6 +76,14 @@ TEST(SegmentErrorsTest, NoneFitIntoAShortPath) {
   EXPECT_EQ(meanError({}).segments, 0);
 }
 
+TEST(SegmentErrorsTest, ShortPathsGetShortSegments) {
+  EXPECT_EQ(fittingSegments(3000.0).lengths_m, SegmentConfig().lengths_m);
+  EXPECT_EQ(fittingSegments(200.0).step, SegmentConfig().step);
+  const SegmentConfig clip = fittingSegments(60.0);
+  EXPECT_EQ(clip.lengths_m.back(), 40.0);
+  EXPECT_EQ(clip.step, 1);
+}
+
 TEST(SegmentErrorsTest, RefuseBadInput) {
   const Trajectory trajectory = drive(3, 1.0);
   const MatchedTrajectories matched{trajectory, trajectory};
@@ -132,17 +140,21 @@ TEST(StepErrorsTest, DescribeTheMotionsFromPoseToPose) {
   for (std::size_t i = 50; i < estimate.size(); ++i) {
     estimate[i].T_world_body.translation().z() += 3.0;  // one bad step of 100
   }
-  const StepErrors errors = stepErrors({truth, estimate});
+  const std::vector<StepError> steps = stepErrors({truth, estimate});
+  ASSERT_EQ(steps.size(), 100u);
+  EXPECT_NEAR(steps[48].translation_m, 0.0, 1e-12);
+  EXPECT_NEAR(steps[49].translation_m, 3.0, 1e-12);
+  const StepSummary errors = summarize(steps);
   EXPECT_NEAR(errors.translation_m.mean, 0.03, 1e-12);
   EXPECT_NEAR(errors.translation_m.rms, 0.3, 1e-12);
   EXPECT_NEAR(errors.translation_m.p95, 0.0, 1e-12);
   EXPECT_NEAR(errors.translation_m.max, 3.0, 1e-12);
   EXPECT_NEAR(errors.rotation_rad.max, 0.0, 1e-12);
 
-  const StepErrors turning = stepErrors({drive(20, 1.0), drive(20, 1.0, 1e-6)});
+  const StepSummary turning = summarize(stepErrors({drive(20, 1.0), drive(20, 1.0, 1e-6)}));
   EXPECT_NEAR(turning.rotation_rad.mean, 1e-6, 1e-12) << "tiny angles must survive";
   EXPECT_NEAR(turning.rotation_rad.p95, 1e-6, 1e-12);
-  EXPECT_EQ(stepErrors({{}, {}}).translation_m.max, 0.0);
+  EXPECT_EQ(summarize(stepErrors({{}, {}})).translation_m.max, 0.0);
 }
 
 TEST(FinalDriftTest, IsTheErrorOfTheLastPose) {

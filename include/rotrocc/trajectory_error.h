@@ -31,6 +31,10 @@ struct SegmentConfig {
   int step = 10;  ///< a segment of each length begins at every step-th pose
 };
 
+/// Those of the devkit if the path has room for two of its shortest, else 5 to 40 m from every
+/// pose.
+SegmentConfig fittingSegments(double path_m);
+
 /// The error of the motion over one segment of the path.
 struct SegmentError {
   int first_pose = 0;
@@ -76,13 +80,22 @@ struct Distribution {
   double max = 0.0;
 };
 
-/// The errors of the motions from pose to pose.
-struct StepErrors {
+/// The error of the motion from one pose to the next.
+struct StepError {
+  double translation_m = 0.0;
+  double rotation_rad = 0.0;
+};
+
+/// One less than there are poses.
+std::vector<StepError> stepErrors(const MatchedTrajectories& matched);
+
+/// How the errors of steps are distributed.
+struct StepSummary {
   Distribution translation_m;
   Distribution rotation_rad;
 };
 
-StepErrors stepErrors(const MatchedTrajectories& matched);
+StepSummary summarize(const std::vector<StepError>& steps);
 
 /// The error of the motion from the first to the last pose.
 struct Drift {

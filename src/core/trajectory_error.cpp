@@ -128,6 +128,12 @@ std::vector<double> pathLengths(const Trajectory& truth) {
   return lengths_m;
 }
 
+SegmentConfig fittingSegments(double path_m) {
+  const SegmentConfig devkit;
+  if (path_m >= 2.0 * devkit.lengths_m.front()) return devkit;
+  return {{5, 10, 20, 30, 40}, 1};
+}
+
 std::vector<SegmentError> segmentErrors(const MatchedTrajectories& matched,
                                         const SegmentConfig& config) {
   requireMatched(matched);
@@ -181,14 +187,22 @@ std::vector<MeanError> meanErrorBySpeed(const std::vector<SegmentError>& errors)
   return means;
 }
 
-StepErrors stepErrors(const MatchedTrajectories& matched) {
+std::vector<StepError> stepErrors(const MatchedTrajectories& matched) {
   requireMatched(matched);
-  std::vector<double> translations_m;
-  std::vector<double> rotations_rad;
+  std::vector<StepError> steps;
   for (std::size_t i = 1; i < matched.truth.size(); ++i) {
     const Eigen::Isometry3d error = motionError(matched, i - 1, i);
-    translations_m.push_back(error.translation().norm());
-    rotations_rad.push_back(rotationAngle(error));
+    steps.push_back({error.translation().norm(), rotationAngle(error)});
+  }
+  return steps;
+}
+
+StepSummary summarize(const std::vector<StepError>& steps) {
+  std::vector<double> translations_m;
+  std::vector<double> rotations_rad;
+  for (const StepError& step : steps) {
+    translations_m.push_back(step.translation_m);
+    rotations_rad.push_back(step.rotation_rad);
   }
   return {distributionOf(std::move(translations_m)), distributionOf(std::move(rotations_rad))};
 }

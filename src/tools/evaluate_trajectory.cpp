@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
@@ -14,19 +14,22 @@
 #include "program.h"
 #include "rotrocc/trajectory.h"
 #include "rotrocc/trajectory_error.h"
+#include "trajectory_report.h"
 
 namespace {
 
 namespace po = boost::program_options;
 using namespace rotrocc;
 
-constexpr double kDegreesPerRadian = 180.0 / M_PI;
-
 struct Options {
   std::string truth;
   std::string estimate;
   std::string times;
   std::string segments_file;
+  std::string report;
+  std::string statistics;
+  std::string title;
+  bool fit = false;
   SegmentConfig segments;
 };
 
@@ -41,25 +44,34 @@ bool parse(int argc, char** argv, Options& options) {
   add("step",
       po::value(&options.segments.step)->default_value(options.segments.step),
       "segments begin at every N-th pose");
+  add("fit", po::bool_switch(&options.fit), "choose both for the length of the path");
   add("times",
       po::value(&options.times),
       "times.txt with the stamps of poses in KITTI format (default: 10 Hz)");
   add("segments",
       po::value(&options.segments_file),
       "CSV file for a row per segment: first pose, length, speed and errors");
+  add("report",
+      po::value(&options.report),
+      "directory for an HTML page, its pictures (PNG) and its tables (CSV)");
+  add("stats",
+      po::value(&options.statistics),
+      "what offline_odometry --stats wrote of the same run, for the report");
+  add("title", po::value(&options.title), "of the report (default: the name of the estimate)");
   po::options_description all;
   auto add_positional = all.add(visible).add_options();
-  add_positional("truth", po::value(&options.truth));
-  add_positional("estimate", po::value(&options.estimate));
+  std::vector<std::string> files;
+  add_positional("files", po::value(&files));
   po::positional_options_description positional;
-  positional.add("truth", 1).add("estimate", 1);
+  positional.add("files", -1);
 
   po::variables_map variables;
   po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(),
             variables);
   if (variables.count("help") > 0) {
     std::cout
-        << "usage: evaluate_trajectory GT EST [options]\n\n"
+        << "usage: evaluate_trajectory GT EST [options]\n"
+           "       evaluate_trajectory EST --report DIR [options]    where there is no truth\n\n"
            "Compares a trajectory with the true one by the metric of the KITTI odometry "
            "devkit. Both are in\nKITTI or TUM format; two KITTI files are matched line by line, "
            "others by stamps up to 10 ms apart.\n"
@@ -69,7 +81,18 @@ bool parse(int argc, char** argv, Options& options) {
     return false;
   }
   po::notify(variables);
-  if (options.estimate.empty()) throw po::error("two trajectories GT and EST are needed");
+  if (files.empty() || files.size() > 2 || (files.size() == 1 && options.report.empty())) {
+    throw po::error("two trajectories GT and EST are needed, or EST and --report DIR");
+  }
+  if (options.fit && !(variables["lengths"].empty() && variables["step"].defaulted())) {
+    throw po::error("--fit chooses --lengths and --step itself");
+  }
+  if (options.report.empty() && !options.statistics.empty()) {
+    throw po::error("--stats is for the report: give --report DIR");
+  }
+  options.estimate = files.back();
+  if (files.size() == 2) options.truth = files.front();
+  if (options.title.empty()) options.title = std::filesystem::path(options.estimate).stem();
   return true;
 }
 
@@ -122,7 +145,7 @@ void requireSegments(const std::vector<SegmentError>& errors,
   message.precision(3);
   message << "no segment fits: the path is " << path_m << " m long, the shortest segment "
           << *std::min_element(config.lengths_m.begin(), config.lengths_m.end())
-          << " m; give shorter ones, as in --lengths 5 10 20 30 40 --step 1";
+          << " m; give shorter ones, as in --lengths 5 10 20 30 40 --step 1, or --fit";
   throw std::runtime_error(message.str());
 }
 
@@ -147,44 +170,48 @@ void printDistribution(const char* name, const Distribution& values, double scal
               scale * values.max);
 }
 
-void writeSegments(const std::vector<SegmentError>& errors, const std::string& path) {
-  std::ofstream file(path);
-  file << "first_pose,length_m,speed_mps,translation_percent,rotation_deg_per_m\n";
-  for (const SegmentError& error : errors) {
-    file << error.first_pose << ',' << error.length_m << ',' << error.speed_mps << ','
-         << 100.0 * error.translation << ',' << kDegreesPerRadian * error.rotation_rad_per_m
-         << '\n';
-  }
-  if (!file.flush()) throw std::runtime_error(path + " cannot be written");
+/// Where both have poses; throws if no segment fits and no report tells the rest.
+Evaluation evaluateTruth(const Options& options) {
+  MatchedTrajectories matched = load(options);
+  const double path_m = pathLengths(matched.truth).back();
+  const SegmentConfig segments = options.fit ? fittingSegments(path_m) : options.segments;
+  Evaluation evaluation = evaluate(std::move(matched), segments);
+  if (options.report.empty()) requireSegments(evaluation.segments, segments, path_m);
+  return evaluation;
 }
 
-void run(const Options& options) {
-  const MatchedTrajectories matched = load(options);
-  const std::vector<SegmentError> errors = segmentErrors(matched, options.segments);
-  const double path_m = pathLengths(matched.truth).back();
-  requireSegments(errors, options.segments, path_m);
-  if (!options.segments_file.empty()) writeSegments(errors, options.segments_file);
-
-  const MeanError mean = meanError(errors);
+void print(const Evaluation& evaluation) {
+  const double path_m = evaluation.path_m.back();
   std::printf("translation %.3f %%, rotation %.5f deg/m (%d segments, %zu poses, %.1f m)\n",
-              100.0 * mean.translation,
-              kDegreesPerRadian * mean.rotation_rad_per_m,
-              mean.segments,
-              matched.truth.size(),
+              100.0 * evaluation.mean.translation,
+              kDegreesPerRadian * evaluation.mean.rotation_rad_per_m,
+              evaluation.mean.segments,
+              evaluation.path_m.size(),
               path_m);
-  printTable("length [m]", meanErrorByLength(errors));
-  printTable("speed [m/s]", meanErrorBySpeed(errors));
+  printTable("length [m]", evaluation.by_length);
+  printTable("speed [m/s]", evaluation.by_speed);
 
-  const StepErrors steps = stepErrors(matched);
+  const StepSummary steps = summarize(evaluation.steps);
   std::printf("\n%-18s  %9s  %9s  %9s  %9s\n", "pose to pose", "mean", "rms", "p95", "max");
   printDistribution("translation [m]", steps.translation_m, 1.0);
   printDistribution("rotation [deg]", steps.rotation_rad, kDegreesPerRadian);
 
-  const Drift drift = finalDrift(matched);
   std::printf("\nfinal drift: %.3f m (%.3f %% of the path), %.3f deg\n",
-              drift.translation_m,
-              100.0 * drift.translation_m / path_m,
-              kDegreesPerRadian * drift.rotation_rad);
+              evaluation.drift.translation_m,
+              100.0 * evaluation.drift.translation_m / path_m,
+              kDegreesPerRadian * evaluation.drift.rotation_rad);
+}
+
+void run(const Options& options) {
+  if (options.truth.empty()) {
+    writeReportTables(readTrajectory(options.estimate, options.times), options.report);
+  } else {
+    const Evaluation evaluation = evaluateTruth(options);
+    if (!options.segments_file.empty()) writeSegments(evaluation.segments, options.segments_file);
+    if (!options.report.empty()) writeReportTables(evaluation, options.report);
+    print(evaluation);
+  }
+  if (!options.report.empty()) drawReport(options.report, options.statistics, options.title);
 }
 
 }  // namespace

@@ -1,0 +1,32 @@
+"""The tables that reports are drawn from."""
+import csv
+
+import numpy
+
+
+def read_columns(path):
+    """{column: array}, of numbers where all cells are."""
+    with open(str(path)) as file:
+        rows = list(csv.reader(file))
+    columns = {}
+    for name, cells in zip(rows[0], zip(*rows[1:]) if rows[1:] else [()] * len(rows[0])):
+        kind = numpy.int64 if name.endswith('_ns') else float
+        try:
+            columns[name] = numpy.array(cells, dtype=kind)
+        except ValueError:
+            columns[name] = numpy.array(cells)
+    return columns
+
+
+def states_of(poses, pairs):
+    """The state of the odometry at each pose, a word; '' where none is known."""
+    states = numpy.full(len(poses['stamp_ns']), '', dtype='U16')
+    if pairs is None:
+        return states
+    known = dict(zip(pairs['stamp_ns'], pairs['state']))
+    for i, stamp_ns in enumerate(poses['stamp_ns']):
+        states[i] = known.get(stamp_ns, '')
+    if not all(states):
+        raise ValueError('the poses and the statistics have other stamps: they must be of the same '
+                         'run, and poses in KITTI format need --times')
+    return states

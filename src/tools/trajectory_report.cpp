@@ -1,0 +1,211 @@
+#include "trajectory_report.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <initializer_list>
+#include <iomanip>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace rotrocc {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A CSV file, complete on disk or an exception.
+class Table {
+ public:
+  Table(const std::string& path, const char* columns) : path_(path), file_(path) {
+    file_ << columns << '\n' << std::setprecision(10);
+  }
+
+  void row(std::initializer_list<double> cells) {
+    const char* separator = "";
+    for (const double cell : cells) {
+      file_ << separator << cell;
+      separator = ",";
+    }
+    file_ << '\n';
+  }
+
+  std::ofstream& stream() { return file_; }
+
+  void close() {
+    if (!file_.flush()) throw std::runtime_error(path_ + " cannot be written");
+  }
+
+ private:
+  std::string path_;
+  std::ofstream file_;
+};
+
+void makeDirectory(const fs::path& directory) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (!fs::is_directory(directory)) {
+    throw std::runtime_error(directory.string() + " cannot be made: " + error.message());
+  }
+  for (const char* name : {"segments.csv", "by_length.csv", "by_speed.csv"}) {
+    fs::remove(directory / name, error);  // of an earlier report, with truth
+  }
+}
+
+/// The positions [m] in the frame of the first pose.
+std::vector<Eigen::Vector3d> positions(const Trajectory& trajectory) {
+  std::vector<Eigen::Vector3d> positions;
+  for (const StampedPose& pose : trajectory) {
+    positions.push_back(trajectory.front().T_world_body.inverse() *
+                        pose.T_world_body.translation());
+  }
+  return positions;
+}
+
+double duration_s(const Trajectory& trajectory) {
+  return 1e-9 * static_cast<double>(trajectory.back().stamp_ns - trajectory.front().stamp_ns);
+}
+
+void writeMeans(const std::vector<MeanError>& means, const char* bin, const std::string& path) {
+  Table table(path,
+              (std::string(bin) + ",segments,translation_percent,rotation_deg_per_m").c_str());
+  for (const MeanError& mean : means) {
+    table.row({mean.bin,
+               static_cast<double>(mean.segments),
+               100.0 * mean.translation,
+               kDegreesPerRadian * mean.rotation_rad_per_m});
+  }
+  table.close();
+}
+
+void writeSummary(const Evaluation& evaluation, const std::string& path) {
+  const StepSummary steps = summarize(evaluation.steps);
+  const double path_m = evaluation.path_m.back();
+  Table table(path,
+              "poses,path_m,duration_s,segments,translation_percent,rotation_deg_per_m,"
+              "step_translation_mean_m,step_translation_rms_m,step_translation_p95_m,"
+              "step_translation_max_m,step_rotation_mean_deg,step_rotation_rms_deg,"
+              "step_rotation_p95_deg,step_rotation_max_deg,drift_m,drift_percent,drift_deg");
+  table.row({static_cast<double>(evaluation.path_m.size()),
+             path_m,
+             duration_s(evaluation.matched.truth),
+             static_cast<double>(evaluation.mean.segments),
+             100.0 * evaluation.mean.translation,
+             kDegreesPerRadian * evaluation.mean.rotation_rad_per_m,
+             steps.translation_m.mean,
+             steps.translation_m.rms,
+             steps.translation_m.p95,
+             steps.translation_m.max,
+             kDegreesPerRadian * steps.rotation_rad.mean,
+             kDegreesPerRadian * steps.rotation_rad.rms,
+             kDegreesPerRadian * steps.rotation_rad.p95,
+             kDegreesPerRadian * steps.rotation_rad.max,
+             evaluation.drift.translation_m,
+             100.0 * evaluation.drift.translation_m / path_m,
+             kDegreesPerRadian * evaluation.drift.rotation_rad});
+  table.close();
+}
+
+void writePoses(const Evaluation& evaluation, const std::string& path) {
+  const std::vector<Eigen::Vector3d> truth = positions(evaluation.matched.truth);
+  const std::vector<Eigen::Vector3d> estimate = positions(evaluation.matched.estimate);
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  Table table(path,
+              "stamp_ns,path_m,true_x_m,true_y_m,true_z_m,x_m,y_m,z_m,step_translation_error_m,"
+              "step_rotation_error_deg");
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const StepError step = i > 0 ? evaluation.steps[i - 1] : StepError{kNone, kNone};
+    table.stream() << evaluation.matched.estimate[i].stamp_ns << ',';
+    table.row({evaluation.path_m[i],
+               truth[i].x(),
+               truth[i].y(),
+               truth[i].z(),
+               estimate[i].x(),
+               estimate[i].y(),
+               estimate[i].z(),
+               step.translation_m,
+               kDegreesPerRadian * step.rotation_rad});
+  }
+  table.close();
+}
+
+}  // namespace
+
+Evaluation evaluate(MatchedTrajectories matched, const SegmentConfig& segments) {
+  Evaluation evaluation;
+  evaluation.path_m = pathLengths(matched.truth);
+  evaluation.segments = segmentErrors(matched, segments);
+  evaluation.mean = meanError(evaluation.segments);
+  evaluation.by_length = meanErrorByLength(evaluation.segments);
+  evaluation.by_speed = meanErrorBySpeed(evaluation.segments);
+  evaluation.steps = stepErrors(matched);
+  evaluation.drift = finalDrift(matched);
+  evaluation.matched = std::move(matched);
+  return evaluation;
+}
+
+void writeSegments(const std::vector<SegmentError>& segments, const std::string& path) {
+  Table table(path, "first_pose,length_m,speed_mps,translation_percent,rotation_deg_per_m");
+  for (const SegmentError& segment : segments) {
+    table.row({static_cast<double>(segment.first_pose),
+               segment.length_m,
+               segment.speed_mps,
+               100.0 * segment.translation,
+               kDegreesPerRadian * segment.rotation_rad_per_m});
+  }
+  table.close();
+}
+
+void writeReportTables(const Evaluation& evaluation, const std::string& directory) {
+  makeDirectory(directory);
+  writeSummary(evaluation, directory + "/summary.csv");
+  writePoses(evaluation, directory + "/poses.csv");
+  writeSegments(evaluation.segments, directory + "/segments.csv");
+  writeMeans(evaluation.by_length, "length_m", directory + "/by_length.csv");
+  writeMeans(evaluation.by_speed, "speed_mps", directory + "/by_speed.csv");
+}
+
+void writeReportTables(const Trajectory& estimate, const std::string& directory) {
+  makeDirectory(directory);
+  const std::vector<double> path_m = pathLengths(estimate);
+  Table summary(directory + "/summary.csv", "poses,path_m,duration_s");
+  summary.row({static_cast<double>(estimate.size()), path_m.back(), duration_s(estimate)});
+  summary.close();
+
+  const std::vector<Eigen::Vector3d> points = positions(estimate);
+  Table poses(directory + "/poses.csv", "stamp_ns,path_m,x_m,y_m,z_m");
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    poses.stream() << estimate[i].stamp_ns << ',';
+    poses.row({path_m[i], points[i].x(), points[i].y(), points[i].z()});
+  }
+  poses.close();
+}
+
+void drawReport(const std::string& directory,
+                const std::string& statistics,
+                const std::string& title) {
+  const std::string pairs = directory + "/pairs.csv";
+  std::error_code error;
+  if (statistics.empty()) {
+    fs::remove(pairs, error);  // of an earlier report
+  } else if (!fs::equivalent(statistics, pairs, error)) {
+    fs::copy_file(statistics, pairs, fs::copy_options::overwrite_existing, error);
+    if (error) throw std::runtime_error("cannot copy " + statistics + ": " + error.message());
+  }
+  const std::string script = fs::read_symlink("/proc/self/exe").replace_filename("draw_report");
+  std::fflush(stdout);
+  execl(script.c_str(),
+        script.c_str(),
+        "--title",
+        title.c_str(),
+        "--",
+        directory.c_str(),
+        static_cast<char*>(nullptr));
+  throw std::runtime_error("cannot run " + script + ": " + std::strerror(errno));
+}
+
+}  // namespace rotrocc
