@@ -4,13 +4,13 @@
 
 #include <array>
 #include <cstring>
-#include <exception>
+#include <stdexcept>
+#include <string>
 
 #include <rosbag/bag.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include "bag_reading.h"
-#include "input_file.h"
+#include "../test/temporary_directory.h"
 #include "message_reader.h"
 #include "recorded_tf.h"
 #include "stereo_bag.h"
@@ -34,8 +34,7 @@ tf2_msgs::TFMessage toTf(const std::array<double, 7>& numbers) {
   return message;
 }
 
-void writeBag(const std::string& path, const std::array<double, 7>& mount, MessageReader reader) {
-  rosbag::Bag bag(path, rosbag::bagmode::Write);
+void writeMessages(rosbag::Bag& bag, const std::array<double, 7>& mount, MessageReader reader) {
   const ros::Time time(1000.0);
   tf2_msgs::TFMessage tf = toTf(mount);
   bag.write("/tf_static", time, tf);
@@ -50,27 +49,43 @@ void writeBag(const std::string& path, const std::array<double, 7>& mount, Messa
   }
 }
 
+/// The same bags all the time: each one made anew looks for all plugins of ROS, which takes longer
+/// than all else.
+struct Bags {
+  TemporaryDirectory directory;
+  std::string path = directory / "input.bag";
+  rosbag::Bag written;
+  rosbag::Bag read;
+};
+
+void readPairs(const rosbag::Bag& bag) {
+  StereoBag pairs(bag, {});
+  StereoPair pair;
+  StereoCamera camera;
+  while (pairs.next(pair, camera)) cv::sum(pair.left + pair.right);
+}
+
 }  // namespace
 }  // namespace rotrocc
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace rotrocc;
-  static const InputFile file("input.bag");
+  static Bags bags;
   std::array<double, 7> mount;
   if (size < sizeof(mount)) return -1;  // not to be kept
   std::memcpy(mount.data(), data, sizeof(mount));
-  writeBag(file.path(), mount, MessageReader(data + sizeof(mount), size - sizeof(mount)));
+  bags.written.open(bags.path, rosbag::bagmode::Write);
+  writeMessages(bags.written, mount, MessageReader(data + sizeof(mount), size - sizeof(mount)));
+  bags.written.close();
+  bags.read.open(bags.path, rosbag::bagmode::Read);
   try {
-    StereoBag bag(file.path(), {});
-    StereoPair pair;
-    StereoCamera camera;
-    while (bag.next(pair, camera)) cv::sum(pair.left + pair.right);
+    readPairs(bags.read);
   } catch (const std::runtime_error&) {  // programs end with what it says
   }
   try {
-    const rosbag::Bag bag = openBag(file.path());
-    RecordedTf(bag, "base_link", "camera").trajectory();
+    RecordedTf(bags.read, "base_link", "camera").trajectory();
   } catch (const std::runtime_error&) {
   }
+  bags.read.close();
   return 0;
 }

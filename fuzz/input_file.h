@@ -1,29 +1,45 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <fstream>
-#include <string>
+#include <fcntl.h>
+#include <unistd.h>
 
-#include "../test/temporary_directory.h"
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
 
 namespace rotrocc {
 
-/// A file for readers that take a path.
+/// A file for readers that take a path. Stays open: most of the time of a small input would go into
+/// opening files and making them empty.
 class InputFile {
  public:
-  explicit InputFile(const std::string& name) : path_(directory_ / name) {}
+  explicit InputFile(const std::string& path)
+      : path_(path), descriptor_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)) {
+    if (descriptor_ < 0) throw std::runtime_error("cannot write " + path);
+  }
+  ~InputFile() { close(descriptor_); }
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
 
   const std::string& path() const { return path_; }
 
-  void write(const std::uint8_t* data, std::size_t size) const {
-    std::ofstream file(path_, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  void write(std::string_view text) const {
+    const auto size = static_cast<ssize_t>(text.size());
+    if (pwrite(descriptor_, text.data(), text.size(), 0) != size ||
+        ftruncate(descriptor_, size) != 0) {
+      throw std::runtime_error("cannot write to " + path_);
+    }
   }
 
  private:
-  TemporaryDirectory directory_;
   std::string path_;
+  int descriptor_;
 };
+
+/// What libFuzzer hands over, as text.
+inline std::string_view asText(const std::uint8_t* data, std::size_t size) {
+  return {reinterpret_cast<const char*>(data), size};
+}
 
 }  // namespace rotrocc

@@ -16,8 +16,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kWidth = 64;
-constexpr std::uint32_t kHeight = 48;
+/// [px]
+struct Size {
+  std::uint32_t width;
+  std::uint32_t height;
+};
+constexpr Size kTracked{48, 36};  // enough for features to be followed
+constexpr Size kRead{20, 16};     // the smaller, the faster
 
 template <class... Messages>
 std::string serialized(const Messages&... messages) {
@@ -30,19 +35,19 @@ std::string serialized(const Messages&... messages) {
 }
 
 /// A pattern with corners, `offset_px` to the left.
-sensor_msgs::Image makeImage(const std::string& encoding,
+sensor_msgs::Image makeImage(const Size& size,
+                             const std::string& encoding,
                              std::uint32_t bytes,
-                             std::uint32_t offset_px,
-                             double stamp_s = 1000.0) {
+                             std::uint32_t offset_px) {
   sensor_msgs::Image image;
-  image.header.stamp = ros::Time(stamp_s);
+  image.header.stamp = ros::Time(1000.0);
   image.header.frame_id = "camera_gray_left";
   image.encoding = encoding;
-  image.width = kWidth;
-  image.height = kHeight;
-  image.step = kWidth * bytes;
-  for (std::uint32_t y = 0; y < kHeight; ++y) {
-    for (std::uint32_t x = offset_px; x < kWidth + offset_px; ++x) {
+  image.width = size.width;
+  image.height = size.height;
+  image.step = size.width * bytes;
+  for (std::uint32_t y = 0; y < size.height; ++y) {
+    for (std::uint32_t x = offset_px; x < size.width + offset_px; ++x) {
       const std::uint32_t tile = (x / 5 * 7919 + y / 5 * 104729) % 251;
       image.data.insert(image.data.end(), bytes, static_cast<std::uint8_t>(tile));
     }
@@ -50,13 +55,23 @@ sensor_msgs::Image makeImage(const std::string& encoding,
   return image;
 }
 
-sensor_msgs::CameraInfo makeInfo(double baseline_m) {
+std::string makeImages(const Size& size, const std::string& encoding, std::uint32_t bytes) {
+  return serialized(makeImage(size, encoding, bytes, 0), makeImage(size, encoding, bytes, 3));
+}
+
+sensor_msgs::CameraInfo makeInfo(const Size& size, double baseline_m) {
   sensor_msgs::CameraInfo info;
   info.header.stamp = ros::Time(1000.0);
-  info.width = kWidth;
-  info.height = kHeight;
-  info.P = {60, 0, 31.5, -60 * baseline_m, 0, 60, 23.5, 0, 0, 0, 1, 0};
+  info.width = size.width;
+  info.height = size.height;
+  const double cx = 0.5 * (size.width - 1.0);
+  const double cy = 0.5 * (size.height - 1.0);
+  info.P = {60, 0, cx, -60 * baseline_m, 0, 60, cy, 0, 0, 0, 1, 0};
   return info;
+}
+
+std::string makeInfos(const Size& size) {
+  return serialized(makeInfo(size, 0.0), makeInfo(size, 0.5));
 }
 
 void write(const fs::path& path, const std::string& text) {
@@ -71,17 +86,16 @@ void writeSeeds(const fs::path& root) {
     const char* encoding;
     std::uint32_t bytes;
   } kEncodings[] = {{"mono8", 1}, {"mono16", 2}, {"bgr8", 3}, {"rgba8", 4}, {"bayer_rggb8", 1}};
-  const std::string infos = serialized(makeInfo(0.0), makeInfo(0.5));
   const double kMount[] = {0.1, 0.0, 1.5, -0.5, 0.5, -0.5, 0.5};
   const std::string mount(reinterpret_cast<const char*>(kMount), sizeof(kMount));
   for (const auto& [encoding, bytes] : kEncodings) {
-    const std::string images =
-        serialized(makeImage(encoding, bytes, 0), makeImage(encoding, bytes, 3));
+    const std::string images = makeImages(kRead, encoding, bytes);
     write(root / "image" / encoding, images);
-    write(root / "odometry" / encoding, infos + images);
-    write(root / "bag" / encoding, mount + infos + images);
+    write(root / "bag" / encoding, mount + makeInfos(kRead) + images);
+    write(root / "odometry" / encoding,
+          makeInfos(kTracked) + makeImages(kTracked, encoding, bytes));
   }
-  write(root / "camera_info" / "infos", infos);
+  write(root / "camera_info" / "infos", makeInfos(kTracked));
 
   const std::string kitti_poses = "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0.1 0 0 -1 0 0 1 0 1e-3\n";
   write(root / "trajectory" / "kitti", kitti_poses);

@@ -1,7 +1,10 @@
 // Serialized camera_info and images of both cameras: all of the odometry that needs no master.
 
+#include <algorithm>
+
 #include <ros/console.h>
 #include <boost/make_shared.hpp>
+#include <opencv2/core/utility.hpp>
 
 #include "drop_log.h"
 #include "kitti_mount.h"
@@ -51,9 +54,9 @@ void drive(const sensor_msgs::CameraInfo& left_info,
     for (sensor_msgs::Image* image : {&left, &right}) {
       image->header.stamp =
           toRosTime(toNanoseconds(image->header.stamp) % 1'000'000'000'000 + 100'000'000);
-      // A row less each time, so that there is something to be seen of a motion.
+      // All rows move up by one, so that there is something to be seen of a motion.
       if (image->step < image->data.size())
-        image->data.erase(image->data.begin(), image->data.begin() + image->step);
+        std::rotate(image->data.begin(), image->data.begin() + image->step, image->data.end());
     }
   }
   intake.report(start);
@@ -64,6 +67,7 @@ void drive(const sensor_msgs::CameraInfo& left_info,
 
 extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
   ros::console::set_logger_level(ROSCONSOLE_DEFAULT_NAME, ros::console::levels::Fatal);
+  cv::setNumThreads(1);  // images are too small to be shared out
   return 0;
 }
 

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "../test/temporary_directory.h"
 #include "input_file.h"
 #include "require.h"
 #include "rotrocc/trajectory.h"
@@ -9,14 +10,19 @@
 namespace rotrocc {
 namespace {
 
+const TemporaryDirectory& directory() {
+  static const TemporaryDirectory directory;
+  return directory;
+}
+
 /// What was read can be written, and be read from what was written.
 void requireRoundTrip(const Trajectory& trajectory) {
-  static const InputFile file("written.txt");
+  static const std::string path = directory() / "written.txt";
   {
-    TrajectoryWriter writer(file.path(), TrajectoryFormat::kTum);
+    TrajectoryWriter writer(path, TrajectoryFormat::kTum);
     for (const StampedPose& pose : trajectory) writer.write(pose);
   }
-  const Trajectory again = readTrajectory(file.path());
+  const Trajectory again = readTrajectory(path);
   require(again.size() == trajectory.size(), "no pose is lost");
   for (std::size_t i = 0; i < again.size(); ++i) {
     require(trajectory[i].T_world_body.matrix().allFinite(), "poses are finite");
@@ -29,8 +35,8 @@ void requireRoundTrip(const Trajectory& trajectory) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace rotrocc;
-  static const InputFile file("poses.txt");
-  file.write(data, size);
+  static const InputFile file(directory() / "poses.txt");
+  file.write(asText(data, size));
   try {
     readTimes(file.path());
   } catch (const std::runtime_error&) {

@@ -1,7 +1,9 @@
 // Files of parameters.
 
+#include <functional>
 #include <stdexcept>
 
+#include "../test/temporary_directory.h"
 #include "input_file.h"
 #include "require.h"
 #include "rotrocc/parameters.h"
@@ -15,26 +17,34 @@ struct Settings {
   ParameterTable table = makeParameterTable(parameters);
 };
 
+/// What was read can be written, and be read from what was written.
+void requireRoundTrip(const ParameterTable& table, const InputFile& file) {
+  static Settings again;
+  again.parameters = {};
+  const std::string text = toYaml(table);
+  file.write(text);
+  loadYaml(file.path(), again.table);
+  require(toYaml(again.table) == text, "no value is lost");
+}
+
 }  // namespace
 }  // namespace rotrocc
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace rotrocc;
-  static const InputFile file("parameters.yaml");
-  static Settings read;
-  static Settings read_again;
-  file.write(data, size);
-  read.parameters = {};
+  static const TemporaryDirectory directory;
+  static const InputFile file(directory / "parameters.yaml");
+  static Settings settings;
+  const std::string_view text = asText(data, size);
+  file.write(text);
+  settings.parameters = {};
   try {
-    loadYaml(file.path(), read.table);
+    loadYaml(file.path(), settings.table);
   } catch (const std::invalid_argument&) {
     return 0;
   }
-  // What was read can be written, and be read from what was written.
-  const std::string text = toYaml(read.table);
-  file.write(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
-  read_again.parameters = {};
-  loadYaml(file.path(), read_again.table);
-  require(toYaml(read_again.table) == text, "no value is lost");
+  // A file with all parameters takes a hundred times as long to read as those that come in here.
+  const bool is_one_of_many = std::hash<std::string_view>()(text) % 32 == 0;
+  if (is_one_of_many) requireRoundTrip(settings.table, file);
   return 0;
 }

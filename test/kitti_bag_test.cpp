@@ -45,7 +45,8 @@ bool equal(const cv::Mat& a, const cv::Mat& b) {
 
 TEST_F(KittiBagTest, GivesBackPixelsCameraAndStamps) {
   const KittiSequence sequence(directory_ / "sequence");
-  StereoBag bag(bagPath(), {});
+  const rosbag::Bag file = openBag(bagPath());
+  StereoBag bag(file, {});
   EXPECT_EQ(bag.size(), kPairs);
   StereoPair pair;
   StereoCamera camera;

@@ -43,7 +43,8 @@ class StereoBagTest : public ::testing::Test {
 
 TEST_F(StereoBagTest, ReadsRawDrivesOfKitti2bag) {
   writeKitti2bagRaw(sequence(), directory_ / "raw.bag");
-  StereoBag bag(directory_ / "raw.bag", {});
+  const rosbag::Bag file = openBag(directory_ / "raw.bag");
+  StereoBag bag(file, {});
   EXPECT_EQ(bag.topics().left_image, "/kitti/camera_gray_left/image_raw");
   EXPECT_EQ(bag.size(), kPairs);
   expectAllPairs(bag);
@@ -51,7 +52,8 @@ TEST_F(StereoBagTest, ReadsRawDrivesOfKitti2bag) {
 
 TEST_F(StereoBagTest, ReadsOdometrySequencesOfKitti2bag) {
   writeKitti2bagOdometry(sequence(), directory_ / "odometry.bag");
-  StereoBag bag(directory_ / "odometry.bag", {});
+  const rosbag::Bag file = openBag(directory_ / "odometry.bag");
+  StereoBag bag(file, {});
   EXPECT_EQ(bag.topics().right_image, "/kitti/camera_gray_right/image_rect");
   expectAllPairs(bag);
 }
@@ -61,7 +63,8 @@ TEST_F(StereoBagTest, ConvertsColour) {
   StereoBag::Options colour;
   colour.left_image = "/kitti/camera_color_left/image_raw";
   colour.right_image = "/kitti/camera_color_right/image_raw";
-  StereoBag bag(directory_ / "raw.bag", colour);
+  const rosbag::Bag file = openBag(directory_ / "raw.bag");
+  StereoBag bag(file, colour);
   expectAllPairs(bag);  // the colours are shades of gray, which stay as they are
 }
 
@@ -69,7 +72,8 @@ TEST_F(StereoBagTest, LeavesOutImagesWithoutAPartner) {
   writeKitti2bagRaw(sequence(), directory_ / "raw.bag");
   StereoBag::Options strict;
   strict.max_stamp_difference_s = 0.0035;  // half of the largest difference in the bag
-  StereoBag bag(directory_ / "raw.bag", strict);
+  const rosbag::Bag file = openBag(directory_ / "raw.bag");
+  StereoBag bag(file, strict);
   StereoPair pair;
   StereoCamera camera;
   int pairs = 0;
@@ -79,10 +83,10 @@ TEST_F(StereoBagTest, LeavesOutImagesWithoutAPartner) {
 }
 
 TEST_F(StereoBagTest, RefusesWhatIsNoBag) {
-  expectError<std::runtime_error>([&] { StereoBag(directory_ / "missing.bag", {}); },
+  expectError<std::runtime_error>([&] { openBag(directory_ / "missing.bag"); },
                                   "missing.bag is not readable as a bag");
   const std::string text = directory_.write("text.bag", "no bag\n");
-  expectError<std::runtime_error>([&] { StereoBag(text, {}); }, "text.bag is not readable");
+  expectError<std::runtime_error>([&] { openBag(text); }, "text.bag is not readable");
 }
 
 TEST_F(StereoBagTest, NamesThePairWhoseCameraIsWrong) {
@@ -96,7 +100,8 @@ TEST_F(StereoBagTest, NamesThePairWhoseCameraIsWrong) {
       bag.write("/stereo/" + side + "/image_rect", image.header.stamp, image);
     }
   }
-  StereoBag bag(directory_ / "uncalibrated.bag", {});
+  const rosbag::Bag file = openBag(directory_ / "uncalibrated.bag");
+  StereoBag bag(file, {});
   StereoPair pair;
   StereoCamera camera;
   expectError<std::runtime_error>([&] { bag.next(pair, camera); }, "pair of 12.5");

@@ -1,5 +1,6 @@
 #include "text_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <locale>
@@ -9,12 +10,32 @@
 namespace rotrocc {
 namespace {
 
+constexpr const char* kWhiteSpace = " \t\r\n\v\f";
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> words;
+  std::size_t begin = text.find_first_not_of(kWhiteSpace);
+  while (begin != std::string::npos) {
+    const std::size_t end = std::min(text.find_first_of(kWhiteSpace, begin), text.size());
+    words.push_back(text.substr(begin, end - begin));
+    begin = text.find_first_not_of(kWhiteSpace, end);
+  }
+  return words;
+}
+
+std::istringstream makeStream() {
+  std::istringstream stream;
+  stream.imbue(std::locale::classic());  // a decimal comma of the user's locale must not matter
+  return stream;
+}
+
 // long double, so that stamps since 1970 keep their nanoseconds where the hardware has 64 bit of
 // mantissa.
 long double parse(const TextLine& line, std::size_t index) {
+  thread_local std::istringstream stream = makeStream();  // making one takes longer than a number
   const std::string& word = line.words.at(index);
-  std::istringstream stream(word);
-  stream.imbue(std::locale::classic());  // a decimal comma of the user's locale must not matter
+  stream.clear();
+  stream.str(word);
   long double value = 0.0L;
   if (!(stream >> value) || stream.peek() != std::istringstream::traits_type::eof()) {
     throw std::runtime_error(line.where + ": '" + word + "' is not a finite number");
@@ -49,8 +70,7 @@ std::vector<TextLine> readTextLines(const std::string& path) {
   std::string text;
   for (int number = 1; std::getline(file, text); ++number) {
     TextLine line;
-    std::istringstream stream(text);
-    for (std::string word; stream >> word;) line.words.push_back(word);  // CR is white space, too
+    line.words = split(text);  // CR is white space, too
     if (line.words.empty() || line.words.front().front() == '#') continue;
     line.where = path + ":" + std::to_string(number);
     lines.push_back(std::move(line));

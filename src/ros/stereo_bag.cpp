@@ -17,15 +17,14 @@ int countMessages(const rosbag::Bag& bag, const std::string& topic) {
 
 }  // namespace
 
-StereoBag::StereoBag(const std::string& path, const Options& options)
-    : bag_(openBag(path)),
-      topics_(findStereoTopics(topicTypes(bag_), options.left_image, options.right_image)),
-      size_(countMessages(bag_, topics_.left_image)),
-      view_(bag_, rosbag::TopicQuery(topics_.all())),
+StereoBag::StereoBag(const rosbag::Bag& bag, const Options& options)
+    : topics_(findStereoTopics(topicTypes(bag), options.left_image, options.right_image)),
+      size_(countMessages(bag, topics_.left_image)),
+      view_(bag, rosbag::TopicQuery(topics_.all())),
       next_(view_.begin()),
       synchronizer_(options.max_stamp_difference_s, options.queue_size),
-      left_info_(firstMessage<sensor_msgs::CameraInfo>(bag_, topics_.left_info)),
-      right_info_(firstMessage<sensor_msgs::CameraInfo>(bag_, topics_.right_info)) {}
+      left_info_(firstMessage<sensor_msgs::CameraInfo>(bag, topics_.left_info)),
+      right_info_(firstMessage<sensor_msgs::CameraInfo>(bag, topics_.right_info)) {}
 
 bool StereoBag::next(StereoPair& pair, StereoCamera& camera) {
   bool complete = false;

@@ -25,8 +25,8 @@ class StereoBag {
     int queue_size = 4;                    ///< images that wait for their partner, on each side
   };
 
-  /// Throws std::runtime_error if the bag or its topics cannot be used.
-  StereoBag(const std::string& path, const Options& options);
+  /// `bag` must outlive this. Throws std::runtime_error if its topics cannot be used.
+  StereoBag(const rosbag::Bag& bag, const Options& options);
   StereoBag(const StereoBag&) = delete;
   StereoBag& operator=(const StereoBag&) = delete;
 
@@ -43,7 +43,6 @@ class StereoBag {
  private:
   bool read(const rosbag::MessageInstance& message);
 
-  rosbag::Bag bag_;
   StereoTopics topics_;
   int size_;
   rosbag::View view_;

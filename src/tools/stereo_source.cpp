@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "bag_reading.h"
 #include "rotrocc/kitti.h"
 
 namespace rotrocc {
@@ -31,16 +32,18 @@ class KittiSource : public StereoSource {
 
 class BagSource : public StereoSource {
  public:
-  BagSource(const std::string& path, const StereoBag::Options& options) : bag_(path, options) {}
+  BagSource(const std::string& path, const StereoBag::Options& options)
+      : bag_(openBag(path)), pairs_(bag_, options) {}
 
   std::string description() const override {
-    return bag_.topics().left_image + " and " + bag_.topics().right_image;
+    return pairs_.topics().left_image + " and " + pairs_.topics().right_image;
   }
-  int size() const override { return bag_.size(); }
-  bool next(StereoPair& pair, StereoCamera& camera) override { return bag_.next(pair, camera); }
+  int size() const override { return pairs_.size(); }
+  bool next(StereoPair& pair, StereoCamera& camera) override { return pairs_.next(pair, camera); }
 
  private:
-  StereoBag bag_;
+  rosbag::Bag bag_;
+  StereoBag pairs_;
 };
 
 }  // namespace
