@@ -22,10 +22,14 @@ class Programs:
         self.folders = [folder] if folder else [SCRIPTS, SCRIPTS.parent / 'build/devel/lib/rotrocc']
 
     def run(self, name, *arguments):
+        command = [str(part) for part in (self.find(name), *arguments)]
+        return subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout.decode()
+
+    def find(self, name):
+        """The path of a program."""
         for folder in self.folders:
             if (folder / name).is_file():
-                command = [str(part) for part in (folder / name, *arguments)]
-                return subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout.decode()
+                return folder / name
         raise RuntimeError('%s is not built; run scripts/test or cmake --build build' % name)
 
     def simulate(self, target, arguments):

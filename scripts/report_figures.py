@@ -42,20 +42,20 @@ def plot_errors(by_length, by_speed, path, earlier=None):
         for row, (name, label, colour, marker) in enumerate(errors):
             panel = axes[row, column]
             if earlier and len(earlier[column][bin_name]):
-                panel.plot(scale * earlier[column][bin_name], earlier[column][name], **EARLIER,
-                           label='earlier')
+                panel.plot(scale * earlier[column][bin_name], earlier[column][name], **EARLIER)
             panel.plot(scale * table[bin_name], table[name], marker=marker, color=colour,
-                       markersize=5, linewidth=1.8, label='now' if earlier else None,
-                       clip_on=False, zorder=3)
+                       markersize=5, linewidth=1.8, clip_on=False, zorder=3)
             panel.set_xlabel(bin_label)
             panel.xaxis.set_major_locator(ticker.MaxNLocator(9, steps=[1, 2, 5, 10]))
             if column == 0:
                 panel.set_ylabel(label)
     for row in axes:
         row[0].set_ylim(0, 1.12 * row[0].get_ylim()[1])
-        if earlier:
-            legend(row[1], loc='upper right', ncol=2)
-    figure.tight_layout(h_pad=1.6, w_pad=1.6)
+    figure.tight_layout(h_pad=1.6, w_pad=1.6, rect=(0, 0, 1, 0.95 if earlier else 1))
+    if earlier:
+        lines = [axes[0, 0].lines[-1], axes[1, 0].lines[-1], axes[0, 0].lines[0]]
+        legend(figure, lines, ['translation', 'rotation', 'earlier'], loc='upper right', ncol=3,
+               bbox_to_anchor=(0.985, 0.99))
     save(figure, path)
 
 
@@ -164,7 +164,8 @@ def finish_timeline(figure, panel, time_s, path):
 def plot_sequences(names, errors, path, earlier=None):
     """A bar for each sequence: `errors` and `earlier` are {name of the sequence: (translation [%],
     rotation [deg/m])}."""
-    figure, axes = panels(1, 2, 0.9 + 0.26 * len(names), sharey=True)
+    height_in = 1.1 + 0.26 * len(names)
+    figure, axes = panels(1, 2, height_in, sharey=True)
     places = numpy.arange(len(names))
     for index, (label, colour) in enumerate((('translation error [%]', BLUE),
                                              ('rotation error [deg/m]', ORANGE))):
@@ -173,14 +174,15 @@ def plot_sequences(names, errors, path, earlier=None):
         if earlier:
             known = [i for i, name in enumerate(names) if name in earlier]
             panel.plot([earlier[names[i]][index] for i in known], places[known], '|', color=BLACK,
-                       markersize=13, markeredgewidth=2, label='earlier')
+                       markersize=13, markeredgewidth=2)
         panel.set_xlabel(label)
         panel.grid(False, axis='y')
         panel.xaxis.set_major_locator(ticker.MaxNLocator(5, steps=[1, 2, 5, 10]))
     axes[0, 0].set_yticks(places)
     axes[0, 0].set_yticklabels(names, color=TEXT)
     axes[0, 0].invert_yaxis()
+    figure.tight_layout(w_pad=1.6, rect=(0, 0, 1, 1 - 0.2 / height_in))
     if earlier:
-        legend(axes[0, 1], loc='lower right')
-    figure.tight_layout(w_pad=1.6)
+        legend(figure, axes[0, 0].lines[-1:], ['earlier'], loc='upper right',
+               bbox_to_anchor=(0.985, 1 - 0.04 / height_in))
     save(figure, path)

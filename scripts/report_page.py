@@ -1,24 +1,27 @@
 """HTML pages that open alone: no script, nothing from elsewhere, pictures inside."""
 import base64
 import html
+import os
 
 STYLE = '''
 body { margin: 0; background: #f6f7f8; color: #222; font: 16px/1.5 system-ui, "DejaVu Sans", Arial, sans-serif; }
-main { max-width: 920px; margin: 0 auto; padding: 32px 20px 48px; }
+main { max-width: 1100px; margin: 0 auto; padding: 32px 20px 48px; }
 h1 { margin: 0; font-size: 28px; line-height: 1.25; overflow-wrap: anywhere; }
 h2 { margin: 0 0 4px; font-size: 19px; }
 p { margin: 4px 0 12px; color: #555; }
 section { margin-top: 20px; padding: 20px 24px 16px; background: #fff; border: 1px solid #e2e5e8; border-radius: 10px; }
-.tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(260px, 1fr)); gap: 12px; margin-top: 20px; }
+.tiles { display: grid; grid-template-columns: repeat(3, 1fr); gap: 12px; margin-top: 20px; }
+.tiles.four { grid-template-columns: repeat(4, 1fr); }
+@media (max-width: 700px) { .tiles, .tiles.four { grid-template-columns: 1fr 1fr; } }
 .tile { padding: 12px 16px; background: #fff; border: 1px solid #e2e5e8; border-radius: 10px; }
 .tile b { display: block; font-size: 24px; line-height: 1.3; white-space: nowrap; }
 .tile b small { font-size: 15px; font-weight: normal; color: #555; }
 .tile span { color: #555; font-size: 14px; }
-img { display: block; width: 100%; height: auto; margin: 8px 0; }
+img { display: block; width: 100%; max-width: 900px; height: auto; margin: 8px auto; }
 .scroll { overflow-x: auto; }
 .columns { display: grid; grid-template-columns: repeat(auto-fit, minmax(390px, 1fr)); gap: 0 40px; align-items: start; }
 table { border-collapse: collapse; margin: 10px 0; font-size: 14.5px; font-variant-numeric: tabular-nums; width: 100%; }
-th, td { padding: 5px 10px; text-align: right; border-bottom: 1px solid #e8eaec; white-space: nowrap; }
+th, td { padding: 5px 7px; text-align: right; border-bottom: 1px solid #e8eaec; white-space: nowrap; }
 th { color: #555; font-weight: 600; vertical-align: bottom; white-space: normal; }
 th:first-child, td:first-child { text-align: left; padding-left: 0; }
 tr.total td { font-weight: 600; border-top: 2px solid #999; border-bottom: 0; }
@@ -37,9 +40,10 @@ def link(target, words):
 
 def tiles(entries):
     """`entries`: (value, unit, what it is)."""
-    return '<div class="tiles">%s</div>\n' % ''.join(
+    four = ' four' if len(entries) % 4 == 0 else ''
+    return '<div class="tiles%s">%s</div>\n' % (four, ''.join(
         '<div class="tile"><b>%s <small>%s</small></b><span>%s</span></div>'
-        % tuple(text(part) for part in entry) for entry in entries)
+        % tuple(text(part) for part in entry) for entry in entries))
 
 
 def picture(path, description):
@@ -75,5 +79,7 @@ def write_page(path, title, note, *parts):
             '<title>%s</title>\n<style>%s</style>\n</head>\n<body>\n<main>\n<h1>%s</h1>\n<p>%s</p>\n'
             '%s</main>\n</body>\n</html>\n'
             % (text(title), STYLE, text(title), note, ''.join(parts)))
-    with open(str(path), 'w', encoding='utf-8') as file:
+    part = path.with_suffix('.part')
+    with open(str(part), 'w', encoding='utf-8') as file:
         file.write(page)
+    os.replace(str(part), str(path))

@@ -18,6 +18,11 @@ def read_columns(path):
     return columns
 
 
+def positions(poses, prefix=''):
+    """n x 3, of the estimate, or of the truth with the prefix 'true_'."""
+    return numpy.stack([poses['%s%s_m' % (prefix, axis)] for axis in 'xyz'], axis=1)
+
+
 def states_of(poses, pairs):
     """The state of the odometry at each pose, a word; '' where none is known."""
     states = numpy.full(len(poses['stamp_ns']), '', dtype='U16')

@@ -141,3 +141,29 @@ def draw(estimate, truth, path, heading=None, marks=None):
     legend(figure, *above.get_legend_handles_labels(), loc='upper left', ncol=6,
            bbox_to_anchor=(left, 1.0 - (top_in - 0.37) / page_in))
     save(figure, path)
+
+
+def draw_all(drives, path):
+    """A small picture for each of [(name, estimate, truth or None)], as a PNG."""
+    columns = min(4, len(drives))
+    rows = -(-len(drives) // columns)
+    side_in = PAGE_IN / max(columns, 3)
+    figure = pyplot.figure(figsize=(PAGE_IN, rows * (side_in + 0.25) + 0.3))
+    for index, (name, estimate, truth) in enumerate(drives):
+        axes = figure.add_subplot(rows, columns, index + 1, aspect='equal', adjustable='datalim')
+        dress(axes)
+        axes.tick_params(labelsize=7.5)
+        if truth is not None:
+            axes.plot(truth[:, 0], truth[:, 2], color=TRUTH, linewidth=3.0, label='truth',
+                      solid_capstyle='round')
+        axes.plot(estimate[:, 0], estimate[:, 2], color=ESTIMATE, linewidth=1.3, label='estimate')
+        axes.plot(0.0, 0.0, 'o', color=TEXT, markersize=5, markeredgecolor='white', label='start')
+        axes.margins(0.08)
+        axes.set_title(name, fontsize=10, color=TEXT)
+        axes.xaxis.set_major_locator(ticker.MaxNLocator(4, steps=[1, 2, 5, 10]))
+        axes.yaxis.set_major_locator(ticker.MaxNLocator(4, steps=[1, 2, 5, 10]))
+    figure.tight_layout(rect=(0, 0, 1, 1 - 0.25 / figure.get_figheight()), w_pad=0.6)
+    best = max(figure.axes, key=lambda axes: len(axes.lines))
+    legend(figure, *best.get_legend_handles_labels(), loc='upper left', ncol=3,
+           bbox_to_anchor=(0.02, 0.995))
+    save(figure, path)
