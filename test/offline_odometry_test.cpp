@@ -6,8 +6,13 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <rosbag/view.h>
+#include <tf2_msgs/TFMessage.h>
 
+#include "bag_reading.h"
 #include "kitti_bag_writer.h"
+#include "kitti_mount.h"
 #include "read_csv.h"
 #include "read_file.h"
 #include "run_command.h"
@@ -107,6 +112,35 @@ TEST_F(OfflineOdometryTest, FiguresTellMotionCovarianceAndBias) {
   EXPECT_EQ(rows.front().at("bias_applied_px"), "0.05");
 }
 
+TEST_F(OfflineOdometryTest, WritesOdometryOfTheBaseToABag) {
+  const std::string file = directory_ / "odometry.bag";
+  trajectoryOf(sequence(), "--bag " + file);
+  const rosbag::Bag bag = openBag(file);
+  std::vector<nav_msgs::Odometry::ConstPtr> messages;
+  for (const rosbag::MessageInstance& message :
+       rosbag::View(bag, rosbag::TopicQuery("/stereo/odom"))) {
+    messages.push_back(readMessage<nav_msgs::Odometry>(message));
+  }
+  ASSERT_EQ(messages.size(), static_cast<std::size_t>(kPairs));
+  EXPECT_EQ(messages.front()->header.stamp.sec, 1317600000u) << "as in bags of kitti_to_bag";
+  EXPECT_EQ(messages.back()->header.frame_id, "odom");
+  EXPECT_EQ(messages.back()->child_frame_id, "base_link");
+
+  const Trajectory estimate = readTrajectory(directory_ / "trajectory.txt");
+  const Eigen::Isometry3d T_odom_base =
+      kittiMount() * estimate.back().T_world_body * kittiMount().inverse();
+  const geometry_msgs::Point& position = messages.back()->pose.pose.position;
+  EXPECT_GT(position.x, 4.0) << "forward is x";
+  EXPECT_NEAR(position.x, T_odom_base.translation().x(), 1e-6);
+  EXPECT_NEAR(position.y, T_odom_base.translation().y(), 1e-6);
+  EXPECT_GT(messages.back()->pose.covariance[0], 0.0);
+
+  rosbag::View transforms(bag, rosbag::TopicQuery("/tf"));
+  EXPECT_EQ(transforms.size(), static_cast<std::uint32_t>(kPairs));
+  const auto tf = firstMessage<tf2_msgs::TFMessage>(bag, "/tf");
+  EXPECT_EQ(tf->transforms.at(0).child_frame_id, "base_link");
+}
+
 TEST_F(OfflineOdometryTest, SumsUp) {
   const CommandResult result = run(sequence() + " --trajectory /dev/null");
   EXPECT_NE(result.output.find("12 pairs: 11 ok, 0 degraded, 0 lost, 1 initialising"),
@@ -131,6 +165,7 @@ TEST_F(OfflineOdometryTest, TellsBadUsageFromBadInput) {
   EXPECT_EQ(run("/nowhere --trajectory /dev/null").status, 1);
   EXPECT_EQ(run(sequence() + " --trajectory /nowhere/out.txt").status, 1);
   EXPECT_EQ(run(sequence() + " --trajectory /dev/null --format xyz").status, 1);
+  EXPECT_EQ(run(sequence() + " --trajectory /dev/null --bag /nowhere/out.bag").status, 1);
 }
 
 }  // namespace

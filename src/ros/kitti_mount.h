@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include <Eigen/Geometry>
 
 namespace rotrocc {
@@ -12,5 +14,9 @@ inline Eigen::Isometry3d kittiMount() {
   T_base_camera.translation() << 0, 0, 1.65;
   return T_base_camera;
 }
+
+/// When a sequence begins in bags, as its own times begin at 0: 2011-10-03, when KITTI recorded its
+/// first ones.
+constexpr std::int64_t kKittiStart_s = 1317600000;
 
 }  // namespace rotrocc

@@ -5,6 +5,7 @@
 #include <boost/program_options.hpp>
 
 #include "kitti_bag_writer.h"
+#include "kitti_mount.h"
 #include "program.h"
 #include "progress_bar.h"
 #include "rotrocc/kitti.h"
@@ -17,7 +18,7 @@ using namespace rotrocc;
 struct Options {
   std::string sequence;
   std::string bag;
-  std::int64_t start_time_s = 1317600000;  // 2011-10-03, when KITTI recorded its first sequences
+  std::int64_t start_time_s = kKittiStart_s;
 };
 
 /// Returns false if only the help was asked for; throws po::error on bad usage.

@@ -8,6 +8,7 @@
 #include <boost/program_options.hpp>
 #include <opencv2/core.hpp>
 
+#include "odometry_bag.h"
 #include "program.h"
 #include "progress_bar.h"
 #include "rotrocc/parameters.h"
@@ -29,6 +30,7 @@ struct Options {
   std::string config;
   std::vector<std::string> assignments;
   std::string statistics;
+  std::string bag;
   std::string left_image;
   std::string right_image;
   int threads = cv::getNumThreads();
@@ -44,6 +46,7 @@ bool parse(int argc, char** argv, Options& options) {
   add("config", po::value(&options.config), "YAML file with parameters");
   add("set", po::value(&options.assignments), "name=value: a parameter; may be repeated");
   add("stats", po::value(&options.statistics), "CSV file for a row of figures per pair");
+  add("bag", po::value(&options.bag), "bag for /stereo/odom and /tf, as the node publishes them");
   add("left-image", po::value(&options.left_image), "topic, where a bag has several pairs");
   add("right-image", po::value(&options.right_image), "topic of its partner");
   add("threads", po::value(&options.threads)->default_value(options.threads), "of OpenCV");
@@ -105,6 +108,13 @@ void run(const Options& options) {
   TrajectoryWriter trajectory(options.trajectory, trajectoryFormat(options.format));
   std::optional<StatisticsFile> statistics;
   if (!options.statistics.empty()) statistics.emplace(options.statistics);
+  std::optional<OdometryBag> bag;
+  if (!options.bag.empty()) {
+    bag.emplace(options.bag,
+                source->mount(parameters.node.base_frame),
+                parameters.node,
+                source->start_ns());
+  }
 
   VisualOdometry odometry(parameters.odometry);
   PoseAccumulator accumulator;
@@ -116,6 +126,7 @@ void run(const Options& options) {
     records.push_back(process(odometry, pair, camera));
     trajectory.write({pair.stamp_ns, accumulator.add(records.back().result.T_prev_cur)});
     if (statistics) statistics->write(records.back());
+    if (bag) bag->write(records.back().result);
     progress.advance();
   }
   progress.finish();

@@ -2,7 +2,11 @@
 
 #include <filesystem>
 
+#include <sensor_msgs/Image.h>
+
 #include "bag_reading.h"
+#include "kitti_mount.h"
+#include "recorded_tf.h"
 #include "rotrocc/kitti.h"
 
 namespace rotrocc {
@@ -24,6 +28,9 @@ class KittiSource : public StereoSource {
     return true;
   }
 
+  Eigen::Isometry3d mount(const std::string&) const override { return kittiMount(); }
+  std::int64_t start_ns() const override { return kKittiStart_s * 1'000'000'000; }
+
  private:
   std::string directory_;
   KittiSequence sequence_;
@@ -40,6 +47,12 @@ class BagSource : public StereoSource {
   }
   int size() const override { return pairs_.size(); }
   bool next(StereoPair& pair, StereoCamera& camera) override { return pairs_.next(pair, camera); }
+
+  Eigen::Isometry3d mount(const std::string& base_frame) const override {
+    const auto image = firstMessage<sensor_msgs::Image>(bag_, pairs_.topics().left_image);
+    return RecordedTf(bag_, base_frame, image->header.frame_id).T_base_camera();
+  }
+  std::int64_t start_ns() const override { return 0; }
 
  private:
   rosbag::Bag bag_;

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
+
+#include <Eigen/Geometry>
 
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
@@ -23,6 +26,12 @@ class StereoSource {
   /// Reads the next pair and its camera. Returns false, and leaves them alone, when there is none.
   /// Throws std::runtime_error on images that cannot be read.
   virtual bool next(StereoPair& pair, StereoCamera& camera) = 0;
+
+  /// Where the left camera is on the base: by the transforms of a bag, else KITTI's mount.
+  virtual Eigen::Isometry3d mount(const std::string& base_frame) const = 0;
+
+  /// What the stamps of the pairs need to be ROS's.
+  virtual std::int64_t start_ns() const = 0;
 };
 
 /// Opens a sequence directory of the KITTI odometry benchmark, or a bag with `bag_options`.

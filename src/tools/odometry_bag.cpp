@@ -1,0 +1,41 @@
+#include "odometry_bag.h"
+
+#include <stdexcept>
+
+#include <tf2_msgs/TFMessage.h>
+
+#include "message_conversion.h"
+#include "odometry_messages.h"
+
+namespace rotrocc {
+
+OdometryBag::OdometryBag(const std::string& path,
+                         const Eigen::Isometry3d& T_base_camera,
+                         const NodeParameters& parameters,
+                         std::int64_t start_ns)
+    : parameters_(parameters),
+      start_ns_(start_ns),
+      odometry_(T_base_camera,
+                parameters.lost_speed_sigma_mps,
+                parameters.lost_turn_rate_sigma_rps,
+                parameters.planar) {
+  try {
+    bag_.open(path, rosbag::bagmode::Write);
+  } catch (const rosbag::BagException& error) {
+    throw std::runtime_error(path + " cannot be written: " + error.what());
+  }
+}
+
+void OdometryBag::write(const OdometryResult& result) {
+  BaseState state = odometry_.add(result);
+  state.stamp_ns += start_ns_;
+  const ros::Time stamp = toRosTime(state.stamp_ns);
+  const std::string& odom = parameters_.odom_frame;
+  const std::string& base = parameters_.base_frame;
+  tf2_msgs::TFMessage tf;
+  tf.transforms.push_back(toTransform(state.T_odom_base.T, state.stamp_ns, odom, base));
+  bag_.write("/tf", stamp, tf);
+  bag_.write("/stereo/odom", stamp, toOdometry(state, odom, base));
+}
+
+}  // namespace rotrocc

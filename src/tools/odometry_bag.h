@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <rosbag/bag.h>
+#include <Eigen/Geometry>
+
+#include "base_odometry.h"
+#include "rotrocc/parameters.h"
+
+namespace rotrocc {
+
+/// A bag with what the node would publish of each pair, under its stamp:
+///   /stereo/odom    nav_msgs/Odometry
+///   /tf             odom_frame -> base_frame
+class OdometryBag {
+ public:
+  /// `start_ns` is added to all stamps: ROS has none at 0, where KITTI's sequences begin.
+  /// Throws std::runtime_error if `path` cannot be written.
+  OdometryBag(const std::string& path,
+              const Eigen::Isometry3d& T_base_camera,
+              const NodeParameters& parameters,
+              std::int64_t start_ns);
+
+  void write(const OdometryResult& result);
+
+ private:
+  NodeParameters parameters_;
+  std::int64_t start_ns_;
+  BaseOdometry odometry_;
+  rosbag::Bag bag_;
+};
+
+}  // namespace rotrocc
