@@ -19,7 +19,7 @@ COLUMNS = ['sequence', 'group', 'pairs', 'path_m', 'segments', 'translation_perc
            'duration_s']
 BINS = {'length': 'length_m', 'speed': 'speed_mps'}
 ERRORS = ['translation_percent', 'rotation_deg_per_m']
-END_HEADER = ['lost', 'degr.', 'time<br>[ms]', 'bias [px]']
+END_HEADER = ['lost', 'degr.', 'CPU<br>[ms]', 'bias [px]']
 
 
 class Result:
@@ -77,7 +77,7 @@ def read_earlier(folder):
     with open(str(path)) as file:
         rows = {row['sequence']: row for row in csv.DictReader(file)}
     for row in rows.values():
-        for name in ERRORS + ['segments', 'wall_ms']:
+        for name in ERRORS + ['segments']:
             row[name] = float(row[name])
     earlier = {'sequences': rows}
     for name in BINS:
@@ -159,11 +159,11 @@ class GroupSection:
         before = {name: mean_error(list(self.before.values()), name)
                   for name in ERRORS} if common else None
         pairs = numpy.array([row['pairs'] for row in self.rows], float)
-        wall_ms = numpy.array([row['wall_ms'] for row in self.rows])
+        cpu_ms = numpy.array([row['cpu_ms'] for row in self.rows])
         return cells + self.error_cells(now, before) + [
             '%d' % sum(row['lost'] for row in self.rows),
             '%d' % sum(row['degraded'] for row in self.rows),
-            '%.1f' % (pairs.dot(wall_ms) / pairs.sum()), '']
+            '%.1f' % (pairs.dot(cpu_ms) / pairs.sum()), '']
 
     def write(self, title, note):
         header = ['sequence', 'pairs', 'path<br>[m]']
@@ -194,7 +194,7 @@ def begin_cells(row):
 
 
 def end_cells(row):
-    return ['%d' % row['lost'], '%d' % row['degraded'], '%.1f' % row['wall_ms'],
+    return ['%d' % row['lost'], '%d' % row['degraded'], '%.1f' % row['cpu_ms'],
             '%+.2f ± %.2f' % (row['bias_px'], row['bias_sigma_px'])]
 
 
@@ -206,19 +206,19 @@ def section_without_errors(title, note, results):
 
 def tiles(results):
     entries = []
-    for group, what in (('devkit', ''), ('short', ', short sequences')):
+    for group, what in (('devkit', ''), ('short', ', short')):
         rows = [result.row for result in results if result.group == group]
         if rows:
             entries += [('%.3f' % mean_error(rows, ERRORS[0]), '%', 'translation error' + what),
                         ('%.5f' % mean_error(rows, ERRORS[1]), 'deg/m', 'rotation error' + what)]
     rows = [result.row for result in results]
     pairs = sum(row['pairs'] for row in rows)
-    wall_ms = sum(row['pairs'] * row['wall_ms'] for row in rows) / pairs
+    cpu_ms = sum(row['pairs'] * row['cpu_ms'] for row in rows) / pairs
     entries += [('%d' % len(rows), 'sequences', '%d pairs, %.1f km' % (
                     pairs, 1e-3 * sum(row['path_m'] for row in rows))),
                 ('%d' % sum(row['lost'] for row in rows), 'lost',
                  '%d degraded' % sum(row['degraded'] for row in rows)),
-                ('%.1f' % wall_ms, 'ms', 'wall time of a pair, on one thread'),
+                ('%.1f' % cpu_ms, 'ms', 'CPU time of a pair'),
                 ('%.0f' % sum(row['duration_s'] for row in rows), 's', 'run time of all jobs')]
     return page.tiles(entries)
 
@@ -237,12 +237,12 @@ def trajectories(output, results):
 
 def print_table(results):
     print('%-20s %6s %8s %15s %16s %5s %8s' % ('sequence', 'pairs', 'path [m]', 'translation [%]',
-                                             'rotation [deg/m]', 'lost', 'ms/pair'))
+                                             'rotation [deg/m]', 'lost', 'CPU [ms]'))
     for group, _, _ in GROUPS:
         rows = [result.row for result in results if result.group == group]
         for row in rows:
             print('%-20s %6d %8.0f %15.3f %16.5f %5d %8.1f' % tuple(row[name] for name in (
-                'sequence', 'pairs', 'path_m', *ERRORS, 'lost', 'wall_ms')))
+                'sequence', 'pairs', 'path_m', *ERRORS, 'lost', 'cpu_ms')))
         if rows and group != 'none':
             print('%-20s %6d %8.0f %15.3f %16.5f' % (
                 'mean of segments', sum(row['pairs'] for row in rows),

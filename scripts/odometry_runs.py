@@ -5,6 +5,7 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
 
 import numpy
 
@@ -19,7 +20,8 @@ class Programs:
     """Runs the programs of the package."""
 
     def __init__(self, folder=None):
-        self.folders = [folder] if folder else [SCRIPTS, SCRIPTS.parent / 'build/devel/lib/rotrocc']
+        own = pathlib.Path(sys.argv[0]).resolve().parent  # where catkin installs scripts as well
+        self.folders = [folder] if folder else [own, SCRIPTS.parent / 'build/devel/lib/rotrocc']
 
     def run(self, name, *arguments):
         command = [str(part) for part in (self.find(name), *arguments)]

@@ -145,9 +145,11 @@ def plot_bias(pairs, time_s, path):
                        label='1 sigma')
     panel.plot(time_s, bias, color=BLUE, linewidth=1.6, label='estimated')
     panel.plot(time_s, pairs['bias_applied_px'], color=VERMILLION, linewidth=1.2, label='corrected')
-    reach = numpy.percentile(numpy.abs(bias) + 2 * sigma, 95) if len(bias) > 20 else 1.0
-    reach = 1.1 * max(reach, numpy.abs(bias).max(), 0.1)
-    panel.set_ylim(-reach, reach)
+    settled = sigma <= 2 * numpy.median(sigma)  # all but the first pairs
+    low = min(0.0, (bias - 2 * sigma)[settled].min())
+    high = max(0.0, (bias + 2 * sigma)[settled].max())
+    margin = max(0.08 * (high - low), 0.02)
+    panel.set_ylim(low - margin, high + margin)
     panel.set_ylabel('disparity bias [px]')
     finish_timeline(figure, panel, time_s, path)
 
