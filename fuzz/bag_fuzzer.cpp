@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <console_bridge/console.h>
 #include <rosbag/bag.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -67,6 +68,11 @@ void readPairs(const rosbag::Bag& bag) {
 
 }  // namespace
 }  // namespace rotrocc
+
+extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
+  console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_NONE);  // of tf2
+  return 0;
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace rotrocc;
