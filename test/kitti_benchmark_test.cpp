@@ -201,12 +201,15 @@ TEST_F(KittiBenchmarkTest, UsesOtherMachines) {
   EXPECT_NE(hosts.find("bob"), std::string::npos) << hosts;
 }
 
-TEST_F(KittiBenchmarkTest, DoesNotMixParameters) {
+TEST_F(KittiBenchmarkTest, DoesNotMixResults) {
   fs::create_directory(directory_ / "out");
   directory_.write("out/settings.json", "{\"odometry options\": [\"--set\", \"a=b\"]}");
   const CommandResult result = run();
   EXPECT_EQ(result.status, 1);
   EXPECT_NE(result.output.find("other parameters"), std::string::npos) << result.output;
+  const CommandResult second = runCommand("flock " + directory_ / "out/lock" + " " + command());
+  EXPECT_EQ(second.status, 1);
+  EXPECT_NE(second.output.find("another run"), std::string::npos) << second.output;
 }
 
 TEST_F(KittiBenchmarkTest, RefusesWhatIsNoDataSet) {
