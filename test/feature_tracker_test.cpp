@@ -186,6 +186,29 @@ TEST(FeatureTrackerTest, LeavesPointsAloneThatAreNotAskedFor) {
   }
 }
 
+TEST(FeatureTrackerTest, TakesTheLargestWindowAtFullContrast) {
+  // Sums over 51 rows of differences between black and white must not overflow.
+  cv::Mat stripes(200, 200, CV_8UC1);
+  cv::Mat moved(stripes.size(), CV_8UC1);
+  const auto texture = [](int x, int y) {
+    return static_cast<uchar>((x / 8 + y / 8) % 2 == 0 ? 255 : 0);
+  };
+  for (int y = 0; y < stripes.rows; ++y) {
+    for (int x = 0; x < stripes.cols; ++x) {
+      stripes.at<uchar>(y, x) = texture(x, y);
+      moved.at<uchar>(y, x) = texture(x + 2, y);
+    }
+  }
+  FeatureTracker::Config config;
+  config.window_radius_px = 25;
+  const Points from = {{100, 100}, {90, 110}};
+  const Tracked result = track(stripes, moved, from, from, 1, config);
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    EXPECT_EQ(result.tracked[i], 1);
+    EXPECT_LT(cv::norm(result.cur[i] - from[i] + cv::Point2f(2, 0)), 0.05) << result.cur[i];
+  }
+}
+
 TEST(FeatureTrackerTest, TakesImagesOfAnySizeAndPointsOutside) {
   for (const cv::Size size : {cv::Size(1, 1), cv::Size(8, 8), cv::Size(16, 4), cv::Size(300, 2)}) {
     const cv::Mat image = drive().first(cv::Rect({0, 0}, size)).clone();

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
 namespace rotrocc {
+
+class TrackingWindow;
 
 /// Pyramidal Lucas-Kanade (Bouguet 2001) from a predicted position, checked by tracking back.
 class FeatureTracker {
@@ -20,10 +23,11 @@ class FeatureTracker {
     double max_disparity_difference_px = 1.0;  ///< of tracked and matched disparity at t
   };
 
-  /// An image with its smaller copies and their gradients.
+  /// An image and its smaller copies, each half as wide and high as the one before.
   using Pyramid = std::vector<cv::Mat>;
 
   explicit FeatureTracker(const Config& config);
+  ~FeatureTracker();
 
   /// Builds into `pyramid`, whose memory is used again.
   void buildPyramid(const cv::Mat& image, Pyramid& pyramid) const;
@@ -40,12 +44,16 @@ class FeatureTracker {
              std::vector<char>& tracked);
 
  private:
+  bool follow(const Pyramid& from,
+              const Pyramid& to,
+              std::size_t levels,
+              const cv::Point2f& start,
+              TrackingWindow& window,
+              cv::Point2f& end) const;
+
   Config config_;
-  cv::Size window_;
-  std::vector<int> indices_;
-  std::vector<cv::Point2f> from_, to_, back_;
-  std::vector<unsigned char> found_, returned_;
-  std::vector<float> differences_;
+  std::vector<TrackingWindow> windows_;
+  std::vector<std::size_t> indices_;  // of the points that are asked for
 };
 
 }  // namespace rotrocc

@@ -85,13 +85,15 @@ int CorrespondenceFinder::track(const Eigen::Isometry3d& T_ref_cur, int levels) 
     const Eigen::Vector3d point = T_cur_ref * ref_points_[i];
     if (point.z() < kMinDepth_m) continue;
     const Eigen::Vector2d left = camera_.project(point);
-    const double right_x = left.x() - camera_.disparity(point.z());
     cur_left_[i] = {static_cast<float>(left.x()), static_cast<float>(left.y())};
-    cur_right_[i] = {static_cast<float>(right_x), static_cast<float>(left.y())};
+    cur_right_[i] = {static_cast<float>(camera_.disparity(point.z())),
+                     0.0F};  // as yet its disparity
     tracked_[i] = 1;
   }
   tracker_.track(
       pyramids_[reference_].left, pyramids_[current_].left, ref_left_, levels, cur_left_, tracked_);
+  // Where the left image shows a feature is better known now; its disparity is as predicted.
+  for (std::size_t i = 0; i < cur_left_.size(); ++i) cur_right_[i] = cur_left_[i] - cur_right_[i];
   tracker_.track(pyramids_[reference_].right,
                  pyramids_[current_].right,
                  ref_right_,
