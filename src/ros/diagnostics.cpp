@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
+#include <ros/init.h>
 
 #include "rotrocc/OdometryStatus.h"
 
@@ -152,6 +153,8 @@ void describeDrops(const HealthReport& report, std::uint64_t drops_before, Statu
 Diagnostics::Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const std::string& name)
     : updater_(nh, private_nh, name) {
   updater_.setHardwareID("none");
+  // Without a publisher, which there is none of then, the first task would end a Debug build.
+  if (ros::isShuttingDown()) return;
   updater_.add("odometry", [this](StatusWrapper& status) { describeOdometry(report_, status); });
   updater_.add("input", [this](StatusWrapper& status) { describeInput(report_, status); });
   updater_.add("timing", [this](StatusWrapper& status) { describeTiming(report_, status); });

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <ros/console.h>
+#include <ros/init.h>
 
 #include "to_text.h"
 
@@ -169,6 +170,7 @@ LiveParameters::LiveParameters(ros::NodeHandle& private_nh,
           "parameter_descriptions", 1, true)),
       updates_(private_nh.advertise<dynamic_reconfigure::Config>("parameter_updates", 1, true)),
       service_(private_nh.advertiseService("set_parameters", &LiveParameters::onSet, this)) {
+  if (ros::isShuttingDown()) return;  // there are no publishers then
   descriptions_.publish(describeLiveParameters(parameters_));
   updates_.publish(toConfig(parameters_));
 }

@@ -70,6 +70,7 @@ void StereoOdometryNodelet::start(const Parameters& parameters) {
   live_parameters_.emplace(private_nh, parameters, [this](const VisualOdometry::Config& config) {
     processor_->requestConfig(config);
   });
+  if (ros::isShuttingDown()) return;  // some of what publishes has no publisher then
   ticker_ = nh.createWallTimer(ros::WallDuration(kTick_s), &StereoOdometryNodelet::onTick, this);
   worker_ = std::thread(&StereoOdometryNodelet::work, this);
 }
