@@ -28,7 +28,8 @@ HealthReport goodReport() {
   report.latency_p95_ms = 15.0;
   report.last_result.state = State::kOk;
   report.last_result.counts.rotation_inliers = 512;
-  report.last_result.disparity_bias = {1.02, 0.05, 0.9};
+  report.last_result.disparity_bias = {0.42, 0.05, 0.36};
+  report.last_result.noise = {0.15, 0.45, 3.0};
   return report;
 }
 
@@ -92,12 +93,23 @@ TEST(DiagnosticsTest, AllIsWell) {
     EXPECT_FALSE(status->message.empty());
   }
   EXPECT_EQ(valueOf(odometry, "state"), "OK");
-  EXPECT_EQ(valueOf(odometry, "disparity bias"), "1.02 +- 0.05 px, 0.90 px corrected");
+  EXPECT_EQ(valueOf(odometry, "disparity bias"), "0.42 +- 0.05 px, 0.36 px corrected");
+  EXPECT_EQ(valueOf(odometry, "noise of flow and disparity"), "0.15 and 0.45 px");
   EXPECT_EQ(valueOf(odometry, "inliers of the rotation"), "512");
   EXPECT_EQ(valueOf(input, "/r/image"), "10.0 Hz, 50 in 5 s, 500 in all, 1 publishers");
   EXPECT_EQ(valueOf(input, "largest stamp difference of left and right"), "2.000 ms");
   EXPECT_EQ(valueOf(timing, "latency p50"), "12.0 ms");
   EXPECT_EQ(valueOf(timing, "latency p95"), "15.0 ms");
+}
+
+TEST(DiagnosticsTest, ALargeBiasAsksForACalibration) {
+  HealthReport report = goodReport();
+  report.last_result.disparity_bias = {-1.25, 0.05, -1.0};
+  StatusWrapper status;
+  describeOdometry(report, status);
+  EXPECT_EQ(status.level, Level::WARN);
+  EXPECT_NE(status.message.find("off by 1.25 px (+- 0.05)"), std::string::npos) << status.message;
+  EXPECT_NE(status.message.find("calibrate"), std::string::npos) << status.message;
 }
 
 TEST(DiagnosticsTest, LossIsAnErrorWithItsReason) {

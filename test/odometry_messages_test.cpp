@@ -52,6 +52,7 @@ TEST(OdometryMessagesTest, StatusHasStateCountsAndCounters) {
   result.counts = {6, 5, 4, 3, 2, 1};
   result.times.tracking_ms = 1.5;
   result.disparity_bias = {0.75, 0.125, 0.5};
+  result.noise = {0.125, 0.25, 2.0};
   HealthReport health;
   health.pairs_processed = 9;
   health.pairs_lost = 7;
@@ -68,6 +69,8 @@ TEST(OdometryMessagesTest, StatusHasStateCountsAndCounters) {
   EXPECT_EQ(message.disparity_bias, 0.75f);
   EXPECT_EQ(message.disparity_bias_sigma, 0.125f);
   EXPECT_EQ(message.disparity_bias_applied, 0.5f);
+  EXPECT_EQ(message.flow_noise, 0.125f);
+  EXPECT_EQ(message.disparity_noise, 0.25f);
   EXPECT_EQ(message.latency, 12.5f);
   EXPECT_EQ(message.pairs_processed, 9u);
   EXPECT_EQ(message.pairs_lost, 7u);

@@ -6,19 +6,15 @@
 
 #include "kitti_camera.h"
 #include "rotrocc/correspondence.h"
+#include "rotrocc/noise_estimator.h"
 #include "rotrocc/rigid_motion.h"
 #include "rotrocc/stereo_camera.h"
 
 namespace rotrocc {
 
-/// Standard deviations of what is measured, Gaussian; all zero is exact.
-struct MeasurementNoise {
-  double flow_px = 0.0;  ///< of prev_px, in x and y
-  double disparity_px = 0.0;
-};
-
 /// Measures a point of the current camera frame; fails if one of the two images does not show it,
-/// or its depth is beyond what a stereo matcher finds.
+/// or its depth is beyond what a stereo matcher finds. The noise is Gaussian; that of the flow is
+/// of prev_px.
 bool measure(const StereoCamera& camera,
              const Eigen::Vector3d& point_cur,
              const Eigen::Isometry3d& T_prev_cur,

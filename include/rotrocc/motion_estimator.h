@@ -31,8 +31,8 @@ class MotionEstimator {
  public:
   struct Config {
     std::string criterion = "rotrocc";  ///< one of criterionNames()
-    double noise_ratio =
-        3.0;  ///< disparity noise over flow noise, see fitDisparity(); 0: the paper's
+    /// Disparity noise over flow noise to begin with, see fitDisparity(); 0: the paper's
+    double noise_ratio = 3.0;
 
     // Stage 1: rotation.
     double rotation_limit_px = 0.6;  ///< termination limit of the reprojection error, Eq. 26
@@ -69,6 +69,9 @@ class MotionEstimator {
 
   /// Throws std::invalid_argument on a criterion of another name.
   explicit MotionEstimator(const Config& config);
+
+  /// From now on; better known than to begin with.
+  void setNoiseRatio(double noise_ratio);
 
   /// Estimates the motion that took `dt_s` > 0 from the full feature set, beginning with `initial`.
   /// Invalid if fewer than 3 features are left, or the equations have no unique solution.

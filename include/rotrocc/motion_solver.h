@@ -14,8 +14,10 @@ namespace rotrocc {
 /// Least squares over the reprojection errors of a feature set, by Levenberg-Marquardt.
 class MotionSolver {
  public:
-  /// `noise_ratio` weights the residuals, see fitDisparity().
   explicit MotionSolver(double noise_ratio) : noise_ratio_(noise_ratio) {}
+
+  /// What weights the residuals, see fitDisparity().
+  void setNoiseRatio(double noise_ratio) { noise_ratio_ = noise_ratio; }
 
   /// Minimises Eq. 25 over rotation and translation, from `T_prev_cur`, which gets the result.
   /// Returns false, and leaves it alone, if the set has fewer than 3 features or the result is not

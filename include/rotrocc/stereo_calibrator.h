@@ -34,12 +34,14 @@ class StereoCalibrator {
     bool enabled = true;   ///< if not, bias_px is all that is applied
     double bias_px = 0.0;  ///< known already, added to every disparity; the estimate begins there
     double prior_sigma_px = 1.0;  ///< how far from bias_px a rig may be expected to be
-    double memory_pairs = 100.0;  ///< the weight of a pair falls by 1/e over as many
+    double memory_pairs = 100.0;  ///< a pair's weight falls by 1/e over as many that tell as much
     double significance = 3.0;    ///< standard deviations that count as doubt
+    /// Disparity noise over flow noise, see fitDisparity(). Less than what is measured: fitted
+    /// disparities also follow errors that neighbours share, and take the estimate with them.
+    double noise_ratio = 1.0;
   };
 
-  /// `noise_ratio` weights the residuals, see fitDisparity().
-  StereoCalibrator(const Config& config, double noise_ratio);
+  explicit StereoCalibrator(const Config& config);
 
   const DisparityBias& bias() const { return bias_; }
 
@@ -85,7 +87,6 @@ class StereoCalibrator {
   void update();
 
   Config config_;
-  double noise_ratio_;
   Evidence past_, current_;
   DisparityBias bias_;
   Vector6d motion_by_bias_ = Vector6d::Zero();  // translation, then rotation

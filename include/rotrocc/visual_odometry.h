@@ -13,6 +13,7 @@
 #include "rotrocc/motion_check.h"
 #include "rotrocc/motion_estimator.h"
 #include "rotrocc/motion_model.h"
+#include "rotrocc/noise_estimator.h"
 #include "rotrocc/reference_selector.h"
 #include "rotrocc/stereo_calibrator.h"
 #include "rotrocc/stereo_camera.h"
@@ -73,6 +74,7 @@ struct OdometryResult {
   std::int64_t reference_stamp_ns = 0;
   UncertainTransform T_ref_cur;
   DisparityBias disparity_bias;  ///< of the rig, as far as known
+  MeasurementNoise noise;        ///< likewise
   StageCounts counts;
   StageTimes times;
 
@@ -89,6 +91,7 @@ class VisualOdometry {
     MotionModel::Config motion_model;
     MotionEstimator::Config motion_estimator;
     MotionCheck::Config motion_check;
+    NoiseEstimator::Config noise_estimator;
     ReferenceSelector::Config reference_selector;
     StereoCalibrator::Config stereo_calibrator;
 

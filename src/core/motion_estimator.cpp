@@ -63,6 +63,11 @@ const std::vector<std::string>& criterionNames() {
 MotionEstimator::MotionEstimator(const Config& config)
     : config_(config), criterion_(criterionOf(config.criterion)), solver_(config.noise_ratio) {}
 
+void MotionEstimator::setNoiseRatio(double noise_ratio) {
+  config_.noise_ratio = noise_ratio;
+  solver_.setNoiseRatio(noise_ratio);
+}
+
 MotionEstimator::Estimate MotionEstimator::estimate(const StereoCamera& camera,
                                                     const Correspondences& features,
                                                     const Eigen::Isometry3d& initial,

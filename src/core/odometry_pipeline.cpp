@@ -36,7 +36,8 @@ VisualOdometry::Pipeline::Pipeline(const Config& config)
       motion_model_(config.motion_model),
       estimator_(config.motion_estimator),
       check_(config.motion_check),
-      calibrator_(config.stereo_calibrator, config.motion_estimator.noise_ratio),
+      noise_(config.noise_estimator, config.motion_estimator.noise_ratio),
+      calibrator_(config.stereo_calibrator),
       selector_(config.reference_selector) {}
 
 OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
@@ -55,6 +56,7 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
     giveUp(sentence("internal error: ", error.what()), result);
   }
   result.disparity_bias = calibrator_.bias();
+  result.noise = noise_.noise();
   return result;
 }
 
@@ -130,7 +132,10 @@ void VisualOdometry::Pipeline::takePair(const StereoPair& pair,
                                         const StereoCamera& camera,
                                         StageTimes& times) {
   const StageTimer timer(times.pyramids_ms);
-  if (camera != camera_) calibrator_.reset();
+  if (camera != camera_) {
+    calibrator_.reset();
+    noise_.reset();
+  }
   calibrator_.advance();
   camera_ = camera;
   corrected_ = calibrator_.correct(camera);
@@ -216,6 +221,7 @@ void VisualOdometry::Pipeline::trackAndEstimate(const Eigen::Isometry3d& T_ref_c
     result.counts.consistent = static_cast<int>(features_.size());
   }
   const StageTimer timer(result.times.estimation_ms);
+  estimator_.setNoiseRatio(noise_.noise().ratio);
   estimate(T_ref_cur, is_prediction, result);
 }
 
@@ -250,6 +256,7 @@ void VisualOdometry::Pipeline::calibrate(OdometryResult& result) {
 }
 
 void VisualOdometry::Pipeline::accept(OdometryResult& result) {
+  noise_.observe(corrected_, features_, estimate_.rotation_inliers, estimate_.T_prev_cur);
   result.reason = check_.whyDegraded(estimate_);
   result.state = result.reason.empty() ? State::kOk : State::kDegraded;
   result.reference_stamp_ns = reference_stamp_ns_;

@@ -57,6 +57,7 @@ class VisualOdometry::Pipeline {
   MotionModel motion_model_;
   MotionEstimator estimator_;
   MotionCheck check_;
+  NoiseEstimator noise_;
   StereoCalibrator calibrator_;
   ReferenceSelector selector_;
 

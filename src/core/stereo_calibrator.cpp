@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "image_grid.h"
 #include "rotrocc/outlier_rejection.h"
@@ -13,10 +14,14 @@ namespace {
 /// Fewer features tell a bias from a motion badly.
 constexpr int kLeastFeatures = 30;
 
+template <class Values>
+double sum(const Values& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
 }  // namespace
 
-StereoCalibrator::StereoCalibrator(const Config& config, double noise_ratio)
-    : config_(config), noise_ratio_(noise_ratio) {
+StereoCalibrator::StereoCalibrator(const Config& config) : config_(config) {
   update();
 }
 
@@ -46,7 +51,7 @@ void StereoCalibrator::linearise(const StereoCamera& corrected,
                                  const Correspondences& features,
                                  const FeatureSet& set,
                                  const Eigen::Isometry3d& T_prev_cur) {
-  problem_.assign(corrected, features, set, T_prev_cur, noise_ratio_);
+  problem_.assign(corrected, features, set, T_prev_cur, config_.noise_ratio);
   Vector6d parameters;
   parameters << Eigen::Vector3d::Zero(), T_prev_cur.translation();
   residuals_.resize(problem_.NumResiduals());
@@ -97,8 +102,11 @@ Matrix6d StereoCalibrator::motionCovariance() const {
   return variance * motion_by_bias_ * motion_by_bias_.transpose();
 }
 
+/// What is known fades as more is learnt: a pair at rest, which tells nothing, takes nothing.
 void StereoCalibrator::advance() {
-  const double kept = 1.0 - 1.0 / config_.memory_pairs;
+  const double known = sum(past_.information);
+  const double learnt = sum(current_.information) * config_.memory_pairs;
+  const double kept = 1.0 - (learnt < known ? learnt / known : 1.0) / config_.memory_pairs;
   for (std::size_t cell = 0; cell < past_.information.size(); ++cell) {
     past_.information[cell] = kept * past_.information[cell] + current_.information[cell];
     past_.weighted[cell] = kept * past_.weighted[cell] + current_.weighted[cell];

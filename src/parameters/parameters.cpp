@@ -83,7 +83,7 @@ void addMotionEstimator(MotionEstimator::Config& c, ParameterTable& table) {
       0.0,
       100.0,
       "",
-      "disparity noise over flow noise, weights the residuals; 0: all alike, as in the paper");
+      "disparity noise over flow noise to begin with; 0: residuals count alike, as in the paper");
   table.add(s + "rotation_limit_px",
             c.rotation_limit_px,
             0.01,
@@ -167,6 +167,18 @@ void addMotionCheck(MotionCheck::Config& c, ParameterTable& table) {
   table.add(s + "max_turn_rate_rps", c.max_turn_rate_rps, 0.1, 100.0, "rad/s", "faster: lost");
 }
 
+void addNoiseEstimator(NoiseEstimator::Config& c, ParameterTable& table) {
+  const std::string s = "noise_estimator/";
+  table.add(s + "enabled", c.enabled, "estimate motion_estimator/noise_ratio");
+  table.add(s + "max_ratio", c.max_ratio, 0.5, 100.0, "", "at most so much is believed");
+  table.add(s + "memory_pairs",
+            c.memory_pairs,
+            2.0,
+            1e6,
+            "",
+            "the weight of a pair falls by 1/e over as many");
+}
+
 void addStereoCalibrator(StereoCalibrator::Config& c, ParameterTable& table) {
   const std::string s = "stereo_calibrator/";
   table.add(s + "enabled", c.enabled, "estimate the bias of all disparities and correct it");
@@ -194,6 +206,12 @@ void addStereoCalibrator(StereoCalibrator::Config& c, ParameterTable& table) {
             100.0,
             "",
             "so many standard deviations of the estimate are doubt, which is not corrected");
+  table.add(s + "noise_ratio",
+            c.noise_ratio,
+            0.0,
+            100.0,
+            "",
+            "disparity noise over flow noise, weights the residuals");
 }
 
 void addReferenceSelector(ReferenceSelector::Config& c, ParameterTable& table) {
@@ -330,6 +348,7 @@ ParameterTable makeParameterTable(Parameters& parameters) {
   addMotionEstimator(odometry.motion_estimator, table);
   addMotionCheck(odometry.motion_check, table);
   addReferenceSelector(odometry.reference_selector, table);
+  addNoiseEstimator(odometry.noise_estimator, table);
   addStereoCalibrator(odometry.stereo_calibrator, table);
   addVisualOdometry(odometry, table);
   return table;

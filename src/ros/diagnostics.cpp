@@ -7,6 +7,7 @@
 #include <ros/init.h>
 
 #include "rotrocc/OdometryStatus.h"
+#include "to_text.h"
 
 namespace rotrocc {
 namespace {
@@ -17,6 +18,13 @@ using diagnostic_msgs::DiagnosticStatus;
 constexpr double kRateDifference = 0.2;
 /// Latencies jump when the machine is busy for a moment: a warning only when most pairs are late.
 constexpr double kLateShareOfPeriod = 1.0;
+/// A rig is rarely better calibrated; the correction, which is right on average alone, leaves more
+/// of a larger bias.
+constexpr double kLargeBias_px = 0.5;
+
+std::string hundredths(double value) {
+  return toText(0.01 * std::round(100.0 * value));
+}
 
 unsigned char levelOf(std::uint8_t state) {
   switch (state) {
@@ -48,11 +56,21 @@ bool ratesDiffer(const InputReport& input) {
 
 }  // namespace
 
+std::string rigWarning(const DisparityBias& bias) {
+  if (std::abs(bias.applied_px) < kLargeBias_px) return "";
+  return "disparities are off by " + hundredths(-bias.estimated_px) + " px (+- " +
+         hundredths(bias.sigma_px) + "), which is corrected: calibrate the stereo pair anew";
+}
+
 void describeOdometry(const HealthReport& report, StatusWrapper& status) {
   const NodeState state = stateOf(report);
   const std::string name = stateName(state.state);
   status.summary(levelOf(state.state), state.reason.empty() ? name : name + ": " + state.reason);
   if (!report.hint.empty()) status.mergeSummary(DiagnosticStatus::WARN, report.hint);
+  const DisparityBias& bias = report.last_result.disparity_bias;
+  if (const std::string rig = rigWarning(bias); !rig.empty()) {
+    status.mergeSummary(DiagnosticStatus::WARN, rig);
+  }
   const StageCounts& counts = report.last_result.counts;
   status.add("state", name);
   status.add("reason", state.reason);
@@ -62,12 +80,13 @@ void describeOdometry(const HealthReport& report, StatusWrapper& status) {
   status.add("features tracked and consistent", counts.consistent);
   status.add("inliers of the rotation", counts.rotation_inliers);
   status.add("inliers of the translation", counts.translation_inliers);
-  const DisparityBias& bias = report.last_result.disparity_bias;
   status.addf("disparity bias",
               "%.2f +- %.2f px, %.2f px corrected",
               bias.estimated_px,
               bias.sigma_px,
               bias.applied_px);
+  const MeasurementNoise& noise = report.last_result.noise;
+  status.addf("noise of flow and disparity", "%.2f and %.2f px", noise.flow_px, noise.disparity_px);
   status.add("pairs processed", report.pairs_processed);
   status.add("pairs lost", report.pairs_lost);
 }

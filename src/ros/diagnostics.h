@@ -13,6 +13,9 @@ namespace rotrocc {
 /// What /diagnostics says of the parts of the odometry.
 using StatusWrapper = diagnostic_updater::DiagnosticStatusWrapper;
 
+/// What a large bias asks for, a sentence; empty if it is small.
+std::string rigWarning(const DisparityBias& bias);
+
 void describeOdometry(const HealthReport& report, StatusWrapper& status);
 void describeInput(const HealthReport& report, StatusWrapper& status);
 void describeTiming(const HealthReport& report, StatusWrapper& status);

@@ -75,6 +75,7 @@ class StereoOdometryNodelet : public nodelet::Nodelet {
   State last_state_ = State::kInitialising;  // of the worker
   Throttle lost_warning_{std::chrono::seconds(5)};
   Throttle hint_warning_{std::chrono::seconds(5)};
+  Throttle rig_warning_{std::chrono::minutes(5)};
   Throttle silence_warning_{std::chrono::seconds(5)};  // of the callbacks
   std::chrono::steady_clock::time_point last_pair_time_;
 
