@@ -105,5 +105,19 @@ TEST(MotionCheckTest, CallsAMotionOnASmallShareDegraded) {
   EXPECT_EQ(whyDegraded(estimate), "");
 }
 
+TEST(MotionCheckTest, CallsAJumpDegraded) {
+  const Eigen::Isometry3d expected = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
+  UncertainTransform jump;
+  jump.T = motion({0.0, 0.0, 1.31}, {0.0, 0.0, 0.0});
+  const MotionCheck check({});
+  expectSays(check.whyJump(jump, expected, kPeriod_s), "31 m/s2", "max_acceleration_mps2 = 30");
+  EXPECT_EQ(check.whyJump(jump, expected, 2.0 * kPeriod_s), "");  // a quarter of that
+  jump.covariance(2, 2) = 0.01 * 0.01;                            // 3 sigma are 0.03 m, 3 m/s2
+  EXPECT_EQ(check.whyJump(jump, expected, kPeriod_s), "");
+  jump.T = motion({0.31, 0.0, 1.0}, {0.0, 0.0, 0.0});
+  jump.covariance.setZero();
+  EXPECT_NE(check.whyJump(jump, expected, kPeriod_s), "");
+}
+
 }  // namespace
 }  // namespace rotrocc

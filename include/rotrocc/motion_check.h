@@ -3,6 +3,7 @@
 #include <string>
 
 #include "rotrocc/motion_estimator.h"
+#include "rotrocc/uncertain_transform.h"
 
 namespace rotrocc {
 
@@ -16,6 +17,7 @@ class MotionCheck {
     double degraded_inlier_share = 0.35;  ///< of the feature set; less: degraded
     double max_speed_mps = 70.0;          ///< faster: lost
     double max_turn_rate_rps = 6.0;       ///< faster: lost
+    double max_acceleration_mps2 = 30.0;  ///< a larger change of the velocity: degraded
   };
 
   explicit MotionCheck(const Config& config) : config_(config) {}
@@ -26,6 +28,12 @@ class MotionCheck {
 
   /// Why a motion that may be used should be used with care; empty if there is no reason.
   std::string whyDegraded(const MotionEstimator::Estimate& estimate) const;
+
+  /// Why a motion of `dt_s` > 0 is a jump, where `expected` would be the velocity before going on;
+  /// empty if it is none: a change that the noise explains (3 standard deviations) is not.
+  std::string whyJump(const UncertainTransform& motion,
+                      const Eigen::Isometry3d& expected,
+                      double dt_s) const;
 
  private:
   Config config_;

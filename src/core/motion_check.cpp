@@ -1,6 +1,7 @@
 #include "rotrocc/motion_check.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "rotrocc/outlier_rejection.h"
 #include "rotrocc/rigid_motion.h"
@@ -8,6 +9,9 @@
 
 namespace rotrocc {
 namespace {
+
+/// Changes within so many standard deviations are noise.
+constexpr double kSigmas = 3.0;
 
 /// The smaller of the two stages' sets: both parts of the motion must rest on enough.
 int inliers(const MotionEstimator::Estimate& estimate) {
@@ -73,6 +77,20 @@ std::string MotionCheck::whyDegraded(const MotionEstimator::Estimate& estimate) 
                     config_.degraded_inlier_share);
   }
   return "";
+}
+
+std::string MotionCheck::whyJump(const UncertainTransform& motion,
+                                 const Eigen::Isometry3d& expected,
+                                 double dt_s) const {
+  const double change_m = (motion.T.translation() - expected.translation()).norm();
+  const double variance_m2 = motion.covariance.topLeftCorner<3, 3>().trace();
+  const double beyond_noise_m = change_m - kSigmas * std::sqrt(variance_m2);
+  const double acceleration_mps2 = beyond_noise_m / (dt_s * dt_s);
+  if (acceleration_mps2 <= config_.max_acceleration_mps2) return "";
+  return sentence("the velocity changed by ",
+                  acceleration_mps2,
+                  " m/s2, more than max_acceleration_mps2 = ",
+                  config_.max_acceleration_mps2);
 }
 
 }  // namespace rotrocc

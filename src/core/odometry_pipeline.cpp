@@ -257,14 +257,17 @@ void VisualOdometry::Pipeline::calibrate(OdometryResult& result) {
 
 void VisualOdometry::Pipeline::accept(OdometryResult& result) {
   noise_.observe(corrected_, features_, estimate_.rotation_inliers, estimate_.T_prev_cur);
-  result.reason = check_.whyDegraded(estimate_);
-  result.state = result.reason.empty() ? State::kOk : State::kDegraded;
   result.reference_stamp_ns = reference_stamp_ns_;
   result.T_ref_cur = {estimate_.T_prev_cur, estimate_.covariance + calibrator_.motionCovariance()};
   UncertainTransform step = compose(inverse(T_ref_last_), result.T_ref_cur);
   if (reference_stamp_ns_ != last_stamp_ns_) step.covariance *= kNotShared;
   result.T_prev_cur = step.T;
   result.covariance = step.covariance;
+  result.reason = check_.whyDegraded(estimate_);
+  if (const auto expected = motion_model_.predict(result.dt_s); expected && result.reason.empty()) {
+    result.reason = check_.whyJump(step, *expected, result.dt_s);
+  }
+  result.state = result.reason.empty() ? State::kOk : State::kDegraded;
   motion_model_.update(step.T, result.dt_s);
 
   T_ref_last_ = result.T_ref_cur;

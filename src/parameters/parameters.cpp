@@ -165,6 +165,12 @@ void addMotionCheck(MotionCheck::Config& c, ParameterTable& table) {
   table.add(s + "degraded_inlier_share", c.degraded_inlier_share, 0.0, 1.0, "", "less: degraded");
   table.add(s + "max_speed_mps", c.max_speed_mps, 0.1, 1000.0, "m/s", "faster: lost");
   table.add(s + "max_turn_rate_rps", c.max_turn_rate_rps, 0.1, 100.0, "rad/s", "faster: lost");
+  table.add(s + "max_acceleration_mps2",
+            c.max_acceleration_mps2,
+            0.1,
+            10000.0,
+            "m/s2",
+            "a larger change of the velocity: degraded");
 }
 
 void addNoiseEstimator(NoiseEstimator::Config& c, ParameterTable& table) {
