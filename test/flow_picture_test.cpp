@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "expect_error.h"
+#include "kitti_camera.h"
 
 namespace rotrocc {
 namespace {
@@ -29,11 +30,15 @@ class FlowPictureTest : public testing::Test {
   }
 
   void draw() {
-    drawFlowPicture(image_, features_, rotation_inliers_, translation_inliers_, result_, picture_);
+    drawFlowPicture({image_, camera_, features_, rotation_inliers_, translation_inliers_, result_},
+                    view_,
+                    picture_);
   }
 
   cv::Vec3b colourAt(int x, int y) const { return picture_.at<cv::Vec3b>(y, x); }
 
+  const StereoCamera camera_ = kittiCamera();
+  FlowView view_ = FlowView::kMotion;
   cv::Mat image_ = cv::Mat(200, 640, CV_8UC1, cv::Scalar(100));
   Correspondences features_;
   FeatureSet rotation_inliers_ = {1, 1, 1, 0};
@@ -69,7 +74,7 @@ TEST_F(FlowPictureTest, ColoursTellDepthAndStage) {
 TEST_F(FlowPictureTest, TextSaysTheState) {
   draw();
   const cv::Mat ok = picture_.clone();
-  result_.state = State::kLost;
+  result_.state = State::kDegraded;
   draw();
   const cv::Rect image({0, 0}, image_.size());
   EXPECT_EQ(cv::norm(ok(image), picture_(image), cv::NORM_INF), 0.0);
@@ -91,6 +96,52 @@ TEST_F(FlowPictureTest, AnyFlowAndSmallImagesAreDrawn) {
   translation_inliers_.push_back(1);
   draw();
   EXPECT_EQ(picture_.cols, 30);
+}
+
+TEST_F(FlowPictureTest, AnOutlierShowsWhatFlowTheMotionExpected) {
+  // At rest a static point stays where it is: 40 px from where this one came from.
+  result_.T_ref_cur.T = Eigen::Isometry3d::Identity();
+  features_[3].cur_px = {300, 150};
+  features_[3].prev_px = {260, 150};
+  features_[3].point_cur = 20.0 * camera_.ray({340, 150});
+  draw();
+  const cv::Vec3b expected = colourAt(320, 150);
+  EXPECT_GT(expected[1], expected[0]) << "green";
+  EXPECT_GT(expected[1], expected[2]) << "green";
+  result_.state = State::kLost;
+  draw();
+  EXPECT_EQ(colourAt(320, 150), cv::Vec3b(65, 65, 65)) << "without a motion nothing is expected";
+}
+
+TEST_F(FlowPictureTest, DecoupledViewShowsBothPartsOfTheFlow) {
+  view_ = FlowView::kDecoupled;
+  // Turned by 0.05 rad about the vertical axis: 36 px of flow near the middle, the rest is the
+  // translation's.
+  const Eigen::Vector2d cur_px(600, 170), prev_px(560, 190);
+  result_.T_ref_cur.T.linear() =
+      Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  features_[0].cur_px = cur_px;
+  features_[0].prev_px = prev_px;
+  features_[0].point_cur = 20.0 * camera_.ray(cur_px);
+  rotation_inliers_ = translation_inliers_ = {1, 0, 0, 0};
+  draw();
+  const Eigen::Vector2d turned_px =
+      camera_.project(result_.T_ref_cur.T.linear() * features_[0].point_cur);
+  const auto middle = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    const Eigen::Vector2d pixel = 0.5 * (a + b);
+    return colourAt(cvRound(pixel.x()), cvRound(pixel.y()));
+  };
+  const cv::Vec3b of_rotation = middle(cur_px, turned_px);
+  EXPECT_GT(of_rotation[0], of_rotation[2]) << "blue";
+  const cv::Vec3b of_translation = middle(turned_px, prev_px);
+  EXPECT_GT(of_translation[2], of_translation[0]) << "orange";
+  EXPECT_EQ(colourAt(130, 180), cv::Vec3b(65, 65, 65)) << "no outliers";
+}
+
+TEST_F(FlowPictureTest, ViewsHaveNames) {
+  EXPECT_EQ(flowView("motion"), FlowView::kMotion);
+  EXPECT_EQ(flowView("decoupled"), FlowView::kDecoupled);
+  expectError<std::invalid_argument>([] { flowView("3d"); }, "must be motion or decoupled");
 }
 
 TEST_F(FlowPictureTest, MemoryIsUsedAgain) {

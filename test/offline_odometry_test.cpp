@@ -9,6 +9,7 @@
 #include <nav_msgs/Odometry.h>
 #include <rosbag/view.h>
 #include <tf2_msgs/TFMessage.h>
+#include <opencv2/imgcodecs.hpp>
 
 #include "bag_reading.h"
 #include "kitti_bag_writer.h"
@@ -110,6 +111,23 @@ TEST_F(OfflineOdometryTest, FiguresTellMotionCovarianceAndBias) {
     EXPECT_GT(number("bias_sigma_px"), 0.0);
   }
   EXPECT_EQ(rows.front().at("bias_applied_px"), "0.05");
+}
+
+TEST_F(OfflineOdometryTest, WritesTheFlowPictureOfEachPair) {
+  const std::string motion = directory_ / "motion";
+  const std::string decoupled = directory_ / "decoupled";
+  trajectoryOf(sequence(), "--pictures " + motion);
+  trajectoryOf(sequence(), "--set flow_view=decoupled --pictures " + decoupled);
+  const cv::Size image = cv::imread(sequence() + "/image_0/000001.png").size();
+  for (int i = 0; i < kPairs; ++i) {
+    const std::string name = (i < 10 ? "/00000" : "/0000") + std::to_string(i) + ".png";
+    const cv::Mat one = cv::imread(motion + name);
+    const cv::Mat other = cv::imread(decoupled + name);
+    ASSERT_EQ(one.cols, image.width);
+    ASSERT_GT(one.rows, image.height) << "a line of text below";
+    ASSERT_EQ(one.size(), other.size());
+    EXPECT_GT(cv::norm(one, other, cv::NORM_INF), 50.0);
+  }
 }
 
 TEST_F(OfflineOdometryTest, WritesOdometryOfTheBaseToABag) {

@@ -25,6 +25,7 @@ struct NodeParameters {
   double baseline_m = 0.0;                    ///< 0: that of camera_info
   std::string pose_after_time_jump = "keep";  ///< or "zero": when stamps begin anew
   double silence_s = 5.0;                     ///< without a pair, until the log says why
+  std::string flow_view = "motion";           ///< one of flowViewNames()
   int path_length = 10000;                    ///< poses that the path topic keeps; 0: no path
   double lost_speed_sigma_mps = 10.0;         ///< how fast the position gets uncertain while lost
   double lost_turn_rate_sigma_rps = 0.5;

@@ -1,5 +1,7 @@
 #include "rotrocc/parameters.h"
 
+#include "rotrocc/flow_picture.h"
+
 namespace rotrocc {
 namespace {
 
@@ -315,6 +317,7 @@ void addNode(NodeParameters& n, ParameterTable& table) {
             3600.0,
             "s",
             "without a pair, until the log says what came and what to change");
+  table.add("flow_view", n.flow_view, flowViewNames(), "what the flow topic shows");
   table.add("path_length", n.path_length, 0, 1000000, "", "poses the path topic keeps");
   table.add("lost_speed_sigma_mps",
             n.lost_speed_sigma_mps,

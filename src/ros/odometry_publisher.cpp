@@ -19,6 +19,7 @@ constexpr int kPictureQueue = 1;
 
 OdometryPublisher::OdometryPublisher(ros::NodeHandle& nh, const NodeParameters& parameters)
     : parameters_(parameters),
+      flow_view_(flowView(parameters.flow_view)),
       status_publisher_(nh.advertise<OdometryStatus>("status", kMotionQueue)),
       odom_publisher_(nh.advertise<nav_msgs::Odometry>("odom", kMotionQueue)),
       path_publisher_(nh.advertise<nav_msgs::Path>("path", kPictureQueue)),
@@ -70,6 +71,7 @@ void OdometryPublisher::publishPath(const nav_msgs::Odometry& odometry) {
 }
 
 void OdometryPublisher::publishPictures(const cv::Mat& left,
+                                        const StereoCamera& camera,
                                         const VisualOdometry& odometry,
                                         const OdometryResult& result,
                                         const std::string& camera_frame) {
@@ -81,11 +83,13 @@ void OdometryPublisher::publishPictures(const cv::Mat& left,
         toPointCloud(odometry.correspondences(), odometry.translationInliers(), left, header));
   }
   if (flow_publisher_.getNumSubscribers() > 0) {
-    drawFlowPicture(left,
-                    odometry.correspondences(),
-                    odometry.rotationInliers(),
-                    odometry.translationInliers(),
-                    result,
+    drawFlowPicture({left,
+                     camera,
+                     odometry.correspondences(),
+                     odometry.rotationInliers(),
+                     odometry.translationInliers(),
+                     result},
+                    flow_view_,
                     picture_);
     flow_publisher_.publish(
         cv_bridge::CvImage(header, sensor_msgs::image_encodings::BGR8, picture_).toImageMsg());

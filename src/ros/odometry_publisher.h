@@ -14,6 +14,7 @@
 #include "base_odometry.h"
 #include "odometry_messages.h"
 #include "rotrocc/OdometryStatus.h"
+#include "rotrocc/flow_picture.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/visual_odometry.h"
 
@@ -37,8 +38,10 @@ class OdometryPublisher {
   /// The path before has ended.
   void forgetPath() { path_.clear(); }
 
-  /// Inliers and flow of the last call of odometry.process(), which had `left` and gave `result`.
+  /// Inliers and flow of the last call of odometry.process(), which had `left` of `camera` and gave
+  /// `result`.
   void publishPictures(const cv::Mat& left,
+                       const StereoCamera& camera,
                        const VisualOdometry& odometry,
                        const OdometryResult& result,
                        const std::string& camera_frame);
@@ -49,6 +52,7 @@ class OdometryPublisher {
 
   NodeParameters parameters_;
   std::deque<geometry_msgs::PoseStamped> path_;
+  FlowView flow_view_;
   cv::Mat picture_;
 
   ros::Publisher status_publisher_;

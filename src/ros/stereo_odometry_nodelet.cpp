@@ -178,7 +178,7 @@ void StereoOdometryNodelet::publish(const PairAnswer& answer, const ReceivedPair
       answer.state,
       T_guess_base);
   publisher_->publishPictures(
-      answer.pair.left, processor_->odometry(), answer.result, camera_frame);
+      answer.pair.left, received.camera, processor_->odometry(), answer.result, camera_frame);
 }
 
 void StereoOdometryNodelet::endTrajectory() {

@@ -8,6 +8,7 @@
 #include <boost/program_options.hpp>
 #include <opencv2/core.hpp>
 
+#include "flow_pictures.h"
 #include "odometry_bag.h"
 #include "program.h"
 #include "progress_bar.h"
@@ -31,6 +32,7 @@ struct Options {
   std::vector<std::string> assignments;
   std::string statistics;
   std::string bag;
+  std::string pictures;
   std::string left_image;
   std::string right_image;
   int threads = cv::getNumThreads();
@@ -47,6 +49,7 @@ bool parse(int argc, char** argv, Options& options) {
   add("set", po::value(&options.assignments), "name=value: a parameter; may be repeated");
   add("stats", po::value(&options.statistics), "CSV file for a row of figures per pair");
   add("bag", po::value(&options.bag), "bag for /stereo/odom and /tf, as the node publishes them");
+  add("pictures", po::value(&options.pictures), "folder for the flow picture of each pair");
   add("left-image", po::value(&options.left_image), "topic, where a bag has several pairs");
   add("right-image", po::value(&options.right_image), "topic of its partner");
   add("threads", po::value(&options.threads)->default_value(options.threads), "of OpenCV");
@@ -115,6 +118,10 @@ void run(const Options& options) {
                 parameters.node,
                 source->start_ns());
   }
+  std::optional<FlowPictures> pictures;
+  if (!options.pictures.empty()) {
+    pictures.emplace(options.pictures, flowView(parameters.node.flow_view));
+  }
 
   VisualOdometry odometry(parameters.odometry);
   PoseAccumulator accumulator;
@@ -127,6 +134,7 @@ void run(const Options& options) {
     trajectory.write({pair.stamp_ns, accumulator.add(records.back().result.T_prev_cur)});
     if (statistics) statistics->write(records.back());
     if (bag) bag->write(records.back().result);
+    if (pictures) pictures->write(pair, camera, odometry, records.back().result);
     progress.advance();
   }
   progress.finish();
