@@ -76,6 +76,56 @@ TEST(FeatureDetectorTest, KeepsCornersApart) {
   EXPECT_GT(nearest, 6.0F);
 }
 
+/// By definition: responses that none nearby exceeds, nor equals above or to the left; the
+/// strongest first.
+Corners expectedCorners(const cv::Mat& image, const FeatureDetector::Config& config) {
+  cv::Mat response;
+  CornerResponse(config.block_radius_px).compute(image, 0, image.rows, 0, response);
+  const int radius = config.nms_radius_px;
+  const auto isCorner = [&](int x, int y) {
+    const float value = response.at<float>(y, x);
+    for (int v = std::max(y - radius, 0); v <= std::min(y + radius, image.rows - 1); ++v) {
+      for (int u = std::max(x - radius, 0); u <= std::min(x + radius, image.cols - 1); ++u) {
+        const float other = response.at<float>(v, u);
+        const bool earlier = v < y || (v == y && u < x);
+        if (other > value || (earlier && other == value)) return false;
+      }
+    }
+    return value >= static_cast<float>(config.min_response);
+  };
+  Corners corners;
+  for (int y = config.border_px; y < image.rows - config.border_px; ++y) {
+    for (int x = config.border_px; x < image.cols - config.border_px; ++x) {
+      if (isCorner(x, y)) corners.emplace_back(x, y);
+    }
+  }
+  std::stable_sort(corners.begin(), corners.end(), [&](const auto& a, const auto& b) {
+    return response.at<float>(a) > response.at<float>(b);
+  });
+  return corners;
+}
+
+TEST(FeatureDetectorTest, FindsThePeaksOfTheResponse) {
+  cv::Mat image = noiseImage({203, 170}, 60.0);
+  for (int y = 50; y < 80; ++y) {  // equally strong corners, across the edge of a strip
+    for (int x = 0; x < 203; ++x) image.at<uchar>(y, x) = (x / 3 + y / 3) % 2 == 0 ? 60 : 200;
+  }
+  FeatureDetector::Config config;
+  config.cell_size_px = 1000;
+  config.max_features = 20000;
+  for (const int radius_px : {1, 4, 7, 30}) {
+    for (const int border_px : {1, 8}) {
+      for (const double min_response : {0.0, 2.0, 300.0}) {
+        config.nms_radius_px = radius_px;
+        config.border_px = border_px;
+        config.min_response = min_response;
+        EXPECT_EQ(detect(image, config), expectedCorners(image, config))
+            << radius_px << ", " << border_px << ", " << min_response;
+      }
+    }
+  }
+}
+
 TEST(FeatureDetectorTest, SpreadsCornersOverStrongAndWeakTexture) {
   cv::Mat image = noiseImage({320, 192}, 80.0);
   const cv::Rect weak_half(160, 0, 160, 192);

@@ -4,6 +4,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "rotrocc/corner_response.h"
+
 namespace rotrocc {
 
 /// Shi-Tomasi corners (Shi and Tomasi, CVPR 1994), spread over the image by a grid.
@@ -29,13 +31,18 @@ class FeatureDetector {
     float response;
     int x, y;
   };
+  /// Rows that one thread searches.
   struct Strip {
-    cv::Mat gradient_x, gradient_y, sums, response, maximum;
+    explicit Strip(int block_radius_px) : corner_response(block_radius_px) {}
+
+    CornerResponse corner_response;
+    cv::Mat response;  // with a margin of nms_radius_px around the strip
+    std::vector<float> highest;
     std::vector<Candidate> candidates;
   };
 
   void findCandidates(const cv::Mat& image, int first_row, int last_row, Strip& strip) const;
-  void computeResponse(const cv::Mat& image, Strip& strip) const;
+  void searchBand(int width, int first, int last, int top, Strip& strip) const;
   void selectByCells(const cv::Size& size, std::vector<cv::Point2f>& corners);
 
   Config config_;

@@ -1,9 +1,8 @@
 #include "rotrocc/feature_detector.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core/hal/intrin.hpp>
 
 namespace rotrocc {
 namespace {
@@ -11,32 +10,35 @@ namespace {
 /// Rows of a strip. Fixed, so that the same strips are computed whatever the number of threads.
 constexpr int kStripRows = 64;
 
-/// Adds `window` neighbours to the right: sums[x] = values[x] + ... + values[x + window - 1].
-void sumAlongRow(const int* values, int count, int window, int* sums) {
-  for (int x = 0; x < count; ++x) sums[x] = values[x];
-  for (int k = 1; k < window; ++k) {
-    for (int x = 0; x < count; ++x) sums[x] += values[x + k];
+using Floats = cv::v_float32x4;
+constexpr int kLanes = 4;
+
+/// The highest of each column of rows [first, last).
+void findHighest(const cv::Mat& response, int first, int last, int columns, float* highest) {
+  for (int x = 0; x < columns; x += kLanes) {
+    Floats most = cv::v_load(response.ptr<float>(first) + x);
+    for (int y = first + 1; y < last; ++y) {
+      most = cv::v_max(most, cv::v_load(response.ptr<float>(y) + x));
+    }
+    cv::v_store(highest + x, most);
   }
 }
 
-/// Smaller eigenvalue of [xx xy; xy yy].
-float smallerEigenvalue(float xx, float xy, float yy) {
-  const float difference = xx - yy;
-  return 0.5F * (xx + yy - std::sqrt(difference * difference + 4.0F * xy * xy));
-}
-
-/// Whether a pixel above or to the left, within `radius`, has the same response. Of corners that
-/// are exactly alike, as in drawn patterns and saturated areas, the first one counts.
-bool hasEarlierTwin(const cv::Mat& response, int x, int y, int radius) {
+/// Whether no pixel within `radius` has a larger response, and none above or to the left the same.
+/// Of corners that are exactly alike, as in drawn patterns and saturated areas, the first counts.
+bool isFirstOfStrongest(const cv::Mat& response, int x, int y, int radius) {
   const float value = response.at<float>(y, x);
-  for (int v = std::max(y - radius, 0); v <= y; ++v) {
+  for (int v = y - radius; v <= y + radius; ++v) {
     const auto* row = response.ptr<float>(v);
-    const int end = v < y ? std::min(x + radius + 1, response.cols) : x;
-    for (int u = std::max(x - radius, 0); u < end; ++u) {
-      if (row[u] == value) return true;
+    const int middle = v < y ? x + radius + 1 : (v == y ? x : x - radius);
+    for (int u = x - radius; u < middle; ++u) {
+      if (row[u] >= value) return false;
+    }
+    for (int u = middle; u <= x + radius; ++u) {
+      if (row[u] > value) return false;
     }
   }
-  return false;
+  return true;
 }
 
 }  // namespace
@@ -46,7 +48,7 @@ void FeatureDetector::detect(const cv::Mat& image, std::vector<cv::Point2f>& cor
   if (std::min(image.cols, image.rows) <= 2 * (config_.border_px + config_.nms_radius_px)) return;
 
   const int strip_count = (image.rows + kStripRows - 1) / kStripRows;
-  strips_.resize(static_cast<std::size_t>(strip_count));
+  strips_.resize(static_cast<std::size_t>(strip_count), Strip(config_.block_radius_px));
   cv::parallel_for_(cv::Range(0, strip_count), [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i) {
       const int first = std::max(i * kStripRows, config_.border_px);
@@ -64,65 +66,39 @@ void FeatureDetector::findCandidates(const cv::Mat& image,
   strip.candidates.clear();
   if (first_row >= last_row) return;
   const int radius = config_.nms_radius_px;
-  const int margin = radius + config_.block_radius_px + 1;
-  const int top = std::max(first_row - margin, 0);
-  const int bottom = std::min(last_row + margin, image.rows);
-  computeResponse(image.rowRange(top, bottom), strip);
-
-  const cv::Mat neighbourhood =
-      cv::getStructuringElement(cv::MORPH_RECT, cv::Size(2 * radius + 1, 2 * radius + 1));
-  cv::dilate(strip.response, strip.maximum, neighbourhood);
-  const auto least = static_cast<float>(config_.min_response);
-  for (int y = first_row; y < last_row; ++y) {
-    const auto* response = strip.response.ptr<float>(y - top);
-    const auto* maximum = strip.maximum.ptr<float>(y - top);
-    for (int x = config_.border_px; x < image.cols - config_.border_px; ++x) {
-      if (response[x] >= least && response[x] == maximum[x] &&
-          !hasEarlierTwin(strip.response, x, y - top, radius)) {
-        strip.candidates.push_back({response[x], x, y});
-      }
-    }
+  strip.corner_response.compute(
+      image, first_row - radius, last_row + radius, radius, strip.response);
+  strip.highest.resize(static_cast<std::size_t>(strip.response.cols));
+  const int band_rows = radius + 1;
+  for (int y = first_row; y < last_row; y += band_rows) {
+    searchBand(image.cols, y, std::min(y + band_rows, last_row), first_row - radius, strip);
   }
 }
 
-void FeatureDetector::computeResponse(const cv::Mat& image, Strip& strip) const {
-  cv::Sobel(image, strip.gradient_x, CV_16S, 1, 0, 3, 1, 0, cv::BORDER_REPLICATE);
-  cv::Sobel(image, strip.gradient_y, CV_16S, 0, 1, 3, 1, 0, cv::BORDER_REPLICATE);
+/// Searches rows [first, last) of the image, which are so few that all are near each other: a
+/// corner is the highest of its column there, and no column near it is higher. Few pixels are, and
+/// only those are compared to all around them. The strip's response begins with row `top`.
+void FeatureDetector::searchBand(int width, int first, int last, int top, Strip& strip) const {
+  const int radius = config_.nms_radius_px;
+  float* highest = strip.highest.data();
+  findHighest(strip.response, first - top, last - top, width + 2 * radius, highest);
 
-  const int half = config_.block_radius_px;
-  const int block = 2 * half + 1;
-  const int width = image.cols;
-  strip.response.create(image.size(), CV_32F);
-  strip.response.setTo(0.0F);
-  // Rows of `sums`: the products xx, xy, yy summed over the block's rows, then along the row as
-  // well. Integers: the running sums over rows stay exact.
-  strip.sums.create(6, width, CV_32S);
-  strip.sums.setTo(0);
-  int* column_sums[3] = {strip.sums.ptr<int>(0), strip.sums.ptr<int>(1), strip.sums.ptr<int>(2)};
-  int* block_sums[3] = {strip.sums.ptr<int>(3), strip.sums.ptr<int>(4), strip.sums.ptr<int>(5)};
-  const auto add_row = [&](int y, int sign) {
-    const auto* gx = strip.gradient_x.ptr<short>(y);
-    const auto* gy = strip.gradient_y.ptr<short>(y);
-    for (int x = 0; x < width; ++x) {
-      column_sums[0][x] += sign * gx[x] * gx[x];
-      column_sums[1][x] += sign * gx[x] * gy[x];
-      column_sums[2][x] += sign * gy[x] * gy[x];
-    }
-  };
-
-  // A Sobel gradient is 8 grey levels for a slope of one level per pixel.
-  const float scale = 1.0F / (64.0F * static_cast<float>(block * block));
-  for (int y = 0; y < image.rows; ++y) {
-    add_row(y, 1);
-    if (y >= block) add_row(y - block, -1);
-    if (y < block - 1) continue;
-    const int count = width - block + 1;
-    for (int i = 0; i < 3; ++i) sumAlongRow(column_sums[i], count, block, block_sums[i]);
-    float* response = strip.response.ptr<float>(y - half) + half;
-    for (int x = 0; x < count; ++x) {
-      response[x] = smallerEigenvalue(scale * static_cast<float>(block_sums[0][x]),
-                                      scale * static_cast<float>(block_sums[1][x]),
-                                      scale * static_cast<float>(block_sums[2][x]));
+  const Floats least = cv::v_setall_f32(static_cast<float>(config_.min_response));
+  const int end = width - config_.border_px;
+  for (int x = config_.border_px; x < end; x += kLanes) {
+    Floats most = least;
+    for (int k = x; k <= x + 2 * radius; ++k) most = cv::v_max(most, cv::v_load(highest + k));
+    if (!cv::v_check_any(cv::v_load(highest + x + radius) >= most)) continue;
+    float bounds[kLanes];
+    cv::v_store(bounds, most);
+    for (int i = 0; i < std::min(kLanes, end - x); ++i) {
+      const int column = x + i + radius;
+      if (!(highest[column] >= bounds[i])) continue;
+      int y = first;
+      while (strip.response.at<float>(y - top, column) != highest[column]) ++y;
+      if (isFirstOfStrongest(strip.response, column, y - top, radius)) {
+        strip.candidates.push_back({highest[column], x + i, y});
+      }
     }
   }
 }
