@@ -11,9 +11,10 @@ namespace {
 
 using Corners = std::vector<cv::Point2f>;
 
-Corners detect(const cv::Mat& image, const FeatureDetector::Config& config = {}) {
+Corners detect(const cv::Mat& image, const FeatureDetector::Config& config = {}, int threads = 1) {
   Corners corners;
-  FeatureDetector(config).detect(image, corners);
+  Workers workers(threads);
+  FeatureDetector(config).detect(workers, image, corners);
   return corners;
 }
 
@@ -208,12 +209,8 @@ TEST(FeatureDetectorTest, FindsNothingInTinyImages) {
 
 TEST(FeatureDetectorTest, FindsTheSameWithAnyNumberOfThreads) {
   const cv::Mat image = noiseImage({400, 300}, 60.0);
-  const int threads = cv::getNumThreads();
-  cv::setNumThreads(1);
-  const Corners one = detect(image);
-  cv::setNumThreads(2);
-  const Corners two = detect(image);
-  cv::setNumThreads(threads);
+  const Corners one = detect(image, {}, 1);
+  const Corners two = detect(image, {}, 2);
   EXPECT_EQ(one, two);
   EXPECT_GT(one.size(), 500u);
 }

@@ -29,7 +29,8 @@ struct TwoViews {
     first = prev.left;
     second = cur.left;
     Points found;
-    FeatureDetector({}).detect(first, found);
+    Workers workers(1);
+    FeatureDetector({}).detect(workers, first, found);
     const cv::Rect2f inner(12, 12, scene.camera().width - 24.0F, scene.camera().height - 24.0F);
     for (const cv::Point2f& corner : found) {
       const Eigen::Vector3d point =
@@ -58,13 +59,15 @@ Tracked track(const cv::Mat& first,
               const Points& from,
               const Points& predictions,
               int levels,
-              const FeatureTracker::Config& config = {}) {
+              const FeatureTracker::Config& config = {},
+              int threads = 1) {
   FeatureTracker tracker(config);
   FeatureTracker::Pyramid a, b;
   tracker.buildPyramid(first, a);
   tracker.buildPyramid(second, b);
   Tracked result{predictions, std::vector<char>(from.size(), 1)};
-  tracker.track(a, b, from, levels, result.cur, result.tracked);
+  Workers workers(threads);
+  tracker.track(workers, a, b, from, levels, result.cur, result.tracked);
   return result;
 }
 
@@ -178,7 +181,8 @@ TEST(FeatureTrackerTest, LeavesPointsAloneThatAreNotAskedFor) {
   Points cur = before;
   std::vector<char> tracked(cur.size());
   for (std::size_t i = 0; i < tracked.size(); ++i) tracked[i] = i % 2;
-  tracker.track(a, b, drive().corners, 2, cur, tracked);
+  Workers workers(1);
+  tracker.track(workers, a, b, drive().corners, 2, cur, tracked);
   const Tracked all = track(drive().first, drive().second, drive().corners, before, 2);
   for (std::size_t i = 0; i < cur.size(); ++i) {
     EXPECT_EQ(cur[i], i % 2 == 0 ? before[i] : all.cur[i]);
@@ -221,13 +225,16 @@ TEST(FeatureTrackerTest, TakesImagesOfAnySizeAndPointsOutside) {
 
 TEST(FeatureTrackerTest, FindsTheSameWithAnyNumberOfThreads) {
   const auto run = [](int threads) {
-    cv::setNumThreads(threads);
-    return track(drive().first, drive().second, drive().corners, perturbed(drive().truth, 2.0), 2);
+    return track(drive().first,
+                 drive().second,
+                 drive().corners,
+                 perturbed(drive().truth, 2.0),
+                 2,
+                 {},
+                 threads);
   };
-  const int threads = cv::getNumThreads();
   const Tracked one = run(1);
   const Tracked two = run(2);
-  cv::setNumThreads(threads);
   EXPECT_EQ(one.cur, two.cur);
   EXPECT_EQ(one.tracked, two.tracked);
 }

@@ -21,9 +21,11 @@ Disparities match(const cv::Mat& left,
                   const cv::Mat& right,
                   const Pixels& pixels,
                   const StereoMatcher::Config& config = {},
-                  double infinity_px = 0.0) {
+                  double infinity_px = 0.0,
+                  int threads = 1) {
   Disparities disparities;
-  StereoMatcher(config).match(left, right, pixels, infinity_px, disparities);
+  Workers workers(threads);
+  StereoMatcher(config).match(workers, left, right, pixels, infinity_px, disparities);
   return disparities;
 }
 
@@ -32,7 +34,8 @@ float matchNear(const cv::Mat& left,
                 const cv::Point2f& pixel,
                 float expected_px) {
   Disparities disparities;
-  StereoMatcher({}).matchNear(left, right, {pixel}, {expected_px}, 2, 0.0, disparities);
+  Workers workers(1);
+  StereoMatcher({}).matchNear(workers, left, right, {pixel}, {expected_px}, 2, 0.0, disparities);
   return disparities.at(0);
 }
 
@@ -264,13 +267,10 @@ TEST(StereoMatcherTest, MeasuresTheDepthOfAStreet) {
 
 TEST(StereoMatcherTest, FindsTheSameWithAnyNumberOfThreads) {
   const Pixels pixels = grid({0, 0, 300, 80}, 3);
-  const int threads = cv::getNumThreads();
-  cv::setNumThreads(1);
-  const Disparities one = match(texture().image(0.0), texture().image(10.25), pixels);
-  cv::setNumThreads(2);
-  const Disparities two = match(texture().image(0.0), texture().image(10.25), pixels);
-  cv::setNumThreads(threads);
-  EXPECT_EQ(one, two);
+  const auto run = [&](int threads) {
+    return match(texture().image(0.0), texture().image(10.25), pixels, {}, 0.0, threads);
+  };
+  EXPECT_EQ(run(1), run(2));
 }
 
 }  // namespace

@@ -411,16 +411,15 @@ TEST(VisualOdometryTest, StartsAnewWhenReset) {
 
 TEST(VisualOdometryTest, GivesTheSameBytesWithAnyNumberOfThreads) {
   const auto run = [](int threads) {
-    cv::setNumThreads(threads);
-    VisualOdometry odometry({});
+    VisualOdometry::Config config;
+    config.threads = threads;
+    VisualOdometry odometry(config);
     std::vector<OdometryResult> results;
     for (int i = 0; i < 4; ++i) results.push_back(odometry.process(bend(i), camera()));
     return results;
   };
-  const int threads = cv::getNumThreads();
   const auto one = run(1);
   const auto two = run(2);
-  cv::setNumThreads(threads);
   for (std::size_t i = 0; i < one.size(); ++i) {
     EXPECT_EQ(one[i].T_prev_cur.matrix(), two[i].T_prev_cur.matrix());
     EXPECT_EQ(one[i].covariance, two[i].covariance);

@@ -14,6 +14,7 @@
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_matcher.h"
 #include "rotrocc/stereo_pair.h"
+#include "rotrocc/workers.h"
 
 namespace rotrocc {
 
@@ -29,7 +30,8 @@ class CorrespondenceFinder {
     FeatureTracker::Config feature_tracker;
   };
 
-  explicit CorrespondenceFinder(const Config& config);
+  /// Works with so many `threads`, the calling one included.
+  explicit CorrespondenceFinder(const Config& config, int threads = 1);
 
   /// Makes `pair` the current one; the one before is dropped unless it was kept.
   void take(const StereoPair& pair, const StereoCamera& camera);
@@ -63,6 +65,7 @@ class CorrespondenceFinder {
   };
 
   Config config_;
+  Workers workers_;
   FeatureDetector detector_;
   StereoMatcher matcher_;
   FeatureTracker tracker_;

@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "rotrocc/corner_response.h"
+#include "rotrocc/workers.h"
 
 namespace rotrocc {
 
@@ -24,7 +25,7 @@ class FeatureDetector {
 
   /// Corners of `image` (CV_8UC1) at whole pixels, at most max_features. Every cell gives its
   /// strongest before any gives its second, and so on. An image too small for a corner gives none.
-  void detect(const cv::Mat& image, std::vector<cv::Point2f>& corners);
+  void detect(Workers& workers, const cv::Mat& image, std::vector<cv::Point2f>& corners);
 
  private:
   struct Candidate {

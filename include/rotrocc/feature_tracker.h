@@ -5,6 +5,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "rotrocc/workers.h"
+
 namespace rotrocc {
 
 class TrackingWindow;
@@ -36,7 +38,8 @@ class FeatureTracker {
   /// results; `tracked` gets 1 for points that came back to within max_round_trip_px, else 0.
   /// Points whose `tracked` is 0 at the call are skipped. `levels` is the number of pyramid levels
   /// to use.
-  void track(const Pyramid& prev_pyramid,
+  void track(Workers& workers,
+             const Pyramid& prev_pyramid,
              const Pyramid& cur_pyramid,
              const std::vector<cv::Point2f>& prev,
              int levels,

@@ -7,6 +7,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "rotrocc/workers.h"
+
 namespace rotrocc {
 
 /// Sparse block matching along the row: sum of absolute differences (SAD) with a sub-pixel fit.
@@ -27,7 +29,8 @@ class StereoMatcher {
   /// Disparity x_left - x_right [px] of each left pixel, or kNoDisparity: too near to the edge, too
   /// different, ambiguous, or outside of the range. `left` and `right` are CV_8UC1 of one size;
   /// `infinity_px` is StereoCamera::disparityAtInfinity().
-  void match(const cv::Mat& left,
+  void match(Workers& workers,
+             const cv::Mat& left,
              const cv::Mat& right,
              const std::vector<cv::Point2f>& pixels,
              double infinity_px,
@@ -35,7 +38,8 @@ class StereoMatcher {
 
   /// The same, but looks only within `radius_px` of the `expected_px` disparities and asks for no
   /// uniqueness, which the expectation gives. Pixels whose expectation is kNoDisparity are skipped.
-  void matchNear(const cv::Mat& left,
+  void matchNear(Workers& workers,
+                 const cv::Mat& left,
                  const cv::Mat& right,
                  const std::vector<cv::Point2f>& pixels,
                  const std::vector<float>& expected_px,
@@ -44,7 +48,8 @@ class StereoMatcher {
                  std::vector<float>& disparities_px) const;
 
  private:
-  void search(const cv::Mat& left,
+  void search(Workers& workers,
+              const cv::Mat& left,
               const cv::Mat& right,
               const std::vector<cv::Point2f>& pixels,
               const std::function<cv::Range(std::size_t)>& columns_of,

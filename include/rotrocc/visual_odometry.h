@@ -95,6 +95,7 @@ class VisualOdometry {
     ReferenceSelector::Config reference_selector;
     StereoCalibrator::Config stereo_calibrator;
 
+    int threads = 2;                  ///< that work on a pair, the calling one included
     int startup_rounds = 4;           ///< predict, track, estimate this often without a prediction
     double startup_settled_px = 0.5;  ///< fewer rounds if the prediction moves less
     double max_gap_s = 1.0;           ///< between two pairs; longer: start anew

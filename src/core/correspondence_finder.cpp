@@ -14,8 +14,9 @@ constexpr int kSearchRadius = 2;
 
 }  // namespace
 
-CorrespondenceFinder::CorrespondenceFinder(const Config& config)
+CorrespondenceFinder::CorrespondenceFinder(const Config& config, int threads)
     : config_(config),
+      workers_(threads),
       detector_(config.feature_detector),
       matcher_(config.stereo_matcher),
       tracker_(config.feature_tracker) {}
@@ -25,11 +26,9 @@ void CorrespondenceFinder::take(const StereoPair& pair, const StereoCamera& came
   current_ = 0;
   while (current_ == reference_ || current_ == last_ || current_ == aside_) ++current_;
   StereoPyramid& current = pyramids_[current_];
-  cv::parallel_for_(cv::Range(0, 2), [&](const cv::Range& sides) {
-    for (int side = sides.start; side < sides.end; ++side) {
-      tracker_.buildPyramid(side == 0 ? pair.left : pair.right,
-                            side == 0 ? current.left : current.right);
-    }
+  workers_.run(2, [&](int side) {
+    tracker_.buildPyramid(side == 0 ? pair.left : pair.right,
+                          side == 0 ? current.left : current.right);
   });
 }
 
@@ -50,7 +49,7 @@ void CorrespondenceFinder::refer() {
 }
 
 int CorrespondenceFinder::findCorners() {
-  detector_.detect(pyramids_[reference_].left.front(), corners_);
+  detector_.detect(workers_, pyramids_[reference_].left.front(), corners_);
   return static_cast<int>(corners_.size());
 }
 
@@ -58,7 +57,8 @@ int CorrespondenceFinder::findDepths() {
   ref_left_.clear();
   ref_right_.clear();
   ref_points_.clear();
-  matcher_.match(pyramids_[reference_].left.front(),
+  matcher_.match(workers_,
+                 pyramids_[reference_].left.front(),
                  pyramids_[reference_].right.front(),
                  corners_,
                  camera_.disparityAtInfinity(),
@@ -90,11 +90,17 @@ int CorrespondenceFinder::track(const Eigen::Isometry3d& T_ref_cur, int levels) 
                      0.0F};  // as yet its disparity
     tracked_[i] = 1;
   }
-  tracker_.track(
-      pyramids_[reference_].left, pyramids_[current_].left, ref_left_, levels, cur_left_, tracked_);
+  tracker_.track(workers_,
+                 pyramids_[reference_].left,
+                 pyramids_[current_].left,
+                 ref_left_,
+                 levels,
+                 cur_left_,
+                 tracked_);
   // Where the left image shows a feature is better known now; its disparity is as predicted.
   for (std::size_t i = 0; i < cur_left_.size(); ++i) cur_right_[i] = cur_left_[i] - cur_right_[i];
-  tracker_.track(pyramids_[reference_].right,
+  tracker_.track(workers_,
+                 pyramids_[reference_].right,
                  pyramids_[current_].right,
                  ref_right_,
                  levels,
@@ -110,7 +116,8 @@ void CorrespondenceFinder::closeCircle(Correspondences& features) {
     const cv::Point2f offset = cur_left_[i] - cur_right_[i];
     if (tracked_[i] != 0 && std::abs(offset.y) <= limits.max_vertical_px) expected_[i] = offset.x;
   }
-  matcher_.matchNear(pyramids_[current_].left.front(),
+  matcher_.matchNear(workers_,
+                     pyramids_[current_].left.front(),
                      pyramids_[current_].right.front(),
                      cur_left_,
                      expected_,

@@ -43,18 +43,18 @@ bool isFirstOfStrongest(const cv::Mat& response, int x, int y, int radius) {
 
 }  // namespace
 
-void FeatureDetector::detect(const cv::Mat& image, std::vector<cv::Point2f>& corners) {
+void FeatureDetector::detect(Workers& workers,
+                             const cv::Mat& image,
+                             std::vector<cv::Point2f>& corners) {
   corners.clear();
   if (std::min(image.cols, image.rows) <= 2 * (config_.border_px + config_.nms_radius_px)) return;
 
   const int strip_count = (image.rows + kStripRows - 1) / kStripRows;
   strips_.resize(static_cast<std::size_t>(strip_count), Strip(config_.block_radius_px));
-  cv::parallel_for_(cv::Range(0, strip_count), [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i) {
-      const int first = std::max(i * kStripRows, config_.border_px);
-      const int last = std::min((i + 1) * kStripRows, image.rows - config_.border_px);
-      findCandidates(image, first, last, strips_[static_cast<std::size_t>(i)]);
-    }
+  workers.run(strip_count, [&](int i) {
+    const int first = std::max(i * kStripRows, config_.border_px);
+    const int last = std::min((i + 1) * kStripRows, image.rows - config_.border_px);
+    findCandidates(image, first, last, strips_[static_cast<std::size_t>(i)]);
   });
   selectByCells(image.size(), corners);
 }

@@ -34,7 +34,8 @@ void FeatureTracker::buildPyramid(const cv::Mat& image, Pyramid& pyramid) const 
   for (std::size_t i = 1; i < levels; ++i) cv::pyrDown(pyramid[i - 1], pyramid[i]);
 }
 
-void FeatureTracker::track(const Pyramid& prev_pyramid,
+void FeatureTracker::track(Workers& workers,
+                           const Pyramid& prev_pyramid,
                            const Pyramid& cur_pyramid,
                            const std::vector<cv::Point2f>& prev,
                            int levels,
@@ -46,15 +47,13 @@ void FeatureTracker::track(const Pyramid& prev_pyramid,
   }
   const std::size_t used =
       std::min({static_cast<std::size_t>(levels), prev_pyramid.size(), cur_pyramid.size()});
-  cv::parallel_for_(cv::Range(0, kParts), [&](const cv::Range& parts) {
-    for (int part = parts.start; part < parts.end; ++part) {
-      const auto p = static_cast<std::size_t>(part);
-      const std::size_t end = indices_.size() * (p + 1) / kParts;
-      for (std::size_t k = indices_.size() * p / kParts; k < end; ++k) {
-        const std::size_t i = indices_[k];
-        const bool found = follow(prev_pyramid, cur_pyramid, used, prev[i], windows_[p], cur[i]);
-        tracked[i] = found ? 1 : 0;
-      }
+  workers.run(kParts, [&](int part) {
+    const auto p = static_cast<std::size_t>(part);
+    const std::size_t end = indices_.size() * (p + 1) / kParts;
+    for (std::size_t k = indices_.size() * p / kParts; k < end; ++k) {
+      const std::size_t i = indices_[k];
+      const bool found = follow(prev_pyramid, cur_pyramid, used, prev[i], windows_[p], cur[i]);
+      tracked[i] = found ? 1 : 0;
     }
   });
 }

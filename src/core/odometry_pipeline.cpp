@@ -32,7 +32,7 @@ double seconds(std::int64_t ns) {
 
 VisualOdometry::Pipeline::Pipeline(const Config& config)
     : config_(config),
-      finder_(config.correspondence_finder),
+      finder_(config.correspondence_finder, config.threads),
       motion_model_(config.motion_model),
       estimator_(config.motion_estimator),
       check_(config.motion_check),

@@ -15,6 +15,9 @@ constexpr int kHalf = kWindow / 2;
 constexpr int kRegister = 16;
 constexpr int kPixels = kWindow * kWindow;
 
+/// More parts than threads even out what they cost.
+constexpr int kParts = 8;
+
 #if CV_SIMD128
 using Row = cv::v_uint8x16;
 
@@ -159,7 +162,8 @@ float bestColumn(const RowSearch& sad,
 
 }  // namespace
 
-void StereoMatcher::match(const cv::Mat& left,
+void StereoMatcher::match(Workers& workers,
+                          const cv::Mat& left,
                           const cv::Mat& right,
                           const std::vector<cv::Point2f>& pixels,
                           double infinity_px,
@@ -170,10 +174,11 @@ void StereoMatcher::match(const cv::Mat& left,
     const int x = cvFloor(pixels[i].x);
     return cv::Range(x - nearest - 1, x - farthest + 2);
   };
-  search(left, right, pixels, columns, config_.uniqueness, infinity_px, disparities_px);
+  search(workers, left, right, pixels, columns, config_.uniqueness, infinity_px, disparities_px);
 }
 
-void StereoMatcher::matchNear(const cv::Mat& left,
+void StereoMatcher::matchNear(Workers& workers,
+                              const cv::Mat& left,
                               const cv::Mat& right,
                               const std::vector<cv::Point2f>& pixels,
                               const std::vector<float>& expected_px,
@@ -185,10 +190,11 @@ void StereoMatcher::matchNear(const cv::Mat& left,
     const int x = cvRound(pixels[i].x - expected_px[i]);
     return cv::Range(x - radius_px - 1, x + radius_px + 2);
   };
-  search(left, right, pixels, columns, 0.0, infinity_px, disparities_px);
+  search(workers, left, right, pixels, columns, 0.0, infinity_px, disparities_px);
 }
 
-void StereoMatcher::search(const cv::Mat& left,
+void StereoMatcher::search(Workers& workers,
+                           const cv::Mat& left,
                            const cv::Mat& right,
                            const std::vector<cv::Point2f>& pixels,
                            const std::function<cv::Range(std::size_t)>& columns_of,
@@ -197,9 +203,10 @@ void StereoMatcher::search(const cv::Mat& left,
                            std::vector<float>& disparities_px) const {
   const double least_px = config_.min_disparity_px + infinity_px;
   disparities_px.assign(pixels.size(), kNoDisparity);
-  cv::parallel_for_(cv::Range(0, static_cast<int>(pixels.size())), [&](const cv::Range& range) {
-    for (int k = range.start; k < range.end; ++k) {
-      const auto i = static_cast<std::size_t>(k);
+  workers.run(kParts, [&](int part) {
+    const auto p = static_cast<std::size_t>(part);
+    const std::size_t end = pixels.size() * (p + 1) / kParts;
+    for (std::size_t i = pixels.size() * p / kParts; i < end; ++i) {
       if (!windowInside(left, pixels[i])) continue;
       const cv::Range columns = clip(right, columns_of(i));
       if (columns.size() < 3) continue;

@@ -243,6 +243,12 @@ void addReferenceSelector(ReferenceSelector::Config& c, ParameterTable& table) {
 
 void addVisualOdometry(VisualOdometry::Config& c, ParameterTable& table) {
   const std::string s = "visual_odometry/";
+  table.add(s + "threads",
+            c.threads,
+            1,
+            16,
+            "",
+            "that work on a pair, the calling one included; the results are the same");
   table.add(s + "startup_rounds",
             c.startup_rounds,
             1,

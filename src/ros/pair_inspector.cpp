@@ -110,8 +110,8 @@ std::string PairInspector::explainLoss(const StereoPair& pair, const StereoCamer
 
 /// Corners of `left` that have a disparity.
 int PairInspector::countMatches(const cv::Mat& left, const cv::Mat& right, double infinity_px) {
-  detector_.detect(left, corners_);
-  matcher_.match(left, right, corners_, infinity_px, disparities_);
+  detector_.detect(alone_, left, corners_);
+  matcher_.match(alone_, left, right, corners_, infinity_px, disparities_);
   return static_cast<int>(
       std::count_if(disparities_.begin(), disparities_.end(), [](float disparity_px) {
         return disparity_px != StereoMatcher::kNoDisparity;

@@ -32,6 +32,7 @@ class PairInspector {
   std::string explainLoss(const StereoPair& pair, const StereoCamera& camera);
   int countMatches(const cv::Mat& left, const cv::Mat& right, double infinity_px);
 
+  Workers alone_{1};
   FeatureDetector detector_;
   StereoMatcher matcher_;
   std::vector<cv::Point2f> corners_;

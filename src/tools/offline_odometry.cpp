@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <boost/program_options.hpp>
-#include <opencv2/core.hpp>
 
 #include "flow_pictures.h"
 #include "odometry_bag.h"
@@ -35,7 +34,6 @@ struct Options {
   std::string pictures;
   std::string left_image;
   std::string right_image;
-  int threads = cv::getNumThreads();
 };
 
 /// Returns false if only the help was asked for; throws po::error on bad usage.
@@ -52,7 +50,6 @@ bool parse(int argc, char** argv, Options& options) {
   add("pictures", po::value(&options.pictures), "folder for the flow picture of each pair");
   add("left-image", po::value(&options.left_image), "topic, where a bag has several pairs");
   add("right-image", po::value(&options.right_image), "topic of its partner");
-  add("threads", po::value(&options.threads)->default_value(options.threads), "of OpenCV");
   po::options_description all;
   all.add(visible).add_options()("input", po::value(&options.input)->required());
   po::positional_options_description positional;
@@ -103,7 +100,6 @@ StereoBag::Options bagOptions(const Options& options, const NodeParameters& node
 
 void run(const Options& options) {
   const Parameters parameters = readParameters(options);
-  cv::setNumThreads(options.threads);
 
   const std::unique_ptr<StereoSource> source =
       openStereoSource(options.input, bagOptions(options, parameters.node));
