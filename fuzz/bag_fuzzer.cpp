@@ -2,22 +2,28 @@
 // both cameras. A damaged file would crash rosbag before our code sees any of it:
 // ros::Header::parse() reads beyond its buffer. So the file itself is whole.
 
+#include <dlfcn.h>
+
 #include <array>
+#include <cstdio>
 #include <cstring>
 #include <stdexcept>
 #include <string>
 
 #include <console_bridge/console.h>
 #include <rosbag/bag.h>
+#include <std_msgs/Empty.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include "../test/temporary_directory.h"
 #include "message_reader.h"
 #include "recorded_tf.h"
 #include "stereo_bag.h"
 
 namespace rotrocc {
 namespace {
+
+constexpr char kPath[] = "in memory";
+const ros::Time kTime(1000.0);
 
 tf2_msgs::TFMessage toTf(const std::array<double, 7>& numbers) {
   tf2_msgs::TFMessage message;
@@ -36,28 +42,25 @@ tf2_msgs::TFMessage toTf(const std::array<double, 7>& numbers) {
 }
 
 void writeMessages(rosbag::Bag& bag, const std::array<double, 7>& mount, MessageReader reader) {
-  const ros::Time time(1000.0);
   tf2_msgs::TFMessage tf = toTf(mount);
-  bag.write("/tf_static", time, tf);
+  bag.write("/tf_static", kTime, tf);
   std::swap(tf.transforms[0].header.frame_id, tf.transforms[0].child_frame_id);
-  bag.write("/tf", time, tf);  // a trajectory of the base
+  bag.write("/tf", kTime, tf);  // a trajectory of the base
   const char* const sides[] = {"/camera_left", "/camera_right"};
   for (const std::string side : sides) {
-    if (const auto info = reader.cameraInfo()) bag.write(side + "/camera_info", time, *info);
+    if (const auto info = reader.cameraInfo()) bag.write(side + "/camera_info", kTime, *info);
   }
   for (const std::string side : sides) {
-    if (const auto image = reader.image()) bag.write(side + "/image_rect", time, *image);
+    if (const auto image = reader.image()) bag.write(side + "/image_rect", kTime, *image);
   }
 }
 
-/// The same bags all the time: each one made anew looks for all plugins of ROS, which takes longer
-/// than all else.
-struct Bags {
-  TemporaryDirectory directory;
-  std::string path = directory / "input.bag";
-  rosbag::Bag written;
-  rosbag::Bag read;
-};
+/// A bag keeps a chunk in memory until that is full, even if it is closed and opened anew. Now it
+/// is.
+void forgetChunk(rosbag::Bag& bag) {
+  bag.setChunkThreshold(0);
+  bag.write("/end", kTime, std_msgs::Empty());
+}
 
 void readPairs(const rosbag::Bag& bag) {
   StereoBag pairs(bag, {});
@@ -69,6 +72,16 @@ void readPairs(const rosbag::Bag& bag) {
 }  // namespace
 }  // namespace rotrocc
 
+/// In place of that of the C library: the bag is written to memory. With a file, calls of the
+/// kernel for each record would take as long as all else.
+extern "C" std::FILE* fopen64(const char* path, const char* mode) {
+  static std::array<char, 100'000> memory;
+  if (std::strcmp(path, rotrocc::kPath) == 0) return fmemopen(memory.data(), memory.size(), mode);
+  static const auto open =
+      reinterpret_cast<std::FILE* (*)(const char*, const char*)>(dlsym(RTLD_NEXT, "fopen64"));
+  return open(path, mode);
+}
+
 extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
   console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_NONE);  // of tf2
   return 0;
@@ -76,22 +89,24 @@ extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace rotrocc;
-  static Bags bags;
+  // The same bag all the time: each one made anew looks for all plugins of ROS, which takes longer
+  // than all else.
+  static rosbag::Bag bag;
   std::array<double, 7> mount;
   if (size < sizeof(mount)) return -1;  // not to be kept
   std::memcpy(mount.data(), data, sizeof(mount));
-  bags.written.open(bags.path, rosbag::bagmode::Write);
-  writeMessages(bags.written, mount, MessageReader(data + sizeof(mount), size - sizeof(mount)));
-  bags.written.close();
-  bags.read.open(bags.path, rosbag::bagmode::Read);
+  // What was just written is read back from the chunk in memory.
+  bag.open(kPath, rosbag::bagmode::Write | rosbag::bagmode::Read);
+  writeMessages(bag, mount, MessageReader(data + sizeof(mount), size - sizeof(mount)));
   try {
-    readPairs(bags.read);
+    readPairs(bag);
   } catch (const std::runtime_error&) {  // programs end with what it says
   }
   try {
-    RecordedTf(bags.read, "base_link", "camera").trajectory();
+    RecordedTf(bag, "base_link", "camera").trajectory();
   } catch (const std::runtime_error&) {
   }
-  bags.read.close();
+  forgetChunk(bag);
+  bag.close();
   return 0;
 }
