@@ -24,6 +24,7 @@ constexpr int kPairs = 3;  // the first one, one compared with it, one that foll
 Parameters makeParameters() {
   Parameters parameters;
   parameters.node.max_image_pixels = 10'000;
+  parameters.odometry.threads = 1;  // images are too small to be shared out
   return parameters;
 }
 
@@ -67,7 +68,7 @@ void drive(const sensor_msgs::CameraInfo& left_info,
 
 extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
   ros::console::set_logger_level(ROSCONSOLE_DEFAULT_NAME, ros::console::levels::Fatal);
-  cv::setNumThreads(1);  // images are too small to be shared out
+  cv::setNumThreads(1);
   return 0;
 }
 

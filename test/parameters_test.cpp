@@ -194,8 +194,18 @@ TEST(ParametersTest, WhatIsWrittenIsReadBack) {
 
 TEST(ParametersTest, TextsThatMeanSomethingInYamlAreReadBack) {
   const TemporaryDirectory directory;
-  for (const char* text :
-       {"", "null", "~", "a: b", "run #1.txt", "- x", "*a", "\"q\"", "a\\b\tc"}) {
+  for (const char* text : {"",
+                           "null",
+                           "~",
+                           "a: b",
+                           "run #1.txt",
+                           "- x",
+                           "*a",
+                           "\"q\"",
+                           "a\\b\tc",
+                           "\x7f\x04",
+                           "Gr\u00fc\u00dfe",
+                           "no UTF-8: \xc0\xb5"}) {
     Settings written;
     written.table.set("trajectory_file", text);
     Settings read;

@@ -28,6 +28,22 @@ void setAll(const YAML::Node& node, const std::string& prefix, ParameterTable& t
 /// Where the comments of a YAML file begin.
 constexpr std::size_t kCommentColumn = 34;
 
+/// The inside of double quotes. YAML::Emitter would change what is no UTF-8.
+std::string escape(const std::string& text) {
+  constexpr char kHex[] = "0123456789abcdef";
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      escaped += {'\\', c};
+    } else if ((c >= 0 && c < ' ') || c == '\x7f') {
+      escaped += {'\\', 'x', kHex[c / 16], kHex[c % 16]};
+    } else {
+      escaped += c;
+    }
+  }
+  return escaped;
+}
+
 /// A text as YAML has it: in quotes if it might be read as something else without.
 std::string quoteIfNeeded(const std::string& text) {
   const auto is_plain = [](char c) {
@@ -35,9 +51,7 @@ std::string quoteIfNeeded(const std::string& text) {
   };
   const bool is_null = text == "null" || text == "Null" || text == "NULL";
   if (!text.empty() && !is_null && std::all_of(text.begin(), text.end(), is_plain)) return text;
-  YAML::Emitter quoted;
-  quoted << YAML::DoubleQuoted << text;
-  return quoted.c_str();
+  return '"' + escape(text) + '"';
 }
 
 std::string comment(const ParameterTable::Parameter& p) {
