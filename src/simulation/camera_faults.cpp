@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <opencv2/core/utility.hpp>
-
 #include "counter_random.h"
+#include "rows.h"
 
 namespace rotrocc {
 namespace {
@@ -80,17 +79,15 @@ cv::Mat develop(const cv::Mat& brightness,
   const cv::Point2d centre(0.5 * (image.cols - 1), 0.5 * (image.rows - 1));
   const double corner_squared = centre.ddot(centre);
   const std::vector<float> response = responseTable();
-  cv::parallel_for_(cv::Range(0, image.rows), [&](const cv::Range& rows) {
-    for (int y = rows.start; y < rows.end; ++y) {
-      for (int x = 0; x < image.cols; ++x) {
-        const cv::Point2d off = cv::Point2d(x, y) - centre;
-        const double lost = faults.vignetting * off.ddot(off) / corner_squared;
-        const double light = std::min(1.0, gain * (1.0 - lost) * brightness.at<float>(y, x));
-        const auto pixel = static_cast<std::uint64_t>(y) * image.cols + x;
-        const double noise = faults.noise_sigma * gaussian(randomBits(key + pixel));
-        const auto step = static_cast<std::size_t>(light * kResponseSteps + 0.5);
-        image.at<uchar>(y, x) = cv::saturate_cast<uchar>(response[step] + noise);
-      }
+  forEachRow(image.rows, [&](int y) {
+    for (int x = 0; x < image.cols; ++x) {
+      const cv::Point2d off = cv::Point2d(x, y) - centre;
+      const double lost = faults.vignetting * off.ddot(off) / corner_squared;
+      const double light = std::min(1.0, gain * (1.0 - lost) * brightness.at<float>(y, x));
+      const auto pixel = static_cast<std::uint64_t>(y) * image.cols + x;
+      const double noise = faults.noise_sigma * gaussian(randomBits(key + pixel));
+      const auto step = static_cast<std::size_t>(light * kResponseSteps + 0.5);
+      image.at<uchar>(y, x) = cv::saturate_cast<uchar>(response[step] + noise);
     }
   });
   return image;

@@ -5,9 +5,8 @@
 #include <limits>
 #include <tuple>
 
-#include <opencv2/core/utility.hpp>
-
 #include "coverage.h"
+#include "rows.h"
 
 namespace rotrocc {
 namespace {
@@ -143,22 +142,20 @@ GroundHistory::GroundHistory(const GroundGrid& grid,
     : first_(static_cast<std::size_t>(grid.columns + 1) * (grid.rows + 1)) {
   const Surveyor surveyor(grid, path, beyond_m, others, below_m);
   std::vector<std::vector<Change>> changes(static_cast<std::size_t>(grid.rows) + 1);
-  cv::parallel_for_(cv::Range(0, grid.rows + 1), [&](const cv::Range& rows) {
-    for (int row = rows.start; row < rows.end; ++row) {
-      for (int column = 0; column <= grid.columns; ++column) {
-        const std::size_t corner = static_cast<std::size_t>(row) * (grid.columns + 1) + column;
-        const Eigen::Vector2d place = grid.origin + grid.cell_m * Eigen::Vector2d(column, row);
-        const std::vector<Visit> visits = surveyor.visits(place);
-        double height =
-            visits.empty() ? surveyor.remoteHeight(place) : surveyor.height(place, visits.front());
-        first_[corner] = height;
-        for (std::size_t i = 1; i < visits.size(); ++i) {
-          const double next = surveyor.height(place, visits[i]);
-          if (std::abs(next - height) < kStep_m) continue;
-          height = next;
-          const double station = surveyor.changeBetween(visits[i - 1], visits[i], place);
-          changes[static_cast<std::size_t>(row)].push_back({station, corner, height});
-        }
+  forEachRow(grid.rows + 1, [&](int row) {
+    for (int column = 0; column <= grid.columns; ++column) {
+      const std::size_t corner = static_cast<std::size_t>(row) * (grid.columns + 1) + column;
+      const Eigen::Vector2d place = grid.origin + grid.cell_m * Eigen::Vector2d(column, row);
+      const std::vector<Visit> visits = surveyor.visits(place);
+      double height =
+          visits.empty() ? surveyor.remoteHeight(place) : surveyor.height(place, visits.front());
+      first_[corner] = height;
+      for (std::size_t i = 1; i < visits.size(); ++i) {
+        const double next = surveyor.height(place, visits[i]);
+        if (std::abs(next - height) < kStep_m) continue;
+        height = next;
+        const double station = surveyor.changeBetween(visits[i - 1], visits[i], place);
+        changes[static_cast<std::size_t>(row)].push_back({station, corner, height});
       }
     }
   });

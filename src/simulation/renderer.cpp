@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include <opencv2/core/utility.hpp>
+#include "rows.h"
 
 namespace rotrocc {
 namespace {
@@ -30,15 +30,10 @@ class Rendering {
   }
 
   Picture run() {
-    const cv::Range rows(0, camera_.height);
-    cv::parallel_for_(rows, [this](const cv::Range& range) {
-      for (int y = range.start; y < range.end; ++y) lookAtCentres(y);
-    });
+    forEachRow(camera_.height, [this](int y) { lookAtCentres(y); });
     // Edges are found in the samples at the centres, not in what other threads have smoothed.
     centres_ = picture_.brightness.clone();
-    cv::parallel_for_(rows, [this](const cv::Range& range) {
-      for (int y = range.start; y < range.end; ++y) smoothEdges(y);
-    });
+    forEachRow(camera_.height, [this](int y) { smoothEdges(y); });
     return picture_;
   }
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "coverage.h"
+#include "rows.h"
 
 namespace rotrocc {
 namespace {
@@ -40,15 +40,13 @@ SunShadows::SunShadows(const SceneGeometry& scene, const StreetMap& streets, dou
   const int columns = static_cast<int>(grid.columns * grid.cell_m / kCell_m);
   const int rows = static_cast<int>(grid.rows * grid.cell_m / kCell_m);
   sunlit_ = cv::Mat(rows, columns, CV_8UC1, cv::Scalar(255));
-  cv::parallel_for_(cv::Range(0, rows), [&](const cv::Range& range) {
-    for (int row = range.start; row < range.end; ++row) {
-      const double z = origin_.y() + kCell_m * (row + 0.5);
-      for (int column = 0; column < columns; ++column) {
-        const double x = origin_.x() + kCell_m * (column + 0.5);
-        if (streets.distance(x, z) >= reach_m) continue;
-        const Eigen::Vector3d ground(x, scene.terrain().height(x, z) - 0.01, z);
-        if (!sunReaches(scene, ground)) sunlit_.at<uchar>(row, column) = 0;
-      }
+  forEachRow(rows, [&](int row) {
+    const double z = origin_.y() + kCell_m * (row + 0.5);
+    for (int column = 0; column < columns; ++column) {
+      const double x = origin_.x() + kCell_m * (column + 0.5);
+      if (streets.distance(x, z) >= reach_m) continue;
+      const Eigen::Vector3d ground(x, scene.terrain().height(x, z) - 0.01, z);
+      if (!sunReaches(scene, ground)) sunlit_.at<uchar>(row, column) = 0;
     }
   });
   cv::GaussianBlur(sunlit_, sunlit_, cv::Size(5, 5), 0.9);
