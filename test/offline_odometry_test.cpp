@@ -166,6 +166,14 @@ TEST_F(OfflineOdometryTest, SumsUp) {
       << result.output;
 }
 
+TEST_F(OfflineOdometryTest, PreloadedImagesGiveTheSamePoses) {
+  const std::string preloaded = trajectoryOf(sequence(), "--preload");
+  EXPECT_FALSE(preloaded.empty());
+  EXPECT_TRUE(preloaded == trajectoryOf(sequence()));
+  const CommandResult result = run(sequence() + " --trajectory /dev/null --preload");
+  EXPECT_NE(result.output.find("MB of memory at the peak: "), std::string::npos) << result.output;
+}
+
 TEST_F(OfflineOdometryTest, TakesParameters) {
   const CommandResult refused =
       run(sequence() + " --trajectory /dev/null --set feature_detector/max_features=5");

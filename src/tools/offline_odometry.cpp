@@ -3,12 +3,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <boost/program_options.hpp>
 
 #include "flow_pictures.h"
 #include "odometry_bag.h"
+#include "preloaded_source.h"
 #include "program.h"
 #include "progress_bar.h"
 #include "rotrocc/parameters.h"
@@ -34,6 +36,7 @@ struct Options {
   std::string pictures;
   std::string left_image;
   std::string right_image;
+  bool preload = false;
 };
 
 /// Returns false if only the help was asked for; throws po::error on bad usage.
@@ -50,6 +53,7 @@ bool parse(int argc, char** argv, Options& options) {
   add("pictures", po::value(&options.pictures), "folder for the flow picture of each pair");
   add("left-image", po::value(&options.left_image), "topic, where a bag has several pairs");
   add("right-image", po::value(&options.right_image), "topic of its partner");
+  add("preload", po::bool_switch(&options.preload), "read all images first; tells the memory");
   po::options_description all;
   all.add(visible).add_options()("input", po::value(&options.input)->required());
   po::positional_options_description positional;
@@ -101,9 +105,15 @@ StereoBag::Options bagOptions(const Options& options, const NodeParameters& node
 void run(const Options& options) {
   const Parameters parameters = readParameters(options);
 
-  const std::unique_ptr<StereoSource> source =
+  std::unique_ptr<StereoSource> source =
       openStereoSource(options.input, bagOptions(options, parameters.node));
   std::cerr << "offline_odometry: reading " << source->description() << '\n';
+  const PreloadedSource* preloaded = nullptr;
+  if (options.preload) {
+    auto all = std::make_unique<PreloadedSource>(std::move(source));
+    preloaded = all.get();
+    source = std::move(all);
+  }
   TrajectoryWriter trajectory(options.trajectory, trajectoryFormat(options.format));
   std::optional<StatisticsFile> statistics;
   if (!options.statistics.empty()) statistics.emplace(options.statistics);
@@ -135,6 +145,7 @@ void run(const Options& options) {
   }
   progress.finish();
   printSummary(std::cout, records);
+  if (preloaded != nullptr) preloaded->printMemory(std::cout);
   if (const int alone = source->size() - static_cast<int>(records.size())) {
     std::cout << alone << " left images had no right one within "
               << parameters.node.max_stamp_difference_s << " s (max_stamp_difference_s)\n";

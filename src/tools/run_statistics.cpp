@@ -54,11 +54,12 @@ void printTimes(std::ostream& out,
   char line[80];
   std::snprintf(line,
                 sizeof(line),
-                "%-16s %8.2f %8.2f %8.2f\n",
+                "%-16s %8.2f %8.2f %8.2f %8.2f\n",
                 name,
                 mean,
                 percentile(values, 0.5),
-                percentile(values, 0.95));
+                percentile(values, 0.95),
+                percentile(values, 0.99));
   out << line;
 }
 
@@ -107,7 +108,7 @@ void printSummary(std::ostream& out, const std::vector<PairRecord>& records) {
       << countState(records, State::kDegraded) << " degraded, " << countState(records, State::kLost)
       << " lost, " << countState(records, State::kInitialising) << " initialising\n";
   if (records.empty()) return;
-  out << "ms per pair          mean   median      p95\n";
+  out << "ms per pair          mean   median      p95      p99\n";
   printTimes(out, "wall", records, [](const PairRecord& record) { return record.wall_ms; });
   printTimes(out, "cpu", records, [](const PairRecord& record) { return record.cpu_ms; });
   for (const Stage& stage : kStages) {

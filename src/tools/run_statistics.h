@@ -32,7 +32,7 @@ class StatisticsFile {
   std::ofstream file_;
 };
 
-/// The closing summary: pairs by state, and mean, median and 95th percentile of the times.
+/// The closing summary: pairs by state, and mean, median, 95th and 99th percentile of the times.
 void printSummary(std::ostream& out, const std::vector<PairRecord>& records);
 
 }  // namespace rotrocc
