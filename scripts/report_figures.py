@@ -81,7 +81,7 @@ def robust_top(values, margin=1.15):
     values = values[numpy.isfinite(values)]
     if not len(values) or values.max() <= 0:
         return 1.0
-    return margin * min(values.max(), 2.0 * numpy.percentile(values, 99))
+    return margin * min(values.max(), 3.0 * numpy.percentile(values, 99))
 
 
 def plot_steps(poses, states, path):

@@ -9,46 +9,22 @@
 
 #include <gtest/gtest.h>
 
-#include "read_csv.h"
 #include "read_file.h"
-#include "run_command.h"
-#include "temporary_directory.h"
+#include "script_test.h"
 
 namespace rotrocc {
 namespace {
 
-class AccuracyTest : public ::testing::Test {
+class AccuracyTest : public ScriptTest {
  protected:
-  /// The script is run once for all tests, on a copy of the report.
   static void SetUpTestSuite() {
-    directory_ = new TemporaryDirectory;
-    std::ofstream(report()) << readFile(REPORT);
-    unsetenv("ROTROCC_KITTI_DIR");  // real clips would take their time
-    result_ = runCommand(std::string(PYTHON) + " " + ACCURACY + " --short --programs " + PROGRAMS +
-                         " --output " + *directory_ / "out" + " --report " + report());
-  }
-  static void TearDownTestSuite() { delete directory_; }
-
-  void SetUp() override { ASSERT_EQ(result_.status, 0) << result_.output; }
-
-  static std::string report() { return *directory_ / "accuracy.md"; }
-
-  static std::vector<CsvRow> readTable(const std::string& name) {
-    const std::vector<CsvRow> rows = readCsv(*directory_ / "out/" + name + ".csv");
-    EXPECT_FALSE(rows.empty()) << name;
-    return rows;
+    std::ofstream(report()) << readFile(REPORT);  // tables are written to a copy
+    unsetenv("ROTROCC_KITTI_DIR");                // real clips would take their time
+    runScript(ACCURACY, "--report " + report());
   }
 
-  static double number(const CsvRow& row, const std::string& column) {
-    return std::stod(row.at(column));
-  }
-
-  static TemporaryDirectory* directory_;
-  static CommandResult result_;
+  static std::string report() { return directory() / "accuracy.md"; }
 };
-
-TemporaryDirectory* AccuracyTest::directory_ = nullptr;
-CommandResult AccuracyTest::result_;
 
 /// What a text has outside of its tables.
 std::string proseOf(const std::string& text) {

@@ -8,48 +8,20 @@
 
 #include <gtest/gtest.h>
 
-#include "read_csv.h"
 #include "read_file.h"
-#include "run_command.h"
-#include "temporary_directory.h"
+#include "script_test.h"
 
 namespace rotrocc {
 namespace {
 
-class PaperExperimentsTest : public ::testing::Test {
+class PaperExperimentsTest : public ScriptTest {
  protected:
-  /// The script is run once for all tests.
-  static void SetUpTestSuite() {
-    directory_ = new TemporaryDirectory;
-    result_ = runCommand(std::string(PYTHON) + " " + PAPER_EXPERIMENTS + " --short --programs " +
-                         PROGRAMS + " --output " + *directory_ / "out");
-  }
-  static void TearDownTestSuite() { delete directory_; }
-
-  void SetUp() override { ASSERT_EQ(result_.status, 0) << result_.output; }
-
-  static std::string path(const std::string& name) { return *directory_ / "out/" + name; }
-
-  static std::vector<CsvRow> readTable(const std::string& name) {
-    const std::vector<CsvRow> rows = readCsv(path(name));
-    EXPECT_FALSE(rows.empty()) << name;
-    return rows;
-  }
-
-  static double number(const CsvRow& row, const std::string& column) {
-    return std::stod(row.at(column));
-  }
-
-  static TemporaryDirectory* directory_;
-  static CommandResult result_;
+  static void SetUpTestSuite() { runScript(PAPER_EXPERIMENTS); }
 };
-
-TemporaryDirectory* PaperExperimentsTest::directory_ = nullptr;
-CommandResult PaperExperimentsTest::result_;
 
 TEST_F(PaperExperimentsTest, DrawsAllFigures) {
   for (const char* name : {"fig4", "fig5", "fig6_motorway", "fig6_slip_road", "fig7", "fig8"}) {
-    const std::string picture = readFile(path(name) + ".png");
+    const std::string picture = readFile(outputPath(name) + ".png");
     EXPECT_EQ(picture.substr(0, 4), "\x89PNG") << name;
     EXPECT_GT(picture.size(), 10000u) << name << " is next to empty";
   }
@@ -57,7 +29,7 @@ TEST_F(PaperExperimentsTest, DrawsAllFigures) {
 
 TEST_F(PaperExperimentsTest, NormalizedErrorsLieAtATenthInSingleAxisMotions) {
   std::map<std::string, int> features;
-  for (const CsvRow& row : readTable("fig4.csv")) {
+  for (const CsvRow& row : readTable("fig4")) {
     ++features[row.at("motion")];
     if (number(row, "depth_m") < 6.04) continue;  // where the bound of the paper holds, by Eq. 17
     EXPECT_NEAR(number(row, "nre"), 0.1, 0.0154) << row.at("motion");
@@ -72,7 +44,7 @@ TEST_F(PaperExperimentsTest, OnlyTheDecoupledErrorTellsWrongDepths) {
   double greatest_right = 0.0;
   double greatest_right_nre = 0.0;
   double least_wrong_nre = 1.0;
-  for (const CsvRow& row : readTable("fig5.csv")) {
+  for (const CsvRow& row : readTable("fig5")) {
     const bool right = number(row, "depth_factor") == 1.0;
     wrong += right ? 0 : 1;
     if (right) {
@@ -90,7 +62,7 @@ TEST_F(PaperExperimentsTest, OnlyTheDecoupledErrorTellsWrongDepths) {
 }
 
 TEST_F(PaperExperimentsTest, EveryCriterionFollowsTheDrives) {
-  for (const char* table : {"fig6_motorway.csv", "fig6_slip_road.csv"}) {
+  for (const char* table : {"fig6_motorway", "fig6_slip_road"}) {
     const std::vector<CsvRow> frames = readTable(table);
     EXPECT_EQ(frames.size(), 39u);
     double squares = 0.0;
@@ -99,7 +71,7 @@ TEST_F(PaperExperimentsTest, EveryCriterionFollowsTheDrives) {
     }
     EXPECT_LT(std::sqrt(squares), 0.015) << table;  // [m]; the steps are 1 and 2.5 m
   }
-  for (const CsvRow& row : readTable("summary.csv")) {
+  for (const CsvRow& row : readTable("summary")) {
     for (const std::string criterion : {"rotrocc", "reprojection", "rocc"}) {
       EXPECT_LT(number(row, criterion + "_translation_percent"), 1.0) << row.at("drive");
       EXPECT_LT(number(row, criterion + "_rotation_deg_per_m"), 0.005) << row.at("drive");
@@ -111,7 +83,7 @@ TEST_F(PaperExperimentsTest, ErrorsBySpeedAndLengthHaveBothCriteria) {
   for (const std::string figure : {"fig7", "fig8"}) {
     for (const std::string column : {"speed_mps", "length_m"}) {
       std::map<std::string, int> rows;
-      for (const CsvRow& row : readTable(figure + "_" + column + ".csv")) {
+      for (const CsvRow& row : readTable(figure + "_" + column)) {
         ++rows[row.at("criterion")];
         EXPECT_GT(number(row, "segments"), 0.0);
       }
@@ -122,7 +94,7 @@ TEST_F(PaperExperimentsTest, ErrorsBySpeedAndLengthHaveBothCriteria) {
 }
 
 TEST_F(PaperExperimentsTest, StepsHaveNoBias) {
-  for (const CsvRow& row : readTable("bias.csv")) {
+  for (const CsvRow& row : readTable("bias")) {
     EXPECT_EQ(row.at("steps"), "39");
     EXPECT_EQ(row.at("lost"), "0");
     // 0.3 % over a whole drive; these are short.

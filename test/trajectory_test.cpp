@@ -1,9 +1,13 @@
 #include "rotrocc/trajectory.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -91,6 +95,53 @@ TEST_F(TrajectoryTest, WritesQuaternionsWithPositiveW) {
   const std::string line = contentOf(path);
   EXPECT_NE(line.find(" -0.984807753 "), std::string::npos) << line;
   EXPECT_NE(line.find(" 0.173648178\n"), std::string::npos) << line;
+}
+
+/// The numbers of each line by the rules of evo (github.com/MichaelGrupp/evo/wiki/Formats): one
+/// space between them and none at the end, and the same count in each line.
+std::vector<std::vector<double>> readAsEvo(const std::string& path, std::size_t count) {
+  std::vector<std::vector<double>> rows;
+  std::istringstream file(contentOf(path));
+  for (std::string line; std::getline(file, line);) {
+    rows.emplace_back();
+    for (std::size_t begin = 0; begin <= line.size();) {
+      const std::size_t end = std::min(line.find(' ', begin), line.size());
+      const std::string number = line.substr(begin, end - begin);
+      std::size_t read = 0;
+      rows.back().push_back(std::stod(number, &read));
+      EXPECT_EQ(read, number.size()) << line;
+      begin = end + 1;
+    }
+    EXPECT_EQ(rows.back().size(), count) << line;
+  }
+  return rows;
+}
+
+TEST_F(TrajectoryTest, WritesWhatEvoTakes) {
+  constexpr double kTolerance = 1e-6;  // of its checks with --full_check
+  const std::string path = directory_ / "out.txt";
+  for (const auto format : {TrajectoryFormat::kKitti, TrajectoryFormat::kTum}) {
+    TrajectoryWriter writer(path, format);
+    for (const std::int64_t stamp_ns : {1'317'000'000'123'456'789, 1'317'000'000'223'456'788}) {
+      writer.write(somePose(stamp_ns));
+    }
+    const bool tum = format == TrajectoryFormat::kTum;
+    const auto rows = readAsEvo(path, tum ? 8 : 12);
+    ASSERT_EQ(rows.size(), 2u);
+    for (const std::vector<double>& row : rows) {
+      if (tum) {
+        EXPECT_NEAR(Eigen::Vector4d(row[4], row[5], row[6], row[7]).norm(), 1.0, kTolerance);
+      } else {
+        Eigen::Matrix3d R;
+        R << row[0], row[1], row[2], row[4], row[5], row[6], row[8], row[9], row[10];
+        EXPECT_TRUE((R.transpose() * R).isIdentity(kTolerance));
+        EXPECT_NEAR(R.determinant(), 1.0, kTolerance);
+      }
+    }
+    if (tum) {
+      EXPECT_LT(rows[0][0], rows[1][0]);
+    }
+  }
 }
 
 TEST_F(TrajectoryTest, ReadsBackWhatItWrote) {

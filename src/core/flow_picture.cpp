@@ -2,44 +2,32 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <string>
 
 #include <opencv2/imgproc.hpp>
+
+#include "flow_legend.h"
 
 namespace rotrocc {
 namespace {
 
 // Colours (BGR) of Okabe and Ito, "Color universal design" (2002), which are as good as any on
 // grey.
-const cv::Scalar kNear(0, 159, 230);
-const cv::Scalar kFar(233, 180, 86);
 const cv::Scalar kRotationOnly(255, 255, 255);
 const cv::Scalar kOutlier(185, 60, 220);
 const cv::Scalar kExpected(115, 158, 0);
+const cv::Scalar kFeature(230, 230, 230);
 const cv::Scalar kOfRotation(233, 180, 86);
 const cv::Scalar kOfTranslation(0, 159, 230);
-const cv::Scalar kText(230, 230, 230);
-const cv::Scalar kBand(35, 30, 30);
 
 constexpr double kBrightness = 0.65;
-constexpr double kNear_m = 5.0;
-constexpr double kFar_m = 50.0;
-constexpr int kBand_px = 24;
 constexpr int kSubpixelBits = 4;
 
 /// An error of the flow that can be seen [px].
 constexpr double kVisible_px = 2.0;
 /// Far enough outside of any image; a line to further out might overflow.
 constexpr double kFarOutside_px = 1e5;
-
-/// Between near and far the colour goes with the logarithm of the depth.
-cv::Scalar colourOfDepth(double depth_m) {
-  const double share = std::log(depth_m / kNear_m) / std::log(kFar_m / kNear_m);
-  const double far = std::min(std::max(share, 0.0), 1.0);
-  return kNear * (1.0 - far) + kFar * far;
-}
 
 cv::Point toSubpixel(const Eigen::Vector2d& pixel) {
   constexpr double kScale = 1 << kSubpixelBits;
@@ -66,65 +54,6 @@ Eigen::Vector2d projectOr(const StereoCamera& camera,
   return point.z() > 0.0 ? camera.project(point) : otherwise_px;
 }
 
-/// Writes words and colours from left to right, as far as there is room.
-class Legend {
- public:
-  explicit Legend(cv::Mat band) : band_(std::move(band)) { band_.setTo(kBand); }
-
-  void text(const std::string& words) {
-    int baseline = 0;
-    const int width = cv::getTextSize(words, kFont, kFontScale, 1, &baseline).width;
-    if (!reserve(width)) return;
-    cv::putText(band_, words, {x_, kBand_px - 8}, kFont, kFontScale, kText, 1, cv::LINE_AA);
-    x_ += width + kGap_px;
-  }
-
-  void sample(const cv::Scalar& colour, const std::string& words) {
-    if (!reserve(kSample_px)) return;
-    const int y = kBand_px / 2;
-    cv::line(band_, {x_, y}, {x_ + kSample_px, y}, colour, 2, cv::LINE_AA);
-    cv::circle(band_, {x_ + kSample_px, y}, 3, colour, cv::FILLED, cv::LINE_AA);
-    x_ += kSample_px + kGap_px;
-    text(words);
-  }
-
-  void depthScale() {
-    text(format("%.0f m", kNear_m));
-    if (!reserve(kScale_px)) return;
-    for (int i = 0; i < kScale_px; ++i) {
-      const double depth_m = kNear_m * std::pow(kFar_m / kNear_m, i / (kScale_px - 1.0));
-      cv::line(band_, {x_ + i, 8}, {x_ + i, kBand_px - 9}, colourOfDepth(depth_m));
-    }
-    x_ += kScale_px + kGap_px;
-    text(format("%.0f m", kFar_m));
-  }
-
-  template <class... Values>
-  static std::string format(const char* pattern, Values... values) {
-    char text[128];
-    std::snprintf(text, sizeof(text), pattern, values...);
-    return text;
-  }
-
-  void space() { x_ += 2 * kGap_px; }
-
- private:
-  static constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
-  static constexpr double kFontScale = 0.42;
-  static constexpr int kGap_px = 8;
-  static constexpr int kSample_px = 18;
-  static constexpr int kScale_px = 80;
-
-  /// Once there is no room for something, there is none for what follows.
-  bool reserve(int width) {
-    if (x_ + width > band_.cols) x_ = band_.cols;
-    return x_ < band_.cols;
-  }
-
-  cv::Mat band_;
-  int x_ = kGap_px;
-};
-
 void requireFlags(const FeatureSet& set, const Correspondences& features) {
   if (set.empty() || set.size() == features.size()) return;
   throw std::invalid_argument("there are " + std::to_string(features.size()) + " features, but " +
@@ -135,23 +64,26 @@ bool contains(const FeatureSet& set, std::size_t i) {
   return !set.empty() && set[i] != 0;
 }
 
-void describe(const OdometryResult& result, Legend& legend) {
+void describe(const OdometryResult& result, FlowLegend& legend) {
   legend.text(toString(result.state));
   if (result.hasMotion()) {
     const double speed_mps = result.T_prev_cur.translation().norm() / result.dt_s;
-    legend.text(Legend::format("%.1f m/s", speed_mps));
+    legend.text(FlowLegend::format("%.1f m/s", speed_mps));
   }
   legend.space();
 }
 
-void describeCounts(const FlowScene& scene, Legend& legend) {
-  legend.text(Legend::format("%zu features, %d fit the rotation, %d the translation",
-                             scene.features.size(),
-                             scene.result.counts.rotation_inliers,
-                             scene.result.counts.translation_inliers));
-  const DisparityBias& bias = scene.result.disparity_bias;
+void describeCounts(const FlowScene& scene, FlowLegend& legend) {
+  const StageCounts& counts = scene.result.counts;
+  const std::string features = FlowLegend::format("%zu features, ", scene.features.size());
+  const bool had_stage_2 = counts.translation_inliers > 0;
+  legend.text(features + (had_stage_2
+                              ? FlowLegend::format("%d fit the rotation, %d the translation",
+                                                   counts.rotation_inliers,
+                                                   counts.translation_inliers)
+                              : FlowLegend::format("%d fit", counts.rotation_inliers)));
   legend.space();
-  legend.text(Legend::format("disparity %+.2f px", bias.applied_px));
+  legend.text(FlowLegend::format("bias %+.2f px", scene.result.disparity_bias.applied_px));
 }
 
 void drawMotion(const FlowScene& scene, cv::Mat& image) {
@@ -159,7 +91,7 @@ void drawMotion(const FlowScene& scene, cv::Mat& image) {
   // The few outliers would hide under the many inliers, so they come last.
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (!contains(scene.translation_inliers, i)) continue;
-    const cv::Scalar colour = colourOfDepth(features[i].point_cur.z());
+    const cv::Scalar colour = FlowLegend::colourOfDepth(features[i].point_cur.z());
     drawLine(features[i].prev_px, features[i].cur_px, colour, image);
     drawDot(features[i].cur_px, colour, image);
   }
@@ -188,11 +120,11 @@ void drawDecoupled(const FlowScene& scene, cv::Mat& image) {
         projectOr(scene.camera, R * feature.point_cur, feature.cur_px);
     drawLine(feature.cur_px, turned_px, kOfRotation, image);
     drawLine(turned_px, feature.prev_px, kOfTranslation, image);
-    drawDot(feature.cur_px, kText, image);
+    drawDot(feature.cur_px, kFeature, image);
   }
 }
 
-void explainMotion(Legend& legend) {
+void explainMotion(FlowLegend& legend) {
   legend.depthScale();
   legend.space();
   legend.sample(kRotationOnly, "rotation only");
@@ -203,7 +135,7 @@ void explainMotion(Legend& legend) {
   legend.space();
 }
 
-void explainDecoupled(Legend& legend) {
+void explainDecoupled(FlowLegend& legend) {
   legend.sample(kOfRotation, "flow of the rotation");
   legend.space();
   legend.sample(kOfTranslation, "flow of the translation");
@@ -235,12 +167,12 @@ void drawFlowPicture(const FlowScene& scene, FlowView view, cv::Mat& picture) {
   }
   requireFlags(scene.rotation_inliers, scene.features);
   requireFlags(scene.translation_inliers, scene.features);
-  picture.create(scene.left.rows + kBand_px, scene.left.cols, CV_8UC3);
+  picture.create(scene.left.rows + FlowLegend::kHeight_px, scene.left.cols, CV_8UC3);
   cv::Mat image = picture.rowRange(0, scene.left.rows);
   cv::cvtColor(scene.left, image, cv::COLOR_GRAY2BGR);
   image *= kBrightness;
 
-  Legend legend(picture.rowRange(scene.left.rows, picture.rows));
+  FlowLegend legend(picture.rowRange(scene.left.rows, picture.rows));
   describe(scene.result, legend);
   if (view == FlowView::kDecoupled) {
     drawDecoupled(scene, image);
