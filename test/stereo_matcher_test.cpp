@@ -35,7 +35,7 @@ float matchNear(const cv::Mat& left,
                 float expected_px) {
   Disparities disparities;
   Workers workers(1);
-  StereoMatcher({}).matchNear(workers, left, right, {pixel}, {expected_px}, 2, 0.0, disparities);
+  StereoMatcher({}).matchNear(workers, left, right, {pixel}, {expected_px}, 0.0, disparities);
   return disparities.at(0);
 }
 

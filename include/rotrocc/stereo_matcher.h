@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <vector>
 
@@ -24,39 +23,34 @@ class StereoMatcher {
   /// Disparity of a pixel without a match.
   static constexpr float kNoDisparity = std::numeric_limits<float>::lowest();
 
+  /// How far from what is expected matchNear() looks.
+  static constexpr int kNearRadius_px = 2;
+
   explicit StereoMatcher(const Config& config) : config_(config) {}
 
-  /// Disparity x_left - x_right [px] of each left pixel, or kNoDisparity: too near to the edge, too
-  /// different, ambiguous, or outside of the range. `left` and `right` are CV_8UC1 of one size;
-  /// `infinity_px` is StereoCamera::disparityAtInfinity().
+  /// Disparity x_left - x_right [px] of each corner of the left image, which are at whole pixels,
+  /// or kNoDisparity: too near to the edge, too different, ambiguous, or outside of the range.
+  /// `left` and `right` are CV_8UC1 of one size; `infinity_px` is
+  /// StereoCamera::disparityAtInfinity().
   void match(Workers& workers,
              const cv::Mat& left,
              const cv::Mat& right,
-             const std::vector<cv::Point2f>& pixels,
+             const std::vector<cv::Point2f>& corners,
              double infinity_px,
              std::vector<float>& disparities_px) const;
 
-  /// The same, but looks only within `radius_px` of the `expected_px` disparities and asks for no
-  /// uniqueness, which the expectation gives. Pixels whose expectation is kNoDisparity are skipped.
+  /// The same, but for pixels anywhere, within kNearRadius_px of the `expected_px` disparities, and
+  /// asks for no uniqueness, which the expectation gives. Pixels whose expectation is kNoDisparity
+  /// are skipped.
   void matchNear(Workers& workers,
                  const cv::Mat& left,
                  const cv::Mat& right,
                  const std::vector<cv::Point2f>& pixels,
                  const std::vector<float>& expected_px,
-                 int radius_px,
                  double infinity_px,
                  std::vector<float>& disparities_px) const;
 
  private:
-  void search(Workers& workers,
-              const cv::Mat& left,
-              const cv::Mat& right,
-              const std::vector<cv::Point2f>& pixels,
-              const std::function<cv::Range(std::size_t)>& columns_of,
-              double uniqueness,
-              double infinity_px,
-              std::vector<float>& disparities_px) const;
-
   Config config_;
 };
 

@@ -7,12 +7,6 @@
 #include "rotrocc/reprojection_error.h"
 
 namespace rotrocc {
-namespace {
-
-/// The tracked disparity says where to look for the match at t; this far around it [px].
-constexpr int kSearchRadius = 2;
-
-}  // namespace
 
 CorrespondenceFinder::CorrespondenceFinder(const Config& config, int threads)
     : config_(config),
@@ -121,7 +115,6 @@ void CorrespondenceFinder::closeCircle(Correspondences& features) {
                      pyramids_[current_].right.front(),
                      cur_left_,
                      expected_,
-                     kSearchRadius,
                      camera_.disparityAtInfinity(),
                      disparities_);
 

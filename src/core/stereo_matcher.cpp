@@ -1,114 +1,135 @@
 #include "rotrocc/stereo_matcher.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
+#include <limits>
 
 #include <opencv2/core/hal/intrin.hpp>
 
 namespace rotrocc {
 namespace {
 
-/// The window is 11 pixels wide and high; a SIMD register holds one row of it, the rest masked out.
+/// The window is 11 pixels wide and high.
 constexpr int kWindow = 11;
 constexpr int kHalf = kWindow / 2;
-constexpr int kRegister = 16;
 constexpr int kPixels = kWindow * kWindow;
+
+/// A register of bytes holds one row of it, the rest masked out.
+constexpr int kRegister = 16;
+
+/// The slopes of a minimum, so far to both sides [px], are no rivals of it.
+constexpr int kSlope = 2;
+
+/// Stands for the cost of a column that is higher than any of interest.
+constexpr int kHigh = std::numeric_limits<int>::max();
+
+constexpr float kNoColumn = -1.0F;
 
 /// More parts than threads even out what they cost.
 constexpr int kParts = 8;
 
-#if CV_SIMD128
-using Row = cv::v_uint8x16;
-
-Row loadRow(const uchar* pixels) {
-  alignas(16) static const std::array<uchar, kRegister> mask = {
-      255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 0, 0, 0, 0, 0};
-  return cv::v_load(pixels) & cv::v_load_aligned(mask.data());
-}
-
-int difference(const Row& a, const Row& b) {
-  return static_cast<int>(cv::v_reduce_sad(a, b));
-}
-#else
-using Row = std::array<uchar, kWindow>;
-
-Row loadRow(const uchar* pixels) {
-  Row row;
-  std::copy(pixels, pixels + kWindow, row.begin());
-  return row;
-}
-
-int difference(const Row& a, const Row& b) {
-  int sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    sum += std::abs(static_cast<int>(a[i]) - static_cast<int>(b[i]));
-  return sum;
-}
-#endif
+using Bytes = cv::v_uint8x16;
+using Words = cv::v_int16x8;
+constexpr int kWords = 8;
 
 /// Sums of absolute differences between the window around a left pixel and windows of the same row
-/// of the right image. Pixels between the rows or columns are interpolated.
-class RowSearch {
+/// of the right image, all at whole pixels.
+class WholePixelCosts {
  public:
-  /// `columns` of the right image are those that will be asked for.
-  RowSearch(const cv::Mat& left,
-            const cv::Mat& right,
-            const cv::Point2f& pixel,
-            const cv::Range& columns)
-      : first_(columns.start) {
-    const int x = cvFloor(pixel.x);
-    const int y = cvFloor(pixel.y);
-    const float dx = pixel.x - static_cast<float>(x);
-    const float dy = pixel.y - static_cast<float>(y);
-    alignas(kRegister) uchar buffer[kRegister] = {};
+  WholePixelCosts(const cv::Mat& left, const cv::Mat& right, const cv::Point& pixel)
+      : right_(right.ptr<uchar>(pixel.y - kHalf) - kHalf), step_(right.step) {
     for (int i = 0; i < kWindow; ++i) {
-      const uchar* row = left.ptr<uchar>(y - kHalf + i) + x - kHalf;
-      if (dx != 0.0F || dy != 0.0F) {
-        interpolate(row, left.step, dx, dy, kWindow, buffer);
-        row = buffer;
-      }
-      window_[index(i)] = loadRow(row);
-      rows_[index(i)] = right.ptr<uchar>(y - kHalf + i) + first_ - kHalf;
+      window_[i] = loadRow(left.ptr<uchar>(pixel.y - kHalf + i) + pixel.x - kHalf);
     }
-    if (dy != 0.0F) interpolateRight(right.step, dy, columns.size() + kRegister);
   }
 
-  int operator()(int column) const {
+  /// The sum of some rows, and of the others.
+  int part(int column) const { return row(1, column) + row(5, column) + row(9, column); }
+  int rest(int column) const {
     int sum = 0;
-    for (int i = 0; i < kWindow; ++i) {
-      sum += difference(window_[index(i)], loadRow(rows_[index(i)] + column - first_));
-    }
+    for (const int i : {0, 2, 3, 4, 6, 7, 8, 10}) sum += row(i, column);
     return sum;
   }
 
  private:
-  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  static Bytes loadRow(const uchar* pixels) {
+    alignas(kRegister) static constexpr uchar kMask[kRegister] = {
+        255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255};
+    return cv::v_load(pixels) & cv::v_load_aligned(kMask);
+  }
+  int row(int i, int column) const {
+    const uchar* pixels = right_ + static_cast<std::size_t>(i) * step_ + column;
+    return static_cast<int>(cv::v_reduce_sad(window_[i], loadRow(pixels)));
+  }
 
-  static void interpolate(
-      const uchar* row, std::size_t step, float dx, float dy, int count, uchar* out) {
-    const uchar* below = dy != 0.0F ? row + step : row;
-    const int right = dx != 0.0F ? 1 : 0;
-    for (int i = 0; i < count; ++i) {
-      const float top = (1.0F - dx) * row[i] + dx * row[i + right];
-      const float bottom = (1.0F - dx) * below[i] + dx * below[i + right];
-      out[i] = static_cast<uchar>((1.0F - dy) * top + dy * bottom + 0.5F);
+  const uchar* right_;
+  std::size_t step_;
+  Bytes window_[kWindow];
+};
+
+/// The same around a left pixel that may lie between pixels, with the row of the right image that
+/// is as high, in eighths of a grey level.
+class SubPixelCosts {
+ public:
+  static constexpr int kUnit = 8;
+  static constexpr int kColumns = 2 * StereoMatcher::kNearRadius_px + 3;
+
+  /// `first` of the right columns, and up to kColumns of them, will be asked for.
+  SubPixelCosts(const cv::Mat& left, const cv::Mat& right, const cv::Point2f& pixel, int first) {
+    const int x = cvFloor(pixel.x);
+    const int y = cvFloor(pixel.y);
+    const Words fx = fraction(pixel.x - static_cast<float>(x));
+    const Words fy = fraction(pixel.y - static_cast<float>(y));
+    const uchar* from = left.ptr<uchar>(y - kHalf) + x - kHalf;
+    const uchar* right_from = right.ptr<uchar>(y - kHalf) + first - kHalf;
+    for (int i = 0; i < kWindow; ++i, from += left.step, right_from += right.step) {
+      for (int k = 0; k < kRegister; k += kWords) {
+        const Words here = betweenRows(from + k, left.step, fy);
+        const Words next = betweenRows(from + k + 1, left.step, fy);
+        cv::v_store_aligned(window_[i] + k, between(here, next, fx));
+      }
+      for (int k = 0; k < kStrip; k += kWords) {
+        cv::v_store_aligned(strip_[i] + k, betweenRows(right_from + k, right.step, fy));
+      }
     }
   }
 
-  void interpolateRight(std::size_t step, float dy, int count) {
-    strip_.resize(index(kWindow * count));
+  /// Of the k-th column from the first.
+  int operator()(int k) const {
+    alignas(kRegister) static constexpr ushort kMask[kWords] = {65535, 65535, 65535};
+    // Eleven rows of two differences of up to 2040 fit into 16 bits.
+    cv::v_uint16x8 sum = cv::v_setzero_u16();
+    cv::v_uint16x8 partly = cv::v_setzero_u16();
     for (int i = 0; i < kWindow; ++i) {
-      uchar* out = strip_.data() + i * count;
-      interpolate(rows_[index(i)], step, 0.0F, dy, count, out);
-      rows_[index(i)] = out;
+      sum = sum + cv::v_absdiff(cv::v_load_aligned(window_[i]), cv::v_load(strip_[i] + k));
+      partly = partly + cv::v_absdiff(cv::v_load_aligned(window_[i] + kWords),
+                                      cv::v_load(strip_[i] + k + kWords));
     }
+    cv::v_uint32x4 low, high;
+    cv::v_expand(sum + (partly & cv::v_load_aligned(kMask)), low, high);
+    return static_cast<int>(cv::v_reduce_sum(low + high));
   }
 
-  int first_;
-  std::array<Row, kWindow> window_;
-  std::array<const uchar*, kWindow> rows_;
-  std::vector<uchar> strip_;
+ private:
+  static constexpr int kUnitBits = 3;
+  static constexpr int kStrip = 24;  // kWindow + kColumns - 1, in whole registers
+  static_assert(kUnit == 1 << kUnitBits && kStrip >= kWindow + kColumns - 1);
+
+  /// 1 is 2^15.
+  static Words fraction(float distance) {
+    return cv::v_setall_s16(static_cast<short>(32768.0F * distance));
+  }
+  static Words between(const Words& a, const Words& b, const Words& fraction) {
+    return a + cv::v_mul_hi(cv::v_shl<1>(b - a), fraction);
+  }
+  static Words betweenRows(const uchar* pixels, std::size_t step, const Words& fraction) {
+    const Words upper = cv::v_reinterpret_as_s16(cv::v_load_expand(pixels));
+    const Words lower = cv::v_reinterpret_as_s16(cv::v_load_expand(pixels + step));
+    return between(cv::v_shl<kUnitBits>(upper), cv::v_shl<kUnitBits>(lower), fraction);
+  }
+
+  alignas(kRegister) short window_[kWindow][kRegister];
+  alignas(kRegister) short strip_[kWindow][kStrip + kRegister] = {};  // lanes that the mask drops
 };
 
 /// Whether the window around a left pixel can be read, the pixels right of it and below included.
@@ -130,34 +151,74 @@ float subPixelOffset(int before, int at, int after) {
   return 0.5F * static_cast<float>(before - after) / static_cast<float>(slope);
 }
 
-/// Whether a cost away from the minimum comes near to it. The slopes of the minimum are no rivals.
-bool hasRival(const std::vector<int>& costs,
-              std::vector<int>::const_iterator best,
-              double uniqueness) {
-  constexpr std::ptrdiff_t kSlope = 2;
-  for (auto it = costs.begin(); it != costs.end(); ++it) {
-    if (std::abs(it - best) > kSlope && *best >= uniqueness * *it) return true;
-  }
-  return false;
-}
-
-/// Column of the best match, or a negative number where it lies at the end of the range, differs
-/// too much or is ambiguous. `uniqueness` of 0 accepts rivals.
-float bestColumn(const RowSearch& sad,
+/// Column of the best match, or kNoColumn where it lies at the end of the range, costs more than
+/// `most` or is ambiguous: at least `uniqueness` times the cost of a rival.
+float bestColumn(const WholePixelCosts& sad,
                  const cv::Range& columns,
-                 double max_mean_difference,
+                 double most,
                  double uniqueness) {
-  constexpr float kNone = -1.0F;
   thread_local std::vector<int> costs;
   costs.clear();
-  for (int x = columns.start; x < columns.end; ++x) costs.push_back(sad(x));
+  for (int x = columns.start; x < columns.end; ++x) costs.push_back(sad.part(x));
+  const auto full = [&](int k) {
+    return costs[static_cast<std::size_t>(k)] + sad.rest(columns.start + k);
+  };
+  // What costs more can neither be the best nor a rival of it, and mostly some rows show that.
+  const auto limitOf = [&](double best) { return cvCeil(std::min(best, most) / uniqueness); };
+  const auto likely = std::min_element(costs.begin(), costs.end());
+  int limit = limitOf(full(static_cast<int>(likely - costs.begin())));
+  int best = -1;
+  int least = kHigh;
+  for (int k = 0; k < columns.size(); ++k) {
+    int& cost = costs[static_cast<std::size_t>(k)];
+    cost = cost <= limit ? full(k) : kHigh;
+    if (cost >= least) continue;
+    best = k;
+    least = cost;
+    limit = std::min(limit, limitOf(least));
+  }
 
-  const auto best = std::min_element(costs.begin(), costs.end());
-  if (best == costs.begin() || best == costs.end() - 1) return kNone;
-  if (*best > max_mean_difference * kPixels) return kNone;
-  if (uniqueness > 0.0 && hasRival(costs, best, uniqueness)) return kNone;
-  return static_cast<float>(columns.start + (best - costs.begin())) +
-         subPixelOffset(*(best - 1), *best, *(best + 1));
+  if (best <= 0 || best == columns.size() - 1 || least > most) return kNoColumn;
+  for (int k = 0; k < columns.size(); ++k) {
+    const bool rival = least >= uniqueness * costs[static_cast<std::size_t>(k)];
+    if (rival && std::abs(k - best) > kSlope) return kNoColumn;
+  }
+  const auto exact = [&](int k) {
+    const int cost = costs[static_cast<std::size_t>(k)];
+    return cost != kHigh ? cost : sad.part(columns.start + k) + sad.rest(columns.start + k);
+  };
+  return static_cast<float>(columns.start + best) +
+         subPixelOffset(exact(best - 1), least, exact(best + 1));
+}
+
+/// The same for a few columns, where rivals do not matter.
+float bestColumn(const SubPixelCosts& sad, const cv::Range& columns, double most) {
+  int costs[SubPixelCosts::kColumns];
+  for (int k = 0; k < columns.size(); ++k) costs[k] = sad(k);
+  const int* best = std::min_element(costs, costs + columns.size());
+  if (best == costs || best == costs + columns.size() - 1) return kNoColumn;
+  if (*best > most * SubPixelCosts::kUnit) return kNoColumn;
+  return static_cast<float>(columns.start + static_cast<int>(best - costs)) +
+         subPixelOffset(best[-1], best[0], best[1]);
+}
+
+/// Calls columnOf(i) for each pixel and makes a disparity of the column that it returns.
+template <class ColumnOf>
+void eachPixel(Workers& workers,
+               const std::vector<cv::Point2f>& pixels,
+               double least_px,
+               std::vector<float>& disparities_px,
+               const ColumnOf& columnOf) {
+  disparities_px.assign(pixels.size(), StereoMatcher::kNoDisparity);
+  workers.run(kParts, [&](int part) {
+    const auto p = static_cast<std::size_t>(part);
+    const std::size_t end = pixels.size() * (p + 1) / kParts;
+    for (std::size_t i = pixels.size() * p / kParts; i < end; ++i) {
+      const float column = columnOf(i);
+      const float disparity_px = pixels[i].x - column;
+      if (column != kNoColumn && disparity_px >= least_px) disparities_px[i] = disparity_px;
+    }
+  });
 }
 
 }  // namespace
@@ -165,16 +226,20 @@ float bestColumn(const RowSearch& sad,
 void StereoMatcher::match(Workers& workers,
                           const cv::Mat& left,
                           const cv::Mat& right,
-                          const std::vector<cv::Point2f>& pixels,
+                          const std::vector<cv::Point2f>& corners,
                           double infinity_px,
                           std::vector<float>& disparities_px) const {
   const int nearest = config_.max_disparity_px + cvCeil(infinity_px);
   const int farthest = cvFloor(config_.min_disparity_px + infinity_px);
-  const auto columns = [&](std::size_t i) {
-    const int x = cvFloor(pixels[i].x);
-    return cv::Range(x - nearest - 1, x - farthest + 2);
-  };
-  search(workers, left, right, pixels, columns, config_.uniqueness, infinity_px, disparities_px);
+  const double most = config_.max_mean_difference * kPixels;
+  const double least_px = config_.min_disparity_px + infinity_px;
+  eachPixel(workers, corners, least_px, disparities_px, [&](std::size_t i) {
+    if (!windowInside(left, corners[i])) return kNoColumn;
+    const cv::Point pixel(cvRound(corners[i].x), cvRound(corners[i].y));
+    const cv::Range columns = clip(right, cv::Range(pixel.x - nearest - 1, pixel.x - farthest + 2));
+    if (columns.size() < 3) return kNoColumn;
+    return bestColumn(WholePixelCosts(left, right, pixel), columns, most, config_.uniqueness);
+  });
 }
 
 void StereoMatcher::matchNear(Workers& workers,
@@ -182,39 +247,17 @@ void StereoMatcher::matchNear(Workers& workers,
                               const cv::Mat& right,
                               const std::vector<cv::Point2f>& pixels,
                               const std::vector<float>& expected_px,
-                              int radius_px,
                               double infinity_px,
                               std::vector<float>& disparities_px) const {
-  const auto columns = [&](std::size_t i) {
-    if (expected_px[i] == kNoDisparity) return cv::Range();
-    const int x = cvRound(pixels[i].x - expected_px[i]);
-    return cv::Range(x - radius_px - 1, x + radius_px + 2);
-  };
-  search(workers, left, right, pixels, columns, 0.0, infinity_px, disparities_px);
-}
-
-void StereoMatcher::search(Workers& workers,
-                           const cv::Mat& left,
-                           const cv::Mat& right,
-                           const std::vector<cv::Point2f>& pixels,
-                           const std::function<cv::Range(std::size_t)>& columns_of,
-                           double uniqueness,
-                           double infinity_px,
-                           std::vector<float>& disparities_px) const {
+  const double most = config_.max_mean_difference * kPixels;
   const double least_px = config_.min_disparity_px + infinity_px;
-  disparities_px.assign(pixels.size(), kNoDisparity);
-  workers.run(kParts, [&](int part) {
-    const auto p = static_cast<std::size_t>(part);
-    const std::size_t end = pixels.size() * (p + 1) / kParts;
-    for (std::size_t i = pixels.size() * p / kParts; i < end; ++i) {
-      if (!windowInside(left, pixels[i])) continue;
-      const cv::Range columns = clip(right, columns_of(i));
-      if (columns.size() < 3) continue;
-      const RowSearch sad(left, right, pixels[i], columns);
-      const float column = bestColumn(sad, columns, config_.max_mean_difference, uniqueness);
-      const float disparity_px = pixels[i].x - column;
-      if (column >= 0.0F && disparity_px >= least_px) disparities_px[i] = disparity_px;
-    }
+  eachPixel(workers, pixels, least_px, disparities_px, [&](std::size_t i) {
+    if (expected_px[i] == kNoDisparity || !windowInside(left, pixels[i])) return kNoColumn;
+    const int x = cvRound(pixels[i].x - expected_px[i]);
+    const cv::Range columns =
+        clip(right, cv::Range(x - kNearRadius_px - 1, x + kNearRadius_px + 2));
+    if (columns.size() < 3) return kNoColumn;
+    return bestColumn(SubPixelCosts(left, right, pixels[i], columns.start), columns, most);
   });
 }
 
