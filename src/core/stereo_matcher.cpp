@@ -23,6 +23,10 @@ constexpr int kSlope = 2;
 /// Stands for the cost of a column that is higher than any of interest.
 constexpr int kHigh = std::numeric_limits<int>::max();
 
+/// Columns are dropped whose part of the window costs half as much again as where that is cheapest,
+/// and two grey levels a pixel more. For 4 corners in 1000 of KITTI that changes the answer.
+constexpr int kPartNoise = 64;
+
 constexpr float kNoColumn = -1.0F;
 
 /// More parts than threads even out what they cost.
@@ -38,33 +42,54 @@ class WholePixelCosts {
  public:
   WholePixelCosts(const cv::Mat& left, const cv::Mat& right, const cv::Point& pixel)
       : right_(right.ptr<uchar>(pixel.y - kHalf) - kHalf), step_(right.step) {
-    for (int i = 0; i < kWindow; ++i) {
-      window_[i] = loadRow(left.ptr<uchar>(pixel.y - kHalf + i) + pixel.x - kHalf);
-    }
+    const uchar* pixels = left.ptr<uchar>(pixel.y - kHalf) + pixel.x - kHalf;
+    for (int i = 0; i < kWindow; ++i)
+      rows_[i] = loadRow(pixels + static_cast<std::size_t>(i) * left.step);
+    pixels += kEdge;
+    for (int k = 0; k < kPairs; ++k)
+      pairs_[k] =
+          loadPair(pixels + kPairRows[k][0] * left.step, pixels + kPairRows[k][1] * left.step);
   }
 
-  /// The sum of some rows, and of the others.
-  int part(int column) const { return row(1, column) + row(5, column) + row(9, column); }
-  int rest(int column) const {
-    int sum = 0;
-    for (const int i : {0, 2, 3, 4, 6, 7, 8, 10}) sum += row(i, column);
-    return sum;
+  /// The sum over a part of the window, all but the edge of every other row but one.
+  int part(int column) const {
+    const uchar* pixels = right_ + column + kEdge;
+    unsigned sum = 0;
+    for (int k = 0; k < kPairs; ++k) {
+      sum += cv::v_reduce_sad(
+          pairs_[k], loadPair(pixels + kPairRows[k][0] * step_, pixels + kPairRows[k][1] * step_));
+    }
+    return static_cast<int>(sum);
+  }
+  /// The sum over the whole window; kHigh where it is seen to be more than `limit`.
+  int whole(int column, int limit = kHigh) const {
+    const uchar* pixels = right_ + column;
+    unsigned sum = 0;
+    for (int i = 0; i < kWindow; ++i, pixels += step_) {
+      sum += cv::v_reduce_sad(rows_[i], loadRow(pixels));
+      if (i == kHalf && sum > static_cast<unsigned>(limit)) return kHigh;
+    }
+    return static_cast<int>(sum);
   }
 
  private:
+  static constexpr int kPairs = 2;
+  static constexpr int kEdge = 1;
+  static constexpr std::size_t kPairRows[kPairs][2] = {{1, 3}, {7, 9}};
+
   static Bytes loadRow(const uchar* pixels) {
     alignas(kRegister) static constexpr uchar kMask[kRegister] = {
         255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255};
     return cv::v_load(pixels) & cv::v_load_aligned(kMask);
   }
-  int row(int i, int column) const {
-    const uchar* pixels = right_ + static_cast<std::size_t>(i) * step_ + column;
-    return static_cast<int>(cv::v_reduce_sad(window_[i], loadRow(pixels)));
+  static Bytes loadPair(const uchar* upper, const uchar* lower) {
+    return cv::v_load_halves(upper, lower);
   }
 
   const uchar* right_;
   std::size_t step_;
-  Bytes window_[kWindow];
+  Bytes rows_[kWindow];
+  Bytes pairs_[kPairs];
 };
 
 /// The same around a left pixel that may lie between pixels, with the row of the right image that
@@ -160,18 +185,17 @@ float bestColumn(const WholePixelCosts& sad,
   thread_local std::vector<int> costs;
   costs.clear();
   for (int x = columns.start; x < columns.end; ++x) costs.push_back(sad.part(x));
-  const auto full = [&](int k) {
-    return costs[static_cast<std::size_t>(k)] + sad.rest(columns.start + k);
-  };
-  // What costs more can neither be the best nor a rival of it, and mostly some rows show that.
-  const auto limitOf = [&](double best) { return cvCeil(std::min(best, most) / uniqueness); };
   const auto likely = std::min_element(costs.begin(), costs.end());
-  int limit = limitOf(full(static_cast<int>(likely - costs.begin())));
+  const int likely_column = columns.start + static_cast<int>(likely - costs.begin());
+  const int part_limit = *likely + *likely / 2 + kPartNoise;
+  // What costs more can neither be the best nor a rival of it.
+  const auto limitOf = [&](double best) { return cvCeil(std::min(best, most) / uniqueness); };
+  int limit = limitOf(sad.whole(likely_column));
   int best = -1;
   int least = kHigh;
   for (int k = 0; k < columns.size(); ++k) {
     int& cost = costs[static_cast<std::size_t>(k)];
-    cost = cost <= limit ? full(k) : kHigh;
+    cost = cost <= part_limit ? sad.whole(columns.start + k, limit) : kHigh;
     if (cost >= least) continue;
     best = k;
     least = cost;
@@ -185,7 +209,7 @@ float bestColumn(const WholePixelCosts& sad,
   }
   const auto exact = [&](int k) {
     const int cost = costs[static_cast<std::size_t>(k)];
-    return cost != kHigh ? cost : sad.part(columns.start + k) + sad.rest(columns.start + k);
+    return cost != kHigh ? cost : sad.whole(columns.start + k);
   };
   return static_cast<float>(columns.start + best) +
          subPixelOffset(exact(best - 1), least, exact(best + 1));
