@@ -88,13 +88,12 @@ void disparities(benchmark::State& state) {
 
 void tracking(benchmark::State& state) {
   Middle middle;
-  const int levels = FeatureTracker::Config{}.levels;
-  for (auto _ : state) state.counters["tracked"] = middle.finder.track(middle.T_prev_cur, levels);
+  for (auto _ : state) state.counters["tracked"] = middle.finder.track(middle.T_prev_cur, true);
 }
 
 void closingTheCircle(benchmark::State& state) {
   Middle middle;
-  middle.finder.track(middle.T_prev_cur, FeatureTracker::Config{}.levels);
+  middle.finder.track(middle.T_prev_cur, true);
   Correspondences features;
   for (auto _ : state) middle.finder.closeCircle(features);
   state.counters["features"] = static_cast<double>(features.size());
@@ -102,7 +101,7 @@ void closingTheCircle(benchmark::State& state) {
 
 void estimation(benchmark::State& state) {
   Middle middle;
-  middle.finder.track(middle.T_prev_cur, FeatureTracker::Config{}.levels);
+  middle.finder.track(middle.T_prev_cur, true);
   Correspondences features;
   middle.finder.closeCircle(features);
   MotionEstimator estimator{MotionEstimator::Config{}};

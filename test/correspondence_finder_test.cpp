@@ -13,8 +13,6 @@
 namespace rotrocc {
 namespace {
 
-constexpr int kLevels = 2;
-
 Eigen::Isometry3d step() {
   return motion({0.01, 0.0, 0.5}, {0.0, 0.02, 0.002});
 }
@@ -37,7 +35,7 @@ Correspondences find(const StereoPair& prev,
   finder.take(cur, camera);
   finder.findCorners();
   finder.findDepths();
-  finder.track(step(), kLevels);
+  finder.track(step(), true);
   Correspondences features;
   finder.closeCircle(features);
   return features;
@@ -110,9 +108,9 @@ TEST(CorrespondenceFinderTest, CountsWhatIsLeft) {
   const int with_depth = finder.findDepths();
   EXPECT_GT(with_depth, corners / 2);
   EXPECT_LE(with_depth, corners);
-  EXPECT_GT(finder.track(step(), kLevels), with_depth / 2);
+  EXPECT_GT(finder.track(step(), true), with_depth / 2);
   // A motion that takes every point behind the camera leaves nothing to track.
-  EXPECT_EQ(finder.track(motion({0.0, 0.0, 200.0}, {0.0, 0.0, 0.0}), kLevels), 0);
+  EXPECT_EQ(finder.track(motion({0.0, 0.0, 200.0}, {0.0, 0.0, 0.0}), true), 0);
   Correspondences features(3);
   finder.closeCircle(features);
   EXPECT_TRUE(features.empty());

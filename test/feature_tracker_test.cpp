@@ -58,7 +58,7 @@ Tracked track(const cv::Mat& first,
               const cv::Mat& second,
               const Points& from,
               const Points& predictions,
-              int levels,
+              const FeatureTracker::Search& search,
               const FeatureTracker::Config& config = {},
               int threads = 1) {
   FeatureTracker tracker(config);
@@ -67,7 +67,7 @@ Tracked track(const cv::Mat& first,
   tracker.buildPyramid(second, b);
   Tracked result{predictions, std::vector<char>(from.size(), 1)};
   Workers workers(threads);
-  tracker.track(workers, a, b, from, levels, result.cur, result.tracked);
+  tracker.track(workers, a, b, from, search, result.cur, result.tracked);
   return result;
 }
 
@@ -98,7 +98,7 @@ Points perturbed(const Points& points, double sigma_px) {
 TEST(FeatureTrackerTest, FindsTheFlowFromAPoorPrediction) {
   const Points predictions = perturbed(drive().truth, 2.0);
   ASSERT_GT(predictions.size(), 300u);
-  const Tracked result = track(drive().first, drive().second, drive().corners, predictions, 2);
+  const Tracked result = track(drive().first, drive().second, drive().corners, predictions, {2});
   const std::vector<double> errors = sortedErrors(result, drive().truth);
   EXPECT_GT(errors.size(), predictions.size() * 8 / 10);
   // Measured: 0.19 and 0.54 px. It is the street growing inside the window, not the grey noise.
@@ -109,7 +109,7 @@ TEST(FeatureTrackerTest, FindsTheFlowFromAPoorPrediction) {
 TEST(FeatureTrackerTest, FindsTheFlowOfARotationBetter) {
   const TwoViews views(motion({0.0, 0.0, 0.0}, {0.003, 0.02, 0.0}));
   const Tracked result =
-      track(views.first, views.second, views.corners, perturbed(views.truth, 2.0), 2);
+      track(views.first, views.second, views.corners, perturbed(views.truth, 2.0), {2});
   const std::vector<double> errors = sortedErrors(result, views.truth);
   EXPECT_GT(errors.size(), views.truth.size() * 9 / 10);
   // Measured: 0.09 and 0.24 px, from noise of 2 grey levels.
@@ -121,7 +121,7 @@ TEST(FeatureTrackerTest, FindsALargeFlowFromNothingWithAllLevels) {
   // 26 deg/s at 10 Hz, as where KITTI 01 begins.
   const TwoViews views(motion({0.0, 0.0, 0.6}, {0.0, 0.045, 0.0}));
   const auto share_right = [&](int levels) {
-    const Tracked result = track(views.first, views.second, views.corners, views.corners, levels);
+    const Tracked result = track(views.first, views.second, views.corners, views.corners, {levels});
     const std::vector<double> errors = sortedErrors(result, views.truth);
     const auto right = std::lower_bound(errors.begin(), errors.end(), 1.0) - errors.begin();
     return static_cast<double>(right) / static_cast<double>(views.truth.size());
@@ -137,7 +137,7 @@ TEST(FeatureTrackerTest, DropsPointsThatDoNotComeBack) {
   cv::Mat noise(patch.size(), CV_8UC1);
   generator.fill(noise, cv::RNG::UNIFORM, 0, 256);
   noise.copyTo(changed(patch));
-  const Tracked result = track(drive().first, changed, drive().corners, drive().truth, 2);
+  const Tracked result = track(drive().first, changed, drive().corners, drive().truth, {2});
   int inside = 0;
   int kept_inside = 0;
   int outside = 0;
@@ -166,10 +166,37 @@ TEST(FeatureTrackerTest, ALooseRoundTripKeepsMore) {
   strict.max_round_trip_px = 0.05;
   const auto kept = [](const FeatureTracker::Config& config) {
     const Tracked result = track(
-        drive().first, drive().second, drive().corners, perturbed(drive().truth, 4.0), 1, config);
+        drive().first, drive().second, drive().corners, perturbed(drive().truth, 4.0), {1}, config);
     return std::count(result.tracked.begin(), result.tracked.end(), 1);
   };
   EXPECT_GT(kept(loose), kept(strict));
+}
+
+TEST(FeatureTrackerTest, UsesSmallImagesWhereAPointIsNotNear) {
+  const auto errors = [](double distance_px, int levels) {
+    return sortedErrors(track(drive().first,
+                              drive().second,
+                              drive().corners,
+                              perturbed(drive().truth, distance_px),
+                              {levels, true}),
+                        drive().truth);
+  };
+  // One level is enough for what is near, and finds the same then as several.
+  EXPECT_GT(errors(0.5, 1).size(), drive().truth.size() * 8 / 10);
+  EXPECT_EQ(errors(0.5, 1).size(), errors(0.5, 3).size());
+  EXPECT_GT(errors(12.0, 3).size(), 2 * errors(12.0, 1).size());
+}
+
+TEST(FeatureTrackerTest, LetsPointsGoThatDoNotReturnWhereThatIsAskedFor) {
+  const auto found = [](bool round_trip) {
+    const Tracked result = track(drive().first,
+                                 drive().second,
+                                 drive().corners,
+                                 perturbed(drive().truth, 8.0),
+                                 {1, false, round_trip});
+    return std::count(result.tracked.begin(), result.tracked.end(), 1);
+  };
+  EXPECT_GT(found(false), found(true));
 }
 
 TEST(FeatureTrackerTest, LeavesPointsAloneThatAreNotAskedFor) {
@@ -182,8 +209,8 @@ TEST(FeatureTrackerTest, LeavesPointsAloneThatAreNotAskedFor) {
   std::vector<char> tracked(cur.size());
   for (std::size_t i = 0; i < tracked.size(); ++i) tracked[i] = i % 2;
   Workers workers(1);
-  tracker.track(workers, a, b, drive().corners, 2, cur, tracked);
-  const Tracked all = track(drive().first, drive().second, drive().corners, before, 2);
+  tracker.track(workers, a, b, drive().corners, {2}, cur, tracked);
+  const Tracked all = track(drive().first, drive().second, drive().corners, before, {2});
   for (std::size_t i = 0; i < cur.size(); ++i) {
     EXPECT_EQ(cur[i], i % 2 == 0 ? before[i] : all.cur[i]);
     EXPECT_EQ(tracked[i], i % 2 == 0 ? 0 : all.tracked[i]);
@@ -206,7 +233,7 @@ TEST(FeatureTrackerTest, TakesTheLargestWindowAtFullContrast) {
   FeatureTracker::Config config;
   config.window_radius_px = 25;
   const Points from = {{100, 100}, {90, 110}};
-  const Tracked result = track(stripes, moved, from, from, 1, config);
+  const Tracked result = track(stripes, moved, from, from, {1}, config);
   for (std::size_t i = 0; i < from.size(); ++i) {
     EXPECT_EQ(result.tracked[i], 1);
     EXPECT_LT(cv::norm(result.cur[i] - from[i] + cv::Point2f(2, 0)), 0.05) << result.cur[i];
@@ -217,7 +244,7 @@ TEST(FeatureTrackerTest, TakesImagesOfAnySizeAndPointsOutside) {
   for (const cv::Size size : {cv::Size(1, 1), cv::Size(8, 8), cv::Size(16, 4), cv::Size(300, 2)}) {
     const cv::Mat image = drive().first(cv::Rect({0, 0}, size)).clone();
     const Points points = {{0, 0}, {4, 1}, {-100, 50}, {1e6F, 1e6F}};
-    const Tracked result = track(image, image, points, points, 5);
+    const Tracked result = track(image, image, points, points, {5});
     EXPECT_EQ(result.tracked[2], 0) << size;
     EXPECT_EQ(result.tracked[3], 0) << size;
   }
@@ -229,7 +256,7 @@ TEST(FeatureTrackerTest, FindsTheSameWithAnyNumberOfThreads) {
                  drive().second,
                  drive().corners,
                  perturbed(drive().truth, 2.0),
-                 2,
+                 {2},
                  {},
                  threads);
   };

@@ -49,9 +49,9 @@ class CorrespondenceFinder {
   /// Triangulates those that have a match in its right image, and returns how many.
   int findDepths();
 
-  /// Tracks the triangulated corners from where the motion puts them, over `levels` of the
-  /// pyramids, and returns how many were found in both current images.
-  int track(const Eigen::Isometry3d& T_ref_cur, int levels);
+  /// Tracks the triangulated corners from where the motion puts them, which is a prediction or just
+  /// a place to begin, and returns how many were found in both current images.
+  int track(const Eigen::Isometry3d& T_ref_cur, bool is_prediction);
   /// Keeps, in `features`, those whose left and right current positions match each other.
   void closeCircle(Correspondences& features);
 

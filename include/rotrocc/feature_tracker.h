@@ -31,28 +31,42 @@ class FeatureTracker {
   explicit FeatureTracker(const Config& config);
   ~FeatureTracker();
 
+  /// How to look for points.
+  struct Search {
+    int levels = 1;  ///< of the pyramids, from the smallest image to the largest
+    /// The points are almost where they are expected: the smaller images are only for those that
+    /// prove to be elsewhere.
+    bool near = false;
+    /// Points must be tracked back to within max_round_trip_px of where they came from.
+    bool round_trip = true;
+  };
+
   /// Builds into `pyramid`, whose memory is used again.
   void buildPyramid(const cv::Mat& image, Pyramid& pyramid) const;
 
   /// Follows `prev` points from one image to another. `cur` holds the predictions and gets the
-  /// results; `tracked` gets 1 for points that came back to within max_round_trip_px, else 0.
-  /// Points whose `tracked` is 0 at the call are skipped. `levels` is the number of pyramid levels
-  /// to use.
+  /// results; `tracked` gets 1 for points that were found, else 0. Points whose `tracked` is 0 at
+  /// the call are skipped.
   void track(Workers& workers,
              const Pyramid& prev_pyramid,
              const Pyramid& cur_pyramid,
              const std::vector<cv::Point2f>& prev,
-             int levels,
+             const Search& search,
              std::vector<cv::Point2f>& cur,
              std::vector<char>& tracked);
 
  private:
   bool follow(const Pyramid& from,
               const Pyramid& to,
-              std::size_t levels,
+              const Search& search,
               const cv::Point2f& start,
               TrackingWindow& window,
               cv::Point2f& end) const;
+  bool returns(const cv::Mat& from,
+               const cv::Mat& to,
+               const cv::Point2f& start,
+               TrackingWindow& window,
+               const cv::Point2f& end) const;
 
   Config config_;
   std::vector<TrackingWindow> windows_;

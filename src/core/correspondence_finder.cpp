@@ -70,7 +70,7 @@ int CorrespondenceFinder::findDepths() {
   return static_cast<int>(ref_points_.size());
 }
 
-int CorrespondenceFinder::track(const Eigen::Isometry3d& T_ref_cur, int levels) {
+int CorrespondenceFinder::track(const Eigen::Isometry3d& T_ref_cur, bool is_prediction) {
   const Eigen::Isometry3d T_cur_ref = T_ref_cur.inverse();
   cur_left_.resize(ref_points_.size());
   cur_right_.resize(ref_points_.size());
@@ -84,20 +84,26 @@ int CorrespondenceFinder::track(const Eigen::Isometry3d& T_ref_cur, int levels) 
                      0.0F};  // as yet its disparity
     tracked_[i] = 1;
   }
+  FeatureTracker::Search search;
+  search.levels =
+      is_prediction ? config_.feature_tracker.levels : config_.feature_tracker.startup_levels;
   tracker_.track(workers_,
                  pyramids_[reference_].left,
                  pyramids_[current_].left,
                  ref_left_,
-                 levels,
+                 search,
                  cur_left_,
                  tracked_);
-  // Where the left image shows a feature is better known now; its disparity is as predicted.
+  // Where the left image shows a feature is better known now; its disparity is as predicted. The
+  // way back is not asked for, as what is found must agree with the left image.
   for (std::size_t i = 0; i < cur_left_.size(); ++i) cur_right_[i] = cur_left_[i] - cur_right_[i];
+  search.near = is_prediction;
+  search.round_trip = false;
   tracker_.track(workers_,
                  pyramids_[reference_].right,
                  pyramids_[current_].right,
                  ref_right_,
-                 levels,
+                 search,
                  cur_right_,
                  tracked_);
   return static_cast<int>(std::count(tracked_.begin(), tracked_.end(), 1));

@@ -13,6 +13,18 @@ namespace {
 /// they cost; more of them than threads even that out.
 constexpr int kParts = 8;
 
+/// A point within so much of the window's radius is where it was expected.
+constexpr float kNear = 0.5F;
+
+/// In small images, which only show where to begin in the large one, iterations end at a step so
+/// many times as long.
+constexpr double kCoarser = 3.0;
+
+float distance2(const cv::Point2f& a, const cv::Point2f& b) {
+  const cv::Point2f difference = a - b;
+  return difference.dot(difference);
+}
+
 /// The place of a pixel in a pyramid's level.
 float scaleOf(std::size_t level) {
   return 1.0F / static_cast<float>(1 << level);
@@ -38,21 +50,19 @@ void FeatureTracker::track(Workers& workers,
                            const Pyramid& prev_pyramid,
                            const Pyramid& cur_pyramid,
                            const std::vector<cv::Point2f>& prev,
-                           int levels,
+                           const Search& search,
                            std::vector<cv::Point2f>& cur,
                            std::vector<char>& tracked) {
   indices_.clear();
   for (std::size_t i = 0; i < prev.size(); ++i) {
     if (tracked[i] != 0) indices_.push_back(i);
   }
-  const std::size_t used =
-      std::min({static_cast<std::size_t>(levels), prev_pyramid.size(), cur_pyramid.size()});
   workers.run(kParts, [&](int part) {
     const auto p = static_cast<std::size_t>(part);
     const std::size_t end = indices_.size() * (p + 1) / kParts;
     for (std::size_t k = indices_.size() * p / kParts; k < end; ++k) {
       const std::size_t i = indices_[k];
-      const bool found = follow(prev_pyramid, cur_pyramid, used, prev[i], windows_[p], cur[i]);
+      const bool found = follow(prev_pyramid, cur_pyramid, search, prev[i], windows_[p], cur[i]);
       tracked[i] = found ? 1 : 0;
     }
   });
@@ -60,27 +70,44 @@ void FeatureTracker::track(Workers& workers,
 
 bool FeatureTracker::follow(const Pyramid& from,
                             const Pyramid& to,
-                            std::size_t levels,
+                            const Search& search,
                             const cv::Point2f& start,
                             TrackingWindow& window,
                             cv::Point2f& end) const {
   const TrackingWindow::Stop stop = {config_.max_iterations, config_.min_step_px};
-  for (std::size_t level = levels - 1; level > 0; --level) {
-    const float scale = scaleOf(level);
-    cv::Point2f scaled = scale * end;
-    // What a small image does not show is left to the larger ones.
-    if (window.take(from[level], scale * start) && window.find(to[level], stop, scaled)) {
-      end = scaled / scale;
+  const TrackingWindow::Stop roughly = {config_.max_iterations, kCoarser * config_.min_step_px};
+  cv::Point2f found = end;
+  const float near_px = kNear * static_cast<float>(config_.window_radius_px);
+  const bool is_near = search.near && window.take(from[0], start) &&
+                       window.find(to[0], stop, found) && distance2(found, end) < near_px * near_px;
+  if (!is_near) {
+    found = end;
+    const auto wanted = static_cast<std::size_t>(search.levels);
+    for (std::size_t level = std::min({wanted, from.size(), to.size()}) - 1; level > 0; --level) {
+      const float scale = scaleOf(level);
+      cv::Point2f scaled = scale * found;
+      // What a small image does not show is left to the larger ones.
+      if (window.take(from[level], scale * start) && window.find(to[level], roughly, scaled)) {
+        found = scaled / scale;
+      }
     }
+    if (!window.take(from[0], start) || !window.find(to[0], stop, found)) return false;
   }
-  if (!window.take(from[0], start) || !window.find(to[0], stop, end)) return false;
+  end = found;
+  return !search.round_trip || returns(from[0], to[0], start, window, end);
+}
 
-  // The way back starts where it should end, so one level is enough.
+/// The way back starts where it should end, so one level is enough.
+bool FeatureTracker::returns(const cv::Mat& from,
+                             const cv::Mat& to,
+                             const cv::Point2f& start,
+                             TrackingWindow& window,
+                             const cv::Point2f& end) const {
+  const TrackingWindow::Stop stop = {config_.max_iterations, config_.min_step_px};
+  const auto most_px = static_cast<float>(config_.max_round_trip_px);
   cv::Point2f back = start;
-  if (!window.take(to[0], end) || !window.find(from[0], stop, back)) return false;
-  const cv::Point2f miss = back - start;
-  return miss.dot(miss) <=
-         static_cast<float>(config_.max_round_trip_px * config_.max_round_trip_px);
+  return window.take(to, end) && window.find(from, stop, back) &&
+         distance2(back, start) <= most_px * most_px;
 }
 
 }  // namespace rotrocc

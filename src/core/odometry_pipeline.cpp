@@ -212,9 +212,7 @@ void VisualOdometry::Pipeline::trackAndEstimate(const Eigen::Isometry3d& T_ref_c
                                                 OdometryResult& result) {
   {
     const StageTimer timer(result.times.tracking_ms);
-    const FeatureTracker::Config& tracker = config_.correspondence_finder.feature_tracker;
-    result.counts.tracked =
-        finder_.track(T_ref_cur, is_prediction ? tracker.levels : tracker.startup_levels);
+    result.counts.tracked = finder_.track(T_ref_cur, is_prediction);
     finder_.closeCircle(features_);
     result.counts.corners = reference_corners_;
     result.counts.with_depth = reference_with_depth_;
