@@ -1,6 +1,7 @@
 // Serialized camera_info and images of both cameras: all of the odometry that needs no master.
 
 #include <algorithm>
+#include <vector>
 
 #include <ros/console.h>
 #include <boost/make_shared.hpp>
@@ -26,6 +27,14 @@ Parameters makeParameters() {
   parameters.node.max_image_pixels = 10'000;
   parameters.odometry.threads = 1;  // images are too small to be shared out
   return parameters;
+}
+
+/// All rows move up by one, so that there is something to be seen of a motion.
+void moveUp(sensor_msgs::Image& image) {
+  if (image.step >= image.data.size()) return;
+  const auto second = image.data.begin() + image.step;
+  const std::vector<std::uint8_t> first(image.data.begin(), second);
+  std::copy(first.begin(), first.end(), std::copy(second, image.data.end(), image.data.begin()));
 }
 
 void drive(const sensor_msgs::CameraInfo& left_info,
@@ -55,9 +64,7 @@ void drive(const sensor_msgs::CameraInfo& left_info,
     for (sensor_msgs::Image* image : {&left, &right}) {
       image->header.stamp =
           toRosTime(toNanoseconds(image->header.stamp) % 1'000'000'000'000 + 100'000'000);
-      // All rows move up by one, so that there is something to be seen of a motion.
-      if (image->step < image->data.size())
-        std::rotate(image->data.begin(), image->data.begin() + image->step, image->data.end());
+      moveUp(*image);
     }
   }
   intake.report(start);
