@@ -66,11 +66,11 @@ void expectAutomaticJacobian(const Eigen::Isometry3d& T_0,
                              const Vector6d& parameters) {
   ReprojectionProblem<kParameters> problem;
   problem.assign(kittiCamera(), features, FeatureSet(features.size(), 1), T_0, noise_ratio);
-  ASSERT_EQ(problem.NumResiduals(), static_cast<int>(2 * features.size()));
-  Eigen::VectorXd residuals(problem.NumResiduals());
-  Eigen::Matrix<double, Eigen::Dynamic, kParameters> jacobian(problem.NumResiduals(), kParameters);
+  ASSERT_EQ(problem.residualCount(), static_cast<int>(2 * features.size()));
+  Eigen::VectorXd residuals(problem.residualCount());
+  Eigen::Matrix<double, Eigen::Dynamic, kParameters> jacobian(problem.residualCount(), kParameters);
   const Eigen::Matrix<double, kParameters, 1> own = parameters.template tail<kParameters>();
-  ASSERT_TRUE(problem(own.data(), residuals.data(), jacobian.data()));
+  problem.linearise(own, residuals.data(), jacobian.data());
   for (std::size_t i = 0; i < features.size(); ++i) {
     const Automatic automatic(features[i], T_0, noise_ratio, parameters);
     const auto row = static_cast<Eigen::Index>(2 * i);
@@ -80,6 +80,12 @@ void expectAutomaticJacobian(const Eigen::Isometry3d& T_0,
     EXPECT_LT((residuals.segment<2>(row) - automatic.residual).norm(), 1e-9);
     EXPECT_LT((jacobian.template middleRows<2>(row) - expected).norm(), 1e-8 * expected.norm());
   }
+  Eigen::Matrix<double, Eigen::Dynamic, kParameters + 1> both(problem.residualCount(),
+                                                              kParameters + 1);
+  both << jacobian, residuals;
+  const auto normal = (both.transpose() * both).eval();
+  EXPECT_LT((problem.normalMatrix(own) - normal).norm(), 1e-12 * normal.norm());
+  EXPECT_NEAR(problem.cost(own), residuals.squaredNorm(), 1e-12 * residuals.squaredNorm());
 }
 
 TEST(ReprojectionErrorTest, AnalyticJacobiansEqualAutomaticOnes) {
@@ -110,10 +116,10 @@ TEST(ReprojectionErrorTest, TheProblemTakesOnlyTheFeaturesOfTheSet) {
   set[3] = set[7] = 1;
   ReprojectionProblem<3> problem;
   problem.assign(kittiCamera(), features, set, T, 0.0);
-  ASSERT_EQ(problem.NumResiduals(), 4);
-  const Eigen::Vector3d translation = T.translation();
+  ASSERT_EQ(problem.residualCount(), 4);
   Eigen::Vector4d residuals;
-  ASSERT_TRUE(problem(translation.data(), residuals.data(), nullptr));
+  Eigen::Matrix<double, 4, 3> jacobian;
+  problem.linearise(T.translation(), residuals.data(), jacobian.data());
   const StereoCamera camera = kittiCamera();
   const Eigen::Vector2d second =
       features[7].prev_px - camera.project(T * features[7].point_cur);  // Eq. 2

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -79,18 +78,20 @@ class MotionEstimator {
   /// Where much of the image moves by itself, the full set may lead astray. If few features agree
   /// with the motion found and `initial` is a prediction, the features near to it are tried too; of
   /// two motions that many features agree with, the likelier one is that nearer to the prediction.
-  Estimate estimate(const StereoCamera& camera,
+  /// What is returned is the estimator's own, until the next call.
+  const Estimate& estimate(const StereoCamera& camera,
+                           const Correspondences& features,
+                           const Eigen::Isometry3d& initial,
+                           double dt_s,
+                           bool is_prediction = true);
+
+ private:
+  void estimateFrom(const FeatureSet& set,
+                    const StereoCamera& camera,
                     const Correspondences& features,
                     const Eigen::Isometry3d& initial,
                     double dt_s,
-                    bool is_prediction = true);
-
- private:
-  Estimate estimateFrom(const FeatureSet& set,
-                        const StereoCamera& camera,
-                        const Correspondences& features,
-                        const Eigen::Isometry3d& initial,
-                        double dt_s);
+                    Estimate& estimate);
   bool estimateRotation(const StereoCamera& camera,
                         const Correspondences& features,
                         Estimate& estimate);
@@ -99,10 +100,11 @@ class MotionEstimator {
                            Estimate& estimate);
   /// Fits a motion to the set and draws the line anew, until the set stays (Eq. 26, 30, 31, 32).
   /// `fit` returns false if it fails; `measure` fills errors_.
-  bool iterate(OutlierThreshold threshold,
+  template <class Fit, class Measure>
+  bool iterate(OutlierThreshold& threshold,
                int max_iterations,
-               const std::function<bool(const FeatureSet&)>& fit,
-               const std::function<void()>& measure,
+               const Fit& fit,
+               const Measure& measure,
                FeatureSet& set);
   bool estimateCovariance(const StereoCamera& camera,
                           const Correspondences& features,
@@ -111,6 +113,12 @@ class MotionEstimator {
   Config config_;
   Criterion criterion_;
   MotionSolver solver_;
+  OutlierThreshold rotation_threshold_;
+  OutlierThreshold translation_threshold_;
+
+  // Kept for their memory.
+  Estimate found_, other_;
+  FeatureSet all_, near_, candidates_, next_;
   std::vector<double> errors_;
   std::vector<double> flow_px_;
 };

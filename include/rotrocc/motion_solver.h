@@ -1,6 +1,7 @@
 #pragma once
 
-#include <ceres/tiny_solver.h>
+#include <vector>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -54,13 +55,14 @@ class MotionSolver {
                    const Correspondences& features,
                    const FeatureSet& set) const;
 
+  /// Of motion_problem_, from residuals_ and jacobian_.
+  Eigen::Map<const Eigen::VectorXd> residuals() const;
+  Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6>> jacobian() const;
+
   double noise_ratio_;
   ReprojectionProblem<6> motion_problem_;
   ReprojectionProblem<3> translation_problem_;
-  ceres::TinySolver<ReprojectionProblem<6>> motion_solver_;
-  ceres::TinySolver<ReprojectionProblem<3>> translation_solver_;
-  Eigen::VectorXd residuals_;
-  Eigen::Matrix<double, Eigen::Dynamic, 6> jacobian_;
+  std::vector<double> residuals_, jacobian_;
 };
 
 }  // namespace rotrocc

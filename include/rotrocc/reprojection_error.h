@@ -62,14 +62,15 @@ struct ReprojectionResidual {
   }
 };
 
-/// The residuals of all features of a set with their analytic Jacobians, in the form that
-/// ceres::TinySolver wants. With kParameters = 6 the parameters are those of ReprojectionResidual
-/// (Eq. 25); with 3 they are the translation alone, the rotation staying R_0 (Eq. 29).
+/// The residuals r of all features of a set and their analytic Jacobian J. With kParameters = 6 the
+/// parameters are those of ReprojectionResidual (Eq. 25); with 3 they are the translation alone,
+/// the rotation staying R_0 (Eq. 29).
 template <int kParameters>
 class ReprojectionProblem {
  public:
-  using Scalar = double;
-  enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = kParameters };
+  using Parameters = Eigen::Matrix<double, kParameters, 1>;
+  /// [J r]^T [J r]: J^T J, with J^T r in the last column and r^T r in the corner.
+  using NormalMatrix = Eigen::Matrix<double, kParameters + 1, kParameters + 1>;
 
   /// Takes the features flagged in `set`, fitted at `T_0`.
   void assign(const StereoCamera& camera,
@@ -81,13 +82,25 @@ class ReprojectionProblem {
   /// The features taken, in their order.
   const std::vector<FittedFeature>& features() const { return features_; }
 
-  int NumResiduals() const { return static_cast<int>(2 * features_.size()); }
+  int residualCount() const { return static_cast<int>(2 * features_.size()); }
 
-  /// `residuals`: 2N, x and y of each feature in turn. `jacobian`: 2N x kParameters by columns, or
-  /// null.
-  bool operator()(const double* parameters, double* residuals, double* jacobian) const;
+  /// `residuals`: x and y of each feature in turn. `jacobian`: by columns.
+  void linearise(const Parameters& parameters, double* residuals, double* jacobian) const;
+
+  /// What linearise() comes to in the normal equations.
+  NormalMatrix normalMatrix(const Parameters& parameters) const;
+
+  /// r^T r.
+  double cost(const Parameters& parameters) const;
 
  private:
+  struct Motion;
+  using FeatureJacobian = Eigen::Matrix<double, 2, kParameters>;
+
+  Eigen::Vector2d residual(const FittedFeature& feature,
+                           const Motion& motion,
+                           FeatureJacobian* jacobian) const;
+
   StereoCamera camera_;
   std::vector<FittedFeature> features_;
 };

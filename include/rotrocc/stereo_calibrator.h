@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -91,9 +92,14 @@ class StereoCalibrator {
   DisparityBias bias_;
   Vector6d motion_by_bias_ = Vector6d::Zero();  // translation, then rotation
 
+  // Of the pair: buffers that are used again, and how they are seen.
+  using Column = Eigen::Map<Eigen::VectorXd>;
+  using Columns = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 6>>;
+  Column residuals() { return {residuals_.data(), problem_.residualCount()}; }
+  Column byBias() { return {by_bias_.data(), problem_.residualCount()}; }
+  Columns byMotion() { return {by_motion_.data(), problem_.residualCount(), 6}; }
   ReprojectionProblem<6> problem_;
-  Eigen::VectorXd residuals_, by_bias_;
-  Eigen::Matrix<double, Eigen::Dynamic, 6> by_motion_;
+  std::vector<double> residuals_, by_bias_, by_motion_;
 };
 
 }  // namespace rotrocc

@@ -52,6 +52,17 @@ Criterion criterionOf(const std::string& name) {
   return static_cast<Criterion>(found - names.begin());
 }
 
+OutlierThreshold rotationThreshold(Criterion criterion, const MotionEstimator::Config& config) {
+  switch (criterion) {
+    case Criterion::kMeanBased:
+      return OutlierThreshold::meanBased(config.mean_factor);
+    case Criterion::kStdBased:
+      return OutlierThreshold::deviationBased(config.deviation_factor);
+    default:
+      return OutlierThreshold::fixedLimit(config.rotation_limit_px, config.rotation_drop_share);
+  }
+}
+
 }  // namespace
 
 const std::vector<std::string>& criterionNames() {
@@ -61,43 +72,50 @@ const std::vector<std::string>& criterionNames() {
 }
 
 MotionEstimator::MotionEstimator(const Config& config)
-    : config_(config), criterion_(criterionOf(config.criterion)), solver_(config.noise_ratio) {}
+    : config_(config),
+      criterion_(criterionOf(config.criterion)),
+      solver_(config.noise_ratio),
+      rotation_threshold_(rotationThreshold(criterion_, config)),
+      translation_threshold_(
+          OutlierThreshold::fixedLimit(config.translation_limit, config.translation_drop_share)) {}
 
 void MotionEstimator::setNoiseRatio(double noise_ratio) {
   config_.noise_ratio = noise_ratio;
   solver_.setNoiseRatio(noise_ratio);
 }
 
-MotionEstimator::Estimate MotionEstimator::estimate(const StereoCamera& camera,
-                                                    const Correspondences& features,
-                                                    const Eigen::Isometry3d& initial,
-                                                    double dt_s,
-                                                    bool is_prediction) {
-  const FeatureSet all(features.size(), 1);
-  Estimate found = estimateFrom(all, camera, features, initial, dt_s);
-  const int agree = found.valid ? count(found.rotation_inliers) : 0;
+const MotionEstimator::Estimate& MotionEstimator::estimate(const StereoCamera& camera,
+                                                           const Correspondences& features,
+                                                           const Eigen::Isometry3d& initial,
+                                                           double dt_s,
+                                                           bool is_prediction) {
+  all_.assign(features.size(), 1);
+  estimateFrom(all_, camera, features, initial, dt_s, found_);
+  const int agree = found_.valid ? count(found_.rotation_inliers) : 0;
   const bool doubtful = agree < config_.doubt_share * static_cast<double>(features.size());
-  if (!doubtful || !is_prediction || config_.doubt_agreement_px == 0.0) return found;
+  if (!doubtful || !is_prediction || config_.doubt_agreement_px == 0.0) return found_;
 
   reprojectionErrors(camera, features, initial, config_.noise_ratio, errors_);
-  FeatureSet near = all;
-  keepBelow(errors_, config_.doubt_agreement_px, near);
-  Estimate other = estimateFrom(near, camera, features, initial, dt_s);
+  near_ = all_;
+  keepBelow(errors_, config_.doubt_agreement_px, near_);
+  estimateFrom(near_, camera, features, initial, dt_s, other_);
   const auto deviation = [&](const Estimate& estimate) {
     return (estimate.T_prev_cur.translation() - initial.translation()).norm();
   };
-  const bool likelier = other.valid && 2 * count(other.rotation_inliers) >= agree &&
-                        (!found.valid || deviation(other) < deviation(found));
-  return likelier ? other : found;
+  const bool likelier = other_.valid && 2 * count(other_.rotation_inliers) >= agree &&
+                        (!found_.valid || deviation(other_) < deviation(found_));
+  return likelier ? other_ : found_;
 }
 
-MotionEstimator::Estimate MotionEstimator::estimateFrom(const FeatureSet& set,
-                                                        const StereoCamera& camera,
-                                                        const Correspondences& features,
-                                                        const Eigen::Isometry3d& initial,
-                                                        double dt_s) {
-  Estimate estimate;
+void MotionEstimator::estimateFrom(const FeatureSet& set,
+                                   const StereoCamera& camera,
+                                   const Correspondences& features,
+                                   const Eigen::Isometry3d& initial,
+                                   double dt_s,
+                                   Estimate& estimate) {
   estimate.T_prev_cur = initial;
+  estimate.covariance.setZero();
+  estimate.has_translation_stage = false;
   estimate.rotation_inliers = set;
   estimate.valid = estimateRotation(camera, features, estimate);
   estimate.translation_inliers = estimate.rotation_inliers;
@@ -109,7 +127,6 @@ MotionEstimator::Estimate MotionEstimator::estimateFrom(const FeatureSet& set,
     estimate.valid = estimateTranslation(camera, features, estimate);
   }
   estimate.valid = estimate.valid && estimateCovariance(camera, features, estimate);
-  return estimate;
 }
 
 bool MotionEstimator::estimateRotation(const StereoCamera& camera,
@@ -122,28 +139,9 @@ bool MotionEstimator::estimateRotation(const StereoCamera& camera,
   const auto measure = [&] {
     reprojectionErrors(camera, features, T, config_.noise_ratio, errors_);
   };
-  FeatureSet& set = estimate.rotation_inliers;
-  switch (criterion_) {
-    case Criterion::kMeanBased:
-      return iterate(OutlierThreshold::meanBased(config_.mean_factor),
-                     config_.comparison_iterations,
-                     fit,
-                     measure,
-                     set);
-    case Criterion::kStdBased:
-      return iterate(OutlierThreshold::deviationBased(config_.deviation_factor),
-                     config_.comparison_iterations,
-                     fit,
-                     measure,
-                     set);
-    default:
-      return iterate(
-          OutlierThreshold::fixedLimit(config_.rotation_limit_px, config_.rotation_drop_share),
-          config_.rotation_max_iterations,
-          fit,
-          measure,
-          set);
-  }
+  const bool compared = criterion_ == Criterion::kMeanBased || criterion_ == Criterion::kStdBased;
+  const int iterations = compared ? config_.comparison_iterations : config_.rotation_max_iterations;
+  return iterate(rotation_threshold_, iterations, fit, measure, estimate.rotation_inliers);
 }
 
 bool MotionEstimator::estimateTranslation(const StereoCamera& camera,
@@ -157,9 +155,9 @@ bool MotionEstimator::estimateTranslation(const StereoCamera& camera,
   }
 
   reprojectionErrors(camera, features, T, config_.noise_ratio, errors_);
-  FeatureSet candidates(features.size(), 1);
+  candidates_.assign(features.size(), 1);
   if (config_.translation_initial_px > 0.0) {
-    keepBelow(errors_, config_.translation_initial_px, candidates);
+    keepBelow(errors_, config_.translation_initial_px, candidates_);
   }
 
   const auto fit = [&](const FeatureSet& set) {
@@ -171,29 +169,29 @@ bool MotionEstimator::estimateTranslation(const StereoCamera& camera,
     reprojectionErrors(camera, features, T, 0.0, errors_);
     for (std::size_t i = 0; i < errors_.size(); ++i) {
       const double flow_px = std::max({flow_px_[i], config_.min_flow_px, kLeastFlow_px});
-      errors_[i] = candidates[i] != 0 ? errors_[i] / flow_px : kNever;
+      errors_[i] = candidates_[i] != 0 ? errors_[i] / flow_px : kNever;
     }
   };
-  estimate.translation_inliers = candidates;
-  return iterate(
-      OutlierThreshold::fixedLimit(config_.translation_limit, config_.translation_drop_share),
-      config_.translation_max_iterations,
-      fit,
-      measure,
-      estimate.translation_inliers);
+  estimate.translation_inliers = candidates_;
+  return iterate(translation_threshold_,
+                 config_.translation_max_iterations,
+                 fit,
+                 measure,
+                 estimate.translation_inliers);
 }
 
-bool MotionEstimator::iterate(OutlierThreshold threshold,
+template <class Fit, class Measure>
+bool MotionEstimator::iterate(OutlierThreshold& threshold,
                               int max_iterations,
-                              const std::function<bool(const FeatureSet&)>& fit,
-                              const std::function<void()>& measure,
+                              const Fit& fit,
+                              const Measure& measure,
                               FeatureSet& set) {
-  FeatureSet next = set;
+  next_ = set;
   for (int i = 0; i < max_iterations; ++i) {
     if (!fit(set)) return false;
     measure();
-    if (!keepBelow(errors_, threshold(errors_, set), next)) break;
-    set = next;
+    if (!keepBelow(errors_, threshold(errors_, set), next_)) break;
+    set = next_;
   }
   return fit(set);  // once more, with the disparities fitted where the last one ended
 }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+
+#include <ceres/tiny_solver.h>
 
 #include "image_grid.h"
 #include "rotrocc/outlier_rejection.h"
@@ -18,10 +21,57 @@ constexpr int kMaxIterations = 20;
 constexpr int kScatterColumns = 8;
 constexpr int kScatterRows = 3;
 
-template <class Solver>
-void configure(Solver& solver) {
+/// An upper triangular U with U^T U = `normal`, which is positive semidefinite but for rounding.
+template <class Matrix>
+Matrix rootOf(const Matrix& normal) {
+  Matrix U = Matrix::Zero();
+  for (Eigen::Index i = 0; i < U.rows(); ++i) {
+    const double pivot = normal(i, i) - U.col(i).head(i).squaredNorm();
+    if (!(pivot > 0.0)) continue;
+    U(i, i) = std::sqrt(pivot);
+    for (Eigen::Index j = i + 1; j < U.cols(); ++j) {
+      U(i, j) = (normal(i, j) - U.col(i).head(i).dot(U.col(j).head(i))) / U(i, i);
+    }
+  }
+  return U;
+}
+
+/// What ceres::TinySolver gets to see of a problem with many residuals: a few that have the same
+/// J^T J, J^T r and r^T r, which is all it makes use of. So it needs no memory.
+template <int kParameters>
+class CondensedProblem {
+ public:
+  using Scalar = double;
+  enum { NUM_RESIDUALS = kParameters + 1, NUM_PARAMETERS = kParameters };
+
+  explicit CondensedProblem(const ReprojectionProblem<kParameters>& problem) : problem_(problem) {}
+
+  bool operator()(const double* parameters, double* residuals, double* jacobian) const {
+    const Eigen::Map<const Eigen::Matrix<double, kParameters, 1>> p(parameters);
+    Eigen::Map<Eigen::Matrix<double, NUM_RESIDUALS, 1>> r(residuals);
+    if (jacobian == nullptr) {
+      r.setZero();
+      r[0] = std::sqrt(problem_.cost(p));
+      return true;
+    }
+    const auto root = rootOf(problem_.normalMatrix(p));
+    r = root.col(kParameters);
+    Eigen::Map<Eigen::Matrix<double, NUM_RESIDUALS, kParameters>> J(jacobian);
+    J = root.template leftCols<kParameters>();
+    return true;
+  }
+
+ private:
+  const ReprojectionProblem<kParameters>& problem_;
+};
+
+template <int kParameters>
+void minimise(const ReprojectionProblem<kParameters>& problem,
+              Eigen::Matrix<double, kParameters, 1>& parameters) {
+  ceres::TinySolver<CondensedProblem<kParameters>> solver;
   solver.options.max_num_iterations = kMaxIterations;
   solver.options.parameter_tolerance = kParameterTolerance;
+  solver.Solve(CondensedProblem<kParameters>(problem), &parameters);
 }
 
 }  // namespace
@@ -34,8 +84,7 @@ bool MotionSolver::solveMotion(const StereoCamera& camera,
   motion_problem_.assign(camera, features, set, T_prev_cur, noise_ratio_);
   Vector6d parameters;
   parameters << Eigen::Vector3d::Zero(), T_prev_cur.translation();
-  configure(motion_solver_);
-  motion_solver_.Solve(motion_problem_, &parameters);
+  minimise(motion_problem_, parameters);
   if (!parameters.allFinite()) return false;
 
   const Eigen::Matrix3d R = expRotation(parameters.head<3>()) * T_prev_cur.linear();
@@ -51,8 +100,7 @@ bool MotionSolver::solveTranslation(const StereoCamera& camera,
   if (count(set) < 2) return false;
   translation_problem_.assign(camera, features, set, T_prev_cur, noise_ratio_);
   Eigen::Vector3d translation = T_prev_cur.translation();
-  configure(translation_solver_);
-  translation_solver_.Solve(translation_problem_, &translation);
+  minimise(translation_problem_, translation);
   if (!translation.allFinite()) return false;
   T_prev_cur.translation() = translation;
   return true;
@@ -66,19 +114,21 @@ MotionSolver::Information MotionSolver::information(const StereoCamera& camera,
   motion_problem_.assign(camera, features, set, T_prev_cur, noise_ratio_);
   Vector6d parameters;
   parameters << Eigen::Vector3d::Zero(), T_prev_cur.translation();
-  residuals_.resize(motion_problem_.NumResiduals());
-  jacobian_.resize(motion_problem_.NumResiduals(), 6);
-  motion_problem_(parameters.data(), residuals_.data(), jacobian_.data());
+  const auto rows = static_cast<std::size_t>(motion_problem_.residualCount());
+  residuals_.resize(rows);
+  jacobian_.resize(6 * rows);
+  motion_problem_.linearise(parameters, residuals_.data(), jacobian_.data());
 
   Information information;
-  const auto rotation = jacobian_.leftCols<3>();
-  const auto translation = jacobian_.rightCols<3>();
+  const auto J = jacobian();
+  const auto rotation = J.leftCols<3>();
+  const auto translation = J.rightCols<3>();
   information.matrix.topLeftCorner<3, 3>() = translation.transpose() * translation;
   information.matrix.topRightCorner<3, 3>() = translation.transpose() * rotation;
   information.matrix.bottomLeftCorner<3, 3>() = rotation.transpose() * translation;
   information.matrix.bottomRightCorner<3, 3>() = rotation.transpose() * rotation;
-  const auto freedom = static_cast<double>(residuals_.size() - estimated_parameters);
-  if (freedom > 0.0) information.residual_variance = residuals_.squaredNorm() / freedom;
+  const double freedom = motion_problem_.residualCount() - estimated_parameters;
+  if (freedom > 0.0) information.residual_variance = residuals().squaredNorm() / freedom;
   information.scatter = scatter(camera, features, set);
   return information;
 }
@@ -93,8 +143,8 @@ Matrix6d MotionSolver::scatter(const StereoCamera& camera,
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (set[i] == 0) continue;
     Vector6d& gradient = gradients[grid.cell(features[i].cur_px)];
-    const auto J = jacobian_.middleRows<2>(row);
-    const auto residual = residuals_.segment<2>(row);
+    const auto J = jacobian().middleRows<2>(row);
+    const Eigen::Vector2d residual = residuals().segment<2>(row);
     gradient.head<3>() += J.rightCols<3>().transpose() * residual;
     gradient.tail<3>() += J.leftCols<3>().transpose() * residual;
     row += 2;
@@ -108,6 +158,14 @@ Matrix6d MotionSolver::scatter(const StereoCamera& camera,
   }
   // The motion was fitted to them, so that they scatter less than the errors do.
   return sum * cells / std::max(1, cells - 6);
+}
+
+Eigen::Map<const Eigen::VectorXd> MotionSolver::residuals() const {
+  return {residuals_.data(), motion_problem_.residualCount()};
+}
+
+Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6>> MotionSolver::jacobian() const {
+  return {jacobian_.data(), motion_problem_.residualCount(), 6};
 }
 
 }  // namespace rotrocc

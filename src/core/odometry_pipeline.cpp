@@ -241,13 +241,13 @@ void VisualOdometry::Pipeline::calibrate(OdometryResult& result) {
     const StereoCamera corrected = calibrator_.correct(camera_);
     if (std::abs(corrected.cx_right - corrected_.cx_right) < kCalibrationSettled_px) return;
     const StereoCamera camera_before = corrected_;
-    const MotionEstimator::Estimate estimate_before = estimate_;
+    estimate_before_ = estimate_;
     corrected_ = corrected;
     triangulate(corrected_, features_);
     estimate(estimate_.T_prev_cur, true, result);
     if (whyLost().empty()) continue;
     corrected_ = camera_before;
-    estimate_ = estimate_before;
+    estimate_ = estimate_before_;
     triangulate(corrected_, features_);
     return;
   }

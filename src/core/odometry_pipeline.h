@@ -79,6 +79,7 @@ class VisualOdometry::Pipeline {
 
   Correspondences features_;
   MotionEstimator::Estimate estimate_;
+  MotionEstimator::Estimate estimate_before_;  // of calibrate(), kept for its memory
 };
 
 }  // namespace rotrocc

@@ -81,43 +81,89 @@ void ReprojectionProblem<kParameters>::assign(const StereoCamera& camera,
   }
 }
 
+/// The motion that the parameters stand for.
 template <int kParameters>
-bool ReprojectionProblem<kParameters>::operator()(const double* parameters,
-                                                  double* residuals,
-                                                  double* jacobian) const {
-  using Vector3 = Eigen::Map<const Eigen::Vector3d>;
-  constexpr bool kRotates = kParameters == 6;
+struct ReprojectionProblem<kParameters>::Motion {
+  static constexpr bool kRotates = kParameters == 6;
+
+  explicit Motion(const Parameters& parameters) : T(parameters.template tail<3>()) {
+    if (!kRotates) return;
+    R = expRotation(parameters.template head<3>());
+    R_by_parameters = leftJacobian(parameters.template head<3>());
+  }
+
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  Eigen::Matrix3d J_left = Eigen::Matrix3d::Identity();
-  if (kRotates) {
-    R = expRotation(Vector3(parameters));
-    J_left = leftJacobian(Vector3(parameters));
-  }
-  const Vector3 T(parameters + kParameters - 3);
+  Eigen::Matrix3d R_by_parameters;
+  Eigen::Vector3d T;
+};
 
-  const auto rows = static_cast<Eigen::Index>(2 * features_.size());
-  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, kParameters>> J(jacobian, rows, kParameters);
-  for (std::size_t i = 0; i < features_.size(); ++i) {
-    const Eigen::Vector3d rotated = R * features_[i].rotated_point;
-    const Eigen::Vector3d moved = rotated + T;
-    const bool in_front = moved.z() >= kMinDepth_m;
-    const double z = in_front ? moved.z() : kMinDepth_m;
-    const double u = camera_.fx * moved.x() / z;
-    const double v = camera_.fy * moved.y() / z;
-    const FittedFeature& feature = features_[i];
-    Eigen::Map<Eigen::Vector2d>(residuals + 2 * i) =
-        feature.whitening * (feature.target_px - Eigen::Vector2d(u + camera_.cx, v + camera_.cy));
-    if (jacobian == nullptr) continue;
-
+/// `jacobian` may be null.
+template <int kParameters>
+Eigen::Vector2d ReprojectionProblem<kParameters>::residual(const FittedFeature& feature,
+                                                           const Motion& motion,
+                                                           FeatureJacobian* jacobian) const {
+  Eigen::Vector3d rotated = feature.rotated_point;
+  if (Motion::kRotates) rotated = motion.R * feature.rotated_point;
+  const Eigen::Vector3d moved = rotated + motion.T;
+  const bool in_front = moved.z() >= kMinDepth_m;
+  const double per_z = 1.0 / (in_front ? moved.z() : kMinDepth_m);
+  const double u = camera_.fx * moved.x() * per_z;
+  const double v = camera_.fy * moved.y() * per_z;
+  if (jacobian != nullptr) {
     Eigen::Matrix<double, 2, 3> by_point;
-    by_point << -camera_.fx / z, 0.0, in_front ? u / z : 0.0, 0.0, -camera_.fy / z,
-        in_front ? v / z : 0.0;
+    by_point << -camera_.fx * per_z, 0.0, in_front ? u * per_z : 0.0, 0.0, -camera_.fy * per_z,
+        in_front ? v * per_z : 0.0;
     by_point = feature.whitening * by_point;
-    const auto row = static_cast<Eigen::Index>(2 * i);
-    J.template block<2, 3>(row, kParameters - 3) = by_point;
-    if (kRotates) J.template block<2, 3>(row, 0) = -by_point * skew(rotated) * J_left;
+    jacobian->template rightCols<3>() = by_point;
+    if (Motion::kRotates) {
+      const Eigen::Matrix<double, 2, 3> by_rotation = by_point * skew(-rotated);
+      jacobian->template leftCols<3>() = by_rotation * motion.R_by_parameters;
+    }
   }
-  return true;
+  return feature.whitening * (feature.target_px - Eigen::Vector2d(u + camera_.cx, v + camera_.cy));
+}
+
+template <int kParameters>
+void ReprojectionProblem<kParameters>::linearise(const Parameters& parameters,
+                                                 double* residuals,
+                                                 double* jacobian) const {
+  const Motion motion(parameters);
+  Eigen::Map<Eigen::VectorXd> r(residuals, residualCount());
+  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, kParameters>> J(
+      jacobian, residualCount(), kParameters);
+  Eigen::Index row = 0;
+  FeatureJacobian by_parameters;
+  for (const FittedFeature& feature : features_) {
+    r.segment<2>(row) = residual(feature, motion, &by_parameters);
+    J.template middleRows<2>(row) = by_parameters;
+    row += 2;
+  }
+}
+
+template <int kParameters>
+typename ReprojectionProblem<kParameters>::NormalMatrix
+ReprojectionProblem<kParameters>::normalMatrix(const Parameters& parameters) const {
+  constexpr int kColumns = (kParameters + 2) / 2 * 2;  // even, for SIMD
+  const Motion motion(parameters);
+  Eigen::Matrix<double, kColumns, kColumns> sum = Eigen::Matrix<double, kColumns, kColumns>::Zero();
+  Eigen::Matrix<double, kColumns, 2> columns = Eigen::Matrix<double, kColumns, 2>::Zero();
+  FeatureJacobian by_parameters;
+  for (const FittedFeature& feature : features_) {
+    columns.row(kParameters) = residual(feature, motion, &by_parameters).transpose();
+    columns.template topRows<kParameters>() = by_parameters.transpose();
+    sum += columns.lazyProduct(columns.transpose());
+  }
+  return sum.template topLeftCorner<kParameters + 1, kParameters + 1>();
+}
+
+template <int kParameters>
+double ReprojectionProblem<kParameters>::cost(const Parameters& parameters) const {
+  const Motion motion(parameters);
+  double sum = 0.0;
+  for (const FittedFeature& feature : features_) {
+    sum += residual(feature, motion, nullptr).squaredNorm();
+  }
+  return sum;
 }
 
 template class ReprojectionProblem<3>;
@@ -130,6 +176,12 @@ void reprojectionErrors(const StereoCamera& camera,
                         std::vector<double>& errors_px) {
   errors_px.resize(features.size());
   for (std::size_t i = 0; i < features.size(); ++i) {
+    if (noise_ratio == 0.0) {
+      Eigen::Vector3d point = T_prev_cur * features[i].point_cur;
+      point.z() = std::max(point.z(), kMinDepth_m);
+      errors_px[i] = (features[i].prev_px - camera.project(point)).norm();
+      continue;
+    }
     const FittedFeature fitted = fitDisparity(camera, features[i], T_prev_cur, noise_ratio);
     Eigen::Vector3d point = fitted.rotated_point + T_prev_cur.translation();
     point.z() = std::max(point.z(), kMinDepth_m);

@@ -54,44 +54,49 @@ void StereoCalibrator::linearise(const StereoCamera& corrected,
   problem_.assign(corrected, features, set, T_prev_cur, config_.noise_ratio);
   Vector6d parameters;
   parameters << Eigen::Vector3d::Zero(), T_prev_cur.translation();
-  residuals_.resize(problem_.NumResiduals());
-  by_motion_.resize(problem_.NumResiduals(), 6);
-  by_bias_.resize(problem_.NumResiduals());
-  problem_(parameters.data(), residuals_.data(), by_motion_.data());
+  const auto rows = static_cast<std::size_t>(problem_.residualCount());
+  residuals_.resize(rows);
+  by_motion_.resize(6 * rows);
+  by_bias_.resize(rows);
+  problem_.linearise(parameters, residuals_.data(), by_motion_.data());
 
+  Column by_bias = byBias();
   Eigen::Index row = 0;
   for (const FittedFeature& feature : problem_.features()) {
-    by_bias_.segment<2>(row) = -feature.whitening * feature.by_disparity;
+    by_bias.segment<2>(row) = -feature.whitening * feature.by_disparity;
     row += 2;
   }
 }
 
 /// Leaves of residuals and derivative what no change of the motion can explain.
 void StereoCalibrator::eliminateMotion() {
-  const Matrix6d normal = by_motion_.transpose() * by_motion_;
+  const Columns by_motion = byMotion();
+  const Matrix6d normal = by_motion.transpose() * by_motion;
   const Eigen::LDLT<Matrix6d> solver(normal);
-  const Vector6d of_bias = solver.solve(by_motion_.transpose() * by_bias_);
-  const Vector6d of_residuals = solver.solve(by_motion_.transpose() * residuals_);
+  const Vector6d of_bias = solver.solve(by_motion.transpose() * byBias());
+  const Vector6d of_residuals = solver.solve(by_motion.transpose() * residuals());
   motion_by_bias_ << -of_bias.tail<3>(), -of_bias.head<3>();
-  by_bias_.noalias() -= by_motion_ * of_bias;
-  residuals_.noalias() -= by_motion_ * of_residuals;
+  byBias().noalias() -= by_motion * of_bias;
+  residuals().noalias() -= by_motion * of_residuals;
 }
 
 void StereoCalibrator::collect(const StereoCamera& corrected,
                                const Correspondences& features,
                                const FeatureSet& set) {
-  const double variance = residuals_.squaredNorm() / static_cast<double>(residuals_.size() - 7);
-  if (!(variance > 0.0) || !by_bias_.allFinite()) return;
+  const Column errors = residuals();
+  const Column slopes = byBias();
+  const double variance = errors.squaredNorm() / static_cast<double>(errors.size() - 7);
+  if (!(variance > 0.0) || !slopes.allFinite()) return;
   const ImageGrid grid(corrected, kColumns, kRows);
   Eigen::Index row = 0;
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (set[i] == 0) continue;
     const std::size_t cell = grid.cell(features[i].cur_px);
-    const auto slope = by_bias_.segment<2>(row);
+    const auto slope = slopes.segment<2>(row);
     const double information = slope.squaredNorm() / variance;
     current_.information[cell] += information;
     current_.weighted[cell] +=
-        information * bias_.applied_px - slope.dot(residuals_.segment<2>(row)) / variance;
+        information * bias_.applied_px - slope.dot(errors.segment<2>(row)) / variance;
     row += 2;
   }
 }
