@@ -409,22 +409,33 @@ TEST(VisualOdometryTest, StartsAnewWhenReset) {
   EXPECT_EQ(odometry.process(earlier, camera()).state, State::kInitialising);
 }
 
-TEST(VisualOdometryTest, GivesTheSameBytesWithAnyNumberOfThreads) {
-  const auto run = [](int threads) {
-    VisualOdometry::Config config;
-    config.threads = threads;
-    VisualOdometry odometry(config);
-    std::vector<OdometryResult> results;
-    for (int i = 0; i < 4; ++i) results.push_back(odometry.process(bend(i), camera()));
-    return results;
-  };
-  const auto one = run(1);
-  const auto two = run(2);
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    EXPECT_EQ(one[i].T_prev_cur.matrix(), two[i].T_prev_cur.matrix());
-    EXPECT_EQ(one[i].covariance, two[i].covariance);
-    EXPECT_EQ(one[i].counts.consistent, two[i].counts.consistent);
+std::vector<OdometryResult> alongTheBend(int threads) {
+  VisualOdometry::Config config;
+  config.threads = threads;
+  VisualOdometry odometry(config);
+  std::vector<OdometryResult> results;
+  for (int i = 0; i < 4; ++i) results.push_back(odometry.process(bend(i), camera()));
+  return results;
+}
+
+void expectSameBytes(const std::vector<OdometryResult>& a, const std::vector<OdometryResult>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].T_prev_cur.matrix(), b[i].T_prev_cur.matrix());
+    EXPECT_EQ(a[i].covariance, b[i].covariance);
+    EXPECT_EQ(a[i].counts.consistent, b[i].counts.consistent);
   }
+}
+
+TEST(VisualOdometryTest, GivesTheSameBytesWithAnyNumberOfThreads) {
+  expectSameBytes(alongTheBend(1), alongTheBend(2));
+}
+
+TEST(VisualOdometryTest, GivesTheSameBytesWithoutTheOptimizedCodeOfOpenCv) {
+  const auto optimized = alongTheBend(1);
+  cv::setUseOptimized(false);
+  const auto plain = alongTheBend(1);
+  cv::setUseOptimized(true);
+  expectSameBytes(optimized, plain);
 }
 
 TEST(VisualOdometryTest, DoesNotThrowOnImagesOfAnySize) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -45,10 +46,13 @@ class FeatureDetector {
   void findCandidates(const cv::Mat& image, int first_row, int last_row, Strip& strip) const;
   void searchBand(int width, int first, int last, int top, Strip& strip) const;
   void selectByCells(const cv::Size& size, std::vector<cv::Point2f>& corners);
+  void sortByCells(const cv::Size& size);
+  static bool isStronger(const Candidate& a, const Candidate& b);
 
   Config config_;
   std::vector<Strip> strips_;
-  std::vector<std::vector<Candidate>> cells_;
+  std::vector<std::size_t> cell_ends_;  // in by_cell_
+  std::vector<Candidate> by_cell_;
   std::vector<Candidate> rank_;
 };
 

@@ -1,6 +1,7 @@
 #include "rotrocc/feature_detector.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include <opencv2/core/hal/intrin.hpp>
 
@@ -104,37 +105,55 @@ void FeatureDetector::searchBand(int width, int first, int last, int top, Strip&
 }
 
 void FeatureDetector::selectByCells(const cv::Size& size, std::vector<cv::Point2f>& corners) {
-  const int columns = (size.width + config_.cell_size_px - 1) / config_.cell_size_px;
-  const int rows = (size.height + config_.cell_size_px - 1) / config_.cell_size_px;
-  cells_.resize(static_cast<std::size_t>(columns * rows));
-  for (auto& cell : cells_) cell.clear();
-  for (const Strip& strip : strips_) {
-    for (const Candidate& c : strip.candidates) {
-      const int cell = (c.y / config_.cell_size_px) * columns + c.x / config_.cell_size_px;
-      cells_[static_cast<std::size_t>(cell)].push_back(c);
-    }
-  }
-
-  // Ties are broken by place, so that the order is the same everywhere.
-  const auto stronger = [](const Candidate& a, const Candidate& b) {
-    if (a.response != b.response) return a.response > b.response;
-    return a.y != b.y ? a.y < b.y : a.x < b.x;
-  };
-  for (auto& cell : cells_) std::sort(cell.begin(), cell.end(), stronger);
-
+  sortByCells(size);
   const auto wanted = static_cast<std::size_t>(config_.max_features);
   for (std::size_t rank = 0; corners.size() < wanted; ++rank) {
     rank_.clear();
-    for (const auto& cell : cells_) {
-      if (rank < cell.size()) rank_.push_back(cell[rank]);
+    std::size_t begin = 0;
+    for (const std::size_t end : cell_ends_) {
+      if (begin + rank < end) rank_.push_back(by_cell_[begin + rank]);
+      begin = end;
     }
     if (rank_.empty()) break;
-    std::sort(rank_.begin(), rank_.end(), stronger);
+    std::sort(rank_.begin(), rank_.end(), isStronger);
     if (rank_.size() > wanted - corners.size()) rank_.resize(wanted - corners.size());
     for (const Candidate& c : rank_) {
       corners.emplace_back(static_cast<float>(c.x), static_cast<float>(c.y));
     }
   }
+}
+
+/// Sorts the candidates of all strips by cell, those of a cell from strong to weak.
+void FeatureDetector::sortByCells(const cv::Size& size) {
+  const int columns = (size.width + config_.cell_size_px - 1) / config_.cell_size_px;
+  const int rows = (size.height + config_.cell_size_px - 1) / config_.cell_size_px;
+  const auto cellOf = [&](const Candidate& c) {
+    return static_cast<std::size_t>((c.y / config_.cell_size_px) * columns +
+                                    c.x / config_.cell_size_px);
+  };
+  // First where each cell begins; as its candidates come in, that moves to its end.
+  cell_ends_.assign(static_cast<std::size_t>(columns * rows) + 1, 0);
+  for (const Strip& strip : strips_) {
+    for (const Candidate& c : strip.candidates) ++cell_ends_[cellOf(c) + 1];
+  }
+  std::partial_sum(cell_ends_.begin(), cell_ends_.end(), cell_ends_.begin());
+  by_cell_.resize(cell_ends_.back());
+  cell_ends_.pop_back();
+  for (const Strip& strip : strips_) {
+    for (const Candidate& c : strip.candidates) by_cell_[cell_ends_[cellOf(c)]++] = c;
+  }
+  auto begin = by_cell_.begin();
+  for (const std::size_t cell_end : cell_ends_) {
+    const auto end = by_cell_.begin() + static_cast<std::ptrdiff_t>(cell_end);
+    std::sort(begin, end, isStronger);
+    begin = end;
+  }
+}
+
+/// Ties are broken by place, so that the order is the same everywhere.
+bool FeatureDetector::isStronger(const Candidate& a, const Candidate& b) {
+  if (a.response != b.response) return a.response > b.response;
+  return a.y != b.y ? a.y < b.y : a.x < b.x;
 }
 
 }  // namespace rotrocc
