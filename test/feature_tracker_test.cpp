@@ -187,18 +187,6 @@ TEST(FeatureTrackerTest, UsesSmallImagesWhereAPointIsNotNear) {
   EXPECT_GT(errors(12.0, 3).size(), 2 * errors(12.0, 1).size());
 }
 
-TEST(FeatureTrackerTest, LetsPointsGoThatDoNotReturnWhereThatIsAskedFor) {
-  const auto found = [](bool round_trip) {
-    const Tracked result = track(drive().first,
-                                 drive().second,
-                                 drive().corners,
-                                 perturbed(drive().truth, 8.0),
-                                 {1, false, round_trip});
-    return std::count(result.tracked.begin(), result.tracked.end(), 1);
-  };
-  EXPECT_GT(found(false), found(true));
-}
-
 TEST(FeatureTrackerTest, LeavesPointsAloneThatAreNotAskedFor) {
   FeatureTracker tracker({});
   FeatureTracker::Pyramid a, b;

@@ -37,16 +37,14 @@ class FeatureTracker {
     /// The points are almost where they are expected: the smaller images are only for those that
     /// prove to be elsewhere.
     bool near = false;
-    /// Points must be tracked back to within max_round_trip_px of where they came from.
-    bool round_trip = true;
   };
 
   /// Builds into `pyramid`, whose memory is used again.
   void buildPyramid(const cv::Mat& image, Pyramid& pyramid) const;
 
   /// Follows `prev` points from one image to another. `cur` holds the predictions and gets the
-  /// results; `tracked` gets 1 for points that were found, else 0. Points whose `tracked` is 0 at
-  /// the call are skipped.
+  /// results; `tracked` gets 1 for points that came back to within max_round_trip_px, else 0.
+  /// Points whose `tracked` is 0 at the call are skipped.
   void track(Workers& workers,
              const Pyramid& prev_pyramid,
              const Pyramid& cur_pyramid,

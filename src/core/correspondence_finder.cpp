@@ -94,11 +94,9 @@ int CorrespondenceFinder::track(const Eigen::Isometry3d& T_ref_cur, bool is_pred
                  search,
                  cur_left_,
                  tracked_);
-  // Where the left image shows a feature is better known now; its disparity is as predicted. The
-  // way back is not asked for, as what is found must agree with the left image.
+  // Where the left image shows a feature is better known now; its disparity is as predicted.
   for (std::size_t i = 0; i < cur_left_.size(); ++i) cur_right_[i] = cur_left_[i] - cur_right_[i];
   search.near = is_prediction;
-  search.round_trip = false;
   tracker_.track(workers_,
                  pyramids_[reference_].right,
                  pyramids_[current_].right,

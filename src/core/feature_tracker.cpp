@@ -94,7 +94,7 @@ bool FeatureTracker::follow(const Pyramid& from,
     if (!window.take(from[0], start) || !window.find(to[0], stop, found)) return false;
   }
   end = found;
-  return !search.round_trip || returns(from[0], to[0], start, window, end);
+  return returns(from[0], to[0], start, window, end);
 }
 
 /// The way back starts where it should end, so one level is enough.
