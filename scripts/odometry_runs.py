@@ -108,3 +108,20 @@ def make_drives(programs, options):
     for drive, arguments in drives.items():
         programs.simulate(drive, arguments)
     return list(drives)
+
+
+def clips_of(folder):
+    return sorted(path.parent for path in folder.glob('*/poses.txt')) if folder else []
+
+
+def update_report(report, tables):
+    """Replaces what is between the markers of each table."""
+    text = report.read_text()
+    for name, (header, rows) in tables.items():
+        begin, end = '<!-- table %s -->\n' % name, '<!-- end of %s -->' % name
+        if begin not in text or end not in text:
+            raise RuntimeError('%s has no markers of the table %s' % (report, name))
+        lines = ['| %s |\n' % ' | '.join(cells)
+                 for cells in [header, ['---'] * len(header)] + rows]
+        text = text[:text.index(begin) + len(begin)] + ''.join(lines) + text[text.index(end):]
+    report.write_text(text)

@@ -4,11 +4,14 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "expect_error.h"
 #include "expected_file.h"
+#include "read_file.h"
 #include "temporary_directory.h"
 
 namespace rotrocc {
@@ -78,6 +81,33 @@ TEST(ParametersTest, ThePapersFileTurnsOffWhatThePaperDoesNotHave) {
   EXPECT_EQ(estimator.noise_ratio, 0.0);
   EXPECT_EQ(estimator.translation_initial_px, 0.0);
   EXPECT_EQ(estimator.min_flow_px, 0.0);
+}
+
+TEST(ParametersTest, PresetsHoldOnlyWhatIsDifferentFromTheDefault) {
+  for (const std::string name : {"fast", "accurate"}) {
+    const std::string path = std::string(ROTROCC_CONFIG_DIR) + "/" + name + ".yaml";
+    Settings settings;
+    loadYaml(path, settings.table);
+    const std::vector<std::string> preset = values(settings.table);
+    const std::vector<std::string> defaults = values(Settings().table);
+    int different = 0;
+    for (std::size_t i = 0; i < preset.size(); ++i) different += preset[i] != defaults[i];
+    std::istringstream lines(readFile(path));
+    int named = 0;
+    for (std::string line; std::getline(lines, line);) named += line.compare(0, 2, "  ") == 0;
+    EXPECT_GT(different, 0) << name;
+    EXPECT_EQ(named, different) << name;
+  }
+}
+
+TEST(ParametersTest, TheFastPresetHasFewerFeaturesAndTheAccurateOneMore) {
+  const auto features = [](const char* name) {
+    Settings settings;
+    loadYaml(std::string(ROTROCC_CONFIG_DIR) + "/" + name + ".yaml", settings.table);
+    return settings.parameters.odometry.correspondence_finder.feature_detector.max_features;
+  };
+  EXPECT_LT(2 * features("fast"), features("default") + 1);
+  EXPECT_GT(features("accurate"), features("default"));
 }
 
 TEST(ParametersTest, EveryValueThatIsSetIsReadBack) {
