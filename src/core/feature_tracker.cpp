@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include <opencv2/imgproc.hpp>
-
+#include "rotrocc/half_image.h"
 #include "tracking_window.h"
 
 namespace rotrocc {
@@ -43,7 +42,7 @@ void FeatureTracker::buildPyramid(const cv::Mat& image, Pyramid& pyramid) const 
   while (levels < most && std::min(image.cols, image.rows) >> levels > side) ++levels;
   pyramid.resize(levels);
   image.copyTo(pyramid[0]);
-  for (std::size_t i = 1; i < levels; ++i) cv::pyrDown(pyramid[i - 1], pyramid[i]);
+  for (std::size_t i = 1; i < levels; ++i) halve(pyramid[i - 1], pyramid[i]);
 }
 
 void FeatureTracker::track(Workers& workers,

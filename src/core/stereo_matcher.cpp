@@ -29,6 +29,9 @@ constexpr int kPartNoise = 64;
 
 constexpr float kNoColumn = -1.0F;
 
+/// Columns of a search that a buffer has room for from the beginning.
+constexpr std::size_t kUsualColumns = 256;
+
 /// More parts than threads even out what they cost.
 constexpr int kParts = 8;
 
@@ -182,8 +185,10 @@ float bestColumn(const WholePixelCosts& sad,
                  const cv::Range& columns,
                  double most,
                  double uniqueness) {
-  thread_local std::vector<int> costs;
+  thread_local std::vector<int> buffer;
+  std::vector<int>& costs = buffer;  // looked up once
   costs.clear();
+  costs.reserve(kUsualColumns);
   for (int x = columns.start; x < columns.end; ++x) costs.push_back(sad.part(x));
   const auto likely = std::min_element(costs.begin(), costs.end());
   const int likely_column = columns.start + static_cast<int>(likely - costs.begin());
