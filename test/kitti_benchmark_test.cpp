@@ -186,12 +186,13 @@ TEST_F(KittiBenchmarkTest, ComparesWithAnEarlierReport) {
 
 TEST_F(KittiBenchmarkTest, UsesOtherMachines) {
   letGo();
-  // In place of ssh: [options] host [--] command.
+  // In place of ssh: [options] host [--] command. As sshd does, it sets $SHELL.
   writeScript("ssh",
               "while :; do case $1 in -*) shift ;; *) break ;; esac; done\n"
               "echo $1 >> " +
                   directory_ / "hosts" +
-                  "\nshift\nif [ \"$1\" = -- ]; then shift; fi\ncd /\nexec sh -c \"$*\"\n");
+                  "\nshift\nif [ \"$1\" = -- ]; then shift; fi\ncd /\n"
+                  "exec env SHELL=/bin/sh sh -c \"$*\"\n");
   const CommandResult result = runCommand("PARALLEL_SSH=" + directory_ / "ssh" + " " +
                                           command("--sshlogin 1/alice --sshlogin 1/bob"));
   EXPECT_EQ(result.status, 0) << result.output;
