@@ -6,12 +6,13 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "okabe_ito.h"
+
 namespace rotrocc {
 namespace {
 
-// As the colours of flow_picture.cpp.
-const cv::Scalar kNear(0, 159, 230);
-const cv::Scalar kFar(233, 180, 86);
+const cv::Scalar kNear = okabe_ito::kOrange;
+const cv::Scalar kFar = okabe_ito::kSkyBlue;
 const cv::Scalar kText(230, 230, 230);
 const cv::Scalar kBand(35, 30, 30);
 

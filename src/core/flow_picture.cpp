@@ -8,18 +8,17 @@
 #include <opencv2/imgproc.hpp>
 
 #include "flow_legend.h"
+#include "okabe_ito.h"
 
 namespace rotrocc {
 namespace {
 
-// Colours (BGR) of Okabe and Ito, "Color universal design" (2002), which are as good as any on
-// grey.
 const cv::Scalar kRotationOnly(255, 255, 255);
 const cv::Scalar kOutlier(185, 60, 220);
-const cv::Scalar kExpected(115, 158, 0);
+const cv::Scalar kExpected = okabe_ito::kGreen;
 const cv::Scalar kFeature(230, 230, 230);
-const cv::Scalar kOfRotation(233, 180, 86);
-const cv::Scalar kOfTranslation(0, 159, 230);
+const cv::Scalar kOfRotation = okabe_ito::kSkyBlue;
+const cv::Scalar kOfTranslation = okabe_ito::kOrange;
 
 constexpr double kBrightness = 0.65;
 constexpr int kSubpixelBits = 4;

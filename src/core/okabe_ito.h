@@ -1,0 +1,13 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+/// Colours (BGR) that colour-blind people tell apart: Okabe and Ito, "Color universal design"
+/// (2002).
+namespace rotrocc::okabe_ito {
+
+const cv::Scalar kOrange(0, 159, 230);
+const cv::Scalar kSkyBlue(233, 180, 86);
+const cv::Scalar kGreen(115, 158, 0);
+
+}  // namespace rotrocc::okabe_ito
