@@ -165,6 +165,45 @@ TEST(VisualOdometryTest, KeepsTheBiasOverAResetButNotForAnotherCamera) {
   EXPECT_EQ(odometry.process(bend(1), camera()).disparity_bias.applied_px, 0.0);
 }
 
+TEST(VisualOdometryTest, GoesOnWithOtherParameters) {
+  VisualOdometry odometry({});
+  OdometryResult before;
+  for (int i = 0; i < 7; ++i) before = odometry.process(bend(i), wronglyCalibrated());
+  VisualOdometry::Config config;
+  config.correspondence_finder.feature_detector.max_features = 300;
+  config.correspondence_finder.feature_tracker.startup_levels = 6;
+  config.threads = 1;
+  odometry.configure(config);
+  const OdometryResult after = odometry.process(bend(7), wronglyCalibrated());
+  expectMotion(after, bendStep());
+  EXPECT_LE(after.counts.corners, 300);
+  EXPECT_EQ(after.reference_stamp_ns, before.stamp_ns) << "not that with the corners of before";
+  EXPECT_NEAR(after.disparity_bias.applied_px, before.disparity_bias.applied_px, 0.05);
+  EXPECT_NEAR(after.noise.ratio, before.noise.ratio, 0.05 * before.noise.ratio);
+}
+
+TEST(VisualOdometryTest, ForgetsTheRigWhenItIsNoLongerEstimated) {
+  VisualOdometry odometry({});
+  for (int i = 0; i < 7; ++i) odometry.process(bend(i), wronglyCalibrated());
+  VisualOdometry::Config config;
+  config.stereo_calibrator.enabled = false;
+  config.stereo_calibrator.bias_px = 0.25;
+  config.noise_estimator.enabled = false;
+  odometry.configure(config);
+  const OdometryResult result = odometry.process(bend(7), wronglyCalibrated());
+  EXPECT_EQ(result.disparity_bias.applied_px, 0.25);
+  EXPECT_EQ(result.noise.ratio, config.motion_estimator.noise_ratio);
+}
+
+TEST(VisualOdometryTest, KeepsItsParametersWhenOthersAreWrong) {
+  VisualOdometry odometry = started(2);
+  VisualOdometry::Config wrong;
+  wrong.motion_estimator.criterion = "best";
+  wrong.motion_check.min_inliers = 10000;
+  EXPECT_THROW(odometry.configure(wrong), std::invalid_argument);
+  expectMotion(odometry.process(bend(2), camera()), bendStep());
+}
+
 TEST(VisualOdometryTest, TellsWhatIsLeftAfterEachStage) {
   VisualOdometry odometry = started(2);
   const OdometryResult result = odometry.process(bend(2), camera());

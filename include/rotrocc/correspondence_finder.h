@@ -33,6 +33,9 @@ class CorrespondenceFinder {
   /// Works with so many `threads`, the calling one included.
   explicit CorrespondenceFinder(const Config& config, int threads = 1);
 
+  /// Takes other parameters, and keeps the last pair and that set aside.
+  void configure(const Config& config, int threads);
+
   /// Makes `pair` the current one; the one before is dropped unless it was kept.
   void take(const StereoPair& pair, const StereoCamera& camera);
   /// Keeps the current pair as the last one.

@@ -30,6 +30,8 @@ class FeatureTracker {
 
   explicit FeatureTracker(const Config& config);
   ~FeatureTracker();
+  FeatureTracker(FeatureTracker&&) noexcept;
+  FeatureTracker& operator=(FeatureTracker&&) noexcept;
 
   /// How to look for points.
   struct Search {

@@ -17,6 +17,9 @@ class MotionModel {
 
   explicit MotionModel(const Config& config) : config_(config) {}
 
+  /// Takes other parameters; the motion stays.
+  void configure(const Config& config) { config_ = config; }
+
   /// Takes a measured motion that took `dt_s` > 0.
   void update(const Eigen::Isometry3d& T_prev_cur, double dt_s);
 

@@ -35,6 +35,10 @@ class NoiseEstimator {
   /// `ratio` is what to begin with; 0, all residuals alike, stays so.
   NoiseEstimator(const Config& config, double ratio);
 
+  /// Takes other parameters. What was found stays, unless the ratio is to begin elsewhere or to
+  /// stay.
+  void configure(const Config& config, double ratio);
+
   const MeasurementNoise& noise() const { return noise_; }
 
   /// Takes a motion estimated from the flagged features.

@@ -44,6 +44,9 @@ class StereoCalibrator {
 
   explicit StereoCalibrator(const Config& config);
 
+  /// Takes other parameters. What was observed stays, unless observing is at an end.
+  void configure(const Config& config);
+
   const DisparityBias& bias() const { return bias_; }
 
   /// The camera whose depths have the bias taken out.

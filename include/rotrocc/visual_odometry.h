@@ -119,6 +119,11 @@ class VisualOdometry {
   /// Forgets the previous pair and the motion: the next pair is a first one.
   void reset();
 
+  /// Takes other parameters and goes on: the next motion is measured against the previous pair, and
+  /// what is known of the rig stays, as far as it is estimated by the new parameters too. Throws as
+  /// the constructor does, and then keeps the old ones.
+  void configure(const Config& config);
+
   /// The feature set of the last call, empty if it did not get so far.
   const Correspondences& correspondences() const;
   /// The inliers of stage 1 and 2 among correspondences(). Where stage 2 was skipped both are

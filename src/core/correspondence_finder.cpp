@@ -15,6 +15,14 @@ CorrespondenceFinder::CorrespondenceFinder(const Config& config, int threads)
       matcher_(config.stereo_matcher),
       tracker_(config.feature_tracker) {}
 
+void CorrespondenceFinder::configure(const Config& config, int threads) {
+  CorrespondenceFinder other(config, threads);
+  other.pyramids_ = std::move(pyramids_);
+  other.last_ = last_;
+  other.aside_ = aside_;
+  *this = std::move(other);
+}
+
 void CorrespondenceFinder::take(const StereoPair& pair, const StereoCamera& camera) {
   camera_ = camera;
   current_ = 0;

@@ -34,6 +34,8 @@ float scaleOf(std::size_t level) {
 FeatureTracker::FeatureTracker(const Config& config)
     : config_(config), windows_(kParts, TrackingWindow(config.window_radius_px)) {}
 FeatureTracker::~FeatureTracker() = default;
+FeatureTracker::FeatureTracker(FeatureTracker&&) noexcept = default;
+FeatureTracker& FeatureTracker::operator=(FeatureTracker&&) noexcept = default;
 
 void FeatureTracker::buildPyramid(const cv::Mat& image, Pyramid& pyramid) const {
   const int side = 2 * config_.window_radius_px + 1;

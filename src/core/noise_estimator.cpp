@@ -33,6 +33,13 @@ NoiseEstimator::NoiseEstimator(const Config& config, double ratio)
   reset();
 }
 
+void NoiseEstimator::configure(const Config& config, double ratio) {
+  const bool begins_anew = ratio != first_ratio_ || !config.enabled;
+  config_ = config;
+  first_ratio_ = ratio;
+  if (begins_anew) reset();
+}
+
 void NoiseEstimator::reset() {
   noise_ = {};
   noise_.ratio = first_ratio_;

@@ -66,6 +66,18 @@ void VisualOdometry::Pipeline::reset() {
   forgetFeatures();
 }
 
+void VisualOdometry::Pipeline::configure(const Config& config) {
+  estimator_ = MotionEstimator(config.motion_estimator);  // first, as it may throw
+  config_ = config;
+  finder_.configure(config.correspondence_finder, config.threads);
+  motion_model_.configure(config.motion_model);
+  check_ = MotionCheck(config.motion_check);
+  noise_.configure(config.noise_estimator, config.motion_estimator.noise_ratio);
+  calibrator_.configure(config.stereo_calibrator);
+  selector_ = ReferenceSelector(config.reference_selector);
+  reference_serves_ = false;  // its corners are of the old parameters
+}
+
 void VisualOdometry::Pipeline::advance(const StereoPair& pair,
                                        const StereoCamera& camera,
                                        const std::optional<Eigen::Isometry3d>& expected,

@@ -19,6 +19,7 @@ class VisualOdometry::Pipeline {
                          const StereoCamera& camera,
                          const std::optional<Eigen::Isometry3d>& expected);
   void reset();
+  void configure(const Config& config);
 
   const Correspondences& correspondences() const { return features_; }
   const FeatureSet& rotationInliers() const { return estimate_.rotation_inliers; }

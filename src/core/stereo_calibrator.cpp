@@ -25,6 +25,15 @@ StereoCalibrator::StereoCalibrator(const Config& config) : config_(config) {
   update();
 }
 
+void StereoCalibrator::configure(const Config& config) {
+  config_ = config;
+  if (config_.enabled) {
+    update();
+  } else {
+    reset();
+  }
+}
+
 StereoCamera StereoCalibrator::correct(const StereoCamera& camera) const {
   StereoCamera corrected = camera;
   corrected.cx_right += bias_.applied_px;

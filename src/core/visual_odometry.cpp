@@ -34,6 +34,10 @@ void VisualOdometry::reset() {
   pipeline_->reset();
 }
 
+void VisualOdometry::configure(const Config& config) {
+  pipeline_->configure(config);
+}
+
 const Correspondences& VisualOdometry::correspondences() const {
   return pipeline_->correspondences();
 }
