@@ -23,6 +23,22 @@ TEST(WorkersTest, DoEveryPartOnceAndAllBeforeTheyReturn) {
   }
 }
 
+TEST(WorkersTest, DoEachOfAListOnceInPartsThatNoTwoThreadsShare) {
+  for (const int threads : {1, 2, 4}) {
+    Workers workers(threads);
+    for (const std::size_t count : {0U, 1U, 7U, 8U, 1000U}) {
+      std::vector<int> done(count);
+      std::array<std::size_t, Workers::kListParts> of_part = {};  // not atomic either
+      workers.forEach(count, [&](std::size_t i, std::size_t part) {
+        ++done[i];
+        ++of_part.at(part);
+      });
+      EXPECT_EQ(done, std::vector<int>(count, 1)) << threads;
+      for (const std::size_t of_one : of_part) EXPECT_LE(of_one, count / of_part.size() + 1);
+    }
+  }
+}
+
 TEST(WorkersTest, GoFromJobToJobWithoutLosingOne) {
   Workers workers(2);
   std::array<long, 2> sums = {};

@@ -69,8 +69,8 @@ class FeatureTracker {
                const cv::Point2f& end) const;
 
   Config config_;
-  std::vector<TrackingWindow> windows_;
-  std::vector<std::size_t> indices_;  // of the points that are asked for
+  std::vector<TrackingWindow> windows_;  // one for each part of a list
+  std::vector<std::size_t> indices_;     // of the points that are asked for
 };
 
 }  // namespace rotrocc

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <type_traits>
 
@@ -25,6 +26,22 @@ class Workers {
     using Function = std::remove_reference_t<Part>;
     share(parts,
           {&part, [](void* function, int index) { (*static_cast<Function*>(function))(index); }});
+  }
+
+  /// Parts that a list is cut into. They differ in what they cost; more of them than threads even
+  /// that out.
+  static constexpr int kListParts = 8;
+
+  /// Calls each(i, part) for all i below `count`, as run() does. `part` is below kListParts, and no
+  /// two calls with the same are made at once: it tells what memory a call has to itself. Which i
+  /// is of which part does not depend on the threads.
+  template <class Each>
+  void forEach(std::size_t count, Each&& each) {
+    run(kListParts, [&](int index) {
+      const auto part = static_cast<std::size_t>(index);
+      const std::size_t end = count * (part + 1) / kListParts;
+      for (std::size_t i = count * part / kListParts; i < end; ++i) each(i, part);
+    });
   }
 
  private:

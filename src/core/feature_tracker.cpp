@@ -8,10 +8,6 @@
 namespace rotrocc {
 namespace {
 
-/// Features are followed in so many parts, each with a window of its own. The parts differ in what
-/// they cost; more of them than threads even that out.
-constexpr int kParts = 8;
-
 /// A point within so much of the window's radius is where it was expected.
 constexpr float kNear = 0.5F;
 
@@ -32,7 +28,7 @@ float scaleOf(std::size_t level) {
 }  // namespace
 
 FeatureTracker::FeatureTracker(const Config& config)
-    : config_(config), windows_(kParts, TrackingWindow(config.window_radius_px)) {}
+    : config_(config), windows_(Workers::kListParts, TrackingWindow(config.window_radius_px)) {}
 FeatureTracker::~FeatureTracker() = default;
 FeatureTracker::FeatureTracker(FeatureTracker&&) noexcept = default;
 FeatureTracker& FeatureTracker::operator=(FeatureTracker&&) noexcept = default;
@@ -58,14 +54,10 @@ void FeatureTracker::track(Workers& workers,
   for (std::size_t i = 0; i < prev.size(); ++i) {
     if (tracked[i] != 0) indices_.push_back(i);
   }
-  workers.run(kParts, [&](int part) {
-    const auto p = static_cast<std::size_t>(part);
-    const std::size_t end = indices_.size() * (p + 1) / kParts;
-    for (std::size_t k = indices_.size() * p / kParts; k < end; ++k) {
-      const std::size_t i = indices_[k];
-      const bool found = follow(prev_pyramid, cur_pyramid, search, prev[i], windows_[p], cur[i]);
-      tracked[i] = found ? 1 : 0;
-    }
+  workers.forEach(indices_.size(), [&](std::size_t k, std::size_t part) {
+    const std::size_t i = indices_[k];
+    const bool found = follow(prev_pyramid, cur_pyramid, search, prev[i], windows_[part], cur[i]);
+    tracked[i] = found ? 1 : 0;
   });
 }
 

@@ -20,9 +20,6 @@ constexpr float kNoColumn = -1.0F;
 /// Columns of a search that a buffer has room for from the beginning.
 constexpr std::size_t kUsualColumns = 256;
 
-/// More parts than threads even out what they cost.
-constexpr int kParts = 8;
-
 /// Whether the window around a left pixel can be read, the pixels right of it and below included.
 bool windowInside(const cv::Mat& image, const cv::Point2f& p) {
   return p.x >= sad::kHalf && p.y >= sad::kHalf &&
@@ -103,14 +100,10 @@ void eachPixel(Workers& workers,
                std::vector<float>& disparities_px,
                const ColumnOf& columnOf) {
   disparities_px.assign(pixels.size(), StereoMatcher::kNoDisparity);
-  workers.run(kParts, [&](int part) {
-    const auto p = static_cast<std::size_t>(part);
-    const std::size_t end = pixels.size() * (p + 1) / kParts;
-    for (std::size_t i = pixels.size() * p / kParts; i < end; ++i) {
-      const float column = columnOf(i);
-      const float disparity_px = pixels[i].x - column;
-      if (column != kNoColumn && disparity_px >= least_px) disparities_px[i] = disparity_px;
-    }
+  workers.forEach(pixels.size(), [&](std::size_t i, std::size_t) {
+    const float column = columnOf(i);
+    const float disparity_px = pixels[i].x - column;
+    if (column != kNoColumn && disparity_px >= least_px) disparities_px[i] = disparity_px;
   });
 }
 
