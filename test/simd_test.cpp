@@ -1,12 +1,13 @@
-// Compares what the processor's SIMD finds with what plain C++ finds: the sources of the front end
-// are compiled twice, the second time in another namespace, with OpenCV's emulation of its SIMD
-// types.
+// Compares what the processor's widest registers find with what those of 128 bits find, and plain
+// C++: the sources of the front end are compiled twice, the second time in another namespace, with
+// OpenCV's emulation of its SIMD types.
 
 #include <cstdlib>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
 
 #include "front_end.h"
 #include "rotrocc/kitti.h"
@@ -29,11 +30,15 @@ namespace {
 constexpr std::size_t kNumbersOfAFeature = 5;
 
 void expectTheSame(const StereoPair& a, const StereoPair& b, double focal_px, double ahead_m) {
+  const auto widest = runFrontEnd(a.left, a.right, b.left, b.right, focal_px, ahead_m);
+  cv::setUseOptimized(false);
   const auto simd = runFrontEnd(a.left, a.right, b.left, b.right, focal_px, ahead_m);
+  cv::setUseOptimized(true);
   const auto plain =
       rotrocc_emulated::runFrontEnd(a.left, a.right, b.left, b.right, focal_px, ahead_m);
   EXPECT_GT(simd.size(), 200 * kNumbersOfAFeature) << "there is little to compare";
   EXPECT_EQ(simd, plain);
+  EXPECT_EQ(widest, plain);
 }
 
 StereoPair render(double z_m, const StereoCamera& camera) {

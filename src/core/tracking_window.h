@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <opencv2/core.hpp>
+
+#include "kernels/kernels.h"
 
 namespace rotrocc {
 
@@ -28,16 +31,17 @@ class TrackingWindow {
   bool find(const cv::Mat& image, const Stop& stop, cv::Point2f& center);
 
  private:
-  struct Patch;
-
   Patch patchAround(const cv::Mat& image, const cv::Point2f& center, int radius, int columns);
-  cv::Point2f mismatch(const Patch& patch) const;
-  bool invertNormalMatrix(float xx, float xy, float yy);
+  void copyWithEdge(const cv::Mat& image, const cv::Rect& area);
+  int wholeRegisters(int count) const;
+  Window window();
+  bool invertNormalMatrix(const GradientSums& sums);
 
+  const Kernels* kernels_;
   int radius_, side_;
   int stride_;         // of the rows below: the side, rounded up to whole registers
-  int sample_stride_;  // of samples_, which have a margin of one pixel
-  std::vector<short> samples_, values_, gradient_x_, gradient_y_, mask_;
+  int sample_stride_;  // of samples_
+  std::vector<std::int16_t> samples_, values_, gradient_x_, gradient_y_, mask_;
   std::vector<uchar> border_;  // a patch that hangs over the edge of the image
   float inverse_xx_ = 0.0F, inverse_xy_ = 0.0F, inverse_yy_ = 0.0F;
 };

@@ -1,0 +1,9 @@
+#include "kernels.h"
+#include "lanes.h"
+
+namespace rotrocc::ROTROCC_INSTRUCTIONS {
+
+extern const Kernels kernels;
+const Kernels kernels = {kShorts, takeWindow, compareWindow};
+
+}  // namespace rotrocc::ROTROCC_INSTRUCTIONS
