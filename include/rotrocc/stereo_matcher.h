@@ -10,6 +10,8 @@
 
 namespace rotrocc {
 
+struct Kernels;
+
 /// Sparse block matching along the row: sum of absolute differences (SAD) with a sub-pixel fit.
 class StereoMatcher {
  public:
@@ -26,7 +28,7 @@ class StereoMatcher {
   /// How far from what is expected matchNear() looks.
   static constexpr int kNearRadius_px = 2;
 
-  explicit StereoMatcher(const Config& config) : config_(config) {}
+  explicit StereoMatcher(const Config& config);
 
   /// Disparity x_left - x_right [px] of each corner of the left image, which are at whole pixels,
   /// or kNoDisparity: too near to the edge, too different, ambiguous, or outside of the range.
@@ -52,6 +54,7 @@ class StereoMatcher {
 
  private:
   Config config_;
+  const Kernels* kernels_;
 };
 
 }  // namespace rotrocc

@@ -1,88 +1,27 @@
 #pragma once
 
-#include <limits>
-
 #include <opencv2/core.hpp>
 #include <opencv2/core/hal/intrin.hpp>
 
+#include "kernels/sad_kernels.h"
 #include "rotrocc/stereo_matcher.h"
 
 /// What windows of the left and the right image cost to be taken for the same.
 namespace rotrocc::sad {
 
-/// The window is 11 pixels wide and high.
-constexpr int kWindow = 11;
+/// The window is as wide and as high.
+constexpr int kWindow = SadSearch::kWindow;
 constexpr int kHalf = kWindow / 2;
 constexpr int kPixels = kWindow * kWindow;
 
-/// A register of bytes holds one row of it, the rest masked out.
-constexpr int kRegister = 16;
+/// Pixels of a row that are read.
+constexpr int kRegister = SadSearch::kReadPixels;
 
-/// Stands for the cost of a column that is higher than any of interest.
-constexpr int kHigh = std::numeric_limits<int>::max();
-
-using Bytes = cv::v_uint8x16;
 using Words = cv::v_int16x8;
 constexpr int kWords = 8;
 
-/// Sums of absolute differences between the window around a left pixel and windows of the same row
-/// of the right image, all at whole pixels.
-class WholePixelCosts {
- public:
-  WholePixelCosts(const cv::Mat& left, const cv::Mat& right, const cv::Point& pixel)
-      : right_(right.ptr<uchar>(pixel.y - kHalf) - kHalf), step_(right.step) {
-    const uchar* pixels = left.ptr<uchar>(pixel.y - kHalf) + pixel.x - kHalf;
-    for (int i = 0; i < kWindow; ++i)
-      rows_[i] = loadRow(pixels + static_cast<std::size_t>(i) * left.step);
-    pixels += kEdge;
-    for (int k = 0; k < kPairs; ++k)
-      pairs_[k] =
-          loadPair(pixels + kPairRows[k][0] * left.step, pixels + kPairRows[k][1] * left.step);
-  }
-
-  /// The sum over a part of the window, all but the edge of every other row but one.
-  int part(int column) const {
-    const uchar* pixels = right_ + column + kEdge;
-    unsigned sum = 0;
-    for (int k = 0; k < kPairs; ++k) {
-      sum += cv::v_reduce_sad(
-          pairs_[k], loadPair(pixels + kPairRows[k][0] * step_, pixels + kPairRows[k][1] * step_));
-    }
-    return static_cast<int>(sum);
-  }
-  /// The sum over the whole window; kHigh where it is seen to be more than `limit`.
-  int whole(int column, int limit = kHigh) const {
-    const uchar* pixels = right_ + column;
-    unsigned sum = 0;
-    for (int i = 0; i < kWindow; ++i, pixels += step_) {
-      sum += cv::v_reduce_sad(rows_[i], loadRow(pixels));
-      if (i == kHalf && sum > static_cast<unsigned>(limit)) return kHigh;
-    }
-    return static_cast<int>(sum);
-  }
-
- private:
-  static constexpr int kPairs = 2;
-  static constexpr int kEdge = 1;
-  static constexpr std::size_t kPairRows[kPairs][2] = {{1, 3}, {7, 9}};
-
-  static Bytes loadRow(const uchar* pixels) {
-    alignas(kRegister) static constexpr uchar kMask[kRegister] = {
-        255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255};
-    return cv::v_load(pixels) & cv::v_load_aligned(kMask);
-  }
-  static Bytes loadPair(const uchar* upper, const uchar* lower) {
-    return cv::v_load_halves(upper, lower);
-  }
-
-  const uchar* right_;
-  std::size_t step_;
-  Bytes rows_[kWindow];
-  Bytes pairs_[kPairs];
-};
-
-/// The same around a left pixel that may lie between pixels, with the row of the right image that
-/// is as high, in eighths of a grey level.
+/// Sums of absolute differences between the window around a left pixel, which may lie between
+/// pixels, and windows of the right image as high, in eighths of a grey level.
 class SubPixelCosts {
  public:
   static constexpr int kUnit = 8;

@@ -1,8 +1,10 @@
 #include "rotrocc/stereo_matcher.h"
 
 #include <algorithm>
-#include <cstdlib>
+#include <cstddef>
+#include <cstdint>
 
+#include "kernels/kernels.h"
 #include "sad_costs.h"
 
 namespace rotrocc {
@@ -10,10 +12,6 @@ namespace {
 
 /// The slopes of a minimum, so far to both sides [px], are no rivals of it.
 constexpr int kSlope = 2;
-
-/// Columns are dropped whose part of the window costs half as much again as where that is cheapest,
-/// and two grey levels a pixel more. For 4 corners in 1000 of KITTI that changes the answer.
-constexpr int kPartNoise = 64;
 
 constexpr float kNoColumn = -1.0F;
 
@@ -40,45 +38,36 @@ float subPixelOffset(int before, int at, int after) {
   return 0.5F * static_cast<float>(before - after) / static_cast<float>(slope);
 }
 
-/// Column of the best match, or kNoColumn where it lies at the end of the range, costs more than
-/// `most` or is ambiguous: at least `uniqueness` times the cost of a rival.
-float bestColumn(const sad::WholePixelCosts& costs_of,
-                 const cv::Range& columns,
-                 double most,
-                 double uniqueness) {
-  thread_local std::vector<int> buffer;
-  std::vector<int>& costs = buffer;  // looked up once
-  costs.clear();
-  costs.reserve(kUsualColumns);
-  for (int x = columns.start; x < columns.end; ++x) costs.push_back(costs_of.part(x));
-  const auto likely = std::min_element(costs.begin(), costs.end());
-  const int likely_column = columns.start + static_cast<int>(likely - costs.begin());
-  const int part_limit = *likely + *likely / 2 + kPartNoise;
-  // What costs more can neither be the best nor a rival of it.
-  const auto limitOf = [&](double best) { return cvCeil(std::min(best, most) / uniqueness); };
-  int limit = limitOf(costs_of.whole(likely_column));
-  int best = -1;
-  int least = sad::kHigh;
-  for (int k = 0; k < columns.size(); ++k) {
-    int& cost = costs[static_cast<std::size_t>(k)];
-    cost = cost <= part_limit ? costs_of.whole(columns.start + k, limit) : sad::kHigh;
-    if (cost >= least) continue;
-    best = k;
-    least = cost;
-    limit = std::min(limit, limitOf(least));
-  }
+std::int16_t least(const std::int16_t* begin, const std::int16_t* end) {
+  std::int16_t cost = SadSearch::kHigh;
+  for (; begin < end; ++begin) cost = std::min(cost, *begin);
+  return cost;
+}
 
-  if (best <= 0 || best == columns.size() - 1 || least > most) return kNoColumn;
-  for (int k = 0; k < columns.size(); ++k) {
-    const bool rival = least >= uniqueness * costs[static_cast<std::size_t>(k)];
-    if (rival && std::abs(k - best) > kSlope) return kNoColumn;
-  }
-  const auto exact = [&](int k) {
-    const int cost = costs[static_cast<std::size_t>(k)];
-    return cost != sad::kHigh ? cost : costs_of.whole(columns.start + k);
+/// Column of the best match, of columns from `first` on, or kNoColumn where it lies at the end of
+/// the range, costs more than is allowed or is ambiguous: at least `uniqueness` times the cost of a
+/// rival.
+float bestColumn(const Kernels& kernels, const SadSearch& search, int first) {
+  thread_local std::vector<std::int16_t> buffer;
+  std::vector<std::int16_t>& costs = buffer;  // looked up once
+  costs.reserve(kUsualColumns);
+  costs.resize(static_cast<std::size_t>(search.count + SadSearch::kGroup));
+  kernels.sadCosts(search, costs.data());
+  const std::int16_t* begin = costs.data();
+  const std::int16_t* end = begin + search.count;
+  const std::int16_t lowest = least(begin, end);
+  const std::int16_t* best = std::find(begin, end, lowest);
+  if (best == begin || best >= end - 1 || lowest > search.most) return kNoColumn;
+  const std::int16_t* before = best - std::min<std::ptrdiff_t>(kSlope, best - begin);
+  const std::int16_t* after = best + std::min<std::ptrdiff_t>(kSlope + 1, end - best);
+  const std::int16_t rival = std::min(least(begin, before), least(after, end));
+  if (rival != SadSearch::kHigh && lowest >= search.uniqueness * rival) return kNoColumn;
+  const auto exact = [&](const std::int16_t* cost) -> int {
+    return *cost != SadSearch::kHigh ? *cost
+                                     : kernels.sadCost(search, static_cast<int>(cost - begin));
   };
-  return static_cast<float>(columns.start + best) +
-         subPixelOffset(exact(best - 1), least, exact(best + 1));
+  return static_cast<float>(first + static_cast<int>(best - begin)) +
+         subPixelOffset(exact(best - 1), lowest, exact(best + 1));
 }
 
 /// The same for a few columns, where rivals do not matter.
@@ -109,6 +98,8 @@ void eachPixel(Workers& workers,
 
 }  // namespace
 
+StereoMatcher::StereoMatcher(const Config& config) : config_(config), kernels_(&chooseKernels()) {}
+
 void StereoMatcher::match(Workers& workers,
                           const cv::Mat& left,
                           const cv::Mat& right,
@@ -124,7 +115,15 @@ void StereoMatcher::match(Workers& workers,
     const cv::Point pixel(cvRound(corners[i].x), cvRound(corners[i].y));
     const cv::Range columns = clip(right, cv::Range(pixel.x - nearest - 1, pixel.x - farthest + 2));
     if (columns.size() < 3) return kNoColumn;
-    return bestColumn(sad::WholePixelCosts(left, right, pixel), columns, most, config_.uniqueness);
+    const int top = pixel.y - sad::kHalf;
+    const SadSearch search = {left.ptr<uchar>(top) + pixel.x - sad::kHalf,
+                              static_cast<std::ptrdiff_t>(left.step),
+                              right.ptr<uchar>(top) + columns.start - sad::kHalf,
+                              static_cast<std::ptrdiff_t>(right.step),
+                              columns.size(),
+                              most,
+                              config_.uniqueness};
+    return bestColumn(*kernels_, search, columns.start);
   });
 }
 

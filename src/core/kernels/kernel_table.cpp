@@ -4,6 +4,6 @@
 namespace rotrocc::ROTROCC_INSTRUCTIONS {
 
 extern const Kernels kernels;
-const Kernels kernels = {kShorts, takeWindow, compareWindow};
+const Kernels kernels = {kShorts, takeWindow, compareWindow, sadCosts, sadCost};
 
 }  // namespace rotrocc::ROTROCC_INSTRUCTIONS

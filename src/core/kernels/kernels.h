@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sad_kernels.h"
 #include "window_kernels.h"
 
 namespace rotrocc {
@@ -10,6 +11,8 @@ struct Kernels {
   int shorts;  ///< 16-bit numbers of a register
   GradientSums (*takeWindow)(const Patch&, Window);
   MismatchSums (*compareWindow)(const Patch&, const Window&);
+  void (*sadCosts)(const SadSearch&, std::int16_t* costs);
+  int (*sadCost)(const SadSearch&, int k);
 };
 
 /// Those for AVX2 if the processor has it, else those for any. With cv::setUseOptimized(false), or
