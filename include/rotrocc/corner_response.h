@@ -8,6 +8,8 @@
 
 namespace rotrocc {
 
+struct Kernels;
+
 /// How much of a corner each pixel of an image is: the smaller eigenvalue of its gradients' second
 /// moments (Shi and Tomasi, CVPR 1994), the mean over a square, in (grey levels / px)^2. Sums are
 /// exact, so that a pixel's response does not depend on the rows that are asked for.
@@ -23,13 +25,13 @@ class CornerResponse {
 
  private:
   void addGradients(const cv::Mat& image, int y);
-  void differentiate(const cv::Mat& image, int y);
-  void respond(int count, float* response) const;
 
+  const Kernels* kernels_;
   int radius_, side_;
-  std::size_t stride_ = 0;             // of the rows below: the image's, and room for registers
-  std::vector<short> smooth_, steps_;  // a row of pixels, smoothed and differentiated downwards
-  std::vector<short> gradients_;       // x and y of the last `side_` rows, in turn
+  std::size_t stride_ = 0;  // of the rows below: the image's, and room for registers
+  std::vector<std::int16_t> smooth_,
+      steps_;                            // a row of pixels, smoothed and differentiated downwards
+  std::vector<std::int16_t> gradients_;  // x and y of the last `side_` rows, in turn
   std::vector<std::int32_t> xx_, xy_, yy_;  // products of gradients, summed over those rows
 };
 

@@ -10,6 +10,8 @@
 
 namespace rotrocc {
 
+struct Kernels;
+
 /// Shi-Tomasi corners (Shi and Tomasi, CVPR 1994), spread over the image by a grid.
 class FeatureDetector {
  public:
@@ -22,7 +24,7 @@ class FeatureDetector {
     int border_px = 8;          ///< no corners this near to the image's edge
   };
 
-  explicit FeatureDetector(const Config& config) : config_(config) {}
+  explicit FeatureDetector(const Config& config);
 
   /// Corners of `image` (CV_8UC1) at whole pixels, at most max_features. Every cell gives its
   /// strongest before any gives its second, and so on. An image too small for a corner gives none.
@@ -38,8 +40,9 @@ class FeatureDetector {
     explicit Strip(int block_radius_px) : corner_response(block_radius_px) {}
 
     CornerResponse corner_response;
-    cv::Mat response;  // with a margin of nms_radius_px around the strip
-    std::vector<float> highest;
+    cv::Mat response;            // with a margin of nms_radius_px around the strip
+    std::vector<float> highest;  // of each column
+    std::vector<int> peaks;      // of those
     std::vector<Candidate> candidates;
   };
 
@@ -50,6 +53,7 @@ class FeatureDetector {
   static bool isStronger(const Candidate& a, const Candidate& b);
 
   Config config_;
+  const Kernels* kernels_;
   std::vector<Strip> strips_;
   std::vector<std::size_t> cell_ends_;  // in by_cell_
   std::vector<Candidate> by_cell_;

@@ -3,27 +3,13 @@
 #include <algorithm>
 #include <numeric>
 
-#include <opencv2/core/hal/intrin.hpp>
+#include "kernels/kernels.h"
 
 namespace rotrocc {
 namespace {
 
 /// Rows of a strip. Fixed, so that the same strips are computed whatever the number of threads.
 constexpr int kStripRows = 64;
-
-using Floats = cv::v_float32x4;
-constexpr int kLanes = 4;
-
-/// The highest of each column of rows [first, last).
-void findHighest(const cv::Mat& response, int first, int last, int columns, float* highest) {
-  for (int x = 0; x < columns; x += kLanes) {
-    Floats most = cv::v_load(response.ptr<float>(first) + x);
-    for (int y = first + 1; y < last; ++y) {
-      most = cv::v_max(most, cv::v_load(response.ptr<float>(y) + x));
-    }
-    cv::v_store(highest + x, most);
-  }
-}
 
 /// Whether no pixel within `radius` has a larger response, and none above or to the left the same.
 /// Of corners that are exactly alike, as in drawn patterns and saturated areas, the first counts.
@@ -43,6 +29,9 @@ bool isFirstOfStrongest(const cv::Mat& response, int x, int y, int radius) {
 }
 
 }  // namespace
+
+FeatureDetector::FeatureDetector(const Config& config)
+    : config_(config), kernels_(&chooseKernels()) {}
 
 void FeatureDetector::detect(Workers& workers,
                              const cv::Mat& image,
@@ -82,24 +71,25 @@ void FeatureDetector::findCandidates(const cv::Mat& image,
 void FeatureDetector::searchBand(int width, int first, int last, int top, Strip& strip) const {
   const int radius = config_.nms_radius_px;
   float* highest = strip.highest.data();
-  findHighest(strip.response, first - top, last - top, width + 2 * radius, highest);
-
-  const Floats least = cv::v_setall_f32(static_cast<float>(config_.min_response));
-  const int end = width - config_.border_px;
-  for (int x = config_.border_px; x < end; x += kLanes) {
-    Floats most = least;
-    for (int k = x; k <= x + 2 * radius; ++k) most = cv::v_max(most, cv::v_load(highest + k));
-    if (!cv::v_check_any(cv::v_load(highest + x + radius) >= most)) continue;
-    float bounds[kLanes];
-    cv::v_store(bounds, most);
-    for (int i = 0; i < std::min(kLanes, end - x); ++i) {
-      const int column = x + i + radius;
-      if (!(highest[column] >= bounds[i])) continue;
-      int y = first;
-      while (strip.response.at<float>(y - top, column) != highest[column]) ++y;
-      if (isFirstOfStrongest(strip.response, column, y - top, radius)) {
-        strip.candidates.push_back({highest[column], x + i, y});
-      }
+  kernels_->highestOfColumns(strip.response.ptr<float>(first - top),
+                             static_cast<std::ptrdiff_t>(strip.response.step1()),
+                             last - first,
+                             width + 2 * radius,
+                             highest);
+  strip.peaks.resize(strip.highest.size());
+  const int count = kernels_->findPeaks(highest,
+                                        config_.border_px,
+                                        width - config_.border_px,
+                                        radius,
+                                        static_cast<float>(config_.min_response),
+                                        strip.peaks.data());
+  for (int i = 0; i < count; ++i) {
+    const int x = strip.peaks[static_cast<std::size_t>(i)];
+    const int column = x + radius;
+    int y = first;
+    while (strip.response.at<float>(y - top, column) != highest[column]) ++y;
+    if (isFirstOfStrongest(strip.response, column, y - top, radius)) {
+      strip.candidates.push_back({highest[column], x, y});
     }
   }
 }

@@ -4,6 +4,18 @@
 namespace rotrocc::ROTROCC_INSTRUCTIONS {
 
 extern const Kernels kernels;
-const Kernels kernels = {kShorts, takeWindow, compareWindow, sadCosts, sadCost};
+const Kernels kernels = {kShorts,
+                         smoothDown,
+                         smoothAlong,
+                         differentiateRow,
+                         replaceGradients,
+                         respondRow,
+                         highestOfColumns,
+                         findPeaks,
+                         sadCosts,
+                         sadCost,
+                         takeWindow,
+                         compareWindow};
+static_assert(kShorts <= kMostShorts);
 
 }  // namespace rotrocc::ROTROCC_INSTRUCTIONS

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "corner_kernels.h"
+#include "half_image_kernels.h"
 #include "sad_kernels.h"
 #include "window_kernels.h"
 
@@ -8,12 +10,23 @@ namespace rotrocc {
 /// The inner loops over pixels, for one kind of processor. What they find is the same for all:
 /// they add integers, and floats in no order that the width of a register decides.
 struct Kernels {
-  int shorts;  ///< 16-bit numbers of a register
-  GradientSums (*takeWindow)(const Patch&, Window);
-  MismatchSums (*compareWindow)(const Patch&, const Window&);
-  void (*sadCosts)(const SadSearch&, std::int16_t* costs);
-  int (*sadCost)(const SadSearch&, int k);
+  int shorts;  ///< 16-bit numbers of a register, at most kMostShorts
+
+  decltype(&ROTROCC_INSTRUCTIONS::smoothDown) smoothDown;
+  decltype(&ROTROCC_INSTRUCTIONS::smoothAlong) smoothAlong;
+  decltype(&ROTROCC_INSTRUCTIONS::differentiateRow) differentiateRow;
+  decltype(&ROTROCC_INSTRUCTIONS::replaceGradients) replaceGradients;
+  decltype(&ROTROCC_INSTRUCTIONS::respondRow) respondRow;
+  decltype(&ROTROCC_INSTRUCTIONS::highestOfColumns) highestOfColumns;
+  decltype(&ROTROCC_INSTRUCTIONS::findPeaks) findPeaks;
+  decltype(&ROTROCC_INSTRUCTIONS::sadCosts) sadCosts;
+  decltype(&ROTROCC_INSTRUCTIONS::sadCost) sadCost;
+  decltype(&ROTROCC_INSTRUCTIONS::takeWindow) takeWindow;
+  decltype(&ROTROCC_INSTRUCTIONS::compareWindow) compareWindow;
 };
+
+/// Numbers that a row needs beyond its end, where whole registers are read and written.
+constexpr int kMostShorts = 16;
 
 /// Those for AVX2 if the processor has it, else those for any. With cv::setUseOptimized(false), or
 /// OPENCV_CPU_DISABLE=AVX2 in the environment, those for any.

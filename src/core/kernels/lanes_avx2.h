@@ -44,11 +44,26 @@ inline void store(float* to, Floats a) {
   _mm256_storeu_ps(to, a.bits);
 }
 
+inline void storeBytes(std::uint8_t* to, Ints low, Ints high) {
+  // Halves of registers are packed by themselves.
+  const __m256i mixed = _mm256_packs_epi32(low.bits, high.bits);
+  const __m256i shorts = _mm256_permute4x64_epi64(mixed, 0xd8);
+  _mm_storeu_si128(
+      reinterpret_cast<__m128i*>(to),
+      _mm_packus_epi16(_mm256_castsi256_si128(shorts), _mm256_extracti128_si256(shorts, 1)));
+}
+
 inline Shorts all(std::int16_t value) {
   return {_mm256_set1_epi16(value)};
 }
 inline Floats all(float value) {
   return {_mm256_set1_ps(value)};
+}
+inline Ints all(std::int32_t value) {
+  return {_mm256_set1_epi32(value)};
+}
+inline Shorts alternate(std::int16_t a, std::int16_t b) {
+  return {_mm256_setr_epi16(a, b, a, b, a, b, a, b, a, b, a, b, a, b, a, b)};
 }
 inline Ints noInts() {
   return {_mm256_setzero_si256()};
@@ -84,6 +99,10 @@ template <int kBits>
 Shorts shiftRight(Shorts a) {
   return {_mm256_srai_epi16(a.bits, kBits)};
 }
+template <int kBits>
+Ints shiftRight(Ints a) {
+  return {_mm256_srai_epi32(a.bits, kBits)};
+}
 inline Shorts multiplyHigh(Shorts a, Shorts b) {
   return {_mm256_mulhi_epi16(a.bits, b.bits)};
 }
@@ -113,6 +132,12 @@ inline std::int64_t sum(Ints a) {
 
 inline Floats toFloats(Ints a) {
   return {_mm256_cvtepi32_ps(a.bits)};
+}
+inline Floats higher(Floats a, Floats b) {
+  return {_mm256_max_ps(a.bits, b.bits)};
+}
+inline int atLeast(Floats a, Floats b) {
+  return _mm256_movemask_ps(_mm256_cmp_ps(a.bits, b.bits, _CMP_GE_OQ));
 }
 inline Floats squareRoot(Floats a) {
   return {_mm256_sqrt_ps(a.bits)};

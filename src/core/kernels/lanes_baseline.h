@@ -40,11 +40,25 @@ inline void store(float* to, const Floats& a) {
   cv::v_store(to, a);
 }
 
+/// The lowest bytes of the numbers of `low`, then of `high`, which are 0 to 255.
+inline void storeBytes(std::uint8_t* to, const Ints& low, const Ints& high) {
+  cv::v_pack_u_store(to, cv::v_pack(low, high));
+}
+
 inline Shorts all(std::int16_t value) {
   return cv::v_setall_s16(value);
 }
 inline Floats all(float value) {
   return cv::v_setall_f32(value);
+}
+inline Ints all(std::int32_t value) {
+  return cv::v_setall_s32(value);
+}
+/// a, b, a, b, ...
+inline Shorts alternate(std::int16_t a, std::int16_t b) {
+  return cv::v_reinterpret_as_s16(cv::v_setall_s32(
+      static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::uint16_t>(b)) << 16 |
+                                static_cast<std::uint16_t>(a))));
 }
 inline Ints noInts() {
   return cv::v_setzero_s32();
@@ -58,6 +72,10 @@ template <int kBits>
 Shorts shiftRight(const Shorts& a) {
   return cv::v_shr<kBits>(a);
 }
+template <int kBits>
+Ints shiftRight(const Ints& a) {
+  return cv::v_shr<kBits>(a);
+}
 /// The upper 16 bits of the products.
 inline Shorts multiplyHigh(const Shorts& a, const Shorts& b) {
   return cv::v_mul_hi(a, b);
@@ -66,8 +84,7 @@ inline Shorts multiplyHigh(const Shorts& a, const Shorts& b) {
 inline Ints dot(const Shorts& a, const Shorts& b) {
   return cv::v_dotprod(a, b);
 }
-/// The same of pairs of one number from each of two registers, as an array `to`: adds to it
-/// a[i] b[i] + c[i] d[i].
+/// Adds a[i] b[i] + c[i] d[i] to each to[i].
 inline void addProducts(
     const Shorts& a, const Shorts& b, const Shorts& c, const Shorts& d, std::int32_t* to) {
   Shorts ac_low, ac_high, bd_low, bd_high;
@@ -85,6 +102,13 @@ inline std::int64_t sum(const Ints& a) {
 
 inline Floats toFloats(const Ints& a) {
   return cv::v_cvt_f32(a);
+}
+inline Floats higher(const Floats& a, const Floats& b) {
+  return cv::v_max(a, b);
+}
+/// A bit for each lane of a that is at least that of b, from the lowest on.
+inline int atLeast(const Floats& a, const Floats& b) {
+  return cv::v_signmask(a >= b);
 }
 inline Floats squareRoot(const Floats& a) {
   return cv::v_sqrt(a);
