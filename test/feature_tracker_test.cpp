@@ -117,6 +117,24 @@ TEST(FeatureTrackerTest, FindsTheFlowOfARotationBetter) {
   EXPECT_LT(quantile(errors, 0.9), 0.35);
 }
 
+TEST(FeatureTrackerTest, FindsTheFlowUnderAnotherExposure) {
+  const TwoViews views(motion({0.0, 0.0, 0.0}, {0.003, 0.02, 0.0}));
+  const auto errorsAt = [&](double gain, double offset) {
+    cv::Mat exposed;
+    views.second.convertTo(exposed, -1, gain, offset);
+    return sortedErrors(
+        track(views.first, exposed, views.corners, perturbed(views.truth, 2.0), {2}), views.truth);
+  };
+  const std::vector<double> same = errorsAt(1.0, 0.0);
+  const std::vector<double> brighter = errorsAt(1.0, 25.0);
+  EXPECT_GT(brighter.size(), same.size() * 95 / 100) << "the lightest pixels are cut off";
+  EXPECT_NEAR(quantile(brighter, 0.5), quantile(same, 0.5), 0.01);
+  // A gain also changes the contrast, which draws points along its gradient.
+  const std::vector<double> darker = errorsAt(0.8, 0.0);
+  EXPECT_GT(darker.size(), same.size() * 8 / 10);
+  EXPECT_LT(quantile(darker, 0.5), 0.3);
+}
+
 TEST(FeatureTrackerTest, FindsALargeFlowFromNothingWithAllLevels) {
   // 26 deg/s at 10 Hz, as where KITTI 01 begins.
   const TwoViews views(motion({0.0, 0.0, 0.6}, {0.0, 0.045, 0.0}));

@@ -287,6 +287,85 @@ TEST(VisualOdometryTest, RecoversFromABlackPairAtOnce) {
   expectMotion(odometry.process(bend(5), camera()), bendStep());
 }
 
+/// The pair as darker or lighter images show it.
+StereoPair exposed(const StereoPair& pair, double gain) {
+  StereoPair other = {pair.stamp_ns, {}, {}};
+  pair.left.convertTo(other.left, -1, gain);
+  pair.right.convertTo(other.right, -1, gain);
+  return other;
+}
+
+TEST(VisualOdometryTest, FollowsThroughAChangeOfTheExposure) {
+  for (const double gain : {0.8, 1.25}) {
+    SCOPED_TRACE(gain);
+    VisualOdometry odometry = started(4);
+    expectMotion(odometry.process(exposed(bend(4), gain), camera()), bendStep(), 0.02, 1e-3);
+    expectMotion(odometry.process(exposed(bend(5), gain), camera()), bendStep());
+  }
+}
+
+TEST(VisualOdometryTest, LosesAPairAtMostWhenTheExposureJumps) {
+  VisualOdometry odometry = started(4);
+  const OdometryResult jump = odometry.process(exposed(bend(4), 0.3), camera());
+  if (jump.state == State::kOk) expectMotion(jump, bendStep());
+  const OdometryResult next = odometry.process(exposed(bend(5), 0.3), camera());
+  ASSERT_TRUE(next.hasMotion()) << next.reason;
+  EXPECT_EQ(next.reference_stamp_ns, 4 * kPeriod_ns);
+  expectMotion(next, bendStep(), 0.02);
+}
+
+/// What moves with the camera, such as a truck ahead, hides a part of the picture from pair 4 on.
+StereoPair behindATruck(int index, const cv::Rect& hidden) {
+  static const StereoPair truck = view(motion({0.3, 0.0, 12.0}, {0.0, 0.3, 0.0}), 0);
+  const StereoPair& pair = bend(index);
+  StereoPair covered = {pair.stamp_ns, pair.left.clone(), pair.right.clone()};
+  truck.left(hidden).copyTo(covered.left(hidden));
+  truck.right(hidden).copyTo(covered.right(hidden));
+  SyntheticScene::addNoise(covered, 1.0, static_cast<std::uint64_t>(index));
+  return covered;
+}
+
+TEST(VisualOdometryTest, FollowsTheStreetBehindATruck) {
+  const int width = camera().width;
+  const int height = camera().height;
+  const cv::Rect left(0, 0, width / 2, height);
+  const cv::Rect right(width / 2, 0, width - width / 2, height);
+  const cv::Rect ahead(width / 4, height / 2, width / 2, height / 2);
+  for (const cv::Rect& hidden : {left, right, ahead}) {
+    SCOPED_TRACE(hidden.x);
+    VisualOdometry odometry = started(4);
+    for (int i = 4; i < 8; ++i) {
+      // Half of the features are left, on one side of the picture.
+      const OdometryResult result = odometry.process(behindATruck(i, hidden), camera());
+      expectMotion(result, bendStep(), 0.04, 2e-3);
+    }
+  }
+}
+
+TEST(VisualOdometryTest, ATruckThatHidesNearlyAllIsNotFollowedSilently) {
+  const cv::Rect hidden(0, 0, camera().width * 4 / 5, camera().height);
+  VisualOdometry odometry = started(4);
+  for (int i = 4; i < 8; ++i) {
+    const OdometryResult result = odometry.process(behindATruck(i, hidden), camera());
+    const double error_m = motionError(result.T_prev_cur, bendStep()).head<3>().norm();
+    if (error_m < 0.06) continue;
+    EXPECT_NE(result.state, State::kOk) << "0.6 m wrong at pair " << i;
+    return;  // from here on it stands, as far as anyone can see
+  }
+}
+
+/// A road and walls of one grey, but for noise.
+TEST(VisualOdometryTest, IsLostWithoutTextureAndGoesOnAfterIt) {
+  VisualOdometry odometry = started(3);
+  StereoPair plain = {3 * kPeriod_ns,
+                      cv::Mat(camera().height, camera().width, CV_8UC1, cv::Scalar(128)),
+                      cv::Mat(camera().height, camera().width, CV_8UC1, cv::Scalar(128))};
+  SyntheticScene::addNoise(plain, 1.5, 3);
+  EXPECT_EQ(odometry.process(plain, camera()).state, State::kLost);
+  const OdometryResult next = odometry.process(bend(4), camera());
+  expectMotion(next, bendStep() * bendStep(), 0.02);
+}
+
 TEST(VisualOdometryTest, GoesOnFromElsewhereAtOnce) {
   // The last good pair is of no use any more.
   const Eigen::Isometry3d elsewhere = motion({0.0, 0.0, 20.0}, {0.0, 0.6, 0.0});

@@ -89,11 +89,20 @@ bool TrackingWindow::take(const cv::Mat& image, const cv::Point2f& center) {
   return invertNormalMatrix(kernels_->takeWindow(patch, window()));
 }
 
+/// Of the least squares for a shift and a difference in brightness, with the latter eliminated: the
+/// gradients count as far as they differ from their mean.
 bool TrackingWindow::invertNormalMatrix(const GradientSums& sums) {
-  constexpr float kUnit = 1.0F / (1 << (2 * Window::kGradientBits));
-  const float xx = kUnit * static_cast<float>(sums.xx);
-  const float xy = kUnit * static_cast<float>(sums.xy);
-  const float yy = kUnit * static_cast<float>(sums.yy);
+  const double unit = 1.0 / (1 << Window::kGradientBits);
+  const double pixels = side_ * side_;
+  const double mean_x = unit * static_cast<double>(sums.x) / pixels;
+  const double mean_y = unit * static_cast<double>(sums.y) / pixels;
+  const auto about = [&](std::int64_t products, double mean_a, double mean_b) {
+    return static_cast<float>(unit * unit * static_cast<double>(products) -
+                              pixels * mean_a * mean_b);
+  };
+  const float xx = about(sums.xx, mean_x, mean_x);
+  const float xy = about(sums.xy, mean_x, mean_y);
+  const float yy = about(sums.yy, mean_y, mean_y);
   const float difference = xx - yy;
   const float smaller = 0.5F * (xx + yy - std::sqrt(difference * difference + 4.0F * xy * xy));
   if (!(smaller >= kLeastTexture * static_cast<float>(side_ * side_))) return false;
@@ -101,24 +110,33 @@ bool TrackingWindow::invertNormalMatrix(const GradientSums& sums) {
   inverse_xx_ = scale * yy;
   inverse_xy_ = -scale * xy;
   inverse_yy_ = scale * xx;
+  mean_gradient_ = {mean_x, mean_y};
   return true;
+}
+
+/// Sum of the differences to the window, less what they have in common, times its gradients.
+cv::Point2f TrackingWindow::mismatch(const Patch& patch, const Window& window) const {
+  constexpr double kOfValue = 1.0 / (1 << Window::kValueBits);
+  constexpr double kOfProduct = kOfValue / (1 << Window::kGradientBits);
+  const MismatchSums sums = kernels_->compareWindow(patch, window);
+  const double brighter = kOfValue * static_cast<double>(sums.one);
+  return {
+      static_cast<float>(kOfProduct * static_cast<double>(sums.x) - brighter * mean_gradient_.x),
+      static_cast<float>(kOfProduct * static_cast<double>(sums.y) - brighter * mean_gradient_.y)};
 }
 
 bool TrackingWindow::find(const cv::Mat& image, const Stop& stop, cv::Point2f& center) {
   const cv::Rect2f inside(
       0.0F, 0.0F, static_cast<float>(image.cols), static_cast<float>(image.rows));
   const auto least_px2 = static_cast<float>(stop.min_step_px * stop.min_step_px);
-  constexpr float kUnit = 1.0F / (1 << (Window::kValueBits + Window::kGradientBits));
   const Window window = this->window();
   cv::Point2f found = center;
   cv::Point2f last_step;
   for (int i = 0; i < stop.max_iterations; ++i) {
     if (!inside.contains(found)) return false;
-    const MismatchSums sums =
-        kernels_->compareWindow(patchAround(image, found, radius_, stride_), window);
-    const float x = kUnit * static_cast<float>(sums.x);
-    const float y = kUnit * static_cast<float>(sums.y);
-    const cv::Point2f step(-inverse_xx_ * x - inverse_xy_ * y, -inverse_xy_ * x - inverse_yy_ * y);
+    const cv::Point2f b = mismatch(patchAround(image, found, radius_, stride_), window);
+    const cv::Point2f step(-inverse_xx_ * b.x - inverse_xy_ * b.y,
+                           -inverse_xy_ * b.x - inverse_yy_ * b.y);
     found += step;
     if (step.dot(step) <= least_px2) break;
     const cv::Point2f both = step + last_step;

@@ -10,8 +10,10 @@
 namespace rotrocc {
 
 /// The window around a feature that is looked for in another image: one level of Lucas-Kanade
-/// (Bouguet 2001). Grey levels are interpolated in steps of 1/64, gradients in steps of 1/32, and
-/// summed exactly, so that results are the same with SIMD and without.
+/// (Bouguet 2001). What all of the window is brighter there is estimated too, and has no effect on
+/// where it is: cameras change their exposure. Grey levels are interpolated in steps of 1/64,
+/// gradients in steps of 1/32, and summed exactly, so that results are the same with SIMD and
+/// without.
 class TrackingWindow {
  public:
   struct Stop {
@@ -36,6 +38,7 @@ class TrackingWindow {
   int wholeRegisters(int count) const;
   Window window();
   bool invertNormalMatrix(const GradientSums& sums);
+  cv::Point2f mismatch(const Patch& patch, const Window& window) const;
 
   const Kernels* kernels_;
   int radius_, side_;
@@ -43,6 +46,7 @@ class TrackingWindow {
   int sample_stride_;  // of samples_
   std::vector<std::int16_t> samples_, values_, gradient_x_, gradient_y_, mask_;
   std::vector<uchar> border_;  // a patch that hangs over the edge of the image
+  cv::Point2d mean_gradient_;  // [grey levels / px]
   float inverse_xx_ = 0.0F, inverse_xy_ = 0.0F, inverse_yy_ = 0.0F;
 };
 

@@ -57,9 +57,11 @@ void sample(const Patch& patch, const Window window) {
 
 GradientSums takeWindow(const Patch& patch, const Window window) {
   sample(patch, window);
-  GradientSums sums = {0, 0, 0};
+  GradientSums sums = {0, 0, 0, 0, 0};
   for (int x = 0; x < window.stride; x += kShorts) {
     const Shorts mask = load(window.mask + x);
+    Ints minus_x = noInts();
+    Ints minus_y = noInts();
     Ints xx = noInts();
     Ints xy = noInts();
     Ints yy = noInts();
@@ -78,11 +80,15 @@ GradientSums takeWindow(const Patch& patch, const Window window) {
       store(window.values + at, load(here + 1));
       store(window.gradient_x + at, gx);
       store(window.gradient_y + at, gy);
+      minus_x = minus_x + dot(gx, mask);
+      minus_y = minus_y + dot(gy, mask);
       xx = xx + dot(gx, gx);
       xy = xy + dot(gx, gy);
       yy = yy + dot(gy, gy);
       above = here;
     }
+    sums.x -= sum(minus_x);
+    sums.y -= sum(minus_y);
     sums.xx += sum(xx);
     sums.xy += sum(xy);
     sums.yy += sum(yy);
@@ -93,11 +99,13 @@ GradientSums takeWindow(const Patch& patch, const Window window) {
 MismatchSums compareWindow(const Patch& patch, const Window& window) {
   const Shorts fx = all(patch.fx);
   const Shorts fy = all(patch.fy);
-  MismatchSums sums = {0, 0};
+  MismatchSums sums = {0, 0, 0};
   for (int first = 0; first < window.side; first += kBlockRows) {
     const int last = first + kBlockRows < window.side ? first + kBlockRows : window.side;
     for (int x = 0; x < window.stride; x += kShorts) {
       const std::uint8_t* pixels = patch.pixels + first * patch.step + x;
+      const Shorts mask = load(window.mask + x);
+      Ints minus_sum = noInts();
       Ints sum_x = noInts();
       Ints sum_y = noInts();
       Shorts upper = betweenColumns(pixels, fx);
@@ -106,10 +114,12 @@ MismatchSums compareWindow(const Patch& patch, const Window& window) {
         pixels += patch.step;
         const Shorts lower = betweenColumns(pixels, fx);
         const Shorts excess = betweenRows(upper, lower, fy) - load(window.values + at);
+        minus_sum = minus_sum + dot(excess, mask);
         sum_x = sum_x + dot(excess, load(window.gradient_x + at));
         sum_y = sum_y + dot(excess, load(window.gradient_y + at));
         upper = lower;
       }
+      sums.one -= sum(minus_sum);
       sums.x += sum(sum_x);
       sums.y += sum(sum_y);
     }

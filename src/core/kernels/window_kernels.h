@@ -29,13 +29,15 @@ struct Window {
   int sample_stride;         ///< ... in rows that are a register longer than side + 2, rounded up
 };
 
-/// Sums over a window of the products of gradients.
+/// Sums over a window of gradients and of their products.
 struct GradientSums {
+  std::int64_t x, y;
   std::int64_t xx, xy, yy;
 };
 
-/// Sums over a window of differences times gradients.
+/// Sums over a window of differences, and of differences times gradients.
 struct MismatchSums {
+  std::int64_t one;
   std::int64_t x, y;
 };
 
