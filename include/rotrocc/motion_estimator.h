@@ -47,7 +47,7 @@ class MotionEstimator {
     double translation_limit = 0.05;       ///< termination limit of the DNRE, Eq. 30
     double translation_drop_share = 0.15;  ///< b of Eq. 30
     int translation_max_iterations = 30;
-    double translation_initial_px = 3.0;  ///< stage-1 error below which a feature enters; 0: all do
+    double translation_initial_px = 1.5;  ///< stage-1 error below which a feature enters; 0: all do
     double min_flow_px = 0.5;             ///< floor of the normalizing flow: its noise
     double min_speed_mps = 1.0;           ///< below it stage 2 is skipped
 
