@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -26,12 +27,30 @@ FeatureSet all(const Correspondences& features) {
   return FeatureSet(features.size(), 1);
 }
 
+bool solveMotion(double noise_ratio,
+                 const Correspondences& features,
+                 const FeatureSet& set,
+                 Eigen::Isometry3d& T_prev_cur) {
+  MotionSolver solver(noise_ratio);
+  solver.setFeatures(kittiCamera(), features);
+  return solver.solveMotion(set, T_prev_cur);
+}
+
+bool solveTranslation(double noise_ratio,
+                      const Correspondences& features,
+                      const FeatureSet& set,
+                      Eigen::Isometry3d& T_prev_cur) {
+  MotionSolver solver(noise_ratio);
+  solver.setFeatures(kittiCamera(), features);
+  return solver.solveTranslation(set, T_prev_cur);
+}
+
 TEST(MotionSolverTest, RecoversAnExactMotion) {
   for (const double noise_ratio : {0.0, kNoiseRatio}) {
     for (const int features : {10, 300}) {
       const Correspondences exact = exactFeatures(features);
       Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-      ASSERT_TRUE(MotionSolver(noise_ratio).solveMotion(kittiCamera(), exact, all(exact), T));
+      ASSERT_TRUE(solveMotion(noise_ratio, exact, all(exact), T));
       // Gauss-Newton converges quadratically; the last step was below 1e-7.
       EXPECT_LT(motionError(T, turnAhead()).norm(), 1e-9) << features << ' ' << noise_ratio;
     }
@@ -41,7 +60,7 @@ TEST(MotionSolverTest, RecoversAnExactMotion) {
 TEST(MotionSolverTest, RecoversAMotionFromThreeFeatures) {
   const Correspondences exact = exactFeatures(3);
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  ASSERT_TRUE(MotionSolver(kNoiseRatio).solveMotion(kittiCamera(), exact, all(exact), T));
+  ASSERT_TRUE(solveMotion(kNoiseRatio, exact, all(exact), T));
   // It ends when the residuals are below 1e-8 px, and three points determine little.
   EXPECT_LT(motionError(T, turnAhead()).norm(), 1e-5);
 }
@@ -50,7 +69,7 @@ TEST(MotionSolverTest, RecoversAnExactTranslationAndLeavesTheRotation) {
   const Correspondences exact = exactFeatures(100);
   Eigen::Isometry3d T = turnAhead();
   T.translation().setZero();
-  ASSERT_TRUE(MotionSolver(kNoiseRatio).solveTranslation(kittiCamera(), exact, all(exact), T));
+  ASSERT_TRUE(solveTranslation(kNoiseRatio, exact, all(exact), T));
   EXPECT_LT(motionError(T, turnAhead()).norm(), 1e-9);
   EXPECT_EQ(T.linear(), turnAhead().linear());
 }
@@ -63,8 +82,31 @@ TEST(MotionSolverTest, TakesOnlyTheFeaturesOfTheSet) {
     set[i] = 0;
   }
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  ASSERT_TRUE(MotionSolver(kNoiseRatio).solveMotion(kittiCamera(), features, set, T));
+  ASSERT_TRUE(solveMotion(kNoiseRatio, features, set, T));
   EXPECT_LT(motionError(T, turnAhead()).norm(), 1e-9);
+}
+
+TEST(MotionSolverTest, KeepsNoFitOfOtherFeaturesOrWeights) {
+  std::mt19937 generator(4);
+  const Correspondences some =
+      simulateFeatures(kittiCamera(), turnAhead(), 50, {0.3, 0.9}, generator);
+  const Correspondences others =
+      simulateFeatures(kittiCamera(), turnAhead(), 50, {0.3, 0.9}, generator);
+  MotionSolver solver(1.0);
+  std::vector<double> errors_px, expected_px;
+  const auto expectAnew =
+      [&](const Correspondences& features, const Eigen::Isometry3d& T, double noise_ratio) {
+        solver.measureErrors(T, errors_px);
+        reprojectionErrors(kittiCamera(), features, T, noise_ratio, expected_px);
+        EXPECT_EQ(errors_px, expected_px);
+      };
+  solver.setFeatures(kittiCamera(), some);
+  expectAnew(some, turnAhead(), 1.0);
+  expectAnew(some, Eigen::Isometry3d::Identity(), 1.0);
+  solver.setNoiseRatio(kNoiseRatio);
+  expectAnew(some, Eigen::Isometry3d::Identity(), kNoiseRatio);
+  solver.setFeatures(kittiCamera(), others);
+  expectAnew(others, Eigen::Isometry3d::Identity(), kNoiseRatio);
 }
 
 TEST(MotionSolverTest, RefusesTooFewFeatures) {
@@ -72,12 +114,11 @@ TEST(MotionSolverTest, RefusesTooFewFeatures) {
   Eigen::Isometry3d T = before;
   const Correspondences two = exactFeatures(2);
   const Correspondences one = exactFeatures(1);
-  MotionSolver solver(kNoiseRatio);
-  EXPECT_FALSE(solver.solveMotion(kittiCamera(), two, all(two), T));
-  EXPECT_FALSE(solver.solveTranslation(kittiCamera(), one, all(one), T));
-  EXPECT_FALSE(solver.solveMotion(kittiCamera(), {}, {}, T));
+  EXPECT_FALSE(solveMotion(kNoiseRatio, two, all(two), T));
+  EXPECT_FALSE(solveTranslation(kNoiseRatio, one, all(one), T));
+  EXPECT_FALSE(solveMotion(kNoiseRatio, {}, {}, T));
   EXPECT_EQ(T.matrix(), before.matrix());
-  EXPECT_TRUE(solver.solveTranslation(kittiCamera(), two, all(two), T));
+  EXPECT_TRUE(solveTranslation(kNoiseRatio, two, all(two), T));
 }
 
 /// Mean signed error of the length of a step past far points, in shares of it, and its standard
@@ -102,7 +143,8 @@ std::pair<double, double> biasOfStep(double noise_ratio) {
       }
     }
     Eigen::Isometry3d T = truth;
-    for (int i = 0; i < 10; ++i) solver.solveTranslation(kittiCamera(), features, all(features), T);
+    solver.setFeatures(kittiCamera(), features);
+    for (int i = 0; i < 10; ++i) solver.solveTranslation(all(features), T);
     const double error = T.translation().z() / 2.5 - 1.0;
     sum += error;
     squares += error * error;
@@ -124,8 +166,8 @@ TEST(MotionSolverTest, InformationIsThatOfTheErrorsOfAMotion) {
   const Correspondences features =
       simulateFeatures(kittiCamera(), turnAhead(), 200, {0.3, 0.9}, generator);
   MotionSolver solver(kNoiseRatio);
-  const MotionSolver::Information information =
-      solver.information(kittiCamera(), features, all(features), turnAhead(), 6);
+  solver.setFeatures(kittiCamera(), features);
+  const MotionSolver::Information information = solver.information(all(features), turnAhead(), 6);
   // The cost grows by half of e^T J^T J e for an error e, in the order of motionError().
   const auto cost = [&](const Vector6d& error) {
     Eigen::Isometry3d T = turnAhead();

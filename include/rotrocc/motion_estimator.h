@@ -92,9 +92,7 @@ class MotionEstimator {
                     const Eigen::Isometry3d& initial,
                     double dt_s,
                     Estimate& estimate);
-  bool estimateRotation(const StereoCamera& camera,
-                        const Correspondences& features,
-                        Estimate& estimate);
+  bool estimateRotation(Estimate& estimate);
   bool estimateTranslation(const StereoCamera& camera,
                            const Correspondences& features,
                            Estimate& estimate);
@@ -106,9 +104,7 @@ class MotionEstimator {
                const Fit& fit,
                const Measure& measure,
                FeatureSet& set);
-  bool estimateCovariance(const StereoCamera& camera,
-                          const Correspondences& features,
-                          Estimate& estimate);
+  bool estimateCovariance(Estimate& estimate);
 
   Config config_;
   Criterion criterion_;

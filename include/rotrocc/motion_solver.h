@@ -18,22 +18,22 @@ class MotionSolver {
   explicit MotionSolver(double noise_ratio) : noise_ratio_(noise_ratio) {}
 
   /// What weights the residuals, see fitDisparity().
-  void setNoiseRatio(double noise_ratio) { noise_ratio_ = noise_ratio; }
+  void setNoiseRatio(double noise_ratio);
+
+  /// The features that sets are of until the next call. They are referred to.
+  void setFeatures(const StereoCamera& camera, const Correspondences& features);
 
   /// Minimises Eq. 25 over rotation and translation, from `T_prev_cur`, which gets the result.
   /// Returns false, and leaves it alone, if the set has fewer than 3 features or the result is not
   /// finite.
-  bool solveMotion(const StereoCamera& camera,
-                   const Correspondences& features,
-                   const FeatureSet& set,
-                   Eigen::Isometry3d& T_prev_cur);
+  bool solveMotion(const FeatureSet& set, Eigen::Isometry3d& T_prev_cur);
 
   /// Minimises Eq. 29 over the translation, the rotation staying as it is. Returns as
   /// solveMotion(), with 2 features at least.
-  bool solveTranslation(const StereoCamera& camera,
-                        const Correspondences& features,
-                        const FeatureSet& set,
-                        Eigen::Isometry3d& T_prev_cur);
+  bool solveTranslation(const FeatureSet& set, Eigen::Isometry3d& T_prev_cur);
+
+  /// reprojectionErrors() of all features.
+  void measureErrors(const Eigen::Isometry3d& T_prev_cur, std::vector<double>& errors_px);
 
   /// Normal equations of the set at a motion, in the order translation [m], rotation [rad] of
   /// OdometryResult::covariance.
@@ -44,25 +44,29 @@ class MotionSolver {
     Matrix6d scatter = Matrix6d::Zero();
     double residual_variance = 0.0;  ///< [px^2]
   };
-  Information information(const StereoCamera& camera,
-                          const Correspondences& features,
-                          const FeatureSet& set,
+  Information information(const FeatureSet& set,
                           const Eigen::Isometry3d& T_prev_cur,
                           int estimated_parameters);
 
  private:
-  Matrix6d scatter(const StereoCamera& camera,
-                   const Correspondences& features,
-                   const FeatureSet& set) const;
+  const std::vector<FittedFeature>& fittedAt(const Eigen::Isometry3d& T_prev_cur);
+  Matrix6d scatter(const FeatureSet& set) const;
 
   /// Of motion_problem_, from residuals_ and jacobian_.
   Eigen::Map<const Eigen::VectorXd> residuals() const;
   Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6>> jacobian() const;
 
+  StereoCamera camera_;
+  const Correspondences* features_ = nullptr;
   double noise_ratio_;
   ReprojectionProblem<6> motion_problem_;
   ReprojectionProblem<3> translation_problem_;
   std::vector<double> residuals_, jacobian_;
+
+  // Rounds of outlier rejection solve where the one before measured, so the last fit is kept.
+  bool has_fit_ = false;
+  Eigen::Isometry3d fitted_T_prev_cur_;
+  std::vector<FittedFeature> fitted_;
 };
 
 }  // namespace rotrocc

@@ -38,6 +38,13 @@ FittedFeature fitDisparity(const StereoCamera& camera,
                            const Eigen::Isometry3d& T_prev_cur,
                            double noise_ratio);
 
+/// The same for all features.
+void fitDisparities(const StereoCamera& camera,
+                    const Correspondences& features,
+                    const Eigen::Isometry3d& T_prev_cur,
+                    double noise_ratio,
+                    std::vector<FittedFeature>& fitted);
+
 /// The residual of Eq. 2 for one fitted feature, W (target - pi(R X_cur + T)) [px], where the
 /// motion is a local increment on an initial one: R = Exp(p[0..2]) R_0, T = p[3..5].
 ///
@@ -79,6 +86,11 @@ class ReprojectionProblem {
               const Eigen::Isometry3d& T_0,
               double noise_ratio);
 
+  /// Takes those flagged in `set` of features that are fitted already.
+  void assign(const StereoCamera& camera,
+              const std::vector<FittedFeature>& fitted,
+              const FeatureSet& set);
+
   /// The features taken, in their order.
   const std::vector<FittedFeature>& features() const { return features_; }
 
@@ -111,6 +123,12 @@ void reprojectionErrors(const StereoCamera& camera,
                         const Correspondences& features,
                         const Eigen::Isometry3d& T_prev_cur,
                         double noise_ratio,
+                        std::vector<double>& errors_px);
+
+/// The same of features fitted at a motion with this translation.
+void reprojectionErrors(const StereoCamera& camera,
+                        const std::vector<FittedFeature>& fitted,
+                        const Eigen::Vector3d& translation,
                         std::vector<double>& errors_px);
 
 }  // namespace rotrocc

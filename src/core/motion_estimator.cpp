@@ -89,13 +89,14 @@ const MotionEstimator::Estimate& MotionEstimator::estimate(const StereoCamera& c
                                                            const Eigen::Isometry3d& initial,
                                                            double dt_s,
                                                            bool is_prediction) {
+  solver_.setFeatures(camera, features);
   all_.assign(features.size(), 1);
   estimateFrom(all_, camera, features, initial, dt_s, found_);
   const int agree = found_.valid ? count(found_.rotation_inliers) : 0;
   const bool doubtful = agree < config_.doubt_share * static_cast<double>(features.size());
   if (!doubtful || !is_prediction || config_.doubt_agreement_px == 0.0) return found_;
 
-  reprojectionErrors(camera, features, initial, config_.noise_ratio, errors_);
+  solver_.measureErrors(initial, errors_);
   near_ = all_;
   keepBelow(errors_, config_.doubt_agreement_px, near_);
   estimateFrom(near_, camera, features, initial, dt_s, other_);
@@ -117,7 +118,7 @@ void MotionEstimator::estimateFrom(const FeatureSet& set,
   estimate.covariance.setZero();
   estimate.has_translation_stage = false;
   estimate.rotation_inliers = set;
-  estimate.valid = estimateRotation(camera, features, estimate);
+  estimate.valid = estimateRotation(estimate);
   estimate.translation_inliers = estimate.rotation_inliers;
 
   const bool two_stages = criterion_ == Criterion::kRotrocc || criterion_ == Criterion::kRocc;
@@ -126,19 +127,15 @@ void MotionEstimator::estimateFrom(const FeatureSet& set,
     estimate.has_translation_stage = true;
     estimate.valid = estimateTranslation(camera, features, estimate);
   }
-  estimate.valid = estimate.valid && estimateCovariance(camera, features, estimate);
+  estimate.valid = estimate.valid && estimateCovariance(estimate);
 }
 
-bool MotionEstimator::estimateRotation(const StereoCamera& camera,
-                                       const Correspondences& features,
-                                       Estimate& estimate) {
+bool MotionEstimator::estimateRotation(Estimate& estimate) {
   Eigen::Isometry3d& T = estimate.T_prev_cur;
   const auto fit = [&](const FeatureSet& set) {
-    return solver_.solveMotion(camera, features, set, T);  // Eq. 25
+    return solver_.solveMotion(set, T);  // Eq. 25
   };
-  const auto measure = [&] {
-    reprojectionErrors(camera, features, T, config_.noise_ratio, errors_);
-  };
+  const auto measure = [&] { solver_.measureErrors(T, errors_); };
   const bool compared = criterion_ == Criterion::kMeanBased || criterion_ == Criterion::kStdBased;
   const int iterations = compared ? config_.comparison_iterations : config_.rotation_max_iterations;
   return iterate(rotation_threshold_, iterations, fit, measure, estimate.rotation_inliers);
@@ -154,14 +151,14 @@ bool MotionEstimator::estimateTranslation(const StereoCamera& camera,
     coupledFlow(features, flow_px_);
   }
 
-  reprojectionErrors(camera, features, T, config_.noise_ratio, errors_);
+  solver_.measureErrors(T, errors_);
   candidates_.assign(features.size(), 1);
   if (config_.translation_initial_px > 0.0) {
     keepBelow(errors_, config_.translation_initial_px, candidates_);
   }
 
   const auto fit = [&](const FeatureSet& set) {
-    return solver_.solveTranslation(camera, features, set, T);  // Eq. 29
+    return solver_.solveTranslation(set, T);  // Eq. 29
   };
   // Plain errors: only then is the DNRE the relative error of the depth, and wrong disparities of
   // far points, which differ from the right one by a large part of it, are seen.
@@ -203,11 +200,8 @@ bool MotionEstimator::iterate(OutlierThreshold& threshold,
 /// Features beyond the limit of stage 1 are dropped, though some are just noisy: what is left has
 /// only a share g of the errors' variance, and a fit to it the variance of one to untruncated
 /// errors over g (the sandwich formula, where both its parts are g).
-bool MotionEstimator::estimateCovariance(const StereoCamera& camera,
-                                         const Correspondences& features,
-                                         Estimate& estimate) {
-  const auto one =
-      solver_.information(camera, features, estimate.rotation_inliers, estimate.T_prev_cur, 6);
+bool MotionEstimator::estimateCovariance(Estimate& estimate) {
+  const auto one = solver_.information(estimate.rotation_inliers, estimate.T_prev_cur, 6);
   const Eigen::LDLT<Matrix6d> full(one.matrix);
   if (full.info() != Eigen::Success || !full.isPositive()) return false;
   const bool truncated = criterion_ != Criterion::kMeanBased && criterion_ != Criterion::kStdBased;
@@ -220,8 +214,7 @@ bool MotionEstimator::estimateCovariance(const StereoCamera& camera,
   estimate.covariance = both;
   if (!estimate.has_translation_stage) return true;
 
-  const auto two =
-      solver_.information(camera, features, estimate.translation_inliers, estimate.T_prev_cur, 3);
+  const auto two = solver_.information(estimate.translation_inliers, estimate.T_prev_cur, 3);
   const Eigen::LDLT<Eigen::Matrix3d> translation(two.matrix.topLeftCorner<3, 3>());
   if (translation.info() != Eigen::Success || !translation.isPositive()) return false;
   const Eigen::Matrix3d by_rotation = -translation.solve(two.matrix.topRightCorner<3, 3>());

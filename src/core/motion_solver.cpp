@@ -76,12 +76,29 @@ void minimise(const ReprojectionProblem<kParameters>& problem,
 
 }  // namespace
 
-bool MotionSolver::solveMotion(const StereoCamera& camera,
-                               const Correspondences& features,
-                               const FeatureSet& set,
-                               Eigen::Isometry3d& T_prev_cur) {
+void MotionSolver::setNoiseRatio(double noise_ratio) {
+  noise_ratio_ = noise_ratio;
+  has_fit_ = false;
+}
+
+void MotionSolver::setFeatures(const StereoCamera& camera, const Correspondences& features) {
+  camera_ = camera;
+  features_ = &features;
+  has_fit_ = false;
+}
+
+const std::vector<FittedFeature>& MotionSolver::fittedAt(const Eigen::Isometry3d& T_prev_cur) {
+  if (!has_fit_ || fitted_T_prev_cur_.matrix() != T_prev_cur.matrix()) {
+    fitDisparities(camera_, *features_, T_prev_cur, noise_ratio_, fitted_);
+    fitted_T_prev_cur_ = T_prev_cur;
+    has_fit_ = true;
+  }
+  return fitted_;
+}
+
+bool MotionSolver::solveMotion(const FeatureSet& set, Eigen::Isometry3d& T_prev_cur) {
   if (count(set) < 3) return false;
-  motion_problem_.assign(camera, features, set, T_prev_cur, noise_ratio_);
+  motion_problem_.assign(camera_, fittedAt(T_prev_cur), set);
   Vector6d parameters;
   parameters << Eigen::Vector3d::Zero(), T_prev_cur.translation();
   minimise(motion_problem_, parameters);
@@ -93,12 +110,9 @@ bool MotionSolver::solveMotion(const StereoCamera& camera,
   return true;
 }
 
-bool MotionSolver::solveTranslation(const StereoCamera& camera,
-                                    const Correspondences& features,
-                                    const FeatureSet& set,
-                                    Eigen::Isometry3d& T_prev_cur) {
+bool MotionSolver::solveTranslation(const FeatureSet& set, Eigen::Isometry3d& T_prev_cur) {
   if (count(set) < 2) return false;
-  translation_problem_.assign(camera, features, set, T_prev_cur, noise_ratio_);
+  translation_problem_.assign(camera_, fittedAt(T_prev_cur), set);
   Eigen::Vector3d translation = T_prev_cur.translation();
   minimise(translation_problem_, translation);
   if (!translation.allFinite()) return false;
@@ -106,12 +120,15 @@ bool MotionSolver::solveTranslation(const StereoCamera& camera,
   return true;
 }
 
-MotionSolver::Information MotionSolver::information(const StereoCamera& camera,
-                                                    const Correspondences& features,
-                                                    const FeatureSet& set,
+void MotionSolver::measureErrors(const Eigen::Isometry3d& T_prev_cur,
+                                 std::vector<double>& errors_px) {
+  reprojectionErrors(camera_, fittedAt(T_prev_cur), T_prev_cur.translation(), errors_px);
+}
+
+MotionSolver::Information MotionSolver::information(const FeatureSet& set,
                                                     const Eigen::Isometry3d& T_prev_cur,
                                                     int estimated_parameters) {
-  motion_problem_.assign(camera, features, set, T_prev_cur, noise_ratio_);
+  motion_problem_.assign(camera_, fittedAt(T_prev_cur), set);
   Vector6d parameters;
   parameters << Eigen::Vector3d::Zero(), T_prev_cur.translation();
   const auto rows = static_cast<std::size_t>(motion_problem_.residualCount());
@@ -129,20 +146,18 @@ MotionSolver::Information MotionSolver::information(const StereoCamera& camera,
   information.matrix.bottomRightCorner<3, 3>() = rotation.transpose() * rotation;
   const double freedom = motion_problem_.residualCount() - estimated_parameters;
   if (freedom > 0.0) information.residual_variance = residuals().squaredNorm() / freedom;
-  information.scatter = scatter(camera, features, set);
+  information.scatter = scatter(set);
   return information;
 }
 
-Matrix6d MotionSolver::scatter(const StereoCamera& camera,
-                               const Correspondences& features,
-                               const FeatureSet& set) const {
-  const ImageGrid grid(camera, kScatterColumns, kScatterRows);
+Matrix6d MotionSolver::scatter(const FeatureSet& set) const {
+  const ImageGrid grid(camera_, kScatterColumns, kScatterRows);
   std::array<Vector6d, kScatterColumns * kScatterRows> gradients;
   gradients.fill(Vector6d::Zero());
   Eigen::Index row = 0;
-  for (std::size_t i = 0; i < features.size(); ++i) {
+  for (std::size_t i = 0; i < features_->size(); ++i) {
     if (set[i] == 0) continue;
-    Vector6d& gradient = gradients[grid.cell(features[i].cur_px)];
+    Vector6d& gradient = gradients[grid.cell((*features_)[i].cur_px)];
     const auto J = jacobian().middleRows<2>(row);
     const Eigen::Vector2d residual = residuals().segment<2>(row);
     gradient.head<3>() += J.rightCols<3>().transpose() * residual;

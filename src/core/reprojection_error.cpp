@@ -34,6 +34,14 @@ struct RayView {
   }
 };
 
+double errorOf(const StereoCamera& camera,
+               const FittedFeature& feature,
+               const Eigen::Vector3d& translation) {
+  Eigen::Vector3d point = feature.rotated_point + translation;
+  point.z() = std::max(point.z(), kMinDepth_m);
+  return (feature.whitening * (feature.target_px - camera.project(point))).norm();
+}
+
 }  // namespace
 
 FittedFeature fitDisparity(const StereoCamera& camera,
@@ -68,6 +76,17 @@ FittedFeature fitDisparity(const StereoCamera& camera,
   return fitted;
 }
 
+void fitDisparities(const StereoCamera& camera,
+                    const Correspondences& features,
+                    const Eigen::Isometry3d& T_prev_cur,
+                    double noise_ratio,
+                    std::vector<FittedFeature>& fitted) {
+  fitted.clear();
+  for (const Correspondence& feature : features) {
+    fitted.push_back(fitDisparity(camera, feature, T_prev_cur, noise_ratio));
+  }
+}
+
 template <int kParameters>
 void ReprojectionProblem<kParameters>::assign(const StereoCamera& camera,
                                               const Correspondences& features,
@@ -78,6 +97,17 @@ void ReprojectionProblem<kParameters>::assign(const StereoCamera& camera,
   features_.clear();
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (set[i] != 0) features_.push_back(fitDisparity(camera, features[i], T_0, noise_ratio));
+  }
+}
+
+template <int kParameters>
+void ReprojectionProblem<kParameters>::assign(const StereoCamera& camera,
+                                              const std::vector<FittedFeature>& fitted,
+                                              const FeatureSet& set) {
+  camera_ = camera;
+  features_.clear();
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    if (set[i] != 0) features_.push_back(fitted[i]);
   }
 }
 
@@ -183,9 +213,17 @@ void reprojectionErrors(const StereoCamera& camera,
       continue;
     }
     const FittedFeature fitted = fitDisparity(camera, features[i], T_prev_cur, noise_ratio);
-    Eigen::Vector3d point = fitted.rotated_point + T_prev_cur.translation();
-    point.z() = std::max(point.z(), kMinDepth_m);
-    errors_px[i] = (fitted.whitening * (fitted.target_px - camera.project(point))).norm();
+    errors_px[i] = errorOf(camera, fitted, T_prev_cur.translation());
+  }
+}
+
+void reprojectionErrors(const StereoCamera& camera,
+                        const std::vector<FittedFeature>& fitted,
+                        const Eigen::Vector3d& translation,
+                        std::vector<double>& errors_px) {
+  errors_px.clear();
+  for (const FittedFeature& feature : fitted) {
+    errors_px.push_back(errorOf(camera, feature, translation));
   }
 }
 
