@@ -137,15 +137,13 @@ MotionSolver::Information MotionSolver::information(const FeatureSet& set,
   motion_problem_.linearise(parameters, residuals_.data(), jacobian_.data());
 
   Information information;
-  const auto J = jacobian();
-  const auto rotation = J.leftCols<3>();
-  const auto translation = J.rightCols<3>();
-  information.matrix.topLeftCorner<3, 3>() = translation.transpose() * translation;
-  information.matrix.topRightCorner<3, 3>() = translation.transpose() * rotation;
-  information.matrix.bottomLeftCorner<3, 3>() = rotation.transpose() * translation;
-  information.matrix.bottomRightCorner<3, 3>() = rotation.transpose() * rotation;
+  const auto normal = motion_problem_.normalMatrix(parameters);
+  information.matrix.topLeftCorner<3, 3>() = normal.block<3, 3>(3, 3);
+  information.matrix.topRightCorner<3, 3>() = normal.block<3, 3>(3, 0);
+  information.matrix.bottomLeftCorner<3, 3>() = normal.block<3, 3>(0, 3);
+  information.matrix.bottomRightCorner<3, 3>() = normal.block<3, 3>(0, 0);
   const double freedom = motion_problem_.residualCount() - estimated_parameters;
-  if (freedom > 0.0) information.residual_variance = residuals().squaredNorm() / freedom;
+  if (freedom > 0.0) information.residual_variance = normal(6, 6) / freedom;
   information.scatter = scatter(set);
   return information;
 }

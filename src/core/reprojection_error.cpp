@@ -21,16 +21,20 @@ struct RayView {
   Eigen::Vector3d ray;  // R X times disparity
   Eigen::Vector3d translation;
 
-  /// The point's place in the previous frame, times disparity.
-  Eigen::Vector3d place(double disparity_px) const {
-    Eigen::Vector3d q = ray + disparity_px * translation;
-    q.z() = std::max(q.z(), kMinDepth_m * disparity_px);
-    return q;
-  }
-  /// d pi / d disparity.
-  Eigen::Vector2d slope(const Eigen::Vector3d& q) const {
-    return {camera.fx * (translation.x() - q.x() / q.z() * translation.z()) / q.z(),
-            camera.fy * (translation.y() - q.y() / q.z() * translation.z()) / q.z()};
+  /// In the previous frame: the pixel, and how it moves with the disparity.
+  struct Pixel {
+    Eigen::Vector2d px;
+    Eigen::Vector2d slope;
+  };
+
+  Pixel at(double disparity_px) const {
+    const Eigen::Vector3d q = ray + disparity_px * translation;  // the place, times disparity
+    const double per_z = 1.0 / std::max(q.z(), kMinDepth_m * disparity_px);
+    const double x = per_z * q.x();
+    const double y = per_z * q.y();
+    return {{camera.fx * x + camera.cx, camera.fy * y + camera.cy},
+            {camera.fx * per_z * (translation.x() - x * translation.z()),
+             camera.fy * per_z * (translation.y() - y * translation.z())}};
   }
 };
 
@@ -53,26 +57,23 @@ FittedFeature fitDisparity(const StereoCamera& camera,
   const RayView view = {camera, measured_px * rotated, T_prev_cur.translation()};
   const double r2 = noise_ratio * noise_ratio;
   double fitted_px = measured_px;
-  Eigen::Vector3d q = view.place(fitted_px);
-  Eigen::Vector2d j = view.slope(q);
+  RayView::Pixel pixel = view.at(fitted_px);
   for (int step = 0; step < kFitSteps && noise_ratio > 0.0; ++step) {
-    const Eigen::Vector2d error_px = feature.prev_px - camera.project(q);
-    fitted_px += (r2 * j.dot(error_px) - (fitted_px - measured_px)) / (1.0 + r2 * j.squaredNorm());
+    const Eigen::Vector2d& j = pixel.slope;
+    const double along_px = j.dot(feature.prev_px - pixel.px);
+    fitted_px += (r2 * along_px - (fitted_px - measured_px)) / (1.0 + r2 * j.squaredNorm());
     fitted_px = std::clamp(fitted_px, measured_px / kMostStretch, measured_px * kMostStretch);
-    q = view.place(fitted_px);
-    j = view.slope(q);
+    pixel = view.at(fitted_px);
   }
 
+  const Eigen::Vector2d& j = pixel.slope;
   FittedFeature fitted;
   fitted.target_px = feature.prev_px + (fitted_px - measured_px) * j;
   fitted.rotated_point = measured_px / fitted_px * rotated;
-  fitted.whitening.setIdentity();
   fitted.by_disparity = j;
-  const double j2 = j.squaredNorm();
-  if (j2 > 0.0) {
-    const double along_j = 1.0 / std::sqrt(1.0 + r2 * j2);
-    fitted.whitening -= (1.0 - along_j) / j2 * j * j.transpose();
-  }
+  // (I + r^2 j j^T)^-1/2: 1 / s along j, where s^2 = 1 + r^2 j^2.
+  const double s = std::sqrt(1.0 + r2 * j.squaredNorm());
+  fitted.whitening = Eigen::Matrix2d::Identity() - r2 / (s * (s + 1.0)) * j * j.transpose();
   return fitted;
 }
 
@@ -127,11 +128,11 @@ struct ReprojectionProblem<kParameters>::Motion {
   Eigen::Vector3d T;
 };
 
-/// `jacobian` may be null.
+/// `jacobian` may be null. It is by a small rotation after the motion's own, not by its parameters.
 template <int kParameters>
-Eigen::Vector2d ReprojectionProblem<kParameters>::residual(const FittedFeature& feature,
-                                                           const Motion& motion,
-                                                           FeatureJacobian* jacobian) const {
+inline Eigen::Vector2d ReprojectionProblem<kParameters>::residual(const FittedFeature& feature,
+                                                                  const Motion& motion,
+                                                                  FeatureJacobian* jacobian) const {
   Eigen::Vector3d rotated = feature.rotated_point;
   if (Motion::kRotates) rotated = motion.R * feature.rotated_point;
   const Eigen::Vector3d moved = rotated + motion.T;
@@ -146,8 +147,10 @@ Eigen::Vector2d ReprojectionProblem<kParameters>::residual(const FittedFeature& 
     by_point = feature.whitening * by_point;
     jacobian->template rightCols<3>() = by_point;
     if (Motion::kRotates) {
-      const Eigen::Matrix<double, 2, 3> by_rotation = by_point * skew(-rotated);
-      jacobian->template leftCols<3>() = by_rotation * motion.R_by_parameters;
+      for (int i = 0; i < 2; ++i) {
+        jacobian->row(i).template head<3>() =
+            rotated.cross(by_point.row(i).transpose()).transpose();
+      }
     }
   }
   return feature.whitening * (feature.target_px - Eigen::Vector2d(u + camera_.cx, v + camera_.cy));
@@ -165,6 +168,7 @@ void ReprojectionProblem<kParameters>::linearise(const Parameters& parameters,
   FeatureJacobian by_parameters;
   for (const FittedFeature& feature : features_) {
     r.segment<2>(row) = residual(feature, motion, &by_parameters);
+    if (Motion::kRotates) by_parameters.template leftCols<3>() *= motion.R_by_parameters;
     J.template middleRows<2>(row) = by_parameters;
     row += 2;
   }
@@ -183,7 +187,13 @@ ReprojectionProblem<kParameters>::normalMatrix(const Parameters& parameters) con
     columns.template topRows<kParameters>() = by_parameters.transpose();
     sum += columns.lazyProduct(columns.transpose());
   }
-  return sum.template topLeftCorner<kParameters + 1, kParameters + 1>();
+  NormalMatrix normal = sum.template topLeftCorner<kParameters + 1, kParameters + 1>();
+  if (Motion::kRotates) {
+    normal.template topRows<3>() =
+        motion.R_by_parameters.transpose() * normal.template topRows<3>().eval();
+    normal.template leftCols<3>() = normal.template leftCols<3>().eval() * motion.R_by_parameters;
+  }
+  return normal;
 }
 
 template <int kParameters>
