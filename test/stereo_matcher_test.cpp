@@ -154,6 +154,22 @@ TEST(StereoMatcherTest, MatchNearLooksNoFurtherThanTold) {
   EXPECT_EQ(matchNear(left, right, {150.0F, 40.0F}, kNone), kNone);
 }
 
+TEST(StereoMatcherTest, MatchNearDoesNotMindADifferenceInBrightness) {
+  const auto exposed = [](double shift_px, double offset) {
+    cv::Mat image;
+    texture().image(shift_px).convertTo(image, -1, 0.6, offset);
+    return image;
+  };
+  const cv::Mat left = exposed(0.0, 50.0);
+  const cv::Point2f pixel(150.3F, 40.6F);
+  const float alike_px = matchNear(left, exposed(20.375, 50.0), pixel, 20.0F);
+  EXPECT_NEAR(alike_px, 20.375F, 0.1F);
+  for (const double offset : {10.0, 90.0}) {
+    // Means are taken off in steps of 1/8 grey level.
+    EXPECT_NEAR(matchNear(left, exposed(20.375, offset), pixel, 20.0F), alike_px, 0.01F) << offset;
+  }
+}
+
 TEST(StereoMatcherTest, RefusesWhatIsAmbiguous) {
   // Stripes 12 px apart look alike at disparities 12 px apart.
   cv::Mat left(80, 300, CV_8UC1);

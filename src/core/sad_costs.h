@@ -1,5 +1,7 @@
 #pragma once
 
+#include <numeric>
+
 #include <opencv2/core.hpp>
 #include <opencv2/core/hal/intrin.hpp>
 
@@ -21,7 +23,8 @@ using Words = cv::v_int16x8;
 constexpr int kWords = 8;
 
 /// Sums of absolute differences between the window around a left pixel, which may lie between
-/// pixels, and windows of the right image as high, in eighths of a grey level.
+/// pixels, and windows of the right image as high, in eighths of a grey level. Windows are compared
+/// as if all had the same mean: cameras differ in exposure, and flows are measured alike.
 class SubPixelCosts {
  public:
   static constexpr int kUnit = 8;
@@ -35,28 +38,42 @@ class SubPixelCosts {
     const Words fy = fraction(pixel.y - static_cast<float>(y));
     const uchar* from = left.ptr<uchar>(y - kHalf) + x - kHalf;
     const uchar* right_from = right.ptr<uchar>(y - kHalf) + first - kHalf;
+    // Eleven values of up to 2040 fit into 16 bits.
+    alignas(kRegister) short window_sums[kRegister] = {};
+    alignas(kRegister) short strip_sums[kStrip] = {};
     for (int i = 0; i < kWindow; ++i, from += left.step, right_from += right.step) {
       for (int k = 0; k < kRegister; k += kWords) {
         const Words here = betweenRows(from + k, left.step, fy);
         const Words next = betweenRows(from + k + 1, left.step, fy);
-        cv::v_store_aligned(window_[i] + k, between(here, next, fx));
+        const Words values = between(here, next, fx);
+        cv::v_store_aligned(window_[i] + k, values);
+        cv::v_store_aligned(window_sums + k, cv::v_load_aligned(window_sums + k) + values);
       }
       for (int k = 0; k < kStrip; k += kWords) {
-        cv::v_store_aligned(strip_[i] + k, betweenRows(right_from + k, right.step, fy));
+        const Words values = betweenRows(right_from + k, right.step, fy);
+        cv::v_store_aligned(strip_[i] + k, values);
+        cv::v_store_aligned(strip_sums + k, cv::v_load_aligned(strip_sums + k) + values);
       }
+    }
+    const int of_window = std::accumulate(window_sums, window_sums + kWindow, 0);
+    for (int k = 0; k < kColumns; ++k) {
+      const int of_column = std::accumulate(strip_sums + k, strip_sums + k + kWindow, 0);
+      brighter_[k] = static_cast<short>((of_window - of_column) / kPixels);
     }
   }
 
   /// Of the k-th column from the first.
   int operator()(int k) const {
     alignas(kRegister) static constexpr ushort kMask[kWords] = {65535, 65535, 65535};
-    // Eleven rows of two differences of up to 2040 fit into 16 bits.
+    // Eleven rows of two differences of up to 2040 fit into 16 bits; what is more is cut off.
+    const Words brighter = cv::v_setall_s16(brighter_[k]);
     cv::v_uint16x8 sum = cv::v_setzero_u16();
     cv::v_uint16x8 partly = cv::v_setzero_u16();
     for (int i = 0; i < kWindow; ++i) {
-      sum = sum + cv::v_absdiff(cv::v_load_aligned(window_[i]), cv::v_load(strip_[i] + k));
+      sum =
+          sum + cv::v_absdiff(cv::v_load_aligned(window_[i]), cv::v_load(strip_[i] + k) + brighter);
       partly = partly + cv::v_absdiff(cv::v_load_aligned(window_[i] + kWords),
-                                      cv::v_load(strip_[i] + k + kWords));
+                                      cv::v_load(strip_[i] + k + kWords) + brighter);
     }
     cv::v_uint32x4 low, high;
     cv::v_expand(sum + (partly & cv::v_load_aligned(kMask)), low, high);
@@ -81,6 +98,7 @@ class SubPixelCosts {
     return between(cv::v_shl<kUnitBits>(upper), cv::v_shl<kUnitBits>(lower), fraction);
   }
 
+  short brighter_[kColumns];  // the left window, than that of each column
   alignas(kRegister) short window_[kWindow][kRegister];
   alignas(kRegister) short strip_[kWindow][kStrip + kRegister] = {};  // lanes that the mask drops
 };
