@@ -75,9 +75,9 @@ void TrackingWindow::copyWithEdge(const cv::Mat& image, const cv::Rect& area) {
   uchar* out = border_.data();
   for (int y = area.y; y < area.y + area.height; ++y, out += area.width) {
     const auto* row = image.ptr<uchar>(std::clamp(y, 0, image.rows - 1));
-    std::memset(out, row[0], static_cast<std::size_t>(left));
     std::memcpy(out + left, row + area.x + left, static_cast<std::size_t>(right - left));
-    std::memset(out + right, row[image.cols - 1], static_cast<std::size_t>(area.width - right));
+    for (int x = 0; x < left; ++x) out[x] = row[0];
+    for (int x = right; x < area.width; ++x) out[x] = row[image.cols - 1];
   }
 }
 
