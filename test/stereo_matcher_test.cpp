@@ -196,6 +196,16 @@ TEST(StereoMatcherTest, RefusesWhatLooksDifferent) {
   EXPECT_GT(countNear(10.0, match(left, right, pixels, config)), most(pixels));
 }
 
+TEST(StereoMatcherTest, FindsWhatAnotherCameraShowsDarker) {
+  const Pixels pixels = grid(kMiddle, 10);
+  const cv::Mat left = texture().image(0.0);
+  for (const double darker : {-40.0, 40.0}) {
+    const cv::Mat right = texture().image(10.0) - cv::Scalar(darker);
+    EXPECT_GT(countNear(10.0, match(left, right, pixels)), most(pixels)) << darker;
+    EXPECT_GT(countNear(10.0, match(left, 0.6 * right, pixels)), most(pixels) / 2) << darker;
+  }
+}
+
 TEST(StereoMatcherTest, RefusesTheTooNearAndTheTooFar) {
   StereoMatcher::Config config;
   config.max_disparity_px = 40;

@@ -304,6 +304,16 @@ TEST(VisualOdometryTest, FollowsThroughAChangeOfTheExposure) {
   }
 }
 
+TEST(VisualOdometryTest, FollowsWithCamerasThatExposeDifferently) {
+  VisualOdometry odometry({});
+  for (int i = 0; i < 8; ++i) {
+    StereoPair pair = bend(i);
+    pair.right = exposed(pair, 0.6).right;
+    const OdometryResult result = odometry.process(pair, camera());
+    if (i > 0) expectMotion(result, bendStep());
+  }
+}
+
 TEST(VisualOdometryTest, LosesAPairAtMostWhenTheExposureJumps) {
   VisualOdometry odometry = started(4);
   const OdometryResult jump = odometry.process(exposed(bend(4), 0.3), camera());

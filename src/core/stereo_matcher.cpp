@@ -1,8 +1,10 @@
 #include "rotrocc/stereo_matcher.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 
 #include "kernels/kernels.h"
 #include "sad_costs.h"
@@ -43,6 +45,49 @@ std::int16_t least(const std::int16_t* begin, const std::int16_t* end) {
   for (; begin < end; ++begin) cost = std::min(cost, *begin);
   return cost;
 }
+
+/// Images that differ in brightness by less [grey levels] are compared as they are: a window's
+/// match is still much cheaper than the rest of the row.
+constexpr int kNotable = 16;
+
+/// How much brighter the left image is than the right one, from the cameras' exposures: the median
+/// difference of pixels, as parallax makes as many of them lighter as darker [grey levels].
+int medianDifference(const cv::Mat& left, const cv::Mat& right) {
+  constexpr int kStep_px = 8;
+  constexpr int kMost = 255;
+  std::array<int, 2 * kMost + 1> histogram{};
+  int pixels = 0;
+  for (int y = 0; y < left.rows; y += kStep_px) {
+    const auto* in_left = left.ptr<uchar>(y);
+    const auto* in_right = right.ptr<uchar>(y);
+    for (int x = 0; x < left.cols; x += kStep_px, ++pixels) {
+      ++histogram[static_cast<std::size_t>(kMost + in_left[x] - in_right[x])];
+    }
+  }
+  int difference = -kMost;
+  int below = histogram[0];
+  while (2 * below < pixels) below += histogram[static_cast<std::size_t>(kMost + ++difference)];
+  return difference;
+}
+
+/// The window of a left pixel as the right camera would show it.
+class DarkenedWindow {
+ public:
+  static constexpr int kStep = SadSearch::kReadPixels;  // of its rows
+
+  DarkenedWindow(const cv::Mat& left, const cv::Point& upper_left, int brighter) {
+    for (int y = 0; y < sad::kWindow; ++y) {
+      const auto* from = left.ptr<uchar>(upper_left.y + y) + upper_left.x;
+      for (int x = 0; x < kStep; ++x) {
+        pixels_[y * kStep + x] = static_cast<uchar>(std::clamp(from[x] - brighter, 0, 255));
+      }
+    }
+  }
+  const uchar* pixels() const { return pixels_; }
+
+ private:
+  uchar pixels_[sad::kWindow * kStep];
+};
 
 /// Column of the best match, of columns from `first` on, or kNoColumn where it lies at the end of
 /// the range, costs more than is allowed or is ambiguous: at least `uniqueness` times the cost of a
@@ -110,15 +155,18 @@ void StereoMatcher::match(Workers& workers,
   const int farthest = cvFloor(config_.min_disparity_px + infinity_px);
   const double most = config_.max_mean_difference * sad::kPixels;
   const double least_px = config_.min_disparity_px + infinity_px;
+  const int difference = medianDifference(left, right);
+  const int brighter = std::abs(difference) < kNotable ? 0 : difference;
   eachPixel(workers, corners, least_px, disparities_px, [&](std::size_t i) {
     if (!windowInside(left, corners[i])) return kNoColumn;
     const cv::Point pixel(cvRound(corners[i].x), cvRound(corners[i].y));
     const cv::Range columns = clip(right, cv::Range(pixel.x - nearest - 1, pixel.x - farthest + 2));
     if (columns.size() < 3) return kNoColumn;
-    const int top = pixel.y - sad::kHalf;
-    const SadSearch search = {left.ptr<uchar>(top) + pixel.x - sad::kHalf,
-                              static_cast<std::ptrdiff_t>(left.step),
-                              right.ptr<uchar>(top) + columns.start - sad::kHalf,
+    const cv::Point upper_left = pixel - cv::Point(sad::kHalf, sad::kHalf);
+    const DarkenedWindow window(left, upper_left, brighter);
+    const SadSearch search = {window.pixels(),
+                              DarkenedWindow::kStep,
+                              right.ptr<uchar>(upper_left.y) + columns.start - sad::kHalf,
                               static_cast<std::ptrdiff_t>(right.step),
                               columns.size(),
                               most,
