@@ -93,11 +93,13 @@ TEST(MotionSolverTest, KeepsNoFitOfOtherFeaturesOrWeights) {
   const Correspondences others =
       simulateFeatures(kittiCamera(), turnAhead(), 50, {0.3, 0.9}, generator);
   MotionSolver solver(1.0);
+  std::vector<FittedFeature> fitted;
   std::vector<double> errors_px, expected_px;
   const auto expectAnew =
       [&](const Correspondences& features, const Eigen::Isometry3d& T, double noise_ratio) {
         solver.measureErrors(T, errors_px);
-        reprojectionErrors(kittiCamera(), features, T, noise_ratio, expected_px);
+        fitDisparities(kittiCamera(), features, T, noise_ratio, fitted);
+        reprojectionErrors(kittiCamera(), fitted, T.translation(), expected_px);
         EXPECT_EQ(errors_px, expected_px);
       };
   solver.setFeatures(kittiCamera(), some);

@@ -6,6 +6,7 @@
 
 #include <ceres/ceres.h>
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
 
 #include "rotrocc/rigid_motion.h"
 #include "simulated_features.h"
@@ -126,7 +127,7 @@ TEST(ReprojectionErrorTest, TheProblemTakesOnlyTheFeaturesOfTheSet) {
   EXPECT_LT((residuals.tail<2>() - second).norm(), 1e-9);
 }
 
-/// S of the docstring of fitDisparity(), with j by central differences.
+/// S of the docstring of fitDisparities(), with j by central differences.
 Eigen::Matrix2d residualCovariance(const StereoCamera& camera,
                                    const Correspondence& feature,
                                    const Eigen::Isometry3d& T_prev_cur) {
@@ -234,13 +235,40 @@ TEST(ReprojectionErrorTest, APureRotationNeedsNoDepth) {
   }
 }
 
+TEST(ReprojectionErrorTest, AFitDependsNeitherOnItsNeighboursNorOnTheProcessor) {
+  const Eigen::Isometry3d T = motion({0.3, 0.0, 1.0}, {0.0, 0.05, 0.0});
+  Correspondences features = someFeatures(T);
+  ASSERT_GT(features.size(), 17U);
+  for (const std::size_t count : {17U, 16U, 15U, 1U}) {
+    features.resize(count);
+    std::vector<FittedFeature> fitted, plain;
+    fitDisparities(kittiCamera(), features, T, kNoiseRatio, fitted);
+    cv::setUseOptimized(false);
+    fitDisparities(kittiCamera(), features, T, kNoiseRatio, plain);
+    cv::setUseOptimized(true);
+    ASSERT_EQ(fitted.size(), count);
+    ASSERT_EQ(plain.size(), count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const FittedFeature alone = fitDisparity(kittiCamera(), features[i], T, kNoiseRatio);
+      for (const FittedFeature& other : {alone, plain[i]}) {
+        EXPECT_EQ(fitted[i].target_px, other.target_px);
+        EXPECT_EQ(fitted[i].rotated_point, other.rotated_point);
+        EXPECT_EQ(fitted[i].whitening, other.whitening);
+        EXPECT_EQ(fitted[i].by_disparity, other.by_disparity);
+      }
+    }
+  }
+}
+
 TEST(ReprojectionErrorTest, ErrorsAreTheLengthsOfTheResiduals) {
   const Eigen::Isometry3d T = motion({0.3, 0.0, 1.0}, {0.0, 0.05, 0.0});
   const Correspondences features = someFeatures(T);
   const StereoCamera camera = kittiCamera();
   for (const double noise_ratio : {0.0, kNoiseRatio}) {
+    std::vector<FittedFeature> fitted;
+    fitDisparities(camera, features, T, noise_ratio, fitted);
     std::vector<double> errors_px;
-    reprojectionErrors(camera, features, T, noise_ratio, errors_px);
+    reprojectionErrors(camera, fitted, T.translation(), errors_px);
     ASSERT_EQ(errors_px.size(), features.size());
     for (std::size_t i = 0; i < features.size(); ++i) {
       Vector6d parameters;
@@ -248,6 +276,10 @@ TEST(ReprojectionErrorTest, ErrorsAreTheLengthsOfTheResiduals) {
       const Automatic automatic(features[i], T, noise_ratio, parameters);
       EXPECT_NEAR(errors_px[i], automatic.residual.norm(), 1e-9);
     }
+    if (noise_ratio > 0.0) continue;
+    std::vector<double> plain_px;
+    reprojectionErrors(camera, features, T, plain_px);
+    for (std::size_t i = 0; i < features.size(); ++i) EXPECT_NEAR(plain_px[i], errors_px[i], 1e-9);
   }
 }
 

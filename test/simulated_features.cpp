@@ -1,5 +1,7 @@
 #include "simulated_features.h"
 
+#include <vector>
+
 #include "synthetic_scene.h"
 
 namespace rotrocc {
@@ -43,6 +45,15 @@ Correspondences simulateFeatures(const StereoCamera& camera,
     if (measure(camera, point, T_prev_cur, noise, generator, feature)) features.push_back(feature);
   }
   return features;
+}
+
+FittedFeature fitDisparity(const StereoCamera& camera,
+                           const Correspondence& feature,
+                           const Eigen::Isometry3d& T_prev_cur,
+                           double noise_ratio) {
+  std::vector<FittedFeature> fitted;
+  fitDisparities(camera, {feature}, T_prev_cur, noise_ratio, fitted);
+  return fitted.front();
 }
 
 Eigen::Isometry3d motion(const Eigen::Vector3d& translation_m,

@@ -7,6 +7,7 @@
 #include "kitti_camera.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/noise_estimator.h"
+#include "rotrocc/reprojection_error.h"
 #include "rotrocc/rigid_motion.h"
 #include "rotrocc/stereo_camera.h"
 
@@ -29,6 +30,12 @@ Correspondences simulateFeatures(const StereoCamera& camera,
                                  int count,
                                  const MeasurementNoise& noise,
                                  std::mt19937& generator);
+
+/// fitDisparities() of one feature.
+FittedFeature fitDisparity(const StereoCamera& camera,
+                           const Correspondence& feature,
+                           const Eigen::Isometry3d& T_prev_cur,
+                           double noise_ratio);
 
 /// The motion with translation [m] and rotation vector [rad].
 Eigen::Isometry3d motion(const Eigen::Vector3d& translation_m, const Eigen::Vector3d& rotation_rad);

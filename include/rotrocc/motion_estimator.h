@@ -30,7 +30,7 @@ class MotionEstimator {
  public:
   struct Config {
     std::string criterion = "rotrocc";  ///< one of criterionNames()
-    /// Disparity noise over flow noise to begin with, see fitDisparity(); 0: the paper's
+    /// Disparity noise over flow noise to begin with, see fitDisparities(); 0: the paper's
     double noise_ratio = 3.0;
 
     // Stage 1: rotation.

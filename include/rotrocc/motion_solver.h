@@ -17,7 +17,7 @@ class MotionSolver {
  public:
   explicit MotionSolver(double noise_ratio) : noise_ratio_(noise_ratio) {}
 
-  /// What weights the residuals, see fitDisparity().
+  /// What weights the residuals, see fitDisparities().
   void setNoiseRatio(double noise_ratio);
 
   /// The features that sets are of until the next call. They are referred to.
@@ -32,7 +32,7 @@ class MotionSolver {
   /// solveMotion(), with 2 features at least.
   bool solveTranslation(const FeatureSet& set, Eigen::Isometry3d& T_prev_cur);
 
-  /// reprojectionErrors() of all features.
+  /// reprojectionErrors() of all features, fitted at the motion [px].
   void measureErrors(const Eigen::Isometry3d& T_prev_cur, std::vector<double>& errors_px);
 
   /// Normal equations of the set at a motion, in the order translation [m], rotation [rad] of

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "rotrocc/correspondence.h"
+#include "rotrocc/reprojection_error.h"
 #include "rotrocc/stereo_camera.h"
 
 namespace rotrocc {
@@ -82,6 +83,7 @@ class NoiseEstimator {
   double ratio_information_ = 0.0;
   double ratio_weighted_ = 0.0;  // information times r^2
 
+  std::vector<FittedFeature> fitted_;
   std::vector<Residual> residuals_;
   std::vector<Cell> cells_;
 };

@@ -24,8 +24,8 @@ struct FittedFeature {
   Eigen::Vector2d by_disparity;   ///< d pi(R X_cur + T) / d disparity, at the motion
 };
 
-/// Fits the feature's disparity to both its measurements: itself and, at the motion, its flow. With
-/// r = `noise_ratio`, the standard deviation of a disparity over that of a flow, and
+/// Fits the features' disparities to both their measurements: themselves and, at the motion, their
+/// flow. With r = `noise_ratio`, the standard deviation of a disparity over that of a flow, and
 /// j = d pi(R X + T) / d disparity at the fitted disparity, the residual's covariance is
 /// S = I + r^2 j j^T in units of the flow's variance, of which `whitening` is the inverse root; the
 /// target is prev_px, moved to where it would be expected had the measured disparity been the
@@ -33,12 +33,6 @@ struct FittedFeature {
 /// all true disparities have it (Deming's regression): taken at the measured disparities, noisy far
 /// points would pull the motion towards too short. A ratio of 0 changes nothing: the paper's least
 /// squares.
-FittedFeature fitDisparity(const StereoCamera& camera,
-                           const Correspondence& feature,
-                           const Eigen::Isometry3d& T_prev_cur,
-                           double noise_ratio);
-
-/// The same for all features.
 void fitDisparities(const StereoCamera& camera,
                     const Correspondences& features,
                     const Eigen::Isometry3d& T_prev_cur,
@@ -117,15 +111,13 @@ class ReprojectionProblem {
   std::vector<FittedFeature> features_;
 };
 
-/// Reprojection error |W (target - pi(R X_cur + T))| of every feature, fitted at the motion [px]
-/// (Eq. 2).
+/// Reprojection error |x_prev - pi(R X_cur + T)| of every feature [px] (Eq. 2).
 void reprojectionErrors(const StereoCamera& camera,
                         const Correspondences& features,
                         const Eigen::Isometry3d& T_prev_cur,
-                        double noise_ratio,
                         std::vector<double>& errors_px);
 
-/// The same of features fitted at a motion with this translation.
+/// The same, |W (target - pi(R X_cur + T))|, of features fitted at a motion with this translation.
 void reprojectionErrors(const StereoCamera& camera,
                         const std::vector<FittedFeature>& fitted,
                         const Eigen::Vector3d& translation,

@@ -37,7 +37,7 @@ class StereoCalibrator {
     double prior_sigma_px = 1.0;  ///< how far from bias_px a rig may be expected to be
     double memory_pairs = 100.0;  ///< a pair's weight falls by 1/e over as many that tell as much
     double significance = 3.0;    ///< standard deviations that count as doubt
-    /// Disparity noise over flow noise, see fitDisparity(). Less than what is measured: fitted
+    /// Disparity noise over flow noise, see fitDisparities(). Less than what is measured: fitted
     /// disparities also follow errors that neighbours share, and take the estimate with them.
     double noise_ratio = 1.0;
   };

@@ -163,7 +163,7 @@ bool MotionEstimator::estimateTranslation(const StereoCamera& camera,
   // Plain errors: only then is the DNRE the relative error of the depth, and wrong disparities of
   // far points, which differ from the right one by a large part of it, are seen.
   const auto measure = [&] {
-    reprojectionErrors(camera, features, T, 0.0, errors_);
+    reprojectionErrors(camera, features, T, errors_);
     for (std::size_t i = 0; i < errors_.size(); ++i) {
       const double flow_px = std::max({flow_px_[i], config_.min_flow_px, kLeastFlow_px});
       errors_[i] = candidates_[i] != 0 ? errors_[i] / flow_px : kNever;

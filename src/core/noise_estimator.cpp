@@ -63,11 +63,12 @@ void NoiseEstimator::collect(const StereoCamera& camera,
                              const Eigen::Isometry3d& T_prev_cur) {
   const ImageGrid grid(camera, kColumns, kRows);
   const double r2 = noise_.ratio * noise_.ratio;
+  fitDisparities(camera, features, T_prev_cur, noise_.ratio, fitted_);
   residuals_.clear();
   std::fill(cells_.begin(), cells_.end(), Cell());
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (set[i] == 0) continue;
-    const FittedFeature fitted = fitDisparity(camera, features[i], T_prev_cur, noise_.ratio);
+    const FittedFeature& fitted = fitted_[i];
     const Eigen::Vector3d point = fitted.rotated_point + T_prev_cur.translation();
     const double j2 = fitted.by_disparity.squaredNorm();
     if (point.z() < kMinDepth_m || j2 < kLeastSlope2) continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/kernels.h"
 #include "rotrocc/rigid_motion.h"
 
 namespace rotrocc {
@@ -11,32 +12,38 @@ namespace {
 /// The fit is nearly linear: two steps leave less than a hundredth of the first.
 constexpr int kFitSteps = 2;
 
-/// No feature is fitted beyond this many times its depth: a wrong match is not to become a right
-/// one.
-constexpr double kMostStretch = 2.0;
+FitTerms termsOf(const StereoCamera& camera,
+                 const Eigen::Isometry3d& T_prev_cur,
+                 double noise_ratio) {
+  FitTerms terms;
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(terms.rotation) = T_prev_cur.linear();
+  Eigen::Map<Eigen::Vector3d>(terms.translation) = T_prev_cur.translation();
+  terms.fx = camera.fx;
+  terms.fy = camera.fy;
+  terms.cx = camera.cx;
+  terms.cy = camera.cy;
+  terms.least_depth = kMinDepth_m;
+  terms.ratio2 = noise_ratio * noise_ratio;
+  terms.steps = noise_ratio > 0.0 ? kFitSteps : 0;
+  return terms;
+}
 
-/// The view of a point along its ray, as a function of the disparity above that of infinity.
-struct RayView {
-  const StereoCamera& camera;
-  Eigen::Vector3d ray;  // R X times disparity
-  Eigen::Vector3d translation;
+void put(const StereoCamera& camera, const Correspondence& feature, FitBlock& block, int i) {
+  block.prev_x[i] = feature.prev_px.x();
+  block.prev_y[i] = feature.prev_px.y();
+  block.point_x[i] = feature.point_cur.x();
+  block.point_y[i] = feature.point_cur.y();
+  block.point_z[i] = feature.point_cur.z();
+  block.measured[i] = feature.disparity_px - camera.disparityAtInfinity();
+}
 
-  /// In the previous frame: the pixel, and how it moves with the disparity.
-  struct Pixel {
-    Eigen::Vector2d px;
-    Eigen::Vector2d slope;
-  };
-
-  Pixel at(double disparity_px) const {
-    const Eigen::Vector3d q = ray + disparity_px * translation;  // the place, times disparity
-    const double per_z = 1.0 / std::max(q.z(), kMinDepth_m * disparity_px);
-    const double x = per_z * q.x();
-    const double y = per_z * q.y();
-    return {{camera.fx * x + camera.cx, camera.fy * y + camera.cy},
-            {camera.fx * per_z * (translation.x() - x * translation.z()),
-             camera.fy * per_z * (translation.y() - y * translation.z())}};
-  }
-};
+void get(const FitBlock& block, int i, FittedFeature& fitted) {
+  fitted.target_px = {block.target_x[i], block.target_y[i]};
+  fitted.rotated_point = {block.rotated_x[i], block.rotated_y[i], block.rotated_z[i]};
+  fitted.whitening << block.whitening_xx[i], block.whitening_xy[i], block.whitening_xy[i],
+      block.whitening_yy[i];
+  fitted.by_disparity = {block.slope_x[i], block.slope_y[i]};
+}
 
 double errorOf(const StereoCamera& camera,
                const FittedFeature& feature,
@@ -48,43 +55,23 @@ double errorOf(const StereoCamera& camera,
 
 }  // namespace
 
-FittedFeature fitDisparity(const StereoCamera& camera,
-                           const Correspondence& feature,
-                           const Eigen::Isometry3d& T_prev_cur,
-                           double noise_ratio) {
-  const Eigen::Vector3d rotated = T_prev_cur.linear() * feature.point_cur;
-  const double measured_px = feature.disparity_px - camera.disparityAtInfinity();
-  const RayView view = {camera, measured_px * rotated, T_prev_cur.translation()};
-  const double r2 = noise_ratio * noise_ratio;
-  double fitted_px = measured_px;
-  RayView::Pixel pixel = view.at(fitted_px);
-  for (int step = 0; step < kFitSteps && noise_ratio > 0.0; ++step) {
-    const Eigen::Vector2d& j = pixel.slope;
-    const double along_px = j.dot(feature.prev_px - pixel.px);
-    fitted_px += (r2 * along_px - (fitted_px - measured_px)) / (1.0 + r2 * j.squaredNorm());
-    fitted_px = std::clamp(fitted_px, measured_px / kMostStretch, measured_px * kMostStretch);
-    pixel = view.at(fitted_px);
-  }
-
-  const Eigen::Vector2d& j = pixel.slope;
-  FittedFeature fitted;
-  fitted.target_px = feature.prev_px + (fitted_px - measured_px) * j;
-  fitted.rotated_point = measured_px / fitted_px * rotated;
-  fitted.by_disparity = j;
-  // (I + r^2 j j^T)^-1/2: 1 / s along j, where s^2 = 1 + r^2 j^2.
-  const double s = std::sqrt(1.0 + r2 * j.squaredNorm());
-  fitted.whitening = Eigen::Matrix2d::Identity() - r2 / (s * (s + 1.0)) * j * j.transpose();
-  return fitted;
-}
-
 void fitDisparities(const StereoCamera& camera,
                     const Correspondences& features,
                     const Eigen::Isometry3d& T_prev_cur,
                     double noise_ratio,
                     std::vector<FittedFeature>& fitted) {
-  fitted.clear();
-  for (const Correspondence& feature : features) {
-    fitted.push_back(fitDisparity(camera, feature, T_prev_cur, noise_ratio));
+  const Kernels& kernels = chooseKernels();
+  const FitTerms terms = termsOf(camera, T_prev_cur, noise_ratio);
+  FitBlock block = {};
+  fitted.resize(features.size());
+  for (std::size_t first = 0; first < features.size(); first += FitBlock::kSize) {
+    const auto left = features.size() - first;
+    const int count = static_cast<int>(std::min<std::size_t>(left, FitBlock::kSize));
+    for (int i = 0; i < FitBlock::kSize; ++i) {
+      put(camera, features[first + static_cast<std::size_t>(std::min(i, count - 1))], block, i);
+    }
+    kernels.fitDisparities(terms, block);
+    for (int i = 0; i < count; ++i) get(block, i, fitted[first + static_cast<std::size_t>(i)]);
   }
 }
 
@@ -95,10 +82,12 @@ void ReprojectionProblem<kParameters>::assign(const StereoCamera& camera,
                                               const Eigen::Isometry3d& T_0,
                                               double noise_ratio) {
   camera_ = camera;
-  features_.clear();
+  fitDisparities(camera, features, T_0, noise_ratio, features_);
+  std::size_t taken = 0;
   for (std::size_t i = 0; i < features.size(); ++i) {
-    if (set[i] != 0) features_.push_back(fitDisparity(camera, features[i], T_0, noise_ratio));
+    if (set[i] != 0) features_[taken++] = features_[i];
   }
+  features_.resize(taken);
 }
 
 template <int kParameters>
@@ -212,18 +201,12 @@ template class ReprojectionProblem<6>;
 void reprojectionErrors(const StereoCamera& camera,
                         const Correspondences& features,
                         const Eigen::Isometry3d& T_prev_cur,
-                        double noise_ratio,
                         std::vector<double>& errors_px) {
   errors_px.resize(features.size());
   for (std::size_t i = 0; i < features.size(); ++i) {
-    if (noise_ratio == 0.0) {
-      Eigen::Vector3d point = T_prev_cur * features[i].point_cur;
-      point.z() = std::max(point.z(), kMinDepth_m);
-      errors_px[i] = (features[i].prev_px - camera.project(point)).norm();
-      continue;
-    }
-    const FittedFeature fitted = fitDisparity(camera, features[i], T_prev_cur, noise_ratio);
-    errors_px[i] = errorOf(camera, fitted, T_prev_cur.translation());
+    Eigen::Vector3d point = T_prev_cur * features[i].point_cur;
+    point.z() = std::max(point.z(), kMinDepth_m);
+    errors_px[i] = (features[i].prev_px - camera.project(point)).norm();
   }
 }
 

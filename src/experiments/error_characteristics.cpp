@@ -73,9 +73,8 @@ std::vector<FeatureErrors> judgeFeatures(const StereoCamera& camera,
     features[i].point_cur = (depth_factors.empty() ? 1.0 : depth_factors[i]) * points_cur[i];
   }
 
-  constexpr double kUnweighted = 0.0;
   std::vector<double> reprojection_px, flow_px, translation_flow_px;
-  reprojectionErrors(camera, features, hypothesis.T_prev_cur_assumed, kUnweighted, reprojection_px);
+  reprojectionErrors(camera, features, hypothesis.T_prev_cur_assumed, reprojection_px);
   coupledFlow(features, flow_px);
   decoupledFlow(camera, features, hypothesis.T_prev_cur_assumed.linear(), translation_flow_px);
   std::vector<FeatureErrors> errors(features.size());

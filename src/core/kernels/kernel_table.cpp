@@ -15,7 +15,8 @@ const Kernels kernels = {kShorts,
                          sadCosts,
                          sadCost,
                          takeWindow,
-                         compareWindow};
+                         compareWindow,
+                         fitDisparities};
 static_assert(kShorts <= kMostShorts);
 
 }  // namespace rotrocc::ROTROCC_INSTRUCTIONS

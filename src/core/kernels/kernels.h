@@ -1,14 +1,15 @@
 #pragma once
 
 #include "corner_kernels.h"
+#include "fit_kernels.h"
 #include "half_image_kernels.h"
 #include "sad_kernels.h"
 #include "window_kernels.h"
 
 namespace rotrocc {
 
-/// The inner loops over pixels, for one kind of processor. What they find is the same for all:
-/// they add integers, and floats in no order that the width of a register decides.
+/// The inner loops over pixels and features, for one kind of processor. What they find is the same
+/// for all: they add integers, and floats in no order that the width of a register decides.
 struct Kernels {
   int shorts;  ///< 16-bit numbers of a register, at most kMostShorts
 
@@ -23,6 +24,7 @@ struct Kernels {
   decltype(&ROTROCC_INSTRUCTIONS::sadCost) sadCost;
   decltype(&ROTROCC_INSTRUCTIONS::takeWindow) takeWindow;
   decltype(&ROTROCC_INSTRUCTIONS::compareWindow) compareWindow;
+  decltype(&ROTROCC_INSTRUCTIONS::fitDisparities) fitDisparities;
 };
 
 /// Numbers that a row needs beyond its end, where whole registers are read and written.
