@@ -18,6 +18,7 @@ using Points = std::vector<cv::Point2f>;
 struct TwoViews {
   cv::Mat first, second;
   Points corners, truth;
+  std::vector<float> growth;  // of what is around the corners
 
   explicit TwoViews(const Eigen::Isometry3d& T_prev_cur) {
     const SyntheticScene scene;
@@ -40,6 +41,8 @@ struct TwoViews {
       if (!inner.contains(there)) continue;
       corners.push_back(corner);
       truth.push_back(there);
+      const double before_m = scene.pointAt(start, {corner.x, corner.y}).z();
+      growth.push_back(static_cast<float>(before_m / point.z()));
     }
   }
 };
@@ -60,14 +63,17 @@ Tracked track(const cv::Mat& first,
               const Points& predictions,
               const FeatureTracker::Search& search,
               const FeatureTracker::Config& config = {},
-              int threads = 1) {
+              int threads = 1,
+              const std::vector<float>& growth = {}) {
   FeatureTracker tracker(config);
   FeatureTracker::Pyramid a, b;
   tracker.buildPyramid(first, a);
   tracker.buildPyramid(second, b);
   Tracked result{predictions, std::vector<char>(from.size(), 1)};
   Workers workers(threads);
-  tracker.track(workers, a, b, from, search, result.cur, result.tracked);
+  const std::vector<float> same_size(from.size(), 1.0F);
+  tracker.track(
+      workers, a, b, from, growth.empty() ? same_size : growth, search, result.cur, result.tracked);
   return result;
 }
 
@@ -115,6 +121,26 @@ TEST(FeatureTrackerTest, FindsTheFlowOfARotationBetter) {
   // Measured: 0.09 and 0.24 px, from noise of 2 grey levels.
   EXPECT_LT(quantile(errors, 0.5), 0.13);
   EXPECT_LT(quantile(errors, 0.9), 0.35);
+}
+
+TEST(FeatureTrackerTest, KnowsThatWhatComesNearerGrows) {
+  const auto errorsWith = [&](const std::vector<float>& growth) {
+    return sortedErrors(track(drive().first,
+                              drive().second,
+                              drive().corners,
+                              perturbed(drive().truth, 2.0),
+                              {2},
+                              {},
+                              1,
+                              growth),
+                        drive().truth);
+  };
+  const std::vector<double> known = errorsWith(drive().growth);
+  const std::vector<double> unknown = errorsWith({});
+  EXPECT_GE(known.size(), unknown.size() * 98 / 100);
+  // Road and walls are seen at a slant, so that they do more than grow.
+  EXPECT_LT(quantile(known, 0.5), 0.8 * quantile(unknown, 0.5));
+  EXPECT_LT(quantile(known, 0.9), 0.9 * quantile(unknown, 0.9));
 }
 
 TEST(FeatureTrackerTest, FindsTheFlowUnderAnotherExposure) {
@@ -215,7 +241,8 @@ TEST(FeatureTrackerTest, LeavesPointsAloneThatAreNotAskedFor) {
   std::vector<char> tracked(cur.size());
   for (std::size_t i = 0; i < tracked.size(); ++i) tracked[i] = i % 2;
   Workers workers(1);
-  tracker.track(workers, a, b, drive().corners, {2}, cur, tracked);
+  tracker.track(
+      workers, a, b, drive().corners, std::vector<float>(cur.size(), 1.0F), {2}, cur, tracked);
   const Tracked all = track(drive().first, drive().second, drive().corners, before, {2});
   for (std::size_t i = 0; i < cur.size(); ++i) {
     EXPECT_EQ(cur[i], i % 2 == 0 ? before[i] : all.cur[i]);

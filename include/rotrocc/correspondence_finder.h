@@ -84,6 +84,7 @@ class CorrespondenceFinder {
   std::vector<cv::Point2f> ref_left_, ref_right_;  // the triangulated corners ...
   std::vector<Eigen::Vector3d> ref_points_;        // ... and their places [m]
   std::vector<cv::Point2f> cur_left_, cur_right_;
+  std::vector<float> growth_;  // of what is seen, by coming nearer
   std::vector<char> tracked_;
   std::vector<float> expected_;
   std::vector<double> shifts_px_;

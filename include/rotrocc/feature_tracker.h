@@ -44,13 +44,15 @@ class FeatureTracker {
   /// Builds into `pyramid`, whose memory is used again.
   void buildPyramid(const cv::Mat& image, Pyramid& pyramid) const;
 
-  /// Follows `prev` points from one image to another. `cur` holds the predictions and gets the
-  /// results; `tracked` gets 1 for points that came back to within max_round_trip_px, else 0.
-  /// Points whose `tracked` is 0 at the call are skipped.
+  /// Follows `prev` points from one image to another. `growth` is how many times as large the
+  /// surroundings of each are expected there, more than 1 for what comes nearer. `cur` holds the
+  /// predictions and gets the results; `tracked` gets 1 for points that came back to within
+  /// max_round_trip_px, else 0. Points whose `tracked` is 0 at the call are skipped.
   void track(Workers& workers,
              const Pyramid& prev_pyramid,
              const Pyramid& cur_pyramid,
              const std::vector<cv::Point2f>& prev,
+             const std::vector<float>& growth,
              const Search& search,
              std::vector<cv::Point2f>& cur,
              std::vector<char>& tracked);
@@ -60,11 +62,13 @@ class FeatureTracker {
               const Pyramid& to,
               const Search& search,
               const cv::Point2f& start,
+              float growth,
               TrackingWindow& window,
               cv::Point2f& end) const;
   bool returns(const cv::Mat& from,
                const cv::Mat& to,
                const cv::Point2f& start,
+               float growth,
                TrackingWindow& window,
                const cv::Point2f& end) const;
 

@@ -83,6 +83,7 @@ int CorrespondenceFinder::track(const Eigen::Isometry3d& T_ref_cur, bool is_pred
   cur_left_.resize(ref_points_.size());
   cur_right_.resize(ref_points_.size());
   tracked_.assign(ref_points_.size(), 0);
+  growth_.assign(ref_points_.size(), 1.0F);
   for (std::size_t i = 0; i < ref_points_.size(); ++i) {
     const Eigen::Vector3d point = T_cur_ref * ref_points_[i];
     if (point.z() < kMinDepth_m) continue;
@@ -90,6 +91,7 @@ int CorrespondenceFinder::track(const Eigen::Isometry3d& T_ref_cur, bool is_pred
     cur_left_[i] = {static_cast<float>(left.x()), static_cast<float>(left.y())};
     cur_right_[i] = {static_cast<float>(camera_.disparity(point.z())),
                      0.0F};  // as yet its disparity
+    growth_[i] = static_cast<float>(ref_points_[i].z() / point.z());
     tracked_[i] = 1;
   }
   FeatureTracker::Search search;
@@ -99,6 +101,7 @@ int CorrespondenceFinder::track(const Eigen::Isometry3d& T_ref_cur, bool is_pred
                  pyramids_[reference_].left,
                  pyramids_[current_].left,
                  ref_left_,
+                 growth_,
                  search,
                  cur_left_,
                  tracked_);
@@ -109,6 +112,7 @@ int CorrespondenceFinder::track(const Eigen::Isometry3d& T_ref_cur, bool is_pred
                  pyramids_[reference_].right,
                  pyramids_[current_].right,
                  ref_right_,
+                 growth_,
                  search,
                  cur_right_,
                  tracked_);

@@ -47,6 +47,7 @@ void FeatureTracker::track(Workers& workers,
                            const Pyramid& prev_pyramid,
                            const Pyramid& cur_pyramid,
                            const std::vector<cv::Point2f>& prev,
+                           const std::vector<float>& growth,
                            const Search& search,
                            std::vector<cv::Point2f>& cur,
                            std::vector<char>& tracked) {
@@ -56,7 +57,8 @@ void FeatureTracker::track(Workers& workers,
   }
   workers.forEach(indices_.size(), [&](std::size_t k, std::size_t part) {
     const std::size_t i = indices_[k];
-    const bool found = follow(prev_pyramid, cur_pyramid, search, prev[i], windows_[part], cur[i]);
+    const bool found =
+        follow(prev_pyramid, cur_pyramid, search, prev[i], growth[i], windows_[part], cur[i]);
     tracked[i] = found ? 1 : 0;
   });
 }
@@ -65,13 +67,14 @@ bool FeatureTracker::follow(const Pyramid& from,
                             const Pyramid& to,
                             const Search& search,
                             const cv::Point2f& start,
+                            float growth,
                             TrackingWindow& window,
                             cv::Point2f& end) const {
   const TrackingWindow::Stop stop = {config_.max_iterations, config_.min_step_px};
   const TrackingWindow::Stop roughly = {config_.max_iterations, kCoarser * config_.min_step_px};
   cv::Point2f found = end;
   const float near_px = kNear * static_cast<float>(config_.window_radius_px);
-  const bool is_near = search.near && window.take(from[0], start) &&
+  const bool is_near = search.near && window.take(from[0], start, growth) &&
                        window.find(to[0], stop, found) && distance2(found, end) < near_px * near_px;
   if (!is_near) {
     found = end;
@@ -80,26 +83,28 @@ bool FeatureTracker::follow(const Pyramid& from,
       const float scale = scaleOf(level);
       cv::Point2f scaled = scale * found;
       // What a small image does not show is left to the larger ones.
-      if (window.take(from[level], scale * start) && window.find(to[level], roughly, scaled)) {
+      if (window.take(from[level], scale * start, growth) &&
+          window.find(to[level], roughly, scaled)) {
         found = scaled / scale;
       }
     }
-    if (!window.take(from[0], start) || !window.find(to[0], stop, found)) return false;
+    if (!window.take(from[0], start, growth) || !window.find(to[0], stop, found)) return false;
   }
   end = found;
-  return returns(from[0], to[0], start, window, end);
+  return returns(from[0], to[0], start, growth, window, end);
 }
 
 /// The way back starts where it should end, so one level is enough.
 bool FeatureTracker::returns(const cv::Mat& from,
                              const cv::Mat& to,
                              const cv::Point2f& start,
+                             float growth,
                              TrackingWindow& window,
                              const cv::Point2f& end) const {
   const TrackingWindow::Stop stop = {config_.max_iterations, config_.min_step_px};
   const auto most_px = static_cast<float>(config_.max_round_trip_px);
   cv::Point2f back = start;
-  return window.take(to, end) && window.find(from, stop, back) &&
+  return window.take(to, end, 1.0F / growth) && window.find(from, stop, back) &&
          distance2(back, start) <= most_px * most_px;
 }
 

@@ -30,6 +30,7 @@ TrackingWindow::TrackingWindow(int radius_px)
       gradient_x_(values_.size()),
       gradient_y_(values_.size()),
       mask_(static_cast<std::size_t>(stride_)),
+      spread_(mask_.size()),
       border_(static_cast<std::size_t>((side_ + 3) * (sample_stride_ + 1))) {
   std::fill_n(mask_.begin(), side_, static_cast<std::int16_t>(-1));
 }
@@ -45,6 +46,7 @@ Window TrackingWindow::window() {
           gradient_x_.data(),
           gradient_y_.data(),
           mask_.data(),
+          spread_.data(),
           samples_.data(),
           sample_stride_};
 }
@@ -81,12 +83,23 @@ void TrackingWindow::copyWithEdge(const cv::Mat& image, const cv::Rect& area) {
   }
 }
 
-bool TrackingWindow::take(const cv::Mat& image, const cv::Point2f& center) {
+bool TrackingWindow::take(const cv::Mat& image, const cv::Point2f& center, float growth) {
   const cv::Rect2f inside(
       0.0F, 0.0F, static_cast<float>(image.cols), static_cast<float>(image.rows));
   if (!inside.contains(center)) return false;
+  spread(growth);
   const Patch patch = patchAround(image, center, radius_ + 1, wholeRegisters(side_ + 2));
   return invertNormalMatrix(kernels_->takeWindow(patch, window()));
+}
+
+/// Sets where the values are taken from, away from where the pixels are. That must be nearer than
+/// the next pixel.
+void TrackingWindow::spread(float growth) {
+  const float most = 0.9F / static_cast<float>(std::max(radius_, 1));
+  const float per_px = std::clamp(1.0F / growth - 1.0F, -most, most);
+  for (int i = 0; i < side_; ++i) {
+    spread_[static_cast<std::size_t>(i)] = fraction(per_px * static_cast<float>(i - radius_));
+  }
 }
 
 /// Of the least squares for a shift and a difference in brightness, with the latter eliminated: the

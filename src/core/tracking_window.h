@@ -24,9 +24,10 @@ class TrackingWindow {
   /// The window is a square of 2 radius + 1; the radius is at most 25 px.
   explicit TrackingWindow(int radius_px);
 
-  /// Takes the window around `center` of `image` (CV_8UC1). Returns false if the centre lies
-  /// outside of the image or the texture is too weak to tell where it is.
-  bool take(const cv::Mat& image, const cv::Point2f& center);
+  /// Takes the window around `center` of `image` (CV_8UC1), as it looks when what it shows is
+  /// `growth` > 0 times as large (to first order, so that a tenth more is near enough). Returns
+  /// false if the centre lies outside of the image or the texture is too weak to tell where it is.
+  bool take(const cv::Mat& image, const cv::Point2f& center, float growth);
 
   /// Moves `center` to where `image` looks like the window that was taken. Returns false, and
   /// leaves `center` where it was, if it leaves the image.
@@ -37,6 +38,7 @@ class TrackingWindow {
   void copyWithEdge(const cv::Mat& image, const cv::Rect& area);
   int wholeRegisters(int count) const;
   Window window();
+  void spread(float growth);
   bool invertNormalMatrix(const GradientSums& sums);
   cv::Point2f mismatch(const Patch& patch, const Window& window) const;
 
@@ -44,7 +46,7 @@ class TrackingWindow {
   int radius_, side_;
   int stride_;         // of the rows below: the side, rounded up to whole registers
   int sample_stride_;  // of samples_
-  std::vector<std::int16_t> samples_, values_, gradient_x_, gradient_y_, mask_;
+  std::vector<std::int16_t> samples_, values_, gradient_x_, gradient_y_, mask_, spread_;
   std::vector<uchar> border_;  // a patch that hangs over the edge of the image
   cv::Point2d mean_gradient_;  // [grey levels / px]
   float inverse_xx_ = 0.0F, inverse_xy_ = 0.0F, inverse_yy_ = 0.0F;

@@ -56,10 +56,14 @@ void sample(const Patch& patch, const Window window) {
 }  // namespace
 
 GradientSums takeWindow(const Patch& patch, const Window window) {
+  // A gradient times a spread is a value with 16 bits to be dropped.
+  constexpr int kUpToValue = 1 + Window::kValueBits - Window::kGradientBits;
   sample(patch, window);
   GradientSums sums = {0, 0, 0, 0, 0};
   for (int x = 0; x < window.stride; x += kShorts) {
     const Shorts mask = load(window.mask + x);
+    const Shorts spread_x = load(window.spread + x);
+    const std::int16_t* spread_y = window.spread;
     Ints minus_x = noInts();
     Ints minus_y = noInts();
     Ints xx = noInts();
@@ -77,7 +81,9 @@ GradientSums takeWindow(const Patch& patch, const Window window) {
                                difference(below + 1, above + 1),
                                difference(below + 2, above + 2)) &
                         mask;
-      store(window.values + at, load(here + 1));
+      const Shorts aside = multiplyHigh(shiftLeft<kUpToValue>(gx), spread_x);
+      const Shorts down = multiplyHigh(shiftLeft<kUpToValue>(gy), all(*spread_y++));
+      store(window.values + at, load(here + 1) + aside + down);
       store(window.gradient_x + at, gx);
       store(window.gradient_y + at, gy);
       minus_x = minus_x + dot(gx, mask);

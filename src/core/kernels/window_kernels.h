@@ -25,8 +25,10 @@ struct Window {
   std::int16_t* gradient_x;
   std::int16_t* gradient_y;
   const std::int16_t* mask;  ///< of a row: -1 within the side, else 0
-  std::int16_t* samples;     ///< scratch memory: values with a margin of one pixel ...
-  int sample_stride;         ///< ... in rows that are a register longer than side + 2, rounded up
+  const std::int16_t*
+      spread;             ///< to take a value from so far aside, by column and by row [px / 2^15]
+  std::int16_t* samples;  ///< scratch memory: values with a margin of one pixel ...
+  int sample_stride;      ///< ... in rows that are a register longer than side + 2, rounded up
 };
 
 /// Sums over a window of gradients and of their products.
