@@ -112,6 +112,20 @@ TEST(DiagnosticsTest, ALargeBiasAsksForACalibration) {
   EXPECT_NE(status.message.find("calibrate"), std::string::npos) << status.message;
 }
 
+TEST(DiagnosticsTest, RowsThatAreApartAskForACalibration) {
+  HealthReport report = goodReport();
+  report.last_result.row_offset = {-0.62, 0.01, 0.75};
+  StatusWrapper status;
+  describeOdometry(report, status);
+  EXPECT_EQ(status.level, Level::WARN);
+  EXPECT_NE(status.message.find("rows of left and right are 0.75 px apart"), std::string::npos)
+      << status.message;
+  EXPECT_EQ(status.message.find("disparities"), std::string::npos) << status.message;
+  EXPECT_NE(status.message.find("calibrate"), std::string::npos) << status.message;
+  EXPECT_EQ(valueOf(status, "row offset of the right image"),
+            "-0.62 +- 0.01 px, rows 0.75 px apart");
+}
+
 TEST(DiagnosticsTest, LossIsAnErrorWithItsReason) {
   HealthReport report = goodReport();
   report.last_result.state = State::kLost;

@@ -52,6 +52,7 @@ TEST(OdometryMessagesTest, StatusHasStateCountsAndCounters) {
   result.counts = {6, 5, 4, 3, 2, 1};
   result.times.tracking_ms = 1.5;
   result.disparity_bias = {0.75, 0.125, 0.5};
+  result.row_offset = {-0.25, 0.0625, 0.375};
   result.noise = {0.125, 0.25, 2.0};
   HealthReport health;
   health.pairs_processed = 9;
@@ -69,6 +70,9 @@ TEST(OdometryMessagesTest, StatusHasStateCountsAndCounters) {
   EXPECT_EQ(message.disparity_bias, 0.75f);
   EXPECT_EQ(message.disparity_bias_sigma, 0.125f);
   EXPECT_EQ(message.disparity_bias_applied, 0.5f);
+  EXPECT_EQ(message.row_offset, -0.25f);
+  EXPECT_EQ(message.row_offset_sigma, 0.0625f);
+  EXPECT_EQ(message.row_difference, 0.375f);
   EXPECT_EQ(message.flow_noise, 0.125f);
   EXPECT_EQ(message.disparity_noise, 0.25f);
   EXPECT_EQ(message.latency, 12.5f);

@@ -34,6 +34,47 @@ std::vector<Step> drive(const std::string& name) {
   return steps;
 }
 
+/// What the rows of a rig say whose right camera is turned, and what they should on a far point.
+struct TurnedRig {
+  RowOffset found;
+  double lower_px;
+};
+
+TurnedRig turnRightCamera(double roll_rad, double pitch_rad) {
+  SimulationOptions options;
+  options.faults.right_rotation_rad = {roll_rad, pitch_rad, 0.0};
+  Simulator simulator(scenario("city", 1), options);
+  const int first = simulator.size() / 4;
+  VisualOdometry odometry{VisualOdometry::Config{}};
+  TurnedRig rig;
+  for (int i = first; i < first + 4; ++i) {
+    rig.found = odometry.process(simulator.render(i, false).pair, simulator.camera()).row_offset;
+  }
+  const Eigen::Vector3d far(0.0, 0.0, 1e6);
+  const StereoCamera& camera = simulator.camera();
+  rig.lower_px =
+      (camera.project(options.faults.rightCamera(camera).inverse() * far) - camera.project(far))
+          .y();
+  return rig;
+}
+
+TEST(TurnedRigTest, ShowsInTheRows) {
+  const TurnedRig good = turnRightCamera(0.0, 0.0);
+  // The median of a few hundred features, each measured to 0.1 px.
+  EXPECT_NEAR(good.found.median_px, 0.0, 0.02);
+  EXPECT_LT(good.found.typical_px, 0.1);
+
+  const TurnedRig pitched = turnRightCamera(0.0, 0.001);
+  EXPECT_GT(std::abs(pitched.lower_px), 0.5);
+  EXPECT_NEAR(pitched.found.median_px, pitched.lower_px, 0.05);
+  EXPECT_NEAR(pitched.found.typical_px, std::abs(pitched.lower_px), 0.05);
+
+  // Up on one side, down on the other: up to 1.2 px at the edges.
+  const TurnedRig rolled = turnRightCamera(0.002, 0.0);
+  EXPECT_LT(std::abs(rolled.found.median_px), 0.4);
+  EXPECT_GT(rolled.found.typical_px, 0.2);
+}
+
 class ScenarioAccuracyTest : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(ScenarioAccuracyTest, FollowsTheDriveWithoutABias) {

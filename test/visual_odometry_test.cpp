@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "simulated_features.h"
 #include "synthetic_scene.h"
@@ -163,6 +164,36 @@ TEST(VisualOdometryTest, KeepsTheBiasOverAResetButNotForAnotherCamera) {
   odometry.reset();
   EXPECT_EQ(odometry.process(bend(0), wronglyCalibrated()).disparity_bias.applied_px, applied_px);
   EXPECT_EQ(odometry.process(bend(1), camera()).disparity_bias.applied_px, 0.0);
+}
+
+TEST(VisualOdometryTest, SeesThatTheRightImageIsLower) {
+  const cv::Mat lower = (cv::Mat_<double>(2, 3) << 1.0, 0.0, 0.0, 0.0, 1.0, 0.6);
+  VisualOdometry odometry({});
+  OdometryResult result;
+  for (int i = 0; i < 4; ++i) {
+    StereoPair pair = bend(i);
+    cv::Mat lowered;
+    cv::warpAffine(pair.right, lowered, lower, pair.right.size());
+    pair.right = lowered;
+    result = odometry.process(pair, camera());
+  }
+  ASSERT_TRUE(result.hasMotion());
+  const RowOffset offset = result.row_offset;
+  EXPECT_NEAR(offset.median_px, 0.6, 0.1);
+  EXPECT_NEAR(offset.typical_px, 0.6, 0.1);
+  EXPECT_GT(offset.sigma_px, 0.0);
+  EXPECT_LT(offset.sigma_px, 0.05);
+  odometry.reset();
+  EXPECT_EQ(odometry.process(bend(0), camera()).row_offset.median_px, offset.median_px);
+  EXPECT_EQ(odometry.process(bend(1), wronglyCalibrated()).row_offset.median_px, 0.0);
+}
+
+TEST(VisualOdometryTest, FindsTheRowsOfAGoodRigAlike) {
+  VisualOdometry odometry({});
+  OdometryResult result;
+  for (int i = 0; i < 4; ++i) result = odometry.process(bend(i), camera());
+  EXPECT_NEAR(result.row_offset.median_px, 0.0, 0.05);
+  EXPECT_LT(result.row_offset.typical_px, 0.2) << "the noise of the trackers";
 }
 
 TEST(VisualOdometryTest, GoesOnWithOtherParameters) {

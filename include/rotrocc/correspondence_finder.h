@@ -58,6 +58,12 @@ class CorrespondenceFinder {
   /// Keeps, in `features`, those whose left and right current positions match each other.
   void closeCircle(Correspondences& features);
 
+  /// How far flagged features, a sample of those of closeCircle(), are lower in the right image
+  /// [px].
+  void compareRows(const Correspondences& features,
+                   const FeatureSet& set,
+                   std::vector<float>& differences_px);
+
   /// Median distance [px] between where two motions put the features in the current image.
   double medianShift(const Eigen::Isometry3d& T_ref_cur_a, const Eigen::Isometry3d& T_ref_cur_b);
 

@@ -57,6 +57,10 @@ class FeatureTracker {
              std::vector<cv::Point2f>& cur,
              std::vector<char>& tracked);
 
+  /// Moves `point` of one image to where it shows what another shows at `start`, from near by and
+  /// of one size: one level, without the way back. Returns false if nothing is found.
+  bool locate(const cv::Mat& from, const cv::Mat& to, const cv::Point2f& start, cv::Point2f& point);
+
  private:
   bool follow(const Pyramid& from,
               const Pyramid& to,

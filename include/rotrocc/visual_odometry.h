@@ -15,6 +15,7 @@
 #include "rotrocc/motion_model.h"
 #include "rotrocc/noise_estimator.h"
 #include "rotrocc/reference_selector.h"
+#include "rotrocc/row_comparison.h"
 #include "rotrocc/stereo_calibrator.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
@@ -74,6 +75,7 @@ struct OdometryResult {
   std::int64_t reference_stamp_ns = 0;
   UncertainTransform T_ref_cur;
   DisparityBias disparity_bias;  ///< of the rig, as far as known
+  RowOffset row_offset;          ///< likewise; not corrected
   MeasurementNoise noise;        ///< likewise
   StageCounts counts;
   StageTimes times;

@@ -7,6 +7,12 @@
 #include "rotrocc/reprojection_error.h"
 
 namespace rotrocc {
+namespace {
+
+/// Rows are compared at one feature of so many, which is cheap, and enough over a few pairs.
+constexpr std::size_t kRowSample = 16;
+
+}  // namespace
 
 CorrespondenceFinder::CorrespondenceFinder(const Config& config, int threads)
     : config_(config),
@@ -146,6 +152,22 @@ void CorrespondenceFinder::closeCircle(Correspondences& features) {
     feature.disparity_px = disparities_[i];
     feature.point_cur = depth_m * camera_.ray(feature.cur_px);
     features.push_back(feature);
+  }
+}
+
+void CorrespondenceFinder::compareRows(const Correspondences& features,
+                                       const FeatureSet& set,
+                                       std::vector<float>& differences_px) {
+  differences_px.clear();
+  for (std::size_t i = 0; i < features.size(); i += kRowSample) {
+    if (set[i] == 0) continue;
+    const cv::Point2f left(static_cast<float>(features[i].cur_px.x()),
+                           static_cast<float>(features[i].cur_px.y()));
+    cv::Point2f right(left.x - static_cast<float>(features[i].disparity_px), left.y);
+    if (tracker_.locate(
+            pyramids_[current_].left.front(), pyramids_[current_].right.front(), left, right)) {
+      differences_px.push_back(right.y - left.y);
+    }
   }
 }
 

@@ -63,6 +63,15 @@ void FeatureTracker::track(Workers& workers,
   });
 }
 
+bool FeatureTracker::locate(const cv::Mat& from,
+                            const cv::Mat& to,
+                            const cv::Point2f& start,
+                            cv::Point2f& point) {
+  const TrackingWindow::Stop stop = {config_.max_iterations, config_.min_step_px};
+  TrackingWindow& window = windows_.front();
+  return window.take(from, start, 1.0F) && window.find(to, stop, point);
+}
+
 bool FeatureTracker::follow(const Pyramid& from,
                             const Pyramid& to,
                             const Search& search,

@@ -56,6 +56,7 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
     giveUp(sentence("internal error: ", error.what()), result);
   }
   result.disparity_bias = calibrator_.bias();
+  result.row_offset = rows_.offset();
   result.noise = noise_.noise();
   return result;
 }
@@ -146,6 +147,7 @@ void VisualOdometry::Pipeline::takePair(const StereoPair& pair,
   const StageTimer timer(times.pyramids_ms);
   if (camera != camera_) {
     calibrator_.reset();
+    rows_.reset();
     noise_.reset();
   }
   calibrator_.advance();
@@ -267,6 +269,8 @@ void VisualOdometry::Pipeline::calibrate(OdometryResult& result) {
 
 void VisualOdometry::Pipeline::accept(OdometryResult& result) {
   noise_.observe(corrected_, features_, estimate_.rotation_inliers, estimate_.T_prev_cur);
+  finder_.compareRows(features_, estimate_.rotation_inliers, row_differences_px_);
+  rows_.observe(row_differences_px_);
   result.reference_stamp_ns = reference_stamp_ns_;
   result.T_ref_cur = {estimate_.T_prev_cur, estimate_.covariance + calibrator_.motionCovariance()};
   UncertainTransform step = compose(inverse(T_ref_last_), result.T_ref_cur);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -60,6 +61,7 @@ class VisualOdometry::Pipeline {
   MotionCheck check_;
   NoiseEstimator noise_;
   StereoCalibrator calibrator_;
+  RowComparison rows_;
   ReferenceSelector selector_;
 
   StereoCamera camera_;     // as it came
@@ -80,6 +82,7 @@ class VisualOdometry::Pipeline {
 
   Correspondences features_;
   MotionEstimator::Estimate estimate_;
+  std::vector<float> row_differences_px_;
   MotionEstimator::Estimate estimate_before_;  // of calibrate(), kept for its memory
 };
 

@@ -21,6 +21,8 @@ constexpr double kLateShareOfPeriod = 1.0;
 /// A rig is rarely better calibrated; the correction, which is right on average alone, leaves more
 /// of a larger bias.
 constexpr double kLargeBias_px = 0.5;
+/// More than rectification leaves, and than windows of a few pixels may be apart to match well.
+constexpr double kRowsApart_px = 0.5;
 
 std::string hundredths(double value) {
   return toText(0.01 * std::round(100.0 * value));
@@ -56,10 +58,20 @@ bool ratesDiffer(const InputReport& input) {
 
 }  // namespace
 
-std::string rigWarning(const DisparityBias& bias) {
-  if (std::abs(bias.applied_px) < kLargeBias_px) return "";
-  return "disparities are off by " + hundredths(-bias.estimated_px) + " px (+- " +
-         hundredths(bias.sigma_px) + "), which is corrected: calibrate the stereo pair anew";
+std::string rigWarning(const OdometryResult& result) {
+  const DisparityBias& bias = result.disparity_bias;
+  const RowOffset& rows = result.row_offset;
+  std::string what;
+  if (std::abs(bias.applied_px) >= kLargeBias_px) {
+    what = "disparities are off by " + hundredths(-bias.estimated_px) + " px (+- " +
+           hundredths(bias.sigma_px) + "), which is corrected";
+  }
+  if (rows.typical_px >= kRowsApart_px) {
+    what += (what.empty() ? "" : "; ") + std::string("rows of left and right are ") +
+            hundredths(rows.typical_px) + " px apart, the right ones lower by " +
+            hundredths(rows.median_px) + " px (+- " + hundredths(rows.sigma_px) + ")";
+  }
+  return what.empty() ? "" : what + ": calibrate the stereo pair anew";
 }
 
 void describeOdometry(const HealthReport& report, StatusWrapper& status) {
@@ -67,8 +79,7 @@ void describeOdometry(const HealthReport& report, StatusWrapper& status) {
   const std::string name = stateName(state.state);
   status.summary(levelOf(state.state), state.reason.empty() ? name : name + ": " + state.reason);
   if (!report.hint.empty()) status.mergeSummary(DiagnosticStatus::WARN, report.hint);
-  const DisparityBias& bias = report.last_result.disparity_bias;
-  if (const std::string rig = rigWarning(bias); !rig.empty()) {
+  if (const std::string rig = rigWarning(report.last_result); !rig.empty()) {
     status.mergeSummary(DiagnosticStatus::WARN, rig);
   }
   const StageCounts& counts = report.last_result.counts;
@@ -80,11 +91,18 @@ void describeOdometry(const HealthReport& report, StatusWrapper& status) {
   status.add("features tracked and consistent", counts.consistent);
   status.add("inliers of the rotation", counts.rotation_inliers);
   status.add("inliers of the translation", counts.translation_inliers);
+  const DisparityBias& bias = report.last_result.disparity_bias;
   status.addf("disparity bias",
               "%.2f +- %.2f px, %.2f px corrected",
               bias.estimated_px,
               bias.sigma_px,
               bias.applied_px);
+  const RowOffset& rows = report.last_result.row_offset;
+  status.addf("row offset of the right image",
+              "%.2f +- %.2f px, rows %.2f px apart",
+              rows.median_px,
+              rows.sigma_px,
+              rows.typical_px);
   const MeasurementNoise& noise = report.last_result.noise;
   status.addf("noise of flow and disparity", "%.2f and %.2f px", noise.flow_px, noise.disparity_px);
   status.add("pairs processed", report.pairs_processed);

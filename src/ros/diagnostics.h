@@ -13,8 +13,9 @@ namespace rotrocc {
 /// What /diagnostics says of the parts of the odometry.
 using StatusWrapper = diagnostic_updater::DiagnosticStatusWrapper;
 
-/// What a large bias asks for, a sentence; empty if it is small.
-std::string rigWarning(const DisparityBias& bias);
+/// What disparities with a large bias, or rows far apart, ask for, a sentence; empty if they are
+/// not.
+std::string rigWarning(const OdometryResult& result);
 
 void describeOdometry(const HealthReport& report, StatusWrapper& status);
 void describeInput(const HealthReport& report, StatusWrapper& status);

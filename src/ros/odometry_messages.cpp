@@ -89,6 +89,9 @@ OdometryStatus toStatus(const OdometryResult& result,
   message.disparity_bias = static_cast<float>(result.disparity_bias.estimated_px);
   message.disparity_bias_sigma = static_cast<float>(result.disparity_bias.sigma_px);
   message.disparity_bias_applied = static_cast<float>(result.disparity_bias.applied_px);
+  message.row_offset = static_cast<float>(result.row_offset.median_px);
+  message.row_offset_sigma = static_cast<float>(result.row_offset.sigma_px);
+  message.row_difference = static_cast<float>(result.row_offset.typical_px);
   message.flow_noise = static_cast<float>(result.noise.flow_px);
   message.disparity_noise = static_cast<float>(result.noise.disparity_px);
   message.time_pyramids = static_cast<float>(result.times.pyramids_ms);

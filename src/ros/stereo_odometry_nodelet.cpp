@@ -208,7 +208,7 @@ void StereoOdometryNodelet::logState(const PairAnswer& answer) {
     NODELET_INFO_STREAM("no longer lost: " << toString(result.state));
   }
   if (!answer.hint.empty() && hint_warning_.pass()) NODELET_WARN_STREAM(answer.hint);
-  const std::string rig = rigWarning(result.disparity_bias);
+  const std::string rig = rigWarning(result);
   if (!rig.empty() && rig_warning_.pass()) NODELET_WARN_STREAM(rig);
 }
 
