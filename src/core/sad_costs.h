@@ -90,7 +90,8 @@ class SubPixelCosts {
     return cv::v_setall_s16(static_cast<short>(32768.0F * distance));
   }
   static Words between(const Words& a, const Words& b, const Words& fraction) {
-    return a + cv::v_mul_hi(cv::v_shl<1>(b - a), fraction);
+    const Words difference = b - a;
+    return a + cv::v_mul_hi(difference + difference, fraction);
   }
   static Words betweenRows(const uchar* pixels, std::size_t step, const Words& fraction) {
     const Words upper = cv::v_reinterpret_as_s16(cv::v_load_expand(pixels));

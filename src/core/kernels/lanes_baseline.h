@@ -66,7 +66,8 @@ inline Ints noInts() {
 
 template <int kBits>
 Shorts shiftLeft(const Shorts& a) {
-  return cv::v_shl<kBits>(a);
+  // Without a sign, as OpenCV's emulation shifts with <<.
+  return cv::v_reinterpret_as_s16(cv::v_shl<kBits>(cv::v_reinterpret_as_u16(a)));
 }
 template <int kBits>
 Shorts shiftRight(const Shorts& a) {
