@@ -77,8 +77,13 @@ TEST_F(WhyNoPairsTest, NothingIsSaidIfAllIsWell) {
 }
 
 TEST_F(WhyNoPairsTest, TopicWithoutPublisher) {
-  report_.right_image.publishers = report_.right_image.recent = 0;
+  report_.right_image = {"/r/image"};
   expectSaid("nobody publishes /r/image: start its driver, or remap it");
+}
+
+TEST_F(WhyNoPairsTest, TopicWhosePublisherIsGone) {
+  report_.right_image.publishers = report_.right_image.recent = 0;
+  expectSaid("nobody publishes /r/image any more: has the bag ended, or the driver stopped?");
 }
 
 TEST_F(WhyNoPairsTest, PublisherThatSendsNothing) {

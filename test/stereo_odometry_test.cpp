@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 #include <nav_msgs/Path.h>
 #include <ros/ros.h>
+#include <rosgraph_msgs/Log.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
@@ -406,6 +407,20 @@ TEST_F(StereoOdometryTest, DiagnosticsTellAnotherParentOfTheBase) {
 }
 
 TEST_F(StereoOdometryTest, SilenceIsExplained) {
+  std::mutex mutex;
+  std::map<std::string, int> said_in_log;  // how often, by the first words
+  ros::NodeHandle nh;
+  const boost::function<void(const rosgraph_msgs::Log::ConstPtr&)> callback =
+      [&](const rosgraph_msgs::Log::ConstPtr& log) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        ++said_in_log[log->msg.substr(0, log->msg.find_first_of("0123456789"))];
+      };
+  const ros::Subscriber subscriber = nh.subscribe<rosgraph_msgs::Log>("/rosout", 100, callback);
+  const auto countOf = [&](const std::string& words) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return said_in_log[words];
+  };
+
   const auto status = robot_->statusWith(OdometryStatus::NO_INPUT);
   ASSERT_TRUE(status);
   // The test itself is the publisher; who has none is told another thing.
@@ -419,7 +434,17 @@ TEST_F(StereoOdometryTest, SilenceIsExplained) {
     said = silent();
   }
   EXPECT_TRUE(said) << robot_->statusWith(OdometryStatus::NO_INPUT)->reason;
+
+  for (int i = 0; i < 80 && countOf("no stereo pair for ") == 0; ++i) {
+    std::this_thread::sleep_for(milliseconds(100));
+  }
+  std::this_thread::sleep_for(seconds(7));
+  EXPECT_EQ(countOf("no stereo pair for "), 1);  // the next is due after 10 s
   recover();
+  for (int i = 0; i < 50 && countOf("stereo pairs come again, after ") == 0; ++i) {
+    std::this_thread::sleep_for(milliseconds(100));
+  }
+  EXPECT_EQ(countOf("stereo pairs come again, after "), 1);
 }
 
 TEST_F(StereoOdometryTest, AnUnknownParameterIsRefused) {

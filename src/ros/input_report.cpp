@@ -28,6 +28,10 @@ std::string describe(const TopicReport& topic) {
 }
 
 std::string whySilent(const TopicReport& topic) {
+  if (topic.publishers == 0 && topic.total > 0) {
+    return "nobody publishes " + topic.topic +
+           " any more: has the bag ended, or the driver stopped?";
+  }
   if (topic.publishers == 0) {
     return "nobody publishes " + topic.topic +
            ": start its driver, or remap it to the topic that "

@@ -1,6 +1,5 @@
 #include "stereo_odometry_nodelet.h"
 
-#include <cmath>
 #include <exception>
 #include <utility>
 
@@ -60,7 +59,7 @@ void StereoOdometryNodelet::start(const Parameters& parameters) {
     guess_.emplace(parameters_.guess_frame, parameters_.base_frame, parameters_.guess_timeout_s);
   }
   publisher_.emplace(nh, parameters_);
-  last_pair_time_ = SteadyClock::now();
+  silence_.emplace(parameters_.silence_s, SteadyClock::now());
   input_.emplace(nh, parameters_, drops_, [this](ReceivedPair pair) { onPair(std::move(pair)); });
   if (parameters_.publish_tf && !parameters_.invert_tf && !guess_) {
     tf_conflict_.emplace(nh, parameters_.odom_frame, parameters_.base_frame);
@@ -87,7 +86,8 @@ OdometryServices::Actions StereoOdometryNodelet::makeActions() {
 }
 
 void StereoOdometryNodelet::onPair(ReceivedPair pair) {
-  last_pair_time_ = SteadyClock::now();
+  const std::string said = silence_->onPair(SteadyClock::now());
+  if (!said.empty()) NODELET_INFO_STREAM(said);
   if (health_.paused()) return drops_.count(DropReason::kPaused);
   if (mailbox_.put(std::move(pair))) drops_.count(DropReason::kSuperseded);
 }
@@ -100,6 +100,7 @@ void StereoOdometryNodelet::onPause(bool paused) {
 /// Once a second: diagnostics, a status if no pair has made one, and a word on silence.
 void StereoOdometryNodelet::onTick(const ros::WallTimerEvent&) {
   try {
+    const SteadyClock::time_point now = SteadyClock::now();
     const InputReport input = input_->report();
     if (tf_conflict_) health_.setTfConflict(tf_conflict_->description());
     const HealthReport report = health_.report(input, drops_);
@@ -107,12 +108,8 @@ void StereoOdometryNodelet::onTick(const ros::WallTimerEvent&) {
     if (!report.answers || report.paused) {
       publisher_->publishStatus(toIdleStatus(report, ros::Time::now()));
     }
-    const std::chrono::duration<double> silence = SteadyClock::now() - last_pair_time_;
-    if (silence.count() < parameters_.silence_s || !silence_warning_.pass()) return;
-    const std::string why = whyNoPairs(input);
-    NODELET_WARN_STREAM("no stereo pair for "
-                        << std::lround(silence.count()) << " s. Messages in the last 5 s: "
-                        << describeTopics(input) << (why.empty() ? "" : ". Likely: ") << why);
+    const std::string said = silence_->onTick(input, now);
+    if (!said.empty()) NODELET_WARN_STREAM(said);
   } catch (const std::exception& error) {
     NODELET_ERROR_STREAM("diagnostics: " << error.what());
   }

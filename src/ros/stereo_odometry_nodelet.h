@@ -20,6 +20,7 @@
 #include "pair_processor.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/trajectory.h"
+#include "silence_watch.h"
 #include "stereo_input.h"
 #include "tf_conflict.h"
 #include "throttle.h"
@@ -76,8 +77,7 @@ class StereoOdometryNodelet : public nodelet::Nodelet {
   Throttle lost_warning_{std::chrono::seconds(5)};
   Throttle hint_warning_{std::chrono::seconds(5)};
   Throttle rig_warning_{std::chrono::minutes(5)};
-  Throttle silence_warning_{std::chrono::seconds(5)};  // of the callbacks
-  std::chrono::steady_clock::time_point last_pair_time_;
+  std::optional<SilenceWatch> silence_;  // of the callbacks
 
   LatestMailbox<ReceivedPair> mailbox_;
   // From here on in the order in which nothing is called that is gone already.
