@@ -31,18 +31,18 @@ bool solveMotion(double noise_ratio,
                  const Correspondences& features,
                  const FeatureSet& set,
                  Eigen::Isometry3d& T_prev_cur) {
-  MotionSolver solver(noise_ratio);
+  MotionSolver solver(noise_ratio, 0.0);
   solver.setFeatures(kittiCamera(), features);
-  return solver.solveMotion(set, T_prev_cur);
+  return solver.solveMotion(set, Weights::kEqual, T_prev_cur);
 }
 
 bool solveTranslation(double noise_ratio,
                       const Correspondences& features,
                       const FeatureSet& set,
                       Eigen::Isometry3d& T_prev_cur) {
-  MotionSolver solver(noise_ratio);
+  MotionSolver solver(noise_ratio, 0.0);
   solver.setFeatures(kittiCamera(), features);
-  return solver.solveTranslation(set, T_prev_cur);
+  return solver.solveTranslation(set, Weights::kEqual, T_prev_cur);
 }
 
 TEST(MotionSolverTest, RecoversAnExactMotion) {
@@ -92,7 +92,7 @@ TEST(MotionSolverTest, KeepsNoFitOfOtherFeaturesOrWeights) {
       simulateFeatures(kittiCamera(), turnAhead(), 50, {0.3, 0.9}, generator);
   const Correspondences others =
       simulateFeatures(kittiCamera(), turnAhead(), 50, {0.3, 0.9}, generator);
-  MotionSolver solver(1.0);
+  MotionSolver solver(1.0, 0.0);
   std::vector<FittedFeature> fitted;
   std::vector<double> errors_px, expected_px;
   const auto expectAnew =
@@ -132,7 +132,7 @@ std::pair<double, double> biasOfStep(double noise_ratio) {
   std::uniform_real_distribution<double> side_m(-30.0, 30.0);
   std::uniform_real_distribution<double> height_m(-10.0, 2.0);
   std::uniform_real_distribution<double> depth_m(70.0, 200.0);
-  MotionSolver solver(noise_ratio);
+  MotionSolver solver(noise_ratio, 0.0);
   double sum = 0.0;
   double squares = 0.0;
   for (int draw = 0; draw < kDraws; ++draw) {
@@ -146,7 +146,7 @@ std::pair<double, double> biasOfStep(double noise_ratio) {
     }
     Eigen::Isometry3d T = truth;
     solver.setFeatures(kittiCamera(), features);
-    for (int i = 0; i < 10; ++i) solver.solveTranslation(all(features), T);
+    for (int i = 0; i < 10; ++i) solver.solveTranslation(all(features), Weights::kEqual, T);
     const double error = T.translation().z() / 2.5 - 1.0;
     sum += error;
     squares += error * error;
@@ -163,11 +163,38 @@ TEST(MotionSolverTest, NoisyDisparitiesDoNotShortenTheStep) {
   EXPECT_LT(biasOfStep(0.0).first, -0.005);
 }
 
+/// Mean signed error of the length of a step, in shares of it, if a tenth of the windows see what
+/// is nearer, too, and after fits with these weights.
+double biasByFattening(Weights weights) {
+  constexpr int kDraws = 50;
+  const Eigen::Isometry3d truth = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
+  std::mt19937 generator(3);
+  MotionSolver solver(1.0, 2.0);
+  double sum = 0.0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Correspondences features = simulateFeatures(kittiCamera(), truth, 400, {0.15, 0.15}, generator);
+    for (std::size_t i = 0; i < features.size(); i += 10) features[i].disparity_px += 0.8;
+    triangulate(kittiCamera(), features);
+    Eigen::Isometry3d T = truth;
+    solver.setFeatures(kittiCamera(), features);
+    for (int i = 0; i < 5; ++i) EXPECT_TRUE(solver.solveMotion(all(features), weights, T));
+    sum += T.translation().z() - 1.0;
+  }
+  return sum / kDraws;
+}
+
+TEST(MotionSolverTest, RobustWeightsResistAnUnevenTail) {
+  // An error of 4 standard deviations of its residual or so has a fifth of the weight.
+  const double equal = biasByFattening(Weights::kEqual);
+  EXPECT_LT(equal, -0.001);
+  EXPECT_LT(std::abs(biasByFattening(Weights::kRobust)), 0.5 * std::abs(equal));
+}
+
 TEST(MotionSolverTest, InformationIsThatOfTheErrorsOfAMotion) {
   std::mt19937 generator(2);
   const Correspondences features =
       simulateFeatures(kittiCamera(), turnAhead(), 200, {0.3, 0.9}, generator);
-  MotionSolver solver(kNoiseRatio);
+  MotionSolver solver(kNoiseRatio, 0.0);
   solver.setFeatures(kittiCamera(), features);
   const MotionSolver::Information information = solver.information(all(features), turnAhead(), 6);
   // The cost grows by half of e^T J^T J e for an error e, in the order of motionError().

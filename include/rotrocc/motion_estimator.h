@@ -32,6 +32,7 @@ class MotionEstimator {
     std::string criterion = "rotrocc";  ///< one of criterionNames()
     /// Disparity noise over flow noise to begin with, see fitDisparities(); 0: the paper's
     double noise_ratio = 3.0;
+    double robust_factor = 2.0;  ///< of CauchyWeights, once a stage has its set; 0: the paper's
 
     // Stage 1: rotation.
     double rotation_limit_px = 0.6;  ///< termination limit of the reprojection error, Eq. 26
@@ -96,8 +97,9 @@ class MotionEstimator {
   bool estimateTranslation(const StereoCamera& camera,
                            const Correspondences& features,
                            Estimate& estimate);
-  /// Fits a motion to the set and draws the line anew, until the set stays (Eq. 26, 30, 31, 32).
-  /// `fit` returns false if it fails; `measure` fills errors_.
+  /// Fits a motion to the set and draws the line anew, until the set stays (Eq. 26, 30, 31, 32);
+  /// then, with robust weights, a few times more. `fit` returns false if it fails; `measure` fills
+  /// errors_.
   template <class Fit, class Measure>
   bool iterate(OutlierThreshold& threshold,
                int max_iterations,

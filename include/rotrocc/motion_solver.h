@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "rotrocc/cauchy_weights.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/reprojection_error.h"
 #include "rotrocc/rigid_motion.h"
@@ -12,10 +13,18 @@
 
 namespace rotrocc {
 
+/// How residuals count.
+enum class Weights {
+  kEqual,
+  kRobust  ///< by CauchyWeights, at the motion that a solution begins with
+};
+
 /// Least squares over the reprojection errors of a feature set, by Levenberg-Marquardt.
 class MotionSolver {
  public:
-  explicit MotionSolver(double noise_ratio) : noise_ratio_(noise_ratio) {}
+  /// `robust_factor`: of CauchyWeights.
+  MotionSolver(double noise_ratio, double robust_factor)
+      : noise_ratio_(noise_ratio), robust_weights_(robust_factor) {}
 
   /// What weights the residuals, see fitDisparities().
   void setNoiseRatio(double noise_ratio);
@@ -26,23 +35,27 @@ class MotionSolver {
   /// Minimises Eq. 25 over rotation and translation, from `T_prev_cur`, which gets the result.
   /// Returns false, and leaves it alone, if the set has fewer than 3 features or the result is not
   /// finite.
-  bool solveMotion(const FeatureSet& set, Eigen::Isometry3d& T_prev_cur);
+  bool solveMotion(const FeatureSet& set, Weights weights, Eigen::Isometry3d& T_prev_cur);
 
   /// Minimises Eq. 29 over the translation, the rotation staying as it is. Returns as
   /// solveMotion(), with 2 features at least.
-  bool solveTranslation(const FeatureSet& set, Eigen::Isometry3d& T_prev_cur);
+  bool solveTranslation(const FeatureSet& set, Weights weights, Eigen::Isometry3d& T_prev_cur);
 
   /// reprojectionErrors() of all features, fitted at the motion [px].
   void measureErrors(const Eigen::Isometry3d& T_prev_cur, std::vector<double>& errors_px);
 
-  /// Normal equations of the set at a motion, in the order translation [m], rotation [rad] of
+  /// What the covariance of a motion solved with robust weights w is made of (the sandwich formula
+  /// of Huber's M-estimators), in the order translation [m], rotation [rad] of
   /// OdometryResult::covariance.
   struct Information {
-    Matrix6d matrix = Matrix6d::Zero();  ///< J^T J
-    /// Sum over the cells of a grid of g g^T [px^2], g = J^T r of the features in the cell: in the
-    /// mean the variance times J^T J if no two residuals are correlated, more if neighbours are.
+    /// Sum of w^2 J^T J: how the sum of w J^T r, which is zero at the solution, follows the motion.
+    /// E[w^2] is the mean over the directions of the derivative of w r.
+    Matrix6d matrix = Matrix6d::Zero();
+    /// Sum over the cells of a grid of g g^T [px^2], g = w J^T r of the features in the cell: in
+    /// the mean the variance times the matrix if no two residuals are correlated, more if
+    /// neighbours are.
     Matrix6d scatter = Matrix6d::Zero();
-    double residual_variance = 0.0;  ///< [px^2]
+    double residual_variance = 0.0;  ///< sum of (w r)^2 over that of w^2 [px^2]
   };
   Information information(const FeatureSet& set,
                           const Eigen::Isometry3d& T_prev_cur,
@@ -50,15 +63,10 @@ class MotionSolver {
 
  private:
   const std::vector<FittedFeature>& fittedAt(const Eigen::Isometry3d& T_prev_cur);
-  Matrix6d scatter(const FeatureSet& set) const;
-
-  /// Of motion_problem_, from residuals_ and jacobian_.
-  Eigen::Map<const Eigen::VectorXd> residuals() const;
-  Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6>> jacobian() const;
-
   StereoCamera camera_;
   const Correspondences* features_ = nullptr;
   double noise_ratio_;
+  CauchyWeights robust_weights_;
   ReprojectionProblem<6> motion_problem_;
   ReprojectionProblem<3> translation_problem_;
   std::vector<double> residuals_, jacobian_;

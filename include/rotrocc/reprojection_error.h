@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "rotrocc/cauchy_weights.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/stereo_camera.h"
 
@@ -85,6 +86,10 @@ class ReprojectionProblem {
               const std::vector<FittedFeature>& fitted,
               const FeatureSet& set);
 
+  /// Multiplies the residuals by the roots of the weights that they have at `parameters`, in the
+  /// order of the features.
+  void weigh(const Parameters& parameters, CauchyWeights& weights);
+
   /// The features taken, in their order.
   const std::vector<FittedFeature>& features() const { return features_; }
 
@@ -109,6 +114,7 @@ class ReprojectionProblem {
 
   StereoCamera camera_;
   std::vector<FittedFeature> features_;
+  std::vector<double> errors_px_;  // kept for its memory
 };
 
 /// Reprojection error |x_prev - pi(R X_cur + T)| of every feature [px] (Eq. 2).

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "rotrocc/cauchy_weights.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/reprojection_error.h"
 #include "rotrocc/rigid_motion.h"
@@ -27,8 +28,8 @@ struct DisparityBias {
 /// normal equation is summed over the pairs. A real rig also has errors that differ over the image
 /// (lens, relative rotation) and push the estimate by more than its noise. They show as parts of
 /// the image that disagree with each other, so the uncertainty is taken from those: the
-/// cluster-robust variance (Liang and Zeger 1986) over a grid of cells. Only what exceeds this
-/// doubt is applied, shrunk as by the positive-part estimator of James and Stein.
+/// cluster-robust variance (Liang and Zeger 1986) over a grid of cells. What is within the
+/// doubt, a multiple of it, is not applied, and what is well beyond is applied whole.
 class StereoCalibrator {
  public:
   struct Config {
@@ -37,9 +38,13 @@ class StereoCalibrator {
     double prior_sigma_px = 1.0;  ///< how far from bias_px a rig may be expected to be
     double memory_pairs = 100.0;  ///< a pair's weight falls by 1/e over as many that tell as much
     double significance = 3.0;    ///< standard deviations that count as doubt
+    /// What matching may be off by in the whole image alike, which no comparison within it shows:
+    /// windows at edges see what is nearer, too. Part of the uncertainty.
+    double matching_sigma_px = 0.01;
     /// Disparity noise over flow noise, see fitDisparities(). Less than what is measured: fitted
     /// disparities also follow errors that neighbours share, and take the estimate with them.
     double noise_ratio = 1.0;
+    double robust_factor = 2.0;  ///< of CauchyWeights; 0: all residuals count alike
   };
 
   explicit StereoCalibrator(const Config& config);
@@ -102,6 +107,7 @@ class StereoCalibrator {
   Column byBias() { return {by_bias_.data(), problem_.residualCount()}; }
   Columns byMotion() { return {by_motion_.data(), problem_.residualCount(), 6}; }
   ReprojectionProblem<6> problem_;
+  CauchyWeights weights_;
   std::vector<double> residuals_, by_bias_, by_motion_;
 };
 

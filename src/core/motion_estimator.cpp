@@ -14,6 +14,9 @@ namespace {
 /// Keeps a normalized error finite where there is no flow at all [px].
 constexpr double kLeastFlow_px = 1e-6;
 
+/// Of the fits with robust weights, each by the errors that the one before has left.
+constexpr int kReweightings = 4;
+
 /// The error of a feature that must not enter.
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -74,7 +77,7 @@ const std::vector<std::string>& criterionNames() {
 MotionEstimator::MotionEstimator(const Config& config)
     : config_(config),
       criterion_(criterionOf(config.criterion)),
-      solver_(config.noise_ratio),
+      solver_(config.noise_ratio, config.robust_factor),
       rotation_threshold_(rotationThreshold(criterion_, config)),
       translation_threshold_(
           OutlierThreshold::fixedLimit(config.translation_limit, config.translation_drop_share)) {}
@@ -132,8 +135,8 @@ void MotionEstimator::estimateFrom(const FeatureSet& set,
 
 bool MotionEstimator::estimateRotation(Estimate& estimate) {
   Eigen::Isometry3d& T = estimate.T_prev_cur;
-  const auto fit = [&](const FeatureSet& set) {
-    return solver_.solveMotion(set, T);  // Eq. 25
+  const auto fit = [&](const FeatureSet& set, Weights weights) {
+    return solver_.solveMotion(set, weights, T);  // Eq. 25
   };
   const auto measure = [&] { solver_.measureErrors(T, errors_); };
   const bool compared = criterion_ == Criterion::kMeanBased || criterion_ == Criterion::kStdBased;
@@ -157,8 +160,8 @@ bool MotionEstimator::estimateTranslation(const StereoCamera& camera,
     keepBelow(errors_, config_.translation_initial_px, candidates_);
   }
 
-  const auto fit = [&](const FeatureSet& set) {
-    return solver_.solveTranslation(set, T);  // Eq. 29
+  const auto fit = [&](const FeatureSet& set, Weights weights) {
+    return solver_.solveTranslation(set, weights, T);  // Eq. 29
   };
   // Plain errors: only then is the DNRE the relative error of the depth, and wrong disparities of
   // far points, which differ from the right one by a large part of it, are seen.
@@ -185,12 +188,17 @@ bool MotionEstimator::iterate(OutlierThreshold& threshold,
                               FeatureSet& set) {
   next_ = set;
   for (int i = 0; i < max_iterations; ++i) {
-    if (!fit(set)) return false;
+    if (!fit(set, Weights::kEqual)) return false;
     measure();
     if (!keepBelow(errors_, threshold(errors_, set), next_)) break;
     set = next_;
   }
-  return fit(set);  // once more, with the disparities fitted where the last one ended
+  // At least once more, with the disparities fitted where the last one ended.
+  if (config_.robust_factor == 0.0) return fit(set, Weights::kEqual);
+  for (int i = 0; i < kReweightings; ++i) {
+    if (!fit(set, Weights::kRobust)) return false;
+  }
+  return true;
 }
 
 /// The rotation's covariance comes from stage 1 with its translation marginalized; the

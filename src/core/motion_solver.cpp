@@ -74,6 +74,19 @@ void minimise(const ReprojectionProblem<kParameters>& problem,
   solver.Solve(CondensedProblem<kParameters>(problem), &parameters);
 }
 
+template <std::size_t kCells>
+Matrix6d scatterOf(const std::array<Vector6d, kCells>& gradients) {
+  Matrix6d sum = Matrix6d::Zero();
+  int cells = 0;
+  for (const Vector6d& gradient : gradients) {
+    if (gradient.isZero(0.0)) continue;
+    sum += gradient * gradient.transpose();
+    ++cells;
+  }
+  // The motion was fitted to them, so that they scatter less than the errors do.
+  return sum * cells / std::max(1, cells - 6);
+}
+
 }  // namespace
 
 void MotionSolver::setNoiseRatio(double noise_ratio) {
@@ -96,11 +109,14 @@ const std::vector<FittedFeature>& MotionSolver::fittedAt(const Eigen::Isometry3d
   return fitted_;
 }
 
-bool MotionSolver::solveMotion(const FeatureSet& set, Eigen::Isometry3d& T_prev_cur) {
+bool MotionSolver::solveMotion(const FeatureSet& set,
+                               Weights weights,
+                               Eigen::Isometry3d& T_prev_cur) {
   if (count(set) < 3) return false;
   motion_problem_.assign(camera_, fittedAt(T_prev_cur), set);
   Vector6d parameters;
   parameters << Eigen::Vector3d::Zero(), T_prev_cur.translation();
+  if (weights == Weights::kRobust) motion_problem_.weigh(parameters, robust_weights_);
   minimise(motion_problem_, parameters);
   if (!parameters.allFinite()) return false;
 
@@ -110,10 +126,13 @@ bool MotionSolver::solveMotion(const FeatureSet& set, Eigen::Isometry3d& T_prev_
   return true;
 }
 
-bool MotionSolver::solveTranslation(const FeatureSet& set, Eigen::Isometry3d& T_prev_cur) {
+bool MotionSolver::solveTranslation(const FeatureSet& set,
+                                    Weights weights,
+                                    Eigen::Isometry3d& T_prev_cur) {
   if (count(set) < 2) return false;
   translation_problem_.assign(camera_, fittedAt(T_prev_cur), set);
   Eigen::Vector3d translation = T_prev_cur.translation();
+  if (weights == Weights::kRobust) translation_problem_.weigh(translation, robust_weights_);
   minimise(translation_problem_, translation);
   if (!translation.allFinite()) return false;
   T_prev_cur.translation() = translation;
@@ -131,54 +150,39 @@ MotionSolver::Information MotionSolver::information(const FeatureSet& set,
   motion_problem_.assign(camera_, fittedAt(T_prev_cur), set);
   Vector6d parameters;
   parameters << Eigen::Vector3d::Zero(), T_prev_cur.translation();
-  const auto rows = static_cast<std::size_t>(motion_problem_.residualCount());
-  residuals_.resize(rows);
-  jacobian_.resize(6 * rows);
+  motion_problem_.weigh(parameters, robust_weights_);
+  const int rows = motion_problem_.residualCount();
+  residuals_.resize(static_cast<std::size_t>(rows));
+  jacobian_.resize(static_cast<std::size_t>(6 * rows));
   motion_problem_.linearise(parameters, residuals_.data(), jacobian_.data());
+  const Eigen::Map<const Eigen::VectorXd> residuals(residuals_.data(), rows);
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6>> jacobian(
+      jacobian_.data(), rows, 6);
 
   Information information;
-  const auto normal = motion_problem_.normalMatrix(parameters);
-  information.matrix.topLeftCorner<3, 3>() = normal.block<3, 3>(3, 3);
-  information.matrix.topRightCorner<3, 3>() = normal.block<3, 3>(3, 0);
-  information.matrix.bottomLeftCorner<3, 3>() = normal.block<3, 3>(0, 3);
-  information.matrix.bottomRightCorner<3, 3>() = normal.block<3, 3>(0, 0);
-  const double freedom = motion_problem_.residualCount() - estimated_parameters;
-  if (freedom > 0.0) information.residual_variance = normal(6, 6) / freedom;
-  information.scatter = scatter(set);
-  return information;
-}
-
-Matrix6d MotionSolver::scatter(const FeatureSet& set) const {
   const ImageGrid grid(camera_, kScatterColumns, kScatterRows);
   std::array<Vector6d, kScatterColumns * kScatterRows> gradients;
   gradients.fill(Vector6d::Zero());
+  double weighted_squares = 0.0;
+  double squared_weights = 0.0;
   Eigen::Index row = 0;
   for (std::size_t i = 0; i < features_->size(); ++i) {
     if (set[i] == 0) continue;
-    Vector6d& gradient = gradients[grid.cell((*features_)[i].cur_px)];
-    const auto J = jacobian().middleRows<2>(row);
-    const Eigen::Vector2d residual = residuals().segment<2>(row);
-    gradient.head<3>() += J.rightCols<3>().transpose() * residual;
-    gradient.tail<3>() += J.leftCols<3>().transpose() * residual;
+    // Both have the root of the weight in them.
+    Eigen::Matrix<double, 2, 6> J;
+    J << jacobian.block<2, 3>(row, 3), jacobian.block<2, 3>(row, 0);
+    const Eigen::Vector2d residual = residuals.segment<2>(row);
+    const double weight = robust_weights_[static_cast<std::size_t>(row / 2)];
+    information.matrix += weight * J.transpose() * J;
+    weighted_squares += weight * residual.squaredNorm();
+    squared_weights += weight * weight;
+    gradients[grid.cell((*features_)[i].cur_px)] += J.transpose() * residual;
     row += 2;
   }
-  Matrix6d sum = Matrix6d::Zero();
-  int cells = 0;
-  for (const Vector6d& gradient : gradients) {
-    if (gradient.isZero(0.0)) continue;
-    sum += gradient * gradient.transpose();
-    ++cells;
-  }
-  // The motion was fitted to them, so that they scatter less than the errors do.
-  return sum * cells / std::max(1, cells - 6);
-}
-
-Eigen::Map<const Eigen::VectorXd> MotionSolver::residuals() const {
-  return {residuals_.data(), motion_problem_.residualCount()};
-}
-
-Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6>> MotionSolver::jacobian() const {
-  return {jacobian_.data(), motion_problem_.residualCount(), 6};
+  const double freedom = (rows - estimated_parameters) * 2.0 * squared_weights / rows;
+  if (freedom > 0.0) information.residual_variance = weighted_squares / freedom;
+  information.scatter = scatterOf(gradients);
+  return information;
 }
 
 }  // namespace rotrocc

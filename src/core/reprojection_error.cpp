@@ -146,6 +146,19 @@ inline Eigen::Vector2d ReprojectionProblem<kParameters>::residual(const FittedFe
 }
 
 template <int kParameters>
+void ReprojectionProblem<kParameters>::weigh(const Parameters& parameters, CauchyWeights& weights) {
+  const Motion motion(parameters);
+  errors_px_.clear();
+  for (const FittedFeature& feature : features_) {
+    errors_px_.push_back(residual(feature, motion, nullptr).norm());
+  }
+  weights.update(errors_px_);
+  for (std::size_t i = 0; i < features_.size(); ++i) {
+    features_[i].whitening *= std::sqrt(weights[i]);
+  }
+}
+
+template <int kParameters>
 void ReprojectionProblem<kParameters>::linearise(const Parameters& parameters,
                                                  double* residuals,
                                                  double* jacobian) const {

@@ -14,6 +14,13 @@ namespace {
 /// Fewer features tell a bias from a motion badly.
 constexpr int kLeastFeatures = 30;
 
+/// Nothing of what is within the doubt, all of what is beyond twice the doubt, and straight between
+/// (firm shrinkage, Gao and Bruce 1997).
+double shrink(double found_px, double doubt_px) {
+  const double beyond_px = std::max(0.0, std::abs(found_px) - doubt_px);
+  return std::copysign(std::min(2.0 * beyond_px, std::abs(found_px)), found_px);
+}
+
 template <class Values>
 double sum(const Values& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
@@ -21,12 +28,14 @@ double sum(const Values& values) {
 
 }  // namespace
 
-StereoCalibrator::StereoCalibrator(const Config& config) : config_(config) {
+StereoCalibrator::StereoCalibrator(const Config& config)
+    : config_(config), weights_(config.robust_factor) {
   update();
 }
 
 void StereoCalibrator::configure(const Config& config) {
   config_ = config;
+  weights_ = CauchyWeights(config.robust_factor);
   if (config_.enabled) {
     update();
   } else {
@@ -55,7 +64,7 @@ void StereoCalibrator::observe(const StereoCamera& corrected,
   update();
 }
 
-/// Residuals and their derivatives by the motion and the bias.
+/// Residuals and their derivatives by the motion and the bias, all times the roots of the weights.
 void StereoCalibrator::linearise(const StereoCamera& corrected,
                                  const Correspondences& features,
                                  const FeatureSet& set,
@@ -63,6 +72,7 @@ void StereoCalibrator::linearise(const StereoCamera& corrected,
   problem_.assign(corrected, features, set, T_prev_cur, config_.noise_ratio);
   Vector6d parameters;
   parameters << Eigen::Vector3d::Zero(), T_prev_cur.translation();
+  problem_.weigh(parameters, weights_);
   const auto rows = static_cast<std::size_t>(problem_.residualCount());
   residuals_.resize(rows);
   by_motion_.resize(6 * rows);
@@ -77,24 +87,42 @@ void StereoCalibrator::linearise(const StereoCamera& corrected,
   }
 }
 
-/// Leaves of residuals and derivative what no change of the motion can explain.
+/// Leaves of residuals and derivative what no change of the motion can explain. The weighted sums
+/// of residuals follow their changes by the square of the weight, see MotionSolver::Information.
 void StereoCalibrator::eliminateMotion() {
   const Columns by_motion = byMotion();
-  const Matrix6d normal = by_motion.transpose() * by_motion;
+  Matrix6d normal = Matrix6d::Zero();
+  Vector6d of_bias = Vector6d::Zero();
+  for (Eigen::Index row = 0; row < by_motion.rows(); row += 2) {
+    const auto J = by_motion.middleRows<2>(row);
+    const double weight = weights_[static_cast<std::size_t>(row / 2)];
+    normal += weight * J.transpose() * J;
+    of_bias += weight * J.transpose() * byBias().segment<2>(row);
+  }
   const Eigen::LDLT<Matrix6d> solver(normal);
-  const Vector6d of_bias = solver.solve(by_motion.transpose() * byBias());
+  of_bias = solver.solve(of_bias.eval());
   const Vector6d of_residuals = solver.solve(by_motion.transpose() * residuals());
   motion_by_bias_ << -of_bias.tail<3>(), -of_bias.head<3>();
   byBias().noalias() -= by_motion * of_bias;
   residuals().noalias() -= by_motion * of_residuals;
 }
 
+/// A step of Newton's method from the bias applied: one of reweighted least squares would be too
+/// short.
 void StereoCalibrator::collect(const StereoCamera& corrected,
                                const Correspondences& features,
                                const FeatureSet& set) {
   const Column errors = residuals();
   const Column slopes = byBias();
-  const double variance = errors.squaredNorm() / static_cast<double>(errors.size() - 7);
+  double weighted_squares = 0.0;
+  double squared_weights = 0.0;
+  for (Eigen::Index row = 0; row < errors.size(); row += 2) {
+    const double weight = weights_[static_cast<std::size_t>(row / 2)];
+    weighted_squares += weight * errors.segment<2>(row).squaredNorm();
+    squared_weights += weight * weight;
+  }
+  const auto rows = static_cast<double>(errors.size());
+  const double variance = weighted_squares / ((rows - 7.0) * 2.0 * squared_weights / rows);
   if (!(variance > 0.0) || !slopes.allFinite()) return;
   const ImageGrid grid(corrected, kColumns, kRows);
   Eigen::Index row = 0;
@@ -102,7 +130,8 @@ void StereoCalibrator::collect(const StereoCamera& corrected,
     if (set[i] == 0) continue;
     const std::size_t cell = grid.cell(features[i].cur_px);
     const auto slope = slopes.segment<2>(row);
-    const double information = slope.squaredNorm() / variance;
+    const double weight = weights_[static_cast<std::size_t>(row / 2)];
+    const double information = weight * slope.squaredNorm() / variance;
     current_.information[cell] += information;
     current_.weighted[cell] +=
         information * bias_.applied_px - slope.dot(errors.segment<2>(row)) / variance;
@@ -151,12 +180,11 @@ void StereoCalibrator::update() {
   if (disagreement > information) information *= information / disagreement;
 
   const double prior = 1.0 / (config_.prior_sigma_px * config_.prior_sigma_px);
-  bias_.sigma_px = 1.0 / std::sqrt(information + prior);
+  const double shared = config_.matching_sigma_px * config_.matching_sigma_px;
+  bias_.sigma_px = std::sqrt(1.0 / (information + prior) + shared);
   const double found_px = information * (measured_px - config_.bias_px) / (information + prior);
-  const double doubt_px = config_.significance * bias_.sigma_px;
   bias_.estimated_px = config_.bias_px + found_px;
-  bias_.applied_px = config_.bias_px;
-  if (std::abs(found_px) > doubt_px) bias_.applied_px += found_px - doubt_px * doubt_px / found_px;
+  bias_.applied_px = config_.bias_px + shrink(found_px, config_.significance * bias_.sigma_px);
 }
 
 }  // namespace rotrocc

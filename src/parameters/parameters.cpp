@@ -86,6 +86,14 @@ void addMotionEstimator(MotionEstimator::Config& c, ParameterTable& table) {
       100.0,
       "",
       "disparity noise over flow noise to begin with; 0: residuals count alike, as in the paper");
+  table.add(
+      s + "robust_factor",
+      c.robust_factor,
+      0.0,
+      1000.0,
+      "",
+      "features this many standard deviations off count half (Cauchy's weights); 0: all count "
+      "alike, as in the paper");
   table.add(s + "rotation_limit_px",
             c.rotation_limit_px,
             0.01,
@@ -213,13 +221,26 @@ void addStereoCalibrator(StereoCalibrator::Config& c, ParameterTable& table) {
             0.0,
             100.0,
             "",
-            "so many standard deviations of the estimate are doubt, which is not corrected");
+            "so many standard deviations are doubt: not corrected; what is beyond twice the doubt "
+            "is, in full");
+  table.add(s + "matching_sigma_px",
+            c.matching_sigma_px,
+            0.0,
+            10.0,
+            "px",
+            "what matching may be off by in the whole image alike, part of the uncertainty");
   table.add(s + "noise_ratio",
             c.noise_ratio,
             0.0,
             100.0,
             "",
             "disparity noise over flow noise, weights the residuals");
+  table.add(s + "robust_factor",
+            c.robust_factor,
+            0.0,
+            1000.0,
+            "",
+            "features this many standard deviations off count half; 0: all count alike");
 }
 
 void addReferenceSelector(ReferenceSelector::Config& c, ParameterTable& table) {

@@ -1,0 +1,27 @@
+#include "rotrocc/cauchy_weights.h"
+
+#include <algorithm>
+
+namespace rotrocc {
+namespace {
+
+/// Of the length of a vector of two Gaussian numbers, in their standard deviations: sqrt(2 ln 2).
+constexpr double kMedianLength = 1.1774100225154747;
+
+}  // namespace
+
+void CauchyWeights::update(const std::vector<double>& errors_px) {
+  weights_.assign(errors_px.size(), 1.0);
+  if (factor_ == 0.0 || errors_px.empty()) return;
+  sorted_ = errors_px;
+  const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
+  std::nth_element(sorted_.begin(), middle, sorted_.end());
+  const double scale_px = factor_ * *middle / kMedianLength;
+  if (!(scale_px > 0.0)) return;
+  for (std::size_t i = 0; i < errors_px.size(); ++i) {
+    const double ratio = errors_px[i] / scale_px;
+    weights_[i] = 1.0 / (1.0 + ratio * ratio);
+  }
+}
+
+}  // namespace rotrocc
