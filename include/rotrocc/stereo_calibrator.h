@@ -43,7 +43,7 @@ class StereoCalibrator {
     double matching_sigma_px = 0.01;
     /// Disparity noise over flow noise, see fitDisparities(). Less than what is measured: fitted
     /// disparities also follow errors that neighbours share, and take the estimate with them.
-    double noise_ratio = 1.0;
+    double noise_ratio = 0.5;
     double robust_factor = 2.0;  ///< of CauchyWeights; 0: all residuals count alike
   };
 
