@@ -16,7 +16,7 @@ namespace rotrocc {
 /// How residuals count.
 enum class Weights {
   kEqual,
-  kRobust  ///< by CauchyWeights, at the motion that a solution begins with
+  kRobust  ///< by CauchyWeights at the motion to begin with
 };
 
 /// Least squares over the reprojection errors of a feature set, by Levenberg-Marquardt.
@@ -32,7 +32,8 @@ class MotionSolver {
   /// The features that sets are of until the next call. They are referred to.
   void setFeatures(const StereoCamera& camera, const Correspondences& features);
 
-  /// Minimises Eq. 25 over rotation and translation, from `T_prev_cur`, which gets the result.
+  /// Minimises Eq. 25 over rotation and translation, from `T_prev_cur`, which gets the result. With
+  /// robust weights it takes one step towards it: to be called repeatedly, from near the minimum.
   /// Returns false, and leaves it alone, if the set has fewer than 3 features or the result is not
   /// finite.
   bool solveMotion(const FeatureSet& set, Weights weights, Eigen::Isometry3d& T_prev_cur);

@@ -74,6 +74,16 @@ void minimise(const ReprojectionProblem<kParameters>& problem,
   solver.Solve(CondensedProblem<kParameters>(problem), &parameters);
 }
 
+/// One step of Gauss and Newton, for a start near to the minimum.
+template <int kParameters>
+void improve(const ReprojectionProblem<kParameters>& problem,
+             Eigen::Matrix<double, kParameters, 1>& parameters) {
+  const auto normal = problem.normalMatrix(parameters);
+  const Eigen::Matrix<double, kParameters, kParameters> matrix =
+      normal.template topLeftCorner<kParameters, kParameters>();
+  parameters -= matrix.ldlt().solve(normal.template topRightCorner<kParameters, 1>());
+}
+
 template <std::size_t kCells>
 Matrix6d scatterOf(const std::array<Vector6d, kCells>& gradients) {
   Matrix6d sum = Matrix6d::Zero();
@@ -116,8 +126,12 @@ bool MotionSolver::solveMotion(const FeatureSet& set,
   motion_problem_.assign(camera_, fittedAt(T_prev_cur), set);
   Vector6d parameters;
   parameters << Eigen::Vector3d::Zero(), T_prev_cur.translation();
-  if (weights == Weights::kRobust) motion_problem_.weigh(parameters, robust_weights_);
-  minimise(motion_problem_, parameters);
+  if (weights == Weights::kRobust) {
+    motion_problem_.weigh(parameters, robust_weights_);
+    improve(motion_problem_, parameters);
+  } else {
+    minimise(motion_problem_, parameters);
+  }
   if (!parameters.allFinite()) return false;
 
   const Eigen::Matrix3d R = expRotation(parameters.head<3>()) * T_prev_cur.linear();
@@ -132,8 +146,12 @@ bool MotionSolver::solveTranslation(const FeatureSet& set,
   if (count(set) < 2) return false;
   translation_problem_.assign(camera_, fittedAt(T_prev_cur), set);
   Eigen::Vector3d translation = T_prev_cur.translation();
-  if (weights == Weights::kRobust) translation_problem_.weigh(translation, robust_weights_);
-  minimise(translation_problem_, translation);
+  if (weights == Weights::kRobust) {
+    translation_problem_.weigh(translation, robust_weights_);
+    improve(translation_problem_, translation);
+  } else {
+    minimise(translation_problem_, translation);
+  }
   if (!translation.allFinite()) return false;
   T_prev_cur.translation() = translation;
   return true;
