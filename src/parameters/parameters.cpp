@@ -85,7 +85,7 @@ void addMotionEstimator(MotionEstimator::Config& c, ParameterTable& table) {
       0.0,
       100.0,
       "",
-      "disparity noise over flow noise to begin with; 0: residuals count alike, as in the paper");
+      "disparity noise over flow noise to begin with; 0: disparities are exact, as in the paper");
   table.add(
       s + "robust_factor",
       c.robust_factor,
