@@ -52,7 +52,7 @@ def plot_fig5(rows, path):
                    label='features with a wrong depth')
         panel.set_ylabel(label)
         panel.set_ylim(0, None)
-    axes[0].legend(frameon=False, loc='upper right')
+    axes[0].legend(frameon=False, loc='lower right', bbox_to_anchor=(1.0, 1.0))
     axes[-1].set_xlabel('feature')
     finish(figure, path)
 
@@ -103,6 +103,7 @@ def plot_errors(title, tables, path):
             panel.set_xlabel(labels[column])
             panel.set_ylabel(label)
             panel.set_ylim(0, 1.08 * panel.get_ylim()[1])
-    axes[0, 0].legend(frameon=False, loc='lower left')
+    lines, names = axes[0, 0].get_legend_handles_labels()
+    figure.legend(lines, names, frameon=False, ncol=len(names), loc='upper right')
     axes[0, 0].set_title(title, loc='left')
     finish(figure, path)
