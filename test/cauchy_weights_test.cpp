@@ -50,5 +50,24 @@ TEST(CauchyWeightsTest, AreEqualWithoutAFactorOrAnError) {
   exact.update({});  // no feature: nothing happens
 }
 
+TEST(CauchyWeightsTest, VarianceIsThatOfTheResidualsWithAndWithoutWeights) {
+  std::mt19937 generator(2);
+  std::normal_distribution<double> number(0.0, 0.3);
+  Eigen::VectorXd residuals_px(20000);
+  for (Eigen::Index i = 0; i < residuals_px.size(); ++i) residuals_px[i] = number(generator);
+  for (const double factor : {0.0, 100.0}) {
+    CauchyWeights weights(factor);
+    std::vector<double> errors_px;
+    for (Eigen::Index i = 0; i < residuals_px.size(); i += 2) {
+      errors_px.push_back(residuals_px.segment<2>(i).norm());
+    }
+    weights.update(errors_px);
+    // The standard deviation of the variance of 20000 is 1 %; with this factor weights are next
+    // to 1.
+    EXPECT_NEAR(weights.variance(residuals_px, 6), 0.09, 0.04 * 0.09);
+    EXPECT_EQ(weights.variance(residuals_px, 20000), 0.0);
+  }
+}
+
 }  // namespace
 }  // namespace rotrocc

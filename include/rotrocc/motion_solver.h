@@ -56,7 +56,7 @@ class MotionSolver {
     /// the mean the variance times the matrix if no two residuals are correlated, more if
     /// neighbours are.
     Matrix6d scatter = Matrix6d::Zero();
-    double residual_variance = 0.0;  ///< sum of (w r)^2 over that of w^2 [px^2]
+    double residual_variance = 0.0;  ///< of CauchyWeights [px^2]
   };
   Information information(const FeatureSet& set,
                           const Eigen::Isometry3d& T_prev_cur,
@@ -64,6 +64,7 @@ class MotionSolver {
 
  private:
   const std::vector<FittedFeature>& fittedAt(const Eigen::Isometry3d& T_prev_cur);
+
   StereoCamera camera_;
   const Correspondences* features_ = nullptr;
   double noise_ratio_;

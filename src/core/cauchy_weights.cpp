@@ -24,4 +24,18 @@ void CauchyWeights::update(const std::vector<double>& errors_px) {
   }
 }
 
+double CauchyWeights::variance(const Eigen::Ref<const Eigen::VectorXd>& weighted_px,
+                               int parameters) const {
+  double weighted_squares = 0.0;
+  double squared_weights = 0.0;
+  for (std::size_t i = 0; i < weights_.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(2 * i);
+    weighted_squares += weights_[i] * weighted_px.segment<2>(row).squaredNorm();
+    squared_weights += weights_[i] * weights_[i];
+  }
+  const auto rows = static_cast<double>(weighted_px.size());
+  if (!(rows > parameters)) return 0.0;
+  return weighted_squares / ((rows - parameters) * 2.0 * squared_weights / rows);
+}
+
 }  // namespace rotrocc

@@ -181,8 +181,6 @@ MotionSolver::Information MotionSolver::information(const FeatureSet& set,
   const ImageGrid grid(camera_, kScatterColumns, kScatterRows);
   std::array<Vector6d, kScatterColumns * kScatterRows> gradients;
   gradients.fill(Vector6d::Zero());
-  double weighted_squares = 0.0;
-  double squared_weights = 0.0;
   Eigen::Index row = 0;
   for (std::size_t i = 0; i < features_->size(); ++i) {
     if (set[i] == 0) continue;
@@ -192,13 +190,10 @@ MotionSolver::Information MotionSolver::information(const FeatureSet& set,
     const Eigen::Vector2d residual = residuals.segment<2>(row);
     const double weight = robust_weights_[static_cast<std::size_t>(row / 2)];
     information.matrix += weight * J.transpose() * J;
-    weighted_squares += weight * residual.squaredNorm();
-    squared_weights += weight * weight;
     gradients[grid.cell((*features_)[i].cur_px)] += J.transpose() * residual;
     row += 2;
   }
-  const double freedom = (rows - estimated_parameters) * 2.0 * squared_weights / rows;
-  if (freedom > 0.0) information.residual_variance = weighted_squares / freedom;
+  information.residual_variance = robust_weights_.variance(residuals, estimated_parameters);
   information.scatter = scatterOf(gradients);
   return information;
 }

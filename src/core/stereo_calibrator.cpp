@@ -11,6 +11,9 @@
 namespace rotrocc {
 namespace {
 
+/// Of motion and bias.
+constexpr int kParameters = 7;
+
 /// Fewer features tell a bias from a motion badly.
 constexpr int kLeastFeatures = 30;
 
@@ -114,15 +117,7 @@ void StereoCalibrator::collect(const StereoCamera& corrected,
                                const FeatureSet& set) {
   const Column errors = residuals();
   const Column slopes = byBias();
-  double weighted_squares = 0.0;
-  double squared_weights = 0.0;
-  for (Eigen::Index row = 0; row < errors.size(); row += 2) {
-    const double weight = weights_[static_cast<std::size_t>(row / 2)];
-    weighted_squares += weight * errors.segment<2>(row).squaredNorm();
-    squared_weights += weight * weight;
-  }
-  const auto rows = static_cast<double>(errors.size());
-  const double variance = weighted_squares / ((rows - 7.0) * 2.0 * squared_weights / rows);
+  const double variance = weights_.variance(errors, kParameters);
   if (!(variance > 0.0) || !slopes.allFinite()) return;
   const ImageGrid grid(corrected, kColumns, kRows);
   Eigen::Index row = 0;
