@@ -7,13 +7,13 @@
 
 #include <benchmark/benchmark.h>
 
-#include "../test/synthetic_scene.h"
-#include "kitti_camera.h"
-#include "rotrocc/correspondence_finder.h"
+#include "features/correspondence_finder.h"
+#include "motion/motion_estimator.h"
+#include "motion/outlier_rejection.h"
 #include "rotrocc/kitti.h"
-#include "rotrocc/motion_estimator.h"
-#include "rotrocc/outlier_rejection.h"
 #include "rotrocc/visual_odometry.h"
+#include "simulation/kitti_camera.h"
+#include "support/synthetic_scene.h"
 
 namespace rotrocc {
 namespace {

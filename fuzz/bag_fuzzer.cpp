@@ -15,9 +15,9 @@
 #include <std_msgs/Empty.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include "bags/recorded_tf.h"
+#include "bags/stereo_bag.h"
 #include "message_reader.h"
-#include "recorded_tf.h"
-#include "stereo_bag.h"
 
 namespace rotrocc {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "camera_validation.h"
-#include "input_error.h"
+#include "input/camera_validation.h"
+#include "input/input_error.h"
 #include "message_reader.h"
 #include "require.h"
 

@@ -1,10 +1,10 @@
 // Two serialized sensor_msgs/Image: validation and conversion to grey.
 
-#include "image_validation.h"
-#include "input_error.h"
+#include "input/image_validation.h"
+#include "input/input_error.h"
+#include "input/stereo_pair_converter.h"
 #include "message_reader.h"
 #include "require.h"
-#include "stereo_pair_converter.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace rotrocc;

@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "../test/temporary_directory.h"
 #include "input_file.h"
 #include "require.h"
 #include "rotrocc/kitti.h"
+#include "support/temporary_directory.h"
 
 namespace rotrocc {
 namespace {

@@ -7,13 +7,13 @@
 #include <boost/make_shared.hpp>
 #include <opencv2/core/utility.hpp>
 
-#include "drop_log.h"
-#include "kitti_mount.h"
-#include "message_conversion.h"
+#include "bags/kitti_mount.h"
+#include "input/drop_log.h"
+#include "input/message_conversion.h"
+#include "input/stereo_intake.h"
 #include "message_reader.h"
-#include "pair_processor.h"
+#include "node/pair_processor.h"
 #include "require.h"
-#include "stereo_intake.h"
 
 namespace rotrocc {
 namespace {

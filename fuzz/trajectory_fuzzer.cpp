@@ -2,10 +2,10 @@
 
 #include <stdexcept>
 
-#include "../test/temporary_directory.h"
 #include "input_file.h"
 #include "require.h"
 #include "rotrocc/trajectory.h"
+#include "support/temporary_directory.h"
 
 namespace rotrocc {
 namespace {

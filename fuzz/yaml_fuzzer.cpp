@@ -3,10 +3,10 @@
 #include <functional>
 #include <stdexcept>
 
-#include "../test/temporary_directory.h"
 #include "input_file.h"
 #include "require.h"
 #include "rotrocc/parameters.h"
+#include "support/temporary_directory.h"
 
 namespace rotrocc {
 namespace {

@@ -6,8 +6,8 @@
 #include <opencv2/core.hpp>
 
 #include "rotrocc/correspondence.h"
+#include "rotrocc/odometry_result.h"
 #include "rotrocc/stereo_camera.h"
-#include "rotrocc/visual_odometry.h"
 
 namespace rotrocc {
 

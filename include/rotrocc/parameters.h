@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "rotrocc/odometry_config.h"
 #include "rotrocc/parameter_table.h"
-#include "rotrocc/visual_odometry.h"
 
 namespace rotrocc {
 
@@ -36,7 +36,7 @@ struct NodeParameters {
 
 /// All parameters of the package.
 struct Parameters {
-  VisualOdometry::Config odometry;
+  OdometryConfig odometry;
   NodeParameters node;
 };
 

@@ -1,11 +1,11 @@
-#include "error_characteristics.h"
+#include "experiments/error_characteristics.h"
 
 #include <cmath>
 #include <stdexcept>
 
+#include "motion/flow_decoupling.h"
+#include "motion/reprojection_error.h"
 #include "rotrocc/correspondence.h"
-#include "rotrocc/flow_decoupling.h"
-#include "rotrocc/reprojection_error.h"
 
 namespace rotrocc {
 namespace {

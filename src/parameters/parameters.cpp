@@ -5,7 +5,7 @@
 namespace rotrocc {
 namespace {
 
-void addFeatureDetector(FeatureDetector::Config& c, ParameterTable& table) {
+void addFeatureDetector(FeatureDetectorConfig& c, ParameterTable& table) {
   const std::string s = "feature_detector/";
   table.add(s + "max_features", c.max_features, 50, 20000, "", "corners per image");
   table.add(s + "block_radius_px",
@@ -25,7 +25,7 @@ void addFeatureDetector(FeatureDetector::Config& c, ParameterTable& table) {
   table.add(s + "border_px", c.border_px, 1, 200, "px", "no corners this near to the edge");
 }
 
-void addStereoMatcher(StereoMatcher::Config& c, ParameterTable& table) {
+void addStereoMatcher(StereoMatcherConfig& c, ParameterTable& table) {
   const std::string s = "stereo_matcher/";
   table.add(s + "max_disparity_px", c.max_disparity_px, 8, 2000, "px", "nearer points are dropped");
   table.add(
@@ -44,7 +44,7 @@ void addStereoMatcher(StereoMatcher::Config& c, ParameterTable& table) {
             "best SAD over the best elsewhere on the row, at most");
 }
 
-void addFeatureTracker(FeatureTracker::Config& c, ParameterTable& table) {
+void addFeatureTracker(FeatureTrackerConfig& c, ParameterTable& table) {
   const std::string s = "feature_tracker/";
   table.add(s + "window_radius_px",
             c.window_radius_px,
@@ -76,7 +76,7 @@ void addFeatureTracker(FeatureTracker::Config& c, ParameterTable& table) {
             "between the tracked and the matched disparity");
 }
 
-void addMotionEstimator(MotionEstimator::Config& c, ParameterTable& table) {
+void addMotionEstimator(MotionEstimatorConfig& c, ParameterTable& table) {
   const std::string s = "motion_estimator/";
   table.add(s + "criterion", c.criterion, criterionNames(), "which features are inliers");
   table.add(
@@ -157,7 +157,7 @@ void addMotionEstimator(MotionEstimator::Config& c, ParameterTable& table) {
             "mean_based, std_based: iterations at most");
 }
 
-void addMotionModel(MotionModel::Config& c, ParameterTable& table) {
+void addMotionModel(MotionModelConfig& c, ParameterTable& table) {
   table.add("motion_model/max_age_s",
             c.max_age_s,
             0.0,
@@ -166,7 +166,7 @@ void addMotionModel(MotionModel::Config& c, ParameterTable& table) {
             "after a longer gap the last motion predicts nothing");
 }
 
-void addMotionCheck(MotionCheck::Config& c, ParameterTable& table) {
+void addMotionCheck(MotionCheckConfig& c, ParameterTable& table) {
   const std::string s = "motion_check/";
   table.add(s + "min_inliers", c.min_inliers, 3, 10000, "", "fewer: lost");
   table.add(
@@ -183,7 +183,7 @@ void addMotionCheck(MotionCheck::Config& c, ParameterTable& table) {
             "a larger change of the velocity: degraded");
 }
 
-void addNoiseEstimator(NoiseEstimator::Config& c, ParameterTable& table) {
+void addNoiseEstimator(NoiseEstimatorConfig& c, ParameterTable& table) {
   const std::string s = "noise_estimator/";
   table.add(s + "enabled", c.enabled, "estimate motion_estimator/noise_ratio");
   table.add(s + "max_ratio", c.max_ratio, 0.5, 100.0, "", "at most so much is believed");
@@ -195,7 +195,7 @@ void addNoiseEstimator(NoiseEstimator::Config& c, ParameterTable& table) {
             "the weight of a pair falls by 1/e over as many");
 }
 
-void addStereoCalibrator(StereoCalibrator::Config& c, ParameterTable& table) {
+void addStereoCalibrator(StereoCalibratorConfig& c, ParameterTable& table) {
   const std::string s = "stereo_calibrator/";
   table.add(s + "enabled", c.enabled, "estimate the bias of all disparities and correct it");
   table.add(s + "bias_px",
@@ -243,7 +243,7 @@ void addStereoCalibrator(StereoCalibrator::Config& c, ParameterTable& table) {
             "features this many standard deviations off count half; 0: all count alike");
 }
 
-void addReferenceSelector(ReferenceSelector::Config& c, ParameterTable& table) {
+void addReferenceSelector(KeyframeSelectorConfig& c, ParameterTable& table) {
   const std::string s = "reference_selector/";
   table.add(s + "adaptive",
             c.adaptive,
@@ -262,7 +262,7 @@ void addReferenceSelector(ReferenceSelector::Config& c, ParameterTable& table) {
             "it serves until fewer of the features that agreed on the first motion do");
 }
 
-void addVisualOdometry(VisualOdometry::Config& c, ParameterTable& table) {
+void addVisualOdometry(OdometryConfig& c, ParameterTable& table) {
   const std::string s = "visual_odometry/";
   table.add(s + "threads",
             c.threads,
@@ -376,7 +376,7 @@ void addNode(NodeParameters& n, ParameterTable& table) {
 ParameterTable makeParameterTable(Parameters& parameters) {
   ParameterTable table;
   addNode(parameters.node, table);
-  VisualOdometry::Config& odometry = parameters.odometry;
+  OdometryConfig& odometry = parameters.odometry;
   addFeatureDetector(odometry.correspondence_finder.feature_detector, table);
   addStereoMatcher(odometry.correspondence_finder.stereo_matcher, table);
   addFeatureTracker(odometry.correspondence_finder.feature_tracker, table);

@@ -1,4 +1,4 @@
-#include "body.h"
+#include "simulation/body.h"
 
 #include <algorithm>
 #include <utility>

@@ -5,8 +5,8 @@
 
 #include <Eigen/Geometry>
 
-#include "material.h"
-#include "shape.h"
+#include "simulation/material.h"
+#include "simulation/shape.h"
 
 namespace rotrocc {
 

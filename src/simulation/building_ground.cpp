@@ -1,4 +1,4 @@
-#include "building_ground.h"
+#include "simulation/building_ground.h"
 
 #include <algorithm>
 #include <cmath>

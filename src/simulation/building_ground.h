@@ -2,12 +2,12 @@
 
 #include <vector>
 
-#include "body.h"
-#include "path.h"
-#include "placement.h"
-#include "street_map.h"
-#include "terrain.h"
-#include "world.h"
+#include "simulation/body.h"
+#include "simulation/path.h"
+#include "simulation/placement.h"
+#include "simulation/street_map.h"
+#include "simulation/terrain.h"
+#include "simulation/world.h"
 
 namespace rotrocc {
 

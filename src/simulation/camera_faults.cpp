@@ -1,12 +1,12 @@
-#include "camera_faults.h"
+#include "simulation/camera_faults.h"
 
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "counter_random.h"
-#include "rows.h"
+#include "simulation/counter_random.h"
+#include "simulation/rows.h"
 
 namespace rotrocc {
 namespace {

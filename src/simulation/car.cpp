@@ -1,10 +1,10 @@
-#include "car.h"
+#include "simulation/car.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "coverage.h"
+#include "simulation/coverage.h"
 
 namespace rotrocc {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "body.h"
-#include "counter_random.h"
+#include "simulation/body.h"
+#include "simulation/counter_random.h"
 
 namespace rotrocc {
 

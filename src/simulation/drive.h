@@ -4,8 +4,8 @@
 
 #include <Eigen/Geometry>
 
-#include "path.h"
 #include "rotrocc/trajectory.h"
+#include "simulation/path.h"
 
 namespace rotrocc {
 

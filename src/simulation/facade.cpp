@@ -1,10 +1,10 @@
-#include "facade.h"
+#include "simulation/facade.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "counter_random.h"
-#include "coverage.h"
+#include "simulation/counter_random.h"
+#include "simulation/coverage.h"
 
 namespace rotrocc {
 

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "material.h"
-#include "texture_tiles.h"
+#include "simulation/material.h"
+#include "simulation/texture_tiles.h"
 
 namespace rotrocc {
 

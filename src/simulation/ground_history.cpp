@@ -1,12 +1,12 @@
-#include "ground_history.h"
+#include "simulation/ground_history.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
 
-#include "coverage.h"
-#include "rows.h"
+#include "simulation/coverage.h"
+#include "simulation/rows.h"
 
 namespace rotrocc {
 namespace {

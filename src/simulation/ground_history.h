@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "path.h"
-#include "terrain.h"
+#include "simulation/path.h"
+#include "simulation/terrain.h"
 
 namespace rotrocc {
 

@@ -1,9 +1,9 @@
-#include "house.h"
+#include "simulation/house.h"
 
 #include <vector>
 
-#include "coverage.h"
-#include "facade.h"
+#include "simulation/coverage.h"
+#include "simulation/facade.h"
 
 namespace rotrocc {
 namespace {

@@ -1,4 +1,4 @@
-#include "material.h"
+#include "simulation/material.h"
 
 namespace rotrocc {
 namespace {

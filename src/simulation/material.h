@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "surface_point.h"
-#include "texture.h"
+#include "simulation/surface_point.h"
+#include "simulation/texture.h"
 
 namespace rotrocc {
 

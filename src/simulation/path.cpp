@@ -1,4 +1,4 @@
-#include "path.h"
+#include "simulation/path.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "coverage.h"
+#include "simulation/coverage.h"
 
 namespace rotrocc {
 

@@ -1,4 +1,4 @@
-#include "placement.h"
+#include "simulation/placement.h"
 
 #include <cmath>
 

@@ -4,8 +4,8 @@
 
 #include <Eigen/Geometry>
 
-#include "body.h"
-#include "terrain.h"
+#include "simulation/body.h"
+#include "simulation/terrain.h"
 
 namespace rotrocc {
 

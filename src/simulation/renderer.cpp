@@ -1,9 +1,9 @@
-#include "renderer.h"
+#include "simulation/renderer.h"
 
 #include <array>
 #include <cmath>
 
-#include "rows.h"
+#include "simulation/rows.h"
 
 namespace rotrocc {
 namespace {

@@ -4,8 +4,8 @@
 #include <opencv2/core.hpp>
 
 #include "rotrocc/stereo_camera.h"
-#include "traffic.h"
-#include "world.h"
+#include "simulation/traffic.h"
+#include "simulation/world.h"
 
 namespace rotrocc {
 

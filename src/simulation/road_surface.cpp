@@ -1,11 +1,11 @@
-#include "road_surface.h"
+#include "simulation/road_surface.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "counter_random.h"
-#include "coverage.h"
+#include "simulation/counter_random.h"
+#include "simulation/coverage.h"
 
 namespace rotrocc {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "street_map.h"
-#include "street_style.h"
-#include "surface_point.h"
-#include "texture_tiles.h"
+#include "simulation/street_map.h"
+#include "simulation/street_style.h"
+#include "simulation/surface_point.h"
+#include "simulation/texture_tiles.h"
 
 namespace rotrocc {
 

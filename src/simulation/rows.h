@@ -2,7 +2,7 @@
 
 #include <opencv2/core/utility.hpp>
 
-#include "rotrocc/workers.h"
+#include "common/workers.h"
 
 namespace rotrocc {
 

@@ -1,4 +1,4 @@
-#include "scenario.h"
+#include "simulation/scenario.h"
 
 #include <cmath>
 #include <functional>
@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "street_plan.h"
-#include "street_style.h"
+#include "simulation/street_plan.h"
+#include "simulation/street_style.h"
 
 namespace rotrocc {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "drive.h"
-#include "traffic.h"
-#include "world.h"
+#include "simulation/drive.h"
+#include "simulation/traffic.h"
+#include "simulation/world.h"
 
 namespace rotrocc {
 

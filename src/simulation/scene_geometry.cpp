@@ -1,4 +1,4 @@
-#include "scene_geometry.h"
+#include "simulation/scene_geometry.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "body.h"
-#include "terrain.h"
+#include "simulation/body.h"
+#include "simulation/terrain.h"
 
 namespace rotrocc {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "drive.h"
+#include "simulation/drive.h"
 
 namespace rotrocc {
 namespace {

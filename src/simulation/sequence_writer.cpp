@@ -1,4 +1,4 @@
-#include "sequence_writer.h"
+#include "simulation/sequence_writer.h"
 
 #include <cmath>
 #include <filesystem>

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "rotrocc/trajectory.h"
-#include "simulator.h"
+#include "simulation/simulator.h"
 
 namespace rotrocc {
 

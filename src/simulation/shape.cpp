@@ -1,4 +1,4 @@
-#include "shape.h"
+#include "simulation/shape.h"
 
 #include <cmath>
 #include <limits>

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "surface_point.h"
+#include "simulation/surface_point.h"
 
 namespace rotrocc {
 

@@ -1,4 +1,4 @@
-#include "simulator.h"
+#include "simulation/simulator.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include <opencv2/core/utility.hpp>
 
-#include "counter_random.h"
+#include "simulation/counter_random.h"
 
 namespace rotrocc {
 namespace {

@@ -7,13 +7,13 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
-#include "camera_faults.h"
-#include "kitti_camera.h"
-#include "renderer.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
 #include "rotrocc/trajectory.h"
-#include "scenario.h"
+#include "simulation/camera_faults.h"
+#include "simulation/kitti_camera.h"
+#include "simulation/renderer.h"
+#include "simulation/scenario.h"
 
 namespace rotrocc {
 

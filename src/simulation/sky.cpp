@@ -1,9 +1,9 @@
-#include "sky.h"
+#include "simulation/sky.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "coverage.h"
+#include "simulation/coverage.h"
 
 namespace rotrocc {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "surface_point.h"
-#include "texture_tiles.h"
+#include "simulation/surface_point.h"
+#include "simulation/texture_tiles.h"
 
 namespace rotrocc {
 

@@ -1,11 +1,11 @@
-#include "street_furniture.h"
+#include "simulation/street_furniture.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "coverage.h"
+#include "simulation/coverage.h"
 
 namespace rotrocc {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "body.h"
-#include "counter_random.h"
-#include "texture_tiles.h"
+#include "simulation/body.h"
+#include "simulation/counter_random.h"
+#include "simulation/texture_tiles.h"
 
 namespace rotrocc {
 

@@ -1,15 +1,15 @@
-#include "street_layout.h"
+#include "simulation/street_layout.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "building_ground.h"
-#include "car.h"
-#include "counter_random.h"
-#include "house.h"
-#include "street_furniture.h"
-#include "vegetation.h"
+#include "simulation/building_ground.h"
+#include "simulation/car.h"
+#include "simulation/counter_random.h"
+#include "simulation/house.h"
+#include "simulation/street_furniture.h"
+#include "simulation/vegetation.h"
 
 namespace rotrocc {
 namespace {

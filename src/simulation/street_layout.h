@@ -2,11 +2,11 @@
 
 #include <vector>
 
-#include "body.h"
-#include "street_map.h"
-#include "terrain.h"
-#include "texture_tiles.h"
-#include "world.h"
+#include "simulation/body.h"
+#include "simulation/street_map.h"
+#include "simulation/terrain.h"
+#include "simulation/texture_tiles.h"
+#include "simulation/world.h"
 
 namespace rotrocc {
 

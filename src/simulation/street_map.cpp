@@ -1,4 +1,4 @@
-#include "street_map.h"
+#include "simulation/street_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "coverage.h"
+#include "simulation/coverage.h"
 
 namespace rotrocc {
 namespace {

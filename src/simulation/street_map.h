@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "path.h"
+#include "simulation/path.h"
 
 namespace rotrocc {
 

@@ -1,4 +1,4 @@
-#include "street_plan.h"
+#include "simulation/street_plan.h"
 
 #include <cmath>
 #include <unordered_map>

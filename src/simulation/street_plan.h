@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "path.h"
+#include "simulation/path.h"
 
 namespace rotrocc {
 

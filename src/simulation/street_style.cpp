@@ -1,4 +1,4 @@
-#include "street_style.h"
+#include "simulation/street_style.h"
 
 namespace rotrocc {
 namespace {

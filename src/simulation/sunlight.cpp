@@ -1,4 +1,4 @@
-#include "sunlight.h"
+#include "simulation/sunlight.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "coverage.h"
-#include "rows.h"
+#include "simulation/coverage.h"
+#include "simulation/rows.h"
 
 namespace rotrocc {
 namespace {

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
-#include "scene_geometry.h"
-#include "street_map.h"
+#include "simulation/scene_geometry.h"
+#include "simulation/street_map.h"
 
 namespace rotrocc {
 

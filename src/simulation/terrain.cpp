@@ -1,4 +1,4 @@
-#include "terrain.h"
+#include "simulation/terrain.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,9 +4,9 @@
 
 #include <Eigen/Core>
 
-#include "coverage.h"
-#include "path.h"
-#include "shape.h"
+#include "simulation/coverage.h"
+#include "simulation/path.h"
+#include "simulation/shape.h"
 
 namespace rotrocc {
 

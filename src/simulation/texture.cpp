@@ -1,4 +1,4 @@
-#include "texture.h"
+#include "simulation/texture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "coverage.h"
+#include "simulation/coverage.h"
 
 namespace rotrocc {
 namespace {

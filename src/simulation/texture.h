@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "surface_point.h"
+#include "simulation/surface_point.h"
 
 namespace rotrocc {
 

@@ -1,4 +1,4 @@
-#include "texture_tiles.h"
+#include "simulation/texture_tiles.h"
 
 #include <cmath>
 #include <string>
@@ -6,7 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "counter_random.h"
+#include "simulation/counter_random.h"
 
 namespace rotrocc {
 namespace {

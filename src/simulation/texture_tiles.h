@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "texture.h"
+#include "simulation/texture.h"
 
 namespace rotrocc {
 

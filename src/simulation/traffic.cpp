@@ -1,10 +1,10 @@
-#include "traffic.h"
+#include "simulation/traffic.h"
 
 #include <utility>
 
-#include "car.h"
-#include "counter_random.h"
-#include "placement.h"
+#include "simulation/car.h"
+#include "simulation/counter_random.h"
+#include "simulation/placement.h"
 
 namespace rotrocc {
 namespace {

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "body.h"
-#include "drive.h"
-#include "world.h"
+#include "simulation/body.h"
+#include "simulation/drive.h"
+#include "simulation/world.h"
 
 namespace rotrocc {
 

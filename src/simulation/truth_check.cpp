@@ -1,4 +1,4 @@
-#include "truth_check.h"
+#include "simulation/truth_check.h"
 
 #include <cmath>
 #include <vector>

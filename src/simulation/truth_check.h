@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simulator.h"
+#include "simulation/simulator.h"
 
 namespace rotrocc {
 

@@ -1,4 +1,4 @@
-#include "vegetation.h"
+#include "simulation/vegetation.h"
 
 #include <cmath>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "view.h"
+#include "simulation/view.h"
 
 #include <algorithm>
 #include <cmath>

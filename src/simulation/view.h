@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
-#include "body.h"
 #include "rotrocc/stereo_camera.h"
+#include "simulation/body.h"
 
 namespace rotrocc {
 

@@ -1,10 +1,10 @@
-#include "world.h"
+#include "simulation/world.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "coverage.h"
-#include "street_layout.h"
+#include "simulation/coverage.h"
+#include "simulation/street_layout.h"
 
 namespace rotrocc {
 namespace {

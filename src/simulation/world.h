@@ -3,17 +3,17 @@
 #include <cstdint>
 #include <vector>
 
-#include "body.h"
-#include "ground_history.h"
-#include "path.h"
-#include "road_surface.h"
-#include "scene_geometry.h"
-#include "sky.h"
-#include "street_map.h"
-#include "street_style.h"
-#include "sunlight.h"
-#include "texture_tiles.h"
-#include "view.h"
+#include "simulation/body.h"
+#include "simulation/ground_history.h"
+#include "simulation/path.h"
+#include "simulation/road_surface.h"
+#include "simulation/scene_geometry.h"
+#include "simulation/sky.h"
+#include "simulation/street_map.h"
+#include "simulation/street_style.h"
+#include "simulation/sunlight.h"
+#include "simulation/texture_tiles.h"
+#include "simulation/view.h"
 
 namespace rotrocc {
 

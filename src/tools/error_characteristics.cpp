@@ -7,10 +7,10 @@
 
 #include <boost/program_options.hpp>
 
-#include "error_characteristics.h"
-#include "program.h"
+#include "experiments/error_characteristics.h"
 #include "rotrocc/kitti.h"
 #include "rotrocc/visual_odometry.h"
+#include "tools/program.h"
 
 namespace {
 

@@ -11,10 +11,10 @@
 
 #include <boost/program_options.hpp>
 
-#include "program.h"
 #include "rotrocc/trajectory.h"
 #include "rotrocc/trajectory_error.h"
-#include "trajectory_report.h"
+#include "tools/program.h"
+#include "tools/trajectory_report.h"
 
 namespace {
 

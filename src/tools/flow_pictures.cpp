@@ -1,4 +1,4 @@
-#include "flow_pictures.h"
+#include "tools/flow_pictures.h"
 
 #include <cstdio>
 #include <filesystem>

@@ -4,11 +4,11 @@
 
 #include <boost/program_options.hpp>
 
-#include "kitti_bag_writer.h"
-#include "kitti_mount.h"
-#include "program.h"
-#include "progress_bar.h"
+#include "bags/kitti_bag_writer.h"
+#include "bags/kitti_mount.h"
 #include "rotrocc/kitti.h"
+#include "tools/program.h"
+#include "tools/progress_bar.h"
 
 namespace {
 

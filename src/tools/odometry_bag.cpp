@@ -1,11 +1,11 @@
-#include "odometry_bag.h"
+#include "tools/odometry_bag.h"
 
 #include <stdexcept>
 
 #include <tf2_msgs/TFMessage.h>
 
-#include "message_conversion.h"
-#include "odometry_messages.h"
+#include "input/message_conversion.h"
+#include "node/odometry_messages.h"
 
 namespace rotrocc {
 

@@ -8,17 +8,17 @@
 
 #include <boost/program_options.hpp>
 
-#include "flow_pictures.h"
-#include "odometry_bag.h"
-#include "preloaded_source.h"
-#include "program.h"
-#include "progress_bar.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/pose_accumulator.h"
 #include "rotrocc/trajectory.h"
 #include "rotrocc/visual_odometry.h"
-#include "run_statistics.h"
-#include "stereo_source.h"
+#include "tools/flow_pictures.h"
+#include "tools/odometry_bag.h"
+#include "tools/preloaded_source.h"
+#include "tools/program.h"
+#include "tools/progress_bar.h"
+#include "tools/run_statistics.h"
+#include "tools/stereo_source.h"
 
 namespace {
 

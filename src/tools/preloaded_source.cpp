@@ -1,4 +1,4 @@
-#include "preloaded_source.h"
+#include "tools/preloaded_source.h"
 
 #include <sys/resource.h>
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "stereo_source.h"
+#include "tools/stereo_source.h"
 
 namespace rotrocc {
 

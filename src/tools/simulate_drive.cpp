@@ -9,15 +9,15 @@
 
 #include <boost/program_options.hpp>
 
-#include "kitti_bag_writer.h"
-#include "program.h"
-#include "progress_bar.h"
+#include "bags/kitti_bag_writer.h"
 #include "rotrocc/kitti.h"
 #include "rotrocc/trajectory.h"
-#include "scenario.h"
-#include "sequence_writer.h"
-#include "simulator.h"
-#include "truth_check.h"
+#include "simulation/scenario.h"
+#include "simulation/sequence_writer.h"
+#include "simulation/simulator.h"
+#include "simulation/truth_check.h"
+#include "tools/program.h"
+#include "tools/progress_bar.h"
 
 namespace {
 

@@ -1,12 +1,12 @@
-#include "stereo_source.h"
+#include "tools/stereo_source.h"
 
 #include <filesystem>
 
 #include <sensor_msgs/Image.h>
 
-#include "bag_reading.h"
-#include "kitti_mount.h"
-#include "recorded_tf.h"
+#include "bags/bag_reading.h"
+#include "bags/kitti_mount.h"
+#include "bags/recorded_tf.h"
 #include "rotrocc/kitti.h"
 
 namespace rotrocc {

@@ -6,9 +6,9 @@
 
 #include <Eigen/Geometry>
 
+#include "bags/stereo_bag.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
-#include "stereo_bag.h"
 
 namespace rotrocc {
 

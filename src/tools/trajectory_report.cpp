@@ -1,4 +1,4 @@
-#include "trajectory_report.h"
+#include "tools/trajectory_report.h"
 
 #include <unistd.h>
 

@@ -1,0 +1,128 @@
+#include "bags/kitti_bag_writer.h"
+
+#include <filesystem>
+#include <limits>
+#include <stdexcept>
+
+#include <cv_bridge/cv_bridge.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/distortion_models.h>
+#include <sensor_msgs/image_encodings.h>
+#include <std_msgs/Header.h>
+#include <tf2_eigen/tf2_eigen.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "bags/ground_truth.h"
+#include "bags/kitti_mount.h"
+#include "input/message_conversion.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr std::int64_t kNsPerS = 1000000000;
+const char* const kBaseFrame = "base_link";
+const char* const kOdomFrame = "odom";
+const char* const kCameraFrame = "stereo_left_optical";
+
+sensor_msgs::CameraInfo cameraInfo(const StereoCamera& camera, double cx, double baseline_m) {
+  sensor_msgs::CameraInfo info;
+  info.header.frame_id = kCameraFrame;
+  info.width = camera.width;
+  info.height = camera.height;
+  info.distortion_model = sensor_msgs::distortion_models::PLUMB_BOB;
+  info.D.assign(5, 0.0);
+  info.K = {camera.fx, 0, cx, 0, camera.fy, camera.cy, 0, 0, 1};
+  info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  info.P = {camera.fx, 0, cx, -camera.fx * baseline_m, 0, camera.fy, camera.cy, 0, 0, 0, 1, 0};
+  return info;
+}
+
+tf2_msgs::TFMessage mountMessage(const ros::Time& stamp) {
+  tf2_msgs::TFMessage message;
+  message.transforms.push_back(tf2::eigenToTransform(kittiMount()));
+  message.transforms.back().header.frame_id = kBaseFrame;
+  message.transforms.back().header.stamp = stamp;
+  message.transforms.back().child_frame_id = kCameraFrame;
+  return message;
+}
+
+}  // namespace
+
+KittiBagWriter::KittiBagWriter(const std::string& path,
+                               const KittiSequence& sequence,
+                               std::int64_t start_time_s)
+    : path_(path),
+      unfinished_path_(path + ".part"),
+      sequence_(sequence),
+      start_time_s_(start_time_s) {
+  const std::int64_t last_s = start_time_s + sequence.stamp_ns(sequence.size() - 1) / kNsPerS;
+  if (start_time_s < 1 || last_s >= std::numeric_limits<std::uint32_t>::max()) {
+    throw std::invalid_argument("start time " + std::to_string(start_time_s) +
+                                " s is beyond the range of ROS stamps: choose one from 1 to 4e9");
+  }
+  Trajectory poses = sequence.groundTruth();
+  for (StampedPose& pose : poses) pose.stamp_ns += start_time_s * kNsPerS;
+  ground_truth_ = groundTruthPath(poses, kittiMount(), kOdomFrame);
+  try {
+    bag_.open(unfinished_path_, rosbag::bagmode::Write);
+  } catch (const rosbag::BagException& error) {
+    throw std::runtime_error(unfinished_path_ + " cannot be written: " + error.what());
+  }
+}
+
+KittiBagWriter::~KittiBagWriter() {
+  if (finished_) return;
+  std::error_code ignored;
+  std::filesystem::remove(unfinished_path_, ignored);
+}
+
+void KittiBagWriter::writePair(int index) {
+  beginStamp(stamp(index));
+  if (index == 0) writeStatic();
+  if (sequence_.hasGroundTruth()) write("/ground_truth/pose", ground_truth_.poses.at(index));
+  const StereoCamera& camera = sequence_.camera();
+  writeCamera("/stereo/left", cameraInfo(camera, camera.cx, 0.0), sequence_.readLeft(index));
+  writeCamera("/stereo/right",
+              cameraInfo(camera, camera.cx_right, camera.baseline_m),
+              sequence_.readRight(index));
+}
+
+void KittiBagWriter::finish() {
+  bag_.close();
+  std::filesystem::rename(unfinished_path_, path_);
+  finished_ = true;
+}
+
+ros::Time KittiBagWriter::stamp(int index) const {
+  return toRosTime(start_time_s_ * kNsPerS + sequence_.stamp_ns(index));
+}
+
+void KittiBagWriter::beginStamp(const ros::Time& stamp) {
+  stamp_ = stamp;
+  record_time_ = stamp;
+}
+
+void KittiBagWriter::writeStatic() {
+  write("/tf_static", mountMessage(stamp_));
+  if (sequence_.hasGroundTruth()) write("/ground_truth/path", ground_truth_);
+}
+
+void KittiBagWriter::writeCamera(const std::string& camera_topic,
+                                 sensor_msgs::CameraInfo info,
+                                 const cv::Mat& image) {
+  info.header.stamp = stamp_;
+  write(camera_topic + "/camera_info", info);
+  write(camera_topic + "/image_rect",
+        *cv_bridge::CvImage(info.header, sensor_msgs::image_encodings::MONO8, image).toImageMsg());
+}
+
+template <typename Message>
+void KittiBagWriter::write(const std::string& topic, const Message& message) {
+  bag_.write(topic, record_time_, message);
+  // Players go by the record time: what is equal in time would come in any order.
+  record_time_ += ros::Duration(0, 1);
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+
+#include <rosbag/bag.h>
+#include <rosbag/message_instance.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/CameraInfo.h>
+
+#include "bags/stereo_topics.h"
+#include "input/stereo_pair_converter.h"
+#include "input/stereo_synchronizer.h"
+#include "rotrocc/stereo_camera.h"
+#include "rotrocc/stereo_pair.h"
+
+namespace rotrocc {
+
+/// The stereo pairs of a bag, one by one, in the order in which they are complete.
+class StereoBag {
+ public:
+  struct Options {
+    std::string left_image;  ///< topics, if findStereoTopics() cannot tell
+    std::string right_image;
+    double max_stamp_difference_s = 0.01;  ///< between the images of a pair
+    int queue_size = 4;                    ///< images that wait for their partner, on each side
+  };
+
+  /// `bag` must outlive this. Throws std::runtime_error if its topics cannot be used.
+  StereoBag(const rosbag::Bag& bag, const Options& options);
+  StereoBag(const StereoBag&) = delete;
+  StereoBag& operator=(const StereoBag&) = delete;
+
+  const StereoTopics& topics() const { return topics_; }
+
+  /// Count of left images: there cannot be more pairs.
+  int size() const { return size_; }
+
+  /// Reads the next pair and its camera. The images are valid until the next call. Returns false,
+  /// and leaves both alone, when there is none. Throws std::runtime_error with its stamp on a pair
+  /// that cannot be converted.
+  bool next(StereoPair& pair, StereoCamera& camera);
+
+ private:
+  bool read(const rosbag::MessageInstance& message);
+
+  StereoTopics topics_;
+  int size_;
+  rosbag::View view_;
+  rosbag::View::iterator next_;
+  StereoSynchronizer synchronizer_;
+  StereoPairConverter converter_;
+  sensor_msgs::CameraInfo::ConstPtr left_info_;
+  sensor_msgs::CameraInfo::ConstPtr right_info_;
+  StereoImages images_;
+};
+
+}  // namespace rotrocc

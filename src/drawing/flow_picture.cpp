@@ -1,0 +1,186 @@
+#include "rotrocc/flow_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <opencv2/imgproc.hpp>
+
+#include "drawing/flow_legend.h"
+#include "drawing/okabe_ito.h"
+
+namespace rotrocc {
+namespace {
+
+const cv::Scalar kRotationOnly(255, 255, 255);
+const cv::Scalar kOutlier(185, 60, 220);
+const cv::Scalar kExpected = okabe_ito::kGreen;
+const cv::Scalar kFeature(230, 230, 230);
+const cv::Scalar kOfRotation = okabe_ito::kSkyBlue;
+const cv::Scalar kOfTranslation = okabe_ito::kOrange;
+
+constexpr double kBrightness = 0.65;
+constexpr int kSubpixelBits = 4;
+
+/// An error of the flow that can be seen [px].
+constexpr double kVisible_px = 2.0;
+/// Far enough outside of any image; a line to further out might overflow.
+constexpr double kFarOutside_px = 1e5;
+
+cv::Point toSubpixel(const Eigen::Vector2d& pixel) {
+  constexpr double kScale = 1 << kSubpixelBits;
+  const auto clamped = [](double x) { return std::clamp(x, -kFarOutside_px, kFarOutside_px); };
+  return {cvRound(kScale * clamped(pixel.x())), cvRound(kScale * clamped(pixel.y()))};
+}
+
+void drawLine(const Eigen::Vector2d& from_px,
+              const Eigen::Vector2d& to_px,
+              const cv::Scalar& colour,
+              cv::Mat& image) {
+  cv::line(image, toSubpixel(from_px), toSubpixel(to_px), colour, 1, cv::LINE_AA, kSubpixelBits);
+}
+
+void drawDot(const Eigen::Vector2d& pixel, const cv::Scalar& colour, cv::Mat& image) {
+  const int radius = 1 << (kSubpixelBits + 1);
+  cv::circle(image, toSubpixel(pixel), radius, colour, cv::FILLED, cv::LINE_AA, kSubpixelBits);
+}
+
+/// Where a point is seen; a point that is not in front of the camera, nowhere else than it was.
+Eigen::Vector2d projectOr(const StereoCamera& camera,
+                          const Eigen::Vector3d& point,
+                          const Eigen::Vector2d& otherwise_px) {
+  return point.z() > 0.0 ? camera.project(point) : otherwise_px;
+}
+
+void requireFlags(const FeatureSet& set, const Correspondences& features) {
+  if (set.empty() || set.size() == features.size()) return;
+  throw std::invalid_argument("there are " + std::to_string(features.size()) + " features, but " +
+                              std::to_string(set.size()) + " inlier flags");
+}
+
+bool contains(const FeatureSet& set, std::size_t i) {
+  return !set.empty() && set[i] != 0;
+}
+
+void describe(const OdometryResult& result, FlowLegend& legend) {
+  legend.text(toString(result.state));
+  if (result.hasMotion()) {
+    const double speed_mps = result.T_prev_cur.translation().norm() / result.dt_s;
+    legend.text(FlowLegend::format("%.1f m/s", speed_mps));
+  }
+  legend.space();
+}
+
+void describeCounts(const FlowScene& scene, FlowLegend& legend) {
+  const StageCounts& counts = scene.result.counts;
+  const std::string features = FlowLegend::format("%zu features, ", scene.features.size());
+  const bool had_stage_2 = counts.translation_inliers > 0;
+  legend.text(features + (had_stage_2
+                              ? FlowLegend::format("%d fit the rotation, %d the translation",
+                                                   counts.rotation_inliers,
+                                                   counts.translation_inliers)
+                              : FlowLegend::format("%d fit", counts.rotation_inliers)));
+  legend.space();
+  legend.text(FlowLegend::format("bias %+.2f px", scene.result.disparity_bias.applied_px));
+}
+
+void drawMotion(const FlowScene& scene, cv::Mat& image) {
+  const Correspondences& features = scene.features;
+  // The few outliers would hide under the many inliers, so they come last.
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (!contains(scene.translation_inliers, i)) continue;
+    const cv::Scalar colour = FlowLegend::colourOfDepth(features[i].point_cur.z());
+    drawLine(features[i].prev_px, features[i].cur_px, colour, image);
+    drawDot(features[i].cur_px, colour, image);
+  }
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (contains(scene.translation_inliers, i)) continue;
+    if (scene.result.hasMotion()) {
+      const Eigen::Vector3d moved = scene.result.T_ref_cur.T * features[i].point_cur;
+      const Eigen::Vector2d expected_px = projectOr(scene.camera, moved, features[i].prev_px);
+      if ((expected_px - features[i].prev_px).norm() > kVisible_px) {
+        drawLine(expected_px, features[i].cur_px, kExpected, image);
+      }
+    }
+    const cv::Scalar colour = contains(scene.rotation_inliers, i) ? kRotationOnly : kOutlier;
+    drawLine(features[i].prev_px, features[i].cur_px, colour, image);
+    drawDot(features[i].cur_px, colour, image);
+  }
+}
+
+void drawDecoupled(const FlowScene& scene, cv::Mat& image) {
+  if (!scene.result.hasMotion()) return;
+  const Eigen::Matrix3d R = scene.result.T_ref_cur.T.linear();
+  for (std::size_t i = 0; i < scene.features.size(); ++i) {
+    if (!contains(scene.rotation_inliers, i)) continue;
+    const Correspondence& feature = scene.features[i];
+    const Eigen::Vector2d turned_px =
+        projectOr(scene.camera, R * feature.point_cur, feature.cur_px);
+    drawLine(feature.cur_px, turned_px, kOfRotation, image);
+    drawLine(turned_px, feature.prev_px, kOfTranslation, image);
+    drawDot(feature.cur_px, kFeature, image);
+  }
+}
+
+void explainMotion(FlowLegend& legend) {
+  legend.depthScale();
+  legend.space();
+  legend.sample(kRotationOnly, "rotation only");
+  legend.space();
+  legend.sample(kOutlier, "outlier");
+  legend.space();
+  legend.sample(kExpected, "as expected");
+  legend.space();
+}
+
+void explainDecoupled(FlowLegend& legend) {
+  legend.sample(kOfRotation, "flow of the rotation");
+  legend.space();
+  legend.sample(kOfTranslation, "flow of the translation");
+  legend.space();
+}
+
+}  // namespace
+
+const std::vector<std::string>& flowViewNames() {
+  static const std::vector<std::string> names = {"motion", "decoupled"};
+  return names;
+}
+
+FlowView flowView(const std::string& name) {
+  const auto& names = flowViewNames();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw std::invalid_argument("the flow view is \"" + name +
+                                "\", but must be motion or decoupled");
+  }
+  return static_cast<FlowView>(found - names.begin());
+}
+
+void drawFlowPicture(const FlowScene& scene, FlowView view, cv::Mat& picture) {
+  if (scene.left.empty() || scene.left.type() != CV_8UC1) {
+    throw std::invalid_argument(
+        "a flow picture needs an 8-bit grey image, not one of OpenCV type " +
+        std::to_string(scene.left.type()));
+  }
+  requireFlags(scene.rotation_inliers, scene.features);
+  requireFlags(scene.translation_inliers, scene.features);
+  picture.create(scene.left.rows + FlowLegend::kHeight_px, scene.left.cols, CV_8UC3);
+  cv::Mat image = picture.rowRange(0, scene.left.rows);
+  cv::cvtColor(scene.left, image, cv::COLOR_GRAY2BGR);
+  image *= kBrightness;
+
+  FlowLegend legend(picture.rowRange(scene.left.rows, picture.rows));
+  describe(scene.result, legend);
+  if (view == FlowView::kDecoupled) {
+    drawDecoupled(scene, image);
+    explainDecoupled(legend);
+  } else {
+    drawMotion(scene, image);
+    explainMotion(legend);
+  }
+  describeCounts(scene, legend);
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,132 @@
+#include "rotrocc/kitti.h"
+
+#include <cmath>
+#include <filesystem>
+#include <iomanip>
+#include <sstream>
+#include <stdexcept>
+
+#include <Eigen/Core>
+#include <opencv2/imgcodecs.hpp>
+
+#include "evaluation/text_file.h"
+
+namespace rotrocc {
+namespace {
+
+namespace fs = std::filesystem;
+using Projection = Eigen::Matrix<double, 3, 4>;
+
+constexpr const char* kLeftFolder = "image_0";
+constexpr const char* kRightFolder = "image_1";
+
+std::string imagePath(const std::string& directory, const char* folder, int index) {
+  std::ostringstream name;
+  name << std::setw(6) << std::setfill('0') << index << ".png";
+  return (fs::path(directory) / folder / name.str()).string();
+}
+
+std::size_t countImages(const fs::path& folder) {
+  if (!fs::is_directory(folder)) {
+    throw std::runtime_error(folder.string() + " is missing: is this a KITTI odometry sequence?");
+  }
+  std::size_t count = 0;
+  for (const auto& entry : fs::directory_iterator(folder))
+    count += entry.path().extension() == ".png";
+  return count;
+}
+
+void requireSameCount(const std::string& what, std::size_t count, std::size_t times) {
+  if (count == times) return;
+  throw std::runtime_error(what + " has " + std::to_string(count) + " entries, but times.txt has " +
+                           std::to_string(times) + " times");
+}
+
+Projection findProjection(const std::vector<TextLine>& lines,
+                          const std::string& name,
+                          const std::string& path) {
+  for (const TextLine& line : lines) {
+    if (line.words.front() != name) continue;
+    if (line.words.size() != 13) {
+      throw std::runtime_error(line.where + ": " + name + " has " +
+                               std::to_string(line.words.size() - 1) + " numbers instead of 12");
+    }
+    Projection projection;
+    for (int i = 0; i < 12; ++i) projection(i / 4, i % 4) = line.number(i + 1);
+    return projection;
+  }
+  throw std::runtime_error(path + " has no line '" + name + " ...'");
+}
+
+// Two cameras are rectified to each other if they share the focal lengths and the rows.
+StereoCamera readCalibration(const std::string& path, const cv::Size& size) {
+  const std::vector<TextLine> lines = readTextLines(path);
+  const Projection left = findProjection(lines, "P0:", path);
+  const Projection right = findProjection(lines, "P1:", path);
+  const double difference = (left.middleCols<2>(0) - right.middleCols<2>(0)).cwiseAbs().maxCoeff() +
+                            (left.col(2) - right.col(2)).tail<2>().cwiseAbs().maxCoeff();
+  if (difference > 1e-6 * std::abs(left(0, 0))) {
+    throw std::runtime_error(path + ": P0 and P1 are not of a rectified pair: they differ by " +
+                             std::to_string(difference) + " in fx, fy or cy");
+  }
+  StereoCamera camera;
+  camera.width = size.width;
+  camera.height = size.height;
+  camera.fx = left(0, 0);
+  camera.fy = left(1, 1);
+  camera.cx = left(0, 2);
+  camera.cy = left(1, 2);
+  camera.cx_right = right(0, 2);
+  camera.baseline_m = (left(0, 3) - right(0, 3)) / camera.fx;
+  try {
+    camera.check();
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(path + ": " + error.what());
+  }
+  return camera;
+}
+
+cv::Mat readGrey(const std::string& path) {
+  if (!fs::exists(path)) throw std::runtime_error(path + " is missing");
+  const cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE);
+  if (image.empty()) throw std::runtime_error(path + " is no readable image");
+  return image;
+}
+
+}  // namespace
+
+KittiSequence::KittiSequence(const std::string& directory) : directory_(directory) {
+  const fs::path root(directory);
+  if (!fs::is_directory(root)) throw std::runtime_error(directory + " is no directory");
+  const std::string times_path = (root / "times.txt").string();
+  stamps_ns_ = readTimes(times_path);
+  for (const char* folder : {kLeftFolder, kRightFolder}) {
+    requireSameCount((root / folder).string(), countImages(root / folder), stamps_ns_.size());
+  }
+  const cv::Mat first = readGrey(imagePath(directory, kLeftFolder, 0));
+  camera_ = readCalibration((root / "calib.txt").string(), first.size());
+  const std::string poses_path = (root / "poses.txt").string();
+  if (!fs::exists(poses_path)) return;
+  ground_truth_ = readTrajectory(poses_path, times_path);
+  requireSameCount(poses_path, ground_truth_.size(), stamps_ns_.size());
+}
+
+cv::Mat KittiSequence::readLeft(int index) const {
+  return read(kLeftFolder, index);
+}
+
+cv::Mat KittiSequence::readRight(int index) const {
+  return read(kRightFolder, index);
+}
+
+cv::Mat KittiSequence::read(const char* folder, int index) const {
+  const std::string path = imagePath(directory_, folder, index);
+  cv::Mat image = readGrey(path);
+  if (image.cols == camera_.width && image.rows == camera_.height) return image;
+  std::ostringstream message;
+  message << path << " is " << image.cols << " x " << image.rows << " px, but the first image is "
+          << camera_.width << " x " << camera_.height << " px";
+  throw std::runtime_error(message.str());
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,66 @@
+#include "features/corner_response.h"
+
+#include <algorithm>
+
+#include "features/kernels/kernels.h"
+
+namespace rotrocc {
+
+CornerResponse::CornerResponse(int block_radius_px)
+    : kernels_(&chooseKernels()), radius_(block_radius_px), side_(2 * block_radius_px + 1) {}
+
+void CornerResponse::compute(
+    const cv::Mat& image, int first_row, int last_row, int margin, cv::Mat& response) {
+  stride_ = static_cast<std::size_t>(image.cols + side_ + 2 * kMostShorts);
+  for (auto* row : {&smooth_, &steps_}) row->resize(stride_);
+  for (auto* sums : {&xx_, &xy_, &yy_}) sums->assign(stride_, 0);
+  gradients_.assign(static_cast<std::size_t>(2 * side_) * stride_, 0);
+
+  response.create(last_row - first_row, image.cols + 2 * margin + kMostShorts, CV_32F);
+  const int first = std::max(first_row, radius_);
+  const int last = std::min(last_row, image.rows - radius_);
+  const int count = image.cols - 2 * radius_;
+  if (first >= last || count <= 0) {
+    response.setTo(0.0F);
+    return;
+  }
+  for (int y = first - radius_; y < first + radius_; ++y) addGradients(image, y);
+  for (int y = first_row; y < last_row; ++y) {
+    auto* row = response.ptr<float>(y - first_row);
+    auto* end = row + response.cols;
+    if (y < first || y >= last) {
+      std::fill(row, end, 0.0F);
+      continue;
+    }
+    addGradients(image, y + radius_);
+    auto* inner = std::fill_n(row, margin + radius_, 0.0F);
+    kernels_->respondRow({xx_.data(), xy_.data(), yy_.data()}, side_, count, inner);
+    std::fill(inner + count, end, 0.0F);
+  }
+}
+
+/// Sobel's gradients of row y take the place of those `side_` rows before. smooth_ and steps_ begin
+/// one pixel left of the image, whose edge goes on.
+void CornerResponse::addGradients(const cv::Mat& image, int y) {
+  std::int16_t* smooth = smooth_.data() + 1;
+  std::int16_t* steps = steps_.data() + 1;
+  kernels_->differentiateRow(image.ptr<uchar>(std::max(y - 1, 0)),
+                             image.ptr<uchar>(y),
+                             image.ptr<uchar>(std::min(y + 1, image.rows - 1)),
+                             image.cols,
+                             smooth,
+                             steps);
+  for (std::int16_t* row : {smooth, steps}) {
+    row[-1] = row[0];
+    row[image.cols] = row[image.cols - 1];
+  }
+  std::int16_t* gradients = gradients_.data() + static_cast<std::size_t>(2 * (y % side_)) * stride_;
+  kernels_->replaceGradients(smooth_.data(),
+                             steps_.data(),
+                             image.cols,
+                             gradients,
+                             gradients + stride_,
+                             {xx_.data(), xy_.data(), yy_.data()});
+}
+
+}  // namespace rotrocc

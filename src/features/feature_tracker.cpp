@@ -1,0 +1,120 @@
+#include "features/feature_tracker.h"
+
+#include <algorithm>
+
+#include "features/half_image.h"
+#include "features/tracking_window.h"
+
+namespace rotrocc {
+namespace {
+
+/// A point within so much of the window's radius is where it was expected.
+constexpr float kNear = 0.5F;
+
+/// In small images, which only show where to begin in the large one, iterations end at a step so
+/// many times as long.
+constexpr double kCoarser = 3.0;
+
+float distance2(const cv::Point2f& a, const cv::Point2f& b) {
+  const cv::Point2f difference = a - b;
+  return difference.dot(difference);
+}
+
+/// The place of a pixel in a pyramid's level.
+float scaleOf(std::size_t level) {
+  return 1.0F / static_cast<float>(1 << level);
+}
+
+}  // namespace
+
+FeatureTracker::FeatureTracker(const Config& config)
+    : config_(config), windows_(Workers::kListParts, TrackingWindow(config.window_radius_px)) {}
+FeatureTracker::~FeatureTracker() = default;
+FeatureTracker::FeatureTracker(FeatureTracker&&) noexcept = default;
+FeatureTracker& FeatureTracker::operator=(FeatureTracker&&) noexcept = default;
+
+void FeatureTracker::buildPyramid(const cv::Mat& image, Pyramid& pyramid) const {
+  const int side = 2 * config_.window_radius_px + 1;
+  std::size_t levels = 1;
+  const auto most = static_cast<std::size_t>(std::max(config_.levels, config_.startup_levels));
+  while (levels < most && std::min(image.cols, image.rows) >> levels > side) ++levels;
+  pyramid.resize(levels);
+  image.copyTo(pyramid[0]);
+  for (std::size_t i = 1; i < levels; ++i) halve(pyramid[i - 1], pyramid[i]);
+}
+
+void FeatureTracker::track(Workers& workers,
+                           const Pyramid& prev_pyramid,
+                           const Pyramid& cur_pyramid,
+                           const std::vector<cv::Point2f>& prev,
+                           const std::vector<float>& growth,
+                           const Search& search,
+                           std::vector<cv::Point2f>& cur,
+                           std::vector<char>& tracked) {
+  indices_.clear();
+  for (std::size_t i = 0; i < prev.size(); ++i) {
+    if (tracked[i] != 0) indices_.push_back(i);
+  }
+  workers.forEach(indices_.size(), [&](std::size_t k, std::size_t part) {
+    const std::size_t i = indices_[k];
+    const bool found =
+        follow(prev_pyramid, cur_pyramid, search, prev[i], growth[i], windows_[part], cur[i]);
+    tracked[i] = found ? 1 : 0;
+  });
+}
+
+bool FeatureTracker::locate(const cv::Mat& from,
+                            const cv::Mat& to,
+                            const cv::Point2f& start,
+                            cv::Point2f& point) {
+  const TrackingWindow::Stop stop = {config_.max_iterations, config_.min_step_px};
+  TrackingWindow& window = windows_.front();
+  return window.take(from, start, 1.0F) && window.find(to, stop, point);
+}
+
+bool FeatureTracker::follow(const Pyramid& from,
+                            const Pyramid& to,
+                            const Search& search,
+                            const cv::Point2f& start,
+                            float growth,
+                            TrackingWindow& window,
+                            cv::Point2f& end) const {
+  const TrackingWindow::Stop stop = {config_.max_iterations, config_.min_step_px};
+  const TrackingWindow::Stop roughly = {config_.max_iterations, kCoarser * config_.min_step_px};
+  cv::Point2f found = end;
+  const float near_px = kNear * static_cast<float>(config_.window_radius_px);
+  const bool is_near = search.near && window.take(from[0], start, growth) &&
+                       window.find(to[0], stop, found) && distance2(found, end) < near_px * near_px;
+  if (!is_near) {
+    found = end;
+    const auto wanted = static_cast<std::size_t>(search.levels);
+    for (std::size_t level = std::min({wanted, from.size(), to.size()}) - 1; level > 0; --level) {
+      const float scale = scaleOf(level);
+      cv::Point2f scaled = scale * found;
+      // What a small image does not show is left to the larger ones.
+      if (window.take(from[level], scale * start, growth) &&
+          window.find(to[level], roughly, scaled)) {
+        found = scaled / scale;
+      }
+    }
+    if (!window.take(from[0], start, growth) || !window.find(to[0], stop, found)) return false;
+  }
+  end = found;
+  return returns(from[0], to[0], start, growth, window, end);
+}
+
+/// The way back starts where it should end, so one level is enough.
+bool FeatureTracker::returns(const cv::Mat& from,
+                             const cv::Mat& to,
+                             const cv::Point2f& start,
+                             float growth,
+                             TrackingWindow& window,
+                             const cv::Point2f& end) const {
+  const TrackingWindow::Stop stop = {config_.max_iterations, config_.min_step_px};
+  const auto most_px = static_cast<float>(config_.max_round_trip_px);
+  cv::Point2f back = start;
+  return window.take(to, end, 1.0F / growth) && window.find(from, stop, back) &&
+         distance2(back, start) <= most_px * most_px;
+}
+
+}  // namespace rotrocc

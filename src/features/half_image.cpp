@@ -1,0 +1,45 @@
+#include "features/half_image.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "features/kernels/kernels.h"
+
+namespace rotrocc {
+namespace {
+
+/// The kernel reaches so far.
+constexpr int kReach = 2;
+
+/// Smooths the image downwards at row `y`, times 16, into `sums`, with its reflection on both
+/// sides.
+void smoothDown(const Kernels& kernels, const cv::Mat& image, int y, std::int16_t* sums) {
+  const uchar* rows[2 * kReach + 1];
+  for (int i = -kReach; i <= kReach; ++i) {
+    rows[i + kReach] =
+        image.ptr<uchar>(cv::borderInterpolate(y + i, image.rows, cv::BORDER_REFLECT_101));
+  }
+  kernels.smoothDown(rows, image.cols, sums);
+  for (int i = 1; i <= kReach; ++i) {
+    sums[-i] = sums[cv::borderInterpolate(-i, image.cols, cv::BORDER_REFLECT_101)];
+    const int right = image.cols - 1 + i;
+    sums[right] = sums[cv::borderInterpolate(right, image.cols, cv::BORDER_REFLECT_101)];
+  }
+}
+
+}  // namespace
+
+void halve(const cv::Mat& image, cv::Mat& half) {
+  half.create((image.rows + 1) / 2, (image.cols + 1) / 2, CV_8UC1);
+  const Kernels& kernels = chooseKernels();
+  thread_local std::vector<std::int16_t> buffer;  // of a row
+  buffer.resize(static_cast<std::size_t>(image.cols + 2 * kReach + kMostShorts));
+  std::int16_t* sums = buffer.data() + kReach;
+  for (int y = 0; y < half.rows; ++y) {
+    smoothDown(kernels, image, 2 * y, sums);
+    kernels.smoothAlong(sums, half.cols, half.ptr<uchar>(y));
+  }
+}
+
+}  // namespace rotrocc

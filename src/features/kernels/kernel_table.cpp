@@ -1,0 +1,22 @@
+#include "features/kernels/kernels.h"
+#include "features/kernels/lanes.h"
+
+namespace rotrocc::ROTROCC_INSTRUCTIONS {
+
+extern const Kernels kernels;
+const Kernels kernels = {kShorts,
+                         smoothDown,
+                         smoothAlong,
+                         differentiateRow,
+                         replaceGradients,
+                         respondRow,
+                         highestOfColumns,
+                         findPeaks,
+                         sadCosts,
+                         sadCost,
+                         takeWindow,
+                         compareWindow,
+                         fitDisparities};
+static_assert(kShorts <= kMostShorts);
+
+}  // namespace rotrocc::ROTROCC_INSTRUCTIONS

@@ -1,0 +1,11 @@
+#pragma once
+
+/// Registers of 16-bit integers (Shorts), 32-bit ones (Ints, half as many) and floats (Floats), as
+/// wide as the processor has them, and what the kernels do with them.
+#include "features/kernels/instructions.h"
+
+#ifdef ROTROCC_AVX2
+#include "features/kernels/lanes_avx2.h"
+#else
+#include "features/kernels/lanes_baseline.h"
+#endif

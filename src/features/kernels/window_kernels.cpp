@@ -1,0 +1,136 @@
+#include "features/kernels/window_kernels.h"
+
+#include "features/kernels/lanes.h"
+
+namespace rotrocc::ROTROCC_INSTRUCTIONS {
+namespace {
+
+/// Rows whose products 32 bits hold: 255 grey levels times the steepest gradient, two a lane.
+constexpr int kBlockRows = 16;
+
+/// Pixels, each between one and its right neighbour by fx / 2^15, as values.
+Shorts betweenColumns(const std::uint8_t* pixels, const Shorts& fx) {
+  const Shorts left = loadBytes(pixels);
+  const Shorts right = loadBytes(pixels + 1);
+  return shiftLeft<Window::kValueBits>(left) +
+         multiplyHigh(shiftLeft<Window::kValueBits + 1>(right - left), fx);
+}
+
+Shorts betweenRows(const Shorts& upper, const Shorts& lower, const Shorts& fy) {
+  return upper + multiplyHigh(shiftLeft<1>(lower - upper), fy);
+}
+
+/// The gradient of Scharr, (3 10 3) / 16 across, from the differences of three rows or columns of
+/// pixels that are two apart.
+Shorts scharr(const Shorts& before, const Shorts& here, const Shorts& after) {
+  const Shorts middle = multiplyHigh(shiftLeft<1>(here), all(std::int16_t{20480}));  // 10 / 32
+  const Shorts sides = multiplyHigh(before + after, all(std::int16_t{12288}));       // 3 / 16
+  // A unit more makes up for what both products lose; the other two round.
+  constexpr int kShift = Window::kValueBits + 1 - Window::kGradientBits;
+  constexpr std::int16_t kRounding = 1 + (1 << (kShift - 1));
+  return shiftRight<kShift>(middle + sides + all(kRounding));
+}
+
+Shorts difference(const std::int16_t* a, const std::int16_t* b) {
+  return load(a) - load(b);
+}
+
+void sample(const Patch& patch, const Window window) {
+  const Shorts fx = all(patch.fx);
+  const Shorts fy = all(patch.fy);
+  const int side = window.side + 2;
+  for (int x = 0; x < side; x += kShorts) {
+    const std::uint8_t* pixels = patch.pixels + x;
+    std::int16_t* out = window.samples + x;
+    Shorts upper = betweenColumns(pixels, fx);
+    for (int y = 0; y < side; ++y) {
+      pixels += patch.step;
+      const Shorts lower = betweenColumns(pixels, fx);
+      store(out, betweenRows(upper, lower, fy));
+      upper = lower;
+      out += window.sample_stride;
+    }
+  }
+}
+
+}  // namespace
+
+GradientSums takeWindow(const Patch& patch, const Window window) {
+  // A gradient times a spread is a value with 16 bits to be dropped.
+  constexpr int kUpToValue = 1 + Window::kValueBits - Window::kGradientBits;
+  sample(patch, window);
+  GradientSums sums = {0, 0, 0, 0, 0};
+  for (int x = 0; x < window.stride; x += kShorts) {
+    const Shorts mask = load(window.mask + x);
+    const Shorts spread_x = load(window.spread + x);
+    const std::int16_t* spread_y = window.spread;
+    Ints minus_x = noInts();
+    Ints minus_y = noInts();
+    Ints xx = noInts();
+    Ints xy = noInts();
+    Ints yy = noInts();
+    const std::int16_t* above = window.samples + x;
+    for (int at = x; at < window.side * window.stride; at += window.stride) {
+      const std::int16_t* here = above + window.sample_stride;
+      const std::int16_t* below = here + window.sample_stride;
+      const Shorts gx = scharr(difference(above + 2, above),
+                               difference(here + 2, here),
+                               difference(below + 2, below)) &
+                        mask;
+      const Shorts gy = scharr(difference(below, above),
+                               difference(below + 1, above + 1),
+                               difference(below + 2, above + 2)) &
+                        mask;
+      const Shorts aside = multiplyHigh(shiftLeft<kUpToValue>(gx), spread_x);
+      const Shorts down = multiplyHigh(shiftLeft<kUpToValue>(gy), all(*spread_y++));
+      store(window.values + at, load(here + 1) + aside + down);
+      store(window.gradient_x + at, gx);
+      store(window.gradient_y + at, gy);
+      minus_x = minus_x + dot(gx, mask);
+      minus_y = minus_y + dot(gy, mask);
+      xx = xx + dot(gx, gx);
+      xy = xy + dot(gx, gy);
+      yy = yy + dot(gy, gy);
+      above = here;
+    }
+    sums.x -= sum(minus_x);
+    sums.y -= sum(minus_y);
+    sums.xx += sum(xx);
+    sums.xy += sum(xy);
+    sums.yy += sum(yy);
+  }
+  return sums;
+}
+
+MismatchSums compareWindow(const Patch& patch, const Window& window) {
+  const Shorts fx = all(patch.fx);
+  const Shorts fy = all(patch.fy);
+  MismatchSums sums = {0, 0, 0};
+  for (int first = 0; first < window.side; first += kBlockRows) {
+    const int last = first + kBlockRows < window.side ? first + kBlockRows : window.side;
+    for (int x = 0; x < window.stride; x += kShorts) {
+      const std::uint8_t* pixels = patch.pixels + first * patch.step + x;
+      const Shorts mask = load(window.mask + x);
+      Ints minus_sum = noInts();
+      Ints sum_x = noInts();
+      Ints sum_y = noInts();
+      Shorts upper = betweenColumns(pixels, fx);
+      const int end = last * window.stride;
+      for (int at = first * window.stride + x; at < end; at += window.stride) {
+        pixels += patch.step;
+        const Shorts lower = betweenColumns(pixels, fx);
+        const Shorts excess = betweenRows(upper, lower, fy) - load(window.values + at);
+        minus_sum = minus_sum + dot(excess, mask);
+        sum_x = sum_x + dot(excess, load(window.gradient_x + at));
+        sum_y = sum_y + dot(excess, load(window.gradient_y + at));
+        upper = lower;
+      }
+      sums.one -= sum(minus_sum);
+      sums.x += sum(sum_x);
+      sums.y += sum(sum_y);
+    }
+  }
+  return sums;
+}
+
+}  // namespace rotrocc::ROTROCC_INSTRUCTIONS

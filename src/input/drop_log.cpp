@@ -1,0 +1,40 @@
+#include "input/drop_log.h"
+
+#include <ros/console.h>
+
+namespace rotrocc {
+
+void DropLog::add(const InputError& error) {
+  counters_.add(error.reason());
+  const std::lock_guard<std::mutex> lock(mutex_);
+  log(error);
+  last_ = error;
+  last_time_ = std::chrono::steady_clock::now();
+}
+
+void DropLog::log(const InputError& error) {
+  if (error.reason() == DropReason::kCameraInfoInvalid) {
+    if (camera_error_ == error.what() || !camera_throttle_.pass()) return;
+    camera_error_ = error.what();
+    ROS_ERROR_STREAM("no calibration: " << error.what());
+    return;
+  }
+  Throttle& throttle =
+      throttles_.try_emplace(error.reason(), std::chrono::seconds(5)).first->second;
+  if (!throttle.pass()) return;
+  ROS_WARN_STREAM("dropped (" << toString(error.reason()) << ", " << counters_.count(error.reason())
+                              << " so far): " << error.what());
+}
+
+std::optional<InputError> DropLog::lastWithin(std::chrono::seconds age) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (last_ && std::chrono::steady_clock::now() - last_time_ > age) return std::nullopt;
+  return last_;
+}
+
+void DropLog::forgetCameraError() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  camera_error_.clear();
+}
+
+}  // namespace rotrocc

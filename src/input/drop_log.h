@@ -1,0 +1,45 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "input/input_error.h"
+#include "input/throttle.h"
+
+namespace rotrocc {
+
+/// Counts refused input by reason, and says so in the log: each reason at most every 5 s, a bad
+/// camera_info once until there is a good one. From any thread.
+class DropLog {
+ public:
+  void add(const InputError& error);
+
+  /// Counts without a word: what is no fault of the input.
+  void count(DropReason reason, std::uint64_t count = 1) { counters_.add(reason, count); }
+  void set(DropReason reason, std::uint64_t count) { counters_.set(reason, count); }
+
+  const DropCounters& counters() const { return counters_; }
+
+  /// The last refusal, if that was not longer than `age` ago.
+  std::optional<InputError> lastWithin(std::chrono::seconds age) const;
+
+  /// A good camera_info: the next bad one is news again, even if it is the same.
+  void forgetCameraError();
+
+ private:
+  void log(const InputError& error);
+
+  DropCounters counters_;
+  mutable std::mutex mutex_;
+  std::map<DropReason, Throttle> throttles_;
+  Throttle camera_throttle_{std::chrono::seconds(1)};
+  std::string camera_error_;
+  std::optional<InputError> last_;
+  std::chrono::steady_clock::time_point last_time_;
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,63 @@
+#include "input/silence_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rotrocc {
+namespace {
+
+constexpr std::chrono::seconds kLeastDistance(5);
+constexpr std::chrono::seconds kFirstReminder(10);
+constexpr std::chrono::seconds kLastReminder(60);
+
+std::string seconds(std::chrono::duration<double> duration) {
+  return std::to_string(std::lround(duration.count())) + " s";
+}
+
+/// What is worth telling anew, without the numbers, which change all the time.
+std::string situationOf(const InputReport& input) {
+  std::string situation;
+  for (const TopicReport* topic :
+       {&input.left_image, &input.right_image, &input.left_info, &input.right_info}) {
+    situation += topic->publishers > 0 ? 'p' : '-';
+    situation += topic->recent > 0 ? 'm' : '-';
+  }
+  situation += input.clock_missing ? 'c' : '-';
+  situation += input.waits_for_info ? 'w' : '-';
+  situation += input.refused.empty() ? '-' : 'r';
+  return situation + input.camera_error;
+}
+
+}  // namespace
+
+SilenceWatch::SilenceWatch(double silence_s, Time now)
+    : silence_limit_(silence_s), last_pair_(now) {}
+
+std::string SilenceWatch::onPair(Time now) {
+  std::string said;
+  if (told_) said = "stereo pairs come again, after " + seconds(now - last_pair_);
+  told_ = false;
+  last_pair_ = now;
+  return said;
+}
+
+std::string SilenceWatch::onTick(const InputReport& input, Time now) {
+  if (now - last_pair_ < silence_limit_) return {};
+  const std::string situation = situationOf(input);
+  if (told_) {
+    const bool is_news = situation != situation_;
+    if (now - last_told_ < (is_news ? kLeastDistance : reminder_)) return {};
+    if (!is_news) reminder_ = std::min(2 * reminder_, kLastReminder);
+  } else {
+    reminder_ = kFirstReminder;
+  }
+  told_ = true;
+  last_told_ = now;
+  situation_ = situation;
+  const std::string why = whyNoPairs(input);
+  return "no stereo pair for " + seconds(now - last_pair_) +
+         ". Messages in the last 5 s: " + describeTopics(input) +
+         (why.empty() ? "" : ". Likely: ") + why;
+}
+
+}  // namespace rotrocc

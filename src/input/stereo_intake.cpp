@@ -1,0 +1,113 @@
+#include "input/stereo_intake.h"
+
+#include <utility>
+
+#include <ros/console.h>
+
+#include "input/camera_validation.h"
+#include "input/message_conversion.h"
+
+namespace rotrocc {
+namespace {
+
+TopicReport reportOf(const TopicStatistics& statistics, TopicStatistics::Time now) {
+  TopicReport report;
+  report.recent = statistics.recent(now);
+  report.total = statistics.total();
+  report.rate_hz = statistics.rate_hz(now);
+  return report;
+}
+
+}  // namespace
+
+StereoIntake::StereoIntake(const NodeParameters& parameters, DropLog& drops, PairHandler on_pair)
+    : parameters_(parameters),
+      drops_(drops),
+      on_pair_(std::move(on_pair)),
+      left_guard_("the left image", parameters.max_future_s),
+      right_guard_("the right image", parameters.max_future_s),
+      synchronizer_(parameters.max_stamp_difference_s,
+                    static_cast<std::size_t>(parameters.queue_size)) {}
+
+void StereoIntake::addImage(Side side,
+                            const sensor_msgs::Image::ConstPtr& image,
+                            const Arrival& arrival) {
+  const bool left = side == Side::kLeft;
+  const std::int64_t stamp_ns = toNanoseconds(image->header.stamp);
+  (left ? left_images_ : right_images_).add(stamp_ns, arrival.time);
+  try {
+    (left ? left_guard_ : right_guard_).check(stamp_ns, arrival.clock_ns);
+    takePair(left ? synchronizer_.addLeft(image) : synchronizer_.addRight(image), arrival);
+  } catch (const InputError& error) {
+    drops_.add(error);
+  }
+}
+
+void StereoIntake::addInfo(Side side,
+                           const sensor_msgs::CameraInfo::ConstPtr& info,
+                           const Arrival& arrival) {
+  const bool left = side == Side::kLeft;
+  (left ? left_infos_ : right_infos_).add(toNanoseconds(info->header.stamp), arrival.time);
+  (left ? left_info_ : right_info_) = info;
+  try {
+    updateCamera();
+  } catch (const InputError& error) {
+    camera_.reset();
+    camera_error_ = error.what();
+    drops_.add(error);
+  }
+}
+
+void StereoIntake::takePair(const std::optional<StereoImages>& images, const Arrival& arrival) {
+  drops_.set(DropReason::kNoPartner, synchronizer_.unmatched());
+  if (!images) return;
+  pairs_.add(toNanoseconds(images->left->header.stamp), arrival.time);
+  if (waiting_) drops_.count(DropReason::kCameraInfoMissing);
+  waiting_ = ReceivedPair{*images, {}, arrival.time};
+  handOver();
+}
+
+void StereoIntake::updateCamera() {
+  if (!left_info_ || !right_info_) return;
+  setCamera(toStereoCamera(*left_info_, *right_info_, parameters_.baseline_m));
+  handOver();
+}
+
+void StereoIntake::setCamera(const StereoCamera& camera) {
+  if (camera_ == camera) return;
+  camera_ = camera;
+  camera_error_.clear();
+  drops_.forgetCameraError();
+  ROS_INFO_STREAM("stereo camera of P: " << camera.width << "x" << camera.height << " px, fx "
+                                         << camera.fx << " px, baseline " << camera.baseline_m
+                                         << " m");
+  const std::string oddity = oddityOf(camera);
+  if (!oddity.empty()) ROS_WARN_STREAM(oddity);
+}
+
+void StereoIntake::handOver() {
+  if (!waiting_ || !camera_) return;
+  waiting_->camera = *camera_;
+  on_pair_(std::move(*waiting_));
+  waiting_.reset();
+}
+
+InputReport StereoIntake::report(std::chrono::steady_clock::time_point now) const {
+  InputReport report;
+  report.left_image = reportOf(left_images_, now);
+  report.right_image = reportOf(right_images_, now);
+  report.left_info = reportOf(left_infos_, now);
+  report.right_info = reportOf(right_infos_, now);
+  report.recent_pairs = pairs_.recent(now);
+  report.stamp_difference_s =
+      greatestStampDifference(left_images_.lastStamps_ns(), right_images_.lastStamps_ns());
+  report.max_stamp_difference_s = parameters_.max_stamp_difference_s;
+  if (const auto refused = drops_.lastWithin(TopicStatistics::kWindow)) {
+    report.refused = refused->what();
+  }
+  report.camera_error = camera_error_;
+  report.waits_for_info = waiting_.has_value();
+  return report;
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,36 @@
+#include "input/topic_statistics.h"
+
+#include <algorithm>
+
+namespace rotrocc {
+namespace {
+
+constexpr std::size_t kMaxStamps = 16;
+constexpr std::size_t kMaxArrivals = 2000;  // whatever is sent
+
+}  // namespace
+
+void TopicStatistics::add(std::int64_t stamp_ns, Time now) {
+  ++total_;
+  arrivals_.push_back(now);
+  while (arrivals_.size() > kMaxArrivals || arrivals_.front() < now - kWindow) {
+    arrivals_.pop_front();
+  }
+  stamps_ns_.push_back(stamp_ns);
+  if (stamps_ns_.size() > kMaxStamps) stamps_ns_.pop_front();
+}
+
+std::size_t TopicStatistics::recent(Time now) const {
+  const auto first = std::lower_bound(arrivals_.begin(), arrivals_.end(), now - kWindow);
+  return static_cast<std::size_t>(arrivals_.end() - first);
+}
+
+double TopicStatistics::rate_hz(Time now) const {
+  const std::size_t count = recent(now);
+  if (count < 2) return 0.0;
+  const Time first = arrivals_[arrivals_.size() - count];
+  const double length_s = std::chrono::duration<double>(arrivals_.back() - first).count();
+  return length_s > 0.0 ? static_cast<double>(count - 1) / length_s : 0.0;
+}
+
+}  // namespace rotrocc

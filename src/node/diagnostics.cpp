@@ -1,0 +1,209 @@
+#include "node/diagnostics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <diagnostic_msgs/DiagnosticStatus.h>
+#include <ros/init.h>
+
+#include "input/to_text.h"
+#include "rotrocc/OdometryStatus.h"
+
+namespace rotrocc {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+/// Rates of left and right images that differ by this share are worth a warning.
+constexpr double kRateDifference = 0.2;
+/// Latencies jump when the machine is busy for a moment: a warning only when most pairs are late.
+constexpr double kLateShareOfPeriod = 1.0;
+/// A rig is rarely better calibrated; the correction, which is right on average alone, leaves more
+/// of a larger bias.
+constexpr double kLargeBias_px = 0.5;
+/// More than rectification leaves, and than windows of a few pixels may be apart to match well.
+constexpr double kRowsApart_px = 0.5;
+
+std::string hundredths(double value) {
+  return toText(0.01 * std::round(100.0 * value));
+}
+
+unsigned char levelOf(std::uint8_t state) {
+  switch (state) {
+    case OdometryStatus::OK:
+    case OdometryStatus::INITIALISING:
+      return DiagnosticStatus::OK;
+    case OdometryStatus::DEGRADED:
+    case OdometryStatus::PAUSED:
+      return DiagnosticStatus::WARN;
+    default:
+      return DiagnosticStatus::ERROR;
+  }
+}
+
+void addTopic(const TopicReport& topic, StatusWrapper& status) {
+  status.addf(topic.topic,
+              "%.1f Hz, %zu in 5 s, %llu in all, %zu publishers",
+              topic.rate_hz,
+              topic.recent,
+              static_cast<unsigned long long>(topic.total),
+              topic.publishers);
+}
+
+bool ratesDiffer(const InputReport& input) {
+  const double left_hz = input.left_image.rate_hz;
+  const double right_hz = input.right_image.rate_hz;
+  return std::abs(left_hz - right_hz) > kRateDifference * std::max(left_hz, right_hz);
+}
+
+}  // namespace
+
+std::string rigWarning(const OdometryResult& result) {
+  const DisparityBias& bias = result.disparity_bias;
+  const RowOffset& rows = result.row_offset;
+  std::string what;
+  if (std::abs(bias.applied_px) >= kLargeBias_px) {
+    what = "disparities are off by " + hundredths(-bias.estimated_px) + " px (+- " +
+           hundredths(bias.sigma_px) + "), which is corrected";
+  }
+  if (rows.typical_px >= kRowsApart_px) {
+    what += (what.empty() ? "" : "; ") + std::string("rows of left and right are ") +
+            hundredths(rows.typical_px) + " px apart, the right ones lower by " +
+            hundredths(rows.median_px) + " px (+- " + hundredths(rows.sigma_px) + ")";
+  }
+  return what.empty() ? "" : what + ": calibrate the stereo pair anew";
+}
+
+void describeOdometry(const HealthReport& report, StatusWrapper& status) {
+  const NodeState state = stateOf(report);
+  const std::string name = stateName(state.state);
+  status.summary(levelOf(state.state), state.reason.empty() ? name : name + ": " + state.reason);
+  if (!report.hint.empty()) status.mergeSummary(DiagnosticStatus::WARN, report.hint);
+  if (const std::string rig = rigWarning(report.last_result); !rig.empty()) {
+    status.mergeSummary(DiagnosticStatus::WARN, rig);
+  }
+  const StageCounts& counts = report.last_result.counts;
+  status.add("state", name);
+  status.add("reason", state.reason);
+  status.add("hint", report.hint);
+  status.add("corners", counts.corners);
+  status.add("corners with a disparity", counts.with_depth);
+  status.add("features tracked and consistent", counts.consistent);
+  status.add("inliers of the rotation", counts.rotation_inliers);
+  status.add("inliers of the translation", counts.translation_inliers);
+  const DisparityBias& bias = report.last_result.disparity_bias;
+  status.addf("disparity bias",
+              "%.2f +- %.2f px, %.2f px corrected",
+              bias.estimated_px,
+              bias.sigma_px,
+              bias.applied_px);
+  const RowOffset& rows = report.last_result.row_offset;
+  status.addf("row offset of the right image",
+              "%.2f +- %.2f px, rows %.2f px apart",
+              rows.median_px,
+              rows.sigma_px,
+              rows.typical_px);
+  const MeasurementNoise& noise = report.last_result.noise;
+  status.addf("noise of flow and disparity", "%.2f and %.2f px", noise.flow_px, noise.disparity_px);
+  status.add("pairs processed", report.pairs_processed);
+  status.add("pairs lost", report.pairs_lost);
+}
+
+void describeInput(const HealthReport& report, StatusWrapper& status) {
+  const InputReport& input = report.input;
+  const std::string why = whyNoPairs(input);
+  if (input.recent_pairs == 0) {
+    status.summary(DiagnosticStatus::ERROR, why.empty() ? "no stereo pairs" : why);
+  } else if (ratesDiffer(input)) {
+    status.summaryf(DiagnosticStatus::WARN,
+                    "%s comes at %.1f Hz, %s at %.1f Hz: one camera loses images",
+                    input.left_image.topic.c_str(),
+                    input.left_image.rate_hz,
+                    input.right_image.topic.c_str(),
+                    input.right_image.rate_hz);
+  } else if (!why.empty()) {
+    status.summary(DiagnosticStatus::WARN, "dropped in the last 5 s: " + why);
+  } else {
+    status.summary(DiagnosticStatus::OK, "stereo pairs arrive");
+  }
+  for (const TopicReport* topic :
+       {&input.left_image, &input.right_image, &input.left_info, &input.right_info}) {
+    addTopic(*topic, status);
+  }
+  status.addf("pairs", "%zu in 5 s", input.recent_pairs);
+  if (input.stamp_difference_s) {
+    status.addf(
+        "largest stamp difference of left and right", "%.3f ms", 1e3 * *input.stamp_difference_s);
+  }
+  status.addf("max_stamp_difference_s", "%.3f ms", 1e3 * input.max_stamp_difference_s);
+}
+
+void describeTiming(const HealthReport& report, StatusWrapper& status) {
+  const double input_hz = report.input.left_image.rate_hz;
+  const double period_ms = input_hz > 0.0 ? 1e3 / input_hz : 0.0;
+  if (report.answers && period_ms > 0.0 && report.latency_p50_ms > kLateShareOfPeriod * period_ms) {
+    status.summaryf(DiagnosticStatus::WARN,
+                    "too slow: half of the answers take more than %.1f ms, and pairs come every "
+                    "%.1f ms; lower feature_detector/max_features, or the rate or size of the "
+                    "images",
+                    report.latency_p50_ms,
+                    period_ms);
+  } else {
+    status.summaryf(DiagnosticStatus::OK, "%.1f answers a second", report.answer_rate_hz);
+  }
+  status.addf("frequency", "%.2f Hz", report.answer_rate_hz);
+  status.addf("latency p50", "%.1f ms", report.latency_p50_ms);
+  status.addf("latency p95", "%.1f ms", report.latency_p95_ms);
+  status.addf("latency max", "%.1f ms", report.latency_max_ms);
+  status.addf("time of the estimator", "%.1f ms", report.last_result.times.total_ms);
+}
+
+void describeTf(const HealthReport& report, StatusWrapper& status) {
+  if (!report.waits_for_tf.empty()) {
+    status.summary(DiagnosticStatus::ERROR, report.waits_for_tf);
+  } else if (!report.tf_conflict.empty()) {
+    status.summary(DiagnosticStatus::WARN, report.tf_conflict);
+  } else {
+    status.summary(DiagnosticStatus::OK, "no conflict");
+  }
+}
+
+std::uint64_t countDrops(const HealthReport& report) {
+  std::uint64_t total = 0;
+  for (const auto& [reason, count] : report.drops) total += count;
+  return total;
+}
+
+void describeDrops(const HealthReport& report, std::uint64_t drops_before, StatusWrapper& status) {
+  const std::uint64_t total = countDrops(report);
+  if (total > drops_before) {
+    status.summaryf(DiagnosticStatus::WARN,
+                    "%llu more dropped in the last second",
+                    static_cast<unsigned long long>(total - drops_before));
+  } else {
+    status.summary(DiagnosticStatus::OK, "none in the last second");
+  }
+  status.add("dropped in all", total);
+  for (const auto& [reason, count] : report.drops) status.add(toString(reason), count);
+}
+
+Diagnostics::Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const std::string& name)
+    : updater_(nh, private_nh, name) {
+  updater_.setHardwareID("none");
+  // Without a publisher, which there is none of then, the first task would end a Debug build.
+  if (ros::isShuttingDown()) return;
+  updater_.add("odometry", [this](StatusWrapper& status) { describeOdometry(report_, status); });
+  updater_.add("input", [this](StatusWrapper& status) { describeInput(report_, status); });
+  updater_.add("timing", [this](StatusWrapper& status) { describeTiming(report_, status); });
+  updater_.add("tf", [this](StatusWrapper& status) { describeTf(report_, status); });
+  updater_.add("drops",
+               [this](StatusWrapper& status) { describeDrops(report_, drops_before_, status); });
+}
+
+void Diagnostics::publish(const HealthReport& report) {
+  report_ = report;
+  updater_.force_update();
+  drops_before_ = countDrops(report);
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+
+#include "node/odometry_health.h"
+
+namespace rotrocc {
+
+/// What /diagnostics says of the parts of the odometry.
+using StatusWrapper = diagnostic_updater::DiagnosticStatusWrapper;
+
+/// What disparities with a large bias, or rows far apart, ask for, a sentence; empty if they are
+/// not.
+std::string rigWarning(const OdometryResult& result);
+
+void describeOdometry(const HealthReport& report, StatusWrapper& status);
+void describeInput(const HealthReport& report, StatusWrapper& status);
+void describeTiming(const HealthReport& report, StatusWrapper& status);
+void describeTf(const HealthReport& report, StatusWrapper& status);
+/// Warns if there are more drops than `drops_before`.
+void describeDrops(const HealthReport& report, std::uint64_t drops_before, StatusWrapper& status);
+
+std::uint64_t countDrops(const HealthReport& report);
+
+/// Publishes them as often as it is told to.
+class Diagnostics {
+ public:
+  /// `name`: of the node or nodelet, with its namespace.
+  Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const std::string& name);
+
+  void publish(const HealthReport& report);
+
+ private:
+  HealthReport report_;
+  std::uint64_t drops_before_ = 0;
+  diagnostic_updater::Updater updater_;
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,92 @@
+#include "node/node_parameters.h"
+
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace rotrocc {
+namespace {
+
+/// A value as the table takes it. XmlRpcValue reads through non-const conversions only.
+std::string textOf(const std::string& name, XmlRpc::XmlRpcValue value) {
+  std::ostringstream text;
+  text.precision(std::numeric_limits<double>::max_digits10);
+  switch (value.getType()) {
+    case XmlRpc::XmlRpcValue::TypeBoolean:
+      text << (static_cast<bool>(value) ? "true" : "false");
+      break;
+    case XmlRpc::XmlRpcValue::TypeInt:
+      text << static_cast<int>(value);
+      break;
+    case XmlRpc::XmlRpcValue::TypeDouble:
+      text << static_cast<double>(value);
+      break;
+    case XmlRpc::XmlRpcValue::TypeString:
+      text << static_cast<std::string>(value);
+      break;
+    default:
+      throw std::invalid_argument("parameter " + name + " is neither a value nor a section");
+  }
+  return text.str();
+}
+
+void setBelow(const std::string& name, XmlRpc::XmlRpcValue value, ParameterTable& table) {
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
+    table.set(name, textOf(name, value));
+    return;
+  }
+  for (auto& [key, child] : value) setBelow(name.empty() ? key : name + "/" + key, child, table);
+}
+
+void requireFrame(const std::string& name, const std::string& frame) {
+  if (!frame.empty() && frame.front() != '/') return;
+  throw std::invalid_argument("parameter " + name + " is \"" + frame +
+                              "\", but must be a frame of tf, which has no leading slash");
+}
+
+/// One that may be empty.
+void requireFrameIfAny(const std::string& name, const std::string& frame) {
+  if (!frame.empty()) requireFrame(name, frame);
+}
+
+void requireDifferent(const std::string& name,
+                      const std::string& frame,
+                      const std::string& other_name,
+                      const std::string& other_frame) {
+  if (frame != other_frame) return;
+  throw std::invalid_argument("parameters " + name + " and " + other_name + " are both \"" + frame +
+                              "\", but must differ");
+}
+
+}  // namespace
+
+Parameters readParameters(const ros::NodeHandle& private_nh) {
+  Parameters parameters;
+  ParameterTable table = makeParameterTable(parameters);
+  XmlRpc::XmlRpcValue tree;
+  if (private_nh.getParam(private_nh.getNamespace(), tree)) setParameters(tree, table);
+  requireFrames(parameters.node);
+  return parameters;
+}
+
+void requireFrames(const NodeParameters& node) {
+  requireFrame("odom_frame", node.odom_frame);
+  requireFrame("base_frame", node.base_frame);
+  requireFrameIfAny("camera_frame", node.camera_frame);
+  requireFrameIfAny("guess_frame", node.guess_frame);
+  requireDifferent("odom_frame", node.odom_frame, "base_frame", node.base_frame);
+  requireDifferent("guess_frame", node.guess_frame, "odom_frame", node.odom_frame);
+  requireDifferent("guess_frame", node.guess_frame, "base_frame", node.base_frame);
+  if (!node.guess_frame.empty() && node.invert_tf) {
+    throw std::invalid_argument(
+        "parameter invert_tf is true, but with guess_frame the transform is that of odom_frame to "
+        "guess_frame");
+  }
+}
+
+void setParameters(const XmlRpc::XmlRpcValue& tree, ParameterTable& table) {
+  setBelow("", tree, table);
+}
+
+}  // namespace rotrocc

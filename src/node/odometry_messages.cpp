@@ -1,0 +1,147 @@
+#include "node/odometry_messages.h"
+
+#include <algorithm>
+
+#include <sensor_msgs/point_cloud2_iterator.h>
+#include <tf2_eigen/tf2_eigen.h>
+
+#include "input/message_conversion.h"
+
+namespace rotrocc {
+namespace {
+
+/// Row-major, as the 6x6 covariances of geometry_msgs are.
+void copyCovariance(const Matrix6d& covariance, boost::array<double, 36>& message) {
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.data()) = covariance;
+}
+
+std::uint8_t toMessage(State state) {
+  switch (state) {
+    case State::kInitialising:
+      return OdometryStatus::INITIALISING;
+    case State::kOk:
+      return OdometryStatus::OK;
+    case State::kDegraded:
+      return OdometryStatus::DEGRADED;
+    case State::kLost:
+      break;
+  }
+  return OdometryStatus::LOST;
+}
+
+void addCounters(const HealthReport& health, OdometryStatus& message) {
+  message.hint = health.hint;
+  message.pairs_processed = health.pairs_processed;
+  message.pairs_lost = health.pairs_lost;
+  for (const auto& [reason, count] : health.drops) {
+    DropCount drop;
+    drop.reason = toString(reason);
+    drop.count = count;
+    message.drops.push_back(drop);
+  }
+}
+
+}  // namespace
+
+nav_msgs::Odometry toOdometry(const BaseState& state,
+                              const std::string& odom_frame,
+                              const std::string& base_frame) {
+  nav_msgs::Odometry message;
+  message.header.stamp = toRosTime(state.stamp_ns);
+  message.header.frame_id = odom_frame;
+  message.child_frame_id = base_frame;
+  message.pose.pose = tf2::toMsg(state.T_odom_base.T);
+  copyCovariance(state.T_odom_base.covariance, message.pose.covariance);
+  message.twist.twist = tf2::toMsg(state.twist.twist);
+  copyCovariance(state.twist.covariance, message.twist.covariance);
+  return message;
+}
+
+geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& T_parent_child,
+                                            std::int64_t stamp_ns,
+                                            const std::string& parent,
+                                            const std::string& child) {
+  geometry_msgs::TransformStamped message = tf2::eigenToTransform(T_parent_child);
+  message.header.stamp = toRosTime(stamp_ns);
+  message.header.frame_id = parent;
+  message.child_frame_id = child;
+  return message;
+}
+
+OdometryStatus toStatus(const OdometryResult& result,
+                        const HealthReport& health,
+                        double latency_ms,
+                        const std::string& camera_frame) {
+  OdometryStatus message;
+  message.header.stamp = toRosTime(result.stamp_ns);
+  message.header.frame_id = camera_frame;
+  message.state = toMessage(result.state);
+  message.reason = result.reason;
+  message.dt = result.dt_s;
+
+  message.corners = static_cast<std::uint32_t>(result.counts.corners);
+  message.with_depth = static_cast<std::uint32_t>(result.counts.with_depth);
+  message.tracked = static_cast<std::uint32_t>(result.counts.tracked);
+  message.consistent = static_cast<std::uint32_t>(result.counts.consistent);
+  message.rotation_inliers = static_cast<std::uint32_t>(result.counts.rotation_inliers);
+  message.translation_inliers = static_cast<std::uint32_t>(result.counts.translation_inliers);
+
+  message.disparity_bias = static_cast<float>(result.disparity_bias.estimated_px);
+  message.disparity_bias_sigma = static_cast<float>(result.disparity_bias.sigma_px);
+  message.disparity_bias_applied = static_cast<float>(result.disparity_bias.applied_px);
+  message.row_offset = static_cast<float>(result.row_offset.median_px);
+  message.row_offset_sigma = static_cast<float>(result.row_offset.sigma_px);
+  message.row_difference = static_cast<float>(result.row_offset.typical_px);
+  message.flow_noise = static_cast<float>(result.noise.flow_px);
+  message.disparity_noise = static_cast<float>(result.noise.disparity_px);
+  message.time_pyramids = static_cast<float>(result.times.pyramids_ms);
+  message.time_corners = static_cast<float>(result.times.corners_ms);
+  message.time_disparity = static_cast<float>(result.times.disparity_ms);
+  message.time_tracking = static_cast<float>(result.times.tracking_ms);
+  message.time_estimation = static_cast<float>(result.times.estimation_ms);
+  message.time_total = static_cast<float>(result.times.total_ms);
+  message.latency = static_cast<float>(latency_ms);
+
+  addCounters(health, message);
+  return message;
+}
+
+OdometryStatus toIdleStatus(const HealthReport& health, const ros::Time& stamp) {
+  const NodeState state = stateOf(health);
+  OdometryStatus message;
+  message.header.stamp = stamp;
+  message.state = state.state;
+  message.reason = state.reason;
+  addCounters(health, message);
+  return message;
+}
+
+sensor_msgs::PointCloud2 toPointCloud(const Correspondences& features,
+                                      const FeatureSet& set,
+                                      const cv::Mat& left_image,
+                                      const std_msgs::Header& header) {
+  using Field = sensor_msgs::PointField;
+  sensor_msgs::PointCloud2 cloud;
+  cloud.header = header;
+  cloud.height = 1;
+  sensor_msgs::PointCloud2Modifier modifier(cloud);
+  // clang-format off
+  modifier.setPointCloud2Fields(4, "x", 1, Field::FLOAT32, "y", 1, Field::FLOAT32,
+                                "z", 1, Field::FLOAT32, "intensity", 1, Field::FLOAT32);
+  // clang-format on
+  modifier.resize(static_cast<std::size_t>(std::count(set.begin(), set.end(), 1)));
+  if (cloud.width == 0) return cloud;  // an iterator would look at the first of no points
+  sensor_msgs::PointCloud2Iterator<float> out(cloud, "x");
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    if (set[i] == 0) continue;
+    for (int axis = 0; axis < 3; ++axis)
+      out[axis] = static_cast<float>(features[i].point_cur[axis]);
+    const cv::Point pixel(cvRound(features[i].cur_px.x()), cvRound(features[i].cur_px.y()));
+    const bool inside = cv::Rect({0, 0}, left_image.size()).contains(pixel);
+    out[3] = inside ? static_cast<float>(left_image.at<unsigned char>(pixel)) : 0.0f;
+    ++out;
+  }
+  return cloud;
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <std_msgs/Header.h>
+#include <opencv2/core.hpp>
+
+#include "node/base_odometry.h"
+#include "node/odometry_health.h"
+#include "rotrocc/OdometryStatus.h"
+#include "rotrocc/visual_odometry.h"
+
+namespace rotrocc {
+
+nav_msgs::Odometry toOdometry(const BaseState& state,
+                              const std::string& odom_frame,
+                              const std::string& base_frame);
+
+/// T_parent_child as tf takes it.
+geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& T_parent_child,
+                                            std::int64_t stamp_ns,
+                                            const std::string& parent,
+                                            const std::string& child);
+
+/// `latency_ms`: since the arrival of the pair. The stamp is that of the result.
+OdometryStatus toStatus(const OdometryResult& result,
+                        const HealthReport& health,
+                        double latency_ms,
+                        const std::string& camera_frame);
+
+/// The status while there is nothing to tell of a pair.
+OdometryStatus toIdleStatus(const HealthReport& health, const ros::Time& stamp);
+
+/// The points of the features in `set`, in the frame of the header, which must be the left
+/// camera's: x, y, z [m] and the intensity of the image there, all FLOAT32.
+sensor_msgs::PointCloud2 toPointCloud(const Correspondences& features,
+                                      const FeatureSet& set,
+                                      const cv::Mat& left_image,
+                                      const std_msgs::Header& header);
+
+}  // namespace rotrocc

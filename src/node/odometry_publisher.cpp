@@ -1,0 +1,99 @@
+#include "node/odometry_publisher.h"
+
+#include <cv_bridge/cv_bridge.h>
+#include <nav_msgs/Path.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include "input/message_conversion.h"
+#include "rotrocc/flow_picture.h"
+
+namespace rotrocc {
+namespace {
+
+/// Enough for a subscriber that is busy for a moment.
+constexpr int kMotionQueue = 50;
+/// Of what is large, only the latest is of interest.
+constexpr int kPictureQueue = 1;
+
+}  // namespace
+
+OdometryPublisher::OdometryPublisher(ros::NodeHandle& nh, const NodeParameters& parameters)
+    : parameters_(parameters),
+      flow_view_(flowView(parameters.flow_view)),
+      status_publisher_(nh.advertise<OdometryStatus>("status", kMotionQueue)),
+      odom_publisher_(nh.advertise<nav_msgs::Odometry>("odom", kMotionQueue)),
+      path_publisher_(nh.advertise<nav_msgs::Path>("path", kPictureQueue)),
+      inliers_publisher_(nh.advertise<sensor_msgs::PointCloud2>("inliers", kPictureQueue)),
+      flow_publisher_(image_transport::ImageTransport(nh).advertise("flow", kPictureQueue)) {
+  if (parameters.publish_tf) tf_broadcaster_.emplace();
+}
+
+void OdometryPublisher::publishMotion(const OdometryStatus& status,
+                                      const BaseState& state,
+                                      const std::optional<Eigen::Isometry3d>& T_guess_base) {
+  const nav_msgs::Odometry odometry =
+      toOdometry(state, parameters_.odom_frame, parameters_.base_frame);
+  status_publisher_.publish(status);
+  if (tf_broadcaster_) publishTf(state, T_guess_base);
+  odom_publisher_.publish(odometry);
+  publishPath(odometry);
+}
+
+/// Where another odometry owns the base, our tf ends at its odom frame: a frame has one parent.
+void OdometryPublisher::publishTf(const BaseState& state,
+                                  const std::optional<Eigen::Isometry3d>& T_guess_base) {
+  const std::string& odom = parameters_.odom_frame;
+  const Eigen::Isometry3d& T_odom_base = state.T_odom_base.T;
+  if (!parameters_.guess_frame.empty()) {
+    if (!T_guess_base) return;
+    tf_broadcaster_->sendTransform(toTransform(
+        T_odom_base * T_guess_base->inverse(), state.stamp_ns, odom, parameters_.guess_frame));
+  } else if (parameters_.invert_tf) {
+    tf_broadcaster_->sendTransform(
+        toTransform(T_odom_base.inverse(), state.stamp_ns, parameters_.base_frame, odom));
+  } else {
+    tf_broadcaster_->sendTransform(
+        toTransform(T_odom_base, state.stamp_ns, odom, parameters_.base_frame));
+  }
+}
+
+void OdometryPublisher::publishPath(const nav_msgs::Odometry& odometry) {
+  geometry_msgs::PoseStamped pose;
+  pose.header = odometry.header;
+  pose.pose = odometry.pose.pose;
+  path_.push_back(pose);
+  while (path_.size() > static_cast<std::size_t>(parameters_.path_length)) path_.pop_front();
+  if (path_publisher_.getNumSubscribers() == 0) return;
+  nav_msgs::Path path;
+  path.header = odometry.header;
+  path.poses.assign(path_.begin(), path_.end());
+  path_publisher_.publish(path);
+}
+
+void OdometryPublisher::publishPictures(const cv::Mat& left,
+                                        const StereoCamera& camera,
+                                        const VisualOdometry& odometry,
+                                        const OdometryResult& result,
+                                        const std::string& camera_frame) {
+  std_msgs::Header header;
+  header.stamp = toRosTime(result.stamp_ns);
+  header.frame_id = camera_frame;
+  if (inliers_publisher_.getNumSubscribers() > 0) {
+    inliers_publisher_.publish(
+        toPointCloud(odometry.correspondences(), odometry.translationInliers(), left, header));
+  }
+  if (flow_publisher_.getNumSubscribers() > 0) {
+    drawFlowPicture({left,
+                     camera,
+                     odometry.correspondences(),
+                     odometry.rotationInliers(),
+                     odometry.translationInliers(),
+                     result},
+                    flow_view_,
+                    picture_);
+    flow_publisher_.publish(
+        cv_bridge::CvImage(header, sensor_msgs::image_encodings::BGR8, picture_).toImageMsg());
+  }
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+
+#include <geometry_msgs/PoseStamped.h>
+#include <image_transport/image_transport.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <tf2_ros/transform_broadcaster.h>
+#include <opencv2/core.hpp>
+
+#include "node/base_odometry.h"
+#include "node/odometry_messages.h"
+#include "rotrocc/OdometryStatus.h"
+#include "rotrocc/flow_picture.h"
+#include "rotrocc/parameters.h"
+#include "rotrocc/visual_odometry.h"
+
+namespace rotrocc {
+
+/// Publishes what the odometry makes of each pair: status, tf, odom, path, inliers and flow. The
+/// last three cost nothing unless somebody subscribes.
+class OdometryPublisher {
+ public:
+  OdometryPublisher(ros::NodeHandle& nh, const NodeParameters& parameters);
+
+  /// The status first and tf next, so that they are known to whoever receives the odometry.
+  /// `T_guess_base`: the pose of the base in guess_frame at that time, if there is such a frame and
+  /// tf knows it.
+  void publishMotion(const OdometryStatus& status,
+                     const BaseState& state,
+                     const std::optional<Eigen::Isometry3d>& T_guess_base);
+
+  void publishStatus(const OdometryStatus& status) { status_publisher_.publish(status); }
+
+  /// The path before has ended.
+  void forgetPath() { path_.clear(); }
+
+  /// Inliers and flow of the last call of odometry.process(), which had `left` of `camera` and gave
+  /// `result`.
+  void publishPictures(const cv::Mat& left,
+                       const StereoCamera& camera,
+                       const VisualOdometry& odometry,
+                       const OdometryResult& result,
+                       const std::string& camera_frame);
+
+ private:
+  void publishTf(const BaseState& state, const std::optional<Eigen::Isometry3d>& T_guess_base);
+  void publishPath(const nav_msgs::Odometry& odometry);
+
+  NodeParameters parameters_;
+  std::deque<geometry_msgs::PoseStamped> path_;
+  FlowView flow_view_;
+  cv::Mat picture_;
+
+  ros::Publisher status_publisher_;
+  ros::Publisher odom_publisher_;
+  ros::Publisher path_publisher_;
+  ros::Publisher inliers_publisher_;
+  image_transport::Publisher flow_publisher_;
+  std::optional<tf2_ros::TransformBroadcaster> tf_broadcaster_;
+};
+
+}  // namespace rotrocc

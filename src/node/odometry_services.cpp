@@ -1,0 +1,78 @@
+#include "node/odometry_services.h"
+
+#include <exception>
+#include <utility>
+
+#include <geometry_msgs/Transform.h>
+#include <ros/console.h>
+
+#include "node/camera_mount.h"
+
+namespace rotrocc {
+namespace {
+
+/// Fills a response with the sentence `action` returns, or with why it could not.
+template <class Response, class Action>
+bool answer(const char* service, Response& response, Action action) {
+  try {
+    response.message = action();
+    response.success = true;
+    ROS_INFO_STREAM(service << ": " << response.message);
+  } catch (const std::exception& error) {
+    response.message = error.what();
+    response.success = false;
+    ROS_WARN_STREAM(service << " refused: " << response.message);
+  }
+  return true;
+}
+
+Eigen::Isometry3d poseToEigen(const geometry_msgs::Pose& pose) {
+  geometry_msgs::Transform transform;
+  transform.translation.x = pose.position.x;
+  transform.translation.y = pose.position.y;
+  transform.translation.z = pose.position.z;
+  transform.rotation = pose.orientation;
+  return toEigen(transform);
+}
+
+}  // namespace
+
+OdometryServices::OdometryServices(ros::NodeHandle& private_nh, Actions actions)
+    : actions_(std::move(actions)),
+      reset_(private_nh.advertiseService("reset", &OdometryServices::onReset, this)),
+      set_pose_(private_nh.advertiseService("set_pose", &OdometryServices::onSetPose, this)),
+      pause_(private_nh.advertiseService("pause", &OdometryServices::onPause, this)),
+      save_trajectory_(private_nh.advertiseService(
+          "save_trajectory", &OdometryServices::onSaveTrajectory, this)) {}
+
+bool OdometryServices::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  return answer("reset", response, [&] {
+    actions_.reset();
+    return "the next pair begins anew at pose zero";
+  });
+}
+
+bool OdometryServices::onSetPose(SetPose::Request& request, SetPose::Response& response) {
+  return answer("set_pose", response, [&] {
+    actions_.set_pose(poseToEigen(request.pose));
+    return "the odometry goes on from the given pose";
+  });
+}
+
+bool OdometryServices::onPause(std_srvs::SetBool::Request& request,
+                               std_srvs::SetBool::Response& response) {
+  return answer("pause", response, [&] {
+    actions_.pause(request.data);
+    return request.data ? "paused: pairs are dropped, the pose stays"
+                        : "the next pair goes on at the last pose";
+  });
+}
+
+bool OdometryServices::onSaveTrajectory(SaveTrajectory::Request& request,
+                                        SaveTrajectory::Response& response) {
+  return answer("save_trajectory", response, [&] {
+    return actions_.save_trajectory(request.path, request.format);
+  });
+}
+
+}  // namespace rotrocc

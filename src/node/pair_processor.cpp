@@ -1,0 +1,104 @@
+#include "node/pair_processor.h"
+
+#include <utility>
+
+#include <ros/console.h>
+
+#include "input/image_validation.h"
+#include "input/message_conversion.h"
+#include "input/to_text.h"
+
+namespace rotrocc {
+
+PairProcessor::PairProcessor(const Parameters& parameters)
+    : parameters_(parameters.node),
+      converter_(parameters.node.max_image_pixels),
+      odometry_(parameters.odometry),
+      inspector_(parameters.odometry.correspondence_finder) {}
+
+PairAnswer PairProcessor::process(const ReceivedPair& received,
+                                  const Eigen::Isometry3d& T_base_camera,
+                                  const MotionSource& expected) {
+  PairAnswer answer;
+  answer.pair = converter_.convert(*received.images.left, *received.images.right);
+  validateSize(*received.images.left, received.camera);
+  const bool asked = beginAnewIfAsked();
+  const bool went_back = beginAnewIfTimeWentBack(answer.pair.stamp_ns);
+  answer.begins_anew = asked || went_back;
+  if (!base_odometry_) {
+    base_odometry_.emplace(T_base_camera,
+                           parameters_.lost_speed_sigma_mps,
+                           parameters_.lost_turn_rate_sigma_rps,
+                           parameters_.planar);
+  }
+  {
+    const std::lock_guard<std::mutex> lock(requests_mutex_);
+    if (requests_.T_odom_base) base_odometry_->setPose(*requests_.T_odom_base);
+    requests_.T_odom_base.reset();
+  }
+  answer.result =
+      odometry_.process(answer.pair,
+                        received.camera,
+                        expectedOfCamera(expected, T_base_camera, answer.pair.stamp_ns));
+  answer.state = base_odometry_->add(answer.result);
+  answer.hint = inspector_.inspect(answer.pair, received.camera, answer.result);
+  last_stamp_ns_ = answer.pair.stamp_ns;
+  return answer;
+}
+
+/// Returns whether the trajectory ends here.
+bool PairProcessor::beginAnewIfAsked() {
+  const std::lock_guard<std::mutex> lock(requests_mutex_);
+  if (requests_.config) odometry_.configure(*requests_.config);
+  if (requests_.reset || requests_.restart) odometry_.reset();
+  if (requests_.reset) base_odometry_.reset();
+  requests_.config.reset();
+  requests_.restart = false;
+  return std::exchange(requests_.reset, false);
+}
+
+/// A bag that begins anew, or a simulation.
+bool PairProcessor::beginAnewIfTimeWentBack(std::int64_t stamp_ns) {
+  if (!last_stamp_ns_ || stamp_ns >= *last_stamp_ns_) return false;
+  const bool keep = parameters_.pose_after_time_jump == "keep";
+  ROS_WARN_STREAM("time went back from " << stampText(*last_stamp_ns_) << " to "
+                                         << stampText(stamp_ns) << " s: starting anew at "
+                                         << (keep ? "the last pose" : "zero")
+                                         << " (pose_after_time_jump)");
+  odometry_.reset();
+  if (!keep) base_odometry_.reset();
+  return true;
+}
+
+std::optional<Eigen::Isometry3d> PairProcessor::expectedOfCamera(
+    const MotionSource& expected,
+    const Eigen::Isometry3d& T_base_camera,
+    std::int64_t stamp_ns) const {
+  if (!expected || !last_stamp_ns_ || stamp_ns <= *last_stamp_ns_) return std::nullopt;
+  const auto of_base = expected(*last_stamp_ns_, stamp_ns);
+  if (!of_base) return std::nullopt;
+  return T_base_camera.inverse() * *of_base * T_base_camera;
+}
+
+void PairProcessor::requestReset() {
+  const std::lock_guard<std::mutex> lock(requests_mutex_);
+  requests_.reset = true;
+  requests_.T_odom_base.reset();
+}
+
+void PairProcessor::requestRestart() {
+  const std::lock_guard<std::mutex> lock(requests_mutex_);
+  requests_.restart = true;
+}
+
+void PairProcessor::requestPose(const Eigen::Isometry3d& T_odom_base) {
+  const std::lock_guard<std::mutex> lock(requests_mutex_);
+  requests_.T_odom_base = T_odom_base;
+}
+
+void PairProcessor::requestConfig(const VisualOdometry::Config& config) {
+  const std::lock_guard<std::mutex> lock(requests_mutex_);
+  requests_.config = config;
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+
+#include "input/stereo_intake.h"
+#include "input/stereo_pair_converter.h"
+#include "node/base_odometry.h"
+#include "node/pair_inspector.h"
+#include "rotrocc/parameters.h"
+#include "rotrocc/visual_odometry.h"
+
+namespace rotrocc {
+
+/// What became of a pair.
+struct PairAnswer {
+  StereoPair pair;  ///< valid until the next call
+  OdometryResult result;
+  BaseState state;
+  std::string hint;          ///< what may be wrong with the cameras; empty if nothing
+  bool begins_anew = false;  ///< the trajectory before has ended: a reset, or time went back
+};
+
+/// Turns pairs into odometry of the base, in one thread. Others ask for changes, which come into
+/// effect with the next pair; asking never waits.
+class PairProcessor {
+ public:
+  /// What another sensor says of the motion of the base between two stamps: T_prev_cur.
+  using MotionSource =
+      std::function<std::optional<Eigen::Isometry3d>(std::int64_t prev_ns, std::int64_t cur_ns)>;
+
+  explicit PairProcessor(const Parameters& parameters);
+
+  /// Throws InputError on images that cannot be used.
+  PairAnswer process(const ReceivedPair& received,
+                     const Eigen::Isometry3d& T_base_camera,
+                     const MotionSource& expected = {});
+
+  const VisualOdometry& odometry() const { return odometry_; }
+
+  /// From any thread. The pose becomes zero, and the next pair is a first one.
+  void requestReset();
+  /// From any thread. The next pair is a first one; the pose stays.
+  void requestRestart();
+  /// From any thread. The base is there at the time of the last pair.
+  void requestPose(const Eigen::Isometry3d& T_odom_base);
+  /// From any thread. The next pair is a first one; the pose stays.
+  void requestConfig(const VisualOdometry::Config& config);
+
+ private:
+  struct Requests {
+    bool reset = false;
+    bool restart = false;
+    std::optional<Eigen::Isometry3d> T_odom_base;
+    std::optional<VisualOdometry::Config> config;
+  };
+
+  bool beginAnewIfAsked();
+  bool beginAnewIfTimeWentBack(std::int64_t stamp_ns);
+  std::optional<Eigen::Isometry3d> expectedOfCamera(const MotionSource& expected,
+                                                    const Eigen::Isometry3d& T_base_camera,
+                                                    std::int64_t stamp_ns) const;
+
+  NodeParameters parameters_;
+  StereoPairConverter converter_;
+  VisualOdometry odometry_;
+  PairInspector inspector_;
+  std::optional<BaseOdometry> base_odometry_;  // from the first pair on
+  std::optional<std::int64_t> last_stamp_ns_;
+
+  std::mutex requests_mutex_;
+  Requests requests_;
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,80 @@
+#include "node/stereo_input.h"
+
+#include <utility>
+
+#include <ros/time.h>
+
+#include "input/message_conversion.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr int kQueueSize = 5;
+
+using Side = StereoIntake::Side;
+
+/// Transports keep settings on the parameter server: not in our private namespace, where an unknown
+/// name is an error, but beside the topic.
+image_transport::Subscriber subscribe(
+    const ros::NodeHandle& nh,
+    const std::string& side,
+    const std::string& transport,
+    void (StereoInput::*callback)(const sensor_msgs::Image::ConstPtr&),
+    StereoInput* object) {
+  const image_transport::TransportHints hints(
+      transport, ros::TransportHints().tcpNoDelay(), ros::NodeHandle(nh, side));
+  return image_transport::ImageTransport(nh).subscribe(
+      side + "/image_rect", kQueueSize, callback, object, hints);
+}
+
+Arrival now() {
+  return {std::chrono::steady_clock::now(), toNanoseconds(ros::Time::now())};
+}
+
+}  // namespace
+
+StereoInput::StereoInput(ros::NodeHandle& nh,
+                         const NodeParameters& parameters,
+                         DropLog& drops,
+                         StereoIntake::PairHandler on_pair)
+    : intake_(parameters, drops, std::move(on_pair)) {
+  left_info_subscriber_ =
+      nh.subscribe("left/camera_info", kQueueSize, &StereoInput::onLeftInfo, this);
+  right_info_subscriber_ =
+      nh.subscribe("right/camera_info", kQueueSize, &StereoInput::onRightInfo, this);
+  const std::string& transport = parameters.image_transport;
+  left_image_subscriber_ = subscribe(nh, "left", transport, &StereoInput::onLeftImage, this);
+  right_image_subscriber_ = subscribe(nh, "right", transport, &StereoInput::onRightImage, this);
+}
+
+void StereoInput::onLeftImage(const sensor_msgs::Image::ConstPtr& image) {
+  intake_.addImage(Side::kLeft, image, now());
+}
+
+void StereoInput::onRightImage(const sensor_msgs::Image::ConstPtr& image) {
+  intake_.addImage(Side::kRight, image, now());
+}
+
+void StereoInput::onLeftInfo(const sensor_msgs::CameraInfo::ConstPtr& info) {
+  intake_.addInfo(Side::kLeft, info, now());
+}
+
+void StereoInput::onRightInfo(const sensor_msgs::CameraInfo::ConstPtr& info) {
+  intake_.addInfo(Side::kRight, info, now());
+}
+
+InputReport StereoInput::report() const {
+  InputReport report = intake_.report(std::chrono::steady_clock::now());
+  report.left_image.topic = left_image_subscriber_.getTopic();
+  report.left_image.publishers = left_image_subscriber_.getNumPublishers();
+  report.right_image.topic = right_image_subscriber_.getTopic();
+  report.right_image.publishers = right_image_subscriber_.getNumPublishers();
+  report.left_info.topic = left_info_subscriber_.getTopic();
+  report.left_info.publishers = left_info_subscriber_.getNumPublishers();
+  report.right_info.topic = right_info_subscriber_.getTopic();
+  report.right_info.publishers = right_info_subscriber_.getNumPublishers();
+  report.clock_missing = ros::Time::isSimTime() && ros::Time::now().isZero();
+  return report;
+}
+
+}  // namespace rotrocc

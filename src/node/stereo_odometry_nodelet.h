@@ -1,0 +1,93 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include <nodelet/nodelet.h>
+#include <ros/wall_timer.h>
+
+#include "input/drop_log.h"
+#include "input/latest_mailbox.h"
+#include "input/silence_watch.h"
+#include "input/throttle.h"
+#include "node/camera_mount.h"
+#include "node/diagnostics.h"
+#include "node/guess_odometry.h"
+#include "node/live_parameters.h"
+#include "node/odometry_health.h"
+#include "node/odometry_publisher.h"
+#include "node/odometry_services.h"
+#include "node/pair_processor.h"
+#include "node/stereo_input.h"
+#include "node/tf_conflict.h"
+#include "node/trajectory_history.h"
+#include "rotrocc/parameters.h"
+#include "rotrocc/trajectory.h"
+
+namespace rotrocc {
+
+/// Live stereo odometry: rectified stereo images in, nav_msgs/Odometry and tf out.
+///
+/// Subscribes to left/image_rect, right/image_rect (through image_transport), left/camera_info and
+/// right/camera_info; tf must lead from base_frame to the frame of the left images. Publishes odom,
+/// path, inliers, flow, status, tf and /diagnostics, and has the services of OdometryServices.
+/// config/default.yaml lists the private parameters.
+///
+/// The callbacks of the nodelet only make pairs of the images. A thread of its own processes them;
+/// if it is too slow it skips to the newest pair.
+class StereoOdometryNodelet : public nodelet::Nodelet {
+ public:
+  ~StereoOdometryNodelet() override;
+
+ private:
+  /// Throws std::exception, after a fatal log, on parameters that cannot be used: nothing is
+  /// subscribed by then.
+  void onInit() override;
+
+  // In the nodelet's thread.
+  void start(const Parameters& parameters);
+  OdometryServices::Actions makeActions();
+  void onPair(ReceivedPair pair);
+  void onPause(bool paused);
+  void onTick(const ros::WallTimerEvent& event);
+
+  // In the worker thread.
+  void work();
+  void processSafely(const ReceivedPair& received);
+  void process(const ReceivedPair& received, const Eigen::Isometry3d& T_base_camera);
+  void publish(const PairAnswer& answer, const ReceivedPair& received);
+  bool waitsForMount(const ReceivedPair& received);
+  void endTrajectory();
+  void writeTrajectory(const BaseState& state);
+  void logState(const PairAnswer& answer);
+
+  NodeParameters parameters_;
+  DropLog drops_;
+  OdometryHealth health_;
+  std::optional<PairProcessor> processor_;
+  std::optional<CameraMount> mount_;
+  std::optional<GuessOdometry> guess_;
+  std::optional<OdometryPublisher> publisher_;
+  std::optional<TrajectoryWriter> trajectory_file_;
+  std::optional<TrajectoryHistory> trajectory_;
+
+  State last_state_ = State::kInitialising;  // of the worker
+  Throttle lost_warning_{std::chrono::seconds(5)};
+  Throttle hint_warning_{std::chrono::seconds(5)};
+  Throttle rig_warning_{std::chrono::minutes(5)};
+  std::optional<SilenceWatch> silence_;  // of the callbacks
+
+  LatestMailbox<ReceivedPair> mailbox_;
+  // From here on in the order in which nothing is called that is gone already.
+  std::optional<StereoInput> input_;
+  std::optional<TfConflict> tf_conflict_;
+  std::optional<Diagnostics> diagnostics_;
+  std::optional<OdometryServices> services_;
+  std::optional<LiveParameters> live_parameters_;
+  ros::WallTimer ticker_;
+  std::thread worker_;
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,37 @@
+#include "node/trajectory_history.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+namespace rotrocc {
+
+void TrajectoryHistory::add(const StampedPose& pose) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  poses_[next_] = pose;
+  next_ = (next_ + 1) % poses_.size();
+  size_ = std::min(size_ + 1, poses_.size());
+}
+
+void TrajectoryHistory::clear() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  next_ = size_ = 0;
+}
+
+std::string TrajectoryHistory::save(const std::string& path, const std::string& format) const {
+  if (path.empty()) throw std::invalid_argument("the path is empty: name a file to write");
+  const TrajectoryFormat file_format = trajectoryFormat(format);
+  std::vector<StampedPose> poses;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::size_t first = (next_ + poses_.size() - size_) % poses_.size();
+    for (std::size_t i = 0; i < size_; ++i) poses.push_back(poses_[(first + i) % poses_.size()]);
+  }
+  if (poses.empty()) throw std::runtime_error("there is no pose yet: no pair has been processed");
+  const std::string absolute = std::filesystem::absolute(path).string();
+  TrajectoryWriter writer(absolute, file_format);
+  for (const StampedPose& pose : poses) writer.write(pose);
+  return "wrote " + std::to_string(poses.size()) + " poses of the left camera to " + absolute;
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,96 @@
+#include "odometry/motion_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/sentence.h"
+#include "motion/outlier_rejection.h"
+#include "rotrocc/rigid_motion.h"
+
+namespace rotrocc {
+namespace {
+
+/// Changes within so many standard deviations are noise.
+constexpr double kSigmas = 3.0;
+
+/// The smaller of the two stages' sets: both parts of the motion must rest on enough.
+int inliers(const MotionEstimator::Estimate& estimate) {
+  return std::min(count(estimate.rotation_inliers), count(estimate.translation_inliers));
+}
+
+double inlierShare(const MotionEstimator::Estimate& estimate) {
+  return static_cast<double>(inliers(estimate)) /
+         static_cast<double>(estimate.rotation_inliers.size());
+}
+
+}  // namespace
+
+std::string MotionCheck::whyLost(const MotionEstimator::Estimate& estimate, double dt_s) const {
+  const auto features = static_cast<int>(estimate.rotation_inliers.size());
+  if (features < config_.min_inliers) {
+    return sentence("only ",
+                    features,
+                    " features were matched, fewer than min_inliers = ",
+                    config_.min_inliers);
+  }
+  if (!estimate.valid) return "the features determine no motion";
+  if (inliers(estimate) < config_.min_inliers) {
+    return sentence("only ",
+                    inliers(estimate),
+                    " features agree on a motion, fewer than min_inliers = ",
+                    config_.min_inliers);
+  }
+  if (inlierShare(estimate) < config_.min_inlier_share) {
+    return sentence("only a share of ",
+                    inlierShare(estimate),
+                    " of the features agrees on a motion, less than min_inlier_share = ",
+                    config_.min_inlier_share);
+  }
+  const double speed_mps = estimate.T_prev_cur.translation().norm() / dt_s;
+  if (speed_mps > config_.max_speed_mps) {
+    return sentence("the estimated speed is ",
+                    speed_mps,
+                    " m/s, more than max_speed_mps = ",
+                    config_.max_speed_mps);
+  }
+  const double turn_rate_rps = logRotation(estimate.T_prev_cur.linear()).norm() / dt_s;
+  if (turn_rate_rps > config_.max_turn_rate_rps) {
+    return sentence("the estimated turn rate is ",
+                    turn_rate_rps,
+                    " rad/s, more than max_turn_rate_rps = ",
+                    config_.max_turn_rate_rps);
+  }
+  return "";
+}
+
+std::string MotionCheck::whyDegraded(const MotionEstimator::Estimate& estimate) const {
+  if (inliers(estimate) < config_.degraded_inliers) {
+    return sentence("the motion rests on ",
+                    inliers(estimate),
+                    " features, fewer than degraded_inliers = ",
+                    config_.degraded_inliers);
+  }
+  if (inlierShare(estimate) < config_.degraded_inlier_share) {
+    return sentence("a share of ",
+                    inlierShare(estimate),
+                    " of the features agrees on the motion, less than degraded_inlier_share = ",
+                    config_.degraded_inlier_share);
+  }
+  return "";
+}
+
+std::string MotionCheck::whyJump(const UncertainTransform& motion,
+                                 const Eigen::Isometry3d& expected,
+                                 double dt_s) const {
+  const double change_m = (motion.T.translation() - expected.translation()).norm();
+  const double variance_m2 = motion.covariance.topLeftCorner<3, 3>().trace();
+  const double beyond_noise_m = change_m - kSigmas * std::sqrt(variance_m2);
+  const double acceleration_mps2 = beyond_noise_m / (dt_s * dt_s);
+  if (acceleration_mps2 <= config_.max_acceleration_mps2) return "";
+  return sentence("the velocity changed by ",
+                  acceleration_mps2,
+                  " m/s2, more than max_acceleration_mps2 = ",
+                  config_.max_acceleration_mps2);
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,31 @@
+#include "odometry/reference_selector.h"
+
+#include <algorithm>
+
+#include "motion/flow_decoupling.h"
+#include "motion/outlier_rejection.h"
+
+namespace rotrocc {
+
+bool ReferenceSelector::keeps(const StereoCamera& camera,
+                              const Correspondences& features,
+                              const FeatureSet& inliers,
+                              const Eigen::Isometry3d& T_ref_cur) {
+  if (!config_.adaptive) return false;
+  const int seen = count(inliers);
+  if (seen_at_first_ == 0) seen_at_first_ = seen;
+  if (seen < config_.min_seen_share * seen_at_first_) return false;
+
+  decoupledFlow(camera, features, T_ref_cur.linear(), flow_px_);
+  inlier_flow_px_.clear();
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (inliers[i] != 0) inlier_flow_px_.push_back(flow_px_[i]);
+  }
+  if (inlier_flow_px_.empty()) return false;
+  const auto middle =
+      inlier_flow_px_.begin() + static_cast<std::ptrdiff_t>(inlier_flow_px_.size() / 2);
+  std::nth_element(inlier_flow_px_.begin(), middle, inlier_flow_px_.end());
+  return *middle <= config_.max_parallax_px;
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,62 @@
+#include "player/odometry_monitor.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <iterator>
+#include <sstream>
+
+namespace rotrocc {
+namespace {
+
+constexpr std::uint32_t kQueueSize = 100;
+
+}  // namespace
+
+OdometryMonitor::OdometryMonitor(ros::NodeHandle& nh)
+    : odom_(nh.subscribe("odom", kQueueSize, &OdometryMonitor::onOdometry, this)),
+      status_(nh.subscribe("status", kQueueSize, &OdometryMonitor::onStatus, this)) {}
+
+void OdometryMonitor::expect(const ros::Time& stamp) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  pending_[stamp] = WallClock::now();
+  ++pairs_expected_;
+}
+
+bool OdometryMonitor::wait(const ros::Time& stamp, std::chrono::duration<double> timeout) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  return received_.wait_for(lock, timeout, [&] { return pending_.count(stamp) == 0; });
+}
+
+void OdometryMonitor::restart() {
+  std::lock_guard<std::mutex> lock(mutex_);
+  pending_.clear();
+}
+
+std::string OdometryMonitor::summary() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  std::ostringstream text;
+  text << pairs_expected_ << " pairs played, " << pairs_received_ << " with odometry, "
+       << pairs_lost_ << " lost, " << pairs_expected_ - pairs_received_ << " dropped, "
+       << std::fixed << std::setprecision(1) << latency_sum_.count() / std::max(pairs_received_, 1)
+       << " ms from pair to odometry";
+  return text.str();
+}
+
+void OdometryMonitor::onOdometry(const nav_msgs::Odometry::ConstPtr& message) {
+  {
+    std::lock_guard<std::mutex> lock(mutex_);
+    const auto sent = pending_.find(message->header.stamp);
+    if (sent == pending_.end()) return;
+    latency_sum_ += WallClock::now() - sent->second;
+    ++pairs_received_;
+    pending_.erase(pending_.begin(), std::next(sent));  // earlier ones will not come any more
+  }
+  received_.notify_all();
+}
+
+void OdometryMonitor::onStatus(const OdometryStatus::ConstPtr& message) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  if (message->state == OdometryStatus::LOST) ++pairs_lost_;
+}
+
+}  // namespace rotrocc

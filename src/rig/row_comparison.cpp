@@ -1,0 +1,59 @@
+#include "rig/row_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rotrocc {
+namespace {
+
+/// Of so many features the median of what trackers scatter is known to 0.01 px.
+constexpr std::size_t kFeatures = 1000;
+
+/// Standard deviation of a normal distribution over its median absolute deviation, and of the
+/// median of one over that of the mean.
+constexpr double kNormal = 1.4826;
+constexpr double kOfMedian = 1.2533;
+
+double median(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+RowComparison::RowComparison() {
+  last_px_.reserve(kFeatures);
+  sorted_px_.reserve(kFeatures);
+}
+
+void RowComparison::observe(const std::vector<float>& differences_px) {
+  for (const float difference_px : differences_px) {
+    if (last_px_.size() < kFeatures) {
+      last_px_.push_back(difference_px);
+    } else {
+      last_px_[oldest_] = difference_px;
+      oldest_ = (oldest_ + 1) % kFeatures;
+    }
+  }
+  if (last_px_.empty()) return;
+  const auto medianDistanceFrom = [&](double center_px) {
+    std::transform(last_px_.begin(), last_px_.end(), sorted_px_.begin(), [&](float value_px) {
+      return std::abs(value_px - static_cast<float>(center_px));
+    });
+    return median(sorted_px_);
+  };
+  sorted_px_ = last_px_;
+  offset_.median_px = median(sorted_px_);
+  offset_.sigma_px = kOfMedian * kNormal * medianDistanceFrom(offset_.median_px) /
+                     std::sqrt(static_cast<double>(last_px_.size()));
+  offset_.typical_px = medianDistanceFrom(0.0);
+}
+
+void RowComparison::reset() {
+  offset_ = {};
+  last_px_.clear();
+  oldest_ = 0;
+}
+
+}  // namespace rotrocc

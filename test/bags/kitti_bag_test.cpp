@@ -1,0 +1,145 @@
+// A KITTI sequence that was made a bag must be what it was.
+
+#include <filesystem>
+#include <stdexcept>
+
+#include <geometry_msgs/PoseStamped.h>
+#include <gtest/gtest.h>
+#include <nav_msgs/Path.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <tf2_eigen/tf2_eigen.h>
+#include <opencv2/core.hpp>
+
+#include "bags/bag_reading.h"
+#include "bags/kitti_bag_writer.h"
+#include "bags/kitti_mount.h"
+#include "bags/stereo_bag.h"
+#include "support/expect_error.h"
+#include "support/synthetic_sequence.h"
+#include "support/temporary_directory.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr int kPairs = 4;
+constexpr std::int64_t kStart_s = 1234567890;
+
+class KittiBagTest : public ::testing::Test {
+ protected:
+  KittiBagTest() {
+    writeSyntheticSequence(directory_ / "sequence", kPairs);
+    const KittiSequence sequence(directory_ / "sequence");
+    KittiBagWriter writer(bagPath(), sequence, kStart_s);
+    for (int i = 0; i < kPairs; ++i) writer.writePair(i);
+    writer.finish();
+  }
+
+  std::string bagPath() const { return directory_ / "sequence.bag"; }
+
+  TemporaryDirectory directory_;
+};
+
+bool equal(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0.0;
+}
+
+TEST_F(KittiBagTest, GivesBackPixelsCameraAndStamps) {
+  const KittiSequence sequence(directory_ / "sequence");
+  const rosbag::Bag file = openBag(bagPath());
+  StereoBag bag(file, {});
+  EXPECT_EQ(bag.size(), kPairs);
+  StereoPair pair;
+  StereoCamera camera;
+  for (int i = 0; i < kPairs; ++i) {
+    ASSERT_TRUE(bag.next(pair, camera)) << "pair " << i;
+    EXPECT_EQ(pair.stamp_ns, kStart_s * 1'000'000'000 + sequence.stamp_ns(i));
+    EXPECT_TRUE(equal(pair.left, sequence.readLeft(i))) << "pair " << i;
+    EXPECT_TRUE(equal(pair.right, sequence.readRight(i))) << "pair " << i;
+    EXPECT_EQ(camera.width, sequence.camera().width);
+    EXPECT_EQ(camera.height, sequence.camera().height);
+    EXPECT_EQ(camera.fx, sequence.camera().fx);
+    EXPECT_EQ(camera.fy, sequence.camera().fy);
+    EXPECT_EQ(camera.cx, sequence.camera().cx);
+    EXPECT_EQ(camera.cy, sequence.camera().cy);
+    EXPECT_EQ(camera.cx_right, sequence.camera().cx_right);
+    // It goes through fx * baseline, which rounds.
+    EXPECT_DOUBLE_EQ(camera.baseline_m, sequence.camera().baseline_m);
+  }
+  EXPECT_FALSE(bag.next(pair, camera));
+}
+
+TEST_F(KittiBagTest, FillsTheCameraInfo) {
+  const rosbag::Bag bag = openBag(bagPath());
+  const auto left = firstMessage<sensor_msgs::CameraInfo>(bag, "/stereo/left/camera_info");
+  const auto right = firstMessage<sensor_msgs::CameraInfo>(bag, "/stereo/right/camera_info");
+  ASSERT_TRUE(left && right);
+  const StereoCamera camera = KittiSequence(directory_ / "sequence").camera();
+  EXPECT_EQ(left->header.frame_id, "stereo_left_optical");
+  EXPECT_EQ(right->header.frame_id, "stereo_left_optical");
+  EXPECT_EQ(left->P[3], 0.0);
+  EXPECT_EQ(right->P[3], -camera.fx * camera.baseline_m);
+  for (const auto& info : {left, right}) {
+    EXPECT_EQ(info->K[0], camera.fx);
+    EXPECT_EQ(info->K[4], camera.fy);
+    EXPECT_EQ(info->K[8], 1.0);
+    EXPECT_EQ(info->R[0] * info->R[4] * info->R[8], 1.0);
+    EXPECT_EQ(info->D, std::vector<double>(5, 0.0));
+    EXPECT_EQ(info->distortion_model, "plumb_bob");
+  }
+}
+
+TEST_F(KittiBagTest, HoldsTheTruePathOfTheBase) {
+  const rosbag::Bag bag = openBag(bagPath());
+  const auto path = firstMessage<nav_msgs::Path>(bag, "/ground_truth/path");
+  const Trajectory truth = KittiSequence(directory_ / "sequence").groundTruth();
+  ASSERT_TRUE(path);
+  ASSERT_EQ(path->poses.size(), truth.size());
+  Eigen::Isometry3d T_odom_base;
+  tf2::fromMsg(path->poses.back().pose, T_odom_base);
+  const Eigen::Isometry3d expected =
+      kittiMount() * truth.back().T_world_body * kittiMount().inverse();
+  EXPECT_TRUE(T_odom_base.isApprox(expected, 1e-8));
+  EXPECT_GT(T_odom_base.translation().x(), 1.0) << "the car drives forward: along x";
+
+  rosbag::View poses(bag, rosbag::TopicQuery("/ground_truth/pose"));
+  EXPECT_EQ(poses.size(), truth.size());
+}
+
+TEST_F(KittiBagTest, PlaysInTheOrderItWasWritten) {
+  const rosbag::Bag bag = openBag(bagPath());
+  rosbag::View view(bag);
+  std::vector<std::string> topics;
+  for (const rosbag::MessageInstance& message : view) topics.push_back(message.getTopic());
+  ASSERT_GE(topics.size(), 7u);
+  topics.resize(7);
+  EXPECT_EQ(topics,
+            (std::vector<std::string>{"/tf_static",
+                                      "/ground_truth/path",
+                                      "/ground_truth/pose",
+                                      "/stereo/left/camera_info",
+                                      "/stereo/left/image_rect",
+                                      "/stereo/right/camera_info",
+                                      "/stereo/right/image_rect"}));
+}
+
+TEST_F(KittiBagTest, LeavesNothingUnfinished) {
+  const KittiSequence sequence(directory_ / "sequence");
+  {
+    KittiBagWriter writer(directory_ / "cut.bag", sequence, kStart_s);
+    writer.writePair(0);
+  }
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "cut.bag"));
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "cut.bag.part"));
+}
+
+TEST_F(KittiBagTest, RefusesStampsThatRosHasNot) {
+  const KittiSequence sequence(directory_ / "sequence");
+  for (const std::int64_t start_s : {std::int64_t{0}, std::int64_t{5000000000}}) {
+    expectError<std::invalid_argument>(
+        [&] { KittiBagWriter(directory_ / "other.bag", sequence, start_s); },
+        std::to_string(start_s));
+  }
+}
+
+}  // namespace
+}  // namespace rotrocc

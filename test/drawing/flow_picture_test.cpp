@@ -1,0 +1,162 @@
+#include "rotrocc/flow_picture.h"
+
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "simulation/kitti_camera.h"
+#include "support/expect_error.h"
+
+namespace rotrocc {
+namespace {
+
+class FlowPictureTest : public testing::Test {
+ protected:
+  FlowPictureTest() {
+    addFeature({100, 50}, {130, 50}, 5.0);
+    addFeature({100, 100}, {130, 100}, 50.0);
+    addFeature({100, 150}, {130, 150}, 20.0);
+    addFeature({100, 180}, {130, 180}, 20.0);
+    result_.state = State::kOk;
+    result_.dt_s = 0.1;
+  }
+
+  void addFeature(const Eigen::Vector2d& prev_px, const Eigen::Vector2d& cur_px, double depth_m) {
+    Correspondence feature;
+    feature.prev_px = prev_px;
+    feature.cur_px = cur_px;
+    feature.point_cur = {0.0, 0.0, depth_m};
+    features_.push_back(feature);
+  }
+
+  void draw() {
+    drawFlowPicture({image_, camera_, features_, rotation_inliers_, translation_inliers_, result_},
+                    view_,
+                    picture_);
+  }
+
+  cv::Vec3b colourAt(int x, int y) const { return picture_.at<cv::Vec3b>(y, x); }
+
+  const StereoCamera camera_ = kittiCamera();
+  FlowView view_ = FlowView::kMotion;
+  cv::Mat image_ = cv::Mat(200, 640, CV_8UC1, cv::Scalar(100));
+  Correspondences features_;
+  FeatureSet rotation_inliers_ = {1, 1, 1, 0};
+  FeatureSet translation_inliers_ = {1, 1, 0, 0};
+  OdometryResult result_;
+  cv::Mat picture_;
+};
+
+TEST_F(FlowPictureTest, IsAsWideAsTheImageAndALineHigher) {
+  draw();
+  EXPECT_EQ(picture_.type(), CV_8UC3);
+  EXPECT_EQ(picture_.cols, 640);
+  EXPECT_GT(picture_.rows, 200);
+  EXPECT_LT(picture_.rows, 240);
+}
+
+TEST_F(FlowPictureTest, ImageIsGreyAndDarkened) {
+  draw();
+  EXPECT_EQ(colourAt(300, 100), cv::Vec3b(65, 65, 65));
+}
+
+TEST_F(FlowPictureTest, ColoursTellDepthAndStage) {
+  draw();
+  // In the dot at the current position.
+  EXPECT_EQ(colourAt(130, 50), cv::Vec3b(0, 159, 230)) << "near: orange";
+  EXPECT_EQ(colourAt(130, 100), cv::Vec3b(233, 180, 86)) << "far: blue";
+  EXPECT_EQ(colourAt(130, 150), cv::Vec3b(255, 255, 255)) << "rotation alone: white";
+  const cv::Vec3b outlier = colourAt(130, 180);
+  EXPECT_GT(outlier[2], outlier[1]) << "magenta";
+  EXPECT_GT(outlier[0], outlier[1]) << "magenta";
+}
+
+TEST_F(FlowPictureTest, TextSaysTheState) {
+  draw();
+  const cv::Mat ok = picture_.clone();
+  result_.state = State::kDegraded;
+  draw();
+  const cv::Rect image({0, 0}, image_.size());
+  EXPECT_EQ(cv::norm(ok(image), picture_(image), cv::NORM_INF), 0.0);
+  const cv::Rect text(0, image_.rows, 100, picture_.rows - image_.rows);
+  EXPECT_GT(cv::norm(ok(text), picture_(text), cv::NORM_INF), 100.0);
+}
+
+TEST_F(FlowPictureTest, WithoutEstimateAllAreOutliers) {
+  rotation_inliers_.clear();
+  translation_inliers_.clear();
+  draw();
+  EXPECT_EQ(colourAt(130, 50), colourAt(130, 180));
+}
+
+TEST_F(FlowPictureTest, AnyFlowAndSmallImagesAreDrawn) {
+  image_ = cv::Mat(20, 30, CV_8UC1, cv::Scalar(100));
+  addFeature({-500, 7000}, {1e5, -1e5}, 1e-3);
+  rotation_inliers_.push_back(1);
+  translation_inliers_.push_back(1);
+  draw();
+  EXPECT_EQ(picture_.cols, 30);
+}
+
+TEST_F(FlowPictureTest, AnOutlierShowsWhatFlowTheMotionExpected) {
+  // At rest a static point stays where it is: 40 px from where this one came from.
+  result_.T_ref_cur.T = Eigen::Isometry3d::Identity();
+  features_[3].cur_px = {300, 150};
+  features_[3].prev_px = {260, 150};
+  features_[3].point_cur = 20.0 * camera_.ray({340, 150});
+  draw();
+  const cv::Vec3b expected = colourAt(320, 150);
+  EXPECT_GT(expected[1], expected[0]) << "green";
+  EXPECT_GT(expected[1], expected[2]) << "green";
+  result_.state = State::kLost;
+  draw();
+  EXPECT_EQ(colourAt(320, 150), cv::Vec3b(65, 65, 65)) << "without a motion nothing is expected";
+}
+
+TEST_F(FlowPictureTest, DecoupledViewShowsBothPartsOfTheFlow) {
+  view_ = FlowView::kDecoupled;
+  // Turned by 0.05 rad about the vertical axis: 36 px of flow near the middle, the rest is the
+  // translation's.
+  const Eigen::Vector2d cur_px(600, 170), prev_px(560, 190);
+  result_.T_ref_cur.T.linear() =
+      Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  features_[0].cur_px = cur_px;
+  features_[0].prev_px = prev_px;
+  features_[0].point_cur = 20.0 * camera_.ray(cur_px);
+  rotation_inliers_ = translation_inliers_ = {1, 0, 0, 0};
+  draw();
+  const Eigen::Vector2d turned_px =
+      camera_.project(result_.T_ref_cur.T.linear() * features_[0].point_cur);
+  const auto middle = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    const Eigen::Vector2d pixel = 0.5 * (a + b);
+    return colourAt(cvRound(pixel.x()), cvRound(pixel.y()));
+  };
+  const cv::Vec3b of_rotation = middle(cur_px, turned_px);
+  EXPECT_GT(of_rotation[0], of_rotation[2]) << "blue";
+  const cv::Vec3b of_translation = middle(turned_px, prev_px);
+  EXPECT_GT(of_translation[2], of_translation[0]) << "orange";
+  EXPECT_EQ(colourAt(130, 180), cv::Vec3b(65, 65, 65)) << "no outliers";
+}
+
+TEST_F(FlowPictureTest, ViewsHaveNames) {
+  EXPECT_EQ(flowView("motion"), FlowView::kMotion);
+  EXPECT_EQ(flowView("decoupled"), FlowView::kDecoupled);
+  expectError<std::invalid_argument>([] { flowView("3d"); }, "must be motion or decoupled");
+}
+
+TEST_F(FlowPictureTest, MemoryIsUsedAgain) {
+  draw();
+  const unsigned char* memory = picture_.data;
+  draw();
+  EXPECT_EQ(picture_.data, memory);
+}
+
+TEST_F(FlowPictureTest, RefusesWhatDoesNotFit) {
+  rotation_inliers_.pop_back();
+  expectError<std::invalid_argument>([&] { draw(); }, "4 features, but 3 inlier flags");
+  image_ = cv::Mat();
+  expectError<std::invalid_argument>([&] { draw(); }, "8-bit grey image");
+}
+
+}  // namespace
+}  // namespace rotrocc

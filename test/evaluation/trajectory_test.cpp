@@ -1,0 +1,235 @@
+#include "rotrocc/trajectory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/expect_error.h"
+#include "support/temporary_directory.h"
+
+namespace rotrocc {
+namespace {
+
+const std::string kIdentity = "1 0 0 0 0 1 0 0 0 0 1 0\n";
+
+std::string contentOf(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+StampedPose somePose(std::int64_t stamp_ns) {
+  StampedPose pose;
+  pose.stamp_ns = stamp_ns;
+  pose.T_world_body.linear() =
+      Eigen::AngleAxisd(2.8, Eigen::Vector3d(0.3, -0.8, 0.5).normalized()).toRotationMatrix();
+  pose.T_world_body.translation() = Eigen::Vector3d(1.25, -1e-3, 1234.56789);
+  return pose;
+}
+
+class TrajectoryTest : public ::testing::Test {
+ protected:
+  void expectRefused(const std::string& text, const std::string& part) {
+    const std::string path = directory_.write("bad.txt", text);
+    expectError<std::runtime_error>([&] { readTrajectory(path); }, part);
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(TrajectoryTest, FormatsHaveNames) {
+  EXPECT_EQ(trajectoryFormat("kitti"), TrajectoryFormat::kKitti);
+  EXPECT_EQ(trajectoryFormat("tum"), TrajectoryFormat::kTum);
+  expectError<std::invalid_argument>([] { trajectoryFormat("KITTI"); }, "'KITTI'");
+}
+
+TEST_F(TrajectoryTest, DetectsTheFormatByTheFirstLineOfData) {
+  EXPECT_EQ(detectTrajectoryFormat(directory_.write("a", "# x\n\n" + kIdentity)),
+            TrajectoryFormat::kKitti);
+  EXPECT_EQ(detectTrajectoryFormat(directory_.write("b", "0 0 0 0 0 0 0 1\n")),
+            TrajectoryFormat::kTum);
+  const std::string neither = directory_.write("c", "\n1 2 3\n");
+  expectError<std::runtime_error>([&] { detectTrajectoryFormat(neither); }, "c:2: 3 numbers");
+}
+
+TEST_F(TrajectoryTest, WritesKittiLinesAsKittiDoes) {
+  const std::string path = directory_ / "out.txt";
+  TrajectoryWriter writer(path, TrajectoryFormat::kKitti);
+  StampedPose pose;
+  pose.T_world_body.translation().z() = 1.0 / 3.0;
+  writer.write(pose);
+  EXPECT_EQ(contentOf(path),
+            "1.000000000e+00 0.000000000e+00 0.000000000e+00 0.000000000e+00 "
+            "0.000000000e+00 1.000000000e+00 0.000000000e+00 0.000000000e+00 "
+            "0.000000000e+00 0.000000000e+00 1.000000000e+00 3.333333333e-01\n")
+      << "a line must be on disk while the writer still lives";
+}
+
+TEST_F(TrajectoryTest, WritesTumStampsExactlyToTheNanosecond) {
+  const std::string path = directory_ / "out.txt";
+  TrajectoryWriter writer(path, TrajectoryFormat::kTum);
+  for (const std::int64_t stamp_ns : {-1'500'000'000LL, 5LL, 1'317'000'000'123'456'789LL}) {
+    StampedPose pose;
+    pose.stamp_ns = stamp_ns;
+    writer.write(pose);
+  }
+  const std::string zeros =
+      " 0.000000000 0.000000000 0.000000000 0.000000000 0.000000000 0.000000000";
+  EXPECT_EQ(contentOf(path),
+            "-1.500000000" + zeros + " 1.000000000\n0.000000005" + zeros +
+                " 1.000000000\n1317000000.123456789" + zeros + " 1.000000000\n");
+}
+
+TEST_F(TrajectoryTest, WritesQuaternionsWithPositiveW) {
+  const std::string path = directory_ / "out.txt";
+  TrajectoryWriter writer(path, TrajectoryFormat::kTum);
+  StampedPose pose;  // a turn by 200 deg is one by -160 deg: w must be cos(80 deg)
+  pose.T_world_body.rotate(Eigen::AngleAxisd(200.0 * M_PI / 180.0, Eigen::Vector3d::UnitY()));
+  writer.write(pose);
+  const std::string line = contentOf(path);
+  EXPECT_NE(line.find(" -0.984807753 "), std::string::npos) << line;
+  EXPECT_NE(line.find(" 0.173648178\n"), std::string::npos) << line;
+}
+
+/// The numbers of each line by the rules of evo (github.com/MichaelGrupp/evo/wiki/Formats): one
+/// space between them and none at the end, and the same count in each line.
+std::vector<std::vector<double>> readAsEvo(const std::string& path, std::size_t count) {
+  std::vector<std::vector<double>> rows;
+  std::istringstream file(contentOf(path));
+  for (std::string line; std::getline(file, line);) {
+    rows.emplace_back();
+    for (std::size_t begin = 0; begin <= line.size();) {
+      const std::size_t end = std::min(line.find(' ', begin), line.size());
+      const std::string number = line.substr(begin, end - begin);
+      std::size_t read = 0;
+      rows.back().push_back(std::stod(number, &read));
+      EXPECT_EQ(read, number.size()) << line;
+      begin = end + 1;
+    }
+    EXPECT_EQ(rows.back().size(), count) << line;
+  }
+  return rows;
+}
+
+TEST_F(TrajectoryTest, WritesWhatEvoTakes) {
+  constexpr double kTolerance = 1e-6;  // of its checks with --full_check
+  const std::string path = directory_ / "out.txt";
+  for (const auto format : {TrajectoryFormat::kKitti, TrajectoryFormat::kTum}) {
+    TrajectoryWriter writer(path, format);
+    for (const std::int64_t stamp_ns : {1'317'000'000'123'456'789, 1'317'000'000'223'456'788}) {
+      writer.write(somePose(stamp_ns));
+    }
+    const bool tum = format == TrajectoryFormat::kTum;
+    const auto rows = readAsEvo(path, tum ? 8 : 12);
+    ASSERT_EQ(rows.size(), 2u);
+    for (const std::vector<double>& row : rows) {
+      if (tum) {
+        EXPECT_NEAR(Eigen::Vector4d(row[4], row[5], row[6], row[7]).norm(), 1.0, kTolerance);
+      } else {
+        Eigen::Matrix3d R;
+        R << row[0], row[1], row[2], row[4], row[5], row[6], row[8], row[9], row[10];
+        EXPECT_TRUE((R.transpose() * R).isIdentity(kTolerance));
+        EXPECT_NEAR(R.determinant(), 1.0, kTolerance);
+      }
+    }
+    if (tum) {
+      EXPECT_LT(rows[0][0], rows[1][0]);
+    }
+  }
+}
+
+TEST_F(TrajectoryTest, ReadsBackWhatItWrote) {
+  for (const auto format : {TrajectoryFormat::kKitti, TrajectoryFormat::kTum}) {
+    const std::string path = directory_ / "out.txt";
+    const StampedPose first = somePose(1'317'000'000'123'456'789);
+    const StampedPose second = somePose(1'317'000'000'223'456'788);
+    {
+      TrajectoryWriter writer(path, format);
+      writer.write(first);
+      writer.write(second);
+    }
+    const Trajectory read = readTrajectory(path);
+    ASSERT_EQ(read.size(), 2u);
+    // KITTI keeps 10 digits of 1234.6 m, TUM 9 decimals.
+    EXPECT_TRUE(read[0].T_world_body.isApprox(first.T_world_body, 1e-9));
+    const bool tum = format == TrajectoryFormat::kTum;
+    EXPECT_EQ(read[0].stamp_ns, tum ? first.stamp_ns : 0);
+    EXPECT_EQ(read[1].stamp_ns, tum ? second.stamp_ns : 100'000'000);
+  }
+}
+
+TEST_F(TrajectoryTest, TakesStampsFromTheTimesFile) {
+  const std::string poses = directory_.write("poses.txt", kIdentity + kIdentity);
+  const std::string times = directory_.write("times.txt", "0.0\n1.037359e-01\n2.073381e-01\n");
+  const Trajectory trajectory = readTrajectory(poses, times);
+  ASSERT_EQ(trajectory.size(), 2u);
+  EXPECT_EQ(trajectory[1].stamp_ns, 103'735'900);
+
+  const std::string few = directory_.write("few.txt", "0.0\n");
+  expectError<std::runtime_error>([&] { readTrajectory(poses, few); }, "has 1 times");
+  const std::string tum = directory_.write("tum.txt", "0 0 0 0 0 0 0 1\n");
+  expectError<std::runtime_error>([&] { readTrajectory(tum, times); }, "has stamps");
+}
+
+TEST_F(TrajectoryTest, AcceptsCommentsBlankLinesCrlfAndAMissingLastNewline) {
+  const std::string path = directory_.write(
+      "tum.txt", "# stamp tx ty tz qx qy qz qw\r\n\r\n 1.5  1 2 3  0 0 0 1 \r\n2.5\t1 2 4 0 0 0 1");
+  const Trajectory trajectory = readTrajectory(path);
+  ASSERT_EQ(trajectory.size(), 2u);
+  EXPECT_EQ(trajectory[0].stamp_ns, 1'500'000'000);
+  EXPECT_EQ(trajectory[1].T_world_body.translation(), Eigen::Vector3d(1, 2, 4));
+}
+
+TEST_F(TrajectoryTest, RemovesTheRoundingOfPrintedRotations) {
+  const std::string path =
+      directory_.write("rounded.txt", "0.9396 0 0.3420 0 0 1 0 0 -0.3420 0 0.9396 0\n");
+  const Eigen::Matrix3d rotation = readTrajectory(path).front().T_world_body.linear();
+  EXPECT_TRUE((rotation * rotation.transpose()).isIdentity(1e-14));
+  EXPECT_NEAR(std::atan2(rotation(0, 2), rotation(0, 0)), 20.0 * M_PI / 180.0, 1e-4);
+}
+
+TEST_F(TrajectoryTest, RefusesWhatIsNoRigidFinitePose) {
+  expectRefused("1.1 0 0 0 0 1 0 0 0 0 1 0\n", "bad.txt:1: the left 3x3 part is no rotation");
+  expectRefused("-1 0 0 0 0 1 0 0 0 0 1 0\n", "a reflection");
+  expectRefused(kIdentity + "nan 0 0 0 0 1 0 0 0 0 1 0\n", "bad.txt:2: 'nan'");
+  expectRefused("1 0 0 inf 0 1 0 0 0 0 1 0\n", "'inf'");
+  expectRefused("1 0 0 1e999 0 1 0 0 0 0 1 0\n", "1e999");
+  expectRefused("1 0 0 0x 0 1 0 0 0 0 1 0\n", "'0x' is not a finite number");
+  expectRefused("1 0 0 0,5 0 1 0 0 0 0 1 0\n", "'0,5' is not a finite number");
+  expectRefused("0 0 0 0 0 0 0 0\n", "the quaternion has the length 0.0");
+  expectRefused("1e12 0 0 0 0 0 0 1\n", "'1e12' is no time");
+}
+
+TEST_F(TrajectoryTest, RefusesWrongCounts) {
+  expectRefused("1 0 0 0 0 1 0 0 0 0 1\n", "11 numbers");
+  expectRefused(kIdentity + "1 0 0 0 0 1 0 0 0 0 1 0 garbage\n", "bad.txt:2: 13 numbers");
+  expectRefused(kIdentity + "0 0 0 0 0 0 0 1\n", "bad.txt:2: 8 numbers, but 12");
+  expectRefused("", "no data");
+  expectRefused("# only a comment\n\n", "no data");
+  expectError<std::runtime_error>([&] { readTrajectory(directory_ / "none.txt"); }, "none.txt");
+  // A directory opens like a file on Linux, but has no lines.
+  expectError<std::runtime_error>([&] { readTrajectory(directory_ / ""); }, "cannot read");
+}
+
+TEST_F(TrajectoryTest, RefusesStampsThatDoNotIncrease) {
+  expectRefused("1.5 0 0 0 0 0 0 1\n1.5 0 0 0 0 0 0 1\n", "bad.txt:2: the time 1.5 s");
+  const std::string times = directory_.write("times.txt", "0.1\n0.0\n");
+  expectError<std::runtime_error>([&] { readTimes(times); }, "times.txt:2: the time 0.0 s");
+}
+
+TEST_F(TrajectoryTest, WriterSaysWhenItCannotWrite) {
+  expectError<std::runtime_error>(
+      [&] { TrajectoryWriter(directory_ / "none/out.txt", TrajectoryFormat::kTum); },
+      "none/out.txt");
+  TrajectoryWriter full("/dev/full", TrajectoryFormat::kTum);
+  expectError<std::runtime_error>([&] { full.write({}); }, "/dev/full");
+}
+
+}  // namespace
+}  // namespace rotrocc

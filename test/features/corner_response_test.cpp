@@ -1,0 +1,103 @@
+#include "features/corner_response.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace rotrocc {
+namespace {
+
+/// Sharp noise, with the largest gradients there are.
+cv::Mat noiseImage(const cv::Size& size) {
+  cv::RNG generator(3);
+  cv::Mat noise(size, CV_8UC1);
+  generator.fill(noise, cv::RNG::NORMAL, 128.0, 150.0);
+  return noise;
+}
+
+/// Sobel's gradient; beyond the image its edge goes on.
+cv::Point gradient(const cv::Mat& image, int x, int y) {
+  const auto pixel = [&](int u, int v) -> int {
+    return image.at<uchar>(std::clamp(v, 0, image.rows - 1), std::clamp(u, 0, image.cols - 1));
+  };
+  cv::Point sum;
+  for (const int k : {-1, 0, 0, 1}) {
+    sum.x += pixel(x + 1, y + k) - pixel(x - 1, y + k);
+    sum.y += pixel(x + k, y + 1) - pixel(x + k, y - 1);
+  }
+  return sum;
+}
+
+/// The definition, in double precision.
+double expectedResponse(const cv::Mat& image, int x, int y, int radius) {
+  if (std::min({x, y, image.cols - 1 - x, image.rows - 1 - y}) < radius) return 0.0;
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+  for (int v = y - radius; v <= y + radius; ++v) {
+    for (int u = x - radius; u <= x + radius; ++u) {
+      const cv::Point g = gradient(image, u, v);
+      xx += g.x * g.x;
+      xy += g.x * g.y;
+      yy += g.y * g.y;
+    }
+  }
+  const double smaller = 0.5 * (xx + yy - std::hypot(xx - yy, 2.0 * xy));
+  const double side = 2.0 * radius + 1.0;
+  return smaller / (64.0 * side * side);
+}
+
+TEST(CornerResponseTest, IsTheSmallerEigenvalue) {
+  cv::Mat response;
+  for (const int radius : {1, 2, 15}) {
+    CornerResponse corner_response(radius);
+    // Widths that are and are not whole registers, and sizes too small for a response.
+    for (const cv::Size size :
+         {cv::Size(64, 40), cv::Size(71, 45), cv::Size(33, 35), cv::Size(7, 5), cv::Size(2, 40)}) {
+      const cv::Mat image = noiseImage(size);
+      corner_response.compute(image, 0, size.height, 0, response);
+      for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+          // Single precision of eigenvalues up to 2e4.
+          ASSERT_NEAR(response.at<float>(y, x), expectedResponse(image, x, y, radius), 0.01)
+              << size << " radius " << radius << " at " << x << ", " << y;
+        }
+      }
+    }
+  }
+}
+
+TEST(CornerResponseTest, HasAMarginOfZeros) {
+  const cv::Mat image = noiseImage({50, 30});
+  CornerResponse corner_response(2);
+  cv::Mat whole;
+  cv::Mat padded(40, 50 + 2 * 7 + 8, CV_32F, cv::Scalar(1.0));
+  corner_response.compute(image, 0, 30, 0, whole);
+  corner_response.compute(image, -4, 36, 7, padded);
+  for (int y = -4; y < 36; ++y) {
+    for (int x = -7; x < 57; ++x) {
+      const bool inside = x >= 0 && x < 50 && y >= 0 && y < 30;
+      ASSERT_EQ(padded.at<float>(y + 4, x + 7), inside ? whole.at<float>(y, x) : 0.0F) << x << y;
+    }
+  }
+}
+
+TEST(CornerResponseTest, DoesNotDependOnTheRowsAskedForOrAskedForBefore) {
+  const cv::Mat image = noiseImage({90, 60});
+  cv::Mat whole;
+  CornerResponse(2).compute(image, 0, 60, 0, whole);
+  CornerResponse corner_response(2);
+  cv::Mat rows;
+  for (const cv::Range& range : {cv::Range(20, 33), cv::Range(58, 70), cv::Range(-9, 5)}) {
+    corner_response.compute(image, range.start, range.end, 0, rows);
+    for (int y = std::max(range.start, 0); y < std::min(range.end, 60); ++y) {
+      for (int x = 0; x < 90; ++x) {
+        ASSERT_EQ(rows.at<float>(y - range.start, x), whole.at<float>(y, x)) << x << ", " << y;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rotrocc

@@ -1,0 +1,138 @@
+#include "features/correspondence_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "support/simulated_features.h"
+#include "support/synthetic_scene.h"
+
+namespace rotrocc {
+namespace {
+
+Eigen::Isometry3d step() {
+  return motion({0.01, 0.0, 0.5}, {0.0, 0.02, 0.002});
+}
+
+StereoPair view(const SyntheticScene& scene, const Eigen::Isometry3d& T_world_camera) {
+  StereoPair pair = scene.render(T_world_camera, 0);
+  SyntheticScene::addNoise(pair, 1.5, 1);
+  return pair;
+}
+
+/// All stages from two pairs to the feature set, with the true motion as the prediction.
+Correspondences find(const StereoPair& prev,
+                     const StereoPair& cur,
+                     const StereoCamera& camera,
+                     const CorrespondenceFinder::Config& config = {}) {
+  CorrespondenceFinder finder(config);
+  finder.take(prev, camera);
+  finder.keep();
+  finder.refer();
+  finder.take(cur, camera);
+  finder.findCorners();
+  finder.findDepths();
+  finder.track(step(), true);
+  Correspondences features;
+  finder.closeCircle(features);
+  return features;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+TEST(CorrespondenceFinderTest, FindsPointsOfTheSceneInBothPairs) {
+  StereoCamera verged = SyntheticScene::defaultCamera();
+  verged.cx_right += 12.0;  // far points have a negative disparity
+  for (const StereoCamera& camera : {SyntheticScene::defaultCamera(), verged}) {
+    const SyntheticScene scene(camera);
+    const Correspondences features =
+        find(view(scene, Eigen::Isometry3d::Identity()), view(scene, step()), camera);
+    ASSERT_GT(features.size(), 300u);
+    std::vector<double> flow_errors_px;
+    std::vector<double> disparity_errors_px;
+    for (const Correspondence& feature : features) {
+      const Eigen::Vector3d point_cur = scene.pointAt(step(), feature.cur_px);
+      flow_errors_px.push_back((camera.project(step() * point_cur) - feature.prev_px).norm());
+      disparity_errors_px.push_back(
+          std::abs(feature.disparity_px - camera.disparity(point_cur.z())));
+      EXPECT_LT((camera.project(feature.point_cur) - feature.cur_px).norm(), 1e-9);
+      EXPECT_NEAR(camera.disparity(feature.point_cur.z()), feature.disparity_px, 1e-9);
+    }
+    // What tracker and matcher measure by themselves.
+    EXPECT_LT(median(flow_errors_px), 0.25);
+    EXPECT_LT(median(disparity_errors_px), 0.25);
+  }
+}
+
+TEST(CorrespondenceFinderTest, WantsLeftAndRightOnOneRow) {
+  const SyntheticScene scene;
+  const StereoPair prev = view(scene, Eigen::Isometry3d::Identity());
+  StereoPair cur = view(scene, step());
+  const auto good = find(prev, cur, scene.camera()).size();
+  // The right image slips down by two rows between the pairs.
+  const cv::Mat slip = (cv::Mat_<double>(2, 3) << 1.0, 0.0, 0.0, 0.0, 1.0, 2.0);
+  cv::warpAffine(cur.right, cur.right, slip, cur.right.size());
+  EXPECT_LT(find(prev, cur, scene.camera()).size(), good / 10);
+  CorrespondenceFinder::Config tolerant;
+  tolerant.feature_tracker.max_vertical_px = 3.0;
+  EXPECT_GT(find(prev, cur, scene.camera(), tolerant).size(), good / 2);
+}
+
+TEST(CorrespondenceFinderTest, WantsTrackedAndMatchedDisparityToAgree) {
+  const SyntheticScene scene;
+  const StereoPair prev = view(scene, Eigen::Isometry3d::Identity());
+  const StereoPair cur = view(scene, step());
+  CorrespondenceFinder::Config strict;
+  strict.feature_tracker.max_disparity_difference_px = 0.1;
+  const auto all = find(prev, cur, scene.camera()).size();
+  const auto agreeing = find(prev, cur, scene.camera(), strict).size();
+  EXPECT_LT(agreeing, all * 9 / 10);
+  EXPECT_GT(agreeing, all / 10);
+}
+
+TEST(CorrespondenceFinderTest, CountsWhatIsLeft) {
+  const SyntheticScene scene;
+  CorrespondenceFinder finder({});
+  finder.take(view(scene, Eigen::Isometry3d::Identity()), scene.camera());
+  finder.keep();
+  finder.refer();
+  finder.take(view(scene, step()), scene.camera());
+  const int corners = finder.findCorners();
+  const int with_depth = finder.findDepths();
+  EXPECT_GT(with_depth, corners / 2);
+  EXPECT_LE(with_depth, corners);
+  EXPECT_GT(finder.track(step(), true), with_depth / 2);
+  // A motion that takes every point behind the camera leaves nothing to track.
+  EXPECT_EQ(finder.track(motion({0.0, 0.0, 200.0}, {0.0, 0.0, 0.0}), true), 0);
+  Correspondences features(3);
+  finder.closeCircle(features);
+  EXPECT_TRUE(features.empty());
+}
+
+TEST(CorrespondenceFinderTest, ShiftIsHowFarTheFeaturesMoveInTheImage) {
+  const SyntheticScene scene;
+  CorrespondenceFinder finder({});
+  const Eigen::Isometry3d none = Eigen::Isometry3d::Identity();
+  const Eigen::Isometry3d yaw = motion({0.0, 0.0, 0.0}, {0.0, 0.01, 0.0});
+  EXPECT_EQ(finder.medianShift(none, yaw), 0.0);  // there are no features yet
+  finder.take(view(scene, none), scene.camera());
+  finder.keep();
+  finder.refer();
+  finder.take(view(scene, none), scene.camera());
+  finder.findCorners();
+  finder.findDepths();
+  EXPECT_EQ(finder.medianShift(yaw, yaw), 0.0);
+  // Yaw moves the image's middle by f times the angle, 3.6 px, and its sides by up to 1.7 as much.
+  EXPECT_GT(finder.medianShift(none, yaw), 3.6);
+  EXPECT_LT(finder.medianShift(none, yaw), 6.2);
+}
+
+}  // namespace
+}  // namespace rotrocc

@@ -1,0 +1,44 @@
+#include "features/front_end.h"
+
+#include "features/correspondence_finder.h"
+
+namespace rotrocc {
+
+std::vector<double> runFrontEnd(const cv::Mat& prev_left,
+                                const cv::Mat& prev_right,
+                                const cv::Mat& cur_left,
+                                const cv::Mat& cur_right,
+                                double focal_px,
+                                double ahead_m) {
+  StereoCamera camera;
+  camera.width = prev_left.cols;
+  camera.height = prev_left.rows;
+  camera.fx = camera.fy = focal_px;
+  camera.cx = camera.cx_right = 0.5 * camera.width;
+  camera.cy = 0.5 * camera.height;
+  camera.baseline_m = 0.537;
+  CorrespondenceFinder finder({}, 1);
+  finder.take({0, prev_left, prev_right}, camera);
+  finder.keep();
+  finder.refer();
+  finder.take({1, cur_left, cur_right}, camera);
+  std::vector<double> all;
+  all.push_back(finder.findCorners());
+  all.push_back(finder.findDepths());
+  Eigen::Isometry3d T_prev_cur = Eigen::Isometry3d::Identity();
+  T_prev_cur.translation().z() = ahead_m;
+  all.push_back(finder.track(T_prev_cur, true));
+  Correspondences features;
+  finder.closeCircle(features);
+  for (const Correspondence& feature : features) {
+    all.insert(all.end(),
+               {feature.prev_px.x(),
+                feature.prev_px.y(),
+                feature.cur_px.x(),
+                feature.cur_px.y(),
+                feature.disparity_px});
+  }
+  return all;
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,47 @@
+#include "features/kernels/kernels.h"
+
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+
+#include "support/run_command.h"
+
+namespace rotrocc {
+namespace {
+
+TEST(KernelsTest, AreThoseOfTheProcessorUnlessToldOtherwise) {
+#ifdef AVX2_OBJECTS
+  const int widest = cv::checkHardwareSupport(CV_CPU_AVX2) ? 16 : 8;
+#else
+  const int widest = 8;
+#endif
+  EXPECT_EQ(chooseKernels().shorts, widest);
+  cv::setUseOptimized(false);
+  EXPECT_EQ(chooseKernels().shorts, 8);
+  cv::setUseOptimized(true);
+  EXPECT_EQ(chooseKernels().shorts, widest);
+}
+
+#ifdef AVX2_OBJECTS
+/// Other functions that they define, the linker might take for all processors.
+TEST(KernelsTest, OfAvx2DefineNoFunctionThatOthersMightCall) {
+  const CommandResult names = runCommand("nm --defined-only --extern-only " AVX2_OBJECTS);
+  ASSERT_EQ(names.status, 0) << names.output;
+  std::istringstream lines(names.output);
+  int functions = 0;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string address, type, name;
+    if (!(words >> address >> type >> name)) continue;  // a file's name
+    if (type != "T" && type != "W") continue;           // data
+    EXPECT_NE(name.find("7rotrocc4avx2"), std::string::npos) << line;
+    ++functions;
+  }
+  EXPECT_GT(functions, 2) << names.output;
+}
+#endif
+
+}  // namespace
+}  // namespace rotrocc

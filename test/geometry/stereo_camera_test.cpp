@@ -1,0 +1,103 @@
+#include "rotrocc/stereo_camera.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "support/expect_error.h"
+#include "support/simulated_features.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kRounding = 1e-12;  // relative, of a few operations
+
+StereoCamera vergedCamera() {
+  StereoCamera camera = kittiCamera();
+  camera.cx_right = camera.cx - 5.0;
+  return camera;
+}
+
+TEST(StereoCameraTest, ProjectsAPointOfARayBackToItsPixel) {
+  const StereoCamera camera = kittiCamera();
+  const Eigen::Vector2d pixel(123.4, 300.5);
+  const Eigen::Vector3d point = camera.ray(pixel) * 17.0;
+  EXPECT_DOUBLE_EQ(point.z(), 17.0);
+  EXPECT_LT((camera.project(point) - pixel).norm(), kRounding * pixel.norm());
+}
+
+TEST(StereoCameraTest, ProjectsByFocalLengthAndPrincipalPoint) {
+  StereoCamera camera = kittiCamera();
+  camera.fx = 100.0;
+  camera.fy = 200.0;
+  camera.cx = 10.0;
+  camera.cy = 20.0;
+  EXPECT_EQ(camera.project({1.0, 2.0, 4.0}), Eigen::Vector2d(35.0, 120.0));
+}
+
+TEST(StereoCameraTest, DepthAndDisparityAreInverse) {
+  for (const StereoCamera& camera : {kittiCamera(), vergedCamera()}) {
+    for (const double depth_m : {0.5, 3.0, 80.0}) {
+      EXPECT_NEAR(camera.depth(camera.disparity(depth_m)), depth_m, kRounding * 100.0 * depth_m);
+    }
+  }
+}
+
+TEST(StereoCameraTest, DisparityIsTheDistanceBetweenBothImagesOfAPoint) {
+  const StereoCamera camera = vergedCamera();
+  const Eigen::Vector3d point(1.0, 0.5, 8.0);
+  const double right_x = camera.fx * (point.x() - camera.baseline_m) / point.z() + camera.cx_right;
+  EXPECT_NEAR(camera.disparity(8.0), camera.project(point).x() - right_x, 1e-9);
+}
+
+TEST(StereoCameraTest, APointAtInfinityHasTheDifferenceOfThePrincipalPoints) {
+  const StereoCamera camera = vergedCamera();
+  EXPECT_DOUBLE_EQ(camera.disparityAtInfinity(), 5.0);
+  EXPECT_TRUE(std::isinf(camera.depth(5.0)));
+  EXPECT_LT(camera.depth(4.0), 0.0);
+}
+
+TEST(StereoCameraTest, CheckTakesAGoodCamera) {
+  EXPECT_NO_THROW(kittiCamera().check());
+}
+
+TEST(StereoCameraTest, CheckNamesTheValueThatIsWrong) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto expect_refused = [](auto member, auto value, const std::string& part) {
+    StereoCamera camera = kittiCamera();
+    camera.*member = value;
+    expectError<std::invalid_argument>([&] { camera.check(); }, part);
+  };
+  expect_refused(&StereoCamera::width, 0, "width is 0");
+  expect_refused(&StereoCamera::height, -3, "height is -3");
+  expect_refused(&StereoCamera::fx, 0.0, "fx is 0");
+  expect_refused(&StereoCamera::fy, nan, "fy is nan");
+  expect_refused(&StereoCamera::cx, nan, "cx is nan");
+  expect_refused(&StereoCamera::cy, nan, "cy is nan");
+  expect_refused(&StereoCamera::cx_right, nan, "cx_right is nan");
+  expect_refused(&StereoCamera::cx_right, 1e300, "cx - cx_right is -1e+300");
+  expect_refused(&StereoCamera::baseline_m, -0.5, "baseline_m is -0.5");
+}
+
+TEST(StereoCameraTest, CamerasDifferInEveryValue) {
+  const auto expect_different = [](auto member) {
+    StereoCamera camera = kittiCamera();
+    camera.*member += 1;
+    EXPECT_NE(camera, kittiCamera());
+  };
+  for (const auto member : {&StereoCamera::width, &StereoCamera::height}) expect_different(member);
+  for (const auto member : {&StereoCamera::fx,
+                            &StereoCamera::fy,
+                            &StereoCamera::cx,
+                            &StereoCamera::cy,
+                            &StereoCamera::cx_right,
+                            &StereoCamera::baseline_m}) {
+    expect_different(member);
+  }
+  EXPECT_EQ(kittiCamera(), kittiCamera());
+}
+
+}  // namespace
+}  // namespace rotrocc

@@ -1,0 +1,83 @@
+#include "input/latest_mailbox.h"
+
+#include <memory>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace rotrocc {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using std::chrono::steady_clock;
+
+TEST(LatestMailboxTest, LatestItemWins) {
+  LatestMailbox<int> mailbox;
+  EXPECT_FALSE(mailbox.put(1));
+  EXPECT_TRUE(mailbox.put(2));
+  EXPECT_TRUE(mailbox.put(3));
+  EXPECT_EQ(mailbox.take(milliseconds(0)), 3);
+  EXPECT_FALSE(mailbox.take(milliseconds(0)).has_value());
+}
+
+TEST(LatestMailboxTest, ItemsMayBeMoveOnly) {
+  LatestMailbox<std::unique_ptr<int>> mailbox;
+  mailbox.put(std::make_unique<int>(7));
+  EXPECT_EQ(**mailbox.take(milliseconds(0)), 7);
+}
+
+TEST(LatestMailboxTest, TakeWaitsForAnItem) {
+  LatestMailbox<int> mailbox;
+  std::thread producer([&] {
+    std::this_thread::sleep_for(milliseconds(20));
+    mailbox.put(5);
+  });
+  EXPECT_EQ(mailbox.take(seconds(60)), 5);
+  producer.join();
+}
+
+TEST(LatestMailboxTest, TakeGivesUpInTime) {
+  LatestMailbox<int> mailbox;
+  const auto start = steady_clock::now();
+  EXPECT_FALSE(mailbox.take(milliseconds(20)).has_value());
+  EXPECT_GE(steady_clock::now() - start, milliseconds(20));
+}
+
+TEST(LatestMailboxTest, ClosingEndsTheWait) {
+  LatestMailbox<int> mailbox;
+  const auto start = steady_clock::now();
+  std::thread closer([&] {
+    std::this_thread::sleep_for(milliseconds(20));
+    mailbox.close();
+  });
+  EXPECT_FALSE(mailbox.take(seconds(60)).has_value());
+  closer.join();
+  EXPECT_LT(steady_clock::now() - start, seconds(30));
+  EXPECT_TRUE(mailbox.closed());
+  mailbox.put(1);
+  EXPECT_FALSE(mailbox.take(milliseconds(0)).has_value());
+}
+
+TEST(LatestMailboxTest, EveryItemIsTakenOrReplaced) {
+  LatestMailbox<int> mailbox;
+  constexpr int kItems = 20000;
+  int taken = 0;
+  int last = -1;
+  std::thread consumer([&] {
+    while (last != kItems - 1) {
+      const auto item = mailbox.take(seconds(60));
+      if (!item) break;
+      EXPECT_GT(*item, last);
+      last = *item;
+      ++taken;
+    }
+  });
+  int replaced = 0;
+  for (int i = 0; i < kItems; ++i) replaced += mailbox.put(i) ? 1 : 0;
+  consumer.join();
+  EXPECT_EQ(taken + replaced, kItems);
+}
+
+}  // namespace
+}  // namespace rotrocc

@@ -1,0 +1,98 @@
+#include "input/silence_watch.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace rotrocc {
+namespace {
+
+using std::chrono::seconds;
+
+class SilenceWatchTest : public testing::Test {
+ protected:
+  SilenceWatchTest() {
+    int i = 0;
+    static const char* const kTopics[] = {"/l/image", "/r/image", "/l/info", "/r/info"};
+    for (TopicReport* topic :
+         {&input_.left_image, &input_.right_image, &input_.left_info, &input_.right_info}) {
+      *topic = {kTopics[i++], 1, 0, 500, 0.0};
+    }
+  }
+
+  /// Lets seconds pass; returns at which of them, counted from the beginning, something was said.
+  std::vector<int> wait(int seconds) {
+    std::vector<int> said_s;
+    for (const int end_s = now_s_ + seconds; now_s_ < end_s;) {
+      ++now_s_;
+      const std::string said = watch_.onTick(input_, now());
+      if (said.empty()) continue;
+      said_s.push_back(now_s_);
+      said_ = said;
+    }
+    return said_s;
+  }
+
+  std::string pair() { return watch_.onPair(now()); }
+
+  SilenceWatch::Time now() const { return SilenceWatch::Time() + seconds(now_s_); }
+
+  int now_s_ = 0;
+  InputReport input_;
+  SilenceWatch watch_{5.0, now()};
+  std::string said_;
+};
+
+using Times = std::vector<int>;
+
+TEST_F(SilenceWatchTest, TellsOnceAndRemindsMoreAndMoreSeldom) {
+  EXPECT_EQ(wait(240), (Times{5, 15, 35, 75, 135, 195}));
+  EXPECT_EQ(said_.substr(0, said_.find(", /l/info")),
+            "no stereo pair for 195 s. Messages in the last 5 s: /l/image 0, /r/image 0");
+  EXPECT_NE(said_.find(". Likely: /l/image has a publisher"), std::string::npos) << said_;
+}
+
+TEST_F(SilenceWatchTest, SaysNothingWhilePairsCome) {
+  for (int i = 0; i < 30; ++i) {
+    EXPECT_EQ(wait(4), Times());
+    EXPECT_EQ(pair(), "");
+  }
+}
+
+TEST_F(SilenceWatchTest, SaysThatPairsComeAgain) {
+  EXPECT_EQ(wait(10), Times{5});
+  EXPECT_EQ(pair(), "stereo pairs come again, after 10 s");
+  EXPECT_EQ(pair(), "");
+  // The next silence is told of like the first.
+  EXPECT_EQ(wait(30), (Times{15, 25}));
+  EXPECT_EQ(pair(), "stereo pairs come again, after 30 s");
+}
+
+TEST_F(SilenceWatchTest, TellsWhatChanges) {
+  EXPECT_EQ(wait(60), (Times{5, 15, 35}));
+  input_.right_image.recent = 3;
+  EXPECT_EQ(wait(4), Times{61});
+  EXPECT_NE(said_.find("/r/image 3"), std::string::npos) << said_;
+  input_.right_image.recent = 30;  // goes on
+  EXPECT_EQ(wait(10), Times());
+  input_.left_image.publishers = 0;
+  EXPECT_EQ(wait(4), Times{75});
+  EXPECT_NE(said_.find("nobody publishes /l/image any more"), std::string::npos) << said_;
+  input_.camera_error = "the baseline is zero";
+  EXPECT_EQ(wait(4), Times{80});
+  input_.clock_missing = true;
+  EXPECT_EQ(wait(10), Times{85});
+}
+
+TEST_F(SilenceWatchTest, IsNoStreamWhateverChanges) {
+  wait(60);
+  std::size_t said = 0;
+  for (int i = 0; i < 60; ++i) {
+    input_.left_image.recent = i % 2;
+    said += wait(1).size();
+  }
+  EXPECT_LE(said, 12u);  // every 5 s
+}
+
+}  // namespace
+}  // namespace rotrocc

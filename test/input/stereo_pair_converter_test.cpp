@@ -1,0 +1,234 @@
+#include "input/stereo_pair_converter.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include "input/image_validation.h"
+#include "input/input_error.h"
+#include "support/expect_error.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr int kWidth = 24;
+constexpr int kHeight = 18;
+
+/// An image of `bytes_per_pixel` whose bytes are a pattern, with `padding` more bytes at each row's
+/// end.
+sensor_msgs::Image makeImage(const std::string& encoding, int bytes_per_pixel, int padding = 0) {
+  sensor_msgs::Image image;
+  image.header.stamp = ros::Time(12, 345);
+  image.encoding = encoding;
+  image.width = kWidth;
+  image.height = kHeight;
+  image.step = static_cast<std::uint32_t>(kWidth * bytes_per_pixel + padding);
+  image.data.assign(std::size_t{image.step} * image.height, 255);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int i = 0; i < kWidth * bytes_per_pixel; ++i) {
+      image.data[y * image.step + i] = static_cast<unsigned char>(7 * y + 3 * i);
+    }
+  }
+  return image;
+}
+
+/// A whole image of one colour.
+sensor_msgs::Image makePlainImage(const std::string& encoding, const std::vector<int>& pixel) {
+  sensor_msgs::Image image = makeImage(encoding, static_cast<int>(pixel.size()));
+  for (std::size_t i = 0; i < image.data.size(); ++i) {
+    image.data[i] = static_cast<unsigned char>(pixel[i % pixel.size()]);
+  }
+  return image;
+}
+
+/// A scene of one colour through a Bayer filter, named by the colours of the first two rows.
+sensor_msgs::Image makeBayerImage(const std::string& filter, int red, int green, int blue) {
+  sensor_msgs::Image image = makeImage("bayer_" + filter + "8", 1);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const char colour = filter[static_cast<std::size_t>(2 * (y % 2) + x % 2)];
+      image.data[y * image.step + x] = static_cast<unsigned char>(colour == 'r'   ? red
+                                                                  : colour == 'g' ? green
+                                                                                  : blue);
+    }
+  }
+  return image;
+}
+
+sensor_msgs::Image makeImage16(const std::vector<int>& values, bool big_endian) {
+  sensor_msgs::Image image = makeImage(sensor_msgs::image_encodings::MONO16, 2);
+  image.is_bigendian = big_endian;
+  for (std::size_t i = 0; i < image.data.size() / 2; ++i) {
+    const int value = values[i % values.size()];
+    image.data[2 * i + (big_endian ? 0 : 1)] = static_cast<unsigned char>(value >> 8);
+    image.data[2 * i + (big_endian ? 1 : 0)] = static_cast<unsigned char>(value & 255);
+  }
+  return image;
+}
+
+bool equal(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0.0;
+}
+
+void expectRefused(const sensor_msgs::Image& image, const std::string& part) {
+  const sensor_msgs::Image good = makeImage("mono8", 1);
+  expectError<InputError>([&] { StereoPairConverter().convert(image, good); }, part);
+  expectError<InputError>([&] { StereoPairConverter().convert(good, image); }, part);
+}
+
+TEST(StereoPairConverterTest, GreyImagesAreNotCopied) {
+  const sensor_msgs::Image left = makeImage("mono8", 1);
+  const sensor_msgs::Image right = makeImage("8UC1", 1);
+  const StereoPair pair = StereoPairConverter().convert(left, right);
+  EXPECT_EQ(pair.left.data, left.data.data());
+  EXPECT_EQ(pair.right.data, right.data.data());
+  EXPECT_EQ(pair.left.size(), cv::Size(kWidth, kHeight));
+  EXPECT_EQ(pair.left.type(), CV_8UC1);
+  EXPECT_EQ(pair.stamp_ns, 12'000'000'345);
+}
+
+TEST(StereoPairConverterTest, PaddedRowsMakeNoDifference) {
+  for (const auto& [encoding, bytes] : {std::pair{"mono8", 1}, {"bgr8", 3}, {"mono16", 2}}) {
+    StereoPairConverter converter;
+    const sensor_msgs::Image padded = makeImage(encoding, bytes, 5);
+    const sensor_msgs::Image plain = makeImage(encoding, bytes);
+    const StereoPair pair = converter.convert(padded, plain);
+    EXPECT_TRUE(equal(pair.left, pair.right)) << encoding;
+  }
+}
+
+TEST(StereoPairConverterTest, ColourBecomesLuma) {
+  // ITU-R BT.601: 0.299 * 200 + 0.587 * 100 + 0.114 * 50 = 124.2
+  constexpr int kRed = 200, kGreen = 100, kBlue = 50, kLuma = 124;
+  const std::vector<sensor_msgs::Image> images = {makePlainImage("rgb8", {kRed, kGreen, kBlue}),
+                                                  makePlainImage("bgr8", {kBlue, kGreen, kRed}),
+                                                  makePlainImage("rgba8", {kRed, kGreen, kBlue, 7}),
+                                                  makePlainImage("bgra8", {kBlue, kGreen, kRed, 7}),
+                                                  makeBayerImage("rggb", kRed, kGreen, kBlue),
+                                                  makeBayerImage("bggr", kRed, kGreen, kBlue),
+                                                  makeBayerImage("gbrg", kRed, kGreen, kBlue),
+                                                  makeBayerImage("grbg", kRed, kGreen, kBlue)};
+  const sensor_msgs::Image grey = makePlainImage("mono8", {kLuma});
+  for (const sensor_msgs::Image& image : images) {
+    StereoPairConverter converter;
+    const StereoPair pair = converter.convert(image, grey);
+    // Demosaicing rounds once more.
+    EXPECT_LE(cv::norm(pair.left, pair.right, cv::NORM_INF), 1.0) << image.encoding;
+  }
+}
+
+TEST(StereoPairConverterTest, SixteenBitsAreScaledInBothByteOrders) {
+  const std::vector<int> values = {0, 255, 256, 40000, 65535};
+  const sensor_msgs::Image little = makeImage16(values, false);
+  const sensor_msgs::Image big = makeImage16(values, true);
+  StereoPairConverter converter;
+  const StereoPair pair = converter.convert(little, big);
+  EXPECT_TRUE(equal(pair.left, pair.right));
+  EXPECT_EQ(pair.left.at<unsigned char>(0, 1), 0);
+  EXPECT_EQ(pair.left.at<unsigned char>(0, 2), 1);
+  EXPECT_EQ(pair.left.at<unsigned char>(0, 3), 156);
+  EXPECT_EQ(pair.left.at<unsigned char>(0, 4), 255);
+}
+
+TEST(StereoPairConverterTest, TwelveBitsKeepTheirContrast) {
+  StereoPairConverter converter;
+  const sensor_msgs::Image dark = makeImage16({0, 1023}, false);
+  const sensor_msgs::Image bright = makeImage16({0, 1023, 4095}, false);
+  // The scale of a pair is that of its brighter image ...
+  StereoPair pair = converter.convert(dark, bright);
+  EXPECT_EQ(pair.left.at<unsigned char>(0, 1), 63);
+  EXPECT_EQ(pair.right.at<unsigned char>(0, 1), 63);
+  EXPECT_EQ(pair.right.at<unsigned char>(0, 2), 255);
+  // ... and stays when it gets dark.
+  pair = converter.convert(dark, dark);
+  EXPECT_EQ(pair.left.at<unsigned char>(0, 1), 63);
+}
+
+TEST(StereoPairConverterTest, MemoryIsUsedAgain) {
+  StereoPairConverter converter;
+  const sensor_msgs::Image image = makeImage("bgr8", 3);
+  const unsigned char* memory = converter.convert(image, image).left.data;
+  EXPECT_EQ(converter.convert(image, image).left.data, memory);
+}
+
+TEST(StereoPairConverterTest, EncodingsMayDiffer) {
+  const StereoPair pair = StereoPairConverter().convert(makePlainImage("mono8", {90}),
+                                                        makePlainImage("bgr8", {90, 90, 90}));
+  EXPECT_EQ(pair.right.at<unsigned char>(3, 3), 90);
+}
+
+TEST(StereoPairConverterTest, MoreDataThanNeededIsLeftAlone) {
+  sensor_msgs::Image image = makeImage("mono8", 1);
+  image.data.resize(image.data.size() + 100);
+  EXPECT_EQ(StereoPairConverter().convert(image, image).left.rows, kHeight);
+}
+
+TEST(StereoPairConverterTest, RefusesMalformedImages) {
+  sensor_msgs::Image image = makeImage("mono8", 1);
+  image.width = 0;
+  expectRefused(image, "image is 0x18 px");
+  image = makeImage("mono8", 1);
+  image.height = 0;
+  expectRefused(image, "image is 24x0 px");
+  image = makeImage("mono8", 1);
+  image.width = image.height = image.step = 8;
+  expectRefused(image, "image is 8x8 px");
+  image = makeImage("mono8", 1);
+  image.width = image.height = image.step = 0xffffffff;
+  expectRefused(image, "4294967295x4294967295");
+  image = makeImage("mono8", 1);
+  image.data.clear();
+  expectRefused(image, "0 bytes of data");
+  image = makeImage("mono8", 1);
+  image.data.pop_back();
+  expectRefused(image, "431 bytes of data, but 18 rows of 24 bytes take 432");
+  image = makeImage("mono8", 1);
+  image.step = kWidth - 1;
+  expectRefused(image, "step of 23 bytes");
+  image = makeImage("mono8", 1);
+  image.encoding = "bgr8";
+  expectRefused(image, "step of 24 bytes, but 24 px of bgr8 take 72");
+  image.encoding = "";
+  expectRefused(image, "encoding \"\"");
+  image.encoding = "32FC1";
+  expectRefused(image, "encoding \"32FC1\", but must have one of: mono8 8UC1");
+}
+
+TEST(StereoPairConverterTest, RefusesSizesThatDiffer) {
+  sensor_msgs::Image image = makeImage("mono8", 1);
+  image.height -= 1;
+  expectRefused(image, "24x17 px");
+}
+
+TEST(ImageValidationTest, ImagesMustBeOfTheCamerasSize) {
+  const sensor_msgs::Image image = makeImage("mono8", 1);
+  StereoCamera camera;
+  camera.width = kWidth;
+  camera.height = kHeight;
+  EXPECT_NO_THROW(validateSize(image, camera));
+  camera.height = 20;
+  expectError<InputError>([&] { validateSize(image, camera); },
+                          "24x18 px, but camera_info is for 24x20");
+}
+
+TEST(ImageValidationTest, GreatImagesAreRefusedByLimit) {
+  const sensor_msgs::Image image = makeImage("mono8", 1);
+  EXPECT_NO_THROW(validateImage("left", image, kWidth * kHeight));
+  expectError<InputError>([&] { validateImage("left", image, kWidth * kHeight - 1); },
+                          "24x18 px, more than max_image_pixels = 431");
+}
+
+TEST(ImageValidationTest, TextOfStrangersIsFitForALog) {
+  sensor_msgs::Image image = makeImage("mono8", 1);
+  image.encoding = "\x1b[2J\n" + std::string(1000, 'x');
+  expectError<InputError>([&] { encodingOf("left", image); }, "encoding \"?[2J?xxx");
+  try {
+    encodingOf("left", image);
+  } catch (const InputError& error) {
+    EXPECT_LT(std::string(error.what()).size(), 300u);
+  }
+}
+
+}  // namespace
+}  // namespace rotrocc

@@ -1,0 +1,93 @@
+#include "motion/flow_decoupling.h"
+
+#include <algorithm>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "support/simulated_features.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kRounding_px = 1e-9;
+
+const Eigen::Vector3d kTranslation(0.2, -0.05, 1.4);
+const Eigen::Vector3d kRotation(0.01, 0.06, -0.02);
+
+Correspondences features(const Eigen::Isometry3d& T_prev_cur) {
+  std::mt19937 generator(1);
+  return simulateFeatures(kittiCamera(), T_prev_cur, 100, {}, generator);
+}
+
+std::vector<double> decoupled(const Correspondences& features, const Eigen::Matrix3d& R) {
+  std::vector<double> lengths_px;
+  decoupledFlow(kittiCamera(), features, R, lengths_px);
+  return lengths_px;
+}
+
+TEST(FlowDecouplingTest, NothingIsLeftOfTheFlowOfARotation) {
+  const Eigen::Isometry3d T = motion({0.0, 0.0, 0.0}, kRotation);
+  for (const double length_px : decoupled(features(T), T.linear())) {
+    EXPECT_NEAR(length_px, 0.0, kRounding_px);
+  }
+}
+
+TEST(FlowDecouplingTest, LittleIsLeftOfTheFlowOfFarPoints) {
+  const Eigen::Isometry3d T = motion(kTranslation, kRotation);
+  Correspondence far;
+  std::mt19937 generator(1);
+  ASSERT_TRUE(measure(kittiCamera(), {10.0, 5.0, 300.0}, T, {}, generator, far));
+  // f |t_x| / depth is half a pixel, that of the rotation 40.
+  EXPECT_LT(decoupled({far}, T.linear()).at(0), 1.0);
+  EXPECT_GT((far.prev_px - far.cur_px).norm(), 30.0);
+}
+
+TEST(FlowDecouplingTest, TheFlowOfATranslationStays) {
+  const Eigen::Isometry3d T = motion(kTranslation, Eigen::Vector3d::Zero());
+  const Correspondences moved = features(T);
+  std::vector<double> coupled_px;
+  coupledFlow(moved, coupled_px);
+  const std::vector<double> decoupled_px = decoupled(moved, T.linear());
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    EXPECT_NEAR(decoupled_px[i], coupled_px[i], kRounding_px);
+    EXPECT_NEAR(coupled_px[i], (moved[i].prev_px - moved[i].cur_px).norm(), kRounding_px);
+  }
+}
+
+TEST(FlowDecouplingTest, IsTheDistanceToTheRotatedRay) {
+  const Eigen::Isometry3d T = motion(kTranslation, kRotation);
+  const StereoCamera camera = kittiCamera();
+  const Correspondences moved = features(T);
+  const std::vector<double> lengths_px = decoupled(moved, T.linear());
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    // Eq. 28 needs no depth: pi(R x) of the ray.
+    const Eigen::Vector3d ray = T.linear() * camera.ray(moved[i].cur_px);
+    EXPECT_NEAR(lengths_px[i], (moved[i].prev_px - camera.project(ray)).norm(), kRounding_px);
+  }
+}
+
+TEST(FlowDecouplingTest, ForwardMotionGivesTheFlowOfEq17) {
+  // Forward, the flow of a point at X, Z is f X (1/Z - 1/(Z + t)), towards the image's middle.
+  const StereoCamera camera = kittiCamera();
+  const Eigen::Isometry3d T = motion({0.0, 0.0, 1.0}, {0.0, 0.08, 0.0});
+  const Eigen::Vector3d point_cur(-1.5, 0.0, 9.0);
+  Correspondence feature;
+  std::mt19937 generator(1);
+  ASSERT_TRUE(measure(camera, point_cur, T, {}, generator, feature));
+  const Eigen::Vector3d rotated = T.linear() * point_cur;
+  const double expected_px =
+      camera.fx * std::abs(rotated.x()) * (1.0 / rotated.z() - 1.0 / (rotated.z() + 1.0));
+  EXPECT_NEAR(decoupled({feature}, T.linear()).at(0), expected_px, kRounding_px);
+}
+
+TEST(FlowDecouplingTest, StaysFiniteForPointsTurnedBehindTheCamera) {
+  const Eigen::Isometry3d T = motion({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+  for (const double length_px :
+       decoupled(features(T), motion({0.0, 0.0, 0.0}, {0.0, 3.0, 0.0}).linear())) {
+    EXPECT_TRUE(std::isfinite(length_px));
+  }
+}
+
+}  // namespace
+}  // namespace rotrocc

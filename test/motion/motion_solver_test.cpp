@@ -1,0 +1,229 @@
+#include "motion/motion_solver.h"
+
+#include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/simulated_features.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kNoiseRatio = 3.0;
+
+Eigen::Isometry3d turnAhead() {
+  return motion({0.1, -0.02, 1.3}, {0.01, 0.06, -0.005});
+}
+
+Correspondences exactFeatures(int count) {
+  std::mt19937 generator(1);
+  return simulateFeatures(kittiCamera(), turnAhead(), count, {}, generator);
+}
+
+FeatureSet all(const Correspondences& features) {
+  return FeatureSet(features.size(), 1);
+}
+
+bool solveMotion(double noise_ratio,
+                 const Correspondences& features,
+                 const FeatureSet& set,
+                 Eigen::Isometry3d& T_prev_cur) {
+  MotionSolver solver(noise_ratio, 0.0);
+  solver.setFeatures(kittiCamera(), features);
+  return solver.solveMotion(set, Weights::kEqual, T_prev_cur);
+}
+
+bool solveTranslation(double noise_ratio,
+                      const Correspondences& features,
+                      const FeatureSet& set,
+                      Eigen::Isometry3d& T_prev_cur) {
+  MotionSolver solver(noise_ratio, 0.0);
+  solver.setFeatures(kittiCamera(), features);
+  return solver.solveTranslation(set, Weights::kEqual, T_prev_cur);
+}
+
+TEST(MotionSolverTest, RecoversAnExactMotion) {
+  for (const double noise_ratio : {0.0, kNoiseRatio}) {
+    for (const int features : {10, 300}) {
+      const Correspondences exact = exactFeatures(features);
+      Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+      ASSERT_TRUE(solveMotion(noise_ratio, exact, all(exact), T));
+      // Gauss-Newton converges quadratically; the last step was below 1e-7.
+      EXPECT_LT(motionError(T, turnAhead()).norm(), 1e-9) << features << ' ' << noise_ratio;
+    }
+  }
+}
+
+TEST(MotionSolverTest, RecoversAMotionFromThreeFeatures) {
+  const Correspondences exact = exactFeatures(3);
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  ASSERT_TRUE(solveMotion(kNoiseRatio, exact, all(exact), T));
+  // It ends when the residuals are below 1e-8 px, and three points determine little.
+  EXPECT_LT(motionError(T, turnAhead()).norm(), 1e-5);
+}
+
+TEST(MotionSolverTest, RecoversAnExactTranslationAndLeavesTheRotation) {
+  const Correspondences exact = exactFeatures(100);
+  Eigen::Isometry3d T = turnAhead();
+  T.translation().setZero();
+  ASSERT_TRUE(solveTranslation(kNoiseRatio, exact, all(exact), T));
+  EXPECT_LT(motionError(T, turnAhead()).norm(), 1e-9);
+  EXPECT_EQ(T.linear(), turnAhead().linear());
+}
+
+TEST(MotionSolverTest, TakesOnlyTheFeaturesOfTheSet) {
+  Correspondences features = exactFeatures(100);
+  FeatureSet set = all(features);
+  for (std::size_t i = 0; i < features.size(); i += 3) {
+    features[i].prev_px.x() += 50.0;
+    set[i] = 0;
+  }
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  ASSERT_TRUE(solveMotion(kNoiseRatio, features, set, T));
+  EXPECT_LT(motionError(T, turnAhead()).norm(), 1e-9);
+}
+
+TEST(MotionSolverTest, KeepsNoFitOfOtherFeaturesOrWeights) {
+  std::mt19937 generator(4);
+  const Correspondences some =
+      simulateFeatures(kittiCamera(), turnAhead(), 50, {0.3, 0.9}, generator);
+  const Correspondences others =
+      simulateFeatures(kittiCamera(), turnAhead(), 50, {0.3, 0.9}, generator);
+  MotionSolver solver(1.0, 0.0);
+  std::vector<FittedFeature> fitted;
+  std::vector<double> errors_px, expected_px;
+  const auto expectAnew =
+      [&](const Correspondences& features, const Eigen::Isometry3d& T, double noise_ratio) {
+        solver.measureErrors(T, errors_px);
+        fitDisparities(kittiCamera(), features, T, noise_ratio, fitted);
+        reprojectionErrors(kittiCamera(), fitted, T.translation(), expected_px);
+        EXPECT_EQ(errors_px, expected_px);
+      };
+  solver.setFeatures(kittiCamera(), some);
+  expectAnew(some, turnAhead(), 1.0);
+  expectAnew(some, Eigen::Isometry3d::Identity(), 1.0);
+  solver.setNoiseRatio(kNoiseRatio);
+  expectAnew(some, Eigen::Isometry3d::Identity(), kNoiseRatio);
+  solver.setFeatures(kittiCamera(), others);
+  expectAnew(others, Eigen::Isometry3d::Identity(), kNoiseRatio);
+}
+
+TEST(MotionSolverTest, RefusesTooFewFeatures) {
+  const Eigen::Isometry3d before = motion({1.0, 2.0, 3.0}, {0.1, 0.2, 0.3});
+  Eigen::Isometry3d T = before;
+  const Correspondences two = exactFeatures(2);
+  const Correspondences one = exactFeatures(1);
+  EXPECT_FALSE(solveMotion(kNoiseRatio, two, all(two), T));
+  EXPECT_FALSE(solveTranslation(kNoiseRatio, one, all(one), T));
+  EXPECT_FALSE(solveMotion(kNoiseRatio, {}, {}, T));
+  EXPECT_EQ(T.matrix(), before.matrix());
+  EXPECT_TRUE(solveTranslation(kNoiseRatio, two, all(two), T));
+}
+
+/// Mean signed error of the length of a step past far points, in shares of it, and its standard
+/// error. The disparities are some 2 to 6 px.
+std::pair<double, double> biasOfStep(double noise_ratio) {
+  constexpr int kDraws = 200;
+  const Eigen::Isometry3d truth = motion({0.0, 0.0, 2.5}, {0.0, 0.0, 0.0});
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> side_m(-30.0, 30.0);
+  std::uniform_real_distribution<double> height_m(-10.0, 2.0);
+  std::uniform_real_distribution<double> depth_m(70.0, 200.0);
+  MotionSolver solver(noise_ratio, 0.0);
+  double sum = 0.0;
+  double squares = 0.0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Correspondences features;
+    while (features.size() < 300) {
+      const Eigen::Vector3d point(side_m(generator), height_m(generator), depth_m(generator));
+      Correspondence feature;
+      if (measure(kittiCamera(), point, truth, {0.1, 0.3}, generator, feature)) {
+        features.push_back(feature);
+      }
+    }
+    Eigen::Isometry3d T = truth;
+    solver.setFeatures(kittiCamera(), features);
+    for (int i = 0; i < 10; ++i) solver.solveTranslation(all(features), Weights::kEqual, T);
+    const double error = T.translation().z() / 2.5 - 1.0;
+    sum += error;
+    squares += error * error;
+  }
+  const double mean = sum / kDraws;
+  return {mean, std::sqrt((squares / kDraws - mean * mean) / kDraws)};
+}
+
+TEST(MotionSolverTest, NoisyDisparitiesDoNotShortenTheStep) {
+  const auto [bias, standard_error] = biasOfStep(3.0);
+  // The share of the noise in the mean square of the disparities, 0.3^2 / 3.2^2 = 0.9 %, is what
+  // plain least squares loses. Of second order are some tenths of it.
+  EXPECT_NEAR(bias, 0.0, 0.002 + 3.0 * standard_error);
+  EXPECT_LT(biasOfStep(0.0).first, -0.005);
+}
+
+/// Mean signed error of the length of a step, in shares of it, if a tenth of the windows see what
+/// is nearer, too, and after fits with these weights.
+double biasByFattening(Weights weights) {
+  constexpr int kDraws = 50;
+  const Eigen::Isometry3d truth = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
+  std::mt19937 generator(3);
+  MotionSolver solver(1.0, 2.0);
+  double sum = 0.0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Correspondences features = simulateFeatures(kittiCamera(), truth, 400, {0.15, 0.15}, generator);
+    for (std::size_t i = 0; i < features.size(); i += 10) features[i].disparity_px += 0.8;
+    triangulate(kittiCamera(), features);
+    Eigen::Isometry3d T = truth;
+    solver.setFeatures(kittiCamera(), features);
+    for (int i = 0; i < 5; ++i) EXPECT_TRUE(solver.solveMotion(all(features), weights, T));
+    sum += T.translation().z() - 1.0;
+  }
+  return sum / kDraws;
+}
+
+TEST(MotionSolverTest, RobustWeightsResistAnUnevenTail) {
+  // An error of 4 standard deviations of its residual or so has a fifth of the weight.
+  const double equal = biasByFattening(Weights::kEqual);
+  EXPECT_LT(equal, -0.001);
+  EXPECT_LT(std::abs(biasByFattening(Weights::kRobust)), 0.5 * std::abs(equal));
+}
+
+TEST(MotionSolverTest, InformationIsThatOfTheErrorsOfAMotion) {
+  std::mt19937 generator(2);
+  const Correspondences features =
+      simulateFeatures(kittiCamera(), turnAhead(), 200, {0.3, 0.9}, generator);
+  MotionSolver solver(kNoiseRatio, 0.0);
+  solver.setFeatures(kittiCamera(), features);
+  const MotionSolver::Information information = solver.information(all(features), turnAhead(), 6);
+  // The cost grows by half of e^T J^T J e for an error e, in the order of motionError().
+  const auto cost = [&](const Vector6d& error) {
+    Eigen::Isometry3d T = turnAhead();
+    T.linear() = expRotation(error.tail<3>()) * T.linear();
+    T.translation() += error.head<3>();
+    double sum = 0.0;
+    for (const Correspondence& feature : features) {
+      const FittedFeature fitted = fitDisparity(kittiCamera(), feature, turnAhead(), kNoiseRatio);
+      const Eigen::Vector3d turned =
+          T.linear() * turnAhead().linear().transpose() * fitted.rotated_point;
+      const Eigen::Vector2d shift_px =
+          kittiCamera().project(turned + T.translation()) -
+          kittiCamera().project(fitted.rotated_point + turnAhead().translation());
+      sum += (fitted.whitening * shift_px).squaredNorm();
+    }
+    return sum;
+  };
+  for (int i = 0; i < 6; ++i) {
+    for (int k = 0; k <= i; ++k) {
+      const Vector6d e = 1e-6 * (Vector6d::Unit(i) + Vector6d::Unit(k));
+      const double expected = e.dot(information.matrix * e);
+      EXPECT_NEAR(cost(e), expected, 1e-3 * expected) << i << ' ' << k;
+    }
+  }
+  // 394 degrees of freedom: the standard deviation of the variance is 7 %.
+  EXPECT_NEAR(information.residual_variance, 0.3 * 0.3, 4.0 * 0.07 * 0.3 * 0.3);
+}
+
+}  // namespace
+}  // namespace rotrocc

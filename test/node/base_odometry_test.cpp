@@ -1,0 +1,213 @@
+#include "node/base_odometry.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace rotrocc {
+namespace {
+
+constexpr double kSpeedSigma = 10.0;
+constexpr double kTurnSigma = 0.5;
+constexpr std::int64_t kPeriod_ns = 100'000'000;
+
+/// A camera 1 m ahead of and 2 m above the base that looks along the base's x axis.
+Eigen::Isometry3d cameraMount() {
+  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
+  T_base_camera.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  T_base_camera.translation() << 1, 0, 2;
+  return T_base_camera;
+}
+
+/// Forward by a step and to the left by an angle, seen by the base.
+Eigen::Isometry3d makeMotion(double step_m, double left_rad) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translation().x() = step_m;
+  T.rotate(Eigen::AngleAxisd(left_rad, Eigen::Vector3d::UnitZ()));
+  return T;
+}
+
+class BaseOdometryTest : public testing::Test {
+ protected:
+  /// A pair after which the base has made a motion.
+  BaseState move(const Eigen::Isometry3d& T_base) {
+    OdometryResult result;
+    result.state = State::kOk;
+    result.stamp_ns = stamp_ns_ += kPeriod_ns;
+    result.dt_s = 0.1;
+    result.T_prev_cur = cameraMount().inverse() * T_base * cameraMount();
+    result.covariance = 1e-6 * Matrix6d::Identity();
+    result.reference_stamp_ns = stamp_ns_ - kPeriod_ns;
+    result.T_ref_cur = {result.T_prev_cur, result.covariance};
+    return odometry_.add(result);
+  }
+
+  /// A pair at rest, measured against an earlier one.
+  BaseState rest(std::int64_t reference_stamp_ns) {
+    OdometryResult result;
+    result.state = State::kOk;
+    result.stamp_ns = stamp_ns_ += kPeriod_ns;
+    result.dt_s = 0.1;
+    result.covariance = 2e-6 * Matrix6d::Identity();
+    result.reference_stamp_ns = reference_stamp_ns;
+    result.T_ref_cur.covariance = 1e-6 * Matrix6d::Identity();
+    return odometry_.add(result);
+  }
+
+  BaseState lose(std::int64_t passed_ns, State state = State::kLost) {
+    OdometryResult result;
+    result.state = state;
+    result.stamp_ns = stamp_ns_ += passed_ns;
+    return odometry_.add(result);
+  }
+
+  static double sigma(const BaseState& state, int axis) {
+    return std::sqrt(state.T_odom_base.covariance(axis, axis));
+  }
+
+  BaseOdometry odometry_{cameraMount(), kSpeedSigma, kTurnSigma};
+  std::int64_t stamp_ns_ = 5'000'000'000;
+};
+
+TEST_F(BaseOdometryTest, FirstPairDefinesTheOdomFrame) {
+  const BaseState state = lose(kPeriod_ns, State::kInitialising);
+  EXPECT_EQ(state.stamp_ns, stamp_ns_);
+  EXPECT_TRUE(state.T_odom_base.T.isApprox(Eigen::Isometry3d::Identity()));
+  EXPECT_LT(sigma(state, 0), 1e-4);
+  EXPECT_GT(sigma(state, 0), 0.0);
+  EXPECT_EQ(state.twist.covariance(0, 0), 9999.0);
+}
+
+TEST_F(BaseOdometryTest, DrivesACircleOfTheBase) {
+  // 100 chords of a circle to the left: halfway the base is a diameter to the left, at last it is
+  // back.
+  const double angle = 2.0 * M_PI / 100.0;
+  BaseState state;
+  for (int i = 0; i < 50; ++i) state = move(makeMotion(1.0, angle));
+  const double diameter = 1.0 / std::sin(angle / 2.0);
+  EXPECT_NEAR(state.T_odom_base.T.translation().norm(), diameter, 1e-9);
+  EXPECT_NEAR(state.T_odom_base.T.translation().y(), diameter, 0.1);
+  for (int i = 0; i < 50; ++i) state = move(makeMotion(1.0, angle));
+  EXPECT_TRUE(state.T_odom_base.T.isApprox(Eigen::Isometry3d::Identity(), 1e-9));
+  EXPECT_NEAR(state.twist.twist[0], 10.0, 0.01);
+  EXPECT_NEAR(state.twist.twist[5], 10.0 * angle, 1e-9);
+}
+
+TEST_F(BaseOdometryTest, CovarianceGrowsOnTheWay) {
+  double last = 0.0;
+  for (int i = 0; i < 10; ++i) {
+    const BaseState state = move(makeMotion(1.0, 0.0));
+    EXPECT_GT(sigma(state, 0), last);
+    last = sigma(state, 0);
+  }
+  // Ten steps of 1 mm each, along the way where no rotation error counts but the camera's height
+  // does.
+  EXPECT_NEAR(last, 1e-3 * std::sqrt(10.0 * (1.0 + 4.0)), 2e-4);
+}
+
+TEST_F(BaseOdometryTest, ErrorsAddUpFromReferenceToReference) {
+  move(makeMotion(1.0, 0.0));
+  const std::int64_t reference_ns = stamp_ns_;
+  const double first = sigma(rest(reference_ns), 0);
+  for (int i = 0; i < 100; ++i) EXPECT_DOUBLE_EQ(sigma(rest(reference_ns), 0), first);
+  // The next reference is one of the pairs at rest.
+  EXPECT_GT(sigma(rest(stamp_ns_), 0), 1.1 * first);
+}
+
+TEST_F(BaseOdometryTest, APairComparedWithOneBeforeALossIsAsCertainAsThat) {
+  move(makeMotion(1.0, 0.0));
+  const std::int64_t reference_ns = stamp_ns_;
+  const double before = sigma(rest(reference_ns), 0);
+  EXPECT_GT(sigma(lose(kPeriod_ns), 0), 10.0 * before);
+  EXPECT_DOUBLE_EQ(sigma(rest(reference_ns), 0), before);
+  // One that was lost is as uncertain as it was.
+  const double lost = sigma(lose(kPeriod_ns), 0);
+  EXPECT_GE(sigma(rest(stamp_ns_), 0), lost);
+}
+
+TEST_F(BaseOdometryTest, LostKeepsThePoseAndSaysItIsUnknown) {
+  const BaseState before = move(makeMotion(1.0, 0.1));
+  const BaseState lost = lose(kPeriod_ns);
+  EXPECT_TRUE(lost.T_odom_base.T.isApprox(before.T_odom_base.T, 1e-14));
+  EXPECT_EQ(lost.twist.twist.norm(), 0.0);
+  EXPECT_TRUE(lost.twist.covariance.isApprox(9999.0 * Matrix6d::Identity()));
+  EXPECT_NEAR(sigma(lost, 0), kSpeedSigma * 0.1, 1e-3);
+  EXPECT_NEAR(sigma(lost, 5), kTurnSigma * 0.1, 1e-3);
+  const BaseState after = move(makeMotion(1.0, 0.0));
+  EXPECT_NEAR(
+      (after.T_odom_base.T.translation() - lost.T_odom_base.T.translation()).norm(), 1.0, 1e-9);
+  EXPECT_GE(sigma(after, 0), sigma(lost, 0));
+}
+
+TEST_F(BaseOdometryTest, GrowthDoesNotDependOnTheFrameRate) {
+  lose(0, State::kInitialising);
+  BaseState state;
+  for (int i = 0; i < 30; ++i) state = lose(kPeriod_ns);
+  EXPECT_NEAR(sigma(state, 0), kSpeedSigma * 3.0, 1e-6);
+  EXPECT_NEAR(sigma(state, 5), kTurnSigma * 3.0, 1e-6);
+}
+
+TEST_F(BaseOdometryTest, TimeThatStepsBackAddsNothing) {
+  move(makeMotion(1.0, 0.0));
+  const BaseState before = lose(kPeriod_ns);
+  const BaseState after = lose(-20 * kPeriod_ns, State::kInitialising);
+  EXPECT_EQ(sigma(after, 0), sigma(before, 0));
+}
+
+TEST_F(BaseOdometryTest, CameraPoseIsThatOfTheCamera) {
+  move(makeMotion(1.0, 0.2));
+  const BaseState state = move(makeMotion(1.0, 0.2));
+  const Eigen::Isometry3d T_camera = cameraMount().inverse() * state.T_odom_base.T * cameraMount();
+  EXPECT_TRUE(state.T_first_camera.isApprox(T_camera, 1e-12));
+}
+
+TEST_F(BaseOdometryTest, PoseThatIsSetIsWhereItGoesOn) {
+  move(makeMotion(1.0, 0.2));
+  lose(kPeriod_ns);
+  Eigen::Isometry3d T_odom_base = makeMotion(50.0, M_PI / 2.0);
+  odometry_.setPose(T_odom_base);
+  const BaseState state = move(makeMotion(1.0, 0.0));
+  EXPECT_TRUE(state.T_odom_base.T.isApprox(T_odom_base * makeMotion(1.0, 0.0), 1e-12));
+  EXPECT_LT(sigma(state, 0), 0.01);
+}
+
+TEST_F(BaseOdometryTest, GapsOfYearsLeaveNumbersThatFiltersCanUse) {
+  lose(0, State::kInitialising);
+  const BaseState state = lose(50'000'000LL * 1'000'000'000, State::kInitialising);
+  EXPECT_NEAR(sigma(state, 0), kSpeedSigma * 1000.0, 1.0);
+}
+
+TEST(PlanarOdometryTest, LeavesOutWhatIsNotInThePlane) {
+  BaseOdometry odometry(cameraMount(), kSpeedSigma, kTurnSigma, true);
+  Eigen::Isometry3d bump = makeMotion(1.0, 0.1);
+  bump.translation().z() = 0.3;
+  bump.rotate(Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY()));
+  BaseState state;
+  Eigen::Isometry3d expected = Eigen::Isometry3d::Identity();
+  for (int i = 0; i < 10; ++i) {
+    OdometryResult result;
+    result.state = State::kOk;
+    result.stamp_ns = i * kPeriod_ns;
+    result.reference_stamp_ns = (i - 1) * kPeriod_ns;
+    result.dt_s = 0.1;
+    result.T_prev_cur = cameraMount().inverse() * bump * cameraMount();
+    result.covariance = 1e-6 * Matrix6d::Identity();
+    result.T_ref_cur = {result.T_prev_cur, result.covariance};
+    state = odometry.add(result);
+    expected = expected * makeMotion(1.0, 0.1);
+  }
+  EXPECT_TRUE(state.T_odom_base.T.isApprox(expected, 1e-9));
+  EXPECT_NEAR(state.twist.twist[2], 0.0, 1e-9);
+  EXPECT_NEAR(state.twist.twist[4], 0.0, 1e-9);
+  const Matrix6d& covariance = state.T_odom_base.covariance;
+  EXPECT_LT(covariance(2, 2), 1e-8);
+  EXPECT_GT(covariance(2, 2), 0.0);
+  EXPECT_LT(covariance(4, 4), 1e-8);
+  EXPECT_GT(covariance(0, 0), 1e-6);
+  EXPECT_GT(covariance(5, 5), 1e-6);
+  EXPECT_TRUE(
+      state.T_first_camera.isApprox(cameraMount().inverse() * expected * cameraMount(), 1e-9));
+}
+
+}  // namespace
+}  // namespace rotrocc

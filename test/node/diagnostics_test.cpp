@@ -1,0 +1,220 @@
+#include "node/diagnostics.h"
+
+#include <gtest/gtest.h>
+
+#include "rotrocc/OdometryStatus.h"
+
+namespace rotrocc {
+namespace {
+
+using Level = diagnostic_msgs::DiagnosticStatus;
+
+/// An odometry that does well.
+HealthReport goodReport() {
+  HealthReport report;
+  int i = 0;
+  static const char* const kTopics[] = {"/l/image", "/r/image", "/l/info", "/r/info"};
+  for (TopicReport* topic : {&report.input.left_image,
+                             &report.input.right_image,
+                             &report.input.left_info,
+                             &report.input.right_info}) {
+    *topic = {kTopics[i++], 1, 50, 500, 10.0};
+  }
+  report.input.recent_pairs = 50;
+  report.input.stamp_difference_s = 0.002;
+  report.answers = true;
+  report.answer_rate_hz = 10.0;
+  report.latency_p50_ms = 12.0;
+  report.latency_p95_ms = 15.0;
+  report.last_result.state = State::kOk;
+  report.last_result.counts.rotation_inliers = 512;
+  report.last_result.disparity_bias = {0.42, 0.05, 0.36};
+  report.last_result.noise = {0.15, 0.45, 3.0};
+  return report;
+}
+
+std::string valueOf(const StatusWrapper& status, const std::string& key) {
+  for (const auto& entry : status.values) {
+    if (entry.key == key) return entry.value;
+  }
+  return "no such key";
+}
+
+TEST(StateOfTest, FollowsTheAnswersWhileTheyCome) {
+  HealthReport report = goodReport();
+  EXPECT_EQ(stateOf(report).state, OdometryStatus::OK);
+  report.last_result.state = State::kLost;
+  report.last_result.reason = "only 3 features";
+  EXPECT_EQ(stateOf(report).state, OdometryStatus::LOST);
+  EXPECT_EQ(stateOf(report).reason, "only 3 features");
+  report.paused = true;
+  EXPECT_EQ(stateOf(report).state, OdometryStatus::PAUSED);
+}
+
+TEST(StateOfTest, SaysWhatIsMissingWhileNoneCome) {
+  HealthReport report = goodReport();
+  report.answers = false;
+  report.waits_for_tf = "no tf from base_link to camera";
+  EXPECT_EQ(stateOf(report).state, OdometryStatus::NO_TF);
+  EXPECT_EQ(stateOf(report).reason, "no tf from base_link to camera");
+  report.not_of_camera = true;
+  report.input.refused = "the images are 3x3 px";
+  EXPECT_EQ(stateOf(report).state, OdometryStatus::NO_CALIBRATION);
+  EXPECT_EQ(stateOf(report).reason, "the images are 3x3 px");
+  report = goodReport();
+  report.answers = false;
+  report.input.waits_for_info = true;
+  report.input.left_info.total = report.input.left_info.publishers = 0;
+  EXPECT_EQ(stateOf(report).state, OdometryStatus::NO_CALIBRATION);
+  EXPECT_NE(stateOf(report).reason.find("nobody publishes /l/info"), std::string::npos);
+  report.input.left_image.recent = report.input.recent_pairs = 0;
+  report.input.waits_for_info = false;
+  EXPECT_EQ(stateOf(report).state, OdometryStatus::NO_INPUT);
+}
+
+TEST(StateOfTest, EveryStateHasAName) {
+  EXPECT_STREQ(stateName(OdometryStatus::INITIALISING), "INITIALISING");
+  EXPECT_STREQ(stateName(OdometryStatus::LOST), "LOST");
+  EXPECT_STREQ(stateName(OdometryStatus::NO_TF), "NO_TF");
+  EXPECT_STREQ(stateName(OdometryStatus::PAUSED), "PAUSED");
+  EXPECT_STREQ(stateName(99), "unknown");
+}
+
+TEST(DiagnosticsTest, AllIsWell) {
+  const HealthReport report = goodReport();
+  StatusWrapper odometry, input, timing, tf, drops;
+  describeOdometry(report, odometry);
+  describeInput(report, input);
+  describeTiming(report, timing);
+  describeTf(report, tf);
+  describeDrops(report, 0, drops);
+  for (const StatusWrapper* status : {&odometry, &input, &timing, &tf, &drops}) {
+    EXPECT_EQ(status->level, Level::OK) << status->message;
+    EXPECT_FALSE(status->message.empty());
+  }
+  EXPECT_EQ(valueOf(odometry, "state"), "OK");
+  EXPECT_EQ(valueOf(odometry, "disparity bias"), "0.42 +- 0.05 px, 0.36 px corrected");
+  EXPECT_EQ(valueOf(odometry, "noise of flow and disparity"), "0.15 and 0.45 px");
+  EXPECT_EQ(valueOf(odometry, "inliers of the rotation"), "512");
+  EXPECT_EQ(valueOf(input, "/r/image"), "10.0 Hz, 50 in 5 s, 500 in all, 1 publishers");
+  EXPECT_EQ(valueOf(input, "largest stamp difference of left and right"), "2.000 ms");
+  EXPECT_EQ(valueOf(timing, "latency p50"), "12.0 ms");
+  EXPECT_EQ(valueOf(timing, "latency p95"), "15.0 ms");
+}
+
+TEST(DiagnosticsTest, ALargeBiasAsksForACalibration) {
+  HealthReport report = goodReport();
+  report.last_result.disparity_bias = {-1.25, 0.05, -1.0};
+  StatusWrapper status;
+  describeOdometry(report, status);
+  EXPECT_EQ(status.level, Level::WARN);
+  EXPECT_NE(status.message.find("off by 1.25 px (+- 0.05)"), std::string::npos) << status.message;
+  EXPECT_NE(status.message.find("calibrate"), std::string::npos) << status.message;
+}
+
+TEST(DiagnosticsTest, RowsThatAreApartAskForACalibration) {
+  HealthReport report = goodReport();
+  report.last_result.row_offset = {-0.62, 0.01, 0.75};
+  StatusWrapper status;
+  describeOdometry(report, status);
+  EXPECT_EQ(status.level, Level::WARN);
+  EXPECT_NE(status.message.find("rows of left and right are 0.75 px apart"), std::string::npos)
+      << status.message;
+  EXPECT_EQ(status.message.find("disparities"), std::string::npos) << status.message;
+  EXPECT_NE(status.message.find("calibrate"), std::string::npos) << status.message;
+  EXPECT_EQ(valueOf(status, "row offset of the right image"),
+            "-0.62 +- 0.01 px, rows 0.75 px apart");
+}
+
+TEST(DiagnosticsTest, LossIsAnErrorWithItsReason) {
+  HealthReport report = goodReport();
+  report.last_result.state = State::kLost;
+  report.last_result.reason = "only 3 features";
+  report.hint = "the lens is covered";
+  StatusWrapper status;
+  describeOdometry(report, status);
+  EXPECT_EQ(status.level, Level::ERROR);
+  EXPECT_NE(status.message.find("LOST: only 3 features"), std::string::npos) << status.message;
+  EXPECT_EQ(valueOf(status, "hint"), "the lens is covered");
+}
+
+TEST(DiagnosticsTest, RatesThatDifferAreAWarning) {
+  HealthReport report = goodReport();
+  report.input.right_image.rate_hz = 5.0;
+  StatusWrapper status;
+  describeInput(report, status);
+  EXPECT_EQ(status.level, Level::WARN);
+  EXPECT_EQ(status.message,
+            "/l/image comes at 10.0 Hz, /r/image at 5.0 Hz: one camera loses images");
+}
+
+TEST(DiagnosticsTest, DropsBetweenPairsAreAWarning) {
+  HealthReport report = goodReport();
+  report.input.refused = "the left image has the stamp 0";
+  StatusWrapper status;
+  describeInput(report, status);
+  EXPECT_EQ(status.level, Level::WARN);
+  EXPECT_EQ(status.message, "dropped in the last 5 s: the left image has the stamp 0");
+}
+
+TEST(DiagnosticsTest, SilenceIsAnError) {
+  HealthReport report = goodReport();
+  report.input.recent_pairs = report.input.right_image.recent = 0;
+  StatusWrapper status;
+  describeInput(report, status);
+  EXPECT_EQ(status.level, Level::ERROR);
+  EXPECT_NE(status.message.find("/r/image has a publisher"), std::string::npos) << status.message;
+}
+
+TEST(DiagnosticsTest, SlownessIsAWarning) {
+  HealthReport report = goodReport();
+  report.latency_p50_ms = 130.0;
+  StatusWrapper status;
+  describeTiming(report, status);
+  EXPECT_EQ(status.level, Level::WARN);
+  EXPECT_NE(status.message.find("130.0 ms, and pairs come every 100.0 ms"), std::string::npos)
+      << status.message;
+}
+
+TEST(DiagnosticsTest, NewDropsAreAWarningByReason) {
+  HealthReport report = goodReport();
+  report.drops = {{DropReason::kStampZero, 3}, {DropReason::kSuperseded, 4}};
+  StatusWrapper status;
+  describeDrops(report, 5, status);
+  EXPECT_EQ(status.level, Level::WARN);
+  EXPECT_EQ(status.message, "2 more dropped in the last second");
+  EXPECT_EQ(valueOf(status, "stamp_zero"), "3");
+  EXPECT_EQ(valueOf(status, "newer_pair_came"), "4");
+  EXPECT_EQ(valueOf(status, "dropped in all"), "7");
+  StatusWrapper later;
+  describeDrops(report, 7, later);
+  EXPECT_EQ(later.level, Level::OK);
+}
+
+TEST(DiagnosticsTest, AnotherParentOfTheBaseIsAWarning) {
+  HealthReport report = goodReport();
+  report.tf_conflict = "node /ekf publishes tf odom -> base_link";
+  StatusWrapper status;
+  describeTf(report, status);
+  EXPECT_EQ(status.level, Level::WARN);
+  EXPECT_EQ(status.message, report.tf_conflict);
+}
+
+TEST(OdometryHealthTest, CountsAnswersAndTheirLatency) {
+  OdometryHealth health;
+  const DropLog drops;
+  EXPECT_FALSE(health.report({}, drops).answers);
+  OdometryResult result;
+  result.state = State::kLost;
+  for (int i = 1; i <= 100; ++i) health.addAnswer(result, "", i);
+  const HealthReport report = health.report({}, drops);
+  EXPECT_TRUE(report.answers);
+  EXPECT_EQ(report.pairs_processed, 100u);
+  EXPECT_EQ(report.pairs_lost, 100u);
+  EXPECT_EQ(report.latency_p50_ms, 50.0);
+  EXPECT_EQ(report.latency_p95_ms, 95.0);
+  EXPECT_EQ(report.latency_max_ms, 100.0);
+}
+
+}  // namespace
+}  // namespace rotrocc

@@ -1,0 +1,101 @@
+#include "node/node_parameters.h"
+
+#include <functional>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "support/expect_error.h"
+
+namespace rotrocc {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+class NodeParametersTest : public testing::Test {
+ protected:
+  void expectRefused(const XmlRpcValue& tree, const std::string& part) {
+    expectError<std::invalid_argument>([&] { setParameters(tree, table_); }, part);
+  }
+
+  Parameters parameters_;
+  ParameterTable table_ = makeParameterTable(parameters_);
+};
+
+TEST_F(NodeParametersTest, EveryTypeOfTheServer) {
+  XmlRpcValue tree;
+  tree["base_frame"] = std::string("robot");
+  tree["publish_tf"] = false;
+  tree["queue_size"] = 9;
+  tree["max_stamp_difference_s"] = 0.003;
+  tree["lost_speed_sigma_mps"] = 2;  // YAML has no point in "2.0 m/s" that people write as 2
+  tree["motion_check"]["min_inliers"] = 321;
+  setParameters(tree, table_);
+  EXPECT_EQ(parameters_.node.base_frame, "robot");
+  EXPECT_FALSE(parameters_.node.publish_tf);
+  EXPECT_EQ(parameters_.node.queue_size, 9);
+  EXPECT_EQ(parameters_.node.max_stamp_difference_s, 0.003);
+  EXPECT_EQ(parameters_.node.lost_speed_sigma_mps, 2.0);
+  EXPECT_EQ(parameters_.odometry.motion_check.min_inliers, 321);
+  EXPECT_EQ(parameters_.node.odom_frame, "odom");
+}
+
+TEST_F(NodeParametersTest, DoublesKeepEveryBit) {
+  XmlRpcValue tree;
+  tree["lost_speed_sigma_mps"] = 0.1 + 0.2;
+  setParameters(tree, table_);
+  EXPECT_EQ(parameters_.node.lost_speed_sigma_mps, 0.1 + 0.2);
+}
+
+TEST_F(NodeParametersTest, RefusesWhatTheTableDoesNotKnow) {
+  XmlRpcValue tree;
+  tree["feature_detector"]["max_featurs"] = 5;
+  expectRefused(tree, "feature_detector/max_featurs");
+}
+
+TEST_F(NodeParametersTest, RefusesValuesOutOfRange) {
+  XmlRpcValue tree;
+  tree["queue_size"] = 0;
+  expectRefused(tree, "queue_size is 0, but must be in [1, 100]");
+}
+
+TEST_F(NodeParametersTest, RefusesWrongTypes) {
+  XmlRpcValue real;
+  real["queue_size"] = 2.5;
+  expectRefused(real, "queue_size is \"2.5\", but must be a whole number");
+  XmlRpcValue text;
+  text["queue_size"] = std::string("four");
+  expectRefused(text, "queue_size is \"four\"");
+  XmlRpcValue list;
+  list["queue_size"][0] = 4;
+  expectRefused(list, "queue_size is neither a value nor a section");
+  XmlRpcValue section;
+  section["queue_size"]["left"] = 4;
+  expectRefused(section, "queue_size/left");
+}
+
+TEST(RequireFramesTest, FramesAreThoseOfTf) {
+  const auto refuse = [](const std::function<void(NodeParameters&)>& change,
+                         const std::string& part) {
+    NodeParameters node;
+    change(node);
+    expectError<std::invalid_argument>([&] { requireFrames(node); }, part);
+  };
+  EXPECT_NO_THROW(requireFrames({}));
+  refuse([](NodeParameters& node) { node.odom_frame = "/odom"; }, "odom_frame is \"/odom\"");
+  refuse([](NodeParameters& node) { node.base_frame.clear(); }, "base_frame is \"\"");
+  refuse([](NodeParameters& node) { node.camera_frame = "/camera"; }, "camera_frame");
+  refuse([](NodeParameters& node) { node.odom_frame = "base_link"; },
+         "odom_frame and base_frame are both \"base_link\"");
+  refuse([](NodeParameters& node) { node.guess_frame = "odom"; },
+         "guess_frame and odom_frame are both \"odom\"");
+  refuse(
+      [](NodeParameters& node) {
+        node.guess_frame = "wheel_odom";
+        node.invert_tf = true;
+      },
+      "invert_tf is true");
+}
+
+}  // namespace
+}  // namespace rotrocc

@@ -1,0 +1,218 @@
+// The life of the nodelet beside another one in the same manager, which must not notice: loaded and
+// unloaded again and again, and fed with garbage. And that of the node, ended at any moment.
+
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <nodelet/NodeletLoad.h>
+#include <nodelet/NodeletUnload.h>
+#include <ros/ros.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include "support/run_command.h"
+#include "support/simulated_robot.h"
+
+namespace rotrocc {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr int kRounds = 100;
+
+/// Asks the neighbour, and counts its answers.
+class Canary {
+ public:
+  Canary() {
+    ros::NodeHandle nh;
+    image_publisher_ = nh.advertise<sensor_msgs::Image>("canary/image", 10);
+    info_publisher_ = nh.advertise<sensor_msgs::CameraInfo>("canary/camera_info", 10);
+    subscriber_ = nh.subscribe<sensor_msgs::Image>(
+        "canary/answer", 10, [this](const sensor_msgs::Image::ConstPtr&) { ++answers_; });
+  }
+
+  /// Whether it answers within some seconds.
+  bool sings() {
+    const int before = answers_;
+    for (int i = 0; i < 100; ++i) {
+      ask();
+      std::this_thread::sleep_for(milliseconds(50));
+      if (answers_ > before) return true;
+    }
+    return false;
+  }
+
+ private:
+  void ask() {
+    sensor_msgs::Image image;
+    image.header.stamp = ros::Time(1000 + ++asked_);
+    image.encoding = sensor_msgs::image_encodings::MONO8;
+    image.width = image.height = image.step = 32;
+    image.data.resize(32 * 32);
+    sensor_msgs::CameraInfo info;
+    info.header = image.header;
+    info.width = info.height = 32;
+    image_publisher_.publish(image);
+    info_publisher_.publish(info);
+  }
+
+  std::uint32_t asked_ = 0;
+  std::atomic<int> answers_{0};
+  ros::Publisher image_publisher_, info_publisher_;
+  ros::Subscriber subscriber_;
+};
+
+bool load() {
+  nodelet::NodeletLoad service;
+  service.request.name = "/stereo_odometry";
+  service.request.type = "rotrocc/StereoOdometry";
+  return ros::service::call("manager/load_nodelet", service) && service.response.success;
+}
+
+bool unload() {
+  nodelet::NodeletUnload service;
+  service.request.name = "/stereo_odometry";
+  return ros::service::call("manager/unload_nodelet", service) && service.response.success;
+}
+
+class NodeletLifecycleTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    spinner_.start();
+    ASSERT_TRUE(ros::service::waitForService("manager/load_nodelet", 20000));
+    ASSERT_TRUE(canary_.sings());
+  }
+
+  ros::AsyncSpinner spinner_{2};
+  Canary canary_;
+};
+
+/// Drives until there is odometry with a motion.
+bool answers(SimulatedRobot& robot) {
+  robot.publishInfos();
+  robot.publishMount();
+  for (int i = 0; i < 20; ++i) {
+    const ros::Time stamp = robot.drive();
+    const auto status = robot.statusOf(stamp, seconds(5));
+    if (status && status->state == OdometryStatus::OK) return true;
+  }
+  return false;
+}
+
+TEST_F(NodeletLifecycleTest, LoadsAndUnloadsWhileImagesCome) {
+  ASSERT_TRUE(load());
+  SimulatedRobot robot;
+  ASSERT_TRUE(answers(robot));
+  std::atomic<bool> done{false};
+  std::thread driver([&] {
+    while (!done) {
+      robot.publishInfos();
+      robot.drive();
+      std::this_thread::sleep_for(milliseconds(20));
+    }
+  });
+  ASSERT_TRUE(unload());
+  for (int i = 0; i < kRounds; ++i) {
+    ASSERT_TRUE(load()) << "round " << i;
+    // Sometimes at once, sometimes while it works.
+    std::this_thread::sleep_for(milliseconds(i % 5 * 20));
+    ASSERT_TRUE(unload()) << "round " << i;
+    if (i % 10 == 0) {
+      ASSERT_TRUE(canary_.sings()) << "round " << i;
+    }
+  }
+  done = true;
+  driver.join();
+  ASSERT_TRUE(canary_.sings());
+  ASSERT_TRUE(load());
+  std::this_thread::sleep_for(seconds(1));
+  EXPECT_TRUE(answers(robot));
+  EXPECT_TRUE(unload());
+}
+
+/// Changes what the header of an image, or its data, says.
+void spoil(sensor_msgs::Image& image, std::mt19937& random) {
+  static const char* const kEncodings[] = {"", "mono8", "bgr8", "32FC1", "bayer_rggb8", "mono16"};
+  static const std::uint32_t kSizes[] = {0, 1, 7, 600, 65536, 0x7fffffff, 0xffffffff};
+  const auto pick = [&](std::uint32_t count) { return random() % count; };
+  switch (pick(7)) {
+    case 0:
+      image.encoding = kEncodings[pick(6)];
+      break;
+    case 1:
+      image.width = kSizes[pick(7)];
+      break;
+    case 2:
+      image.height = kSizes[pick(7)];
+      break;
+    case 3:
+      image.step = kSizes[pick(7)];
+      break;
+    case 4:
+      image.data.resize(pick(200000));
+      break;
+    case 5:
+      image.header.frame_id = std::string(pick(3), '/');
+      break;
+    default:
+      image.header.stamp = ros::Time(pick(3), pick(1000));
+  }
+}
+
+void spoil(sensor_msgs::CameraInfo& info, std::mt19937& random) {
+  static const double kValues[] = {0.0, -1.0, 1e300, std::nan(""), INFINITY, 1e-300};
+  info.P[random() % 12] = kValues[random() % 6];
+  if (random() % 4 == 0) info.width = random();
+  if (random() % 4 == 0) info.binning_x = random();
+  if (random() % 4 == 0) info.roi.x_offset = random();
+}
+
+TEST_F(NodeletLifecycleTest, GarbageDoesNoHarm) {
+  ASSERT_TRUE(load());
+  SimulatedRobot robot;
+  ASSERT_TRUE(answers(robot));
+  std::mt19937 random(5);
+  for (int i = 0; i < 400; ++i) {
+    robot.publishInfos([&](sensor_msgs::CameraInfo& info) {
+      if (random() % 4 == 0) spoil(info, random);
+    });
+    robot.drive([&](sensor_msgs::Image& image) {
+      if (random() % 2 == 0) spoil(image, random);
+    });
+    std::this_thread::sleep_for(milliseconds(5));
+  }
+  EXPECT_TRUE(canary_.sings());
+  EXPECT_TRUE(answers(robot));
+  EXPECT_TRUE(unload());
+}
+
+TEST(NodeTest, EndsCleanlyAtAnyMoment) {
+  for (int i = 0; i < 12; ++i) {
+    const std::string delay_s = std::to_string(0.05 + 0.1 * i);
+    ros::param::set("/use_sim_time", i % 2 == 1);  // without a clock: time stands still
+    const CommandResult result = runCommand("timeout --preserve-status -k 10 -s INT " + delay_s +
+                                            " " STEREO_ODOMETRY " __name:=short_lived");
+    // 130: before ROS has taken over the signal.
+    EXPECT_TRUE(result.status == 0 || result.status == 130)
+        << "status " << result.status << " after " << delay_s << " s: " << result.output;
+  }
+  ros::param::set("/use_sim_time", false);
+}
+
+}  // namespace
+}  // namespace rotrocc
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "nodelet_lifecycle_test");
+  const ros::NodeHandle keeps_ros_alive;
+  return RUN_ALL_TESTS();
+}

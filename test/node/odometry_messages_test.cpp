@@ -1,0 +1,124 @@
+#include "node/odometry_messages.h"
+
+#include <gtest/gtest.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
+
+namespace rotrocc {
+namespace {
+
+BaseState makeState() {
+  BaseState state;
+  state.stamp_ns = 3'000'000'004;
+  state.T_odom_base.T.translation() << 1, 2, 3;
+  state.T_odom_base.T.rotate(Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitZ()));
+  for (int i = 0; i < 36; ++i) state.T_odom_base.covariance(i / 6, i % 6) = i;
+  state.twist.twist << 4, 5, 6, 0.1, 0.2, 0.3;
+  state.twist.covariance = 7.0 * Matrix6d::Identity();
+  return state;
+}
+
+TEST(OdometryMessagesTest, OdometryHasPoseTwistAndFrames) {
+  const nav_msgs::Odometry message = toOdometry(makeState(), "odom", "base_link");
+  EXPECT_EQ(message.header.stamp, ros::Time(3, 4));
+  EXPECT_EQ(message.header.frame_id, "odom");
+  EXPECT_EQ(message.child_frame_id, "base_link");
+  EXPECT_EQ(message.pose.pose.position.y, 2.0);
+  EXPECT_NEAR(message.pose.pose.orientation.z, std::sqrt(0.5), 1e-12);
+  EXPECT_NEAR(message.pose.pose.orientation.w, std::sqrt(0.5), 1e-12);
+  for (std::size_t i = 0; i < 36; ++i) EXPECT_EQ(message.pose.covariance[i], i);  // row by row
+  EXPECT_EQ(message.twist.twist.linear.z, 6.0);
+  EXPECT_EQ(message.twist.twist.angular.x, 0.1);
+  EXPECT_EQ(message.twist.covariance[35], 7.0);
+}
+
+TEST(OdometryMessagesTest, TransformIsThePose) {
+  const nav_msgs::Odometry odometry = toOdometry(makeState(), "odom", "base_link");
+  const geometry_msgs::TransformStamped message =
+      toTransform(makeState().T_odom_base.T, makeState().stamp_ns, "odom", "base_link");
+  EXPECT_EQ(message.header.stamp, odometry.header.stamp);
+  EXPECT_EQ(message.header.frame_id, "odom");
+  EXPECT_EQ(message.child_frame_id, "base_link");
+  EXPECT_EQ(message.transform.translation.x, 1.0);
+  EXPECT_EQ(message.transform.translation.z, 3.0);
+  EXPECT_NEAR(message.transform.rotation.z, odometry.pose.pose.orientation.z, 1e-15);
+}
+
+TEST(OdometryMessagesTest, StatusHasStateCountsAndCounters) {
+  OdometryResult result;
+  result.state = State::kDegraded;
+  result.reason = "few inliers";
+  result.stamp_ns = 5'000'000'000;
+  result.dt_s = 0.1;
+  result.counts = {6, 5, 4, 3, 2, 1};
+  result.times.tracking_ms = 1.5;
+  result.disparity_bias = {0.75, 0.125, 0.5};
+  result.row_offset = {-0.25, 0.0625, 0.375};
+  result.noise = {0.125, 0.25, 2.0};
+  HealthReport health;
+  health.pairs_processed = 9;
+  health.pairs_lost = 7;
+  health.drops = {{DropReason::kStampZero, 5}};
+  health.hint = "frozen?";
+  const OdometryStatus message = toStatus(result, health, 12.5, "camera");
+  EXPECT_EQ(message.header.stamp, ros::Time(5, 0));
+  EXPECT_EQ(message.header.frame_id, "camera");
+  EXPECT_EQ(message.state, OdometryStatus::DEGRADED);
+  EXPECT_EQ(message.reason, "few inliers");
+  EXPECT_EQ(message.corners, 6u);
+  EXPECT_EQ(message.translation_inliers, 1u);
+  EXPECT_EQ(message.time_tracking, 1.5f);
+  EXPECT_EQ(message.disparity_bias, 0.75f);
+  EXPECT_EQ(message.disparity_bias_sigma, 0.125f);
+  EXPECT_EQ(message.disparity_bias_applied, 0.5f);
+  EXPECT_EQ(message.row_offset, -0.25f);
+  EXPECT_EQ(message.row_offset_sigma, 0.0625f);
+  EXPECT_EQ(message.row_difference, 0.375f);
+  EXPECT_EQ(message.flow_noise, 0.125f);
+  EXPECT_EQ(message.disparity_noise, 0.25f);
+  EXPECT_EQ(message.latency, 12.5f);
+  EXPECT_EQ(message.pairs_processed, 9u);
+  EXPECT_EQ(message.pairs_lost, 7u);
+  EXPECT_EQ(message.hint, "frozen?");
+  ASSERT_EQ(message.drops.size(), 1u);
+  EXPECT_EQ(message.drops[0].reason, "stamp_zero");
+  EXPECT_EQ(message.drops[0].count, 5u);
+}
+
+TEST(OdometryMessagesTest, IdleStatusSaysWhyNothingComes) {
+  HealthReport health;
+  health.input.camera_error = "P is all zeros";
+  const OdometryStatus message = toIdleStatus(health, ros::Time(7, 0));
+  EXPECT_EQ(message.header.stamp, ros::Time(7, 0));
+  EXPECT_EQ(message.state, OdometryStatus::NO_CALIBRATION);
+  EXPECT_EQ(message.reason, "P is all zeros");
+}
+
+TEST(OdometryMessagesTest, CloudHasTheInliersAndTheirGreyLevels) {
+  cv::Mat image(10, 20, CV_8UC1, cv::Scalar(0));
+  image.at<unsigned char>(4, 7) = 99;
+  Correspondences features(3);
+  features[1].cur_px = {7.2, 3.9};
+  features[1].point_cur = {1.0, -2.0, 30.0};
+  features[2].cur_px = {19.9, 4.0};  // tracked to just outside of the image
+  std_msgs::Header header;
+  header.frame_id = "camera";
+  const sensor_msgs::PointCloud2 cloud = toPointCloud(features, {0, 1, 1}, image, header);
+  EXPECT_EQ(cloud.header.frame_id, "camera");
+  ASSERT_EQ(cloud.width * cloud.height, 2u);
+  sensor_msgs::PointCloud2ConstIterator<float> point(cloud, "x");
+  EXPECT_EQ(point[0], 1.0f);
+  EXPECT_EQ(point[1], -2.0f);
+  EXPECT_EQ(point[2], 30.0f);
+  sensor_msgs::PointCloud2ConstIterator<float> intensity(cloud, "intensity");
+  EXPECT_EQ(*intensity, 99.0f);
+  ++intensity;
+  EXPECT_EQ(*intensity, 0.0f);
+}
+
+TEST(OdometryMessagesTest, CloudOfNoInliersIsEmpty) {
+  const cv::Mat image(10, 20, CV_8UC1, cv::Scalar(0));
+  EXPECT_EQ(toPointCloud(Correspondences(3), {}, image, {}).width, 0u);
+}
+
+}  // namespace
+}  // namespace rotrocc

@@ -1,0 +1,129 @@
+#include "node/pair_processor.h"
+
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/odometry_rig.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kStep_m = 0.4;
+
+class PairProcessorTest : public testing::Test {
+ protected:
+  PairProcessorTest() {
+    rig_.sendInfos();
+    rig_.drivePairs(4);
+  }
+
+  double x() const { return rig_.answer()->state.T_odom_base.T.translation().x(); }
+  State state() const { return rig_.answer()->result.state; }
+
+  OdometryRig rig_;
+};
+
+TEST_F(PairProcessorTest, ResetBeginsAtZero) {
+  EXPECT_NEAR(x(), 3 * kStep_m, 0.05);
+  rig_.processor().requestReset();
+  rig_.drive();
+  EXPECT_EQ(x(), 0.0);
+  EXPECT_EQ(state(), State::kInitialising);
+  EXPECT_TRUE(rig_.answer()->begins_anew);
+  EXPECT_TRUE(rig_.answer()->state.T_first_camera.isApprox(Eigen::Isometry3d::Identity()));
+  rig_.drive();
+  EXPECT_EQ(state(), State::kOk);
+  EXPECT_FALSE(rig_.answer()->begins_anew);
+  EXPECT_NEAR(x(), kStep_m, 0.05);
+}
+
+TEST_F(PairProcessorTest, RestartKeepsThePose) {
+  const double before_m = x();
+  rig_.processor().requestRestart();
+  rig_.drive();
+  EXPECT_EQ(state(), State::kInitialising);
+  EXPECT_EQ(x(), before_m);
+  EXPECT_FALSE(rig_.answer()->begins_anew);
+}
+
+TEST_F(PairProcessorTest, PoseIsThatOfTheLastPair) {
+  Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
+  T_odom_base.translation() << 10.0, 20.0, 3.0;
+  T_odom_base.rotate(Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitZ()));
+  const Eigen::Isometry3d camera_before = rig_.answer()->state.T_first_camera;
+  rig_.processor().requestPose(T_odom_base);
+  rig_.drive();
+  EXPECT_EQ(state(), State::kOk);
+  const Eigen::Vector3d position = rig_.answer()->state.T_odom_base.T.translation();
+  EXPECT_NEAR(position.x(), 10.0, 0.02);
+  EXPECT_NEAR(position.y(), 20.0 + kStep_m, 0.02);
+  EXPECT_NEAR(position.z(), 3.0, 0.02);
+  const Eigen::Isometry3d camera_motion =
+      camera_before.inverse() * rig_.answer()->state.T_first_camera;
+  EXPECT_NEAR(camera_motion.translation().z(), kStep_m, 0.02);
+}
+
+TEST_F(PairProcessorTest, APoseMayBeSetBeforeTheFirstPair) {
+  OdometryRig rig;
+  Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
+  T_odom_base.translation().x() = 7.0;
+  rig.processor().requestPose(T_odom_base);
+  rig.sendInfos();
+  rig.drive();
+  EXPECT_NEAR(rig.answer()->state.T_odom_base.T.translation().x(), 7.0, 1e-12);
+}
+
+TEST_F(PairProcessorTest, ConfigChangesWithTheNextPair) {
+  VisualOdometry::Config config;
+  config.motion_check.min_inliers = 10000;
+  rig_.processor().requestConfig(config);
+  rig_.drivePairs(2);
+  EXPECT_EQ(state(), State::kLost);
+  rig_.processor().requestConfig({});
+  rig_.drivePairs(2);
+  EXPECT_EQ(state(), State::kOk);
+}
+
+TEST_F(PairProcessorTest, AsksForTheExpectedMotionBetweenItsPairs) {
+  std::vector<std::pair<std::int64_t, std::int64_t>> asked;
+  rig_.expected = [&](std::int64_t prev_ns, std::int64_t cur_ns) {
+    asked.emplace_back(prev_ns, cur_ns);
+    Eigen::Isometry3d T_prev_cur = Eigen::Isometry3d::Identity();
+    T_prev_cur.translation().x() = kStep_m;
+    return std::optional<Eigen::Isometry3d>(T_prev_cur);
+  };
+  rig_.drivePairs(2);
+  ASSERT_EQ(asked.size(), 2u);
+  EXPECT_EQ(asked[1].first, asked[0].second);
+  EXPECT_EQ(asked[1].second - asked[1].first, 100'000'000);
+  EXPECT_NEAR(x(), 5 * kStep_m, 0.05);
+}
+
+/// The estimator takes the motion in axes of the camera: forward of the base is along its z.
+TEST_F(PairProcessorTest, ExpectedMotionIsThatOfTheBase) {
+  Parameters parameters;
+  parameters.odometry.startup_rounds = 1;
+  parameters.odometry.correspondence_finder.feature_tracker.startup_levels = 1;
+  int inliers[2];
+  for (const bool told : {false, true}) {
+    OdometryRig rig(parameters);
+    if (told) {
+      rig.expected = [](std::int64_t, std::int64_t) {
+        Eigen::Isometry3d T_prev_cur = Eigen::Isometry3d::Identity();
+        T_prev_cur.translation().x() = 4 * kStep_m;
+        return std::optional<Eigen::Isometry3d>(T_prev_cur);
+      };
+    }
+    rig.sendInfos();
+    rig.drive();
+    for (int i = 0; i < 3; ++i) rig.advance();
+    rig.drive();
+    inliers[told ? 1 : 0] = rig.answer()->result.counts.rotation_inliers;
+  }
+  EXPECT_GT(inliers[1], 2 * inliers[0]);
+}
+
+}  // namespace
+}  // namespace rotrocc

@@ -1,0 +1,466 @@
+// The odometry as a robot sees it, be it a node or a nodelet. The tests are steps of one drive:
+// they run in the order in which they stand here, and each goes on where the one before it has
+// stopped.
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <gtest/gtest.h>
+#include <nav_msgs/Path.h>
+#include <ros/ros.h>
+#include <rosgraph_msgs/Log.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_broadcaster.h>
+#include <tf2_ros/transform_listener.h>
+#include <Eigen/Eigenvalues>
+
+#include "input/message_conversion.h"
+#include "rotrocc/SaveTrajectory.h"
+#include "rotrocc/SetPose.h"
+#include "rotrocc/rigid_motion.h"
+#include "rotrocc/trajectory.h"
+#include "support/run_command.h"
+#include "support/simulated_robot.h"
+#include "support/temporary_directory.h"
+
+namespace rotrocc {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+class StereoOdometryTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    spinner_ = std::make_unique<ros::AsyncSpinner>(2);
+    spinner_->start();
+    robot_ = std::make_unique<SimulatedRobot>();
+  }
+
+  static void TearDownTestSuite() {
+    robot_.reset();
+    spinner_.reset();
+  }
+
+  /// Drives a step and gives the odometry, after which its status is there as well.
+  static nav_msgs::Odometry drive() {
+    const ros::Time stamp = robot_->drive();
+    const auto odometry = robot_->odometryOf(stamp);
+    const auto status = robot_->statusOf(stamp);
+    EXPECT_TRUE(odometry) << "no odometry for " << stamp;
+    EXPECT_TRUE(status) << "no status for " << stamp;
+    if (!odometry || !status) return {};
+    status_ = *status;
+    return *odometry;
+  }
+
+  /// Drives on until the odometry has found its motion again.
+  static void recover() {
+    for (int i = 0; i < 5; ++i) {
+      drive();
+      if (status_.state == OdometryStatus::OK) return;
+    }
+    FAIL() << "state " << static_cast<int>(status_.state) << ": " << status_.reason;
+  }
+
+  static std::uint64_t drops(const std::string& reason) {
+    for (const DropCount& drop : status_.drops) {
+      if (drop.reason == reason) return drop.count;
+    }
+    return 0;
+  }
+
+  static std::unique_ptr<ros::AsyncSpinner> spinner_;
+  static std::unique_ptr<SimulatedRobot> robot_;
+  static OdometryStatus status_;
+};
+
+std::unique_ptr<ros::AsyncSpinner> StereoOdometryTest::spinner_;
+std::unique_ptr<SimulatedRobot> StereoOdometryTest::robot_;
+OdometryStatus StereoOdometryTest::status_;
+
+using Array36 = nav_msgs::Odometry::_pose_type::_covariance_type;
+
+double smallestEigenvalue(const Array36& covariance) {
+  const Matrix6d matrix = Eigen::Map<const Matrix6d>(covariance.data());
+  return Eigen::SelfAdjointEigenSolver<Matrix6d>(matrix).eigenvalues().minCoeff();
+}
+
+/// The first message on a topic; null if none comes while the robot drives.
+template <class Message, class Drive>
+boost::shared_ptr<const Message> receiveWhile(const std::string& topic, Drive drive) {
+  boost::shared_ptr<const Message> received;
+  std::mutex mutex;
+  ros::NodeHandle nh;
+  const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
+      [&](const boost::shared_ptr<const Message>& message) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        received = message;
+      };
+  const ros::Subscriber subscriber = nh.subscribe<Message>(topic, 1, callback);
+  for (int i = 0; i < 20; ++i) {
+    drive();
+    std::this_thread::sleep_for(milliseconds(50));
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (received) return received;
+  }
+  return nullptr;
+}
+
+TEST_F(StereoOdometryTest, FirstPairWaitsForCameraInfoAndTf) {
+  EXPECT_TRUE(robot_->statusWith(OdometryStatus::NO_INPUT));
+  const ros::Time stamp = robot_->drive();
+  EXPECT_FALSE(robot_->odometryOf(stamp, milliseconds(300)));
+  const auto uncalibrated = robot_->statusWith(OdometryStatus::NO_CALIBRATION);
+  ASSERT_TRUE(uncalibrated);
+  EXPECT_NE(uncalibrated->reason.find("left/camera_info"), std::string::npos)
+      << uncalibrated->reason;
+  robot_->publishInfos();
+  EXPECT_FALSE(robot_->odometryOf(stamp, milliseconds(300)));
+  const auto unmounted = robot_->statusWith(OdometryStatus::NO_TF);
+  ASSERT_TRUE(unmounted);
+  EXPECT_NE(unmounted->reason.find("no tf from base_link to camera_left"), std::string::npos)
+      << unmounted->reason;
+  robot_->publishMount();
+  const auto odometry = robot_->odometryOf(stamp);
+  ASSERT_TRUE(odometry);
+  EXPECT_EQ(odometry->header.frame_id, "odom");
+  EXPECT_EQ(odometry->child_frame_id, "base_link");
+  EXPECT_EQ(odometry->pose.pose.position.x, 0.0);
+  EXPECT_EQ(odometry->pose.pose.orientation.w, 1.0);
+  EXPECT_EQ(odometry->twist.covariance[0], 9999.0);
+  const auto status = robot_->statusOf(stamp);
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->state, OdometryStatus::INITIALISING);
+}
+
+TEST_F(StereoOdometryTest, DrivesForwardInAxesOfTheBase) {
+  constexpr int kSteps = 8;
+  double first_variance = 0.0;
+  double variance = 0.0;
+  for (int i = 1; i <= kSteps; ++i) {
+    const nav_msgs::Odometry odometry = drive();
+    EXPECT_EQ(status_.state, OdometryStatus::OK) << status_.reason;
+    EXPECT_EQ(status_.pairs_processed, static_cast<std::uint64_t>(i + 1));
+    // 2 % of the way, which is short, and 5 % of a step's speed.
+    const double way_m = i * SimulatedRobot::kStep_m;
+    EXPECT_NEAR(odometry.pose.pose.position.x, way_m, 0.02 + 0.02 * way_m);
+    EXPECT_NEAR(odometry.pose.pose.position.y, 0.0, 0.02 + 0.02 * way_m);
+    EXPECT_NEAR(odometry.pose.pose.position.z, 0.0, 0.02 + 0.02 * way_m);
+    const double speed_mps = SimulatedRobot::kStep_m / SimulatedRobot::kPeriod_s;
+    EXPECT_NEAR(odometry.twist.twist.linear.x, speed_mps, 0.05 * speed_mps);
+    EXPECT_NEAR(odometry.twist.twist.linear.y, 0.0, 0.05 * speed_mps);
+    EXPECT_NEAR(odometry.twist.twist.angular.z, 0.0, 0.02);
+    EXPECT_GT(smallestEigenvalue(odometry.pose.covariance), 0.0);
+    EXPECT_GT(smallestEigenvalue(odometry.twist.covariance), 0.0);
+    EXPECT_LT(odometry.twist.covariance[0], 1.0);
+    variance = odometry.pose.covariance[0];
+    if (i == 1) first_variance = variance;
+  }
+  // Not from pair to pair: of two measured against one reference, the later may be the better.
+  EXPECT_GT(variance, first_variance);
+  EXPECT_EQ(status_.drops.size(), 0u);
+  EXPECT_GT(status_.time_total, 0.0f);
+  EXPECT_GE(status_.latency, status_.time_total);
+}
+
+TEST_F(StereoOdometryTest, TfIsThePoseOfTheOdometry) {
+  tf2_ros::Buffer buffer;
+  const tf2_ros::TransformListener listener(buffer);
+  std::this_thread::sleep_for(seconds(1));  // until the odometry knows of the new subscriber
+  const nav_msgs::Odometry odometry = drive();
+  const geometry_msgs::TransformStamped transform =
+      buffer.lookupTransform("odom", "base_link", odometry.header.stamp, ros::Duration(5.0));
+  EXPECT_EQ(transform.transform.translation.x, odometry.pose.pose.position.x);
+  EXPECT_EQ(transform.transform.translation.z, odometry.pose.pose.position.z);
+  EXPECT_EQ(transform.transform.rotation.w, odometry.pose.pose.orientation.w);
+}
+
+TEST_F(StereoOdometryTest, PicturesComeForSubscribers) {
+  const auto path = receiveWhile<nav_msgs::Path>("path", drive);
+  ASSERT_TRUE(path);
+  EXPECT_EQ(path->header.frame_id, "odom");
+  EXPECT_GT(path->poses.size(), 9u) << "the path begins where the drive began";
+
+  const auto inliers = receiveWhile<sensor_msgs::PointCloud2>("inliers", drive);
+  ASSERT_TRUE(inliers);
+  EXPECT_EQ(inliers->header.frame_id, "camera_left");
+  EXPECT_GT(inliers->width, 50u);
+
+  const auto flow = receiveWhile<sensor_msgs::Image>("flow", drive);
+  ASSERT_TRUE(flow);
+  EXPECT_EQ(flow->encoding, "bgr8");
+  EXPECT_EQ(flow->data.size(), flow->step * flow->height);
+}
+
+TEST_F(StereoOdometryTest, LosesItselfInTheDarkAndRecovers) {
+  const nav_msgs::Odometry before = drive();
+  ros::Time dark;
+  for (int i = 0; i < 3; ++i) {
+    dark =
+        robot_->drive([](sensor_msgs::Image& image) { image.data.assign(image.data.size(), 0); });
+    ASSERT_TRUE(robot_->odometryOf(dark)) << "odometry comes for lost pairs, too";
+  }
+  const auto lost = robot_->odometryOf(dark);
+  const auto status = robot_->statusOf(dark);
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->state, OdometryStatus::LOST);
+  EXPECT_FALSE(status->reason.empty());
+  EXPECT_EQ(status->pairs_lost, 3u);
+  EXPECT_EQ(lost->pose.pose.position.x, before.pose.pose.position.x);
+  EXPECT_GT(lost->pose.covariance[0], before.pose.covariance[0] + 1.0);
+  EXPECT_EQ(lost->twist.twist.linear.x, 0.0);
+  EXPECT_EQ(lost->twist.covariance[0], 9999.0);
+  recover();
+  EXPECT_GT(drive().pose.pose.position.x,
+            before.pose.pose.position.x + 0.5 * SimulatedRobot::kStep_m);
+}
+
+TEST_F(StereoOdometryTest, MalformedImagesAreRejected) {
+  drive();
+  const ros::Time depth =
+      robot_->drive([](sensor_msgs::Image& image) { image.encoding = "32FC1"; });
+  std::this_thread::sleep_for(milliseconds(200));  // so that none replaces the other
+  const ros::Time truncated =
+      robot_->drive([](sensor_msgs::Image& image) { image.data.resize(100); });
+  std::this_thread::sleep_for(milliseconds(200));
+  const ros::Time cropped = robot_->drive([](sensor_msgs::Image& image) { image.height -= 10; });
+  std::this_thread::sleep_for(milliseconds(200));
+  recover();
+  EXPECT_FALSE(robot_->odometryOf(depth, milliseconds(0)));
+  EXPECT_FALSE(robot_->odometryOf(truncated, milliseconds(0)));
+  EXPECT_FALSE(robot_->odometryOf(cropped, milliseconds(0)));
+  EXPECT_EQ(drops("image_encoding"), 1u);
+  EXPECT_EQ(drops("image_data"), 1u);
+  EXPECT_EQ(drops("image_not_of_camera_info"), 1u);
+}
+
+TEST_F(StereoOdometryTest, BadCameraInfoStopsItUntilAGoodOneComes) {
+  const nav_msgs::Odometry before = drive();
+  robot_->publishInfos([](sensor_msgs::CameraInfo& info) { info.P[3] = 0.0; });
+  const ros::Time stamp = robot_->drive();
+  const auto status = robot_->statusWith(OdometryStatus::NO_CALIBRATION);
+  ASSERT_TRUE(status);
+  EXPECT_NE(status->reason.find("the baseline is zero"), std::string::npos) << status->reason;
+  EXPECT_FALSE(robot_->odometryOf(stamp, milliseconds(0)));
+  robot_->publishInfos();
+  recover();
+  EXPECT_GT(drops("camera_info_invalid"), 0u);
+  EXPECT_GE(drive().pose.pose.position.x, before.pose.pose.position.x);
+}
+
+TEST_F(StereoOdometryTest, GoesOnWhenTimeBeginsAnew) {
+  const nav_msgs::Odometry before = drive();
+  robot_->turnBackTime();
+  const nav_msgs::Odometry after = drive();
+  EXPECT_EQ(status_.state, OdometryStatus::INITIALISING);
+  EXPECT_LT(after.header.stamp, before.header.stamp);
+  EXPECT_EQ(after.pose.pose.position.x, before.pose.pose.position.x);
+  recover();
+}
+
+TEST_F(StereoOdometryTest, ResetBeginsAtZero) {
+  std_srvs::Trigger reset;
+  ASSERT_TRUE(ros::service::call("stereo_odometry/reset", reset));
+  EXPECT_TRUE(reset.response.success) << reset.response.message;
+  EXPECT_EQ(drive().pose.pose.position.x, 0.0);
+  EXPECT_EQ(status_.state, OdometryStatus::INITIALISING);
+  recover();
+}
+
+TEST_F(StereoOdometryTest, PoseCanBeSet) {
+  SetPose set_pose;
+  EXPECT_TRUE(ros::service::call("stereo_odometry/set_pose", set_pose));
+  EXPECT_FALSE(set_pose.response.success) << "a quaternion of zeros";
+  EXPECT_NE(set_pose.response.message.find("length 0"), std::string::npos);
+  set_pose.request.pose.position.y = 30.0;
+  set_pose.request.pose.orientation.w = 1.0;
+  ASSERT_TRUE(ros::service::call("stereo_odometry/set_pose", set_pose));
+  EXPECT_TRUE(set_pose.response.success) << set_pose.response.message;
+  const nav_msgs::Odometry odometry = drive();
+  EXPECT_NEAR(odometry.pose.pose.position.x, SimulatedRobot::kStep_m, 0.05);
+  EXPECT_NEAR(odometry.pose.pose.position.y, 30.0, 0.05);
+}
+
+TEST_F(StereoOdometryTest, PauseDropsPairsAndKeepsThePose) {
+  const nav_msgs::Odometry before = drive();
+  std_srvs::SetBool pause;
+  pause.request.data = true;
+  ASSERT_TRUE(ros::service::call("stereo_odometry/pause", pause));
+  EXPECT_TRUE(robot_->statusWith(OdometryStatus::PAUSED));
+  const ros::Time paused = robot_->drive();
+  EXPECT_FALSE(robot_->odometryOf(paused, milliseconds(500)));
+  pause.request.data = false;
+  ASSERT_TRUE(ros::service::call("stereo_odometry/pause", pause));
+  const nav_msgs::Odometry after = drive();
+  EXPECT_EQ(status_.state, OdometryStatus::INITIALISING);
+  EXPECT_EQ(drops("paused"), 1u);
+  EXPECT_EQ(after.pose.pose.position.x, before.pose.pose.position.x);
+  recover();
+}
+
+TEST_F(StereoOdometryTest, TrajectoryIsSaved) {
+  const TemporaryDirectory directory;
+  SaveTrajectory save;
+  save.request.path = directory / "poses.txt";
+  save.request.format = "tum";
+  const ros::Time stamp = drive().header.stamp;
+  ASSERT_TRUE(ros::service::call("stereo_odometry/save_trajectory", save));
+  EXPECT_TRUE(save.response.success) << save.response.message;
+  const Trajectory poses = readTrajectory(save.request.path);
+  EXPECT_EQ(toRosTime(poses.back().stamp_ns), stamp);
+  save.request.path = "/no/such/directory/poses.txt";
+  ASSERT_TRUE(ros::service::call("stereo_odometry/save_trajectory", save));
+  EXPECT_FALSE(save.response.success);
+  EXPECT_NE(save.response.message.find("cannot write /no/such"), std::string::npos);
+}
+
+TEST_F(StereoOdometryTest, ServicesMayBeCalledAllTheTime) {
+  std::atomic<bool> done{false};
+  std::thread caller([&] {
+    for (int i = 0; !done; ++i) {
+      std_srvs::Trigger reset;
+      std_srvs::SetBool pause;
+      pause.request.data = i % 2 == 0;
+      SaveTrajectory save;
+      EXPECT_TRUE(ros::service::call("stereo_odometry/reset", reset));
+      EXPECT_TRUE(ros::service::call("stereo_odometry/pause", pause));
+      EXPECT_TRUE(ros::service::call("stereo_odometry/save_trajectory", save));
+      std::this_thread::sleep_for(milliseconds(10));
+    }
+    std_srvs::SetBool resume;
+    EXPECT_TRUE(ros::service::call("stereo_odometry/pause", resume));
+  });
+  for (int i = 0; i < 20; ++i) {
+    robot_->drive();
+    std::this_thread::sleep_for(milliseconds(50));
+  }
+  done = true;
+  caller.join();
+  recover();
+}
+
+TEST_F(StereoOdometryTest, ParametersChangeLive) {
+  dynamic_reconfigure::Reconfigure reconfigure;
+  reconfigure.request.config.ints.resize(1);
+  auto& parameter = reconfigure.request.config.ints[0];
+  parameter.name = "feature_detector/max_features";
+  parameter.value = 60;
+  ASSERT_TRUE(ros::service::call("stereo_odometry/set_parameters", reconfigure));
+  drive();
+  drive();
+  EXPECT_LE(status_.corners, 60u);
+  int stored = 0;
+  EXPECT_TRUE(ros::param::get("stereo_odometry/feature_detector/max_features", stored));
+  EXPECT_EQ(stored, 60);
+  parameter.value = -1;
+  ASSERT_TRUE(ros::service::call("stereo_odometry/set_parameters", reconfigure));
+  EXPECT_EQ(reconfigure.response.config.ints[0].value, 60) << "refused";
+  parameter.value = 2000;
+  ASSERT_TRUE(ros::service::call("stereo_odometry/set_parameters", reconfigure));
+  recover();
+}
+
+TEST_F(StereoOdometryTest, DiagnosticsTellAnotherParentOfTheBase) {
+  std::mutex mutex;
+  std::map<std::string, diagnostic_msgs::DiagnosticStatus> last;
+  ros::NodeHandle nh;
+  const boost::function<void(const diagnostic_msgs::DiagnosticArray&)> callback =
+      [&](const diagnostic_msgs::DiagnosticArray& message) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        for (const auto& status : message.status) last[status.name] = status;
+      };
+  const ros::Subscriber subscriber =
+      nh.subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10, callback);
+  tf2_ros::TransformBroadcaster broadcaster;
+  geometry_msgs::TransformStamped wheels;
+  wheels.header.frame_id = "wheel_odom";
+  wheels.child_frame_id = "base_link";
+  wheels.transform.rotation.w = 1.0;
+  std::string warning;
+  bool recovered = false;  // from the bad camera_info of before, which stays for some seconds
+  for (int i = 0; i < 100 && (warning.empty() || !recovered); ++i) {
+    drive();
+    broadcaster.sendTransform(wheels);
+    std::this_thread::sleep_for(milliseconds(100));
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (last["stereo_odometry: tf"].level > 0) warning = last["stereo_odometry: tf"].message;
+    recovered = last["stereo_odometry: input"].message == "stereo pairs arrive";
+  }
+  EXPECT_TRUE(recovered);
+  EXPECT_NE(warning.find("publishes tf wheel_odom -> base_link"), std::string::npos) << warning;
+  const std::lock_guard<std::mutex> lock(mutex);
+  for (const char* part : {"odometry", "input", "timing", "drops"}) {
+    EXPECT_EQ(last.count(std::string("stereo_odometry: ") + part), 1u) << part;
+  }
+  EXPECT_EQ(last["stereo_odometry: odometry"].message, "OK");
+}
+
+TEST_F(StereoOdometryTest, SilenceIsExplained) {
+  std::mutex mutex;
+  std::map<std::string, int> said_in_log;  // how often, by the first words
+  ros::NodeHandle nh;
+  const boost::function<void(const rosgraph_msgs::Log::ConstPtr&)> callback =
+      [&](const rosgraph_msgs::Log::ConstPtr& log) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        ++said_in_log[log->msg.substr(0, log->msg.find_first_of("0123456789"))];
+      };
+  const ros::Subscriber subscriber = nh.subscribe<rosgraph_msgs::Log>("/rosout", 100, callback);
+  const auto countOf = [&](const std::string& words) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return said_in_log[words];
+  };
+
+  const auto status = robot_->statusWith(OdometryStatus::NO_INPUT);
+  ASSERT_TRUE(status);
+  // The test itself is the publisher; who has none is told another thing.
+  const auto silent = [&] {
+    const auto now = robot_->statusWith(OdometryStatus::NO_INPUT);
+    return now && now->reason.find("left/image_rect has a publisher") != std::string::npos;
+  };
+  bool said = false;
+  for (int i = 0; i < 80 && !said; ++i) {
+    std::this_thread::sleep_for(milliseconds(100));
+    said = silent();
+  }
+  EXPECT_TRUE(said) << robot_->statusWith(OdometryStatus::NO_INPUT)->reason;
+
+  for (int i = 0; i < 80 && countOf("no stereo pair for ") == 0; ++i) {
+    std::this_thread::sleep_for(milliseconds(100));
+  }
+  std::this_thread::sleep_for(seconds(7));
+  EXPECT_EQ(countOf("no stereo pair for "), 1);  // the next is due after 10 s
+  recover();
+  for (int i = 0; i < 50 && countOf("stereo pairs come again, after ") == 0; ++i) {
+    std::this_thread::sleep_for(milliseconds(100));
+  }
+  EXPECT_EQ(countOf("stereo pairs come again, after "), 1);
+}
+
+TEST_F(StereoOdometryTest, AnUnknownParameterIsRefused) {
+  std::string command;
+  ASSERT_TRUE(ros::param::get("~start_another", command));
+  const int status = runCommand(command + " __name:=another _max_gap:=1.0").status;
+  EXPECT_TRUE(status == 1 || status == 255) << "status " << status << " of a node, of nodelet load";
+  recover();
+}
+
+}  // namespace
+}  // namespace rotrocc
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "stereo_odometry_test");
+  const ros::NodeHandle keeps_ros_alive;
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,155 @@
+// Counts what the estimator takes from the heap: malloc() and its like are replaced for the whole
+// program.
+
+#include <malloc.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "rotrocc/visual_odometry.h"
+#include "support/simulated_features.h"
+#include "support/synthetic_scene.h"
+
+// Sanitizers have replaced them already.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define ROTROCC_COUNTS_ALLOCATIONS 0
+#else
+#define ROTROCC_COUNTS_ALLOCATIONS 1
+#endif
+
+namespace {
+
+std::atomic<bool> counting{false};
+std::atomic<int> allocations{0};
+
+void note() {
+  if (counting) ++allocations;
+}
+
+}  // namespace
+
+#if ROTROCC_COUNTS_ALLOCATIONS
+extern "C" {
+
+void* __libc_malloc(std::size_t);
+void* __libc_calloc(std::size_t, std::size_t);
+void* __libc_realloc(void*, std::size_t);
+void* __libc_memalign(std::size_t, std::size_t);
+
+void* malloc(std::size_t size) {
+  note();
+  return __libc_malloc(size);
+}
+
+void* calloc(std::size_t count, std::size_t size) {
+  note();
+  return __libc_calloc(count, size);
+}
+
+void* realloc(void* memory, std::size_t size) {
+  note();
+  return __libc_realloc(memory, size);
+}
+
+void* memalign(std::size_t alignment, std::size_t size) {
+  note();
+  return __libc_memalign(alignment, size);
+}
+
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  note();
+  return __libc_memalign(alignment, size);
+}
+
+int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
+  note();
+  *memory = __libc_memalign(alignment, size);
+  return *memory != nullptr ? 0 : ENOMEM;
+}
+
+}  // extern "C"
+#endif
+
+namespace rotrocc {
+namespace {
+
+constexpr int kPairs = 8;
+
+/// Pairs along a bend, with the noise of a camera.
+std::vector<StereoPair> renderDrive(const SyntheticScene& scene) {
+  std::vector<StereoPair> pairs;
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  for (int i = 0; i < kPairs; ++i) {
+    pairs.push_back(scene.render(T_world_camera, i * 100'000'000LL));
+    SyntheticScene::addNoise(pairs.back(), 1.5, static_cast<std::uint64_t>(i));
+    T_world_camera = T_world_camera * motion({0.006, 0.0, 0.6}, {0.0, 0.02, 0.0});
+  }
+  return pairs;
+}
+
+/// Allocations while the drive is repeated.
+int countOfARepeatedDrive(const VisualOdometry::Config& config) {
+  const SyntheticScene scene;
+  std::vector<StereoPair> pairs = renderDrive(scene);
+  VisualOdometry odometry(config);
+  for (int drive = 0; drive < 4; ++drive) {
+    odometry.reset();
+    counting = drive == 3;
+    for (StereoPair& pair : pairs) {
+      const OdometryResult result = odometry.process(pair, scene.camera());
+      EXPECT_NE(result.state, State::kLost) << result.reason;
+      pair.stamp_ns += kPairs * 100'000'000LL;
+    }
+    if (drive == 2) allocations = 0;
+  }
+  counting = false;
+  return allocations;
+}
+
+class AllocationTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!ROTROCC_COUNTS_ALLOCATIONS) GTEST_SKIP() << "a sanitizer counts its own allocations";
+  }
+};
+
+TEST_F(AllocationTest, AreSeen) {
+  allocations = 0;
+  counting = true;
+  std::vector<int> numbers(1000);
+  cv::Mat image(100, 100, CV_8UC1);
+  const std::string text(100, ' ');
+  counting = false;
+  EXPECT_GE(allocations, 3) << numbers.size() << image.rows << text;
+}
+
+TEST_F(AllocationTest, AreNoneInTheSteadyState) {
+  VisualOdometry::Config config;
+  config.threads = 1;
+  EXPECT_EQ(countOfARepeatedDrive(config), 0);
+}
+
+TEST_F(AllocationTest, AreTheBuffersOfAThreadThatWokeLate) {
+  VisualOdometry::Config config;
+  config.threads = 2;
+  // Each thread has two of its own. One that never found work before may need them only now.
+  constexpr int kOfAThread = 2;
+  EXPECT_LE(countOfARepeatedDrive(config), kOfAThread);
+}
+
+TEST_F(AllocationTest, AreNoneWithOtherCriteria) {
+  for (const char* criterion : {"reprojection", "rocc", "mean_based", "std_based"}) {
+    VisualOdometry::Config config;
+    config.threads = 1;
+    config.motion_estimator.criterion = criterion;
+    EXPECT_EQ(countOfARepeatedDrive(config), 0) << criterion;
+  }
+}
+
+}  // namespace
+}  // namespace rotrocc

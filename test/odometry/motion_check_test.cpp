@@ -1,0 +1,123 @@
+#include "odometry/motion_check.h"
+
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "support/simulated_features.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kPeriod_s = 0.1;
+
+FeatureSet set(int inliers, int features) {
+  FeatureSet flags(static_cast<std::size_t>(features), 0);
+  std::fill(flags.begin(), flags.begin() + inliers, 1);
+  return flags;
+}
+
+/// 10 m/s straight on, on 300 of 400 features.
+MotionEstimator::Estimate goodEstimate() {
+  MotionEstimator::Estimate estimate;
+  estimate.valid = true;
+  estimate.T_prev_cur = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
+  estimate.rotation_inliers = set(300, 400);
+  estimate.translation_inliers = set(300, 400);
+  return estimate;
+}
+
+void expectSays(const std::string& sentence, const std::string& value, const std::string& limit) {
+  EXPECT_NE(sentence.find(value), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find(limit), std::string::npos) << sentence;
+}
+
+std::string whyLost(const MotionEstimator::Estimate& estimate) {
+  return MotionCheck({}).whyLost(estimate, kPeriod_s);
+}
+
+std::string whyDegraded(const MotionEstimator::Estimate& estimate) {
+  return MotionCheck({}).whyDegraded(estimate);
+}
+
+TEST(MotionCheckTest, BelievesAGoodMotion) {
+  EXPECT_EQ(whyLost(goodEstimate()), "");
+  EXPECT_EQ(whyDegraded(goodEstimate()), "");
+}
+
+TEST(MotionCheckTest, WantsEnoughFeatures) {
+  auto estimate = goodEstimate();
+  estimate.rotation_inliers = estimate.translation_inliers = set(24, 24);
+  expectSays(whyLost(estimate), "24 features were matched", "min_inliers = 25");
+  estimate.rotation_inliers = estimate.translation_inliers = set(25, 25);
+  EXPECT_EQ(whyLost(estimate), "");
+  estimate.rotation_inliers = estimate.translation_inliers = {};
+  expectSays(whyLost(estimate), "only 0 features", "min_inliers = 25");
+}
+
+TEST(MotionCheckTest, WantsAValidMotion) {
+  auto estimate = goodEstimate();
+  estimate.valid = false;
+  expectSays(whyLost(estimate), "determine no motion", "");
+}
+
+TEST(MotionCheckTest, WantsEnoughInliersInBothStages) {
+  auto estimate = goodEstimate();
+  estimate.translation_inliers = set(24, 400);
+  expectSays(whyLost(estimate), "24 features agree", "min_inliers = 25");
+  estimate = goodEstimate();
+  estimate.rotation_inliers = set(24, 400);
+  expectSays(whyLost(estimate), "24 features agree", "min_inliers = 25");
+}
+
+TEST(MotionCheckTest, WantsAShareOfInliers) {
+  auto estimate = goodEstimate();
+  estimate.translation_inliers = set(59, 400);
+  expectSays(whyLost(estimate), "0.1475", "min_inlier_share = 0.15");
+  estimate.translation_inliers = set(60, 400);
+  EXPECT_EQ(whyLost(estimate), "");
+}
+
+TEST(MotionCheckTest, KnowsHowFastARobotMoves) {
+  auto estimate = goodEstimate();
+  estimate.T_prev_cur = motion({0.0, 4.0, 5.9}, {0.0, 0.0, 0.0});
+  expectSays(whyLost(estimate), "71.28", "max_speed_mps = 70");
+  EXPECT_EQ(MotionCheck({}).whyLost(estimate, 2.0 * kPeriod_s), "");  // half as fast
+  estimate.T_prev_cur = motion({0.0, 0.0, 1.0}, {0.0, 0.61, 0.0});
+  expectSays(whyLost(estimate), "6.1 rad/s", "max_turn_rate_rps = 6");
+  EXPECT_EQ(MotionCheck({}).whyLost(estimate, 2.0 * kPeriod_s), "");
+}
+
+TEST(MotionCheckTest, CallsAMotionOnFewFeaturesDegraded) {
+  auto estimate = goodEstimate();
+  estimate.translation_inliers = estimate.rotation_inliers = set(79, 100);
+  expectSays(whyDegraded(estimate), "79 features", "degraded_inliers = 80");
+  estimate.translation_inliers = estimate.rotation_inliers = set(80, 100);
+  EXPECT_EQ(whyDegraded(estimate), "");
+}
+
+TEST(MotionCheckTest, CallsAMotionOnASmallShareDegraded) {
+  auto estimate = goodEstimate();
+  estimate.translation_inliers = set(139, 400);
+  expectSays(whyDegraded(estimate), "0.3475", "degraded_inlier_share = 0.35");
+  estimate.translation_inliers = set(140, 400);
+  EXPECT_EQ(whyDegraded(estimate), "");
+}
+
+TEST(MotionCheckTest, CallsAJumpDegraded) {
+  const Eigen::Isometry3d expected = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
+  UncertainTransform jump;
+  jump.T = motion({0.0, 0.0, 1.31}, {0.0, 0.0, 0.0});
+  const MotionCheck check({});
+  expectSays(check.whyJump(jump, expected, kPeriod_s), "31 m/s2", "max_acceleration_mps2 = 30");
+  EXPECT_EQ(check.whyJump(jump, expected, 2.0 * kPeriod_s), "");  // a quarter of that
+  jump.covariance(2, 2) = 0.01 * 0.01;                            // 3 sigma are 0.03 m, 3 m/s2
+  EXPECT_EQ(check.whyJump(jump, expected, kPeriod_s), "");
+  jump.T = motion({0.31, 0.0, 1.0}, {0.0, 0.0, 0.0});
+  jump.covariance.setZero();
+  EXPECT_NE(check.whyJump(jump, expected, kPeriod_s), "");
+}
+
+}  // namespace
+}  // namespace rotrocc

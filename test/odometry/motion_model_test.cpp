@@ -1,0 +1,58 @@
+#include "odometry/motion_model.h"
+
+#include <gtest/gtest.h>
+
+#include "support/simulated_features.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kRounding = 1e-12;
+
+Eigen::Isometry3d turnAhead() {
+  return motion({0.1, 0.0, 1.2}, {0.0, 0.05, 0.01});
+}
+
+TEST(MotionModelTest, KnowsNothingAtFirst) {
+  EXPECT_FALSE(MotionModel({}).predict(0.1));
+}
+
+TEST(MotionModelTest, ExpectsTheLastMotionAgain) {
+  MotionModel model({});
+  model.update(motion({5.0, 0.0, 0.0}, {0.0, 0.0, 0.2}), 0.1);
+  model.update(turnAhead(), 0.1);
+  const auto predicted = model.predict(0.1);
+  ASSERT_TRUE(predicted);
+  EXPECT_LT((predicted->matrix() - turnAhead().matrix()).norm(), kRounding);
+}
+
+TEST(MotionModelTest, ScalesTheMotionToTheTimeThatPassed) {
+  MotionModel model({});
+  model.update(turnAhead(), 0.1);
+  const auto twice = model.predict(0.2);
+  ASSERT_TRUE(twice);
+  // Constant turn rate and velocity: twice the time is the motion done twice.
+  EXPECT_LT((twice->matrix() - (turnAhead() * turnAhead()).matrix()).norm(), kRounding);
+  const auto half = model.predict(0.05);
+  ASSERT_TRUE(half);
+  EXPECT_LT(((*half * *half).matrix() - turnAhead().matrix()).norm(), kRounding);
+}
+
+TEST(MotionModelTest, ExpectsNothingAfterAGap) {
+  MotionModel::Config config;
+  config.max_age_s = 0.3;
+  MotionModel model(config);
+  model.update(turnAhead(), 0.1);
+  EXPECT_TRUE(model.predict(0.3));
+  EXPECT_FALSE(model.predict(0.31));
+}
+
+TEST(MotionModelTest, ForgetsWhenReset) {
+  MotionModel model({});
+  model.update(turnAhead(), 0.1);
+  model.reset();
+  EXPECT_FALSE(model.predict(0.1));
+}
+
+}  // namespace
+}  // namespace rotrocc

@@ -1,0 +1,248 @@
+#include "rotrocc/parameters.h"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/expect_error.h"
+#include "support/expected_file.h"
+#include "support/read_file.h"
+#include "support/temporary_directory.h"
+
+namespace rotrocc {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Parameters with their table.
+struct Settings {
+  Parameters parameters;
+  ParameterTable table = makeParameterTable(parameters);
+};
+
+std::vector<std::string> values(const ParameterTable& table) {
+  std::vector<std::string> all;
+  for (const auto& parameter : table.parameters()) {
+    all.push_back(parameter.name + " = " + parameter.get());
+  }
+  return all;
+}
+
+/// Values that are all allowed, at the ends of their ranges.
+std::vector<std::string> allowedValues(const ParameterTable::Parameter& parameter) {
+  std::istringstream range(parameter.range);
+  if (range.get() == '[') {
+    std::string min, max;
+    std::getline(range, min, ',');
+    std::getline(range >> std::ws, max, ']');
+    return {min, max};
+  }
+  if (parameter.range == "true or false") return {"true", "false"};
+  if (parameter.range == "any text") return {"some words", ""};
+  std::istringstream choices(parameter.range.substr(std::string("one of ").size()));
+  std::vector<std::string> words;
+  for (std::string word; std::getline(choices >> std::ws, word, ',');) words.push_back(word);
+  return words;
+}
+
+TEST(ParametersTest, TheDefaultFileHoldsEveryParameterAtItsDefault) {
+  const std::string path = std::string(ROTROCC_CONFIG_DIR) + "/default.yaml";
+  const std::string file = readFile(path);
+  // Above the table are only comments, which end with an empty line.
+  const std::string header = file.substr(0, file.find("\n\n") + 2);
+  std::istringstream lines(header);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_TRUE(line.empty() || line.front() == '#') << line;
+  }
+  expectFileHolds(path, header + toYaml(Settings().table));
+}
+
+TEST(ParametersTest, EveryShippedFileLoads) {
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(ROTROCC_CONFIG_DIR)) {
+    if (entry.path().extension() != ".yaml") continue;
+    ++files;
+    Settings settings;
+    EXPECT_NO_THROW(loadYaml(entry.path().string(), settings.table)) << entry.path();
+  }
+  EXPECT_GE(files, 2);
+}
+
+TEST(ParametersTest, ThePapersFileTurnsOffWhatThePaperDoesNotHave) {
+  Settings settings;
+  loadYaml(std::string(ROTROCC_CONFIG_DIR) + "/paper.yaml", settings.table);
+  const MotionEstimatorConfig& estimator = settings.parameters.odometry.motion_estimator;
+  EXPECT_EQ(estimator.criterion, "rotrocc");
+  EXPECT_EQ(estimator.noise_ratio, 0.0);
+  EXPECT_EQ(estimator.translation_initial_px, 0.0);
+  EXPECT_EQ(estimator.min_flow_px, 0.0);
+}
+
+TEST(ParametersTest, PresetsHoldOnlyWhatIsDifferentFromTheDefault) {
+  for (const std::string name : {"fast", "accurate"}) {
+    const std::string path = std::string(ROTROCC_CONFIG_DIR) + "/" + name + ".yaml";
+    Settings settings;
+    loadYaml(path, settings.table);
+    const std::vector<std::string> preset = values(settings.table);
+    const std::vector<std::string> defaults = values(Settings().table);
+    int different = 0;
+    for (std::size_t i = 0; i < preset.size(); ++i) different += preset[i] != defaults[i];
+    std::istringstream lines(readFile(path));
+    int named = 0;
+    for (std::string line; std::getline(lines, line);) named += line.compare(0, 2, "  ") == 0;
+    EXPECT_GT(different, 0) << name;
+    EXPECT_EQ(named, different) << name;
+  }
+}
+
+TEST(ParametersTest, TheFastPresetHasFewerFeaturesAndTheAccurateOneMore) {
+  const auto features = [](const char* name) {
+    Settings settings;
+    loadYaml(std::string(ROTROCC_CONFIG_DIR) + "/" + name + ".yaml", settings.table);
+    return settings.parameters.odometry.correspondence_finder.feature_detector.max_features;
+  };
+  EXPECT_LT(2 * features("fast"), features("default") + 1);
+  EXPECT_GT(features("accurate"), features("default"));
+}
+
+TEST(ParametersTest, EveryValueThatIsSetIsReadBack) {
+  Settings settings;
+  for (const auto& parameter : settings.table.parameters()) {
+    for (const std::string& value : allowedValues(parameter)) {
+      settings.table.set(parameter.name, value);
+      EXPECT_EQ(parameter.get(), value) << parameter.name;
+    }
+  }
+}
+
+TEST(ParametersTest, EveryParameterIsAVariableOfItsOwn) {
+  // Else setting one would change another, or nothing at all.
+  Settings settings;
+  const std::vector<std::string> defaults = values(settings.table);
+  for (std::size_t i = 0; i < defaults.size(); ++i) {
+    Settings changed;
+    const auto& parameter = changed.table.parameters()[i];
+    const std::string before = parameter.get();
+    for (const std::string& value : allowedValues(parameter)) {
+      if (parameter.get() == before) changed.table.set(parameter.name, value);
+    }
+    const std::vector<std::string> now = values(changed.table);
+    for (std::size_t k = 0; k < defaults.size(); ++k) {
+      EXPECT_EQ(now[k] == defaults[k], k != i) << parameter.name << " and " << now[k];
+    }
+  }
+}
+
+TEST(ParametersTest, TheTableSetsWhatTheEstimatorReads) {
+  Settings settings;
+  settings.table.setAssignment("feature_detector/max_features=777");
+  settings.table.setAssignment("motion_estimator/criterion=std_based");
+  settings.table.setAssignment("visual_odometry/max_gap_s=2.5");
+  settings.table.setAssignment("publish_tf=false");
+  const OdometryConfig& odometry = settings.parameters.odometry;
+  EXPECT_EQ(odometry.correspondence_finder.feature_detector.max_features, 777);
+  EXPECT_EQ(odometry.motion_estimator.criterion, "std_based");
+  EXPECT_EQ(odometry.max_gap_s, 2.5);
+  EXPECT_FALSE(settings.parameters.node.publish_tf);
+}
+
+void expectRefused(const std::string& name, const std::string& value, const std::string& part) {
+  Settings settings;
+  const std::vector<std::string> before = values(settings.table);
+  expectError<std::invalid_argument>([&] { settings.table.set(name, value); }, part);
+  EXPECT_EQ(values(settings.table), before);
+}
+
+TEST(ParametersTest, RefusesWithNameValueAndRange) {
+  expectRefused(
+      "feature_detector/max_feature", "100", "no parameter \"feature_detector/max_feature\"");
+  expectRefused("queue_size", "101", "parameter queue_size is 101, but must be in [1, 100]");
+  expectRefused("queue_size", "0", "is 0, but must be in [1, 100]");
+  expectRefused("queue_size", "many", "is \"many\", but must be a whole number in [1, 100]");
+  expectRefused("queue_size", "2.5", "is \"2.5\", but must be a whole number in [1, 100]");
+  expectRefused("queue_size", "99999999999", "is \"99999999999\", but must be");
+  expectRefused("queue_size", "", "is \"\", but must be");
+  expectRefused("visual_odometry/max_gap_s",
+                "1001",
+                "parameter visual_odometry/max_gap_s is 1001, but must be in [0.01, 1000]");
+  for (const char* value : {"nan", ".nan", "inf", "-inf", "1 2", "1e999", "one"}) {
+    expectRefused("visual_odometry/max_gap_s", value, "but must be a number in [0.01, 1000]");
+  }
+  expectRefused("publish_tf", "1", "parameter publish_tf is \"1\", but must be true or false");
+  expectRefused("motion_estimator/criterion",
+                "best",
+                "is \"best\", but must be one of rotrocc, reprojection, rocc");
+}
+
+TEST(ParametersTest, RefusesAnAssignmentWithoutAValue) {
+  expectError<std::invalid_argument>([] { Settings().table.setAssignment("queue_size 4"); },
+                                     "\"queue_size 4\" is no assignment; write name=value");
+}
+
+TEST(ParametersTest, AFileNamesItselfWhenItIsRefused) {
+  const TemporaryDirectory directory;
+  const auto expect_refused = [&](const std::string& text, const std::string& part) {
+    const std::string path = directory.write("bad.yaml", text);
+    Settings settings;
+    expectError<std::invalid_argument>([&] { loadYaml(path, settings.table); }, path);
+    expectError<std::invalid_argument>([&] { loadYaml(path, settings.table); }, part);
+  };
+  expect_refused("motion_check:\n  min_inlier: 3\n", "no parameter \"motion_check/min_inlier\"");
+  expect_refused("motion_check:\n  min_inliers: 1\n", "motion_check/min_inliers is 1");
+  expect_refused("visual_odometry:\n  max_gap_s: .nan\n", "visual_odometry/max_gap_s is \".nan\"");
+  expect_refused("motion_check: [1, 2]\n", "\"motion_check\" is neither a value nor a section");
+  expect_refused("motion_check: &loop {of: *loop}\n", "\"motion_check/of\" must be a value");
+  expect_refused("motion_check\n", "");
+  expect_refused("a: b: c\n", "");
+  Settings settings;
+  expectError<std::invalid_argument>([&] { loadYaml(directory / "none.yaml", settings.table); },
+                                     "none.yaml");
+}
+
+TEST(ParametersTest, AnEmptyFileChangesNothing) {
+  const TemporaryDirectory directory;
+  Settings settings;
+  loadYaml(directory.write("empty.yaml", "# nothing\n"), settings.table);
+  EXPECT_EQ(values(settings.table), values(Settings().table));
+}
+
+TEST(ParametersTest, WhatIsWrittenIsReadBack) {
+  Settings written;
+  for (const auto& parameter : written.table.parameters()) {
+    written.table.set(parameter.name, allowedValues(parameter).back());
+  }
+  const TemporaryDirectory directory;
+  Settings read;
+  loadYaml(directory.write("all.yaml", toYaml(written.table)), read.table);
+  EXPECT_EQ(values(read.table), values(written.table));
+}
+
+TEST(ParametersTest, TextsThatMeanSomethingInYamlAreReadBack) {
+  const TemporaryDirectory directory;
+  for (const char* text : {"",
+                           "null",
+                           "~",
+                           "a: b",
+                           "run #1.txt",
+                           "- x",
+                           "*a",
+                           "\"q\"",
+                           "a\\b\tc",
+                           "\x7f\x04",
+                           "Gr\u00fc\u00dfe",
+                           "no UTF-8: \xc0\xb5"}) {
+    Settings written;
+    written.table.set("trajectory_file", text);
+    Settings read;
+    loadYaml(directory.write("text.yaml", toYaml(written.table)), read.table);
+    EXPECT_EQ(read.parameters.node.trajectory_file, text);
+  }
+}
+
+}  // namespace
+}  // namespace rotrocc

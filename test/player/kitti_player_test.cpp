@@ -1,0 +1,259 @@
+// The player with an odometry of a few lines, in one process.
+
+#include "player/kitti_player.h"
+
+#include <atomic>
+#include <chrono>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <geometry_msgs/PoseStamped.h>
+#include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <nav_msgs/Path.h>
+#include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "bags/kitti_bag_writer.h"
+#include "input/stereo_synchronizer.h"
+#include "support/expect_error.h"
+#include "support/kitti2bag_writer.h"
+#include "support/synthetic_sequence.h"
+#include "support/temporary_directory.h"
+
+namespace rotrocc {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr int kPairs = 6;  // at 10 Hz
+
+/// Subscribes to all that the player publishes, and answers each pair with an odometry of its
+/// stamp.
+class Listener {
+ public:
+  explicit Listener(ros::NodeHandle nh) : odom_(nh.advertise<nav_msgs::Odometry>("odom", 10)) {
+    count<sensor_msgs::CameraInfo>(nh, "left/camera_info");
+    count<sensor_msgs::CameraInfo>(nh, "right/camera_info");
+    count<geometry_msgs::PoseStamped>(nh, "ground_truth/pose");
+    count<nav_msgs::Path>(nh, "ground_truth/path");
+    count<rosgraph_msgs::Clock>(nh, "/clock");
+    count<tf2_msgs::TFMessage>(nh, "/tf");
+    count<tf2_msgs::TFMessage>(nh, "/tf_static");
+    subscribers_.push_back(nh.subscribe("left/image_rect", 10, &Listener::onLeft, this));
+    subscribers_.push_back(nh.subscribe("right/image_rect", 10, &Listener::onRight, this));
+  }
+
+  /// Messages received on a topic, as it is named above.
+  int count(const std::string& topic) const {
+    std::lock_guard<std::mutex> lock(mutex_);
+    const auto found = counts_.find(topic);
+    return found == counts_.end() ? 0 : found->second;
+  }
+
+  std::vector<ros::Time> leftStamps() const {
+    std::lock_guard<std::mutex> lock(mutex_);
+    return left_stamps_;
+  }
+
+  /// Messages from now on get no answer.
+  void fallSilent() { silent_ = true; }
+
+ private:
+  template <typename Message>
+  void count(ros::NodeHandle& nh, const std::string& topic) {
+    const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
+        [this, topic](const boost::shared_ptr<const Message>&) {
+          std::lock_guard<std::mutex> lock(mutex_);
+          ++counts_[topic];
+        };
+    subscribers_.push_back(nh.subscribe<Message>(topic, 100, callback));
+  }
+
+  void onLeft(const sensor_msgs::Image::ConstPtr& image) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    left_stamps_.push_back(image->header.stamp);
+    answer(synchronizer_.addLeft(image));
+  }
+
+  void onRight(const sensor_msgs::Image::ConstPtr& image) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    answer(synchronizer_.addRight(image));
+  }
+
+  void answer(const std::optional<StereoImages>& pair) {
+    if (!pair || silent_) return;
+    nav_msgs::Odometry odometry;
+    odometry.header.stamp = pair->left->header.stamp;
+    odom_.publish(odometry);
+  }
+
+  ros::Publisher odom_;
+  mutable std::mutex mutex_;
+  std::map<std::string, int> counts_;
+  std::vector<ros::Time> left_stamps_;
+  StereoSynchronizer synchronizer_{0.01, 10};
+  std::atomic<bool> silent_{false};
+  std::vector<ros::Subscriber> subscribers_;
+};
+
+class KittiPlayerTest : public ::testing::Test {
+ protected:
+  KittiPlayerTest() {
+    spinner_.start();
+    private_nh_.deleteParam("");
+    private_nh_.setParam("bag", directory_ / "test.bag");
+    private_nh_.setParam("lockstep", true);
+    private_nh_.setParam("rate", 0.0);
+    writeSyntheticSequence(directory_ / "sequence", kPairs);
+  }
+
+  KittiSequence sequence() const { return KittiSequence(directory_ / "sequence"); }
+  std::string bag() const { return directory_ / "test.bag"; }
+
+  void writeOwnBag() const {
+    const KittiSequence kitti = sequence();
+    KittiBagWriter writer(bag(), kitti, 1000);
+    for (int i = 0; i < kPairs; ++i) writer.writePair(i);
+    writer.finish();
+  }
+
+  void startPlayer() {
+    player_ = std::make_unique<KittiPlayer>(nh_, private_nh_, [this] { ended_ = true; });
+  }
+
+  /// Waits for `condition`, 20 s at most. Returns whether it came true.
+  template <typename Condition>
+  bool waitFor(Condition condition) const {
+    for (int polls = 0; polls < 2000 && !condition(); ++polls) {
+      std::this_thread::sleep_for(milliseconds(10));
+    }
+    return condition();
+  }
+
+  void playToTheEnd() {
+    startPlayer();
+    ASSERT_TRUE(waitFor([this] { return ended_.load(); }));
+  }
+
+  TemporaryDirectory directory_;
+  ros::NodeHandle nh_{"stereo"};
+  ros::NodeHandle private_nh_{"player"};
+  ros::AsyncSpinner spinner_{1};
+  std::atomic<bool> ended_{false};
+  std::unique_ptr<KittiPlayer> player_;
+};
+
+TEST_F(KittiPlayerTest, PlaysAllOfOwnBags) {
+  writeOwnBag();
+  Listener listener(nh_);
+  playToTheEnd();
+  const std::vector<ros::Time> stamps = listener.leftStamps();
+  ASSERT_EQ(stamps.size(), static_cast<std::size_t>(kPairs));
+  EXPECT_EQ(stamps.front(), ros::Time(1000.0));
+  EXPECT_EQ(listener.count("left/camera_info"), kPairs + 1) << "one ahead of all images";
+  EXPECT_EQ(listener.count("right/camera_info"), kPairs + 1);
+  EXPECT_EQ(listener.count("ground_truth/pose"), kPairs);
+  EXPECT_EQ(listener.count("ground_truth/path"), 1);
+  EXPECT_EQ(listener.count("/tf_static"), 1);
+  EXPECT_GE(listener.count("/clock"), kPairs);
+}
+
+TEST_F(KittiPlayerTest, ShowsRecordedPosesInsteadOfTheirTf) {
+  writeKitti2bagRaw(sequence(), bag());
+  Listener listener(nh_);
+  playToTheEnd();
+  EXPECT_EQ(listener.leftStamps().size(), static_cast<std::size_t>(kPairs));
+  EXPECT_EQ(listener.count("/tf"), 0);
+  EXPECT_EQ(listener.count("ground_truth/pose"), kPairs);
+  EXPECT_EQ(listener.count("ground_truth/path"), 1);
+}
+
+TEST_F(KittiPlayerTest, BeginsAndEndsWhereItIsTold) {
+  writeOwnBag();
+  private_nh_.setParam("start", 0.15);
+  private_nh_.setParam("duration", 0.2);
+  Listener listener(nh_);
+  playToTheEnd();
+  EXPECT_EQ(listener.leftStamps(), (std::vector<ros::Time>{ros::Time(1000.2), ros::Time(1000.3)}));
+}
+
+TEST_F(KittiPlayerTest, GoesOnWithoutOdometryAfterTheTimeout) {
+  writeOwnBag();
+  private_nh_.setParam("lockstep_timeout_s", 0.1);
+  Listener listener(nh_);
+  listener.fallSilent();
+  const auto begin = std::chrono::steady_clock::now();
+  playToTheEnd();
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, kPairs * milliseconds(100));
+  EXPECT_EQ(listener.leftStamps().size(), static_cast<std::size_t>(kPairs));
+}
+
+TEST_F(KittiPlayerTest, PausesByService) {
+  writeOwnBag();
+  private_nh_.setParam("paused", true);
+  Listener listener(nh_);
+  startPlayer();
+  std::this_thread::sleep_for(milliseconds(300));
+  EXPECT_TRUE(listener.leftStamps().empty());
+  EXPECT_TRUE(player_->paused());
+
+  std_srvs::SetBool request;
+  request.request.data = false;
+  ASSERT_TRUE(ros::service::call("/player/pause", request));
+  EXPECT_TRUE(request.response.success);
+  EXPECT_TRUE(waitFor([this] { return ended_.load(); }));
+  EXPECT_EQ(listener.leftStamps().size(), static_cast<std::size_t>(kPairs));
+}
+
+TEST_F(KittiPlayerTest, BeginsAnewInALoop) {
+  writeOwnBag();
+  private_nh_.setParam("loop", true);
+  Listener listener(nh_);
+  startPlayer();
+  EXPECT_TRUE(waitFor([&] { return listener.leftStamps().size() > 2 * kPairs; }));
+  EXPECT_FALSE(ended_);
+  EXPECT_EQ(listener.leftStamps().at(kPairs), ros::Time(1000.0));
+  player_.reset();
+}
+
+TEST_F(KittiPlayerTest, WaitsForSubscribers) {
+  writeOwnBag();
+  startPlayer();
+  std::this_thread::sleep_for(milliseconds(300));
+  EXPECT_FALSE(ended_);
+  Listener listener(nh_);
+  EXPECT_TRUE(waitFor([this] { return ended_.load(); }));
+  EXPECT_EQ(listener.leftStamps().size(), static_cast<std::size_t>(kPairs));
+}
+
+TEST_F(KittiPlayerTest, RefusesBadParameters) {
+  writeOwnBag();
+  private_nh_.setParam("rate", -1.0);
+  expectError([this] { startPlayer(); }, "rate is -1");
+  private_nh_.setParam("rate", 1.0);
+  private_nh_.setParam("start", 60.0);
+  expectError([this] { startPlayer(); }, "start is 60 s, but the bag is only 0.5");
+  private_nh_.setParam("bag", directory_ / "missing.bag");
+  expectError([this] { startPlayer(); }, "missing.bag is not readable as a bag");
+  private_nh_.deleteParam("bag");
+  expectError([this] { startPlayer(); }, "parameter bag is missing");
+}
+
+}  // namespace
+}  // namespace rotrocc
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "kitti_player_test");
+  const ros::NodeHandle keeps_ros_alive_between_the_tests;
+  return RUN_ALL_TESTS();
+}

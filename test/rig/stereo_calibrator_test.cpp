@@ -1,0 +1,192 @@
+#include "rig/stereo_calibrator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "motion/motion_estimator.h"
+#include "support/simulated_features.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr int kFeatures = 400;
+constexpr double kPeriod_s = 0.1;
+
+/// As measured on KITTI, without the outliers.
+const MeasurementNoise kNoise = {0.12, 0.36};
+
+Eigen::Isometry3d ahead() {
+  return motion({0.0, 0.0, 1.2}, {0.0, 0.01, 0.0});
+}
+
+/// Features of a drive, whose disparities come out too small by what `error_px` says of a pixel.
+template <class Error>
+Correspondences biasedFeatures(const Eigen::Isometry3d& T, unsigned seed, const Error& error_px) {
+  std::mt19937 generator(seed);
+  Correspondences features = simulateFeatures(kittiCamera(), T, kFeatures, kNoise, generator);
+  for (Correspondence& feature : features) {
+    feature.disparity_px -= error_px(feature.cur_px);
+  }
+  return features;
+}
+
+/// Estimates the motion of one pair and shows it to the calibrator, as the odometry does.
+void show(Correspondences features, const Eigen::Isometry3d& truth, StereoCalibrator& calibrator) {
+  const StereoCamera corrected = calibrator.correct(kittiCamera());
+  const double infinity_px = corrected.disparityAtInfinity();
+  features.erase(std::remove_if(features.begin(),
+                                features.end(),
+                                [&](const Correspondence& feature) {
+                                  return feature.disparity_px - infinity_px < 1.0;
+                                }),
+                 features.end());
+  triangulate(corrected, features);
+  const auto estimate = MotionEstimator({}).estimate(corrected, features, truth, kPeriod_s);
+  ASSERT_TRUE(estimate.valid);
+  calibrator.advance();
+  calibrator.observe(corrected, features, estimate.rotation_inliers, estimate.T_prev_cur);
+}
+
+/// Shows a drive of some pairs whose rig has a constant bias.
+void drive(double bias_px, int pairs, StereoCalibrator& calibrator, unsigned first_seed = 0) {
+  for (int i = 0; i < pairs; ++i) {
+    show(biasedFeatures(ahead(),
+                        first_seed + static_cast<unsigned>(i),
+                        [&](const Eigen::Vector2d&) { return bias_px; }),
+         ahead(),
+         calibrator);
+  }
+}
+
+TEST(StereoCalibratorTest, FindsTheBiasOfARig) {
+  for (const double bias_px : {-0.5, 0.5, 1.0, 2.0}) {
+    StereoCalibrator calibrator{StereoCalibrator::Config()};
+    drive(bias_px, 30, calibrator);
+    EXPECT_NEAR(calibrator.bias().estimated_px, bias_px, 0.05);
+    EXPECT_NEAR(calibrator.bias().applied_px, bias_px, 0.1);
+    EXPECT_LT(calibrator.bias().sigma_px, 0.05);
+    EXPECT_EQ(calibrator.correct(kittiCamera()).cx_right,
+              kittiCamera().cx_right + calibrator.bias().applied_px);
+  }
+}
+
+TEST(StereoCalibratorTest, LeavesAPerfectRigAlone) {
+  StereoCalibrator calibrator{StereoCalibrator::Config()};
+  for (unsigned pair = 0; pair < 50; ++pair) {
+    drive(0.0, 1, calibrator, pair);
+    EXPECT_LE(std::abs(calibrator.bias().applied_px), 0.02) << pair;
+  }
+  EXPECT_NEAR(calibrator.bias().estimated_px, 0.0, 0.05);
+}
+
+TEST(StereoCalibratorTest, LearnsNothingAtStandstill) {
+  StereoCalibrator calibrator{StereoCalibrator::Config()};
+  for (unsigned pair = 0; pair < 50; ++pair) {
+    const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
+    show(
+        biasedFeatures(still, pair, [](const Eigen::Vector2d&) { return 1.0; }), still, calibrator);
+    EXPECT_EQ(calibrator.bias().applied_px, 0.0) << pair;
+  }
+  EXPECT_GT(calibrator.bias().sigma_px, 0.5);
+}
+
+TEST(StereoCalibratorTest, ForgetsNothingAtStandstill) {
+  StereoCalibrator::Config config;
+  config.memory_pairs = 20.0;
+  StereoCalibrator calibrator(config);
+  drive(1.0, 30, calibrator);
+  const double before_px = calibrator.bias().applied_px;
+  for (unsigned pair = 0; pair < 100; ++pair) {
+    const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
+    show(
+        biasedFeatures(still, pair, [](const Eigen::Vector2d&) { return 1.0; }), still, calibrator);
+  }
+  EXPECT_NEAR(calibrator.bias().applied_px, before_px, 0.02);
+}
+
+TEST(StereoCalibratorTest, IsNotFooledByAMovingObject) {
+  StereoCalibrator calibrator{StereoCalibrator::Config()};
+  // A truck ahead, 3 m/s slower, on a quarter of the features.
+  const Eigen::Isometry3d relative = ahead() * motion({0.0, 0.0, 0.3}, {0.0, 0.0, 0.0});
+  for (unsigned pair = 0; pair < 50; ++pair) {
+    Correspondences features =
+        biasedFeatures(ahead(), pair, [](const Eigen::Vector2d&) { return 0.0; });
+    std::mt19937 generator(pair + 1000);
+    std::uniform_real_distribution<double> x(-2.0, 1.0);
+    std::uniform_real_distribution<double> y(-2.0, 1.2);
+    for (std::size_t i = 0; i < kFeatures / 4;) {
+      const Eigen::Vector3d point(x(generator), y(generator), 12.0);
+      if (measure(kittiCamera(), point, relative, kNoise, generator, features[i])) ++i;
+    }
+    show(features, ahead(), calibrator);
+    EXPECT_LE(std::abs(calibrator.bias().applied_px), 0.05) << pair;
+  }
+}
+
+TEST(StereoCalibratorTest, DoubtsWhatPartsOfTheImageDisagreeAbout) {
+  // A rotation of the right camera about its vertical axis that was taken for a shift.
+  const auto lens = [](const Eigen::Vector2d& pixel) {
+    const double x = (pixel.x() - kittiCamera().cx) / kittiCamera().fx;
+    return 1.0 * x * x;
+  };
+  StereoCalibrator even({});
+  StereoCalibrator uneven({});
+  drive(0.3, 30, even);
+  for (unsigned pair = 0; pair < 30; ++pair) {
+    show(biasedFeatures(ahead(), pair, lens), ahead(), uneven);
+  }
+  EXPECT_GT(uneven.bias().sigma_px, 2.0 * even.bias().sigma_px);
+  // Within the doubt nothing is applied, and a bias that is certain as a whole.
+  EXPECT_GT(even.bias().applied_px, 0.25);
+  EXPECT_EQ(even.bias().applied_px, even.bias().estimated_px);
+  const DisparityBias& found = uneven.bias();
+  const double doubt_px = 3.0 * found.sigma_px;
+  const double beyond_px = std::max(0.0, std::abs(found.estimated_px) - doubt_px);
+  EXPECT_DOUBLE_EQ(std::abs(found.applied_px),
+                   std::min(2.0 * beyond_px, std::abs(found.estimated_px)));
+}
+
+TEST(StereoCalibratorTest, ThePairObservedAgainCountsOnce) {
+  StereoCalibrator once({});
+  StereoCalibrator twice({});
+  const Correspondences features =
+      biasedFeatures(ahead(), 1, [](const Eigen::Vector2d&) { return 0.0; });
+  const FeatureSet all(features.size(), 1);
+  once.observe(kittiCamera(), features, all, ahead());
+  twice.observe(kittiCamera(), features, all, ahead());
+  twice.observe(kittiCamera(), features, all, ahead());
+  EXPECT_EQ(once.bias().estimated_px, twice.bias().estimated_px);
+  EXPECT_EQ(once.bias().sigma_px, twice.bias().sigma_px);
+}
+
+TEST(StereoCalibratorTest, FollowsARigThatChanges) {
+  StereoCalibrator::Config config;
+  config.memory_pairs = 20.0;
+  StereoCalibrator calibrator(config);
+  drive(1.0, 60, calibrator);
+  drive(0.4, 100, calibrator, 1000);
+  // exp(-100 / 20) = 0.7 % of the first bias is left.
+  EXPECT_NEAR(calibrator.bias().estimated_px, 0.4, 0.06);
+}
+
+TEST(StereoCalibratorTest, AddsAKnownBiasAndStopsThereIfNotEnabled) {
+  StereoCalibrator::Config config;
+  config.bias_px = 0.7;
+  config.enabled = false;
+  StereoCalibrator fixed(config);
+  drive(1.0, 10, fixed);
+  EXPECT_EQ(fixed.bias().applied_px, 0.7);
+  config.enabled = true;
+  StereoCalibrator estimating(config);
+  EXPECT_EQ(estimating.bias().applied_px, 0.7);
+  drive(1.0, 30, estimating);
+  EXPECT_NEAR(estimating.bias().applied_px, 1.0, 0.1);
+  estimating.reset();
+  EXPECT_EQ(estimating.bias().applied_px, 0.7);
+}
+
+}  // namespace
+}  // namespace rotrocc

@@ -1,0 +1,52 @@
+// Runs scripts/performance in its short form, and looks at what it writes. Times are not judged.
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/read_csv.h"
+#include "support/read_file.h"
+#include "support/run_command.h"
+#include "support/temporary_directory.h"
+
+namespace rotrocc {
+namespace {
+
+TEST(PerformanceTest, FillsTheTablesAndDrawsTheFigure) {
+  const TemporaryDirectory directory;
+  const std::string report = directory / "performance.md";
+  std::ofstream(report) << readFile(REPORT);
+  unsetenv("ROTROCC_KITTI_DIR");  // real clips would take their time
+  const CommandResult result =
+      runCommand(std::string(PYTHON) + " " + PERFORMANCE + " --short --programs " + PROGRAMS +
+                 " --output " + directory / "out" + " --report " + report);
+  ASSERT_EQ(result.status, 0) << result.output;
+
+  const std::vector<CsvRow> stages = readCsv(directory / "out/stages.csv");
+  ASSERT_EQ(stages.size(), 13u);
+  EXPECT_GT(std::stod(stages.front().at("slip_road")), 0.0);
+  const std::vector<CsvRow> presets = readCsv(directory / "out/presets.csv");
+  ASSERT_EQ(presets.size(), 1u);
+  for (const char* preset : {"fast", "default", "accurate"}) {
+    const double error_percent = std::stod(presets.front().at(std::string(preset) + ": error [%]"));
+    EXPECT_GT(error_percent, 0.0) << preset;
+    EXPECT_LT(error_percent, 5.0) << preset;
+  }
+  const std::vector<CsvRow> features = readCsv(directory / "out/features.csv");
+  ASSERT_EQ(features.size(), 2u);
+  EXPECT_LT(std::stod(features[0].at("tracked")), 0.7 * std::stod(features[1].at("tracked")));
+  const std::vector<CsvRow> sizes = readCsv(directory / "out/sizes.csv");
+  ASSERT_EQ(sizes.size(), 2u);
+  EXPECT_LT(std::stod(sizes[0].at("memory [MB]")), std::stod(sizes[1].at("memory [MB]")));
+
+  EXPECT_GT(std::filesystem::file_size(directory / "cost.png"), 10000u);
+  EXPECT_NE(readFile(report).find("| 640x480 |"), std::string::npos);
+  EXPECT_EQ(readFile(report).find("| 2304x1728 |"), std::string::npos) << "rows of earlier runs";
+}
+
+}  // namespace
+}  // namespace rotrocc

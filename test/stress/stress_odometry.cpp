@@ -1,0 +1,65 @@
+#include <iostream>
+#include <stdexcept>
+
+#include <ros/ros.h>
+#include <boost/program_options.hpp>
+
+#include "stress/stress_player.h"
+#include "tools/program.h"
+
+namespace {
+
+namespace po = boost::program_options;
+using namespace rotrocc;
+
+const char* const kUsage =
+    "Plays a stereo bag, forth and back in a loop, to an odometry that runs already, with faults "
+    "as\n"
+    "of broken drivers, and says how old its answers are, what was dropped and whether each loop\n"
+    "found its motion again. scripts/soak starts all that is needed.\n"
+    "usage: stress_odometry BAG [options] [TOPIC:=OTHER]\n";
+
+bool parse(int argc, char** argv, StressOptions& options) {
+  const auto number = [](auto& value) { return po::value(&value)->default_value(value); };
+  po::options_description visible("Options");
+  visible.add_options()("help,h", "show this text")(
+      "rate", number(options.rate_hz), "[Hz] of the pairs")(
+      "duration", number(options.duration_s), "[s] of the run")(
+      "faults", number(options.fault_share), "share of the pairs that get a fault; 0: none")(
+      "pairs", number(options.pairs), "of the recording, which are kept in memory")(
+      "seed", number(options.seed), "same seed, same faults")(
+      "odometry", number(options.odometry), "name of the odometry's node or nodelet");
+  po::options_description all;
+  all.add(visible).add_options()("bag", po::value(&options.bag));
+  po::positional_options_description positional;
+  positional.add("bag", 1);
+  po::variables_map variables;
+  po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(),
+            variables);
+  po::notify(variables);
+  if (variables.count("help") > 0) {
+    std::cout << kUsage << visible;
+    return false;
+  }
+  if (options.bag.empty()) throw po::error("no bag is given");
+  if (!(options.rate_hz > 0.0 && options.duration_s > 0.0 && options.pairs >= 2)) {
+    throw po::error("rate and duration must be positive, and pairs at least 2");
+  }
+  return true;
+}
+
+void run(const StressOptions& options) {
+  ros::NodeHandle nh;
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  if (!StressPlayer(nh, options).run()) {
+    throw std::runtime_error("the odometry did not stand it: see the account above");
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "stress_odometry");
+  return runProgram<StressOptions>("stress_odometry", argc, argv, parse, run);
+}

@@ -1,0 +1,167 @@
+#include "stress/stress_player.h"
+
+#include <algorithm>
+#include <iostream>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include <ros/init.h>
+#include <ros/service.h>
+#include <rosbag/view.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include "bags/bag_reading.h"
+#include "bags/kitti_mount.h"
+#include "bags/stereo_topics.h"
+#include "input/stereo_synchronizer.h"
+#include "node/odometry_messages.h"
+#include "rotrocc/SaveTrajectory.h"
+#include "rotrocc/SetPose.h"
+
+namespace rotrocc {
+namespace {
+
+using std::chrono::steady_clock;
+
+constexpr int kQueueSize = 100;
+constexpr double kMaxStampDifference_s = 0.01;
+constexpr int kBurst = 20;         // pairs at once
+constexpr int kPairsPerCall = 50;  // of the services
+const char* const kCameraFrame = "stress_camera";
+
+/// Not now, when an odometry that ran before may have seen later ones.
+ros::Time firstStamp() {
+  return ros::Time(1000.0);
+}
+
+}  // namespace
+
+StressPlayer::StressPlayer(ros::NodeHandle& nh, const StressOptions& options)
+    : options_(options),
+      faults_(options.fault_share, options.seed),
+      audit_(nh),
+      left_image_(nh.advertise<sensor_msgs::Image>("left/image_rect", kQueueSize)),
+      right_image_(nh.advertise<sensor_msgs::Image>("right/image_rect", kQueueSize)),
+      left_info_(nh.advertise<sensor_msgs::CameraInfo>("left/camera_info", kQueueSize)),
+      right_info_(nh.advertise<sensor_msgs::CameraInfo>("right/camera_info", kQueueSize)) {
+  readBag();
+}
+
+void StressPlayer::readBag() {
+  const rosbag::Bag bag = openBag(options_.bag);
+  const StereoTopics topics = findStereoTopics(topicTypes(bag), "", "");
+  const auto left_info = firstMessage<sensor_msgs::CameraInfo>(bag, topics.left_info);
+  const auto right_info = firstMessage<sensor_msgs::CameraInfo>(bag, topics.right_info);
+  StereoSynchronizer synchronizer(kMaxStampDifference_s, kQueueSize);
+  rosbag::View view(
+      bag, rosbag::TopicQuery(std::vector<std::string>{topics.left_image, topics.right_image}));
+  for (const rosbag::MessageInstance& message : view) {
+    const auto image = readMessage<sensor_msgs::Image>(message);
+    const auto pair = message.getTopic() == topics.left_image ? synchronizer.addLeft(image)
+                                                              : synchronizer.addRight(image);
+    if (pair) recording_.push_back({*pair->left, *pair->right, *left_info, *right_info});
+    if (recording_.size() >= static_cast<std::size_t>(options_.pairs)) break;
+  }
+  if (recording_.size() < 2) throw std::runtime_error(options_.bag + " has no two stereo pairs");
+  const ros::Duration length =
+      recording_.back().left.header.stamp - recording_.front().left.header.stamp;
+  step_ = length * (1.0 / static_cast<double>(recording_.size() - 1));
+}
+
+void StressPlayer::waitForOdometry() {
+  tf_broadcaster_.sendTransform(toTransform(kittiMount(), 0, "base_link", kCameraFrame));
+  while (ros::ok() && !(audit_.connected() && right_info_.getNumSubscribers() > 0 &&
+                        left_image_.getNumSubscribers() > 0)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
+
+bool StressPlayer::run() {
+  waitForOdometry();
+  const bool with_faults = options_.fault_share > 0.0;
+  const auto period = std::chrono::duration_cast<steady_clock::duration>(
+      std::chrono::duration<double>(1.0 / options_.rate_hz));
+  const auto end = steady_clock::now() + std::chrono::duration<double>(options_.duration_s);
+  const auto loop = static_cast<int>(2 * recording_.size() - 2);  // forth and back
+  ros::Time stamp = firstStamp();
+  next_ = steady_clock::now();
+  audit_.beginLoop();
+  for (int i = 0; ros::ok() && steady_clock::now() < end; ++i) {
+    if (with_faults && i > 0 && i % loop == 0) {
+      audit_.beginLoop();
+      stamp = firstStamp();
+    }
+    const auto forth = static_cast<std::size_t>(i % loop);
+    const std::size_t back = static_cast<std::size_t>(loop) - forth;
+    send(recording_[std::min(forth, back)], stamp);
+    stamp += step_;
+    if (with_faults && i % kPairsPerCall == kPairsPerCall - 1) callServices();
+    next_ += period;
+    if (burst_left_ > 0) {
+      --burst_left_;
+    } else {
+      std::this_thread::sleep_until(next_);
+    }
+  }
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  std::cout << audit_.report();
+  for (const auto& [fault, count] : faults_.counts()) {
+    std::cout << "fault: " << fault << ", " << count << '\n';
+  }
+  if (calls_ > 0) std::cout << "service calls " << calls_ << ", failed " << failed_calls_ << '\n';
+  return audit_.passed() && failed_calls_ == 0;
+}
+
+void StressPlayer::send(StressPair pair, const ros::Time& stamp) {
+  pair.left.header.stamp = pair.right.header.stamp = stamp;
+  pair.left.header.frame_id = kCameraFrame;
+  faults_.apply(pair);
+  audit_.expect(stamp);
+  publish(pair);
+  if (pair.burst) burst_left_ = kBurst;
+  if (pair.pause_ms > 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(pair.pause_ms));
+    next_ = steady_clock::now();
+  }
+}
+
+void StressPlayer::publish(const StressPair& pair) {
+  left_info_.publish(pair.left_info);
+  right_info_.publish(pair.right_info);
+  if (pair.send_left) left_image_.publish(pair.left);
+  if (pair.send_right) right_image_.publish(pair.right);
+}
+
+/// One after the other; each must be answered, whatever the odometry does.
+void StressPlayer::callServices() {
+  const std::string prefix = options_.odometry + "/";
+  const auto call = [&](const char* name, auto service) {
+    ++calls_;
+    if (!ros::service::call(prefix + name, service)) ++failed_calls_;
+  };
+  std_srvs::SetBool pause;
+  SetPose set_pose;
+  set_pose.request.pose.orientation.w = 1.0;
+  SaveTrajectory save;
+  save.request.path = "/no/such/directory/poses.txt";
+  save.request.format = "tum";
+  switch (calls_ / 2 % 4) {
+    case 0:
+      call("reset", std_srvs::Trigger());
+      call("save_trajectory", save);
+      break;
+    case 1:
+      call("set_pose", set_pose);
+      call("save_trajectory", save);
+      break;
+    default:
+      pause.request.data = true;
+      call("pause", pause);
+      pause.request.data = false;
+      call("pause", pause);
+  }
+}
+
+}  // namespace rotrocc

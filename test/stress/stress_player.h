@@ -1,0 +1,56 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+
+#include "stress/answer_audit.h"
+#include "stress/fault_injector.h"
+
+namespace rotrocc {
+
+struct StressOptions {
+  std::string bag;  ///< stereo recording that is played forth and back in a loop
+  std::string odometry = "stereo_odometry";  ///< name of the node, for its services
+  double rate_hz = 10.0;                     ///< of the pairs
+  double duration_s = 60.0;                  ///< of the whole run
+  double fault_share = 0.05;  ///< of the pairs that get a fault; 0: none, and time goes on
+  int pairs = 100;            ///< of the recording that are kept in memory
+  unsigned seed = 1;          ///< same seed, same faults
+};
+
+/// Plays a recording to an odometry, with faults, and with calls of all its services: at the end of
+/// each loop, which is the recording forth and back, stamps begin anew.
+class StressPlayer {
+ public:
+  /// Throws std::runtime_error on a bag that cannot be used.
+  StressPlayer(ros::NodeHandle& nh, const StressOptions& options);
+
+  /// Returns whether all was well; prints the account of it.
+  bool run();
+
+ private:
+  void readBag();
+  void waitForOdometry();
+  void send(StressPair pair, const ros::Time& stamp);
+  void publish(const StressPair& pair);
+  void callServices();
+
+  StressOptions options_;
+  std::vector<StressPair> recording_;
+  ros::Duration step_;  // of the stamps, as recorded whatever the rate: the speed stays plausible
+  FaultInjector faults_;
+  AnswerAudit audit_;
+  std::uint64_t calls_ = 0, failed_calls_ = 0;
+  std::chrono::steady_clock::time_point next_;
+  int burst_left_ = 0;
+
+  tf2_ros::StaticTransformBroadcaster tf_broadcaster_;
+  ros::Publisher left_image_, right_image_, left_info_, right_info_;
+};
+
+}  // namespace rotrocc

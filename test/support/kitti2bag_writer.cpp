@@ -1,0 +1,146 @@
+#include "support/kitti2bag_writer.h"
+
+#include <cv_bridge/cv_bridge.h>
+#include <rosbag/bag.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <tf2_eigen/tf2_eigen.h>
+#include <tf2_msgs/TFMessage.h>
+#include <opencv2/imgproc.hpp>
+
+#include "bags/kitti_mount.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr std::int64_t kStart_ns = 1317042145000000000;  // 2011-09-26
+
+/// A camera as kitti2bag names it, and which of a pair's images it took.
+struct Camera {
+  std::string name;
+  bool right;
+  bool colour;
+};
+
+ros::Time stampOf(const KittiSequence& sequence, int index, double delay_ms = 0.0) {
+  const auto delay_ns = static_cast<std::int64_t>(1e6 * delay_ms);
+  return ros::Time().fromNSec(
+      static_cast<std::uint64_t>(kStart_ns + sequence.stamp_ns(index) + delay_ns));
+}
+
+/// How much later than the left image the right one is: anything from 0 to 7 ms.
+double skew_ms(int index) {
+  return 0.1 * (37 * index % 71);
+}
+
+void writeTransform(rosbag::Bag& bag,
+                    const std::string& topic,
+                    const ros::Time& stamp,
+                    const std::string& parent,
+                    const std::string& child,
+                    const Eigen::Isometry3d& T_parent_child) {
+  tf2_msgs::TFMessage message;
+  message.transforms.push_back(tf2::eigenToTransform(T_parent_child));
+  message.transforms.front().header.stamp = stamp;
+  message.transforms.front().header.frame_id = parent;
+  message.transforms.front().child_frame_id = child;
+  bag.write(topic, stamp, message);
+}
+
+sensor_msgs::CameraInfo projectionOnly(const KittiSequence& sequence, bool right) {
+  const StereoCamera& camera = sequence.camera();
+  const double cx = right ? camera.cx_right : camera.cx;
+  const double tx = right ? -camera.fx * camera.baseline_m : 0.0;
+  sensor_msgs::CameraInfo info;
+  info.width = camera.width;
+  info.height = camera.height;
+  info.P = {camera.fx, 0, cx, tx, 0, camera.fy, camera.cy, 0, 0, 0, 1, 0};
+  return info;
+}
+
+/// K, D and R are rounded from calib_cam_to_cam.txt of the drives of 2011-09-26.
+sensor_msgs::CameraInfo withUnrectifiedCalibration(sensor_msgs::CameraInfo info) {
+  info.distortion_model = "plumb_bob";
+  info.D = {-0.373, 0.205, 0.00133, 0.000512, -0.0751};
+  info.K = {984.2, 0, 690, 0, 980.8, 233.2, 0, 0, 1};
+  info.R = {0.99994, 0.0098, -0.0074, -0.0099, 0.99994, -0.0043, 0.0074, 0.0044, 0.99996};
+  return info;
+}
+
+void writeImage(rosbag::Bag& bag,
+                const std::string& topic,
+                const sensor_msgs::CameraInfo& info,
+                const Camera& camera,
+                const cv::Mat& gray) {
+  cv::Mat pixels = gray;
+  if (camera.colour) cv::cvtColor(gray, pixels, cv::COLOR_GRAY2BGR);
+  const cv_bridge::CvImage image(info.header, camera.colour ? "bgr8" : "mono8", pixels);
+  bag.write(topic, info.header.stamp, *image.toImageMsg());
+}
+
+Eigen::Isometry3d translation(double x, double y, double z) {
+  return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
+}
+
+void writeMounts(rosbag::Bag& bag, const ros::Time& stamp) {
+  const Eigen::Isometry3d T_base_imu = translation(-2.71 / 2.0 - 0.05, 0.32, 0.93);
+  writeTransform(bag, "/tf_static", stamp, "base_link", "imu_link", T_base_imu);
+  const Eigen::Isometry3d T_imu_camera = translation(1.08, -0.32, -0.93) * kittiMount();
+  writeTransform(bag, "/tf_static", stamp, "imu_link", "camera_gray_left", T_imu_camera);
+}
+
+/// A vehicle that is somewhere in the world, not at its origin.
+Eigen::Isometry3d poseInWorld(const StampedPose& pose) {
+  const Eigen::Isometry3d T_world_first =
+      translation(100.0, -50.0, 3.0) * Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ());
+  const Eigen::Isometry3d T_base_camera = translation(-0.325, 0.0, 0.0) * kittiMount();
+  return T_world_first * T_base_camera * pose.T_world_body * T_base_camera.inverse();
+}
+
+}  // namespace
+
+void writeKitti2bagRaw(const KittiSequence& sequence, const std::string& path) {
+  rosbag::Bag bag(path, rosbag::bagmode::Write);
+  for (int index = 0; index < sequence.size(); ++index) {
+    const ros::Time stamp = stampOf(sequence, index);
+    writeMounts(bag, stamp);
+    if (!sequence.hasGroundTruth()) continue;
+    const Eigen::Isometry3d T_world_base = poseInWorld(sequence.groundTruth()[index]);
+    writeTransform(bag, "/tf", stamp, "world", "base_link", T_world_base);
+  }
+  for (const Camera& camera : {Camera{"camera_gray_left", false, false},
+                               Camera{"camera_gray_right", true, false},
+                               Camera{"camera_color_left", false, true},
+                               Camera{"camera_color_right", true, true}}) {
+    auto info = withUnrectifiedCalibration(projectionOnly(sequence, camera.right));
+    info.header.frame_id = camera.name;
+    for (int index = 0; index < sequence.size(); ++index) {
+      info.header.stamp = stampOf(sequence, index, camera.right ? skew_ms(index) : 0.0);
+      const cv::Mat image = camera.right ? sequence.readRight(index) : sequence.readLeft(index);
+      writeImage(bag, "/kitti/" + camera.name + "/image_raw", info, camera, image);
+      bag.write("/kitti/" + camera.name + "/camera_info", info.header.stamp, info);
+    }
+  }
+}
+
+void writeKitti2bagOdometry(const KittiSequence& sequence, const std::string& path) {
+  rosbag::Bag bag(path, rosbag::bagmode::Write);
+  for (std::size_t index = 0; index < sequence.groundTruth().size(); ++index) {
+    const ros::Time stamp = stampOf(sequence, static_cast<int>(index));
+    const Eigen::Isometry3d& T_world_camera = sequence.groundTruth()[index].T_world_body;
+    writeTransform(bag, "/tf", stamp, "world", "camera_left", T_world_camera);
+  }
+  for (const Camera& camera :
+       {Camera{"camera_gray_left", false, false}, Camera{"camera_gray_right", true, false}}) {
+    sensor_msgs::CameraInfo info = projectionOnly(sequence, camera.right);
+    info.header.frame_id = camera.name;
+    for (int index = 0; index < sequence.size(); ++index) {
+      info.header.stamp = stampOf(sequence, index);
+      const cv::Mat image = camera.right ? sequence.readRight(index) : sequence.readLeft(index);
+      writeImage(bag, "/kitti/" + camera.name + "/image_rect", info, camera, image);
+      bag.write("/kitti/" + camera.name + "/camera_info", info.header.stamp, info);
+    }
+  }
+}
+
+}  // namespace rotrocc

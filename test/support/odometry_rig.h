@@ -1,0 +1,73 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+
+#include "input/drop_log.h"
+#include "input/stereo_intake.h"
+#include "node/pair_processor.h"
+#include "rotrocc/parameters.h"
+
+namespace rotrocc {
+
+/// All of the odometry that needs no ROS master: messages in, answers out. A robot with it drives
+/// along the street of SyntheticScene, 0.4 m a pair at 10 Hz.
+class OdometryRig {
+ public:
+  using ImageChange = std::function<void(sensor_msgs::Image& left, sensor_msgs::Image& right)>;
+  using InfoChange =
+      std::function<void(sensor_msgs::CameraInfo& left, sensor_msgs::CameraInfo& right)>;
+
+  explicit OdometryRig(const Parameters& parameters = {});
+
+  /// Both infos, and the next pair of the drive, after a change.
+  void sendInfos(const InfoChange& change = {});
+  void drive(const ImageChange& change = {});
+  void drivePairs(int count);
+
+  /// One image of the next pair; drive() sends both.
+  sensor_msgs::Image nextImage(StereoIntake::Side side) const;
+  void sendImage(StereoIntake::Side side, const sensor_msgs::Image& image);
+  void advance();
+
+  /// The stamp of the next pair, and ROS time.
+  ros::Time stamp{1000.0};
+  /// What comes with the images; as the stamp if it is none.
+  std::optional<ros::Time> clock;
+
+  /// What another sensor says of the motion.
+  PairProcessor::MotionSource expected;
+
+  /// To the last pair that was processed; none since the last call of forget().
+  const std::optional<PairAnswer>& answer() const { return answer_; }
+  void forget();
+
+  /// What has happened since the last call of forget(): "OK", "LOST; <hint>", or
+  /// "dropped (<reason>): <sentence>".
+  std::string observed() const;
+
+  StereoIntake& intake() { return intake_; }
+  PairProcessor& processor() { return processor_; }
+  const DropLog& drops() const { return drops_; }
+  std::chrono::steady_clock::time_point now() const { return now_; }
+
+ private:
+  void process(const ReceivedPair& pair);
+
+  Parameters parameters_;
+  DropLog drops_;
+  PairProcessor processor_;
+  StereoIntake intake_;
+  int next_ = 0;
+  std::chrono::steady_clock::time_point now_ = std::chrono::steady_clock::now();
+  std::optional<PairAnswer> answer_;
+  std::map<DropReason, std::uint64_t> drops_before_;
+};
+
+}  // namespace rotrocc

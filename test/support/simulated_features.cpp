@@ -1,0 +1,74 @@
+#include "support/simulated_features.h"
+
+#include <vector>
+
+#include "support/synthetic_scene.h"
+
+namespace rotrocc {
+
+bool measure(const StereoCamera& camera,
+             const Eigen::Vector3d& point_cur,
+             const Eigen::Isometry3d& T_prev_cur,
+             const MeasurementNoise& noise,
+             std::mt19937& generator,
+             Correspondence& feature) {
+  std::normal_distribution<double> normal;
+  const Eigen::Vector3d point_prev = T_prev_cur * point_cur;
+  if (point_prev.z() < 1.0 || point_cur.z() < 1.0) return false;
+  feature.prev_px = camera.project(point_prev);
+  feature.prev_px.x() += noise.flow_px * normal(generator);
+  feature.prev_px.y() += noise.flow_px * normal(generator);
+  if ((feature.prev_px.array() < 0.0).any() || feature.prev_px.x() >= camera.width ||
+      feature.prev_px.y() >= camera.height) {
+    return false;
+  }
+  feature.cur_px = camera.project(point_cur);
+  feature.disparity_px = camera.disparity(point_cur.z()) + noise.disparity_px * normal(generator);
+  if (feature.disparity_px < 1.0) return false;
+  feature.point_cur = camera.depth(feature.disparity_px) * camera.ray(feature.cur_px);
+  return true;
+}
+
+Correspondences simulateFeatures(const StereoCamera& camera,
+                                 const Eigen::Isometry3d& T_prev_cur,
+                                 int count,
+                                 const MeasurementNoise& noise,
+                                 std::mt19937& generator) {
+  const SyntheticScene scene(camera);
+  std::uniform_real_distribution<double> x(0.0, camera.width);
+  std::uniform_real_distribution<double> y(0.0, camera.height);
+  Correspondences features;
+  while (static_cast<int>(features.size()) < count) {
+    const Eigen::Vector2d pixel(x(generator), y(generator));
+    const Eigen::Vector3d point = scene.pointAt(Eigen::Isometry3d::Identity(), pixel);
+    Correspondence feature;
+    if (measure(camera, point, T_prev_cur, noise, generator, feature)) features.push_back(feature);
+  }
+  return features;
+}
+
+FittedFeature fitDisparity(const StereoCamera& camera,
+                           const Correspondence& feature,
+                           const Eigen::Isometry3d& T_prev_cur,
+                           double noise_ratio) {
+  std::vector<FittedFeature> fitted;
+  fitDisparities(camera, {feature}, T_prev_cur, noise_ratio, fitted);
+  return fitted.front();
+}
+
+Eigen::Isometry3d motion(const Eigen::Vector3d& translation_m,
+                         const Eigen::Vector3d& rotation_rad) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = expRotation(rotation_rad);
+  T.translation() = translation_m;
+  return T;
+}
+
+Vector6d motionError(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth) {
+  Vector6d error;
+  error << estimate.translation() - truth.translation(),
+      logRotation(estimate.linear() * truth.linear().transpose());
+  return error;
+}
+
+}  // namespace rotrocc

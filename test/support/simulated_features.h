@@ -1,0 +1,46 @@
+#pragma once
+
+#include <random>
+
+#include <Eigen/Geometry>
+
+#include "motion/reprojection_error.h"
+#include "rig/noise_estimator.h"
+#include "rotrocc/correspondence.h"
+#include "rotrocc/rigid_motion.h"
+#include "rotrocc/stereo_camera.h"
+#include "simulation/kitti_camera.h"
+
+namespace rotrocc {
+
+/// Measures a point of the current camera frame; fails if one of the two images does not show it,
+/// or its depth is beyond what a stereo matcher finds. The noise is Gaussian; that of the flow is
+/// of prev_px.
+bool measure(const StereoCamera& camera,
+             const Eigen::Vector3d& point_cur,
+             const Eigen::Isometry3d& T_prev_cur,
+             const MeasurementNoise& noise,
+             std::mt19937& generator,
+             Correspondence& feature);
+
+/// `count` features of the street of SyntheticScene, at random pixels of the current image, as a
+/// camera that moved by `T_prev_cur` measures them.
+Correspondences simulateFeatures(const StereoCamera& camera,
+                                 const Eigen::Isometry3d& T_prev_cur,
+                                 int count,
+                                 const MeasurementNoise& noise,
+                                 std::mt19937& generator);
+
+/// fitDisparities() of one feature.
+FittedFeature fitDisparity(const StereoCamera& camera,
+                           const Correspondence& feature,
+                           const Eigen::Isometry3d& T_prev_cur,
+                           double noise_ratio);
+
+/// The motion with translation [m] and rotation vector [rad].
+Eigen::Isometry3d motion(const Eigen::Vector3d& translation_m, const Eigen::Vector3d& rotation_rad);
+
+/// The error of an estimated motion in the order of OdometryResult::covariance.
+Vector6d motionError(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth);
+
+}  // namespace rotrocc

@@ -1,0 +1,157 @@
+#include "support/simulated_robot.h"
+
+#include <stdexcept>
+#include <thread>
+
+#include <geometry_msgs/TransformStamped.h>
+#include <ros/init.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include "input/message_conversion.h"
+
+namespace rotrocc {
+namespace {
+
+const char* const kCameraFrame = "camera_left";
+constexpr int kQueueSize = 50;
+
+sensor_msgs::Image toMessage(const cv::Mat& image, const ros::Time& stamp) {
+  sensor_msgs::Image message;
+  message.header.stamp = stamp;
+  message.header.frame_id = kCameraFrame;
+  message.encoding = sensor_msgs::image_encodings::MONO8;
+  message.width = static_cast<std::uint32_t>(image.cols);
+  message.height = static_cast<std::uint32_t>(image.rows);
+  message.step = message.width;
+  message.data.assign(image.datastart, image.dataend);
+  return message;
+}
+
+sensor_msgs::CameraInfo toInfo(const StereoCamera& camera, double baseline_m) {
+  sensor_msgs::CameraInfo info;
+  info.header.frame_id = kCameraFrame;
+  info.width = static_cast<std::uint32_t>(camera.width);
+  info.height = static_cast<std::uint32_t>(camera.height);
+  info.P = {
+      camera.fx, 0, camera.cx, -camera.fx * baseline_m, 0, camera.fy, camera.cy, 0, 0, 0, 1, 0};
+  return info;
+}
+
+void waitForSubscriber(const ros::Publisher& publisher) {
+  for (int i = 0; i < 200 && ros::ok(); ++i) {
+    if (publisher.getNumSubscribers() > 0) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  throw std::runtime_error("nobody subscribes to " + publisher.getTopic());
+}
+
+}  // namespace
+
+SimulatedRobot::SimulatedRobot() {
+  ros::NodeHandle nh;
+  left_image_publisher_ = nh.advertise<sensor_msgs::Image>("left/image_rect", kQueueSize);
+  right_image_publisher_ = nh.advertise<sensor_msgs::Image>("right/image_rect", kQueueSize);
+  left_info_publisher_ = nh.advertise<sensor_msgs::CameraInfo>("left/camera_info", kQueueSize);
+  right_info_publisher_ = nh.advertise<sensor_msgs::CameraInfo>("right/camera_info", kQueueSize);
+  odom_subscriber_ = nh.subscribe<nav_msgs::Odometry>(
+      "odom", kQueueSize, [this](const nav_msgs::Odometry::ConstPtr& message) {
+        keep(*message, odometry_);
+      });
+  status_subscriber_ = nh.subscribe<OdometryStatus>(
+      "status", kQueueSize, [this](const OdometryStatus::ConstPtr& message) {
+        keep(*message, status_);
+        const std::lock_guard<std::mutex> lock(mutex_);
+        last_status_ = *message;
+        received_.notify_all();
+      });
+  for (const ros::Publisher* publisher : {&left_image_publisher_,
+                                          &right_image_publisher_,
+                                          &left_info_publisher_,
+                                          &right_info_publisher_}) {
+    waitForSubscriber(*publisher);
+  }
+}
+
+void SimulatedRobot::publishInfos(const std::function<void(sensor_msgs::CameraInfo&)>& change) {
+  sensor_msgs::CameraInfo left = toInfo(scene_.camera(), 0.0);
+  sensor_msgs::CameraInfo right = toInfo(scene_.camera(), scene_.camera().baseline_m);
+  if (change) {
+    change(left);
+    change(right);
+  }
+  left_info_publisher_.publish(left);
+  right_info_publisher_.publish(right);
+}
+
+void SimulatedRobot::publishMount() {
+  geometry_msgs::TransformStamped mount;
+  mount.header.frame_id = "base_link";
+  mount.child_frame_id = kCameraFrame;
+  mount.transform.translation.x = 1.0;
+  mount.transform.translation.z = 1.2;
+  // x right, y down, z forward in axes of the base: forward, left, up.
+  mount.transform.rotation.x = -0.5;
+  mount.transform.rotation.y = 0.5;
+  mount.transform.rotation.z = -0.5;
+  mount.transform.rotation.w = 0.5;
+  tf_broadcaster_.sendTransform(mount);
+}
+
+ros::Time SimulatedRobot::drive(const std::function<void(sensor_msgs::Image&)>& change) {
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  T_world_camera.translation().z() = way_m_;
+  const StereoPair pair = scene_.render(T_world_camera, toNanoseconds(stamp_));
+  const ros::Time stamp = stamp_;
+  sensor_msgs::Image left = toMessage(pair.left, stamp);
+  sensor_msgs::Image right = toMessage(pair.right, stamp);
+  if (change) {
+    change(left);
+    change(right);
+  }
+  left_image_publisher_.publish(left);
+  right_image_publisher_.publish(right);
+  way_m_ += kStep_m;
+  stamp_ += ros::Duration(kPeriod_s);
+  return stamp;
+}
+
+void SimulatedRobot::turnBackTime() {
+  stamp_ = ros::Time(500.0);
+}
+
+std::optional<nav_msgs::Odometry> SimulatedRobot::odometryOf(const ros::Time& stamp,
+                                                             std::chrono::milliseconds timeout) {
+  return waitFor(stamp, odometry_, timeout);
+}
+
+std::optional<OdometryStatus> SimulatedRobot::statusOf(const ros::Time& stamp,
+                                                       std::chrono::milliseconds timeout) {
+  return waitFor(stamp, status_, timeout);
+}
+
+std::optional<OdometryStatus> SimulatedRobot::statusWith(std::uint8_t state,
+                                                         std::chrono::milliseconds timeout) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  const bool there = received_.wait_for(lock, timeout, [&] { return last_status_.state == state; });
+  if (!there) return std::nullopt;
+  return last_status_;
+}
+
+template <class Message>
+void SimulatedRobot::keep(const Message& message, std::map<ros::Time, Message>& messages) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  messages[message.header.stamp] = message;
+  received_.notify_all();
+}
+
+template <class Message>
+std::optional<Message> SimulatedRobot::waitFor(const ros::Time& stamp,
+                                               const std::map<ros::Time, Message>& messages,
+                                               std::chrono::milliseconds timeout) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  const bool there = received_.wait_for(lock, timeout, [&] { return messages.count(stamp) > 0; });
+  if (!there) return std::nullopt;
+  return messages.at(stamp);
+}
+
+}  // namespace rotrocc

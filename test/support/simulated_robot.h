@@ -1,0 +1,83 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+
+#include <nav_msgs/Odometry.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/subscriber.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <Eigen/Geometry>
+
+#include "rotrocc/OdometryStatus.h"
+#include "support/synthetic_scene.h"
+
+namespace rotrocc {
+
+/// A robot that drives along the street of SyntheticScene: publishes what its stereo camera sees,
+/// and keeps what the odometry answers.
+class SimulatedRobot {
+ public:
+  static constexpr double kStep_m = 0.4;    ///< forward, from each pair to the next
+  static constexpr double kPeriod_s = 0.1;  ///< between them
+
+  /// An odometry must subscribe within some seconds.
+  SimulatedRobot();
+
+  /// After `change` of both.
+  void publishInfos(const std::function<void(sensor_msgs::CameraInfo&)>& change = {});
+
+  /// The transform from base_link to the camera, which is ahead of and above it.
+  void publishMount();
+
+  /// Drives a step and publishes both images, after `change` to each of them. Returns their stamp.
+  ros::Time drive(const std::function<void(sensor_msgs::Image&)>& change = {});
+
+  /// The next pairs have stamps from before the first ones.
+  void turnBackTime();
+
+  /// The answer to the pair of a stamp; nothing if it does not come in time.
+  std::optional<nav_msgs::Odometry> odometryOf(
+      const ros::Time& stamp, std::chrono::milliseconds timeout = std::chrono::seconds(20));
+  std::optional<OdometryStatus> statusOf(
+      const ros::Time& stamp, std::chrono::milliseconds timeout = std::chrono::seconds(20));
+
+  /// Waits for a status with a state; empty if none comes in time.
+  std::optional<OdometryStatus> statusWith(
+      std::uint8_t state, std::chrono::milliseconds timeout = std::chrono::seconds(20));
+
+ private:
+  template <class Message>
+  void keep(const Message& message, std::map<ros::Time, Message>& messages);
+  template <class Message>
+  std::optional<Message> waitFor(const ros::Time& stamp,
+                                 const std::map<ros::Time, Message>& messages,
+                                 std::chrono::milliseconds timeout);
+
+  SyntheticScene scene_;
+  double way_m_ = 0.0;
+  ros::Time stamp_{1000.0};
+
+  std::mutex mutex_;
+  std::condition_variable received_;
+  std::map<ros::Time, nav_msgs::Odometry> odometry_;
+  std::map<ros::Time, OdometryStatus> status_;
+  OdometryStatus last_status_;
+
+  tf2_ros::StaticTransformBroadcaster tf_broadcaster_;
+  ros::Publisher left_image_publisher_;
+  ros::Publisher right_image_publisher_;
+  ros::Publisher left_info_publisher_;
+  ros::Publisher right_info_publisher_;
+  ros::Subscriber odom_subscriber_;
+  ros::Subscriber status_subscriber_;
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,198 @@
+// Runs the program, as users do.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <rosbag/view.h>
+#include <tf2_msgs/TFMessage.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include "bags/bag_reading.h"
+#include "bags/kitti_bag_writer.h"
+#include "bags/kitti_mount.h"
+#include "support/read_csv.h"
+#include "support/read_file.h"
+#include "support/run_command.h"
+#include "support/synthetic_sequence.h"
+#include "support/temporary_directory.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr int kPairs = 12;
+
+class OfflineOdometryTest : public ::testing::Test {
+ protected:
+  OfflineOdometryTest() { writeSyntheticSequence(sequence(), kPairs); }
+
+  std::string sequence() const { return directory_ / "sequence"; }
+
+  CommandResult run(const std::string& arguments) const {
+    return runCommand(std::string(OFFLINE_ODOMETRY) + " " + arguments);
+  }
+
+  /// The poses of a run that must succeed.
+  std::string trajectoryOf(const std::string& input, const std::string& options = "") const {
+    const std::string file = directory_ / "trajectory.txt";
+    const CommandResult result = run(input + " --trajectory " + file + " " + options);
+    EXPECT_EQ(result.status, 0) << result.output;
+    return readFile(file);
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(OfflineOdometryTest, FollowsTheTruth) {
+  trajectoryOf(sequence());
+  const Trajectory estimate = readTrajectory(directory_ / "trajectory.txt");
+  const Trajectory truth = KittiSequence(sequence()).groundTruth();
+  ASSERT_EQ(estimate.size(), truth.size());
+  const Eigen::Isometry3d error =
+      truth.back().T_world_body.inverse() * estimate.back().T_world_body;
+  // 2 % of the 5.5 m: a pose that stayed at the start, or had wrong axes, is far off.
+  EXPECT_LT(error.translation().norm(), 0.11);
+}
+
+TEST_F(OfflineOdometryTest, GivesTheSameBytesEachTime) {
+  const std::string once = trajectoryOf(sequence(), "--set visual_odometry/threads=1");
+  EXPECT_FALSE(once.empty());
+  EXPECT_TRUE(once == trajectoryOf(sequence(), "--set visual_odometry/threads=1"));
+  EXPECT_TRUE(once == trajectoryOf(sequence(), "--set visual_odometry/threads=2"));
+}
+
+TEST_F(OfflineOdometryTest, GivesTheStampsOfTheBag) {
+  const KittiSequence kitti(sequence());
+  KittiBagWriter writer(directory_ / "sequence.bag", kitti, 1000);
+  for (int i = 0; i < kPairs; ++i) writer.writePair(i);
+  writer.finish();
+  trajectoryOf(directory_ / "sequence.bag", "--format tum");
+  const Trajectory estimate = readTrajectory(directory_ / "trajectory.txt");
+  ASSERT_EQ(estimate.size(), static_cast<std::size_t>(kPairs));
+  EXPECT_EQ(estimate.back().stamp_ns, 1000 * 1'000'000'000LL + kitti.stamp_ns(kPairs - 1));
+}
+
+TEST_F(OfflineOdometryTest, WritesARowOfFiguresPerPair) {
+  trajectoryOf(sequence(), "--stats " + directory_ / "stats.csv");
+  const std::string table = readFile(directory_ / "stats.csv");
+  EXPECT_EQ(table.compare(0, 15, "stamp_ns,state,"), 0) << table;
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + kPairs);
+  const std::string header = table.substr(0, table.find('\n'));
+  const auto columns = std::count(header.begin(), header.end(), ',');
+  EXPECT_EQ(std::count(table.begin(), table.end(), ','), (1 + kPairs) * columns);
+}
+
+TEST_F(OfflineOdometryTest, FiguresTellMotionCovarianceAndBias) {
+  const Trajectory truth = KittiSequence(sequence()).groundTruth();
+  trajectoryOf(sequence(),
+               "--stats " + directory_ / "stats.csv" + " --set stereo_calibrator/bias_px=0.05");
+  const std::vector<CsvRow> rows = readCsv(directory_ / "stats.csv");
+  ASSERT_EQ(rows.size(), truth.size());
+  EXPECT_EQ(rows.front().at("state"), "initialising");
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const auto number = [&](const std::string& column) { return std::stod(rows[i].at(column)); };
+    const Eigen::Isometry3d T_prev_cur =
+        truth[i - 1].T_world_body.inverse() * truth[i].T_world_body;
+    EXPECT_EQ(std::stoll(rows[i].at("stamp_ns")), truth[i].stamp_ns);
+    EXPECT_LT(std::stoll(rows[i].at("reference_stamp_ns")), truth[i].stamp_ns);
+    const double sigma_m = std::sqrt(number("covariance_z_z"));
+    EXPECT_GT(sigma_m, 0.0);
+    // Six standard deviations; 2 cm is what FollowsTheTruth allows for a step and more.
+    EXPECT_NEAR(number("z_m"), T_prev_cur.translation().z(), std::min(0.02, 6.0 * sigma_m + 0.01));
+    EXPECT_GT(number("covariance_ry_ry"), 0.0);
+    EXPECT_LT(number("covariance_ry_ry"), 1e-4);  // [rad^2]
+    EXPECT_LE(std::abs(number("covariance_x_ry")),
+              std::sqrt(number("covariance_x_x") * number("covariance_ry_ry")));
+    // What is known beforehand is where the estimate begins.
+    EXPECT_NEAR(number("bias_estimated_px"), 0.05, 0.5);
+    EXPECT_GT(number("bias_sigma_px"), 0.0);
+  }
+  EXPECT_EQ(rows.front().at("bias_applied_px"), "0.05");
+}
+
+TEST_F(OfflineOdometryTest, WritesTheFlowPictureOfEachPair) {
+  const std::string motion = directory_ / "motion";
+  const std::string decoupled = directory_ / "decoupled";
+  trajectoryOf(sequence(), "--pictures " + motion);
+  trajectoryOf(sequence(), "--set flow_view=decoupled --pictures " + decoupled);
+  const cv::Size image = cv::imread(sequence() + "/image_0/000001.png").size();
+  for (int i = 0; i < kPairs; ++i) {
+    const std::string name = (i < 10 ? "/00000" : "/0000") + std::to_string(i) + ".png";
+    const cv::Mat one = cv::imread(motion + name);
+    const cv::Mat other = cv::imread(decoupled + name);
+    ASSERT_EQ(one.cols, image.width);
+    ASSERT_GT(one.rows, image.height) << "a line of text below";
+    ASSERT_EQ(one.size(), other.size());
+    EXPECT_GT(cv::norm(one, other, cv::NORM_INF), 50.0);
+  }
+}
+
+TEST_F(OfflineOdometryTest, WritesOdometryOfTheBaseToABag) {
+  const std::string file = directory_ / "odometry.bag";
+  trajectoryOf(sequence(), "--bag " + file);
+  const rosbag::Bag bag = openBag(file);
+  std::vector<nav_msgs::Odometry::ConstPtr> messages;
+  for (const rosbag::MessageInstance& message :
+       rosbag::View(bag, rosbag::TopicQuery("/stereo/odom"))) {
+    messages.push_back(readMessage<nav_msgs::Odometry>(message));
+  }
+  ASSERT_EQ(messages.size(), static_cast<std::size_t>(kPairs));
+  EXPECT_EQ(messages.front()->header.stamp.sec, 1317600000u) << "as in bags of kitti_to_bag";
+  EXPECT_EQ(messages.back()->header.frame_id, "odom");
+  EXPECT_EQ(messages.back()->child_frame_id, "base_link");
+
+  const Trajectory estimate = readTrajectory(directory_ / "trajectory.txt");
+  const Eigen::Isometry3d T_odom_base =
+      kittiMount() * estimate.back().T_world_body * kittiMount().inverse();
+  const geometry_msgs::Point& position = messages.back()->pose.pose.position;
+  EXPECT_GT(position.x, 4.0) << "forward is x";
+  EXPECT_NEAR(position.x, T_odom_base.translation().x(), 1e-6);
+  EXPECT_NEAR(position.y, T_odom_base.translation().y(), 1e-6);
+  EXPECT_GT(messages.back()->pose.covariance[0], 0.0);
+
+  rosbag::View transforms(bag, rosbag::TopicQuery("/tf"));
+  EXPECT_EQ(transforms.size(), static_cast<std::uint32_t>(kPairs));
+  const auto tf = firstMessage<tf2_msgs::TFMessage>(bag, "/tf");
+  EXPECT_EQ(tf->transforms.at(0).child_frame_id, "base_link");
+}
+
+TEST_F(OfflineOdometryTest, SumsUp) {
+  const CommandResult result = run(sequence() + " --trajectory /dev/null");
+  EXPECT_NE(result.output.find("12 pairs: 11 ok, 0 degraded, 0 lost, 1 initialising"),
+            std::string::npos)
+      << result.output;
+}
+
+TEST_F(OfflineOdometryTest, PreloadedImagesGiveTheSamePoses) {
+  const std::string preloaded = trajectoryOf(sequence(), "--preload");
+  EXPECT_FALSE(preloaded.empty());
+  EXPECT_TRUE(preloaded == trajectoryOf(sequence()));
+  const CommandResult result = run(sequence() + " --trajectory /dev/null --preload");
+  EXPECT_NE(result.output.find("MB of memory at the peak: "), std::string::npos) << result.output;
+}
+
+TEST_F(OfflineOdometryTest, TakesParameters) {
+  const CommandResult refused =
+      run(sequence() + " --trajectory /dev/null --set feature_detector/max_features=5");
+  EXPECT_EQ(refused.status, 1) << refused.output;
+  EXPECT_NE(refused.output.find("[50, 20000]"), std::string::npos) << refused.output;
+  EXPECT_NE(trajectoryOf(sequence()),
+            trajectoryOf(sequence(), "--set feature_detector/max_features=300"));
+}
+
+TEST_F(OfflineOdometryTest, TellsBadUsageFromBadInput) {
+  EXPECT_EQ(run("").status, 2);
+  EXPECT_EQ(run(sequence()).status, 2) << "--trajectory is missing";
+  EXPECT_EQ(run(sequence() + " --trajectory /dev/null --nonsense").status, 2);
+  EXPECT_EQ(run("--help").status, 0);
+  EXPECT_EQ(run("/nowhere --trajectory /dev/null").status, 1);
+  EXPECT_EQ(run(sequence() + " --trajectory /nowhere/out.txt").status, 1);
+  EXPECT_EQ(run(sequence() + " --trajectory /dev/null --format xyz").status, 1);
+  EXPECT_EQ(run(sequence() + " --trajectory /dev/null --bag /nowhere/out.bag").status, 1);
+}
+
+}  // namespace
+}  // namespace rotrocc
