@@ -95,7 +95,7 @@ void closingTheCircle(benchmark::State& state) {
   Middle middle;
   middle.finder.track(middle.T_prev_cur, true);
   Correspondences features;
-  for (auto _ : state) middle.finder.closeCircle(features);
+  for (auto _ : state) middle.finder.checkCircularConsistency(features);
   state.counters["features"] = static_cast<double>(features.size());
 }
 
@@ -103,7 +103,7 @@ void estimation(benchmark::State& state) {
   Middle middle;
   middle.finder.track(middle.T_prev_cur, true);
   Correspondences features;
-  middle.finder.closeCircle(features);
+  middle.finder.checkCircularConsistency(features);
   MotionEstimator estimator{MotionEstimator::Config{}};
   MotionEstimator::Estimate estimate;
   for (auto _ : state) {

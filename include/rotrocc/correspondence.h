@@ -9,9 +9,9 @@
 namespace rotrocc {
 
 /// One feature of the set F = {x_prev, x_cur, depth} (paper, section V-A), in left pixels. The
-/// previous pair is the reference that the current one is compared with.
+/// previous pair is the keyframe that the current one is compared with.
 struct Correspondence {
-  Eigen::Vector2d prev_px;    ///< measured in the reference
+  Eigen::Vector2d prev_px;    ///< measured in the keyframe
   Eigen::Vector2d cur_px;     ///< measured in the current pair
   double disparity_px = 0.0;  ///< x_left - x_right, measured in the current pair
   Eigen::Vector3d point_cur;  ///< triangulated, current left camera frame [m]

@@ -34,7 +34,7 @@ struct FlowScene {
 };
 
 /// Draws the left image, darkened, and on it the flow of each feature, as lines that lead to its
-/// current position from its position in the reference image. A line of text below the image says
+/// current position from its position in the keyframe. A line of text below the image says
 /// state, speed, counts and the rig's bias, and explains the colours, which colour-blind people can
 /// tell apart, too.
 ///

@@ -64,9 +64,9 @@ struct MotionEstimatorConfig {
   double rotation_limit_px = 0.6;     ///< termination limit of the reprojection error, Eq. 26
   double rotation_drop_share = 0.15;  ///< of the set, dropped at most by an iteration: b of Eq. 26
   int rotation_max_iterations = 30;
-  double doubt_share =
+  double retry_share =
       0.6;  ///< of the set left by stage 1; less, and it is tried once more with ...
-  double doubt_agreement_px = 2.0;  ///< ... just the features this near to the prediction; 0: never
+  double retry_agreement_px = 2.0;  ///< ... just the features this near to the prediction; 0: never
 
   // Stage 2: translation.
   double translation_limit = 0.05;       ///< termination limit of the DNRE, Eq. 30
@@ -129,7 +129,7 @@ struct OdometryConfig {
   MotionModelConfig motion_model;
   MotionEstimatorConfig motion_estimator;
   MotionCheckConfig motion_check;
-  KeyframeSelectorConfig reference_selector;
+  KeyframeSelectorConfig keyframe_selector;
   NoiseEstimatorConfig noise_estimator;
   StereoCalibratorConfig stereo_calibrator;
 

@@ -23,7 +23,7 @@ const char* toString(State state);
 
 /// How many features are left after each stage.
 struct StageCounts {
-  int corners = 0;           ///< Shi-Tomasi corners of the reference pair
+  int corners = 0;           ///< Shi-Tomasi corners of the keyframe
   int with_depth = 0;        ///< with a disparity there
   int tracked = 0;           ///< tracked to the current pair, left and right
   int consistent = 0;        ///< left and right agree there: the feature set F
@@ -80,10 +80,10 @@ struct OdometryResult {
   /// t = error + t_estimated. Zero unless the state is ok or degraded.
   Matrix6d covariance = Matrix6d::Zero();
   /// The stamp of the pair that the motion was measured against, an earlier one or the previous
-  /// one, and the motion since then. Errors add up from reference to reference, not from pair to
+  /// one, and the motion since then. Errors add up from keyframe to keyframe, not from pair to
   /// pair.
-  std::int64_t reference_stamp_ns = 0;
-  UncertainTransform T_ref_cur;
+  std::int64_t keyframe_stamp_ns = 0;
+  UncertainTransform T_keyframe_cur;
   DisparityBias disparity_bias;  ///< of the rig, as far as known
   RowOffset row_offset;          ///< likewise; not corrected
   MeasurementNoise noise;        ///< likewise

@@ -14,8 +14,8 @@
 namespace rotrocc {
 
 /// Stereo visual odometry: section V of Buczko and Willert, "Flow-Decoupled Normalized Reprojection
-/// Error for Visual Odometry", 2017. Motions are measured against a reference pair, which is the
-/// previous one, as in the paper, or an earlier one that still serves, see ReferenceSelector.
+/// Error for Visual Odometry", 2017. Motions are measured against a keyframe, which is the
+/// previous one, as in the paper, or an earlier one that still serves, see KeyframeSelector.
 class VisualOdometry {
  public:
   using Config = OdometryConfig;

@@ -97,7 +97,7 @@ void drawMotion(const FlowScene& scene, cv::Mat& image) {
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (contains(scene.translation_inliers, i)) continue;
     if (scene.result.hasMotion()) {
-      const Eigen::Vector3d moved = scene.result.T_ref_cur.T * features[i].point_cur;
+      const Eigen::Vector3d moved = scene.result.T_keyframe_cur.T * features[i].point_cur;
       const Eigen::Vector2d expected_px = projectOr(scene.camera, moved, features[i].prev_px);
       if ((expected_px - features[i].prev_px).norm() > kVisible_px) {
         drawLine(expected_px, features[i].cur_px, kExpected, image);
@@ -111,7 +111,7 @@ void drawMotion(const FlowScene& scene, cv::Mat& image) {
 
 void drawDecoupled(const FlowScene& scene, cv::Mat& image) {
   if (!scene.result.hasMotion()) return;
-  const Eigen::Matrix3d R = scene.result.T_ref_cur.T.linear();
+  const Eigen::Matrix3d R = scene.result.T_keyframe_cur.T.linear();
   for (std::size_t i = 0; i < scene.features.size(); ++i) {
     if (!contains(scene.rotation_inliers, i)) continue;
     const Correspondence& feature = scene.features[i];

@@ -84,8 +84,8 @@ int CorrespondenceFinder::findDepths() {
   return static_cast<int>(ref_points_.size());
 }
 
-int CorrespondenceFinder::track(const Eigen::Isometry3d& T_ref_cur, bool is_prediction) {
-  const Eigen::Isometry3d T_cur_ref = T_ref_cur.inverse();
+int CorrespondenceFinder::track(const Eigen::Isometry3d& T_keyframe_cur, bool is_prediction) {
+  const Eigen::Isometry3d T_cur_ref = T_keyframe_cur.inverse();
   cur_left_.resize(ref_points_.size());
   cur_right_.resize(ref_points_.size());
   tracked_.assign(ref_points_.size(), 0);
@@ -125,7 +125,7 @@ int CorrespondenceFinder::track(const Eigen::Isometry3d& T_ref_cur, bool is_pred
   return static_cast<int>(std::count(tracked_.begin(), tracked_.end(), 1));
 }
 
-void CorrespondenceFinder::closeCircle(Correspondences& features) {
+void CorrespondenceFinder::checkCircularConsistency(Correspondences& features) {
   const FeatureTracker::Config& limits = config_.feature_tracker;
   expected_.assign(cur_left_.size(), StereoMatcher::kNoDisparity);
   for (std::size_t i = 0; i < cur_left_.size(); ++i) {
@@ -171,10 +171,10 @@ void CorrespondenceFinder::compareRows(const Correspondences& features,
   }
 }
 
-double CorrespondenceFinder::medianShift(const Eigen::Isometry3d& T_ref_cur_a,
-                                         const Eigen::Isometry3d& T_ref_cur_b) {
-  const Eigen::Isometry3d T_cur_ref_a = T_ref_cur_a.inverse();
-  const Eigen::Isometry3d T_cur_ref_b = T_ref_cur_b.inverse();
+double CorrespondenceFinder::medianShift(const Eigen::Isometry3d& T_keyframe_cur_a,
+                                         const Eigen::Isometry3d& T_keyframe_cur_b) {
+  const Eigen::Isometry3d T_cur_ref_a = T_keyframe_cur_a.inverse();
+  const Eigen::Isometry3d T_cur_ref_b = T_keyframe_cur_b.inverse();
   shifts_px_.clear();
   for (const Eigen::Vector3d& point : ref_points_) {
     const Eigen::Vector3d a = T_cur_ref_a * point;

@@ -19,8 +19,8 @@
 
 namespace rotrocc {
 
-/// Makes the feature set F of section V-A out of two stereo pairs, a reference (t-1 in the paper)
-/// and the current one (t): corners and their disparities at the reference, tracked from a
+/// Makes the feature set F of section V-A out of two stereo pairs, a keyframe (t-1 in the paper)
+/// and the current one (t): corners and their disparities at the keyframe, tracked from a
 /// predicted motion to the left and the right current image, where they must match each other
 /// again. Keeps what it needs of the images; buffers are used again from pair to pair.
 class CorrespondenceFinder {
@@ -41,28 +41,29 @@ class CorrespondenceFinder {
   void setAside();
   /// ... and makes the pair set aside the last one.
   void takeUpAside();
-  /// Makes the last pair the reference.
+  /// Makes the last pair the keyframe.
   void refer();
 
-  /// Finds the corners of the reference and returns how many.
+  /// Finds the corners of the keyframe and returns how many.
   int findCorners();
   /// Triangulates those that have a match in its right image, and returns how many.
   int findDepths();
 
   /// Tracks the triangulated corners from where the motion puts them, which is a prediction or just
   /// a place to begin, and returns how many were found in both current images.
-  int track(const Eigen::Isometry3d& T_ref_cur, bool is_prediction);
+  int track(const Eigen::Isometry3d& T_keyframe_cur, bool is_prediction);
   /// Keeps, in `features`, those whose left and right current positions match each other.
-  void closeCircle(Correspondences& features);
+  void checkCircularConsistency(Correspondences& features);
 
-  /// How far flagged features, a sample of those of closeCircle(), are lower in the right image
-  /// [px].
+  /// How far flagged features, a sample of those of checkCircularConsistency(), are lower in the
+  /// right image [px].
   void compareRows(const Correspondences& features,
                    const FeatureSet& set,
                    std::vector<float>& differences_px);
 
   /// Median distance [px] between where two motions put the features in the current image.
-  double medianShift(const Eigen::Isometry3d& T_ref_cur_a, const Eigen::Isometry3d& T_ref_cur_b);
+  double medianShift(const Eigen::Isometry3d& T_keyframe_cur_a,
+                     const Eigen::Isometry3d& T_keyframe_cur_b);
 
  private:
   /// Level 0 of the pyramids are the images.

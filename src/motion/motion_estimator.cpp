@@ -96,12 +96,12 @@ const MotionEstimator::Estimate& MotionEstimator::estimate(const StereoCamera& c
   all_.assign(features.size(), 1);
   estimateFrom(all_, camera, features, initial, dt_s, found_);
   const int agree = found_.valid ? count(found_.rotation_inliers) : 0;
-  const bool doubtful = agree < config_.doubt_share * static_cast<double>(features.size());
-  if (!doubtful || !is_prediction || config_.doubt_agreement_px == 0.0) return found_;
+  const bool doubtful = agree < config_.retry_share * static_cast<double>(features.size());
+  if (!doubtful || !is_prediction || config_.retry_agreement_px == 0.0) return found_;
 
   solver_.measureErrors(initial, errors_);
   near_ = all_;
-  keepBelow(errors_, config_.doubt_agreement_px, near_);
+  keepBelow(errors_, config_.retry_agreement_px, near_);
   estimateFrom(near_, camera, features, initial, dt_s, other_);
   const auto deviation = [&](const Estimate& estimate) {
     return (estimate.T_prev_cur.translation() - initial.translation()).norm();

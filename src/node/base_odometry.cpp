@@ -83,14 +83,15 @@ UncertainTransform BaseOdometry::motionOfBase(const Eigen::Isometry3d& T,
 }
 
 void BaseOdometry::addMotion(const OdometryResult& result, const UncertainTransform& step) {
-  if (result.reference_stamp_ns != reference_stamp_ns_) {
-    reference_stamp_ns_ = result.reference_stamp_ns;
-    // A pair that was lost can be a reference too: its pose is as uncertain as it was said to be.
-    T_odom_ref_ = reference_stamp_ns_ == known_stamp_ns_ ? T_odom_known_ : T_odom_base_;
+  if (result.keyframe_stamp_ns != keyframe_stamp_ns_) {
+    keyframe_stamp_ns_ = result.keyframe_stamp_ns;
+    // A pair that was lost can be a keyframe too: its pose is as uncertain as it was said to be.
+    T_odom_keyframe_ = keyframe_stamp_ns_ == known_stamp_ns_ ? T_odom_known_ : T_odom_base_;
   }
   T_odom_base_ =
-      T_odom_ref_
-          ? compose(*T_odom_ref_, motionOfBase(result.T_ref_cur.T, result.T_ref_cur.covariance))
+      T_odom_keyframe_
+          ? compose(*T_odom_keyframe_,
+                    motionOfBase(result.T_keyframe_cur.T, result.T_keyframe_cur.covariance))
           : compose(T_odom_base_, step);
 }
 
@@ -98,7 +99,7 @@ void BaseOdometry::setPose(const Eigen::Isometry3d& T_odom_base) {
   T_odom_start_ = T_odom_base * T_start_base().inverse();
   T_odom_base_.T = T_odom_base;
   T_odom_base_.covariance = kFirstVariance * Matrix6d::Identity();
-  T_odom_ref_.reset();
+  T_odom_keyframe_.reset();
   T_odom_known_ = T_odom_base_;
   without_motion_s_ = 0.0;
 }

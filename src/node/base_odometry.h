@@ -57,11 +57,12 @@ class BaseOdometry {
   UncertainTransform T_odom_base_;
   std::optional<std::int64_t> last_stamp_ns_;
 
-  // Errors add up from reference to reference.
-  std::optional<std::int64_t> reference_stamp_ns_;
-  std::optional<UncertainTransform> T_odom_ref_;  // none after setPose(), until the next reference
-  std::int64_t known_stamp_ns_ = 0;               // of the last pair with a motion ...
-  UncertainTransform T_odom_known_;               // ... and the base's pose then
+  // Errors add up from keyframe to keyframe.
+  std::optional<std::int64_t> keyframe_stamp_ns_;
+  std::optional<UncertainTransform>
+      T_odom_keyframe_;              // none after setPose(), until the next keyframe
+  std::int64_t known_stamp_ns_ = 0;  // of the last pair with a motion ...
+  UncertainTransform T_odom_known_;  // ... and the base's pose then
   double without_motion_s_ = 0.0;
 };
 

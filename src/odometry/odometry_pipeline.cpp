@@ -16,7 +16,7 @@ namespace {
 constexpr int kCalibrationRounds = 3;
 constexpr double kCalibrationSettled_px = 0.02;
 
-/// Two motions from one reference share the noise of its corners, half of that of their flow.
+/// Two motions from one keyframe share the noise of its corners, half of that of their flow.
 constexpr double kNotShared = 0.5;
 
 /// Ends the work on a pair without a motion; what() is the reason, a sentence.
@@ -38,7 +38,7 @@ VisualOdometry::Pipeline::Pipeline(const Config& config)
       check_(config.motion_check),
       noise_(config.noise_estimator, config.motion_estimator.noise_ratio),
       calibrator_(config.stereo_calibrator),
-      selector_(config.reference_selector) {}
+      selector_(config.keyframe_selector) {}
 
 OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
                                                  const StereoCamera& camera,
@@ -75,8 +75,8 @@ void VisualOdometry::Pipeline::configure(const Config& config) {
   check_ = MotionCheck(config.motion_check);
   noise_.configure(config.noise_estimator, config.motion_estimator.noise_ratio);
   calibrator_.configure(config.stereo_calibrator);
-  selector_ = ReferenceSelector(config.reference_selector);
-  reference_serves_ = false;  // its corners are of the old parameters
+  selector_ = KeyframeSelector(config.keyframe_selector);
+  keyframe_serves_ = false;  // its corners are of the old parameters
 }
 
 void VisualOdometry::Pipeline::advance(const StereoPair& pair,
@@ -93,10 +93,10 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
   }
   result.dt_s = seconds(stamp_ns_ - last_stamp_ns_);
   const auto T_last_cur = expected ? expected : motion_model_.predict(result.dt_s);
-  if (!reference_serves_) referToLast(result);
+  if (!keyframe_serves_) makeKeyframeOfLast(result);
   std::string why_lost = findMotion(T_last_cur, result);
-  if (!why_lost.empty() && reference_stamp_ns_ != last_stamp_ns_) {
-    referToLast(result);
+  if (!why_lost.empty() && keyframe_stamp_ns_ != last_stamp_ns_) {
+    makeKeyframeOfLast(result);
     why_lost = findMotion(T_last_cur, result);
   }
   if (!why_lost.empty() && has_lost_) {
@@ -162,7 +162,7 @@ void VisualOdometry::Pipeline::startFromCurrent() {
   has_last_ = true;
   last_stamp_ns_ = stamp_ns_;
   has_lost_ = false;
-  reference_serves_ = false;
+  keyframe_serves_ = false;
   motion_model_.reset();
 }
 
@@ -173,24 +173,24 @@ void VisualOdometry::Pipeline::takeUpLost(OdometryResult& result) {
   has_lost_ = false;
   motion_model_.reset();
   result.dt_s = seconds(stamp_ns_ - last_stamp_ns_);
-  referToLast(result);
+  makeKeyframeOfLast(result);
 }
 
-double VisualOdometry::Pipeline::sinceReference_s() const {
-  return seconds(stamp_ns_ - reference_stamp_ns_);
+double VisualOdometry::Pipeline::sinceKeyframe_s() const {
+  return seconds(stamp_ns_ - keyframe_stamp_ns_);
 }
 
-void VisualOdometry::Pipeline::referToLast(OdometryResult& result) {
+void VisualOdometry::Pipeline::makeKeyframeOfLast(OdometryResult& result) {
   finder_.refer();
   selector_.restart();
-  reference_stamp_ns_ = last_stamp_ns_;
-  T_ref_last_ = {};
+  keyframe_stamp_ns_ = last_stamp_ns_;
+  T_keyframe_last_ = {};
   {
     const StageTimer timer(result.times.corners_ms);
-    reference_corners_ = finder_.findCorners();
+    keyframe_corners_ = finder_.findCorners();
   }
   const StageTimer timer(result.times.disparity_ms);
-  reference_with_depth_ = finder_.findDepths();
+  keyframe_with_depth_ = finder_.findDepths();
 }
 
 /// With a prediction one round is enough. Without one, or where it proves wrong, features tracked
@@ -198,18 +198,18 @@ void VisualOdometry::Pipeline::referToLast(OdometryResult& result) {
 std::string VisualOdometry::Pipeline::findMotion(const std::optional<Eigen::Isometry3d>& T_last_cur,
                                                  OdometryResult& result) {
   if (T_last_cur) {
-    trackAndEstimate(T_ref_last_.T * *T_last_cur, true, result);
+    trackAndEstimate(T_keyframe_last_.T * *T_last_cur, true, result);
     if (whyLost().empty()) {
       calibrate(result);
       return "";
     }
   }
-  Eigen::Isometry3d T_ref_cur = T_ref_last_.T;
+  Eigen::Isometry3d T_keyframe_cur = T_keyframe_last_.T;
   for (int round = 0; round < config_.startup_rounds; ++round) {
-    trackAndEstimate(T_ref_cur, false, result);
+    trackAndEstimate(T_keyframe_cur, false, result);
     if (!estimate_.valid) break;
-    const double shift_px = finder_.medianShift(T_ref_cur, estimate_.T_prev_cur);
-    T_ref_cur = estimate_.T_prev_cur;
+    const double shift_px = finder_.medianShift(T_keyframe_cur, estimate_.T_prev_cur);
+    T_keyframe_cur = estimate_.T_prev_cur;
     if (shift_px < config_.startup_settled_px) break;
   }
   std::string why_lost = whyLost();
@@ -218,30 +218,30 @@ std::string VisualOdometry::Pipeline::findMotion(const std::optional<Eigen::Isom
 }
 
 std::string VisualOdometry::Pipeline::whyLost() const {
-  return check_.whyLost(estimate_, sinceReference_s());
+  return check_.whyLost(estimate_, sinceKeyframe_s());
 }
 
-void VisualOdometry::Pipeline::trackAndEstimate(const Eigen::Isometry3d& T_ref_cur,
+void VisualOdometry::Pipeline::trackAndEstimate(const Eigen::Isometry3d& T_keyframe_cur,
                                                 bool is_prediction,
                                                 OdometryResult& result) {
   {
     const StageTimer timer(result.times.tracking_ms);
-    result.counts.tracked = finder_.track(T_ref_cur, is_prediction);
-    finder_.closeCircle(features_);
-    result.counts.corners = reference_corners_;
-    result.counts.with_depth = reference_with_depth_;
+    result.counts.tracked = finder_.track(T_keyframe_cur, is_prediction);
+    finder_.checkCircularConsistency(features_);
+    result.counts.corners = keyframe_corners_;
+    result.counts.with_depth = keyframe_with_depth_;
     result.counts.consistent = static_cast<int>(features_.size());
   }
   const StageTimer timer(result.times.estimation_ms);
   estimator_.setNoiseRatio(noise_.noise().ratio);
-  estimate(T_ref_cur, is_prediction, result);
+  estimate(T_keyframe_cur, is_prediction, result);
 }
 
-void VisualOdometry::Pipeline::estimate(const Eigen::Isometry3d& T_ref_cur,
+void VisualOdometry::Pipeline::estimate(const Eigen::Isometry3d& T_keyframe_cur,
                                         bool is_prediction,
                                         OdometryResult& result) {
   estimate_ =
-      estimator_.estimate(corrected_, features_, T_ref_cur, sinceReference_s(), is_prediction);
+      estimator_.estimate(corrected_, features_, T_keyframe_cur, sinceKeyframe_s(), is_prediction);
   result.counts.rotation_inliers = count(estimate_.rotation_inliers);
   result.counts.translation_inliers =
       estimate_.has_translation_stage ? count(estimate_.translation_inliers) : 0;
@@ -271,10 +271,11 @@ void VisualOdometry::Pipeline::accept(OdometryResult& result) {
   noise_.observe(corrected_, features_, estimate_.rotation_inliers, estimate_.T_prev_cur);
   finder_.compareRows(features_, estimate_.rotation_inliers, row_differences_px_);
   rows_.observe(row_differences_px_);
-  result.reference_stamp_ns = reference_stamp_ns_;
-  result.T_ref_cur = {estimate_.T_prev_cur, estimate_.covariance + calibrator_.motionCovariance()};
-  UncertainTransform step = compose(inverse(T_ref_last_), result.T_ref_cur);
-  if (reference_stamp_ns_ != last_stamp_ns_) step.covariance *= kNotShared;
+  result.keyframe_stamp_ns = keyframe_stamp_ns_;
+  result.T_keyframe_cur = {estimate_.T_prev_cur,
+                           estimate_.covariance + calibrator_.motionCovariance()};
+  UncertainTransform step = compose(inverse(T_keyframe_last_), result.T_keyframe_cur);
+  if (keyframe_stamp_ns_ != last_stamp_ns_) step.covariance *= kNotShared;
   result.T_prev_cur = step.T;
   result.covariance = step.covariance;
   result.reason = check_.whyDegraded(estimate_);
@@ -284,11 +285,11 @@ void VisualOdometry::Pipeline::accept(OdometryResult& result) {
   result.state = result.reason.empty() ? State::kOk : State::kDegraded;
   motion_model_.update(step.T, result.dt_s);
 
-  T_ref_last_ = result.T_ref_cur;
+  T_keyframe_last_ = result.T_keyframe_cur;
   finder_.keep();
   last_stamp_ns_ = stamp_ns_;
   has_lost_ = false;
-  reference_serves_ =
+  keyframe_serves_ =
       result.state == State::kOk &&
       selector_.keeps(corrected_, features_, estimate_.rotation_inliers, estimate_.T_prev_cur);
 }

@@ -9,9 +9,9 @@
 
 #include "features/correspondence_finder.h"
 #include "motion/motion_estimator.h"
+#include "odometry/keyframe_selector.h"
 #include "odometry/motion_check.h"
 #include "odometry/motion_model.h"
-#include "odometry/reference_selector.h"
 #include "rig/noise_estimator.h"
 #include "rig/row_comparison.h"
 #include "rig/stereo_calibrator.h"
@@ -45,17 +45,19 @@ class VisualOdometry::Pipeline {
   void takePair(const StereoPair& pair, const StereoCamera& camera, StageTimes& times);
   void startFromCurrent();
   void takeUpLost(OdometryResult& result);
-  double sinceReference_s() const;
-  void referToLast(OdometryResult& result);
+  double sinceKeyframe_s() const;
+  void makeKeyframeOfLast(OdometryResult& result);
 
   /// Both return why there is no motion, or nothing if there is one.
   std::string findMotion(const std::optional<Eigen::Isometry3d>& T_last_cur,
                          OdometryResult& result);
   std::string whyLost() const;
-  void trackAndEstimate(const Eigen::Isometry3d& T_ref_cur,
+  void trackAndEstimate(const Eigen::Isometry3d& T_keyframe_cur,
                         bool is_prediction,
                         OdometryResult& result);
-  void estimate(const Eigen::Isometry3d& T_ref_cur, bool is_prediction, OdometryResult& result);
+  void estimate(const Eigen::Isometry3d& T_keyframe_cur,
+                bool is_prediction,
+                OdometryResult& result);
   void calibrate(OdometryResult& result);
 
   void accept(OdometryResult& result);
@@ -70,7 +72,7 @@ class VisualOdometry::Pipeline {
   NoiseEstimator noise_;
   StereoCalibrator calibrator_;
   RowComparison rows_;
-  ReferenceSelector selector_;
+  KeyframeSelector selector_;
 
   StereoCamera camera_;     // as it came
   StereoCamera corrected_;  // with the bias taken out
@@ -82,11 +84,11 @@ class VisualOdometry::Pipeline {
   bool has_lost_ = false;
   std::int64_t lost_stamp_ns_ = 0;
 
-  bool reference_serves_ = false;  // for the next pair; if not, the last one becomes it
-  std::int64_t reference_stamp_ns_ = 0;
-  int reference_corners_ = 0;
-  int reference_with_depth_ = 0;
-  UncertainTransform T_ref_last_;
+  bool keyframe_serves_ = false;  // for the next pair; if not, the last one becomes it
+  std::int64_t keyframe_stamp_ns_ = 0;
+  int keyframe_corners_ = 0;
+  int keyframe_with_depth_ = 0;
+  UncertainTransform T_keyframe_last_;
 
   Correspondences features_;
   MotionEstimator::Estimate estimate_;

@@ -108,14 +108,14 @@ void addMotionEstimator(MotionEstimatorConfig& c, ParameterTable& table) {
             "stage 1: share of the features an iteration drops at most (b of Eq. 26)");
   table.add(s + "rotation_max_iterations", c.rotation_max_iterations, 1, 1000, "", "stage 1");
   table.add(
-      s + "doubt_share",
-      c.doubt_share,
+      s + "retry_share",
+      c.retry_share,
       0.0,
       1.0,
       "",
       "stage 1: if fewer of the features agree, it is tried from those near to the prediction");
-  table.add(s + "doubt_agreement_px",
-            c.doubt_agreement_px,
+  table.add(s + "retry_agreement_px",
+            c.retry_agreement_px,
             0.0,
             1000.0,
             "px",
@@ -243,8 +243,8 @@ void addStereoCalibrator(StereoCalibratorConfig& c, ParameterTable& table) {
             "features this many standard deviations off count half; 0: all count alike");
 }
 
-void addReferenceSelector(KeyframeSelectorConfig& c, ParameterTable& table) {
-  const std::string s = "reference_selector/";
+void addKeyframeSelector(KeyframeSelectorConfig& c, ParameterTable& table) {
+  const std::string s = "keyframe_selector/";
   table.add(s + "adaptive",
             c.adaptive,
             "measure motions against a pair as long as it serves, not always the previous one");
@@ -383,7 +383,7 @@ ParameterTable makeParameterTable(Parameters& parameters) {
   addMotionModel(odometry.motion_model, table);
   addMotionEstimator(odometry.motion_estimator, table);
   addMotionCheck(odometry.motion_check, table);
-  addReferenceSelector(odometry.reference_selector, table);
+  addKeyframeSelector(odometry.keyframe_selector, table);
   addNoiseEstimator(odometry.noise_estimator, table);
   addStereoCalibrator(odometry.stereo_calibrator, table);
   addVisualOdometry(odometry, table);

@@ -69,7 +69,7 @@ StatisticsFile::StatisticsFile(const std::string& path) : path_(path), file_(pat
   file_
       << "stamp_ns,state,dt_s,corners,with_depth,tracked,consistent,rotation_inliers,"
          "translation_inliers,pyramids_ms,corners_ms,disparity_ms,tracking_ms,estimation_ms,"
-         "wall_ms,cpu_ms,reference_stamp_ns,bias_estimated_px,bias_sigma_px,bias_applied_px,"
+         "wall_ms,cpu_ms,keyframe_stamp_ns,bias_estimated_px,bias_sigma_px,bias_applied_px,"
          "row_offset_px,row_offset_sigma_px,row_difference_px,flow_noise_px,disparity_noise_px,x_m,"
          "y_m,z_m,rx_rad,ry_rad,rz_rad";
   for (int i = 0; i < 6; ++i) {
@@ -90,7 +90,7 @@ void StatisticsFile::write(const PairRecord& record) {
         << counts.consistent << ',' << counts.rotation_inliers << ',' << counts.translation_inliers
         << ',' << times.pyramids_ms << ',' << times.corners_ms << ',' << times.disparity_ms << ','
         << times.tracking_ms << ',' << times.estimation_ms << ',' << record.wall_ms << ','
-        << record.cpu_ms << ',' << result.reference_stamp_ns << ','
+        << record.cpu_ms << ',' << result.keyframe_stamp_ns << ','
         << result.disparity_bias.estimated_px << ',' << result.disparity_bias.sigma_px << ','
         << result.disparity_bias.applied_px << ',' << result.row_offset.median_px << ','
         << result.row_offset.sigma_px << ',' << result.row_offset.typical_px << ','

@@ -16,7 +16,7 @@ struct PairRecord {
   double cpu_ms = 0.0;  ///< of all threads of the process
 };
 
-/// A CSV table with a row for each pair: stamp, state, counts, times, the reference, the disparity
+/// A CSV table with a row for each pair: stamp, state, counts, times, the keyframe, the disparity
 /// bias, the motion (rotation as axis times angle) and the upper triangle of its covariance, row by
 /// row.
 class StatisticsFile {

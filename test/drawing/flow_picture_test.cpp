@@ -100,7 +100,7 @@ TEST_F(FlowPictureTest, AnyFlowAndSmallImagesAreDrawn) {
 
 TEST_F(FlowPictureTest, AnOutlierShowsWhatFlowTheMotionExpected) {
   // At rest a static point stays where it is: 40 px from where this one came from.
-  result_.T_ref_cur.T = Eigen::Isometry3d::Identity();
+  result_.T_keyframe_cur.T = Eigen::Isometry3d::Identity();
   features_[3].cur_px = {300, 150};
   features_[3].prev_px = {260, 150};
   features_[3].point_cur = 20.0 * camera_.ray({340, 150});
@@ -118,7 +118,7 @@ TEST_F(FlowPictureTest, DecoupledViewShowsBothPartsOfTheFlow) {
   // Turned by 0.05 rad about the vertical axis: 36 px of flow near the middle, the rest is the
   // translation's.
   const Eigen::Vector2d cur_px(600, 170), prev_px(560, 190);
-  result_.T_ref_cur.T.linear() =
+  result_.T_keyframe_cur.T.linear() =
       Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY()).toRotationMatrix();
   features_[0].cur_px = cur_px;
   features_[0].prev_px = prev_px;
@@ -126,7 +126,7 @@ TEST_F(FlowPictureTest, DecoupledViewShowsBothPartsOfTheFlow) {
   rotation_inliers_ = translation_inliers_ = {1, 0, 0, 0};
   draw();
   const Eigen::Vector2d turned_px =
-      camera_.project(result_.T_ref_cur.T.linear() * features_[0].point_cur);
+      camera_.project(result_.T_keyframe_cur.T.linear() * features_[0].point_cur);
   const auto middle = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     const Eigen::Vector2d pixel = 0.5 * (a + b);
     return colourAt(cvRound(pixel.x()), cvRound(pixel.y()));

@@ -37,7 +37,7 @@ Correspondences find(const StereoPair& prev,
   finder.findDepths();
   finder.track(step(), true);
   Correspondences features;
-  finder.closeCircle(features);
+  finder.checkCircularConsistency(features);
   return features;
 }
 
@@ -112,7 +112,7 @@ TEST(CorrespondenceFinderTest, CountsWhatIsLeft) {
   // A motion that takes every point behind the camera leaves nothing to track.
   EXPECT_EQ(finder.track(motion({0.0, 0.0, 200.0}, {0.0, 0.0, 0.0}), true), 0);
   Correspondences features(3);
-  finder.closeCircle(features);
+  finder.checkCircularConsistency(features);
   EXPECT_TRUE(features.empty());
 }
 

@@ -29,7 +29,7 @@ std::vector<double> runFrontEnd(const cv::Mat& prev_left,
   T_prev_cur.translation().z() = ahead_m;
   all.push_back(finder.track(T_prev_cur, true));
   Correspondences features;
-  finder.closeCircle(features);
+  finder.checkCircularConsistency(features);
   for (const Correspondence& feature : features) {
     all.insert(all.end(),
                {feature.prev_px.x(),

@@ -161,7 +161,7 @@ TEST(MotionEstimatorTest, TheDecoupledFlowTellsAMovingObjectFromTheStreet) {
 
 TEST(MotionEstimatorTest, IsNotMovedByATruckThatFillsMostOfThePicture) {
   MotionEstimator::Config without;
-  without.doubt_agreement_px = 0.0;
+  without.retry_agreement_px = 0.0;
   double error_with = 0.0;
   double error_without = 0.0;
   for (unsigned seed = 0; seed < 10; ++seed) {
@@ -212,7 +212,7 @@ TEST(MotionEstimatorTest, ThePapersParametersWork) {
 TEST(MotionEstimatorTest, WeightingByDepthNoiseHelpsTheRotation) {
   MotionEstimator::Config unweighted;
   unweighted.noise_ratio = 0.0;
-  unweighted.doubt_agreement_px = 0.0;
+  unweighted.retry_agreement_px = 0.0;
   double weighted_sum = 0.0;
   double unweighted_sum = 0.0;
   for (unsigned seed = 0; seed < 20; ++seed) {

@@ -37,20 +37,20 @@ class BaseOdometryTest : public testing::Test {
     result.dt_s = 0.1;
     result.T_prev_cur = cameraMount().inverse() * T_base * cameraMount();
     result.covariance = 1e-6 * Matrix6d::Identity();
-    result.reference_stamp_ns = stamp_ns_ - kPeriod_ns;
-    result.T_ref_cur = {result.T_prev_cur, result.covariance};
+    result.keyframe_stamp_ns = stamp_ns_ - kPeriod_ns;
+    result.T_keyframe_cur = {result.T_prev_cur, result.covariance};
     return odometry_.add(result);
   }
 
   /// A pair at rest, measured against an earlier one.
-  BaseState rest(std::int64_t reference_stamp_ns) {
+  BaseState rest(std::int64_t keyframe_stamp_ns) {
     OdometryResult result;
     result.state = State::kOk;
     result.stamp_ns = stamp_ns_ += kPeriod_ns;
     result.dt_s = 0.1;
     result.covariance = 2e-6 * Matrix6d::Identity();
-    result.reference_stamp_ns = reference_stamp_ns;
-    result.T_ref_cur.covariance = 1e-6 * Matrix6d::Identity();
+    result.keyframe_stamp_ns = keyframe_stamp_ns;
+    result.T_keyframe_cur.covariance = 1e-6 * Matrix6d::Identity();
     return odometry_.add(result);
   }
 
@@ -110,7 +110,7 @@ TEST_F(BaseOdometryTest, ErrorsAddUpFromReferenceToReference) {
   const std::int64_t reference_ns = stamp_ns_;
   const double first = sigma(rest(reference_ns), 0);
   for (int i = 0; i < 100; ++i) EXPECT_DOUBLE_EQ(sigma(rest(reference_ns), 0), first);
-  // The next reference is one of the pairs at rest.
+  // The next keyframe is one of the pairs at rest.
   EXPECT_GT(sigma(rest(stamp_ns_), 0), 1.1 * first);
 }
 
@@ -188,11 +188,11 @@ TEST(PlanarOdometryTest, LeavesOutWhatIsNotInThePlane) {
     OdometryResult result;
     result.state = State::kOk;
     result.stamp_ns = i * kPeriod_ns;
-    result.reference_stamp_ns = (i - 1) * kPeriod_ns;
+    result.keyframe_stamp_ns = (i - 1) * kPeriod_ns;
     result.dt_s = 0.1;
     result.T_prev_cur = cameraMount().inverse() * bump * cameraMount();
     result.covariance = 1e-6 * Matrix6d::Identity();
-    result.T_ref_cur = {result.T_prev_cur, result.covariance};
+    result.T_keyframe_cur = {result.T_prev_cur, result.covariance};
     state = odometry.add(result);
     expected = expected * makeMotion(1.0, 0.1);
   }

@@ -167,7 +167,7 @@ TEST_F(StereoOdometryTest, DrivesForwardInAxesOfTheBase) {
     variance = odometry.pose.covariance[0];
     if (i == 1) first_variance = variance;
   }
-  // Not from pair to pair: of two measured against one reference, the later may be the better.
+  // Not from pair to pair: of two measured against one keyframe, the later may be the better.
   EXPECT_GT(variance, first_variance);
   EXPECT_EQ(status_.drops.size(), 0u);
   EXPECT_GT(status_.time_total, 0.0f);

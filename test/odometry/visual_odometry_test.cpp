@@ -208,7 +208,7 @@ TEST(VisualOdometryTest, GoesOnWithOtherParameters) {
   const OdometryResult after = odometry.process(bend(7), wronglyCalibrated());
   expectMotion(after, bendStep());
   EXPECT_LE(after.counts.corners, 300);
-  EXPECT_EQ(after.reference_stamp_ns, before.stamp_ns) << "not that with the corners of before";
+  EXPECT_EQ(after.keyframe_stamp_ns, before.stamp_ns) << "not that with the corners of before";
   EXPECT_NEAR(after.disparity_bias.applied_px, before.disparity_bias.applied_px, 0.05);
   EXPECT_NEAR(after.noise.ratio, before.noise.ratio, 0.05 * before.noise.ratio);
 }
@@ -260,7 +260,7 @@ TEST(VisualOdometryTest, TellsWhatIsLeftAfterEachStage) {
 
 TEST(VisualOdometryTest, CorrespondencesAreThoseOfTheScene) {
   VisualOdometry::Config frame_to_frame;
-  frame_to_frame.reference_selector.adaptive = false;
+  frame_to_frame.keyframe_selector.adaptive = false;
   VisualOdometry odometry(frame_to_frame);
   for (int i = 0; i < 3; ++i) odometry.process(bend(i), camera());
   const Eigen::Isometry3d T_world_cur = bendStep() * bendStep();
@@ -351,7 +351,7 @@ TEST(VisualOdometryTest, LosesAPairAtMostWhenTheExposureJumps) {
   if (jump.state == State::kOk) expectMotion(jump, bendStep());
   const OdometryResult next = odometry.process(exposed(bend(5), 0.3), camera());
   ASSERT_TRUE(next.hasMotion()) << next.reason;
-  EXPECT_EQ(next.reference_stamp_ns, 4 * kPeriod_ns);
+  EXPECT_EQ(next.keyframe_stamp_ns, 4 * kPeriod_ns);
   expectMotion(next, bendStep(), 0.02);
 }
 
@@ -415,7 +415,7 @@ TEST(VisualOdometryTest, GoesOnFromElsewhereAtOnce) {
   EXPECT_EQ(jumped.state, State::kLost);
   const auto next = odometry.process(view(elsewhere * bendStep(), 4 * kPeriod_ns), camera());
   EXPECT_NEAR(next.dt_s, 0.1, 1e-12);
-  EXPECT_EQ(next.reference_stamp_ns, 3 * kPeriod_ns);
+  EXPECT_EQ(next.keyframe_stamp_ns, 3 * kPeriod_ns);
   expectMotion(next, bendStep());
 }
 
@@ -435,7 +435,7 @@ TEST(VisualOdometryTest, DoesNotCreepAtRest) {
     const OdometryResult result = odometry.process(pair, camera());
     T_start_cur = T_start_cur * result.T_prev_cur;
     farthest_m = std::max(farthest_m, T_start_cur.translation().norm());
-    EXPECT_EQ(result.reference_stamp_ns, 0);
+    EXPECT_EQ(result.keyframe_stamp_ns, 0);
   }
   // The noise of a single pair; measured: 0.6 mm.
   EXPECT_LT(farthest_m, 0.002);
@@ -453,16 +453,16 @@ TEST(VisualOdometryTest, MeasuresSmallStepsAgainstOneReference) {
     const OdometryResult result = odometry.process(view(T_world_camera, i * kPeriod_ns), camera());
     if (i == 0) continue;
     EXPECT_EQ(result.state, State::kOk) << result.reason;
-    if (result.reference_stamp_ns != reference_ns) {
-      // A new reference is the previous pair.
-      EXPECT_EQ(result.reference_stamp_ns, (i - 1) * kPeriod_ns);
-      reference_ns = result.reference_stamp_ns;
+    if (result.keyframe_stamp_ns != reference_ns) {
+      // A new keyframe is the previous pair.
+      EXPECT_EQ(result.keyframe_stamp_ns, (i - 1) * kPeriod_ns);
+      reference_ns = result.keyframe_stamp_ns;
       T_start_ref = T_start_cur;
       ++references;
     }
     T_start_cur = T_start_cur * result.T_prev_cur;
     // Both ways to the current pose are the same.
-    EXPECT_LT(motionError(T_start_ref * result.T_ref_cur.T, T_start_cur).norm(), 1e-9);
+    EXPECT_LT(motionError(T_start_ref * result.T_keyframe_cur.T, T_start_cur).norm(), 1e-9);
   }
   EXPECT_LT(references, 10);
   EXPECT_GT(references, 1);

@@ -97,7 +97,7 @@ TEST_F(OfflineOdometryTest, FiguresTellMotionCovarianceAndBias) {
     const Eigen::Isometry3d T_prev_cur =
         truth[i - 1].T_world_body.inverse() * truth[i].T_world_body;
     EXPECT_EQ(std::stoll(rows[i].at("stamp_ns")), truth[i].stamp_ns);
-    EXPECT_LT(std::stoll(rows[i].at("reference_stamp_ns")), truth[i].stamp_ns);
+    EXPECT_LT(std::stoll(rows[i].at("keyframe_stamp_ns")), truth[i].stamp_ns);
     const double sigma_m = std::sqrt(number("covariance_z_z"));
     EXPECT_GT(sigma_m, 0.0);
     // Six standard deviations; 2 cm is what FollowsTheTruth allows for a step and more.

@@ -1,4 +1,4 @@
-#include "odometry/reference_selector.h"
+#include "odometry/keyframe_selector.h"
 
 #include <algorithm>
 
@@ -7,16 +7,16 @@
 
 namespace rotrocc {
 
-bool ReferenceSelector::keeps(const StereoCamera& camera,
-                              const Correspondences& features,
-                              const FeatureSet& inliers,
-                              const Eigen::Isometry3d& T_ref_cur) {
+bool KeyframeSelector::keeps(const StereoCamera& camera,
+                             const Correspondences& features,
+                             const FeatureSet& inliers,
+                             const Eigen::Isometry3d& T_keyframe_cur) {
   if (!config_.adaptive) return false;
   const int seen = count(inliers);
   if (seen_at_first_ == 0) seen_at_first_ = seen;
   if (seen < config_.min_seen_share * seen_at_first_) return false;
 
-  decoupledFlow(camera, features, T_ref_cur.linear(), flow_px_);
+  decoupledFlow(camera, features, T_keyframe_cur.linear(), flow_px_);
   inlier_flow_px_.clear();
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (inliers[i] != 0) inlier_flow_px_.push_back(flow_px_[i]);

@@ -1,4 +1,4 @@
-#include "odometry/reference_selector.h"
+#include "odometry/keyframe_selector.h"
 
 #include <algorithm>
 #include <random>
@@ -10,8 +10,8 @@
 namespace rotrocc {
 namespace {
 
-/// Whether a reference serves after a step of this length, seen by `seen` of 400 features.
-bool keeps(ReferenceSelector& selector, double step_m, int seen = 400) {
+/// Whether a keyframe serves after a step of this length, seen by `seen` of 400 features.
+bool keeps(KeyframeSelector& selector, double step_m, int seen = 400) {
   const Eigen::Isometry3d T = motion({0.0, 0.0, step_m}, {0.0, 0.1, 0.0});
   std::mt19937 generator(1);
   const Correspondences features = simulateFeatures(kittiCamera(), T, 400, {}, generator);
@@ -20,16 +20,16 @@ bool keeps(ReferenceSelector& selector, double step_m, int seen = 400) {
   return selector.keeps(kittiCamera(), features, inliers, T);
 }
 
-TEST(ReferenceSelectorTest, KeepsAReferenceWhileTheParallaxIsSmall) {
-  ReferenceSelector selector({});
+TEST(KeyframeSelectorTest, KeepsAReferenceWhileTheParallaxIsSmall) {
+  KeyframeSelector selector({});
   // A rotation makes none.
   EXPECT_TRUE(keeps(selector, 0.0));
   EXPECT_TRUE(keeps(selector, 0.1));
   EXPECT_FALSE(keeps(selector, 3.0));
 }
 
-TEST(ReferenceSelectorTest, KeepsAReferenceWhileItIsSeen) {
-  ReferenceSelector selector({});
+TEST(KeyframeSelectorTest, KeepsAReferenceWhileItIsSeen) {
+  KeyframeSelector selector({});
   EXPECT_TRUE(keeps(selector, 0.0, 300));  // what the first pair sees is the measure
   EXPECT_TRUE(keeps(selector, 0.0, 211));
   EXPECT_FALSE(keeps(selector, 0.0, 209));
@@ -37,15 +37,15 @@ TEST(ReferenceSelectorTest, KeepsAReferenceWhileItIsSeen) {
   EXPECT_TRUE(keeps(selector, 0.0, 209));
 }
 
-TEST(ReferenceSelectorTest, NeedsAFeature) {
-  ReferenceSelector selector({});
+TEST(KeyframeSelectorTest, NeedsAFeature) {
+  KeyframeSelector selector({});
   EXPECT_FALSE(keeps(selector, 0.0, 0));
 }
 
-TEST(ReferenceSelectorTest, TakesEveryPairIfNotAdaptive) {
-  ReferenceSelector::Config config;
+TEST(KeyframeSelectorTest, TakesEveryPairIfNotAdaptive) {
+  KeyframeSelector::Config config;
   config.adaptive = false;
-  ReferenceSelector selector(config);
+  KeyframeSelector selector(config);
   EXPECT_FALSE(keeps(selector, 0.0));
 }
 
