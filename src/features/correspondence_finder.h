@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -11,6 +9,8 @@
 #include "common/workers.h"
 #include "features/feature_detector.h"
 #include "features/feature_tracker.h"
+#include "features/keyframe.h"
+#include "features/stereo_frame.h"
 #include "features/stereo_matcher.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/odometry_config.h"
@@ -19,78 +19,71 @@
 
 namespace rotrocc {
 
-/// Makes the feature set F of section V-A out of two stereo pairs, a keyframe (t-1 in the paper)
-/// and the current one (t): corners and their disparities at the keyframe, tracked from a
-/// predicted motion to the left and the right current image, where they must match each other
-/// again. Keeps what it needs of the images; buffers are used again from pair to pair.
+/// Makes the feature set F of section V-A of a keyframe (t-1 in the paper) and the current frame
+/// (t): corners and their disparities in the keyframe, tracked from a predicted motion to the left
+/// and the right current image, where they must match each other again. Keeps nothing from call to
+/// call but its buffers.
 class CorrespondenceFinder {
  public:
   using Config = CorrespondenceFinderConfig;
 
-  /// Works with so many `threads`, the calling one included.
+  /// Works with `threads`, the calling one included.
   explicit CorrespondenceFinder(const Config& config, int threads = 1);
 
-  /// Takes other parameters, and keeps the last pair and that set aside.
-  void configure(const Config& config, int threads);
+  /// Copies the images of the pair into a frame, whose memory is reused when nobody holds it.
+  FramePtr makeFrame(const StereoPair& pair);
 
-  /// Makes `pair` the current one; the one before is dropped unless it was kept.
-  void take(const StereoPair& pair, const StereoCamera& camera);
-  /// Keeps the current pair as the last one.
-  void keep();
-  /// Keeps the current pair aside, in case the last one proves to be of no use ...
-  void setAside();
-  /// ... and makes the pair set aside the last one.
-  void takeUpAside();
-  /// Makes the last pair the keyframe.
-  void refer();
+  /// Finds the corners of the keyframe's left image ...
+  void findCorners(Keyframe& keyframe);
+  /// ... and triangulates those that have a match in its right image.
+  void findDepths(const StereoCamera& camera, Keyframe& keyframe);
 
-  /// Finds the corners of the keyframe and returns how many.
-  int findCorners();
-  /// Triangulates those that have a match in its right image, and returns how many.
-  int findDepths();
+  /// Tracks the keyframe's points from where the motion puts them, which is a prediction or just a
+  /// start, and keeps in `features` those that pass the circular consistency check: their left and
+  /// right current positions match each other. Returns how many were tracked in both images.
+  int find(const StereoCamera& camera,
+           const Keyframe& keyframe,
+           const StereoFrame& current,
+           const Eigen::Isometry3d& T_keyframe_cur,
+           bool is_prediction,
+           Correspondences& features);
 
-  /// Tracks the triangulated corners from where the motion puts them, which is a prediction or just
-  /// a place to begin, and returns how many were found in both current images.
-  int track(const Eigen::Isometry3d& T_keyframe_cur, bool is_prediction);
-  /// Keeps, in `features`, those whose left and right current positions match each other.
-  void checkCircularConsistency(Correspondences& features);
-
-  /// How far flagged features, a sample of those of checkCircularConsistency(), are lower in the
-  /// right image [px].
-  void compareRows(const Correspondences& features,
+  /// How far flagged features of `current`, a sample of them, are lower in its right image [px].
+  void compareRows(const StereoFrame& current,
+                   const Correspondences& features,
                    const FeatureSet& set,
                    std::vector<float>& differences_px);
 
-  /// Median distance [px] between where two motions put the features in the current image.
-  double medianShift(const Eigen::Isometry3d& T_keyframe_cur_a,
+  /// Median distance [px] between where two motions put the keyframe's points in the current image;
+  /// 0 if there are none.
+  double medianShift(const StereoCamera& camera,
+                     const Keyframe& keyframe,
+                     const Eigen::Isometry3d& T_keyframe_cur_a,
                      const Eigen::Isometry3d& T_keyframe_cur_b);
 
  private:
-  /// Level 0 of the pyramids are the images.
-  struct StereoPyramid {
-    FeatureTracker::Pyramid left, right;
-  };
+  void predict(const StereoCamera& camera,
+               const Keyframe& keyframe,
+               const Eigen::Isometry3d& T_keyframe_cur);
+  void track(const Keyframe& keyframe, const StereoFrame& current, bool is_prediction);
+  void checkCircularConsistency(const StereoCamera& camera,
+                                const Keyframe& keyframe,
+                                const StereoFrame& current,
+                                Correspondences& features);
 
   Config config_;
   Workers workers_;
   FeatureDetector detector_;
   StereoMatcher matcher_;
   FeatureTracker tracker_;
-  StereoCamera camera_;
-  std::array<StereoPyramid, 4> pyramids_;
-  std::size_t reference_ = 0;  // of pyramids_, as those below; all may be the same
-  std::size_t last_ = 0;
-  std::size_t aside_ = 0;
-  std::size_t current_ = 0;
+  FramePool frames_;
 
-  std::vector<cv::Point2f> corners_;
-  std::vector<float> disparities_;
-  std::vector<cv::Point2f> ref_left_, ref_right_;  // the triangulated corners ...
-  std::vector<Eigen::Vector3d> ref_points_;        // ... and their places [m]
-  std::vector<cv::Point2f> cur_left_, cur_right_;
-  std::vector<float> growth_;  // of what is seen, by coming nearer
+  // Of the keyframe's points; reused from call to call.
+  std::vector<cv::Point2f> cur_left_px_, cur_right_px_;
+  std::vector<float> predicted_disparities_px_;
+  std::vector<float> scale_changes_;
   std::vector<char> tracked_;
-  std::vector<float> expected_;
+  std::vector<float> tracked_disparities_px_, disparities_px_;
   std::vector<double> shifts_px_;
 };
 

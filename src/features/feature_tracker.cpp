@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "features/half_image.h"
 #include "features/tracking_window.h"
 
 namespace rotrocc {
@@ -33,21 +32,16 @@ FeatureTracker::~FeatureTracker() = default;
 FeatureTracker::FeatureTracker(FeatureTracker&&) noexcept = default;
 FeatureTracker& FeatureTracker::operator=(FeatureTracker&&) noexcept = default;
 
-void FeatureTracker::buildPyramid(const cv::Mat& image, Pyramid& pyramid) const {
+void FeatureTracker::makePyramid(const cv::Mat& image, ImagePyramid& pyramid) const {
   const int side = 2 * config_.window_radius_px + 1;
-  std::size_t levels = 1;
-  const auto most = static_cast<std::size_t>(std::max(config_.levels, config_.startup_levels));
-  while (levels < most && std::min(image.cols, image.rows) >> levels > side) ++levels;
-  pyramid.resize(levels);
-  image.copyTo(pyramid[0]);
-  for (std::size_t i = 1; i < levels; ++i) halve(pyramid[i - 1], pyramid[i]);
+  buildPyramid(image, std::max(config_.levels, config_.startup_levels), side, pyramid);
 }
 
 void FeatureTracker::track(Workers& workers,
-                           const Pyramid& prev_pyramid,
-                           const Pyramid& cur_pyramid,
+                           const ImagePyramid& prev_pyramid,
+                           const ImagePyramid& cur_pyramid,
                            const std::vector<cv::Point2f>& prev,
-                           const std::vector<float>& growth,
+                           const std::vector<float>& scales,
                            const Search& search,
                            std::vector<cv::Point2f>& cur,
                            std::vector<char>& tracked) {
@@ -58,7 +52,7 @@ void FeatureTracker::track(Workers& workers,
   workers.forEach(indices_.size(), [&](std::size_t k, std::size_t part) {
     const std::size_t i = indices_[k];
     const bool found =
-        follow(prev_pyramid, cur_pyramid, search, prev[i], growth[i], windows_[part], cur[i]);
+        follow(prev_pyramid, cur_pyramid, search, prev[i], scales[i], windows_[part], cur[i]);
     tracked[i] = found ? 1 : 0;
   });
 }
@@ -72,48 +66,48 @@ bool FeatureTracker::locate(const cv::Mat& from,
   return window.take(from, start, 1.0F) && window.find(to, stop, point);
 }
 
-bool FeatureTracker::follow(const Pyramid& from,
-                            const Pyramid& to,
+bool FeatureTracker::follow(const ImagePyramid& from,
+                            const ImagePyramid& to,
                             const Search& search,
                             const cv::Point2f& start,
-                            float growth,
+                            float scale,
                             TrackingWindow& window,
                             cv::Point2f& end) const {
   const TrackingWindow::Stop stop = {config_.max_iterations, config_.min_step_px};
   const TrackingWindow::Stop roughly = {config_.max_iterations, kCoarser * config_.min_step_px};
   cv::Point2f found = end;
   const float near_px = kNear * static_cast<float>(config_.window_radius_px);
-  const bool is_near = search.near && window.take(from[0], start, growth) &&
+  const bool is_near = search.near && window.take(from[0], start, scale) &&
                        window.find(to[0], stop, found) && distance2(found, end) < near_px * near_px;
   if (!is_near) {
     found = end;
     const auto wanted = static_cast<std::size_t>(search.levels);
     for (std::size_t level = std::min({wanted, from.size(), to.size()}) - 1; level > 0; --level) {
-      const float scale = scaleOf(level);
-      cv::Point2f scaled = scale * found;
+      const float at_level = scaleOf(level);
+      cv::Point2f scaled = at_level * found;
       // What a small image does not show is left to the larger ones.
-      if (window.take(from[level], scale * start, growth) &&
+      if (window.take(from[level], at_level * start, scale) &&
           window.find(to[level], roughly, scaled)) {
-        found = scaled / scale;
+        found = scaled / at_level;
       }
     }
-    if (!window.take(from[0], start, growth) || !window.find(to[0], stop, found)) return false;
+    if (!window.take(from[0], start, scale) || !window.find(to[0], stop, found)) return false;
   }
   end = found;
-  return returns(from[0], to[0], start, growth, window, end);
+  return returns(from[0], to[0], start, scale, window, end);
 }
 
 /// The way back starts where it should end, so one level is enough.
 bool FeatureTracker::returns(const cv::Mat& from,
                              const cv::Mat& to,
                              const cv::Point2f& start,
-                             float growth,
+                             float scale,
                              TrackingWindow& window,
                              const cv::Point2f& end) const {
   const TrackingWindow::Stop stop = {config_.max_iterations, config_.min_step_px};
   const auto most_px = static_cast<float>(config_.max_round_trip_px);
   cv::Point2f back = start;
-  return window.take(to, end, 1.0F / growth) && window.find(from, stop, back) &&
+  return window.take(to, end, 1.0F / scale) && window.find(from, stop, back) &&
          distance2(back, start) <= most_px * most_px;
 }
 

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "common/workers.h"
+#include "features/image_pyramid.h"
 #include "rotrocc/odometry_config.h"
 
 namespace rotrocc {
@@ -16,9 +17,6 @@ class TrackingWindow;
 class FeatureTracker {
  public:
   using Config = FeatureTrackerConfig;
-
-  /// An image and its smaller copies, each half as wide and high as the one before.
-  using Pyramid = std::vector<cv::Mat>;
 
   explicit FeatureTracker(const Config& config);
   ~FeatureTracker();
@@ -33,18 +31,18 @@ class FeatureTracker {
     bool near = false;
   };
 
-  /// Builds into `pyramid`, whose memory is used again.
-  void buildPyramid(const cv::Mat& image, Pyramid& pyramid) const;
+  /// A pyramid with as many levels as are searched. Reuses the memory of `pyramid`.
+  void makePyramid(const cv::Mat& image, ImagePyramid& pyramid) const;
 
-  /// Follows `prev` points from one image to another. `growth` is how many times as large the
-  /// surroundings of each are expected there, more than 1 for what comes nearer. `cur` holds the
+  /// Follows `prev` points from one image to another. `scales` has the scale change expected
+  /// of each point's window, above 1 where the point comes nearer. `cur` holds the
   /// predictions and gets the results; `tracked` gets 1 for points that came back to within
   /// max_round_trip_px, else 0. Points whose `tracked` is 0 at the call are skipped.
   void track(Workers& workers,
-             const Pyramid& prev_pyramid,
-             const Pyramid& cur_pyramid,
+             const ImagePyramid& prev_pyramid,
+             const ImagePyramid& cur_pyramid,
              const std::vector<cv::Point2f>& prev,
-             const std::vector<float>& growth,
+             const std::vector<float>& scales,
              const Search& search,
              std::vector<cv::Point2f>& cur,
              std::vector<char>& tracked);
@@ -54,17 +52,17 @@ class FeatureTracker {
   bool locate(const cv::Mat& from, const cv::Mat& to, const cv::Point2f& start, cv::Point2f& point);
 
  private:
-  bool follow(const Pyramid& from,
-              const Pyramid& to,
+  bool follow(const ImagePyramid& from,
+              const ImagePyramid& to,
               const Search& search,
               const cv::Point2f& start,
-              float growth,
+              float scale,
               TrackingWindow& window,
               cv::Point2f& end) const;
   bool returns(const cv::Mat& from,
                const cv::Mat& to,
                const cv::Point2f& start,
-               float growth,
+               float scale,
                TrackingWindow& window,
                const cv::Point2f& end) const;
 

@@ -83,20 +83,20 @@ void TrackingWindow::copyWithEdge(const cv::Mat& image, const cv::Rect& area) {
   }
 }
 
-bool TrackingWindow::take(const cv::Mat& image, const cv::Point2f& center, float growth) {
+bool TrackingWindow::take(const cv::Mat& image, const cv::Point2f& center, float scale) {
   const cv::Rect2f inside(
       0.0F, 0.0F, static_cast<float>(image.cols), static_cast<float>(image.rows));
   if (!inside.contains(center)) return false;
-  spread(growth);
+  spread(scale);
   const Patch patch = patchAround(image, center, radius_ + 1, wholeRegisters(side_ + 2));
   return invertNormalMatrix(kernels_->takeWindow(patch, window()));
 }
 
 /// Sets where the values are taken from, away from where the pixels are. That must be nearer than
 /// the next pixel.
-void TrackingWindow::spread(float growth) {
+void TrackingWindow::spread(float scale) {
   const float most = 0.9F / static_cast<float>(std::max(radius_, 1));
-  const float per_px = std::clamp(1.0F / growth - 1.0F, -most, most);
+  const float per_px = std::clamp(1.0F / scale - 1.0F, -most, most);
   for (int i = 0; i < side_; ++i) {
     spread_[static_cast<std::size_t>(i)] = fraction(per_px * static_cast<float>(i - radius_));
   }

@@ -25,9 +25,9 @@ class TrackingWindow {
   explicit TrackingWindow(int radius_px);
 
   /// Takes the window around `center` of `image` (CV_8UC1), as it looks when what it shows is
-  /// `growth` > 0 times as large (to first order, so that a tenth more is near enough). Returns
+  /// `scale` > 0 times as large (to first order, so that a tenth more is near enough). Returns
   /// false if the centre lies outside of the image or the texture is too weak to tell where it is.
-  bool take(const cv::Mat& image, const cv::Point2f& center, float growth);
+  bool take(const cv::Mat& image, const cv::Point2f& center, float scale);
 
   /// Moves `center` to where `image` looks like the window that was taken. Returns false, and
   /// leaves `center` where it was, if it leaves the image.
@@ -38,7 +38,7 @@ class TrackingWindow {
   void copyWithEdge(const cv::Mat& image, const cv::Rect& area);
   int wholeRegisters(int count) const;
   Window window();
-  void spread(float growth);
+  void spread(float scale);
   bool invertNormalMatrix(const GradientSums& sums);
   cv::Point2f mismatch(const Patch& patch, const Window& window) const;
 

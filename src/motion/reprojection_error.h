@@ -6,15 +6,12 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "geometry/min_depth.h"
 #include "motion/cauchy_weights.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/stereo_camera.h"
 
 namespace rotrocc {
-
-/// Points nearer to the image plane than this are projected as if they were there [m]: keeps the
-/// residual of a wrong match finite.
-constexpr double kMinDepth_m = 0.1;
 
 /// A feature as least squares over the motion alone may see it, although its disparity is noisy
 /// too.

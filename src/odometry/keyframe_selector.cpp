@@ -10,11 +10,12 @@ namespace rotrocc {
 bool KeyframeSelector::keeps(const StereoCamera& camera,
                              const Correspondences& features,
                              const FeatureSet& inliers,
-                             const Eigen::Isometry3d& T_keyframe_cur) {
+                             const Eigen::Isometry3d& T_keyframe_cur,
+                             Keyframe& keyframe) {
   if (!config_.adaptive) return false;
   const int seen = count(inliers);
-  if (seen_at_first_ == 0) seen_at_first_ = seen;
-  if (seen < config_.min_seen_share * seen_at_first_) return false;
+  if (keyframe.first_inliers == 0) keyframe.first_inliers = seen;
+  if (seen < config_.min_seen_share * keyframe.first_inliers) return false;
 
   decoupledFlow(camera, features, T_keyframe_cur.linear(), flow_px_);
   inlier_flow_px_.clear();

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "common/sentence.h"
 #include "common/stage_timer.h"
@@ -45,16 +46,18 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
                                                  const std::optional<Eigen::Isometry3d>& expected) {
   OdometryResult result;
   result.stamp_ns = pair.stamp_ns;
-  forgetFeatures();
+  found_.clear();
   const StageTimer timer(result.times.total_ms);
   try {
     advance(pair, camera, expected, result);
   } catch (const Lost& lost) {
-    giveUp(lost.what(), result);
+    result.reason = lost.what();
   } catch (const std::exception& error) {
-    has_last_ = false;  // what is kept may be the cause: the next pair is a first one
-    giveUp(sentence("internal error: ", error.what()), result);
+    last_.reset();  // what is kept may be the cause: the next pair is a first one
+    result.reason = sentence("internal error: ", error.what());
+    result.state = State::kLost;
   }
+  result.counts = found_.counts;
   result.disparity_bias = calibrator_.bias();
   result.row_offset = rows_.offset();
   result.noise = noise_.noise();
@@ -62,21 +65,21 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
 }
 
 void VisualOdometry::Pipeline::reset() {
-  has_last_ = false;
+  last_.reset();
   motion_model_.reset();
-  forgetFeatures();
+  found_.clear();
 }
 
 void VisualOdometry::Pipeline::configure(const Config& config) {
   estimator_ = MotionEstimator(config.motion_estimator);  // first, as it may throw
   config_ = config;
-  finder_.configure(config.correspondence_finder, config.threads);
+  finder_ = CorrespondenceFinder(config.correspondence_finder, config.threads);
   motion_model_.configure(config.motion_model);
   check_ = MotionCheck(config.motion_check);
   noise_.configure(config.noise_estimator, config.motion_estimator.noise_ratio);
   calibrator_.configure(config.stereo_calibrator);
   selector_ = KeyframeSelector(config.keyframe_selector);
-  keyframe_serves_ = false;  // its corners are of the old parameters
+  keyframe_.frame.reset();  // its corners are of the old parameters
 }
 
 void VisualOdometry::Pipeline::advance(const StereoPair& pair,
@@ -84,33 +87,20 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
                                        const std::optional<Eigen::Isometry3d>& expected,
                                        OdometryResult& result) {
   checkInput(pair, camera);
-  result.reason = whyStart(pair, camera);
-  takePair(pair, camera, result.times);
+  result.reason = whyRestart(pair, camera);
+  const FramePtr current = takeFrame(pair, camera, result.times);
   if (!result.reason.empty()) {
-    startFromCurrent();
+    restart(current);
     result.state = State::kInitialising;
     return;
   }
-  result.dt_s = seconds(stamp_ns_ - last_stamp_ns_);
-  const auto T_last_cur = expected ? expected : motion_model_.predict(result.dt_s);
-  if (!keyframe_serves_) makeKeyframeOfLast(result);
-  std::string why_lost = findMotion(T_last_cur, result);
-  if (!why_lost.empty() && keyframe_stamp_ns_ != last_stamp_ns_) {
-    makeKeyframeOfLast(result);
-    why_lost = findMotion(T_last_cur, result);
-  }
-  if (!why_lost.empty() && has_lost_) {
-    takeUpLost(result);
-    why_lost = findMotion({}, result);
-  }
+  const std::string why_lost = findMotion(current, expected, result);
   if (!why_lost.empty()) {
     // The fault may be this pair's or the last one's: the next one is compared with both.
-    finder_.setAside();
-    has_lost_ = true;
-    lost_stamp_ns_ = stamp_ns_;
+    lost_ = current;
     throw Lost(why_lost);
   }
-  accept(result);
+  accept(current, result);
 }
 
 void VisualOdometry::Pipeline::checkInput(const StereoPair& pair,
@@ -122,28 +112,30 @@ void VisualOdometry::Pipeline::checkInput(const StereoPair& pair,
   }
   const std::string why_unusable = whyUnusable(pair, camera);
   if (!why_unusable.empty()) throw Lost(why_unusable);
-  if (has_last_ && pair.stamp_ns <= stamp_ns_) {
+  if (!last_) return;
+  const std::int64_t newest_ns = (lost_ ? lost_ : last_)->stamp_ns;
+  if (pair.stamp_ns <= newest_ns) {
     throw Lost(sentence("the stamp ",
                         pair.stamp_ns,
                         " ns is not later than that of the pair before, ",
-                        stamp_ns_,
+                        newest_ns,
                         " ns"));
   }
 }
 
 /// Why the pair cannot be compared with an earlier one; empty if it can.
-std::string VisualOdometry::Pipeline::whyStart(const StereoPair& pair,
-                                               const StereoCamera& camera) const {
-  if (!has_last_) return "first pair";
+std::string VisualOdometry::Pipeline::whyRestart(const StereoPair& pair,
+                                                 const StereoCamera& camera) const {
+  if (!last_) return "first pair";
   if (camera != camera_) return "the camera has changed";
-  const double gap_s = seconds(pair.stamp_ns - stamp_ns_);
+  const double gap_s = seconds(pair.stamp_ns - (lost_ ? lost_ : last_)->stamp_ns);
   if (gap_s <= config_.max_gap_s) return "";
   return sentence("no pair for ", gap_s, " s, more than max_gap_s = ", config_.max_gap_s);
 }
 
-void VisualOdometry::Pipeline::takePair(const StereoPair& pair,
-                                        const StereoCamera& camera,
-                                        StageTimes& times) {
+FramePtr VisualOdometry::Pipeline::takeFrame(const StereoPair& pair,
+                                             const StereoCamera& camera,
+                                             StageTimes& times) {
   const StageTimer timer(times.pyramids_ms);
   if (camera != camera_) {
     calibrator_.reset();
@@ -152,157 +144,159 @@ void VisualOdometry::Pipeline::takePair(const StereoPair& pair,
   }
   calibrator_.advance();
   camera_ = camera;
-  corrected_ = calibrator_.correct(camera);
-  stamp_ns_ = pair.stamp_ns;
-  finder_.take(pair, corrected_);
+  return finder_.makeFrame(pair);
 }
 
-void VisualOdometry::Pipeline::startFromCurrent() {
-  finder_.keep();
-  has_last_ = true;
-  last_stamp_ns_ = stamp_ns_;
-  has_lost_ = false;
-  keyframe_serves_ = false;
+void VisualOdometry::Pipeline::restart(const FramePtr& current) {
+  last_ = current;
+  lost_.reset();
+  keyframe_.frame.reset();
   motion_model_.reset();
 }
 
-/// Gives the last pair up for the one that was lost after it, whose pose is taken to be the same.
-void VisualOdometry::Pipeline::takeUpLost(OdometryResult& result) {
-  finder_.takeUpAside();
-  last_stamp_ns_ = lost_stamp_ns_;
-  has_lost_ = false;
-  motion_model_.reset();
-  result.dt_s = seconds(stamp_ns_ - last_stamp_ns_);
-  makeKeyframeOfLast(result);
-}
-
-double VisualOdometry::Pipeline::sinceKeyframe_s() const {
-  return seconds(stamp_ns_ - keyframe_stamp_ns_);
-}
-
-void VisualOdometry::Pipeline::makeKeyframeOfLast(OdometryResult& result) {
-  finder_.refer();
-  selector_.restart();
-  keyframe_stamp_ns_ = last_stamp_ns_;
-  T_keyframe_last_ = {};
+void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& times) {
+  keyframe_.frame = frame;
+  keyframe_.T_keyframe_last = {};
+  keyframe_.first_inliers = 0;
   {
-    const StageTimer timer(result.times.corners_ms);
-    keyframe_corners_ = finder_.findCorners();
+    const StageTimer timer(times.corners_ms);
+    finder_.findCorners(keyframe_);
   }
-  const StageTimer timer(result.times.disparity_ms);
-  keyframe_with_depth_ = finder_.findDepths();
+  const StageTimer timer(times.disparity_ms);
+  finder_.findDepths(calibrator_.correct(camera_), keyframe_);
+}
+
+/// Measures the motion against the keyframe, else against the last frame, else against the one that
+/// was lost after it, whose pose is taken to be that of the last one.
+std::string VisualOdometry::Pipeline::findMotion(const FramePtr& current,
+                                                 const std::optional<Eigen::Isometry3d>& expected,
+                                                 OdometryResult& result) {
+  result.dt_s = seconds(current->stamp_ns - last_->stamp_ns);
+  const auto T_last_cur = expected ? expected : motion_model_.predict(result.dt_s);
+  if (!keyframe_.frame) makeKeyframe(last_, result.times);
+  std::string why_lost = findMotionFromKeyframe(*current, T_last_cur, result.times);
+  if (!why_lost.empty() && keyframe_.frame != last_) {
+    makeKeyframe(last_, result.times);
+    why_lost = findMotionFromKeyframe(*current, T_last_cur, result.times);
+  }
+  if (!why_lost.empty() && lost_) {
+    last_ = std::move(lost_);
+    lost_.reset();
+    motion_model_.reset();
+    result.dt_s = seconds(current->stamp_ns - last_->stamp_ns);
+    makeKeyframe(last_, result.times);
+    why_lost = findMotionFromKeyframe(*current, {}, result.times);
+  }
+  return why_lost;
 }
 
 /// With a prediction one round is enough. Without one, or where it proves wrong, features tracked
 /// from a wrong place may agree on a wrong motion: predict, track and estimate until it settles.
-std::string VisualOdometry::Pipeline::findMotion(const std::optional<Eigen::Isometry3d>& T_last_cur,
-                                                 OdometryResult& result) {
+std::string VisualOdometry::Pipeline::findMotionFromKeyframe(
+    const StereoFrame& current,
+    const std::optional<Eigen::Isometry3d>& T_last_cur,
+    StageTimes& times) {
+  std::string why_lost;
+  Eigen::Isometry3d T_keyframe_cur = keyframe_.T_keyframe_last.T;
   if (T_last_cur) {
-    trackAndEstimate(T_keyframe_last_.T * *T_last_cur, true, result);
-    if (whyLost().empty()) {
-      calibrate(result);
+    why_lost = tryMotion(current, T_keyframe_cur * *T_last_cur, true, times);
+    if (why_lost.empty()) {
+      calibrate(sinceKeyframe_s(current), times);
       return "";
     }
   }
-  Eigen::Isometry3d T_keyframe_cur = T_keyframe_last_.T;
   for (int round = 0; round < config_.startup_rounds; ++round) {
-    trackAndEstimate(T_keyframe_cur, false, result);
-    if (!estimate_.valid) break;
-    const double shift_px = finder_.medianShift(T_keyframe_cur, estimate_.T_prev_cur);
-    T_keyframe_cur = estimate_.T_prev_cur;
+    why_lost = tryMotion(current, T_keyframe_cur, false, times);
+    if (!found_.estimate.valid) break;
+    const Eigen::Isometry3d& T_found = found_.estimate.T_prev_cur;
+    const double shift_px = finder_.medianShift(found_.camera, keyframe_, T_keyframe_cur, T_found);
+    T_keyframe_cur = T_found;
     if (shift_px < config_.startup_settled_px) break;
   }
-  std::string why_lost = whyLost();
-  if (why_lost.empty()) calibrate(result);
+  if (why_lost.empty()) calibrate(sinceKeyframe_s(current), times);
   return why_lost;
 }
 
-std::string VisualOdometry::Pipeline::whyLost() const {
-  return check_.whyLost(estimate_, sinceKeyframe_s());
-}
-
-void VisualOdometry::Pipeline::trackAndEstimate(const Eigen::Isometry3d& T_keyframe_cur,
+std::string VisualOdometry::Pipeline::tryMotion(const StereoFrame& current,
+                                                const Eigen::Isometry3d& T_keyframe_cur,
                                                 bool is_prediction,
-                                                OdometryResult& result) {
+                                                StageTimes& times) {
+  found_.camera = calibrator_.correct(camera_);
   {
-    const StageTimer timer(result.times.tracking_ms);
-    result.counts.tracked = finder_.track(T_keyframe_cur, is_prediction);
-    finder_.checkCircularConsistency(features_);
-    result.counts.corners = keyframe_corners_;
-    result.counts.with_depth = keyframe_with_depth_;
-    result.counts.consistent = static_cast<int>(features_.size());
+    const StageTimer timer(times.tracking_ms);
+    found_.counts.tracked = finder_.find(
+        found_.camera, keyframe_, current, T_keyframe_cur, is_prediction, found_.features);
+    found_.counts.corners = static_cast<int>(keyframe_.corners.size());
+    found_.counts.with_depth = static_cast<int>(keyframe_.points.size());
+    found_.counts.consistent = static_cast<int>(found_.features.size());
   }
-  const StageTimer timer(result.times.estimation_ms);
+  const StageTimer timer(times.estimation_ms);
   estimator_.setNoiseRatio(noise_.noise().ratio);
-  estimate(T_keyframe_cur, is_prediction, result);
+  return estimate(T_keyframe_cur, is_prediction, sinceKeyframe_s(current), found_);
 }
 
-void VisualOdometry::Pipeline::estimate(const Eigen::Isometry3d& T_keyframe_cur,
-                                        bool is_prediction,
-                                        OdometryResult& result) {
-  estimate_ =
-      estimator_.estimate(corrected_, features_, T_keyframe_cur, sinceKeyframe_s(), is_prediction);
-  result.counts.rotation_inliers = count(estimate_.rotation_inliers);
-  result.counts.translation_inliers =
-      estimate_.has_translation_stage ? count(estimate_.translation_inliers) : 0;
+std::string VisualOdometry::Pipeline::estimate(const Eigen::Isometry3d& T_keyframe_cur,
+                                               bool is_prediction,
+                                               double dt_s,
+                                               Hypothesis& hypothesis) {
+  MotionEstimator::Estimate& estimate = hypothesis.estimate;
+  estimate = estimator_.estimate(
+      hypothesis.camera, hypothesis.features, T_keyframe_cur, dt_s, is_prediction);
+  hypothesis.counts.rotation_inliers = count(estimate.rotation_inliers);
+  hypothesis.counts.translation_inliers =
+      estimate.has_translation_stage ? count(estimate.translation_inliers) : 0;
+  return check_.whyLost(estimate, dt_s);
 }
 
 /// The features show the rig's bias as well as the motion: both are found in turns.
-void VisualOdometry::Pipeline::calibrate(OdometryResult& result) {
-  const StageTimer timer(result.times.estimation_ms);
+void VisualOdometry::Pipeline::calibrate(double dt_s, StageTimes& times) {
+  const StageTimer timer(times.estimation_ms);
   for (int round = 0; round < kCalibrationRounds; ++round) {
-    calibrator_.observe(corrected_, features_, estimate_.rotation_inliers, estimate_.T_prev_cur);
+    const MotionEstimator::Estimate& found = found_.estimate;
+    calibrator_.observe(found_.camera, found_.features, found.rotation_inliers, found.T_prev_cur);
     const StereoCamera corrected = calibrator_.correct(camera_);
-    if (std::abs(corrected.cx_right - corrected_.cx_right) < kCalibrationSettled_px) return;
-    const StereoCamera camera_before = corrected_;
-    estimate_before_ = estimate_;
-    corrected_ = corrected;
-    triangulate(corrected_, features_);
-    estimate(estimate_.T_prev_cur, true, result);
-    if (whyLost().empty()) continue;
-    corrected_ = camera_before;
-    estimate_ = estimate_before_;
-    triangulate(corrected_, features_);
-    return;
+    if (std::abs(corrected.cx_right - found_.camera.cx_right) < kCalibrationSettled_px) return;
+    recalibrated_ = found_;
+    recalibrated_.camera = corrected;
+    triangulate(corrected, recalibrated_.features);
+    if (!estimate(found.T_prev_cur, true, dt_s, recalibrated_).empty()) return;
+    std::swap(found_, recalibrated_);
   }
 }
 
-void VisualOdometry::Pipeline::accept(OdometryResult& result) {
-  noise_.observe(corrected_, features_, estimate_.rotation_inliers, estimate_.T_prev_cur);
-  finder_.compareRows(features_, estimate_.rotation_inliers, row_differences_px_);
+double VisualOdometry::Pipeline::sinceKeyframe_s(const StereoFrame& current) const {
+  return seconds(current.stamp_ns - keyframe_.frame->stamp_ns);
+}
+
+void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& result) {
+  const MotionEstimator::Estimate& estimate = found_.estimate;
+  noise_.observe(found_.camera, found_.features, estimate.rotation_inliers, estimate.T_prev_cur);
+  finder_.compareRows(*current, found_.features, estimate.rotation_inliers, row_differences_px_);
   rows_.observe(row_differences_px_);
-  result.keyframe_stamp_ns = keyframe_stamp_ns_;
-  result.T_keyframe_cur = {estimate_.T_prev_cur,
-                           estimate_.covariance + calibrator_.motionCovariance()};
-  UncertainTransform step = compose(inverse(T_keyframe_last_), result.T_keyframe_cur);
-  if (keyframe_stamp_ns_ != last_stamp_ns_) step.covariance *= kNotShared;
+
+  result.keyframe_stamp_ns = keyframe_.frame->stamp_ns;
+  result.T_keyframe_cur = {estimate.T_prev_cur,
+                           estimate.covariance + calibrator_.motionCovariance()};
+  UncertainTransform step = compose(inverse(keyframe_.T_keyframe_last), result.T_keyframe_cur);
+  if (keyframe_.frame != last_) step.covariance *= kNotShared;
   result.T_prev_cur = step.T;
   result.covariance = step.covariance;
-  result.reason = check_.whyDegraded(estimate_);
+  result.reason = check_.whyDegraded(estimate);
   if (const auto expected = motion_model_.predict(result.dt_s); expected && result.reason.empty()) {
     result.reason = check_.whyJump(step, *expected, result.dt_s);
   }
   result.state = result.reason.empty() ? State::kOk : State::kDegraded;
   motion_model_.update(step.T, result.dt_s);
 
-  T_keyframe_last_ = result.T_keyframe_cur;
-  finder_.keep();
-  last_stamp_ns_ = stamp_ns_;
-  has_lost_ = false;
-  keyframe_serves_ =
-      result.state == State::kOk &&
-      selector_.keeps(corrected_, features_, estimate_.rotation_inliers, estimate_.T_prev_cur);
-}
-
-void VisualOdometry::Pipeline::giveUp(const std::string& why, OdometryResult& result) {
-  result.state = State::kLost;
-  result.reason = why;
-}
-
-void VisualOdometry::Pipeline::forgetFeatures() {
-  features_.clear();
-  estimate_.rotation_inliers.clear();
-  estimate_.translation_inliers.clear();
+  last_ = current;
+  lost_.reset();
+  keyframe_.T_keyframe_last = result.T_keyframe_cur;
+  const bool serves = result.state == State::kOk && selector_.keeps(found_.camera,
+                                                                    found_.features,
+                                                                    estimate.rotation_inliers,
+                                                                    estimate.T_prev_cur,
+                                                                    keyframe_);
+  if (!serves) keyframe_.frame.reset();
 }
 
 }  // namespace rotrocc

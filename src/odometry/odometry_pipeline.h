@@ -8,7 +8,10 @@
 #include <Eigen/Geometry>
 
 #include "features/correspondence_finder.h"
+#include "features/keyframe.h"
+#include "features/stereo_frame.h"
 #include "motion/motion_estimator.h"
+#include "odometry/hypothesis.h"
 #include "odometry/keyframe_selector.h"
 #include "odometry/motion_check.h"
 #include "odometry/motion_model.h"
@@ -30,9 +33,9 @@ class VisualOdometry::Pipeline {
   void reset();
   void configure(const Config& config);
 
-  const Correspondences& correspondences() const { return features_; }
-  const FeatureSet& rotationInliers() const { return estimate_.rotation_inliers; }
-  const FeatureSet& translationInliers() const { return estimate_.translation_inliers; }
+  const Correspondences& correspondences() const { return found_.features; }
+  const FeatureSet& rotationInliers() const { return found_.estimate.rotation_inliers; }
+  const FeatureSet& translationInliers() const { return found_.estimate.translation_inliers; }
 
  private:
   /// Throws Lost if there is no motion.
@@ -41,28 +44,30 @@ class VisualOdometry::Pipeline {
                const std::optional<Eigen::Isometry3d>& expected,
                OdometryResult& result);
   void checkInput(const StereoPair& pair, const StereoCamera& camera) const;
-  std::string whyStart(const StereoPair& pair, const StereoCamera& camera) const;
-  void takePair(const StereoPair& pair, const StereoCamera& camera, StageTimes& times);
-  void startFromCurrent();
-  void takeUpLost(OdometryResult& result);
-  double sinceKeyframe_s() const;
-  void makeKeyframeOfLast(OdometryResult& result);
+  std::string whyRestart(const StereoPair& pair, const StereoCamera& camera) const;
+  FramePtr takeFrame(const StereoPair& pair, const StereoCamera& camera, StageTimes& times);
+  void restart(const FramePtr& current);
+  void makeKeyframe(const FramePtr& frame, StageTimes& times);
 
-  /// Both return why there is no motion, or nothing if there is one.
-  std::string findMotion(const std::optional<Eigen::Isometry3d>& T_last_cur,
+  /// All return why there is no motion, or nothing if there is one, which is found_.
+  std::string findMotion(const FramePtr& current,
+                         const std::optional<Eigen::Isometry3d>& expected,
                          OdometryResult& result);
-  std::string whyLost() const;
-  void trackAndEstimate(const Eigen::Isometry3d& T_keyframe_cur,
+  std::string findMotionFromKeyframe(const StereoFrame& current,
+                                     const std::optional<Eigen::Isometry3d>& T_last_cur,
+                                     StageTimes& times);
+  std::string tryMotion(const StereoFrame& current,
+                        const Eigen::Isometry3d& T_keyframe_cur,
                         bool is_prediction,
-                        OdometryResult& result);
-  void estimate(const Eigen::Isometry3d& T_keyframe_cur,
-                bool is_prediction,
-                OdometryResult& result);
-  void calibrate(OdometryResult& result);
+                        StageTimes& times);
+  std::string estimate(const Eigen::Isometry3d& T_keyframe_cur,
+                       bool is_prediction,
+                       double dt_s,
+                       Hypothesis& hypothesis);
+  void calibrate(double dt_s, StageTimes& times);
+  double sinceKeyframe_s(const StereoFrame& current) const;
 
-  void accept(OdometryResult& result);
-  void giveUp(const std::string& why, OdometryResult& result);
-  void forgetFeatures();
+  void accept(const FramePtr& current, OdometryResult& result);
 
   Config config_;
   CorrespondenceFinder finder_;
@@ -74,26 +79,14 @@ class VisualOdometry::Pipeline {
   RowComparison rows_;
   KeyframeSelector selector_;
 
-  StereoCamera camera_;     // as it came
-  StereoCamera corrected_;  // with the bias taken out
-  std::int64_t stamp_ns_ = 0;
+  StereoCamera camera_;  // as it came
+  FramePtr last_;        // whose pose is known; none before the first pair
+  FramePtr lost_;        // after it, and the newest, if no motion to it was found
+  Keyframe keyframe_;    // none if it has to be made of the last frame
 
-  // The last pair whose pose is known, and one after it that is lost.
-  bool has_last_ = false;
-  std::int64_t last_stamp_ns_ = 0;
-  bool has_lost_ = false;
-  std::int64_t lost_stamp_ns_ = 0;
-
-  bool keyframe_serves_ = false;  // for the next pair; if not, the last one becomes it
-  std::int64_t keyframe_stamp_ns_ = 0;
-  int keyframe_corners_ = 0;
-  int keyframe_with_depth_ = 0;
-  UncertainTransform T_keyframe_last_;
-
-  Correspondences features_;
-  MotionEstimator::Estimate estimate_;
-  std::vector<float> row_differences_px_;
-  MotionEstimator::Estimate estimate_before_;  // of calibrate(), kept for its memory
+  Hypothesis found_;
+  Hypothesis recalibrated_;                // of calibrate()
+  std::vector<float> row_differences_px_;  // of accept(), reused
 };
 
 }  // namespace rotrocc

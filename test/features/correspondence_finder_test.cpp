@@ -23,21 +23,31 @@ StereoPair view(const SyntheticScene& scene, const Eigen::Isometry3d& T_world_ca
   return pair;
 }
 
+/// A keyframe and a current frame.
+struct Frames {
+  Frames(CorrespondenceFinder& finder,
+         const StereoPair& prev,
+         const StereoPair& cur,
+         const StereoCamera& camera) {
+    keyframe.frame = finder.makeFrame(prev);
+    finder.findCorners(keyframe);
+    finder.findDepths(camera, keyframe);
+    current = finder.makeFrame(cur);
+  }
+
+  Keyframe keyframe;
+  FramePtr current;
+};
+
 /// All stages from two pairs to the feature set, with the true motion as the prediction.
 Correspondences find(const StereoPair& prev,
                      const StereoPair& cur,
                      const StereoCamera& camera,
                      const CorrespondenceFinder::Config& config = {}) {
   CorrespondenceFinder finder(config);
-  finder.take(prev, camera);
-  finder.keep();
-  finder.refer();
-  finder.take(cur, camera);
-  finder.findCorners();
-  finder.findDepths();
-  finder.track(step(), true);
+  const Frames frames(finder, prev, cur, camera);
   Correspondences features;
-  finder.checkCircularConsistency(features);
+  finder.find(camera, frames.keyframe, *frames.current, step(), true, features);
   return features;
 }
 
@@ -99,39 +109,46 @@ TEST(CorrespondenceFinderTest, WantsTrackedAndMatchedDisparityToAgree) {
 
 TEST(CorrespondenceFinderTest, CountsWhatIsLeft) {
   const SyntheticScene scene;
+  const StereoCamera& camera = scene.camera();
   CorrespondenceFinder finder({});
-  finder.take(view(scene, Eigen::Isometry3d::Identity()), scene.camera());
-  finder.keep();
-  finder.refer();
-  finder.take(view(scene, step()), scene.camera());
-  const int corners = finder.findCorners();
-  const int with_depth = finder.findDepths();
-  EXPECT_GT(with_depth, corners / 2);
-  EXPECT_LE(with_depth, corners);
-  EXPECT_GT(finder.track(step(), true), with_depth / 2);
+  const Frames frames(
+      finder, view(scene, Eigen::Isometry3d::Identity()), view(scene, step()), camera);
+  const std::size_t with_depth = frames.keyframe.points.size();
+  EXPECT_GT(with_depth, frames.keyframe.corners.size() / 2);
+  EXPECT_LE(with_depth, frames.keyframe.corners.size());
+  Correspondences features;
+  const int tracked = finder.find(camera, frames.keyframe, *frames.current, step(), true, features);
+  EXPECT_GT(tracked, static_cast<int>(with_depth / 2));
+  EXPECT_LE(static_cast<int>(features.size()), tracked);
   // A motion that takes every point behind the camera leaves nothing to track.
-  EXPECT_EQ(finder.track(motion({0.0, 0.0, 200.0}, {0.0, 0.0, 0.0}), true), 0);
-  Correspondences features(3);
-  finder.checkCircularConsistency(features);
+  const Eigen::Isometry3d beyond = motion({0.0, 0.0, 200.0}, {0.0, 0.0, 0.0});
+  EXPECT_EQ(finder.find(camera, frames.keyframe, *frames.current, beyond, true, features), 0);
   EXPECT_TRUE(features.empty());
+}
+
+TEST(CorrespondenceFinderTest, ReusesTheMemoryOfFramesThatNobodyHolds) {
+  const SyntheticScene scene;
+  const StereoPair pair = view(scene, Eigen::Isometry3d::Identity());
+  CorrespondenceFinder finder({});
+  const FramePtr kept = finder.makeFrame(pair);
+  const StereoFrame* dropped = finder.makeFrame(pair).get();
+  const FramePtr next = finder.makeFrame(pair);
+  EXPECT_EQ(next.get(), dropped);
+  EXPECT_NE(next, kept);
 }
 
 TEST(CorrespondenceFinderTest, ShiftIsHowFarTheFeaturesMoveInTheImage) {
   const SyntheticScene scene;
+  const StereoCamera& camera = scene.camera();
   CorrespondenceFinder finder({});
   const Eigen::Isometry3d none = Eigen::Isometry3d::Identity();
   const Eigen::Isometry3d yaw = motion({0.0, 0.0, 0.0}, {0.0, 0.01, 0.0});
-  EXPECT_EQ(finder.medianShift(none, yaw), 0.0);  // there are no features yet
-  finder.take(view(scene, none), scene.camera());
-  finder.keep();
-  finder.refer();
-  finder.take(view(scene, none), scene.camera());
-  finder.findCorners();
-  finder.findDepths();
-  EXPECT_EQ(finder.medianShift(yaw, yaw), 0.0);
+  EXPECT_EQ(finder.medianShift(camera, {}, none, yaw), 0.0);  // there are no points
+  const Frames frames(finder, view(scene, none), view(scene, none), camera);
+  EXPECT_EQ(finder.medianShift(camera, frames.keyframe, yaw, yaw), 0.0);
   // Yaw moves the image's middle by f times the angle, 3.6 px, and its sides by up to 1.7 as much.
-  EXPECT_GT(finder.medianShift(none, yaw), 3.6);
-  EXPECT_LT(finder.medianShift(none, yaw), 6.2);
+  EXPECT_GT(finder.medianShift(camera, frames.keyframe, none, yaw), 3.6);
+  EXPECT_LT(finder.medianShift(camera, frames.keyframe, none, yaw), 6.2);
 }
 
 }  // namespace

@@ -66,9 +66,9 @@ Tracked track(const cv::Mat& first,
               int threads = 1,
               const std::vector<float>& growth = {}) {
   FeatureTracker tracker(config);
-  FeatureTracker::Pyramid a, b;
-  tracker.buildPyramid(first, a);
-  tracker.buildPyramid(second, b);
+  ImagePyramid a, b;
+  tracker.makePyramid(first, a);
+  tracker.makePyramid(second, b);
   Tracked result{predictions, std::vector<char>(from.size(), 1)};
   Workers workers(threads);
   const std::vector<float> same_size(from.size(), 1.0F);
@@ -233,9 +233,9 @@ TEST(FeatureTrackerTest, UsesSmallImagesWhereAPointIsNotNear) {
 
 TEST(FeatureTrackerTest, LeavesPointsAloneThatAreNotAskedFor) {
   FeatureTracker tracker({});
-  FeatureTracker::Pyramid a, b;
-  tracker.buildPyramid(drive().first, a);
-  tracker.buildPyramid(drive().second, b);
+  ImagePyramid a, b;
+  tracker.makePyramid(drive().first, a);
+  tracker.makePyramid(drive().second, b);
   const Points before = perturbed(drive().truth, 2.0);
   Points cur = before;
   std::vector<char> tracked(cur.size());

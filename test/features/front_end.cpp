@@ -18,18 +18,18 @@ std::vector<double> runFrontEnd(const cv::Mat& prev_left,
   camera.cy = 0.5 * camera.height;
   camera.baseline_m = 0.537;
   CorrespondenceFinder finder({}, 1);
-  finder.take({0, prev_left, prev_right}, camera);
-  finder.keep();
-  finder.refer();
-  finder.take({1, cur_left, cur_right}, camera);
-  std::vector<double> all;
-  all.push_back(finder.findCorners());
-  all.push_back(finder.findDepths());
+  Keyframe keyframe;
+  keyframe.frame = finder.makeFrame({0, prev_left, prev_right});
+  const FramePtr current = finder.makeFrame({1, cur_left, cur_right});
+  finder.findCorners(keyframe);
+  finder.findDepths(camera, keyframe);
   Eigen::Isometry3d T_prev_cur = Eigen::Isometry3d::Identity();
   T_prev_cur.translation().z() = ahead_m;
-  all.push_back(finder.track(T_prev_cur, true));
   Correspondences features;
-  finder.checkCircularConsistency(features);
+  const int tracked = finder.find(camera, keyframe, *current, T_prev_cur, true, features);
+  std::vector<double> all = {static_cast<double>(keyframe.corners.size()),
+                             static_cast<double>(keyframe.points.size()),
+                             static_cast<double>(tracked)};
   for (const Correspondence& feature : features) {
     all.insert(all.end(),
                {feature.prev_px.x(),

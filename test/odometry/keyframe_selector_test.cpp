@@ -10,43 +10,47 @@
 namespace rotrocc {
 namespace {
 
-/// Whether a keyframe serves after a step of this length, seen by `seen` of 400 features.
-bool keeps(KeyframeSelector& selector, double step_m, int seen = 400) {
+/// Whether a keyframe serves after a step of this length, with `seen` inliers of 400 features.
+bool keeps(KeyframeSelector& selector, Keyframe& keyframe, double step_m, int seen = 400) {
   const Eigen::Isometry3d T = motion({0.0, 0.0, step_m}, {0.0, 0.1, 0.0});
   std::mt19937 generator(1);
   const Correspondences features = simulateFeatures(kittiCamera(), T, 400, {}, generator);
   FeatureSet inliers(features.size(), 0);
   std::fill(inliers.begin(), inliers.begin() + seen, 1);
-  return selector.keeps(kittiCamera(), features, inliers, T);
+  return selector.keeps(kittiCamera(), features, inliers, T, keyframe);
 }
 
-TEST(KeyframeSelectorTest, KeepsAReferenceWhileTheParallaxIsSmall) {
+TEST(KeyframeSelectorTest, KeepsAKeyframeWhileTheParallaxIsSmall) {
   KeyframeSelector selector({});
+  Keyframe keyframe;
   // A rotation makes none.
-  EXPECT_TRUE(keeps(selector, 0.0));
-  EXPECT_TRUE(keeps(selector, 0.1));
-  EXPECT_FALSE(keeps(selector, 3.0));
+  EXPECT_TRUE(keeps(selector, keyframe, 0.0));
+  EXPECT_TRUE(keeps(selector, keyframe, 0.1));
+  EXPECT_FALSE(keeps(selector, keyframe, 3.0));
 }
 
-TEST(KeyframeSelectorTest, KeepsAReferenceWhileItIsSeen) {
+TEST(KeyframeSelectorTest, KeepsAKeyframeWhileItIsSeen) {
   KeyframeSelector selector({});
-  EXPECT_TRUE(keeps(selector, 0.0, 300));  // what the first pair sees is the measure
-  EXPECT_TRUE(keeps(selector, 0.0, 211));
-  EXPECT_FALSE(keeps(selector, 0.0, 209));
-  selector.restart();
-  EXPECT_TRUE(keeps(selector, 0.0, 209));
+  Keyframe keyframe;
+  EXPECT_TRUE(keeps(selector, keyframe, 0.0, 300));  // the inliers of the first motion
+  EXPECT_TRUE(keeps(selector, keyframe, 0.0, 211));
+  EXPECT_FALSE(keeps(selector, keyframe, 0.0, 209));
+  Keyframe other;
+  EXPECT_TRUE(keeps(selector, other, 0.0, 209));
 }
 
 TEST(KeyframeSelectorTest, NeedsAFeature) {
   KeyframeSelector selector({});
-  EXPECT_FALSE(keeps(selector, 0.0, 0));
+  Keyframe keyframe;
+  EXPECT_FALSE(keeps(selector, keyframe, 0.0, 0));
 }
 
-TEST(KeyframeSelectorTest, TakesEveryPairIfNotAdaptive) {
+TEST(KeyframeSelectorTest, TakesEveryFrameIfNotAdaptive) {
   KeyframeSelector::Config config;
   config.adaptive = false;
   KeyframeSelector selector(config);
-  EXPECT_FALSE(keeps(selector, 0.0));
+  Keyframe keyframe;
+  EXPECT_FALSE(keeps(selector, keyframe, 0.0));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-#include "features/half_image.h"
+#include "features/image_pyramid.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -29,6 +30,14 @@ void smoothDown(const Kernels& kernels, const cv::Mat& image, int y, std::int16_
 }
 
 }  // namespace
+
+void buildPyramid(const cv::Mat& image, int levels, int least_side_px, ImagePyramid& pyramid) {
+  int count = 1;
+  while (count < levels && std::min(image.cols, image.rows) >> count > least_side_px) ++count;
+  pyramid.resize(static_cast<std::size_t>(count));
+  image.copyTo(pyramid[0]);
+  for (std::size_t i = 1; i < pyramid.size(); ++i) halve(pyramid[i - 1], pyramid[i]);
+}
 
 void halve(const cv::Mat& image, cv::Mat& half) {
   half.create((image.rows + 1) / 2, (image.cols + 1) / 2, CV_8UC1);

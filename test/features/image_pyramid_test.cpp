@@ -1,4 +1,4 @@
-#include "features/half_image.h"
+#include "features/image_pyramid.h"
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
