@@ -56,7 +56,7 @@ const std::vector<std::string>& criterionNames();
 /// The two-stage estimator.
 struct MotionEstimatorConfig {
   std::string criterion = "rotrocc";  ///< one of criterionNames()
-  /// Disparity noise over flow noise to begin with, see fitDisparities(); 0: the paper's
+  /// Disparity noise over flow noise to begin with, see fitted_feature.h; 0: the paper's
   double noise_ratio = 3.0;
   double robust_factor = 2.0;  ///< of CauchyWeights, once a stage has its set; 0: the paper's
 
@@ -117,7 +117,7 @@ struct StereoCalibratorConfig {
   /// What matching may be off by in the whole image alike, which no comparison within it shows:
   /// windows at edges see what is nearer, too. Part of the uncertainty.
   double matching_sigma_px = 0.01;
-  /// Disparity noise over flow noise, see fitDisparities(). Less than what is measured: fitted
+  /// Disparity noise over flow noise, see fitted_feature.h. Less than what is measured: fitted
   /// disparities also follow errors that neighbours share, and take the estimate with them.
   double noise_ratio = 0.5;
   double robust_factor = 2.0;  ///< of CauchyWeights; 0: all residuals count alike

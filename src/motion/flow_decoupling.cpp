@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "motion/reprojection_error.h"
+#include "geometry/min_depth.h"
 
 namespace rotrocc {
 

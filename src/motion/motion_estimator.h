@@ -1,32 +1,22 @@
 #pragma once
 
-#include <string>
+#include <optional>
 #include <vector>
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "motion/motion_solver.h"
-#include "motion/outlier_rejection.h"
+#include "motion/motion_covariance.h"
+#include "motion/robust_refinement.h"
+#include "motion/two_stage_estimator.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/odometry_config.h"
+#include "rotrocc/rigid_motion.h"
 #include "rotrocc/stereo_camera.h"
 
 namespace rotrocc {
 
-/// Which features may estimate the motion.
-enum class Criterion {
-  kRotrocc,       ///< reprojection error for rotation, then DNRE for translation (section V-B)
-  kReprojection,  ///< reprojection error alone: stage 1 and no more
-  kRocc,          ///< as kRotrocc, but normalized by the coupled flow (ROCC, Eq. 8)
-  kMeanBased,     ///< one stage, Eq. 32
-  kStdBased       ///< one stage, Eq. 31
-};
-
-/// "rotrocc", "reprojection", "rocc", "mean_based", "std_based".
-const std::vector<std::string>& criterionNames();
-
-/// The two-stage estimator: rotation, flow decoupling, translation (section V-B).
+/// The two-stage estimator and what goes beyond the paper: robust refinement of both stages, a
+/// retry near the prediction, and the covariance.
 class MotionEstimator {
  public:
   using Config = MotionEstimatorConfig;
@@ -44,7 +34,7 @@ class MotionEstimator {
   explicit MotionEstimator(const Config& config);
 
   /// From now on; better known than to begin with.
-  void setNoiseRatio(double noise_ratio);
+  void setNoiseRatio(double noise_ratio) { config_.noise_ratio = noise_ratio; }
 
   /// Estimates the motion that took `dt_s` > 0 from the full feature set, beginning with `initial`.
   /// Invalid if fewer than 3 features are left, or the equations have no unique solution.
@@ -61,37 +51,21 @@ class MotionEstimator {
 
  private:
   void estimateFrom(const FeatureSet& set,
-                    const StereoCamera& camera,
-                    const Correspondences& features,
+                    const Measurements& measured,
                     const Eigen::Isometry3d& initial,
                     double dt_s,
                     Estimate& estimate);
-  bool estimateRotation(Estimate& estimate);
-  bool estimateTranslation(const StereoCamera& camera,
-                           const Correspondences& features,
-                           Estimate& estimate);
-  /// Fits a motion to the set and draws the line anew, until the set stays (Eq. 26, 30, 31, 32);
-  /// then, with robust weights, a few times more. `fit` returns false if it fails; `measure` fills
-  /// errors_.
-  template <class Fit, class Measure>
-  bool iterate(OutlierThreshold& threshold,
-               int max_iterations,
-               const Fit& fit,
-               const Measure& measure,
-               FeatureSet& set);
-  bool estimateCovariance(Estimate& estimate);
 
   Config config_;
-  Criterion criterion_;
-  MotionSolver solver_;
-  OutlierThreshold rotation_threshold_;
-  OutlierThreshold translation_threshold_;
+  TwoStageEstimator two_stages_;
+  std::optional<RobustRefinement> refinement_;
+  MotionCovariance covariance_;
 
-  // Kept for their memory.
+  // Reused from call to call.
   Estimate found_, other_;
-  FeatureSet all_, near_, candidates_, next_;
-  std::vector<double> errors_;
-  std::vector<double> flow_px_;
+  TwoStageMotion motion_;
+  FeatureSet all_, near_;
+  std::vector<double> errors_px_;
 };
 
 }  // namespace rotrocc

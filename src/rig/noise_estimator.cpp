@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geometry/image_grid.h"
-#include "motion/reprojection_error.h"
+#include "geometry/min_depth.h"
 
 namespace rotrocc {
 namespace {
@@ -63,12 +63,12 @@ void NoiseEstimator::collect(const StereoCamera& camera,
                              const Eigen::Isometry3d& T_prev_cur) {
   const ImageGrid grid(camera, kColumns, kRows);
   const double r2 = noise_.ratio * noise_.ratio;
-  fitDisparities(camera, features, T_prev_cur, noise_.ratio, fitted_);
+  fitAt({camera, features, noise_.ratio}, T_prev_cur, fit_);
   residuals_.clear();
   std::fill(cells_.begin(), cells_.end(), Cell());
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (set[i] == 0) continue;
-    const FittedFeature& fitted = fitted_[i];
+    const FittedFeature& fitted = fit_.features[i];
     const Eigen::Vector3d point = fitted.rotated_point + T_prev_cur.translation();
     const double j2 = fitted.by_disparity.squaredNorm();
     if (point.z() < kMinDepth_m || j2 < kLeastSlope2) continue;

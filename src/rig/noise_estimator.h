@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "motion/reprojection_error.h"
+#include "motion/fitted_feature.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/odometry_config.h"
 #include "rotrocc/stereo_camera.h"
@@ -75,7 +75,7 @@ class NoiseEstimator {
   double ratio_information_ = 0.0;
   double ratio_weighted_ = 0.0;  // information times r^2
 
-  std::vector<FittedFeature> fitted_;
+  Fit fit_;
   std::vector<Residual> residuals_;
   std::vector<Cell> cells_;
 };

@@ -31,14 +31,12 @@ double sum(const Values& values) {
 
 }  // namespace
 
-StereoCalibrator::StereoCalibrator(const Config& config)
-    : config_(config), weights_(config.robust_factor) {
+StereoCalibrator::StereoCalibrator(const Config& config) : config_(config) {
   update();
 }
 
 void StereoCalibrator::configure(const Config& config) {
   config_ = config;
-  weights_ = CauchyWeights(config.robust_factor);
   if (config_.enabled) {
     update();
   } else {
@@ -62,75 +60,68 @@ void StereoCalibrator::observe(const StereoCamera& corrected,
   if (count(set) >= kLeastFeatures) {
     linearise(corrected, features, set, T_prev_cur);
     eliminateMotion();
-    collect(corrected, features, set);
+    collect();
   }
   update();
 }
 
-/// Residuals and their derivatives by the motion and the bias, all times the roots of the weights.
+/// Residuals and their derivatives by the motion and the bias.
 void StereoCalibrator::linearise(const StereoCamera& corrected,
                                  const Correspondences& features,
                                  const FeatureSet& set,
                                  const Eigen::Isometry3d& T_prev_cur) {
-  problem_.assign(corrected, features, set, T_prev_cur, config_.noise_ratio);
-  Vector6d parameters;
-  parameters << Eigen::Vector3d::Zero(), T_prev_cur.translation();
-  problem_.weigh(parameters, weights_);
-  const auto rows = static_cast<std::size_t>(problem_.residualCount());
-  residuals_.resize(rows);
-  by_motion_.resize(6 * rows);
-  by_bias_.resize(rows);
-  problem_.linearise(parameters, residuals_.data(), by_motion_.data());
-
-  Column by_bias = byBias();
-  Eigen::Index row = 0;
-  for (const FittedFeature& feature : problem_.features()) {
-    by_bias.segment<2>(row) = -feature.whitening * feature.by_disparity;
-    row += 2;
-  }
+  fitAt({corrected, features, config_.noise_ratio}, T_prev_cur, fit_);
+  problem_.assign(corrected, fit_, set);
+  problem_.weigh(problem_.start(), config_.robust_factor);
+  const ImageGrid grid(corrected, kColumns, kRows);
+  rows_.clear();
+  problem_.linearise(problem_.start(), [&](const ReprojectionProblem<6>::Term& term) {
+    rows_.push_back({grid.cell(features[term.feature].cur_px),
+                     term.weight,
+                     term.residual_px,
+                     -term.fitted.whitening * term.fitted.by_disparity,
+                     term.jacobian});
+  });
 }
 
-/// Leaves of residuals and derivative what no change of the motion can explain. The weighted sums
-/// of residuals follow their changes by the square of the weight, see MotionSolver::Information.
+/// Leaves of residuals and derivatives what no change of the motion can explain. The weighted sums
+/// of residuals follow their changes by the square of the weight, see MotionCovariance.
 void StereoCalibrator::eliminateMotion() {
-  const Columns by_motion = byMotion();
   Matrix6d normal = Matrix6d::Zero();
   Vector6d of_bias = Vector6d::Zero();
-  for (Eigen::Index row = 0; row < by_motion.rows(); row += 2) {
-    const auto J = by_motion.middleRows<2>(row);
-    const double weight = weights_[static_cast<std::size_t>(row / 2)];
-    normal += weight * J.transpose() * J;
-    of_bias += weight * J.transpose() * byBias().segment<2>(row);
+  Vector6d of_residuals = Vector6d::Zero();
+  for (const Row& row : rows_) {
+    const double weight2 = row.weight * row.weight;
+    normal += weight2 * row.by_motion.transpose() * row.by_motion;
+    of_bias += weight2 * row.by_motion.transpose() * row.by_bias;
+    of_residuals += row.weight * row.by_motion.transpose() * row.residual_px;
   }
   const Eigen::LDLT<Matrix6d> solver(normal);
   of_bias = solver.solve(of_bias.eval());
-  const Vector6d of_residuals = solver.solve(by_motion.transpose() * residuals());
+  of_residuals = solver.solve(of_residuals.eval());
   motion_by_bias_ << -of_bias.tail<3>(), -of_bias.head<3>();
-  byBias().noalias() -= by_motion * of_bias;
-  residuals().noalias() -= by_motion * of_residuals;
+  for (Row& row : rows_) {
+    row.by_bias -= row.by_motion * of_bias;
+    row.residual_px -= row.by_motion * of_residuals;
+  }
 }
 
 /// A step of Newton's method from the bias applied: one of reweighted least squares would be too
 /// short.
-void StereoCalibrator::collect(const StereoCamera& corrected,
-                               const Correspondences& features,
-                               const FeatureSet& set) {
-  const Column errors = residuals();
-  const Column slopes = byBias();
-  const double variance = weights_.variance(errors, kParameters);
-  if (!(variance > 0.0) || !slopes.allFinite()) return;
-  const ImageGrid grid(corrected, kColumns, kRows);
-  Eigen::Index row = 0;
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    if (set[i] == 0) continue;
-    const std::size_t cell = grid.cell(features[i].cur_px);
-    const auto slope = slopes.segment<2>(row);
-    const double weight = weights_[static_cast<std::size_t>(row / 2)];
-    const double information = weight * slope.squaredNorm() / variance;
-    current_.information[cell] += information;
-    current_.weighted[cell] +=
-        information * bias_.applied_px - slope.dot(errors.segment<2>(row)) / variance;
-    row += 2;
+void StereoCalibrator::collect() {
+  WeightedVariance variance;
+  bool is_finite = true;
+  for (const Row& row : rows_) {
+    variance.add(row.weight, row.residual_px.squaredNorm());
+    is_finite = is_finite && row.by_bias.allFinite();
+  }
+  const double variance_px2 = variance.value(kParameters);
+  if (!(variance_px2 > 0.0) || !is_finite) return;
+  for (const Row& row : rows_) {
+    const double information = row.weight * row.weight * row.by_bias.squaredNorm() / variance_px2;
+    current_.information[row.cell] += information;
+    current_.weighted[row.cell] += information * bias_.applied_px -
+                                   row.weight * row.by_bias.dot(row.residual_px) / variance_px2;
   }
 }
 

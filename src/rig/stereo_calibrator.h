@@ -5,8 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "motion/cauchy_weights.h"
-#include "motion/reprojection_error.h"
+#include "motion/reprojection_problem.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/odometry_config.h"
 #include "rotrocc/rigid_motion.h"
@@ -68,14 +67,22 @@ class StereoCalibrator {
     std::array<double, kColumns * kRows> weighted{};
   };
 
+  /// A feature's residual and derivatives, weighted for Newton's method: those by the motion have
+  /// the translation last.
+  struct Row {
+    std::size_t cell;
+    double weight;
+    Eigen::Vector2d residual_px;
+    Eigen::Vector2d by_bias;
+    Eigen::Matrix<double, 2, 6> by_motion;
+  };
+
   void linearise(const StereoCamera& corrected,
                  const Correspondences& features,
                  const FeatureSet& set,
                  const Eigen::Isometry3d& T_prev_cur);
   void eliminateMotion();
-  void collect(const StereoCamera& corrected,
-               const Correspondences& features,
-               const FeatureSet& set);
+  void collect();
   void update();
 
   Config config_;
@@ -83,15 +90,10 @@ class StereoCalibrator {
   DisparityBias bias_;
   Vector6d motion_by_bias_ = Vector6d::Zero();  // translation, then rotation
 
-  // Of the pair: buffers that are used again, and how they are seen.
-  using Column = Eigen::Map<Eigen::VectorXd>;
-  using Columns = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 6>>;
-  Column residuals() { return {residuals_.data(), problem_.residualCount()}; }
-  Column byBias() { return {by_bias_.data(), problem_.residualCount()}; }
-  Columns byMotion() { return {by_motion_.data(), problem_.residualCount(), 6}; }
+  // Of the pair; reused.
+  Fit fit_;
   ReprojectionProblem<6> problem_;
-  CauchyWeights weights_;
-  std::vector<double> residuals_, by_bias_, by_motion_;
+  std::vector<Row> rows_;
 };
 
 }  // namespace rotrocc

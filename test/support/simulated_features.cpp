@@ -51,9 +51,10 @@ FittedFeature fitDisparity(const StereoCamera& camera,
                            const Correspondence& feature,
                            const Eigen::Isometry3d& T_prev_cur,
                            double noise_ratio) {
-  std::vector<FittedFeature> fitted;
-  fitDisparities(camera, {feature}, T_prev_cur, noise_ratio, fitted);
-  return fitted.front();
+  const Correspondences features = {feature};
+  Fit fit;
+  fitAt({camera, features, noise_ratio}, T_prev_cur, fit);
+  return fit.features.front();
 }
 
 Eigen::Isometry3d motion(const Eigen::Vector3d& translation_m,

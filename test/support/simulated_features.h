@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "motion/reprojection_error.h"
+#include "motion/fitted_feature.h"
 #include "rig/noise_estimator.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/rigid_motion.h"
@@ -31,7 +31,7 @@ Correspondences simulateFeatures(const StereoCamera& camera,
                                  const MeasurementNoise& noise,
                                  std::mt19937& generator);
 
-/// fitDisparities() of one feature.
+/// fitAt() of one feature.
 FittedFeature fitDisparity(const StereoCamera& camera,
                            const Correspondence& feature,
                            const Eigen::Isometry3d& T_prev_cur,

@@ -4,7 +4,7 @@
 
 namespace rotrocc {
 
-/// Some features whose disparities are fitted, see fitDisparities().
+/// Some features whose disparities are fitted, see fitAt().
 struct FitBlock {
   static constexpr int kSize = 16;
   using Numbers = double[kSize];

@@ -1,13 +1,13 @@
-#include "motion/reprojection_error.h"
+#include "motion/fitted_feature.h"
 
 #include <cmath>
-#include <memory>
 #include <random>
+#include <vector>
 
-#include <ceres/ceres.h>
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
+#include "motion/reprojection_error.h"
 #include "rotrocc/rigid_motion.h"
 #include "support/simulated_features.h"
 
@@ -35,99 +35,7 @@ Correspondences someFeatures(const Eigen::Isometry3d& T_prev_cur) {
   return simulateFeatures(kittiCamera(), T_prev_cur, 20, {5.0, 1.0}, generator);
 }
 
-/// Residuals and Jacobian of ReprojectionResidual by automatic differentiation, 6 parameters.
-struct Automatic {
-  Eigen::Vector2d residual;
-  Eigen::Matrix<double, 2, 6, Eigen::RowMajor> jacobian;
-
-  Automatic(const Correspondence& feature,
-            const Eigen::Isometry3d& T_0,
-            double noise_ratio,
-            const Vector6d& parameters) {
-    const StereoCamera camera = kittiCamera();
-    const ceres::AutoDiffCostFunction<ReprojectionResidual, 2, 6> cost(
-        new ReprojectionResidual{camera, fitDisparity(camera, feature, T_0, noise_ratio)});
-    const double* blocks[] = {parameters.data()};
-    double* jacobians[] = {jacobian.data()};
-    cost.Evaluate(blocks, residual.data(), jacobians);
-  }
-};
-
-/// The step from T_0 at which the Jacobians are compared: rotation, then the translation itself.
-Vector6d parametersNear(const Eigen::Isometry3d& T_0, const Eigen::Vector3d& rotation_rad) {
-  Vector6d parameters;
-  parameters << rotation_rad, T_0.translation() + Eigen::Vector3d(0.1, -0.05, 0.2);
-  return parameters;
-}
-
-template <int kParameters>
-void expectAutomaticJacobian(const Eigen::Isometry3d& T_0,
-                             const Correspondences& features,
-                             double noise_ratio,
-                             const Vector6d& parameters) {
-  ReprojectionProblem<kParameters> problem;
-  problem.assign(kittiCamera(), features, FeatureSet(features.size(), 1), T_0, noise_ratio);
-  ASSERT_EQ(problem.residualCount(), static_cast<int>(2 * features.size()));
-  Eigen::VectorXd residuals(problem.residualCount());
-  Eigen::Matrix<double, Eigen::Dynamic, kParameters> jacobian(problem.residualCount(), kParameters);
-  const Eigen::Matrix<double, kParameters, 1> own = parameters.template tail<kParameters>();
-  problem.linearise(own, residuals.data(), jacobian.data());
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    const Automatic automatic(features[i], T_0, noise_ratio, parameters);
-    const auto row = static_cast<Eigen::Index>(2 * i);
-    const Eigen::Matrix<double, 2, kParameters> expected =
-        automatic.jacobian.template rightCols<kParameters>();
-    // Both are exact; they differ by the rounding of some dozen operations.
-    EXPECT_LT((residuals.segment<2>(row) - automatic.residual).norm(), 1e-9);
-    EXPECT_LT((jacobian.template middleRows<2>(row) - expected).norm(), 1e-8 * expected.norm());
-  }
-  Eigen::Matrix<double, Eigen::Dynamic, kParameters + 1> both(problem.residualCount(),
-                                                              kParameters + 1);
-  both << jacobian, residuals;
-  const auto normal = (both.transpose() * both).eval();
-  EXPECT_LT((problem.normalMatrix(own) - normal).norm(), 1e-12 * normal.norm());
-  EXPECT_NEAR(problem.cost(own), residuals.squaredNorm(), 1e-12 * residuals.squaredNorm());
-}
-
-TEST(ReprojectionErrorTest, AnalyticJacobiansEqualAutomaticOnes) {
-  for (const Eigen::Isometry3d& T_0 : someMotions()) {
-    const Correspondences features = someFeatures(T_0);
-    for (const double noise_ratio : {0.0, kNoiseRatio}) {
-      for (const double angle_rad : {0.0, 1e-6, 0.01, 0.3}) {
-        const Eigen::Vector3d rotation_rad = angle_rad * Eigen::Vector3d(0.6, -0.64, 0.48);
-        expectAutomaticJacobian<6>(T_0, features, noise_ratio, parametersNear(T_0, rotation_rad));
-      }
-      expectAutomaticJacobian<3>(
-          T_0, features, noise_ratio, parametersNear(T_0, Eigen::Vector3d::Zero()));
-    }
-  }
-}
-
-TEST(ReprojectionErrorTest, JacobiansHoldForPointsBehindTheCameraToo) {
-  const Eigen::Isometry3d T_0 = motion({0.0, 0.0, -200.0}, {0.0, 0.02, 0.0});
-  const Correspondences features = someFeatures(Eigen::Isometry3d::Identity());
-  expectAutomaticJacobian<6>(T_0, features, 0.0, parametersNear(T_0, {0.01, 0.0, 0.0}));
-  expectAutomaticJacobian<3>(T_0, features, 0.0, parametersNear(T_0, {0.0, 0.0, 0.0}));
-}
-
-TEST(ReprojectionErrorTest, TheProblemTakesOnlyTheFeaturesOfTheSet) {
-  const Eigen::Isometry3d T = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
-  const Correspondences features = someFeatures(T);
-  FeatureSet set(features.size(), 0);
-  set[3] = set[7] = 1;
-  ReprojectionProblem<3> problem;
-  problem.assign(kittiCamera(), features, set, T, 0.0);
-  ASSERT_EQ(problem.residualCount(), 4);
-  Eigen::Vector4d residuals;
-  Eigen::Matrix<double, 4, 3> jacobian;
-  problem.linearise(T.translation(), residuals.data(), jacobian.data());
-  const StereoCamera camera = kittiCamera();
-  const Eigen::Vector2d second =
-      features[7].prev_px - camera.project(T * features[7].point_cur);  // Eq. 2
-  EXPECT_LT((residuals.tail<2>() - second).norm(), 1e-9);
-}
-
-/// S of the docstring of fitDisparities(), with j by central differences.
+/// S of the docstring of fitAt(), with j by central differences.
 Eigen::Matrix2d residualCovariance(const StereoCamera& camera,
                                    const Correspondence& feature,
                                    const Eigen::Isometry3d& T_prev_cur) {
@@ -142,7 +50,7 @@ Eigen::Matrix2d residualCovariance(const StereoCamera& camera,
   return Eigen::Matrix2d::Identity() + kNoiseRatio * kNoiseRatio * j * j.transpose();
 }
 
-TEST(ReprojectionErrorTest, WhiteningMakesTheCovarianceOfAResidualTheIdentity) {
+TEST(FittedFeatureTest, WhiteningMakesTheCovarianceOfAResidualTheIdentity) {
   StereoCamera verged = kittiCamera();
   verged.cx_right -= 8.0;
   for (const StereoCamera& camera : {kittiCamera(), verged}) {
@@ -170,7 +78,7 @@ double distanceToMeasurements(const Correspondence& feature,
   return (feature.prev_px - camera.project(T * point)).squaredNorm() + by_disparity * by_disparity;
 }
 
-TEST(ReprojectionErrorTest, TheFittedDisparityIsTheLikeliest) {
+TEST(FittedFeatureTest, TheFittedDisparityIsTheLikeliest) {
   const StereoCamera camera = kittiCamera();
   std::mt19937 generator(5);
   for (const Eigen::Isometry3d& T : someMotions()) {
@@ -191,7 +99,7 @@ TEST(ReprojectionErrorTest, TheFittedDisparityIsTheLikeliest) {
   }
 }
 
-TEST(ReprojectionErrorTest, AWrongMatchIsNotFittedBeyondTwiceItsDepth) {
+TEST(FittedFeatureTest, AWrongMatchIsNotFittedBeyondTwiceItsDepth) {
   const StereoCamera camera = kittiCamera();
   const Eigen::Isometry3d T = motion({0.0, 0.0, 1.5}, {0.0, 0.0, 0.0});
   for (Correspondence feature : someFeatures(T)) {
@@ -204,7 +112,7 @@ TEST(ReprojectionErrorTest, AWrongMatchIsNotFittedBeyondTwiceItsDepth) {
   }
 }
 
-TEST(ReprojectionErrorTest, WhiteningTellsNearPointsFromFarOnes) {
+TEST(FittedFeatureTest, WhiteningTellsNearPointsFromFarOnes) {
   const StereoCamera camera = kittiCamera();
   const Eigen::Isometry3d T = motion({0.0, 0.0, 1.5}, {0.0, 0.0, 0.0});
   const auto weight = [&](double depth_m) {
@@ -216,7 +124,7 @@ TEST(ReprojectionErrorTest, WhiteningTellsNearPointsFromFarOnes) {
   EXPECT_LT(weight(4.0), 0.5 * weight(40.0));
 }
 
-TEST(ReprojectionErrorTest, ARatioOfZeroIsThePapersLeastSquares) {
+TEST(FittedFeatureTest, ARatioOfZeroIsThePapersLeastSquares) {
   const Eigen::Isometry3d T = motion({0.3, 0.0, 1.0}, {0.0, 0.05, 0.0});
   for (const Correspondence& feature : someFeatures(T)) {
     const FittedFeature fitted = fitDisparity(kittiCamera(), feature, T, 0.0);
@@ -226,7 +134,7 @@ TEST(ReprojectionErrorTest, ARatioOfZeroIsThePapersLeastSquares) {
   }
 }
 
-TEST(ReprojectionErrorTest, APureRotationNeedsNoDepth) {
+TEST(FittedFeatureTest, APureRotationNeedsNoDepth) {
   const Eigen::Isometry3d T = motion({0.0, 0.0, 0.0}, {0.01, 0.05, -0.02});
   for (const Correspondence& feature : someFeatures(T)) {
     const FittedFeature fitted = fitDisparity(kittiCamera(), feature, T, kNoiseRatio);
@@ -235,17 +143,21 @@ TEST(ReprojectionErrorTest, APureRotationNeedsNoDepth) {
   }
 }
 
-TEST(ReprojectionErrorTest, AFitDependsNeitherOnItsNeighboursNorOnTheProcessor) {
+TEST(FittedFeatureTest, AFitDependsNeitherOnItsNeighboursNorOnTheProcessor) {
   const Eigen::Isometry3d T = motion({0.3, 0.0, 1.0}, {0.0, 0.05, 0.0});
   Correspondences features = someFeatures(T);
   ASSERT_GT(features.size(), 17U);
   for (const std::size_t count : {17U, 16U, 15U, 1U}) {
     features.resize(count);
-    std::vector<FittedFeature> fitted, plain;
-    fitDisparities(kittiCamera(), features, T, kNoiseRatio, fitted);
+    const StereoCamera camera = kittiCamera();
+    const Measurements measured = {camera, features, kNoiseRatio};
+    Fit fit, plain_fit;
+    fitAt(measured, T, fit);
     cv::setUseOptimized(false);
-    fitDisparities(kittiCamera(), features, T, kNoiseRatio, plain);
+    fitAt(measured, T, plain_fit);
     cv::setUseOptimized(true);
+    const auto& fitted = fit.features;
+    const auto& plain = plain_fit.features;
     ASSERT_EQ(fitted.size(), count);
     ASSERT_EQ(plain.size(), count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -260,21 +172,21 @@ TEST(ReprojectionErrorTest, AFitDependsNeitherOnItsNeighboursNorOnTheProcessor) 
   }
 }
 
-TEST(ReprojectionErrorTest, ErrorsAreTheLengthsOfTheResiduals) {
+TEST(FittedFeatureTest, ErrorsAreTheLengthsOfTheResiduals) {
   const Eigen::Isometry3d T = motion({0.3, 0.0, 1.0}, {0.0, 0.05, 0.0});
   const Correspondences features = someFeatures(T);
   const StereoCamera camera = kittiCamera();
   for (const double noise_ratio : {0.0, kNoiseRatio}) {
-    std::vector<FittedFeature> fitted;
-    fitDisparities(camera, features, T, noise_ratio, fitted);
+    Fit fit;
+    fitAt({camera, features, noise_ratio}, T, fit);
     std::vector<double> errors_px;
-    reprojectionErrors(camera, fitted, T.translation(), errors_px);
+    fittedErrors(camera, fit, errors_px);
     ASSERT_EQ(errors_px.size(), features.size());
     for (std::size_t i = 0; i < features.size(); ++i) {
-      Vector6d parameters;
-      parameters << 0.0, 0.0, 0.0, T.translation();
-      const Automatic automatic(features[i], T, noise_ratio, parameters);
-      EXPECT_NEAR(errors_px[i], automatic.residual.norm(), 1e-9);
+      const FittedFeature& fitted = fit.features[i];
+      const Eigen::Vector2d projected =
+          camera.project(fitted.rotated_point + fit.T_prev_cur.translation());
+      EXPECT_NEAR(errors_px[i], (fitted.whitening * (fitted.target_px - projected)).norm(), 1e-9);
     }
     if (noise_ratio > 0.0) continue;
     std::vector<double> plain_px;

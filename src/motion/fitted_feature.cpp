@@ -1,0 +1,84 @@
+#include "motion/fitted_feature.h"
+
+#include <algorithm>
+
+#include "features/kernels/kernels.h"
+#include "geometry/min_depth.h"
+
+namespace rotrocc {
+namespace {
+
+/// The fit is nearly linear: two steps leave less than a hundredth of the first.
+constexpr int kFitSteps = 2;
+
+FitTerms termsOf(const StereoCamera& camera,
+                 const Eigen::Isometry3d& T_prev_cur,
+                 double noise_ratio) {
+  FitTerms terms;
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(terms.rotation) = T_prev_cur.linear();
+  Eigen::Map<Eigen::Vector3d>(terms.translation) = T_prev_cur.translation();
+  terms.fx = camera.fx;
+  terms.fy = camera.fy;
+  terms.cx = camera.cx;
+  terms.cy = camera.cy;
+  terms.least_depth = kMinDepth_m;
+  terms.ratio2 = noise_ratio * noise_ratio;
+  terms.steps = noise_ratio > 0.0 ? kFitSteps : 0;
+  return terms;
+}
+
+void put(const StereoCamera& camera, const Correspondence& feature, FitBlock& block, int i) {
+  block.prev_x[i] = feature.prev_px.x();
+  block.prev_y[i] = feature.prev_px.y();
+  block.point_x[i] = feature.point_cur.x();
+  block.point_y[i] = feature.point_cur.y();
+  block.point_z[i] = feature.point_cur.z();
+  block.measured[i] = feature.disparity_px - camera.disparityAtInfinity();
+}
+
+void get(const FitBlock& block, int i, FittedFeature& fitted) {
+  fitted.target_px = {block.target_x[i], block.target_y[i]};
+  fitted.rotated_point = {block.rotated_x[i], block.rotated_y[i], block.rotated_z[i]};
+  fitted.whitening << block.whitening_xx[i], block.whitening_xy[i], block.whitening_xy[i],
+      block.whitening_yy[i];
+  fitted.by_disparity = {block.slope_x[i], block.slope_y[i]};
+}
+
+double errorOf(const StereoCamera& camera,
+               const FittedFeature& feature,
+               const Eigen::Vector3d& translation) {
+  Eigen::Vector3d point = feature.rotated_point + translation;
+  point.z() = std::max(point.z(), kMinDepth_m);
+  return (feature.whitening * (feature.target_px - camera.project(point))).norm();
+}
+
+}  // namespace
+
+void fitAt(const Measurements& measured, const Eigen::Isometry3d& T_prev_cur, Fit& fit) {
+  const StereoCamera& camera = measured.camera;
+  const Correspondences& features = measured.features;
+  const Kernels& kernels = chooseKernels();
+  const FitTerms terms = termsOf(camera, T_prev_cur, measured.noise_ratio);
+  FitBlock block = {};
+  fit.T_prev_cur = T_prev_cur;
+  fit.features.resize(features.size());
+  for (std::size_t first = 0; first < features.size(); first += FitBlock::kSize) {
+    const auto left = features.size() - first;
+    const int count = static_cast<int>(std::min<std::size_t>(left, FitBlock::kSize));
+    for (int i = 0; i < FitBlock::kSize; ++i) {
+      put(camera, features[first + static_cast<std::size_t>(std::min(i, count - 1))], block, i);
+    }
+    kernels.fitDisparities(terms, block);
+    for (int i = 0; i < count; ++i)
+      get(block, i, fit.features[first + static_cast<std::size_t>(i)]);
+  }
+}
+
+void fittedErrors(const StereoCamera& camera, const Fit& fit, std::vector<double>& errors_px) {
+  errors_px.clear();
+  for (const FittedFeature& feature : fit.features) {
+    errors_px.push_back(errorOf(camera, feature, fit.T_prev_cur.translation()));
+  }
+}
+
+}  // namespace rotrocc

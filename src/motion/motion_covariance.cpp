@@ -1,0 +1,109 @@
+#include "motion/motion_covariance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "geometry/image_grid.h"
+
+namespace rotrocc {
+namespace {
+
+/// Cells over which the errors of neighbours may be alike.
+constexpr int kScatterColumns = 8;
+constexpr int kScatterRows = 3;
+
+/// Errors that are Gaussian in x and y, of which only those shorter than `limit_px` are left with
+/// the variance `left_px2` in each direction: the share of the whole variance that this is. It is
+/// g = 1 - x / (e^x - 1) with x = limit^2 / (2 variance).
+double shareOfVariance(double left_px2, double limit_px) {
+  const auto g = [](double x) { return 1.0 - x / std::expm1(x); };
+  // Nearly even errors up to the limit say little of the variance: no less than one is assumed that
+  // makes the covariance 20 times as large.
+  double low = 0.5;
+  double high = 50.0;
+  const double wanted = 2.0 * left_px2 / (limit_px * limit_px);  // g(x) / x, which falls
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    (g(middle) / middle > wanted ? low : high) = middle;
+  }
+  return g(low);
+}
+
+/// How much larger the covariance is than that of independent errors, by the variance per degree of
+/// freedom that the scatter of the cells shows and that of a residual: neighbours share texture, an
+/// object's motion and what is left of the lens.
+double inflation(double scatter_px2, double residual_px2) {
+  return residual_px2 > 0.0 ? std::max(1.0, scatter_px2 / residual_px2) : 1.0;
+}
+
+template <std::size_t kCells>
+Matrix6d scatterOf(const std::array<Vector6d, kCells>& gradients) {
+  Matrix6d sum = Matrix6d::Zero();
+  int cells = 0;
+  for (const Vector6d& gradient : gradients) {
+    if (gradient.isZero(0.0)) continue;
+    sum += gradient * gradient.transpose();
+    ++cells;
+  }
+  // The motion was fitted to them, so that they scatter less than the errors do.
+  return sum * cells / std::max(1, cells - 6);
+}
+
+}  // namespace
+
+bool MotionCovariance::estimate(const Measurements& measured,
+                                const TwoStageMotion& motion,
+                                Matrix6d& covariance) {
+  const Information one = collect(measured, motion.fit, motion.rotation_inliers, 6);
+  const Eigen::LDLT<Matrix6d> full(one.matrix);
+  if (full.info() != Eigen::Success || !full.isPositive()) return false;
+  const double share = is_truncated_ ? shareOfVariance(one.residual_variance, limit_px_) : 1.0;
+  const double variance = one.residual_variance / share;
+  const double alike = inflation(full.solve(one.scatter).trace() / 6.0, one.residual_variance);
+  const Matrix6d both = alike * variance / share * full.solve(Matrix6d::Identity());
+  if (!both.allFinite()) return false;
+  covariance = both;
+  if (!motion.has_translation_stage) return true;
+
+  const Information two = collect(measured, motion.fit, motion.translation_inliers, 3);
+  const Eigen::LDLT<Eigen::Matrix3d> translation(two.matrix.topLeftCorner<3, 3>());
+  if (translation.info() != Eigen::Success || !translation.isPositive()) return false;
+  const Eigen::Matrix3d by_rotation = -translation.solve(two.matrix.topRightCorner<3, 3>());
+  const Eigen::Matrix3d rotation = both.bottomRightCorner<3, 3>();
+  const Eigen::Matrix3d scatter = two.scatter.topLeftCorner<3, 3>();
+  const double alike_two =
+      inflation(translation.solve(scatter).trace() / 3.0, two.residual_variance);
+  covariance.topLeftCorner<3, 3>() = alike_two * std::max(two.residual_variance, variance) *
+                                         translation.solve(Eigen::Matrix3d::Identity()) +
+                                     by_rotation * rotation * by_rotation.transpose();
+  covariance.topRightCorner<3, 3>() = by_rotation * rotation;
+  covariance.bottomLeftCorner<3, 3>() = rotation * by_rotation.transpose();
+  return covariance.allFinite();
+}
+
+MotionCovariance::Information MotionCovariance::collect(const Measurements& measured,
+                                                        const Fit& fit,
+                                                        const FeatureSet& set,
+                                                        int estimated_parameters) {
+  problem_.assign(measured.camera, fit, set);
+  problem_.weigh(problem_.start(), robust_factor_);
+  Information information;
+  WeightedVariance variance;
+  const ImageGrid grid(measured.camera, kScatterColumns, kScatterRows);
+  std::array<Vector6d, kScatterColumns * kScatterRows> gradients;
+  gradients.fill(Vector6d::Zero());
+  problem_.linearise(problem_.start(), [&](const ReprojectionProblem<6>::Term& term) {
+    Eigen::Matrix<double, 2, 6> J;
+    J << term.weight * term.jacobian.rightCols<3>(), term.weight * term.jacobian.leftCols<3>();
+    information.matrix += J.transpose() * J;
+    gradients[grid.cell(measured.features[term.feature].cur_px)] +=
+        J.transpose() * term.residual_px;
+    variance.add(term.weight, term.residual_px.squaredNorm());
+  });
+  information.residual_variance = variance.value(estimated_parameters);
+  information.scatter = scatterOf(gradients);
+  return information;
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "motion/fitted_feature.h"
+#include "motion/motion_solver.h"
+#include "rotrocc/correspondence.h"
+
+namespace rotrocc {
+
+/// Refines the result of a stage once its set is stable: iteratively reweighted least squares with
+/// cauchyWeights(). Not part of the paper.
+class RobustRefinement {
+ public:
+  /// `factor`: of cauchyWeights().
+  explicit RobustRefinement(double factor);
+
+  /// Both return false if the least squares fail.
+  bool refineMotion(const Measurements& measured, const FeatureSet& set, Fit& fit);
+  bool refineTranslation(const Measurements& measured, const FeatureSet& set, Fit& fit);
+
+ private:
+  MotionSolver solver_;
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,130 @@
+#include "motion/two_stage_estimator.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "motion/flow_decoupling.h"
+#include "motion/reprojection_error.h"
+
+namespace rotrocc {
+namespace {
+
+/// Keeps a normalized error finite where there is no flow at all [px].
+constexpr double kLeastFlow_px = 1e-6;
+
+/// The error of a feature that must not enter.
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+OutlierThreshold rotationThreshold(Criterion criterion, const MotionEstimatorConfig& config) {
+  switch (criterion) {
+    case Criterion::kMeanBased:
+      return OutlierThreshold::meanBased(config.mean_factor);
+    case Criterion::kStdBased:
+      return OutlierThreshold::deviationBased(config.deviation_factor);
+    default:
+      return OutlierThreshold::fixedLimit(config.rotation_limit_px, config.rotation_drop_share);
+  }
+}
+
+}  // namespace
+
+TwoStageEstimator::TwoStageEstimator(const MotionEstimatorConfig& config)
+    : config_(config),
+      criterion_(criterionOf(config.criterion)),
+      solver_({}),
+      rotation_threshold_(rotationThreshold(criterion_, config)),
+      translation_threshold_(
+          OutlierThreshold::fixedLimit(config.translation_limit, config.translation_drop_share)) {}
+
+void TwoStageEstimator::estimate(const Measurements& measured,
+                                 const FeatureSet& set,
+                                 const Eigen::Isometry3d& initial,
+                                 double dt_s,
+                                 RobustRefinement* refinement,
+                                 TwoStageMotion& motion) {
+  fitAt(measured, initial, motion.fit);
+  motion.rotation_inliers = set;
+  motion.has_translation_stage = false;
+  motion.valid = estimateRotation(measured, refinement, motion);  // 1)
+  motion.translation_inliers = motion.rotation_inliers;
+
+  const double step_m = motion.fit.T_prev_cur.translation().norm();
+  const bool is_slow = step_m < config_.min_speed_mps * dt_s;
+  if (!motion.valid || !hasTwoStages(criterion_) || is_slow) return;
+  motion.has_translation_stage = true;
+  decouple(measured, motion.fit.T_prev_cur.linear());                // 2)
+  motion.valid = estimateTranslation(measured, refinement, motion);  // 3)
+}
+
+bool TwoStageEstimator::estimateRotation(const Measurements& measured,
+                                         RobustRefinement* refinement,
+                                         TwoStageMotion& motion) {
+  Fit& fit = motion.fit;
+  FeatureSet& inliers = motion.rotation_inliers;
+  const auto solve = [&](const FeatureSet& set) {
+    return solver_.solveMotion(measured, set, fit);  // Eq. 25
+  };
+  const auto measure = [&] { fittedErrors(measured.camera, fit, errors_); };
+  const int iterations =
+      hasFixedLimit(criterion_) ? config_.rotation_max_iterations : config_.comparison_iterations;
+  if (!iterate(rotation_threshold_, iterations, solve, measure, inliers)) return false;
+  return refinement != nullptr ? refinement->refineMotion(measured, inliers, fit) : solve(inliers);
+}
+
+/// The flow that a DNRE (or NRE) is normalized with.
+void TwoStageEstimator::decouple(const Measurements& measured, const Eigen::Matrix3d& R_prev_cur) {
+  if (criterion_ == Criterion::kRotrocc) {
+    decoupledFlow(measured.camera, measured.features, R_prev_cur, flow_px_);  // Eq. 27, 28
+  } else {
+    coupledFlow(measured.features, flow_px_);
+  }
+}
+
+bool TwoStageEstimator::estimateTranslation(const Measurements& measured,
+                                            RobustRefinement* refinement,
+                                            TwoStageMotion& motion) {
+  Fit& fit = motion.fit;
+  FeatureSet& inliers = motion.translation_inliers;
+  candidates_.assign(measured.features.size(), 1);
+  if (config_.translation_initial_px > 0.0) {
+    fittedErrors(measured.camera, fit, errors_);
+    keepBelow(errors_, config_.translation_initial_px, candidates_);
+  }
+  const auto solve = [&](const FeatureSet& set) {
+    return solver_.solveTranslation(measured, set, fit);  // Eq. 29
+  };
+  // Plain errors: only then is the DNRE the relative error of the depth, and wrong disparities of
+  // far points, which differ from the right one by a large part of it, are seen.
+  const auto measure = [&] {
+    reprojectionErrors(measured.camera, measured.features, fit.T_prev_cur, errors_);
+    for (std::size_t i = 0; i < errors_.size(); ++i) {
+      const double flow_px = std::max({flow_px_[i], config_.min_flow_px, kLeastFlow_px});
+      errors_[i] = candidates_[i] != 0 ? errors_[i] / flow_px : kNever;
+    }
+  };
+  inliers = candidates_;
+  const int iterations = config_.translation_max_iterations;
+  if (!iterate(translation_threshold_, iterations, solve, measure, inliers)) return false;
+  return refinement != nullptr ? refinement->refineTranslation(measured, inliers, fit)
+                               : solve(inliers);
+}
+
+/// Solves for the motion of the set and thresholds the errors of all features, until the set is
+/// stable (Eq. 26, 30, 31, 32). Returns false if `solve` does.
+template <class Solve, class Measure>
+bool TwoStageEstimator::iterate(OutlierThreshold& threshold,
+                                int max_iterations,
+                                const Solve& solve,
+                                const Measure& measure,
+                                FeatureSet& set) {
+  next_ = set;
+  for (int i = 0; i < max_iterations; ++i) {
+    if (!solve(set)) return false;
+    measure();
+    if (!keepBelow(errors_, threshold(errors_, set), next_)) break;
+    set = next_;
+  }
+  return true;
+}
+
+}  // namespace rotrocc

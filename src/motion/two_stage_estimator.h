@@ -1,0 +1,70 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "motion/criterion.h"
+#include "motion/fitted_feature.h"
+#include "motion/motion_solver.h"
+#include "motion/outlier_rejection.h"
+#include "motion/robust_refinement.h"
+#include "rotrocc/correspondence.h"
+#include "rotrocc/odometry_config.h"
+
+namespace rotrocc {
+
+/// What the two stages find.
+struct TwoStageMotion {
+  bool valid = false;
+  Fit fit;  ///< the motion, and the features fitted at it
+  FeatureSet rotation_inliers;
+  FeatureSet translation_inliers;  ///< those of the rotation if there is no translation stage
+  bool has_translation_stage = false;
+};
+
+/// The estimator of section V-B: rotation, flow decoupling, translation; or one of the criteria
+/// that it is compared with. The result depends on the arguments alone.
+class TwoStageEstimator {
+ public:
+  /// Throws std::invalid_argument on a criterion of another name.
+  explicit TwoStageEstimator(const MotionEstimatorConfig& config);
+
+  /// Estimates the motion that took `dt_s` > 0 from the features flagged in `set`, beginning with
+  /// `initial`. Invalid if fewer than 3 features are left. `refinement`, if given, follows each
+  /// stage.
+  void estimate(const Measurements& measured,
+                const FeatureSet& set,
+                const Eigen::Isometry3d& initial,
+                double dt_s,
+                RobustRefinement* refinement,
+                TwoStageMotion& motion);
+
+ private:
+  bool estimateRotation(const Measurements& measured,
+                        RobustRefinement* refinement,
+                        TwoStageMotion& motion);
+  void decouple(const Measurements& measured, const Eigen::Matrix3d& R_prev_cur);
+  bool estimateTranslation(const Measurements& measured,
+                           RobustRefinement* refinement,
+                           TwoStageMotion& motion);
+  template <class Solve, class Measure>
+  bool iterate(OutlierThreshold& threshold,
+               int max_iterations,
+               const Solve& solve,
+               const Measure& measure,
+               FeatureSet& set);
+
+  MotionEstimatorConfig config_;
+  Criterion criterion_;
+  MotionSolver solver_;
+  OutlierThreshold rotation_threshold_;
+  OutlierThreshold translation_threshold_;
+
+  // Reused from call to call.
+  FeatureSet candidates_, next_;
+  std::vector<double> errors_;
+  std::vector<double> flow_px_;
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,197 @@
+#include "motion/reprojection_problem.h"
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <ceres/autodiff_cost_function.h>
+#include <gtest/gtest.h>
+
+#include "motion/reprojection_error.h"
+#include "motion/reprojection_residual.h"
+#include "support/simulated_features.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kNoiseRatio = 3.0;
+
+/// Motions of a car and of a hand-held camera, some with no rotation or translation at all.
+std::vector<Eigen::Isometry3d> someMotions() {
+  std::mt19937 generator(1);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  const auto vector = [&] {
+    return Eigen::Vector3d(any(generator), any(generator), any(generator));
+  };
+  std::vector<Eigen::Isometry3d> motions = {motion({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}),
+                                            motion({0.0, 0.0, 1.5}, {0.0, 0.0, 0.0}),
+                                            motion({0.0, 0.0, 0.0}, {0.0, 0.1, 0.0})};
+  for (int i = 0; i < 10; ++i) motions.push_back(motion(vector(), 0.2 * vector()));
+  return motions;
+}
+
+Correspondences someFeatures(const Eigen::Isometry3d& T_prev_cur) {
+  std::mt19937 generator(2);
+  return simulateFeatures(kittiCamera(), T_prev_cur, 20, {5.0, 1.0}, generator);
+}
+
+/// Residuals and Jacobian of ReprojectionResidual by automatic differentiation, 6 parameters.
+struct Automatic {
+  Eigen::Vector2d residual;
+  Eigen::Matrix<double, 2, 6, Eigen::RowMajor> jacobian;
+
+  Automatic(const Correspondence& feature,
+            const Eigen::Isometry3d& T_0,
+            double noise_ratio,
+            const Vector6d& parameters) {
+    const StereoCamera camera = kittiCamera();
+    const ceres::AutoDiffCostFunction<ReprojectionResidual, 2, 6> cost(
+        new ReprojectionResidual{camera, fitDisparity(camera, feature, T_0, noise_ratio)});
+    const double* blocks[] = {parameters.data()};
+    double* jacobians[] = {jacobian.data()};
+    cost.Evaluate(blocks, residual.data(), jacobians);
+  }
+};
+
+/// The step from T_0 at which the Jacobians are compared: rotation, then the translation itself.
+Vector6d parametersNear(const Eigen::Isometry3d& T_0, const Eigen::Vector3d& rotation_rad) {
+  Vector6d parameters;
+  parameters << rotation_rad, T_0.translation() + Eigen::Vector3d(0.1, -0.05, 0.2);
+  return parameters;
+}
+
+Fit fitOf(const Correspondences& features, const Eigen::Isometry3d& T_0, double noise_ratio) {
+  const StereoCamera camera = kittiCamera();
+  Fit fit;
+  fitAt({camera, features, noise_ratio}, T_0, fit);
+  return fit;
+}
+
+FeatureSet all(const Correspondences& features) {
+  return FeatureSet(features.size(), 1);
+}
+
+template <int kParameters>
+void expectAutomaticJacobian(const Eigen::Isometry3d& T_0,
+                             const Correspondences& features,
+                             double noise_ratio,
+                             const Vector6d& parameters) {
+  using Problem = ReprojectionProblem<kParameters>;
+  Problem problem;
+  problem.assign(kittiCamera(), fitOf(features, T_0, noise_ratio), all(features));
+  const typename Problem::Parameters own = parameters.template tail<kParameters>();
+  problem.weigh(own, 2.0);
+  const Eigen::Matrix3d by_rotation = leftJacobian(parameters.head<3>());
+  std::size_t next = 0;
+  typename Problem::NormalMatrix normal = Problem::NormalMatrix::Zero();
+  problem.linearise(own, [&](const typename Problem::Term& term) {
+    ASSERT_EQ(term.feature, next++);
+    const Automatic automatic(features[term.feature], T_0, noise_ratio, parameters);
+    // Both are exact; they differ by the rounding of some dozen operations.
+    EXPECT_LT((term.residual_px - automatic.residual).norm(), 1e-9);
+    const Eigen::Matrix<double, 2, kParameters> expected =
+        automatic.jacobian.template rightCols<kParameters>();
+    Eigen::Matrix<double, 2, kParameters> jacobian = term.jacobian;
+    if (kParameters == 6) jacobian.template leftCols<3>() *= by_rotation;
+    EXPECT_LT((jacobian - expected).norm(), 1e-8 * expected.norm());
+    Eigen::Matrix<double, 2, kParameters + 1> both;
+    both << jacobian, term.residual_px;
+    normal += term.weight * both.transpose() * both;
+  });
+  EXPECT_EQ(next, features.size());
+  EXPECT_LT((problem.normalMatrix(own) - normal).norm(), 1e-12 * normal.norm());
+  const double cost = normal(kParameters, kParameters);
+  EXPECT_NEAR(problem.cost(own), cost, 1e-12 * cost);
+}
+
+TEST(ReprojectionProblemTest, AnalyticJacobiansEqualAutomaticOnes) {
+  for (const Eigen::Isometry3d& T_0 : someMotions()) {
+    const Correspondences features = someFeatures(T_0);
+    for (const double noise_ratio : {0.0, kNoiseRatio}) {
+      for (const double angle_rad : {0.0, 1e-6, 0.01, 0.3}) {
+        const Eigen::Vector3d rotation_rad = angle_rad * Eigen::Vector3d(0.6, -0.64, 0.48);
+        expectAutomaticJacobian<6>(T_0, features, noise_ratio, parametersNear(T_0, rotation_rad));
+      }
+      expectAutomaticJacobian<3>(
+          T_0, features, noise_ratio, parametersNear(T_0, Eigen::Vector3d::Zero()));
+    }
+  }
+}
+
+TEST(ReprojectionProblemTest, JacobiansHoldForPointsBehindTheCameraToo) {
+  const Eigen::Isometry3d T_0 = motion({0.0, 0.0, -200.0}, {0.0, 0.02, 0.0});
+  const Correspondences features = someFeatures(Eigen::Isometry3d::Identity());
+  expectAutomaticJacobian<6>(T_0, features, 0.0, parametersNear(T_0, {0.01, 0.0, 0.0}));
+  expectAutomaticJacobian<3>(T_0, features, 0.0, parametersNear(T_0, {0.0, 0.0, 0.0}));
+}
+
+TEST(ReprojectionProblemTest, TakesOnlyTheFeaturesOfTheSet) {
+  const Eigen::Isometry3d T = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
+  const Correspondences features = someFeatures(T);
+  FeatureSet set(features.size(), 0);
+  set[3] = set[7] = 1;
+  ReprojectionProblem<3> problem;
+  problem.assign(kittiCamera(), fitOf(features, T, 0.0), set);
+  std::vector<std::size_t> taken;
+  problem.linearise(problem.start(), [&](const ReprojectionProblem<3>::Term& term) {
+    taken.push_back(term.feature);
+    const Correspondence& feature = features[term.feature];
+    const Eigen::Vector2d expected =
+        feature.prev_px - kittiCamera().project(T * feature.point_cur);  // Eq. 2
+    EXPECT_LT((term.residual_px - expected).norm(), 1e-9);
+    EXPECT_EQ(term.weight, 1.0);
+  });
+  EXPECT_EQ(taken, (std::vector<std::size_t>{3, 7}));
+}
+
+TEST(ReprojectionProblemTest, RobustWeightsFallWithTheResiduals) {
+  const Eigen::Isometry3d T = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
+  const Correspondences features = someFeatures(T);
+  ReprojectionProblem<6> problem;
+  problem.assign(kittiCamera(), fitOf(features, T, 0.0), all(features));
+  problem.weigh(problem.start(), 2.0);
+  double last_px = 0.0;
+  double last_weight = 1.0;
+  problem.linearise(problem.start(), [&](const ReprojectionProblem<6>::Term& term) {
+    const double error_px = term.residual_px.norm();
+    EXPECT_EQ(error_px<last_px, term.weight> last_weight);
+    last_px = error_px;
+    last_weight = term.weight;
+  });
+}
+
+TEST(ReprojectionProblemTest, NormalMatrixIsThatOfTheErrorsOfAMotion) {
+  const Eigen::Isometry3d truth = motion({0.1, -0.02, 1.3}, {0.01, 0.06, -0.005});
+  std::mt19937 generator(2);
+  const Correspondences features =
+      simulateFeatures(kittiCamera(), truth, 200, {0.3, 0.9}, generator);
+  ReprojectionProblem<6> problem;
+  problem.assign(kittiCamera(), fitOf(features, truth, kNoiseRatio), all(features));
+  const Matrix6d matrix = problem.normalMatrix(problem.start()).topLeftCorner<6, 6>();
+  // The cost grows by e^T J^T J e for an error e, rotation first.
+  const auto cost = [&](const Vector6d& error) {
+    Eigen::Isometry3d T = truth;
+    T.linear() = expRotation(error.head<3>()) * T.linear();
+    T.translation() += error.tail<3>();
+    double sum = 0.0;
+    for (const Correspondence& feature : features) {
+      const FittedFeature fitted = fitDisparity(kittiCamera(), feature, truth, kNoiseRatio);
+      const Eigen::Vector3d turned = T.linear() * truth.linear().transpose() * fitted.rotated_point;
+      const Eigen::Vector2d shift_px =
+          kittiCamera().project(turned + T.translation()) -
+          kittiCamera().project(fitted.rotated_point + truth.translation());
+      sum += (fitted.whitening * shift_px).squaredNorm();
+    }
+    return sum;
+  };
+  for (int i = 0; i < 6; ++i) {
+    for (int k = 0; k <= i; ++k) {
+      const Vector6d e = 1e-6 * (Vector6d::Unit(i) + Vector6d::Unit(k));
+      const double expected = e.dot(matrix * e);
+      EXPECT_NEAR(cost(e), expected, 1e-3 * expected) << i << ' ' << k;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rotrocc
