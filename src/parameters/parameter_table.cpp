@@ -67,7 +67,7 @@ void ParameterTable::add(const std::string& name,
                          int max,
                          const std::string& unit,
                          const std::string& description) {
-  Parameter parameter = makeNumber(value, min, max, "a whole number");
+  Parameter parameter = makeNumber(value, min, max, "an integer");
   parameter.name = name;
   parameter.unit = unit;
   parameter.description = description;
@@ -128,8 +128,7 @@ void ParameterTable::set(const std::string& name, const std::string& text) {
   const auto found = std::find_if(
       parameters_.begin(), parameters_.end(), [&](const Parameter& p) { return p.name == name; });
   if (found == parameters_.end()) {
-    throw std::invalid_argument("there is no parameter \"" + name +
-                                "\"; config/default.yaml lists them all");
+    throw std::invalid_argument("unknown parameter \"" + name + "\"; see config/default.yaml");
   }
   try {
     found->set(text);
@@ -141,7 +140,7 @@ void ParameterTable::set(const std::string& name, const std::string& text) {
 void ParameterTable::setAssignment(const std::string& assignment) {
   const auto equals = assignment.find('=');
   if (equals == std::string::npos) {
-    throw std::invalid_argument("\"" + assignment + "\" is no assignment; write name=value");
+    throw std::invalid_argument("\"" + assignment + "\" is not an assignment: write name=value");
   }
   set(assignment.substr(0, equals), assignment.substr(equals + 1));
 }

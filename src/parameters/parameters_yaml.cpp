@@ -9,15 +9,15 @@
 namespace rotrocc {
 namespace {
 
-/// Sets every scalar below `node`, whose name so far is `prefix`.
+/// Sets every scalar below `node`; `prefix` is the name of `node`.
 void setAll(const YAML::Node& node, const std::string& prefix, ParameterTable& table) {
   if (node.IsScalar()) return table.set(prefix, node.Scalar());
   if (!node.IsMap()) {
     throw std::invalid_argument("parameter \"" + prefix + "\" is neither a value nor a section");
   }
-  // An alias may refer to what it is in, without end.
+  // A recursive alias would never end.
   if (prefix.find('/') != std::string::npos) {
-    throw std::invalid_argument("\"" + prefix + "\" must be a value: sections have no sections");
+    throw std::invalid_argument("\"" + prefix + "\" must be a value: sections cannot be nested");
   }
   for (const auto& entry : node) {
     const auto name = entry.first.as<std::string>();
@@ -25,10 +25,10 @@ void setAll(const YAML::Node& node, const std::string& prefix, ParameterTable& t
   }
 }
 
-/// Where the comments of a YAML file begin.
+/// Column of the comments in a YAML file.
 constexpr std::size_t kCommentColumn = 34;
 
-/// The inside of double quotes. YAML::Emitter would change what is no UTF-8.
+/// Escapes text for double quotes. YAML::Emitter would change invalid UTF-8.
 std::string escape(const std::string& text) {
   constexpr char kHex[] = "0123456789abcdef";
   std::string escaped;
@@ -44,7 +44,7 @@ std::string escape(const std::string& text) {
   return escaped;
 }
 
-/// A text as YAML has it: in quotes if it might be read as something else without.
+/// Quotes a text if YAML would read it as something else.
 std::string quoteIfNeeded(const std::string& text) {
   const auto is_plain = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '/' || c == '.';

@@ -95,7 +95,7 @@ TEST(LiveParametersTest, RefusesAllIfOneIsBad) {
   expectError<std::invalid_argument>([&] { applyConfig(makeInt("queue_size", 5), parameters); },
                                      "\"queue_size\" cannot be changed while the odometry runs");
   expectError<std::invalid_argument>([&] { applyConfig(makeInt("a/b", 5), parameters); },
-                                     "no parameter \"a/b\"");
+                                     "unknown parameter \"a/b\"");
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ TEST_F(NodeParametersTest, RefusesValuesOutOfRange) {
 TEST_F(NodeParametersTest, RefusesWrongTypes) {
   XmlRpcValue real;
   real["queue_size"] = 2.5;
-  expectRefused(real, "queue_size is \"2.5\", but must be a whole number");
+  expectRefused(real, "queue_size is \"2.5\", but must be an integer");
   XmlRpcValue text;
   text["queue_size"] = std::string("four");
   expectRefused(text, "queue_size is \"four\"");

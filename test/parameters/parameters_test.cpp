@@ -160,11 +160,11 @@ void expectRefused(const std::string& name, const std::string& value, const std:
 
 TEST(ParametersTest, RefusesWithNameValueAndRange) {
   expectRefused(
-      "feature_detector/max_feature", "100", "no parameter \"feature_detector/max_feature\"");
+      "feature_detector/max_feature", "100", "unknown parameter \"feature_detector/max_feature\"");
   expectRefused("queue_size", "101", "parameter queue_size is 101, but must be in [1, 100]");
   expectRefused("queue_size", "0", "is 0, but must be in [1, 100]");
-  expectRefused("queue_size", "many", "is \"many\", but must be a whole number in [1, 100]");
-  expectRefused("queue_size", "2.5", "is \"2.5\", but must be a whole number in [1, 100]");
+  expectRefused("queue_size", "many", "is \"many\", but must be an integer in [1, 100]");
+  expectRefused("queue_size", "2.5", "is \"2.5\", but must be an integer in [1, 100]");
   expectRefused("queue_size", "99999999999", "is \"99999999999\", but must be");
   expectRefused("queue_size", "", "is \"\", but must be");
   expectRefused("visual_odometry/max_gap_s",
@@ -181,7 +181,7 @@ TEST(ParametersTest, RefusesWithNameValueAndRange) {
 
 TEST(ParametersTest, RefusesAnAssignmentWithoutAValue) {
   expectError<std::invalid_argument>([] { Settings().table.setAssignment("queue_size 4"); },
-                                     "\"queue_size 4\" is no assignment; write name=value");
+                                     "\"queue_size 4\" is not an assignment: write name=value");
 }
 
 TEST(ParametersTest, AFileNamesItselfWhenItIsRefused) {
@@ -192,7 +192,7 @@ TEST(ParametersTest, AFileNamesItselfWhenItIsRefused) {
     expectError<std::invalid_argument>([&] { loadYaml(path, settings.table); }, path);
     expectError<std::invalid_argument>([&] { loadYaml(path, settings.table); }, part);
   };
-  expect_refused("motion_check:\n  min_inlier: 3\n", "no parameter \"motion_check/min_inlier\"");
+  expect_refused("motion_check:\n  min_inlier: 3\n", "unknown parameter \"motion_check/min_inlier\"");
   expect_refused("motion_check:\n  min_inliers: 1\n", "motion_check/min_inliers is 1");
   expect_refused("visual_odometry:\n  max_gap_s: .nan\n", "visual_odometry/max_gap_s is \".nan\"");
   expect_refused("motion_check: [1, 2]\n", "\"motion_check\" is neither a value nor a section");
