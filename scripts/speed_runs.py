@@ -36,7 +36,7 @@ class Setting:
                                '--stats', table, *self.options)
             pairs = read_table(table)
             figures = self.times(pairs)
-            memory = re.search(r'peak: ([\d.]+) above .*, ([\d.]+) of that', summary)
+            memory = re.search(r'peak memory: ([\d.]+) MB .* of which ([\d.]+) MB', summary)
             figures['process memory [MB]'] = float(memory.group(1))
             figures[MEMORY] = float(memory.group(2))
             figures['pairs lost'] = sum(pair['state'] == 'lost' for pair in pairs)

@@ -12,7 +12,7 @@ rosbag::Bag openBag(const std::string& path) {
     throw std::runtime_error(path +
                              " was not closed when it was written: run 'rosbag reindex' on it");
   } catch (const rosbag::BagException& error) {
-    // Launch files start programs in a directory of their own, so say where it was looked for.
+    // Programs of a launch file have their own working directory, so print the absolute path.
     throw std::runtime_error(std::filesystem::absolute(path).string() +
                              " is not readable as a bag: " + error.what());
   }

@@ -11,23 +11,23 @@
 
 namespace rotrocc {
 
-/// Opens a bag to read it. Throws std::runtime_error if it is missing or no complete bag.
+/// Opens a bag for reading. Throws std::runtime_error if it is missing or incomplete.
 rosbag::Bag openBag(const std::string& path);
 
-/// A message of a bag. Throws std::runtime_error if it is of another type, or of an old version of
-/// it.
+/// Returns a message of a bag. Throws std::runtime_error if it has another type or an old version
+/// of it.
 template <typename Message>
 boost::shared_ptr<Message> readMessage(const rosbag::MessageInstance& instance) {
   const auto message = instance.instantiate<Message>();
   if (!message) {
-    throw std::runtime_error("a message of " + instance.getTopic() + " is no " +
+    throw std::runtime_error("a message of " + instance.getTopic() + " is not a " +
                              ros::message_traits::DataType<Message>::value() +
                              " of this version of ROS");
   }
   return message;
 }
 
-/// The first message of a topic, as readMessage() does; null if there is none.
+/// Returns the first message of a topic; null if there is none.
 template <typename Message>
 boost::shared_ptr<Message> firstMessage(const rosbag::Bag& bag, const std::string& topic) {
   rosbag::View view(bag, rosbag::TopicQuery(topic));

@@ -60,7 +60,7 @@ KittiBagWriter::KittiBagWriter(const std::string& path,
   const std::int64_t last_s = start_time_s + sequence.stamp_ns(sequence.size() - 1) / kNsPerS;
   if (start_time_s < 1 || last_s >= std::numeric_limits<std::uint32_t>::max()) {
     throw std::invalid_argument("start time " + std::to_string(start_time_s) +
-                                " s is beyond the range of ROS stamps: choose one from 1 to 4e9");
+                                " s is out of the range of ROS stamps: choose one from 1 to 4e9");
   }
   Trajectory poses = sequence.groundTruth();
   for (StampedPose& pose : poses) pose.stamp_ns += start_time_s * kNsPerS;
@@ -121,7 +121,7 @@ void KittiBagWriter::writeCamera(const std::string& camera_topic,
 template <typename Message>
 void KittiBagWriter::write(const std::string& topic, const Message& message) {
   bag_.write(topic, record_time_, message);
-  // Players go by the record time: what is equal in time would come in any order.
+  // Players sort by record time; equal times would have an undefined order.
   record_time_ += ros::Duration(0, 1);
 }
 

@@ -17,27 +17,26 @@ namespace rotrocc {
 ///   /stereo/{left,right}/image_rect    sensor_msgs/Image, mono8
 ///   /stereo/{left,right}/camera_info   sensor_msgs/CameraInfo
 ///   /tf_static                         base_link -> stereo_left_optical, see kittiMount()
-///   /ground_truth/path                 nav_msgs/Path of base_link in odom, once, if there are
-///   poses /ground_truth/pose                 geometry_msgs/PoseStamped, its poses one by one
-/// Images and infos of both cameras are in the frame of the left one: that is what the P of a
-/// rectified pair refers to (sensor_msgs/CameraInfo), and image_geometry wants the two frames
-/// alike.
+///   /ground_truth/path                 nav_msgs/Path of base_link in odom, once, if known
+///   /ground_truth/pose                 geometry_msgs/PoseStamped, one per pair
+/// Images and infos of both cameras are in the frame of the left one: P of a rectified pair refers
+/// to it (sensor_msgs/CameraInfo), and image_geometry requires equal frames.
 class KittiBagWriter {
  public:
   /// The first pair of a sequence gets the stamp `start_time_s` plus its time in the sequence.
-  /// Writes into `path`.part until finish(). Throws std::invalid_argument if ROS has no such
-  /// stamps, std::runtime_error if the file cannot be written.
+  /// Writes into `path`.part until finish(). Throws std::invalid_argument if the stamps are out of
+  /// range, std::runtime_error if the file cannot be written.
   KittiBagWriter(const std::string& path, const KittiSequence& sequence, std::int64_t start_time_s);
 
-  /// Removes what is not finished.
+  /// Removes an unfinished file.
   ~KittiBagWriter();
   KittiBagWriter(const KittiBagWriter&) = delete;
   KittiBagWriter& operator=(const KittiBagWriter&) = delete;
 
-  /// To be called for each pair of the sequence in its order.
+  /// Call for each pair of the sequence, in order.
   void writePair(int index);
 
-  /// Gives the complete file its name.
+  /// Renames the complete file to its final name.
   void finish();
 
  private:

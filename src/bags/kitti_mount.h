@@ -15,8 +15,8 @@ inline Eigen::Isometry3d kittiMount() {
   return T_base_camera;
 }
 
-/// When a sequence begins in bags, as its own times begin at 0: 2011-10-03, when KITTI recorded its
-/// first ones.
+/// Start time of a sequence in a bag, as its own times start at 0: 2011-10-03, when KITTI recorded
+/// the first sequences.
 constexpr std::int64_t kKittiStart_s = 1317600000;
 
 }  // namespace rotrocc

@@ -13,10 +13,10 @@
 namespace rotrocc {
 namespace {
 
-/// The frame kitti2bag gives the ground truth of odometry sequences; its images are in another.
+/// Frame of kitti2bag's ground truth of odometry sequences; its images have another one.
 const char* const kKitti2bagCamera = "camera_left";
 
-/// In old bags names of frames begin with a slash, which tf2 does not take.
+/// Removes the leading slash of frame names in old bags, which tf2 rejects.
 std::string withoutSlash(const std::string& frame) {
   return frame.empty() || frame.front() != '/' ? frame : frame.substr(1);
 }

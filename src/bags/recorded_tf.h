@@ -13,15 +13,14 @@
 
 namespace rotrocc {
 
-/// The transforms of a bag, told apart into those to play and those that our odometry would
-/// contradict: what gives the base a parent is a trajectory, not a mount. kitti2bag records world
-/// -> base_link for raw drives; for odometry sequences it records world -> camera_left and no mount
-/// at all.
+/// Separates the transforms of a bag into those to play and those that conflict with the odometry:
+/// a parent of the base is a trajectory, not a mount. kitti2bag records world -> base_link for raw
+/// drives; for odometry sequences it records world -> camera_left and no mount.
 class RecordedTf {
  public:
-  /// Reads all transforms of `bag`. `camera_frame` is that of the left image. If no transform leads
-  /// from the base to the camera, KITTI's mount is added to the static ones, and recorded poses of
-  /// the camera are a trajectory too.
+  /// Reads all transforms of `bag`. `camera_frame` is the frame of the left image. If no transform
+  /// connects base and camera, KITTI's mount is added to the static ones, and recorded poses of the
+  /// camera are a trajectory as well.
   RecordedTf(const rosbag::Bag& bag,
              const std::string& base_frame,
              const std::string& camera_frame);
@@ -32,11 +31,11 @@ class RecordedTf {
   /// The latest static transform of each child frame.
   const tf2_msgs::TFMessage& staticTransforms() const { return static_transforms_; }
 
-  /// What is left of `message`, of the topic tf, to play.
+  /// The transforms of a tf message to play.
   tf2_msgs::TFMessage transformsToPlay(const tf2_msgs::TFMessage& message) const;
 
-  /// Pose of the base at each recorded pose, relative to the first one and so in the frame "odom".
-  /// Empty if the bag records no trajectory.
+  /// Poses of the base for the recorded poses, relative to the first one, i.e. in the frame "odom".
+  /// Empty if the bag has no trajectory.
   const nav_msgs::Path& trajectory() const { return trajectory_; }
 
   /// "world -> base_link", for messages.

@@ -15,14 +15,14 @@
 
 namespace rotrocc {
 
-/// The stereo pairs of a bag, one by one, in the order in which they are complete.
+/// Reads the stereo pairs of a bag, in the order in which they are complete.
 class StereoBag {
  public:
   struct Options {
-    std::string left_image;  ///< topics, if findStereoTopics() cannot tell
+    std::string left_image;  ///< topics; empty: findStereoTopics()
     std::string right_image;
-    double max_stamp_difference_s = 0.01;  ///< between the images of a pair
-    int queue_size = 4;                    ///< images that wait for their partner, on each side
+    double max_stamp_difference_s = 0.01;  ///< largest difference within a pair
+    int queue_size = 4;                    ///< unmatched images kept per side
   };
 
   /// `bag` must outlive this. Throws std::runtime_error if its topics cannot be used.
@@ -32,12 +32,12 @@ class StereoBag {
 
   const StereoTopics& topics() const { return topics_; }
 
-  /// Count of left images: there cannot be more pairs.
+  /// Number of left images: an upper bound of the number of pairs.
   int size() const { return size_; }
 
-  /// Reads the next pair and its camera. The images are valid until the next call. Returns false,
-  /// and leaves both alone, when there is none. Throws std::runtime_error with its stamp on a pair
-  /// that cannot be converted.
+  /// Reads the next pair and its camera. The images are valid until the next call. Returns false
+  /// and leaves the arguments unchanged at the end. Throws std::runtime_error, with its stamp, on a
+  /// pair that cannot be converted.
   bool next(StereoPair& pair, StereoCamera& camera);
 
  private:

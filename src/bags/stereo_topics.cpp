@@ -20,7 +20,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// The camera_info beside an image.
+/// The camera_info topic of an image topic.
 std::string infoOf(const std::string& image) {
   return image.substr(0, image.rfind('/') + 1) + "camera_info";
 }
@@ -29,7 +29,7 @@ StereoTopics withInfos(const std::string& left_image, const std::string& right_i
   return {left_image, right_image, infoOf(left_image), infoOf(right_image)};
 }
 
-/// The name with its last "left" made "right"; empty if it has none.
+/// The name with its last "left" replaced by "right"; empty if it has none.
 std::string rightOf(const std::string& left_image) {
   const std::string left = "left";
   const std::size_t position = left_image.rfind(left);
@@ -37,7 +37,7 @@ std::string rightOf(const std::string& left_image) {
   return std::string(left_image).replace(position, left.size(), "right");
 }
 
-/// The lower, the better to work with.
+/// Lower is better.
 int rank(const StereoTopics& topics) {
   const bool rectified = contains(topics.left_image, "rect");
   const bool colour = contains(topics.left_image, "color");
@@ -64,7 +64,7 @@ StereoTopics namedTopics(const TopicTypes& types,
   for (const std::string& info : {topics.left_info, topics.right_info}) {
     if (hasTopic(types, info, kInfoType)) continue;
     throw std::runtime_error("no topic '" + info + "' of type " + kInfoType +
-                             ", which must go with the images");
+                             ", which is required with the images");
   }
   return topics;
 }
@@ -84,7 +84,7 @@ StereoTopics findStereoTopics(const TopicTypes& types,
                               const std::string& left_image,
                               const std::string& right_image) {
   if (left_image.empty() != right_image.empty()) {
-    throw std::runtime_error("name both the left and the right image topic, or none");
+    throw std::runtime_error("specify both the left and the right image topic, or none");
   }
   if (!left_image.empty()) return namedTopics(types, left_image, right_image);
 
@@ -102,15 +102,13 @@ StereoTopics findStereoTopics(const TopicTypes& types,
   }
   if (best.empty()) {
     throw std::runtime_error(
-        "no stereo pair (.../left/image..., .../right/image... and a camera_info beside each); "
-        "name "
-        "the left and right image topics, image topics:" +
+        "no stereo pair (.../left/image..., .../right/image..., each with camera_info); "
+        "specify the left and right image topics, image topics:" +
         imageTopics(types));
   }
   if (best.size() > 1) {
     throw std::runtime_error(
-        "more than one stereo pair; name the left and right image topics of one"
-        ", image topics:" +
+        "more than one stereo pair; specify the left and right image topics, image topics:" +
         imageTopics(types));
   }
   return best.front();

@@ -8,7 +8,7 @@
 
 namespace rotrocc {
 
-/// Where a bag keeps its stereo pair.
+/// Topics of a stereo pair.
 struct StereoTopics {
   std::string left_image;
   std::string right_image;
@@ -23,11 +23,11 @@ using TopicTypes = std::map<std::string, std::string>;
 
 TopicTypes topicTypes(const rosbag::Bag& bag);
 
-/// Finds the pair: two image topics whose names differ in left and right, with a camera_info beside
-/// each, as image_transport has it. Rectified images go before others, gray before colour. Where a
-/// bag has only image_raw, as kitti2bag makes of raw drives, its images are taken as rectified.
-/// `left_image` and `right_image` name the pair where it cannot be found; empty: find it.
-/// Throws std::runtime_error that lists the topics if there is no pair, or more than one.
+/// Finds a stereo pair: two image topics whose names differ in left and right, each with a
+/// camera_info in the same namespace. Prefers rectified to other images, and grey to colour. If a
+/// bag has only image_raw, as those of kitti2bag from raw drives, its images are assumed to be
+/// rectified. `left_image` and `right_image` name the pair explicitly; empty: search. Throws
+/// std::runtime_error with a list of the topics if there is no pair, or more than one.
 StereoTopics findStereoTopics(const TopicTypes& types,
                               const std::string& left_image = "",
                               const std::string& right_image = "");

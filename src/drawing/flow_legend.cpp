@@ -64,7 +64,7 @@ cv::Scalar FlowLegend::colourOfDepth(double depth_m) {
   return kNear * (1.0 - far) + kFar * far;
 }
 
-/// Once there is no room for something, there is none for what follows.
+/// Once an element does not fit, the following ones are omitted.
 bool FlowLegend::reserve(int width_px) {
   if (x_ + width_px > band_.cols) x_ = band_.cols;
   return x_ < band_.cols;

@@ -7,29 +7,29 @@
 
 namespace rotrocc {
 
-/// The line below a flow picture: words and colours from left to right, as far as there is room.
+/// The text line below a flow picture: words and colours from left to right, as far as they fit.
 class FlowLegend {
  public:
   static constexpr int kHeight_px = 24;
 
-  /// Writes into `band`, CV_8UC3 and kHeight_px high, which becomes dark.
+  /// Draws into `band`, CV_8UC3 and kHeight_px high, on a dark background.
   explicit FlowLegend(cv::Mat band);
 
   void text(const std::string& words);
 
-  /// A piece of a line with its dot, and what it means.
+  /// A sample of a flow line with its dot and label.
   void sample(const cv::Scalar& colour, const std::string& words);
 
-  /// The colours of depths.
+  /// The colour scale of depths.
   void depthScale();
 
-  /// A wider gap, between things that do not belong together.
+  /// A wider gap between groups.
   void space() { x_ += 2 * kGap_px; }
 
-  /// From near (orange) to far (blue) the colour (BGR) goes with the logarithm of the depth.
+  /// Colour (BGR) by the logarithm of the depth, from near (orange) to far (blue).
   static cv::Scalar colourOfDepth(double depth_m);
 
-  /// As printf() does.
+  /// Like printf().
   template <class... Values>
   static std::string format(const char* pattern, Values... values) {
     char text[128];

@@ -23,9 +23,9 @@ const cv::Scalar kOfTranslation = okabe_ito::kOrange;
 constexpr double kBrightness = 0.65;
 constexpr int kSubpixelBits = 4;
 
-/// An error of the flow that can be seen [px].
+/// Smallest visible error of the flow [px].
 constexpr double kVisible_px = 2.0;
-/// Far enough outside of any image; a line to further out might overflow.
+/// Far outside any image; lines to points farther out might overflow.
 constexpr double kFarOutside_px = 1e5;
 
 cv::Point toSubpixel(const Eigen::Vector2d& pixel) {
@@ -46,7 +46,7 @@ void drawDot(const Eigen::Vector2d& pixel, const cv::Scalar& colour, cv::Mat& im
   cv::circle(image, toSubpixel(pixel), radius, colour, cv::FILLED, cv::LINE_AA, kSubpixelBits);
 }
 
-/// Where a point is seen; a point that is not in front of the camera, nowhere else than it was.
+/// Projects a point; a point behind the camera stays at its previous position.
 Eigen::Vector2d projectOr(const StereoCamera& camera,
                           const Eigen::Vector3d& point,
                           const Eigen::Vector2d& otherwise_px) {
@@ -87,7 +87,7 @@ void describeCounts(const FlowScene& scene, FlowLegend& legend) {
 
 void drawMotion(const FlowScene& scene, cv::Mat& image) {
   const Correspondences& features = scene.features;
-  // The few outliers would hide under the many inliers, so they come last.
+  // Outliers are few; draw them last, on top of the inliers.
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (!contains(scene.translation_inliers, i)) continue;
     const cv::Scalar colour = FlowLegend::colourOfDepth(features[i].point_cur.z());

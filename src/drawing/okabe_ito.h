@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-/// Colours (BGR) that colour-blind people tell apart: Okabe and Ito, "Color universal design"
+/// Colours (BGR) distinguishable with colour blindness: Okabe and Ito, "Color universal design"
 /// (2002).
 namespace rotrocc::okabe_ito {
 

@@ -58,7 +58,7 @@ Projection findProjection(const std::vector<TextLine>& lines,
   throw std::runtime_error(path + " has no line '" + name + " ...'");
 }
 
-// Two cameras are rectified to each other if they share the focal lengths and the rows.
+// Cameras are rectified as a pair if they share focal lengths and rows.
 StereoCamera readCalibration(const std::string& path, const cv::Size& size) {
   const std::vector<TextLine> lines = readTextLines(path);
   const Projection left = findProjection(lines, "P0:", path);
@@ -66,7 +66,7 @@ StereoCamera readCalibration(const std::string& path, const cv::Size& size) {
   const double difference = (left.middleCols<2>(0) - right.middleCols<2>(0)).cwiseAbs().maxCoeff() +
                             (left.col(2) - right.col(2)).tail<2>().cwiseAbs().maxCoeff();
   if (difference > 1e-6 * std::abs(left(0, 0))) {
-    throw std::runtime_error(path + ": P0 and P1 are not of a rectified pair: they differ by " +
+    throw std::runtime_error(path + ": P0 and P1 are not a rectified pair: they differ by " +
                              std::to_string(difference) + " in fx, fy or cy");
   }
   StereoCamera camera;
@@ -89,7 +89,7 @@ StereoCamera readCalibration(const std::string& path, const cv::Size& size) {
 cv::Mat readGrey(const std::string& path) {
   if (!fs::exists(path)) throw std::runtime_error(path + " is missing");
   const cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE);
-  if (image.empty()) throw std::runtime_error(path + " is no readable image");
+  if (image.empty()) throw std::runtime_error(path + " is not a readable image");
   return image;
 }
 
@@ -97,7 +97,7 @@ cv::Mat readGrey(const std::string& path) {
 
 KittiSequence::KittiSequence(const std::string& directory) : directory_(directory) {
   const fs::path root(directory);
-  if (!fs::is_directory(root)) throw std::runtime_error(directory + " is no directory");
+  if (!fs::is_directory(root)) throw std::runtime_error(directory + " is not a directory");
   const std::string times_path = (root / "times.txt").string();
   stamps_ns_ = readTimes(times_path);
   for (const char* folder : {kLeftFolder, kRightFolder}) {

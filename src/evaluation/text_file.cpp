@@ -25,14 +25,13 @@ std::vector<std::string> split(const std::string& text) {
 
 std::istringstream makeStream() {
   std::istringstream stream;
-  stream.imbue(std::locale::classic());  // a decimal comma of the user's locale must not matter
+  stream.imbue(std::locale::classic());  // independent of the decimal comma of the locale
   return stream;
 }
 
-// long double, so that stamps since 1970 keep their nanoseconds where the hardware has 64 bit of
-// mantissa.
+// long double, so that stamps since 1970 keep their nanoseconds if it has a 64-bit mantissa.
 long double parse(const TextLine& line, std::size_t index) {
-  thread_local std::istringstream stream = makeStream();  // making one takes longer than a number
+  thread_local std::istringstream stream = makeStream();  // construction takes longer than parsing
   const std::string& word = line.words.at(index);
   stream.clear();
   stream.str(word);
@@ -58,7 +57,7 @@ std::int64_t TextLine::nanoseconds(std::size_t index) const {
   const long double seconds = parse(*this, index);
   if (!(std::abs(seconds) < kMaxSeconds)) {
     throw std::runtime_error(where + ": '" + words[index] +
-                             "' is no time in seconds: it must be below 9.2e9");
+                             "' is not a time in seconds below 9.2e9");
   }
   return std::llround(seconds * 1e9L);
 }
@@ -70,13 +69,13 @@ std::vector<TextLine> readTextLines(const std::string& path) {
   std::string text;
   for (int number = 1; std::getline(file, text); ++number) {
     TextLine line;
-    line.words = split(text);  // CR is white space, too
+    line.words = split(text);  // CR counts as white space
     if (line.words.empty() || line.words.front().front() == '#') continue;
     line.where = path + ":" + std::to_string(number);
     lines.push_back(std::move(line));
   }
   if (file.bad()) throw std::runtime_error("cannot read " + path + " to its end");
-  if (lines.empty()) throw std::runtime_error(path + " has no data in it");
+  if (lines.empty()) throw std::runtime_error(path + " has no data");
   return lines;
 }
 

@@ -11,7 +11,7 @@ struct TextLine {
   std::string where;  ///< "path:12", for messages
   std::vector<std::string> words;
 
-  /// The word at `index` as a number. Throws std::runtime_error if it is anything but a finite one.
+  /// The word at `index` as a number. Throws std::runtime_error if it is not a finite number.
   double number(std::size_t index) const;
 
   /// The word at `index`, a time [s], in nanoseconds, rounded. Throws like number(), and on times
@@ -19,7 +19,7 @@ struct TextLine {
   std::int64_t nanoseconds(std::size_t index) const;
 };
 
-/// The lines of a file but for blank ones and those that begin with '#'; line ends may be LF or
+/// The lines of a file except blank lines and comments that start with '#'; line ends are LF or
 /// CRLF. Throws std::runtime_error if the file cannot be read or no line is left.
 std::vector<TextLine> readTextLines(const std::string& path);
 

@@ -35,7 +35,7 @@ Eigen::Isometry3d kittiPose(const TextLine& line) {
   const Eigen::Matrix3d deviation = rotation * rotation.transpose() - Eigen::Matrix3d::Identity();
   const double error = deviation.cwiseAbs().maxCoeff();
   if (error > kMaxRoundingError || rotation.determinant() < 0.0) {
-    throw std::runtime_error(line.where + ": the left 3x3 part is no rotation: it is " +
+    throw std::runtime_error(line.where + ": the left 3x3 part is not a rotation: it is " +
                              (error > kMaxRoundingError
                                   ? "off orthonormality by " + std::to_string(error)
                                   : std::string("a reflection")));
@@ -128,7 +128,7 @@ void writeTum(const StampedPose& pose, std::ostream& out) {
 TrajectoryFormat trajectoryFormat(const std::string& name) {
   if (name == "kitti") return TrajectoryFormat::kKitti;
   if (name == "tum") return TrajectoryFormat::kTum;
-  throw std::invalid_argument("trajectory format '" + name + "' is not known: use kitti or tum");
+  throw std::invalid_argument("trajectory format '" + name + "' is unknown: use kitti or tum");
 }
 
 TrajectoryFormat detectTrajectoryFormat(const std::string& path) {
@@ -144,7 +144,7 @@ Trajectory readTrajectory(const std::string& path, const std::string& times_path
   }
   if (!times_path.empty()) {
     throw std::runtime_error(path + " has stamps (TUM format): the times of " + times_path +
-                             " cannot be given to it as well");
+                             " cannot be used with it");
   }
   return readTum(lines);
 }

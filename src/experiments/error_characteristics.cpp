@@ -63,7 +63,7 @@ std::vector<FeatureErrors> judgeFeatures(const StereoCamera& camera,
   if (!depth_factors.empty() && depth_factors.size() != points_cur.size()) {
     throw std::invalid_argument("there are " + std::to_string(depth_factors.size()) +
                                 " depth factors for " + std::to_string(points_cur.size()) +
-                                " points; give one each, or none");
+                                " points; expected one per point, or none");
   }
   Correspondences features(points_cur.size());
   for (std::size_t i = 0; i < features.size(); ++i) {

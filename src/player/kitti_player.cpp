@@ -103,7 +103,7 @@ void KittiPlayer::run() {
            topics_.right_image.c_str(),
            options_.bag.c_str());
   if (!ros::Time::isSimTime()) {
-    ROS_WARN("use_sim_time is not set: nodes go by the clock of this machine, not by the bag's");
+    ROS_WARN("use_sim_time is not set: nodes use the clock of this machine instead of the bag's");
   }
   try {
     waitForSubscribers();
@@ -113,14 +113,14 @@ void KittiPlayer::run() {
     std::this_thread::sleep_for(kLastOdometryDelay);
     ROS_INFO("%s", monitor_.summary().c_str());
     if (synchronizer_.unmatched() > 0) {
-      ROS_WARN("%zu images had no partner within %g s (max_stamp_difference_s)",
+      ROS_WARN("%zu images without a partner within %g s (max_stamp_difference_s)",
                static_cast<std::size_t>(synchronizer_.unmatched()),
                options_.max_stamp_difference_s);
     }
   } catch (const std::exception& error) {
     ROS_FATAL("playing %s: %s", options_.bag.c_str(), error.what());
   }
-  std::fflush(stdout);  // the nodelet manager of Debian 11 may crash while it ends
+  std::fflush(stdout);  // the nodelet manager of Debian 11 may crash on exit
   on_end_();
 }
 
@@ -181,7 +181,7 @@ void KittiPlayer::waitForOdometry(const ros::Time& stamp) {
   while (!monitor_.wait(stamp, kPollPeriod)) {
     if (stopped()) return;
     if (WallClock::now() < deadline) continue;
-    ROS_WARN("no odometry for the pair of %.6f s within %g s, going on without",
+    ROS_WARN("no odometry for the pair of %.6f s within %g s; continuing",
              stamp.toSec(),
              options_.lockstep_timeout_s);
     return;

@@ -22,13 +22,13 @@
 
 namespace rotrocc {
 
-/// Plays a stereo bag to an odometry, with /clock. What it publishes is in RecordingPublisher, its
-/// private parameters in PlayerOptions; the service ~pause (std_srvs/SetBool) pauses. In lockstep
-/// it waits for the odometry of each pair, so that no machine is too slow for any.
+/// Replays a stereo bag to an odometry, with /clock. See RecordingPublisher for its topics and
+/// PlayerOptions for its private parameters; the service ~pause (std_srvs/SetBool) pauses. In
+/// lockstep it waits for the odometry of each pair, so no pair is dropped on a slow machine.
 class KittiPlayer {
  public:
-  /// Plays in a thread of its own, which calls `on_end` when all is played or playing has failed.
-  /// Throws std::exception on parameters or a bag that cannot be used.
+  /// Plays in its own thread, which calls `on_end` at the end or on failure. Throws std::exception
+  /// on invalid parameters or an unusable bag.
   KittiPlayer(ros::NodeHandle& nh, ros::NodeHandle& private_nh, std::function<void()> on_end);
 
   /// Stops playing.
@@ -42,7 +42,7 @@ class KittiPlayer {
  private:
   using WallClock = std::chrono::steady_clock;
 
-  /// What is to be played, in the record time of the bag.
+  /// Time range to play, in record time of the bag.
   struct TimeRange {
     ros::Time begin;
     ros::Time end;

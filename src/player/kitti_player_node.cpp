@@ -1,4 +1,4 @@
-// Plays a stereo bag: rosrun rotrocc kitti_player _bag:=FILE. The space bar pauses.
+// Replays a stereo bag: rosrun rotrocc kitti_player _bag:=FILE. The space bar pauses.
 
 #include <chrono>
 #include <exception>

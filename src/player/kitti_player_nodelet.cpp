@@ -9,8 +9,8 @@
 
 namespace rotrocc {
 
-/// KittiPlayer in a nodelet manager, whose nodelets get its images without a copy. With the private
-/// parameter shutdown_at_end the manager ends with the bag.
+/// KittiPlayer as a nodelet: passes images to nodelets of the same manager without a copy. With the
+/// private parameter shutdown_at_end the manager shuts down at the end of the bag.
 class KittiPlayerNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {

@@ -49,7 +49,7 @@ void OdometryMonitor::onOdometry(const nav_msgs::Odometry::ConstPtr& message) {
     if (sent == pending_.end()) return;
     latency_sum_ += WallClock::now() - sent->second;
     ++pairs_received_;
-    pending_.erase(pending_.begin(), std::next(sent));  // earlier ones will not come any more
+    pending_.erase(pending_.begin(), std::next(sent));  // earlier ones will not arrive any more
   }
   received_.notify_all();
 }

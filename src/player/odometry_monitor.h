@@ -15,26 +15,25 @@
 
 namespace rotrocc {
 
-/// Listens to the topics `odom` and `status` of an odometry that is given pair by pair.
+/// Monitors the topics `odom` and `status` of an odometry that gets pairs one by one.
 class OdometryMonitor {
  public:
   explicit OdometryMonitor(ros::NodeHandle& nh);
 
-  /// Whether there is an odometry to listen to.
+  /// Whether an odometry is running.
   bool connected() const { return odom_.getNumPublishers() > 0; }
 
-  /// To be called just before the last image of a pair is published; `stamp` is that of the left
-  /// one.
+  /// Call just before publishing the last image of a pair; `stamp` is that of the left one.
   void expect(const ros::Time& stamp);
 
-  /// Waits until the odometry of the pair with this stamp is there. Returns whether it is.
+  /// Waits for the odometry of the pair with this stamp. Returns false on timeout.
   bool wait(const ros::Time& stamp, std::chrono::duration<double> timeout);
 
-  /// Forgets the pairs whose odometry did not come, as when the time begins anew.
+  /// Discards pairs without odometry, e.g. when time jumps back.
   void restart();
 
   /// "51 pairs played, 51 with odometry, 0 lost, 0 dropped, 9.8 ms from pair to odometry". Lost
-  /// ones have an odometry whose status says so; dropped ones have none.
+  /// pairs have an odometry with status LOST; dropped pairs have none.
   std::string summary() const;
 
  private:
@@ -51,7 +50,7 @@ class OdometryMonitor {
   int pairs_lost_ = 0;
   std::chrono::duration<double, std::milli> latency_sum_{0.0};
 
-  // Last, so that no callback comes when the rest is gone.
+  // Last, so that callbacks end before the other members are destroyed.
   ros::Subscriber odom_;
   ros::Subscriber status_;
 };

@@ -9,33 +9,34 @@
 
 namespace rotrocc {
 
-/// The time of a recording that is played: it runs from message to message, faster or slower than
-/// the wall clock, and stands still during a pause. start() and waitUntil() are for the one thread
-/// that plays; the other methods may be called from any.
+/// Time of a recording during playback: advances from message to message, at `rate` times the wall
+/// clock, and stops during a pause. Call start() and waitUntil() only from the playing thread; the
+/// other methods are thread-safe.
 class PlaybackClock {
  public:
-  /// `rate` times as fast as recorded; 0: as fast as possible. `publish` is told the time of the
-  /// recording whenever it has gone on, every 10 ms at least.
+  /// `rate` times as fast as recorded; 0: as fast as possible. `publish` gets the time of the
+  /// recording whenever it advances, at least every 10 ms.
   PlaybackClock(double rate, bool paused, std::function<void(const ros::Time&)> publish);
 
   /// Sets the time without waiting.
   void start(const ros::Time& time);
 
-  /// Returns when the time has come and there is no pause: at once if it is late. It is then this
-  /// time, so that nothing is hurried after a delay. Returns false if it was stopped.
+  /// Waits for the time, and for the end of a pause. Returns immediately if late, and sets the
+  /// clock to this time, so that playback does not catch up after a delay. Returns false if
+  /// stopped.
   bool waitUntil(const ros::Time& time);
 
   void setPaused(bool paused);
   bool paused() const;
 
-  /// Ends all waiting for ever.
+  /// Ends all current and future waits.
   void stop();
   bool stopped() const;
 
  private:
   using WallClock = std::chrono::steady_clock;
 
-  /// Lets the time go on to now, but not beyond `end`. Returns whether it got there.
+  /// Advances the time to now, at most to `end`. Returns whether it reached `end`.
   bool advance(const ros::Time& end);
 
   const double rate_;

@@ -33,7 +33,7 @@ PlayerOptions readPlayerOptions(const ros::NodeHandle& private_nh) {
   private_nh.param("base_frame", options.base_frame, options.base_frame);
 
   if (options.bag.empty()) {
-    throw std::invalid_argument("parameter bag is missing: give the path of a bag");
+    throw std::invalid_argument("parameter bag is missing: set it to the path of a bag");
   }
   requireAtLeast(0.0, "rate", options.rate);
   requireAtLeast(0.0, "start", options.start);

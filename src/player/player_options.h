@@ -6,24 +6,25 @@
 
 namespace rotrocc {
 
-/// What the player is told by its private parameters of the same names.
+/// Private parameters of the player, with the same names.
 struct PlayerOptions {
   std::string bag;         ///< path
-  std::string left_image;  ///< topics of the pair, if findStereoTopics() cannot tell
+  std::string left_image;  ///< topics of the pair; empty: findStereoTopics()
   std::string right_image;
-  double rate = 1.0;                     ///< times as fast as recorded; 0: as fast as possible
-  double start = 0.0;                    ///< begins that long after the bag's begin [s]
-  double duration = 0.0;                 ///< plays that much of the bag [s]; 0: to its end
-  bool loop = false;                     ///< begins anew at the end
-  bool paused = false;                   ///< begins with a pause
+  double rate = 1.0;                     ///< playback rate; 0: as fast as possible
+  double start = 0.0;                    ///< offset from the start of the bag [s]
+  double duration = 0.0;                 ///< duration to play [s]; 0: to the end
+  bool loop = false;                     ///< repeats the bag
+  bool paused = false;                   ///< starts paused
   bool lockstep = false;                 ///< waits for the odometry of each pair
-  double lockstep_timeout_s = 10.0;      ///< but not longer than that [s]
+  double lockstep_timeout_s = 10.0;      ///< longest wait [s]
   double max_stamp_difference_s = 0.01;  ///< between left and right image of a pair [s]
-  std::string ground_truth_file;  ///< for true poses of the left camera, see writeGroundTruth()
-  std::string base_frame = "base_link";  ///< of the vehicle, whose recorded poses are ground truth
+  std::string
+      ground_truth_file;  ///< output of true poses of the left camera, see writeGroundTruth()
+  std::string base_frame = "base_link";  ///< frame whose recorded poses are ground truth
 };
 
-/// Throws std::invalid_argument on a missing bag or a value out of range.
+/// Throws std::invalid_argument if `bag` is missing or a value is out of range.
 PlayerOptions readPlayerOptions(const ros::NodeHandle& private_nh);
 
 }  // namespace rotrocc

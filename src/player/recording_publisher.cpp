@@ -37,12 +37,12 @@ RecordingPublisher::RecordingPublisher(ros::NodeHandle& nh,
       truth_path_(nh.advertise<nav_msgs::Path>("ground_truth/path", 1, true)),
       truth_pose_(nh.advertise<geometry_msgs::PoseStamped>("ground_truth/pose", kQueueSize)) {
   if (tf.addedKittiMount()) {
-    ROS_INFO("no transform from the base to the camera in the bag: taking that of KITTI's car");
+    ROS_INFO("no transform from the base to the camera in the bag: using that of KITTI's car");
   }
   if (!tf.trajectoryName().empty()) {
     ROS_INFO(
-        "the bag's tf %s is shown as ground truth, not played: the odometry publishes the pose "
-        "of the base itself",
+        "the bag's tf %s is published as ground truth, not as tf: the odometry publishes the pose "
+        "of the base",
         tf.trajectoryName().c_str());
   }
 }

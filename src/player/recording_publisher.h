@@ -17,36 +17,36 @@
 
 namespace rotrocc {
 
-/// Publishes what a stereo bag holds, whatever its topics are, to {left,right}/image_rect,
+/// Publishes a stereo bag, whatever its topics are, to {left,right}/image_rect,
 /// {left,right}/camera_info, /tf, /tf_static, ground_truth/path and ground_truth/pose.
 class RecordingPublisher {
  public:
-  /// Advertises. `tf` must outlive it. Says in the log what it makes of the recorded poses.
+  /// Advertises the topics. `tf` must outlive this object. Logs how recorded poses are used.
   RecordingPublisher(ros::NodeHandle& nh,
                      const rosbag::Bag& bag,
                      const StereoTopics& topics,
                      const RecordedTf& tf);
 
-  /// Topics of the bag that publish() takes.
+  /// Topics of the bag for publish().
   std::vector<std::string> recordedTopics() const;
 
-  /// The true path of the base in the frame odom; empty if the bag has none.
+  /// True path of the base in the frame odom; empty if the bag has none.
   const nav_msgs::Path& truth() const { return truth_; }
 
-  /// Topics that an odometry needs and nobody has subscribed.
+  /// Topics that an odometry needs but that have no subscriber.
   std::vector<std::string> topicsWithoutSubscriber() const;
 
-  /// Publishes what must be there before the first image: static transforms, the true path (both
+  /// Publishes what is needed before the first image: static transforms, the true path (both
   /// latched) and the first camera_infos.
   void publishBeginning();
 
   void publishLeft(const sensor_msgs::Image::ConstPtr& image) { left_image_.publish(image); }
   void publishRight(const sensor_msgs::Image::ConstPtr& image) { right_image_.publish(image); }
 
-  /// Publishes a message of the bag that is no image.
+  /// Publishes a message of the bag other than an image.
   void publish(const rosbag::MessageInstance& message);
 
-  /// Publishes the true poses up to `time` that have not been yet.
+  /// Publishes the remaining true poses up to `time`.
   void publishTruthUntil(const ros::Time& time);
 
  private:

@@ -30,7 +30,7 @@ std::optional<char> TerminalKeys::wait(std::chrono::milliseconds timeout) {
   if (poll(&input, 1, static_cast<int>(timeout.count())) <= 0) return std::nullopt;
   char key = 0;
   if (read(STDIN_FILENO, &key, 1) != 1) {
-    available_ = false;  // the terminal is gone
+    available_ = false;  // the terminal was closed
     return std::nullopt;
   }
   return key;

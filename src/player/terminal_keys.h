@@ -7,8 +7,8 @@
 
 namespace rotrocc {
 
-/// Keys as they are pressed on the terminal of the program, without a line end and without echo.
-/// The terminal is as before at the end of the scope.
+/// Reads single keys from the terminal, without line end and without echo. Restores the terminal at
+/// the end of the scope.
 class TerminalKeys {
  public:
   TerminalKeys();
@@ -19,7 +19,7 @@ class TerminalKeys {
   /// Whether there is a terminal.
   bool available() const { return available_; }
 
-  /// Waits for a key; none if none is pressed in time, or there is no terminal.
+  /// Waits for a key; returns none on timeout or without a terminal.
   std::optional<char> wait(std::chrono::milliseconds timeout);
 
  private:

@@ -22,12 +22,12 @@ struct Options {
   std::string output;
 };
 
-/// Returns false if only the help was asked for; throws po::error on bad usage.
+/// Returns false after printing the help; throws po::error on bad usage.
 bool parse(int argc, char** argv, Options& options) {
   po::options_description visible("Options");
   auto add = visible.add_options();
-  add("help,h", "show this text");
-  add("output", po::value(&options.output)->required(), "folder for fig4.csv and fig5.csv");
+  add("help,h", "show this help");
+  add("output", po::value(&options.output)->required(), "output folder for fig4.csv and fig5.csv");
   po::options_description all;
   all.add(visible).add_options()("sequence", po::value(&options.sequence)->required());
   po::positional_options_description positional;
@@ -38,8 +38,8 @@ bool parse(int argc, char** argv, Options& options) {
             variables);
   if (variables.count("help") > 0) {
     std::cout << "usage: error_characteristics SEQUENCE_DIR --output DIR\n\n"
-                 "Judges the features of a sequence's first two pairs by reprojection error, "
-                 "normalized and\ndecoupled normalized reprojection error under wrong motion "
+                 "Computes reprojection error, normalized and decoupled normalized reprojection "
+                 "error of the\nfeatures in the first two pairs of a sequence, under wrong motion "
                  "hypotheses: Fig. 4 and 5 of the paper.\n\n"
               << visible;
     return false;
@@ -48,7 +48,7 @@ bool parse(int argc, char** argv, Options& options) {
   return true;
 }
 
-/// The points that the odometry takes from the first two pairs, in reading order over the image.
+/// Features of the odometry in the first two pairs, sorted by row and column.
 std::vector<Eigen::Vector3d> featurePoints(const KittiSequence& sequence) {
   if (sequence.size() < 2) throw std::runtime_error("the sequence has fewer than two pairs");
   VisualOdometry odometry{VisualOdometry::Config{}};
@@ -65,7 +65,7 @@ std::vector<Eigen::Vector3d> featurePoints(const KittiSequence& sequence) {
   return points;
 }
 
-/// Every 100th feature up to the 500th is given too small a depth, as in Fig. 5.
+/// Every 100th feature up to the 500th gets too small a depth, as in Fig. 5.
 std::vector<double> depthFactors(std::size_t size) {
   std::vector<double> factors(size, 1.0);
   for (std::size_t i = 100; i <= 500 && i < size; i += 100) factors[i] = 0.95;

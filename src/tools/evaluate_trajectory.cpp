@@ -33,31 +33,33 @@ struct Options {
   SegmentConfig segments;
 };
 
-/// Returns false if only the help was asked for; throws po::error on bad usage.
+/// Returns false after printing the help; throws po::error on bad usage.
 bool parse(int argc, char** argv, Options& options) {
   po::options_description visible("Options");
   auto add = visible.add_options();
-  add("help,h", "show this text");
+  add("help,h", "show this help");
   add("lengths",
       po::value(&options.segments.lengths_m)->multitoken(),
       "lengths of the segments [m] (default: 100 200 300 400 500 600 700 800)");
   add("step",
       po::value(&options.segments.step)->default_value(options.segments.step),
-      "segments begin at every N-th pose");
-  add("fit", po::bool_switch(&options.fit), "choose both for the length of the path");
+      "segments start at every N-th pose");
+  add("fit", po::bool_switch(&options.fit), "choose both from the path length");
   add("times",
       po::value(&options.times),
       "times.txt with the stamps of poses in KITTI format (default: 10 Hz)");
   add("segments",
       po::value(&options.segments_file),
-      "CSV file for a row per segment: first pose, length, speed and errors");
+      "CSV output file with one row per segment: first pose, length, speed and errors");
   add("report",
       po::value(&options.report),
-      "directory for an HTML page, its pictures (PNG) and its tables (CSV)");
+      "output directory for an HTML report, its pictures (PNG) and its tables (CSV)");
   add("stats",
       po::value(&options.statistics),
-      "what offline_odometry --stats wrote of the same run, for the report");
-  add("title", po::value(&options.title), "of the report (default: the name of the estimate)");
+      "statistics of offline_odometry --stats from the same run, for the report");
+  add("title",
+      po::value(&options.title),
+      "title of the report (default: the name of the estimate)");
   po::options_description all;
   auto add_positional = all.add(visible).add_options();
   std::vector<std::string> files;
@@ -71,21 +73,21 @@ bool parse(int argc, char** argv, Options& options) {
   if (variables.count("help") > 0) {
     std::cout
         << "usage: evaluate_trajectory GT EST [options]\n"
-           "       evaluate_trajectory EST --report DIR [options]    where there is no truth\n\n"
-           "Compares a trajectory with the true one by the metric of the KITTI odometry "
+           "       evaluate_trajectory EST --report DIR [options]    without ground truth\n\n"
+           "Compares a trajectory with the ground truth by the metric of the KITTI odometry "
            "devkit. Both are in\nKITTI or TUM format; two KITTI files are matched line by line, "
-           "others by stamps up to 10 ms apart.\n"
-           "The table by speed has the segments up to 2 m/s slower or faster, so each counts "
-           "twice.\n\n"
+           "others by stamp, up to 10 ms apart.\n"
+           "Each row of the table by speed has the segments up to 2 m/s slower or faster, so "
+           "each segment counts twice.\n\n"
         << visible;
     return false;
   }
   po::notify(variables);
   if (files.empty() || files.size() > 2 || (files.size() == 1 && options.report.empty())) {
-    throw po::error("two trajectories GT and EST are needed, or EST and --report DIR");
+    throw po::error("expected two trajectories GT and EST, or EST and --report DIR");
   }
   if (options.fit && !(variables["lengths"].empty() && variables["step"].defaulted())) {
-    throw po::error("--fit chooses --lengths and --step itself");
+    throw po::error("--fit cannot be combined with --lengths or --step");
   }
   if (options.report.empty() && !options.statistics.empty()) {
     throw po::error("--stats is for the report: give --report DIR");
@@ -131,7 +133,7 @@ MatchedTrajectories load(const Options& options) {
   MatchedTrajectories matched = matchByStamp(truth, estimate);
   if (matched.truth.size() < 2) {
     throw std::runtime_error(
-        "hardly any stamps within 10 ms of each other: " + timeRange(options.truth, truth) + ", " +
+        "fewer than two stamps match within 10 ms: " + timeRange(options.truth, truth) + ", " +
         timeRange(options.estimate, estimate));
   }
   return matched;
@@ -145,7 +147,7 @@ void requireSegments(const std::vector<SegmentError>& errors,
   message.precision(3);
   message << "no segment fits: the path is " << path_m << " m long, the shortest segment "
           << *std::min_element(config.lengths_m.begin(), config.lengths_m.end())
-          << " m; give shorter ones, as in --lengths 5 10 20 30 40 --step 1, or --fit";
+          << " m; use shorter segments, e.g. --lengths 5 10 20 30 40 --step 1, or --fit";
   throw std::runtime_error(message.str());
 }
 
@@ -170,7 +172,7 @@ void printDistribution(const char* name, const Distribution& values, double scal
               scale * values.max);
 }
 
-/// Where both have poses; throws if no segment fits and no report tells the rest.
+/// Evaluates the matched poses; throws if no segment fits and no report is requested.
 Evaluation evaluateTruth(const Options& options) {
   MatchedTrajectories matched = load(options);
   const double path_m = pathLengths(matched.truth).back();

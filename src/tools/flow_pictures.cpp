@@ -13,7 +13,7 @@ FlowPictures::FlowPictures(const std::string& folder, FlowView view)
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
-    throw std::runtime_error("cannot make the folder " + folder + ": " + error.message());
+    throw std::runtime_error("cannot create the folder " + folder + ": " + error.message());
   }
 }
 

@@ -13,10 +13,10 @@ namespace rotrocc {
 /// Writes the flow picture of each pair to a folder: 000000.png, 000001.png and so on.
 class FlowPictures {
  public:
-  /// Makes the folder. Throws std::runtime_error if that is not possible.
+  /// Creates the folder. Throws std::runtime_error if that fails.
   FlowPictures(const std::string& folder, FlowView view);
 
-  /// Draws the last call of odometry.process(), which had `pair` of `camera` and gave `result`.
+  /// Draws the last call of odometry.process(), with input `pair` and `camera` and output `result`.
   /// Throws std::runtime_error if the file cannot be written.
   void write(const StereoPair& pair,
              const StereoCamera& camera,

@@ -21,14 +21,14 @@ struct Options {
   std::int64_t start_time_s = kKittiStart_s;
 };
 
-/// Returns false if only the help was asked for; throws po::error on bad usage.
+/// Returns false after printing the help; throws po::error on bad usage.
 bool parse(int argc, char** argv, Options& options) {
   po::options_description visible("Options");
   auto add = visible.add_options();
-  add("help,h", "show this text");
+  add("help,h", "show this help");
   add("start-time",
       po::value(&options.start_time_s)->default_value(options.start_time_s),
-      "time of the first pair [s since 1970, whole], as ROS takes no stamp 0");
+      "time of the first pair [s since 1970, integer]; ROS does not accept stamp 0");
   po::options_description all;
   all.add(visible).add_options()("sequence", po::value(&options.sequence)->required())(
       "bag", po::value(&options.bag)->required());
@@ -39,7 +39,7 @@ bool parse(int argc, char** argv, Options& options) {
   po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(),
             variables);
   if (variables.count("help") > 0) {
-    std::cout << "Writes a sequence directory of the KITTI odometry benchmark as a bag.\n"
+    std::cout << "Converts a sequence directory of the KITTI odometry benchmark to a bag.\n"
                  "usage: kitti_to_bag SEQUENCE_DIR OUT.bag [options]\n"
               << visible;
     return false;
@@ -52,7 +52,7 @@ void run(const Options& options) {
   const KittiSequence sequence(options.sequence);
   if (!sequence.hasGroundTruth()) {
     std::cerr << "kitti_to_bag: no poses.txt in " << options.sequence
-              << ": the bag gets no ground truth\n";
+              << ": the bag will have no ground truth\n";
   }
   KittiBagWriter writer(options.bag, sequence, options.start_time_s);
   ProgressBar progress("kitti_to_bag", sequence.size());

@@ -11,12 +11,12 @@
 
 namespace rotrocc {
 
-/// A bag with what the node would publish of each pair, under its stamp:
+/// Bag with the messages that the node would publish for each pair, by stamp:
 ///   /stereo/odom    nav_msgs/Odometry
 ///   /tf             odom_frame -> base_frame
 class OdometryBag {
  public:
-  /// `start_ns` is added to all stamps: ROS has none at 0, where KITTI's sequences begin.
+  /// `start_ns` is added to all stamps: KITTI sequences start at 0, which ROS does not accept.
   /// Throws std::runtime_error if `path` cannot be written.
   OdometryBag(const std::string& path,
               const Eigen::Isometry3d& T_base_camera,

@@ -39,21 +39,27 @@ struct Options {
   bool preload = false;
 };
 
-/// Returns false if only the help was asked for; throws po::error on bad usage.
+/// Returns false after printing the help; throws po::error on bad usage.
 bool parse(int argc, char** argv, Options& options) {
   po::options_description visible("Options");
   auto add = visible.add_options();
-  add("help,h", "show this text");
-  add("trajectory", po::value(&options.trajectory)->required(), "file for the poses");
+  add("help,h", "show this help");
+  add("trajectory", po::value(&options.trajectory)->required(), "output file for the poses");
   add("format", po::value(&options.format)->default_value(options.format), "kitti or tum");
   add("config", po::value(&options.config), "YAML file with parameters");
-  add("set", po::value(&options.assignments), "name=value: a parameter; may be repeated");
-  add("stats", po::value(&options.statistics), "CSV file for a row of figures per pair");
-  add("bag", po::value(&options.bag), "bag for /stereo/odom and /tf, as the node publishes them");
-  add("pictures", po::value(&options.pictures), "folder for the flow picture of each pair");
-  add("left-image", po::value(&options.left_image), "topic, where a bag has several pairs");
-  add("right-image", po::value(&options.right_image), "topic of its partner");
-  add("preload", po::bool_switch(&options.preload), "read all images first; tells the memory");
+  add("set", po::value(&options.assignments), "name=value: set a parameter; may be repeated");
+  add("stats",
+      po::value(&options.statistics),
+      "CSV output file with one row of statistics per pair");
+  add("bag",
+      po::value(&options.bag),
+      "output bag with /stereo/odom and /tf, as the node publishes them");
+  add("pictures", po::value(&options.pictures), "output folder for the flow picture of each pair");
+  add("left-image",
+      po::value(&options.left_image),
+      "topic of the left images, if a bag has several stereo pairs");
+  add("right-image", po::value(&options.right_image), "topic of the right images");
+  add("preload", po::bool_switch(&options.preload), "read all images first; prints the memory use");
   po::options_description all;
   all.add(visible).add_options()("input", po::value(&options.input)->required());
   po::positional_options_description positional;
@@ -63,8 +69,8 @@ bool parse(int argc, char** argv, Options& options) {
   po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(),
             variables);
   if (variables.count("help") > 0) {
-    std::cout << "Runs the odometry over every pair of a KITTI sequence directory or a bag, and "
-                 "writes the\npose of the left camera at each.\n"
+    std::cout << "Runs the odometry on all pairs of a KITTI sequence directory or a bag, and "
+                 "writes the\npose of the left camera for each.\n"
                  "usage: offline_odometry INPUT --trajectory OUT.txt [options]\n"
               << visible;
     return false;
@@ -147,7 +153,7 @@ void run(const Options& options) {
   printSummary(std::cout, records);
   if (preloaded != nullptr) preloaded->printMemory(std::cout);
   if (const int alone = source->size() - static_cast<int>(records.size())) {
-    std::cout << alone << " left images had no right one within "
+    std::cout << alone << " left images without a right image within "
               << parameters.node.max_stamp_difference_s << " s (max_stamp_difference_s)\n";
   }
 }

@@ -9,7 +9,7 @@
 namespace rotrocc {
 namespace {
 
-/// Resident memory of this process at its peak.
+/// Peak resident memory of this process.
 double peak_MB() {
   rusage usage;
   getrusage(RUSAGE_SELF, &usage);
@@ -46,7 +46,7 @@ void PreloadedSource::printMemory(std::ostream& out) const {
   std::snprintf(
       line,
       sizeof(line),
-      "MB of memory at the peak: %.1f above the images' %.1f, %.1f of that by the odometry\n",
+      "peak memory: %.1f MB without the images (%.1f MB), of which %.1f MB for the odometry\n",
       peak - images_MB_,
       images_MB_,
       peak - loaded_MB_);

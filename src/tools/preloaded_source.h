@@ -10,11 +10,10 @@
 
 namespace rotrocc {
 
-/// All pairs of another source, read before the first one is asked for: so the reading of one pair
-/// does not disturb the timing of another.
+/// Reads all pairs of another source in advance, so that reading does not disturb the timing.
 class PreloadedSource : public StereoSource {
  public:
-  /// Throws as next() of `source`.
+  /// Throws like next() of `source`.
   explicit PreloadedSource(std::unique_ptr<StereoSource> source);
 
   std::string description() const override { return source_->description(); }
@@ -25,7 +24,7 @@ class PreloadedSource : public StereoSource {
   }
   std::int64_t start_ns() const override { return source_->start_ns(); }
 
-  /// Writes what the process takes of memory at its peak, and for what.
+  /// Prints the peak memory of the process, split by use.
   void printMemory(std::ostream& out) const;
 
  private:
@@ -33,7 +32,7 @@ class PreloadedSource : public StereoSource {
   std::vector<std::pair<StereoPair, StereoCamera>> pairs_;
   std::size_t next_ = 0;
   double images_MB_ = 0.0;
-  double loaded_MB_ = 0.0;  // of the process, when all images are read
+  double loaded_MB_ = 0.0;  // memory of the process after reading all images
 };
 
 }  // namespace rotrocc

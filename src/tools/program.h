@@ -7,9 +7,9 @@
 
 namespace rotrocc {
 
-/// The main() of a program. `parse` returns false if only the help was asked for and throws
-/// po::error on bad usage, which makes the exit status 2; whatever `run` throws makes it 1. The
-/// message goes to stderr, with the program's name.
+/// The main() of a program. `parse` returns false after printing the help, and throws po::error on
+/// bad usage: exit status 2. Exceptions of `run` give exit status 1. Messages go to stderr,
+/// prefixed by the program name.
 template <class Options>
 int runProgram(const char* name,
                int argc,

@@ -56,7 +56,7 @@ void ProgressBar::draw() const {
   } else {
     std::fprintf(stderr, "%s %3.0f %%", label_.c_str(), 100.0 * share);
   }
-  // \033[K clears what a longer line has left behind.
+  // \033[K clears the rest of a longer line.
   std::fprintf(stderr,
                "  %zu/%zu  %.1f/s  %ld:%02ld left%s",
                done_,

@@ -6,18 +6,16 @@
 
 namespace rotrocc {
 
-/// Shows on stderr how far a long run is: on a terminal one line that is drawn anew, at most ten
-/// times a second, with count, rate and time left; elsewhere (a file, a pipe) a line for every 10
-/// %.
+/// Shows the progress of a long run on stderr: on a terminal one line with count, rate and time
+/// left, redrawn at most ten times a second; otherwise (file, pipe) a line for every 10 %.
 class ProgressBar {
  public:
   ProgressBar(std::string label, std::size_t total);
 
-  /// One more is done.
+  /// Counts one more item.
   void advance();
 
-  /// Shows the final count and ends the line, so that others can print. To be called once, at the
-  /// end.
+  /// Shows the final count and ends the line. Call once, at the end.
   void finish();
 
  private:

@@ -36,7 +36,7 @@ std::size_t countState(const std::vector<PairRecord>& records, State state) {
   });
 }
 
-/// The smallest of the sorted `values` that `share` of them do not exceed.
+/// Quantile `share` of the sorted `values`.
 double percentile(const std::vector<double>& values, double share) {
   const double rank = std::ceil(share * static_cast<double>(values.size()));
   return values.at(static_cast<std::size_t>(std::max(rank, 1.0)) - 1);

@@ -9,22 +9,21 @@
 
 namespace rotrocc {
 
-/// What one pair gave, and what it cost without the reading of its images.
+/// Result and times of one pair, without reading its images.
 struct PairRecord {
   OdometryResult result;
   double wall_ms = 0.0;
-  double cpu_ms = 0.0;  ///< of all threads of the process
+  double cpu_ms = 0.0;  ///< all threads of the process
 };
 
-/// A CSV table with a row for each pair: stamp, state, counts, times, the keyframe, the disparity
-/// bias, the motion (rotation as axis times angle) and the upper triangle of its covariance, row by
-/// row.
+/// CSV table with one row per pair: stamp, state, counts, times, the keyframe, the disparity bias,
+/// the motion (rotation as axis times angle) and the upper triangle of its covariance, row by row.
 class StatisticsFile {
  public:
   /// Throws std::runtime_error if `path` cannot be written.
   explicit StatisticsFile(const std::string& path);
 
-  /// Throws std::runtime_error when the disk is full or gone.
+  /// Throws std::runtime_error if writing fails, e.g. on a full disk.
   void write(const PairRecord& record);
 
  private:
@@ -32,7 +31,7 @@ class StatisticsFile {
   std::ofstream file_;
 };
 
-/// The closing summary: pairs by state, and mean, median, 95th and 99th percentile of the times.
+/// Summary of a run: pairs by state, and mean, median, 95th and 99th percentile of the times.
 void printSummary(std::ostream& out, const std::vector<PairRecord>& records);
 
 }  // namespace rotrocc

@@ -25,14 +25,14 @@ namespace fs = std::filesystem;
 namespace po = boost::program_options;
 using namespace rotrocc;
 
-constexpr std::int64_t kStartTime_s = 1317600000;  // as kitti_to_bag: ROS takes no stamp 0
+constexpr std::int64_t kStartTime_s = 1317600000;  // as in kitti_to_bag: ROS has no stamp 0
 
 const char* const kUsage =
-    "Renders a stereo drive with exact poses.\n"
+    "Renders a simulated stereo drive with exact poses.\n"
     "usage: simulate_drive SCENARIO OUT [options]\n"
     "       simulate_drive --poses FILE OUT [options]\n"
     "SCENARIO  city, motorway, slip_road, parking or shake\n"
-    "OUT       a new directory in the layout of the KITTI odometry benchmark, or a .bag\n";
+    "OUT       a new directory in KITTI odometry layout, or a .bag\n";
 
 struct Options {
   std::vector<std::string> names;
@@ -51,35 +51,38 @@ po::options_description describe(Options& options) {
   SimulationOptions& simulation = options.simulation;
   CameraFaults& faults = simulation.faults;
   const auto number = [](double& value) { return po::value(&value)->default_value(value); };
-  po::options_description what("What is rendered");
-  what.add_options()("help,h", "show this text")(
-      "poses", po::value(&options.poses), "lay the street along these poses (KITTI or TUM format)")(
+  po::options_description what("Contents");
+  what.add_options()("help,h", "show this help")(
+      "poses",
+      po::value(&options.poses),
+      "build the street along these poses (KITTI or TUM format)")(
       "times", po::value(&options.times), "times.txt of poses in KITTI format (default: 10 Hz)")(
-      "frames", po::value(&simulation.frames), "count of pairs at most")(
-      "duration", po::value(&simulation.duration_s), "[s] end after that")(
-      "rate", number(simulation.rate_hz), "[Hz] of the pairs of a scenario")(
-      "moving-share", number(simulation.moving_share), "share of places for moving cars taken")(
+      "frames", po::value(&simulation.frames), "largest number of pairs")(
+      "duration", po::value(&simulation.duration_s), "[s] largest duration")(
+      "rate", number(simulation.rate_hz), "[Hz] frame rate of a scenario")(
+      "moving-share", number(simulation.moving_share), "density of moving cars, 0 to 1")(
       "seed", po::value(&simulation.seed)->default_value(simulation.seed), "same seed, same bytes")(
-      "noise-seed", po::value(&simulation.noise_seed), "of the images' noise (default: seed)")(
-      "truth", po::bool_switch(&options.truth), "write depth and flow of each pixel as well")(
+      "noise-seed", po::value(&simulation.noise_seed), "seed of the image noise (default: seed)")(
+      "truth", po::bool_switch(&options.truth), "also write depth and flow of each pixel")(
       "check-truth",
       po::bool_switch(&options.check_truth),
-      "look in the next frame for what poses, depth and flow say, and print how far they are off");
+      "verify poses, depth and flow against the next frame, and print the errors");
   po::options_description camera("Camera");
-  camera.add_options()("size", po::value(&options.size)->default_value(options.size), "WxH [px]")(
+  camera.add_options()(
+      "size", po::value(&options.size)->default_value(options.size), "image size WxH [px]")(
       "focal", number(options.focal_px), "focal length [px]")(
-      "baseline", number(options.baseline_m), "[m]");
-  po::options_description wrong("Faults, unknown to calib.txt");
+      "baseline", number(options.baseline_m), "baseline [m]");
+  po::options_description wrong("Faults, not in calib.txt");
   wrong.add_options()(
-      "disparity-bias", number(faults.disparity_bias_px), "[px] disparities are too large by this")(
+      "disparity-bias", number(faults.disparity_bias_px), "[px] added to all disparities")(
       "right-rotation",
       po::value(&options.right_rotation_deg)->multitoken(),
-      "ROLL PITCH YAW [deg] of the right camera")(
-      "time-skew", number(faults.time_skew_s), "[s] the right camera is exposed later")(
-      "drop-frames", number(simulation.drop_share), "share of pairs that get lost")(
-      "noise", number(faults.noise_sigma), "[grey levels] sigma")(
-      "vignetting", number(faults.vignetting), "share of light lost in the corners")(
-      "exposure-jumps", number(faults.exposure_jumps), "relative size of jumps of the gain")(
+      "ROLL PITCH YAW [deg]: rotation of the right camera")(
+      "time-skew", number(faults.time_skew_s), "[s] delay of the right camera")(
+      "drop-frames", number(simulation.drop_share), "share of dropped frames")(
+      "noise", number(faults.noise_sigma), "[grey levels] standard deviation of the image noise")(
+      "vignetting", number(faults.vignetting), "relative loss of light in the corners")(
+      "exposure-jumps", number(faults.exposure_jumps), "relative size of gain jumps")(
       "motion-blur", number(faults.motion_blur_s), "[s] exposure time");
   po::options_description all;
   all.add(what).add(camera).add(wrong);
@@ -96,12 +99,12 @@ void setCamera(Options& options) {
   }
   camera.fx = camera.fy = options.focal_px;
   camera.baseline_m = options.baseline_m;
-  // The principal point stays at the same share of the image.
+  // The principal point keeps its relative position in the image.
   camera.cx = camera.cx_right = (kitti.cx + 0.5) * camera.width / kitti.width - 0.5;
   camera.cy = (kitti.cy + 0.5) * camera.height / kitti.height - 0.5;
 }
 
-/// Returns false if only the help was asked for; throws po::error on bad usage.
+/// Returns false after printing the help; throws po::error on bad usage.
 bool parse(int argc, char** argv, Options& options) {
   const po::options_description visible = describe(options);
   po::options_description all;
@@ -121,7 +124,7 @@ bool parse(int argc, char** argv, Options& options) {
   if (variables.count("noise-seed") == 0) options.simulation.noise_seed = options.simulation.seed;
   const std::size_t expected = options.poses.empty() ? 2 : 1;
   if (options.names.size() != expected) {
-    throw po::error(expected == 2 ? "give a scenario and an output" : "give one output");
+    throw po::error(expected == 2 ? "expected a scenario and an output" : "expected one output");
   }
   if (!options.right_rotation_deg.empty()) {
     if (options.right_rotation_deg.size() != 3) throw po::error("--right-rotation takes 3 numbers");
@@ -141,9 +144,9 @@ Scenario chosenScenario(const Options& options) {
 void print(const TruthErrors& errors) {
   const long long seen = std::max(1LL, errors.right + errors.wrong);
   const long long right = std::max(1LL, errors.right);
-  std::cout << "truth: " << seen << " points seen again in the next frame, "
+  std::cout << "truth: " << seen << " points visible in the next frame, "
             << 100.0 * static_cast<double>(errors.right) / static_cast<double>(seen)
-            << " % of them off by up to " << kTruthLimit_px << " px, in the mean "
+            << " % of them within " << kTruthLimit_px << " px, mean error "
             << errors.sum_px / static_cast<double>(right) << " px; the rest are edges and leaves\n";
 }
 
@@ -163,7 +166,7 @@ void renderSequence(Simulator& simulator, const std::string& directory, const Op
   if (options.check_truth) print(errors);
 }
 
-/// A directory that is removed with all that is in it.
+/// A temporary directory, removed with its contents.
 struct ScratchDirectory {
   ~ScratchDirectory() {
     std::error_code ignored;
@@ -190,7 +193,7 @@ void run(const Options& options) {
     return;
   }
   if (options.truth) {
-    throw std::invalid_argument("a bag takes no depth and flow: give a directory for --truth");
+    throw std::invalid_argument("--truth needs a directory as output: a bag has no depth and flow");
   }
   renderBag(simulator, out, options);
 }

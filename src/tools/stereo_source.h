@@ -12,25 +12,25 @@
 
 namespace rotrocc {
 
-/// Stereo pairs in the order of their stamps, wherever they are stored.
+/// Source of stereo pairs, in the order of their stamps.
 class StereoSource {
  public:
   virtual ~StereoSource() = default;
 
-  /// Where the pairs are from, for messages.
+  /// Name of the source, for messages.
   virtual std::string description() const = 0;
 
-  /// Count of left images: there cannot be more pairs.
+  /// Number of left images: an upper bound of the number of pairs.
   virtual int size() const = 0;
 
-  /// Reads the next pair and its camera. Returns false, and leaves them alone, when there is none.
-  /// Throws std::runtime_error on images that cannot be read.
+  /// Reads the next pair and its camera. Returns false and leaves the arguments unchanged at the
+  /// end. Throws std::runtime_error on images that cannot be read.
   virtual bool next(StereoPair& pair, StereoCamera& camera) = 0;
 
-  /// Where the left camera is on the base: by the transforms of a bag, else KITTI's mount.
+  /// Pose of the left camera on the base: from the tf of a bag, otherwise KITTI's.
   virtual Eigen::Isometry3d mount(const std::string& base_frame) const = 0;
 
-  /// What the stamps of the pairs need to be ROS's.
+  /// Offset from the stamps of the pairs to ROS time.
   virtual std::int64_t start_ns() const = 0;
 };
 

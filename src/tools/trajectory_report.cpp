@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A CSV file, complete on disk or an exception.
+/// CSV file; throws if it cannot be written completely.
 class Table {
  public:
   Table(const std::string& path, const char* columns) : path_(path), file_(path) {
@@ -49,14 +49,14 @@ void makeDirectory(const fs::path& directory) {
   std::error_code error;
   fs::create_directories(directory, error);
   if (!fs::is_directory(directory)) {
-    throw std::runtime_error(directory.string() + " cannot be made: " + error.message());
+    throw std::runtime_error(directory.string() + " cannot be created: " + error.message());
   }
   for (const char* name : {"segments.csv", "by_length.csv", "by_speed.csv"}) {
-    fs::remove(directory / name, error);  // of an earlier report, with truth
+    fs::remove(directory / name, error);  // from an earlier report with ground truth
   }
 }
 
-/// The positions [m] in the frame of the first pose.
+/// Positions [m] in the frame of the first pose.
 std::vector<Eigen::Vector3d> positions(const Trajectory& trajectory) {
   std::vector<Eigen::Vector3d> positions;
   for (const StampedPose& pose : trajectory) {
@@ -191,7 +191,7 @@ void drawReport(const std::string& directory,
   const std::string pairs = directory + "/pairs.csv";
   std::error_code error;
   if (statistics.empty()) {
-    fs::remove(pairs, error);  // of an earlier report
+    fs::remove(pairs, error);  // from an earlier report
   } else if (!fs::equivalent(statistics, pairs, error)) {
     fs::copy_file(statistics, pairs, fs::copy_options::overwrite_existing, error);
     if (error) throw std::runtime_error("cannot copy " + statistics + ": " + error.message());

@@ -118,7 +118,7 @@ TEST_F(KittiSequenceTest, RefusesTimesThatDoNotIncrease) {
 
 TEST_F(KittiSequenceTest, NamesTheFileThatIsMissing) {
   expectError<std::runtime_error>([this] { KittiSequence(directory_ / "none"); },
-                                  "none is no directory");
+                                  "none is not a directory");
   std::filesystem::remove_all(directory_ / "image_1");
   expectRefused("image_1 is missing");
   std::filesystem::remove(directory_ / "times.txt");
@@ -133,7 +133,7 @@ TEST_F(KittiSequenceTest, NamesTheImageThatIsMissingUnreadableOrOfAnotherSize) {
       "image_1/000001.png is 9 x 6 px, but the first image is 8 x 6 px");
   directory_.write("image_0/000001.png", "no picture");
   expectError<std::runtime_error>([&] { sequence.readLeft(1); },
-                                  "image_0/000001.png is no readable image");
+                                  "image_0/000001.png is not a readable image");
   expectError<std::runtime_error>([&] { sequence.readLeft(2); }, "image_0/000002.png is missing");
 }
 

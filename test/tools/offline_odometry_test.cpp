@@ -171,7 +171,7 @@ TEST_F(OfflineOdometryTest, PreloadedImagesGiveTheSamePoses) {
   EXPECT_FALSE(preloaded.empty());
   EXPECT_TRUE(preloaded == trajectoryOf(sequence()));
   const CommandResult result = run(sequence() + " --trajectory /dev/null --preload");
-  EXPECT_NE(result.output.find("MB of memory at the peak: "), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("peak memory: "), std::string::npos) << result.output;
 }
 
 TEST_F(OfflineOdometryTest, TakesParameters) {
