@@ -10,13 +10,13 @@
 
 namespace rotrocc {
 
-/// A solid and what it is made of.
+/// A solid with its material.
 struct Part {
   std::shared_ptr<const Shape> shape;
   std::shared_ptr<const Material> material;
 };
 
-/// What a ray meets first.
+/// First hit of a ray.
 struct BodyHit {
   double distance;
   Eigen::Vector3d normal;  ///< in the frame of the body, towards the viewer
@@ -24,25 +24,25 @@ struct BodyHit {
   int face;
 };
 
-/// A rigid thing of one or more parts: a house, a car, a tree.
+/// A rigid body of one or more parts: a house, a car, a tree.
 class Body {
  public:
   explicit Body(std::vector<Part> parts);
 
-  /// Puts it at a pose, which maps points of its own frame to the world's.
+  /// Sets the pose, which maps points of the body's frame to the world.
   void place(const Eigen::Isometry3d& T_world_body);
 
   const Eigen::Isometry3d& T_world_body() const { return T_world_body_; }
   const std::vector<Part>& parts() const { return parts_; }
 
-  /// A box around it in the world.
+  /// Bounding box in the world.
   const Eigen::AlignedBox3d& bounds() const { return world_bounds_; }
 
-  /// A box around it in its own frame.
+  /// Bounding box in the frame of the body.
   const Eigen::AlignedBox3d& ownBounds() const { return own_bounds_; }
 
-  /// The first surface a ray of the world meets in `range`; false if there is none. A pixel is
-  /// `pixel_m` wide at distance 1.
+  /// First hit of a ray of the world in `range`; false if there is none. A pixel is `pixel_m` wide
+  /// at distance 1.
   bool intersect(const Ray& ray, const RayRange& range, double pixel_m, BodyHit& hit) const;
 
   /// The same for one part, with the ray in the frame of the body.
@@ -59,9 +59,9 @@ class Body {
     return {T_body_world_.linear() * spread.per_column, T_body_world_.linear() * spread.per_row};
   }
 
-  double sunlit = 1.0;          ///< how much of the sun reaches it, from 0 to 1
-  bool contact_shadow = false;  ///< the ground is dark below and close to it
-  bool own_shade = false;       ///< so small that what stands around it can shade it as a whole
+  double sunlit = 1.0;          ///< visible share of the sun, from 0 to 1
+  bool contact_shadow = false;  ///< darkens the ground below and close to it
+  bool own_shade = false;       ///< small: is shaded as a whole by its surroundings
 
  private:
   std::vector<Part> parts_;
@@ -71,13 +71,13 @@ class Body {
   Eigen::Isometry3d T_body_world_ = Eigen::Isometry3d::Identity();
 };
 
-/// Finds boxes in the way of a ray.
+/// Intersects boxes with a ray.
 class BoxTest {
  public:
   explicit BoxTest(const Ray& ray)
       : origin_(ray.origin), inverse_direction_(ray.direction.cwiseInverse()) {}
 
-  /// Whether the ray passes the box somewhere in `range`.
+  /// Whether the ray hits the box in `range`.
   bool passes(const RayRange& range, const Eigen::AlignedBox3d& box) const;
 
  private:

@@ -11,24 +11,24 @@
 
 namespace rotrocc {
 
-/// Which way a body beside a street looks: the direction of its z axis.
+/// Orientation of a body beside a street: the direction of its z axis.
 enum class Facing { kAhead, kBack, kOutwards };
 
-/// What may stand where.
+/// Placement rules.
 struct PlacementRules {
   double clearance_m;        // from every centre line
-  bool may_overlap = false;  // with what stands already
-  bool upright = true;       // else it lies on the slope
+  bool may_overlap = false;  // with bodies placed earlier
+  bool upright = true;       // otherwise it follows the slope
   bool contact_shadow = false;
 };
 
-/// The ground beside the streets, and what stands there already.
+/// The ground beside the streets, and the bodies placed there.
 class BuildingGround {
  public:
-  /// Streets and terrain must outlive it.
+  /// Streets and terrain must outlive this object.
   BuildingGround(const WorldPlan& plan, const StreetMap& streets, const Terrain& terrain);
 
-  /// Stands a body `right_m` beside a street and returns true, if the rules allow.
+  /// Places a body `right_m` beside a street if the rules allow it. Returns whether they do.
   bool place(Body body,
              const Path& street,
              double station_m,
@@ -36,7 +36,7 @@ class BuildingGround {
              Facing facing,
              const PlacementRules& rules);
 
-  /// Stands a body over a street, across it.
+  /// Places a body over a street, across it.
   void placeAcross(Body body, const Path& street, double station_m);
 
   /// Everything that was placed.

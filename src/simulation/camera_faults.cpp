@@ -12,10 +12,10 @@ namespace rotrocc {
 namespace {
 
 constexpr int kFramesPerExposure = 12;
-constexpr double kResponse = 0.8;  // grey level over brightness: exponent of the curve
+constexpr double kResponse = 0.8;  // exponent of the camera response
 constexpr int kResponseSteps = 4096;
 
-/// The grey levels for brightness 0 ... 1 in equal steps.
+/// Grey levels for brightness 0 ... 1 in equal steps.
 std::vector<float> responseTable() {
   std::vector<float> table;
   for (int i = 0; i <= kResponseSteps; ++i) {

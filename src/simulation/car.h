@@ -6,7 +6,7 @@
 namespace rotrocc {
 
 /// A car of random size and paint, or a delivery van: body, cabin with windows, wheels, lights. It
-/// heads for z; its origin is on the ground in its middle.
+/// heads along z; its origin is on the ground below its centre.
 Body makeCar(RandomStream& random);
 
 }  // namespace rotrocc

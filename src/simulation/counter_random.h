@@ -4,9 +4,8 @@
 
 namespace rotrocc {
 
-/// A random number that depends on nothing but its arguments: whichever thread asks, and in
-/// whatever order, the answer is the same. (A chain of the finalizer of SplitMix64, Steele et al.
-/// 2014.)
+/// A random number that depends only on its arguments, so results are independent of threads and
+/// order. (A chain of the finalizer of SplitMix64, Steele et al. 2014.)
 inline std::uint64_t randomBits(std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0) {
   const auto mix = [](std::uint64_t x) {
     x += 0x9E3779B97F4A7C15ULL;
@@ -17,15 +16,15 @@ inline std::uint64_t randomBits(std::uint64_t a, std::uint64_t b = 0, std::uint6
   return mix(mix(mix(a) ^ b) ^ c);
 }
 
-/// The same as a number in [0, 1).
+/// The same, in [0, 1).
 inline double randomUniform(std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0) {
   return static_cast<double>(randomBits(a, b, c) >> 11) * 0x1.0p-53;
 }
 
-/// Random numbers one after another, for what is laid out in a fixed order.
+/// A sequence of random numbers, for a fixed order of calls.
 class RandomStream {
  public:
-  /// Streams of different numbers are independent of each other.
+  /// Streams with different numbers are independent.
   RandomStream(std::uint64_t seed, std::uint64_t stream) : key_(randomBits(seed, stream)) {}
 
   /// In [low, high).

@@ -5,15 +5,15 @@
 
 namespace rotrocc {
 
-/// The next whole number below; faster than std::floor, for what fits an int.
+/// Integer floor; faster than std::floor, for values that fit an int.
 template <typename Real>
 int floorToInt(Real x) {
   const int whole = static_cast<int>(x);
   return whole - (x < static_cast<Real>(whole) ? 1 : 0);
 }
 
-/// Patterns with sharp edges, as the mean over a pixel of width `width`: no aliasing however small
-/// they get. All lengths in the same unit, widths positive.
+/// Patterns with sharp edges, averaged over a pixel of width `width` to avoid aliasing. All lengths
+/// in the same unit, widths positive.
 
 /// Share of the pixel at `x` that lies above `edge`.
 inline double coverageAbove(double edge, double x, double width) {
@@ -36,7 +36,7 @@ inline double coveragePeriodic(double period, double length, double x, double wi
   return (covered_up_to(x + 0.5 * width) - covered_up_to(x - 0.5 * width)) / width;
 }
 
-/// From 0 to 1, smoothly, while x goes from `low` to `high`.
+/// Smooth step from 0 at `low` to 1 at `high`.
 inline double smoothStep(double low, double high, double x) {
   const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);

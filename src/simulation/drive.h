@@ -9,7 +9,7 @@
 
 namespace rotrocc {
 
-/// How the left camera moves. Poses are in the world of the simulation, where y points down.
+/// Motion of the left camera. Poses are in the world of the simulation, where y points down.
 class Drive {
  public:
   virtual ~Drive() = default;
@@ -19,32 +19,32 @@ class Drive {
   /// The path of the camera; it stays at its height above the ground.
   virtual const Path& path() const = 0;
 
-  /// How far along the path it is; before the start and after the end as at those.
+  /// Distance along the path; constant before the start and after the end.
   virtual double station_m(double time_s) const = 0;
 
   /// T_world_camera.
   virtual Eigen::Isometry3d pose(double time_s) const = 0;
 };
 
-/// A stretch of a drive on which the speed goes smoothly, with continuous acceleration, from that
-/// of the stretch before it to its own.
+/// A phase of a drive: the speed changes smoothly, with continuous acceleration, from that of the
+/// previous phase to its own.
 struct SpeedPhase {
   double distance_m;
   double speed_mps;      ///< at its end
-  double stand_s = 0.0;  ///< how long the car stands then, if that speed is 0
+  double stand_s = 0.0;  ///< standstill at its end, if that speed is 0
 };
 
-/// How much a car sways.
+/// Body motion of a car.
 struct Sway {
   double pitch_rad_per_mps2 = 0.004;  ///< its nose dips when it brakes
   double roll_rad_per_mps2 = 0.005;   ///< it leans out of a bend
   double bump_rad = 0.0012;           ///< amplitude of pitch and roll on an uneven road
   double bump_m = 0.006;              ///< amplitude of the height
-  double shake_pitch_rad = 0.0;       ///< amplitude of a steady pitching at 1.3 Hz
-  double shake_roll_rad = 0.0;        ///< of rolling at 0.9 Hz
+  double shake_pitch_rad = 0.0;       ///< amplitude of pitch at 1.3 Hz
+  double shake_roll_rad = 0.0;        ///< amplitude of roll at 0.9 Hz
 };
 
-/// A drive along a path by a plan of speeds.
+/// A drive along a path with given speed phases.
 class ScriptedDrive : public Drive {
  public:
   /// Starts with `initial_speed_mps` at the start of the path. Throws std::invalid_argument if a
@@ -69,11 +69,11 @@ class ScriptedDrive : public Drive {
   double duration_s_ = 0.0;
 };
 
-/// A recorded drive; between its poses the motion is interpolated smoothly.
+/// A recorded drive, with smooth interpolation between its poses.
 class RecordedDrive : public Drive {
  public:
-  /// The stamps count from the first pose. Throws std::invalid_argument if there are fewer than two
-  /// poses or they do not leave the place.
+  /// The stamps count from the first pose. Throws std::invalid_argument for fewer than two poses,
+  /// or poses without motion.
   explicit RecordedDrive(Trajectory trajectory);
 
   double duration_s() const override { return times_s_.back(); }

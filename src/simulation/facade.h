@@ -16,13 +16,13 @@ struct FacadeStyle {
   double window_spacing = 2.6;
   double window_width = 1.2;
   double window_height = 1.5;
-  double sill_height = 0.9;  ///< of the windows above their floor
+  double sill_height = 0.9;  ///< height of the windows above their floor
   double wall = 0.6;
   double frame = 0.8;
   double shutters = 0.0;  ///< their brightness; 0: none
   bool bricks = false;
   bool shop = false;  ///< large panes on the ground floor
-  int door = 1;       ///< which column of windows it takes the place of
+  int door = 1;       ///< column of windows that it replaces
   std::uint64_t key = 0;
 };
 
@@ -30,20 +30,20 @@ struct FacadeStyle {
 /// shop, a plinth and ledges between the floors.
 class Facade : public Material {
  public:
-  /// The textures must outlive it.
+  /// The textures must outlive this object.
   Facade(const FacadeStyle& style, const TextureTiles& tiles);
 
   double reflectance(const SurfacePoint& point) const override;
 
  private:
-  /// Where a pixel is among the windows of its wall.
+  /// Position of a pixel relative to the windows of its wall.
   struct Place {
     TexturePoint point;
     double u, v;           // from the left lower corner of the first window's cell [m]
     double width, height;  // of the pixel [m]
     double windows;        // share of the pixel on the part of the wall that has windows
     double column, row;    // of the window
-    double resolved;       // 1: single windows can be told apart, 0: they cannot
+    double resolved;       // 1: single windows are resolved, 0: they are not
   };
 
   Place placeOf(const SurfacePoint& point) const;

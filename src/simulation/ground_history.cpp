@@ -12,12 +12,12 @@ namespace rotrocc {
 namespace {
 
 constexpr double kSampling_m = 2.0;
-constexpr double kReach_m = 50.0;     // to the sides of the path: nearer places are visited
-constexpr double kOwn_m = 20.0;       // nearer ones have the height of that visit alone
-constexpr double kClearance_m = 0.4;  // of the camera over the corners of its cell
-constexpr double kReturn_m = 80.0;    // along the path; less is no return but the same visit
-constexpr double kStep_m = 0.05;      // smaller changes of height are left out
-constexpr double kStage_m = 20.0;     // changes are made after whole multiples of it
+constexpr double kReach_m = 50.0;     // lateral distance below which a place counts as visited
+constexpr double kOwn_m = 20.0;       // closer places have the height of this visit only
+constexpr double kClearance_m = 0.4;  // clearance of the camera over the corners of its cell
+constexpr double kReturn_m = 80.0;    // least distance along the path between two visits
+constexpr double kStep_m = 0.05;      // smaller changes of height are ignored
+constexpr double kStage_m = 20.0;     // interval between changes
 
 /// A point of a path: (x, z) and the height.
 struct Sample {
@@ -26,10 +26,10 @@ struct Sample {
   double station_m;
 };
 
-/// A stretch of the path of the camera near a place: samples `first` to `last`.
+/// A section of the camera path near a place: samples `first` to `last`.
 struct Visit {
   std::size_t first, last;
-  double distance_m;  // least
+  double distance_m;  // minimum
 };
 
 void append(const Path& path, double beyond_m, std::vector<Sample>& samples) {
@@ -39,7 +39,7 @@ void append(const Path& path, double beyond_m, std::vector<Sample>& samples) {
   }
 }
 
-/// What the ground at places of the map is like at times.
+/// Height of the ground by place and time.
 class Surveyor {
  public:
   Surveyor(const GroundGrid& grid,
@@ -68,11 +68,11 @@ class Surveyor {
     return visits;
   }
 
-  /// The height of the ground at a place. It is a mean of the samples, near ones first; away from
-  /// the path of a visit those of other visits and paths count as well.
+  /// Height of the ground at a place: weighted mean of the samples, by distance. Away from the path
+  /// of a visit, samples of other visits and paths contribute as well.
   double height(const Eigen::Vector2d& place, const Visit& visit) const {
     double height = below_m_ + meanHeight(place, visit);
-    // Where recorded heights rise faster than any road, the camera at least is not buried.
+    // Keeps the camera above the ground where recorded heights rise faster than any road.
     for (std::size_t i = visit.first; i <= visit.last; ++i) {
       if ((samples_[i].at - place).squaredNorm() > neighbour_m_ * neighbour_m_) continue;
       height = std::max(height, samples_[i].height + kClearance_m);
@@ -80,12 +80,12 @@ class Surveyor {
     return height;
   }
 
-  /// The same where no visit comes near.
+  /// The same at places that are not visited.
   double remoteHeight(const Eigen::Vector2d& place) const {
     return below_m_ + meanHeight(place, {0, 0, std::numeric_limits<double>::infinity()});
   }
 
-  /// A station between two visits where a place is behind the camera, or most behind it.
+  /// A station between two visits where a place is (farthest) behind the camera.
   double changeBetween(const Visit& before,
                        const Visit& after,
                        const Eigen::Vector2d& place) const {
@@ -97,7 +97,7 @@ class Surveyor {
       const Eigen::Vector3d direction = path_.direction(s);
       const Eigen::Vector2d offset = place - Eigen::Vector2d(position.x(), position.z());
       const double ahead = offset.dot(Eigen::Vector2d(direction.x(), direction.z()).normalized());
-      // What stands there is within 20 m; the camera may look a little aside, and turn by a frame.
+      // Bodies there are within 20 m; allows for the rotation of the camera within a frame.
       if (ahead + 20.0 + 0.25 * offset.norm() < 0.0) return s;
       if (ahead >= best_ahead) continue;
       best = s;

@@ -8,10 +8,10 @@
 
 namespace rotrocc {
 
-/// How high the ground is while the camera is where on its path. A recorded drive may come back to
-/// a place at another height, since recorded poses drift; the ground is then where each visit has
-/// it. It changes between two visits, and only while it lies behind the camera with all that stands
-/// there: consecutive frames show the same ground.
+/// Height of the ground as a function of the camera's position on its path. A recorded drive may
+/// revisit a place at another height, since recorded poses drift; the ground then follows each
+/// visit. It changes between two visits, and only behind the camera, so that consecutive frames
+/// show the same ground.
 class GroundHistory {
  public:
   /// The ground lies `below_m` below the path of the camera, which goes on `beyond_m` before its
@@ -22,7 +22,7 @@ class GroundHistory {
                 const std::vector<Path>& others,
                 double below_m);
 
-  /// Count of the changes before the camera comes to a station.
+  /// Number of changes before the camera reaches a station.
   std::size_t stage(double station_m) const;
 
   /// The y coordinate at each corner of the grid, row by row, after the changes of a stage.

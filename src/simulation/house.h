@@ -6,14 +6,14 @@
 
 namespace rotrocc {
 
-/// The size of a house on the ground [m]: its front is `width`, the street is at its -z side.
+/// Size of a house on the ground [m]: `width` is its front, the street is at its -z side.
 struct HouseSize {
   double width;
   double depth;
 };
 
-/// A house of two to four floors with windows, a door or a shop, and a roof; no two are alike. Its
-/// origin is in the middle of its footprint. The textures must outlive it.
+/// A random house of two to four floors with windows, a door or a shop, and a roof. Its origin is
+/// in the centre of its footprint. The textures must outlive it.
 Body makeHouse(const HouseSize& size, const TextureTiles& tiles, RandomStream& random);
 
 }  // namespace rotrocc

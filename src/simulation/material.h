@@ -7,27 +7,27 @@
 
 namespace rotrocc {
 
-/// What a surface looks like. Points are in the frame of the body: y points down, 0 is the ground.
+/// Appearance of a surface. Points are in the frame of the body: y points down, 0 is the ground.
 class Material {
  public:
   virtual ~Material() = default;
 
-  /// The share of the light it sends back, about 0 to 1, as the mean over the pixel.
+  /// Reflectance, about 0 to 1, averaged over the pixel.
   virtual double reflectance(const SurfacePoint& point) const = 0;
 
-  /// Whether one sees through it at a place with this normal; a pixel is `pixel_m` wide. Holes have
-  /// to vanish where they are smaller than that.
+  /// Whether it is transparent at a place with this normal; a pixel is `pixel_m` wide. Holes must
+  /// vanish where they are smaller than that.
   virtual bool isHole(const Eigen::Vector3d& /*position*/,
                       const Eigen::Vector3d& /*normal*/,
                       double /*pixel_m*/) const {
     return false;
   }
 
-  /// Whether the edges between what is made of such materials need not be smooth: leaves.
+  /// Whether edges of such materials need no anti-aliasing, e.g. leaves.
   virtual bool isTangle() const { return false; }
 };
 
-/// Alike everywhere.
+/// Uniform.
 class PlainMaterial : public Material {
  public:
   explicit PlainMaterial(double reflectance) : reflectance_(reflectance) {}
@@ -43,7 +43,7 @@ TexturePoint faceCoordinates(const SurfacePoint& point);
 /// The same of a place with this normal.
 Eigen::Vector2d faceCoordinates(const Eigen::Vector3d& position, const Eigen::Vector3d& normal);
 
-/// A texture laid on the faces of a body: `mean` plus and minus up to half of `contrast`.
+/// A texture on the faces of a body: `mean` plus and minus up to half of `contrast`.
 class TexturedMaterial : public Material {
  public:
   TexturedMaterial(const Texture& texture, double mean, double contrast)

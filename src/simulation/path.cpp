@@ -77,7 +77,7 @@ Path Path::beside(double right_m, double spacing_m, double before_m, double afte
   for (int i = 0; i <= steps; ++i) {
     const double station = -before_m + length * i / steps;
     const Eigen::Vector3d point = position(station) + right_m * right(station);
-    // On the inner side of a bend narrower than `right_m` the points would turn back.
+    // On the inner side of a bend with a radius below `right_m` the points would reverse.
     if (points.empty() || (point - points.back()).dot(direction(station)) > 0.1 * spacing_m) {
       points.push_back(point);
     }

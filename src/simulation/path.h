@@ -7,7 +7,7 @@
 
 namespace rotrocc {
 
-/// A smooth curve through points, by the length along it (its station). Axes as everywhere in the
+/// A smooth curve through points, parametrised by arc length (station). Axes as in the whole
 /// simulation: x right and z forward at the start, y down.
 class Path {
  public:
@@ -17,13 +17,13 @@ class Path {
 
   double length_m() const { return stations_.back(); }
 
-  /// Where the path is at `station_m`; beyond the ends it goes on straight and level.
+  /// Position at `station_m`; beyond the ends the path continues straight and level.
   Eigen::Vector3d position(double station_m) const;
 
-  /// Its direction there, of unit length.
+  /// Direction, of unit length.
   Eigen::Vector3d direction(double station_m) const;
 
-  /// The direction to the right there, level and of unit length.
+  /// Direction to the right, level and of unit length.
   Eigen::Vector3d right(double station_m) const;
 
   /// Heading [rad]: 0 along z, positive to the right.
@@ -45,18 +45,18 @@ class Path {
   std::vector<double> stations_;
 };
 
-/// A stretch of a road whose curvature goes smoothly from that of the stretch before it to its own.
+/// A section of a road: the curvature changes smoothly from that of the previous section to its
+/// own.
 struct PathPiece {
   double length_m;
   double curvature_per_m;  ///< at its end; positive to the right
 };
 
-/// The path of these pieces from the origin along z, on hills that lift it by
-/// `rise_m(station)`.
+/// The path of these pieces from the origin along z, lifted by hills by `rise_m(station)`.
 Path layPath(const std::vector<PathPiece>& pieces, const std::function<double(double)>& rise_m);
 
 /// The pieces of a turn by `angle_rad` (positive to the right): over `transition_m` the curvature
-/// grows to 1 / radius and at the end it falls again. Throws std::invalid_argument if the angle is
+/// grows to 1 / radius and decreases again at the end. Throws std::invalid_argument if the angle is
 /// smaller than what the transitions turn.
 std::vector<PathPiece> turn(double angle_rad, double radius_m, double transition_m);
 

@@ -21,7 +21,7 @@ Eigen::Vector3d onGround(const Terrain& terrain, const Eigen::Vector2d& at) {
   return {at.x(), terrain.height(at.x(), at.y()), at.y()};
 }
 
-/// Half of the length of a rectangle's shadow on an axis.
+/// Half the length of a rectangle's projection on an axis.
 double halfExtent(const Footprint& footprint, const Eigen::Vector2d& axis) {
   return footprint.half_length * std::abs(axis.dot(footprint.ahead)) +
          footprint.half_width * std::abs(axis.dot(footprint.right));
@@ -38,7 +38,7 @@ Eigen::Isometry3d standingUpright(const Terrain& terrain,
 Eigen::Isometry3d lyingOnGround(const Terrain& terrain,
                                 const Eigen::Vector2d& at,
                                 const Eigen::Vector3d& ahead) {
-  // The slope over some length: that at a point jumps from cell to cell.
+  // Mean slope: the slope at a point is discontinuous between cells.
   constexpr double kReach = 1.5;
   const double dx =
       terrain.height(at.x() + kReach, at.y()) - terrain.height(at.x() - kReach, at.y());
@@ -65,7 +65,7 @@ bool Footprint::overlaps(const Footprint& other, double margin_m) const {
   for (const Eigen::Vector2d& axis : {ahead, right, other.ahead, other.right}) {
     const double gap = std::abs(axis.dot(other.centre - centre)) - halfExtent(*this, axis) -
                        halfExtent(other, axis);
-    if (gap > -margin_m) return false;  // a line between them
+    if (gap > -margin_m) return false;  // separating axis
   }
   return true;
 }

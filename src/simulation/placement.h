@@ -15,12 +15,12 @@ Eigen::Isometry3d standingUpright(const Terrain& terrain,
                                   const Eigen::Vector2d& at,
                                   const Eigen::Vector3d& ahead);
 
-/// The same for one that lies on the ground with its slope: cars, kerb stones.
+/// The same for a body that follows the slope of the ground: cars, kerb stones.
 Eigen::Isometry3d lyingOnGround(const Terrain& terrain,
                                 const Eigen::Vector2d& at,
                                 const Eigen::Vector3d& ahead);
 
-/// The rectangle that a body covers on the ground (x, z).
+/// Footprint of a body on the ground (x, z).
 struct Footprint {
   Eigen::Vector2d centre;
   Eigen::Vector2d ahead;  ///< of unit length
@@ -28,10 +28,10 @@ struct Footprint {
   double half_length;  ///< along `ahead`
   double half_width;
 
-  /// Of a body as it is placed.
+  /// Footprint of a placed body.
   static Footprint of(const Body& body);
 
-  /// Whether two rectangles share more than `margin_m`.
+  /// Whether two rectangles overlap by more than `margin_m`.
   bool overlaps(const Footprint& other, double margin_m) const;
 
   /// Points along its border, at most `spacing_m` from each other.

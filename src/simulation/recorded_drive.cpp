@@ -9,7 +9,8 @@
 namespace rotrocc {
 namespace {
 
-constexpr double kMinStep_m = 1.0;  // between the points of the path: less is noise at standstill
+constexpr double kMinStep_m =
+    1.0;  // between points of the path; shorter steps are noise at standstill
 
 Path pathOf(const Trajectory& trajectory) {
   std::vector<Eigen::Vector3d> points;
@@ -25,7 +26,7 @@ Path pathOf(const Trajectory& trajectory) {
   return Path(std::move(points));
 }
 
-/// How far along the path each pose is.
+/// Station of each pose.
 std::vector<double> stationsOf(const Trajectory& trajectory) {
   std::vector<double> stations;
   Eigen::Vector3d last_point = trajectory.front().T_world_body.translation();

@@ -8,7 +8,7 @@
 namespace rotrocc {
 namespace {
 
-/// Where a pixel with an edge is looked at beside its centre.
+/// Additional samples of a pixel at an edge.
 constexpr std::array<std::array<double, 2>, 3> kSamples = {
     {{-0.375, -0.125}, {0.125, -0.375}, {0.25, 0.375}}};
 
@@ -31,7 +31,7 @@ class Rendering {
 
   Picture run() {
     forEachRow(camera_.height, [this](int y) { lookAtCentres(y); });
-    // Edges are found in the samples at the centres, not in what other threads have smoothed.
+    // Edges are detected in the centre samples, not in the smoothed image of other threads.
     centres_ = picture_.brightness.clone();
     forEachRow(camera_.height, [this](int y) { smoothEdges(y); });
     return picture_;

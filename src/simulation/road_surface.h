@@ -9,25 +9,24 @@
 
 namespace rotrocc {
 
-/// A place where markings are drawn across a street: a stop line, a pedestrian crossing.
+/// A marking across a street: a stop line or a pedestrian crossing.
 struct Crossing {
   int street;
   double station_m;
   bool zebra;  ///< stripes 3 m long from station_m on; else a stop line on the right half
 };
 
-/// What the ground looks like: asphalt with markings and repairs, slabs, grass.
+/// Appearance of the ground: asphalt with markings and repairs, slabs, grass.
 class RoadSurface {
  public:
-  /// The streets, the style and the textures must outlive it.
+  /// The streets, the style and the textures must outlive this object.
   RoadSurface(const StreetMap& streets,
               const StreetStyle& style,
               const TextureTiles& tiles,
               std::vector<Crossing> crossings,
               std::uint64_t seed);
 
-  /// The share of light the ground sends back, as the mean over the pixel. `point` is in the
-  /// world's frame.
+  /// Reflectance of the ground, averaged over the pixel. `point` is in the world's frame.
   double reflectance(const SurfacePoint& point) const;
 
  private:

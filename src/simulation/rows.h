@@ -6,8 +6,8 @@
 
 namespace rotrocc {
 
-/// Calls body(row) for each row, in any order, on as many threads as OpenCV is to use.
-/// (cv::parallel_for_ would do, but that ThreadSanitizer sees nothing of the threads of TBB.)
+/// Calls body(row) for each row, in any order, on OpenCV's number of threads. (Not
+/// cv::parallel_for_, because ThreadSanitizer cannot see the threads of TBB.)
 template <class Body>
 void forEachRow(int rows, Body&& body) {
   Workers(cv::getNumThreads()).run(rows, body);

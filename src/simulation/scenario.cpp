@@ -12,8 +12,8 @@
 namespace rotrocc {
 namespace {
 
-constexpr double kBeyond_m = 160.0;  // the street goes on before the start and after the end
-constexpr double kSpacing_m = 0.5;   // of the points of a centre line
+constexpr double kBeyond_m = 160.0;  // extension of the street before the start and after the end
+constexpr double kSpacing_m = 0.5;   // spacing of the points of a centre line
 constexpr double kRight_rad = 0.5 * M_PI;
 
 std::vector<PathPiece> joined(const std::vector<std::vector<PathPiece>>& groups) {
@@ -30,7 +30,7 @@ double hills(double station_m) {
   return 0.5 * (1.0 - std::cos(2.0 * M_PI * station_m / 130.0));
 }
 
-/// The street a path drives on, and how it goes on.
+/// The street of a path, with its extensions.
 Scenario alongOneStreet(std::shared_ptr<const Drive> drive, StreetStyle style, std::uint64_t seed) {
   Scenario scenario;
   scenario.world.streets = {drive->path().beside(-style.lane_m, kSpacing_m, kBeyond_m, kBeyond_m)};
@@ -43,7 +43,7 @@ Scenario alongOneStreet(std::shared_ptr<const Drive> drive, StreetStyle style, s
   return scenario;
 }
 
-/// A street that leaves the path of a drive at a station, straight ahead or to a side.
+/// A street that branches off the path of a drive at a station, straight ahead or to a side.
 Path sideStreet(const Path& path, double station_m, double angle_rad, double lane_m) {
   constexpr double kLength_m = 120.0;
   const Eigen::AngleAxisd turned(angle_rad, Eigen::Vector3d::UnitY());

@@ -11,7 +11,7 @@
 
 namespace rotrocc {
 
-/// A drive, the world it leads through, and who else drives there.
+/// A drive with its world and traffic.
 struct Scenario {
   std::shared_ptr<const Drive> drive;
   WorldPlan world;
@@ -19,10 +19,10 @@ struct Scenario {
   std::vector<std::int64_t> stamps_ns;  ///< of the frames; empty: at any rate
 };
 
-/// The names scenario() knows.
+/// Names for scenario().
 const std::vector<std::string>& scenarioNames();
 
-/// A scenario by its name; throws std::invalid_argument, with all names, if there is none.
+/// A scenario by name; throws std::invalid_argument, listing all names, if unknown.
 ///   city       300 m through a town with two turns and a stop
 ///   motorway   25 m/s on a nearly straight motorway, little texture near by
 ///   slip_road  a bend of 22 m radius at 10 m/s, 26 deg/s, through a meadow
@@ -30,9 +30,9 @@ const std::vector<std::string>& scenarioNames();
 ///   shake      a town street with strong pitching and rolling
 Scenario scenario(const std::string& name, std::uint64_t seed);
 
-/// A town laid along a recorded drive, hills included. Where the drive comes back to a street it
-/// already has been in, there is one street only; if it comes back at another height, the ground
-/// changes between the visits. The frames have the stamps of the poses, from 0.
+/// A town along a recorded drive, including hills. A street that the drive revisits is built once;
+/// if it is revisited at another height, the ground changes between the visits. The frames have the
+/// stamps of the poses, from 0.
 Scenario scenarioAlong(const Trajectory& trajectory, std::uint64_t seed);
 
 }  // namespace rotrocc

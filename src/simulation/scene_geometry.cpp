@@ -8,9 +8,9 @@
 namespace rotrocc {
 namespace {
 
-constexpr double kContactReach_m = 0.6;  // bodies are also in the cells this near to them
+constexpr double kContactReach_m = 0.6;  // bodies are also listed in cells within this distance
 
-/// Walks through the cells a ray passes, in their order (Amanatides and Woo, 1987).
+/// Traverses the cells along a ray, in order (Amanatides and Woo, 1987).
 class CellWalk {
  public:
   CellWalk(const GroundGrid& grid, const Ray& ray, const RayRange& range)
@@ -53,7 +53,7 @@ class CellWalk {
   double delta_[2];
 };
 
-/// The part of `range` where a ray is below the height `top` (y points down), and a little more.
+/// The part of `range` where a ray is below the height `top` (y points down), plus a margin.
 RayRange belowHeight(const Ray& ray, const RayRange& range, double top) {
   constexpr double kMargin_m = 0.01;
   const double at_top = (top - kMargin_m - ray.origin.y()) / ray.direction.y();

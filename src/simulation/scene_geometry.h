@@ -8,13 +8,13 @@
 
 namespace rotrocc {
 
-/// What a ray meets first among the ground and the bodies that stand on it.
+/// First hit of a ray with the ground or a body on it.
 struct SceneHit {
   int body = -1;  ///< -1: the ground
   BodyHit at;
 };
 
-/// The ground and all that stands on it, in cells, so that a ray looks only at what it passes.
+/// The ground and the bodies on it, in a grid for fast ray casting.
 class SceneGeometry {
  public:
   SceneGeometry(Terrain terrain, std::vector<Body> bodies);
@@ -25,11 +25,11 @@ class SceneGeometry {
   /// The bodies in or next to the cell of a place on the ground.
   const std::vector<std::int32_t>& bodiesAround(double x, double z) const;
 
-  /// The first surface in `range` (of the world), on the grid of the ground. A pixel is `pixel_m`
-  /// wide at distance 1. Returns false if there is none; the ray must begin above the ground.
+  /// First hit in `range`, within the grid of the ground. A pixel is `pixel_m` wide at distance 1.
+  /// Returns false if there is none; the ray must start above the ground.
   bool trace(const Ray& ray, const RayRange& range, double pixel_m, SceneHit& hit) const;
 
-  /// The first point of the ground alone.
+  /// First hit with the ground only.
   bool traceGround(const Ray& ray, const RayRange& range, double& distance) const;
 
  private:

@@ -9,7 +9,7 @@
 namespace rotrocc {
 namespace {
 
-/// From 0 to 1 with no slope and no curvature at the ends.
+/// From 0 to 1 with zero slope and curvature at the ends.
 double ease(double t) {
   return t * t * t * (t * (6.0 * t - 15.0) + 10.0);
 }
@@ -24,7 +24,7 @@ double phaseDuration(const SpeedPhase& phase, double speed_before_mps) {
                                  : 2.0 * phase.distance_m / (speed_before_mps + phase.speed_mps);
 }
 
-/// What an uneven road does to a car at a station, between about -1 and 1; different for each kind.
+/// Effect of an uneven road on a car at a station, between about -1 and 1; different for each kind.
 double bump(double station_m, int kind) {
   double sum = 0.0;
   for (const double wavelength_m : {4.3, 7.1, 13.7}) {

@@ -21,7 +21,7 @@ std::string makeDirectories(const std::string& directory, bool with_truth) {
     const fs::path path = fs::path(directory) / folder;
     std::error_code error;
     fs::create_directories(path, error);
-    if (error) throw std::runtime_error("cannot make " + path.string() + ": " + error.message());
+    if (error) throw std::runtime_error("cannot create " + path.string() + ": " + error.message());
     if (!fs::is_empty(path)) {
       throw std::runtime_error(path.string() + " is not empty: choose a new directory");
     }

@@ -16,10 +16,10 @@ namespace rotrocc {
 /// A depth is exact to 1e-7 of itself, a flow to 1/128 px.
 class SequenceWriter {
  public:
-  /// Makes the directory. Throws std::runtime_error if that fails or it has images already.
+  /// Creates the directory. Throws std::runtime_error if that fails or if it already has images.
   SequenceWriter(const std::string& directory, const StereoCamera& camera, bool with_truth);
 
-  /// To be called for one frame after the other. Throws std::runtime_error if the disk is full.
+  /// Call for each frame, in order. Throws std::runtime_error if the disk is full.
   void write(const SimulatedFrame& frame, const Eigen::Isometry3d& T_first_left);
 
  private:

@@ -10,7 +10,7 @@ bool isIn(const RayRange& range, double distance) {
   return distance > range.from && distance < range.to;
 }
 
-/// The nearer root in `range` of a t^2 + 2 b t + c = 0; false if there is none.
+/// The smaller root in `range` of a t^2 + 2 b t + c = 0; false if there is none.
 bool firstRoot(double a, double b, double c, const RayRange& range, double& root) {
   const double discriminant = b * b - a * c;
   if (discriminant < 0.0 || a == 0.0) return false;
@@ -31,7 +31,7 @@ ConvexSolid& ConvexSolid::cut(const Eigen::Vector3d& outwards, const Eigen::Vect
   return *this;
 }
 
-/// The way of a ray through a convex solid, and the faces where it enters and leaves.
+/// The section of a ray inside a convex solid, with entry and exit faces.
 struct ConvexSolid::Passage {
   double enter = -std::numeric_limits<double>::infinity();
   double leave = std::numeric_limits<double>::infinity();
@@ -60,7 +60,7 @@ bool ConvexSolid::intersect(const Ray& ray, const RayRange& range, ShapeHit& hit
   return true;
 }
 
-/// Faces 2 axis and 2 axis + 1 are those of the box at its least and greatest coordinate.
+/// Faces 2 axis and 2 axis + 1 are those at the smallest and largest coordinate of the box.
 bool ConvexSolid::passBox(const Ray& ray, Passage& passage) const {
   for (int axis = 0; axis < 3; ++axis) {
     const double inverse = 1.0 / ray.direction[axis];

@@ -9,7 +9,7 @@
 
 namespace rotrocc {
 
-/// The part of a ray on which something is looked for: distances above `from` and below `to`.
+/// Search interval of a ray: distances above `from` and below `to`.
 struct RayRange {
   double from;
   double to;
@@ -18,7 +18,7 @@ struct RayRange {
 struct ShapeHit {
   double distance;
   Eigen::Vector3d normal;  ///< of unit length, out of the shape
-  int face;                ///< which smooth part of the surface, from 0
+  int face;                ///< index of the smooth part of the surface
 };
 
 /// A solid in the frame of the body it belongs to: y points down, 0 is the ground.
@@ -26,19 +26,20 @@ class Shape {
  public:
   virtual ~Shape() = default;
 
-  /// The first crossing of the surface in `range`, from outside or inside; false if there is none.
+  /// First intersection with the surface in `range`, from outside or inside; false if there is
+  /// none.
   virtual bool intersect(const Ray& ray, const RayRange& range, ShapeHit& hit) const = 0;
 
-  /// A box around it.
+  /// Bounding box.
   virtual Eigen::AlignedBox3d bounds() const = 0;
 };
 
-/// What is left of a box after cuts.
+/// A box with planar cuts.
 class ConvexSolid : public Shape {
  public:
   explicit ConvexSolid(const Eigen::AlignedBox3d& box) : box_(box) {}
 
-  /// Takes away what lies beyond the plane through `point` whose normal is `outwards`.
+  /// Removes everything beyond the plane through `point` with normal `outwards`.
   ConvexSolid& cut(const Eigen::Vector3d& outwards, const Eigen::Vector3d& point);
 
   bool intersect(const Ray& ray, const RayRange& range, ShapeHit& hit) const override;
@@ -62,7 +63,7 @@ class ConvexSolid : public Shape {
 /// A closed cylinder along one of the axes of its body.
 class Cylinder : public Shape {
  public:
-  /// `axis` 0, 1 or 2 for x, y or z; it reaches `half_length` to both sides of the centre.
+  /// `axis` 0, 1 or 2 for x, y or z; it extends by `half_length` to both sides of the centre.
   Cylinder(int axis, const Eigen::Vector3d& centre, double radius, double half_length);
 
   bool intersect(const Ray& ray, const RayRange& range, ShapeHit& hit) const override;
@@ -89,7 +90,7 @@ class Ellipsoid : public Shape {
  private:
   Eigen::Vector3d centre_;
   Eigen::Vector3d half_axes_;
-  Eigen::Vector3d scale_;  // of the space in which it is a ball of radius 1
+  Eigen::Vector3d scale_;  // to the space in which it is a unit sphere
 };
 
 }  // namespace rotrocc

@@ -123,7 +123,7 @@ cv::Mat Simulator::flowToNext(int index, const Picture& left) const {
   const double then = time_s(index + 1);
   const Eigen::Isometry3d T_world_now = drive_->pose(now);
   const Eigen::Isometry3d T_then_world = drive_->pose(then).inverse();
-  // How the points of each car move in the camera's frame; the last one is what stands still.
+  // Motion of the points of each car in the camera's frame; the last entry is the static scene.
   std::vector<Eigen::Isometry3d> T_then_now;
   for (int car = 0; car < traffic_->size(); ++car) {
     T_then_now.push_back(T_then_world * traffic_->pose(car, then) *

@@ -7,13 +7,13 @@
 
 namespace rotrocc {
 
-/// What lies infinitely far away: clouds, and wooded hills along the horizon.
+/// The background at infinity: clouds, and wooded hills along the horizon.
 class Sky {
  public:
-  /// The textures must outlive it.
+  /// The textures must outlive this object.
   explicit Sky(const TextureTiles& tiles) : tiles_(tiles) {}
 
-  /// The brightness in a direction of any length, as the mean over the pixel.
+  /// Brightness in a direction of any length, averaged over the pixel.
   double brightness(const Eigen::Vector3d& direction, const PixelSpread& spread) const;
 
  private:

@@ -6,8 +6,8 @@
 
 namespace rotrocc {
 
-/// Small things beside a street. Each stands on its origin; x points along the street or, where a
-/// thing has a front, the front looks along -z. The textures must outlive them.
+/// Small objects beside a street. Each stands on its origin; x points along the street, and fronts
+/// face -z. The textures must outlive them.
 
 /// A lamp post whose arm reaches along -z.
 Body makeLamp();

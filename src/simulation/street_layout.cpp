@@ -44,7 +44,7 @@ class Layout {
     if (style_.forest_m > 0.0) addForest(street, side, random);
   }
 
-  /// How much longer than the street a line `right_m` beside it is.
+  /// Length of a line `right_m` beside the street over the length of the street.
   static double stretch(const Path& street, double station_m, double right_m) {
     const Eigen::Vector3d before =
         street.position(station_m - 0.5) + right_m * street.right(station_m - 0.5);

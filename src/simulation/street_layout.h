@@ -10,8 +10,8 @@
 
 namespace rotrocc {
 
-/// Everything that stands beside the streets of `plan`: houses, parked cars, trees, lamps, ... as
-/// its style says, on the ground and never on a street. The textures must outlive the bodies.
+/// All bodies beside the streets of `plan`: houses, parked cars, trees, lamps etc., by its style,
+/// on the ground and never on a street. The textures must outlive the bodies.
 std::vector<Body> layOutStreets(const WorldPlan& plan,
                                 const StreetMap& streets,
                                 const Terrain& terrain,

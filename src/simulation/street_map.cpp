@@ -11,8 +11,8 @@
 namespace rotrocc {
 namespace {
 
-constexpr double kSampling_m = 0.5;  // of the centre lines
-constexpr double kCell_m = 0.5;      // of the raster
+constexpr double kSampling_m = 0.5;  // sampling of the centre lines
+constexpr double kCell_m = 0.5;      // cell size of the raster
 
 Eigen::Vector2d level(const Eigen::Vector3d& v) {
   return {v.x(), v.z()};
@@ -87,7 +87,7 @@ bool StreetMap::locate(double x, double z, StreetPoint& point) const {
   const Eigen::Vector2d offset = Eigen::Vector2d(x, z) - sample.at;
   const double along = offset.dot(sample.ahead);
   const double across = offset.dot(sample.right);
-  // The line goes on as an arc: its centre is 1 / curvature to the right.
+  // The line continues as an arc with its centre 1 / curvature to the right.
   const double stretch = std::max(0.2, 1.0 - sample.curvature_per_m * across);
   point.street = sample.street;
   point.station_m = sample.station_m + along / stretch;

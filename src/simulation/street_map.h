@@ -9,26 +9,26 @@
 
 namespace rotrocc {
 
-/// A place on the ground as seen from the nearest street.
+/// A place on the ground relative to the nearest street.
 struct StreetPoint {
   int street = -1;         ///< index of its centre line
   double station_m = 0.0;  ///< along the centre line
   double right_m = 0.0;    ///< to the right of it
-  /// How station_m and right_m grow per metre along x and z.
+  /// Gradients of station_m and right_m along x and z.
   Eigen::Vector2d station_gradient = Eigen::Vector2d::Zero();
   Eigen::Vector2d right_gradient = Eigen::Vector2d::Zero();
 };
 
-/// Finds the street a point of the ground belongs to.
+/// Finds the street of a point on the ground.
 class StreetMap {
  public:
   /// Points farther than `reach_m` from all centre lines belong to none.
   StreetMap(const std::vector<Path>& centre_lines, double reach_m);
 
-  /// Returns false, and leaves `point` alone, where there is no street.
+  /// Returns false and leaves `point` unchanged if there is no street.
   bool locate(double x, double z, StreetPoint& point) const;
 
-  /// How far (x, z) is from the nearest centre line, reach_m at most [m].
+  /// Distance of (x, z) from the nearest centre line, at most reach_m [m].
   double distance(double x, double z) const;
 
  private:

@@ -8,10 +8,10 @@ namespace rotrocc {
 namespace {
 
 constexpr double kSpacing_m = 0.5;
-constexpr double kNeighbour_m = 40.0;  // along a path, less is no return but the same passage
+constexpr double kNeighbour_m = 40.0;  // least distance along a path between two passages
 constexpr double kMinLength_m = 10.0;  // of a street
 
-/// Points with their stations, found again by their place.
+/// Points with their stations, indexed by position.
 class PassedPoints {
  public:
   explicit PassedPoints(double reach_m) : reach_m_(reach_m) {}
@@ -20,7 +20,7 @@ class PassedPoints {
     cells_[key(cellOf(point.x()), cellOf(point.z()))].push_back({point, station_m});
   }
 
-  /// Whether a point passed at least kNeighbour_m ago is in reach.
+  /// Whether an earlier point, by at least kNeighbour_m, is in reach.
   bool cameBy(const Eigen::Vector3d& point, double station_m) const {
     for (std::int64_t dx = -1; dx <= 1; ++dx) {
       for (std::int64_t dz = -1; dz <= 1; ++dz) {

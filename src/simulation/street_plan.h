@@ -7,8 +7,7 @@
 namespace rotrocc {
 
 /// The centre lines of the streets along a path, `right_m` beside it and `beyond_m` longer at both
-/// ends. Where the path comes within `same_street_m` of a street it already has passed, it drives
-/// on that street and gets no second one.
+/// ends. Where the path comes within `same_street_m` of an earlier street, it reuses that street.
 std::vector<Path> streetsAlong(const Path& path,
                                double right_m,
                                double beyond_m,

@@ -4,7 +4,7 @@
 
 namespace rotrocc {
 
-/// What the ground is covered with.
+/// Surface of the ground.
 enum class Pavement { kAsphalt, kSlabs, kGrass };
 
 /// A strip along the street; distances are from its centre line, to the right.
@@ -16,10 +16,10 @@ struct Zone {
 
 /// A painted line along the street.
 struct Marking {
-  double right_m;  ///< of its middle
+  double right_m;  ///< centre of the line
   double width_m;
-  double period_m;  ///< from the beginning of a dash to the next
-  double dash_m;    ///< the same as the period: a line without gaps
+  double period_m;  ///< from the start of a dash to the next
+  double dash_m;    ///< equal to the period: a solid line
 };
 
 /// A painted line across the street, repeated along it.
@@ -29,28 +29,28 @@ struct Bay {
   double period_m;
 };
 
-/// How a street and what stands beside it look. Shares are from 0 to 1; distances from the centre
+/// Appearance of a street and its surroundings. Shares are from 0 to 1; distances from the centre
 /// line to the right, [m].
 struct StreetStyle {
   std::vector<Zone> zones;
   std::vector<Marking> markings;
   std::vector<Bay> bays;
   double asphalt_contrast = 1.0;    ///< 1: well worn, 0: like new
-  double repairs_share = 0.25;      ///< of 12 m stretches of the street with a patch
-  double lane_m = 1.75;             ///< middle of the lane one drives in; the other is at -lane_m
-  double clear_half_width_m = 5.9;  ///< nothing stands nearer to a centre line
+  double repairs_share = 0.25;      ///< share of 12 m sections with a patch
+  double lane_m = 1.75;             ///< centre of the own lane; the other is at -lane_m
+  double clear_half_width_m = 5.9;  ///< minimum distance of bodies from a centre line
 
   double kerb_m = 0.0;         ///< kerb stones on both sides at this distance; 0: none
   double houses_m = 0.0;       ///< fronts of the houses; 0: no houses
-  double parked_m = 0.0;       ///< middle of the cars parked on both sides; 0: none
-  double parked_share = 0.0;   ///< of the places
+  double parked_m = 0.0;       ///< centre of the cars parked on both sides; 0: none
+  double parked_share = 0.0;   ///< occupied share of the places
   bool parked_across = false;  ///< at right angles to the street
   double trees_m = 0.0;        ///< a row on both sides; 0: none
   double tree_spacing_m = 14.0;
-  double lamps_m = 0.0;  ///< lamp posts, and now and then a sign; 0: none
+  double lamps_m = 0.0;  ///< lamp posts and occasional signs; 0: none
   double lamp_spacing_m = 28.0;
   double guard_rail_m = 0.0;      ///< on both sides; 0: none
-  double forest_m = 0.0;          ///< where the woods begin; 0: none
+  double forest_m = 0.0;          ///< edge of the woods; 0: none
   double gantry_spacing_m = 0.0;  ///< of signs over the street; 0: none
 };
 

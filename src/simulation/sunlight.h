@@ -13,16 +13,16 @@ namespace rotrocc {
 /// Direction to the sun, of unit length: behind the viewer at the start, to the left.
 Eigen::Vector3d directionToSun();
 
-/// The light that falls on a surface; `sunlit` is how much of the sun reaches it, from 0 to 1.
+/// Illumination of a surface; `sunlit` is the visible share of the sun, from 0 to 1.
 double illumination(const Eigen::Vector3d& normal, double sunlit);
 
-/// The shadows that all standing bodies cast on the ground beside the streets.
+/// Shadows of all static bodies on the ground beside the streets.
 class SunShadows {
  public:
-  /// Looks at what is within `reach_m` of the centre lines.
+  /// Covers the ground within `reach_m` of the centre lines.
   SunShadows(const SceneGeometry& scene, const StreetMap& streets, double reach_m);
 
-  /// How much of the sun reaches a place on the ground, from 0 to 1.
+  /// Visible share of the sun at a place on the ground, from 0 to 1.
   double sunlit(double x, double z) const;
 
  private:
@@ -30,7 +30,7 @@ class SunShadows {
   cv::Mat sunlit_;  // CV_8UC1, rows along z
 };
 
-/// How much of the sun reaches the top of a body, given everything that stands around it.
+/// Visible share of the sun at the top of a body among all others.
 double sunlitTop(const SceneGeometry& scene, const Body& body);
 
 }  // namespace rotrocc

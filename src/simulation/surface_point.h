@@ -6,8 +6,8 @@
 
 namespace rotrocc {
 
-/// A line of sight. `direction` is not normalized: rays of a camera have unit depth, so that the
-/// distance along the ray, in units of its length, is the depth [m].
+/// A viewing ray. `direction` is not normalized: camera rays have unit depth, so that the distance
+/// in units of `direction` is the depth [m].
 struct Ray {
   Eigen::Vector3d origin;
   Eigen::Vector3d direction;
@@ -15,13 +15,13 @@ struct Ray {
   Eigen::Vector3d at(double distance) const { return origin + distance * direction; }
 };
 
-/// How far the direction of a ray moves from a pixel to the next.
+/// Change of a ray's direction per pixel.
 struct PixelSpread {
   Eigen::Vector3d per_column;
   Eigen::Vector3d per_row;
 };
 
-/// Where a ray meets a surface, and how far on it from there the neighbouring pixels look [m].
+/// Intersection of a ray with a surface, and the offsets of the neighbouring pixels on it [m].
 struct SurfacePoint {
   Eigen::Vector3d position;
   Eigen::Vector3d normal;  ///< of unit length, towards the viewer
@@ -41,12 +41,12 @@ struct TexturePoint {
   }
 };
 
-/// The point of a texture that is enlarged by 1 / `factor`.
+/// The point on a texture scaled by 1 / `factor`.
 inline TexturePoint scaled(const TexturePoint& point, double factor) {
   return {factor * point.at, factor * point.per_column, factor * point.per_row};
 }
 
-/// Takes two coordinates of a surface point: `u` and `v` are directions of unit length.
+/// Projects a surface point on the directions `u` and `v` of unit length.
 inline TexturePoint project(const SurfacePoint& point,
                             const Eigen::Vector3d& u,
                             const Eigen::Vector3d& v) {
@@ -55,12 +55,12 @@ inline TexturePoint project(const SurfacePoint& point,
           {u.dot(point.per_row), v.dot(point.per_row)}};
 }
 
-/// The point where `ray` has the distance `distance`, on a surface with this normal.
+/// The point at `distance` along `ray`, on a surface with this normal.
 inline SurfacePoint surfacePoint(const Ray& ray,
                                  const PixelSpread& spread,
                                  double distance,
                                  const Eigen::Vector3d& normal) {
-  // A neighbour's ray meets the tangent plane nearer or farther than this one's.
+  // A neighbouring ray hits the tangent plane at another distance.
   const double slant = distance / normal.dot(ray.direction);
   const auto shift = [&](const Eigen::Vector3d& change) -> Eigen::Vector3d {
     return distance * change - slant * normal.dot(change) * ray.direction;

@@ -65,20 +65,20 @@ Eigen::Vector3d Terrain::normal(double x, double z) const {
 bool Terrain::intersect(
     const Ray& ray, const RayRange& range, int column, int row, double& distance) const {
   const Patch& p = patch(column, row);
-  // Distances are counted from where the ray enters the cell, for the sake of accuracy.
+  // Distances are relative to the entry into the cell, for accuracy.
   const Eigen::Vector3d start = ray.at(range.from);
   const double u = (start.x() - grid_.origin.x()) * grid_.cells_per_m - column;
   const double v = (start.z() - grid_.origin.y()) * grid_.cells_per_m - row;
   const double du = ray.direction.x() * grid_.cells_per_m;
   const double dv = ray.direction.z() * grid_.cells_per_m;
-  // The height of the ray over the ground: y points down, so it is positive below.
+  // Height of the ray relative to the ground; positive below, as y points down.
   const double constant = start.y() - (p.a + p.b * u + p.c * v + p.d * u * v);
   const double linear = ray.direction.y() - p.b * du - p.c * dv - p.d * (u * dv + v * du);
   const double square = -p.d * du * dv;
   const double length = range.to - range.from;
   if (constant > 0.0) return false;
   if (constant + length * (linear + length * square) < 0.0) return false;
-  // One root lies in the cell; this form of it also holds where `square` is next to nothing.
+  // One root lies in the cell; this form is stable for `square` close to 0.
   const double root = std::sqrt(std::max(0.0, linear * linear - 4.0 * square * constant));
   const double t = -2.0 * constant / (linear + root);
   distance = range.from + std::clamp(t, 0.0, length);

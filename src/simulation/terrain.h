@@ -18,7 +18,7 @@ struct GroundGrid {
   int columns = 0;                                   ///< cells along x
   int rows = 0;                                      ///< cells along z
 
-  /// The grid that covers all paths and `margin_m` around them.
+  /// The grid that covers all paths with a margin of `margin_m`.
   static GroundGrid around(const std::vector<Path>& paths, double margin_m, double cell_m);
 
   int column(double x) const { return floorToInt((x - origin.x()) * cells_per_m); }
@@ -36,16 +36,16 @@ class Terrain {
 
   const GroundGrid& grid() const { return grid_; }
 
-  /// The y coordinate of the ground, continued level beyond the grid.
+  /// Height (y) of the ground, extrapolated level beyond the grid.
   double height(double x, double z) const;
 
-  /// Of unit length, upwards.
+  /// Normal of unit length, upwards.
   Eigen::Vector3d normal(double x, double z) const;
 
-  /// The least y (the highest ground) of a cell.
+  /// Smallest y (highest ground) of a cell.
   double top(int column, int row) const { return patch(column, row).top; }
 
-  /// The first point of a ray on the ground of a cell; `range` is its way through that cell.
+  /// First hit of a ray with the ground of a cell; `range` is its section in that cell.
   bool intersect(
       const Ray& ray, const RayRange& range, int column, int row, double& distance) const;
 

@@ -14,7 +14,7 @@ namespace rotrocc {
 namespace {
 
 constexpr int kMaxTaps = 4;          // along the longer side of a pixel
-constexpr float kLevelBias = 0.25F;  // the box filter between levels lets some aliases pass
+constexpr float kLevelBias = 0.25F;  // compensates for aliasing of the box filter between levels
 constexpr float kOne = 65536.0F;     // a texel, in fixed point
 constexpr int kHalf = 32768;
 
@@ -22,7 +22,7 @@ bool isPowerOfTwo(int value) {
   return value > 0 && (value & (value - 1)) == 0;
 }
 
-/// The logarithm to base 2, linear between powers of two: at most 0.09 too small, and fast.
+/// Fast logarithm to base 2, linear between powers of two: at most 0.09 too small.
 float roughLog2(float value) {
   std::uint32_t bits = 0;
   std::memcpy(&bits, &value, sizeof bits);
@@ -35,7 +35,7 @@ int sizeBits(const cv::Mat& tile) {
   return bits;
 }
 
-/// With the first column and row once more at the end, so that a texel's neighbours follow it.
+/// Repeats the first column and row at the end, for interpolation.
 std::vector<std::uint8_t> quantize(const cv::Mat& tile) {
   cv::Mat repeated;
   cv::copyMakeBorder(tile, repeated, 0, 1, 0, 1, cv::BORDER_WRAP);
@@ -70,7 +70,7 @@ double Texture::at(const TexturePoint& point) const {
   Eigen::Vector2f minor = (texels_per_m * point.per_row).cast<float>();
   if (major.squaredNorm() < minor.squaredNorm()) std::swap(major, minor);
   const float squared_length = std::max(major.squaredNorm(), 1e-12F);
-  // The width of the parallelogram that the pixel covers, not the length of its other side.
+  // Width of the parallelogram that the pixel covers, not the length of its shorter side.
   const float area = major.x() * minor.y() - major.y() * minor.x();
   const float squared_width = area * area / squared_length;
 
@@ -90,7 +90,7 @@ Texture::Taps Texture::tapsAlong(const Eigen::Vector2f& line,
                                  float squared_length,
                                  float squared_width,
                                  const Eigen::Vector2d& middle_m) const {
-  // As many as the pixel is longer than wide, but no more than there are texels to see.
+  // By the aspect ratio of the pixel, but at most the number of visible texels.
   const float squared_tap = std::max(squared_width, 1.0F);
   int count = 1;
   while (count < kMaxTaps &&
@@ -102,7 +102,7 @@ Texture::Taps Texture::tapsAlong(const Eigen::Vector2f& line,
   const float share = kShares[count];
 
   const float one_period = kOne * texels_per_period_;
-  const auto step = [&](float texels) {  // where the taps of a larger one lie does not matter
+  const auto step = [&](float texels) {  // the positions in a larger one do not matter
     return static_cast<int>(std::clamp(kOne * texels * share, -one_period, one_period));
   };
   const auto inPeriod = [&](double at_m) {

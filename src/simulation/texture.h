@@ -9,19 +9,18 @@
 
 namespace rotrocc {
 
-/// A tile of values from 0 to 1 that is repeated over a plane. A lookup is the mean over the pixel,
-/// also where that is much longer than wide (roads seen at a flat angle): detail below the size of
-/// a pixel fades out instead of aliasing.
+/// A periodic tile of values from 0 to 1. A lookup averages over the pixel, also if its footprint
+/// is elongated (roads at a flat angle): detail below pixel size fades out instead of aliasing.
 class Texture {
  public:
-  /// `tile` is CV_32FC1, square, its side a power of two; it covers `period_m` x `period_m`.
-  /// Throws std::invalid_argument if it is not.
+  /// `tile` is CV_32FC1, square, its side a power of two; it covers `period_m` x `period_m`. Throws
+  /// std::invalid_argument otherwise.
   Texture(const cv::Mat& tile, double period_m);
 
   double at(const TexturePoint& point) const;
 
  private:
-  /// Places in a line, in 1/65536 of a texel of the finest level.
+  /// Sample positions on a line, in 1/65536 of a texel of the finest level.
   struct Taps {
     int count;
     float share;  // 1 / count
@@ -32,7 +31,7 @@ class Texture {
   struct Level {
     int number;                        // 0 is the finest
     int size_bits;                     // 2^size_bits texels a side
-    std::vector<std::uint8_t> texels;  // with the first column and row once more at the end
+    std::vector<std::uint8_t> texels;  // with the first column and row repeated at the end
 
     float mean(const Taps& taps) const;
   };
@@ -44,7 +43,7 @@ class Texture {
 
   double periods_per_m_;
   float texels_per_period_;
-  std::vector<Level> levels_;  // each half the size of the one before it
+  std::vector<Level> levels_;  // each half the size of the previous one
 };
 
 }  // namespace rotrocc

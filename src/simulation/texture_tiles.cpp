@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSize = 1024;  // [texels]
 
-/// Repeats the border of a tile so that what is drawn or filtered across it fits on the other side.
+/// Extends the border of a tile periodically for drawing and filtering.
 cv::Mat wrapped(const cv::Mat& tile, int border) {
   cv::Mat padded;
   cv::copyMakeBorder(tile, padded, border, border, border, border, cv::BORDER_WRAP);
@@ -36,7 +36,7 @@ cv::Mat smoothNoise(cv::Size cells, std::uint64_t key) {
   return noise(cv::Rect(kBorder * scale_x, kBorder * scale_y, kSize, kSize)).clone();
 }
 
-/// Noise in octaves from `coarsest` to `finest` cells, each `gain` times the one before it.
+/// Noise in octaves from `coarsest` to `finest` cells, each `gain` times the previous one.
 cv::Mat fractalNoise(int coarsest, int finest, double gain, std::uint64_t key) {
   cv::Mat sum = cv::Mat::zeros(kSize, kSize, CV_32F);
   double amplitude = 1.0;
@@ -49,7 +49,7 @@ cv::Mat fractalNoise(int coarsest, int finest, double gain, std::uint64_t key) {
   return sum / std::sqrt(energy);
 }
 
-/// Draws an ellipse, and what of it leaves the tile on the other side.
+/// Draws an ellipse, wrapped around the borders of the tile.
 void drawWrapped(
     cv::Mat& tile, cv::Point2d centre, cv::Size2d half_axes, double angle_deg, double value) {
   const double reach = std::max(half_axes.width, half_axes.height);
@@ -72,7 +72,7 @@ struct Scatter {
   double darkest, lightest;
 };
 
-/// Ellipses at random places, the later over the earlier, lighter towards the end.
+/// Random ellipses, later ones on top and lighter.
 void scatter(cv::Mat& tile, const Scatter& pieces, RandomStream random) {
   for (int i = 0; i < pieces.count; ++i) {
     const double length = random.uniform(pieces.low, pieces.high);
@@ -84,7 +84,7 @@ void scatter(cv::Mat& tile, const Scatter& pieces, RandomStream random) {
   }
 }
 
-/// Dark lines that wander about.
+/// Dark random curves.
 void drawCracks(cv::Mat& tile, int count, RandomStream random) {
   for (int crack = 0; crack < count; ++crack) {
     cv::Point2d at{random.uniform(0, kSize), random.uniform(0, kSize)};
@@ -116,7 +116,7 @@ Texture makeAsphalt(std::uint64_t key) {
   return soften(tile, 0.6, 9.0);
 }
 
-/// A grid of stones whose rows are shifted by half a stone; each has a brightness of its own.
+/// A grid of stones with random brightness, rows shifted by half a stone.
 cv::Mat masonry(cv::Size stones, int joint_px, double joint, double spread, std::uint64_t key) {
   cv::Mat tile(kSize, kSize, CV_32F, cv::Scalar(joint));
   const double width = static_cast<double>(kSize) / stones.width;

@@ -6,7 +6,7 @@
 
 namespace rotrocc {
 
-/// The textures a street is made of, each generated from the seed. All have a mean of about 0.5.
+/// Textures of a street, generated from the seed. All have a mean of about 0.5.
 struct TextureTiles {
   explicit TextureTiles(std::uint64_t seed);
 
@@ -16,9 +16,9 @@ struct TextureTiles {
   Texture leaves;      ///< of trees and hedges, light and dark
   Texture plaster;     ///< faint stains
   Texture bricks;      ///< rows with mortar between
-  Texture roof_tiles;  ///< rows that overlap
+  Texture roof_tiles;  ///< overlapping rows
   Texture bark;        ///< grooves along the second coordinate
-  Texture writing;     ///< eight lines of words; 1 m stands for all of them
+  Texture writing;     ///< eight lines of words, in a tile of 1 m
   Texture blotches;    ///< soft and large: clouds, dirt, reflections
 };
 

@@ -9,11 +9,10 @@
 
 namespace rotrocc {
 
-/// Which cars drive, beside the one with the camera. Distances are from the path of the camera to
-/// the right.
+/// Other moving cars. Distances are to the right of the camera's path.
 struct TrafficPlan {
-  double oncoming_m = -3.5;        ///< middle of the oncoming lane
-  double oncoming_mps = 9.0;       ///< 0: nothing comes
+  double oncoming_m = -3.5;        ///< centre of the oncoming lane
+  double oncoming_mps = 9.0;       ///< 0: no oncoming traffic
   double overtaking_m = 0.0;       ///< middle of the lane of overtaking cars
   double overtaking_mps = 0.0;     ///< 0: nothing overtakes
   bool leader = true;              ///< a car drives ahead of the camera

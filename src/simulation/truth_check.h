@@ -4,20 +4,20 @@
 
 namespace rotrocc {
 
-/// How far the truth of a simulated drive is from what its own renderer sees.
+/// Errors of the ground truth of a simulated drive against the rendered frames.
 struct TruthErrors {
-  long long right = 0;   ///< points seen again with an error up to kTruthLimit_px
-  double sum_px = 0.0;   ///< of their errors
-  long long wrong = 0;   ///< with a greater one: at edges and leaves another surface may be seen
-  long long hidden = 0;  ///< something clearly nearer or farther is seen there
+  long long right = 0;  ///< points found again within kTruthLimit_px
+  double sum_px = 0.0;  ///< sum of their errors
+  long long wrong = 0;  ///< with a larger error: at edges and leaves another surface may be visible
+  long long hidden = 0;  ///< occluded: clearly nearer or farther surface
   long long moving = 0;  ///< on moving cars; not compared
 };
 
 constexpr double kTruthLimit_px = 0.01;
 
-/// Follows the flow of each fourth pixel in x and y of `frame`, which is frame `index`, to the next
-/// frame, looks there for the 3-D point that is seen, and projects that back with the true poses:
-/// that should give the pixel. Adds what it finds to `errors`. Brings the world to the next frame.
+/// Follows the flow of every fourth pixel in x and y of `frame` (frame `index`) to the next frame,
+/// and projects the 3-D point found there back with the true poses. Adds the distances from the
+/// original pixels to `errors`. Updates the world to the next frame.
 void checkTruth(Simulator& simulator, int index, const SimulatedFrame& frame, TruthErrors& errors);
 
 }  // namespace rotrocc

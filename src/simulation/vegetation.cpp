@@ -7,9 +7,8 @@
 namespace rotrocc {
 namespace {
 
-/// Foliage: leaves, and the same pattern enlarged to twigs, for what is seen from afar. Holes are
-/// where it is darkest; they fade out with distance, as the pattern is then a mean over many
-/// leaves.
+/// Foliage: leaves, and the same pattern enlarged to twigs for larger distances. The darkest parts
+/// are holes, which fade out with distance.
 class Leaves : public Material {
  public:
   /// Twigs are `twigs` times as large as leaves.

@@ -7,13 +7,13 @@
 namespace rotrocc {
 
 /// A tree: a trunk under a crown of a few leafy balls with gaps between the leaves. Its origin is
-/// at the foot of the trunk. The textures must outlive it.
+/// at the base of the trunk. The textures must outlive it.
 Body makeTree(const TextureTiles& tiles, RandomStream& random);
 
-/// A hedge along x, `length_m` long, its origin in its middle.
+/// A hedge along x, `length_m` long, with its origin in the centre.
 Body makeHedge(double length_m, const TextureTiles& tiles, RandomStream& random);
 
-/// A tall tree of a wood, without the detail that shows only near by.
+/// A tall forest tree without fine detail.
 Body makeForestTree(const TextureTiles& tiles, RandomStream& random);
 
 }  // namespace rotrocc

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kNearest_m = 0.05;
 constexpr double kFarthest_m = 500.0;
-constexpr double kSmallest_px = 0.3;  // what is smaller is not seen
+constexpr double kSmallest_px = 0.3;  // smaller bodies are not visible
 constexpr int kTile_px = 16;
 
 }  // namespace
@@ -69,7 +69,7 @@ bool View::cover(const Eigen::AlignedBox3d& box,
     pixels.extend(Eigen::Vector2d(camera_.fx * point.x() / point.z() + cx_,
                                   camera_.fy * point.y() / point.z() + camera_.cy));
   };
-  // The parts of the twelve edges in front of the camera.
+  // Sections of the twelve edges in front of the camera.
   const auto corner = [&](int index) -> Eigen::Vector3d {
     return T_camera_body * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(index));
   };

@@ -11,11 +11,11 @@
 
 namespace rotrocc {
 
-/// A camera at a moment: its rays, and which bodies lie in which part of its picture.
+/// A camera at one time: its rays, and the bodies in each part of its image.
 class View {
  public:
   /// The focal lengths and size of `camera` with the principal point (cx, camera.cy). Bodies are
-  /// numbered: those that stand first, then those that move. All must outlive the view.
+  /// numbered: static ones first, then moving ones. All must outlive the view.
   View(const std::vector<Body>& standing,
        const std::vector<Body>& moving,
        const StereoCamera& camera,
@@ -30,17 +30,17 @@ class View {
   Ray ray(double x, double y) const { return {origin_, axes_ * cameraRay(x, y)}; }
   const PixelSpread& spread() const { return spread_; }
 
-  /// The first body the ray through a pixel meets in `range`; false if there is none. The pixel
+  /// First body that the ray through a pixel hits in `range`; false if there is none. The pixel
   /// must be in the image, up to half a pixel.
   bool intersect(double x, double y, const RayRange& range, BodyHit& hit, int& number) const;
 
  private:
-  /// A part of a body that may be seen.
+  /// A potentially visible part of a body.
   struct Candidate {
     int body;
     int part;
-    double nearest_m;        // no point of it has a smaller depth
-    cv::Rect2d pixels;       // no point of it is seen elsewhere
+    double nearest_m;        // smallest depth
+    cv::Rect2d pixels;       // bounding box in the image
     Eigen::Vector3d origin;  // the camera, in the frame of the body
     Eigen::Matrix3d R_body_camera;
   };

@@ -36,7 +36,7 @@ SceneGeometry makeScene(const WorldPlan& plan,
   return {std::move(terrain), std::move(bodies)};
 }
 
-/// How dark it is beside and below a body that stands on the ground: 1 is full light.
+/// Ambient occlusion beside and below a body on the ground: 1 is full light.
 double contactShade(const Body& body, const Eigen::Vector3d& position) {
   const Eigen::Vector3d own = body.toBody(position);
   const Eigen::AlignedBox3d& box = body.ownBounds();

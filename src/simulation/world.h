@@ -17,29 +17,29 @@
 
 namespace rotrocc {
 
-/// What the simulated world is made of.
+/// Description of the simulated world.
 struct WorldPlan {
   std::vector<Path> streets;  ///< centre lines, at the height of the camera
-  std::vector<Path> drives;   ///< where cars drive: nothing stands there. First: the camera
-  double beyond_m = 0.0;      ///< they go on before their starts and after their ends
+  std::vector<Path> drives;   ///< paths of cars, kept free; the first is the camera's
+  double beyond_m = 0.0;      ///< extension before their starts and after their ends
   StreetStyle style;
   std::vector<Crossing> crossings;
   double camera_height_m = 1.65;
   std::uint64_t seed = 1;
 
-  /// The drives with how they go on.
+  /// The drives with their extensions.
   std::vector<Path> wholeDrives() const;
 };
 
-/// What is seen in a direction.
+/// Appearance in a direction.
 struct Sighting {
   double brightness;      ///< 1 is white
   double depth;           ///< along the ray, in units of its length; infinite for the sky
-  std::uint32_t surface;  ///< alike where no edge lies between two pixels
-  int moving_body;        ///< index in View::moving() of the moving body that is seen; -1: none
+  std::uint32_t surface;  ///< equal for pixels without an edge between them
+  int moving_body;        ///< index of the visible body in View::moving(); -1: none
 };
 
-/// A street with all that stands beside it, under the sky.
+/// A street with its surroundings and the sky.
 class World {
  public:
   explicit World(const WorldPlan& plan);
@@ -50,14 +50,14 @@ class World {
   const std::vector<Body>& bodies() const { return scene_.bodies(); }
   const StreetMap& streets() const { return streets_; }
 
-  /// Makes the ground, with all that stands on it, what it is while the camera is at a station of
-  /// its path. It may differ from before where the path comes back to a place at another height.
+  /// Updates ground and bodies to a station of the camera's path. They may change where the path
+  /// revisits a place at another height.
   void goTo(double station_m);
 
-  /// Looks through a pixel of a view, whose standing bodies are bodies(). Pixels may be fractions.
+  /// Casts a ray through a (sub-)pixel of a view, whose static bodies are bodies().
   Sighting look(const View& view, double x, double y) const;
 
-  /// How much of the sun reaches a place on the ground, from 0 to 1.
+  /// Visible share of the sun at a place on the ground, from 0 to 1.
   double sunlit(double x, double z) const { return shadows_.sunlit(x, z); }
 
  private:
@@ -74,7 +74,7 @@ class World {
   GroundGrid grid_;
   GroundHistory ground_;
   SceneGeometry start_;  // the scene at the start of the drive
-  SceneGeometry scene_;  // as it is now
+  SceneGeometry scene_;  // current scene
   std::size_t stage_ = 0;
   SunShadows shadows_;
   Sky sky_;
