@@ -9,10 +9,10 @@ import numpy
 from odometry_runs import LENGTHS_M, STEP, read_poses
 
 CLIP_LENGTHS_M = [5, 10, 20, 30, 40]
-LONG_CLIP_LENGTHS_M = [50, 60, 70, 80]  # of raw drives, whose ground truth is noisy near by
+LONG_CLIP_LENGTHS_M = [50, 60, 70, 80]  # for raw drives, whose ground truth is noisy over short distances
 BOUND_99 = 16.81  # of chi squared with 6 degrees of freedom
 AXES = ['x', 'y', 'z', 'rx', 'ry', 'rz']
-REST_M = 1e-6  # shorter true steps are none
+REST_M = 1e-6  # shorter true steps count as standstill
 
 
 def mean_of(segments, name):
@@ -32,7 +32,7 @@ def error_rows(clips, drives):
 
 
 def comparison_row(label, texts, lost, columns):
-    """Errors lower than the default's, as printed, are bold; lost pairs are told."""
+    """Errors below the default's, as printed, are bold; lost pairs are given in brackets."""
     cells = [label]
     for column in columns:
         text = texts[column]
@@ -43,7 +43,7 @@ def comparison_row(label, texts, lost, columns):
 
 
 def verdict_rows(all_texts, columns):
-    """In how many rows the default is better, and worse, than each column."""
+    """Number of rows in which the default is better, and worse, than each column."""
     rows = []
     for label, sign in (('*default is better in*', 1), ('*default is worse in*', -1)):
         counts = [sum(sign * (float(texts[column]) - float(texts['default'])) > 0
@@ -72,7 +72,7 @@ def make_error_tables(runs, clips, drives, columns):
     return tables
 
 
-# The same drives with other noise.
+# The same drives with different noise.
 
 def make_noise_table(runs, noisy, columns):
     seeds = list(collections.OrderedDict.fromkeys(seed for _, seed in noisy))
@@ -89,7 +89,7 @@ def make_noise_table(runs, noisy, columns):
             ['mean', 'standard deviation'], rows)
 
 
-# Rigs that are off.
+# Miscalibrated rigs.
 
 def errors_from(run, first_pose):
     segments = run.segments(LENGTHS_M, STEP)
@@ -143,7 +143,7 @@ def longest_stop(poses):
 
 
 def farthest(poses):
-    """Distance [mm] and angle [deg] from the first pose to those farthest from it."""
+    """Largest distance [mm] and angle [deg] from the first pose."""
     distances = numpy.linalg.norm(poses[:, :, 3] - poses[0, :, 3], axis=1)
     angles = rotation_angles(numpy.einsum('ji,njk->nik', poses[0, :, :3], poses[:, :, :3]))
     return 1e3 * distances.max(), numpy.degrees(angles.max())
@@ -167,7 +167,7 @@ def make_standstill_table(runs, standing, drives, columns):
 # Consistency.
 
 def rotation_of(vector):
-    """The rotation about a vector by its length [rad]."""
+    """Rotation matrix of a rotation vector [rad]."""
     angle = numpy.linalg.norm(vector)
     if angle == 0.0:
         return numpy.eye(3)
@@ -177,7 +177,7 @@ def rotation_of(vector):
 
 
 def vector_of(rotation):
-    """The reverse, for less than half a turn."""
+    """Rotation vector of a rotation matrix, for less than half a turn."""
     axis = 0.5 * numpy.array([rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0],
                               rotation[1, 0] - rotation[0, 1]])
     sine = numpy.linalg.norm(axis)
@@ -187,7 +187,7 @@ def vector_of(rotation):
 
 def pose_errors(run):
     """Errors (n x 6) and covariances (n x 6 x 6) of the pose changes, as the covariance of
-    OdometryResult is defined. A change is since the last pair that was not lost."""
+    OdometryResult is defined. A change is relative to the last pair that was not lost."""
     truth = read_poses(run.drive / 'poses.txt')
     errors, covariances = [], []
     previous = 0
@@ -211,7 +211,7 @@ def pose_errors(run):
 
 
 def normalized(errors, covariances, part):
-    """The normalized squared errors of a slice of the axes."""
+    """NEES for a slice of the axes."""
     return numpy.einsum('ni,ni->n', errors[:, part], numpy.linalg.solve(
         covariances[:, part, part], errors[:, part, None])[:, :, 0])
 

@@ -1,4 +1,4 @@
-"""The report of kitti_benchmark: what all sequences have in common, and a row for each."""
+"""The report of kitti_benchmark: summary of all sequences, and a row for each."""
 import csv
 import os
 import shutil
@@ -10,10 +10,10 @@ import report_page as page
 from report_tables import positions, read_columns
 import trajectory_plot
 
-DEVKIT_M = 100.0  # the shortest segment of the devkit; short sequences have shorter ones
-GROUPS = [('devkit', 'Sequences by the KITTI metric', 'Segments of 100 to 800 m, as on the KITTI board.'),
-          ('short', 'Short sequences', 'Segments of 5 to 40 m, as there is no room for longer ones.'),
-          ('none', 'Sequences without truth', 'Or too short for any segment.')]
+DEVKIT_M = 100.0  # shortest segment of the devkit; short sequences use shorter ones
+GROUPS = [('devkit', 'Sequences by the KITTI metric', 'Segments of 100 to 800 m, as on the KITTI leaderboard.'),
+          ('short', 'Short sequences', 'Segments of 5 to 40 m: too short for longer ones.'),
+          ('none', 'Sequences without errors', 'No ground truth, or too short for any segment.')]
 COLUMNS = ['sequence', 'group', 'pairs', 'path_m', 'segments', 'translation_percent',
            'rotation_deg_per_m', 'lost', 'degraded', 'wall_ms', 'cpu_ms', 'bias_px', 'bias_sigma_px',
            'duration_s']
@@ -23,7 +23,7 @@ END_HEADER = ['lost', 'degr.', 'CPU<br>[ms]', 'bias [px]']
 
 
 class Result:
-    """A finished sequence. Errors are nan where there are none."""
+    """A finished sequence. Errors are nan without ground truth."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -50,7 +50,7 @@ class Result:
 
 
 def pool(tables, bin_name):
-    """The mean over the segments of all sequences, from the means and counts of each."""
+    """Mean over the segments of all sequences, from their means and counts."""
     sums = {}
     for table in tables:
         for i, key in enumerate(table[bin_name]):
@@ -65,15 +65,15 @@ def pool(tables, bin_name):
 
 
 def mean_error(rows, name):
-    """Over the segments of all sequences, as on the board."""
+    """Mean over the segments of all sequences, as on the KITTI leaderboard."""
     return (sum(row['segments'] * row[name] for row in rows) / sum(row['segments'] for row in rows))
 
 
 def read_earlier(folder):
-    """The tables of an earlier report: {'sequences': {name: row}, 'length': ..., 'speed': ...}."""
+    """Tables of an earlier report: {'sequences': {name: row}, 'length': ..., 'speed': ...}."""
     path = folder / 'sequences.csv'
     if not path.is_file():
-        raise RuntimeError('%s is no folder of results: it has no sequences.csv' % folder)
+        raise RuntimeError('%s is not a result folder: it has no sequences.csv' % folder)
     with open(str(path)) as file:
         rows = {row['sequence']: row for row in csv.DictReader(file)}
     for row in rows.values():
@@ -91,7 +91,7 @@ def of_group(table, group):
 
 
 def write_rows(path, names, rows):
-    """Replaces the table at once, or not at all."""
+    """Replaces the table atomically."""
     part = path.with_suffix('.part')
     with open(str(part), 'w') as file:
         writer = csv.writer(file, lineterminator='\n')
@@ -117,7 +117,7 @@ def write_tables(output, results):
 
 
 def change(now, before):
-    """Told by a sign and by colour."""
+    """Relative change, with sign and colour."""
     if not before > 0.0:
         return '–'
     percent = 100.0 * (now / before - 1.0)
@@ -127,7 +127,7 @@ def change(now, before):
 
 
 class GroupSection:
-    """The table and the pictures of the sequences that are measured alike."""
+    """Table and pictures of the sequences with the same metric."""
 
     def __init__(self, output, group, results, earlier):
         self.output, self.group = output, group
@@ -172,9 +172,9 @@ class GroupSection:
         header += END_HEADER
         rows = [begin_cells(row) + self.error_cells(row, self.before.get(row['sequence']))
                 + end_cells(row) for row in self.rows]
-        note += ' The mean is that over all %d segments%s.' % (
+        note += ' The mean is over all %d segments%s.' % (
             sum(row['segments'] for row in self.rows),
-            ' of the sequences that both reports have' if self.before else '')
+            ' of the sequences in both reports' if self.before else '')
 
         def errors(rows):
             return {row['sequence']: [row[name] for name in ERRORS] for row in rows}
@@ -218,7 +218,7 @@ def tiles(results):
                     pairs, 1e-3 * sum(row['path_m'] for row in rows))),
                 ('%d' % sum(row['lost'] for row in rows), 'lost',
                  '%d degraded' % sum(row['degraded'] for row in rows)),
-                ('%.1f' % cpu_ms, 'ms', 'CPU time of a pair'),
+                ('%.1f' % cpu_ms, 'ms', 'CPU time per pair'),
                 ('%.0f' % sum(row['duration_s'] for row in rows), 's', 'run time of all jobs')]
     return page.tiles(entries)
 
@@ -231,7 +231,7 @@ def trajectories(output, results):
                        positions(poses, 'true_') if 'true_x_m' in poses else None))
     path = output / 'trajectories.png'
     trajectory_plot.draw_all(drives, path)
-    return page.section('Trajectories', 'From above, each by a scale of its own.',
+    return page.section('Trajectories', 'Top view, each at its own scale.',
                         page.picture(path, 'trajectories from above'))
 
 
@@ -250,7 +250,7 @@ def print_table(results):
 
 
 def write(output, names, failed, earlier, title):
-    """The report of finished sequences; `failed` is {name: why}, `earlier` of read_earlier()."""
+    """Writes the report of finished sequences; `failed` is {name: reason}, `earlier` is from read_earlier()."""
     results = [Result(output / 'sequences' / name) for name in names]
     write_tables(output, results)
     (output / 'trajectories').mkdir(exist_ok=True)
@@ -260,7 +260,7 @@ def write(output, names, failed, earlier, title):
 
     parts = [tiles(results)]
     if failed:
-        parts.append(page.section('Failed', '', page.table(['sequence', 'why'], [
+        parts.append(page.section('Failed', '', page.table(['sequence', 'reason'], [
             (page.text(name), page.text(why)) for name, why in failed.items()])))
     for group, heading, note in GROUPS:
         members = [result for result in results if result.group == group]
@@ -269,7 +269,7 @@ def write(output, names, failed, earlier, title):
         elif members:
             parts.append(GroupSection(output, group, members, earlier).write(heading, note))
     parts.append(trajectories(output, results))
-    parts.append(page.section('Tables', 'Beside this page: %s; the estimated poses in KITTI format '
+    parts.append(page.section('Tables', 'Files next to this page: %s; estimated poses in KITTI format '
                               'in trajectories.' % ', '.join(
                                   page.link(name, name) for name in (
                                       'sequences.csv', 'by_length.csv', 'by_speed.csv'))))

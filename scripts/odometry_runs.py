@@ -1,4 +1,4 @@
-"""Drives, and runs of the package's programs on them: what the scripts of experiments share."""
+"""Simulated drives and runs of the programs, shared by the experiment scripts."""
 import collections
 import csv
 import os
@@ -12,15 +12,15 @@ import numpy
 SCRIPTS = pathlib.Path(__file__).resolve().parent
 PAPER_CONFIG = SCRIPTS.parent / 'config/paper.yaml'
 SCENARIOS = ['city', 'motorway', 'slip_road', 'parking', 'shake']
-LENGTHS_M = [10, 20, 50, 100, 200]  # of the segments of simulated drives, where they fit
-STEP = 5  # they begin at every so many pairs
+LENGTHS_M = [10, 20, 50, 100, 200]  # segments of simulated drives, where they fit
+STEP = 5  # segments start at every STEP-th pair
 
 
 class Programs:
     """Runs the programs of the package."""
 
     def __init__(self, folder=None):
-        own = pathlib.Path(sys.argv[0]).resolve().parent  # where catkin installs scripts as well
+        own = pathlib.Path(sys.argv[0]).resolve().parent  # catkin installs scripts there as well
         self.folders = [folder] if folder else [own, SCRIPTS.parent / 'build/devel/lib/rotrocc']
 
     def run(self, name, *arguments):
@@ -35,7 +35,7 @@ class Programs:
         raise RuntimeError('%s is not built; run scripts/test or cmake --build build' % name)
 
     def simulate(self, target, arguments):
-        """Renders a drive if it is not there yet."""
+        """Renders a drive unless it exists."""
         if target.is_dir():
             return
         print('rendering', target.name, flush=True)
@@ -44,7 +44,7 @@ class Programs:
         os.replace(str(part), str(target))
 
     def estimate(self, sequence, trajectory, *options):
-        """Writes the estimated trajectory; returns the count of pairs lost."""
+        """Writes the estimated trajectory; returns the number of lost pairs."""
         report = self.run('offline_odometry', sequence, '--trajectory', trajectory, *options)
         return int(re.search(r'(\d+) lost', report).group(1))
 
@@ -75,17 +75,17 @@ def read_poses(path):
 
 
 def add_drive_arguments(parser):
-    """What make_drives() reads."""
-    parser.add_argument('--output', type=pathlib.Path, required=True, help='folder for the results')
-    parser.add_argument('--scenarios', nargs='*', default=SCENARIOS, help='of simulate_drive')
+    """Adds the arguments of make_drives()."""
+    parser.add_argument('--output', type=pathlib.Path, required=True, help='output folder')
+    parser.add_argument('--scenarios', nargs='*', default=SCENARIOS, help='scenarios of simulate_drive')
     parser.add_argument('--poses', nargs='*', type=pathlib.Path, default=[], metavar='FILE',
-                        help='KITTI pose files to lay a street along')
+                        help='KITTI pose files to build streets along')
     parser.add_argument('--times', type=pathlib.Path, metavar='DIR',
-                        help='folder with a times file for each pose file (default: 10 Hz)')
+                        help='folder with a times file per pose file (default: 10 Hz)')
     parser.add_argument('--frames', type=int, help='render only this many pairs of each drive')
     parser.add_argument('--pose-frames', type=int, help='the same for drives along pose files')
     parser.add_argument('--cache', type=pathlib.Path,
-                        help='folder for the drives; those it has are not rendered again')
+                        help='folder for the drives; existing ones are reused')
     parser.add_argument('--programs', type=pathlib.Path, help='folder of the programs')
 
 
@@ -96,7 +96,7 @@ def cache_folder(options):
 
 
 def make_drives(programs, options):
-    """Folders of all drives, rendered if they are not there yet."""
+    """Folders of all drives; renders missing ones."""
     cache = cache_folder(options)
     frames = ['--frames', options.frames] if options.frames else []
     drives = collections.OrderedDict((cache / name, [name, *frames]) for name in options.scenarios)
@@ -115,12 +115,12 @@ def clips_of(folder):
 
 
 def update_report(report, tables):
-    """Replaces what is between the markers of each table."""
+    """Replaces the text between the markers of each table."""
     text = report.read_text()
     for name, (header, rows) in tables.items():
         begin, end = '<!-- table %s -->\n' % name, '<!-- end of %s -->' % name
         if begin not in text or end not in text:
-            raise RuntimeError('%s has no markers of the table %s' % (report, name))
+            raise RuntimeError('%s has no markers for the table %s' % (report, name))
         lines = ['| %s |\n' % ' | '.join(cells)
                  for cells in [header, ['---'] * len(header)] + rows]
         text = text[:text.index(begin) + len(begin)] + ''.join(lines) + text[text.index(end):]

@@ -9,7 +9,7 @@ from plot_style import BLACK, BLUE, GREEN, ORANGE, PURPLE, VERMILLION, save
 COLOURS = {'rotrocc': BLUE, 'reprojection': VERMILLION, 'rocc': GREEN, 'truth': BLACK,
            'mean_based': ORANGE, 'std_based': PURPLE}
 MARKERS = {'rotrocc': 'o', 'reprojection': 's', 'rocc': '^'}
-FEWEST_SEGMENTS = 10  # of a point of Fig. 7 and 8
+FEWEST_SEGMENTS = 10  # minimum for a point in Fig. 7 and 8
 
 
 def finish(figure, path):
@@ -58,7 +58,7 @@ def plot_fig5(rows, path):
 
 
 def plot_fig6(name, columns, path):
-    """Forward translation by frame, and below how much each criterion is off."""
+    """Forward translation by frame, and below it the error of each criterion."""
     figure, (above, below) = pyplot.subplots(2, 1, figsize=(9, 5.5), sharex=True)
     truth = columns['truth']
     frames = numpy.arange(1, len(truth) + 1)

@@ -1,4 +1,4 @@
-"""The figure of scripts/performance: how the cost grows."""
+"""The figure of scripts/performance: scaling of the cost."""
 from matplotlib import pyplot
 
 from plot_style import BLUE, FAINT, ORANGE, TEXT, VERMILLION, dress, save
@@ -9,7 +9,7 @@ LINES = [(0, WALL, 'wall, 1 thread', BLUE, 'o'), (1, WALL, 'wall, 2 threads', OR
 
 
 def plot_lines(axes, places, results):
-    """`results` are pairs of figures, of 1 and of 2 threads. Lines are named at their ends."""
+    """`results` are pairs of figures, with 1 and 2 threads. Lines are labelled at their ends."""
     ends = []
     for which, figure, label, colour, marker in LINES:
         values = [pair[which][figure] for pair in results]
@@ -17,7 +17,7 @@ def plot_lines(axes, places, results):
         ends.append([values[-1], label, colour])
     axes.set_xlim(0, places[-1] * 1.4)
     axes.set_ylim(0, None)
-    # Names that would meet are moved apart.
+    # Move overlapping labels apart.
     gap = 0.06 * axes.get_ylim()[1]
     ends.sort(key=lambda end: end[0])
     for lower, upper in zip(ends, ends[1:]):
@@ -27,7 +27,7 @@ def plot_lines(axes, places, results):
 
 
 def draw(of_features, of_sizes, path):
-    """Of {corners asked for: pair of figures} and {'WxH': pair of figures}."""
+    """Plots {requested corners: pair of figures} and {'WxH': pair of figures}."""
     figure, (left, right) = pyplot.subplots(1, 2, figsize=(8.4, 3.4))
     for axes in (left, right):
         dress(axes)

@@ -1,9 +1,9 @@
-"""How all plots look."""
+"""Style of all plots."""
 import matplotlib
 matplotlib.use('Agg')
 from matplotlib import pyplot
 
-# Okabe and Ito's colours, told apart by every kind of colour vision.
+# Okabe and Ito's colours, distinguishable with colour blindness.
 ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILLION, PURPLE, BLACK = (
     '#E69F00', '#56B4E9', '#009E73', '#F0E442', '#0072B2', '#D55E00', '#CC79A7', '#000000')
 TRUTH, ESTIMATE = BLUE, ORANGE

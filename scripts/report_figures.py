@@ -10,7 +10,7 @@ from plot_style import (BLACK, BLUE, DEGRADED, FAINT, GREEN, LOST, ORANGE, SKY, 
 
 WIDTH_IN = 8.4
 EARLIER = {'color': FAINT, 'linestyle': (0, (4, 2)), 'linewidth': 1.3}
-# From the corners to the inliers, a feature less at each stage: light to dark.
+# From corners to inliers: light to dark.
 COUNTS = [('corners', '#DCEAF5', 'corners'),
           ('with_depth', '#B9D5EA', 'with a depth'),
           ('tracked', '#8FBBDC', 'tracked'),
@@ -60,7 +60,7 @@ def plot_errors(by_length, by_speed, path, earlier=None):
 
 
 def shade(panel, time_s, states):
-    """Marks the spans of pairs that were degraded or lost."""
+    """Shades degraded and lost pairs."""
     edges = numpy.concatenate([time_s[:1], 0.5 * (time_s[1:] + time_s[:-1]), time_s[-1:]])
     for state, colour, opacity in (('degraded', DEGRADED, 0.22), ('lost', LOST, 0.32)):
         inside = numpy.concatenate([[False], states == state, [False]])
@@ -77,7 +77,7 @@ def time_axis(panel, time_s):
 
 
 def robust_top(values, margin=1.15):
-    """An upper limit that single peaks far above all others do not set."""
+    """An upper limit that ignores single outliers."""
     values = values[numpy.isfinite(values)]
     if not len(values) or values.max() <= 0:
         return 1.0
@@ -85,7 +85,7 @@ def robust_top(values, margin=1.15):
 
 
 def plot_steps(poses, states, path):
-    """Errors from pose to pose, and the speed, over time. `states` has a word for each pose."""
+    """Errors from pose to pose, and the speed, over time. `states` has the state of each pose."""
     time_s = 1e-9 * (poses['stamp_ns'] - poses['stamp_ns'][0])
     speed = numpy.concatenate([[numpy.nan], numpy.diff(poses['path_m']) / numpy.diff(time_s)])
     rows = [(3.6 * speed, 'speed [km/h]', FAINT)]
@@ -110,7 +110,7 @@ def plot_steps(poses, states, path):
 
 
 def plot_counts(pairs, time_s, path):
-    """How many features each stage left."""
+    """Features left after each stage."""
     figure, axes = panels(1, 1, 2.9)
     panel = axes[0, 0]
     for name, colour, label in COUNTS:
@@ -121,7 +121,7 @@ def plot_counts(pairs, time_s, path):
 
 
 def plot_times(pairs, time_s, path):
-    """What each stage took, one on the other."""
+    """Stacked times of the stages."""
     figure, axes = panels(1, 1, 2.9)
     panel = axes[0, 0]
     panel.stackplot(time_s, [pairs[name] for name, _, _ in TIMES], linewidth=0,
@@ -134,7 +134,7 @@ def plot_times(pairs, time_s, path):
 
 
 def plot_bias(pairs, time_s, path):
-    """The estimated disparity bias with its standard deviation, and what was corrected."""
+    """Estimated disparity bias with its standard deviation, and the applied correction."""
     figure, axes = panels(1, 1, 2.9)
     panel = axes[0, 0]
     bias, sigma = pairs['bias_estimated_px'], pairs['bias_sigma_px']
@@ -144,7 +144,7 @@ def plot_bias(pairs, time_s, path):
     panel.fill_between(time_s, bias - sigma, bias + sigma, color=BLUE, alpha=0.25, linewidth=0,
                        label='1 sigma')
     panel.plot(time_s, bias, color=BLUE, linewidth=1.6, label='estimated')
-    panel.plot(time_s, pairs['bias_applied_px'], color=VERMILLION, linewidth=1.2, label='corrected')
+    panel.plot(time_s, pairs['bias_applied_px'], color=VERMILLION, linewidth=1.2, label='applied')
     settled = sigma <= 2 * numpy.median(sigma)  # all but the first pairs
     low = min(0.0, (bias - 2 * sigma)[settled].min())
     high = max(0.0, (bias + 2 * sigma)[settled].max())

@@ -1,4 +1,4 @@
-"""HTML pages that open alone: no script, nothing from elsewhere, pictures inside."""
+"""Self-contained HTML pages: no scripts, no external files, embedded pictures."""
 import base64
 import html
 import os
@@ -39,7 +39,7 @@ def link(target, words):
 
 
 def tiles(entries):
-    """`entries`: (value, unit, what it is)."""
+    """`entries`: (value, unit, label)."""
     four = ' four' if len(entries) % 4 == 0 else ''
     return '<div class="tiles%s">%s</div>\n' % (four, ''.join(
         '<div class="tile"><b>%s <small>%s</small></b><span>%s</span></div>'
@@ -54,7 +54,7 @@ def picture(path, description):
 
 
 def table(header, rows, total=None):
-    """Cells are HTML; `total` is one more row, told from the others."""
+    """Cells are HTML; `total` is an additional, highlighted row."""
     def line(cells, tag, attribute=''):
         return '<tr%s>%s</tr>\n' % (attribute, ''.join(
             '<%s>%s</%s>' % (tag, cell, tag) for cell in cells))
@@ -65,7 +65,7 @@ def table(header, rows, total=None):
 
 
 def columns(*parts):
-    """Beside each other where there is room."""
+    """Side by side if they fit."""
     return '<div class="columns">%s</div>\n' % ''.join(parts)
 
 

@@ -1,11 +1,11 @@
-"""The tables that reports are drawn from."""
+"""Reads the tables of reports."""
 import csv
 
 import numpy
 
 
 def read_columns(path):
-    """{column: array}, of numbers where all cells are."""
+    """{column: array}, numeric if all cells are numbers."""
     with open(str(path)) as file:
         rows = list(csv.reader(file))
     columns = {}
@@ -19,12 +19,12 @@ def read_columns(path):
 
 
 def positions(poses, prefix=''):
-    """n x 3, of the estimate, or of the truth with the prefix 'true_'."""
+    """n x 3 positions of the estimate, or of the ground truth with the prefix 'true_'."""
     return numpy.stack([poses['%s%s_m' % (prefix, axis)] for axis in 'xyz'], axis=1)
 
 
 def states_of(poses, pairs):
-    """The state of the odometry at each pose, a word; '' where none is known."""
+    """The state of the odometry at each pose; '' if unknown."""
     states = numpy.full(len(poses['stamp_ns']), '', dtype='U16')
     if pairs is None:
         return states
@@ -32,6 +32,6 @@ def states_of(poses, pairs):
     for i, stamp_ns in enumerate(poses['stamp_ns']):
         states[i] = known.get(stamp_ns, '')
     if not all(states):
-        raise ValueError('the poses and the statistics have other stamps: they must be of the same '
+        raise ValueError('the stamps of poses and statistics differ: both must be from the same '
                          'run, and poses in KITTI format need --times')
     return states

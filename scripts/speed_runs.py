@@ -1,4 +1,4 @@
-"""What runs of the odometry cost: what the scripts of speed share."""
+"""Speed measurements, shared by the scripts."""
 import collections
 import pathlib
 import re
@@ -17,7 +17,7 @@ MEDIAN = 'wall median [ms]'
 
 
 class Setting:
-    """A build and how its odometry is run."""
+    """A build and its parameters."""
 
     def __init__(self, programs=None, config=None, assignments=()):
         self.programs = Programs(programs)
@@ -29,7 +29,7 @@ class Setting:
 
     def measure(self, sequence):
         """Runs the odometry once over a sequence, or a bag, whose images are read beforehand. Returns
-        {what: figure}; of times these are means over the pairs if not said otherwise."""
+        {name: figure}; times are means over the pairs unless named otherwise."""
         with tempfile.TemporaryDirectory() as folder:
             table, trajectory = (pathlib.Path(folder) / name for name in ('pairs.csv', 'poses.txt'))
             summary = self.run('offline_odometry', sequence, '--trajectory', trajectory,
@@ -46,7 +46,7 @@ class Setting:
         return figures
 
     def run(self, name, *arguments):
-        """The output of a program, without its progress."""
+        """Output of a program, without its progress."""
         command = [str(part) for part in (self.programs.find(name), *arguments)]
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         if done.returncode != 0:
@@ -70,7 +70,7 @@ class Setting:
         return figures
 
     def error(self, sequence, trajectory, table):
-        """Over 5 to 40 m of short sequences, 100 to 800 m of long ones; None without a truth."""
+        """Over 5 to 40 m of short sequences, 100 to 800 m of long ones; None without ground truth."""
         truth = pathlib.Path(sequence) / 'poses.txt'
         if not truth.is_file():
             return None
@@ -80,8 +80,8 @@ class Setting:
 
 
 def measure_in_turns(settings, sequence, repeat):
-    """Runs all settings, one after the other, `repeat` times. Returns for each {what: array of the
-    figures of its runs}: whatever else the machine does meets all of them alike."""
+    """Runs all settings alternately, `repeat` times, so that other load affects all of them. Returns for
+    each {name: array of the figures of its runs}."""
     runs = [[] for _ in settings]
     for turn in range(repeat):
         order = list(zip(settings, runs))

@@ -1,4 +1,4 @@
-"""The picture of a trajectory: from above, and its height along the way."""
+"""Picture of a trajectory: top view, and height along the path."""
 import math
 import warnings
 
@@ -20,10 +20,10 @@ def rotation_from_quaternion(x, y, z, w):
 def read_positions(path):
     """Returns the N x 3 positions [m] in the frame of the first pose."""
     with warnings.catch_warnings():
-        warnings.simplefilter('ignore')  # of an empty file, which is an error here
+        warnings.simplefilter('ignore')  # about an empty file, which is an error below
         rows = numpy.loadtxt(path, ndmin=2)
     if rows.size == 0:
-        raise ValueError('%s has no poses in it' % path)
+        raise ValueError('%s has no poses' % path)
     if rows.shape[1] == 12:
         positions, first = rows[:, [3, 7, 11]], rows[0].reshape(3, 4)[:, :3]
     elif rows.shape[1] == 8:
@@ -42,7 +42,7 @@ def path_lengths(positions):
 
 
 def round_step(span, parts):
-    """The 1, 2 or 5 times a power of ten that cuts `span` into about `parts` parts."""
+    """Grid step of 1, 2 or 5 times a power of ten for about `parts` steps in `span`."""
     raw = span / parts
     power = 10.0 ** math.floor(math.log10(raw))
     return power * min((1, 2, 5, 10), key=lambda factor: abs(math.log(factor * power / raw)))
@@ -79,7 +79,7 @@ def draw_height(axes, estimate, truth):
     axes.set_xlabel('distance [m]', color=TEXT)
     axes.set_ylabel('height [m]', color=TEXT)
     low, high = axes.get_ylim()
-    middle, half = (low + high) / 2.0, max(0.5, 0.55 * (high - low))  # flat roads look flat
+    middle, half = (low + high) / 2.0, max(0.5, 0.55 * (high - low))  # keeps flat roads flat
     axes.set_ylim(middle - half, middle + half)
     axes.yaxis.set_major_locator(ticker.MaxNLocator(4, steps=[1, 2, 5, 10]))
     axes.xaxis.set_major_locator(ticker.MaxNLocator(8, steps=[1, 2, 5, 10]))
@@ -103,13 +103,13 @@ def summary(estimate, truth):
     text = '%d poses, %.1f m' % (len(estimate), length)
     if len(estimate) == len(truth) and length > 0.0:
         drift = numpy.linalg.norm(estimate[-1] - truth[-1])
-        text += ', ends %.2f m (%.2f %%) off' % (drift, 100.0 * drift / length)
+        text += ', final drift %.2f m (%.2f %%)' % (drift, 100.0 * drift / length)
     return text
 
 
 def draw(estimate, truth, path, heading=None, marks=None):
-    """Writes a PNG. `heading` is a title and a line below it; `marks` says of each estimated pose
-    whether it was {'degraded': ..., 'lost': ...}."""
+    """Writes a PNG. `heading` is a title and a line below it; `marks` flags the estimated poses:
+    {'degraded': ..., 'lost': ...}."""
     low, high = limits(estimate, truth)
     width_in = PAGE_IN - 1.1
     above_in = width_in * (high - low)[1] / (high - low)[0]
@@ -144,7 +144,7 @@ def draw(estimate, truth, path, heading=None, marks=None):
 
 
 def draw_all(drives, path):
-    """A small picture for each of [(name, estimate, truth or None)], as a PNG."""
+    """Writes a PNG with a small picture for each of [(name, estimate, truth or None)]."""
     columns = min(4, len(drives))
     rows = -(-len(drives) // columns)
     side_in = PAGE_IN / max(columns, 3)

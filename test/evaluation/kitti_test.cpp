@@ -104,7 +104,7 @@ TEST_F(KittiSequenceTest, RefusesABadCalibration) {
   directory_.write("calib.txt",
                    "P0: 700 0 4 0 0 700 3 0 0 0 1 0\n"
                    "P1: 700 0 4 -350 0 700 4 0 0 0 1 0\n");
-  expectRefused("P0 and P1 are not of a rectified pair");
+  expectRefused("P0 and P1 are not a rectified pair");
   directory_.write("calib.txt",
                    "P0: 700 0 4 0 0 700 3 0 0 0 1 0\n"
                    "P1: 700 0 4 350 0 700 3 0 0 0 1 0\n");

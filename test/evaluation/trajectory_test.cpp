@@ -195,7 +195,7 @@ TEST_F(TrajectoryTest, RemovesTheRoundingOfPrintedRotations) {
 }
 
 TEST_F(TrajectoryTest, RefusesWhatIsNoRigidFinitePose) {
-  expectRefused("1.1 0 0 0 0 1 0 0 0 0 1 0\n", "bad.txt:1: the left 3x3 part is no rotation");
+  expectRefused("1.1 0 0 0 0 1 0 0 0 0 1 0\n", "bad.txt:1: the left 3x3 part is not a rotation");
   expectRefused("-1 0 0 0 0 1 0 0 0 0 1 0\n", "a reflection");
   expectRefused(kIdentity + "nan 0 0 0 0 1 0 0 0 0 1 0\n", "bad.txt:2: 'nan'");
   expectRefused("1 0 0 inf 0 1 0 0 0 0 1 0\n", "'inf'");
@@ -203,7 +203,7 @@ TEST_F(TrajectoryTest, RefusesWhatIsNoRigidFinitePose) {
   expectRefused("1 0 0 0x 0 1 0 0 0 0 1 0\n", "'0x' is not a finite number");
   expectRefused("1 0 0 0,5 0 1 0 0 0 0 1 0\n", "'0,5' is not a finite number");
   expectRefused("0 0 0 0 0 0 0 0\n", "the quaternion has the length 0.0");
-  expectRefused("1e12 0 0 0 0 0 0 1\n", "'1e12' is no time");
+  expectRefused("1e12 0 0 0 0 0 0 1\n", "'1e12' is not a time");
 }
 
 TEST_F(TrajectoryTest, RefusesWrongCounts) {
