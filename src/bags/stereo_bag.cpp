@@ -23,6 +23,8 @@ StereoBag::StereoBag(const rosbag::Bag& bag, const Options& options)
       view_(bag, rosbag::TopicQuery(topics_.all())),
       next_(view_.begin()),
       synchronizer_(options.max_stamp_difference_s, options.queue_size),
+      converter_(options.max_image_pixels),
+      baseline_m_(options.baseline_m),
       left_info_(firstMessage<sensor_msgs::CameraInfo>(bag, topics_.left_info)),
       right_info_(firstMessage<sensor_msgs::CameraInfo>(bag, topics_.right_info)) {}
 
@@ -31,7 +33,7 @@ bool StereoBag::next(StereoPair& pair, StereoCamera& camera) {
   for (; !complete && next_ != view_.end(); ++next_) complete = read(*next_);
   if (!complete) return false;
   try {
-    const StereoCamera current = toStereoCamera(*left_info_, *right_info_);
+    const StereoCamera current = toStereoCamera(*left_info_, *right_info_, baseline_m_);
     pair = converter_.convert(*images_.left, *images_.right);
     camera = current;
   } catch (const std::invalid_argument& error) {
@@ -55,6 +57,15 @@ bool StereoBag::read(const rosbag::MessageInstance& message) {
   }
   if (images) images_ = *images;
   return images.has_value();
+}
+
+StereoBag::Options bagOptions(const NodeParameters& node) {
+  StereoBag::Options options;
+  options.max_stamp_difference_s = node.max_stamp_difference_s;
+  options.queue_size = node.queue_size;
+  options.max_image_pixels = node.max_image_pixels;
+  options.baseline_m = node.baseline_m;
+  return options;
 }
 
 }  // namespace rotrocc

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <rosbag/bag.h>
@@ -10,6 +11,7 @@
 #include "bags/stereo_topics.h"
 #include "input/stereo_pair_converter.h"
 #include "input/stereo_synchronizer.h"
+#include "rotrocc/parameters.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
 
@@ -23,6 +25,8 @@ class StereoBag {
     std::string right_image;
     double max_stamp_difference_s = 0.01;  ///< largest difference within a pair
     int queue_size = 4;                    ///< unmatched images kept per side
+    std::int64_t max_image_pixels = StereoPairConverter::kMaxPixels;  ///< larger ones are refused
+    double baseline_m = 0.0;                                          ///< 0: that of camera_info
   };
 
   /// `bag` must outlive this. Throws std::runtime_error if its topics cannot be used.
@@ -49,9 +53,13 @@ class StereoBag {
   rosbag::View::iterator next_;
   StereoSynchronizer synchronizer_;
   StereoPairConverter converter_;
+  double baseline_m_;
   sensor_msgs::CameraInfo::ConstPtr left_info_;
   sensor_msgs::CameraInfo::ConstPtr right_info_;
   StereoImages images_;
 };
+
+/// Those with which a bag gives the pairs that the node makes of its topics.
+StereoBag::Options bagOptions(const NodeParameters& node);
 
 }  // namespace rotrocc

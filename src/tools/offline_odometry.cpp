@@ -104,15 +104,17 @@ Parameters readParameters(const Options& options) {
   return parameters;
 }
 
-StereoBag::Options bagOptions(const Options& options, const NodeParameters& node) {
-  return {options.left_image, options.right_image, node.max_stamp_difference_s, node.queue_size};
+std::unique_ptr<StereoSource> openInput(const Options& options, const NodeParameters& node) {
+  StereoBag::Options bag = bagOptions(node);
+  bag.left_image = options.left_image;
+  bag.right_image = options.right_image;
+  return openStereoSource(options.input, bag);
 }
 
 void run(const Options& options) {
   const Parameters parameters = readParameters(options);
 
-  std::unique_ptr<StereoSource> source =
-      openStereoSource(options.input, bagOptions(options, parameters.node));
+  std::unique_ptr<StereoSource> source = openInput(options, parameters.node);
   std::cerr << "offline_odometry: reading " << source->description() << '\n';
   const PreloadedSource* preloaded = nullptr;
   if (options.preload) {

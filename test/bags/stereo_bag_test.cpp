@@ -38,6 +38,17 @@ class StereoBagTest : public ::testing::Test {
     EXPECT_FALSE(bag.next(pair, camera));
   }
 
+  /// A bag with the same for left and right.
+  void writePair(const std::string& name,
+                 const sensor_msgs::CameraInfo& info,
+                 const sensor_msgs::Image& image) const {
+    rosbag::Bag bag(directory_ / name, rosbag::bagmode::Write);
+    for (const std::string side : {"left", "right"}) {
+      bag.write("/stereo/" + side + "/camera_info", image.header.stamp, info);
+      bag.write("/stereo/" + side + "/image_rect", image.header.stamp, image);
+    }
+  }
+
   TemporaryDirectory directory_;
 };
 
@@ -82,6 +93,45 @@ TEST_F(StereoBagTest, LeavesOutImagesWithoutAPartner) {
   EXPECT_LT(pairs, kPairs);
 }
 
+TEST_F(StereoBagTest, TakesTheBaselineThatCameraInfoLacks) {
+  sensor_msgs::CameraInfo info;
+  info.width = info.height = 32;
+  info.P = {40, 0, 16, 0, 0, 40, 16, 0, 0, 0, 1, 0};
+  sensor_msgs::Image image;
+  image.header.stamp = ros::Time(12.5);
+  image.encoding = "mono8";
+  image.width = image.height = image.step = 32;
+  image.data.resize(32 * 32);
+  writePair("no_baseline.bag", info, image);
+  const rosbag::Bag file = openBag(directory_ / "no_baseline.bag");
+  StereoPair pair;
+  StereoCamera camera;
+  StereoBag without(file, {});
+  expectError<std::runtime_error>([&] { without.next(pair, camera); },
+                                  "set the parameter baseline_m");
+  NodeParameters parameters;
+  parameters.baseline_m = 0.37;
+  StereoBag with(file, bagOptions(parameters));
+  ASSERT_TRUE(with.next(pair, camera));
+  EXPECT_EQ(camera.baseline_m, 0.37);
+}
+
+TEST_F(StereoBagTest, RefusesImagesOfMorePixelsThanTheLimit) {
+  writeKitti2bagOdometry(sequence(), directory_ / "odometry.bag");
+  const rosbag::Bag file = openBag(directory_ / "odometry.bag");
+  const StereoCamera size = sequence().camera();
+  StereoPair pair;
+  StereoCamera camera;
+  NodeParameters parameters;
+  parameters.max_image_pixels = size.width * size.height - 1;
+  StereoBag strict(file, bagOptions(parameters));
+  expectError<std::runtime_error>([&] { strict.next(pair, camera); },
+                                  "more than max_image_pixels = ");
+  parameters.max_image_pixels = size.width * size.height;
+  StereoBag bag(file, bagOptions(parameters));
+  expectAllPairs(bag);
+}
+
 TEST_F(StereoBagTest, RefusesWhatIsNoBag) {
   expectError<std::runtime_error>([&] { openBag(directory_ / "missing.bag"); },
                                   "missing.bag is not readable as a bag");
@@ -93,13 +143,7 @@ TEST_F(StereoBagTest, NamesThePairWhoseCameraIsWrong) {
   sensor_msgs::CameraInfo uncalibrated;
   sensor_msgs::Image image;
   image.header.stamp = ros::Time(12.5);
-  {
-    rosbag::Bag bag(directory_ / "uncalibrated.bag", rosbag::bagmode::Write);
-    for (const std::string side : {"left", "right"}) {
-      bag.write("/stereo/" + side + "/camera_info", image.header.stamp, uncalibrated);
-      bag.write("/stereo/" + side + "/image_rect", image.header.stamp, image);
-    }
-  }
+  writePair("uncalibrated.bag", uncalibrated, image);
   const rosbag::Bag file = openBag(directory_ / "uncalibrated.bag");
   StereoBag bag(file, {});
   StereoPair pair;
