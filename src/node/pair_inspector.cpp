@@ -47,6 +47,13 @@ std::string frozenText(const std::string& which, int pairs) {
 PairInspector::PairInspector(const CorrespondenceFinder::Config& config)
     : detector_(config.feature_detector), matcher_(config.stereo_matcher) {}
 
+void PairInspector::configure(const CorrespondenceFinder::Config& config) {
+  detector_ = FeatureDetector(config.feature_detector);
+  matcher_ = StereoMatcher(config.stereo_matcher);
+  doubtful_ = 0;
+  explanation_.clear();
+}
+
 std::string PairInspector::inspect(const StereoPair& pair,
                                    const StereoCamera& camera,
                                    const OdometryResult& result) {

@@ -20,6 +20,9 @@ class PairInspector {
 
   explicit PairInspector(const CorrespondenceFinder::Config& config);
 
+  /// Another configuration from the next pair on. What was found with the one before is forgotten.
+  void configure(const CorrespondenceFinder::Config& config);
+
   /// A sentence on what looks wrong, with what to do about it; empty if nothing does. Costs next to
   /// nothing, but some 50 ms when the kPatience-th pair in a row is lost or degraded.
   std::string inspect(const StereoPair& pair,

@@ -49,7 +49,10 @@ PairAnswer PairProcessor::process(const ReceivedPair& received,
 /// Returns whether the trajectory ends here.
 bool PairProcessor::beginAnewIfAsked() {
   const std::lock_guard<std::mutex> lock(requests_mutex_);
-  if (requests_.config) odometry_.configure(*requests_.config);
+  if (requests_.config) {
+    odometry_.configure(*requests_.config);
+    inspector_.configure(requests_.config->correspondence_finder);
+  }
   if (requests_.reset || requests_.restart) odometry_.reset();
   if (requests_.reset) base_odometry_.reset();
   requests_.config.reset();
