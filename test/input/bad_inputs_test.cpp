@@ -1,22 +1,25 @@
-// 52 kinds of bad input, what the odometry is expected to make of each, and what it makes of it:
-// docs/bad_inputs.md holds the table that this test makes.
+// Bad input, what the odometry is expected to make of each kind, and what it makes of it:
+// docs/bad_inputs.md holds the table. What takes a ROS master is in bad_inputs_nodelet_test.
 
+#include <atomic>
 #include <cmath>
 #include <functional>
-#include <sstream>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
-#include "input/camera_validation.h"
-#include "input/latest_mailbox.h"
-#include "node/camera_mount.h"
+#include "input/to_text.h"
 #include "node/diagnostics.h"
-#include "node/trajectory_history.h"
-#include "support/expected_file.h"
+#include "support/bad_input_table.h"
+#include "support/log_recorder.h"
 #include "support/odometry_rig.h"
+#include "support/synthetic_scene.h"
 
 namespace rotrocc {
 namespace {
@@ -24,6 +27,29 @@ namespace {
 using Image = sensor_msgs::Image;
 using Info = sensor_msgs::CameraInfo;
 using Side = StereoIntake::Side;
+using OneImageChange = std::function<void(Image&)>;
+using OneInfoChange = std::function<void(Info&)>;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+OdometryRig::ImageChange both(const OneImageChange& change) {
+  return [change](Image& left, Image& right) {
+    change(left);
+    change(right);
+  };
+}
+
+OdometryRig::ImageChange onlyLeft(const OneImageChange& change) {
+  return [change](Image& left, Image&) { change(left); };
+}
+
+OdometryRig::InfoChange both(const OneInfoChange& change) {
+  return [change](Info& left, Info& right) {
+    change(left);
+    change(right);
+  };
+}
 
 /// A rig that has found its motion.
 std::unique_ptr<OdometryRig> drivingRig(const Parameters& parameters = {}) {
@@ -34,87 +60,171 @@ std::unique_ptr<OdometryRig> drivingRig(const Parameters& parameters = {}) {
   return rig;
 }
 
-/// What is seen of the good pairs that follow.
+/// What is seen of the last of some good pairs that follow.
 std::string recovery(OdometryRig& rig) {
   rig.forget();
-  rig.drivePairs(2);
+  rig.drivePairs(4);
   return "; then " + rig.observed();
 }
 
-/// A pair after a change of both images, and two good ones.
-std::string badImages(const OdometryRig::ImageChange& change) {
-  const auto rig = drivingRig();
-  rig->drive(change);
-  const std::string observed = rig->observed();
-  return observed + recovery(*rig);
-}
-
-/// A pair after a change of the left image only.
-std::string badLeft(const std::function<void(Image&)>& change) {
-  return badImages([&](Image& left, Image&) { change(left); });
-}
-
-/// So many pairs after a change, and two good ones.
-std::string badDrive(int pairs, const OdometryRig::ImageChange& change) {
+/// So many pairs after a change, and good ones.
+std::string badImages(const OdometryRig::ImageChange& change, int pairs = 1) {
   const auto rig = drivingRig();
   for (int i = 0; i < pairs; ++i) rig->drive(change);
   const std::string observed = rig->observed();
   return observed + recovery(*rig);
 }
 
-/// Bad infos with a pair each, and good ones.
+/// A pair after a change of the left image.
+std::string badLeft(const OneImageChange& change) {
+  return badImages(onlyLeft(change));
+}
+
+/// Both bad infos with a pair, and good ones.
 std::string badInfos(const OdometryRig::InfoChange& change) {
   const auto rig = drivingRig();
   rig->sendInfos(change);
   rig->drive();
-  const std::string observed = rig->observed();
+  const std::string observed = rig->stateWithoutAnswers() + ", " + rig->observed();
   rig->sendInfos();
   return observed + recovery(*rig);
 }
 
-/// Infos that are odd but can be used.
-std::string oddInfos(const OdometryRig::InfoChange& change) {
-  OdometryRig rig;
-  rig.sendInfos(change);
-  rig.drivePairs(2);
+std::string badInfos(const OneInfoChange& change) {
+  return badInfos(both(change));
+}
+
+/// A drive that is unusual from its first pair on.
+std::string oddDrive(const OdometryRig::ImageChange& image_change,
+                     const OdometryRig::InfoChange& info_change,
+                     const Parameters& parameters = {}) {
+  OdometryRig rig(parameters);
+  rig.sendInfos(info_change);
+  for (int i = 0; i < 3; ++i) rig.drive(image_change);
   return rig.observed();
 }
 
-std::string badBoth(const std::function<void(Info&)>& change) {
-  return badInfos([&](Info& left, Info& right) {
-    change(left);
-    change(right);
-  });
+/// The same, compared with a drive without changes.
+std::string comparedDrive(const OdometryRig::ImageChange& image_change,
+                          const OdometryRig::InfoChange& info_change = {}) {
+  UncertainTransform poses[2];
+  std::string observed;
+  for (const bool changed : {false, true}) {
+    OdometryRig rig;
+    rig.sendInfos(changed ? info_change : OdometryRig::InfoChange());
+    for (int i = 0; i < 3; ++i) rig.drive(changed ? image_change : OdometryRig::ImageChange());
+    observed = rig.observed();
+    if (rig.answer()) poses[changed ? 1 : 0] = rig.answer()->state.T_odom_base;
+  }
+  const bool same =
+      poses[0].T.matrix() == poses[1].T.matrix() && poses[0].covariance == poses[1].covariance;
+  return observed + (same ? ", the same to the bit" : ", but not the same");
 }
 
 /// A pair with another stamp.
 std::string badStamp(const std::function<ros::Time(const ros::Time&)>& change) {
-  const auto rig = drivingRig();
-  rig->drive([&](Image& left, Image& right) {
-    left.header.stamp = right.header.stamp = change(left.header.stamp);
-  });
-  const std::string observed = rig->observed();
-  return observed + recovery(*rig);
+  return badImages(both([&](Image& image) { image.header.stamp = change(image.header.stamp); }));
 }
 
-void fill(Image& image, int value) {
-  image.data.assign(image.data.size(), static_cast<unsigned char>(value));
+cv::Mat pixelsOf(Image& image) {
+  return cv::Mat(
+      static_cast<int>(image.height), static_cast<int>(image.width), CV_8UC1, image.data.data());
+}
+
+/// Other pixels for a mono8 image.
+void setPixels(const cv::Mat& pixels, Image& image) {
+  image.width = image.step = static_cast<std::uint32_t>(pixels.cols);
+  image.height = static_cast<std::uint32_t>(pixels.rows);
+  const cv::Mat copy = pixels.clone();
+  image.data.assign(copy.datastart, copy.dataend);
+}
+
+/// What a grey level is in colour: red as bright as the level, green half as bright, no blue.
+unsigned char channelOf(char channel, unsigned char level) {
+  switch (channel) {
+    case 'r':
+      return level;
+    case 'g':
+      return level / 2;
+    case 'b':
+      return 0;
+    default:
+      return 255;
+  }
+}
+
+/// That colour as grey, by ITU-R BT.601.
+void toLuma(Image& image) {
+  for (unsigned char& byte : image.data) {
+    byte = cv::saturate_cast<uchar>(0.299 * channelOf('r', byte) + 0.587 * channelOf('g', byte));
+  }
+}
+
+/// mono8 to "bgra8" and the like, whose names are their channels.
+void toColour(const std::string& encoding, Image& image) {
+  const std::string channels = encoding.substr(0, encoding.size() - 1);
+  std::vector<unsigned char> data;
+  for (const unsigned char level : image.data) {
+    for (const char channel : channels) data.push_back(channelOf(channel, level));
+  }
+  image.data = data;
+  image.step *= static_cast<std::uint32_t>(channels.size());
+  image.encoding = encoding;
+}
+
+/// mono8 to "bayer_rggb8" and the like, whose names are the colours of two rows of two pixels.
+void toBayer(const std::string& encoding, Image& image) {
+  const std::string pattern = encoding.substr(encoding.find('_') + 1);
+  for (std::size_t i = 0; i < image.data.size(); ++i) {
+    const std::size_t x = i % image.step, y = i / image.step;
+    image.data[i] = channelOf(pattern[2 * (y % 2) + x % 2], image.data[i]);
+  }
+  image.encoding = encoding;
+}
+
+void encode(const std::string& encoding, Image& image) {
+  if (encoding == "mono8") return toLuma(image);
+  if (encoding.find("bayer") == 0) return toBayer(encoding, image);
+  toColour(encoding, image);
+}
+
+/// A drive through a world of colour; demosaicing blurs, which `tolerance` [grey levels, mean] is
+/// for: red taken as blue makes 23.
+std::string inColour(const std::string& left_encoding,
+                     const std::string& right_encoding,
+                     double tolerance) {
+  OdometryRig rig;
+  rig.sendInfos();
+  Image left_luma, right_luma;
+  for (int i = 0; i < 3; ++i) {
+    rig.drive([&](Image& left, Image& right) {
+      left_luma = left;
+      right_luma = right;
+      toLuma(left_luma);
+      toLuma(right_luma);
+      encode(left_encoding, left);
+      encode(right_encoding, right);
+    });
+  }
+  const std::string observed = left_encoding + " and " + right_encoding + ": " + rig.observed();
+  if (!rig.answer()) return observed;
+  const StereoPair& pair = rig.answer()->pair;
+  for (const auto& [grey, luma] :
+       {std::pair(pair.left, pixelsOf(left_luma)), std::pair(pair.right, pixelsOf(right_luma))}) {
+    const double difference = cv::norm(grey, luma, cv::NORM_L1) / static_cast<double>(luma.total());
+    if (difference > tolerance) return observed + ", but grey is off by " + toText(difference);
+  }
+  return observed;
+}
+
+void fill(Image& image, int level) {
+  image.data.assign(image.data.size(), static_cast<unsigned char>(level));
 }
 
 void fillWithNoise(Image& image, int seed) {
   cv::RNG random(static_cast<std::uint64_t>(seed) + 1);
-  cv::Mat pixels(
-      static_cast<int>(image.height), static_cast<int>(image.width), CV_8UC1, image.data.data());
+  cv::Mat pixels = pixelsOf(image);
   random.fill(pixels, cv::RNG::UNIFORM, 0, 256);
-}
-
-/// The image in another encoding, each byte `count` times.
-void repeatBytes(Image& image, const std::string& encoding, std::uint32_t count) {
-  std::vector<unsigned char> data;
-  for (const unsigned char byte : image.data) data.insert(data.end(), count, byte);
-  image.data = data;
-  image.encoding = encoding;
-  image.step *= count;
 }
 
 /// 12 bits in two bytes.
@@ -133,118 +243,232 @@ void to16Bits(Image& image, bool big_endian) {
   image.step *= 2;
 }
 
-void padRows(Image& image, std::size_t padding) {
-  std::vector<unsigned char> data;
-  for (std::size_t y = 0; y < image.height; ++y) {
-    const auto row = image.data.begin() + static_cast<std::ptrdiff_t>(y * image.step);
-    data.insert(data.end(), row, row + image.step);
-    data.insert(data.end(), padding, 255);
+/// Each pixel as a float, as a depth image has them.
+void toDepth(Image& image) {
+  cv::Mat depth_m;
+  pixelsOf(image).convertTo(depth_m, CV_32FC1);
+  image.data.assign(depth_m.datastart, depth_m.dataend);
+  image.encoding = "32FC1";
+  image.step *= sizeof(float);
+}
+
+void padRows(Image& image, int padding) {
+  cv::Mat padded;
+  cv::copyMakeBorder(
+      pixelsOf(image), padded, 0, 0, 0, padding, cv::BORDER_CONSTANT, cv::Scalar(255));
+  const std::uint32_t width = image.width;
+  setPixels(padded, image);
+  image.width = width;
+}
+
+void cropTo(Image& image, int width, int height) {
+  setPixels(pixelsOf(image)(cv::Rect(0, 0, width, height)), image);
+}
+
+/// What moves in is black.
+void move(Image& image, int right_px, int down_px) {
+  const cv::Mat pixels = pixelsOf(image);
+  cv::Mat moved = cv::Mat::zeros(pixels.size(), pixels.type());
+  const cv::Size kept(pixels.cols - right_px, pixels.rows - down_px);
+  pixels(cv::Rect({0, 0}, kept)).copyTo(moved(cv::Rect({right_px, down_px}, kept)));
+  setPixels(moved, image);
+}
+
+/// Counts the bytes that matrices of OpenCV take while it lives.
+class MatrixMemory : public cv::MatAllocator {
+ public:
+  MatrixMemory() { cv::Mat::setDefaultAllocator(this); }
+  ~MatrixMemory() override { cv::Mat::setDefaultAllocator(cv::Mat::getStdAllocator()); }
+  MatrixMemory(const MatrixMemory&) = delete;
+  MatrixMemory& operator=(const MatrixMemory&) = delete;
+
+  std::size_t bytes() const { return bytes_; }
+
+  cv::UMatData* allocate(int dims,
+                         const int* sizes,
+                         int type,
+                         void* data,
+                         std::size_t* step,
+                         cv::AccessFlag flags,
+                         cv::UMatUsageFlags usage) const override {
+    cv::UMatData* memory =
+        cv::Mat::getStdAllocator()->allocate(dims, sizes, type, data, step, flags, usage);
+    bytes_ += memory->size;
+    return memory;
   }
-  image.data = data;
-  image.step += static_cast<std::uint32_t>(padding);
-}
-
-void cropTo(Image& image, std::uint32_t width, std::uint32_t height) {
-  std::vector<unsigned char> data;
-  for (std::size_t y = 0; y < height; ++y) {
-    const auto row = image.data.begin() + static_cast<std::ptrdiff_t>(y * image.step);
-    data.insert(data.end(), row, row + width);
+  bool allocate(cv::UMatData* data, cv::AccessFlag flags, cv::UMatUsageFlags usage) const override {
+    return cv::Mat::getStdAllocator()->allocate(data, flags, usage);
   }
-  image.data = data;
-  image.width = image.step = width;
-  image.height = height;
-}
+  void deallocate(cv::UMatData* data) const override {
+    cv::Mat::getStdAllocator()->deallocate(data);
+  }
 
-void moveDown(Image& image, std::size_t rows) {
-  image.data.insert(image.data.begin(), rows * image.step, 0);
-  image.data.resize(std::size_t{image.step} * image.height);
-}
+ private:
+  mutable std::atomic<std::size_t> bytes_{0};
+};
 
-std::string paddedRows() {
-  const auto padded = drivingRig();
-  padded->drive([](Image& left, Image& right) {
-    padRows(left, 13);
-    padRows(right, 64);
-  });
-  const auto plain = drivingRig();
-  plain->drive();
-  const auto pose = [](const OdometryRig& rig) {
-    return rig.answer()->state.T_odom_base.T.matrix();
-  };
-  return padded->observed() +
-         (pose(*padded) == pose(*plain) ? ", the same bits as without" : ", but not the same");
-}
-
-std::string sixteenBits() {
+/// A pair of images that must not take memory.
+std::string costlyImages(const OdometryRig::ImageChange& change) {
+  const auto rig = drivingRig();
+  Image left = rig->nextImage(Side::kLeft);
+  Image right = rig->nextImage(Side::kRight);
+  change(left, right);
   std::string observed;
-  for (const bool big_endian : {false, true}) {
-    OdometryRig rig;
-    rig.sendInfos();
-    for (int i = 0; i < 3; ++i) {
-      rig.drive([&](Image& left, Image& right) {
-        to16Bits(left, big_endian);
-        to16Bits(right, big_endian);
-      });
-    }
-    observed += (observed.empty() ? "" : ", big-endian ") + rig.observed();
+  {
+    const MatrixMemory memory;
+    rig->sendImage(Side::kLeft, left);
+    rig->sendImage(Side::kRight, right);
+    observed = rig->observed() + "; " + toText(memory.bytes()) + " bytes taken";
   }
-  return observed;
+  rig->advance();
+  return observed + recovery(*rig);
+}
+
+/// The header of colour images says so, and their data are what they were.
+std::string headerOfSize(std::uint32_t width, std::uint32_t height, std::uint32_t step) {
+  return costlyImages(both([&](Image& image) {
+    image.encoding = "bgr8";
+    image.width = width;
+    image.height = height;
+    image.step = step;
+  }));
+}
+
+std::string plainImagesOfSize(int side) {
+  return costlyImages(
+      both([&](Image& image) { setPixels(cv::Mat(side, side, CV_8UC1, cv::Scalar(99)), image); }));
+}
+
+/// A left image that came as JPEG, after a change of that. What compressed_image_transport makes of
+/// it: the image that cv::imdecode() gives, or no image.
+std::string badJpeg(const std::function<void(std::vector<unsigned char>&)>& change) {
+  const auto rig = drivingRig();
+  Image left = rig->nextImage(Side::kLeft);
+  std::vector<unsigned char> jpeg;
+  cv::imencode(".jpg", pixelsOf(left), jpeg);
+  change(jpeg);
+  const cv::Mat decoded = cv::imdecode(jpeg, cv::IMREAD_UNCHANGED);
+  if (!decoded.empty()) {
+    setPixels(decoded, left);
+    rig->sendImage(Side::kLeft, left);
+  }
+  rig->sendImage(Side::kRight, rig->nextImage(Side::kRight));
+  rig->advance();
+  const std::string observed = rig->observed();
+  return (decoded.empty() ? "no image: " : "an image: ") + observed + recovery(*rig);
 }
 
 std::string newResolution() {
   const auto rig = drivingRig();
-  const double before_m = 3 * 0.4;
-  const auto crop = [](Image& left, Image& right) {
-    cropTo(left, 400, 150);
-    cropTo(right, 400, 150);
-  };
-  rig->sendInfos([](Info& left, Info& right) {
-    left.width = right.width = 400;
-    left.height = right.height = 150;
-  });
+  const auto crop = both([](Image& image) { cropTo(image, 400, 150); });
+  rig->sendInfos(both([](Info& info) {
+    info.width = 400;
+    info.height = 150;
+  }));
   rig->drive(crop);
-  std::string observed = rig->observed();
-  EXPECT_NEAR(rig->answer()->state.T_odom_base.T.translation().x(), before_m - 0.4, 0.1);
+  const std::string observed = rig->observed();
   rig->drive(crop);
   return observed + "; then " + rig->observed();
 }
 
-std::string neverInfos() {
+std::string frozenCamera() {
+  Image frozen_left, frozen_right;
+  return badImages(
+      [&](Image& left, Image& right) {
+        if (frozen_left.data.empty()) {
+          frozen_left = left;
+          frozen_right = right;
+        }
+        left.data = frozen_left.data;
+        right.data = frozen_right.data;
+      },
+      12);
+}
+
+/// Infos that come three times, each with a baseline of so many times the true one.
+std::string unusualBaseline(double factor) {
+  const LogRecorder log;
   OdometryRig rig;
-  rig.drivePairs(3);
-  InputReport report = rig.intake().report(rig.now());
-  report.left_info.topic = "left/camera_info";
-  return whyNoPairs(report);
+  for (int i = 0; i < 3; ++i) {
+    rig.sendInfos([&](Info&, Info& right) { right.P[3] *= factor; });
+    rig.drive();
+  }
+  const std::vector<std::string> warnings = log.with("baseline");
+  const std::string warned = warnings.empty() ? "" : ", " + warnings.front();
+  return rig.observed() + "; " + "warnings: " + toText(warnings.size()) + warned;
 }
 
-std::string unusualBaseline() {
-  std::string oddity;
-  const std::string observed = oddInfos([&](Info& left, Info& right) {
-    right.P[3] *= 1000.0;
-    oddity = oddityOf(toStereoCamera(left, right));
-  });
-  return observed + ": " + oddity;
+/// Images that are higher by a quarter, of a robot that also rises: going straight ahead looks the
+/// same whatever fy is.
+std::string unequalFocalLengths() {
+  StereoCamera camera = SyntheticScene::defaultCamera();
+  camera.fy *= 1.25;
+  camera.cy *= 1.25;
+  camera.height = camera.height * 5 / 4;
+  const SyntheticScene scene(camera);
+  const Eigen::Vector3d step_m(0.0, -0.2, 0.4);
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  OdometryRig rig;
+  rig.sendInfos(both([&](Info& info) {
+    info.height = static_cast<std::uint32_t>(camera.height);
+    info.P[5] = camera.fy;
+    info.P[6] = camera.cy;
+  }));
+  for (int i = 0; i < 3; ++i) {
+    const StereoPair pair = scene.render(T_world_camera, 0);
+    rig.drive([&](Image& left, Image& right) {
+      setPixels(pair.left, left);
+      setPixels(pair.right, right);
+    });
+    T_world_camera.translation() += step_m;
+  }
+  if (!rig.answer()) return rig.observed();
+  const OdometryResult& result = rig.answer()->result;
+  const bool right = (result.T_prev_cur.translation() - step_m).norm() < 0.05 * step_m.norm();
+  return std::string(toString(result.state)) + (right ? ", ahead and up" : ", wrong motion");
 }
 
-std::string emptyFrame() {
-  const auto empty = [](Image& left, Image&) { left.header.frame_id.clear(); };
-  Parameters parameters;
-  parameters.node.camera_frame = "camera";
-  const auto rig = drivingRig(parameters);
-  rig->drive(empty);
-  return badImages(empty) + "; with camera_frame " + rig->observed();
+/// The camera's full resolution is twice that of the images.
+void bin(Info& info) {
+  info.binning_x = info.binning_y = 2;
+  info.width *= 2;
+  info.height *= 2;
+  for (std::size_t i = 0; i < 8; ++i) info.P[i] *= 2.0;
 }
 
-std::string timeJump(const std::string& pose, double by_s) {
+/// The images are a part of what the camera sees.
+void crop(Info& info) {
+  info.roi.width = info.width;
+  info.roi.height = info.height;
+  info.roi.x_offset = 100;
+  info.roi.y_offset = 40;
+  info.width += 300;
+  info.height += 60;
+  info.P[2] += info.roi.x_offset;
+  info.P[6] += info.roi.y_offset;
+}
+
+std::string newFocalLength() {
+  const auto rig = drivingRig();
+  rig->sendInfos(both([](Info& info) {
+    info.P[0] += 1.0;
+    info.P[5] += 1.0;
+  }));
+  rig->drive();
+  const std::string observed = rig->observed();
+  return observed + recovery(*rig);
+}
+
+/// The stamps jump, and with them the clock if it is not said to stay.
+std::string timeJump(const std::string& pose, double by_s, bool clock_stays = false) {
   Parameters parameters;
   parameters.node.pose_after_time_jump = pose;
   const auto rig = drivingRig(parameters);
+  if (clock_stays) rig->clock = rig->stamp;
   rig->stamp += ros::Duration(by_s);
   rig->drive();
-  const double x_m = rig->answer()->state.T_odom_base.T.translation().x();
-  EXPECT_EQ(rig->answer()->state.twist.covariance(0, 0), 9999.0);
-  const std::string where = x_m > 0.5 ? "pose kept" : "pose zero";
-  const std::string observed = rig->observed() + ", " + where;
+  const std::string observed = rig->observed();
+  if (clock_stays) rig->stamp -= ros::Duration(by_s);
   return observed + recovery(*rig);
 }
 
@@ -255,8 +479,8 @@ std::string skewed() {
   }
   // When the pairs before are long enough ago, and the images are not.
   const auto later = rig->now() + std::chrono::milliseconds(4350);
-  const std::string observed = rig->observed();
-  return observed + ", " + whyNoPairs(rig->intake().report(later));
+  const std::string observed = rig->observed() + "; " + whyNoPairs(rig->report(later));
+  return observed + recovery(*rig);
 }
 
 std::string slowCamera() {
@@ -268,367 +492,420 @@ std::string slowCamera() {
     rig.advance();
   }
   HealthReport report;
-  report.input = rig.intake().report(rig.now());
-  report.input.left_image.topic = "left/image_rect";
-  report.input.right_image.topic = "right/image_rect";
+  report.input = rig.report(rig.now());
   StatusWrapper status;
   describeInput(report, status);
-  return "pairs at the slower rate; diagnostics: " + status.message;
+  return "20 left and 10 right images: " + toText(rig.answers()) + " pairs processed, the last " +
+         rig.observed() + "; diagnostics: " + status.message;
 }
 
-std::string burst() {
-  LatestMailbox<int> mailbox;
-  int dropped = 0;
-  for (int i = 1; i <= 100; ++i) dropped += mailbox.put(i) ? 1 : 0;
-  std::ostringstream text;
-  text << "pair " << *mailbox.take(std::chrono::milliseconds(0)) << " of 100 is processed, "
-       << dropped << " dropped (newer_pair_came)";
-  return text.str();
-}
-
-std::string noClock() {
-  InputReport report;
-  report.clock_missing = true;
-  return whyNoPairs(report);
-}
-
-std::string badTf() {
-  geometry_msgs::Transform transform;
-  std::string observed;
-  for (const double w : {std::nan(""), 0.5}) {
-    transform.rotation.w = w;
-    try {
-      toEigen(transform);
-    } catch (const std::exception& error) {
-      observed += (observed.empty() ? "" : "; ") + std::string(error.what());
-    }
-  }
-  return observed;
-}
-
-std::string services() {
-  OdometryRig rig;
-  rig.processor().requestReset();
-  rig.sendInfos();
-  for (int i = 0; i < 5; ++i) {
-    rig.processor().requestReset();
-    rig.drive();
-  }
-  std::string observed = "reset before each pair: " + rig.observed();
-  TrajectoryHistory history(10);
-  for (const char* path : {"", "/no/such/directory/poses.txt"}) {
-    try {
-      history.save(path, "tum");
-    } catch (const std::exception& error) {
-      observed += std::string("; ") + error.what();
-    }
-    history.add({});
-  }
-  return observed;
-}
-
-struct BadInput {
-  const char* input;
-  const char* expected;
-  std::function<std::string()> observe;
-  const char* part;  ///< of what is observed; the table shows all of it
-};
-
-std::vector<BadInput> imageCases() {
+std::vector<BadInput> messageRows() {
   return {
-      {"width or height 0",
+      {1,
+       "width or height 0",
        "dropped",
-       [] { return badLeft([](Image& image) { image.width = 0; }); },
-       "dropped (image_size)"},
-      {"no data",
+       [] {
+         return badLeft([](Image& image) { image.width = 0; }) + "; " +
+                badLeft([](Image& image) { image.height = 0; });
+       },
+       "dropped (image_size): the left image is 0x188 px, *; then ok; "
+       "dropped (image_size): the left image is 620x0 px, *; then ok"},
+      {2,
+       "no data",
        "dropped",
        [] { return badLeft([](Image& image) { image.data.clear(); }); },
-       "dropped (image_data)"},
-      {"less data than step x height",
+       "dropped (image_data): the left image has 0 bytes of data, *; then ok"},
+      {3,
+       "less data than step x height",
        "dropped",
        [] { return badLeft([](Image& image) { image.data.pop_back(); }); },
-       "dropped (image_data)"},
-      {"more data than step x height",
+       "dropped (image_data): the left image has 116559 bytes of data, *; then ok"},
+      {4,
+       "more data than step x height",
        "accepted, the rest is not looked at",
-       [] { return badLeft([](Image& image) { image.data.resize(image.data.size() + 99); }); },
-       "ok"},
-      {"step shorter than a row",
+       [] {
+         return comparedDrive(
+             both([](Image& image) { image.data.resize(image.data.size() + 99); }));
+       },
+       "ok, the same to the bit"},
+      {5,
+       "step shorter than a row",
        "dropped",
        [] { return badLeft([](Image& image) { image.step -= 1; }); },
-       "dropped (image_step)"},
-      {"step longer than a row", "accepted, the same result", paddedRows, "the same bits"},
-      {"sizes whose product overflows",
+       "dropped (image_step): the left image has a step of 619 bytes, *; then ok"},
+      {6,
+       "step longer than a row",
+       "accepted, the same result",
+       [] {
+         return comparedDrive([](Image& left, Image& right) {
+           padRows(left, 13);
+           padRows(right, 64);
+         });
+       },
+       "ok, the same to the bit"},
+      {7,
+       "sizes whose product overflows 32 or 64 bits",
        "dropped before any allocation",
        [] {
-         return badLeft(
-             [](Image& image) { image.width = image.height = image.step = 0xffffffffu; });
+         return headerOfSize(0xffffffff, 0xffffffff, 0xffffffff) + "; " +
+                headerOfSize(65536, 65536, 3 * 65536) + "; " + headerOfSize(16, 65536, 65536);
        },
-       "dropped (image_size)"},
-      {"unknown or empty encoding",
+       "dropped (image_size): the left image is 4294967295x4294967295 px, *; 0 bytes taken; "
+       "then ok; "
+       "dropped (image_size): the left image is 65536x65536 px, *; 0 bytes taken; then ok; "
+       "dropped (image_data): * 65536 rows of 65536 bytes take 4294967296: *; 0 bytes taken; "
+       "then ok"},
+      {8,
+       "unknown or empty encoding",
        "dropped, the known ones are listed",
-       [] { return badLeft([](Image& image) { image.encoding = ""; }); },
-       "dropped (image_encoding)"},
-      {"bgr8 with the step of mono8",
+       [] {
+         return badLeft([](Image& image) { image.encoding = ""; }) + "; " +
+                badLeft([](Image& image) { image.encoding = "yuv422"; });
+       },
+       "dropped (image_encoding): the left image has the encoding \"\", but must have one of: "
+       "mono8 "
+       "* bayer_grbg8; then ok; "
+       "dropped (image_encoding): the left image has the encoding \"yuv422\", but must have one "
+       "of: "
+       "mono8 * bayer_grbg8; then ok"},
+      {9,
+       "bgr8 with the step of mono8",
        "dropped",
        [] { return badLeft([](Image& image) { image.encoding = "bgr8"; }); },
-       "dropped (image_step)"},
-      {"rgb8, bgr8, rgba8, bgra8",
-       "accepted",
+       "dropped (image_step): * 620 px of bgr8 take 1860: *; then ok"},
+      {10,
+       "rgb8, bgr8, rgba8, bgra8",
+       "accepted, the grey is right",
+       [] { return inColour("rgb8", "bgra8", 1.0) + "; " + inColour("bgr8", "rgba8", 1.0); },
+       "rgb8 and bgra8: ok; bgr8 and rgba8: ok"},
+      {11,
+       "mono16 of 12 bits, both byte orders",
+       "accepted, scaled: the result is that of mono8",
        [] {
-         return badImages([](Image& left, Image& right) {
-           repeatBytes(left, "rgb8", 3);
-           repeatBytes(right, "bgra8", 4);
-         });
+         return "little-endian " +
+                comparedDrive(both([](Image& image) { to16Bits(image, false); })) +
+                "; big-endian " + comparedDrive(both([](Image& image) { to16Bits(image, true); }));
        },
-       "ok"},
-      {"mono16 of 12 bits, both byte orders", "accepted, scaled", sixteenBits, "ok, big-endian ok"},
-      {"bayer_rggb8",
-       "accepted",
+       "little-endian ok, the same to the bit; big-endian ok, the same to the bit"},
+      {12,
+       "Bayer patterns",
+       "accepted, the grey is right",
        [] {
-         return badImages(
-             [](Image& left, Image& right) { left.encoding = right.encoding = "bayer_rggb8"; });
+         return inColour("bayer_rggb8", "bayer_bggr8", 5.0) + "; " +
+                inColour("bayer_gbrg8", "bayer_grbg8", 5.0);
        },
-       "ok"},
-      {"32FC1, a depth image",
+       "bayer_rggb8 and bayer_bggr8: ok; bayer_gbrg8 and bayer_grbg8: ok"},
+      {13,
+       "32FC1, a depth image",
        "dropped with a hint",
-       [] { return badLeft([](Image& image) { repeatBytes(image, "32FC1", 4); }); },
-       "depth image?"},
-      {"left and right of different sizes",
+       [] { return badLeft(toDepth); },
+       "dropped (image_encoding): the left image has the encoding \"32FC1\", * (is its topic "
+       "remapped to a depth image?); then ok"},
+      {14,
+       "left and right of different sizes",
        "dropped, both sizes are told",
-       [] { return badLeft([](Image& image) { image.height -= 10; }); },
-       "dropped (image_sizes_differ)"},
-      {"left and right of different encodings",
+       [] { return badLeft([](Image& image) { cropTo(image, 620, 178); }); },
+       "dropped (image_sizes_differ): the left image is 620x178 px, the right one 620x188 px: *; "
+       "then ok"},
+      {15,
+       "left and right of different encodings",
        "accepted",
-       [] { return badLeft([](Image& image) { repeatBytes(image, "bgr8", 3); }); },
-       "ok"},
-      {"images not of the size in camera_info",
+       [] { return inColour("bgr8", "mono8", 1.0); },
+       "bgr8 and mono8: ok"},
+      {16,
+       "images not of the size in camera_info",
        "no calibration",
        [] {
-         return badImages([](Image& left, Image& right) { left.height = right.height -= 10; });
+         const auto rig = drivingRig();
+         rig->drive(both([](Image& image) { cropTo(image, 620, 178); }));
+         const std::string observed = rig->stateWithoutAnswers() + ", " + rig->observed();
+         return observed + recovery(*rig);
        },
-       "dropped (image_not_of_camera_info)"},
-      {"new resolution with its camera_info",
+       "NO_CALIBRATION, dropped (image_not_of_camera_info): the images are 620x178 px, but "
+       "camera_info is for 620x188 px: *; then ok"},
+      {17,
+       "new resolution with its camera_info",
        "starts anew for one pair, pose kept",
        newResolution,
-       "initialising; then ok"},
-      {"black images",
+       "initialising, pose held, covariance grows, twist unknown; then ok"},
+  };
+}
+
+std::vector<BadInput> pictureRows() {
+  return {
+      {18,
+       "black, white or grey images",
        "lost, pose held, covariance grows",
        [] {
-         return badDrive(12, [](Image& left, Image& right) {
-           fill(left, 0);
-           fill(right, 0);
-         });
+         std::string observed;
+         for (const int level : {0, 255, 128}) {
+           observed += (observed.empty() ? "" : "; ") +
+                       badImages(both([&](Image& image) { fill(image, level); }), 12);
+         }
+         return observed;
        },
-       "lost, hint: the left image shows hardly any corner"},
-      {"noise",
+       "lost, pose held, covariance grows, twist unknown, hint: the left image shows hardly any "
+       "corner, its mean grey level is 0 of 255: *; then ok; "
+       "lost, pose held, covariance grows, twist unknown, hint: the left image shows hardly any "
+       "corner, its mean grey level is 255 of 255: *; then ok; "
+       "lost, pose held, covariance grows, twist unknown, hint: the left image shows hardly any "
+       "corner, its mean grey level is 128 of 255: *; then ok"},
+      {19,
+       "noise",
        "lost, no jump",
        [] {
          int seed = 0;
-         return badDrive(3, [&](Image& left, Image& right) {
-           fillWithNoise(left, ++seed);
-           fillWithNoise(right, ++seed);
-         });
+         return badImages(both([&](Image& image) { fillWithNoise(image, ++seed); }), 3);
        },
-       "lost"},
-      {"left and right identical",
+       "lost, pose held, covariance grows, twist unknown; then ok"},
+      {20,
+       "left and right identical",
        "lost, no depth",
-       [] { return badDrive(12, [](Image& left, Image& right) { right.data = left.data; }); },
-       "lost, hint: left and right image are identical"},
-      {"left and right exchanged",
+       [] { return badImages([](Image& left, Image& right) { right.data = left.data; }, 12); },
+       "lost, pose held, covariance grows, twist unknown, hint: left and right image are "
+       "identical: "
+       "*; then ok"},
+      {21,
+       "left and right exchanged",
        "lost with a hint",
        [] {
-         return badDrive(12, [](Image& left, Image& right) { std::swap(left.data, right.data); });
+         return badImages([](Image& left, Image& right) { std::swap(left.data, right.data); }, 12);
        },
-       "exchange their topics"},
-      {"frozen camera",
-       "warned of",
-       [] {
-         Image frozen_left, frozen_right;
-         return badDrive(12, [&](Image& left, Image& right) {
-           if (frozen_left.data.empty()) {
-             frozen_left = left;
-             frozen_right = right;
-           }
-           left.data = frozen_left.data;
-           right.data = frozen_right.data;
-         });
-       },
-       "is the camera frozen?"},
-      {"corrupted JPEG: the transport gives no image",
+       "lost, pose moved 0.* m, covariance grows, twist unknown, hint: the images match if left "
+       "and right "
+       "are exchanged: exchange their topics; then ok"},
+      {22,
+       "frozen camera",
+       "no motion, warned of",
+       frozenCamera,
+       "ok, moved 0 m of 0.4 m, hint: each image has been the same, byte for byte, for 11 pairs: "
+       "is "
+       "the camera frozen?; then ok"},
+      {23,
+       "corrupted JPEG: its header, or its second half missing",
        "goes on",
        [] {
-         const auto rig = drivingRig();
-         rig->sendImage(Side::kLeft, rig->nextImage(Side::kLeft));
-         rig->advance();
-         const std::string observed = rig->observed();
-         return observed + recovery(*rig);
+         return badJpeg([](std::vector<unsigned char>& jpeg) { jpeg[0] = jpeg[1] = 0; }) + "; " +
+                badJpeg([](std::vector<unsigned char>& jpeg) { jpeg.resize(jpeg.size() / 2); });
        },
-       "no odometry; then ok"},
-      {"very small or very large images",
+       "no image: no odometry; then ok; an image: ok; then ok"},
+      {24,
+       "very small or very large images",
        "dropped, memory bounded",
-       [] {
-         return badLeft([](Image& image) { image.width = image.height = 8; }) + "; " +
-                badLeft([](Image& image) { image.width = image.height = image.step = 8192; });
-       },
-       "more than max_image_pixels"},
-      {"images that are not rectified",
+       [] { return plainImagesOfSize(8) + "; " + plainImagesOfSize(8192); },
+       "dropped (image_size): the left image is 8x8 px, *; 0 bytes taken; then ok; "
+       "dropped (image_size): the left image is 8192x8192 px, more than max_image_pixels = *; 0 "
+       "bytes taken; then ok"},
+      {25,
+       "images that are not rectified",
        "lost or degraded with a hint",
-       [] { return badDrive(12, [](Image&, Image& right) { moveDown(right, 7); }); },
-       "they are not rectified"},
+       [] { return badImages([](Image&, Image& right) { move(right, 0, 7); }, 12); },
+       "lost, pose moved 0.* m, covariance grows, twist unknown, hint: the images match if the "
+       "right one "
+       "is "
+       "moved by about -7 rows: they are not rectified; *; then ok"},
   };
 }
 
-std::vector<BadInput> infoCases() {
+std::vector<BadInput> badInfoRows() {
+  const std::string refused = "NO_CALIBRATION, dropped (camera_info_invalid): ";
   return {
-      {"camera_info never comes", "warned of by name", neverInfos, "left/camera_info"},
-      {"camera_info of zeros",
+      {27,
+       "camera_info of zeros",
        "no calibration",
-       [] { return badBoth([](Info& info) { info.P.fill(0.0); }); },
-       "the camera is not calibrated"},
-      {"P with NaN or infinity",
+       [] {
+         return badInfos([](Info& info) {
+           info.K.fill(0.0);
+           info.R.fill(0.0);
+           info.P.fill(0.0);
+         });
+       },
+       refused +
+           "P of the left camera_info is all zeros: the camera is not calibrated; *; then ok"},
+      {28,
+       "P with NaN or infinity",
        "no calibration",
-       [] { return badBoth([](Info& info) { info.P[2] = std::nan(""); }); },
-       "P[2] of the left camera_info is nan"},
-      {"focal length not positive",
+       [] {
+         return badInfos([](Info& info) { info.P[2] = kNan; }) + "; " +
+                badInfos([](Info& left, Info&) { left.P[0] = kInfinity; }) + "; " +
+                badInfos([](Info&, Info& right) { right.P[3] = -kInfinity; });
+       },
+       refused + "P[2] of the left camera_info is nan: *; then ok; " + refused +
+           "P[0] of the left camera_info is inf: *; then ok; " + refused +
+           "P[3] of the right camera_info is -inf: *; then ok"},
+      {29,
+       "focal length not positive",
        "no calibration",
-       [] { return badBoth([](Info& info) { info.P[0] = -info.P[0]; }); },
-       "must be positive"},
-      {"baseline 0",
-       "no calibration, baseline_m is named",
-       [] { return badInfos([](Info&, Info& right) { right.P[3] = 0.0; }); },
-       "set the parameter baseline_m"},
-      {"baseline negative",
+       [] {
+         return badInfos([](Info& info) { info.P[0] = -info.P[0]; }) + "; " +
+                badInfos([](Info& info) { info.P[5] = 0.0; });
+       },
+       refused +
+           "P of the left camera_info has focal lengths P[0] = -360 and P[5] = 360 px, but "
+           "both must be positive: *; then ok; " +
+           refused +
+           "P of the left camera_info has focal lengths P[0] = 360 and P[5] = 0 px, but "
+           "both must be positive: *; then ok"},
+      {30,
+       "baseline 0",
+       "no calibration, baseline_m is named; with that accepted",
+       [] {
+         const auto no_baseline = [](Info&, Info& right) { right.P[3] = 0.0; };
+         Parameters parameters;
+         parameters.node.baseline_m = 0.54;
+         return badInfos(no_baseline) + "; with baseline_m " +
+                oddDrive({}, no_baseline, parameters);
+       },
+       refused +
+           "the baseline is zero: *, or set the parameter baseline_m; then ok; with baseline_m "
+           "ok"},
+      {31,
+       "baseline negative",
        "no calibration with a hint",
        [] { return badInfos([](Info& left, Info& right) { std::swap(left, right); }); },
-       "are left and right exchanged?"},
-      {"baseline beyond 10 m or below 5 mm",
-       "accepted, warned of once",
-       unusualBaseline,
-       "a baseline of 540 m is unusual"},
-      {"fx or cy of left and right differ",
+       refused + "the baseline is negative: *; are left and right exchanged?; then ok"},
+      {32,
+       "baseline beyond 10 m or below 5 mm",
+       "accepted, warned of once; it is not that of these images",
+       [] { return unusualBaseline(1000.0) + "; " + unusualBaseline(0.001); },
+       "lost, pose held, covariance grows, twist unknown; warnings: 1, a baseline of 540 m is "
+       "unusual: "
+       "*; lost, pose held, covariance grows, twist unknown; warnings: 1, a baseline of 0.00054 m "
+       "is "
+       "unusual: *"},
+      {33,
+       "fx, fy or cy of left and right differ",
        "no calibration",
-       [] { return badInfos([](Info&, Info& right) { right.P[6] += 3.0; }); },
-       "not rectified as a pair: cy"},
-      {"cx of left and right differ",
-       "accepted, both are used",
-       [] { return oddInfos([](Info&, Info& right) { right.P[2] += 0.4; }); },
-       "ok"},
-      {"fx differs from fy",
-       "accepted",
-       [] { return oddInfos([](Info& left, Info& right) { left.P[5] = right.P[5] *= 1.02; }); },
-       "ok"},
-      {"K differs from P, D is not zero",
-       "accepted, P is used",
        [] {
-         return oddInfos([](Info& left, Info&) {
-           left.K.fill(3.0);
-           left.D = {0.3, 0.1, 0.0, 0.0, 0.0};
-           left.distortion_model = "plumb_bob";
-         });
+         return badInfos([](Info&, Info& right) { right.P[0] += 5.0; }) + "; " +
+                badInfos([](Info&, Info& right) { right.P[5] += 4.0; }) + "; " +
+                badInfos([](Info&, Info& right) { right.P[6] += 3.0; });
        },
-       "ok"},
-      {"only P is filled", "accepted", [] { return oddInfos({}); }, "ok"},
-      {"binning and region of interest",
-       "accepted, P is scaled",
-       [] {
-         return oddInfos([](Info& left, Info& right) {
-           for (Info* info : {&left, &right}) {
-             info->binning_x = info->binning_y = 2;
-             info->width *= 2;
-             info->height *= 2;
-             for (std::size_t i = 0; i < 8; ++i) info->P[i] *= 2.0;
-           }
-         });
-       },
-       "ok"},
-      {"camera_info changes in mid-stream",
-       "starts anew for one pair, pose kept",
-       [] {
-         const auto rig = drivingRig();
-         rig->sendInfos([](Info& left, Info& right) {
-           left.P[0] = right.P[0] += 1.0;
-           left.P[5] = right.P[5] += 1.0;
-         });
-         rig->drive();
-         const std::string observed = rig->observed();
-         return observed + recovery(*rig);
-       },
-       "initialising; then ok"},
-      {"frame_id empty", "dropped, or camera_frame is used", emptyFrame, "with camera_frame ok"},
-      {"frame_id of left and right differ",
-       "accepted, the left image's counts",
-       [] { return badImages([](Image&, Image& right) { right.header.frame_id = "other"; }); },
-       "ok"},
+       refused +
+           "the cameras are not rectified as a pair: fx is 360 px in the left camera_info and "
+           "365 px in the right one; *; then ok; " +
+           refused +
+           "the cameras are not rectified as a pair: fy is 360 px in the left camera_info "
+           "and 364 px in the right one; *; then ok; " +
+           refused +
+           "the cameras are not rectified as a pair: cy is 92 px in the left camera_info "
+           "and 95 px in the right one; *; then ok"},
   };
 }
 
-std::vector<BadInput> timeCases() {
+std::vector<BadInput> oddInfoRows() {
   return {
-      {"stamp 0",
+      {34,
+       "cx of left and right differ",
+       "accepted, both are used",
+       [] {
+         return oddDrive([](Image&, Image& right) { move(right, 16, 0); },
+                         [](Info&, Info& right) { right.P[2] += 16.0; });
+       },
+       "ok"},
+      {35,
+       "fx differs from fy",
+       "accepted, both are used",
+       unequalFocalLengths,
+       "ok, ahead and up"},
+      {36,
+       "K differs from P, D is not zero",
+       "accepted, P is used",
+       [] {
+         return comparedDrive({}, both([](Info& info) {
+                                info.K = {984.2, 0.0, 690.0, 0.0, 980.8, 233.2, 0.0, 0.0, 1.0};
+                                info.D = {-0.37, 0.2, 0.001, 0.002, -0.07};
+                              }));
+       },
+       "ok, the same to the bit"},
+      {37,
+       "only P is filled",
+       "accepted",
+       [] {
+         return comparedDrive({}, both([](Info& info) {
+                                info.K.fill(0.0);
+                                info.R.fill(0.0);
+                                info.D.clear();
+                                info.distortion_model.clear();
+                              }));
+       },
+       "ok, the same to the bit"},
+      {38,
+       "binning, region of interest, or both",
+       "accepted, P is scaled and moved",
+       [] {
+         return "binning " + comparedDrive({}, both(bin)) + "; roi " +
+                comparedDrive({}, both(crop)) + "; both " + comparedDrive({}, both([](Info& info) {
+                                                                            bin(info);
+                                                                            crop(info);
+                                                                          }));
+       },
+       "binning ok, the same to the bit; roi ok, the same to the bit; both ok, the same to the "
+       "bit"},
+      {39,
+       "camera_info changes in mid-stream",
+       "starts anew for one pair, pose kept",
+       newFocalLength,
+       "initialising, pose held, covariance grows, twist unknown; then ok"},
+  };
+}
+
+std::vector<BadInput> timeRows() {
+  const std::string anew = "initialising, pose held, covariance grows, twist unknown; then ok";
+  return {
+      {42,
+       "stamp 0",
        "dropped",
        [] { return badStamp([](const ros::Time&) { return ros::Time(); }); },
-       "dropped (stamp_zero)"},
-      {"stamp repeated",
+       "dropped (stamp_zero): the right image has the stamp 0: *; then ok"},
+      {43,
+       "stamp repeated",
        "dropped",
        [] { return badStamp([](const ros::Time& t) { return t - ros::Duration(0.1); }); },
-       "dropped (stamp_repeated)"},
-      {"stamp slightly back",
+       "dropped (stamp_repeated): the right image has the stamp of the one before it, 1000.200 s: "
+       "*; then ok"},
+      {44,
+       "stamp slightly back, the clock not",
        "dropped",
        [] { return badStamp([](const ros::Time& t) { return t - ros::Duration(0.15); }); },
-       "dropped (stamp_backward)"},
-      {"time goes back: a bag in a loop",
+       "dropped (stamp_backward): the right image has the stamp 1000.150 s, 0.05 s before the one "
+       "that came earlier: *; then ok"},
+      {45,
+       "time goes back: a bag in a loop",
        "starts anew within one pair, pose kept or zero by parameter",
        [] { return "keep: " + timeJump("keep", -500.0) + "; zero: " + timeJump("zero", -500.0); },
-       "keep: initialising, pose kept; then ok; zero: initialising, pose zero; then ok"},
-      {"time jumps ahead",
-       "starts anew, pose kept, twist unknown",
-       [] { return timeJump("keep", 500.0); },
-       "initialising, pose kept; then ok"},
-      {"skew of left and right above the limit",
+       "keep: initialising, pose held, twist unknown; then ok; zero: initialising, pose zero, "
+       "twist "
+       "unknown; then ok"},
+      {46,
+       "time jumps ahead, or the stamps alone",
+       "starts anew, pose kept, twist unknown; dropped, if the clock does not jump",
+       [] { return timeJump("keep", 500.0) + "; stamps alone: " + timeJump("keep", 500.0, true); },
+       anew +
+           "; stamps alone: dropped (stamp_future): the right image has the stamp 1500.300 s, 500 "
+           "s ahead of the clock: *; then ok"},
+      {47,
+       "skew of left and right above the limit",
        "dropped, the skew is told",
        skewed,
-       "stamps are up to 30 ms apart"},
-      {"one camera slower",
+       "dropped (no_partner); left and right stamps are up to 30 ms apart, more than "
+       "max_stamp_difference_s = 10 ms: *; then ok"},
+      {48,
+       "one camera slower",
        "warned of with both rates",
        slowCamera,
-       "left/image_rect comes at 10.0 Hz, right/image_rect at 5.0 Hz"},
-      {"burst of 100 pairs",
-       "the newest is processed, drops are counted",
-       burst,
-       "pair 100 of 100"},
-      {"use_sim_time without /clock", "warned of", noClock, "nothing comes on /clock"},
-      {"tf with NaN or a quaternion not of unit length",
-       "refused; a missing one is waited for",
-       badTf,
-       "the transform holds nan"},
-      {"services at any time, bad path",
-       "answer without success, no deadlock",
-       services,
-       "cannot write /no/such/directory/poses.txt"},
+       "20 left and 10 right images: 10 pairs processed, the last ok; diagnostics: left/image_rect "
+       "comes at 10.0 Hz, right/image_rect at 5.0 Hz: one camera loses images"},
   };
 }
 
 TEST(BadInputsTest, EachIsHandledAsTheTableSays) {
-  std::vector<BadInput> cases = imageCases();
-  for (const auto& more : {infoCases(), timeCases()}) {
-    cases.insert(cases.end(), more.begin(), more.end());
+  std::vector<BadInput> inputs;
+  for (const auto& rows :
+       {messageRows(), pictureRows(), badInfoRows(), oddInfoRows(), timeRows()}) {
+    inputs.insert(inputs.end(), rows.begin(), rows.end());
   }
-  ASSERT_EQ(cases.size(), 52u);
-  std::ostringstream table;
-  table << "# Bad input\n\nWhat the odometry makes of input that robots do send. Made by "
-           "`bad_inputs_test`, which "
-           "fails if this is out of date; `ROTROCC_UPDATE_FILES=1 "
-           "build/devel/lib/rotrocc/bad_inputs_test` "
-           "makes it anew. After each, good pairs follow.\n\n| | input | expected | observed "
-           "|\n|---|---|---|---|\n";
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    const std::string observed = cases[i].observe();
-    EXPECT_NE(observed.find(cases[i].part), std::string::npos)
-        << "case " << i + 1 << ", " << cases[i].input << ": " << observed;
-    table << "| " << i + 1 << " | " << cases[i].input << " | " << cases[i].expected << " | "
-          << observed << " |\n";
-  }
-  expectFileHolds(std::string(ROTROCC_DOCS_DIR) + "/bad_inputs.md", table.str());
+  expectRows(Observer::kRig, inputs);
 }
 
 }  // namespace

@@ -1,13 +1,16 @@
 #include "support/odometry_rig.h"
 
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include <sensor_msgs/image_encodings.h>
 #include <boost/make_shared.hpp>
 
 #include "bags/kitti_mount.h"
-#include "input/image_validation.h"
 #include "input/message_conversion.h"
+#include "input/to_text.h"
+#include "node/odometry_health.h"
 #include "support/synthetic_scene.h"
 
 namespace rotrocc {
@@ -16,6 +19,10 @@ namespace {
 constexpr int kPairs = 40;
 constexpr double kStep_m = 0.4;
 constexpr std::chrono::milliseconds kPeriod(100);
+constexpr double kMotionTolerance = 0.05;
+constexpr double kRounding = 1e-9;
+/// Of a twist that is unknown, as users of nav_msgs/Odometry know it.
+constexpr double kUnknownVariance = 9999.0;
 
 const SyntheticScene& scene() {
   static const SyntheticScene scene;
@@ -35,6 +42,10 @@ const StereoPair& pairAt(int index) {
   return *pair;
 }
 
+std::string tenths(double value) {
+  return toText(0.1 * std::round(10.0 * value));
+}
+
 sensor_msgs::Image toMessage(const cv::Mat& image, const ros::Time& stamp) {
   sensor_msgs::Image message;
   message.header.stamp = stamp;
@@ -51,6 +62,10 @@ sensor_msgs::CameraInfo toInfo(const StereoCamera& camera, double baseline_m) {
   sensor_msgs::CameraInfo info;
   info.width = static_cast<std::uint32_t>(camera.width);
   info.height = static_cast<std::uint32_t>(camera.height);
+  info.distortion_model = "plumb_bob";
+  info.D.assign(5, 0.0);
+  info.K = {camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1};
+  info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   info.P = {
       camera.fx, 0, camera.cx, -camera.fx * baseline_m, 0, camera.fy, camera.cy, 0, 0, 0, 1, 0};
   return info;
@@ -59,8 +74,7 @@ sensor_msgs::CameraInfo toInfo(const StereoCamera& camera, double baseline_m) {
 }  // namespace
 
 OdometryRig::OdometryRig(const Parameters& parameters)
-    : parameters_(parameters),
-      processor_(parameters),
+    : processor_(parameters),
       intake_(parameters.node, drops_, [this](const ReceivedPair& pair) { process(pair); }) {}
 
 void OdometryRig::sendInfos(const InfoChange& change) {
@@ -106,15 +120,38 @@ void OdometryRig::drivePairs(int count) {
 
 void OdometryRig::forget() {
   answer_.reset();
+  state_before_ = state_;
   drops_before_.clear();
   for (const auto& [reason, count] : drops_.counters().nonZero()) drops_before_[reason] = count;
 }
 
 std::string OdometryRig::observed() const {
-  if (answer_) {
-    const std::string state = toString(answer_->result.state);
-    return answer_->hint.empty() ? state : state + ", hint: " + answer_->hint;
+  if (answer_) return describeAnswer();
+  const std::string drops = describeDrops();
+  return drops.empty() ? "no odometry" : drops;
+}
+
+std::string OdometryRig::describeAnswer() const {
+  std::string text = toString(answer_->result.state);
+  const UncertainTransform& pose = answer_->state.T_odom_base;
+  if (answer_->result.hasMotion()) {
+    const double moved_m = answer_->result.T_prev_cur.translation().norm();
+    if (std::abs(moved_m - way_m_) > kMotionTolerance * way_m_) {
+      text += ", moved " + tenths(moved_m) + " m of " + tenths(way_m_) + " m";
+    }
+  } else {
+    const UncertainTransform& before = state_before_.T_odom_base;
+    const bool held = pose.T.isApprox(before.T, kRounding);
+    const bool zero = pose.T.isApprox(Eigen::Isometry3d::Identity(), kRounding);
+    const double moved_m = (pose.T.translation() - before.T.translation()).norm();
+    text += held ? ", pose held" : zero ? ", pose zero" : ", pose moved " + tenths(moved_m) + " m";
+    if (pose.covariance(0, 0) > before.covariance(0, 0)) text += ", covariance grows";
+    if (answer_->state.twist.covariance(0, 0) == kUnknownVariance) text += ", twist unknown";
   }
+  return answer_->hint.empty() ? text : text + ", hint: " + answer_->hint;
+}
+
+std::string OdometryRig::describeDrops() const {
   std::string text;
   for (const auto& [reason, count] : drops_.counters().nonZero()) {
     const auto before = drops_before_.find(reason);
@@ -124,13 +161,29 @@ std::string OdometryRig::observed() const {
     text += (text.empty() ? "" : "; ") + std::string("dropped (") + toString(reason) + ")" +
             (has_sentence ? std::string(": ") + last->what() : "");
   }
-  return text.empty() ? "no odometry" : text;
+  return text;
+}
+
+std::string OdometryRig::stateWithoutAnswers() const {
+  return stateName(stateOf(OdometryHealth().report(report(now_), drops_)).state);
+}
+
+InputReport OdometryRig::report(std::chrono::steady_clock::time_point now) const {
+  InputReport report = intake_.report(now);
+  report.left_image.topic = "left/image_rect";
+  report.right_image.topic = "right/image_rect";
+  report.left_info.topic = "left/camera_info";
+  report.right_info.topic = "right/camera_info";
+  return report;
 }
 
 void OdometryRig::process(const ReceivedPair& pair) {
   try {
-    cameraFrameOf(*pair.images.left, parameters_.node.camera_frame);
     answer_ = processor_.process(pair, kittiMount(), expected);
+    ++answers_;
+    state_ = answer_->state;
+    const double place_m = kStep_m * next_;
+    way_m_ = std::abs(place_m - std::exchange(last_place_m_, place_m));
   } catch (const InputError& error) {
     drops_.add(error);
   }

@@ -48,9 +48,19 @@ class OdometryRig {
   const std::optional<PairAnswer>& answer() const { return answer_; }
   void forget();
 
-  /// What has happened since the last call of forget(): "OK", "LOST; <hint>", or
-  /// "dropped (<reason>): <sentence>".
+  /// Of the last pair since the last call of forget(): its state, as "ok", what is wrong with its
+  /// motion, or without one what has become of the pose since then, and the hint. Else "dropped
+  /// (<reason>): <sentence>" of what was dropped since then, or "no odometry".
   std::string observed() const;
+
+  /// The state that a node would tell that has not answered for some seconds, as "NO_CALIBRATION".
+  std::string stateWithoutAnswers() const;
+
+  /// With the names of the topics.
+  InputReport report(std::chrono::steady_clock::time_point now) const;
+
+  /// Pairs that were processed.
+  int answers() const { return answers_; }
 
   StereoIntake& intake() { return intake_; }
   PairProcessor& processor() { return processor_; }
@@ -59,14 +69,19 @@ class OdometryRig {
 
  private:
   void process(const ReceivedPair& pair);
+  std::string describeAnswer() const;
+  std::string describeDrops() const;
 
-  Parameters parameters_;
   DropLog drops_;
   PairProcessor processor_;
   StereoIntake intake_;
   int next_ = 0;
   std::chrono::steady_clock::time_point now_ = std::chrono::steady_clock::now();
   std::optional<PairAnswer> answer_;
+  BaseState state_, state_before_;  // of the last answer, and when forget() was called last
+  double way_m_ = 0.0;              // between the last two pairs that were processed
+  double last_place_m_ = 0.0;       // of the last one
+  int answers_ = 0;
   std::map<DropReason, std::uint64_t> drops_before_;
 };
 

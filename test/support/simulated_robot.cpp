@@ -6,6 +6,7 @@
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/init.h>
 #include <sensor_msgs/image_encodings.h>
+#include <boost/make_shared.hpp>
 
 #include "input/message_conversion.h"
 
@@ -98,21 +99,29 @@ void SimulatedRobot::publishMount() {
 }
 
 ros::Time SimulatedRobot::drive(const std::function<void(sensor_msgs::Image&)>& change) {
-  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
-  T_world_camera.translation().z() = way_m_;
-  const StereoPair pair = scene_.render(T_world_camera, toNanoseconds(stamp_));
-  const ros::Time stamp = stamp_;
-  sensor_msgs::Image left = toMessage(pair.left, stamp);
-  sensor_msgs::Image right = toMessage(pair.right, stamp);
+  auto [left, right] = see();
+  const ros::Time stamp = left.header.stamp;
   if (change) {
     change(left);
     change(right);
   }
-  left_image_publisher_.publish(left);
-  right_image_publisher_.publish(right);
+  publish(left, right);
+  return stamp;
+}
+
+std::pair<sensor_msgs::Image, sensor_msgs::Image> SimulatedRobot::see() {
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  T_world_camera.translation().z() = way_m_;
+  const StereoPair pair = scene_.render(T_world_camera, toNanoseconds(stamp_));
+  const ros::Time stamp = stamp_;
   way_m_ += kStep_m;
   stamp_ += ros::Duration(kPeriod_s);
-  return stamp;
+  return {toMessage(pair.left, stamp), toMessage(pair.right, stamp)};
+}
+
+void SimulatedRobot::publish(const sensor_msgs::Image& left, const sensor_msgs::Image& right) {
+  left_image_publisher_.publish(boost::make_shared<sensor_msgs::Image>(left));
+  right_image_publisher_.publish(boost::make_shared<sensor_msgs::Image>(right));
 }
 
 void SimulatedRobot::turnBackTime() {

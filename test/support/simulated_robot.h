@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include <nav_msgs/Odometry.h>
 #include <ros/node_handle.h>
@@ -39,6 +40,11 @@ class SimulatedRobot {
 
   /// Drives a step and publishes both images, after `change` to each of them. Returns their stamp.
   ros::Time drive(const std::function<void(sensor_msgs::Image&)>& change = {});
+
+  /// The same in two steps: drives, and returns what is seen; publishes it. What is in this process
+  /// has received it then.
+  std::pair<sensor_msgs::Image, sensor_msgs::Image> see();
+  void publish(const sensor_msgs::Image& left, const sensor_msgs::Image& right);
 
   /// The next pairs have stamps from before the first ones.
   void turnBackTime();
