@@ -56,7 +56,7 @@ const std::vector<std::string>& criterionNames();
 /// The two-stage estimator.
 struct MotionEstimatorConfig {
   std::string criterion = "rotrocc";  ///< one of criterionNames()
-  /// Disparity noise over flow noise to begin with, see fitted_feature.h; 0: the paper's
+  /// Disparity noise over flow noise, see fitted_feature.h; 0: the paper's
   double noise_ratio = 3.0;
   double robust_factor = 2.0;  ///< of CauchyWeights, once a stage has its set; 0: the paper's
 
@@ -73,7 +73,6 @@ struct MotionEstimatorConfig {
   double translation_drop_share = 0.15;  ///< b of Eq. 30
   int translation_max_iterations = 30;
   double translation_initial_px = 1.5;  ///< stage-1 error below which a feature enters; 0: all do
-  double min_flow_px = 0.5;             ///< floor of the normalizing flow: its noise
   double min_speed_mps = 1.0;           ///< below it stage 2 is skipped
 
   // The comparison criteria.
@@ -100,13 +99,6 @@ struct KeyframeSelectorConfig {
   double min_seen_share = 0.7;   ///< of the inliers of the keyframe's first motion
 };
 
-/// The noise of disparities and flows.
-struct NoiseEstimatorConfig {
-  bool enabled = true;          ///< if not, the ratio stays what it is to begin with
-  double max_ratio = 3.0;       ///< more is not believed
-  double memory_pairs = 100.0;  ///< the weight of a pair falls by 1/e over as many
-};
-
 /// Self-calibration of the disparity bias.
 struct StereoCalibratorConfig {
   bool enabled = true;   ///< if not, bias_px is all that is applied
@@ -130,7 +122,6 @@ struct OdometryConfig {
   MotionEstimatorConfig motion_estimator;
   MotionCheckConfig motion_check;
   KeyframeSelectorConfig keyframe_selector;
-  NoiseEstimatorConfig noise_estimator;
   StereoCalibratorConfig stereo_calibrator;
 
   int threads = 2;                  ///< that work on a pair, the calling one included

@@ -58,13 +58,6 @@ struct RowOffset {
   double typical_px = 0.0;  ///< median of the absolute differences: how far rows are apart
 };
 
-/// Standard deviations of what is measured of a feature, as far as known.
-struct MeasurementNoise {
-  double flow_px = 0.0;       ///< of a flow, in x and y; 0 before the first motion
-  double disparity_px = 0.0;  ///< of a disparity, in which neighbours differ; 0 likewise
-  double ratio = 0.0;         ///< of the second to the first; what weights the residuals
-};
-
 /// The answer to one stereo pair.
 struct OdometryResult {
   State state = State::kLost;
@@ -86,7 +79,7 @@ struct OdometryResult {
   UncertainTransform T_keyframe_cur;
   DisparityBias disparity_bias;  ///< of the rig, as far as known
   RowOffset row_offset;          ///< likewise; not corrected
-  MeasurementNoise noise;        ///< likewise
+  double flow_noise_px = 0.0;    ///< standard deviation in x and y, by the inliers; 0: no motion
   StageCounts counts;
   StageTimes times;
 

@@ -54,7 +54,8 @@ Matrix6d scatterOf(const std::array<Vector6d, kCells>& gradients) {
 
 bool MotionCovariance::estimate(const Measurements& measured,
                                 const TwoStageMotion& motion,
-                                Matrix6d& covariance) {
+                                Matrix6d& covariance,
+                                double& flow_noise_px) {
   const Information one = collect(measured, motion.fit, motion.rotation_inliers, 6);
   const Eigen::LDLT<Matrix6d> full(one.matrix);
   if (full.info() != Eigen::Success || !full.isPositive()) return false;
@@ -64,6 +65,7 @@ bool MotionCovariance::estimate(const Measurements& measured,
   const Matrix6d both = alike * variance / share * full.solve(Matrix6d::Identity());
   if (!both.allFinite()) return false;
   covariance = both;
+  flow_noise_px = std::sqrt(variance);
   if (!motion.has_translation_stage) return true;
 
   const Information two = collect(measured, motion.fit, motion.translation_inliers, 3);

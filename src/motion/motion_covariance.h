@@ -28,8 +28,12 @@ class MotionCovariance {
         limit_px_(config.rotation_limit_px),
         robust_factor_(config.robust_factor) {}
 
-  /// Returns false if the features do not determine the motion.
-  bool estimate(const Measurements& measured, const TwoStageMotion& motion, Matrix6d& covariance);
+  /// Returns false if the features do not determine the motion. `flow_noise_px` gets the standard
+  /// deviation of the residuals in each direction, had none been dropped.
+  bool estimate(const Measurements& measured,
+                const TwoStageMotion& motion,
+                Matrix6d& covariance,
+                double& flow_noise_px);
 
  private:
   /// What the covariance is made of, in the order translation [m], rotation [rad].

@@ -46,7 +46,10 @@ void MotionEstimator::estimateFrom(const FeatureSet& set,
   estimate.translation_inliers = motion_.translation_inliers;
   estimate.has_translation_stage = motion_.has_translation_stage;
   estimate.covariance.setZero();
-  estimate.valid = motion_.valid && covariance_.estimate(measured, motion_, estimate.covariance);
+  estimate.flow_noise_px = 0.0;
+  estimate.valid =
+      motion_.valid &&
+      covariance_.estimate(measured, motion_, estimate.covariance, estimate.flow_noise_px);
 }
 
 }  // namespace rotrocc

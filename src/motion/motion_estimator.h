@@ -28,13 +28,11 @@ class MotionEstimator {
     FeatureSet rotation_inliers;
     FeatureSet translation_inliers;
     bool has_translation_stage = false;
+    double flow_noise_px = 0.0;  ///< standard deviation in x and y, by the inliers' residuals
   };
 
   /// Throws std::invalid_argument on a criterion of another name.
   explicit MotionEstimator(const Config& config);
-
-  /// From now on; better known than to begin with.
-  void setNoiseRatio(double noise_ratio) { config_.noise_ratio = noise_ratio; }
 
   /// Estimates the motion that took `dt_s` > 0 from the full feature set, beginning with `initial`.
   /// Invalid if fewer than 3 features are left, or the equations have no unique solution.

@@ -98,7 +98,7 @@ bool TwoStageEstimator::estimateTranslation(const Measurements& measured,
   const auto measure = [&] {
     reprojectionErrors(measured.camera, measured.features, fit.T_prev_cur, errors_);
     for (std::size_t i = 0; i < errors_.size(); ++i) {
-      const double flow_px = std::max({flow_px_[i], config_.min_flow_px, kLeastFlow_px});
+      const double flow_px = std::max(flow_px_[i], kLeastFlow_px);
       errors_[i] = candidates_[i] != 0 ? errors_[i] / flow_px : kNever;
     }
   };

@@ -103,8 +103,7 @@ void describeOdometry(const HealthReport& report, StatusWrapper& status) {
               rows.median_px,
               rows.sigma_px,
               rows.typical_px);
-  const MeasurementNoise& noise = report.last_result.noise;
-  status.addf("noise of flow and disparity", "%.2f and %.2f px", noise.flow_px, noise.disparity_px);
+  status.addf("flow noise", "%.2f px", report.last_result.flow_noise_px);
   status.add("pairs processed", report.pairs_processed);
   status.add("pairs lost", report.pairs_lost);
 }

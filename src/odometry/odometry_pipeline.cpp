@@ -37,7 +37,6 @@ VisualOdometry::Pipeline::Pipeline(const Config& config)
       motion_model_(config.motion_model),
       estimator_(config.motion_estimator),
       check_(config.motion_check),
-      noise_(config.noise_estimator, config.motion_estimator.noise_ratio),
       calibrator_(config.stereo_calibrator),
       selector_(config.keyframe_selector) {}
 
@@ -60,7 +59,6 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
   result.counts = found_.counts;
   result.disparity_bias = calibrator_.bias();
   result.row_offset = rows_.offset();
-  result.noise = noise_.noise();
   return result;
 }
 
@@ -76,7 +74,6 @@ void VisualOdometry::Pipeline::configure(const Config& config) {
   finder_ = CorrespondenceFinder(config.correspondence_finder, config.threads);
   motion_model_.configure(config.motion_model);
   check_ = MotionCheck(config.motion_check);
-  noise_.configure(config.noise_estimator, config.motion_estimator.noise_ratio);
   calibrator_.configure(config.stereo_calibrator);
   selector_ = KeyframeSelector(config.keyframe_selector);
   keyframe_.frame.reset();  // its corners are of the old parameters
@@ -140,7 +137,6 @@ FramePtr VisualOdometry::Pipeline::takeFrame(const StereoPair& pair,
   if (camera != camera_) {
     calibrator_.reset();
     rows_.reset();
-    noise_.reset();
   }
   calibrator_.advance();
   camera_ = camera;
@@ -231,7 +227,6 @@ std::string VisualOdometry::Pipeline::tryMotion(const StereoFrame& current,
     found_.counts.consistent = static_cast<int>(found_.features.size());
   }
   const StageTimer timer(times.estimation_ms);
-  estimator_.setNoiseRatio(noise_.noise().ratio);
   return estimate(T_keyframe_cur, is_prediction, sinceKeyframe_s(current), found_);
 }
 
@@ -270,10 +265,10 @@ double VisualOdometry::Pipeline::sinceKeyframe_s(const StereoFrame& current) con
 
 void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& result) {
   const MotionEstimator::Estimate& estimate = found_.estimate;
-  noise_.observe(found_.camera, found_.features, estimate.rotation_inliers, estimate.T_prev_cur);
   finder_.compareRows(*current, found_.features, estimate.rotation_inliers, row_differences_px_);
   rows_.observe(row_differences_px_);
 
+  result.flow_noise_px = estimate.flow_noise_px;
   result.keyframe_stamp_ns = keyframe_.frame->stamp_ns;
   result.T_keyframe_cur = {estimate.T_prev_cur,
                            estimate.covariance + calibrator_.motionCovariance()};

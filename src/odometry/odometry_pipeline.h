@@ -15,7 +15,6 @@
 #include "odometry/keyframe_selector.h"
 #include "odometry/motion_check.h"
 #include "odometry/motion_model.h"
-#include "rig/noise_estimator.h"
 #include "rig/row_comparison.h"
 #include "rig/stereo_calibrator.h"
 #include "rotrocc/visual_odometry.h"
@@ -74,7 +73,6 @@ class VisualOdometry::Pipeline {
   MotionModel motion_model_;
   MotionEstimator estimator_;
   MotionCheck check_;
-  NoiseEstimator noise_;
   StereoCalibrator calibrator_;
   RowComparison rows_;
   KeyframeSelector selector_;

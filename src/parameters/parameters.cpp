@@ -106,13 +106,12 @@ void addFeatureTracker(FeatureTrackerConfig& c, ParameterTable& table) {
 void addMotionEstimator(MotionEstimatorConfig& c, ParameterTable& table) {
   const std::string s = "motion_estimator/";
   table.add(s + "criterion", c.criterion, criterionNames(), "criterion that selects the inliers");
-  table.add(
-      s + "noise_ratio",
-      c.noise_ratio,
-      0.0,
-      100.0,
-      "",
-      "initial ratio of disparity noise to flow noise; 0: disparities are exact, as in the paper");
+  table.add(s + "noise_ratio",
+            c.noise_ratio,
+            0.0,
+            100.0,
+            "",
+            "ratio of disparity noise to flow noise; 0: disparities are exact, as in the paper");
   table.add(s + "robust_factor",
             c.robust_factor,
             0.0,
@@ -175,12 +174,6 @@ void addMotionEstimator(MotionEstimatorConfig& c, ParameterTable& table) {
             1000.0,
             "px",
             "stage 2: starts from features with a stage-1 error below this; 0: from all");
-  table.add(s + "min_flow_px",
-            c.min_flow_px,
-            0.0,
-            100.0,
-            "px",
-            "lower bound of the flow that normalizes the DNRE: the flow noise");
   table.add(s + "min_speed_mps",
             c.min_speed_mps,
             0.0,
@@ -256,21 +249,6 @@ void addMotionCheck(MotionCheckConfig& c, ParameterTable& table) {
             10000.0,
             "m/s2",
             "acceleration above which the motion is degraded");
-}
-
-void addNoiseEstimator(NoiseEstimatorConfig& c, ParameterTable& table) {
-  const std::string s = "noise_estimator/";
-  table.add(s + "enabled",
-            c.enabled,
-            "estimate the noise ratio; if false, motion_estimator/noise_ratio is used");
-  table.add(
-      s + "max_ratio", c.max_ratio, 0.5, 100.0, "", "upper bound of the estimated noise ratio");
-  table.add(s + "memory_pairs",
-            c.memory_pairs,
-            2.0,
-            1e6,
-            "",
-            "the weight of a pair decays by 1/e over this number of pairs");
 }
 
 void addStereoCalibrator(StereoCalibratorConfig& c, ParameterTable& table) {
@@ -469,7 +447,6 @@ ParameterTable makeParameterTable(Parameters& parameters) {
   addMotionEstimator(odometry.motion_estimator, table);
   addMotionCheck(odometry.motion_check, table);
   addKeyframeSelector(odometry.keyframe_selector, table);
-  addNoiseEstimator(odometry.noise_estimator, table);
   addStereoCalibrator(odometry.stereo_calibrator, table);
   addVisualOdometry(odometry, table);
   return table;

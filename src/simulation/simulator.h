@@ -34,7 +34,7 @@ struct SimulatedFrame {
   StereoPair pair;
   cv::Mat depth;  ///< CV_64FC1 [m] at the centres of the pixels; infinite for the sky
   cv::Mat flow;   ///< CV_64FC2 [px] to the next frame; NaN for points that are behind the camera
-                 ///< there; empty for the last frame. Occlusion is ignored.
+                  ///< there; empty for the last frame. Occlusion is ignored.
 };
 
 /// Renders a drive frame by frame, in any order.

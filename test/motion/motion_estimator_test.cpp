@@ -20,7 +20,7 @@ constexpr double kPeriod_s = 0.1;
 constexpr int kFeatures = 600;
 
 /// Flow noise as measured on KITTI, and disparity noise in the ratio the estimator assumes.
-const MeasurementNoise kNoise = {0.3, 0.3 * MotionEstimator::Config().noise_ratio};
+const FeatureNoise kNoise = {0.3, 0.3 * MotionEstimator::Config().noise_ratio};
 
 /// A Gaussian error is larger once in 16000 times.
 constexpr double kSigmas = 4.0;
@@ -202,7 +202,6 @@ TEST(MotionEstimatorTest, ThePapersParametersWork) {
   MotionEstimator::Config paper;
   paper.noise_ratio = 0.0;
   paper.translation_initial_px = 0.0;
-  paper.min_flow_px = 0.0;
   const Estimate found = estimate(withRandomMatches(0.3, 1), paper);
   ASSERT_TRUE(found.valid);
   EXPECT_LT(translationError(found), 0.1);

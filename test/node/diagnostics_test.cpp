@@ -29,7 +29,7 @@ HealthReport goodReport() {
   report.last_result.state = State::kOk;
   report.last_result.counts.rotation_inliers = 512;
   report.last_result.disparity_bias = {0.42, 0.05, 0.36};
-  report.last_result.noise = {0.15, 0.45, 3.0};
+  report.last_result.flow_noise_px = 0.15;
   return report;
 }
 
@@ -94,7 +94,7 @@ TEST(DiagnosticsTest, AllIsWell) {
   }
   EXPECT_EQ(valueOf(odometry, "state"), "OK");
   EXPECT_EQ(valueOf(odometry, "disparity bias"), "0.42 +- 0.05 px, 0.36 px corrected");
-  EXPECT_EQ(valueOf(odometry, "noise of flow and disparity"), "0.15 and 0.45 px");
+  EXPECT_EQ(valueOf(odometry, "flow noise"), "0.15 px");
   EXPECT_EQ(valueOf(odometry, "inliers of the rotation"), "512");
   EXPECT_EQ(valueOf(input, "/r/image"), "10.0 Hz, 50 in 5 s, 500 in all, 1 publishers");
   EXPECT_EQ(valueOf(input, "largest stamp difference of left and right"), "2.000 ms");

@@ -80,7 +80,6 @@ TEST(ParametersTest, ThePapersFileTurnsOffWhatThePaperDoesNotHave) {
   EXPECT_EQ(estimator.criterion, "rotrocc");
   EXPECT_EQ(estimator.noise_ratio, 0.0);
   EXPECT_EQ(estimator.translation_initial_px, 0.0);
-  EXPECT_EQ(estimator.min_flow_px, 0.0);
 }
 
 TEST(ParametersTest, PresetsHoldOnlyWhatIsDifferentFromTheDefault) {
@@ -192,7 +191,8 @@ TEST(ParametersTest, AFileNamesItselfWhenItIsRefused) {
     expectError<std::invalid_argument>([&] { loadYaml(path, settings.table); }, path);
     expectError<std::invalid_argument>([&] { loadYaml(path, settings.table); }, part);
   };
-  expect_refused("motion_check:\n  min_inlier: 3\n", "unknown parameter \"motion_check/min_inlier\"");
+  expect_refused("motion_check:\n  min_inlier: 3\n",
+                 "unknown parameter \"motion_check/min_inlier\"");
   expect_refused("motion_check:\n  min_inliers: 1\n", "motion_check/min_inliers is 1");
   expect_refused("visual_odometry:\n  max_gap_s: .nan\n", "visual_odometry/max_gap_s is \".nan\"");
   expect_refused("motion_check: [1, 2]\n", "\"motion_check\" is neither a value nor a section");

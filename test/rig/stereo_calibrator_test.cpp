@@ -16,7 +16,7 @@ constexpr int kFeatures = 400;
 constexpr double kPeriod_s = 0.1;
 
 /// As measured on KITTI, without the outliers.
-const MeasurementNoise kNoise = {0.12, 0.36};
+const FeatureNoise kNoise = {0.12, 0.36};
 
 Eigen::Isometry3d ahead() {
   return motion({0.0, 0.0, 1.2}, {0.0, 0.01, 0.0});

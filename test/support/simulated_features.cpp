@@ -9,7 +9,7 @@ namespace rotrocc {
 bool measure(const StereoCamera& camera,
              const Eigen::Vector3d& point_cur,
              const Eigen::Isometry3d& T_prev_cur,
-             const MeasurementNoise& noise,
+             const FeatureNoise& noise,
              std::mt19937& generator,
              Correspondence& feature) {
   std::normal_distribution<double> normal;
@@ -32,7 +32,7 @@ bool measure(const StereoCamera& camera,
 Correspondences simulateFeatures(const StereoCamera& camera,
                                  const Eigen::Isometry3d& T_prev_cur,
                                  int count,
-                                 const MeasurementNoise& noise,
+                                 const FeatureNoise& noise,
                                  std::mt19937& generator) {
   const SyntheticScene scene(camera);
   std::uniform_real_distribution<double> x(0.0, camera.width);

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 
 #include "motion/fitted_feature.h"
-#include "rig/noise_estimator.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/rigid_motion.h"
 #include "rotrocc/stereo_camera.h"
@@ -13,13 +12,19 @@
 
 namespace rotrocc {
 
+/// Standard deviations of what is measured of a feature [px].
+struct FeatureNoise {
+  double flow_px = 0.0;  ///< in x and y
+  double disparity_px = 0.0;
+};
+
 /// Measures a point of the current camera frame; fails if one of the two images does not show it,
 /// or its depth is beyond what a stereo matcher finds. The noise is Gaussian; that of the flow is
 /// of prev_px.
 bool measure(const StereoCamera& camera,
              const Eigen::Vector3d& point_cur,
              const Eigen::Isometry3d& T_prev_cur,
-             const MeasurementNoise& noise,
+             const FeatureNoise& noise,
              std::mt19937& generator,
              Correspondence& feature);
 
@@ -28,7 +33,7 @@ bool measure(const StereoCamera& camera,
 Correspondences simulateFeatures(const StereoCamera& camera,
                                  const Eigen::Isometry3d& T_prev_cur,
                                  int count,
-                                 const MeasurementNoise& noise,
+                                 const FeatureNoise& noise,
                                  std::mt19937& generator);
 
 /// fitAt() of one feature.
