@@ -36,14 +36,14 @@ void checkProjection(const std::string& side, const sensor_msgs::CameraInfo& inf
   for (std::size_t i = 0; i < P.size(); ++i) {
     if (std::isfinite(P[i])) continue;
     refuse("P[" + toText(i) + "] of the " + side + " camera_info is " + toText(P[i]) +
-           ": look at the calibration file of the driver");
+           ": check the calibration file of the driver");
   }
   if (!(P[0] > 0.0 && P[5] > 0.0)) {
     refuse(its + " has focal lengths P[0] = " + toText(P[0]) + " and P[5] = " + toText(P[5]) +
            " px, but both must be positive: is the camera calibrated?");
   }
   if (P[1] != 0.0 || P[4] != 0.0 || P[8] != 0.0 || P[9] != 0.0 || P[10] != 1.0) {
-    refuse(its + " is not [fx 0 cx tx; 0 fy cy ty; 0 0 1 0], as of a rectified camera: P[1] = " +
+    refuse(its + " is not [fx 0 cx tx; 0 fy cy ty; 0 0 1 0], as for a rectified camera: P[1] = " +
            toText(P[1]) + ", P[4] = " + toText(P[4]) + ", P[8] = " + toText(P[8]) + ", P[9] = " +
            toText(P[9]) + ", P[10] = " + toText(P[10]) + "; calibrate the cameras as a pair");
   }
@@ -86,7 +86,7 @@ void requireSideBySide(const Projection& left, const Projection& right) {
     refuse(
         "the baseline is negative: P[3] of camera_info, which is -fx times the camera's "
         "position, is " +
-        values + "; are left and right exchanged?");
+        values + "; are left and right swapped?");
   }
   if (std::abs(left.ty - right.ty) > kMaxOffRowShare * (left.tx - right.tx)) {
     refuse("the cameras are not side by side: P[7] of camera_info is " + toText(left.ty) +
@@ -123,7 +123,7 @@ StereoCamera toStereoCamera(const sensor_msgs::CameraInfo& left_info,
   try {
     camera.check();
   } catch (const std::invalid_argument& error) {
-    refuse(std::string("camera_info makes no camera: ") + error.what());
+    refuse(std::string("camera_info is not a valid camera: ") + error.what());
   }
   return camera;
 }

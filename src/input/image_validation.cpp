@@ -42,7 +42,7 @@ void validateSides(const std::string& side,
   if (image.width < kMinSize_px || image.height < kMinSize_px) {
     throw InputError(DropReason::kImageSize,
                      is + ", but each side must be " + toText(kMinSize_px) +
-                         " px or more: look at the camera driver");
+                         " px or more: check the camera driver");
   }
   const std::uint64_t pixels = std::uint64_t{image.width} * image.height;
   if (pixels <= static_cast<std::uint64_t>(max_pixels)) return;
@@ -62,7 +62,7 @@ const ImageEncoding& encodingOf(const char* side, const sensor_msgs::Image& imag
   const bool is_float = image.encoding.find("FC") != std::string::npos;
   throw InputError(DropReason::kImageEncoding,
                    std::string("the ") + side + " image has the encoding " + quote(image.encoding) +
-                       ", but must have one of:" + known +
+                       ", but must be one of:" + known +
                        (is_float ? " (is its topic remapped to a depth image?)" : ""));
 }
 
@@ -82,7 +82,7 @@ void validateImage(const char* side, const sensor_msgs::Image& image, std::int64
     throw InputError(DropReason::kImageData,
                      has + toText(image.data.size()) + " bytes of data, but " +
                          toText(image.height) + " rows of " + toText(image.step) + " bytes take " +
-                         toText(bytes) + ": the driver sends parts of images");
+                         toText(bytes) + ": the driver sends incomplete images");
   }
 }
 
@@ -106,8 +106,7 @@ void validateSize(const sensor_msgs::Image& left, const StereoCamera& camera) {
   throw InputError(DropReason::kImageNotOfCamera,
                    "the images are " + sizeText(left.width, left.height) +
                        ", but camera_info is for " + sizeText(camera.width, camera.height) +
-                       ": calibrate at the resolution that is used, or set binning and roi in "
-                       "camera_info");
+                       ": calibrate at this resolution, or set binning and roi in camera_info");
 }
 
 std::string cameraFrameOf(const sensor_msgs::Image& left, const std::string& camera_frame) {
@@ -115,7 +114,7 @@ std::string cameraFrameOf(const sensor_msgs::Image& left, const std::string& cam
   const std::string& frame = left.header.frame_id;
   if (frame.empty()) {
     throw InputError(DropReason::kFrameMissing,
-                     "the left image has an empty frame_id: let the driver set it, or set the "
+                     "the left image has an empty frame_id: set it in the driver, or set the "
                      "parameter camera_frame");
   }
   return frame.front() == '/' ? frame.substr(1) : frame;

@@ -30,16 +30,15 @@ std::string describe(const TopicReport& topic) {
 std::string whySilent(const TopicReport& topic) {
   if (topic.publishers == 0 && topic.total > 0) {
     return "nobody publishes " + topic.topic +
-           " any more: has the bag ended, or the driver stopped?";
+           " any more: has the bag ended or the driver stopped?";
   }
   if (topic.publishers == 0) {
     return "nobody publishes " + topic.topic +
-           ": start its driver, or remap it to the topic that "
-           "has it (rostopic list shows them all)";
+           ": start the driver, or remap it to the right topic (see rostopic list)";
   }
   return topic.topic +
-         " has a publisher, but nothing comes: is the driver running, and the "
-         "network between the machines set up (ROS_IP, ROS_HOSTNAME)?";
+         " has a publisher, but no messages arrive: is the driver running, and the "
+         "network configured (ROS_IP, ROS_HOSTNAME)?";
 }
 
 std::string whyUnmatched(double difference_s, double limit_s) {
@@ -48,10 +47,11 @@ std::string whyUnmatched(double difference_s, double limit_s) {
   if (difference_s <= kPlausibleSkew_s) {
     const double enough_s = std::ceil(1.2e3 * difference_s) * 1e-3;
     std::ostringstream advice;
-    advice << ": trigger the cameras together, or set max_stamp_difference_s to " << enough_s;
+    advice << ": trigger the cameras synchronously, or set max_stamp_difference_s to " << enough_s;
     return apart + advice.str();
   }
-  return apart + ": are both images of one camera, and the clocks of both drivers the same?";
+  return apart +
+         ": are both topics from the same rig, and the clocks of both drivers synchronized?";
 }
 
 }  // namespace
@@ -81,15 +81,16 @@ std::string describeTopics(const InputReport& report) {
     text += (text.empty() ? "" : ", ") + describe(*topic);
   }
   if (report.stamp_difference_s) {
-    text += "; stamps of left and right are at most " + milliseconds(*report.stamp_difference_s) +
-            " apart";
+    text +=
+        "; stamps of left and right differ by at most " + milliseconds(*report.stamp_difference_s);
   }
   return text;
 }
 
 std::string whyNoPairs(const InputReport& report) {
   if (report.clock_missing) {
-    return "use_sim_time is true, but nothing comes on /clock: play the bag with --clock, or set "
+    return "use_sim_time is true, but there is no message on /clock: play the bag with --clock, or "
+           "set "
            "use_sim_time to false";
   }
   for (const TopicReport* image : {&report.left_image, &report.right_image}) {

@@ -35,7 +35,7 @@ SilenceWatch::SilenceWatch(double silence_s, Time now)
 
 std::string SilenceWatch::onPair(Time now) {
   std::string said;
-  if (told_) said = "stereo pairs come again, after " + seconds(now - last_pair_);
+  if (told_) said = "stereo pairs arrive again, after " + seconds(now - last_pair_);
   told_ = false;
   last_pair_ = now;
   return said;

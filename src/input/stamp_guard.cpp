@@ -24,20 +24,19 @@ void StampGuard::check(std::int64_t stamp_ns, std::int64_t clock_ns) {
   last_clock_ns_ = clock_ns;
   if (stamp_ns == 0) {
     throw InputError(DropReason::kStampZero,
-                     topic_ + " has the stamp 0: let the driver set header.stamp");
+                     topic_ + " has the stamp 0: set header.stamp in the driver");
   }
   checkClock(stamp_ns, clock_ns);
   if (last_stamp_ns_ == stamp_ns) {
     throw InputError(DropReason::kStampRepeated,
-                     topic_ + " has the stamp of the one before it, " + stampText(stamp_ns) +
-                         " s: does the driver, or do two of them, send each image twice?");
+                     topic_ + " has the same stamp as the previous one, " + stampText(stamp_ns) +
+                         " s: are there two drivers, or does one send each image twice?");
   }
   if (last_stamp_ns_ && stamp_ns < *last_stamp_ns_ && !beginsAnew(stamp_ns)) {
     throw InputError(DropReason::kStampBackward,
                      topic_ + " has the stamp " + stampText(stamp_ns) + " s, " +
                          toText(seconds(*last_stamp_ns_ - stamp_ns)) +
-                         " s before the one that came earlier: let the driver send images in the "
-                         "order of their stamps");
+                         " s before the previous one: send images in the order of their stamps");
   }
   last_stamp_ns_ = stamp_ns;
   last_backward_ns_.reset();

@@ -78,9 +78,9 @@ void StereoIntake::setCamera(const StereoCamera& camera) {
   camera_ = camera;
   camera_error_.clear();
   drops_.forgetCameraError();
-  ROS_INFO_STREAM("stereo camera of P: " << camera.width << "x" << camera.height << " px, fx "
-                                         << camera.fx << " px, baseline " << camera.baseline_m
-                                         << " m");
+  ROS_INFO_STREAM("stereo camera from P: " << camera.width << "x" << camera.height << " px, fx "
+                                           << camera.fx << " px, baseline " << camera.baseline_m
+                                           << " m");
   const std::string oddity = oddityOf(camera);
   if (!oddity.empty()) ROS_WARN_STREAM(oddity);
 }

@@ -37,7 +37,8 @@ Eigen::Isometry3d toEigen(const geometry_msgs::Transform& transform) {
   const auto& q = transform.rotation;
   for (const double value : {t.x, t.y, t.z, q.w, q.x, q.y, q.z}) {
     if (std::isfinite(value)) continue;
-    throw std::invalid_argument("the transform holds " + toText(value) + ": correct its publisher");
+    throw std::invalid_argument("the transform contains " + toText(value) +
+                                ": correct its publisher");
   }
   const Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
   if (std::abs(rotation.norm() - 1.0) > kMaxNormError) {
@@ -65,8 +66,8 @@ const std::optional<Eigen::Isometry3d>& CameraMount::find(const std::string& cam
     listener_.reset();
     missing_.clear();
   } catch (const std::exception& error) {
-    missing_ = "no tf from " + base_frame_ + " to " + camera_frame +
-               ", where the camera is mounted: " + error.what();
+    missing_ =
+        "no tf from " + base_frame_ + " to " + camera_frame + " (camera pose): " + error.what();
     if (++attempts_ > kPatience && warning_.pass()) ROS_WARN_STREAM("waiting: " << missing_);
   }
   return T_base_camera_;
@@ -82,7 +83,7 @@ std::string describeMount(const Eigen::Isometry3d& T_base_camera) {
   if (std::abs(view.z()) < std::cos(kUpright)) {
     text << ", its image is " << (image_up.z() > std::cos(kUpright) ? "upright" : "not upright");
   } else if (view.z() > 0.0) {
-    text << "; is its frame an optical one, with z along the view?";
+    text << "; is its frame an optical frame, with z forward?";
   }
   return text.str();
 }

@@ -43,7 +43,7 @@ unsigned char levelOf(std::uint8_t state) {
 
 void addTopic(const TopicReport& topic, StatusWrapper& status) {
   status.addf(topic.topic,
-              "%.1f Hz, %zu in 5 s, %llu in all, %zu publishers",
+              "%.1f Hz, %zu in 5 s, %llu in total, %zu publishers",
               topic.rate_hz,
               topic.recent,
               static_cast<unsigned long long>(topic.total),
@@ -63,15 +63,15 @@ std::string rigWarning(const OdometryResult& result) {
   const RowOffset& rows = result.row_offset;
   std::string what;
   if (std::abs(bias.applied_px) >= kLargeBias_px) {
-    what = "disparities are off by " + hundredths(-bias.estimated_px) + " px (+- " +
+    what = "disparities have a bias of " + hundredths(-bias.estimated_px) + " px (+- " +
            hundredths(bias.sigma_px) + "), which is corrected";
   }
   if (rows.typical_px >= kRowsApart_px) {
-    what += (what.empty() ? "" : "; ") + std::string("rows of left and right are ") +
-            hundredths(rows.typical_px) + " px apart, the right ones lower by " +
+    what += (what.empty() ? "" : "; ") + std::string("rows of left and right differ by ") +
+            hundredths(rows.typical_px) + " px, with a median offset of " +
             hundredths(rows.median_px) + " px (+- " + hundredths(rows.sigma_px) + ")";
   }
-  return what.empty() ? "" : what + ": calibrate the stereo pair anew";
+  return what.empty() ? "" : what + ": recalibrate the stereo rig";
 }
 
 void describeOdometry(const HealthReport& report, StatusWrapper& status) {
@@ -93,13 +93,13 @@ void describeOdometry(const HealthReport& report, StatusWrapper& status) {
   status.add("inliers of the translation", counts.translation_inliers);
   const DisparityBias& bias = report.last_result.disparity_bias;
   status.addf("disparity bias",
-              "%.2f +- %.2f px, %.2f px corrected",
+              "%.2f +- %.2f px, %.2f px applied",
               bias.estimated_px,
               bias.sigma_px,
               bias.applied_px);
   const RowOffset& rows = report.last_result.row_offset;
   status.addf("row offset of the right image",
-              "%.2f +- %.2f px, rows %.2f px apart",
+              "%.2f +- %.2f px, median difference %.2f px",
               rows.median_px,
               rows.sigma_px,
               rows.typical_px);
@@ -115,7 +115,7 @@ void describeInput(const HealthReport& report, StatusWrapper& status) {
     status.summary(DiagnosticStatus::ERROR, why.empty() ? "no stereo pairs" : why);
   } else if (ratesDiffer(input)) {
     status.summaryf(DiagnosticStatus::WARN,
-                    "%s comes at %.1f Hz, %s at %.1f Hz: one camera loses images",
+                    "%s arrives at %.1f Hz, %s at %.1f Hz: one camera drops images",
                     input.left_image.topic.c_str(),
                     input.left_image.rate_hz,
                     input.right_image.topic.c_str(),
@@ -142,13 +142,13 @@ void describeTiming(const HealthReport& report, StatusWrapper& status) {
   const double period_ms = input_hz > 0.0 ? 1e3 / input_hz : 0.0;
   if (report.answers && period_ms > 0.0 && report.latency_p50_ms > kLateShareOfPeriod * period_ms) {
     status.summaryf(DiagnosticStatus::WARN,
-                    "too slow: half of the answers take more than %.1f ms, and pairs come every "
-                    "%.1f ms; lower feature_detector/max_features, or the rate or size of the "
+                    "too slow: half of the results take more than %.1f ms, but pairs arrive every "
+                    "%.1f ms; reduce feature_detector/max_features, or the rate or size of the "
                     "images",
                     report.latency_p50_ms,
                     period_ms);
   } else {
-    status.summaryf(DiagnosticStatus::OK, "%.1f answers a second", report.answer_rate_hz);
+    status.summaryf(DiagnosticStatus::OK, "%.1f results per second", report.answer_rate_hz);
   }
   status.addf("frequency", "%.2f Hz", report.answer_rate_hz);
   status.addf("latency p50", "%.1f ms", report.latency_p50_ms);
@@ -182,7 +182,7 @@ void describeDrops(const HealthReport& report, std::uint64_t drops_before, Statu
   } else {
     status.summary(DiagnosticStatus::OK, "none in the last second");
   }
-  status.add("dropped in all", total);
+  status.add("dropped in total", total);
   for (const auto& [reason, count] : report.drops) status.add(toString(reason), count);
 }
 

@@ -42,7 +42,7 @@ void setBelow(const std::string& name, XmlRpc::XmlRpcValue value, ParameterTable
 void requireFrame(const std::string& name, const std::string& frame) {
   if (!frame.empty() && frame.front() != '/') return;
   throw std::invalid_argument("parameter " + name + " is \"" + frame +
-                              "\", but must be a frame of tf, which has no leading slash");
+                              "\", but must be a tf frame without leading slash");
 }
 
 /// One that may be empty.
@@ -80,8 +80,8 @@ void requireFrames(const NodeParameters& node) {
   requireDifferent("guess_frame", node.guess_frame, "base_frame", node.base_frame);
   if (!node.guess_frame.empty() && node.invert_tf) {
     throw std::invalid_argument(
-        "parameter invert_tf is true, but with guess_frame the transform is that of odom_frame to "
-        "guess_frame");
+        "parameter invert_tf cannot be combined with guess_frame: the published transform is then "
+        "odom_frame to guess_frame");
   }
 }
 

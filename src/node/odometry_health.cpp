@@ -11,7 +11,7 @@ constexpr std::chrono::seconds kAnswerAge(2);
 }  // namespace
 
 NodeState stateOf(const HealthReport& report) {
-  if (report.paused) return {OdometryStatus::PAUSED, "paused by the service pause"};
+  if (report.paused) return {OdometryStatus::PAUSED, "paused by the service ~pause"};
   if (report.answers) {
     const OdometryResult& last = report.last_result;
     switch (last.state) {

@@ -48,14 +48,14 @@ OdometryServices::OdometryServices(ros::NodeHandle& private_nh, Actions actions)
 bool OdometryServices::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   return answer("reset", response, [&] {
     actions_.reset();
-    return "the next pair begins anew at pose zero";
+    return "the odometry restarts at pose zero with the next pair";
   });
 }
 
 bool OdometryServices::onSetPose(SetPose::Request& request, SetPose::Response& response) {
   return answer("set_pose", response, [&] {
     actions_.set_pose(poseToEigen(request.pose));
-    return "the odometry goes on from the given pose";
+    return "the odometry continues from the given pose";
   });
 }
 
@@ -63,8 +63,8 @@ bool OdometryServices::onPause(std_srvs::SetBool::Request& request,
                                std_srvs::SetBool::Response& response) {
   return answer("pause", response, [&] {
     actions_.pause(request.data);
-    return request.data ? "paused: pairs are dropped, the pose stays"
-                        : "the next pair goes on at the last pose";
+    return request.data ? "paused: pairs are dropped, the pose is held"
+                        : "resumed at the last pose";
   });
 }
 

@@ -38,8 +38,7 @@ cv::Mat shifted(const cv::Mat& image, int rows) {
 }
 
 std::string frozenText(const std::string& which, int pairs) {
-  return which + " has been the same, byte for byte, for " + toText(pairs) +
-         " pairs: is the camera frozen?";
+  return which + " has been unchanged for " + toText(pairs) + " pairs: is the camera frozen?";
 }
 
 }  // namespace
@@ -87,32 +86,32 @@ std::string PairInspector::findFrozen(const StereoPair& pair) {
 }
 
 std::string PairInspector::explainFewCorners(const StereoPair& pair) const {
-  return "the left image shows hardly any corner, its mean grey level is " +
+  return "the left image has hardly any corners, its mean grey level is " +
          toText(cvRound(cv::mean(pair.left)[0])) +
          " of 255: is it dark, overexposed or out of focus, or the lens covered?";
 }
 
 std::string PairInspector::explainLoss(const StereoPair& pair, const StereoCamera& camera) {
   if (cv::norm(pair.left, pair.right, cv::NORM_INF) == 0.0) {
-    return "left and right image are identical: do both topics come from one camera?";
+    return "left and right image are identical: are both topics from the same camera?";
   }
   const double infinity_px = camera.disparityAtInfinity();
   const int matches = countMatches(pair.left, pair.right, infinity_px);
   const bool few = matches < kFewShare * static_cast<double>(corners_.size());
   const double clearly_more = kClearlyMore * std::max(matches, kFewCorners);
   if (countMatches(pair.right, pair.left, -infinity_px) > clearly_more) {
-    return "the images match if left and right are exchanged: exchange their topics";
+    return "the images match if left and right are swapped: swap their topics";
   }
   for (const int offset : kOffsets_px) {
     for (const int rows : {offset, -offset}) {
       if (countMatches(pair.left, shifted(pair.right, rows), infinity_px) < clearly_more) continue;
-      return "the images match if the right one is moved by about " + toText(rows) +
-             " rows: they are not rectified; remap to rectified ones, or calibrate anew";
+      return "the images match if the right one is shifted by about " + toText(rows) +
+             " rows: they are not rectified; remap to rectified images, or recalibrate";
     }
   }
   if (!few) return "";
-  return "hardly any corner has its like in the right image: are the images rectified, of one "
-         "moment, and is max_disparity_px great enough for what is near?";
+  return "hardly any corner matches in the right image: are the images rectified and synchronized, "
+         "and is max_disparity_px large enough for near objects?";
 }
 
 /// Corners of `left` that have a disparity.

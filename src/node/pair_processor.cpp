@@ -64,10 +64,10 @@ bool PairProcessor::beginAnewIfAsked() {
 bool PairProcessor::beginAnewIfTimeWentBack(std::int64_t stamp_ns) {
   if (!last_stamp_ns_ || stamp_ns >= *last_stamp_ns_) return false;
   const bool keep = parameters_.pose_after_time_jump == "keep";
-  ROS_WARN_STREAM("time went back from " << stampText(*last_stamp_ns_) << " to "
-                                         << stampText(stamp_ns) << " s: starting anew at "
-                                         << (keep ? "the last pose" : "zero")
-                                         << " (pose_after_time_jump)");
+  ROS_WARN_STREAM("time jumped back from " << stampText(*last_stamp_ns_) << " to "
+                                           << stampText(stamp_ns) << " s: restarting at "
+                                           << (keep ? "the last pose" : "zero")
+                                           << " (pose_after_time_jump)");
   odometry_.reset();
   if (!keep) base_odometry_.reset();
   return true;

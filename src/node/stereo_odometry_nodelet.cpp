@@ -191,7 +191,7 @@ void StereoOdometryNodelet::writeTrajectory(const BaseState& state) {
   try {
     trajectory_file_->write(pose);
   } catch (const std::exception& error) {
-    NODELET_ERROR_STREAM("the trajectory ends here: " << error.what());
+    NODELET_ERROR_STREAM("trajectory file closed: " << error.what());
     trajectory_file_.reset();
   }
 }

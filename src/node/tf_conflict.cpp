@@ -22,11 +22,11 @@ std::string describeConflict(const geometry_msgs::TransformStamped& transform,
   if (withoutSlash(transform.child_frame_id) != child) return "";
   const std::string parent = withoutSlash(transform.header.frame_id);
   if (publisher == own_node && parent == own_parent) return "";
-  return "node " + publisher + " publishes tf " + parent + " -> " + child + ", and we publish " +
-         own_parent + " -> " + child +
-         ", but a frame has one parent: set publish_tf to false here if that node is a filter that "
-         "takes our odometry, name " +
-         parent + " in guess_frame if it is another odometry, or stop it";
+  return "node " + publisher + " publishes tf " + parent + " -> " + child +
+         ", and this node publishes " + own_parent + " -> " + child +
+         ", but a frame has only one parent: set publish_tf to false if that node is a filter that "
+         "uses this odometry, set guess_frame to " +
+         parent + " if it is another odometry, or stop it";
 }
 
 TfConflict::TfConflict(ros::NodeHandle& nh, const std::string& own_parent, const std::string& child)

@@ -19,7 +19,7 @@ void TrajectoryHistory::clear() {
 }
 
 std::string TrajectoryHistory::save(const std::string& path, const std::string& format) const {
-  if (path.empty()) throw std::invalid_argument("the path is empty: name a file to write");
+  if (path.empty()) throw std::invalid_argument("the path is empty: give an output file");
   const TrajectoryFormat file_format = trajectoryFormat(format);
   std::vector<StampedPose> poses;
   {
@@ -27,7 +27,7 @@ std::string TrajectoryHistory::save(const std::string& path, const std::string& 
     const std::size_t first = (next_ + poses_.size() - size_) % poses_.size();
     for (std::size_t i = 0; i < size_; ++i) poses.push_back(poses_[(first + i) % poses_.size()]);
   }
-  if (poses.empty()) throw std::runtime_error("there is no pose yet: no pair has been processed");
+  if (poses.empty()) throw std::runtime_error("there are no poses: no pair has been processed");
   const std::string absolute = std::filesystem::absolute(path).string();
   TrajectoryWriter writer(absolute, file_format);
   for (const StampedPose& pose : poses) writer.write(pose);

@@ -115,7 +115,7 @@ TEST(StereoCameraConversionTest, RefusesABaselineThatIsNotPositive) {
                           "the baseline is zero: P[3] of camera_info, which is -fx times the "
                           "camera's position, is 0 left and 0 right");
   expectError<InputError>([] { toStereoCamera(makeInfo(0.5), makeInfo(0.0)); },
-                          "are left and right exchanged?");
+                          "are left and right swapped?");
 }
 
 TEST(StereoCameraConversionTest, AnotherBaselineMayBeTold) {

@@ -78,17 +78,17 @@ TEST_F(WhyNoPairsTest, NothingIsSaidIfAllIsWell) {
 
 TEST_F(WhyNoPairsTest, TopicWithoutPublisher) {
   report_.right_image = {"/r/image"};
-  expectSaid("nobody publishes /r/image: start its driver, or remap it");
+  expectSaid("nobody publishes /r/image: start the driver, or remap it");
 }
 
 TEST_F(WhyNoPairsTest, TopicWhosePublisherIsGone) {
   report_.right_image.publishers = report_.right_image.recent = 0;
-  expectSaid("nobody publishes /r/image any more: has the bag ended, or the driver stopped?");
+  expectSaid("nobody publishes /r/image any more: has the bag ended or the driver stopped?");
 }
 
 TEST_F(WhyNoPairsTest, PublisherThatSendsNothing) {
   report_.left_image.recent = 0;
-  expectSaid("/l/image has a publisher, but nothing comes");
+  expectSaid("/l/image has a publisher, but no messages arrive");
 }
 
 TEST_F(WhyNoPairsTest, SkewOfAParameter) {
@@ -96,13 +96,13 @@ TEST_F(WhyNoPairsTest, SkewOfAParameter) {
   report_.stamp_difference_s = 0.03;
   expectSaid(
       "left and right stamps are up to 30 ms apart, more than max_stamp_difference_s = "
-      "10 ms: trigger the cameras together, or set max_stamp_difference_s to 0.036");
+      "10 ms: trigger the cameras synchronously, or set max_stamp_difference_s to 0.036");
 }
 
 TEST_F(WhyNoPairsTest, ClocksThatDiffer) {
   report_.recent_pairs = 0;
   report_.stamp_difference_s = 3.1;
-  expectSaid("the clocks of both drivers the same?");
+  expectSaid("the clocks of both drivers synchronized?");
 }
 
 TEST_F(WhyNoPairsTest, CameraInfoThatIsMissing) {
@@ -128,7 +128,7 @@ TEST_F(WhyNoPairsTest, TopicsAreToldInOneLine) {
   report_.stamp_difference_s = 0.0034;
   EXPECT_EQ(describeTopics(report_),
             "/l/image 50 (10.0 Hz), /r/image 0, /l/info 50 (10.0 Hz), /r/info 50 (10.0 Hz); "
-            "stamps of left and right are at most 3.4 ms apart");
+            "stamps of left and right differ by at most 3.4 ms");
 }
 
 }  // namespace

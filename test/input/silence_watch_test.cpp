@@ -61,11 +61,11 @@ TEST_F(SilenceWatchTest, SaysNothingWhilePairsCome) {
 
 TEST_F(SilenceWatchTest, SaysThatPairsComeAgain) {
   EXPECT_EQ(wait(10), Times{5});
-  EXPECT_EQ(pair(), "stereo pairs come again, after 10 s");
+  EXPECT_EQ(pair(), "stereo pairs arrive again, after 10 s");
   EXPECT_EQ(pair(), "");
   // The next silence is told of like the first.
   EXPECT_EQ(wait(30), (Times{15, 25}));
-  EXPECT_EQ(pair(), "stereo pairs come again, after 30 s");
+  EXPECT_EQ(pair(), "stereo pairs arrive again, after 30 s");
 }
 
 TEST_F(SilenceWatchTest, TellsWhatChanges) {

@@ -35,13 +35,13 @@ TEST_F(StampGuardTest, StampsThatIncreasePass) {
 }
 
 TEST_F(StampGuardTest, ZeroIsNoStamp) {
-  expectError<InputError>([&] { guard_.check(0, kNow_ns); }, "has the stamp 0: let the driver");
+  expectError<InputError>([&] { guard_.check(0, kNow_ns); }, "has the stamp 0: set header.stamp");
   EXPECT_NO_THROW(pass(0.0));
 }
 
 TEST_F(StampGuardTest, RepeatedStampsAreRefused) {
   pass(0.0);
-  refuse(0.0, "the stamp of the one before it, 1600000000.000 s");
+  refuse(0.0, "the same stamp as the previous one, 1600000000.000 s");
   EXPECT_NO_THROW(pass(0.1));
 }
 

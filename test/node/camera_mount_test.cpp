@@ -25,7 +25,7 @@ TEST(DescribeMountTest, TiltedCameraUpsideDown) {
 
 TEST(DescribeMountTest, FrameThatIsNotOptical) {
   EXPECT_EQ(describeMount(Eigen::Isometry3d::Identity()),
-            "at 0 0 0 m, looks along +z (up); is its frame an optical one, with z along the view?");
+            "at 0 0 0 m, looks along +z (up); is its frame an optical frame, with z forward?");
 }
 
 TEST(DescribeMountTest, CameraThatLooksDown) {
@@ -51,8 +51,8 @@ TEST(ToEigenTest, TakesWhatIsATransform) {
 }
 
 TEST(ToEigenTest, RefusesWhatIsNone) {
-  expectError([] { toEigen(makeTransform(NAN, 1.0, 0.0)); }, "the transform holds nan");
-  expectError([] { toEigen(makeTransform(0.0, INFINITY, 0.0)); }, "the transform holds inf");
+  expectError([] { toEigen(makeTransform(NAN, 1.0, 0.0)); }, "the transform contains nan");
+  expectError([] { toEigen(makeTransform(0.0, INFINITY, 0.0)); }, "the transform contains inf");
   expectError([] { toEigen(makeTransform(0.0, 0.0, 0.0)); }, "has the length 0, but must have 1");
   expectError([] { toEigen(makeTransform(0.0, 1.0, 1.0)); }, "has the length 1.41421");
 }

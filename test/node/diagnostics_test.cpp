@@ -93,10 +93,10 @@ TEST(DiagnosticsTest, AllIsWell) {
     EXPECT_FALSE(status->message.empty());
   }
   EXPECT_EQ(valueOf(odometry, "state"), "OK");
-  EXPECT_EQ(valueOf(odometry, "disparity bias"), "0.42 +- 0.05 px, 0.36 px corrected");
+  EXPECT_EQ(valueOf(odometry, "disparity bias"), "0.42 +- 0.05 px, 0.36 px applied");
   EXPECT_EQ(valueOf(odometry, "flow noise"), "0.15 px");
   EXPECT_EQ(valueOf(odometry, "inliers of the rotation"), "512");
-  EXPECT_EQ(valueOf(input, "/r/image"), "10.0 Hz, 50 in 5 s, 500 in all, 1 publishers");
+  EXPECT_EQ(valueOf(input, "/r/image"), "10.0 Hz, 50 in 5 s, 500 in total, 1 publishers");
   EXPECT_EQ(valueOf(input, "largest stamp difference of left and right"), "2.000 ms");
   EXPECT_EQ(valueOf(timing, "latency p50"), "12.0 ms");
   EXPECT_EQ(valueOf(timing, "latency p95"), "15.0 ms");
@@ -108,7 +108,7 @@ TEST(DiagnosticsTest, ALargeBiasAsksForACalibration) {
   StatusWrapper status;
   describeOdometry(report, status);
   EXPECT_EQ(status.level, Level::WARN);
-  EXPECT_NE(status.message.find("off by 1.25 px (+- 0.05)"), std::string::npos) << status.message;
+  EXPECT_NE(status.message.find("bias of 1.25 px (+- 0.05)"), std::string::npos) << status.message;
   EXPECT_NE(status.message.find("calibrate"), std::string::npos) << status.message;
 }
 
@@ -118,12 +118,12 @@ TEST(DiagnosticsTest, RowsThatAreApartAskForACalibration) {
   StatusWrapper status;
   describeOdometry(report, status);
   EXPECT_EQ(status.level, Level::WARN);
-  EXPECT_NE(status.message.find("rows of left and right are 0.75 px apart"), std::string::npos)
+  EXPECT_NE(status.message.find("rows of left and right differ by 0.75 px"), std::string::npos)
       << status.message;
   EXPECT_EQ(status.message.find("disparities"), std::string::npos) << status.message;
   EXPECT_NE(status.message.find("calibrate"), std::string::npos) << status.message;
   EXPECT_EQ(valueOf(status, "row offset of the right image"),
-            "-0.62 +- 0.01 px, rows 0.75 px apart");
+            "-0.62 +- 0.01 px, median difference 0.75 px");
 }
 
 TEST(DiagnosticsTest, LossIsAnErrorWithItsReason) {
@@ -145,7 +145,7 @@ TEST(DiagnosticsTest, RatesThatDifferAreAWarning) {
   describeInput(report, status);
   EXPECT_EQ(status.level, Level::WARN);
   EXPECT_EQ(status.message,
-            "/l/image comes at 10.0 Hz, /r/image at 5.0 Hz: one camera loses images");
+            "/l/image arrives at 10.0 Hz, /r/image at 5.0 Hz: one camera drops images");
 }
 
 TEST(DiagnosticsTest, DropsBetweenPairsAreAWarning) {
@@ -172,7 +172,7 @@ TEST(DiagnosticsTest, SlownessIsAWarning) {
   StatusWrapper status;
   describeTiming(report, status);
   EXPECT_EQ(status.level, Level::WARN);
-  EXPECT_NE(status.message.find("130.0 ms, and pairs come every 100.0 ms"), std::string::npos)
+  EXPECT_NE(status.message.find("130.0 ms, but pairs arrive every 100.0 ms"), std::string::npos)
       << status.message;
 }
 
@@ -185,7 +185,7 @@ TEST(DiagnosticsTest, NewDropsAreAWarningByReason) {
   EXPECT_EQ(status.message, "2 more dropped in the last second");
   EXPECT_EQ(valueOf(status, "stamp_zero"), "3");
   EXPECT_EQ(valueOf(status, "newer_pair_came"), "4");
-  EXPECT_EQ(valueOf(status, "dropped in all"), "7");
+  EXPECT_EQ(valueOf(status, "dropped in total"), "7");
   StatusWrapper later;
   describeDrops(report, 7, later);
   EXPECT_EQ(later.level, Level::OK);

@@ -94,7 +94,7 @@ TEST(RequireFramesTest, FramesAreThoseOfTf) {
         node.guess_frame = "wheel_odom";
         node.invert_tf = true;
       },
-      "invert_tf is true");
+      "invert_tf cannot be combined");
 }
 
 }  // namespace

@@ -441,10 +441,10 @@ TEST_F(StereoOdometryTest, SilenceIsExplained) {
   std::this_thread::sleep_for(seconds(7));
   EXPECT_EQ(countOf("no stereo pair for "), 1);  // the next is due after 10 s
   recover();
-  for (int i = 0; i < 50 && countOf("stereo pairs come again, after ") == 0; ++i) {
+  for (int i = 0; i < 50 && countOf("stereo pairs arrive again, after ") == 0; ++i) {
     std::this_thread::sleep_for(milliseconds(100));
   }
-  EXPECT_EQ(countOf("stereo pairs come again, after "), 1);
+  EXPECT_EQ(countOf("stereo pairs arrive again, after "), 1);
 }
 
 TEST_F(StereoOdometryTest, AnUnknownParameterIsRefused) {

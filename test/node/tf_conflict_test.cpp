@@ -17,9 +17,10 @@ std::string describe(const std::string& parent,
 TEST(TfConflictTest, OthersMayNotGiveTheBaseAParent) {
   EXPECT_EQ(describe("odom", "base_link", "/ekf").find("node /ekf publishes tf odom -> base_link"),
             0u);
-  EXPECT_EQ(describe("/wheel_odom", "/base_link", "/base")
-                .find("node /base publishes tf wheel_odom -> base_link, and we publish odom"),
-            0u);
+  EXPECT_EQ(
+      describe("/wheel_odom", "/base_link", "/base")
+          .find("node /base publishes tf wheel_odom -> base_link, and this node publishes odom"),
+      0u);
 }
 
 TEST(TfConflictTest, NeighboursInOurManagerAreToldByTheirParent) {

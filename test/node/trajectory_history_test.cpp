@@ -44,14 +44,14 @@ TEST(TrajectoryHistoryTest, KeepsTheLatest) {
 TEST(TrajectoryHistoryTest, SaysWhyNothingIsWritten) {
   const TemporaryDirectory directory;
   TrajectoryHistory history(4);
-  expectError([&] { history.save(directory / "poses", "tum"); }, "there is no pose yet");
+  expectError([&] { history.save(directory / "poses", "tum"); }, "there are no poses");
   history.add(poseAt(0));
   expectError([&] { history.save("", "tum"); }, "the path is empty");
   expectError([&] { history.save(directory / "poses", "csv"); }, "csv");
   expectError([&] { history.save(directory / "no/poses", "tum"); }, "cannot write");
   expectError([&] { history.save("/dev/full", "tum"); }, "is the disk full?");
   history.clear();
-  expectError([&] { history.save(directory / "poses", "tum"); }, "there is no pose yet");
+  expectError([&] { history.save(directory / "poses", "tum"); }, "there are no poses");
 }
 
 }  // namespace
