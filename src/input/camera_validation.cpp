@@ -16,7 +16,7 @@ constexpr double kMaxSize_px = 1e6;       // keeps sizes in the range of int
 constexpr double kSmallBaseline_m = 0.005;
 constexpr double kGreatBaseline_m = 10.0;
 
-/// What P says of one camera.
+/// Contents of P of one camera.
 struct Projection {
   int width, height;
   double fx, fy, cx, cy;

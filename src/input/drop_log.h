@@ -12,22 +12,22 @@
 
 namespace rotrocc {
 
-/// Counts refused input by reason, and says so in the log: each reason at most every 5 s, a bad
-/// camera_info once until there is a good one. From any thread.
+/// Counts dropped input by reason and logs it: each reason at most every 5 s, an invalid
+/// camera_info once until there is a valid one. Thread-safe.
 class DropLog {
  public:
   void add(const InputError& error);
 
-  /// Counts without a word: what is no fault of the input.
+  /// Counts without logging, for drops that are not a fault of the input.
   void count(DropReason reason, std::uint64_t count = 1) { counters_.add(reason, count); }
   void set(DropReason reason, std::uint64_t count) { counters_.set(reason, count); }
 
   const DropCounters& counters() const { return counters_; }
 
-  /// The last refusal, if that was not longer than `age` ago.
+  /// The last drop, if it is not older than `age`.
   std::optional<InputError> lastWithin(std::chrono::seconds age) const;
 
-  /// A good camera_info: the next bad one is news again, even if it is the same.
+  /// A valid camera_info: the next invalid one is logged again, even if it is the same.
   void forgetCameraError();
 
  private:

@@ -27,7 +27,7 @@ const ImageEncoding kEncodings[] = {
     {"bayer_gbrg8", Layout::kColour, CV_8UC1, cv::COLOR_BayerGR2GRAY},
     {"bayer_grbg8", Layout::kColour, CV_8UC1, cv::COLOR_BayerGB2GRAY}};
 
-/// Text of a stranger, fit for a log.
+/// Untrusted text, quoted for the log.
 std::string quote(const std::string& text) {
   constexpr std::size_t kMaxLength = 40;
   std::string quoted = "\"";

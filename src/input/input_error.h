@@ -11,7 +11,7 @@
 
 namespace rotrocc {
 
-/// Why something that was received gives no odometry.
+/// Why received input is dropped.
 enum class DropReason {
   kImageSize,          ///< an image is empty, too small or too large
   kImageEncoding,      ///< unknown encoding
@@ -19,25 +19,25 @@ enum class DropReason {
   kImageData,          ///< less data than the header says
   kImageSizesDiffer,   ///< left and right differ
   kImageNotOfCamera,   ///< the images are not of the size in camera_info
-  kCameraInfoInvalid,  ///< a camera_info that is no rectified stereo camera
-  kCameraInfoMissing,  ///< a pair while there is no valid camera_info
+  kCameraInfoInvalid,  ///< camera_info is not a rectified stereo camera
+  kCameraInfoMissing,  ///< no valid camera_info for a pair
   kFrameMissing,       ///< no frame_id in the left image
-  kTfMissing,          ///< a pair while tf does not know the camera's mount
+  kTfMissing,          ///< no camera pose in tf for a pair
   kStampZero,
-  kStampRepeated,  ///< that of the image before
-  kStampBackward,  ///< slightly earlier than the image before
+  kStampRepeated,  ///< same as the previous image
+  kStampBackward,  ///< slightly earlier than the previous image
   kStampFuture,    ///< too far ahead of the clock
   kNoPartner,      ///< no image of the other side within max_stamp_difference_s
   kSuperseded,     ///< a newer pair came while the estimator was busy
   kPaused,
-  kFailed,  ///< an error inside
+  kFailed,  ///< internal error
   kCount
 };
 
-/// As status and diagnostics name it: "image_size", "no_partner", ...
+/// Name in status and diagnostics: "image_size", "no_partner", ...
 const char* toString(DropReason reason);
 
-/// Input that cannot be used; what() is one sentence with the value and what to change.
+/// Invalid input; what() is one sentence with the value and a remedy.
 class InputError : public std::invalid_argument {
  public:
   InputError(DropReason reason, const std::string& what)
@@ -48,7 +48,7 @@ class InputError : public std::invalid_argument {
   DropReason reason_;
 };
 
-/// Counts drops by reason, from any thread.
+/// Counts drops by reason. Thread-safe.
 class DropCounters {
  public:
   void add(DropReason reason, std::uint64_t count = 1) { at(reason) += count; }

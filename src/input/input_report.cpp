@@ -9,7 +9,7 @@
 namespace rotrocc {
 namespace {
 
-/// A skew below this is one of cameras that are meant to see the same moment.
+/// Below this skew, the cameras are assumed to be synchronized.
 constexpr double kPlausibleSkew_s = 0.05;
 
 std::string milliseconds(double seconds) {
@@ -68,7 +68,7 @@ std::optional<double> greatestStampDifference(const std::deque<std::int64_t>& le
       nearest_ns = std::min(nearest_ns, std::abs(left - right));
     }
     nearest_of_all_ns = std::min(nearest_of_all_ns, nearest_ns);
-    // One beyond the ends may have its partner beyond them as well.
+    // The partner of a stamp beyond the ends may be beyond them as well.
     if (left >= *oldest && left <= *newest) greatest_ns = std::max(greatest_ns, nearest_ns);
   }
   return 1e-9 * static_cast<double>(greatest_ns >= 0 ? greatest_ns : nearest_of_all_ns);

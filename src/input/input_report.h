@@ -8,7 +8,7 @@
 
 namespace rotrocc {
 
-/// What came on one of the four topics in the last seconds.
+/// Recent messages on one of the four topics.
 struct TopicReport {
   std::string topic;
   std::size_t publishers = 0;
@@ -17,27 +17,27 @@ struct TopicReport {
   double rate_hz = 0.0;
 };
 
-/// What came in, and what keeps it from becoming pairs.
+/// Recent input, and what prevents pairs.
 struct InputReport {
   TopicReport left_image, right_image, left_info, right_info;
   std::size_t recent_pairs = 0;
-  std::optional<double> stamp_difference_s;  ///< the greatest; none while a side is missing
+  std::optional<double> stamp_difference_s;  ///< largest; none while a side is missing
   double max_stamp_difference_s = 0.0;       ///< the parameter
   bool clock_missing = false;                ///< simulated time without /clock
-  std::string refused;          ///< why the last input was refused lately; empty if none was
-  std::string camera_error;     ///< why there is no camera although both infos came
-  bool waits_for_info = false;  ///< a pair is there and waits for camera_info
+  std::string refused;                       ///< why recent input was dropped; empty if none
+  std::string camera_error;                  ///< why camera_info is invalid although both arrived
+  bool waits_for_info = false;               ///< a pair waits for camera_info
 };
 
-/// The greatest difference of a left stamp to the nearest right one [s]; none if a side has none.
+/// Largest difference between a left stamp and the nearest right one [s]; none if a side has none.
 std::optional<double> greatestStampDifference(const std::deque<std::int64_t>& left_ns,
                                               const std::deque<std::int64_t>& right_ns);
 
 /// "left/image_rect 50 (10.0 Hz), right/image_rect 0, ..."
 std::string describeTopics(const InputReport& report);
 
-/// What most likely is the reason that there are no pairs, and what to change; one sentence. Empty
-/// if nothing is wrong with the input.
+/// The most likely reason for missing pairs, and a remedy, in one sentence. Empty if the input is
+/// fine.
 std::string whyNoPairs(const InputReport& report);
 
 }  // namespace rotrocc

@@ -8,11 +8,11 @@
 
 namespace rotrocc {
 
-/// Hands the latest item of a producer to a consumer in another thread, however slow that is.
+/// Passes the latest item of a producer to a slower consumer in another thread.
 template <class Item>
 class LatestMailbox {
  public:
-  /// Replaces the item that nobody has taken yet. Returns whether there was one.
+  /// Replaces an item that was not taken yet. Returns whether there was one.
   bool put(Item item) {
     const std::lock_guard<std::mutex> lock(mutex_);
     const bool replaced = item_.has_value();
@@ -21,7 +21,7 @@ class LatestMailbox {
     return replaced;
   }
 
-  /// Waits for an item. Nothing if none comes in time, or the mailbox is closed.
+  /// Waits for an item. Returns nothing on timeout or if the mailbox is closed.
   std::optional<Item> take(std::chrono::milliseconds timeout) {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait_for(lock, timeout, [this] { return item_ || closed_; });
@@ -29,7 +29,7 @@ class LatestMailbox {
     return std::exchange(item_, std::nullopt);
   }
 
-  /// Ends all waiting, for good.
+  /// Ends all current and future waits.
   void close() {
     const std::lock_guard<std::mutex> lock(mutex_);
     closed_ = true;

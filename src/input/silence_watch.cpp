@@ -14,7 +14,7 @@ std::string seconds(std::chrono::duration<double> duration) {
   return std::to_string(std::lround(duration.count())) + " s";
 }
 
-/// What is worth telling anew, without the numbers, which change all the time.
+/// The parts that cause a new report when they change; without numbers, which always change.
 std::string situationOf(const InputReport& input) {
   std::string situation;
   for (const TopicReport* topic :

@@ -6,7 +6,7 @@
 namespace rotrocc {
 namespace {
 
-/// Images of one camera do not overtake each other by more.
+/// Images of one camera are not reordered by more.
 constexpr std::int64_t kMaxReordering_ns = 1'000'000'000;
 constexpr int kBackwardInARow = 3;
 

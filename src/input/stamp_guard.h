@@ -6,20 +6,19 @@
 
 namespace rotrocc {
 
-/// Tells usable stamps of a topic from those of a broken driver, and both from a time that begins
-/// anew, as when a bag is played in a loop.
+/// Distinguishes valid stamps of a topic from those of a faulty driver and from time jumps, e.g. of
+/// a looping bag.
 class StampGuard {
  public:
-  /// `topic`: what sentences call it. Stamps more than `max_future_s` ahead of the clock are
-  /// refused.
+  /// `topic`: name in messages. Stamps more than `max_future_s` ahead of the clock are rejected.
   StampGuard(const std::string& topic, double max_future_s);
 
-  /// `clock_ns`: ROS time at the arrival; 0 if it is not known, as in simulated time before the
-  /// first /clock. Throws InputError on a stamp that is zero, repeated, slightly earlier than the
-  /// one before it or far ahead of the clock.
+  /// `clock_ns`: ROS time at the arrival; 0 if unknown, as in simulated time before the first
+  /// /clock. Throws InputError on a stamp that is zero, repeated, slightly earlier than the
+  /// previous one or far ahead of the clock.
   ///
-  /// An earlier stamp is usable, as time has begun anew, if it is earlier by a second or more, if
-  /// the clock went back as well, or if it is the third in a row.
+  /// An earlier stamp is accepted as a time jump if it is earlier by a second or more, if the clock
+  /// jumped back as well, or if it is the third in a row.
   void check(std::int64_t stamp_ns, std::int64_t clock_ns);
 
  private:

@@ -19,21 +19,21 @@
 
 namespace rotrocc {
 
-/// A pair as it was received, with the camera that was known at that time.
+/// A received pair, with the camera known at that time.
 struct ReceivedPair {
   StereoImages images;
   StereoCamera camera;
   std::chrono::steady_clock::time_point arrival;
 };
 
-/// When a message came: by the steady clock, and in ROS time, 0 if that is not known.
+/// Arrival of a message: by the steady clock, and in ROS time (0 if unknown).
 struct Arrival {
   std::chrono::steady_clock::time_point time;
   std::int64_t clock_ns = 0;
 };
 
-/// Makes pairs of four streams of messages, and keeps account of them. Knows no topics and takes no
-/// part in ROS; not for several threads at once.
+/// Matches the messages of four topics to pairs, and keeps statistics. Independent of ROS
+/// communication; not thread-safe.
 class StereoIntake {
  public:
   using PairHandler = std::function<void(ReceivedPair)>;
@@ -41,15 +41,15 @@ class StereoIntake {
   /// One of the two cameras.
   enum class Side { kLeft, kRight };
 
-  /// Hands each pair to `on_pair` as soon as it is complete. The latest one waits while there is no
-  /// valid camera_info. `drops` must outlive this.
+  /// Passes each pair to `on_pair` as soon as it is complete. The latest one waits while there is
+  /// no valid camera_info. `drops` must outlive this.
   StereoIntake(const NodeParameters& parameters, DropLog& drops, PairHandler on_pair);
 
-  /// Never throw: what cannot be used goes to the log of drops.
+  /// These do not throw: invalid input goes to the drop log.
   void addImage(Side side, const sensor_msgs::Image::ConstPtr& image, const Arrival& arrival);
   void addInfo(Side side, const sensor_msgs::CameraInfo::ConstPtr& info, const Arrival& arrival);
 
-  /// What came lately. Names and publishers of topics, and the clock, are left to those who know.
+  /// Recent input. The caller adds names and publishers of topics, and the clock.
   InputReport report(std::chrono::steady_clock::time_point now) const;
 
  private:

@@ -13,12 +13,12 @@ namespace {
 
 using Layout = ImageEncoding::Layout;
 
-/// Value of a 16-bit pixel, whatever the byte order of this machine.
+/// Value of a 16-bit pixel, for any byte order of this machine.
 int value16(const unsigned char* bytes, bool big_endian) {
   return big_endian ? bytes[0] << 8 | bytes[1] : bytes[1] << 8 | bytes[0];
 }
 
-/// Bits of the greatest value of a 16-bit image.
+/// Number of bits of the largest value of a 16-bit image.
 int countSignificantBits(const sensor_msgs::Image& image) {
   int any = 0;
   for (std::size_t y = 0; y < image.height; ++y) {

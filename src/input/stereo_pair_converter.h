@@ -9,22 +9,22 @@
 
 namespace rotrocc {
 
-/// Turns the images of a pair into the grey ones that the estimator takes. encodingOf() tells which
-/// encodings are known.
+/// Converts the images of a pair to grey images for the estimator. See encodingOf() for supported
+/// encodings.
 ///
-/// 16-bit images of 10 or 12-bit cameras use a part of their range only. They lose their last b - 8
-/// bits, where b is the number of bits of the greatest value in any image so far, at least 8. So
-/// the two images of a pair are scaled alike, and the scale stays once a camera has shown its
-/// range.
+/// 16-bit images of 10 or 12-bit cameras use only a part of their range. They are shifted right by
+/// b - 8 bits, where b is the number of bits of the largest value in any image so far, at least 8.
+/// So both images of a pair have the same scale, which stays constant once a camera has used its
+/// full range.
 class StereoPairConverter {
  public:
   static constexpr std::int64_t kMaxPixels = 50'000'000;
 
   explicit StereoPairConverter(std::int64_t max_pixels = kMaxPixels) : max_pixels_(max_pixels) {}
 
-  /// The images of the result refer to the bytes of `left` and `right` where these are grey
-  /// already, and else to memory of this object that the next call overwrites. They must not be
-  /// written to. The stamp is the left one. Throws InputError as validatePair() does.
+  /// The resulting images refer to the data of `left` and `right` if these are 8-bit grey,
+  /// otherwise to a buffer that the next call overwrites. They must not be modified. The stamp is
+  /// the left one. Throws InputError like validatePair().
   StereoPair convert(const sensor_msgs::Image& left, const sensor_msgs::Image& right);
 
  private:

@@ -28,7 +28,7 @@ void StereoSynchronizer::reset() {
   right_ = {};
 }
 
-/// Returns the partner of `image`, if there is one, and else lets it wait.
+/// Returns the partner of `image`; if there is none, stores the image.
 sensor_msgs::Image::ConstPtr StereoSynchronizer::add(const sensor_msgs::Image::ConstPtr& image,
                                                      Side& own,
                                                      Side& other) {
@@ -38,7 +38,7 @@ sensor_msgs::Image::ConstPtr StereoSynchronizer::add(const sensor_msgs::Image::C
     return nullptr;
   }
   if (own.last_stamp_ns && stamp_ns < *own.last_stamp_ns) {
-    // Time began anew. The other side may have noticed before: what it has from then on stays.
+    // Time jumped back. The other side may already have images from after the jump: keep these.
     dropLaterThan(stamp_ns, own);
     dropLaterThan(stamp_ns + max_difference_ns_, other);
   }

@@ -9,32 +9,32 @@
 
 namespace rotrocc {
 
-/// Two images of one moment.
+/// Two images of the same time.
 struct StereoImages {
   sensor_msgs::Image::ConstPtr left;
   sensor_msgs::Image::ConstPtr right;
 };
 
 /// Matches left and right images by their stamps. A pair is complete with the arrival of its second
-/// image: nothing waits for what may come later.
+/// image.
 ///
-/// Either side may deliver late, and stamps may jump back, as when a bag begins anew: images from
-/// before the jump find no partner from after it.
+/// Either side may be late, and stamps may jump back, e.g. with a looping bag: images from before
+/// and after a jump are not matched.
 class StereoSynchronizer {
  public:
-  /// Images whose stamps differ by at most `max_difference_s` are a pair; of more candidates the
-  /// nearest. On each side the latest `queue_size` > 0 images wait for a partner.
+  /// Images whose stamps differ by at most `max_difference_s` are a pair; of several candidates the
+  /// nearest is used. Each side keeps the latest `queue_size` > 0 unmatched images.
   StereoSynchronizer(double max_difference_s, std::size_t queue_size);
 
-  /// The pair that `image` completes, if it does. An image with the stamp of the one before it on
-  /// its side is not looked at.
+  /// The pair that `image` completes, if any. An image with the same stamp as the previous one of
+  /// its side is ignored.
   std::optional<StereoImages> addLeft(const sensor_msgs::Image::ConstPtr& image);
   std::optional<StereoImages> addRight(const sensor_msgs::Image::ConstPtr& image);
 
-  /// Images that were given up, as no partner came or their stamp was a repeated one.
+  /// Number of images dropped without a partner or with a repeated stamp.
   std::uint64_t unmatched() const { return unmatched_; }
 
-  /// Forgets all images that wait; they do not count as unmatched.
+  /// Discards all waiting images; they do not count as unmatched.
   void reset();
 
  private:

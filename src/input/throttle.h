@@ -5,13 +5,13 @@
 
 namespace rotrocc {
 
-/// Limits how often something is said, by real time: the throttled logging of ROS goes by simulated
-/// time, which may stand still or jump.
+/// Limits the rate of log messages in real time: throttled logging of ROS uses simulated time,
+/// which may stand still or jump.
 class Throttle {
  public:
   explicit Throttle(std::chrono::milliseconds period) : period_(period) {}
 
-  /// Whether the period is over since the last time this was true.
+  /// Whether the period has passed since the last time this returned true.
   bool pass() {
     const auto now = std::chrono::steady_clock::now();
     if (last_ && now - *last_ < period_) return false;

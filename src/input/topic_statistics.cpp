@@ -6,7 +6,7 @@ namespace rotrocc {
 namespace {
 
 constexpr std::size_t kMaxStamps = 16;
-constexpr std::size_t kMaxArrivals = 2000;  // whatever is sent
+constexpr std::size_t kMaxArrivals = 2000;  // bounds the memory
 
 }  // namespace
 

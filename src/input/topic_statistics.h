@@ -6,24 +6,24 @@
 
 namespace rotrocc {
 
-/// What came on a topic lately.
+/// Statistics of the recent messages on a topic.
 class TopicStatistics {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// How far back rates and counts look.
+  /// Time window of rates and counts.
   static constexpr std::chrono::seconds kWindow{5};
 
   void add(std::int64_t stamp_ns, Time now);
 
   std::uint64_t total() const { return total_; }
-  /// Of the last message; there must have been one.
+  /// Arrival of the last message; there must be one.
   Time lastArrival() const { return arrivals_.back(); }
   /// Messages within the window.
   std::size_t recent(Time now) const;
-  /// Mean rate of these; 0 if there are fewer than two.
+  /// Mean rate within the window; 0 for fewer than two messages.
   double rate_hz(Time now) const;
-  /// Stamps of the last messages, at most 16.
+  /// Stamps of the latest messages, at most 16.
   const std::deque<std::int64_t>& lastStamps_ns() const { return stamps_ns_; }
 
  private:

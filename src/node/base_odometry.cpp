@@ -6,18 +6,17 @@
 namespace rotrocc {
 namespace {
 
-/// Variance [m^2, rad^2] of the first pose, which defines the odom frame: not zero, as filters
+/// Variance [m^2, rad^2] of the first pose, which defines the odom frame; not zero, because filters
 /// invert it.
 constexpr double kFirstVariance = 1e-9;
-/// Variance of a twist that is unknown, as users of nav_msgs/Odometry know it.
+/// Variance of an unknown twist, by convention of nav_msgs/Odometry.
 constexpr double kUnknownVariance = 9999.0;
-/// Variance [m^2, rad^2] of what cannot change in the plane.
+/// Variance [m^2, rad^2] of the components that planar motion excludes.
 constexpr double kPlanarVariance = 1e-9;
-/// Longer gaps make the pose no more uncertain: nobody knows it after this, and filters need
-/// numbers.
+/// Longer gaps do not increase the uncertainty further: filters need finite numbers.
 constexpr double kMaxWithoutMotion_s = 1000.0;
 
-/// Of a motion of the base, what happens in its plane.
+/// The planar part of a motion of the base.
 Eigen::Isometry3d planar(const Eigen::Isometry3d& T) {
   const double yaw_rad = std::atan2(T.linear()(1, 0), T.linear()(0, 0));
   Eigen::Isometry3d flat = Eigen::Isometry3d::Identity();
@@ -65,7 +64,7 @@ BaseState BaseOdometry::add(const OdometryResult& result) {
     state.twist.covariance = kUnknownVariance * Matrix6d::Identity();
   }
   if (planar_) T_odom_base_.covariance = planar(T_odom_base_.covariance);
-  // Not by compose(), which would add up rounding errors of its own.
+  // Not by compose(), which would accumulate rounding errors.
   T_odom_base_.T = T_odom_start_ * T_start_base();
   if (result.hasMotion()) {
     known_stamp_ns_ = result.stamp_ns;
@@ -85,7 +84,7 @@ UncertainTransform BaseOdometry::motionOfBase(const Eigen::Isometry3d& T,
 void BaseOdometry::addMotion(const OdometryResult& result, const UncertainTransform& step) {
   if (result.keyframe_stamp_ns != keyframe_stamp_ns_) {
     keyframe_stamp_ns_ = result.keyframe_stamp_ns;
-    // A pair that was lost can be a keyframe too: its pose is as uncertain as it was said to be.
+    // A lost pair can be a keyframe, too; its pose has the published uncertainty.
     T_odom_keyframe_ = keyframe_stamp_ns_ == known_stamp_ns_ ? T_odom_known_ : T_odom_base_;
   }
   T_odom_base_ =
@@ -108,8 +107,8 @@ Eigen::Isometry3d BaseOdometry::T_start_base() const {
   return T_base_camera_ * camera_.T_first_cur() * T_camera_base_;
 }
 
-/// What is to be added to the covariance, so that the standard deviation grows linearly with time
-/// however often this is called.
+/// Increment of the covariance, so that the standard deviation grows linearly with time for any
+/// rate of calls.
 Matrix6d BaseOdometry::growthWithoutMotion(std::int64_t stamp_ns) {
   const std::int64_t passed_ns = last_stamp_ns_ ? stamp_ns - *last_stamp_ns_ : 0;
   const double before_s = without_motion_s_;

@@ -11,25 +11,24 @@
 
 namespace rotrocc {
 
-/// Where the robot is after a stereo pair, and how it moves.
+/// Pose and motion of the robot after a stereo pair.
 struct BaseState {
   std::int64_t stamp_ns = 0;
   Eigen::Isometry3d T_first_camera =
       Eigen::Isometry3d::Identity();  ///< in the first camera's frame
   UncertainTransform T_odom_base;
-  UncertainTwist twist;  ///< in axes of the base
+  UncertainTwist twist;  ///< in the frame of the base
 };
 
-/// Adds up the camera's motions to the odometry of the base that it is fixed to. The odom frame is
-/// that of the base at the first pair.
+/// Accumulates camera motions to the odometry of the base. The odom frame is the frame of the base
+/// at the first pair.
 ///
-/// While there is no motion the pose stays, the twist is zero with a covariance that says it is
-/// unknown, and the standard deviation of the pose grows with the time that has passed.
+/// Without a motion the pose is held, the twist is zero with a very large covariance, and the
+/// standard deviation of the pose grows with time.
 class BaseOdometry {
  public:
   /// `lost_speed_sigma_mps` and `lost_turn_rate_sigma_rps`: the growth, along and about each axis.
-  /// `planar`: the base moves along its x and y and turns about its z only; what else is measured
-  /// is left out.
+  /// `planar`: restricts the motion of the base to x, y and yaw; other components are discarded.
   BaseOdometry(const Eigen::Isometry3d& T_base_camera,
                double lost_speed_sigma_mps,
                double lost_turn_rate_sigma_rps,
@@ -37,7 +36,7 @@ class BaseOdometry {
 
   BaseState add(const OdometryResult& result);
 
-  /// The base is there, for certain. The camera's trajectory goes on as if nothing had happened.
+  /// Sets the pose of the base, without uncertainty. The camera's trajectory is not affected.
   void setPose(const Eigen::Isometry3d& T_odom_base);
 
  private:
@@ -57,7 +56,7 @@ class BaseOdometry {
   UncertainTransform T_odom_base_;
   std::optional<std::int64_t> last_stamp_ns_;
 
-  // Errors add up from keyframe to keyframe.
+  // Errors accumulate from keyframe to keyframe.
   std::optional<std::int64_t> keyframe_stamp_ns_;
   std::optional<UncertainTransform>
       T_odom_keyframe_;              // none after setPose(), until the next keyframe

@@ -15,9 +15,9 @@ namespace {
 constexpr double kDegree = M_PI / 180.0;
 constexpr double kMaxNormError = 0.01;
 constexpr double kUpright = 45.0 * kDegree;
-constexpr int kPatience = 100;  // attempts before a warning: tf needs a moment after the start
+constexpr int kPatience = 100;  // attempts before a warning: tf takes a moment after startup
 
-/// The axis of the base that is nearest to a direction.
+/// The axis of the base closest to a direction.
 std::string nameDirection(const Eigen::Vector3d& direction) {
   static const char* const kNames[3][2] = {
       {"+x (forward)", "-x (backward)"}, {"+y (left)", "-y (right)"}, {"+z (up)", "-z (down)"}};

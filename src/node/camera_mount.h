@@ -14,19 +14,18 @@
 
 namespace rotrocc {
 
-/// Where a camera is mounted on the robot: from tf, which is waited for and never assumed. The
-/// mount is taken to be fixed: it is looked up once.
+/// Pose of the camera on the robot, from tf. Assumed to be fixed: it is looked up once.
 class CameraMount {
  public:
   explicit CameraMount(const std::string& base_frame);
   CameraMount(const CameraMount&) = delete;
   CameraMount& operator=(const CameraMount&) = delete;
 
-  /// T_base_camera, or nothing as long as tf does not know it; does not wait. Says in the log where
-  /// the camera is, or, if asked again and again, which frames are missing.
+  /// T_base_camera, or nothing if tf does not have it yet; does not wait. Logs the camera pose or,
+  /// after repeated calls, the missing frames.
   const std::optional<Eigen::Isometry3d>& find(const std::string& camera_frame);
 
-  /// What find() looks for in vain, in one sentence; empty if it has found it.
+  /// The transform that find() is missing, in one sentence; empty if found.
   const std::string& missing() const { return missing_; }
 
  private:
@@ -39,12 +38,12 @@ class CameraMount {
   std::unique_ptr<tf2_ros::TransformListener> listener_;  // until the mount is found
 };
 
-/// Throws std::invalid_argument with the value if there is a number that is not finite, or the
-/// quaternion is not of unit length within 1 %.
+/// Throws std::invalid_argument with the value if a number is not finite, or the length of the
+/// quaternion differs from 1 by more than 1 %.
 Eigen::Isometry3d toEigen(const geometry_msgs::Transform& transform);
 
-/// "at 0 0 1.65 m, looks along +x (forward), its image is upright": for a human to check a mount
-/// with.
+/// "at 0 0 1.65 m, looks along +x (forward), its image is upright": for a user to check the camera
+/// pose.
 std::string describeMount(const Eigen::Isometry3d& T_base_camera);
 
 }  // namespace rotrocc

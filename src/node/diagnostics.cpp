@@ -14,14 +14,14 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-/// Rates of left and right images that differ by this share are worth a warning.
+/// Relative difference of left and right image rates that causes a warning.
 constexpr double kRateDifference = 0.2;
-/// Latencies jump when the machine is busy for a moment: a warning only when most pairs are late.
+/// Latencies vary with the load of the machine: warn only if most pairs are late.
 constexpr double kLateShareOfPeriod = 1.0;
-/// A rig is rarely better calibrated; the correction, which is right on average alone, leaves more
-/// of a larger bias.
+/// Rigs are rarely better calibrated; the correction is right on average only, and leaves more of a
+/// larger bias.
 constexpr double kLargeBias_px = 0.5;
-/// More than rectification leaves, and than windows of a few pixels may be apart to match well.
+/// More than a good rectification leaves, and more than the matching of small windows tolerates.
 constexpr double kRowsApart_px = 0.5;
 
 std::string hundredths(double value) {
@@ -189,7 +189,7 @@ void describeDrops(const HealthReport& report, std::uint64_t drops_before, Statu
 Diagnostics::Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const std::string& name)
     : updater_(nh, private_nh, name) {
   updater_.setHardwareID("none");
-  // Without a publisher, which there is none of then, the first task would end a Debug build.
+  // During shutdown there is no publisher, and the first task would abort a Debug build.
   if (ros::isShuttingDown()) return;
   updater_.add("odometry", [this](StatusWrapper& status) { describeOdometry(report_, status); });
   updater_.add("input", [this](StatusWrapper& status) { describeInput(report_, status); });

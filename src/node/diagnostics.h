@@ -10,26 +10,25 @@
 
 namespace rotrocc {
 
-/// What /diagnostics says of the parts of the odometry.
+/// The entries of /diagnostics.
 using StatusWrapper = diagnostic_updater::DiagnosticStatusWrapper;
 
-/// What disparities with a large bias, or rows far apart, ask for, a sentence; empty if they are
-/// not.
+/// Warning about a large disparity bias or row offset, one sentence; empty if there is none.
 std::string rigWarning(const OdometryResult& result);
 
 void describeOdometry(const HealthReport& report, StatusWrapper& status);
 void describeInput(const HealthReport& report, StatusWrapper& status);
 void describeTiming(const HealthReport& report, StatusWrapper& status);
 void describeTf(const HealthReport& report, StatusWrapper& status);
-/// Warns if there are more drops than `drops_before`.
+/// Warns if the number of drops exceeds `drops_before`.
 void describeDrops(const HealthReport& report, std::uint64_t drops_before, StatusWrapper& status);
 
 std::uint64_t countDrops(const HealthReport& report);
 
-/// Publishes them as often as it is told to.
+/// Publishes these entries on request.
 class Diagnostics {
  public:
-  /// `name`: of the node or nodelet, with its namespace.
+  /// `name`: node or nodelet, with its namespace.
   Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const std::string& name);
 
   void publish(const HealthReport& report);

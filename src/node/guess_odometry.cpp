@@ -21,7 +21,7 @@ GuessOdometry::GuessOdometry(const std::string& guess_frame,
 
 std::optional<Eigen::Isometry3d> GuessOdometry::motion(std::int64_t prev_ns,
                                                        std::int64_t cur_ns) const {
-  // By real time: that of ROS may stand still.
+  // In real time: ROS time may stand still.
   const auto deadline = std::chrono::steady_clock::now() + timeout_;
   auto current = pose(cur_ns);
   while (!current && ros::ok() && std::chrono::steady_clock::now() < deadline) {
@@ -38,7 +38,7 @@ std::optional<Eigen::Isometry3d> GuessOdometry::pose(std::int64_t stamp_ns) cons
     return toEigen(
         buffer_.lookupTransform(guess_frame_, base_frame_, toRosTime(stamp_ns)).transform);
   } catch (const std::exception&) {
-    return std::nullopt;  // not yet, or never: the motion before predicts as well
+    return std::nullopt;  // not available: the previous motion is the prediction
   }
 }
 

@@ -11,24 +11,24 @@
 
 namespace rotrocc {
 
-/// Another odometry of the robot, as that of its wheels, that tf knows as the pose of the base in
-/// its own odom frame, the guess frame.
+/// Another odometry of the robot, e.g. wheel odometry, whose tf is the pose of the base in its own
+/// odom frame, the guess frame.
 class GuessOdometry {
  public:
-  /// Waits at most `timeout_s` for the tf of a stamp.
+  /// Waits at most `timeout_s` for a transform.
   GuessOdometry(const std::string& guess_frame, const std::string& base_frame, double timeout_s);
   GuessOdometry(const GuessOdometry&) = delete;
   GuessOdometry& operator=(const GuessOdometry&) = delete;
 
-  /// The motion of the base T_prev_cur between two stamps; nothing if tf does not know it in time.
+  /// Motion of the base T_prev_cur between two stamps; nothing if tf does not have it in time.
   std::optional<Eigen::Isometry3d> motion(std::int64_t prev_ns, std::int64_t cur_ns) const;
 
-  /// T_guess_base at a stamp, if tf knows it already.
+  /// T_guess_base at a stamp, if tf already has it.
   std::optional<Eigen::Isometry3d> pose(std::int64_t stamp_ns) const;
 
   const std::string& frame() const { return guess_frame_; }
 
-  /// Forgets the tf of a time that is over.
+  /// Discards transforms from before a time jump.
   void clear() { buffer_.clear(); }
 
  private:

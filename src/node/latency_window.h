@@ -20,7 +20,7 @@ class LatencyWindow {
 
   bool empty() const { return values_.empty(); }
 
-  /// The least value that is not exceeded by a `share` in [0, 1] of them; 0 if there is none.
+  /// Quantile `share` in [0, 1]; 0 without measurements.
   double quantile(double share) const {
     if (values_.empty()) return 0.0;
     std::vector<double> sorted(values_.begin(), values_.end());

@@ -170,7 +170,7 @@ LiveParameters::LiveParameters(ros::NodeHandle& private_nh,
           "parameter_descriptions", 1, true)),
       updates_(private_nh.advertise<dynamic_reconfigure::Config>("parameter_updates", 1, true)),
       service_(private_nh.advertiseService("set_parameters", &LiveParameters::onSet, this)) {
-  if (ros::isShuttingDown()) return;  // there are no publishers then
+  if (ros::isShuttingDown()) return;  // there are no publishers during shutdown
   descriptions_.publish(describeLiveParameters(parameters_));
   updates_.publish(toConfig(parameters_));
 }
@@ -189,7 +189,7 @@ bool LiveParameters::onSet(dynamic_reconfigure::Reconfigure::Request& request,
   return true;
 }
 
-/// For the next start, and for whoever asks the server.
+/// Stores changes on the parameter server, for the next start and for other nodes.
 void LiveParameters::store(const dynamic_reconfigure::Config& config) {
   for (const auto& entry : config.ints) private_nh_.setParam(entry.name, entry.value);
   for (const auto& entry : config.doubles) private_nh_.setParam(entry.name, entry.value);

@@ -15,12 +15,12 @@
 namespace rotrocc {
 
 /// The parameters of the estimator, all that have a section, as dynamic_reconfigure shows them:
-/// names, ranges and meanings straight from the table, so that there is no .cfg that could differ.
+/// names, ranges and descriptions from the parameter table, so no .cfg file is needed.
 dynamic_reconfigure::ConfigDescription describeLiveParameters(Parameters parameters);
 dynamic_reconfigure::Config toConfig(Parameters parameters);
 
-/// Changes `parameters` by what `config` names. Throws std::invalid_argument, and changes nothing,
-/// on an unknown name, one that cannot be changed live, or a value out of range.
+/// Applies `config` to `parameters`. Throws std::invalid_argument and changes nothing on an unknown
+/// name, one that cannot be changed live, or a value out of range.
 void applyConfig(const dynamic_reconfigure::Config& config, Parameters& parameters);
 
 /// Serves these to rqt_reconfigure, dynparam and the like in the namespace of `private_nh`, and

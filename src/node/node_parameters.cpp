@@ -8,7 +8,7 @@
 namespace rotrocc {
 namespace {
 
-/// A value as the table takes it. XmlRpcValue reads through non-const conversions only.
+/// A value as text for the table. XmlRpcValue has non-const conversions only.
 std::string textOf(const std::string& name, XmlRpc::XmlRpcValue value) {
   std::ostringstream text;
   text.precision(std::numeric_limits<double>::max_digits10);
@@ -45,7 +45,7 @@ void requireFrame(const std::string& name, const std::string& frame) {
                               "\", but must be a tf frame without leading slash");
 }
 
-/// One that may be empty.
+/// The same for a frame that may be empty.
 void requireFrameIfAny(const std::string& name, const std::string& frame) {
   if (!frame.empty()) requireFrame(name, frame);
 }

@@ -7,11 +7,11 @@
 
 namespace rotrocc {
 
-/// The parameters in the namespace of `private_nh`, and the defaults of those that are not there.
-/// Throws std::invalid_argument as setParameters() and requireFrames() do.
+/// The parameters in the namespace of `private_nh`, with defaults for missing ones. Throws
+/// std::invalid_argument as setParameters() and requireFrames() do.
 Parameters readParameters(const ros::NodeHandle& private_nh);
 
-/// Throws std::invalid_argument with the name on frames that tf cannot have, or not all of them.
+/// Throws std::invalid_argument with the name on invalid or conflicting frames.
 void requireFrames(const NodeParameters& node);
 
 /// Sets every parameter of `tree`, whose structs are the sections of the table. Throws

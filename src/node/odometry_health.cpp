@@ -5,7 +5,7 @@
 namespace rotrocc {
 namespace {
 
-/// Without an answer for so long, the state is that of the input.
+/// Without a result for this time, the state is that of the input.
 constexpr std::chrono::seconds kAnswerAge(2);
 
 }  // namespace

@@ -15,21 +15,21 @@
 
 namespace rotrocc {
 
-/// How the odometry is doing: what diagnostics and status are made of.
+/// State of the odometry, for diagnostics and status.
 struct HealthReport {
   InputReport input;
   bool paused = false;
   std::string waits_for_tf;  ///< which transform is missing; empty if none is
-  std::string tf_conflict;   ///< who else says where the base is; empty if nobody does
+  std::string tf_conflict;   ///< other publisher of a parent of the base; empty if none
 
-  bool answers = false;        ///< there was an answer lately
-  OdometryResult last_result;  ///< of the last answer
+  bool answers = false;        ///< there was a recent result
+  OdometryResult last_result;  ///< last result
   std::string hint;            ///< as PairAnswer::hint
   double answer_rate_hz = 0.0;
   double latency_p50_ms = 0.0, latency_p95_ms = 0.0, latency_max_ms = 0.0;
   std::uint64_t pairs_processed = 0, pairs_lost = 0;
   std::vector<std::pair<DropReason, std::uint64_t>> drops;
-  bool not_of_camera = false;  ///< images of another size than camera_info came lately
+  bool not_of_camera = false;  ///< recent images differ in size from camera_info
 };
 
 /// The state with constants of OdometryStatus, and why it is not OK.
@@ -40,13 +40,13 @@ struct NodeState {
 
 NodeState stateOf(const HealthReport& report);
 
-/// "NO_INPUT", ... of a constant of OdometryStatus.
+/// Name of a constant of OdometryStatus, e.g. "NO_INPUT".
 const char* stateName(std::uint8_t state);
 
-/// Gathers what the worker and the callbacks know of the odometry's health. For any thread.
+/// Collects the state of worker and callbacks. Thread-safe.
 class OdometryHealth {
  public:
-  /// An answer was published `latency_ms` after its pair had come.
+  /// A result was published `latency_ms` after the arrival of its pair.
   void addAnswer(const OdometryResult& result, const std::string& hint, double latency_ms);
   void setPaused(bool paused);
   bool paused() const;
@@ -57,7 +57,7 @@ class OdometryHealth {
 
  private:
   mutable std::mutex mutex_;
-  HealthReport known_;  // the part that others report
+  HealthReport known_;  // reported by others
   TopicStatistics answers_;
   LatencyWindow latencies_{300};
 };

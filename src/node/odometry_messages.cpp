@@ -129,7 +129,7 @@ sensor_msgs::PointCloud2 toPointCloud(const Correspondences& features,
                                 "z", 1, Field::FLOAT32, "intensity", 1, Field::FLOAT32);
   // clang-format on
   modifier.resize(static_cast<std::size_t>(std::count(set.begin(), set.end(), 1)));
-  if (cloud.width == 0) return cloud;  // an iterator would look at the first of no points
+  if (cloud.width == 0) return cloud;  // an iterator would access the first point
   sensor_msgs::PointCloud2Iterator<float> out(cloud, "x");
   for (std::size_t i = 0; i < set.size(); ++i) {
     if (set[i] == 0) continue;

@@ -20,7 +20,7 @@ nav_msgs::Odometry toOdometry(const BaseState& state,
                               const std::string& odom_frame,
                               const std::string& base_frame);
 
-/// T_parent_child as tf takes it.
+/// T_parent_child as tf message.
 geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& T_parent_child,
                                             std::int64_t stamp_ns,
                                             const std::string& parent,
@@ -32,7 +32,7 @@ OdometryStatus toStatus(const OdometryResult& result,
                         double latency_ms,
                         const std::string& camera_frame);
 
-/// The status while there is nothing to tell of a pair.
+/// The status without a recent pair.
 OdometryStatus toIdleStatus(const HealthReport& health, const ros::Time& stamp);
 
 /// The points of the features in `set`, in the frame of the header, which must be the left

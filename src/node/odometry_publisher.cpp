@@ -10,9 +10,9 @@
 namespace rotrocc {
 namespace {
 
-/// Enough for a subscriber that is busy for a moment.
+/// Enough for a subscriber that is briefly busy.
 constexpr int kMotionQueue = 50;
-/// Of what is large, only the latest is of interest.
+/// Only the latest of large messages.
 constexpr int kPictureQueue = 1;
 
 }  // namespace
@@ -39,7 +39,8 @@ void OdometryPublisher::publishMotion(const OdometryStatus& status,
   publishPath(odometry);
 }
 
-/// Where another odometry owns the base, our tf ends at its odom frame: a frame has one parent.
+/// With another odometry of the base, tf is published up to its odom frame: a frame has only one
+/// parent.
 void OdometryPublisher::publishTf(const BaseState& state,
                                   const std::optional<Eigen::Isometry3d>& T_guess_base) {
   const std::string& odom = parameters_.odom_frame;

@@ -20,13 +20,13 @@
 
 namespace rotrocc {
 
-/// Publishes what the odometry makes of each pair: status, tf, odom, path, inliers and flow. The
-/// last three cost nothing unless somebody subscribes.
+/// Publishes the results of each pair: status, tf, odom, path, inliers and flow. The last three
+/// cost nothing without subscribers.
 class OdometryPublisher {
  public:
   OdometryPublisher(ros::NodeHandle& nh, const NodeParameters& parameters);
 
-  /// The status first and tf next, so that they are known to whoever receives the odometry.
+  /// Publishes status and tf first, so that receivers of the odometry already have them.
   /// `T_guess_base`: the pose of the base in guess_frame at that time, if there is such a frame and
   /// tf knows it.
   void publishMotion(const OdometryStatus& status,
@@ -35,11 +35,11 @@ class OdometryPublisher {
 
   void publishStatus(const OdometryStatus& status) { status_publisher_.publish(status); }
 
-  /// The path before has ended.
+  /// Clears the path.
   void forgetPath() { path_.clear(); }
 
-  /// Inliers and flow of the last call of odometry.process(), which had `left` of `camera` and gave
-  /// `result`.
+  /// Publishes inliers and flow of the last call of odometry.process(), with input `left` and
+  /// `camera` and output `result`.
   void publishPictures(const cv::Mat& left,
                        const StereoCamera& camera,
                        const VisualOdometry& odometry,

@@ -11,7 +11,7 @@
 namespace rotrocc {
 namespace {
 
-/// Fills a response with the sentence `action` returns, or with why it could not.
+/// Fills a response with the sentence that `action` returns, or with its error.
 template <class Response, class Action>
 bool answer(const char* service, Response& response, Action action) {
   try {

@@ -14,15 +14,15 @@
 
 namespace rotrocc {
 
-/// The services ~reset, ~set_pose, ~pause and ~save_trajectory. An action that throws gives an
-/// answer without success; nothing leaves a callback.
+/// The services ~reset, ~set_pose, ~pause and ~save_trajectory. An exception of an action gives a
+/// response without success; it does not leave the callback.
 class OdometryServices {
  public:
   struct Actions {
     std::function<void()> reset;
     std::function<void(const Eigen::Isometry3d& T_odom_base)> set_pose;
     std::function<void(bool)> pause;
-    /// Returns what was written.
+    /// Returns a description of what was written.
     std::function<std::string(const std::string& path, const std::string& format)> save_trajectory;
   };
 

@@ -11,14 +11,14 @@ namespace {
 
 constexpr int kFewCorners = 50;
 constexpr double kFewShare = 0.2;  // of the corners that have a disparity
-/// While the loss lasts it is looked into again every so many pairs.
+/// Interval of repeated inspections during a loss, in pairs.
 constexpr int kPatienceAgain = 100;
-constexpr int kRowStep = 8;  // every so many rows are looked at
-/// Row offsets tried on images that do not match. More is needed than by chance.
+constexpr int kRowStep = 8;  // sampling of rows
+/// Row offsets tried on images that do not match; matches must exceed chance.
 constexpr int kOffsets_px[] = {2, 4, 7, 12, 20};
 constexpr double kClearlyMore = 2.0;
 
-/// A number that differs if the images do, of some of their rows (FNV-1a over 8 bytes at a time).
+/// A hash of some rows of an image (FNV-1a over 8 bytes at a time).
 std::uint64_t fingerprint(const cv::Mat& image) {
   std::uint64_t print = 14695981039346656037u;
   for (int y = 0; y < image.rows; y += kRowStep) {
@@ -28,7 +28,7 @@ std::uint64_t fingerprint(const cv::Mat& image) {
   return print;
 }
 
-/// The image `rows` lower, or higher if that is negative; what has moved out is gone.
+/// The image shifted down by `rows`, or up if negative.
 cv::Mat shifted(const cv::Mat& image, int rows) {
   cv::Mat result = cv::Mat::zeros(image.size(), image.type());
   const int kept = image.rows - std::abs(rows);
@@ -58,7 +58,7 @@ std::string PairInspector::inspect(const StereoPair& pair,
                                    const OdometryResult& result) {
   const std::string frozen = findFrozen(pair);
   if (result.state == State::kInitialising) return frozen;
-  // Chance matches may look like a motion now and then.
+  // Chance matches may occasionally look like a motion.
   doubtful_ = result.state == State::kOk ? 0 : doubtful_ + 1;
   few_corners_ = result.counts.corners < kFewCorners ? few_corners_ + 1 : 0;
   if (doubtful_ == 0) explanation_.clear();

@@ -11,20 +11,20 @@
 
 namespace rotrocc {
 
-/// Looks for what a motion estimate cannot say of its cameras: that one is frozen, dark, exchanged
-/// with the other, or that the images are not rectified.
+/// Detects camera faults: a frozen or dark camera, swapped cameras, or images that are not
+/// rectified.
 class PairInspector {
  public:
-  /// So many pairs in a row must look wrong.
+  /// Number of consecutive suspicious pairs before a hint.
   static constexpr int kPatience = 10;
 
   explicit PairInspector(const CorrespondenceFinder::Config& config);
 
-  /// Another configuration from the next pair on. What was found with the one before is forgotten.
+  /// Uses another configuration from the next pair on, and forgets what was found with this one.
   void configure(const CorrespondenceFinder::Config& config);
 
-  /// A sentence on what looks wrong, with what to do about it; empty if nothing does. Costs next to
-  /// nothing, but some 50 ms when the kPatience-th pair in a row is lost or degraded.
+  /// The suspected fault and a remedy, in one sentence; empty if none. Takes negligible time,
+  /// except some 50 ms when the kPatience-th consecutive pair is lost or degraded.
   std::string inspect(const StereoPair& pair,
                       const StereoCamera& camera,
                       const OdometryResult& result);
@@ -44,7 +44,7 @@ class PairInspector {
   std::uint64_t left_print_ = 0, right_print_ = 0;  // of the last pair
   int left_frozen_ = 0, right_frozen_ = 0;          // pairs in a row
   int few_corners_ = 0, doubtful_ = 0;
-  std::string explanation_;  // stays until the motion is found again
+  std::string explanation_;  // kept until the motion is found again
 };
 
 }  // namespace rotrocc

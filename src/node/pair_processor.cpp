@@ -46,7 +46,7 @@ PairAnswer PairProcessor::process(const ReceivedPair& received,
   return answer;
 }
 
-/// Returns whether the trajectory ends here.
+/// Returns whether a new trajectory starts.
 bool PairProcessor::beginAnewIfAsked() {
   const std::lock_guard<std::mutex> lock(requests_mutex_);
   if (requests_.config) {
@@ -60,7 +60,7 @@ bool PairProcessor::beginAnewIfAsked() {
   return std::exchange(requests_.reset, false);
 }
 
-/// A bag that begins anew, or a simulation.
+/// A looping bag, or a restarted simulation.
 bool PairProcessor::beginAnewIfTimeWentBack(std::int64_t stamp_ns) {
   if (!last_stamp_ns_ || stamp_ns >= *last_stamp_ns_) return false;
   const bool keep = parameters_.pose_after_time_jump == "keep";

@@ -14,20 +14,20 @@
 
 namespace rotrocc {
 
-/// What became of a pair.
+/// Result of a pair.
 struct PairAnswer {
   StereoPair pair;  ///< valid until the next call
   OdometryResult result;
   BaseState state;
-  std::string hint;          ///< what may be wrong with the cameras; empty if nothing
-  bool begins_anew = false;  ///< the trajectory before has ended: a reset, or time went back
+  std::string hint;          ///< suspected camera fault; empty if none
+  bool begins_anew = false;  ///< a new trajectory: after a reset or a time jump
 };
 
-/// Turns pairs into odometry of the base, in one thread. Others ask for changes, which come into
-/// effect with the next pair; asking never waits.
+/// Converts pairs to odometry of the base, in one thread. Other threads may request changes, which
+/// take effect with the next pair; requests do not block.
 class PairProcessor {
  public:
-  /// What another sensor says of the motion of the base between two stamps: T_prev_cur.
+  /// Motion of the base between two stamps from another sensor: T_prev_cur.
   using MotionSource =
       std::function<std::optional<Eigen::Isometry3d>(std::int64_t prev_ns, std::int64_t cur_ns)>;
 
@@ -40,13 +40,13 @@ class PairProcessor {
 
   const VisualOdometry& odometry() const { return odometry_; }
 
-  /// From any thread. The pose becomes zero, and the next pair is a first one.
+  /// Thread-safe. Sets the pose to zero; the next pair is a first one.
   void requestReset();
-  /// From any thread. The next pair is a first one; the pose stays.
+  /// Thread-safe. The next pair is a first one; the pose is kept.
   void requestRestart();
-  /// From any thread. The base is there at the time of the last pair.
+  /// Thread-safe. Sets the pose of the base at the time of the last pair.
   void requestPose(const Eigen::Isometry3d& T_odom_base);
-  /// From any thread. The next pair is a first one; the pose stays.
+  /// Thread-safe. The next pair is a first one; the pose is kept.
   void requestConfig(const VisualOdometry::Config& config);
 
  private:

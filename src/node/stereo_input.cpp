@@ -13,8 +13,8 @@ constexpr int kQueueSize = 5;
 
 using Side = StereoIntake::Side;
 
-/// Transports keep settings on the parameter server: not in our private namespace, where an unknown
-/// name is an error, but beside the topic.
+/// Transports have parameters of their own: in the namespace of the topic, not in the private
+/// namespace, where unknown names are errors.
 image_transport::Subscriber subscribe(
     const ros::NodeHandle& nh,
     const std::string& side,

@@ -20,7 +20,7 @@ class StereoInput {
               DropLog& drops,
               StereoIntake::PairHandler on_pair);
 
-  /// In the thread of the callbacks.
+  /// Call in the thread of the callbacks.
   InputReport report() const;
 
  private:
@@ -31,7 +31,7 @@ class StereoInput {
 
   StereoIntake intake_;
 
-  // Last, so that no callback comes when the rest is gone.
+  // Last, so that callbacks end before the other members are destroyed.
   image_transport::Subscriber left_image_subscriber_;
   image_transport::Subscriber right_image_subscriber_;
   ros::Subscriber left_info_subscriber_;

@@ -4,8 +4,7 @@
 #include <ros/node_handle.h>
 #include <ros/this_node.h>
 
-/// The nodelet rotrocc/StereoOdometry in a process of its own: same topics, same private
-/// parameters.
+/// The nodelet rotrocc/StereoOdometry as a standalone node: same topics, same private parameters.
 int main(int argc, char** argv) {
   ros::init(argc, argv, "stereo_odometry");
   const ros::NodeHandle keeps_ros_alive_until_the_loader_is_gone;

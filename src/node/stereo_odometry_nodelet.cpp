@@ -16,12 +16,12 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-/// How often the worker looks for the end of the process, which may come without a call of the
+/// Period at which the worker checks for shutdown, which may happen without a call of the
 /// destructor.
 constexpr std::chrono::milliseconds kIdlePoll(100);
-/// How often it looks for tf while a pair waits for it.
+/// Period of tf lookups while a pair waits for tf.
 constexpr std::chrono::milliseconds kTfPoll(10);
-/// How often diagnostics come, as REP 107 asks for.
+/// Period of diagnostics (REP 107).
 constexpr double kTick_s = 1.0;
 
 double millisecondsSince(SteadyClock::time_point start) {
@@ -40,7 +40,7 @@ void StereoOdometryNodelet::onInit() {
     start(readParameters(getPrivateNodeHandle()));
   } catch (const std::exception& error) {
     NODELET_FATAL_STREAM(error.what());
-    throw;  // the loader says that it could not load us, and lives on
+    throw;  // the loader reports the failure and continues
   }
 }
 
@@ -69,7 +69,7 @@ void StereoOdometryNodelet::start(const Parameters& parameters) {
   live_parameters_.emplace(private_nh, parameters, [this](const VisualOdometry::Config& config) {
     processor_->requestConfig(config);
   });
-  if (ros::isShuttingDown()) return;  // some of what publishes has no publisher then
+  if (ros::isShuttingDown()) return;  // some publishers do not exist then
   ticker_ = nh.createWallTimer(ros::WallDuration(kTick_s), &StereoOdometryNodelet::onTick, this);
   worker_ = std::thread(&StereoOdometryNodelet::work, this);
 }
@@ -97,7 +97,7 @@ void StereoOdometryNodelet::onPause(bool paused) {
   health_.setPaused(paused);
 }
 
-/// Once a second: diagnostics, a status if no pair has made one, and a word on silence.
+/// Once a second: diagnostics, a status if there was no pair, and a report of missing input.
 void StereoOdometryNodelet::onTick(const ros::WallTimerEvent&) {
   try {
     const SteadyClock::time_point now = SteadyClock::now();
@@ -128,7 +128,7 @@ void StereoOdometryNodelet::work() {
   }
 }
 
-/// Whether tf does not know yet where the camera is. A frame that is missing is left to process().
+/// Whether tf lacks the camera pose. A missing frame is handled by process().
 bool StereoOdometryNodelet::waitsForMount(const ReceivedPair& received) {
   const sensor_msgs::Image& left = *received.images.left;
   if (parameters_.camera_frame.empty() && left.header.frame_id.empty()) return false;

@@ -31,22 +31,22 @@ namespace rotrocc {
 /// Live stereo odometry: rectified stereo images in, nav_msgs/Odometry and tf out.
 ///
 /// Subscribes to left/image_rect, right/image_rect (through image_transport), left/camera_info and
-/// right/camera_info; tf must lead from base_frame to the frame of the left images. Publishes odom,
+/// right/camera_info; tf must connect base_frame and the frame of the left images. Publishes odom,
 /// path, inliers, flow, status, tf and /diagnostics, and has the services of OdometryServices.
 /// config/default.yaml lists the private parameters.
 ///
-/// The callbacks of the nodelet only make pairs of the images. A thread of its own processes them;
-/// if it is too slow it skips to the newest pair.
+/// The callbacks only match images to pairs. A worker thread processes them; if it is too slow, it
+/// skips to the newest pair.
 class StereoOdometryNodelet : public nodelet::Nodelet {
  public:
   ~StereoOdometryNodelet() override;
 
  private:
-  /// Throws std::exception, after a fatal log, on parameters that cannot be used: nothing is
-  /// subscribed by then.
+  /// Throws std::exception, after a fatal log, on invalid parameters, before anything is
+  /// subscribed.
   void onInit() override;
 
-  // In the nodelet's thread.
+  // In the thread of the nodelet.
   void start(const Parameters& parameters);
   OdometryServices::Actions makeActions();
   void onPair(ReceivedPair pair);
@@ -80,7 +80,7 @@ class StereoOdometryNodelet : public nodelet::Nodelet {
   std::optional<SilenceWatch> silence_;  // of the callbacks
 
   LatestMailbox<ReceivedPair> mailbox_;
-  // From here on in the order in which nothing is called that is gone already.
+  // Order matters from here on: members are destroyed after those that call them.
   std::optional<StereoInput> input_;
   std::optional<TfConflict> tf_conflict_;
   std::optional<Diagnostics> diagnostics_;

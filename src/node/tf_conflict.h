@@ -10,21 +10,21 @@
 
 namespace rotrocc {
 
-/// Who else gives a frame a parent: tf allows one. `publisher` is the node a transform comes from,
-/// `own_node` ours, which publishes `own_parent` -> `child`. A sentence with both nodes and what to
-/// change; empty if the transform is ours or another one.
+/// Describes another publisher of a frame's parent; tf allows only one. `publisher` is the node of
+/// a transform, `own_node` this node, which publishes `own_parent` -> `child`. Returns one sentence
+/// with both nodes and a remedy; empty if the transform is this node's or of another child.
 std::string describeConflict(const geometry_msgs::TransformStamped& transform,
                              const std::string& publisher,
                              const std::string& own_node,
                              const std::string& own_parent,
                              const std::string& child);
 
-/// Watches tf for another parent of the frame that we give one.
+/// Watches tf for another parent of the frame that this node publishes.
 class TfConflict {
  public:
   TfConflict(ros::NodeHandle& nh, const std::string& own_parent, const std::string& child);
 
-  /// The last conflict seen, as describeConflict(); empty if there was none. In the thread of the
+  /// The last conflict, as from describeConflict(); empty if none. Call in the thread of the
   /// callbacks.
   const std::string& description() const { return description_; }
 

@@ -9,24 +9,24 @@
 
 namespace rotrocc {
 
-/// The poses of the left camera since the start, the last reset or the last jump of time, the
-/// latest `max_length` of them. For any thread.
+/// The poses of the left camera since the start, the last reset or the last time jump, at most the
+/// latest `max_length`. Thread-safe.
 class TrajectoryHistory {
  public:
-  /// Takes all its memory now: a robot shall not find out after hours that it is too much.
+  /// Allocates all memory at once, so that it cannot run out after hours.
   explicit TrajectoryHistory(std::size_t max_length) : poses_(max_length) {}
 
   void add(const StampedPose& pose);
   void clear();
 
-  /// Writes what there is; `format` is "tum" or "kitti". Returns a sentence on what was written
-  /// where. Throws std::exception with one sentence if there is nothing to write, or no way to.
+  /// Writes the poses; `format` is "tum" or "kitti". Returns a sentence with the count and the
+  /// path. Throws std::exception with one sentence if there are no poses or writing fails.
   std::string save(const std::string& path, const std::string& format) const;
 
  private:
   mutable std::mutex mutex_;
-  std::vector<StampedPose> poses_;  // a ring
-  std::size_t next_ = 0;            // place of the next pose
+  std::vector<StampedPose> poses_;  // ring buffer
+  std::size_t next_ = 0;            // index of the next pose
   std::size_t size_ = 0;
 };
 
