@@ -8,8 +8,8 @@
 namespace rotrocc {
 namespace {
 
+using std::chrono::hours;
 using std::chrono::milliseconds;
-using std::chrono::seconds;
 using std::chrono::steady_clock;
 
 TEST(LatestMailboxTest, LatestItemWins) {
@@ -33,7 +33,7 @@ TEST(LatestMailboxTest, TakeWaitsForAnItem) {
     std::this_thread::sleep_for(milliseconds(20));
     mailbox.put(5);
   });
-  EXPECT_EQ(mailbox.take(seconds(60)), 5);
+  EXPECT_EQ(mailbox.take(hours(1)), 5);
   producer.join();
 }
 
@@ -46,14 +46,12 @@ TEST(LatestMailboxTest, TakeGivesUpInTime) {
 
 TEST(LatestMailboxTest, ClosingEndsTheWait) {
   LatestMailbox<int> mailbox;
-  const auto start = steady_clock::now();
   std::thread closer([&] {
     std::this_thread::sleep_for(milliseconds(20));
     mailbox.close();
   });
-  EXPECT_FALSE(mailbox.take(seconds(60)).has_value());
+  EXPECT_FALSE(mailbox.take(hours(1)).has_value());
   closer.join();
-  EXPECT_LT(steady_clock::now() - start, seconds(30));
   EXPECT_TRUE(mailbox.closed());
   mailbox.put(1);
   EXPECT_FALSE(mailbox.take(milliseconds(0)).has_value());
@@ -66,7 +64,7 @@ TEST(LatestMailboxTest, EveryItemIsTakenOrReplaced) {
   int last = -1;
   std::thread consumer([&] {
     while (last != kItems - 1) {
-      const auto item = mailbox.take(seconds(60));
+      const auto item = mailbox.take(hours(1));
       if (!item) break;
       EXPECT_GT(*item, last);
       last = *item;

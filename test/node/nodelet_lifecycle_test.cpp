@@ -18,6 +18,7 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include "support/run_command.h"
+#include "support/service_caller.h"
 #include "support/simulated_robot.h"
 
 namespace rotrocc {
@@ -26,7 +27,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr int kRounds = 100;
+constexpr int kRounds = 50;
 
 /// Asks the neighbour, and counts its answers.
 class Canary {
@@ -39,15 +40,14 @@ class Canary {
         "canary/answer", 10, [this](const sensor_msgs::Image::ConstPtr&) { ++answers_; });
   }
 
-  /// Whether it answers within some seconds.
+  /// Whether it answers.
   bool sings() {
     const int before = answers_;
-    for (int i = 0; i < 100; ++i) {
+    return waitUntil([&] {
       ask();
-      std::this_thread::sleep_for(milliseconds(50));
-      if (answers_ > before) return true;
-    }
-    return false;
+      std::this_thread::sleep_for(milliseconds(20));
+      return answers_ > before;
+    });
   }
 
  private:
@@ -70,41 +70,39 @@ class Canary {
   ros::Subscriber subscriber_;
 };
 
-bool load() {
-  nodelet::NodeletLoad service;
-  service.request.name = "/stereo_odometry";
-  service.request.type = "rotrocc/StereoOdometry";
-  return ros::service::call("manager/load_nodelet", service) && service.response.success;
-}
-
-bool unload() {
-  nodelet::NodeletUnload service;
-  service.request.name = "/stereo_odometry";
-  return ros::service::call("manager/unload_nodelet", service) && service.response.success;
-}
-
 class NodeletLifecycleTest : public testing::Test {
  protected:
   void SetUp() override {
     spinner_.start();
-    ASSERT_TRUE(ros::service::waitForService("manager/load_nodelet", 20000));
     ASSERT_TRUE(canary_.sings());
   }
 
+  bool load() {
+    nodelet::NodeletLoad service;
+    service.request.name = "/stereo_odometry";
+    service.request.type = "rotrocc/StereoOdometry";
+    return manager_.call("load_nodelet", service) && service.response.success;
+  }
+
+  bool unload() {
+    nodelet::NodeletUnload service;
+    service.request.name = "/stereo_odometry";
+    return manager_.call("unload_nodelet", service) && service.response.success;
+  }
+
   ros::AsyncSpinner spinner_{2};
+  ServiceCaller manager_{"manager"};
   Canary canary_;
 };
 
 /// Drives until there is odometry with a motion.
 bool answers(SimulatedRobot& robot) {
-  robot.publishInfos();
   robot.publishMount();
-  for (int i = 0; i < 20; ++i) {
-    const ros::Time stamp = robot.drive();
-    const auto status = robot.statusOf(stamp, seconds(5));
-    if (status && status->state == OdometryStatus::OK) return true;
-  }
-  return false;
+  return waitUntil([&] {
+    robot.publishInfos();
+    const auto status = robot.statusOf(robot.drive(), seconds(5));
+    return status && status->state == OdometryStatus::OK;
+  });
 }
 
 TEST_F(NodeletLifecycleTest, LoadsAndUnloadsWhileImagesCome) {
@@ -133,7 +131,6 @@ TEST_F(NodeletLifecycleTest, LoadsAndUnloadsWhileImagesCome) {
   driver.join();
   ASSERT_TRUE(canary_.sings());
   ASSERT_TRUE(load());
-  std::this_thread::sleep_for(seconds(1));
   EXPECT_TRUE(answers(robot));
   EXPECT_TRUE(unload());
 }
@@ -198,7 +195,7 @@ TEST(NodeTest, EndsCleanlyAtAnyMoment) {
   for (int i = 0; i < 12; ++i) {
     const std::string delay_s = std::to_string(0.05 + 0.1 * i);
     ros::param::set("/use_sim_time", i % 2 == 1);  // without a clock: time stands still
-    const CommandResult result = runCommand("timeout --preserve-status -k 10 -s INT " + delay_s +
+    const CommandResult result = runCommand("timeout --preserve-status -k 180 -s INT " + delay_s +
                                             " " STEREO_ODOMETRY " __name:=short_lived");
     // 130: before ROS has taken over the signal.
     EXPECT_TRUE(result.status == 0 || result.status == 130)

@@ -2,6 +2,7 @@
 
 #include "player/kitti_player.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <map>
@@ -26,8 +27,10 @@
 #include "input/stereo_synchronizer.h"
 #include "support/expect_error.h"
 #include "support/kitti2bag_writer.h"
+#include "support/service_caller.h"
 #include "support/synthetic_sequence.h"
 #include "support/temporary_directory.h"
+#include "support/wait_until.h"
 
 namespace rotrocc {
 namespace {
@@ -50,6 +53,13 @@ class Listener {
     count<tf2_msgs::TFMessage>(nh, "/tf_static");
     subscribers_.push_back(nh.subscribe("left/image_rect", 10, &Listener::onLeft, this));
     subscribers_.push_back(nh.subscribe("right/image_rect", 10, &Listener::onRight, this));
+  }
+
+  /// Whether it would hear of all topics.
+  bool connected() const {
+    return std::all_of(subscribers_.begin(), subscribers_.end(), [](const ros::Subscriber& s) {
+      return s.getNumPublishers() > 0;
+    });
   }
 
   /// Messages received on a topic, as it is named above.
@@ -112,6 +122,7 @@ class KittiPlayerTest : public ::testing::Test {
     private_nh_.deleteParam("");
     private_nh_.setParam("bag", directory_ / "test.bag");
     private_nh_.setParam("lockstep", true);
+    private_nh_.setParam("lockstep_timeout_s", 600.0);
     private_nh_.setParam("rate", 0.0);
     writeSyntheticSequence(directory_ / "sequence", kPairs);
   }
@@ -130,18 +141,26 @@ class KittiPlayerTest : public ::testing::Test {
     player_ = std::make_unique<KittiPlayer>(nh_, private_nh_, [this] { ended_ = true; });
   }
 
-  /// Waits for `condition`, 20 s at most. Returns whether it came true.
-  template <typename Condition>
-  bool waitFor(Condition condition) const {
-    for (int polls = 0; polls < 2000 && !condition(); ++polls) {
-      std::this_thread::sleep_for(milliseconds(10));
-    }
-    return condition();
+  void play(const Listener& listener) {
+    private_nh_.setParam("paused", true);
+    startPlayer();
+    ASSERT_TRUE(waitUntil([&] { return listener.connected(); }));
+    player_->setPaused(false);
   }
 
-  void playToTheEnd() {
-    startPlayer();
-    ASSERT_TRUE(waitFor([this] { return ended_.load(); }));
+  bool waitForEnd() const {
+    return waitUntil([this] { return ended_.load(); });
+  }
+
+  void playToTheEnd(const Listener& listener) {
+    play(listener);
+    ASSERT_TRUE(waitForEnd());
+  }
+
+  /// The last ones may still be on their way.
+  static void expectCount(const Listener& listener, const std::string& topic, int count) {
+    waitUntil([&] { return listener.count(topic) >= count; });
+    EXPECT_EQ(listener.count(topic), count) << topic;
   }
 
   TemporaryDirectory directory_;
@@ -155,26 +174,26 @@ class KittiPlayerTest : public ::testing::Test {
 TEST_F(KittiPlayerTest, PlaysAllOfOwnBags) {
   writeOwnBag();
   Listener listener(nh_);
-  playToTheEnd();
+  playToTheEnd(listener);
   const std::vector<ros::Time> stamps = listener.leftStamps();
   ASSERT_EQ(stamps.size(), static_cast<std::size_t>(kPairs));
   EXPECT_EQ(stamps.front(), ros::Time(1000.0));
-  EXPECT_EQ(listener.count("left/camera_info"), kPairs + 1) << "one ahead of all images";
-  EXPECT_EQ(listener.count("right/camera_info"), kPairs + 1);
-  EXPECT_EQ(listener.count("ground_truth/pose"), kPairs);
-  EXPECT_EQ(listener.count("ground_truth/path"), 1);
-  EXPECT_EQ(listener.count("/tf_static"), 1);
+  expectCount(listener, "left/camera_info", kPairs + 1);  // one ahead of all images
+  expectCount(listener, "right/camera_info", kPairs + 1);
+  expectCount(listener, "ground_truth/pose", kPairs);
+  expectCount(listener, "ground_truth/path", 1);
+  expectCount(listener, "/tf_static", 1);
   EXPECT_GE(listener.count("/clock"), kPairs);
 }
 
 TEST_F(KittiPlayerTest, ShowsRecordedPosesInsteadOfTheirTf) {
   writeKitti2bagRaw(sequence(), bag());
   Listener listener(nh_);
-  playToTheEnd();
+  playToTheEnd(listener);
   EXPECT_EQ(listener.leftStamps().size(), static_cast<std::size_t>(kPairs));
   EXPECT_EQ(listener.count("/tf"), 0);
-  EXPECT_EQ(listener.count("ground_truth/pose"), kPairs);
-  EXPECT_EQ(listener.count("ground_truth/path"), 1);
+  expectCount(listener, "ground_truth/pose", kPairs);
+  expectCount(listener, "ground_truth/path", 1);
 }
 
 TEST_F(KittiPlayerTest, BeginsAndEndsWhereItIsTold) {
@@ -182,7 +201,7 @@ TEST_F(KittiPlayerTest, BeginsAndEndsWhereItIsTold) {
   private_nh_.setParam("start", 0.15);
   private_nh_.setParam("duration", 0.2);
   Listener listener(nh_);
-  playToTheEnd();
+  playToTheEnd(listener);
   EXPECT_EQ(listener.leftStamps(), (std::vector<ros::Time>{ros::Time(1000.2), ros::Time(1000.3)}));
 }
 
@@ -192,9 +211,9 @@ TEST_F(KittiPlayerTest, GoesOnWithoutOdometryAfterTheTimeout) {
   Listener listener(nh_);
   listener.fallSilent();
   const auto begin = std::chrono::steady_clock::now();
-  playToTheEnd();
+  playToTheEnd(listener);
   EXPECT_GE(std::chrono::steady_clock::now() - begin, kPairs * milliseconds(100));
-  EXPECT_EQ(listener.leftStamps().size(), static_cast<std::size_t>(kPairs));
+  EXPECT_TRUE(waitUntil([&] { return listener.leftStamps().size() == kPairs; }));
 }
 
 TEST_F(KittiPlayerTest, PausesByService) {
@@ -208,9 +227,9 @@ TEST_F(KittiPlayerTest, PausesByService) {
 
   std_srvs::SetBool request;
   request.request.data = false;
-  ASSERT_TRUE(ros::service::call("/player/pause", request));
+  ASSERT_TRUE(ServiceCaller("/player").call("pause", request));
   EXPECT_TRUE(request.response.success);
-  EXPECT_TRUE(waitFor([this] { return ended_.load(); }));
+  EXPECT_TRUE(waitForEnd());
   EXPECT_EQ(listener.leftStamps().size(), static_cast<std::size_t>(kPairs));
 }
 
@@ -218,8 +237,8 @@ TEST_F(KittiPlayerTest, BeginsAnewInALoop) {
   writeOwnBag();
   private_nh_.setParam("loop", true);
   Listener listener(nh_);
-  startPlayer();
-  EXPECT_TRUE(waitFor([&] { return listener.leftStamps().size() > 2 * kPairs; }));
+  play(listener);
+  EXPECT_TRUE(waitUntil([&] { return listener.leftStamps().size() > 2 * kPairs; }));
   EXPECT_FALSE(ended_);
   EXPECT_EQ(listener.leftStamps().at(kPairs), ros::Time(1000.0));
   player_.reset();
@@ -231,7 +250,7 @@ TEST_F(KittiPlayerTest, WaitsForSubscribers) {
   std::this_thread::sleep_for(milliseconds(300));
   EXPECT_FALSE(ended_);
   Listener listener(nh_);
-  EXPECT_TRUE(waitFor([this] { return ended_.load(); }));
+  EXPECT_TRUE(waitForEnd());
   EXPECT_EQ(listener.leftStamps().size(), static_cast<std::size_t>(kPairs));
 }
 

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include <ros/init.h>
-#include <ros/service.h>
 #include <rosbag/view.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
@@ -42,6 +41,7 @@ StressPlayer::StressPlayer(ros::NodeHandle& nh, const StressOptions& options)
     : options_(options),
       faults_(options.fault_share, options.seed),
       audit_(nh),
+      services_(options.odometry),
       left_image_(nh.advertise<sensor_msgs::Image>("left/image_rect", kQueueSize)),
       right_image_(nh.advertise<sensor_msgs::Image>("right/image_rect", kQueueSize)),
       left_info_(nh.advertise<sensor_msgs::CameraInfo>("left/camera_info", kQueueSize)),
@@ -136,10 +136,9 @@ void StressPlayer::publish(const StressPair& pair) {
 
 /// One after the other; each must be answered, whatever the odometry does.
 void StressPlayer::callServices() {
-  const std::string prefix = options_.odometry + "/";
   const auto call = [&](const char* name, auto service) {
     ++calls_;
-    if (!ros::service::call(prefix + name, service)) ++failed_calls_;
+    if (!services_.call(name, service)) ++failed_calls_;
   };
   std_srvs::SetBool pause;
   SetPose set_pose;

@@ -10,6 +10,7 @@
 
 #include "stress/answer_audit.h"
 #include "stress/fault_injector.h"
+#include "support/service_caller.h"
 
 namespace rotrocc {
 
@@ -45,6 +46,7 @@ class StressPlayer {
   ros::Duration step_;  // of the stamps, as recorded whatever the rate: the speed stays plausible
   FaultInjector faults_;
   AnswerAudit audit_;
+  ServiceCaller services_;
   std::uint64_t calls_ = 0, failed_calls_ = 0;
   std::chrono::steady_clock::time_point next_;
   int burst_left_ = 0;

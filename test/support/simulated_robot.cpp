@@ -1,7 +1,6 @@
 #include "support/simulated_robot.h"
 
 #include <stdexcept>
-#include <thread>
 
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/init.h>
@@ -38,17 +37,9 @@ sensor_msgs::CameraInfo toInfo(const StereoCamera& camera, double baseline_m) {
   return info;
 }
 
-void waitForSubscriber(const ros::Publisher& publisher) {
-  for (int i = 0; i < 200 && ros::ok(); ++i) {
-    if (publisher.getNumSubscribers() > 0) return;
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
-  throw std::runtime_error("nobody subscribes to " + publisher.getTopic());
-}
-
 }  // namespace
 
-SimulatedRobot::SimulatedRobot() {
+SimulatedRobot::SimulatedRobot(std::uint32_t odometries) {
   ros::NodeHandle nh;
   left_image_publisher_ = nh.advertise<sensor_msgs::Image>("left/image_rect", kQueueSize);
   right_image_publisher_ = nh.advertise<sensor_msgs::Image>("right/image_rect", kQueueSize);
@@ -65,12 +56,16 @@ SimulatedRobot::SimulatedRobot() {
         last_status_ = *message;
         received_.notify_all();
       });
-  for (const ros::Publisher* publisher : {&left_image_publisher_,
-                                          &right_image_publisher_,
-                                          &left_info_publisher_,
-                                          &right_info_publisher_}) {
-    waitForSubscriber(*publisher);
-  }
+  const bool connected = waitUntil([&] {
+    for (const ros::Publisher* publisher : {&left_image_publisher_,
+                                            &right_image_publisher_,
+                                            &left_info_publisher_,
+                                            &right_info_publisher_}) {
+      if (publisher->getNumSubscribers() < odometries) return false;
+    }
+    return odom_subscriber_.getNumPublishers() > 0 && status_subscriber_.getNumPublishers() > 0;
+  });
+  if (!connected) throw std::runtime_error("there is no odometry");
 }
 
 void SimulatedRobot::publishInfos(const std::function<void(sensor_msgs::CameraInfo&)>& change) {
@@ -125,7 +120,7 @@ void SimulatedRobot::publish(const sensor_msgs::Image& left, const sensor_msgs::
 }
 
 void SimulatedRobot::turnBackTime() {
-  stamp_ = ros::Time(500.0);
+  stamp_ -= ros::Duration(100.0);
 }
 
 std::optional<nav_msgs::Odometry> SimulatedRobot::odometryOf(const ros::Time& stamp,
@@ -138,12 +133,27 @@ std::optional<OdometryStatus> SimulatedRobot::statusOf(const ros::Time& stamp,
   return waitFor(stamp, status_, timeout);
 }
 
-std::optional<OdometryStatus> SimulatedRobot::statusWith(std::uint8_t state,
-                                                         std::chrono::milliseconds timeout) {
+std::optional<nav_msgs::Odometry> SimulatedRobot::odometryFrom(const ros::Time& stamp) {
   std::unique_lock<std::mutex> lock(mutex_);
-  const bool there = received_.wait_for(lock, timeout, [&] { return last_status_.state == state; });
-  if (!there) return std::nullopt;
+  const auto there = [&] { return odometry_.lower_bound(stamp) != odometry_.end(); };
+  if (!received_.wait_for(lock, kHangLimit, there)) return std::nullopt;
+  return odometry_.lower_bound(stamp)->second;
+}
+
+std::optional<OdometryStatus> SimulatedRobot::statusThat(
+    const std::function<bool(const OdometryStatus&)>& fits, std::chrono::milliseconds timeout) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (!received_.wait_for(lock, timeout, [&] { return fits(last_status_); })) return std::nullopt;
   return last_status_;
+}
+
+std::optional<OdometryStatus> SimulatedRobot::statusWith(std::uint8_t state,
+                                                         const std::string& reason,
+                                                         std::chrono::milliseconds timeout) {
+  const auto fits = [&](const OdometryStatus& status) {
+    return status.state == state && status.reason.find(reason) != std::string::npos;
+  };
+  return statusThat(fits, timeout);
 }
 
 template <class Message>

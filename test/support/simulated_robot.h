@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <nav_msgs/Odometry.h>
@@ -19,6 +20,7 @@
 
 #include "rotrocc/OdometryStatus.h"
 #include "support/synthetic_scene.h"
+#include "support/wait_until.h"
 
 namespace rotrocc {
 
@@ -29,8 +31,8 @@ class SimulatedRobot {
   static constexpr double kStep_m = 0.4;    ///< forward, from each pair to the next
   static constexpr double kPeriod_s = 0.1;  ///< between them
 
-  /// An odometry must subscribe within some seconds.
-  SimulatedRobot();
+  /// Returns when so many odometries have subscribed, and one of them answers.
+  explicit SimulatedRobot(std::uint32_t odometries = 1);
 
   /// After `change` of both.
   void publishInfos(const std::function<void(sensor_msgs::CameraInfo&)>& change = {});
@@ -50,14 +52,21 @@ class SimulatedRobot {
   void turnBackTime();
 
   /// The answer to the pair of a stamp; nothing if it does not come in time.
-  std::optional<nav_msgs::Odometry> odometryOf(
-      const ros::Time& stamp, std::chrono::milliseconds timeout = std::chrono::seconds(20));
-  std::optional<OdometryStatus> statusOf(
-      const ros::Time& stamp, std::chrono::milliseconds timeout = std::chrono::seconds(20));
+  std::optional<nav_msgs::Odometry> odometryOf(const ros::Time& stamp,
+                                               std::chrono::milliseconds timeout = kHangLimit);
+  std::optional<OdometryStatus> statusOf(const ros::Time& stamp,
+                                         std::chrono::milliseconds timeout = kHangLimit);
 
-  /// Waits for a status with a state; empty if none comes in time.
-  std::optional<OdometryStatus> statusWith(
-      std::uint8_t state, std::chrono::milliseconds timeout = std::chrono::seconds(20));
+  /// The first answer to a pair of that stamp or a later one.
+  std::optional<nav_msgs::Odometry> odometryFrom(const ros::Time& stamp);
+
+  /// Waits for a status that fits, or with a state and some words in its reason; nothing if none
+  /// comes in time.
+  std::optional<OdometryStatus> statusThat(const std::function<bool(const OdometryStatus&)>& fits,
+                                           std::chrono::milliseconds timeout = kHangLimit);
+  std::optional<OdometryStatus> statusWith(std::uint8_t state,
+                                           const std::string& reason = "",
+                                           std::chrono::milliseconds timeout = kHangLimit);
 
  private:
   template <class Message>
