@@ -1,7 +1,5 @@
 #include "rotrocc/parameters.h"
 
-#include <algorithm>
-#include <cctype>
 #include <stdexcept>
 
 #include <yaml-cpp/yaml.h>
@@ -27,32 +25,6 @@ void setAll(const YAML::Node& node, const std::string& prefix, ParameterTable& t
 
 /// Column of the comments in a YAML file.
 constexpr std::size_t kCommentColumn = 34;
-
-/// Escapes text for double quotes. YAML::Emitter would change invalid UTF-8.
-std::string escape(const std::string& text) {
-  constexpr char kHex[] = "0123456789abcdef";
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      escaped += {'\\', c};
-    } else if ((c >= 0 && c < ' ') || c == '\x7f') {
-      escaped += {'\\', 'x', kHex[c / 16], kHex[c % 16]};
-    } else {
-      escaped += c;
-    }
-  }
-  return escaped;
-}
-
-/// Quotes a text if YAML would read it as something else.
-std::string quoteIfNeeded(const std::string& text) {
-  const auto is_plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '/' || c == '.';
-  };
-  const bool is_null = text == "null" || text == "Null" || text == "NULL";
-  if (!text.empty() && !is_null && std::all_of(text.begin(), text.end(), is_plain)) return text;
-  return '"' + escape(text) + '"';
-}
 
 std::string comment(const ParameterTable::Parameter& p) {
   std::string text = "# ";
@@ -82,7 +54,7 @@ std::string toYaml(const ParameterTable& table) {
     if (its_section != section) text += "\n" + its_section + ":\n";
     section = its_section;
     const bool is_text = p.type == ParameterTable::Parameter::Type::kText;
-    const std::string value = is_text ? quoteIfNeeded(p.get()) : p.get();
+    const std::string value = is_text ? YAML::Dump(YAML::Node(p.get())) : p.get();
     std::string line =
         (section.empty() ? "" : "  ") + p.name.substr(slash + 1) + ": " + value + "  ";
     if (line.size() < kCommentColumn) line.resize(kCommentColumn, ' ');

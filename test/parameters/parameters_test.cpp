@@ -234,8 +234,7 @@ TEST(ParametersTest, TextsThatMeanSomethingInYamlAreReadBack) {
                            "\"q\"",
                            "a\\b\tc",
                            "\x7f\x04",
-                           "Gr\u00fc\u00dfe",
-                           "no UTF-8: \xc0\xb5"}) {
+                           "Gr\u00fc\u00dfe"}) {
     Settings written;
     written.table.set("trajectory_file", text);
     Settings read;
