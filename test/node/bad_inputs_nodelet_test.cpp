@@ -110,7 +110,7 @@ class Drive {
     OdometryStatus last;
     const bool came = comesTrue([&] {
       robot_->drive();
-      const auto status = robot_->statusWith(state, milliseconds(100));
+      const auto status = robot_->statusWith(state, "", milliseconds(100));
       if (status) last = *status;
       return status && status->reason.find(reason) == 0;
     });
