@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -36,9 +37,10 @@ const char* const kName = "/stereo_odometry";
 constexpr double kSpeed_mps = SimulatedRobot::kStep_m / SimulatedRobot::kPeriod_s;
 constexpr double kSpeedTolerance_mps = 0.05 * kSpeed_mps;
 
-/// Waits until it is so; a minute is longer than any load makes it take.
+/// Waits until it is so, for half a minute: no load makes it take so long.
 bool comesTrue(const std::function<bool()>& condition) {
-  for (int i = 0; i < 3000; ++i) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (std::chrono::steady_clock::now() < deadline) {
     if (condition()) return true;
     std::this_thread::sleep_for(milliseconds(20));
   }
