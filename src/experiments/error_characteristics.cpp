@@ -31,10 +31,10 @@ Eigen::Isometry3d motion(const Eigen::Matrix<double, 6, 1>& amounts) {
 
 }  // namespace
 
-std::vector<Hypothesis> singleAxisHypotheses() {
+std::vector<AssumedMotion> singleAxisMotions() {
   constexpr double kExcess = 1.1;
   const char* names[6] = {"pitch", "yaw", "roll", "t_x", "t_y", "t_z"};
-  std::vector<Hypothesis> hypotheses;
+  std::vector<AssumedMotion> hypotheses;
   for (int axis = 0; axis < 6; ++axis) {
     Eigen::Matrix<double, 6, 1> amounts = Eigen::Matrix<double, 6, 1>::Zero();
     amounts[axis] = axis < 3 ? 3.0 * kDegree : 1.0;
@@ -43,10 +43,10 @@ std::vector<Hypothesis> singleAxisHypotheses() {
   return hypotheses;
 }
 
-Hypothesis turnHypothesis() {
+AssumedMotion turnMotion() {
   constexpr double kExcess = 1.05;
   const double speed_mps = 50.0 / 3.6;
-  Hypothesis turn;
+  AssumedMotion turn;
   turn.name = "turn";
   turn.T_prev_cur_true.linear() =
       rotation(10.0 * kDegree * kFrame_s, 50.0 * kDegree * kFrame_s, 5.0 * kDegree * kFrame_s);
@@ -58,7 +58,7 @@ Hypothesis turnHypothesis() {
 
 std::vector<FeatureErrors> judgeFeatures(const StereoCamera& camera,
                                          const std::vector<Eigen::Vector3d>& points_cur,
-                                         const Hypothesis& hypothesis,
+                                         const AssumedMotion& hypothesis,
                                          const std::vector<double>& depth_factors) {
   if (!depth_factors.empty() && depth_factors.size() != points_cur.size()) {
     throw std::invalid_argument("there are " + std::to_string(depth_factors.size()) +

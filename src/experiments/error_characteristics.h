@@ -18,25 +18,25 @@ struct FeatureErrors {
 };
 
 /// A true motion and a wrong hypothesis of it.
-struct Hypothesis {
+struct AssumedMotion {
   std::string name;
   Eigen::Isometry3d T_prev_cur_true = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d T_prev_cur_assumed = Eigen::Isometry3d::Identity();
 };
 
 /// Fig. 4: pitch, yaw and roll of 3 deg, and 1 m along x, y and z, each overestimated by 10 %.
-std::vector<Hypothesis> singleAxisHypotheses();
+std::vector<AssumedMotion> singleAxisMotions();
 
 /// Fig. 5: a turn of 50 deg/s with 10 deg/s of pitch and 5 deg/s of roll at 50 km/h, seen at 10 Hz;
 /// the assumed rotation is right, the assumed translation 5 % too long.
-Hypothesis turnHypothesis();
+AssumedMotion turnMotion();
 
 /// Computes the errors for noise-free flow of points [m, camera frame at t]. The assumed depth of a
 /// point is its true depth times its `depth_factors`; empty: all 1. Throws std::invalid_argument if
 /// the sizes differ.
 std::vector<FeatureErrors> judgeFeatures(const StereoCamera& camera,
                                          const std::vector<Eigen::Vector3d>& points_cur,
-                                         const Hypothesis& hypothesis,
+                                         const AssumedMotion& hypothesis,
                                          const std::vector<double>& depth_factors = {});
 
 }  // namespace rotrocc

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "features/kernels/kernels.h"
+#include "kernels/kernels.h"
 
 namespace rotrocc {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "features/kernels/kernels.h"
+#include "kernels/kernels.h"
 
 namespace rotrocc {
 namespace {

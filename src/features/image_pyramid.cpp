@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "features/kernels/kernels.h"
+#include "kernels/kernels.h"
 
 namespace rotrocc {
 namespace {

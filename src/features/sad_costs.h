@@ -5,8 +5,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/core/hal/intrin.hpp>
 
-#include "features/kernels/sad_kernels.h"
 #include "features/stereo_matcher.h"
+#include "kernels/sad_kernels.h"
 
 /// What windows of the left and the right image cost to be taken for the same.
 namespace rotrocc::sad {

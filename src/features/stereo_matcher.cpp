@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "features/kernels/kernels.h"
 #include "features/sad_costs.h"
+#include "kernels/kernels.h"
 
 namespace rotrocc {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "features/kernels/kernels.h"
+#include "kernels/kernels.h"
 
 namespace rotrocc {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "features/kernels/kernels.h"
 #include "geometry/min_depth.h"
+#include "kernels/kernels.h"
 
 namespace rotrocc {
 namespace {

@@ -74,7 +74,7 @@ std::vector<double> depthFactors(std::size_t size) {
 
 void writeRows(const StereoCamera& camera,
                const std::vector<Eigen::Vector3d>& points,
-               const Hypothesis& hypothesis,
+               const AssumedMotion& hypothesis,
                const std::vector<double>& depth_factors,
                std::ofstream& file) {
   const auto errors = judgeFeatures(camera, points, hypothesis, depth_factors);
@@ -100,11 +100,11 @@ void run(const Options& options) {
   const std::vector<double> right_depths(points.size(), 1.0);
 
   std::ofstream fig4 = create(options.output + "/fig4.csv");
-  for (const Hypothesis& hypothesis : singleAxisHypotheses()) {
+  for (const AssumedMotion& hypothesis : singleAxisMotions()) {
     writeRows(sequence.camera(), points, hypothesis, right_depths, fig4);
   }
   std::ofstream fig5 = create(options.output + "/fig5.csv");
-  writeRows(sequence.camera(), points, turnHypothesis(), depthFactors(points.size()), fig5);
+  writeRows(sequence.camera(), points, turnMotion(), depthFactors(points.size()), fig5);
   std::cout << points.size() << " features of " << options.sequence << '\n';
 }
 

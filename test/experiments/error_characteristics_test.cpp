@@ -41,7 +41,7 @@ TEST(ErrorCharacteristics, NormalizedErrorIsTheMotionsErrorForEachAxis) {
   const auto points = streetPoints();
   ASSERT_GT(points.size(), 500U);
   ASSERT_GT(nearest(points), 6.04);
-  for (const Hypothesis& hypothesis : singleAxisHypotheses()) {
+  for (const AssumedMotion& hypothesis : singleAxisMotions()) {
     double greatest_deviation = 0.0;
     for (const FeatureErrors& errors : judgeFeatures(kittiCamera(), points, hypothesis)) {
       greatest_deviation = std::max(greatest_deviation, std::abs(errors.normalized - 0.1));
@@ -57,7 +57,7 @@ TEST(ErrorCharacteristics, NormalizedErrorIsTheMotionsErrorForEachAxis) {
 
 TEST(ErrorCharacteristics, ReprojectionErrorDependsOnThePlace) {
   const auto points = streetPoints();
-  for (const Hypothesis& hypothesis : singleAxisHypotheses()) {
+  for (const AssumedMotion& hypothesis : singleAxisMotions()) {
     const auto errors = judgeFeatures(kittiCamera(), points, hypothesis);
     const auto [least, greatest] = std::minmax_element(
         errors.begin(), errors.end(), [](const FeatureErrors& a, const FeatureErrors& b) {
@@ -70,7 +70,7 @@ TEST(ErrorCharacteristics, ReprojectionErrorDependsOnThePlace) {
 }
 
 TEST(ErrorCharacteristics, ForwardMotionFollowsEquation17) {
-  const Hypothesis forward = singleAxisHypotheses().back();
+  const AssumedMotion forward = singleAxisMotions().back();
   ASSERT_EQ(forward.name, "t_z");
   const auto points = streetPoints();
   const auto errors = judgeFeatures(kittiCamera(), points, forward);
@@ -84,7 +84,7 @@ TEST(ErrorCharacteristics, DecoupledErrorIsConstantInATurnButForWrongDepths) {
   const auto points = streetPoints();
   std::vector<double> depth_factors(points.size(), 1.0);
   for (std::size_t i = 100; i <= 500; i += 100) depth_factors[i] = 0.95;
-  const Hypothesis turn = turnHypothesis();
+  const AssumedMotion turn = turnMotion();
   const auto errors = judgeFeatures(kittiCamera(), points, turn, depth_factors);
 
   double greatest_normalized = 0.0;
@@ -111,7 +111,7 @@ TEST(ErrorCharacteristics, DecoupledErrorIsConstantInATurnButForWrongDepths) {
 TEST(ErrorCharacteristics, RefusesDepthFactorsThatFitNoPoints) {
   expectError<std::invalid_argument>(
       [] {
-        judgeFeatures(kittiCamera(), streetPoints(), turnHypothesis(), {1.0, 1.0});
+        judgeFeatures(kittiCamera(), streetPoints(), turnMotion(), {1.0, 1.0});
       },
       "2 depth factors");
 }

@@ -1,4 +1,4 @@
-#include "features/kernels/kernels.h"
+#include "kernels/kernels.h"
 
 #include <sstream>
 #include <string>

@@ -1,6 +1,6 @@
-#include "features/kernels/window_kernels.h"
+#include "kernels/window_kernels.h"
 
-#include "features/kernels/lanes.h"
+#include "kernels/lanes.h"
 
 namespace rotrocc::ROTROCC_INSTRUCTIONS {
 namespace {

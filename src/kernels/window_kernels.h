@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "features/kernels/instructions.h"
+#include "kernels/instructions.h"
 
 namespace rotrocc {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "features/kernels/instructions.h"
+#include "kernels/instructions.h"
 
 namespace rotrocc {
 

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/core/hal/intrin.hpp>
 
-#include "features/kernels/instructions.h"
+#include "kernels/instructions.h"
 
 /// See lanes.h. 128 bits, by OpenCV's universal intrinsics.
 namespace rotrocc::ROTROCC_INSTRUCTIONS {

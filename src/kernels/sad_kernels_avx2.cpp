@@ -1,6 +1,6 @@
 #include <immintrin.h>
 
-#include "features/kernels/sad_kernels.h"
+#include "kernels/sad_kernels.h"
 
 namespace rotrocc::avx2 {
 namespace {

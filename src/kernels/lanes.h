@@ -2,10 +2,10 @@
 
 /// Registers of 16-bit integers (Shorts), 32-bit ones (Ints, half as many) and floats (Floats), as
 /// wide as the processor has them, and what the kernels do with them.
-#include "features/kernels/instructions.h"
+#include "kernels/instructions.h"
 
 #ifdef ROTROCC_AVX2
-#include "features/kernels/lanes_avx2.h"
+#include "kernels/lanes_avx2.h"
 #else
-#include "features/kernels/lanes_baseline.h"
+#include "kernels/lanes_baseline.h"
 #endif

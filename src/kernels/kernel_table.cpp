@@ -1,5 +1,5 @@
-#include "features/kernels/kernels.h"
-#include "features/kernels/lanes.h"
+#include "kernels/kernels.h"
+#include "kernels/lanes.h"
 
 namespace rotrocc::ROTROCC_INSTRUCTIONS {
 

@@ -1,4 +1,4 @@
-#include "features/kernels/fit_kernels.h"
+#include "kernels/fit_kernels.h"
 
 // No SIMD by hand: the compiler makes it of these loops.
 namespace rotrocc::ROTROCC_INSTRUCTIONS {

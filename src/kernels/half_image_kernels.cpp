@@ -1,6 +1,6 @@
-#include "features/kernels/half_image_kernels.h"
+#include "kernels/half_image_kernels.h"
 
-#include "features/kernels/lanes.h"
+#include "kernels/lanes.h"
 
 namespace rotrocc::ROTROCC_INSTRUCTIONS {
 namespace {

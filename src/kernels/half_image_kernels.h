@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "features/kernels/instructions.h"
+#include "kernels/instructions.h"
 
 namespace rotrocc::ROTROCC_INSTRUCTIONS {
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "features/kernels/corner_kernels.h"
-#include "features/kernels/fit_kernels.h"
-#include "features/kernels/half_image_kernels.h"
-#include "features/kernels/sad_kernels.h"
-#include "features/kernels/window_kernels.h"
+#include "kernels/corner_kernels.h"
+#include "kernels/fit_kernels.h"
+#include "kernels/half_image_kernels.h"
+#include "kernels/sad_kernels.h"
+#include "kernels/window_kernels.h"
 
 namespace rotrocc {
 

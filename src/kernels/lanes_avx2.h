@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "features/kernels/instructions.h"
+#include "kernels/instructions.h"
 
 /// See lanes.h. 256 bits.
 namespace rotrocc::ROTROCC_INSTRUCTIONS {

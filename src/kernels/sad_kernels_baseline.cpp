@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/core/hal/intrin.hpp>
 
-#include "features/kernels/sad_kernels.h"
+#include "kernels/sad_kernels.h"
 
 namespace rotrocc::ROTROCC_INSTRUCTIONS {
 namespace {
