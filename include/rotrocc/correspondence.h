@@ -11,10 +11,11 @@ namespace rotrocc {
 /// One feature of the set F = {x_prev, x_cur, depth} (paper, section V-A), in left pixels. The
 /// previous pair is the keyframe that the current one is compared with.
 struct Correspondence {
-  Eigen::Vector2d prev_px;    ///< measured in the keyframe
-  Eigen::Vector2d cur_px;     ///< measured in the current pair
+  Eigen::Vector2d prev_px = Eigen::Vector2d::Zero();  ///< measured in the keyframe
+  Eigen::Vector2d cur_px = Eigen::Vector2d::Zero();   ///< measured in the current pair
   double disparity_px = 0.0;  ///< x_left - x_right, measured in the current pair
-  Eigen::Vector3d point_cur;  ///< triangulated, current left camera frame [m]
+  Eigen::Vector3d point_cur =
+      Eigen::Vector3d::Zero();  ///< triangulated, current left camera frame [m]
 };
 
 using Correspondences = std::vector<Correspondence>;
@@ -22,7 +23,8 @@ using Correspondences = std::vector<Correspondence>;
 /// A flag for each correspondence, in their order: 1 if it belongs to the set, else 0.
 using FeatureSet = std::vector<char>;
 
-/// Computes point_cur of all features from their disparities, which must be above that of infinity.
+/// Computes point_cur of all features from their disparities. Drops those whose disparity is not
+/// above that of infinity, or whose depth is below 0.1 m.
 void triangulate(const StereoCamera& camera, Correspondences& features);
 
 }  // namespace rotrocc

@@ -30,7 +30,9 @@ struct FeatureTrackerConfig {
   int startup_levels = 5;                    ///< when there is none
   int max_iterations = 10;                   ///< per level
   double min_step_px = 0.02;                 ///< iterations end when a step is shorter
-  double max_round_trip_px = 0.5;            ///< forward and backward must meet
+  double max_round_trip_px = 0.5;            ///< forward and backward must meet; 0: not checked
+  bool scale_windows = true;                 ///< by the predicted change of depth
+  bool ignore_brightness = true;             ///< windows are compared without their mean
   double max_vertical_px = 1.0;              ///< left and right must be on the same row
   double max_disparity_difference_px = 1.0;  ///< of tracked and matched disparity at t
 };
@@ -72,6 +74,7 @@ struct MotionEstimatorConfig {
   double translation_limit = 0.05;       ///< termination limit of the DNRE, Eq. 30
   double translation_drop_share = 0.15;  ///< b of Eq. 30
   int translation_max_iterations = 30;
+  bool translation_from_prediction = false;  ///< stage 2 starts there, not at stage 1's result
   double translation_initial_px = 1.5;  ///< stage-1 error below which a feature enters; 0: all do
   double min_speed_mps = 1.0;           ///< below it stage 2 is skipped
 
@@ -125,7 +128,7 @@ struct OdometryConfig {
   StereoCalibratorConfig stereo_calibrator;
 
   int threads = 2;                  ///< that work on a pair, the calling one included
-  int startup_rounds = 4;           ///< predict, track, estimate this often without a prediction
+  int startup_rounds = 4;           ///< tries of a pair at most: predict, track, estimate
   double startup_settled_px = 0.5;  ///< fewer rounds if the prediction moves less
   double max_gap_s = 1.0;           ///< between two pairs; longer: the estimator restarts
 };

@@ -29,7 +29,8 @@ struct StageCounts {
   int consistent = 0;        ///< left and right agree there: the feature set F
   int rotation_inliers = 0;  ///< left after stage 1
   int translation_inliers =
-      0;  ///< left after stage 2; 0 if the criterion or the low speed skips it
+      0;          ///< left after stage 2; 0 if the criterion or the low speed skips it
+  int tries = 0;  ///< how often the features were tracked and a motion estimated
 };
 
 /// Wall time of each stage [ms]; several rounds of a stage are added up.
@@ -64,9 +65,10 @@ struct OdometryResult {
   std::string reason;         ///< why the state is not ok, in one sentence; empty if it is
   std::int64_t stamp_ns = 0;  ///< of the current pair
   double dt_s = 0.0;          ///< since the previous pair; 0 if there is none
-  /// The motion of the left camera since the previous pair, which is the last one that was ok,
-  /// degraded or initialising: maps points of its current frame to its previous one. Identity
-  /// unless the state is ok or degraded.
+  /// The motion of the left camera since the previous pair: maps points of its current frame to its
+  /// previous one. Identity unless the state is ok or degraded. The previous pair is the last one
+  /// with a pose: one that was ok, degraded or initialising, or a lost one that this pair matches
+  /// while it does not match those before; its pose is taken to be that of the pair before it.
   Eigen::Isometry3d T_prev_cur = Eigen::Isometry3d::Identity();
   /// Covariance of T_prev_cur in axes of the previous camera frame, in the order of REP 103:
   /// translation [m] x y z, then rotation [rad] about x y z, with R = Exp(error) R_estimated and

@@ -11,10 +11,6 @@ namespace {
 /// Rows are compared at one feature of so many, which is cheap, and enough over a few pairs.
 constexpr std::size_t kRowSample = 16;
 
-bool isUsableDepth(double depth_m) {
-  return std::isfinite(depth_m) && depth_m >= kMinDepth_m;
-}
-
 }  // namespace
 
 CorrespondenceFinder::CorrespondenceFinder(const Config& config, int threads)
@@ -90,7 +86,9 @@ void CorrespondenceFinder::predict(const StereoCamera& camera,
     const Eigen::Vector2d left = camera.project(point);
     cur_left_px_[i] = {static_cast<float>(left.x()), static_cast<float>(left.y())};
     predicted_disparities_px_[i] = static_cast<float>(camera.disparity(point.z()));
-    scale_changes_[i] = static_cast<float>(keyframe.points[i].z() / point.z());
+    if (config_.feature_tracker.scale_windows) {
+      scale_changes_[i] = static_cast<float>(keyframe.points[i].z() / point.z());
+    }
     tracked_[i] = 1;
   }
 }

@@ -27,7 +27,9 @@ float scaleOf(std::size_t level) {
 }  // namespace
 
 FeatureTracker::FeatureTracker(const Config& config)
-    : config_(config), windows_(Workers::kListParts, TrackingWindow(config.window_radius_px)) {}
+    : config_(config),
+      windows_(Workers::kListParts,
+               TrackingWindow(config.window_radius_px, config.ignore_brightness)) {}
 FeatureTracker::~FeatureTracker() = default;
 FeatureTracker::FeatureTracker(FeatureTracker&&) noexcept = default;
 FeatureTracker& FeatureTracker::operator=(FeatureTracker&&) noexcept = default;
@@ -94,7 +96,7 @@ bool FeatureTracker::follow(const ImagePyramid& from,
     if (!window.take(from[0], start, scale) || !window.find(to[0], stop, found)) return false;
   }
   end = found;
-  return returns(from[0], to[0], start, scale, window, end);
+  return config_.max_round_trip_px == 0.0 || returns(from[0], to[0], start, scale, window, end);
 }
 
 /// The way back starts where it should end, so one level is enough.

@@ -18,6 +18,10 @@ struct StereoFrame {
 /// A frame is shared by those that need it: as the last one, as a lost one, as a keyframe.
 using FramePtr = std::shared_ptr<const StereoFrame>;
 
+inline double secondsBetween(const StereoFrame& earlier, const StereoFrame& later) {
+  return 1e-9 * static_cast<double>(later.stamp_ns - earlier.stamp_ns);
+}
+
 /// Frames whose memory is reused once nobody holds them.
 class FramePool {
  public:

@@ -19,10 +19,11 @@ std::int16_t fraction(float distance) {
 
 }  // namespace
 
-TrackingWindow::TrackingWindow(int radius_px)
+TrackingWindow::TrackingWindow(int radius_px, bool ignores_brightness)
     : kernels_(&chooseKernels()),
       radius_(radius_px),
       side_(2 * radius_px + 1),
+      ignores_brightness_(ignores_brightness),
       stride_(wholeRegisters(side_)),
       sample_stride_(wholeRegisters(side_ + 2) + kernels_->shorts),
       samples_(static_cast<std::size_t>((side_ + 2) * sample_stride_)),
@@ -107,8 +108,9 @@ void TrackingWindow::spread(float scale) {
 bool TrackingWindow::invertNormalMatrix(const GradientSums& sums) {
   const double unit = 1.0 / (1 << Window::kGradientBits);
   const double pixels = side_ * side_;
-  const double mean_x = unit * static_cast<double>(sums.x) / pixels;
-  const double mean_y = unit * static_cast<double>(sums.y) / pixels;
+  const double per_pixel = ignores_brightness_ ? unit / pixels : 0.0;
+  const double mean_x = per_pixel * static_cast<double>(sums.x);
+  const double mean_y = per_pixel * static_cast<double>(sums.y);
   const auto about = [&](std::int64_t products, double mean_a, double mean_b) {
     return static_cast<float>(unit * unit * static_cast<double>(products) -
                               pixels * mean_a * mean_b);

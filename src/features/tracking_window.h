@@ -21,8 +21,9 @@ class TrackingWindow {
     double min_step_px;  ///< iterations end when a step is shorter
   };
 
-  /// The window is a square of 2 radius + 1; the radius is at most 25 px.
-  explicit TrackingWindow(int radius_px);
+  /// The window is a square of 2 radius + 1; the radius is at most 25 px. With `ignores_brightness`
+  /// windows are compared as if they had the same mean.
+  explicit TrackingWindow(int radius_px, bool ignores_brightness = true);
 
   /// Takes the window around `center` of `image` (CV_8UC1), as it looks when what it shows is
   /// `scale` > 0 times as large (to first order, so that a tenth more is near enough). Returns
@@ -44,6 +45,7 @@ class TrackingWindow {
 
   const Kernels* kernels_;
   int radius_, side_;
+  bool ignores_brightness_;
   int stride_;         // of the rows below: the side, rounded up to whole registers
   int sample_stride_;  // of samples_
   std::vector<std::int16_t> samples_, values_, gradient_x_, gradient_y_, mask_, spread_;

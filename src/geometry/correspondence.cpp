@@ -1,11 +1,18 @@
 #include "rotrocc/correspondence.h"
 
+#include <algorithm>
+
+#include "geometry/min_depth.h"
+
 namespace rotrocc {
 
 void triangulate(const StereoCamera& camera, Correspondences& features) {
-  for (Correspondence& feature : features) {
-    feature.point_cur = camera.depth(feature.disparity_px) * camera.ray(feature.cur_px);
-  }
+  const auto has_no_depth = [&](Correspondence& feature) {
+    const double depth_m = camera.depth(feature.disparity_px);
+    feature.point_cur = depth_m * camera.ray(feature.cur_px);
+    return !isUsableDepth(depth_m);
+  };
+  features.erase(std::remove_if(features.begin(), features.end(), has_no_depth), features.end());
 }
 
 }  // namespace rotrocc

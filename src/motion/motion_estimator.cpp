@@ -1,11 +1,22 @@
 #include "motion/motion_estimator.h"
 
+#include <Eigen/Cholesky>
+
 #include "motion/outlier_rejection.h"
 
 namespace rotrocc {
+namespace {
 
-MotionEstimator::MotionEstimator(const Config& config)
-    : config_(config), two_stages_(config), covariance_(config) {
+/// Exceeded by a squared distance of 6 degrees of freedom once in 100 times.
+constexpr double kSignificant2 = 16.8;
+
+/// A squared distance is less than half of another one if so many times it is less.
+constexpr double kHalf2 = 4.0;
+
+}  // namespace
+
+MotionEstimator::MotionEstimator(const Config& config, int least_inliers)
+    : config_(config), least_inliers_(least_inliers), two_stages_(config), covariance_(config) {
   if (config.robust_factor > 0.0) refinement_.emplace(config.robust_factor);
 }
 
@@ -25,13 +36,27 @@ const MotionEstimator::Estimate& MotionEstimator::estimate(const StereoCamera& c
   fittedErrors(camera, motion_.fit, errors_px_);
   near_ = all_;
   keepBelow(errors_px_, config_.retry_agreement_px, near_);
-  estimateFrom(near_, measured, initial, dt_s, other_);
-  const auto deviation = [&](const Estimate& estimate) {
-    return (estimate.T_prev_cur.translation() - initial.translation()).norm();
+  estimateFrom(near_, measured, initial, dt_s, retry_);
+  return isLikelier(retry_, initial) ? retry_ : found_;
+}
+
+/// Whether the retry is likelier than the motion found first.
+bool MotionEstimator::isLikelier(const Estimate& retry, const Eigen::Isometry3d& prediction) const {
+  if (!retry.valid || !found_.valid) return retry.valid;
+  const int inliers = count(retry.rotation_inliers);
+  const int inliers_before = count(found_.rotation_inliers);
+  if (2 * inliers < inliers_before) return false;
+  if (inliers > 2 * inliers_before) return true;
+  const Eigen::LDLT<Matrix6d> uncertainty(found_.covariance + retry.covariance);
+  const auto distance2 = [&](const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) {
+    Vector6d difference;
+    difference << T_a.translation() - T_b.translation(),
+        logRotation(T_a.linear() * T_b.linear().transpose());
+    return difference.dot(uncertainty.solve(difference));
   };
-  const bool likelier = other_.valid && 2 * count(other_.rotation_inliers) >= agree &&
-                        (!found_.valid || deviation(other_) < deviation(found_));
-  return likelier ? other_ : found_;
+  return distance2(retry.T_prev_cur, found_.T_prev_cur) > kSignificant2 &&
+         kHalf2 * distance2(retry.T_prev_cur, prediction) <
+             distance2(found_.T_prev_cur, prediction);
 }
 
 void MotionEstimator::estimateFrom(const FeatureSet& set,
@@ -40,11 +65,12 @@ void MotionEstimator::estimateFrom(const FeatureSet& set,
                                    double dt_s,
                                    Estimate& estimate) {
   RobustRefinement* refinement = refinement_ ? &*refinement_ : nullptr;
-  two_stages_.estimate(measured, set, initial, dt_s, refinement, motion_);
+  two_stages_.estimate(measured, set, initial, dt_s, least_inliers_, refinement, motion_);
   estimate.T_prev_cur = motion_.fit.T_prev_cur;
   estimate.rotation_inliers = motion_.rotation_inliers;
   estimate.translation_inliers = motion_.translation_inliers;
   estimate.has_translation_stage = motion_.has_translation_stage;
+  estimate.translation_failed = motion_.translation_failed;
   estimate.covariance.setZero();
   estimate.flow_noise_px = 0.0;
   estimate.valid =

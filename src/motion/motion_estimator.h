@@ -28,19 +28,24 @@ class MotionEstimator {
     FeatureSet rotation_inliers;
     FeatureSet translation_inliers;
     bool has_translation_stage = false;
-    double flow_noise_px = 0.0;  ///< standard deviation in x and y, by the inliers' residuals
+    bool translation_failed = false;  ///< stage 2 did: the motion is that of stage 1
+    double flow_noise_px = 0.0;       ///< standard deviation in x and y, by the inliers' residuals
   };
 
   /// Throws std::invalid_argument on a criterion of another name.
-  explicit MotionEstimator(const Config& config);
+  /// A stage 2 with fewer inliers than `least_inliers` has failed.
+  explicit MotionEstimator(const Config& config, int least_inliers = 3);
 
   /// Estimates the motion that took `dt_s` > 0 from the full feature set, beginning with `initial`.
   /// Invalid if fewer than 3 features are left, or the equations have no unique solution.
   ///
-  /// Where much of the image moves by itself, the full set may lead astray. If few features agree
-  /// with the motion found and `initial` is a prediction, the features near to it are tried too; of
-  /// two motions that many features agree with, the likelier one is that nearer to the prediction.
-  /// What is returned is the estimator's own, until the next call.
+  /// Where much of the image moves by itself, the full set may lead astray. If few features are
+  /// inliers and `initial` is a prediction, a retry starts from the features near to it. It is
+  /// taken if it has more than twice as many inliers; or if it has at least half as many, differs
+  /// from the first motion by more than both are uncertain, and is less than half as far from the
+  /// prediction, in units of that uncertainty.
+  ///
+  /// The result is valid until the next call.
   const Estimate& estimate(const StereoCamera& camera,
                            const Correspondences& features,
                            const Eigen::Isometry3d& initial,
@@ -48,6 +53,7 @@ class MotionEstimator {
                            bool is_prediction = true);
 
  private:
+  bool isLikelier(const Estimate& retry, const Eigen::Isometry3d& prediction) const;
   void estimateFrom(const FeatureSet& set,
                     const Measurements& measured,
                     const Eigen::Isometry3d& initial,
@@ -55,12 +61,13 @@ class MotionEstimator {
                     Estimate& estimate);
 
   Config config_;
+  int least_inliers_;
   TwoStageEstimator two_stages_;
   std::optional<RobustRefinement> refinement_;
   MotionCovariance covariance_;
 
   // Reused from call to call.
-  Estimate found_, other_;
+  Estimate found_, retry_;
   TwoStageMotion motion_;
   FeatureSet all_, near_;
   std::vector<double> errors_px_;

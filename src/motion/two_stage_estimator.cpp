@@ -40,20 +40,33 @@ void TwoStageEstimator::estimate(const Measurements& measured,
                                  const FeatureSet& set,
                                  const Eigen::Isometry3d& initial,
                                  double dt_s,
+                                 int least_inliers,
                                  RobustRefinement* refinement,
                                  TwoStageMotion& motion) {
   fitAt(measured, initial, motion.fit);
   motion.rotation_inliers = set;
   motion.has_translation_stage = false;
+  motion.translation_failed = false;
   motion.valid = estimateRotation(measured, refinement, motion);  // 1)
   motion.translation_inliers = motion.rotation_inliers;
 
   const double step_m = motion.fit.T_prev_cur.translation().norm();
   const bool is_slow = step_m < config_.min_speed_mps * dt_s;
   if (!motion.valid || !hasTwoStages(criterion_) || is_slow) return;
-  motion.has_translation_stage = true;
-  decouple(measured, motion.fit.T_prev_cur.linear());                // 2)
-  motion.valid = estimateTranslation(measured, refinement, motion);  // 3)
+  const Eigen::Isometry3d T_stage_one = motion.fit.T_prev_cur;
+  decouple(measured, T_stage_one.linear());  // 2)
+  selectCandidates(measured, motion.fit);
+  if (config_.translation_from_prediction) {
+    Eigen::Isometry3d T_start = T_stage_one;
+    T_start.translation() = initial.translation();
+    fitAt(measured, T_start, motion.fit);
+  }
+  motion.has_translation_stage = estimateTranslation(measured, refinement, motion) &&  // 3)
+                                 count(motion.translation_inliers) >= least_inliers;
+  if (motion.has_translation_stage) return;
+  motion.translation_failed = true;
+  motion.translation_inliers = motion.rotation_inliers;
+  fitAt(measured, T_stage_one, motion.fit);
 }
 
 bool TwoStageEstimator::estimateRotation(const Measurements& measured,
@@ -68,7 +81,7 @@ bool TwoStageEstimator::estimateRotation(const Measurements& measured,
   const int iterations =
       hasFixedLimit(criterion_) ? config_.rotation_max_iterations : config_.comparison_iterations;
   if (!iterate(rotation_threshold_, iterations, solve, measure, inliers)) return false;
-  return refinement != nullptr ? refinement->refineMotion(measured, inliers, fit) : solve(inliers);
+  return refinement == nullptr || refinement->refineMotion(measured, inliers, fit);
 }
 
 /// The flow that a DNRE (or NRE) is normalized with.
@@ -80,16 +93,19 @@ void TwoStageEstimator::decouple(const Measurements& measured, const Eigen::Matr
   }
 }
 
+/// The features that may enter stage 2.
+void TwoStageEstimator::selectCandidates(const Measurements& measured, const Fit& fit) {
+  candidates_.assign(measured.features.size(), 1);
+  if (config_.translation_initial_px == 0.0) return;
+  fittedErrors(measured.camera, fit, errors_);
+  keepBelow(errors_, config_.translation_initial_px, candidates_);
+}
+
 bool TwoStageEstimator::estimateTranslation(const Measurements& measured,
                                             RobustRefinement* refinement,
                                             TwoStageMotion& motion) {
   Fit& fit = motion.fit;
   FeatureSet& inliers = motion.translation_inliers;
-  candidates_.assign(measured.features.size(), 1);
-  if (config_.translation_initial_px > 0.0) {
-    fittedErrors(measured.camera, fit, errors_);
-    keepBelow(errors_, config_.translation_initial_px, candidates_);
-  }
   const auto solve = [&](const FeatureSet& set) {
     return solver_.solveTranslation(measured, set, fit);  // Eq. 29
   };
@@ -105,8 +121,7 @@ bool TwoStageEstimator::estimateTranslation(const Measurements& measured,
   inliers = candidates_;
   const int iterations = config_.translation_max_iterations;
   if (!iterate(translation_threshold_, iterations, solve, measure, inliers)) return false;
-  return refinement != nullptr ? refinement->refineTranslation(measured, inliers, fit)
-                               : solve(inliers);
+  return refinement == nullptr || refinement->refineTranslation(measured, inliers, fit);
 }
 
 /// Solves for the motion of the set and thresholds the errors of all features, until the set is

@@ -21,6 +21,7 @@ struct TwoStageMotion {
   FeatureSet rotation_inliers;
   FeatureSet translation_inliers;  ///< those of the rotation if there is no translation stage
   bool has_translation_stage = false;
+  bool translation_failed = false;  ///< the motion is that of stage 1
 };
 
 /// The estimator of section V-B: rotation, flow decoupling, translation; or one of the criteria
@@ -31,12 +32,13 @@ class TwoStageEstimator {
   explicit TwoStageEstimator(const MotionEstimatorConfig& config);
 
   /// Estimates the motion that took `dt_s` > 0 from the features flagged in `set`, beginning with
-  /// `initial`. Invalid if fewer than 3 features are left. `refinement`, if given, follows each
-  /// stage.
+  /// `initial`. Invalid if stage 1 leaves fewer than 3 features. If stage 2 leaves fewer than
+  /// `least_inliers`, the motion is that of stage 1. `refinement`, if given, follows each stage.
   void estimate(const Measurements& measured,
                 const FeatureSet& set,
                 const Eigen::Isometry3d& initial,
                 double dt_s,
+                int least_inliers,
                 RobustRefinement* refinement,
                 TwoStageMotion& motion);
 
@@ -45,6 +47,7 @@ class TwoStageEstimator {
                         RobustRefinement* refinement,
                         TwoStageMotion& motion);
   void decouple(const Measurements& measured, const Eigen::Matrix3d& R_prev_cur);
+  void selectCandidates(const Measurements& measured, const Fit& fit);
   bool estimateTranslation(const Measurements& measured,
                            RobustRefinement* refinement,
                            TwoStageMotion& motion);

@@ -79,6 +79,7 @@ OdometryStatus toStatus(const OdometryResult& result,
   message.reason = result.reason;
   message.dt = result.dt_s;
 
+  message.tries = static_cast<std::uint32_t>(result.counts.tries);
   message.corners = static_cast<std::uint32_t>(result.counts.corners);
   message.with_depth = static_cast<std::uint32_t>(result.counts.with_depth);
   message.tracked = static_cast<std::uint32_t>(result.counts.tracked);

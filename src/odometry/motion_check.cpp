@@ -64,6 +64,11 @@ std::string MotionCheck::whyLost(const MotionEstimator::Estimate& estimate, doub
 }
 
 std::string MotionCheck::whyDegraded(const MotionEstimator::Estimate& estimate) const {
+  if (estimate.translation_failed) {
+    return sentence("the translation stage has fewer than min_inliers = ",
+                    config_.min_inliers,
+                    " inliers: the motion is that of the rotation stage");
+  }
   if (inliers(estimate) < config_.degraded_inliers) {
     return sentence("the motion rests on ",
                     inliers(estimate),

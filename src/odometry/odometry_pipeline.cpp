@@ -1,21 +1,14 @@
 #include "odometry/odometry_pipeline.h"
 
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "common/sentence.h"
 #include "common/stage_timer.h"
-#include "motion/outlier_rejection.h"
 #include "odometry/pair_check.h"
 
 namespace rotrocc {
 namespace {
-
-/// The bias and the motion are estimated in turns, so often at most, until the bias that is applied
-/// changes by less than this.
-constexpr int kCalibrationRounds = 3;
-constexpr double kCalibrationSettled_px = 0.02;
 
 /// Two motions from one keyframe share the noise of its corners, half of that of their flow.
 constexpr double kNotShared = 0.5;
@@ -25,17 +18,13 @@ struct Lost : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-double seconds(std::int64_t ns) {
-  return static_cast<double>(ns) * 1e-9;
-}
-
 }  // namespace
 
 VisualOdometry::Pipeline::Pipeline(const Config& config)
     : config_(config),
       finder_(config.correspondence_finder, config.threads),
       motion_model_(config.motion_model),
-      estimator_(config.motion_estimator),
+      search_(config),
       check_(config.motion_check),
       calibrator_(config.stereo_calibrator),
       selector_(config.keyframe_selector) {}
@@ -58,6 +47,9 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
   }
   result.counts = found_.counts;
   result.disparity_bias = calibrator_.bias();
+  if (result.hasMotion()) {
+    result.disparity_bias.applied_px = found_.camera.cx_right - camera.cx_right;
+  }
   result.row_offset = rows_.offset();
   return result;
 }
@@ -69,7 +61,7 @@ void VisualOdometry::Pipeline::reset() {
 }
 
 void VisualOdometry::Pipeline::configure(const Config& config) {
-  estimator_ = MotionEstimator(config.motion_estimator);  // first, as it may throw
+  search_ = MotionSearch(config);  // first, as it may throw
   config_ = config;
   finder_ = CorrespondenceFinder(config.correspondence_finder, config.threads);
   motion_model_.configure(config.motion_model);
@@ -125,7 +117,8 @@ std::string VisualOdometry::Pipeline::whyRestart(const StereoPair& pair,
                                                  const StereoCamera& camera) const {
   if (!last_) return "first pair";
   if (camera != camera_) return "the camera has changed";
-  const double gap_s = seconds(pair.stamp_ns - (lost_ ? lost_ : last_)->stamp_ns);
+  const double gap_s =
+      1e-9 * static_cast<double>(pair.stamp_ns - (lost_ ? lost_ : last_)->stamp_ns);
   if (gap_s <= config_.max_gap_s) return "";
   return sentence("no pair for ", gap_s, " s, more than max_gap_s = ", config_.max_gap_s);
 }
@@ -163,104 +156,39 @@ void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& t
 }
 
 /// Measures the motion against the keyframe, else against the last frame, else against the one that
-/// was lost after it, whose pose is taken to be that of the last one.
+/// was lost after it, whose pose is taken to be that of the last one. The tries are limited over
+/// all of them, so that no pair takes much longer than one without a prediction.
 std::string VisualOdometry::Pipeline::findMotion(const FramePtr& current,
                                                  const std::optional<Eigen::Isometry3d>& expected,
                                                  OdometryResult& result) {
-  result.dt_s = seconds(current->stamp_ns - last_->stamp_ns);
+  result.dt_s = secondsBetween(*last_, *current);
   const auto T_last_cur = expected ? expected : motion_model_.predict(result.dt_s);
+  const StereoCamera corrected = calibrator_.correct(camera_);
+  const auto find = [&](const std::optional<Eigen::Isometry3d>& T_last_cur, int most_tries) {
+    return search_.find(
+        finder_, corrected, keyframe_, *current, T_last_cur, most_tries, found_, result.times);
+  };
   if (!keyframe_.frame) makeKeyframe(last_, result.times);
-  std::string why_lost = findMotionFromKeyframe(*current, T_last_cur, result.times);
+  const int most = config_.startup_rounds;
+  const bool has_other = keyframe_.frame != last_ || lost_;
+  std::string why_lost = find(T_last_cur, has_other ? most - 1 : most);
   if (!why_lost.empty() && keyframe_.frame != last_) {
     makeKeyframe(last_, result.times);
-    why_lost = findMotionFromKeyframe(*current, T_last_cur, result.times);
+    why_lost = find(T_last_cur, most);
   }
   if (!why_lost.empty() && lost_) {
     last_ = std::move(lost_);
     lost_.reset();
     motion_model_.reset();
-    result.dt_s = seconds(current->stamp_ns - last_->stamp_ns);
+    result.dt_s = secondsBetween(*last_, *current);
     makeKeyframe(last_, result.times);
-    why_lost = findMotionFromKeyframe(*current, {}, result.times);
+    why_lost = find({}, most);
+  }
+  if (why_lost.empty()) {
+    search_.calibrate(
+        camera_, secondsBetween(*keyframe_.frame, *current), calibrator_, found_, result.times);
   }
   return why_lost;
-}
-
-/// With a prediction one round is enough. Without one, or where it proves wrong, features tracked
-/// from a wrong place may agree on a wrong motion: predict, track and estimate until it settles.
-std::string VisualOdometry::Pipeline::findMotionFromKeyframe(
-    const StereoFrame& current,
-    const std::optional<Eigen::Isometry3d>& T_last_cur,
-    StageTimes& times) {
-  std::string why_lost;
-  Eigen::Isometry3d T_keyframe_cur = keyframe_.T_keyframe_last.T;
-  if (T_last_cur) {
-    why_lost = tryMotion(current, T_keyframe_cur * *T_last_cur, true, times);
-    if (why_lost.empty()) {
-      calibrate(sinceKeyframe_s(current), times);
-      return "";
-    }
-  }
-  for (int round = 0; round < config_.startup_rounds; ++round) {
-    why_lost = tryMotion(current, T_keyframe_cur, false, times);
-    if (!found_.estimate.valid) break;
-    const Eigen::Isometry3d& T_found = found_.estimate.T_prev_cur;
-    const double shift_px = finder_.medianShift(found_.camera, keyframe_, T_keyframe_cur, T_found);
-    T_keyframe_cur = T_found;
-    if (shift_px < config_.startup_settled_px) break;
-  }
-  if (why_lost.empty()) calibrate(sinceKeyframe_s(current), times);
-  return why_lost;
-}
-
-std::string VisualOdometry::Pipeline::tryMotion(const StereoFrame& current,
-                                                const Eigen::Isometry3d& T_keyframe_cur,
-                                                bool is_prediction,
-                                                StageTimes& times) {
-  found_.camera = calibrator_.correct(camera_);
-  {
-    const StageTimer timer(times.tracking_ms);
-    found_.counts.tracked = finder_.find(
-        found_.camera, keyframe_, current, T_keyframe_cur, is_prediction, found_.features);
-    found_.counts.corners = static_cast<int>(keyframe_.corners.size());
-    found_.counts.with_depth = static_cast<int>(keyframe_.points.size());
-    found_.counts.consistent = static_cast<int>(found_.features.size());
-  }
-  const StageTimer timer(times.estimation_ms);
-  return estimate(T_keyframe_cur, is_prediction, sinceKeyframe_s(current), found_);
-}
-
-std::string VisualOdometry::Pipeline::estimate(const Eigen::Isometry3d& T_keyframe_cur,
-                                               bool is_prediction,
-                                               double dt_s,
-                                               Hypothesis& hypothesis) {
-  MotionEstimator::Estimate& estimate = hypothesis.estimate;
-  estimate = estimator_.estimate(
-      hypothesis.camera, hypothesis.features, T_keyframe_cur, dt_s, is_prediction);
-  hypothesis.counts.rotation_inliers = count(estimate.rotation_inliers);
-  hypothesis.counts.translation_inliers =
-      estimate.has_translation_stage ? count(estimate.translation_inliers) : 0;
-  return check_.whyLost(estimate, dt_s);
-}
-
-/// The features show the rig's bias as well as the motion: both are found in turns.
-void VisualOdometry::Pipeline::calibrate(double dt_s, StageTimes& times) {
-  const StageTimer timer(times.estimation_ms);
-  for (int round = 0; round < kCalibrationRounds; ++round) {
-    const MotionEstimator::Estimate& found = found_.estimate;
-    calibrator_.observe(found_.camera, found_.features, found.rotation_inliers, found.T_prev_cur);
-    const StereoCamera corrected = calibrator_.correct(camera_);
-    if (std::abs(corrected.cx_right - found_.camera.cx_right) < kCalibrationSettled_px) return;
-    recalibrated_ = found_;
-    recalibrated_.camera = corrected;
-    triangulate(corrected, recalibrated_.features);
-    if (!estimate(found.T_prev_cur, true, dt_s, recalibrated_).empty()) return;
-    std::swap(found_, recalibrated_);
-  }
-}
-
-double VisualOdometry::Pipeline::sinceKeyframe_s(const StereoFrame& current) const {
-  return seconds(current.stamp_ns - keyframe_.frame->stamp_ns);
 }
 
 void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& result) {

@@ -10,11 +10,11 @@
 #include "features/correspondence_finder.h"
 #include "features/keyframe.h"
 #include "features/stereo_frame.h"
-#include "motion/motion_estimator.h"
 #include "odometry/hypothesis.h"
 #include "odometry/keyframe_selector.h"
 #include "odometry/motion_check.h"
 #include "odometry/motion_model.h"
+#include "odometry/motion_search.h"
 #include "rig/row_comparison.h"
 #include "rig/stereo_calibrator.h"
 #include "rotrocc/visual_odometry.h"
@@ -48,30 +48,16 @@ class VisualOdometry::Pipeline {
   void restart(const FramePtr& current);
   void makeKeyframe(const FramePtr& frame, StageTimes& times);
 
-  /// All return why there is no motion, or nothing if there is one, which is found_.
+  /// Returns why there is no motion, or nothing if there is one, which is found_.
   std::string findMotion(const FramePtr& current,
                          const std::optional<Eigen::Isometry3d>& expected,
                          OdometryResult& result);
-  std::string findMotionFromKeyframe(const StereoFrame& current,
-                                     const std::optional<Eigen::Isometry3d>& T_last_cur,
-                                     StageTimes& times);
-  std::string tryMotion(const StereoFrame& current,
-                        const Eigen::Isometry3d& T_keyframe_cur,
-                        bool is_prediction,
-                        StageTimes& times);
-  std::string estimate(const Eigen::Isometry3d& T_keyframe_cur,
-                       bool is_prediction,
-                       double dt_s,
-                       Hypothesis& hypothesis);
-  void calibrate(double dt_s, StageTimes& times);
-  double sinceKeyframe_s(const StereoFrame& current) const;
-
   void accept(const FramePtr& current, OdometryResult& result);
 
   Config config_;
   CorrespondenceFinder finder_;
   MotionModel motion_model_;
-  MotionEstimator estimator_;
+  MotionSearch search_;
   MotionCheck check_;
   StereoCalibrator calibrator_;
   RowComparison rows_;
@@ -83,7 +69,6 @@ class VisualOdometry::Pipeline {
   Keyframe keyframe_;    // none if it has to be made of the last frame
 
   Hypothesis found_;
-  Hypothesis recalibrated_;                // of calibrate()
   std::vector<float> row_differences_px_;  // of accept(), reused
 };
 

@@ -85,10 +85,16 @@ void addFeatureTracker(FeatureTrackerConfig& c, ParameterTable& table) {
       s + "min_step_px", c.min_step_px, 0.0001, 1.0, "px", "iterations end when a step is shorter");
   table.add(s + "max_round_trip_px",
             c.max_round_trip_px,
-            0.05,
+            0.0,
             10.0,
             "px",
-            "largest forward-backward tracking error");
+            "largest forward-backward tracking error; 0: not checked, as in the paper");
+  table.add(s + "scale_windows",
+            c.scale_windows,
+            "scale windows by the predicted change of depth; the paper does not");
+  table.add(s + "ignore_brightness",
+            c.ignore_brightness,
+            "compare windows without their mean brightness; the paper does not");
   table.add(s + "max_vertical_px",
             c.max_vertical_px,
             0.1,
@@ -168,6 +174,9 @@ void addMotionEstimator(MotionEstimatorConfig& c, ParameterTable& table) {
             1000,
             "",
             "stage 2: largest number of iterations");
+  table.add(s + "translation_from_prediction",
+            c.translation_from_prediction,
+            "stage 2: starts from the predicted translation, as in the paper, not from stage 1's");
   table.add(s + "translation_initial_px",
             c.translation_initial_px,
             0.0,
@@ -333,7 +342,7 @@ void addVisualOdometry(OdometryConfig& c, ParameterTable& table) {
             1,
             20,
             "",
-            "largest number of rounds of tracking and estimation without a prediction");
+            "largest number of tries of a pair: each tracks the features and estimates the motion");
   table.add(s + "startup_settled_px",
             c.startup_settled_px,
             0.0,

@@ -146,6 +146,7 @@ void StereoCalibrator::advance() {
 void StereoCalibrator::reset() {
   past_ = {};
   current_ = {};
+  motion_by_bias_.setZero();
   update();
 }
 

@@ -151,5 +151,27 @@ TEST(CorrespondenceFinderTest, ShiftIsHowFarTheFeaturesMoveInTheImage) {
   EXPECT_LT(finder.medianShift(camera, frames.keyframe, none, yaw), 6.2);
 }
 
+TEST(CorrespondenceFinderTest, ScalesWindowsUnlessToldNotTo) {
+  const SyntheticScene scene;
+  const Eigen::Isometry3d far_step = motion({0.0, 0.0, 1.5}, {0.0, 0.0, 0.0});
+  const StereoPair prev = view(scene, Eigen::Isometry3d::Identity());
+  const StereoPair cur = view(scene, far_step);
+  const auto medianError = [&](bool scale_windows) {
+    CorrespondenceFinder::Config config;
+    config.feature_tracker.scale_windows = scale_windows;
+    CorrespondenceFinder finder(config);
+    const Frames frames(finder, prev, cur, scene.camera());
+    Correspondences features;
+    finder.find(scene.camera(), frames.keyframe, *frames.current, far_step, true, features);
+    std::vector<double> errors_px;
+    for (const Correspondence& feature : features) {
+      const Eigen::Vector3d point_cur = scene.pointAt(far_step, feature.cur_px);
+      errors_px.push_back((scene.camera().project(far_step * point_cur) - feature.prev_px).norm());
+    }
+    return median(errors_px);
+  };
+  EXPECT_LT(1.2 * medianError(true), medianError(false));
+}
+
 }  // namespace
 }  // namespace rotrocc

@@ -299,5 +299,35 @@ TEST(FeatureTrackerTest, FindsTheSameWithAnyNumberOfThreads) {
   EXPECT_EQ(one.tracked, two.tracked);
 }
 
+TEST(FeatureTrackerTest, ComparesBrightnessIfAsked) {
+  const TwoViews views(motion({0.0, 0.0, 0.0}, {0.003, 0.02, 0.0}));
+  cv::Mat brighter;
+  views.second.convertTo(brighter, -1, 1.0, 25.0);
+  const auto share_right = [&](bool ignore_brightness) {
+    FeatureTracker::Config config;
+    config.ignore_brightness = ignore_brightness;
+    const auto errors = sortedErrors(
+        track(views.first, brighter, views.corners, perturbed(views.truth, 2.0), {2}, config),
+        views.truth);
+    const auto right = std::lower_bound(errors.begin(), errors.end(), 0.5) - errors.begin();
+    return static_cast<double>(right) / static_cast<double>(views.truth.size());
+  };
+  EXPECT_GT(share_right(true), 0.8);
+  EXPECT_LT(share_right(false), 0.5 * share_right(true));
+}
+
+TEST(FeatureTrackerTest, KeepsPointsThatDoNotComeBackIfTheRoundTripIsNotChecked) {
+  // Another street altogether: what is found there does not lead back.
+  const TwoViews elsewhere(motion({0.0, 0.0, 20.0}, {0.0, 0.6, 0.0}));
+  const auto tracked = [&](double max_round_trip_px) {
+    FeatureTracker::Config config;
+    config.max_round_trip_px = max_round_trip_px;
+    const Tracked result =
+        track(elsewhere.first, elsewhere.second, elsewhere.corners, elsewhere.corners, {2}, config);
+    return std::count(result.tracked.begin(), result.tracked.end(), 1);
+  };
+  EXPECT_GT(tracked(0.0), 2 * tracked(0.5));
+}
+
 }  // namespace
 }  // namespace rotrocc

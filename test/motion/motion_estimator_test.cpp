@@ -301,5 +301,27 @@ TEST(MotionEstimatorTest, TheCovarianceAllowsForTheFeaturesDropped) {
   }
 }
 
+TEST(MotionEstimatorTest, ARetryIsNotTakenForNoise) {
+  MotionEstimator::Config without;
+  without.retry_agreement_px = 0.0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    // So many random matches cause a retry, which finds the same motion but for its noise.
+    const Correspondences features = withRandomMatches(0.5, seed);
+    EXPECT_EQ(estimate(features).T_prev_cur.matrix(),
+              estimate(features, without).T_prev_cur.matrix())
+        << seed;
+  }
+}
+
+TEST(MotionEstimatorTest, AFailedStageTwoLeavesTheMotionOfStageOne) {
+  MotionEstimator::Config config;
+  config.translation_initial_px = 1e-6;  // noisy features may not enter
+  const Estimate found = estimate(goodFeatures(1), config);
+  ASSERT_TRUE(found.valid);
+  EXPECT_TRUE(found.translation_failed);
+  EXPECT_EQ(found.T_prev_cur.matrix(),
+            estimate(goodFeatures(1), configOf("reprojection")).T_prev_cur.matrix());
+}
+
 }  // namespace
 }  // namespace rotrocc

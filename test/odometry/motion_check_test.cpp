@@ -119,5 +119,12 @@ TEST(MotionCheckTest, CallsAJumpDegraded) {
   EXPECT_NE(check.whyJump(jump, expected, kPeriod_s), "");
 }
 
+TEST(MotionCheckTest, AMotionWithoutItsTranslationStageIsDegraded) {
+  auto estimate = goodEstimate();
+  estimate.translation_failed = true;
+  EXPECT_EQ(whyLost(estimate), "");
+  expectSays(whyDegraded(estimate), "translation stage", "min_inliers");
+}
+
 }  // namespace
 }  // namespace rotrocc

@@ -79,7 +79,17 @@ TEST(ParametersTest, ThePapersFileTurnsOffWhatThePaperDoesNotHave) {
   const MotionEstimatorConfig& estimator = settings.parameters.odometry.motion_estimator;
   EXPECT_EQ(estimator.criterion, "rotrocc");
   EXPECT_EQ(estimator.noise_ratio, 0.0);
+  EXPECT_EQ(estimator.robust_factor, 0.0);
   EXPECT_EQ(estimator.translation_initial_px, 0.0);
+  EXPECT_EQ(estimator.retry_agreement_px, 0.0);
+  EXPECT_TRUE(estimator.translation_from_prediction);
+  const FeatureTrackerConfig& tracker =
+      settings.parameters.odometry.correspondence_finder.feature_tracker;
+  EXPECT_EQ(tracker.max_round_trip_px, 0.0);
+  EXPECT_FALSE(tracker.scale_windows);
+  EXPECT_FALSE(tracker.ignore_brightness);
+  EXPECT_FALSE(settings.parameters.odometry.stereo_calibrator.enabled);
+  EXPECT_FALSE(settings.parameters.odometry.keyframe_selector.adaptive);
 }
 
 TEST(ParametersTest, PresetsHoldOnlyWhatIsDifferentFromTheDefault) {

@@ -188,5 +188,16 @@ TEST(StereoCalibratorTest, AddsAKnownBiasAndStopsThereIfNotEnabled) {
   EXPECT_EQ(estimating.bias().applied_px, 0.7);
 }
 
+TEST(StereoCalibratorTest, AddsNothingToTheCovarianceOnceItIsDisabled) {
+  StereoCalibrator calibrator({});
+  drive(0.5, 5, calibrator);
+  EXPECT_FALSE(calibrator.motionCovariance().isZero(0.0));
+  StereoCalibrator::Config disabled;
+  disabled.enabled = false;
+  calibrator.configure(disabled);
+  drive(0.5, 1, calibrator, 5);
+  EXPECT_TRUE(calibrator.motionCovariance().isZero(0.0));
+}
+
 }  // namespace
 }  // namespace rotrocc

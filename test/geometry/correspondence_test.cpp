@@ -1,0 +1,41 @@
+#include "rotrocc/correspondence.h"
+
+#include <gtest/gtest.h>
+
+#include "simulation/kitti_camera.h"
+
+namespace rotrocc {
+namespace {
+
+Correspondence withDisparity(double disparity_px) {
+  Correspondence feature;
+  feature.cur_px = {700.0, 200.0};
+  feature.disparity_px = disparity_px;
+  return feature;
+}
+
+TEST(CorrespondenceTest, TriangulatesAtTheDepthOfTheDisparity) {
+  const StereoCamera camera = kittiCamera();
+  Correspondences features = {withDisparity(40.0), withDisparity(2.0)};
+  triangulate(camera, features);
+  ASSERT_EQ(features.size(), 2u);
+  for (const Correspondence& feature : features) {
+    EXPECT_NEAR(camera.disparity(feature.point_cur.z()), feature.disparity_px, 1e-9);
+    EXPECT_LT((camera.project(feature.point_cur) - feature.cur_px).norm(), 1e-9);
+  }
+}
+
+TEST(CorrespondenceTest, DropsWhatIsAtOrBeyondInfinity) {
+  // As after a jump of the rig's bias: disparities that were above that of infinity no longer are.
+  StereoCamera camera = kittiCamera();
+  camera.cx_right -= 3.0;
+  ASSERT_NEAR(camera.disparityAtInfinity(), 3.0, 1e-9);
+  Correspondences features = {
+      withDisparity(2.0), withDisparity(40.0), withDisparity(camera.disparityAtInfinity())};
+  triangulate(camera, features);
+  ASSERT_EQ(features.size(), 1u);
+  EXPECT_EQ(features.front().disparity_px, 40.0);
+}
+
+}  // namespace
+}  // namespace rotrocc
