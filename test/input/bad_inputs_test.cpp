@@ -671,8 +671,7 @@ std::vector<BadInput> pictureRows() {
        [] {
          return badImages([](Image& left, Image& right) { std::swap(left.data, right.data); }, 12);
        },
-       "lost, pose moved 0.* m, covariance grows, twist unknown, hint: the images match if left "
-       "and right "
+       "lost, pose held, covariance grows, twist unknown, hint: the images match if left and right "
        "are exchanged: exchange their topics; then ok"},
       {22,
        "frozen camera",
