@@ -118,7 +118,7 @@ std::string comparedDrive(const OdometryRig::ImageChange& image_change,
   }
   const bool same =
       poses[0].T.matrix() == poses[1].T.matrix() && poses[0].covariance == poses[1].covariance;
-  return observed + (same ? ", the same to the bit" : ", but not the same");
+  return observed + (same ? ", bit-identical result" : ", but the result differs");
 }
 
 /// A pair with another stamp.
@@ -212,7 +212,8 @@ std::string inColour(const std::string& left_encoding,
   for (const auto& [grey, luma] :
        {std::pair(pair.left, pixelsOf(left_luma)), std::pair(pair.right, pixelsOf(right_luma))}) {
     const double difference = cv::norm(grey, luma, cv::NORM_L1) / static_cast<double>(luma.total());
-    if (difference > tolerance) return observed + ", but grey is off by " + toText(difference);
+    if (difference > tolerance)
+      return observed + ", but the grey levels differ by " + toText(difference);
   }
   return observed;
 }
@@ -318,7 +319,7 @@ std::string costlyImages(const OdometryRig::ImageChange& change) {
     const MatrixMemory memory;
     rig->sendImage(Side::kLeft, left);
     rig->sendImage(Side::kRight, right);
-    observed = rig->observed() + "; " + toText(memory.bytes()) + " bytes taken";
+    observed = rig->observed() + "; " + toText(memory.bytes()) + " bytes allocated";
   }
   rig->advance();
   return observed + recovery(*rig);
@@ -522,12 +523,12 @@ std::vector<BadInput> messageRows() {
        "dropped (image_data): the left image has 116559 bytes of data, *; then ok"},
       {4,
        "more data than step x height",
-       "accepted, the rest is not looked at",
+       "accepted, the rest is ignored",
        [] {
          return comparedDrive(
              both([](Image& image) { image.data.resize(image.data.size() + 99); }));
        },
-       "ok, the same to the bit"},
+       "ok, bit-identical result"},
       {5,
        "step shorter than a row",
        "dropped",
@@ -535,14 +536,14 @@ std::vector<BadInput> messageRows() {
        "dropped (image_step): the left image has a step of 619 bytes, *; then ok"},
       {6,
        "step longer than a row",
-       "accepted, the same result",
+       "accepted, the row padding is ignored",
        [] {
          return comparedDrive([](Image& left, Image& right) {
            padRows(left, 13);
            padRows(right, 64);
          });
        },
-       "ok, the same to the bit"},
+       "ok, bit-identical result"},
       {7,
        "sizes whose product overflows 32 or 64 bits",
        "dropped before any allocation",
@@ -550,24 +551,22 @@ std::vector<BadInput> messageRows() {
          return headerOfSize(0xffffffff, 0xffffffff, 0xffffffff) + "; " +
                 headerOfSize(65536, 65536, 3 * 65536) + "; " + headerOfSize(16, 65536, 65536);
        },
-       "dropped (image_size): the left image is 4294967295x4294967295 px, *; 0 bytes taken; "
+       "dropped (image_size): the left image is 4294967295x4294967295 px, *; 0 bytes allocated; "
        "then ok; "
-       "dropped (image_size): the left image is 65536x65536 px, *; 0 bytes taken; then ok; "
-       "dropped (image_data): * 65536 rows of 65536 bytes take 4294967296: *; 0 bytes taken; "
+       "dropped (image_size): the left image is 65536x65536 px, *; 0 bytes allocated; then ok; "
+       "dropped (image_data): * 65536 rows of 65536 bytes take 4294967296: *; 0 bytes allocated; "
        "then ok"},
       {8,
        "unknown or empty encoding",
-       "dropped, the known ones are listed",
+       "dropped, the supported ones are listed",
        [] {
          return badLeft([](Image& image) { image.encoding = ""; }) + "; " +
                 badLeft([](Image& image) { image.encoding = "yuv422"; });
        },
-       "dropped (image_encoding): the left image has the encoding \"\", but must have one of: "
-       "mono8 "
-       "* bayer_grbg8; then ok; "
-       "dropped (image_encoding): the left image has the encoding \"yuv422\", but must have one "
-       "of: "
-       "mono8 * bayer_grbg8; then ok"},
+       "dropped (image_encoding): the left image has the encoding \"\", but must be one of: "
+       "mono8 * bayer_grbg8; then ok; "
+       "dropped (image_encoding): the left image has the encoding \"yuv422\", but must be one "
+       "of: mono8 * bayer_grbg8; then ok"},
       {9,
        "bgr8 with the step of mono8",
        "dropped",
@@ -575,21 +574,21 @@ std::vector<BadInput> messageRows() {
        "dropped (image_step): * 620 px of bgr8 take 1860: *; then ok"},
       {10,
        "rgb8, bgr8, rgba8, bgra8",
-       "accepted, the grey is right",
+       "accepted, correct grey levels",
        [] { return inColour("rgb8", "bgra8", 1.0) + "; " + inColour("bgr8", "rgba8", 1.0); },
        "rgb8 and bgra8: ok; bgr8 and rgba8: ok"},
       {11,
        "mono16 of 12 bits, both byte orders",
-       "accepted, scaled: the result is that of mono8",
+       "accepted, scaled: the same result as for mono8",
        [] {
          return "little-endian " +
                 comparedDrive(both([](Image& image) { to16Bits(image, false); })) +
                 "; big-endian " + comparedDrive(both([](Image& image) { to16Bits(image, true); }));
        },
-       "little-endian ok, the same to the bit; big-endian ok, the same to the bit"},
+       "little-endian ok, bit-identical result; big-endian ok, bit-identical result"},
       {12,
        "Bayer patterns",
-       "accepted, the grey is right",
+       "accepted, correct grey levels",
        [] {
          return inColour("bayer_rggb8", "bayer_bggr8", 5.0) + "; " +
                 inColour("bayer_gbrg8", "bayer_grbg8", 5.0);
@@ -603,7 +602,7 @@ std::vector<BadInput> messageRows() {
        "remapped to a depth image?); then ok"},
       {14,
        "left and right of different sizes",
-       "dropped, both sizes are told",
+       "dropped, both sizes are reported",
        [] { return badLeft([](Image& image) { cropTo(image, 620, 178); }); },
        "dropped (image_sizes_differ): the left image is 620x178 px, the right one 620x188 px: *; "
        "then ok"},
@@ -625,7 +624,7 @@ std::vector<BadInput> messageRows() {
        "camera_info is for 620x188 px: *; then ok"},
       {17,
        "new resolution with its camera_info",
-       "starts anew for one pair, pose kept",
+       "restarts with one pair, pose kept",
        newResolution,
        "initialising, pose held, covariance grows, twist unknown; then ok"},
   };
@@ -644,12 +643,12 @@ std::vector<BadInput> pictureRows() {
          }
          return observed;
        },
-       "lost, pose held, covariance grows, twist unknown, hint: the left image shows hardly any "
-       "corner, its mean grey level is 0 of 255: *; then ok; "
-       "lost, pose held, covariance grows, twist unknown, hint: the left image shows hardly any "
-       "corner, its mean grey level is 255 of 255: *; then ok; "
-       "lost, pose held, covariance grows, twist unknown, hint: the left image shows hardly any "
-       "corner, its mean grey level is 128 of 255: *; then ok"},
+       "lost, pose held, covariance grows, twist unknown, hint: the left image has hardly any "
+       "corners, its mean grey level is 0 of 255: *; then ok; "
+       "lost, pose held, covariance grows, twist unknown, hint: the left image has hardly any "
+       "corners, its mean grey level is 255 of 255: *; then ok; "
+       "lost, pose held, covariance grows, twist unknown, hint: the left image has hardly any "
+       "corners, its mean grey level is 128 of 255: *; then ok"},
       {19,
        "noise",
        "lost, no jump",
@@ -663,26 +662,24 @@ std::vector<BadInput> pictureRows() {
        "lost, no depth",
        [] { return badImages([](Image& left, Image& right) { right.data = left.data; }, 12); },
        "lost, pose held, covariance grows, twist unknown, hint: left and right image are "
-       "identical: "
-       "*; then ok"},
+       "identical: *; then ok"},
       {21,
-       "left and right exchanged",
+       "left and right swapped",
        "lost with a hint",
        [] {
          return badImages([](Image& left, Image& right) { std::swap(left.data, right.data); }, 12);
        },
        "lost, pose held, covariance grows, twist unknown, hint: the images match if left and right "
-       "are exchanged: exchange their topics; then ok"},
+       "are swapped: swap their topics; then ok"},
       {22,
        "frozen camera",
-       "no motion, warned of",
+       "no motion, with a hint",
        frozenCamera,
-       "ok, moved 0 m of 0.4 m, hint: each image has been the same, byte for byte, for 11 pairs: "
-       "is "
-       "the camera frozen?; then ok"},
+       "ok, moved 0 m of 0.4 m, hint: each image has been unchanged for 11 pairs: is the camera "
+       "frozen?; then ok"},
       {23,
-       "corrupted JPEG: its header, or its second half missing",
-       "goes on",
+       "corrupted JPEG: bad header, or second half missing",
+       "continues",
        [] {
          return badJpeg([](std::vector<unsigned char>& jpeg) { jpeg[0] = jpeg[1] = 0; }) + "; " +
                 badJpeg([](std::vector<unsigned char>& jpeg) { jpeg.resize(jpeg.size() / 2); });
@@ -692,17 +689,15 @@ std::vector<BadInput> pictureRows() {
        "very small or very large images",
        "dropped, memory bounded",
        [] { return plainImagesOfSize(8) + "; " + plainImagesOfSize(8192); },
-       "dropped (image_size): the left image is 8x8 px, *; 0 bytes taken; then ok; "
+       "dropped (image_size): the left image is 8x8 px, *; 0 bytes allocated; then ok; "
        "dropped (image_size): the left image is 8192x8192 px, more than max_image_pixels = *; 0 "
-       "bytes taken; then ok"},
+       "bytes allocated; then ok"},
       {25,
        "images that are not rectified",
        "lost or degraded with a hint",
        [] { return badImages([](Image&, Image& right) { move(right, 0, 7); }, 12); },
        "lost, pose moved 0.* m, covariance grows, twist unknown, hint: the images match if the "
-       "right one "
-       "is "
-       "moved by about -7 rows: they are not rectified; *; then ok"},
+       "right one is shifted by about -7 rows: they are not rectified; *; then ok"},
   };
 }
 
@@ -747,7 +742,7 @@ std::vector<BadInput> badInfoRows() {
            "both must be positive: *; then ok"},
       {30,
        "baseline 0",
-       "no calibration, baseline_m is named; with that accepted",
+       "no calibration, the message names baseline_m; accepted with that",
        [] {
          const auto no_baseline = [](Info&, Info& right) { right.P[3] = 0.0; };
          Parameters parameters;
@@ -762,16 +757,14 @@ std::vector<BadInput> badInfoRows() {
        "baseline negative",
        "no calibration with a hint",
        [] { return badInfos([](Info& left, Info& right) { std::swap(left, right); }); },
-       refused + "the baseline is negative: *; are left and right exchanged?; then ok"},
+       refused + "the baseline is negative: *; are left and right swapped?; then ok"},
       {32,
        "baseline beyond 10 m or below 5 mm",
-       "accepted, warned of once; it is not that of these images",
+       "accepted with one warning; lost, as the images have another baseline",
        [] { return unusualBaseline(1000.0) + "; " + unusualBaseline(0.001); },
        "lost, pose held, covariance grows, twist unknown; warnings: 1, a baseline of 540 m is "
-       "unusual: "
-       "*; lost, pose held, covariance grows, twist unknown; warnings: 1, a baseline of 0.00054 m "
-       "is "
-       "unusual: *"},
+       "unusual: *; lost, pose held, covariance grows, twist unknown; warnings: 1, a baseline of "
+       "0.00054 m is unusual: *"},
       {33,
        "fx, fy or cy of left and right differ",
        "no calibration",
@@ -816,7 +809,7 @@ std::vector<BadInput> oddInfoRows() {
                                 info.D = {-0.37, 0.2, 0.001, 0.002, -0.07};
                               }));
        },
-       "ok, the same to the bit"},
+       "ok, bit-identical result"},
       {37,
        "only P is filled",
        "accepted",
@@ -828,7 +821,7 @@ std::vector<BadInput> oddInfoRows() {
                                 info.distortion_model.clear();
                               }));
        },
-       "ok, the same to the bit"},
+       "ok, bit-identical result"},
       {38,
        "binning, region of interest, or both",
        "accepted, P is scaled and moved",
@@ -839,18 +832,18 @@ std::vector<BadInput> oddInfoRows() {
                                                                             crop(info);
                                                                           }));
        },
-       "binning ok, the same to the bit; roi ok, the same to the bit; both ok, the same to the "
-       "bit"},
+       "binning ok, bit-identical result; roi ok, bit-identical result; both ok, bit-identical "
+       "result"},
       {39,
-       "camera_info changes in mid-stream",
-       "starts anew for one pair, pose kept",
+       "camera_info changes during the run",
+       "restarts with one pair, pose kept",
        newFocalLength,
        "initialising, pose held, covariance grows, twist unknown; then ok"},
   };
 }
 
 std::vector<BadInput> timeRows() {
-  const std::string anew = "initialising, pose held, covariance grows, twist unknown; then ok";
+  const std::string restarted = "initialising, pose held, covariance grows, twist unknown; then ok";
   return {
       {42,
        "stamp 0",
@@ -861,40 +854,39 @@ std::vector<BadInput> timeRows() {
        "stamp repeated",
        "dropped",
        [] { return badStamp([](const ros::Time& t) { return t - ros::Duration(0.1); }); },
-       "dropped (stamp_repeated): the right image has the stamp of the one before it, 1000.200 s: "
-       "*; then ok"},
+       "dropped (stamp_repeated): the right image has the same stamp as the previous one, 1000.200 "
+       "s: *; then ok"},
       {44,
-       "stamp slightly back, the clock not",
+       "stamp slightly back, but not the clock",
        "dropped",
        [] { return badStamp([](const ros::Time& t) { return t - ros::Duration(0.15); }); },
-       "dropped (stamp_backward): the right image has the stamp 1000.150 s, 0.05 s before the one "
-       "that came earlier: *; then ok"},
+       "dropped (stamp_backward): the right image has the stamp 1000.150 s, 0.05 s before the "
+       "previous one: *; then ok"},
       {45,
-       "time goes back: a bag in a loop",
-       "starts anew within one pair, pose kept or zero by parameter",
+       "time jumps back: a bag in a loop",
+       "restarts within one pair, pose kept or zero by parameter",
        [] { return "keep: " + timeJump("keep", -500.0) + "; zero: " + timeJump("zero", -500.0); },
        "keep: initialising, pose held, twist unknown; then ok; zero: initialising, pose zero, "
-       "twist "
-       "unknown; then ok"},
+       "twist unknown; then ok"},
       {46,
        "time jumps ahead, or the stamps alone",
-       "starts anew, pose kept, twist unknown; dropped, if the clock does not jump",
+       "restarts, pose kept, twist unknown; dropped if the clock does not jump",
        [] { return timeJump("keep", 500.0) + "; stamps alone: " + timeJump("keep", 500.0, true); },
-       anew +
+       restarted +
            "; stamps alone: dropped (stamp_future): the right image has the stamp 1500.300 s, 500 "
            "s ahead of the clock: *; then ok"},
       {47,
        "skew of left and right above the limit",
-       "dropped, the skew is told",
+       "dropped, the skew is reported",
        skewed,
        "dropped (no_partner); left and right stamps are up to 30 ms apart, more than "
        "max_stamp_difference_s = 10 ms: *; then ok"},
       {48,
        "one camera slower",
-       "warned of with both rates",
+       "a warning with both rates",
        slowCamera,
        "20 left and 10 right images: 10 pairs processed, the last ok; diagnostics: left/image_rect "
-       "comes at 10.0 Hz, right/image_rect at 5.0 Hz: one camera loses images"},
+       "arrives at 10.0 Hz, right/image_rect at 5.0 Hz: one camera drops images"},
   };
 }
 

@@ -145,10 +145,10 @@ std::string noClock() {
     const auto status = drive.robot().statusWith(OdometryStatus::NO_INPUT);
     observed = status ? std::string(stateName(status->state)) + ": " + status->reason : "no status";
     const bool warned =
-        comesTrue([&] { return !drive.log().with("nothing comes on /clock").empty(); });
-    observed += warned ? "; warned of in the log" : "; no warning";
+        comesTrue([&] { return !drive.log().with("there is no message on /clock").empty(); });
+    observed += warned ? "; logged as a warning" : "; no warning";
   }
-  return observed + "; ends when it is told to";
+  return observed + "; shuts down when requested";
 }
 
 std::string noCameraInfo() {
@@ -157,7 +157,7 @@ std::string noCameraInfo() {
       drive.waitForStatus(OdometryStatus::NO_CALIBRATION, "/left/camera_info has a publisher");
   const bool warned = comesTrue(
       [&] { return !drive.log().with("Likely: /left/camera_info has a publisher").empty(); });
-  observed += warned ? "; warned of in the log" : "; no warning";
+  observed += warned ? "; logged as a warning" : "; no warning";
   drive.setUp();
   return observed + drive.recovery();
 }
@@ -239,11 +239,11 @@ std::string badMount(const std::function<void(geometry_msgs::Transform&)>& spoil
   Drive drive;
   drive.robot().publishInfos();
   const std::string reason =
-      "no tf from base_link to camera_left, where the camera is mounted: \"camera_left\" passed";
+      "no tf from base_link to camera_left (camera pose): \"camera_left\" passed";
   const std::string observed = drive.waitForStatus(OdometryStatus::NO_TF, reason);
   drive.setUp();
   // The rest is tf2's.
-  return observed.substr(0, observed.find(", where")) + drive.recovery();
+  return observed.substr(0, observed.find(" (camera pose)")) + drive.recovery();
 }
 
 /// Calls all services again and again, from a thread of its own, until it is told to end.
@@ -295,8 +295,8 @@ std::string save(const std::string& path) {
   SaveTrajectory save;
   save.request.path = path;
   save.request.format = "tum";
-  if (!ros::service::call(std::string(kName) + "/save_trajectory", save)) return "no answer";
-  return std::string(save.response.success ? "success: " : "no success: ") + save.response.message;
+  if (!ros::service::call(std::string(kName) + "/save_trajectory", save)) return "no response";
+  return std::string(save.response.success ? "success: " : "failure: ") + save.response.message;
 }
 
 std::string services() {
@@ -308,7 +308,7 @@ std::string services() {
   const int before = caller.rounds();
   // Nothing waits for answers: some of the pairs are dropped, as the odometry is paused.
   for (int i = 0; i < 40 || caller.rounds() < before + 20; ++i) drive.robot().drive();
-  observed += "; " + toText(caller.end()) + " of the calls while pairs come are answered wrongly";
+  observed += "; " + toText(caller.end()) + " wrong responses while pairs arrive";
   observed += drive.recovery();
   return observed + "; " + save("/no/such/directory/poses.txt") + "; " + save("");
 }
@@ -317,30 +317,30 @@ std::vector<BadInput> rowsWithoutClock() {
   return {
       {50,
        "use_sim_time without /clock",
-       "warned of, no hang at the end",
+       "a warning, no hang at shutdown",
        noClock,
-       "NO_INPUT: use_sim_time is true, but nothing comes on /clock: *; warned of in the log; ends "
-       "when it is told to"},
+       "NO_INPUT: use_sim_time is true, but there is no message on /clock: *; logged as a warning; "
+       "shuts down when requested"},
   };
 }
 
 std::vector<BadInput> rowsWithClock() {
   return {
       {26,
-       "camera_info never comes",
-       "warned of by name",
+       "no camera_info",
+       "a warning names the topic",
        noCameraInfo,
-       "NO_CALIBRATION: /left/camera_info has a publisher, but nothing comes: *; warned of in the "
-       "log; then OK"},
+       "NO_CALIBRATION: /left/camera_info has a publisher, but no messages arrive: *; logged as a "
+       "warning; then OK"},
       {40,
        "frame_id empty",
        "dropped, or camera_frame is used",
        emptyFrame,
-       "dropped (frame_id_missing, 1 so far): the left image has an empty frame_id: let the driver "
-       "set it, or set the parameter camera_frame; then OK; with camera_frame OK"},
+       "dropped (frame_id_missing, 1 so far): the left image has an empty frame_id: set it in the "
+       "driver, or set the parameter camera_frame; then OK; with camera_frame OK"},
       {41,
        "frame_id of left and right differ",
-       "accepted, the left image's counts",
+       "accepted, the frame of the left image is used",
        otherFrame,
        "OK"},
       {49,
@@ -350,7 +350,7 @@ std::vector<BadInput> rowsWithClock() {
        "the last one is OK; processed and dropped (newer_pair_came) are 100, most of them dropped"},
       {51,
        "tf with NaN or a quaternion not of unit length",
-       "refused; a good one is waited for",
+       "rejected; waits for a valid one",
        [] {
          const double nan = std::numeric_limits<double>::quiet_NaN();
          return "NaN: " + badMount([&](auto& mount) { mount.translation.x = nan; }) +
@@ -359,13 +359,12 @@ std::vector<BadInput> rowsWithClock() {
        "NaN: NO_TF: no tf from base_link to camera_left; then OK; length 0.5: NO_TF: no tf from "
        "base_link to camera_left; then OK"},
       {52,
-       "services at any time and from another thread, bad path",
-       "answer without success, no deadlock",
+       "service calls at any time and from another thread, bad path",
+       "report failure, no deadlock",
        services,
-       "before the first pair no success: there is no pose yet: no pair has been processed; 0 of "
-       "the "
-       "calls while pairs come are answered wrongly; then OK; no success: cannot write "
-       "/no/such/directory/poses.txt*; no success: the path is empty: name a file to write"},
+       "before the first pair failure: there are no poses: no pair has been processed; 0 wrong "
+       "responses while pairs arrive; then OK; failure: cannot write "
+       "/no/such/directory/poses.txt*; failure: the path is empty: give an output file"},
   };
 }
 

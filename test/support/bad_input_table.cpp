@@ -19,16 +19,16 @@ const std::set<int> kRowsOfNodelet = {26, 40, 41, 49, 50, 51, 52};
 const char* const kHead =
     R"(# Bad input
 
-What the odometry makes of input that robots do send. The rows are observed by `bad_inputs_test` and,
-where it takes a ROS master, by `bad_inputs_nodelet_test`, which drives the nodelet. Both fail if
-this is out of date. To make it anew:
+How the odometry handles bad input that occurs on robots. `bad_inputs_test` writes the table; the rows
+that need a ROS master come from `bad_inputs_nodelet_test`, which runs the nodelet. Both tests fail
+if this file is out of date. To update it:
 
     export ROTROCC_UPDATE_FILES=1
     build/devel/lib/rotrocc/bad_inputs_test
     rostest rotrocc bad_inputs_nodelet.test
 
-"; then" is what becomes of good input that follows. Of each pair that is ok, the motion is right
-within 5 %, if nothing else is said.
+"; then" is the state after the valid pairs that follow. The motion of each pair that is ok is within
+5 % of the truth, unless the row says otherwise.
 
 | | input | expected | observed |
 |---|---|---|---|
