@@ -192,7 +192,7 @@ TEST(StereoPairConverterTest, RefusesMalformedImages) {
   image.encoding = "";
   expectRefused(image, "encoding \"\"");
   image.encoding = "32FC1";
-  expectRefused(image, "encoding \"32FC1\", but must have one of: mono8 8UC1");
+  expectRefused(image, "encoding \"32FC1\", but must be one of: mono8 8UC1");
 }
 
 TEST(StereoPairConverterTest, RefusesSizesThatDiffer) {

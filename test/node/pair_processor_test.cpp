@@ -87,21 +87,21 @@ TEST_F(PairProcessorTest, ConfigChangesWithTheNextPair) {
   EXPECT_EQ(state(), State::kOk);
 }
 
-/// 60 corners are too few to tell exchanged images by.
+/// 60 corners are too few to recognise swapped images.
 TEST_F(PairProcessorTest, HintsComeFromTheConfigInEffect) {
   VisualOdometry::Config config;
   config.correspondence_finder.feature_detector.max_features = 60;
-  const auto exchange = [](sensor_msgs::Image& left, sensor_msgs::Image& right) {
+  const auto swapSides = [](sensor_msgs::Image& left, sensor_msgs::Image& right) {
     std::swap(left.data, right.data);
   };
   const auto hintOf = [&](const VisualOdometry::Config& changed) {
     rig_.processor().requestConfig(changed);
-    for (int i = 0; i < PairInspector::kPatience + 1; ++i) rig_.drive(exchange);
+    for (int i = 0; i < PairInspector::kPatience + 1; ++i) rig_.drive(swapSides);
     return rig_.answer()->hint;
   };
-  const std::string exchanged = "exchange their topics";
-  EXPECT_EQ(hintOf(config).find(exchanged), std::string::npos) << rig_.answer()->hint;
-  EXPECT_NE(hintOf({}).find(exchanged), std::string::npos) << rig_.answer()->hint;
+  const std::string swapped = "swap their topics";
+  EXPECT_EQ(hintOf(config).find(swapped), std::string::npos) << rig_.answer()->hint;
+  EXPECT_NE(hintOf({}).find(swapped), std::string::npos) << rig_.answer()->hint;
 }
 
 TEST_F(PairProcessorTest, AsksForTheExpectedMotionBetweenItsPairs) {
