@@ -46,7 +46,8 @@ class PairProcessor {
   void requestRestart();
   /// Thread-safe. Sets the pose of the base at the time of the last pair.
   void requestPose(const Eigen::Isometry3d& T_odom_base);
-  /// Thread-safe. The next pair is a first one; the pose is kept.
+  /// Thread-safe. From the next pair on; the pose, the previous pair and what is known of the rig are
+  /// kept, see VisualOdometry::configure().
   void requestConfig(const VisualOdometry::Config& config);
 
  private:
