@@ -111,7 +111,10 @@ void addFeatureTracker(FeatureTrackerConfig& c, ParameterTable& table) {
 
 void addMotionEstimator(MotionEstimatorConfig& c, ParameterTable& table) {
   const std::string s = "motion_estimator/";
-  table.add(s + "criterion", c.criterion, criterionNames(), "criterion that selects the inliers");
+  table.add(s + "criterion",
+            c.criterion,
+            criterionNames(),
+            "criterion that selects the inliers; as published only with config/paper.yaml");
   table.add(s + "noise_ratio",
             c.noise_ratio,
             0.0,
