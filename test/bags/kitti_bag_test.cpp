@@ -1,4 +1,4 @@
-// A KITTI sequence that was made a bag must be what it was.
+// A KITTI sequence converted to a bag must be unchanged when it is read back.
 
 #include <filesystem>
 #include <stdexcept>
@@ -62,7 +62,7 @@ TEST_F(KittiBagTest, GivesBackPixelsCameraAndStamps) {
     EXPECT_EQ(camera.cx, sequence.camera().cx);
     EXPECT_EQ(camera.cy, sequence.camera().cy);
     EXPECT_EQ(camera.cx_right, sequence.camera().cx_right);
-    // It goes through fx * baseline, which rounds.
+    // The bag stores fx * baseline, which is rounded.
     EXPECT_DOUBLE_EQ(camera.baseline_m, sequence.camera().baseline_m);
   }
   EXPECT_FALSE(bag.next(pair, camera));

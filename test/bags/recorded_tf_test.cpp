@@ -32,7 +32,7 @@ class RecordedTfTest : public ::testing::Test {
       tf2::fromMsg(path.poses[i].pose, T_odom_base);
       const Eigen::Isometry3d expected =
           T_base_camera * truth[i].T_world_body * T_base_camera.inverse();
-      // poses.txt has 10 digits; the world of the raw bag begins 100 m away.
+      // poses.txt has 10 digits; the world origin of the raw bag is 100 m away.
       EXPECT_TRUE(T_odom_base.isApprox(expected, 1e-6)) << "pose " << i;
     }
   }

@@ -76,7 +76,7 @@ TEST_F(StereoBagTest, ConvertsColour) {
   colour.right_image = "/kitti/camera_color_right/image_raw";
   const rosbag::Bag file = openBag(directory_ / "raw.bag");
   StereoBag bag(file, colour);
-  expectAllPairs(bag);  // the colours are shades of gray, which stay as they are
+  expectAllPairs(bag);  // shades of gray, which the conversion keeps
 }
 
 TEST_F(StereoBagTest, LeavesOutImagesWithoutAPartner) {

@@ -99,7 +99,7 @@ TEST_F(FlowPictureTest, AnyFlowAndSmallImagesAreDrawn) {
 }
 
 TEST_F(FlowPictureTest, AnOutlierShowsWhatFlowTheMotionExpected) {
-  // At rest a static point stays where it is: 40 px from where this one came from.
+  // Without motion, the line of the expected flow starts where the point projects, 40 px away.
   result_.T_keyframe_cur.T = Eigen::Isometry3d::Identity();
   features_[3].cur_px = {300, 150};
   features_[3].prev_px = {260, 150};
@@ -115,8 +115,8 @@ TEST_F(FlowPictureTest, AnOutlierShowsWhatFlowTheMotionExpected) {
 
 TEST_F(FlowPictureTest, DecoupledViewShowsBothPartsOfTheFlow) {
   view_ = FlowView::kDecoupled;
-  // Turned by 0.05 rad about the vertical axis: 36 px of flow near the middle, the rest is the
-  // translation's.
+  // Turned by 0.05 rad about the vertical axis: 36 px of flow near the middle, the rest is
+  // due to the translation.
   const Eigen::Vector2d cur_px(600, 170), prev_px(560, 190);
   result_.T_keyframe_cur.T.linear() =
       Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY()).toRotationMatrix();

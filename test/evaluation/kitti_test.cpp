@@ -13,7 +13,7 @@
 namespace rotrocc {
 namespace {
 
-/// Writes a sequence of two pairs of 8 x 6 px, which the tests then spoil.
+/// Writes a sequence of two pairs of 8 x 6 px, which the tests then corrupt.
 class KittiSequenceTest : public ::testing::Test {
  protected:
   KittiSequenceTest() {
@@ -76,7 +76,7 @@ TEST_F(KittiSequenceTest, ReadsGreyImagesOfEachSide) {
 }
 
 TEST_F(KittiSequenceTest, BaselineIsTheDistanceBetweenTheTwoCameras) {
-  // KITTI's colour pair: neither camera is the one the calibration starts from.
+  // KITTI's colour pair: neither camera is the origin of the calibration.
   directory_.write("calib.txt",
                    "P0: 700 0 4 70 0 700 3 1 0 0 1 0\n"
                    "P1: 700 0 4 -280 0 700 3 2 0 0 1 0\n");

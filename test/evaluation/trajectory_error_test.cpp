@@ -37,7 +37,7 @@ TEST(SegmentErrorsTest, ScaleErrorIsTheTranslationError) {
   // A segment of 100 m ends with the 77th step of 1.3 m, at 100.1 m.
   const MatchedTrajectories matched{drive(200, 1.3), drive(200, 1.3 * 1.01)};
   const auto errors = segmentErrors(matched, {{100.0}, 10});
-  ASSERT_EQ(errors.size(), 13u);  // from poses 0, 10 ... 120; from 130 on less than 100 m are left
+  ASSERT_EQ(errors.size(), 13u);  // from poses 0, 10 ... 120; from 130 on less than 100 m remain
   for (const SegmentError& error : errors) {
     EXPECT_NEAR(error.translation, 0.01 * 100.1 / 100.0, 1e-12);
     EXPECT_NEAR(error.rotation_rad_per_m, 0.0, 1e-12);
@@ -206,7 +206,7 @@ TEST(TrajectoryErrorOnKittiTest, AgreesWithTheDevkit) {
     return meanError(
         segmentErrors(matchByIndex(truth, readTrajectory((poses / "est" / name).string()))));
   };
-  // Half a unit of the last digit that is known.
+  // Half a unit of the last published digit.
   const MeanError orb = evaluate("evo_KITTI_00_ORB.txt");
   EXPECT_NEAR(100.0 * orb.translation, 0.700, 0.0005);
   EXPECT_NEAR(orb.rotation_rad_per_m / kDegree, 0.00253, 0.000005);

@@ -98,7 +98,7 @@ TEST_F(TrajectoryTest, WritesQuaternionsWithPositiveW) {
 }
 
 /// The numbers of each line by the rules of evo (github.com/MichaelGrupp/evo/wiki/Formats): one
-/// space between them and none at the end, and the same count in each line.
+/// space between them, no trailing space, and the same count in each line.
 std::vector<std::vector<double>> readAsEvo(const std::string& path, std::size_t count) {
   std::vector<std::vector<double>> rows;
   std::istringstream file(contentOf(path));

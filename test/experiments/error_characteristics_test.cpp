@@ -103,7 +103,7 @@ TEST(ErrorCharacteristics, DecoupledErrorIsConstantInATurnButForWrongDepths) {
     greatest_normalized = std::max(greatest_normalized, errors[i].normalized);
     least_normalized = std::min(least_normalized, errors[i].normalized);
   }
-  // The coupled flow says next to nothing: the paper finds values from 0 to 0.2.
+  // The coupled flow hardly reveals the error: the paper finds values from 0 to 0.2.
   EXPECT_LT(least_normalized, 0.005);
   EXPECT_GT(greatest_normalized, 0.1);
 }

@@ -34,7 +34,7 @@ TEST(PoseAccumulatorTest, LaterMotionsAreInLaterFrames) {
 
 TEST(PoseAccumulatorTest, RotationStaysARotation) {
   PoseAccumulator pose;
-  // A day at 10 Hz. Without care errors of 1e-16 a step add up to 1e-11 or more.
+  // A day at 10 Hz. Without renormalisation, errors of 1e-16 per step add up to 1e-11 or more.
   for (int i = 0; i < 864'000; ++i) pose.add(step());
   const Eigen::Matrix3d R = pose.T_first_cur().linear();
   EXPECT_LT((R.transpose() * R - Eigen::Matrix3d::Identity()).norm(), 1e-14);

@@ -1,5 +1,5 @@
-// Bad input, what the odometry is expected to make of each kind, and what it makes of it:
-// docs/bad_inputs.md holds the table. What takes a ROS master is in bad_inputs_nodelet_test.
+// Each kind of bad input with the expected and the observed behaviour: docs/bad_inputs.md has the
+// table. Rows that need a ROS master are in bad_inputs_nodelet_test.
 
 #include <atomic>
 #include <cmath>
@@ -60,14 +60,14 @@ std::unique_ptr<OdometryRig> drivingRig(const Parameters& parameters = {}) {
   return rig;
 }
 
-/// What is seen of the last of some good pairs that follow.
+/// What is observed at the last of some valid pairs that follow.
 std::string recovery(OdometryRig& rig) {
   rig.forget();
   rig.drivePairs(4);
   return "; then " + rig.observed();
 }
 
-/// So many pairs after a change, and good ones.
+/// `pairs` changed pairs, then valid ones.
 std::string badImages(const OdometryRig::ImageChange& change, int pairs = 1) {
   const auto rig = drivingRig();
   for (int i = 0; i < pairs; ++i) rig->drive(change);
@@ -75,12 +75,12 @@ std::string badImages(const OdometryRig::ImageChange& change, int pairs = 1) {
   return observed + recovery(*rig);
 }
 
-/// A pair after a change of the left image.
+/// A pair with a changed left image, then valid ones.
 std::string badLeft(const OneImageChange& change) {
   return badImages(onlyLeft(change));
 }
 
-/// Both bad infos with a pair, and good ones.
+/// Both changed infos with a pair, then valid ones.
 std::string badInfos(const OdometryRig::InfoChange& change) {
   const auto rig = drivingRig();
   rig->sendInfos(change);
@@ -104,7 +104,7 @@ std::string oddDrive(const OdometryRig::ImageChange& image_change,
   return rig.observed();
 }
 
-/// The same, compared with a drive without changes.
+/// The same, compared with an unchanged drive.
 std::string comparedDrive(const OdometryRig::ImageChange& image_change,
                           const OdometryRig::InfoChange& info_change = {}) {
   UncertainTransform poses[2];
@@ -188,8 +188,8 @@ void encode(const std::string& encoding, Image& image) {
   toColour(encoding, image);
 }
 
-/// A drive through a world of colour; demosaicing blurs, which `tolerance` [grey levels, mean] is
-/// for: red taken as blue makes 23.
+/// A drive with colour images. `tolerance` [grey levels, mean] allows for the blur of demosaicing;
+/// swapped red and blue would differ by 23.
 std::string inColour(const std::string& left_encoding,
                      const std::string& right_encoding,
                      double tolerance) {
@@ -244,7 +244,7 @@ void to16Bits(Image& image, bool big_endian) {
   image.step *= 2;
 }
 
-/// Each pixel as a float, as a depth image has them.
+/// Each pixel as a float, as in a depth image.
 void toDepth(Image& image) {
   cv::Mat depth_m;
   pixelsOf(image).convertTo(depth_m, CV_32FC1);
@@ -266,7 +266,7 @@ void cropTo(Image& image, int width, int height) {
   setPixels(pixelsOf(image)(cv::Rect(0, 0, width, height)), image);
 }
 
-/// What moves in is black.
+/// The uncovered border is black.
 void move(Image& image, int right_px, int down_px) {
   const cv::Mat pixels = pixelsOf(image);
   cv::Mat moved = cv::Mat::zeros(pixels.size(), pixels.type());
@@ -275,7 +275,7 @@ void move(Image& image, int right_px, int down_px) {
   setPixels(moved, image);
 }
 
-/// Counts the bytes that matrices of OpenCV take while it lives.
+/// Counts the bytes that matrices of OpenCV allocate during its lifetime.
 class MatrixMemory : public cv::MatAllocator {
  public:
   MatrixMemory() { cv::Mat::setDefaultAllocator(this); }
@@ -308,7 +308,7 @@ class MatrixMemory : public cv::MatAllocator {
   mutable std::atomic<std::size_t> bytes_{0};
 };
 
-/// A pair of images that must not take memory.
+/// A pair of images for which no memory must be allocated.
 std::string costlyImages(const OdometryRig::ImageChange& change) {
   const auto rig = drivingRig();
   Image left = rig->nextImage(Side::kLeft);
@@ -325,7 +325,7 @@ std::string costlyImages(const OdometryRig::ImageChange& change) {
   return observed + recovery(*rig);
 }
 
-/// The header of colour images says so, and their data are what they were.
+/// Colour images whose header has another size than their data.
 std::string headerOfSize(std::uint32_t width, std::uint32_t height, std::uint32_t step) {
   return costlyImages(both([&](Image& image) {
     image.encoding = "bgr8";
@@ -340,8 +340,8 @@ std::string plainImagesOfSize(int side) {
       both([&](Image& image) { setPixels(cv::Mat(side, side, CV_8UC1, cv::Scalar(99)), image); }));
 }
 
-/// A left image that came as JPEG, after a change of that. What compressed_image_transport makes of
-/// it: the image that cv::imdecode() gives, or no image.
+/// A left image from a changed JPEG, decoded by cv::imdecode() as in compressed_image_transport:
+/// nothing is sent if that fails.
 std::string badJpeg(const std::function<void(std::vector<unsigned char>&)>& change) {
   const auto rig = drivingRig();
   Image left = rig->nextImage(Side::kLeft);
@@ -386,7 +386,7 @@ std::string frozenCamera() {
       12);
 }
 
-/// Infos that come three times, each with a baseline of so many times the true one.
+/// Infos sent three times, with the true baseline times `factor`.
 std::string unusualBaseline(double factor) {
   const LogRecorder log;
   OdometryRig rig;
@@ -399,8 +399,8 @@ std::string unusualBaseline(double factor) {
   return rig.observed() + "; " + "warnings: " + toText(warnings.size()) + warned;
 }
 
-/// Images that are higher by a quarter, of a robot that also rises: going straight ahead looks the
-/// same whatever fy is.
+/// Images that are higher by a quarter, of a robot that also rises: straight ahead, the motion
+/// would not depend on fy.
 std::string unequalFocalLengths() {
   StereoCamera camera = SyntheticScene::defaultCamera();
   camera.fy *= 1.25;
@@ -460,7 +460,7 @@ std::string newFocalLength() {
   return observed + recovery(*rig);
 }
 
-/// The stamps jump, and with them the clock if it is not said to stay.
+/// The stamps jump, and the clock with them unless `clock_stays`.
 std::string timeJump(const std::string& pose, double by_s, bool clock_stays = false) {
   Parameters parameters;
   parameters.node.pose_after_time_jump = pose;
@@ -478,7 +478,7 @@ std::string skewed() {
   for (int i = 0; i < 8; ++i) {
     rig->drive([](Image&, Image& right) { right.header.stamp += ros::Duration(0.03); });
   }
-  // When the pairs before are long enough ago, and the images are not.
+  // Late enough that the valid pairs are no longer recent, but the images still are.
   const auto later = rig->now() + std::chrono::milliseconds(4350);
   const std::string observed = rig->observed() + "; " + whyNoPairs(rig->report(later));
   return observed + recovery(*rig);

@@ -37,7 +37,7 @@ void expectRefused(const std::function<void(sensor_msgs::CameraInfo&)>& change,
 }
 
 TEST(StereoCameraConversionTest, OnlyPCounts) {
-  // K, D and R as kitti2bag leaves them for raw drives: of the images before rectification.
+  // K, D and R as kitti2bag writes them for raw drives: of the unrectified images.
   sensor_msgs::CameraInfo left = makeInfo(0.0);
   left.K = {984.2, 0, 690.0, 0, 980.8, 233.2, 0, 0, 1};
   left.D = {-0.37, 0.2, 0.001, 0.002, -0.07};
@@ -55,7 +55,7 @@ TEST(StereoCameraConversionTest, OnlyPCounts) {
 
 TEST(StereoCameraConversionTest, BaselineIsBetweenTheCameras) {
   // KITTI's colour cameras are 0.06 m to the left and 0.47 m to the right of the origin of P, and
-  // by millimetres above and below each other.
+  // differ by millimetres in height.
   sensor_msgs::CameraInfo left = makeInfo(-0.06);
   sensor_msgs::CameraInfo right = makeInfo(0.47);
   left.P[7] = 0.2;

@@ -20,7 +20,7 @@ class SilenceWatchTest : public testing::Test {
     }
   }
 
-  /// Lets seconds pass; returns at which of them, counted from the beginning, something was said.
+  /// Lets seconds pass; returns at which of them, counted from the start, there was a message.
   std::vector<int> wait(int seconds) {
     std::vector<int> said_s;
     for (const int end_s = now_s_ + seconds; now_s_ < end_s;) {
@@ -63,7 +63,7 @@ TEST_F(SilenceWatchTest, SaysThatPairsComeAgain) {
   EXPECT_EQ(wait(10), Times{5});
   EXPECT_EQ(pair(), "stereo pairs arrive again, after 10 s");
   EXPECT_EQ(pair(), "");
-  // The next silence is told of like the first.
+  // The next silence is reported like the first.
   EXPECT_EQ(wait(30), (Times{15, 25}));
   EXPECT_EQ(pair(), "stereo pairs arrive again, after 30 s");
 }
@@ -73,7 +73,7 @@ TEST_F(SilenceWatchTest, TellsWhatChanges) {
   input_.right_image.recent = 3;
   EXPECT_EQ(wait(4), Times{61});
   EXPECT_NE(said_.find("/r/image 3"), std::string::npos) << said_;
-  input_.right_image.recent = 30;  // goes on
+  input_.right_image.recent = 30;  // still arrives
   EXPECT_EQ(wait(10), Times());
   input_.left_image.publishers = 0;
   EXPECT_EQ(wait(4), Times{75});

@@ -13,7 +13,7 @@ constexpr std::int64_t kNow_ns = 1'600'000'000 * kSecond_ns;
 
 class StampGuardTest : public testing::Test {
  protected:
-  /// A stamp in seconds from now, at the time it says or at a time of its own.
+  /// A stamp [s from kNow_ns], at the same or another clock time.
   void pass(double stamp_s) { pass(stamp_s, stamp_s); }
   void pass(double stamp_s, double clock_s) { guard_.check(ns(stamp_s), ns(clock_s)); }
 
@@ -50,7 +50,7 @@ TEST_F(StampGuardTest, OneThatIsOvertakenIsRefused) {
   pass(0.2);
   refuse(0.1, 0.2, "1600000000.100 s, 0.1 s before");
   EXPECT_NO_THROW(pass(0.3));
-  // Others in between do not add up to a time that begins anew.
+  // Valid stamps in between reset the count towards a time jump.
   refuse(0.25, 0.3, "0.05 s before");
   EXPECT_NO_THROW(pass(0.4));
   refuse(0.35, 0.4, "before");

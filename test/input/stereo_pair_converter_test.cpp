@@ -33,7 +33,7 @@ sensor_msgs::Image makeImage(const std::string& encoding, int bytes_per_pixel, i
   return image;
 }
 
-/// A whole image of one colour.
+/// An image of one colour.
 sensor_msgs::Image makePlainImage(const std::string& encoding, const std::vector<int>& pixel) {
   sensor_msgs::Image image = makeImage(encoding, static_cast<int>(pixel.size()));
   for (std::size_t i = 0; i < image.data.size(); ++i) {

@@ -82,7 +82,7 @@ TEST_F(StereoSynchronizerTest, OneSideMayBeLate) {
 TEST_F(StereoSynchronizerTest, QueuesAreBounded) {
   for (int i = 0; i < 10; ++i) EXPECT_FALSE(left(100.0 * i));
   EXPECT_EQ(synchronizer_.unmatched(), 6u);
-  EXPECT_FALSE(right(500));  // was given up
+  EXPECT_FALSE(right(500));  // was discarded
   EXPECT_TRUE(right(600));
   EXPECT_TRUE(right(900));
 }
@@ -92,7 +92,7 @@ TEST_F(StereoSynchronizerTest, SkippedImagesAreUnmatched) {
   EXPECT_FALSE(left(100));
   EXPECT_TRUE(right(100));
   EXPECT_EQ(synchronizer_.unmatched(), 1u);
-  EXPECT_FALSE(right(0));  // too late, and back in time: waits, in case time began anew
+  EXPECT_FALSE(right(0));  // late, or after a time jump: waits
 }
 
 TEST_F(StereoSynchronizerTest, RepeatedStampsAreNotLookedAt) {
@@ -108,7 +108,7 @@ TEST_F(StereoSynchronizerTest, SurvivesTimeThatBeginsAnew) {
   EXPECT_FALSE(left(900));
   EXPECT_TRUE(right(900));
   EXPECT_FALSE(left(1000));
-  // The bag begins anew. Left notices first, while the last right image is still to come.
+  // The bag restarts. The left side jumps first, before the last right image arrives.
   EXPECT_FALSE(left(0));
   EXPECT_FALSE(right(1001));
   EXPECT_TRUE(right(0));
@@ -132,7 +132,7 @@ TEST_F(StereoSynchronizerTest, StampsAtTheEndOfTimeDoNoHarm) {
   EXPECT_FALSE(synchronizer_.addLeft(late));
   EXPECT_FALSE(synchronizer_.addRight(early));
   EXPECT_TRUE(synchronizer_.addRight(late));
-  EXPECT_FALSE(synchronizer_.addLeft(early));  // its partner was given up
+  EXPECT_FALSE(synchronizer_.addLeft(early));  // its partner was discarded
   EXPECT_TRUE(synchronizer_.addRight(early));
 }
 

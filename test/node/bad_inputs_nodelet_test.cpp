@@ -1,5 +1,5 @@
-// The rows of docs/bad_inputs.md that take a ROS master: the nodelet in this process, so that each
-// message has arrived as soon as it is published. The other rows are in bad_inputs_test.
+// The rows of docs/bad_inputs.md that need a ROS master: the nodelet runs in this process, so that
+// each message has arrived as soon as it is published. The other rows are in bad_inputs_test.
 
 #include <atomic>
 #include <chrono>
@@ -37,7 +37,7 @@ const char* const kName = "/stereo_odometry";
 constexpr double kSpeed_mps = SimulatedRobot::kStep_m / SimulatedRobot::kPeriod_s;
 constexpr double kSpeedTolerance_mps = 0.05 * kSpeed_mps;
 
-/// Waits until it is so, for half a minute: no load makes it take so long.
+/// Waits for a condition, at most half a minute: longer than under any load.
 bool comesTrue(const std::function<bool()>& condition) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   while (std::chrono::steady_clock::now() < deadline) {
@@ -83,12 +83,12 @@ class Drive {
     robot_->publishMount();
   }
 
-  /// The state of a pair of the drive after a change.
+  /// The state of the next pair of the drive, after a change.
   std::string drive(const std::function<void(sensor_msgs::Image&)>& change = {}) {
     return stateOfPair(robot_->drive(change));
   }
 
-  /// The same of a pair that was published, with what is wrong with the motion if it is OK.
+  /// The state of a pair that was published; if OK, also whether the speed is wrong.
   std::string stateOfPair(const ros::Time& stamp, double true_speed_mps = kSpeed_mps) {
     const auto status = robot_->statusOf(stamp);
     const auto odometry = robot_->odometryOf(stamp);
@@ -100,14 +100,15 @@ class Drive {
     return stateName(status->state) + std::string(wrong ? ", but the speed is wrong" : "");
   }
 
-  /// The state of the last of some good pairs.
+  /// The state of the last of some valid pairs.
   std::string recovery() {
     std::string state;
     for (int i = 0; i < 4; ++i) state = drive();
     return "; then " + state;
   }
 
-  /// Drives on without answers until the status has a state and a reason that begins as said.
+  /// Drives on without odometry until the status has `state` and a reason that starts with
+  /// `reason`.
   std::string waitForStatus(std::uint8_t state, const std::string& reason) {
     OdometryStatus last;
     const bool came = comesTrue([&] {
@@ -199,8 +200,8 @@ std::string otherFrame() {
   return state;
 }
 
-/// Pairs of a robot that stands, which come at once, while each takes 0.2 s: so long it waits for
-/// tf that does not come.
+/// Pairs of a robot at rest that arrive at once, while each takes 0.2 s, the timeout for a missing
+/// tf.
 std::string burst() {
   constexpr int kPairs = 100;
   Drive drive(NodeletParameters().set("guess_frame", "wheel_odom").set("guess_timeout_s", 0.2));
@@ -228,7 +229,7 @@ geometry_msgs::TransformStamped makeTransform(const std::string& child) {
   return transform;
 }
 
-/// A bad mount, and in the same message a frame beside it, which tells that it was received.
+/// A bad mount, and in the same message another frame, which shows that it was received.
 std::string badMount(const std::function<void(geometry_msgs::Transform&)>& spoil) {
   tf2_msgs::TFMessage message;
   message.transforms = {makeTransform("camera_left"), makeTransform("beside_it")};
@@ -242,16 +243,16 @@ std::string badMount(const std::function<void(geometry_msgs::Transform&)>& spoil
       "no tf from base_link to camera_left (camera pose): \"camera_left\" passed";
   const std::string observed = drive.waitForStatus(OdometryStatus::NO_TF, reason);
   drive.setUp();
-  // The rest is tf2's.
+  // The rest is the message of tf2.
   return observed.substr(0, observed.find(" (camera pose)")) + drive.recovery();
 }
 
-/// Calls all services again and again, from a thread of its own, until it is told to end.
+/// Calls all services repeatedly in its own thread until end().
 class ServiceCaller {
  public:
   ~ServiceCaller() { end(); }
 
-  /// Returns how many calls were not answered as they should be.
+  /// Returns how many calls had a wrong response.
   int end() {
     done_ = true;
     if (thread_.joinable()) thread_.join();
@@ -306,7 +307,7 @@ std::string services() {
   EXPECT_TRUE(comesTrue([&] { return caller.rounds() > 5; }));
   drive.setUp();
   const int before = caller.rounds();
-  // Nothing waits for answers: some of the pairs are dropped, as the odometry is paused.
+  // No waiting for odometry: some pairs are dropped while it is paused.
   for (int i = 0; i < 40 || caller.rounds() < before + 20; ++i) drive.robot().drive();
   observed += "; " + toText(caller.end()) + " wrong responses while pairs arrive";
   observed += drive.recovery();
@@ -375,7 +376,7 @@ TEST(BadInputsNodeletTest, EachIsHandledAsTheTableSays) {
   ros::Publisher clock = nh.advertise<rosgraph_msgs::Clock>("/clock", 1);
   std::vector<BadInput> inputs = rowsWithoutClock();
   std::vector<BadInput> with_clock = rowsWithClock();
-  // Time stands still from then on, a little after that of the images.
+  // The clock stays at a time shortly after the stamps of the images.
   with_clock.front().observe = [&, observe = with_clock.front().observe] {
     rosgraph_msgs::Clock time;
     time.clock = ros::Time(1100.0);

@@ -56,8 +56,8 @@ Vector6d errorOf(const Eigen::Isometry3d& sample, const Eigen::Isometry3d& mean)
   return error;
 }
 
-/// Expects the covariance of 40000 samples, which is good to about 1 % of the diagonal; the limit
-/// is four times that.
+/// Expects the covariance of 40000 samples, which has an error of about 1 % of the diagonal; the
+/// limit is four times that.
 template <class Sample>
 void expectCovariance(const UncertainTransform& transform, Sample sample) {
   constexpr int kSamples = 40000;

@@ -79,8 +79,8 @@ TEST_F(BaseOdometryTest, FirstPairDefinesTheOdomFrame) {
 }
 
 TEST_F(BaseOdometryTest, DrivesACircleOfTheBase) {
-  // 100 chords of a circle to the left: halfway the base is a diameter to the left, at last it is
-  // back.
+  // 100 chords of a circle to the left: halfway the base is a diameter to the left, at the end it
+  // is back at the start.
   const double angle = 2.0 * M_PI / 100.0;
   BaseState state;
   for (int i = 0; i < 50; ++i) state = move(makeMotion(1.0, angle));
@@ -100,8 +100,7 @@ TEST_F(BaseOdometryTest, CovarianceGrowsOnTheWay) {
     EXPECT_GT(sigma(state, 0), last);
     last = sigma(state, 0);
   }
-  // Ten steps of 1 mm each, along the way where no rotation error counts but the camera's height
-  // does.
+  // Ten steps of 1 mm each; along the path, rotation errors act only through the camera's height.
   EXPECT_NEAR(last, 1e-3 * std::sqrt(10.0 * (1.0 + 4.0)), 2e-4);
 }
 
@@ -120,7 +119,7 @@ TEST_F(BaseOdometryTest, APairComparedWithOneBeforeALossIsAsCertainAsThat) {
   const double before = sigma(rest(reference_ns), 0);
   EXPECT_GT(sigma(lose(kPeriod_ns), 0), 10.0 * before);
   EXPECT_DOUBLE_EQ(sigma(rest(reference_ns), 0), before);
-  // One that was lost is as uncertain as it was.
+  // A pair measured against a lost one is at least as uncertain as that.
   const double lost = sigma(lose(kPeriod_ns), 0);
   EXPECT_GE(sigma(rest(stamp_ns_), 0), lost);
 }

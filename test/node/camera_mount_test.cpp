@@ -46,7 +46,7 @@ geometry_msgs::Transform makeTransform(double x, double qw, double qz) {
 TEST(ToEigenTest, TakesWhatIsATransform) {
   const Eigen::Isometry3d T = toEigen(makeTransform(2.0, std::sqrt(0.5), std::sqrt(0.5)));
   EXPECT_TRUE((T * Eigen::Vector3d(1, 0, 0)).isApprox(Eigen::Vector3d(2, 1, 0)));
-  // As printed with few digits in a launch file.
+  // As rounded in a launch file.
   EXPECT_NEAR(toEigen(makeTransform(0.0, 0.707, 0.707)).linear().determinant(), 1.0, 1e-12);
 }
 

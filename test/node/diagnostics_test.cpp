@@ -9,7 +9,7 @@ namespace {
 
 using Level = diagnostic_msgs::DiagnosticStatus;
 
-/// An odometry that does well.
+/// An odometry without faults.
 HealthReport goodReport() {
   HealthReport report;
   int i = 0;

@@ -1,4 +1,4 @@
-// A robot whose camera_info comes late, and its tf still later: longer than tf2 remembers.
+// A robot whose camera_info arrives late, and its tf later than the buffer length of tf2.
 
 #include <mutex>
 #include <string>
@@ -20,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kTfMemory_s = 10.0;
 constexpr seconds kWarningPeriod{5};
 
-/// What the odometry warns of.
+/// The warnings of the odometry.
 class Warnings {
  public:
   Warnings() {
@@ -71,7 +71,7 @@ TEST(LateTfTest, OdometryWaitsAndStartsByItself) {
   EXPECT_LE(warnings.countOf(missing), 1 + (Clock::now() - start) / kWarningPeriod);
   EXPECT_FALSE(robot.odometryOf(first, milliseconds(0)));
 
-  // The newest pair has waited; those before it are gone.
+  // Only the newest pair was kept for tf.
   robot.publishMount();
   const auto odometry = robot.odometryFrom(first);
   ASSERT_TRUE(odometry);
@@ -85,7 +85,7 @@ TEST(LateTfTest, OdometryWaitsAndStartsByItself) {
   ASSERT_TRUE(status);
   EXPECT_EQ(status->state, OdometryStatus::INITIALISING);
 
-  ASSERT_TRUE(robot.odometryOf(robot.drive()));  // nothing is on its way any more
+  ASSERT_TRUE(robot.odometryOf(robot.drive()));  // no other pair is pending
   const auto before = robot.odometryOf(robot.drive());
   const auto after = robot.odometryOf(robot.drive());
   ASSERT_TRUE(before && after);

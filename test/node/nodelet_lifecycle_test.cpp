@@ -1,5 +1,5 @@
-// The life of the nodelet beside another one in the same manager, which must not notice: loaded and
-// unloaded again and again, and fed with garbage. And that of the node, ended at any moment.
+// The nodelet is loaded and unloaded repeatedly and receives malformed messages, and must not
+// disturb another one in the same manager. The node is stopped at any moment.
 
 #include <atomic>
 #include <cmath>
@@ -29,7 +29,7 @@ using std::chrono::seconds;
 
 constexpr int kRounds = 50;
 
-/// Asks the neighbour, and counts its answers.
+/// Sends images to the other nodelet, and counts its answers.
 class Canary {
  public:
   Canary() {
@@ -135,7 +135,7 @@ TEST_F(NodeletLifecycleTest, LoadsAndUnloadsWhileImagesCome) {
   EXPECT_TRUE(unload());
 }
 
-/// Changes what the header of an image, or its data, says.
+/// Changes the header or the data of an image.
 void spoil(sensor_msgs::Image& image, std::mt19937& random) {
   static const char* const kEncodings[] = {"", "mono8", "bgr8", "32FC1", "bayer_rggb8", "mono16"};
   static const std::uint32_t kSizes[] = {0, 1, 7, 600, 65536, 0x7fffffff, 0xffffffff};

@@ -1,5 +1,4 @@
-// The odometry as a robot sees it, be it a node or a nodelet: one for all tests, which begins at
-// zero in each.
+// The interface of the odometry, as a node or a nodelet: one for all tests, reset before each.
 
 #include <atomic>
 #include <chrono>
@@ -54,7 +53,7 @@ class StereoOdometryTest : public testing::Test {
     spinner_.reset();
   }
 
-  /// Drives the first two pairs, whatever the test before has left.
+  /// Drives the first two pairs, whatever state the previous test has left.
   void SetUp() override {
     robot_->publishInfos();
     robot_->publishMount();
@@ -72,7 +71,7 @@ class StereoOdometryTest : public testing::Test {
     return services_->call(name, service);
   }
 
-  /// Drives a step and gives the odometry, after which its status is there as well.
+  /// Drives a step and returns its odometry; its status is then in status_.
   static nav_msgs::Odometry drive() {
     const ros::Time stamp = robot_->drive();
     const auto odometry = robot_->odometryOf(stamp);
@@ -84,7 +83,7 @@ class StereoOdometryTest : public testing::Test {
     return *odometry;
   }
 
-  /// Drives on until the odometry has found its motion again.
+  /// Drives on until the odometry is OK again.
   static void recover() {
     for (int i = 0; i < 5; ++i) {
       drive();
@@ -100,8 +99,8 @@ class StereoOdometryTest : public testing::Test {
     return 0;
   }
 
-  /// Drives until a pair that is changed so is dropped for that reason: before it is looked at, the
-  /// next one may take its place.
+  /// Drives until a pair with that change is dropped for that reason: a newer pair may replace it
+  /// before it is checked.
   static void expectDrop(const std::string& reason,
                          const std::function<void(sensor_msgs::Image&)>& change) {
     const std::uint64_t before = drops(reason);
@@ -133,7 +132,7 @@ double smallestEigenvalue(const Array36& covariance) {
   return Eigen::SelfAdjointEigenSolver<Matrix6d>(matrix).eigenvalues().minCoeff();
 }
 
-/// The first message on a topic that comes while the robot drives.
+/// The first message on a topic while the robot drives.
 template <class Message, class Drive>
 boost::shared_ptr<const Message> receiveWhile(const std::string& topic, Drive drive) {
   boost::shared_ptr<const Message> received;
@@ -165,7 +164,7 @@ TEST_F(StereoOdometryTest, DrivesForwardInAxesOfTheBase) {
     const nav_msgs::Odometry odometry = drive();
     EXPECT_EQ(status_.state, OdometryStatus::OK) << status_.reason;
     EXPECT_EQ(status_.pairs_processed, ++pairs_processed);
-    // 2 % of the way, which is short, and 5 % of a step's speed.
+    // 2 % of the short path, and 5 % of the speed.
     const double way_m = i * SimulatedRobot::kStep_m;
     EXPECT_NEAR(odometry.pose.pose.position.x, way_m, 0.02 + 0.02 * way_m);
     EXPECT_NEAR(odometry.pose.pose.position.y, 0.0, 0.02 + 0.02 * way_m);
@@ -399,7 +398,7 @@ TEST_F(StereoOdometryTest, DiagnosticsTellAnotherParentOfTheBase) {
   const auto text = [&](const std::string& part) {
     return last["stereo_odometry: " + part].message;
   };
-  // A fault that a test before has made stays for some seconds.
+  // A fault of a previous test persists for some seconds.
   EXPECT_TRUE(waitUntil(
       [&] {
         drive();
@@ -419,7 +418,7 @@ TEST_F(StereoOdometryTest, DiagnosticsTellAnotherParentOfTheBase) {
 
 TEST_F(StereoOdometryTest, SilenceIsExplained) {
   std::mutex mutex;
-  std::set<std::string> said;  // the first words in the log
+  std::set<std::string> said;  // log messages up to their first number
   ros::NodeHandle nh;
   const boost::function<void(const rosgraph_msgs::Log::ConstPtr&)> callback =
       [&](const rosgraph_msgs::Log::ConstPtr& log) {
@@ -432,7 +431,7 @@ TEST_F(StereoOdometryTest, SilenceIsExplained) {
     return said.count(words) > 0;
   };
 
-  // The test itself is the publisher; who has none is told another thing.
+  // The test itself is the publisher; without one the reason would differ.
   EXPECT_TRUE(robot_->statusWith(OdometryStatus::NO_INPUT, "left/image_rect has a publisher"));
   EXPECT_TRUE(waitUntil([&] { return isSaid("no stereo pair for "); }));
   recover();

@@ -1,4 +1,4 @@
-// Where the odometry stands in tf beside another odometry, which owns the base.
+// The place of the odometry in tf beside another odometry, which owns the base.
 
 #include <map>
 #include <mutex>
@@ -15,7 +15,7 @@
 namespace rotrocc {
 namespace {
 
-/// The wheels think that the robot is here, and it drives with a slip of 5 %.
+/// The pose by wheel odometry, with a slip of 5 %.
 geometry_msgs::TransformStamped wheelOdometry(const ros::Time& stamp, double way_m) {
   geometry_msgs::TransformStamped transform;
   transform.header.stamp = stamp;
@@ -45,7 +45,7 @@ TEST(TfTreeTest, BaseHasOneParentOnly) {
   robot.publishMount();
   robot.publishInfos();
 
-  // Where the tf of the wheels does not come in time, a pair has no tf either.
+  // If the tf of the wheels is late, the pair has no tf either.
   ros::Time first;
   double way_m = 0.0;
   std::optional<nav_msgs::Odometry> odometry;
@@ -65,7 +65,7 @@ TEST(TfTreeTest, BaseHasOneParentOnly) {
   EXPECT_NEAR(odometry->pose.pose.position.x, way_m, 0.02 + 0.02 * way_m);
   EXPECT_EQ(odometry->header.frame_id, "visual_odom");
 
-  // The pose of the base in our frame leads through that of the wheels.
+  // The pose of the base in the visual frame is composed with that of the wheels.
   const auto pose = buffer.lookupTransform("visual_odom", "base_link", odometry->header.stamp);
   EXPECT_NEAR(pose.transform.translation.x, odometry->pose.pose.position.x, 1e-9);
   EXPECT_NEAR(pose.transform.translation.y, odometry->pose.pose.position.y, 1e-9);

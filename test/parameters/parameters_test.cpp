@@ -130,7 +130,7 @@ TEST(ParametersTest, EveryValueThatIsSetIsReadBack) {
 }
 
 TEST(ParametersTest, EveryParameterIsAVariableOfItsOwn) {
-  // Else setting one would change another, or nothing at all.
+  // Otherwise, setting one would change another or nothing.
   Settings settings;
   const std::vector<std::string> defaults = values(settings.table);
   for (std::size_t i = 0; i < defaults.size(); ++i) {

@@ -34,10 +34,10 @@ class KittiLaunchTest : public ::testing::Test {
     writer.finish();
   }
 
-  /// Ends with the replay of bag().
+  /// Replays bag() to its end.
   static CommandResult replay(const std::string& bag, const std::string& options = "") {
     std::string command = "roslaunch rotrocc kitti.launch rviz:=false bag:=" + bag + options;
-    // A sanitizer, which comes before what is not built with it: see scripts/sanitize.
+    // Preloads a sanitizer for programs built without it: see scripts/sanitize.
     const char* preload = std::getenv("ROTROCC_PRELOAD");
     if (preload != nullptr && *preload != '\0') {
       command += std::string(" launch_prefix:='env LD_PRELOAD=") + preload + "'";
@@ -45,7 +45,8 @@ class KittiLaunchTest : public ::testing::Test {
     return runCommand(command);
   }
 
-  /// Expects that the nodelet gets every pair of bag(), and to the same pose as offline_odometry.
+  /// Expects that the nodelet receives every pair of bag(), and ends at the pose of
+  /// offline_odometry.
   void expectReplayAsOffline(int pairs) const {
     const CommandResult launch = replay(bag(),
                                         " rate:=0 trajectory_file:=" + directory_ / "live.txt" +

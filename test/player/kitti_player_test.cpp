@@ -39,7 +39,7 @@ using std::chrono::milliseconds;
 
 constexpr int kPairs = 6;  // at 10 Hz
 
-/// Subscribes to all that the player publishes, and answers each pair with an odometry of its
+/// Subscribes to all topics of the player, and answers each pair with an odometry of the same
 /// stamp.
 class Listener {
  public:
@@ -55,7 +55,7 @@ class Listener {
     subscribers_.push_back(nh.subscribe("right/image_rect", 10, &Listener::onRight, this));
   }
 
-  /// Whether it would hear of all topics.
+  /// Whether all topics are connected.
   bool connected() const {
     return std::all_of(subscribers_.begin(), subscribers_.end(), [](const ros::Subscriber& s) {
       return s.getNumPublishers() > 0;
@@ -74,7 +74,7 @@ class Listener {
     return left_stamps_;
   }
 
-  /// Messages from now on get no answer.
+  /// From now on, pairs are not answered.
   void fallSilent() { silent_ = true; }
 
  private:
@@ -157,7 +157,7 @@ class KittiPlayerTest : public ::testing::Test {
     ASSERT_TRUE(waitForEnd());
   }
 
-  /// The last ones may still be on their way.
+  /// Waits for them, as the last messages may still be in transit.
   static void expectCount(const Listener& listener, const std::string& topic, int count) {
     waitUntil([&] { return listener.count(topic) >= count; });
     EXPECT_EQ(listener.count(topic), count) << topic;

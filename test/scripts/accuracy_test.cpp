@@ -1,4 +1,4 @@
-// Runs scripts/accuracy in its short form, and looks at what it has found.
+// Runs scripts/accuracy in its short form, and checks its results.
 
 #include <cmath>
 #include <cstdlib>
@@ -16,7 +16,7 @@
 namespace rotrocc {
 namespace {
 
-/// What the short form of the script is about, and what it leaves to other forms.
+/// What the short form of the script runs, and a drive that it omits.
 struct ShortForm {
   std::string drive, other_drive;
   int frames = 0;
@@ -27,7 +27,7 @@ struct ShortForm {
 
 ShortForm shortForm() {
   if (!isSlowBuild()) return {"slip_road", "motorway", 40, 15, 20, ""};
-  // At a higher speed a shorter drive is as far as the shortest segment.
+  // At a higher speed, fewer frames cover the shortest segment.
   return {"motorway",
           "slip_road",
           8,
@@ -41,14 +41,14 @@ class AccuracyTest : public ScriptTest {
  protected:
   static void SetUpTestSuite() {
     std::ofstream(report()) << readFile(REPORT);  // tables are written to a copy
-    unsetenv("ROTROCC_KITTI_DIR");                // real clips would take their time
+    unsetenv("ROTROCC_KITTI_DIR");                // real clips would take long
     runScript(ACCURACY, "--report " + report() + shortForm().options);
   }
 
   static std::string report() { return directory() / "accuracy.md"; }
 };
 
-/// What a text has outside of its tables.
+/// A text without its tables.
 std::string proseOf(const std::string& text) {
   std::string prose;
   std::istringstream stream(text);

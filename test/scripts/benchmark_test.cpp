@@ -1,4 +1,4 @@
-// Runs scripts/benchmark on a small sequence. What it takes of time is not judged here.
+// Runs scripts/benchmark on a small sequence. Times are not checked.
 
 #include <sstream>
 #include <stdexcept>

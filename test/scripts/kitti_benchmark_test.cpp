@@ -1,4 +1,4 @@
-// Runs scripts/kitti_benchmark over small sequences, interrupts it, and looks at what it leaves.
+// Runs scripts/kitti_benchmark over small sequences, interrupts it, and checks its files.
 
 #include <sys/stat.h>
 
@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The KITTI layout: 00 and 01 with truth, 11 without. The odometry goes through a script that
-/// notes what it is run on, and that waits at 01 for the file "go" before it begins.
+/// The KITTI layout: 00 and 01 with truth, 11 without. The odometry is run by a script that logs
+/// the sequences, and waits at 01 for the file "go".
 class KittiBenchmarkTest : public ::testing::Test {
  protected:
   /// The sequences are rendered once, and every test has a copy.
@@ -101,7 +101,7 @@ TEST_F(KittiBenchmarkTest, ReportsAllSequences) {
     EXPECT_FALSE(readFile(directory_ / "out/trajectories/" + kNames[i] + ".txt").empty());
   }
 
-  // The mean of the sequences' means, by the counts of their segments.
+  // The mean over all segments, as each sequence is weighted by its count.
   double sum = 0.0;
   double segments = 0.0;
   for (int i = 0; i < 2; ++i) {

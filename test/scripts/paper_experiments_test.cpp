@@ -1,4 +1,4 @@
-// Runs scripts/paper_experiments in its short form, and looks at what it has found.
+// Runs scripts/paper_experiments in its short form, and checks its results.
 
 #include <algorithm>
 #include <cmath>

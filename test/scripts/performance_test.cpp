@@ -1,4 +1,4 @@
-// Runs scripts/performance in its short form, and looks at what it writes. Times are not judged.
+// Runs scripts/performance in its short form, and checks its report. Times are not checked.
 
 #include <cstdlib>
 #include <filesystem>
@@ -20,7 +20,7 @@ TEST(PerformanceTest, FillsTheTablesAndDrawsTheFigure) {
   const TemporaryDirectory directory;
   const std::string report = directory / "performance.md";
   std::ofstream(report) << readFile(REPORT);
-  unsetenv("ROTROCC_KITTI_DIR");  // real clips would take their time
+  unsetenv("ROTROCC_KITTI_DIR");  // real clips would take long
   const CommandResult result =
       runCommand(std::string(PYTHON) + " " + PERFORMANCE + " --short --programs " + PROGRAMS +
                  " --output " + directory / "out" + " --report " + report);

@@ -37,7 +37,7 @@ std::vector<Step> drive(const std::string& name) {
   return steps;
 }
 
-/// What the rows of a rig say whose right camera is turned, and what they should on a far point.
+/// The row offset estimated for a rig whose right camera is turned, and its true value at infinity.
 struct TurnedRig {
   RowOffset found;
   double lower_px;
@@ -89,7 +89,7 @@ TEST_P(ScenarioAccuracyTest, FollowsTheDriveWithoutABias) {
     errors.push_back(step.estimate.T_prev_cur.translation().norm() / length_m - 1.0);
     const Eigen::AngleAxisd turn_error(step.T_prev_cur_true.linear().transpose() *
                                        step.estimate.T_prev_cur.linear());
-    // A tenth of a pixel, far more than the mean of hundreds of features is off.
+    // A tenth of a pixel, far more than the error of the mean of hundreds of features.
     EXPECT_LT(turn_error.angle(), 0.1 / kittiCamera().fx);
   }
 
@@ -99,7 +99,7 @@ TEST_P(ScenarioAccuracyTest, FollowsTheDriveWithoutABias) {
     mean += error / static_cast<double>(errors.size());
     squares += error * error;
   }
-  // The bias over a whole drive is to be less than 0.3 %; this short part of it has a mean that is
+  // The bias over a whole drive must be less than 0.3 %; this short part of it has a mean that is
   // uncertain by its steps' errors.
   const double uncertainty = std::sqrt(squares) / static_cast<double>(errors.size());
   EXPECT_LT(std::abs(mean), 0.003 + 3.0 * uncertainty);

@@ -1,4 +1,4 @@
-// The ground of simulated drives along recorded poses, which may come back at other heights.
+// The ground of simulated drives along recorded poses, which may revisit a place at another height.
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,8 @@
 namespace rotrocc {
 namespace {
 
-/// A figure of eight that comes back to its start, over a hill; each round ends `drop_m` lower than
-/// it begins.
+/// A figure of eight that returns to its start, over a hill; each round ends `drop_m` lower than it
+/// starts.
 Trajectory figureOfEight(double drop_m) {
   Trajectory trajectory;
   for (int i = 0; i <= 500; ++i) {
@@ -52,7 +52,7 @@ TEST(SimulatedGround, NothingStandsOnARoadThatCrossesItself) {
   }
 }
 
-/// As the ground truth of KITTI 08 is off where it comes back.
+/// Similar to the height error of the ground truth of KITTI 08 at revisited places.
 constexpr double kDrop_m = 6.0;
 
 TEST(SimulatedGround, GroundServesEveryVisitOfAPlace) {
@@ -63,7 +63,7 @@ TEST(SimulatedGround, GroundServesEveryVisitOfAPlace) {
     for (int i = 0; i <= 500; ++i) {
       world.goTo(scenario.drive->station_m(0.1 * i));
       const Eigen::Vector3d at = scenario.drive->pose(0.1 * i).translation();
-      // Cells of 8 m follow the hill only so well.
+      // Cells of 8 m only approximate the hill.
       EXPECT_NEAR(world.terrain().height(at.x(), at.z()) - at.y(), 1.65, 0.25) << "frame " << i;
     }
     EXPECT_NEAR(world.terrain().height(0.0, 0.0) - at_start, drop_m, 0.5);
@@ -97,7 +97,7 @@ std::vector<double> survey(const World& world) {
   return heights;
 }
 
-/// Both frames beside each change must look alike before and after it.
+/// The frames before and after each change must look the same with the old and the new ground.
 TEST(SimulatedGround, GroundChangesOnlyOutOfSight) {
   const Scenario scenario = scenarioAlong(figureOfEight(kDrop_m), 1);
   const StereoCamera camera = smallCamera();

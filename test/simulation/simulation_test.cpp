@@ -67,8 +67,8 @@ bool isInside(const cv::Mat& image, const Eigen::Vector2d& pixel) {
          pixel.y() < image.rows - 2;
 }
 
-/// Median of the grey differences between the pixels of one image and where `target` says that the
-/// other shows the same.
+/// Median grey difference between the pixels of one image and their places in the other, by
+/// `target`.
 template <typename Target>
 double medianMismatch(const cv::Mat& from, const cv::Mat& to, const Target& target) {
   std::vector<double> mismatches;
@@ -129,7 +129,7 @@ TEST(Simulation, ImagesHaveTheStatisticsOfAStreet) {
 
 TEST(Simulation, DepthBringsLeftOntoRight) {
   const SimulatedFrame frame = cleanCity().render(30, false);
-  // The median leaves out edges, where the two see different things.
+  // The median ignores edges, where the two images differ.
   EXPECT_LT(medianStereoMismatch(frame, smallCamera(), 0.0), 1.5);
   EXPECT_GT(medianStereoMismatch(frame, smallCamera(), 2.0), 2.5);
 }
@@ -161,7 +161,7 @@ TEST(Simulation, FlowIsThatOfTheProjectedPoints) {
       if (std::isinf(depth) || std::isnan(flow[0])) continue;
       const Eigen::Vector2d there = camera.project(T_next_now * (depth * camera.ray({x, y})));
       const double error = (there - Eigen::Vector2d(x + flow[0], y + flow[1])).norm();
-      // Only what moves by itself may flow otherwise.
+      // Only moving objects may have another flow.
       error < kMaxTruthError_px ? ++still : ++moving;
     }
   }
@@ -302,7 +302,7 @@ TEST(Simulation, NoiseHasItsSigma) {
                CV_32F);
   cv::Scalar mean;
   cv::Scalar deviation;
-  cv::meanStdDev(difference(cv::Rect(0, 50, 310, 44)), mean, deviation);  // no sky: it is cut off
+  cv::meanStdDev(difference(cv::Rect(0, 50, 310, 44)), mean, deviation);  // not the saturated sky
   EXPECT_NEAR(mean[0], 0.0, 0.1);
   EXPECT_NEAR(deviation[0], 3.0, 0.15);
 }
@@ -317,7 +317,8 @@ TEST(Simulation, NoiseSeedChangesTheNoiseOnly) {
   const cv::Mat one = Simulator(scenario("city", 1), options).render(5, false).pair.left;
   options.noise_seed = 3;
   const cv::Mat other = Simulator(scenario("city", 1), options).render(5, false).pair.left;
-  // Two draws of 3 grey levels differ by 3.4 in the mean; where the sky is white, both are cut off.
+  // Two draws of 3 grey levels differ by 3.4 in the mean; where the sky is white, both are
+  // saturated.
   EXPECT_GT(meanDifference(one, other), 1.0);
 }
 

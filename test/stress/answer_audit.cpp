@@ -9,9 +9,9 @@ namespace rotrocc {
 namespace {
 
 constexpr std::uint32_t kQueueSize = 100;
-/// Pairs without an answer that are remembered.
+/// Limit of pairs without an answer that are kept.
 constexpr std::size_t kMaxPending = 1000;
-/// Ages that are remembered: an hour at 60 Hz.
+/// Limit of ages that are kept: an hour at 60 Hz.
 constexpr std::size_t kMaxAges = 250000;
 
 float quantile(std::vector<float> values, double share) {

@@ -16,11 +16,11 @@
 
 namespace rotrocc {
 
-/// Whether all numbers of an odometry are finite, its quaternion is of unit length and its
-/// variances are not negative.
+/// Whether all numbers of an odometry are finite, its quaternion has unit length and its variances
+/// are not negative.
 bool isSound(const nav_msgs::Odometry& odometry);
 
-/// Listens to `odom` and `status` of an odometry under stress, and keeps account of its answers.
+/// Listens to `odom` and `status` of an odometry under stress, and counts its answers.
 class AnswerAudit {
  public:
   explicit AnswerAudit(ros::NodeHandle& nh);
@@ -30,14 +30,14 @@ class AnswerAudit {
   /// To be called when a pair is sent.
   void expect(const ros::Time& stamp);
 
-  /// To be called when stamps begin anew: the motion must be found again.
+  /// To be called when stamps restart: the odometry must become OK again.
   void beginLoop();
 
   /// A table: answers, their age, what was dropped, loops.
   std::string report() const;
 
-  /// Whether every answer was sound and every loop but the last, which may have just begun, found
-  /// its motion.
+  /// Whether every answer was valid and the odometry became OK in every loop but the last, which
+  /// may have just started.
   bool passed() const;
 
  private:
@@ -54,7 +54,7 @@ class AnswerAudit {
   bool recovered_ = false;
   OdometryStatus last_status_;
 
-  // Last, so that no callback comes when the rest is gone.
+  // Last, so that no callback runs after the other members are destroyed.
   ros::Subscriber odom_, status_;
 };
 

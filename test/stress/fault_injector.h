@@ -10,7 +10,7 @@
 
 namespace rotrocc {
 
-/// A pair on its way to the odometry, and what becomes of it.
+/// A pair to be sent to the odometry, and how.
 struct StressPair {
   sensor_msgs::Image left, right;
   sensor_msgs::CameraInfo left_info, right_info;
@@ -19,7 +19,7 @@ struct StressPair {
   bool burst = false;  ///< it and those after it are sent at once
 };
 
-/// Does to some pairs what broken drivers, cables and clocks do.
+/// Applies faults of drivers, cables and clocks to some pairs.
 class FaultInjector {
  public:
   /// `share` of the pairs get a fault.

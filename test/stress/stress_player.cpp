@@ -30,7 +30,7 @@ constexpr int kBurst = 20;         // pairs at once
 constexpr int kPairsPerCall = 50;  // of the services
 const char* const kCameraFrame = "stress_camera";
 
-/// Not now, when an odometry that ran before may have seen later ones.
+/// Not the current time: in a previous run, the odometry may have received later stamps.
 ros::Time firstStamp() {
   return ros::Time(1000.0);
 }
@@ -84,7 +84,7 @@ bool StressPlayer::run() {
   const auto period = std::chrono::duration_cast<steady_clock::duration>(
       std::chrono::duration<double>(1.0 / options_.rate_hz));
   const auto end = steady_clock::now() + std::chrono::duration<double>(options_.duration_s);
-  const auto loop = static_cast<int>(2 * recording_.size() - 2);  // forth and back
+  const auto loop = static_cast<int>(2 * recording_.size() - 2);  // forwards and backwards
   ros::Time stamp = firstStamp();
   next_ = steady_clock::now();
   audit_.beginLoop();

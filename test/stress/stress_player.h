@@ -15,23 +15,23 @@
 namespace rotrocc {
 
 struct StressOptions {
-  std::string bag;  ///< stereo recording that is played forth and back in a loop
+  std::string bag;  ///< stereo recording, played forwards and backwards in a loop
   std::string odometry = "stereo_odometry";  ///< name of the node, for its services
   double rate_hz = 10.0;                     ///< of the pairs
   double duration_s = 60.0;                  ///< of the whole run
-  double fault_share = 0.05;  ///< of the pairs that get a fault; 0: none, and time goes on
+  double fault_share = 0.05;  ///< of the pairs that get a fault; 0: none, and no restart of stamps
   int pairs = 100;            ///< of the recording that are kept in memory
   unsigned seed = 1;          ///< same seed, same faults
 };
 
-/// Plays a recording to an odometry, with faults, and with calls of all its services: at the end of
-/// each loop, which is the recording forth and back, stamps begin anew.
+/// Plays a recording to an odometry in a loop, forwards and backwards, with faults and calls of all
+/// its services. Stamps restart with each loop.
 class StressPlayer {
  public:
   /// Throws std::runtime_error on a bag that cannot be used.
   StressPlayer(ros::NodeHandle& nh, const StressOptions& options);
 
-  /// Returns whether all was well; prints the account of it.
+  /// Prints the report; returns whether the test passed.
   bool run();
 
  private:

@@ -60,7 +60,7 @@ bool matches(const std::string& text, const std::string& pattern) {
   return std::regex_match(text, std::regex(expression));
 }
 
-/// The lines of the document that are rows, by number.
+/// The rows of the document by number.
 std::map<int, std::string> readRows() {
   std::map<int, std::string> rows;
   std::istringstream lines(readFile(path()));

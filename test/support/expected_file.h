@@ -10,8 +10,8 @@
 
 namespace rotrocc {
 
-/// Expects that a file of the sources, which holds what a test can tell, holds `text`. With
-/// ROTROCC_UPDATE_FILES=1 in the environment it is written instead.
+/// Expects that the content of a generated file of the source tree is `text`. With
+/// ROTROCC_UPDATE_FILES=1 in the environment the file is written instead.
 inline void expectFileHolds(const std::string& path, const std::string& text) {
   const char* update = std::getenv("ROTROCC_UPDATE_FILES");
   if (update != nullptr && std::string(update) == "1") {

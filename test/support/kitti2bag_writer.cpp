@@ -89,7 +89,7 @@ void writeMounts(rosbag::Bag& bag, const ros::Time& stamp) {
   writeTransform(bag, "/tf_static", stamp, "imu_link", "camera_gray_left", T_imu_camera);
 }
 
-/// A vehicle that is somewhere in the world, not at its origin.
+/// A vehicle that does not start at the origin of the world.
 Eigen::Isometry3d poseInWorld(const StampedPose& pose) {
   const Eigen::Isometry3d T_world_first =
       translation(100.0, -50.0, 3.0) * Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ());

@@ -7,9 +7,9 @@
 namespace rotrocc {
 
 /// Writes a bag of the shape kitti2bag (github.com/tomas789/kitti2bag) gives to raw drives, as far
-/// as it matters to a stereo odometry: /kitti/camera_{gray,color}_{left,right}/image_raw whose
+/// as a stereo odometry depends on it: /kitti/camera_{gray,color}_{left,right}/image_raw whose
 /// stamps differ by up to 7 ms between left and right; camera_info with K, D and R of the
-/// unrectified images, so that only P is true of those in the bag; mounts in /tf_static, again at
+/// unrectified images, so that only P is valid for those in the bag; mounts in /tf_static, again at
 /// every stamp; world -> base_link in /tf.
 void writeKitti2bagRaw(const KittiSequence& sequence, const std::string& path);
 

@@ -8,7 +8,7 @@
 
 namespace rotrocc {
 
-/// The warnings and errors that this process logs, while it lives. At most one at a time.
+/// Records the warnings and errors that this process logs. At most one instance at a time.
 class LogRecorder : public ros::console::LogAppender {
  public:
   LogRecorder() { ros::console::register_appender(this); }

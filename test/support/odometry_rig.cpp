@@ -21,7 +21,7 @@ constexpr double kStep_m = 0.4;
 constexpr std::chrono::milliseconds kPeriod(100);
 constexpr double kMotionTolerance = 0.05;
 constexpr double kRounding = 1e-9;
-/// Of a twist that is unknown, as users of nav_msgs/Odometry know it.
+/// Of an unknown twist, by the convention for nav_msgs/Odometry.
 constexpr double kUnknownVariance = 9999.0;
 
 const SyntheticScene& scene() {
@@ -29,7 +29,7 @@ const SyntheticScene& scene() {
   return scene;
 }
 
-/// Rendered when first looked at.
+/// Rendered on first use.
 const StereoPair& pairAt(int index) {
   static std::vector<std::optional<StereoPair>> pairs(kPairs);
   auto& pair = pairs.at(static_cast<std::size_t>(index));

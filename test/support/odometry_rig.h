@@ -16,8 +16,8 @@
 
 namespace rotrocc {
 
-/// All of the odometry that needs no ROS master: messages in, answers out. A robot with it drives
-/// along the street of SyntheticScene, 0.4 m a pair at 10 Hz.
+/// The part of the odometry that needs no ROS master, on a robot that drives along the street of
+/// SyntheticScene, 0.4 m per pair at 10 Hz.
 class OdometryRig {
  public:
   using ImageChange = std::function<void(sensor_msgs::Image& left, sensor_msgs::Image& right)>;
@@ -36,24 +36,24 @@ class OdometryRig {
   void sendImage(StereoIntake::Side side, const sensor_msgs::Image& image);
   void advance();
 
-  /// The stamp of the next pair, and ROS time.
+  /// Of the next pair.
   ros::Time stamp{1000.0};
-  /// What comes with the images; as the stamp if it is none.
+  /// ROS time at arrival; `stamp` if not set.
   std::optional<ros::Time> clock;
 
-  /// What another sensor says of the motion.
+  /// The motion by another sensor.
   PairProcessor::MotionSource expected;
 
-  /// To the last pair that was processed; none since the last call of forget().
+  /// Of the last pair that was processed since the last call of forget().
   const std::optional<PairAnswer>& answer() const { return answer_; }
   void forget();
 
-  /// Of the last pair since the last call of forget(): its state, as "ok", what is wrong with its
-  /// motion, or without one what has become of the pose since then, and the hint. Else "dropped
-  /// (<reason>): <sentence>" of what was dropped since then, or "no odometry".
+  /// Of the last pair since the last call of forget(): its state, as "ok", the error of its motion,
+  /// or without a motion the change of the pose since then, and the hint. Without such a pair
+  /// "dropped (<reason>): <sentence>" for each drop since then, or "no odometry".
   std::string observed() const;
 
-  /// The state that a node would tell that has not answered for some seconds, as "NO_CALIBRATION".
+  /// The state that a node reports after some seconds without odometry, as "NO_CALIBRATION".
   std::string stateWithoutAnswers() const;
 
   /// With the names of the topics.

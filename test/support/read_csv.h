@@ -12,8 +12,8 @@ namespace rotrocc {
 /// The cells of a row by the names of their columns.
 using CsvRow = std::map<std::string, std::string>;
 
-/// A table with a header and without quotes. Throws std::runtime_error if a row has another count
-/// of cells than the header.
+/// A table with a header and without quotes. Throws std::runtime_error if the number of cells of a
+/// row differs from that of the header.
 inline std::vector<CsvRow> readCsv(const std::string& path) {
   std::ifstream file(path);
   std::vector<std::string> names;

@@ -6,7 +6,7 @@
 
 namespace rotrocc {
 
-/// All bytes of a file; none if it cannot be read.
+/// All bytes of a file; empty if it cannot be read.
 inline std::string readFile(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};

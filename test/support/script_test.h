@@ -12,8 +12,7 @@
 
 namespace rotrocc {
 
-/// For tests of what a Python script has found in its short form, which is run once for all of
-/// them.
+/// For tests of the results of a Python script in its short form, which runs once for all tests.
 class ScriptTest : public ::testing::Test {
  protected:
   /// To be called by SetUpTestSuite(). The script's output goes to the folder out of directory().
@@ -31,7 +30,7 @@ class ScriptTest : public ::testing::Test {
   }
   static std::string outputPath(const std::string& name) { return directory() / "out/" + name; }
 
-  /// The rows of NAME.csv; there are some.
+  /// The rows of NAME.csv; expects that there are some.
   static std::vector<CsvRow> readTable(const std::string& name) {
     const std::vector<CsvRow> rows = readCsv(outputPath(name + ".csv"));
     EXPECT_FALSE(rows.empty()) << name;

@@ -11,9 +11,9 @@
 
 namespace rotrocc {
 
-/// Calls the services of a node, as soon as they are there. Connections stay: roscpp may take the
-/// end of one for that of the next, which has the same file descriptor, so that of a thousand calls
-/// with a connection each about one fails.
+/// Calls the services of a node once they are available. Connections are kept: roscpp may confuse
+/// the end of one with that of the next, which has the same file descriptor, so that with a
+/// connection per call about one call in a thousand fails.
 class ServiceCaller {
  public:
   explicit ServiceCaller(std::string node) : node_(std::move(node)) {}

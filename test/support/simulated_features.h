@@ -12,7 +12,7 @@
 
 namespace rotrocc {
 
-/// Standard deviations of what is measured of a feature [px].
+/// Standard deviations of the measurements of a feature [px].
 struct FeatureNoise {
   double flow_px = 0.0;  ///< in x and y
   double disparity_px = 0.0;

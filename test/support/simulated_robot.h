@@ -24,14 +24,14 @@
 
 namespace rotrocc {
 
-/// A robot that drives along the street of SyntheticScene: publishes what its stereo camera sees,
-/// and keeps what the odometry answers.
+/// A robot that drives along the street of SyntheticScene: publishes the images of its stereo
+/// camera, and keeps the answers of the odometry.
 class SimulatedRobot {
  public:
   static constexpr double kStep_m = 0.4;    ///< forward, from each pair to the next
   static constexpr double kPeriod_s = 0.1;  ///< between them
 
-  /// Returns when so many odometries have subscribed, and one of them answers.
+  /// Waits until `odometries` have subscribed, and one has advertised its topics.
   explicit SimulatedRobot(std::uint32_t odometries = 1);
 
   /// After `change` of both.
@@ -43,15 +43,15 @@ class SimulatedRobot {
   /// Drives a step and publishes both images, after `change` to each of them. Returns their stamp.
   ros::Time drive(const std::function<void(sensor_msgs::Image&)>& change = {});
 
-  /// The same in two steps: drives, and returns what is seen; publishes it. What is in this process
-  /// has received it then.
+  /// The same in two steps: see() drives and returns both images, publish() publishes them. When it
+  /// returns, subscribers in this process have received them.
   std::pair<sensor_msgs::Image, sensor_msgs::Image> see();
   void publish(const sensor_msgs::Image& left, const sensor_msgs::Image& right);
 
   /// The next pairs have stamps from before the first ones.
   void turnBackTime();
 
-  /// The answer to the pair of a stamp; nothing if it does not come in time.
+  /// The answer to the pair of a stamp; nothing after the timeout.
   std::optional<nav_msgs::Odometry> odometryOf(const ros::Time& stamp,
                                                std::chrono::milliseconds timeout = kHangLimit);
   std::optional<OdometryStatus> statusOf(const ros::Time& stamp,
@@ -60,8 +60,8 @@ class SimulatedRobot {
   /// The first answer to a pair of that stamp or a later one.
   std::optional<nav_msgs::Odometry> odometryFrom(const ros::Time& stamp);
 
-  /// Waits for a status that fits, or with a state and some words in its reason; nothing if none
-  /// comes in time.
+  /// Waits for a status that fits, or with a state and a reason that contains `reason`; nothing
+  /// after the timeout.
   std::optional<OdometryStatus> statusThat(const std::function<bool(const OdometryStatus&)>& fits,
                                            std::chrono::milliseconds timeout = kHangLimit);
   std::optional<OdometryStatus> statusWith(std::uint8_t state,

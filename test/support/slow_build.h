@@ -4,8 +4,8 @@
 
 namespace rotrocc {
 
-/// Whether everything is ten times as slow, as with the sanitizers of scripts/sanitize, which sets
-/// this. Tests that render long drives then take shorter ones.
+/// Whether the build is about ten times slower, as with scripts/sanitize, which sets this. Tests
+/// that render long drives then use shorter ones.
 inline bool isSlowBuild() {
   return std::getenv("ROTROCC_SLOW_BUILD") != nullptr;
 }

@@ -10,7 +10,7 @@
 
 namespace rotrocc {
 
-/// A textured street between two walls, rendered with exact poses: what tests take as the truth.
+/// A textured street between two walls, rendered with exact poses: the ground truth of tests.
 ///
 /// The world's axes are those of a camera that looks along the street: x right, y down, z forward.
 /// The road lies 1.65 m below the origin, the walls are 7 m to the left and 6 m to the right, and

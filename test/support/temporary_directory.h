@@ -9,7 +9,7 @@
 
 namespace rotrocc {
 
-/// An empty directory of its own, removed with all that is in it at the end of the scope.
+/// A new empty directory, removed with its contents at the end of the scope.
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {

@@ -5,10 +5,10 @@
 
 namespace rotrocc {
 
-/// Guards against hanging only: far beyond what a busy machine takes.
+/// Only against hanging: far longer than on a busy machine.
 constexpr std::chrono::minutes kHangLimit(3);
 
-/// Waits for a condition, which may act each time it is asked. Returns whether it came true.
+/// Waits for a condition, which may have side effects. Returns whether it became true.
 template <class Condition>
 bool waitUntil(Condition condition,
                std::chrono::milliseconds period = std::chrono::milliseconds(10)) {

@@ -1,4 +1,4 @@
-// Runs the program, as users do, and looks at the report it writes.
+// Runs the program as users do, and checks its report.
 
 #include <cmath>
 #include <filesystem>
@@ -42,7 +42,7 @@ class EvaluateTrajectoryTest : public ::testing::Test {
     }
   }
 
-  /// What offline_odometry --stats writes, as far as reports read it. Two pairs are lost.
+  /// The columns of offline_odometry --stats that reports read. Two pairs are lost.
   std::string statistics() const {
     std::string rows =
         "stamp_ns,state,corners,with_depth,tracked,consistent,rotation_inliers,"

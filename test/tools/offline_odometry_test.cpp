@@ -106,7 +106,7 @@ TEST_F(OfflineOdometryTest, FiguresTellMotionCovarianceAndBias) {
     EXPECT_LT(number("covariance_ry_ry"), 1e-4);  // [rad^2]
     EXPECT_LE(std::abs(number("covariance_x_ry")),
               std::sqrt(number("covariance_x_x") * number("covariance_ry_ry")));
-    // What is known beforehand is where the estimate begins.
+    // The estimate starts at the prior.
     EXPECT_NEAR(number("bias_estimated_px"), 0.05, 0.5);
     EXPECT_GT(number("bias_sigma_px"), 0.0);
   }
