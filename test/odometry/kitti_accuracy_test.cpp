@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <ostream>
@@ -12,12 +13,17 @@
 namespace rotrocc {
 namespace {
 
-/// A clip of KITTI and the translation error that the odometry may have on it. A change of any
-/// default that loses accuracy is seen here.
+/// A clip of KITTI and the errors that were measured on it. A change of any default that loses
+/// accuracy is seen here.
 struct Clip {
   const char* name;
-  double max_translation_error;  // [m/m]
+  double translation_percent;
+  double rotation_deg_per_m;
 };
+
+/// Parameters that should not matter, changed by 5 %, change the translation error by 1 % on 01 and
+/// by 0.1 % elsewhere (standard deviations of 12 runs), the rotation error by 0.2 %.
+constexpr double kScatter = 1.05;
 
 void PrintTo(const Clip& clip, std::ostream* out) {
   *out << clip.name;
@@ -56,16 +62,17 @@ TEST_P(KittiAccuracyTest, LosesNoPairAndStaysWithinTheError) {
   const MeanError error =
       meanError(segmentErrors(matchByIndex(sequence.groundTruth(), estimate), segments));
   ASSERT_GT(error.segments, 0);
-  EXPECT_LE(error.translation, GetParam().max_translation_error);
+  EXPECT_LE(100.0 * error.translation, kScatter * GetParam().translation_percent);
+  EXPECT_LE(error.rotation_rad_per_m * 180.0 / M_PI, kScatter * GetParam().rotation_deg_per_m);
   RecordProperty("translation_error_percent", std::to_string(100.0 * error.translation));
 }
 
-/// Measured: 0.67, 1.3 and 1.35 %.
 INSTANTIATE_TEST_SUITE_P(Clips,
                          KittiAccuracyTest,
-                         ::testing::Values(Clip{"06_000_050", 0.0075},
-                                           Clip{"01_000_050", 0.023},
-                                           Clip{"raw_0926_024_143", 0.014}),
+                         ::testing::Values(Clip{"06_000_050", 0.633, 0.01364},
+                                           Clip{"01_000_050", 1.372, 0.02419},
+                                           Clip{"04_000_050", 0.657, 0.00434},
+                                           Clip{"raw_0926_024_143", 1.266, 0.00694}),
                          [](const auto& clip) { return "On_" + std::string(clip.param.name); });
 
 }  // namespace
