@@ -8,8 +8,8 @@
 
 namespace rotrocc {
 
-/// One feature of the set F = {x_prev, x_cur, depth} (paper, section V-A), in left pixels. The
-/// previous pair is the keyframe that the current one is compared with.
+/// One feature of the set F = {x_prev, x_cur, depth} (paper, section V-A), in left pixels.
+/// "Previous" is the keyframe, which the current pair is compared with.
 struct Correspondence {
   Eigen::Vector2d prev_px = Eigen::Vector2d::Zero();  ///< measured in the keyframe
   Eigen::Vector2d cur_px = Eigen::Vector2d::Zero();   ///< measured in the current pair
@@ -20,11 +20,11 @@ struct Correspondence {
 
 using Correspondences = std::vector<Correspondence>;
 
-/// A flag for each correspondence, in their order: 1 if it belongs to the set, else 0.
+/// One flag per correspondence, in the same order: 1 if it belongs to the set, else 0.
 using FeatureSet = std::vector<char>;
 
-/// Computes point_cur of all features from their disparities. Drops those whose disparity is not
-/// above that of infinity, or whose depth is below 0.1 m.
+/// Computes point_cur of all features from their disparities. Removes features whose disparity is
+/// not greater than that of a point at infinity, or whose depth is below 0.1 m.
 void triangulate(const StereoCamera& camera, Correspondences& features);
 
 }  // namespace rotrocc

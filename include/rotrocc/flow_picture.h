@@ -13,17 +13,17 @@ namespace rotrocc {
 
 /// What a flow picture shows.
 enum class FlowView {
-  kMotion,    ///< the measured flow, by depth and by stage
-  kDecoupled  ///< the two parts of the flow: that of the rotation and that of the translation
+  kMotion,    ///< the measured flow, coloured by depth and by stage
+  kDecoupled  ///< the flow, split into rotation and translation
 };
 
-/// "motion", "decoupled".
+/// The names of the views: "motion", "decoupled".
 const std::vector<std::string>& flowViewNames();
 
-/// Throws std::invalid_argument on another name.
+/// The view of that name. Throws std::invalid_argument on any other name.
 FlowView flowView(const std::string& name);
 
-/// What the odometry made of a pair. An empty set has no inliers.
+/// The odometry's result for one pair. An empty set has no inliers.
 struct FlowScene {
   const cv::Mat& left;  ///< CV_8UC1, the current image
   const StereoCamera& camera;
@@ -33,22 +33,23 @@ struct FlowScene {
   const OdometryResult& result;
 };
 
-/// Draws the left image, darkened, and on it the flow of each feature, as lines that lead to its
-/// current position from its position in the keyframe. A line of text below the image says
-/// state, speed, counts and the rig's bias, and explains the colours, which colour-blind people can
-/// tell apart, too.
+/// Draws the flow of each feature on the darkened left image, as a line from its position in the
+/// keyframe to its current position. A line of text below the image gives the state, speed, feature
+/// counts and disparity bias, and explains the colours. They are safe for colour-blind readers.
 ///
 /// FlowView::kMotion: inliers of both stages are coloured by depth, from orange (near) to blue
-/// (far), inliers of the rotation stage alone are white, all other features magenta; where these
-/// differ from the flow that the motion makes, that is drawn in green.
-/// FlowView::kDecoupled: the flow of an inlier in its two parts, as in Fig. 2 of the paper: from
-/// the current position to where the rotation takes it in blue, on from there to where the
-/// translation takes it in orange (Eq. 27, 28). Features that are not inliers of the rotation are
-/// left out.
+/// (far). Inliers of the rotation stage only are white, all other features magenta. For these two,
+/// the flow that the estimated motion predicts is drawn in green where it differs from the measured
+/// flow.
 ///
-/// `picture` becomes CV_8UC3 in BGR order, as wide as the image and a text line higher; its memory
-/// is used again. Throws std::invalid_argument if `left` is no such image, or a set that is not
-/// empty has not a flag for each feature.
+/// FlowView::kDecoupled: the flow of each inlier in two parts, as in Fig. 2 of the paper. A blue
+/// line goes from the current position to where the rotation maps it, an orange line from there to
+/// where the translation maps it (Eq. 27, 28). Features that are not inliers of the rotation are
+/// not drawn.
+///
+/// `picture` becomes CV_8UC3 in BGR order, as wide as the image and one text line higher. Its
+/// buffer is reused. Throws std::invalid_argument if `left` is empty or not CV_8UC1, or if a
+/// non-empty set does not have one flag per feature.
 void drawFlowPicture(const FlowScene& scene, FlowView view, cv::Mat& picture);
 
 }  // namespace rotrocc

@@ -15,32 +15,32 @@ namespace rotrocc {
 ///   image_0/000000.png ...  rectified left grey images
 ///   image_1/000000.png ...  rectified right grey images
 ///   calib.txt               the 3x4 projection matrices `P0:` (left) and `P1:` (right), row by row
-///   times.txt               a time [s] a line
-///   poses.txt               ground truth, a pose of the left camera a line; may be missing
+///   times.txt               one time [s] per line
+///   poses.txt               ground truth, one pose of the left camera per line; optional
 class KittiSequence {
  public:
-  /// Reads all but the images. Throws std::runtime_error that names the file and what is wrong with
-  /// it if one is missing or unreadable, the counts of images, times and poses differ, times do not
-  /// increase, or P0 and P1 are not those of a rectified stereo pair.
+  /// Reads everything except the images. Throws std::runtime_error that names the file and the
+  /// problem if a file is missing or unreadable, if the numbers of images, times and poses differ,
+  /// if times do not increase, or if P0 and P1 are not those of a rectified stereo pair.
   explicit KittiSequence(const std::string& directory);
 
-  /// Count of stereo pairs.
+  /// Number of stereo pairs.
   int size() const { return static_cast<int>(stamps_ns_.size()); }
 
   /// Width and height are those of the first left image.
   const StereoCamera& camera() const { return camera_; }
 
-  /// The time of pair `index`, in [0, size()); throws std::out_of_range beyond.
+  /// Time of pair `index`, in [0, size()). Throws std::out_of_range for any other index.
   std::int64_t stamp_ns(int index) const { return stamps_ns_.at(index); }
 
-  /// The images of pair `index` as CV_8UC1. Throw std::runtime_error with the file's path if it is
-  /// missing, unreadable or not of the camera's size.
+  /// The images of pair `index` as CV_8UC1. Both throw std::runtime_error with the file's path if
+  /// it is missing, unreadable or not of the camera's size.
   cv::Mat readLeft(int index) const;
   cv::Mat readRight(int index) const;
 
   bool hasGroundTruth() const { return !ground_truth_.empty(); }
 
-  /// size() poses of the left camera with the stamps of the pairs; empty if there is no poses.txt.
+  /// size() poses of the left camera, with the stamps of the pairs. Empty if there is no poses.txt.
   const Trajectory& groundTruth() const { return ground_truth_; }
 
  private:

@@ -5,36 +5,36 @@
 
 namespace rotrocc {
 
-/// Shi-Tomasi corners.
+/// Shi-Tomasi corner detection.
 struct FeatureDetectorConfig {
   int max_features = 2000;
-  int block_radius_px = 2;    ///< the gradients are summed over a square of 2 radius + 1
-  int nms_radius_px = 4;      ///< no stronger corner this near, in x and y
+  int block_radius_px = 2;    ///< gradients are summed over a square of side 2 radius + 1
+  int nms_radius_px = 4;      ///< minimum distance in x or y to a stronger corner
   int cell_size_px = 32;      ///< side of a grid cell
-  double min_response = 2.0;  ///< least smaller eigenvalue: (grey levels / px)^2
-  int border_px = 8;          ///< no corners this near to the image's edge
+  double min_response = 2.0;  ///< minimum of the smaller eigenvalue: (grey levels / px)^2
+  int border_px = 8;          ///< no corners closer to the image border
 };
 
 /// Sparse block matching along the row.
 struct StereoMatcherConfig {
-  int max_disparity_px = 128;         ///< above that of infinity; nearer points are not found
-  double min_disparity_px = 1.0;      ///< above that of infinity; farther points are dropped
-  double max_mean_difference = 20.0;  ///< of the best match, grey levels per pixel
-  double uniqueness = 0.92;  ///< best SAD below this times the best one elsewhere on the row
+  int max_disparity_px = 128;     ///< above the disparity at infinity; nearer points are not found
+  double min_disparity_px = 1.0;  ///< above the disparity at infinity; farther points are dropped
+  double max_mean_difference = 20.0;  ///< of the best match, in grey levels per pixel
+  double uniqueness = 0.92;  ///< the best SAD must be below this times the next best on the row
 };
 
 /// Pyramidal Lucas-Kanade, and the circular consistency check.
 struct FeatureTrackerConfig {
-  int window_radius_px = 5;                  ///< the window is a square of 2 radius + 1
-  int levels = 2;                            ///< pyramid levels when there is a prediction
-  int startup_levels = 5;                    ///< when there is none
-  int max_iterations = 10;                   ///< per level
-  double min_step_px = 0.02;                 ///< iterations end when a step is shorter
-  double max_round_trip_px = 0.5;            ///< forward and backward must meet; 0: not checked
-  bool scale_windows = true;                 ///< by the predicted change of depth
-  bool ignore_brightness = true;             ///< windows are compared without their mean
-  double max_vertical_px = 1.0;              ///< left and right must be on the same row
-  double max_disparity_difference_px = 1.0;  ///< of tracked and matched disparity at t
+  int window_radius_px = 5;        ///< the window is a square of side 2 radius + 1
+  int levels = 2;                  ///< pyramid levels when there is a prediction
+  int startup_levels = 5;          ///< pyramid levels without a prediction
+  int max_iterations = 10;         ///< per level
+  double min_step_px = 0.02;       ///< iterations stop at a shorter step
+  double max_round_trip_px = 0.5;  ///< tolerance of forward-backward tracking; 0: not checked
+  bool scale_windows = true;       ///< scale the windows by the predicted scale change
+  bool ignore_brightness = true;   ///< subtract the mean of each window
+  double max_vertical_px = 1.0;    ///< tolerance of the row of left and right
+  double max_disparity_difference_px = 1.0;  ///< between tracked and matched disparity, at t
 };
 
 /// From images to correspondences.
@@ -44,39 +44,46 @@ struct CorrespondenceFinderConfig {
   FeatureTrackerConfig feature_tracker;
 };
 
-/// Constant turn rate and velocity.
+/// Motion prediction by constant linear and angular velocity.
 struct MotionModelConfig {
-  double max_age_s = 0.5;  ///< an older motion predicts nothing
+  double max_age_s = 0.5;  ///< an older motion is not used as a prediction
 };
 
-/// Which features may estimate the motion: "rotrocc", the reprojection error for the rotation, then
-/// the DNRE for the translation (section V-B); "reprojection", stage 1 alone; "rocc", like rotrocc
-/// but normalized by the coupled flow (Eq. 8); "mean_based", one stage, Eq. 32; "std_based", one
-/// stage, Eq. 31.
+/// The criteria that select the features for motion estimation:
+///   "rotrocc"       reprojection error for the rotation, then DNRE for the translation (V-B)
+///   "reprojection"  stage 1 only
+///   "rocc"          as rotrocc, but normalized by the coupled flow (Eq. 8)
+///   "mean_based"    one stage, Eq. 32
+///   "std_based"     one stage, Eq. 31
 const std::vector<std::string>& criterionNames();
 
 /// The two-stage estimator.
 struct MotionEstimatorConfig {
   std::string criterion = "rotrocc";  ///< one of criterionNames()
-  /// Disparity noise over flow noise, see fitted_feature.h; 0: the paper's
+  /// Ratio of disparity noise to flow noise, see fitted_feature.h. 0: the paper's least squares.
   double noise_ratio = 3.0;
-  double robust_factor = 2.0;  ///< of CauchyWeights, once a stage has its set; 0: the paper's
+  /// Of cauchyWeights(), used once the set of a stage is stable. 0: no weights, as in the
+  /// paper.
+  double robust_factor = 2.0;
 
   // Stage 1: rotation.
-  double rotation_limit_px = 0.6;     ///< termination limit of the reprojection error, Eq. 26
-  double rotation_drop_share = 0.15;  ///< of the set, dropped at most by an iteration: b of Eq. 26
+  double rotation_limit_px = 0.6;     ///< limit of the reprojection error, Eq. 26
+  double rotation_drop_share = 0.15;  ///< largest share dropped per iteration: b of Eq. 26
   int rotation_max_iterations = 30;
-  double retry_share =
-      0.6;  ///< of the set left by stage 1; less, and it is tried once more with ...
-  double retry_agreement_px = 2.0;  ///< ... just the features this near to the prediction; 0: never
+  /// If stage 1 leaves a smaller share of the features, there is one retry ...
+  double retry_share = 0.6;
+  /// ... with only the features whose error at the prediction is below this. 0: no retry.
+  double retry_agreement_px = 2.0;
 
   // Stage 2: translation.
-  double translation_limit = 0.05;       ///< termination limit of the DNRE, Eq. 30
+  double translation_limit = 0.05;       ///< limit of the DNRE, Eq. 30
   double translation_drop_share = 0.15;  ///< b of Eq. 30
   int translation_max_iterations = 30;
-  bool translation_from_prediction = false;  ///< stage 2 starts there, not at stage 1's result
-  double translation_initial_px = 1.5;  ///< stage-1 error below which a feature enters; 0: all do
-  double min_speed_mps = 1.0;           ///< below it stage 2 is skipped
+  /// Stage 2 starts at the prediction, not at the result of stage 1.
+  bool translation_from_prediction = false;
+  /// Features with a smaller error after stage 1 enter stage 2. 0: all features do.
+  double translation_initial_px = 1.5;
+  double min_speed_mps = 1.0;  ///< stage 2 is skipped at lower speed
 
   // The comparison criteria.
   double mean_factor = 9.0;       ///< of Eq. 32
@@ -84,38 +91,42 @@ struct MotionEstimatorConfig {
   int comparison_iterations = 10;
 };
 
-/// Whether an estimated motion can be believed.
+/// Plausibility limits of an estimated motion.
 struct MotionCheckConfig {
-  int min_inliers = 25;                 ///< fewer: lost
-  double min_inlier_share = 0.15;       ///< of the feature set; less: lost
-  int degraded_inliers = 80;            ///< fewer: degraded
-  double degraded_inlier_share = 0.35;  ///< of the feature set; less: degraded
+  int min_inliers = 25;                 ///< below: lost
+  double min_inlier_share = 0.15;       ///< of the feature set; below: lost
+  int degraded_inliers = 80;            ///< below: degraded
+  double degraded_inlier_share = 0.35;  ///< of the feature set; below: degraded
   double max_speed_mps = 70.0;          ///< faster: lost
   double max_turn_rate_rps = 6.0;       ///< faster: lost
-  double max_acceleration_mps2 = 30.0;  ///< a larger change of the velocity: degraded
+  double max_acceleration_mps2 = 30.0;  ///< above, as change of velocity per second: degraded
 };
 
-/// How long a keyframe lives.
+/// When a keyframe is replaced.
 struct KeyframeSelectorConfig {
-  bool adaptive = true;          ///< if not, every frame is the next one's keyframe
-  double max_parallax_px = 8.0;  ///< median flow that the translation may make
-  double min_seen_share = 0.7;   ///< of the inliers of the keyframe's first motion
+  bool adaptive = true;          ///< false: every frame is the keyframe of the next one
+  double max_parallax_px = 8.0;  ///< limit of the median flow caused by translation
+  double min_seen_share = 0.7;   ///< minimum share of the inliers of the keyframe's first motion
 };
 
-/// Self-calibration of the disparity bias.
+/// Online rig calibration: estimation of the disparity bias.
 struct StereoCalibratorConfig {
-  bool enabled = true;   ///< if not, bias_px is all that is applied
-  double bias_px = 0.0;  ///< known already, added to every disparity; the estimate begins there
-  double prior_sigma_px = 1.0;  ///< how far from bias_px a rig may be expected to be
-  double memory_pairs = 100.0;  ///< a pair's weight falls by 1/e over as many that tell as much
-  double significance = 3.0;    ///< standard deviations that count as doubt
-  /// What matching may be off by in the whole image alike, which no comparison within it shows:
-  /// windows at edges see what is nearer, too. Part of the uncertainty.
+  bool enabled = true;          ///< false: only bias_px is applied
+  double bias_px = 0.0;         ///< known bias, added to every disparity; start of the estimate
+  double prior_sigma_px = 1.0;  ///< standard deviation of the rig's bias about bias_px
+  /// The weight of a pair falls by a factor e over this many pairs of equal information.
+  double memory_pairs = 100.0;
+  /// Deviations from bias_px below this many standard deviations are not applied.
+  double significance = 3.0;
+  /// Matching error common to the whole image, e.g. because windows at edges also contain the
+  /// nearer surface. Comparing parts of the image cannot show it, so it is added to the
+  /// uncertainty.
   double matching_sigma_px = 0.01;
-  /// Disparity noise over flow noise, see fitted_feature.h. Less than what is measured: fitted
-  /// disparities also follow errors that neighbours share, and take the estimate with them.
+  /// Ratio of disparity noise to flow noise, see fitted_feature.h. Smaller than the measured ratio:
+  /// fitted disparities also absorb errors that neighbouring features share, which biases the
+  /// estimate.
   double noise_ratio = 0.5;
-  double robust_factor = 2.0;  ///< of CauchyWeights; 0: all residuals count alike
+  double robust_factor = 2.0;  ///< of cauchyWeights(); 0: equal weights
 };
 
 /// All parameters of the visual odometry, in the order of the data flow.
@@ -127,10 +138,10 @@ struct OdometryConfig {
   KeyframeSelectorConfig keyframe_selector;
   StereoCalibratorConfig stereo_calibrator;
 
-  int threads = 2;                  ///< that work on a pair, the calling one included
-  int startup_rounds = 4;           ///< tries of a pair at most: predict, track, estimate
-  double startup_settled_px = 0.5;  ///< fewer rounds if the prediction moves less
-  double max_gap_s = 1.0;           ///< between two pairs; longer: the estimator restarts
+  int threads = 2;                  ///< that process a pair, including the calling thread
+  int startup_rounds = 4;           ///< maximum number of tries (predict, track, estimate) per pair
+  double startup_settled_px = 0.5;  ///< no further try if the predicted positions change less
+  double max_gap_s = 1.0;           ///< between two pairs; if longer, the estimator restarts
 };
 
 }  // namespace rotrocc

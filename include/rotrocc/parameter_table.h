@@ -7,9 +7,9 @@
 
 namespace rotrocc {
 
-/// The one list of all parameters: names, units, ranges, defaults and what they mean. The YAML
-/// files, the parameter server and `--set` all go through it. Names are `section/leaf` (or a plain
-/// `leaf`), where a section is a level of the YAML file.
+/// The list of all parameters: names, units, ranges, defaults and descriptions. The YAML files, the
+/// parameter server and `--set` all use it. Names are `section/leaf` or just `leaf`; a section is
+/// one level of the YAML file.
 class ParameterTable {
  public:
   struct Parameter {
@@ -17,18 +17,18 @@ class ParameterTable {
 
     std::string name;
     Type type = Type::kText;
-    std::string unit;                  ///< "px", "m", ...; empty for plain numbers and words
-    std::string range;                 ///< in words: "[1, 100]", "one of a, b"
-    std::string min, max;              ///< of the range, as get() has them; words have none
-    std::vector<std::string> choices;  ///< of a word; empty: any text
+    std::string unit;      ///< "px", "m", ...; empty for plain numbers and text
+    std::string range;     ///< as text: "[1, 100]", "one of a, b"
+    std::string min, max;  ///< limits of the range, in the format of get(); empty for text
+    std::vector<std::string> choices;  ///< allowed values of a text; empty: any text
     std::string description;           ///< one line
     std::function<void(const std::string&)>
-        set;                           ///< throws std::invalid_argument, without the name
-    std::function<std::string()> get;  ///< the value as YAML has it
+        set;                           ///< throws std::invalid_argument; the message lacks the name
+    std::function<std::string()> get;  ///< the value in YAML syntax
   };
 
-  /// `value` holds the default, must outlive the table and is what set() changes. Ranges include
-  /// their ends.
+  /// `value` holds the default and is changed by set(); it must outlive the table. Ranges include
+  /// their limits.
   void add(const std::string& name,
            int& value,
            int min,
@@ -42,17 +42,17 @@ class ParameterTable {
            const std::string& unit,
            const std::string& description);
   void add(const std::string& name, bool& value, const std::string& description);
-  /// A word out of `choices`; any text if there are none.
+  /// Text: one of `choices`, or any text if there are none.
   void add(const std::string& name,
            std::string& value,
            const std::vector<std::string>& choices,
            const std::string& description);
 
   /// Throws std::invalid_argument with the name, the value and the range if there is no such
-  /// parameter, or `text` is no such value.
+  /// parameter or `text` is not a valid value for it.
   void set(const std::string& name, const std::string& text);
 
-  /// "name=value", as on a command line.
+  /// Takes "name=value", as on a command line. Throws as set().
   void setAssignment(const std::string& assignment);
 
   const std::vector<Parameter>& parameters() const { return parameters_; }

@@ -7,30 +7,30 @@
 
 namespace rotrocc {
 
-/// What the ROS side needs to know beside the estimator.
+/// Parameters of the ROS node, besides those of the estimator.
 struct NodeParameters {
   std::string odom_frame = "odom";
   std::string base_frame = "base_link";
-  std::string camera_frame;       ///< of the left images; empty: their frame_id
-  bool publish_tf = true;         ///< odom_frame -> base_frame
-  bool invert_tf = false;         ///< base_frame -> odom_frame instead
-  bool planar = false;            ///< the base moves in its x-y plane
-  std::string guess_frame;        ///< of another odometry of base_frame in tf; empty: none
-  double guess_timeout_s = 0.05;  ///< how long a pair waits for that
+  std::string camera_frame;       ///< frame of the left images; empty: their frame_id
+  bool publish_tf = true;         ///< broadcast odom_frame -> base_frame
+  bool invert_tf = false;         ///< broadcast base_frame -> odom_frame instead
+  bool planar = false;            ///< restrict base_frame to motion in its x-y plane
+  std::string guess_frame;        ///< odom frame of another odometry in tf; empty: none
+  double guess_timeout_s = 0.05;  ///< how long a pair waits for that transform
   std::string image_transport = "raw";
   double max_stamp_difference_s = 0.01;       ///< between the left and the right image of a pair
-  int queue_size = 4;                         ///< images that wait for their partner, on each side
-  int max_image_pixels = 20'000'000;          ///< of an image; more are refused
-  double max_future_s = 10.0;                 ///< stamps further ahead of the clock are refused
+  int queue_size = 4;                         ///< unmatched images kept, for each side
+  int max_image_pixels = 20'000'000;          ///< larger images are rejected
+  double max_future_s = 10.0;                 ///< stamps further ahead of the clock are rejected
   double baseline_m = 0.0;                    ///< 0: that of camera_info
-  std::string pose_after_time_jump = "keep";  ///< or "zero": when stamps begin anew
-  double silence_s = 5.0;                     ///< without a pair, until the log says why
-  std::string flow_view = "motion";           ///< one of flowViewNames()
-  int path_length = 10000;                    ///< poses that the path topic keeps; 0: no path
-  double lost_speed_sigma_mps = 10.0;         ///< how fast the position gets uncertain while lost
+  std::string pose_after_time_jump = "keep";  ///< or "zero": when time jumps back
+  double silence_s = 5.0;              ///< time without a pair before the log reports the reason
+  std::string flow_view = "motion";    ///< one of flowViewNames()
+  int path_length = 10000;             ///< number of poses on the path topic; 0: no path
+  double lost_speed_sigma_mps = 10.0;  ///< growth rate of the position's uncertainty while lost
   double lost_turn_rate_sigma_rps = 0.5;
-  int trajectory_length = 100'000;        ///< poses kept for ~save_trajectory
-  std::string trajectory_file;            ///< every pose is written there; empty: none
+  int trajectory_length = 100'000;        ///< number of poses kept for ~save_trajectory
+  std::string trajectory_file;            ///< file to which every pose is written; empty: none
   std::string trajectory_format = "tum";  ///< or "kitti"
 };
 
@@ -40,14 +40,15 @@ struct Parameters {
   NodeParameters node;
 };
 
-/// The table that names and guards every member of `parameters`, which must outlive it.
+/// The table of all members of `parameters`, which must outlive it.
 ParameterTable makeParameterTable(Parameters& parameters);
 
-/// Sets what the YAML file at `path` names. Throws std::invalid_argument with the path on a file
-/// that cannot be read, is no YAML, or names an unknown parameter or a value out of range.
+/// Sets the parameters that the YAML file at `path` contains. Throws std::invalid_argument with the
+/// path if the file cannot be read, is not valid YAML, names an unknown parameter or has a value
+/// out of range.
 void loadYaml(const std::string& path, ParameterTable& table);
 
-/// The table as a YAML file, with unit, range and meaning of each parameter in a comment.
+/// The table as a YAML file, with unit, range and description of each parameter as a comment.
 std::string toYaml(const ParameterTable& table);
 
 }  // namespace rotrocc

@@ -4,12 +4,12 @@
 
 namespace rotrocc {
 
-/// The pose of a camera in the frame of its first one, out of its motions. The same motions give
-/// the same bits, and the rotation stays one however many there are.
+/// Accumulates camera motions to the pose of the camera in its first frame. The result is
+/// deterministic to the bit, and the rotation stays orthonormal for any number of motions.
 class PoseAccumulator {
  public:
-  /// Appends the motion to the current frame: `T_prev_cur` maps its points to the previous frame.
-  /// Returns T_first_cur.
+  /// Appends the motion to the current frame: `T_prev_cur` maps points of the current frame to the
+  /// previous frame. Returns T_first_cur.
   const Eigen::Isometry3d& add(const Eigen::Isometry3d& T_prev_cur);
 
   const Eigen::Isometry3d& T_first_cur() const { return T_first_cur_; }

@@ -6,9 +6,8 @@
 
 namespace rotrocc {
 
-/// Two rectified images of one moment, CV_8UC1 and of the camera's size. Holds references: the
-/// pixels belong to whoever made the cv::Mat and must stay as they are until process() has
-/// returned.
+/// Two rectified images taken at the same time, CV_8UC1 and of the camera's size. The pixels are
+/// not copied: whoever created the cv::Mat must not change them until process() returns.
 struct StereoPair {
   std::int64_t stamp_ns = 0;
   cv::Mat left;

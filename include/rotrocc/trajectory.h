@@ -9,7 +9,8 @@
 
 namespace rotrocc {
 
-/// A pose at a time: `T_world_body` maps points of the moving frame to the frame of the first pose.
+/// A pose with a stamp: `T_world_body` maps points of the moving frame to the frame of the first
+/// pose.
 struct StampedPose {
   std::int64_t stamp_ns = 0;
   Eigen::Isometry3d T_world_body = Eigen::Isometry3d::Identity();
@@ -17,40 +18,43 @@ struct StampedPose {
 
 using Trajectory = std::vector<StampedPose>;
 
-/// The two text formats every evaluation tool reads.
-///   kKitti: 12 numbers a line, the rows of the 3x4 pose matrix (KITTI odometry devkit).
-///   kTum:   `stamp[s] tx ty tz qx qy qz qw` a line (TUM RGB-D benchmark).
+/// The two common text formats for trajectories:
+///   kKitti: 12 numbers per line, the rows of the 3x4 pose matrix (KITTI odometry devkit).
+///   kTum:   `stamp[s] tx ty tz qx qy qz qw` on each line (TUM RGB-D benchmark).
 enum class TrajectoryFormat { kKitti, kTum };
 
-/// "kitti" or "tum"; throws std::invalid_argument on anything else.
+/// The format named "kitti" or "tum". Throws std::invalid_argument on any other name.
 TrajectoryFormat trajectoryFormat(const std::string& name);
 
-/// The format of an existing file, told by the count of numbers in its first line of data.
-/// Throws std::runtime_error if there is no such file, it has no data or it is neither format.
+/// The format of an existing file, identified by the number of values in its first line of data.
+/// Throws std::runtime_error if the file does not exist, has no data or is in neither format.
 TrajectoryFormat detectTrajectoryFormat(const std::string& path);
 
-/// Reads either format; blank lines and lines that begin with '#' are skipped. KITTI poses have no
-/// stamps: they get those of the file `times_path` (see readTimes(), at least one for each pose),
-/// or 0, 0.1, 0.2 ... s, the rate of KITTI, if it is empty. Rotations are printed with few digits:
-/// an orthonormality error up to 1e-3 is taken as rounding and removed, so what is returned is
-/// rigid. Throws std::runtime_error with file and line on anything that is not a rigid finite pose,
-/// on stamps that do not increase, on a file without poses, and on a times file for poses that have
-/// stamps.
+/// Reads either format. Blank lines and lines that begin with '#' are skipped.
+///
+/// KITTI poses have no stamps. They get those of the file `times_path`, which must have at least
+/// one time per pose (see readTimes()). If it is empty, the stamps are 0, 0.1, 0.2 ... s, the rate
+/// of KITTI.
+///
+/// The files contain rounded rotations: an orthonormality error of up to 1e-3 is removed, so the
+/// returned poses are rigid. Throws std::runtime_error with file and line on any pose that is not
+/// finite and rigid, on stamps that do not increase, on a file without poses, and on a times file
+/// for poses that already have stamps.
 Trajectory readTrajectory(const std::string& path, const std::string& times_path = "");
 
-/// Reads a file with one time [s] a line (KITTI's times.txt), rounded to nanoseconds.
-/// Throws std::runtime_error with file and line on anything else and on times that do not increase.
+/// Reads a file with one time [s] per line (KITTI's times.txt), rounded to nanoseconds. Throws
+/// std::runtime_error with file and line on any other content and on times that do not increase.
 std::vector<std::int64_t> readTimes(const std::string& path);
 
-/// Writes poses one by one, each line complete on disk when write() returns, so that nothing is
-/// lost when the program is stopped. KITTI lines have 10 significant digits as KITTI's own; TUM
-/// lines have 9 decimals (stamps exact, positions to the nanometre) and qw >= 0.
+/// Writes poses one by one. Each line is flushed to the file before write() returns, so nothing is
+/// lost when the program is stopped. KITTI lines have 10 significant digits, like KITTI's own
+/// files. TUM lines have 9 decimals (exact stamps, positions to the nanometre) and qw >= 0.
 class TrajectoryWriter {
  public:
   /// Replaces the file. Throws std::runtime_error if `path` cannot be written.
   TrajectoryWriter(const std::string& path, TrajectoryFormat format);
 
-  /// Throws std::runtime_error when the disk is full or gone.
+  /// Throws std::runtime_error if writing fails, e.g. when the disk is full.
   void write(const StampedPose& pose);
 
  private:
