@@ -39,8 +39,8 @@ void CornerResponse::compute(
   }
 }
 
-/// Sobel's gradients of row y take the place of those `side_` rows before. smooth_ and steps_ begin
-/// one pixel left of the image, whose edge goes on.
+/// Adds the Sobel gradients of row y and removes those of the row `side_` rows before. smooth_ and
+/// steps_ start one pixel to the left of the image; pixels outside repeat the border.
 void CornerResponse::addGradients(const cv::Mat& image, int y) {
   std::int16_t* smooth = smooth_.data() + 1;
   std::int16_t* steps = steps_.data() + 1;

@@ -8,7 +8,7 @@
 namespace rotrocc {
 namespace {
 
-/// Rows are compared at one feature of so many, which is cheap, and enough over a few pairs.
+/// Rows are compared at one of this many features. That is cheap, and enough over a few pairs.
 constexpr std::size_t kRowSample = 16;
 
 }  // namespace
@@ -68,8 +68,8 @@ int CorrespondenceFinder::find(const StereoCamera& camera,
   return static_cast<int>(std::count(tracked_.begin(), tracked_.end(), 1));
 }
 
-/// Where the keyframe's points are expected in the current images. Those behind the camera are not
-/// tracked.
+/// Predicts the positions of the keyframe's points in the current images. Points behind the camera
+/// are not tracked.
 void CorrespondenceFinder::predict(const StereoCamera& camera,
                                    const Keyframe& keyframe,
                                    const Eigen::Isometry3d& T_keyframe_cur) {
@@ -107,7 +107,7 @@ void CorrespondenceFinder::track(const Keyframe& keyframe,
                  search,
                  cur_left_px_,
                  tracked_);
-  // Where the left image shows a feature is better known now; its disparity is as predicted.
+  // Predict the right position from the tracked left position and the predicted disparity.
   for (std::size_t i = 0; i < cur_left_px_.size(); ++i) {
     cur_right_px_[i] = cur_left_px_[i] - cv::Point2f(predicted_disparities_px_[i], 0.0F);
   }

@@ -19,28 +19,29 @@
 
 namespace rotrocc {
 
-/// Makes the feature set F of section V-A of a keyframe (t-1 in the paper) and the current frame
-/// (t): corners and their disparities in the keyframe, tracked from a predicted motion to the left
-/// and the right current image, where they must match each other again. Keeps nothing from call to
-/// call but its buffers.
+/// Builds the feature set F of section V-A from a keyframe (t-1 in the paper) and the current frame
+/// (t). Corners and disparities of the keyframe are tracked to the left and right current images,
+/// starting at the positions that a motion predicts, and are verified by the circular consistency
+/// check. Has no state except reused buffers.
 class CorrespondenceFinder {
  public:
   using Config = CorrespondenceFinderConfig;
 
-  /// Works with `threads`, the calling one included.
+  /// Uses `threads` threads, including the calling one.
   explicit CorrespondenceFinder(const Config& config, int threads = 1);
 
-  /// Copies the images of the pair into a frame, whose memory is reused when nobody holds it.
+  /// Copies the images of the pair into a frame. Frames that are no longer referenced are reused.
   FramePtr makeFrame(const StereoPair& pair);
 
-  /// Finds the corners of the keyframe's left image ...
+  /// Finds the corners of the keyframe's left image.
   void findCorners(Keyframe& keyframe);
-  /// ... and triangulates those that have a match in its right image.
+  /// Triangulates the corners that have a match in the keyframe's right image.
   void findDepths(const StereoCamera& camera, Keyframe& keyframe);
 
-  /// Tracks the keyframe's points from where the motion puts them, which is a prediction or just a
-  /// start, and keeps in `features` those that pass the circular consistency check: their left and
-  /// right current positions match each other. Returns how many were tracked in both images.
+  /// Tracks the keyframe's points, starting at the positions given by the motion, which is a
+  /// prediction or just a starting value. Stores in `features` those that pass the circular
+  /// consistency check: their current left and right positions match each other. Returns the number
+  /// of points tracked in both images.
   int find(const StereoCamera& camera,
            const Keyframe& keyframe,
            const StereoFrame& current,
@@ -48,14 +49,15 @@ class CorrespondenceFinder {
            bool is_prediction,
            Correspondences& features);
 
-  /// How far flagged features of `current`, a sample of them, are lower in its right image [px].
+  /// Vertical offset [px] of a sample of the flagged features of `current`, positive if lower in
+  /// the right image.
   void compareRows(const StereoFrame& current,
                    const Correspondences& features,
                    const FeatureSet& set,
                    std::vector<float>& differences_px);
 
-  /// Median distance [px] between where two motions put the keyframe's points in the current image;
-  /// 0 if there are none.
+  /// Median distance [px] between the positions of the keyframe's points in the current image for
+  /// two motions. 0 if there are no points.
   double medianShift(const StereoCamera& camera,
                      const Keyframe& keyframe,
                      const Eigen::Isometry3d& T_keyframe_cur_a,
@@ -78,7 +80,7 @@ class CorrespondenceFinder {
   FeatureTracker tracker_;
   FramePool frames_;
 
-  // Of the keyframe's points; reused from call to call.
+  // Buffers for the keyframe's points, reused.
   std::vector<cv::Point2f> cur_left_px_, cur_right_px_;
   std::vector<float> predicted_disparities_px_;
   std::vector<float> scale_changes_;

@@ -8,11 +8,11 @@
 namespace rotrocc {
 namespace {
 
-/// Rows of a strip. Fixed, so that the same strips are computed whatever the number of threads.
+/// Rows of a strip. Constant, so that the strips do not depend on the number of threads.
 constexpr int kStripRows = 64;
 
-/// Whether no pixel within `radius` has a larger response, and none above or to the left the same.
-/// Of corners that are exactly alike, as in drawn patterns and saturated areas, the first counts.
+/// Whether no pixel within `radius` has a larger response, and none above or to the left an equal
+/// one. Of equally strong corners, as in drawn patterns and saturated areas, the first one counts.
 bool isFirstOfStrongest(const cv::Mat& response, int x, int y, int radius) {
   const float value = response.at<float>(y, x);
   for (int v = y - radius; v <= y + radius; ++v) {
@@ -65,9 +65,10 @@ void FeatureDetector::findCandidates(const cv::Mat& image,
   }
 }
 
-/// Searches rows [first, last) of the image, which are so few that all are near each other: a
-/// corner is the highest of its column there, and no column near it is higher. Few pixels are, and
-/// only those are compared to all around them. The strip's response begins with row `top`.
+/// Searches rows [first, last) of the image, which are all within nms_radius_px of each other. A
+/// corner must be the maximum of its column in these rows, and no neighbouring column may have a
+/// larger one. Only these few pixels are then compared with all their neighbours. The strip's
+/// response begins with row `top`.
 void FeatureDetector::searchBand(int width, int first, int last, int top, Strip& strip) const {
   const int radius = config_.nms_radius_px;
   float* highest = strip.highest.data();
@@ -113,7 +114,7 @@ void FeatureDetector::selectByCells(const cv::Size& size, std::vector<cv::Point2
   }
 }
 
-/// Sorts the candidates of all strips by cell, those of a cell from strong to weak.
+/// Sorts the candidates of all strips by cell, and within a cell by decreasing response.
 void FeatureDetector::sortByCells(const cv::Size& size) {
   const int columns = (size.width + config_.cell_size_px - 1) / config_.cell_size_px;
   const int rows = (size.height + config_.cell_size_px - 1) / config_.cell_size_px;
@@ -121,7 +122,8 @@ void FeatureDetector::sortByCells(const cv::Size& size) {
     return static_cast<std::size_t>((c.y / config_.cell_size_px) * columns +
                                     c.x / config_.cell_size_px);
   };
-  // First where each cell begins; as its candidates come in, that moves to its end.
+  // These are the starts of the cells first. Each start moves to the cell's end as candidates are
+  // added.
   cell_ends_.assign(static_cast<std::size_t>(columns * rows) + 1, 0);
   for (const Strip& strip : strips_) {
     for (const Candidate& c : strip.candidates) ++cell_ends_[cellOf(c) + 1];
@@ -140,7 +142,7 @@ void FeatureDetector::sortByCells(const cv::Size& size) {
   }
 }
 
-/// Ties are broken by place, so that the order is the same everywhere.
+/// Ties are broken by position, so that the order is deterministic.
 bool FeatureDetector::isStronger(const Candidate& a, const Candidate& b) {
   if (a.response != b.response) return a.response > b.response;
   return a.y != b.y ? a.y < b.y : a.x < b.x;

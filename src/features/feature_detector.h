@@ -13,15 +13,16 @@ namespace rotrocc {
 
 struct Kernels;
 
-/// Shi-Tomasi corners (Shi and Tomasi, CVPR 1994), spread over the image by a grid.
+/// Shi-Tomasi corners (Shi and Tomasi, CVPR 1994), distributed over the image by a grid.
 class FeatureDetector {
  public:
   using Config = FeatureDetectorConfig;
 
   explicit FeatureDetector(const Config& config);
 
-  /// Corners of `image` (CV_8UC1) at whole pixels, at most max_features. Every cell gives its
-  /// strongest before any gives its second, and so on. An image too small for a corner gives none.
+  /// Finds at most max_features corners of `image` (CV_8UC1), at integer pixels. The strongest
+  /// corners of all cells come first, then the second strongest of all cells, and so on. Returns
+  /// none if the image is too small.
   void detect(Workers& workers, const cv::Mat& image, std::vector<cv::Point2f>& corners);
 
  private:
@@ -29,14 +30,14 @@ class FeatureDetector {
     float response;
     int x, y;
   };
-  /// Rows that one thread searches.
+  /// Rows that are searched by one thread.
   struct Strip {
     explicit Strip(int block_radius_px) : corner_response(block_radius_px) {}
 
     CornerResponse corner_response;
-    cv::Mat response;            // with a margin of nms_radius_px around the strip
-    std::vector<float> highest;  // of each column
-    std::vector<int> peaks;      // of those
+    cv::Mat response;            // includes a margin of nms_radius_px around the strip
+    std::vector<float> highest;  // maximum of each column
+    std::vector<int> peaks;      // local maxima of `highest`
     std::vector<Candidate> candidates;
   };
 
@@ -49,7 +50,7 @@ class FeatureDetector {
   Config config_;
   const Kernels* kernels_;
   std::vector<Strip> strips_;
-  std::vector<std::size_t> cell_ends_;  // in by_cell_
+  std::vector<std::size_t> cell_ends_;  // end of each cell in by_cell_
   std::vector<Candidate> by_cell_;
   std::vector<Candidate> rank_;
 };

@@ -7,10 +7,10 @@
 namespace rotrocc {
 namespace {
 
-/// A point within so much of the window's radius is where it was expected.
+/// A point within this fraction of the window's radius counts as close to its prediction.
 constexpr float kNear = 0.5F;
 
-/// In small images, which only show where to begin in the large one, iterations end at a step so
+/// The small images only provide a start for the large one, so their iterations stop at a step this
 /// many times as long.
 constexpr double kCoarser = 3.0;
 
@@ -19,7 +19,7 @@ float distance2(const cv::Point2f& a, const cv::Point2f& b) {
   return difference.dot(difference);
 }
 
-/// The place of a pixel in a pyramid's level.
+/// Scale of pixel coordinates in a level of the pyramid.
 float scaleOf(std::size_t level) {
   return 1.0F / static_cast<float>(1 << level);
 }
@@ -87,7 +87,7 @@ bool FeatureTracker::follow(const ImagePyramid& from,
     for (std::size_t level = std::min({wanted, from.size(), to.size()}) - 1; level > 0; --level) {
       const float at_level = scaleOf(level);
       cv::Point2f scaled = at_level * found;
-      // What a small image does not show is left to the larger ones.
+      // Features that are not found in a small image are left to the larger ones.
       if (window.take(from[level], at_level * start, scale) &&
           window.find(to[level], roughly, scaled)) {
         found = scaled / at_level;
@@ -99,7 +99,7 @@ bool FeatureTracker::follow(const ImagePyramid& from,
   return config_.max_round_trip_px == 0.0 || returns(from[0], to[0], start, scale, window, end);
 }
 
-/// The way back starts where it should end, so one level is enough.
+/// Tracking back starts at the expected result, so one level is enough.
 bool FeatureTracker::returns(const cv::Mat& from,
                              const cv::Mat& to,
                              const cv::Point2f& start,

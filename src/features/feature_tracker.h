@@ -13,7 +13,8 @@ namespace rotrocc {
 
 class TrackingWindow;
 
-/// Pyramidal Lucas-Kanade (Bouguet 2001) from a predicted position, checked by tracking back.
+/// Pyramidal Lucas-Kanade (Bouguet 2001), starting at a predicted position and verified by tracking
+/// back.
 class FeatureTracker {
  public:
   using Config = FeatureTrackerConfig;
@@ -23,21 +24,21 @@ class FeatureTracker {
   FeatureTracker(FeatureTracker&&) noexcept;
   FeatureTracker& operator=(FeatureTracker&&) noexcept;
 
-  /// How to look for points.
+  /// How points are searched.
   struct Search {
-    int levels = 1;  ///< of the pyramids, from the smallest image to the largest
-    /// The points are almost where they are expected: the smaller images are only for those that
-    /// prove to be elsewhere.
+    int levels = 1;  ///< number of pyramid levels, from the smallest image to the largest
+    /// The points are expected to be close to their predictions: the smaller images are used only
+    /// for those that are not.
     bool near = false;
   };
 
-  /// A pyramid with as many levels as are searched. Reuses the memory of `pyramid`.
+  /// Builds a pyramid with all levels that can be searched. Reuses the memory of `pyramid`.
   void makePyramid(const cv::Mat& image, ImagePyramid& pyramid) const;
 
-  /// Follows `prev` points from one image to another. `scales` has the scale change expected
-  /// of each point's window, above 1 where the point comes nearer. `cur` holds the
-  /// predictions and gets the results; `tracked` gets 1 for points that came back to within
-  /// max_round_trip_px, else 0. Points whose `tracked` is 0 at the call are skipped.
+  /// Tracks the points `prev` from one image to another. `scales` are the expected scale changes of
+  /// the points' windows, above 1 if a point comes nearer. `cur` contains the predictions and
+  /// receives the results. `tracked` becomes 1 for points that return to within max_round_trip_px
+  /// when tracked back, otherwise 0. Points with `tracked` = 0 on input are skipped.
   void track(Workers& workers,
              const ImagePyramid& prev_pyramid,
              const ImagePyramid& cur_pyramid,
@@ -47,8 +48,9 @@ class FeatureTracker {
              std::vector<cv::Point2f>& cur,
              std::vector<char>& tracked);
 
-  /// Moves `point` of one image to where it shows what another shows at `start`, from near by and
-  /// of one size: one level, without the way back. Returns false if nothing is found.
+  /// Moves `point` to the position in `to` that matches the surroundings of `start` in `from`.
+  /// Start near the result, and at equal scale: only one level is used, without tracking back.
+  /// Returns false if nothing is found.
   bool locate(const cv::Mat& from, const cv::Mat& to, const cv::Point2f& start, cv::Point2f& point);
 
  private:
@@ -67,8 +69,8 @@ class FeatureTracker {
                const cv::Point2f& end) const;
 
   Config config_;
-  std::vector<TrackingWindow> windows_;  // one for each part of a list
-  std::vector<std::size_t> indices_;     // of the points that are asked for
+  std::vector<TrackingWindow> windows_;  // one per part of a list
+  std::vector<std::size_t> indices_;     // of the points to track
 };
 
 }  // namespace rotrocc

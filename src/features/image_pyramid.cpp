@@ -10,11 +10,10 @@
 namespace rotrocc {
 namespace {
 
-/// The kernel reaches so far.
+/// Radius of the kernel.
 constexpr int kReach = 2;
 
-/// Smooths the image downwards at row `y`, times 16, into `sums`, with its reflection on both
-/// sides.
+/// Smooths the image vertically at row `y`, times 16, into `sums`, and reflects it on both sides.
 void smoothDown(const Kernels& kernels, const cv::Mat& image, int y, std::int16_t* sums) {
   const uchar* rows[2 * kReach + 1];
   for (int i = -kReach; i <= kReach; ++i) {
@@ -42,7 +41,7 @@ void buildPyramid(const cv::Mat& image, int levels, int least_side_px, ImagePyra
 void halve(const cv::Mat& image, cv::Mat& half) {
   half.create((image.rows + 1) / 2, (image.cols + 1) / 2, CV_8UC1);
   const Kernels& kernels = chooseKernels();
-  thread_local std::vector<std::int16_t> buffer;  // of a row
+  thread_local std::vector<std::int16_t> buffer;  // buffer for one row
   buffer.resize(static_cast<std::size_t>(image.cols + 2 * kReach + kMostShorts));
   std::int16_t* sums = buffer.data() + kReach;
   for (int y = 0; y < half.rows; ++y) {

@@ -10,17 +10,17 @@
 
 namespace rotrocc {
 
-/// A frame that motions are measured against (t-1 in the paper), and its features.
+/// The frame that motions are measured against (t-1 in the paper), and its features.
 struct Keyframe {
   FramePtr frame;                    ///< null: there is no keyframe
   std::vector<cv::Point2f> corners;  ///< of the left image [px]
 
-  /// Those with a depth: where they are in both images [px], and in the left camera frame [m].
+  /// The corners with a depth: pixels in both images, and points in the left camera frame [m].
   std::vector<cv::Point2f> left_px, right_px;
   std::vector<Eigen::Vector3d> points;
 
-  UncertainTransform T_keyframe_last;  ///< the pose of the last frame in this one
-  int first_inliers = 0;               ///< of the first motion measured against it; 0 before it
+  UncertainTransform T_keyframe_last;  ///< the pose of the last frame in the keyframe
+  int first_inliers = 0;               ///< of the first motion measured against it; 0 before
 };
 
 }  // namespace rotrocc

@@ -8,29 +8,29 @@
 #include "features/stereo_matcher.h"
 #include "kernels/sad_kernels.h"
 
-/// What windows of the left and the right image cost to be taken for the same.
+/// Matching costs of windows of the left and the right image.
 namespace rotrocc::sad {
 
-/// The window is as wide and as high.
+/// Width and height of the window.
 constexpr int kWindow = SadSearch::kWindow;
 constexpr int kHalf = kWindow / 2;
 constexpr int kPixels = kWindow * kWindow;
 
-/// Pixels of a row that are read.
+/// Number of pixels read from each row.
 constexpr int kRegister = SadSearch::kReadPixels;
 
 using Words = cv::v_int16x8;
 constexpr int kWords = 8;
 
-/// Sums of absolute differences between the window around a left pixel, which may lie between
-/// pixels, and windows of the right image as high, in eighths of a grey level. Windows are compared
-/// as if all had the same mean: cameras differ in exposure, and flows are measured alike.
+/// Sums of absolute differences between the window around a left pixel, at sub-pixel position, and
+/// windows of the right image at the same height, in eighths of a grey level. The mean of each
+/// window is subtracted, because cameras differ in exposure; the tracker does the same.
 class SubPixelCosts {
  public:
   static constexpr int kUnit = 8;
   static constexpr int kColumns = 2 * StereoMatcher::kNearRadius_px + 3;
 
-  /// `first` of the right columns, and up to kColumns of them, will be asked for.
+  /// Prepares up to kColumns right columns, starting at `first`.
   SubPixelCosts(const cv::Mat& left, const cv::Mat& right, const cv::Point2f& pixel, int first) {
     const int x = cvFloor(pixel.x);
     const int y = cvFloor(pixel.y);
@@ -62,10 +62,10 @@ class SubPixelCosts {
     }
   }
 
-  /// Of the k-th column from the first.
+  /// The cost of the k-th column from `first`.
   int operator()(int k) const {
     alignas(kRegister) static constexpr ushort kMask[kWords] = {65535, 65535, 65535};
-    // Eleven rows of two differences of up to 2040 fit into 16 bits; what is more is cut off.
+    // Eleven rows of two differences of up to 2040 fit into 16 bits; larger sums saturate.
     const Words brighter = cv::v_setall_s16(brighter_[k]);
     cv::v_uint16x8 sum = cv::v_setzero_u16();
     cv::v_uint16x8 partly = cv::v_setzero_u16();
@@ -82,10 +82,10 @@ class SubPixelCosts {
 
  private:
   static constexpr int kUnitBits = 3;
-  static constexpr int kStrip = 24;  // kWindow + kColumns - 1, in whole registers
+  static constexpr int kStrip = 24;  // kWindow + kColumns - 1, rounded up to whole registers
   static_assert(kUnit == 1 << kUnitBits && kStrip >= kWindow + kColumns - 1);
 
-  /// 1 is 2^15.
+  /// Fixed-point fraction: 1 is 2^15.
   static Words fraction(float distance) {
     return cv::v_setall_s16(static_cast<short>(32768.0F * distance));
   }
@@ -99,9 +99,9 @@ class SubPixelCosts {
     return between(cv::v_shl<kUnitBits>(upper), cv::v_shl<kUnitBits>(lower), fraction);
   }
 
-  short brighter_[kColumns];  // the left window, than that of each column
+  short brighter_[kColumns];  // left window minus right window, mean grey level
   alignas(kRegister) short window_[kWindow][kRegister];
-  alignas(kRegister) short strip_[kWindow][kStrip + kRegister] = {};  // lanes that the mask drops
+  alignas(kRegister) short strip_[kWindow][kStrip + kRegister] = {};  // the padding is masked out
 };
 
 }  // namespace rotrocc::sad

@@ -12,15 +12,15 @@
 namespace rotrocc {
 namespace {
 
-/// The slopes of a minimum, so far to both sides [px], are no rivals of it.
+/// Costs within this distance [px] of the minimum are its slopes, not rivals.
 constexpr int kSlope = 2;
 
 constexpr float kNoColumn = -1.0F;
 
-/// Columns of a search that a buffer has room for from the beginning.
+/// Initial capacity of the cost buffer, in columns.
 constexpr std::size_t kUsualColumns = 256;
 
-/// Whether the window around a left pixel can be read, the pixels right of it and below included.
+/// Whether the window around a left pixel can be read, including the pixels to its right and below.
 bool windowInside(const cv::Mat& image, const cv::Point2f& p) {
   return p.x >= sad::kHalf && p.y >= sad::kHalf &&
          p.x < static_cast<float>(image.cols - sad::kRegister) &&
@@ -32,8 +32,8 @@ cv::Range clip(const cv::Mat& image, const cv::Range& columns) {
   return {std::max(columns.start, sad::kHalf), std::min(columns.end, image.cols - sad::kRegister)};
 }
 
-/// Offset of the minimum of the costs at -1, 0 and 1. SAD falls and rises linearly, so two lines of
-/// equal slope fit it better than a parabola.
+/// Sub-pixel offset of the minimum of the costs at -1, 0 and 1. SAD changes linearly, so two lines
+/// of equal slope fit better than a parabola.
 float subPixelOffset(int before, int at, int after) {
   const int slope = std::max(before, after) - at;
   if (slope <= 0) return 0.0F;
@@ -46,12 +46,12 @@ std::int16_t least(const std::int16_t* begin, const std::int16_t* end) {
   return cost;
 }
 
-/// Images that differ in brightness by less [grey levels] are compared as they are: a window's
-/// match is still much cheaper than the rest of the row.
+/// Brightness differences below this [grey levels] are not corrected: the match still costs much
+/// less than the rest of the row.
 constexpr int kNotable = 16;
 
-/// How much brighter the left image is than the right one, from the cameras' exposures: the median
-/// difference of pixels, as parallax makes as many of them lighter as darker [grey levels].
+/// Brightness difference, left minus right, due to the cameras' exposures: the median difference of
+/// pixels [grey levels]. Parallax makes as many pixels brighter as darker.
 int medianDifference(const cv::Mat& left, const cv::Mat& right) {
   constexpr int kStep_px = 8;
   constexpr int kMost = 255;
@@ -70,10 +70,10 @@ int medianDifference(const cv::Mat& left, const cv::Mat& right) {
   return difference;
 }
 
-/// The window of a left pixel as the right camera would show it.
+/// The window of a left pixel with the brightness of the right camera.
 class DarkenedWindow {
  public:
-  static constexpr int kStep = SadSearch::kReadPixels;  // of its rows
+  static constexpr int kStep = SadSearch::kReadPixels;  // row length
 
   DarkenedWindow(const cv::Mat& left, const cv::Point& upper_left, int brighter) {
     for (int y = 0; y < sad::kWindow; ++y) {
@@ -89,12 +89,12 @@ class DarkenedWindow {
   uchar pixels_[sad::kWindow * kStep];
 };
 
-/// Column of the best match, of columns from `first` on, or kNoColumn where it lies at the end of
-/// the range, costs more than is allowed or is ambiguous: at least `uniqueness` times the cost of a
-/// rival.
+/// Column of the best match, where `first` is the first column searched. kNoColumn if the match is
+/// at the end of the range, costs too much, or is ambiguous: at least `uniqueness` times the cost
+/// of a rival.
 float bestColumn(const Kernels& kernels, const SadSearch& search, int first) {
   thread_local std::vector<std::int16_t> buffer;
-  std::vector<std::int16_t>& costs = buffer;  // looked up once
+  std::vector<std::int16_t>& costs = buffer;  // one thread-local lookup
   costs.reserve(kUsualColumns);
   costs.resize(static_cast<std::size_t>(search.count + SadSearch::kGroup));
   kernels.sadCosts(search, costs.data());
@@ -115,7 +115,7 @@ float bestColumn(const Kernels& kernels, const SadSearch& search, int first) {
          subPixelOffset(exact(best - 1), lowest, exact(best + 1));
 }
 
-/// The same for a few columns, where rivals do not matter.
+/// As above, for a few columns and without a test for rivals.
 float bestColumn(const sad::SubPixelCosts& costs_of, const cv::Range& columns, double most) {
   int costs[sad::SubPixelCosts::kColumns];
   for (int k = 0; k < columns.size(); ++k) costs[k] = costs_of(k);
@@ -126,7 +126,7 @@ float bestColumn(const sad::SubPixelCosts& costs_of, const cv::Range& columns, d
          subPixelOffset(best[-1], best[0], best[1]);
 }
 
-/// Calls columnOf(i) for each pixel and makes a disparity of the column that it returns.
+/// Calls columnOf(i) for each pixel and converts the returned column to a disparity.
 template <class ColumnOf>
 void eachPixel(Workers& workers,
                const std::vector<cv::Point2f>& pixels,

@@ -18,18 +18,18 @@ class StereoMatcher {
  public:
   using Config = StereoMatcherConfig;
 
-  /// Disparity of a pixel without a match.
+  /// Marks a pixel without a match.
   static constexpr float kNoDisparity = std::numeric_limits<float>::lowest();
 
-  /// How far from what is expected matchNear() looks.
+  /// Search radius of matchNear() around the expected disparity.
   static constexpr int kNearRadius_px = 2;
 
   explicit StereoMatcher(const Config& config);
 
-  /// Disparity x_left - x_right [px] of each corner of the left image, which are at whole pixels,
-  /// or kNoDisparity: too near to the edge, too different, ambiguous, or outside of the range.
-  /// `left` and `right` are CV_8UC1 of one size; `infinity_px` is
-  /// StereoCamera::disparityAtInfinity().
+  /// Computes the disparity x_left - x_right [px] of each corner of the left image. Corners must be
+  /// at integer pixels. The result is kNoDisparity for corners too close to the border and for
+  /// matches that are too different, ambiguous or out of range. `left` and `right` are CV_8UC1 and
+  /// of the same size; `infinity_px` is StereoCamera::disparityAtInfinity().
   void match(Workers& workers,
              const cv::Mat& left,
              const cv::Mat& right,
@@ -37,9 +37,9 @@ class StereoMatcher {
              double infinity_px,
              std::vector<float>& disparities_px) const;
 
-  /// The same, but for pixels anywhere, within kNearRadius_px of the `expected_px` disparities, and
-  /// asks for no uniqueness, which the expectation gives. Pixels whose expectation is kNoDisparity
-  /// are skipped.
+  /// As match(), but for pixels at sub-pixel positions, within kNearRadius_px of the disparities
+  /// `expected_px`. Does not test for uniqueness, because the expected disparity resolves
+  /// ambiguity. Pixels with an expected disparity of kNoDisparity are skipped.
   void matchNear(Workers& workers,
                  const cv::Mat& left,
                  const cv::Mat& right,

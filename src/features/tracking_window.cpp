@@ -7,10 +7,11 @@
 namespace rotrocc {
 namespace {
 
-/// Least smaller eigenvalue of the normal matrix, per pixel: (grey levels / px)^2.
+/// Minimum of the smaller eigenvalue of the normal matrix, per pixel: (grey levels / px)^2.
 constexpr float kLeastTexture = 0.1F;
 
-/// A step that undoes the one before but for this [px] would go on forever.
+/// If a step reverses the previous one to within this distance [px], the iteration oscillates and
+/// is stopped.
 constexpr float kSameStep_px = 0.01F;
 
 std::int16_t fraction(float distance) {
@@ -52,8 +53,8 @@ Window TrackingWindow::window() {
           sample_stride_};
 }
 
-/// The patch whose window has `radius` and `columns`, a multiple of the lanes. Beyond the image its
-/// edge goes on.
+/// The patch for a window of the given radius and number of columns, a multiple of the lanes.
+/// Pixels outside the image repeat its border.
 Patch TrackingWindow::patchAround(const cv::Mat& image,
                                   const cv::Point2f& center,
                                   int radius,
@@ -71,7 +72,7 @@ Patch TrackingWindow::patchAround(const cv::Mat& image,
   return {border_.data(), area.width, fx, fy};
 }
 
-/// Copies `area`, which has a pixel of the image in it, into border_.
+/// Copies `area` into border_. It must contain at least one pixel of the image.
 void TrackingWindow::copyWithEdge(const cv::Mat& image, const cv::Rect& area) {
   const int left = std::clamp(-area.x, 0, area.width);
   const int right = std::clamp(image.cols - area.x, 0, area.width);
@@ -93,8 +94,7 @@ bool TrackingWindow::take(const cv::Mat& image, const cv::Point2f& center, float
   return invertNormalMatrix(kernels_->takeWindow(patch, window()));
 }
 
-/// Sets where the values are taken from, away from where the pixels are. That must be nearer than
-/// the next pixel.
+/// Sets the sampling offsets from the pixel grid. They must be less than one pixel.
 void TrackingWindow::spread(float scale) {
   const float most = 0.9F / static_cast<float>(std::max(radius_, 1));
   const float per_px = std::clamp(1.0F / scale - 1.0F, -most, most);
@@ -103,8 +103,8 @@ void TrackingWindow::spread(float scale) {
   }
 }
 
-/// Of the least squares for a shift and a difference in brightness, with the latter eliminated: the
-/// gradients count as far as they differ from their mean.
+/// Inverts the normal matrix of the least squares for a shift and a brightness difference. The
+/// latter is eliminated by subtracting the mean gradient.
 bool TrackingWindow::invertNormalMatrix(const GradientSums& sums) {
   const double unit = 1.0 / (1 << Window::kGradientBits);
   const double pixels = side_ * side_;
@@ -129,7 +129,7 @@ bool TrackingWindow::invertNormalMatrix(const GradientSums& sums) {
   return true;
 }
 
-/// Sum of the differences to the window, less what they have in common, times its gradients.
+/// Sum of (difference to the window, without the common brightness difference) times its gradients.
 cv::Point2f TrackingWindow::mismatch(const Patch& patch, const Window& window) const {
   constexpr double kOfValue = 1.0 / (1 << Window::kValueBits);
   constexpr double kOfProduct = kOfValue / (1 << Window::kGradientBits);

@@ -9,29 +9,28 @@
 
 namespace rotrocc {
 
-/// The window around a feature that is looked for in another image: one level of Lucas-Kanade
-/// (Bouguet 2001). What all of the window is brighter there is estimated too, and has no effect on
-/// where it is: cameras change their exposure. Grey levels are interpolated in steps of 1/64,
-/// gradients in steps of 1/32, and summed exactly, so that results are the same with SIMD and
-/// without.
+/// The window around a feature, to be located in another image: one level of Lucas-Kanade (Bouguet
+/// 2001). A constant brightness difference is estimated too, so changes of exposure have no effect.
+/// Grey levels are interpolated in steps of 1/64, gradients in steps of 1/32, and sums are exact,
+/// so results are the same with and without SIMD.
 class TrackingWindow {
  public:
   struct Stop {
     int max_iterations;
-    double min_step_px;  ///< iterations end when a step is shorter
+    double min_step_px;  ///< iterations stop at a shorter step
   };
 
-  /// The window is a square of 2 radius + 1; the radius is at most 25 px. With `ignores_brightness`
-  /// windows are compared as if they had the same mean.
+  /// The window is a square of side 2 radius + 1; the radius is at most 25 px. With
+  /// `ignores_brightness`, the mean of each window is subtracted.
   explicit TrackingWindow(int radius_px, bool ignores_brightness = true);
 
-  /// Takes the window around `center` of `image` (CV_8UC1), as it looks when what it shows is
-  /// `scale` > 0 times as large (to first order, so that a tenth more is near enough). Returns
-  /// false if the centre lies outside of the image or the texture is too weak to tell where it is.
+  /// Stores the window around `center` of `image` (CV_8UC1), with its content enlarged by `scale` >
+  /// 0 (a first-order approximation, accurate enough for changes of a tenth). Returns false if the
+  /// centre is outside the image or the texture is too weak to locate the window.
   bool take(const cv::Mat& image, const cv::Point2f& center, float scale);
 
-  /// Moves `center` to where `image` looks like the window that was taken. Returns false, and
-  /// leaves `center` where it was, if it leaves the image.
+  /// Moves `center` to the position in `image` that matches the stored window. Returns false, with
+  /// `center` unchanged, if the search leaves the image.
   bool find(const cv::Mat& image, const Stop& stop, cv::Point2f& center);
 
  private:
@@ -46,10 +45,10 @@ class TrackingWindow {
   const Kernels* kernels_;
   int radius_, side_;
   bool ignores_brightness_;
-  int stride_;         // of the rows below: the side, rounded up to whole registers
-  int sample_stride_;  // of samples_
+  int stride_;         // row length: the side, rounded up to whole registers
+  int sample_stride_;  // row length of samples_
   std::vector<std::int16_t> samples_, values_, gradient_x_, gradient_y_, mask_, spread_;
-  std::vector<uchar> border_;  // a patch that hangs over the edge of the image
+  std::vector<uchar> border_;  // copy of a patch that extends beyond the image border
   cv::Point2d mean_gradient_;  // [grey levels / px]
   float inverse_xx_ = 0.0F, inverse_xy_ = 0.0F, inverse_yy_ = 0.0F;
 };

@@ -6,7 +6,8 @@
 namespace rotrocc {
 namespace {
 
-/// Of the length of a vector of two Gaussian numbers, in their standard deviations: sqrt(2 ln 2).
+/// Median length of a vector of two independent Gaussian numbers, in their standard deviations:
+/// sqrt(2 ln 2).
 constexpr double kMedianLength = 1.1774100225154747;
 
 }  // namespace

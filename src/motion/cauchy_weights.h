@@ -4,23 +4,24 @@
 
 namespace rotrocc {
 
-/// Cauchy's weights for iteratively reweighted least squares (Holland and Welsch 1977), for
-/// residuals with a long tail: w = 1 / (1 + (e / (f s))^2), in ]0, 1].
+/// Cauchy weights for iteratively reweighted least squares (Holland and Welsch 1977), for residuals
+/// with long tails: w = 1 / (1 + (e / (f s))^2), in ]0, 1].
 ///
-/// The tails of disparities and flows are longer than Gaussian, and not even: a window at the edge
-/// of something near sees it too, so that its disparity is too large. A mean follows that, a median
-/// hardly does; these weights are between them.
+/// The tails of disparity and flow errors are longer than Gaussian tails and not symmetric: a
+/// window at the edge of a near object also contains that object, so its disparity is too large.
+/// Such errors bias the mean, but hardly the median. These weights are a compromise between the
+/// two.
 ///
-/// `errors_px` are the lengths e of two-dimensional residuals. s is the standard deviation of each
-/// of their directions if they were Gaussian, by the median of e. All weights are 1 if that is 0,
-/// or if `factor`, f, is.
+/// `errors_px` are the lengths e of two-dimensional residuals. s is their standard deviation in
+/// each direction, estimated from the median of e for Gaussian residuals. f is `factor`. All
+/// weights are 1 if s or f is 0.
 void cauchyWeights(double factor,
                    const std::vector<double>& errors_px,
                    std::vector<double>& weights);
 
-/// Variance of weighted residuals r in each direction, sum of (w r)^2 over that of w^2, less the
-/// degrees of freedom of the parameters fitted to them: the middle of the sandwich formula (Huber
-/// 1967).
+/// Variance of weighted residuals r in each direction: the sum of (w r)^2 divided by the sum of
+/// w^2, corrected for the degrees of freedom of the fitted parameters. This is the middle term of
+/// the sandwich formula (Huber 1967).
 class WeightedVariance {
  public:
   /// `error2_px2`: |r|^2 of a two-dimensional residual.
@@ -30,7 +31,7 @@ class WeightedVariance {
     squared_weights_ += weight * weight;
   }
 
-  /// [px^2]; 0 if there are too few residuals.
+  /// Returns the variance [px^2], or 0 if there are too few residuals.
   double value(int parameters) const {
     const double rows = 2.0 * count_;
     if (!(rows > parameters)) return 0.0;

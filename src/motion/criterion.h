@@ -4,10 +4,10 @@
 
 namespace rotrocc {
 
-/// Which features are inliers, see criterionNames().
+/// The criterion that selects inliers, see criterionNames().
 enum class Criterion { kRotrocc, kReprojection, kRocc, kMeanBased, kStdBased };
 
-/// Throws std::invalid_argument if there is no criterion of that name.
+/// The criterion of that name. Throws std::invalid_argument on any other name.
 Criterion criterionOf(const std::string& name);
 
 /// Whether the criterion has a translation stage.

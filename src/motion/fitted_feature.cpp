@@ -8,7 +8,7 @@
 namespace rotrocc {
 namespace {
 
-/// The fit is nearly linear: two steps leave less than a hundredth of the first.
+/// The fit is nearly linear: after two steps the remaining error is below 1 % of the first step.
 constexpr int kFitSteps = 2;
 
 FitTerms termsOf(const StereoCamera& camera,

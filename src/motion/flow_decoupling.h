@@ -9,14 +9,14 @@
 
 namespace rotrocc {
 
-/// Length [px] of what is left of each feature's flow when the rotation is taken out of it (Eq. 27,
-/// 28): |x_prev - pi(R x_cur)|, the flow that the translation alone makes.
+/// Length [px] of each feature's flow after removing the rotation (Eq. 27, 28): |x_prev - pi(R
+/// x_cur)|, the flow caused by the translation alone.
 void decoupledFlow(const StereoCamera& camera,
                    const Correspondences& features,
                    const Eigen::Matrix3d& R_prev_cur,
                    std::vector<double>& lengths_px);
 
-/// Length [px] of each feature's flow as measured: |x_prev - x_cur|.
+/// Length [px] of each feature's measured flow: |x_prev - x_cur|.
 void coupledFlow(const Correspondences& features, std::vector<double>& lengths_px);
 
 }  // namespace rotrocc

@@ -10,8 +10,8 @@
 
 namespace rotrocc {
 
-/// What ceres::TinySolver gets to see of a problem with many residuals: a few that have the same
-/// J^T J, J^T r and r^T r, which is all it makes use of.
+/// Presents a problem with many residuals to ceres::TinySolver as a few residuals with the same J^T
+/// J, J^T r and r^T r. The solver uses nothing else.
 template <int kParameters>
 class CondensedProblem {
  public:
@@ -28,7 +28,8 @@ class CondensedProblem {
       r[0] = std::sqrt(problem_.cost(p));
       return true;
     }
-    // A root of the normal matrix, which is positive semidefinite but for rounding.
+    // A square root of the normal matrix, which is positive semidefinite except for rounding
+    // errors.
     using Matrix = typename ReprojectionProblem<kParameters>::NormalMatrix;
     const Eigen::LDLT<Matrix> ldlt(problem_.normalMatrix(p));
     const Matrix root = ldlt.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
@@ -44,15 +45,15 @@ class CondensedProblem {
   const ReprojectionProblem<kParameters>& problem_;
 };
 
-/// How a minimisation goes.
+/// Options of a minimisation.
 struct MinimiseOptions {
-  double damping = 1e-4;                ///< at the start, of the diagonal of the normal equations
-  double least_cost_change_px2 = 2e-6;  ///< a step that changes the cost by less is the last one
+  double damping = 1e-4;                ///< initial damping, relative to the diagonal of J^T J
+  double least_cost_change_px2 = 2e-6;  ///< stop when a step changes the cost by less
 };
 
-/// Minimises the cost by Levenberg-Marquardt: no step makes it larger. Ends when a step changes the
-/// parameters by less than 1e-7 of their length or the cost by too little, after 20 steps at most.
-/// Returns false, with the parameters undefined, if they are not finite at the end.
+/// Minimises the cost by Levenberg-Marquardt: no step increases it. Stops when a step changes the
+/// parameters by less than 1e-7 of their length or the cost by less than the given limit, or after
+/// 20 steps. Returns false, with undefined parameters, if the result is not finite.
 template <int kParameters>
 bool minimise(const ReprojectionProblem<kParameters>& problem,
               const MinimiseOptions& options,

@@ -9,17 +9,17 @@
 namespace rotrocc {
 namespace {
 
-/// Cells over which the errors of neighbours may be alike.
+/// Grid of cells within which the errors of neighbouring features may be correlated.
 constexpr int kScatterColumns = 8;
 constexpr int kScatterRows = 3;
 
-/// Errors that are Gaussian in x and y, of which only those shorter than `limit_px` are left with
-/// the variance `left_px2` in each direction: the share of the whole variance that this is. It is
-/// g = 1 - x / (e^x - 1) with x = limit^2 / (2 variance).
+/// The ratio of the variance of truncated errors to the full variance. The errors are Gaussian in x
+/// and y, and only those shorter than `limit_px` are kept; these have the variance `left_px2` in
+/// each direction. The ratio is g = 1 - x / (e^x - 1) with x = limit^2 / (2 variance).
 double shareOfVariance(double left_px2, double limit_px) {
   const auto g = [](double x) { return 1.0 - x / std::expm1(x); };
-  // Nearly even errors up to the limit say little of the variance: no less than one is assumed that
-  // makes the covariance 20 times as large.
+  // If the errors are almost uniform up to the limit, they hardly determine the variance. The lower
+  // bound of x therefore limits the growth of the covariance to a factor of 20.
   double low = 0.5;
   double high = 50.0;
   const double wanted = 2.0 * left_px2 / (limit_px * limit_px);  // g(x) / x, which falls
@@ -30,9 +30,9 @@ double shareOfVariance(double left_px2, double limit_px) {
   return g(low);
 }
 
-/// How much larger the covariance is than that of independent errors, by the variance per degree of
-/// freedom that the scatter of the cells shows and that of a residual: neighbours share texture, an
-/// object's motion and what is left of the lens.
+/// Ratio of the covariance to that of independent errors: the variance per degree of freedom from
+/// the scatter of the cells, divided by that of a residual. Neighbouring features share texture,
+/// the motion of an object and the remaining lens distortion.
 double inflation(double scatter_px2, double residual_px2) {
   return residual_px2 > 0.0 ? std::max(1.0, scatter_px2 / residual_px2) : 1.0;
 }
@@ -46,7 +46,7 @@ Matrix6d scatterOf(const std::array<Vector6d, kCells>& gradients) {
     sum += gradient * gradient.transpose();
     ++cells;
   }
-  // The motion was fitted to them, so that they scatter less than the errors do.
+  // The motion was fitted to these features, so they scatter less than the errors.
   return sum * cells / std::max(1, cells - 6);
 }
 

@@ -13,14 +13,14 @@ namespace rotrocc {
 
 /// The covariance of an estimated motion, in the order of OdometryResult::covariance.
 ///
-/// The rotation's comes from stage 1 with its translation marginalized; the translation's from
-/// stage 2, plus what the rotation's error dR does to it: dt = -(Jt^T Jt)^-1 Jt^T Jr dR. Both are
-/// those of a motion solved with robust weights (the sandwich formula of Huber's M-estimators),
-/// inflated by what neighbours in the image share.
+/// The covariance of the rotation comes from stage 1, with the translation marginalized. The
+/// covariance of the translation comes from stage 2, plus the effect of the rotation's error dR: dt
+/// = -(Jt^T Jt)^-1 Jt^T Jr dR. Both follow the sandwich formula for robust weights (Huber's
+/// M-estimators), and are inflated by the errors that neighbouring features share.
 ///
-/// Features beyond the limit of stage 1 are dropped, though some are just noisy: what is left has
-/// only a share g of the errors' variance, and a fit to it the variance of one to untruncated
-/// errors over g (the sandwich formula, where both its parts are g).
+/// Stage 1 also drops features that are merely noisy. The remaining errors have only a share g of
+/// the full variance. The covariance of the fit is that of a fit to untruncated errors, divided by
+/// g (the sandwich formula, with both of its parts scaled by g).
 class MotionCovariance {
  public:
   explicit MotionCovariance(const MotionEstimatorConfig& config)
@@ -28,24 +28,24 @@ class MotionCovariance {
         limit_px_(config.rotation_limit_px),
         robust_factor_(config.robust_factor) {}
 
-  /// Returns false if the features do not determine the motion. `flow_noise_px` gets the standard
-  /// deviation of the residuals in each direction, had none been dropped.
+  /// Returns false if the features do not determine the motion. `flow_noise_px` becomes the
+  /// standard deviation of the residuals in each direction, corrected for the dropped features.
   bool estimate(const Measurements& measured,
                 const TwoStageMotion& motion,
                 Matrix6d& covariance,
                 double& flow_noise_px);
 
  private:
-  /// What the covariance is made of, in the order translation [m], rotation [rad].
+  /// The parts of the covariance, in the order translation [m], rotation [rad].
   struct Information {
-    /// Sum of w^2 J^T J: how the sum of w J^T r, which is zero at the solution, follows the motion.
-    /// E[w^2] is the mean over the directions of the derivative of w r.
+    /// Sum of w^2 J^T J: the derivative of the sum of w J^T r, which is zero at the solution, by
+    /// the motion. (The derivative of w r, averaged over directions, is w^2.)
     Matrix6d matrix = Matrix6d::Zero();
-    /// Sum over the cells of a grid of g g^T [px^2], g = w J^T r of the features in the cell: in
-    /// the mean the variance times the matrix if no two residuals are correlated, more if
-    /// neighbours are.
+    /// Sum of g g^T over the cells of a grid [px^2], where g is the sum of w J^T r of the features
+    /// in the cell. Its expectation is the variance times `matrix` if residuals are uncorrelated,
+    /// and larger if neighbours are correlated.
     Matrix6d scatter = Matrix6d::Zero();
-    double residual_variance = 0.0;  ///< by WeightedVariance [px^2]
+    double residual_variance = 0.0;  ///< from WeightedVariance [px^2]
   };
   Information collect(const Measurements& measured,
                       const Fit& fit,

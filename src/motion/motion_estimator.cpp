@@ -7,10 +7,10 @@
 namespace rotrocc {
 namespace {
 
-/// Exceeded by a squared distance of 6 degrees of freedom once in 100 times.
+/// 99 % quantile of the chi-squared distribution with 6 degrees of freedom.
 constexpr double kSignificant2 = 16.8;
 
-/// A squared distance is less than half of another one if so many times it is less.
+/// The square of a factor of 2 between distances.
 constexpr double kHalf2 = 4.0;
 
 }  // namespace
@@ -40,7 +40,7 @@ const MotionEstimator::Estimate& MotionEstimator::estimate(const StereoCamera& c
   return isLikelier(retry_, initial) ? retry_ : found_;
 }
 
-/// Whether the retry is likelier than the motion found first.
+/// Whether the retry is more plausible than the first motion.
 bool MotionEstimator::isLikelier(const Estimate& retry, const Eigen::Isometry3d& prediction) const {
   if (!retry.valid || !found_.valid) return retry.valid;
   const int inliers = count(retry.rotation_inliers);

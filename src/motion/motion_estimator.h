@@ -15,7 +15,7 @@
 
 namespace rotrocc {
 
-/// The two-stage estimator and what goes beyond the paper: robust refinement of both stages, a
+/// The two-stage estimator with extensions beyond the paper: robust refinement of both stages, a
 /// retry near the prediction, and the covariance.
 class MotionEstimator {
  public:
@@ -28,22 +28,24 @@ class MotionEstimator {
     FeatureSet rotation_inliers;
     FeatureSet translation_inliers;
     bool has_translation_stage = false;
-    bool translation_failed = false;  ///< stage 2 did: the motion is that of stage 1
-    double flow_noise_px = 0.0;       ///< standard deviation in x and y, by the inliers' residuals
+    bool translation_failed = false;  ///< stage 2 failed: the motion is that of stage 1
+    double flow_noise_px = 0.0;       ///< standard deviation in x and y, from the inliers
   };
 
-  /// Throws std::invalid_argument on a criterion of another name.
-  /// A stage 2 with fewer inliers than `least_inliers` has failed.
+  /// Throws std::invalid_argument on an unknown criterion. Stage 2 fails if it has fewer inliers
+  /// than `least_inliers`.
   explicit MotionEstimator(const Config& config, int least_inliers = 3);
 
-  /// Estimates the motion that took `dt_s` > 0 from the full feature set, beginning with `initial`.
-  /// Invalid if fewer than 3 features are left, or the equations have no unique solution.
+  /// Estimates the motion that took `dt_s` > 0 from the full feature set, starting at `initial`.
+  /// The result is invalid if fewer than 3 features are left, or if the equations have no unique
+  /// solution.
   ///
-  /// Where much of the image moves by itself, the full set may lead astray. If few features are
-  /// inliers and `initial` is a prediction, a retry starts from the features near to it. It is
-  /// taken if it has more than twice as many inliers; or if it has at least half as many, differs
-  /// from the first motion by more than both are uncertain, and is less than half as far from the
-  /// prediction, in units of that uncertainty.
+  /// If much of the image moves independently, the full set may give a wrong motion. If few
+  /// features are inliers and `initial` is a prediction, a retry starts from the features close to
+  /// the prediction. It replaces the first motion if it has more than twice as many inliers. It
+  /// also does if it has at least half as many, the two motions differ significantly, and the
+  /// distance of the retry from the prediction is less than half that of the first motion.
+  /// Distances are relative to the uncertainty of both motions.
   ///
   /// The result is valid until the next call.
   const Estimate& estimate(const StereoCamera& camera,
@@ -66,7 +68,7 @@ class MotionEstimator {
   std::optional<RobustRefinement> refinement_;
   MotionCovariance covariance_;
 
-  // Reused from call to call.
+  // Buffers, reused.
   Estimate found_, retry_;
   TwoStageMotion motion_;
   FeatureSet all_, near_;

@@ -7,24 +7,23 @@
 
 namespace rotrocc {
 
-/// Least squares over the reprojection errors of a feature set. Keeps nothing from call to call but
-/// its buffers.
+/// Least squares over the reprojection errors of a feature set. Has no state except reused buffers.
 class MotionSolver {
  public:
   struct Options {
-    double robust_factor = 0.0;  ///< of cauchyWeights(), by the residuals at the start; 0: equal
+    double robust_factor = 0.0;  ///< of cauchyWeights() at the start; 0: equal weights
     MinimiseOptions minimise;
   };
 
   explicit MotionSolver(const Options& options) : options_(options) {}
 
-  /// Minimises Eq. 25 over rotation and translation, from where the features are fitted, and fits
-  /// them at the result. Returns false, and leaves the fit alone, if the set has fewer than 3
+  /// Minimises Eq. 25 over rotation and translation, starting at the motion of `fit`, then fits the
+  /// features at the result. Returns false and does not change `fit` if the set has fewer than 3
   /// features or the result is not finite.
   bool solveMotion(const Measurements& measured, const FeatureSet& set, Fit& fit);
 
-  /// Minimises Eq. 29 over the translation, the rotation staying as it is. Returns as
-  /// solveMotion(), with 2 features at least.
+  /// Minimises Eq. 29 over the translation with a fixed rotation. Returns false as solveMotion(),
+  /// but needs only 2 features.
   bool solveTranslation(const Measurements& measured, const FeatureSet& set, Fit& fit);
 
  private:

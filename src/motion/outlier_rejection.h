@@ -7,18 +7,19 @@
 
 namespace rotrocc {
 
-/// Where an iteration draws the line between inliers and outliers, from the errors of its set.
+/// The error threshold between inliers and outliers, computed in each iteration from the errors of
+/// the current set.
 class OutlierThreshold {
  public:
   /// Eq. 26 and 30: the larger of a fixed limit and the b-th highest error, where b is `drop_share`
-  /// of the set: no iteration drops more than that.
+  /// of the set. No iteration drops a larger share.
   static OutlierThreshold fixedLimit(double limit, double drop_share);
   /// Eq. 32: `factor` times the mean error.
   static OutlierThreshold meanBased(double factor);
   /// Eq. 31: `factor` standard deviations above the mean error.
   static OutlierThreshold deviationBased(double factor);
 
-  /// The threshold for the errors of the features flagged in `set`; infinite if it is empty.
+  /// The threshold for the errors of the features flagged in `set`. Infinite if the set is empty.
   double operator()(const std::vector<double>& errors, const FeatureSet& set);
 
  private:
@@ -32,11 +33,11 @@ class OutlierThreshold {
   std::vector<double> sorted_;
 };
 
-/// Keeps in `set` just the features of `errors` below `threshold`; features once dropped may come
-/// back, as in Eq. 26. Returns whether the set changed.
+/// Flags in `set` exactly the features with an error below `threshold`. Dropped features may be
+/// added again, as in Eq. 26. Returns whether the set changed.
 bool keepBelow(const std::vector<double>& errors, double threshold, FeatureSet& set);
 
-/// How many features a set has.
+/// Number of features in a set.
 int count(const FeatureSet& set);
 
 }  // namespace rotrocc

@@ -49,7 +49,8 @@ ReprojectionProblem<kParameters>::normalMatrix(const Parameters& parameters) con
   });
   NormalMatrix normal = sum.template topLeftCorner<kParameters + 1, kParameters + 1>();
   if (kRotates) {
-    // The terms' rotation follows that of the parameters.
+    // The terms are derivatives by a rotation after that of the parameters; convert them to
+    // derivatives by the parameters.
     const Eigen::Matrix3d by_parameters = leftJacobian(parameters.template head<3>());
     normal.template topRows<3>() = by_parameters.transpose() * normal.template topRows<3>().eval();
     normal.template leftCols<3>() = normal.template leftCols<3>().eval() * by_parameters;

@@ -14,43 +14,44 @@
 
 namespace rotrocc {
 
-/// The least squares over a set of fitted features: its residuals W (target - pi(R X + T)) [px],
-/// their Jacobian and their weights. Solver, covariance and rig calibration all sum what
-/// linearise() gives.
+/// Least squares over a set of fitted features: residuals W (target - pi(R X + T)) [px], Jacobian
+/// and weights. The solver, the covariance and the rig calibration all use the terms of
+/// linearise().
 ///
-/// With kParameters = 6 the parameters are a rotation vector, from the rotation that the features
-/// are fitted at, and the translation (Eq. 25): R = Exp(p[0..2]) R_0, T = p[3..5]. With 3 they are
-/// the translation alone, the rotation staying R_0 (Eq. 29).
+/// With kParameters = 6 the parameters are a rotation vector relative to R_0, the rotation of the
+/// fit, and the translation (Eq. 25): R = Exp(p[0..2]) R_0, T = p[3..5]. With kParameters = 3 they
+/// are the translation alone, and the rotation is R_0 (Eq. 29).
 template <int kParameters>
 class ReprojectionProblem {
  public:
   using Parameters = Eigen::Matrix<double, kParameters, 1>;
 
-  /// A feature's part of the least squares.
+  /// The contribution of one feature.
   struct Term {
-    std::size_t feature;          ///< its index among all features of the pair
-    const FittedFeature& fitted;  ///< it
-    double weight;                ///< of both residuals
+    std::size_t feature;          ///< index among all features of the pair
+    const FittedFeature& fitted;  ///< the feature itself
+    double weight;                ///< weight of both residuals
     Eigen::Vector2d residual_px;
-    /// By a rotation after that of the parameters, and by the translation.
+    /// Derivatives by a rotation applied after that of the parameters, and by the translation.
     Eigen::Matrix<double, 2, kParameters> jacobian;
   };
 
-  /// sum w [J r]^T [J r]: J^T J, with J^T r in the last column and r^T r in the corner.
+  /// sum w [J r]^T [J r]: J^T J, with J^T r in the last column and r^T r in the lower right corner.
   using NormalMatrix = Eigen::Matrix<double, kParameters + 1, kParameters + 1>;
 
   /// Takes the features flagged in `set`, with equal weights.
   void assign(const StereoCamera& camera, const Fit& fit, const FeatureSet& set);
 
-  /// Weights the features by their residuals at `parameters`, by CauchyWeights of that factor.
+  /// Weights the features by their residuals at `parameters`, using cauchyWeights() with the given
+  /// factor.
   void weigh(const Parameters& parameters, double robust_factor);
 
-  /// The parameters of the motion that the features are fitted at.
+  /// The parameters of the motion of the fit.
   Parameters start() const;
 
   std::size_t size() const { return indices_.size(); }
 
-  /// Calls visit(const Term&) for each feature, in their order.
+  /// Calls visit(const Term&) for each feature, in order.
   template <class Visit>
   void linearise(const Parameters& parameters, Visit&& visit) const {
     const Motion motion(parameters);
@@ -62,7 +63,7 @@ class ReprojectionProblem {
     }
   }
 
-  /// What the terms come to in the normal equations of the parameters.
+  /// The normal matrix of all terms, by the parameters.
   NormalMatrix normalMatrix(const Parameters& parameters) const;
 
   /// Sum of w |r|^2.
@@ -72,7 +73,7 @@ class ReprojectionProblem {
   using FeatureJacobian = Eigen::Matrix<double, 2, kParameters>;
   static constexpr bool kRotates = kParameters == 6;
 
-  /// The motion that the parameters stand for.
+  /// The motion that the parameters describe.
   struct Motion {
     explicit Motion(const Parameters& parameters) : T(parameters.template tail<3>()) {
       if (kRotates) R = expRotation(parameters.template head<3>());
@@ -111,7 +112,7 @@ class ReprojectionProblem {
   }
 
   StereoCamera camera_;
-  Eigen::Isometry3d T_prev_cur_;  // that the features are fitted at
+  Eigen::Isometry3d T_prev_cur_;  // of the fit
   std::vector<std::size_t> indices_;
   std::vector<FittedFeature> features_;
   std::vector<double> weights_;

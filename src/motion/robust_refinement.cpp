@@ -5,10 +5,10 @@
 namespace rotrocc {
 namespace {
 
-/// Steps, each weighted by the errors that the one before has left.
+/// Number of steps; each is weighted by the residuals after the previous one.
 constexpr int kReweightings = 4;
 
-/// One step of Gauss-Newton with hardly any damping: the start is near the minimum.
+/// One Gauss-Newton step with negligible damping, because the start is close to the minimum.
 constexpr MinimiseOptions kOneStep = {1e-12, std::numeric_limits<double>::infinity()};
 
 }  // namespace

@@ -6,11 +6,11 @@
 
 namespace rotrocc {
 
-/// Refines the result of a stage once its set is stable: iteratively reweighted least squares with
-/// cauchyWeights(). Not part of the paper.
+/// Refines the result of a stage once its set is stable, by iteratively reweighted least squares
+/// with cauchyWeights(). Not part of the paper.
 class RobustRefinement {
  public:
-  /// `factor`: of cauchyWeights().
+  /// `factor` is that of cauchyWeights().
   explicit RobustRefinement(double factor);
 
   /// Both return false if the least squares fail.

@@ -9,10 +9,10 @@
 namespace rotrocc {
 namespace {
 
-/// Keeps a normalized error finite where there is no flow at all [px].
+/// Lower limit of the flow [px], so that normalized errors stay finite without flow.
 constexpr double kLeastFlow_px = 1e-6;
 
-/// The error of a feature that must not enter.
+/// The error of a feature that must not become an inlier.
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 OutlierThreshold rotationThreshold(Criterion criterion, const MotionEstimatorConfig& config) {
@@ -84,7 +84,7 @@ bool TwoStageEstimator::estimateRotation(const Measurements& measured,
   return refinement == nullptr || refinement->refineMotion(measured, inliers, fit);
 }
 
-/// The flow that a DNRE (or NRE) is normalized with.
+/// Computes the flow by which the DNRE (or NRE) is normalized.
 void TwoStageEstimator::decouple(const Measurements& measured, const Eigen::Matrix3d& R_prev_cur) {
   if (criterion_ == Criterion::kRotrocc) {
     decoupledFlow(measured.camera, measured.features, R_prev_cur, flow_px_);  // Eq. 27, 28
@@ -93,7 +93,7 @@ void TwoStageEstimator::decouple(const Measurements& measured, const Eigen::Matr
   }
 }
 
-/// The features that may enter stage 2.
+/// Selects the features that may enter stage 2.
 void TwoStageEstimator::selectCandidates(const Measurements& measured, const Fit& fit) {
   candidates_.assign(measured.features.size(), 1);
   if (config_.translation_initial_px == 0.0) return;
@@ -109,8 +109,8 @@ bool TwoStageEstimator::estimateTranslation(const Measurements& measured,
   const auto solve = [&](const FeatureSet& set) {
     return solver_.solveTranslation(measured, set, fit);  // Eq. 29
   };
-  // Plain errors: only then is the DNRE the relative error of the depth, and wrong disparities of
-  // far points, which differ from the right one by a large part of it, are seen.
+  // Errors without whitening. Only then does the DNRE equal the relative depth error, which is
+  // large for far points with a wrong disparity.
   const auto measure = [&] {
     reprojectionErrors(measured.camera, measured.features, fit.T_prev_cur, errors_);
     for (std::size_t i = 0; i < errors_.size(); ++i) {
@@ -124,8 +124,8 @@ bool TwoStageEstimator::estimateTranslation(const Measurements& measured,
   return refinement == nullptr || refinement->refineTranslation(measured, inliers, fit);
 }
 
-/// Solves for the motion of the set and thresholds the errors of all features, until the set is
-/// stable (Eq. 26, 30, 31, 32). Returns false if `solve` does.
+/// Alternates between solving for the motion of the set and thresholding the errors of all
+/// features, until the set is stable (Eq. 26, 30, 31, 32). Returns false if `solve` does.
 template <class Solve, class Measure>
 bool TwoStageEstimator::iterate(OutlierThreshold& threshold,
                                 int max_iterations,

@@ -14,26 +14,27 @@
 
 namespace rotrocc {
 
-/// What the two stages find.
+/// The result of the two stages.
 struct TwoStageMotion {
   bool valid = false;
-  Fit fit;  ///< the motion, and the features fitted at it
+  Fit fit;  ///< the motion and the features fitted at it
   FeatureSet rotation_inliers;
-  FeatureSet translation_inliers;  ///< those of the rotation if there is no translation stage
+  FeatureSet translation_inliers;  ///< equal to rotation_inliers without a stage 2
   bool has_translation_stage = false;
-  bool translation_failed = false;  ///< the motion is that of stage 1
+  bool translation_failed = false;  ///< stage 2 failed: the motion is that of stage 1
 };
 
-/// The estimator of section V-B: rotation, flow decoupling, translation; or one of the criteria
-/// that it is compared with. The result depends on the arguments alone.
+/// The estimator of section V-B: rotation, flow decoupling, translation. Alternatively one of the
+/// criteria that the paper compares it with. The result depends only on the arguments.
 class TwoStageEstimator {
  public:
-  /// Throws std::invalid_argument on a criterion of another name.
+  /// Throws std::invalid_argument on an unknown criterion.
   explicit TwoStageEstimator(const MotionEstimatorConfig& config);
 
-  /// Estimates the motion that took `dt_s` > 0 from the features flagged in `set`, beginning with
-  /// `initial`. Invalid if stage 1 leaves fewer than 3 features. If stage 2 leaves fewer than
-  /// `least_inliers`, the motion is that of stage 1. `refinement`, if given, follows each stage.
+  /// Estimates the motion that took `dt_s` > 0 from the features flagged in `set`, starting at
+  /// `initial`. The result is invalid if stage 1 leaves fewer than 3 features. If stage 2 leaves
+  /// fewer than `least_inliers`, the motion is that of stage 1. `refinement`, if given, is applied
+  /// after each stage.
   void estimate(const Measurements& measured,
                 const FeatureSet& set,
                 const Eigen::Isometry3d& initial,
@@ -64,7 +65,7 @@ class TwoStageEstimator {
   OutlierThreshold rotation_threshold_;
   OutlierThreshold translation_threshold_;
 
-  // Reused from call to call.
+  // Buffers, reused.
   FeatureSet candidates_, next_;
   std::vector<double> errors_;
   std::vector<double> flow_px_;

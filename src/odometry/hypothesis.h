@@ -7,9 +7,10 @@
 
 namespace rotrocc {
 
-/// A motion that is tried, and all that it is estimated from: taken or dropped as a whole.
+/// A candidate motion with all data that it was estimated from. It is accepted or discarded as a
+/// whole.
 struct Hypothesis {
-  StereoCamera camera;  ///< with the disparity bias that the features' depths are computed with
+  StereoCamera camera;  ///< corrected by the disparity bias that was used for the features' depths
   Correspondences features;
   MotionEstimator::Estimate estimate;
   StageCounts counts;

@@ -11,17 +11,17 @@
 
 namespace rotrocc {
 
-/// Decides how long a keyframe lives. Errors add up with every change of the keyframe, so it is
-/// kept while it serves: while the camera has not moved far and most features are still seen. At
-/// rest nothing adds up at all.
+/// Decides when the keyframe is replaced. Errors accumulate with each new keyframe, so a keyframe
+/// is kept as long as the camera has not moved far from it and most of its features are still seen.
+/// At standstill there is no drift at all.
 class KeyframeSelector {
  public:
   using Config = KeyframeSelectorConfig;
 
   explicit KeyframeSelector(const Config& config) : config_(config) {}
 
-  /// Whether the keyframe serves for the next frame too, from the features of the current one and
-  /// the inliers of its motion. Sets the keyframe's first_inliers if it has none yet.
+  /// Whether to keep the keyframe for the next frame, given the features of the current frame and
+  /// the inliers of its motion. Sets the keyframe's first_inliers if it is not set yet.
   bool keeps(const StereoCamera& camera,
              const Correspondences& features,
              const FeatureSet& inliers,
@@ -30,7 +30,7 @@ class KeyframeSelector {
 
  private:
   Config config_;
-  std::vector<double> flow_px_, inlier_flow_px_;  // reused
+  std::vector<double> flow_px_, inlier_flow_px_;  // buffers, reused
 };
 
 }  // namespace rotrocc

@@ -10,10 +10,10 @@
 namespace rotrocc {
 namespace {
 
-/// Changes within so many standard deviations are noise.
+/// Changes within this many standard deviations are attributed to noise.
 constexpr double kSigmas = 3.0;
 
-/// The smaller of the two stages' sets: both parts of the motion must rest on enough.
+/// The smaller number of inliers of the two stages: both parts of the motion need enough of them.
 int inliers(const MotionEstimator::Estimate& estimate) {
   return std::min(count(estimate.rotation_inliers), count(estimate.translation_inliers));
 }

@@ -8,22 +8,23 @@
 
 namespace rotrocc {
 
-/// Whether an estimated motion can be believed.
+/// Checks whether an estimated motion is plausible.
 class MotionCheck {
  public:
   using Config = MotionCheckConfig;
 
   explicit MotionCheck(const Config& config) : config_(config) {}
 
-  /// Why the motion must not be used, in one sentence with the value and the parameter; empty if it
-  /// may. The motion took `dt_s` > 0.
+  /// Why the motion is rejected, in one sentence with the value and the parameter; empty if it is
+  /// accepted. The motion took `dt_s` > 0.
   std::string whyLost(const MotionEstimator::Estimate& estimate, double dt_s) const;
 
-  /// Why a motion that may be used should be used with care; empty if there is no reason.
+  /// Why an accepted motion is less reliable; empty if it is not.
   std::string whyDegraded(const MotionEstimator::Estimate& estimate) const;
 
-  /// Why a motion of `dt_s` > 0 is a jump, where `expected` would be the velocity before going on;
-  /// empty if it is none: a change that the noise explains (3 standard deviations) is not.
+  /// Why a motion during `dt_s` > 0 is an implausible jump; empty if it is not. `expected` is the
+  /// motion during `dt_s` at the previous velocity. Changes within 3 standard deviations of the
+  /// noise are accepted.
   std::string whyJump(const UncertainTransform& motion,
                       const Eigen::Isometry3d& expected,
                       double dt_s) const;

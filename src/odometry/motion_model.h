@@ -9,21 +9,22 @@
 
 namespace rotrocc {
 
-/// Constant turn rate and velocity: the last motion goes on, scaled to the time that really passed.
+/// Predicts motion by constant linear and angular velocity: the last motion, scaled to the actual
+/// time step.
 class MotionModel {
  public:
   using Config = MotionModelConfig;
 
   explicit MotionModel(const Config& config) : config_(config) {}
 
-  /// Takes other parameters; the motion stays.
+  /// Changes the parameters and keeps the velocity.
   void configure(const Config& config) { config_ = config; }
 
-  /// Takes a measured motion that took `dt_s` > 0.
+  /// Stores the velocity of a measured motion that took `dt_s` > 0.
   void update(const Eigen::Isometry3d& T_prev_cur, double dt_s);
 
-  /// The motion expected in the `dt_s` after the last update; none if nothing is known or it is too
-  /// old.
+  /// The predicted motion during `dt_s` after the last update. None without an update, or if `dt_s`
+  /// exceeds max_age_s.
   std::optional<Eigen::Isometry3d> predict(double dt_s) const;
 
   void reset() { twist_.reset(); }

@@ -9,8 +9,8 @@
 namespace rotrocc {
 namespace {
 
-/// The bias and the motion are estimated in turns, so often at most, until the bias that is applied
-/// changes by less than this.
+/// Bias and motion are estimated alternately, until the applied bias changes by less than
+/// kCalibrationSettled_px, at most kCalibrationRounds times.
 constexpr int kCalibrationRounds = 3;
 constexpr double kCalibrationSettled_px = 0.02;
 

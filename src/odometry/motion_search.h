@@ -18,16 +18,17 @@
 
 namespace rotrocc {
 
-/// Finds the motion from a keyframe to the current frame by trying hypotheses.
+/// Finds the motion from a keyframe to the current frame by testing hypotheses.
 class MotionSearch {
  public:
-  /// Throws as MotionEstimator.
+  /// Throws as the constructor of MotionEstimator.
   explicit MotionSearch(const OdometryConfig& config);
 
-  /// Tries the prediction `T_last_cur`, if there is one. Without one, or where it proves wrong,
-  /// features tracked from a wrong place may agree on a wrong motion: tracks and estimates,
-  /// starting from no motion, until it settles, or `found` counts `most_tries`; once at least.
-  /// Returns why there is no motion, or nothing if there is one, which is `found`.
+  /// First tries the prediction `T_last_cur`, if there is one. Without one, or if it fails, starts
+  /// from zero motion since the last frame. Features tracked from a wrong start may agree on a
+  /// wrong motion, so tracking and estimation are repeated, each time starting from the last
+  /// result, until the motion settles or `found` counts `most_tries`. There is at least one such
+  /// try. Returns why there is no motion; empty if `found` is the motion.
   std::string find(CorrespondenceFinder& finder,
                    const StereoCamera& camera,
                    const Keyframe& keyframe,
@@ -37,8 +38,9 @@ class MotionSearch {
                    Hypothesis& found,
                    StageTimes& times);
 
-  /// The features show the rig's disparity bias as well as the motion: estimates both in turns, and
-  /// leaves in `found` the last hypothesis that is not lost. `camera` is that without correction.
+  /// The features depend on the disparity bias of the rig as well as on the motion. Estimates both
+  /// alternately and stores in `found` the last hypothesis that is not lost. `camera` is the camera
+  /// without correction.
   void calibrate(const StereoCamera& camera,
                  double dt_s,
                  StereoCalibrator& calibrator,
@@ -46,7 +48,7 @@ class MotionSearch {
                  StageTimes& times);
 
  private:
-  /// Both return why there is no motion.
+  /// Both return why there is no motion; empty if there is one.
   std::string tryMotion(CorrespondenceFinder& finder,
                         const Keyframe& keyframe,
                         const StereoFrame& current,
@@ -62,7 +64,7 @@ class MotionSearch {
   double settled_px_;
   MotionEstimator estimator_;
   MotionCheck check_;
-  Hypothesis recalibrated_;  // of calibrate(); reused
+  Hypothesis recalibrated_;  // buffer of calibrate(), reused
 };
 
 }  // namespace rotrocc

@@ -10,10 +10,11 @@
 namespace rotrocc {
 namespace {
 
-/// Two motions from one keyframe share the noise of its corners, half of that of their flow.
+/// Part of the covariance that two motions from the same keyframe do not share: the noise of the
+/// keyframe's corners is common to both, and is half of the flow's noise.
 constexpr double kNotShared = 0.5;
 
-/// Ends the work on a pair without a motion; what() is the reason, a sentence.
+/// Ends the processing of a pair without a motion. what() is the reason, as a sentence.
 struct Lost : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -41,7 +42,7 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
   } catch (const Lost& lost) {
     result.reason = lost.what();
   } catch (const std::exception& error) {
-    last_.reset();  // what is kept may be the cause: the next pair is a first one
+    last_.reset();  // the stored state may be the cause: restart with the next pair
     result.reason = sentence("internal error: ", error.what());
     result.state = State::kLost;
   }
@@ -61,14 +62,14 @@ void VisualOdometry::Pipeline::reset() {
 }
 
 void VisualOdometry::Pipeline::configure(const Config& config) {
-  search_ = MotionSearch(config);  // first, as it may throw
+  search_ = MotionSearch(config);  // first, because it may throw
   config_ = config;
   finder_ = CorrespondenceFinder(config.correspondence_finder, config.threads);
   motion_model_.configure(config.motion_model);
   check_ = MotionCheck(config.motion_check);
   calibrator_.configure(config.stereo_calibrator);
   selector_ = KeyframeSelector(config.keyframe_selector);
-  keyframe_.frame.reset();  // its corners are of the old parameters
+  keyframe_.frame.reset();  // its corners depend on the old parameters
 }
 
 void VisualOdometry::Pipeline::advance(const StereoPair& pair,
@@ -85,7 +86,7 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
   }
   const std::string why_lost = findMotion(current, expected, result);
   if (!why_lost.empty()) {
-    // The fault may be this pair's or the last one's: the next one is compared with both.
+    // Either this pair or the last one may be at fault. The next pair is compared with both.
     lost_ = current;
     throw Lost(why_lost);
   }
@@ -155,9 +156,9 @@ void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& t
   finder_.findDepths(calibrator_.correct(camera_), keyframe_);
 }
 
-/// Measures the motion against the keyframe, else against the last frame, else against the one that
-/// was lost after it, whose pose is taken to be that of the last one. The tries are limited over
-/// all of them, so that no pair takes much longer than one without a prediction.
+/// Measures the motion against the keyframe. If that fails, uses the last frame, then the latest
+/// lost frame, which is assigned the pose of the last frame. The total number of tries is limited,
+/// so that no pair takes much longer than one without a prediction.
 std::string VisualOdometry::Pipeline::findMotion(const FramePtr& current,
                                                  const std::optional<Eigen::Isometry3d>& expected,
                                                  OdometryResult& result) {

@@ -21,7 +21,7 @@
 
 namespace rotrocc {
 
-/// What is kept from pair to pair, and the stages in the order of section V.
+/// The state between pairs, and the processing stages in the order of section V.
 class VisualOdometry::Pipeline {
  public:
   explicit Pipeline(const Config& config);
@@ -48,7 +48,7 @@ class VisualOdometry::Pipeline {
   void restart(const FramePtr& current);
   void makeKeyframe(const FramePtr& frame, StageTimes& times);
 
-  /// Returns why there is no motion, or nothing if there is one, which is found_.
+  /// Returns why there is no motion; empty if found_ is the motion.
   std::string findMotion(const FramePtr& current,
                          const std::optional<Eigen::Isometry3d>& expected,
                          OdometryResult& result);
@@ -63,13 +63,13 @@ class VisualOdometry::Pipeline {
   RowComparison rows_;
   KeyframeSelector selector_;
 
-  StereoCamera camera_;  // as it came
-  FramePtr last_;        // whose pose is known; none before the first pair
-  FramePtr lost_;        // after it, and the newest, if no motion to it was found
-  Keyframe keyframe_;    // none if it has to be made of the last frame
+  StereoCamera camera_;  // without correction of the bias
+  FramePtr last_;        // last frame with a known pose; null before the first pair
+  FramePtr lost_;        // latest frame without a motion since last_; may be null
+  Keyframe keyframe_;    // no frame if it must be created from the last frame
 
   Hypothesis found_;
-  std::vector<float> row_differences_px_;  // of accept(), reused
+  std::vector<float> row_differences_px_;  // buffer of accept(), reused
 };
 
 }  // namespace rotrocc

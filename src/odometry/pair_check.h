@@ -7,8 +7,8 @@
 
 namespace rotrocc {
 
-/// Why a pair is not one of this camera's, in one sentence with the value; empty if it is: both
-/// images CV_8UC1 and of the camera's size.
+/// Why a pair cannot be used with this camera, in one sentence with the value. Empty if it can:
+/// both images are CV_8UC1 and of the camera's size.
 std::string whyUnusable(const StereoPair& pair, const StereoCamera& camera);
 
 }  // namespace rotrocc

@@ -6,11 +6,11 @@
 namespace rotrocc {
 namespace {
 
-/// Of so many features the median of what trackers scatter is known to 0.01 px.
+/// With this many features, the scatter of tracking allows a median accurate to 0.01 px.
 constexpr std::size_t kFeatures = 1000;
 
-/// Standard deviation of a normal distribution over its median absolute deviation, and of the
-/// median of one over that of the mean.
+/// For a normal distribution: the ratio of the standard deviation to the median absolute deviation,
+/// and the ratio of the standard deviation of the median to that of the mean.
 constexpr double kNormal = 1.4826;
 constexpr double kOfMedian = 1.2533;
 

@@ -7,23 +7,23 @@
 
 namespace rotrocc {
 
-/// Finds the RowOffset from single features, some of which are measured wrongly.
+/// Estimates the RowOffset from single features, some of which are outliers.
 class RowComparison {
  public:
   RowComparison();
 
   const RowOffset& offset() const { return offset_; }
 
-  /// Takes how far single features are lower in the right image [px].
+  /// Adds the vertical offsets of single features [px], positive if lower in the right image.
   void observe(const std::vector<float>& differences_px);
 
-  /// Forgets everything: the camera is another one.
+  /// Discards all data, for use with another camera.
   void reset();
 
  private:
   RowOffset offset_;
-  std::vector<float> last_px_;  // a ring ...
-  std::size_t oldest_ = 0;      // ... once it is full
+  std::vector<float> last_px_;  // the last offsets, a ring buffer once it is full
+  std::size_t oldest_ = 0;      // the entry that is overwritten next
   std::vector<float> sorted_px_;
 };
 

@@ -11,14 +11,14 @@
 namespace rotrocc {
 namespace {
 
-/// Of motion and bias.
+/// Number of parameters of motion and bias.
 constexpr int kParameters = 7;
 
-/// Fewer features tell a bias from a motion badly.
+/// With fewer features, the bias can hardly be distinguished from the motion.
 constexpr int kLeastFeatures = 30;
 
-/// Nothing of what is within the doubt, all of what is beyond twice the doubt, and straight between
-/// (firm shrinkage, Gao and Bruce 1997).
+/// Firm shrinkage (Gao and Bruce 1997): 0 up to `doubt_px`, the full value above twice that, linear
+/// in between.
 double shrink(double found_px, double doubt_px) {
   const double beyond_px = std::max(0.0, std::abs(found_px) - doubt_px);
   return std::copysign(std::min(2.0 * beyond_px, std::abs(found_px)), found_px);
@@ -65,7 +65,7 @@ void StereoCalibrator::observe(const StereoCamera& corrected,
   update();
 }
 
-/// Residuals and their derivatives by the motion and the bias.
+/// Computes the residuals and their derivatives by the motion and the bias.
 void StereoCalibrator::linearise(const StereoCamera& corrected,
                                  const Correspondences& features,
                                  const FeatureSet& set,
@@ -84,8 +84,8 @@ void StereoCalibrator::linearise(const StereoCamera& corrected,
   });
 }
 
-/// Leaves of residuals and derivatives what no change of the motion can explain. The weighted sums
-/// of residuals follow their changes by the square of the weight, see MotionCovariance.
+/// Removes from residuals and derivatives the part that a change of the motion can explain. The
+/// derivative of a sum of weighted residuals contains the squared weights, see MotionCovariance.
 void StereoCalibrator::eliminateMotion() {
   Matrix6d normal = Matrix6d::Zero();
   Vector6d of_bias = Vector6d::Zero();
@@ -106,8 +106,8 @@ void StereoCalibrator::eliminateMotion() {
   }
 }
 
-/// A step of Newton's method from the bias applied: one of reweighted least squares would be too
-/// short.
+/// One step of Newton's method from the applied bias. A step of reweighted least squares would be
+/// too short.
 void StereoCalibrator::collect() {
   WeightedVariance variance;
   bool is_finite = true;
@@ -131,7 +131,8 @@ Matrix6d StereoCalibrator::motionCovariance() const {
   return variance * motion_by_bias_ * motion_by_bias_.transpose();
 }
 
-/// What is known fades as more is learnt: a pair at rest, which tells nothing, takes nothing.
+/// Earlier evidence is reduced in proportion to the new information. A pair at standstill has no
+/// information, so it does not reduce the evidence.
 void StereoCalibrator::advance() {
   const double known = sum(past_.information);
   const double learnt = sum(current_.information) * config_.memory_pairs;

@@ -15,60 +15,65 @@
 
 namespace rotrocc {
 
-/// Finds the constant error that a rig, not quite as its calibration says, has in all its
-/// disparities.
+/// Rig calibration: estimates the disparity bias, a constant error of all disparities caused by an
+/// inexact stereo calibration.
 ///
-/// A wrong disparity puts near and far points to depths that no one motion explains: the bias is
-/// the one more unknown of Eq. 25 that makes them consistent, with the motion eliminated. Its
-/// normal equation is summed over the pairs. A real rig also has errors that differ over the image
-/// (lens, relative rotation) and push the estimate by more than its noise. They show as parts of
-/// the image that disagree with each other, so the uncertainty is taken from those: the
-/// cluster-robust variance (Liang and Zeger 1986) over a grid of cells. What is within the
-/// doubt, a multiple of it, is not applied, and what is well beyond is applied whole.
+/// With biased disparities, no single motion explains both near and far points. The bias is one
+/// additional unknown of Eq. 25, estimated with the motion eliminated. Its normal equation is
+/// summed over the pairs.
+///
+/// A real rig also has errors that vary over the image (lens, relative rotation) and shift the
+/// estimate by more than its noise. They show as disagreement between parts of the image. The
+/// uncertainty is therefore the cluster-robust variance (Liang and Zeger 1986) over a grid of
+/// cells.
+///
+/// A bias that is not significant is not corrected; a clearly significant one is corrected
+/// completely.
 class StereoCalibrator {
  public:
   using Config = StereoCalibratorConfig;
 
   explicit StereoCalibrator(const Config& config);
 
-  /// Takes other parameters. What was observed stays, unless observing is at an end.
+  /// Changes the parameters. The estimate is kept unless the calibration is disabled.
   void configure(const Config& config);
 
   const DisparityBias& bias() const { return bias_; }
 
-  /// The camera whose depths have the bias taken out.
+  /// The camera corrected by the applied bias.
   StereoCamera correct(const StereoCamera& camera) const;
 
-  /// Takes a motion estimated from the flagged features, whose depths are those of `corrected`, as
-  /// correct() gave it last. Called again for the same pair, the last call counts.
+  /// Adds a motion estimated from the flagged features. Their depths must be those of `corrected`,
+  /// the last result of correct(). If it is called repeatedly for the same pair, only the last call
+  /// counts.
   void observe(const StereoCamera& corrected,
                const Correspondences& features,
                const FeatureSet& set,
                const Eigen::Isometry3d& T_prev_cur);
 
-  /// Covariance that the doubt about the bias adds to that of the motion observed last, in the
+  /// Covariance that the uncertainty of the bias adds to that of the last observed motion, in the
   /// order of OdometryResult::covariance.
   Matrix6d motionCovariance() const;
 
-  /// What was observed since the last call is of an earlier pair.
+  /// Starts a new pair: the observation of the previous one becomes final.
   void advance();
 
-  /// Forgets everything: the rig is another one.
+  /// Discards the estimate, for use with another rig.
   void reset();
 
  private:
   static constexpr int kColumns = 6;
   static constexpr int kRows = 3;
 
-  /// Normal equations of the bias, by cell of the image: information * bias = weighted [1/px^2,
-  /// 1/px].
+  /// Normal equations of the bias for each cell of the image: information [1/px^2] * bias =
+  /// weighted [1/px].
   struct Evidence {
     std::array<double, kColumns * kRows> information{};
     std::array<double, kColumns * kRows> weighted{};
   };
 
-  /// A feature's residual and derivatives, weighted for Newton's method: those by the motion have
-  /// the translation last.
+  /// A feature's residual and its derivatives, and the weight for Newton's method. The derivatives
+  /// by the motion have the rotation first, then the translation.
   struct Row {
     std::size_t cell;
     double weight;
@@ -90,7 +95,7 @@ class StereoCalibrator {
   DisparityBias bias_;
   Vector6d motion_by_bias_ = Vector6d::Zero();  // translation, then rotation
 
-  // Of the pair; reused.
+  // Buffers for one pair, reused.
   Fit fit_;
   ReprojectionProblem<6> problem_;
   std::vector<Row> rows_;
