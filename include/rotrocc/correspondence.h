@@ -8,11 +8,11 @@
 
 namespace rotrocc {
 
-/// One feature of the set F = {x_prev, x_cur, depth} (paper, section V-A), in left pixels.
+/// One feature of the set F = {x_keyframe, x_cur, depth} (paper, section V-A), in left pixels.
 /// "Previous" is the keyframe, which the current pair is compared with.
 struct Correspondence {
-  Eigen::Vector2d prev_px = Eigen::Vector2d::Zero();  ///< measured in the keyframe
-  Eigen::Vector2d cur_px = Eigen::Vector2d::Zero();   ///< measured in the current pair
+  Eigen::Vector2d keyframe_px = Eigen::Vector2d::Zero();  ///< measured in the keyframe
+  Eigen::Vector2d cur_px = Eigen::Vector2d::Zero();       ///< measured in the current pair
   double disparity_px = 0.0;  ///< x_left - x_right, measured in the current pair
   Eigen::Vector3d point_cur =
       Eigen::Vector3d::Zero();  ///< triangulated, current left camera frame [m]

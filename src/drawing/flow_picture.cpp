@@ -91,20 +91,20 @@ void drawMotion(const FlowScene& scene, cv::Mat& image) {
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (!contains(scene.translation_inliers, i)) continue;
     const cv::Scalar colour = FlowLegend::colourOfDepth(features[i].point_cur.z());
-    drawLine(features[i].prev_px, features[i].cur_px, colour, image);
+    drawLine(features[i].keyframe_px, features[i].cur_px, colour, image);
     drawDot(features[i].cur_px, colour, image);
   }
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (contains(scene.translation_inliers, i)) continue;
     if (scene.result.hasMotion()) {
       const Eigen::Vector3d moved = scene.result.T_keyframe_cur.T * features[i].point_cur;
-      const Eigen::Vector2d expected_px = projectOr(scene.camera, moved, features[i].prev_px);
-      if ((expected_px - features[i].prev_px).norm() > kVisible_px) {
+      const Eigen::Vector2d expected_px = projectOr(scene.camera, moved, features[i].keyframe_px);
+      if ((expected_px - features[i].keyframe_px).norm() > kVisible_px) {
         drawLine(expected_px, features[i].cur_px, kExpected, image);
       }
     }
     const cv::Scalar colour = contains(scene.rotation_inliers, i) ? kRotationOnly : kOutlier;
-    drawLine(features[i].prev_px, features[i].cur_px, colour, image);
+    drawLine(features[i].keyframe_px, features[i].cur_px, colour, image);
     drawDot(features[i].cur_px, colour, image);
   }
 }
@@ -118,7 +118,7 @@ void drawDecoupled(const FlowScene& scene, cv::Mat& image) {
     const Eigen::Vector2d turned_px =
         projectOr(scene.camera, R * feature.point_cur, feature.cur_px);
     drawLine(feature.cur_px, turned_px, kOfRotation, image);
-    drawLine(turned_px, feature.prev_px, kOfTranslation, image);
+    drawLine(turned_px, feature.keyframe_px, kOfTranslation, image);
     drawDot(feature.cur_px, kFeature, image);
   }
 }

@@ -48,11 +48,11 @@ AssumedMotion turnMotion() {
   const double speed_mps = 50.0 / 3.6;
   AssumedMotion turn;
   turn.name = "turn";
-  turn.T_prev_cur_true.linear() =
+  turn.T_keyframe_cur_true.linear() =
       rotation(10.0 * kDegree * kFrame_s, 50.0 * kDegree * kFrame_s, 5.0 * kDegree * kFrame_s);
-  turn.T_prev_cur_true.translation() = Eigen::Vector3d(0.0, 0.0, speed_mps * kFrame_s);
-  turn.T_prev_cur_assumed = turn.T_prev_cur_true;
-  turn.T_prev_cur_assumed.translation() *= kExcess;
+  turn.T_keyframe_cur_true.translation() = Eigen::Vector3d(0.0, 0.0, speed_mps * kFrame_s);
+  turn.T_keyframe_cur_assumed = turn.T_keyframe_cur_true;
+  turn.T_keyframe_cur_assumed.translation() *= kExcess;
   return turn;
 }
 
@@ -67,16 +67,16 @@ std::vector<FeatureErrors> judgeFeatures(const StereoCamera& camera,
   }
   Correspondences features(points_cur.size());
   for (std::size_t i = 0; i < features.size(); ++i) {
-    features[i].prev_px = camera.project(hypothesis.T_prev_cur_true * points_cur[i]);
+    features[i].keyframe_px = camera.project(hypothesis.T_keyframe_cur_true * points_cur[i]);
     features[i].cur_px = camera.project(points_cur[i]);
     features[i].disparity_px = camera.disparity(points_cur[i].z());
     features[i].point_cur = (depth_factors.empty() ? 1.0 : depth_factors[i]) * points_cur[i];
   }
 
   std::vector<double> reprojection_px, flow_px, translation_flow_px;
-  reprojectionErrors(camera, features, hypothesis.T_prev_cur_assumed, reprojection_px);
+  reprojectionErrors(camera, features, hypothesis.T_keyframe_cur_assumed, reprojection_px);
   coupledFlow(features, flow_px);
-  decoupledFlow(camera, features, hypothesis.T_prev_cur_assumed.linear(), translation_flow_px);
+  decoupledFlow(camera, features, hypothesis.T_keyframe_cur_assumed.linear(), translation_flow_px);
   std::vector<FeatureErrors> errors(features.size());
   for (std::size_t i = 0; i < features.size(); ++i) {
     errors[i] = {reprojection_px[i],

@@ -20,8 +20,8 @@ struct FeatureErrors {
 /// A true motion and a wrong hypothesis of it.
 struct AssumedMotion {
   std::string name;
-  Eigen::Isometry3d T_prev_cur_true = Eigen::Isometry3d::Identity();
-  Eigen::Isometry3d T_prev_cur_assumed = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_keyframe_cur_true = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_keyframe_cur_assumed = Eigen::Isometry3d::Identity();
 };
 
 /// Fig. 4: pitch, yaw and roll of 3 deg, and 1 m along x, y and z, each overestimated by 10 %.

@@ -151,7 +151,7 @@ void CorrespondenceFinder::checkCircularConsistency(const StereoCamera& camera,
     const double depth_m = camera.depth(disparity_px);
     if (!isUsableDepth(depth_m)) continue;
     Correspondence feature;
-    feature.prev_px = {keyframe.left_px[i].x, keyframe.left_px[i].y};
+    feature.keyframe_px = {keyframe.left_px[i].x, keyframe.left_px[i].y};
     feature.cur_px = {cur_left_px_[i].x, cur_left_px_[i].y};
     feature.disparity_px = disparity_px;
     feature.point_cur = depth_m * camera.ray(feature.cur_px);

@@ -40,21 +40,21 @@ void FeatureTracker::makePyramid(const cv::Mat& image, ImagePyramid& pyramid) co
 }
 
 void FeatureTracker::track(Workers& workers,
-                           const ImagePyramid& prev_pyramid,
+                           const ImagePyramid& keyframe_pyramid,
                            const ImagePyramid& cur_pyramid,
-                           const std::vector<cv::Point2f>& prev,
+                           const std::vector<cv::Point2f>& keyframe_px,
                            const std::vector<float>& scales,
                            const Search& search,
                            std::vector<cv::Point2f>& cur,
                            std::vector<char>& tracked) {
   indices_.clear();
-  for (std::size_t i = 0; i < prev.size(); ++i) {
+  for (std::size_t i = 0; i < keyframe_px.size(); ++i) {
     if (tracked[i] != 0) indices_.push_back(i);
   }
   workers.forEach(indices_.size(), [&](std::size_t k, std::size_t part) {
     const std::size_t i = indices_[k];
-    const bool found =
-        follow(prev_pyramid, cur_pyramid, search, prev[i], scales[i], windows_[part], cur[i]);
+    const bool found = follow(
+        keyframe_pyramid, cur_pyramid, search, keyframe_px[i], scales[i], windows_[part], cur[i]);
     tracked[i] = found ? 1 : 0;
   });
 }

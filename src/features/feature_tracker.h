@@ -35,14 +35,15 @@ class FeatureTracker {
   /// Builds a pyramid with all levels that can be searched. Reuses the memory of `pyramid`.
   void makePyramid(const cv::Mat& image, ImagePyramid& pyramid) const;
 
-  /// Tracks the points `prev` from one image to another. `scales` are the expected scale changes of
-  /// the points' windows, above 1 if a point comes nearer. `cur` contains the predictions and
-  /// receives the results. `tracked` becomes 1 for points that return to within max_round_trip_px
-  /// when tracked back, otherwise 0. Points with `tracked` = 0 on input are skipped.
+  /// Tracks the points `keyframe_px` from one image to another. `scales` are the expected scale
+  /// changes of the points' windows, above 1 if a point comes nearer. `cur` contains the
+  /// predictions and receives the results. `tracked` becomes 1 for points that return to within
+  /// max_round_trip_px when tracked back, otherwise 0. Points with `tracked` = 0 on input are
+  /// skipped.
   void track(Workers& workers,
-             const ImagePyramid& prev_pyramid,
+             const ImagePyramid& keyframe_pyramid,
              const ImagePyramid& cur_pyramid,
-             const std::vector<cv::Point2f>& prev,
+             const std::vector<cv::Point2f>& keyframe_px,
              const std::vector<float>& scales,
              const Search& search,
              std::vector<cv::Point2f>& cur,

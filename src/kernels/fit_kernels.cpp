@@ -46,8 +46,8 @@ void improve(const FitTerms terms, FitBlock& block) {
     const double j_x = block.slope_x[i];
     const double j_y = block.slope_y[i];
     const double measured = block.measured[i];
-    const double along =
-        j_x * (block.prev_x[i] - block.seen_x[i]) + j_y * (block.prev_y[i] - block.seen_y[i]);
+    const double along = j_x * (block.keyframe_x[i] - block.seen_x[i]) +
+                         j_y * (block.keyframe_y[i] - block.seen_y[i]);
     const double next = block.fitted[i] + (terms.ratio2 * along - (block.fitted[i] - measured)) /
                                               (1.0 + terms.ratio2 * (j_x * j_x + j_y * j_y));
     const double least = measured / kMostStretch;
@@ -63,8 +63,8 @@ void describe(const FitTerms terms, FitBlock& block) {
     const double j_y = block.slope_y[i];
     const double moved = block.fitted[i] - block.measured[i];
     const double nearer = block.measured[i] / block.fitted[i];
-    block.target_x[i] = block.prev_x[i] + moved * j_x;
-    block.target_y[i] = block.prev_y[i] + moved * j_y;
+    block.target_x[i] = block.keyframe_x[i] + moved * j_x;
+    block.target_y[i] = block.keyframe_y[i] + moved * j_y;
     block.rotated_x[i] *= nearer;
     block.rotated_y[i] *= nearer;
     block.rotated_z[i] *= nearer;

@@ -12,11 +12,12 @@ namespace {
 constexpr int kFitSteps = 2;
 
 FitTerms termsOf(const StereoCamera& camera,
-                 const Eigen::Isometry3d& T_prev_cur,
+                 const Eigen::Isometry3d& T_keyframe_cur,
                  double noise_ratio) {
   FitTerms terms;
-  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(terms.rotation) = T_prev_cur.linear();
-  Eigen::Map<Eigen::Vector3d>(terms.translation) = T_prev_cur.translation();
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(terms.rotation) =
+      T_keyframe_cur.linear();
+  Eigen::Map<Eigen::Vector3d>(terms.translation) = T_keyframe_cur.translation();
   terms.fx = camera.fx;
   terms.fy = camera.fy;
   terms.cx = camera.cx;
@@ -28,8 +29,8 @@ FitTerms termsOf(const StereoCamera& camera,
 }
 
 void put(const StereoCamera& camera, const Correspondence& feature, FitBlock& block, int i) {
-  block.prev_x[i] = feature.prev_px.x();
-  block.prev_y[i] = feature.prev_px.y();
+  block.keyframe_x[i] = feature.keyframe_px.x();
+  block.keyframe_y[i] = feature.keyframe_px.y();
   block.point_x[i] = feature.point_cur.x();
   block.point_y[i] = feature.point_cur.y();
   block.point_z[i] = feature.point_cur.z();
@@ -54,13 +55,13 @@ double errorOf(const StereoCamera& camera,
 
 }  // namespace
 
-void fitAt(const Measurements& measured, const Eigen::Isometry3d& T_prev_cur, Fit& fit) {
+void fitAt(const Measurements& measured, const Eigen::Isometry3d& T_keyframe_cur, Fit& fit) {
   const StereoCamera& camera = measured.camera;
   const Correspondences& features = measured.features;
   const Kernels& kernels = chooseKernels();
-  const FitTerms terms = termsOf(camera, T_prev_cur, measured.noise_ratio);
+  const FitTerms terms = termsOf(camera, T_keyframe_cur, measured.noise_ratio);
   FitBlock block = {};
-  fit.T_prev_cur = T_prev_cur;
+  fit.T_keyframe_cur = T_keyframe_cur;
   fit.features.resize(features.size());
   for (std::size_t first = 0; first < features.size(); first += FitBlock::kSize) {
     const auto left = features.size() - first;
@@ -77,7 +78,7 @@ void fitAt(const Measurements& measured, const Eigen::Isometry3d& T_prev_cur, Fi
 void fittedErrors(const StereoCamera& camera, const Fit& fit, std::vector<double>& errors_px) {
   errors_px.clear();
   for (const FittedFeature& feature : fit.features) {
-    errors_px.push_back(errorOf(camera, feature, fit.T_prev_cur.translation()));
+    errors_px.push_back(errorOf(camera, feature, fit.T_keyframe_cur.translation()));
   }
 }
 

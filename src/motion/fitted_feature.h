@@ -28,7 +28,7 @@ struct FittedFeature {
 
 /// All features of a pair, fitted at a motion.
 struct Fit {
-  Eigen::Isometry3d T_prev_cur = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_keyframe_cur = Eigen::Isometry3d::Identity();
   std::vector<FittedFeature> features;
 };
 
@@ -37,12 +37,12 @@ struct Fit {
 ///
 /// With r = `noise_ratio` and j = d pi(R X + T) / d disparity at the fitted disparity, the
 /// covariance of the residual is S = I + r^2 j j^T in units of the flow's variance; `whitening` is
-/// S^-1/2. The target is prev_px, shifted by the predicted effect of replacing the measured by the
-/// fitted disparity. Least squares of these residuals have the same minimum as least squares over
-/// the motion and all true disparities (Deming regression). With the measured disparities, noisy
-/// far points would bias the translation towards zero. A ratio of 0 gives the paper's least
+/// S^-1/2. The target is keyframe_px, shifted by the predicted effect of replacing the measured by
+/// the fitted disparity. Least squares of these residuals have the same minimum as least squares
+/// over the motion and all true disparities (Deming regression). With the measured disparities,
+/// noisy far points would bias the translation towards zero. A ratio of 0 gives the paper's least
 /// squares.
-void fitAt(const Measurements& measured, const Eigen::Isometry3d& T_prev_cur, Fit& fit);
+void fitAt(const Measurements& measured, const Eigen::Isometry3d& T_keyframe_cur, Fit& fit);
 
 /// Whitened reprojection errors |W (target - pi(R X_cur + T))| of all features [px], at the motion
 /// of the fit.

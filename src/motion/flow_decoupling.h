@@ -9,14 +9,14 @@
 
 namespace rotrocc {
 
-/// Length [px] of each feature's flow after removing the rotation (Eq. 27, 28): |x_prev - pi(R
+/// Length [px] of each feature's flow after removing the rotation (Eq. 27, 28): |x_keyframe - pi(R
 /// x_cur)|, the flow caused by the translation alone.
 void decoupledFlow(const StereoCamera& camera,
                    const Correspondences& features,
-                   const Eigen::Matrix3d& R_prev_cur,
+                   const Eigen::Matrix3d& R_keyframe_cur,
                    std::vector<double>& lengths_px);
 
-/// Length [px] of each feature's measured flow: |x_prev - x_cur|.
+/// Length [px] of each feature's measured flow: |x_keyframe - x_cur|.
 void coupledFlow(const Correspondences& features, std::vector<double>& lengths_px);
 
 }  // namespace rotrocc

@@ -54,9 +54,9 @@ bool MotionEstimator::isLikelier(const Estimate& retry, const Eigen::Isometry3d&
         logRotation(T_a.linear() * T_b.linear().transpose());
     return difference.dot(uncertainty.solve(difference));
   };
-  return distance2(retry.T_prev_cur, found_.T_prev_cur) > kSignificant2 &&
-         kHalf2 * distance2(retry.T_prev_cur, prediction) <
-             distance2(found_.T_prev_cur, prediction);
+  return distance2(retry.T_keyframe_cur, found_.T_keyframe_cur) > kSignificant2 &&
+         kHalf2 * distance2(retry.T_keyframe_cur, prediction) <
+             distance2(found_.T_keyframe_cur, prediction);
 }
 
 void MotionEstimator::estimateFrom(const FeatureSet& set,
@@ -66,7 +66,7 @@ void MotionEstimator::estimateFrom(const FeatureSet& set,
                                    Estimate& estimate) {
   RobustRefinement* refinement = refinement_ ? &*refinement_ : nullptr;
   two_stages_.estimate(measured, set, initial, dt_s, least_inliers_, refinement, motion_);
-  estimate.T_prev_cur = motion_.fit.T_prev_cur;
+  estimate.T_keyframe_cur = motion_.fit.T_keyframe_cur;
   estimate.rotation_inliers = motion_.rotation_inliers;
   estimate.translation_inliers = motion_.translation_inliers;
   estimate.has_translation_stage = motion_.has_translation_stage;

@@ -23,7 +23,7 @@ class MotionEstimator {
 
   struct Estimate {
     bool valid = false;
-    Eigen::Isometry3d T_prev_cur = Eigen::Isometry3d::Identity();
+    Eigen::Isometry3d T_keyframe_cur = Eigen::Isometry3d::Identity();
     Matrix6d covariance = Matrix6d::Zero();  ///< as OdometryResult::covariance
     FeatureSet rotation_inliers;
     FeatureSet translation_inliers;

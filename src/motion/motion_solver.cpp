@@ -16,11 +16,11 @@ bool MotionSolver::solveMotion(const Measurements& measured, const FeatureSet& s
   Vector6d parameters = motion_problem_.start();
   motion_problem_.weigh(parameters, options_.robust_factor);
   if (!minimise(motion_problem_, options_.minimise, parameters)) return false;
-  Eigen::Isometry3d T_prev_cur = fit.T_prev_cur;
-  const Eigen::Matrix3d R = expRotation(parameters.head<3>()) * T_prev_cur.linear();
-  T_prev_cur.linear() = Eigen::Quaterniond(R).normalized().toRotationMatrix();
-  T_prev_cur.translation() = parameters.tail<3>();
-  fitAt(measured, T_prev_cur, fit);
+  Eigen::Isometry3d T_keyframe_cur = fit.T_keyframe_cur;
+  const Eigen::Matrix3d R = expRotation(parameters.head<3>()) * T_keyframe_cur.linear();
+  T_keyframe_cur.linear() = Eigen::Quaterniond(R).normalized().toRotationMatrix();
+  T_keyframe_cur.translation() = parameters.tail<3>();
+  fitAt(measured, T_keyframe_cur, fit);
   return true;
 }
 
@@ -30,9 +30,9 @@ bool MotionSolver::solveTranslation(const Measurements& measured, const FeatureS
   Eigen::Vector3d translation = translation_problem_.start();
   translation_problem_.weigh(translation, options_.robust_factor);
   if (!minimise(translation_problem_, options_.minimise, translation)) return false;
-  Eigen::Isometry3d T_prev_cur = fit.T_prev_cur;
-  T_prev_cur.translation() = translation;
-  fitAt(measured, T_prev_cur, fit);
+  Eigen::Isometry3d T_keyframe_cur = fit.T_keyframe_cur;
+  T_keyframe_cur.translation() = translation;
+  fitAt(measured, T_keyframe_cur, fit);
   return true;
 }
 

@@ -9,13 +9,13 @@ namespace rotrocc {
 
 void reprojectionErrors(const StereoCamera& camera,
                         const Correspondences& features,
-                        const Eigen::Isometry3d& T_prev_cur,
+                        const Eigen::Isometry3d& T_keyframe_cur,
                         std::vector<double>& errors_px) {
   errors_px.resize(features.size());
   for (std::size_t i = 0; i < features.size(); ++i) {
-    Eigen::Vector3d point = T_prev_cur * features[i].point_cur;
+    Eigen::Vector3d point = T_keyframe_cur * features[i].point_cur;
     point.z() = std::max(point.z(), kMinDepth_m);
-    errors_px[i] = (features[i].prev_px - camera.project(point)).norm();
+    errors_px[i] = (features[i].keyframe_px - camera.project(point)).norm();
   }
 }
 

@@ -7,7 +7,7 @@ void ReprojectionProblem<kParameters>::assign(const StereoCamera& camera,
                                               const Fit& fit,
                                               const FeatureSet& set) {
   camera_ = camera;
-  T_prev_cur_ = fit.T_prev_cur;
+  T_keyframe_cur_ = fit.T_keyframe_cur;
   indices_.clear();
   features_.clear();
   for (std::size_t i = 0; i < fit.features.size(); ++i) {
@@ -32,7 +32,7 @@ template <int kParameters>
 typename ReprojectionProblem<kParameters>::Parameters ReprojectionProblem<kParameters>::start()
     const {
   Parameters parameters = Parameters::Zero();
-  parameters.template tail<3>() = T_prev_cur_.translation();
+  parameters.template tail<3>() = T_keyframe_cur_.translation();
   return parameters;
 }
 

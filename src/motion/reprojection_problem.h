@@ -112,7 +112,7 @@ class ReprojectionProblem {
   }
 
   StereoCamera camera_;
-  Eigen::Isometry3d T_prev_cur_;  // of the fit
+  Eigen::Isometry3d T_keyframe_cur_;  // of the fit
   std::vector<std::size_t> indices_;
   std::vector<FittedFeature> features_;
   std::vector<double> weights_;

@@ -50,10 +50,10 @@ void TwoStageEstimator::estimate(const Measurements& measured,
   motion.valid = estimateRotation(measured, refinement, motion);  // 1)
   motion.translation_inliers = motion.rotation_inliers;
 
-  const double step_m = motion.fit.T_prev_cur.translation().norm();
+  const double step_m = motion.fit.T_keyframe_cur.translation().norm();
   const bool is_slow = step_m < config_.min_speed_mps * dt_s;
   if (!motion.valid || !hasTwoStages(criterion_) || is_slow) return;
-  const Eigen::Isometry3d T_stage_one = motion.fit.T_prev_cur;
+  const Eigen::Isometry3d T_stage_one = motion.fit.T_keyframe_cur;
   decouple(measured, T_stage_one.linear());  // 2)
   selectCandidates(measured, motion.fit);
   if (config_.translation_from_prediction) {
@@ -85,9 +85,10 @@ bool TwoStageEstimator::estimateRotation(const Measurements& measured,
 }
 
 /// Computes the flow by which the DNRE (or NRE) is normalized.
-void TwoStageEstimator::decouple(const Measurements& measured, const Eigen::Matrix3d& R_prev_cur) {
+void TwoStageEstimator::decouple(const Measurements& measured,
+                                 const Eigen::Matrix3d& R_keyframe_cur) {
   if (criterion_ == Criterion::kRotrocc) {
-    decoupledFlow(measured.camera, measured.features, R_prev_cur, flow_px_);  // Eq. 27, 28
+    decoupledFlow(measured.camera, measured.features, R_keyframe_cur, flow_px_);  // Eq. 27, 28
   } else {
     coupledFlow(measured.features, flow_px_);
   }
@@ -112,7 +113,7 @@ bool TwoStageEstimator::estimateTranslation(const Measurements& measured,
   // Errors without whitening. Only then does the DNRE equal the relative depth error, which is
   // large for far points with a wrong disparity.
   const auto measure = [&] {
-    reprojectionErrors(measured.camera, measured.features, fit.T_prev_cur, errors_);
+    reprojectionErrors(measured.camera, measured.features, fit.T_keyframe_cur, errors_);
     for (std::size_t i = 0; i < errors_.size(); ++i) {
       const double flow_px = std::max(flow_px_[i], kLeastFlow_px);
       errors_[i] = candidates_[i] != 0 ? errors_[i] / flow_px : kNever;

@@ -47,7 +47,7 @@ class TwoStageEstimator {
   bool estimateRotation(const Measurements& measured,
                         RobustRefinement* refinement,
                         TwoStageMotion& motion);
-  void decouple(const Measurements& measured, const Eigen::Matrix3d& R_prev_cur);
+  void decouple(const Measurements& measured, const Eigen::Matrix3d& R_keyframe_cur);
   void selectCandidates(const Measurements& measured, const Fit& fit);
   bool estimateTranslation(const Measurements& measured,
                            RobustRefinement* refinement,

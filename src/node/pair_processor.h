@@ -46,8 +46,8 @@ class PairProcessor {
   void requestRestart();
   /// Thread-safe. Sets the pose of the base at the time of the last pair.
   void requestPose(const Eigen::Isometry3d& T_odom_base);
-  /// Thread-safe. From the next pair on; the pose, the previous pair and what is known of the rig are
-  /// kept, see VisualOdometry::configure().
+  /// Thread-safe. From the next pair on; the pose, the previous pair and what is known of the rig
+  /// are kept, see VisualOdometry::configure().
   void requestConfig(const VisualOdometry::Config& config);
 
  private:

@@ -46,14 +46,14 @@ std::string MotionCheck::whyLost(const MotionEstimator::Estimate& estimate, doub
                     " of the features agrees on a motion, less than min_inlier_share = ",
                     config_.min_inlier_share);
   }
-  const double speed_mps = estimate.T_prev_cur.translation().norm() / dt_s;
+  const double speed_mps = estimate.T_keyframe_cur.translation().norm() / dt_s;
   if (speed_mps > config_.max_speed_mps) {
     return sentence("the estimated speed is ",
                     speed_mps,
                     " m/s, more than max_speed_mps = ",
                     config_.max_speed_mps);
   }
-  const double turn_rate_rps = logRotation(estimate.T_prev_cur.linear()).norm() / dt_s;
+  const double turn_rate_rps = logRotation(estimate.T_keyframe_cur.linear()).norm() / dt_s;
   if (turn_rate_rps > config_.max_turn_rate_rps) {
     return sentence("the estimated turn rate is ",
                     turn_rate_rps,

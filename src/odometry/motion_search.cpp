@@ -40,7 +40,7 @@ std::string MotionSearch::find(CorrespondenceFinder& finder,
   do {
     why_lost = tryMotion(finder, keyframe, current, T_keyframe_cur, false, found, times);
     if (!found.estimate.valid) break;
-    const Eigen::Isometry3d& T_found = found.estimate.T_prev_cur;
+    const Eigen::Isometry3d& T_found = found.estimate.T_keyframe_cur;
     const double shift_px = finder.medianShift(camera, keyframe, T_keyframe_cur, T_found);
     T_keyframe_cur = T_found;
     if (shift_px < settled_px_) break;
@@ -90,13 +90,13 @@ void MotionSearch::calibrate(const StereoCamera& camera,
   for (int round = 0; round < kCalibrationRounds; ++round) {
     const MotionEstimator::Estimate& estimated = found.estimate;
     calibrator.observe(
-        found.camera, found.features, estimated.rotation_inliers, estimated.T_prev_cur);
+        found.camera, found.features, estimated.rotation_inliers, estimated.T_keyframe_cur);
     const StereoCamera corrected = calibrator.correct(camera);
     if (std::abs(corrected.cx_right - found.camera.cx_right) < kCalibrationSettled_px) return;
     recalibrated_ = found;
     recalibrated_.camera = corrected;
     triangulate(corrected, recalibrated_.features);
-    if (!estimate(estimated.T_prev_cur, true, dt_s, recalibrated_).empty()) return;
+    if (!estimate(estimated.T_keyframe_cur, true, dt_s, recalibrated_).empty()) return;
     std::swap(found, recalibrated_);
   }
 }

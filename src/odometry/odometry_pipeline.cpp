@@ -199,7 +199,7 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
 
   result.flow_noise_px = estimate.flow_noise_px;
   result.keyframe_stamp_ns = keyframe_.frame->stamp_ns;
-  result.T_keyframe_cur = {estimate.T_prev_cur,
+  result.T_keyframe_cur = {estimate.T_keyframe_cur,
                            estimate.covariance + calibrator_.motionCovariance()};
   UncertainTransform step = compose(inverse(keyframe_.T_keyframe_last), result.T_keyframe_cur);
   if (keyframe_.frame != last_) step.covariance *= kNotShared;
@@ -218,7 +218,7 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   const bool serves = result.state == State::kOk && selector_.keeps(found_.camera,
                                                                     found_.features,
                                                                     estimate.rotation_inliers,
-                                                                    estimate.T_prev_cur,
+                                                                    estimate.T_keyframe_cur,
                                                                     keyframe_);
   if (!serves) keyframe_.frame.reset();
 }

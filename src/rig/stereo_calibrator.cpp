@@ -53,12 +53,12 @@ StereoCamera StereoCalibrator::correct(const StereoCamera& camera) const {
 void StereoCalibrator::observe(const StereoCamera& corrected,
                                const Correspondences& features,
                                const FeatureSet& set,
-                               const Eigen::Isometry3d& T_prev_cur) {
+                               const Eigen::Isometry3d& T_keyframe_cur) {
   if (!config_.enabled) return;
   current_ = {};
   motion_by_bias_.setZero();
   if (count(set) >= kLeastFeatures) {
-    linearise(corrected, features, set, T_prev_cur);
+    linearise(corrected, features, set, T_keyframe_cur);
     eliminateMotion();
     collect();
   }
@@ -69,8 +69,8 @@ void StereoCalibrator::observe(const StereoCamera& corrected,
 void StereoCalibrator::linearise(const StereoCamera& corrected,
                                  const Correspondences& features,
                                  const FeatureSet& set,
-                                 const Eigen::Isometry3d& T_prev_cur) {
-  fitAt({corrected, features, config_.noise_ratio}, T_prev_cur, fit_);
+                                 const Eigen::Isometry3d& T_keyframe_cur) {
+  fitAt({corrected, features, config_.noise_ratio}, T_keyframe_cur, fit_);
   problem_.assign(corrected, fit_, set);
   problem_.weigh(problem_.start(), config_.robust_factor);
   const ImageGrid grid(corrected, kColumns, kRows);

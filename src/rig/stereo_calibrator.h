@@ -49,7 +49,7 @@ class StereoCalibrator {
   void observe(const StereoCamera& corrected,
                const Correspondences& features,
                const FeatureSet& set,
-               const Eigen::Isometry3d& T_prev_cur);
+               const Eigen::Isometry3d& T_keyframe_cur);
 
   /// Covariance that the uncertainty of the bias adds to that of the last observed motion, in the
   /// order of OdometryResult::covariance.
@@ -85,7 +85,7 @@ class StereoCalibrator {
   void linearise(const StereoCamera& corrected,
                  const Correspondences& features,
                  const FeatureSet& set,
-                 const Eigen::Isometry3d& T_prev_cur);
+                 const Eigen::Isometry3d& T_keyframe_cur);
   void eliminateMotion();
   void collect();
   void update();

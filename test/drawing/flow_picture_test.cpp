@@ -21,9 +21,11 @@ class FlowPictureTest : public testing::Test {
     result_.dt_s = 0.1;
   }
 
-  void addFeature(const Eigen::Vector2d& prev_px, const Eigen::Vector2d& cur_px, double depth_m) {
+  void addFeature(const Eigen::Vector2d& keyframe_px,
+                  const Eigen::Vector2d& cur_px,
+                  double depth_m) {
     Correspondence feature;
-    feature.prev_px = prev_px;
+    feature.keyframe_px = keyframe_px;
     feature.cur_px = cur_px;
     feature.point_cur = {0.0, 0.0, depth_m};
     features_.push_back(feature);
@@ -102,7 +104,7 @@ TEST_F(FlowPictureTest, AnOutlierShowsWhatFlowTheMotionExpected) {
   // Without motion, the line of the expected flow starts where the point projects, 40 px away.
   result_.T_keyframe_cur.T = Eigen::Isometry3d::Identity();
   features_[3].cur_px = {300, 150};
-  features_[3].prev_px = {260, 150};
+  features_[3].keyframe_px = {260, 150};
   features_[3].point_cur = 20.0 * camera_.ray({340, 150});
   draw();
   const cv::Vec3b expected = colourAt(320, 150);
@@ -117,11 +119,11 @@ TEST_F(FlowPictureTest, DecoupledViewShowsBothPartsOfTheFlow) {
   view_ = FlowView::kDecoupled;
   // Turned by 0.05 rad about the vertical axis: 36 px of flow near the middle, the rest is
   // due to the translation.
-  const Eigen::Vector2d cur_px(600, 170), prev_px(560, 190);
+  const Eigen::Vector2d cur_px(600, 170), keyframe_px(560, 190);
   result_.T_keyframe_cur.T.linear() =
       Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY()).toRotationMatrix();
   features_[0].cur_px = cur_px;
-  features_[0].prev_px = prev_px;
+  features_[0].keyframe_px = keyframe_px;
   features_[0].point_cur = 20.0 * camera_.ray(cur_px);
   rotation_inliers_ = translation_inliers_ = {1, 0, 0, 0};
   draw();
@@ -133,7 +135,7 @@ TEST_F(FlowPictureTest, DecoupledViewShowsBothPartsOfTheFlow) {
   };
   const cv::Vec3b of_rotation = middle(cur_px, turned_px);
   EXPECT_GT(of_rotation[0], of_rotation[2]) << "blue";
-  const cv::Vec3b of_translation = middle(turned_px, prev_px);
+  const cv::Vec3b of_translation = middle(turned_px, keyframe_px);
   EXPECT_GT(of_translation[2], of_translation[0]) << "orange";
   EXPECT_EQ(colourAt(130, 180), cv::Vec3b(65, 65, 65)) << "no outliers";
 }

@@ -96,8 +96,8 @@ TEST(ErrorCharacteristics, DecoupledErrorIsConstantInATurnButForWrongDepths) {
       continue;
     }
     // As Eq. 17, of the depth after the rotation is taken out.
-    const double depth_m = (turn.T_prev_cur_true.linear() * points[i]).z();
-    const double step_m = turn.T_prev_cur_assumed.translation().z();
+    const double depth_m = (turn.T_keyframe_cur_true.linear() * points[i]).z();
+    const double step_m = turn.T_keyframe_cur_assumed.translation().z();
     EXPECT_NEAR(errors[i].decoupled, 0.05 * depth_m / (depth_m + step_m), 1e-9);
     EXPECT_NEAR(errors[i].decoupled, 0.05, 0.013);
     greatest_normalized = std::max(greatest_normalized, errors[i].normalized);

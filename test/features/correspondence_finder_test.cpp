@@ -69,7 +69,7 @@ TEST(CorrespondenceFinderTest, FindsPointsOfTheSceneInBothPairs) {
     std::vector<double> disparity_errors_px;
     for (const Correspondence& feature : features) {
       const Eigen::Vector3d point_cur = scene.pointAt(step(), feature.cur_px);
-      flow_errors_px.push_back((camera.project(step() * point_cur) - feature.prev_px).norm());
+      flow_errors_px.push_back((camera.project(step() * point_cur) - feature.keyframe_px).norm());
       disparity_errors_px.push_back(
           std::abs(feature.disparity_px - camera.disparity(point_cur.z())));
       EXPECT_LT((camera.project(feature.point_cur) - feature.cur_px).norm(), 1e-9);
@@ -166,7 +166,8 @@ TEST(CorrespondenceFinderTest, ScalesWindowsUnlessToldNotTo) {
     std::vector<double> errors_px;
     for (const Correspondence& feature : features) {
       const Eigen::Vector3d point_cur = scene.pointAt(far_step, feature.cur_px);
-      errors_px.push_back((scene.camera().project(far_step * point_cur) - feature.prev_px).norm());
+      errors_px.push_back(
+          (scene.camera().project(far_step * point_cur) - feature.keyframe_px).norm());
     }
     return median(errors_px);
   };

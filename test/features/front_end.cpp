@@ -32,8 +32,8 @@ std::vector<double> runFrontEnd(const cv::Mat& prev_left,
                              static_cast<double>(tracked)};
   for (const Correspondence& feature : features) {
     all.insert(all.end(),
-               {feature.prev_px.x(),
-                feature.prev_px.y(),
+               {feature.keyframe_px.x(),
+                feature.keyframe_px.y(),
                 feature.cur_px.x(),
                 feature.cur_px.y(),
                 feature.disparity_px});

@@ -674,7 +674,7 @@ std::vector<BadInput> pictureRows() {
        "identical: *; then ok"},
       {21,
        "left and right swapped",
-       "lost with a hint",
+       "lost or degraded with a hint",
        [] {
          return withoutChance(
              badImages([](Image& left, Image& right) { std::swap(left.data, right.data); }, 12));

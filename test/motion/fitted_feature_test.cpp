@@ -30,19 +30,19 @@ std::vector<Eigen::Isometry3d> someMotions() {
   return motions;
 }
 
-Correspondences someFeatures(const Eigen::Isometry3d& T_prev_cur) {
+Correspondences someFeatures(const Eigen::Isometry3d& T_keyframe_cur) {
   std::mt19937 generator(2);
-  return simulateFeatures(kittiCamera(), T_prev_cur, 20, {5.0, 1.0}, generator);
+  return simulateFeatures(kittiCamera(), T_keyframe_cur, 20, {5.0, 1.0}, generator);
 }
 
 /// S of the docstring of fitAt(), with j by central differences.
 Eigen::Matrix2d residualCovariance(const StereoCamera& camera,
                                    const Correspondence& feature,
-                                   const Eigen::Isometry3d& T_prev_cur) {
+                                   const Eigen::Isometry3d& T_keyframe_cur) {
   constexpr double kStep_px = 1e-4;
   const auto projected = [&](double disparity_px) {
     const Eigen::Vector3d point = camera.depth(disparity_px) * camera.ray(feature.cur_px);
-    return camera.project(T_prev_cur * point);
+    return camera.project(T_keyframe_cur * point);
   };
   const Eigen::Vector2d j =
       (projected(feature.disparity_px + kStep_px) - projected(feature.disparity_px - kStep_px)) /
@@ -75,7 +75,8 @@ double distanceToMeasurements(const Correspondence& feature,
   const StereoCamera camera = kittiCamera();
   const Eigen::Vector3d point = camera.depth(disparity_px) * camera.ray(feature.cur_px);
   const double by_disparity = (disparity_px - feature.disparity_px) / kNoiseRatio;
-  return (feature.prev_px - camera.project(T * point)).squaredNorm() + by_disparity * by_disparity;
+  return (feature.keyframe_px - camera.project(T * point)).squaredNorm() +
+         by_disparity * by_disparity;
 }
 
 TEST(FittedFeatureTest, TheFittedDisparityIsTheLikeliest) {
@@ -103,7 +104,7 @@ TEST(FittedFeatureTest, AWrongMatchIsNotFittedBeyondTwiceItsDepth) {
   const StereoCamera camera = kittiCamera();
   const Eigen::Isometry3d T = motion({0.0, 0.0, 1.5}, {0.0, 0.0, 0.0});
   for (Correspondence feature : someFeatures(T)) {
-    feature.prev_px += Eigen::Vector2d(300.0, -200.0);
+    feature.keyframe_px += Eigen::Vector2d(300.0, -200.0);
     const FittedFeature fitted = fitDisparity(camera, feature, T, kNoiseRatio);
     const double stretch = fitted.rotated_point.norm() / feature.point_cur.norm();
     EXPECT_GE(stretch, 0.5 - 1e-9);
@@ -129,7 +130,7 @@ TEST(FittedFeatureTest, ARatioOfZeroIsThePapersLeastSquares) {
   for (const Correspondence& feature : someFeatures(T)) {
     const FittedFeature fitted = fitDisparity(kittiCamera(), feature, T, 0.0);
     EXPECT_EQ(fitted.whitening, Eigen::Matrix2d::Identity());
-    EXPECT_EQ(fitted.target_px, feature.prev_px);
+    EXPECT_EQ(fitted.target_px, feature.keyframe_px);
     EXPECT_EQ(fitted.rotated_point, T.linear() * feature.point_cur);
   }
 }
@@ -139,7 +140,7 @@ TEST(FittedFeatureTest, APureRotationNeedsNoDepth) {
   for (const Correspondence& feature : someFeatures(T)) {
     const FittedFeature fitted = fitDisparity(kittiCamera(), feature, T, kNoiseRatio);
     EXPECT_LT((fitted.whitening - Eigen::Matrix2d::Identity()).norm(), 1e-9);
-    EXPECT_LT((fitted.target_px - feature.prev_px).norm(), 1e-9);
+    EXPECT_LT((fitted.target_px - feature.keyframe_px).norm(), 1e-9);
   }
 }
 
@@ -185,7 +186,7 @@ TEST(FittedFeatureTest, ErrorsAreTheLengthsOfTheResiduals) {
     for (std::size_t i = 0; i < features.size(); ++i) {
       const FittedFeature& fitted = fit.features[i];
       const Eigen::Vector2d projected =
-          camera.project(fitted.rotated_point + fit.T_prev_cur.translation());
+          camera.project(fitted.rotated_point + fit.T_keyframe_cur.translation());
       EXPECT_NEAR(errors_px[i], (fitted.whitening * (fitted.target_px - projected)).norm(), 1e-9);
     }
     if (noise_ratio > 0.0) continue;

@@ -15,9 +15,9 @@ constexpr double kRounding_px = 1e-9;
 const Eigen::Vector3d kTranslation(0.2, -0.05, 1.4);
 const Eigen::Vector3d kRotation(0.01, 0.06, -0.02);
 
-Correspondences features(const Eigen::Isometry3d& T_prev_cur) {
+Correspondences features(const Eigen::Isometry3d& T_keyframe_cur) {
   std::mt19937 generator(1);
-  return simulateFeatures(kittiCamera(), T_prev_cur, 100, {}, generator);
+  return simulateFeatures(kittiCamera(), T_keyframe_cur, 100, {}, generator);
 }
 
 std::vector<double> decoupled(const Correspondences& features, const Eigen::Matrix3d& R) {
@@ -40,7 +40,7 @@ TEST(FlowDecouplingTest, LittleIsLeftOfTheFlowOfFarPoints) {
   ASSERT_TRUE(measure(kittiCamera(), {10.0, 5.0, 300.0}, T, {}, generator, far));
   // f |t_x| / depth is half a pixel, that of the rotation 40.
   EXPECT_LT(decoupled({far}, T.linear()).at(0), 1.0);
-  EXPECT_GT((far.prev_px - far.cur_px).norm(), 30.0);
+  EXPECT_GT((far.keyframe_px - far.cur_px).norm(), 30.0);
 }
 
 TEST(FlowDecouplingTest, TheFlowOfATranslationStays) {
@@ -51,7 +51,7 @@ TEST(FlowDecouplingTest, TheFlowOfATranslationStays) {
   const std::vector<double> decoupled_px = decoupled(moved, T.linear());
   for (std::size_t i = 0; i < moved.size(); ++i) {
     EXPECT_NEAR(decoupled_px[i], coupled_px[i], kRounding_px);
-    EXPECT_NEAR(coupled_px[i], (moved[i].prev_px - moved[i].cur_px).norm(), kRounding_px);
+    EXPECT_NEAR(coupled_px[i], (moved[i].keyframe_px - moved[i].cur_px).norm(), kRounding_px);
   }
 }
 
@@ -63,7 +63,7 @@ TEST(FlowDecouplingTest, IsTheDistanceToTheRotatedRay) {
   for (std::size_t i = 0; i < moved.size(); ++i) {
     // Eq. 28 needs no depth: pi(R x) of the ray.
     const Eigen::Vector3d ray = T.linear() * camera.ray(moved[i].cur_px);
-    EXPECT_NEAR(lengths_px[i], (moved[i].prev_px - camera.project(ray)).norm(), kRounding_px);
+    EXPECT_NEAR(lengths_px[i], (moved[i].keyframe_px - camera.project(ray)).norm(), kRounding_px);
   }
 }
 

@@ -56,7 +56,7 @@ Correspondences withRandomMatches(double share, unsigned seed) {
   std::uniform_real_distribution<double> offset_px(-40.0, 40.0);
   const auto wrong = static_cast<std::size_t>(share * kFeatures);
   for (std::size_t i = 0; i < wrong; ++i) {
-    features[i].prev_px += Eigen::Vector2d(offset_px(generator), offset_px(generator));
+    features[i].keyframe_px += Eigen::Vector2d(offset_px(generator), offset_px(generator));
   }
   return features;
 }
@@ -84,16 +84,16 @@ Correspondences withMovingObject(double share, unsigned seed) {
 /// Normalized error squared: of chi-square distribution with 6 degrees of freedom if the covariance
 /// is right.
 double nees(const Estimate& estimate, const Eigen::Isometry3d& truth = turnAhead()) {
-  const Vector6d error = motionError(estimate.T_prev_cur, truth);
+  const Vector6d error = motionError(estimate.T_keyframe_cur, truth);
   return error.dot(estimate.covariance.ldlt().solve(error));
 }
 
 double translationError(const Estimate& estimate) {
-  return motionError(estimate.T_prev_cur, turnAhead()).head<3>().norm();
+  return motionError(estimate.T_keyframe_cur, turnAhead()).head<3>().norm();
 }
 
 double rotationError(const Estimate& estimate) {
-  return motionError(estimate.T_prev_cur, turnAhead()).tail<3>().norm();
+  return motionError(estimate.T_keyframe_cur, turnAhead()).tail<3>().norm();
 }
 
 TEST(MotionEstimatorTest, RefusesACriterionOfAnotherName) {
@@ -125,7 +125,7 @@ TEST(MotionEstimatorTest, IsNotMovedByOutliers) {
          {withRandomMatches(0.3, seed), withMovingObject(0.3, seed)}) {
       const Estimate found = estimate(features);
       ASSERT_TRUE(found.valid);
-      const Vector6d error = motionError(found.T_prev_cur, turnAhead());
+      const Vector6d error = motionError(found.T_keyframe_cur, turnAhead());
       for (int i = 0; i < 6; ++i) {
         EXPECT_LT(std::abs(error(i)), kSigmas * std::sqrt(found.covariance(i, i))) << seed << i;
       }
@@ -254,7 +254,7 @@ TEST(MotionEstimatorTest, PointsOfOnePlaneAreEnough) {
   }
   const Estimate found = estimate(road);
   ASSERT_TRUE(found.valid);
-  EXPECT_LT(motionError(found.T_prev_cur, turnAhead()).norm(), 1e-6);  // exact measurements
+  EXPECT_LT(motionError(found.T_keyframe_cur, turnAhead()).norm(), 1e-6);  // exact measurements
 }
 
 using MakeFeatures = Correspondences (*)(unsigned seed);
@@ -307,8 +307,8 @@ TEST(MotionEstimatorTest, ARetryIsNotTakenForNoise) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     // So many random matches cause a retry, which finds the same motion but for its noise.
     const Correspondences features = withRandomMatches(0.5, seed);
-    EXPECT_EQ(estimate(features).T_prev_cur.matrix(),
-              estimate(features, without).T_prev_cur.matrix())
+    EXPECT_EQ(estimate(features).T_keyframe_cur.matrix(),
+              estimate(features, without).T_keyframe_cur.matrix())
         << seed;
   }
 }
@@ -319,8 +319,8 @@ TEST(MotionEstimatorTest, AFailedStageTwoLeavesTheMotionOfStageOne) {
   const Estimate found = estimate(goodFeatures(1), config);
   ASSERT_TRUE(found.valid);
   EXPECT_TRUE(found.translation_failed);
-  EXPECT_EQ(found.T_prev_cur.matrix(),
-            estimate(goodFeatures(1), configOf("reprojection")).T_prev_cur.matrix());
+  EXPECT_EQ(found.T_keyframe_cur.matrix(),
+            estimate(goodFeatures(1), configOf("reprojection")).T_keyframe_cur.matrix());
 }
 
 }  // namespace

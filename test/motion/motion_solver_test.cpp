@@ -31,29 +31,29 @@ bool solve(bool (MotionSolver::*method)(const Measurements&, const FeatureSet&, 
            double noise_ratio,
            const Correspondences& features,
            const FeatureSet& set,
-           Eigen::Isometry3d& T_prev_cur) {
+           Eigen::Isometry3d& T_keyframe_cur) {
   const StereoCamera camera = kittiCamera();
   const Measurements measured = {camera, features, noise_ratio};
   MotionSolver solver({});
   Fit fit;
-  fitAt(measured, T_prev_cur, fit);
+  fitAt(measured, T_keyframe_cur, fit);
   const bool solved = (solver.*method)(measured, set, fit);
-  T_prev_cur = fit.T_prev_cur;
+  T_keyframe_cur = fit.T_keyframe_cur;
   return solved;
 }
 
 bool solveMotion(double noise_ratio,
                  const Correspondences& features,
                  const FeatureSet& set,
-                 Eigen::Isometry3d& T_prev_cur) {
-  return solve(&MotionSolver::solveMotion, noise_ratio, features, set, T_prev_cur);
+                 Eigen::Isometry3d& T_keyframe_cur) {
+  return solve(&MotionSolver::solveMotion, noise_ratio, features, set, T_keyframe_cur);
 }
 
 bool solveTranslation(double noise_ratio,
                       const Correspondences& features,
                       const FeatureSet& set,
-                      Eigen::Isometry3d& T_prev_cur) {
-  return solve(&MotionSolver::solveTranslation, noise_ratio, features, set, T_prev_cur);
+                      Eigen::Isometry3d& T_keyframe_cur) {
+  return solve(&MotionSolver::solveTranslation, noise_ratio, features, set, T_keyframe_cur);
 }
 
 TEST(MotionSolverTest, RecoversAnExactMotion) {
@@ -89,7 +89,7 @@ TEST(MotionSolverTest, TakesOnlyTheFeaturesOfTheSet) {
   Correspondences features = exactFeatures(100);
   FeatureSet set = all(features);
   for (std::size_t i = 0; i < features.size(); i += 3) {
-    features[i].prev_px.x() += 50.0;
+    features[i].keyframe_px.x() += 50.0;
     set[i] = 0;
   }
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
@@ -164,7 +164,7 @@ double biasByFattening(double robust_factor) {
     Fit fit;
     fitAt(measured, truth, fit);
     for (int i = 0; i < 5; ++i) EXPECT_TRUE(solver.solveMotion(measured, all(features), fit));
-    sum += fit.T_prev_cur.translation().z() - 1.0;
+    sum += fit.T_keyframe_cur.translation().z() - 1.0;
   }
   return sum / kDraws;
 }

@@ -30,9 +30,9 @@ std::vector<Eigen::Isometry3d> someMotions() {
   return motions;
 }
 
-Correspondences someFeatures(const Eigen::Isometry3d& T_prev_cur) {
+Correspondences someFeatures(const Eigen::Isometry3d& T_keyframe_cur) {
   std::mt19937 generator(2);
-  return simulateFeatures(kittiCamera(), T_prev_cur, 20, {5.0, 1.0}, generator);
+  return simulateFeatures(kittiCamera(), T_keyframe_cur, 20, {5.0, 1.0}, generator);
 }
 
 /// Residuals and Jacobian of ReprojectionResidual by automatic differentiation, 6 parameters.
@@ -137,7 +137,7 @@ TEST(ReprojectionProblemTest, TakesOnlyTheFeaturesOfTheSet) {
     taken.push_back(term.feature);
     const Correspondence& feature = features[term.feature];
     const Eigen::Vector2d expected =
-        feature.prev_px - kittiCamera().project(T * feature.point_cur);  // Eq. 2
+        feature.keyframe_px - kittiCamera().project(T * feature.point_cur);  // Eq. 2
     EXPECT_LT((term.residual_px - expected).norm(), 1e-9);
     EXPECT_EQ(term.weight, 1.0);
   });

@@ -53,7 +53,7 @@ TEST(TwoStageEstimatorTest, FindsTheMotionOfExactFeaturesByThePapersParameters) 
   EXPECT_FALSE(found.translation_failed);
   EXPECT_EQ(count(found.rotation_inliers), 500);
   // The solver ends when a step changes the cost by less than 1e-6 px^2.
-  EXPECT_LT(motionError(found.fit.T_prev_cur, turnAhead()).norm(), 1e-5);
+  EXPECT_LT(motionError(found.fit.T_keyframe_cur, turnAhead()).norm(), 1e-5);
 }
 
 TEST(TwoStageEstimatorTest, StageTwoKeepsTheRotationOfStageOne) {
@@ -61,8 +61,8 @@ TEST(TwoStageEstimatorTest, StageTwoKeepsTheRotationOfStageOne) {
   one_stage.criterion = "reprojection";
   const TwoStageMotion one = estimate(one_stage, {0.3, 0.9});
   const TwoStageMotion two = estimate(paper(), {0.3, 0.9});
-  EXPECT_EQ(two.fit.T_prev_cur.linear(), one.fit.T_prev_cur.linear());
-  EXPECT_NE(two.fit.T_prev_cur.translation(), one.fit.T_prev_cur.translation());
+  EXPECT_EQ(two.fit.T_keyframe_cur.linear(), one.fit.T_keyframe_cur.linear());
+  EXPECT_NE(two.fit.T_keyframe_cur.translation(), one.fit.T_keyframe_cur.translation());
 }
 
 TEST(TwoStageEstimatorTest, FallsBackToStageOneIfStageTwoFails) {
@@ -75,15 +75,15 @@ TEST(TwoStageEstimatorTest, FallsBackToStageOneIfStageTwoFails) {
   ASSERT_TRUE(found.valid);
   EXPECT_TRUE(found.translation_failed);
   EXPECT_FALSE(found.has_translation_stage);
-  EXPECT_EQ(found.fit.T_prev_cur.matrix(), one.fit.T_prev_cur.matrix());
+  EXPECT_EQ(found.fit.T_keyframe_cur.matrix(), one.fit.T_keyframe_cur.matrix());
   EXPECT_EQ(found.translation_inliers, found.rotation_inliers);
 }
 
 TEST(TwoStageEstimatorTest, StageTwoMayStartFromThePrediction) {
   MotionEstimatorConfig from_stage_one = paper();
   from_stage_one.translation_from_prediction = false;
-  const Eigen::Isometry3d a = estimate(paper(), {0.3, 0.9}).fit.T_prev_cur;
-  const Eigen::Isometry3d b = estimate(from_stage_one, {0.3, 0.9}).fit.T_prev_cur;
+  const Eigen::Isometry3d a = estimate(paper(), {0.3, 0.9}).fit.T_keyframe_cur;
+  const Eigen::Isometry3d b = estimate(from_stage_one, {0.3, 0.9}).fit.T_keyframe_cur;
   // The same minimum, to what the solver leaves.
   EXPECT_NE(a.translation(), b.translation());
   EXPECT_LT((a.translation() - b.translation()).norm(), 1e-4);

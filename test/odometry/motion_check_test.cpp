@@ -22,7 +22,7 @@ FeatureSet set(int inliers, int features) {
 MotionEstimator::Estimate goodEstimate() {
   MotionEstimator::Estimate estimate;
   estimate.valid = true;
-  estimate.T_prev_cur = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
+  estimate.T_keyframe_cur = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
   estimate.rotation_inliers = set(300, 400);
   estimate.translation_inliers = set(300, 400);
   return estimate;
@@ -81,10 +81,10 @@ TEST(MotionCheckTest, WantsAShareOfInliers) {
 
 TEST(MotionCheckTest, KnowsHowFastARobotMoves) {
   auto estimate = goodEstimate();
-  estimate.T_prev_cur = motion({0.0, 4.0, 5.9}, {0.0, 0.0, 0.0});
+  estimate.T_keyframe_cur = motion({0.0, 4.0, 5.9}, {0.0, 0.0, 0.0});
   expectSays(whyLost(estimate), "71.28", "max_speed_mps = 70");
   EXPECT_EQ(MotionCheck({}).whyLost(estimate, 2.0 * kPeriod_s), "");  // half as fast
-  estimate.T_prev_cur = motion({0.0, 0.0, 1.0}, {0.0, 0.61, 0.0});
+  estimate.T_keyframe_cur = motion({0.0, 0.0, 1.0}, {0.0, 0.61, 0.0});
   expectSays(whyLost(estimate), "6.1 rad/s", "max_turn_rate_rps = 6");
   EXPECT_EQ(MotionCheck({}).whyLost(estimate, 2.0 * kPeriod_s), "");
 }

@@ -268,7 +268,7 @@ TEST(VisualOdometryTest, CorrespondencesAreThoseOfTheScene) {
     if (odometry.rotationInliers()[i] == 0) continue;
     const Correspondence& feature = odometry.correspondences()[i];
     const Eigen::Vector3d point_cur = scene().pointAt(T_world_cur, feature.cur_px);
-    errors_px.push_back((camera().project(bendStep() * point_cur) - feature.prev_px).norm());
+    errors_px.push_back((camera().project(bendStep() * point_cur) - feature.keyframe_px).norm());
   }
   std::sort(errors_px.begin(), errors_px.end());
   // Measured: 0.17 and 0.52 px.

@@ -47,7 +47,7 @@ void show(Correspondences features, const Eigen::Isometry3d& truth, StereoCalibr
   const auto estimate = MotionEstimator({}).estimate(corrected, features, truth, kPeriod_s);
   ASSERT_TRUE(estimate.valid);
   calibrator.advance();
-  calibrator.observe(corrected, features, estimate.rotation_inliers, estimate.T_prev_cur);
+  calibrator.observe(corrected, features, estimate.rotation_inliers, estimate.T_keyframe_cur);
 }
 
 /// Shows a drive of some pairs whose rig has a constant bias.

@@ -8,18 +8,18 @@ namespace rotrocc {
 
 bool measure(const StereoCamera& camera,
              const Eigen::Vector3d& point_cur,
-             const Eigen::Isometry3d& T_prev_cur,
+             const Eigen::Isometry3d& T_keyframe_cur,
              const FeatureNoise& noise,
              std::mt19937& generator,
              Correspondence& feature) {
   std::normal_distribution<double> normal;
-  const Eigen::Vector3d point_prev = T_prev_cur * point_cur;
+  const Eigen::Vector3d point_prev = T_keyframe_cur * point_cur;
   if (point_prev.z() < 1.0 || point_cur.z() < 1.0) return false;
-  feature.prev_px = camera.project(point_prev);
-  feature.prev_px.x() += noise.flow_px * normal(generator);
-  feature.prev_px.y() += noise.flow_px * normal(generator);
-  if ((feature.prev_px.array() < 0.0).any() || feature.prev_px.x() >= camera.width ||
-      feature.prev_px.y() >= camera.height) {
+  feature.keyframe_px = camera.project(point_prev);
+  feature.keyframe_px.x() += noise.flow_px * normal(generator);
+  feature.keyframe_px.y() += noise.flow_px * normal(generator);
+  if ((feature.keyframe_px.array() < 0.0).any() || feature.keyframe_px.x() >= camera.width ||
+      feature.keyframe_px.y() >= camera.height) {
     return false;
   }
   feature.cur_px = camera.project(point_cur);
@@ -30,7 +30,7 @@ bool measure(const StereoCamera& camera,
 }
 
 Correspondences simulateFeatures(const StereoCamera& camera,
-                                 const Eigen::Isometry3d& T_prev_cur,
+                                 const Eigen::Isometry3d& T_keyframe_cur,
                                  int count,
                                  const FeatureNoise& noise,
                                  std::mt19937& generator) {
@@ -42,18 +42,19 @@ Correspondences simulateFeatures(const StereoCamera& camera,
     const Eigen::Vector2d pixel(x(generator), y(generator));
     const Eigen::Vector3d point = scene.pointAt(Eigen::Isometry3d::Identity(), pixel);
     Correspondence feature;
-    if (measure(camera, point, T_prev_cur, noise, generator, feature)) features.push_back(feature);
+    if (measure(camera, point, T_keyframe_cur, noise, generator, feature))
+      features.push_back(feature);
   }
   return features;
 }
 
 FittedFeature fitDisparity(const StereoCamera& camera,
                            const Correspondence& feature,
-                           const Eigen::Isometry3d& T_prev_cur,
+                           const Eigen::Isometry3d& T_keyframe_cur,
                            double noise_ratio) {
   const Correspondences features = {feature};
   Fit fit;
-  fitAt({camera, features, noise_ratio}, T_prev_cur, fit);
+  fitAt({camera, features, noise_ratio}, T_keyframe_cur, fit);
   return fit.features.front();
 }
 

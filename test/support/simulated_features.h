@@ -20,18 +20,18 @@ struct FeatureNoise {
 
 /// Measures a point of the current camera frame; fails if one of the two images does not show it,
 /// or its depth is beyond what a stereo matcher finds. The noise is Gaussian; that of the flow is
-/// of prev_px.
+/// of keyframe_px.
 bool measure(const StereoCamera& camera,
              const Eigen::Vector3d& point_cur,
-             const Eigen::Isometry3d& T_prev_cur,
+             const Eigen::Isometry3d& T_keyframe_cur,
              const FeatureNoise& noise,
              std::mt19937& generator,
              Correspondence& feature);
 
 /// `count` features of the street of SyntheticScene, at random pixels of the current image, as a
-/// camera that moved by `T_prev_cur` measures them.
+/// camera that moved by `T_keyframe_cur` measures them.
 Correspondences simulateFeatures(const StereoCamera& camera,
-                                 const Eigen::Isometry3d& T_prev_cur,
+                                 const Eigen::Isometry3d& T_keyframe_cur,
                                  int count,
                                  const FeatureNoise& noise,
                                  std::mt19937& generator);
@@ -39,7 +39,7 @@ Correspondences simulateFeatures(const StereoCamera& camera,
 /// fitAt() of one feature.
 FittedFeature fitDisparity(const StereoCamera& camera,
                            const Correspondence& feature,
-                           const Eigen::Isometry3d& T_prev_cur,
+                           const Eigen::Isometry3d& T_keyframe_cur,
                            double noise_ratio);
 
 /// The motion with translation [m] and rotation vector [rad].
