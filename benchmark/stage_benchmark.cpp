@@ -1,5 +1,5 @@
-/// What each stage of the pipeline costs on one stereo pair. With ROTROCC_KITTI_DIR the pairs are
-/// those of its 06_000_050 clip, else a rendered street of the same size.
+/// Measures the time of each stage of the pipeline for one stereo pair. With ROTROCC_KITTI_DIR, the
+/// pairs are those of its clip 06_000_050, otherwise a rendered street of the same size.
 
 #include <cstdlib>
 #include <string>
@@ -54,7 +54,7 @@ const Drive& drive() {
 }
 
 /// The third pair of the drive as a keyframe, the fourth as the current frame, and the motion
-/// between the two before.
+/// between the two pairs before.
 struct Middle {
   CorrespondenceFinder finder{CorrespondenceFinder::Config{}};
   Keyframe keyframe;
@@ -110,7 +110,7 @@ void estimation(benchmark::State& state) {
   state.counters["inliers"] = count(estimate.translation_inliers);
 }
 
-/// Everything, over the whole drive.
+/// The complete odometry, over the whole drive.
 void odometry(benchmark::State& state) {
   for (auto _ : state) {
     VisualOdometry odometry{VisualOdometry::Config{}};

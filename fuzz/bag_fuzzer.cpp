@@ -1,6 +1,6 @@
-// Bags that hold made-up messages: seven numbers of a transform, then camera_info and images of
-// both cameras. A damaged file would crash rosbag before our code sees any of it:
-// ros::Header::parse() reads beyond its buffer. So the file itself is whole.
+// Bags with arbitrary messages: seven numbers of a transform, then camera_info and images of both
+// cameras. The file itself is always intact: a damaged one would crash rosbag before our code reads
+// it, because ros::Header::parse() reads beyond its buffer.
 
 #include <dlfcn.h>
 
@@ -55,8 +55,8 @@ void writeMessages(rosbag::Bag& bag, const std::array<double, 7>& mount, Message
   }
 }
 
-/// A bag keeps a chunk in memory until that is full, even if it is closed and opened anew. Now it
-/// is.
+/// A bag keeps a chunk in memory until it is full, even if the bag is closed and reopened. This
+/// makes it full.
 void forgetChunk(rosbag::Bag& bag) {
   bag.setChunkThreshold(0);
   bag.write("/end", kTime, std_msgs::Empty());
@@ -72,8 +72,8 @@ void readPairs(const rosbag::Bag& bag) {
 }  // namespace
 }  // namespace rotrocc
 
-/// In place of that of the C library: the bag is written to memory. With a file, calls of the
-/// kernel for each record would take as long as all else.
+/// Replaces the function of the C library, so that the bag is written to memory. With a file, the
+/// system calls for each record would take as much time as everything else.
 extern "C" std::FILE* fopen64(const char* path, const char* mode) {
   static std::array<char, 100'000> memory;
   if (std::strcmp(path, rotrocc::kPath) == 0) return fmemopen(memory.data(), memory.size(), mode);
@@ -83,24 +83,24 @@ extern "C" std::FILE* fopen64(const char* path, const char* mode) {
 }
 
 extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
-  console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_NONE);  // of tf2
+  console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_NONE);  // log messages of tf2
   return 0;
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace rotrocc;
-  // The same bag all the time: each one made anew looks for all plugins of ROS, which takes longer
-  // than all else.
+  // Reuse one bag: creating one searches for all ROS plugins, which takes longer than everything
+  // else.
   static rosbag::Bag bag;
   std::array<double, 7> mount;
-  if (size < sizeof(mount)) return -1;  // not to be kept
+  if (size < sizeof(mount)) return -1;  // not added to the corpus
   std::memcpy(mount.data(), data, sizeof(mount));
-  // What was just written is read back from the chunk in memory.
+  // The messages are read back from the chunk in memory.
   bag.open(kPath, rosbag::bagmode::Write | rosbag::bagmode::Read);
   writeMessages(bag, mount, MessageReader(data + sizeof(mount), size - sizeof(mount)));
   try {
     readPairs(bag);
-  } catch (const std::runtime_error&) {  // programs end with what it says
+  } catch (const std::runtime_error&) {  // programs print the message and exit
   }
   try {
     RecordedTf(bag, "base_link", "camera").trajectory();

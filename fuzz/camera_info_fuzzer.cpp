@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace rotrocc;
   MessageReader reader(data, size);
   const auto left = reader.cameraInfo();
-  if (!left) return -1;  // not to be kept
+  if (!left) return -1;  // not added to the corpus
   const auto right = reader.cameraInfo();
   if (!right) return -1;
   for (const double baseline_m : {0.0, 0.5}) {

@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   constexpr std::int64_t kMaxPixels = 10'000;
   MessageReader reader(data, size);
   const auto left = reader.image();
-  if (!left) return -1;  // not to be kept
+  if (!left) return -1;  // not added to the corpus
   const auto right = reader.image();
   try {
     cameraFrameOf(*left, "");

@@ -10,8 +10,8 @@
 
 namespace rotrocc {
 
-/// A file for readers that take a path. Stays open: most of the time of a small input would go into
-/// opening files and making them empty.
+/// A file for readers that need a path. It stays open, because opening and truncating files would
+/// take most of the time of a small input.
 class InputFile {
  public:
   explicit InputFile(const std::string& path)
@@ -37,7 +37,7 @@ class InputFile {
   int descriptor_;
 };
 
-/// What libFuzzer hands over, as text.
+/// The input from libFuzzer, as text.
 inline std::string_view asText(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }

@@ -1,5 +1,5 @@
-// times.txt, calib.txt and poses.txt of a sequence of two pairs, in one input with a line "---"
-// between them.
+// times.txt, calib.txt and poses.txt of a sequence of two pairs, in one input and separated by
+// lines "---".
 
 #include <array>
 #include <filesystem>
@@ -16,7 +16,7 @@
 namespace rotrocc {
 namespace {
 
-/// A file that may be missing. What does not change is left alone, as most parts of most inputs.
+/// A file that may be missing. It is not rewritten if unchanged, as most parts of most inputs are.
 class Part {
  public:
   explicit Part(const std::string& path) : path_(path) {}
@@ -42,7 +42,7 @@ class Part {
 class Sequence {
  public:
   Sequence() {
-    // PGM, which OpenCV tells by its content, is read faster than PNG.
+    // PGM is faster to read than PNG, and OpenCV identifies it by its content.
     const std::string image = "P5 6 4 255\n" + std::string(24, '\x80');
     for (const char* folder : {"image_0", "image_1"}) {
       std::filesystem::create_directory(directory_ / folder);
@@ -51,7 +51,7 @@ class Sequence {
     }
   }
 
-  /// Without a part, its file is missing.
+  /// If a part is missing, so is its file.
   void write(std::string_view text) {
     constexpr std::string_view kSeparator = "---\n";
     for (Part& part : parts_) {

@@ -1,5 +1,4 @@
-// Valid inputs for the fuzzers to start from: fuzz_seeds DIRECTORY makes a directory for each
-// fuzzer in it.
+// Valid seed inputs for the fuzzers: `fuzz_seeds DIRECTORY` creates a subdirectory for each fuzzer.
 
 #include <exception>
 #include <filesystem>
@@ -16,13 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// [px]
+/// Image size [px].
 struct Size {
   std::uint32_t width;
   std::uint32_t height;
 };
-constexpr Size kTracked{48, 36};  // enough for features to be followed
-constexpr Size kRead{20, 16};     // the smaller, the faster
+constexpr Size kTracked{48, 36};  // large enough to track features
+constexpr Size kRead{20, 16};     // small, because that is faster
 
 template <class... Messages>
 std::string serialized(const Messages&... messages) {
@@ -34,7 +33,7 @@ std::string serialized(const Messages&... messages) {
   return text;
 }
 
-/// A pattern with corners, `offset_px` to the left.
+/// A pattern with corners, shifted to the left by `offset_px`.
 sensor_msgs::Image makeImage(const Size& size,
                              const std::string& encoding,
                              std::uint32_t bytes,

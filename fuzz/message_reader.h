@@ -12,12 +12,12 @@
 
 namespace rotrocc {
 
-/// Serialized messages, one after the other, as roscpp gets them from a connection.
+/// Reads serialized messages, one after the other, as roscpp receives them from a connection.
 class MessageReader {
  public:
   MessageReader(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
 
-  /// None if there is no whole message any more.
+  /// None if no complete message is left.
   std::optional<sensor_msgs::Image> image() {
     return read<sensor_msgs::Image>({12, kBytes, 8, kBytes, 5, kBytes});
   }
@@ -26,12 +26,12 @@ class MessageReader {
   }
 
  private:
-  /// Fields of a variable length: a count of 32 bit, then so many of them.
+  /// Fields of variable length: a 32-bit count, then that many elements.
   static constexpr int kBytes = -1;
   static constexpr int kDoubles = -8;
 
-  /// `fields` are sizes in bytes. roscpp takes all the memory that a count asks for, up to 32 GB,
-  /// before it looks whether so much was sent; counts are looked at here first.
+  /// `fields` are sizes in bytes. roscpp allocates the memory for a count, up to 32 GB, before it
+  /// checks the size of the message. Therefore the counts are checked here first.
   template <class Message>
   std::optional<Message> read(std::initializer_list<int> fields) {
     std::uint64_t length = 0;

@@ -1,4 +1,5 @@
-// Serialized camera_info and images of both cameras: all of the odometry that needs no master.
+// Serialized camera_info and images of both cameras: all parts of the odometry that need no ROS
+// master.
 
 #include <algorithm>
 #include <vector>
@@ -20,16 +21,16 @@ namespace {
 
 using Side = StereoIntake::Side;
 
-constexpr int kPairs = 3;  // the first one, one compared with it, one that follows a motion
+constexpr int kPairs = 3;  // the first one, one compared with it, and one with a motion before it
 
 Parameters makeParameters() {
   Parameters parameters;
   parameters.node.max_image_pixels = 10'000;
-  parameters.odometry.threads = 1;  // images are too small to be shared out
+  parameters.odometry.threads = 1;  // the images are too small to use several threads
   return parameters;
 }
 
-/// All rows move up by one, so that there is something to be seen of a motion.
+/// Shifts all rows up by one, so that a motion is visible.
 void moveUp(sensor_msgs::Image& image) {
   if (image.step >= image.data.size()) return;
   const auto second = image.data.begin() + image.step;
@@ -82,7 +83,7 @@ extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   rotrocc::MessageReader reader(data, size);
   const auto left_info = reader.cameraInfo();
-  if (!left_info) return -1;  // not to be kept
+  if (!left_info) return -1;  // not added to the corpus
   const auto right_info = reader.cameraInfo();
   if (!right_info) return -1;
   const auto left = reader.image();

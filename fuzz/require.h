@@ -5,7 +5,7 @@
 
 namespace rotrocc {
 
-/// What must hold of an answer, whatever came in; else the fuzzer has found something.
+/// A condition that must hold for any input. If it does not, the fuzzer has found an error.
 inline void require(bool holds, const char* what) {
   if (holds) return;
   std::fprintf(stderr, "does not hold: %s\n", what);

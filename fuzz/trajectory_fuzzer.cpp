@@ -1,4 +1,4 @@
-// Files of poses, KITTI's or TUM's, and of times.
+// Pose files in KITTI or TUM format, and time files.
 
 #include <stdexcept>
 
@@ -15,7 +15,7 @@ const TemporaryDirectory& directory() {
   return directory;
 }
 
-/// What was read can be written, and be read from what was written.
+/// A trajectory that was read can be written, and read again.
 void requireRoundTrip(const Trajectory& trajectory) {
   static const std::string path = directory() / "written.txt";
   {

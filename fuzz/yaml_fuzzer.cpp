@@ -1,4 +1,4 @@
-// Files of parameters.
+// Parameter files.
 
 #include <functional>
 #include <stdexcept>
@@ -11,13 +11,13 @@
 namespace rotrocc {
 namespace {
 
-/// Built once: building a table takes longer than reading a file.
+/// Built only once, because that takes longer than reading a file.
 struct Settings {
   Parameters parameters;
   ParameterTable table = makeParameterTable(parameters);
 };
 
-/// What was read can be written, and be read from what was written.
+/// Parameters that were read can be written, and read again.
 void requireRoundTrip(const ParameterTable& table, const InputFile& file) {
   static Settings again;
   again.parameters = {};
@@ -43,7 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const std::invalid_argument&) {
     return 0;
   }
-  // A file with all parameters takes a hundred times as long to read as those that come in here.
+  // Reading a file with all parameters takes a hundred times as long as reading a typical input.
   const bool is_one_of_many = std::hash<std::string_view>()(text) % 32 == 0;
   if (is_one_of_many) requireRoundTrip(settings.table, file);
   return 0;

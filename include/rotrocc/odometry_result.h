@@ -75,8 +75,9 @@ struct OdometryResult {
   /// before it.
   Eigen::Isometry3d T_prev_cur = Eigen::Isometry3d::Identity();
   /// Covariance of T_prev_cur, expressed in the previous camera frame, in the order of REP 103:
-  /// translation [m] x y z, then rotation [rad] about x y z. The errors are defined by R =
-  /// Exp(error) R_estimated and t = error + t_estimated. Zero unless the state is ok or degraded.
+  /// translation [m] x y z, then rotation [rad] about x y z. The errors are defined by
+  /// R = Exp(error) R_estimated and t = error + t_estimated. Zero unless the state is ok or
+  /// degraded.
   Matrix6d covariance = Matrix6d::Zero();
   /// The stamp of the keyframe and the motion since then. The keyframe is the previous pair or an
   /// earlier one. Errors accumulate with each new keyframe, not with each pair.

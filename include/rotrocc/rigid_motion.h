@@ -16,8 +16,8 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& a);
 Eigen::Matrix3d expRotation(const Eigen::Vector3d& v);
 Eigen::Vector3d logRotation(const Eigen::Matrix3d& R);
 
-/// Left Jacobian of SO(3): to first order, expRotation(v + dv) = expRotation(J dv) *
-/// expRotation(v).
+/// Left Jacobian J of SO(3). To first order,
+/// expRotation(v + dv) = expRotation(J dv) * expRotation(v).
 Eigen::Matrix3d leftJacobian(const Eigen::Vector3d& v);
 
 /// The motion of a body with the constant twist [v; w] (m and rad, in the body's axes) during one

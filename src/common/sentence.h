@@ -5,7 +5,7 @@
 
 namespace rotrocc {
 
-/// The parts, printed one after the other.
+/// Prints the parts one after the other into a string.
 template <class... Parts>
 std::string sentence(const Parts&... parts) {
   std::ostringstream text;

@@ -4,7 +4,7 @@
 
 namespace rotrocc {
 
-/// Adds the time until it goes out of scope to a stage's account.
+/// Adds the time from construction to destruction to the time of a stage.
 class StageTimer {
  public:
   explicit StageTimer(double& account_ms) : account_ms_(account_ms) {}

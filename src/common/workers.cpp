@@ -44,7 +44,7 @@ class Workers::Pool {
     called_.notify_all();
     work(job);
 
-    // Who has not woken up by now is not waited for: it finds no job.
+    // Threads that have not woken up yet are not waited for: they will find no job.
     std::unique_lock<std::mutex> lock(mutex_);
     job_ = nullptr;
     done_.wait(lock, [this] { return busy_ == 0; });
@@ -67,7 +67,7 @@ class Workers::Pool {
     }
   }
 
-  /// Takes one part after the other until none is left.
+  /// Processes parts until none is left.
   void work(const Job& job) {
     try {
       for (int i = next_++; i < parts_; i = next_++) job.call(job.function, i);
@@ -79,14 +79,14 @@ class Workers::Pool {
   }
 
   std::vector<std::thread> threads_;
-  std::atomic<int> next_{0};  // part of the job
-  int parts_ = 0;             // changes only while no thread is at work
+  std::atomic<int> next_{0};  // next part of the job
+  int parts_ = 0;             // changes only while no thread is working
 
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the members below
   std::condition_variable called_, done_;
   const Job* job_ = nullptr;
-  unsigned jobs_ = 0;  // so far
-  int busy_ = 0;       // threads at work, without the calling one
+  unsigned jobs_ = 0;  // number of jobs so far
+  int busy_ = 0;       // working threads, excluding the calling one
   bool ending_ = false;
   std::exception_ptr thrown_;
 };

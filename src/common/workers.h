@@ -6,21 +6,21 @@
 
 namespace rotrocc {
 
-/// Threads that share the parts of a job with the one that calls: left and right image side by
-/// side, or pieces of a list. They sleep between jobs, so that other nodelets of the process have
-/// the processor.
+/// A pool of threads that share the parts of a job with the calling thread: the left and right
+/// image in parallel, or parts of a list. They sleep between jobs, so that the processor is free
+/// for other nodelets of the process.
 class Workers {
  public:
-  /// `threads` counts the calling one, and is at least 1. There are never more of them than
-  /// processors.
+  /// `threads` >= 1 includes the calling thread. There are never more threads than processors.
   explicit Workers(int threads);
   ~Workers();
   Workers(Workers&&) noexcept;
   Workers& operator=(Workers&&) noexcept;
 
-  /// Calls part(0) to part(parts - 1), each once, in any order and side by side, and returns when
-  /// all are done. What a part throws is thrown here, the rest of the parts being left out; if
-  /// several throw, one of it. To be called by one thread at a time, and not by a part.
+  /// Calls part(0) to part(parts - 1), each once, in any order and in parallel, and returns when
+  /// all have finished. If a part throws, the remaining parts are skipped and the exception is
+  /// rethrown here; if several throw, one of their exceptions. Must be called by one thread at a
+  /// time, and not from within a part.
   template <class Part>
   void run(int parts, Part&& part) {
     using Function = std::remove_reference_t<Part>;
@@ -28,13 +28,12 @@ class Workers {
           {&part, [](void* function, int index) { (*static_cast<Function*>(function))(index); }});
   }
 
-  /// Parts that a list is cut into. They differ in what they cost; more of them than threads even
-  /// that out.
+  /// Number of parts of a list. More parts than threads balance parts of different cost.
   static constexpr int kListParts = 8;
 
-  /// Calls each(i, part) for all i below `count`, as run() does. `part` is below kListParts, and no
-  /// two calls with the same are made at once: it tells what memory a call has to itself. Which i
-  /// is of which part does not depend on the threads.
+  /// Calls each(i, part) for all i below `count`, as run() does. `part` is below kListParts. No two
+  /// calls with the same `part` run at the same time, so it can select a buffer. The part of an
+  /// index i does not depend on the number of threads.
   template <class Each>
   void forEach(std::size_t count, Each&& each) {
     run(kListParts, [&](int index) {
@@ -45,7 +44,7 @@ class Workers {
   }
 
  private:
-  /// A part(index) that is only referred to: a std::function might allocate.
+  /// A reference to part(index). A std::function might allocate memory.
   struct Job {
     void* function;
     void (*call)(void* function, int index);

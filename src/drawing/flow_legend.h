@@ -7,7 +7,7 @@
 
 namespace rotrocc {
 
-/// The text line below a flow picture: words and colours from left to right, as far as they fit.
+/// The text line below a flow picture: labels and colours from left to right, as far as they fit.
 class FlowLegend {
  public:
   static constexpr int kHeight_px = 24;

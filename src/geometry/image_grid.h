@@ -9,7 +9,7 @@
 
 namespace rotrocc {
 
-/// Divides an image into cells of equal size, numbered by rows.
+/// Divides an image into cells of equal size, numbered row by row.
 class ImageGrid {
  public:
   ImageGrid(const StereoCamera& camera, int columns, int rows)
@@ -18,7 +18,7 @@ class ImageGrid {
         columns_per_px_(static_cast<double>(columns) / camera.width),
         rows_per_px_(static_cast<double>(rows) / camera.height) {}
 
-  /// Of a pixel; those outside of the image belong to the nearest cell.
+  /// The cell of a pixel. Pixels outside the image belong to the nearest cell.
   std::size_t cell(const Eigen::Vector2d& pixel) const {
     const int column = std::clamp(static_cast<int>(pixel.x() * columns_per_px_), 0, columns_ - 1);
     const int row = std::clamp(static_cast<int>(pixel.y() * rows_per_px_), 0, rows_ - 1);

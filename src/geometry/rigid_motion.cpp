@@ -5,7 +5,7 @@
 namespace rotrocc {
 namespace {
 
-/// Below this angle [rad] the series is exact to double precision.
+/// Below this angle [rad], the truncated series is exact to double precision.
 constexpr double kSmallAngle = 1e-4;
 
 }  // namespace

@@ -3,7 +3,7 @@
 namespace rotrocc {
 namespace {
 
-/// The Jacobian of rotating both parts of an error by R, the rotation also shifting the
+/// The Jacobian of an error whose two parts are rotated by R, and whose rotation also changes the
 /// translation.
 Matrix6d jacobian(const Eigen::Matrix3d& R, const Eigen::Matrix3d& translation_by_rotation) {
   Matrix6d J = Matrix6d::Zero();
@@ -17,7 +17,7 @@ Matrix6d jacobian(const Eigen::Matrix3d& R, const Eigen::Matrix3d& translation_b
 
 UncertainTransform compose(const UncertainTransform& T_a_b, const UncertainTransform& T_b_c) {
   const Eigen::Matrix3d R = T_a_b.T.linear();
-  // A rotation error of T_a_b swings the arm from b to c.
+  // A rotation error of T_a_b also moves c, by the lever arm from b to c.
   const Matrix6d J_ab = jacobian(Eigen::Matrix3d::Identity(), -skew(R * T_b_c.T.translation()));
   const Matrix6d J_bc = jacobian(R, Eigen::Matrix3d::Zero());
   return {T_a_b.T * T_b_c.T,
@@ -25,7 +25,7 @@ UncertainTransform compose(const UncertainTransform& T_a_b, const UncertainTrans
 }
 
 UncertainTransform inverse(const UncertainTransform& T_a_b) {
-  // R^T Exp(-e) = Exp(-R^T e) R^T, and t_b_a = -R^T t: a rotation error swings it.
+  // R^T Exp(-e) = Exp(-R^T e) R^T and t_b_a = -R^T t: a rotation error also rotates t_b_a.
   const Eigen::Matrix3d R_b_a = T_a_b.T.linear().transpose();
   const Matrix6d J = jacobian(-R_b_a, -R_b_a * skew(T_a_b.T.translation()));
   return {T_a_b.T.inverse(), J * T_a_b.covariance * J.transpose()};

@@ -5,7 +5,7 @@
 namespace rotrocc::ROTROCC_INSTRUCTIONS {
 namespace {
 
-/// Of [xx xy; xy yy].
+/// Smaller eigenvalues of [xx xy; xy yy].
 Floats smallerEigenvalues(const Floats& xx, const Floats& xy, const Floats& yy) {
   const Floats difference = xx - yy;
   const Floats root = squareRoot(difference * difference + all(4.0F) * xy * xy);
@@ -58,7 +58,7 @@ void replaceGradients(const std::int16_t* smooth,
 }
 
 void respondRow(ColumnSums sums, int side, int columns, float* response) {
-  // A Sobel gradient is 8 grey levels for a slope of one level per pixel.
+  // A slope of one grey level per pixel gives a Sobel gradient of 8.
   const Floats scale = all(1.0F / (64.0F * static_cast<float>(side * side)));
   for (int x = 0; x < columns; x += kInts) {
     Ints xx = load(sums.xx + x);

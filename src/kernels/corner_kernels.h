@@ -7,7 +7,7 @@
 
 namespace rotrocc {
 
-/// Products of gradients x and y, summed over rows, for each column.
+/// Products of the x and y gradients, summed over rows, for each column.
 struct ColumnSums {
   std::int32_t* xx;
   std::int32_t* xy;
@@ -16,7 +16,8 @@ struct ColumnSums {
 
 namespace ROTROCC_INSTRUCTIONS {
 
-/// Smooths a row by (1 2 1) downwards and differentiates it, from the rows above and below.
+/// Smooths a row vertically by (1 2 1), and differentiates it vertically, using the rows above and
+/// below.
 void differentiateRow(const std::uint8_t* above,
                       const std::uint8_t* here,
                       const std::uint8_t* below,
@@ -24,9 +25,9 @@ void differentiateRow(const std::uint8_t* above,
                       std::int16_t* smooth,
                       std::int16_t* steps);
 
-/// Makes Sobel's gradients of what differentiateRow() made, of which both begin a column before.
-/// They take the place of those in `gradient_x` and `gradient_y`, in the sums as well. Like
-/// respondRow() it reads and writes up to a register more than `columns`.
+/// Computes Sobel gradients from the results of differentiateRow(), which must both start one
+/// column earlier. They replace those in `gradient_x` and `gradient_y`, and in the sums. Like
+/// respondRow(), it reads and writes up to one register beyond `columns`.
 void replaceGradients(const std::int16_t* smooth,
                       const std::int16_t* steps,
                       int columns,
@@ -34,16 +35,17 @@ void replaceGradients(const std::int16_t* smooth,
                       std::int16_t* gradient_y,
                       ColumnSums sums);
 
-/// Smaller eigenvalues of the sums over `side` columns each, over their pixels, in
+/// Smaller eigenvalues of the sums over `side` columns each, divided by the number of pixels, in
 /// (grey levels / px)^2.
 void respondRow(ColumnSums sums, int side, int columns, float* response);
 
-/// The highest number of each column of some rows, which are `step` numbers apart.
+/// The maximum of each column over some rows, which are `step` values apart.
 void highestOfColumns(
     const float* first, std::ptrdiff_t step, int rows, int columns, float* highest);
 
-/// Writes into `peaks`, in their order, the columns at whose right in `highest`, by `radius`, is a
-/// number of at least `least` to which none nearer than radius + 1 is superior. Returns how many.
+/// Finds the columns of [first, end) for which the value in `highest` at column + radius is at
+/// least `least`, and no value within `radius` of it is larger. Writes them into `peaks` in
+/// increasing order. Returns their number.
 int findPeaks(const float* highest, int first, int end, int radius, float least, int* peaks);
 
 }  // namespace ROTROCC_INSTRUCTIONS

@@ -1,11 +1,11 @@
 #include "kernels/fit_kernels.h"
 
-// No SIMD by hand: the compiler makes it of these loops.
+// No explicit SIMD: the compiler vectorizes these loops.
 namespace rotrocc::ROTROCC_INSTRUCTIONS {
 namespace {
 
-/// No feature is fitted beyond this many times its depth: a wrong match is not to become a right
-/// one.
+/// A fit changes the depth of a feature by at most this factor: a wrong match must not become an
+/// inlier.
 constexpr double kMostStretch = 2.0;
 
 void beginAtMeasured(const FitTerms terms, FitBlock& block) {
@@ -24,12 +24,12 @@ void beginAtMeasured(const FitTerms terms, FitBlock& block) {
   }
 }
 
-/// At the disparities fitted so far.
+/// Projects the features at their current fitted disparities.
 void project(const FitTerms terms, FitBlock& block) {
   const double* t = terms.translation;
   for (int i = 0; i < FitBlock::kSize; ++i) {
     const double disparity = block.fitted[i];
-    const double depth = block.ray_z[i] + disparity * t[2];  // times disparity, as x and y
+    const double depth = block.ray_z[i] + disparity * t[2];  // times disparity, like x and y
     const double least = terms.least_depth * disparity;
     const double per_z = 1.0 / (depth < least ? least : depth);
     const double x = per_z * (block.ray_x[i] + disparity * t[0]);

@@ -4,35 +4,35 @@
 
 namespace rotrocc {
 
-/// Some features whose disparities are fitted, see fitAt().
+/// A block of features whose disparities are fitted, see fitAt().
 struct FitBlock {
   static constexpr int kSize = 16;
   using Numbers = double[kSize];
 
-  Numbers keyframe_x, keyframe_y;     ///< [px]
-  Numbers point_x, point_y, point_z;  ///< in the current frame [m]
-  Numbers measured;                   ///< disparity above that of infinity [px]
+  Numbers prev_x, prev_y;             ///< [px]
+  Numbers point_x, point_y, point_z;  ///< in the current camera frame [m]
+  Numbers measured;                   ///< measured disparity, above the disparity at infinity [px]
 
-  // As in FittedFeature.
+  // Results, as in FittedFeature.
   Numbers target_x, target_y;
   Numbers rotated_x, rotated_y, rotated_z;
   Numbers whitening_xx, whitening_xy, whitening_yy;
   Numbers slope_x, slope_y;
 
-  // On the way: R X times disparity, the disparity fitted so far, and the projection there [px].
+  // Intermediate values: R X times disparity, current fitted disparity, its projection [px].
   Numbers ray_x, ray_y, ray_z;
   Numbers fitted;
   Numbers seen_x, seen_y;
 };
 
-/// At what motion, by what camera and how.
+/// The motion, camera and options of the fit.
 struct FitTerms {
-  double rotation[9];  ///< by rows
+  double rotation[9];  ///< row by row
   double translation[3];
   double fx, fy, cx, cy;
-  double least_depth;  ///< points nearer are projected as if they were there [m]
-  double ratio2;       ///< square of the disparity's noise over that of the flow
-  int steps;           ///< of the fit
+  double least_depth;  ///< closer points are projected as if they were at this depth [m]
+  double ratio2;       ///< squared ratio of disparity noise to flow noise
+  int steps;           ///< number of steps of the fit
 };
 
 namespace ROTROCC_INSTRUCTIONS {

@@ -1,9 +1,9 @@
 #pragma once
 
-/// The sources of this folder are compiled once for any processor and, on x86, once more for AVX2,
-/// each time into a namespace of their own. Those for AVX2 must not contain inline functions of
-/// other namespaces, nor templates of the standard library: the linker keeps one of several copies
-/// of such a function, which then might be one that only some processors can run.
+/// The sources in this folder are compiled once for any processor and, on x86, again for AVX2, each
+/// time into a separate namespace. The sources for AVX2 must not contain inline functions of other
+/// namespaces, nor templates of the standard library: the linker keeps only one of several copies
+/// of such a function, and this might be a copy that not all processors can execute.
 #ifdef ROTROCC_AVX2
 #define ROTROCC_INSTRUCTIONS avx2
 #else

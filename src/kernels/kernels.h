@@ -8,10 +8,11 @@
 
 namespace rotrocc {
 
-/// The inner loops over pixels and features, for one kind of processor. What they find is the same
-/// for all: they add integers, and floats in no order that the width of a register decides.
+/// The inner loops over pixels and features, for one kind of processor. Results are the same for
+/// all kinds: integer sums are exact, and the order of floating-point sums does not depend on the
+/// register width.
 struct Kernels {
-  int shorts;  ///< 16-bit numbers of a register, at most kMostShorts
+  int shorts;  ///< number of 16-bit values in a register, at most kMostShorts
 
   decltype(&ROTROCC_INSTRUCTIONS::smoothDown) smoothDown;
   decltype(&ROTROCC_INSTRUCTIONS::smoothAlong) smoothAlong;
@@ -27,11 +28,11 @@ struct Kernels {
   decltype(&ROTROCC_INSTRUCTIONS::fitDisparities) fitDisparities;
 };
 
-/// Numbers that a row needs beyond its end, where whole registers are read and written.
+/// Values that a row needs beyond its end, because whole registers are read and written.
 constexpr int kMostShorts = 16;
 
-/// Those for AVX2 if the processor has it, else those for any. With cv::setUseOptimized(false), or
-/// OPENCV_CPU_DISABLE=AVX2 in the environment, those for any.
+/// The kernels for AVX2 if the processor has it, otherwise those for any processor. The latter are
+/// also chosen by cv::setUseOptimized(false), or by OPENCV_CPU_DISABLE=AVX2 in the environment.
 const Kernels& chooseKernels();
 
 }  // namespace rotrocc

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Registers of 16-bit integers (Shorts), 32-bit ones (Ints, half as many) and floats (Floats), as
-/// wide as the processor has them, and what the kernels do with them.
+/// Registers of 16-bit integers (Shorts), 32-bit integers (Ints, half as many) and floats (Floats),
+/// in the width of the processor, and the operations that the kernels need.
 #include "kernels/instructions.h"
 
 #ifdef ROTROCC_AVX2

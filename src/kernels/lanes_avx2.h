@@ -45,7 +45,7 @@ inline void store(float* to, Floats a) {
 }
 
 inline void storeBytes(std::uint8_t* to, Ints low, Ints high) {
-  // Halves of registers are packed by themselves.
+  // AVX2 packs the two halves of a register separately.
   const __m256i mixed = _mm256_packs_epi32(low.bits, high.bits);
   const __m256i shorts = _mm256_permute4x64_epi64(mixed, 0xd8);
   _mm_storeu_si128(
@@ -110,7 +110,7 @@ inline Ints dot(Shorts a, Shorts b) {
   return {_mm256_madd_epi16(a.bits, b.bits)};
 }
 inline void addProducts(Shorts a, Shorts b, Shorts c, Shorts d, std::int32_t* to) {
-  // Both halves of a register are unpacked by themselves: 0 to 3 and 8 to 11, then the others.
+  // AVX2 unpacks the two halves of a register separately: 0 to 3 and 8 to 11, then the others.
   const __m256i even = _mm256_madd_epi16(_mm256_unpacklo_epi16(a.bits, c.bits),
                                          _mm256_unpacklo_epi16(b.bits, d.bits));
   const __m256i odd = _mm256_madd_epi16(_mm256_unpackhi_epi16(a.bits, c.bits),

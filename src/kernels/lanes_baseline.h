@@ -7,7 +7,7 @@
 
 #include "kernels/instructions.h"
 
-/// See lanes.h. 128 bits, by OpenCV's universal intrinsics.
+/// See lanes.h. 128 bits, using OpenCV's universal intrinsics.
 namespace rotrocc::ROTROCC_INSTRUCTIONS {
 
 using Shorts = cv::v_int16x8;
@@ -25,7 +25,7 @@ inline Ints load(const std::int32_t* from) {
 inline Floats load(const float* from) {
   return cv::v_load(from);
 }
-/// Bytes, each as a number of 16 bits.
+/// Loads bytes and widens them to 16 bits.
 inline Shorts loadBytes(const std::uint8_t* from) {
   return cv::v_reinterpret_as_s16(cv::v_load_expand(from));
 }
@@ -40,7 +40,7 @@ inline void store(float* to, const Floats& a) {
   cv::v_store(to, a);
 }
 
-/// The lowest bytes of the numbers of `low`, then of `high`, which are 0 to 255.
+/// Stores the lowest bytes of `low`, then of `high`. All values must be 0 to 255.
 inline void storeBytes(std::uint8_t* to, const Ints& low, const Ints& high) {
   cv::v_pack_u_store(to, cv::v_pack(low, high));
 }
@@ -66,7 +66,7 @@ inline Ints noInts() {
 
 template <int kBits>
 Shorts shiftLeft(const Shorts& a) {
-  // Without a sign, as OpenCV's emulation shifts with <<.
+  // Unsigned, because OpenCV's emulation shifts with <<.
   return cv::v_reinterpret_as_s16(cv::v_shl<kBits>(cv::v_reinterpret_as_u16(a)));
 }
 template <int kBits>
@@ -107,7 +107,7 @@ inline Floats toFloats(const Ints& a) {
 inline Floats higher(const Floats& a, const Floats& b) {
   return cv::v_max(a, b);
 }
-/// A bit for each lane of a that is at least that of b, from the lowest on.
+/// One bit per lane, lowest lane first: 1 if a is at least b.
 inline int atLeast(const Floats& a, const Floats& b) {
   return cv::v_signmask(a >= b);
 }

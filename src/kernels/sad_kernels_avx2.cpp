@@ -12,30 +12,30 @@ __m128i load16(const std::uint8_t* pixels) {
   return _mm_loadu_si128(reinterpret_cast<const __m128i*>(pixels));
 }
 
-/// The pixels of eight windows that begin here, and of the next eight.
+/// The pixels of eight consecutive windows that start here, and of the next eight.
 __m256i loadGroup(const std::uint8_t* pixels) {
   return _mm256_inserti128_si256(_mm256_castsi128_si256(load16(pixels)), load16(pixels + 8), 1);
 }
 
-/// Sums of differences, for 16 windows each, of four pixels from the one at `kFrom` (0 or 4) to
-/// the `kBlock`-th four of the left ones.
+/// Sums of differences over four pixels, for 16 windows each: the pixels from `kFrom` (0 or 4) on
+/// and block `kBlock` of four left pixels.
 template <int kFrom, int kBlock>
 __m256i sumsOfFour(__m256i group, __m256i left) {
   constexpr int kOfEight = (kFrom == 4 ? 4 : 0) + kBlock;
   return _mm256_mpsadbw_epu8(group, left, 9 * kOfEight);
 }
 
-/// Whether each number is at most the limit: -1 or 0.
+/// Whether each value is at most the limit: -1 or 0.
 __m256i atMost(__m256i a, __m256i limit) {
   return _mm256_cmpeq_epi16(_mm256_min_epi16(a, limit), a);
 }
 
 int leastOf(__m256i a) {
   const __m128i eight = _mm_min_epi16(_mm256_castsi256_si128(a), _mm256_extracti128_si256(a, 1));
-  return _mm_extract_epi16(_mm_minpos_epu16(eight), 0);  // none is negative
+  return _mm_extract_epi16(_mm_minpos_epu16(eight), 0);  // no value is negative
 }
 
-/// Part of the window: four rows of eight pixels.
+/// The part that is compared first: four rows of eight pixels.
 class PartOfWindow {
  public:
   explicit PartOfWindow(const SadSearch& search) : step_(search.right_step) {
@@ -60,7 +60,8 @@ class PartOfWindow {
   __m256i rows_[4];
 };
 
-/// Eleven pixels of a row are three times four with the eighth twice, which is taken off again.
+/// Eleven pixels of a row are computed as three blocks of four. The eighth pixel is counted twice
+/// and subtracted once.
 class WholeWindow {
  public:
   explicit WholeWindow(const SadSearch& search) : step_(search.right_step) {

@@ -8,7 +8,7 @@
 namespace rotrocc::ROTROCC_INSTRUCTIONS {
 namespace {
 
-/// A row of a window, what is beyond it masked out.
+/// A row of a window, with the pixels beyond it masked out.
 using Bytes = cv::v_uint8x16;
 constexpr int kWindow = SadSearch::kWindow;
 
@@ -18,7 +18,7 @@ Bytes loadRow(const std::uint8_t* pixels) {
   return cv::v_load(pixels) & cv::v_load_aligned(kMask);
 }
 
-/// Of rows k and k + 1 of the part that is compared first.
+/// Loads rows k and k + 1 of the part that is compared first.
 Bytes loadPair(const std::uint8_t* pixels, std::ptrdiff_t step, int k) {
   return cv::v_load_halves(pixels + kPartRows[k] * step + kPartEdge,
                            pixels + kPartRows[k + 1] * step + kPartEdge);
@@ -40,7 +40,7 @@ class Differences {
     return static_cast<int>(sum);
   }
 
-  /// kHigh where the sum is seen to be more than `limit`.
+  /// Returns kHigh if the sum over the first half of the rows already exceeds `limit`.
   int ofWhole(int k, int limit) const {
     const std::uint8_t* pixels = search_.right + k;
     unsigned sum = 0;
@@ -67,7 +67,7 @@ void sadCosts(const SadSearch& search, std::int16_t* costs) {
     if (costs[k] < costs[likely]) likely = k;
   }
   const int part_limit = partLimit(costs[likely]);
-  // What costs more can neither be the best nor a rival of it.
+  // Windows with a higher cost are neither the best match nor its rival.
   const auto limitOf = [&](int best) {
     return cvCeil(std::min<double>(best, search.most) / search.uniqueness);
   };

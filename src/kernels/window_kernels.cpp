@@ -5,10 +5,11 @@
 namespace rotrocc::ROTROCC_INSTRUCTIONS {
 namespace {
 
-/// Rows whose products 32 bits hold: 255 grey levels times the steepest gradient, two a lane.
+/// Number of rows whose products fit into 32 bits: 255 grey levels times the steepest gradient, two
+/// per lane.
 constexpr int kBlockRows = 16;
 
-/// Pixels, each between one and its right neighbour by fx / 2^15, as values.
+/// Pixel values interpolated between a pixel and its right neighbour at fx / 2^15.
 Shorts betweenColumns(const std::uint8_t* pixels, const Shorts& fx) {
   const Shorts left = loadBytes(pixels);
   const Shorts right = loadBytes(pixels + 1);
@@ -20,12 +21,12 @@ Shorts betweenRows(const Shorts& upper, const Shorts& lower, const Shorts& fy) {
   return upper + multiplyHigh(shiftLeft<1>(lower - upper), fy);
 }
 
-/// The gradient of Scharr, (3 10 3) / 16 across, from the differences of three rows or columns of
+/// Scharr gradient, weighted by (3 10 3) / 16, from the differences of three rows or columns of
 /// pixels that are two apart.
 Shorts scharr(const Shorts& before, const Shorts& here, const Shorts& after) {
   const Shorts middle = multiplyHigh(shiftLeft<1>(here), all(std::int16_t{20480}));  // 10 / 32
   const Shorts sides = multiplyHigh(before + after, all(std::int16_t{12288}));       // 3 / 16
-  // A unit more makes up for what both products lose; the other two round.
+  // One unit compensates the truncation of both products; the rest rounds.
   constexpr int kShift = Window::kValueBits + 1 - Window::kGradientBits;
   constexpr std::int16_t kRounding = 1 + (1 << (kShift - 1));
   return shiftRight<kShift>(middle + sides + all(kRounding));
@@ -56,7 +57,7 @@ void sample(const Patch& patch, const Window window) {
 }  // namespace
 
 GradientSums takeWindow(const Patch& patch, const Window window) {
-  // A gradient times a spread is a value with 16 bits to be dropped.
+  // A gradient times a sampling offset is a value with 16 extra bits.
   constexpr int kUpToValue = 1 + Window::kValueBits - Window::kGradientBits;
   sample(patch, window);
   GradientSums sums = {0, 0, 0, 0, 0};

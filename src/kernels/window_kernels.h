@@ -7,15 +7,15 @@
 
 namespace rotrocc {
 
-/// Pixels of an image, and where between them [px / 2^15] those of a window lie.
+/// Pixels of an image, and the sub-pixel offset of a window on them [px / 2^15].
 struct Patch {
   const std::uint8_t* pixels;
   std::ptrdiff_t step;
   std::int16_t fx, fy;
 };
 
-/// A window's grey levels, in units of 1 / 2^kValueBits, and gradients, in rows of `stride`
-/// numbers, whole registers; those beyond the side have no gradient.
+/// The grey levels of a window, in units of 1 / 2^kValueBits, and its gradients. A row has `stride`
+/// values, which is a whole number of registers. Gradients beyond `side` are zero.
 struct Window {
   static constexpr int kValueBits = 6;
   static constexpr int kGradientBits = 5;
@@ -24,20 +24,19 @@ struct Window {
   std::int16_t* values;
   std::int16_t* gradient_x;
   std::int16_t* gradient_y;
-  const std::int16_t* mask;  ///< of a row: -1 within the side, else 0
-  const std::int16_t*
-      spread;             ///< to take a value from so far aside, by column and by row [px / 2^15]
-  std::int16_t* samples;  ///< scratch memory: values with a margin of one pixel ...
-  int sample_stride;      ///< ... in rows that are a register longer than side + 2, rounded up
+  const std::int16_t* mask;    ///< for a row: -1 within the side, else 0
+  const std::int16_t* spread;  ///< sampling offset of each column and row [px / 2^15]
+  std::int16_t* samples;       ///< scratch memory: values with a margin of one pixel
+  int sample_stride;  ///< row length: side + 2 rounded up to whole registers, plus one register
 };
 
-/// Sums over a window of gradients and of their products.
+/// Sums of gradients and of their products over a window.
 struct GradientSums {
   std::int64_t x, y;
   std::int64_t xx, xy, yy;
 };
 
-/// Sums over a window of differences, and of differences times gradients.
+/// Sums of differences, and of differences times gradients, over a window.
 struct MismatchSums {
   std::int64_t one;
   std::int64_t x, y;
@@ -45,7 +44,7 @@ struct MismatchSums {
 
 namespace ROTROCC_INSTRUCTIONS {
 
-/// Fills the window; the patch has its margin.
+/// Fills the window. The patch must include its margin.
 GradientSums takeWindow(const Patch& patch, Window window);
 
 /// Compares the window with the patch, which has no margin.

@@ -10,8 +10,8 @@
 
 namespace rotrocc {
 
-/// Presents a problem with many residuals to ceres::TinySolver as a few residuals with the same J^T
-/// J, J^T r and r^T r. The solver uses nothing else.
+/// Presents a problem with many residuals to ceres::TinySolver as one with few residuals that has
+/// the same J^T J, J^T r and r^T r. The solver uses nothing else.
 template <int kParameters>
 class CondensedProblem {
  public:

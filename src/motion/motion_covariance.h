@@ -14,9 +14,10 @@ namespace rotrocc {
 /// The covariance of an estimated motion, in the order of OdometryResult::covariance.
 ///
 /// The covariance of the rotation comes from stage 1, with the translation marginalized. The
-/// covariance of the translation comes from stage 2, plus the effect of the rotation's error dR: dt
-/// = -(Jt^T Jt)^-1 Jt^T Jr dR. Both follow the sandwich formula for robust weights (Huber's
-/// M-estimators), and are inflated by the errors that neighbouring features share.
+/// covariance of the translation comes from stage 2, plus the effect of the rotation's error dR:
+///   dt = -(Jt^T Jt)^-1 Jt^T Jr dR.
+/// Both follow the sandwich formula for robust weights (Huber's M-estimators). Both are inflated,
+/// because neighbouring features share errors.
 ///
 /// Stage 1 also drops features that are merely noisy. The remaining errors have only a share g of
 /// the full variance. The covariance of the fit is that of a fit to untruncated errors, divided by

@@ -42,10 +42,10 @@ class MotionEstimator {
   ///
   /// If much of the image moves independently, the full set may give a wrong motion. If few
   /// features are inliers and `initial` is a prediction, a retry starts from the features close to
-  /// the prediction. It replaces the first motion if it has more than twice as many inliers. It
-  /// also does if it has at least half as many, the two motions differ significantly, and the
-  /// distance of the retry from the prediction is less than half that of the first motion.
-  /// Distances are relative to the uncertainty of both motions.
+  /// the prediction. It replaces the first motion if it has more than twice as many inliers, or if
+  /// all of this holds: it has at least half as many inliers, the two motions differ significantly,
+  /// and it is less than half as far from the prediction. Distances are relative to the uncertainty
+  /// of both motions.
   ///
   /// The result is valid until the next call.
   const Estimate& estimate(const StereoCamera& camera,

@@ -27,8 +27,8 @@ namespace rotrocc {
 /// uncertainty is therefore the cluster-robust variance (Liang and Zeger 1986) over a grid of
 /// cells.
 ///
-/// A bias that is not significant is not corrected; a clearly significant one is corrected
-/// completely.
+/// A bias below `significance` standard deviations is not corrected; one above twice that is
+/// corrected completely.
 class StereoCalibrator {
  public:
   using Config = StereoCalibratorConfig;

@@ -15,7 +15,8 @@ TEST(WorkersTest, DoEveryPartOnceAndAllBeforeTheyReturn) {
   for (const int threads : {1, 2, 4}) {
     Workers workers(threads);
     for (int parts = 0; parts < 40; ++parts) {
-      // Not atomic: the caller must see the writes of each part, and a part done twice is a race.
+      // Not atomic: the caller must see the results of all parts, and a part that runs twice is a
+      // data race.
       std::vector<int> done(static_cast<std::size_t>(parts));
       workers.run(parts, [&](int i) { ++done[static_cast<std::size_t>(i)]; });
       EXPECT_EQ(done, std::vector<int>(static_cast<std::size_t>(parts), 1)) << threads;

@@ -64,7 +64,7 @@ TEST_F(FlowPictureTest, ImageIsGreyAndDarkened) {
 
 TEST_F(FlowPictureTest, ColoursTellDepthAndStage) {
   draw();
-  // In the dot at the current position.
+  // The dot at the current position.
   EXPECT_EQ(colourAt(130, 50), cv::Vec3b(0, 159, 230)) << "near: orange";
   EXPECT_EQ(colourAt(130, 100), cv::Vec3b(233, 180, 86)) << "far: blue";
   EXPECT_EQ(colourAt(130, 150), cv::Vec3b(255, 255, 255)) << "rotation alone: white";
@@ -101,7 +101,8 @@ TEST_F(FlowPictureTest, AnyFlowAndSmallImagesAreDrawn) {
 }
 
 TEST_F(FlowPictureTest, AnOutlierShowsWhatFlowTheMotionExpected) {
-  // Without motion, the line of the expected flow starts where the point projects, 40 px away.
+  // Without motion, a static point keeps its position, which is 40 px from where this one came
+  // from.
   result_.T_keyframe_cur.T = Eigen::Isometry3d::Identity();
   features_[3].cur_px = {300, 150};
   features_[3].keyframe_px = {260, 150};
@@ -117,9 +118,9 @@ TEST_F(FlowPictureTest, AnOutlierShowsWhatFlowTheMotionExpected) {
 
 TEST_F(FlowPictureTest, DecoupledViewShowsBothPartsOfTheFlow) {
   view_ = FlowView::kDecoupled;
-  // Turned by 0.05 rad about the vertical axis: 36 px of flow near the middle, the rest is
-  // due to the translation.
-  const Eigen::Vector2d cur_px(600, 170), keyframe_px(560, 190);
+  // A rotation of 0.05 rad about the vertical axis causes 36 px of flow near the middle. The rest
+  // is caused by the translation.
+  const Eigen::Vector2d cur_px(600, 170), prev_px(560, 190);
   result_.T_keyframe_cur.T.linear() =
       Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY()).toRotationMatrix();
   features_[0].cur_px = cur_px;

@@ -13,7 +13,7 @@
 namespace rotrocc {
 namespace {
 
-/// Writes a sequence of two pairs of 8 x 6 px, which the tests then corrupt.
+/// Writes a sequence of two pairs of 8 x 6 px. The tests then corrupt it.
 class KittiSequenceTest : public ::testing::Test {
  protected:
   KittiSequenceTest() {
@@ -76,7 +76,7 @@ TEST_F(KittiSequenceTest, ReadsGreyImagesOfEachSide) {
 }
 
 TEST_F(KittiSequenceTest, BaselineIsTheDistanceBetweenTheTwoCameras) {
-  // KITTI's colour pair: neither camera is the origin of the calibration.
+  // KITTI's colour pair: neither camera is the reference camera of the calibration.
   directory_.write("calib.txt",
                    "P0: 700 0 4 70 0 700 3 1 0 0 1 0\n"
                    "P1: 700 0 4 -280 0 700 3 2 0 0 1 0\n");
@@ -148,7 +148,7 @@ TEST(KittiSequenceOnKittiTest, ReadsEverySequence) {
     SCOPED_TRACE(entry.path());
     const KittiSequence sequence(entry.path().string());
     ++sequences;
-    // KITTI's cameras are 54 cm apart and look ahead: after a frame the car is in front of its
+    // KITTI's cameras are 54 cm apart and look forward: after one frame, the car is ahead of its
     // start.
     EXPECT_NEAR(sequence.camera().baseline_m, 0.54, 0.01);
     EXPECT_EQ(sequence.readLeft(0).size(), sequence.readRight(sequence.size() - 1).size());

@@ -15,7 +15,7 @@ namespace {
 constexpr double kDegree = M_PI / 180.0;
 constexpr std::int64_t kPeriod_ns = 100'000'000;
 
-/// A drive of constant step and turn about the camera's y axis at 10 Hz.
+/// A drive with a constant step and a constant turn about the camera's y axis, at 10 Hz.
 Trajectory drive(int count, double step_m, double turn_rad = 0.0) {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   motion.translation().z() = step_m;
@@ -37,7 +37,8 @@ TEST(SegmentErrorsTest, ScaleErrorIsTheTranslationError) {
   // A segment of 100 m ends with the 77th step of 1.3 m, at 100.1 m.
   const MatchedTrajectories matched{drive(200, 1.3), drive(200, 1.3 * 1.01)};
   const auto errors = segmentErrors(matched, {{100.0}, 10});
-  ASSERT_EQ(errors.size(), 13u);  // from poses 0, 10 ... 120; from 130 on less than 100 m remain
+  // From poses 0, 10 ... 120; after that, less than 100 m remain.
+  ASSERT_EQ(errors.size(), 13u);
   for (const SegmentError& error : errors) {
     EXPECT_NEAR(error.translation, 0.01 * 100.1 / 100.0, 1e-12);
     EXPECT_NEAR(error.rotation_rad_per_m, 0.0, 1e-12);
@@ -47,7 +48,7 @@ TEST(SegmentErrorsTest, ScaleErrorIsTheTranslationError) {
 }
 
 TEST(SegmentErrorsTest, TurnRateErrorIsTheRotationError) {
-  // 0.05 deg of turn too much at each of the 77 steps.
+  // Each of the 77 steps turns by 0.05 deg too much.
   const MatchedTrajectories matched{drive(200, 1.3, 0.5 * kDegree),
                                     drive(200, 1.3, 0.55 * kDegree)};
   const auto errors = segmentErrors(matched, {{100.0}, 1});
@@ -120,7 +121,7 @@ TEST(MeanErrorTest, AveragesAllAndByLength) {
 }
 
 TEST(MeanErrorTest, SpeedsCountForBothNeighbours) {
-  // 4 m/s is exactly 2 m/s away from its neighbours 2 and 6, so it counts for 4 alone.
+  // 4 m/s is exactly 2 m/s away from the neighbours 2 and 6, so it counts only for 4.
   const auto by_speed = meanErrorBySpeed({{0, 1.0, 0.5, 0.1, 0.0},
                                           {0, 1.0, 4.0, 0.2, 0.0},
                                           {0, 1.0, 4.5, 0.4, 0.0},
@@ -138,7 +139,7 @@ TEST(StepErrorsTest, DescribeTheMotionsFromPoseToPose) {
   const Trajectory truth = drive(101, 1.0);
   Trajectory estimate = truth;
   for (std::size_t i = 50; i < estimate.size(); ++i) {
-    estimate[i].T_world_body.translation().z() += 3.0;  // one bad step of 100
+    estimate[i].T_world_body.translation().z() += 3.0;  // one wrong step of 100
   }
   const std::vector<StepError> steps = stepErrors({truth, estimate});
   ASSERT_EQ(steps.size(), 100u);
@@ -193,7 +194,7 @@ TEST(MatchByStampTest, UsesEachPoseOnce) {
   EXPECT_EQ(matched.estimate[0].stamp_ns, 4'000'000);
 }
 
-/// The figures of two published estimates of KITTI 00, as the devkit gives them.
+/// The errors of two published estimates of KITTI 00, as computed by the devkit.
 TEST(TrajectoryErrorOnKittiTest, AgreesWithTheDevkit) {
   const char* kitti = std::getenv("ROTROCC_KITTI_DIR");
   const auto poses = std::filesystem::path(kitti == nullptr ? "" : kitti) / "../kitti_poses";

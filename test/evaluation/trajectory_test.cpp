@@ -89,7 +89,7 @@ TEST_F(TrajectoryTest, WritesTumStampsExactlyToTheNanosecond) {
 TEST_F(TrajectoryTest, WritesQuaternionsWithPositiveW) {
   const std::string path = directory_ / "out.txt";
   TrajectoryWriter writer(path, TrajectoryFormat::kTum);
-  StampedPose pose;  // a turn by 200 deg is one by -160 deg: w must be cos(80 deg)
+  StampedPose pose;  // a rotation by 200 deg equals one by -160 deg: w must be cos(80 deg)
   pose.T_world_body.rotate(Eigen::AngleAxisd(200.0 * M_PI / 180.0, Eigen::Vector3d::UnitY()));
   writer.write(pose);
   const std::string line = contentOf(path);
@@ -97,8 +97,8 @@ TEST_F(TrajectoryTest, WritesQuaternionsWithPositiveW) {
   EXPECT_NE(line.find(" 0.173648178\n"), std::string::npos) << line;
 }
 
-/// The numbers of each line by the rules of evo (github.com/MichaelGrupp/evo/wiki/Formats): one
-/// space between them, no trailing space, and the same count in each line.
+/// The values of each line, read by the rules of evo (github.com/MichaelGrupp/evo/wiki/Formats):
+/// one space between values, none at the end, and the same number of values in each line.
 std::vector<std::vector<double>> readAsEvo(const std::string& path, std::size_t count) {
   std::vector<std::vector<double>> rows;
   std::istringstream file(contentOf(path));
@@ -118,7 +118,7 @@ std::vector<std::vector<double>> readAsEvo(const std::string& path, std::size_t 
 }
 
 TEST_F(TrajectoryTest, WritesWhatEvoTakes) {
-  constexpr double kTolerance = 1e-6;  // of its checks with --full_check
+  constexpr double kTolerance = 1e-6;  // tolerance of evo's --full_check
   const std::string path = directory_ / "out.txt";
   for (const auto format : {TrajectoryFormat::kKitti, TrajectoryFormat::kTum}) {
     TrajectoryWriter writer(path, format);

@@ -8,7 +8,7 @@
 namespace rotrocc {
 namespace {
 
-/// Sharp noise, with the largest gradients there are.
+/// Unfiltered noise, with the largest possible gradients.
 cv::Mat noiseImage(const cv::Size& size) {
   cv::RNG generator(3);
   cv::Mat noise(size, CV_8UC1);
@@ -16,7 +16,7 @@ cv::Mat noiseImage(const cv::Size& size) {
   return noise;
 }
 
-/// Sobel's gradient; beyond the image its edge goes on.
+/// Sobel gradient; pixels outside the image repeat its border.
 cv::Point gradient(const cv::Mat& image, int x, int y) {
   const auto pixel = [&](int u, int v) -> int {
     return image.at<uchar>(std::clamp(v, 0, image.rows - 1), std::clamp(u, 0, image.cols - 1));
@@ -29,7 +29,7 @@ cv::Point gradient(const cv::Mat& image, int x, int y) {
   return sum;
 }
 
-/// The definition, in double precision.
+/// The definition of the response, in double precision.
 double expectedResponse(const cv::Mat& image, int x, int y, int radius) {
   if (std::min({x, y, image.cols - 1 - x, image.rows - 1 - y}) < radius) return 0.0;
   double xx = 0.0;
@@ -52,14 +52,14 @@ TEST(CornerResponseTest, IsTheSmallerEigenvalue) {
   cv::Mat response;
   for (const int radius : {1, 2, 15}) {
     CornerResponse corner_response(radius);
-    // Widths that are and are not whole registers, and sizes too small for a response.
+    // Widths that are a whole number of registers and others, and sizes too small for a response.
     for (const cv::Size size :
          {cv::Size(64, 40), cv::Size(71, 45), cv::Size(33, 35), cv::Size(7, 5), cv::Size(2, 40)}) {
       const cv::Mat image = noiseImage(size);
       corner_response.compute(image, 0, size.height, 0, response);
       for (int y = 0; y < size.height; ++y) {
         for (int x = 0; x < size.width; ++x) {
-          // Single precision of eigenvalues up to 2e4.
+          // Single-precision error of eigenvalues up to 2e4.
           ASSERT_NEAR(response.at<float>(y, x), expectedResponse(image, x, y, radius), 0.01)
               << size << " radius " << radius << " at " << x << ", " << y;
         }

@@ -39,7 +39,7 @@ struct Frames {
   FramePtr current;
 };
 
-/// All stages from two pairs to the feature set, with the true motion as the prediction.
+/// All stages from two pairs to the feature set. The prediction is the true motion.
 Correspondences find(const StereoPair& prev,
                      const StereoPair& cur,
                      const StereoCamera& camera,
@@ -59,7 +59,7 @@ double median(std::vector<double> values) {
 
 TEST(CorrespondenceFinderTest, FindsPointsOfTheSceneInBothPairs) {
   StereoCamera verged = SyntheticScene::defaultCamera();
-  verged.cx_right += 12.0;  // far points have a negative disparity
+  verged.cx_right += 12.0;  // far points have negative disparities
   for (const StereoCamera& camera : {SyntheticScene::defaultCamera(), verged}) {
     const SyntheticScene scene(camera);
     const Correspondences features =
@@ -75,7 +75,7 @@ TEST(CorrespondenceFinderTest, FindsPointsOfTheSceneInBothPairs) {
       EXPECT_LT((camera.project(feature.point_cur) - feature.cur_px).norm(), 1e-9);
       EXPECT_NEAR(camera.disparity(feature.point_cur.z()), feature.disparity_px, 1e-9);
     }
-    // What tracker and matcher measure by themselves.
+    // The measured accuracy of the tracker and the matcher alone.
     EXPECT_LT(median(flow_errors_px), 0.25);
     EXPECT_LT(median(disparity_errors_px), 0.25);
   }
@@ -86,7 +86,7 @@ TEST(CorrespondenceFinderTest, WantsLeftAndRightOnOneRow) {
   const StereoPair prev = view(scene, Eigen::Isometry3d::Identity());
   StereoPair cur = view(scene, step());
   const auto good = find(prev, cur, scene.camera()).size();
-  // The right image slips down by two rows between the pairs.
+  // The right image shifts down by two rows between the pairs.
   const cv::Mat slip = (cv::Mat_<double>(2, 3) << 1.0, 0.0, 0.0, 0.0, 1.0, 2.0);
   cv::warpAffine(cur.right, cur.right, slip, cur.right.size());
   EXPECT_LT(find(prev, cur, scene.camera()).size(), good / 10);
@@ -120,7 +120,7 @@ TEST(CorrespondenceFinderTest, CountsWhatIsLeft) {
   const int tracked = finder.find(camera, frames.keyframe, *frames.current, step(), true, features);
   EXPECT_GT(tracked, static_cast<int>(with_depth / 2));
   EXPECT_LE(static_cast<int>(features.size()), tracked);
-  // A motion that takes every point behind the camera leaves nothing to track.
+  // A motion that moves every point behind the camera leaves nothing to track.
   const Eigen::Isometry3d beyond = motion({0.0, 0.0, 200.0}, {0.0, 0.0, 0.0});
   EXPECT_EQ(finder.find(camera, frames.keyframe, *frames.current, beyond, true, features), 0);
   EXPECT_TRUE(features.empty());
@@ -146,7 +146,8 @@ TEST(CorrespondenceFinderTest, ShiftIsHowFarTheFeaturesMoveInTheImage) {
   EXPECT_EQ(finder.medianShift(camera, {}, none, yaw), 0.0);  // there are no points
   const Frames frames(finder, view(scene, none), view(scene, none), camera);
   EXPECT_EQ(finder.medianShift(camera, frames.keyframe, yaw, yaw), 0.0);
-  // Yaw moves the image's middle by f times the angle, 3.6 px, and its sides by up to 1.7 as much.
+  // Yaw shifts the middle of the image by f times the angle, 3.6 px, and its sides by up to 1.7
+  // times as much.
   EXPECT_GT(finder.medianShift(camera, frames.keyframe, none, yaw), 3.6);
   EXPECT_LT(finder.medianShift(camera, frames.keyframe, none, yaw), 6.2);
 }

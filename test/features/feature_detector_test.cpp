@@ -23,7 +23,7 @@ float distance(const cv::Point2f& a, const cv::Point2f& b) {
   return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y));
 }
 
-/// Blurred noise of a contrast, with corners everywhere.
+/// Blurred noise of the given contrast, with corners everywhere.
 cv::Mat noiseImage(const cv::Size& size, double contrast) {
   cv::RNG generator(7);
   cv::Mat noise(size, CV_8UC1);
@@ -32,7 +32,8 @@ cv::Mat noiseImage(const cv::Size& size, double contrast) {
   return noise;
 }
 
-/// A white square on black whose edges cover half a pixel: corners at pixels, without aliasing.
+/// A white square on black whose edges cover half a pixel: corners at integer pixels, without
+/// aliasing.
 cv::Mat squareImage(const cv::Rect& square) {
   cv::Mat image = cv::Mat::zeros(160, 200, CV_8UC1);
   const cv::Point last = square.br() - cv::Point(1, 1);
@@ -50,7 +51,8 @@ TEST(FeatureDetectorTest, FindsTheCornersOfASquareAndNothingElse) {
   ASSERT_EQ(corners.size(), 4u);
   for (const cv::Point2f expected :
        {cv::Point2f(60, 40), cv::Point2f(110, 40), cv::Point2f(60, 100), cv::Point2f(110, 100)}) {
-    // A block has both edges whole when it is centred up to its radius inside of the corner.
+    // A block contains both edges completely if its centre is inside the corner by up to its
+    // radius.
     const auto found = std::find_if(corners.begin(), corners.end(), [&](const cv::Point2f& corner) {
       return distance(corner, expected) <= 2.0F && square.contains(corner);
     });
@@ -61,7 +63,7 @@ TEST(FeatureDetectorTest, FindsTheCornersOfASquareAndNothingElse) {
 TEST(FeatureDetectorTest, KeepsCornersApart) {
   FeatureDetector::Config config;
   config.nms_radius_px = 6;
-  // Corners all over, and a regular pattern, whose corners are all equally strong.
+  // Corners everywhere, and a regular pattern whose corners are all equally strong.
   cv::Mat image = noiseImage({300, 200}, 60.0);
   for (int y = 0; y < 100; ++y) {
     for (int x = 0; x < 300; ++x) image.at<uchar>(y, x) = (x / 3 + y / 3) % 2 == 0 ? 60 : 200;
@@ -77,8 +79,8 @@ TEST(FeatureDetectorTest, KeepsCornersApart) {
   EXPECT_GT(nearest, 6.0F);
 }
 
-/// By definition: responses that none nearby exceeds, nor equals above or to the left; the
-/// strongest first.
+/// By definition: responses that no neighbour exceeds, and none above or to the left equals, in
+/// decreasing order.
 Corners expectedCorners(const cv::Mat& image, const FeatureDetector::Config& config) {
   cv::Mat response;
   CornerResponse(config.block_radius_px).compute(image, 0, image.rows, 0, response);
@@ -108,7 +110,7 @@ Corners expectedCorners(const cv::Mat& image, const FeatureDetector::Config& con
 
 TEST(FeatureDetectorTest, FindsThePeaksOfTheResponse) {
   cv::Mat image = noiseImage({203, 170}, 60.0);
-  for (int y = 50; y < 80; ++y) {  // equally strong corners, across the edge of a strip
+  for (int y = 50; y < 80; ++y) {  // equally strong corners across a strip boundary
     for (int x = 0; x < 203; ++x) image.at<uchar>(y, x) = (x / 3 + y / 3) % 2 == 0 ? 60 : 200;
   }
   FeatureDetector::Config config;
@@ -132,7 +134,7 @@ TEST(FeatureDetectorTest, SpreadsCornersOverStrongAndWeakTexture) {
   const cv::Rect weak_half(160, 0, 160, 192);
   noiseImage({160, 192}, 12.0).copyTo(image(weak_half));
   FeatureDetector::Config config;
-  config.max_features = 120;  // 2 for each of the 60 cells
+  config.max_features = 120;  // two for each of the 60 cells
   const Corners corners = detect(image, config);
   ASSERT_EQ(corners.size(), 120u);
   const auto weak = std::count_if(
@@ -147,7 +149,7 @@ TEST(FeatureDetectorTest, TakesTheStrongestFirst) {
   image(cv::Rect(40, 40, 6, 6)).setTo(250);
   FeatureDetector::Config config;
   config.max_features = 1;
-  for (const int cell_size_px : {32, 1000}) {  // each in a cell of its own, both in one
+  for (const int cell_size_px : {32, 1000}) {  // in separate cells, and in the same cell
     config.cell_size_px = cell_size_px;
     const Corners corners = detect(image, config);
     ASSERT_EQ(corners.size(), 1u);
@@ -174,7 +176,7 @@ TEST(FeatureDetectorTest, GivesNoMoreThanAskedFor) {
 }
 
 TEST(FeatureDetectorTest, FindsTheSameWhereverTheImageIsCutIntoStrips) {
-  // The same texture 30 rows lower lies differently in the strips.
+  // The same texture 30 rows lower is divided differently into strips.
   const cv::Mat image = noiseImage({120, 230}, 60.0);
   FeatureDetector::Config config;
   config.cell_size_px = 1000;
@@ -195,7 +197,7 @@ TEST(FeatureDetectorTest, FindsNothingWhereThereIsNothing) {
   FeatureDetector::Config config;
   config.min_response = 0.0;
   EXPECT_TRUE(detect(cv::Mat(200, 300, CV_8UC1, cv::Scalar(90)), config).empty());
-  // An edge is no corner.
+  // An edge is not a corner.
   cv::Mat edge = cv::Mat::zeros(200, 300, CV_8UC1);
   edge.colRange(150, 300).setTo(255);
   EXPECT_TRUE(detect(edge).empty());

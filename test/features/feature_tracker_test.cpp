@@ -14,11 +14,11 @@ namespace {
 
 using Points = std::vector<cv::Point2f>;
 
-/// Two left images of the street, the corners of the first one and where they are in the second.
+/// Two left images of the street, the corners of the first and their positions in the second.
 struct TwoViews {
   cv::Mat first, second;
   Points corners, truth;
-  std::vector<float> growth;  // of what is around the corners
+  std::vector<float> growth;  // scale changes at the corners
 
   explicit TwoViews(const Eigen::Isometry3d& T_prev_cur) {
     const SyntheticScene scene;
@@ -77,7 +77,7 @@ Tracked track(const cv::Mat& first,
   return result;
 }
 
-/// Errors of what was tracked, sorted [px].
+/// Sorted errors of the tracked points [px].
 std::vector<double> sortedErrors(const Tracked& result, const Points& truth) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -107,7 +107,8 @@ TEST(FeatureTrackerTest, FindsTheFlowFromAPoorPrediction) {
   const Tracked result = track(drive().first, drive().second, drive().corners, predictions, {2});
   const std::vector<double> errors = sortedErrors(result, drive().truth);
   EXPECT_GT(errors.size(), predictions.size() * 8 / 10);
-  // Measured: 0.19 and 0.54 px. It is the street growing inside the window, not the grey noise.
+  // Measured: 0.19 and 0.54 px. The cause is the scale change of the street within the window, not
+  // the image noise.
   EXPECT_LT(quantile(errors, 0.5), 0.25);
   EXPECT_LT(quantile(errors, 0.9), 0.7);
 }
@@ -118,7 +119,7 @@ TEST(FeatureTrackerTest, FindsTheFlowOfARotationBetter) {
       track(views.first, views.second, views.corners, perturbed(views.truth, 2.0), {2});
   const std::vector<double> errors = sortedErrors(result, views.truth);
   EXPECT_GT(errors.size(), views.truth.size() * 9 / 10);
-  // Measured: 0.09 and 0.24 px, from noise of 2 grey levels.
+  // Measured: 0.09 and 0.24 px, caused by noise of 2 grey levels.
   EXPECT_LT(quantile(errors, 0.5), 0.13);
   EXPECT_LT(quantile(errors, 0.9), 0.35);
 }
@@ -138,7 +139,7 @@ TEST(FeatureTrackerTest, KnowsThatWhatComesNearerGrows) {
   const std::vector<double> known = errorsWith(drive().growth);
   const std::vector<double> unknown = errorsWith({});
   EXPECT_GE(known.size(), unknown.size() * 98 / 100);
-  // Road and walls are seen at a slant, so that they do more than grow.
+  // Road and walls are seen at a slant, so their windows do not only change in scale.
   EXPECT_LT(quantile(known, 0.5), 0.8 * quantile(unknown, 0.5));
   EXPECT_LT(quantile(known, 0.9), 0.9 * quantile(unknown, 0.9));
 }
@@ -155,14 +156,14 @@ TEST(FeatureTrackerTest, FindsTheFlowUnderAnotherExposure) {
   const std::vector<double> brighter = errorsAt(1.0, 25.0);
   EXPECT_GT(brighter.size(), same.size() * 95 / 100) << "the lightest pixels are cut off";
   EXPECT_NEAR(quantile(brighter, 0.5), quantile(same, 0.5), 0.01);
-  // A gain also changes the contrast, which draws points along its gradient.
+  // A gain also changes the contrast, which shifts points along their gradients.
   const std::vector<double> darker = errorsAt(0.8, 0.0);
   EXPECT_GT(darker.size(), same.size() * 8 / 10);
   EXPECT_LT(quantile(darker, 0.5), 0.3);
 }
 
 TEST(FeatureTrackerTest, FindsALargeFlowFromNothingWithAllLevels) {
-  // 26 deg/s at 10 Hz, as where KITTI 01 begins.
+  // 26 deg/s at 10 Hz, as at the start of KITTI 01.
   const TwoViews views(motion({0.0, 0.0, 0.6}, {0.0, 0.045, 0.0}));
   const auto share_right = [&](int levels) {
     const Tracked result = track(views.first, views.second, views.corners, views.corners, {levels});
@@ -198,7 +199,7 @@ TEST(FeatureTrackerTest, DropsPointsThatDoNotComeBack) {
     }
   }
   ASSERT_GT(inside, 30);
-  // By chance some find their way back from noise; measured 6 of 48.
+  // Some points in noise return by chance. Measured: 6 of 48.
   EXPECT_LT(kept_inside, inside / 4);
   EXPECT_GT(kept_outside, outside * 9 / 10);
 }
@@ -225,7 +226,7 @@ TEST(FeatureTrackerTest, UsesSmallImagesWhereAPointIsNotNear) {
                               {levels, true}),
                         drive().truth);
   };
-  // One level is enough for what is near, and finds the same then as several.
+  // One level is enough for close points, and gives the same result as several.
   EXPECT_GT(errors(0.5, 1).size(), drive().truth.size() * 8 / 10);
   EXPECT_EQ(errors(0.5, 1).size(), errors(0.5, 3).size());
   EXPECT_GT(errors(12.0, 3).size(), 2 * errors(12.0, 1).size());
@@ -251,7 +252,7 @@ TEST(FeatureTrackerTest, LeavesPointsAloneThatAreNotAskedFor) {
 }
 
 TEST(FeatureTrackerTest, TakesTheLargestWindowAtFullContrast) {
-  // Sums over 51 rows of differences between black and white must not overflow.
+  // Sums of black-white differences over 51 rows must not overflow.
   cv::Mat stripes(200, 200, CV_8UC1);
   cv::Mat moved(stripes.size(), CV_8UC1);
   const auto texture = [](int x, int y) {
@@ -317,7 +318,7 @@ TEST(FeatureTrackerTest, ComparesBrightnessIfAsked) {
 }
 
 TEST(FeatureTrackerTest, KeepsPointsThatDoNotComeBackIfTheRoundTripIsNotChecked) {
-  // Another street altogether: what is found there does not lead back.
+  // A different part of the street: tracking back does not return to the start.
   const TwoViews elsewhere(motion({0.0, 0.0, 20.0}, {0.0, 0.6, 0.0}));
   const auto tracked = [&](double max_round_trip_px) {
     FeatureTracker::Config config;

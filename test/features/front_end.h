@@ -6,9 +6,9 @@
 
 namespace rotrocc {
 
-/// All that CorrespondenceFinder finds in two pairs, of a camera of the size of KITTI's that moves
-/// ahead by `ahead_m`: the counts of corners, depths and tracked features, and the features'
-/// numbers.
+/// All results of CorrespondenceFinder for two pairs of a camera of KITTI's size that moves forward
+/// by `ahead_m`: the numbers of corners, depths and tracked features, and the values of the
+/// features.
 std::vector<double> runFrontEnd(const cv::Mat& prev_left,
                                 const cv::Mat& prev_right,
                                 const cv::Mat& cur_left,

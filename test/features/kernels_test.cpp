@@ -25,7 +25,7 @@ TEST(KernelsTest, AreThoseOfTheProcessorUnlessToldOtherwise) {
 }
 
 #ifdef AVX2_OBJECTS
-/// Other functions that they define, the linker might take for all processors.
+/// If they defined other functions, the linker might use them for all processors.
 TEST(KernelsTest, OfAvx2DefineNoFunctionThatOthersMightCall) {
   const CommandResult names = runCommand("nm --defined-only --extern-only " AVX2_OBJECTS);
   ASSERT_EQ(names.status, 0) << names.output;
@@ -34,7 +34,7 @@ TEST(KernelsTest, OfAvx2DefineNoFunctionThatOthersMightCall) {
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     std::string address, type, name;
-    if (!(words >> address >> type >> name)) continue;  // a file's name
+    if (!(words >> address >> type >> name)) continue;  // file name
     if (type != "T" && type != "W") continue;           // data
     EXPECT_NE(name.find("7rotrocc4avx2"), std::string::npos) << line;
     ++functions;

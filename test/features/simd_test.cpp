@@ -1,6 +1,6 @@
-// Compares what the processor's widest registers find with what those of 128 bits find, and plain
-// C++: the sources of the front end are compiled twice, the second time in another namespace, with
-// OpenCV's emulation of its SIMD types.
+// Compares the results of the processor's widest registers with those of 128-bit registers and of
+// plain C++. For the latter, the sources of the front end are compiled a second time in another
+// namespace, with OpenCV's emulation of its SIMD types.
 
 #include <cstdlib>
 #include <string>
@@ -52,7 +52,7 @@ StereoPair render(double z_m, const StereoCamera& camera) {
 TEST(SimdTest, PlainCodeFindsTheSameInAStreet) {
   StereoCamera camera = SyntheticScene::defaultCamera();
   expectTheSame(render(0.0, camera), render(0.3, camera), camera.fx, 0.25);
-  camera.width -= 3;  // for what is left of a row beside whole registers
+  camera.width -= 3;  // so that rows are not a whole number of registers
   camera.height -= 1;
   expectTheSame(render(0.0, camera), render(0.3, camera), camera.fx, 0.25);
 }

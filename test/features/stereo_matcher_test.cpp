@@ -53,7 +53,7 @@ class Texture {
     cv::normalize(fine_, fine_, 0.0, 255.0, cv::NORM_MINMAX);
   }
 
-  /// An image of 300 x 80 in which everything lies `shift_px` further left.
+  /// An image of 300 x 80 px in which the texture is shifted to the left by `shift_px`.
   cv::Mat image(double shift_px) const {
     const int offset = cvRound(kFine * (kMargin + shift_px));
     cv::Mat image(80, 300, CV_8UC1);
@@ -88,7 +88,7 @@ int countFound(const Disparities& disparities) {
       disparities.begin(), disparities.end(), [](float disparity) { return disparity != kNone; }));
 }
 
-/// How far the fit of two lines may be off where the texture is not alike on both sides [px].
+/// Error of the two-line fit if the texture differs on both sides [px].
 constexpr double kPeakLocking_px = 0.25;
 
 int countNear(double expected_px, const Disparities& disparities) {
@@ -98,12 +98,12 @@ int countNear(double expected_px, const Disparities& disparities) {
       }));
 }
 
-/// 90 %: now and then a window finds its like by chance.
+/// 90 %: some windows have a similar one by chance.
 int most(const Pixels& pixels) {
   return static_cast<int>(pixels.size() * 9 / 10);
 }
 
-/// Away from the edges of Texture's images, with room for a disparity of 100.
+/// A region away from the borders of Texture's images, with room for a disparity of 100 px.
 const cv::Rect kMiddle(120, 10, 150, 60);
 
 TEST(StereoMatcherTest, FindsWholeShiftsExactly) {
@@ -128,7 +128,7 @@ TEST(StereoMatcherTest, FindsFractionsOfAPixel) {
     const double rms =
         std::sqrt(std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0) /
                   static_cast<double>(errors.size()));
-    // Measured: bias 0.011, rms 0.028 px at worst.
+    // Measured: bias 0.011 px, rms at most 0.028 px.
     EXPECT_NEAR(bias, 0.0, 0.03) << shift_px;
     EXPECT_LT(rms, 0.06) << shift_px;
   }
@@ -165,13 +165,13 @@ TEST(StereoMatcherTest, MatchNearDoesNotMindADifferenceInBrightness) {
   const float alike_px = matchNear(left, exposed(20.375, 50.0), pixel, 20.0F);
   EXPECT_NEAR(alike_px, 20.375F, 0.1F);
   for (const double offset : {10.0, 90.0}) {
-    // Means are taken off in steps of 1/8 grey level.
+    // Means are subtracted in steps of 1/8 grey level.
     EXPECT_NEAR(matchNear(left, exposed(20.375, offset), pixel, 20.0F), alike_px, 0.01F) << offset;
   }
 }
 
 TEST(StereoMatcherTest, RefusesWhatIsAmbiguous) {
-  // Stripes 12 px apart look alike at disparities 12 px apart.
+  // Stripes with a spacing of 12 px match at disparities 12 px apart.
   cv::Mat left(80, 300, CV_8UC1);
   for (int x = 0; x < left.cols; ++x) left.col(x).setTo(x % 12 < 6 ? 60 : 200);
   const Pixels pixels = grid(kMiddle, 10);
@@ -181,7 +181,7 @@ TEST(StereoMatcherTest, RefusesWhatIsAmbiguous) {
   EXPECT_EQ(countFound(match(left + noisy, left, pixels)), 0);
   const cv::Mat plain(80, 300, CV_8UC1, cv::Scalar(80));
   EXPECT_EQ(countFound(match(plain, plain, pixels)), 0);
-  // An expectation says which stripe it is.
+  // The expected disparity selects the stripe.
   EXPECT_NEAR(matchNear(left, left, {150.0F, 40.0F}, 11.0F), 12.0F, kPeakLocking_px);
 }
 
@@ -211,7 +211,7 @@ TEST(StereoMatcherTest, RefusesTheTooNearAndTheTooFar) {
   config.max_disparity_px = 40;
   config.min_disparity_px = 5.0;
   const Pixels pixels = grid(kMiddle, 10);
-  // Where the axes of a rig meet, points at infinity have a disparity.
+  // If the optical axes are not parallel, points at infinity have a disparity.
   for (const double infinity_px : {0.0, -20.0, 15.0}) {
     const auto found = [&](double above_infinity_px) {
       const double shift_px = infinity_px + above_infinity_px;
@@ -239,7 +239,7 @@ TEST(StereoMatcherTest, RefusesPixelsWhoseWindowLeavesTheImage) {
     EXPECT_EQ(match(left, right, {pixel}).at(0), kNone) << pixel;
     EXPECT_EQ(matchNear(left, right, pixel, 10.0F), kNone) << pixel;
   }
-  // So do windows of the right image, where the disparity is as large as x.
+  // The same holds for windows of the right image, where the disparity is as large as x.
   EXPECT_EQ(match(left, right, {{12.0F, 40.0F}}).at(0), kNone);
 }
 
@@ -285,7 +285,7 @@ TEST(StereoMatcherTest, MeasuresTheDepthOfAStreet) {
   };
   const auto wrong = std::count_if(
       errors.begin(), errors.end(), [](double error) { return std::abs(error) > 2.0; });
-  // Measured: median -0.015, one sigma 0.16 px, no wrong match.
+  // Measured: median -0.015 px, one sigma 0.16 px, no wrong match.
   EXPECT_NEAR(quantile(0.5), 0.0, 0.05);
   EXPECT_LT(quantile(0.84) - quantile(0.16), 2.0 * 0.25);
   EXPECT_LT(wrong, static_cast<std::ptrdiff_t>(errors.size() / 50));

@@ -26,7 +26,7 @@ TEST(CorrespondenceTest, TriangulatesAtTheDepthOfTheDisparity) {
 }
 
 TEST(CorrespondenceTest, DropsWhatIsAtOrBeyondInfinity) {
-  // As after a jump of the rig's bias: disparities that were above that of infinity no longer are.
+  // As after a change of the disparity bias: some disparities are no longer above that of infinity.
   StereoCamera camera = kittiCamera();
   camera.cx_right -= 3.0;
   ASSERT_NEAR(camera.disparityAtInfinity(), 3.0, 1e-9);

@@ -21,7 +21,7 @@ TEST(PoseAccumulatorTest, BeginsInItsOwnFrame) {
 }
 
 TEST(PoseAccumulatorTest, LaterMotionsAreInLaterFrames) {
-  // A quarter turn about y, then forward: the step leads along the first frame's x axis.
+  // A quarter turn about y, then forward: the step is along the x axis of the first frame.
   Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
   turn.rotate(Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitY()));
   Eigen::Isometry3d forward = Eigen::Isometry3d::Identity();
@@ -34,7 +34,7 @@ TEST(PoseAccumulatorTest, LaterMotionsAreInLaterFrames) {
 
 TEST(PoseAccumulatorTest, RotationStaysARotation) {
   PoseAccumulator pose;
-  // A day at 10 Hz. Without renormalisation, errors of 1e-16 per step add up to 1e-11 or more.
+  // A day at 10 Hz. Without normalization, errors of 1e-16 per step accumulate to 1e-11 or more.
   for (int i = 0; i < 864'000; ++i) pose.add(step());
   const Eigen::Matrix3d R = pose.T_first_cur().linear();
   EXPECT_LT((R.transpose() * R - Eigen::Matrix3d::Identity()).norm(), 1e-14);

@@ -7,7 +7,7 @@
 namespace rotrocc {
 namespace {
 
-constexpr double kRounding = 1e-12;  // of some dozen operations on numbers near 1
+constexpr double kRounding = 1e-12;  // of some dozen operations on values near 1
 
 const Eigen::Vector3d kAxis = Eigen::Vector3d(1.0, -2.0, 0.5).normalized();
 
@@ -46,7 +46,7 @@ TEST(RigidMotionTest, LeftJacobianIsTheDerivativeOfExp) {
       numeric.col(i) =
           logRotation(expRotation(v + step) * expRotation(v - step).transpose()) / (2.0 * kStep);
     }
-    // Central differences: rounding 1e-16 / step, and the square of the step.
+    // Errors of central differences: rounding 1e-16 / step, and the square of the step.
     EXPECT_LT((leftJacobian(v) - numeric).norm(), 1e-8) << angle;
   }
 }
@@ -58,7 +58,7 @@ TEST(RigidMotionTest, TheJacobianDoesNotJumpWhereTheSeriesEnds) {
 }
 
 TEST(RigidMotionTest, AConstantTwistMovesAlongAnArc) {
-  // A quarter turn to the left on a circle of 2 m, body axes x ahead and y to the left.
+  // A quarter circle to the left with a radius of 2 m; body axes x forward and y left.
   Vector6d twist;
   twist << M_PI, 0.0, 0.0, 0.0, 0.0, M_PI / 2.0;
   const Eigen::Isometry3d T = expMotion(twist);

@@ -12,7 +12,7 @@
 namespace rotrocc {
 namespace {
 
-constexpr double kRounding = 1e-12;  // relative, of a few operations
+constexpr double kRounding = 1e-12;  // relative error of a few operations
 
 StereoCamera vergedCamera() {
   StereoCamera camera = kittiCamera();

@@ -9,8 +9,8 @@
 namespace rotrocc {
 namespace {
 
-/// Lengths of vectors of two Gaussian numbers of this standard deviation, one of them exactly
-/// `last_px` long.
+/// Lengths of vectors of two Gaussian numbers with this standard deviation. One of them has exactly
+/// the length `last_px`.
 std::vector<double> gaussianErrors(double sigma_px, double last_px) {
   std::mt19937 generator(1);
   std::normal_distribution<double> number(0.0, sigma_px);
@@ -29,7 +29,8 @@ std::vector<double> weightsOf(double factor, const std::vector<double>& errors_p
 TEST(CauchyWeightsTest, AreAHalfAtTheFactorTimesTheStandardDeviation) {
   for (const double sigma_px : {0.1, 2.0}) {
     const auto weights = weightsOf(3.0, gaussianErrors(sigma_px, 3.0 * sigma_px));
-    // The median of 10000 has a standard deviation of 0.8 %, which is half of that in the weight.
+    // The median of 10000 values has a standard deviation of 0.8 %. That of the weight is half of
+    // it.
     EXPECT_NEAR(weights[10000], 0.5, 0.02);
   }
 }
@@ -62,8 +63,8 @@ TEST(WeightedVarianceTest, IsThatOfTheResidualsWithAndWithoutWeights) {
     for (std::size_t i = 0; i < weights.size(); ++i) {
       variance.add(weights[i], errors_px[i] * errors_px[i]);
     }
-    // The standard deviation of the variance of 20000 is 1 %; with this factor weights are next
-    // to 1.
+    // The variance of 20000 values has a standard deviation of 1 %. With this factor, all weights
+    // are close to 1.
     EXPECT_NEAR(variance.value(6), 0.09, 0.04 * 0.09);
     EXPECT_EQ(variance.value(20000), 0.0);
   }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kNoiseRatio = 3.0;
 
-/// Motions of a car and of a hand-held camera, some with no rotation or translation at all.
+/// Motions of a car and of a hand-held camera, some without rotation or translation.
 std::vector<Eigen::Isometry3d> someMotions() {
   std::mt19937 generator(1);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
@@ -35,7 +35,7 @@ Correspondences someFeatures(const Eigen::Isometry3d& T_keyframe_cur) {
   return simulateFeatures(kittiCamera(), T_keyframe_cur, 20, {5.0, 1.0}, generator);
 }
 
-/// S of the docstring of fitAt(), with j by central differences.
+/// S as defined at fitAt(), with j from central differences.
 Eigen::Matrix2d residualCovariance(const StereoCamera& camera,
                                    const Correspondence& feature,
                                    const Eigen::Isometry3d& T_keyframe_cur) {
@@ -59,7 +59,7 @@ TEST(FittedFeatureTest, WhiteningMakesTheCovarianceOfAResidualTheIdentity) {
       for (const Correspondence& feature : simulateFeatures(camera, T, 20, {}, generator)) {
         const Eigen::Matrix2d W = fitDisparity(camera, feature, T, kNoiseRatio).whitening;
         const Eigen::Matrix2d S = residualCovariance(camera, feature, T);
-        // Central differences are good to the square of the step, some 1e-7.
+        // The error of central differences is the square of the step, about 1e-7.
         EXPECT_LT((W * S * W - Eigen::Matrix2d::Identity()).norm(), 1e-5);
         EXPECT_LT((W - W.transpose()).norm(), 1e-12);
       }
@@ -67,8 +67,8 @@ TEST(FittedFeatureTest, WhiteningMakesTheCovarianceOfAResidualTheIdentity) {
   }
 }
 
-/// Squared distance of a disparity to the measured one and of its flow to the measured flow, in
-/// units of the flow's variance.
+/// The squared distance of a disparity to the measured one plus that of its flow to the measured
+/// flow, in units of the flow's variance.
 double distanceToMeasurements(const Correspondence& feature,
                               const Eigen::Isometry3d& T,
                               double disparity_px) {
@@ -88,10 +88,11 @@ TEST(FittedFeatureTest, TheFittedDisparityIsTheLikeliest) {
       const double fitted_px =
           feature.disparity_px * feature.point_cur.norm() / fitted.rotated_point.norm();
       const double least = distanceToMeasurements(feature, T, fitted_px);
-      // Two steps of a fit leave some hundredths of a pixel: neither neighbour is clearly better.
+      // After two steps, the fit is accurate to some hundredths of a pixel: neither neighbour may
+      // be clearly better.
       EXPECT_LT(least, distanceToMeasurements(feature, T, fitted_px - 0.1) + 0.02);
       EXPECT_LT(least, distanceToMeasurements(feature, T, fitted_px + 0.1) + 0.02);
-      // The whitened residual is what the fit leaves of both.
+      // The whitened residual equals the remaining distance to both measurements.
       const Eigen::Vector2d residual =
           fitted.whitening *
           (fitted.target_px - camera.project(fitted.rotated_point + T.translation()));

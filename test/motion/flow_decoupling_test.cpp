@@ -38,7 +38,7 @@ TEST(FlowDecouplingTest, LittleIsLeftOfTheFlowOfFarPoints) {
   Correspondence far;
   std::mt19937 generator(1);
   ASSERT_TRUE(measure(kittiCamera(), {10.0, 5.0, 300.0}, T, {}, generator, far));
-  // f |t_x| / depth is half a pixel, that of the rotation 40.
+  // The flow of the translation, f |t_x| / depth, is half a pixel; that of the rotation is 40 px.
   EXPECT_LT(decoupled({far}, T.linear()).at(0), 1.0);
   EXPECT_GT((far.keyframe_px - far.cur_px).norm(), 30.0);
 }
@@ -61,14 +61,15 @@ TEST(FlowDecouplingTest, IsTheDistanceToTheRotatedRay) {
   const Correspondences moved = features(T);
   const std::vector<double> lengths_px = decoupled(moved, T.linear());
   for (std::size_t i = 0; i < moved.size(); ++i) {
-    // Eq. 28 needs no depth: pi(R x) of the ray.
+    // Eq. 28 needs no depth: it uses pi(R x) of the ray.
     const Eigen::Vector3d ray = T.linear() * camera.ray(moved[i].cur_px);
     EXPECT_NEAR(lengths_px[i], (moved[i].keyframe_px - camera.project(ray)).norm(), kRounding_px);
   }
 }
 
 TEST(FlowDecouplingTest, ForwardMotionGivesTheFlowOfEq17) {
-  // Forward, the flow of a point at X, Z is f X (1/Z - 1/(Z + t)), towards the image's middle.
+  // In forward motion, the flow of a point at X, Z is f X (1/Z - 1/(Z + t)), towards the image
+  // centre.
   const StereoCamera camera = kittiCamera();
   const Eigen::Isometry3d T = motion({0.0, 0.0, 1.0}, {0.0, 0.08, 0.0});
   const Eigen::Vector3d point_cur(-1.5, 0.0, 9.0);

@@ -19,10 +19,10 @@ using Estimate = MotionEstimator::Estimate;
 constexpr double kPeriod_s = 0.1;
 constexpr int kFeatures = 600;
 
-/// Flow noise as measured on KITTI, and disparity noise in the ratio the estimator assumes.
+/// Flow noise as measured on KITTI, and disparity noise at the ratio that the estimator assumes.
 const FeatureNoise kNoise = {0.3, 0.3 * MotionEstimator::Config().noise_ratio};
 
-/// A Gaussian error is larger once in 16000 times.
+/// A Gaussian error exceeds this once in 16000 cases.
 constexpr double kSigmas = 4.0;
 
 /// 13 m/s in a bend.
@@ -36,7 +36,7 @@ MotionEstimator::Config configOf(const std::string& criterion) {
   return config;
 }
 
-/// From a prediction some centimetres and a tenth of a degree off.
+/// Starts at a prediction with an error of some centimetres and a tenth of a degree.
 Estimate estimate(const Correspondences& features,
                   const MotionEstimator::Config& config = {},
                   const Eigen::Isometry3d& truth = turnAhead()) {
@@ -49,7 +49,7 @@ Correspondences goodFeatures(unsigned seed, const Eigen::Isometry3d& truth = tur
   return simulateFeatures(kittiCamera(), truth, kFeatures, kNoise, generator);
 }
 
-/// Good features of which a share was matched to anything.
+/// Good features, of which a share has random matches.
 Correspondences withRandomMatches(double share, unsigned seed) {
   Correspondences features = goodFeatures(seed);
   std::mt19937 generator(seed + 1000);
@@ -61,7 +61,7 @@ Correspondences withRandomMatches(double share, unsigned seed) {
   return features;
 }
 
-/// Good features of which a share is on a truck ahead that is 3 m/s slower.
+/// Good features, of which a share is on a truck ahead that is 3 m/s slower.
 Correspondences withMovingObject(double share, unsigned seed) {
   Correspondences features = goodFeatures(seed);
   std::mt19937 generator(seed + 2000);
@@ -81,8 +81,8 @@ Correspondences withMovingObject(double share, unsigned seed) {
   return features;
 }
 
-/// Normalized error squared: of chi-square distribution with 6 degrees of freedom if the covariance
-/// is right.
+/// Normalized estimation error squared. It has a chi-squared distribution with 6 degrees of freedom
+/// if the covariance is correct.
 double nees(const Estimate& estimate, const Eigen::Isometry3d& truth = turnAhead()) {
   const Vector6d error = motionError(estimate.T_keyframe_cur, truth);
   return error.dot(estimate.covariance.ldlt().solve(error));
@@ -104,7 +104,7 @@ TEST(MotionEstimatorTest, EveryCriterionFindsTheMotionOfGoodFeatures) {
   for (const std::string& criterion : criterionNames()) {
     const Estimate found = estimate(goodFeatures(1), configOf(criterion));
     ASSERT_TRUE(found.valid) << criterion;
-    // Five times the standard deviation that all 600 features allow, 2 mm and 0.1 mrad.
+    // Five times the standard deviation from all 600 features, 2 mm and 0.1 mrad.
     EXPECT_LT(translationError(found), 0.01) << criterion;
     EXPECT_LT(rotationError(found), 5e-4) << criterion;
   }
@@ -129,7 +129,7 @@ TEST(MotionEstimatorTest, IsNotMovedByOutliers) {
       for (int i = 0; i < 6; ++i) {
         EXPECT_LT(std::abs(error(i)), kSigmas * std::sqrt(found.covariance(i, i))) << seed << i;
       }
-      // Nor does the covariance make up for it: as without outliers, 2 mm and 0.1 mrad.
+      // The covariance must not grow either: 2 mm and 0.1 mrad, as without outliers.
       const Vector6d variances = found.covariance.diagonal();
       EXPECT_LT(std::sqrt(variances.head<3>().sum()), 0.004);
       EXPECT_LT(std::sqrt(variances.tail<3>().sum()), 2e-4);
@@ -143,10 +143,10 @@ TEST(MotionEstimatorTest, DropsOutliersAndKeepsInliers) {
   const auto kept_wrong = [&](const FeatureSet& set) {
     return std::count(set.begin(), set.begin() + wrong, 1);
   };
-  // Few of the random matches are by chance within a pixel or two of where they should be.
+  // Few random matches are within one or two pixels of the correct position by chance.
   EXPECT_LT(kept_wrong(found.rotation_inliers), wrong / 20);
   EXPECT_LT(kept_wrong(found.translation_inliers), wrong / 20);
-  // Of Gaussian errors exp(-(0.6 / 0.3)^2 / 2) = 14 % are above the limit of 0.6 px.
+  // exp(-(0.6 / 0.3)^2 / 2) = 14 % of Gaussian errors exceed the limit of 0.6 px.
   EXPECT_GT(count(found.rotation_inliers), (kFeatures - wrong) * 8 / 10);
 }
 
@@ -154,7 +154,8 @@ TEST(MotionEstimatorTest, TheDecoupledFlowTellsAMovingObjectFromTheStreet) {
   const auto error = [](const std::string& criterion) {
     return translationError(estimate(withMovingObject(0.4, 1), configOf(criterion)));
   };
-  // Where it moves with the street's flow, mean errors and the coupled flow do not see it.
+  // Where the object moves with the street's flow, mean errors and the coupled flow do not detect
+  // it.
   EXPECT_LT(2.0 * error("rotrocc"), error("rocc"));
   EXPECT_LT(5.0 * error("rotrocc"), error("mean_based"));
 }
@@ -173,12 +174,12 @@ TEST(MotionEstimatorTest, IsNotMovedByATruckThatFillsMostOfThePicture) {
     error_with += translationError(found);
     error_without += translationError(estimate(features, without));
   }
-  EXPECT_LT(3.0 * error_with, error_without);  // what it is for
+  EXPECT_LT(3.0 * error_with, error_without);  // the benefit of the retry
 }
 
 TEST(MotionEstimatorTest, StageTwoBeginsWithWhatStageOneFoundNearlyRight) {
   MotionEstimator::Config config;
-  config.translation_limit = 100.0;  // drops nothing by itself
+  config.translation_limit = 100.0;  // drops nothing
   const Correspondences features = withRandomMatches(0.3, 1);
   EXPECT_LT(count(estimate(features, config).translation_inliers), kFeatures * 72 / 100);
   config.translation_initial_px = 0.0;
@@ -192,7 +193,7 @@ TEST(MotionEstimatorTest, SkipsTheTranslationStageAtLowSpeed) {
     EXPECT_TRUE(found.valid);
     return found.has_translation_stage;
   };
-  // min_speed_mps of 1 at 10 Hz is a step of 10 cm.
+  // At 10 Hz, min_speed_mps = 1 is a step of 10 cm.
   EXPECT_FALSE(has_stage(0.0));
   EXPECT_FALSE(has_stage(0.09));
   EXPECT_TRUE(has_stage(0.11));
@@ -259,7 +260,7 @@ TEST(MotionEstimatorTest, PointsOfOnePlaneAreEnough) {
 
 using MakeFeatures = Correspondences (*)(unsigned seed);
 
-/// Mean of nees() over many draws of the noise.
+/// Mean of nees() over many samples of the noise.
 double meanNees(const MotionEstimator::Config& config, MakeFeatures make) {
   constexpr int kDraws = 300;
   double sum = 0.0;
@@ -267,9 +268,9 @@ double meanNees(const MotionEstimator::Config& config, MakeFeatures make) {
   return sum / kDraws;
 }
 
-/// The mean of 300 draws of chi-square with 6 degrees of freedom is 6 +- 0.2. To that comes that a
-/// disparity of 4 +- 0.9 px is no longer a linear function of depth, and that of the scatter over
-/// the cells only what enlarges the covariance is believed: 4.6 to 6.8 were measured.
+/// The mean of 300 chi-squared values with 6 degrees of freedom is 6 +- 0.2. In addition, depth is
+/// not a linear function of a disparity of 4 +- 0.9 px, and the scatter over the cells can only
+/// increase the covariance. Measured: 4.6 to 6.8.
 constexpr double kLeastNees = 4.2;
 constexpr double kMostNees = 8.0;
 
@@ -305,7 +306,7 @@ TEST(MotionEstimatorTest, ARetryIsNotTakenForNoise) {
   MotionEstimator::Config without;
   without.retry_agreement_px = 0.0;
   for (unsigned seed = 0; seed < 20; ++seed) {
-    // So many random matches cause a retry, which finds the same motion but for its noise.
+    // This many random matches cause a retry. It finds the same motion up to noise.
     const Correspondences features = withRandomMatches(0.5, seed);
     EXPECT_EQ(estimate(features).T_keyframe_cur.matrix(),
               estimate(features, without).T_keyframe_cur.matrix())
@@ -315,7 +316,7 @@ TEST(MotionEstimatorTest, ARetryIsNotTakenForNoise) {
 
 TEST(MotionEstimatorTest, AFailedStageTwoLeavesTheMotionOfStageOne) {
   MotionEstimator::Config config;
-  config.translation_initial_px = 1e-6;  // noisy features may not enter
+  config.translation_initial_px = 1e-6;  // excludes noisy features
   const Estimate found = estimate(goodFeatures(1), config);
   ASSERT_TRUE(found.valid);
   EXPECT_TRUE(found.translation_failed);

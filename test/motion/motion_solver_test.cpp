@@ -62,7 +62,7 @@ TEST(MotionSolverTest, RecoversAnExactMotion) {
       const Correspondences exact = exactFeatures(features);
       Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
       ASSERT_TRUE(solveMotion(noise_ratio, exact, all(exact), T));
-      // Gauss-Newton converges quadratically; the last step was below 1e-7.
+      // Gauss-Newton converges quadratically, and the last step was below 1e-7.
       EXPECT_LT(motionError(T, turnAhead()).norm(), 1e-9) << features << ' ' << noise_ratio;
     }
   }
@@ -72,7 +72,7 @@ TEST(MotionSolverTest, RecoversAMotionFromThreeFeatures) {
   const Correspondences exact = exactFeatures(3);
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   ASSERT_TRUE(solveMotion(kNoiseRatio, exact, all(exact), T));
-  // It ends when the residuals are below 1e-8 px, and three points determine little.
+  // The solver stops at residuals below 1e-8 px, and three points determine the motion poorly.
   EXPECT_LT(motionError(T, turnAhead()).norm(), 1e-5);
 }
 
@@ -109,8 +109,8 @@ TEST(MotionSolverTest, RefusesTooFewFeatures) {
   EXPECT_TRUE(solveTranslation(kNoiseRatio, two, all(two), T));
 }
 
-/// Mean signed error of the length of a step past far points, in shares of it, and its standard
-/// error. The disparities are some 2 to 6 px.
+/// Mean signed relative error of the step length for far points, and its standard error. The
+/// disparities are about 2 to 6 px.
 std::pair<double, double> biasOfStep(double noise_ratio) {
   constexpr int kDraws = 200;
   const Eigen::Isometry3d truth = motion({0.0, 0.0, 2.5}, {0.0, 0.0, 0.0});
@@ -141,14 +141,14 @@ std::pair<double, double> biasOfStep(double noise_ratio) {
 
 TEST(MotionSolverTest, NoisyDisparitiesDoNotShortenTheStep) {
   const auto [bias, standard_error] = biasOfStep(3.0);
-  // The share of the noise in the mean square of the disparities, 0.3^2 / 3.2^2 = 0.9 %, is what
-  // plain least squares loses. Of second order are some tenths of it.
+  // Plain least squares lose the share of the noise in the mean square of the disparities, 0.3^2 /
+  // 3.2^2 = 0.9 %. Second-order effects are some tenths of that.
   EXPECT_NEAR(bias, 0.0, 0.002 + 3.0 * standard_error);
   EXPECT_LT(biasOfStep(0.0).first, -0.005);
 }
 
-/// Mean signed error of the length of a step, in shares of it, if a tenth of the windows see what
-/// is nearer, too, and after fits with weights by this factor.
+/// Mean signed relative error of the step length after fits with weights by this factor. A tenth of
+/// the windows also contain a nearer surface.
 double biasByFattening(double robust_factor) {
   constexpr int kDraws = 50;
   const Eigen::Isometry3d truth = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
@@ -170,7 +170,7 @@ double biasByFattening(double robust_factor) {
 }
 
 TEST(MotionSolverTest, RobustWeightsResistAnUnevenTail) {
-  // An error of 4 standard deviations of its residual or so has a fifth of the weight.
+  // An error of about 4 standard deviations of the residual has a fifth of the weight.
   const double equal = biasByFattening(0.0);
   EXPECT_LT(equal, -0.001);
   EXPECT_LT(std::abs(biasByFattening(2.0)), 0.5 * std::abs(equal));

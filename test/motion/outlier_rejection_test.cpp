@@ -13,7 +13,7 @@ const FeatureSet kAll(10, 1);
 TEST(OutlierRejectionTest, DropsNoMoreThanAShareAtOnce) {
   // b = 20 % of 10: the 2nd highest error; the limit is far below (Eq. 26, 30).
   EXPECT_DOUBLE_EQ(OutlierThreshold::fixedLimit(0.5, 0.2)(kErrors, kAll), 9.0);
-  // A share that is no whole number of features is rounded up, so that some always go.
+  // A share that is not a whole number of features is rounded up, so at least one is dropped.
   EXPECT_DOUBLE_EQ(OutlierThreshold::fixedLimit(0.5, 0.25)(kErrors, kAll), 8.0);
   EXPECT_DOUBLE_EQ(OutlierThreshold::fixedLimit(0.5, 0.001)(kErrors, kAll), 10.0);
   EXPECT_DOUBLE_EQ(OutlierThreshold::fixedLimit(0.5, 1.0)(kErrors, kAll), 1.0);
@@ -52,7 +52,7 @@ TEST(OutlierRejectionTest, AnEmptySetHasNoThreshold) {
 TEST(OutlierRejectionTest, KeepsWhatIsBelowTheThreshold) {
   FeatureSet set = {1, 1, 0, 0};
   EXPECT_TRUE(keepBelow({0.5, 1.0, 0.7, 2.0}, 1.0, set));
-  EXPECT_EQ(set, (FeatureSet{1, 0, 1, 0}));  // what was dropped may come back
+  EXPECT_EQ(set, (FeatureSet{1, 0, 1, 0}));  // dropped features may come back
   EXPECT_FALSE(keepBelow({0.5, 1.0, 0.7, 2.0}, 1.0, set));
   EXPECT_TRUE(keepBelow({0.5, std::nan(""), std::nan(""), 2.0}, 1.0, set));
   EXPECT_EQ(set, (FeatureSet{1, 0, 0, 0}));

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kNoiseRatio = 3.0;
 
-/// Motions of a car and of a hand-held camera, some with no rotation or translation at all.
+/// Motions of a car and of a hand-held camera, some without rotation or translation.
 std::vector<Eigen::Isometry3d> someMotions() {
   std::mt19937 generator(1);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
@@ -53,7 +53,7 @@ struct Automatic {
   }
 };
 
-/// The step from T_0 at which the Jacobians are compared: rotation, then the translation itself.
+/// The parameters at which the Jacobians are compared: the rotation from T_0, then the translation.
 Vector6d parametersNear(const Eigen::Isometry3d& T_0, const Eigen::Vector3d& rotation_rad) {
   Vector6d parameters;
   parameters << rotation_rad, T_0.translation() + Eigen::Vector3d(0.1, -0.05, 0.2);
@@ -87,7 +87,7 @@ void expectAutomaticJacobian(const Eigen::Isometry3d& T_0,
   problem.linearise(own, [&](const typename Problem::Term& term) {
     ASSERT_EQ(term.feature, next++);
     const Automatic automatic(features[term.feature], T_0, noise_ratio, parameters);
-    // Both are exact; they differ by the rounding of some dozen operations.
+    // Both are exact up to the rounding of some dozen operations.
     EXPECT_LT((term.residual_px - automatic.residual).norm(), 1e-9);
     const Eigen::Matrix<double, 2, kParameters> expected =
         automatic.jacobian.template rightCols<kParameters>();
@@ -168,7 +168,7 @@ TEST(ReprojectionProblemTest, NormalMatrixIsThatOfTheErrorsOfAMotion) {
   ReprojectionProblem<6> problem;
   problem.assign(kittiCamera(), fitOf(features, truth, kNoiseRatio), all(features));
   const Matrix6d matrix = problem.normalMatrix(problem.start()).topLeftCorner<6, 6>();
-  // The cost grows by e^T J^T J e for an error e, rotation first.
+  // An error e, rotation first, increases the cost by e^T J^T J e.
   const auto cost = [&](const Vector6d& error) {
     Eigen::Isometry3d T = truth;
     T.linear() = expRotation(error.head<3>()) * T.linear();

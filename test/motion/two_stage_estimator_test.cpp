@@ -27,7 +27,8 @@ MotionEstimatorConfig paper() {
   return config;
 }
 
-/// By the estimator alone, from a prediction some centimetres and a tenth of a degree wrong.
+/// Runs only this estimator, starting at a prediction with an error of some centimetres and a tenth
+/// of a degree.
 TwoStageMotion estimate(const MotionEstimatorConfig& config, const FeatureNoise& noise) {
   std::mt19937 generator(1);
   const Correspondences features =
@@ -52,8 +53,8 @@ TEST(TwoStageEstimatorTest, FindsTheMotionOfExactFeaturesByThePapersParameters) 
   EXPECT_TRUE(found.has_translation_stage);
   EXPECT_FALSE(found.translation_failed);
   EXPECT_EQ(count(found.rotation_inliers), 500);
-  // The solver ends when a step changes the cost by less than 1e-6 px^2.
-  EXPECT_LT(motionError(found.fit.T_keyframe_cur, turnAhead()).norm(), 1e-5);
+  // The solver stops when a step changes the cost by less than 1e-6 px^2.
+  EXPECT_LT(motionError(found.fit.T_prev_cur, turnAhead()).norm(), 1e-5);
 }
 
 TEST(TwoStageEstimatorTest, StageTwoKeepsTheRotationOfStageOne) {
@@ -67,7 +68,7 @@ TEST(TwoStageEstimatorTest, StageTwoKeepsTheRotationOfStageOne) {
 
 TEST(TwoStageEstimatorTest, FallsBackToStageOneIfStageTwoFails) {
   MotionEstimatorConfig strict = paper();
-  strict.translation_initial_px = 1e-6;  // noisy features may not enter
+  strict.translation_initial_px = 1e-6;  // excludes noisy features
   MotionEstimatorConfig one_stage = paper();
   one_stage.criterion = "reprojection";
   const TwoStageMotion found = estimate(strict, {0.3, 0.9});
@@ -82,9 +83,9 @@ TEST(TwoStageEstimatorTest, FallsBackToStageOneIfStageTwoFails) {
 TEST(TwoStageEstimatorTest, StageTwoMayStartFromThePrediction) {
   MotionEstimatorConfig from_stage_one = paper();
   from_stage_one.translation_from_prediction = false;
-  const Eigen::Isometry3d a = estimate(paper(), {0.3, 0.9}).fit.T_keyframe_cur;
-  const Eigen::Isometry3d b = estimate(from_stage_one, {0.3, 0.9}).fit.T_keyframe_cur;
-  // The same minimum, to what the solver leaves.
+  const Eigen::Isometry3d a = estimate(paper(), {0.3, 0.9}).fit.T_prev_cur;
+  const Eigen::Isometry3d b = estimate(from_stage_one, {0.3, 0.9}).fit.T_prev_cur;
+  // The same minimum, up to the solver's tolerance.
   EXPECT_NE(a.translation(), b.translation());
   EXPECT_LT((a.translation() - b.translation()).norm(), 1e-4);
 }

@@ -1,5 +1,5 @@
-// Counts what the estimator takes from the heap: malloc() and its like are replaced for the whole
-// program.
+// Counts the heap allocations of the estimator: malloc() and related functions are replaced for the
+// whole program.
 
 #include <malloc.h>
 
@@ -15,7 +15,7 @@
 #include "support/simulated_features.h"
 #include "support/synthetic_scene.h"
 
-// Sanitizers have replaced them already.
+// Sanitizers already replace them.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define ROTROCC_COUNTS_ALLOCATIONS 0
 #else
@@ -80,7 +80,7 @@ namespace {
 
 constexpr int kPairs = 8;
 
-/// Pairs along a bend, with the noise of a camera.
+/// Pairs along a bend, with camera noise.
 std::vector<StereoPair> renderDrive(const SyntheticScene& scene) {
   std::vector<StereoPair> pairs;
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
@@ -92,7 +92,7 @@ std::vector<StereoPair> renderDrive(const SyntheticScene& scene) {
   return pairs;
 }
 
-/// Allocations while the drive is repeated.
+/// Number of allocations when the drive is repeated.
 int countOfARepeatedDrive(const VisualOdometry::Config& config) {
   const SyntheticScene scene;
   std::vector<StereoPair> pairs = renderDrive(scene);
@@ -137,7 +137,7 @@ TEST_F(AllocationTest, AreNoneInTheSteadyState) {
 TEST_F(AllocationTest, AreTheBuffersOfAThreadThatWokeLate) {
   VisualOdometry::Config config;
   config.threads = 2;
-  // Each thread has two of its own. One that never found work before may need them only now.
+  // Each thread has two buffers of its own. A thread that had no work before may allocate them now.
   constexpr int kOfAThread = 2;
   EXPECT_LE(countOfARepeatedDrive(config), kOfAThread);
 }

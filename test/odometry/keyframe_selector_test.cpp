@@ -10,7 +10,7 @@
 namespace rotrocc {
 namespace {
 
-/// Whether a keyframe serves after a step of this length, with `seen` inliers of 400 features.
+/// Whether the keyframe is kept after a step of this length, with `seen` inliers of 400 features.
 bool keeps(KeyframeSelector& selector, Keyframe& keyframe, double step_m, int seen = 400) {
   const Eigen::Isometry3d T = motion({0.0, 0.0, step_m}, {0.0, 0.1, 0.0});
   std::mt19937 generator(1);
@@ -23,7 +23,7 @@ bool keeps(KeyframeSelector& selector, Keyframe& keyframe, double step_m, int se
 TEST(KeyframeSelectorTest, KeepsAKeyframeWhileTheParallaxIsSmall) {
   KeyframeSelector selector({});
   Keyframe keyframe;
-  // A rotation makes none.
+  // Rotation causes no parallax.
   EXPECT_TRUE(keeps(selector, keyframe, 0.0));
   EXPECT_TRUE(keeps(selector, keyframe, 0.1));
   EXPECT_FALSE(keeps(selector, keyframe, 3.0));
@@ -32,7 +32,7 @@ TEST(KeyframeSelectorTest, KeepsAKeyframeWhileTheParallaxIsSmall) {
 TEST(KeyframeSelectorTest, KeepsAKeyframeWhileItIsSeen) {
   KeyframeSelector selector({});
   Keyframe keyframe;
-  EXPECT_TRUE(keeps(selector, keyframe, 0.0, 300));  // the inliers of the first motion
+  EXPECT_TRUE(keeps(selector, keyframe, 0.0, 300));  // sets the inliers of the first motion
   EXPECT_TRUE(keeps(selector, keyframe, 0.0, 211));
   EXPECT_FALSE(keeps(selector, keyframe, 0.0, 209));
   Keyframe other;

@@ -13,8 +13,8 @@
 namespace rotrocc {
 namespace {
 
-/// A clip of KITTI and the errors that were measured on it. A change of any default that loses
-/// accuracy is seen here.
+/// A KITTI clip and the largest accepted translation error. A change of any default that reduces
+/// the accuracy fails here.
 struct Clip {
   const char* name;
   double translation_percent;

@@ -18,7 +18,7 @@ FeatureSet set(int inliers, int features) {
   return flags;
 }
 
-/// 10 m/s straight on, on 300 of 400 features.
+/// 10 m/s straight ahead, with 300 inliers of 400 features.
 MotionEstimator::Estimate goodEstimate() {
   MotionEstimator::Estimate estimate;
   estimate.valid = true;
@@ -83,8 +83,8 @@ TEST(MotionCheckTest, KnowsHowFastARobotMoves) {
   auto estimate = goodEstimate();
   estimate.T_keyframe_cur = motion({0.0, 4.0, 5.9}, {0.0, 0.0, 0.0});
   expectSays(whyLost(estimate), "71.28", "max_speed_mps = 70");
-  EXPECT_EQ(MotionCheck({}).whyLost(estimate, 2.0 * kPeriod_s), "");  // half as fast
-  estimate.T_keyframe_cur = motion({0.0, 0.0, 1.0}, {0.0, 0.61, 0.0});
+  EXPECT_EQ(MotionCheck({}).whyLost(estimate, 2.0 * kPeriod_s), "");  // half the speed
+  estimate.T_prev_cur = motion({0.0, 0.0, 1.0}, {0.0, 0.61, 0.0});
   expectSays(whyLost(estimate), "6.1 rad/s", "max_turn_rate_rps = 6");
   EXPECT_EQ(MotionCheck({}).whyLost(estimate, 2.0 * kPeriod_s), "");
 }
@@ -111,8 +111,8 @@ TEST(MotionCheckTest, CallsAJumpDegraded) {
   jump.T = motion({0.0, 0.0, 1.31}, {0.0, 0.0, 0.0});
   const MotionCheck check({});
   expectSays(check.whyJump(jump, expected, kPeriod_s), "31 m/s2", "max_acceleration_mps2 = 30");
-  EXPECT_EQ(check.whyJump(jump, expected, 2.0 * kPeriod_s), "");  // a quarter of that
-  jump.covariance(2, 2) = 0.01 * 0.01;                            // 3 sigma are 0.03 m, 3 m/s2
+  EXPECT_EQ(check.whyJump(jump, expected, 2.0 * kPeriod_s), "");  // a quarter of the acceleration
+  jump.covariance(2, 2) = 0.01 * 0.01;  // 3 sigma = 0.03 m, equivalent to 3 m/s2
   EXPECT_EQ(check.whyJump(jump, expected, kPeriod_s), "");
   jump.T = motion({0.31, 0.0, 1.0}, {0.0, 0.0, 0.0});
   jump.covariance.setZero();

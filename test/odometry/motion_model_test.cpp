@@ -31,7 +31,7 @@ TEST(MotionModelTest, ScalesTheMotionToTheTimeThatPassed) {
   model.update(turnAhead(), 0.1);
   const auto twice = model.predict(0.2);
   ASSERT_TRUE(twice);
-  // Constant turn rate and velocity: twice the time is the motion done twice.
+  // Constant velocity: in twice the time, the motion is applied twice.
   EXPECT_LT((twice->matrix() - (turnAhead() * turnAhead()).matrix()).norm(), kRounding);
   const auto half = model.predict(0.05);
   ASSERT_TRUE(half);

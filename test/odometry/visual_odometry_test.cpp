@@ -26,14 +26,14 @@ const StereoCamera& camera() {
   return scene().camera();
 }
 
-/// A pair from a pose, with the noise of a camera.
+/// A pair rendered at a pose, with camera noise.
 StereoPair view(const Eigen::Isometry3d& T_world_camera, std::int64_t stamp_ns) {
   StereoPair pair = scene().render(T_world_camera, stamp_ns);
   SyntheticScene::addNoise(pair, 1.5, static_cast<std::uint64_t>(stamp_ns) + 1);
   return pair;
 }
 
-/// 6 m/s and 12 deg/s for a step of 0.1 s.
+/// 6 m/s and 12 deg/s during 0.1 s.
 Eigen::Isometry3d bendStep() {
   return motion({0.006, 0.0, 0.6}, {0.0, 0.02, 0.0});
 }
@@ -65,8 +65,8 @@ StereoPair noise(const cv::Size& size, std::int64_t stamp_ns) {
   return pair;
 }
 
-/// Measured over one step: 2 mm and 0.13 mrad at worst, over two steps 6 mm. The images are half as
-/// wide as KITTI's.
+/// Measured errors: at most 2 mm and 0.13 mrad over one step, 6 mm over two steps. The images are
+/// half as wide as KITTI's.
 void expectMotion(const OdometryResult& result,
                   const Eigen::Isometry3d& truth,
                   double max_translation_m = 0.01,
@@ -85,7 +85,7 @@ void expectLost(const OdometryResult& result, const std::string& reason) {
   EXPECT_EQ(result.covariance, Matrix6d::Zero());
 }
 
-/// An odometry that has seen the first `pairs` of the bend.
+/// An odometry that has processed the first `pairs` pairs of the bend.
 VisualOdometry started(int pairs) {
   VisualOdometry odometry({});
   for (int i = 0; i < pairs; ++i) odometry.process(bend(i), camera());
@@ -112,7 +112,7 @@ TEST(VisualOdometryTest, FollowsADriveAlongTheStreet) {
 TEST(VisualOdometryTest, StartsFromTheMotionThatIsExpected) {
   VisualOdometry::Config config;
   config.correspondence_finder.feature_tracker.startup_levels = 1;
-  config.startup_rounds = 1;  // too little for the flow of two steps
+  config.startup_rounds = 1;  // not enough for the flow of two steps
   const Eigen::Isometry3d two_steps = bendStep() * bendStep();
   VisualOdometry alone(config);
   alone.process(bend(0), camera());
@@ -131,7 +131,7 @@ TEST(VisualOdometryTest, SurvivesAWrongExpectation) {
   expectMotion(result, bendStep());
 }
 
-/// The camera as a calibration says that is wrong by a pixel of disparity.
+/// The camera according to a calibration with a disparity error of one pixel.
 StereoCamera wronglyCalibrated() {
   StereoCamera wrong = camera();
   wrong.cx_right -= 1.0;
@@ -162,7 +162,8 @@ TEST(VisualOdometryTest, KeepsTheBiasOverAResetButNotForAnotherCamera) {
   const double applied_px = result.disparity_bias.applied_px;
   EXPECT_GT(applied_px, 0.5);
   odometry.reset();
-  // What is reported is what the last pair used, which may be one calibration step behind.
+  // The result reports the bias that was used for the last pair, which may be one calibration step
+  // behind.
   EXPECT_NEAR(
       odometry.process(bend(0), wronglyCalibrated()).disparity_bias.applied_px, applied_px, 0.02);
   EXPECT_EQ(odometry.process(bend(1), camera()).disparity_bias.applied_px, 0.0);
@@ -277,7 +278,8 @@ TEST(VisualOdometryTest, CorrespondencesAreThoseOfTheScene) {
 }
 
 TEST(VisualOdometryTest, StartsInAFastTurnWithoutAPrediction) {
-  // 26 deg/s at 10 Hz is a flow of 16 px here, 33 at KITTI's size; 52 deg/s is one of 33 px.
+  // 26 deg/s at 10 Hz causes a flow of 16 px here, and 33 px at KITTI's image size; 52 deg/s causes
+  // 33 px.
   for (const double angle_rad : {0.045, 0.09}) {
     const Eigen::Isometry3d step = motion({0.0, 0.0, 0.7}, {0.0, angle_rad, 0.0});
     VisualOdometry odometry({});
@@ -317,7 +319,7 @@ TEST(VisualOdometryTest, RecoversFromABlackPairAtOnce) {
   expectMotion(odometry.process(bend(5), camera()), bendStep());
 }
 
-/// The pair as darker or lighter images show it.
+/// The pair with a gain applied to both images.
 StereoPair exposed(const StereoPair& pair, double gain) {
   StereoPair other = {pair.stamp_ns, {}, {}};
   pair.left.convertTo(other.left, -1, gain);
@@ -354,7 +356,8 @@ TEST(VisualOdometryTest, LosesAPairAtMostWhenTheExposureJumps) {
   expectMotion(next, bendStep(), 0.02);
 }
 
-/// What moves with the camera, such as a truck ahead, hides a part of the picture from pair 4 on.
+/// From pair 4 on, an object that moves with the camera, such as a truck ahead, hides part of the
+/// image.
 StereoPair behindATruck(int index, const cv::Rect& hidden) {
   static const StereoPair truck = view(motion({0.3, 0.0, 12.0}, {0.0, 0.3, 0.0}), 0);
   const StereoPair& pair = bend(index);
@@ -375,7 +378,7 @@ TEST(VisualOdometryTest, FollowsTheStreetBehindATruck) {
     SCOPED_TRACE(hidden.x);
     VisualOdometry odometry = started(4);
     for (int i = 4; i < 8; ++i) {
-      // Half of the features are left, on one side of the picture.
+      // Half of the features remain, on one side of the image.
       const OdometryResult result = odometry.process(behindATruck(i, hidden), camera());
       expectMotion(result, bendStep(), 0.04, 2e-3);
     }
@@ -390,11 +393,11 @@ TEST(VisualOdometryTest, ATruckThatHidesNearlyAllIsNotFollowedSilently) {
     const double error_m = motionError(result.T_prev_cur, bendStep()).head<3>().norm();
     if (error_m < 0.06) continue;
     EXPECT_NE(result.state, State::kOk) << "0.6 m wrong at pair " << i;
-    return;  // from here on it stands, as far as anyone can see
+    return;  // from here on, most of the image shows no motion
   }
 }
 
-/// A road and walls of one grey, but for noise.
+/// A road and walls of uniform grey, except for noise.
 TEST(VisualOdometryTest, IsLostWithoutTextureAndGoesOnAfterIt) {
   VisualOdometry odometry = started(3);
   StereoPair plain = {3 * kPeriod_ns,
@@ -407,7 +410,7 @@ TEST(VisualOdometryTest, IsLostWithoutTextureAndGoesOnAfterIt) {
 }
 
 TEST(VisualOdometryTest, GoesOnFromElsewhereAtOnce) {
-  // The last good pair is of no use any more.
+  // The last good pair cannot be matched any more.
   const Eigen::Isometry3d elsewhere = motion({0.0, 0.0, 20.0}, {0.0, 0.6, 0.0});
   VisualOdometry odometry = started(3);
   const auto jumped = odometry.process(view(elsewhere, 3 * kPeriod_ns), camera());
@@ -436,7 +439,7 @@ TEST(VisualOdometryTest, DoesNotCreepAtRest) {
     farthest_m = std::max(farthest_m, T_start_cur.translation().norm());
     EXPECT_EQ(result.keyframe_stamp_ns, 0);
   }
-  // The noise of a single pair; measured: 0.6 mm.
+  // The noise of a single pair. Measured: 0.6 mm.
   EXPECT_LT(farthest_m, 0.002);
 }
 
@@ -453,14 +456,14 @@ TEST(VisualOdometryTest, MeasuresSmallStepsAgainstOneReference) {
     if (i == 0) continue;
     EXPECT_EQ(result.state, State::kOk) << result.reason;
     if (result.keyframe_stamp_ns != reference_ns) {
-      // A new keyframe is the previous pair.
+      // The new keyframe is the previous pair.
       EXPECT_EQ(result.keyframe_stamp_ns, (i - 1) * kPeriod_ns);
       reference_ns = result.keyframe_stamp_ns;
       T_start_ref = T_start_cur;
       ++references;
     }
     T_start_cur = T_start_cur * result.T_prev_cur;
-    // Both ways to the current pose are the same.
+    // Both ways to compute the current pose must agree.
     EXPECT_LT(motionError(T_start_ref * result.T_keyframe_cur.T, T_start_cur).norm(), 1e-9);
   }
   EXPECT_LT(references, 10);
@@ -481,11 +484,11 @@ TEST(VisualOdometryTest, TakesLeftAndRightThatAreTheSameImage) {
   for (int i = 0; i < 3; ++i) {
     const StereoPair pair = {i * kPeriod_ns, bend(i).left, bend(i).left};
     const OdometryResult result = odometry.process(pair, camera());
-    if (i > 0) expectLost(result, "features were matched");  // nothing has a depth
+    if (i > 0) expectLost(result, "features were matched");  // no feature has a depth
   }
 }
 
-/// Feeds a pair that cannot be used, with the reason, between good ones.
+/// Processes an unusable pair between good ones and expects the given reason.
 void expectRefused(const StereoPair& pair,
                    const StereoCamera& its_camera,
                    const std::string& reason) {
@@ -555,7 +558,7 @@ TEST(VisualOdometryTest, StartsAnewWithAnotherCamera) {
   EXPECT_EQ(result.reason, "the camera has changed");
   const StereoPair next = {
       4 * kPeriod_ns, bend(4).left.colRange(0, 300), bend(4).right.colRange(0, 300)};
-  expectMotion(odometry.process(next, half), bendStep(), 0.04, 0.0012);  // half the image
+  expectMotion(odometry.process(next, half), bendStep(), 0.04, 0.0012);  // half the image size
 }
 
 TEST(VisualOdometryTest, StartsAnewWhenReset) {
@@ -610,7 +613,7 @@ TEST(VisualOdometryTest, DoesNotThrowOnImagesOfAnySize) {
     small.width = size.width;
     small.height = size.height;
     for (int i = 0; i < 4; ++i) {
-      // Now and then two alike: everything is tracked, nothing has moved.
+      // Some pairs have two equal images: everything is tracked and nothing has moved.
       const StereoPair images = noise(size, stamp_ns / 2);
       const StereoPair pair = {stamp_ns, images.left, i % 2 == 0 ? images.left : images.right};
       OdometryResult result;
@@ -647,7 +650,7 @@ TEST(VisualOdometryTest, TriesAPairSoManyTimesAtMost) {
   const cv::Size size(camera().width, camera().height);
   VisualOdometry::Config config;
   VisualOdometry odometry(config);
-  // Good pairs, some of them lost, from a keyframe that is kept and from one that is not.
+  // Good pairs, some of them lost, with and without a new keyframe.
   for (int i = 0; i < 24; ++i) {
     const std::int64_t stamp_ns = i * kPeriod_ns;
     StereoPair pair = i % 6 < 3 ? bend(i % 3) : noise(size, stamp_ns);

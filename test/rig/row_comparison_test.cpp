@@ -8,7 +8,7 @@
 namespace rotrocc {
 namespace {
 
-/// Shows so many features whose rows differ by `offset_px` and noise; one in eight is wrong.
+/// Adds `features` features whose rows differ by `offset_px` and noise. One in eight is an outlier.
 void show(int features, double offset_px, double noise_px, RowComparison& comparison) {
   std::mt19937 generator(1);
   std::normal_distribution<float> noise(static_cast<float>(offset_px),
@@ -33,10 +33,10 @@ TEST(RowComparisonTest, FindsTheOffsetInSpiteOfWrongFeatures) {
   RowComparison comparison;
   show(1000, -0.35, 0.2, comparison);
   const RowOffset& offset = comparison.offset();
-  // The wrong eighth moves the median by 0.18 of the noise's deviation.
+  // The outliers shift the median by 0.18 standard deviations of the noise.
   EXPECT_NEAR(offset.median_px, -0.35 + 0.18 * 0.2, 0.02);
   EXPECT_NEAR(offset.typical_px, 0.35, 0.05);
-  // 1.25 * 0.2 / sqrt(1000), more for the wrong ones.
+  // 1.25 * 0.2 / sqrt(1000), increased by the outliers.
   EXPECT_NEAR(offset.sigma_px, 0.008, 0.002);
 }
 

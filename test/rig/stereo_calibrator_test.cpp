@@ -15,14 +15,14 @@ namespace {
 constexpr int kFeatures = 400;
 constexpr double kPeriod_s = 0.1;
 
-/// As measured on KITTI, without the outliers.
+/// As measured on KITTI, without outliers.
 const FeatureNoise kNoise = {0.12, 0.36};
 
 Eigen::Isometry3d ahead() {
   return motion({0.0, 0.0, 1.2}, {0.0, 0.01, 0.0});
 }
 
-/// Features of a drive, whose disparities come out too small by what `error_px` says of a pixel.
+/// Features of a drive whose disparities are too small by error_px(pixel).
 template <class Error>
 Correspondences biasedFeatures(const Eigen::Isometry3d& T, unsigned seed, const Error& error_px) {
   std::mt19937 generator(seed);
@@ -33,7 +33,7 @@ Correspondences biasedFeatures(const Eigen::Isometry3d& T, unsigned seed, const 
   return features;
 }
 
-/// Estimates the motion of one pair and shows it to the calibrator, as the odometry does.
+/// Estimates the motion of one pair and passes it to the calibrator, as the odometry does.
 void show(Correspondences features, const Eigen::Isometry3d& truth, StereoCalibrator& calibrator) {
   const StereoCamera corrected = calibrator.correct(kittiCamera());
   const double infinity_px = corrected.disparityAtInfinity();
@@ -50,7 +50,7 @@ void show(Correspondences features, const Eigen::Isometry3d& truth, StereoCalibr
   calibrator.observe(corrected, features, estimate.rotation_inliers, estimate.T_keyframe_cur);
 }
 
-/// Shows a drive of some pairs whose rig has a constant bias.
+/// Simulates a drive of `pairs` pairs with a constant disparity bias.
 void drive(double bias_px, int pairs, StereoCalibrator& calibrator, unsigned first_seed = 0) {
   for (int i = 0; i < pairs; ++i) {
     show(biasedFeatures(ahead(),
@@ -109,7 +109,7 @@ TEST(StereoCalibratorTest, ForgetsNothingAtStandstill) {
 
 TEST(StereoCalibratorTest, IsNotFooledByAMovingObject) {
   StereoCalibrator calibrator{StereoCalibrator::Config()};
-  // A truck ahead, 3 m/s slower, on a quarter of the features.
+  // A truck ahead, 3 m/s slower, with a quarter of the features.
   const Eigen::Isometry3d relative = ahead() * motion({0.0, 0.0, 0.3}, {0.0, 0.0, 0.0});
   for (unsigned pair = 0; pair < 50; ++pair) {
     Correspondences features =
@@ -127,7 +127,7 @@ TEST(StereoCalibratorTest, IsNotFooledByAMovingObject) {
 }
 
 TEST(StereoCalibratorTest, DoubtsWhatPartsOfTheImageDisagreeAbout) {
-  // A rotation of the right camera about its vertical axis that was taken for a shift.
+  // A rotation of the right camera about its vertical axis that was calibrated as a shift.
   const auto lens = [](const Eigen::Vector2d& pixel) {
     const double x = (pixel.x() - kittiCamera().cx) / kittiCamera().fx;
     return 1.0 * x * x;
@@ -139,7 +139,7 @@ TEST(StereoCalibratorTest, DoubtsWhatPartsOfTheImageDisagreeAbout) {
     show(biasedFeatures(ahead(), pair, lens), ahead(), uneven);
   }
   EXPECT_GT(uneven.bias().sigma_px, 2.0 * even.bias().sigma_px);
-  // Within the doubt nothing is applied, and a bias that is certain as a whole.
+  // An insignificant bias is not applied; a significant one is applied completely.
   EXPECT_GT(even.bias().applied_px, 0.25);
   EXPECT_EQ(even.bias().applied_px, even.bias().estimated_px);
   const DisparityBias& found = uneven.bias();
@@ -168,7 +168,7 @@ TEST(StereoCalibratorTest, FollowsARigThatChanges) {
   StereoCalibrator calibrator(config);
   drive(1.0, 60, calibrator);
   drive(0.4, 100, calibrator, 1000);
-  // exp(-100 / 20) = 0.7 % of the first bias is left.
+  // A share of exp(-100 / 20) = 0.7 % of the first bias remains.
   EXPECT_NEAR(calibrator.bias().estimated_px, 0.4, 0.06);
 }
 
