@@ -9,7 +9,7 @@ struct FitBlock {
   static constexpr int kSize = 16;
   using Numbers = double[kSize];
 
-  Numbers prev_x, prev_y;             ///< [px]
+  Numbers keyframe_x, keyframe_y;     ///< [px]
   Numbers point_x, point_y, point_z;  ///< in the current camera frame [m]
   Numbers measured;                   ///< measured disparity, above the disparity at infinity [px]
 

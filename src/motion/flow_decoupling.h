@@ -10,7 +10,7 @@
 namespace rotrocc {
 
 /// Length [px] of each feature's flow after removing the rotation (Eq. 27, 28), which is the flow
-/// caused by the translation alone: |x_prev - pi(R x_cur)|.
+/// caused by the translation alone: |x_keyframe - pi(R x_cur)|.
 void decoupledFlow(const StereoCamera& camera,
                    const Correspondences& features,
                    const Eigen::Matrix3d& R_keyframe_cur,

@@ -120,7 +120,7 @@ TEST_F(FlowPictureTest, DecoupledViewShowsBothPartsOfTheFlow) {
   view_ = FlowView::kDecoupled;
   // A rotation of 0.05 rad about the vertical axis causes 36 px of flow near the middle. The rest
   // is caused by the translation.
-  const Eigen::Vector2d cur_px(600, 170), prev_px(560, 190);
+  const Eigen::Vector2d cur_px(600, 170), keyframe_px(560, 190);
   result_.T_keyframe_cur.T.linear() =
       Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY()).toRotationMatrix();
   features_[0].cur_px = cur_px;

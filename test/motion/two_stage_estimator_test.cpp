@@ -54,7 +54,7 @@ TEST(TwoStageEstimatorTest, FindsTheMotionOfExactFeaturesByThePapersParameters) 
   EXPECT_FALSE(found.translation_failed);
   EXPECT_EQ(count(found.rotation_inliers), 500);
   // The solver stops when a step changes the cost by less than 1e-6 px^2.
-  EXPECT_LT(motionError(found.fit.T_prev_cur, turnAhead()).norm(), 1e-5);
+  EXPECT_LT(motionError(found.fit.T_keyframe_cur, turnAhead()).norm(), 1e-5);
 }
 
 TEST(TwoStageEstimatorTest, StageTwoKeepsTheRotationOfStageOne) {
@@ -83,8 +83,8 @@ TEST(TwoStageEstimatorTest, FallsBackToStageOneIfStageTwoFails) {
 TEST(TwoStageEstimatorTest, StageTwoMayStartFromThePrediction) {
   MotionEstimatorConfig from_stage_one = paper();
   from_stage_one.translation_from_prediction = false;
-  const Eigen::Isometry3d a = estimate(paper(), {0.3, 0.9}).fit.T_prev_cur;
-  const Eigen::Isometry3d b = estimate(from_stage_one, {0.3, 0.9}).fit.T_prev_cur;
+  const Eigen::Isometry3d a = estimate(paper(), {0.3, 0.9}).fit.T_keyframe_cur;
+  const Eigen::Isometry3d b = estimate(from_stage_one, {0.3, 0.9}).fit.T_keyframe_cur;
   // The same minimum, up to the solver's tolerance.
   EXPECT_NE(a.translation(), b.translation());
   EXPECT_LT((a.translation() - b.translation()).norm(), 1e-4);

@@ -84,7 +84,7 @@ TEST(MotionCheckTest, KnowsHowFastARobotMoves) {
   estimate.T_keyframe_cur = motion({0.0, 4.0, 5.9}, {0.0, 0.0, 0.0});
   expectSays(whyLost(estimate), "71.28", "max_speed_mps = 70");
   EXPECT_EQ(MotionCheck({}).whyLost(estimate, 2.0 * kPeriod_s), "");  // half the speed
-  estimate.T_prev_cur = motion({0.0, 0.0, 1.0}, {0.0, 0.61, 0.0});
+  estimate.T_keyframe_cur = motion({0.0, 0.0, 1.0}, {0.0, 0.61, 0.0});
   expectSays(whyLost(estimate), "6.1 rad/s", "max_turn_rate_rps = 6");
   EXPECT_EQ(MotionCheck({}).whyLost(estimate, 2.0 * kPeriod_s), "");
 }
