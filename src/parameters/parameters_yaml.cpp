@@ -7,9 +7,21 @@
 namespace rotrocc {
 namespace {
 
+/// Whether a text can be written to a YAML file: yaml-cpp replaces what is not UTF-8.
+bool isWritable(const std::string& text) {
+  return YAML::Load(YAML::Dump(YAML::Node(text))).Scalar() == text;
+}
+
+void set(const std::string& name, const std::string& text, ParameterTable& table) {
+  if (!isWritable(text)) {
+    throw std::invalid_argument("the value of parameter \"" + name + "\" is not UTF-8");
+  }
+  table.set(name, text);
+}
+
 /// Sets every scalar below `node`; `prefix` is the name of `node`.
 void setAll(const YAML::Node& node, const std::string& prefix, ParameterTable& table) {
-  if (node.IsScalar()) return table.set(prefix, node.Scalar());
+  if (node.IsScalar()) return set(prefix, node.Scalar(), table);
   if (!node.IsMap()) {
     throw std::invalid_argument("parameter \"" + prefix + "\" is neither a value nor a section");
   }

@@ -207,6 +207,7 @@ TEST(ParametersTest, AFileNamesItselfWhenItIsRefused) {
   expect_refused("visual_odometry:\n  max_gap_s: .nan\n", "visual_odometry/max_gap_s is \".nan\"");
   expect_refused("motion_check: [1, 2]\n", "\"motion_check\" is neither a value nor a section");
   expect_refused("motion_check: &loop {of: *loop}\n", "\"motion_check/of\" must be a value");
+  expect_refused("odom_frame: \"no UTF-8: \xc0\xb5\"\n", "\"odom_frame\" is not UTF-8");
   expect_refused("motion_check\n", "");
   expect_refused("a: b: c\n", "");
   Settings settings;
