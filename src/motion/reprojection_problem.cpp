@@ -20,6 +20,7 @@ void ReprojectionProblem<kParameters>::assign(const StereoCamera& camera,
 
 template <int kParameters>
 void ReprojectionProblem<kParameters>::weigh(const Parameters& parameters, double robust_factor) {
+  if (robust_factor == 0.0) return;  // equal, as assigned
   const Motion motion(parameters);
   errors_px_.clear();
   for (const FittedFeature& feature : features_) {
