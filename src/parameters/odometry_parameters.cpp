@@ -1,0 +1,170 @@
+#include "parameters/sections.h"
+
+namespace rotrocc {
+namespace {
+
+void addMotionModel(MotionModelConfig& c, ParameterTable& table) {
+  table.add("motion_model/max_age_s",
+            c.max_age_s,
+            0.0,
+            100.0,
+            "s",
+            "the last motion is not used as prediction after a longer gap");
+}
+
+void addMotionCheck(MotionCheckConfig& c, ParameterTable& table) {
+  const std::string s = "motion_check/";
+  table.add(s + "min_inliers",
+            c.min_inliers,
+            3,
+            10000,
+            "",
+            "number of inliers below which the motion is lost");
+  table.add(s + "min_inlier_share",
+            c.min_inlier_share,
+            0.0,
+            1.0,
+            "",
+            "share of inliers below which the motion is lost");
+  table.add(s + "degraded_inliers",
+            c.degraded_inliers,
+            3,
+            10000,
+            "",
+            "number of inliers below which the motion is degraded");
+  table.add(s + "degraded_inlier_share",
+            c.degraded_inlier_share,
+            0.0,
+            1.0,
+            "",
+            "share of inliers below which the motion is degraded");
+  table.add(s + "max_speed_mps",
+            c.max_speed_mps,
+            0.1,
+            1000.0,
+            "m/s",
+            "speed above which the motion is lost");
+  table.add(s + "max_turn_rate_rps",
+            c.max_turn_rate_rps,
+            0.1,
+            100.0,
+            "rad/s",
+            "turn rate above which the motion is lost");
+  table.add(s + "max_acceleration_mps2",
+            c.max_acceleration_mps2,
+            0.1,
+            10000.0,
+            "m/s2",
+            "acceleration above which the motion is degraded");
+}
+
+void addStereoCalibrator(StereoCalibratorConfig& c, ParameterTable& table) {
+  const std::string s = "stereo_calibrator/";
+  table.add(s + "enabled", c.enabled, "estimate and correct the disparity bias");
+  table.add(s + "bias_px",
+            c.bias_px,
+            -20.0,
+            20.0,
+            "px",
+            "known correction, added to all disparities; initial value of the estimate");
+  table.add(s + "prior_sigma_px",
+            c.prior_sigma_px,
+            0.001,
+            100.0,
+            "px",
+            "prior standard deviation of the bias around bias_px");
+  table.add(s + "memory_pairs",
+            c.memory_pairs,
+            2.0,
+            1e6,
+            "",
+            "the weight of a pair decays by 1/e over this number of pairs");
+  table.add(s + "significance",
+            c.significance,
+            0.0,
+            100.0,
+            "",
+            "the bias is not corrected below this number of standard deviations, and fully "
+            "corrected above twice this number");
+  table.add(s + "matching_sigma_px",
+            c.matching_sigma_px,
+            0.0,
+            10.0,
+            "px",
+            "systematic matching error over the whole image, part of the uncertainty");
+  table.add(s + "noise_ratio",
+            c.noise_ratio,
+            0.0,
+            100.0,
+            "",
+            "ratio of disparity noise to flow noise that weights the residuals");
+  table.add(
+      s + "robust_factor",
+      c.robust_factor,
+      0.0,
+      1000.0,
+      "",
+      "residual, in standard deviations, at which the Cauchy weight is 1/2; 0: equal weights");
+}
+
+void addKeyframeSelector(KeyframeSelectorConfig& c, ParameterTable& table) {
+  const std::string s = "keyframe_selector/";
+  table.add(s + "adaptive",
+            c.adaptive,
+            "keep a keyframe over several pairs; if false, the previous pair is the keyframe");
+  table.add(s + "max_parallax_px",
+            c.max_parallax_px,
+            0.0,
+            1000.0,
+            "px",
+            "a new keyframe is selected if the median flow of the translation is larger");
+  table.add(
+      s + "min_seen_share",
+      c.min_seen_share,
+      0.0,
+      1.0,
+      "",
+      "a new keyframe is selected if a smaller share of the keyframe's first inliers is left");
+}
+
+void addVisualOdometry(OdometryConfig& c, ParameterTable& table) {
+  const std::string s = "visual_odometry/";
+  table.add(s + "threads",
+            c.threads,
+            1,
+            16,
+            "",
+            "threads per pair, including the calling one; results do not depend on it");
+  table.add(s + "startup_rounds",
+            c.startup_rounds,
+            1,
+            20,
+            "",
+            "largest number of tries of a pair: each tracks the features and estimates the motion");
+  table.add(s + "startup_settled_px",
+            c.startup_settled_px,
+            0.0,
+            100.0,
+            "px",
+            "rounds end when the predicted positions change by less");
+  table.add(s + "max_gap_s",
+            c.max_gap_s,
+            0.01,
+            1000.0,
+            "s",
+            "the estimator restarts after a longer gap between pairs");
+}
+
+}  // namespace
+
+void addOdometry(OdometryConfig& config, ParameterTable& table) {
+  addFrontEnd(config.correspondence_finder, table);
+  addMotionModel(config.motion_model, table);
+  addMotionEstimator(config.motion_estimator, table);
+  addMotionCheck(config.motion_check, table);
+  addKeyframeSelector(config.keyframe_selector, table);
+  addStereoCalibrator(config.stereo_calibrator, table);
+  addVisualOdometry(config, table);
+}
+
+}  // namespace rotrocc
