@@ -45,24 +45,34 @@ class CondensedProblem {
   const ReprojectionProblem<kParameters>& problem_;
 };
 
+/// TinySolver of Ceres 1.14 has no function_tolerance: there it goes on to the other limits.
+template <class Options>
+auto setFunctionTolerance(Options& options, double tolerance, int)
+    -> decltype(options.function_tolerance, void()) {
+  options.function_tolerance = tolerance;
+}
+template <class Options>
+void setFunctionTolerance(Options&, double, long) {}
+
 /// Options of a minimisation.
 struct MinimiseOptions {
   double damping = 1e-4;                ///< initial damping, relative to the diagonal of J^T J
   double least_cost_change_px2 = 2e-6;  ///< stop when a step changes the cost by less
+  int max_steps = 19;
 };
 
 /// Minimises the cost by Levenberg-Marquardt: no step increases it. Stops when a step changes the
 /// parameters by less than 1e-7 of their length or the cost by less than the given limit, or after
-/// 20 steps. Returns false, with undefined parameters, if the result is not finite.
+/// `max_steps`. Returns false, with undefined parameters, if the result is not finite.
 template <int kParameters>
 bool minimise(const ReprojectionProblem<kParameters>& problem,
               const MinimiseOptions& options,
               Eigen::Matrix<double, kParameters, 1>& parameters) {
   ceres::TinySolver<CondensedProblem<kParameters>> solver;
-  solver.options.max_num_iterations = 20;
+  solver.options.max_num_iterations = options.max_steps + 1;  // it counts the start
   solver.options.initial_trust_region_radius = 1.0 / options.damping;
   solver.options.parameter_tolerance = 1e-7;
-  solver.options.function_tolerance = 0.5 * options.least_cost_change_px2;
+  setFunctionTolerance(solver.options, 0.5 * options.least_cost_change_px2, 0);
   const auto& summary = solver.Solve(CondensedProblem<kParameters>(problem), &parameters);
   return parameters.allFinite() && std::isfinite(summary.final_cost);
 }

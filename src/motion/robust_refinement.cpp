@@ -9,7 +9,7 @@ namespace {
 constexpr int kReweightings = 4;
 
 /// One Gauss-Newton step with negligible damping, because the start is close to the minimum.
-constexpr MinimiseOptions kOneStep = {1e-12, std::numeric_limits<double>::infinity()};
+constexpr MinimiseOptions kOneStep = {1e-12, std::numeric_limits<double>::infinity(), 1};
 
 }  // namespace
 
