@@ -106,7 +106,8 @@ TEST_F(AccuracyTest, AStandingCameraStays) {
   for (const CsvRow& row : rows) {
     EXPECT_EQ(row.at("pairs"), std::to_string(shortForm().standing_pairs - 1));
     EXPECT_GE(number(row, "default"), 0.0);
-    EXPECT_LT(number(row, "default"), 5.0);  // [mm]
+    // Measured: 0.21 and 0.17 mm, in 60 s 0.28 mm.
+    EXPECT_LT(number(row, "default"), 0.6);  // [mm]
   }
 }
 
@@ -125,9 +126,13 @@ TEST_F(AccuracyTest, CovarianceIsOfTheSizeOfTheErrors) {
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows.front().at("pairs"), std::to_string(shortForm().frames - 1));
   for (const CsvRow& row : rows) {
-    // 6 are expected; errors three times too large or small would make it 54 or 0.7.
-    EXPECT_GT(number(row, "mean NEES (6)"), 1.0) << row.at("drive");
-    EXPECT_LT(number(row, "mean NEES (6)"), 15.0) << row.at("drive");
+    // Measured: 6.0 on the drive, 9.7 and 8.2 at rest. The mean of n draws of chi-square with 6
+    // degrees of freedom has a standard deviation of sqrt(12 / n), of which four are allowed; at
+    // rest, where the pairs share a keyframe, eight.
+    const bool moves = row.at("drive") == shortForm().drive;
+    const double sigma = std::sqrt(12.0 / number(row, "pairs"));
+    EXPECT_NEAR(number(row, "mean NEES (6)"), moves ? 6.0 : 9.0, (moves ? 4.0 : 8.0) * sigma)
+        << row.at("drive");
   }
 }
 
