@@ -6,8 +6,10 @@
 #include <vector>
 
 #include <benchmark/benchmark.h>
+#include <opencv2/imgproc.hpp>
 
 #include "features/correspondence_finder.h"
+#include "features/image_pyramid.h"
 #include "motion/motion_estimator.h"
 #include "motion/outlier_rejection.h"
 #include "rotrocc/kitti.h"
@@ -123,11 +125,51 @@ void odometry(benchmark::State& state) {
       pairs, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
+/// One reduction of an image by half, by our own code and by OpenCV's, on one thread.
+void halving(benchmark::State& state) {
+  cv::Mat half;
+  for (auto _ : state) halve(drive().pairs[0].left, half);
+}
+
+void pyrDown(benchmark::State& state) {
+  cv::setNumThreads(1);
+  cv::Mat half;
+  for (auto _ : state) cv::pyrDown(drive().pairs[0].left, half);
+}
+
+/// Two of seven pairs are upside down: mean times of pairs that are found by the first try, that
+/// are lost, and that are found later.
+void failures(benchmark::State& state) {
+  double sums_ms[3] = {};
+  int counts[3] = {};
+  for (auto _ : state) {
+    VisualOdometry odometry{VisualOdometry::Config{}};
+    for (std::size_t i = 0; i < drive().pairs.size(); ++i) {
+      StereoPair pair = drive().pairs[i];
+      if (i % 7 == 4 || i % 7 == 5) {
+        cv::flip(drive().pairs[i].left, pair.left, 0);
+        cv::flip(drive().pairs[i].right, pair.right, 0);
+      }
+      const OdometryResult result = odometry.process(pair, drive().camera);
+      if (i < 2) continue;  // the start
+      const int kind = !result.hasMotion() ? 1 : (result.counts.tries == 1 ? 0 : 2);
+      sums_ms[kind] += result.times.total_ms;
+      ++counts[kind];
+    }
+  }
+  state.counters["usual_ms"] = sums_ms[0] / counts[0];
+  state.counters["lost_ms"] = sums_ms[1] / counts[1];
+  state.counters["recovered_ms"] = sums_ms[2] / counts[2];
+}
+
 BENCHMARK(pyramids)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(corners)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(disparities)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(tracking)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(estimation)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(halving)->Unit(benchmark::kMillisecond);
+BENCHMARK(pyrDown)->Unit(benchmark::kMillisecond);
+BENCHMARK(failures)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(odometry)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 }  // namespace

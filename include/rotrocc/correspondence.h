@@ -9,7 +9,6 @@
 namespace rotrocc {
 
 /// One feature of the set F = {x_keyframe, x_cur, depth} (paper, section V-A), in left pixels.
-/// "Previous" is the keyframe, which the current pair is compared with.
 struct Correspondence {
   Eigen::Vector2d keyframe_px = Eigen::Vector2d::Zero();  ///< measured in the keyframe
   Eigen::Vector2d cur_px = Eigen::Vector2d::Zero();       ///< measured in the current pair

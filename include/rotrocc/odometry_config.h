@@ -138,10 +138,10 @@ struct OdometryConfig {
   KeyframeSelectorConfig keyframe_selector;
   StereoCalibratorConfig stereo_calibrator;
 
-  int threads = 2;                  ///< that process a pair, including the calling thread
-  int startup_rounds = 3;           ///< maximum number of tries (predict, track, estimate) per pair
-  double startup_settled_px = 0.5;  ///< no further try if the predicted positions change less
-  double max_gap_s = 1.0;           ///< between two pairs; if longer, the estimator restarts
+  int threads = 2;          ///< that process a pair, including the calling thread
+  int max_tries = 3;        ///< maximum number of tries (predict, track, estimate) per pair
+  double settled_px = 0.5;  ///< no further try if the predicted positions change less
+  double max_gap_s = 1.0;   ///< between two pairs; if longer, the estimator restarts
 };
 
 }  // namespace rotrocc

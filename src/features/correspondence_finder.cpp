@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/median.h"
 #include "geometry/min_depth.h"
 
 namespace rotrocc {
@@ -188,10 +189,7 @@ double CorrespondenceFinder::medianShift(const StereoCamera& camera,
     if (a.z() < kMinDepth_m || b.z() < kMinDepth_m) continue;
     shifts_px_.push_back((camera.project(a) - camera.project(b)).norm());
   }
-  if (shifts_px_.empty()) return 0.0;
-  const auto middle = shifts_px_.begin() + static_cast<std::ptrdiff_t>(shifts_px_.size() / 2);
-  std::nth_element(shifts_px_.begin(), middle, shifts_px_.end());
-  return *middle;
+  return shifts_px_.empty() ? 0.0 : median(shifts_px_);
 }
 
 }  // namespace rotrocc

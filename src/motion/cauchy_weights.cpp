@@ -1,7 +1,8 @@
 #include "motion/cauchy_weights.h"
 
-#include <algorithm>
 #include <cstddef>
+
+#include "common/median.h"
 
 namespace rotrocc {
 namespace {
@@ -18,9 +19,7 @@ void cauchyWeights(double factor,
   weights = errors_px;
   double scale_px = 0.0;
   if (factor > 0.0 && !weights.empty()) {
-    const auto middle = weights.begin() + static_cast<std::ptrdiff_t>(weights.size() / 2);
-    std::nth_element(weights.begin(), middle, weights.end());
-    scale_px = factor * *middle / kMedianLength;
+    scale_px = factor * median(weights) / kMedianLength;
   }
   for (std::size_t i = 0; i < errors_px.size(); ++i) {
     const double ratio = scale_px > 0.0 ? errors_px[i] / scale_px : 0.0;

@@ -1,7 +1,6 @@
 #include "odometry/keyframe_selector.h"
 
-#include <algorithm>
-
+#include "common/median.h"
 #include "motion/flow_decoupling.h"
 #include "motion/outlier_rejection.h"
 
@@ -22,11 +21,7 @@ bool KeyframeSelector::keeps(const StereoCamera& camera,
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (inliers[i] != 0) inlier_flow_px_.push_back(flow_px_[i]);
   }
-  if (inlier_flow_px_.empty()) return false;
-  const auto middle =
-      inlier_flow_px_.begin() + static_cast<std::ptrdiff_t>(inlier_flow_px_.size() / 2);
-  std::nth_element(inlier_flow_px_.begin(), middle, inlier_flow_px_.end());
-  return *middle <= config_.max_parallax_px;
+  return !inlier_flow_px_.empty() && median(inlier_flow_px_) <= config_.max_parallax_px;
 }
 
 }  // namespace rotrocc

@@ -17,7 +17,7 @@ constexpr double kCalibrationSettled_px = 0.02;
 }  // namespace
 
 MotionSearch::MotionSearch(const OdometryConfig& config)
-    : settled_px_(config.startup_settled_px),
+    : settled_px_(config.settled_px),
       estimator_(config.motion_estimator, config.motion_check.min_inliers),
       check_(config.motion_check) {}
 

@@ -42,7 +42,7 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
   } catch (const Lost& lost) {
     result.reason = lost.what();
   } catch (const std::exception& error) {
-    last_.reset();  // the stored state may be the cause: restart with the next pair
+    forget();  // the stored state may be the cause
     result.reason = sentence("internal error: ", error.what());
     result.state = State::kLost;
   }
@@ -56,9 +56,16 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
 }
 
 void VisualOdometry::Pipeline::reset() {
-  last_.reset();
-  motion_model_.reset();
+  forget();
   found_.clear();
+}
+
+/// Restarts with the next pair.
+void VisualOdometry::Pipeline::forget() {
+  last_.reset();
+  lost_.reset();
+  keyframe_.frame.reset();
+  motion_model_.reset();
 }
 
 void VisualOdometry::Pipeline::configure(const Config& config) {
@@ -80,7 +87,8 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
   result.reason = whyRestart(pair, camera);
   const FramePtr current = takeFrame(pair, camera, result.times);
   if (!result.reason.empty()) {
-    restart(current);
+    forget();
+    last_ = current;
     result.state = State::kInitialising;
     return;
   }
@@ -103,7 +111,7 @@ void VisualOdometry::Pipeline::checkInput(const StereoPair& pair,
   const std::string why_unusable = whyUnusable(pair, camera);
   if (!why_unusable.empty()) throw Lost(why_unusable);
   if (!last_) return;
-  const std::int64_t newest_ns = (lost_ ? lost_ : last_)->stamp_ns;
+  const std::int64_t newest_ns = newest().stamp_ns;
   if (pair.stamp_ns <= newest_ns) {
     throw Lost(sentence("the stamp ",
                         pair.stamp_ns,
@@ -118,8 +126,7 @@ std::string VisualOdometry::Pipeline::whyRestart(const StereoPair& pair,
                                                  const StereoCamera& camera) const {
   if (!last_) return "first pair";
   if (camera != camera_) return "the camera has changed";
-  const double gap_s =
-      1e-9 * static_cast<double>(pair.stamp_ns - (lost_ ? lost_ : last_)->stamp_ns);
+  const double gap_s = 1e-9 * static_cast<double>(pair.stamp_ns - newest().stamp_ns);
   if (gap_s <= config_.max_gap_s) return "";
   return sentence("no pair for ", gap_s, " s, more than max_gap_s = ", config_.max_gap_s);
 }
@@ -135,13 +142,6 @@ FramePtr VisualOdometry::Pipeline::takeFrame(const StereoPair& pair,
   calibrator_.advance();
   camera_ = camera;
   return finder_.makeFrame(pair);
-}
-
-void VisualOdometry::Pipeline::restart(const FramePtr& current) {
-  last_ = current;
-  lost_.reset();
-  keyframe_.frame.reset();
-  motion_model_.reset();
 }
 
 void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& times) {
@@ -165,12 +165,12 @@ std::string VisualOdometry::Pipeline::findMotion(const FramePtr& current,
   result.dt_s = secondsBetween(*last_, *current);
   const auto T_last_cur = expected ? expected : motion_model_.predict(result.dt_s);
   const StereoCamera corrected = calibrator_.correct(camera_);
-  const auto find = [&](const std::optional<Eigen::Isometry3d>& T_last_cur, int most_tries) {
+  const auto find = [&](const std::optional<Eigen::Isometry3d>& prediction, int most_tries) {
     return search_.find(
-        finder_, corrected, keyframe_, *current, T_last_cur, most_tries, found_, result.times);
+        finder_, corrected, keyframe_, *current, prediction, most_tries, found_, result.times);
   };
   if (!keyframe_.frame) makeKeyframe(last_, result.times);
-  const int most = config_.startup_rounds;
+  const int most = config_.max_tries;
   const bool has_other = keyframe_.frame != last_ || lost_;
   std::string why_lost = find(T_last_cur, has_other ? most - 1 : most);
   if (!why_lost.empty() && keyframe_.frame != last_) {

@@ -45,7 +45,8 @@ class VisualOdometry::Pipeline {
   void checkInput(const StereoPair& pair, const StereoCamera& camera) const;
   std::string whyRestart(const StereoPair& pair, const StereoCamera& camera) const;
   FramePtr takeFrame(const StereoPair& pair, const StereoCamera& camera, StageTimes& times);
-  void restart(const FramePtr& current);
+  void forget();
+  const StereoFrame& newest() const { return lost_ ? *lost_ : *last_; }
   void makeKeyframe(const FramePtr& frame, StageTimes& times);
 
   /// Returns why there is no motion; empty if found_ is the motion.

@@ -135,14 +135,14 @@ void addVisualOdometry(OdometryConfig& c, ParameterTable& table) {
             16,
             "",
             "threads per pair, including the calling one; results do not depend on it");
-  table.add(s + "startup_rounds",
-            c.startup_rounds,
+  table.add(s + "max_tries",
+            c.max_tries,
             1,
             20,
             "",
             "largest number of tries of a pair: each tracks the features and estimates the motion");
-  table.add(s + "startup_settled_px",
-            c.startup_settled_px,
+  table.add(s + "settled_px",
+            c.settled_px,
             0.0,
             100.0,
             "px",

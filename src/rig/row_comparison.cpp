@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/median.h"
+
 namespace rotrocc {
 namespace {
 
@@ -13,12 +15,6 @@ constexpr std::size_t kFeatures = 1000;
 /// and the ratio of the standard deviation of the median to that of the mean.
 constexpr double kNormal = 1.4826;
 constexpr double kOfMedian = 1.2533;
-
-double median(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 

@@ -8,10 +8,9 @@
 #include "motion/reprojection_problem.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/odometry_config.h"
+#include "rotrocc/odometry_result.h"
 #include "rotrocc/rigid_motion.h"
 #include "rotrocc/stereo_camera.h"
-
-#include "rotrocc/odometry_result.h"
 
 namespace rotrocc {
 

@@ -122,7 +122,7 @@ TEST_F(PairProcessorTest, AsksForTheExpectedMotionBetweenItsPairs) {
 /// The estimator takes the motion in axes of the camera: forward of the base is along its z.
 TEST_F(PairProcessorTest, ExpectedMotionIsThatOfTheBase) {
   Parameters parameters;
-  parameters.odometry.startup_rounds = 1;
+  parameters.odometry.max_tries = 1;
   parameters.odometry.correspondence_finder.feature_tracker.startup_levels = 1;
   int inliers[2];
   for (const bool told : {false, true}) {

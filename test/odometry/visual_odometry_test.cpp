@@ -112,7 +112,7 @@ TEST(VisualOdometryTest, FollowsADriveAlongTheStreet) {
 TEST(VisualOdometryTest, StartsFromTheMotionThatIsExpected) {
   VisualOdometry::Config config;
   config.correspondence_finder.feature_tracker.startup_levels = 1;
-  config.startup_rounds = 1;  // not enough for the flow of two steps
+  config.max_tries = 1;  // not enough for the flow of two steps
   const Eigen::Isometry3d two_steps = bendStep() * bendStep();
   VisualOdometry alone(config);
   alone.process(bend(0), camera());
@@ -656,7 +656,7 @@ TEST(VisualOdometryTest, TriesAPairSoManyTimesAtMost) {
     StereoPair pair = i % 6 < 3 ? bend(i % 3) : noise(size, stamp_ns);
     pair.stamp_ns = stamp_ns;
     const OdometryResult result = odometry.process(pair, camera());
-    EXPECT_LE(result.counts.tries, config.startup_rounds + 1) << i;
+    EXPECT_LE(result.counts.tries, config.max_tries + 1) << i;
     EXPECT_EQ(result.counts.tries > 0, i > 0);
   }
 }

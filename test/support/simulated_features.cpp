@@ -73,4 +73,22 @@ Vector6d motionError(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d&
   return error;
 }
 
+std::vector<Eigen::Isometry3d> someMotions() {
+  std::mt19937 generator(1);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  const auto vector = [&] {
+    return Eigen::Vector3d(any(generator), any(generator), any(generator));
+  };
+  std::vector<Eigen::Isometry3d> motions = {motion({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}),
+                                            motion({0.0, 0.0, 1.5}, {0.0, 0.0, 0.0}),
+                                            motion({0.0, 0.0, 0.0}, {0.0, 0.1, 0.0})};
+  for (int i = 0; i < 10; ++i) motions.push_back(motion(vector(), 0.2 * vector()));
+  return motions;
+}
+
+Correspondences someFeatures(const Eigen::Isometry3d& T_keyframe_cur) {
+  std::mt19937 generator(2);
+  return simulateFeatures(kittiCamera(), T_keyframe_cur, 20, {5.0, 1.0}, generator);
+}
+
 }  // namespace rotrocc

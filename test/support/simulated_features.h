@@ -1,6 +1,7 @@
 #pragma once
 
 #include <random>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -47,5 +48,11 @@ Eigen::Isometry3d motion(const Eigen::Vector3d& translation_m, const Eigen::Vect
 
 /// The error of an estimated motion in the order of OdometryResult::covariance.
 Vector6d motionError(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth);
+
+/// Motions of a car and of a hand-held camera, some without rotation or translation.
+std::vector<Eigen::Isometry3d> someMotions();
+
+/// 20 features with that motion, and large noise.
+Correspondences someFeatures(const Eigen::Isometry3d& T_keyframe_cur);
 
 }  // namespace rotrocc
