@@ -140,7 +140,7 @@ struct OdometryConfig {
 
   int threads = 2;          ///< that process a pair, including the calling thread
   int max_tries = 3;        ///< maximum number of tries (predict, track, estimate) per pair
-  double settled_px = 0.5;  ///< no further try if the predicted positions change less
+  double settled_px = 5.0;  ///< no further try if the median feature was found closer to its start
   double max_gap_s = 1.0;   ///< between two pairs; if longer, the estimator restarts
 };
 

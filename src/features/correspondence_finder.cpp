@@ -61,10 +61,10 @@ int CorrespondenceFinder::find(const StereoCamera& camera,
                                const Keyframe& keyframe,
                                const StereoFrame& current,
                                const Eigen::Isometry3d& T_keyframe_cur,
-                               bool is_prediction,
+                               const FeatureTracker::Search& search,
                                Correspondences& features) {
   predict(camera, keyframe, T_keyframe_cur);
-  track(keyframe, current, is_prediction);
+  track(keyframe, current, search);
   checkCircularConsistency(camera, keyframe, current, features);
   return static_cast<int>(std::count(tracked_.begin(), tracked_.end(), 1));
 }
@@ -96,23 +96,21 @@ void CorrespondenceFinder::predict(const StereoCamera& camera,
 
 void CorrespondenceFinder::track(const Keyframe& keyframe,
                                  const StereoFrame& current,
-                                 bool is_prediction) {
-  FeatureTracker::Search search;
-  search.levels =
-      is_prediction ? config_.feature_tracker.levels : config_.feature_tracker.startup_levels;
+                                 const FeatureTracker::Search& search) {
+  FeatureTracker::Search left_search = search;
+  left_search.near = false;
   tracker_.track(workers_,
                  keyframe.frame->left,
                  current.left,
                  keyframe.left_px,
                  scale_changes_,
-                 search,
+                 left_search,
                  cur_left_px_,
                  tracked_);
   // Predict the right position from the tracked left position and the predicted disparity.
   for (std::size_t i = 0; i < cur_left_px_.size(); ++i) {
     cur_right_px_[i] = cur_left_px_[i] - cv::Point2f(predicted_disparities_px_[i], 0.0F);
   }
-  search.near = is_prediction;
   tracker_.track(workers_,
                  keyframe.frame->right,
                  current.right,

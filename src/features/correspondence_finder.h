@@ -38,15 +38,14 @@ class CorrespondenceFinder {
   /// Triangulates the corners that have a match in the keyframe's right image.
   void findDepths(const StereoCamera& camera, Keyframe& keyframe);
 
-  /// Tracks the keyframe's points, starting at the positions given by the motion, which is a
-  /// prediction or just a starting value. Stores in `features` those that pass the circular
-  /// consistency check: their current left and right positions match each other. Returns the number
-  /// of points tracked in both images.
+  /// Tracks the keyframe's points, starting at the positions given by the motion. Stores in
+  /// `features` those that pass the circular consistency check: their current left and right
+  /// positions match each other. Returns the number of points tracked in both images.
   int find(const StereoCamera& camera,
            const Keyframe& keyframe,
            const StereoFrame& current,
            const Eigen::Isometry3d& T_keyframe_cur,
-           bool is_prediction,
+           const FeatureTracker::Search& search,
            Correspondences& features);
 
   /// Vertical offset [px] of a sample of the flagged features of `current`, positive if lower in
@@ -67,7 +66,9 @@ class CorrespondenceFinder {
   void predict(const StereoCamera& camera,
                const Keyframe& keyframe,
                const Eigen::Isometry3d& T_keyframe_cur);
-  void track(const Keyframe& keyframe, const StereoFrame& current, bool is_prediction);
+  void track(const Keyframe& keyframe,
+             const StereoFrame& current,
+             const FeatureTracker::Search& search);
   void checkCircularConsistency(const StereoCamera& camera,
                                 const Keyframe& keyframe,
                                 const StereoFrame& current,

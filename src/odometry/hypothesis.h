@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "motion/motion_estimator.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/odometry_result.h"
@@ -10,16 +12,22 @@ namespace rotrocc {
 /// A candidate motion with all data that it was estimated from. It is accepted or discarded as a
 /// whole.
 struct Hypothesis {
+  static constexpr const char* kNotTried = "there is nothing to compare with";
+
   StereoCamera camera;  ///< corrected by the disparity bias that was used for the features' depths
   Correspondences features;
   MotionEstimator::Estimate estimate;
   StageCounts counts;
+  std::string why_lost = kNotTried;  ///< why the motion is rejected; empty if it is accepted
+
+  bool isAccepted() const { return why_lost.empty(); }
 
   void clear() {
     features.clear();
     estimate.rotation_inliers.clear();
     estimate.translation_inliers.clear();
     counts = {};
+    why_lost = kNotTried;
   }
 };
 

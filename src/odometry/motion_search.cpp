@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/stage_timer.h"
+#include "motion/consensus_motion.h"
 #include "motion/outlier_rejection.h"
 
 namespace rotrocc {
@@ -14,71 +15,104 @@ namespace {
 constexpr int kCalibrationRounds = 3;
 constexpr double kCalibrationSettled_px = 0.02;
 
+/// Whether to prefer hypothesis `a`.
+bool isBetter(const Hypothesis& a, const Hypothesis& b) {
+  if (!b.isAccepted()) return true;
+  return a.isAccepted() && a.counts.rotation_inliers > b.counts.rotation_inliers;
+}
+
 }  // namespace
 
 MotionSearch::MotionSearch(const OdometryConfig& config)
-    : settled_px_(config.settled_px),
+    : tracker_(config.correspondence_finder.feature_tracker),
+      least_features_(config.motion_check.min_inliers),
+      settled_px_(config.settled_px),
       estimator_(config.motion_estimator, config.motion_check.min_inliers),
-      check_(config.motion_check) {}
+      check_(config.motion_check),
+      prediction_error_(tracker_) {}
 
-std::string MotionSearch::find(CorrespondenceFinder& finder,
-                               const StereoCamera& camera,
-                               const Keyframe& keyframe,
-                               const StereoFrame& current,
-                               const std::optional<Eigen::Isometry3d>& T_last_cur,
-                               int most_tries,
-                               Hypothesis& found,
-                               StageTimes& times) {
-  found.camera = camera;
-  Eigen::Isometry3d T_keyframe_cur = keyframe.T_keyframe_last.T;
-  std::string why_lost;
+void MotionSearch::find(const Frames& frames,
+                        const std::optional<Eigen::Isometry3d>& T_last_cur,
+                        int most_tries,
+                        Hypothesis& found,
+                        StageTimes& times) {
+  const int tries = found.counts.tries;
+  found.clear();
+  found.counts.tries = tries;
+  const Eigen::Isometry3d& T_keyframe_last = frames.keyframe.T_keyframe_last.T;
+  bool is_settled = false;
   if (T_last_cur) {
-    const Eigen::Isometry3d T_predicted = T_keyframe_cur * *T_last_cur;
-    why_lost = tryMotion(finder, keyframe, current, T_predicted, true, found, times);
-    if (why_lost.empty()) return "";
+    const Eigen::Isometry3d T_predicted = T_keyframe_last * *T_last_cur;
+    const Start start = {T_predicted, true, {prediction_error_.levels(), true}};
+    is_settled = settle(frames, start, most_tries, found, times);
+    if (found.isAccepted()) {
+      prediction_error_.observe(frames.finder.medianShift(
+          frames.camera, frames.keyframe, T_predicted, found.estimate.T_keyframe_cur));
+    }
   }
-  do {
-    why_lost = tryMotion(finder, keyframe, current, T_keyframe_cur, false, found, times);
-    if (!found.estimate.valid) break;
-    const Eigen::Isometry3d& T_found = found.estimate.T_keyframe_cur;
-    const double shift_px = finder.medianShift(camera, keyframe, T_keyframe_cur, T_found);
-    T_keyframe_cur = T_found;
-    if (shift_px < settled_px_) break;
-  } while (found.counts.tries < most_tries);
-  return why_lost;
+  if (is_settled && found.isAccepted()) return;
+  if (T_last_cur && found.counts.tries >= most_tries) return;
+  settle(
+      frames, {T_keyframe_last, false, {tracker_.startup_levels, false}}, most_tries, found, times);
 }
 
-std::string MotionSearch::tryMotion(CorrespondenceFinder& finder,
-                                    const Keyframe& keyframe,
-                                    const StereoFrame& current,
-                                    const Eigen::Isometry3d& T_keyframe_cur,
-                                    bool is_prediction,
-                                    Hypothesis& found,
-                                    StageTimes& times) {
-  ++found.counts.tries;
+/// Tracks and estimates repeatedly, each time starting from the last result. `best` becomes the
+/// best hypothesis of these and itself. Returns whether it settled.
+bool MotionSearch::settle(
+    const Frames& frames, Start start, int most_tries, Hypothesis& best, StageTimes& times) {
+  for (;;) {
+    const int tries = best.counts.tries + 1;
+    tryMotion(frames, start, tried_, times);
+    const Eigen::Isometry3d T_found = tried_.estimate.T_keyframe_cur;
+    const bool is_usable = tried_.estimate.valid && tried_.counts.consistent >= least_features_;
+    if (isBetter(tried_, best)) std::swap(tried_, best);
+    best.counts.tries = tries;
+    if (!is_usable) return false;
+    const double shift_px =
+        frames.finder.medianShift(frames.camera, frames.keyframe, start.T_keyframe_cur, T_found);
+    if (shift_px < settled_px_) return true;
+    if (tries >= most_tries) return false;
+    start.T_keyframe_cur = T_found;
+    if (start.is_prediction) start.search.levels = tracker_.levels;
+  }
+}
+
+void MotionSearch::tryMotion(const Frames& frames,
+                             const Start& start,
+                             Hypothesis& hypothesis,
+                             StageTimes& times) {
+  hypothesis.camera = frames.camera;
+  StageCounts& counts = hypothesis.counts;
   {
     const StageTimer timer(times.tracking_ms);
-    found.counts.tracked =
-        finder.find(found.camera, keyframe, current, T_keyframe_cur, is_prediction, found.features);
+    counts.tracked = frames.finder.find(frames.camera,
+                                        frames.keyframe,
+                                        frames.current,
+                                        start.T_keyframe_cur,
+                                        start.search,
+                                        hypothesis.features);
   }
-  found.counts.corners = static_cast<int>(keyframe.corners.size());
-  found.counts.with_depth = static_cast<int>(keyframe.points.size());
-  found.counts.consistent = static_cast<int>(found.features.size());
+  counts.corners = static_cast<int>(frames.keyframe.corners.size());
+  counts.with_depth = static_cast<int>(frames.keyframe.points.size());
+  counts.consistent = static_cast<int>(hypothesis.features.size());
   const StageTimer timer(times.estimation_ms);
-  return estimate(T_keyframe_cur, is_prediction, secondsBetween(*keyframe.frame, current), found);
+  const double dt_s = secondsBetween(*frames.keyframe.frame, frames.current);
+  if (start.is_prediction) return estimate(start.T_keyframe_cur, true, dt_s, hypothesis);
+  const auto consensus = consensusMotion(frames.camera, hypothesis.features);
+  estimate(consensus.value_or(start.T_keyframe_cur), consensus.has_value(), dt_s, hypothesis);
 }
 
-std::string MotionSearch::estimate(const Eigen::Isometry3d& T_keyframe_cur,
-                                   bool is_prediction,
-                                   double dt_s,
-                                   Hypothesis& hypothesis) {
+void MotionSearch::estimate(const Eigen::Isometry3d& T_keyframe_cur,
+                            bool is_prediction,
+                            double dt_s,
+                            Hypothesis& hypothesis) {
   MotionEstimator::Estimate& estimate = hypothesis.estimate;
   estimate = estimator_.estimate(
       hypothesis.camera, hypothesis.features, T_keyframe_cur, dt_s, is_prediction);
   hypothesis.counts.rotation_inliers = count(estimate.rotation_inliers);
   hypothesis.counts.translation_inliers =
       estimate.has_translation_stage ? count(estimate.translation_inliers) : 0;
-  return check_.whyLost(estimate, dt_s);
+  hypothesis.why_lost = check_.whyLost(estimate, dt_s);
 }
 
 void MotionSearch::calibrate(const StereoCamera& camera,
@@ -96,7 +130,8 @@ void MotionSearch::calibrate(const StereoCamera& camera,
     recalibrated_ = found;
     recalibrated_.camera = corrected;
     triangulate(corrected, recalibrated_.features);
-    if (!estimate(estimated.T_keyframe_cur, true, dt_s, recalibrated_).empty()) return;
+    estimate(estimated.T_keyframe_cur, true, dt_s, recalibrated_);
+    if (!recalibrated_.isAccepted()) return;
     std::swap(found, recalibrated_);
   }
 }

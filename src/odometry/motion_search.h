@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include <Eigen/Geometry>
 
@@ -11,6 +10,7 @@
 #include "motion/motion_estimator.h"
 #include "odometry/hypothesis.h"
 #include "odometry/motion_check.h"
+#include "odometry/prediction_error.h"
 #include "rig/stereo_calibrator.h"
 #include "rotrocc/odometry_config.h"
 #include "rotrocc/odometry_result.h"
@@ -21,25 +21,34 @@ namespace rotrocc {
 /// Finds the motion from a keyframe to the current frame by testing hypotheses.
 class MotionSearch {
  public:
+  /// What the motion is measured between.
+  struct Frames {
+    CorrespondenceFinder& finder;
+    const StereoCamera& camera;
+    const Keyframe& keyframe;
+    const StereoFrame& current;
+  };
+
   /// Throws as the constructor of MotionEstimator.
   explicit MotionSearch(const OdometryConfig& config);
 
-  /// First tries the prediction `T_last_cur`, if there is one. Without one, or if it fails, starts
-  /// from zero motion since the last frame. Features tracked from a wrong start may agree on a
-  /// wrong motion, so tracking and estimation are repeated, each time starting from the last
-  /// result, until the motion settles or `found` counts `most_tries`. There is at least one such
-  /// try. Returns why there is no motion; empty if `found` is the motion.
-  std::string find(CorrespondenceFinder& finder,
-                   const StereoCamera& camera,
-                   const Keyframe& keyframe,
-                   const StereoFrame& current,
-                   const std::optional<Eigen::Isometry3d>& T_last_cur,
-                   int most_tries,
-                   Hypothesis& found,
-                   StageTimes& times);
+  /// Tracks the features from the positions that a motion predicts and estimates the motion. If the
+  /// result is far from the predicted one, most features were searched at the wrong place: then
+  /// they are tracked again from the result, until it settles. Starts at the prediction
+  /// `T_last_cur`, if there is one. Without one, or if that does not settle, starts at zero motion
+  /// since the last frame, with the motion that most features agree on.
+  ///
+  /// `found` becomes the accepted hypothesis with the most inliers, or a rejected one if none is
+  /// accepted. Its number of tries is added to that of `found`. There is at least one try, and none
+  /// after `most_tries`.
+  void find(const Frames& frames,
+            const std::optional<Eigen::Isometry3d>& T_last_cur,
+            int most_tries,
+            Hypothesis& found,
+            StageTimes& times);
 
   /// The features depend on the disparity bias of the rig as well as on the motion. Estimates both
-  /// alternately and stores in `found` the last hypothesis that is not lost. `camera` is the camera
+  /// alternately and stores in `found` the last hypothesis that is accepted. `camera` is the camera
   /// without correction.
   void calibrate(const StereoCamera& camera,
                  double dt_s,
@@ -47,23 +56,36 @@ class MotionSearch {
                  Hypothesis& found,
                  StageTimes& times);
 
- private:
-  /// Both return why there is no motion; empty if there is one.
-  std::string tryMotion(CorrespondenceFinder& finder,
-                        const Keyframe& keyframe,
-                        const StereoFrame& current,
-                        const Eigen::Isometry3d& T_keyframe_cur,
-                        bool is_prediction,
-                        Hypothesis& found,
-                        StageTimes& times);
-  std::string estimate(const Eigen::Isometry3d& T_keyframe_cur,
-                       bool is_prediction,
-                       double dt_s,
-                       Hypothesis& hypothesis);
+  /// Forgets the quality of earlier predictions.
+  void reset() { prediction_error_.reset(); }
 
+ private:
+  /// Where the features are searched.
+  struct Start {
+    Eigen::Isometry3d T_keyframe_cur;
+    bool is_prediction;
+    FeatureTracker::Search search;
+  };
+
+  bool settle(
+      const Frames& frames, Start start, int most_tries, Hypothesis& best, StageTimes& times);
+  void tryMotion(const Frames& frames,
+                 const Start& start,
+                 Hypothesis& hypothesis,
+                 StageTimes& times);
+  void estimate(const Eigen::Isometry3d& T_keyframe_cur,
+                bool is_prediction,
+                double dt_s,
+                Hypothesis& hypothesis);
+
+  FeatureTrackerConfig tracker_;
+  int least_features_;
   double settled_px_;
   MotionEstimator estimator_;
   MotionCheck check_;
+  PredictionError prediction_error_;
+
+  Hypothesis tried_;         // the latest, reused
   Hypothesis recalibrated_;  // buffer of calibrate(), reused
 };
 

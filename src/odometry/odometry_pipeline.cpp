@@ -66,6 +66,7 @@ void VisualOdometry::Pipeline::forget() {
   lost_.reset();
   keyframe_.frame.reset();
   motion_model_.reset();
+  search_.reset();
 }
 
 void VisualOdometry::Pipeline::configure(const Config& config) {
@@ -92,11 +93,11 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
     result.state = State::kInitialising;
     return;
   }
-  const std::string why_lost = findMotion(current, expected, result);
-  if (!why_lost.empty()) {
+  findMotion(current, expected, result);
+  if (!found_.isAccepted()) {
     // Either this pair or the last one may be at fault. The next pair is compared with both.
     lost_ = current;
-    throw Lost(why_lost);
+    throw Lost(found_.why_lost);
   }
   accept(current, result);
 }
@@ -159,37 +160,35 @@ void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& t
 /// Measures the motion against the keyframe. If that fails, uses the last frame, then the latest
 /// lost frame, which is assigned the pose of the last frame. The total number of tries is limited,
 /// so that no pair takes much longer than one without a prediction.
-std::string VisualOdometry::Pipeline::findMotion(const FramePtr& current,
-                                                 const std::optional<Eigen::Isometry3d>& expected,
-                                                 OdometryResult& result) {
+void VisualOdometry::Pipeline::findMotion(const FramePtr& current,
+                                          const std::optional<Eigen::Isometry3d>& expected,
+                                          OdometryResult& result) {
   result.dt_s = secondsBetween(*last_, *current);
   const auto T_last_cur = expected ? expected : motion_model_.predict(result.dt_s);
   const StereoCamera corrected = calibrator_.correct(camera_);
   const auto find = [&](const std::optional<Eigen::Isometry3d>& prediction, int most_tries) {
-    return search_.find(
-        finder_, corrected, keyframe_, *current, prediction, most_tries, found_, result.times);
+    search_.find(
+        {finder_, corrected, keyframe_, *current}, prediction, most_tries, found_, result.times);
   };
   if (!keyframe_.frame) makeKeyframe(last_, result.times);
   const int most = config_.max_tries;
   const bool has_other = keyframe_.frame != last_ || lost_;
-  std::string why_lost = find(T_last_cur, has_other ? most - 1 : most);
-  if (!why_lost.empty() && keyframe_.frame != last_) {
+  find(T_last_cur, has_other ? most - 1 : most);
+  if (!found_.isAccepted() && keyframe_.frame != last_) {
     makeKeyframe(last_, result.times);
-    why_lost = find(T_last_cur, most);
+    find({}, most);  // the prediction has failed already
   }
-  if (!why_lost.empty() && lost_) {
+  if (!found_.isAccepted() && lost_) {
     last_ = std::move(lost_);
     lost_.reset();
     motion_model_.reset();
     result.dt_s = secondsBetween(*last_, *current);
     makeKeyframe(last_, result.times);
-    why_lost = find({}, most);
+    find({}, most);
   }
-  if (why_lost.empty()) {
-    search_.calibrate(
-        camera_, secondsBetween(*keyframe_.frame, *current), calibrator_, found_, result.times);
-  }
-  return why_lost;
+  if (!found_.isAccepted()) return;
+  search_.calibrate(
+      camera_, secondsBetween(*keyframe_.frame, *current), calibrator_, found_, result.times);
 }
 
 void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& result) {

@@ -49,10 +49,9 @@ class VisualOdometry::Pipeline {
   const StereoFrame& newest() const { return lost_ ? *lost_ : *last_; }
   void makeKeyframe(const FramePtr& frame, StageTimes& times);
 
-  /// Returns why there is no motion; empty if found_ is the motion.
-  std::string findMotion(const FramePtr& current,
-                         const std::optional<Eigen::Isometry3d>& expected,
-                         OdometryResult& result);
+  void findMotion(const FramePtr& current,
+                  const std::optional<Eigen::Isometry3d>& expected,
+                  OdometryResult& result);
   void accept(const FramePtr& current, OdometryResult& result);
 
   Config config_;

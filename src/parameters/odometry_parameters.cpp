@@ -146,7 +146,8 @@ void addVisualOdometry(OdometryConfig& c, ParameterTable& table) {
             0.0,
             100.0,
             "px",
-            "rounds end when the predicted positions change by less");
+            "if the median feature is found farther from where it was searched, it is tracked "
+            "again from there");
   table.add(s + "max_gap_s",
             c.max_gap_s,
             0.01,

@@ -23,6 +23,9 @@ StereoPair view(const SyntheticScene& scene, const Eigen::Isometry3d& T_world_ca
   return pair;
 }
 
+/// The search around a good prediction.
+constexpr FeatureTracker::Search kNear = {2, true};
+
 /// A keyframe and a current frame.
 struct Frames {
   Frames(CorrespondenceFinder& finder,
@@ -47,7 +50,7 @@ Correspondences find(const StereoPair& prev,
   CorrespondenceFinder finder(config);
   const Frames frames(finder, prev, cur, camera);
   Correspondences features;
-  finder.find(camera, frames.keyframe, *frames.current, step(), true, features);
+  finder.find(camera, frames.keyframe, *frames.current, step(), kNear, features);
   return features;
 }
 
@@ -117,12 +120,13 @@ TEST(CorrespondenceFinderTest, CountsWhatIsLeft) {
   EXPECT_GT(with_depth, frames.keyframe.corners.size() / 2);
   EXPECT_LE(with_depth, frames.keyframe.corners.size());
   Correspondences features;
-  const int tracked = finder.find(camera, frames.keyframe, *frames.current, step(), true, features);
+  const int tracked =
+      finder.find(camera, frames.keyframe, *frames.current, step(), kNear, features);
   EXPECT_GT(tracked, static_cast<int>(with_depth / 2));
   EXPECT_LE(static_cast<int>(features.size()), tracked);
   // A motion that moves every point behind the camera leaves nothing to track.
   const Eigen::Isometry3d beyond = motion({0.0, 0.0, 200.0}, {0.0, 0.0, 0.0});
-  EXPECT_EQ(finder.find(camera, frames.keyframe, *frames.current, beyond, true, features), 0);
+  EXPECT_EQ(finder.find(camera, frames.keyframe, *frames.current, beyond, kNear, features), 0);
   EXPECT_TRUE(features.empty());
 }
 
@@ -163,7 +167,7 @@ TEST(CorrespondenceFinderTest, ScalesWindowsUnlessToldNotTo) {
     CorrespondenceFinder finder(config);
     const Frames frames(finder, prev, cur, scene.camera());
     Correspondences features;
-    finder.find(scene.camera(), frames.keyframe, *frames.current, far_step, true, features);
+    finder.find(scene.camera(), frames.keyframe, *frames.current, far_step, kNear, features);
     std::vector<double> errors_px;
     for (const Correspondence& feature : features) {
       const Eigen::Vector3d point_cur = scene.pointAt(far_step, feature.cur_px);

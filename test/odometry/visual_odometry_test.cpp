@@ -131,6 +131,16 @@ TEST(VisualOdometryTest, SurvivesAWrongExpectation) {
   expectMotion(result, bendStep());
 }
 
+/// A drone turns back at once: the prediction is wrong by 8 degrees, about 60 px.
+TEST(VisualOdometryTest, TracksFeaturesAgainAfterAWrongPrediction) {
+  const int usual = started(3).process(bend(3), camera()).counts.consistent;
+  const Eigen::Isometry3d wrong = bendStep() * motion({0.0, 0.0, 0.0}, {0.0, 0.14, 0.0});
+  const OdometryResult result = started(3).process(bend(3), camera(), wrong);
+  expectMotion(result, bendStep());
+  EXPECT_GT(result.counts.tries, 1);
+  EXPECT_GT(result.counts.consistent, 0.9 * usual);
+}
+
 /// The camera according to a calibration with a disparity error of one pixel.
 StereoCamera wronglyCalibrated() {
   StereoCamera wrong = camera();

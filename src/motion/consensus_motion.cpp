@@ -1,0 +1,57 @@
+#include "motion/consensus_motion.h"
+
+#include <vector>
+
+#include <opencv2/calib3d.hpp>
+
+#include "rotrocc/rigid_motion.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr std::size_t kLeastFeatures = 4;
+
+/// Samples of three features. With half of the features wrong, one of 35 is expected to be the
+/// first without an outlier in 99 % of all cases; depths of far features are too inexact for most.
+constexpr int kSamples = 200;
+
+/// Tolerance of the reprojection error: more than that of tracking, as a motion of three features
+/// is inexact.
+constexpr float kTolerance_px = 2.0F;
+
+constexpr double kConfidence = 0.999;
+
+}  // namespace
+
+std::optional<Eigen::Isometry3d> consensusMotion(const StereoCamera& camera,
+                                                 const Correspondences& features) {
+  if (features.size() < kLeastFeatures) return std::nullopt;
+  std::vector<cv::Point3d> points;
+  std::vector<cv::Point2d> pixels;
+  for (const Correspondence& feature : features) {
+    points.emplace_back(feature.point_cur.x(), feature.point_cur.y(), feature.point_cur.z());
+    pixels.emplace_back(feature.keyframe_px.x(), feature.keyframe_px.y());
+  }
+  const cv::Matx33d intrinsics(camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0);
+  cv::Vec3d rotation;
+  cv::Vec3d translation;
+  const bool found = cv::solvePnPRansac(points,
+                                        pixels,
+                                        intrinsics,
+                                        cv::noArray(),
+                                        rotation,
+                                        translation,
+                                        false,
+                                        kSamples,
+                                        kTolerance_px,
+                                        kConfidence,
+                                        cv::noArray(),
+                                        cv::SOLVEPNP_P3P);
+  Eigen::Isometry3d T_keyframe_cur = Eigen::Isometry3d::Identity();
+  T_keyframe_cur.linear() = expRotation({rotation[0], rotation[1], rotation[2]});
+  T_keyframe_cur.translation() = Eigen::Vector3d(translation[0], translation[1], translation[2]);
+  if (!found || !T_keyframe_cur.matrix().allFinite()) return std::nullopt;
+  return T_keyframe_cur;
+}
+
+}  // namespace rotrocc
