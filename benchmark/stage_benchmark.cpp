@@ -75,7 +75,9 @@ struct Middle {
     finder.findDepths(drive().camera, keyframe);
   }
 
-  int find() { return finder.find(drive().camera, keyframe, *current, T_prev_cur, true, features); }
+  int find() {
+    return finder.find(drive().camera, keyframe, *current, T_prev_cur, {2, true}, features);
+  }
 };
 
 void pyramids(benchmark::State& state) {

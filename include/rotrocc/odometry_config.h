@@ -9,7 +9,7 @@ namespace rotrocc {
 struct FeatureDetectorConfig {
   int max_features = 2000;
   int block_radius_px = 2;    ///< gradients are summed over a square of side 2 radius + 1
-  int nms_radius_px = 4;      ///< minimum distance in x or y to a stronger corner
+  int nms_radius_px = 5;      ///< minimum distance in x or y to a stronger corner
   int cell_size_px = 32;      ///< side of a grid cell
   double min_response = 2.0;  ///< minimum of the smaller eigenvalue: (grey levels / px)^2
   int border_px = 8;          ///< no corners closer to the image border
@@ -25,12 +25,12 @@ struct StereoMatcherConfig {
 
 /// Pyramidal Lucas-Kanade, and the circular consistency check.
 struct FeatureTrackerConfig {
-  int window_radius_px = 5;        ///< the window is a square of side 2 radius + 1
+  int window_radius_px = 4;        ///< the window is a square of side 2 radius + 1
   int levels = 2;                  ///< pyramid levels when there is a prediction
   int startup_levels = 5;          ///< pyramid levels without a prediction
   int max_iterations = 10;         ///< per level
   double min_step_px = 0.02;       ///< iterations stop at a shorter step
-  double max_round_trip_px = 0.5;  ///< tolerance of forward-backward tracking; 0: not checked
+  double max_round_trip_px = 1.0;  ///< tolerance of forward-backward tracking; 0: not checked
   bool scale_windows = true;       ///< scale the windows by the predicted scale change
   bool ignore_brightness = true;   ///< subtract the mean of each window
   double max_vertical_px = 1.0;    ///< tolerance of the row of left and right
@@ -61,7 +61,10 @@ const std::vector<std::string>& criterionNames();
 struct MotionEstimatorConfig {
   std::string criterion = "rotrocc";  ///< one of criterionNames()
   /// Ratio of disparity noise to flow noise, see fitted_feature.h. 0: the paper's least squares.
-  double noise_ratio = 3.0;
+  double noise_ratio = 4.0;
+  /// Ratio of the disparity error that the features of an image cell share to flow noise: start of
+  /// an estimate. 0: they share none, and none is estimated. Used as robust_factor.
+  double shared_ratio = 2.0;
   /// Of cauchyWeights(), used once the set of a stage is stable. 0: no weights, as in the
   /// paper.
   double robust_factor = 2.0;
@@ -71,7 +74,7 @@ struct MotionEstimatorConfig {
   double rotation_drop_share = 0.15;  ///< largest share dropped per iteration: b of Eq. 26
   int rotation_max_iterations = 30;
   /// If stage 1 leaves a smaller share of the features, there is one retry ...
-  double retry_share = 0.6;
+  double retry_share = 0.7;
   /// ... with only the features whose error at the prediction is below this. 0: no retry.
   double retry_agreement_px = 2.0;
 
@@ -105,7 +108,7 @@ struct MotionCheckConfig {
 /// When a keyframe is replaced.
 struct KeyframeSelectorConfig {
   bool adaptive = true;          ///< false: every frame is the keyframe of the next one
-  double max_parallax_px = 8.0;  ///< limit of the median flow caused by translation
+  double max_parallax_px = 6.0;  ///< limit of the median flow caused by translation
   double min_seen_share = 0.7;   ///< minimum share of the inliers of the keyframe's first motion
 };
 

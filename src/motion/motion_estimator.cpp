@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 
 #include "motion/outlier_rejection.h"
+#include "motion/reprojection_error.h"
 
 namespace rotrocc {
 namespace {
@@ -12,6 +13,17 @@ constexpr double kSignificant2 = 16.8;
 
 /// The square of a factor of 2 between distances.
 constexpr double kHalf2 = 4.0;
+
+/// Usual accelerations, which make a prediction by constant velocity wrong.
+constexpr double kAcceleration_mps2 = 3.0;
+constexpr double kAngularAcceleration_rps2 = 0.5;
+
+Matrix6d covarianceOfPrediction(double dt_s) {
+  Vector6d sigma;
+  sigma << Eigen::Vector3d::Constant(kAcceleration_mps2 * dt_s * dt_s),
+      Eigen::Vector3d::Constant(kAngularAcceleration_rps2 * dt_s * dt_s);
+  return sigma.cwiseAbs2().asDiagonal();
+}
 
 }  // namespace
 
@@ -24,39 +36,44 @@ const MotionEstimator::Estimate& MotionEstimator::estimate(const StereoCamera& c
                                                            const Correspondences& features,
                                                            const Eigen::Isometry3d& initial,
                                                            double dt_s,
-                                                           bool is_prediction) {
-  const Measurements measured = {camera, features, config_.noise_ratio};
+                                                           bool is_prediction,
+                                                           double shared_ratio) {
+  const Measurements measured = {camera, features, config_.noise_ratio, shared_ratio};
   all_.assign(features.size(), 1);
   estimateFrom(all_, measured, initial, dt_s, found_);
   const int agree = found_.valid ? count(found_.rotation_inliers) : 0;
   const bool few = agree < config_.retry_share * static_cast<double>(features.size());
   if (!few || !is_prediction || config_.retry_agreement_px == 0.0) return found_;
 
-  fitAt(measured, initial, motion_.fit);
-  fittedErrors(camera, motion_.fit, errors_px_);
+  // Without whitening, because the motion of an object along the road looks like a wrong disparity.
+  reprojectionErrors(camera, features, initial, errors_px_);
   near_ = all_;
   keepBelow(errors_px_, config_.retry_agreement_px, near_);
   estimateFrom(near_, measured, initial, dt_s, retry_);
-  return isLikelier(retry_, initial) ? retry_ : found_;
+  return isLikelier(retry_, initial, dt_s) ? retry_ : found_;
 }
 
 /// Whether the retry is more plausible than the first motion.
-bool MotionEstimator::isLikelier(const Estimate& retry, const Eigen::Isometry3d& prediction) const {
+bool MotionEstimator::isLikelier(const Estimate& retry,
+                                 const Eigen::Isometry3d& prediction,
+                                 double dt_s) const {
   if (!retry.valid || !found_.valid) return retry.valid;
   const int inliers = count(retry.rotation_inliers);
   const int inliers_before = count(found_.rotation_inliers);
   if (2 * inliers < inliers_before) return false;
   if (inliers > 2 * inliers_before) return true;
-  const Eigen::LDLT<Matrix6d> uncertainty(found_.covariance + retry.covariance);
-  const auto distance2 = [&](const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b) {
-    Vector6d difference;
-    difference << T_a.translation() - T_b.translation(),
-        logRotation(T_a.linear() * T_b.linear().transpose());
-    return difference.dot(uncertainty.solve(difference));
-  };
-  return distance2(retry.T_keyframe_cur, found_.T_keyframe_cur) > kSignificant2 &&
-         kHalf2 * distance2(retry.T_keyframe_cur, prediction) <
-             distance2(found_.T_keyframe_cur, prediction);
+  const Matrix6d of_both = found_.covariance + retry.covariance;
+  const Matrix6d of_all = of_both + covarianceOfPrediction(dt_s);
+  const auto distance2 =
+      [](const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b, const Matrix6d& covariance) {
+        Vector6d difference;
+        difference << T_a.translation() - T_b.translation(),
+            logRotation(T_a.linear() * T_b.linear().transpose());
+        return difference.dot(covariance.ldlt().solve(difference));
+      };
+  return distance2(retry.T_keyframe_cur, found_.T_keyframe_cur, of_both) > kSignificant2 &&
+         kHalf2 * distance2(retry.T_keyframe_cur, prediction, of_all) <
+             distance2(found_.T_keyframe_cur, prediction, of_all);
 }
 
 void MotionEstimator::estimateFrom(const FeatureSet& set,

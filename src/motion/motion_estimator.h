@@ -45,17 +45,20 @@ class MotionEstimator {
   /// the prediction. It replaces the first motion if it has more than twice as many inliers, or if
   /// all of this holds: it has at least half as many inliers, the two motions differ significantly,
   /// and it is less than half as far from the prediction. Distances are relative to the uncertainty
-  /// of both motions.
+  /// of both motions and of the prediction.
+  ///
+  /// `shared_ratio` is that of Measurements.
   ///
   /// The result is valid until the next call.
   const Estimate& estimate(const StereoCamera& camera,
                            const Correspondences& features,
                            const Eigen::Isometry3d& initial,
                            double dt_s,
-                           bool is_prediction = true);
+                           bool is_prediction = true,
+                           double shared_ratio = 0.0);
 
  private:
-  bool isLikelier(const Estimate& retry, const Eigen::Isometry3d& prediction) const;
+  bool isLikelier(const Estimate& retry, const Eigen::Isometry3d& prediction, double dt_s) const;
   void estimateFrom(const FeatureSet& set,
                     const Measurements& measured,
                     const Eigen::Isometry3d& initial,

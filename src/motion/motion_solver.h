@@ -12,6 +12,7 @@ class MotionSolver {
  public:
   struct Options {
     double robust_factor = 0.0;  ///< of cauchyWeights() at the start; 0: equal weights
+    bool shares_errors = false;  ///< whether to account for Measurements::shared_ratio
     MinimiseOptions minimise;
   };
 

@@ -46,6 +46,11 @@ class ReprojectionProblem {
   /// factor.
   void weigh(const Parameters& parameters, double robust_factor);
 
+  /// Adds an unknown for each cell of SharedErrorGrid, a disparity error that its features share.
+  /// Its standard deviation is `ratio` times that of a flow. The unknowns are eliminated (Schur
+  /// complement) from normalMatrix() and cost(). 0: there are none, as after assign().
+  void shareErrors(double ratio);
+
   /// The parameters of the motion of the fit.
   Parameters start() const;
 
@@ -63,15 +68,17 @@ class ReprojectionProblem {
     }
   }
 
-  /// The normal matrix of all terms, by the parameters.
+  /// The normal matrix of all terms by the parameters, without shared errors.
   NormalMatrix normalMatrix(const Parameters& parameters) const;
 
-  /// Sum of w |r|^2.
+  /// Sum of w |r|^2, without the part that shared errors explain.
   double cost(const Parameters& parameters) const;
 
  private:
   using FeatureJacobian = Eigen::Matrix<double, 2, kParameters>;
   static constexpr bool kRotates = kParameters == 6;
+
+  bool sharesErrors() const { return !cells_.empty(); }
 
   /// The motion that the parameters describe.
   struct Motion {
@@ -116,6 +123,8 @@ class ReprojectionProblem {
   std::vector<std::size_t> indices_;
   std::vector<FittedFeature> features_;
   std::vector<double> weights_;
+  std::vector<std::size_t> cells_;  // of the features, if they share errors
+  double inverse_shared_variance_ = 0.0;
   std::vector<double> errors_px_;  // reused
 };
 

@@ -13,7 +13,7 @@ constexpr MinimiseOptions kOneStep = {1e-12, std::numeric_limits<double>::infini
 
 }  // namespace
 
-RobustRefinement::RobustRefinement(double factor) : solver_({factor, kOneStep}) {}
+RobustRefinement::RobustRefinement(double factor) : solver_({factor, true, kOneStep}) {}
 
 bool RobustRefinement::refineMotion(const Measurements& measured, const FeatureSet& set, Fit& fit) {
   for (int i = 0; i < kReweightings; ++i) {

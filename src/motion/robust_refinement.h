@@ -7,7 +7,10 @@
 namespace rotrocc {
 
 /// Refines the result of a stage once its set is stable, by iteratively reweighted least squares
-/// with cauchyWeights(). Not part of the paper.
+/// with cauchyWeights() and the errors that neighbouring features share. Not part of the paper.
+///
+/// The stages do not account for shared errors when they select the features: far from the
+/// solution, these explain wrong motions too.
 class RobustRefinement {
  public:
   /// `factor` is that of cauchyWeights().

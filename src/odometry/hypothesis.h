@@ -16,6 +16,7 @@ struct Hypothesis {
 
   StereoCamera camera;  ///< corrected by the disparity bias that was used for the features' depths
   Correspondences features;
+  double shared_ratio = 0.0;  ///< that was used, see Measurements
   MotionEstimator::Estimate estimate;
   StageCounts counts;
   std::string why_lost = kNotTried;  ///< why the motion is rejected; empty if it is accepted

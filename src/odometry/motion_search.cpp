@@ -82,6 +82,7 @@ void MotionSearch::tryMotion(const Frames& frames,
                              Hypothesis& hypothesis,
                              StageTimes& times) {
   hypothesis.camera = frames.camera;
+  hypothesis.shared_ratio = frames.shared_ratio;
   StageCounts& counts = hypothesis.counts;
   {
     const StageTimer timer(times.tracking_ms);
@@ -107,8 +108,12 @@ void MotionSearch::estimate(const Eigen::Isometry3d& T_keyframe_cur,
                             double dt_s,
                             Hypothesis& hypothesis) {
   MotionEstimator::Estimate& estimate = hypothesis.estimate;
-  estimate = estimator_.estimate(
-      hypothesis.camera, hypothesis.features, T_keyframe_cur, dt_s, is_prediction);
+  estimate = estimator_.estimate(hypothesis.camera,
+                                 hypothesis.features,
+                                 T_keyframe_cur,
+                                 dt_s,
+                                 is_prediction,
+                                 hypothesis.shared_ratio);
   hypothesis.counts.rotation_inliers = count(estimate.rotation_inliers);
   hypothesis.counts.translation_inliers =
       estimate.has_translation_stage ? count(estimate.translation_inliers) : 0;

@@ -27,6 +27,7 @@ class MotionSearch {
     const StereoCamera& camera;
     const Keyframe& keyframe;
     const StereoFrame& current;
+    double shared_ratio;  ///< see Measurements
   };
 
   /// Throws as the constructor of MotionEstimator.

@@ -28,6 +28,7 @@ VisualOdometry::Pipeline::Pipeline(const Config& config)
       search_(config),
       check_(config.motion_check),
       calibrator_(config.stereo_calibrator),
+      shared_errors_(config.motion_estimator),
       selector_(config.keyframe_selector) {}
 
 OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
@@ -76,6 +77,7 @@ void VisualOdometry::Pipeline::configure(const Config& config) {
   motion_model_.configure(config.motion_model);
   check_ = MotionCheck(config.motion_check);
   calibrator_.configure(config.stereo_calibrator);
+  shared_errors_.configure(config.motion_estimator);
   selector_ = KeyframeSelector(config.keyframe_selector);
   keyframe_.frame.reset();  // its corners depend on the old parameters
 }
@@ -138,6 +140,7 @@ FramePtr VisualOdometry::Pipeline::takeFrame(const StereoPair& pair,
   const StageTimer timer(times.pyramids_ms);
   if (camera != camera_) {
     calibrator_.reset();
+    shared_errors_.reset();
     rows_.reset();
   }
   calibrator_.advance();
@@ -167,8 +170,9 @@ void VisualOdometry::Pipeline::findMotion(const FramePtr& current,
   const auto T_last_cur = expected ? expected : motion_model_.predict(result.dt_s);
   const StereoCamera corrected = calibrator_.correct(camera_);
   const auto find = [&](const std::optional<Eigen::Isometry3d>& prediction, int most_tries) {
-    search_.find(
-        {finder_, corrected, keyframe_, *current}, prediction, most_tries, found_, result.times);
+    const MotionSearch::Frames frames = {
+        finder_, corrected, keyframe_, *current, shared_errors_.ratio()};
+    search_.find(frames, prediction, most_tries, found_, result.times);
   };
   if (!keyframe_.frame) makeKeyframe(last_, result.times);
   const int most = config_.max_tries;
@@ -193,6 +197,8 @@ void VisualOdometry::Pipeline::findMotion(const FramePtr& current,
 
 void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& result) {
   const MotionEstimator::Estimate& estimate = found_.estimate;
+  shared_errors_.observe(
+      found_.camera, found_.features, estimate.rotation_inliers, estimate.T_keyframe_cur);
   finder_.compareRows(*current, found_.features, estimate.rotation_inliers, row_differences_px_);
   rows_.observe(row_differences_px_);
 

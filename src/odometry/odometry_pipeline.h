@@ -10,6 +10,7 @@
 #include "features/correspondence_finder.h"
 #include "features/keyframe.h"
 #include "features/stereo_frame.h"
+#include "motion/shared_error_estimator.h"
 #include "odometry/hypothesis.h"
 #include "odometry/keyframe_selector.h"
 #include "odometry/motion_check.h"
@@ -60,6 +61,7 @@ class VisualOdometry::Pipeline {
   MotionSearch search_;
   MotionCheck check_;
   StereoCalibrator calibrator_;
+  SharedErrorEstimator shared_errors_;
   RowComparison rows_;
   KeyframeSelector selector_;
 

@@ -14,6 +14,14 @@ void addMotionEstimator(MotionEstimatorConfig& c, ParameterTable& table) {
             100.0,
             "",
             "ratio of disparity noise to flow noise; 0: disparities are exact, as in the paper");
+  table.add(
+      s + "shared_ratio",
+      c.shared_ratio,
+      0.0,
+      100.0,
+      "",
+      "ratio of the disparity error that neighbours share to flow noise, start of an estimate; "
+      "0: there is none, as in the paper");
   table.add(s + "robust_factor",
             c.robust_factor,
             0.0,

@@ -19,8 +19,9 @@ using Estimate = MotionEstimator::Estimate;
 constexpr double kPeriod_s = 0.1;
 constexpr int kFeatures = 600;
 
-/// Flow noise as measured on KITTI, and disparity noise at the ratio that the estimator assumes.
-const FeatureNoise kNoise = {0.3, 0.3 * MotionEstimator::Config().noise_ratio};
+/// Twice the flow noise measured on KITTI, and disparity noise at the ratio that the estimator
+/// assumes.
+const FeatureNoise kNoise = {0.2, 0.2 * MotionEstimator::Config().noise_ratio};
 
 /// A Gaussian error exceeds this once in 16000 cases.
 constexpr double kSigmas = 4.0;

@@ -9,6 +9,7 @@
 
 #include "motion/reprojection_error.h"
 #include "motion/reprojection_residual.h"
+#include "motion/shared_error.h"
 #include "support/simulated_features.h"
 
 namespace rotrocc {
@@ -104,6 +105,50 @@ TEST(ReprojectionProblemTest, JacobiansHoldForPointsBehindTheCameraToo) {
   const Correspondences features = someFeatures(Eigen::Isometry3d::Identity());
   expectAutomaticJacobian<6>(T_0, features, 0.0, parametersNear(T_0, {0.01, 0.0, 0.0}));
   expectAutomaticJacobian<3>(T_0, features, 0.0, parametersNear(T_0, {0.0, 0.0, 0.0}));
+}
+
+/// The normal matrix of motion, shared errors and residuals, and its Schur complement.
+Eigen::MatrixXd schurComplement(const ReprojectionProblem<6>& problem,
+                                const Vector6d& parameters,
+                                double ratio) {
+  constexpr auto kCells = static_cast<Eigen::Index>(SharedErrorGrid::kCells);
+  const SharedErrorGrid grid(kittiCamera());
+  const Eigen::Matrix3d by_rotation = leftJacobian(parameters.head<3>());
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(7 + kCells, 7 + kCells);
+  problem.linearise(parameters, [&](const ReprojectionProblem<6>::Term& term) {
+    Eigen::MatrixXd row = Eigen::MatrixXd::Zero(2, 7 + kCells);
+    row.leftCols<6>() = term.jacobian;
+    row.leftCols<3>() = term.jacobian.leftCols<3>() * by_rotation;
+    row.col(6) = term.residual_px;
+    row.col(7 + static_cast<Eigen::Index>(grid.cell(term.fitted))) =
+        term.fitted.whitening * term.fitted.by_disparity;
+    normal += term.weight * row.transpose() * row;
+  });
+  const Eigen::MatrixXd cells = normal.bottomRightCorner(kCells, kCells) +
+                                Eigen::MatrixXd::Identity(kCells, kCells) / (ratio * ratio);
+  const Eigen::MatrixXd mixed = normal.topRightCorner(7, kCells);
+  return normal.topLeftCorner(7, 7) - mixed * cells.ldlt().solve(mixed.transpose());
+}
+
+TEST(ReprojectionProblemTest, EliminatesTheErrorsThatNeighboursShare) {
+  for (const Eigen::Isometry3d& T_0 : someMotions()) {
+    const Correspondences features = someFeatures(T_0);
+    const Vector6d parameters = parametersNear(T_0, {0.006, -0.0064, 0.0048});
+    ReprojectionProblem<6> problem;
+    problem.assign(kittiCamera(), fitOf(features, T_0, kNoiseRatio), all(features));
+    problem.weigh(parameters, 2.0);
+    for (const double ratio : {0.5, 20.0}) {
+      const Eigen::MatrixXd expected = schurComplement(problem, parameters, ratio);
+      problem.shareErrors(ratio);
+      EXPECT_LT((problem.normalMatrix(parameters) - expected).norm(), 1e-9 * expected.norm());
+      EXPECT_NEAR(problem.cost(parameters), expected(6, 6), 1e-9 * expected(6, 6));
+    }
+    problem.shareErrors(0.0);
+    ReprojectionProblem<6> without;
+    without.assign(kittiCamera(), fitOf(features, T_0, kNoiseRatio), all(features));
+    without.weigh(parameters, 2.0);
+    EXPECT_EQ(problem.normalMatrix(parameters), without.normalMatrix(parameters));
+  }
 }
 
 TEST(ReprojectionProblemTest, TakesOnlyTheFeaturesOfTheSet) {

@@ -92,15 +92,17 @@ std::vector<StereoPair> renderDrive(const SyntheticScene& scene) {
   return pairs;
 }
 
-/// Number of allocations when the drive is repeated.
+/// Number of allocations when the drive is repeated. The first motion of a drive is not counted: it
+/// is searched without a prediction, by functions of OpenCV that allocate.
 int countOfARepeatedDrive(const VisualOdometry::Config& config) {
   const SyntheticScene scene;
   std::vector<StereoPair> pairs = renderDrive(scene);
   VisualOdometry odometry(config);
   for (int drive = 0; drive < 4; ++drive) {
     odometry.reset();
-    counting = drive == 3;
+    int done = 0;
     for (StereoPair& pair : pairs) {
+      counting = drive == 3 && done++ > 1;
       const OdometryResult result = odometry.process(pair, scene.camera());
       EXPECT_NE(result.state, State::kLost) << result.reason;
       pair.stamp_ns += kPairs * 100'000'000LL;

@@ -1,0 +1,121 @@
+#include "motion/shared_error_estimator.h"
+
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "motion/motion_estimator.h"
+#include "motion/shared_error.h"
+#include "support/simulated_features.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kPeriod_s = 0.1;
+constexpr double kFlow_px = 0.1;
+constexpr int kPairs = 40;
+
+/// 13 m/s in a bend.
+Eigen::Isometry3d turnAhead() {
+  return motion({0.03, -0.01, 1.3}, {0.002, 0.03, -0.001});
+}
+
+/// Features of a pair. Their disparities have their own noise, and an error common to each cell of
+/// the image with a standard deviation of `ratio` times the flow noise.
+Correspondences pairWith(double ratio, unsigned seed) {
+  const StereoCamera camera = kittiCamera();
+  std::mt19937 generator(seed);
+  const double noise_ratio = MotionEstimatorConfig().noise_ratio;
+  Correspondences features =
+      simulateFeatures(camera, turnAhead(), 600, {kFlow_px, noise_ratio * kFlow_px}, generator);
+  std::normal_distribution<double> error_px(0.0, ratio * kFlow_px);
+  std::vector<double> of_cell(SharedErrorGrid::kCells);
+  for (double& error : of_cell) error = error_px(generator);
+  const SharedErrorGrid grid(camera);
+  for (Correspondence& feature : features) {
+    feature.disparity_px += of_cell[grid.grid.cell(feature.keyframe_px)];
+  }
+  triangulate(camera, features);
+  return features;
+}
+
+double estimatedRatio(double ratio) {
+  SharedErrorEstimator estimator({});
+  for (unsigned pair = 0; pair < kPairs; ++pair) {
+    const Correspondences features = pairWith(ratio, pair);
+    MotionEstimator motion_estimator({});
+    const auto& estimate = motion_estimator.estimate(
+        kittiCamera(), features, turnAhead(), kPeriod_s, true, estimator.ratio());
+    estimator.observe(kittiCamera(), features, estimate.rotation_inliers, estimate.T_keyframe_cur);
+  }
+  return estimator.ratio();
+}
+
+TEST(SharedErrorEstimatorTest, StartsWithTheConfiguredRatio) {
+  MotionEstimatorConfig config;
+  config.shared_ratio = 1.5;
+  EXPECT_EQ(SharedErrorEstimator(config).ratio(), 1.5);
+}
+
+/// 40 pairs of about 30 informative cells give a standard deviation of the ratio of 3 %. Large
+/// errors are underestimated, because their features look like outliers: measured 3.7 instead of 5.
+TEST(SharedErrorEstimatorTest, FindsTheErrorThatNeighboursShare) {
+  EXPECT_LT(estimatedRatio(0.0), 0.7);
+  EXPECT_NEAR(estimatedRatio(2.0), 2.0, 0.4);
+  EXPECT_NEAR(estimatedRatio(5.0), 4.0, 0.8);
+}
+
+TEST(SharedErrorEstimatorTest, KnowsNothingWithoutParallax) {
+  SharedErrorEstimator estimator({});
+  std::mt19937 generator(1);
+  const Eigen::Isometry3d none = Eigen::Isometry3d::Identity();
+  const Correspondences features =
+      simulateFeatures(kittiCamera(), none, 300, {0.0, 0.3}, generator);
+  estimator.observe(kittiCamera(), features, FeatureSet(features.size(), 1), none);
+  EXPECT_EQ(estimator.ratio(), MotionEstimatorConfig().shared_ratio);
+}
+
+TEST(SharedErrorEstimatorTest, IsZeroWhileDisabled) {
+  MotionEstimatorConfig disabled;
+  disabled.shared_ratio = 0.0;
+  SharedErrorEstimator estimator({});
+  const Correspondences features = pairWith(5.0, 1);
+  const FeatureSet all(features.size(), 1);
+  estimator.observe(kittiCamera(), features, all, turnAhead());
+  EXPECT_GT(estimator.ratio(), MotionEstimatorConfig().shared_ratio);
+  estimator.configure(disabled);
+  EXPECT_EQ(estimator.ratio(), 0.0);
+  estimator.observe(kittiCamera(), features, all, turnAhead());
+  EXPECT_EQ(estimator.ratio(), 0.0);
+  estimator.configure({});
+  EXPECT_EQ(estimator.ratio(), MotionEstimatorConfig().shared_ratio);
+}
+
+/// Errors of cells with many features pull the translation. Knowing of them reduces its variance:
+/// measured to 0.53 times. The ratio of two variances of 40 pairs has a standard deviation of 20 %.
+TEST(SharedErrorEstimatorTest, MakesTheTranslationMoreAccurate) {
+  constexpr double kRatio = 5.0;
+  double with = 0.0;
+  double without = 0.0;
+  for (unsigned pair = 0; pair < kPairs; ++pair) {
+    const Correspondences features = pairWith(kRatio, pair);
+    const auto error2 = [&](double shared_ratio) {
+      MotionEstimator estimator({});
+      const auto& estimate =
+          estimator.estimate(kittiCamera(), features, turnAhead(), kPeriod_s, true, shared_ratio);
+      return motionError(estimate.T_keyframe_cur, turnAhead()).head<3>().squaredNorm();
+    };
+    with += error2(kRatio);
+    without += error2(0.0);
+  }
+  std::printf("RMS translation error %.4f m, without shared errors %.4f m\n",
+              std::sqrt(with / kPairs),
+              std::sqrt(without / kPairs));
+  EXPECT_LT(with, 0.75 * without);
+}
+
+}  // namespace
+}  // namespace rotrocc
