@@ -10,10 +10,10 @@
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
 #include "rotrocc/trajectory.h"
-#include "simulation/camera_faults.h"
+#include "simulation/drives/scenario.h"
 #include "simulation/kitti_camera.h"
-#include "simulation/renderer.h"
-#include "simulation/scenario.h"
+#include "simulation/rendering/camera_faults.h"
+#include "simulation/rendering/renderer.h"
 
 namespace rotrocc {
 

@@ -12,7 +12,7 @@
 #include "bags/kitti_bag_writer.h"
 #include "rotrocc/kitti.h"
 #include "rotrocc/trajectory.h"
-#include "simulation/scenario.h"
+#include "simulation/drives/scenario.h"
 #include "simulation/sequence_writer.h"
 #include "simulation/simulator.h"
 #include "simulation/truth_check.h"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "rotrocc/visual_odometry.h"
-#include "simulation/scenario.h"
+#include "simulation/drives/scenario.h"
 #include "simulation/simulator.h"
 #include "support/slow_build.h"
 

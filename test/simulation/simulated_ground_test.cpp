@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
-#include "simulation/renderer.h"
-#include "simulation/scenario.h"
+#include "simulation/drives/scenario.h"
+#include "simulation/rendering/renderer.h"
 #include "simulation/simulator.h"
 #include "support/small_camera.h"
 

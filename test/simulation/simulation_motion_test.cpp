@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "simulation/scenario.h"
+#include "simulation/drives/scenario.h"
 #include "support/expect_error.h"
 
 namespace rotrocc {

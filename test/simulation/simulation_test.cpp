@@ -12,7 +12,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "rotrocc/kitti.h"
-#include "simulation/scenario.h"
+#include "simulation/drives/scenario.h"
 #include "simulation/sequence_writer.h"
 #include "simulation/simulator.h"
 #include "simulation/truth_check.h"

@@ -1,4 +1,4 @@
-#include "simulation/texture.h"
+#include "simulation/world/texture.h"
 
 #include <gtest/gtest.h>
 

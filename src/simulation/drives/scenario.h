@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "simulation/drives/drive.h"
+#include "simulation/drives/traffic.h"
+#include "simulation/world/world.h"
+
+namespace rotrocc {
+
+/// A drive with its world and traffic.
+struct Scenario {
+  std::shared_ptr<const Drive> drive;
+  WorldPlan world;
+  TrafficPlan traffic;
+  std::vector<std::int64_t> stamps_ns;  ///< of the frames; empty: at any rate
+};
+
+/// Names for scenario().
+const std::vector<std::string>& scenarioNames();
+
+/// A scenario by name; throws std::invalid_argument, listing all names, if unknown.
+///   city       300 m through a town with two turns and a stop
+///   motorway   25 m/s on a nearly straight motorway, little texture near by
+///   slip_road  a bend of 22 m radius at 10 m/s, 26 deg/s, through a meadow
+///   parking    0.8 m/s in a car park, with a stop while a car passes close by
+///   shake      a town street with strong pitching and rolling
+Scenario scenario(const std::string& name, std::uint64_t seed);
+
+/// A town along a recorded drive, including hills. A street that the drive revisits is built once;
+/// if it is revisited at another height, the ground changes between the visits. The frames have the
+/// stamps of the poses, from 0.
+Scenario scenarioAlong(const Trajectory& trajectory, std::uint64_t seed);
+
+}  // namespace rotrocc

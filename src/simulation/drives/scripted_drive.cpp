@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "simulation/drives/drive.h"
+
+namespace rotrocc {
+namespace {
+
+/// From 0 to 1 with zero slope and curvature at the ends.
+double ease(double t) {
+  return t * t * t * (t * (6.0 * t - 15.0) + 10.0);
+}
+
+/// Its integral from 0 to t.
+double easeIntegral(double t) {
+  return t * t * t * t * (t * (t - 3.0) + 2.5);
+}
+
+double phaseDuration(const SpeedPhase& phase, double speed_before_mps) {
+  return phase.distance_m == 0.0 ? 0.0
+                                 : 2.0 * phase.distance_m / (speed_before_mps + phase.speed_mps);
+}
+
+/// Effect of an uneven road on a car at a station, between about -1 and 1; different for each kind.
+double bump(double station_m, int kind) {
+  double sum = 0.0;
+  for (const double wavelength_m : {4.3, 7.1, 13.7}) {
+    sum += std::sin(2.0 * M_PI * station_m / (wavelength_m * (1.0 + 0.13 * kind)) + 1.7 * kind);
+  }
+  return sum / 3.0;
+}
+
+}  // namespace
+
+ScriptedDrive::ScriptedDrive(Path path,
+                             std::vector<SpeedPhase> phases,
+                             double initial_speed_mps,
+                             const Sway& sway)
+    : path_(std::move(path)),
+      phases_(std::move(phases)),
+      initial_speed_mps_(initial_speed_mps),
+      sway_(sway) {
+  double speed = initial_speed_mps_;
+  double distance = 0.0;
+  for (const SpeedPhase& phase : phases_) {
+    if (phase.distance_m > 0.0 && speed + phase.speed_mps <= 0.0) {
+      throw std::invalid_argument("a phase of " + std::to_string(phase.distance_m) +
+                                  " m begins and ends at rest: give it a speed");
+    }
+    duration_s_ += phaseDuration(phase, speed) + phase.stand_s;
+    distance += phase.distance_m;
+    speed = phase.speed_mps;
+  }
+  if (distance > path_.length_m()) {
+    throw std::invalid_argument("a drive of " + std::to_string(distance) +
+                                " m does not fit a path of " + std::to_string(path_.length_m()) +
+                                " m: shorten it");
+  }
+}
+
+double ScriptedDrive::station_m(double time_s) const {
+  if (time_s < 0.0) return initial_speed_mps_ * time_s;
+  double speed = initial_speed_mps_;
+  double station = 0.0;
+  for (const SpeedPhase& phase : phases_) {
+    const double duration = phaseDuration(phase, speed);
+    if (time_s < duration) {
+      const double t = time_s / duration;
+      return station + duration * (speed * t + (phase.speed_mps - speed) * easeIntegral(t));
+    }
+    station += phase.distance_m;
+    speed = phase.speed_mps;
+    time_s -= duration + phase.stand_s;
+    if (time_s < 0.0) return station;
+  }
+  return station + speed * time_s;
+}
+
+double ScriptedDrive::speed_mps(double time_s) const {
+  double speed = initial_speed_mps_;
+  for (const SpeedPhase& phase : phases_) {
+    const double duration = phaseDuration(phase, speed);
+    if (time_s < duration) {
+      return speed + (phase.speed_mps - speed) * ease(std::max(0.0, time_s / duration));
+    }
+    speed = phase.speed_mps;
+    time_s -= duration + phase.stand_s;
+    if (time_s < 0.0) break;
+  }
+  return speed;
+}
+
+Eigen::Isometry3d ScriptedDrive::pose(double time_s) const {
+  constexpr double kStep_s = 1e-3;
+  constexpr double kStep_m = 0.5;
+  const double station = station_m(time_s);
+  const double speed = speed_mps(time_s);
+  const double forward_mps2 =
+      (speed_mps(time_s + kStep_s) - speed_mps(time_s - kStep_s)) / (2.0 * kStep_s);
+  const double bend = std::remainder(
+      path_.heading_rad(station + kStep_m) - path_.heading_rad(station - kStep_m), 2.0 * M_PI);
+  const double right_mps2 = speed * speed * bend / (2.0 * kStep_m);
+
+  const double slope = std::asin(-path_.direction(station).y());
+  const double pitch = slope + sway_.pitch_rad_per_mps2 * forward_mps2 +
+                       sway_.bump_rad * bump(station, 0) +
+                       sway_.shake_pitch_rad * std::sin(2.0 * M_PI * 1.3 * time_s);
+  const double roll = -sway_.roll_rad_per_mps2 * right_mps2 + sway_.bump_rad * bump(station, 1) +
+                      sway_.shake_roll_rad * std::sin(2.0 * M_PI * 0.9 * time_s);
+
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = path_.position(station);
+  pose.translation().y() += sway_.bump_m * bump(station, 2);
+  pose.rotate(Eigen::AngleAxisd(path_.heading_rad(station), Eigen::Vector3d::UnitY()));
+  pose.rotate(Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitX()));  // positive: looks up
+  pose.rotate(Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()));   // positive: right side down
+  return pose;
+}
+
+}  // namespace rotrocc

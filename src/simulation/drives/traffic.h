@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "simulation/drives/drive.h"
+#include "simulation/world/body.h"
+#include "simulation/world/world.h"
+
+namespace rotrocc {
+
+/// Other moving cars. Distances are to the right of the camera's path.
+struct TrafficPlan {
+  double oncoming_m = -3.5;        ///< centre of the oncoming lane
+  double oncoming_mps = 9.0;       ///< 0: no oncoming traffic
+  double overtaking_m = 0.0;       ///< middle of the lane of overtaking cars
+  double overtaking_mps = 0.0;     ///< 0: nothing overtakes
+  bool leader = true;              ///< a car drives ahead of the camera
+  std::vector<double> meetings_s;  ///< at these times an oncoming car is met for certain
+};
+
+/// The cars that move, at one time.
+struct MovingCars {
+  std::vector<int> cars;     ///< which; a car keeps its number
+  std::vector<Body> bodies;  ///< where
+};
+
+/// The moving cars of a drive.
+class Traffic {
+ public:
+  /// `share` is that of the places for moving cars that are taken, from 0 (none) to 1. Drive and
+  /// world must outlive it.
+  Traffic(const TrafficPlan& plan,
+          const Drive& drive,
+          const World& world,
+          double share,
+          std::uint64_t seed);
+
+  int size() const { return static_cast<int>(cars_.size()); }
+
+  /// Those that can be seen from the camera at a time.
+  MovingCars at(double time_s) const;
+
+  /// T_world_car.
+  Eigen::Isometry3d pose(int car, double time_s) const;
+
+ private:
+  struct Car {
+    Body body;
+    double right_m;
+    double station_m;  // at time 0; for a leader: how far ahead of where the camera will be
+    double speed_mps;  // along the path; negative: oncoming
+    double lead_s;     // a leader is where the camera will be after that time; 0: no leader
+  };
+
+  double stationOf(const Car& car, double time_s) const;
+
+  const Drive& drive_;
+  const World& world_;
+  std::vector<Car> cars_;
+};
+
+}  // namespace rotrocc
