@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -14,6 +13,22 @@ namespace rotrocc {
 namespace {
 
 constexpr int kBlurSteps = 8;
+
+std::optional<WornRig> chosenRig(const SimulationOptions& options) {
+  if (!options.worn_rig) return std::nullopt;
+  return wornRig(options.camera, options.seed);
+}
+
+Gains chosenGains(const SimulationOptions& options, const std::optional<WornRig>& worn) {
+  if (options.gains_out_of_step) return outOfStepGains(options.seed);
+  return worn ? worn->gains : Gains();
+}
+
+WorldPlan plannedWorld(const Scenario& scenario, const std::optional<WornRig>& worn) {
+  WorldPlan plan = scenario.world;
+  if (worn) plan.weather = worn->weather;
+  return plan;
+}
 
 void requireShare(const std::string& name, double value) {
   if (value >= 0.0 && value <= 1.0) return;
@@ -57,8 +72,10 @@ std::vector<std::int64_t> keptStamps(const Scenario& scenario, const SimulationO
 
 Simulator::Simulator(const Scenario& scenario, const SimulationOptions& options)
     : options_(checked(options)),
+      worn_(chosenRig(options_)),
+      gains_(chosenGains(options_, worn_)),
       drive_(scenario.drive),
-      world_(std::make_unique<World>(scenario.world)),
+      world_(std::make_unique<World>(plannedWorld(scenario, worn_))),
       traffic_(std::make_unique<Traffic>(
           scenario.traffic, *drive_, *world_, options.moving_share, options.seed)),
       stamps_ns_(keptStamps(scenario, options)) {}
@@ -67,39 +84,80 @@ Eigen::Isometry3d Simulator::pose(int index) const {
   return drive_->pose(time_s(0)).inverse() * drive_->pose(time_s(index));
 }
 
-Picture Simulator::look(double time_s, bool right) const {
-  const MovingCars cars = traffic_->at(time_s);
-  Eigen::Isometry3d T_world_camera = drive_->pose(time_s);
-  double cx = options_.camera.cx;
-  if (right) {
-    T_world_camera = T_world_camera * options_.faults.rightCamera(options_.camera);
-    cx = options_.camera.cx_right - options_.faults.disparity_bias_px;
-  }
-  return rotrocc::render(*world_, cars, options_.camera, cx, T_world_camera);
+PixelRays Simulator::rays(bool right) const {
+  PixelRays rays = {options_.camera, {}};
+  if (right) rays.pinhole.cx = options_.camera.cx_right;
+  if (worn_) rays = (right ? worn_->right : worn_->left).rays();
+  if (!right) return rays;
+  const double scale = rays.pinhole.fx / options_.camera.fx;
+  rays.pinhole.cx -= scale * options_.faults.disparity_bias_px;
+  rays.pinhole.cy += scale * options_.faults.row_offset_px;
+  return rays;
 }
 
-cv::Mat Simulator::brightness(double time_s, bool right) const {
-  if (options_.faults.motion_blur_s <= 0.0) return look(time_s, right).brightness;
+Eigen::Isometry3d Simulator::cameraPose(double time_s, bool right) const {
+  if (!right) return drive_->pose(time_s);
+  return drive_->pose(time_s) * options_.faults.rightCamera(options_.camera);
+}
+
+Picture Simulator::look(double time_s, bool right, const PixelRays& rays) {
+  world_->setTime(time_s);
+  return rotrocc::render(*world_, traffic_->at(time_s), rays, cameraPose(time_s, right));
+}
+
+cv::Mat Simulator::meanBrightness(double time_s, bool right) {
+  const PixelRays own_rays = rays(right);
+  if (options_.faults.motion_blur_s <= 0.0) return look(time_s, right, own_rays).brightness;
   cv::Mat sum;
   for (int step = 0; step < kBlurSteps; ++step) {
     const double offset = (step + 0.5) / kBlurSteps - 0.5;
-    const cv::Mat one = look(time_s + offset * options_.faults.motion_blur_s, right).brightness;
+    const cv::Mat one =
+        look(time_s + offset * options_.faults.motion_blur_s, right, own_rays).brightness;
     sum = sum.empty() ? one : cv::Mat(sum + one);
   }
   return sum / kBlurSteps;
 }
 
+double Simulator::gain(int index, bool right) const {
+  return jumpGain(options_.faults, index, options_.noise_seed) * gains_.at(time_s(index), right);
+}
+
+std::uint64_t Simulator::noiseKey(int index, bool right) const {
+  return randomBits(
+      options_.noise_seed, 0x4015E, 2 * static_cast<std::uint64_t>(index) + (right ? 1 : 0));
+}
+
+cv::Mat Simulator::perfectImage(int index, bool right, const cv::Mat& brightness) const {
+  return develop(brightness, options_.faults.sensor, gain(index, right), noiseKey(index, right));
+}
+
+cv::Mat Simulator::wornImage(int index, bool right) {
+  const double time = time_s(index) + (right ? options_.faults.time_skew_s : 0.0);
+  const PixelRays own_rays = rays(right);
+  const Picture picture = look(time, right, own_rays);
+  const double half_s = 0.5 * worn_->exposure_s;
+  const cv::Mat light = blurred(picture, own_rays, motions(time - half_s, time + half_s, right));
+  const WornCamera& camera = right ? worn_->right : worn_->left;
+  return camera.develop(light, gain(index, right), noiseKey(index, right));
+}
+
 SimulatedFrame Simulator::render(int index, bool with_flow) {
   const double time = time_s(index);
   world_->goTo(drive_->station_m(time));
-  const Picture left = look(time, false);
-  const bool blurred = options_.faults.motion_blur_s > 0.0;
-  const cv::Mat left_light = blurred ? brightness(time, false) : left.brightness;
-  const cv::Mat right_light = brightness(time + options_.faults.time_skew_s, true);
   SimulatedFrame frame;
   frame.pair.stamp_ns = stamp_ns(index);
-  frame.pair.left = develop(left_light, options_.faults, {index, false}, options_.noise_seed);
-  frame.pair.right = develop(right_light, options_.faults, {index, true}, options_.noise_seed);
+  Picture left;
+  if (!worn_ || with_flow) left = look(time, false, {options_.camera, {}});
+  if (worn_) {
+    frame.pair.left = wornImage(index, false);
+    frame.pair.right = wornImage(index, true);
+  } else {
+    const bool is_blurred = options_.faults.motion_blur_s > 0.0;
+    frame.pair.left =
+        perfectImage(index, false, is_blurred ? meanBrightness(time, false) : left.brightness);
+    frame.pair.right =
+        perfectImage(index, true, meanBrightness(time + options_.faults.time_skew_s, true));
+  }
   frame.depth = left.depth;
   if (with_flow && index + 1 < size()) frame.flow = flowToNext(index, left);
   return frame;
@@ -109,6 +167,7 @@ std::vector<double> Simulator::depthsAt(int index, const std::vector<Eigen::Vect
   const double time = time_s(index);
   world_->goTo(drive_->station_m(time));
   const MovingCars cars = traffic_->at(time);
+  world_->setTime(time);
   const View view(
       world_->bodies(), cars.bodies, options_.camera, options_.camera.cx, drive_->pose(time));
   std::vector<double> depths;
@@ -118,34 +177,26 @@ std::vector<double> Simulator::depthsAt(int index, const std::vector<Eigen::Vect
   return depths;
 }
 
-cv::Mat Simulator::flowToNext(int index, const Picture& left) const {
-  const double now = time_s(index);
-  const double then = time_s(index + 1);
-  const Eigen::Isometry3d T_world_now = drive_->pose(now);
-  const Eigen::Isometry3d T_then_world = drive_->pose(then).inverse();
-  // Motion of the points of each car in the camera's frame; the last entry is the static scene.
-  std::vector<Eigen::Isometry3d> T_then_now;
+SeenMotions Simulator::motions(double from_s, double to_s, bool right) const {
+  const Eigen::Isometry3d T_world_from = cameraPose(from_s, right);
+  const Eigen::Isometry3d T_to_world = cameraPose(to_s, right).inverse();
+  SeenMotions motions;
   for (int car = 0; car < traffic_->size(); ++car) {
-    T_then_now.push_back(T_then_world * traffic_->pose(car, then) *
-                         traffic_->pose(car, now).inverse() * T_world_now);
+    motions.push_back(T_to_world * traffic_->pose(car, to_s) *
+                      traffic_->pose(car, from_s).inverse() * T_world_from);
   }
-  T_then_now.push_back(T_then_world * T_world_now);
+  motions.push_back(T_to_world * T_world_from);
+  return motions;
+}
 
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+cv::Mat Simulator::flowToNext(int index, const Picture& left) const {
+  const SeenMotions to_next = motions(time_s(index), time_s(index + 1), false);
+  const PixelRays rays = {options_.camera, {}};
   cv::Mat flow(left.depth.size(), CV_64FC2);
   for (int y = 0; y < flow.rows; ++y) {
     for (int x = 0; x < flow.cols; ++x) {
-      const Eigen::Vector2d pixel(x, y);
-      const Eigen::Vector3d ray = options_.camera.ray(pixel);
-      const double depth = left.depth.at<double>(y, x);
-      const int car = left.moving_car.at<int>(y, x);
-      const Eigen::Isometry3d& motion = car < 0 ? T_then_now.back() : T_then_now[car];
-      const Eigen::Vector3d point = std::isinf(depth) ? Eigen::Vector3d(motion.linear() * ray)
-                                                      : Eigen::Vector3d(motion * (depth * ray));
-      const Eigen::Vector2d shift = options_.camera.project(point) - pixel;
-      const bool in_front = point.z() > 0.0;
-      flow.at<cv::Vec2d>(y, x) =
-          in_front ? cv::Vec2d(shift.x(), shift.y()) : cv::Vec2d(kNone, kNone);
+      const Eigen::Vector2d shift = flowAt(x, y, left, rays, to_next);
+      flow.at<cv::Vec2d>(y, x) = {shift.x(), shift.y()};
     }
   }
   return flow;

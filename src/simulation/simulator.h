@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -13,12 +14,18 @@
 #include "simulation/drives/scenario.h"
 #include "simulation/kitti_camera.h"
 #include "simulation/rendering/camera_faults.h"
+#include "simulation/rendering/gains.h"
 #include "simulation/rendering/renderer.h"
+#include "simulation/rendering/worn_rig.h"
 
 namespace rotrocc {
 
 struct SimulationOptions {
   StereoCamera camera = kittiCamera();
+  /// Cameras with the remainders of calibration, sensors, wind and reflections of the real world,
+  /// by the seed. They have motion blur and noise of their own: those of `faults` are not used.
+  bool worn_rig = false;
+  bool gains_out_of_step = false;  ///< each camera exposes for itself
   CameraFaults faults;
   double moving_share = 0.35;  ///< occupied share of the places for moving cars
   double drop_share = 0.0;     ///< share of dropped frames; never the first
@@ -32,9 +39,10 @@ struct SimulationOptions {
 /// A stereo pair with ground truth for the left image.
 struct SimulatedFrame {
   StereoPair pair;
-  cv::Mat depth;  ///< CV_64FC1 [m] at the centres of the pixels; infinite for the sky
-  cv::Mat flow;   ///< CV_64FC2 [px] to the next frame; NaN for points that are behind the camera
-                  ///< there; empty for the last frame. Occlusion is ignored.
+  cv::Mat depth;  ///< CV_64FC1 [m] at the centres of the pixels; infinite for the sky; of a worn
+                  ///< rig that of the nominal camera, and empty without flow
+  cv::Mat flow;  ///< CV_64FC2 [px] to the next frame; NaN for points that are behind the camera
+                 ///< there; empty for the last frame. Occlusion is ignored.
 };
 
 /// Renders a drive frame by frame, in any order.
@@ -64,11 +72,20 @@ class Simulator {
 
  private:
   double time_s(int index) const { return 1e-9 * static_cast<double>(stamps_ns_.at(index)); }
-  Picture look(double time_s, bool right) const;
-  cv::Mat brightness(double time_s, bool right) const;
+  PixelRays rays(bool right) const;
+  Eigen::Isometry3d cameraPose(double time_s, bool right) const;
+  Picture look(double time_s, bool right, const PixelRays& rays);
+  SeenMotions motions(double from_s, double to_s, bool right) const;
+  cv::Mat meanBrightness(double time_s, bool right);
+  cv::Mat perfectImage(int index, bool right, const cv::Mat& brightness) const;
+  cv::Mat wornImage(int index, bool right);
+  double gain(int index, bool right) const;
+  std::uint64_t noiseKey(int index, bool right) const;
   cv::Mat flowToNext(int index, const Picture& left) const;
 
   SimulationOptions options_;
+  std::optional<WornRig> worn_;
+  Gains gains_;
   std::shared_ptr<const Drive> drive_;
   std::unique_ptr<World> world_;
   std::unique_ptr<const Traffic> traffic_;

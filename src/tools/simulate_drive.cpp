@@ -41,6 +41,8 @@ struct Options {
   std::string size = "1241x376";
   double focal_px = kittiCamera().fx;
   double baseline_m = kittiCamera().baseline_m;
+  std::string rig = "perfect";
+  std::string gains = "of-the-rig";
   std::vector<double> right_rotation_deg;
   bool truth = false;
   bool check_truth = false;
@@ -71,17 +73,27 @@ po::options_description describe(Options& options) {
   camera.add_options()(
       "size", po::value(&options.size)->default_value(options.size), "image size WxH [px]")(
       "focal", number(options.focal_px), "focal length [px]")(
-      "baseline", number(options.baseline_m), "baseline [m]");
+      "baseline", number(options.baseline_m), "baseline [m]")(
+      "rig",
+      po::value(&options.rig)->default_value(options.rig),
+      "perfect, or worn: with what calibration leaves, a sensor's noise, wind and reflections as "
+      "in "
+      "the real world, by the seed")("gains",
+                                     po::value(&options.gains)->default_value(options.gains),
+                                     "of-the-rig, or out-of-step: each camera exposes for itself");
   po::options_description wrong("Faults, not in calib.txt");
   wrong.add_options()(
       "disparity-bias", number(faults.disparity_bias_px), "[px] added to all disparities")(
       "right-rotation",
       po::value(&options.right_rotation_deg)->multitoken(),
       "ROLL PITCH YAW [deg]: rotation of the right camera")(
+      "rows", number(faults.row_offset_px), "[px] by which the right image is lower")(
       "time-skew", number(faults.time_skew_s), "[s] delay of the right camera")(
       "drop-frames", number(simulation.drop_share), "share of dropped frames")(
-      "noise", number(faults.noise_sigma), "[grey levels] standard deviation of the image noise")(
-      "vignetting", number(faults.vignetting), "relative loss of light in the corners")(
+      "noise",
+      number(faults.sensor.noise_sigma),
+      "[grey levels] standard deviation of the image noise")(
+      "vignetting", number(faults.sensor.vignetting), "relative loss of light in the corners")(
       "exposure-jumps", number(faults.exposure_jumps), "relative size of gain jumps")(
       "motion-blur", number(faults.motion_blur_s), "[s] exposure time");
   po::options_description all;
@@ -102,6 +114,27 @@ void setCamera(Options& options) {
   // The principal point keeps its relative position in the image.
   camera.cx = camera.cx_right = (kitti.cx + 0.5) * camera.width / kitti.width - 0.5;
   camera.cy = (kitti.cy + 0.5) * camera.height / kitti.height - 0.5;
+}
+
+bool isChosen(const char* name,
+              const std::string& value,
+              const std::string& usual,
+              const std::string& other) {
+  if (value != usual && value != other) {
+    throw po::error(std::string("--") + name + " is '" + value + "', not " + usual + " or " +
+                    other);
+  }
+  return value == other;
+}
+
+void setRig(const po::variables_map& variables, Options& options) {
+  options.simulation.worn_rig = isChosen("rig", options.rig, "perfect", "worn");
+  options.simulation.gains_out_of_step =
+      isChosen("gains", options.gains, "of-the-rig", "out-of-step");
+  for (const char* name : {"noise", "vignetting", "motion-blur"}) {
+    if (!options.simulation.worn_rig || variables[name].defaulted()) continue;
+    throw po::error(std::string("--") + name + " is for a perfect rig: a worn one has its own");
+  }
 }
 
 /// Returns false after printing the help; throws po::error on bad usage.
@@ -132,6 +165,7 @@ bool parse(int argc, char** argv, Options& options) {
         Eigen::Vector3d(options.right_rotation_deg.data()) * M_PI / 180.0;
   }
   setCamera(options);
+  setRig(variables, options);
   return true;
 }
 

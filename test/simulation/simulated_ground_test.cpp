@@ -105,7 +105,7 @@ TEST(SimulatedGround, GroundChangesOnlyOutOfSight) {
   World world(scenario.world);
   const auto depthOf = [&](int frame, int frame_of_world) {
     world.goTo(station(frame_of_world));
-    return render(world, {}, camera, camera.cx, scenario.drive->pose(0.1 * frame)).depth;
+    return render(world, {}, {camera, {}}, scenario.drive->pose(0.1 * frame)).depth;
   };
   world.goTo(station(0));
   int changes = 0;

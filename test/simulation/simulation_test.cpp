@@ -35,8 +35,8 @@ SimulationOptions smallOptions() {
 
 SimulationOptions cleanOptions() {
   SimulationOptions options = smallOptions();
-  options.faults.noise_sigma = 0.0;
-  options.faults.vignetting = 0.0;
+  options.faults.sensor.noise_sigma = 0.0;
+  options.faults.sensor.vignetting = 0.0;
   return options;
 }
 
@@ -292,7 +292,7 @@ TEST(Simulation, DroppedFramesLeaveGapsInTime) {
 
 TEST(Simulation, NoiseHasItsSigma) {
   SimulationOptions options = cleanOptions();
-  options.faults.noise_sigma = 3.0;
+  options.faults.sensor.noise_sigma = 3.0;
   Simulator noisy(scenario("city", 1), options);
   cv::Mat difference;
   cv::subtract(noisy.render(5, false).pair.left,
@@ -313,7 +313,7 @@ TEST(Simulation, NoiseSeedChangesTheNoiseOnly) {
   Simulator clean(scenario("city", 1), options);
   EXPECT_EQ(
       differingPixels(clean.render(5, false).pair.left, cleanCity().render(5, false).pair.left), 0);
-  options.faults.noise_sigma = 3.0;
+  options.faults.sensor.noise_sigma = 3.0;
   const cv::Mat one = Simulator(scenario("city", 1), options).render(5, false).pair.left;
   options.noise_seed = 3;
   const cv::Mat other = Simulator(scenario("city", 1), options).render(5, false).pair.left;
@@ -324,7 +324,7 @@ TEST(Simulation, NoiseSeedChangesTheNoiseOnly) {
 
 TEST(Simulation, VignettingDarkensTheCorners) {
   SimulationOptions options = cleanOptions();
-  options.faults.vignetting = 0.5;
+  options.faults.sensor.vignetting = 0.5;
   Simulator dark(scenario("city", 1), options);
   const cv::Mat with = dark.render(5, false).pair.left;
   const cv::Mat without = cleanCity().render(5, false).pair.left;
@@ -403,7 +403,7 @@ TEST(Simulation, RefusesOptionsOutOfRange) {
   options.moving_share = 1.5;
   expectRefused(options, "share of moving cars is 1.5");
   options = {};
-  options.faults.noise_sigma = -1.0;
+  options.faults.sensor.noise_sigma = -1.0;
   expectRefused(options, "noise [grey levels] is -1");
   options = {};
   options.camera.baseline_m = 0.0;

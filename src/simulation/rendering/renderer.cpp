@@ -16,31 +16,31 @@ class Rendering {
  public:
   Rendering(const World& world,
             const MovingCars& cars,
-            const StereoCamera& camera,
-            double cx,
+            const PixelRays& rays,
             const Eigen::Isometry3d& T_world_camera)
       : world_(world),
         cars_(cars),
-        camera_(camera),
-        view_(world.bodies(), cars.bodies, camera, cx, T_world_camera),
-        surfaces_(camera.height, camera.width, CV_32SC1) {
-    picture_.brightness.create(camera.height, camera.width, CV_32FC1);
-    picture_.depth.create(camera.height, camera.width, CV_64FC1);
-    picture_.moving_car.create(camera.height, camera.width, CV_32SC1);
+        rays_(rays),
+        view_(world.bodies(), cars.bodies, rays.pinhole, rays.pinhole.cx, T_world_camera),
+        surfaces_(rays.size(), CV_32SC1) {
+    picture_.brightness.create(rays.size(), CV_32FC1);
+    picture_.depth.create(rays.size(), CV_64FC1);
+    picture_.moving_car.create(rays.size(), CV_32SC1);
   }
 
   Picture run() {
-    forEachRow(camera_.height, [this](int y) { lookAtCentres(y); });
+    forEachRow(surfaces_.rows, [this](int y) { lookAtCentres(y); });
     // Edges are detected in the centre samples, not in the smoothed image of other threads.
     centres_ = picture_.brightness.clone();
-    forEachRow(camera_.height, [this](int y) { smoothEdges(y); });
+    forEachRow(surfaces_.rows, [this](int y) { smoothEdges(y); });
     return picture_;
   }
 
  private:
   void lookAtCentres(int y) {
-    for (int x = 0; x < camera_.width; ++x) {
-      const Sighting sighting = world_.look(view_, x, y);
+    for (int x = 0; x < surfaces_.cols; ++x) {
+      const Eigen::Vector2d place = rays_.place(x, y);
+      const Sighting sighting = world_.look(view_, place.x(), place.y());
       picture_.brightness.at<float>(y, x) = static_cast<float>(sighting.brightness);
       picture_.depth.at<double>(y, x) = sighting.depth;
       picture_.moving_car.at<int>(y, x) =
@@ -58,16 +58,17 @@ class Rendering {
       return surfaces_.at<int>(row, column) != surface &&
              std::abs(centres_.at<float>(row, column) - brightness) > kContrast;
     };
-    return (x > 0 && differs(x - 1, y)) || (x + 1 < camera_.width && differs(x + 1, y)) ||
-           (y > 0 && differs(x, y - 1)) || (y + 1 < camera_.height && differs(x, y + 1));
+    return (x > 0 && differs(x - 1, y)) || (x + 1 < surfaces_.cols && differs(x + 1, y)) ||
+           (y > 0 && differs(x, y - 1)) || (y + 1 < surfaces_.rows && differs(x, y + 1));
   }
 
   void smoothEdges(int y) {
-    for (int x = 0; x < camera_.width; ++x) {
+    for (int x = 0; x < surfaces_.cols; ++x) {
       if (!isAtEdge(x, y)) continue;
+      const Eigen::Vector2d place = rays_.place(x, y);
       double sum = centres_.at<float>(y, x);
       for (const auto& [dx, dy] : kSamples) {
-        sum += world_.look(view_, x + dx, y + dy).brightness;
+        sum += world_.look(view_, place.x() + dx, place.y() + dy).brightness;
       }
       picture_.brightness.at<float>(y, x) = static_cast<float>(sum / (1.0 + kSamples.size()));
     }
@@ -75,7 +76,7 @@ class Rendering {
 
   const World& world_;
   const MovingCars& cars_;
-  const StereoCamera& camera_;
+  const PixelRays& rays_;
   View view_;
   cv::Mat surfaces_;
   cv::Mat centres_;
@@ -86,10 +87,9 @@ class Rendering {
 
 Picture render(const World& world,
                const MovingCars& cars,
-               const StereoCamera& camera,
-               double cx,
+               const PixelRays& rays,
                const Eigen::Isometry3d& T_world_camera) {
-  return Rendering(world, cars, camera, cx, T_world_camera).run();
+  return Rendering(world, cars, rays, T_world_camera).run();
 }
 
 }  // namespace rotrocc

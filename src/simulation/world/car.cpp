@@ -32,6 +32,8 @@ class CarBody : public Material {
     return paint_ * sheen + 0.12 * std::abs(point.normal.y());  // the sky in the bonnet
   }
 
+  double gloss(const SurfacePoint& /*point*/) const override { return 0.6; }
+
  private:
   double side(const SurfacePoint& point, double sheen) const {
     const TexturePoint at = faceCoordinates(point);
@@ -103,6 +105,8 @@ class CarCabin : public Material {
     const double sky = 0.05 + 0.3 * smoothStep(size_.belt, size_.roof + 0.2, at.at.y());
     return mix(paint_, sky, glass);
   }
+
+  double gloss(const SurfacePoint& /*point*/) const override { return 1.0; }
 
  private:
   CarSize size_;

@@ -19,6 +19,10 @@ double Facade::reflectance(const SurfacePoint& point) const {
   return withGroundFloor(place, brightness);
 }
 
+double Facade::gloss(const SurfacePoint& point) const {
+  return windowCoverage(placeOf(point), 0.0);
+}
+
 Facade::Place Facade::placeOf(const SurfacePoint& point) const {
   Place place;
   place.point = faceCoordinates(point);

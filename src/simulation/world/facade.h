@@ -34,6 +34,7 @@ class Facade : public Material {
   Facade(const FacadeStyle& style, const TextureTiles& tiles);
 
   double reflectance(const SurfacePoint& point) const override;
+  double gloss(const SurfacePoint& point) const override;
 
  private:
   /// Position of a pixel relative to the windows of its wall.

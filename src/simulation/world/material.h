@@ -15,6 +15,9 @@ class Material {
   /// Reflectance, about 0 to 1, averaged over the pixel.
   virtual double reflectance(const SurfacePoint& point) const = 0;
 
+  /// Share of its surface that reflects as glass does, from 0 to 1.
+  virtual double gloss(const SurfacePoint& /*point*/) const { return 0.0; }
+
   /// Whether it is transparent at a place with this normal; a pixel is `pixel_m` wide. Holes must
   /// vanish where they are smaller than that.
   virtual bool isHole(const Eigen::Vector3d& /*position*/,

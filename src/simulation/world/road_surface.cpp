@@ -71,7 +71,8 @@ double RoadSurface::pavement(Pavement kind, const TexturePoint& at) const {
       return 0.42 * (1.0 + 0.9 * (tiles_.paving.at(at) - 0.5));
     case Pavement::kGrass: {
       const double stain = tiles_.blotches.at(scaled(at, 1.0 / 41.0)) - 0.5;
-      return 0.26 * (1.0 + 1.3 * (tiles_.grass.at(at) - 0.5) + 0.9 * stain);
+      const double blades = tiles_.grass.at(shifted(at, tiles_.wind.sway(at.at)));
+      return 0.26 * (1.0 + 1.3 * (blades - 0.5) + 0.9 * stain);
     }
   }
   return 0.0;

@@ -46,6 +46,11 @@ inline TexturePoint scaled(const TexturePoint& point, double factor) {
   return {factor * point.at, factor * point.per_column, factor * point.per_row};
 }
 
+/// The point on a texture whose own place is `shift` away.
+inline TexturePoint shifted(const TexturePoint& point, const Eigen::Vector2d& shift) {
+  return {point.at - shift, point.per_column, point.per_row};
+}
+
 /// Projects a surface point on the directions `u` and `v` of unit length.
 inline TexturePoint project(const SurfacePoint& point,
                             const Eigen::Vector3d& u,

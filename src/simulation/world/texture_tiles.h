@@ -3,10 +3,12 @@
 #include <cstdint>
 
 #include "simulation/world/texture.h"
+#include "simulation/world/weather.h"
 
 namespace rotrocc {
 
-/// Textures of a street, generated from the seed. All have a mean of about 0.5.
+/// Textures of a street, generated from the seed, all with a mean of about 0.5; and the wind that
+/// moves some of them.
 struct TextureTiles {
   explicit TextureTiles(std::uint64_t seed);
 
@@ -20,6 +22,7 @@ struct TextureTiles {
   Texture bark;        ///< grooves along the second coordinate
   Texture writing;     ///< eight lines of words, in a tile of 1 m
   Texture blotches;    ///< soft and large: clouds, dirt, reflections
+  Wind wind;           ///< moves leaves and grass
 };
 
 }  // namespace rotrocc

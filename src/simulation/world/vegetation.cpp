@@ -12,8 +12,8 @@ namespace {
 class Leaves : public Material {
  public:
   /// Twigs are `twigs` times as large as leaves.
-  Leaves(const Texture& texture, double mean, double twigs, double hole_limit)
-      : texture_(texture), mean_(mean), twigs_(twigs), hole_limit_(hole_limit) {}
+  Leaves(const TextureTiles& tiles, double mean, double twigs, double hole_limit)
+      : tiles_(tiles), mean_(mean), twigs_(twigs), hole_limit_(hole_limit) {}
 
   double reflectance(const SurfacePoint& point) const override {
     return mean_ * (0.1 + 1.9 * pattern(faceCoordinates(point)));
@@ -30,11 +30,13 @@ class Leaves : public Material {
   bool isTangle() const override { return true; }
 
  private:
+  /// Leaves move in the wind, twigs do not.
   double pattern(const TexturePoint& at) const {
-    return 0.45 * texture_.at(at) + 0.55 * texture_.at(scaled(at, 1.0 / twigs_));
+    const TexturePoint leaf = shifted(at, tiles_.wind.sway(at.at));
+    return 0.45 * tiles_.leaves.at(leaf) + 0.55 * tiles_.leaves.at(scaled(at, 1.0 / twigs_));
   }
 
-  const Texture& texture_;
+  const TextureTiles& tiles_;
   double mean_;
   double twigs_;
   double hole_limit_;
@@ -55,7 +57,7 @@ Part makeTrunk(double height, double radius, const TextureTiles& tiles) {
 Body makeTree(const TextureTiles& tiles, RandomStream& random) {
   const double trunk = random.uniform(2.2, 3.0);
   const double reach = random.uniform(1.3, 1.9);
-  const auto leaves = std::make_shared<Leaves>(tiles.leaves, random.uniform(0.3, 0.44), 2.3, 0.39);
+  const auto leaves = std::make_shared<Leaves>(tiles, random.uniform(0.3, 0.44), 2.3, 0.39);
   std::vector<Part> parts = {makeTrunk(trunk + 0.6, random.uniform(0.11, 0.19), tiles)};
   parts.push_back(
       {ball({0.0, -trunk - 0.9 * reach, 0.0}, {0.85 * reach, 0.9 * reach, 0.85 * reach}), leaves});
@@ -75,7 +77,7 @@ Body makeTree(const TextureTiles& tiles, RandomStream& random) {
 Body makeForestTree(const TextureTiles& tiles, RandomStream& random) {
   const double height = random.uniform(9.0, 17.0);
   const double reach = random.uniform(2.2, 3.8);
-  const auto leaves = std::make_shared<Leaves>(tiles.leaves, random.uniform(0.17, 0.34), 6.0, 0.36);
+  const auto leaves = std::make_shared<Leaves>(tiles, random.uniform(0.17, 0.34), 6.0, 0.36);
   std::vector<Part> parts = {makeTrunk(0.5 * height, 0.25, tiles)};
   constexpr int kBalls = 7;
   for (int i = 0; i < kBalls; ++i) {
@@ -97,8 +99,7 @@ Body makeHedge(double length_m, const TextureTiles& tiles, RandomStream& random)
       Eigen::Vector3d(-0.5 * length_m, -height, -0.4), Eigen::Vector3d(0.5 * length_m, 0.5, 0.4)));
   for (const double side : {-1.0, 1.0})
     solid->cut({0.0, -0.5, side}, {0.0, -height + 0.1, side * 0.4});
-  return Body(
-      {{solid, std::make_shared<Leaves>(tiles.leaves, random.uniform(0.2, 0.32), 2.3, 0.0)}});
+  return Body({{solid, std::make_shared<Leaves>(tiles, random.uniform(0.2, 0.32), 2.3, 0.0)}});
 }
 
 }  // namespace rotrocc

@@ -1,6 +1,7 @@
 #include "simulation/world/world.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "simulation/world/coverage.h"
@@ -45,6 +46,13 @@ double contactShade(const Body& body, const Eigen::Vector3d& position) {
   return mix(0.3, 1.0, smoothStep(-0.35, 0.45, std::max(x, z)));
 }
 
+/// Share of light that glass reflects (Schlick 1994).
+double mirroredShare(const Eigen::Vector3d& direction, const Eigen::Vector3d& normal) {
+  constexpr double kStraightOn = 0.08;  // of both sides of a pane
+  const double flat = 1.0 - std::abs(normal.dot(direction)) / direction.norm();
+  return kStraightOn + (1.0 - kStraightOn) * flat * flat * flat * flat * flat;
+}
+
 }  // namespace
 
 std::vector<Path> WorldPlan::wholeDrives() const {
@@ -57,6 +65,7 @@ std::vector<Path> WorldPlan::wholeDrives() const {
 
 World::World(const WorldPlan& plan)
     : style_(plan.style),
+      reflections_(plan.weather.reflections),
       tiles_(plan.seed),
       streets_(plan.streets, kStreetReach_m),
       road_(streets_, style_, tiles_, plan.crossings, plan.seed),
@@ -65,7 +74,9 @@ World::World(const WorldPlan& plan)
       start_(makeScene(plan, streets_, {grid_, ground_.heights(0)}, tiles_)),
       scene_(start_),
       shadows_(scene_, streets_, kShadowReach_m),
-      sky_(tiles_) {}
+      sky_(tiles_) {
+  tiles_.wind = plan.weather.wind;
+}
 
 void World::goTo(double station_m) {
   const std::size_t stage = ground_.stage(station_m);
@@ -118,7 +129,21 @@ double World::bodyBrightness(const Body& body,
       surfacePoint(body.toBody(ray), body.toBody(spread), hit.distance, hit.normal);
   const Eigen::Vector3d normal = body.T_world_body().linear() * hit.normal;
   const Material& material = *body.parts()[static_cast<std::size_t>(hit.part)].material;
-  return material.reflectance(point) * illumination(normal, body.sunlit);
+  const double brightness = material.reflectance(point) * illumination(normal, body.sunlit);
+  if (!reflections_) return brightness;
+  const double gloss = material.gloss(point);
+  if (gloss <= 0.0) return brightness;
+  const double mirrored = gloss * mirroredShare(ray.direction, normal);
+  return mix(brightness, reflection(ray.direction, normal, spread), mirrored);
+}
+
+double World::reflection(const Eigen::Vector3d& direction,
+                         const Eigen::Vector3d& normal,
+                         const PixelSpread& spread) const {
+  constexpr double kGlint = 0.01;  // squared angle [rad^2] where the sun fades
+  const Eigen::Vector3d towards = direction - 2.0 * normal.dot(direction) * normal;
+  const double away = 2.0 - 2.0 * towards.normalized().dot(directionToSun());
+  return sky_.brightness(towards, spread) + 8.0 * (1.0 - smoothStep(0.0, kGlint, away));
 }
 
 double World::groundBrightness(const SurfacePoint& point, const std::vector<Body>& moving) const {

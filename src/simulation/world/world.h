@@ -14,6 +14,7 @@
 #include "simulation/world/sunlight.h"
 #include "simulation/world/texture_tiles.h"
 #include "simulation/world/view.h"
+#include "simulation/world/weather.h"
 
 namespace rotrocc {
 
@@ -24,6 +25,7 @@ struct WorldPlan {
   double beyond_m = 0.0;      ///< extension before their starts and after their ends
   StreetStyle style;
   std::vector<Crossing> crossings;
+  Weather weather;
   double camera_height_m = 1.65;
   std::uint64_t seed = 1;
 
@@ -54,6 +56,9 @@ class World {
   /// revisits a place at another height.
   void goTo(double station_m);
 
+  /// Moves leaves and grass to where they are at this time.
+  void setTime(double time_s) { tiles_.wind.time_s = time_s; }
+
   /// Casts a ray through a (sub-)pixel of a view, whose static bodies are bodies().
   Sighting look(const View& view, double x, double y) const;
 
@@ -65,9 +70,13 @@ class World {
                         const BodyHit& hit,
                         const Ray& ray,
                         const PixelSpread& spread) const;
+  double reflection(const Eigen::Vector3d& direction,
+                    const Eigen::Vector3d& normal,
+                    const PixelSpread& spread) const;
   double groundBrightness(const SurfacePoint& point, const std::vector<Body>& moving) const;
 
   StreetStyle style_;
+  bool reflections_;
   TextureTiles tiles_;
   StreetMap streets_;
   RoadSurface road_;
