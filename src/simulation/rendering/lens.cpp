@@ -9,7 +9,7 @@
 namespace rotrocc {
 namespace {
 
-constexpr double kMargin_px = 4.0;  // around what the rectified image shows
+constexpr int kMargin_px = 6;  // around what the rectified image shows
 
 double stretch(const Lens& lens, double squared_radius) {
   return 1.0 + squared_radius * (lens.k1 + squared_radius * lens.k2);
@@ -18,7 +18,7 @@ double stretch(const Lens& lens, double squared_radius) {
 /// Inverse of r * stretch(r^2).
 double undistorted(const Lens& lens, double distorted_radius) {
   double r = distorted_radius;
-  for (int i = 0; i < 10; ++i) {  // Newton; from below, where the function is steep
+  for (int i = 0; i < 6; ++i) {  // Newton; from below, where the function is steep
     const double square = r * r;
     const double slope = 1.0 + square * (3.0 * lens.k1 + 5.0 * square * lens.k2);
     r -= (r * stretch(lens, square) - distorted_radius) / slope;
@@ -61,6 +61,16 @@ Eigen::Vector2d RawImage::raw(const Eigen::Vector2d& rectified) const {
   const Eigen::Vector2d turned = (lens_.R_raw_rectified * place.homogeneous()).hnormalized();
   return kScale * stretch(lens_, turned.squaredNorm()) * focal_px_.cwiseProduct(turned) +
          raw_centre_;
+}
+
+cv::Mat RawImage::needed() const {
+  cv::Mat needed(size_, CV_8UC1, cv::Scalar(0));
+  for (const cv::Vec2f& place : cv::Mat_<cv::Vec2f>(map_)) {
+    needed.at<uchar>(static_cast<int>(place[1]), static_cast<int>(place[0])) = 1;
+  }
+  const int width = 2 * kMargin_px + 1;
+  cv::dilate(needed, needed, cv::getStructuringElement(cv::MORPH_RECT, {width, width}));
+  return needed;
 }
 
 cv::Mat RawImage::rectify(const cv::Mat& image) const {

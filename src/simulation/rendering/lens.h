@@ -18,7 +18,7 @@ struct Lens {
 /// length is larger by kScale, so that both have about as many pixels.
 class RawImage {
  public:
-  static constexpr double kScale = 1.1;
+  static constexpr double kScale = 1.15;
 
   /// The rectified image has the size and focal lengths of `camera`, and the principal point
   /// (cx, camera.cy).
@@ -31,6 +31,9 @@ class RawImage {
 
   /// The place in the raw image of a rectified pixel.
   Eigen::Vector2d raw(const Eigen::Vector2d& rectified) const;
+
+  /// CV_8UC1, not 0 for the raw pixels of which the rectified image is made, and those around them.
+  cv::Mat needed() const;
 
   /// The rectified image of a raw one, by bilinear interpolation.
   cv::Mat rectify(const cv::Mat& image) const;

@@ -12,7 +12,9 @@ namespace rotrocc {
 /// Where the pixels of a picture look: through places in the image of a pinhole camera.
 struct PixelRays {
   StereoCamera pinhole;  ///< its principal point is (cx, cy), whichever camera of a pair it is
-  cv::Mat places;  ///< CV_64FC2, in the image of `pinhole`; empty: each pixel at its own place
+  cv::Mat places;  ///< CV_64FC2, in the image of `pinhole`, NaN for pixels that are not needed;
+                   ///< empty: each pixel at its own place
+  double footprint = 1.0;  ///< width of what a pixel averages over, in pixels of `pinhole`
 
   cv::Size size() const {
     return places.empty() ? cv::Size(pinhole.width, pinhole.height) : places.size();

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "simulation/rows.h"
 
@@ -12,6 +13,13 @@ namespace {
 constexpr std::array<std::array<double, 2>, 3> kSamples = {
     {{-0.375, -0.125}, {0.125, -0.375}, {0.25, 0.375}}};
 
+/// Without anything in sight.
+Picture emptyPicture(const cv::Size& size) {
+  return {cv::Mat(size, CV_32FC1, cv::Scalar(0.0)),
+          cv::Mat(size, CV_64FC1, cv::Scalar(std::numeric_limits<double>::infinity())),
+          cv::Mat(size, CV_32SC1, cv::Scalar(-1))};
+}
+
 class Rendering {
  public:
   Rendering(const World& world,
@@ -21,12 +29,14 @@ class Rendering {
       : world_(world),
         cars_(cars),
         rays_(rays),
-        view_(world.bodies(), cars.bodies, rays.pinhole, rays.pinhole.cx, T_world_camera),
-        surfaces_(rays.size(), CV_32SC1) {
-    picture_.brightness.create(rays.size(), CV_32FC1);
-    picture_.depth.create(rays.size(), CV_64FC1);
-    picture_.moving_car.create(rays.size(), CV_32SC1);
-  }
+        view_(world.bodies(),
+              cars.bodies,
+              rays.pinhole,
+              rays.pinhole.cx,
+              T_world_camera,
+              rays.footprint),
+        surfaces_(rays.size(), CV_32SC1, cv::Scalar(0)),
+        picture_(emptyPicture(rays.size())) {}
 
   Picture run() {
     forEachRow(surfaces_.rows, [this](int y) { lookAtCentres(y); });
@@ -40,6 +50,7 @@ class Rendering {
   void lookAtCentres(int y) {
     for (int x = 0; x < surfaces_.cols; ++x) {
       const Eigen::Vector2d place = rays_.place(x, y);
+      if (std::isnan(place.x())) continue;
       const Sighting sighting = world_.look(view_, place.x(), place.y());
       picture_.brightness.at<float>(y, x) = static_cast<float>(sighting.brightness);
       picture_.depth.at<double>(y, x) = sighting.depth;
@@ -64,8 +75,8 @@ class Rendering {
 
   void smoothEdges(int y) {
     for (int x = 0; x < surfaces_.cols; ++x) {
-      if (!isAtEdge(x, y)) continue;
       const Eigen::Vector2d place = rays_.place(x, y);
+      if (std::isnan(place.x()) || !isAtEdge(x, y)) continue;
       double sum = centres_.at<float>(y, x);
       for (const auto& [dx, dy] : kSamples) {
         sum += world_.look(view_, place.x() + dx, place.y() + dy).brightness;

@@ -1,6 +1,7 @@
 #include "simulation/rendering/worn_rig.h"
 
 #include <cmath>
+#include <limits>
 
 #include "simulation/counter_random.h"
 
@@ -8,6 +9,8 @@ namespace rotrocc {
 namespace {
 
 constexpr double kMaxMounting_rad = 0.008;  // about each axis
+// The raw pixels of real cameras are smaller, with gaps between.
+constexpr double kFootprint = 0.5;
 
 Lens randomLens(RandomStream& random, double k1) {
   Lens lens;
@@ -26,7 +29,7 @@ Sensor randomSensor(RandomStream& random, double vignetting) {
   Sensor sensor;
   sensor.noise_sigma = 0.0;
   sensor.vignetting = vignetting + random.uniform(-0.03, 0.03);
-  sensor.full_well_e = random.uniform(6e3, 15e3);
+  sensor.full_well_e = random.uniform(2e3, 6e3);
   sensor.read_noise_e = random.uniform(10.0, 30.0);
   return sensor;
 }
@@ -36,10 +39,12 @@ PixelRays raysThrough(const RawImage& raw,
                       const Remainder& remainder,
                       const StereoCamera& camera,
                       double cx) {
-  cv::Mat places(raw.size(), CV_64FC2);
+  const cv::Mat needed = raw.needed();
+  cv::Mat places(raw.size(), CV_64FC2, cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
   Eigen::AlignedBox2d bounds;
   for (int y = 0; y < places.rows; ++y) {
     for (int x = 0; x < places.cols; ++x) {
+      if (needed.at<uchar>(y, x) == 0) continue;
       const Eigen::Vector2d seen_at = raw.rectified(Eigen::Vector2d(x, y));
       const Eigen::Vector2d place = RawImage::kScale * (seen_at - remainder.at(seen_at));
       places.at<cv::Vec2d>(y, x) = {place.x(), place.y()};
@@ -47,7 +52,7 @@ PixelRays raysThrough(const RawImage& raw,
     }
   }
   const Eigen::Vector2d first = bounds.min();
-  PixelRays rays = {camera, places - cv::Scalar(first.x(), first.y())};
+  PixelRays rays = {camera, places - cv::Scalar(first.x(), first.y()), kFootprint};
   rays.pinhole.fx *= RawImage::kScale;
   rays.pinhole.fy *= RawImage::kScale;
   rays.pinhole.cx = RawImage::kScale * cx - first.x();

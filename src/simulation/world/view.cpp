@@ -18,14 +18,15 @@ View::View(const std::vector<Body>& standing,
            const std::vector<Body>& moving,
            const StereoCamera& camera,
            double cx,
-           const Eigen::Isometry3d& T_world_camera)
+           const Eigen::Isometry3d& T_world_camera,
+           double footprint)
     : standing_(standing),
       moving_(moving),
       camera_(camera),
       cx_(cx),
       origin_(T_world_camera.translation()),
       axes_(T_world_camera.linear()),
-      spread_{axes_.col(0) / camera.fx, axes_.col(1) / camera.fy} {
+      spread_{footprint * axes_.col(0) / camera.fx, footprint * axes_.col(1) / camera.fy} {
   const int count = standingCount() + static_cast<int>(moving_.size());
   for (int number = 0; number < count; ++number) addBody(number, T_world_camera);
   std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {

@@ -14,13 +14,15 @@ namespace rotrocc {
 /// A camera at one time: its rays, and the bodies in each part of its image.
 class View {
  public:
-  /// The focal lengths and size of `camera` with the principal point (cx, camera.cy). Bodies are
-  /// numbered: static ones first, then moving ones. All must outlive the view.
+  /// The focal lengths and size of `camera` with the principal point (cx, camera.cy). Surfaces are
+  /// averaged over `footprint` pixels in either direction. Bodies are numbered: static ones first,
+  /// then moving ones. All must outlive the view.
   View(const std::vector<Body>& standing,
        const std::vector<Body>& moving,
        const StereoCamera& camera,
        double cx,
-       const Eigen::Isometry3d& T_world_camera);
+       const Eigen::Isometry3d& T_world_camera,
+       double footprint = 1.0);
 
   const std::vector<Body>& moving() const { return moving_; }
   int standingCount() const { return static_cast<int>(standing_.size()); }
