@@ -266,6 +266,20 @@ TEST(Simulation, RightRotationTurnsTheRightImageOnly) {
   EXPECT_LT(mismatch(down_px), 0.8 * mismatch(-down_px));
 }
 
+TEST(Simulation, RowOffsetLowersTheRightImageOnly) {
+  SimulationOptions options = cleanOptions();
+  options.faults.row_offset_px = 2.0;
+  Simulator offset(scenario("city", 1), options);
+  const SimulatedFrame frame = offset.render(30, false);
+  const SimulatedFrame aligned = cleanCity().render(30, false);
+  EXPECT_EQ(differingPixels(frame.pair.left, aligned.pair.left), 0);
+  const int rows = frame.pair.right.rows;
+  const cv::Mat lowered = frame.pair.right.rowRange(2, rows);
+  // Rays that differ by rounding may end on the other side of an edge.
+  EXPECT_LT(differingPixels(lowered, aligned.pair.right.rowRange(0, rows - 2)),
+            0.02 * lowered.total());
+}
+
 TEST(Simulation, TimeSkewShowsTheRightImageLater) {
   SimulationOptions options = cleanOptions();
   options.faults.time_skew_s = 0.1;

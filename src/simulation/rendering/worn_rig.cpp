@@ -30,7 +30,7 @@ Sensor randomSensor(RandomStream& random, double vignetting) {
   sensor.noise_sigma = 0.0;
   sensor.vignetting = vignetting + random.uniform(-0.03, 0.03);
   sensor.full_well_e = random.uniform(2e3, 6e3);
-  sensor.read_noise_e = random.uniform(10.0, 30.0);
+  sensor.read_noise_e = random.uniform(5.0, 15.0);
   return sensor;
 }
 

@@ -1,0 +1,67 @@
+// Runs the program as users do, and compares the images that it writes.
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "support/read_file.h"
+#include "support/run_command.h"
+#include "support/temporary_directory.h"
+
+namespace rotrocc {
+namespace {
+
+class SimulateDriveTest : public ::testing::Test {
+ protected:
+  CommandResult simulate(const std::string& out, const std::string& options) const {
+    return runCommand(std::string(SIMULATE_DRIVE) + " parking " + (directory_ / out) +
+                      " --size 310x94 --focal 180 --frames 2 " + options);
+  }
+
+  /// Both images of the last frame and all text files.
+  std::string contents(const std::string& out) const {
+    std::string all;
+    for (const char* name :
+         {"image_0/000001.png", "image_1/000001.png", "calib.txt", "poses.txt"}) {
+      all += readFile(directory_ / (out + "/" + name));
+    }
+    return all;
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(SimulateDriveTest, PerfectRigsAreTheDefault) {
+  ASSERT_EQ(simulate("default", "").status, 0);
+  ASSERT_EQ(simulate("perfect", "--rig perfect --gains of-the-rig --rows 0").status, 0);
+  EXPECT_TRUE(contents("default") == contents("perfect"));
+}
+
+TEST_F(SimulateDriveTest, WornRigsHaveOtherImagesOfTheSameDrive) {
+  ASSERT_EQ(simulate("perfect", "").status, 0);
+  ASSERT_EQ(simulate("worn", "--rig worn").status, 0);
+  ASSERT_EQ(simulate("again", "--rig worn").status, 0);
+  ASSERT_EQ(simulate("gains", "--rig worn --gains out-of-step").status, 0);
+  EXPECT_TRUE(contents("worn") == contents("again"));
+  EXPECT_FALSE(contents("worn") == contents("gains"));
+  for (const char* name : {"/calib.txt", "/poses.txt", "/times.txt"}) {
+    EXPECT_EQ(readFile(directory_ / ("perfect" + std::string(name))),
+              readFile(directory_ / ("worn" + std::string(name))));
+  }
+  EXPECT_FALSE(contents("worn") == contents("perfect"));
+}
+
+TEST_F(SimulateDriveTest, RefusesWhatDoesNotFit) {
+  const auto expectRefused = [&](const std::string& options, const std::string& part) {
+    const CommandResult result = simulate("refused", options);
+    EXPECT_NE(result.status, 0) << options;
+    EXPECT_NE(result.output.find(part), std::string::npos) << result.output;
+  };
+  expectRefused("--rig old", "--rig is 'old', not perfect or worn");
+  expectRefused("--gains wild", "--gains is 'wild', not of-the-rig or out-of-step");
+  expectRefused("--rig worn --noise 3", "--noise is for a perfect rig");
+  expectRefused("--rows 21", "row offset [px] is 21");
+}
+
+}  // namespace
+}  // namespace rotrocc
