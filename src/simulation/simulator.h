@@ -41,8 +41,8 @@ struct SimulatedFrame {
   StereoPair pair;
   cv::Mat depth;  ///< CV_64FC1 [m] at the centres of the pixels; infinite for the sky; of a worn
                   ///< rig that of the nominal camera, and empty without flow
-  cv::Mat flow;  ///< CV_64FC2 [px] to the next frame; NaN for points that are behind the camera
-                 ///< there; empty for the last frame. Occlusion is ignored.
+  cv::Mat flow;   ///< CV_64FC2 [px] to the next frame; NaN for points that are behind the camera
+                  ///< there; empty for the last frame. Occlusion is ignored.
 };
 
 /// Renders a drive frame by frame, in any order.

@@ -11,8 +11,8 @@ class RealismTest : public ScriptTest {
  protected:
   static void SetUpTestSuite() {
     const std::string clip = directory() / "clip";
-    const CommandResult rendered = runCommand(
-        std::string(PROGRAMS) + "/simulate_drive slip_road " + clip + " --seed 2 --frames 12");
+    const CommandResult rendered = runCommand(std::string(PROGRAMS) + "/simulate_drive slip_road " +
+                                              clip + " --seed 2 --frames 12");
     ASSERT_EQ(rendered.status, 0) << rendered.output;
     runScript(REALISM, clip);
   }
