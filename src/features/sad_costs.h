@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <numeric>
 
 #include <opencv2/core.hpp>
@@ -24,18 +25,23 @@ constexpr int kWords = 8;
 
 /// Sums of absolute differences between the window around a left pixel, at sub-pixel position, and
 /// windows of the right image at the same height, in eighths of a grey level. The mean of each
-/// window is subtracted, because cameras differ in exposure; the tracker does the same.
+/// window is subtracted, and the lighter image gets the contrast of the darker, because cameras
+/// differ in exposure; the tracker does the same.
 class SubPixelCosts {
  public:
   static constexpr int kUnit = 8;
   static constexpr int kColumns = 2 * StereoMatcher::kNearRadius_px + 3;
 
-  /// Prepares up to kColumns right columns, starting at `first`.
-  SubPixelCosts(const cv::Mat& left, const cv::Mat& right, const cv::Point2f& pixel, int first) {
+  /// Prepares up to kColumns right columns, starting at `first`. `gain` is that from the left to
+  /// the right image.
+  SubPixelCosts(
+      const cv::Mat& left, const cv::Mat& right, const cv::Point2f& pixel, double gain, int first) {
     const int x = cvFloor(pixel.x);
     const int y = cvFloor(pixel.y);
     const Words fx = fraction(pixel.x - static_cast<float>(x));
     const Words fy = fraction(pixel.y - static_cast<float>(y));
+    const Words left_darker = fraction(static_cast<float>(std::max(0.0, 1.0 - gain)));
+    const Words right_darker = fraction(static_cast<float>(std::max(0.0, 1.0 - 1.0 / gain)));
     const uchar* from = left.ptr<uchar>(y - kHalf) + x - kHalf;
     const uchar* right_from = right.ptr<uchar>(y - kHalf) + first - kHalf;
     // Eleven values of up to 2040 fit into 16 bits.
@@ -45,12 +51,12 @@ class SubPixelCosts {
       for (int k = 0; k < kRegister; k += kWords) {
         const Words here = betweenRows(from + k, left.step, fy);
         const Words next = betweenRows(from + k + 1, left.step, fy);
-        const Words values = between(here, next, fx);
+        const Words values = darkened(between(here, next, fx), left_darker);
         cv::v_store_aligned(window_[i] + k, values);
         cv::v_store_aligned(window_sums + k, cv::v_load_aligned(window_sums + k) + values);
       }
       for (int k = 0; k < kStrip; k += kWords) {
-        const Words values = betweenRows(right_from + k, right.step, fy);
+        const Words values = darkened(betweenRows(right_from + k, right.step, fy), right_darker);
         cv::v_store_aligned(strip_[i] + k, values);
         cv::v_store_aligned(strip_sums + k, cv::v_load_aligned(strip_sums + k) + values);
       }
@@ -92,6 +98,9 @@ class SubPixelCosts {
   static Words between(const Words& a, const Words& b, const Words& fraction) {
     const Words difference = b - a;
     return a + cv::v_mul_hi(difference + difference, fraction);
+  }
+  static Words darkened(const Words& a, const Words& fraction) {
+    return a - cv::v_mul_hi(a + a, fraction);
   }
   static Words betweenRows(const uchar* pixels, std::size_t step, const Words& fraction) {
     const Words upper = cv::v_reinterpret_as_s16(cv::v_load_expand(pixels));

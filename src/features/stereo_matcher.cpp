@@ -1,11 +1,11 @@
 #include "features/stereo_matcher.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 
+#include "features/exposure.h"
 #include "features/sad_costs.h"
 #include "kernels/kernels.h"
 
@@ -46,47 +46,52 @@ std::int16_t least(const std::int16_t* begin, const std::int16_t* end) {
   return cost;
 }
 
-/// Brightness differences below this [grey levels] are not corrected: the match still costs much
-/// less than the rest of the row.
-constexpr int kNotable = 16;
-
-/// Brightness difference, left minus right, due to the cameras' exposures: the median difference of
-/// pixels [grey levels]. Parallax makes as many pixels brighter as darker.
-int medianDifference(const cv::Mat& left, const cv::Mat& right) {
-  constexpr int kStep_px = 8;
-  constexpr int kMost = 255;
-  std::array<int, 2 * kMost + 1> histogram{};
-  int pixels = 0;
-  for (int y = 0; y < left.rows; y += kStep_px) {
-    const auto* in_left = left.ptr<uchar>(y);
-    const auto* in_right = right.ptr<uchar>(y);
-    for (int x = 0; x < left.cols; x += kStep_px, ++pixels) {
-      ++histogram[static_cast<std::size_t>(kMost + in_left[x] - in_right[x])];
-    }
-  }
-  int difference = -kMost;
-  int below = histogram[0];
-  while (2 * below < pixels) below += histogram[static_cast<std::size_t>(kMost + ++difference)];
-  return difference;
+/// The exposure of the right image relative to the left one. Differences below a tenth of the range
+/// of grey levels may be noise, and hide no match.
+Exposure exposureOfRight(const cv::Mat& left, const cv::Mat& right) {
+  constexpr double kWhite = 255.0;
+  constexpr double kNotable = 0.1 * kWhite;
+  const Exposure exposure = compareExposures(left, right);
+  const double of_white = (exposure.gain - 1.0) * kWhite + exposure.offset;
+  const bool notable = std::max(std::abs(exposure.offset), std::abs(of_white)) >= kNotable;
+  return notable ? exposure : Exposure();
 }
 
-/// The window of a left pixel with the brightness of the right camera.
-class DarkenedWindow {
+/// The window of a left pixel, as the right camera would expose it. Saturated pixels remain so.
+class ExposedWindow {
  public:
-  static constexpr int kStep = SadSearch::kReadPixels;  // row length
-
-  DarkenedWindow(const cv::Mat& left, const cv::Point& upper_left, int brighter) {
-    for (int y = 0; y < sad::kWindow; ++y) {
-      const auto* from = left.ptr<uchar>(upper_left.y + y) + upper_left.x;
-      for (int x = 0; x < kStep; ++x) {
-        pixels_[y * kStep + x] = static_cast<uchar>(std::clamp(from[x] - brighter, 0, 255));
-      }
-    }
+  ExposedWindow(const cv::Mat& left, const cv::Point& upper_left, const Exposure& of_right)
+      : from_(left.ptr<uchar>(upper_left.y) + upper_left.x),
+        step_(static_cast<std::ptrdiff_t>(left.step)) {
+    if (of_right.gain != 1.0 || of_right.offset != 0.0) expose(of_right);
   }
-  const uchar* pixels() const { return pixels_; }
+  ExposedWindow(const ExposedWindow&) = delete;
+  ExposedWindow& operator=(const ExposedWindow&) = delete;
+
+  const uchar* pixels() const { return from_; }
+  std::ptrdiff_t step() const { return step_; }
 
  private:
-  uchar pixels_[sad::kWindow * kStep];
+  void expose(const Exposure& of_right) {
+    constexpr int kUnit = 256;
+    constexpr int kSaturated = 250;
+    const int gain = cvRound(kUnit * of_right.gain);
+    const int offset = cvRound(kUnit * of_right.offset) + kUnit / 2;
+    for (int y = 0; y < sad::kWindow; ++y) {
+      const uchar* from = from_ + y * step_;
+      for (int x = 0; x < kColumns; ++x) {
+        const int exposed = std::clamp((from[x] * gain + offset) / kUnit, 0, 255);
+        pixels_[y * kColumns + x] = static_cast<uchar>(from[x] < kSaturated ? exposed : from[x]);
+      }
+    }
+    from_ = pixels_;
+    step_ = kColumns;
+  }
+
+  static constexpr int kColumns = SadSearch::kReadPixels;
+  const uchar* from_;
+  std::ptrdiff_t step_;
+  uchar pixels_[sad::kWindow * kColumns];
 };
 
 /// Column of the best match, where `first` is the first column searched. kNoColumn if the match is
@@ -141,31 +146,47 @@ void eachPixel(Workers& workers,
   });
 }
 
+/// The gain from the left to the right image, at some of the pixels whose disparity is known.
+double gainAt(const cv::Mat& left,
+              const cv::Mat& right,
+              const std::vector<cv::Point2f>& pixels,
+              const std::vector<float>& disparities_px,
+              double otherwise) {
+  thread_local WindowGain gain;
+  gain.clear();
+  const std::size_t step = WindowGain::step(pixels.size());
+  for (std::size_t i = 0; i < pixels.size(); i += step) {
+    if (disparities_px[i] == StereoMatcher::kNoDisparity) continue;
+    gain.add(left, pixels[i], right, pixels[i] - cv::Point2f(disparities_px[i], 0.0F));
+  }
+  return gain.median(otherwise);
+}
+
 }  // namespace
 
 StereoMatcher::StereoMatcher(const Config& config) : config_(config), kernels_(&chooseKernels()) {}
 
-void StereoMatcher::match(Workers& workers,
-                          const cv::Mat& left,
-                          const cv::Mat& right,
-                          const std::vector<cv::Point2f>& corners,
-                          double infinity_px,
-                          std::vector<float>& disparities_px) const {
+double StereoMatcher::match(Workers& workers,
+                            const cv::Mat& left,
+                            const cv::Mat& right,
+                            const std::vector<cv::Point2f>& corners,
+                            double infinity_px,
+                            std::vector<float>& disparities_px) const {
   const int nearest = config_.max_disparity_px + cvCeil(infinity_px);
   const int farthest = cvFloor(config_.min_disparity_px + infinity_px);
-  const double most = config_.max_mean_difference * sad::kPixels;
   const double least_px = config_.min_disparity_px + infinity_px;
-  const int difference = medianDifference(left, right);
-  const int brighter = std::abs(difference) < kNotable ? 0 : difference;
+  const Exposure of_right = exposureOfRight(left, right);
+  // Costs are in grey levels of the right image, their limit in those of the lighter one.
+  const double most = config_.max_mean_difference * sad::kPixels * std::min(of_right.gain, 1.0);
   eachPixel(workers, corners, least_px, disparities_px, [&](std::size_t i) {
     if (!windowInside(left, corners[i])) return kNoColumn;
     const cv::Point pixel(cvRound(corners[i].x), cvRound(corners[i].y));
     const cv::Range columns = clip(right, cv::Range(pixel.x - nearest - 1, pixel.x - farthest + 2));
     if (columns.size() < 3) return kNoColumn;
     const cv::Point upper_left = pixel - cv::Point(sad::kHalf, sad::kHalf);
-    const DarkenedWindow window(left, upper_left, brighter);
+    const ExposedWindow window(left, upper_left, of_right);
     const SadSearch search = {window.pixels(),
-                              DarkenedWindow::kStep,
+                              window.step(),
                               right.ptr<uchar>(upper_left.y) + columns.start - sad::kHalf,
                               static_cast<std::ptrdiff_t>(right.step),
                               columns.size(),
@@ -173,16 +194,20 @@ void StereoMatcher::match(Workers& workers,
                               config_.uniqueness};
     return bestColumn(*kernels_, search, columns.start);
   });
+  return gainAt(left, right, corners, disparities_px, of_right.gain);
 }
 
-void StereoMatcher::matchNear(Workers& workers,
-                              const cv::Mat& left,
-                              const cv::Mat& right,
-                              const std::vector<cv::Point2f>& pixels,
-                              const std::vector<float>& expected_px,
-                              double infinity_px,
-                              std::vector<float>& disparities_px) const {
-  const double most = config_.max_mean_difference * sad::kPixels;
+double StereoMatcher::matchNear(Workers& workers,
+                                const cv::Mat& left,
+                                const cv::Mat& right,
+                                const std::vector<cv::Point2f>& pixels,
+                                const std::vector<float>& expected_px,
+                                double infinity_px,
+                                std::vector<float>& disparities_px) const {
+  const double gain = gainAt(left, right, pixels, expected_px, 1.0);
+  const double used = beyondNoise(gain, WindowGain::kStereoNoise);
+  // Costs are in grey levels of the darker image.
+  const double most = config_.max_mean_difference * sad::kPixels * std::min(used, 1.0 / used);
   const double least_px = config_.min_disparity_px + infinity_px;
   eachPixel(workers, pixels, least_px, disparities_px, [&](std::size_t i) {
     if (expected_px[i] == kNoDisparity || !windowInside(left, pixels[i])) return kNoColumn;
@@ -190,8 +215,10 @@ void StereoMatcher::matchNear(Workers& workers,
     const cv::Range columns =
         clip(right, cv::Range(x - kNearRadius_px - 1, x + kNearRadius_px + 2));
     if (columns.size() < 3) return kNoColumn;
-    return bestColumn(sad::SubPixelCosts(left, right, pixels[i], columns.start), columns, most);
+    return bestColumn(
+        sad::SubPixelCosts(left, right, pixels[i], used, columns.start), columns, most);
   });
+  return gain;
 }
 
 }  // namespace rotrocc

@@ -14,6 +14,7 @@ namespace rotrocc {
 struct Kernels;
 
 /// Sparse block matching along the row: sum of absolute differences (SAD) with a sub-pixel fit.
+/// The cameras may differ in brightness and contrast.
 class StereoMatcher {
  public:
   using Config = StereoMatcherConfig;
@@ -29,24 +30,25 @@ class StereoMatcher {
   /// Computes the disparity x_left - x_right [px] of each corner of the left image. Corners must be
   /// at integer pixels. The result is kNoDisparity for corners too close to the border and for
   /// matches that are too different, ambiguous or out of range. `left` and `right` are CV_8UC1 and
-  /// of the same size; `infinity_px` is StereoCamera::disparityAtInfinity().
-  void match(Workers& workers,
-             const cv::Mat& left,
-             const cv::Mat& right,
-             const std::vector<cv::Point2f>& corners,
-             double infinity_px,
-             std::vector<float>& disparities_px) const;
+  /// of the same size; `infinity_px` is StereoCamera::disparityAtInfinity(). Returns the gain of
+  /// the right image relative to the left one: the median over windows, or 1 if there are few.
+  double match(Workers& workers,
+               const cv::Mat& left,
+               const cv::Mat& right,
+               const std::vector<cv::Point2f>& corners,
+               double infinity_px,
+               std::vector<float>& disparities_px) const;
 
   /// As match(), but for pixels at sub-pixel positions, within kNearRadius_px of the disparities
   /// `expected_px`. Does not test for uniqueness, because the expected disparity resolves
   /// ambiguity. Pixels with an expected disparity of kNoDisparity are skipped.
-  void matchNear(Workers& workers,
-                 const cv::Mat& left,
-                 const cv::Mat& right,
-                 const std::vector<cv::Point2f>& pixels,
-                 const std::vector<float>& expected_px,
-                 double infinity_px,
-                 std::vector<float>& disparities_px) const;
+  double matchNear(Workers& workers,
+                   const cv::Mat& left,
+                   const cv::Mat& right,
+                   const std::vector<cv::Point2f>& pixels,
+                   const std::vector<float>& expected_px,
+                   double infinity_px,
+                   std::vector<float>& disparities_px) const;
 
  private:
   Config config_;
