@@ -32,7 +32,7 @@ struct FeatureTrackerConfig {
   double min_step_px = 0.02;       ///< iterations stop at a shorter step
   double max_round_trip_px = 1.0;  ///< tolerance of forward-backward tracking; 0: not checked
   bool scale_windows = true;       ///< scale the windows by the predicted scale change
-  bool ignore_brightness = true;   ///< subtract the mean of each window
+  bool ignore_brightness = true;   ///< compare windows without their brightness and contrast
   double max_vertical_px = 1.0;    ///< tolerance of the row of left and right
   double max_disparity_difference_px = 1.0;  ///< between tracked and matched disparity, at t
 };

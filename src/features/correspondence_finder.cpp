@@ -133,13 +133,13 @@ void CorrespondenceFinder::checkCircularConsistency(const StereoCamera& camera,
       tracked_disparities_px_[i] = offset.x;
     }
   }
-  matcher_.matchNear(workers_,
-                     current.left.front(),
-                     current.right.front(),
-                     cur_left_px_,
-                     tracked_disparities_px_,
-                     camera.disparityAtInfinity(),
-                     disparities_px_);
+  stereo_gain_ = matcher_.matchNear(workers_,
+                                    current.left.front(),
+                                    current.right.front(),
+                                    cur_left_px_,
+                                    tracked_disparities_px_,
+                                    camera.disparityAtInfinity(),
+                                    disparities_px_);
 
   features.clear();
   for (std::size_t i = 0; i < cur_left_px_.size(); ++i) {
@@ -168,7 +168,7 @@ void CorrespondenceFinder::compareRows(const StereoFrame& current,
     const cv::Point2f left(static_cast<float>(features[i].cur_px.x()),
                            static_cast<float>(features[i].cur_px.y()));
     cv::Point2f right(left.x - static_cast<float>(features[i].disparity_px), left.y);
-    if (tracker_.locate(current.left.front(), current.right.front(), left, right)) {
+    if (tracker_.locate(current.left.front(), current.right.front(), left, stereo_gain_, right)) {
       differences_px.push_back(right.y - left.y);
     }
   }

@@ -22,7 +22,7 @@ namespace rotrocc {
 /// Builds the feature set F of section V-A from a keyframe (t-1 in the paper) and the current frame
 /// (t). Corners and disparities of the keyframe are tracked to the left and right current images,
 /// starting at the positions that a motion predicts, and are verified by the circular consistency
-/// check. Has no state except reused buffers.
+/// check. Has no state except reused buffers and the gain between the last images.
 class CorrespondenceFinder {
  public:
   using Config = CorrespondenceFinderConfig;
@@ -88,6 +88,8 @@ class CorrespondenceFinder {
   std::vector<char> tracked_;
   std::vector<float> tracked_disparities_px_, disparities_px_;
   std::vector<double> shifts_px_;
+
+  double stereo_gain_ = 1.0;  // from left to right, at the features found last
 };
 
 }  // namespace rotrocc

@@ -14,6 +14,10 @@ constexpr float kLeastTexture = 0.1F;
 /// is stopped.
 constexpr float kSameStep_px = 0.01F;
 
+/// Grey levels, and grey levels times gradients, in the units of the kernels.
+constexpr double kOfValue = 1.0 / (1 << Window::kValueBits);
+constexpr double kOfProduct = kOfValue / (1 << Window::kGradientBits);
+
 std::int16_t fraction(float distance) {
   return static_cast<std::int16_t>(32768.0F * distance);
 }
@@ -85,13 +89,18 @@ void TrackingWindow::copyWithEdge(const cv::Mat& image, const cv::Rect& area) {
   }
 }
 
-bool TrackingWindow::take(const cv::Mat& image, const cv::Point2f& center, float scale) {
+bool TrackingWindow::take(const cv::Mat& image,
+                          const cv::Point2f& center,
+                          float scale,
+                          double gain) {
   const cv::Rect2f inside(
       0.0F, 0.0F, static_cast<float>(image.cols), static_cast<float>(image.rows));
   if (!inside.contains(center)) return false;
   spread(scale);
   const Patch patch = patchAround(image, center, radius_ + 1, wholeRegisters(side_ + 2));
-  return invertNormalMatrix(kernels_->takeWindow(patch, window()));
+  if (!invertNormalMatrix(kernels_->takeWindow(patch, window()))) return false;
+  changeContrast(gain);
+  return true;
 }
 
 /// Sets the sampling offsets from the pixel grid. They must be less than one pixel.
@@ -129,15 +138,29 @@ bool TrackingWindow::invertNormalMatrix(const GradientSums& sums) {
   return true;
 }
 
-/// Sum of (difference to the window, without the common brightness difference) times its gradients.
+/// Gradients change with the contrast, so steps do, too.
+void TrackingWindow::changeContrast(double gain) {
+  contrast_ = {};
+  if (gain == 1.0) return;
+  const ValueSums sums = kernels_->sumValues(window());
+  const double value = kOfValue * static_cast<double>(sums.one);
+  const cv::Point2d products(static_cast<double>(sums.x), static_cast<double>(sums.y));
+  contrast_ = (gain - 1.0) * (kOfProduct * products - value * mean_gradient_);
+  const auto inverse = static_cast<float>(1.0 / gain);
+  inverse_xx_ *= inverse;
+  inverse_xy_ *= inverse;
+  inverse_yy_ *= inverse;
+}
+
+/// Sum of (difference to the window, without the differences of brightness and contrast) times its
+/// gradients.
 cv::Point2f TrackingWindow::mismatch(const Patch& patch, const Window& window) const {
-  constexpr double kOfValue = 1.0 / (1 << Window::kValueBits);
-  constexpr double kOfProduct = kOfValue / (1 << Window::kGradientBits);
   const MismatchSums sums = kernels_->compareWindow(patch, window);
   const double brighter = kOfValue * static_cast<double>(sums.one);
-  return {
-      static_cast<float>(kOfProduct * static_cast<double>(sums.x) - brighter * mean_gradient_.x),
-      static_cast<float>(kOfProduct * static_cast<double>(sums.y) - brighter * mean_gradient_.y)};
+  return {static_cast<float>(kOfProduct * static_cast<double>(sums.x) -
+                             brighter * mean_gradient_.x - contrast_.x),
+          static_cast<float>(kOfProduct * static_cast<double>(sums.y) -
+                             brighter * mean_gradient_.y - contrast_.y)};
 }
 
 bool TrackingWindow::find(const cv::Mat& image, const Stop& stop, cv::Point2f& center) {

@@ -10,7 +10,8 @@
 namespace rotrocc {
 
 /// The window around a feature, to be located in another image: one level of Lucas-Kanade (Bouguet
-/// 2001). A constant brightness difference is estimated too, so changes of exposure have no effect.
+/// 2001). A constant brightness difference is estimated too, and a difference in contrast is taken
+/// into account if it is known, so changes of exposure have no effect.
 /// Grey levels are interpolated in steps of 1/64, gradients in steps of 1/32, and sums are exact,
 /// so results are the same with and without SIMD.
 class TrackingWindow {
@@ -25,9 +26,10 @@ class TrackingWindow {
   explicit TrackingWindow(int radius_px, bool ignores_brightness = true);
 
   /// Stores the window around `center` of `image` (CV_8UC1), with its content enlarged by `scale` >
-  /// 0 (a first-order approximation, accurate enough for changes of a tenth). Returns false if the
-  /// centre is outside the image or the texture is too weak to locate the window.
-  bool take(const cv::Mat& image, const cv::Point2f& center, float scale);
+  /// 0 (a first-order approximation, accurate enough for changes of a tenth) and its contrast
+  /// multiplied by `gain`. Returns false if the centre is outside the image or the texture is too
+  /// weak to locate the window.
+  bool take(const cv::Mat& image, const cv::Point2f& center, float scale, double gain);
 
   /// Moves `center` to the position in `image` that matches the stored window. Returns false, with
   /// `center` unchanged, if the search leaves the image.
@@ -40,6 +42,7 @@ class TrackingWindow {
   Window window();
   void spread(float scale);
   bool invertNormalMatrix(const GradientSums& sums);
+  void changeContrast(double gain);
   cv::Point2f mismatch(const Patch& patch, const Window& window) const;
 
   const Kernels* kernels_;
@@ -50,6 +53,7 @@ class TrackingWindow {
   std::vector<std::int16_t> samples_, values_, gradient_x_, gradient_y_, mask_, spread_;
   std::vector<uchar> border_;  // copy of a patch that extends beyond the image border
   cv::Point2d mean_gradient_;  // [grey levels / px]
+  cv::Point2d contrast_;       // mismatch that a change of contrast causes
   float inverse_xx_ = 0.0F, inverse_xy_ = 0.0F, inverse_yy_ = 0.0F;
 };
 

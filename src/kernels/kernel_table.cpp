@@ -15,6 +15,7 @@ const Kernels kernels = {kShorts,
                          sadCosts,
                          sadCost,
                          takeWindow,
+                         sumValues,
                          compareWindow,
                          fitDisparities};
 static_assert(kShorts <= kMostShorts);

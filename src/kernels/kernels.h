@@ -24,6 +24,7 @@ struct Kernels {
   decltype(&ROTROCC_INSTRUCTIONS::sadCosts) sadCosts;
   decltype(&ROTROCC_INSTRUCTIONS::sadCost) sadCost;
   decltype(&ROTROCC_INSTRUCTIONS::takeWindow) takeWindow;
+  decltype(&ROTROCC_INSTRUCTIONS::sumValues) sumValues;
   decltype(&ROTROCC_INSTRUCTIONS::compareWindow) compareWindow;
   decltype(&ROTROCC_INSTRUCTIONS::fitDisparities) fitDisparities;
 };

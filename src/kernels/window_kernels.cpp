@@ -9,6 +9,9 @@ namespace {
 /// per lane.
 constexpr int kBlockRows = 16;
 
+/// The same for values, which spreading takes beyond 255 grey levels.
+constexpr int kValueRows = 8;
+
 /// Pixel values interpolated between a pixel and its right neighbour at fx / 2^15.
 Shorts betweenColumns(const std::uint8_t* pixels, const Shorts& fx) {
   const Shorts left = loadBytes(pixels);
@@ -99,6 +102,30 @@ GradientSums takeWindow(const Patch& patch, const Window window) {
     sums.xx += sum(xx);
     sums.xy += sum(xy);
     sums.yy += sum(yy);
+  }
+  return sums;
+}
+
+ValueSums sumValues(const Window& window) {
+  ValueSums sums = {0, 0, 0};
+  for (int first = 0; first < window.side; first += kValueRows) {
+    const int last = first + kValueRows < window.side ? first + kValueRows : window.side;
+    for (int x = 0; x < window.stride; x += kShorts) {
+      const Shorts mask = load(window.mask + x);
+      Ints minus_sum = noInts();
+      Ints sum_x = noInts();
+      Ints sum_y = noInts();
+      const int end = last * window.stride;
+      for (int at = first * window.stride + x; at < end; at += window.stride) {
+        const Shorts value = load(window.values + at);
+        minus_sum = minus_sum + dot(value, mask);
+        sum_x = sum_x + dot(value, load(window.gradient_x + at));
+        sum_y = sum_y + dot(value, load(window.gradient_y + at));
+      }
+      sums.one -= sum(minus_sum);
+      sums.x += sum(sum_x);
+      sums.y += sum(sum_y);
+    }
   }
   return sums;
 }

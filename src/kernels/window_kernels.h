@@ -36,6 +36,12 @@ struct GradientSums {
   std::int64_t xx, xy, yy;
 };
 
+/// Sums of grey levels, and of grey levels times gradients, over a window.
+struct ValueSums {
+  std::int64_t one;
+  std::int64_t x, y;
+};
+
 /// Sums of differences, and of differences times gradients, over a window.
 struct MismatchSums {
   std::int64_t one;
@@ -46,6 +52,9 @@ namespace ROTROCC_INSTRUCTIONS {
 
 /// Fills the window. The patch must include its margin.
 GradientSums takeWindow(const Patch& patch, Window window);
+
+/// Of a window that is filled.
+ValueSums sumValues(const Window& window);
 
 /// Compares the window with the patch, which has no margin.
 MismatchSums compareWindow(const Patch& patch, const Window& window);

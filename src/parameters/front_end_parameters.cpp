@@ -92,7 +92,7 @@ void addFeatureTracker(FeatureTrackerConfig& c, ParameterTable& table) {
             "scale windows by the predicted change of depth; the paper does not");
   table.add(s + "ignore_brightness",
             c.ignore_brightness,
-            "compare windows without their mean brightness; the paper does not");
+            "compare windows without their brightness and contrast; the paper does not");
   table.add(s + "max_vertical_px",
             c.max_vertical_px,
             0.1,

@@ -57,6 +57,15 @@ TEST(SimdTest, PlainCodeFindsTheSameInAStreet) {
   expectTheSame(render(0.0, camera), render(0.3, camera), camera.fx, 0.25);
 }
 
+TEST(SimdTest, PlainCodeFindsTheSameAtAnotherContrast) {
+  const StereoCamera camera = SyntheticScene::defaultCamera();
+  StereoPair before = render(0.0, camera);
+  StereoPair after = render(0.3, camera);
+  before.right.convertTo(before.right, -1, 0.6, 10.0);
+  after.left.convertTo(after.left, -1, 0.5, 0.0);
+  expectTheSame(before, after, camera.fx, 0.25);
+}
+
 TEST(SimdTest, PlainCodeFindsTheSameOnKitti) {
   const char* directory = std::getenv("ROTROCC_KITTI_DIR");
   if (directory == nullptr) GTEST_SKIP() << "ROTROCC_KITTI_DIR names no folder of KITTI clips";
