@@ -46,15 +46,16 @@ std::int16_t least(const std::int16_t* begin, const std::int16_t* end) {
   return cost;
 }
 
-/// The exposure of the right image relative to the left one. Differences below a tenth of the range
-/// of grey levels may be noise, and hide no match.
+/// The exposure of the right image relative to the left one. Smaller differences are not corrected.
+/// They hide a part of the bright matches, which is no loss: of four clips with a gain of 0.85, two
+/// are more accurate without these and two with them.
 Exposure exposureOfRight(const cv::Mat& left, const cv::Mat& right) {
-  constexpr double kWhite = 255.0;
-  constexpr double kNotable = 0.1 * kWhite;
+  constexpr double kNotableGain = 0.2;
+  constexpr double kNotableOffset = 25.0;
   const Exposure exposure = compareExposures(left, right);
-  const double of_white = (exposure.gain - 1.0) * kWhite + exposure.offset;
-  const bool notable = std::max(std::abs(exposure.offset), std::abs(of_white)) >= kNotable;
-  return notable ? exposure : Exposure();
+  const bool is_notable =
+      std::abs(exposure.gain - 1.0) >= kNotableGain || std::abs(exposure.offset) >= kNotableOffset;
+  return is_notable ? exposure : Exposure();
 }
 
 /// The window of a left pixel, as the right camera would expose it. Saturated pixels remain so.
