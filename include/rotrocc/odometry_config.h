@@ -117,14 +117,15 @@ struct StereoCalibratorConfig {
   bool enabled = true;          ///< false: only bias_px is applied
   double bias_px = 0.0;         ///< known bias, added to every disparity; start of the estimate
   double prior_sigma_px = 1.0;  ///< standard deviation of the rig's bias about bias_px
-  /// The weight of a pair falls by a factor e over this many pairs of equal information.
-  double memory_pairs = 100.0;
   /// Deviations from bias_px below this many standard deviations are not applied.
   double significance = 3.0;
-  /// Matching error common to the whole image, e.g. because windows at edges also contain the
-  /// nearer surface. Comparing parts of the image cannot show it, so it is added to the
-  /// uncertainty.
-  double matching_sigma_px = 0.01;
+  /// Typical error that neighbouring features share, over the noise of single ones. The estimate
+  /// starts from it.
+  double shared_error_ratio = 1.5;
+  /// Mean number of pairs before a rigid rig begins to move, or the reverse.
+  double steady_pairs = 300.0;
+  /// Standard deviation of the change of the bias from pair to pair while the rig moves.
+  double flex_px = 1.0;
   /// Ratio of disparity noise to flow noise, see fitted_feature.h. Smaller than the measured ratio:
   /// fitted disparities also absorb errors that neighbouring features share, which biases the
   /// estimate.

@@ -10,9 +10,7 @@
 namespace rotrocc {
 namespace {
 
-/// Bias and motion are estimated alternately, until the applied bias changes by less than
-/// kCalibrationSettled_px, at most kCalibrationRounds times.
-constexpr int kCalibrationRounds = 3;
+/// The motion is estimated once more if the applied bias changes by more than this.
 constexpr double kCalibrationSettled_px = 0.02;
 
 /// Whether to prefer hypothesis `a`.
@@ -126,19 +124,16 @@ void MotionSearch::calibrate(const StereoCamera& camera,
                              Hypothesis& found,
                              StageTimes& times) {
   const StageTimer timer(times.estimation_ms);
-  for (int round = 0; round < kCalibrationRounds; ++round) {
-    const MotionEstimator::Estimate& estimated = found.estimate;
-    calibrator.observe(
-        found.camera, found.features, estimated.rotation_inliers, estimated.T_keyframe_cur);
-    const StereoCamera corrected = calibrator.correct(camera);
-    if (std::abs(corrected.cx_right - found.camera.cx_right) < kCalibrationSettled_px) return;
-    recalibrated_ = found;
-    recalibrated_.camera = corrected;
-    triangulate(corrected, recalibrated_.features);
-    estimate(estimated.T_keyframe_cur, true, dt_s, recalibrated_);
-    if (!recalibrated_.isAccepted()) return;
-    std::swap(found, recalibrated_);
-  }
+  const MotionEstimator::Estimate& estimated = found.estimate;
+  consistent_.assign(found.features.size(), 1);
+  calibrator.observe(found.camera, found.features, consistent_, estimated.T_keyframe_cur);
+  const StereoCamera corrected = calibrator.correct(camera);
+  if (std::abs(corrected.cx_right - found.camera.cx_right) < kCalibrationSettled_px) return;
+  recalibrated_ = found;
+  recalibrated_.camera = corrected;
+  triangulate(corrected, recalibrated_.features);
+  estimate(estimated.T_keyframe_cur, true, dt_s, recalibrated_);
+  if (recalibrated_.isAccepted()) std::swap(found, recalibrated_);
 }
 
 }  // namespace rotrocc

@@ -48,9 +48,10 @@ class MotionSearch {
             Hypothesis& found,
             StageTimes& times);
 
-  /// The features depend on the disparity bias of the rig as well as on the motion. Estimates both
-  /// alternately and stores in `found` the last hypothesis that is accepted. `camera` is the camera
-  /// without correction.
+  /// Passes the found motion to the calibrator. If this changes the applied bias, estimates the
+  /// motion once more, and keeps it unless it is lost. `camera` is the camera without correction.
+  /// The calibrator gets all consistent features: the inliers of a motion with a wrong bias are
+  /// those that agree with this bias.
   void calibrate(const StereoCamera& camera,
                  double dt_s,
                  StereoCalibrator& calibrator,
@@ -87,7 +88,8 @@ class MotionSearch {
   PredictionError prediction_error_;
 
   Hypothesis tried_;         // the latest, reused
-  Hypothesis recalibrated_;  // buffer of calibrate(), reused
+  Hypothesis recalibrated_;  // buffers of calibrate(), reused
+  FeatureSet consistent_;
 };
 
 }  // namespace rotrocc

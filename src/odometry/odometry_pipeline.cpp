@@ -143,7 +143,6 @@ FramePtr VisualOdometry::Pipeline::takeFrame(const StereoPair& pair,
     shared_errors_.reset();
     rows_.reset();
   }
-  calibrator_.advance();
   camera_ = camera;
   return finder_.makeFrame(pair);
 }
@@ -152,6 +151,7 @@ void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& t
   keyframe_.frame = frame;
   keyframe_.T_keyframe_last = {};
   keyframe_.first_inliers = 0;
+  calibrator_.advance();
   {
     const StageTimer timer(times.corners_ms);
     finder_.findCorners(keyframe_);

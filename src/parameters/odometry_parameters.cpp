@@ -73,25 +73,30 @@ void addStereoCalibrator(StereoCalibratorConfig& c, ParameterTable& table) {
             100.0,
             "px",
             "prior standard deviation of the bias around bias_px");
-  table.add(s + "memory_pairs",
-            c.memory_pairs,
-            2.0,
-            1e6,
-            "",
-            "the weight of a pair decays by 1/e over this number of pairs");
   table.add(s + "significance",
             c.significance,
             0.0,
             100.0,
             "",
-            "the bias is not corrected below this number of standard deviations, and fully "
-            "corrected above twice this number");
-  table.add(s + "matching_sigma_px",
-            c.matching_sigma_px,
+            "the bias is not corrected below this number of standard deviations");
+  table.add(s + "shared_error_ratio",
+            c.shared_error_ratio,
             0.0,
-            10.0,
+            100.0,
+            "",
+            "initial ratio of errors that neighbouring features share to the noise of one");
+  table.add(s + "steady_pairs",
+            c.steady_pairs,
+            2.0,
+            1e6,
+            "",
+            "mean number of pairs before a rigid rig begins to move, or the reverse");
+  table.add(s + "flex_px",
+            c.flex_px,
+            0.0,
+            100.0,
             "px",
-            "systematic matching error over the whole image, part of the uncertainty");
+            "standard deviation of the change of the bias from pair to pair while the rig moves");
   table.add(s + "noise_ratio",
             c.noise_ratio,
             0.0,

@@ -1,11 +1,7 @@
 #pragma once
 
-#include <array>
-#include <vector>
-
-#include <Eigen/Core>
-
-#include "motion/reprojection_problem.h"
+#include "rig/bias_filter.h"
+#include "rig/bias_meter.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/odometry_config.h"
 #include "rotrocc/odometry_result.h"
@@ -15,19 +11,8 @@
 namespace rotrocc {
 
 /// Rig calibration: estimates the disparity bias, a constant error of all disparities caused by an
-/// inexact stereo calibration.
-///
-/// With biased disparities, no single motion explains both near and far points. The bias is one
-/// additional unknown of Eq. 25, estimated with the motion eliminated. Its normal equation is
-/// summed over the pairs.
-///
-/// A real rig also has errors that vary over the image (lens, relative rotation) and shift the
-/// estimate by more than its noise. They show as disagreement between parts of the image. The
-/// uncertainty is therefore the cluster-robust variance (Liang and Zeger 1986) over a grid of
-/// cells.
-///
-/// A bias below `significance` standard deviations is not corrected; one above twice that is
-/// corrected completely.
+/// inexact stereo calibration, or by a rig that moves. BiasMeter measures it in each pair,
+/// BiasFilter follows it over the drive.
 class StereoCalibrator {
  public:
   using Config = StereoCalibratorConfig;
@@ -43,8 +28,8 @@ class StereoCalibrator {
   StereoCamera correct(const StereoCamera& camera) const;
 
   /// Adds a motion estimated from the flagged features. Their depths must be those of `corrected`,
-  /// the last result of correct(). If it is called repeatedly for the same pair, only the last call
-  /// counts.
+  /// the last result of correct(). Motions from the same keyframe share its errors: only the last
+  /// one counts.
   void observe(const StereoCamera& corrected,
                const Correspondences& features,
                const FeatureSet& set,
@@ -54,50 +39,21 @@ class StereoCalibrator {
   /// order of OdometryResult::covariance.
   Matrix6d motionCovariance() const;
 
-  /// Starts a new pair: the observation of the previous one becomes final.
-  void advance();
+  /// Starts a new keyframe: the last observation becomes final.
+  void advance() { past_ = filter_; }
 
   /// Discards the estimate, for use with another rig.
   void reset();
 
  private:
-  static constexpr int kColumns = 6;
-  static constexpr int kRows = 3;
-
-  /// Normal equations of the bias for each cell of the image: information [1/px^2] * bias =
-  /// weighted [1/px].
-  struct Evidence {
-    std::array<double, kColumns * kRows> information{};
-    std::array<double, kColumns * kRows> weighted{};
-  };
-
-  /// A feature's residual and its derivatives, and the weight for Newton's method. The derivatives
-  /// by the motion have the rotation first, then the translation.
-  struct Row {
-    std::size_t cell;
-    double weight;
-    Eigen::Vector2d residual_px;
-    Eigen::Vector2d by_bias;
-    Eigen::Matrix<double, 2, 6> by_motion;
-  };
-
-  void linearise(const StereoCamera& corrected,
-                 const Correspondences& features,
-                 const FeatureSet& set,
-                 const Eigen::Isometry3d& T_keyframe_cur);
-  void eliminateMotion();
-  void collect();
   void update();
 
   Config config_;
-  Evidence past_, current_;
+  BiasMeter meter_;
+  BiasFilter past_;    // without the observations of the current keyframe
+  BiasFilter filter_;  // with the last of them
   DisparityBias bias_;
   Vector6d motion_by_bias_ = Vector6d::Zero();  // translation, then rotation
-
-  // Buffers for one pair, reused.
-  Fit fit_;
-  ReprojectionProblem<6> problem_;
-  std::vector<Row> rows_;
 };
 
 }  // namespace rotrocc

@@ -65,9 +65,11 @@ TEST(StereoCalibratorTest, FindsTheBiasOfARig) {
   for (const double bias_px : {-0.5, 0.5, 1.0, 2.0}) {
     StereoCalibrator calibrator{StereoCalibrator::Config()};
     drive(bias_px, 30, calibrator);
-    EXPECT_NEAR(calibrator.bias().estimated_px, bias_px, 0.05);
-    EXPECT_NEAR(calibrator.bias().applied_px, bias_px, 0.1);
-    EXPECT_LT(calibrator.bias().sigma_px, 0.05);
+    // Most of the uncertainty is that of shared errors, of which 30 pairs cannot show that there
+    // are none.
+    EXPECT_LT(calibrator.bias().sigma_px, 0.08);
+    EXPECT_NEAR(calibrator.bias().estimated_px, bias_px, 2.0 * calibrator.bias().sigma_px);
+    EXPECT_NEAR(calibrator.bias().applied_px, calibrator.bias().estimated_px, 0.01);
     EXPECT_EQ(calibrator.correct(kittiCamera()).cx_right,
               kittiCamera().cx_right + calibrator.bias().applied_px);
   }
@@ -88,15 +90,13 @@ TEST(StereoCalibratorTest, LearnsNothingAtStandstill) {
     const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
     show(
         biasedFeatures(still, pair, [](const Eigen::Vector2d&) { return 1.0; }), still, calibrator);
-    EXPECT_EQ(calibrator.bias().applied_px, 0.0) << pair;
+    EXPECT_NEAR(calibrator.bias().applied_px, 0.0, 0.002) << pair;  // no visible depth error
   }
   EXPECT_GT(calibrator.bias().sigma_px, 0.5);
 }
 
 TEST(StereoCalibratorTest, ForgetsNothingAtStandstill) {
-  StereoCalibrator::Config config;
-  config.memory_pairs = 20.0;
-  StereoCalibrator calibrator(config);
+  StereoCalibrator calibrator{StereoCalibrator::Config()};
   drive(1.0, 30, calibrator);
   const double before_px = calibrator.bias().applied_px;
   for (unsigned pair = 0; pair < 100; ++pair) {
@@ -134,19 +134,21 @@ TEST(StereoCalibratorTest, DoubtsWhatPartsOfTheImageDisagreeAbout) {
   };
   StereoCalibrator even({});
   StereoCalibrator uneven({});
-  drive(0.3, 30, even);
-  for (unsigned pair = 0; pair < 30; ++pair) {
+  double sigma_even_px = 0.0;
+  double sigma_uneven_px = 0.0;
+  for (unsigned pair = 0; pair < 100; ++pair) {
+    drive(0.3, 1, even, pair);
     show(biasedFeatures(ahead(), pair, lens), ahead(), uneven);
+    if (pair < 50) continue;
+    sigma_even_px += even.bias().sigma_px / 50.0;
+    sigma_uneven_px += uneven.bias().sigma_px / 50.0;
   }
-  EXPECT_GT(uneven.bias().sigma_px, 2.0 * even.bias().sigma_px);
-  // An insignificant bias is not applied; a significant one is applied completely.
+  EXPECT_GT(sigma_uneven_px, 1.2 * sigma_even_px);
+  // A bias beyond doubt is applied completely, another one is not.
+  EXPECT_NEAR(even.bias().applied_px, even.bias().estimated_px, 0.01);
   EXPECT_GT(even.bias().applied_px, 0.25);
-  EXPECT_EQ(even.bias().applied_px, even.bias().estimated_px);
-  const DisparityBias& found = uneven.bias();
-  const double doubt_px = 3.0 * found.sigma_px;
-  const double beyond_px = std::max(0.0, std::abs(found.estimated_px) - doubt_px);
-  EXPECT_DOUBLE_EQ(std::abs(found.applied_px),
-                   std::min(2.0 * beyond_px, std::abs(found.estimated_px)));
+  ASSERT_LT(std::abs(uneven.bias().estimated_px), 2.0 * uneven.bias().sigma_px);
+  EXPECT_NEAR(uneven.bias().applied_px, 0.0, 0.01);
 }
 
 TEST(StereoCalibratorTest, ThePairObservedAgainCountsOnce) {
@@ -157,19 +159,31 @@ TEST(StereoCalibratorTest, ThePairObservedAgainCountsOnce) {
   const FeatureSet all(features.size(), 1);
   once.observe(kittiCamera(), features, all, ahead());
   twice.observe(kittiCamera(), features, all, ahead());
-  twice.observe(kittiCamera(), features, all, ahead());
-  EXPECT_EQ(once.bias().estimated_px, twice.bias().estimated_px);
-  EXPECT_EQ(once.bias().sigma_px, twice.bias().sigma_px);
+  twice.observe(twice.correct(kittiCamera()), features, all, ahead());
+  // The second observation starts at another applied bias, hence the tolerance of its iterations.
+  EXPECT_NEAR(once.bias().estimated_px, twice.bias().estimated_px, 0.005);
+  EXPECT_NEAR(once.bias().sigma_px, twice.bias().sigma_px, 0.005);
 }
 
 TEST(StereoCalibratorTest, FollowsARigThatChanges) {
-  StereoCalibrator::Config config;
-  config.memory_pairs = 20.0;
-  StereoCalibrator calibrator(config);
+  StereoCalibrator calibrator{StereoCalibrator::Config()};
   drive(1.0, 60, calibrator);
-  drive(0.4, 100, calibrator, 1000);
-  // A share of exp(-100 / 20) = 0.7 % of the first bias remains.
-  EXPECT_NEAR(calibrator.bias().estimated_px, 0.4, 0.06);
+  drive(0.4, 20, calibrator, 1000);
+  EXPECT_NEAR(calibrator.bias().estimated_px, 0.4, 0.1);
+  EXPECT_NEAR(calibrator.bias().applied_px, 0.4, 0.1);
+}
+
+TEST(StereoCalibratorTest, FollowsARigThatMoves) {
+  StereoCalibrator calibrator{StereoCalibrator::Config()};
+  double square_px2 = 0.0;
+  for (unsigned pair = 0; pair < 60; ++pair) {
+    const double bias_px = 2.0 * std::sin(0.4 * pair);
+    drive(bias_px, 1, calibrator, pair);
+    const double off_px = calibrator.bias().applied_px - bias_px;
+    if (pair >= 10) square_px2 += off_px * off_px / 50.0;
+  }
+  // What is left is less than a third of the motion of the rig, which is 1.4 px.
+  EXPECT_LT(std::sqrt(square_px2), 0.45);
 }
 
 TEST(StereoCalibratorTest, AddsAKnownBiasAndStopsThereIfNotEnabled) {

@@ -1,0 +1,151 @@
+#include "rig/bias_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rotrocc {
+namespace {
+
+/// The typical size of shared errors counts as much as that measured in this many pairs: one pair
+/// has few cells that matter.
+constexpr double kTypicalPairs = 5.0;
+
+/// Share of the variance of the shared errors that stays with the rig, and the correlation of the
+/// rest from pair to pair. Measured on KITTI and EuRoC.
+constexpr double kLastingShare = 0.4;
+constexpr double kPassingCorrelation = 0.7;
+
+/// Degrees of freedom of Student's t: about as many as the cells that decide on the bias of a pair.
+constexpr double kFreedom = 6.0;
+
+}  // namespace
+
+BiasFilter::BiasFilter(const Config& config) : config_(config) {
+  const double prior_px2 = config.prior_sigma_px * config.prior_sigma_px;
+  const Eigen::Matrix2d covariance = Eigen::Vector2d(prior_px2, 1.0).asDiagonal();
+  const double moving = 1.0 / config.steady_pairs;
+  hypotheses_[0] = {1.0 - moving, 0.0, Eigen::Vector2d::Zero(), covariance, 0.0};
+  hypotheses_[1] = {moving, config.flex_px, Eigen::Vector2d::Zero(), covariance, 0.0};
+}
+
+void BiasFilter::configure(const Config& config) {
+  config_ = config;
+  hypotheses_[1].walk_px = config.flex_px;
+}
+
+/// A pair that says little about the bias, as one at standstill, counts as a small share of a pair.
+void BiasFilter::add(const BiasMeasurement& measurement) {
+  shared_ratio2_ = sharedRatio2(measurement.shared_ratio2);
+  const double prior_px2 = config_.prior_sigma_px * config_.prior_sigma_px;
+  const double measured_px2 = measurement.noise_px2 + shared_ratio2_ * measurement.shared_px2;
+  const double share = prior_px2 / (prior_px2 + measured_px2);
+  learnSharedRatio2(measurement.shared_ratio2, share);
+
+  hypotheses_ = interact(share / config_.steady_pairs);
+  double sum = 0.0;
+  std::array<double, 2> log_likelihood;
+  for (std::size_t i = 0; i < 2; ++i) {
+    predict(share, hypotheses_[i]);
+    log_likelihood[i] = update(measurement, shared_ratio2_, hypotheses_[i]);
+  }
+  const double most = std::max(log_likelihood[0], log_likelihood[1]);
+  for (std::size_t i = 0; i < 2; ++i) {
+    hypotheses_[i].probability *= std::exp(log_likelihood[i] - most);
+    sum += hypotheses_[i].probability;
+  }
+  for (Hypothesis& hypothesis : hypotheses_) hypothesis.probability /= sum;
+}
+
+double BiasFilter::sharedRatio2(double measured) const {
+  const double typical = config_.shared_error_ratio * config_.shared_error_ratio;
+  const double mean =
+      (kTypicalPairs * typical + learnt_ratio2_ + measured) / (kTypicalPairs + learnt_pairs_ + 1.0);
+  return std::max(mean, 0.0);
+}
+
+void BiasFilter::learnSharedRatio2(double measured, double share) {
+  const double kept = 1.0 - share / config_.steady_pairs;
+  learnt_ratio2_ = kept * learnt_ratio2_ + share * measured;
+  learnt_pairs_ = kept * learnt_pairs_ + share;
+}
+
+/// The hypotheses before the next measurement, if each changes to the other with the given
+/// probability.
+BiasFilter::Hypotheses BiasFilter::interact(double probability) const {
+  Hypotheses mixed = hypotheses_;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Hypothesis& same = hypotheses_[i];
+    const Hypothesis& other = hypotheses_[1 - i];
+    const double changed = probability * other.probability;
+    mixed[i].probability = (1.0 - probability) * same.probability + changed;
+    const double share = changed / mixed[i].probability;
+    const Eigen::Vector2d apart = other.mean - same.mean;
+    mixed[i].mean += share * apart;
+    mixed[i].shared_px += share * (other.shared_px - same.shared_px);
+    mixed[i].covariance = (1.0 - share) * same.covariance + share * other.covariance +
+                          share * (1.0 - share) * apart * apart.transpose();
+  }
+  return mixed;
+}
+
+void BiasFilter::predict(double share, Hypothesis& hypothesis) {
+  hypothesis.mean[kPassing] *= kPassingCorrelation;
+  hypothesis.covariance.row(kPassing) *= kPassingCorrelation;
+  hypothesis.covariance.col(kPassing) *= kPassingCorrelation;
+  hypothesis.covariance(kPassing, kPassing) += 1.0 - kPassingCorrelation * kPassingCorrelation;
+  hypothesis.covariance(kBias, kBias) += share * hypothesis.walk_px * hypothesis.walk_px;
+}
+
+/// Returns the logarithm of the likelihood, without a constant.
+double BiasFilter::update(const BiasMeasurement& measurement,
+                          double ratio2,
+                          Hypothesis& hypothesis) {
+  const double shared_px = std::sqrt(measurement.shared_px2);
+  const Eigen::Vector2d by_state(1.0, std::sqrt((1.0 - kLastingShare) * ratio2) * shared_px);
+  const Eigen::Vector2d covariance = hypothesis.covariance * by_state;
+  double variance_px2 = by_state.dot(covariance) + measurement.noise_px2;
+  const double off_px = measurement.bias_px - by_state.dot(hypothesis.mean);
+  const double off2 = off_px * off_px / variance_px2;
+  const double log_likelihood =
+      -0.5 * (std::log(variance_px2) + (kFreedom + 1.0) * std::log1p(off2 / kFreedom));
+  variance_px2 *= std::max(1.0, (kFreedom + off2) / (kFreedom + 1.0));
+  const Eigen::Vector2d gain = covariance / variance_px2;
+  hypothesis.mean += gain * off_px;
+  hypothesis.covariance -= gain * covariance.transpose();
+  hypothesis.shared_px += gain[kBias] * (shared_px - hypothesis.shared_px);
+  return log_likelihood;
+}
+
+/// Variance of the bias, with that by lasting errors.
+double BiasFilter::variance(const Hypothesis& hypothesis) const {
+  return hypothesis.covariance(kBias, kBias) +
+         kLastingShare * shared_ratio2_ * hypothesis.shared_px * hypothesis.shared_px;
+}
+
+DisparityBias BiasFilter::bias() const {
+  DisparityBias bias;
+  double square_px2 = 0.0;
+  for (const Hypothesis& hypothesis : hypotheses_) {
+    const double mean_px = hypothesis.mean[kBias];
+    bias.estimated_px += hypothesis.probability * mean_px;
+    bias.applied_px += hypothesis.probability * probabilityOff(hypothesis) * mean_px;
+    square_px2 += hypothesis.probability * (variance(hypothesis) + mean_px * mean_px);
+  }
+  bias.sigma_px = std::sqrt(square_px2 - bias.estimated_px * bias.estimated_px);
+  return bias;
+}
+
+/// Probability that the bias differs from the known one, by the density ratio of Savage and Dickey
+/// (1971). A rig is taken to be right as long as that is as probable as a deviation of
+/// `significance` standard deviations is for a normal distribution.
+double BiasFilter::probabilityOff(const Hypothesis& hypothesis) const {
+  const double prior_px2 = config_.prior_sigma_px * config_.prior_sigma_px;
+  const double variance_px2 = variance(hypothesis);
+  const double mean_px = hypothesis.mean[kBias];
+  const double log_odds =
+      0.5 * (mean_px * mean_px / variance_px2 - std::log(prior_px2 / variance_px2) -
+             config_.significance * config_.significance);
+  return 1.0 / (1.0 + std::exp(-log_odds));
+}
+
+}  // namespace rotrocc

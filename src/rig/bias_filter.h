@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include "rig/bias_meter.h"
+#include "rotrocc/odometry_config.h"
+#include "rotrocc/odometry_result.h"
+
+namespace rotrocc {
+
+/// Follows the disparity bias of a rig over the measurements of single pairs.
+///
+/// There are two hypotheses: the rig is rigid, or it moves, so its bias is a random walk. Each has
+/// a Kalman filter, and they interact as in the IMM (Blom and Bar-Shalom 1988): a rig changes from
+/// one to the other once in `steady_pairs` pairs on average.
+///
+/// Errors that neighbouring features share do not average out over a drive as noise does. Some
+/// stay with the rig, as those of a lens; others pass with the part of the scene that causes them.
+/// The state of a filter is the bias and the passing error; the lasting one cannot be told from a
+/// bias, so its variance is added. Their size is estimated from the disagreement of the parts of
+/// the image; it starts from a typical one of real rigs.
+///
+/// A measurement that is off by more than its variance admits has little weight (Student's t),
+/// unless the next ones confirm it.
+class BiasFilter {
+ public:
+  using Config = StereoCalibratorConfig;
+
+  explicit BiasFilter(const Config& config);
+
+  /// Changes the parameters, and keeps the state.
+  void configure(const Config& config);
+
+  /// `measurement` is relative to Config::bias_px.
+  void add(const BiasMeasurement& measurement);
+
+  /// The estimate over both hypotheses, relative to Config::bias_px. `applied_px` is weighted by
+  /// the probability that the rig is off at all.
+  DisparityBias bias() const;
+
+ private:
+  enum State { kBias, kPassing };
+
+  struct Hypothesis {
+    double probability;
+    double walk_px;        ///< standard deviation of the change of the bias from pair to pair
+    Eigen::Vector2d mean;  ///< the bias [px], the passing error in its standard deviation
+    Eigen::Matrix2d covariance;
+    double shared_px;  ///< change of the bias by a lasting error as large as the noise
+  };
+  using Hypotheses = std::array<Hypothesis, 2>;  // rigid, moving
+
+  double sharedRatio2(double measured) const;
+  void learnSharedRatio2(double measured, double share);
+  Hypotheses interact(double probability) const;
+  static void predict(double share, Hypothesis& hypothesis);
+  static double update(const BiasMeasurement& measurement, double ratio2, Hypothesis& hypothesis);
+  double variance(const Hypothesis& hypothesis) const;
+  double probabilityOff(const Hypothesis& hypothesis) const;
+
+  Config config_;
+  Hypotheses hypotheses_;
+  double shared_ratio2_ = 0.0;  // variance of the shared errors over that of the noise
+  double learnt_pairs_ = 0.0;   // number of pairs that it was estimated from
+  double learnt_ratio2_ = 0.0;  // sum over these pairs
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,100 @@
+#include "rig/bias_filter.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace rotrocc {
+namespace {
+
+constexpr double kNoise_px = 0.05;
+constexpr double kShared_px = 0.1;  // if shared errors were as large as the noise
+
+/// A measurement of a rig whose shared errors are 1.5 times the noise of single features.
+BiasMeasurement measured(double bias_px) {
+  BiasMeasurement measurement;
+  measurement.bias_px = bias_px;
+  measurement.noise_px2 = kNoise_px * kNoise_px;
+  measurement.shared_px2 = kShared_px * kShared_px;
+  measurement.shared_ratio2 = 1.5 * 1.5;
+  return measurement;
+}
+
+TEST(BiasFilterTest, BeginsAtThePrior) {
+  const DisparityBias bias = BiasFilter(BiasFilter::Config()).bias();
+  EXPECT_EQ(bias.estimated_px, 0.0);
+  EXPECT_EQ(bias.applied_px, 0.0);
+  EXPECT_DOUBLE_EQ(bias.sigma_px, BiasFilter::Config().prior_sigma_px);
+}
+
+TEST(BiasFilterTest, IsAsUncertainAsItsFirstMeasurement) {
+  BiasFilter filter{BiasFilter::Config()};
+  filter.add(measured(0.1));
+  const double variance_px2 = kNoise_px * kNoise_px + 1.5 * 1.5 * kShared_px * kShared_px;
+  // The prior takes part, and the moving rig has a wider one.
+  EXPECT_NEAR(filter.bias().sigma_px, std::sqrt(variance_px2 / (1.0 + variance_px2)), 0.002);
+}
+
+TEST(BiasFilterTest, SharedErrorsDoNotAverageOut) {
+  BiasFilter filter{BiasFilter::Config()};
+  for (int pair = 0; pair < 1000; ++pair) filter.add(measured(0.1));
+  // Noise alone would be 0.0016 px. The share of 0.4 of the variance stays with the rig.
+  EXPECT_GT(filter.bias().sigma_px, 0.9 * std::sqrt(0.4) * 1.5 * kShared_px);
+}
+
+TEST(BiasFilterTest, AppliesWhatIsBeyondDoubt) {
+  BiasFilter doubtful{BiasFilter::Config()};
+  BiasFilter certain{BiasFilter::Config()};
+  for (int pair = 0; pair < 10; ++pair) {
+    doubtful.add(measured(0.2));
+    certain.add(measured(1.0));
+  }
+  EXPECT_NEAR(doubtful.bias().applied_px, 0.0, 0.01);
+  EXPECT_GT(doubtful.bias().estimated_px, 0.1);
+  EXPECT_NEAR(certain.bias().applied_px, 1.0, 0.05);
+}
+
+TEST(BiasFilterTest, HardlyBelievesASingleOutlier) {
+  BiasFilter filter{BiasFilter::Config()};
+  for (int pair = 0; pair < 30; ++pair) filter.add(measured(0.0));
+  const double before_px = filter.bias().sigma_px;
+  filter.add(measured(0.6));  // 4 standard deviations
+  EXPECT_NEAR(filter.bias().applied_px, 0.0, 0.2);
+  filter.add(measured(0.0));
+  EXPECT_NEAR(filter.bias().estimated_px, 0.0, before_px);
+}
+
+TEST(BiasFilterTest, FollowsAStepWithinFourPairs) {
+  BiasFilter filter{BiasFilter::Config()};
+  for (int pair = 0; pair < 30; ++pair) filter.add(measured(2.0));
+  for (int pair = 0; pair < 4; ++pair) filter.add(measured(-1.0));
+  EXPECT_NEAR(filter.bias().applied_px, -1.0, 2.0 * filter.bias().sigma_px);
+  EXPECT_LT(filter.bias().sigma_px, 0.3);
+}
+
+TEST(BiasFilterTest, IsHonestAboutNoise) {
+  std::mt19937 generator(1);
+  std::normal_distribution<double> normal;
+  double square = 0.0;
+  constexpr int kDrives = 200;
+  for (int drive = 0; drive < kDrives; ++drive) {
+    BiasFilter filter{BiasFilter::Config()};
+    const double truth_px = normal(generator);  // as the prior says
+    const double lasting_px = std::sqrt(0.4) * 1.5 * kShared_px * normal(generator);
+    double passing = normal(generator);
+    for (int pair = 0; pair < 20; ++pair) {
+      passing = 0.7 * passing + std::sqrt(1.0 - 0.7 * 0.7) * normal(generator);
+      filter.add(measured(truth_px + lasting_px + std::sqrt(0.6) * 1.5 * kShared_px * passing +
+                          kNoise_px * normal(generator)));
+    }
+    const double z = (filter.bias().estimated_px - truth_px) / filter.bias().sigma_px;
+    square += z * z / kDrives;
+  }
+  // The scatter of a mean square of 200 is 0.1; heavy tails and the moving rig add some doubt.
+  EXPECT_GT(std::sqrt(square), 0.8);
+  EXPECT_LT(std::sqrt(square), 1.15);
+}
+
+}  // namespace
+}  // namespace rotrocc

@@ -1,0 +1,96 @@
+#include "rig/bias_meter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "support/simulated_features.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr int kFeatures = 400;
+constexpr double kNoiseRatio = 0.5;
+constexpr double kRobustFactor = 2.0;
+
+Eigen::Isometry3d ahead() {
+  return motion({0.0, 0.0, 1.2}, {0.0, 0.01, 0.0});
+}
+
+/// Features whose disparities are too small by error_px(pixel).
+template <class Error>
+Correspondences features(const Eigen::Isometry3d& T, unsigned seed, const Error& error_px) {
+  std::mt19937 generator(seed);
+  Correspondences found = simulateFeatures(kittiCamera(), T, kFeatures, {0.12, 0.06}, generator);
+  for (Correspondence& feature : found) feature.disparity_px -= error_px(feature.cur_px);
+  triangulate(kittiCamera(), found);
+  return found;
+}
+
+BiasMeasurement measure(const Correspondences& found, const Eigen::Isometry3d& start) {
+  BiasMeasurement measurement;
+  const FeatureSet all(found.size(), 1);
+  EXPECT_TRUE(
+      BiasMeter(kNoiseRatio, kRobustFactor).measure(kittiCamera(), found, all, start, measurement));
+  return measurement;
+}
+
+TEST(BiasMeterTest, MeasuresTheBiasWithinItsNoise) {
+  for (const double bias_px : {-2.0, 0.0, 0.5, 3.0}) {
+    const auto found = features(ahead(), 1, [&](const Eigen::Vector2d&) { return bias_px; });
+    const BiasMeasurement measurement = measure(found, ahead());
+    EXPECT_NEAR(measurement.bias_px, bias_px, 3.0 * std::sqrt(measurement.noise_px2));
+    EXPECT_LT(measurement.noise_px2, 0.1 * 0.1);
+  }
+}
+
+TEST(BiasMeterTest, DependsLittleOnTheStart) {
+  const auto found = features(ahead(), 2, [](const Eigen::Vector2d&) { return 1.0; });
+  const BiasMeasurement near = measure(found, ahead());
+  const BiasMeasurement far = measure(found, ahead() * motion({0.0, 0.0, 0.1}, {0.0, 0.0, 0.0}));
+  EXPECT_NEAR(near.bias_px, far.bias_px, 0.02);
+}
+
+TEST(BiasMeterTest, FindsErrorsThatNeighboursShare) {
+  double without = 0.0;
+  double with = 0.0;
+  constexpr unsigned kPairs = 20;
+  for (unsigned seed = 0; seed < kPairs; ++seed) {
+    std::mt19937 generator(seed + 100);
+    std::normal_distribution<double> error(0.0, 0.5);
+    std::array<double, 18> errors_px;
+    for (double& error_px : errors_px) error_px = error(generator);
+    const auto ofCell = [&](const Eigen::Vector2d& pixel) {
+      const int column = std::min(5, static_cast<int>(6 * pixel.x() / kittiCamera().width));
+      const int row = std::min(2, static_cast<int>(3 * pixel.y() / kittiCamera().height));
+      return errors_px[static_cast<std::size_t>(row * 6 + column)];
+    };
+    const auto none = [](const Eigen::Vector2d&) { return 0.0; };
+    without += measure(features(ahead(), seed, none), ahead()).shared_ratio2 / kPairs;
+    with += measure(features(ahead(), seed, ofCell), ahead()).shared_ratio2 / kPairs;
+  }
+  EXPECT_NEAR(without, 0.0, 0.3);
+  EXPECT_GT(with, 1.0);
+}
+
+TEST(BiasMeterTest, SlowMotionSaysLittle) {
+  const Eigen::Isometry3d slow = motion({0.0, 0.0, 0.01}, {0.0, 0.0, 0.0});
+  const auto none = [](const Eigen::Vector2d&) { return 0.0; };
+  const BiasMeasurement measurement = measure(features(slow, 3, none), slow);
+  EXPECT_GT(measurement.noise_px2, 0.5 * 0.5);
+  EXPECT_GT(measurement.shared_px2, 0.5 * 0.5);
+}
+
+TEST(BiasMeterTest, NeedsFeatures) {
+  Correspondences few = features(ahead(), 4, [](const Eigen::Vector2d&) { return 0.0; });
+  few.resize(20);
+  BiasMeasurement measurement;
+  EXPECT_FALSE(BiasMeter(kNoiseRatio, kRobustFactor)
+                   .measure(kittiCamera(), few, FeatureSet(20, 1), ahead(), measurement));
+}
+
+}  // namespace
+}  // namespace rotrocc
