@@ -67,7 +67,7 @@ struct MotionEstimatorConfig {
   double shared_ratio = 2.0;
   /// Of cauchyWeights(), used once the set of a stage is stable. 0: no weights, as in the
   /// paper.
-  double robust_factor = 2.0;
+  double robust_factor = 1.5;
 
   // Stage 1: rotation.
   double rotation_limit_px = 0.6;     ///< limit of the reprojection error, Eq. 26
@@ -118,7 +118,7 @@ struct StereoCalibratorConfig {
   double bias_px = 0.0;         ///< known bias, added to every disparity; start of the estimate
   double prior_sigma_px = 1.0;  ///< standard deviation of the rig's bias about bias_px
   /// Deviations from bias_px below this many standard deviations are not applied.
-  double significance = 3.0;
+  double significance = 4.0;
   /// Typical error that neighbouring features share, over the noise of single ones. The estimate
   /// starts from it.
   double shared_error_ratio = 1.5;
@@ -129,8 +129,15 @@ struct StereoCalibratorConfig {
   /// Ratio of disparity noise to flow noise, see fitted_feature.h. Smaller than the measured ratio:
   /// fitted disparities also absorb errors that neighbouring features share, which biases the
   /// estimate.
-  double noise_ratio = 0.5;
+  double noise_ratio = 1.0;
   double robust_factor = 2.0;  ///< of cauchyWeights(); 0: equal weights
+};
+
+/// Errors that all features share, so that their scatter does not show them: standard deviations in
+/// proportion to the motion. The defaults are those of a drone with ground truth (EuRoC).
+struct SystematicErrorConfig {
+  double translation_share = 0.015;  ///< of the length of a motion
+  double rotation_share = 0.01;      ///< of the angle of a motion
 };
 
 /// All parameters of the visual odometry, in the order of the data flow.
@@ -141,6 +148,7 @@ struct OdometryConfig {
   MotionCheckConfig motion_check;
   KeyframeSelectorConfig keyframe_selector;
   StereoCalibratorConfig stereo_calibrator;
+  SystematicErrorConfig systematic_error;
 
   int threads = 2;          ///< that process a pair, including the calling thread
   int max_tries = 3;        ///< maximum number of tries (predict, track, estimate) per pair

@@ -76,11 +76,12 @@ struct OdometryResult {
   Eigen::Isometry3d T_prev_cur = Eigen::Isometry3d::Identity();
   /// Covariance of T_prev_cur, expressed in the previous camera frame, in the order of REP 103:
   /// translation [m] x y z, then rotation [rad] about x y z. The errors are defined by
-  /// R = Exp(error) R_estimated and t = error + t_estimated. Zero unless the state is ok or
-  /// degraded.
+  /// R = Exp(error) R_estimated and t = error + t_estimated. It includes systematic errors, see
+  /// SystematicErrorConfig. Zero unless the state is ok or degraded.
   Matrix6d covariance = Matrix6d::Zero();
   /// The stamp of the keyframe and the motion since then. The keyframe is the previous pair or an
-  /// earlier one. Errors accumulate with each new keyframe, not with each pair.
+  /// earlier one. Errors accumulate with each new keyframe, not with each pair. This covariance has
+  /// no systematic errors, because they do not accumulate like independent ones.
   std::int64_t keyframe_stamp_ns = 0;
   UncertainTransform T_keyframe_cur;
   DisparityBias disparity_bias;  ///< of the rig

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "odometry/systematic_error.h"
+
 namespace rotrocc {
 namespace {
 
@@ -40,12 +42,14 @@ Matrix6d planar(const Matrix6d& covariance) {
 BaseOdometry::BaseOdometry(const Eigen::Isometry3d& T_base_camera,
                            double lost_speed_sigma_mps,
                            double lost_turn_rate_sigma_rps,
-                           bool planar)
+                           bool planar,
+                           const SystematicErrorConfig& systematic_error)
     : T_base_camera_(T_base_camera),
       T_camera_base_(T_base_camera.inverse()),
       lost_speed_sigma_mps_(lost_speed_sigma_mps),
       lost_turn_rate_sigma_rps_(lost_turn_rate_sigma_rps),
-      planar_(planar) {
+      planar_(planar),
+      systematic_error_(systematic_error) {
   T_odom_base_.covariance = kFirstVariance * Matrix6d::Identity();
 }
 
@@ -70,7 +74,7 @@ BaseState BaseOdometry::add(const OdometryResult& result) {
     known_stamp_ns_ = result.stamp_ns;
     T_odom_known_ = T_odom_base_;
   }
-  state.T_odom_base = T_odom_base_;
+  state.T_odom_base = withSystematicError(T_odom_base_);
   last_stamp_ns_ = result.stamp_ns;
   return state;
 }
@@ -96,11 +100,18 @@ void BaseOdometry::addMotion(const OdometryResult& result, const UncertainTransf
 
 void BaseOdometry::setPose(const Eigen::Isometry3d& T_odom_base) {
   T_odom_start_ = T_odom_base * T_start_base().inverse();
+  T_odom_first_ = T_odom_base;
   T_odom_base_.T = T_odom_base;
   T_odom_base_.covariance = kFirstVariance * Matrix6d::Identity();
   T_odom_keyframe_.reset();
   T_odom_known_ = T_odom_base_;
   without_motion_s_ = 0.0;
+}
+
+UncertainTransform BaseOdometry::withSystematicError(const UncertainTransform& T_odom_base) const {
+  const Matrix6d systematic =
+      systematicCovariance(systematic_error_, T_odom_first_.inverse() * T_odom_base.T);
+  return {T_odom_base.T, T_odom_base.covariance + (planar_ ? planar(systematic) : systematic)};
 }
 
 Eigen::Isometry3d BaseOdometry::T_start_base() const {

@@ -29,12 +29,17 @@ class BaseOdometry {
  public:
   /// `lost_speed_sigma_mps` and `lost_turn_rate_sigma_rps`: the growth, along and about each axis.
   /// `planar`: restricts the motion of the base to x, y and yaw; other components are discarded.
+  /// `systematic_error`: its part of the pose covariance is in proportion to the distance from the
+  /// first pose.
   BaseOdometry(const Eigen::Isometry3d& T_base_camera,
                double lost_speed_sigma_mps,
                double lost_turn_rate_sigma_rps,
-               bool planar = false);
+               bool planar = false,
+               const SystematicErrorConfig& systematic_error = {0.0, 0.0});
 
   BaseState add(const OdometryResult& result);
+
+  void setSystematicError(const SystematicErrorConfig& config) { systematic_error_ = config; }
 
   /// Sets the pose of the base, without uncertainty. The camera's trajectory is not affected.
   void setPose(const Eigen::Isometry3d& T_odom_base);
@@ -43,6 +48,7 @@ class BaseOdometry {
   UncertainTransform motionOfBase(const Eigen::Isometry3d& T, const Matrix6d& covariance) const;
   void addMotion(const OdometryResult& result, const UncertainTransform& step);
   Matrix6d growthWithoutMotion(std::int64_t stamp_ns);
+  UncertainTransform withSystematicError(const UncertainTransform& T_odom_base) const;
   Eigen::Isometry3d T_start_base() const;
 
   Eigen::Isometry3d T_base_camera_;
@@ -51,9 +57,11 @@ class BaseOdometry {
   double lost_speed_sigma_mps_;
   double lost_turn_rate_sigma_rps_;
   bool planar_;
+  SystematicErrorConfig systematic_error_;
 
   PoseAccumulator camera_;
-  UncertainTransform T_odom_base_;
+  UncertainTransform T_odom_base_;                                  // without systematic errors
+  Eigen::Isometry3d T_odom_first_ = Eigen::Isometry3d::Identity();  // pose without uncertainty
   std::optional<std::int64_t> last_stamp_ns_;
 
   // Errors accumulate from keyframe to keyframe.

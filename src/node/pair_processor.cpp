@@ -12,6 +12,7 @@ namespace rotrocc {
 
 PairProcessor::PairProcessor(const Parameters& parameters)
     : parameters_(parameters.node),
+      systematic_error_(parameters.odometry.systematic_error),
       converter_(parameters.node.max_image_pixels),
       odometry_(parameters.odometry),
       inspector_(parameters.odometry.correspondence_finder) {}
@@ -29,7 +30,8 @@ PairAnswer PairProcessor::process(const ReceivedPair& received,
     base_odometry_.emplace(T_base_camera,
                            parameters_.lost_speed_sigma_mps,
                            parameters_.lost_turn_rate_sigma_rps,
-                           parameters_.planar);
+                           parameters_.planar,
+                           systematic_error_);
   }
   {
     const std::lock_guard<std::mutex> lock(requests_mutex_);
@@ -52,6 +54,8 @@ bool PairProcessor::beginAnewIfAsked() {
   if (requests_.config) {
     odometry_.configure(*requests_.config);
     inspector_.configure(requests_.config->correspondence_finder);
+    systematic_error_ = requests_.config->systematic_error;
+    if (base_odometry_) base_odometry_->setSystematicError(systematic_error_);
   }
   if (requests_.reset || requests_.restart) odometry_.reset();
   if (requests_.reset) base_odometry_.reset();

@@ -65,6 +65,7 @@ class PairProcessor {
                                                     std::int64_t stamp_ns) const;
 
   NodeParameters parameters_;
+  SystematicErrorConfig systematic_error_;
   StereoPairConverter converter_;
   VisualOdometry odometry_;
   PairInspector inspector_;

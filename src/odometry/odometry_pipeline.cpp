@@ -6,6 +6,7 @@
 #include "common/sentence.h"
 #include "common/stage_timer.h"
 #include "odometry/pair_check.h"
+#include "odometry/systematic_error.h"
 
 namespace rotrocc {
 namespace {
@@ -209,7 +210,7 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   UncertainTransform step = compose(inverse(keyframe_.T_keyframe_last), result.T_keyframe_cur);
   if (keyframe_.frame != last_) step.covariance *= kNotShared;
   result.T_prev_cur = step.T;
-  result.covariance = step.covariance;
+  result.covariance = step.covariance + systematicCovariance(config_.systematic_error, step.T);
   result.reason = check_.whyDegraded(estimate);
   if (const auto expected = motion_model_.predict(result.dt_s); expected && result.reason.empty()) {
     result.reason = check_.whyJump(step, *expected, result.dt_s);

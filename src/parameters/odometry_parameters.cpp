@@ -132,6 +132,23 @@ void addKeyframeSelector(KeyframeSelectorConfig& c, ParameterTable& table) {
       "a new keyframe is selected if a smaller share of the keyframe's first inliers is left");
 }
 
+void addSystematicError(SystematicErrorConfig& c, ParameterTable& table) {
+  const std::string s = "systematic_error/";
+  table.add(s + "translation_share",
+            c.translation_share,
+            0.0,
+            1.0,
+            "",
+            "standard deviation that calibration and time stamps add to a translation, as a share "
+            "of its length");
+  table.add(s + "rotation_share",
+            c.rotation_share,
+            0.0,
+            1.0,
+            "",
+            "the same for a rotation, as a share of its angle");
+}
+
 void addVisualOdometry(OdometryConfig& c, ParameterTable& table) {
   const std::string s = "visual_odometry/";
   table.add(s + "threads",
@@ -170,6 +187,7 @@ void addOdometry(OdometryConfig& config, ParameterTable& table) {
   addMotionCheck(config.motion_check, table);
   addKeyframeSelector(config.keyframe_selector, table);
   addStereoCalibrator(config.stereo_calibrator, table);
+  addSystematicError(config.systematic_error, table);
   addVisualOdometry(config, table);
 }
 

@@ -11,14 +11,15 @@ namespace rotrocc {
 
 OdometryBag::OdometryBag(const std::string& path,
                          const Eigen::Isometry3d& T_base_camera,
-                         const NodeParameters& parameters,
+                         const Parameters& parameters,
                          std::int64_t start_ns)
-    : parameters_(parameters),
+    : parameters_(parameters.node),
       start_ns_(start_ns),
       odometry_(T_base_camera,
-                parameters.lost_speed_sigma_mps,
-                parameters.lost_turn_rate_sigma_rps,
-                parameters.planar) {
+                parameters.node.lost_speed_sigma_mps,
+                parameters.node.lost_turn_rate_sigma_rps,
+                parameters.node.planar,
+                parameters.odometry.systematic_error) {
   try {
     bag_.open(path, rosbag::bagmode::Write);
   } catch (const rosbag::BagException& error) {

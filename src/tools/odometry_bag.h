@@ -20,7 +20,7 @@ class OdometryBag {
   /// Throws std::runtime_error if `path` cannot be written.
   OdometryBag(const std::string& path,
               const Eigen::Isometry3d& T_base_camera,
-              const NodeParameters& parameters,
+              const Parameters& parameters,
               std::int64_t start_ns);
 
   void write(const OdometryResult& result);

@@ -127,10 +127,8 @@ void run(const Options& options) {
   if (!options.statistics.empty()) statistics.emplace(options.statistics);
   std::optional<OdometryBag> bag;
   if (!options.bag.empty()) {
-    bag.emplace(options.bag,
-                source->mount(parameters.node.base_frame),
-                parameters.node,
-                source->start_ns());
+    bag.emplace(
+        options.bag, source->mount(parameters.node.base_frame), parameters, source->start_ns());
   }
   std::optional<FlowPictures> pictures;
   if (!options.pictures.empty()) {

@@ -153,7 +153,9 @@ TEST(MotionEstimatorTest, DropsOutliersAndKeepsInliers) {
 
 TEST(MotionEstimatorTest, TheDecoupledFlowTellsAMovingObjectFromTheStreet) {
   const auto error = [](const std::string& criterion) {
-    return translationError(estimate(withMovingObject(0.4, 1), configOf(criterion)));
+    MotionEstimator::Config config = configOf(criterion);
+    config.robust_factor = 0.0;  // the weights would reject the object, too
+    return translationError(estimate(withMovingObject(0.4, 1), config));
   };
   // Where the object moves with the street's flow, mean errors and the coupled flow do not detect
   // it.

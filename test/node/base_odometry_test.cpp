@@ -208,5 +208,24 @@ TEST(PlanarOdometryTest, LeavesOutWhatIsNotInThePlane) {
       state.T_first_camera.isApprox(cameraMount().inverse() * expected * cameraMount(), 1e-9));
 }
 
+/// Independent errors of 100 motions of 1 m would give 0.1 m.
+TEST_F(BaseOdometryTest, SystematicErrorsGrowWithTheDistance) {
+  BaseOdometry odometry(Eigen::Isometry3d::Identity(), kSpeedSigma, kTurnSigma, false, {0.01, 0.0});
+  OdometryResult result;
+  result.state = State::kOk;
+  result.dt_s = 0.1;
+  result.T_prev_cur.translation().z() = 1.0;
+  result.T_keyframe_cur.T = result.T_prev_cur;
+  BaseState state;
+  for (int i = 0; i < 100; ++i) {
+    result.keyframe_stamp_ns = result.stamp_ns;
+    result.stamp_ns += kPeriod_ns;
+    state = odometry.add(result);
+  }
+  EXPECT_NEAR(sigma(state, 0), 1.0, 0.01);
+  odometry.setPose(state.T_odom_base.T);
+  EXPECT_NEAR(sigma(odometry.add(result), 0), 0.01, 1e-3);
+}
+
 }  // namespace
 }  // namespace rotrocc
