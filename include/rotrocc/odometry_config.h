@@ -94,12 +94,19 @@ struct MotionEstimatorConfig {
   int comparison_iterations = 10;
 };
 
-/// Plausibility limits of an estimated motion.
+/// Plausibility limits of an estimated motion. None depends on the size of the image.
 struct MotionCheckConfig {
-  int min_inliers = 25;                 ///< below: lost
+  /// Fewer: lost. The covariance comes from the residuals of the inliers: with n of them, the
+  /// variance of the noise is known to sqrt(2 / (2 n - 6)), a fifth for 25.
+  int min_inliers = 25;
   double min_inlier_share = 0.15;       ///< of the feature set; below: lost
-  int degraded_inliers = 80;            ///< below: degraded
   double degraded_inlier_share = 0.35;  ///< of the feature set; below: degraded
+  /// Share of the keyframe's features with a depth that are inliers; below: degraded. After a wrong
+  /// prediction, up to a tenth of the features match somewhere by chance.
+  double degraded_survivor_share = 0.1;
+  /// Standard deviation of the translation, relative to its length since the keyframe, or to 5 % of
+  /// the median depth if that is more; above: degraded.
+  double degraded_relative_sigma = 0.05;
   double max_speed_mps = 70.0;          ///< faster: lost
   double max_turn_rate_rps = 6.0;       ///< faster: lost
   double max_acceleration_mps2 = 30.0;  ///< above, as change of velocity per second: degraded

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/median.h"
 #include "common/sentence.h"
 #include "motion/outlier_rejection.h"
 #include "rotrocc/rigid_motion.h"
@@ -12,6 +13,9 @@ namespace {
 
 /// Changes within this many standard deviations are attributed to noise.
 constexpr double kSigmas = 3.0;
+/// Share of the median depth. A shorter step changes the image little: its uncertainty is compared
+/// with the scene, or it would have none small enough at standstill.
+constexpr double kShortStep = 0.05;
 
 /// The smaller number of inliers of the two stages: both parts of the motion need enough of them.
 int inliers(const MotionEstimator::Estimate& estimate) {
@@ -63,17 +67,12 @@ std::string MotionCheck::whyLost(const MotionEstimator::Estimate& estimate, doub
   return "";
 }
 
-std::string MotionCheck::whyDegraded(const MotionEstimator::Estimate& estimate) const {
+std::string MotionCheck::whyDegraded(const Hypothesis& accepted) {
+  const MotionEstimator::Estimate& estimate = accepted.estimate;
   if (estimate.translation_failed) {
     return sentence("the translation stage has fewer than min_inliers = ",
                     config_.min_inliers,
                     " inliers: the motion is that of the rotation stage");
-  }
-  if (inliers(estimate) < config_.degraded_inliers) {
-    return sentence("the motion rests on ",
-                    inliers(estimate),
-                    " features, fewer than degraded_inliers = ",
-                    config_.degraded_inliers);
   }
   if (inlierShare(estimate) < config_.degraded_inlier_share) {
     return sentence("a share of ",
@@ -81,7 +80,39 @@ std::string MotionCheck::whyDegraded(const MotionEstimator::Estimate& estimate) 
                     " of the features agrees on the motion, less than degraded_inlier_share = ",
                     config_.degraded_inlier_share);
   }
-  return "";
+  const std::string why = whyFewSurvive(accepted);
+  return why.empty() ? whyUndetermined(accepted) : why;
+}
+
+std::string MotionCheck::whyFewSurvive(const Hypothesis& accepted) const {
+  const int survivors = inliers(accepted.estimate);
+  const int features = accepted.counts.with_depth;
+  if (survivors >= config_.degraded_survivor_share * features) return "";
+  return sentence("the motion rests on ",
+                  survivors,
+                  " of ",
+                  features,
+                  " features, a share below degraded_survivor_share = ",
+                  config_.degraded_survivor_share);
+}
+
+std::string MotionCheck::whyUndetermined(const Hypothesis& accepted) {
+  const MotionEstimator::Estimate& estimate = accepted.estimate;
+  depths_m_.clear();
+  for (std::size_t i = 0; i < accepted.features.size(); ++i) {
+    if (estimate.rotation_inliers[i] != 0) depths_m_.push_back(accepted.features[i].point_cur.z());
+  }
+  const double step_m =
+      std::max(estimate.T_keyframe_cur.translation().norm(), kShortStep * median(depths_m_));
+  const double sigma_m = std::sqrt(estimate.covariance.topLeftCorner<3, 3>().trace());
+  if (sigma_m <= config_.degraded_relative_sigma * step_m) return "";
+  return sentence("the translation has a standard deviation of ",
+                  sigma_m,
+                  " m, more than degraded_relative_sigma = ",
+                  config_.degraded_relative_sigma,
+                  " of ",
+                  step_m,
+                  " m");
 }
 
 std::string MotionCheck::whyJump(const UncertainTransform& motion,

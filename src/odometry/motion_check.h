@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "motion/motion_estimator.h"
+#include "odometry/hypothesis.h"
 #include "rotrocc/odometry_config.h"
 #include "rotrocc/uncertain_transform.h"
 
@@ -20,7 +22,7 @@ class MotionCheck {
   std::string whyLost(const MotionEstimator::Estimate& estimate, double dt_s) const;
 
   /// Why an accepted motion is less reliable; empty if it is not.
-  std::string whyDegraded(const MotionEstimator::Estimate& estimate) const;
+  std::string whyDegraded(const Hypothesis& accepted);
 
   /// Why a motion during `dt_s` > 0 is an implausible jump; empty if it is not. `expected` is the
   /// motion during `dt_s` at the previous velocity. Changes within 3 standard deviations of the
@@ -30,7 +32,11 @@ class MotionCheck {
                       double dt_s) const;
 
  private:
+  std::string whyFewSurvive(const Hypothesis& accepted) const;
+  std::string whyUndetermined(const Hypothesis& accepted);
+
   Config config_;
+  std::vector<double> depths_m_;  // buffer, reused
 };
 
 }  // namespace rotrocc

@@ -19,25 +19,32 @@ void addMotionCheck(MotionCheckConfig& c, ParameterTable& table) {
             3,
             10000,
             "",
-            "number of inliers below which the motion is lost");
+            "number of inliers below which the motion is lost: fewer do not determine its noise");
   table.add(s + "min_inlier_share",
             c.min_inlier_share,
             0.0,
             1.0,
             "",
             "share of inliers below which the motion is lost");
-  table.add(s + "degraded_inliers",
-            c.degraded_inliers,
-            3,
-            10000,
-            "",
-            "number of inliers below which the motion is degraded");
   table.add(s + "degraded_inlier_share",
             c.degraded_inlier_share,
             0.0,
             1.0,
             "",
             "share of inliers below which the motion is degraded");
+  table.add(s + "degraded_survivor_share",
+            c.degraded_survivor_share,
+            0.0,
+            1.0,
+            "",
+            "share of the keyframe's features with a depth that must be inliers, else degraded");
+  table.add(s + "degraded_relative_sigma",
+            c.degraded_relative_sigma,
+            0.001,
+            1000.0,
+            "",
+            "standard deviation of the translation, relative to its length, above which it is "
+            "degraded");
   table.add(s + "max_speed_mps",
             c.max_speed_mps,
             0.1,

@@ -11,6 +11,7 @@ namespace rotrocc {
 namespace {
 
 constexpr double kPeriod_s = 0.1;
+constexpr double kDepth_m = 15.0;
 
 FeatureSet set(int inliers, int features) {
   FeatureSet flags(static_cast<std::size_t>(features), 0);
@@ -37,8 +38,18 @@ std::string whyLost(const MotionEstimator::Estimate& estimate) {
   return MotionCheck({}).whyLost(estimate, kPeriod_s);
 }
 
+/// All features are at the same depth, and all of the keyframe's features were tracked.
+Hypothesis hypothesis(const MotionEstimator::Estimate& estimate) {
+  Hypothesis hypothesis;
+  hypothesis.estimate = estimate;
+  hypothesis.features.resize(estimate.rotation_inliers.size());
+  for (Correspondence& feature : hypothesis.features) feature.point_cur = {0.0, 0.0, kDepth_m};
+  hypothesis.counts.with_depth = static_cast<int>(hypothesis.features.size());
+  return hypothesis;
+}
+
 std::string whyDegraded(const MotionEstimator::Estimate& estimate) {
-  return MotionCheck({}).whyDegraded(estimate);
+  return MotionCheck({}).whyDegraded(hypothesis(estimate));
 }
 
 TEST(MotionCheckTest, BelievesAGoodMotion) {
@@ -89,12 +100,39 @@ TEST(MotionCheckTest, KnowsHowFastARobotMoves) {
   EXPECT_EQ(MotionCheck({}).whyLost(estimate, 2.0 * kPeriod_s), "");
 }
 
-TEST(MotionCheckTest, CallsAMotionOnFewFeaturesDegraded) {
+TEST(MotionCheckTest, CallsAMotionOnFewSurvivorsDegraded) {
   auto estimate = goodEstimate();
-  estimate.translation_inliers = estimate.rotation_inliers = set(79, 100);
-  expectSays(whyDegraded(estimate), "79 features", "degraded_inliers = 80");
-  estimate.translation_inliers = estimate.rotation_inliers = set(80, 100);
+  Hypothesis tracked = hypothesis(estimate);
+  tracked.counts.with_depth = 3001;
+  expectSays(MotionCheck({}).whyDegraded(tracked),
+             "300 of 3001 features",
+             "degraded_survivor_share = 0.1");
+  tracked.counts.with_depth = 3000;
+  EXPECT_EQ(MotionCheck({}).whyDegraded(tracked), "");
+}
+
+TEST(MotionCheckTest, DoesNotMindASmallImage) {
+  auto estimate = goodEstimate();
+  estimate.translation_inliers = estimate.rotation_inliers = set(30, 40);
   EXPECT_EQ(whyDegraded(estimate), "");
+}
+
+TEST(MotionCheckTest, CallsAnUndeterminedTranslationDegraded) {
+  auto estimate = goodEstimate();  // 1 m
+  estimate.covariance(0, 0) = 0.03 * 0.03;
+  estimate.covariance(2, 2) = 0.041 * 0.041;
+  expectSays(whyDegraded(estimate), "0.0508", "degraded_relative_sigma = 0.05 of 1 m");
+  estimate.covariance(2, 2) = 0.039 * 0.039;
+  EXPECT_EQ(whyDegraded(estimate), "");
+}
+
+TEST(MotionCheckTest, ComparesAShortStepWithTheScene) {
+  auto estimate = goodEstimate();
+  estimate.T_keyframe_cur.setIdentity();
+  estimate.covariance(2, 2) = 0.037 * 0.037;
+  EXPECT_EQ(whyDegraded(estimate), "");
+  estimate.covariance(2, 2) = 0.038 * 0.038;
+  expectSays(whyDegraded(estimate), "0.038 m", "of 0.75 m");
 }
 
 TEST(MotionCheckTest, CallsAMotionOnASmallShareDegraded) {
