@@ -69,7 +69,7 @@ std::string MotionCheck::whyLost(const MotionEstimator::Estimate& estimate, doub
 
 std::string MotionCheck::whyDegraded(const Hypothesis& accepted) {
   const MotionEstimator::Estimate& estimate = accepted.estimate;
-  if (estimate.translation_failed) {
+  if (estimate.translation_failed && isLarge(estimate.rotation_inliers)) {
     return sentence("the translation stage has fewer than min_inliers = ",
                     config_.min_inliers,
                     " inliers: the motion is that of the rotation stage");
@@ -82,6 +82,13 @@ std::string MotionCheck::whyDegraded(const Hypothesis& accepted) {
   }
   const std::string why = whyFewSurvive(accepted);
   return why.empty() ? whyUndetermined(accepted) : why;
+}
+
+/// Whether fewer than min_inliers inliers mean that the features disagree. In a small set, they may
+/// agree and be too few for the translation stage; the motion of the rotation stage is then as
+/// good.
+bool MotionCheck::isLarge(const FeatureSet& features) const {
+  return config_.min_inliers < config_.degraded_inlier_share * static_cast<double>(features.size());
 }
 
 std::string MotionCheck::whyFewSurvive(const Hypothesis& accepted) const {

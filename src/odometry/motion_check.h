@@ -32,6 +32,7 @@ class MotionCheck {
                       double dt_s) const;
 
  private:
+  bool isLarge(const FeatureSet& features) const;
   std::string whyFewSurvive(const Hypothesis& accepted) const;
   std::string whyUndetermined(const Hypothesis& accepted);
 

@@ -162,6 +162,8 @@ TEST(MotionCheckTest, AMotionWithoutItsTranslationStageIsDegraded) {
   estimate.translation_failed = true;
   EXPECT_EQ(whyLost(estimate), "");
   expectSays(whyDegraded(estimate), "translation stage", "min_inliers");
+  estimate.translation_inliers = estimate.rotation_inliers = set(30, 70);
+  EXPECT_EQ(whyDegraded(estimate), "") << "25 of 70 are more than degraded_inlier_share";
 }
 
 }  // namespace
