@@ -13,6 +13,8 @@ namespace {
 
 /// Changes within this many standard deviations are attributed to noise.
 constexpr double kSigmas = 3.0;
+/// A keyframe serves another pair if it has this many times min_inliers.
+constexpr int kReserve = 2;
 /// Share of the median depth. A shorter step changes the image little: its uncertainty is compared
 /// with the scene, or it would have none small enough at standstill.
 constexpr double kShortStep = 0.05;
@@ -120,6 +122,10 @@ std::string MotionCheck::whyUndetermined(const Hypothesis& accepted) {
                   " of ",
                   step_m,
                   " m");
+}
+
+bool MotionCheck::hasReserve(const MotionEstimator::Estimate& accepted) const {
+  return inliers(accepted) >= kReserve * config_.min_inliers;
 }
 
 std::string MotionCheck::whyJump(const UncertainTransform& motion,

@@ -24,6 +24,10 @@ class MotionCheck {
   /// Why an accepted motion is less reliable; empty if it is not.
   std::string whyDegraded(const Hypothesis& accepted);
 
+  /// Whether enough inliers are left for another motion against the same keyframe, which will have
+  /// fewer.
+  bool hasReserve(const MotionEstimator::Estimate& accepted) const;
+
   /// Why a motion during `dt_s` > 0 is an implausible jump; empty if it is not. `expected` is the
   /// motion during `dt_s` at the previous velocity. Changes within 3 standard deviations of the
   /// noise are accepted.

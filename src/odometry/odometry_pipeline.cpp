@@ -221,11 +221,12 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   last_ = current;
   lost_.reset();
   keyframe_.T_keyframe_last = result.T_keyframe_cur;
-  const bool serves = result.state == State::kOk && selector_.keeps(found_.camera,
-                                                                    found_.features,
-                                                                    estimate.rotation_inliers,
-                                                                    estimate.T_keyframe_cur,
-                                                                    keyframe_);
+  const bool serves = result.state == State::kOk && check_.hasReserve(estimate) &&
+                      selector_.keeps(found_.camera,
+                                      found_.features,
+                                      estimate.rotation_inliers,
+                                      estimate.T_keyframe_cur,
+                                      keyframe_);
   if (!serves) keyframe_.frame.reset();
 }
 

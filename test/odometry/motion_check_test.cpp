@@ -143,6 +143,14 @@ TEST(MotionCheckTest, CallsAMotionOnASmallShareDegraded) {
   EXPECT_EQ(whyDegraded(estimate), "");
 }
 
+TEST(MotionCheckTest, WantsAReserveOfInliersForTheNextPair) {
+  auto estimate = goodEstimate();
+  EXPECT_TRUE(MotionCheck({}).hasReserve(estimate));
+  estimate.translation_inliers = estimate.rotation_inliers = set(49, 300);
+  EXPECT_FALSE(MotionCheck({}).hasReserve(estimate));
+  EXPECT_EQ(whyLost(estimate), "") << "this one is accepted";
+}
+
 TEST(MotionCheckTest, CallsAJumpDegraded) {
   const Eigen::Isometry3d expected = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
   UncertainTransform jump;
