@@ -86,7 +86,10 @@ struct OdometryResult {
   UncertainTransform T_keyframe_cur;
   DisparityBias disparity_bias;  ///< of the rig
   RowOffset row_offset;          ///< of the rig; estimated but not corrected
-  double flow_noise_px = 0.0;    ///< standard deviation in x and y, of inliers; 0: no motion
+  /// Contrast of the right image relative to the left one, the median over some features. 0: no
+  /// motion.
+  double exposure_gain = 0.0;
+  double flow_noise_px = 0.0;  ///< standard deviation in x and y, of inliers; 0: no motion
   StageCounts counts;
   StageTimes times;
 

@@ -55,6 +55,9 @@ class CorrespondenceFinder {
                    const FeatureSet& set,
                    std::vector<float>& differences_px);
 
+  /// Contrast of the right image relative to the left one, at the features found last; 1 before.
+  double stereoGain() const { return stereo_gain_; }
+
   /// Median distance [px] between the positions of the keyframe's points in the current image for
   /// two motions. 0 if there are no points.
   double medianShift(const StereoCamera& camera,

@@ -6,7 +6,7 @@
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <ros/init.h>
 
-#include "input/to_text.h"
+#include "node/hundredths.h"
 #include "rotrocc/OdometryStatus.h"
 
 namespace rotrocc {
@@ -23,10 +23,6 @@ constexpr double kLateShareOfPeriod = 1.0;
 constexpr double kLargeBias_px = 0.5;
 /// More than a good rectification leaves, and more than the matching of small windows tolerates.
 constexpr double kRowsApart_px = 0.5;
-
-std::string hundredths(double value) {
-  return toText(0.01 * std::round(100.0 * value));
-}
 
 unsigned char levelOf(std::uint8_t state) {
   switch (state) {
@@ -103,6 +99,9 @@ void describeOdometry(const HealthReport& report, StatusWrapper& status) {
               rows.median_px,
               rows.sigma_px,
               rows.typical_px);
+  status.addf("contrast of the right image relative to the left one",
+              "%.2f",
+              report.last_result.exposure_gain);
   status.addf("flow noise", "%.2f px", report.last_result.flow_noise_px);
   status.add("pairs processed", report.pairs_processed);
   status.add("pairs lost", report.pairs_lost);

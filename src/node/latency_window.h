@@ -18,6 +18,7 @@ class LatencyWindow {
     if (values_.size() > size_) values_.pop_front();
   }
 
+  std::size_t size() const { return values_.size(); }
   bool empty() const { return values_.empty(); }
 
   /// Quantile `share` in [0, 1]; 0 without measurements.

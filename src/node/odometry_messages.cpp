@@ -93,6 +93,7 @@ OdometryStatus toStatus(const OdometryResult& result,
   message.row_offset = static_cast<float>(result.row_offset.median_px);
   message.row_offset_sigma = static_cast<float>(result.row_offset.sigma_px);
   message.row_difference = static_cast<float>(result.row_offset.typical_px);
+  message.exposure_gain = static_cast<float>(result.exposure_gain);
   message.flow_noise = static_cast<float>(result.flow_noise_px);
   message.time_pyramids = static_cast<float>(result.times.pyramids_ms);
   message.time_corners = static_cast<float>(result.times.corners_ms);

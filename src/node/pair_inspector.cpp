@@ -56,8 +56,10 @@ void PairInspector::configure(const CorrespondenceFinder::Config& config) {
 std::string PairInspector::inspect(const StereoPair& pair,
                                    const StereoCamera& camera,
                                    const OdometryResult& result) {
-  const std::string frozen = findFrozen(pair);
-  if (result.state == State::kInitialising) return frozen;
+  const std::string exposures = exposures_.observe(result);
+  std::string fault = findFrozen(pair);
+  if (fault.empty()) fault = exposures;
+  if (result.state == State::kInitialising) return fault;
   // Chance matches may occasionally look like a motion.
   doubtful_ = result.state == State::kOk ? 0 : doubtful_ + 1;
   few_corners_ = result.counts.corners < kFewCorners ? few_corners_ + 1 : 0;
@@ -67,7 +69,7 @@ std::string PairInspector::inspect(const StereoPair& pair,
       (doubtful_ == kPatience || (doubtful_ > 0 && doubtful_ % kPatienceAgain == 0))) {
     explanation_ = explainLoss(pair, camera);
   }
-  return explanation_.empty() ? frozen : explanation_;
+  return explanation_.empty() ? fault : explanation_;
 }
 
 std::string PairInspector::findFrozen(const StereoPair& pair) {

@@ -7,12 +7,13 @@
 #include <opencv2/core.hpp>
 
 #include "features/correspondence_finder.h"
+#include "node/exposure_watch.h"
 #include "rotrocc/visual_odometry.h"
 
 namespace rotrocc {
 
 /// Detects camera faults: a frozen or dark camera, swapped cameras, or images that are not
-/// rectified.
+/// rectified or that are exposed differently.
 class PairInspector {
  public:
   /// Number of consecutive suspicious pairs before a hint.
@@ -44,6 +45,7 @@ class PairInspector {
   std::uint64_t left_print_ = 0, right_print_ = 0;  // of the last pair
   int left_frozen_ = 0, right_frozen_ = 0;          // pairs in a row
   int few_corners_ = 0, doubtful_ = 0;
+  ExposureWatch exposures_;
   std::string explanation_;  // kept until the motion is found again
 };
 

@@ -203,6 +203,7 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   finder_.compareRows(*current, found_.features, estimate.rotation_inliers, row_differences_px_);
   rows_.observe(row_differences_px_);
 
+  result.exposure_gain = finder_.stereoGain();
   result.flow_noise_px = estimate.flow_noise_px;
   result.keyframe_stamp_ns = keyframe_.frame->stamp_ns;
   result.T_keyframe_cur = {estimate.T_keyframe_cur,

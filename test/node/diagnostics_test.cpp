@@ -29,6 +29,7 @@ HealthReport goodReport() {
   report.last_result.state = State::kOk;
   report.last_result.counts.rotation_inliers = 512;
   report.last_result.disparity_bias = {0.42, 0.05, 0.36};
+  report.last_result.exposure_gain = 1.02;
   report.last_result.flow_noise_px = 0.15;
   return report;
 }
@@ -94,6 +95,7 @@ TEST(DiagnosticsTest, AllIsWell) {
   }
   EXPECT_EQ(valueOf(odometry, "state"), "OK");
   EXPECT_EQ(valueOf(odometry, "disparity bias"), "0.42 +- 0.05 px, 0.36 px applied");
+  EXPECT_EQ(valueOf(odometry, "contrast of the right image relative to the left one"), "1.02");
   EXPECT_EQ(valueOf(odometry, "flow noise"), "0.15 px");
   EXPECT_EQ(valueOf(odometry, "inliers of the rotation"), "512");
   EXPECT_EQ(valueOf(input, "/r/image"), "10.0 Hz, 50 in 5 s, 500 in total, 1 publishers");

@@ -104,6 +104,15 @@ TEST_F(PairProcessorTest, HintsComeFromTheConfigInEffect) {
   EXPECT_NE(hintOf({}).find(swapped), std::string::npos) << rig_.answer()->hint;
 }
 
+TEST_F(PairProcessorTest, HintsAtCamerasThatExposeDifferently) {
+  const auto darken = [](sensor_msgs::Image&, sensor_msgs::Image& right) {
+    for (auto& level : right.data) level = static_cast<std::uint8_t>(0.6 * level);
+  };
+  for (std::size_t i = 0; i < ExposureWatch::kLeastPairs + 1; ++i) rig_.drive(darken);
+  EXPECT_EQ(state(), State::kOk);
+  EXPECT_NE(rig_.answer()->hint.find("couple the exposures"), std::string::npos);
+}
+
 TEST_F(PairProcessorTest, AsksForTheExpectedMotionBetweenItsPairs) {
   std::vector<std::pair<std::int64_t, std::int64_t>> asked;
   rig_.expected = [&](std::int64_t prev_ns, std::int64_t cur_ns) {
