@@ -58,6 +58,9 @@ struct RowOffset {
   double median_px = 0.0;   ///< over the features of the last pairs; 0 before the first pair
   double sigma_px = 0.0;    ///< standard deviation of the median, assuming independent features
   double typical_px = 0.0;  ///< median of the absolute offsets
+  /// The offset that was corrected: the right image was read this much lower. Zero if median_px is
+  /// not beyond doubt.
+  double applied_px = 0.0;
 };
 
 /// The result for one stereo pair.
@@ -85,7 +88,7 @@ struct OdometryResult {
   std::int64_t keyframe_stamp_ns = 0;
   UncertainTransform T_keyframe_cur;
   DisparityBias disparity_bias;  ///< of the rig
-  RowOffset row_offset;          ///< of the rig; estimated but not corrected
+  RowOffset row_offset;          ///< of the rig, before the correction
   /// Contrast of the right image relative to the left one, the median over some features. 0: no
   /// motion.
   double exposure_gain = 0.0;

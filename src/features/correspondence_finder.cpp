@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/median.h"
 #include "geometry/min_depth.h"
@@ -12,7 +13,28 @@ namespace {
 /// Rows are compared at one of this many features. That is cheap, and enough over a few pairs.
 constexpr std::size_t kRowSample = 16;
 
+/// Number of corners whose row is searched, and the largest row offset that is found.
+constexpr std::size_t kSearchSample = 64;
+constexpr int kMostRows = 3;
+
+/// A corner that is found in several rows must be at the same place, or its row is unknown.
+constexpr float kSamePlace_px = 1.0F;
+
 }  // namespace
+
+void CorrespondenceFinder::RowsFound::add(float offset_px, float searched_px) {
+  const float distance_px = std::abs(offset_px - searched_px);
+  if (distance_px > kSamePlace_px) return;
+  lowest_px = std::min(lowest_px, offset_px);
+  highest_px = std::max(highest_px, offset_px);
+  if (distance_px >= nearest_distance_px) return;
+  nearest_distance_px = distance_px;
+  nearest_px = offset_px;
+}
+
+bool CorrespondenceFinder::RowsFound::isUnique() const {
+  return highest_px >= lowest_px && highest_px - lowest_px <= kSamePlace_px;
+}
 
 CorrespondenceFinder::CorrespondenceFinder(const Config& config, int threads)
     : config_(config),
@@ -44,7 +66,10 @@ void CorrespondenceFinder::findDepths(const StereoCamera& camera, Keyframe& keyf
                  keyframe.frame->right.front(),
                  keyframe.corners,
                  camera.disparityAtInfinity(),
-                 disparities_px_);
+                 disparities_px_,
+                 keyframe.row_offset_px);
+  if (keyframe.row_offset_px != 0.0) refineDisparities(camera, keyframe);
+  const auto lower_px = static_cast<float>(keyframe.row_offset_px);
   for (std::size_t i = 0; i < keyframe.corners.size(); ++i) {
     const cv::Point2f& corner = keyframe.corners[i];
     const float disparity_px = disparities_px_[i];
@@ -52,9 +77,22 @@ void CorrespondenceFinder::findDepths(const StereoCamera& camera, Keyframe& keyf
     const double depth_m = camera.depth(disparity_px);
     if (!isUsableDepth(depth_m)) continue;
     keyframe.left_px.push_back(corner);
-    keyframe.right_px.emplace_back(corner.x - disparity_px, corner.y);
+    keyframe.right_px.emplace_back(corner.x - disparity_px, corner.y + lower_px);
     keyframe.points.push_back(depth_m * camera.ray({corner.x, corner.y}));
   }
+}
+
+/// Matches were searched in whole rows.
+void CorrespondenceFinder::refineDisparities(const StereoCamera& camera, const Keyframe& keyframe) {
+  std::swap(matched_disparities_px_, disparities_px_);
+  matcher_.matchNear(workers_,
+                     keyframe.frame->left.front(),
+                     keyframe.frame->right.front(),
+                     keyframe.corners,
+                     matched_disparities_px_,
+                     camera.disparityAtInfinity(),
+                     disparities_px_,
+                     keyframe.row_offset_px);
 }
 
 int CorrespondenceFinder::find(const StereoCamera& camera,
@@ -108,8 +146,9 @@ void CorrespondenceFinder::track(const Keyframe& keyframe,
                  cur_left_px_,
                  tracked_);
   // Predict the right position from the tracked left position and the predicted disparity.
+  const auto lower_px = static_cast<float>(keyframe.row_offset_px);
   for (std::size_t i = 0; i < cur_left_px_.size(); ++i) {
-    cur_right_px_[i] = cur_left_px_[i] - cv::Point2f(predicted_disparities_px_[i], 0.0F);
+    cur_right_px_[i] = cur_left_px_[i] + cv::Point2f(-predicted_disparities_px_[i], lower_px);
   }
   tracker_.track(workers_,
                  keyframe.frame->right,
@@ -129,7 +168,8 @@ void CorrespondenceFinder::checkCircularConsistency(const StereoCamera& camera,
   tracked_disparities_px_.assign(cur_left_px_.size(), StereoMatcher::kNoDisparity);
   for (std::size_t i = 0; i < cur_left_px_.size(); ++i) {
     const cv::Point2f offset = cur_left_px_[i] - cur_right_px_[i];
-    if (tracked_[i] != 0 && std::abs(offset.y) <= limits.max_vertical_px) {
+    const double wrong_row_px = std::abs(offset.y + keyframe.row_offset_px);
+    if (tracked_[i] != 0 && wrong_row_px <= limits.max_vertical_px) {
       tracked_disparities_px_[i] = offset.x;
     }
   }
@@ -139,7 +179,8 @@ void CorrespondenceFinder::checkCircularConsistency(const StereoCamera& camera,
                                     cur_left_px_,
                                     tracked_disparities_px_,
                                     camera.disparityAtInfinity(),
-                                    disparities_px_);
+                                    disparities_px_,
+                                    keyframe.row_offset_px);
 
   features.clear();
   for (std::size_t i = 0; i < cur_left_px_.size(); ++i) {
@@ -158,16 +199,52 @@ void CorrespondenceFinder::checkCircularConsistency(const StereoCamera& camera,
   }
 }
 
+void CorrespondenceFinder::searchRows(const StereoCamera& camera,
+                                      const Keyframe& keyframe,
+                                      std::vector<float>& differences_px) {
+  sample_px_.clear();
+  const std::size_t step = std::max<std::size_t>(1, keyframe.corners.size() / kSearchSample);
+  for (std::size_t i = 0; i < keyframe.corners.size(); i += step) {
+    sample_px_.push_back(keyframe.corners[i]);
+  }
+  rows_found_.assign(sample_px_.size(), {});
+  for (int rows = -kMostRows; rows <= kMostRows; ++rows) searchRow(camera, keyframe, rows);
+  differences_px.clear();
+  for (const RowsFound& found : rows_found_) {
+    if (found.isUnique()) differences_px.push_back(found.nearest_px);
+  }
+}
+
+/// Matches the sample as if the right image were lower by `rows`, and locates the matches. Those
+/// that leave their row were found in a wrong one.
+void CorrespondenceFinder::searchRow(const StereoCamera& camera,
+                                     const Keyframe& keyframe,
+                                     int rows) {
+  const cv::Mat& left = keyframe.frame->left.front();
+  const cv::Mat& right = keyframe.frame->right.front();
+  const auto lower_px = static_cast<float>(rows);
+  const double gain = matcher_.match(
+      workers_, left, right, sample_px_, camera.disparityAtInfinity(), disparities_px_, rows);
+  for (std::size_t i = 0; i < sample_px_.size(); ++i) {
+    if (disparities_px_[i] == StereoMatcher::kNoDisparity) continue;
+    cv::Point2f point = sample_px_[i] + cv::Point2f(-disparities_px_[i], lower_px);
+    if (!tracker_.locate(left, right, sample_px_[i], gain, point)) continue;
+    rows_found_[i].add(point.y - sample_px_[i].y, lower_px);
+  }
+}
+
 void CorrespondenceFinder::compareRows(const StereoFrame& current,
                                        const Correspondences& features,
                                        const FeatureSet& set,
+                                       double row_offset_px,
                                        std::vector<float>& differences_px) {
   differences_px.clear();
   for (std::size_t i = 0; i < features.size(); i += kRowSample) {
     if (set[i] == 0) continue;
     const cv::Point2f left(static_cast<float>(features[i].cur_px.x()),
                            static_cast<float>(features[i].cur_px.y()));
-    cv::Point2f right(left.x - static_cast<float>(features[i].disparity_px), left.y);
+    cv::Point2f right = left + cv::Point2f(-static_cast<float>(features[i].disparity_px),
+                                           static_cast<float>(row_offset_px));
     if (tracker_.locate(current.left.front(), current.right.front(), left, stereo_gain_, right)) {
       differences_px.push_back(right.y - left.y);
     }

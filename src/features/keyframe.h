@@ -15,6 +15,8 @@ struct Keyframe {
   FramePtr frame;                    ///< null: there is no keyframe
   std::vector<cv::Point2f> corners;  ///< of the left image [px]
 
+  double row_offset_px = 0.0;  ///< how much lower points are in the right image
+
   /// The corners with a depth: pixels in both images, and points in the left camera frame [m].
   std::vector<cv::Point2f> left_px, right_px;
   std::vector<Eigen::Vector3d> points;

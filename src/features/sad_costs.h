@@ -24,7 +24,7 @@ using Words = cv::v_int16x8;
 constexpr int kWords = 8;
 
 /// Sums of absolute differences between the window around a left pixel, at sub-pixel position, and
-/// windows of the right image at the same height, in eighths of a grey level. The mean of each
+/// windows of the right image in one row, in eighths of a grey level. The mean of each
 /// window is subtracted, and the lighter image gets the contrast of the darker, because cameras
 /// differ in exposure; the tracker does the same.
 class SubPixelCosts {
@@ -32,18 +32,24 @@ class SubPixelCosts {
   static constexpr int kUnit = 8;
   static constexpr int kColumns = 2 * StereoMatcher::kNearRadius_px + 3;
 
-  /// Prepares up to kColumns right columns, starting at `first`. `gain` is that from the left to
-  /// the right image.
-  SubPixelCosts(
-      const cv::Mat& left, const cv::Mat& right, const cv::Point2f& pixel, double gain, int first) {
+  /// Prepares up to kColumns right columns, starting at `first`, in row `right_row`. `gain` is that
+  /// from the left to the right image.
+  SubPixelCosts(const cv::Mat& left,
+                const cv::Mat& right,
+                const cv::Point2f& pixel,
+                float right_row,
+                double gain,
+                int first) {
     const int x = cvFloor(pixel.x);
     const int y = cvFloor(pixel.y);
     const Words fx = fraction(pixel.x - static_cast<float>(x));
     const Words fy = fraction(pixel.y - static_cast<float>(y));
+    const int right_y = cvFloor(right_row);
+    const Words right_fy = fraction(right_row - static_cast<float>(right_y));
     const Words left_darker = fraction(static_cast<float>(std::max(0.0, 1.0 - gain)));
     const Words right_darker = fraction(static_cast<float>(std::max(0.0, 1.0 - 1.0 / gain)));
     const uchar* from = left.ptr<uchar>(y - kHalf) + x - kHalf;
-    const uchar* right_from = right.ptr<uchar>(y - kHalf) + first - kHalf;
+    const uchar* right_from = right.ptr<uchar>(right_y - kHalf) + first - kHalf;
     // Eleven values of up to 2040 fit into 16 bits.
     alignas(kRegister) short window_sums[kRegister] = {};
     alignas(kRegister) short strip_sums[kStrip] = {};
@@ -56,7 +62,8 @@ class SubPixelCosts {
         cv::v_store_aligned(window_sums + k, cv::v_load_aligned(window_sums + k) + values);
       }
       for (int k = 0; k < kStrip; k += kWords) {
-        const Words values = darkened(betweenRows(right_from + k, right.step, fy), right_darker);
+        const Words values =
+            darkened(betweenRows(right_from + k, right.step, right_fy), right_darker);
         cv::v_store_aligned(strip_[i] + k, values);
         cv::v_store_aligned(strip_sums + k, cv::v_load_aligned(strip_sums + k) + values);
       }

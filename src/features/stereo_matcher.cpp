@@ -20,11 +20,15 @@ constexpr float kNoColumn = -1.0F;
 /// Initial capacity of the cost buffer, in columns.
 constexpr std::size_t kUsualColumns = 256;
 
+/// Whether windows in a row of the image can be read, including the pixels below.
+bool rowInside(const cv::Mat& image, float row) {
+  return row >= sad::kHalf && row < static_cast<float>(image.rows - sad::kHalf - 1);
+}
+
 /// Whether the window around a left pixel can be read, including the pixels to its right and below.
 bool windowInside(const cv::Mat& image, const cv::Point2f& p) {
-  return p.x >= sad::kHalf && p.y >= sad::kHalf &&
-         p.x < static_cast<float>(image.cols - sad::kRegister) &&
-         p.y < static_cast<float>(image.rows - sad::kHalf - 1);
+  return p.x >= sad::kHalf && p.x < static_cast<float>(image.cols - sad::kRegister) &&
+         rowInside(image, p.y);
 }
 
 /// The part of a range of right columns whose windows can be read.
@@ -152,13 +156,15 @@ double gainAt(const cv::Mat& left,
               const cv::Mat& right,
               const std::vector<cv::Point2f>& pixels,
               const std::vector<float>& disparities_px,
+              double row_offset_px,
               double otherwise) {
+  const auto lower_px = static_cast<float>(row_offset_px);
   thread_local WindowGain gain;
   gain.clear();
   const std::size_t step = WindowGain::step(pixels.size());
   for (std::size_t i = 0; i < pixels.size(); i += step) {
     if (disparities_px[i] == StereoMatcher::kNoDisparity) continue;
-    gain.add(left, pixels[i], right, pixels[i] - cv::Point2f(disparities_px[i], 0.0F));
+    gain.add(left, pixels[i], right, pixels[i] + cv::Point2f(-disparities_px[i], lower_px));
   }
   return gain.median(otherwise);
 }
@@ -172,7 +178,9 @@ double StereoMatcher::match(Workers& workers,
                             const cv::Mat& right,
                             const std::vector<cv::Point2f>& corners,
                             double infinity_px,
-                            std::vector<float>& disparities_px) const {
+                            std::vector<float>& disparities_px,
+                            double row_offset_px) const {
+  const int rows_lower = cvRound(row_offset_px);
   const int nearest = config_.max_disparity_px + cvCeil(infinity_px);
   const int farthest = cvFloor(config_.min_disparity_px + infinity_px);
   const double least_px = config_.min_disparity_px + infinity_px;
@@ -182,20 +190,22 @@ double StereoMatcher::match(Workers& workers,
   eachPixel(workers, corners, least_px, disparities_px, [&](std::size_t i) {
     if (!windowInside(left, corners[i])) return kNoColumn;
     const cv::Point pixel(cvRound(corners[i].x), cvRound(corners[i].y));
+    const int right_row = pixel.y + rows_lower;
+    if (!rowInside(right, static_cast<float>(right_row))) return kNoColumn;
     const cv::Range columns = clip(right, cv::Range(pixel.x - nearest - 1, pixel.x - farthest + 2));
     if (columns.size() < 3) return kNoColumn;
     const cv::Point upper_left = pixel - cv::Point(sad::kHalf, sad::kHalf);
     const ExposedWindow window(left, upper_left, of_right);
     const SadSearch search = {window.pixels(),
                               window.step(),
-                              right.ptr<uchar>(upper_left.y) + columns.start - sad::kHalf,
+                              right.ptr<uchar>(right_row - sad::kHalf) + columns.start - sad::kHalf,
                               static_cast<std::ptrdiff_t>(right.step),
                               columns.size(),
                               most,
                               config_.uniqueness};
     return bestColumn(*kernels_, search, columns.start);
   });
-  return gainAt(left, right, corners, disparities_px, of_right.gain);
+  return gainAt(left, right, corners, disparities_px, rows_lower, of_right.gain);
 }
 
 double StereoMatcher::matchNear(Workers& workers,
@@ -204,20 +214,23 @@ double StereoMatcher::matchNear(Workers& workers,
                                 const std::vector<cv::Point2f>& pixels,
                                 const std::vector<float>& expected_px,
                                 double infinity_px,
-                                std::vector<float>& disparities_px) const {
-  const double gain = gainAt(left, right, pixels, expected_px, 1.0);
+                                std::vector<float>& disparities_px,
+                                double row_offset_px) const {
+  const double gain = gainAt(left, right, pixels, expected_px, row_offset_px, 1.0);
   const double used = beyondNoise(gain, WindowGain::kStereoNoise);
   // Costs are in grey levels of the darker image.
   const double most = config_.max_mean_difference * sad::kPixels * std::min(used, 1.0 / used);
   const double least_px = config_.min_disparity_px + infinity_px;
   eachPixel(workers, pixels, least_px, disparities_px, [&](std::size_t i) {
     if (expected_px[i] == kNoDisparity || !windowInside(left, pixels[i])) return kNoColumn;
+    const float right_row = pixels[i].y + static_cast<float>(row_offset_px);
+    if (!rowInside(right, right_row)) return kNoColumn;
     const int x = cvRound(pixels[i].x - expected_px[i]);
     const cv::Range columns =
         clip(right, cv::Range(x - kNearRadius_px - 1, x + kNearRadius_px + 2));
     if (columns.size() < 3) return kNoColumn;
     return bestColumn(
-        sad::SubPixelCosts(left, right, pixels[i], used, columns.start), columns, most);
+        sad::SubPixelCosts(left, right, pixels[i], right_row, used, columns.start), columns, most);
   });
   return gain;
 }

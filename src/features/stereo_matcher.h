@@ -14,7 +14,8 @@ namespace rotrocc {
 struct Kernels;
 
 /// Sparse block matching along the row: sum of absolute differences (SAD) with a sub-pixel fit.
-/// The cameras may differ in brightness and contrast.
+/// The cameras may differ in brightness and contrast. `row_offset_px` is how much lower points are
+/// in the right image.
 class StereoMatcher {
  public:
   using Config = StereoMatcherConfig;
@@ -31,13 +32,15 @@ class StereoMatcher {
   /// at integer pixels. The result is kNoDisparity for corners too close to the border and for
   /// matches that are too different, ambiguous or out of range. `left` and `right` are CV_8UC1 and
   /// of the same size; `infinity_px` is StereoCamera::disparityAtInfinity(). Returns the gain of
-  /// the right image relative to the left one: the median over windows, or 1 if there are few.
+  /// the right image relative to the left one: the median over windows, or 1 if there are few. The
+  /// row offset is rounded.
   double match(Workers& workers,
                const cv::Mat& left,
                const cv::Mat& right,
                const std::vector<cv::Point2f>& corners,
                double infinity_px,
-               std::vector<float>& disparities_px) const;
+               std::vector<float>& disparities_px,
+               double row_offset_px = 0.0) const;
 
   /// As match(), but for pixels at sub-pixel positions, within kNearRadius_px of the disparities
   /// `expected_px`. Does not test for uniqueness, because the expected disparity resolves
@@ -48,7 +51,8 @@ class StereoMatcher {
                    const std::vector<cv::Point2f>& pixels,
                    const std::vector<float>& expected_px,
                    double infinity_px,
-                   std::vector<float>& disparities_px) const;
+                   std::vector<float>& disparities_px,
+                   double row_offset_px = 0.0) const;
 
  private:
   Config config_;

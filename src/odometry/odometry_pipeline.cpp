@@ -54,6 +54,7 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
     result.disparity_bias.applied_px = found_.camera.cx_right - camera.cx_right;
   }
   result.row_offset = rows_.offset();
+  result.row_offset.applied_px = result.hasMotion() ? keyframe_.row_offset_px : correctedRows();
   return result;
 }
 
@@ -100,6 +101,7 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
   if (!found_.isAccepted()) {
     // Either this pair or the last one may be at fault. The next pair is compared with both.
     lost_ = current;
+    rows_.searchAgain();
     throw Lost(found_.why_lost);
   }
   accept(current, result);
@@ -148,6 +150,11 @@ FramePtr VisualOdometry::Pipeline::takeFrame(const StereoPair& pair,
   return finder_.makeFrame(pair);
 }
 
+/// The row offset of the right image that is corrected, if the rig is calibrated.
+double VisualOdometry::Pipeline::correctedRows() const {
+  return config_.stereo_calibrator.enabled ? rows_.offset().applied_px : 0.0;
+}
+
 void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& times) {
   keyframe_.frame = frame;
   keyframe_.T_keyframe_last = {};
@@ -158,7 +165,13 @@ void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& t
     finder_.findCorners(keyframe_);
   }
   const StageTimer timer(times.disparity_ms);
-  finder_.findDepths(calibrator_.correct(camera_), keyframe_);
+  const StereoCamera corrected = calibrator_.correct(camera_);
+  if (!rows_.isKnown()) {
+    finder_.searchRows(corrected, keyframe_, row_differences_px_);
+    rows_.observe(row_differences_px_);
+  }
+  keyframe_.row_offset_px = correctedRows();
+  finder_.findDepths(corrected, keyframe_);
 }
 
 /// Measures the motion against the keyframe. If that fails, uses the last frame, then the latest
@@ -200,8 +213,14 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   const MotionEstimator::Estimate& estimate = found_.estimate;
   shared_errors_.observe(
       found_.camera, found_.features, estimate.rotation_inliers, estimate.T_keyframe_cur);
-  finder_.compareRows(*current, found_.features, estimate.rotation_inliers, row_differences_px_);
-  rows_.observe(row_differences_px_);
+  if (rows_.isKnown()) {
+    finder_.compareRows(*current,
+                        found_.features,
+                        estimate.rotation_inliers,
+                        keyframe_.row_offset_px,
+                        row_differences_px_);
+    rows_.observe(row_differences_px_);
+  }
 
   result.exposure_gain = finder_.stereoGain();
   result.flow_noise_px = estimate.flow_noise_px;

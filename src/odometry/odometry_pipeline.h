@@ -48,6 +48,7 @@ class VisualOdometry::Pipeline {
   FramePtr takeFrame(const StereoPair& pair, const StereoCamera& camera, StageTimes& times);
   void forget();
   const StereoFrame& newest() const { return lost_ ? *lost_ : *last_; }
+  double correctedRows() const;
   void makeKeyframe(const FramePtr& frame, StageTimes& times);
 
   void findMotion(const FramePtr& current,

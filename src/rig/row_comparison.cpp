@@ -11,6 +11,13 @@ namespace {
 /// With this many features, the scatter of tracking allows a median accurate to 0.01 px.
 constexpr std::size_t kFeatures = 1000;
 
+/// Data that a correction needs: with a few features of one image, chance matches would do.
+constexpr std::size_t kLeastFeatures = 100;
+constexpr int kLeastObservations = 3;
+
+/// With a smaller offset, matches are searched in the same row, and real clips are as accurate.
+constexpr double kNotable_px = 0.5;
+
 /// For a normal distribution: the ratio of the standard deviation to the median absolute deviation,
 /// and the ratio of the standard deviation of the median to that of the mean.
 constexpr double kNormal = 1.4826;
@@ -32,7 +39,12 @@ void RowComparison::observe(const std::vector<float>& differences_px) {
       oldest_ = (oldest_ + 1) % kFeatures;
     }
   }
-  if (last_px_.empty()) return;
+  if (differences_px.empty()) return;
+  ++observations_;
+  estimate();
+}
+
+void RowComparison::estimate() {
   const auto medianDistanceFrom = [&](double center_px) {
     std::transform(last_px_.begin(), last_px_.end(), sorted_px_.begin(), [&](float value_px) {
       return std::abs(value_px - static_cast<float>(center_px));
@@ -41,15 +53,32 @@ void RowComparison::observe(const std::vector<float>& differences_px) {
   };
   sorted_px_ = last_px_;
   offset_.median_px = median(sorted_px_);
-  offset_.sigma_px = kOfMedian * kNormal * medianDistanceFrom(offset_.median_px) /
-                     std::sqrt(static_cast<double>(last_px_.size()));
+  const double scatter_px = kNormal * medianDistanceFrom(offset_.median_px);
+  offset_.sigma_px = kOfMedian * scatter_px / std::sqrt(static_cast<double>(last_px_.size()));
   offset_.typical_px = medianDistanceFrom(0.0);
+  if (isKnown()) correct(scatter_px);
+}
+
+/// An offset above the scatter is above 8 sigma, because there are at least kLeastFeatures.
+void RowComparison::correct(double scatter_px) {
+  const double notable_px = std::max(kNotable_px, scatter_px);
+  const double least_px = offset_.applied_px != 0.0 ? 0.5 * notable_px : notable_px;
+  offset_.applied_px = std::abs(offset_.median_px) > least_px ? offset_.median_px : 0.0;
+}
+
+bool RowComparison::isKnown() const {
+  return observations_ >= kLeastObservations && last_px_.size() >= kLeastFeatures;
+}
+
+void RowComparison::searchAgain() {
+  last_px_.clear();
+  oldest_ = 0;
+  observations_ = 0;
 }
 
 void RowComparison::reset() {
   offset_ = {};
-  last_px_.clear();
-  oldest_ = 0;
+  searchAgain();
 }
 
 }  // namespace rotrocc

@@ -7,7 +7,9 @@
 
 namespace rotrocc {
 
-/// Estimates the RowOffset from single features, some of which are outliers.
+/// Estimates the RowOffset from single features, some of which are outliers, and decides what is
+/// corrected. Not an offset that is small, or smaller than the scatter of the features: that is no
+/// constant. A correction ends at half of that, so it does not come and go with the noise.
 class RowComparison {
  public:
   RowComparison();
@@ -17,13 +19,25 @@ class RowComparison {
   /// Adds the vertical offsets of single features [px], positive if lower in the right image.
   void observe(const std::vector<float>& differences_px);
 
+  /// Whether there are enough features to correct an offset. Before, or after searchAgain(), only
+  /// features that were searched in several rows may be added: near a wrong offset, only those that
+  /// seem to agree with it are found.
+  bool isKnown() const;
+
+  /// The rig may have been moved: the correction stays until the offset is known again.
+  void searchAgain();
+
   /// Discards all data, for use with another camera.
   void reset();
 
  private:
+  void estimate();
+  void correct(double scatter_px);
+
   RowOffset offset_;
   std::vector<float> last_px_;  // the last offsets, a ring buffer once it is full
   std::size_t oldest_ = 0;      // the entry that is overwritten next
+  int observations_ = 0;        // number of times that features were added
   std::vector<float> sorted_px_;
 };
 

@@ -182,17 +182,20 @@ TEST(VisualOdometryTest, KeepsTheBiasOverAResetButNotForAnotherCamera) {
   EXPECT_EQ(odometry.process(bend(1), camera()).disparity_bias.applied_px, 0.0);
 }
 
+/// A pair of the bend, its right image moved down.
+StereoPair bendWithRightLower(int index, double rows) {
+  const cv::Mat down = (cv::Mat_<double>(2, 3) << 1.0, 0.0, 0.0, 0.0, 1.0, rows);
+  StereoPair pair = bend(index);
+  cv::Mat moved;
+  cv::warpAffine(pair.right, moved, down, pair.right.size());
+  pair.right = moved;
+  return pair;
+}
+
 TEST(VisualOdometryTest, SeesThatTheRightImageIsLower) {
-  const cv::Mat lower = (cv::Mat_<double>(2, 3) << 1.0, 0.0, 0.0, 0.0, 1.0, 0.6);
   VisualOdometry odometry({});
   OdometryResult result;
-  for (int i = 0; i < 4; ++i) {
-    StereoPair pair = bend(i);
-    cv::Mat lowered;
-    cv::warpAffine(pair.right, lowered, lower, pair.right.size());
-    pair.right = lowered;
-    result = odometry.process(pair, camera());
-  }
+  for (int i = 0; i < 4; ++i) result = odometry.process(bendWithRightLower(i, 0.6), camera());
   ASSERT_TRUE(result.hasMotion());
   const RowOffset offset = result.row_offset;
   EXPECT_NEAR(offset.median_px, 0.6, 0.1);
@@ -202,6 +205,39 @@ TEST(VisualOdometryTest, SeesThatTheRightImageIsLower) {
   odometry.reset();
   EXPECT_EQ(odometry.process(bend(0), camera()).row_offset.median_px, offset.median_px);
   EXPECT_EQ(odometry.process(bend(1), wronglyCalibrated()).row_offset.median_px, 0.0);
+}
+
+TEST(VisualOdometryTest, CorrectsTheRowsOfARig) {
+  for (const double rows : {-2.5, -1.5, 1.5, 2.5}) {
+    VisualOdometry good({});
+    VisualOdometry odometry({});
+    OdometryResult usual;
+    OdometryResult result;
+    for (int i = 0; i < 8; ++i) {
+      usual = good.process(bend(i), camera());
+      result = odometry.process(bendWithRightLower(i, rows), camera());
+      if (i < 4) continue;  // the offset is known after three keyframes
+      EXPECT_NEAR(result.row_offset.applied_px, rows, 0.2);
+      EXPECT_EQ(result.state, State::kOk) << result.reason;
+      expectMotion(result, bendStep());  // as without an offset
+    }
+    EXPECT_EQ(usual.row_offset.applied_px, 0.0);
+    EXPECT_NEAR(result.row_offset.median_px, rows, 0.1) << "of the images, not what is left";
+    EXPECT_GT(result.counts.rotation_inliers, 0.9 * usual.counts.rotation_inliers);
+    odometry.reset();
+    EXPECT_NE(odometry.process(bend(0), camera()).row_offset.applied_px, 0.0);
+    EXPECT_EQ(odometry.process(bend(1), wronglyCalibrated()).row_offset.applied_px, 0.0);
+  }
+}
+
+TEST(VisualOdometryTest, LeavesTheRowsOfARigThatIsNotToBeCalibrated) {
+  VisualOdometry::Config config;
+  config.stereo_calibrator.enabled = false;
+  VisualOdometry odometry(config);
+  OdometryResult result;
+  for (int i = 0; i < 8; ++i) result = odometry.process(bendWithRightLower(i, 1.5), camera());
+  EXPECT_EQ(result.row_offset.applied_px, 0.0);
+  EXPECT_NEAR(result.row_offset.median_px, 1.5, 0.6) << "few features within the tolerance";
 }
 
 TEST(VisualOdometryTest, FindsTheRowsOfAGoodRigAlike) {

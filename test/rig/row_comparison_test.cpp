@@ -58,5 +58,51 @@ TEST(RowComparisonTest, ForgetsWhatIsLongAgo) {
   EXPECT_NEAR(comparison.offset().median_px, 0.25, 0.1);
 }
 
+TEST(RowComparisonTest, CorrectsAnOffsetOfSeveralPairs) {
+  RowComparison comparison;
+  show(100, -1.5, 0.2, comparison);
+  EXPECT_FALSE(comparison.isKnown()) << "after two observations";
+  EXPECT_EQ(comparison.offset().applied_px, 0.0);
+  show(100, -1.5, 0.2, comparison);
+  EXPECT_TRUE(comparison.isKnown());
+  EXPECT_EQ(comparison.offset().applied_px, comparison.offset().median_px);
+  comparison.reset();
+  EXPECT_FALSE(comparison.isKnown());
+  EXPECT_EQ(comparison.offset().applied_px, 0.0);
+}
+
+TEST(RowComparisonTest, CorrectionsDoNotComeAndGo) {
+  RowComparison comparison;
+  const auto appliedAt = [&](double offset_px) {
+    show(2000, offset_px, 0.1, comparison);
+    return comparison.offset().applied_px;
+  };
+  EXPECT_EQ(appliedAt(0.4), 0.0) << "less than half a row";
+  EXPECT_NEAR(appliedAt(0.6), 0.6, 0.05);
+  EXPECT_NEAR(appliedAt(0.4), 0.4, 0.05);
+  EXPECT_EQ(appliedAt(0.15), 0.0);
+  EXPECT_EQ(appliedAt(0.4), 0.0);
+}
+
+/// As with a right camera that is rolled and pitched.
+TEST(RowComparisonTest, DoesNotCorrectWhatIsNoConstant) {
+  RowComparison comparison;
+  for (int i = 0; i < 100; ++i) comparison.observe({-2.5F, -0.8F, 0.8F, 2.4F, 4.0F});
+  EXPECT_NEAR(comparison.offset().median_px, 0.8, 1e-6);
+  EXPECT_EQ(comparison.offset().applied_px, 0.0);
+}
+
+TEST(RowComparisonTest, KeepsTheCorrectionUntilTheOffsetIsKnownAgain) {
+  RowComparison comparison;
+  show(1000, 1.5, 0.2, comparison);
+  comparison.searchAgain();
+  EXPECT_FALSE(comparison.isKnown());
+  EXPECT_NEAR(comparison.offset().applied_px, 1.5, 0.1);
+  show(50, -2.0, 0.2, comparison);
+  EXPECT_NEAR(comparison.offset().applied_px, 1.5, 0.1);
+  show(150, -2.0, 0.2, comparison);
+  EXPECT_NEAR(comparison.offset().applied_px, -2.0, 0.1);
+}
+
 }  // namespace
 }  // namespace rotrocc
