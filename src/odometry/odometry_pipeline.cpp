@@ -213,7 +213,7 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   const MotionEstimator::Estimate& estimate = found_.estimate;
   shared_errors_.observe(
       found_.camera, found_.features, estimate.rotation_inliers, estimate.T_keyframe_cur);
-  if (rows_.isKnown()) {
+  if (rows_.isKnown() || rows_.isNear(keyframe_.row_offset_px)) {
     finder_.compareRows(*current,
                         found_.features,
                         estimate.rotation_inliers,

@@ -15,7 +15,8 @@ constexpr std::size_t kFeatures = 1000;
 constexpr std::size_t kLeastFeatures = 100;
 constexpr int kLeastObservations = 3;
 
-/// With a smaller offset, matches are searched in the same row, and real clips are as accurate.
+/// Half a row. With a smaller offset, matches are searched in the same row, and real clips are as
+/// accurate.
 constexpr double kNotable_px = 0.5;
 
 /// For a normal distribution: the ratio of the standard deviation to the median absolute deviation,
@@ -68,6 +69,10 @@ void RowComparison::correct(double scatter_px) {
 
 bool RowComparison::isKnown() const {
   return observations_ >= kLeastObservations && last_px_.size() >= kLeastFeatures;
+}
+
+bool RowComparison::isNear(double offset_px) const {
+  return !last_px_.empty() && std::abs(offset_.median_px - offset_px) <= kNotable_px;
 }
 
 void RowComparison::searchAgain() {

@@ -19,10 +19,13 @@ class RowComparison {
   /// Adds the vertical offsets of single features [px], positive if lower in the right image.
   void observe(const std::vector<float>& differences_px);
 
-  /// Whether there are enough features to correct an offset. Before, or after searchAgain(), only
-  /// features that were searched in several rows may be added: near a wrong offset, only those that
-  /// seem to agree with it are found.
+  /// Whether there are enough features to correct an offset. Before, or after searchAgain(),
+  /// features must have been searched in several rows, or near an offset to which isNear() applies.
+  /// Near a wrong one, only those are found that seem to agree with it.
   bool isKnown() const;
+
+  /// Whether the median is within half a row of `offset_px`.
+  bool isNear(double offset_px) const;
 
   /// The rig may have been moved: the correction stays until the offset is known again.
   void searchAgain();

@@ -71,6 +71,14 @@ TEST(RowComparisonTest, CorrectsAnOffsetOfSeveralPairs) {
   EXPECT_EQ(comparison.offset().applied_px, 0.0);
 }
 
+TEST(RowComparisonTest, TellsWhetherFeaturesMayBeSearchedNearAnOffset) {
+  RowComparison comparison;
+  EXPECT_FALSE(comparison.isNear(0.0)) << "nothing is known";
+  show(50, 1.5, 0.1, comparison);
+  EXPECT_FALSE(comparison.isNear(0.0));
+  EXPECT_TRUE(comparison.isNear(1.2));
+}
+
 TEST(RowComparisonTest, CorrectionsDoNotComeAndGo) {
   RowComparison comparison;
   const auto appliedAt = [&](double offset_px) {
