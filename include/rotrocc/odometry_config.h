@@ -121,7 +121,7 @@ struct KeyframeSelectorConfig {
 
 /// Online rig calibration: estimation of the disparity bias.
 struct StereoCalibratorConfig {
-  bool enabled = true;          ///< false: only bias_px is applied
+  bool enabled = true;          ///< false: only bias_px is applied, and no row offset
   double bias_px = 0.0;         ///< known bias, added to every disparity; start of the estimate
   double prior_sigma_px = 1.0;  ///< standard deviation of the rig's bias about bias_px
   /// Deviations from bias_px below this many standard deviations are not applied.

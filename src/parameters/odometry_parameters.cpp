@@ -67,7 +67,9 @@ void addMotionCheck(MotionCheckConfig& c, ParameterTable& table) {
 
 void addStereoCalibrator(StereoCalibratorConfig& c, ParameterTable& table) {
   const std::string s = "stereo_calibrator/";
-  table.add(s + "enabled", c.enabled, "estimate and correct the disparity bias");
+  table.add(s + "enabled",
+            c.enabled,
+            "estimate and correct the disparity bias, and correct the row offset");
   table.add(s + "bias_px",
             c.bias_px,
             -20.0,
