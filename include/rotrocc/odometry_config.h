@@ -104,7 +104,7 @@ struct MotionCheckConfig {
   /// Share of the keyframe's features with a depth that are inliers; below: degraded. After a wrong
   /// prediction, up to a tenth of the features match somewhere by chance.
   double degraded_survivor_share = 0.1;
-  /// Standard deviation of the translation, relative to its length since the keyframe, or to 5 % of
+  /// Standard deviation of the translation, relative to its length since the keyframe, or to 2 % of
   /// the median depth if that is more; above: degraded.
   double degraded_relative_sigma = 0.05;
   double max_speed_mps = 70.0;          ///< faster: lost

@@ -17,7 +17,7 @@ constexpr double kSigmas = 3.0;
 constexpr int kReserve = 2;
 /// Share of the median depth. A shorter step changes the image little: its uncertainty is compared
 /// with the scene, or it would have none small enough at standstill.
-constexpr double kShortStep = 0.05;
+constexpr double kShortStep = 0.02;
 
 /// The smaller number of inliers of the two stages: both parts of the motion need enough of them.
 int inliers(const MotionEstimator::Estimate& estimate) {

@@ -129,10 +129,10 @@ TEST(MotionCheckTest, CallsAnUndeterminedTranslationDegraded) {
 TEST(MotionCheckTest, ComparesAShortStepWithTheScene) {
   auto estimate = goodEstimate();
   estimate.T_keyframe_cur.setIdentity();
-  estimate.covariance(2, 2) = 0.037 * 0.037;
+  estimate.covariance(2, 2) = 0.0149 * 0.0149;
   EXPECT_EQ(whyDegraded(estimate), "");
-  estimate.covariance(2, 2) = 0.038 * 0.038;
-  expectSays(whyDegraded(estimate), "0.038 m", "of 0.75 m");
+  estimate.covariance(2, 2) = 0.0151 * 0.0151;
+  expectSays(whyDegraded(estimate), "0.0151 m", "of 0.3 m");
 }
 
 TEST(MotionCheckTest, CallsAMotionOnASmallShareDegraded) {
