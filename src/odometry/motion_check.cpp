@@ -69,7 +69,7 @@ std::string MotionCheck::whyLost(const MotionEstimator::Estimate& estimate, doub
   return "";
 }
 
-std::string MotionCheck::whyDegraded(const Hypothesis& accepted) {
+std::string MotionCheck::whyDegraded(const Hypothesis& accepted, const Matrix6d& covariance) {
   const MotionEstimator::Estimate& estimate = accepted.estimate;
   if (estimate.translation_failed && isLarge(estimate.rotation_inliers)) {
     return sentence("the translation stage has fewer than min_inliers = ",
@@ -83,7 +83,7 @@ std::string MotionCheck::whyDegraded(const Hypothesis& accepted) {
                     config_.degraded_inlier_share);
   }
   const std::string why = whyFewSurvive(accepted);
-  return why.empty() ? whyUndetermined(accepted) : why;
+  return why.empty() ? whyUndetermined(accepted, covariance) : why;
 }
 
 /// Whether fewer than min_inliers inliers mean that the features disagree. In a small set, they may
@@ -105,7 +105,7 @@ std::string MotionCheck::whyFewSurvive(const Hypothesis& accepted) const {
                   config_.degraded_survivor_share);
 }
 
-std::string MotionCheck::whyUndetermined(const Hypothesis& accepted) {
+std::string MotionCheck::whyUndetermined(const Hypothesis& accepted, const Matrix6d& covariance) {
   const MotionEstimator::Estimate& estimate = accepted.estimate;
   depths_m_.clear();
   for (std::size_t i = 0; i < accepted.features.size(); ++i) {
@@ -113,7 +113,7 @@ std::string MotionCheck::whyUndetermined(const Hypothesis& accepted) {
   }
   const double step_m =
       std::max(estimate.T_keyframe_cur.translation().norm(), kShortStep * median(depths_m_));
-  const double sigma_m = std::sqrt(estimate.covariance.topLeftCorner<3, 3>().trace());
+  const double sigma_m = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
   if (sigma_m <= config_.degraded_relative_sigma * step_m) return "";
   return sentence("the translation has a standard deviation of ",
                   sigma_m,

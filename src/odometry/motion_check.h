@@ -21,8 +21,9 @@ class MotionCheck {
   /// accepted. The motion took `dt_s` > 0.
   std::string whyLost(const MotionEstimator::Estimate& estimate, double dt_s) const;
 
-  /// Why an accepted motion is less reliable; empty if it is not.
-  std::string whyDegraded(const Hypothesis& accepted);
+  /// Why an accepted motion is less reliable; empty if it is not. `covariance` is that of the
+  /// motion since the keyframe, including that of the rig's calibration.
+  std::string whyDegraded(const Hypothesis& accepted, const Matrix6d& covariance);
 
   /// Whether enough inliers are left for another motion against the same keyframe, which will have
   /// fewer.
@@ -38,7 +39,7 @@ class MotionCheck {
  private:
   bool isLarge(const FeatureSet& features) const;
   std::string whyFewSurvive(const Hypothesis& accepted) const;
-  std::string whyUndetermined(const Hypothesis& accepted);
+  std::string whyUndetermined(const Hypothesis& accepted, const Matrix6d& covariance);
 
   Config config_;
   std::vector<double> depths_m_;  // buffer, reused

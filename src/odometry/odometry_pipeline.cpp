@@ -231,7 +231,7 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   if (keyframe_.frame != last_) step.covariance *= kNotShared;
   result.T_prev_cur = step.T;
   result.covariance = step.covariance + systematicCovariance(config_.systematic_error, step.T);
-  result.reason = check_.whyDegraded(found_);
+  result.reason = check_.whyDegraded(found_, result.T_keyframe_cur.covariance);
   if (const auto expected = motion_model_.predict(result.dt_s); expected && result.reason.empty()) {
     result.reason = check_.whyJump(step, *expected, result.dt_s);
   }

@@ -49,7 +49,7 @@ Hypothesis hypothesis(const MotionEstimator::Estimate& estimate) {
 }
 
 std::string whyDegraded(const MotionEstimator::Estimate& estimate) {
-  return MotionCheck({}).whyDegraded(hypothesis(estimate));
+  return MotionCheck({}).whyDegraded(hypothesis(estimate), estimate.covariance);
 }
 
 TEST(MotionCheckTest, BelievesAGoodMotion) {
@@ -104,11 +104,11 @@ TEST(MotionCheckTest, CallsAMotionOnFewSurvivorsDegraded) {
   auto estimate = goodEstimate();
   Hypothesis tracked = hypothesis(estimate);
   tracked.counts.with_depth = 3001;
-  expectSays(MotionCheck({}).whyDegraded(tracked),
+  expectSays(MotionCheck({}).whyDegraded(tracked, estimate.covariance),
              "300 of 3001 features",
              "degraded_survivor_share = 0.1");
   tracked.counts.with_depth = 3000;
-  EXPECT_EQ(MotionCheck({}).whyDegraded(tracked), "");
+  EXPECT_EQ(MotionCheck({}).whyDegraded(tracked, estimate.covariance), "");
 }
 
 TEST(MotionCheckTest, DoesNotMindASmallImage) {
