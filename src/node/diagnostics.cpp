@@ -65,7 +65,8 @@ std::string rigWarning(const OdometryResult& result) {
   if (rows.typical_px >= kRowsApart_px) {
     what += (what.empty() ? "" : "; ") + std::string("rows of left and right differ by ") +
             hundredths(rows.typical_px) + " px, with a median offset of " +
-            hundredths(rows.median_px) + " px (+- " + hundredths(rows.sigma_px) + ")";
+            hundredths(rows.median_px) + " px (+- " + hundredths(rows.sigma_px) + ")" +
+            (rows.applied_px != 0.0 ? ", which is corrected" : "");
   }
   return what.empty() ? "" : what + ": recalibrate the stereo rig";
 }

@@ -92,6 +92,7 @@ OdometryStatus toStatus(const OdometryResult& result,
   message.disparity_bias_applied = static_cast<float>(result.disparity_bias.applied_px);
   message.row_offset = static_cast<float>(result.row_offset.median_px);
   message.row_offset_sigma = static_cast<float>(result.row_offset.sigma_px);
+  message.row_offset_applied = static_cast<float>(result.row_offset.applied_px);
   message.row_difference = static_cast<float>(result.row_offset.typical_px);
   message.exposure_gain = static_cast<float>(result.exposure_gain);
   message.flow_noise = static_cast<float>(result.flow_noise_px);
