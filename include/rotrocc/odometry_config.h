@@ -19,7 +19,7 @@ struct FeatureDetectorConfig {
 struct StereoMatcherConfig {
   int max_disparity_px = 128;     ///< above the disparity at infinity; nearer points are not found
   double min_disparity_px = 1.0;  ///< above the disparity at infinity; farther points are dropped
-  double max_mean_difference = 20.0;  ///< of the best match, in grey levels per pixel
+  double max_mean_difference = 16.0;  ///< of the best match, in grey levels per pixel
   double uniqueness = 0.92;  ///< the best SAD must be below this times the next best on the row
 };
 
@@ -79,7 +79,7 @@ struct MotionEstimatorConfig {
   double retry_agreement_px = 2.0;
 
   // Stage 2: translation.
-  double translation_limit = 0.05;       ///< limit of the DNRE, Eq. 30
+  double translation_limit = 0.04;       ///< limit of the DNRE, Eq. 30
   double translation_drop_share = 0.15;  ///< b of Eq. 30
   int translation_max_iterations = 30;
   /// Stage 2 starts at the prediction, not at the result of stage 1.
