@@ -92,6 +92,9 @@ struct OdometryResult {
   /// Contrast of the right image relative to the left one, the median over some features. 0: no
   /// motion.
   double exposure_gain = 0.0;
+  /// Ratio of the disparity error that neighbouring features share to flow noise, as assumed for
+  /// this motion; 0: no motion.
+  double shared_error_ratio = 0.0;
   double flow_noise_px = 0.0;  ///< standard deviation in x and y, of inliers; 0: no motion
   StageCounts counts;
   StageTimes times;

@@ -16,7 +16,8 @@ struct Hypothesis {
 
   StereoCamera camera;  ///< corrected by the disparity bias that was used for the features' depths
   Correspondences features;
-  double shared_ratio = 0.0;  ///< that was used, see Measurements
+  double shared_ratio = 0.0;   ///< that was used, see Measurements
+  double exposure_gain = 1.0;  ///< see OdometryResult
   MotionEstimator::Estimate estimate;
   StageCounts counts;
   std::string why_lost = kNotTried;  ///< why the motion is rejected; empty if it is accepted

@@ -38,20 +38,20 @@ void MotionSearch::find(const Frames& frames,
   found.clear();
   found.counts.tries = tries;
   const Eigen::Isometry3d& T_keyframe_last = frames.keyframe.T_keyframe_last.T;
-  bool is_settled = false;
-  if (T_last_cur) {
-    const Eigen::Isometry3d T_predicted = T_keyframe_last * *T_last_cur;
-    const Start start = {T_predicted, true, {prediction_error_.levels(), true}};
-    is_settled = settle(frames, start, most_tries, found, times);
-    if (found.isAccepted()) {
-      prediction_error_.observe(frames.finder.medianShift(
-          frames.camera, frames.keyframe, T_predicted, found.estimate.T_keyframe_cur));
-    }
+  const Start at_rest = {T_keyframe_last, false, {tracker_.startup_levels, false}};
+  if (!T_last_cur) {
+    settle(frames, at_rest, most_tries, found, times);
+    return;
   }
-  if (is_settled && found.isAccepted()) return;
-  if (T_last_cur && found.counts.tries >= most_tries) return;
-  settle(
-      frames, {T_keyframe_last, false, {tracker_.startup_levels, false}}, most_tries, found, times);
+  const Eigen::Isometry3d T_predicted = T_keyframe_last * *T_last_cur;
+  const Start predicted = {T_predicted, true, {prediction_error_.levels(), true}};
+  const bool is_settled = settle(frames, predicted, most_tries, found, times);
+  if (!(is_settled && found.isAccepted()) && found.counts.tries < most_tries) {
+    settle(frames, at_rest, most_tries, found, times);
+  }
+  if (!found.isAccepted()) return;
+  prediction_error_.observe(frames.finder.medianShift(
+      frames.camera, frames.keyframe, T_predicted, found.estimate.T_keyframe_cur));
 }
 
 /// Tracks and estimates repeatedly, each time starting from the last result. `best` becomes the
@@ -90,6 +90,7 @@ void MotionSearch::tryMotion(const Frames& frames,
                                         start.T_keyframe_cur,
                                         start.search,
                                         hypothesis.features);
+    hypothesis.exposure_gain = frames.finder.stereoGain();
   }
   counts.corners = static_cast<int>(frames.keyframe.corners.size());
   counts.with_depth = static_cast<int>(frames.keyframe.points.size());

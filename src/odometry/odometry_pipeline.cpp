@@ -222,7 +222,8 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
     rows_.observe(row_differences_px_);
   }
 
-  result.exposure_gain = finder_.stereoGain();
+  result.exposure_gain = found_.exposure_gain;
+  result.shared_error_ratio = found_.shared_ratio;
   result.flow_noise_px = estimate.flow_noise_px;
   result.keyframe_stamp_ns = keyframe_.frame->stamp_ns;
   result.T_keyframe_cur = {estimate.T_keyframe_cur,
