@@ -8,34 +8,6 @@
 #include "geometry/min_depth.h"
 
 namespace rotrocc {
-namespace {
-
-/// Rows are compared at one of this many features. That is cheap, and enough over a few pairs.
-constexpr std::size_t kRowSample = 16;
-
-/// Number of corners whose row is searched, and the largest row offset that is found.
-constexpr std::size_t kSearchSample = 64;
-constexpr int kMostRows = 3;
-
-/// A corner that is found in several rows must be at the same place, or its row is unknown.
-constexpr float kSamePlace_px = 1.0F;
-
-}  // namespace
-
-void CorrespondenceFinder::RowsFound::add(float offset_px, float searched_px) {
-  const float distance_px = std::abs(offset_px - searched_px);
-  if (distance_px > kSamePlace_px) return;
-  lowest_px = std::min(lowest_px, offset_px);
-  highest_px = std::max(highest_px, offset_px);
-  if (distance_px >= nearest_distance_px) return;
-  nearest_distance_px = distance_px;
-  nearest_px = offset_px;
-}
-
-bool CorrespondenceFinder::RowsFound::isUnique() const {
-  return highest_px >= lowest_px && highest_px - lowest_px <= kSamePlace_px;
-}
-
 CorrespondenceFinder::CorrespondenceFinder(const Config& config, int threads)
     : config_(config),
       workers_(threads),
@@ -196,58 +168,6 @@ void CorrespondenceFinder::checkCircularConsistency(const StereoCamera& camera,
     feature.disparity_px = disparity_px;
     feature.point_cur = depth_m * camera.ray(feature.cur_px);
     features.push_back(feature);
-  }
-}
-
-void CorrespondenceFinder::searchRows(const StereoCamera& camera,
-                                      const Keyframe& keyframe,
-                                      std::vector<float>& differences_px) {
-  sample_px_.clear();
-  const std::size_t step = std::max<std::size_t>(1, keyframe.corners.size() / kSearchSample);
-  for (std::size_t i = 0; i < keyframe.corners.size(); i += step) {
-    sample_px_.push_back(keyframe.corners[i]);
-  }
-  rows_found_.assign(sample_px_.size(), {});
-  for (int rows = -kMostRows; rows <= kMostRows; ++rows) searchRow(camera, keyframe, rows);
-  differences_px.clear();
-  for (const RowsFound& found : rows_found_) {
-    if (found.isUnique()) differences_px.push_back(found.nearest_px);
-  }
-}
-
-/// Matches the sample as if the right image were lower by `rows`, and locates the matches. Those
-/// that leave their row were found in a wrong one.
-void CorrespondenceFinder::searchRow(const StereoCamera& camera,
-                                     const Keyframe& keyframe,
-                                     int rows) {
-  const cv::Mat& left = keyframe.frame->left.front();
-  const cv::Mat& right = keyframe.frame->right.front();
-  const auto lower_px = static_cast<float>(rows);
-  const double gain = matcher_.match(
-      workers_, left, right, sample_px_, camera.disparityAtInfinity(), disparities_px_, rows);
-  for (std::size_t i = 0; i < sample_px_.size(); ++i) {
-    if (disparities_px_[i] == StereoMatcher::kNoDisparity) continue;
-    cv::Point2f point = sample_px_[i] + cv::Point2f(-disparities_px_[i], lower_px);
-    if (!tracker_.locate(left, right, sample_px_[i], gain, point)) continue;
-    rows_found_[i].add(point.y - sample_px_[i].y, lower_px);
-  }
-}
-
-void CorrespondenceFinder::compareRows(const StereoFrame& current,
-                                       const Correspondences& features,
-                                       const FeatureSet& set,
-                                       double row_offset_px,
-                                       std::vector<float>& differences_px) {
-  differences_px.clear();
-  for (std::size_t i = 0; i < features.size(); i += kRowSample) {
-    if (set[i] == 0) continue;
-    const cv::Point2f left(static_cast<float>(features[i].cur_px.x()),
-                           static_cast<float>(features[i].cur_px.y()));
-    cv::Point2f right = left + cv::Point2f(-static_cast<float>(features[i].disparity_px),
-                                           static_cast<float>(row_offset_px));
-    if (tracker_.locate(current.left.front(), current.right.front(), left, stereo_gain_, right)) {
-      differences_px.push_back(right.y - left.y);
-    }
   }
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -49,20 +48,6 @@ class CorrespondenceFinder {
            const FeatureTracker::Search& search,
            Correspondences& features);
 
-  /// Vertical offsets [px] of a sample of the keyframe's corners, positive if lower in the right
-  /// image. They may be up to 3 px and need not be known before: several rows are searched.
-  void searchRows(const StereoCamera& camera,
-                  const Keyframe& keyframe,
-                  std::vector<float>& differences_px);
-
-  /// As searchRows(), for a sample of the flagged features of `current`. They are searched near
-  /// `row_offset_px`.
-  void compareRows(const StereoFrame& current,
-                   const Correspondences& features,
-                   const FeatureSet& set,
-                   double row_offset_px,
-                   std::vector<float>& differences_px);
-
   /// Contrast of the right image relative to the left one, at the features found last; 1 before.
   double stereoGain() const { return stereo_gain_; }
 
@@ -74,19 +59,6 @@ class CorrespondenceFinder {
                      const Eigen::Isometry3d& T_keyframe_cur_b);
 
  private:
-  /// Where a corner was found when several rows were searched.
-  struct RowsFound {
-    /// Adds a position at the offset `offset_px`, found by a search at `searched_px`.
-    void add(float offset_px, float searched_px);
-    bool isUnique() const;
-
-    float lowest_px = std::numeric_limits<float>::max();
-    float highest_px = std::numeric_limits<float>::lowest();
-    float nearest_px = 0.0F;  ///< of the position nearest to where it was searched
-    float nearest_distance_px = std::numeric_limits<float>::max();
-  };
-
-  void searchRow(const StereoCamera& camera, const Keyframe& keyframe, int rows);
   void refineDisparities(const StereoCamera& camera, const Keyframe& keyframe);
   void predict(const StereoCamera& camera,
                const Keyframe& keyframe,
@@ -113,10 +85,6 @@ class CorrespondenceFinder {
   std::vector<char> tracked_;
   std::vector<float> matched_disparities_px_, tracked_disparities_px_, disparities_px_;
   std::vector<double> shifts_px_;
-
-  // Buffers for searchRows(), reused.
-  std::vector<cv::Point2f> sample_px_;
-  std::vector<RowsFound> rows_found_;
 
   double stereo_gain_ = 1.0;  // from left to right, at the features found last
 };

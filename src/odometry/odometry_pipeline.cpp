@@ -25,6 +25,7 @@ struct Lost : std::runtime_error {
 VisualOdometry::Pipeline::Pipeline(const Config& config)
     : config_(config),
       finder_(config.correspondence_finder, config.threads),
+      row_search_(config.correspondence_finder),
       motion_model_(config.motion_model),
       search_(config),
       check_(config.motion_check),
@@ -76,6 +77,7 @@ void VisualOdometry::Pipeline::configure(const Config& config) {
   search_ = MotionSearch(config);  // first, because it may throw
   config_ = config;
   finder_ = CorrespondenceFinder(config.correspondence_finder, config.threads);
+  row_search_ = RowSearch(config.correspondence_finder);
   motion_model_.configure(config.motion_model);
   check_ = MotionCheck(config.motion_check);
   calibrator_.configure(config.stereo_calibrator);
@@ -167,8 +169,8 @@ void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& t
   const StageTimer timer(times.disparity_ms);
   const StereoCamera corrected = calibrator_.correct(camera_);
   if (!rows_.isKnown()) {
-    finder_.searchRows(corrected, keyframe_, row_differences_px_);
-    rows_.observe(row_differences_px_);
+    row_search_.search(corrected, keyframe_, row_offsets_px_);
+    rows_.observe(row_offsets_px_);
   }
   keyframe_.row_offset_px = correctedRows();
   finder_.findDepths(corrected, keyframe_);
@@ -214,12 +216,13 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   shared_errors_.observe(
       found_.camera, found_.features, estimate.rotation_inliers, estimate.T_keyframe_cur);
   if (rows_.isKnown() || rows_.isNear(keyframe_.row_offset_px)) {
-    finder_.compareRows(*current,
+    row_search_.measure(*current,
                         found_.features,
                         estimate.rotation_inliers,
                         keyframe_.row_offset_px,
-                        row_differences_px_);
-    rows_.observe(row_differences_px_);
+                        found_.exposure_gain,
+                        row_offsets_px_);
+    rows_.observe(row_offsets_px_);
   }
 
   result.exposure_gain = found_.exposure_gain;

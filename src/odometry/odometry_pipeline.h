@@ -9,6 +9,7 @@
 
 #include "features/correspondence_finder.h"
 #include "features/keyframe.h"
+#include "features/row_search.h"
 #include "features/stereo_frame.h"
 #include "motion/shared_error_estimator.h"
 #include "odometry/hypothesis.h"
@@ -58,6 +59,7 @@ class VisualOdometry::Pipeline {
 
   Config config_;
   CorrespondenceFinder finder_;
+  RowSearch row_search_;
   MotionModel motion_model_;
   MotionSearch search_;
   MotionCheck check_;
@@ -72,7 +74,7 @@ class VisualOdometry::Pipeline {
   Keyframe keyframe_;    // no frame if it must be created from the last frame
 
   Hypothesis found_;
-  std::vector<float> row_differences_px_;  // buffer of accept(), reused
+  std::vector<float> row_offsets_px_;  // buffer, reused
 };
 
 }  // namespace rotrocc

@@ -109,22 +109,6 @@ StereoPair withRightLower(StereoPair pair, double rows) {
   return pair;
 }
 
-TEST(CorrespondenceFinderTest, SearchesTheRowsOfTheRightImage) {
-  const SyntheticScene scene;
-  const StereoPair pair = view(scene, Eigen::Isometry3d::Identity());
-  for (const double rows : {-2.75, -1.5, 0.0, 0.5, 1.5, 3.0}) {
-    CorrespondenceFinder finder({});
-    Keyframe keyframe;
-    keyframe.frame = finder.makeFrame(withRightLower(pair, rows));
-    finder.findCorners(keyframe);
-    std::vector<float> offsets_px;
-    finder.searchRows(scene.camera(), keyframe, offsets_px);
-    ASSERT_GT(offsets_px.size(), 20u);
-    // The noise of the tracker is 0.3 px, that of the median of 20 features a quarter of it.
-    EXPECT_NEAR(median({offsets_px.begin(), offsets_px.end()}), rows, 0.2);
-  }
-}
-
 TEST(CorrespondenceFinderTest, FindsFeaturesInALowerRightImage) {
   const SyntheticScene scene;
   const StereoPair prev = view(scene, Eigen::Isometry3d::Identity());
