@@ -63,6 +63,13 @@ struct RowOffset {
   double applied_px = 0.0;
 };
 
+/// How much later the right images are taken than the left ones. Moving features have wrong
+/// disparities then.
+struct TimeSkew {
+  double estimated_s = 0.0;
+  double sigma_s = 0.0;  ///< standard deviation; 0: not known, e.g. at standstill from the start
+};
+
 /// The result for one stereo pair.
 struct OdometryResult {
   State state = State::kLost;
@@ -89,6 +96,7 @@ struct OdometryResult {
   UncertainTransform T_keyframe_cur;
   DisparityBias disparity_bias;  ///< of the rig
   RowOffset row_offset;          ///< of the rig, before the correction
+  TimeSkew time_skew;            ///< of the rig
   /// Contrast of the right image relative to the left one, the median over some features. 0: no
   /// motion.
   double exposure_gain = 0.0;

@@ -73,8 +73,9 @@ void RowSearch::measure(const StereoFrame& current,
                         const FeatureSet& set,
                         double row_offset_px,
                         double stereo_gain,
-                        std::vector<float>& offsets_px) {
-  offsets_px.clear();
+                        RowOffsets& offsets) {
+  offsets.features.clear();
+  offsets.offsets_px.clear();
   for (std::size_t i = 0; i < features.size(); i += kFeatureSample) {
     if (set[i] == 0) continue;
     const cv::Point2f left(static_cast<float>(features[i].cur_px.x()),
@@ -82,7 +83,8 @@ void RowSearch::measure(const StereoFrame& current,
     cv::Point2f right = left + cv::Point2f(-static_cast<float>(features[i].disparity_px),
                                            static_cast<float>(row_offset_px));
     if (tracker_.locate(current.left.front(), current.right.front(), left, stereo_gain, right)) {
-      offsets_px.push_back(right.y - left.y);
+      offsets.features.push_back(i);
+      offsets.offsets_px.push_back(right.y - left.y);
     }
   }
 }

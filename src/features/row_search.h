@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -16,6 +17,12 @@
 
 namespace rotrocc {
 
+/// Row offsets of single features, positive if a feature is lower in the right image.
+struct RowOffsets {
+  std::vector<std::size_t> features;  ///< indices
+  std::vector<float> offsets_px;      ///< in the same order
+};
+
 /// Measures the row offset between the left and the right image at a sample of points. Offsets are
 /// positive if a point is lower in the right image. Has no state except reused buffers.
 class RowSearch {
@@ -26,14 +33,14 @@ class RowSearch {
   /// known before: several rows are searched.
   void search(const StereoCamera& camera, const Keyframe& keyframe, std::vector<float>& offsets_px);
 
-  /// Offsets [px] of a sample of the flagged features of `current`, near `row_offset_px`.
+  /// Offsets of a sample of the flagged features of `current`, near `row_offset_px`.
   /// `stereo_gain`: contrast of the right image relative to the left one.
   void measure(const StereoFrame& current,
                const Correspondences& features,
                const FeatureSet& set,
                double row_offset_px,
                double stereo_gain,
-               std::vector<float>& offsets_px);
+               RowOffsets& offsets);
 
  private:
   /// Where a corner was found when several rows were searched.

@@ -23,6 +23,9 @@ constexpr double kLateShareOfPeriod = 1.0;
 constexpr double kLargeBias_px = 0.5;
 /// More than a good rectification leaves, and more than the matching of small windows tolerates.
 constexpr double kRowsApart_px = 0.5;
+/// At 10 m/s, or at half a radian per second, a pixel or so of disparity error.
+constexpr double kNotableSkew_s = 0.002;
+constexpr double kSkewSigmas = 4.0;
 
 unsigned char levelOf(std::uint8_t state) {
   switch (state) {
@@ -52,6 +55,15 @@ bool ratesDiffer(const InputReport& input) {
   return std::abs(left_hz - right_hz) > kRateDifference * std::max(left_hz, right_hz);
 }
 
+/// Empty unless the skew is notable and beyond doubt.
+std::string skewWarning(const TimeSkew& skew) {
+  const double least_s = std::max(kNotableSkew_s, kSkewSigmas * skew.sigma_s);
+  if (skew.sigma_s == 0.0 || std::abs(skew.estimated_s) < least_s) return "";
+  return "the right images are taken " + hundredths(1e3 * std::abs(skew.estimated_s)) + " ms (+- " +
+         hundredths(1e3 * skew.sigma_s) + ") " + (skew.estimated_s > 0.0 ? "after" : "before") +
+         " the left ones: trigger both cameras by one signal";
+}
+
 }  // namespace
 
 std::string rigWarning(const OdometryResult& result) {
@@ -68,7 +80,9 @@ std::string rigWarning(const OdometryResult& result) {
             hundredths(rows.median_px) + " px (+- " + hundredths(rows.sigma_px) + ")" +
             (rows.applied_px != 0.0 ? ", which is corrected" : "");
   }
-  return what.empty() ? "" : what + ": recalibrate the stereo rig";
+  if (!what.empty()) what += ": recalibrate the stereo rig";
+  const std::string skew = skewWarning(result.time_skew);
+  return what.empty() || skew.empty() ? what + skew : what + "; " + skew;
 }
 
 void describeOdometry(const HealthReport& report, StatusWrapper& status) {
@@ -100,6 +114,9 @@ void describeOdometry(const HealthReport& report, StatusWrapper& status) {
               rows.median_px,
               rows.sigma_px,
               rows.typical_px);
+  const TimeSkew& skew = report.last_result.time_skew;
+  status.addf(
+      "delay of the right image", "%.1f +- %.1f ms", 1e3 * skew.estimated_s, 1e3 * skew.sigma_s);
   status.addf("contrast of the right image relative to the left one",
               "%.2f",
               report.last_result.exposure_gain);

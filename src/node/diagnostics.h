@@ -13,7 +13,8 @@ namespace rotrocc {
 /// The entries of /diagnostics.
 using StatusWrapper = diagnostic_updater::DiagnosticStatusWrapper;
 
-/// Warning about a large disparity bias or row offset, one sentence; empty if there is none.
+/// Warning about a large disparity bias, row offset or time skew, one sentence; empty if there is
+/// none.
 std::string rigWarning(const OdometryResult& result);
 
 void describeOdometry(const HealthReport& report, StatusWrapper& status);

@@ -55,6 +55,7 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
     result.disparity_bias.applied_px = found_.camera.cx_right - camera.cx_right;
   }
   result.row_offset = rows_.offset();
+  result.time_skew = time_skew_.skew();
   result.row_offset.applied_px = result.hasMotion() ? keyframe_.row_offset_px : correctedRows();
   return result;
 }
@@ -147,6 +148,7 @@ FramePtr VisualOdometry::Pipeline::takeFrame(const StereoPair& pair,
     calibrator_.reset();
     shared_errors_.reset();
     rows_.reset();
+    time_skew_.reset();
   }
   camera_ = camera;
   return finder_.makeFrame(pair);
@@ -169,8 +171,8 @@ void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& t
   const StageTimer timer(times.disparity_ms);
   const StereoCamera corrected = calibrator_.correct(camera_);
   if (!rows_.isKnown()) {
-    row_search_.search(corrected, keyframe_, row_offsets_px_);
-    rows_.observe(row_offsets_px_);
+    row_search_.search(corrected, keyframe_, searched_rows_px_);
+    rows_.observe(searched_rows_px_);
   }
   keyframe_.row_offset_px = correctedRows();
   finder_.findDepths(corrected, keyframe_);
@@ -221,8 +223,10 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
                         estimate.rotation_inliers,
                         keyframe_.row_offset_px,
                         found_.exposure_gain,
-                        row_offsets_px_);
-    rows_.observe(row_offsets_px_);
+                        row_offsets_);
+    rows_.observe(row_offsets_.offsets_px);
+    time_skew_.observe(
+        found_.camera, found_.features, row_offsets_, secondsBetween(*keyframe_.frame, *current));
   }
 
   result.exposure_gain = found_.exposure_gain;

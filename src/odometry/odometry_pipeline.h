@@ -19,6 +19,7 @@
 #include "odometry/motion_search.h"
 #include "rig/row_comparison.h"
 #include "rig/stereo_calibrator.h"
+#include "rig/time_skew_estimator.h"
 #include "rotrocc/visual_odometry.h"
 
 namespace rotrocc {
@@ -66,6 +67,7 @@ class VisualOdometry::Pipeline {
   StereoCalibrator calibrator_;
   SharedErrorEstimator shared_errors_;
   RowComparison rows_;
+  TimeSkewEstimator time_skew_;
   KeyframeSelector selector_;
 
   StereoCamera camera_;  // without correction of the bias
@@ -74,7 +76,8 @@ class VisualOdometry::Pipeline {
   Keyframe keyframe_;    // no frame if it must be created from the last frame
 
   Hypothesis found_;
-  std::vector<float> row_offsets_px_;  // buffer, reused
+  std::vector<float> searched_rows_px_;  // buffer, reused
+  RowOffsets row_offsets_;               // buffer, reused
 };
 
 }  // namespace rotrocc

@@ -55,10 +55,12 @@ TEST_P(RowSearchTest, MeasuresAnOffsetThatIsRoughlyKnown) {
   Correspondences features;
   finder_.find(
       scene_.camera(), keyframe, *frame_, Eigen::Isometry3d::Identity(), {1, false}, features);
+  const FeatureSet all(features.size(), 1);
   for (const double error_px : {-0.5, 0.5}) {
-    search_.measure(
-        *frame_, features, FeatureSet(features.size(), 1), GetParam() + error_px, 1.0, offsets_px_);
-    expectOffset(offsets_px_);
+    RowOffsets offsets;
+    search_.measure(*frame_, features, all, GetParam() + error_px, 1.0, offsets);
+    EXPECT_EQ(offsets.features.size(), offsets.offsets_px.size());
+    expectOffset(offsets.offsets_px);
   }
 }
 

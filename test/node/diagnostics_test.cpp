@@ -128,6 +128,22 @@ TEST(DiagnosticsTest, RowsThatAreApartAskForACalibration) {
             "-0.62 +- 0.01 px, median difference 0.75 px");
 }
 
+TEST(DiagnosticsTest, ATimeSkewBeyondDoubtIsAWarning) {
+  HealthReport report = goodReport();
+  report.last_result.time_skew = {-0.0062, 0.0011};
+  StatusWrapper status;
+  describeOdometry(report, status);
+  EXPECT_EQ(status.level, Level::WARN);
+  EXPECT_EQ(status.message,
+            "the right images are taken 6.2 ms (+- 1.1) before the left ones: trigger both "
+            "cameras by one signal");
+  EXPECT_EQ(valueOf(status, "delay of the right image"), "-6.2 +- 1.1 ms");
+  for (const TimeSkew& skew : {TimeSkew{-0.0062, 0.002}, TimeSkew{0.0015, 0.0002}, TimeSkew{}}) {
+    report.last_result.time_skew = skew;
+    EXPECT_EQ(rigWarning(report.last_result), "") << skew.estimated_s;
+  }
+}
+
 TEST(DiagnosticsTest, LossIsAnErrorWithItsReason) {
   HealthReport report = goodReport();
   report.last_result.state = State::kLost;
