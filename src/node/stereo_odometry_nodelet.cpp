@@ -1,6 +1,7 @@
 #include "node/stereo_odometry_nodelet.h"
 
 #include <exception>
+#include <stdexcept>
 #include <utility>
 
 #include <ros/init.h>
@@ -30,75 +31,68 @@ double millisecondsSince(SteadyClock::time_point start) {
 
 }  // namespace
 
-StereoOdometryNodelet::~StereoOdometryNodelet() {
-  mailbox_.close();
-  if (worker_.joinable()) worker_.join();
-}
-
-void StereoOdometryNodelet::onInit() {
-  try {
-    start(readParameters(getPrivateNodeHandle()));
-  } catch (const std::exception& error) {
-    NODELET_FATAL_STREAM(error.what());
-    throw;  // the loader reports the failure and continues
-  }
-}
-
-void StereoOdometryNodelet::start(const Parameters& parameters) {
-  ros::NodeHandle& nh = getNodeHandle();
-  ros::NodeHandle& private_nh = getPrivateNodeHandle();
-  parameters_ = parameters.node;
+StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
+                               ros::NodeHandle& private_nh,
+                               const std::string& name,
+                               const Parameters& parameters)
+    : log_(name),
+      parameters_(parameters.node),
+      processor_(parameters),
+      mount_(parameters_.base_frame),
+      publisher_(nh, parameters_),
+      trajectory_(static_cast<std::size_t>(parameters_.trajectory_length)),
+      silence_(parameters_.silence_s, SteadyClock::now()) {
   if (!parameters_.trajectory_file.empty()) {
     trajectory_file_.emplace(parameters_.trajectory_file,
                              trajectoryFormat(parameters_.trajectory_format));
   }
-  trajectory_.emplace(static_cast<std::size_t>(parameters_.trajectory_length));
-  processor_.emplace(parameters);
-  mount_.emplace(parameters_.base_frame);
   if (!parameters_.guess_frame.empty()) {
     guess_.emplace(parameters_.guess_frame, parameters_.base_frame, parameters_.guess_timeout_s);
   }
-  publisher_.emplace(nh, parameters_);
-  silence_.emplace(parameters_.silence_s, SteadyClock::now());
   input_.emplace(nh, parameters_, drops_, [this](ReceivedPair pair) { onPair(std::move(pair)); });
   if (parameters_.publish_tf && !parameters_.invert_tf && !guess_) {
     tf_conflict_.emplace(nh, parameters_.odom_frame, parameters_.base_frame);
   }
-  diagnostics_.emplace(nh, private_nh, getName());
+  diagnostics_.emplace(nh, private_nh, name);
   services_.emplace(private_nh, makeActions());
   live_parameters_.emplace(private_nh, parameters, [this](const VisualOdometry::Config& config) {
-    processor_->requestConfig(config);
+    processor_.requestConfig(config);
   });
   if (ros::isShuttingDown()) return;  // some publishers do not exist then
-  ticker_ = nh.createWallTimer(ros::WallDuration(kTick_s), &StereoOdometryNodelet::onTick, this);
-  worker_ = std::thread(&StereoOdometryNodelet::work, this);
+  ticker_ = nh.createWallTimer(ros::WallDuration(kTick_s), &StereoOdometry::onTick, this);
+  worker_ = std::thread(&StereoOdometry::work, this);  // last: nothing may fail after it
 }
 
-OdometryServices::Actions StereoOdometryNodelet::makeActions() {
+StereoOdometry::~StereoOdometry() {
+  mailbox_.close();
+  if (worker_.joinable()) worker_.join();
+}
+
+OdometryServices::Actions StereoOdometry::makeActions() {
   OdometryServices::Actions actions;
-  actions.reset = [this] { processor_->requestReset(); };
-  actions.set_pose = [this](const Eigen::Isometry3d& T) { processor_->requestPose(T); };
+  actions.reset = [this] { processor_.requestReset(); };
+  actions.set_pose = [this](const Eigen::Isometry3d& T) { processor_.requestPose(T); };
   actions.pause = [this](bool paused) { onPause(paused); };
   actions.save_trajectory = [this](const std::string& path, const std::string& format) {
-    return trajectory_->save(path, format);
+    return trajectory_.save(path, format);
   };
   return actions;
 }
 
-void StereoOdometryNodelet::onPair(ReceivedPair pair) {
-  const std::string said = silence_->onPair(SteadyClock::now());
-  if (!said.empty()) NODELET_INFO_STREAM(said);
+void StereoOdometry::onPair(ReceivedPair pair) {
+  const std::string said = silence_.onPair(SteadyClock::now());
+  if (!said.empty()) log_.info(said);
   if (health_.paused()) return drops_.count(DropReason::kPaused);
   if (mailbox_.put(std::move(pair))) drops_.count(DropReason::kSuperseded);
 }
 
-void StereoOdometryNodelet::onPause(bool paused) {
-  if (health_.paused() && !paused) processor_->requestRestart();
+void StereoOdometry::onPause(bool paused) {
+  if (health_.paused() && !paused) processor_.requestRestart();
   health_.setPaused(paused);
 }
 
 /// Once a second: diagnostics, a status if there was no pair, and a report of missing input.
-void StereoOdometryNodelet::onTick(const ros::WallTimerEvent&) {
+void StereoOdometry::onTick(const ros::WallTimerEvent&) {
   try {
     const SteadyClock::time_point now = SteadyClock::now();
     const InputReport input = input_->report();
@@ -106,16 +100,16 @@ void StereoOdometryNodelet::onTick(const ros::WallTimerEvent&) {
     const HealthReport report = health_.report(input, drops_);
     diagnostics_->publish(report);
     if (!report.answers || report.paused) {
-      publisher_->publishStatus(toIdleStatus(report, ros::Time::now()));
+      publisher_.publishStatus(toIdleStatus(report, ros::Time::now()));
     }
-    const std::string said = silence_->onTick(input, now);
-    if (!said.empty()) NODELET_WARN_STREAM(said);
+    const std::string said = silence_.onTick(input, now);
+    if (!said.empty()) log_.warn(said);
   } catch (const std::exception& error) {
-    NODELET_ERROR_STREAM("diagnostics: " << error.what());
+    log_.error(std::string("diagnostics: ") + error.what());
   }
 }
 
-void StereoOdometryNodelet::work() {
+void StereoOdometry::work() {
   std::optional<ReceivedPair> pair;
   while (ros::ok() && !mailbox_.closed()) {
     if (auto newer = mailbox_.take(pair ? kTfPoll : kIdlePoll)) {
@@ -129,18 +123,18 @@ void StereoOdometryNodelet::work() {
 }
 
 /// Whether tf lacks the camera pose. A missing frame is handled by process().
-bool StereoOdometryNodelet::waitsForMount(const ReceivedPair& received) {
+bool StereoOdometry::waitsForMount(const ReceivedPair& received) {
   const sensor_msgs::Image& left = *received.images.left;
   if (parameters_.camera_frame.empty() && left.header.frame_id.empty()) return false;
-  if (mount_->find(cameraFrameOf(left, parameters_.camera_frame))) return false;
-  health_.setWaitsForTf(mount_->missing());
+  if (mount_.find(cameraFrameOf(left, parameters_.camera_frame))) return false;
+  health_.setWaitsForTf(mount_.missing());
   return true;
 }
 
-void StereoOdometryNodelet::processSafely(const ReceivedPair& received) {
+void StereoOdometry::processSafely(const ReceivedPair& received) {
   try {
     const auto& T_base_camera =
-        mount_->find(cameraFrameOf(*received.images.left, parameters_.camera_frame));
+        mount_.find(cameraFrameOf(*received.images.left, parameters_.camera_frame));
     if (T_base_camera) process(received, *T_base_camera);
   } catch (const InputError& error) {
     drops_.add(error);
@@ -149,64 +143,79 @@ void StereoOdometryNodelet::processSafely(const ReceivedPair& received) {
   }
 }
 
-void StereoOdometryNodelet::process(const ReceivedPair& received,
-                                    const Eigen::Isometry3d& T_base_camera) {
+void StereoOdometry::process(const ReceivedPair& received, const Eigen::Isometry3d& T_base_camera) {
   PairProcessor::MotionSource expected;
   if (guess_) {
     expected = [this](std::int64_t prev_ns, std::int64_t cur_ns) {
       return guess_->motion(prev_ns, cur_ns);
     };
   }
-  const PairAnswer answer = processor_->process(received, T_base_camera, expected);
+  const PairAnswer answer = processor_.process(received, T_base_camera, expected);
   if (answer.begins_anew) endTrajectory();
   writeTrajectory(answer.state);
   logState(answer);
   publish(answer, received);
 }
 
-void StereoOdometryNodelet::publish(const PairAnswer& answer, const ReceivedPair& received) {
+void StereoOdometry::publish(const PairAnswer& answer, const ReceivedPair& received) {
   const std::string camera_frame = cameraFrameOf(*received.images.left, parameters_.camera_frame);
   std::optional<Eigen::Isometry3d> T_guess_base;
   if (guess_) T_guess_base = guess_->pose(answer.result.stamp_ns);
   const double latency_ms = millisecondsSince(received.arrival);
   health_.addAnswer(answer.result, answer.hint, latency_ms);
-  publisher_->publishMotion(
+  publisher_.publishMotion(
       toStatus(answer.result, health_.report({}, drops_), latency_ms, camera_frame),
       answer.state,
       T_guess_base);
-  publisher_->publishPictures(
-      answer.pair.left, received.camera, processor_->odometry(), answer.result, camera_frame);
+  publisher_.publishPictures(
+      answer.pair.left, received.camera, processor_.odometry(), answer.result, camera_frame);
 }
 
-void StereoOdometryNodelet::endTrajectory() {
-  trajectory_->clear();
-  publisher_->forgetPath();
+void StereoOdometry::endTrajectory() {
+  trajectory_.clear();
+  publisher_.forgetPath();
   if (guess_) guess_->clear();
 }
 
-void StereoOdometryNodelet::writeTrajectory(const BaseState& state) {
+void StereoOdometry::writeTrajectory(const BaseState& state) {
   const StampedPose pose = {state.stamp_ns, state.T_first_camera};
-  trajectory_->add(pose);
+  trajectory_.add(pose);
   if (!trajectory_file_) return;
   try {
     trajectory_file_->write(pose);
   } catch (const std::exception& error) {
-    NODELET_ERROR_STREAM("trajectory file closed: " << error.what());
+    log_.error(std::string("trajectory file closed: ") + error.what());
     trajectory_file_.reset();
   }
 }
 
-void StereoOdometryNodelet::logState(const PairAnswer& answer) {
+void StereoOdometry::logState(const PairAnswer& answer) {
   const OdometryResult& result = answer.result;
   const State before = std::exchange(last_state_, result.state);
   if (result.state == State::kLost) {
-    if (lost_warning_.pass()) NODELET_WARN_STREAM("lost: " << result.reason);
+    if (lost_warning_.pass()) log_.warn("lost: " + result.reason);
   } else if (before == State::kLost) {
-    NODELET_INFO_STREAM("no longer lost: " << toString(result.state));
+    log_.info(std::string("no longer lost: ") + toString(result.state));
   }
-  if (!answer.hint.empty() && hint_warning_.pass()) NODELET_WARN_STREAM(answer.hint);
+  if (!answer.hint.empty() && hint_warning_.pass()) log_.warn(answer.hint);
   const std::string rig = rigWarning(result);
-  if (!rig.empty() && rig_warning_.pass()) NODELET_WARN_STREAM(rig);
+  if (!rig.empty() && rig_warning_.pass()) log_.warn(rig);
+}
+
+void StereoOdometryNodelet::onInit() {
+  // The loader destroys the callback queues of a nodelet that fails before the nodelet itself, so
+  // that a publisher, subscriber or timer left in it would be removed from a queue that is gone.
+  // It catches std::exception only.
+  try {
+    odometry_ = std::make_unique<StereoOdometry>(
+        getNodeHandle(), getPrivateNodeHandle(), getName(), readParameters(getPrivateNodeHandle()));
+  } catch (const std::exception& error) {
+    Log(getName()).fatal(error.what());
+    throw;
+  } catch (...) {
+    Log(getName()).fatal("unknown error");
+    throw std::runtime_error("unknown error");
+  }
 }
 
 }  // namespace rotrocc

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
@@ -10,6 +11,7 @@
 
 #include "input/drop_log.h"
 #include "input/latest_mailbox.h"
+#include "input/log.h"
 #include "input/silence_watch.h"
 #include "input/throttle.h"
 #include "node/camera_mount.h"
@@ -37,17 +39,18 @@ namespace rotrocc {
 ///
 /// The callbacks only match images to pairs. A worker thread processes them; if it is too slow, it
 /// skips to the newest pair.
-class StereoOdometryNodelet : public nodelet::Nodelet {
+class StereoOdometry {
  public:
-  ~StereoOdometryNodelet() override;
+  /// Throws std::exception if it cannot start; then nothing of it is left. `name` is that of the
+  /// node or nodelet, for logs.
+  StereoOdometry(ros::NodeHandle& nh,
+                 ros::NodeHandle& private_nh,
+                 const std::string& name,
+                 const Parameters& parameters);
+  ~StereoOdometry();
 
  private:
-  /// Throws std::exception, after a fatal log, on invalid parameters, before anything is
-  /// subscribed.
-  void onInit() override;
-
   // In the thread of the nodelet.
-  void start(const Parameters& parameters);
   OdometryServices::Actions makeActions();
   void onPair(ReceivedPair pair);
   void onPause(bool paused);
@@ -63,21 +66,22 @@ class StereoOdometryNodelet : public nodelet::Nodelet {
   void writeTrajectory(const BaseState& state);
   void logState(const PairAnswer& answer);
 
+  Log log_;
   NodeParameters parameters_;
   DropLog drops_;
   OdometryHealth health_;
-  std::optional<PairProcessor> processor_;
-  std::optional<CameraMount> mount_;
+  PairProcessor processor_;
+  CameraMount mount_;
   std::optional<GuessOdometry> guess_;
-  std::optional<OdometryPublisher> publisher_;
+  OdometryPublisher publisher_;
   std::optional<TrajectoryWriter> trajectory_file_;
-  std::optional<TrajectoryHistory> trajectory_;
+  TrajectoryHistory trajectory_;
 
   State last_state_ = State::kInitialising;  // of the worker
   Throttle lost_warning_{std::chrono::seconds(5)};
   Throttle hint_warning_{std::chrono::seconds(5)};
   Throttle rig_warning_{std::chrono::minutes(5)};
-  std::optional<SilenceWatch> silence_;  // of the callbacks
+  SilenceWatch silence_;  // of the callbacks
 
   LatestMailbox<ReceivedPair> mailbox_;
   // Order matters from here on: members are destroyed after those that call them.
@@ -88,6 +92,15 @@ class StereoOdometryNodelet : public nodelet::Nodelet {
   std::optional<LiveParameters> live_parameters_;
   ros::WallTimer ticker_;
   std::thread worker_;
+};
+
+/// StereoOdometry as a nodelet.
+class StereoOdometryNodelet : public nodelet::Nodelet {
+ private:
+  /// Throws std::exception, after a fatal log, if the odometry cannot start.
+  void onInit() override;
+
+  std::unique_ptr<StereoOdometry> odometry_;
 };
 
 }  // namespace rotrocc
