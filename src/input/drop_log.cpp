@@ -1,6 +1,6 @@
 #include "input/drop_log.h"
 
-#include <ros/console.h>
+#include "input/to_text.h"
 
 namespace rotrocc {
 
@@ -16,14 +16,14 @@ void DropLog::log(const InputError& error) {
   if (error.reason() == DropReason::kCameraInfoInvalid) {
     if (camera_error_ == error.what() || !camera_throttle_.pass()) return;
     camera_error_ = error.what();
-    ROS_ERROR_STREAM("no calibration: " << error.what());
+    log_.error(std::string("no calibration: ") + error.what());
     return;
   }
   Throttle& throttle =
       throttles_.try_emplace(error.reason(), std::chrono::seconds(5)).first->second;
   if (!throttle.pass()) return;
-  ROS_WARN_STREAM("dropped (" << toString(error.reason()) << ", " << counters_.count(error.reason())
-                              << " so far): " << error.what());
+  log_.warn(std::string("dropped (") + toString(error.reason()) + ", " +
+            toText(counters_.count(error.reason())) + " so far): " + error.what());
 }
 
 std::optional<InputError> DropLog::lastWithin(std::chrono::seconds age) const {

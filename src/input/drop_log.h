@@ -6,8 +6,10 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "input/input_error.h"
+#include "input/log.h"
 #include "input/throttle.h"
 
 namespace rotrocc {
@@ -16,6 +18,8 @@ namespace rotrocc {
 /// camera_info once until there is a valid one. Thread-safe.
 class DropLog {
  public:
+  explicit DropLog(Log log = Log()) : log_(std::move(log)) {}
+
   void add(const InputError& error);
 
   /// Counts without logging, for drops that are not a fault of the input.
@@ -33,6 +37,7 @@ class DropLog {
  private:
   void log(const InputError& error);
 
+  Log log_;
   DropCounters counters_;
   mutable std::mutex mutex_;
   std::map<DropReason, Throttle> throttles_;

@@ -2,10 +2,9 @@
 
 #include <utility>
 
-#include <ros/console.h>
-
 #include "input/camera_validation.h"
 #include "input/message_conversion.h"
+#include "input/to_text.h"
 
 namespace rotrocc {
 namespace {
@@ -20,10 +19,14 @@ TopicReport reportOf(const TopicStatistics& statistics, TopicStatistics::Time no
 
 }  // namespace
 
-StereoIntake::StereoIntake(const NodeParameters& parameters, DropLog& drops, PairHandler on_pair)
+StereoIntake::StereoIntake(const NodeParameters& parameters,
+                           DropLog& drops,
+                           PairHandler on_pair,
+                           Log log)
     : parameters_(parameters),
       drops_(drops),
       on_pair_(std::move(on_pair)),
+      log_(std::move(log)),
       left_guard_("the left image", parameters.max_future_s),
       right_guard_("the right image", parameters.max_future_s),
       synchronizer_(parameters.max_stamp_difference_s,
@@ -78,11 +81,10 @@ void StereoIntake::setCamera(const StereoCamera& camera) {
   camera_ = camera;
   camera_error_.clear();
   drops_.forgetCameraError();
-  ROS_INFO_STREAM("stereo camera from P: " << camera.width << "x" << camera.height << " px, fx "
-                                           << camera.fx << " px, baseline " << camera.baseline_m
-                                           << " m");
+  log_.info("stereo camera from P: " + sizeText(camera.width, camera.height) + ", fx " +
+            toText(camera.fx) + " px, baseline " + toText(camera.baseline_m) + " m");
   const std::string oddity = oddityOf(camera);
-  if (!oddity.empty()) ROS_WARN_STREAM(oddity);
+  if (!oddity.empty()) log_.warn(oddity);
 }
 
 void StereoIntake::handOver() {

@@ -11,6 +11,7 @@
 
 #include "input/drop_log.h"
 #include "input/input_report.h"
+#include "input/log.h"
 #include "input/stamp_guard.h"
 #include "input/stereo_synchronizer.h"
 #include "input/topic_statistics.h"
@@ -43,7 +44,10 @@ class StereoIntake {
 
   /// Passes each pair to `on_pair` as soon as it is complete. The latest one waits while there is
   /// no valid camera_info. `drops` must outlive this.
-  StereoIntake(const NodeParameters& parameters, DropLog& drops, PairHandler on_pair);
+  StereoIntake(const NodeParameters& parameters,
+               DropLog& drops,
+               PairHandler on_pair,
+               Log log = Log());
 
   /// These do not throw: invalid input goes to the drop log.
   void addImage(Side side, const sensor_msgs::Image::ConstPtr& image, const Arrival& arrival);
@@ -61,6 +65,7 @@ class StereoIntake {
   NodeParameters parameters_;
   DropLog& drops_;
   PairHandler on_pair_;
+  Log log_;
 
   StampGuard left_guard_, right_guard_;
   StereoSynchronizer synchronizer_;

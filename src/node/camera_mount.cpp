@@ -4,8 +4,7 @@
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
-
-#include <ros/console.h>
+#include <utility>
 
 #include "input/to_text.h"
 
@@ -52,7 +51,8 @@ Eigen::Isometry3d toEigen(const geometry_msgs::Transform& transform) {
   return T;
 }
 
-CameraMount::CameraMount(const std::string& base_frame) : base_frame_(base_frame) {
+CameraMount::CameraMount(const std::string& base_frame, Log log)
+    : base_frame_(base_frame), log_(std::move(log)) {
   listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_);
 }
 
@@ -61,14 +61,14 @@ const std::optional<Eigen::Isometry3d>& CameraMount::find(const std::string& cam
   try {
     T_base_camera_ =
         toEigen(buffer_.lookupTransform(base_frame_, camera_frame, ros::Time(0)).transform);
-    ROS_INFO_STREAM("camera " << camera_frame << " in " << base_frame_ << ": "
-                              << describeMount(*T_base_camera_));
+    log_.info("camera " + camera_frame + " in " + base_frame_ + ": " +
+              describeMount(*T_base_camera_));
     listener_.reset();
     missing_.clear();
   } catch (const std::exception& error) {
     missing_ =
         "no tf from " + base_frame_ + " to " + camera_frame + " (camera pose): " + error.what();
-    if (++attempts_ > kPatience && warning_.pass()) ROS_WARN_STREAM("waiting: " << missing_);
+    if (++attempts_ > kPatience && warning_.pass()) log_.warn("waiting: " + missing_);
   }
   return T_base_camera_;
 }

@@ -10,6 +10,7 @@
 #include <tf2_ros/transform_listener.h>
 #include <Eigen/Geometry>
 
+#include "input/log.h"
 #include "input/throttle.h"
 
 namespace rotrocc {
@@ -17,7 +18,7 @@ namespace rotrocc {
 /// Pose of the camera on the robot, from tf. Assumed to be fixed: it is looked up once.
 class CameraMount {
  public:
-  explicit CameraMount(const std::string& base_frame);
+  explicit CameraMount(const std::string& base_frame, Log log = Log());
   CameraMount(const CameraMount&) = delete;
   CameraMount& operator=(const CameraMount&) = delete;
 
@@ -30,6 +31,7 @@ class CameraMount {
 
  private:
   std::string base_frame_;
+  Log log_;
   std::optional<Eigen::Isometry3d> T_base_camera_;
   std::string missing_;
   int attempts_ = 0;

@@ -3,7 +3,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include <ros/console.h>
 #include <ros/init.h>
 
 #include "input/to_text.h"
@@ -162,10 +161,12 @@ void applyConfig(const dynamic_reconfigure::Config& config, Parameters& paramete
 
 LiveParameters::LiveParameters(ros::NodeHandle& private_nh,
                                const Parameters& parameters,
-                               Handler on_change)
+                               Handler on_change,
+                               Log log)
     : private_nh_(private_nh),
       parameters_(parameters),
       on_change_(std::move(on_change)),
+      log_(std::move(log)),
       descriptions_(private_nh.advertise<dynamic_reconfigure::ConfigDescription>(
           "parameter_descriptions", 1, true)),
       updates_(private_nh.advertise<dynamic_reconfigure::Config>("parameter_updates", 1, true)),
@@ -182,7 +183,7 @@ bool LiveParameters::onSet(dynamic_reconfigure::Reconfigure::Request& request,
     store(request.config);
     on_change_(parameters_.odometry);
   } catch (const std::exception& error) {
-    ROS_WARN_STREAM("parameters not changed: " << error.what());
+    log_.warn(std::string("parameters not changed: ") + error.what());
   }
   response.config = toConfig(parameters_);
   updates_.publish(response.config);

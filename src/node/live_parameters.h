@@ -10,6 +10,7 @@
 #include <ros/publisher.h>
 #include <ros/service_server.h>
 
+#include "input/log.h"
 #include "rotrocc/parameters.h"
 
 namespace rotrocc {
@@ -30,7 +31,10 @@ class LiveParameters {
   using Handler = std::function<void(const OdometryConfig&)>;
 
   /// `on_change` gets the whole configuration after each change.
-  LiveParameters(ros::NodeHandle& private_nh, const Parameters& parameters, Handler on_change);
+  LiveParameters(ros::NodeHandle& private_nh,
+                 const Parameters& parameters,
+                 Handler on_change,
+                 Log log);
 
  private:
   bool onSet(dynamic_reconfigure::Reconfigure::Request& request,
@@ -40,6 +44,7 @@ class LiveParameters {
   ros::NodeHandle private_nh_;
   Parameters parameters_;
   Handler on_change_;
+  Log log_;
   ros::Publisher descriptions_;
   ros::Publisher updates_;
   ros::ServiceServer service_;

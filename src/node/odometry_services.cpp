@@ -4,7 +4,6 @@
 #include <utility>
 
 #include <geometry_msgs/Transform.h>
-#include <ros/console.h>
 
 #include "node/camera_mount.h"
 
@@ -13,15 +12,15 @@ namespace {
 
 /// Fills a response with the sentence that `action` returns, or with its error.
 template <class Response, class Action>
-bool answer(const char* service, Response& response, Action action) {
+bool answer(const Log& log, const std::string& service, Response& response, Action action) {
   try {
     response.message = action();
     response.success = true;
-    ROS_INFO_STREAM(service << ": " << response.message);
+    log.info(service + ": " + response.message);
   } catch (const std::exception& error) {
     response.message = error.what();
     response.success = false;
-    ROS_WARN_STREAM(service << " refused: " << response.message);
+    log.warn(service + " refused: " + response.message);
   }
   return true;
 }
@@ -37,8 +36,9 @@ Eigen::Isometry3d poseToEigen(const geometry_msgs::Pose& pose) {
 
 }  // namespace
 
-OdometryServices::OdometryServices(ros::NodeHandle& private_nh, Actions actions)
+OdometryServices::OdometryServices(ros::NodeHandle& private_nh, Actions actions, Log log)
     : actions_(std::move(actions)),
+      log_(std::move(log)),
       reset_(private_nh.advertiseService("reset", &OdometryServices::onReset, this)),
       set_pose_(private_nh.advertiseService("set_pose", &OdometryServices::onSetPose, this)),
       pause_(private_nh.advertiseService("pause", &OdometryServices::onPause, this)),
@@ -46,14 +46,14 @@ OdometryServices::OdometryServices(ros::NodeHandle& private_nh, Actions actions)
           "save_trajectory", &OdometryServices::onSaveTrajectory, this)) {}
 
 bool OdometryServices::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  return answer("reset", response, [&] {
+  return answer(log_, "reset", response, [&] {
     actions_.reset();
     return "the odometry restarts at pose zero with the next pair";
   });
 }
 
 bool OdometryServices::onSetPose(SetPose::Request& request, SetPose::Response& response) {
-  return answer("set_pose", response, [&] {
+  return answer(log_, "set_pose", response, [&] {
     actions_.set_pose(poseToEigen(request.pose));
     return "the odometry continues from the given pose";
   });
@@ -61,7 +61,7 @@ bool OdometryServices::onSetPose(SetPose::Request& request, SetPose::Response& r
 
 bool OdometryServices::onPause(std_srvs::SetBool::Request& request,
                                std_srvs::SetBool::Response& response) {
-  return answer("pause", response, [&] {
+  return answer(log_, "pause", response, [&] {
     actions_.pause(request.data);
     return request.data ? "paused: pairs are dropped, the pose is held"
                         : "resumed at the last pose";
@@ -70,7 +70,7 @@ bool OdometryServices::onPause(std_srvs::SetBool::Request& request,
 
 bool OdometryServices::onSaveTrajectory(SaveTrajectory::Request& request,
                                         SaveTrajectory::Response& response) {
-  return answer("save_trajectory", response, [&] {
+  return answer(log_, "save_trajectory", response, [&] {
     return actions_.save_trajectory(request.path, request.format);
   });
 }

@@ -9,6 +9,7 @@
 #include <std_srvs/Trigger.h>
 #include <Eigen/Geometry>
 
+#include "input/log.h"
 #include "rotrocc/SaveTrajectory.h"
 #include "rotrocc/SetPose.h"
 
@@ -26,7 +27,7 @@ class OdometryServices {
     std::function<std::string(const std::string& path, const std::string& format)> save_trajectory;
   };
 
-  OdometryServices(ros::NodeHandle& private_nh, Actions actions);
+  OdometryServices(ros::NodeHandle& private_nh, Actions actions, Log log);
 
  private:
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
@@ -35,6 +36,7 @@ class OdometryServices {
   bool onSaveTrajectory(SaveTrajectory::Request& request, SaveTrajectory::Response& response);
 
   Actions actions_;
+  Log log_;
   ros::ServiceServer reset_, set_pose_, pause_, save_trajectory_;
 };
 

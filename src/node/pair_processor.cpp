@@ -2,16 +2,15 @@
 
 #include <utility>
 
-#include <ros/console.h>
-
 #include "input/image_validation.h"
 #include "input/message_conversion.h"
 #include "input/to_text.h"
 
 namespace rotrocc {
 
-PairProcessor::PairProcessor(const Parameters& parameters)
-    : parameters_(parameters.node),
+PairProcessor::PairProcessor(const Parameters& parameters, Log log)
+    : log_(std::move(log)),
+      parameters_(parameters.node),
       systematic_error_(parameters.odometry.systematic_error),
       converter_(parameters.node.max_image_pixels),
       odometry_(parameters.odometry),
@@ -68,10 +67,8 @@ bool PairProcessor::beginAnewIfAsked() {
 bool PairProcessor::beginAnewIfTimeWentBack(std::int64_t stamp_ns) {
   if (!last_stamp_ns_ || stamp_ns >= *last_stamp_ns_) return false;
   const bool keep = parameters_.pose_after_time_jump == "keep";
-  ROS_WARN_STREAM("time jumped back from " << stampText(*last_stamp_ns_) << " to "
-                                           << stampText(stamp_ns) << " s: restarting at "
-                                           << (keep ? "the last pose" : "zero")
-                                           << " (pose_after_time_jump)");
+  log_.warn("time jumped back from " + stampText(*last_stamp_ns_) + " to " + stampText(stamp_ns) +
+            " s: restarting at " + (keep ? "the last pose" : "zero") + " (pose_after_time_jump)");
   odometry_.reset();
   if (!keep) base_odometry_.reset();
   return true;

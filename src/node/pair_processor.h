@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 
+#include "input/log.h"
 #include "input/stereo_intake.h"
 #include "input/stereo_pair_converter.h"
 #include "node/base_odometry.h"
@@ -31,7 +32,7 @@ class PairProcessor {
   using MotionSource =
       std::function<std::optional<Eigen::Isometry3d>(std::int64_t prev_ns, std::int64_t cur_ns)>;
 
-  explicit PairProcessor(const Parameters& parameters);
+  explicit PairProcessor(const Parameters& parameters, Log log = Log());
 
   /// Throws InputError on images that cannot be used.
   PairAnswer process(const ReceivedPair& received,
@@ -64,6 +65,7 @@ class PairProcessor {
                                                     const Eigen::Isometry3d& T_base_camera,
                                                     std::int64_t stamp_ns) const;
 
+  Log log_;
   NodeParameters parameters_;
   SystematicErrorConfig systematic_error_;
   StereoPairConverter converter_;

@@ -36,8 +36,9 @@ Arrival now() {
 StereoInput::StereoInput(ros::NodeHandle& nh,
                          const NodeParameters& parameters,
                          DropLog& drops,
-                         StereoIntake::PairHandler on_pair)
-    : intake_(parameters, drops, std::move(on_pair)) {
+                         StereoIntake::PairHandler on_pair,
+                         Log log)
+    : intake_(parameters, drops, std::move(on_pair), std::move(log)) {
   left_info_subscriber_ =
       nh.subscribe("left/camera_info", kQueueSize, &StereoInput::onLeftInfo, this);
   right_info_subscriber_ =

@@ -18,7 +18,8 @@ class StereoInput {
   StereoInput(ros::NodeHandle& nh,
               const NodeParameters& parameters,
               DropLog& drops,
-              StereoIntake::PairHandler on_pair);
+              StereoIntake::PairHandler on_pair,
+              Log log);
 
   /// Call in the thread of the callbacks.
   InputReport report() const;

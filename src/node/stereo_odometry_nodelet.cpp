@@ -37,8 +37,9 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
                                const Parameters& parameters)
     : log_(name),
       parameters_(parameters.node),
-      processor_(parameters),
-      mount_(parameters_.base_frame),
+      drops_(log_),
+      processor_(parameters, log_),
+      mount_(parameters_.base_frame, log_),
       publisher_(nh, parameters_),
       trajectory_(static_cast<std::size_t>(parameters_.trajectory_length)),
       silence_(parameters_.silence_s, SteadyClock::now()) {
@@ -49,15 +50,18 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
   if (!parameters_.guess_frame.empty()) {
     guess_.emplace(parameters_.guess_frame, parameters_.base_frame, parameters_.guess_timeout_s);
   }
-  input_.emplace(nh, parameters_, drops_, [this](ReceivedPair pair) { onPair(std::move(pair)); });
+  input_.emplace(
+      nh, parameters_, drops_, [this](ReceivedPair pair) { onPair(std::move(pair)); }, log_);
   if (parameters_.publish_tf && !parameters_.invert_tf && !guess_) {
     tf_conflict_.emplace(nh, parameters_.odom_frame, parameters_.base_frame);
   }
   diagnostics_.emplace(nh, private_nh, name);
-  services_.emplace(private_nh, makeActions());
-  live_parameters_.emplace(private_nh, parameters, [this](const VisualOdometry::Config& config) {
-    processor_.requestConfig(config);
-  });
+  services_.emplace(private_nh, makeActions(), log_);
+  live_parameters_.emplace(
+      private_nh,
+      parameters,
+      [this](const VisualOdometry::Config& config) { processor_.requestConfig(config); },
+      log_);
   if (ros::isShuttingDown()) return;  // some publishers do not exist then
   ticker_ = nh.createWallTimer(ros::WallDuration(kTick_s), &StereoOdometry::onTick, this);
   worker_ = std::thread(&StereoOdometry::work, this);  // last: nothing may fail after it
