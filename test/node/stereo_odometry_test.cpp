@@ -433,9 +433,10 @@ TEST_F(StereoOdometryTest, SilenceIsExplained) {
 
   // The test itself is the publisher; without one the reason would differ.
   EXPECT_TRUE(robot_->statusWith(OdometryStatus::NO_INPUT, "left/image_rect has a publisher"));
-  EXPECT_TRUE(waitUntil([&] { return isSaid("no stereo pair for "); }));
+  EXPECT_TRUE(waitUntil([&] { return isSaid("/stereo_odometry: no stereo pair for "); }));
   recover();
-  EXPECT_TRUE(waitUntil([&] { return isSaid("stereo pairs arrive again, after "); }));
+  EXPECT_TRUE(
+      waitUntil([&] { return isSaid("/stereo_odometry: stereo pairs arrive again, after "); }));
 }
 
 TEST_F(StereoOdometryTest, AnUnknownParameterIsRefused) {
