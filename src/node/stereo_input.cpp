@@ -1,6 +1,9 @@
 #include "node/stereo_input.h"
 
+#include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <ros/time.h>
 
@@ -13,6 +16,15 @@ constexpr int kQueueSize = 5;
 
 using Side = StereoIntake::Side;
 
+/// "raw theora" for "image_transport/raw" and "image_transport/theora".
+std::string listOf(const std::vector<std::string>& transports) {
+  std::string list;
+  for (const std::string& transport : transports) {
+    list += (list.empty() ? "" : " ") + transport.substr(transport.rfind('/') + 1);
+  }
+  return list;
+}
+
 /// Transports have parameters of their own: in the namespace of the topic, not in the private
 /// namespace, where unknown names are errors.
 image_transport::Subscriber subscribe(
@@ -23,8 +35,14 @@ image_transport::Subscriber subscribe(
     StereoInput* object) {
   const image_transport::TransportHints hints(
       transport, ros::TransportHints().tcpNoDelay(), ros::NodeHandle(nh, side));
-  return image_transport::ImageTransport(nh).subscribe(
-      side + "/image_rect", kQueueSize, callback, object, hints);
+  image_transport::ImageTransport images(nh);
+  try {
+    return images.subscribe(side + "/image_rect", kQueueSize, callback, object, hints);
+  } catch (const image_transport::TransportLoadException& error) {
+    throw std::runtime_error("image_transport is " + transport + ", but this machine only has " +
+                             listOf(images.getLoadableTransports()) +
+                             ": install its plugin, or set another one (" + error.what() + ")");
+  }
 }
 
 Arrival now() {
