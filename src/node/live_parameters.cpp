@@ -6,6 +6,7 @@
 #include <ros/init.h>
 
 #include "input/to_text.h"
+#include "node/advertise.h"
 
 namespace rotrocc {
 namespace {
@@ -167,10 +168,10 @@ LiveParameters::LiveParameters(ros::NodeHandle& private_nh,
       parameters_(parameters),
       on_change_(std::move(on_change)),
       log_(std::move(log)),
-      descriptions_(private_nh.advertise<dynamic_reconfigure::ConfigDescription>(
-          "parameter_descriptions", 1, true)),
-      updates_(private_nh.advertise<dynamic_reconfigure::Config>("parameter_updates", 1, true)),
-      service_(private_nh.advertiseService("set_parameters", &LiveParameters::onSet, this)) {
+      descriptions_(advertise<dynamic_reconfigure::ConfigDescription>(
+          private_nh, "parameter_descriptions", 1, true)),
+      updates_(advertise<dynamic_reconfigure::Config>(private_nh, "parameter_updates", 1, true)),
+      service_(advertiseService(private_nh, "set_parameters", &LiveParameters::onSet, this)) {
   if (ros::isShuttingDown()) return;  // there are no publishers during shutdown
   descriptions_.publish(describeLiveParameters(parameters_));
   updates_.publish(toConfig(parameters_));

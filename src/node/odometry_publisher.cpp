@@ -5,6 +5,7 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include "input/message_conversion.h"
+#include "node/advertise.h"
 #include "rotrocc/flow_picture.h"
 
 namespace rotrocc {
@@ -20,10 +21,10 @@ constexpr int kPictureQueue = 1;
 OdometryPublisher::OdometryPublisher(ros::NodeHandle& nh, const NodeParameters& parameters)
     : parameters_(parameters),
       flow_view_(flowView(parameters.flow_view)),
-      status_publisher_(nh.advertise<OdometryStatus>("status", kMotionQueue)),
-      odom_publisher_(nh.advertise<nav_msgs::Odometry>("odom", kMotionQueue)),
-      path_publisher_(nh.advertise<nav_msgs::Path>("path", kPictureQueue)),
-      inliers_publisher_(nh.advertise<sensor_msgs::PointCloud2>("inliers", kPictureQueue)),
+      status_publisher_(advertise<OdometryStatus>(nh, "status", kMotionQueue)),
+      odom_publisher_(advertise<nav_msgs::Odometry>(nh, "odom", kMotionQueue)),
+      path_publisher_(advertise<nav_msgs::Path>(nh, "path", kPictureQueue)),
+      inliers_publisher_(advertise<sensor_msgs::PointCloud2>(nh, "inliers", kPictureQueue)),
       flow_publisher_(image_transport::ImageTransport(nh).advertise("flow", kPictureQueue)) {
   if (parameters.publish_tf) tf_broadcaster_.emplace();
 }

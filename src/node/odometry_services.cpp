@@ -5,6 +5,7 @@
 
 #include <geometry_msgs/Transform.h>
 
+#include "node/advertise.h"
 #include "node/camera_mount.h"
 
 namespace rotrocc {
@@ -39,11 +40,11 @@ Eigen::Isometry3d poseToEigen(const geometry_msgs::Pose& pose) {
 OdometryServices::OdometryServices(ros::NodeHandle& private_nh, Actions actions, Log log)
     : actions_(std::move(actions)),
       log_(std::move(log)),
-      reset_(private_nh.advertiseService("reset", &OdometryServices::onReset, this)),
-      set_pose_(private_nh.advertiseService("set_pose", &OdometryServices::onSetPose, this)),
-      pause_(private_nh.advertiseService("pause", &OdometryServices::onPause, this)),
-      save_trajectory_(private_nh.advertiseService(
-          "save_trajectory", &OdometryServices::onSaveTrajectory, this)) {}
+      reset_(advertiseService(private_nh, "reset", &OdometryServices::onReset, this)),
+      set_pose_(advertiseService(private_nh, "set_pose", &OdometryServices::onSetPose, this)),
+      pause_(advertiseService(private_nh, "pause", &OdometryServices::onPause, this)),
+      save_trajectory_(advertiseService(
+          private_nh, "save_trajectory", &OdometryServices::onSaveTrajectory, this)) {}
 
 bool OdometryServices::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   return answer(log_, "reset", response, [&] {
