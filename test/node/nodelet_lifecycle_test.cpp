@@ -4,10 +4,12 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <random>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nodelet/NodeletLoad.h>
@@ -77,8 +79,12 @@ class NodeletLifecycleTest : public testing::Test {
     ASSERT_TRUE(canary_.sings());
   }
 
-  bool load() {
+  bool load(const std::map<std::string, std::string>& remappings = {}) {
     nodelet::NodeletLoad service;
+    for (const auto& [name, target] : remappings) {
+      service.request.remap_source_args.push_back(name);
+      service.request.remap_target_args.push_back(target);
+    }
     service.request.name = "/stereo_odometry";
     service.request.type = "rotrocc/StereoOdometry";
     return manager_.call("load_nodelet", service) && service.response.success;
@@ -131,6 +137,57 @@ TEST_F(NodeletLifecycleTest, LoadsAndUnloadsWhileImagesCome) {
   driver.join();
   ASSERT_TRUE(canary_.sings());
   ASSERT_TRUE(load());
+  EXPECT_TRUE(answers(robot));
+  EXPECT_TRUE(unload());
+}
+
+/// What makes the nodelet fail while it starts.
+struct Obstacle {
+  std::string phase;
+  std::map<std::string, std::string> parameters;  // of the nodelet
+  std::map<std::string, std::string> remappings;  // to what the other nodelet or the manager has
+};
+
+/// In the order in which the nodelet starts.
+std::vector<Obstacle> obstacles() {
+  return {
+      {"unknown parameter", {{"no_such", "1"}}, {}},
+      {"frame", {{"base_frame", "/base_link"}}, {}},
+      {"status", {}, {{"status", "canary/answer"}}},
+      {"odom", {}, {{"odom", "canary/answer"}}},
+      {"path", {}, {{"path", "canary/answer"}}},
+      {"inliers", {}, {{"inliers", "canary/answer"}}},
+      {"trajectory file", {{"trajectory_file", "/no/such/directory/poses.txt"}}, {}},
+      {"left camera_info", {}, {{"left/camera_info", "canary/image"}}},
+      {"right camera_info", {}, {{"right/camera_info", "canary/image"}}},
+      {"image transport", {{"image_transport", "no_such"}}, {}},
+      {"left image", {}, {{"left/image_rect", "canary/camera_info"}}},
+      {"right image", {}, {{"right/image_rect", "canary/camera_info"}}},
+      {"reset", {}, {{"stereo_odometry/reset", "manager/list"}}},
+      {"save_trajectory", {}, {{"stereo_odometry/save_trajectory", "manager/list"}}},
+      {"parameter descriptions", {}, {{"stereo_odometry/parameter_descriptions", "canary/answer"}}},
+      {"parameter service", {}, {{"stereo_odometry/set_parameters", "manager/list"}}},
+  };
+}
+
+TEST_F(NodeletLifecycleTest, FailsToStartAloneInAnyPhase) {
+  const ros::NodeHandle private_nh("stereo_odometry");
+  for (const Obstacle& obstacle : obstacles()) {
+    SCOPED_TRACE(obstacle.phase);
+    for (const auto& [name, value] : obstacle.parameters) private_nh.setParam(name, value);
+    EXPECT_FALSE(load(obstacle.remappings));
+    for (const auto& [name, value] : obstacle.parameters) private_nh.deleteParam(name);
+    ASSERT_TRUE(canary_.sings());
+  }
+  // Without any image transport there is no picture of the flow.
+  const std::string blacklist = "flow/disable_pub_plugins";
+  ros::param::set(blacklist, std::vector<std::string>{"image_transport/raw"});
+  EXPECT_FALSE(load());
+  ros::param::del(blacklist);
+  ASSERT_TRUE(canary_.sings());
+
+  ASSERT_TRUE(load()) << "nothing is left of those that failed";
+  SimulatedRobot robot;
   EXPECT_TRUE(answers(robot));
   EXPECT_TRUE(unload());
 }
@@ -189,6 +246,16 @@ TEST_F(NodeletLifecycleTest, GarbageDoesNoHarm) {
   EXPECT_TRUE(canary_.sings());
   EXPECT_TRUE(answers(robot));
   EXPECT_TRUE(unload());
+}
+
+TEST(NodeTest, EndsWithTheReasonIfItCannotStart) {
+  const CommandResult result = runCommand("timeout -k 180 180 " STEREO_ODOMETRY
+                                          " __name:=without_transport _image_transport:=no_such");
+  EXPECT_EQ(result.status, 1) << result.output;
+  EXPECT_NE(result.output.find("/without_transport: image_transport is no_such, but this machine "
+                               "only has raw: install its plugin"),
+            std::string::npos)
+      << result.output;
 }
 
 TEST(NodeTest, EndsCleanlyAtAnyMoment) {
