@@ -25,6 +25,15 @@ std::string listOf(const std::vector<std::string>& transports) {
   return list;
 }
 
+/// image_transport appends the transport to a name that it does not resolve, so remappings of the
+/// name would not be found. A raw topic is resolved where it is subscribed, and only once: left and
+/// right may be remapped to each other.
+std::string topicOf(const ros::NodeHandle& nh,
+                    const std::string& name,
+                    const std::string& transport) {
+  return transport == "raw" ? name : nh.resolveName(name);
+}
+
 /// Transports have parameters of their own: in the namespace of the topic, not in the private
 /// namespace, where unknown names are errors.
 image_transport::Subscriber subscribe(
@@ -37,7 +46,8 @@ image_transport::Subscriber subscribe(
       transport, ros::TransportHints().tcpNoDelay(), ros::NodeHandle(nh, side));
   image_transport::ImageTransport images(nh);
   try {
-    return images.subscribe(side + "/image_rect", kQueueSize, callback, object, hints);
+    const std::string topic = topicOf(nh, side + "/image_rect", transport);
+    return images.subscribe(topic, kQueueSize, callback, object, hints);
   } catch (const image_transport::TransportLoadException& error) {
     throw std::runtime_error("image_transport is " + transport + ", but this machine only has " +
                              listOf(images.getLoadableTransports()) +
