@@ -175,7 +175,7 @@ TEST_F(NodeletLifecycleTest, FailsToStartAloneInAnyPhase) {
   for (const Obstacle& obstacle : obstacles()) {
     SCOPED_TRACE(obstacle.phase);
     for (const auto& [name, value] : obstacle.parameters) private_nh.setParam(name, value);
-    EXPECT_FALSE(load(obstacle.remappings));
+    ASSERT_FALSE(load(obstacle.remappings));
     for (const auto& [name, value] : obstacle.parameters) private_nh.deleteParam(name);
     ASSERT_TRUE(canary_.sings());
   }
