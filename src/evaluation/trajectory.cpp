@@ -1,10 +1,8 @@
 #include "rotrocc/trajectory.h"
 
-#include <cstdlib>
-#include <iomanip>
-#include <locale>
 #include <stdexcept>
 
+#include "evaluation/pose_text.h"
 #include "evaluation/text_file.h"
 
 namespace rotrocc {
@@ -98,31 +96,6 @@ void setStamps(Trajectory& trajectory, const std::string& path, const std::strin
   for (std::size_t i = 0; i < trajectory.size(); ++i) trajectory[i].stamp_ns = stamps_ns[i];
 }
 
-void writeKitti(const Eigen::Isometry3d& pose, std::ostream& out) {
-  out << std::scientific;
-  for (int row = 0; row < 3; ++row) {
-    for (int col = 0; col < 4; ++col) {
-      out << (row + col == 0 ? "" : " ") << pose(row, col);
-    }
-  }
-}
-
-void writeSeconds(std::int64_t stamp_ns, std::ostream& out) {
-  const std::lldiv_t parts = std::lldiv(stamp_ns, 1'000'000'000);
-  out << (stamp_ns < 0 ? "-" : "") << std::llabs(parts.quot) << '.' << std::setw(9)
-      << std::setfill('0') << std::llabs(parts.rem);
-}
-
-void writeTum(const StampedPose& pose, std::ostream& out) {
-  Eigen::Quaterniond quaternion(pose.T_world_body.linear());
-  quaternion.normalize();
-  if (quaternion.w() < 0.0) quaternion.coeffs() *= -1.0;
-  writeSeconds(pose.stamp_ns, out);
-  out << std::fixed;
-  for (int i = 0; i < 3; ++i) out << ' ' << pose.T_world_body.translation()[i];
-  for (int i = 0; i < 4; ++i) out << ' ' << quaternion.coeffs()[i];  // x y z w
-}
-
 }  // namespace
 
 TrajectoryFormat trajectoryFormat(const std::string& name) {
@@ -163,17 +136,12 @@ std::vector<std::int64_t> readTimes(const std::string& path) {
 TrajectoryWriter::TrajectoryWriter(const std::string& path, TrajectoryFormat format)
     : path_(path), format_(format), file_(path) {
   if (!file_) throw std::runtime_error("cannot write " + path_);
-  file_.imbue(std::locale::classic());
-  file_.precision(9);
+  preparePoseText(file_);
 }
 
 void TrajectoryWriter::write(const StampedPose& pose) {
-  if (format_ == TrajectoryFormat::kKitti) {
-    writeKitti(pose.T_world_body, file_);
-  } else {
-    writeTum(pose, file_);
-  }
-  file_ << '\n' << std::flush;
+  writePose(pose, format_, file_);
+  file_ << std::flush;
   if (!file_) throw std::runtime_error("cannot write to " + path_ + ": is the disk full?");
 }
 
