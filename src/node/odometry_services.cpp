@@ -26,6 +26,11 @@ bool answer(const Log& log, const std::string& service, Response& response, Acti
   return true;
 }
 
+ros::NodeHandle withQueue(ros::NodeHandle nh, ros::CallbackQueue& queue) {
+  nh.setCallbackQueue(&queue);
+  return nh;
+}
+
 Eigen::Isometry3d poseToEigen(const geometry_msgs::Pose& pose) {
   geometry_msgs::Transform transform;
   transform.translation.x = pose.position.x;
@@ -42,9 +47,12 @@ OdometryServices::OdometryServices(ros::NodeHandle& private_nh, Actions actions,
       log_(std::move(log)),
       reset_(advertiseService(private_nh, "reset", &OdometryServices::onReset, this)),
       set_pose_(advertiseService(private_nh, "set_pose", &OdometryServices::onSetPose, this)),
-      pause_(advertiseService(private_nh, "pause", &OdometryServices::onPause, this)),
-      save_trajectory_(advertiseService(
-          private_nh, "save_trajectory", &OdometryServices::onSaveTrajectory, this)) {}
+      pause_(advertiseService(private_nh, "pause", &OdometryServices::onPause, this)) {
+  ros::NodeHandle save_nh = withQueue(private_nh, save_queue_);
+  save_trajectory_ =
+      advertiseService(save_nh, "save_trajectory", &OdometryServices::onSaveTrajectory, this);
+  save_spinner_.start();
+}
 
 bool OdometryServices::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   return answer(log_, "reset", response, [&] {

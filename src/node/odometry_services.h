@@ -3,8 +3,10 @@
 #include <functional>
 #include <string>
 
+#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
+#include <ros/spinner.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 #include <Eigen/Geometry>
@@ -16,7 +18,8 @@
 namespace rotrocc {
 
 /// The services ~reset, ~set_pose, ~pause and ~save_trajectory. An exception of an action gives a
-/// response without success; it does not leave the callback.
+/// response without success; it does not leave the callback. Saving takes its time in a thread of
+/// its own; the others run in the queue of the handle.
 class OdometryServices {
  public:
   struct Actions {
@@ -37,7 +40,10 @@ class OdometryServices {
 
   Actions actions_;
   Log log_;
-  ros::ServiceServer reset_, set_pose_, pause_, save_trajectory_;
+  ros::ServiceServer reset_, set_pose_, pause_;
+  ros::CallbackQueue save_queue_;
+  ros::ServiceServer save_trajectory_;
+  ros::AsyncSpinner save_spinner_{1, &save_queue_};
 };
 
 }  // namespace rotrocc
