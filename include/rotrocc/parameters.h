@@ -30,7 +30,7 @@ struct NodeParameters {
   double lost_speed_sigma_mps = 10.0;  ///< growth rate of the position's uncertainty while lost
   double lost_turn_rate_sigma_rps = 0.5;
   int trajectory_length = 100'000;        ///< number of poses kept for ~save_trajectory
-  std::string trajectory_file;            ///< file to which every pose is written; empty: none
+  std::string trajectory_file;            ///< first of the files of all poses; empty: none
   std::string trajectory_format = "tum";  ///< or "kitti"
 };
 

@@ -62,18 +62,23 @@ void syncDirectoryOf(const std::string& path) {
   ::close(descriptor);
 }
 
+void requireDirectoryOf(const std::string& path) {
+  const fs::path directory = fs::absolute(path).parent_path();
+  if (::access(directory.c_str(), W_OK | X_OK) == 0) return;
+  throw failure(errno, "cannot write " + path + " as a new file in its directory");
+}
+
 }  // namespace
 
 void requireFile(const std::string& path) {
   std::error_code error;
   const fs::file_type type = fs::status(path, error).type();
-  if (type == fs::file_type::not_found) return;
   if (type == fs::file_type::none) throw failure(error.value(), "cannot write " + path);
-  if (type != fs::file_type::regular) {
+  if (type != fs::file_type::regular && type != fs::file_type::not_found) {
     throw std::runtime_error("cannot write " + path + ": it is " + nameOf(type) +
                              ", give the name of a file");
   }
-  if (::access(path.c_str(), W_OK) != 0) throw failure(errno, "cannot write " + path);
+  requireDirectoryOf(path);
 }
 
 TrajectoryFile::TrajectoryFile(const std::string& path,
@@ -123,9 +128,13 @@ void TrajectoryFile::sync() {
 TrajectoryReplacement::TrajectoryReplacement(const std::string& path, TrajectoryFormat format)
     : target_(targetOf(path)), temporary_(temporaryName(target_)) {
   requireFile(path);
-  file_.emplace(temporary_, format, path);
   struct stat old {};
-  if (::stat(target_.c_str(), &old) == 0) ::chmod(temporary_.c_str(), old.st_mode & 07777);
+  const bool replaces = ::stat(target_.c_str(), &old) == 0;
+  if (replaces && ::access(target_.c_str(), W_OK) != 0) {
+    throw failure(errno, "cannot write " + path);
+  }
+  file_.emplace(temporary_, format, path);
+  if (replaces) ::chmod(temporary_.c_str(), old.st_mode & 07777);
 }
 
 TrajectoryReplacement::~TrajectoryReplacement() {

@@ -10,8 +10,8 @@
 
 namespace rotrocc {
 
-/// Throws std::runtime_error if `path` is neither free nor a regular file that may be written: to
-/// open a FIFO, or to write to a device, may take for ever.
+/// Throws std::runtime_error if `path` is neither free nor a regular file, because to open a FIFO
+/// or to write to a device may take for ever, or if there can be no new files in its directory.
 void requireFile(const std::string& path);
 
 /// A new file of poses, written in large parts. It has whole lines only, even if writing fails.
@@ -42,7 +42,7 @@ class TrajectoryFile {
 class TrajectoryReplacement {
  public:
   /// Writes to a temporary file in the same directory. Throws std::runtime_error as requireFile(),
-  /// or if that file cannot be created.
+  /// or if a file cannot be written.
   TrajectoryReplacement(const std::string& path, TrajectoryFormat format);
   ~TrajectoryReplacement();
   TrajectoryReplacement(const TrajectoryReplacement&) = delete;

@@ -44,8 +44,7 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
       trajectory_(static_cast<std::size_t>(parameters_.trajectory_length)),
       silence_(parameters_.silence_s, SteadyClock::now()) {
   if (!parameters_.trajectory_file.empty()) {
-    trajectory_file_.emplace(parameters_.trajectory_file,
-                             trajectoryFormat(parameters_.trajectory_format));
+    trajectory_recorder_.emplace(parameters_.trajectory_file, parameters_.trajectory_format);
   }
   if (!parameters_.guess_frame.empty()) {
     guess_.emplace(parameters_.guess_frame, parameters_.base_frame, parameters_.guess_timeout_s);
@@ -177,6 +176,7 @@ void StereoOdometry::publish(const PairAnswer& answer, const ReceivedPair& recei
 
 void StereoOdometry::endTrajectory() {
   trajectory_.clear();
+  if (trajectory_recorder_) trajectory_recorder_->beginNew();
   publisher_.forgetPath();
   if (guess_) guess_->clear();
 }
@@ -184,13 +184,7 @@ void StereoOdometry::endTrajectory() {
 void StereoOdometry::writeTrajectory(const BaseState& state) {
   const StampedPose pose = {state.stamp_ns, state.T_first_camera};
   trajectory_.add(pose);
-  if (!trajectory_file_) return;
-  try {
-    trajectory_file_->write(pose);
-  } catch (const std::exception& error) {
-    log_.error(std::string("trajectory file closed: ") + error.what());
-    trajectory_file_.reset();
-  }
+  if (trajectory_recorder_) trajectory_recorder_->add(pose);
 }
 
 void StereoOdometry::logState(const PairAnswer& answer) {

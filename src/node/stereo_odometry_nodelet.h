@@ -25,8 +25,8 @@
 #include "node/stereo_input.h"
 #include "node/tf_conflict.h"
 #include "node/trajectory_history.h"
+#include "node/trajectory_recorder.h"
 #include "rotrocc/parameters.h"
-#include "rotrocc/trajectory.h"
 
 namespace rotrocc {
 
@@ -74,7 +74,7 @@ class StereoOdometry {
   CameraMount mount_;
   std::optional<GuessOdometry> guess_;
   OdometryPublisher publisher_;
-  std::optional<TrajectoryWriter> trajectory_file_;
+  std::optional<TrajectoryRecorder> trajectory_recorder_;
   TrajectoryHistory trajectory_;
 
   State last_state_ = State::kInitialising;  // of the worker

@@ -87,7 +87,8 @@ void addNode(NodeParameters& n, ParameterTable& table) {
   table.add("trajectory_file",
             n.trajectory_file,
             {},
-            "file for the poses of the left camera; none if empty");
+            "file for the poses of the left camera, none if empty; it is never replaced: a later "
+            "trajectory goes to NAME_2, NAME_3, ...");
   table.add(
       "trajectory_format", n.trajectory_format, {"tum", "kitti"}, "format of trajectory_file");
 }

@@ -1,7 +1,5 @@
 #include "node/trajectory_history.h"
 
-#include <signal.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <filesystem>
@@ -11,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "support/expect_error.h"
+#include "support/file_size_limit.h"
 #include "support/read_file.h"
 #include "support/temporary_directory.h"
 
@@ -63,27 +62,6 @@ TEST(TrajectoryHistoryTest, TheLatestAreInOrderAfterManyRounds) {
     ASSERT_EQ(written[static_cast<std::size_t>(i)].stamp_ns, poseAt(20000 - kLength + i).stamp_ns);
   }
 }
-
-/// Limits the size of the files of this process, as a full disk does.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) {
-    before_ = signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &limit_);
-    const rlimit lower = {bytes, limit_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &lower);
-  }
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &limit_);
-    signal(SIGXFSZ, before_);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
- private:
-  sighandler_t before_ = nullptr;
-  rlimit limit_{};
-};
 
 TEST(TrajectoryHistoryTest, WhatWasThereStaysIfWritingFails) {
   const TemporaryDirectory directory;
