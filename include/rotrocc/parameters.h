@@ -27,6 +27,7 @@ struct NodeParameters {
   double silence_s = 5.0;              ///< time without a pair before the log reports the reason
   std::string flow_view = "motion";    ///< one of flowViewNames()
   int path_length = 10000;             ///< number of poses on the path topic; 0: no path
+  double path_rate_hz = 2.0;           ///< at most, of the messages on the path topic
   double lost_speed_sigma_mps = 10.0;  ///< growth rate of the position's uncertainty while lost
   double lost_turn_rate_sigma_rps = 0.5;
   int trajectory_length = 100'000;        ///< number of poses kept for ~save_trajectory

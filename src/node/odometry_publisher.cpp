@@ -1,8 +1,12 @@
 #include "node/odometry_publisher.h"
 
+#include <chrono>
+#include <cmath>
+
 #include <cv_bridge/cv_bridge.h>
 #include <nav_msgs/Path.h>
 #include <sensor_msgs/image_encodings.h>
+#include <boost/make_shared.hpp>
 
 #include "input/message_conversion.h"
 #include "node/advertise.h"
@@ -20,6 +24,7 @@ constexpr int kPictureQueue = 1;
 
 OdometryPublisher::OdometryPublisher(ros::NodeHandle& nh, const NodeParameters& parameters)
     : parameters_(parameters),
+      path_throttle_(std::chrono::milliseconds(std::lround(1e3 / parameters.path_rate_hz))),
       flow_view_(flowView(parameters.flow_view)),
       status_publisher_(advertise<OdometryStatus>(nh, "status", kMotionQueue)),
       odom_publisher_(advertise<nav_msgs::Odometry>(nh, "odom", kMotionQueue)),
@@ -60,15 +65,17 @@ void OdometryPublisher::publishTf(const BaseState& state,
 }
 
 void OdometryPublisher::publishPath(const nav_msgs::Odometry& odometry) {
-  geometry_msgs::PoseStamped pose;
-  pose.header = odometry.header;
-  pose.pose = odometry.pose.pose;
-  path_.push_back(pose);
+  path_.push_back({odometry.header.stamp, odometry.pose.pose});
   while (path_.size() > static_cast<std::size_t>(parameters_.path_length)) path_.pop_front();
-  if (path_publisher_.getNumSubscribers() == 0) return;
-  nav_msgs::Path path;
-  path.header = odometry.header;
-  path.poses.assign(path_.begin(), path_.end());
+  if (path_publisher_.getNumSubscribers() == 0 || !path_throttle_.pass()) return;
+  const auto path = boost::make_shared<nav_msgs::Path>();
+  path->header = odometry.header;
+  path->poses.resize(path_.size());
+  for (std::size_t i = 0; i < path_.size(); ++i) {
+    path->poses[i].header.frame_id = odometry.header.frame_id;
+    path->poses[i].header.stamp = path_[i].stamp;
+    path->poses[i].pose = path_[i].pose;
+  }
   path_publisher_.publish(path);
 }
 

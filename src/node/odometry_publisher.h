@@ -4,13 +4,15 @@
 #include <deque>
 #include <optional>
 
-#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/Pose.h>
 #include <image_transport/image_transport.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
+#include <ros/time.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <opencv2/core.hpp>
 
+#include "input/throttle.h"
 #include "node/base_odometry.h"
 #include "node/odometry_messages.h"
 #include "rotrocc/OdometryStatus.h"
@@ -20,8 +22,9 @@
 
 namespace rotrocc {
 
-/// Publishes the results of each pair: status, tf, odom, path, inliers and flow. The last three
-/// cost nothing without subscribers.
+/// Publishes the results of each pair: status, tf, odom, path, inliers and flow. The last two cost
+/// nothing without subscribers. The path is sent at a limited rate, because it is long; its poses
+/// are kept for those who subscribe later.
 class OdometryPublisher {
  public:
   OdometryPublisher(ros::NodeHandle& nh, const NodeParameters& parameters);
@@ -50,8 +53,14 @@ class OdometryPublisher {
   void publishTf(const BaseState& state, const std::optional<Eigen::Isometry3d>& T_guess_base);
   void publishPath(const nav_msgs::Odometry& odometry);
 
+  struct PathPose {
+    ros::Time stamp;
+    geometry_msgs::Pose pose;
+  };
+
   NodeParameters parameters_;
-  std::deque<geometry_msgs::PoseStamped> path_;
+  std::deque<PathPose> path_;
+  Throttle path_throttle_;
   FlowView flow_view_;
   cv::Mat picture_;
 

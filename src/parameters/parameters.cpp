@@ -66,6 +66,12 @@ void addNode(NodeParameters& n, ParameterTable& table) {
             "time without a stereo pair until the log reports the received input and a remedy");
   table.add("flow_view", n.flow_view, flowViewNames(), "contents of the flow topic");
   table.add("path_length", n.path_length, 0, 1000000, "", "number of poses in the path topic");
+  table.add("path_rate_hz",
+            n.path_rate_hz,
+            0.01,
+            1000.0,
+            "Hz",
+            "rate of the path topic, at most, in real time");
   table.add("lost_speed_sigma_mps",
             n.lost_speed_sigma_mps,
             0.0,

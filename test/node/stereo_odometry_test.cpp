@@ -219,6 +219,23 @@ TEST_F(StereoOdometryTest, PicturesComeForSubscribers) {
   EXPECT_EQ(flow->data.size(), flow->step * flow->height);
 }
 
+TEST_F(StereoOdometryTest, PathDoesNotComeForEachPair) {
+  constexpr double kRate_hz = 2.0;  // path_rate_hz
+  std::atomic<int> paths{0};
+  ros::NodeHandle nh;
+  const boost::function<void(const nav_msgs::Path::ConstPtr&)> callback =
+      [&](const nav_msgs::Path::ConstPtr&) { ++paths; };
+  const auto start = std::chrono::steady_clock::now();
+  const ros::Subscriber subscriber = nh.subscribe<nav_msgs::Path>("path", 100, callback);
+  ASSERT_TRUE(waitUntil([&] {
+    drive();
+    return paths > 0;
+  }));
+  for (int i = 0; i < 20; ++i) drive();
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  EXPECT_LE(paths, 1.0 + kRate_hz * elapsed.count());
+}
+
 TEST_F(StereoOdometryTest, LosesItselfInTheDarkAndRecovers) {
   const nav_msgs::Odometry before = drive();
   const std::uint64_t lost_before = status_.pairs_lost;
