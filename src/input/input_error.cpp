@@ -32,6 +32,8 @@ const char* toString(DropReason reason) {
       return "stamp_backward";
     case DropReason::kStampFuture:
       return "stamp_future";
+    case DropReason::kStampGlitch:
+      return "stamp_glitch";
     case DropReason::kNoPartner:
       return "no_partner";
     case DropReason::kSuperseded:

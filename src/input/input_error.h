@@ -27,6 +27,7 @@ enum class DropReason {
   kStampRepeated,  ///< same as the previous image
   kStampBackward,  ///< slightly earlier than the previous image
   kStampFuture,    ///< too far ahead of the clock
+  kStampGlitch,    ///< far from the images before and after
   kNoPartner,      ///< no image of the other side within max_stamp_difference_s
   kSuperseded,     ///< a newer pair came while the estimator was busy
   kPaused,

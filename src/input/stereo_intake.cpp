@@ -27,23 +27,33 @@ StereoIntake::StereoIntake(const NodeParameters& parameters,
       drops_(drops),
       on_pair_(std::move(on_pair)),
       log_(std::move(log)),
-      left_guard_("the left image", parameters.max_future_s),
-      right_guard_("the right image", parameters.max_future_s),
+      left_("the left image", parameters.max_future_s),
+      right_("the right image", parameters.max_future_s),
       synchronizer_(parameters.max_stamp_difference_s,
                     static_cast<std::size_t>(parameters.queue_size)) {}
 
 void StereoIntake::addImage(Side side,
                             const sensor_msgs::Image::ConstPtr& image,
                             const Arrival& arrival) {
-  const bool left = side == Side::kLeft;
+  Stream& stream = side == Side::kLeft ? left_ : right_;
   const std::int64_t stamp_ns = toNanoseconds(image->header.stamp);
-  (left ? left_images_ : right_images_).add(stamp_ns, arrival.time);
+  stream.statistics.add(stamp_ns, arrival.time);
   try {
-    (left ? left_guard_ : right_guard_).check(stamp_ns, arrival.clock_ns);
-    takePair(left ? synchronizer_.addLeft(image) : synchronizer_.addRight(image), arrival);
+    const StampGuard::Verdict verdict = stream.guard.check(stamp_ns, arrival.clock_ns);
+    if (verdict.glitch) drops_.add(*verdict.glitch);
+    const auto held = std::exchange(stream.held, verdict.held ? image : nullptr);
+    if (verdict.held_is_valid) match(side, held, arrival);
+    if (!verdict.held) match(side, image, arrival);
   } catch (const InputError& error) {
     drops_.add(error);
   }
+}
+
+void StereoIntake::match(Side side,
+                         const sensor_msgs::Image::ConstPtr& image,
+                         const Arrival& arrival) {
+  takePair(side == Side::kLeft ? synchronizer_.addLeft(image) : synchronizer_.addRight(image),
+           arrival);
 }
 
 void StereoIntake::addInfo(Side side,
@@ -96,13 +106,13 @@ void StereoIntake::handOver() {
 
 InputReport StereoIntake::report(std::chrono::steady_clock::time_point now) const {
   InputReport report;
-  report.left_image = reportOf(left_images_, now);
-  report.right_image = reportOf(right_images_, now);
+  report.left_image = reportOf(left_.statistics, now);
+  report.right_image = reportOf(right_.statistics, now);
   report.left_info = reportOf(left_infos_, now);
   report.right_info = reportOf(right_infos_, now);
   report.recent_pairs = pairs_.recent(now);
   report.stamp_difference_s =
-      greatestStampDifference(left_images_.lastStamps_ns(), right_images_.lastStamps_ns());
+      greatestStampDifference(left_.statistics.lastStamps_ns(), right_.statistics.lastStamps_ns());
   report.max_stamp_difference_s = parameters_.max_stamp_difference_s;
   if (const auto refused = drops_.lastWithin(TopicStatistics::kWindow)) {
     report.refused = refused->what();

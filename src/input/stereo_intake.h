@@ -33,8 +33,9 @@ struct Arrival {
   std::int64_t clock_ns = 0;
 };
 
-/// Matches the messages of four topics to pairs, and keeps statistics. Independent of ROS
-/// communication; not thread-safe.
+/// Matches the messages of four topics to pairs, and keeps statistics. An image with a doubtful
+/// stamp waits for the next one of its side, see StampGuard. Independent of ROS communication; not
+/// thread-safe.
 class StereoIntake {
  public:
   using PairHandler = std::function<void(ReceivedPair)>;
@@ -57,6 +58,16 @@ class StereoIntake {
   InputReport report(std::chrono::steady_clock::time_point now) const;
 
  private:
+  /// Images of one side.
+  struct Stream {
+    Stream(const std::string& name, double max_future_s) : guard(name, max_future_s) {}
+
+    StampGuard guard;
+    sensor_msgs::Image::ConstPtr held;
+    TopicStatistics statistics;
+  };
+
+  void match(Side side, const sensor_msgs::Image::ConstPtr& image, const Arrival& arrival);
   void takePair(const std::optional<StereoImages>& images, const Arrival& arrival);
   void updateCamera();
   void setCamera(const StereoCamera& camera);
@@ -67,7 +78,7 @@ class StereoIntake {
   PairHandler on_pair_;
   Log log_;
 
-  StampGuard left_guard_, right_guard_;
+  Stream left_, right_;
   StereoSynchronizer synchronizer_;
   std::optional<ReceivedPair> waiting_;
 
@@ -75,7 +86,7 @@ class StereoIntake {
   std::optional<StereoCamera> camera_;
   std::string camera_error_;
 
-  TopicStatistics left_images_, right_images_, left_infos_, right_infos_, pairs_;
+  TopicStatistics left_infos_, right_infos_, pairs_;
 };
 
 }  // namespace rotrocc

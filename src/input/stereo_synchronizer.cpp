@@ -6,6 +6,14 @@
 #include "input/message_conversion.h"
 
 namespace rotrocc {
+namespace {
+
+/// Whether `stamp_ns` is nearer to `a_ns` than to `b_ns`.
+bool isNearer(const std::optional<std::int64_t>& stamp_ns, std::int64_t a_ns, std::int64_t b_ns) {
+  return stamp_ns && std::abs(*stamp_ns - a_ns) < std::abs(*stamp_ns - b_ns);
+}
+
+}  // namespace
 
 StereoSynchronizer::StereoSynchronizer(double max_difference_s, std::size_t queue_size)
     : max_difference_ns_(std::llround(1e9 * max_difference_s)), queue_size_(queue_size) {}
@@ -38,9 +46,11 @@ sensor_msgs::Image::ConstPtr StereoSynchronizer::add(const sensor_msgs::Image::C
     return nullptr;
   }
   if (own.last_stamp_ns && stamp_ns < *own.last_stamp_ns) {
-    // Time jumped back. The other side may already have images from after the jump: keep these.
+    // Time jumped back. Images of the other side from after the jump are kept.
+    if (!isNearer(other.last_stamp_ns, stamp_ns, *own.last_stamp_ns)) {
+      dropLaterThan(stamp_ns + max_difference_ns_, other);
+    }
     dropLaterThan(stamp_ns, own);
-    dropLaterThan(stamp_ns + max_difference_ns_, other);
   }
   own.last_stamp_ns = stamp_ns;
 

@@ -482,6 +482,20 @@ std::string timeJump(const std::string& pose, double by_s, bool clock_stays = fa
   return observed + recovery(*rig);
 }
 
+/// One pair has stamps of 5 s ahead; the next one tells.
+std::string stampGlitch() {
+  const auto rig = drivingRig();
+  rig->drive(both([](Image& image) { image.header.stamp += ros::Duration(5.0); }));
+  const std::string at_once = rig->observed();
+  rig->drive();
+  const auto dropped = rig->drops().lastWithin(std::chrono::seconds(60));
+  return at_once + "; with the next pair " + rig->observed() +
+         (dropped
+              ? std::string(", dropped (") + toString(dropped->reason()) + "): " + dropped->what()
+              : "") +
+         recovery(*rig);
+}
+
 std::string skewed() {
   const auto rig = drivingRig();
   for (int i = 0; i < 8; ++i) {
@@ -880,11 +894,17 @@ std::vector<BadInput> timeRows() {
        "twist unknown; then ok"},
       {46,
        "time jumps ahead, or the stamps alone",
-       "restarts, pose kept, twist unknown; dropped if the clock does not jump",
-       [] { return timeJump("keep", 500.0) + "; stamps alone: " + timeJump("keep", 500.0, true); },
+       "restarts, pose kept, twist unknown; dropped if the clock does not jump; a single pair is "
+       "dropped as a glitch, without a restart",
+       [] {
+         return timeJump("keep", 500.0) + "; stamps alone: " + timeJump("keep", 500.0, true) +
+                "; one pair: " + stampGlitch();
+       },
        restarted +
            "; stamps alone: dropped (stamp_future): the right image has the stamp 1500.300 s, 500 "
-           "s ahead of the clock: *; then ok"},
+           "s ahead of the clock: *; then ok; one pair: no odometry; with the next pair ok, "
+           "dropped (stamp_glitch): the right image had the stamp *, but the next one did not "
+           "follow it: a glitch; *; then ok"},
       {47,
        "skew of left and right above the limit",
        "dropped, the skew is reported",

@@ -118,6 +118,16 @@ TEST_F(StereoSynchronizerTest, SurvivesTimeThatBeginsAnew) {
   EXPECT_EQ(synchronizer_.unmatched(), 2u);
 }
 
+TEST_F(StereoSynchronizerTest, OneSideMayBeAheadAfterTimeBeginsAnew) {
+  EXPECT_FALSE(left(900));
+  EXPECT_TRUE(right(900));
+  EXPECT_FALSE(left(0));
+  EXPECT_FALSE(left(100));
+  EXPECT_TRUE(right(0));
+  EXPECT_TRUE(right(100));
+  EXPECT_EQ(synchronizer_.unmatched(), 0u);
+}
+
 TEST_F(StereoSynchronizerTest, ResetForgetsWhatWaits) {
   EXPECT_FALSE(left(0));
   synchronizer_.reset();

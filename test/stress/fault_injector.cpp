@@ -21,6 +21,11 @@ const std::vector<Fault>& faults() {
       {"right image missing", [](StressPair& pair) { pair.send_right = false; }},
       {"stamp 0", [](StressPair& pair) { pair.left.header.stamp = ros::Time(); }},
       {"stamp of the future", [](StressPair& pair) { pair.left.header.stamp = ros::TIME_MAX; }},
+      {"stamps of a glitch",
+       [](StressPair& pair) {
+         pair.left.header.stamp += ros::Duration(5.0);
+         pair.right.header.stamp += ros::Duration(5.0);
+       }},
       {"stamps apart", [](StressPair& pair) { pair.right.header.stamp += ros::Duration(0.04); }},
       {"data cut off", [](StressPair& pair) { pair.left.data.resize(pair.left.data.size() / 2); }},
       {"no data", [](StressPair& pair) { pair.right.data.clear(); }},
