@@ -1,5 +1,6 @@
 #include "input/stereo_synchronizer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -7,6 +8,9 @@
 
 namespace rotrocc {
 namespace {
+
+/// Less than the period of usual cameras.
+constexpr std::int64_t kUnknownTolerance_ns = 10'000'000;
 
 /// Whether `stamp_ns` is nearer to `a_ns` than to `b_ns`.
 bool isNearer(const std::optional<std::int64_t>& stamp_ns, std::int64_t a_ns, std::int64_t b_ns) {
@@ -19,16 +23,20 @@ StereoSynchronizer::StereoSynchronizer(double max_difference_s, std::size_t queu
     : max_difference_ns_(std::llround(1e9 * max_difference_s)), queue_size_(queue_size) {}
 
 std::optional<StereoImages> StereoSynchronizer::addLeft(const sensor_msgs::Image::ConstPtr& image) {
-  const auto right = add(image, left_, right_);
-  if (!right) return std::nullopt;
-  return StereoImages{image, right};
+  const auto match = add(image, left_, right_);
+  if (!match) return std::nullopt;
+  return StereoImages{match->own.image, match->other.image};
 }
 
 std::optional<StereoImages> StereoSynchronizer::addRight(
     const sensor_msgs::Image::ConstPtr& image) {
-  const auto left = add(image, right_, left_);
-  if (!left) return std::nullopt;
-  return StereoImages{left, image};
+  const auto match = add(image, right_, left_);
+  if (!match) return std::nullopt;
+  return StereoImages{match->other.image, match->own.image};
+}
+
+double StereoSynchronizer::tolerance_s() const {
+  return 1e-9 * static_cast<double>(tolerance_ns());
 }
 
 void StereoSynchronizer::reset() {
@@ -36,14 +44,12 @@ void StereoSynchronizer::reset() {
   right_ = {};
 }
 
-/// Returns the partner of `image`; if there is none, stores the image.
-sensor_msgs::Image::ConstPtr StereoSynchronizer::add(const sensor_msgs::Image::ConstPtr& image,
-                                                     Side& own,
-                                                     Side& other) {
+std::optional<StereoSynchronizer::Match> StereoSynchronizer::add(
+    const sensor_msgs::Image::ConstPtr& image, Side& own, Side& other) {
   const std::int64_t stamp_ns = toNanoseconds(image->header.stamp);
   if (own.last_stamp_ns == stamp_ns) {
     ++unmatched_;
-    return nullptr;
+    return std::nullopt;
   }
   if (own.last_stamp_ns && stamp_ns < *own.last_stamp_ns) {
     // Time jumped back. Images of the other side from after the jump are kept.
@@ -54,19 +60,40 @@ sensor_msgs::Image::ConstPtr StereoSynchronizer::add(const sensor_msgs::Image::C
   }
   own.last_stamp_ns = stamp_ns;
 
-  if (const Waiting* found = findPartner(stamp_ns, other)) {
-    const Waiting partner = *found;
-    dropEarlierThan(stamp_ns, own);
-    dropEarlierThan(partner.stamp_ns, other);
-    other.waiting.pop_front();
-    return partner.image;
-  }
+  own.series.add(stamp_ns);
   own.waiting.push_back({stamp_ns, image});
-  if (own.waiting.size() > queue_size_) {
+  const auto match = findMatch(own, other);
+  if (match) {
+    dropEarlierThan(match->own.stamp_ns, own);
+    dropEarlierThan(match->other.stamp_ns, other);
+    own.waiting.pop_front();
+    other.waiting.pop_front();
+  } else if (own.waiting.size() > queue_size_) {
     own.waiting.pop_front();
     ++unmatched_;
   }
-  return nullptr;
+  return match;
+}
+
+/// The partner of the new image; without one, that of an earlier image, because the new one may
+/// have told the period.
+std::optional<StereoSynchronizer::Match> StereoSynchronizer::findMatch(const Side& own,
+                                                                       const Side& other) const {
+  const std::int64_t tolerance = tolerance_ns();
+  for (auto image = own.waiting.rbegin(); image != own.waiting.rend(); ++image) {
+    const auto nearest = std::min_element(
+        other.waiting.begin(), other.waiting.end(), [&](const Waiting& a, const Waiting& b) {
+          return std::abs(a.stamp_ns - image->stamp_ns) < std::abs(b.stamp_ns - image->stamp_ns);
+        });
+    if (nearest == other.waiting.end()) return std::nullopt;
+    if (std::abs(nearest->stamp_ns - image->stamp_ns) <= tolerance) return Match{*image, *nearest};
+  }
+  return std::nullopt;
+}
+
+std::int64_t StereoSynchronizer::tolerance_ns() const {
+  const auto period_ns = commonPeriod_ns(left_.series, right_.series);
+  return std::min(max_difference_ns_, period_ns ? *period_ns / 2 : kUnknownTolerance_ns);
 }
 
 void StereoSynchronizer::dropEarlierThan(std::int64_t stamp_ns, Side& side) {
@@ -81,19 +108,6 @@ void StereoSynchronizer::dropLaterThan(std::int64_t stamp_ns, Side& side) {
     side.waiting.pop_back();
     ++unmatched_;
   }
-}
-
-const StereoSynchronizer::Waiting* StereoSynchronizer::findPartner(std::int64_t stamp_ns,
-                                                                   const Side& side) const {
-  const Waiting* nearest = nullptr;
-  for (const Waiting& candidate : side.waiting) {
-    const std::int64_t difference_ns = std::abs(candidate.stamp_ns - stamp_ns);
-    if (difference_ns > max_difference_ns_) continue;
-    if (nearest == nullptr || difference_ns < std::abs(nearest->stamp_ns - stamp_ns)) {
-      nearest = &candidate;
-    }
-  }
-  return nearest;
 }
 
 }  // namespace rotrocc

@@ -7,6 +7,8 @@
 
 #include <sensor_msgs/Image.h>
 
+#include "input/stamp_series.h"
+
 namespace rotrocc {
 
 /// Two images of the same time.
@@ -18,12 +20,16 @@ struct StereoImages {
 /// Matches left and right images by their stamps. A pair is complete with the arrival of its second
 /// image.
 ///
+/// Images whose stamps differ by more than half the period of the images are never a pair: after a
+/// lost image, each would get the partner of its neighbour. While no period is known, and their
+/// stamps are apart, the first two images wait for the next one.
+///
 /// Either side may be late, and stamps may jump back, e.g. with a looping bag: images from before
 /// and after a jump are not matched.
 class StereoSynchronizer {
  public:
-  /// Images whose stamps differ by at most `max_difference_s` are a pair; of several candidates the
-  /// nearest is used. Each side keeps the latest `queue_size` > 0 unmatched images.
+  /// Images whose stamps differ by at most `max_difference_s` may be a pair; of several candidates
+  /// the nearest is used. Each side keeps the latest `queue_size` > 0 unmatched images.
   StereoSynchronizer(double max_difference_s, std::size_t queue_size);
 
   /// The pair that `image` completes, if any. An image with the same stamp as the previous one of
@@ -33,6 +39,13 @@ class StereoSynchronizer {
 
   /// Number of images dropped without a partner or with a repeated stamp.
   std::uint64_t unmatched() const { return unmatched_; }
+
+  /// The largest difference that is accepted now.
+  double tolerance_s() const;
+
+  /// Stamps that have arrived.
+  const StampSeries& leftStamps() const { return left_.series; }
+  const StampSeries& rightStamps() const { return right_.series; }
 
   /// Discards all waiting images; they do not count as unmatched.
   void reset();
@@ -45,14 +58,19 @@ class StereoSynchronizer {
   struct Side {
     std::deque<Waiting> waiting;  // in the order of their stamps
     std::optional<std::int64_t> last_stamp_ns;
+    StampSeries series;
+  };
+  /// Two of one time.
+  struct Match {
+    Waiting own;
+    Waiting other;
   };
 
-  sensor_msgs::Image::ConstPtr add(const sensor_msgs::Image::ConstPtr& image,
-                                   Side& own,
-                                   Side& other);
+  std::optional<Match> add(const sensor_msgs::Image::ConstPtr& image, Side& own, Side& other);
+  std::optional<Match> findMatch(const Side& own, const Side& other) const;
+  std::int64_t tolerance_ns() const;
   void dropEarlierThan(std::int64_t stamp_ns, Side& side);
   void dropLaterThan(std::int64_t stamp_ns, Side& side);
-  const Waiting* findPartner(std::int64_t stamp_ns, const Side& side) const;
 
   std::int64_t max_difference_ns_;
   std::size_t queue_size_;

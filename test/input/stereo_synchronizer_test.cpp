@@ -146,6 +146,65 @@ TEST_F(StereoSynchronizerTest, StampsAtTheEndOfTimeDoNoHarm) {
   EXPECT_TRUE(synchronizer_.addRight(early));
 }
 
+/// A camera at 30 Hz whose user has raised the tolerance beyond half a period.
+class WideToleranceTest : public StereoSynchronizerTest {
+ protected:
+  static constexpr double kPeriod_ms = 1000.0 / 30.0;
+
+  WideToleranceTest() { synchronizer_ = StereoSynchronizer(0.04, 4); }
+};
+
+TEST_F(WideToleranceTest, LostImagesLeaveTheOthersTogether) {
+  std::mt19937 random(5);
+  std::bernoulli_distribution lost(0.3);
+  for (const bool left_too : {false, true}) {
+    int both = 0, pairs = 0;
+    for (int i = 0; i < 500; ++i) {
+      const bool has_left = i < 2 || !left_too || !lost(random);
+      const bool has_right = i < 2 || !lost(random);
+      both += has_left && has_right ? 1 : 0;
+      const bool right_first = i % 3 == 0;
+      for (const bool is_right : {right_first, !right_first}) {
+        if (is_right ? !has_right : !has_left) continue;
+        if (!(is_right ? right(i * kPeriod_ms) : left(i * kPeriod_ms))) continue;
+        ++pairs;
+        EXPECT_EQ(skew_ms(), 0.0) << i;
+      }
+    }
+    EXPECT_EQ(pairs, both);
+  }
+}
+
+TEST_F(WideToleranceTest, AnOddStartDoesNoHarm) {
+  EXPECT_FALSE(left(0));
+  EXPECT_FALSE(right(kPeriod_ms));  // the right image of 0 is lost
+  EXPECT_TRUE(left(kPeriod_ms));
+  EXPECT_EQ(skew_ms(), 0.0);
+  EXPECT_EQ(synchronizer_.unmatched(), 1u);
+}
+
+/// Two images alone do not tell whether they are of one time: the next one does.
+TEST_F(WideToleranceTest, TheFirstPairOfSkewedCamerasIsNotLost) {
+  EXPECT_FALSE(left(0));
+  EXPECT_FALSE(right(15));
+  EXPECT_TRUE(left(kPeriod_ms));
+  EXPECT_NEAR(skew_ms(), 15.0, 1e-9);
+  for (int i = 1; i < 20; ++i) {
+    EXPECT_TRUE(right(15 + i * kPeriod_ms)) << i;
+    EXPECT_NEAR(skew_ms(), 15.0, 1e-3);
+    EXPECT_FALSE(left((i + 1) * kPeriod_ms)) << i;
+  }
+  EXPECT_EQ(synchronizer_.unmatched(), 0u);
+}
+
+TEST_F(WideToleranceTest, ToleranceIsAtMostHalfThePeriod) {
+  EXPECT_NEAR(synchronizer_.tolerance_s(), 0.01, 1e-9) << "while no period is known";
+  for (int i = 0; i < 5; ++i) right(i * kPeriod_ms);
+  EXPECT_NEAR(synchronizer_.tolerance_s(), 0.5e-3 * kPeriod_ms, 1e-6);
+  for (int i = 0; i < 5; ++i) left(2 * i * kPeriod_ms);
+  EXPECT_NEAR(synchronizer_.tolerance_s(), 0.5e-3 * kPeriod_ms, 1e-6);
+}
+
 /// The raw drives of KITTI as kitti2bag records them: a frame each 0.1 s, give or take 5 ms, whose
 /// right image is up to 7 ms apart, all images in the order of their own stamps.
 TEST_F(StereoSynchronizerTest, MatchesEveryPairOfAnUnsynchronisedDrive) {
