@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <iomanip>
 #include <sstream>
 
@@ -11,6 +10,15 @@ namespace {
 
 /// Below this skew, the cameras are assumed to be synchronized.
 constexpr double kPlausibleSkew_s = 0.05;
+/// In periods. With more, jitter makes neighbours the nearest ones.
+constexpr double kLargeSkew = 0.25;
+constexpr double kLargestSkew = 0.5;
+/// Share and number of images without a partner that are worth a warning.
+constexpr double kManyLost = 0.1;
+constexpr std::size_t kLeastLost = 5;
+/// A topic is silent after this, and after so many of its periods.
+constexpr double kSilent_s = 1.0;
+constexpr double kSilentPeriods = 3.0;
 
 std::string milliseconds(double seconds) {
   std::ostringstream text;
@@ -27,6 +35,18 @@ std::string describe(const TopicReport& topic) {
   return text.str();
 }
 
+std::string tenths(double value) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << value;
+  return text.str();
+}
+
+bool isSilent(const TopicReport& topic) {
+  if (topic.recent == 0) return true;
+  const double period_s = topic.rate_hz > 0.0 ? 1.0 / topic.rate_hz : 0.0;
+  return topic.silent_s && *topic.silent_s > std::max(kSilent_s, kSilentPeriods * period_s);
+}
+
 std::string whySilent(const TopicReport& topic) {
   if (topic.publishers == 0 && topic.total > 0) {
     return "nobody publishes " + topic.topic +
@@ -36,43 +56,74 @@ std::string whySilent(const TopicReport& topic) {
     return "nobody publishes " + topic.topic +
            ": start the driver, or remap it to the right topic (see rostopic list)";
   }
+  if (topic.recent > 0) {
+    return topic.topic + " has been silent for " + tenths(*topic.silent_s) +
+           " s: has the driver or the connection stopped?";
+  }
   return topic.topic +
          " has a publisher, but no messages arrive: is the driver running, and the "
          "network configured (ROS_IP, ROS_HOSTNAME)?";
 }
 
-std::string whyUnmatched(double difference_s, double limit_s) {
-  const std::string apart = "left and right stamps are up to " + milliseconds(difference_s) +
-                            " apart, more than max_stamp_difference_s = " + milliseconds(limit_s);
+bool isLarge(double skew_s, const InputReport& report) {
+  if (!report.period_s) return false;
+  const double periods = std::abs(skew_s) / *report.period_s;
+  return periods > kLargeSkew && periods <= kLargestSkew;
+}
+
+std::string ofPeriod(double skew_s, double period_s) {
+  return std::to_string(std::lround(100.0 * std::abs(skew_s) / period_s)) + " % of the period of " +
+         milliseconds(period_s);
+}
+
+std::string skewOfAPeriodText(const InputReport& report) {
+  const double skew_s = *report.skew_of_a_period_s;
+  return "right stamps are " + milliseconds(std::abs(skew_s)) +
+         (skew_s > 0.0 ? " after" : " before") +
+         " the left ones with the same jitter, about a period, so images of different times have "
+         "the nearest stamps: correct the stamps of the drivers";
+}
+
+std::string whyUnmatched(const InputReport& report) {
+  const double difference_s = *report.stamp_difference_s;
+  const std::string apart =
+      "left and right stamps are up to " + milliseconds(difference_s) + " apart, more than ";
+  if (isLarge(difference_s, report)) {
+    return apart + milliseconds(report.tolerance_s) + " and " +
+           ofPeriod(difference_s, *report.period_s) +
+           ": trigger the cameras synchronously; with a larger max_stamp_difference_s, images of "
+           "different times would be pairs";
+  }
+  const std::string too_far =
+      apart + "max_stamp_difference_s = " + milliseconds(report.max_stamp_difference_s);
   if (difference_s <= kPlausibleSkew_s) {
     const double enough_s = std::ceil(1.2e3 * difference_s) * 1e-3;
     std::ostringstream advice;
     advice << ": trigger the cameras synchronously, or set max_stamp_difference_s to " << enough_s;
-    return apart + advice.str();
+    return too_far + advice.str();
   }
-  return apart +
+  return too_far +
          ": are both topics from the same rig, and the clocks of both drivers synchronized?";
 }
 
-}  // namespace
-
-std::optional<double> greatestStampDifference(const std::deque<std::int64_t>& left_ns,
-                                              const std::deque<std::int64_t>& right_ns) {
-  if (left_ns.empty() || right_ns.empty()) return std::nullopt;
-  const auto [oldest, newest] = std::minmax_element(right_ns.begin(), right_ns.end());
-  std::int64_t nearest_of_all_ns = INT64_MAX;
-  std::int64_t greatest_ns = -1;
-  for (const std::int64_t left : left_ns) {
-    std::int64_t nearest_ns = INT64_MAX;
-    for (const std::int64_t right : right_ns) {
-      nearest_ns = std::min(nearest_ns, std::abs(left - right));
-    }
-    nearest_of_all_ns = std::min(nearest_of_all_ns, nearest_ns);
-    // The partner of a stamp beyond the ends may be beyond them as well.
-    if (left >= *oldest && left <= *newest) greatest_ns = std::max(greatest_ns, nearest_ns);
-  }
-  return 1e-9 * static_cast<double>(greatest_ns >= 0 ? greatest_ns : nearest_of_all_ns);
+std::string whyLost(const InputReport& report) {
+  const auto& [left, right, pairs] = report.together;
+  const std::size_t images = std::max(left, right);
+  if (images < pairs + kLeastLost) return "";
+  const std::size_t lost = images - pairs;
+  if (static_cast<double>(lost) < kManyLost * static_cast<double>(images)) return "";
+  const std::size_t missing = images - std::min(left, right);
+  const TopicReport& fewer = left < right ? report.left_image : report.right_image;
+  return std::to_string(100 * lost / images) +
+         " % of the images have no partner: " + report.left_image.topic + " arrives at " +
+         tenths(report.left_image.rate_hz) + " Hz, " + report.right_image.topic + " at " +
+         tenths(report.right_image.rate_hz) + " Hz" +
+         (2 * missing > lost ? ": the camera of " + fewer.topic + " or its connection loses images"
+                             : ": both lose images, or stamps are more than " +
+                                   milliseconds(report.tolerance_s) + " apart");
 }
+
+}  // namespace
 
 std::string describeTopics(const InputReport& report) {
   std::string text;
@@ -93,18 +144,35 @@ std::string whyNoPairs(const InputReport& report) {
            "set "
            "use_sim_time to false";
   }
-  for (const TopicReport* image : {&report.left_image, &report.right_image}) {
-    if (image->recent == 0) return whySilent(*image);
-  }
+  if (const std::string silent = whySilent(report); !silent.empty()) return silent;
   if (!report.camera_error.empty()) return report.camera_error;
   for (const TopicReport* info : {&report.left_info, &report.right_info}) {
     if (report.waits_for_info && info->total == 0) return whySilent(*info);
   }
+  if (report.recent_pairs == 0 && report.skew_of_a_period_s) return skewOfAPeriodText(report);
   if (report.stamp_difference_s && report.recent_pairs == 0 &&
-      *report.stamp_difference_s > report.max_stamp_difference_s) {
-    return whyUnmatched(*report.stamp_difference_s, report.max_stamp_difference_s);
+      *report.stamp_difference_s > report.tolerance_s) {
+    return whyUnmatched(report);
   }
   return report.refused;
+}
+
+std::string whySilent(const InputReport& report) {
+  for (const TopicReport* image : {&report.left_image, &report.right_image}) {
+    if (isSilent(*image)) return whySilent(*image);
+  }
+  return "";
+}
+
+std::string faultOfPairs(const InputReport& report) {
+  if (report.recent_pairs == 0) return "";
+  if (report.skew_of_a_period_s) return skewOfAPeriodText(report);
+  if (report.median_skew_s && isLarge(*report.median_skew_s, report)) {
+    return "left and right stamps are " + milliseconds(std::abs(*report.median_skew_s)) +
+           " apart, " + ofPeriod(*report.median_skew_s, *report.period_s) +
+           ", so it is not sure which images are of one time: trigger the cameras synchronously";
+  }
+  return whyLost(report);
 }
 
 }  // namespace rotrocc

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <string>
 
@@ -15,23 +14,32 @@ struct TopicReport {
   std::size_t recent = 0;  ///< messages within TopicStatistics::kWindow
   std::uint64_t total = 0;
   double rate_hz = 0.0;
+  std::optional<double> silent_s =
+      std::nullopt;  ///< since the last message; none if there was none
 };
 
 /// Recent input, and what prevents pairs.
 struct InputReport {
   TopicReport left_image, right_image, left_info, right_info;
   std::size_t recent_pairs = 0;
+  std::optional<double> pairs_silent_s;  ///< since the last pair; none if there was none
+
+  /// Within TopicStatistics::kWindow, since both images arrive.
+  struct {
+    std::size_t left_images = 0, right_images = 0, pairs = 0;
+  } together;
+
   std::optional<double> stamp_difference_s;  ///< largest; none while a side is missing
   double max_stamp_difference_s = 0.0;       ///< the parameter
+  double tolerance_s = 0.0;                  ///< that in force: at most half a period
+  std::optional<double> period_s;            ///< of the images
+  std::optional<double> median_skew_s;       ///< see medianSkew()
+  std::optional<double> skew_of_a_period_s;  ///< see skewOfAPeriod()
   bool clock_missing = false;                ///< simulated time without /clock
   std::string refused;                       ///< why recent input was dropped; empty if none
   std::string camera_error;                  ///< why camera_info is invalid although both arrived
   bool waits_for_info = false;               ///< a pair waits for camera_info
 };
-
-/// Largest difference between a left stamp and the nearest right one [s]; none if a side has none.
-std::optional<double> greatestStampDifference(const std::deque<std::int64_t>& left_ns,
-                                              const std::deque<std::int64_t>& right_ns);
 
 /// "left/image_rect 50 (10.0 Hz), right/image_rect 0, ..."
 std::string describeTopics(const InputReport& report);
@@ -39,5 +47,12 @@ std::string describeTopics(const InputReport& report);
 /// The most likely reason for missing pairs, and a remedy, in one sentence. Empty if the input is
 /// fine.
 std::string whyNoPairs(const InputReport& report);
+
+/// Which image topic has gone silent, in one sentence; empty if none.
+std::string whySilent(const InputReport& report);
+
+/// What is wrong with pairs that arrive: lost images, or a skew that makes pairs of different
+/// times. One sentence with a remedy; empty if nothing is.
+std::string faultOfPairs(const InputReport& report);
 
 }  // namespace rotrocc

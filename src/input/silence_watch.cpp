@@ -1,7 +1,8 @@
 #include "input/silence_watch.h"
 
 #include <algorithm>
-#include <cmath>
+#include <iomanip>
+#include <sstream>
 
 namespace rotrocc {
 namespace {
@@ -9,9 +10,16 @@ namespace {
 constexpr std::chrono::seconds kLeastDistance(5);
 constexpr std::chrono::seconds kFirstReminder(10);
 constexpr std::chrono::seconds kLastReminder(60);
+/// A gap is as long as this, and as so many of the usual intervals.
+constexpr std::chrono::seconds kLeastGap(1);
+constexpr double kUsualIntervals = 4.0;
+constexpr std::size_t kIntervals = 16;
 
+/// "3.1 s", "35 s"
 std::string seconds(std::chrono::duration<double> duration) {
-  return std::to_string(std::lround(duration.count())) + " s";
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(duration.count() < 9.95 ? 1 : 0) << duration.count();
+  return text.str() + " s";
 }
 
 /// The parts that cause a new report when they change; without numbers, which always change.
@@ -31,14 +39,28 @@ std::string situationOf(const InputReport& input) {
 }  // namespace
 
 SilenceWatch::SilenceWatch(double silence_s, Time now)
-    : silence_limit_(silence_s), last_pair_(now) {}
+    : silence_limit_(silence_s), last_pair_(now), last_return_(now) {}
 
 std::string SilenceWatch::onPair(Time now) {
+  const Duration silence = now - last_pair_;
   std::string said;
-  if (told_) said = "stereo pairs arrive again, after " + seconds(now - last_pair_);
+  if (told_ || (isGap(silence) && now - last_return_ >= kLeastDistance)) {
+    said = "stereo pairs arrive again, after " + seconds(silence);
+    last_return_ = now;
+  }
   told_ = false;
   last_pair_ = now;
+  intervals_.push_back(silence);
+  if (intervals_.size() > kIntervals) intervals_.pop_front();
   return said;
+}
+
+bool SilenceWatch::isGap(Duration silence) const {
+  if (intervals_.size() < kIntervals || silence < kLeastGap) return false;
+  std::deque<Duration> sorted = intervals_;
+  const auto median = sorted.begin() + sorted.size() / 2;
+  std::nth_element(sorted.begin(), median, sorted.end());
+  return silence >= kUsualIntervals * *median;
 }
 
 std::string SilenceWatch::onTick(const InputReport& input, Time now) {

@@ -1,14 +1,15 @@
 #pragma once
 
 #include <chrono>
+#include <deque>
 #include <string>
 
 #include "input/input_report.h"
 
 namespace rotrocc {
 
-/// Reports missing pairs, and their return, for the log. Uses real time: simulated time may stand
-/// still. Not thread-safe.
+/// Reports missing pairs, and their return, for the log; gaps too short for that at their end. Uses
+/// real time: simulated time may stand still. Not thread-safe.
 class SilenceWatch {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -16,7 +17,8 @@ class SilenceWatch {
   /// Reports after `silence_s` without a pair, counted from `now` at first.
   SilenceWatch(double silence_s, Time now);
 
-  /// Call for every pair. Returns a message if the silence before it was reported; otherwise empty.
+  /// Call for every pair. Returns a message if the silence before it was reported, or if it was far
+  /// longer than usual, at most every 5 s; otherwise empty.
   std::string onPair(Time now);
 
   /// Call about once a second. Returns the duration of the silence, the received messages and a
@@ -25,10 +27,16 @@ class SilenceWatch {
   std::string onTick(const InputReport& input, Time now);
 
  private:
-  std::chrono::duration<double> silence_limit_;
+  using Duration = std::chrono::duration<double>;
+
+  bool isGap(Duration silence) const;
+
+  Duration silence_limit_;
   Time last_pair_;
-  bool told_ = false;  // this silence was reported
+  std::deque<Duration> intervals_;  // the latest, between pairs
+  bool told_ = false;               // this silence was reported
   Time last_told_;
+  Time last_return_;       // that was reported
   std::string situation_;  // at the last report
   std::chrono::seconds reminder_{};
 };

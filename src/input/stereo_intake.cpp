@@ -1,19 +1,26 @@
 #include "input/stereo_intake.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "input/camera_validation.h"
 #include "input/message_conversion.h"
-#include "input/to_text.h"
+#include "input/stamp_skew.h"
 
 namespace rotrocc {
 namespace {
+
+std::optional<double> silence(const TopicStatistics& statistics, TopicStatistics::Time now) {
+  if (statistics.total() == 0) return std::nullopt;
+  return std::chrono::duration<double>(now - statistics.lastArrival()).count();
+}
 
 TopicReport reportOf(const TopicStatistics& statistics, TopicStatistics::Time now) {
   TopicReport report;
   report.recent = statistics.recent(now);
   report.total = statistics.total();
   report.rate_hz = statistics.rate_hz(now);
+  report.silent_s = silence(statistics, now);
   return report;
 }
 
@@ -37,7 +44,7 @@ void StereoIntake::addImage(Side side,
                             const Arrival& arrival) {
   Stream& stream = side == Side::kLeft ? left_ : right_;
   const std::int64_t stamp_ns = toNanoseconds(image->header.stamp);
-  stream.statistics.add(stamp_ns, arrival.time);
+  stream.statistics.add(arrival.time);
   try {
     const StampGuard::Verdict verdict = stream.guard.check(stamp_ns, arrival.clock_ns);
     if (verdict.glitch) drops_.add(*verdict.glitch);
@@ -60,7 +67,7 @@ void StereoIntake::addInfo(Side side,
                            const sensor_msgs::CameraInfo::ConstPtr& info,
                            const Arrival& arrival) {
   const bool left = side == Side::kLeft;
-  (left ? left_infos_ : right_infos_).add(toNanoseconds(info->header.stamp), arrival.time);
+  (left ? left_infos_ : right_infos_).add(arrival.time);
   (left ? left_info_ : right_info_) = info;
   try {
     updateCamera();
@@ -74,7 +81,7 @@ void StereoIntake::addInfo(Side side,
 void StereoIntake::takePair(const std::optional<StereoImages>& images, const Arrival& arrival) {
   drops_.set(DropReason::kNoPartner, synchronizer_.unmatched());
   if (!images) return;
-  pairs_.add(toNanoseconds(images->left->header.stamp), arrival.time);
+  pairs_.add(arrival.time);
   if (waiting_) drops_.count(DropReason::kCameraInfoMissing);
   waiting_ = ReceivedPair{*images, {}, arrival.time};
   handOver();
@@ -111,15 +118,34 @@ InputReport StereoIntake::report(std::chrono::steady_clock::time_point now) cons
   report.left_info = reportOf(left_infos_, now);
   report.right_info = reportOf(right_infos_, now);
   report.recent_pairs = pairs_.recent(now);
-  report.stamp_difference_s =
-      greatestStampDifference(left_.statistics.lastStamps_ns(), right_.statistics.lastStamps_ns());
-  report.max_stamp_difference_s = parameters_.max_stamp_difference_s;
+  report.pairs_silent_s = silence(pairs_, now);
+  addStamps(report);
+  if (left_.statistics.total() > 0 && right_.statistics.total() > 0) {
+    const auto begin = std::max({now - TopicStatistics::kWindow,
+                                 left_.statistics.startOfRun(),
+                                 right_.statistics.startOfRun()});
+    report.together = {
+        left_.statistics.since(begin), right_.statistics.since(begin), pairs_.since(begin)};
+  }
   if (const auto refused = drops_.lastWithin(TopicStatistics::kWindow)) {
     report.refused = refused->what();
   }
   report.camera_error = camera_error_;
   report.waits_for_info = waiting_.has_value();
   return report;
+}
+
+void StereoIntake::addStamps(InputReport& report) const {
+  const StampSeries& left = synchronizer_.leftStamps();
+  const StampSeries& right = synchronizer_.rightStamps();
+  if (const auto period_ns = commonPeriod_ns(left, right)) {
+    report.period_s = 1e-9 * static_cast<double>(*period_ns);
+  }
+  report.stamp_difference_s = greatestStampDifference(left, right);
+  report.max_stamp_difference_s = parameters_.max_stamp_difference_s;
+  report.tolerance_s = synchronizer_.tolerance_s();
+  report.median_skew_s = medianSkew(left, right);
+  report.skew_of_a_period_s = skewOfAPeriod(left, right);
 }
 
 }  // namespace rotrocc

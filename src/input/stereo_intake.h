@@ -72,6 +72,7 @@ class StereoIntake {
   void updateCamera();
   void setCamera(const StereoCamera& camera);
   void handOver();
+  void addStamps(InputReport& report) const;
 
   NodeParameters parameters_;
   DropLog& drops_;

@@ -5,23 +5,21 @@
 namespace rotrocc {
 namespace {
 
-constexpr std::size_t kMaxStamps = 16;
 constexpr std::size_t kMaxArrivals = 2000;  // bounds the memory
 
 }  // namespace
 
-void TopicStatistics::add(std::int64_t stamp_ns, Time now) {
+void TopicStatistics::add(Time now) {
+  if (total_ == 0 || now - arrivals_.back() > kLongestStep) start_of_run_ = now;
   ++total_;
   arrivals_.push_back(now);
   while (arrivals_.size() > kMaxArrivals || arrivals_.front() < now - kWindow) {
     arrivals_.pop_front();
   }
-  stamps_ns_.push_back(stamp_ns);
-  if (stamps_ns_.size() > kMaxStamps) stamps_ns_.pop_front();
 }
 
-std::size_t TopicStatistics::recent(Time now) const {
-  const auto first = std::lower_bound(arrivals_.begin(), arrivals_.end(), now - kWindow);
+std::size_t TopicStatistics::since(Time begin) const {
+  const auto first = std::lower_bound(arrivals_.begin(), arrivals_.end(), begin);
   return static_cast<std::size_t>(arrivals_.end() - first);
 }
 

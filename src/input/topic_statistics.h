@@ -14,22 +14,26 @@ class TopicStatistics {
   /// Time window of rates and counts.
   static constexpr std::chrono::seconds kWindow{5};
 
-  void add(std::int64_t stamp_ns, Time now);
+  /// A message that arrives later than this after the one before starts a new run.
+  static constexpr std::chrono::seconds kLongestStep{1};
+
+  void add(Time now);
 
   std::uint64_t total() const { return total_; }
-  /// Arrival of the last message; there must be one.
+  /// Arrival of the last message, and of the first one of its run; there must be one.
   Time lastArrival() const { return arrivals_.back(); }
+  Time startOfRun() const { return start_of_run_; }
   /// Messages within the window.
-  std::size_t recent(Time now) const;
+  std::size_t recent(Time now) const { return since(now - kWindow); }
+  /// Messages from a time within the window on.
+  std::size_t since(Time begin) const;
   /// Mean rate within the window; 0 for fewer than two messages.
   double rate_hz(Time now) const;
-  /// Stamps of the latest messages, at most 16.
-  const std::deque<std::int64_t>& lastStamps_ns() const { return stamps_ns_; }
 
  private:
   std::uint64_t total_ = 0;
   std::deque<Time> arrivals_;
-  std::deque<std::int64_t> stamps_ns_;
+  Time start_of_run_;
 };
 
 }  // namespace rotrocc

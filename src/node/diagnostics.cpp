@@ -14,8 +14,6 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-/// Relative difference of left and right image rates that causes a warning.
-constexpr double kRateDifference = 0.2;
 /// Latencies vary with the load of the machine: warn only if most pairs are late.
 constexpr double kLateShareOfPeriod = 1.0;
 /// Rigs are rarely better calibrated; the correction is right on average only, and leaves more of a
@@ -47,12 +45,6 @@ void addTopic(const TopicReport& topic, StatusWrapper& status) {
               topic.recent,
               static_cast<unsigned long long>(topic.total),
               topic.publishers);
-}
-
-bool ratesDiffer(const InputReport& input) {
-  const double left_hz = input.left_image.rate_hz;
-  const double right_hz = input.right_image.rate_hz;
-  return std::abs(left_hz - right_hz) > kRateDifference * std::max(left_hz, right_hz);
 }
 
 /// Empty unless the skew is notable and beyond doubt.
@@ -130,13 +122,10 @@ void describeInput(const HealthReport& report, StatusWrapper& status) {
   const std::string why = whyNoPairs(input);
   if (input.recent_pairs == 0) {
     status.summary(DiagnosticStatus::ERROR, why.empty() ? "no stereo pairs" : why);
-  } else if (ratesDiffer(input)) {
-    status.summaryf(DiagnosticStatus::WARN,
-                    "%s arrives at %.1f Hz, %s at %.1f Hz: one camera drops images",
-                    input.left_image.topic.c_str(),
-                    input.left_image.rate_hz,
-                    input.right_image.topic.c_str(),
-                    input.right_image.rate_hz);
+  } else if (const std::string silent = whySilent(input); !silent.empty()) {
+    status.summary(DiagnosticStatus::WARN, silent);
+  } else if (const std::string fault = faultOfPairs(input); !fault.empty()) {
+    status.summary(DiagnosticStatus::WARN, fault);
   } else if (!why.empty()) {
     status.summary(DiagnosticStatus::WARN, "dropped in the last 5 s: " + why);
   } else {
@@ -152,6 +141,7 @@ void describeInput(const HealthReport& report, StatusWrapper& status) {
         "largest stamp difference of left and right", "%.3f ms", 1e3 * *input.stamp_difference_s);
   }
   status.addf("max_stamp_difference_s", "%.3f ms", 1e3 * input.max_stamp_difference_s);
+  status.addf("accepted stamp difference", "%.3f ms", 1e3 * input.tolerance_s);
 }
 
 void describeTiming(const HealthReport& report, StatusWrapper& status) {

@@ -1,5 +1,8 @@
 #include "node/odometry_health.h"
 
+#include <cmath>
+
+#include "input/to_text.h"
 #include "rotrocc/OdometryStatus.h"
 
 namespace rotrocc {
@@ -7,6 +10,16 @@ namespace {
 
 /// Without a result for this time, the state is that of the input.
 constexpr std::chrono::seconds kAnswerAge(2);
+
+/// If nothing is wrong with the input.
+std::string whyNoAnswer(const HealthReport& report) {
+  const auto& silent_s = report.input.pairs_silent_s;
+  if (!silent_s) return "no stereo pair has arrived yet";
+  if (*silent_s < std::chrono::duration<double>(kAnswerAge).count()) {
+    return "stereo pairs arrive, but none has been processed in the last 2 s";
+  }
+  return "no stereo pair for " + toText(std::round(*silent_s)) + " s";
+}
 
 }  // namespace
 
@@ -33,7 +46,7 @@ NodeState stateOf(const HealthReport& report) {
   if (input.recent_pairs > 0 && !report.waits_for_tf.empty()) {
     return {OdometryStatus::NO_TF, report.waits_for_tf};
   }
-  return {OdometryStatus::NO_INPUT, why};
+  return {OdometryStatus::NO_INPUT, why.empty() ? whyNoAnswer(report) : why};
 }
 
 const char* stateName(std::uint8_t state) {
@@ -51,8 +64,13 @@ void OdometryHealth::addAnswer(const OdometryResult& result,
   known_.waits_for_tf.clear();
   ++known_.pairs_processed;
   if (result.state == State::kLost) ++known_.pairs_lost;
-  answers_.add(result.stamp_ns, std::chrono::steady_clock::now());
+  answers_.add(std::chrono::steady_clock::now());
   latencies_.add(latency_ms);
+}
+
+void OdometryHealth::setInputFault(const std::string& fault) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  known_.input_fault = fault;
 }
 
 void OdometryHealth::setPaused(bool paused) {

@@ -25,11 +25,15 @@ struct HealthReport {
   bool answers = false;        ///< there was a recent result
   OdometryResult last_result;  ///< last result
   std::string hint;            ///< as PairAnswer::hint
+  std::string input_fault;     ///< of the pairs that arrive, see faultOfPairs(); empty if none
   double answer_rate_hz = 0.0;
   double latency_p50_ms = 0.0, latency_p95_ms = 0.0, latency_max_ms = 0.0;
   std::uint64_t pairs_processed = 0, pairs_lost = 0;
   std::vector<std::pair<DropReason, std::uint64_t>> drops;
   bool not_of_camera = false;  ///< recent images differ in size from camera_info
+
+  /// The hint of the status: a fault of the cameras, or else of the input.
+  const std::string& statusHint() const { return hint.empty() ? input_fault : hint; }
 };
 
 /// The state with constants of OdometryStatus, and why it is not OK.
@@ -48,6 +52,7 @@ class OdometryHealth {
  public:
   /// A result was published `latency_ms` after the arrival of its pair.
   void addAnswer(const OdometryResult& result, const std::string& hint, double latency_ms);
+  void setInputFault(const std::string& fault);
   void setPaused(bool paused);
   bool paused() const;
   void setWaitsForTf(const std::string& transform);

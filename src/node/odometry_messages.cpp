@@ -30,7 +30,7 @@ std::uint8_t toMessage(State state) {
 }
 
 void addCounters(const HealthReport& health, OdometryStatus& message) {
-  message.hint = health.hint;
+  message.hint = health.statusHint();
   message.pairs_processed = health.pairs_processed;
   message.pairs_lost = health.pairs_lost;
   for (const auto& [reason, count] : health.drops) {

@@ -1,5 +1,6 @@
 #include "input/silence_watch.h"
 
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -35,9 +36,23 @@ class SilenceWatchTest : public testing::Test {
 
   std::string pair() { return watch_.onPair(now()); }
 
-  SilenceWatch::Time now() const { return SilenceWatch::Time() + seconds(now_s_); }
+  /// Pairs at a rate for some seconds; what is said at one of them.
+  std::string pairs(double rate_hz, double length_s) {
+    std::string said;
+    for (int i = 0; i < length_s * rate_hz; ++i) {
+      fraction_s_ += 1.0 / rate_hz;
+      said += pair();
+    }
+    return said;
+  }
+
+  SilenceWatch::Time now() const {
+    return SilenceWatch::Time() + seconds(now_s_) +
+           std::chrono::milliseconds(std::lround(1e3 * fraction_s_));
+  }
 
   int now_s_ = 0;
+  double fraction_s_ = 0.0;
   InputReport input_;
   SilenceWatch watch_{5.0, now()};
   std::string said_;
@@ -66,6 +81,31 @@ TEST_F(SilenceWatchTest, SaysThatPairsComeAgain) {
   // The next silence is reported like the first.
   EXPECT_EQ(wait(30), (Times{15, 25}));
   EXPECT_EQ(pair(), "stereo pairs arrive again, after 30 s");
+}
+
+TEST_F(SilenceWatchTest, TellsAGapAtItsEnd) {
+  EXPECT_EQ(pairs(10.0, 3.0), "");
+  fraction_s_ += 3.0;
+  EXPECT_EQ(pair(), "stereo pairs arrive again, after 3.0 s");
+  EXPECT_EQ(pairs(10.0, 10.0), "");
+}
+
+TEST_F(SilenceWatchTest, ManyGapsAreNoStream) {
+  EXPECT_EQ(pairs(10.0, 3.0), "");
+  int said = 0;
+  for (int i = 0; i < 20; ++i) {
+    fraction_s_ += 1.5;
+    said += pairs(10.0, 1.0).empty() ? 0 : 1;
+  }
+  EXPECT_EQ(said, 10);  // 50 s, at most each 5 s
+}
+
+TEST_F(SilenceWatchTest, SlowOrLossyCamerasHaveNoGaps) {
+  EXPECT_EQ(pairs(0.5, 20.0), "");
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(pairs(2.0, 2.0), "") << i;
+    fraction_s_ += 1.0;
+  }
 }
 
 TEST_F(SilenceWatchTest, TellsWhatChanges) {

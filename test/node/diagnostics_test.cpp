@@ -18,9 +18,12 @@ HealthReport goodReport() {
                              &report.input.right_image,
                              &report.input.left_info,
                              &report.input.right_info}) {
-    *topic = {kTopics[i++], 1, 50, 500, 10.0};
+    *topic = {kTopics[i++], 1, 50, 500, 10.0, 0.05};
   }
   report.input.recent_pairs = 50;
+  report.input.pairs_silent_s = 0.05;
+  report.input.together = {50, 50, 50};
+  report.input.max_stamp_difference_s = report.input.tolerance_s = 0.01;
   report.input.stamp_difference_s = 0.002;
   report.answers = true;
   report.answer_rate_hz = 10.0;
@@ -71,6 +74,21 @@ TEST(StateOfTest, SaysWhatIsMissingWhileNoneCome) {
   report.input.left_image.recent = report.input.recent_pairs = 0;
   report.input.waits_for_info = false;
   EXPECT_EQ(stateOf(report).state, OdometryStatus::NO_INPUT);
+}
+
+TEST(StateOfTest, SaysAlwaysWhyThereIsNoInput) {
+  HealthReport report = goodReport();
+  report.answers = false;
+  EXPECT_EQ(stateOf(report).state, OdometryStatus::NO_INPUT);
+  EXPECT_EQ(stateOf(report).reason,
+            "stereo pairs arrive, but none has been processed in the last 2 s");
+  report.input.pairs_silent_s.reset();
+  EXPECT_EQ(stateOf(report).reason, "no stereo pair has arrived yet");
+  report.input.pairs_silent_s = 3.1;
+  EXPECT_EQ(stateOf(report).reason, "no stereo pair for 3 s");
+  report.input.left_image.silent_s = report.input.right_image.silent_s = 3.1;
+  EXPECT_NE(stateOf(report).reason.find("/l/image has been silent for 3.1 s"), std::string::npos)
+      << stateOf(report).reason;
 }
 
 TEST(StateOfTest, EveryStateHasAName) {
@@ -156,14 +174,36 @@ TEST(DiagnosticsTest, LossIsAnErrorWithItsReason) {
   EXPECT_EQ(valueOf(status, "hint"), "the lens is covered");
 }
 
-TEST(DiagnosticsTest, RatesThatDifferAreAWarning) {
+TEST(DiagnosticsTest, LostImagesAreAWarning) {
   HealthReport report = goodReport();
   report.input.right_image.rate_hz = 5.0;
+  report.input.together = {50, 25, 25};
   StatusWrapper status;
   describeInput(report, status);
   EXPECT_EQ(status.level, Level::WARN);
-  EXPECT_EQ(status.message,
-            "/l/image arrives at 10.0 Hz, /r/image at 5.0 Hz: one camera drops images");
+  EXPECT_NE(status.message.find("/l/image arrives at 10.0 Hz, /r/image at 5.0 Hz"),
+            std::string::npos)
+      << status.message;
+}
+
+TEST(DiagnosticsTest, TheFirstImageOfASideIsNoFault) {
+  HealthReport report = goodReport();
+  report.input.right_image.rate_hz = 0.0;
+  report.input.right_image.recent = report.input.right_image.total = report.input.recent_pairs = 1;
+  report.input.together = {2, 1, 1};
+  StatusWrapper status;
+  describeInput(report, status);
+  EXPECT_EQ(status.level, Level::OK) << status.message;
+}
+
+TEST(DiagnosticsTest, AGapIsAWarning) {
+  HealthReport report = goodReport();
+  report.input.right_image.silent_s = report.input.pairs_silent_s = 2.5;
+  StatusWrapper status;
+  describeInput(report, status);
+  EXPECT_EQ(status.level, Level::WARN);
+  EXPECT_NE(status.message.find("/r/image has been silent for 2.5 s"), std::string::npos)
+      << status.message;
 }
 
 TEST(DiagnosticsTest, DropsBetweenPairsAreAWarning) {
@@ -216,6 +256,18 @@ TEST(DiagnosticsTest, AnotherParentOfTheBaseIsAWarning) {
   describeTf(report, status);
   EXPECT_EQ(status.level, Level::WARN);
   EXPECT_EQ(status.message, report.tf_conflict);
+}
+
+TEST(OdometryHealthTest, AFaultOfTheInputIsAHintIfTheCamerasHaveNone) {
+  OdometryHealth health;
+  const DropLog drops;
+  health.addAnswer({}, "", 1.0);
+  EXPECT_EQ(health.report({}, drops).statusHint(), "");
+  health.setInputFault("30 % of the images have no partner");
+  EXPECT_EQ(health.report({}, drops).statusHint(), "30 % of the images have no partner");
+  EXPECT_EQ(health.report({}, drops).hint, "");
+  health.addAnswer({}, "the lens is covered", 1.0);
+  EXPECT_EQ(health.report({}, drops).statusHint(), "the lens is covered");
 }
 
 TEST(OdometryHealthTest, CountsAnswersAndTheirLatency) {
