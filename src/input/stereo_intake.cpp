@@ -6,6 +6,7 @@
 #include "input/camera_validation.h"
 #include "input/message_conversion.h"
 #include "input/stamp_skew.h"
+#include "input/to_text.h"
 
 namespace rotrocc {
 namespace {

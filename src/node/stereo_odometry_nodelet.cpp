@@ -84,7 +84,7 @@ OdometryServices::Actions StereoOdometry::makeActions() {
 
 void StereoOdometry::onPair(ReceivedPair pair) {
   const std::string said = silence_.onPair(SteadyClock::now());
-  if (!said.empty()) log_.info(said);
+  if (!said.empty()) log_.warn(said);
   if (health_.paused()) return drops_.count(DropReason::kPaused);
   if (mailbox_.put(std::move(pair))) drops_.count(DropReason::kSuperseded);
 }
@@ -99,6 +99,9 @@ void StereoOdometry::onTick(const ros::WallTimerEvent&) {
   try {
     const SteadyClock::time_point now = SteadyClock::now();
     const InputReport input = input_->report();
+    const std::string fault = faultOfPairs(input);
+    health_.setInputFault(fault);
+    if (!fault.empty() && input_warning_.pass()) NODELET_WARN_STREAM(fault);
     if (tf_conflict_) health_.setTfConflict(tf_conflict_->description());
     const HealthReport report = health_.report(input, drops_);
     diagnostics_->publish(report);

@@ -81,6 +81,7 @@ class StereoOdometry {
   Throttle lost_warning_{std::chrono::seconds(5)};
   Throttle hint_warning_{std::chrono::seconds(5)};
   Throttle rig_warning_{std::chrono::minutes(5)};
+  Throttle input_warning_{std::chrono::minutes(1)};
   SilenceWatch silence_;  // of the callbacks
 
   LatestMailbox<ReceivedPair> mailbox_;
