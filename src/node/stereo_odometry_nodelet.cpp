@@ -101,7 +101,7 @@ void StereoOdometry::onTick(const ros::WallTimerEvent&) {
     const InputReport input = input_->report();
     const std::string fault = faultOfPairs(input);
     health_.setInputFault(fault);
-    if (!fault.empty() && input_warning_.pass()) NODELET_WARN_STREAM(fault);
+    if (!fault.empty() && input_warning_.pass()) log_.warn(fault);
     if (tf_conflict_) health_.setTfConflict(tf_conflict_->description());
     const HealthReport report = health_.report(input, drops_);
     diagnostics_->publish(report);
