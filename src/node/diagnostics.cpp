@@ -172,6 +172,10 @@ void describeTf(const HealthReport& report, StatusWrapper& status) {
   } else {
     status.summary(DiagnosticStatus::OK, "no conflict");
   }
+  if (!report.guess_trouble.empty()) {
+    status.mergeSummary(DiagnosticStatus::WARN, report.guess_trouble);
+  }
+  status.add("pairs without the motion of guess_frame", report.guess_misses);
 }
 
 std::uint64_t countDrops(const HealthReport& report) {

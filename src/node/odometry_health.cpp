@@ -49,6 +49,12 @@ NodeState stateOf(const HealthReport& report) {
   return {OdometryStatus::NO_INPUT, why.empty() ? whyNoAnswer(report) : why};
 }
 
+std::string HealthReport::statusHint() const {
+  const std::string& fault = hint.empty() ? input_fault : hint;
+  return fault.empty() || guess_trouble.empty() ? fault + guess_trouble
+                                                : fault + "; " + guess_trouble;
+}
+
 const char* stateName(std::uint8_t state) {
   static const char* const kNames[] = {
       "INITIALISING", "OK", "DEGRADED", "LOST", "NO_INPUT", "NO_CALIBRATION", "NO_TF", "PAUSED"};
@@ -91,6 +97,12 @@ void OdometryHealth::setWaitsForTf(const std::string& transform) {
 void OdometryHealth::setTfConflict(const std::string& conflict) {
   const std::lock_guard<std::mutex> lock(mutex_);
   known_.tf_conflict = conflict;
+}
+
+void OdometryHealth::setGuess(const std::string& trouble, std::uint64_t misses) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  known_.guess_trouble = trouble;
+  known_.guess_misses = misses;
 }
 
 HealthReport OdometryHealth::report(const InputReport& input, const DropLog& drops) const {

@@ -19,8 +19,10 @@ namespace rotrocc {
 struct HealthReport {
   InputReport input;
   bool paused = false;
-  std::string waits_for_tf;  ///< which transform is missing; empty if none is
-  std::string tf_conflict;   ///< other publisher of a parent of the base; empty if none
+  std::string waits_for_tf;        ///< which transform is missing; empty if none is
+  std::string tf_conflict;         ///< other publisher of a parent of the base; empty if none
+  std::string guess_trouble;       ///< why tf has no motion of guess_frame; empty if it has
+  std::uint64_t guess_misses = 0;  ///< pairs without that motion
 
   bool answers = false;        ///< there was a recent result
   OdometryResult last_result;  ///< last result
@@ -32,8 +34,8 @@ struct HealthReport {
   std::vector<std::pair<DropReason, std::uint64_t>> drops;
   bool not_of_camera = false;  ///< recent images differ in size from camera_info
 
-  /// The hint of the status: a fault of the cameras, or else of the input.
-  const std::string& statusHint() const { return hint.empty() ? input_fault : hint; }
+  /// The hint of the status: a fault of the cameras, or else of the input; and of guess_frame.
+  std::string statusHint() const;
 };
 
 /// The state with constants of OdometryStatus, and why it is not OK.
@@ -57,6 +59,7 @@ class OdometryHealth {
   bool paused() const;
   void setWaitsForTf(const std::string& transform);
   void setTfConflict(const std::string& conflict);
+  void setGuess(const std::string& trouble, std::uint64_t misses);
 
   HealthReport report(const InputReport& input, const DropLog& drops) const;
 

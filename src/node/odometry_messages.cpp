@@ -33,6 +33,7 @@ void addCounters(const HealthReport& health, OdometryStatus& message) {
   message.hint = health.statusHint();
   message.pairs_processed = health.pairs_processed;
   message.pairs_lost = health.pairs_lost;
+  message.guess_misses = health.guess_misses;
   for (const auto& [reason, count] : health.drops) {
     DropCount drop;
     drop.reason = toString(reason);

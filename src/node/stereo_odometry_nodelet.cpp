@@ -157,6 +157,7 @@ void StereoOdometry::process(const ReceivedPair& received, const Eigen::Isometry
     };
   }
   const PairAnswer answer = processor_.process(received, T_base_camera, expected);
+  if (guess_) health_.setGuess(guess_->trouble(), guess_->misses());
   if (answer.begins_anew) endTrajectory();
   writeTrajectory(answer.state);
   logState(answer);

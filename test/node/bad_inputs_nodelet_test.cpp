@@ -18,6 +18,7 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_msgs/TFMessage.h>
+#include <tf2_ros/transform_broadcaster.h>
 
 #include "input/to_text.h"
 #include "node/odometry_health.h"
@@ -201,21 +202,28 @@ std::string otherFrame() {
   return state;
 }
 
-/// Pairs of a robot at rest that arrive at once, while each takes 0.2 s, the timeout for a missing
-/// tf.
+/// Pairs of a robot at rest that arrive at once, while each waits for the tf of its wheels, which
+/// comes with every tenth pair.
 std::string burst() {
-  constexpr int kPairs = 100;
-  Drive drive(NodeletParameters().set("guess_frame", "wheel_odom").set("guess_timeout_s", 0.2));
+  constexpr int kPairs = 101;
+  Drive drive(NodeletParameters().set("guess_frame", "wheel_odom").set("guess_timeout_s", 1.0));
+  tf2_ros::TransformBroadcaster wheels;
+  geometry_msgs::TransformStamped at_rest;
+  at_rest.header.frame_id = "wheel_odom";
+  at_rest.child_frame_id = "base_link";
+  at_rest.transform.rotation.w = 1.0;
   drive.setUp();
   for (int i = 0; i < 3; ++i) drive.drive();
   const std::uint64_t processed_before = drive.status().pairs_processed;
   auto [left, right] = drive.robot().see();
   for (int i = 0; i < kPairs; ++i) {
-    drive.publish(left, right);
     left.header.stamp += ros::Duration(0.01);
     right.header.stamp = left.header.stamp;
+    drive.publish(left, right);
+    at_rest.header.stamp = left.header.stamp;
+    if (i % 10 == 0) wheels.sendTransform(at_rest);
   }
-  const std::string state = drive.stateOfPair(left.header.stamp - ros::Duration(0.01), 0.0);
+  const std::string state = drive.stateOfPair(left.header.stamp, 0.0);
   const std::uint64_t processed = drive.status().pairs_processed - processed_before;
   const std::uint64_t dropped = drive.drops("newer_pair_came");
   return "the last one is " + state + "; processed and dropped (newer_pair_came) are " +
@@ -346,10 +354,10 @@ std::vector<BadInput> rowsWithClock() {
        otherFrame,
        "OK"},
       {49,
-       "burst of 100 pairs, each of which takes long",
+       "burst of 101 pairs, each of which takes long",
        "the newest is processed, drops are counted",
        burst,
-       "the last one is OK; processed and dropped (newer_pair_came) are 100, most of them dropped"},
+       "the last one is OK; processed and dropped (newer_pair_came) are 101, most of them dropped"},
       {51,
        "tf with NaN or a quaternion not of unit length",
        "rejected; waits for a valid one",

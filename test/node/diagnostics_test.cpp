@@ -270,6 +270,16 @@ TEST(OdometryHealthTest, AFaultOfTheInputIsAHintIfTheCamerasHaveNone) {
   EXPECT_EQ(health.report({}, drops).statusHint(), "the lens is covered");
 }
 
+TEST(DiagnosticsTest, AGuessFrameThatIsNotInTfIsAWarning) {
+  OdometryHealth health;
+  health.setGuess("no tf from guess_frame wheel_odom", 7);
+  StatusWrapper status;
+  describeTf(health.report({}, DropLog()), status);
+  EXPECT_EQ(status.level, Level::WARN);
+  EXPECT_EQ(status.message, "no tf from guess_frame wheel_odom");
+  EXPECT_EQ(valueOf(status, "pairs without the motion of guess_frame"), "7");
+}
+
 TEST(OdometryHealthTest, CountsAnswersAndTheirLatency) {
   OdometryHealth health;
   const DropLog drops;

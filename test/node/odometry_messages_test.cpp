@@ -62,6 +62,8 @@ TEST(OdometryMessagesTest, StatusHasStateCountsAndCounters) {
   health.pairs_lost = 7;
   health.drops = {{DropReason::kStampZero, 5}};
   health.hint = "frozen?";
+  health.guess_trouble = "no tf from guess_frame";
+  health.guess_misses = 3;
   const OdometryStatus message = toStatus(result, health, 12.5, "camera");
   EXPECT_EQ(message.header.stamp, ros::Time(5, 0));
   EXPECT_EQ(message.header.frame_id, "camera");
@@ -85,7 +87,8 @@ TEST(OdometryMessagesTest, StatusHasStateCountsAndCounters) {
   EXPECT_EQ(message.latency, 12.5f);
   EXPECT_EQ(message.pairs_processed, 9u);
   EXPECT_EQ(message.pairs_lost, 7u);
-  EXPECT_EQ(message.hint, "frozen?");
+  EXPECT_EQ(message.hint, "frozen?; no tf from guess_frame");
+  EXPECT_EQ(message.guess_misses, 3u);
   ASSERT_EQ(message.drops.size(), 1u);
   EXPECT_EQ(message.drops[0].reason, "stamp_zero");
   EXPECT_EQ(message.drops[0].count, 5u);

@@ -1,0 +1,101 @@
+#include "node/guess_odometry.h"
+
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "support/log_recorder.h"
+#include "support/tf_recording.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kPeriod_s = 0.1;
+constexpr double kStep_m = 0.4;
+
+class GuessOdometryTest : public testing::Test {
+ protected:
+  /// tf of the wheels at a pair.
+  void sendTf(int pair) {
+    Eigen::Isometry3d T_guess_base = Eigen::Isometry3d::Identity();
+    T_guess_base.translation().x() = kStep_m * pair;
+    tf_.send("wheel_odom", "base_link", 100.0 + kPeriod_s * pair, T_guess_base);
+  }
+
+  /// The motion to a pair from the one before.
+  std::optional<Eigen::Isometry3d> motionTo(int pair, GuessOdometry& guess) {
+    return guess.motion(stampOf(pair - 1), stampOf(pair));
+  }
+
+  static std::int64_t stampOf(int pair) {
+    return 100'000'000'000 + static_cast<std::int64_t>(pair) * 100'000'000;
+  }
+
+  TfRecording tf_;
+  LogRecorder log_;
+};
+
+TEST_F(GuessOdometryTest, MotionIsThatOfTheBase) {
+  GuessOdometry guess("wheel_odom", "base_link", 0.0, tf_.feed());
+  sendTf(0);
+  sendTf(1);
+  const auto motion = motionTo(1, guess);
+  ASSERT_TRUE(motion);
+  EXPECT_NEAR(motion->translation().x(), kStep_m, 1e-9);
+  EXPECT_EQ(guess.misses(), 0u);
+}
+
+/// With waiting at each pair, this takes an hour.
+TEST_F(GuessOdometryTest, AFrameThatDoesNotExistIsToldOnceAndNotWaitedFor) {
+  GuessOdometry guess("wheel_odom", "base_link", 0.2, tf_.feed());
+  for (int pair = 1; pair < GuessOdometry::kPatience; ++pair) {
+    EXPECT_FALSE(motionTo(pair, guess));
+    EXPECT_EQ(guess.trouble(), "") << pair;
+  }
+  constexpr int kPairs = 20'000;
+  for (int pair = GuessOdometry::kPatience; pair <= kPairs; ++pair) {
+    EXPECT_FALSE(motionTo(pair, guess));
+  }
+  EXPECT_EQ(guess.misses(), static_cast<std::uint64_t>(kPairs));
+  EXPECT_EQ(log_.with("wheel_odom").size(), 1u);
+  EXPECT_NE(guess.trouble().find("\"wheel_odom\" passed to lookupTransform"), std::string::npos);
+  EXPECT_NE(guess.trouble().find("correct guess_frame"), std::string::npos) << guess.trouble();
+}
+
+TEST_F(GuessOdometryTest, ItIsUsedAgainAsSoonAsItIsBack) {
+  GuessOdometry guess("wheel_odom", "base_link", 0.0, tf_.feed());
+  for (int pair = 1; pair <= 20; ++pair) EXPECT_FALSE(motionTo(pair, guess));
+  EXPECT_NE(guess.trouble(), "");
+  sendTf(20);
+  sendTf(21);
+  EXPECT_TRUE(motionTo(21, guess));
+  EXPECT_EQ(guess.trouble(), "");
+  EXPECT_EQ(guess.misses(), 20u);
+}
+
+/// Each transform comes only when the next pair is there.
+TEST_F(GuessOdometryTest, WhatComesTooLateIsWaitedForNowAndThen) {
+  GuessOdometry guess("wheel_odom", "base_link", 0.05, tf_.feed());
+  constexpr int kPairs = 200;
+  for (int pair = 1; pair <= kPairs; ++pair) {
+    sendTf(pair - 1);
+    EXPECT_FALSE(motionTo(pair, guess));
+  }
+  EXPECT_NE(guess.trouble().find("raise guess_timeout_s = 0.05"), std::string::npos)
+      << guess.trouble();
+  EXPECT_EQ(log_.with("wheel_odom").size(), 1u);
+}
+
+TEST_F(GuessOdometryTest, WaitsForWhatComesWithinTheTimeout) {
+  GuessOdometry guess("wheel_odom", "base_link", 100.0, tf_.feed());
+  for (int pair = 1; pair <= 3; ++pair) {
+    sendTf(pair - 1);
+    std::thread late([&] { sendTf(pair); });
+    EXPECT_TRUE(motionTo(pair, guess));
+    late.join();
+  }
+  EXPECT_EQ(guess.misses(), 0u);
+}
+
+}  // namespace
+}  // namespace rotrocc
