@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -12,6 +14,11 @@
 #include "rotrocc/stereo_pair.h"
 
 namespace rotrocc {
+
+/// The rotation of the left camera R_from_to between two stamps, as another sensor measured it,
+/// e.g. a gyroscope; nothing if it is unknown.
+using RotationSource =
+    std::function<std::optional<Eigen::Matrix3d>(std::int64_t from_ns, std::int64_t to_ns)>;
 
 /// Stereo visual odometry after section V of Buczko and Willert, "Flow-Decoupled Normalized
 /// Reprojection Error for Visual Odometry", 2017. Motions are measured against a keyframe: the
@@ -33,9 +40,14 @@ class VisualOdometry {
   ///
   /// `expected` is the motion T_prev_cur measured by another sensor, if any. It replaces the motion
   /// model's prediction as the start of tracking.
+  ///
+  /// `measured_rotation` replaces the rotation of that start, of `expected` as well as of the
+  /// motion model, whose velocity turns with the camera. It is asked for at most two intervals,
+  /// which begin at earlier pairs.
   OdometryResult process(const StereoPair& pair,
                          const StereoCamera& camera,
-                         const std::optional<Eigen::Isometry3d>& expected = std::nullopt);
+                         const std::optional<Eigen::Isometry3d>& expected = std::nullopt,
+                         const RotationSource& measured_rotation = {});
 
   /// Forgets the previous pair and the motion: the next pair is treated as the first one.
   void reset();

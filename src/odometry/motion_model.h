@@ -24,8 +24,11 @@ class MotionModel {
   void update(const Eigen::Isometry3d& T_prev_cur, double dt_s);
 
   /// The predicted motion during `dt_s` after the last update. None without an update, or if `dt_s`
-  /// exceeds max_age_s.
-  std::optional<Eigen::Isometry3d> predict(double dt_s) const;
+  /// exceeds max_age_s. A measured rotation R_last_cur replaces the predicted one. The velocity
+  /// turns with the camera, as that of a vehicle does: then it keeps its direction in the camera's
+  /// axes.
+  std::optional<Eigen::Isometry3d> predict(
+      double dt_s, const std::optional<Eigen::Matrix3d>& measured_rotation = std::nullopt) const;
 
   void reset() { twist_.reset(); }
 

@@ -30,7 +30,7 @@ MotionSearch::MotionSearch(const OdometryConfig& config)
       prediction_error_(tracker_) {}
 
 void MotionSearch::find(const Frames& frames,
-                        const std::optional<Eigen::Isometry3d>& T_last_cur,
+                        const Expectation& expected,
                         int most_tries,
                         Hypothesis& found,
                         StageTimes& times) {
@@ -38,20 +38,29 @@ void MotionSearch::find(const Frames& frames,
   found.clear();
   found.counts.tries = tries;
   const Eigen::Isometry3d& T_keyframe_last = frames.keyframe.T_keyframe_last.T;
-  const Start at_rest = {T_keyframe_last, false, {tracker_.startup_levels, false}};
-  if (!T_last_cur) {
+  const Start at_rest = startAt(T_keyframe_last, {});
+  if (!expected.T_last_cur && !expected.R_last_cur) {
     settle(frames, at_rest, most_tries, found, times);
     return;
   }
-  const Eigen::Isometry3d T_predicted = T_keyframe_last * *T_last_cur;
-  const Start predicted = {T_predicted, true, {prediction_error_.levels(), true}};
-  const bool is_settled = settle(frames, predicted, most_tries, found, times);
+  const Start start = startAt(T_keyframe_last, expected);
+  const bool is_settled = settle(frames, start, most_tries, found, times);
   if (!(is_settled && found.isAccepted()) && found.counts.tries < most_tries) {
     settle(frames, at_rest, most_tries, found, times);
   }
-  if (!found.isAccepted()) return;
+  if (!found.isAccepted() || !start.is_prediction) return;
   prediction_error_.observe(frames.finder.medianShift(
-      frames.camera, frames.keyframe, T_predicted, found.estimate.T_keyframe_cur));
+      frames.camera, frames.keyframe, start.T_keyframe_cur, found.estimate.T_keyframe_cur));
+}
+
+MotionSearch::Start MotionSearch::startAt(const Eigen::Isometry3d& T_keyframe_last,
+                                          const Expectation& expected) const {
+  if (expected.T_last_cur) {
+    return {T_keyframe_last * *expected.T_last_cur, true, {prediction_error_.levels(), true}};
+  }
+  Start start = {T_keyframe_last, false, {tracker_.startup_levels, false}};
+  if (expected.R_last_cur) start.T_keyframe_cur.rotate(*expected.R_last_cur);
+  return start;
 }
 
 /// Tracks and estimates repeatedly, each time starting from the last result. `best` becomes the

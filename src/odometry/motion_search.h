@@ -30,20 +30,27 @@ class MotionSearch {
     double shared_ratio;  ///< see Measurements
   };
 
+  /// What is expected of the motion since the last frame, as far as known.
+  struct Expectation {
+    std::optional<Eigen::Isometry3d> T_last_cur;
+    std::optional<Eigen::Matrix3d> R_last_cur;
+  };
+
   /// Throws as the constructor of MotionEstimator.
   explicit MotionSearch(const OdometryConfig& config);
 
   /// Tracks the features from the positions that a motion predicts and estimates the motion. If the
   /// result is far from the predicted one, most features were searched at the wrong place: then
-  /// they are tracked again from the result, until it settles. Starts at the prediction
-  /// `T_last_cur`, if there is one. Without one, or if that does not settle, starts at zero motion
-  /// since the last frame, with the motion that most features agree on.
+  /// they are tracked again from the result, until it settles. Starts at the expected motion,
+  /// if there is one. Without one, starts at rest, turned by the expected rotation if there is one.
+  /// If that does not settle, starts at rest. A start at rest since the last frame continues with
+  /// the motion that most features agree on.
   ///
   /// `found` becomes the accepted hypothesis with the most inliers, or a rejected one if none is
   /// accepted. Its number of tries is added to that of `found`. There is at least one try, and none
   /// after `most_tries`.
   void find(const Frames& frames,
-            const std::optional<Eigen::Isometry3d>& T_last_cur,
+            const Expectation& expected,
             int most_tries,
             Hypothesis& found,
             StageTimes& times);
@@ -69,6 +76,7 @@ class MotionSearch {
     FeatureTracker::Search search;
   };
 
+  Start startAt(const Eigen::Isometry3d& T_keyframe_last, const Expectation& expected) const;
   bool settle(
       const Frames& frames, Start start, int most_tries, Hypothesis& best, StageTimes& times);
   void tryMotion(const Frames& frames,

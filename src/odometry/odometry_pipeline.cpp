@@ -35,13 +35,13 @@ VisualOdometry::Pipeline::Pipeline(const Config& config)
 
 OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
                                                  const StereoCamera& camera,
-                                                 const std::optional<Eigen::Isometry3d>& expected) {
+                                                 const OtherSensors& others) {
   OdometryResult result;
   result.stamp_ns = pair.stamp_ns;
   found_.clear();
   const StageTimer timer(result.times.total_ms);
   try {
-    advance(pair, camera, expected, result);
+    advance(pair, camera, others, result);
   } catch (const Lost& lost) {
     result.reason = lost.what();
   } catch (const std::exception& error) {
@@ -89,7 +89,7 @@ void VisualOdometry::Pipeline::configure(const Config& config) {
 
 void VisualOdometry::Pipeline::advance(const StereoPair& pair,
                                        const StereoCamera& camera,
-                                       const std::optional<Eigen::Isometry3d>& expected,
+                                       const OtherSensors& others,
                                        OdometryResult& result) {
   checkInput(pair, camera);
   result.reason = whyRestart(pair, camera);
@@ -100,7 +100,7 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
     result.state = State::kInitialising;
     return;
   }
-  findMotion(current, expected, result);
+  findMotion(current, others, result);
   if (!found_.isAccepted()) {
     // Either this pair or the last one may be at fault. The next pair is compared with both.
     lost_ = current;
@@ -178,35 +178,52 @@ void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& t
   finder_.findDepths(corrected, keyframe_);
 }
 
+/// The expected motion since the last frame. Without a velocity, a measured rotation is all that is
+/// known of it.
+MotionSearch::Expectation VisualOdometry::Pipeline::expectation(const StereoFrame& current,
+                                                                const OtherSensors& others) const {
+  MotionSearch::Expectation expected;
+  if (others.rotation) expected.R_last_cur = others.rotation(last_->stamp_ns, current.stamp_ns);
+  expected.T_last_cur = others.T_last_cur ? others.T_last_cur
+                                          : motion_model_.predict(secondsBetween(*last_, current),
+                                                                  expected.R_last_cur);
+  if (expected.T_last_cur && expected.R_last_cur) {
+    expected.T_last_cur->linear() = *expected.R_last_cur;
+  }
+  return expected;
+}
+
 /// Measures the motion against the keyframe. If that fails, uses the last frame, then the latest
 /// lost frame, which is assigned the pose of the last frame. The total number of tries is limited,
 /// so that no pair takes much longer than one without a prediction.
 void VisualOdometry::Pipeline::findMotion(const FramePtr& current,
-                                          const std::optional<Eigen::Isometry3d>& expected,
+                                          const OtherSensors& others,
                                           OdometryResult& result) {
   result.dt_s = secondsBetween(*last_, *current);
-  const auto T_last_cur = expected ? expected : motion_model_.predict(result.dt_s);
+  MotionSearch::Expectation expected = expectation(*current, others);
   const StereoCamera corrected = calibrator_.correct(camera_);
-  const auto find = [&](const std::optional<Eigen::Isometry3d>& prediction, int most_tries) {
+  const auto find = [&](int most_tries) {
     const MotionSearch::Frames frames = {
         finder_, corrected, keyframe_, *current, shared_errors_.ratio()};
-    search_.find(frames, prediction, most_tries, found_, result.times);
+    search_.find(frames, expected, most_tries, found_, result.times);
   };
   if (!keyframe_.frame) makeKeyframe(last_, result.times);
   const int most = config_.max_tries;
   const bool has_other = keyframe_.frame != last_ || lost_;
-  find(T_last_cur, has_other ? most - 1 : most);
+  find(has_other ? most - 1 : most);
+  expected.T_last_cur.reset();  // has failed, if another find() is needed
   if (!found_.isAccepted() && keyframe_.frame != last_) {
     makeKeyframe(last_, result.times);
-    find({}, most);  // the prediction has failed already
+    find(most);
   }
   if (!found_.isAccepted() && lost_) {
     last_ = std::move(lost_);
     lost_.reset();
     motion_model_.reset();
     result.dt_s = secondsBetween(*last_, *current);
+    expected = expectation(*current, {std::nullopt, others.rotation});
     makeKeyframe(last_, result.times);
-    find({}, most);
+    find(most);
   }
   if (!found_.isAccepted()) return;
   search_.calibrate(

@@ -29,9 +29,15 @@ class VisualOdometry::Pipeline {
  public:
   explicit Pipeline(const Config& config);
 
+  /// What other sensors know of the motion, see VisualOdometry::process().
+  struct OtherSensors {
+    const std::optional<Eigen::Isometry3d>& T_last_cur;
+    const RotationSource& rotation;
+  };
+
   OdometryResult process(const StereoPair& pair,
                          const StereoCamera& camera,
-                         const std::optional<Eigen::Isometry3d>& expected);
+                         const OtherSensors& others);
   void reset();
   void configure(const Config& config);
 
@@ -43,7 +49,7 @@ class VisualOdometry::Pipeline {
   /// Throws Lost if there is no motion.
   void advance(const StereoPair& pair,
                const StereoCamera& camera,
-               const std::optional<Eigen::Isometry3d>& expected,
+               const OtherSensors& others,
                OdometryResult& result);
   void checkInput(const StereoPair& pair, const StereoCamera& camera) const;
   std::string whyRestart(const StereoPair& pair, const StereoCamera& camera) const;
@@ -53,9 +59,9 @@ class VisualOdometry::Pipeline {
   double correctedRows() const;
   void makeKeyframe(const FramePtr& frame, StageTimes& times);
 
-  void findMotion(const FramePtr& current,
-                  const std::optional<Eigen::Isometry3d>& expected,
-                  OdometryResult& result);
+  MotionSearch::Expectation expectation(const StereoFrame& current,
+                                        const OtherSensors& others) const;
+  void findMotion(const FramePtr& current, const OtherSensors& others, OdometryResult& result);
   void accept(const FramePtr& current, OdometryResult& result);
 
   Config config_;

@@ -26,8 +26,9 @@ VisualOdometry& VisualOdometry::operator=(VisualOdometry&&) noexcept = default;
 
 OdometryResult VisualOdometry::process(const StereoPair& pair,
                                        const StereoCamera& camera,
-                                       const std::optional<Eigen::Isometry3d>& expected) {
-  return pipeline_->process(pair, camera, expected);
+                                       const std::optional<Eigen::Isometry3d>& expected,
+                                       const RotationSource& measured_rotation) {
+  return pipeline_->process(pair, camera, {expected, measured_rotation});
 }
 
 void VisualOdometry::reset() {

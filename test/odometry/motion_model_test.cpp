@@ -1,5 +1,7 @@
 #include "odometry/motion_model.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "support/simulated_features.h"
@@ -36,6 +38,19 @@ TEST(MotionModelTest, ScalesTheMotionToTheTimeThatPassed) {
   const auto half = model.predict(0.05);
   ASSERT_TRUE(half);
   EXPECT_LT(((*half * *half).matrix() - turnAhead().matrix()).norm(), kRounding);
+}
+
+TEST(MotionModelTest, TakesAMeasuredRotationAndTurnsItsVelocity) {
+  MotionModel model({});
+  model.update(motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}), 0.1);
+  const Eigen::Matrix3d turn = expRotation({0.0, 0.4, 0.0});
+  const auto predicted = model.predict(0.2, turn);
+  ASSERT_TRUE(predicted);
+  EXPECT_LT((predicted->linear() - turn).norm(), kRounding);
+  // An arc of 2 m: the chord is at half of the angle.
+  const Eigen::Vector3d chord =
+      2.0 * std::sin(0.2) / 0.2 * Eigen::Vector3d(std::sin(0.2), 0.0, std::cos(0.2));
+  EXPECT_LT((predicted->translation() - chord).norm(), kRounding);
 }
 
 TEST(MotionModelTest, ExpectsNothingAfterAGap) {

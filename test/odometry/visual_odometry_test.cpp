@@ -144,6 +144,71 @@ TEST(VisualOdometryTest, TracksFeaturesAgainAfterAWrongPrediction) {
   EXPECT_GT(result.counts.consistent, 0.9 * usual);
 }
 
+/// A turn by 14 degrees at once, about 100 px, after two steps of the bend.
+Eigen::Isometry3d sharpTurn() {
+  return motion({0.0, 0.0, 0.8}, {0.0, 0.25, 0.0});
+}
+
+StereoPair afterTheTurn() {
+  return view(bendStep() * sharpTurn(), 2 * kPeriod_ns);
+}
+
+/// A gyroscope that has measured one rotation.
+RotationSource gyroscope(std::int64_t from_ns, std::int64_t to_ns, const Eigen::Matrix3d& R) {
+  return [=](std::int64_t asked_from_ns, std::int64_t asked_to_ns) {
+    const bool is_it = asked_from_ns == from_ns && asked_to_ns == to_ns;
+    return is_it ? std::optional<Eigen::Matrix3d>(R) : std::nullopt;
+  };
+}
+
+TEST(VisualOdometryTest, SearchesWhereAMeasuredRotationPoints) {
+  const OdometryResult without = started(2).process(afterTheTurn(), camera());
+  const RotationSource gyro = gyroscope(kPeriod_ns, 2 * kPeriod_ns, sharpTurn().linear());
+  const OdometryResult with = started(2).process(afterTheTurn(), camera(), std::nullopt, gyro);
+  expectMotion(with, sharpTurn(), 0.02);
+  EXPECT_EQ(with.counts.tries, 1);
+  EXPECT_GT(without.counts.tries, 1);
+}
+
+TEST(VisualOdometryTest, TakesOnlyTheTranslationOfAnotherExpectationThen) {
+  const RotationSource gyro = gyroscope(kPeriod_ns, 2 * kPeriod_ns, sharpTurn().linear());
+  const Eigen::Isometry3d wrongly_turned = motion({0.0, 0.0, 0.8}, {0.3, -0.25, 0.0});
+  const OdometryResult result = started(2).process(afterTheTurn(), camera(), wrongly_turned, gyro);
+  expectMotion(result, sharpTurn(), 0.02);
+  EXPECT_EQ(result.counts.tries, 1);
+}
+
+TEST(VisualOdometryTest, StartsAtAMeasuredRotationWithoutAVelocity) {
+  VisualOdometry::Config config;
+  config.correspondence_finder.feature_tracker.startup_levels = 3;
+  VisualOdometry odometry(config);
+  odometry.process(view(bendStep(), kPeriod_ns), camera());
+  const RotationSource gyro = gyroscope(kPeriod_ns, 2 * kPeriod_ns, sharpTurn().linear());
+  const OdometryResult result = odometry.process(afterTheTurn(), camera(), std::nullopt, gyro);
+  expectMotion(result, sharpTurn(), 0.02);
+}
+
+TEST(VisualOdometryTest, AsksForTheRotationSinceALostPair) {
+  VisualOdometry odometry = started(2);
+  // A pair of another place: neither it nor the one after it fits the bend.
+  const Eigen::Isometry3d elsewhere = motion({0.0, 0.0, 30.0}, {0.0, 1.5, 0.0});
+  ASSERT_EQ(odometry.process(view(elsewhere, 2 * kPeriod_ns), camera()).state, State::kLost);
+  std::vector<std::int64_t> asked_from_ns;
+  const RotationSource gyro = [&](std::int64_t from_ns, std::int64_t to_ns) {
+    asked_from_ns.push_back(from_ns);
+    return gyroscope(2 * kPeriod_ns, 3 * kPeriod_ns, sharpTurn().linear())(from_ns, to_ns);
+  };
+  const OdometryResult result =
+      odometry.process(view(elsewhere * sharpTurn(), 3 * kPeriod_ns), camera(), std::nullopt, gyro);
+  EXPECT_EQ(asked_from_ns, (std::vector<std::int64_t>{kPeriod_ns, 2 * kPeriod_ns}));
+  expectMotion(result, sharpTurn(), 0.05, 2e-3);  // less to see: walls close by
+}
+
+TEST(VisualOdometryTest, SurvivesAWronglyMeasuredRotation) {
+  const RotationSource wrong = gyroscope(kPeriod_ns, 2 * kPeriod_ns, expRotation({0.0, -0.3, 0.2}));
+  expectMotion(started(2).process(bend(2), camera(), std::nullopt, wrong), bendStep());
+}
+
 /// The camera according to a calibration with a disparity error of one pixel.
 StereoCamera wronglyCalibrated() {
   StereoCamera wrong = camera();
