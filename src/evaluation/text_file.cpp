@@ -10,15 +10,14 @@
 namespace rotrocc {
 namespace {
 
-constexpr const char* kWhiteSpace = " \t\r\n\v\f";
-
-std::vector<std::string> split(const std::string& text) {
+std::vector<std::string> split(const std::string& text, char separator) {
+  const std::string separators = std::string(" \t\r\n\v\f") + separator;
   std::vector<std::string> words;
-  std::size_t begin = text.find_first_not_of(kWhiteSpace);
+  std::size_t begin = text.find_first_not_of(separators);
   while (begin != std::string::npos) {
-    const std::size_t end = std::min(text.find_first_of(kWhiteSpace, begin), text.size());
+    const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
     words.push_back(text.substr(begin, end - begin));
-    begin = text.find_first_not_of(kWhiteSpace, end);
+    begin = text.find_first_not_of(separators, end);
   }
   return words;
 }
@@ -62,14 +61,23 @@ std::int64_t TextLine::nanoseconds(std::size_t index) const {
   return std::llround(seconds * 1e9L);
 }
 
-std::vector<TextLine> readTextLines(const std::string& path) {
+std::int64_t TextLine::integer(std::size_t index) const {
+  constexpr long double kMax = 9.2e18L;
+  const long double value = parse(*this, index);
+  if (!(std::abs(value) < kMax)) {
+    throw std::runtime_error(where + ": '" + words[index] + "' is not an integer below 9.2e18");
+  }
+  return std::llround(value);
+}
+
+std::vector<TextLine> readTextLines(const std::string& path, char separator) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error("cannot read " + path);
   std::vector<TextLine> lines;
   std::string text;
   for (int number = 1; std::getline(file, text); ++number) {
     TextLine line;
-    line.words = split(text);  // CR counts as white space
+    line.words = split(text, separator);  // CR counts as white space
     if (line.words.empty() || line.words.front().front() == '#') continue;
     line.where = path + ":" + std::to_string(number);
     lines.push_back(std::move(line));

@@ -1,0 +1,95 @@
+#include "inertial/gyro_history.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "common/sentence.h"
+#include "rotrocc/rigid_motion.h"
+
+namespace rotrocc {
+namespace {
+
+double secondsBetween(std::int64_t from_ns, std::int64_t to_ns) {
+  return 1e-9 * static_cast<double>(to_ns - from_ns);
+}
+
+Eigen::Vector3d rateAt(const GyroSample& before, const GyroSample& after, std::int64_t stamp_ns) {
+  const double t =
+      secondsBetween(before.stamp_ns, stamp_ns) / secondsBetween(before.stamp_ns, after.stamp_ns);
+  return (1.0 - t) * before.rate_rps + t * after.rate_rps;
+}
+
+void append(const Eigen::Vector3d& angle_rad, double dt_s, GyroRotation& rotation) {
+  const Eigen::Matrix3d R = expRotation(angle_rad);
+  rotation.R_from_to = rotation.R_from_to * R;
+  rotation.by_bias_s = R.transpose() * rotation.by_bias_s + dt_s * leftJacobian(-angle_rad);
+  rotation.turned_rad += angle_rad.norm();
+}
+
+}  // namespace
+
+std::string GyroHistory::add(const GyroSample& sample) {
+  if (!sample.rate_rps.allFinite()) return "the angular velocity is not a number";
+  if (!samples_.empty() && sample.stamp_ns <= samples_.back().stamp_ns) {
+    const double back_s = secondsBetween(sample.stamp_ns, samples_.back().stamp_ns);
+    if (back_s <= kJump_s) {
+      return sentence("the stamp is ", back_s, " s before that of the sample before");
+    }
+    samples_.clear();
+  }
+  samples_.push_back(sample);
+  while (secondsBetween(samples_.front().stamp_ns, sample.stamp_ns) > kLength_s) {
+    samples_.pop_front();
+  }
+  return "";
+}
+
+std::optional<std::int64_t> GyroHistory::newest_ns() const {
+  if (samples_.empty()) return std::nullopt;
+  return samples_.back().stamp_ns;
+}
+
+/// The last sample that is not later than `stamp_ns`; the end if there is none.
+GyroHistory::Samples::const_iterator GyroHistory::lastUpTo(std::int64_t stamp_ns) const {
+  const auto after = std::upper_bound(
+      samples_.begin(), samples_.end(), stamp_ns, [](std::int64_t stamp, const GyroSample& sample) {
+        return stamp < sample.stamp_ns;
+      });
+  return after == samples_.begin() ? samples_.end() : std::prev(after);
+}
+
+std::string GyroHistory::whyUnknown(std::int64_t from_ns, std::int64_t to_ns) const {
+  if (samples_.empty()) return "there is no sample";
+  const double late_s = secondsBetween(samples_.back().stamp_ns, to_ns);
+  if (late_s > 0.0) return sentence("the newest sample is ", late_s, " s older than the image");
+  auto sample = lastUpTo(from_ns);
+  if (sample == samples_.end()) {
+    return sentence("the oldest sample is ",
+                    secondsBetween(from_ns, samples_.front().stamp_ns),
+                    " s newer than the image before");
+  }
+  for (; sample->stamp_ns < to_ns; ++sample) {
+    const double gap_s = secondsBetween(sample->stamp_ns, std::next(sample)->stamp_ns);
+    if (gap_s <= kMaxGap_s) continue;
+    return sentence("two samples are ", gap_s, " s apart, more than ", kMaxGap_s, " s");
+  }
+  return "";
+}
+
+GyroRotation GyroHistory::rotation(std::int64_t from_ns,
+                                   std::int64_t to_ns,
+                                   const Eigen::Vector3d& bias_rps) const {
+  GyroRotation rotation;
+  for (auto before = lastUpTo(from_ns); before->stamp_ns < to_ns; ++before) {
+    const GyroSample& after = *std::next(before);
+    const std::int64_t begin_ns = std::max(from_ns, before->stamp_ns);
+    const std::int64_t end_ns = std::min(to_ns, after.stamp_ns);
+    const double dt_s = secondsBetween(begin_ns, end_ns);
+    const Eigen::Vector3d mean_rps =
+        0.5 * (rateAt(*before, after, begin_ns) + rateAt(*before, after, end_ns));
+    append(dt_s * (mean_rps - bias_rps), dt_s, rotation);
+  }
+  return rotation;
+}
+
+}  // namespace rotrocc

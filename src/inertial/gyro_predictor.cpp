@@ -1,0 +1,62 @@
+#include "inertial/gyro_predictor.h"
+
+#include <cmath>
+
+#include "rotrocc/rigid_motion.h"
+
+namespace rotrocc {
+namespace {
+
+/// Noise of the integrated angle [rad per sqrt(s)]: that of the cheapest gyroscopes, because those
+/// on robots vibrate.
+constexpr double kAngleWalk = 1e-3;
+
+}  // namespace
+
+std::string GyroPredictor::add(const GyroSample& sample) {
+  std::string why_refused = history_.add(sample);
+  ++(why_refused.empty() ? counts_.samples : counts_.refused);
+  return why_refused;
+}
+
+std::string GyroPredictor::whyUnknown(std::int64_t from_ns, std::int64_t to_ns) const {
+  return trust_.whyNot().empty() ? history_.whyUnknown(from_ns, to_ns) : trust_.whyNot();
+}
+
+std::optional<Eigen::Matrix3d> GyroPredictor::rotation(std::int64_t from_ns, std::int64_t to_ns) {
+  why_not_ = whyUnknown(from_ns, to_ns);
+  if (!why_not_.empty()) {
+    ++counts_.missed;
+    return std::nullopt;
+  }
+  ++counts_.predicted;
+  const GyroRotation rotation = history_.rotation(from_ns, to_ns, bias_.bias_rps());
+  return R_camera_gyro_ * rotation.R_from_to * R_camera_gyro_.transpose();
+}
+
+void GyroPredictor::observe(const OdometryResult& result) {
+  if (result.state != State::kOk) return;
+  const std::int64_t from_ns = result.stamp_ns - std::llround(1e9 * result.dt_s);
+  if (!history_.whyUnknown(from_ns, result.stamp_ns).empty()) return;
+  const GyroRotation gyro = history_.rotation(from_ns, result.stamp_ns, bias_.bias_rps());
+  // All in axes of the gyroscope at the current pair.
+  const Eigen::Matrix3d seen =
+      R_camera_gyro_.transpose() * result.T_prev_cur.linear() * R_camera_gyro_;
+  const Eigen::Vector3d difference_rad = logRotation(gyro.R_from_to.transpose() * seen);
+  const Eigen::Matrix3d to_gyro = (R_camera_gyro_ * seen).transpose();
+  const Eigen::Matrix3d covariance =
+      to_gyro * result.covariance.bottomRightCorner<3, 3>() * to_gyro.transpose() +
+      kAngleWalk * kAngleWalk * result.dt_s * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d of_bias = gyro.by_bias_s * bias_.covariance() * gyro.by_bias_s.transpose();
+  const bool agrees = trust_.compare({difference_rad.norm(),
+                                      std::sqrt((of_bias + covariance).trace()),
+                                      gyro.turned_rad,
+                                      logRotation(seen).norm()});
+  if (agrees) {
+    bias_.observe(difference_rad, gyro.by_bias_s, covariance, result.dt_s);
+  } else if (!trust_.whyNot().empty()) {
+    bias_ = GyroBias();  // it may be another one, e.g. after a restart of the device
+  }
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "inertial/gyro_bias.h"
+#include "inertial/gyro_history.h"
+#include "inertial/gyro_trust.h"
+#include "rotrocc/odometry_result.h"
+
+namespace rotrocc {
+
+/// Predicts rotations of a camera from a gyroscope that is fixed to it. Learns the bias of the
+/// gyroscope from the motions of the odometry.
+class GyroPredictor {
+ public:
+  struct Counts {
+    std::uint64_t samples = 0;    ///< without the refused ones
+    std::uint64_t refused = 0;    ///< samples
+    std::uint64_t predicted = 0;  ///< pairs with a rotation
+    std::uint64_t missed = 0;     ///< pairs without one
+  };
+
+  explicit GyroPredictor(const Eigen::Matrix3d& R_camera_gyro = Eigen::Matrix3d::Identity())
+      : R_camera_gyro_(R_camera_gyro) {}
+
+  void setMount(const Eigen::Matrix3d& R_camera_gyro) { R_camera_gyro_ = R_camera_gyro; }
+
+  /// Why the sample is refused, in one sentence; empty if it is kept.
+  std::string add(const GyroSample& sample);
+
+  const GyroHistory& history() const { return history_; }
+
+  /// R_from_to of the camera. Nothing if samples are missing or the gyroscope is not trusted;
+  /// whyNot() has the reason.
+  std::optional<Eigen::Matrix3d> rotation(std::int64_t from_ns, std::int64_t to_ns);
+
+  /// To be called with the result of each pair.
+  void observe(const OdometryResult& result);
+
+  /// Why the last rotation was not predicted, in one sentence; empty if it was.
+  const std::string& whyNot() const { return why_not_; }
+
+  /// Why the gyroscope is not trusted, see GyroTrust; empty if it is.
+  const std::string& whyDistrusted() const { return trust_.whyNot(); }
+
+  const GyroBias& bias() const { return bias_; }
+  const Counts& counts() const { return counts_; }
+
+ private:
+  std::string whyUnknown(std::int64_t from_ns, std::int64_t to_ns) const;
+
+  Eigen::Matrix3d R_camera_gyro_;
+  GyroHistory history_;
+  GyroBias bias_;
+  GyroTrust trust_;
+  Counts counts_;
+  std::string why_not_;
+};
+
+}  // namespace rotrocc
