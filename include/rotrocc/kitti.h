@@ -24,6 +24,8 @@ class KittiSequence {
   /// if times do not increase, or if P0 and P1 are not those of a rectified stereo pair.
   explicit KittiSequence(const std::string& directory);
 
+  const std::string& directory() const { return directory_; }
+
   /// Number of stereo pairs.
   int size() const { return static_cast<int>(stamps_ns_.size()); }
 

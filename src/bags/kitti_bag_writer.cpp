@@ -8,6 +8,7 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
 #include <sensor_msgs/distortion_models.h>
 #include <sensor_msgs/image_encodings.h>
 #include <std_msgs/Header.h>
@@ -16,6 +17,7 @@
 
 #include "bags/ground_truth.h"
 #include "bags/kitti_mount.h"
+#include "inertial/gyro_file.h"
 #include "input/message_conversion.h"
 
 namespace rotrocc {
@@ -25,6 +27,7 @@ constexpr std::int64_t kNsPerS = 1000000000;
 const char* const kBaseFrame = "base_link";
 const char* const kOdomFrame = "odom";
 const char* const kCameraFrame = "stereo_left_optical";
+const char* const kImuFrame = "imu_link";
 
 sensor_msgs::CameraInfo cameraInfo(const StereoCamera& camera, double cx, double baseline_m) {
   sensor_msgs::CameraInfo info;
@@ -39,13 +42,14 @@ sensor_msgs::CameraInfo cameraInfo(const StereoCamera& camera, double cx, double
   return info;
 }
 
-tf2_msgs::TFMessage mountMessage(const ros::Time& stamp) {
-  tf2_msgs::TFMessage message;
-  message.transforms.push_back(tf2::eigenToTransform(kittiMount()));
-  message.transforms.back().header.frame_id = kBaseFrame;
-  message.transforms.back().header.stamp = stamp;
-  message.transforms.back().child_frame_id = kCameraFrame;
-  return message;
+geometry_msgs::TransformStamped mount(const Eigen::Isometry3d& T_base_sensor,
+                                      const ros::Time& stamp,
+                                      const std::string& frame) {
+  geometry_msgs::TransformStamped transform = tf2::eigenToTransform(T_base_sensor);
+  transform.header.frame_id = kBaseFrame;
+  transform.header.stamp = stamp;
+  transform.child_frame_id = frame;
+  return transform;
 }
 
 }  // namespace
@@ -65,6 +69,8 @@ KittiBagWriter::KittiBagWriter(const std::string& path,
   Trajectory poses = sequence.groundTruth();
   for (StampedPose& pose : poses) pose.stamp_ns += start_time_s * kNsPerS;
   ground_truth_ = groundTruthPath(poses, kittiMount(), kOdomFrame);
+  const std::string imu = sequence.directory() + "/imu.csv";
+  if (std::filesystem::exists(imu)) gyroscope_ = readGyroFile(imu);
   try {
     bag_.open(unfinished_path_, rosbag::bagmode::Write);
   } catch (const rosbag::BagException& error) {
@@ -79,6 +85,7 @@ KittiBagWriter::~KittiBagWriter() {
 }
 
 void KittiBagWriter::writePair(int index) {
+  writeGyroscope(stamp(index));
   beginStamp(stamp(index));
   if (index == 0) writeStatic();
   if (sequence_.hasGroundTruth()) write("/ground_truth/pose", ground_truth_.poses.at(index));
@@ -90,6 +97,7 @@ void KittiBagWriter::writePair(int index) {
 }
 
 void KittiBagWriter::finish() {
+  writeGyroscope(ros::TIME_MAX);
   bag_.close();
   std::filesystem::rename(unfinished_path_, path_);
   finished_ = true;
@@ -105,8 +113,30 @@ void KittiBagWriter::beginStamp(const ros::Time& stamp) {
 }
 
 void KittiBagWriter::writeStatic() {
-  write("/tf_static", mountMessage(stamp_));
+  tf2_msgs::TFMessage mounts;
+  mounts.transforms.push_back(mount(kittiMount(), stamp_, kCameraFrame));
+  if (!gyroscope_.empty()) {
+    mounts.transforms.push_back(mount(Eigen::Isometry3d::Identity(), stamp_, kImuFrame));
+  }
+  write("/tf_static", mounts);
   if (sequence_.hasGroundTruth()) write("/ground_truth/path", ground_truth_);
+}
+
+/// Writes the samples before `end`.
+void KittiBagWriter::writeGyroscope(const ros::Time& end) {
+  for (; next_sample_ < gyroscope_.size(); ++next_sample_) {
+    const GyroSample& sample = gyroscope_[next_sample_];
+    const ros::Time stamp = toRosTime(start_time_s_ * kNsPerS + sample.stamp_ns);
+    if (stamp >= end) return;
+    beginStamp(stamp);
+    sensor_msgs::Imu message;
+    message.header.stamp = stamp;
+    message.header.frame_id = kImuFrame;
+    tf2::toMsg(Eigen::Vector3d(kittiMount().linear() * sample.rate_rps), message.angular_velocity);
+    // Not measured, by the convention of sensor_msgs/Imu.
+    message.orientation_covariance[0] = message.linear_acceleration_covariance[0] = -1.0;
+    write("/imu/data", message);
+  }
 }
 
 void KittiBagWriter::writeCamera(const std::string& camera_topic,

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <nav_msgs/Path.h>
 #include <ros/time.h>
@@ -9,6 +10,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <opencv2/core.hpp>
 
+#include "inertial/gyro_sample.h"
 #include "rotrocc/kitti.h"
 
 namespace rotrocc {
@@ -19,6 +21,10 @@ namespace rotrocc {
 ///   /tf_static                         base_link -> stereo_left_optical, see kittiMount()
 ///   /ground_truth/path                 nav_msgs/Path of base_link in odom, once, if known
 ///   /ground_truth/pose                 geometry_msgs/PoseStamped, one per pair
+///   /imu/data                          sensor_msgs/Imu in imu_link, whose axes are those of
+///   base_link;
+///                                      the angular velocity only, if imu.csv of the sequence has
+///                                      it
 /// Images and infos of both cameras are in the frame of the left one: P of a rectified pair refers
 /// to it (sensor_msgs/CameraInfo), and image_geometry requires equal frames.
 class KittiBagWriter {
@@ -43,6 +49,7 @@ class KittiBagWriter {
   ros::Time stamp(int index) const;
   void beginStamp(const ros::Time& stamp);
   void writeStatic();
+  void writeGyroscope(const ros::Time& end);
   void writeCamera(const std::string& camera_topic,
                    sensor_msgs::CameraInfo info,
                    const cv::Mat& image);
@@ -54,6 +61,8 @@ class KittiBagWriter {
   const KittiSequence& sequence_;
   std::int64_t start_time_s_;
   nav_msgs::Path ground_truth_;
+  std::vector<GyroSample> gyroscope_;  // in axes of the left camera
+  std::size_t next_sample_ = 0;
   rosbag::Bag bag_;
   ros::Time stamp_;
   ros::Time record_time_;

@@ -1,5 +1,7 @@
 #include "inertial/gyro_file.h"
 
+#include <fstream>
+#include <iomanip>
 #include <stdexcept>
 
 #include "evaluation/text_file.h"
@@ -18,6 +20,20 @@ std::vector<GyroSample> readGyroFile(const std::string& path) {
         {line.integer(0), Eigen::Vector3d(line.number(1), line.number(2), line.number(3))});
   }
   return samples;
+}
+
+void writeGyroFile(const std::string& path, const std::vector<GyroSample>& samples) {
+  std::ofstream file(path);
+  file << "#timestamp [ns],w_x [rad s^-1],w_y [rad s^-1],w_z [rad s^-1],a_x [m s^-2],a_y [m s^-2],"
+          "a_z [m s^-2]\n"
+       << std::setprecision(10);
+  for (const GyroSample& sample : samples) {
+    file << sample.stamp_ns;
+    for (const double rate_rps : sample.rate_rps) file << ',' << rate_rps;
+    file << ",0,0,0\n";
+  }
+  file.flush();
+  if (!file) throw std::runtime_error("cannot write " + path);
 }
 
 }  // namespace rotrocc

@@ -61,7 +61,11 @@ GyroHistory::Samples::const_iterator GyroHistory::lastUpTo(std::int64_t stamp_ns
 std::string GyroHistory::whyUnknown(std::int64_t from_ns, std::int64_t to_ns) const {
   if (samples_.empty()) return "there is no sample";
   const double late_s = secondsBetween(samples_.back().stamp_ns, to_ns);
-  if (late_s > 0.0) return sentence("the newest sample is ", late_s, " s older than the image");
+  if (late_s > 0.0) {
+    return sentence("the newest sample is ",
+                    late_s,
+                    " s older than the image: it is late, has stopped or has another clock");
+  }
   auto sample = lastUpTo(from_ns);
   if (sample == samples_.end()) {
     return sentence("the oldest sample is ",

@@ -13,10 +13,21 @@ constexpr double kAngleWalk = 1e-3;
 
 }  // namespace
 
-std::string GyroPredictor::add(const GyroSample& sample) {
-  std::string why_refused = history_.add(sample);
-  ++(why_refused.empty() ? counts_.samples : counts_.refused);
-  return why_refused;
+void GyroPredictor::add(const GyroSample& sample) {
+  const std::string why_refused = history_.add(sample);
+  if (!why_refused.empty()) return refuse(why_refused);
+  ++counts_.samples;
+}
+
+void GyroPredictor::refuse(const std::string& why) {
+  ++counts_.refused;
+  why_refused_ = why;
+}
+
+void GyroPredictor::miss(const std::string& why) {
+  ++counts_.missed;
+  why_not_ = why;
+  if (!why_refused_.empty()) why_not_ += "; the last sample was refused: " + why_refused_;
 }
 
 std::string GyroPredictor::whyUnknown(std::int64_t from_ns, std::int64_t to_ns) const {
@@ -24,11 +35,13 @@ std::string GyroPredictor::whyUnknown(std::int64_t from_ns, std::int64_t to_ns) 
 }
 
 std::optional<Eigen::Matrix3d> GyroPredictor::rotation(std::int64_t from_ns, std::int64_t to_ns) {
-  why_not_ = whyUnknown(from_ns, to_ns);
-  if (!why_not_.empty()) {
-    ++counts_.missed;
+  const std::string why_unknown = whyUnknown(from_ns, to_ns);
+  if (!why_unknown.empty()) {
+    miss(why_unknown);
     return std::nullopt;
   }
+  why_not_.clear();
+  why_refused_.clear();
   ++counts_.predicted;
   const GyroRotation rotation = history_.rotation(from_ns, to_ns, bias_.bias_rps());
   return R_camera_gyro_ * rotation.R_from_to * R_camera_gyro_.transpose();

@@ -20,8 +20,8 @@ class GyroPredictor {
   struct Counts {
     std::uint64_t samples = 0;    ///< without the refused ones
     std::uint64_t refused = 0;    ///< samples
-    std::uint64_t predicted = 0;  ///< pairs with a rotation
-    std::uint64_t missed = 0;     ///< pairs without one
+    std::uint64_t predicted = 0;  ///< rotations
+    std::uint64_t missed = 0;     ///< rotations that were not predicted
   };
 
   explicit GyroPredictor(const Eigen::Matrix3d& R_camera_gyro = Eigen::Matrix3d::Identity())
@@ -29,19 +29,23 @@ class GyroPredictor {
 
   void setMount(const Eigen::Matrix3d& R_camera_gyro) { R_camera_gyro_ = R_camera_gyro; }
 
-  /// Why the sample is refused, in one sentence; empty if it is kept.
-  std::string add(const GyroSample& sample);
+  /// Samples that are no numbers or out of order are refused.
+  void add(const GyroSample& sample);
+  /// Counts a sample that was refused before, for the reason of a sentence.
+  void refuse(const std::string& why);
 
   const GyroHistory& history() const { return history_; }
 
   /// R_from_to of the camera. Nothing if samples are missing or the gyroscope is not trusted;
   /// whyNot() has the reason.
   std::optional<Eigen::Matrix3d> rotation(std::int64_t from_ns, std::int64_t to_ns);
+  /// Counts a rotation that cannot be asked for, for the reason of a sentence.
+  void miss(const std::string& why);
 
   /// To be called with the result of each pair.
   void observe(const OdometryResult& result);
 
-  /// Why the last rotation was not predicted, in one sentence; empty if it was.
+  /// Why the last rotation was not predicted, in a sentence or two; empty if it was.
   const std::string& whyNot() const { return why_not_; }
 
   /// Why the gyroscope is not trusted, see GyroTrust; empty if it is.
@@ -59,6 +63,7 @@ class GyroPredictor {
   GyroTrust trust_;
   Counts counts_;
   std::string why_not_;
+  std::string why_refused_;  // the last sample, since the last predicted rotation
 };
 
 }  // namespace rotrocc

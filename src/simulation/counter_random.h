@@ -21,6 +21,16 @@ inline double randomUniform(std::uint64_t a, std::uint64_t b = 0, std::uint64_t 
   return static_cast<double>(randomBits(a, b, c) >> 11) * 0x1.0p-53;
 }
 
+/// Four independent parts of a random number add up to one that is nearly Gaussian, with a standard
+/// deviation of 1.
+inline double gaussian(std::uint64_t bits) {
+  int sum = 0;
+  for (int i = 0; i < 4; ++i) sum += static_cast<int>((bits >> (16 * i)) & 0xFFFF);
+  constexpr double kMean = 4.0 * 32767.5;
+  constexpr double kSigma = 37837.2;  // 65536 * sqrt(4 / 12)
+  return (sum - kMean) / kSigma;
+}
+
 /// A sequence of random numbers, for a fixed order of calls.
 class RandomStream {
  public:

@@ -8,6 +8,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "simulation/counter_random.h"
+#include "simulation/gyroscope.h"
 
 namespace rotrocc {
 namespace {
@@ -82,6 +83,10 @@ Simulator::Simulator(const Scenario& scenario, const SimulationOptions& options)
 
 Eigen::Isometry3d Simulator::pose(int index) const {
   return drive_->pose(time_s(0)).inverse() * drive_->pose(time_s(index));
+}
+
+std::vector<GyroSample> Simulator::gyroscope() const {
+  return simulateGyroscope(*drive_, stamps_ns_.front(), stamps_ns_.back(), options_.noise_seed);
 }
 
 PixelRays Simulator::rays(bool right) const {

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
+#include "inertial/gyro_sample.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
 #include "rotrocc/trajectory.h"
@@ -61,6 +62,10 @@ class Simulator {
 
   /// T_first_left: the pose of the left camera in its first frame.
   Eigen::Isometry3d pose(int index) const;
+
+  /// Measurements of a gyroscope at the left camera, from before the first frame until after the
+  /// last one.
+  std::vector<GyroSample> gyroscope() const;
 
   /// Renders both images and the depth of a frame, optionally the flow. Updates the world to this
   /// frame.

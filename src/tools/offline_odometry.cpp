@@ -1,4 +1,6 @@
+#include <cstdint>
 #include <ctime>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -8,6 +10,7 @@
 
 #include <boost/program_options.hpp>
 
+#include "inertial/gyro_file.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/pose_accumulator.h"
 #include "rotrocc/trajectory.h"
@@ -17,6 +20,7 @@
 #include "tools/preloaded_source.h"
 #include "tools/program.h"
 #include "tools/progress_bar.h"
+#include "tools/recorded_gyro.h"
 #include "tools/run_statistics.h"
 #include "tools/stereo_source.h"
 
@@ -36,6 +40,8 @@ struct Options {
   std::string pictures;
   std::string left_image;
   std::string right_image;
+  std::string imu;
+  std::string imu_rotation = "0 0 0 1";
   bool preload = false;
 };
 
@@ -59,6 +65,14 @@ bool parse(int argc, char** argv, Options& options) {
       po::value(&options.left_image),
       "topic of the left images, if a bag has several stereo pairs");
   add("right-image", po::value(&options.right_image), "topic of the right images");
+  add("imu",
+      po::value(&options.imu),
+      "gyroscope that predicts rotations: a CSV file (timestamp [ns], three angular velocities "
+      "[rad/s], ...), or a topic of sensor_msgs/Imu in a bag");
+  add("imu-rotation",
+      po::value(&options.imu_rotation)->default_value(options.imu_rotation),
+      "\"QX QY QZ QW\": rotation from axes of a CSV file to those of the left camera; that of a "
+      "topic is from tf");
   add("preload", po::bool_switch(&options.preload), "read all images first; prints the memory use");
   po::options_description all;
   all.add(visible).add_options()("input", po::value(&options.input)->required());
@@ -86,11 +100,14 @@ double now(clockid_t clock) {
   return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
-PairRecord process(VisualOdometry& odometry, const StereoPair& pair, const StereoCamera& camera) {
+PairRecord process(VisualOdometry& odometry,
+                   const StereoPair& pair,
+                   const StereoCamera& camera,
+                   const RotationSource& rotation) {
   const double wall_ms = now(CLOCK_MONOTONIC);
   const double cpu_ms = now(CLOCK_PROCESS_CPUTIME_ID);
   PairRecord record;
-  record.result = odometry.process(pair, camera);
+  record.result = odometry.process(pair, camera, std::nullopt, rotation);
   record.cpu_ms = now(CLOCK_PROCESS_CPUTIME_ID) - cpu_ms;
   record.wall_ms = now(CLOCK_MONOTONIC) - wall_ms;
   return record;
@@ -111,11 +128,22 @@ std::unique_ptr<StereoSource> openInput(const Options& options, const NodeParame
   return openStereoSource(options.input, bag);
 }
 
+std::optional<RecordedGyro> openGyro(const Options& options,
+                                     const StereoSource& source,
+                                     const NodeParameters& node) {
+  if (options.imu.empty()) return std::nullopt;
+  if (std::filesystem::is_regular_file(options.imu)) {
+    return RecordedGyro({readGyroFile(options.imu), parseRotation(options.imu_rotation)});
+  }
+  return RecordedGyro(source.gyroscope(options.imu, node.base_frame));
+}
+
 void run(const Options& options) {
   const Parameters parameters = readParameters(options);
 
   std::unique_ptr<StereoSource> source = openInput(options, parameters.node);
   std::cerr << "offline_odometry: reading " << source->description() << '\n';
+  std::optional<RecordedGyro> gyro = openGyro(options, *source, parameters.node);
   const PreloadedSource* preloaded = nullptr;
   if (options.preload) {
     auto all = std::make_unique<PreloadedSource>(std::move(source));
@@ -135,6 +163,12 @@ void run(const Options& options) {
     pictures.emplace(options.pictures, flowView(parameters.node.flow_view));
   }
 
+  RotationSource rotation;
+  if (gyro) {
+    rotation = [&](std::int64_t from_ns, std::int64_t to_ns) {
+      return gyro->rotation(from_ns, to_ns);
+    };
+  }
   VisualOdometry odometry(parameters.odometry);
   PoseAccumulator accumulator;
   ProgressBar progress("odometry", source->size());
@@ -142,7 +176,8 @@ void run(const Options& options) {
   StereoPair pair;
   StereoCamera camera;
   while (source->next(pair, camera)) {
-    records.push_back(process(odometry, pair, camera));
+    records.push_back(process(odometry, pair, camera, rotation));
+    if (gyro) gyro->observe(records.back().result);
     trajectory.write({pair.stamp_ns, accumulator.add(records.back().result.T_prev_cur)});
     if (statistics) statistics->write(records.back());
     if (bag) bag->write(records.back().result);
@@ -151,6 +186,7 @@ void run(const Options& options) {
   }
   progress.finish();
   printSummary(std::cout, records);
+  if (gyro) gyro->printSummary(std::cout);
   if (preloaded != nullptr) preloaded->printMemory(std::cout);
   if (const int alone = source->size() - static_cast<int>(records.size())) {
     std::cout << alone << " left images without a right image within "

@@ -10,6 +10,7 @@
 #include <boost/program_options.hpp>
 
 #include "bags/kitti_bag_writer.h"
+#include "inertial/gyro_file.h"
 #include "rotrocc/kitti.h"
 #include "rotrocc/trajectory.h"
 #include "simulation/drives/scenario.h"
@@ -31,8 +32,9 @@ const char* const kUsage =
     "Renders a simulated stereo drive with exact poses.\n"
     "usage: simulate_drive SCENARIO OUT [options]\n"
     "       simulate_drive --poses FILE OUT [options]\n"
-    "SCENARIO  city, motorway, slip_road, parking or shake\n"
-    "OUT       a new directory in KITTI odometry layout, or a .bag\n";
+    "SCENARIO  city, motorway, slip_road, parking, shake or handheld\n"
+    "OUT       a new directory in KITTI odometry layout, a .bag, or a .csv for the gyroscope "
+    "alone\n";
 
 struct Options {
   std::vector<std::string> names;
@@ -46,6 +48,7 @@ struct Options {
   std::vector<double> right_rotation_deg;
   bool truth = false;
   bool check_truth = false;
+  bool imu = false;
   SimulationOptions simulation;
 };
 
@@ -68,7 +71,12 @@ po::options_description describe(Options& options) {
       "truth", po::bool_switch(&options.truth), "also write depth and flow of each pixel")(
       "check-truth",
       po::bool_switch(&options.check_truth),
-      "verify poses, depth and flow against the next frame, and print the errors");
+      "verify poses, depth and flow against the next frame, and print the errors")(
+      "imu",
+      po::bool_switch(&options.imu),
+      "also write a gyroscope of 200 Hz with noise and bias: imu.csv in axes of the left camera, "
+      "or "
+      "/imu/data in axes of base_link");
   po::options_description camera("Camera");
   camera.add_options()(
       "size", po::value(&options.size)->default_value(options.size), "image size WxH [px]")(
@@ -186,6 +194,7 @@ void print(const TruthErrors& errors) {
 
 void renderSequence(Simulator& simulator, const std::string& directory, const Options& options) {
   SequenceWriter writer(directory, simulator.camera(), options.truth);
+  if (options.imu) writeGyroFile(directory + "/imu.csv", simulator.gyroscope());
   ProgressBar progress("simulate_drive", static_cast<std::size_t>(simulator.size()));
   TruthErrors errors;
   for (int index = 0; index < simulator.size(); ++index) {
@@ -222,6 +231,10 @@ void renderBag(Simulator& simulator, const std::string& bag, const Options& opti
 void run(const Options& options) {
   const std::string& out = options.names.back();
   Simulator simulator(chosenScenario(options), options.simulation);
+  if (fs::path(out).extension() == ".csv") {
+    writeGyroFile(out, simulator.gyroscope());
+    return;
+  }
   if (fs::path(out).extension() != ".bag") {
     renderSequence(simulator, out, options);
     return;

@@ -9,6 +9,7 @@
 #include "bags/stereo_bag.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
+#include "tools/recorded_gyro.h"
 
 namespace rotrocc {
 
@@ -29,6 +30,11 @@ class StereoSource {
 
   /// Pose of the left camera on the base: from the tf of a bag, otherwise KITTI's.
   virtual Eigen::Isometry3d mount(const std::string& base_frame) const = 0;
+
+  /// The gyroscope of a topic of a bag, with its mount from tf. Throws std::runtime_error if there
+  /// is none.
+  virtual GyroRecording gyroscope(const std::string& topic,
+                                  const std::string& base_frame) const = 0;
 
   /// Offset from the stamps of the pairs to ROS time.
   virtual std::int64_t start_ns() const = 0;

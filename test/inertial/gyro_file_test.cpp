@@ -35,6 +35,18 @@ TEST_F(GyroFileTest, ReadsTheLayoutOfEuroc) {
   EXPECT_EQ(samples[1].stamp_ns, 1403636579763555584);
 }
 
+TEST_F(GyroFileTest, ReadsWhatItWrites) {
+  const std::string path = directory_ / "imu.csv";
+  writeGyroFile(path, {{-3'000'000, {0.25, -1.5, 2e-5}}, {1403636579758555392, {0.0, 1.0, 3.0}}});
+  const auto samples = readGyroFile(path);
+  ASSERT_EQ(samples.size(), 2u);
+  EXPECT_EQ(samples[0].stamp_ns, -3'000'000);
+  EXPECT_EQ(samples[0].rate_rps, Eigen::Vector3d(0.25, -1.5, 2e-5));
+  EXPECT_EQ(samples[1].stamp_ns, 1403636579758555392);
+  expectError<std::runtime_error>([] { writeGyroFile("/nowhere/imu.csv", {}); },
+                                  "/nowhere/imu.csv");
+}
+
 TEST_F(GyroFileTest, NamesTheLineThatIsWrong) {
   expectError<std::runtime_error>([&] { readGyroFile(write("1,0,0,0\n2,0,0\n")); },
                                   "imu.csv:2 has 3 columns");

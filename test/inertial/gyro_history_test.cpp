@@ -79,7 +79,8 @@ TEST(GyroHistoryTest, TellsWhatIsMissing) {
   EXPECT_EQ(GyroHistory().whyUnknown(0, kMs), "there is no sample");
   const GyroHistory history = measured();
   EXPECT_EQ(history.whyUnknown(980 * kMs, 1020 * kMs),
-            "the newest sample is 0.02 s older than the image");
+            "the newest sample is 0.02 s older than the image: it is late, has stopped or has "
+            "another clock");
   EXPECT_EQ(history.whyUnknown(-20 * kMs, 20 * kMs),
             "the oldest sample is 0.02 s newer than the image before");
 }
@@ -108,7 +109,8 @@ TEST(GyroHistoryTest, BeginsAnewWhenTimeJumpsBack) {
   EXPECT_EQ(history.add({-500 * kMs, {0.0, 0.0, 0.0}}), "");
   EXPECT_EQ(history.newest_ns(), -500 * kMs);
   EXPECT_EQ(history.whyUnknown(100 * kMs, 200 * kMs),
-            "the newest sample is 0.7 s older than the image");
+            "the newest sample is 0.7 s older than the image: it is late, has stopped or has "
+            "another clock");
 }
 
 TEST(GyroHistoryTest, ForgetsOldSamples) {

@@ -133,8 +133,15 @@ TEST(GyroPredictorTest, SaysWhatIsMissing) {
   EXPECT_FALSE(predictor.rotation(0, kPair_ns));
   EXPECT_EQ(predictor.whyNot(), "there is no sample");
   EXPECT_EQ(predictor.counts().missed, 1u);
-  EXPECT_NE(predictor.add({0, Eigen::Vector3d::Constant(NAN)}), "");
+  predictor.add({0, Eigen::Vector3d::Constant(NAN)});
   EXPECT_EQ(predictor.counts().refused, 1u);
+  EXPECT_FALSE(predictor.rotation(0, kPair_ns));
+  EXPECT_EQ(
+      predictor.whyNot(),
+      "there is no sample; the last sample was refused: the angular velocity is not a number");
+  predictor.miss("there is no tf");
+  EXPECT_EQ(predictor.whyNot().compare(0, 14, "there is no tf"), 0);
+  EXPECT_EQ(predictor.counts().missed, 3u);
 }
 
 TEST(GyroPredictorTest, RefusesDegreesPerSecondUntilTheyAreRadians) {

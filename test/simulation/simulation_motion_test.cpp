@@ -82,6 +82,13 @@ TEST(SimulationMotion, ShakePitchesAndRolls) {
   EXPECT_NEAR(speed(*shake.drive, 5.0), 8.0, 0.2);
 }
 
+TEST(SimulationMotion, HandheldLooksAroundFast) {
+  const Scenario handheld = scenario("handheld", 1);
+  EXPECT_NEAR(speed(*handheld.drive, 5.0), 1.4, 0.2);
+  EXPECT_GT(greatest(*handheld.drive, turnRate), 100.0 * kDegree);
+  EXPECT_LT(greatest(*handheld.drive, turnRate), 180.0 * kDegree);
+}
+
 TEST(SimulationMotion, AccelerationIsContinuousInEveryScenario) {
   for (const std::string& name : scenarioNames()) {
     const Scenario scene = scenario(name, 1);
@@ -112,6 +119,30 @@ TEST(SimulationMotion, RecordedDriveGoesThroughItsPoses) {
     EXPECT_TRUE(drive.pose(0.1 * i).isApprox(trajectory[i].T_world_body, 1e-9)) << i;
   }
   EXPECT_NEAR(drive.duration_s(), 3.9, 1e-9);
+}
+
+TEST(SimulationMotion, RecordedDriveTurnsSmoothly) {
+  Trajectory trajectory;
+  for (int i = 0; i < 20; ++i) {
+    StampedPose pose;
+    pose.stamp_ns = i * 100'000'000LL;
+    pose.T_world_body.translate(Eigen::Vector3d(0.0, 0.0, 1.1 * i));
+    pose.T_world_body.rotate(Eigen::AngleAxisd(0.4 * std::sin(0.6 * i), Eigen::Vector3d::UnitY()));
+    pose.T_world_body.rotate(Eigen::AngleAxisd(0.2 * std::cos(0.5 * i), Eigen::Vector3d::UnitX()));
+    trajectory.push_back(pose);
+  }
+  const RecordedDrive drive(trajectory);
+  constexpr double kShort_s = 1e-4;
+  for (int i = 1; i < 19; ++i) {
+    const auto rotation = [&](double from_s, double to_s) {
+      return Eigen::AngleAxisd(drive.pose(from_s).linear().transpose() * drive.pose(to_s).linear())
+                 .angle() /
+             (to_s - from_s);
+    };
+    const double t = 0.1 * i;
+    // The rate changes by up to 14 rad/s^2 here, and by 1 rad/s at once between straight pieces.
+    EXPECT_NEAR(rotation(t - kShort_s, t), rotation(t, t + kShort_s), 0.01) << i;
+  }
 }
 
 TEST(SimulationMotion, RefusesWhatIsNoDrive) {

@@ -14,6 +14,7 @@
 #include "bags/bag_reading.h"
 #include "bags/kitti_bag_writer.h"
 #include "bags/kitti_mount.h"
+#include "inertial/gyro_file.h"
 #include "support/read_csv.h"
 #include "support/read_file.h"
 #include "support/run_command.h"
@@ -175,6 +176,54 @@ TEST_F(OfflineOdometryTest, PreloadedImagesGiveTheSamePoses) {
   EXPECT_NE(result.output.find("peak memory: "), std::string::npos) << result.output;
 }
 
+/// Of the drive, whose camera looks to and fro, with a bias.
+std::vector<GyroSample> gyroscope() {
+  std::vector<GyroSample> samples;
+  for (int i = -1; i < 20 * kPairs; ++i) {
+    const double t = 0.005 * i;
+    samples.push_back({i * 5'000'000LL, {0.01, 0.05 * 3.5 * std::cos(3.5 * t) - 0.02, 0.0}});
+  }
+  return samples;
+}
+
+TEST_F(OfflineOdometryTest, PredictsByAGyroscope) {
+  const std::string imu = directory_ / "imu.csv";
+  writeGyroFile(imu, gyroscope());
+  const CommandResult result = run(sequence() + " --trajectory /dev/null --imu " + imu);
+  EXPECT_NE(result.output.find("gyroscope: 11 of 11 rotations predicted"), std::string::npos)
+      << result.output;
+  const std::string once = trajectoryOf(sequence(), "--imu " + imu);
+  EXPECT_NE(once, trajectoryOf(sequence()));
+  EXPECT_TRUE(once == trajectoryOf(sequence(), "--imu " + imu + " --preload"));
+  const std::string turned = directory_ / "turned.csv";
+  std::vector<GyroSample> samples = gyroscope();
+  // Of a base: forward, left, up.
+  for (GyroSample& s : samples) s.rate_rps = {s.rate_rps.z(), -s.rate_rps.x(), -s.rate_rps.y()};
+  writeGyroFile(turned, samples);
+  const Eigen::Vector3d end =
+      readTrajectory(directory_ / "trajectory.txt").back().T_world_body.translation();
+  trajectoryOf(sequence(), "--imu " + turned + " --imu-rotation \"0.5 -0.5 0.5 0.5\"");
+  const Eigen::Vector3d same =
+      readTrajectory(directory_ / "trajectory.txt").back().T_world_body.translation();
+  EXPECT_LT((same - end).norm(), 1e-4) << "but for rounding, which moves the start of a search";
+}
+
+TEST_F(OfflineOdometryTest, PredictsByAGyroscopeOfABag) {
+  writeGyroFile(sequence() + "/imu.csv", gyroscope());
+  const KittiSequence kitti(sequence());
+  KittiBagWriter writer(directory_ / "sequence.bag", kitti, 1000);
+  for (int i = 0; i < kPairs; ++i) writer.writePair(i);
+  writer.finish();
+  const std::string bag = directory_ / "sequence.bag";
+  const CommandResult result = run(bag + " --trajectory /dev/null --imu /imu/data");
+  EXPECT_NE(result.output.find("gyroscope: 11 of 11 rotations predicted"), std::string::npos)
+      << result.output;
+  const CommandResult missing = run(bag + " --trajectory /dev/null --imu /imu");
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_NE(missing.output.find("neither a file nor a topic /imu"), std::string::npos)
+      << missing.output;
+}
+
 TEST_F(OfflineOdometryTest, TakesParameters) {
   const CommandResult refused =
       run(sequence() + " --trajectory /dev/null --set feature_detector/max_features=5");
@@ -192,6 +241,7 @@ TEST_F(OfflineOdometryTest, TellsBadUsageFromBadInput) {
   EXPECT_EQ(run("/nowhere --trajectory /dev/null").status, 1);
   EXPECT_EQ(run(sequence() + " --trajectory /nowhere/out.txt").status, 1);
   EXPECT_EQ(run(sequence() + " --trajectory /dev/null --format xyz").status, 1);
+  EXPECT_EQ(run(sequence() + " --trajectory /dev/null --imu /nowhere").status, 1);
   EXPECT_EQ(run(sequence() + " --trajectory /dev/null --bag /nowhere/out.bag").status, 1);
 }
 

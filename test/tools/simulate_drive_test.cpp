@@ -1,5 +1,6 @@
 // Runs the program as users do, and compares the images that it writes.
 
+#include <algorithm>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -49,6 +50,15 @@ TEST_F(SimulateDriveTest, WornRigsHaveOtherImagesOfTheSameDrive) {
               readFile(directory_ / ("worn" + std::string(name))));
   }
   EXPECT_FALSE(contents("worn") == contents("perfect"));
+}
+
+TEST_F(SimulateDriveTest, WritesAGyroscope) {
+  ASSERT_EQ(simulate("drive", "--imu").status, 0);
+  ASSERT_EQ(simulate("alone.csv", "").status, 0);
+  const std::string table = readFile(directory_ / "drive/imu.csv");
+  EXPECT_EQ(table, readFile(directory_ / "alone.csv"));
+  EXPECT_EQ(table.compare(0, 15, "#timestamp [ns]"), 0) << table;
+  EXPECT_GE(std::count(table.begin(), table.end(), '\n'), 20) << "0.1 s at 200 Hz";
 }
 
 TEST_F(SimulateDriveTest, RefusesWhatDoesNotFit) {

@@ -34,7 +34,8 @@ struct SpeedPhase {
   double stand_s = 0.0;  ///< standstill at its end, if that speed is 0
 };
 
-/// Body motion of a car.
+/// Motion of the camera relative to the direction of the drive, as by the body of a car or by a
+/// hand.
 struct Sway {
   double pitch_rad_per_mps2 = 0.004;  ///< its nose dips when it brakes
   double roll_rad_per_mps2 = 0.005;   ///< it leans out of a bend
@@ -42,6 +43,7 @@ struct Sway {
   double bump_m = 0.006;              ///< amplitude of the height
   double shake_pitch_rad = 0.0;       ///< amplitude of pitch at 1.3 Hz
   double shake_roll_rad = 0.0;        ///< amplitude of roll at 0.9 Hz
+  double look_yaw_rad = 0.0;          ///< amplitude of yaw at 0.6 Hz; a fifth of it at 1.9 Hz
 };
 
 /// A drive along a path with given speed phases.

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "rotrocc/rigid_motion.h"
 #include "simulation/drives/drive.h"
 
 namespace rotrocc {
@@ -82,9 +83,21 @@ Eigen::Isometry3d RecordedDrive::pose(double time_s) const {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = (1.0 - ease) * position(i) + ease * position(i + 1) +
                        length_s * t * (1.0 - t) * ((1.0 - t) * velocity(i) - t * velocity(i + 1));
-  const Eigen::Quaterniond before(trajectory_[i].T_world_body.linear());
-  const Eigen::Quaterniond after(trajectory_[i + 1].T_world_body.linear());
-  pose.linear() = before.slerp(t, after).toRotationMatrix();
+  const auto orientation = [&](std::size_t k) -> Eigen::Matrix3d {
+    return trajectory_[k].T_world_body.linear();
+  };
+  // Angular velocities in axes of pose k; the rotation since pose i is a cubic rotation vector.
+  const auto rate = [&](std::size_t k) -> Eigen::Vector3d {
+    const std::size_t before = k == 0 ? 0 : k - 1;
+    const std::size_t after = std::min(k + 1, trajectory_.size() - 1);
+    return logRotation(orientation(before).transpose() * orientation(after)) /
+           (times_s_[after] - times_s_[before]);
+  };
+  const Eigen::Vector3d turn = logRotation(orientation(i).transpose() * orientation(i + 1));
+  const Eigen::Vector3d end_slope = leftJacobian(-turn).inverse() * rate(i + 1);
+  pose.linear() =
+      orientation(i) *
+      expRotation(ease * turn + length_s * t * (1.0 - t) * ((1.0 - t) * rate(i) - t * end_slope));
   return pose;
 }
 

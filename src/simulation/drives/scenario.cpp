@@ -139,6 +139,19 @@ Scenario shake(std::uint64_t seed) {
   return alongOneStreet(drive, townStyle(), seed);
 }
 
+Scenario handheld(std::uint64_t seed) {
+  constexpr double kDegree = M_PI / 180.0;
+  const auto pieces = joined({{{20.0, 0.0}}, turn(0.4, 30.0, 8.0), {{25.0, 0.0}}});
+  Sway sway;
+  sway.shake_pitch_rad = 4.0 * kDegree;
+  sway.shake_roll_rad = 5.0 * kDegree;
+  sway.look_yaw_rad = 18.0 * kDegree;
+  sway.bump_m = 0.02;  // steps
+  auto drive = std::make_shared<ScriptedDrive>(
+      layPath(pieces, level), std::vector<SpeedPhase>{{56.0, 1.4}}, 1.4, sway);
+  return alongOneStreet(drive, townStyle(), seed);
+}
+
 using Maker = std::function<Scenario(std::uint64_t)>;
 
 const std::vector<std::pair<std::string, Maker>>& makers() {
@@ -146,7 +159,8 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
                                                                      {"motorway", motorway},
                                                                      {"slip_road", slipRoad},
                                                                      {"parking", parking},
-                                                                     {"shake", shake}};
+                                                                     {"shake", shake},
+                                                                     {"handheld", handheld}};
   return kMakers;
 }
 

@@ -28,6 +28,7 @@ const std::vector<std::string>& scenarioNames();
 ///   slip_road  a bend of 22 m radius at 10 m/s, 26 deg/s, through a meadow
 ///   parking    0.8 m/s in a car park, with a stop while a car passes close by
 ///   shake      a town street with strong pitching and rolling
+///   handheld   1.4 m/s along that street, looking around with up to 120 deg/s
 Scenario scenario(const std::string& name, std::uint64_t seed);
 
 /// A town along a recorded drive, including hills. A street that the drive revisits is built once;

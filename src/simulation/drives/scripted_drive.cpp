@@ -110,11 +110,14 @@ Eigen::Isometry3d ScriptedDrive::pose(double time_s) const {
                        sway_.shake_pitch_rad * std::sin(2.0 * M_PI * 1.3 * time_s);
   const double roll = -sway_.roll_rad_per_mps2 * right_mps2 + sway_.bump_rad * bump(station, 1) +
                       sway_.shake_roll_rad * std::sin(2.0 * M_PI * 0.9 * time_s);
+  const double yaw =
+      path_.heading_rad(station) + sway_.look_yaw_rad * (std::sin(2.0 * M_PI * 0.6 * time_s) +
+                                                         0.2 * std::sin(2.0 * M_PI * 1.9 * time_s));
 
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = path_.position(station);
   pose.translation().y() += sway_.bump_m * bump(station, 2);
-  pose.rotate(Eigen::AngleAxisd(path_.heading_rad(station), Eigen::Vector3d::UnitY()));
+  pose.rotate(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitY()));
   pose.rotate(Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitX()));  // positive: looks up
   pose.rotate(Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()));   // positive: right side down
   return pose;

@@ -23,16 +23,6 @@ std::vector<float> responseTable() {
   return table;
 }
 
-/// Four independent parts of a random number add up to one that is nearly Gaussian, with a standard
-/// deviation of 1.
-double gaussian(std::uint64_t bits) {
-  int sum = 0;
-  for (int i = 0; i < 4; ++i) sum += static_cast<int>((bits >> (16 * i)) & 0xFFFF);
-  constexpr double kMean = 4.0 * 32767.5;
-  constexpr double kSigma = 37837.2;  // 65536 * sqrt(4 / 12)
-  return (sum - kMean) / kSigma;
-}
-
 /// Standard deviation of the light that a pixel measures, as a share of white.
 double lightSigma(const Sensor& sensor, double light) {
   if (sensor.full_well_e <= 0.0) return 0.0;

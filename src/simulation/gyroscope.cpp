@@ -1,0 +1,54 @@
+#include "simulation/gyroscope.h"
+
+#include <cmath>
+
+#include "rotrocc/rigid_motion.h"
+#include "simulation/counter_random.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kPhase = 0.4;  // of a period: the first sample after first_ns
+
+enum Kind : std::uint64_t { kStart, kWalk, kWhite };
+
+/// Three Gaussian numbers with a standard deviation of 1.
+Eigen::Vector3d noise(std::uint64_t seed, Kind kind, std::uint64_t index) {
+  Eigen::Vector3d numbers;
+  for (std::uint64_t axis = 0; axis < 3; ++axis) {
+    numbers[static_cast<Eigen::Index>(axis)] =
+        gaussian(randomBits(seed, 0x6790, 16 * index + 4 * axis + kind));
+  }
+  return numbers;
+}
+
+Eigen::Vector3d trueRate(const Drive& drive, double time_s) {
+  constexpr double kStep_s = 1e-3;
+  const Eigen::Matrix3d before = drive.pose(time_s - kStep_s).linear();
+  const Eigen::Matrix3d after = drive.pose(time_s + kStep_s).linear();
+  return logRotation(before.transpose() * after) / (2.0 * kStep_s);
+}
+
+}  // namespace
+
+std::vector<GyroSample> simulateGyroscope(const Drive& drive,
+                                          std::int64_t first_ns,
+                                          std::int64_t last_ns,
+                                          std::uint64_t seed,
+                                          const GyroFigures& figures) {
+  const double period_s = 1.0 / figures.rate_hz;
+  Eigen::Vector3d bias_rps = figures.bias_sigma_rps * noise(seed, kStart, 0);
+  std::vector<GyroSample> samples;
+  for (std::uint64_t i = 0; samples.empty() || samples.back().stamp_ns <= last_ns; ++i) {
+    const double since_first_s = (static_cast<double>(i) - 1.0 + kPhase) * period_s;
+    const std::int64_t stamp_ns = first_ns + std::llround(1e9 * since_first_s);
+    samples.push_back(
+        {stamp_ns,
+         trueRate(drive, 1e-9 * static_cast<double>(stamp_ns)) + bias_rps +
+             figures.noise_density * std::sqrt(figures.rate_hz) * noise(seed, kWhite, i)});
+    bias_rps += figures.bias_walk * std::sqrt(period_s) * noise(seed, kWalk, i);
+  }
+  return samples;
+}
+
+}  // namespace rotrocc
