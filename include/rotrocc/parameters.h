@@ -17,6 +17,8 @@ struct NodeParameters {
   bool planar = false;            ///< restrict base_frame to motion in its x-y plane
   std::string guess_frame;        ///< odom frame of another odometry in tf; empty: none
   double guess_timeout_s = 0.05;  ///< how long a pair waits for that transform
+  bool use_imu = false;           ///< predict rotations by the gyroscope of the topic imu
+  double imu_timeout_s = 0.02;    ///< how long a pair waits for its samples
   std::string image_transport = "raw";
   double max_stamp_difference_s = 0.01;       ///< between the left and the right image of a pair
   int queue_size = 4;                         ///< unmatched images kept, for each side

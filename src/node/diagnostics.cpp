@@ -197,6 +197,27 @@ void describeDrops(const HealthReport& report, std::uint64_t drops_before, Statu
   for (const auto& [reason, count] : report.drops) status.add(toString(reason), count);
 }
 
+void describeGyro(const HealthReport& report, StatusWrapper& status) {
+  if (!report.gyro) return status.summary(DiagnosticStatus::OK, "no pair yet");
+  const GyroReport& gyro = *report.gyro;
+  if (gyro.why_not_used.empty()) {
+    status.summary(DiagnosticStatus::OK, "predicts rotations");
+  } else {
+    status.summary(DiagnosticStatus::WARN, "not used: " + gyro.why_not_used);
+  }
+  status.add("topic", gyro.topic);
+  status.addf("bias",
+              "%.4f %.4f %.4f rad/s, +- %.4f",
+              gyro.bias_rps.x(),
+              gyro.bias_rps.y(),
+              gyro.bias_rps.z(),
+              gyro.bias_sigma_rps);
+  status.add("rotations predicted", gyro.counts.predicted);
+  status.add("rotations missed", gyro.counts.missed);
+  status.add("samples", gyro.counts.samples);
+  status.add("samples refused", gyro.counts.refused);
+}
+
 Diagnostics::Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const std::string& name)
     : updater_(nh, private_nh, name) {
   updater_.setHardwareID("none");
@@ -208,6 +229,11 @@ Diagnostics::Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const
   updater_.add("tf", [this](StatusWrapper& status) { describeTf(report_, status); });
   updater_.add("drops",
                [this](StatusWrapper& status) { describeDrops(report_, drops_before_, status); });
+}
+
+void Diagnostics::addGyro() {
+  if (ros::isShuttingDown()) return;
+  updater_.add("gyroscope", [this](StatusWrapper& status) { describeGyro(report_, status); });
 }
 
 void Diagnostics::publish(const HealthReport& report) {

@@ -24,6 +24,9 @@ void describeTf(const HealthReport& report, StatusWrapper& status);
 /// Warns if the number of drops exceeds `drops_before`.
 void describeDrops(const HealthReport& report, std::uint64_t drops_before, StatusWrapper& status);
 
+/// Warns if the gyroscope was not used for the last pair.
+void describeGyro(const HealthReport& report, StatusWrapper& status);
+
 std::uint64_t countDrops(const HealthReport& report);
 
 /// Publishes these entries on request.
@@ -31,6 +34,9 @@ class Diagnostics {
  public:
   /// `name`: node or nodelet, with its namespace.
   Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const std::string& name);
+
+  /// Adds the entry of the gyroscope, which is not there without one.
+  void addGyro();
 
   void publish(const HealthReport& report);
 

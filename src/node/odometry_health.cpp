@@ -105,6 +105,11 @@ void OdometryHealth::setGuess(const std::string& trouble, std::uint64_t misses) 
   known_.guess_misses = misses;
 }
 
+void OdometryHealth::setGyro(const GyroReport& gyro) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  known_.gyro = gyro;
+}
+
 HealthReport OdometryHealth::report(const InputReport& input, const DropLog& drops) const {
   const auto now = std::chrono::steady_clock::now();
   const std::lock_guard<std::mutex> lock(mutex_);

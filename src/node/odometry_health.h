@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "input/drop_log.h"
 #include "input/input_report.h"
 #include "input/topic_statistics.h"
+#include "node/gyro_report.h"
 #include "node/latency_window.h"
 #include "rotrocc/visual_odometry.h"
 
@@ -23,6 +25,7 @@ struct HealthReport {
   std::string tf_conflict;         ///< other publisher of a parent of the base; empty if none
   std::string guess_trouble;       ///< why tf has no motion of guess_frame; empty if it has
   std::uint64_t guess_misses = 0;  ///< pairs without that motion
+  std::optional<GyroReport> gyro;  ///< none if it is not used
 
   bool answers = false;        ///< there was a recent result
   OdometryResult last_result;  ///< last result
@@ -60,6 +63,7 @@ class OdometryHealth {
   void setWaitsForTf(const std::string& transform);
   void setTfConflict(const std::string& conflict);
   void setGuess(const std::string& trouble, std::uint64_t misses);
+  void setGyro(const GyroReport& gyro);
 
   HealthReport report(const InputReport& input, const DropLog& drops) const;
 

@@ -34,6 +34,11 @@ void addCounters(const HealthReport& health, OdometryStatus& message) {
   message.pairs_processed = health.pairs_processed;
   message.pairs_lost = health.pairs_lost;
   message.guess_misses = health.guess_misses;
+  if (health.gyro) {
+    message.imu_reason = health.gyro->why_not_used;
+    message.rotations_predicted = health.gyro->counts.predicted;
+    message.rotations_missed = health.gyro->counts.missed;
+  }
   for (const auto& [reason, count] : health.drops) {
     DropCount drop;
     drop.reason = toString(reason);

@@ -18,7 +18,8 @@ PairProcessor::PairProcessor(const Parameters& parameters, Log log)
 
 PairAnswer PairProcessor::process(const ReceivedPair& received,
                                   const Eigen::Isometry3d& T_base_camera,
-                                  const MotionSource& expected) {
+                                  const MotionSource& expected,
+                                  const RotationSource& measured_rotation) {
   PairAnswer answer;
   answer.pair = converter_.convert(*received.images.left, *received.images.right);
   validateSize(*received.images.left, received.camera);
@@ -37,10 +38,10 @@ PairAnswer PairProcessor::process(const ReceivedPair& received,
     if (requests_.T_odom_base) base_odometry_->setPose(*requests_.T_odom_base);
     requests_.T_odom_base.reset();
   }
-  answer.result =
-      odometry_.process(answer.pair,
-                        received.camera,
-                        expectedOfCamera(expected, T_base_camera, answer.pair.stamp_ns));
+  answer.result = odometry_.process(answer.pair,
+                                    received.camera,
+                                    expectedOfCamera(expected, T_base_camera, answer.pair.stamp_ns),
+                                    measured_rotation);
   answer.state = base_odometry_->add(answer.result);
   answer.hint = inspector_.inspect(answer.pair, received.camera, answer.result);
   last_stamp_ns_ = answer.pair.stamp_ns;

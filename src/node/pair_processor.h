@@ -34,10 +34,12 @@ class PairProcessor {
 
   explicit PairProcessor(const Parameters& parameters, Log log = Log());
 
-  /// Throws InputError on images that cannot be used.
+  /// `measured_rotation` is that of the camera, see VisualOdometry::process(). Throws InputError on
+  /// images that cannot be used.
   PairAnswer process(const ReceivedPair& received,
                      const Eigen::Isometry3d& T_base_camera,
-                     const MotionSource& expected = {});
+                     const MotionSource& expected = {},
+                     const RotationSource& measured_rotation = {});
 
   const VisualOdometry& odometry() const { return odometry_; }
 

@@ -49,12 +49,14 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
   if (!parameters_.guess_frame.empty()) {
     guess_.emplace(parameters_.guess_frame, parameters_.base_frame, parameters_.guess_timeout_s);
   }
+  if (parameters_.use_imu) gyro_.emplace(nh, parameters_.imu_timeout_s);
   input_.emplace(
       nh, parameters_, drops_, [this](ReceivedPair pair) { onPair(std::move(pair)); }, log_);
   if (parameters_.publish_tf && !parameters_.invert_tf && !guess_) {
     tf_conflict_.emplace(nh, parameters_.odom_frame, parameters_.base_frame);
   }
   diagnostics_.emplace(nh, private_nh, name);
+  if (gyro_) diagnostics_->addGyro();
   services_.emplace(private_nh, makeActions(), log_);
   live_parameters_.emplace(
       private_nh,
@@ -156,8 +158,19 @@ void StereoOdometry::process(const ReceivedPair& received, const Eigen::Isometry
       return guess_->motion(prev_ns, cur_ns);
     };
   }
-  const PairAnswer answer = processor_.process(received, T_base_camera, expected);
+  RotationSource rotation;
+  if (gyro_) {
+    rotation = [&](std::int64_t from_ns, std::int64_t to_ns) {
+      return gyro_->rotation(
+          cameraFrameOf(*received.images.left, parameters_.camera_frame), from_ns, to_ns);
+    };
+  }
+  const PairAnswer answer = processor_.process(received, T_base_camera, expected, rotation);
   if (guess_) health_.setGuess(guess_->trouble(), guess_->misses());
+  if (gyro_) {
+    gyro_->observe(answer.result);
+    health_.setGyro(gyro_->report());
+  }
   if (answer.begins_anew) endTrajectory();
   writeTrajectory(answer.state);
   logState(answer);

@@ -17,6 +17,7 @@
 #include "node/camera_mount.h"
 #include "node/diagnostics.h"
 #include "node/guess_odometry.h"
+#include "node/gyro_input.h"
 #include "node/live_parameters.h"
 #include "node/odometry_health.h"
 #include "node/odometry_publisher.h"
@@ -73,6 +74,7 @@ class StereoOdometry {
   PairProcessor processor_;
   CameraMount mount_;
   std::optional<GuessOdometry> guess_;
+  std::optional<GyroInput> gyro_;
   OdometryPublisher publisher_;
   std::optional<TrajectoryRecorder> trajectory_recorder_;
   TrajectoryHistory trajectory_;

@@ -27,6 +27,15 @@ void addNode(NodeParameters& n, ParameterTable& table) {
             1.0,
             "s",
             "how long a pair waits for the transform from guess_frame");
+  table.add("use_imu",
+            n.use_imu,
+            "predict rotations by the gyroscope of the topic imu; its frame must be in tf");
+  table.add("imu_timeout_s",
+            n.imu_timeout_s,
+            0.0,
+            1.0,
+            "s",
+            "how long a pair waits for the samples of the gyroscope");
   table.add(
       "image_transport", n.image_transport, {}, "transport of both images: raw, compressed, ...");
   table.add("max_stamp_difference_s",

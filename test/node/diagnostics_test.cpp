@@ -122,6 +122,29 @@ TEST(DiagnosticsTest, AllIsWell) {
   EXPECT_EQ(valueOf(timing, "latency p95"), "15.0 ms");
 }
 
+TEST(DiagnosticsTest, TellsWhyTheGyroscopeIsNotUsed) {
+  HealthReport report = goodReport();
+  StatusWrapper before;
+  describeGyro(report, before);
+  EXPECT_EQ(before.level, Level::OK);
+  report.gyro.emplace();
+  report.gyro->topic = "/imu";
+  report.gyro->counts = {1000, 3, 50, 2};
+  report.gyro->bias_rps = {0.01, -0.02, 0.0};
+  report.gyro->bias_sigma_rps = 0.0005;
+  StatusWrapper used;
+  describeGyro(report, used);
+  EXPECT_EQ(used.level, Level::OK);
+  EXPECT_EQ(valueOf(used, "bias"), "0.0100 -0.0200 0.0000 rad/s, +- 0.0005");
+  EXPECT_EQ(valueOf(used, "rotations predicted"), "50");
+  EXPECT_EQ(valueOf(used, "samples refused"), "3");
+  report.gyro->why_not_used = "no message on /imu";
+  StatusWrapper missing;
+  describeGyro(report, missing);
+  EXPECT_EQ(missing.level, Level::WARN);
+  EXPECT_EQ(missing.message, "not used: no message on /imu");
+}
+
 TEST(DiagnosticsTest, ALargeBiasAsksForACalibration) {
   HealthReport report = goodReport();
   report.last_result.disparity_bias = {-1.25, 0.05, -1.0};

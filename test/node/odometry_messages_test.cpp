@@ -103,6 +103,19 @@ TEST(OdometryMessagesTest, IdleStatusSaysWhyNothingComes) {
   EXPECT_EQ(message.reason, "P is all zeros");
 }
 
+TEST(OdometryMessagesTest, StatusTellsAboutTheGyroscope) {
+  HealthReport health;
+  EXPECT_EQ(toStatus({}, health, 0.0, "camera").imu_reason, "");
+  health.gyro.emplace();
+  health.gyro->why_not_used = "no message on /imu";
+  health.gyro->counts.predicted = 7;
+  health.gyro->counts.missed = 2;
+  const OdometryStatus message = toStatus({}, health, 0.0, "camera");
+  EXPECT_EQ(message.imu_reason, "no message on /imu");
+  EXPECT_EQ(message.rotations_predicted, 7u);
+  EXPECT_EQ(message.rotations_missed, 2u);
+}
+
 TEST(OdometryMessagesTest, CloudHasTheInliersAndTheirGreyLevels) {
   cv::Mat image(10, 20, CV_8UC1, cv::Scalar(0));
   image.at<unsigned char>(4, 7) = 99;
