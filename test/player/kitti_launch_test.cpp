@@ -36,7 +36,9 @@ class KittiLaunchTest : public ::testing::Test {
 
   /// Replays bag() to its end.
   static CommandResult replay(const std::string& bag, const std::string& options = "") {
-    std::string command = "roslaunch rotrocc kitti.launch rviz:=false bag:=" + bag + options;
+    // On a busy machine a response may take long.
+    std::string command =
+        "roslaunch rotrocc kitti.launch rviz:=false lockstep_timeout:=600 bag:=" + bag + options;
     // Preloads a sanitizer for programs built without it: see scripts/sanitize.
     const char* preload = std::getenv("ROTROCC_PRELOAD");
     if (preload != nullptr && *preload != '\0') {
