@@ -31,9 +31,17 @@ std::string textOf(const std::string& name, XmlRpc::XmlRpcValue value) {
   return text.str();
 }
 
+void setOne(const std::string& name, const XmlRpc::XmlRpcValue& value, ParameterTable& table) {
+  try {
+    table.set(name, textOf(name, value));
+  } catch (const std::invalid_argument& error) {
+    throw RefusedParameter(name, error.what());
+  }
+}
+
 void setBelow(const std::string& name, XmlRpc::XmlRpcValue value, ParameterTable& table) {
   if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
-    table.set(name, textOf(name, value));
+    setOne(name, value, table);
     return;
   }
   for (auto& [key, child] : value) setBelow(name.empty() ? key : name + "/" + key, child, table);
@@ -41,8 +49,9 @@ void setBelow(const std::string& name, XmlRpc::XmlRpcValue value, ParameterTable
 
 void requireFrame(const std::string& name, const std::string& frame) {
   if (!frame.empty() && frame.front() != '/') return;
-  throw std::invalid_argument("parameter " + name + " is \"" + frame +
-                              "\", but must be a tf frame without leading slash");
+  throw RefusedParameter(
+      name,
+      "parameter " + name + " is \"" + frame + "\", but must be a tf frame without leading slash");
 }
 
 /// The same for a frame that may be empty.
@@ -55,18 +64,27 @@ void requireDifferent(const std::string& name,
                       const std::string& other_name,
                       const std::string& other_frame) {
   if (frame != other_frame) return;
-  throw std::invalid_argument("parameters " + name + " and " + other_name + " are both \"" + frame +
-                              "\", but must differ");
+  throw RefusedParameter(
+      name,
+      "parameters " + name + " and " + other_name + " are both \"" + frame + "\", but must differ");
 }
 
 }  // namespace
 
 Parameters readParameters(const ros::NodeHandle& private_nh) {
+  const std::string& ns = private_nh.getNamespace();
   Parameters parameters;
   ParameterTable table = makeParameterTable(parameters);
-  XmlRpc::XmlRpcValue tree;
-  if (private_nh.getParam(private_nh.getNamespace(), tree)) setParameters(tree, table);
-  requireFrames(parameters.node);
+  try {
+    XmlRpc::XmlRpcValue tree;
+    if (private_nh.getParam(ns, tree)) setParameters(tree, table);
+    requireFrames(parameters.node);
+  } catch (const RefusedParameter& error) {
+    // Parameters stay on the server when a node ends, so the user may not know of this one.
+    throw std::invalid_argument(std::string(error.what()) +
+                                ". If it is left from an earlier run: rosparam delete " + ns + "/" +
+                                error.name());
+  }
   return parameters;
 }
 
@@ -79,7 +97,8 @@ void requireFrames(const NodeParameters& node) {
   requireDifferent("guess_frame", node.guess_frame, "odom_frame", node.odom_frame);
   requireDifferent("guess_frame", node.guess_frame, "base_frame", node.base_frame);
   if (!node.guess_frame.empty() && node.invert_tf) {
-    throw std::invalid_argument(
+    throw RefusedParameter(
+        "invert_tf",
         "parameter invert_tf cannot be combined with guess_frame: the published transform is then "
         "odom_frame to guess_frame");
   }

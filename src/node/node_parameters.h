@@ -1,5 +1,8 @@
 #pragma once
 
+#include <stdexcept>
+#include <string>
+
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
@@ -7,16 +10,29 @@
 
 namespace rotrocc {
 
+/// A parameter that is unknown, invalid or in conflict with another one.
+class RefusedParameter : public std::invalid_argument {
+ public:
+  RefusedParameter(const std::string& name, const std::string& why)
+      : std::invalid_argument(why), name_(name) {}
+
+  const std::string& name() const { return name_; }
+
+ private:
+  std::string name_;
+};
+
 /// The parameters in the namespace of `private_nh`, with defaults for missing ones. Throws
-/// std::invalid_argument as setParameters() and requireFrames() do.
+/// std::invalid_argument as setParameters() and requireFrames() do, with the command that deletes
+/// the parameter from the server.
 Parameters readParameters(const ros::NodeHandle& private_nh);
 
-/// Throws std::invalid_argument with the name on invalid or conflicting frames.
+/// Throws RefusedParameter with the name on invalid or conflicting frames.
 void requireFrames(const NodeParameters& node);
 
 /// Sets every parameter of `tree`, whose structs are the sections of the table. Throws
-/// std::invalid_argument with name and range on an unknown parameter, a wrong type or a value out
-/// of range.
+/// RefusedParameter with name and range on an unknown parameter, a wrong type or a value out of
+/// range.
 void setParameters(const XmlRpc::XmlRpcValue& tree, ParameterTable& table);
 
 }  // namespace rotrocc

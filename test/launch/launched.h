@@ -19,8 +19,8 @@ class Launched {
   explicit Launched(const std::string& file,
                     const std::string& options = "",
                     const std::string& environment = "") {
-    const CommandResult result =
-        runCommand(environment + " " PYTHON " " READ_LAUNCH " " LAUNCH_DIR "/" + file + " " + options);
+    const CommandResult result = runCommand(
+        environment + " " PYTHON " " READ_LAUNCH " " LAUNCH_DIR "/" + file + " " + options);
     const auto json = result.output.find("{\"nodes\"");
     if (result.status != 0 || json == std::string::npos) throw std::runtime_error(result.output);
     tree_ = YAML::Load(result.output.substr(json));

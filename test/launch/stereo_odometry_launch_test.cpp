@@ -43,7 +43,8 @@ TEST_F(StereoOdometryLaunchTest, TheConfigurationFileHolds) {
 
 TEST_F(StereoOdometryLaunchTest, ArgumentsOverrideIt) {
   const Launched launched = launch(
-      "odom_frame:=odom base_frame:=base_link publish_tf:=true planar:=false guess_frame:=wheel_odom "
+      "odom_frame:=odom base_frame:=base_link publish_tf:=true planar:=false "
+      "guess_frame:=wheel_odom "
       "max_stamp_difference_s:=0.005 image_transport:=raw trajectory_file:=/tmp/arg.txt "
       "trajectory_format:=tum");
   EXPECT_EQ(launched.param(kNode + "/odom_frame"), "odom");

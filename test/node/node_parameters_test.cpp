@@ -74,6 +74,26 @@ TEST_F(NodeParametersTest, RefusesWrongTypes) {
   expectRefused(section, "queue_size/left");
 }
 
+TEST_F(NodeParametersTest, ARefusalNamesTheParameter) {
+  const auto refusedName = [this](const XmlRpcValue& tree) -> std::string {
+    try {
+      setParameters(tree, table_);
+    } catch (const RefusedParameter& error) {
+      return error.name();
+    }
+    return "none";
+  };
+  XmlRpcValue unknown;
+  unknown["feature_detector"]["max_featurs"] = 5;
+  EXPECT_EQ(refusedName(unknown), "feature_detector/max_featurs");
+  XmlRpcValue invalid;
+  invalid["queue_size"] = 0;
+  EXPECT_EQ(refusedName(invalid), "queue_size");
+  XmlRpcValue list;
+  list["queue_size"][0] = 4;
+  EXPECT_EQ(refusedName(list), "queue_size");
+}
+
 TEST(RequireFramesTest, FramesAreThoseOfTf) {
   const auto refuse = [](const std::function<void(NodeParameters&)>& change,
                          const std::string& part) {

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <sys/types.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <stdexcept>
+#include <string>
+
+namespace rotrocc {
+
+/// A command of the shell that runs until it is interrupted, as with Ctrl-C.
+class BackgroundCommand {
+ public:
+  /// Its output goes to the file `log`.
+  BackgroundCommand(const std::string& command, const std::string& log) : process_(fork()) {
+    if (process_ < 0) throw std::runtime_error("cannot run " + command);
+    if (process_ > 0) return;
+    execl("/bin/sh", "sh", "-c", ("exec " + command + " >" + log + " 2>&1").c_str(), nullptr);
+    _exit(127);
+  }
+  ~BackgroundCommand() { interrupt(); }
+  BackgroundCommand(const BackgroundCommand&) = delete;
+  BackgroundCommand& operator=(const BackgroundCommand&) = delete;
+
+  /// Interrupts the command and waits for its end.
+  void interrupt() {
+    if (process_ <= 0) return;
+    kill(process_, SIGINT);
+    waitpid(process_, nullptr, 0);
+    process_ = 0;
+  }
+
+ private:
+  pid_t process_;
+};
+
+}  // namespace rotrocc
