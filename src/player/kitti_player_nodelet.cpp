@@ -11,6 +11,7 @@ namespace rotrocc {
 
 /// KittiPlayer as a nodelet: passes images to nodelets of the same manager without a copy. With the
 /// private parameter shutdown_at_end the manager shuts down at the end of the bag.
+/// Throws std::exception, after a fatal log, on an unusable bag.
 class KittiPlayerNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -22,7 +23,7 @@ class KittiPlayerNodelet : public nodelet::Nodelet {
       player_ = std::make_unique<KittiPlayer>(getNodeHandle(), getPrivateNodeHandle(), on_end);
     } catch (const std::exception& error) {
       NODELET_FATAL("%s", error.what());
-      on_end();
+      throw;  // the loader reports the failure, so the launch ends
     }
   }
 

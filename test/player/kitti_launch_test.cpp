@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <rosbag/bag.h>
 
 #include "bags/kitti_bag_writer.h"
+#include "support/background_command.h"
 #include "support/kitti2bag_writer.h"
 #include "support/read_file.h"
 #include "support/run_command.h"
 #include "support/synthetic_sequence.h"
 #include "support/temporary_directory.h"
+#include "support/wait_until.h"
 
 namespace rotrocc {
 namespace {
@@ -35,10 +39,13 @@ class KittiLaunchTest : public ::testing::Test {
   }
 
   /// Replays bag() to its end.
-  static CommandResult replay(const std::string& bag, const std::string& options = "") {
+  static CommandResult replay(const std::string& bag,
+                              const std::string& options = "",
+                              const std::string& environment = "") {
     // On a busy machine a response may take long.
     std::string command =
-        "roslaunch rotrocc kitti.launch rviz:=false lockstep_timeout:=600 bag:=" + bag + options;
+        environment +
+        " roslaunch rotrocc kitti.launch rviz:=false lockstep_timeout:=600 bag:=" + bag + options;
     // Preloads a sanitizer for programs built without it: see scripts/sanitize.
     const char* preload = std::getenv("ROTROCC_PRELOAD");
     if (preload != nullptr && *preload != '\0') {
@@ -98,10 +105,63 @@ TEST_F(KittiLaunchTest, ReplaysRealImages) {
   FAIL() << directory << " is empty";
 }
 
-TEST_F(KittiLaunchTest, EndsWithAWordWhenThereIsNoBag) {
-  const CommandResult launch = replay(directory_ / "missing.bag");
-  EXPECT_NE(launch.output.find("missing.bag is not readable as a bag"), std::string::npos)
-      << launch.output;
+/// Replays with a program in the place of rviz that does nothing.
+class WrongBagTest : public KittiLaunchTest {
+ protected:
+  void SetUp() override {
+    const std::string program = workspace_ + "/lib/rviz/rviz";
+    std::filesystem::create_directories(workspace_ + "/lib/rviz");
+    std::filesystem::create_directories(workspace_ + "/share/rviz");
+    std::ofstream(workspace_ + "/.catkin");
+    std::ofstream(workspace_ + "/share/rviz/package.xml")
+        << "<package format=\"2\"><name>rviz</name><version>1.0.0</version><description/>"
+           "<maintainer email=\"a@b.invalid\">a</maintainer><license>BSD</license></package>";
+    std::ofstream(program) << "#!/bin/sh\nexec sleep infinity\n";
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  }
+
+  CommandResult replayInRviz(const std::string& bag) const {
+    return replay(bag,
+                  " rviz:=true",
+                  "CMAKE_PREFIX_PATH=" + workspace_ + ":$CMAKE_PREFIX_PATH ROS_PACKAGE_PATH=" +
+                      workspace_ + "/share:$ROS_PACKAGE_PATH timeout --signal INT 120");
+  }
+
+  /// Expects that the launch ends by itself and says `reason`.
+  void expectRefused(const std::string& bag, const std::string& reason) const {
+    const CommandResult launch = replayInRviz(bag);
+    EXPECT_NE(launch.status, 124) << "still open: " << launch.output;
+    EXPECT_NE(launch.output.find(reason), std::string::npos) << launch.output;
+  }
+
+  const std::string workspace_ = directory_ / "workspace";
+};
+
+TEST_F(WrongBagTest, ThereIsNone) {
+  expectRefused(directory_ / "missing.bag", "missing.bag is not readable as a bag");
+}
+
+TEST_F(WrongBagTest, ItHasNoStereoPair) {
+  rosbag::Bag(bag(), rosbag::bagmode::Write).close();
+  expectRefused(bag(), "no stereo pair (");
+}
+
+/// Whether nodes that start now take the time from /clock.
+bool simulatesTime() {
+  return runCommand("rosparam get /use_sim_time").output.find("true") == 0;
+}
+
+TEST_F(KittiLaunchTest, TheClockOfTheMachineIsBackAtTheEnd) {
+  replay(directory_ / "missing.bag");
+  EXPECT_FALSE(simulatesTime());
+}
+
+TEST_F(KittiLaunchTest, AnotherSimulationKeepsItsClock) {
+  const BackgroundCommand clock("rostopic pub --latch /clock rosgraph_msgs/Clock 'clock: 1'",
+                                directory_ / "clock.txt");
+  ASSERT_TRUE(waitUntil([] { return runCommand("rostopic info /clock").status == 0; }));
+  replay(directory_ / "missing.bag");
+  EXPECT_TRUE(simulatesTime());
 }
 
 }  // namespace
