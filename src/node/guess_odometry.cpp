@@ -1,8 +1,8 @@
 #include "node/guess_odometry.h"
 
 #include <thread>
+#include <utility>
 
-#include <ros/console.h>
 #include <ros/init.h>
 #include <tf2/exceptions.h>
 
@@ -20,8 +20,10 @@ constexpr std::chrono::milliseconds kPoll(2);
 GuessOdometry::GuessOdometry(const std::string& guess_frame,
                              const std::string& base_frame,
                              double timeout_s,
-                             const TfFeed& feed)
-    : guess_frame_(guess_frame),
+                             const TfFeed& feed,
+                             Log log)
+    : log_(std::move(log)),
+      guess_frame_(guess_frame),
       base_frame_(base_frame),
       timeout_s_(timeout_s),
       listener_(feed(buffer_)) {}
@@ -73,14 +75,13 @@ void GuessOdometry::onMiss(std::int64_t stamp_ns) {
   if (++misses_in_a_row_ < kPatience || !trouble_.empty()) return;
   trouble_ = describeMiss(stamp_ns);
   pairs_since_wait_ = 0;
-  ROS_WARN_STREAM(trouble_);
+  log_.warn(trouble_);
 }
 
 void GuessOdometry::onMotion() {
   if (!trouble_.empty()) {
-    ROS_INFO_STREAM("tf from guess_frame " << guess_frame_ << " to " << base_frame_
-                                           << " is back, after " << misses_in_a_row_
-                                           << " pairs without it");
+    log_.info("tf from guess_frame " + guess_frame_ + " to " + base_frame_ + " is back, after " +
+              std::to_string(misses_in_a_row_) + " pairs without it");
   }
   trouble_.clear();
   misses_in_a_row_ = 0;

@@ -9,6 +9,7 @@
 #include <tf2/buffer_core.h>
 #include <Eigen/Geometry>
 
+#include "input/log.h"
 #include "node/tf_feed.h"
 
 namespace rotrocc {
@@ -27,7 +28,8 @@ class GuessOdometry {
   GuessOdometry(const std::string& guess_frame,
                 const std::string& base_frame,
                 double timeout_s,
-                const TfFeed& feed = listenToTf);
+                const TfFeed& feed = listenToTf,
+                Log log = Log());
   GuessOdometry(const GuessOdometry&) = delete;
   GuessOdometry& operator=(const GuessOdometry&) = delete;
 
@@ -52,6 +54,7 @@ class GuessOdometry {
   void onMotion();
   std::string describeMiss(std::int64_t stamp_ns) const;
 
+  Log log_;
   std::string guess_frame_;
   std::string base_frame_;
   double timeout_s_;

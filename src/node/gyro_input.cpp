@@ -1,8 +1,8 @@
 #include "node/gyro_input.h"
 
 #include <cmath>
+#include <utility>
 
-#include <ros/console.h>
 #include <ros/transport_hints.h>
 
 #include "input/gyro_conversion.h"
@@ -19,7 +19,8 @@ std::string withoutSlash(const std::string& frame) {
 
 }  // namespace
 
-GyroInput::GyroInput(const ros::NodeHandle& nh, double timeout_s) : timeout_(timeout_s) {
+GyroInput::GyroInput(const ros::NodeHandle& nh, double timeout_s, Log log)
+    : log_(std::move(log)), timeout_(timeout_s) {
   ros::NodeHandle own(nh);
   own.setCallbackQueue(&queue_);
   subscriber_ = own.subscribe<sensor_msgs::Imu>(
@@ -93,9 +94,9 @@ void GyroInput::observe(const OdometryResult& result) {
   const GyroWatch::Message message = watch_.onPair(predictor_.whyNot());
   if (message.text.empty()) return;
   if (message.is_warning) {
-    ROS_WARN_STREAM(message.text);
+    log_.warn(message.text);
   } else {
-    ROS_INFO_STREAM(message.text << " (" << mounted_on_ << ")");
+    log_.info(message.text + " (" + mounted_on_ + ")");
   }
 }
 

@@ -17,6 +17,7 @@
 #include <tf2_ros/transform_listener.h>
 
 #include "inertial/gyro_predictor.h"
+#include "input/log.h"
 #include "node/gyro_report.h"
 #include "node/gyro_watch.h"
 #include "rotrocc/odometry_result.h"
@@ -29,7 +30,7 @@ namespace rotrocc {
 class GyroInput {
  public:
   /// Subscribes. A pair waits for its samples for at most `timeout_s`, in real time.
-  GyroInput(const ros::NodeHandle& nh, double timeout_s);
+  GyroInput(const ros::NodeHandle& nh, double timeout_s, Log log);
   ~GyroInput();
   GyroInput(const GyroInput&) = delete;
   GyroInput& operator=(const GyroInput&) = delete;
@@ -48,6 +49,7 @@ class GyroInput {
   void receive(const sensor_msgs::Imu& message);
   std::string whyNoMount(const std::string& camera_frame);
 
+  Log log_;
   std::chrono::duration<double> timeout_;
 
   mutable std::mutex mutex_;  // of what follows, up to the empty line

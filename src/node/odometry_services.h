@@ -30,7 +30,7 @@ class OdometryServices {
     std::function<std::string(const std::string& path, const std::string& format)> save_trajectory;
   };
 
-  OdometryServices(ros::NodeHandle& private_nh, Actions actions, Log log);
+  OdometryServices(ros::NodeHandle& private_nh, Actions actions, Log log = Log());
 
  private:
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);

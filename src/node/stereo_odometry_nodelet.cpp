@@ -44,12 +44,16 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
       trajectory_(static_cast<std::size_t>(parameters_.trajectory_length)),
       silence_(parameters_.silence_s, SteadyClock::now()) {
   if (!parameters_.trajectory_file.empty()) {
-    trajectory_recorder_.emplace(parameters_.trajectory_file, parameters_.trajectory_format);
+    trajectory_recorder_.emplace(parameters_.trajectory_file, parameters_.trajectory_format, log_);
   }
   if (!parameters_.guess_frame.empty()) {
-    guess_.emplace(parameters_.guess_frame, parameters_.base_frame, parameters_.guess_timeout_s);
+    guess_.emplace(parameters_.guess_frame,
+                   parameters_.base_frame,
+                   parameters_.guess_timeout_s,
+                   listenToTf,
+                   log_);
   }
-  if (parameters_.use_imu) gyro_.emplace(nh, parameters_.imu_timeout_s);
+  if (parameters_.use_imu) gyro_.emplace(nh, parameters_.imu_timeout_s, log_);
   input_.emplace(
       nh, parameters_, drops_, [this](ReceivedPair pair) { onPair(std::move(pair)); }, log_);
   if (parameters_.publish_tf && !parameters_.invert_tf && !guess_) {

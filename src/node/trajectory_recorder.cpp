@@ -3,9 +3,8 @@
 #include <exception>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 #include <vector>
-
-#include <ros/console.h>
 
 namespace rotrocc {
 namespace {
@@ -23,8 +22,9 @@ std::string numberedPath(const std::string& path, int number) {
   return numbered.replace_filename(name).string();
 }
 
-TrajectoryRecorder::TrajectoryRecorder(const std::string& path, const std::string& format)
-    : path_(std::filesystem::absolute(path).string()),
+TrajectoryRecorder::TrajectoryRecorder(const std::string& path, const std::string& format, Log log)
+    : log_(std::move(log)),
+      path_(std::filesystem::absolute(path).string()),
       format_(trajectoryFormat(format)),
       queue_(kMaxWaiting) {
   // Refuses a wrong path at the start; the file comes with the first pose, as one without is
@@ -45,8 +45,8 @@ void TrajectoryRecorder::add(const StampedPose& pose) {
   }
   ++left_out_;
   if (!left_out_warning_.pass()) return;
-  ROS_WARN_STREAM("trajectory file: the disk of " << path_ << " is too slow, " << left_out_
-                                                  << " poses so far are left out");
+  log_.warn("trajectory file: the disk of " + path_ + " is too slow, " + std::to_string(left_out_) +
+            " poses so far are left out");
 }
 
 void TrajectoryRecorder::work() {
@@ -79,7 +79,7 @@ void TrajectoryRecorder::openNext() {
     const std::string path = numberedPath(path_, ++number_);
     try {
       file_.emplace(path, format_, path);
-      ROS_INFO_STREAM("trajectory file: " << path);
+      log_.info("trajectory file: " + path);
       return;
     } catch (const std::system_error& error) {
       if (error.code() != std::errc::file_exists) throw;
@@ -88,7 +88,7 @@ void TrajectoryRecorder::openNext() {
 }
 
 void TrajectoryRecorder::fail(const std::exception& error) {
-  ROS_ERROR_STREAM("trajectory file closed: " << error.what());
+  log_.error(std::string("trajectory file closed: ") + error.what());
   file_.reset();
 }
 

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "evaluation/trajectory_file.h"
+#include "input/log.h"
 #include "input/throttle.h"
 #include "node/bounded_queue.h"
 #include "rotrocc/trajectory.h"
@@ -23,7 +24,7 @@ std::string numberedPath(const std::string& path, int number);
 class TrajectoryRecorder {
  public:
   /// Throws std::exception with one sentence if `path` cannot be a file, or on an unknown format.
-  TrajectoryRecorder(const std::string& path, const std::string& format);
+  TrajectoryRecorder(const std::string& path, const std::string& format, Log log = Log());
   /// Writes what still waits.
   ~TrajectoryRecorder();
   TrajectoryRecorder(const TrajectoryRecorder&) = delete;
@@ -47,6 +48,7 @@ class TrajectoryRecorder {
   void openNext();
   void fail(const std::exception& error);
 
+  Log log_;
   std::string path_;
   TrajectoryFormat format_;
   BoundedQueue<Item> queue_;
