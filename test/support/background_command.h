@@ -16,6 +16,7 @@ class BackgroundCommand {
   /// Its output goes to the file `log`.
   BackgroundCommand(const std::string& command, const std::string& log) : process_(fork()) {
     if (process_ < 0) throw std::runtime_error("cannot run " + command);
+    setpgid(process_, process_);  // by both, as either may be first
     if (process_ > 0) return;
     execl("/bin/sh", "sh", "-c", ("exec " + command + " >" + log + " 2>&1").c_str(), nullptr);
     _exit(127);
@@ -24,10 +25,10 @@ class BackgroundCommand {
   BackgroundCommand(const BackgroundCommand&) = delete;
   BackgroundCommand& operator=(const BackgroundCommand&) = delete;
 
-  /// Interrupts the command and waits for its end.
+  /// Interrupts the command with the processes that it has started, and waits for its end.
   void interrupt() {
     if (process_ <= 0) return;
-    kill(process_, SIGINT);
+    kill(-process_, SIGINT);
     waitpid(process_, nullptr, 0);
     process_ = 0;
   }
