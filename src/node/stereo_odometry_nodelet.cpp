@@ -56,8 +56,8 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
   if (parameters_.use_imu) gyro_.emplace(nh, parameters_.imu_timeout_s, log_);
   input_.emplace(
       nh, parameters_, drops_, [this](ReceivedPair pair) { onPair(std::move(pair)); }, log_);
-  if (parameters_.publish_tf && !parameters_.invert_tf && !guess_) {
-    tf_conflict_.emplace(nh, parameters_.odom_frame, parameters_.base_frame);
+  if (parameters_.publish_tf) {
+    tf_conflict_.emplace(publishedTf(name, parameters_), parameters_.base_frame, log_);
   }
   diagnostics_.emplace(nh, private_nh, name);
   if (gyro_) diagnostics_->addGyro();

@@ -1,41 +1,85 @@
 #pragma once
 
+#include <chrono>
+#include <map>
+#include <mutex>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include <geometry_msgs/TransformStamped.h>
+#include <ros/callback_queue.h>
 #include <ros/message_event.h>
 #include <ros/node_handle.h>
+#include <ros/spinner.h>
 #include <ros/subscriber.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include "input/log.h"
+#include "rotrocc/parameters.h"
+
 namespace rotrocc {
 
-/// Describes another publisher of a frame's parent; tf allows only one. `publisher` is the node of
-/// a transform, `own_node` this node, which publishes `own_parent` -> `child`. Returns one sentence
-/// with both nodes and a remedy; empty if the transform is this node's or of another child.
-std::string describeConflict(const geometry_msgs::TransformStamped& transform,
-                             const std::string& publisher,
-                             const std::string& own_node,
-                             const std::string& own_parent,
-                             const std::string& child);
+/// A transform, and who publishes it.
+struct PublishedTf {
+  std::string node;  ///< node or nodelet
+  std::string parent;
+  std::string child;
+};
 
-/// Watches tf for another parent of the frame that this node publishes.
-class TfConflict {
+/// The one that the odometry `node` publishes.
+PublishedTf publishedTf(const std::string& node, const NodeParameters& parameters);
+
+/// What a rival, which gives the child of `own` a parent as well, means for tf, and what to do: in
+/// one sentence, with settings that the odometry accepts.
+std::string describeConflict(const PublishedTf& own,
+                             const PublishedTf& rival,
+                             const std::string& base_frame);
+
+/// The rivals of the last seconds.
+class TfRivals {
  public:
-  TfConflict(ros::NodeHandle& nh, const std::string& own_parent, const std::string& child);
+  using Time = std::chrono::steady_clock::time_point;
 
-  /// The last conflict, as from describeConflict(); empty if none. Call in the thread of the
-  /// callbacks.
-  const std::string& description() const { return description_; }
+  /// Returns whether it is new, or was gone. Static transforms stay in the receivers, so the rival
+  /// stays here.
+  bool add(const PublishedTf& rival, bool is_static, Time now);
+
+  /// Those that are not gone, in an order that does not change.
+  std::vector<PublishedTf> present(Time now) const;
 
  private:
-  void onTf(const ros::MessageEvent<tf2_msgs::TFMessage const>& event);
+  using Key = std::pair<std::string, std::string>;  // node, parent
+  std::map<Key, std::pair<PublishedTf, Time>> last_seen_;
+};
 
-  std::string own_parent_;
-  std::string child_;
-  std::string description_;
+/// Watches for rivals, in tf and in this process, where all have the same node name in tf. Warns of
+/// each once when it appears.
+class TfConflict {
+ public:
+  TfConflict(PublishedTf own, const std::string& base_frame, Log log);
+  ~TfConflict();
+  TfConflict(const TfConflict&) = delete;
+  TfConflict& operator=(const TfConflict&) = delete;
+
+  /// The conflict with the first rival, as from describeConflict(); empty if there is none.
+  std::string description();
+
+ private:
+  using Event = ros::MessageEvent<tf2_msgs::TFMessage const>;
+  void onTf(const Event& event, bool is_static);
+  void add(const PublishedTf& rival, bool is_static);
+
+  PublishedTf own_;
+  std::string base_frame_;
+  Log log_;
+  std::mutex mutex_;
+  TfRivals rivals_;
+
+  // tf may have a thousand messages a second, which must not delay the images.
+  ros::CallbackQueue queue_;
   ros::Subscriber tf_subscriber_;
   ros::Subscriber static_tf_subscriber_;
+  ros::AsyncSpinner spinner_{1, &queue_};
 };
 
 }  // namespace rotrocc
