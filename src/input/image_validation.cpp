@@ -8,24 +8,27 @@
 namespace rotrocc {
 namespace {
 
-using Layout = ImageEncoding::Layout;
-
 constexpr std::uint32_t kMinSize_px = 16;
 
 /// OpenCV names a Bayer pattern by pixels 2 and 3 of row 2, ROS by pixels 1 and 2 of rows 1 and 2.
-const ImageEncoding kEncodings[] = {
-    {"mono8", Layout::kGrey, CV_8UC1, 0},
-    {"8UC1", Layout::kGrey, CV_8UC1, 0},
-    {"mono16", Layout::kGrey16, CV_16UC1, 0},
-    {"16UC1", Layout::kGrey16, CV_16UC1, 0},
-    {"rgb8", Layout::kColour, CV_8UC3, cv::COLOR_RGB2GRAY},
-    {"bgr8", Layout::kColour, CV_8UC3, cv::COLOR_BGR2GRAY},
-    {"rgba8", Layout::kColour, CV_8UC4, cv::COLOR_RGBA2GRAY},
-    {"bgra8", Layout::kColour, CV_8UC4, cv::COLOR_BGRA2GRAY},
-    {"bayer_rggb8", Layout::kColour, CV_8UC1, cv::COLOR_BayerBG2GRAY},
-    {"bayer_bggr8", Layout::kColour, CV_8UC1, cv::COLOR_BayerRG2GRAY},
-    {"bayer_gbrg8", Layout::kColour, CV_8UC1, cv::COLOR_BayerGR2GRAY},
-    {"bayer_grbg8", Layout::kColour, CV_8UC1, cv::COLOR_BayerGB2GRAY}};
+const ImageEncoding kEncodings[] = {{"mono8", CV_8UC1, ImageEncoding::kIsGrey},
+                                    {"8UC1", CV_8UC1, ImageEncoding::kIsGrey},
+                                    {"mono16", CV_16UC1, ImageEncoding::kIsGrey},
+                                    {"16UC1", CV_16UC1, ImageEncoding::kIsGrey},
+                                    {"rgb8", CV_8UC3, cv::COLOR_RGB2GRAY},
+                                    {"bgr8", CV_8UC3, cv::COLOR_BGR2GRAY},
+                                    {"rgba8", CV_8UC4, cv::COLOR_RGBA2GRAY},
+                                    {"bgra8", CV_8UC4, cv::COLOR_BGRA2GRAY},
+                                    {"yuv422", CV_8UC2, cv::COLOR_YUV2GRAY_UYVY},
+                                    {"yuv422_yuy2", CV_8UC2, cv::COLOR_YUV2GRAY_YUY2},
+                                    {"bayer_rggb8", CV_8UC1, cv::COLOR_BayerBG2GRAY},
+                                    {"bayer_bggr8", CV_8UC1, cv::COLOR_BayerRG2GRAY},
+                                    {"bayer_gbrg8", CV_8UC1, cv::COLOR_BayerGR2GRAY},
+                                    {"bayer_grbg8", CV_8UC1, cv::COLOR_BayerGB2GRAY},
+                                    {"bayer_rggb16", CV_16UC1, cv::COLOR_BayerBG2GRAY},
+                                    {"bayer_bggr16", CV_16UC1, cv::COLOR_BayerRG2GRAY},
+                                    {"bayer_gbrg16", CV_16UC1, cv::COLOR_BayerGR2GRAY},
+                                    {"bayer_grbg16", CV_16UC1, cv::COLOR_BayerGB2GRAY}};
 
 /// Untrusted text, quoted for the log.
 std::string quote(const std::string& text) {

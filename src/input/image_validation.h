@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include <opencv2/core/hal/interface.h>
 #include <sensor_msgs/Image.h>
 
 #include "rotrocc/stereo_camera.h"
@@ -11,18 +12,21 @@ namespace rotrocc {
 
 /// Pixel layout of a sensor_msgs/Image.
 struct ImageEncoding {
-  enum class Layout { kGrey, kGrey16, kColour };
+  static constexpr int kIsGrey = -1;
 
   const char* name;
-  Layout layout;
   int cv_type;
-  int to_grey;  ///< of cv::cvtColor, for kColour
+  int to_grey;  ///< of cv::cvtColor, or kIsGrey
+
+  bool isGrey() const { return to_grey == kIsGrey; }
+  bool has16Bits() const { return CV_MAT_DEPTH(cv_type) == CV_16U; }
 };
 
 /// These functions check the header of an image against its data before a pixel is read. They throw
 /// InputError with the value and a remedy. `side` is "left" or "right".
 
-/// Supports mono8, 8UC1, mono16, 16UC1, rgb8, bgr8, rgba8, bgra8 and 8-bit Bayer.
+/// Supports mono8, 8UC1, mono16, 16UC1, rgb8, bgr8, rgba8, bgra8, yuv422, yuv422_yuy2, and Bayer
+/// patterns of 8 and 16 bits.
 const ImageEncoding& encodingOf(const char* side, const sensor_msgs::Image& image);
 
 /// Checks size, step and length of the data. Additional data is ignored. `max_pixels`: limit of

@@ -5,13 +5,10 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "input/image_validation.h"
 #include "input/message_conversion.h"
 
 namespace rotrocc {
 namespace {
-
-using Layout = ImageEncoding::Layout;
 
 /// Value of a 16-bit pixel, for any byte order of this machine.
 int value16(const unsigned char* bytes, bool big_endian) {
@@ -32,34 +29,25 @@ int countSignificantBits(const sensor_msgs::Image& image) {
   return bits;
 }
 
-void scaleTo8Bits(const sensor_msgs::Image& image, int significant_bits, cv::Mat& grey) {
+void scaleTo8Bits(const sensor_msgs::Image& image, int significant_bits, cv::Mat& pixels) {
   const int shift = significant_bits - 8;
-  grey.create(static_cast<int>(image.height), static_cast<int>(image.width), CV_8UC1);
-  for (int y = 0; y < grey.rows; ++y) {
+  pixels.create(static_cast<int>(image.height), static_cast<int>(image.width), CV_8UC1);
+  for (int y = 0; y < pixels.rows; ++y) {
     const unsigned char* from = image.data.data() + static_cast<std::size_t>(y) * image.step;
-    unsigned char* to = grey.ptr(y);
-    for (int x = 0; x < grey.cols; ++x, from += 2) {
+    unsigned char* to = pixels.ptr(y);
+    for (int x = 0; x < pixels.cols; ++x, from += 2) {
       to[x] = static_cast<unsigned char>(value16(from, image.is_bigendian != 0) >> shift);
     }
   }
 }
 
-cv::Mat toGrey(const sensor_msgs::Image& image,
-               const ImageEncoding& encoding,
-               int significant_bits,
-               cv::Mat& buffer) {
-  if (encoding.layout == Layout::kGrey16) {
-    scaleTo8Bits(image, significant_bits, buffer);
-    return buffer;
-  }
-  const cv::Mat pixels(static_cast<int>(image.height),
-                       static_cast<int>(image.width),
-                       encoding.cv_type,
-                       const_cast<unsigned char*>(image.data.data()),
-                       image.step);
-  if (encoding.layout == Layout::kGrey) return pixels;
-  cv::cvtColor(pixels, buffer, encoding.to_grey);
-  return buffer;
+/// The data of an image with 8 bits.
+cv::Mat pixelsOf(const sensor_msgs::Image& image, const ImageEncoding& encoding) {
+  return cv::Mat(static_cast<int>(image.height),
+                 static_cast<int>(image.width),
+                 encoding.cv_type,
+                 const_cast<unsigned char*>(image.data.data()),
+                 image.step);
 }
 
 }  // namespace
@@ -69,15 +57,25 @@ StereoPair StereoPairConverter::convert(const sensor_msgs::Image& left,
   validatePair(left, right, max_pixels_);
   const ImageEncoding& left_encoding = encodingOf("left", left);
   const ImageEncoding& right_encoding = encodingOf("right", right);
-  if (left_encoding.layout == Layout::kGrey16) {
+  if (left_encoding.has16Bits()) {
     significant_bits_ = std::max(significant_bits_, countSignificantBits(left));
   }
-  if (right_encoding.layout == Layout::kGrey16) {
+  if (right_encoding.has16Bits()) {
     significant_bits_ = std::max(significant_bits_, countSignificantBits(right));
   }
   return {toNanoseconds(left.header.stamp),
-          toGrey(left, left_encoding, significant_bits_, left_buffer_),
-          toGrey(right, right_encoding, significant_bits_, right_buffer_)};
+          toGrey(left, left_encoding, left_buffers_),
+          toGrey(right, right_encoding, right_buffers_)};
+}
+
+cv::Mat StereoPairConverter::toGrey(const sensor_msgs::Image& image,
+                                    const ImageEncoding& encoding,
+                                    Buffers& buffers) const {
+  if (encoding.has16Bits()) scaleTo8Bits(image, significant_bits_, buffers.scaled);
+  const cv::Mat pixels = encoding.has16Bits() ? buffers.scaled : pixelsOf(image, encoding);
+  if (encoding.isGrey()) return pixels;
+  cv::cvtColor(pixels, buffers.grey, encoding.to_grey);
+  return buffers.grey;
 }
 
 }  // namespace rotrocc

@@ -5,6 +5,7 @@
 #include <sensor_msgs/Image.h>
 #include <opencv2/core.hpp>
 
+#include "input/image_validation.h"
 #include "rotrocc/stereo_pair.h"
 
 namespace rotrocc {
@@ -28,10 +29,19 @@ class StereoPairConverter {
   StereoPair convert(const sensor_msgs::Image& left, const sensor_msgs::Image& right);
 
  private:
+  struct Buffers {
+    cv::Mat scaled;  // to 8 bits
+    cv::Mat grey;
+  };
+
+  cv::Mat toGrey(const sensor_msgs::Image& image,
+                 const ImageEncoding& encoding,
+                 Buffers& buffers) const;
+
   std::int64_t max_pixels_;
   int significant_bits_ = 8;
-  cv::Mat left_buffer_;
-  cv::Mat right_buffer_;
+  Buffers left_buffers_;
+  Buffers right_buffers_;
 };
 
 }  // namespace rotrocc

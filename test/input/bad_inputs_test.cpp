@@ -582,12 +582,12 @@ std::vector<BadInput> messageRows() {
        "dropped, the supported ones are listed",
        [] {
          return badLeft([](Image& image) { image.encoding = ""; }) + "; " +
-                badLeft([](Image& image) { image.encoding = "yuv422"; });
+                badLeft([](Image& image) { image.encoding = "nv21"; });
        },
        "dropped (image_encoding): the left image has the encoding \"\", but must be one of: "
-       "mono8 * bayer_grbg8; then ok; "
-       "dropped (image_encoding): the left image has the encoding \"yuv422\", but must be one "
-       "of: mono8 * bayer_grbg8; then ok"},
+       "mono8 * bayer_grbg16; then ok; "
+       "dropped (image_encoding): the left image has the encoding \"nv21\", but must be one "
+       "of: mono8 * bayer_grbg16; then ok"},
       {9,
        "bgr8 with the step of mono8",
        "dropped",

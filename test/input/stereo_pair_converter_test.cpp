@@ -67,6 +67,37 @@ sensor_msgs::Image makeImage16(const std::vector<int>& values, bool big_endian) 
   return image;
 }
 
+/// The same scene with twice the bits: 100 becomes 100 << 8.
+sensor_msgs::Image makeBayerImage16(const sensor_msgs::Image& bayer8, bool big_endian) {
+  sensor_msgs::Image image = bayer8;
+  image.encoding.replace(image.encoding.size() - 1, 1, "16");
+  image.is_bigendian = big_endian;
+  image.step = 2 * bayer8.step + 6;  // padded
+  image.data.assign(std::size_t{image.step} * image.height, 255);
+  for (std::size_t y = 0; y < image.height; ++y) {
+    for (std::size_t x = 0; x < image.width; ++x) {
+      unsigned char* pixel = &image.data[y * image.step + 2 * x];
+      pixel[big_endian ? 0 : 1] = bayer8.data[y * bayer8.step + x];
+      pixel[big_endian ? 1 : 0] = 0;
+    }
+  }
+  return image;
+}
+
+/// Grey levels of makeImage() with colours between them, and padded rows.
+sensor_msgs::Image makeYuvImage(const std::string& encoding, bool grey_first) {
+  const sensor_msgs::Image grey = makeImage("mono8", 1);
+  sensor_msgs::Image image = makeImage(encoding, 2, 5);
+  for (std::size_t y = 0; y < image.height; ++y) {
+    for (std::size_t x = 0; x < image.width; ++x) {
+      unsigned char* pixel = &image.data[y * image.step + 2 * x];
+      pixel[grey_first ? 0 : 1] = grey.data[y * grey.step + x];
+      pixel[grey_first ? 1 : 0] = static_cast<unsigned char>(90 * (x + y));
+    }
+  }
+  return image;
+}
+
 bool equal(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0.0;
 }
@@ -115,6 +146,27 @@ TEST(StereoPairConverterTest, ColourBecomesLuma) {
     const StereoPair pair = converter.convert(image, grey);
     // Demosaicing rounds once more.
     EXPECT_LE(cv::norm(pair.left, pair.right, cv::NORM_INF), 1.0) << image.encoding;
+  }
+}
+
+TEST(StereoPairConverterTest, GreyLevelsOfYuvAreThoseOfItsLuma) {
+  const sensor_msgs::Image grey = makeImage("mono8", 1);
+  for (const auto& [encoding, grey_first] : {std::pair{"yuv422", false}, {"yuv422_yuy2", true}}) {
+    StereoPairConverter converter;
+    const StereoPair pair = converter.convert(makeYuvImage(encoding, grey_first), grey);
+    EXPECT_TRUE(equal(pair.left, pair.right)) << encoding;
+  }
+}
+
+TEST(StereoPairConverterTest, BayerPatternsOfSixteenBitsAreThoseOfEight) {
+  for (const char* filter : {"rggb", "bggr", "gbrg", "grbg"}) {
+    const sensor_msgs::Image bayer8 = makeBayerImage(filter, 255, 100, 50);
+    StereoPairConverter converter;
+    const cv::Mat grey = converter.convert(bayer8, bayer8).left.clone();
+    const StereoPair pair =
+        converter.convert(makeBayerImage16(bayer8, false), makeBayerImage16(bayer8, true));
+    EXPECT_TRUE(equal(pair.left, grey)) << filter;
+    EXPECT_TRUE(equal(pair.right, grey)) << filter;
   }
 }
 
@@ -189,6 +241,10 @@ TEST(StereoPairConverterTest, RefusesMalformedImages) {
   image = makeImage("mono8", 1);
   image.encoding = "bgr8";
   expectRefused(image, "step of 24 bytes, but 24 px of bgr8 take 72");
+  image.encoding = "yuv422";
+  expectRefused(image, "step of 24 bytes, but 24 px of yuv422 take 48");
+  image.encoding = "bayer_rggb16";
+  expectRefused(image, "step of 24 bytes, but 24 px of bayer_rggb16 take 48");
   image.encoding = "";
   expectRefused(image, "encoding \"\"");
   image.encoding = "32FC1";
