@@ -65,7 +65,7 @@ void syncDirectoryOf(const std::string& path) {
 void requireDirectoryOf(const std::string& path) {
   const fs::path directory = fs::absolute(path).parent_path();
   if (::access(directory.c_str(), W_OK | X_OK) == 0) return;
-  throw failure(errno, "cannot write " + path + " as a new file in its directory");
+  throw failure(errno, "cannot write " + path + " into its directory");
 }
 
 }  // namespace

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <regex>
 #include <sstream>
+
+#include <ros/this_node.h>
 
 namespace rotrocc {
 namespace {
 
-constexpr std::uint32_t kQueueSize = 100;
+constexpr std::uint32_t kQueueSize = 1000;
 /// Limit of pairs without an answer that are kept.
 constexpr std::size_t kMaxPending = 1000;
 /// Limit of ages that are kept: an hour at 60 Hz.
@@ -29,7 +32,34 @@ std::string line(const char* format, Values... values) {
   return text;
 }
 
+std::uint64_t countDropped(const ImageAccount& images) {
+  std::uint64_t dropped = 0;
+  for (const auto& [reason, count] : images.dropped) dropped += count;
+  return dropped;
+}
+
+std::string imageTable(const ImageAccount& images) {
+  const auto row = [](const std::string& name, std::uint64_t count) {
+    return line("%-26s %llu\n", name.c_str(), static_cast<unsigned long long>(count));
+  };
+  std::string text = row("images sent", images.sent) +
+                     row("  lost in queues of ROS", images.sent - images.received) +
+                     row("  used", images.used);
+  for (const auto& [reason, count] : images.dropped) text += row("  " + reason, count);
+  return text + row("  sum", images.sent - images.received + images.used + countDropped(images)) +
+         (images.addsUp() ? "the counts add up\n" : "THE COUNTS DO NOT ADD UP\n");
+}
+
 }  // namespace
+
+bool ImageAccount::addsUp() const {
+  return received <= sent && received == used + countDropped(*this);
+}
+
+std::uint64_t imagesPerDrop(const std::string& reason) {
+  if (reason == "camera_info_invalid") return 0;
+  return reason == "no_partner" || reason.compare(0, 6, "stamp_") == 0 ? 1 : 2;
+}
 
 bool isSound(const nav_msgs::Odometry& odometry) {
   const auto& p = odometry.pose.pose.position;
@@ -53,21 +83,66 @@ bool isSound(const nav_msgs::Odometry& odometry) {
 
 AnswerAudit::AnswerAudit(ros::NodeHandle& nh)
     : odom_(nh.subscribe("odom", kQueueSize, &AnswerAudit::onOdometry, this)),
-      status_(nh.subscribe("status", kQueueSize, &AnswerAudit::onStatus, this)) {}
+      status_(nh.subscribe("status", kQueueSize, &AnswerAudit::onStatus, this)),
+      diagnostics_(nh.subscribe("/diagnostics", kQueueSize, &AnswerAudit::onDiagnostics, this)),
+      rosout_(nh.subscribe("/rosout", kQueueSize, &AnswerAudit::onLog, this)) {}
 
-void AnswerAudit::expect(const ros::Time& stamp) {
+void AnswerAudit::expect(const ros::Time& stamp, std::uint64_t images) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++pairs_sent_;
+  images_sent_ += images;
   sent_[stamp] = Clock::now();
   if (sent_.size() > kMaxPending) sent_.erase(sent_.begin());
+  if (!recovered_) sent_since_fault_.insert(stamp);
 }
 
 void AnswerAudit::beginLoop() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (loops_ > 0 && recovered_) ++loops_recovered_;
+  if (loops_ > 0 && loop_recovered_) ++loops_recovered_;
   ++loops_;
-  recovered_ = false;
+  loop_recovered_ = false;
   sent_.clear();
+  sent_since_fault_.clear();
+}
+
+void AnswerAudit::endFault() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++faults_;
+  recovered_ = false;
+  sent_since_fault_.clear();
+}
+
+bool AnswerAudit::loopRecovered() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return loop_recovered_;
+}
+
+bool AnswerAudit::recovered() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return recovered_;
+}
+
+ImageAccount AnswerAudit::images() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return account();
+}
+
+ImageAccount AnswerAudit::account() const {
+  ImageAccount images;
+  images.sent = images_sent_;
+  for (const auto& [topic, count] : images_received_) images.received += count;
+  images.used = 2 * last_status_.pairs_processed;
+  for (const DropCount& drop : last_status_.drops) {
+    images.dropped[drop.reason] = drop.count * imagesPerDrop(drop.reason);
+  }
+  return images;
+}
+
+bool AnswerAudit::logged(const std::string& part) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::any_of(log_.begin(), log_.end(), [&](const auto& entry) {
+    return entry.first.find(part) != std::string::npos;
+  });
 }
 
 void AnswerAudit::onOdometry(const nav_msgs::Odometry::ConstPtr& message) {
@@ -84,7 +159,34 @@ void AnswerAudit::onOdometry(const nav_msgs::Odometry::ConstPtr& message) {
 void AnswerAudit::onStatus(const OdometryStatus::ConstPtr& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
   last_status_ = *message;
-  if (message->state == OdometryStatus::OK) recovered_ = true;
+  if (message->state != OdometryStatus::OK) return;
+  loop_recovered_ = true;
+  if (recovered_ || sent_since_fault_.count(message->header.stamp) == 0) return;
+  recovered_ = true;
+  if (faults_ > 0) ++faults_recovered_;
+}
+
+/// The part "input" has, for each topic: "10.0 Hz, 50 in 5 s, 123 in total, 1 publishers".
+void AnswerAudit::onDiagnostics(const diagnostic_msgs::DiagnosticArray::ConstPtr& message) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const auto& part : message->status) {
+    for (const auto& entry : part.values) {
+      unsigned long long total = 0;
+      if (entry.key.find("image_rect") == std::string::npos ||
+          std::sscanf(entry.value.c_str(), "%*f Hz, %*u in 5 s, %llu in total", &total) != 1) {
+        continue;
+      }
+      images_received_[entry.key] = total;
+    }
+  }
+}
+
+void AnswerAudit::onLog(const rosgraph_msgs::Log::ConstPtr& message) {
+  if (message->level < rosgraph_msgs::Log::WARN || message->name == ros::this_node::getName()) {
+    return;
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++log_[std::regex_replace(message->msg, std::regex("[0-9]+([.][0-9]+)?(e[-+]?[0-9]+)?"), "#")];
 }
 
 std::string AnswerAudit::report() const {
@@ -102,21 +204,25 @@ std::string AnswerAudit::report() const {
                quantile(ages_ms_, 1.0))
        << line("time of the estimator      %.1f ms (last pair)\n",
                static_cast<double>(last_status_.time_total));
+  text << imageTable(account());
   if (loops_ > 1) {
     text << line("loops                      %llu\n", static_cast<unsigned long long>(loops_ - 1))
          << line("loops recovered            %llu\n",
                  static_cast<unsigned long long>(loops_recovered_));
   }
-  for (const DropCount& drop : last_status_.drops) {
-    text << line(
-        "dropped: %-17s %llu\n", drop.reason.c_str(), static_cast<unsigned long long>(drop.count));
+  if (faults_ > 0) {
+    text << line("faults ended, recovered     %llu, %llu\n",
+                 static_cast<unsigned long long>(faults_),
+                 static_cast<unsigned long long>(faults_recovered_));
   }
+  for (const auto& [said, count] : log_) text << "log: " << count << " x " << said << '\n';
   return text.str();
 }
 
 bool AnswerAudit::passed() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return answers_ > 0 && unsound_ == 0 && (loops_ < 2 || loops_recovered_ == loops_ - 1);
+  return answers_ > 0 && unsound_ == 0 && account().addsUp() &&
+         (loops_ < 2 || loops_recovered_ == loops_ - 1);
 }
 
 }  // namespace rotrocc

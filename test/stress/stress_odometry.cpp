@@ -15,8 +15,8 @@ using namespace rotrocc;
 const char* const kUsage =
     "Plays a stereo bag, forth and back in a loop, to an odometry that runs already, with faults "
     "as\n"
-    "of broken drivers, and says how old its answers are, what was dropped and whether each loop\n"
-    "found its motion again. scripts/soak starts all that is needed.\n"
+    "of broken drivers, and says how old its answers are, what became of each image, what the log\n"
+    "says, and whether each loop found its motion again. scripts/soak starts all that is needed.\n"
     "usage: stress_odometry BAG [options] [TOPIC:=OTHER]\n";
 
 bool parse(int argc, char** argv, StressOptions& options) {
@@ -26,6 +26,9 @@ bool parse(int argc, char** argv, StressOptions& options) {
       "rate", number(options.rate_hz), "[Hz] of the pairs")(
       "duration", number(options.duration_s), "[s] of the run")(
       "faults", number(options.fault_share), "share of the pairs that get a fault; 0: none")(
+      "in-turn",
+      po::bool_switch(&options.in_turn),
+      "each fault once, the next after a recovery, and the end after the last")(
       "pairs", number(options.pairs), "of the recording, which are kept in memory")(
       "seed", number(options.seed), "same seed, same faults")(
       "odometry", number(options.odometry), "name of the odometry's node or nodelet");

@@ -1,5 +1,7 @@
 #include "stress/stress_player.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <iostream>
 #include <stdexcept>
@@ -14,6 +16,7 @@
 #include "bags/bag_reading.h"
 #include "bags/kitti_mount.h"
 #include "bags/stereo_topics.h"
+#include "input/message_conversion.h"
 #include "input/stereo_synchronizer.h"
 #include "node/odometry_messages.h"
 #include "rotrocc/SaveTrajectory.h"
@@ -28,6 +31,9 @@ constexpr int kQueueSize = 100;
 constexpr double kMaxStampDifference_s = 0.01;
 constexpr int kBurst = 20;         // pairs at once
 constexpr int kPairsPerCall = 50;  // of the services
+constexpr int kLastPairs = 3;
+constexpr std::chrono::seconds kTfLimit(20);
+constexpr std::chrono::seconds kSettleLimit(180);
 const char* const kCameraFrame = "stress_camera";
 
 /// Not the current time: in a previous run, the odometry may have received later stamps.
@@ -39,7 +45,8 @@ ros::Time firstStamp() {
 
 StressPlayer::StressPlayer(ros::NodeHandle& nh, const StressOptions& options)
     : options_(options),
-      faults_(options.fault_share, options.seed),
+      faults_(options.in_turn ? FaultInjector(options.seed)
+                              : FaultInjector(options.fault_share, options.seed)),
       audit_(nh),
       services_(options.odometry),
       left_image_(nh.advertise<sensor_msgs::Image>("left/image_rect", kQueueSize)),
@@ -47,6 +54,7 @@ StressPlayer::StressPlayer(ros::NodeHandle& nh, const StressOptions& options)
       left_info_(nh.advertise<sensor_msgs::CameraInfo>("left/camera_info", kQueueSize)),
       right_info_(nh.advertise<sensor_msgs::CameraInfo>("right/camera_info", kQueueSize)) {
   readBag();
+  if (mkfifo(fifo_.c_str(), 0600) != 0) throw std::runtime_error("cannot make " + fifo_);
 }
 
 void StressPlayer::readBag() {
@@ -71,7 +79,6 @@ void StressPlayer::readBag() {
 }
 
 void StressPlayer::waitForOdometry() {
-  tf_broadcaster_.sendTransform(toTransform(kittiMount(), 0, "base_link", kCameraFrame));
   while (ros::ok() && !(audit_.connected() && right_info_.getNumSubscribers() > 0 &&
                         left_image_.getNumSubscribers() > 0)) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -80,24 +87,31 @@ void StressPlayer::waitForOdometry() {
 
 bool StressPlayer::run() {
   waitForOdometry();
-  const bool with_faults = options_.fault_share > 0.0;
+  const bool with_faults = options_.in_turn || options_.fault_share > 0.0;
+  if (with_faults) slow_subscriber_.emplace();
   const auto period = std::chrono::duration_cast<steady_clock::duration>(
       std::chrono::duration<double>(1.0 / options_.rate_hz));
-  const auto end = steady_clock::now() + std::chrono::duration<double>(options_.duration_s);
+  end_ = steady_clock::now() + std::chrono::duration_cast<steady_clock::duration>(
+                                   std::chrono::duration<double>(options_.duration_s));
   const auto loop = static_cast<int>(2 * recording_.size() - 2);  // forwards and backwards
   ros::Time stamp = firstStamp();
-  next_ = steady_clock::now();
+  begin_ = next_ = steady_clock::now();
   audit_.beginLoop();
-  for (int i = 0; ros::ok() && steady_clock::now() < end; ++i) {
-    if (with_faults && i > 0 && i % loop == 0) {
+  bool started = false;
+  for (int i = 0; ros::ok() && !ended(); ++i) {
+    if (!has_mount_ && (!with_faults || tfIsLate())) publishMount();
+    started = started || audit_.loopRecovered();
+    // In turn, a loop lasts until its motion is found: on a busy machine, that may take longer.
+    const bool may_restart = options_.in_turn ? audit_.loopRecovered() : started;
+    if (with_faults && may_restart && i % loop == 0) {
       audit_.beginLoop();
       stamp = firstStamp();
     }
     const auto forth = static_cast<std::size_t>(i % loop);
     const std::size_t back = static_cast<std::size_t>(loop) - forth;
     send(recording_[std::min(forth, back)], stamp);
-    stamp += step_;
     if (with_faults && i % kPairsPerCall == kPairsPerCall - 1) callServices();
+    if (slow_subscriber_) slow_subscriber_->poll();
     next_ += period;
     if (burst_left_ > 0) {
       --burst_left_;
@@ -105,7 +119,7 @@ bool StressPlayer::run() {
       std::this_thread::sleep_until(next_);
     }
   }
-  std::this_thread::sleep_for(std::chrono::seconds(1));
+  settle(stamp);
   std::cout << audit_.report();
   for (const auto& [fault, count] : faults_.counts()) {
     std::cout << "fault: " << fault << ", " << count << '\n';
@@ -114,17 +128,69 @@ bool StressPlayer::run() {
   return audit_.passed() && failed_calls_ == 0;
 }
 
-void StressPlayer::send(StressPair pair, const ros::Time& stamp) {
+bool StressPlayer::ended() const {
+  if (steady_clock::now() >= end_) return true;
+  return options_.in_turn && faults_.finished() && !was_faulty_ && audit_.recovered();
+}
+
+void StressPlayer::send(StressPair pair, ros::Time& stamp) {
   pair.left.header.stamp = pair.right.header.stamp = stamp;
   pair.left.header.frame_id = kCameraFrame;
-  faults_.apply(pair);
-  audit_.expect(stamp);
+  const bool may_begin = !options_.in_turn || (!was_faulty_ && audit_.recovered());
+  const bool is_faulty = faults_.apply(pair, may_begin);
+  if (was_faulty_ && !is_faulty) audit_.endFault();
+  was_faulty_ = is_faulty;
+  audit_.expect(stamp, std::uint64_t{pair.send_left} + std::uint64_t{pair.send_right});
   publish(pair);
+  if (pair.rival_tf) publishRival(stamp);
+  if (pair.save_to_fifo) saveToFifo();
+  stamp += step_ + ros::Duration(pair.gap_s);
+  pauseAfter(pair);
+}
+
+void StressPlayer::pauseAfter(const StressPair& pair) {
   if (pair.burst) burst_left_ = kBurst;
-  if (pair.pause_ms > 0) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(pair.pause_ms));
-    next_ = steady_clock::now();
+  const auto pause = std::chrono::milliseconds(pair.pause_ms) +
+                     std::chrono::duration_cast<std::chrono::milliseconds>(
+                         std::chrono::duration<double>(pair.gap_s));
+  if (pause.count() == 0) return;
+  std::this_thread::sleep_for(pause);
+  next_ = steady_clock::now();
+}
+
+/// Sends some sound pairs, so that no image waits for a partner, and waits until the odometry has
+/// counted all.
+void StressPlayer::settle(ros::Time& stamp) {
+  for (int i = 0; i < kLastPairs; ++i) {
+    StressPair pair = recording_.front();
+    pair.left.header.stamp = pair.right.header.stamp = stamp;
+    pair.left.header.frame_id = kCameraFrame;
+    audit_.expect(stamp, 2);
+    publish(pair);
+    stamp += step_;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
+  // Diagnostics come once a second; status too, 2 s after the last pair.
+  std::this_thread::sleep_for(std::chrono::seconds(4));
+  const auto limit = steady_clock::now() + kSettleLimit;
+  while (ros::ok() && !audit_.images().addsUp() && steady_clock::now() < limit) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
+
+/// Whether the odometry has asked for it in the log, after silence_s, or will not.
+bool StressPlayer::tfIsLate() const {
+  return audit_.logged("no tf from base_link") || steady_clock::now() > begin_ + kTfLimit;
+}
+
+void StressPlayer::publishMount() {
+  has_mount_ = true;
+  mount_broadcaster_.sendTransform(toTransform(kittiMount(), 0, "base_link", kCameraFrame));
+}
+
+void StressPlayer::publishRival(const ros::Time& stamp) {
+  tf_broadcaster_.sendTransform(
+      toTransform(Eigen::Isometry3d::Identity(), toNanoseconds(stamp), "rival_odom", "base_link"));
 }
 
 void StressPlayer::publish(const StressPair& pair) {
@@ -161,6 +227,15 @@ void StressPlayer::callServices() {
       pause.request.data = false;
       call("pause", pause);
   }
+}
+
+/// Must be refused at once: nobody will ever read it.
+void StressPlayer::saveToFifo() {
+  SaveTrajectory save;
+  save.request.path = fifo_;
+  save.request.format = "tum";
+  ++calls_;
+  if (!services_.call("save_trajectory", save) || save.response.success) ++failed_calls_;
 }
 
 }  // namespace rotrocc

@@ -1,16 +1,20 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
 
 #include "stress/answer_audit.h"
 #include "stress/fault_injector.h"
+#include "stress/slow_subscriber.h"
 #include "support/service_caller.h"
+#include "support/temporary_directory.h"
 
 namespace rotrocc {
 
@@ -20,12 +24,14 @@ struct StressOptions {
   double rate_hz = 10.0;                     ///< of the pairs
   double duration_s = 60.0;                  ///< of the whole run
   double fault_share = 0.05;  ///< of the pairs that get a fault; 0: none, and no restart of stamps
+  bool in_turn = false;       ///< each fault once instead, the next after a recovery
   int pairs = 100;            ///< of the recording that are kept in memory
   unsigned seed = 1;          ///< same seed, same faults
 };
 
 /// Plays a recording to an odometry in a loop, forwards and backwards, with faults and calls of all
-/// its services. Stamps restart with each loop.
+/// its services. Stamps restart with each loop, tf of the camera comes late, and a subscriber is
+/// slow.
 class StressPlayer {
  public:
   /// Throws std::runtime_error on a bag that cannot be used.
@@ -34,12 +40,22 @@ class StressPlayer {
   /// Prints the report; returns whether the test passed.
   bool run();
 
+  const FaultInjector& faults() const { return faults_; }
+  const AnswerAudit& audit() const { return audit_; }
+
  private:
   void readBag();
   void waitForOdometry();
-  void send(StressPair pair, const ros::Time& stamp);
+  bool ended() const;
+  void send(StressPair pair, ros::Time& stamp);
   void publish(const StressPair& pair);
+  void pauseAfter(const StressPair& pair);
+  void settle(ros::Time& stamp);
+  bool tfIsLate() const;
+  void publishMount();
+  void publishRival(const ros::Time& stamp);
   void callServices();
+  void saveToFifo();
 
   StressOptions options_;
   std::vector<StressPair> recording_;
@@ -48,10 +64,16 @@ class StressPlayer {
   AnswerAudit audit_;
   ServiceCaller services_;
   std::uint64_t calls_ = 0, failed_calls_ = 0;
-  std::chrono::steady_clock::time_point next_;
+  std::chrono::steady_clock::time_point begin_, next_, end_;
   int burst_left_ = 0;
+  bool was_faulty_ = false;
+  bool has_mount_ = false;
+  TemporaryDirectory directory_;
+  std::string fifo_ = directory_ / "fifo";
+  std::optional<SlowSubscriber> slow_subscriber_;
 
-  tf2_ros::StaticTransformBroadcaster tf_broadcaster_;
+  tf2_ros::StaticTransformBroadcaster mount_broadcaster_;
+  tf2_ros::TransformBroadcaster tf_broadcaster_;
   ros::Publisher left_image_, right_image_, left_info_, right_info_;
 };
 

@@ -1,0 +1,61 @@
+// A drive with each fault of scripts/soak once, the next one after the recovery from the one
+// before.
+
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+
+#include "bags/kitti_bag_writer.h"
+#include "stress/stress_player.h"
+#include "support/synthetic_sequence.h"
+#include "support/temporary_directory.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr int kPairs = 30;
+
+void writeBag(const std::string& path) {
+  const TemporaryDirectory directory;
+  writeSyntheticSequence(directory / "sequence", kPairs);
+  const KittiSequence sequence(directory / "sequence");
+  KittiBagWriter writer(path, sequence, 1000);
+  for (int i = 0; i < kPairs; ++i) writer.writePair(i);
+  writer.finish();
+}
+
+TEST(EnduranceTest, EveryFaultIsToldCountedAndOver) {
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  const TemporaryDirectory directory;
+  StressOptions options;
+  options.bag = directory / "drive.bag";
+  options.rate_hz = 30.0;
+  options.duration_s = 600.0;  // only against hanging
+  options.in_turn = true;
+  writeBag(options.bag);
+  ros::NodeHandle nh;
+  StressPlayer player(nh, options);
+  EXPECT_TRUE(player.run()) << "see the report above";
+  EXPECT_TRUE(player.faults().finished()) << "no recovery from a fault";
+  EXPECT_TRUE(player.audit().recovered());
+  const auto dropped = player.audit().images().dropped;
+  for (const char* reason : {"no_partner", "tf_missing", "stamp_zero", "image_data"}) {
+    EXPECT_EQ(dropped.count(reason), 1u) << reason;
+  }
+  for (const char* words : {"no tf from base_link to stress_camera",
+                            "a frame has only one parent",
+                            "it is a FIFO",
+                            "time jumped back"}) {
+    EXPECT_TRUE(player.audit().logged(words)) << words;
+  }
+}
+
+}  // namespace
+}  // namespace rotrocc
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "endurance_test");
+  const ros::NodeHandle keeps_ros_alive;
+  return RUN_ALL_TESTS();
+}
