@@ -15,6 +15,7 @@ struct NodeParameters {
   bool publish_tf = true;         ///< broadcast odom_frame -> base_frame
   bool invert_tf = false;         ///< broadcast base_frame -> odom_frame instead
   bool planar = false;            ///< restrict base_frame to motion in its x-y plane
+  double mount_timeout_s = 0.2;   ///< how long a pair waits for the tf of a camera that moves
   std::string guess_frame;        ///< odom frame of another odometry in tf; empty: none
   double guess_timeout_s = 0.05;  ///< how long a pair waits for that transform
   bool use_imu = false;           ///< predict rotations by the gyroscope of the topic imu

@@ -8,9 +8,10 @@
 namespace rotrocc {
 
 /// Motion of the base on which a camera is mounted, where `camera_motion` is T_prev_cur of the
-/// camera: T_base_camera * T_prev_cur * T_base_camera^-1.
+/// camera: T_base_camera_prev * T_prev_cur * T_base_camera_cur^-1. The mounts have no errors.
 UncertainTransform motionOfBase(const UncertainTransform& camera_motion,
-                                const Eigen::Isometry3d& T_base_camera);
+                                const Eigen::Isometry3d& T_base_camera_prev,
+                                const Eigen::Isometry3d& T_base_camera_cur);
 
 /// Velocities [m/s, rad/s] of a body in its own frame, with covariance.
 struct UncertainTwist {

@@ -39,72 +39,93 @@ Matrix6d planar(const Matrix6d& covariance) {
 
 }  // namespace
 
-BaseOdometry::BaseOdometry(const Eigen::Isometry3d& T_base_camera,
-                           double lost_speed_sigma_mps,
+BaseOdometry::BaseOdometry(double lost_speed_sigma_mps,
                            double lost_turn_rate_sigma_rps,
                            bool planar,
                            const SystematicErrorConfig& systematic_error)
-    : T_base_camera_(T_base_camera),
-      T_camera_base_(T_base_camera.inverse()),
-      lost_speed_sigma_mps_(lost_speed_sigma_mps),
+    : lost_speed_sigma_mps_(lost_speed_sigma_mps),
       lost_turn_rate_sigma_rps_(lost_turn_rate_sigma_rps),
       planar_(planar),
       systematic_error_(systematic_error) {
-  T_odom_base_.covariance = kFirstVariance * Matrix6d::Identity();
+  last_.T_odom_base.covariance = kFirstVariance * Matrix6d::Identity();
+  known_ = last_;
 }
 
-BaseState BaseOdometry::add(const OdometryResult& result) {
+BaseState BaseOdometry::add(const OdometryResult& result, const Eigen::Isometry3d& T_base_camera) {
   BaseState state;
   state.stamp_ns = result.stamp_ns;
-  const UncertainTransform step = motionOfBase(result.T_prev_cur, result.covariance);
-  state.T_first_camera =
-      camera_.add(planar_ ? T_camera_base_ * step.T * T_base_camera_ : result.T_prev_cur);
+  if (!T_start_camera_) {
+    T_start_camera_ = last_.T_base_camera = T_base_camera;
+    last_.stamp_ns = result.stamp_ns;
+    known_ = last_;
+  }
   if (result.hasMotion()) {
-    addMotion(result, step);
-    state.twist = twistOf(step, result.dt_s);
-    without_motion_s_ = 0.0;
+    state.twist = addMotion(result, T_base_camera);
   } else {
-    T_odom_base_.covariance += growthWithoutMotion(result.stamp_ns);
+    addRest(result, T_base_camera);
     state.twist.covariance = kUnknownVariance * Matrix6d::Identity();
   }
-  if (planar_) T_odom_base_.covariance = planar(T_odom_base_.covariance);
-  // Not by compose(), which would accumulate rounding errors.
-  T_odom_base_.T = T_odom_start_ * T_start_base();
-  if (result.hasMotion()) {
-    known_stamp_ns_ = result.stamp_ns;
-    T_odom_known_ = T_odom_base_;
-  }
-  state.T_odom_base = withSystematicError(T_odom_base_);
-  last_stamp_ns_ = result.stamp_ns;
+  if (planar_) last_.T_odom_base.covariance = planar(last_.T_odom_base.covariance);
+  if (result.state != State::kLost) known_ = last_;
+  state.T_first_camera = last_.T_first_start * camera_.T_first_cur();
+  state.T_odom_base = withSystematicError(last_.T_odom_base);
   return state;
 }
 
-UncertainTransform BaseOdometry::motionOfBase(const Eigen::Isometry3d& T,
-                                              const Matrix6d& covariance) const {
-  const UncertainTransform motion = rotrocc::motionOfBase({T, covariance}, T_base_camera_);
+UncertainTransform BaseOdometry::motionOfBase(const UncertainTransform& camera_motion,
+                                              const Pose& from,
+                                              const Eigen::Isometry3d& T_base_camera) const {
+  const UncertainTransform motion =
+      rotrocc::motionOfBase(camera_motion, from.T_base_camera, T_base_camera);
   return planar_ ? UncertainTransform{planar(motion.T), planar(motion.covariance)} : motion;
 }
 
-void BaseOdometry::addMotion(const OdometryResult& result, const UncertainTransform& step) {
+/// Returns the twist since the previous pair.
+UncertainTwist BaseOdometry::addMotion(const OdometryResult& result,
+                                       const Eigen::Isometry3d& T_base_camera) {
+  // Compared with a lost pair, that one is the keyframe.
+  const Pose prev = result.keyframe_stamp_ns > known_.stamp_ns ? last_ : known_;
   if (result.keyframe_stamp_ns != keyframe_stamp_ns_) {
     keyframe_stamp_ns_ = result.keyframe_stamp_ns;
-    // A lost pair can be a keyframe, too; its pose has the published uncertainty.
-    T_odom_keyframe_ = keyframe_stamp_ns_ == known_stamp_ns_ ? T_odom_known_ : T_odom_base_;
+    keyframe_ = prev;
   }
-  T_odom_base_ =
-      T_odom_keyframe_
-          ? compose(*T_odom_keyframe_,
-                    motionOfBase(result.T_keyframe_cur.T, result.T_keyframe_cur.covariance))
-          : compose(T_odom_base_, step);
+  const UncertainTransform step =
+      motionOfBase({result.T_prev_cur, result.covariance}, prev, T_base_camera);
+  camera_.add(planar_ ? prev.T_base_camera.inverse() * step.T * T_base_camera : result.T_prev_cur);
+  last_ = prev;
+  last_.stamp_ns = result.stamp_ns;
+  last_.T_base_camera = T_base_camera;
+  last_.T_odom_base = keyframe_
+                          ? compose(keyframe_->T_odom_base,
+                                    motionOfBase(result.T_keyframe_cur, *keyframe_, T_base_camera))
+                          : compose(prev.T_odom_base, step);
+  // Not by compose(), which would accumulate rounding errors.
+  last_.T_odom_base.T = last_.T_odom_start * T_start_base();
+  without_motion_s_ = 0.0;
+  return twistOf(step, result.dt_s);
+}
+
+/// The base stays where it is; a mount that moves moves the camera.
+void BaseOdometry::addRest(const OdometryResult& result, const Eigen::Isometry3d& T_base_camera) {
+  last_.T_odom_base.covariance += growthWithoutMotion(result.stamp_ns);
+  camera_.add(Eigen::Isometry3d::Identity());
+  if (T_base_camera.matrix() != last_.T_base_camera.matrix()) {
+    const Eigen::Isometry3d T_prev_cur = last_.T_base_camera.inverse() * T_base_camera;
+    const Eigen::Isometry3d& T_visual = camera_.T_first_cur();
+    last_.T_first_start = last_.T_first_start * T_visual * T_prev_cur * T_visual.inverse();
+    last_.T_base_camera = T_base_camera;
+    last_.T_odom_start = last_.T_odom_base.T * T_start_base().inverse();
+  }
+  last_.T_odom_base.T = last_.T_odom_start * T_start_base();
+  last_.stamp_ns = result.stamp_ns;
 }
 
 void BaseOdometry::setPose(const Eigen::Isometry3d& T_odom_base) {
-  T_odom_start_ = T_odom_base * T_start_base().inverse();
+  last_.T_odom_start = T_start_camera_ ? T_odom_base * T_start_base().inverse() : T_odom_base;
   T_odom_first_ = T_odom_base;
-  T_odom_base_.T = T_odom_base;
-  T_odom_base_.covariance = kFirstVariance * Matrix6d::Identity();
-  T_odom_keyframe_.reset();
-  T_odom_known_ = T_odom_base_;
+  last_.T_odom_base = {T_odom_base, kFirstVariance * Matrix6d::Identity()};
+  known_ = last_;
+  keyframe_.reset();
   without_motion_s_ = 0.0;
 }
 
@@ -114,14 +135,15 @@ UncertainTransform BaseOdometry::withSystematicError(const UncertainTransform& T
   return {T_odom_base.T, T_odom_base.covariance + (planar_ ? planar(systematic) : systematic)};
 }
 
+/// The visual pose of the base at the last pair, in its frame at the first one.
 Eigen::Isometry3d BaseOdometry::T_start_base() const {
-  return T_base_camera_ * camera_.T_first_cur() * T_camera_base_;
+  return *T_start_camera_ * camera_.T_first_cur() * last_.T_base_camera.inverse();
 }
 
 /// Increment of the covariance, so that the standard deviation grows linearly with time for any
 /// rate of calls.
 Matrix6d BaseOdometry::growthWithoutMotion(std::int64_t stamp_ns) {
-  const std::int64_t passed_ns = last_stamp_ns_ ? stamp_ns - *last_stamp_ns_ : 0;
+  const std::int64_t passed_ns = stamp_ns - last_.stamp_ns;
   const double before_s = without_motion_s_;
   without_motion_s_ += 1e-9 * static_cast<double>(std::max<std::int64_t>(passed_ns, 0));
   without_motion_s_ = std::min(without_motion_s_, kMaxWithoutMotion_s);

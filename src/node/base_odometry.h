@@ -21,23 +21,23 @@ struct BaseState {
 };
 
 /// Accumulates camera motions to the odometry of the base. The odom frame is the frame of the base
-/// at the first pair.
+/// at the first pair. The camera may move on the base.
 ///
-/// Without a motion the pose is held, the twist is zero with a very large covariance, and the
-/// standard deviation of the pose grows with time.
+/// Without a motion the base is assumed at rest, the twist is zero with a very large covariance,
+/// and the standard deviation of the pose grows with time.
 class BaseOdometry {
  public:
   /// `lost_speed_sigma_mps` and `lost_turn_rate_sigma_rps`: the growth, along and about each axis.
   /// `planar`: restricts the motion of the base to x, y and yaw; other components are discarded.
   /// `systematic_error`: its part of the pose covariance is in proportion to the distance from the
   /// first pose.
-  BaseOdometry(const Eigen::Isometry3d& T_base_camera,
-               double lost_speed_sigma_mps,
+  BaseOdometry(double lost_speed_sigma_mps,
                double lost_turn_rate_sigma_rps,
                bool planar = false,
                const SystematicErrorConfig& systematic_error = {0.0, 0.0});
 
-  BaseState add(const OdometryResult& result);
+  /// `T_base_camera`: the mount of the camera at the pair.
+  BaseState add(const OdometryResult& result, const Eigen::Isometry3d& T_base_camera);
 
   void setSystematicError(const SystematicErrorConfig& config) { systematic_error_ = config; }
 
@@ -45,31 +45,40 @@ class BaseOdometry {
   void setPose(const Eigen::Isometry3d& T_odom_base);
 
  private:
-  UncertainTransform motionOfBase(const Eigen::Isometry3d& T, const Matrix6d& covariance) const;
-  void addMotion(const OdometryResult& result, const UncertainTransform& step);
+  /// What later pairs are measured against.
+  struct Pose {
+    std::int64_t stamp_ns = 0;
+    Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
+    UncertainTransform T_odom_base;  // without systematic errors
+    // What setPose(), and mounts that move while there is no motion, add to the visual poses of
+    // base and camera.
+    Eigen::Isometry3d T_odom_start = Eigen::Isometry3d::Identity();
+    Eigen::Isometry3d T_first_start = Eigen::Isometry3d::Identity();
+  };
+
+  UncertainTransform motionOfBase(const UncertainTransform& camera_motion,
+                                  const Pose& from,
+                                  const Eigen::Isometry3d& T_base_camera) const;
+  UncertainTwist addMotion(const OdometryResult& result, const Eigen::Isometry3d& T_base_camera);
+  void addRest(const OdometryResult& result, const Eigen::Isometry3d& T_base_camera);
   Matrix6d growthWithoutMotion(std::int64_t stamp_ns);
   UncertainTransform withSystematicError(const UncertainTransform& T_odom_base) const;
   Eigen::Isometry3d T_start_base() const;
 
-  Eigen::Isometry3d T_base_camera_;
-  Eigen::Isometry3d T_camera_base_;
-  Eigen::Isometry3d T_odom_start_ = Eigen::Isometry3d::Identity();  // start: the base's first pose
   double lost_speed_sigma_mps_;
   double lost_turn_rate_sigma_rps_;
   bool planar_;
   SystematicErrorConfig systematic_error_;
 
-  PoseAccumulator camera_;
-  UncertainTransform T_odom_base_;                                  // without systematic errors
+  PoseAccumulator camera_;                           // visual poses
+  std::optional<Eigen::Isometry3d> T_start_camera_;  // the first mount
+  Pose last_;                                        // of the last pair
+  Pose known_;  // of the last pair that was not lost; equal to last_ if that was not
   Eigen::Isometry3d T_odom_first_ = Eigen::Isometry3d::Identity();  // pose without uncertainty
-  std::optional<std::int64_t> last_stamp_ns_;
 
   // Errors accumulate from keyframe to keyframe.
   std::optional<std::int64_t> keyframe_stamp_ns_;
-  std::optional<UncertainTransform>
-      T_odom_keyframe_;              // none after setPose(), until the next keyframe
-  std::int64_t known_stamp_ns_ = 0;  // of the last pair with a motion ...
-  UncertainTransform T_odom_known_;  // ... and the base's pose then
+  std::optional<Pose> keyframe_;  // none after setPose(), until the next keyframe
   double without_motion_s_ = 0.0;
 };
 

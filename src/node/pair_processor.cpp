@@ -27,8 +27,7 @@ PairAnswer PairProcessor::process(const ReceivedPair& received,
   const bool went_back = beginAnewIfTimeWentBack(answer.pair.stamp_ns);
   answer.begins_anew = asked || went_back;
   if (!base_odometry_) {
-    base_odometry_.emplace(T_base_camera,
-                           parameters_.lost_speed_sigma_mps,
+    base_odometry_.emplace(parameters_.lost_speed_sigma_mps,
                            parameters_.lost_turn_rate_sigma_rps,
                            parameters_.planar,
                            systematic_error_);
@@ -38,11 +37,18 @@ PairAnswer PairProcessor::process(const ReceivedPair& received,
     if (requests_.T_odom_base) base_odometry_->setPose(*requests_.T_odom_base);
     requests_.T_odom_base.reset();
   }
-  answer.result = odometry_.process(answer.pair,
-                                    received.camera,
-                                    expectedOfCamera(expected, T_base_camera, answer.pair.stamp_ns),
-                                    measured_rotation);
-  answer.state = base_odometry_->add(answer.result);
+  const auto T_known_base = expectedOfBase(expected, answer.pair.stamp_ns);
+  std::optional<Eigen::Isometry3d> T_known_camera;
+  if (T_known_base) T_known_camera = T_base_camera_known_.inverse() * *T_known_base * T_base_camera;
+  answer.result =
+      odometry_.process(answer.pair, received.camera, T_known_camera, measured_rotation);
+  answer.state = base_odometry_->add(answer.result, T_base_camera);
+  if (answer.result.state == State::kLost) {
+    T_known_last_ = T_known_base;
+  } else {
+    T_known_last_ = Eigen::Isometry3d::Identity();
+    T_base_camera_known_ = T_base_camera;
+  }
   answer.hint = inspector_.inspect(answer.pair, received.camera, answer.result);
   last_stamp_ns_ = answer.pair.stamp_ns;
   return answer;
@@ -75,14 +81,13 @@ bool PairProcessor::beginAnewIfTimeWentBack(std::int64_t stamp_ns) {
   return true;
 }
 
-std::optional<Eigen::Isometry3d> PairProcessor::expectedOfCamera(
-    const MotionSource& expected,
-    const Eigen::Isometry3d& T_base_camera,
-    std::int64_t stamp_ns) const {
+/// Since the last pair that was not lost: motions are measured against that one.
+std::optional<Eigen::Isometry3d> PairProcessor::expectedOfBase(const MotionSource& expected,
+                                                               std::int64_t stamp_ns) const {
   if (!expected || !last_stamp_ns_ || stamp_ns <= *last_stamp_ns_) return std::nullopt;
-  const auto of_base = expected(*last_stamp_ns_, stamp_ns);
-  if (!of_base) return std::nullopt;
-  return T_base_camera.inverse() * *of_base * T_base_camera;
+  const auto T_last_cur = expected(*last_stamp_ns_, stamp_ns);
+  if (!T_last_cur || !T_known_last_) return std::nullopt;
+  return *T_known_last_ * *T_last_cur;
 }
 
 void PairProcessor::requestReset() {

@@ -34,8 +34,8 @@ class PairProcessor {
 
   explicit PairProcessor(const Parameters& parameters, Log log = Log());
 
-  /// `measured_rotation` is that of the camera, see VisualOdometry::process(). Throws InputError on
-  /// images that cannot be used.
+  /// `T_base_camera`: the mount at the stamp of the pair. `measured_rotation` is that of the
+  /// camera, see VisualOdometry::process(). Throws InputError on images that cannot be used.
   PairAnswer process(const ReceivedPair& received,
                      const Eigen::Isometry3d& T_base_camera,
                      const MotionSource& expected = {},
@@ -63,9 +63,8 @@ class PairProcessor {
 
   bool beginAnewIfAsked();
   bool beginAnewIfTimeWentBack(std::int64_t stamp_ns);
-  std::optional<Eigen::Isometry3d> expectedOfCamera(const MotionSource& expected,
-                                                    const Eigen::Isometry3d& T_base_camera,
-                                                    std::int64_t stamp_ns) const;
+  std::optional<Eigen::Isometry3d> expectedOfBase(const MotionSource& expected,
+                                                  std::int64_t stamp_ns) const;
 
   Log log_;
   NodeParameters parameters_;
@@ -75,6 +74,10 @@ class PairProcessor {
   PairInspector inspector_;
   std::optional<BaseOdometry> base_odometry_;  // from the first pair on
   std::optional<std::int64_t> last_stamp_ns_;
+  // The last pair that was not lost: the mount then, and the expected motion from then to the last
+  // pair, if every part of it was known.
+  Eigen::Isometry3d T_base_camera_known_ = Eigen::Isometry3d::Identity();
+  std::optional<Eigen::Isometry3d> T_known_last_;
 
   std::mutex requests_mutex_;
   Requests requests_;

@@ -9,6 +9,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "input/image_validation.h"
+#include "input/message_conversion.h"
 #include "node/node_parameters.h"
 #include "node/odometry_messages.h"
 
@@ -39,7 +40,7 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
       parameters_(parameters.node),
       drops_(log_),
       processor_(parameters, log_),
-      mount_(parameters_.base_frame, log_),
+      mount_(parameters_.base_frame, parameters_.mount_timeout_s, listenToTf, log_),
       publisher_(nh, parameters_),
       trajectory_(static_cast<std::size_t>(parameters_.trajectory_length)),
       silence_(parameters_.silence_s, SteadyClock::now()) {
@@ -138,15 +139,17 @@ void StereoOdometry::work() {
 bool StereoOdometry::waitsForMount(const ReceivedPair& received) {
   const sensor_msgs::Image& left = *received.images.left;
   if (parameters_.camera_frame.empty() && left.header.frame_id.empty()) return false;
-  if (mount_.find(cameraFrameOf(left, parameters_.camera_frame))) return false;
+  const std::string camera_frame = cameraFrameOf(left, parameters_.camera_frame);
+  if (mount_.find(camera_frame, toNanoseconds(left.header.stamp))) return false;
   health_.setWaitsForTf(mount_.missing());
   return true;
 }
 
 void StereoOdometry::processSafely(const ReceivedPair& received) {
   try {
-    const auto& T_base_camera =
-        mount_.find(cameraFrameOf(*received.images.left, parameters_.camera_frame));
+    const sensor_msgs::Image& left = *received.images.left;
+    const auto T_base_camera = mount_.find(cameraFrameOf(left, parameters_.camera_frame),
+                                           toNanoseconds(left.header.stamp));
     if (T_base_camera) process(received, *T_base_camera);
   } catch (const InputError& error) {
     drops_.add(error);

@@ -16,6 +16,12 @@ void addNode(NodeParameters& n, ParameterTable& table) {
   table.add("publish_tf", n.publish_tf, "broadcast odom_frame -> base_frame");
   table.add("invert_tf", n.invert_tf, "broadcast base_frame -> odom_frame instead");
   table.add("planar", n.planar, "restrict the motion of base_frame to x, y and yaw");
+  table.add("mount_timeout_s",
+            n.mount_timeout_s,
+            0.0,
+            10.0,
+            "s",
+            "how long a pair waits for the transform of a camera that moves on the robot");
   table.add("guess_frame",
             n.guess_frame,
             {},

@@ -15,8 +15,8 @@ OdometryBag::OdometryBag(const std::string& path,
                          std::int64_t start_ns)
     : parameters_(parameters.node),
       start_ns_(start_ns),
-      odometry_(T_base_camera,
-                parameters.node.lost_speed_sigma_mps,
+      T_base_camera_(T_base_camera),
+      odometry_(parameters.node.lost_speed_sigma_mps,
                 parameters.node.lost_turn_rate_sigma_rps,
                 parameters.node.planar,
                 parameters.odometry.systematic_error) {
@@ -28,7 +28,7 @@ OdometryBag::OdometryBag(const std::string& path,
 }
 
 void OdometryBag::write(const OdometryResult& result) {
-  BaseState state = odometry_.add(result);
+  BaseState state = odometry_.add(result, T_base_camera_);
   state.stamp_ns += start_ns_;
   const ros::Time stamp = toRosTime(state.stamp_ns);
   const std::string& odom = parameters_.odom_frame;

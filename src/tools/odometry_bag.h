@@ -28,6 +28,7 @@ class OdometryBag {
  private:
   NodeParameters parameters_;
   std::int64_t start_ns_;
+  Eigen::Isometry3d T_base_camera_;
   BaseOdometry odometry_;
   rosbag::Bag bag_;
 };

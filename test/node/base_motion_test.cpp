@@ -100,10 +100,20 @@ TEST(UncertainTransformTest, ErrorsOfTheBaseAreThoseOfSamples) {
   const UncertainTransform camera{makeTransform({0.1, 0.0, 1.2}, {0.01, 0.08, -0.02}),
                                   makeCovariance(0.01, 0.005)};
   const Eigen::Isometry3d T_base_camera = makeTransform({1.5, 0.3, 1.65}, {-1.2, 1.2, -1.2});
-  const UncertainTransform base = motionOfBase(camera, T_base_camera);
+  const UncertainTransform base = motionOfBase(camera, T_base_camera, T_base_camera);
   Noise noise;
   expectCovariance(base,
                    [&] { return T_base_camera * noise.sample(camera) * T_base_camera.inverse(); });
+}
+
+TEST(UncertainTransformTest, ErrorsOfTheBaseUnderAMovingCameraAreThoseOfSamples) {
+  const UncertainTransform camera{makeTransform({0.1, 0.0, 1.2}, {0.01, 0.08, -0.02}),
+                                  makeCovariance(0.01, 0.005)};
+  const Eigen::Isometry3d before = makeTransform({1.5, 0.3, 1.65}, {-1.2, 1.2, -1.2});
+  const Eigen::Isometry3d after = makeTransform({0.9, -0.4, 2.65}, {-1.0, 0.8, -1.5});
+  const UncertainTransform base = motionOfBase(camera, before, after);
+  Noise noise;
+  expectCovariance(base, [&] { return before * noise.sample(camera) * after.inverse(); });
 }
 
 TEST(UncertainTransformTest, ForwardInTheImageIsForwardForTheBase) {
@@ -111,7 +121,7 @@ TEST(UncertainTransformTest, ForwardInTheImageIsForwardForTheBase) {
   T_base_camera.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   UncertainTransform camera;
   camera.T.translation().z() = 1.0;
-  const UncertainTransform base = motionOfBase(camera, T_base_camera);
+  const UncertainTransform base = motionOfBase(camera, T_base_camera, T_base_camera);
   EXPECT_TRUE(base.T.isApprox(makeTransform({1.0, 0.0, 0.0}, {0.0, 0.0, 0.0})));
 }
 

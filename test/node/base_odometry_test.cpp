@@ -39,7 +39,7 @@ class BaseOdometryTest : public testing::Test {
     result.covariance = 1e-6 * Matrix6d::Identity();
     result.keyframe_stamp_ns = stamp_ns_ - kPeriod_ns;
     result.T_keyframe_cur = {result.T_prev_cur, result.covariance};
-    return odometry_.add(result);
+    return odometry_.add(result, mount_);
   }
 
   /// A pair at rest, measured against an earlier one.
@@ -51,21 +51,22 @@ class BaseOdometryTest : public testing::Test {
     result.covariance = 2e-6 * Matrix6d::Identity();
     result.keyframe_stamp_ns = keyframe_stamp_ns;
     result.T_keyframe_cur.covariance = 1e-6 * Matrix6d::Identity();
-    return odometry_.add(result);
+    return odometry_.add(result, mount_);
   }
 
   BaseState lose(std::int64_t passed_ns, State state = State::kLost) {
     OdometryResult result;
     result.state = state;
     result.stamp_ns = stamp_ns_ += passed_ns;
-    return odometry_.add(result);
+    return odometry_.add(result, mount_);
   }
 
   static double sigma(const BaseState& state, int axis) {
     return std::sqrt(state.T_odom_base.covariance(axis, axis));
   }
 
-  BaseOdometry odometry_{cameraMount(), kSpeedSigma, kTurnSigma};
+  BaseOdometry odometry_{kSpeedSigma, kTurnSigma};
+  Eigen::Isometry3d mount_ = cameraMount();
   std::int64_t stamp_ns_ = 5'000'000'000;
 };
 
@@ -176,8 +177,113 @@ TEST_F(BaseOdometryTest, GapsOfYearsLeaveNumbersThatFiltersCanUse) {
   EXPECT_NEAR(sigma(state, 0), kSpeedSigma * 1000.0, 1.0);
 }
 
+/// A camera on a pan-tilt head with a lever, on a base that drives a curve.
+class MovingMountTest : public testing::Test {
+ protected:
+  static Eigen::Isometry3d mountAt(int pair) {
+    Eigen::Isometry3d T_base_camera = cameraMount();
+    T_base_camera.rotate(Eigen::AngleAxisd(0.3 * pair, Eigen::Vector3d::UnitY()));
+    T_base_camera.rotate(Eigen::AngleAxisd(0.1 * pair, Eigen::Vector3d::UnitX()));
+    T_base_camera.translate(Eigen::Vector3d(0.0, 0.05 * pair, 0.2));
+    return T_base_camera;
+  }
+
+  static Eigen::Isometry3d baseAt(int pair) {
+    Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
+    for (int i = 0; i < pair; ++i) T_odom_base = T_odom_base * makeMotion(0.5, 0.02);
+    return T_odom_base;
+  }
+
+  static Eigen::Isometry3d cameraAt(int pair) { return baseAt(pair) * mountAt(pair); }
+
+  BaseState begin() {
+    OdometryResult result;
+    result.state = State::kInitialising;
+    return odometry_.add(result, mountAt(0));
+  }
+
+  /// Measured against two earlier pairs.
+  BaseState see(int pair, int prev, int keyframe) {
+    OdometryResult result;
+    result.state = State::kOk;
+    result.stamp_ns = pair * kPeriod_ns;
+    result.dt_s = 0.1 * (pair - prev);
+    result.T_prev_cur = cameraAt(prev).inverse() * cameraAt(pair);
+    result.covariance = covariance_;
+    result.keyframe_stamp_ns = keyframe * kPeriod_ns;
+    result.T_keyframe_cur = {cameraAt(keyframe).inverse() * cameraAt(pair), covariance_};
+    return odometry_.add(result, mountAt(pair));
+  }
+
+  BaseState lose(int pair) {
+    OdometryResult result;
+    result.stamp_ns = pair * kPeriod_ns;
+    return odometry_.add(result, mountAt(pair));
+  }
+
+  BaseOdometry odometry_{kSpeedSigma, kTurnSigma};
+  Matrix6d covariance_ = 1e-6 * Matrix6d::Identity();
+};
+
+TEST_F(MovingMountTest, ThePoseIsThatOfTheBase) {
+  begin();
+  for (int pair = 1; pair < 30; ++pair) {
+    const BaseState state = see(pair, pair - 1, pair - 1);
+    EXPECT_TRUE(state.T_odom_base.T.isApprox(baseAt(pair), 1e-9)) << pair;
+    EXPECT_NEAR(state.twist.twist[0], 5.0, 0.01);
+    EXPECT_NEAR(state.twist.twist[5], 0.2, 1e-9);
+    // The camera's trajectory has the motion of the head.
+    EXPECT_TRUE(state.T_first_camera.isApprox(cameraAt(0).inverse() * cameraAt(pair), 1e-9));
+  }
+}
+
+/// The head has turned since the keyframe: errors along the view then are across it now.
+TEST_F(MovingMountTest, TheCovarianceIsThatOfTheMotionSinceTheKeyframe) {
+  covariance_ = 1e-12 * Matrix6d::Identity();
+  covariance_(2, 2) = 1e-4;
+  begin();
+  BaseState state;
+  for (int pair = 1; pair < 6; ++pair) state = see(pair, pair - 1, 0);
+  const UncertainTransform since =
+      motionOfBase({cameraAt(0).inverse() * cameraAt(5), covariance_}, mountAt(0), mountAt(5));
+  EXPECT_TRUE((state.T_odom_base.covariance - since.covariance).cwiseAbs().maxCoeff() < 1e-7);
+  EXPECT_NEAR(state.T_odom_base.covariance(0, 0), 1e-4, 1e-6) << "forward at the keyframe";
+}
+
+TEST_F(MovingMountTest, LostTheBaseRestsWhileTheHeadTurns) {
+  begin();
+  see(1, 0, 0);
+  for (int pair = 2; pair < 5; ++pair) {
+    const BaseState state = lose(pair);
+    EXPECT_TRUE(state.T_odom_base.T.isApprox(baseAt(1), 1e-9));
+    EXPECT_TRUE(
+        state.T_first_camera.isApprox(cameraAt(0).inverse() * baseAt(1) * mountAt(pair), 1e-9));
+  }
+  // Compared with the pair before the loss, nothing is lost.
+  EXPECT_TRUE(see(5, 1, 0).T_odom_base.T.isApprox(baseAt(5), 1e-9));
+}
+
+TEST_F(MovingMountTest, ComparedWithALostPairTheMountIsThatOfTheLostPair) {
+  begin();
+  see(1, 0, 0);
+  lose(2);
+  lose(3);
+  const BaseState state = see(4, 3, 3);
+  EXPECT_TRUE(state.T_odom_base.T.isApprox(baseAt(1) * makeMotion(0.5, 0.02), 1e-9));
+  EXPECT_TRUE(see(5, 4, 3).T_odom_base.T.isApprox(
+      baseAt(1) * makeMotion(0.5, 0.02) * makeMotion(0.5, 0.02), 1e-9));
+}
+
+TEST_F(MovingMountTest, APoseThatIsSetIsThatOfTheBase) {
+  begin();
+  see(1, 0, 0);
+  odometry_.setPose(makeMotion(7.0, 1.0));
+  EXPECT_TRUE(
+      see(2, 1, 0).T_odom_base.T.isApprox(makeMotion(7.0, 1.0) * makeMotion(0.5, 0.02), 1e-9));
+}
+
 TEST(PlanarOdometryTest, LeavesOutWhatIsNotInThePlane) {
-  BaseOdometry odometry(cameraMount(), kSpeedSigma, kTurnSigma, true);
+  BaseOdometry odometry(kSpeedSigma, kTurnSigma, true);
   Eigen::Isometry3d bump = makeMotion(1.0, 0.1);
   bump.translation().z() = 0.3;
   bump.rotate(Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY()));
@@ -192,7 +298,7 @@ TEST(PlanarOdometryTest, LeavesOutWhatIsNotInThePlane) {
     result.T_prev_cur = cameraMount().inverse() * bump * cameraMount();
     result.covariance = 1e-6 * Matrix6d::Identity();
     result.T_keyframe_cur = {result.T_prev_cur, result.covariance};
-    state = odometry.add(result);
+    state = odometry.add(result, cameraMount());
     expected = expected * makeMotion(1.0, 0.1);
   }
   EXPECT_TRUE(state.T_odom_base.T.isApprox(expected, 1e-9));
@@ -210,7 +316,8 @@ TEST(PlanarOdometryTest, LeavesOutWhatIsNotInThePlane) {
 
 /// Independent errors of 100 motions of 1 m would give 0.1 m.
 TEST_F(BaseOdometryTest, SystematicErrorsGrowWithTheDistance) {
-  BaseOdometry odometry(Eigen::Isometry3d::Identity(), kSpeedSigma, kTurnSigma, false, {0.01, 0.0});
+  const Eigen::Isometry3d mount = Eigen::Isometry3d::Identity();
+  BaseOdometry odometry(kSpeedSigma, kTurnSigma, false, {0.01, 0.0});
   OdometryResult result;
   result.state = State::kOk;
   result.dt_s = 0.1;
@@ -220,11 +327,11 @@ TEST_F(BaseOdometryTest, SystematicErrorsGrowWithTheDistance) {
   for (int i = 0; i < 100; ++i) {
     result.keyframe_stamp_ns = result.stamp_ns;
     result.stamp_ns += kPeriod_ns;
-    state = odometry.add(result);
+    state = odometry.add(result, mount);
   }
   EXPECT_NEAR(sigma(state, 0), 1.0, 0.01);
   odometry.setPose(state.T_odom_base.T);
-  EXPECT_NEAR(sigma(odometry.add(result), 0), 0.01, 1e-3);
+  EXPECT_NEAR(sigma(odometry.add(result, mount), 0), 0.01, 1e-3);
 }
 
 }  // namespace

@@ -1,11 +1,14 @@
 #include "node/camera_mount.h"
 
 #include <cmath>
+#include <thread>
 
 #include <gtest/gtest.h>
 
 #include "bags/kitti_mount.h"
 #include "support/expect_error.h"
+#include "support/log_recorder.h"
+#include "support/tf_recording.h"
 
 namespace rotrocc {
 namespace {
@@ -33,6 +36,127 @@ TEST(DescribeMountTest, CameraThatLooksDown) {
   T_base_camera.translation().z() = 12.0;
   T_base_camera.rotate(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
   EXPECT_EQ(describeMount(T_base_camera), "at 0 0 12 m, looks along -z (down)");
+}
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+/// A head that has turned to the left.
+Eigen::Isometry3d panned(double left_rad) {
+  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
+  T_base_camera.translation().z() = 1.0;
+  T_base_camera.rotate(Eigen::AngleAxisd(left_rad, Eigen::Vector3d::UnitZ()));
+  return T_base_camera;
+}
+
+double panOf(const std::optional<Eigen::Isometry3d>& T_base_camera) {
+  if (!T_base_camera) return NAN;
+  return std::atan2(T_base_camera->linear()(1, 0), T_base_camera->linear()(0, 0));
+}
+
+class CameraMountTest : public testing::Test {
+ protected:
+  void sendPan(double stamp_s, double left_rad) {
+    tf_.send("torso", "camera", stamp_s, panned(left_rad));
+  }
+
+  /// Its chain has a part that does not move.
+  void SetUp() override { tf_.sendStatic("base_link", "torso", Eigen::Isometry3d::Identity()); }
+
+  TfRecording tf_;
+  LogRecorder log_;
+};
+
+TEST_F(CameraMountTest, AFixedMountIsLookedUpOnceAndTfIsLeft) {
+  CameraMount mount("base_link", 0.0, tf_.feed());
+  EXPECT_FALSE(mount.find("camera", 5 * kSecond));
+  EXPECT_NE(mount.missing(), "");
+  tf_.sendStatic("torso", "camera", panned(0.2));
+  EXPECT_NEAR(panOf(mount.find("camera", 6 * kSecond)), 0.2, 1e-12);
+  EXPECT_EQ(mount.missing(), "");
+  EXPECT_FALSE(tf_.hasListener());
+  EXPECT_NEAR(panOf(mount.find("camera", 7 * kSecond)), 0.2, 1e-12);
+  EXPECT_EQ(tf_.listenersStarted(), 1);
+}
+
+TEST_F(CameraMountTest, TheBaseItselfNeedsNoTf) {
+  CameraMount mount("camera", 0.0, tf_.feed());
+  EXPECT_TRUE(mount.find("camera", 5 * kSecond)->isApprox(Eigen::Isometry3d::Identity()));
+  EXPECT_FALSE(tf_.hasListener());
+}
+
+TEST_F(CameraMountTest, AMovingMountIsThatAtTheStamp) {
+  CameraMount mount("base_link", 0.0, tf_.feed());
+  sendPan(100.0, 0.0);
+  sendPan(101.0, 0.5);
+  sendPan(102.0, 0.7);
+  EXPECT_NEAR(panOf(mount.find("camera", 100 * kSecond)), 0.0, 1e-9);
+  EXPECT_NEAR(panOf(mount.find("camera", 100 * kSecond + kSecond / 2)), 0.25, 1e-9);
+  EXPECT_NEAR(panOf(mount.find("camera", 101 * kSecond + kSecond / 2)), 0.6, 1e-9);
+  EXPECT_TRUE(tf_.hasListener());
+}
+
+TEST_F(CameraMountTest, ALateTransformIsWaitedForWithABound) {
+  CameraMount mount("base_link", 1000.0, tf_.feed());
+  sendPan(100.0, 0.0);
+  EXPECT_TRUE(mount.find("camera", 100 * kSecond));
+  sendPan(101.0, 0.5);
+  std::thread late([&] { sendPan(102.0, 0.7); });
+  EXPECT_NEAR(panOf(mount.find("camera", 102 * kSecond)), 0.7, 1e-9);
+  late.join();
+  CameraMount impatient("base_link", 0.01, tf_.feed());
+  sendPan(100.0, 0.0);
+  sendPan(101.0, 0.5);
+  EXPECT_TRUE(impatient.find("camera", 100 * kSecond));
+  EXPECT_FALSE(impatient.find("camera", 102 * kSecond));
+  EXPECT_NE(impatient.missing().find("raise mount_timeout_s = 0.01"), std::string::npos)
+      << impatient.missing();
+}
+
+/// With waiting at each stamp, this takes an hour.
+TEST_F(CameraMountTest, AMountAtRestWhoseTfIsSlowIsWaitedForOnce) {
+  CameraMount mount("base_link", 0.2, tf_.feed());
+  sendPan(100.0, 0.3);
+  for (int i = 0; i < 20'000; ++i) {
+    if (i == 100) sendPan(101.0, 0.3 + 1e-6);  // noise of a joint
+    EXPECT_NEAR(panOf(mount.find("camera", 100 * kSecond + i)), 0.3, 1e-5);
+  }
+  sendPan(102.0, 0.4);
+  EXPECT_FALSE(mount.find("camera", 103 * kSecond)) << "it moves";
+}
+
+/// As at a start, when images come before tf.
+TEST_F(CameraMountTest, ATransformAfterTheImagesIsNotWaitedFor) {
+  CameraMount mount("base_link", 1000.0, tf_.feed());
+  sendPan(100.0, 0.3);
+  EXPECT_NEAR(panOf(mount.find("camera", 99 * kSecond)), 0.3, 1e-9);
+}
+
+/// tf refuses transforms from 10 s before the latest.
+TEST_F(CameraMountTest, GoesOnAfterATimeJump) {
+  CameraMount mount("base_link", 0.0, tf_.feed());
+  sendPan(100.0, 0.0);
+  sendPan(101.0, 0.5);
+  EXPECT_TRUE(mount.find("camera", 100 * kSecond));
+  EXPECT_TRUE(mount.find("camera", 101 * kSecond));
+  sendPan(20.0, 0.0);
+  EXPECT_FALSE(mount.find("camera", 20 * kSecond));
+  sendPan(20.0, 0.0);
+  sendPan(21.0, 0.1);
+  EXPECT_NEAR(panOf(mount.find("camera", 21 * kSecond)), 0.1, 1e-9);
+}
+
+TEST_F(CameraMountTest, AnotherFrameIsAnotherMountAndIsTold) {
+  CameraMount mount("base_link", 0.0, tf_.feed());
+  tf_.sendStatic("torso", "camera", panned(0.2));
+  tf_.sendStatic("torso", "rear_camera", panned(M_PI / 2.0));
+  EXPECT_NEAR(panOf(mount.find("camera", 5 * kSecond)), 0.2, 1e-12);
+  EXPECT_NEAR(panOf(mount.find("rear_camera", 6 * kSecond)), M_PI / 2.0, 1e-12);
+  ASSERT_EQ(log_.with("changed from camera to rear_camera").size(), 1u);
+  // A driver that sends two frames in turn is told of at most every 5 s, and tf is listened to.
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_TRUE(mount.find(i % 2 == 0 ? "camera" : "rear_camera", (7 + i) * kSecond));
+  }
+  EXPECT_EQ(tf_.listenersStarted(), 2);
 }
 
 geometry_msgs::Transform makeTransform(double x, double qw, double qz) {

@@ -152,5 +152,54 @@ TEST_F(PairProcessorTest, ExpectedMotionIsThatOfTheBase) {
   EXPECT_GT(inliers[1], 2 * inliers[0]);
 }
 
+/// The wheels tell that the base rests: only so can the short search find the camera's motion.
+TEST_F(PairProcessorTest, ACameraThatMovesOnABaseAtRest) {
+  Parameters parameters;
+  parameters.odometry.max_tries = 1;
+  parameters.odometry.correspondence_finder.feature_tracker.startup_levels = 1;
+  OdometryRig rig(parameters);
+  rig.expected = [](std::int64_t, std::int64_t) {
+    return std::optional<Eigen::Isometry3d>(Eigen::Isometry3d::Identity());
+  };
+  rig.sendInfos();
+  for (int i = 0; i < 6; ++i) {
+    rig.drive();
+    EXPECT_NEAR(rig.answer()->state.T_odom_base.T.translation().norm(), 0.0, 0.05);
+    if (i > 0) {
+      EXPECT_EQ(rig.answer()->result.state, State::kOk) << rig.answer()->result.reason;
+    }
+    for (int skipped = 0; skipped < 3; ++skipped) rig.advance();
+    rig.T_base_camera.translation().x() += 4 * kStep_m;  // on a rail
+  }
+  EXPECT_NEAR(rig.answer()->state.T_first_camera.translation().z(), 20 * kStep_m, 0.2);
+}
+
+/// After a lost pair, the next is compared with the one before. The wheels tell of all the way in
+/// the first of the two steps, so the last one alone predicts nothing.
+TEST_F(PairProcessorTest, ExpectedMotionsOfLostPairsAddUp) {
+  Parameters parameters;
+  parameters.odometry.max_tries = 2;
+  parameters.odometry.correspondence_finder.feature_tracker.startup_levels = 1;
+  OdometryRig rig(parameters);
+  double step_m = 4 * kStep_m;
+  rig.expected = [&](std::int64_t, std::int64_t) {
+    Eigen::Isometry3d T_prev_cur = Eigen::Isometry3d::Identity();
+    T_prev_cur.translation().x() = std::exchange(step_m, 0.0);
+    return std::optional<Eigen::Isometry3d>(T_prev_cur);
+  };
+  rig.sendInfos();
+  rig.drive();
+  rig.advance();
+  rig.drive([](sensor_msgs::Image& left, sensor_msgs::Image& right) {
+    left.data.assign(left.data.size(), 0);
+    right.data.assign(right.data.size(), 0);
+  });
+  EXPECT_EQ(rig.answer()->result.state, State::kLost);
+  rig.advance();
+  rig.drive();
+  EXPECT_EQ(rig.answer()->result.state, State::kOk) << rig.answer()->result.reason;
+  EXPECT_NEAR(rig.answer()->state.T_odom_base.T.translation().x(), 4 * kStep_m, 0.05);
+}
+
 }  // namespace
 }  // namespace rotrocc

@@ -7,7 +7,6 @@
 #include <sensor_msgs/image_encodings.h>
 #include <boost/make_shared.hpp>
 
-#include "bags/kitti_mount.h"
 #include "input/message_conversion.h"
 #include "input/to_text.h"
 #include "node/odometry_health.h"
@@ -179,7 +178,7 @@ InputReport OdometryRig::report(std::chrono::steady_clock::time_point now) const
 
 void OdometryRig::process(const ReceivedPair& pair) {
   try {
-    answer_ = processor_.process(pair, kittiMount(), expected);
+    answer_ = processor_.process(pair, T_base_camera, expected);
     ++answers_;
     state_ = answer_->state;
     const double place_m = kStep_m * next_;

@@ -9,6 +9,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 
+#include "bags/kitti_mount.h"
 #include "input/drop_log.h"
 #include "input/stereo_intake.h"
 #include "node/pair_processor.h"
@@ -40,6 +41,9 @@ class OdometryRig {
   ros::Time stamp{1000.0};
   /// ROS time at arrival; `stamp` if not set.
   std::optional<ros::Time> clock;
+
+  /// The mount at the next pair.
+  Eigen::Isometry3d T_base_camera = kittiMount();
 
   /// The motion by another sensor.
   PairProcessor::MotionSource expected;
