@@ -19,4 +19,12 @@ UncertainTwist twistOf(const UncertainTransform& T_prev_cur, double dt_s) {
   return {logMotion(T_prev_cur.T) / dt_s, T_prev_cur.covariance / (dt_s * dt_s)};
 }
 
+UncertainTwist meanVelocityOf(const UncertainTransform& T_prev_cur, double dt_s) {
+  UncertainTwist velocity;
+  velocity.twist << T_prev_cur.T.translation(), logRotation(T_prev_cur.T.linear());
+  velocity.twist /= dt_s;
+  velocity.covariance = T_prev_cur.covariance / (dt_s * dt_s);
+  return velocity;
+}
+
 }  // namespace rotrocc

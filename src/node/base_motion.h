@@ -23,4 +23,7 @@ struct UncertainTwist {
 /// rotations within that time.
 UncertainTwist twistOf(const UncertainTransform& T_prev_cur, double dt_s);
 
+/// Translation and rotation of the motion T_prev_cur over `dt_s` > 0, in the frame before it.
+UncertainTwist meanVelocityOf(const UncertainTransform& T_prev_cur, double dt_s);
+
 }  // namespace rotrocc

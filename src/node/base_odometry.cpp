@@ -60,7 +60,10 @@ BaseState BaseOdometry::add(const OdometryResult& result, const Eigen::Isometry3
     known_ = last_;
   }
   if (result.hasMotion()) {
-    state.twist = addMotion(result, T_base_camera);
+    const UncertainTransform step = addMotion(result, T_base_camera);
+    state.twist = twistOf(step, result.dt_s);
+    state.step_velocity = {result.stamp_ns - std::llround(1e9 * result.dt_s),
+                           meanVelocityOf(step, result.dt_s)};
   } else {
     addRest(result, T_base_camera);
     state.twist.covariance = kUnknownVariance * Matrix6d::Identity();
@@ -80,9 +83,9 @@ UncertainTransform BaseOdometry::motionOfBase(const UncertainTransform& camera_m
   return planar_ ? UncertainTransform{planar(motion.T), planar(motion.covariance)} : motion;
 }
 
-/// Returns the twist since the previous pair.
-UncertainTwist BaseOdometry::addMotion(const OdometryResult& result,
-                                       const Eigen::Isometry3d& T_base_camera) {
+/// Returns the motion of the base since the previous pair.
+UncertainTransform BaseOdometry::addMotion(const OdometryResult& result,
+                                           const Eigen::Isometry3d& T_base_camera) {
   // Compared with a lost pair, that one is the keyframe.
   const Pose prev = result.keyframe_stamp_ns > known_.stamp_ns ? last_ : known_;
   if (result.keyframe_stamp_ns != keyframe_stamp_ns_) {
@@ -102,7 +105,7 @@ UncertainTwist BaseOdometry::addMotion(const OdometryResult& result,
   // Not by compose(), which would accumulate rounding errors.
   last_.T_odom_base.T = last_.T_odom_start * T_start_base();
   without_motion_s_ = 0.0;
-  return twistOf(step, result.dt_s);
+  return step;
 }
 
 /// The base stays where it is; a mount that moves moves the camera.

@@ -11,13 +11,21 @@
 
 namespace rotrocc {
 
+/// The mean velocity from one pair to the next. A filter that integrates velocities from their
+/// stamp on follows the motion with it; with the twist of the later pair, it lags by a period.
+struct StepVelocity {
+  std::int64_t stamp_ns = 0;  ///< of the first of both pairs
+  UncertainTwist twist;       ///< in the frame of the base at that time
+};
+
 /// Pose and motion of the robot after a stereo pair.
 struct BaseState {
   std::int64_t stamp_ns = 0;
   Eigen::Isometry3d T_first_camera =
       Eigen::Isometry3d::Identity();  ///< in the first camera's frame
   UncertainTransform T_odom_base;
-  UncertainTwist twist;  ///< in the frame of the base
+  UncertainTwist twist;                       ///< in the frame of the base
+  std::optional<StepVelocity> step_velocity;  ///< since the previous pair, if known
 };
 
 /// Accumulates camera motions to the odometry of the base. The odom frame is the frame of the base
@@ -59,7 +67,8 @@ class BaseOdometry {
   UncertainTransform motionOfBase(const UncertainTransform& camera_motion,
                                   const Pose& from,
                                   const Eigen::Isometry3d& T_base_camera) const;
-  UncertainTwist addMotion(const OdometryResult& result, const Eigen::Isometry3d& T_base_camera);
+  UncertainTransform addMotion(const OdometryResult& result,
+                               const Eigen::Isometry3d& T_base_camera);
   void addRest(const OdometryResult& result, const Eigen::Isometry3d& T_base_camera);
   Matrix6d growthWithoutMotion(std::int64_t stamp_ns);
   UncertainTransform withSystematicError(const UncertainTransform& T_odom_base) const;

@@ -63,6 +63,16 @@ nav_msgs::Odometry toOdometry(const BaseState& state,
   return message;
 }
 
+geometry_msgs::TwistWithCovarianceStamped toTwist(const StepVelocity& velocity,
+                                                  const std::string& base_frame) {
+  geometry_msgs::TwistWithCovarianceStamped message;
+  message.header.stamp = toRosTime(velocity.stamp_ns);
+  message.header.frame_id = base_frame;
+  message.twist.twist = tf2::toMsg(velocity.twist.twist);
+  copyCovariance(velocity.twist.covariance, message.twist.covariance);
+  return message;
+}
+
 geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& T_parent_child,
                                             std::int64_t stamp_ns,
                                             const std::string& parent,

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <geometry_msgs/TransformStamped.h>
+#include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/Header.h>
@@ -19,6 +20,9 @@ namespace rotrocc {
 nav_msgs::Odometry toOdometry(const BaseState& state,
                               const std::string& odom_frame,
                               const std::string& base_frame);
+
+geometry_msgs::TwistWithCovarianceStamped toTwist(const StepVelocity& velocity,
+                                                  const std::string& base_frame);
 
 /// T_parent_child as tf message.
 geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& T_parent_child,

@@ -28,6 +28,8 @@ OdometryPublisher::OdometryPublisher(ros::NodeHandle& nh, const NodeParameters& 
       flow_view_(flowView(parameters.flow_view)),
       status_publisher_(advertise<OdometryStatus>(nh, "status", kMotionQueue)),
       odom_publisher_(advertise<nav_msgs::Odometry>(nh, "odom", kMotionQueue)),
+      twist_publisher_(
+          advertise<geometry_msgs::TwistWithCovarianceStamped>(nh, "twist", kMotionQueue)),
       path_publisher_(advertise<nav_msgs::Path>(nh, "path", kPictureQueue)),
       inliers_publisher_(advertise<sensor_msgs::PointCloud2>(nh, "inliers", kPictureQueue)),
       flow_publisher_(image_transport::ImageTransport(nh).advertise("flow", kPictureQueue)) {
@@ -42,6 +44,9 @@ void OdometryPublisher::publishMotion(const OdometryStatus& status,
   status_publisher_.publish(status);
   if (tf_broadcaster_) publishTf(state, T_guess_base);
   odom_publisher_.publish(odometry);
+  if (state.step_velocity) {
+    twist_publisher_.publish(toTwist(*state.step_velocity, parameters_.base_frame));
+  }
   publishPath(odometry);
 }
 

@@ -22,9 +22,9 @@
 
 namespace rotrocc {
 
-/// Publishes the results of each pair: status, tf, odom, path, inliers and flow. The last two cost
-/// nothing without subscribers. The path is sent at a limited rate, because it is long; its poses
-/// are kept for those who subscribe later.
+/// Publishes the results of each pair: status, tf, odom, twist, path, inliers and flow. The last two
+/// cost nothing without subscribers. The path is sent at a limited rate, because it is long; its
+/// poses are kept for those who subscribe later.
 class OdometryPublisher {
  public:
   OdometryPublisher(ros::NodeHandle& nh, const NodeParameters& parameters);
@@ -66,6 +66,7 @@ class OdometryPublisher {
 
   ros::Publisher status_publisher_;
   ros::Publisher odom_publisher_;
+  ros::Publisher twist_publisher_;
   ros::Publisher path_publisher_;
   ros::Publisher inliers_publisher_;
   image_transport::Publisher flow_publisher_;

@@ -134,6 +134,16 @@ TEST(UncertainTransformTest, TwistMakesTheMotion) {
   EXPECT_NEAR(twist.twist[5], 1.5, 0.01);
 }
 
+TEST(UncertainTransformTest, MeanVelocityInTheFirstFrameMakesTheMotion) {
+  const double dt_s = 0.1;
+  const UncertainTransform motion{makeTransform({1.2, 0.05, 0.0}, {0.0, 0.01, 0.15}),
+                                  makeCovariance(0.01, 0.001)};
+  const UncertainTwist velocity = meanVelocityOf(motion, dt_s);
+  EXPECT_TRUE((velocity.twist.head<3>() * dt_s).isApprox(motion.T.translation(), 1e-12));
+  EXPECT_TRUE(expRotation(velocity.twist.tail<3>() * dt_s).isApprox(motion.T.linear(), 1e-12));
+  EXPECT_TRUE((velocity.covariance * dt_s * dt_s).isApprox(motion.covariance, 1e-12));
+}
+
 TEST(UncertainTransformTest, ErrorsOfTheTwistAreThoseOfSamples) {
   const double dt_s = 0.1;
   const UncertainTransform motion{makeTransform({1.2, 0.0, 0.0}, {0.0, 0.0, 0.01}),

@@ -94,6 +94,18 @@ TEST_F(BaseOdometryTest, DrivesACircleOfTheBase) {
   EXPECT_NEAR(state.twist.twist[5], 10.0 * angle, 1e-9);
 }
 
+TEST_F(BaseOdometryTest, VelocityOfTheStepHoldsFromThePreviousPairOn) {
+  move(makeMotion(1.0, 0.1));
+  const Eigen::Isometry3d motion = makeMotion(0.7, 0.2);
+  const BaseState state = move(motion);
+  ASSERT_TRUE(state.step_velocity);
+  EXPECT_EQ(state.step_velocity->stamp_ns, stamp_ns_ - kPeriod_ns);
+  const Vector6d& twist = state.step_velocity->twist.twist;
+  EXPECT_TRUE((0.1 * twist.head<3>()).isApprox(motion.translation(), 1e-9)) << twist;
+  EXPECT_NEAR(0.1 * twist[5], 0.2, 1e-9);
+  EXPECT_FALSE(lose(kPeriod_ns).step_velocity);
+}
+
 TEST_F(BaseOdometryTest, CovarianceGrowsOnTheWay) {
   double last = 0.0;
   for (int i = 0; i < 10; ++i) {

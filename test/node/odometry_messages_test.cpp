@@ -31,6 +31,21 @@ TEST(OdometryMessagesTest, OdometryHasPoseTwistAndFrames) {
   EXPECT_EQ(message.twist.covariance[35], 7.0);
 }
 
+TEST(OdometryMessagesTest, TwistHasVelocityStampAndFrame) {
+  StepVelocity velocity;
+  velocity.stamp_ns = 1'500'000'000;
+  velocity.twist.twist << 1, 2, 3, 4, 5, 6;
+  velocity.twist.covariance = 2.0 * Matrix6d::Identity();
+  velocity.twist.covariance(0, 5) = 0.25;
+  const geometry_msgs::TwistWithCovarianceStamped message = toTwist(velocity, "base");
+  EXPECT_EQ(message.header.stamp, ros::Time(1.5));
+  EXPECT_EQ(message.header.frame_id, "base");
+  EXPECT_EQ(message.twist.twist.linear.z, 3.0);
+  EXPECT_EQ(message.twist.twist.angular.x, 4.0);
+  EXPECT_EQ(message.twist.covariance[5], 0.25);
+  EXPECT_EQ(message.twist.covariance[35], 2.0);
+}
+
 TEST(OdometryMessagesTest, TransformIsThePose) {
   const nav_msgs::Odometry odometry = toOdometry(makeState(), "odom", "base_link");
   const geometry_msgs::TransformStamped message =
