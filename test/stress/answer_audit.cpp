@@ -133,7 +133,8 @@ ImageAccount AnswerAudit::account() const {
   for (const auto& [topic, count] : images_received_) images.received += count;
   images.used = 2 * last_status_.pairs_processed;
   for (const DropCount& drop : last_status_.drops) {
-    images.dropped[drop.reason] = drop.count * imagesPerDrop(drop.reason);
+    const std::uint64_t dropped = drop.count * imagesPerDrop(drop.reason);
+    if (dropped > 0) images.dropped[drop.reason] = dropped;
   }
   return images;
 }
