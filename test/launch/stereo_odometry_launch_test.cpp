@@ -74,14 +74,14 @@ TEST_F(StereoOdometryLaunchTest, ParametersOfAnEarlierRunAreDeleted) {
 
 TEST_F(StereoOdometryLaunchTest, TopicsLandInTheNamespaceOfTheCamera) {
   const Launched launched = launch();
-  for (const std::string topic : {"odom", "path", "status", "inliers", "flow"}) {
+  for (const std::string topic : {"odom", "twist", "path", "status", "inliers", "flow"}) {
     EXPECT_EQ(launched.topic(kNode, topic), topic);
   }
 }
 
 TEST_F(StereoOdometryLaunchTest, TopicsLandWhereTheUserWants) {
   const Launched elsewhere = launch("output_ns:=/vo");
-  for (const std::string topic : {"odom", "path", "status", "inliers", "flow"}) {
+  for (const std::string topic : {"odom", "twist", "path", "status", "inliers", "flow"}) {
     EXPECT_EQ(elsewhere.topic(kNode, topic), "/vo/" + topic);
   }
   const Launched renamed = launch("output_ns:=vo odom_topic:=/odometry/visual rviz:=true");
