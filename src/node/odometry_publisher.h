@@ -22,9 +22,9 @@
 
 namespace rotrocc {
 
-/// Publishes the results of each pair: status, tf, odom, twist, path, inliers and flow. The last two
-/// cost nothing without subscribers. The path is sent at a limited rate, because it is long; its
-/// poses are kept for those who subscribe later.
+/// Publishes the results of each pair: status, tf, odom, twist, path, inliers and flow. The last
+/// two cost nothing without subscribers. The path is sent at a limited rate, because it is long;
+/// its poses are kept for those who subscribe later.
 class OdometryPublisher {
  public:
   OdometryPublisher(ros::NodeHandle& nh, const NodeParameters& parameters);

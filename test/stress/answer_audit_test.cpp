@@ -66,7 +66,7 @@ TEST(FaultInjectorTest, SameSeedMakesTheSameFaults) {
     count = injector.counts();
   }
   EXPECT_EQ(counts[0], counts[1]);
-  EXPECT_EQ(counts[0].size(), 23u) << "every fault occurs";
+  EXPECT_EQ(counts[0].size(), 24u) << "every fault occurs";
 }
 
 TEST(FaultInjectorTest, InTurnEachFaultOccursOnce) {
@@ -79,7 +79,7 @@ TEST(FaultInjectorTest, InTurnEachFaultOccursOnce) {
     lost_right += !pair.send_right;
   }
   EXPECT_TRUE(injector.finished());
-  EXPECT_EQ(injector.counts().size(), 23u);
+  EXPECT_EQ(injector.counts().size(), 24u);
   for (const auto& [fault, count] : injector.counts()) EXPECT_EQ(count, 1u) << fault;
   EXPECT_GT(lost_right, 5) << "30 % of a stretch";
   EXPECT_LT(lost_right, 16);
