@@ -1,8 +1,11 @@
 #include "motion/two_stage_estimator.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <limits>
 
+#include "common/median.h"
 #include "motion/flow_decoupling.h"
 #include "motion/reprojection_error.h"
 
@@ -11,6 +14,9 @@ namespace {
 
 /// Lower limit of the flow [px], so that normalized errors stay finite without flow.
 constexpr double kLeastFlow_px = 1e-6;
+
+/// Median length of two-dimensional normal errors, in standard deviations of a coordinate.
+constexpr double kMedianLength = 1.1774;
 
 /// The error of a feature that must not become an inlier.
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -54,7 +60,7 @@ void TwoStageEstimator::estimate(const Measurements& measured,
   const bool is_slow = step_m < config_.min_speed_mps * dt_s;
   if (!motion.valid || !hasTwoStages(criterion_) || is_slow) return;
   const Eigen::Isometry3d T_stage_one = motion.fit.T_keyframe_cur;
-  decouple(measured, T_stage_one.linear());  // 2)
+  decouple(measured, motion);  // 2)
   selectCandidates(measured, motion.fit);
   if (config_.translation_from_prediction) {
     Eigen::Isometry3d T_start = T_stage_one;
@@ -84,14 +90,32 @@ bool TwoStageEstimator::estimateRotation(const Measurements& measured,
   return refinement == nullptr || refinement->refineMotion(measured, inliers, fit);
 }
 
-/// Computes the flow by which the DNRE (or NRE) is normalized.
-void TwoStageEstimator::decouple(const Measurements& measured,
-                                 const Eigen::Matrix3d& R_keyframe_cur) {
+/// Computes the flow by which the DNRE (or NRE) is normalized. Where the limit is less than the
+/// noise, it would select by chance: a part for the noise is added.
+void TwoStageEstimator::decouple(const Measurements& measured, const TwoStageMotion& stage_one) {
   if (criterion_ == Criterion::kRotrocc) {
-    decoupledFlow(measured.camera, measured.features, R_keyframe_cur, flow_px_);  // Eq. 27, 28
+    decoupledFlow(measured.camera,
+                  measured.features,
+                  stage_one.fit.T_keyframe_cur.linear(),
+                  flow_px_);  // Eq. 27, 28
   } else {
     coupledFlow(measured.features, flow_px_);
   }
+  if (config_.translation_noise_factor == 0.0) return;
+  const double passes_px = config_.translation_noise_factor * flowNoise(measured, stage_one);
+  for (double& flow_px : flow_px_) {
+    flow_px = std::hypot(flow_px, passes_px / config_.translation_limit);
+  }
+}
+
+/// Standard deviation of the flow [px], from the errors of stage 1.
+double TwoStageEstimator::flowNoise(const Measurements& measured, const TwoStageMotion& stage_one) {
+  fittedErrors(measured.camera, stage_one.fit, errors_);
+  inlier_errors_px_.clear();
+  for (std::size_t i = 0; i < errors_.size(); ++i) {
+    if (stage_one.rotation_inliers[i] != 0) inlier_errors_px_.push_back(errors_[i]);
+  }
+  return median(inlier_errors_px_) / kMedianLength;
 }
 
 /// Selects the features that may enter stage 2.

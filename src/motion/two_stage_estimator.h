@@ -47,7 +47,8 @@ class TwoStageEstimator {
   bool estimateRotation(const Measurements& measured,
                         RobustRefinement* refinement,
                         TwoStageMotion& motion);
-  void decouple(const Measurements& measured, const Eigen::Matrix3d& R_keyframe_cur);
+  void decouple(const Measurements& measured, const TwoStageMotion& stage_one);
+  double flowNoise(const Measurements& measured, const TwoStageMotion& stage_one);
   void selectCandidates(const Measurements& measured, const Fit& fit);
   bool estimateTranslation(const Measurements& measured,
                            RobustRefinement* refinement,
@@ -67,7 +68,7 @@ class TwoStageEstimator {
 
   // Buffers, reused.
   FeatureSet candidates_, next_;
-  std::vector<double> errors_;
+  std::vector<double> errors_, inlier_errors_px_;
   std::vector<double> flow_px_;
 };
 

@@ -66,6 +66,13 @@ void addMotionEstimator(MotionEstimatorConfig& c, ParameterTable& table) {
             100.0,
             "",
             "stage 2: termination limit of the DNRE (Eq. 30)");
+  table.add(s + "translation_noise_factor",
+            c.translation_noise_factor,
+            0.0,
+            100.0,
+            "",
+            "stage 2: number of standard deviations of the noise that the limit admits where the "
+            "flow is small; 0: none, as in the paper");
   table.add(s + "translation_drop_share",
             c.translation_drop_share,
             0.001,

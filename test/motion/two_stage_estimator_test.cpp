@@ -1,6 +1,7 @@
 #include "motion/two_stage_estimator.h"
 
 #include <random>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -21,6 +22,7 @@ MotionEstimatorConfig paper() {
   MotionEstimatorConfig config;
   config.noise_ratio = 0.0;
   config.robust_factor = 0.0;
+  config.translation_noise_factor = 0.0;
   config.translation_initial_px = 0.0;
   config.retry_agreement_px = 0.0;
   config.translation_from_prediction = true;
@@ -88,6 +90,32 @@ TEST(TwoStageEstimatorTest, StageTwoMayStartFromThePrediction) {
   // The same minimum, up to the solver's tolerance.
   EXPECT_NE(a.translation(), b.translation());
   EXPECT_LT((a.translation() - b.translation()).norm(), 1e-4);
+}
+
+/// At walking pace, 4 % of the flow are less than its noise.
+TEST(TwoStageEstimatorTest, DoesNotTakeNoiseForOutliersWhereTheFlowIsSmall) {
+  const Eigen::Isometry3d step = motion({0.003, -0.001, 0.15}, {0.002, 0.03, -0.001});
+  const FeatureNoise noise = {0.3, 0.9};
+  std::mt19937 generator(1);
+  Correspondences features = simulateFeatures(kittiCamera(), step, 500, noise, generator);
+  for (std::size_t i = 0; i < 50; ++i) features[i].cur_px.y() += 8.0;
+  const StereoCamera camera = kittiCamera();
+  MotionEstimatorConfig of_the_flow;
+  of_the_flow.translation_noise_factor = 0.0;
+  for (const auto& [config, least, most] :
+       {std::tuple(MotionEstimatorConfig(), 360, 450), std::tuple(of_the_flow, 0, 150)}) {
+    TwoStageMotion found;
+    TwoStageEstimator(config).estimate({camera, features, config.noise_ratio},
+                                       FeatureSet(features.size(), 1),
+                                       step,
+                                       kPeriod_s,
+                                       3,
+                                       nullptr,
+                                       found);
+    ASSERT_TRUE(found.has_translation_stage);
+    EXPECT_GE(count(found.translation_inliers), least);
+    EXPECT_LE(count(found.translation_inliers), most);
+  }
 }
 
 }  // namespace

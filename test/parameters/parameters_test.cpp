@@ -80,6 +80,7 @@ TEST(ParametersTest, ThePapersFileTurnsOffWhatThePaperDoesNotHave) {
   EXPECT_EQ(estimator.criterion, "rotrocc");
   EXPECT_EQ(estimator.noise_ratio, 0.0);
   EXPECT_EQ(estimator.robust_factor, 0.0);
+  EXPECT_EQ(estimator.translation_noise_factor, 0.0);
   EXPECT_EQ(estimator.translation_initial_px, 0.0);
   EXPECT_EQ(estimator.retry_agreement_px, 0.0);
   EXPECT_TRUE(estimator.translation_from_prediction);

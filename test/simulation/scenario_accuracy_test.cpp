@@ -26,14 +26,10 @@ struct Step {
 /// The motions between pairs in the middle of a scenario, where the car drives.
 std::vector<Step> drive(const std::string& name) {
   SimulationOptions options;
-  VisualOdometry::Config config;
-  if (name == "handheld") {
-    options.rate_hz = 20.0;                       // 10 Hz needs a gyroscope
-    config.motion_estimator.min_speed_mps = 2.0;  // its steps are too short for stage 2
-  }
+  if (name == "handheld") options.rate_hz = 20.0;  // 10 Hz needs a gyroscope
   Simulator simulator(scenario(name, 1), options);
   const int first = simulator.size() / 4;
-  VisualOdometry odometry{config};
+  VisualOdometry odometry{VisualOdometry::Config{}};
   std::vector<Step> steps;
   for (int i = first; i < first + pairsToDrive(); ++i) {
     const auto result = odometry.process(simulator.render(i, false).pair, simulator.camera());
