@@ -8,7 +8,8 @@
 namespace rotrocc {
 namespace {
 
-constexpr std::uint32_t kQueueSize = 100;
+constexpr std::chrono::milliseconds kPeriod(100);
+constexpr std::uint32_t kQueueSize = 1000;  // of a period
 constexpr std::chrono::seconds kGone(5);
 
 using SteadyClock = std::chrono::steady_clock;
@@ -111,11 +112,16 @@ TfConflict::TfConflict(PublishedTf own, const std::string& base_frame, Log log)
   static_tf_subscriber_ = nh.subscribe<tf2_msgs::TFMessage const, const Event&>(
       "/tf_static", kQueueSize, [this](const Event& event) { onTf(event, true); });
   Neighbours::instance().add(own_);
-  spinner_.start();
+  thread_ = std::thread(&TfConflict::watch, this);
 }
 
 TfConflict::~TfConflict() {
-  spinner_.stop();
+  {
+    const std::lock_guard<std::mutex> lock(end_mutex_);
+    ended_ = true;
+  }
+  end_.notify_all();
+  thread_.join();
   Neighbours::instance().remove(own_);
 }
 
@@ -126,6 +132,11 @@ std::string TfConflict::description() {
   const std::lock_guard<std::mutex> lock(mutex_);
   const std::vector<PublishedTf> rivals = rivals_.present(SteadyClock::now());
   return rivals.empty() ? "" : describeConflict(own_, rivals.front(), base_frame_);
+}
+
+void TfConflict::watch() {
+  std::unique_lock<std::mutex> lock(end_mutex_);
+  while (!end_.wait_for(lock, kPeriod, [this] { return ended_; })) queue_.callAvailable();
 }
 
 void TfConflict::onTf(const Event& event, bool is_static) {

@@ -1,16 +1,17 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <map>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include <ros/callback_queue.h>
 #include <ros/message_event.h>
 #include <ros/node_handle.h>
-#include <ros/spinner.h>
 #include <ros/subscriber.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -66,6 +67,7 @@ class TfConflict {
 
  private:
   using Event = ros::MessageEvent<tf2_msgs::TFMessage const>;
+  void watch();
   void onTf(const Event& event, bool is_static);
   void add(const PublishedTf& rival, bool is_static);
 
@@ -75,11 +77,15 @@ class TfConflict {
   std::mutex mutex_;
   TfRivals rivals_;
 
-  // tf may have a thousand messages a second, which must not delay the images.
+  // tf may have a thousand messages a second, which must not delay the images. They are taken from
+  // the queue several times a second: to wake for each would cost more than to look at it.
   ros::CallbackQueue queue_;
   ros::Subscriber tf_subscriber_;
   ros::Subscriber static_tf_subscriber_;
-  ros::AsyncSpinner spinner_{1, &queue_};
+  std::mutex end_mutex_;
+  std::condition_variable end_;
+  bool ended_ = false;
+  std::thread thread_;
 };
 
 }  // namespace rotrocc
