@@ -4,6 +4,7 @@ import csv
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
@@ -55,6 +56,19 @@ class Programs:
                  '--times', sequence / 'times.txt', '--step', step, '--segments', table,
                  '--lengths', *lengths_m)
         return [{name: float(value) for name, value in row.items()} for row in read_table(table)]
+
+
+def take_every(sequence, every, target):
+    """A folder with each `every`-th pair of a sequence."""
+    shutil.rmtree(str(target), ignore_errors=True)
+    for side in ('image_0', 'image_1'):
+        (target / side).mkdir(parents=True)
+        for index, image in enumerate(sorted((sequence / side).iterdir())[::every]):
+            (target / side / ('%06d%s' % (index, image.suffix))).symlink_to(image.resolve())
+    for name, step in (('calib.txt', 1), ('times.txt', every), ('poses.txt', every)):
+        lines = (sequence / name).read_text().splitlines(True)
+        (target / name).write_text(''.join(lines[::step]))
+    return target
 
 
 def read_table(path):
