@@ -79,7 +79,7 @@ struct MotionEstimatorConfig {
   double retry_agreement_px = 2.0;
 
   // Stage 2: translation.
-  double translation_limit = 0.04;       ///< limit of the DNRE, Eq. 30
+  double translation_limit = 0.04;  ///< limit of the DNRE, Eq. 30
   /// Errors of this many standard deviations of the flow pass even if the flow is small.
   double translation_noise_factor = 2.0;
   double translation_drop_share = 0.15;  ///< b of Eq. 30
