@@ -146,12 +146,12 @@ TEST_F(CamerasLaunchTest, Euroc) {
   EXPECT_NE(play.find("/data/MH_01.bag"), std::string::npos) << play;
   EXPECT_TRUE(launched.param<bool>("/use_sim_time"));
   EXPECT_TRUE(launched.hasNode("/reset_sim_time"));
-  EXPECT_EQ(launched.topic("/cam1_info", "image"), "/cam1/image_raw");
-  EXPECT_EQ(launched.topic("/cam1_info", "camera_info"), "/cam1/camera_info");
-  EXPECT_EQ(launched.topic("/cam1_rectify", "image_rect"), "cam1/image_rect");
+  EXPECT_EQ(launched.topic("/player", "/cam0/image_raw"), "stereo/left/image_raw");
+  EXPECT_EQ(launched.topic("/player", "/cam1/image_raw"), "stereo/right/image_raw");
+  EXPECT_EQ(launched.topic("/stereo/right_info", "image"), "right/image_raw");
+  EXPECT_EQ(launched.topic("/stereo/right_info", "camera_info"), "right/camera_info");
+  EXPECT_TRUE(launched.hasNode("/stereo/right_rectify"));
   const std::string odometry = "/stereo/stereo_odometry";
-  EXPECT_EQ(launched.topic(odometry, "left/image_rect"), "/cam0/image_rect");
-  EXPECT_EQ(launched.topic(odometry, "right/camera_info"), "/cam1/camera_info");
   EXPECT_EQ(launched.param(odometry + "/camera_frame"), "cam0");
 }
 
