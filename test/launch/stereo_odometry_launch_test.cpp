@@ -90,6 +90,13 @@ TEST_F(StereoOdometryLaunchTest, TopicsLandWhereTheUserWants) {
   EXPECT_EQ(renamed.topic("/camera/rviz", "odom"), "/odometry/visual") << "rviz shows nothing";
 }
 
+TEST_F(StereoOdometryLaunchTest, AGyroscopeIsUsedIfItsTopicIsGiven) {
+  const Launched launched = launch("imu:=/imu/data");
+  EXPECT_TRUE(launched.param<bool>(kNode + "/use_imu"));
+  EXPECT_EQ(launched.topic(kNode, "imu"), "/imu/data");
+  EXPECT_EQ(launch().topic(kNode, "imu"), "imu");
+}
+
 TEST_F(StereoOdometryLaunchTest, RvizShowsTheOdometryFrame) {
   const std::string given = launch("rviz:=true odom_frame:=map").property("/camera/rviz", "args");
   EXPECT_NE(given.find("-f map"), std::string::npos) << given;
