@@ -109,6 +109,16 @@ TEST(OdometryMessagesTest, StatusHasStateCountsAndCounters) {
   EXPECT_EQ(message.drops[0].count, 5u);
 }
 
+TEST(OdometryMessagesTest, TheDefinitionOfDropCountListsEveryReason) {
+  const std::string definition = ros::message_traits::Definition<DropCount>::value();
+  for (int i = 0; i < static_cast<int>(DropReason::kCount); ++i) {
+    const std::string line = std::string("#   ") + toString(static_cast<DropReason>(i));
+    const std::size_t end = definition.find(line) + line.size();
+    ASSERT_NE(definition.find(line), std::string::npos) << line;
+    EXPECT_TRUE(definition[end] == ' ' || definition[end] == '\n') << line;
+  }
+}
+
 TEST(OdometryMessagesTest, IdleStatusSaysWhyNothingComes) {
   HealthReport health;
   health.input.camera_error = "P is all zeros";
