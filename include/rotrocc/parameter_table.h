@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <string>
@@ -20,6 +21,7 @@ class ParameterTable {
     std::string unit;      ///< "px", "m", ...; empty for plain numbers and text
     std::string range;     ///< as text: "[1, 100]", "one of a, b"
     std::string min, max;  ///< limits of the range, in the format of get(); empty for text
+    bool is_list = false;
     std::vector<std::string> choices;  ///< allowed values of a text; empty: any text
     std::string description;           ///< one line
     std::function<void(const std::string&)>
@@ -48,9 +50,18 @@ class ParameterTable {
            const std::vector<std::string>& choices,
            const std::string& description);
 
+  /// Six finite numbers: a list, or text with spaces.
+  void add(const std::string& name,
+           std::array<double, 6>& value,
+           const std::string& unit,
+           const std::string& description);
+
   /// Throws std::invalid_argument with the name, the value and the range if there is no such
   /// parameter or `text` is not a valid value for it.
   void set(const std::string& name, const std::string& text);
+
+  /// The same for a list of values.
+  void setList(const std::string& name, const std::vector<std::string>& elements);
 
   /// Takes "name=value", as on a command line. Throws as set().
   void setAssignment(const std::string& assignment);
@@ -58,6 +69,8 @@ class ParameterTable {
   const std::vector<Parameter>& parameters() const { return parameters_; }
 
  private:
+  Parameter& find(const std::string& name);
+
   std::vector<Parameter> parameters_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "rotrocc/odometry_config.h"
@@ -11,10 +12,11 @@ namespace rotrocc {
 struct NodeParameters {
   std::string odom_frame = "odom";
   std::string base_frame = "base_link";
-  std::string camera_frame;       ///< frame of the left images; empty: their frame_id
-  bool publish_tf = true;         ///< broadcast odom_frame -> base_frame
-  bool invert_tf = false;         ///< broadcast base_frame -> odom_frame instead
-  bool planar = false;            ///< restrict base_frame to motion in its x-y plane
+  std::string camera_frame;                 ///< frame of the left images; empty: their frame_id
+  bool publish_tf = true;                   ///< broadcast odom_frame -> base_frame
+  bool invert_tf = false;                   ///< broadcast base_frame -> odom_frame instead
+  bool planar = false;                      ///< restrict base_frame to motion in its x-y plane
+  std::array<double, 6> initial_pose = {};  ///< x y z [m] roll pitch yaw [rad] at the first pair
   double mount_timeout_s = 0.2;   ///< how long a pair waits for the tf of a camera that moves
   std::string guess_frame;        ///< odom frame of another odometry in tf; empty: none
   double guess_timeout_s = 0.05;  ///< how long a pair waits for that transform
@@ -33,6 +35,9 @@ struct NodeParameters {
   double path_rate_hz = 2.0;           ///< at most, of the messages on the path topic
   double lost_speed_sigma_mps = 10.0;  ///< growth rate of the position's uncertainty while lost
   double lost_turn_rate_sigma_rps = 0.5;
+  double guess_error_share = 0.1;         ///< error of the motion of guess_frame, while lost
+  double reset_after_lost_s = 0.0;        ///< the estimator restarts after a longer loss; 0: never
+  std::string pose_after_lost = "keep";   ///< or "zero": after that
   int trajectory_length = 100'000;        ///< number of poses kept for ~save_trajectory
   std::string trajectory_file;            ///< first of the files of all poses; empty: none
   std::string trajectory_format = "tum";  ///< or "kitti"

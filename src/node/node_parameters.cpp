@@ -4,6 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace rotrocc {
 namespace {
@@ -40,6 +41,11 @@ void setOne(const std::string& name, const XmlRpc::XmlRpcValue& value, Parameter
 }
 
 void setBelow(const std::string& name, XmlRpc::XmlRpcValue value, ParameterTable& table) {
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeArray) {
+    std::vector<std::string> elements;
+    for (int i = 0; i < value.size(); ++i) elements.push_back(textOf(name, value[i]));
+    return table.setList(name, elements);
+  }
   if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
     setOne(name, value, table);
     return;

@@ -1,11 +1,15 @@
 #include "node/odometry_messages.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include <sensor_msgs/point_cloud2_iterator.h>
 #include <tf2_eigen/tf2_eigen.h>
+#include <Eigen/Eigenvalues>
 
 #include "input/message_conversion.h"
+#include "input/to_text.h"
+#include "node/camera_mount.h"
 
 namespace rotrocc {
 namespace {
@@ -13,6 +17,26 @@ namespace {
 /// Row-major, as the 6x6 covariances of geometry_msgs are.
 void copyCovariance(const Matrix6d& covariance, boost::array<double, 36>& message) {
   Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.data()) = covariance;
+}
+
+/// Throws std::invalid_argument if it is not finite, symmetric and positive semidefinite.
+Matrix6d toCovariance(const boost::array<double, 36>& message) {
+  const Matrix6d covariance =
+      Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.data());
+  if (!covariance.allFinite()) {
+    throw std::invalid_argument("the covariance has a number that is not finite: correct it");
+  }
+  const double rounding = 1e-6 * covariance.cwiseAbs().maxCoeff();
+  if ((covariance - covariance.transpose()).cwiseAbs().maxCoeff() > rounding) {
+    throw std::invalid_argument("the covariance is not symmetric: correct it");
+  }
+  const Matrix6d symmetric = 0.5 * (covariance + covariance.transpose());
+  const double least = Eigen::SelfAdjointEigenSolver<Matrix6d>(symmetric).eigenvalues().minCoeff();
+  if (least < -rounding) {
+    throw std::invalid_argument("the covariance has the eigenvalue " + toText(least) +
+                                ", but none may be negative: correct it");
+  }
+  return symmetric;
 }
 
 std::uint8_t toMessage(State state) {
@@ -71,6 +95,22 @@ geometry_msgs::TwistWithCovarianceStamped toTwist(const StepVelocity& velocity,
   message.twist.twist = tf2::toMsg(velocity.twist.twist);
   copyCovariance(velocity.twist.covariance, message.twist.covariance);
   return message;
+}
+
+UncertainTransform toPose(const geometry_msgs::PoseWithCovarianceStamped& message,
+                          const std::string& odom_frame) {
+  const std::string& frame = message.header.frame_id;
+  if (!frame.empty() && frame != odom_frame) {
+    throw std::invalid_argument("the pose is in the frame " + frame + ", but must be in " +
+                                odom_frame + ": transform it, or leave frame_id empty");
+  }
+  const geometry_msgs::Pose& pose = message.pose.pose;
+  geometry_msgs::Transform transform;
+  transform.translation.x = pose.position.x;
+  transform.translation.y = pose.position.y;
+  transform.translation.z = pose.position.z;
+  transform.rotation = pose.orientation;
+  return {toEigen(transform), toCovariance(message.pose.covariance)};
 }
 
 geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& T_parent_child,

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
@@ -23,6 +24,11 @@ nav_msgs::Odometry toOdometry(const BaseState& state,
 
 geometry_msgs::TwistWithCovarianceStamped toTwist(const StepVelocity& velocity,
                                                   const std::string& base_frame);
+
+/// T_odom_base from a message. Throws std::invalid_argument with one sentence if its frame is not
+/// odom_frame or empty, or it is not a pose with a covariance.
+UncertainTransform toPose(const geometry_msgs::PoseWithCovarianceStamped& message,
+                          const std::string& odom_frame);
 
 /// T_parent_child as tf message.
 geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& T_parent_child,

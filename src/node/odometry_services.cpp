@@ -3,10 +3,7 @@
 #include <exception>
 #include <utility>
 
-#include <geometry_msgs/Transform.h>
-
 #include "node/advertise.h"
-#include "node/camera_mount.h"
 
 namespace rotrocc {
 namespace {
@@ -31,15 +28,6 @@ ros::NodeHandle withQueue(ros::NodeHandle nh, ros::CallbackQueue& queue) {
   return nh;
 }
 
-Eigen::Isometry3d poseToEigen(const geometry_msgs::Pose& pose) {
-  geometry_msgs::Transform transform;
-  transform.translation.x = pose.position.x;
-  transform.translation.y = pose.position.y;
-  transform.translation.z = pose.position.z;
-  transform.rotation = pose.orientation;
-  return toEigen(transform);
-}
-
 }  // namespace
 
 OdometryServices::OdometryServices(ros::NodeHandle& private_nh, Actions actions, Log log)
@@ -57,13 +45,13 @@ OdometryServices::OdometryServices(ros::NodeHandle& private_nh, Actions actions,
 bool OdometryServices::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   return answer(log_, "reset", response, [&] {
     actions_.reset();
-    return "the odometry restarts at pose zero with the next pair";
+    return "the odometry restarts at the initial pose with the next pair";
   });
 }
 
 bool OdometryServices::onSetPose(SetPose::Request& request, SetPose::Response& response) {
   return answer(log_, "set_pose", response, [&] {
-    actions_.set_pose(poseToEigen(request.pose));
+    actions_.set_pose(request.pose);
     return "the odometry continues from the given pose";
   });
 }

@@ -3,13 +3,13 @@
 #include <functional>
 #include <string>
 
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
 #include <ros/spinner.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
-#include <Eigen/Geometry>
 
 #include "input/log.h"
 #include "rotrocc/SaveTrajectory.h"
@@ -24,7 +24,7 @@ class OdometryServices {
  public:
   struct Actions {
     std::function<void()> reset;
-    std::function<void(const Eigen::Isometry3d& T_odom_base)> set_pose;
+    std::function<void(const geometry_msgs::PoseWithCovarianceStamped&)> set_pose;
     std::function<void(bool)> pause;
     /// Returns a description of what was written.
     std::function<std::string(const std::string& path, const std::string& format)> save_trajectory;

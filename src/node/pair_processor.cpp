@@ -25,30 +25,11 @@ PairAnswer PairProcessor::process(const ReceivedPair& received,
   validateSize(*received.images.left, received.camera);
   const bool asked = beginAnewIfAsked();
   const bool went_back = beginAnewIfTimeWentBack(answer.pair.stamp_ns);
-  answer.begins_anew = asked || went_back;
-  if (!base_odometry_) {
-    base_odometry_.emplace(parameters_.lost_speed_sigma_mps,
-                           parameters_.lost_turn_rate_sigma_rps,
-                           parameters_.planar,
-                           systematic_error_);
-  }
-  {
-    const std::lock_guard<std::mutex> lock(requests_mutex_);
-    if (requests_.T_odom_base) base_odometry_->setPose(*requests_.T_odom_base);
-    requests_.T_odom_base.reset();
-  }
-  const auto T_known_base = expectedOfBase(expected, answer.pair.stamp_ns);
-  std::optional<Eigen::Isometry3d> T_known_camera;
-  if (T_known_base) T_known_camera = T_base_camera_known_.inverse() * *T_known_base * T_base_camera;
-  answer.result =
-      odometry_.process(answer.pair, received.camera, T_known_camera, measured_rotation);
-  answer.state = base_odometry_->add(answer.result, T_base_camera);
-  if (answer.result.state == State::kLost) {
-    T_known_last_ = T_known_base;
-  } else {
-    T_known_last_ = Eigen::Isometry3d::Identity();
-    T_base_camera_known_ = T_base_camera;
-  }
+  const bool gave_up = beginAnewIfLostForLong(answer.pair.stamp_ns);
+  answer.begins_anew = asked || went_back || gave_up;
+  if (!base_odometry_) base_odometry_.emplace(parameters_, systematic_error_);
+  setPoseIfAsked();
+  move(received.camera, T_base_camera, expected, measured_rotation, answer);
   answer.hint = inspector_.inspect(answer.pair, received.camera, answer.result);
   last_stamp_ns_ = answer.pair.stamp_ns;
   return answer;
@@ -75,19 +56,61 @@ bool PairProcessor::beginAnewIfTimeWentBack(std::int64_t stamp_ns) {
   if (!last_stamp_ns_ || stamp_ns >= *last_stamp_ns_) return false;
   const bool keep = parameters_.pose_after_time_jump == "keep";
   log_.warn("time jumped back from " + stampText(*last_stamp_ns_) + " to " + stampText(stamp_ns) +
-            " s: restarting at " + (keep ? "the last pose" : "zero") + " (pose_after_time_jump)");
+            " s: restarting at " + (keep ? "the last pose" : "initial_pose") +
+            " (pose_after_time_jump)");
   odometry_.reset();
   if (!keep) base_odometry_.reset();
   return true;
 }
 
-/// Since the last pair that was not lost: motions are measured against that one.
-std::optional<Eigen::Isometry3d> PairProcessor::expectedOfBase(const MotionSource& expected,
-                                                               std::int64_t stamp_ns) const {
-  if (!expected || !last_stamp_ns_ || stamp_ns <= *last_stamp_ns_) return std::nullopt;
-  const auto T_last_cur = expected(*last_stamp_ns_, stamp_ns);
-  if (!T_last_cur || !T_known_last_) return std::nullopt;
-  return *T_known_last_ * *T_last_cur;
+/// Whether a new trajectory starts.
+bool PairProcessor::beginAnewIfLostForLong(std::int64_t stamp_ns) {
+  if (!lost_since_ns_ || parameters_.reset_after_lost_s <= 0.0) return false;
+  const double lost_s = 1e-9 * static_cast<double>(stamp_ns - *lost_since_ns_);
+  if (lost_s < parameters_.reset_after_lost_s) return false;
+  const bool keep = parameters_.pose_after_lost == "keep";
+  log_.warn("lost for " + toText(lost_s) +
+            " s, reset_after_lost_s = " + toText(parameters_.reset_after_lost_s) +
+            ": restarting at " + (keep ? "the last pose" : "initial_pose") + " (pose_after_lost)");
+  odometry_.reset();
+  if (!keep) base_odometry_.reset();
+  return !keep;
+}
+
+/// A pose that is set while lost would be lost again if the next pair were compared with one from
+/// before the loss.
+void PairProcessor::setPoseIfAsked() {
+  const std::lock_guard<std::mutex> lock(requests_mutex_);
+  if (!requests_.T_odom_base) return;
+  base_odometry_->setPose(*requests_.T_odom_base);
+  if (lost_since_ns_) odometry_.reset();
+  requests_.T_odom_base.reset();
+}
+
+void PairProcessor::move(const StereoCamera& camera,
+                         const Eigen::Isometry3d& T_base_camera,
+                         const MotionSource& expected,
+                         const RotationSource& measured_rotation,
+                         PairAnswer& answer) {
+  const std::int64_t stamp_ns = answer.pair.stamp_ns;
+  std::optional<Eigen::Isometry3d> T_last_base, T_known_base, T_known_camera;
+  if (expected && last_stamp_ns_ && stamp_ns > *last_stamp_ns_) {
+    T_last_base = expected(*last_stamp_ns_, stamp_ns);
+  }
+  if (T_last_base && T_known_last_) {
+    T_known_base = *T_known_last_ * *T_last_base;
+    T_known_camera = T_base_camera_known_.inverse() * *T_known_base * T_base_camera;
+  }
+  answer.result = odometry_.process(answer.pair, camera, T_known_camera, measured_rotation);
+  answer.state = base_odometry_->add(answer.result, T_base_camera, T_last_base);
+  if (answer.result.state == State::kLost) {
+    if (!lost_since_ns_) lost_since_ns_ = stamp_ns;
+    T_known_last_ = T_known_base;
+  } else {
+    lost_since_ns_.reset();
+    T_known_last_ = Eigen::Isometry3d::Identity();
+    T_base_camera_known_ = T_base_camera;
+  }
 }
 
 void PairProcessor::requestReset() {
@@ -101,7 +124,7 @@ void PairProcessor::requestRestart() {
   requests_.restart = true;
 }
 
-void PairProcessor::requestPose(const Eigen::Isometry3d& T_odom_base) {
+void PairProcessor::requestPose(const UncertainTransform& T_odom_base) {
   const std::lock_guard<std::mutex> lock(requests_mutex_);
   requests_.T_odom_base = T_odom_base;
 }

@@ -81,7 +81,9 @@ StereoOdometry::~StereoOdometry() {
 OdometryServices::Actions StereoOdometry::makeActions() {
   OdometryServices::Actions actions;
   actions.reset = [this] { processor_.requestReset(); };
-  actions.set_pose = [this](const Eigen::Isometry3d& T) { processor_.requestPose(T); };
+  actions.set_pose = [this](const geometry_msgs::PoseWithCovarianceStamped& pose) {
+    processor_.requestPose(toPose(pose, parameters_.odom_frame));
+  };
   actions.pause = [this](bool paused) { onPause(paused); };
   actions.save_trajectory = [this](const std::string& path, const std::string& format) {
     return trajectory_.save(path, format);

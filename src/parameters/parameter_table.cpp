@@ -53,6 +53,24 @@ ParameterTable::Parameter makeNumber(T& value, T min, T max, const char* kind) {
   return parameter;
 }
 
+/// As "1 2 3 4 5 6" or "[1, 2, 3, 4, 5, 6]".
+std::array<double, 6> parseSix(const std::string& text) {
+  std::string spaced = text;
+  std::replace_if(
+      spaced.begin(), spaced.end(), [](char c) { return c == '[' || c == ']' || c == ','; }, ' ');
+  std::istringstream words(spaced);
+  std::array<double, 6> numbers{};
+  std::size_t count = 0;
+  for (std::string word; words >> word; ++count) {
+    const double number = parseNumber<double>(word, "6 numbers");
+    if (count < numbers.size()) numbers[count] = number;
+  }
+  if (count != numbers.size()) {
+    throw std::invalid_argument("is \"" + text + "\", but must be 6 numbers");
+  }
+  return numbers;
+}
+
 std::string join(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
@@ -124,14 +142,48 @@ void ParameterTable::add(const std::string& name,
   parameters_.push_back(std::move(parameter));
 }
 
-void ParameterTable::set(const std::string& name, const std::string& text) {
+void ParameterTable::add(const std::string& name,
+                         std::array<double, 6>& value,
+                         const std::string& unit,
+                         const std::string& description) {
+  Parameter parameter;
+  parameter.name = name;
+  parameter.unit = unit;
+  parameter.range = "6 numbers";
+  parameter.is_list = true;
+  parameter.description = description;
+  parameter.set = [&value](const std::string& text) { value = parseSix(text); };
+  parameter.get = [&value] {
+    std::string text;
+    for (const double number : value) text += (text.empty() ? "" : " ") + toText(number);
+    return text;
+  };
+  parameters_.push_back(std::move(parameter));
+}
+
+ParameterTable::Parameter& ParameterTable::find(const std::string& name) {
   const auto found = std::find_if(
       parameters_.begin(), parameters_.end(), [&](const Parameter& p) { return p.name == name; });
   if (found == parameters_.end()) {
     throw std::invalid_argument("unknown parameter \"" + name + "\"; see config/default.yaml");
   }
+  return *found;
+}
+
+void ParameterTable::setList(const std::string& name, const std::vector<std::string>& elements) {
+  const Parameter& parameter = find(name);
+  if (!parameter.is_list) {
+    throw std::invalid_argument("parameter " + name + " is a list, but must be " + parameter.range);
+  }
+  std::string text;
+  for (const std::string& element : elements) text += (text.empty() ? "" : " ") + element;
+  set(name, text);
+}
+
+void ParameterTable::set(const std::string& name, const std::string& text) {
+  Parameter& parameter = find(name);
   try {
-    found->set(text);
+    parameter.set(text);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument("parameter " + name + " " + error.what());
   }

@@ -16,6 +16,11 @@ void addNode(NodeParameters& n, ParameterTable& table) {
   table.add("publish_tf", n.publish_tf, "broadcast odom_frame -> base_frame");
   table.add("invert_tf", n.invert_tf, "broadcast base_frame -> odom_frame instead");
   table.add("planar", n.planar, "restrict the motion of base_frame to x, y and yaw");
+  table.add(
+      "initial_pose",
+      n.initial_pose,
+      "m, rad",
+      "x y z roll pitch yaw of base_frame in odom_frame at the first pair, also after a reset");
   table.add("mount_timeout_s",
             n.mount_timeout_s,
             0.0,
@@ -72,7 +77,7 @@ void addNode(NodeParameters& n, ParameterTable& table) {
   table.add("pose_after_time_jump",
             n.pose_after_time_jump,
             {"keep", "zero"},
-            "pose after time jumps back, e.g. with a looping bag");
+            "pose after time jumps back, e.g. with a looping bag; zero is initial_pose");
   table.add("silence_s",
             n.silence_s,
             0.5,
@@ -99,6 +104,24 @@ void addNode(NodeParameters& n, ParameterTable& table) {
             100.0,
             "rad/s",
             "assumed standard deviation of the turn rate while lost");
+  table.add("guess_error_share",
+            n.guess_error_share,
+            0.0,
+            10.0,
+            "",
+            "standard deviation of the motion in guess_frame that moves the pose while lost, as a "
+            "share of way and angle");
+  table.add("reset_after_lost_s",
+            n.reset_after_lost_s,
+            0.0,
+            1e6,
+            "s",
+            "the estimator restarts with the next pair after it was lost for this time; 0: it only "
+            "goes on trying");
+  table.add("pose_after_lost",
+            n.pose_after_lost,
+            {"keep", "zero"},
+            "pose after reset_after_lost_s; zero is initial_pose");
   table.add("trajectory_length",
             n.trajectory_length,
             1,

@@ -19,9 +19,10 @@ void set(const std::string& name, const std::string& text, ParameterTable& table
   table.set(name, text);
 }
 
-/// Sets every scalar below `node`; `prefix` is the name of `node`.
+/// Sets every scalar and list below `node`; `prefix` is the name of `node`.
 void setAll(const YAML::Node& node, const std::string& prefix, ParameterTable& table) {
   if (node.IsScalar()) return set(prefix, node.Scalar(), table);
+  if (node.IsSequence()) return table.setList(prefix, node.as<std::vector<std::string>>());
   if (!node.IsMap()) {
     throw std::invalid_argument("parameter \"" + prefix + "\" is neither a value nor a section");
   }

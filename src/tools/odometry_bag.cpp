@@ -16,10 +16,7 @@ OdometryBag::OdometryBag(const std::string& path,
     : parameters_(parameters.node),
       start_ns_(start_ns),
       T_base_camera_(T_base_camera),
-      odometry_(parameters.node.lost_speed_sigma_mps,
-                parameters.node.lost_turn_rate_sigma_rps,
-                parameters.node.planar,
-                parameters.odometry.systematic_error) {
+      odometry_(parameters.node, parameters.odometry.systematic_error) {
   try {
     bag_.open(path, rosbag::bagmode::Write);
   } catch (const rosbag::BagException& error) {

@@ -287,7 +287,7 @@ class ServiceCaller {
       call("pause", pause, true);
       SetPose pose;
       call("set_pose", pose, false);  // its quaternion is zero
-      pose.request.pose.orientation.w = 1.0;
+      pose.request.pose.pose.pose.orientation.w = 1.0;
       call("set_pose", pose, true);
       call("save_trajectory", SaveTrajectory(), false);  // without a path
       ++rounds_;

@@ -27,6 +27,13 @@ Eigen::Isometry3d makeMotion(double step_m, double left_rad) {
   return T;
 }
 
+NodeParameters parameters() {
+  NodeParameters node;
+  node.lost_speed_sigma_mps = kSpeedSigma;
+  node.lost_turn_rate_sigma_rps = kTurnSigma;
+  return node;
+}
+
 class BaseOdometryTest : public testing::Test {
  protected:
   /// A pair after which the base has made a motion.
@@ -54,18 +61,20 @@ class BaseOdometryTest : public testing::Test {
     return odometry_.add(result, mount_);
   }
 
-  BaseState lose(std::int64_t passed_ns, State state = State::kLost) {
+  BaseState lose(std::int64_t passed_ns,
+                 State state = State::kLost,
+                 const std::optional<Eigen::Isometry3d>& T_last_cur = std::nullopt) {
     OdometryResult result;
     result.state = state;
     result.stamp_ns = stamp_ns_ += passed_ns;
-    return odometry_.add(result, mount_);
+    return odometry_.add(result, mount_, T_last_cur);
   }
 
   static double sigma(const BaseState& state, int axis) {
     return std::sqrt(state.T_odom_base.covariance(axis, axis));
   }
 
-  BaseOdometry odometry_{kSpeedSigma, kTurnSigma};
+  BaseOdometry odometry_{parameters(), {0.0, 0.0}};
   Eigen::Isometry3d mount_ = cameraMount();
   std::int64_t stamp_ns_ = 5'000'000'000;
 };
@@ -177,7 +186,7 @@ TEST_F(BaseOdometryTest, PoseThatIsSetIsWhereItGoesOn) {
   move(makeMotion(1.0, 0.2));
   lose(kPeriod_ns);
   Eigen::Isometry3d T_odom_base = makeMotion(50.0, M_PI / 2.0);
-  odometry_.setPose(T_odom_base);
+  odometry_.setPose({T_odom_base, Matrix6d::Zero()});
   const BaseState state = move(makeMotion(1.0, 0.0));
   EXPECT_TRUE(state.T_odom_base.T.isApprox(T_odom_base * makeMotion(1.0, 0.0), 1e-12));
   EXPECT_LT(sigma(state, 0), 0.01);
@@ -187,6 +196,77 @@ TEST_F(BaseOdometryTest, GapsOfYearsLeaveNumbersThatFiltersCanUse) {
   lose(0, State::kInitialising);
   const BaseState state = lose(50'000'000LL * 1'000'000'000, State::kInitialising);
   EXPECT_NEAR(sigma(state, 0), kSpeedSigma * 1000.0, 1.0);
+}
+
+TEST_F(BaseOdometryTest, AnotherOdometryMovesThePoseWhileLost) {
+  const BaseState before = move(makeMotion(1.0, 0.1));
+  const Eigen::Isometry3d step = makeMotion(0.5, 0.05);
+  Eigen::Isometry3d expected = before.T_odom_base.T;
+  BaseState state;
+  for (int i = 0; i < 20; ++i) {
+    state = lose(kPeriod_ns, State::kLost, step);
+    expected = expected * step;
+    EXPECT_TRUE(state.T_odom_base.T.isApprox(expected, 1e-9)) << i;
+    EXPECT_EQ(state.twist.covariance(0, 0), 9999.0);
+  }
+  const Eigen::Isometry3d T_camera = cameraMount().inverse() * state.T_odom_base.T * cameraMount();
+  EXPECT_TRUE(state.T_first_camera.isApprox(T_camera, 1e-9));
+  // guess_error_share = 0.1 of 10 m, 1 rad and the turn of 0.1 rad/m; at the default speed and turn
+  // rate the errors of two seconds would be 20 m and 1 rad.
+  EXPECT_NEAR(sigma(state, 5), 0.1 * (1.0 + 0.1 * 10.0), 0.01);
+  EXPECT_GT(sigma(state, 2), 0.99);
+  EXPECT_LT(sigma(state, 0), 2.0);
+  // A pair that is compared with a lost one goes on from there ...
+  EXPECT_TRUE(
+      move(makeMotion(1.0, 0.0)).T_odom_base.T.isApprox(expected * makeMotion(1.0, 0.0), 1e-9));
+}
+
+/// ... and one that is compared with a pair before the loss from that, as if nothing was lost.
+TEST_F(BaseOdometryTest, TheOtherOdometryIsForgottenIfNothingWasLost) {
+  move(makeMotion(1.0, 0.0));
+  const std::int64_t keyframe_ns = stamp_ns_;
+  const BaseState before = rest(keyframe_ns);
+  lose(kPeriod_ns, State::kLost, makeMotion(0.5, 0.05));
+  const BaseState after = rest(keyframe_ns);
+  EXPECT_TRUE(after.T_odom_base.T.isApprox(before.T_odom_base.T, 1e-12));
+  EXPECT_TRUE(after.T_first_camera.isApprox(before.T_first_camera, 1e-12));
+  EXPECT_DOUBLE_EQ(sigma(after, 0), sigma(before, 0));
+}
+
+TEST_F(BaseOdometryTest, ItMovesThePoseOverAGap) {
+  const BaseState before = move(makeMotion(1.0, 0.1));
+  const BaseState state = lose(3'000'000'000, State::kInitialising, makeMotion(9.0, 0.0));
+  EXPECT_TRUE(state.T_odom_base.T.isApprox(before.T_odom_base.T * makeMotion(9.0, 0.0), 1e-9));
+  EXPECT_LT(sigma(state, 0), 1.5);
+}
+
+TEST_F(BaseOdometryTest, ASetPoseHasItsCovariance) {
+  move(makeMotion(1.0, 0.2));
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance.diagonal() << 0.04, 0.09, 0.01, 1e-6, 1e-6, 1e-4;
+  covariance(0, 1) = covariance(1, 0) = 0.03;
+  odometry_.setPose({makeMotion(50.0, 0.0), covariance});
+  const BaseState state = lose(0);
+  EXPECT_NEAR(state.T_odom_base.covariance(0, 1), 0.03, 1e-9);
+  EXPECT_NEAR(sigma(state, 0), 0.2, 1e-6);
+  // Its error of the heading moves the base across.
+  const BaseState later = move(makeMotion(20.0, 0.0));
+  EXPECT_NEAR(sigma(later, 1), std::hypot(0.3, 20.0 * 0.01), 1e-3);
+}
+
+TEST_F(BaseOdometryTest, BeginsAtTheInitialPose) {
+  NodeParameters node = parameters();
+  node.initial_pose = {1.0, 2.0, 3.0, 0.1, -0.2, 1.5};
+  BaseOdometry odometry(node, {0.0, 0.0});
+  OdometryResult result;
+  result.state = State::kInitialising;
+  const Eigen::Isometry3d T = odometry.add(result, cameraMount()).T_odom_base.T;
+  EXPECT_TRUE(T.translation().isApprox(Eigen::Vector3d(1.0, 2.0, 3.0), 1e-12));
+  // Roll about x first, then pitch about y, then yaw about z of odom, as tf has it.
+  const Eigen::Vector3d forward = T.linear().col(0);
+  EXPECT_NEAR(std::atan2(forward.y(), forward.x()), 1.5, 1e-12);
+  EXPECT_NEAR(std::asin(-forward.z()), -0.2, 1e-12);
+  EXPECT_NEAR(std::atan2(T.linear()(2, 1), T.linear()(2, 2)), 0.1, 1e-12);
 }
 
 /// A camera on a pan-tilt head with a lever, on a base that drives a curve.
@@ -233,7 +313,7 @@ class MovingMountTest : public testing::Test {
     return odometry_.add(result, mountAt(pair));
   }
 
-  BaseOdometry odometry_{kSpeedSigma, kTurnSigma};
+  BaseOdometry odometry_{parameters(), {0.0, 0.0}};
   Matrix6d covariance_ = 1e-6 * Matrix6d::Identity();
 };
 
@@ -289,13 +369,15 @@ TEST_F(MovingMountTest, ComparedWithALostPairTheMountIsThatOfTheLostPair) {
 TEST_F(MovingMountTest, APoseThatIsSetIsThatOfTheBase) {
   begin();
   see(1, 0, 0);
-  odometry_.setPose(makeMotion(7.0, 1.0));
+  odometry_.setPose({makeMotion(7.0, 1.0), Matrix6d::Zero()});
   EXPECT_TRUE(
       see(2, 1, 0).T_odom_base.T.isApprox(makeMotion(7.0, 1.0) * makeMotion(0.5, 0.02), 1e-9));
 }
 
 TEST(PlanarOdometryTest, LeavesOutWhatIsNotInThePlane) {
-  BaseOdometry odometry(kSpeedSigma, kTurnSigma, true);
+  NodeParameters planar = parameters();
+  planar.planar = true;
+  BaseOdometry odometry(planar, {0.0, 0.0});
   Eigen::Isometry3d bump = makeMotion(1.0, 0.1);
   bump.translation().z() = 0.3;
   bump.rotate(Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY()));
@@ -329,7 +411,7 @@ TEST(PlanarOdometryTest, LeavesOutWhatIsNotInThePlane) {
 /// Independent errors of 100 motions of 1 m would give 0.1 m.
 TEST_F(BaseOdometryTest, SystematicErrorsGrowWithTheDistance) {
   const Eigen::Isometry3d mount = Eigen::Isometry3d::Identity();
-  BaseOdometry odometry(kSpeedSigma, kTurnSigma, false, {0.01, 0.0});
+  BaseOdometry odometry(parameters(), {0.01, 0.0});
   OdometryResult result;
   result.state = State::kOk;
   result.dt_s = 0.1;
@@ -342,7 +424,7 @@ TEST_F(BaseOdometryTest, SystematicErrorsGrowWithTheDistance) {
     state = odometry.add(result, mount);
   }
   EXPECT_NEAR(sigma(state, 0), 1.0, 0.01);
-  odometry.setPose(state.T_odom_base.T);
+  odometry.setPose({state.T_odom_base.T, Matrix6d::Zero()});
   EXPECT_NEAR(sigma(odometry.add(result, mount), 0), 0.01, 1e-3);
 }
 

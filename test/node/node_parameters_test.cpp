@@ -47,6 +47,20 @@ TEST_F(NodeParametersTest, DoublesKeepEveryBit) {
   EXPECT_EQ(parameters_.node.lost_speed_sigma_mps, 0.1 + 0.2);
 }
 
+TEST_F(NodeParametersTest, TheInitialPoseIsAListOrText) {
+  XmlRpcValue tree;
+  for (int i = 0; i < 6; ++i) tree["initial_pose"][i] = i == 3 ? XmlRpcValue(0.25) : XmlRpcValue(i);
+  setParameters(tree, table_);
+  EXPECT_EQ(parameters_.node.initial_pose, (std::array<double, 6>{0, 1, 2, 0.25, 4, 5}));
+  XmlRpcValue text;
+  text["initial_pose"] = std::string("[6, 5, 4, 3, 2, 1.5]");
+  setParameters(text, table_);
+  EXPECT_EQ(parameters_.node.initial_pose, (std::array<double, 6>{6, 5, 4, 3, 2, 1.5}));
+  XmlRpcValue nested;
+  for (int i = 0; i < 6; ++i) nested["initial_pose"][i][0] = i;
+  expectRefused(nested, "initial_pose is neither a value nor a section");
+}
+
 TEST_F(NodeParametersTest, RefusesWhatTheTableDoesNotKnow) {
   XmlRpcValue tree;
   tree["feature_detector"]["max_featurs"] = 5;
@@ -68,7 +82,7 @@ TEST_F(NodeParametersTest, RefusesWrongTypes) {
   expectRefused(text, "queue_size is \"four\"");
   XmlRpcValue list;
   list["queue_size"][0] = 4;
-  expectRefused(list, "queue_size is neither a value nor a section");
+  expectRefused(list, "queue_size is a list, but must be [1, 100]");
   XmlRpcValue section;
   section["queue_size"]["left"] = 4;
   expectRefused(section, "queue_size/left");

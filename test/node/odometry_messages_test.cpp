@@ -1,7 +1,13 @@
 #include "node/odometry_messages.h"
 
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
 #include <gtest/gtest.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
+
+#include "support/expect_error.h"
 
 namespace rotrocc {
 namespace {
@@ -117,6 +123,45 @@ TEST(OdometryMessagesTest, TheDefinitionOfDropCountListsEveryReason) {
     ASSERT_NE(definition.find(line), std::string::npos) << line;
     EXPECT_TRUE(definition[end] == ' ' || definition[end] == '\n') << line;
   }
+}
+
+geometry_msgs::PoseWithCovarianceStamped makePose() {
+  geometry_msgs::PoseWithCovarianceStamped message;
+  message.header.frame_id = "odom";
+  message.pose.pose.position.x = 5.0;
+  message.pose.pose.orientation.z = std::sqrt(0.5);
+  message.pose.pose.orientation.w = std::sqrt(0.5);
+  for (std::size_t axis = 0; axis < 6; ++axis) message.pose.covariance[7 * axis] = 0.5;
+  message.pose.covariance[1] = message.pose.covariance[6] = 0.25;
+  return message;
+}
+
+TEST(OdometryMessagesTest, APoseThatIsSetHasFrameAndCovariance) {
+  geometry_msgs::PoseWithCovarianceStamped message = makePose();
+  const UncertainTransform pose = toPose(message, "odom");
+  EXPECT_TRUE((pose.T * Eigen::Vector3d(1, 0, 0)).isApprox(Eigen::Vector3d(5, 1, 0)));
+  EXPECT_EQ(pose.covariance(5, 5), 0.5);
+  EXPECT_EQ(pose.covariance(0, 1), 0.25);
+  message.header.frame_id.clear();
+  EXPECT_NO_THROW(toPose(message, "odom"));
+  message.pose.covariance.assign(0.0);
+  EXPECT_EQ(toPose(message, "odom").covariance.norm(), 0.0);
+}
+
+TEST(OdometryMessagesTest, RefusesAPoseThatCannotBeSet) {
+  const auto refuse =
+      [](const std::function<void(geometry_msgs::PoseWithCovarianceStamped&)>& spoil,
+         const std::string& part) {
+        geometry_msgs::PoseWithCovarianceStamped message = makePose();
+        spoil(message);
+        expectError<std::invalid_argument>([&] { toPose(message, "odom"); }, part);
+      };
+  refuse([](auto& m) { m.header.frame_id = "map"; }, "in the frame map, but must be in odom");
+  refuse([](auto& m) { m.pose.pose.orientation.w = 0.0; }, "has the length 0.707");
+  refuse([](auto& m) { m.pose.pose.position.y = NAN; }, "contains nan");
+  refuse([](auto& m) { m.pose.covariance[14] = INFINITY; }, "is not finite");
+  refuse([](auto& m) { m.pose.covariance[1] = 0.1; }, "is not symmetric");
+  refuse([](auto& m) { m.pose.covariance[0] = -1.0; }, "has the eigenvalue -1.04");
 }
 
 TEST(OdometryMessagesTest, IdleStatusSaysWhyNothingComes) {

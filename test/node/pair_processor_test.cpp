@@ -13,6 +13,11 @@ namespace {
 
 constexpr double kStep_m = 0.4;
 
+void darken(sensor_msgs::Image& left, sensor_msgs::Image& right) {
+  left.data.assign(left.data.size(), 0);
+  right.data.assign(right.data.size(), 0);
+}
+
 class PairProcessorTest : public testing::Test {
  protected:
   PairProcessorTest() {
@@ -54,7 +59,7 @@ TEST_F(PairProcessorTest, PoseIsThatOfTheLastPair) {
   T_odom_base.translation() << 10.0, 20.0, 3.0;
   T_odom_base.rotate(Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitZ()));
   const Eigen::Isometry3d camera_before = rig_.answer()->state.T_first_camera;
-  rig_.processor().requestPose(T_odom_base);
+  rig_.processor().requestPose({T_odom_base, Matrix6d::Zero()});
   rig_.drive();
   EXPECT_EQ(state(), State::kOk);
   const Eigen::Vector3d position = rig_.answer()->state.T_odom_base.T.translation();
@@ -70,7 +75,7 @@ TEST_F(PairProcessorTest, APoseMayBeSetBeforeTheFirstPair) {
   OdometryRig rig;
   Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
   T_odom_base.translation().x() = 7.0;
-  rig.processor().requestPose(T_odom_base);
+  rig.processor().requestPose({T_odom_base, Matrix6d::Zero()});
   rig.sendInfos();
   rig.drive();
   EXPECT_NEAR(rig.answer()->state.T_odom_base.T.translation().x(), 7.0, 1e-12);
@@ -105,10 +110,10 @@ TEST_F(PairProcessorTest, HintsComeFromTheConfigInEffect) {
 }
 
 TEST_F(PairProcessorTest, HintsAtCamerasThatExposeDifferently) {
-  const auto darken = [](sensor_msgs::Image&, sensor_msgs::Image& right) {
+  const auto darkenRight = [](sensor_msgs::Image&, sensor_msgs::Image& right) {
     for (auto& level : right.data) level = static_cast<std::uint8_t>(0.6 * level);
   };
-  for (std::size_t i = 0; i < ExposureWatch::kLeastPairs + 1; ++i) rig_.drive(darken);
+  for (std::size_t i = 0; i < ExposureWatch::kLeastPairs + 1; ++i) rig_.drive(darkenRight);
   EXPECT_EQ(state(), State::kOk);
   EXPECT_NE(rig_.answer()->hint.find("couple the exposures"), std::string::npos);
 }
@@ -190,15 +195,83 @@ TEST_F(PairProcessorTest, ExpectedMotionsOfLostPairsAddUp) {
   rig.sendInfos();
   rig.drive();
   rig.advance();
-  rig.drive([](sensor_msgs::Image& left, sensor_msgs::Image& right) {
-    left.data.assign(left.data.size(), 0);
-    right.data.assign(right.data.size(), 0);
-  });
+  rig.drive(darken);
   EXPECT_EQ(rig.answer()->result.state, State::kLost);
   rig.advance();
   rig.drive();
   EXPECT_EQ(rig.answer()->result.state, State::kOk) << rig.answer()->result.reason;
   EXPECT_NEAR(rig.answer()->state.T_odom_base.T.translation().x(), 4 * kStep_m, 0.05);
+}
+
+/// The wheels know the way, in the dark too.
+TEST_F(PairProcessorTest, WheelsMoveThePoseInTheDark) {
+  rig_.expected = [](std::int64_t prev_ns, std::int64_t cur_ns) {
+    Eigen::Isometry3d T_prev_cur = Eigen::Isometry3d::Identity();
+    T_prev_cur.translation().x() = kStep_m * 1e-8 * static_cast<double>(cur_ns - prev_ns);
+    return std::optional<Eigen::Isometry3d>(T_prev_cur);
+  };
+  for (int i = 0; i < 10; ++i) rig_.drive(darken);
+  EXPECT_EQ(state(), State::kLost);
+  EXPECT_NEAR(x(), 13 * kStep_m, 0.05);
+  for (int i = 0; i < 3; ++i) rig_.drive();
+  EXPECT_EQ(state(), State::kOk);
+  EXPECT_NEAR(x(), 16 * kStep_m, 0.1);
+}
+
+TEST_F(PairProcessorTest, APoseThatIsSetWhileLostIsNotLost) {
+  // Short enough that the pair before the loss would be recognised.
+  rig_.drive(darken);
+  EXPECT_EQ(state(), State::kLost);
+  Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
+  T_odom_base.translation().x() = 30.0;
+  rig_.processor().requestPose({T_odom_base, Matrix6d::Zero()});
+  rig_.drive();
+  EXPECT_EQ(state(), State::kInitialising);
+  EXPECT_NEAR(x(), 30.0, 1e-9);
+  rig_.drive();
+  EXPECT_EQ(state(), State::kOk);
+  EXPECT_NEAR(x(), 30.0 + kStep_m, 0.05);
+}
+
+/// The state of each pair in the dark, as letters.
+std::string statesInTheDark(OdometryRig& rig, int pairs) {
+  std::string states;
+  for (int i = 0; i < pairs; ++i) {
+    rig.drive(darken);
+    states += rig.answer()->result.state == State::kLost ? 'l' : 'i';
+    if (rig.answer()->begins_anew) states += '!';
+  }
+  return states;
+}
+
+TEST_F(PairProcessorTest, RestartsAfterALongLossIfAsked) {
+  Parameters parameters;
+  parameters.node.reset_after_lost_s = 0.5;
+  for (const bool keep : {true, false}) {
+    parameters.node.pose_after_lost = keep ? "keep" : "zero";
+    OdometryRig rig(parameters);
+    rig.sendInfos();
+    rig.drivePairs(3);
+    EXPECT_EQ(statesInTheDark(rig, 13), keep ? "lllllilllllil" : "llllli!llllli!l") << keep;
+    const double x_m = rig.answer()->state.T_odom_base.T.translation().x();
+    EXPECT_NEAR(x_m, keep ? 2 * kStep_m : 0.0, 0.05);
+  }
+}
+
+TEST_F(PairProcessorTest, DoesNotRestartAfterALongLossIfNotAsked) {
+  EXPECT_EQ(statesInTheDark(rig_, 20), std::string(20, 'l'));
+}
+
+TEST_F(PairProcessorTest, AResetBeginsAtTheInitialPose) {
+  Parameters parameters;
+  parameters.node.initial_pose = {5.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  OdometryRig rig(parameters);
+  rig.sendInfos();
+  rig.drivePairs(3);
+  EXPECT_NEAR(rig.answer()->state.T_odom_base.T.translation().x(), 5.0 + 2 * kStep_m, 0.05);
+  rig.processor().requestReset();
+  rig.drive();
+  EXPECT_NEAR(rig.answer()->state.T_odom_base.T.translation().x(), 5.0, 1e-12);
 }
 
 }  // namespace

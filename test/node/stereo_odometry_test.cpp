@@ -305,13 +305,21 @@ TEST_F(StereoOdometryTest, PoseCanBeSet) {
   EXPECT_TRUE(call("set_pose", set_pose));
   EXPECT_FALSE(set_pose.response.success) << "a quaternion of zeros";
   EXPECT_NE(set_pose.response.message.find("length 0"), std::string::npos);
-  set_pose.request.pose.position.y = 30.0;
-  set_pose.request.pose.orientation.w = 1.0;
+  geometry_msgs::PoseWithCovarianceStamped& pose = set_pose.request.pose;
+  pose.pose.pose.position.y = 30.0;
+  pose.pose.pose.orientation.w = 1.0;
+  pose.pose.covariance[0] = 4.0;
+  pose.header.frame_id = "map";
+  ASSERT_TRUE(call("set_pose", set_pose));
+  EXPECT_FALSE(set_pose.response.success);
+  EXPECT_NE(set_pose.response.message.find("must be in odom"), std::string::npos);
+  pose.header.frame_id = "odom";
   ASSERT_TRUE(call("set_pose", set_pose));
   EXPECT_TRUE(set_pose.response.success) << set_pose.response.message;
   const nav_msgs::Odometry odometry = drive();
   EXPECT_NEAR(odometry.pose.pose.position.x, SimulatedRobot::kStep_m, 0.05);
   EXPECT_NEAR(odometry.pose.pose.position.y, 30.0, 0.05);
+  EXPECT_NEAR(odometry.pose.covariance[0], 4.0, 0.1);
 }
 
 TEST_F(StereoOdometryTest, PauseDropsPairsAndKeepsThePose) {

@@ -1,5 +1,6 @@
 #include "rotrocc/parameters.h"
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -44,6 +45,7 @@ std::vector<std::string> allowedValues(const ParameterTable::Parameter& paramete
   }
   if (parameter.range == "true or false") return {"true", "false"};
   if (parameter.range == "any text") return {"some words", ""};
+  if (parameter.range == "6 numbers") return {"0 0 0 0 0 -3.5", "1 2 3 0.1 0.2 0.3"};
   std::istringstream choices(parameter.range.substr(std::string("one of ").size()));
   std::vector<std::string> words;
   for (std::string word; std::getline(choices >> std::ws, word, ',');) words.push_back(word);
@@ -186,6 +188,26 @@ TEST(ParametersTest, RefusesWithNameValueAndRange) {
                 "is \"best\", but must be one of rotrocc, reprojection, rocc");
 }
 
+TEST(ParametersTest, SixNumbersAreAListOrText) {
+  const TemporaryDirectory directory;
+  const std::array<double, 6> pose = {1, -2, 0.5, 0, 0, 1.57};
+  for (const char* text :
+       {"[1, -2, 0.5, 0, 0, 1.57]", "1 -2 0.5 0 0 1.57", "\"1, -2,.5,0,0,1.57\""}) {
+    Settings settings;
+    loadYaml(directory.write("pose.yaml", std::string("initial_pose: ") + text), settings.table);
+    EXPECT_EQ(settings.parameters.node.initial_pose, pose) << text;
+  }
+  for (const char* text : {"",
+                           "1 2 3 4 5",
+                           "1 2 3 4 5 6 7",
+                           "1 2 3 4 5 x",
+                           "1 2 3 4 5 nan",
+                           "1 2 3 4 5 1e999",
+                           "1 2 3 4 5 6m"}) {
+    expectRefused("initial_pose", text, "but must be 6 numbers");
+  }
+}
+
 TEST(ParametersTest, RefusesAnAssignmentWithoutAValue) {
   expectError<std::invalid_argument>([] { Settings().table.setAssignment("queue_size 4"); },
                                      "\"queue_size 4\" is not an assignment: write name=value");
@@ -203,7 +225,10 @@ TEST(ParametersTest, AFileNamesItselfWhenItIsRefused) {
                  "unknown parameter \"motion_check/min_inlier\"");
   expect_refused("motion_check:\n  min_inliers: 1\n", "motion_check/min_inliers is 1");
   expect_refused("visual_odometry:\n  max_gap_s: .nan\n", "visual_odometry/max_gap_s is \".nan\"");
-  expect_refused("motion_check: [1, 2]\n", "\"motion_check\" is neither a value nor a section");
+  expect_refused("motion_check: [1, 2]\n", "unknown parameter \"motion_check\"");
+  expect_refused("queue_size: [1]\n", "queue_size is a list, but must be [1, 100]");
+  expect_refused("initial_pose: [1, 2]\n", "initial_pose is \"1 2\", but must be 6 numbers");
+  expect_refused("initial_pose: &loop [*loop]\n", "");
   expect_refused("motion_check: &loop {of: *loop}\n", "\"motion_check/of\" must be a value");
   expect_refused("odom_frame: \"no UTF-8: \xc0\xb5\"\n", "\"odom_frame\" is not UTF-8");
   expect_refused("motion_check\n", "");

@@ -208,7 +208,7 @@ void StressPlayer::callServices() {
   };
   std_srvs::SetBool pause;
   SetPose set_pose;
-  set_pose.request.pose.orientation.w = 1.0;
+  set_pose.request.pose.pose.pose.orientation.w = 1.0;
   SaveTrajectory save;
   save.request.path = "/no/such/directory/poses.txt";
   save.request.format = "tum";
