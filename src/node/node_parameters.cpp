@@ -32,20 +32,21 @@ std::string textOf(const std::string& name, XmlRpc::XmlRpcValue value) {
   return text.str();
 }
 
-void setOne(const std::string& name, const XmlRpc::XmlRpcValue& value, ParameterTable& table) {
+/// Sets a value or a list.
+void setOne(const std::string& name, XmlRpc::XmlRpcValue value, ParameterTable& table) {
   try {
-    table.set(name, textOf(name, value));
+    if (value.getType() != XmlRpc::XmlRpcValue::TypeArray) {
+      return table.set(name, textOf(name, value));
+    }
+    std::vector<std::string> elements;
+    for (int i = 0; i < value.size(); ++i) elements.push_back(textOf(name, value[i]));
+    table.setList(name, elements);
   } catch (const std::invalid_argument& error) {
     throw RefusedParameter(name, error.what());
   }
 }
 
 void setBelow(const std::string& name, XmlRpc::XmlRpcValue value, ParameterTable& table) {
-  if (value.getType() == XmlRpc::XmlRpcValue::TypeArray) {
-    std::vector<std::string> elements;
-    for (int i = 0; i < value.size(); ++i) elements.push_back(textOf(name, value[i]));
-    return table.setList(name, elements);
-  }
   if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
     setOne(name, value, table);
     return;

@@ -1,7 +1,6 @@
 #include "rotrocc/parameters.h"
 
 #include <array>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -17,8 +16,6 @@
 
 namespace rotrocc {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Parameters with their table.
 struct Settings {
@@ -64,15 +61,13 @@ TEST(ParametersTest, TheDefaultFileHoldsEveryParameterAtItsDefault) {
   expectFileHolds(path, header + toYaml(Settings().table));
 }
 
-TEST(ParametersTest, EveryShippedFileLoads) {
-  int files = 0;
-  for (const auto& entry : fs::directory_iterator(ROTROCC_CONFIG_DIR)) {
-    if (entry.path().extension() != ".yaml") continue;
-    ++files;
+TEST(ParametersTest, ShippedFilesLoad) {
+  for (const std::string name : {"default", "fast", "paper"}) {
     Settings settings;
-    EXPECT_NO_THROW(loadYaml(entry.path().string(), settings.table)) << entry.path();
+    EXPECT_NO_THROW(
+        loadYaml(std::string(ROTROCC_CONFIG_DIR) + "/" + name + ".yaml", settings.table))
+        << name;
   }
-  EXPECT_GE(files, 2);
 }
 
 TEST(ParametersTest, ThePapersFileTurnsOffWhatThePaperDoesNotHave) {
