@@ -28,9 +28,8 @@ void writeGyroFile(const std::string& path, const std::vector<GyroSample>& sampl
           "a_z [m s^-2]\n"
        << std::setprecision(10);
   for (const GyroSample& sample : samples) {
-    file << sample.stamp_ns;
-    for (const double rate_rps : sample.rate_rps) file << ',' << rate_rps;
-    file << ",0,0,0\n";
+    const Eigen::Vector3d& rate = sample.rate_rps;
+    file << sample.stamp_ns << ',' << rate.x() << ',' << rate.y() << ',' << rate.z() << ",0,0,0\n";
   }
   file.flush();
   if (!file) throw std::runtime_error("cannot write " + path);
