@@ -26,7 +26,7 @@ class GyroHistory {
   /// Fast motions of a hand or a drone have periods of a third of a second: samples further apart
   /// do not follow them.
   static constexpr double kMaxGap_s = 0.05;
-  /// A sample that is earlier than the one before by more than this begins anew, as with a looping
+  /// A sample that is earlier than the one before by more than this restarts it, as with a looping
   /// bag.
   static constexpr double kJump_s = 1.0;
 

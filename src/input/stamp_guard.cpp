@@ -52,7 +52,7 @@ StampGuard::Verdict StampGuard::check(std::int64_t stamp_ns, std::int64_t clock_
   } else if (held_ && stamp_ns > held_->stamp_ns &&
              arrival.ahead_ns() - held_->ahead_ns() <= tolerance_ns()) {
     verdict.held_is_valid = true;
-    if (held_->stamp_ns < *last_stamp_ns_) beginAnew();
+    if (held_->stamp_ns < *last_stamp_ns_) restart();
     accept(*held_);
     held_.reset();
     accept(arrival);
@@ -101,7 +101,7 @@ bool StampGuard::goesBack(const Arrival& arrival) {
                            " s before the previous one: send images in the order of their stamps");
     }
   }
-  if (credible) beginAnew();
+  if (credible) restart();
   return credible;
 }
 
@@ -132,7 +132,7 @@ void StampGuard::accept(const Arrival& arrival) {
   if (ahead_ns_.size() > kArrivals) ahead_ns_.pop_front();
 }
 
-void StampGuard::beginAnew() {
+void StampGuard::restart() {
   first_stamp_ns_.reset();
   ahead_ns_.clear();
 }

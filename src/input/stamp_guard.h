@@ -51,7 +51,7 @@ class StampGuard {
   std::int64_t tolerance_ns() const;
   InputError glitchOf(const Arrival& held) const;
   void accept(const Arrival& arrival);
-  void beginAnew();
+  void restart();
 
   std::string topic_;
   double max_future_s_;

@@ -23,10 +23,10 @@ PairAnswer PairProcessor::process(const ReceivedPair& received,
   PairAnswer answer;
   answer.pair = converter_.convert(*received.images.left, *received.images.right);
   validateSize(*received.images.left, received.camera);
-  const bool asked = beginAnewIfAsked();
-  const bool went_back = beginAnewIfTimeWentBack(answer.pair.stamp_ns);
-  const bool gave_up = beginAnewIfLostForLong(answer.pair.stamp_ns);
-  answer.begins_anew = asked || went_back || gave_up;
+  const bool asked = restartIfAsked();
+  const bool went_back = restartIfTimeWentBack(answer.pair.stamp_ns);
+  const bool gave_up = restartIfLostForLong(answer.pair.stamp_ns);
+  answer.starts_trajectory = asked || went_back || gave_up;
   if (!base_odometry_) base_odometry_.emplace(parameters_, systematic_error_);
   setPoseIfAsked();
   move(received.camera, T_base_camera, expected, measured_rotation, answer);
@@ -36,7 +36,7 @@ PairAnswer PairProcessor::process(const ReceivedPair& received,
 }
 
 /// Returns whether a new trajectory starts.
-bool PairProcessor::beginAnewIfAsked() {
+bool PairProcessor::restartIfAsked() {
   const std::lock_guard<std::mutex> lock(requests_mutex_);
   if (requests_.config) {
     odometry_.configure(*requests_.config);
@@ -52,7 +52,7 @@ bool PairProcessor::beginAnewIfAsked() {
 }
 
 /// A looping bag, or a restarted simulation.
-bool PairProcessor::beginAnewIfTimeWentBack(std::int64_t stamp_ns) {
+bool PairProcessor::restartIfTimeWentBack(std::int64_t stamp_ns) {
   if (!last_stamp_ns_ || stamp_ns >= *last_stamp_ns_) return false;
   const bool keep = parameters_.pose_after_time_jump == "keep";
   log_.warn("time jumped back from " + stampText(*last_stamp_ns_) + " to " + stampText(stamp_ns) +
@@ -64,7 +64,7 @@ bool PairProcessor::beginAnewIfTimeWentBack(std::int64_t stamp_ns) {
 }
 
 /// Whether a new trajectory starts.
-bool PairProcessor::beginAnewIfLostForLong(std::int64_t stamp_ns) {
+bool PairProcessor::restartIfLostForLong(std::int64_t stamp_ns) {
   if (!lost_since_ns_ || parameters_.reset_after_lost_s <= 0.0) return false;
   const double lost_s = 1e-9 * static_cast<double>(stamp_ns - *lost_since_ns_);
   if (lost_s < parameters_.reset_after_lost_s) return false;

@@ -20,8 +20,8 @@ struct PairAnswer {
   StereoPair pair;  ///< valid until the next call
   OdometryResult result;
   BaseState state;
-  std::string hint;          ///< suspected camera fault; empty if none
-  bool begins_anew = false;  ///< a new trajectory: after a reset, a time jump or a long loss
+  std::string hint;                ///< suspected camera fault; empty if none
+  bool starts_trajectory = false;  ///< a new trajectory: after a reset, a time jump or a long loss
 };
 
 /// Converts pairs to odometry of the base, in one thread. Other threads may request changes, which
@@ -63,9 +63,9 @@ class PairProcessor {
     std::optional<VisualOdometry::Config> config;
   };
 
-  bool beginAnewIfAsked();
-  bool beginAnewIfTimeWentBack(std::int64_t stamp_ns);
-  bool beginAnewIfLostForLong(std::int64_t stamp_ns);
+  bool restartIfAsked();
+  bool restartIfTimeWentBack(std::int64_t stamp_ns);
+  bool restartIfLostForLong(std::int64_t stamp_ns);
   void setPoseIfAsked();
   void move(const StereoCamera& camera,
             const Eigen::Isometry3d& T_base_camera,

@@ -1,101 +1,12 @@
 #pragma once
 
-#include <chrono>
 #include <memory>
-#include <optional>
-#include <string>
-#include <thread>
 
 #include <nodelet/nodelet.h>
-#include <ros/wall_timer.h>
 
-#include "input/drop_log.h"
-#include "input/latest_mailbox.h"
-#include "input/log.h"
-#include "input/silence_watch.h"
-#include "input/throttle.h"
-#include "node/camera_mount.h"
-#include "node/diagnostics.h"
-#include "node/guess_odometry.h"
-#include "node/gyro_input.h"
-#include "node/live_parameters.h"
-#include "node/odometry_health.h"
-#include "node/odometry_publisher.h"
-#include "node/odometry_services.h"
-#include "node/pair_processor.h"
-#include "node/stereo_input.h"
-#include "node/tf_conflict.h"
-#include "node/trajectory_history.h"
-#include "node/trajectory_recorder.h"
-#include "rotrocc/parameters.h"
+#include "node/stereo_odometry.h"
 
 namespace rotrocc {
-
-/// Live stereo odometry: rectified stereo images in, nav_msgs/Odometry and tf out.
-///
-/// Subscribes to left/image_rect, right/image_rect (through image_transport), left/camera_info and
-/// right/camera_info; tf must connect base_frame and the frame of the left images. Publishes odom,
-/// path, inliers, flow, status, tf and /diagnostics, and has the services of OdometryServices.
-/// config/default.yaml lists the private parameters.
-///
-/// The callbacks only match images to pairs. A worker thread processes them; if it is too slow, it
-/// skips to the newest pair.
-class StereoOdometry {
- public:
-  /// Throws std::exception if it cannot start; then nothing of it is left. `name` is that of the
-  /// node or nodelet, for logs.
-  StereoOdometry(ros::NodeHandle& nh,
-                 ros::NodeHandle& private_nh,
-                 const std::string& name,
-                 const Parameters& parameters);
-  ~StereoOdometry();
-
- private:
-  // In the thread of the nodelet.
-  OdometryServices::Actions makeActions();
-  void onPair(ReceivedPair pair);
-  void onPause(bool paused);
-  void onTick(const ros::WallTimerEvent& event);
-
-  // In the worker thread.
-  void work();
-  void processSafely(const ReceivedPair& received);
-  void process(const ReceivedPair& received, const Eigen::Isometry3d& T_base_camera);
-  void publish(const PairAnswer& answer, const ReceivedPair& received);
-  bool waitsForMount(const ReceivedPair& received);
-  void endTrajectory();
-  void writeTrajectory(const BaseState& state);
-  void logState(const PairAnswer& answer);
-
-  Log log_;
-  NodeParameters parameters_;
-  DropLog drops_;
-  OdometryHealth health_;
-  PairProcessor processor_;
-  CameraMount mount_;
-  std::optional<GuessOdometry> guess_;
-  std::optional<GyroInput> gyro_;
-  OdometryPublisher publisher_;
-  std::optional<TrajectoryRecorder> trajectory_recorder_;
-  TrajectoryHistory trajectory_;
-
-  State last_state_ = State::kInitialising;  // of the worker
-  Throttle lost_warning_{std::chrono::seconds(5)};
-  Throttle hint_warning_{std::chrono::seconds(5)};
-  Throttle rig_warning_{std::chrono::minutes(5)};
-  Throttle input_warning_{std::chrono::minutes(1)};
-  SilenceWatch silence_;  // of the callbacks
-
-  LatestMailbox<ReceivedPair> mailbox_;
-  // Order matters from here on: members are destroyed after those that call them.
-  std::optional<StereoInput> input_;
-  std::optional<TfConflict> tf_conflict_;
-  std::optional<Diagnostics> diagnostics_;
-  std::optional<OdometryServices> services_;
-  std::optional<LiveParameters> live_parameters_;
-  ros::WallTimer ticker_;
-  std::thread worker_;
-};
 
 /// StereoOdometry as a nodelet.
 class StereoOdometryNodelet : public nodelet::Nodelet {

@@ -104,7 +104,7 @@ TEST(GyroHistoryTest, RefusesSamplesThatAreNoNumbersOrOutOfOrder) {
   EXPECT_EQ(history.add({1005 * kMs, {0.0, 0.0, 0.0}}), "");
 }
 
-TEST(GyroHistoryTest, BeginsAnewWhenTimeJumpsBack) {
+TEST(GyroHistoryTest, RestartsWhenTimeJumpsBack) {
   GyroHistory history = measured();
   EXPECT_EQ(history.add({-500 * kMs, {0.0, 0.0, 0.0}}), "");
   EXPECT_EQ(history.newest_ns(), -500 * kMs);

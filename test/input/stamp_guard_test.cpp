@@ -73,7 +73,7 @@ TEST_F(StampGuardTest, OneThatIsOvertakenIsRefused) {
   refuse(0.45, 0.5, "before");
 }
 
-TEST_F(StampGuardTest, ABagInALoopBeginsAnew) {
+TEST_F(StampGuardTest, ABagInALoopRestarts) {
   EXPECT_TRUE(passes(0.0));
   EXPECT_TRUE(passes(20.0));
   EXPECT_TRUE(passes(0.0, 20.0));
@@ -93,7 +93,7 @@ TEST_F(StampGuardTest, AShortLoopWithoutAClockIsToldByTheThirdImage) {
   EXPECT_TRUE(passes(0.2, 0.8));
 }
 
-TEST_F(StampGuardTest, AnEarlierRunBeginsAnew) {
+TEST_F(StampGuardTest, AnEarlierRunRestarts) {
   EXPECT_TRUE(passes(100.0));
   EXPECT_TRUE(passes(100.1));
   EXPECT_TRUE(passes(0.0, 100.2));

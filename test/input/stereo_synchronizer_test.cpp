@@ -104,7 +104,7 @@ TEST_F(StereoSynchronizerTest, RepeatedStampsAreNotLookedAt) {
   EXPECT_EQ(synchronizer_.unmatched(), 3u);
 }
 
-TEST_F(StereoSynchronizerTest, SurvivesTimeThatBeginsAnew) {
+TEST_F(StereoSynchronizerTest, SurvivesTimeThatJumpsBack) {
   EXPECT_FALSE(left(900));
   EXPECT_TRUE(right(900));
   EXPECT_FALSE(left(1000));
@@ -118,7 +118,7 @@ TEST_F(StereoSynchronizerTest, SurvivesTimeThatBeginsAnew) {
   EXPECT_EQ(synchronizer_.unmatched(), 2u);
 }
 
-TEST_F(StereoSynchronizerTest, OneSideMayBeAheadAfterTimeBeginsAnew) {
+TEST_F(StereoSynchronizerTest, OneSideMayBeAheadAfterTimeJumpsBack) {
   EXPECT_FALSE(left(900));
   EXPECT_TRUE(right(900));
   EXPECT_FALSE(left(0));

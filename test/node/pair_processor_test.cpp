@@ -37,11 +37,11 @@ TEST_F(PairProcessorTest, ResetBeginsAtZero) {
   rig_.drive();
   EXPECT_EQ(x(), 0.0);
   EXPECT_EQ(state(), State::kInitialising);
-  EXPECT_TRUE(rig_.answer()->begins_anew);
+  EXPECT_TRUE(rig_.answer()->starts_trajectory);
   EXPECT_TRUE(rig_.answer()->state.T_first_camera.isApprox(Eigen::Isometry3d::Identity()));
   rig_.drive();
   EXPECT_EQ(state(), State::kOk);
-  EXPECT_FALSE(rig_.answer()->begins_anew);
+  EXPECT_FALSE(rig_.answer()->starts_trajectory);
   EXPECT_NEAR(x(), kStep_m, 0.05);
 }
 
@@ -51,7 +51,7 @@ TEST_F(PairProcessorTest, RestartKeepsThePose) {
   rig_.drive();
   EXPECT_EQ(state(), State::kInitialising);
   EXPECT_EQ(x(), before_m);
-  EXPECT_FALSE(rig_.answer()->begins_anew);
+  EXPECT_FALSE(rig_.answer()->starts_trajectory);
 }
 
 TEST_F(PairProcessorTest, PoseIsThatOfTheLastPair) {
@@ -239,7 +239,7 @@ std::string statesInTheDark(OdometryRig& rig, int pairs) {
   for (int i = 0; i < pairs; ++i) {
     rig.drive(darken);
     states += rig.answer()->result.state == State::kLost ? 'l' : 'i';
-    if (rig.answer()->begins_anew) states += '!';
+    if (rig.answer()->starts_trajectory) states += '!';
   }
   return states;
 }

@@ -280,7 +280,7 @@ TEST_F(StereoOdometryTest, BadCameraInfoStopsItUntilAGoodOneComes) {
   EXPECT_GE(drive().pose.pose.position.x, before.pose.pose.position.x);
 }
 
-TEST_F(StereoOdometryTest, GoesOnWhenTimeBeginsAnew) {
+TEST_F(StereoOdometryTest, ContinuesWhenTimeJumpsBack) {
   const nav_msgs::Odometry before = drive();
   robot_->turnBackTime();
   const nav_msgs::Odometry after = drive();

@@ -233,7 +233,7 @@ TEST_F(KittiPlayerTest, PausesByService) {
   EXPECT_EQ(listener.leftStamps().size(), static_cast<std::size_t>(kPairs));
 }
 
-TEST_F(KittiPlayerTest, BeginsAnewInALoop) {
+TEST_F(KittiPlayerTest, RestartsInALoop) {
   writeOwnBag();
   private_nh_.setParam("loop", true);
   Listener listener(nh_);
