@@ -1,6 +1,7 @@
 #include "node/trajectory_history.h"
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <stdexcept>
 
@@ -25,9 +26,11 @@ std::size_t TrajectoryHistory::blockOf(std::size_t index) const {
 
 void TrajectoryHistory::add(const StampedPose& pose) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  // A new block: the old one may be about to be saved.
-  if (next_ % kBlock == 0) blocks_[blockOf(next_)] = std::make_shared<Block>(kBlock);
-  (*blocks_[blockOf(next_)])[next_ % kBlock] = pose;
+  std::shared_ptr<Block>& block = blocks_[blockOf(next_)];
+  // Another block if this one is being saved.
+  if (next_ % kBlock == 0 && block.use_count() > 1) block = std::make_shared<Block>(kBlock);
+  std::atomic_thread_fence(std::memory_order_acquire);  // after the last read of a save
+  (*block)[next_ % kBlock] = pose;
   ++next_;
   first_ = std::max(first_, next_ - std::min(next_, max_length_));
 }
