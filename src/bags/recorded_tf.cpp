@@ -16,11 +16,6 @@ namespace {
 /// Frame of kitti2bag's ground truth of odometry sequences; its images have another one.
 const char* const kKitti2bagCamera = "camera_left";
 
-/// Removes the leading slash of frame names in old bags, which tf2 rejects.
-std::string withoutSlash(const std::string& frame) {
-  return frame.empty() || frame.front() != '/' ? frame : frame.substr(1);
-}
-
 std::vector<geometry_msgs::TransformStamped> readTransforms(const rosbag::Bag& bag,
                                                             const std::string& topic) {
   std::vector<geometry_msgs::TransformStamped> transforms;

@@ -1,10 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include <ros/time.h>
 
 namespace rotrocc {
+
+/// The frame as tf2 names it: without the leading slash of tf.
+inline std::string withoutSlash(const std::string& frame) {
+  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+}
 
 inline std::int64_t toNanoseconds(const ros::Time& stamp) {
   return static_cast<std::int64_t>(stamp.toNSec());

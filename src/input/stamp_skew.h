@@ -15,8 +15,8 @@ std::optional<double> greatestStampDifference(const StampSeries& left, const Sta
 std::optional<double> medianSkew(const StampSeries& left, const StampSeries& right);
 
 /// A skew of about a period [s], as of a camera whose stamps are late: right minus left stamps of
-/// the same time. Then the nearest stamps are those of neighbours. It is told by the jitter, which
-/// images of the same time have in common; none if there is no such skew or no jitter.
+/// the same time. Then the nearest stamps are those of neighbours. It is identified by the jitter,
+/// which images of the same time have in common; none if there is no such skew or no jitter.
 std::optional<double> skewOfAPeriod(const StampSeries& left, const StampSeries& right);
 
 }  // namespace rotrocc

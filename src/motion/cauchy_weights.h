@@ -4,6 +4,10 @@
 
 namespace rotrocc {
 
+/// Standard deviation, in each direction, of two-dimensional Gaussian residuals from the median of
+/// their lengths; there must be one. Reorders `lengths_px`.
+double deviationOf(std::vector<double>& lengths_px);
+
 /// Cauchy weights for iteratively reweighted least squares (Holland and Welsch 1977), for residuals
 /// with long tails: w = 1 / (1 + (e / (f s))^2), in ]0, 1].
 ///

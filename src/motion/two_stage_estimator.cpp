@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "common/median.h"
+#include "motion/cauchy_weights.h"
 #include "motion/flow_decoupling.h"
 #include "motion/reprojection_error.h"
 
@@ -14,9 +14,6 @@ namespace {
 
 /// Lower limit of the flow [px], so that normalized errors stay finite without flow.
 constexpr double kLeastFlow_px = 1e-6;
-
-/// Median length of two-dimensional normal errors, in standard deviations of a coordinate.
-constexpr double kMedianLength = 1.1774;
 
 /// The error of a feature that must not become an inlier.
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -115,7 +112,7 @@ double TwoStageEstimator::flowNoise(const Measurements& measured, const TwoStage
   for (std::size_t i = 0; i < errors_.size(); ++i) {
     if (stage_one.rotation_inliers[i] != 0) inlier_errors_px_.push_back(errors_[i]);
   }
-  return median(inlier_errors_px_) / kMedianLength;
+  return deviationOf(inlier_errors_px_);
 }
 
 /// Selects the features that may enter stage 2.

@@ -6,16 +6,13 @@
 #include <ros/transport_hints.h>
 
 #include "input/gyro_conversion.h"
+#include "input/message_conversion.h"
 #include "node/camera_mount.h"
 
 namespace rotrocc {
 namespace {
 
 constexpr int kQueueSize = 1000;  // a second of the fastest gyroscopes
-
-std::string withoutSlash(const std::string& frame) {
-  return frame.empty() || frame.front() != '/' ? frame : frame.substr(1);
-}
 
 }  // namespace
 

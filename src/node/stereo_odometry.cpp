@@ -128,33 +128,27 @@ void StereoOdometry::work() {
       if (pair) drops_.count(DropReason::kTfMissing);
       pair = std::move(newer);
     }
-    if (!pair || waitsForMount(*pair)) continue;
-    processSafely(*pair);
-    pair.reset();
+    if (pair && tryPair(*pair)) pair.reset();
   }
 }
 
-/// Whether tf lacks the camera pose. A missing frame is handled by process().
-bool StereoOdometry::waitsForMount(const ReceivedPair& received) {
-  const sensor_msgs::Image& left = *received.images.left;
-  if (parameters_.camera_frame.empty() && left.header.frame_id.empty()) return false;
-  const std::string camera_frame = cameraFrameOf(left, parameters_.camera_frame);
-  if (mount_.find(camera_frame, toNanoseconds(left.header.stamp))) return false;
-  health_.setWaitsForTf(mount_.missing());
-  return true;
-}
-
-void StereoOdometry::processSafely(const ReceivedPair& received) {
+/// Whether the pair is done with: processed, or dropped. Otherwise tf lacks the camera pose.
+bool StereoOdometry::tryPair(const ReceivedPair& received) {
   try {
     const sensor_msgs::Image& left = *received.images.left;
     const auto T_base_camera = mount_.find(cameraFrameOf(left, parameters_.camera_frame),
                                            toNanoseconds(left.header.stamp));
-    if (T_base_camera) process(received, *T_base_camera);
+    if (!T_base_camera) {
+      health_.setWaitsForTf(mount_.missing());
+      return false;
+    }
+    process(received, *T_base_camera);
   } catch (const InputError& error) {
     drops_.add(error);
   } catch (const std::exception& error) {
     drops_.add(InputError(DropReason::kFailed, std::string("internal error: ") + error.what()));
   }
+  return true;
 }
 
 void StereoOdometry::process(const ReceivedPair& received, const Eigen::Isometry3d& T_base_camera) {

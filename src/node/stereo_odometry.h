@@ -58,10 +58,9 @@ class StereoOdometry {
 
   // In the worker thread.
   void work();
-  void processSafely(const ReceivedPair& received);
+  bool tryPair(const ReceivedPair& received);
   void process(const ReceivedPair& received, const Eigen::Isometry3d& T_base_camera);
   void publish(const PairAnswer& answer, const ReceivedPair& received);
-  bool waitsForMount(const ReceivedPair& received);
   void endTrajectory();
   void writeTrajectory(const BaseState& state);
   void logState(const PairAnswer& answer);

@@ -5,6 +5,8 @@
 
 #include <ros/this_node.h>
 
+#include "input/message_conversion.h"
+
 namespace rotrocc {
 namespace {
 
@@ -13,10 +15,6 @@ constexpr std::uint32_t kQueueSize = 1000;  // of a period
 constexpr std::chrono::seconds kGone(5);
 
 using SteadyClock = std::chrono::steady_clock;
-
-std::string withoutSlash(const std::string& frame) {
-  return frame.compare(0, 1, "/") == 0 ? frame.substr(1) : frame;
-}
 
 std::string edge(const PublishedTf& tf) {
   return tf.parent + " -> " + tf.child;

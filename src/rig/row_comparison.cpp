@@ -19,9 +19,7 @@ constexpr int kLeastObservations = 3;
 /// accurate.
 constexpr double kNotable_px = 0.5;
 
-/// For a normal distribution: the ratio of the standard deviation to the median absolute deviation,
-/// and the ratio of the standard deviation of the median to that of the mean.
-constexpr double kNormal = 1.4826;
+/// For a normal distribution: the standard deviation of the median over that of the mean.
 constexpr double kOfMedian = 1.2533;
 
 }  // namespace
@@ -54,7 +52,7 @@ void RowComparison::estimate() {
   };
   sorted_px_ = last_px_;
   offset_.median_px = median(sorted_px_);
-  const double scatter_px = kNormal * medianDistanceFrom(offset_.median_px);
+  const double scatter_px = kDeviationOverMedian * medianDistanceFrom(offset_.median_px);
   offset_.sigma_px = kOfMedian * scatter_px / std::sqrt(static_cast<double>(last_px_.size()));
   offset_.typical_px = medianDistanceFrom(0.0);
   if (isKnown()) correct(scatter_px);

@@ -25,10 +25,8 @@ constexpr double kVelocity_pxps = 100.0;
 /// skew of up to 1.5 ms with the cameras of KITTI, which are triggered together.
 constexpr double kRemainder_px = 0.05;
 
-/// Cauchy weights are 1/2 at this number of standard deviations. The median of the absolute values
-/// of normal errors is 1 / kNormal standard deviations.
+/// Cauchy weights are 1/2 at this number of standard deviations.
 constexpr double kRobustFactor = 1.5;
-constexpr double kNormal = 1.4826;
 
 }  // namespace
 
@@ -71,7 +69,7 @@ void TimeSkewEstimator::observe(const StereoCamera& camera,
   }
   sorted_px_.resize(errors_px_.size());
   for (std::size_t i = 0; i < errors_px_.size(); ++i) sorted_px_[i] = std::abs(errors_px_[i]);
-  const double limit_px = kRobustFactor * kNormal * median(sorted_px_);
+  const double limit_px = kRobustFactor * kDeviationOverMedian * median(sorted_px_);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const double relative = limit_px > 0.0 ? errors_px_[i] / limit_px : 0.0;
     const double weight = 1.0 / (1.0 + relative * relative);

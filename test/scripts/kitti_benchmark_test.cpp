@@ -137,7 +137,7 @@ TEST_F(KittiBenchmarkTest, InterruptedItLosesNoFinishedSequence) {
   EXPECT_EQ(rows().size(), 3u);
   struct stat after;
   ASSERT_EQ(stat((results() / "00/estimate.txt").c_str(), &after), 0);
-  EXPECT_EQ(after.st_ino, before.st_ino) << "it was written anew";
+  EXPECT_EQ(after.st_ino, before.st_ino) << "it was written again";
 }
 
 TEST_F(KittiBenchmarkTest, WhatAKilledRunLeftIsNotTakenForAResult) {
