@@ -13,7 +13,7 @@
 #include "input/message_conversion.h"
 #include "input/stereo_intake.h"
 #include "message_reader.h"
-#include "node/pair_processor.h"
+#include "node/base/pair_processor.h"
 #include "require.h"
 
 namespace rotrocc {

@@ -11,8 +11,8 @@
 #include <std_msgs/Header.h>
 #include <opencv2/core.hpp>
 
-#include "node/base_odometry.h"
-#include "node/odometry_health.h"
+#include "node/base/base_odometry.h"
+#include "node/health/odometry_health.h"
 #include "rotrocc/OdometryStatus.h"
 #include "rotrocc/visual_odometry.h"
 

@@ -13,7 +13,7 @@
 #include <opencv2/core.hpp>
 
 #include "input/throttle.h"
-#include "node/base_odometry.h"
+#include "node/base/base_odometry.h"
 #include "node/odometry_messages.h"
 #include "rotrocc/OdometryStatus.h"
 #include "rotrocc/flow_picture.h"

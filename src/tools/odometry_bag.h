@@ -6,7 +6,7 @@
 #include <rosbag/bag.h>
 #include <Eigen/Geometry>
 
-#include "node/base_odometry.h"
+#include "node/base/base_odometry.h"
 #include "rotrocc/parameters.h"
 
 namespace rotrocc {

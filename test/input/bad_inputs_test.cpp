@@ -16,7 +16,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "input/to_text.h"
-#include "node/diagnostics.h"
+#include "node/health/diagnostics.h"
 #include "support/bad_input_table.h"
 #include "support/log_recorder.h"
 #include "support/odometry_rig.h"

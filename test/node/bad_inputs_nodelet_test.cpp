@@ -21,7 +21,7 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include "input/to_text.h"
-#include "node/odometry_health.h"
+#include "node/health/odometry_health.h"
 #include "node/stereo_odometry_nodelet.h"
 #include "rotrocc/SaveTrajectory.h"
 #include "rotrocc/SetPose.h"

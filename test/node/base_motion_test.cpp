@@ -1,4 +1,4 @@
-#include "node/base_motion.h"
+#include "node/base/base_motion.h"
 
 #include <random>
 

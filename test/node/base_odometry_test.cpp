@@ -1,4 +1,4 @@
-#include "node/base_odometry.h"
+#include "node/base/base_odometry.h"
 
 #include <cmath>
 

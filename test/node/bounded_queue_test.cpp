@@ -1,4 +1,4 @@
-#include "node/bounded_queue.h"
+#include "node/trajectory/bounded_queue.h"
 
 #include <thread>
 

@@ -1,4 +1,4 @@
-#include "node/camera_mount.h"
+#include "node/tf/camera_mount.h"
 
 #include <cmath>
 #include <thread>

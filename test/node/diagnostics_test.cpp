@@ -1,4 +1,4 @@
-#include "node/diagnostics.h"
+#include "node/health/diagnostics.h"
 
 #include <gtest/gtest.h>
 

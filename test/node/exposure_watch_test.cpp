@@ -1,4 +1,4 @@
-#include "node/exposure_watch.h"
+#include "node/health/exposure_watch.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "node/guess_odometry.h"
+#include "node/tf/guess_odometry.h"
 
 #include <thread>
 

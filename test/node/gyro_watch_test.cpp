@@ -1,4 +1,4 @@
-#include "node/gyro_watch.h"
+#include "node/gyro/gyro_watch.h"
 
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "node/pair_processor.h"
+#include "node/base/pair_processor.h"
 
 #include <string>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "node/tf_conflict.h"
+#include "node/tf/tf_conflict.h"
 
 #include <gtest/gtest.h>
 

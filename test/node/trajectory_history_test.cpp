@@ -1,4 +1,4 @@
-#include "node/trajectory_history.h"
+#include "node/trajectory/trajectory_history.h"
 
 #include <sys/stat.h>
 

@@ -1,4 +1,4 @@
-#include "node/trajectory_recorder.h"
+#include "node/trajectory/trajectory_recorder.h"
 
 #include <sys/stat.h>
 

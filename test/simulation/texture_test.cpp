@@ -1,4 +1,4 @@
-#include "simulation/world/texture.h"
+#include "simulation/surfaces/texture.h"
 
 #include <gtest/gtest.h>
 

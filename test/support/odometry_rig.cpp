@@ -9,7 +9,7 @@
 
 #include "input/message_conversion.h"
 #include "input/to_text.h"
-#include "node/odometry_health.h"
+#include "node/health/odometry_health.h"
 #include "support/synthetic_scene.h"
 
 namespace rotrocc {

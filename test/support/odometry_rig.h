@@ -12,7 +12,7 @@
 #include "bags/kitti_mount.h"
 #include "input/drop_log.h"
 #include "input/stereo_intake.h"
-#include "node/pair_processor.h"
+#include "node/base/pair_processor.h"
 #include "rotrocc/parameters.h"
 
 namespace rotrocc {

@@ -8,7 +8,7 @@
 #include <tf2_eigen/tf2_eigen.h>
 #include <Eigen/Geometry>
 
-#include "node/tf_feed.h"
+#include "node/tf/tf_feed.h"
 
 namespace rotrocc {
 

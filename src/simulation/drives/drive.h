@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "rotrocc/trajectory.h"
-#include "simulation/world/path.h"
+#include "simulation/street/path.h"
 
 namespace rotrocc {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "simulation/drives/street_plan.h"
-#include "simulation/world/street_style.h"
+#include "simulation/street/street_style.h"
 
 namespace rotrocc {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "simulation/drives/drive.h"
 #include "simulation/drives/traffic.h"
-#include "simulation/world/world.h"
+#include "simulation/scene/world.h"
 
 namespace rotrocc {
 

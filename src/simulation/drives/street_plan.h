@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "simulation/world/path.h"
+#include "simulation/street/path.h"
 
 namespace rotrocc {
 

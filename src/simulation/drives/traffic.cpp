@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "simulation/counter_random.h"
-#include "simulation/world/car.h"
-#include "simulation/world/placement.h"
+#include "simulation/objects/car.h"
+#include "simulation/scene/placement.h"
 
 namespace rotrocc {
 namespace {

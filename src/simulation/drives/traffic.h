@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "simulation/drives/drive.h"
-#include "simulation/world/body.h"
-#include "simulation/world/world.h"
+#include "simulation/scene/body.h"
+#include "simulation/scene/world.h"
 
 namespace rotrocc {
 

@@ -4,7 +4,7 @@
 
 #include "simulation/drives/traffic.h"
 #include "simulation/rendering/picture.h"
-#include "simulation/world/world.h"
+#include "simulation/scene/world.h"
 
 namespace rotrocc {
 

@@ -10,7 +10,7 @@
 #include "simulation/rendering/picture.h"
 #include "simulation/rendering/remainder.h"
 #include "simulation/rendering/sensor.h"
-#include "simulation/world/weather.h"
+#include "simulation/surfaces/weather.h"
 
 namespace rotrocc {
 

@@ -1,0 +1,199 @@
+#include "node/base/base_odometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "odometry/systematic_error.h"
+
+namespace rotrocc {
+namespace {
+
+/// Variance [m^2, rad^2] of the first pose, which defines the odom frame; not zero, because filters
+/// invert it.
+constexpr double kFirstVariance = 1e-9;
+/// Variance of an unknown twist, by convention of nav_msgs/Odometry.
+constexpr double kUnknownVariance = 9999.0;
+/// Variance [m^2, rad^2] of the components that planar motion excludes.
+constexpr double kPlanarVariance = 1e-9;
+/// Longer gaps do not increase the uncertainty further: filters need finite numbers.
+constexpr double kMaxWithoutMotion_s = 1000.0;
+
+/// Part of a rotation's error that comes with the way: wheels that slip turn a base that drives
+/// straight on.
+constexpr double kTurn_radpm = 0.1;
+
+/// From x y z roll pitch yaw.
+Eigen::Isometry3d poseOf(const std::array<double, 6>& values) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translation() << values[0], values[1], values[2];
+  T.rotate(Eigen::AngleAxisd(values[5], Eigen::Vector3d::UnitZ()) *
+           Eigen::AngleAxisd(values[4], Eigen::Vector3d::UnitY()) *
+           Eigen::AngleAxisd(values[3], Eigen::Vector3d::UnitX()));
+  return T;
+}
+
+/// Of equal variances of each axis.
+Matrix6d diagonal(double translation, double rotation) {
+  Vector6d variances;
+  variances << Eigen::Vector3d::Constant(translation), Eigen::Vector3d::Constant(rotation);
+  return variances.asDiagonal();
+}
+
+/// The planar part of a motion of the base.
+Eigen::Isometry3d planar(const Eigen::Isometry3d& T) {
+  const double yaw_rad = std::atan2(T.linear()(1, 0), T.linear()(0, 0));
+  Eigen::Isometry3d flat = Eigen::Isometry3d::Identity();
+  flat.linear() = Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  flat.translation().head<2>() = T.translation().head<2>();
+  return flat;
+}
+
+Matrix6d planar(const Matrix6d& covariance) {
+  Matrix6d flat = covariance;
+  for (const int axis : {2, 3, 4}) {
+    flat.row(axis).setZero();
+    flat.col(axis).setZero();
+    flat(axis, axis) = kPlanarVariance;
+  }
+  return flat;
+}
+
+}  // namespace
+
+BaseOdometry::BaseOdometry(const NodeParameters& parameters,
+                           const SystematicErrorConfig& systematic_error)
+    : parameters_(parameters), systematic_error_(systematic_error) {
+  setPose({poseOf(parameters.initial_pose), Matrix6d::Zero()});
+}
+
+BaseState BaseOdometry::add(const OdometryResult& result,
+                            const Eigen::Isometry3d& T_base_camera,
+                            const std::optional<Eigen::Isometry3d>& T_last_cur) {
+  BaseState state;
+  state.stamp_ns = result.stamp_ns;
+  const bool first = !T_start_camera_;
+  if (first) {
+    T_start_camera_ = last_.T_base_camera = T_base_camera;
+    last_.stamp_ns = result.stamp_ns;
+    known_ = last_;
+  }
+  if (result.hasMotion()) {
+    const UncertainTransform step = addMotion(result, T_base_camera);
+    state.twist = twistOf(step, result.dt_s);
+    state.step_velocity = {result.stamp_ns - std::llround(1e9 * result.dt_s),
+                           meanVelocityOf(step, result.dt_s)};
+  } else {
+    addUnseen(result, T_base_camera, first ? std::nullopt : T_last_cur);
+    state.twist.covariance = kUnknownVariance * Matrix6d::Identity();
+  }
+  if (parameters_.planar) last_.T_odom_base.covariance = planar(last_.T_odom_base.covariance);
+  if (result.state != State::kLost) known_ = last_;
+  state.T_first_camera = last_.T_first_start * camera_.T_first_cur();
+  state.T_odom_base = withSystematicError(last_.T_odom_base);
+  return state;
+}
+
+UncertainTransform BaseOdometry::motionOfBase(const UncertainTransform& camera_motion,
+                                              const Pose& from,
+                                              const Eigen::Isometry3d& T_base_camera) const {
+  const UncertainTransform motion =
+      rotrocc::motionOfBase(camera_motion, from.T_base_camera, T_base_camera);
+  return parameters_.planar ? UncertainTransform{planar(motion.T), planar(motion.covariance)}
+                            : motion;
+}
+
+/// Returns the motion of the base since the previous pair.
+UncertainTransform BaseOdometry::addMotion(const OdometryResult& result,
+                                           const Eigen::Isometry3d& T_base_camera) {
+  // Compared with a lost pair, that one is the keyframe.
+  const Pose prev = result.keyframe_stamp_ns > known_.stamp_ns ? last_ : known_;
+  if (result.keyframe_stamp_ns != keyframe_stamp_ns_) {
+    keyframe_stamp_ns_ = result.keyframe_stamp_ns;
+    keyframe_ = prev;
+  }
+  const UncertainTransform step =
+      motionOfBase({result.T_prev_cur, result.covariance}, prev, T_base_camera);
+  camera_.add(parameters_.planar ? prev.T_base_camera.inverse() * step.T * T_base_camera
+                                 : result.T_prev_cur);
+  last_ = prev;
+  last_.stamp_ns = result.stamp_ns;
+  last_.T_base_camera = T_base_camera;
+  last_.T_odom_base = keyframe_
+                          ? compose(keyframe_->T_odom_base,
+                                    motionOfBase(result.T_keyframe_cur, *keyframe_, T_base_camera))
+                          : compose(prev.T_odom_base, step);
+  // Not by compose(), which would accumulate rounding errors.
+  last_.T_odom_base.T = last_.T_odom_start * T_start_base();
+  without_motion_s_ = guessed_m_ = guessed_rad_ = 0.0;
+  return step;
+}
+
+/// The base moves by `T_last_cur`, or rests; a mount that moves moves the camera.
+void BaseOdometry::addUnseen(const OdometryResult& result,
+                             const Eigen::Isometry3d& T_base_camera,
+                             const std::optional<Eigen::Isometry3d>& T_last_cur) {
+  UncertainTransform step;
+  if (T_last_cur) step.T = parameters_.planar ? planar(*T_last_cur) : *T_last_cur;
+  last_.T_odom_base = compose(last_.T_odom_base, step);
+  last_.T_odom_base.covariance +=
+      T_last_cur ? growthWithWay(step.T) : growthWithTime(result.stamp_ns);
+  camera_.add(Eigen::Isometry3d::Identity());
+  if (T_last_cur || T_base_camera.matrix() != last_.T_base_camera.matrix()) {
+    const Eigen::Isometry3d T_camera_step = last_.T_base_camera.inverse() * step.T * T_base_camera;
+    const Eigen::Isometry3d& T_visual = camera_.T_first_cur();
+    last_.T_first_start = last_.T_first_start * T_visual * T_camera_step * T_visual.inverse();
+    last_.T_base_camera = T_base_camera;
+    last_.T_odom_start = last_.T_odom_base.T * T_start_base().inverse();
+  }
+  last_.T_odom_base.T = last_.T_odom_start * T_start_base();
+  last_.stamp_ns = result.stamp_ns;
+}
+
+void BaseOdometry::setPose(const UncertainTransform& T_odom_base) {
+  last_.T_odom_start = T_start_camera_ ? T_odom_base.T * T_start_base().inverse() : T_odom_base.T;
+  T_odom_first_ = T_odom_base.T;
+  last_.T_odom_base = T_odom_base;
+  last_.T_odom_base.covariance += kFirstVariance * Matrix6d::Identity();
+  known_ = last_;
+  keyframe_.reset();
+  without_motion_s_ = guessed_m_ = guessed_rad_ = 0.0;
+}
+
+UncertainTransform BaseOdometry::withSystematicError(const UncertainTransform& T_odom_base) const {
+  const Matrix6d systematic =
+      systematicCovariance(systematic_error_, T_odom_first_.inverse() * T_odom_base.T);
+  return {T_odom_base.T,
+          T_odom_base.covariance + (parameters_.planar ? planar(systematic) : systematic)};
+}
+
+/// The visual pose of the base at the last pair, in its frame at the first one.
+Eigen::Isometry3d BaseOdometry::T_start_base() const {
+  return *T_start_camera_ * camera_.T_first_cur() * last_.T_base_camera.inverse();
+}
+
+/// Increment of the covariance, so that the standard deviation grows linearly with time for any
+/// rate of calls.
+Matrix6d BaseOdometry::growthWithTime(std::int64_t stamp_ns) {
+  const std::int64_t passed_ns = stamp_ns - last_.stamp_ns;
+  const double before_s = without_motion_s_;
+  without_motion_s_ += 1e-9 * static_cast<double>(std::max<std::int64_t>(passed_ns, 0));
+  without_motion_s_ = std::min(without_motion_s_, kMaxWithoutMotion_s);
+  const double growth_s2 = without_motion_s_ * without_motion_s_ - before_s * before_s;
+  return diagonal(
+      parameters_.lost_speed_sigma_mps * parameters_.lost_speed_sigma_mps * growth_s2,
+      parameters_.lost_turn_rate_sigma_rps * parameters_.lost_turn_rate_sigma_rps * growth_s2);
+}
+
+/// The same for the way that another odometry tells.
+Matrix6d BaseOdometry::growthWithWay(const Eigen::Isometry3d& T_last_cur) {
+  const double before_m = guessed_m_;
+  const double before_rad = guessed_rad_;
+  const double way_m = T_last_cur.translation().norm();
+  guessed_m_ += way_m;
+  guessed_rad_ += logRotation(T_last_cur.linear()).norm() + kTurn_radpm * way_m;
+  const double share2 = parameters_.guess_error_share * parameters_.guess_error_share;
+  return diagonal(share2 * (guessed_m_ * guessed_m_ - before_m * before_m),
+                  share2 * (guessed_rad_ * guessed_rad_ - before_rad * before_rad));
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+#include "node/base/base_motion.h"
+#include "rotrocc/parameters.h"
+#include "rotrocc/pose_accumulator.h"
+#include "rotrocc/visual_odometry.h"
+
+namespace rotrocc {
+
+/// The mean velocity from one pair to the next. A filter that integrates velocities from their
+/// stamp on follows the motion with it; with the twist of the later pair, it lags by a period.
+struct StepVelocity {
+  std::int64_t stamp_ns = 0;  ///< of the first of both pairs
+  UncertainTwist twist;       ///< in the frame of the base at that time
+};
+
+/// Pose and motion of the robot after a stereo pair.
+struct BaseState {
+  std::int64_t stamp_ns = 0;
+  Eigen::Isometry3d T_first_camera =
+      Eigen::Isometry3d::Identity();  ///< in the first camera's frame
+  UncertainTransform T_odom_base;
+  UncertainTwist twist;                       ///< in the frame of the base
+  std::optional<StepVelocity> step_velocity;  ///< since the previous pair, if known
+};
+
+/// Accumulates camera motions to the odometry of the base, from the initial pose at the first pair.
+/// The camera may move on the base.
+///
+/// Without a motion, the base moves as another odometry tells, and the standard deviation of the
+/// pose grows with its way; if there is none, the base is assumed at rest, and it grows with time.
+/// The twist is zero with a very large covariance.
+class BaseOdometry {
+ public:
+  /// Of `parameters`: initial_pose; planar, which discards other components of a motion;
+  /// lost_speed_sigma_mps, lost_turn_rate_sigma_rps and guess_error_share, along and about each
+  /// axis. `systematic_error`: its part of the pose covariance is in proportion to the distance
+  /// from the first pose.
+  BaseOdometry(const NodeParameters& parameters, const SystematicErrorConfig& systematic_error);
+
+  /// `T_base_camera`: the mount of the camera at the pair. `T_last_cur`: motion of the base since
+  /// the last pair by another odometry, if any.
+  BaseState add(const OdometryResult& result,
+                const Eigen::Isometry3d& T_base_camera,
+                const std::optional<Eigen::Isometry3d>& T_last_cur = std::nullopt);
+
+  void setSystematicError(const SystematicErrorConfig& config) { systematic_error_ = config; }
+
+  /// Sets the pose of the base at the last pair. The camera's trajectory is not affected.
+  void setPose(const UncertainTransform& T_odom_base);
+
+ private:
+  /// What later pairs are measured against.
+  struct Pose {
+    std::int64_t stamp_ns = 0;
+    Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
+    UncertainTransform T_odom_base;  // without systematic errors
+    // What is added to the visual poses of base and camera: by setPose(), and by motions of the
+    // base or the mount that were not seen.
+    Eigen::Isometry3d T_odom_start = Eigen::Isometry3d::Identity();
+    Eigen::Isometry3d T_first_start = Eigen::Isometry3d::Identity();
+  };
+
+  UncertainTransform motionOfBase(const UncertainTransform& camera_motion,
+                                  const Pose& from,
+                                  const Eigen::Isometry3d& T_base_camera) const;
+  UncertainTransform addMotion(const OdometryResult& result,
+                               const Eigen::Isometry3d& T_base_camera);
+  void addUnseen(const OdometryResult& result,
+                 const Eigen::Isometry3d& T_base_camera,
+                 const std::optional<Eigen::Isometry3d>& T_last_cur);
+  Matrix6d growthWithTime(std::int64_t stamp_ns);
+  Matrix6d growthWithWay(const Eigen::Isometry3d& T_last_cur);
+  UncertainTransform withSystematicError(const UncertainTransform& T_odom_base) const;
+  Eigen::Isometry3d T_start_base() const;
+
+  NodeParameters parameters_;
+  SystematicErrorConfig systematic_error_;
+
+  PoseAccumulator camera_;                           // visual poses
+  std::optional<Eigen::Isometry3d> T_start_camera_;  // the first mount
+  Pose last_;                                        // of the last pair
+  Pose known_;  // of the last pair that was not lost; equal to last_ if that was not
+  Eigen::Isometry3d T_odom_first_ = Eigen::Isometry3d::Identity();  // initial, or set
+
+  // Errors accumulate from keyframe to keyframe.
+  std::optional<std::int64_t> keyframe_stamp_ns_;
+  std::optional<Pose> keyframe_;  // none after setPose(), until the next keyframe
+  // Since the last motion.
+  double without_motion_s_ = 0.0;
+  double guessed_m_ = 0.0;
+  double guessed_rad_ = 0.0;
+};
+
+}  // namespace rotrocc

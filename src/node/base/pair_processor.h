@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+
+#include "input/log.h"
+#include "input/stereo_intake.h"
+#include "input/stereo_pair_converter.h"
+#include "node/base/base_odometry.h"
+#include "node/health/pair_inspector.h"
+#include "rotrocc/parameters.h"
+#include "rotrocc/visual_odometry.h"
+
+namespace rotrocc {
+
+/// Result of a pair.
+struct PairAnswer {
+  StereoPair pair;  ///< valid until the next call
+  OdometryResult result;
+  BaseState state;
+  std::string hint;                ///< suspected camera fault; empty if none
+  bool starts_trajectory = false;  ///< a new trajectory: after a reset, a time jump or a long loss
+};
+
+/// Converts pairs to odometry of the base, in one thread. Other threads may request changes, which
+/// take effect with the next pair; requests do not block.
+class PairProcessor {
+ public:
+  /// Motion of the base between two stamps from another odometry: T_prev_cur. It predicts the
+  /// motion of a pair, and moves the pose while the motion is lost.
+  using MotionSource =
+      std::function<std::optional<Eigen::Isometry3d>(std::int64_t prev_ns, std::int64_t cur_ns)>;
+
+  explicit PairProcessor(const Parameters& parameters, Log log = Log());
+
+  /// `T_base_camera`: the mount at the stamp of the pair. `measured_rotation` is that of the
+  /// camera, see VisualOdometry::process(). Throws InputError on images that cannot be used.
+  PairAnswer process(const ReceivedPair& received,
+                     const Eigen::Isometry3d& T_base_camera,
+                     const MotionSource& expected = {},
+                     const RotationSource& measured_rotation = {});
+
+  const VisualOdometry& odometry() const { return odometry_; }
+
+  /// Thread-safe. Sets the pose to the initial one; the next pair is a first one.
+  void requestReset();
+  /// Thread-safe. The next pair is a first one; the pose is kept.
+  void requestRestart();
+  /// Thread-safe. Sets the pose of the base at the time of the last pair. If that was lost, the
+  /// next pair is a first one.
+  void requestPose(const UncertainTransform& T_odom_base);
+  /// Thread-safe. From the next pair on; the pose, the previous pair and what is known of the rig
+  /// are kept, see VisualOdometry::configure().
+  void requestConfig(const VisualOdometry::Config& config);
+
+ private:
+  struct Requests {
+    bool reset = false;
+    bool restart = false;
+    std::optional<UncertainTransform> T_odom_base;
+    std::optional<VisualOdometry::Config> config;
+  };
+
+  bool restartIfAsked();
+  bool restartIfTimeWentBack(std::int64_t stamp_ns);
+  bool restartIfLostForLong(std::int64_t stamp_ns);
+  void setPoseIfAsked();
+  void move(const StereoCamera& camera,
+            const Eigen::Isometry3d& T_base_camera,
+            const MotionSource& expected,
+            const RotationSource& measured_rotation,
+            PairAnswer& answer);
+
+  Log log_;
+  NodeParameters parameters_;
+  SystematicErrorConfig systematic_error_;
+  StereoPairConverter converter_;
+  VisualOdometry odometry_;
+  PairInspector inspector_;
+  std::optional<BaseOdometry> base_odometry_;  // from the first pair on
+  std::optional<std::int64_t> last_stamp_ns_;
+  std::optional<std::int64_t> lost_since_ns_;
+  // The last pair that was not lost: the mount then, and the expected motion from then to the last
+  // pair, if every part of it was known.
+  Eigen::Isometry3d T_base_camera_known_ = Eigen::Isometry3d::Identity();
+  std::optional<Eigen::Isometry3d> T_known_last_;
+
+  std::mutex requests_mutex_;
+  Requests requests_;
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,111 @@
+#include "node/gyro/gyro_input.h"
+
+#include <cmath>
+#include <utility>
+
+#include <ros/transport_hints.h>
+
+#include "input/gyro_conversion.h"
+#include "input/message_conversion.h"
+#include "node/tf/camera_mount.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr int kQueueSize = 1000;  // a second of the fastest gyroscopes
+
+}  // namespace
+
+GyroInput::GyroInput(const ros::NodeHandle& nh, double timeout_s, Log log)
+    : log_(std::move(log)), timeout_(timeout_s) {
+  ros::NodeHandle own(nh);
+  own.setCallbackQueue(&queue_);
+  subscriber_ = own.subscribe<sensor_msgs::Imu>(
+      "imu",
+      kQueueSize,
+      [this](const sensor_msgs::Imu::ConstPtr& message) { receive(*message); },
+      ros::VoidConstPtr(),
+      ros::TransportHints().tcpNoDelay());
+  spinner_.start();
+}
+
+GyroInput::~GyroInput() {
+  subscriber_.shutdown();
+  spinner_.stop();
+}
+
+void GyroInput::receive(const sensor_msgs::Imu& message) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (message.header.stamp.isZero()) {
+    return predictor_.refuse("its stamp is zero, the driver must set header.stamp");
+  }
+  if (message.angular_velocity_covariance[0] == -1.0) {
+    return predictor_.refuse("it has no angular velocity, angular_velocity_covariance[0] is -1");
+  }
+  gyro_frame_ = withoutSlash(message.header.frame_id);
+  predictor_.add(toGyroSample(message));
+  received_.notify_all();
+}
+
+std::optional<Eigen::Matrix3d> GyroInput::rotation(const std::string& camera_frame,
+                                                   std::int64_t from_ns,
+                                                   std::int64_t to_ns) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  was_asked_ = true;
+  if (watch_.waits() && predictor_.whyDistrusted().empty()) {
+    received_.wait_for(lock, timeout_, [&] {
+      const auto newest_ns = predictor_.history().newest_ns();
+      return newest_ns && *newest_ns >= to_ns;
+    });
+  }
+  const std::string why_no_mount = whyNoMount(withoutSlash(camera_frame));
+  if (why_no_mount.empty()) return predictor_.rotation(from_ns, to_ns);
+  predictor_.miss(why_no_mount);
+  return std::nullopt;
+}
+
+/// Looks up the mount, unless it is known. Does not wait for tf.
+std::string GyroInput::whyNoMount(const std::string& camera_frame) {
+  if (!predictor_.history().newest_ns()) return "no message on " + subscriber_.getTopic();
+  const std::string frames = gyro_frame_ + " to " + camera_frame;
+  if (frames == mounted_on_) return "";
+  mounted_on_.clear();
+  if (!listener_) listener_ = std::make_unique<tf2_ros::TransformListener>(tf_);
+  try {
+    predictor_.setMount(
+        toEigen(tf_.lookupTransform(camera_frame, gyro_frame_, ros::Time()).transform).linear());
+  } catch (const std::exception&) {
+    return "no tf from '" + gyro_frame_ + "', the frame of " + subscriber_.getTopic() + ", to " +
+           camera_frame;
+  }
+  mounted_on_ = frames;
+  listener_.reset();
+  return "";
+}
+
+void GyroInput::observe(const OdometryResult& result) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!mounted_on_.empty()) predictor_.observe(result);
+  if (!was_asked_) return;  // a first pair
+  was_asked_ = false;
+  const GyroWatch::Message message = watch_.onPair(predictor_.whyNot());
+  if (message.text.empty()) return;
+  if (message.is_warning) {
+    log_.warn(message.text);
+  } else {
+    log_.info(message.text + " (" + mounted_on_ + ")");
+  }
+}
+
+GyroReport GyroInput::report() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  GyroReport report;
+  report.topic = subscriber_.getTopic();
+  report.why_not_used = predictor_.whyNot();
+  report.counts = predictor_.counts();
+  report.bias_rps = predictor_.bias().bias_rps();
+  report.bias_sigma_rps = std::sqrt(predictor_.bias().covariance().trace());
+  return report;
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+#include <ros/subscriber.h>
+#include <sensor_msgs/Imu.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include "inertial/gyro_predictor.h"
+#include "input/log.h"
+#include "node/gyro/gyro_report.h"
+#include "node/gyro/gyro_watch.h"
+#include "rotrocc/odometry_result.h"
+
+namespace rotrocc {
+
+/// Rotations of the camera from the topic imu. It is received in a thread of its own, so that
+/// images do not delay it. The mount is looked up in tf once, for each frame of the camera and of
+/// the messages. Logs when it is used, and when not and why.
+class GyroInput {
+ public:
+  /// Subscribes. A pair waits for its samples for at most `timeout_s`, in real time.
+  GyroInput(const ros::NodeHandle& nh, double timeout_s, Log log);
+  ~GyroInput();
+  GyroInput(const GyroInput&) = delete;
+  GyroInput& operator=(const GyroInput&) = delete;
+
+  /// R_from_to of the camera, if samples of that time and tf are there in time. For one thread.
+  std::optional<Eigen::Matrix3d> rotation(const std::string& camera_frame,
+                                          std::int64_t from_ns,
+                                          std::int64_t to_ns);
+
+  /// To be called with the result of each pair.
+  void observe(const OdometryResult& result);
+
+  GyroReport report() const;
+
+ private:
+  void receive(const sensor_msgs::Imu& message);
+  std::string whyNoMount(const std::string& camera_frame);
+
+  Log log_;
+  std::chrono::duration<double> timeout_;
+
+  mutable std::mutex mutex_;  // of what follows, up to the empty line
+  std::condition_variable received_;
+  GyroPredictor predictor_;
+  GyroWatch watch_;
+  std::string gyro_frame_;  // of the last message
+  std::string mounted_on_;  // camera frame and gyroscope frame of the mount; empty: unknown
+  bool was_asked_ = false;  // for the rotation of this pair
+
+  tf2_ros::Buffer tf_;
+  std::unique_ptr<tf2_ros::TransformListener> listener_;  // until the mount is known
+  ros::CallbackQueue queue_;
+  ros::Subscriber subscriber_;
+  ros::AsyncSpinner spinner_{1, &queue_};
+};
+
+}  // namespace rotrocc

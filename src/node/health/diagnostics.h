@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+
+#include "node/health/odometry_health.h"
+
+namespace rotrocc {
+
+/// The entries of /diagnostics.
+using StatusWrapper = diagnostic_updater::DiagnosticStatusWrapper;
+
+/// Warning about a large disparity bias, row offset or time skew, one sentence; empty if there is
+/// none.
+std::string rigWarning(const OdometryResult& result);
+
+void describeOdometry(const HealthReport& report, StatusWrapper& status);
+void describeInput(const HealthReport& report, StatusWrapper& status);
+void describeTiming(const HealthReport& report, StatusWrapper& status);
+void describeTf(const HealthReport& report, StatusWrapper& status);
+/// Warns if the number of drops exceeds `drops_before`.
+void describeDrops(const HealthReport& report, std::uint64_t drops_before, StatusWrapper& status);
+
+/// Warns if the gyroscope was not used for the last pair.
+void describeGyro(const HealthReport& report, StatusWrapper& status);
+
+std::uint64_t countDrops(const HealthReport& report);
+
+/// Publishes these entries on request.
+class Diagnostics {
+ public:
+  /// `name`: node or nodelet, with its namespace.
+  Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const std::string& name);
+
+  /// Adds the entry of the gyroscope, which is not there without one.
+  void addGyro();
+
+  void publish(const HealthReport& report);
+
+ private:
+  HealthReport report_;
+  std::uint64_t drops_before_ = 0;
+  diagnostic_updater::Updater updater_;
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "node/health/latency_window.h"
+#include "rotrocc/odometry_result.h"
+
+namespace rotrocc {
+
+/// Detects cameras whose exposures differ or move against each other. Both cost matches, and bias
+/// the disparities.
+class ExposureWatch {
+ public:
+  /// Number of pairs that are watched, and that suffice for a hint.
+  static constexpr std::size_t kPairs = 50;
+  static constexpr std::size_t kLeastPairs = 10;
+
+  /// The fault and a remedy, in one sentence; empty if there is none. Pairs without a motion do not
+  /// count.
+  std::string observe(const OdometryResult& result);
+
+ private:
+  LatencyWindow gains_{kPairs};
+};
+
+}  // namespace rotrocc

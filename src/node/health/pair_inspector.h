@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "features/correspondence_finder.h"
+#include "node/health/exposure_watch.h"
+#include "rotrocc/visual_odometry.h"
+
+namespace rotrocc {
+
+/// Detects camera faults: a frozen or dark camera, swapped cameras, or images that are not
+/// rectified or that are exposed differently.
+class PairInspector {
+ public:
+  /// Number of consecutive suspicious pairs before a hint.
+  static constexpr int kPatience = 10;
+
+  explicit PairInspector(const CorrespondenceFinder::Config& config);
+
+  /// Uses another configuration from the next pair on, and forgets what was found with this one.
+  void configure(const CorrespondenceFinder::Config& config);
+
+  /// The suspected fault and a remedy, in one sentence; empty if none. Takes negligible time,
+  /// except some 50 ms when the kPatience-th consecutive pair is lost or degraded.
+  std::string inspect(const StereoPair& pair,
+                      const StereoCamera& camera,
+                      const OdometryResult& result);
+
+ private:
+  std::string findFrozen(const StereoPair& pair);
+  std::string explainFewCorners(const StereoPair& pair) const;
+  std::string explainLoss(const StereoPair& pair, const StereoCamera& camera);
+  int countMatches(const cv::Mat& left, const cv::Mat& right, double infinity_px);
+
+  Workers alone_{1};
+  FeatureDetector detector_;
+  StereoMatcher matcher_;
+  std::vector<cv::Point2f> corners_;
+  std::vector<float> disparities_;
+
+  std::uint64_t left_print_ = 0, right_print_ = 0;  // of the last pair
+  int left_frozen_ = 0, right_frozen_ = 0;          // pairs in a row
+  int few_corners_ = 0, doubtful_ = 0;
+  ExposureWatch exposures_;
+  std::string explanation_;  // kept until the motion is found again
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <geometry_msgs/TransformStamped.h>
+#include <ros/time.h>
+#include <tf2/buffer_core.h>
+#include <Eigen/Geometry>
+
+#include "input/log.h"
+#include "input/throttle.h"
+#include "node/tf/tf_feed.h"
+
+namespace rotrocc {
+
+/// Pose of the camera on the robot, from tf.
+///
+/// A mount from /tf_static alone is looked up once, and then tf is no longer listened to. Other
+/// mounts are looked up at each stamp, and late transforms are waited for. If one does not come in
+/// time, a mount that has not moved so far is assumed at rest, and no longer waited for until it
+/// moves.
+class CameraMount {
+ public:
+  /// Waits at most `timeout_s` for a transform at a stamp.
+  CameraMount(const std::string& base_frame,
+              double timeout_s,
+              TfFeed feed = listenToTf,
+              Log log = Log());
+  CameraMount(const CameraMount&) = delete;
+  CameraMount& operator=(const CameraMount&) = delete;
+
+  /// T_base_camera at a stamp; nothing if tf does not have it. Logs the camera pose, that it moves,
+  /// a new camera frame and, after repeated calls, the missing frames.
+  std::optional<Eigen::Isometry3d> find(const std::string& camera_frame, std::int64_t stamp_ns);
+
+  /// The transform that find() is missing, in one sentence; empty if found.
+  const std::string& missing() const { return missing_; }
+
+ private:
+  void lookFor(const std::string& camera_frame);
+  Eigen::Isometry3d lookUp(const ros::Time& stamp);
+  Eigen::Isometry3d fix(const Eigen::Isometry3d& T_base_camera);
+  bool waitFor(const ros::Time& stamp) const;
+  void watchMovement(const Eigen::Isometry3d& T_base_camera);
+  void tellMount(const Eigen::Isometry3d& T_base_camera);
+  void onMissing(const std::string& why);
+  geometry_msgs::TransformStamped transformAt(const ros::Time& stamp) const;
+
+  Log log_;
+  std::string base_frame_;
+  double timeout_s_;
+  TfFeed feed_;
+  std::string camera_frame_;
+  std::string previous_frame_;  // empty until it changes
+  std::optional<Eigen::Isometry3d> T_base_camera_;
+  Eigen::Isometry3d T_base_camera_first_ = Eigen::Isometry3d::Identity();
+  bool fixed_ = false;  // by /tf_static
+  bool moves_ = false;
+  bool waits_ = true;  // unless it moves
+  ros::Time last_stamp_;
+
+  std::string missing_;
+  std::optional<std::chrono::steady_clock::time_point> missing_since_;
+  Throttle warning_{std::chrono::seconds(5)};
+  Throttle change_warning_{std::chrono::seconds(5)};
+  tf2::BufferCore buffer_;
+  std::shared_ptr<void> listener_;  // until a fixed mount is found
+};
+
+/// Throws std::invalid_argument with the value if a number is not finite, or the length of the
+/// quaternion differs from 1 by more than 1 %.
+Eigen::Isometry3d toEigen(const geometry_msgs::Transform& transform);
+
+/// "at 0 0 1.65 m, looks along +x (forward), its image is upright": for a user to check the camera
+/// pose.
+std::string describeMount(const Eigen::Isometry3d& T_base_camera);
+
+}  // namespace rotrocc

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <tf2/buffer_core.h>
+#include <Eigen/Geometry>
+
+#include "input/log.h"
+#include "node/tf/tf_feed.h"
+
+namespace rotrocc {
+
+/// Another odometry of the robot, e.g. wheel odometry, whose tf is the pose of the base in its own
+/// odom frame, the guess frame.
+///
+/// Motions wait for tf. After kPatience misses in a row they no longer do, until tf has the
+/// transform again. Transforms that come, but late, are waited for once in kRetryPairs.
+class GuessOdometry {
+ public:
+  static constexpr int kPatience = 5;
+  static constexpr int kRetryPairs = 50;
+
+  /// Waits at most `timeout_s` for a transform.
+  GuessOdometry(const std::string& guess_frame,
+                const std::string& base_frame,
+                double timeout_s,
+                const TfFeed& feed = listenToTf,
+                Log log = Log());
+  GuessOdometry(const GuessOdometry&) = delete;
+  GuessOdometry& operator=(const GuessOdometry&) = delete;
+
+  /// Motion of the base T_prev_cur between two stamps; nothing, and a miss, if tf does not have it
+  /// in time.
+  std::optional<Eigen::Isometry3d> motion(std::int64_t prev_ns, std::int64_t cur_ns);
+
+  /// T_guess_base at a stamp, if tf already has it.
+  std::optional<Eigen::Isometry3d> pose(std::int64_t stamp_ns) const;
+
+  /// Why motions no longer wait, with a remedy, in one sentence; empty if they do.
+  const std::string& trouble() const { return trouble_; }
+  std::uint64_t misses() const { return misses_; }
+
+  /// Discards transforms from before a time jump.
+  void clear() { buffer_.clear(); }
+
+ private:
+  bool mayWait(std::int64_t prev_ns);
+  std::optional<Eigen::Isometry3d> waitForPose(std::int64_t stamp_ns) const;
+  void onMiss(std::int64_t stamp_ns);
+  void onMotion();
+  std::string describeMiss(std::int64_t stamp_ns) const;
+
+  Log log_;
+  std::string guess_frame_;
+  std::string base_frame_;
+  double timeout_s_;
+  std::string trouble_;
+  std::uint64_t misses_ = 0;
+  std::uint64_t misses_in_a_row_ = 0;
+  int pairs_since_wait_ = 0;  // while in trouble
+  tf2::BufferCore buffer_;
+  std::shared_ptr<void> listener_;
+};
+
+}  // namespace rotrocc

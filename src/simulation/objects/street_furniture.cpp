@@ -1,0 +1,190 @@
+#include "simulation/objects/street_furniture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "simulation/surfaces/coverage.h"
+
+namespace rotrocc {
+namespace {
+
+std::shared_ptr<ConvexSolid> box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  return std::make_shared<ConvexSolid>(Eigen::AlignedBox3d(low, high));
+}
+
+std::shared_ptr<PlainMaterial> plain(double reflectance) {
+  return std::make_shared<PlainMaterial>(reflectance);
+}
+
+Part makePost(double height, double radius, double reflectance) {
+  return {std::make_shared<Cylinder>(
+              1, Eigen::Vector3d(0.0, -0.5 * height + 0.1, 0.0), radius, 0.5 * height + 0.1),
+          plain(reflectance)};
+}
+
+double pixelWidth(const TexturePoint& at) {
+  return std::max(at.width(0), 1e-4);
+}
+
+double pixelHeight(const TexturePoint& at) {
+  return std::max(at.width(1), 1e-4);
+}
+
+/// A dark ring around a bright face with a dark mark, as on prohibitory signs.
+class RoundSign : public Material {
+ public:
+  RoundSign(double height, bool bar) : height_(height), bar_(bar) {}
+
+  double reflectance(const SurfacePoint& point) const override {
+    if (point.normal.z() > -0.5) return 0.35;
+    const TexturePoint at = faceCoordinates(point);
+    const double x = at.at.x();
+    const double y = at.at.y() - height_;
+    const double width = pixelWidth(at);
+    const double face = 1.0 - coverageAbove(0.23, std::hypot(x, y), width);
+    const double mark = bar_ ? coverageBetween(-0.17, 0.17, x, width) *
+                                   coverageBetween(-0.05, 0.05, y, pixelHeight(at))
+                             : coveragePeriodic(0.12, 0.06, x + 0.03, width) *
+                                   coverageBetween(-0.11, 0.11, y, pixelHeight(at)) *
+                                   coverageBetween(-0.15, 0.15, x, width);
+    return mix(0.22, mix(bar_ ? 0.22 : 0.9, bar_ ? 0.9 : 0.05, mark), face);
+  }
+
+ private:
+  double height_;
+  bool bar_;
+};
+
+/// Lines of writing on a board.
+class Writing : public Material {
+ public:
+  Writing(const Texture& texture, double board, double letters, double line_m)
+      : texture_(texture), board_(board), letters_(letters), line_m_(line_m) {}
+
+  double reflectance(const SurfacePoint& point) const override {
+    if (point.normal.z() > -0.5) return 0.3;
+    const double ink = texture_.at(scaled(faceCoordinates(point), 0.125 / line_m_));
+    return mix(board_, letters_, ink);
+  }
+
+ private:
+  const Texture& texture_;
+  double board_;
+  double letters_;
+  double line_m_;
+};
+
+/// Three lamps, the upper one lit.
+class LampBox : public Material {
+ public:
+  explicit LampBox(double bottom) : bottom_(bottom) {}
+
+  double reflectance(const SurfacePoint& point) const override {
+    if (point.normal.z() > -0.5) return 0.08;
+    const TexturePoint at = faceCoordinates(point);
+    double brightness = 0.08;
+    for (int lamp = 0; lamp < 3; ++lamp) {
+      const double y = at.at.y() - bottom_ - 0.17 - 0.3 * lamp;
+      const double disc = 1.0 - coverageAbove(0.1, std::hypot(at.at.x(), y), pixelWidth(at));
+      brightness = mix(brightness, lamp == 2 ? 1.2 : 0.2, disc);
+    }
+    return brightness;
+  }
+
+ private:
+  double bottom_;
+};
+
+/// Corrugated steel with stains, and at its left end the bolts of a joint.
+class Rail : public Material {
+ public:
+  Rail(const Texture& stains, double left_end) : stains_(stains), left_end_(left_end) {}
+
+  double reflectance(const SurfacePoint& point) const override {
+    const TexturePoint at = faceCoordinates(point);
+    const double ridges = coveragePeriodic(0.155, 0.08, at.at.y(), pixelHeight(at));
+    const double along = at.at.x() - left_end_;
+    const double joint = coverageBetween(0.0, 0.35, along, pixelWidth(at));
+    const double bolts = joint * coveragePeriodic(0.12, 0.05, along, pixelWidth(at)) *
+                         coveragePeriodic(0.11, 0.05, at.at.y(), pixelHeight(at));
+    const double stain = 1.6 * (stains_.at(scaled(at, 0.7)) - 0.5);
+    return mix((0.38 + 0.22 * ridges) * (1.0 + stain - 0.25 * joint), 0.1, bolts);
+  }
+
+ private:
+  const Texture& stains_;
+  double left_end_;
+};
+
+}  // namespace
+
+Body makeLamp() {
+  constexpr double kHeight = 6.5;
+  return Body({makePost(kHeight, 0.07, 0.3),
+               makePost(1.1, 0.11, 0.25),
+               {std::make_shared<Cylinder>(2, Eigen::Vector3d(0.0, -kHeight, -0.7), 0.04, 0.75),
+                plain(0.3)},
+               {std::make_shared<Ellipsoid>(Eigen::Vector3d(0.0, -kHeight, -1.6),
+                                            Eigen::Vector3d(0.14, 0.09, 0.38)),
+                plain(0.65)}});
+}
+
+Body makeSign(const TextureTiles& tiles, RandomStream& random) {
+  const double height = random.uniform(2.2, 2.6);
+  std::vector<Part> parts = {makePost(height, 0.035, 0.45)};
+  if (random.chance(0.6)) {
+    const bool bar = random.chance(0.5);
+    parts.push_back(
+        {std::make_shared<Cylinder>(2, Eigen::Vector3d(0.0, -height, -0.06), 0.3, 0.015),
+         std::make_shared<RoundSign>(height, bar)});
+  } else {
+    const double half = random.uniform(0.3, 0.55);
+    parts.push_back({box({-half, -height - 0.25, -0.08}, {half, -height + 0.25, -0.05}),
+                     std::make_shared<Writing>(tiles.writing, 0.85, 0.1, 0.2)});
+  }
+  return Body(std::move(parts));
+}
+
+Body makeTrafficLight() {
+  return Body({makePost(3.3, 0.06, 0.3),
+               {box({-0.16, -3.3, -0.3}, {0.16, -2.35, -0.06}), std::make_shared<LampBox>(2.35)}});
+}
+
+Body makeKerb(double length_m, const TextureTiles& tiles, RandomStream& random) {
+  const double tone = random.uniform(0.38, 0.58);
+  auto stone = box({-0.5 * length_m + 0.01, -0.12, -0.12}, {0.5 * length_m - 0.01, 0.3, 0.12});
+  stone->cut({0.0, -1.0, -1.0}, {0.0, -0.1, -0.12});
+  return Body({{stone, std::make_shared<TexturedMaterial>(tiles.plaster, tone, tone)}});
+}
+
+Body makeGuardRail(double length_m, const TextureTiles& tiles) {
+  const double half = 0.5 * length_m;
+  return Body({{box({-half, -0.75, -0.04}, {half, -0.44, 0.04}),
+                std::make_shared<Rail>(tiles.plaster, -half)},
+               {box({-0.06, -0.72, 0.04}, {0.06, 0.3, 0.14}), plain(0.35)}});
+}
+
+Body makeBin(RandomStream& random) {
+  const double height = random.uniform(0.8, 1.1);
+  return Body({makePost(height, random.uniform(0.2, 0.28), random.uniform(0.08, 0.3))});
+}
+
+Body makeGantry(double half_width_m, const TextureTiles& tiles, RandomStream& random) {
+  std::vector<Part> parts = {
+      {box({-half_width_m, -7.2, -0.3}, {half_width_m, -6.7, 0.3}), plain(0.4)}};
+  for (const double side : {-1.0, 1.0}) {
+    const double x = side * half_width_m;
+    parts.push_back({box({x - 0.25, -7.2, -0.25}, {x + 0.25, 0.5, 0.25}), plain(0.42)});
+  }
+  for (const double centre : {-0.45, 0.15}) {
+    const double x = half_width_m * (centre + random.uniform(0.0, 0.2));
+    const double half = random.uniform(1.6, 2.3);
+    parts.push_back({box({x - half, -8.4, -0.45}, {x + half, -5.7, -0.32}),
+                     std::make_shared<Writing>(tiles.writing, 0.16, 0.95, 0.6)});
+  }
+  return Body(std::move(parts));
+}
+
+}  // namespace rotrocc

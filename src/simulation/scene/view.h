@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <opencv2/core.hpp>
+
+#include "rotrocc/stereo_camera.h"
+#include "simulation/scene/body.h"
+
+namespace rotrocc {
+
+/// A camera at one time: its rays, and the bodies in each part of its image.
+class View {
+ public:
+  /// The focal lengths and size of `camera` with the principal point (cx, camera.cy). Surfaces are
+  /// averaged over `footprint` pixels in either direction. Bodies are numbered: static ones first,
+  /// then moving ones. All must outlive the view.
+  View(const std::vector<Body>& standing,
+       const std::vector<Body>& moving,
+       const StereoCamera& camera,
+       double cx,
+       const Eigen::Isometry3d& T_world_camera,
+       double footprint = 1.0);
+
+  const std::vector<Body>& moving() const { return moving_; }
+  int standingCount() const { return static_cast<int>(standing_.size()); }
+  const Body& body(int number) const;
+
+  /// The ray through a pixel, of unit depth, in the world.
+  Ray ray(double x, double y) const { return {origin_, axes_ * cameraRay(x, y)}; }
+  const PixelSpread& spread() const { return spread_; }
+
+  /// First body that the ray through a pixel hits in `range`; false if there is none. The pixel
+  /// must be in the image, up to half a pixel.
+  bool intersect(double x, double y, const RayRange& range, BodyHit& hit, int& number) const;
+
+ private:
+  /// A potentially visible part of a body.
+  struct Candidate {
+    int body;
+    int part;
+    double nearest_m;        // smallest depth
+    cv::Rect2d pixels;       // bounding box in the image
+    Eigen::Vector3d origin;  // the camera, in the frame of the body
+    Eigen::Matrix3d R_body_camera;
+  };
+
+  Eigen::Vector3d cameraRay(double x, double y) const {
+    return {(x - cx_) / camera_.fx, (y - camera_.cy) / camera_.fy, 1.0};
+  }
+  void addBody(int number, const Eigen::Isometry3d& T_world_camera);
+  bool cover(const Eigen::AlignedBox3d& box,
+             const Eigen::Isometry3d& T_camera_body,
+             Candidate& candidate) const;
+  void sortIntoTiles();
+
+  const std::vector<Body>& standing_;
+  const std::vector<Body>& moving_;
+  StereoCamera camera_;
+  double cx_;
+  Eigen::Vector3d origin_;
+  Eigen::Matrix3d axes_;
+  PixelSpread spread_;
+  std::vector<Candidate> candidates_;  // by nearest_m
+  int tile_columns_ = 0;
+  std::vector<std::vector<std::int32_t>> tiles_;  // candidates, by nearest_m
+};
+
+}  // namespace rotrocc

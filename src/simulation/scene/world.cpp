@@ -1,0 +1,165 @@
+#include "simulation/scene/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "simulation/street/street_layout.h"
+#include "simulation/surfaces/coverage.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kGridMargin_m = 200.0;
+constexpr double kCell_m = 8.0;
+constexpr double kStreetReach_m = 20.5;
+constexpr double kShadowReach_m = 14.0;
+constexpr double kNearest_m = 0.2;
+
+constexpr std::uint32_t kSkySurface = 0xFFFFFFFF;
+constexpr std::uint32_t kGroundSurface = 0xFFFFFFFE;
+constexpr std::uint32_t kTangleSurface = 0xFFFFFFFD;
+
+std::vector<Path> joined(std::vector<Path> a, const std::vector<Path>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+SceneGeometry makeScene(const WorldPlan& plan,
+                        const StreetMap& streets,
+                        Terrain terrain,
+                        const TextureTiles& tiles) {
+  std::vector<Body> bodies = layOutStreets(plan, streets, terrain, tiles);
+  SceneGeometry scene(terrain, bodies);
+  for (Body& body : bodies) {
+    if (body.own_shade) body.sunlit = sunlitTop(scene, body);
+  }
+  return {std::move(terrain), std::move(bodies)};
+}
+
+/// Ambient occlusion beside and below a body on the ground: 1 is full light.
+double contactShade(const Body& body, const Eigen::Vector3d& position) {
+  const Eigen::Vector3d own = body.toBody(position);
+  const Eigen::AlignedBox3d& box = body.ownBounds();
+  const double x = std::max(box.min().x() - own.x(), own.x() - box.max().x());
+  const double z = std::max(box.min().z() - own.z(), own.z() - box.max().z());
+  return mix(0.3, 1.0, smoothStep(-0.35, 0.45, std::max(x, z)));
+}
+
+/// Share of light that glass reflects (Schlick 1994).
+double mirroredShare(const Eigen::Vector3d& direction, const Eigen::Vector3d& normal) {
+  constexpr double kStraightOn = 0.08;  // of both sides of a pane
+  const double flat = 1.0 - std::abs(normal.dot(direction)) / direction.norm();
+  return kStraightOn + (1.0 - kStraightOn) * flat * flat * flat * flat * flat;
+}
+
+}  // namespace
+
+std::vector<Path> WorldPlan::wholeDrives() const {
+  constexpr double kSpacing_m = 0.5;
+  std::vector<Path> whole;
+  for (const Path& drive : drives)
+    whole.push_back(drive.beside(0.0, kSpacing_m, beyond_m, beyond_m));
+  return whole;
+}
+
+World::World(const WorldPlan& plan)
+    : style_(plan.style),
+      reflections_(plan.weather.reflections),
+      tiles_(plan.seed),
+      streets_(plan.streets, kStreetReach_m),
+      road_(streets_, style_, tiles_, plan.crossings, plan.seed),
+      grid_(GroundGrid::around(joined(plan.wholeDrives(), plan.streets), kGridMargin_m, kCell_m)),
+      ground_(grid_, plan.drives.front(), plan.beyond_m, plan.streets, plan.camera_height_m),
+      start_(makeScene(plan, streets_, {grid_, ground_.heights(0)}, tiles_)),
+      scene_(start_),
+      shadows_(scene_, streets_, kShadowReach_m),
+      sky_(tiles_) {
+  tiles_.wind = plan.weather.wind;
+}
+
+void World::goTo(double station_m) {
+  const std::size_t stage = ground_.stage(station_m);
+  if (stage == stage_) return;
+  stage_ = stage;
+  Terrain terrain(grid_, ground_.heights(stage));
+  std::vector<Body> bodies = start_.bodies();
+  for (Body& body : bodies) {
+    Eigen::Isometry3d pose = body.T_world_body();
+    const Eigen::Vector3d at = pose.translation();
+    pose.translation().y() +=
+        terrain.height(at.x(), at.z()) - start_.terrain().height(at.x(), at.z());
+    body.place(pose);
+  }
+  scene_ = SceneGeometry(std::move(terrain), std::move(bodies));
+}
+
+Sighting World::look(const View& view, double x, double y) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const Ray ray = view.ray(x, y);
+  RayRange range = {kNearest_m, kInfinity};
+  BodyHit hit;
+  int number = -1;
+  if (view.intersect(x, y, range, hit, number)) range.to = hit.distance;
+  double depth = 0.0;
+  if (scene_.traceGround(ray, range, depth)) {
+    const Eigen::Vector3d at = ray.at(depth);
+    const Eigen::Vector3d normal = scene_.terrain().normal(at.x(), at.z());
+    const SurfacePoint point = surfacePoint(ray, view.spread(), depth, normal);
+    return {groundBrightness(point, view.moving()), depth, kGroundSurface, -1};
+  }
+  if (number < 0) {
+    return {sky_.brightness(ray.direction, view.spread()), kInfinity, kSkySurface, -1};
+  }
+  const Body& body = view.body(number);
+  const Part& part = body.parts()[static_cast<std::size_t>(hit.part)];
+  const auto face = static_cast<std::uint32_t>((number * 32 + hit.part) * 64 + hit.face);
+  const std::uint32_t surface = part.material->isTangle() ? kTangleSurface : face;
+  return {bodyBrightness(body, hit, ray, view.spread()),
+          hit.distance,
+          surface,
+          number < view.standingCount() ? -1 : number - view.standingCount()};
+}
+
+double World::bodyBrightness(const Body& body,
+                             const BodyHit& hit,
+                             const Ray& ray,
+                             const PixelSpread& spread) const {
+  const SurfacePoint point =
+      surfacePoint(body.toBody(ray), body.toBody(spread), hit.distance, hit.normal);
+  const Eigen::Vector3d normal = body.T_world_body().linear() * hit.normal;
+  const Material& material = *body.parts()[static_cast<std::size_t>(hit.part)].material;
+  const double brightness = material.reflectance(point) * illumination(normal, body.sunlit);
+  if (!reflections_) return brightness;
+  const double gloss = material.gloss(point);
+  if (gloss <= 0.0) return brightness;
+  const double mirrored = gloss * mirroredShare(ray.direction, normal);
+  return mix(brightness, reflection(ray.direction, normal, spread), mirrored);
+}
+
+double World::reflection(const Eigen::Vector3d& direction,
+                         const Eigen::Vector3d& normal,
+                         const PixelSpread& spread) const {
+  constexpr double kGlint = 0.01;  // squared angle [rad^2] where the sun fades
+  const Eigen::Vector3d towards = direction - 2.0 * normal.dot(direction) * normal;
+  const double away = 2.0 - 2.0 * towards.normalized().dot(directionToSun());
+  return sky_.brightness(towards, spread) + 8.0 * (1.0 - smoothStep(0.0, kGlint, away));
+}
+
+double World::groundBrightness(const SurfacePoint& point, const std::vector<Body>& moving) const {
+  const Eigen::Vector3d& at = point.position;
+  double shade = 1.0;
+  for (const std::int32_t index : scene_.bodiesAround(at.x(), at.z())) {
+    const Body& body = bodies()[index];
+    if (body.contact_shadow) shade *= contactShade(body, at);
+  }
+  for (const Body& body : moving) {
+    const double reach = body.ownBounds().diagonal().norm();
+    if ((body.T_world_body().translation() - at).squaredNorm() > reach * reach) continue;
+    shade *= contactShade(body, at);
+  }
+  const double sunlit = shadows_.sunlit(at.x(), at.z());
+  return road_.reflectance(point) * shade * illumination(point.normal, sunlit);
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "simulation/scene/body.h"
+#include "simulation/scene/ground_history.h"
+#include "simulation/scene/scene_geometry.h"
+#include "simulation/scene/view.h"
+#include "simulation/street/path.h"
+#include "simulation/street/road_surface.h"
+#include "simulation/street/street_map.h"
+#include "simulation/street/street_style.h"
+#include "simulation/surfaces/sky.h"
+#include "simulation/surfaces/sunlight.h"
+#include "simulation/surfaces/texture_tiles.h"
+#include "simulation/surfaces/weather.h"
+
+namespace rotrocc {
+
+/// Description of the simulated world.
+struct WorldPlan {
+  std::vector<Path> streets;  ///< centre lines, at the height of the camera
+  std::vector<Path> drives;   ///< paths of cars, kept free; the first is the camera's
+  double beyond_m = 0.0;      ///< extension before their starts and after their ends
+  StreetStyle style;
+  std::vector<Crossing> crossings;
+  Weather weather;
+  double camera_height_m = 1.65;
+  std::uint64_t seed = 1;
+
+  /// The drives with their extensions.
+  std::vector<Path> wholeDrives() const;
+};
+
+/// Appearance in a direction.
+struct Sighting {
+  double brightness;      ///< 1 is white
+  double depth;           ///< along the ray, in units of its length; infinite for the sky
+  std::uint32_t surface;  ///< equal for pixels without an edge between them
+  int moving_body;        ///< index of the visible body in View::moving(); -1: none
+};
+
+/// A street with its surroundings and the sky.
+class World {
+ public:
+  explicit World(const WorldPlan& plan);
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  const Terrain& terrain() const { return scene_.terrain(); }
+  const std::vector<Body>& bodies() const { return scene_.bodies(); }
+  const StreetMap& streets() const { return streets_; }
+
+  /// Updates ground and bodies to a station of the camera's path. They may change where the path
+  /// revisits a place at another height.
+  void goTo(double station_m);
+
+  /// Moves leaves and grass to where they are at this time.
+  void setTime(double time_s) { tiles_.wind.time_s = time_s; }
+
+  /// Casts a ray through a (sub-)pixel of a view, whose static bodies are bodies().
+  Sighting look(const View& view, double x, double y) const;
+
+  /// Visible share of the sun at a place on the ground, from 0 to 1.
+  double sunlit(double x, double z) const { return shadows_.sunlit(x, z); }
+
+ private:
+  double bodyBrightness(const Body& body,
+                        const BodyHit& hit,
+                        const Ray& ray,
+                        const PixelSpread& spread) const;
+  double reflection(const Eigen::Vector3d& direction,
+                    const Eigen::Vector3d& normal,
+                    const PixelSpread& spread) const;
+  double groundBrightness(const SurfacePoint& point, const std::vector<Body>& moving) const;
+
+  StreetStyle style_;
+  bool reflections_;
+  TextureTiles tiles_;
+  StreetMap streets_;
+  RoadSurface road_;
+  GroundGrid grid_;
+  GroundHistory ground_;
+  SceneGeometry start_;  // the scene at the start of the drive
+  SceneGeometry scene_;  // current scene
+  std::size_t stage_ = 0;
+  SunShadows shadows_;
+  Sky sky_;
+};
+
+}  // namespace rotrocc

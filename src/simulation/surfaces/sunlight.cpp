@@ -1,0 +1,83 @@
+#include "simulation/surfaces/sunlight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <opencv2/imgproc.hpp>
+
+#include "simulation/rows.h"
+#include "simulation/surfaces/coverage.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kCell_m = 0.2;
+constexpr double kSun = 0.8;
+constexpr double kAmbient = 0.36;
+
+bool sunReaches(const SceneGeometry& scene, const Eigen::Vector3d& point) {
+  constexpr double kPixel_m = 0.002;  // leaves let some of the light through
+  SceneHit hit;
+  return !scene.trace(
+      {point, directionToSun()}, {0.02, std::numeric_limits<double>::infinity()}, kPixel_m, hit);
+}
+
+}  // namespace
+
+Eigen::Vector3d directionToSun() {
+  return Eigen::Vector3d(-0.45, -0.95, -0.62).normalized();
+}
+
+double illumination(const Eigen::Vector3d& normal, double sunlit) {
+  const double sky = kAmbient * (0.8 - 0.2 * normal.y());  // y points down
+  return sky + kSun * sunlit * std::max(0.0, normal.dot(directionToSun()));
+}
+
+SunShadows::SunShadows(const SceneGeometry& scene, const StreetMap& streets, double reach_m) {
+  const GroundGrid& grid = scene.terrain().grid();
+  origin_ = grid.origin;
+  const int columns = static_cast<int>(grid.columns * grid.cell_m / kCell_m);
+  const int rows = static_cast<int>(grid.rows * grid.cell_m / kCell_m);
+  sunlit_ = cv::Mat(rows, columns, CV_8UC1, cv::Scalar(255));
+  forEachRow(rows, [&](int row) {
+    const double z = origin_.y() + kCell_m * (row + 0.5);
+    for (int column = 0; column < columns; ++column) {
+      const double x = origin_.x() + kCell_m * (column + 0.5);
+      if (streets.distance(x, z) >= reach_m) continue;
+      const Eigen::Vector3d ground(x, scene.terrain().height(x, z) - 0.01, z);
+      if (!sunReaches(scene, ground)) sunlit_.at<uchar>(row, column) = 0;
+    }
+  });
+  cv::GaussianBlur(sunlit_, sunlit_, cv::Size(5, 5), 0.9);
+}
+
+double SunShadows::sunlit(double x, double z) const {
+  const double u = (x - origin_.x()) / kCell_m - 0.5;
+  const double v = (z - origin_.y()) / kCell_m - 0.5;
+  const int column = floorToInt(u);
+  const int row = floorToInt(v);
+  if (column < 0 || row < 0 || column + 1 >= sunlit_.cols || row + 1 >= sunlit_.rows) return 1.0;
+  const uchar* upper = sunlit_.ptr(row) + column;
+  const uchar* lower = sunlit_.ptr(row + 1) + column;
+  const double a = u - column;
+  const double top = upper[0] + a * (upper[1] - upper[0]);
+  const double bottom = lower[0] + a * (lower[1] - lower[0]);
+  return (top + (v - row) * (bottom - top)) / 255.0;
+}
+
+double sunlitTop(const SceneGeometry& scene, const Body& body) {
+  const Eigen::AlignedBox3d& box = body.bounds();
+  const Eigen::Vector3d centre = box.center();
+  int reached = 0;
+  for (const double x : {-0.5, 0.5}) {
+    for (const double z : {-0.5, 0.5}) {
+      const Eigen::Vector3d point(
+          centre.x() + x * box.sizes().x(), box.min().y() - 0.05, centre.z() + z * box.sizes().z());
+      reached += sunReaches(scene, point) ? 1 : 0;
+    }
+  }
+  return 0.25 * reached;
+}
+
+}  // namespace rotrocc
