@@ -1,0 +1,105 @@
+// Installs the build into a prefix of its own, and uses it as one who has no sources.
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "support/run_command.h"
+#include "support/synthetic_sequence.h"
+#include "support/temporary_directory.h"
+
+namespace rotrocc {
+namespace {
+
+class InstallationTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    directory_ = std::make_unique<TemporaryDirectory>();
+    installed_ = runCommand("cmake --install " BUILD " --prefix " + prefix());
+  }
+  static void TearDownTestSuite() { directory_.reset(); }
+
+  void SetUp() override { ASSERT_EQ(installed_.status, 0) << installed_.output; }
+
+  static std::string prefix() { return path("prefix"); }
+  static std::string path(const std::string& name) { return *directory_ / name; }
+
+  /// Runs a command where only the installed package is known.
+  static CommandResult run(const std::string& command) {
+    return runCommand(
+        "if [ -f /opt/ros/noetic/setup.sh ]; then . /opt/ros/noetic/setup.sh; else "
+        "unset ROS_PACKAGE_PATH CMAKE_PREFIX_PATH LD_LIBRARY_PATH; fi; "
+        "export ROS_PACKAGE_PATH=" +
+        prefix() + "/share:$ROS_PACKAGE_PATH CMAKE_PREFIX_PATH=" + prefix() +
+        ":$CMAKE_PREFIX_PATH PATH=/usr/bin:$PATH; " + command);
+  }
+
+ private:
+  inline static std::unique_ptr<TemporaryDirectory> directory_;
+  inline static CommandResult installed_;
+};
+
+TEST_F(InstallationTest, ProgramsFindTheirLibraries) {
+  writeSyntheticSequence(path("sequence"), 4);
+  const CommandResult result = run("rosrun rotrocc offline_odometry " + path("sequence") +
+                                   " --trajectory " + path("trajectory.txt"));
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_TRUE(std::filesystem::exists(path("trajectory.txt"))) << result.output;
+}
+
+TEST_F(InstallationTest, LaunchFilesNameInstalledNodes) {
+  const CommandResult result = run("roslaunch --nodes rotrocc kitti.launch bag:=any.bag");
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_NE(result.output.find("/stereo/stereo_odometry"), std::string::npos) << result.output;
+}
+
+TEST_F(InstallationTest, PluginsAreWhereTheDescriptionSays) {
+  const std::string share = prefix() + "/share/rotrocc/";
+  const CommandResult result =
+      runCommand("sed -n 's/.*path=\"\\([^\"]*\\)\".*/\\1/p' " + share + "nodelet_plugins.xml");
+  ASSERT_NE(result.output.find("stereo_odometry"), std::string::npos) << result.output;
+  std::istringstream paths(result.output);
+  for (std::string library; std::getline(paths, library);) {
+    EXPECT_TRUE(std::filesystem::exists(share + library + ".so")) << library;
+  }
+}
+
+TEST_F(InstallationTest, ProgramsAreBuiltAgainstIt) {
+  std::filesystem::create_directory(path("user"));
+  writeSyntheticSequence(path("input"), 3);
+  std::ofstream(path("user/CMakeLists.txt"))
+      << "cmake_minimum_required(VERSION 3.16)\n"
+         "project(user CXX)\n"
+         "set(CMAKE_CXX_STANDARD 17)\n"
+         "find_package(rotrocc REQUIRED)\n"
+         "include_directories(${rotrocc_INCLUDE_DIRS})\n"
+         "add_executable(user user.cpp)\n"
+         "target_link_libraries(user ${rotrocc_LIBRARIES})\n";
+  std::ofstream(path("user/user.cpp"))
+      << "#include <iostream>\n"
+         "#include <rotrocc/kitti.h>\n"
+         "#include <rotrocc/visual_odometry.h>\n"
+         "int main(int, char** argv) {\n"
+         "  const rotrocc::KittiSequence sequence(argv[1]);\n"
+         "  rotrocc::VisualOdometry odometry({});\n"
+         "  int found = 0;\n"
+         "  for (int i = 0; i < sequence.size(); ++i) {\n"
+         "    found += odometry.process({sequence.stamp_ns(i), sequence.readLeft(i),\n"
+         "        sequence.readRight(i)}, sequence.camera()).hasMotion();\n"
+         "  }\n"
+         "  std::cout << \"motions: \" << found;\n"
+         "}\n";
+  const CommandResult built =
+      run("cmake -S " + path("user") + " -B " + path("user/build") +
+          " -DPYTHON_EXECUTABLE=/usr/bin/python3 && cmake --build " + path("user/build"));
+  ASSERT_EQ(built.status, 0) << built.output;
+  const CommandResult result = run(path("user/build/user") + " " + path("input"));
+  EXPECT_EQ(result.output, "motions: 2");
+}
+
+}  // namespace
+}  // namespace rotrocc
