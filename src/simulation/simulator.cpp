@@ -15,9 +15,9 @@ namespace {
 
 constexpr int kBlurSteps = 8;
 
-std::optional<WornRig> chosenRig(const SimulationOptions& options) {
+std::optional<WornRig> chosenRig(const SimulationOptions& options, const Exposure& exposure) {
   if (!options.worn_rig) return std::nullopt;
-  return wornRig(options.camera, options.seed);
+  return wornRig(options.camera, options.seed, exposure);
 }
 
 Gains chosenGains(const SimulationOptions& options, const std::optional<WornRig>& worn) {
@@ -73,7 +73,8 @@ std::vector<std::int64_t> keptStamps(const Scenario& scenario, const SimulationO
 
 Simulator::Simulator(const Scenario& scenario, const SimulationOptions& options)
     : options_(checked(options)),
-      worn_(chosenRig(options_)),
+      exposure_(scenario.exposure),
+      worn_(chosenRig(options_, exposure_)),
       gains_(chosenGains(options_, worn_)),
       drive_(scenario.drive),
       world_(std::make_unique<World>(plannedWorld(scenario, worn_))),
@@ -107,20 +108,33 @@ Eigen::Isometry3d Simulator::cameraPose(double time_s, bool right) const {
 
 Picture Simulator::look(double time_s, bool right, const PixelRays& rays) {
   world_->setTime(time_s);
+  world_->setCar(drive_->pose(time_s));
   return rotrocc::render(*world_, traffic_->at(time_s), rays, cameraPose(time_s, right));
 }
 
-cv::Mat Simulator::meanBrightness(double time_s, bool right) {
-  const PixelRays own_rays = rays(right);
-  if (options_.faults.motion_blur_s <= 0.0) return look(time_s, right, own_rays).brightness;
+double Simulator::exposedAt(int index, bool right) const {
+  return time_s(index) + (right ? options_.faults.time_skew_s : 0.0);
+}
+
+cv::Mat Simulator::meanLight(double time_s, const PixelRays& rays, bool right) {
   cv::Mat sum;
   for (int step = 0; step < kBlurSteps; ++step) {
     const double offset = (step + 0.5) / kBlurSteps - 0.5;
     const cv::Mat one =
-        look(time_s + offset * options_.faults.motion_blur_s, right, own_rays).brightness;
+        look(time_s + offset * options_.faults.motion_blur_s, right, rays).brightness;
     sum = sum.empty() ? one : cv::Mat(sum + one);
   }
   return sum / kBlurSteps;
+}
+
+cv::Mat Simulator::smearedLight(const Picture& picture,
+                                double time_s,
+                                double exposure_s,
+                                const PixelRays& rays,
+                                bool right) const {
+  if (exposure_s <= 0.0) return picture.brightness;
+  const double half_s = 0.5 * exposure_s;
+  return blurred(picture, rays, motions(time_s - half_s, time_s + half_s, right));
 }
 
 double Simulator::gain(int index, bool right) const {
@@ -132,16 +146,25 @@ std::uint64_t Simulator::noiseKey(int index, bool right) const {
       options_.noise_seed, 0x4015E, 2 * static_cast<std::uint64_t>(index) + (right ? 1 : 0));
 }
 
-cv::Mat Simulator::perfectImage(int index, bool right, const cv::Mat& brightness) const {
-  return develop(brightness, options_.faults.sensor, gain(index, right), noiseKey(index, right));
+cv::Mat Simulator::perfectImage(int index, bool right, Picture sharp) {
+  const double time = exposedAt(index, right);
+  const PixelRays own_rays = rays(right);
+  cv::Mat light;
+  if (options_.faults.motion_blur_s > 0.0) {
+    light = meanLight(time, own_rays, right);
+  } else {
+    if (sharp.brightness.empty()) sharp = look(time, right, own_rays);
+    light = smearedLight(sharp, time, exposure_.time_s, own_rays, right);
+  }
+  return develop(
+      light, exposure_.of(options_.faults.sensor), gain(index, right), noiseKey(index, right));
 }
 
 cv::Mat Simulator::wornImage(int index, bool right) {
-  const double time = time_s(index) + (right ? options_.faults.time_skew_s : 0.0);
+  const double time = exposedAt(index, right);
   const PixelRays own_rays = rays(right);
   const Picture picture = look(time, right, own_rays);
-  const double half_s = 0.5 * worn_->exposure_s;
-  const cv::Mat light = blurred(picture, own_rays, motions(time - half_s, time + half_s, right));
+  const cv::Mat light = smearedLight(picture, time, worn_->exposure_s, own_rays, right);
   const WornCamera& camera = right ? worn_->right : worn_->left;
   return camera.develop(light, gain(index, right), noiseKey(index, right));
 }
@@ -157,11 +180,8 @@ SimulatedFrame Simulator::render(int index, bool with_flow) {
     frame.pair.left = wornImage(index, false);
     frame.pair.right = wornImage(index, true);
   } else {
-    const bool is_blurred = options_.faults.motion_blur_s > 0.0;
-    frame.pair.left =
-        perfectImage(index, false, is_blurred ? meanBrightness(time, false) : left.brightness);
-    frame.pair.right =
-        perfectImage(index, true, meanBrightness(time + options_.faults.time_skew_s, true));
+    frame.pair.left = perfectImage(index, false, left);
+    frame.pair.right = perfectImage(index, true, {});
   }
   frame.depth = left.depth;
   if (with_flow && index + 1 < size()) frame.flow = flowToNext(index, left);

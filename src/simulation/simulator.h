@@ -81,14 +81,21 @@ class Simulator {
   Eigen::Isometry3d cameraPose(double time_s, bool right) const;
   Picture look(double time_s, bool right, const PixelRays& rays);
   SeenMotions motions(double from_s, double to_s, bool right) const;
-  cv::Mat meanBrightness(double time_s, bool right);
-  cv::Mat perfectImage(int index, bool right, const cv::Mat& brightness) const;
+  double exposedAt(int index, bool right) const;
+  cv::Mat meanLight(double time_s, const PixelRays& rays, bool right);
+  cv::Mat smearedLight(const Picture& picture,
+                       double time_s,
+                       double exposure_s,
+                       const PixelRays& rays,
+                       bool right) const;
+  cv::Mat perfectImage(int index, bool right, Picture sharp);
   cv::Mat wornImage(int index, bool right);
   double gain(int index, bool right) const;
   std::uint64_t noiseKey(int index, bool right) const;
   cv::Mat flowToNext(int index, const Picture& left) const;
 
   SimulationOptions options_;
+  Exposure exposure_;
   std::optional<WornRig> worn_;
   Gains gains_;
   std::shared_ptr<const Drive> drive_;

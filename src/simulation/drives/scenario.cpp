@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "simulation/drives/conditions.h"
 #include "simulation/drives/street_plan.h"
 #include "simulation/street/street_style.h"
 
@@ -152,6 +153,10 @@ Scenario handheld(std::uint64_t seed) {
   return alongOneStreet(drive, townStyle(), seed);
 }
 
+Scenario night(std::uint64_t seed) {
+  return atNight(city(seed));
+}
+
 using Maker = std::function<Scenario(std::uint64_t)>;
 
 const std::vector<std::pair<std::string, Maker>>& makers() {
@@ -160,7 +165,8 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
                                                                      {"slip_road", slipRoad},
                                                                      {"parking", parking},
                                                                      {"shake", shake},
-                                                                     {"handheld", handheld}};
+                                                                     {"handheld", handheld},
+                                                                     {"night", night}};
   return kMakers;
 }
 

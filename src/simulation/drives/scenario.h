@@ -7,6 +7,7 @@
 
 #include "simulation/drives/drive.h"
 #include "simulation/drives/traffic.h"
+#include "simulation/rendering/sensor.h"
 #include "simulation/scene/world.h"
 
 namespace rotrocc {
@@ -16,6 +17,7 @@ struct Scenario {
   std::shared_ptr<const Drive> drive;
   WorldPlan world;
   TrafficPlan traffic;
+  Exposure exposure;
   std::vector<std::int64_t> stamps_ns;  ///< of the frames; empty: at any rate
 };
 
@@ -29,6 +31,7 @@ const std::vector<std::string>& scenarioNames();
 ///   parking    0.8 m/s in a car park, with a stop while a car passes close by
 ///   shake      a town street with strong pitching and rolling
 ///   handheld   1.4 m/s along that street, looking around with up to 120 deg/s
+///   night      city at night: head lamps, a long exposure, noise
 Scenario scenario(const std::string& name, std::uint64_t seed);
 
 /// A town along a recorded drive, including hills. A street that the drive revisits is built once;

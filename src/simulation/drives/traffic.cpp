@@ -22,17 +22,17 @@ Traffic::Traffic(const TrafficPlan& plan,
     : drive_(drive), world_(world) {
   RandomStream random(seed, 0x7AFF1C);
   const auto add = [&](double right, double station, double speed, double lead) {
-    Body car = makeCar(random);
+    Body car = makeCar(random, true);
     if (random.chance(share)) cars_.push_back({std::move(car), right, station, speed, lead});
   };
   for (const double time : plan.meetings_s) {
-    cars_.push_back({makeCar(random),
+    cars_.push_back({makeCar(random, true),
                      plan.oncoming_m,
                      drive.station_m(time) + plan.oncoming_mps * time,
                      -plan.oncoming_mps,
                      0.0});
   }
-  if (plan.leader && share > 0.0) cars_.push_back({makeCar(random), 0.0, 9.5, 0.0, 1.6});
+  if (plan.leader && share > 0.0) cars_.push_back({makeCar(random, true), 0.0, 9.5, 0.0, 1.6});
   if (plan.oncoming_mps > 0.0) {
     const double way_m = drive.path().length_m() + plan.oncoming_mps * drive.duration_s();
     for (double station = 20.0; station < way_m; station += kSpacing_m) {

@@ -22,7 +22,7 @@ struct CarSize {
 /// Lacquer with the lights, plates and seams of a car's lower body.
 class CarBody : public Material {
  public:
-  CarBody(const CarSize& size, double paint) : size_(size), paint_(paint) {}
+  CarBody(const CarSize& size, double paint, bool lit) : size_(size), paint_(paint), lit_(lit) {}
 
   double reflectance(const SurfacePoint& point) const override {
     const double height = -point.position.y();
@@ -34,7 +34,22 @@ class CarBody : public Material {
 
   double gloss(const SurfacePoint& /*point*/) const override { return 0.6; }
 
+  double glow(const SurfacePoint& point) const override {
+    if (!lit_ || std::abs(point.normal.z()) <= 0.6) return 0.0;
+    const bool front = point.normal.z() > 0.0;
+    return (front ? 12.0 : 0.8) * lamps(faceCoordinates(point), front);
+  }
+
  private:
+  double lamps(const TexturePoint& at, bool front) const {
+    const double bottom = front ? size_.belt - 0.33 : size_.belt - 0.3;
+    return coverageBetween(size_.half_width - 0.42,
+                           size_.half_width - 0.08,
+                           std::abs(at.at.x()),
+                           std::max(at.width(0), 1e-4)) *
+           coverageBetween(bottom, bottom + 0.18, at.at.y(), std::max(at.width(1), 1e-4));
+  }
+
   double side(const SurfacePoint& point, double sheen) const {
     const TexturePoint at = faceCoordinates(point);
     const double width = std::max(at.width(0), 1e-4);
@@ -68,10 +83,7 @@ class CarBody : public Material {
     };
     double brightness = paint_ * sheen;
     brightness = mix(brightness, 0.06, area(-1.0, size_.half_width, 0.0, 0.36));
-    const double lamp_bottom = front ? size_.belt - 0.33 : size_.belt - 0.3;
-    const double lamps =
-        area(size_.half_width - 0.42, size_.half_width - 0.08, lamp_bottom, lamp_bottom + 0.18);
-    brightness = mix(brightness, front ? 0.9 : 0.2, lamps);
+    brightness = mix(brightness, front ? 0.9 : 0.2, lamps(at, front));
     const double grille = front ? area(-1.0, 0.4, size_.belt - 0.3, size_.belt - 0.16) : 0.0;
     brightness = mix(brightness, 0.05, grille);
     const double plate = area(-1.0, 0.26, 0.42, 0.53);
@@ -81,6 +93,7 @@ class CarBody : public Material {
 
   CarSize size_;
   double paint_;
+  bool lit_;
 };
 
 /// Windows between painted pillars, and the roof.
@@ -201,11 +214,11 @@ std::shared_ptr<Shape> cabinShape(const CarSize& size) {
 
 }  // namespace
 
-Body makeCar(RandomStream& random) {
+Body makeCar(RandomStream& random, bool lit) {
   const bool van = random.chance(0.12);
   const CarSize size = van ? randomVan(random) : randomCar(random);
   const double paint = random.chance(0.35) ? random.uniform(0.55, 0.85) : random.uniform(0.07, 0.4);
-  std::vector<Part> parts = {{bodyShape(size), std::make_shared<CarBody>(size, paint)},
+  std::vector<Part> parts = {{bodyShape(size), std::make_shared<CarBody>(size, paint, lit)},
                              {cabinShape(size), std::make_shared<CarCabin>(size, paint)}};
   for (const double end : {-1.0, 1.0}) {
     const auto wheel = std::make_shared<Wheel>(end * size.axle, size.wheel_radius);

@@ -6,7 +6,7 @@
 namespace rotrocc {
 
 /// A car of random size and paint, or a delivery van: body, cabin with windows, wheels, lights. It
-/// heads along z; its origin is on the ground below its centre.
-Body makeCar(RandomStream& random);
+/// heads along z; its origin is on the ground below its centre. `lit`: with its lights on at night.
+Body makeCar(RandomStream& random, bool lit = false);
 
 }  // namespace rotrocc

@@ -23,6 +23,18 @@ double Facade::gloss(const SurfacePoint& point) const {
   return windowCoverage(placeOf(point), 0.0);
 }
 
+double Facade::glow(const SurfacePoint& point) const {
+  constexpr double kLitShare = 0.3;
+  const Place place = placeOf(point);
+  if (place.row < 1.0 && (style_.shop || place.column == style_.door)) return 0.0;
+  const double glass = glassCoverage(place);
+  if (glass <= 0.0) return 0.0;
+  const double window = luck(place);  // those with half a curtain
+  const double room = mix(0.25, 0.7, tiles_.blotches.at(scaled(place.point, 0.5)));
+  const double single = window > 0.55 && window < 0.55 + kLitShare ? room : 0.0;
+  return glass * mix(0.45 * kLitShare, single, place.resolved);
+}
+
 Facade::Place Facade::placeOf(const SurfacePoint& point) const {
   Place place;
   place.point = faceCoordinates(point);
@@ -73,10 +85,25 @@ double Facade::windowCoverage(const Place& place, double margin_m) const {
                           place.height);
 }
 
-double Facade::pane(const Place& place) const {
+double Facade::glassCoverage(const Place& place) const {
+  const double spacing = style_.window_spacing;
+  const double bar = coveragePeriodic(spacing, 0.07, place.u - 0.5 * spacing + 0.035, place.width);
+  const double crossbar =
+      coveragePeriodic(style_.floor_height,
+                       0.06,
+                       place.v - style_.sill_height - 0.68 * style_.window_height,
+                       place.height);
+  return windowCoverage(place, 0.0) * (1.0 - bar) * (1.0 - crossbar);
+}
+
+double Facade::luck(const Place& place) const {
   const auto column = static_cast<std::uint64_t>(static_cast<std::int64_t>(place.column));
   const auto row = static_cast<std::uint64_t>(static_cast<std::int64_t>(place.row));
-  const double luck = randomUniform(style_.key, column, row);
+  return randomUniform(style_.key, column, row);
+}
+
+double Facade::pane(const Place& place) const {
+  const double luck = this->luck(place);
   const double v = place.v - place.row * style_.floor_height - style_.sill_height;
   const double reflection =
       0.22 * tiles_.blotches.at({0.17 * place.point.at + Eigen::Vector2d(0.37 * luck, 0.0),
@@ -104,14 +131,7 @@ double Facade::withWindows(const Place& place, double brightness) const {
   const double frame = windowCoverage(place, 0.1);
   if (frame <= 0.0) return brightness;
   brightness = mix(brightness, style_.frame, frame);
-  const double bar = coveragePeriodic(spacing, 0.07, place.u - 0.5 * spacing + 0.035, place.width);
-  const double crossbar =
-      coveragePeriodic(style_.floor_height,
-                       0.06,
-                       place.v - style_.sill_height - 0.68 * style_.window_height,
-                       place.height);
-  const double glass = windowCoverage(place, 0.0) * (1.0 - bar) * (1.0 - crossbar);
-  return mix(brightness, pane(place), glass);
+  return mix(brightness, pane(place), glassCoverage(place));
 }
 
 double Facade::withGroundFloor(const Place& place, double brightness) const {

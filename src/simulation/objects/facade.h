@@ -35,6 +35,7 @@ class Facade : public Material {
 
   double reflectance(const SurfacePoint& point) const override;
   double gloss(const SurfacePoint& point) const override;
+  double glow(const SurfacePoint& point) const override;
 
  private:
   /// Position of a pixel relative to the windows of its wall.
@@ -49,6 +50,8 @@ class Facade : public Material {
 
   Place placeOf(const SurfacePoint& point) const;
   double wall(const Place& place) const;
+  double glassCoverage(const Place& place) const;
+  double luck(const Place& place) const;
   double pane(const Place& place) const;
   double windowCoverage(const Place& place, double margin_m) const;
   double withWindows(const Place& place, double brightness) const;

@@ -122,13 +122,15 @@ class Rail : public Material {
 
 Body makeLamp() {
   constexpr double kHeight = 6.5;
-  return Body({makePost(kHeight, 0.07, 0.3),
-               makePost(1.1, 0.11, 0.25),
-               {std::make_shared<Cylinder>(2, Eigen::Vector3d(0.0, -kHeight, -0.7), 0.04, 0.75),
-                plain(0.3)},
-               {std::make_shared<Ellipsoid>(Eigen::Vector3d(0.0, -kHeight, -1.6),
-                                            Eigen::Vector3d(0.14, 0.09, 0.38)),
-                plain(0.65)}});
+  Body lamp({makePost(kHeight, 0.07, 0.3),
+             makePost(1.1, 0.11, 0.25),
+             {std::make_shared<Cylinder>(2, Eigen::Vector3d(0.0, -kHeight, -0.7), 0.04, 0.75),
+              plain(0.3)},
+             {std::make_shared<Ellipsoid>(Eigen::Vector3d(0.0, -kHeight, -1.6),
+                                          Eigen::Vector3d(0.14, 0.09, 0.38)),
+              std::make_shared<LampMaterial>(0.65, 6.0)}});
+  lamp.lamp = Eigen::Vector3d(0.0, -kHeight + 0.1, -1.6);
+  return lamp;
 }
 
 Body makeSign(const TextureTiles& tiles, RandomStream& random) {

@@ -32,6 +32,18 @@ double lightSigma(const Sensor& sensor, double light) {
 
 }  // namespace
 
+Sensor Exposure::of(Sensor sensor) const {
+  constexpr double kFullWell_e = 4000.0;
+  constexpr double kReadNoise_e = 8.0;
+  if (gain <= 1.0) return sensor;
+  if (sensor.full_well_e <= 0.0) {
+    sensor.full_well_e = kFullWell_e;
+    sensor.read_noise_e = kReadNoise_e;
+  }
+  sensor.full_well_e /= gain;
+  return sensor;
+}
+
 cv::Mat develop(const cv::Mat& brightness,
                 const Sensor& sensor,
                 double gain,

@@ -14,6 +14,15 @@ struct Sensor {
   double read_noise_e = 0.0;  ///< [electrons], with full_well_e
 };
 
+/// What the light asks of the cameras.
+struct Exposure {
+  double time_s = 0.0;  ///< 0: that of the rig
+  double gain = 1.0;    ///< of the sensor, over that by day: white has so many fewer electrons
+
+  /// The sensor at this gain; one without shot noise gets that of an ordinary sensor.
+  Sensor of(Sensor sensor) const;
+};
+
 /// Converts brightness (CV_32FC1, 1 is white) times `gain` to a CV_8UC1 image with vignetting and
 /// noise, independent for each pixel. The same key gives the same bytes for any number of threads.
 cv::Mat develop(const cv::Mat& brightness,

@@ -75,19 +75,19 @@ cv::Mat WornCamera::develop(const cv::Mat& brightness, double gain, std::uint64_
   return raw_.rectify(rotrocc::develop(brightness, sensor_, gain, noise_key));
 }
 
-WornRig wornRig(const StereoCamera& camera, std::uint64_t seed) {
+WornRig wornRig(const StereoCamera& camera, std::uint64_t seed, const Exposure& exposure) {
   RandomStream random(seed, 0x3081);
   const StereoRemainders remainders = randomRemainders(camera, seed);
   const double k1 = random.uniform(-0.38, -0.3);
   const double vignetting = random.uniform(0.2, 0.4);
   const Lens left = randomLens(random, k1);
   const Lens right = randomLens(random, k1);
-  const Sensor left_sensor = randomSensor(random, vignetting);
-  const Sensor right_sensor = randomSensor(random, vignetting);
-  const double exposure_s = random.uniform(0.002, 0.006);
+  const Sensor left_sensor = exposure.of(randomSensor(random, vignetting));
+  const Sensor right_sensor = exposure.of(randomSensor(random, vignetting));
+  const double day_s = random.uniform(0.002, 0.006);
   return {{camera, camera.cx, left, remainders.left, left_sensor},
           {camera, camera.cx_right, right, remainders.right, right_sensor},
-          exposure_s,
+          exposure.time_s > 0.0 ? exposure.time_s : day_s,
           driftingGains(seed),
           windyWeather(seed)};
 }

@@ -47,6 +47,6 @@ struct WornRig {
   Weather weather;
 };
 
-WornRig wornRig(const StereoCamera& camera, std::uint64_t seed);
+WornRig wornRig(const StereoCamera& camera, std::uint64_t seed, const Exposure& exposure = {});
 
 }  // namespace rotrocc

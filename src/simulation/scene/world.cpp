@@ -66,6 +66,7 @@ std::vector<Path> WorldPlan::wholeDrives() const {
 World::World(const WorldPlan& plan)
     : style_(plan.style),
       reflections_(plan.weather.reflections),
+      lighting_(plan.lighting),
       tiles_(plan.seed),
       streets_(plan.streets, kStreetReach_m),
       road_(streets_, style_, tiles_, plan.crossings, plan.seed),
@@ -73,7 +74,8 @@ World::World(const WorldPlan& plan)
       ground_(grid_, plan.drives.front(), plan.beyond_m, plan.streets, plan.camera_height_m),
       start_(makeScene(plan, streets_, {grid_, ground_.heights(0)}, tiles_)),
       scene_(start_),
-      shadows_(scene_, streets_, kShadowReach_m),
+      shadows_(scene_, streets_, plan.lighting.sun > 0.0 ? kShadowReach_m : 0.0),
+      lamps_(scene_),
       sky_(tiles_) {
   tiles_.wind = plan.weather.wind;
 }
@@ -109,7 +111,8 @@ Sighting World::look(const View& view, double x, double y) const {
     return {groundBrightness(point, view.moving()), depth, kGroundSurface, -1};
   }
   if (number < 0) {
-    return {sky_.brightness(ray.direction, view.spread()), kInfinity, kSkySurface, -1};
+    return {
+        lighting_.sky * sky_.brightness(ray.direction, view.spread()), kInfinity, kSkySurface, -1};
   }
   const Body& body = view.body(number);
   const Part& part = body.parts()[static_cast<std::size_t>(hit.part)];
@@ -129,7 +132,9 @@ double World::bodyBrightness(const Body& body,
       surfacePoint(body.toBody(ray), body.toBody(spread), hit.distance, hit.normal);
   const Eigen::Vector3d normal = body.T_world_body().linear() * hit.normal;
   const Material& material = *body.parts()[static_cast<std::size_t>(hit.part)].material;
-  const double brightness = material.reflectance(point) * illumination(normal, body.sunlit);
+  const double light = illumination(ray.at(hit.distance), normal, body.sunlit);
+  const double brightness =
+      material.reflectance(point) * light + lighting_.lights * material.glow(point);
   if (!reflections_) return brightness;
   const double gloss = material.gloss(point);
   if (gloss <= 0.0) return brightness;
@@ -143,7 +148,8 @@ double World::reflection(const Eigen::Vector3d& direction,
   constexpr double kGlint = 0.01;  // squared angle [rad^2] where the sun fades
   const Eigen::Vector3d towards = direction - 2.0 * normal.dot(direction) * normal;
   const double away = 2.0 - 2.0 * towards.normalized().dot(directionToSun());
-  return sky_.brightness(towards, spread) + 8.0 * (1.0 - smoothStep(0.0, kGlint, away));
+  return lighting_.sky * sky_.brightness(towards, spread) +
+         10.0 * lighting_.sun * (1.0 - smoothStep(0.0, kGlint, away));
 }
 
 double World::groundBrightness(const SurfacePoint& point, const std::vector<Body>& moving) const {
@@ -159,7 +165,21 @@ double World::groundBrightness(const SurfacePoint& point, const std::vector<Body
     shade *= contactShade(body, at);
   }
   const double sunlit = shadows_.sunlit(at.x(), at.z());
-  return road_.reflectance(point) * shade * illumination(point.normal, sunlit);
+  return road_.reflectance(point) * shade * illumination(at, point.normal, sunlit);
+}
+
+double World::illumination(const Eigen::Vector3d& position,
+                           const Eigen::Vector3d& normal,
+                           double sunlit) const {
+  double light = daylight(lighting_, normal, sunlit);
+  if (lighting_.street_lamps > 0.0) {
+    light += lighting_.street_lamps * lamps_.light(position, normal);
+  }
+  if (lighting_.head_lamps.brightness > 0.0) {
+    light +=
+        headLight(lighting_.head_lamps, T_car_world_ * position, T_car_world_.linear() * normal);
+  }
+  return light;
 }
 
 }  // namespace rotrocc

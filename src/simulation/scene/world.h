@@ -11,7 +11,9 @@
 #include "simulation/street/road_surface.h"
 #include "simulation/street/street_map.h"
 #include "simulation/street/street_style.h"
+#include "simulation/surfaces/lighting.h"
 #include "simulation/surfaces/sky.h"
+#include "simulation/surfaces/street_lamps.h"
 #include "simulation/surfaces/sunlight.h"
 #include "simulation/surfaces/texture_tiles.h"
 #include "simulation/surfaces/weather.h"
@@ -26,6 +28,7 @@ struct WorldPlan {
   StreetStyle style;
   std::vector<Crossing> crossings;
   Weather weather;
+  Lighting lighting;
   double camera_height_m = 1.65;
   std::uint64_t seed = 1;
 
@@ -59,6 +62,9 @@ class World {
   /// Moves leaves and grass to where they are at this time.
   void setTime(double time_s) { tiles_.wind.time_s = time_s; }
 
+  /// Moves the head lamps to where the own car is, by the pose of its left camera.
+  void setCar(const Eigen::Isometry3d& T_world_camera) { T_car_world_ = T_world_camera.inverse(); }
+
   /// Casts a ray through a (sub-)pixel of a view, whose static bodies are bodies().
   Sighting look(const View& view, double x, double y) const;
 
@@ -73,10 +79,15 @@ class World {
   double reflection(const Eigen::Vector3d& direction,
                     const Eigen::Vector3d& normal,
                     const PixelSpread& spread) const;
+  double illumination(const Eigen::Vector3d& position,
+                      const Eigen::Vector3d& normal,
+                      double sunlit) const;
   double groundBrightness(const SurfacePoint& point, const std::vector<Body>& moving) const;
 
   StreetStyle style_;
   bool reflections_;
+  Lighting lighting_;
+  Eigen::Isometry3d T_car_world_ = Eigen::Isometry3d::Identity();
   TextureTiles tiles_;
   StreetMap streets_;
   RoadSurface road_;
@@ -86,6 +97,7 @@ class World {
   SceneGeometry scene_;  // current scene
   std::size_t stage_ = 0;
   SunShadows shadows_;
+  StreetLamps lamps_;
   Sky sky_;
 };
 

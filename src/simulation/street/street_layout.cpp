@@ -138,7 +138,7 @@ class Layout {
   }
 
   void addPosts(const Path& street, double side, RandomStream& random) {
-    const PlacementRules rules = {style_.lamps_m - 1.8, true};
+    const PlacementRules rules = {style_.lamps_m - style_.lamp_overhang_m, true};
     const double start = side > 0.0 ? 6.0 : 6.0 + 0.5 * style_.lamp_spacing_m;
     for (double station = start; station < street.length_m(); station += style_.lamp_spacing_m) {
       ground_.place(makeLamp(), street, station, side * style_.lamps_m, Facing::kOutwards, rules);

@@ -49,6 +49,7 @@ struct StreetStyle {
   double tree_spacing_m = 14.0;
   double lamps_m = 0.0;  ///< lamp posts and occasional signs; 0: none
   double lamp_spacing_m = 28.0;
+  double lamp_overhang_m = 1.8;   ///< lamps that reach farther towards the street are left out
   double guard_rail_m = 0.0;      ///< on both sides; 0: none
   double forest_m = 0.0;          ///< edge of the woods; 0: none
   double gantry_spacing_m = 0.0;  ///< of signs over the street; 0: none

@@ -18,6 +18,9 @@ class Material {
   /// Share of its surface that reflects as glass does, from 0 to 1.
   virtual double gloss(const SurfacePoint& /*point*/) const { return 0.0; }
 
+  /// Light of its own when lights are on, averaged over the pixel; 1 is white.
+  virtual double glow(const SurfacePoint& /*point*/) const { return 0.0; }
+
   /// Whether it is transparent at a place with this normal; a pixel is `pixel_m` wide. Holes must
   /// vanish where they are smaller than that.
   virtual bool isHole(const Eigen::Vector3d& /*position*/,
@@ -45,6 +48,16 @@ TexturePoint faceCoordinates(const SurfacePoint& point);
 
 /// The same of a place with this normal.
 Eigen::Vector2d faceCoordinates(const Eigen::Vector3d& position, const Eigen::Vector3d& normal);
+
+/// Uniform, and a lamp at night.
+class LampMaterial : public PlainMaterial {
+ public:
+  LampMaterial(double reflectance, double glow) : PlainMaterial(reflectance), glow_(glow) {}
+  double glow(const SurfacePoint& /*point*/) const override { return glow_; }
+
+ private:
+  double glow_;
+};
 
 /// A texture on the faces of a body: `mean` plus and minus up to half of `contrast`.
 class TexturedMaterial : public Material {

@@ -8,13 +8,12 @@
 
 #include "simulation/rows.h"
 #include "simulation/surfaces/coverage.h"
+#include "simulation/surfaces/lighting.h"
 
 namespace rotrocc {
 namespace {
 
 constexpr double kCell_m = 0.2;
-constexpr double kSun = 0.8;
-constexpr double kAmbient = 0.36;
 
 bool sunReaches(const SceneGeometry& scene, const Eigen::Vector3d& point) {
   constexpr double kPixel_m = 0.002;  // leaves let some of the light through
@@ -24,15 +23,6 @@ bool sunReaches(const SceneGeometry& scene, const Eigen::Vector3d& point) {
 }
 
 }  // namespace
-
-Eigen::Vector3d directionToSun() {
-  return Eigen::Vector3d(-0.45, -0.95, -0.62).normalized();
-}
-
-double illumination(const Eigen::Vector3d& normal, double sunlit) {
-  const double sky = kAmbient * (0.8 - 0.2 * normal.y());  // y points down
-  return sky + kSun * sunlit * std::max(0.0, normal.dot(directionToSun()));
-}
 
 SunShadows::SunShadows(const SceneGeometry& scene, const StreetMap& streets, double reach_m) {
   const GroundGrid& grid = scene.terrain().grid();

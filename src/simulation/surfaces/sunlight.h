@@ -10,12 +10,6 @@
 
 namespace rotrocc {
 
-/// Direction to the sun, of unit length: behind the viewer at the start, to the left.
-Eigen::Vector3d directionToSun();
-
-/// Illumination of a surface; `sunlit` is the visible share of the sun, from 0 to 1.
-double illumination(const Eigen::Vector3d& normal, double sunlit);
-
 /// Shadows of all static bodies on the ground beside the streets.
 class SunShadows {
  public:

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace rotrocc {
+
+/// Dipped beams of the own car, in the axes of its left camera.
+struct HeadLamps {
+  double brightness = 0.0;                     ///< of a white wall 10 m ahead, by both; 0: off
+  double half_width_rad = 0.45;                ///< where the light has fallen to 37 %
+  double cut_off_rad = 0.01;                   ///< below the horizon; hardly any light above
+  Eigen::Vector3d middle_m = {0.0, 1.0, 1.5};  ///< between the two
+  double apart_m = 1.3;
+};
+
+/// What lights the world. A brightness is that of a white surface, 1 is white on a picture.
+struct Lighting {
+  double sun = 0.8;           ///< on a surface that faces it
+  double ambient = 0.36;      ///< of the sky, on level ground
+  double sky = 1.0;           ///< brightness of the sky itself, relative to that of a fine day
+  double street_lamps = 0.0;  ///< on the ground below a lamp
+  double lights = 0.0;        ///< of windows, lamps and the lights of cars; 0: off
+  HeadLamps head_lamps;
+};
+
+/// A clear night in a lit street, as cameras see it that expose for that.
+Lighting nightLighting();
+
+/// Direction to the sun, of unit length: behind the viewer at the start, to the left.
+Eigen::Vector3d directionToSun();
+
+/// Light of sun and sky on a surface; `sunlit` is the visible share of the sun, from 0 to 1.
+double daylight(const Lighting& lighting, const Eigen::Vector3d& normal, double sunlit);
+
+/// Light of the lamps on a surface; both in the axes of the left camera. They cast no shadows.
+double headLight(const HeadLamps& lamps,
+                 const Eigen::Vector3d& position,
+                 const Eigen::Vector3d& normal);
+
+}  // namespace rotrocc
