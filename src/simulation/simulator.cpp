@@ -14,6 +14,7 @@ namespace rotrocc {
 namespace {
 
 constexpr int kBlurSteps = 8;
+constexpr double kRainBrightness = 1.3;  // of drops over the sky: they are lenses
 
 std::optional<WornRig> chosenRig(const SimulationOptions& options, const Exposure& exposure) {
   if (!options.worn_rig) return std::nullopt;
@@ -27,7 +28,10 @@ Gains chosenGains(const SimulationOptions& options, const std::optional<WornRig>
 
 WorldPlan plannedWorld(const Scenario& scenario, const std::optional<WornRig>& worn) {
   WorldPlan plan = scenario.world;
-  if (worn) plan.weather = worn->weather;
+  if (worn) {
+    plan.weather.wind = worn->weather.wind;
+    plan.weather.reflections = worn->weather.reflections;
+  }
   return plan;
 }
 
@@ -46,6 +50,11 @@ SimulationOptions checked(const SimulationOptions& options) {
                                 " Hz: choose it above 0, up to 1000");
   }
   return options;
+}
+
+Rain checkedRain(const Rain& rain) {
+  rain.check();
+  return rain;
 }
 
 std::vector<std::int64_t> allStamps(const Scenario& scenario, double rate_hz) {
@@ -74,6 +83,8 @@ std::vector<std::int64_t> keptStamps(const Scenario& scenario, const SimulationO
 Simulator::Simulator(const Scenario& scenario, const SimulationOptions& options)
     : options_(checked(options)),
       exposure_(scenario.exposure),
+      rain_(checkedRain(scenario.rain)),
+      rain_brightness_(kRainBrightness * scenario.world.lighting.sky),
       worn_(chosenRig(options_, exposure_)),
       gains_(chosenGains(options_, worn_)),
       drive_(scenario.drive),
@@ -137,6 +148,33 @@ cv::Mat Simulator::smearedLight(const Picture& picture,
   return blurred(picture, rays, motions(time_s - half_s, time_s + half_s, right));
 }
 
+std::vector<Streak> Simulator::streaks(int index, double exposure_s, bool right) const {
+  constexpr double kFall_mps = 8.0;
+  const double time = exposedAt(index, right);
+  const Eigen::Isometry3d T_left_world = drive_->pose(time).inverse();
+  const Eigen::Vector3d fall(0.0, kFall_mps * exposure_s, 0.0);
+  const Eigen::Vector3d ride = drive_->pose(time + 0.5 * exposure_s).translation() -
+                               drive_->pose(time - 0.5 * exposure_s).translation();
+  const Eigen::Vector3d way = T_left_world.linear() * (fall - ride);
+  std::vector<Streak> streaks =
+      fallingDrops(rain_, options_.camera, way, randomBits(options_.seed, 0xFA11, index));
+  if (!right) return streaks;
+  const Eigen::Isometry3d T_right_left = options_.faults.rightCamera(options_.camera).inverse();
+  for (Streak& streak : streaks) {
+    streak.from = T_right_left * streak.from;
+    streak.to = T_right_left * streak.to;
+  }
+  return streaks;
+}
+
+cv::Mat Simulator::throughRain(
+    const cv::Mat& light, const PixelRays& rays, int index, double exposure_s, bool right) const {
+  const cv::Mat before =
+      throughStreaks(light, rays, streaks(index, exposure_s, right), rain_brightness_);
+  const std::uint64_t lens = randomBits(options_.seed, 0x1E45, right ? 1 : 0);
+  return throughDrops(before, dropsOnLens(rain_, light.size(), exposedAt(index, right), lens));
+}
+
 double Simulator::gain(int index, bool right) const {
   return jumpGain(options_.faults, index, options_.noise_seed) * gains_.at(time_s(index), right);
 }
@@ -149,6 +187,7 @@ std::uint64_t Simulator::noiseKey(int index, bool right) const {
 cv::Mat Simulator::perfectImage(int index, bool right, Picture sharp) {
   const double time = exposedAt(index, right);
   const PixelRays own_rays = rays(right);
+  const double exposure_s = std::max(exposure_.time_s, options_.faults.motion_blur_s);
   cv::Mat light;
   if (options_.faults.motion_blur_s > 0.0) {
     light = meanLight(time, own_rays, right);
@@ -156,8 +195,10 @@ cv::Mat Simulator::perfectImage(int index, bool right, Picture sharp) {
     if (sharp.brightness.empty()) sharp = look(time, right, own_rays);
     light = smearedLight(sharp, time, exposure_.time_s, own_rays, right);
   }
-  return develop(
-      light, exposure_.of(options_.faults.sensor), gain(index, right), noiseKey(index, right));
+  return develop(throughRain(light, own_rays, index, exposure_s, right),
+                 exposure_.of(options_.faults.sensor),
+                 gain(index, right),
+                 noiseKey(index, right));
 }
 
 cv::Mat Simulator::wornImage(int index, bool right) {
@@ -166,7 +207,9 @@ cv::Mat Simulator::wornImage(int index, bool right) {
   const Picture picture = look(time, right, own_rays);
   const cv::Mat light = smearedLight(picture, time, worn_->exposure_s, own_rays, right);
   const WornCamera& camera = right ? worn_->right : worn_->left;
-  return camera.develop(light, gain(index, right), noiseKey(index, right));
+  return camera.develop(throughRain(light, own_rays, index, worn_->exposure_s, right),
+                        gain(index, right),
+                        noiseKey(index, right));
 }
 
 SimulatedFrame Simulator::render(int index, bool with_flow) {

@@ -88,6 +88,9 @@ class Simulator {
                        double exposure_s,
                        const PixelRays& rays,
                        bool right) const;
+  std::vector<Streak> streaks(int index, double exposure_s, bool right) const;
+  cv::Mat throughRain(
+      const cv::Mat& light, const PixelRays& rays, int index, double exposure_s, bool right) const;
   cv::Mat perfectImage(int index, bool right, Picture sharp);
   cv::Mat wornImage(int index, bool right);
   double gain(int index, bool right) const;
@@ -96,6 +99,8 @@ class Simulator {
 
   SimulationOptions options_;
   Exposure exposure_;
+  Rain rain_;
+  double rain_brightness_;
   std::optional<WornRig> worn_;
   Gains gains_;
   std::shared_ptr<const Drive> drive_;

@@ -10,4 +10,14 @@ Scenario atNight(Scenario scenario) {
   return scenario;
 }
 
+Scenario inRain(Scenario scenario) {
+  scenario.world.lighting = rainLighting();
+  scenario.world.weather.wet = 0.8;
+  scenario.world.weather.visibility_m = 500.0;
+  scenario.exposure = {0.006, 2.0};
+  scenario.rain.drops = 40.0;
+  scenario.rain.streaks = 2500.0;
+  return scenario;
+}
+
 }  // namespace rotrocc

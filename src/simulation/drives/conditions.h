@@ -9,4 +9,7 @@ namespace rotrocc {
 /// A town at night: street lamps, head lamps, a long exposure at high gain.
 Scenario atNight(Scenario scenario);
 
+/// Rain: drops on the lenses and in the air, mist, a wet road, no sun.
+Scenario inRain(Scenario scenario);
+
 }  // namespace rotrocc

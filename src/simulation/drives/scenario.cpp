@@ -157,6 +157,10 @@ Scenario night(std::uint64_t seed) {
   return atNight(city(seed));
 }
 
+Scenario rain(std::uint64_t seed) {
+  return inRain(city(seed));
+}
+
 using Maker = std::function<Scenario(std::uint64_t)>;
 
 const std::vector<std::pair<std::string, Maker>>& makers() {
@@ -166,7 +170,8 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
                                                                      {"parking", parking},
                                                                      {"shake", shake},
                                                                      {"handheld", handheld},
-                                                                     {"night", night}};
+                                                                     {"night", night},
+                                                                     {"rain", rain}};
   return kMakers;
 }
 

@@ -7,6 +7,7 @@
 
 #include "simulation/drives/drive.h"
 #include "simulation/drives/traffic.h"
+#include "simulation/rendering/rain.h"
 #include "simulation/rendering/sensor.h"
 #include "simulation/scene/world.h"
 
@@ -18,6 +19,7 @@ struct Scenario {
   WorldPlan world;
   TrafficPlan traffic;
   Exposure exposure;
+  Rain rain;
   std::vector<std::int64_t> stamps_ns;  ///< of the frames; empty: at any rate
 };
 
@@ -32,6 +34,7 @@ const std::vector<std::string>& scenarioNames();
 ///   shake      a town street with strong pitching and rolling
 ///   handheld   1.4 m/s along that street, looking around with up to 120 deg/s
 ///   night      city at night: head lamps, a long exposure, noise
+///   rain       city in the rain: drops on the lenses, streaks, mist, a wet road
 Scenario scenario(const std::string& name, std::uint64_t seed);
 
 /// A town along a recorded drive, including hills. A street that the drive revisits is built once;

@@ -15,6 +15,7 @@ constexpr double kCell_m = 8.0;
 constexpr double kStreetReach_m = 20.5;
 constexpr double kShadowReach_m = 14.0;
 constexpr double kNearest_m = 0.2;
+constexpr double kSkyDistance_m = 300.0;  // of what mist hides: hills and clouds
 
 constexpr std::uint32_t kSkySurface = 0xFFFFFFFF;
 constexpr std::uint32_t kGroundSurface = 0xFFFFFFFE;
@@ -65,7 +66,7 @@ std::vector<Path> WorldPlan::wholeDrives() const {
 
 World::World(const WorldPlan& plan)
     : style_(plan.style),
-      reflections_(plan.weather.reflections),
+      weather_(plan.weather),
       lighting_(plan.lighting),
       tiles_(plan.seed),
       streets_(plan.streets, kStreetReach_m),
@@ -108,17 +109,20 @@ Sighting World::look(const View& view, double x, double y) const {
     const Eigen::Vector3d at = ray.at(depth);
     const Eigen::Vector3d normal = scene_.terrain().normal(at.x(), at.z());
     const SurfacePoint point = surfacePoint(ray, view.spread(), depth, normal);
-    return {groundBrightness(point, view.moving()), depth, kGroundSurface, -1};
+    double brightness = groundBrightness(point, view.moving());
+    if (weather_.wet > 0.0)
+      brightness = wetBrightness(point, brightness, ray, depth, view.spread());
+    return {inMist(brightness, ray, depth), depth, kGroundSurface, -1};
   }
   if (number < 0) {
-    return {
-        lighting_.sky * sky_.brightness(ray.direction, view.spread()), kInfinity, kSkySurface, -1};
+    const double sky = lighting_.sky * sky_.brightness(ray.direction, view.spread());
+    return {inMist(sky, ray, kSkyDistance_m), kInfinity, kSkySurface, -1};
   }
   const Body& body = view.body(number);
   const Part& part = body.parts()[static_cast<std::size_t>(hit.part)];
   const auto face = static_cast<std::uint32_t>((number * 32 + hit.part) * 64 + hit.face);
   const std::uint32_t surface = part.material->isTangle() ? kTangleSurface : face;
-  return {bodyBrightness(body, hit, ray, view.spread()),
+  return {inMist(bodyBrightness(body, hit, ray, view.spread()), ray, hit.distance),
           hit.distance,
           surface,
           number < view.standingCount() ? -1 : number - view.standingCount()};
@@ -135,7 +139,7 @@ double World::bodyBrightness(const Body& body,
   const double light = illumination(ray.at(hit.distance), normal, body.sunlit);
   const double brightness =
       material.reflectance(point) * light + lighting_.lights * material.glow(point);
-  if (!reflections_) return brightness;
+  if (!weather_.reflections) return brightness;
   const double gloss = material.gloss(point);
   if (gloss <= 0.0) return brightness;
   const double mirrored = gloss * mirroredShare(ray.direction, normal);
@@ -150,6 +154,44 @@ double World::reflection(const Eigen::Vector3d& direction,
   const double away = 2.0 - 2.0 * towards.normalized().dot(directionToSun());
   return lighting_.sky * sky_.brightness(towards, spread) +
          10.0 * lighting_.sun * (1.0 - smoothStep(0.0, kGlint, away));
+}
+
+double World::wetBrightness(const SurfacePoint& point,
+                            double dry,
+                            const Ray& ray,
+                            double depth,
+                            const PixelSpread& spread) const {
+  constexpr double kDarker = 0.45;      // of wet asphalt
+  constexpr double kStraightOn = 0.02;  // reflected by water (Schlick 1994)
+  constexpr double kAbove_m = 0.01;     // the start of a ray
+  constexpr double kRough = 8.0;        // width of a mirrored pixel, in pixels
+  const double water = weather_.wet * road_.water(point);
+  if (water <= 0.0) return dry;
+  const Eigen::Vector3d towards =
+      ray.direction - 2.0 * point.normal.dot(ray.direction) * point.normal;
+  const double flat = 1.0 - std::abs(point.normal.dot(ray.direction)) / ray.direction.norm();
+  const double share = mix(kStraightOn, 1.0, flat * flat * flat * flat * flat);
+  const Ray mirrored = {point.position + kAbove_m * point.normal, towards};
+  SceneHit hit;
+  double seen = dry;
+  if (!scene_.trace(mirrored,
+                    {0.0, std::numeric_limits<double>::infinity()},
+                    kRough * spread.per_row.norm(),
+                    hit)) {
+    seen = lighting_.sky * sky_.brightness(towards, spread);
+  } else if (hit.body >= 0) {
+    const double wider = kRough * (1.0 + depth / hit.at.distance);
+    const PixelSpread there = {wider * spread.per_column, wider * spread.per_row};
+    seen = bodyBrightness(bodies()[hit.body], hit.at, mirrored, there);
+  }
+  return mix((1.0 - kDarker * water) * dry, seen, water * share);
+}
+
+double World::inMist(double brightness, const Ray& ray, double depth) const {
+  constexpr double kContrastLeft = 0.05;
+  if (std::isinf(weather_.visibility_m)) return brightness;
+  const double share = depth * ray.direction.norm() / weather_.visibility_m;
+  return mix(lighting_.sky, brightness, std::pow(kContrastLeft, share));
 }
 
 double World::groundBrightness(const SurfacePoint& point, const std::vector<Body>& moving) const {

@@ -82,10 +82,16 @@ class World {
   double illumination(const Eigen::Vector3d& position,
                       const Eigen::Vector3d& normal,
                       double sunlit) const;
+  double wetBrightness(const SurfacePoint& point,
+                       double dry,
+                       const Ray& ray,
+                       double depth,
+                       const PixelSpread& spread) const;
+  double inMist(double brightness, const Ray& ray, double depth) const;
   double groundBrightness(const SurfacePoint& point, const std::vector<Body>& moving) const;
 
   StreetStyle style_;
-  bool reflections_;
+  Weather weather_;
   Lighting lighting_;
   Eigen::Isometry3d T_car_world_ = Eigen::Isometry3d::Identity();
   TextureTiles tiles_;

@@ -63,6 +63,19 @@ double RoadSurface::reflectance(const SurfacePoint& point) const {
   return mix(brightness, kPaint, worn * paint);
 }
 
+double RoadSurface::water(const SurfacePoint& point) const {
+  const TexturePoint at = project(point, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitZ());
+  StreetPoint street;
+  if (!streets_.locate(at.at.x(), at.at.y(), street)) return 0.0;
+  const bool paved = std::any_of(style_.zones.begin(), style_.zones.end(), [&](const Zone& zone) {
+    return zone.pavement != Pavement::kGrass && zone.left_m <= street.right_m &&
+           street.right_m <= zone.right_m;
+  });
+  if (!paved) return 0.0;
+  const double hollow = tiles_.blotches.at(scaled(at, 1.0 / 11.0));
+  return mix(0.4, 1.0, smoothStep(0.5, 0.6, hollow));
+}
+
 double RoadSurface::pavement(Pavement kind, const TexturePoint& at) const {
   switch (kind) {
     case Pavement::kAsphalt:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include <Eigen/Core>
 
@@ -20,6 +21,8 @@ struct Wind {
 struct Weather {
   Wind wind;
   bool reflections = false;  ///< glass and lacquer show the sky and the sun
+  double wet = 0.0;          ///< share of roads under water, from 0 to 1
+  double visibility_m = std::numeric_limits<double>::infinity();  ///< where 5 % of contrast is left
 };
 
 /// Wind that moves leaves by a few cm, and reflections.
