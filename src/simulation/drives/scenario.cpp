@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "simulation/drives/conditions.h"
+#include "simulation/drives/field.h"
 #include "simulation/drives/street_plan.h"
 #include "simulation/street/street_style.h"
 
@@ -171,7 +172,8 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
                                                                      {"shake", shake},
                                                                      {"handheld", handheld},
                                                                      {"night", night},
-                                                                     {"rain", rain}};
+                                                                     {"rain", rain},
+                                                                     {"field", field}};
   return kMakers;
 }
 

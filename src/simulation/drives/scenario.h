@@ -35,6 +35,7 @@ const std::vector<std::string>& scenarioNames();
 ///   handheld   1.4 m/s along that street, looking around with up to 120 deg/s
 ///   night      city at night: head lamps, a long exposure, noise
 ///   rain       city in the rain: drops on the lenses, streaks, mist, a wet road
+///   field      a rover at 0.5 to 0.9 m/s on gravel between meadows, shaken by uneven ground
 Scenario scenario(const std::string& name, std::uint64_t seed);
 
 /// A town along a recorded drive, including hills. A street that the drive revisits is built once;

@@ -93,6 +93,23 @@ Body makeForestTree(const TextureTiles& tiles, RandomStream& random) {
   return Body(std::move(parts));
 }
 
+Body makeBush(const TextureTiles& tiles, RandomStream& random) {
+  const double reach = random.uniform(0.25, 0.7);
+  const auto leaves = std::make_shared<Leaves>(tiles, random.uniform(0.22, 0.4), 2.3, 0.36);
+  std::vector<Part> parts;
+  const int balls = 3 + random.index(4);
+  for (int i = 0; i < balls; ++i) {
+    const double angle = 2.0 * M_PI * (i + random.uniform(0.0, 0.7)) / balls;
+    const double size = reach * random.uniform(0.4, 0.7);
+    parts.push_back({ball({0.5 * reach * std::cos(angle),
+                           -reach * random.uniform(0.3, 0.9),
+                           0.5 * reach * std::sin(angle)},
+                          {size, 0.9 * size, size}),
+                     leaves});
+  }
+  return Body(std::move(parts));
+}
+
 Body makeHedge(double length_m, const TextureTiles& tiles, RandomStream& random) {
   const double height = random.uniform(1.0, 1.7);
   auto solid = std::make_shared<ConvexSolid>(Eigen::AlignedBox3d(

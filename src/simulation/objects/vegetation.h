@@ -10,6 +10,9 @@ namespace rotrocc {
 /// at the base of the trunk. The textures must outlive it.
 Body makeTree(const TextureTiles& tiles, RandomStream& random);
 
+/// A bush of a few leafy balls, up to a metre high.
+Body makeBush(const TextureTiles& tiles, RandomStream& random);
+
 /// A hedge along x, `length_m` long, with its origin in the centre.
 Body makeHedge(double length_m, const TextureTiles& tiles, RandomStream& random);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "simulation/counter_random.h"
 #include "simulation/street/street_layout.h"
 #include "simulation/surfaces/coverage.h"
 
@@ -11,7 +12,6 @@ namespace rotrocc {
 namespace {
 
 constexpr double kGridMargin_m = 200.0;
-constexpr double kCell_m = 8.0;
 constexpr double kStreetReach_m = 20.5;
 constexpr double kShadowReach_m = 14.0;
 constexpr double kNearest_m = 0.2;
@@ -71,9 +71,12 @@ World::World(const WorldPlan& plan)
       tiles_(plan.seed),
       streets_(plan.streets, kStreetReach_m),
       road_(streets_, style_, tiles_, plan.crossings, plan.seed),
-      grid_(GroundGrid::around(joined(plan.wholeDrives(), plan.streets), kGridMargin_m, kCell_m)),
+      grid_(
+          GroundGrid::around(joined(plan.wholeDrives(), plan.streets), kGridMargin_m, plan.cell_m)),
       ground_(grid_, plan.drives.front(), plan.beyond_m, plan.streets, plan.camera_height_m),
-      start_(makeScene(plan, streets_, {grid_, ground_.heights(0)}, tiles_)),
+      rough_m_(plan.rough_m),
+      seed_(plan.seed),
+      start_(makeScene(plan, streets_, terrainAt(0), tiles_)),
       scene_(start_),
       shadows_(scene_, streets_, plan.lighting.sun > 0.0 ? kShadowReach_m : 0.0),
       lamps_(scene_),
@@ -81,11 +84,21 @@ World::World(const WorldPlan& plan)
   tiles_.wind = plan.weather.wind;
 }
 
+Terrain World::terrainAt(std::size_t stage) const {
+  std::vector<double> heights = ground_.heights(stage);
+  if (rough_m_ > 0.0) {
+    for (std::size_t corner = 0; corner < heights.size(); ++corner) {
+      heights[corner] += rough_m_ * (2.0 * randomUniform(seed_, 0x4061, corner) - 1.0);
+    }
+  }
+  return {grid_, heights};
+}
+
 void World::goTo(double station_m) {
   const std::size_t stage = ground_.stage(station_m);
   if (stage == stage_) return;
   stage_ = stage;
-  Terrain terrain(grid_, ground_.heights(stage));
+  Terrain terrain = terrainAt(stage);
   std::vector<Body> bodies = start_.bodies();
   for (Body& body : bodies) {
     Eigen::Isometry3d pose = body.T_world_body();

@@ -30,6 +30,8 @@ struct WorldPlan {
   Weather weather;
   Lighting lighting;
   double camera_height_m = 1.65;
+  double cell_m = 8.0;   ///< of the ground, which bends at their borders
+  double rough_m = 0.0;  ///< the corners of the cells are this much higher or lower, at random
   std::uint64_t seed = 1;
 
   /// The drives with their extensions.
@@ -72,6 +74,7 @@ class World {
   double sunlit(double x, double z) const { return shadows_.sunlit(x, z); }
 
  private:
+  Terrain terrainAt(std::size_t stage) const;
   double bodyBrightness(const Body& body,
                         const BodyHit& hit,
                         const Ray& ray,
@@ -99,6 +102,8 @@ class World {
   RoadSurface road_;
   GroundGrid grid_;
   GroundHistory ground_;
+  double rough_m_;
+  std::uint64_t seed_;
   SceneGeometry start_;  // the scene at the start of the drive
   SceneGeometry scene_;  // current scene
   std::size_t stage_ = 0;

@@ -6,6 +6,7 @@
 
 #include "simulation/counter_random.h"
 #include "simulation/objects/car.h"
+#include "simulation/objects/field_things.h"
 #include "simulation/objects/house.h"
 #include "simulation/objects/street_furniture.h"
 #include "simulation/objects/vegetation.h"
@@ -42,6 +43,9 @@ class Layout {
     if (style_.lamps_m > 0.0) addPosts(street, side, random);
     if (style_.trees_m > 0.0) addTrees(street, side, random);
     if (style_.forest_m > 0.0) addForest(street, side, random);
+    if (style_.stones_per_m > 0.0) addStones(street, side, random);
+    if (style_.bushes_per_m > 0.0) addBushes(street, side, random);
+    if (style_.fence_m > 0.0 && side < 0.0) addFence(street, random);
   }
 
   /// Length of a line `right_m` beside the street over the length of the street.
@@ -171,6 +175,43 @@ class Layout {
       const double at = station + random.uniform(-1.5, 1.5);
       ground_.place(
           makeForestTree(tiles_, random), street, at, side * right, Facing::kOutwards, rules);
+    }
+  }
+
+  void addStones(const Path& street, double side, RandomStream& random) {
+    constexpr double kNearest_m = 1.7;
+    constexpr double kSpread_m = 12.0;
+    const PlacementRules rules = {style_.clear_half_width_m, true, true, true};
+    for (double station = 0.0; station < street.length_m(); station += 1.0 / style_.stones_per_m) {
+      const double away = kNearest_m + kSpread_m * std::pow(random.uniform(0.0, 1.0), 2.0);
+      const double at = station + random.uniform(-0.5, 0.5);
+      ground_.place(makeStone(tiles_, random), street, at, side * away, Facing::kOutwards, rules);
+    }
+  }
+
+  void addBushes(const Path& street, double side, RandomStream& random) {
+    constexpr double kNearest_m = 2.2;
+    constexpr double kSpread_m = 25.0;
+    const PlacementRules rules = {style_.clear_half_width_m, true, true, true};
+    for (double station = 0.0; station < street.length_m(); station += 1.0 / style_.bushes_per_m) {
+      const double away = kNearest_m + kSpread_m * random.uniform(0.0, 1.0);
+      const double at = station + random.uniform(-4.0, 4.0);
+      ground_.place(makeBush(tiles_, random), street, at, side * away, Facing::kOutwards, rules);
+    }
+  }
+
+  void addFence(const Path& street, RandomStream& random) {
+    constexpr double kLength = 2.5;
+    const PlacementRules rules = {style_.clear_half_width_m, true, false, false};
+    for (double station = 0.0; station < street.length_m();) {
+      const double step = kLength / stretch(street, station, -style_.fence_m);
+      ground_.place(makeFence(kLength, tiles_, random),
+                    street,
+                    station + 0.5 * step,
+                    -style_.fence_m,
+                    Facing::kOutwards,
+                    rules);
+      station += step;
     }
   }
 
