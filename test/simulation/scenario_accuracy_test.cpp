@@ -98,6 +98,12 @@ TEST(SkewedRigTest, ShowsInTheRowsOfMovingFeatures) {
   }
 }
 
+/// Noise of the images over that of a fine day, 2 grey levels: 500 electrons for white and 8 of
+/// read noise make 7 of them at a brightness of 0.15.
+double noiseOf(const std::string& name) {
+  return name == "night" ? 3.5 : 1.0;
+}
+
 class ScenarioAccuracyTest : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(ScenarioAccuracyTest, FollowsTheDriveWithoutABias) {
@@ -110,7 +116,7 @@ TEST_P(ScenarioAccuracyTest, FollowsTheDriveWithoutABias) {
     const Eigen::AngleAxisd turn_error(step.T_prev_cur_true.linear().transpose() *
                                        step.estimate.T_prev_cur.linear());
     // A tenth of a pixel, far more than the error of the mean of hundreds of features.
-    EXPECT_LT(turn_error.angle(), 0.1 / kittiCamera().fx);
+    EXPECT_LT(turn_error.angle(), noiseOf(GetParam()) * 0.1 / kittiCamera().fx);
   }
 
   double mean = 0.0;
@@ -123,7 +129,7 @@ TEST_P(ScenarioAccuracyTest, FollowsTheDriveWithoutABias) {
   // uncertain by its steps' errors.
   const double uncertainty = std::sqrt(squares) / static_cast<double>(errors.size());
   EXPECT_LT(std::abs(mean), 0.003 + 3.0 * uncertainty);
-  EXPECT_LT(uncertainty, 0.003);
+  EXPECT_LT(uncertainty, 0.003 * noiseOf(GetParam()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenarios,

@@ -116,7 +116,7 @@ TEST(Simulation, OtherSeedsGiveOtherStreets) {
 }
 
 TEST(Simulation, ImagesHaveTheStatisticsOfAStreet) {
-  for (const std::string& name : scenarioNames()) {
+  for (const char* name : {"city", "motorway", "slip_road", "parking", "shake", "handheld"}) {
     Simulator simulator(scenario(name, 1), smallOptions());
     cv::Scalar mean;
     cv::Scalar deviation;
