@@ -72,7 +72,7 @@ MovingCars Traffic::at(double time_s) const {
     Body body = car.body;
     body.place(pose(i, time_s));
     const Eigen::Vector3d& at = body.T_world_body().translation();
-    body.sunlit = world_.sunlit(at.x(), at.z());
+    body.lit = world_.lit(at.x(), at.z());
     moving.cars.push_back(i);
     moving.bodies.push_back(std::move(body));
   }

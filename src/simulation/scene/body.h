@@ -60,7 +60,7 @@ class Body {
     return {T_body_world_.linear() * spread.per_column, T_body_world_.linear() * spread.per_row};
   }
 
-  double sunlit = 1.0;                  ///< visible share of the sun, from 0 to 1
+  double lit = 1.0;                     ///< visible share of the direct light, from 0 to 1
   bool contact_shadow = false;          ///< darkens the ground below and close to it
   bool own_shade = false;               ///< small: is shaded as a whole by its surroundings
   std::optional<Eigen::Vector3d> lamp;  ///< of a street lamp: where it shines, in its frame

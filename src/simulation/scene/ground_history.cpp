@@ -165,6 +165,16 @@ GroundHistory::GroundHistory(const GroundGrid& grid,
   });
 }
 
+GroundHistory::GroundHistory(const GroundGrid& grid,
+                             const std::function<double(double, double)>& height) {
+  for (int row = 0; row <= grid.rows; ++row) {
+    for (int column = 0; column <= grid.columns; ++column) {
+      first_.push_back(
+          height(grid.origin.x() + grid.cell_m * column, grid.origin.y() + grid.cell_m * row));
+    }
+  }
+}
+
 std::size_t GroundHistory::stage(double station_m) const {
   const auto after = std::partition_point(
       changes_.begin(), changes_.end(), [&](const Change& c) { return c.station_m < station_m; });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "simulation/scene/terrain.h"
@@ -21,6 +22,9 @@ class GroundHistory {
                 double beyond_m,
                 const std::vector<Path>& others,
                 double below_m);
+
+  /// A ground that never changes, with this height (y) at (x, z).
+  GroundHistory(const GroundGrid& grid, const std::function<double(double, double)>& height);
 
   /// Number of changes before the camera reaches a station.
   std::size_t stage(double station_m) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "simulation/counter_random.h"
 #include "simulation/street/street_layout.h"
@@ -26,14 +27,34 @@ std::vector<Path> joined(std::vector<Path> a, const std::vector<Path>& b) {
   return a;
 }
 
+GroundGrid gridOf(const WorldPlan& plan) {
+  if (plan.ground) return GroundGrid::over(plan.ground->area, plan.ground->cell_m);
+  return GroundGrid::around(joined(plan.wholeDrives(), plan.streets), kGridMargin_m, plan.cell_m);
+}
+
+GroundHistory groundOf(const WorldPlan& plan, const GroundGrid& grid) {
+  if (plan.ground) return {grid, plan.ground->height};
+  return {grid, plan.drives.front(), plan.beyond_m, plan.streets, plan.camera_height_m};
+}
+
+/// Whether shadows are cast on the ground there.
+bool hasShadows(const WorldPlan& plan, const StreetMap& streets, double x, double z) {
+  if (!plan.light && plan.lighting.sun <= 0.0) return false;
+  return plan.streets.empty() || streets.distance(x, z) < kShadowReach_m;
+}
+
 SceneGeometry makeScene(const WorldPlan& plan,
+                        const Light& light,
                         const StreetMap& streets,
                         Terrain terrain,
                         const TextureTiles& tiles) {
   std::vector<Body> bodies = layOutStreets(plan, streets, terrain, tiles);
+  if (plan.furniture) {
+    for (Body& body : plan.furniture(tiles)) bodies.push_back(std::move(body));
+  }
   SceneGeometry scene(terrain, bodies);
   for (Body& body : bodies) {
-    if (body.own_shade) body.sunlit = sunlitTop(scene, body);
+    if (body.own_shade) body.lit = litTop(scene, light, body);
   }
   return {std::move(terrain), std::move(bodies)};
 }
@@ -71,16 +92,21 @@ World::World(const WorldPlan& plan)
       tiles_(plan.seed),
       streets_(plan.streets, kStreetReach_m),
       road_(streets_, style_, tiles_, plan.crossings, plan.seed),
-      grid_(
-          GroundGrid::around(joined(plan.wholeDrives(), plan.streets), kGridMargin_m, plan.cell_m)),
-      ground_(grid_, plan.drives.front(), plan.beyond_m, plan.streets, plan.camera_height_m),
+      floor_(plan.floor ? plan.floor(tiles_) : nullptr),
+      light_(plan.light ? plan.light : std::make_shared<Daylight>(plan.lighting)),
+      grid_(gridOf(plan)),
+      ground_(groundOf(plan, grid_)),
       rough_m_(plan.rough_m),
       seed_(plan.seed),
-      start_(makeScene(plan, streets_, terrainAt(0), tiles_)),
+      start_(makeScene(plan, *light_, streets_, terrainAt(0), tiles_)),
       scene_(start_),
-      shadows_(scene_, streets_, plan.lighting.sun > 0.0 ? kShadowReach_m : 0.0),
+      shadows_(scene_,
+               *light_,
+               plan.shadow_cell_m,
+               [&](double x, double z) { return hasShadows(plan, streets_, x, z); }),
       lamps_(scene_),
       sky_(tiles_) {
+  weather_.reflections = plan.weather.reflections && plan.under_sky;
   tiles_.wind = plan.weather.wind;
 }
 
@@ -149,7 +175,7 @@ double World::bodyBrightness(const Body& body,
       surfacePoint(body.toBody(ray), body.toBody(spread), hit.distance, hit.normal);
   const Eigen::Vector3d normal = body.T_world_body().linear() * hit.normal;
   const Material& material = *body.parts()[static_cast<std::size_t>(hit.part)].material;
-  const double light = illumination(ray.at(hit.distance), normal, body.sunlit);
+  const double light = illumination(ray.at(hit.distance), normal, body.lit);
   const double brightness =
       material.reflectance(point) * light + lighting_.lights * material.glow(point);
   if (!weather_.reflections) return brightness;
@@ -219,14 +245,15 @@ double World::groundBrightness(const SurfacePoint& point, const std::vector<Body
     if ((body.T_world_body().translation() - at).squaredNorm() > reach * reach) continue;
     shade *= contactShade(body, at);
   }
-  const double sunlit = shadows_.sunlit(at.x(), at.z());
-  return road_.reflectance(point) * shade * illumination(at, point.normal, sunlit);
+  const double lit = shadows_.lit(at.x(), at.z());
+  const double reflectance = floor_ ? floor_->reflectance(point) : road_.reflectance(point);
+  return reflectance * shade * illumination(at, point.normal, lit);
 }
 
 double World::illumination(const Eigen::Vector3d& position,
                            const Eigen::Vector3d& normal,
-                           double sunlit) const {
-  double light = daylight(lighting_, normal, sunlit);
+                           double lit) const {
+  double light = light_->illumination(position, normal, lit);
   if (lighting_.street_lamps > 0.0) {
     light += lighting_.street_lamps * lamps_.light(position, normal);
   }

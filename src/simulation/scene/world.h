@@ -1,10 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "simulation/scene/body.h"
 #include "simulation/scene/ground_history.h"
+#include "simulation/scene/light.h"
 #include "simulation/scene/scene_geometry.h"
 #include "simulation/scene/view.h"
 #include "simulation/street/path.h"
@@ -20,6 +24,13 @@
 
 namespace rotrocc {
 
+/// A ground of a given shape.
+struct GroundPlan {
+  Eigen::AlignedBox2d area;                          ///< (x, z); it ends there
+  double cell_m = 1.0;                               ///< linear between heights at this distance
+  std::function<double(double x, double z)> height;  ///< y; it points down
+};
+
 /// Description of the simulated world.
 struct WorldPlan {
   std::vector<Path> streets;  ///< centre lines, at the height of the camera
@@ -29,6 +40,14 @@ struct WorldPlan {
   std::vector<Crossing> crossings;
   Weather weather;
   Lighting lighting;
+  std::shared_ptr<const Light> light;  ///< instead of the sun and the sky of `lighting`, if given
+  double shadow_cell_m = 0.2;          ///< shadows on the ground are that coarse
+  bool under_sky = true;               ///< the sky is reflected
+  std::optional<GroundPlan> ground;    ///< none: below the drives and streets
+  /// Material of the ground, in the frame of the world; none: that of streets and meadows.
+  std::function<std::shared_ptr<const Material>(const TextureTiles&)> floor;
+  /// Bodies that stand there besides those of the streets.
+  std::function<std::vector<Body>(const TextureTiles&)> furniture;
   double camera_height_m = 1.65;
   double cell_m = 8.0;   ///< of the ground, which bends at their borders
   double rough_m = 0.0;  ///< the corners of the cells are this much higher or lower, at random
@@ -46,7 +65,7 @@ struct Sighting {
   int moving_body;        ///< index of the visible body in View::moving(); -1: none
 };
 
-/// A street with its surroundings and the sky.
+/// A street or another place, with its surroundings and the sky.
 class World {
  public:
   explicit World(const WorldPlan& plan);
@@ -70,8 +89,8 @@ class World {
   /// Casts a ray through a (sub-)pixel of a view, whose static bodies are bodies().
   Sighting look(const View& view, double x, double y) const;
 
-  /// Visible share of the sun at a place on the ground, from 0 to 1.
-  double sunlit(double x, double z) const { return shadows_.sunlit(x, z); }
+  /// Visible share of the direct light at a place on the ground, from 0 to 1.
+  double lit(double x, double z) const { return shadows_.lit(x, z); }
 
  private:
   Terrain terrainAt(std::size_t stage) const;
@@ -84,7 +103,7 @@ class World {
                     const PixelSpread& spread) const;
   double illumination(const Eigen::Vector3d& position,
                       const Eigen::Vector3d& normal,
-                      double sunlit) const;
+                      double lit) const;
   double wetBrightness(const SurfacePoint& point,
                        double dry,
                        const Ray& ray,
@@ -100,6 +119,8 @@ class World {
   TextureTiles tiles_;
   StreetMap streets_;
   RoadSurface road_;
+  std::shared_ptr<const Material> floor_;  // instead of the road, if any
+  std::shared_ptr<const Light> light_;
   GroundGrid grid_;
   GroundHistory ground_;
   double rough_m_;
@@ -107,7 +128,7 @@ class World {
   SceneGeometry start_;  // the scene at the start of the drive
   SceneGeometry scene_;  // current scene
   std::size_t stage_ = 0;
-  SunShadows shadows_;
+  GroundShadows shadows_;
   StreetLamps lamps_;
   Sky sky_;
 };

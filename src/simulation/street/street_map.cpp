@@ -40,6 +40,7 @@ void StreetMap::addSamples(const Path& path, int street) {
 }
 
 void StreetMap::makeRaster() {
+  if (samples_.empty()) return;
   Eigen::AlignedBox2d box;
   for (const Sample& sample : samples_) box.extend(sample.at);
   origin_ = box.min() - Eigen::Vector2d::Constant(reach_m_);

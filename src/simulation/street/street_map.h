@@ -22,7 +22,7 @@ struct StreetPoint {
 /// Finds the street of a point on the ground.
 class StreetMap {
  public:
-  /// Points farther than `reach_m` from all centre lines belong to none.
+  /// Points farther than `reach_m` from all centre lines belong to none; there may be none at all.
   StreetMap(const std::vector<Path>& centre_lines, double reach_m);
 
   /// Returns false and leaves `point` unchanged if there is no street.
@@ -46,7 +46,7 @@ class StreetMap {
 
   double reach_m_;
   std::vector<Sample> samples_;
-  Eigen::Vector2d origin_;
+  Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
   int columns_ = 0;
   int rows_ = 0;
   std::vector<std::int32_t> nearest_;  // sample for each cell of the raster; -1: none in reach
