@@ -1,55 +1,26 @@
 #include <algorithm>
-#include <cmath>
-#include <stdexcept>
-#include <string>
 #include <utility>
+#include <vector>
 
 #include "rotrocc/rigid_motion.h"
 #include "simulation/drives/drive.h"
+#include "simulation/drives/travelled_way.h"
 
 namespace rotrocc {
 namespace {
 
-constexpr double kMinStep_m =
-    1.0;  // between points of the path; shorter steps are noise at standstill
-
-Path pathOf(const Trajectory& trajectory) {
-  std::vector<Eigen::Vector3d> points;
-  for (const StampedPose& pose : trajectory) {
-    const Eigen::Vector3d position = pose.T_world_body.translation();
-    if (points.empty() || (position - points.back()).norm() >= kMinStep_m)
-      points.push_back(position);
-  }
-  if (points.size() < 2) {
-    throw std::invalid_argument("the " + std::to_string(trajectory.size()) +
-                                " poses stay within 1 m: give a drive that goes somewhere");
-  }
-  return Path(std::move(points));
-}
-
-/// Station of each pose.
-std::vector<double> stationsOf(const Trajectory& trajectory) {
-  std::vector<double> stations;
-  Eigen::Vector3d last_point = trajectory.front().T_world_body.translation();
-  double last_station = 0.0;
-  for (const StampedPose& pose : trajectory) {
-    const Eigen::Vector3d position = pose.T_world_body.translation();
-    const double beyond = (position - last_point).norm();
-    const double station = last_station + beyond;
-    stations.push_back(stations.empty() ? station : std::max(station, stations.back()));
-    if (beyond < kMinStep_m) continue;
-    last_point = position;
-    last_station = station;
-  }
-  return stations;
+std::vector<Eigen::Vector3d> positionsOf(const Trajectory& trajectory) {
+  std::vector<Eigen::Vector3d> positions;
+  for (const StampedPose& pose : trajectory) positions.push_back(pose.T_world_body.translation());
+  return positions;
 }
 
 }  // namespace
 
 RecordedDrive::RecordedDrive(Trajectory trajectory)
     : trajectory_(std::move(trajectory)),
-      path_(pathOf(trajectory_)),
-      stations_m_(stationsOf(trajectory_)) {
+      path_(pathThrough(positionsOf(trajectory_))),
+      stations_m_(stationsAlong(positionsOf(trajectory_))) {
   for (const StampedPose& pose : trajectory_) {
     times_s_.push_back(1e-9 * static_cast<double>(pose.stamp_ns - trajectory_.front().stamp_ns));
   }

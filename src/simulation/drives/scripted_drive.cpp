@@ -5,16 +5,12 @@
 #include <utility>
 
 #include "simulation/drives/drive.h"
+#include "simulation/drives/ease.h"
 
 namespace rotrocc {
 namespace {
 
-/// From 0 to 1 with zero slope and curvature at the ends.
-double ease(double t) {
-  return t * t * t * (t * (6.0 * t - 15.0) + 10.0);
-}
-
-/// Its integral from 0 to t.
+/// The integral of ease() from 0 to t.
 double easeIntegral(double t) {
   return t * t * t * t * (t * (t - 3.0) + 2.5);
 }
