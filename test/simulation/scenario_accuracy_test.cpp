@@ -10,6 +10,7 @@
 #include "simulation/drives/scenario.h"
 #include "simulation/simulator.h"
 #include "support/slow_build.h"
+#include "support/street_names.h"
 
 namespace rotrocc {
 namespace {
@@ -132,9 +133,15 @@ TEST_P(ScenarioAccuracyTest, FollowsTheDriveWithoutABias) {
   EXPECT_LT(uncertainty, 0.003 * noiseOf(GetParam()));
 }
 
+std::vector<std::string> drivenNames() {
+  std::vector<std::string> names = streetNames();
+  names.insert(names.end(), {"night", "rain", "field"});
+  return names;
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenarios,
                          ScenarioAccuracyTest,
-                         ::testing::ValuesIn(scenarioNames()),
+                         ::testing::ValuesIn(drivenNames()),
                          [](const auto& name) { return name.param; });
 
 }  // namespace

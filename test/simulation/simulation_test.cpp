@@ -18,6 +18,7 @@
 #include "simulation/truth_check.h"
 #include "support/expect_error.h"
 #include "support/small_camera.h"
+#include "support/street_names.h"
 #include "support/temporary_directory.h"
 
 namespace rotrocc {
@@ -116,7 +117,7 @@ TEST(Simulation, OtherSeedsGiveOtherStreets) {
 }
 
 TEST(Simulation, ImagesHaveTheStatisticsOfAStreet) {
-  for (const char* name : {"city", "motorway", "slip_road", "parking", "shake", "handheld"}) {
+  for (const std::string& name : streetNames()) {
     Simulator simulator(scenario(name, 1), smallOptions());
     cv::Scalar mean;
     cv::Scalar deviation;

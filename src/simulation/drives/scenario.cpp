@@ -9,6 +9,7 @@
 #include "simulation/drives/conditions.h"
 #include "simulation/drives/field.h"
 #include "simulation/drives/street_plan.h"
+#include "simulation/places/hall.h"
 #include "simulation/street/street_style.h"
 
 namespace rotrocc {
@@ -173,7 +174,8 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
                                                                      {"handheld", handheld},
                                                                      {"night", night},
                                                                      {"rain", rain},
-                                                                     {"field", field}};
+                                                                     {"field", field},
+                                                                     {"hall", hall}};
   return kMakers;
 }
 

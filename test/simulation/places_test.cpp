@@ -1,0 +1,151 @@
+// Places beside the streets: what they show, and that their truth is exact.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+#include <opencv2/core/utility.hpp>
+
+#include "simulation/drives/scenario.h"
+#include "simulation/simulator.h"
+#include "simulation/truth_check.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kDegree = M_PI / 180.0;
+
+/// The camera of EuRoC, at a third of its size.
+SimulationOptions smallOptions() {
+  SimulationOptions options;
+  options.camera = {};
+  options.camera.width = 250;
+  options.camera.height = 160;
+  options.camera.fx = options.camera.fy = 153.0;
+  options.camera.cx = options.camera.cx_right = 124.5;
+  options.camera.cy = 79.5;
+  options.camera.baseline_m = 0.11;
+  options.rate_hz = 20.0;
+  return options;
+}
+
+bool same(const cv::Mat& a, const cv::Mat& b) {
+  return cv::countNonZero(a != b) == 0;
+}
+
+/// Rate at which the camera turns about the vertical [rad/s], positive to the right.
+double yawRate(const Drive& drive, double time_s) {
+  constexpr double kStep_s = 0.01;
+  const auto heading = [&](double t) {
+    const Eigen::Vector3d ahead = drive.pose(t).linear().col(2);
+    return std::atan2(ahead.x(), ahead.z());
+  };
+  return std::remainder(heading(time_s + kStep_s) - heading(time_s), 2.0 * M_PI) / kStep_s;
+}
+
+class PlacesTest : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(PlacesTest, TruthHoldsAllAlong) {
+  for (const bool worn : {false, true}) {
+    SimulationOptions options = smallOptions();
+    options.worn_rig = worn;
+    Simulator simulator(scenario(GetParam(), 1), options);
+    TruthErrors errors;
+    for (int i = 0; i + 1 < simulator.size(); i += simulator.size() / 12) {
+      checkTruth(simulator, i, simulator.render(i, true), errors);
+    }
+    EXPECT_GT(errors.right, 15000);
+    EXPECT_LT(errors.wrong, 0.005 * errors.right);  // edges
+    EXPECT_LT(errors.sum_px / errors.right, 1e-4);
+  }
+}
+
+TEST_P(PlacesTest, SameSeedSameBytesWhateverTheThreadCount) {
+  const int threads = cv::getNumThreads();
+  const auto frame = [](std::uint64_t seed, int thread_count) {
+    cv::setNumThreads(thread_count);
+    SimulationOptions options = smallOptions();
+    options.seed = seed;
+    Simulator simulator(scenario(GetParam(), seed), options);
+    return simulator.render(simulator.size() / 2, false);
+  };
+  const SimulatedFrame one = frame(1, 1);
+  const SimulatedFrame four = frame(1, 4);
+  const SimulatedFrame other = frame(2, 4);
+  cv::setNumThreads(threads);
+  EXPECT_TRUE(same(one.pair.left, four.pair.left));
+  EXPECT_TRUE(same(one.pair.right, four.pair.right));
+  EXPECT_TRUE(same(one.depth, four.depth));
+  EXPECT_FALSE(same(one.depth, other.depth));
+}
+
+TEST_P(PlacesTest, ImagesAreNeitherBlackNorWhite) {
+  Simulator simulator(scenario(GetParam(), 1), smallOptions());
+  for (int i = 0; i < simulator.size(); i += simulator.size() / 8) {
+    cv::Scalar mean;
+    cv::Scalar deviation;
+    cv::meanStdDev(simulator.render(i, false).pair.left, mean, deviation);
+    EXPECT_GT(mean[0], 30.0) << i;
+    EXPECT_LT(mean[0], 170.0) << i;
+    EXPECT_GT(deviation[0], 15.0) << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Places, PlacesTest, ::testing::Values("hall"), [](const auto& name) {
+  return name.param;
+});
+
+TEST(Hall, IsClosed) {
+  Simulator simulator(scenario("hall", 1), smallOptions());
+  for (int i = 0; i < simulator.size(); i += 20) {
+    const cv::Mat depth = simulator.render(i, false).depth;
+    double least = 0.0;
+    double most = 0.0;
+    cv::minMaxLoc(depth, &least, &most);
+    EXPECT_LT(most, 35.0) << i;  // its diagonal is 29 m
+    EXPECT_GT(least, 0.2) << i;
+  }
+}
+
+TEST(Hall, AWallIsHalfAMetreAway) {
+  Simulator simulator(scenario("hall", 1), smallOptions());
+  const StereoCamera& camera = simulator.camera();
+  double nearest = 1e9;
+  for (int i = 380; i < 440; i += 10) {
+    const cv::Mat depth = simulator.render(i, false).depth;
+    for (int y = 0; y < depth.rows; y += 10) {
+      for (int x = 0; x < depth.cols; x += 10) {
+        const Eigen::Vector3d ray = camera.ray(Eigen::Vector2d(x, y));
+        nearest = std::min(nearest, depth.at<double>(y, x) * ray.norm());
+      }
+    }
+  }
+  EXPECT_LT(nearest, 0.6);
+  EXPECT_GT(nearest, 0.4);
+}
+
+TEST(Hall, IsFlownInSixDegreesOfFreedom) {
+  const Scenario hall = scenario("hall", 1);
+  double fastest = 0.0;
+  double highest = 0.0;
+  double steepest = 0.0;
+  for (double t = 0.0; t < hall.drive->duration_s(); t += 0.02) {
+    const Eigen::Isometry3d pose = hall.drive->pose(t);
+    fastest = std::max(fastest, std::abs(yawRate(*hall.drive, t)));
+    highest = std::max(highest, -pose.translation().y());
+    steepest = std::max(steepest, std::abs(std::asin(pose.linear()(1, 0))));
+  }
+  EXPECT_GT(fastest, 90.0 * kDegree);
+  EXPECT_LT(fastest, 150.0 * kDegree);
+  EXPECT_GT(highest, 2.5);
+  EXPECT_GT(steepest, 10.0 * kDegree);  // it banks
+  const double moved =
+      (hall.drive->pose(4.8).translation() - hall.drive->pose(3.4).translation()).norm();
+  EXPECT_GT(moved, 1e-3);  // hovers
+  EXPECT_LT(moved, 0.2);
+}
+
+}  // namespace
+}  // namespace rotrocc
