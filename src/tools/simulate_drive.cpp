@@ -32,7 +32,8 @@ const char* const kUsage =
     "Renders a simulated stereo drive with exact poses.\n"
     "usage: simulate_drive SCENARIO OUT [options]\n"
     "       simulate_drive --poses FILE OUT [options]\n"
-    "SCENARIO  city, motorway, slip_road, parking, shake, handheld, night, rain, field or hall\n"
+    "SCENARIO  city, motorway, slip_road, parking, shake, handheld, night, rain, field, hall or "
+    "walk\n"
     "OUT       a new directory in KITTI odometry layout, a .bag, or a .csv for the gyroscope "
     "alone\n";
 

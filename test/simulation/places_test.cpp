@@ -93,9 +93,10 @@ TEST_P(PlacesTest, ImagesAreNeitherBlackNorWhite) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Places, PlacesTest, ::testing::Values("hall"), [](const auto& name) {
-  return name.param;
-});
+INSTANTIATE_TEST_SUITE_P(Places,
+                         PlacesTest,
+                         ::testing::Values("hall", "walk"),
+                         [](const auto& name) { return name.param; });
 
 TEST(Hall, IsClosed) {
   Simulator simulator(scenario("hall", 1), smallOptions());
@@ -145,6 +146,56 @@ TEST(Hall, IsFlownInSixDegreesOfFreedom) {
       (hall.drive->pose(4.8).translation() - hall.drive->pose(3.4).translation()).norm();
   EXPECT_GT(moved, 1e-3);  // hovers
   EXPECT_LT(moved, 0.2);
+}
+
+TEST(Walk, ClimbsAStair) {
+  const Scenario walk = scenario("walk", 1);
+  const double start = walk.drive->pose(0.0).translation().y();
+  double last = start;
+  for (double t = 10.5; t < 18.8; t += 1.0) {
+    const double height = walk.drive->pose(t).translation().y();
+    EXPECT_LT(height, last + 0.03) << t;  // the head bobs
+    last = height;
+  }
+  EXPECT_NEAR(start - walk.drive->pose(20.0).translation().y(), 16 * 0.17, 0.1);
+}
+
+/// The steps are solid: seen from above, the height below the camera changes by one rise at a time.
+TEST(Walk, TheStairHasSteps) {
+  const World world(scenario("walk", 1).world);
+  const SceneGeometry scene(world.terrain(), world.bodies());
+  double last = 0.0;
+  int risers = 0;
+  for (double z = 11.5; z < 18.0; z += 0.02) {
+    SceneHit hit;
+    const Ray down = {{-0.2, -4.0, z}, Eigen::Vector3d::UnitY()};
+    ASSERT_TRUE(scene.trace(down, {0.0, 10.0}, 0.001, hit));
+    const double height = 4.0 - hit.at.distance;
+    if (height - last > 0.01) {
+      EXPECT_NEAR(height - last, 0.17, 1e-6) << z;
+      ++risers;
+    }
+    last = height;
+  }
+  EXPECT_EQ(risers, 16);
+  EXPECT_NEAR(last, 16 * 0.17, 1e-9);
+}
+
+TEST(Walk, TurnsOnTheSpot) {
+  const Scenario walk = scenario("walk", 1);
+  double turned = 0.0;
+  double fastest = 0.0;
+  for (double t = 24.8; t < 28.6; t += 0.01) {
+    const double rate = yawRate(*walk.drive, t);
+    turned += 0.01 * rate;
+    fastest = std::max(fastest, rate);
+    // The feet stand; the camera is in front of the axis that turns.
+    const Eigen::Isometry3d pose = walk.drive->pose(t);
+    const Eigen::Vector3d axis = pose * Eigen::Vector3d(0.05, 0.1, -0.12);
+    EXPECT_LT(std::hypot(axis.x(), axis.z() - 24.0), 0.06) << t;
+  }
+  EXPECT_NEAR(turned, M_PI, 5.0 * kDegree);
+  EXPECT_GT(fastest, 75.0 * kDegree);
 }
 
 }  // namespace

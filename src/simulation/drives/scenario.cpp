@@ -10,6 +10,7 @@
 #include "simulation/drives/field.h"
 #include "simulation/drives/street_plan.h"
 #include "simulation/places/hall.h"
+#include "simulation/places/walk.h"
 #include "simulation/street/street_style.h"
 
 namespace rotrocc {
@@ -175,7 +176,8 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
                                                                      {"night", night},
                                                                      {"rain", rain},
                                                                      {"field", field},
-                                                                     {"hall", hall}};
+                                                                     {"hall", hall},
+                                                                     {"walk", walk}};
   return kMakers;
 }
 

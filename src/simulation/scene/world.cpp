@@ -174,8 +174,10 @@ double World::bodyBrightness(const Body& body,
   const SurfacePoint point =
       surfacePoint(body.toBody(ray), body.toBody(spread), hit.distance, hit.normal);
   const Eigen::Vector3d normal = body.T_world_body().linear() * hit.normal;
+  const Eigen::Vector3d at = ray.at(hit.distance);
+  const double lit = body.is_ground ? shadows_.lit(at.x(), at.z()) : body.lit;
   const Material& material = *body.parts()[static_cast<std::size_t>(hit.part)].material;
-  const double light = illumination(ray.at(hit.distance), normal, body.lit);
+  const double light = illumination(at, normal, lit);
   const double brightness =
       material.reflectance(point) * light + lighting_.lights * material.glow(point);
   if (!weather_.reflections) return brightness;

@@ -9,6 +9,25 @@
 #include "simulation/surfaces/lighting.h"
 
 namespace rotrocc {
+namespace {
+
+/// Height (y) of the ground, or of what belongs to it.
+double topOfGround(const SceneGeometry& scene, double x, double z) {
+  constexpr double kAbove_m = 10.0;
+  constexpr double kPixel_m = 0.002;
+  double top = scene.terrain().height(x, z);
+  const Ray down = {{x, top - kAbove_m, z}, Eigen::Vector3d::UnitY()};
+  for (const std::int32_t index : scene.bodiesAround(x, z)) {
+    const Body& body = scene.bodies()[static_cast<std::size_t>(index)];
+    const RayRange range = {0.0, top - down.origin.y()};
+    BodyHit hit;
+    if (body.is_ground && body.intersect(down, range, kPixel_m, hit))
+      top = down.at(hit.distance).y();
+  }
+  return top;
+}
+
+}  // namespace
 
 double Daylight::illumination(const Eigen::Vector3d& /*position*/,
                               const Eigen::Vector3d& normal,
@@ -38,7 +57,7 @@ GroundShadows::GroundShadows(const SceneGeometry& scene,
     for (int column = 0; column < columns; ++column) {
       const double x = origin_.x() + cell_m * (column + 0.5);
       if (!covers(x, z)) continue;
-      const Eigen::Vector3d ground(x, scene.terrain().height(x, z) - 0.01, z);
+      const Eigen::Vector3d ground(x, topOfGround(scene, x, z) - 0.01, z);
       lit_.at<uchar>(row, column) = cv::saturate_cast<uchar>(255.0 * light.reaching(scene, ground));
     }
   });
