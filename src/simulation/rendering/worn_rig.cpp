@@ -1,9 +1,11 @@
 #include "simulation/rendering/worn_rig.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "simulation/counter_random.h"
+#include "simulation/kitti_camera.h"
 
 namespace rotrocc {
 namespace {
@@ -12,10 +14,19 @@ constexpr double kMaxMounting_rad = 0.008;  // about each axis
 // The raw pixels of real cameras are smaller, with gaps between.
 constexpr double kFootprint = 0.5;
 
-Lens randomLens(RandomStream& random, double k1) {
+/// Tangent of the angle between the optical axis and the corners.
+double cornerTangent(const StereoCamera& camera) {
+  return 0.5 * std::hypot(camera.width / camera.fx, camera.height / camera.fy);
+}
+
+/// The distortion is for the field of view of KITTI's cameras. Lenses for a wider one distort their
+/// corners as much.
+Lens randomLens(RandomStream& random, double k1, const StereoCamera& camera) {
+  const double scale = std::min(1.0, cornerTangent(kittiCamera()) / cornerTangent(camera));
   Lens lens;
   lens.k1 = k1 + random.uniform(-0.005, 0.005);
-  lens.k2 = -0.55 * lens.k1;
+  lens.k2 = -0.55 * lens.k1 * scale * scale * scale * scale;
+  lens.k1 *= scale * scale;
   for (const Eigen::Vector3d& axis : {Eigen::Vector3d(Eigen::Vector3d::UnitX()),
                                       Eigen::Vector3d(Eigen::Vector3d::UnitY()),
                                       Eigen::Vector3d(Eigen::Vector3d::UnitZ())}) {
@@ -80,8 +91,8 @@ WornRig wornRig(const StereoCamera& camera, std::uint64_t seed, const Exposure& 
   const StereoRemainders remainders = randomRemainders(camera, seed);
   const double k1 = random.uniform(-0.38, -0.3);
   const double vignetting = random.uniform(0.2, 0.4);
-  const Lens left = randomLens(random, k1);
-  const Lens right = randomLens(random, k1);
+  const Lens left = randomLens(random, k1, camera);
+  const Lens right = randomLens(random, k1, camera);
   const Sensor left_sensor = exposure.of(randomSensor(random, vignetting));
   const Sensor right_sensor = exposure.of(randomSensor(random, vignetting));
   const double day_s = random.uniform(0.002, 0.006);
