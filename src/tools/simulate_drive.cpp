@@ -32,8 +32,9 @@ const char* const kUsage =
     "Renders a simulated stereo drive with exact poses.\n"
     "usage: simulate_drive SCENARIO OUT [options]\n"
     "       simulate_drive --poses FILE OUT [options]\n"
-    "SCENARIO  city, motorway, slip_road, parking, shake, handheld, night, rain, field, hall or "
+    "SCENARIO  city, motorway, slip_road, parking, shake, handheld, night, rain, field, hall, "
     "walk\n"
+    "          or tunnel\n"
     "OUT       a new directory in KITTI odometry layout, a .bag, or a .csv for the gyroscope "
     "alone\n";
 

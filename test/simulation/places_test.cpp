@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utility.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "simulation/drives/scenario.h"
+#include "simulation/rendering/renderer.h"
+#include "simulation/rendering/worn_rig.h"
 #include "simulation/simulator.h"
 #include "simulation/truth_check.h"
 
@@ -95,7 +99,7 @@ TEST_P(PlacesTest, ImagesAreNeitherBlackNorWhite) {
 
 INSTANTIATE_TEST_SUITE_P(Places,
                          PlacesTest,
-                         ::testing::Values("hall", "walk"),
+                         ::testing::Values("hall", "walk", "tunnel"),
                          [](const auto& name) { return name.param; });
 
 TEST(Hall, IsClosed) {
@@ -196,6 +200,109 @@ TEST(Walk, TurnsOnTheSpot) {
   }
   EXPECT_NEAR(turned, M_PI, 5.0 * kDegree);
   EXPECT_GT(fastest, 75.0 * kDegree);
+}
+
+/// Median difference between what cameras see from two places in the straight part of the tunnel.
+double differenceAfter(const World& world, double way_m) {
+  const auto look = [&](double z) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation().z() = z;
+    return render(world, {}, {smallOptions().camera, {}}, pose).brightness;
+  };
+  const cv::Mat here = look(-100.0);
+  const cv::Mat there = look(-100.0 + way_m);
+  std::vector<float> differences;
+  for (int y = 0; y < here.rows; ++y) {
+    for (int x = 0; x < here.cols; ++x) {
+      differences.push_back(std::abs(here.at<float>(y, x) - there.at<float>(y, x)));
+    }
+  }
+  const auto middle = differences.begin() + differences.size() / 2;
+  std::nth_element(differences.begin(), middle, differences.end());
+  return *middle;
+}
+
+TEST(Tunnel, RepeatsItself) {
+  const World world(scenario("tunnel", 1).world);
+  const double other = differenceAfter(world, 3.7);
+  // Two segments are a period of the lamps; only the road, signs and doors differ then.
+  EXPECT_LT(differenceAfter(world, 10.0), 0.2 * other);
+  EXPECT_LT(differenceAfter(world, 50.0), 0.2 * other);
+}
+
+TEST(Tunnel, IsDimAndHasOncomingCars) {
+  SimulationOptions options = smallOptions();
+  options.rate_hz = 2.0;
+  options.moving_share = 1.0;
+  Simulator simulator(scenario("tunnel", 1), options);
+  int with_cars = 0;
+  for (int i = 0; i + 1 < simulator.size(); i += 4) {
+    const SimulatedFrame frame = simulator.render(i, true);
+    EXPECT_LT(cv::mean(frame.pair.left)[0], 80.0) << i;
+    TruthErrors errors;
+    checkTruth(simulator, i, frame, errors);
+    with_cars += errors.moving > 0 ? 1 : 0;
+  }
+  EXPECT_GT(with_cars, 3);
+}
+
+/// Width, height and horizontal field of view.
+struct Format {
+  int width;
+  int height;
+  double view_rad;
+};
+
+StereoCamera cameraOf(const Format& format) {
+  StereoCamera camera = smallOptions().camera;
+  camera.width = format.width;
+  camera.height = format.height;
+  camera.fx = camera.fy = 0.5 * format.width / std::tan(0.5 * format.view_rad);
+  camera.cx = camera.cx_right = 0.5 * (format.width - 1);
+  camera.cy = 0.5 * (format.height - 1);
+  return camera;
+}
+
+double correlation(const cv::Mat& a, const cv::Mat& b) {
+  cv::Mat result;
+  cv::matchTemplate(a, b, result, cv::TM_CCOEFF_NORMED);
+  return result.at<float>(0, 0);
+}
+
+/// A narrow small camera and a wide one, with perfect and worn rigs.
+TEST(Cameras, OfAnyFieldOfViewSeeTheScenarios) {
+  for (const Format& format :
+       {Format{320, 240, 60.0 * kDegree}, Format{400, 250, 110.0 * kDegree}}) {
+    for (const char* name : {"hall", "walk", "tunnel", "city"}) {
+      SimulationOptions options;
+      options.camera = cameraOf(format);
+      Simulator perfect(scenario(name, 1), options);
+      options.worn_rig = true;
+      Simulator worn(scenario(name, 1), options);
+      const int index = perfect.size() / 3;
+      const SimulatedFrame sharp = perfect.render(index, true);
+      const SimulatedFrame used = worn.render(index, true);
+      TruthErrors errors;
+      checkTruth(perfect, index, sharp, errors);
+      EXPECT_GT(errors.right, 1000) << name;
+      EXPECT_LT(errors.wrong, 0.02 * errors.right) << name;  // edges, and leaves in the city
+      EXPECT_EQ(used.pair.left.size(), cv::Size(format.width, format.height));
+      // They differ by noise, gain, vignetting, and a pixel of the calibration.
+      EXPECT_GT(correlation(sharp.pair.left, used.pair.left), 0.85) << name;
+      EXPECT_GT(correlation(sharp.pair.right, used.pair.right), 0.85) << name;
+    }
+  }
+}
+
+/// The raw images of wide lenses are not much larger than the rectified ones.
+TEST(Cameras, LensesDistortTheirCornersAlike) {
+  for (const double view_deg : {60.0, 81.0, 95.0, 110.0}) {
+    const StereoCamera camera = cameraOf({480, 300, view_deg * kDegree});
+    const WornRig rig = wornRig(camera, 1);
+    const cv::Size raw = rig.left.rays().size();
+    EXPECT_LT(raw.area(), 1.8 * camera.width * camera.height) << view_deg;
+    EXPECT_GT(raw.area(), 0.8 * camera.width * camera.height) << view_deg;
+  }
 }
 
 }  // namespace

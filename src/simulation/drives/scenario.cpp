@@ -10,6 +10,7 @@
 #include "simulation/drives/field.h"
 #include "simulation/drives/street_plan.h"
 #include "simulation/places/hall.h"
+#include "simulation/places/tunnel.h"
 #include "simulation/places/walk.h"
 #include "simulation/street/street_style.h"
 
@@ -177,7 +178,8 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
                                                                      {"rain", rain},
                                                                      {"field", field},
                                                                      {"hall", hall},
-                                                                     {"walk", walk}};
+                                                                     {"walk", walk},
+                                                                     {"tunnel", tunnel}};
   return kMakers;
 }
 

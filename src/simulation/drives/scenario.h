@@ -38,6 +38,7 @@ const std::vector<std::string>& scenarioNames();
 ///   field      a rover at 0.5 to 0.9 m/s on gravel between meadows, shaken by uneven ground
 ///   hall       a multicopter in a hall: take-off, turns of 100 deg/s, a wall at half a metre
 ///   walk       on foot through a lane: a stair, a turn on the spot, looking around
+///   tunnel     14 m/s between equal segments with lamps, dim, with oncoming cars
 Scenario scenario(const std::string& name, std::uint64_t seed);
 
 /// A town along a recorded drive, including hills. A street that the drive revisits is built once;
