@@ -29,10 +29,6 @@ FacadeStyle randomStyle(const HouseSize& size, RandomStream& random) {
   return style;
 }
 
-std::shared_ptr<ConvexSolid> box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-  return std::make_shared<ConvexSolid>(Eigen::AlignedBox3d(low, high));
-}
-
 /// A roof over the walls whose ridge runs along the street.
 Part makeRoof(const FacadeStyle& style,
               double walls,
@@ -41,8 +37,8 @@ Part makeRoof(const FacadeStyle& style,
   const double overhang = 0.35;
   const double half_depth = style.half_depth + overhang;
   const double rise = half_depth * random.uniform(0.6, 0.95);
-  auto roof = box({-style.half_width, -walls - rise, -half_depth},
-                  {style.half_width, -walls + 0.15, half_depth});
+  auto roof = boxBetween({-style.half_width, -walls - rise, -half_depth},
+                         {style.half_width, -walls + 0.15, half_depth});
   for (const double side : {-1.0, 1.0}) {
     roof->cut({0.0, -half_depth, side * rise}, {0.0, -walls - rise, 0.0});
   }
@@ -57,7 +53,7 @@ Part makeChimney(const FacadeStyle& style,
   const double x = random.uniform(-0.8, 0.8) * style.half_width;
   const double z = random.uniform(-0.3, 0.3) * style.half_depth;
   const double top = walls + style.half_depth + random.uniform(0.2, 0.8);
-  return {box({x - 0.4, -top, z - 0.3}, {x + 0.4, -walls, z + 0.3}),
+  return {boxBetween({x - 0.4, -top, z - 0.3}, {x + 0.4, -walls, z + 0.3}),
           std::make_shared<TexturedMaterial>(tiles.bricks, 0.35, 0.5)};
 }
 
@@ -87,7 +83,7 @@ Part makeShopSign(const FacadeStyle& style, const TextureTiles& tiles, RandomStr
   const double half = random.uniform(0.4, 0.9) * style.half_width;
   const double front = -style.half_depth;
   const int line = random.index(8);
-  return {box({-half, -3.2, front - 0.15}, {half, -2.55, front}),
+  return {boxBetween({-half, -3.2, front - 0.15}, {half, -2.55, front}),
           std::make_shared<ShopSign>(tiles.writing, line, 2.55, random.uniform(0.08, 0.3))};
 }
 
@@ -96,8 +92,8 @@ Part makeShopSign(const FacadeStyle& style, const TextureTiles& tiles, RandomStr
 Body makeHouse(const HouseSize& size, const TextureTiles& tiles, RandomStream& random) {
   const FacadeStyle style = randomStyle(size, random);
   const double walls = style.floors * style.floor_height + 0.5;
-  std::vector<Part> parts = {{box({-style.half_width, -walls, -style.half_depth},
-                                  {style.half_width, kFoundation, style.half_depth}),
+  std::vector<Part> parts = {{boxBetween({-style.half_width, -walls, -style.half_depth},
+                                         {style.half_width, kFoundation, style.half_depth}),
                               std::make_shared<Facade>(style, tiles)},
                              makeRoof(style, walls, tiles, random)};
   if (random.chance(0.7)) parts.push_back(makeChimney(style, walls, tiles, random));

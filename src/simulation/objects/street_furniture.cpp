@@ -10,10 +10,6 @@
 namespace rotrocc {
 namespace {
 
-std::shared_ptr<ConvexSolid> box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-  return std::make_shared<ConvexSolid>(Eigen::AlignedBox3d(low, high));
-}
-
 std::shared_ptr<PlainMaterial> plain(double reflectance) {
   return std::make_shared<PlainMaterial>(reflectance);
 }
@@ -22,14 +18,6 @@ Part makePost(double height, double radius, double reflectance) {
   return {std::make_shared<Cylinder>(
               1, Eigen::Vector3d(0.0, -0.5 * height + 0.1, 0.0), radius, 0.5 * height + 0.1),
           plain(reflectance)};
-}
-
-double pixelWidth(const TexturePoint& at) {
-  return std::max(at.width(0), 1e-4);
-}
-
-double pixelHeight(const TexturePoint& at) {
-  return std::max(at.width(1), 1e-4);
 }
 
 /// A dark ring around a bright face with a dark mark, as on prohibitory signs.
@@ -42,12 +30,12 @@ class RoundSign : public Material {
     const TexturePoint at = faceCoordinates(point);
     const double x = at.at.x();
     const double y = at.at.y() - height_;
-    const double width = pixelWidth(at);
+    const double width = at.pixelWidth();
     const double face = 1.0 - coverageAbove(0.23, std::hypot(x, y), width);
     const double mark = bar_ ? coverageBetween(-0.17, 0.17, x, width) *
-                                   coverageBetween(-0.05, 0.05, y, pixelHeight(at))
+                                   coverageBetween(-0.05, 0.05, y, at.pixelHeight())
                              : coveragePeriodic(0.12, 0.06, x + 0.03, width) *
-                                   coverageBetween(-0.11, 0.11, y, pixelHeight(at)) *
+                                   coverageBetween(-0.11, 0.11, y, at.pixelHeight()) *
                                    coverageBetween(-0.15, 0.15, x, width);
     return mix(0.22, mix(bar_ ? 0.22 : 0.9, bar_ ? 0.9 : 0.05, mark), face);
   }
@@ -87,7 +75,7 @@ class LampBox : public Material {
     double brightness = 0.08;
     for (int lamp = 0; lamp < 3; ++lamp) {
       const double y = at.at.y() - bottom_ - 0.17 - 0.3 * lamp;
-      const double disc = 1.0 - coverageAbove(0.1, std::hypot(at.at.x(), y), pixelWidth(at));
+      const double disc = 1.0 - coverageAbove(0.1, std::hypot(at.at.x(), y), at.pixelWidth());
       brightness = mix(brightness, lamp == 2 ? 1.2 : 0.2, disc);
     }
     return brightness;
@@ -104,11 +92,11 @@ class Rail : public Material {
 
   double reflectance(const SurfacePoint& point) const override {
     const TexturePoint at = faceCoordinates(point);
-    const double ridges = coveragePeriodic(0.155, 0.08, at.at.y(), pixelHeight(at));
+    const double ridges = coveragePeriodic(0.155, 0.08, at.at.y(), at.pixelHeight());
     const double along = at.at.x() - left_end_;
-    const double joint = coverageBetween(0.0, 0.35, along, pixelWidth(at));
-    const double bolts = joint * coveragePeriodic(0.12, 0.05, along, pixelWidth(at)) *
-                         coveragePeriodic(0.11, 0.05, at.at.y(), pixelHeight(at));
+    const double joint = coverageBetween(0.0, 0.35, along, at.pixelWidth());
+    const double bolts = joint * coveragePeriodic(0.12, 0.05, along, at.pixelWidth()) *
+                         coveragePeriodic(0.11, 0.05, at.at.y(), at.pixelHeight());
     const double stain = 1.6 * (stains_.at(scaled(at, 0.7)) - 0.5);
     return mix((0.38 + 0.22 * ridges) * (1.0 + stain - 0.25 * joint), 0.1, bolts);
   }
@@ -143,29 +131,31 @@ Body makeSign(const TextureTiles& tiles, RandomStream& random) {
          std::make_shared<RoundSign>(height, bar)});
   } else {
     const double half = random.uniform(0.3, 0.55);
-    parts.push_back({box({-half, -height - 0.25, -0.08}, {half, -height + 0.25, -0.05}),
+    parts.push_back({boxBetween({-half, -height - 0.25, -0.08}, {half, -height + 0.25, -0.05}),
                      std::make_shared<Writing>(tiles.writing, 0.85, 0.1, 0.2)});
   }
   return Body(std::move(parts));
 }
 
 Body makeTrafficLight() {
-  return Body({makePost(3.3, 0.06, 0.3),
-               {box({-0.16, -3.3, -0.3}, {0.16, -2.35, -0.06}), std::make_shared<LampBox>(2.35)}});
+  return Body(
+      {makePost(3.3, 0.06, 0.3),
+       {boxBetween({-0.16, -3.3, -0.3}, {0.16, -2.35, -0.06}), std::make_shared<LampBox>(2.35)}});
 }
 
 Body makeKerb(double length_m, const TextureTiles& tiles, RandomStream& random) {
   const double tone = random.uniform(0.38, 0.58);
-  auto stone = box({-0.5 * length_m + 0.01, -0.12, -0.12}, {0.5 * length_m - 0.01, 0.3, 0.12});
+  auto stone =
+      boxBetween({-0.5 * length_m + 0.01, -0.12, -0.12}, {0.5 * length_m - 0.01, 0.3, 0.12});
   stone->cut({0.0, -1.0, -1.0}, {0.0, -0.1, -0.12});
   return Body({{stone, std::make_shared<TexturedMaterial>(tiles.plaster, tone, tone)}});
 }
 
 Body makeGuardRail(double length_m, const TextureTiles& tiles) {
   const double half = 0.5 * length_m;
-  return Body({{box({-half, -0.75, -0.04}, {half, -0.44, 0.04}),
+  return Body({{boxBetween({-half, -0.75, -0.04}, {half, -0.44, 0.04}),
                 std::make_shared<Rail>(tiles.plaster, -half)},
-               {box({-0.06, -0.72, 0.04}, {0.06, 0.3, 0.14}), plain(0.35)}});
+               {boxBetween({-0.06, -0.72, 0.04}, {0.06, 0.3, 0.14}), plain(0.35)}});
 }
 
 Body makeBin(RandomStream& random) {
@@ -175,15 +165,15 @@ Body makeBin(RandomStream& random) {
 
 Body makeGantry(double half_width_m, const TextureTiles& tiles, RandomStream& random) {
   std::vector<Part> parts = {
-      {box({-half_width_m, -7.2, -0.3}, {half_width_m, -6.7, 0.3}), plain(0.4)}};
+      {boxBetween({-half_width_m, -7.2, -0.3}, {half_width_m, -6.7, 0.3}), plain(0.4)}};
   for (const double side : {-1.0, 1.0}) {
     const double x = side * half_width_m;
-    parts.push_back({box({x - 0.25, -7.2, -0.25}, {x + 0.25, 0.5, 0.25}), plain(0.42)});
+    parts.push_back({boxBetween({x - 0.25, -7.2, -0.25}, {x + 0.25, 0.5, 0.25}), plain(0.42)});
   }
   for (const double centre : {-0.45, 0.15}) {
     const double x = half_width_m * (centre + random.uniform(0.0, 0.2));
     const double half = random.uniform(1.6, 2.3);
-    parts.push_back({box({x - half, -8.4, -0.45}, {x + half, -5.7, -0.32}),
+    parts.push_back({boxBetween({x - half, -8.4, -0.45}, {x + half, -5.7, -0.32}),
                      std::make_shared<Writing>(tiles.writing, 0.16, 0.95, 0.6)});
   }
   return Body(std::move(parts));

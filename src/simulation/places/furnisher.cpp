@@ -5,10 +5,6 @@
 
 namespace rotrocc {
 
-std::shared_ptr<ConvexSolid> boxBetween(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-  return std::make_shared<ConvexSolid>(Eigen::AlignedBox3d(low, high));
-}
-
 Furnisher::Furnisher(const Drive& drive) {
   constexpr double kStep_s = 0.05;
   for (double time_s = 0.0; time_s < drive.duration_s(); time_s += kStep_s) {

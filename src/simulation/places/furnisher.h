@@ -1,16 +1,12 @@
 #pragma once
 
-#include <memory>
+#include <utility>
 #include <vector>
 
-#include "simulation/counter_random.h"
 #include "simulation/drives/drive.h"
 #include "simulation/scene/body.h"
 
 namespace rotrocc {
-
-/// A box between two corners, in the frame of its body.
-std::shared_ptr<ConvexSolid> boxBetween(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
 /// Places bodies on a level floor (y = 0), clear of the way of a camera and of each other.
 class Furnisher {

@@ -8,14 +8,6 @@
 namespace rotrocc {
 namespace {
 
-double pixelWidth(const TexturePoint& at) {
-  return std::max(at.width(0), 1e-4);
-}
-
-double pixelHeight(const TexturePoint& at) {
-  return std::max(at.width(1), 1e-4);
-}
-
 TexturePoint movedBy(const TexturePoint& at,
                      const Eigen::Vector3d& centre,
                      const SurfacePoint& point) {
@@ -36,7 +28,7 @@ double HallShell::reflectance(const SurfacePoint& point) const {
   const double brightness = wall(at);
   if (point.normal.x() < 0.5) return brightness;
   const double frame =
-      coverageBetween(window_low_m_ - 0.08, window_high_m_ + 0.08, at.at.y(), pixelHeight(at));
+      coverageBetween(window_low_m_ - 0.08, window_high_m_ + 0.08, at.at.y(), at.pixelHeight());
   return mix(mix(brightness, 0.3, frame), 0.05, panes(at));
 }
 
@@ -48,27 +40,27 @@ double HallShell::glow(const SurfacePoint& point) const {
 }
 
 double HallShell::panes(const TexturePoint& at) const {
-  return coverageBetween(window_low_m_, window_high_m_, at.at.y(), pixelHeight(at)) *
-         coveragePeriodic(1.2, 1.12, at.at.x(), pixelWidth(at)) *
+  return coverageBetween(window_low_m_, window_high_m_, at.at.y(), at.pixelHeight()) *
+         coveragePeriodic(1.2, 1.12, at.at.x(), at.pixelWidth()) *
          (1.0 -
           coverageBetween(
-              -0.03, 0.03, at.at.y() - 0.5 * (window_low_m_ + window_high_m_), pixelHeight(at)));
+              -0.03, 0.03, at.at.y() - 0.5 * (window_low_m_ + window_high_m_), at.pixelHeight()));
 }
 
 double HallShell::wall(const TexturePoint& at) const {
   constexpr double kBand_m = 1.3;
-  const double above = coverageAbove(kBand_m, at.at.y(), pixelHeight(at));
-  const double line = coverageBetween(kBand_m, kBand_m + 0.05, at.at.y(), pixelHeight(at));
-  const double joint = coveragePeriodic(3.0, 0.012, at.at.x(), pixelWidth(at));
+  const double above = coverageAbove(kBand_m, at.at.y(), at.pixelHeight());
+  const double line = coverageBetween(kBand_m, kBand_m + 0.05, at.at.y(), at.pixelHeight());
+  const double joint = coveragePeriodic(3.0, 0.012, at.at.x(), at.pixelWidth());
   const double scuffs = mix(0.9, 0.5, above);
   const double paint = mix(0.36, 0.66, above) * (1.0 + scuffs * stains(tiles_, at));
-  const double foot = 1.0 - coverageAbove(0.12, at.at.y(), pixelHeight(at));
+  const double foot = 1.0 - coverageAbove(0.12, at.at.y(), at.pixelHeight());
   return mix(mix(mix(paint, 0.16, line), 0.5 * paint, joint), 0.14, foot);
 }
 
 double HallShell::ceiling(const TexturePoint& at) const {
-  const double ridge = coveragePeriodic(0.28, 0.11, at.at.x(), pixelWidth(at));
-  const double seam = coveragePeriodic(5.6, 0.02, at.at.y(), pixelHeight(at));
+  const double ridge = coveragePeriodic(0.28, 0.11, at.at.x(), at.pixelWidth());
+  const double seam = coveragePeriodic(5.6, 0.02, at.at.y(), at.pixelHeight());
   const double sheet = 0.55 * (1.0 + 0.35 * stains(tiles_, at));
   return mix(mix(sheet, 0.7 * sheet, ridge), 0.3, seam);
 }
@@ -80,13 +72,13 @@ double HallFloor::reflectance(const SurfacePoint& point) const {
   const double grain = tiles_.asphalt.at(scaled(at, 3.0)) - 0.47;
   double floor = 0.4 * (1.0 + 0.5 * grain + 0.6 * stains(tiles_, at));
   const double joints = std::min(1.0,
-                                 coveragePeriodic(4.0, 0.012, x - 0.6, pixelWidth(at)) +
-                                     coveragePeriodic(4.0, 0.012, z - 1.7, pixelHeight(at)));
+                                 coveragePeriodic(4.0, 0.012, x - 0.6, at.pixelWidth()) +
+                                     coveragePeriodic(4.0, 0.012, z - 1.7, at.pixelHeight()));
   floor = mix(floor, 0.12, joints);
   const double side = std::abs(x);
-  const double lanes = coverageBetween(2.45, 2.55, side, pixelWidth(at)) +
-                       coverageBetween(5.9, 6.0, side, pixelWidth(at)) *
-                           coveragePeriodic(1.5, 0.9, z, pixelHeight(at));
+  const double lanes = coverageBetween(2.45, 2.55, side, at.pixelWidth()) +
+                       coverageBetween(5.9, 6.0, side, at.pixelWidth()) *
+                           coveragePeriodic(1.5, 0.9, z, at.pixelHeight());
   const double worn = 0.5 + 0.5 * smoothStep(0.35, 0.55, tiles_.asphalt.at(scaled(at, 0.7)));
   return mix(floor, 0.75, worn * std::min(1.0, lanes));
 }
@@ -97,9 +89,9 @@ double Coated::reflectance(const SurfacePoint& point) const {
 
 double Hazard::reflectance(const SurfacePoint& point) const {
   const TexturePoint at = faceCoordinates(point);
-  const double width = std::hypot(pixelWidth(at), pixelHeight(at));
+  const double width = std::hypot(at.pixelWidth(), at.pixelHeight());
   const double stripes = coveragePeriodic(0.34, 0.17, at.at.x() + at.at.y(), width);
-  const double marked = 1.0 - coverageAbove(top_m_, at.at.y(), pixelHeight(at));
+  const double marked = 1.0 - coverageAbove(top_m_, at.at.y(), at.pixelHeight());
   return mix(coat_.reflectance(point), mix(0.06, 0.7, stripes), marked);
 }
 
@@ -114,8 +106,8 @@ Carton::Carton(const TextureTiles& tiles, const Eigen::Vector3d& centre, RandomS
 double Carton::reflectance(const SurfacePoint& point) const {
   const TexturePoint place = faceCoordinates(point);
   const TexturePoint at = movedBy(place, centre_, point);
-  const double width = pixelWidth(at);
-  const double height = pixelHeight(at);
+  const double width = at.pixelWidth();
+  const double height = at.pixelHeight();
   const double board = tone_ * (1.0 + 0.5 * stains(tiles_, place));
   const double tape = coverageBetween(-0.025, 0.025, at.at.x(), width);
   double brightness = mix(board, 0.75 * board + 0.1, tape);
@@ -130,8 +122,8 @@ double Carton::reflectance(const SurfacePoint& point) const {
 
 double ControlPanel::reflectance(const SurfacePoint& point) const {
   const TexturePoint at = faceCoordinates(point);
-  const double width = pixelWidth(at);
-  const double height = pixelHeight(at);
+  const double width = at.pixelWidth();
+  const double height = at.pixelHeight();
   constexpr double kField_m = 0.12;
   const auto cell = [&](int axis) {
     return static_cast<std::uint64_t>(

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "simulation/places/furnisher.h"
 #include "simulation/scene/lamps.h"
 #include "simulation/surfaces/coverage.h"
 
@@ -24,14 +23,6 @@ constexpr int kLampEvery = 2;       // segments
 constexpr int kSignEvery = 5;
 constexpr int kDoorEvery = 20;
 
-double pixelWidth(const TexturePoint& at) {
-  return std::max(at.width(0), 1e-4);
-}
-
-double pixelHeight(const TexturePoint& at) {
-  return std::max(at.width(1), 1e-4);
-}
-
 /// How much of a pixel is in the joint at either end of a segment. Segments reach a little into
 /// each other, where all are as dark.
 double joint(double along, double width) {
@@ -47,15 +38,15 @@ class TunnelWall : public Material {
   double reflectance(const SurfacePoint& point) const override {
     constexpr double kPanels_m = 3.1;  // height
     const TexturePoint at = faceCoordinates(point);
-    const double above = coverageAbove(kPanels_m, at.at.y(), pixelHeight(at));
+    const double above = coverageAbove(kPanels_m, at.at.y(), at.pixelHeight());
     const double soot = tiles_.plaster.at(at) - 0.5;
-    const double seams = std::max(coveragePeriodic(1.25, 0.012, at.at.x(), pixelWidth(at)),
-                                  coveragePeriodic(1.5, 0.012, at.at.y() - 0.1, pixelHeight(at)));
+    const double seams = std::max(coveragePeriodic(1.25, 0.012, at.at.x(), at.pixelWidth()),
+                                  coveragePeriodic(1.5, 0.012, at.at.y() - 0.1, at.pixelHeight()));
     const double panels = mix(0.58, 0.3, seams) * (1.0 + 0.25 * soot);
     const double concrete = 0.26 * (1.0 + 0.9 * soot);
-    const double stripe = coverageBetween(0.85, 1.0, at.at.y(), pixelHeight(at));
+    const double stripe = coverageBetween(0.85, 1.0, at.at.y(), at.pixelHeight());
     const double wall = mix(mix(panels, 0.22, stripe), concrete, above);
-    return mix(wall, 0.05, joint(at.at.x(), pixelWidth(at)));
+    return mix(wall, 0.05, joint(at.at.x(), at.pixelWidth()));
   }
 
  private:
@@ -70,9 +61,9 @@ class TunnelConcrete : public Material {
   double reflectance(const SurfacePoint& point) const override {
     const TexturePoint at = project(point, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX());
     const double soot = tiles_.plaster.at(at) - 0.5;
-    const double boards = coveragePeriodic(0.62, 0.012, at.at.y(), pixelHeight(at));
+    const double boards = coveragePeriodic(0.62, 0.012, at.at.y(), at.pixelHeight());
     const double concrete = tone_ * (1.0 + 0.9 * soot - 0.3 * boards);
-    return mix(concrete, 0.04, joint(at.at.x(), pixelWidth(at)));
+    return mix(concrete, 0.04, joint(at.at.x(), at.pixelWidth()));
   }
 
  private:
@@ -89,8 +80,8 @@ class LitSign : public Material {
   double glow(const SurfacePoint& point) const override {
     const TexturePoint at = faceCoordinates(point);
     const double mark =
-        coverageBetween(-mark_m_, mark_m_, at.at.x(), pixelWidth(at)) *
-        coverageBetween(1.6 - 0.6 * mark_m_, 1.6 + 0.6 * mark_m_, at.at.y(), pixelHeight(at));
+        coverageBetween(-mark_m_, mark_m_, at.at.x(), at.pixelWidth()) *
+        coverageBetween(1.6 - 0.6 * mark_m_, 1.6 + 0.6 * mark_m_, at.at.y(), at.pixelHeight());
     return brightness_ * (1.0 - 0.8 * mark);
   }
 

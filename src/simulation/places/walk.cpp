@@ -10,7 +10,6 @@
 #include "simulation/objects/house.h"
 #include "simulation/objects/street_furniture.h"
 #include "simulation/objects/vegetation.h"
-#include "simulation/places/furnisher.h"
 #include "simulation/surfaces/coverage.h"
 
 namespace rotrocc {
@@ -108,7 +107,7 @@ class StepStone : public Material {
                                 0.9 * (tiles_.plaster.at(scaled(at, 2.0)) - 0.5));
     if (point.normal.y() > -0.5) return stone;
     const double edge =
-        coveragePeriodic(kTread_m, 0.045, at.at.y() - kFoot_m - 0.02, std::max(at.width(1), 1e-4));
+        coveragePeriodic(kTread_m, 0.045, at.at.y() - kFoot_m - 0.02, at.pixelHeight());
     return mix(stone, 0.7 + 0.6 * (stone - 0.4), edge);
   }
 

@@ -94,6 +94,10 @@ Eigen::Vector3d ConvexSolid::normalOf(int face) const {
   return (face % 2 == 0 ? -1.0 : 1.0) * Eigen::Vector3d::Unit(face / 2);
 }
 
+std::shared_ptr<ConvexSolid> boxBetween(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  return std::make_shared<ConvexSolid>(Eigen::AlignedBox3d(low, high));
+}
+
 Cylinder::Cylinder(int axis, const Eigen::Vector3d& centre, double radius, double half_length)
     : axis_(axis),
       u_((axis + 1) % 3),

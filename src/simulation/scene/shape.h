@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -59,6 +60,9 @@ class ConvexSolid : public Shape {
   Eigen::AlignedBox3d box_;
   std::vector<Plane> cuts_;
 };
+
+/// The box between two corners.
+std::shared_ptr<ConvexSolid> boxBetween(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
 /// A closed cylinder along one of the axes of its body.
 class Cylinder : public Shape {

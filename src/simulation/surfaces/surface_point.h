@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Core>
@@ -39,6 +40,10 @@ struct TexturePoint {
   double width(int axis) const {
     return std::sqrt(per_column[axis] * per_column[axis] + per_row[axis] * per_row[axis]);
   }
+
+  /// The same, large enough to divide by.
+  double pixelWidth() const { return std::max(width(0), 1e-4); }
+  double pixelHeight() const { return std::max(width(1), 1e-4); }
 };
 
 /// The point on a texture scaled by 1 / `factor`.
