@@ -102,7 +102,9 @@ struct MotionCheckConfig {
   /// variance of the noise is known to sqrt(2 / (2 n - 6)), a fifth for 25.
   int min_inliers = 25;
   double min_inlier_share = 0.15;       ///< of the feature set; below: lost
-  double degraded_inlier_share = 0.35;  ///< of the feature set; below: degraded
+  /// Share of the feature set that are inliers; below: degraded. The majority of the features may
+  /// then be right. Real clips have 0.58 and more, with steps of up to 0.2 s.
+  double degraded_inlier_share = 0.5;
   /// Share of the keyframe's features with a depth that are inliers; below: degraded. After a wrong
   /// prediction, up to a tenth of the features match somewhere by chance.
   double degraded_survivor_share = 0.1;

@@ -137,9 +137,9 @@ TEST(MotionCheckTest, ComparesAShortStepWithTheScene) {
 
 TEST(MotionCheckTest, CallsAMotionOnASmallShareDegraded) {
   auto estimate = goodEstimate();
-  estimate.translation_inliers = set(139, 400);
-  expectSays(whyDegraded(estimate), "0.3475", "degraded_inlier_share = 0.35");
-  estimate.translation_inliers = set(140, 400);
+  estimate.translation_inliers = set(199, 400);
+  expectSays(whyDegraded(estimate), "0.4975", "degraded_inlier_share = 0.5");
+  estimate.translation_inliers = set(200, 400);
   EXPECT_EQ(whyDegraded(estimate), "");
 }
 
@@ -170,8 +170,8 @@ TEST(MotionCheckTest, AMotionWithoutItsTranslationStageIsDegraded) {
   estimate.translation_failed = true;
   EXPECT_EQ(whyLost(estimate), "");
   expectSays(whyDegraded(estimate), "translation stage", "min_inliers");
-  estimate.translation_inliers = estimate.rotation_inliers = set(30, 70);
-  EXPECT_EQ(whyDegraded(estimate), "") << "25 of 70 are more than degraded_inlier_share";
+  estimate.translation_inliers = estimate.rotation_inliers = set(30, 45);
+  EXPECT_EQ(whyDegraded(estimate), "") << "25 of 45 are more than degraded_inlier_share";
 }
 
 }  // namespace
