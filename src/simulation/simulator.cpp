@@ -26,11 +26,25 @@ Gains chosenGains(const SimulationOptions& options, const std::optional<WornRig>
   return worn ? worn->gains : Gains();
 }
 
-WorldPlan plannedWorld(const Scenario& scenario, const std::optional<WornRig>& worn) {
+WorldPlan plannedWorld(const Scenario& scenario,
+                       const SimulationOptions& options,
+                       const std::optional<WornRig>& worn) {
   WorldPlan plan = scenario.world;
+  plan.tiled_share = options.tiled_share;
   if (worn) {
     plan.weather.wind = worn->weather.wind;
     plan.weather.reflections = worn->weather.reflections;
+  }
+  return plan;
+}
+
+TrafficPlan plannedTraffic(const Scenario& scenario,
+                           const SimulationOptions& options,
+                           const World& world) {
+  TrafficPlan plan = scenario.traffic;
+  plan.lorry_across_mps = options.lorry.across_mps;
+  if (options.lorry.share > 0.0) {
+    plan.lorry = makeLorry(options.lorry.share, options.camera, world.tiles());
   }
   return plan;
 }
@@ -44,6 +58,8 @@ SimulationOptions checked(const SimulationOptions& options) {
   options.camera.check();
   options.faults.check();
   requireShare("share of moving cars", options.moving_share);
+  requireShare("share of the lorry", options.lorry.share);
+  requireShare("share of repeated texture", options.tiled_share);
   requireShare("share of dropped frames", options.drop_share);
   if (!(options.rate_hz > 0.0 && options.rate_hz <= 1000.0)) {
     throw std::invalid_argument("rate is " + std::to_string(options.rate_hz) +
@@ -88,9 +104,12 @@ Simulator::Simulator(const Scenario& scenario, const SimulationOptions& options)
       worn_(chosenRig(options_, exposure_)),
       gains_(chosenGains(options_, worn_)),
       drive_(scenario.drive),
-      world_(std::make_unique<World>(plannedWorld(scenario, worn_))),
-      traffic_(std::make_unique<Traffic>(
-          scenario.traffic, *drive_, *world_, options.moving_share, options.seed)),
+      world_(std::make_unique<World>(plannedWorld(scenario, options_, worn_))),
+      traffic_(std::make_unique<Traffic>(plannedTraffic(scenario, options_, *world_),
+                                         *drive_,
+                                         *world_,
+                                         options.moving_share,
+                                         options.seed)),
       stamps_ns_(keptStamps(scenario, options)) {}
 
 Eigen::Isometry3d Simulator::pose(int index) const {
@@ -128,11 +147,11 @@ double Simulator::exposedAt(int index, bool right) const {
 }
 
 cv::Mat Simulator::meanLight(double time_s, const PixelRays& rays, bool right) {
+  const double step_s = options_.faults.motion_blur_s / kBlurSteps;
   cv::Mat sum;
   for (int step = 0; step < kBlurSteps; ++step) {
-    const double offset = (step + 0.5) / kBlurSteps - 0.5;
-    const cv::Mat one =
-        look(time_s + offset * options_.faults.motion_blur_s, right, rays).brightness;
+    const double middle_s = time_s + (step + 0.5 - 0.5 * kBlurSteps) * step_s;
+    const cv::Mat one = smearedLight(look(middle_s, right, rays), middle_s, step_s, rays, right);
     sum = sum.empty() ? one : cv::Mat(sum + one);
   }
   return sum / kBlurSteps;

@@ -18,6 +18,7 @@
 #include "simulation/rendering/gains.h"
 #include "simulation/rendering/renderer.h"
 #include "simulation/rendering/worn_rig.h"
+#include "simulation/stress/lorry.h"
 
 namespace rotrocc {
 
@@ -29,10 +30,12 @@ struct SimulationOptions {
   bool gains_out_of_step = false;  ///< each camera exposes for itself
   CameraFaults faults;
   double moving_share = 0.35;  ///< occupied share of the places for moving cars
-  double drop_share = 0.0;     ///< share of dropped frames; never the first
-  double rate_hz = 10.0;       ///< of scripted drives; recorded ones have stamps
-  double duration_s = 0.0;     ///< largest duration; 0: whole drive
-  int frames = 0;              ///< largest number of frames; 0: all
+  LorryPlan lorry;
+  double tiled_share = 0.0;  ///< share of all textures that is the same tile everywhere
+  double drop_share = 0.0;   ///< share of dropped frames; never the first
+  double rate_hz = 10.0;     ///< of scripted drives; recorded ones have stamps
+  double duration_s = 0.0;   ///< largest duration; 0: whole drive
+  int frames = 0;            ///< largest number of frames; 0: all
   std::uint64_t seed = 1;
   std::uint64_t noise_seed = 1;  ///< of the noise and the exposure jumps of the images
 };

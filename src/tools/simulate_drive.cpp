@@ -68,6 +68,15 @@ po::options_description describe(Options& options) {
       "duration", po::value(&simulation.duration_s), "[s] largest duration")(
       "rate", number(simulation.rate_hz), "[Hz] frame rate of a scenario")(
       "moving-share", number(simulation.moving_share), "density of moving cars, 0 to 1")(
+      "lorry",
+      number(simulation.lorry.share),
+      "share of the image that a lorry ahead of the camera covers, which moves with it")(
+      "lorry-across",
+      number(simulation.lorry.across_mps),
+      "[m/s] speed of the lorry to the right, relative to the camera")(
+      "tiles",
+      number(simulation.tiled_share),
+      "share of all textures that is the same tile everywhere")(
       "seed", po::value(&simulation.seed)->default_value(simulation.seed), "same seed, same bytes")(
       "noise-seed", po::value(&simulation.noise_seed), "seed of the image noise (default: seed)")(
       "truth", po::bool_switch(&options.truth), "also write depth and flow of each pixel")(

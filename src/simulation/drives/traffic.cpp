@@ -5,6 +5,7 @@
 #include "simulation/counter_random.h"
 #include "simulation/objects/car.h"
 #include "simulation/scene/placement.h"
+#include "simulation/stress/lorry.h"
 
 namespace rotrocc {
 namespace {
@@ -19,7 +20,7 @@ Traffic::Traffic(const TrafficPlan& plan,
                  const World& world,
                  double share,
                  std::uint64_t seed)
-    : drive_(drive), world_(world) {
+    : drive_(drive), world_(world), lorry_across_mps_(plan.lorry_across_mps) {
   RandomStream random(seed, 0x7AFF1C);
   const auto add = [&](double right, double station, double speed, double lead) {
     Body car = makeCar(random, true);
@@ -32,6 +33,7 @@ Traffic::Traffic(const TrafficPlan& plan,
                      -plan.oncoming_mps,
                      0.0});
   }
+  if (plan.lorry) cars_.push_back({*plan.lorry, 0.0, kLorryAhead_m, 0.0, 0.0, true});
   if (plan.leader && share > 0.0) cars_.push_back({makeCar(random, true), 0.0, 9.5, 0.0, 1.6});
   if (plan.oncoming_mps > 0.0) {
     const double way_m = drive.path().length_m() + plan.oncoming_mps * drive.duration_s();
@@ -49,12 +51,24 @@ Traffic::Traffic(const TrafficPlan& plan,
 }
 
 double Traffic::stationOf(const Car& car, double time_s) const {
+  if (car.with_camera) return drive_.station_m(time_s) + car.station_m;
   if (car.lead_s > 0.0) return drive_.station_m(time_s + car.lead_s) + car.station_m;
   return car.station_m + car.speed_mps * time_s;
 }
 
+Eigen::Isometry3d Traffic::poseWithCamera(const Car& car, double time_s) const {
+  const Eigen::Isometry3d T_world_camera = drive_.pose(time_s);
+  const double right_m = car.right_m + lorry_across_mps_ * (time_s - 0.5 * drive_.duration_s());
+  const Eigen::Vector3d position = T_world_camera * Eigen::Vector3d(right_m, 0.0, car.station_m);
+  const Eigen::Vector3d ahead = T_world_camera.linear().col(2);
+  return standingUpright(world_.terrain(),
+                         {position.x(), position.z()},
+                         Eigen::Vector3d(ahead.x(), 0.0, ahead.z()).normalized());
+}
+
 Eigen::Isometry3d Traffic::pose(int car, double time_s) const {
   const Car& moving = cars_[static_cast<std::size_t>(car)];
+  if (moving.with_camera) return poseWithCamera(moving, time_s);
   const Path& path = drive_.path();
   const double station = stationOf(moving, time_s);
   const Eigen::Vector3d position = path.position(station) + moving.right_m * path.right(station);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "simulation/drives/drive.h"
@@ -17,6 +18,8 @@ struct TrafficPlan {
   double overtaking_mps = 0.0;     ///< 0: nothing overtakes
   bool leader = true;              ///< a car drives ahead of the camera
   std::vector<double> meetings_s;  ///< at these times an oncoming car is met for certain
+  std::optional<Body> lorry;       ///< straight ahead of the camera, and moving with it
+  double lorry_across_mps = 0.0;   ///< its speed to the right, relative to the camera
 };
 
 /// The cars that move, at one time.
@@ -48,15 +51,18 @@ class Traffic {
   struct Car {
     Body body;
     double right_m;
-    double station_m;  // at time 0; for a leader: how far ahead of where the camera will be
-    double speed_mps;  // along the path; negative: oncoming
-    double lead_s;     // a leader is where the camera will be after that time; 0: no leader
+    double station_m;          // at time 0; for a leader: how far ahead of where the camera will be
+    double speed_mps;          // along the path; negative: oncoming
+    double lead_s;             // a leader is where the camera will be after that time; 0: no leader
+    bool with_camera = false;  // its places are relative to the camera
   };
 
   double stationOf(const Car& car, double time_s) const;
+  Eigen::Isometry3d poseWithCamera(const Car& car, double time_s) const;
 
   const Drive& drive_;
   const World& world_;
+  double lorry_across_mps_;
   std::vector<Car> cars_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "simulation/counter_random.h"
 #include "simulation/street/street_layout.h"
+#include "simulation/stress/repeated_texture.h"
 #include "simulation/surfaces/coverage.h"
 
 namespace rotrocc {
@@ -89,6 +90,7 @@ World::World(const WorldPlan& plan)
     : style_(plan.style),
       weather_(plan.weather),
       lighting_(plan.lighting),
+      tiled_share_(plan.tiled_share),
       tiles_(plan.seed),
       streets_(plan.streets, kStreetReach_m),
       road_(streets_, style_, tiles_, plan.crossings, plan.seed),
@@ -178,13 +180,18 @@ double World::bodyBrightness(const Body& body,
   const double lit = body.is_ground ? shadows_.lit(at.x(), at.z()) : body.lit;
   const Material& material = *body.parts()[static_cast<std::size_t>(hit.part)].material;
   const double light = illumination(at, normal, lit);
-  const double brightness =
-      material.reflectance(point) * light + lighting_.lights * material.glow(point);
+  const double brightness = withTiles(material.reflectance(point), point) * light +
+                            lighting_.lights * material.glow(point);
   if (!weather_.reflections) return brightness;
   const double gloss = material.gloss(point);
   if (gloss <= 0.0) return brightness;
   const double mirrored = gloss * mirroredShare(ray.direction, normal);
   return mix(brightness, reflection(ray.direction, normal, spread), mirrored);
+}
+
+double World::withTiles(double reflectance, const SurfacePoint& point) const {
+  if (tiled_share_ <= 0.0) return reflectance;
+  return mix(reflectance, tiledReflectance(faceCoordinates(point)), tiled_share_);
 }
 
 double World::reflection(const Eigen::Vector3d& direction,
@@ -249,7 +256,7 @@ double World::groundBrightness(const SurfacePoint& point, const std::vector<Body
   }
   const double lit = shadows_.lit(at.x(), at.z());
   const double reflectance = floor_ ? floor_->reflectance(point) : road_.reflectance(point);
-  return reflectance * shade * illumination(at, point.normal, lit);
+  return withTiles(reflectance, point) * shade * illumination(at, point.normal, lit);
 }
 
 double World::illumination(const Eigen::Vector3d& position,

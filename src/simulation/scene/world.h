@@ -49,8 +49,9 @@ struct WorldPlan {
   /// Bodies that stand there besides those of the streets.
   std::function<std::vector<Body>(const TextureTiles&)> furniture;
   double camera_height_m = 1.65;
-  double cell_m = 8.0;   ///< of the ground, which bends at their borders
-  double rough_m = 0.0;  ///< the corners of the cells are this much higher or lower, at random
+  double tiled_share = 0.0;  ///< share of all textures that is the same tile everywhere
+  double cell_m = 8.0;       ///< of the ground, which bends at their borders
+  double rough_m = 0.0;      ///< the corners of the cells are this much higher or lower, at random
   std::uint64_t seed = 1;
 
   /// The drives with their extensions.
@@ -75,6 +76,7 @@ class World {
   const Terrain& terrain() const { return scene_.terrain(); }
   const std::vector<Body>& bodies() const { return scene_.bodies(); }
   const StreetMap& streets() const { return streets_; }
+  const TextureTiles& tiles() const { return tiles_; }
 
   /// Updates ground and bodies to a station of the camera's path. They may change where the path
   /// revisits a place at another height.
@@ -98,6 +100,7 @@ class World {
                         const BodyHit& hit,
                         const Ray& ray,
                         const PixelSpread& spread) const;
+  double withTiles(double reflectance, const SurfacePoint& point) const;
   double reflection(const Eigen::Vector3d& direction,
                     const Eigen::Vector3d& normal,
                     const PixelSpread& spread) const;
@@ -115,6 +118,7 @@ class World {
   StreetStyle style_;
   Weather weather_;
   Lighting lighting_;
+  double tiled_share_;
   Eigen::Isometry3d T_car_world_ = Eigen::Isometry3d::Identity();
   TextureTiles tiles_;
   StreetMap streets_;

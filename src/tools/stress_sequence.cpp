@@ -1,0 +1,106 @@
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <boost/program_options.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "rotrocc/kitti.h"
+#include "simulation/stress/image_stress.h"
+#include "tools/program.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace po = boost::program_options;
+using namespace rotrocc;
+
+const char* const kUsage =
+    "Makes the images of a sequence worse.\n"
+    "usage: stress_sequence IN OUT [options]\n"
+    "IN   a directory in KITTI odometry layout, best rendered with --noise 0\n"
+    "OUT  a new one with the same times, poses and calibration\n";
+
+struct Options {
+  std::vector<std::string> names;
+  ImageStress stress;
+};
+
+po::options_description describe(ImageStress& stress) {
+  const auto number = [](double& value) { return po::value(&value)->default_value(value); };
+  po::options_description visible("Options");
+  visible.add_options()("help,h", "show this help")(
+      "plain",
+      number(stress.plain_share),
+      "share of the image, from its left border on, that has no texture")(
+      "drops",
+      number(stress.drop_share),
+      "share of the image that drops on the lenses cover, others in left and right")(
+      "gain-step",
+      number(stress.gain_step),
+      "factor by which the gain of both cameras changes, up and down, every 5 pairs")(
+      "gain-ratio",
+      number(stress.gain_ratio),
+      "factor by which the left image is brighter than the right one")(
+      "contrast", number(stress.contrast), "share of the contrast that is left, as in fog")(
+      "noise", number(stress.noise_sigma), "[grey levels] standard deviation of the noise")(
+      "jpeg",
+      po::value(&stress.jpeg_quality)->default_value(stress.jpeg_quality),
+      "quality of a JPEG compression, 1 to 100; 0: none")(
+      "seed", po::value(&stress.seed)->default_value(stress.seed), "same seed, same bytes");
+  return visible;
+}
+
+/// Returns false after printing the help; throws po::error on bad usage.
+bool parse(int argc, char** argv, Options& options) {
+  const po::options_description visible = describe(options.stress);
+  po::options_description all;
+  all.add(visible).add_options()("names", po::value(&options.names));
+  po::positional_options_description positional;
+  positional.add("names", -1);
+  po::variables_map variables;
+  const int style = po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
+  po::store(
+      po::command_line_parser(argc, argv).options(all).positional(positional).style(style).run(),
+      variables);
+  if (variables.count("help") > 0) {
+    std::cout << kUsage << visible;
+    return false;
+  }
+  po::notify(variables);
+  if (options.names.size() != 2) throw po::error("expected an input and an output");
+  return true;
+}
+
+void writeImage(const fs::path& folder, int index, const cv::Mat& image) {
+  std::ostringstream name;
+  name << std::setw(6) << std::setfill('0') << index << ".png";
+  const std::string path = (folder / name.str()).string();
+  if (!cv::imwrite(path, image)) throw std::runtime_error("cannot write " + path);
+}
+
+void run(const Options& options) {
+  options.stress.check();
+  const fs::path out(options.names[1]);
+  if (fs::exists(out)) throw std::runtime_error(out.string() + " exists: choose a new directory");
+  const KittiSequence sequence(options.names[0]);
+  for (const char* folder : {"image_0", "image_1"}) fs::create_directories(out / folder);
+  for (const char* file : {"calib.txt", "times.txt", "poses.txt"}) {
+    const fs::path from = fs::path(options.names[0]) / file;
+    if (fs::exists(from)) fs::copy_file(from, out / file);
+  }
+  for (int i = 0; i < sequence.size(); ++i) {
+    writeImage(out / "image_0", i, stressed(sequence.readLeft(i), options.stress, i, false));
+    writeImage(out / "image_1", i, stressed(sequence.readRight(i), options.stress, i, true));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return runProgram("stress_sequence", argc, argv, parse, run);
+}
