@@ -58,17 +58,28 @@ class Programs:
         return [{name: float(value) for name, value in row.items()} for row in read_table(table)]
 
 
-def take_every(sequence, every, target):
-    """A folder with each `every`-th pair of a sequence."""
+def take_pairs(sequence, taken, target):
+    """A folder with some pairs of a sequence."""
     shutil.rmtree(str(target), ignore_errors=True)
     for side in ('image_0', 'image_1'):
         (target / side).mkdir(parents=True)
-        for index, image in enumerate(sorted((sequence / side).iterdir())[::every]):
+        images = sorted((sequence / side).iterdir())
+        for index, image in enumerate(images[pair] for pair in taken):
             (target / side / ('%06d%s' % (index, image.suffix))).symlink_to(image.resolve())
-    for name, step in (('calib.txt', 1), ('times.txt', every), ('poses.txt', every)):
+    (target / 'calib.txt').write_text((sequence / 'calib.txt').read_text())
+    for name in ('times.txt', 'poses.txt'):
         lines = (sequence / name).read_text().splitlines(True)
-        (target / name).write_text(''.join(lines[::step]))
+        (target / name).write_text(''.join(lines[pair] for pair in taken))
     return target
+
+
+def count_pairs(sequence):
+    return len((sequence / 'times.txt').read_text().splitlines())
+
+
+def take_every(sequence, every, target):
+    """A folder with each `every`-th pair of a sequence."""
+    return take_pairs(sequence, range(0, count_pairs(sequence), every), target)
 
 
 def read_table(path):
