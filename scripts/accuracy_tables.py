@@ -187,12 +187,13 @@ def vector_of(rotation):
 
 def pose_errors(run):
     """Errors (n x 6) and covariances (n x 6 x 6) of the pose changes, as the covariance of
-    OdometryResult is defined. A change is relative to the last pair that was not lost."""
+    OdometryResult is defined. A change is relative to the pair that was dt_s earlier."""
     truth = read_poses(run.drive / 'poses.txt')
+    times = numpy.array([1e-9 * int(pair['stamp_ns']) for pair in run.pairs])
     errors, covariances = [], []
-    previous = 0
     for index, pair in enumerate(run.pairs):
         if pair['state'] in ('ok', 'degraded'):
+            previous = numpy.argmin(numpy.abs(times - times[index] + float(pair['dt_s'])))
             before, after = truth[previous], truth[index]
             rotation = before[:, :3].T @ after[:, :3]
             translation = before[:, :3].T @ (after[:, 3] - before[:, 3])
@@ -205,8 +206,6 @@ def pose_errors(run):
                                                                    AXES[max(i, j)])])
                                   for j in range(6)] for i in range(6)])
             covariances.append(upper)
-        if pair['state'] != 'lost':
-            previous = index
     return numpy.array(errors), numpy.array(covariances)
 
 

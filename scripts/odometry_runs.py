@@ -139,6 +139,11 @@ def clips_of(folder):
     return sorted(path.parent for path in folder.glob('*/poses.txt')) if folder else []
 
 
+def markdown(header, rows):
+    return ''.join('| %s |\n' % ' | '.join(str(cell) for cell in cells)
+                   for cells in [header, ['---'] * len(header), *rows])
+
+
 def update_report(report, tables):
     """Replaces the text between the markers of each table."""
     text = report.read_text()
@@ -146,7 +151,5 @@ def update_report(report, tables):
         begin, end = '<!-- table %s -->\n' % name, '<!-- end of %s -->' % name
         if begin not in text or end not in text:
             raise RuntimeError('%s has no markers for the table %s' % (report, name))
-        lines = ['| %s |\n' % ' | '.join(cells)
-                 for cells in [header, ['---'] * len(header)] + rows]
-        text = text[:text.index(begin) + len(begin)] + ''.join(lines) + text[text.index(end):]
+        text = text[:text.index(begin) + len(begin)] + markdown(header, rows) + text[text.index(end):]
     report.write_text(text)

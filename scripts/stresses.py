@@ -2,6 +2,7 @@
 import collections
 import os
 import shutil
+import threading
 
 import numpy
 from PIL import Image
@@ -57,6 +58,8 @@ class Drives:
         self.programs = programs
         self.folder = folder
         self.pairs = pairs
+        self.lock = threading.Lock()
+        self.locks = {}
         folder.mkdir(parents=True, exist_ok=True)
 
     def way(self, step_m=STEP_M):
@@ -64,15 +67,15 @@ class Drives:
 
     def render(self, name, seed, positions, rotations, *arguments, noise=NOISE):
         """A drive in a street along these poses."""
-        target = self.folder / ('%s_%d' % (name, seed))
-        if target.is_dir():
-            return target
-        poses = target.with_suffix('.txt')
-        rows = numpy.concatenate([rotations, positions[:, :, None]], axis=2).reshape(-1, 12)
-        numpy.savetxt(str(poses), rows, fmt='%.9g')
-        self.programs.simulate(target, ['--poses', poses, *CAMERA, '--seed', seed, '--moving-share', 0,
-                                        '--noise', noise, *arguments])
-        return target
+        def make(target):
+            poses = self.folder / ('%s_%d.txt' % (name, seed))
+            rows = numpy.concatenate([rotations, positions[:, :, None]], axis=2).reshape(-1, 12)
+            numpy.savetxt(str(poses), rows, fmt='%.9g')
+            self.simulate('--poses', poses, target, '--seed', seed, '--noise', noise, *arguments)
+        return self.once('%s_%d' % (name, seed), make)
+
+    def simulate(self, *arguments):
+        self.programs.run('simulate_drive', *CAMERA, '--moving-share', 0, *arguments)
 
     def base(self, seed, *arguments, name='base', noise=NOISE):
         return self.render(name, seed, *winding(self.way()), *arguments, noise=noise)
@@ -86,20 +89,22 @@ class Drives:
             'stress_sequence', self.clean(seed), target, '--seed', seed, *arguments))
 
     def once(self, name, make):
+        """The folder that `make` fills, unless it exists. Stresses that run in parallel share some."""
         target = self.folder / name
-        if not target.is_dir():
-            part = target.with_name(name + '.part')
-            shutil.rmtree(str(part), ignore_errors=True)
-            make(part)
-            os.replace(str(part), str(target))
+        with self.lock:
+            own_lock = self.locks.setdefault(name, threading.Lock())
+        with own_lock:
+            if not target.is_dir():
+                part = target.with_name(name + '.part')
+                shutil.rmtree(str(part), ignore_errors=True)
+                make(part)
+                os.replace(str(part), str(target))
         return target
 
     def round_trip(self, seed):
         """A drive of 18 s with 10 m/s and a turn of 26 deg/s."""
-        target = self.folder / ('slip_road_%d' % seed)
-        self.programs.simulate(target, ['slip_road', *CAMERA, '--seed', seed, '--moving-share', 0,
-                                        '--noise', NOISE])
-        return target
+        return self.once('slip_road_%d' % seed, lambda target: self.simulate(
+            'slip_road', target, '--seed', seed, '--noise', NOISE))
 
     def median_depth_m(self, seed):
         """Of what the base drive sees, without the sky."""

@@ -1,0 +1,81 @@
+// Runs scripts/limits in its short form.
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/read_file.h"
+#include "support/script_test.h"
+
+namespace rotrocc {
+namespace {
+
+class LimitsTest : public ScriptTest {
+ protected:
+  static void SetUpTestSuite() { runScript(LIMITS); }
+};
+
+TEST_F(LimitsTest, FindsTheLimitsOfEachStress) {
+  const std::vector<CsvRow> rows = readTable("limits");
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].at("stress"), "roll");
+  EXPECT_EQ(rows[1].at("stress"), "jpeg");
+  for (const CsvRow& row : rows) EXPECT_EQ(row.at("config"), "default");
+  // 2 deg a pair and a quality of 90 are not hard, 32 deg a pair and a quality of 1 too hard.
+  EXPECT_GE(number(rows[0], "fine_to"), 2.0);
+  EXPECT_LT(number(rows[0], "fine_to"), 32.0);
+  EXPECT_LE(number(rows[1], "fine_to"), 90.0);
+  EXPECT_GT(number(rows[1], "fine_to"), 1.0);
+}
+
+/// What the zones are made of.
+TEST_F(LimitsTest, TellsEachRun) {
+  for (const CsvRow& row : readTable("runs")) {
+    const double with_state = number(row, "ok") + number(row, "degraded") + number(row, "lost");
+    EXPECT_EQ(number(row, "pairs"), 8.0);
+    EXPECT_EQ(with_state, 7.0) << "all but the first";
+    EXPECT_LE(number(row, "wrong"), number(row, "wrong_by_distance"));
+    EXPECT_EQ(number(row, "wrong") > 0, number(row, "largest_sigma") > 6.0);
+  }
+}
+
+TEST_F(LimitsTest, TheLastFineLevelIsFine) {
+  const std::vector<CsvRow> limits = readTable("limits");
+  for (const CsvRow& run : readTable("runs")) {
+    for (const CsvRow& limit : limits) {
+      if (run.at("stress") != limit.at("stress") || run.at("level") != limit.at("fine_to"))
+        continue;
+      EXPECT_LT(number(run, "translation_percent"), 2.0);
+      EXPECT_EQ(number(run, "lost") + number(run, "wrong"), 0.0);
+    }
+  }
+}
+
+TEST_F(LimitsTest, WritesTablesAndAPicture) {
+  const std::string text = readFile(outputPath("limits.md"));
+  EXPECT_NE(text.find("| stress | levels | default: fine to |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| JPEG quality | 90 to 1 |"), std::string::npos) << text;
+  EXPECT_EQ(readFile(outputPath("limits.png")).substr(1, 3), "PNG");
+}
+
+/// The same command measures nothing again.
+TEST_F(LimitsTest, Resumes) {
+  const std::string runs = readFile(outputPath("runs.csv"));
+  runScript(LIMITS);
+  SetUp();
+  EXPECT_EQ(readFile(outputPath("runs.csv")), runs);
+}
+
+TEST_F(LimitsTest, ShowsThePairsOfALevel) {
+  const CommandResult shown =
+      runCommand(std::string(PYTHON) + " " + LIMITS + " --short --programs " + PROGRAMS +
+                 " --output " + outputPath("") + " --stress jpeg --show 90 1");
+  ASSERT_EQ(shown.status, 0) << shown.output;
+  EXPECT_NE(shown.output.find("offline_odometry " + outputPath("")), std::string::npos)
+      << shown.output;
+  EXPECT_NE(shown.output.find("\n   7  ok "), std::string::npos) << shown.output;
+}
+
+}  // namespace
+}  // namespace rotrocc
