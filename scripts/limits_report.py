@@ -1,6 +1,7 @@
 """Tables and picture of scripts/limits."""
 from matplotlib.patches import Patch
 from plot_style import BLUE, FAINT, GREEN, TEXT, VERMILLION, YELLOW, legend, pyplot, save
+from stresses import UNSEEN
 
 ZONES = {'fine': ('fine', GREEN), 'degraded': ('degraded, and says so', YELLOW),
          'wrong': ('wrong without saying so', VERMILLION)}
@@ -20,11 +21,12 @@ def limit_table(limits, stresses, configs):
 
 
 def count_table(runs, configs):
+    """Pairs of the stresses that images can show."""
     header = ['configuration', 'runs', 'pairs', 'ok', 'degraded', 'lost', 'ok beyond 6 sigma', 'of 1000',
               'by Mahalanobis distance']
     rows = []
     for config in configs:
-        of_config = [row for row in runs if row['config'] == config]
+        of_config = [row for row in runs if row['config'] == config and row['stress'] not in UNSEEN]
         counts = [sum(int(row[name]) for row in of_config)
                   for name in ('pairs', 'ok', 'degraded', 'lost', 'wrong', 'wrong_by_distance')]
         share = '%.1f' % (1000 * counts[4] / max(1, counts[1]))

@@ -18,6 +18,7 @@ NOISE = 2.0  # [grey levels] of all drives but those of the stress noise
 BLUR_TURN_DEG = 4.0  # of a drive with motion blur, per pair
 
 Stress = collections.namedtuple('Stress', 'name title unit levels make')
+UNSEEN = ['focal', 'baseline']  # a wrong scale that no image shows
 
 
 def ladder(first, last, rungs=17):
