@@ -4,8 +4,10 @@
 /// in the width of the processor, and the operations that the kernels need.
 #include "kernels/instructions.h"
 
-#ifdef ROTROCC_AVX2
+#if defined ROTROCC_AVX2
 #include "kernels/lanes_avx2.h"
+#elif defined ROTROCC_NEON
+#include "kernels/lanes_neon.h"
 #else
 #include "kernels/lanes_baseline.h"
 #endif

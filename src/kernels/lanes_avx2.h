@@ -106,8 +106,15 @@ Ints shiftRight(Ints a) {
 inline Shorts multiplyHigh(Shorts a, Shorts b) {
   return {_mm256_mulhi_epi16(a.bits, b.bits)};
 }
+template <int kBits>
+Shorts multiplyHigh(Shorts a, Shorts b) {
+  return multiplyHigh(shiftLeft<kBits>(a), b);
+}
 inline Ints dot(Shorts a, Shorts b) {
   return {_mm256_madd_epi16(a.bits, b.bits)};
+}
+inline Ints addDot(Ints sums, Shorts a, Shorts b) {
+  return sums + dot(a, b);
 }
 inline void addProducts(Shorts a, Shorts b, Shorts c, Shorts d, std::int32_t* to) {
   // AVX2 unpacks the two halves of a register separately: 0 to 3 and 8 to 11, then the others.

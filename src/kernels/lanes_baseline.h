@@ -77,13 +77,22 @@ template <int kBits>
 Ints shiftRight(const Ints& a) {
   return cv::v_shr<kBits>(a);
 }
-/// The upper 16 bits of the products.
+/// The upper 16 bits of the products. At most one factor may be -2^15.
 inline Shorts multiplyHigh(const Shorts& a, const Shorts& b) {
   return cv::v_mul_hi(a, b);
+}
+/// The same of a 2^kBits, which must fit into 16 bits, and b.
+template <int kBits>
+Shorts multiplyHigh(const Shorts& a, const Shorts& b) {
+  return multiplyHigh(shiftLeft<kBits>(a), b);
 }
 /// Sums of the products of two neighbours.
 inline Ints dot(const Shorts& a, const Shorts& b) {
   return cv::v_dotprod(a, b);
+}
+/// Adds all products, two to each sum. Which two is up to the processor.
+inline Ints addDot(const Ints& sums, const Shorts& a, const Shorts& b) {
+  return sums + dot(a, b);
 }
 /// Adds a[i] b[i] + c[i] d[i] to each to[i].
 inline void addProducts(

@@ -34,6 +34,7 @@ namespace ROTROCC_INSTRUCTIONS {
 /// Rows of a window that are compared first, without the pixels at its edge: eight pixels of each.
 constexpr int kPartRows[] = {1, 3, 7, 9};
 constexpr int kPartEdge = 1;
+constexpr int kPartWidth = 8;
 
 /// Limit of the cost of a part for the whole window to be compared, where `least` is the lowest
 /// cost of a part: 1.5 times that, plus two grey levels per pixel. On KITTI, the limit changes the

@@ -17,18 +17,18 @@ Shorts betweenColumns(const std::uint8_t* pixels, const Shorts& fx) {
   const Shorts left = loadBytes(pixels);
   const Shorts right = loadBytes(pixels + 1);
   return shiftLeft<Window::kValueBits>(left) +
-         multiplyHigh(shiftLeft<Window::kValueBits + 1>(right - left), fx);
+         multiplyHigh<Window::kValueBits + 1>(right - left, fx);
 }
 
 Shorts betweenRows(const Shorts& upper, const Shorts& lower, const Shorts& fy) {
-  return upper + multiplyHigh(shiftLeft<1>(lower - upper), fy);
+  return upper + multiplyHigh<1>(lower - upper, fy);
 }
 
 /// Scharr gradient, weighted by (3 10 3) / 16, from the differences of three rows or columns of
 /// pixels that are two apart.
 Shorts scharr(const Shorts& before, const Shorts& here, const Shorts& after) {
-  const Shorts middle = multiplyHigh(shiftLeft<1>(here), all(std::int16_t{20480}));  // 10 / 32
-  const Shorts sides = multiplyHigh(before + after, all(std::int16_t{12288}));       // 3 / 16
+  const Shorts middle = multiplyHigh<1>(here, all(std::int16_t{20480}));        // 10 / 32
+  const Shorts sides = multiplyHigh(before + after, all(std::int16_t{12288}));  // 3 / 16
   // One unit compensates the truncation of both products; the rest rounds.
   constexpr int kShift = Window::kValueBits + 1 - Window::kGradientBits;
   constexpr std::int16_t kRounding = 1 + (1 << (kShift - 1));
@@ -85,16 +85,16 @@ GradientSums takeWindow(const Patch& patch, const Window window) {
                                difference(below + 1, above + 1),
                                difference(below + 2, above + 2)) &
                         mask;
-      const Shorts aside = multiplyHigh(shiftLeft<kUpToValue>(gx), spread_x);
-      const Shorts down = multiplyHigh(shiftLeft<kUpToValue>(gy), all(*spread_y++));
+      const Shorts aside = multiplyHigh<kUpToValue>(gx, spread_x);
+      const Shorts down = multiplyHigh<kUpToValue>(gy, all(*spread_y++));
       store(window.values + at, load(here + 1) + aside + down);
       store(window.gradient_x + at, gx);
       store(window.gradient_y + at, gy);
-      minus_x = minus_x + dot(gx, mask);
-      minus_y = minus_y + dot(gy, mask);
-      xx = xx + dot(gx, gx);
-      xy = xy + dot(gx, gy);
-      yy = yy + dot(gy, gy);
+      minus_x = addDot(minus_x, gx, mask);
+      minus_y = addDot(minus_y, gy, mask);
+      xx = addDot(xx, gx, gx);
+      xy = addDot(xy, gx, gy);
+      yy = addDot(yy, gy, gy);
       above = here;
     }
     sums.x -= sum(minus_x);
@@ -118,9 +118,9 @@ ValueSums sumValues(const Window& window) {
       const int end = last * window.stride;
       for (int at = first * window.stride + x; at < end; at += window.stride) {
         const Shorts value = load(window.values + at);
-        minus_sum = minus_sum + dot(value, mask);
-        sum_x = sum_x + dot(value, load(window.gradient_x + at));
-        sum_y = sum_y + dot(value, load(window.gradient_y + at));
+        minus_sum = addDot(minus_sum, value, mask);
+        sum_x = addDot(sum_x, value, load(window.gradient_x + at));
+        sum_y = addDot(sum_y, value, load(window.gradient_y + at));
       }
       sums.one -= sum(minus_sum);
       sums.x += sum(sum_x);
@@ -148,9 +148,9 @@ MismatchSums compareWindow(const Patch& patch, const Window& window) {
         pixels += patch.step;
         const Shorts lower = betweenColumns(pixels, fx);
         const Shorts excess = betweenRows(upper, lower, fy) - load(window.values + at);
-        minus_sum = minus_sum + dot(excess, mask);
-        sum_x = sum_x + dot(excess, load(window.gradient_x + at));
-        sum_y = sum_y + dot(excess, load(window.gradient_y + at));
+        minus_sum = addDot(minus_sum, excess, mask);
+        sum_x = addDot(sum_x, excess, load(window.gradient_x + at));
+        sum_y = addDot(sum_y, excess, load(window.gradient_y + at));
         upper = lower;
       }
       sums.one -= sum(minus_sum);
