@@ -101,7 +101,7 @@ struct MotionCheckConfig {
   /// Fewer: lost. The covariance comes from the residuals of the inliers: with n of them, the
   /// variance of the noise is known to sqrt(2 / (2 n - 6)), a fifth for 25.
   int min_inliers = 25;
-  double min_inlier_share = 0.15;       ///< of the feature set; below: lost
+  double min_inlier_share = 0.15;  ///< of the feature set; below: lost
   /// Share of the feature set that are inliers; below: degraded. The majority of the features may
   /// then be right. Real clips have 0.58 and more, with steps of up to 0.2 s.
   double degraded_inlier_share = 0.5;
