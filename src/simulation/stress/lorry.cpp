@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kBeyond_m = 8.0;  // to the left of the view
 constexpr double kHeight_m = 5.0;
-constexpr double kDepth_m = 2.5;
+constexpr double kDepth_m = 0.05;  // its side would cover more than the share
 
 /// Stains and specks; nothing on it repeats itself in sight.
 class Tarpaulin : public Material {
