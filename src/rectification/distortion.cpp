@@ -1,0 +1,155 @@
+#include "rectification/distortion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "common/sentence.h"
+
+namespace rotrocc {
+namespace {
+
+using Model = Distortion::Model;
+
+constexpr double kDegree = M_PI / 180.0;
+constexpr double kMaxAngle = 89.0 * kDegree;  // of a ray that a pinhole camera could show
+
+Model modelNamed(const std::string& name) {
+  static const std::map<std::string, Model> models = {
+      {"plumb_bob", Model::kPlumbBob},
+      {"radial-tangential", Model::kPlumbBob},
+      {"radtan", Model::kPlumbBob},
+      {"rational_polynomial", Model::kRationalPolynomial},
+      {"equidistant", Model::kEquidistant},
+      {"equi", Model::kEquidistant},
+      {"fisheye", Model::kEquidistant}};
+  const auto found = models.find(name);
+  if (found != models.end()) return found->second;
+  throw std::invalid_argument(sentence("the distortion model '",
+                                       name,
+                                       "' is not supported: use plumb_bob (radial-tangential), "
+                                       "rational_polynomial or equidistant (fisheye)"));
+}
+
+/// As many as the model has, zeros for those that may be left out.
+std::vector<double> complete(Model model, const std::string& name, std::vector<double> values) {
+  const std::size_t count = model == Model::kPlumbBob ? 5 : model == Model::kEquidistant ? 4 : 8;
+  const bool lacks_k3 = model == Model::kPlumbBob && values.size() == 4;
+  if (!values.empty() && !lacks_k3 && values.size() != count) {
+    throw std::invalid_argument(sentence("the distortion ",
+                                         name,
+                                         " has ",
+                                         values.size(),
+                                         " coefficients instead of ",
+                                         count,
+                                         ": check the calibration file"));
+  }
+  for (const double value : values) {
+    if (std::isfinite(value)) continue;
+    throw std::invalid_argument(sentence(
+        "a coefficient of the distortion ", name, " is ", value, ": check the calibration file"));
+  }
+  values.resize(count, 0.0);
+  return values;
+}
+
+}  // namespace
+
+Distortion::Distortion(const std::string& model, const std::vector<double>& coefficients)
+    : model_(modelNamed(model)),
+      coefficients_(complete(model_, model, coefficients)),
+      limit_(findLimit()) {
+  if (limit_ > 0.0) return;
+  throw std::invalid_argument(sentence("the distortion ",
+                                       model,
+                                       " shows everything in the middle of the image: check its "
+                                       "coefficients"));
+}
+
+const char* Distortion::name() const {
+  switch (model_) {
+    case Model::kPlumbBob:
+      return "plumb_bob";
+    case Model::kRationalPolynomial:
+      return "rational_polynomial";
+    case Model::kEquidistant:
+      break;
+  }
+  return "equidistant";
+}
+
+bool Distortion::isNone() const {
+  return model_ != Model::kEquidistant &&
+         std::all_of(
+             coefficients_.begin(), coefficients_.end(), [](double value) { return value == 0.0; });
+}
+
+/// Distorted radius over radius, without the tangential part.
+double Distortion::radialGain(double radius) const {
+  const std::vector<double>& k = coefficients_;
+  if (model_ == Model::kEquidistant) {
+    if (radius < 1e-9) return 1.0;
+    const double angle = std::atan(radius);
+    const double square = angle * angle;
+    return angle / radius *
+           (1.0 + square * (k[0] + square * (k[1] + square * (k[2] + square * k[3]))));
+  }
+  const double square = radius * radius;
+  const double gain = 1.0 + square * (k[0] + square * (k[1] + square * k[4]));
+  if (model_ == Model::kPlumbBob) return gain;
+  return gain / (1.0 + square * (k[5] + square * (k[6] + square * k[7])));
+}
+
+Eigen::Vector2d Distortion::tangential(const Eigen::Vector2d& point) const {
+  if (model_ == Model::kEquidistant) return Eigen::Vector2d::Zero();
+  const double p1 = coefficients_[2];
+  const double p2 = coefficients_[3];
+  const double x = point.x();
+  const double y = point.y();
+  const double square = point.squaredNorm();
+  return {2.0 * p1 * x * y + p2 * (square + 2.0 * x * x),
+          p1 * (square + 2.0 * y * y) + 2.0 * p2 * x * y};
+}
+
+double Distortion::findLimit() const {
+  constexpr double kStep = 0.25 * kDegree;
+  double seen_at = 0.0;
+  for (double angle = kStep; angle < kMaxAngle; angle += kStep) {
+    const double radius = std::tan(angle);
+    const double next = radius * radialGain(radius);
+    if (!(next > seen_at)) return std::tan(angle - kStep);
+    seen_at = next;
+  }
+  return std::tan(kMaxAngle);
+}
+
+Eigen::Vector2d Distortion::distort(const Eigen::Vector2d& point) const {
+  const double radius = point.norm();
+  if (radius > limit_) return distort(point * ((1.0 - 1e-9) * limit_ / radius));
+  return radialGain(radius) * point + tangential(point);
+}
+
+/// Inverse of the radial part, by bisection: it rises up to the limit.
+double Distortion::radiusSeenAt(double distorted_radius) const {
+  double low = 0.0;
+  double high = limit_;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (middle * radialGain(middle) < distorted_radius ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+Eigen::Vector2d Distortion::undistort(const Eigen::Vector2d& distorted) const {
+  Eigen::Vector2d point = distorted;
+  for (int i = 0; i < 20; ++i) {  // the tangential part is small
+    const Eigen::Vector2d radial = distorted - tangential(point);
+    const double radius = radial.norm();
+    if (radius == 0.0) return radial;
+    point = radiusSeenAt(radius) / radius * radial;
+  }
+  return point;
+}
+
+}  // namespace rotrocc

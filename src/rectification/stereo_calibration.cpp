@@ -1,0 +1,196 @@
+#include "rectification/stereo_calibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "common/sentence.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kMaxDeviation = 1e-3;  // of a rotation printed with four digits or more
+
+void requirePositive(const char* name, double value) {
+  if (std::isfinite(value) && value > 0.0) return;
+  throw std::invalid_argument(sentence(name, " is ", value, ", but must be positive"));
+}
+
+bool isRectifiedBy(const RawCamera& raw, const StereoCamera& camera, double cx) {
+  constexpr double kSame_px = 1e-2;
+  constexpr double kSame_rad = 1e-5;
+  const double difference = std::max({std::abs(raw.fx - camera.fx),
+                                      std::abs(raw.fy - camera.fy),
+                                      std::abs(raw.cx - cx),
+                                      std::abs(raw.cy - camera.cy)});
+  return raw.distortion.isNone() && difference < kSame_px &&
+         raw.R_rectified_raw.isIdentity(kSame_rad);
+}
+
+RawCamera asRaw(const StereoCamera& camera, double cx) {
+  RawCamera raw;
+  raw.width = camera.width;
+  raw.height = camera.height;
+  raw.fx = camera.fx;
+  raw.fy = camera.fy;
+  raw.cx = cx;
+  raw.cy = camera.cy;
+  return raw;
+}
+
+void requireSideBySide(const Eigen::Isometry3d& T_left_right) {
+  constexpr double kMaxAngle_deg = 45.0;
+  const Eigen::Vector3d& right = T_left_right.translation();
+  const double turn_deg = Eigen::AngleAxisd(T_left_right.linear()).angle() * 180.0 / M_PI;
+  if (!(turn_deg < kMaxAngle_deg)) {
+    throw std::invalid_argument(sentence("the right camera is turned against the left one by ",
+                                         turn_deg,
+                                         " degrees: check the poses of the cameras"));
+  }
+  if (!(right.norm() > 1e-6)) {
+    throw std::invalid_argument("the baseline is zero: check the poses of the cameras");
+  }
+  if (right.x() < std::cos(kMaxAngle_deg * M_PI / 180.0) * right.norm()) {
+    throw std::invalid_argument(sentence(
+        "the right camera is at ",
+        right.transpose(),
+        " m in the frame of the left one (right, down, forward), but must be to its right: "
+        "are left and right swapped, or the poses of the cameras inverted?"));
+  }
+}
+
+/// The largest image of a pair of cameras that both see.
+class CommonImage {
+ public:
+  CommonImage(const RawCamera& left, const RawCamera& right) : left_(left), right_(right) {}
+
+  /// `camera` with focal lengths and principal point set.
+  StereoCamera fit(StereoCamera camera) const {
+    const double raw_focal = std::min(std::min(left_.fx, left_.fy), std::min(right_.fx, right_.fy));
+    double small = 0.7 * raw_focal;
+    double large = 4.0 * raw_focal;
+    if (isSeen(withFocal(camera, small))) return withFocal(camera, small);
+    if (!isSeen(withFocal(camera, large))) {
+      throw std::invalid_argument(
+          "the cameras share no view: check their intrinsics and their poses");
+    }
+    for (int i = 0; i < 40; ++i) {
+      const double middle = 0.5 * (small + large);
+      (isSeen(withFocal(camera, middle)) ? large : small) = middle;
+    }
+    return withFocal(camera, large);
+  }
+
+ private:
+  /// What the centre of a raw image shows, in normalized coordinates of the rectified one.
+  static Eigen::Vector2d centre(const RawCamera& raw) {
+    const Eigen::Vector2d middle(0.5 * (raw.width - 1), 0.5 * (raw.height - 1));
+    return (raw.R_rectified_raw * raw.ray(middle)).hnormalized();
+  }
+
+  /// The middle of what both show is in the middle of the rectified images.
+  StereoCamera withFocal(StereoCamera camera, double focal) const {
+    const Eigen::Vector2d middle = 0.5 * (centre(left_) + centre(right_));
+    camera.fx = camera.fy = focal;
+    camera.cx = camera.cx_right = 0.5 * (camera.width - 1) - focal * middle.x();
+    camera.cy = 0.5 * (camera.height - 1) - focal * middle.y();
+    return camera;
+  }
+
+  bool isSeen(const StereoCamera& camera) const {
+    for (int x = 0; x < camera.width; ++x) {
+      if (!isSeen(camera, x, 0) || !isSeen(camera, x, camera.height - 1)) return false;
+    }
+    for (int y = 0; y < camera.height; ++y) {
+      if (!isSeen(camera, 0, y) || !isSeen(camera, camera.width - 1, y)) return false;
+    }
+    return true;
+  }
+
+  bool isSeen(const StereoCamera& camera, int x, int y) const {
+    const Eigen::Vector3d ray = camera.ray(Eigen::Vector2d(x, y));
+    return isSeenBy(left_, ray) && isSeenBy(right_, ray);
+  }
+
+  static bool isSeenBy(const RawCamera& raw, const Eigen::Vector3d& rectified_ray) {
+    const Eigen::Vector3d ray = raw.R_rectified_raw.transpose() * rectified_ray;
+    if (!(ray.z() > 0.0) || ray.hnormalized().norm() > raw.distortion.limit()) return false;
+    const Eigen::Vector2d pixel = raw.project(ray);
+    return pixel.minCoeff() >= 0.0 && pixel.x() <= raw.width - 1 && pixel.y() <= raw.height - 1;
+  }
+
+  RawCamera left_;
+  RawCamera right_;
+};
+
+}  // namespace
+
+void RawCamera::check() const {
+  requirePositive("width", width);
+  requirePositive("height", height);
+  requirePositive("fx", fx);
+  requirePositive("fy", fy);
+  if (!std::isfinite(cx) || !std::isfinite(cy)) {
+    throw std::invalid_argument(sentence("the principal point ", cx, " ", cy, " is not finite"));
+  }
+  const Eigen::Matrix3d deviation =
+      R_rectified_raw * R_rectified_raw.transpose() - Eigen::Matrix3d::Identity();
+  if (!(deviation.cwiseAbs().maxCoeff() < kMaxDeviation) || R_rectified_raw.determinant() < 0.0) {
+    throw std::invalid_argument("the rectification matrix R is not a rotation");
+  }
+}
+
+Eigen::Vector2d RawCamera::project(const Eigen::Vector3d& point) const {
+  const Eigen::Vector2d seen = distortion.distort(point.hnormalized());
+  return {fx * seen.x() + cx, fy * seen.y() + cy};
+}
+
+Eigen::Vector3d RawCamera::ray(const Eigen::Vector2d& pixel) const {
+  return distortion.undistort({(pixel.x() - cx) / fx, (pixel.y() - cy) / fy}).homogeneous();
+}
+
+bool StereoCalibration::isRectified() const {
+  return isRectifiedBy(left, rectified, rectified.cx) &&
+         isRectifiedBy(right, rectified, rectified.cx_right);
+}
+
+StereoCalibration rectifiedCalibration(const StereoCamera& camera) {
+  return {asRaw(camera, camera.cx), asRaw(camera, camera.cx_right), camera};
+}
+
+StereoCalibration chooseRectification(const RawCamera& left,
+                                      const RawCamera& right,
+                                      const Eigen::Isometry3d& T_left_right) {
+  left.check();
+  right.check();
+  if (left.width != right.width || left.height != right.height) {
+    throw std::invalid_argument(sentence("the left camera has ",
+                                         left.width,
+                                         "x",
+                                         left.height,
+                                         " px, the right one ",
+                                         right.width,
+                                         "x",
+                                         right.height,
+                                         " px: both must have the same size"));
+  }
+  requireSideBySide(T_left_right);
+
+  const Eigen::AngleAxisd turn(T_left_right.linear());
+  const Eigen::AngleAxisd half(0.5 * turn.angle(), turn.axis());
+  const Eigen::Vector3d baseline = half.inverse() * T_left_right.translation();
+  const Eigen::Quaterniond along_x =
+      Eigen::Quaterniond::FromTwoVectors(baseline, Eigen::Vector3d::UnitX());
+  StereoCalibration calibration = {left, right, {}};
+  calibration.left.R_rectified_raw = (along_x * half.inverse()).toRotationMatrix();
+  calibration.right.R_rectified_raw = (along_x * half).toRotationMatrix();
+  StereoCamera camera;
+  camera.width = left.width;
+  camera.height = left.height;
+  camera.baseline_m = baseline.norm();
+  calibration.rectified = CommonImage(calibration.left, calibration.right).fit(camera);
+  return calibration;
+}
+
+}  // namespace rotrocc

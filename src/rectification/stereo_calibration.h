@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "rectification/distortion.h"
+#include "rotrocc/stereo_camera.h"
+
+namespace rotrocc {
+
+/// One camera of a stereo pair as it takes its images, and how these are rectified: what K, D and R
+/// of sensor_msgs/CameraInfo describe.
+struct RawCamera {
+  int width = 0;  ///< [px]
+  int height = 0;
+  double fx = 0.0;  ///< [px]
+  double fy = 0.0;
+  double cx = 0.0;
+  double cy = 0.0;
+  Distortion distortion;
+  Eigen::Matrix3d R_rectified_raw = Eigen::Matrix3d::Identity();
+
+  /// Throws std::invalid_argument that names the first value that is not finite or not positive, or
+  /// a matrix that is no rotation.
+  void check() const;
+
+  /// Pixel of a point in the frame of the raw camera, whose z must be positive.
+  Eigen::Vector2d project(const Eigen::Vector3d& point) const;
+
+  /// Viewing ray of a pixel in the frame of the raw camera, of unit depth.
+  Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const;
+};
+
+/// A stereo camera before and after rectification.
+struct StereoCalibration {
+  RawCamera left;
+  RawCamera right;
+  StereoCamera rectified;
+
+  /// Whether the images of the cameras are rectified as they are taken.
+  bool isRectified() const;
+};
+
+/// Of images that are rectified already.
+StereoCalibration rectifiedCalibration(const StereoCamera& camera);
+
+/// Chooses the rectification of two cameras: each is turned by half of the angle between them and
+/// towards the other (Bouguet's method). The rectified images have the size of the raw ones. They
+/// show as much as fits without pixels that a camera does not see, but have at least 0.7 times the
+/// focal length of the raw images, so that those of a wide lens do not get coarse in the middle.
+/// Throws std::invalid_argument if the sizes differ, or if the right camera is not beside the left
+/// one, on its right, and looking the same way.
+StereoCalibration chooseRectification(const RawCamera& left,
+                                      const RawCamera& right,
+                                      const Eigen::Isometry3d& T_left_right);
+
+}  // namespace rotrocc

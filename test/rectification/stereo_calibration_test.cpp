@@ -1,0 +1,120 @@
+#include "rectification/stereo_calibration.h"
+
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "support/expect_error.h"
+#include "support/raw_rig.h"
+
+namespace rotrocc {
+namespace {
+
+StereoCalibration choose(const RawRig& rig) {
+  return chooseRectification(rig.left, rig.right, rig.T_left_right);
+}
+
+TEST(StereoCalibrationTest, RotationsAreThoseOfOpenCv) {
+  // Of cv::stereoRectify, as in config/cameras.
+  Eigen::Matrix3d left;
+  left << 0.9999663475300326, -0.001422739138719227, 0.00807958048348973, 0.001365741834640026,
+      0.9999741760894847, 0.007055629199258191, -0.008089410156936382, -0.007044357138835821,
+      0.9999424675829172;
+  Eigen::Matrix3d right;
+  right << 0.9999633526194371, -0.00362581187155556, 0.007755443660230348, 0.003680398547255406,
+      0.9999684752771629, -0.007035845251224841, -0.007729688520780144, 0.007064130529506772,
+      0.9999451734846435;
+  const StereoCalibration calibration = choose(rawRig());
+  EXPECT_TRUE(calibration.left.R_rectified_raw.isApprox(left, 1e-7));
+  EXPECT_TRUE(calibration.right.R_rectified_raw.isApprox(right, 1e-7));
+  EXPECT_NEAR(calibration.rectified.baseline_m, 48.01976196062409 / 436.2345864026956, 1e-7);
+}
+
+TEST(StereoCalibrationTest, PointsAreInTheSameRowAndAtTheirDisparity) {
+  for (const char* model : {"radial-tangential", "equidistant"}) {
+    const RawRig rig = rawRig(model);
+    const StereoCalibration calibration = choose(rig);
+    const StereoCamera& camera = calibration.rectified;
+    const Eigen::Vector3d point(0.7, -0.4, 3.0);  // in the frame of the left raw camera
+    const Eigen::Vector3d left = calibration.left.R_rectified_raw * point;
+    const Eigen::Vector3d right =
+        calibration.right.R_rectified_raw * (rig.T_left_right.inverse() * point);
+    EXPECT_LT((left - Eigen::Vector3d(camera.baseline_m, 0.0, 0.0) - right).norm(), 1e-9);
+  }
+}
+
+TEST(StereoCalibrationTest, BothCamerasSeeAllOfTheLargestImage) {
+  for (const char* model : {"radial-tangential", "equidistant"}) {
+    const StereoCalibration calibration = choose(rawRig(model));
+    const StereoCamera& camera = calibration.rectified;
+    EXPECT_EQ(camera.width, 752);
+    EXPECT_EQ(camera.height, 480);
+    double margin_px = 1e9;  // from a border of a raw image
+    for (int y = 0; y < camera.height; ++y) {
+      for (int x = 0; x < camera.width; ++x) {
+        for (const RawCamera* raw : {&calibration.left, &calibration.right}) {
+          const Eigen::Vector2d pixel =
+              raw->project(raw->R_rectified_raw.transpose() * camera.ray(Eigen::Vector2d(x, y)));
+          margin_px = std::min({margin_px,
+                                pixel.x(),
+                                pixel.y(),
+                                raw->width - 1 - pixel.x(),
+                                raw->height - 1 - pixel.y()});
+        }
+      }
+    }
+    EXPECT_GE(margin_px, 0.0) << model;
+    EXPECT_LT(margin_px, 0.01) << model << ": there is a larger one";
+    EXPECT_GT(camera.fx, 0.85 * 458.0);
+    EXPECT_LT(camera.fx, 458.0);
+  }
+}
+
+TEST(StereoCalibrationTest, WideLensesKeepTheirResolution) {
+  RawRig rig = rawRig("equidistant");
+  for (RawCamera* camera : {&rig.left, &rig.right}) camera->fx = camera->fy = 190.0;
+  EXPECT_DOUBLE_EQ(choose(rig).rectified.fx, 0.7 * 190.0);
+}
+
+TEST(StereoCalibrationTest, KnowsWhatIsRectified) {
+  EXPECT_FALSE(choose(rawRig()).isRectified());
+  StereoCamera camera = choose(rawRig()).rectified;
+  camera.cx_right = camera.cx - 3.0;
+  EXPECT_TRUE(rectifiedCalibration(camera).isRectified());
+  StereoCalibration turned = rectifiedCalibration(camera);
+  turned.right.R_rectified_raw = Eigen::AngleAxisd(1e-3, Eigen::Vector3d::UnitX());
+  EXPECT_FALSE(turned.isRectified());
+  StereoCalibration zoomed = rectifiedCalibration(camera);
+  zoomed.left.fx += 1.0;
+  EXPECT_FALSE(zoomed.isRectified());
+}
+
+TEST(StereoCalibrationTest, RefusesCamerasThatAreNoPair) {
+  const auto expectRefused = [](const RawRig& rig, const std::string& part) {
+    expectError<std::invalid_argument>([&] { choose(rig); }, part);
+  };
+  RawRig swapped = rawRig();
+  swapped.T_left_right = swapped.T_left_right.inverse();
+  expectRefused(swapped, "are left and right swapped");
+  RawRig above = rawRig();
+  above.T_left_right.translation() << 0.0, 0.1, 0.0;
+  expectRefused(above, "must be to its right");
+  RawRig one = rawRig();
+  one.T_left_right.translation().setZero();
+  expectRefused(one, "the baseline is zero");
+  RawRig back = rawRig();
+  back.T_left_right.rotate(Eigen::AngleAxisd(3.0, Eigen::Vector3d::UnitY()));
+  expectRefused(back, "turned against the left one by 17");
+  RawRig sizes = rawRig();
+  sizes.right.width = 640;
+  expectRefused(sizes, "752x480 px, the right one 640x480 px");
+  RawRig focal = rawRig();
+  focal.left.fy = 0.0;
+  expectRefused(focal, "fy is 0, but must be positive");
+  RawRig apart = rawRig();
+  apart.right.cx = -4000.0;
+  expectRefused(apart, "share no view");
+}
+
+}  // namespace
+}  // namespace rotrocc
