@@ -16,7 +16,8 @@ namespace rotrocc {
 ///   image_1/000000.png ...  rectified right grey images
 ///   calib.txt               the 3x4 projection matrices `P0:` (left) and `P1:` (right), row by row
 ///   times.txt               one time [s] per line
-///   poses.txt               ground truth, one pose of the left camera per line; optional
+///   poses.txt               ground truth, one pose of the left camera per line, or in TUM format
+///                           with stamps around all times; optional
 class KittiSequence {
  public:
   /// Reads everything except the images. Throws std::runtime_error that names the file and the

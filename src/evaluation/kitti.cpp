@@ -7,9 +7,10 @@
 #include <stdexcept>
 
 #include <Eigen/Core>
-#include <opencv2/imgcodecs.hpp>
 
+#include "evaluation/grey_image.h"
 #include "evaluation/text_file.h"
+#include "evaluation/trajectory_sampling.h"
 
 namespace rotrocc {
 namespace {
@@ -86,11 +87,22 @@ StereoCamera readCalibration(const std::string& path, const cv::Size& size) {
   return camera;
 }
 
-cv::Mat readGrey(const std::string& path) {
-  if (!fs::exists(path)) throw std::runtime_error(path + " is missing");
-  const cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE);
-  if (image.empty()) throw std::runtime_error(path + " is not a readable image");
-  return image;
+/// One pose for each stamp.
+Trajectory readGroundTruth(const std::string& path,
+                           const std::string& times_path,
+                           const std::vector<std::int64_t>& stamps_ns) {
+  constexpr std::int64_t kMaxGap_ns = 100'000'000;
+  if (detectTrajectoryFormat(path) == TrajectoryFormat::kKitti) {
+    Trajectory poses = readTrajectory(path, times_path);
+    requireSameCount(path, poses.size(), stamps_ns.size());
+    return poses;
+  }
+  Trajectory poses = samplePoses(readTrajectory(path), stamps_ns, kMaxGap_ns);
+  if (poses.size() != stamps_ns.size()) {
+    throw std::runtime_error(path + " has poses for " + std::to_string(poses.size()) + " of the " +
+                             std::to_string(stamps_ns.size()) + " times of times.txt");
+  }
+  return poses;
 }
 
 }  // namespace
@@ -103,12 +115,11 @@ KittiSequence::KittiSequence(const std::string& directory) : directory_(director
   for (const char* folder : {kLeftFolder, kRightFolder}) {
     requireSameCount((root / folder).string(), countImages(root / folder), stamps_ns_.size());
   }
-  const cv::Mat first = readGrey(imagePath(directory, kLeftFolder, 0));
+  const cv::Mat first = readGreyImage(imagePath(directory, kLeftFolder, 0));
   camera_ = readCalibration((root / "calib.txt").string(), first.size());
   const std::string poses_path = (root / "poses.txt").string();
   if (!fs::exists(poses_path)) return;
-  ground_truth_ = readTrajectory(poses_path, times_path);
-  requireSameCount(poses_path, ground_truth_.size(), stamps_ns_.size());
+  ground_truth_ = readGroundTruth(poses_path, times_path, stamps_ns_);
 }
 
 cv::Mat KittiSequence::readLeft(int index) const {
@@ -121,12 +132,9 @@ cv::Mat KittiSequence::readRight(int index) const {
 
 cv::Mat KittiSequence::read(const char* folder, int index) const {
   const std::string path = imagePath(directory_, folder, index);
-  cv::Mat image = readGrey(path);
-  if (image.cols == camera_.width && image.rows == camera_.height) return image;
-  std::ostringstream message;
-  message << path << " is " << image.cols << " x " << image.rows << " px, but the first image is "
-          << camera_.width << " x " << camera_.height << " px";
-  throw std::runtime_error(message.str());
+  cv::Mat image = readGreyImage(path);
+  requireImageSize(path, image, {camera_.width, camera_.height}, "the first image");
+  return image;
 }
 
 }  // namespace rotrocc

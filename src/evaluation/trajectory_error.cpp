@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "evaluation/trajectory_sampling.h"
+
 namespace rotrocc {
 namespace {
 
@@ -35,6 +37,14 @@ std::size_t nearest(const Trajectory& trajectory, std::int64_t stamp_ns) {
   if (index == 0) return 0;
   if (later == trajectory.end()) return index - 1;
   return later->stamp_ns - stamp_ns < stamp_ns - trajectory[index - 1].stamp_ns ? index : index - 1;
+}
+
+/// The pose at `stamp_ns` if the truth has at least 50 Hz, otherwise that of its nearest pose: what
+/// moves by 1 m/s is 5 mm apart after half a period of 100 Hz.
+StampedPose truthAt(const Trajectory& truth, std::int64_t stamp_ns, const StampedPose& nearest) {
+  constexpr std::int64_t kMaxGap_ns = 20'000'000;
+  const auto pose = poseAt(truth, stamp_ns, kMaxGap_ns);
+  return pose ? StampedPose{stamp_ns, *pose} : nearest;
 }
 
 void requireMatched(const MatchedTrajectories& matched) {
@@ -112,7 +122,7 @@ MatchedTrajectories matchByStamp(const Trajectory& truth,
     const StampedPose& partner = truth[nearest(truth, estimate[i].stamp_ns)];
     if (std::llabs(partner.stamp_ns - estimate[i].stamp_ns) > max_difference_ns) continue;
     if (nearest(estimate, partner.stamp_ns) != i) continue;
-    matched.truth.push_back(partner);
+    matched.truth.push_back(truthAt(truth, estimate[i].stamp_ns, partner));
     matched.estimate.push_back(estimate[i]);
   }
   return matched;

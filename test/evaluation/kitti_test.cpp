@@ -89,6 +89,16 @@ TEST_F(KittiSequenceTest, GroundTruthMayBeMissing) {
   EXPECT_TRUE(open().groundTruth().empty());
 }
 
+TEST_F(KittiSequenceTest, ReadsTruthInTumFormat) {
+  directory_.write("poses.txt", "0 0 0 0 0 0 0 1\n0.1 0 0 1 0 0 0 1\n0.2 0 0 2 0 0 0 1\n");
+  const Trajectory truth = open().groundTruth();
+  ASSERT_EQ(truth.size(), 2u) << "one for each pair";
+  EXPECT_EQ(truth[1].stamp_ns, 103'759'500);
+  EXPECT_NEAR(truth[1].T_world_body.translation().z(), 1.037595, 1e-9);
+  directory_.write("poses.txt", "0 0 0 0 0 0 0 1\n0.1 0 0 1 0 0 0 1\n");
+  expectRefused("poses.txt has poses for 1 of the 2 times");
+}
+
 TEST_F(KittiSequenceTest, RefusesCountsThatDiffer) {
   directory_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
   expectRefused("poses.txt has 1 entries, but times.txt has 2 times");

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include <opencv2/core.hpp>
+
+namespace rotrocc {
+
+/// Reads an image file as CV_8UC1. Those with 16 bits are divided by 256. Throws std::runtime_error
+/// with the path if it is missing or unreadable.
+cv::Mat readGreyImage(const std::string& path);
+
+/// Throws std::runtime_error with the path if an image that was read from it has another size.
+/// `whose` has the size, as "the first image".
+void requireImageSize(const std::string& path,
+                      const cv::Mat& image,
+                      const cv::Size& size,
+                      const std::string& whose);
+
+/// Reads the images of one camera, whose 16-bit images may use only a part of their range: 10 or 12
+/// bits. They are shifted right by b - 8 bits, where b is the number of bits of the largest value
+/// so far, at least 8, as in bags.
+class GreyImageReader {
+ public:
+  cv::Mat read(const std::string& path);
+
+ private:
+  int significant_bits_ = 8;
+};
+
+}  // namespace rotrocc
