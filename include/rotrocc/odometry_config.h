@@ -105,6 +105,8 @@ struct MotionCheckConfig {
   /// Share of the feature set that are inliers; below: degraded. The majority of the features may
   /// then be right. Real clips have 0.58 and more, with steps of up to 0.2 s.
   double degraded_inlier_share = 0.5;
+  /// Share of the feature set that agrees on another motion; above: degraded.
+  double degraded_rival_share = 0.2;
   /// Share of the keyframe's features with a depth that are inliers; below: degraded. After a wrong
   /// prediction, up to a tenth of the features match somewhere by chance.
   double degraded_survivor_share = 0.1;

@@ -15,9 +15,9 @@ constexpr std::size_t kLeastFeatures = 4;
 /// first without an outlier in 99 % of all cases; depths of far features are too inexact for most.
 constexpr int kSamples = 200;
 
-/// Tolerance of the reprojection error: more than that of tracking, as a motion of three features
-/// is inexact.
-constexpr float kTolerance_px = 2.0F;
+/// Tolerance of the reprojection error: about that of stage 1. Twice as much confuses a slow motion
+/// with that of an object ahead.
+constexpr float kTolerance_px = 0.7F;
 
 constexpr double kConfidence = 0.999;
 

@@ -1,7 +1,10 @@
 #include "motion/motion_estimator.h"
 
+#include <utility>
+
 #include <Eigen/Cholesky>
 
+#include "motion/consensus_motion.h"
 #include "motion/outlier_rejection.h"
 #include "motion/reprojection_error.h"
 
@@ -10,6 +13,12 @@ namespace {
 
 /// 99 % quantile of the chi-squared distribution with 6 degrees of freedom.
 constexpr double kSignificant2 = 16.8;
+
+/// A smaller share of the features is not what most agree on.
+constexpr double kMajority = 0.5;
+
+/// Two sets of inliers that differ by less are of the same motion.
+constexpr double kClearly = 1.1;
 
 /// The square of a factor of 2 between distances.
 constexpr double kHalf2 = 4.0;
@@ -45,12 +54,31 @@ const MotionEstimator::Estimate& MotionEstimator::estimate(const StereoCamera& c
   const bool few = agree < config_.retry_share * static_cast<double>(features.size());
   if (!few || !is_prediction || config_.retry_agreement_px == 0.0) return found_;
 
+  if (agree < kMajority * static_cast<double>(features.size())) takeConsensus(measured, dt_s);
+  retryNear(initial, measured, dt_s);
+  return isLikelier(retry_, initial, dt_s) ? retry_ : found_;
+}
+
+/// The full set is a mixture of motions: its least squares fit may end at none of them, or at one
+/// of the smaller part. Replaces it by the motion that most features agree on, if more do.
+void MotionEstimator::takeConsensus(const Measurements& measured, double dt_s) {
+  const auto consensus = consensusMotion(measured.camera, measured.features);
+  if (!consensus) return;
+  retryNear(*consensus, measured, dt_s);
+  if (!retry_.valid) return;
+  const double clearly_more = kClearly * count(found_.rotation_inliers);
+  if (!found_.valid || count(retry_.rotation_inliers) > clearly_more) std::swap(found_, retry_);
+}
+
+/// Estimates from the features close to a motion.
+void MotionEstimator::retryNear(const Eigen::Isometry3d& motion,
+                                const Measurements& measured,
+                                double dt_s) {
   // Without whitening, because the motion of an object along the road looks like a wrong disparity.
-  reprojectionErrors(camera, features, initial, errors_px_);
+  reprojectionErrors(measured.camera, measured.features, motion, errors_px_);
   near_ = all_;
   keepBelow(errors_px_, config_.retry_agreement_px, near_);
-  estimateFrom(near_, measured, initial, dt_s, retry_);
-  return isLikelier(retry_, initial, dt_s) ? retry_ : found_;
+  estimateFrom(near_, measured, motion, dt_s, retry_);
 }
 
 /// Whether the retry is more plausible than the first motion.

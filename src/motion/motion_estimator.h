@@ -41,7 +41,9 @@ class MotionEstimator {
   /// solution.
   ///
   /// If much of the image moves independently, the full set may give a wrong motion. If few
-  /// features are inliers and `initial` is a prediction, a retry starts from the features close to
+  /// features are inliers and `initial` is a prediction, there are two more. If less than half are
+  /// inliers, the first motion is replaced by the consensus of the full set, if that has more. Then
+  /// a retry starts from the features close to
   /// the prediction. It replaces the first motion if it has more than twice as many inliers, or if
   /// all of this holds: it has at least half as many inliers, the two motions differ significantly,
   /// and it is less than half as far from the prediction. Distances are relative to the uncertainty
@@ -58,6 +60,8 @@ class MotionEstimator {
                            double shared_ratio = 0.0);
 
  private:
+  void takeConsensus(const Measurements& measured, double dt_s);
+  void retryNear(const Eigen::Isometry3d& motion, const Measurements& measured, double dt_s);
   bool isLikelier(const Estimate& retry, const Eigen::Isometry3d& prediction, double dt_s) const;
   void estimateFrom(const FeatureSet& set,
                     const Measurements& measured,

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "common/median.h"
 #include "common/sentence.h"
+#include "motion/consensus_motion.h"
 #include "motion/outlier_rejection.h"
+#include "motion/reprojection_error.h"
 #include "rotrocc/rigid_motion.h"
 
 namespace rotrocc {
@@ -18,6 +21,9 @@ constexpr int kReserve = 2;
 /// Share of the median depth. A shorter step changes the image little: its uncertainty is compared
 /// with the scene, or it would have none small enough at standstill.
 constexpr double kShortStep = 0.02;
+/// Features with a larger error contradict a motion. Those that are only inexact have a smaller
+/// one.
+constexpr double kContradiction_px = 2.0;
 
 /// The smaller number of inliers of the two stages: both parts of the motion need enough of them.
 int inliers(const MotionEstimator::Estimate& estimate) {
@@ -82,7 +88,8 @@ std::string MotionCheck::whyDegraded(const Hypothesis& accepted, const Matrix6d&
                     " of the features agrees on the motion, less than degraded_inlier_share = ",
                     config_.degraded_inlier_share);
   }
-  const std::string why = whyFewSurvive(accepted);
+  std::string why = whyFewSurvive(accepted);
+  if (why.empty()) why = whyAmbiguous(accepted);
   return why.empty() ? whyUndetermined(accepted, covariance) : why;
 }
 
@@ -103,6 +110,35 @@ std::string MotionCheck::whyFewSurvive(const Hypothesis& accepted) const {
                   features,
                   " features, a share below degraded_survivor_share = ",
                   config_.degraded_survivor_share);
+}
+
+/// Whether many of the features that contradict the motion agree on another one. Then it may be
+/// that of an object that fills the image.
+std::string MotionCheck::whyAmbiguous(const Hypothesis& accepted) {
+  const Correspondences& features = accepted.features;
+  const int many = std::max(
+      config_.min_inliers,
+      static_cast<int>(config_.degraded_rival_share * static_cast<double>(features.size())));
+  reprojectionErrors(accepted.camera, features, accepted.estimate.T_keyframe_cur, errors_px_);
+  others_.clear();
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (errors_px_[i] > kContradiction_px) others_.push_back(features[i]);
+  }
+  if (static_cast<int>(others_.size()) < many) return "";
+  const auto rival = consensusMotion(accepted.camera, others_);
+  if (!rival) return "";
+  reprojectionErrors(accepted.camera, others_, *rival, errors_px_);
+  const auto agree = std::count_if(errors_px_.begin(), errors_px_.end(), [](double error_px) {
+    return error_px < kContradiction_px;
+  });
+  if (agree < many) return "";
+  return sentence("another motion fits ",
+                  agree,
+                  " of the ",
+                  features.size(),
+                  " features, a share above degraded_rival_share = ",
+                  config_.degraded_rival_share,
+                  ": one of the two is that of a large object");
 }
 
 std::string MotionCheck::whyUndetermined(const Hypothesis& accepted, const Matrix6d& covariance) {

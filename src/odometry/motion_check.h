@@ -39,10 +39,14 @@ class MotionCheck {
  private:
   bool isLarge(const FeatureSet& features) const;
   std::string whyFewSurvive(const Hypothesis& accepted) const;
+  std::string whyAmbiguous(const Hypothesis& accepted);
   std::string whyUndetermined(const Hypothesis& accepted, const Matrix6d& covariance);
 
   Config config_;
-  std::vector<double> depths_m_;  // buffer, reused
+  // Buffers, reused.
+  std::vector<double> depths_m_;
+  std::vector<double> errors_px_;
+  Correspondences others_;
 };
 
 }  // namespace rotrocc

@@ -32,6 +32,12 @@ void addMotionCheck(MotionCheckConfig& c, ParameterTable& table) {
             1.0,
             "",
             "share of inliers below which the motion is degraded");
+  table.add(s + "degraded_rival_share",
+            c.degraded_rival_share,
+            0.0,
+            1.0,
+            "",
+            "share of features that agree on another motion, above which the motion is degraded");
   table.add(s + "degraded_survivor_share",
             c.degraded_survivor_share,
             0.0,

@@ -1,6 +1,7 @@
 #include "odometry/motion_check.h"
 
 #include <algorithm>
+#include <random>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -38,12 +39,17 @@ std::string whyLost(const MotionEstimator::Estimate& estimate) {
   return MotionCheck({}).whyLost(estimate, kPeriod_s);
 }
 
-/// All features are at the same depth, and all of the keyframe's features were tracked.
+/// All features are at the same place and fit the motion, and all of the keyframe's features were
+/// tracked.
 Hypothesis hypothesis(const MotionEstimator::Estimate& estimate) {
   Hypothesis hypothesis;
+  hypothesis.camera = kittiCamera();
   hypothesis.estimate = estimate;
   hypothesis.features.resize(estimate.rotation_inliers.size());
-  for (Correspondence& feature : hypothesis.features) feature.point_cur = {0.0, 0.0, kDepth_m};
+  for (Correspondence& feature : hypothesis.features) {
+    feature.point_cur = {0.0, 0.0, kDepth_m};
+    feature.keyframe_px = kittiCamera().project(estimate.T_keyframe_cur * feature.point_cur);
+  }
   hypothesis.counts.with_depth = static_cast<int>(hypothesis.features.size());
   return hypothesis;
 }
@@ -141,6 +147,43 @@ TEST(MotionCheckTest, CallsAMotionOnASmallShareDegraded) {
   expectSays(whyDegraded(estimate), "0.4975", "degraded_inlier_share = 0.5");
   estimate.translation_inliers = set(200, 400);
   EXPECT_EQ(whyDegraded(estimate), "");
+}
+
+/// 300 features that fit the motion, and 100 others.
+Hypothesis hypothesisAnd(const Correspondences& others) {
+  constexpr int kFitting = 300;
+  std::mt19937 generator(1);
+  Hypothesis mixed = hypothesis(goodEstimate());
+  mixed.features = simulateFeatures(
+      kittiCamera(), mixed.estimate.T_keyframe_cur, kFitting, {0.2, 0.2}, generator);
+  mixed.features.insert(mixed.features.end(), others.begin(), others.end());
+  return mixed;
+}
+
+TEST(MotionCheckTest, CallsAMotionBesideAnotherOneDegraded) {
+  std::mt19937 generator(2);
+  const auto other = motion({0.5, 0.0, 0.2}, {0.0, 0.02, 0.0});
+  const Correspondences on_lorry =
+      simulateFeatures(kittiCamera(), other, 100, {0.2, 0.2}, generator);
+  const Hypothesis mixed = hypothesisAnd(on_lorry);
+  const Matrix6d covariance = Matrix6d::Zero();
+  expectSays(MotionCheck({}).whyDegraded(mixed, covariance),
+             "another motion fits",
+             "of the 400 features, a share above degraded_rival_share = 0.2");
+  MotionCheckConfig config;
+  config.degraded_rival_share = 0.3;
+  EXPECT_EQ(MotionCheck(config).whyDegraded(mixed, covariance), "");
+}
+
+TEST(MotionCheckTest, FeaturesThatAgreeOnNothingAreNoOtherMotion) {
+  std::mt19937 generator(3);
+  Correspondences wrong =
+      simulateFeatures(kittiCamera(), goodEstimate().T_keyframe_cur, 100, {0.2, 0.2}, generator);
+  std::uniform_real_distribution<double> offset_px(-40.0, 40.0);
+  for (Correspondence& feature : wrong) {
+    feature.keyframe_px += Eigen::Vector2d(offset_px(generator), offset_px(generator));
+  }
+  EXPECT_EQ(MotionCheck({}).whyDegraded(hypothesisAnd(wrong), Matrix6d::Zero()), "");
 }
 
 TEST(MotionCheckTest, WantsAReserveOfInliersForTheNextPair) {
