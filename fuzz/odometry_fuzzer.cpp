@@ -8,13 +8,13 @@
 #include <boost/make_shared.hpp>
 #include <opencv2/core/utility.hpp>
 
-#include "bags/kitti_mount.h"
 #include "input/drop_log.h"
 #include "input/message_conversion.h"
 #include "input/stereo_intake.h"
 #include "message_reader.h"
 #include "node/base/pair_processor.h"
 #include "require.h"
+#include "sequences/kitti_mount.h"
 
 namespace rotrocc {
 namespace {

@@ -9,7 +9,7 @@
 #include <tf2_msgs/TFMessage.h>
 #include <Eigen/Geometry>
 
-#include "bags/kitti_mount.h"
+#include "sequences/kitti_mount.h"
 
 namespace rotrocc {
 

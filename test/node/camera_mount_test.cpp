@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bags/kitti_mount.h"
+#include "sequences/kitti_mount.h"
 #include "support/expect_error.h"
 #include "support/log_recorder.h"
 #include "support/tf_recording.h"

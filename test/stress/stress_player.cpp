@@ -14,13 +14,13 @@
 #include <std_srvs/Trigger.h>
 
 #include "bags/bag_reading.h"
-#include "bags/kitti_mount.h"
 #include "bags/stereo_topics.h"
 #include "input/message_conversion.h"
 #include "input/stereo_synchronizer.h"
 #include "node/odometry_messages.h"
 #include "rotrocc/SaveTrajectory.h"
 #include "rotrocc/SetPose.h"
+#include "sequences/kitti_mount.h"
 
 namespace rotrocc {
 namespace {

@@ -8,7 +8,7 @@
 #include <tf2_msgs/TFMessage.h>
 #include <opencv2/imgproc.hpp>
 
-#include "bags/kitti_mount.h"
+#include "sequences/kitti_mount.h"
 
 namespace rotrocc {
 namespace {

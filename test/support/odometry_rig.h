@@ -9,11 +9,11 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 
-#include "bags/kitti_mount.h"
 #include "input/drop_log.h"
 #include "input/stereo_intake.h"
 #include "node/base/pair_processor.h"
 #include "rotrocc/parameters.h"
+#include "sequences/kitti_mount.h"
 
 namespace rotrocc {
 

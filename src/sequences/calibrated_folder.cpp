@@ -1,0 +1,133 @@
+#include "sequences/calibrated_folder.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <stdexcept>
+
+#include "evaluation/text_file.h"
+#include "evaluation/trajectory_sampling.h"
+#include "sequences/camera_info_calibration.h"
+#include "sequences/kitti_mount.h"
+
+namespace rotrocc {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kMaxGap_ns = 100'000'000;  // between poses, for interpolation
+
+bool isImage(const fs::path& path) {
+  static const std::array<const char*, 8> extensions = {
+      ".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".ppm"};
+  return std::find(extensions.begin(), extensions.end(), path.extension()) != extensions.end();
+}
+
+std::vector<fs::path> listImages(const fs::path& folder) {
+  if (!fs::is_directory(folder)) throw std::runtime_error(folder.string() + " is missing");
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (isImage(entry.path())) files.push_back(entry.path());
+  }
+  if (files.empty()) throw std::runtime_error(folder.string() + " has no images");
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// The time that is the name of an image.
+std::int64_t stampOf(const fs::path& file) {
+  const std::string name = file.stem().string();
+  const TextLine line = {file.string(), {name}};
+  constexpr std::size_t kDigitsOfNanoseconds = 16;  // since 1970, after three months
+  const bool is_number = std::all_of(
+      name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c) != 0 || c == '.'; });
+  const bool has_dot = name.find('.') != std::string::npos;
+  if (!is_number || (!has_dot && name.size() < kDigitsOfNanoseconds)) {
+    throw std::runtime_error(file.string() +
+                             " is not named by its time, e.g. 1403636579763555584.png [ns] or "
+                             "1403636579.763556.png [s]: "
+                             "rename the images, or add times.txt with the time [s] of each pair");
+  }
+  return has_dot ? line.nanoseconds(0) : line.integer(0);
+}
+
+std::vector<StampedImage> stampedByName(const std::vector<fs::path>& files) {
+  std::vector<StampedImage> images;
+  for (const fs::path& file : files) images.push_back({stampOf(file), file.string()});
+  std::sort(images.begin(), images.end(), [](const StampedImage& a, const StampedImage& b) {
+    return a.stamp_ns < b.stamp_ns;
+  });
+  return images;
+}
+
+std::vector<StampedImage> stampedByTimes(const std::vector<fs::path>& files,
+                                         const std::string& times_path) {
+  const std::vector<std::int64_t> stamps_ns = readTimes(times_path);
+  if (stamps_ns.size() != files.size()) {
+    throw std::runtime_error(times_path + " has " + std::to_string(stamps_ns.size()) +
+                             " times, but " + files.front().parent_path().string() + " has " +
+                             std::to_string(files.size()) + " images");
+  }
+  std::vector<StampedImage> images;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    images.push_back({stamps_ns[i], files[i].string()});
+  }
+  return images;
+}
+
+std::vector<StampedImage> readImageList(const fs::path& root, const char* side) {
+  const std::vector<fs::path> files = listImages(root / side);
+  const fs::path times = root / "times.txt";
+  return fs::exists(times) ? stampedByTimes(files, times.string()) : stampedByName(files);
+}
+
+StereoCalibration readCalibration(const std::string& root, double baseline_m) {
+  const auto left = readCameraInfo(root + "/left.yaml");
+  const auto right = readCameraInfo(root + "/right.yaml");
+  try {
+    return toStereoCalibration(left, right, baseline_m);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(root + "/left.yaml and right.yaml: " + error.what());
+  }
+}
+
+}  // namespace
+
+bool CalibratedFolder::isLayoutOf(const std::string& directory) {
+  const fs::path root(directory);
+  return fs::exists(root / "left.yaml") || fs::is_directory(root / "left");
+}
+
+CalibratedFolder::CalibratedFolder(const std::string& directory, const SequenceOptions& options)
+    : directory_(directory),
+      pairs_(readImageList(directory, "left"),
+             readImageList(directory, "right"),
+             options.max_stamp_difference_s),
+      calibration_(readCalibration(directory, options.baseline_m)) {
+  const std::string truth = directory + "/groundtruth.txt";
+  if (!fs::exists(truth)) return;
+  if (detectTrajectoryFormat(truth) != TrajectoryFormat::kTum) {
+    throw std::runtime_error(truth +
+                             " has no stamps: TUM format is expected, stamp [s], position "
+                             "and quaternion x y z w");
+  }
+  ground_truth_ = samplePoses(readTrajectory(truth), pairs_.stamps_ns(), kMaxGap_ns);
+}
+
+StereoPair CalibratedFolder::read(int index) {
+  return pairs_.read(index, {calibration_.left.width, calibration_.left.height});
+}
+
+Eigen::Isometry3d CalibratedFolder::T_base_camera() const {
+  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
+  T_base_camera.linear() = kittiMount().linear();
+  return T_base_camera;
+}
+
+GyroRecording CalibratedFolder::gyroscope(const std::string& name) const {
+  if (name.empty()) return {};
+  throw std::runtime_error("there is no file " + name + " with a gyroscope");
+}
+
+}  // namespace rotrocc

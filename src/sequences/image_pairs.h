@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "evaluation/grey_image.h"
+#include "rotrocc/stereo_camera.h"
+#include "rotrocc/stereo_pair.h"
+
+namespace rotrocc {
+
+/// An image file and its time.
+struct StampedImage {
+  std::int64_t stamp_ns = 0;
+  std::string path;
+};
+
+/// Left and right images of the same time.
+class ImagePairs {
+ public:
+  /// Both lists have increasing stamps. Images whose stamps differ by at most
+  /// `max_stamp_difference_s`, and by less than half of the period of the left images, may be a
+  /// pair. Files that are missing count as images without a partner. Throws std::runtime_error if
+  /// no pair is left.
+  ImagePairs(std::vector<StampedImage> left,
+             std::vector<StampedImage> right,
+             double max_stamp_difference_s);
+
+  int size() const { return static_cast<int>(pairs_.size()); }
+  std::int64_t stamp_ns(int index) const { return pairs_.at(index).left.stamp_ns; }
+  std::vector<std::int64_t> stamps_ns() const;
+
+  /// Throws std::runtime_error if a file is unreadable or has not the size `size`.
+  StereoPair read(int index, const cv::Size& size);
+
+  /// As StereoSequence::leftOut().
+  std::string leftOut() const;
+
+ private:
+  struct Pair {
+    StampedImage left;
+    StampedImage right;
+  };
+
+  void match(const std::vector<StampedImage>& left,
+             const std::vector<StampedImage>& right,
+             std::int64_t tolerance_ns);
+
+  std::vector<Pair> pairs_;
+  std::size_t left_alone_ = 0;
+  std::size_t right_alone_ = 0;
+  std::size_t missing_files_ = 0;
+  GreyImageReader left_reader_;
+  GreyImageReader right_reader_;
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,86 @@
+#include "sequences/yaml_file.h"
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "common/sentence.h"
+
+namespace rotrocc {
+namespace {
+
+std::string readWithoutOpenCvHeader(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  if (!file || !(text << file.rdbuf())) throw std::runtime_error("cannot read " + path);
+  std::string content = text.str();
+  if (content.compare(0, 6, "%YAML:") == 0) content.erase(0, content.find('\n'));
+  return content;
+}
+
+YAML::Node parse(const std::string& path) {
+  try {
+    YAML::Node root = YAML::Load(readWithoutOpenCvHeader(path));
+    if (root.IsMap()) return root;
+  } catch (const YAML::Exception& error) {
+    throw std::runtime_error(path + " is not YAML: " + error.what());
+  }
+  throw std::runtime_error(path + " has no keys: is it the right file?");
+}
+
+}  // namespace
+
+YamlFile::YamlFile(const std::string& path) : path_(path), root_(parse(path)) {}
+
+void YamlFile::fail(const std::string& key, const std::string& what) const {
+  throw std::runtime_error(path_ + ": " + key + " " + what);
+}
+
+YAML::Node YamlFile::find(const std::string& key) const {
+  YAML::Node node = root_[key];
+  if (!node.IsDefined()) fail(key, "is missing");
+  return node;
+}
+
+std::string YamlFile::text(const std::string& key) const {
+  const YAML::Node node = find(key);
+  if (!node.IsScalar()) fail(key, "is not a value");
+  return node.Scalar();
+}
+
+int YamlFile::pixels(const std::string& key) const {
+  constexpr double kMax = 1e5;
+  double value = 0.0;
+  if (!YAML::convert<double>::decode(find(key), value) || !(value >= 1.0 && value <= kMax) ||
+      value != std::floor(value)) {
+    fail(key, "is not a number of pixels");
+  }
+  return static_cast<int>(value);
+}
+
+std::vector<double> YamlFile::numbers(const std::string& key) const {
+  YAML::Node list = find(key);
+  if (list.IsMap()) list.reset(list["data"]);
+  if (!list.IsDefined() || !list.IsSequence()) fail(key, "is not a list of numbers");
+  std::vector<double> numbers;
+  for (const YAML::Node& entry : list) {
+    double number = 0.0;
+    if (!entry.IsScalar() || !YAML::convert<double>::decode(entry, number) ||
+        !std::isfinite(number)) {
+      fail(key, sentence("has a value that is not a finite number, after ", numbers.size()));
+    }
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+std::vector<double> YamlFile::numbers(const std::string& key, std::size_t count) const {
+  std::vector<double> values = numbers(key);
+  if (values.size() != count) {
+    fail(key, sentence("has ", values.size(), " numbers instead of ", count));
+  }
+  return values;
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,254 @@
+#include "sequences/asl_sequence.h"
+
+#include <fstream>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "rectification/stereo_rectifier.h"
+#include "support/asl_folder.h"
+#include "support/expect_error.h"
+#include "support/raw_rig.h"
+#include "support/read_file.h"
+
+namespace rotrocc {
+namespace {
+
+class AslSequenceTest : public ::testing::Test {
+ protected:
+  std::unique_ptr<StereoSequence> open() const { return openStereoSequence(folder_.path(), {}); }
+
+  void expectRefused(const std::string& part) const {
+    expectError<std::runtime_error>([this] { open(); }, part);
+  }
+
+  /// Replaces a part of a file.
+  void change(const std::string& name, const std::string& from, const std::string& to) const {
+    std::string text = readFile(folder_ / name);
+    const std::size_t position = text.find(from);
+    ASSERT_NE(position, std::string::npos) << name << " has no " << from;
+    folder_.write(name, text.replace(position, from.size(), to));
+  }
+
+  AslFolder folder_;
+};
+
+TEST_F(AslSequenceTest, ReadsPairsAndCalibration) {
+  const auto sequence = open();
+  ASSERT_EQ(sequence->size(), 3);
+  EXPECT_EQ(sequence->stamp_ns(2), AslFolder::stamp_ns(2)) << "all digits";
+  const StereoPair pair = sequence->read(1);
+  EXPECT_EQ(pair.stamp_ns, AslFolder::stamp_ns(1));
+  EXPECT_EQ(pair.left.at<uchar>(240, 300), 100);
+  EXPECT_EQ(pair.right.size(), cv::Size(752, 480));
+  EXPECT_EQ(sequence->leftOut(), "");
+  EXPECT_EQ(rosTimeOffset_ns(*sequence), 0);
+
+  const RawRig rig = rawRig();
+  const StereoCalibration expected = chooseRectification(rig.left, rig.right, rig.T_left_right);
+  const StereoCalibration& calibration = sequence->calibration();
+  EXPECT_FALSE(calibration.isRectified());
+  // T_left_right of the rig is rounded to 1e-9.
+  EXPECT_TRUE(calibration.left.R_rectified_raw.isApprox(expected.left.R_rectified_raw, 1e-7));
+  EXPECT_NEAR(calibration.rectified.baseline_m, expected.rectified.baseline_m, 1e-8);
+  EXPECT_NEAR(calibration.rectified.fx, expected.rectified.fx, 1e-3);
+  EXPECT_EQ(calibration.right.distortion.coefficients()[1], 0.07451284);
+}
+
+TEST_F(AslSequenceTest, OpensMav0Itself) {
+  EXPECT_EQ(openStereoSequence(folder_ / "", {})->size(), 3);
+}
+
+TEST_F(AslSequenceTest, ReadsFilesWithTheHeaderOfOpenCv) {
+  folder_.write("cam0/sensor.yaml", "%YAML:1.0\n---\n" + readFile(folder_ / "cam0/sensor.yaml"));
+  change("cam1/sensor.yaml", "T_BS:", "T_BS: !!opencv-matrix");
+  EXPECT_EQ(open()->size(), 3);
+}
+
+TEST_F(AslSequenceTest, ReadsEquidistantLenses) {
+  for (const std::string camera : {"cam0", "cam1"}) {
+    change(camera + "/sensor.yaml", "radial-tangential", "equidistant");
+  }
+  EXPECT_STREQ(open()->calibration().left.distortion.name(), "equidistant");
+}
+
+TEST_F(AslSequenceTest, LeavesOutImagesWithoutAPartner) {
+  std::filesystem::remove(folder_ /
+                          ("cam1/data/" + std::to_string(AslFolder::stamp_ns(1)) + ".png"));
+  EXPECT_EQ(open()->leftOut(),
+            "1 left image and 0 right images without a partner, 1 listed image without a file");
+  EXPECT_EQ(open()->size(), 2);
+  change("cam0/data.csv", std::to_string(AslFolder::stamp_ns(0)), "1403636579763000000");
+  EXPECT_EQ(open()->size(), 2) << "0.6 ms apart";
+  EXPECT_EQ(openStereoSequence(folder_.path(), {0.0001, 0.0})->size(), 1);
+}
+
+/// The body turns to the left and moves forward, with poses at 200 Hz that are not at the stamps of
+/// the images; the last image is after the last pose.
+TEST_F(AslSequenceTest, TruthIsThatOfTheRectifiedLeftCamera) {
+  const auto poseAt = [](double t) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.linear() = Eigen::AngleAxisd(0.3 * t, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    pose.translation() << 2.0 * t, -t, 0.5;
+    return pose;
+  };
+  // The truth is of a sensor on the body.
+  Eigen::Isometry3d T_body_sensor = Eigen::Isometry3d::Identity();
+  T_body_sensor.linear() << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  T_body_sensor.translation() << 0.1, 0.2, 0.3;
+  folder_.write(
+      "state_groundtruth_estimate0/sensor.yaml",
+      "T_BS:\n  cols: 4\n  rows: 4\n  data: [0, -1, 0, 0.1, 1, 0, 0, 0.2, 0, 0, 1, 0.3, 0, "
+      "0, 0, 1]\n");
+  std::ofstream truth(folder_ / "state_groundtruth_estimate0/data.csv");
+  truth << "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], "
+           "q_RS_z [], v_RS_R_x [m s^-1]\n"
+        << std::setprecision(15);
+  for (int i = -1; i < 15; ++i) {
+    const double t = 0.005 * i + 0.0021;
+    const Eigen::Isometry3d pose = poseAt(t) * T_body_sensor;
+    const Eigen::Quaterniond q(pose.linear());
+    truth << AslFolder::kStart_ns + std::llround(1e9 * t) << ',' << pose.translation().x() << ','
+          << pose.translation().y() << ',' << pose.translation().z() << ',' << q.w() << ',' << q.x()
+          << ',' << q.y() << ',' << q.z() << ",0\n";
+  }
+  truth.close();
+  const auto sequence = open();
+  const Trajectory& poses = sequence->groundTruth();
+  ASSERT_EQ(poses.size(), 2u) << "the last image is later than the truth";
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(poses[i].stamp_ns, AslFolder::stamp_ns(i));
+    const Eigen::Isometry3d expected = poseAt(0.05 * i) * sequence->T_base_camera();
+    // Between poses 5 ms apart, an arm of 0.4 m that turns by 0.3 rad/s is straight to 1e-7 m.
+    EXPECT_TRUE(poses[i].T_world_body.isApprox(expected, 1e-6));
+  }
+  // What the left raw camera sees ahead is turned into the rectified frame.
+  const Eigen::Vector3d ahead = sequence->T_base_camera().linear() *
+                                sequence->calibration().left.R_rectified_raw *
+                                Eigen::Vector3d::UnitZ();
+  EXPECT_NEAR(ahead.z(), 0.999660727178, 1e-9) << "the third column of T_BS";
+}
+
+TEST_F(AslSequenceTest, ReadsTheGyroscope) {
+  EXPECT_TRUE(open()->gyroscope("").samples.empty());
+  expectError<std::runtime_error>([&] { open()->gyroscope("imu0"); },
+                                  "imu0/data.csv does not exist");
+  folder_.write("imu0/data.csv",
+                "#timestamp [ns],w_RS_S_x [rad s^-1],...\n1403636579758555392,"
+                "-0.099134701513277898,0.14730578886832138,0.02722713633111154,8.1\n");
+  const GyroRecording gyro = open()->gyroscope("");
+  ASSERT_EQ(gyro.samples.size(), 1u);
+  EXPECT_EQ(gyro.samples[0].stamp_ns, 1403636579758555392);
+  // Without sensor.yaml its axes are those of the body.
+  EXPECT_TRUE(gyro.R_camera_gyro.isApprox(open()->T_base_camera().linear().transpose(), 1e-9));
+}
+
+TEST_F(AslSequenceTest, ScalesImagesOf16BitsToTheirRange) {
+  for (int i = 0; i < 3; ++i) {  // 12 bits
+    const std::string name = "cam0/data/" + std::to_string(AslFolder::stamp_ns(i)) + ".png";
+    cv::imwrite(folder_ / name, cv::Mat(480, 752, CV_16UC1, cv::Scalar(4095 - 1600 * i)));
+  }
+  const auto sequence = open();
+  EXPECT_EQ(sequence->read(0).left.at<uchar>(7, 7), 255);
+  EXPECT_EQ(sequence->read(1).left.at<uchar>(7, 7), 2495 >> 4);
+  EXPECT_EQ(sequence->read(2).left.at<uchar>(7, 7), 895 >> 4) << "the scale stays";
+}
+
+TEST_F(AslSequenceTest, NamesWhatIsWrong) {
+  const auto restored = [this](const std::string& name, auto&& check) {
+    const std::string text = readFile(folder_ / name);
+    check();
+    folder_.write(name, text);
+  };
+  restored("cam0/sensor.yaml", [&] {
+    change("cam0/sensor.yaml", "radial-tangential", "omni");
+    expectRefused("cam0/sensor.yaml: the distortion model 'omni' is not supported");
+  });
+  restored("cam0/sensor.yaml", [&] {
+    change("cam0/sensor.yaml", "camera_model: pinhole", "camera_model: omni");
+    expectRefused("camera_model is omni, but only pinhole is supported");
+  });
+  restored("cam0/sensor.yaml", [&] {
+    change("cam0/sensor.yaml", "0.0148655429818", "0.5");
+    expectRefused("T_BS is not rigid: its left 3x3 part is off orthonormality by 0.");
+  });
+  restored("cam0/sensor.yaml", [&] {
+    change("cam0/sensor.yaml", "0.0, 0.0, 0.0, 1.0", "0.0, 0.0, 0.0");
+    expectRefused("T_BS has 15 numbers instead of 16");
+  });
+  restored("cam0/sensor.yaml", [&] {
+    change("cam0/sensor.yaml", "458.654", ".nan");
+    expectRefused("intrinsics has a value that is not a finite number");
+  });
+  restored("cam0/sensor.yaml", [&] {
+    change("cam0/sensor.yaml", "intrinsics:", "intrinsic:");
+    expectRefused("cam0/sensor.yaml: intrinsics is missing");
+  });
+  restored("cam1/sensor.yaml", [&] {
+    change("cam1/sensor.yaml", "[752, 480]", "[640, 480]");
+    expectRefused("752x480 px, the right one 640x480 px");
+  });
+  restored("cam1/sensor.yaml", [&] {
+    folder_.write("cam1/sensor.yaml", readFile(folder_ / "cam0/sensor.yaml"));
+    expectRefused("the baseline is zero");
+  });
+  restored("cam1/sensor.yaml", [&] {
+    folder_.write("cam1/sensor.yaml", "a: [b\n");
+    expectRefused("cam1/sensor.yaml is not YAML");
+  });
+  restored("cam0/data.csv", [&] {
+    folder_.write("cam0/data.csv", "1403636579763555584\n");
+    expectRefused("cam0/data.csv:1 has 1 columns: timestamp [ns] and file name are expected");
+  });
+  restored("cam0/data.csv", [&] {
+    folder_.write("cam0/data.csv", "5,a.png\n5,b.png\n");
+    expectRefused("data.csv:2: the timestamp 5 ns is not later");
+  });
+  restored("cam1/data.csv", [&] {
+    std::filesystem::remove(folder_ / "cam1/data.csv");
+    expectRefused("cannot read");
+  });
+  std::filesystem::remove_all(folder_ / "cam1/data");
+  expectRefused("there is no pair: of 3 left images and 0 right images");
+}
+
+TEST_F(AslSequenceTest, ReadsOrRefusesAnyFile) {
+  const std::string files[] = {"cam0/sensor.yaml", "cam0/data.csv"};
+  for (const std::string& name : files) {
+    const std::string text = readFile(folder_ / name);
+    for (std::size_t i = 0; i < text.size(); i += 7) {
+      std::string changed = text;
+      if (i % 2 == 0) changed.resize(i);
+      if (i % 2 == 1) changed[i] = "-0[{:\xff\n,&*"[i / 2 % 11];
+      folder_.write(name, changed);
+      try {
+        const auto sequence = open();
+        StereoRectifier rectifier(sequence->calibration());
+        rectifier.rectify(sequence->read(0));
+      } catch (const std::runtime_error&) {
+      } catch (const std::invalid_argument&) {
+      }
+    }
+    folder_.write(name, text);
+  }
+}
+
+TEST_F(AslSequenceTest, NamesImagesThatCannotBeRead) {
+  folder_.writeImage("cam1", AslFolder::stamp_ns(1), 9, {320, 240});
+  folder_.write("cam0/data/" + std::to_string(AslFolder::stamp_ns(2)) + ".png", "no image");
+  const auto sequence = open();
+  expectError<std::runtime_error>([&] { sequence->read(1); },
+                                  "is 320 x 240 px, but the calibrated image is 752 x 480 px");
+  expectError<std::runtime_error>([&] { sequence->read(2); }, "is not a readable image");
+}
+
+TEST(StereoSequenceTest, NamesTheLayoutsThatItKnows) {
+  const TemporaryDirectory empty;
+  expectError<std::runtime_error>([&] { openStereoSequence(empty / "", {}); },
+                                  "neither image_0 (KITTI), nor mav0/cam0 (ASL, EuRoC)");
+  expectError<std::runtime_error>([&] { openStereoSequence(empty / "none", {}); },
+                                  "is not a directory");
+}
+
+}  // namespace
+}  // namespace rotrocc
