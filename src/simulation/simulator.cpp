@@ -21,6 +21,14 @@ std::optional<WornRig> chosenRig(const SimulationOptions& options, const Exposur
   return wornRig(options.camera, options.seed, exposure);
 }
 
+std::optional<UnrectifiedRig> chosenLens(const SimulationOptions& options) {
+  if (options.lens.empty()) return std::nullopt;
+  if (options.worn_rig) {
+    throw std::invalid_argument("the images of a worn rig are rectified: leave out the lens");
+  }
+  return unrectifiedRig(options.camera, options.lens);
+}
+
 Gains chosenGains(const SimulationOptions& options, const std::optional<WornRig>& worn) {
   if (options.gains_out_of_step) return outOfStepGains(options.seed);
   return worn ? worn->gains : Gains();
@@ -102,6 +110,7 @@ Simulator::Simulator(const Scenario& scenario, const SimulationOptions& options)
       rain_(checkedRain(scenario.rain)),
       rain_brightness_(kRainBrightness * scenario.world.lighting.sky),
       worn_(chosenRig(options_, exposure_)),
+      unrectified_(chosenLens(options_)),
       gains_(chosenGains(options_, worn_)),
       drive_(scenario.drive),
       world_(std::make_unique<World>(plannedWorld(scenario, options_, worn_))),
@@ -124,6 +133,7 @@ PixelRays Simulator::rays(bool right) const {
   PixelRays rays = {options_.camera, {}};
   if (right) rays.pinhole.cx = options_.camera.cx_right;
   if (worn_) rays = (right ? worn_->right : worn_->left).rays();
+  if (unrectified_) rays = (right ? unrectified_->right : unrectified_->left).rays;
   if (!right) return rays;
   const double scale = rays.pinhole.fx / options_.camera.fx;
   rays.pinhole.cx -= scale * options_.faults.disparity_bias_px;
@@ -237,12 +247,13 @@ SimulatedFrame Simulator::render(int index, bool with_flow) {
   SimulatedFrame frame;
   frame.pair.stamp_ns = stamp_ns(index);
   Picture left;
-  if (!worn_ || with_flow) left = look(time, false, {options_.camera, {}});
+  const bool is_nominal = !worn_ && !unrectified_;
+  if (is_nominal || with_flow) left = look(time, false, {options_.camera, {}});
   if (worn_) {
     frame.pair.left = wornImage(index, false);
     frame.pair.right = wornImage(index, true);
   } else {
-    frame.pair.left = perfectImage(index, false, left);
+    frame.pair.left = perfectImage(index, false, is_nominal ? left : Picture());
     frame.pair.right = perfectImage(index, true, {});
   }
   frame.depth = left.depth;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -17,6 +18,7 @@
 #include "simulation/rendering/camera_faults.h"
 #include "simulation/rendering/gains.h"
 #include "simulation/rendering/renderer.h"
+#include "simulation/rendering/unrectified_rig.h"
 #include "simulation/rendering/worn_rig.h"
 #include "simulation/stress/lorry.h"
 
@@ -27,6 +29,8 @@ struct SimulationOptions {
   /// Cameras with the remainders of calibration, sensors, wind and reflections of the real world,
   /// by the seed. They have motion blur and noise of their own: those of `faults` are not used.
   bool worn_rig = false;
+  /// Lens of cameras whose images are not rectified: radtan or equidistant; empty: none.
+  std::string lens;
   bool gains_out_of_step = false;  ///< each camera exposes for itself
   CameraFaults faults;
   double moving_share = 0.35;  ///< occupied share of the places for moving cars
@@ -57,6 +61,9 @@ class Simulator {
 
   const StereoCamera& camera() const { return options_.camera; }
   const World& world() const { return *world_; }
+
+  /// Set if the options have a lens.
+  const std::optional<UnrectifiedRig>& unrectifiedRig() const { return unrectified_; }
 
   /// Number of frames, without dropped frames.
   int size() const { return static_cast<int>(stamps_ns_.size()); }
@@ -105,6 +112,7 @@ class Simulator {
   Rain rain_;
   double rain_brightness_;
   std::optional<WornRig> worn_;
+  std::optional<UnrectifiedRig> unrectified_;
   Gains gains_;
   std::shared_ptr<const Drive> drive_;
   std::unique_ptr<World> world_;

@@ -149,7 +149,7 @@ TEST(SimulationMotion, RefusesWhatIsNoDrive) {
   expectError<std::invalid_argument>([] { scenario("town", 1); }, "there is no scenario 'town'");
   Trajectory standing(5);
   for (int i = 0; i < 5; ++i) standing[i].stamp_ns = i;
-  expectError<std::invalid_argument>([&] { RecordedDrive drive(standing); }, "stay within 1 m");
+  expectError<std::invalid_argument>([&] { RecordedDrive drive(standing); }, "stay within 1 cm");
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,11 +17,26 @@ std::vector<Eigen::Vector3d> positionsOf(const Trajectory& trajectory) {
   return positions;
 }
 
+/// A level direction of unit length, along which the street of a motion on the spot is built.
+Eigen::Vector3d levelView(const Trajectory& trajectory) {
+  constexpr double kLeastExtent_m = 0.01;
+  constexpr double kLeastLevel = 0.1;  // else the view is straight up or down
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& position : positionsOf(trajectory)) box.extend(position);
+  if (trajectory.size() < 2 || box.diagonal().norm() < kLeastExtent_m) {
+    throw std::invalid_argument("the " + std::to_string(trajectory.size()) +
+                                " poses stay within 1 cm: give a drive that goes somewhere");
+  }
+  Eigen::Vector3d view = trajectory.front().T_world_body.linear().col(2);
+  view.y() = 0.0;
+  return view.norm() > kLeastLevel ? view.normalized() : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
+}
+
 }  // namespace
 
 RecordedDrive::RecordedDrive(Trajectory trajectory)
     : trajectory_(std::move(trajectory)),
-      path_(pathThrough(positionsOf(trajectory_))),
+      path_(pathThrough(positionsOf(trajectory_), levelView(trajectory_))),
       stations_m_(stationsAlong(positionsOf(trajectory_))) {
   for (const StampedPose& pose : trajectory_) {
     times_s_.push_back(1e-9 * static_cast<double>(pose.stamp_ns - trajectory_.front().stamp_ns));

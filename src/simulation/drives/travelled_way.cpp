@@ -12,12 +12,14 @@ constexpr double kMinStep_m = 1.0;
 
 }  // namespace
 
-Path pathThrough(const std::vector<Eigen::Vector3d>& positions) {
+Path pathThrough(const std::vector<Eigen::Vector3d>& positions,
+                 const std::optional<Eigen::Vector3d>& view) {
   std::vector<Eigen::Vector3d> points;
   for (const Eigen::Vector3d& position : positions) {
     if (points.empty() || (position - points.back()).norm() >= kMinStep_m)
       points.push_back(position);
   }
+  if (points.size() < 2 && view) points.push_back(points.front() + *view);
   if (points.size() < 2) {
     throw std::invalid_argument("the " + std::to_string(positions.size()) +
                                 " poses stay within 1 m: give a drive that goes somewhere");

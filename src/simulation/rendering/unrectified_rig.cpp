@@ -1,0 +1,105 @@
+#include "simulation/rendering/unrectified_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "common/sentence.h"
+
+namespace rotrocc {
+namespace {
+
+/// What differs between the cameras.
+struct Individual {
+  double focal_ratio;          // of that of the nominal camera
+  Eigen::Vector2d centre_px;   // of the principal point from the middle of the image
+  Eigen::Vector3d turn_rad;    // about x, y, z
+  std::vector<double> radtan;  // as of EuRoC
+  std::vector<double> equidistant;
+};
+
+const Individual kLeft = {1.05,
+                          {-8.3, 8.9},
+                          {0.0070, -0.0081, 0.0014},
+                          {-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05},
+                          {0.0035, 0.0007, -0.0021, 0.0002}};
+const Individual kRight = {1.0475,
+                           {4.5, 15.7},
+                           {-0.0071, -0.0077, -0.0036},
+                           {-0.28368365, 0.07451284, -0.00010473, -3.55590700e-05},
+                           {0.0034, 0.0018, -0.0027, 0.0003}};
+
+RawCamera rawCamera(const StereoCamera& nominal, const std::string& lens, const Individual& own) {
+  if (lens != "radtan" && lens != "equidistant") {
+    throw std::invalid_argument("the lens '" + lens + "' is unknown: use radtan or equidistant");
+  }
+  // The offsets are those of an image 752 px wide.
+  const Eigen::Vector2d offset = nominal.width / 752.0 * own.centre_px;
+  RawCamera raw;
+  raw.width = nominal.width;
+  raw.height = nominal.height;
+  raw.fx = own.focal_ratio * nominal.fx;
+  raw.fy = 0.997 * own.focal_ratio * nominal.fy;
+  raw.cx = 0.5 * (nominal.width - 1) + offset.x();
+  raw.cy = 0.5 * (nominal.height - 1) + offset.y();
+  raw.distortion = {lens, lens == "radtan" ? own.radtan : own.equidistant};
+  return raw;
+}
+
+Eigen::Matrix3d rotation(const Eigen::Vector3d& turn_rad) {
+  return (Eigen::AngleAxisd(turn_rad.z(), Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(turn_rad.y(), Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(turn_rad.x(), Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+/// Through an image that shows all that the raw one does, in the axes of the nominal camera.
+PixelRays raysOf(const RawCamera& raw, const Eigen::Matrix3d& R_nominal_raw) {
+  constexpr double kMaxSlope = 4.0;  // 76 degrees
+  PixelRays rays;
+  rays.places.create(raw.height, raw.width, CV_64FC2);
+  Eigen::AlignedBox2d bounds;
+  for (int y = 0; y < raw.height; ++y) {
+    for (int x = 0; x < raw.width; ++x) {
+      const Eigen::Vector3d ray = R_nominal_raw * raw.ray(Eigen::Vector2d(x, y));
+      const Eigen::Vector2d slope = ray.hnormalized();
+      if (!(ray.z() > 0.0 && slope.norm() < kMaxSlope)) {
+        throw std::invalid_argument(
+            sentence("the lens looks farther than ",
+                     std::atan(kMaxSlope) * 180.0 / M_PI,
+                     " degrees from its axis: choose a longer focal length or a smaller image"));
+      }
+      const Eigen::Vector2d place(raw.fx * slope.x(), raw.fy * slope.y());
+      rays.places.at<cv::Vec2d>(y, x) = {place.x(), place.y()};
+      bounds.extend(place);
+    }
+  }
+  const Eigen::Vector2d first = bounds.min();
+  rays.places -= cv::Scalar(first.x(), first.y());
+  rays.pinhole.fx = raw.fx;
+  rays.pinhole.fy = raw.fy;
+  rays.pinhole.cx = -first.x();
+  rays.pinhole.cy = -first.y();
+  rays.pinhole.width = static_cast<int>(std::ceil(bounds.sizes().x())) + 1;
+  rays.pinhole.height = static_cast<int>(std::ceil(bounds.sizes().y())) + 1;
+  return rays;
+}
+
+UnrectifiedCamera camera(const StereoCamera& nominal,
+                         const std::string& lens,
+                         const Individual& own) {
+  UnrectifiedCamera unrectified;
+  unrectified.camera = rawCamera(nominal, lens, own);
+  unrectified.R_nominal_raw = rotation(own.turn_rad);
+  unrectified.rays = raysOf(unrectified.camera, unrectified.R_nominal_raw);
+  return unrectified;
+}
+
+}  // namespace
+
+UnrectifiedRig unrectifiedRig(const StereoCamera& nominal, const std::string& lens) {
+  return {camera(nominal, lens, kLeft), camera(nominal, lens, kRight)};
+}
+
+}  // namespace rotrocc
