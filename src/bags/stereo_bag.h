@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include <rosbag/bag.h>
@@ -11,6 +12,7 @@
 #include "bags/stereo_topics.h"
 #include "input/stereo_pair_converter.h"
 #include "input/stereo_synchronizer.h"
+#include "rectification/stereo_rectifier.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
@@ -20,6 +22,12 @@ namespace rotrocc {
 /// Reads the stereo pairs of a bag, in the order in which they are complete.
 class StereoBag {
  public:
+  enum class Rectify {
+    kIfRaw,  ///< if the topic is not one of rectified images, and camera_info describes raw ones
+    kAlways,
+    kNever,
+  };
+
   struct Options {
     std::string left_image;  ///< topics; empty: findStereoTopics()
     std::string right_image;
@@ -27,6 +35,7 @@ class StereoBag {
     int queue_size = 4;                    ///< unmatched images kept per side
     std::int64_t max_image_pixels = StereoPairConverter::kMaxPixels;  ///< larger ones are refused
     double baseline_m = 0.0;                                          ///< 0: that of camera_info
+    Rectify rectify = Rectify::kIfRaw;  ///< by K, D, R and P of camera_info
   };
 
   /// `bag` must outlive this. Throws std::runtime_error if its topics cannot be used.
@@ -39,6 +48,9 @@ class StereoBag {
   /// Number of left images: an upper bound of the number of pairs.
   int size() const { return size_; }
 
+  /// Whether it rectifies the images.
+  bool rectifies() const { return rectifies_; }
+
   /// Reads the next pair and its camera. The images are valid until the next call. Returns false
   /// and leaves the arguments unchanged at the end. Throws std::runtime_error, with its stamp, on a
   /// pair that cannot be converted.
@@ -46,6 +58,9 @@ class StereoBag {
 
  private:
   bool read(const rosbag::MessageInstance& message);
+  bool shallRectify(Rectify rectify) const;
+  void convert(StereoPair& pair, StereoCamera& camera);
+  StereoPair rectify(const StereoPair& raw);
 
   StereoTopics topics_;
   int size_;
@@ -57,7 +72,15 @@ class StereoBag {
   sensor_msgs::CameraInfo::ConstPtr left_info_;
   sensor_msgs::CameraInfo::ConstPtr right_info_;
   StereoImages images_;
+  bool rectifies_;
+  /// And the messages that it is made of.
+  std::unique_ptr<StereoRectifier> rectifier_;
+  sensor_msgs::CameraInfo::ConstPtr rectifier_left_info_;
+  sensor_msgs::CameraInfo::ConstPtr rectifier_right_info_;
 };
+
+/// The value of an option: auto, yes or no. Throws std::invalid_argument on any other text.
+StereoBag::Rectify rectifyOption(const std::string& text);
 
 /// Those with which a bag gives the pairs that the node makes of its topics.
 StereoBag::Options bagOptions(const NodeParameters& node);

@@ -114,4 +114,8 @@ StereoTopics findStereoTopics(const TopicTypes& types,
   return best.front();
 }
 
+bool isRectifiedByName(const std::string& image_topic) {
+  return contains(image_topic, "rect") || contains(image_topic, "kitti/camera_");
+}
+
 }  // namespace rotrocc

@@ -24,12 +24,15 @@ using TopicTypes = std::map<std::string, std::string>;
 TopicTypes topicTypes(const rosbag::Bag& bag);
 
 /// Finds a stereo pair: two image topics whose names differ in left and right, each with a
-/// camera_info in the same namespace. Prefers rectified to other images, and grey to colour. If a
-/// bag has only image_raw, as those of kitti2bag from raw drives, its images are assumed to be
-/// rectified. `left_image` and `right_image` name the pair explicitly; empty: search. Throws
+/// camera_info in the same namespace. Prefers rectified to other images, and grey to colour.
+/// `left_image` and `right_image` name the pair explicitly; empty: search. Throws
 /// std::runtime_error with a list of the topics if there is no pair, or more than one.
 StereoTopics findStereoTopics(const TopicTypes& types,
                               const std::string& left_image = "",
                               const std::string& right_image = "");
+
+/// Whether a name tells that its images are rectified: image_rect and the like, and all topics of
+/// kitti2bag, whose image_raw has KITTI's rectified images beside a camera_info of the raw ones.
+bool isRectifiedByName(const std::string& image_topic);
 
 }  // namespace rotrocc

@@ -13,6 +13,7 @@
 
 #include "rotrocc/trajectory.h"
 #include "rotrocc/trajectory_error.h"
+#include "sequences/stereo_sequence.h"
 #include "tools/program.h"
 #include "tools/trajectory_report.h"
 
@@ -76,7 +77,9 @@ bool parse(int argc, char** argv, Options& options) {
            "       evaluate_trajectory EST --report DIR [options]    without ground truth\n\n"
            "Compares a trajectory with the ground truth by the metric of the KITTI odometry "
            "devkit. Both are in\nKITTI or TUM format; two KITTI files are matched line by line, "
-           "others by stamp, up to 10 ms apart.\n"
+           "others by stamp, up to 10 ms apart.\nGT may also be the sequence that EST is of, with "
+           "its true poses: a directory in the layout of KITTI or\nASL (EuRoC), or with files of "
+           "camera_calibration.\n"
            "Each row of the table by speed has the segments up to 2 m/s slower or faster, so "
            "each segment counts twice.\n\n"
         << visible;
@@ -110,7 +113,39 @@ std::string timeRange(const std::string& path, const Trajectory& trajectory) {
   return range.str();
 }
 
+MatchedTrajectories matchStamps(const Trajectory& truth,
+                                const Trajectory& estimate,
+                                const Options& options) {
+  MatchedTrajectories matched = matchByStamp(truth, estimate);
+  if (matched.truth.size() < 2) {
+    throw std::runtime_error(
+        "fewer than two stamps match within 10 ms: " + timeRange(options.truth, truth) + ", " +
+        timeRange(options.estimate, estimate));
+  }
+  return matched;
+}
+
+/// With the poses of a sequence, and its stamps if the estimate has none.
+MatchedTrajectories loadWithSequence(const Options& options) {
+  const auto sequence = openStereoSequence(options.truth, {});
+  if (sequence->groundTruth().empty()) {
+    throw std::runtime_error(options.truth + " has no true poses");
+  }
+  Trajectory estimate = readTrajectory(options.estimate, options.times);
+  if (!isTum(options.estimate) && options.times.empty()) {
+    if (static_cast<int>(estimate.size()) != sequence->size()) {
+      throw std::runtime_error(options.estimate + " has " + std::to_string(estimate.size()) +
+                               " poses without stamps, but " + options.truth + " has " +
+                               std::to_string(sequence->size()) +
+                               " pairs: write it with --format tum");
+    }
+    for (int i = 0; i < sequence->size(); ++i) estimate[i].stamp_ns = sequence->stamp_ns(i);
+  }
+  return matchStamps(sequence->groundTruth(), estimate, options);
+}
+
 MatchedTrajectories load(const Options& options) {
+  if (std::filesystem::is_directory(options.truth)) return loadWithSequence(options);
   const bool truth_tum = isTum(options.truth);
   const bool estimate_tum = isTum(options.estimate);
   if (truth_tum != estimate_tum && options.times.empty()) {
@@ -130,13 +165,7 @@ MatchedTrajectories load(const Options& options) {
     }
     return matchByIndex(truth, estimate);
   }
-  MatchedTrajectories matched = matchByStamp(truth, estimate);
-  if (matched.truth.size() < 2) {
-    throw std::runtime_error(
-        "fewer than two stamps match within 10 ms: " + timeRange(options.truth, truth) + ", " +
-        timeRange(options.estimate, estimate));
-  }
-  return matched;
+  return matchStamps(truth, estimate, options);
 }
 
 void requireSegments(const std::vector<SegmentError>& errors,

@@ -40,6 +40,7 @@ struct Options {
   std::string pictures;
   std::string left_image;
   std::string right_image;
+  std::string rectify = "auto";
   std::string imu;
   std::string imu_rotation = "0 0 0 1";
   bool preload = false;
@@ -65,14 +66,20 @@ bool parse(int argc, char** argv, Options& options) {
       po::value(&options.left_image),
       "topic of the left images, if a bag has several stereo pairs");
   add("right-image", po::value(&options.right_image), "topic of the right images");
+  add("rectify",
+      po::value(&options.rectify)->default_value(options.rectify),
+      "images of a bag by K, D, R and P of camera_info: yes, no, or auto: if the topic is not "
+      "named "
+      "image_rect or alike, and camera_info describes raw images");
   add("imu",
       po::value(&options.imu),
       "gyroscope that predicts rotations: a CSV file (timestamp [ns], three angular velocities "
-      "[rad/s], ...), or a topic of sensor_msgs/Imu in a bag");
+      "[rad/s], ...), a topic of sensor_msgs/Imu in a bag, or a folder of an ASL sequence, as "
+      "imu0");
   add("imu-rotation",
       po::value(&options.imu_rotation)->default_value(options.imu_rotation),
       "\"QX QY QZ QW\": rotation from axes of a CSV file to those of the left camera; that of a "
-      "topic is from tf");
+      "topic is from tf, that of a folder from sensor.yaml");
   add("preload", po::bool_switch(&options.preload), "read all images first; prints the memory use");
   po::options_description all;
   all.add(visible).add_options()("input", po::value(&options.input)->required());
@@ -83,10 +90,14 @@ bool parse(int argc, char** argv, Options& options) {
   po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(),
             variables);
   if (variables.count("help") > 0) {
-    std::cout << "Runs the odometry on all pairs of a KITTI sequence directory or a bag, and "
-                 "writes the\npose of the left camera for each.\n"
-                 "usage: offline_odometry INPUT --trajectory OUT.txt [options]\n"
-              << visible;
+    std::cout
+        << "Runs the odometry on all pairs of a recording, and writes the pose of the left "
+           "camera for each.\n"
+           "INPUT is a bag, or a directory in the layout of KITTI's odometry benchmark, in ASL "
+           "format\n(EuRoC), or with folders left and right and files left.yaml and "
+           "right.yaml of\ncamera_calibration. Images that are not rectified are.\n"
+           "usage: offline_odometry INPUT --trajectory OUT.txt [options]\n"
+        << visible;
     return false;
   }
   po::notify(variables);
@@ -125,6 +136,7 @@ std::unique_ptr<StereoSource> openInput(const Options& options, const NodeParame
   StereoBag::Options bag = bagOptions(node);
   bag.left_image = options.left_image;
   bag.right_image = options.right_image;
+  bag.rectify = rectifyOption(options.rectify);
   return openStereoSource(options.input, bag);
 }
 
@@ -188,9 +200,9 @@ void run(const Options& options) {
   printSummary(std::cout, records);
   if (gyro) gyro->printSummary(std::cout);
   if (preloaded != nullptr) preloaded->printMemory(std::cout);
-  if (const int alone = source->size() - static_cast<int>(records.size())) {
-    std::cout << alone << " left images without a right image within "
-              << parameters.node.max_stamp_difference_s << " s (max_stamp_difference_s)\n";
+  if (const std::string left_out = source->leftOut(); !left_out.empty()) {
+    std::cout << left_out << " within " << parameters.node.max_stamp_difference_s
+              << " s (max_stamp_difference_s)\n";
   }
 }
 

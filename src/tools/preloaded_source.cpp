@@ -28,7 +28,8 @@ PreloadedSource::PreloadedSource(std::unique_ptr<StereoSource> source)
   StereoCamera camera;
   while (source_->next(pair, camera)) {
     images_MB_ += size_MB(pair.left) + size_MB(pair.right);
-    pairs_.emplace_back(std::move(pair), camera);
+    // The source may overwrite its images.
+    pairs_.emplace_back(StereoPair{pair.stamp_ns, pair.left.clone(), pair.right.clone()}, camera);
   }
   loaded_MB_ = peak_MB();
 }

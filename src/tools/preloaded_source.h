@@ -22,10 +22,11 @@ class PreloadedSource : public StereoSource {
   Eigen::Isometry3d mount(const std::string& base_frame) const override {
     return source_->mount(base_frame);
   }
-  GyroRecording gyroscope(const std::string& topic, const std::string& base_frame) const override {
-    return source_->gyroscope(topic, base_frame);
+  GyroRecording gyroscope(const std::string& name, const std::string& base_frame) const override {
+    return source_->gyroscope(name, base_frame);
   }
   std::int64_t start_ns() const override { return source_->start_ns(); }
+  std::string leftOut() const override { return source_->leftOut(); }
 
   /// Prints the peak memory of the process, split by use.
   void printMemory(std::ostream& out) const;

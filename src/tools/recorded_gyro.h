@@ -9,14 +9,9 @@
 #include <Eigen/Core>
 
 #include "inertial/gyro_predictor.h"
-#include "inertial/gyro_sample.h"
+#include "sequences/gyro_recording.h"
 
 namespace rotrocc {
-
-struct GyroRecording {
-  std::vector<GyroSample> samples;
-  Eigen::Matrix3d R_camera_gyro = Eigen::Matrix3d::Identity();
-};
 
 /// The rotation of a quaternion "QX QY QZ QW". Throws std::invalid_argument if it is none.
 Eigen::Matrix3d parseRotation(const std::string& quaternion);

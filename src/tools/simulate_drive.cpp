@@ -9,10 +9,11 @@
 
 #include <boost/program_options.hpp>
 
-#include "bags/kitti_bag_writer.h"
+#include "bags/sequence_bag_writer.h"
 #include "inertial/gyro_file.h"
-#include "rotrocc/kitti.h"
 #include "rotrocc/trajectory.h"
+#include "sequences/stereo_sequence.h"
+#include "simulation/asl_writer.h"
 #include "simulation/drives/scenario.h"
 #include "simulation/sequence_writer.h"
 #include "simulation/simulator.h"
@@ -26,17 +27,17 @@ namespace fs = std::filesystem;
 namespace po = boost::program_options;
 using namespace rotrocc;
 
-constexpr std::int64_t kStartTime_s = 1317600000;  // as in kitti_to_bag: ROS has no stamp 0
-
 const char* const kUsage =
     "Renders a simulated stereo drive with exact poses.\n"
     "usage: simulate_drive SCENARIO OUT [options]\n"
     "       simulate_drive --poses FILE OUT [options]\n"
     "SCENARIO  city, motorway, slip_road, parking, shake, handheld, night, rain, field, hall, "
-    "walk\n"
-    "          or tunnel\n"
-    "OUT       a new directory in KITTI odometry layout, a .bag, or a .csv for the gyroscope "
-    "alone\n";
+    "walk
+"
+    "          or tunnel
+"
+    "OUT       a new directory, a .bag, or a .csv for the gyroscope alone
+";
 
 struct Options {
   std::vector<std::string> names;
@@ -47,6 +48,8 @@ struct Options {
   double baseline_m = kittiCamera().baseline_m;
   std::string rig = "perfect";
   std::string gains = "of-the-rig";
+  std::string layout = "kitti";
+  std::string lens = "radtan";
   std::vector<double> right_rotation_deg;
   bool truth = false;
   bool check_truth = false;
@@ -60,9 +63,13 @@ po::options_description describe(Options& options) {
   const auto number = [](double& value) { return po::value(&value)->default_value(value); };
   po::options_description what("Contents");
   what.add_options()("help,h", "show this help")(
-      "poses",
-      po::value(&options.poses),
-      "build the street along these poses (KITTI or TUM format)")(
+      "layout",
+      po::value(&options.layout)->default_value(options.layout),
+      "of the directory: kitti, rectified images as in KITTI's odometry benchmark, or asl, raw "
+      "images "
+      "as in EuRoC's recordings")("poses",
+                                  po::value(&options.poses),
+                                  "build the street along these poses (KITTI or TUM format)")(
       "times", po::value(&options.times), "times.txt of poses in KITTI format (default: 10 Hz)")(
       "frames", po::value(&simulation.frames), "largest number of pairs")(
       "duration", po::value(&simulation.duration_s), "[s] largest duration")(
@@ -100,6 +107,9 @@ po::options_description describe(Options& options) {
       "the real world, by the seed")("gains",
                                      po::value(&options.gains)->default_value(options.gains),
                                      "of-the-rig, or out-of-step: each camera exposes for itself");
+  camera.add_options()("lens",
+                       po::value(&options.lens)->default_value(options.lens),
+                       "distortion of the images of the layout asl: radtan or equidistant");
   po::options_description wrong("Faults, not in calib.txt");
   wrong.add_options()(
       "disparity-bias", number(faults.disparity_bias_px), "[px] added to all disparities")(
@@ -156,6 +166,18 @@ void setRig(const po::variables_map& variables, Options& options) {
   }
 }
 
+void setLayout(const po::variables_map& variables, Options& options) {
+  if (isChosen("layout", options.layout, "kitti", "asl")) {
+    isChosen("lens", options.lens, "radtan", "equidistant");
+    options.simulation.lens = options.lens;
+    if (options.truth) throw po::error("--truth is for the layout kitti");
+  } else if (!variables["lens"].defaulted()) {
+    throw po::error("--lens is for the layout asl: rectified images have none");
+  }
+  const bool is_worn = options.simulation.worn_rig;
+  if (is_worn && options.layout == "asl") throw po::error("--rig worn is for the layout kitti");
+}
+
 /// Returns false after printing the help; throws po::error on bad usage.
 bool parse(int argc, char** argv, Options& options) {
   const po::options_description visible = describe(options);
@@ -185,6 +207,7 @@ bool parse(int argc, char** argv, Options& options) {
   }
   setCamera(options);
   setRig(variables, options);
+  setLayout(variables, options);
   return true;
 }
 
@@ -203,9 +226,8 @@ void print(const TruthErrors& errors) {
             << errors.sum_px / static_cast<double>(right) << " px; the rest are edges and leaves\n";
 }
 
-void renderSequence(Simulator& simulator, const std::string& directory, const Options& options) {
-  SequenceWriter writer(directory, simulator.camera(), options.truth);
-  if (options.imu) writeGyroFile(directory + "/imu.csv", simulator.gyroscope());
+template <class Writer>
+void renderFrames(Simulator& simulator, Writer& writer, const Options& options) {
   ProgressBar progress("simulate_drive", static_cast<std::size_t>(simulator.size()));
   TruthErrors errors;
   for (int index = 0; index < simulator.size(); ++index) {
@@ -218,6 +240,18 @@ void renderSequence(Simulator& simulator, const std::string& directory, const Op
   }
   progress.finish();
   if (options.check_truth) print(errors);
+}
+
+void renderSequence(Simulator& simulator, const std::string& directory, const Options& options) {
+  if (const auto& rig = simulator.unrectifiedRig()) {
+    AslWriter writer(directory, *rig, simulator.camera().baseline_m);
+    if (options.imu) writer.writeGyroscope(simulator.gyroscope());
+    renderFrames(simulator, writer, options);
+    return;
+  }
+  SequenceWriter writer(directory, simulator.camera(), options.truth);
+  if (options.imu) writeGyroFile(directory + "/imu.csv", simulator.gyroscope());
+  renderFrames(simulator, writer, options);
 }
 
 /// A temporary directory, removed with its contents.
@@ -233,10 +267,7 @@ void renderBag(Simulator& simulator, const std::string& bag, const Options& opti
   const ScratchDirectory frames{bag + ".frames"};
   fs::remove_all(frames.path);
   renderSequence(simulator, frames.path, options);
-  const KittiSequence sequence(frames.path);
-  KittiBagWriter writer(bag, sequence, kStartTime_s);
-  for (int index = 0; index < sequence.size(); ++index) writer.writePair(index);
-  writer.finish();
+  writeSequenceBag(bag, *openStereoSequence(frames.path, {}));
 }
 
 void run(const Options& options) {

@@ -5,8 +5,9 @@
 #include <tf2_eigen/tf2_eigen.h>
 
 #include "bags/bag_reading.h"
-#include "bags/kitti_bag_writer.h"
-#include "bags/kitti_mount.h"
+#include "bags/sequence_bag_writer.h"
+#include "sequences/kitti_layout.h"
+#include "sequences/kitti_mount.h"
 #include "support/kitti2bag_writer.h"
 #include "support/synthetic_sequence.h"
 #include "support/temporary_directory.h"
@@ -41,10 +42,8 @@ class RecordedTfTest : public ::testing::Test {
 };
 
 TEST_F(RecordedTfTest, KeepsTheMountOfOwnBags) {
-  const KittiSequence kitti = sequence();
-  KittiBagWriter writer(directory_ / "own.bag", kitti, 1000);
-  for (int i = 0; i < kPairs; ++i) writer.writePair(i);
-  writer.finish();
+  KittiLayout layout(directory_ / "sequence");
+  writeSequenceBag(directory_ / "own.bag", layout, {1000, false});
 
   const RecordedTf tf(openBag(directory_ / "own.bag"), "base_link", "stereo_left_optical");
   EXPECT_FALSE(tf.addedKittiMount());

@@ -1,13 +1,20 @@
 #include "bags/stereo_bag.h"
 
+#include <functional>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "bags/bag_reading.h"
+#include "bags/sequence_bag_writer.h"
+#include "sequences/camera_info_calibration.h"
+#include "support/asl_folder.h"
 #include "support/expect_error.h"
 #include "support/kitti2bag_writer.h"
+#include "support/raw_rig.h"
 #include "support/synthetic_sequence.h"
 #include "support/temporary_directory.h"
 
@@ -149,6 +156,111 @@ TEST_F(StereoBagTest, NamesThePairWhoseCameraIsWrong) {
   StereoPair pair;
   StereoCamera camera;
   expectError<std::runtime_error>([&] { bag.next(pair, camera); }, "pair of 12.5");
+}
+
+/// A bag of unrectified images, and what is expected of them.
+class RawBagTest : public ::testing::Test {
+ protected:
+  RawBagTest() : sequence_(openStereoSequence(folder_.path(), {})) {
+    for (int i = 0; i < 3; ++i) {
+      cv::Mat image(480, 752, CV_8UC1);
+      cv::randu(image, 0, 255);
+      cv::GaussianBlur(image, image, {}, 2.0);
+      for (const char* camera : {"cam0", "cam1"}) {
+        const std::string name = std::to_string(AslFolder::stamp_ns(i)) + ".png";
+        cv::imwrite(folder_ / (camera + ("/data/" + name)), image);
+      }
+    }
+    writeSequenceBag(path(), *sequence_);
+  }
+
+  std::string path() const { return directory_ / "raw.bag"; }
+
+  AslFolder folder_;
+  TemporaryDirectory directory_;
+  std::unique_ptr<StereoSequence> sequence_;
+};
+
+TEST_F(RawBagTest, IsRectified) {
+  const rosbag::Bag file = openBag(path());
+  StereoBag bag(file, {});
+  EXPECT_EQ(bag.topics().left_image, "/stereo/left/image_raw");
+  EXPECT_TRUE(bag.rectifies());
+  StereoRectifier rectifier(sequence_->calibration());
+  StereoPair pair;
+  StereoCamera camera;
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(bag.next(pair, camera));
+    const StereoPair expected = rectifier.rectify(sequence_->read(i));
+    EXPECT_EQ(pair.stamp_ns, AslFolder::stamp_ns(i));
+    EXPECT_EQ(cv::norm(pair.left, expected.left, cv::NORM_INF), 0.0);
+    EXPECT_EQ(cv::norm(pair.right, expected.right, cv::NORM_INF), 0.0);
+    EXPECT_EQ(camera.fx, rectifier.camera().fx);
+    EXPECT_EQ(camera.cy, rectifier.camera().cy);
+  }
+  EXPECT_FALSE(bag.next(pair, camera));
+}
+
+TEST_F(RawBagTest, IsLeftAsItIsOnRequest) {
+  const rosbag::Bag file = openBag(path());
+  StereoBag::Options options;
+  options.rectify = rectifyOption("no");
+  StereoBag bag(file, options);
+  EXPECT_FALSE(bag.rectifies());
+  StereoPair pair;
+  StereoCamera camera;
+  ASSERT_TRUE(bag.next(pair, camera));
+  EXPECT_EQ(cv::norm(pair.left, sequence_->read(0).left, cv::NORM_INF), 0.0);
+  expectError<std::invalid_argument>([] { rectifyOption("maybe"); },
+                                     "'maybe', not auto, yes or no");
+}
+
+/// A bag of one pair with changed messages.
+void writeRawPair(const std::string& path,
+                  const std::function<void(sensor_msgs::CameraInfo&)>& change) {
+  const RawRig rig = rawRig();
+  const StereoCalibration calibration = chooseRectification(rig.left, rig.right, rig.T_left_right);
+  const StereoCamera& camera = calibration.rectified;
+  rosbag::Bag bag(path, rosbag::bagmode::Write);
+  sensor_msgs::Image image;
+  image.header.stamp = ros::Time(12.5);
+  image.encoding = "mono8";
+  image.width = image.step = 752;
+  image.height = 480;
+  image.data.resize(752 * 480);
+  for (const bool right : {false, true}) {
+    sensor_msgs::CameraInfo info = toCameraInfo(right ? calibration.right : calibration.left,
+                                                camera,
+                                                camera.cx,
+                                                right ? -camera.fx * camera.baseline_m : 0.0);
+    change(info);
+    const std::string topic = right ? "/stereo/right" : "/stereo/left";
+    bag.write(topic + "/camera_info", image.header.stamp, info);
+    bag.write(topic + "/image_raw", image.header.stamp, image);
+  }
+}
+
+TEST_F(RawBagTest, NamesWhatIsWrongWithTheCalibration) {
+  using Info = sensor_msgs::CameraInfo;
+  const auto expectRefused = [&](const std::function<void(Info&)>& change,
+                                 const std::string& part) {
+    const std::string wrong = directory_ / "wrong.bag";
+    writeRawPair(wrong, change);
+    const rosbag::Bag file = openBag(wrong);
+    StereoBag bag(file, {});
+    StereoPair pair;
+    StereoCamera camera;
+    expectError<std::runtime_error>([&] { bag.next(pair, camera); }, part);
+  };
+  expectRefused([](Info& info) { info.P[3] = 0.0; }, "s: the baseline is zero");
+  expectRefused([](Info& info) { info.R[0] = 0.5; },
+                "the rectification matrix R is not a rotation");
+  expectRefused([](Info& info) { info.D.resize(3); },
+                "D of the left camera_info: the distortion plumb_bob has 3 coefficients");
+  expectRefused([](Info& info) { info.distortion_model = "mirror"; }, "'mirror' is not supported");
+  expectRefused([](Info& info) { info.K[4] = -1.0; },
+                "K of the left camera_info has focal lengths");
+  expectRefused([](Info& info) { info.width = 640; }, "640x480");
 }
 
 }  // namespace

@@ -9,7 +9,8 @@
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 
-#include "bags/kitti_bag_writer.h"
+#include "bags/sequence_bag_writer.h"
+#include "sequences/kitti_layout.h"
 #include "support/background_command.h"
 #include "support/kitti2bag_writer.h"
 #include "support/read_file.h"
@@ -33,9 +34,8 @@ class KittiLaunchTest : public ::testing::Test {
   std::string bag() const { return directory_ / "test.bag"; }
 
   void writeOwnBag(const KittiSequence& sequence) const {
-    KittiBagWriter writer(bag(), sequence, 1000);
-    for (int i = 0; i < sequence.size(); ++i) writer.writePair(i);
-    writer.finish();
+    KittiLayout layout(sequence.directory());
+    writeSequenceBag(bag(), layout, {1000, false});
   }
 
   /// Replays bag() to its end.

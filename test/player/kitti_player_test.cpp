@@ -23,8 +23,9 @@
 #include <sensor_msgs/Image.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include "bags/kitti_bag_writer.h"
+#include "bags/sequence_bag_writer.h"
 #include "input/stereo_synchronizer.h"
+#include "sequences/kitti_layout.h"
 #include "support/expect_error.h"
 #include "support/kitti2bag_writer.h"
 #include "support/service_caller.h"
@@ -131,10 +132,8 @@ class KittiPlayerTest : public ::testing::Test {
   std::string bag() const { return directory_ / "test.bag"; }
 
   void writeOwnBag() const {
-    const KittiSequence kitti = sequence();
-    KittiBagWriter writer(bag(), kitti, 1000);
-    for (int i = 0; i < kPairs; ++i) writer.writePair(i);
-    writer.finish();
+    KittiLayout layout(directory_ / "sequence");
+    writeSequenceBag(bag(), layout, {1000, false});
   }
 
   void startPlayer() {

@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
-#include "bags/kitti_bag_writer.h"
+#include "bags/sequence_bag_writer.h"
+#include "sequences/kitti_layout.h"
 #include "stress/stress_player.h"
 #include "support/synthetic_sequence.h"
 #include "support/temporary_directory.h"
@@ -17,10 +18,8 @@ constexpr int kPairs = 30;
 void writeBag(const std::string& path) {
   const TemporaryDirectory directory;
   writeSyntheticSequence(directory / "sequence", kPairs);
-  const KittiSequence sequence(directory / "sequence");
-  KittiBagWriter writer(path, sequence, 1000);
-  for (int i = 0; i < kPairs; ++i) writer.writePair(i);
-  writer.finish();
+  KittiLayout sequence(directory / "sequence");
+  writeSequenceBag(path, sequence, {1000, false});
 }
 
 TEST(EnduranceTest, EveryFaultIsToldCountedAndOver) {

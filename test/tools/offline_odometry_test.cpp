@@ -12,9 +12,10 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "bags/bag_reading.h"
-#include "bags/kitti_bag_writer.h"
-#include "bags/kitti_mount.h"
+#include "bags/sequence_bag_writer.h"
 #include "inertial/gyro_file.h"
+#include "sequences/kitti_layout.h"
+#include "sequences/kitti_mount.h"
 #include "support/read_csv.h"
 #include "support/read_file.h"
 #include "support/run_command.h"
@@ -66,10 +67,8 @@ TEST_F(OfflineOdometryTest, GivesTheSameBytesEachTime) {
 }
 
 TEST_F(OfflineOdometryTest, GivesTheStampsOfTheBag) {
-  const KittiSequence kitti(sequence());
-  KittiBagWriter writer(directory_ / "sequence.bag", kitti, 1000);
-  for (int i = 0; i < kPairs; ++i) writer.writePair(i);
-  writer.finish();
+  KittiLayout kitti(sequence());
+  writeSequenceBag(directory_ / "sequence.bag", kitti, {1000, false});
   trajectoryOf(directory_ / "sequence.bag", "--format tum");
   const Trajectory estimate = readTrajectory(directory_ / "trajectory.txt");
   ASSERT_EQ(estimate.size(), static_cast<std::size_t>(kPairs));
@@ -142,7 +141,7 @@ TEST_F(OfflineOdometryTest, WritesOdometryOfTheBaseToABag) {
     messages.push_back(readMessage<nav_msgs::Odometry>(message));
   }
   ASSERT_EQ(messages.size(), static_cast<std::size_t>(kPairs));
-  EXPECT_EQ(messages.front()->header.stamp.sec, 1317600000u) << "as in bags of kitti_to_bag";
+  EXPECT_EQ(messages.front()->header.stamp.sec, 1317600000u) << "as in bags of sequence_to_bag";
   EXPECT_EQ(messages.back()->header.frame_id, "odom");
   EXPECT_EQ(messages.back()->child_frame_id, "base_link");
 
@@ -210,10 +209,8 @@ TEST_F(OfflineOdometryTest, PredictsByAGyroscope) {
 
 TEST_F(OfflineOdometryTest, PredictsByAGyroscopeOfABag) {
   writeGyroFile(sequence() + "/imu.csv", gyroscope());
-  const KittiSequence kitti(sequence());
-  KittiBagWriter writer(directory_ / "sequence.bag", kitti, 1000);
-  for (int i = 0; i < kPairs; ++i) writer.writePair(i);
-  writer.finish();
+  KittiLayout kitti(sequence());
+  writeSequenceBag(directory_ / "sequence.bag", kitti, {1000, false});
   const std::string bag = directory_ / "sequence.bag";
   const CommandResult result = run(bag + " --trajectory /dev/null --imu /imu/data");
   EXPECT_NE(result.output.find("gyroscope: 11 of 11 rotations predicted"), std::string::npos)

@@ -52,6 +52,17 @@ TEST_F(SimulateDriveTest, WornRigsHaveOtherImagesOfTheSameDrive) {
   EXPECT_FALSE(contents("worn") == contents("perfect"));
 }
 
+TEST_F(SimulateDriveTest, WritesRawImagesInAslFormat) {
+  ASSERT_EQ(simulate("asl", "--layout asl").status, 0);
+  ASSERT_EQ(simulate("kitti", "").status, 0);
+  const std::string list = readFile(directory_ / "asl/mav0/cam0/data.csv");
+  EXPECT_EQ(list.compare(0, 24, "#timestamp [ns],filename"), 0) << list;
+  EXPECT_NE(list.find("1317600000100000000,1317600000100000000.png"), std::string::npos) << list;
+  EXPECT_EQ(simulate("asl", "--layout asl").status, 1) << "it has images";
+  EXPECT_FALSE(readFile(directory_ / "asl/mav0/cam1/data/1317600000000000000.png") ==
+               readFile(directory_ / "kitti/image_1/000000.png"));
+}
+
 TEST_F(SimulateDriveTest, WritesAGyroscope) {
   ASSERT_EQ(simulate("drive", "--imu").status, 0);
   ASSERT_EQ(simulate("alone.csv", "").status, 0);
@@ -71,6 +82,11 @@ TEST_F(SimulateDriveTest, RefusesWhatDoesNotFit) {
   expectRefused("--gains wild", "--gains is 'wild', not of-the-rig or out-of-step");
   expectRefused("--rig worn --noise 3", "--noise is for a perfect rig");
   expectRefused("--rows 21", "row offset [px] is 21");
+  expectRefused("--layout tum", "--layout is 'tum', not kitti or asl");
+  expectRefused("--layout asl --lens omni", "--lens is 'omni', not radtan or equidistant");
+  expectRefused("--lens radtan", "--lens is for the layout asl");
+  expectRefused("--layout asl --rig worn", "--rig worn is for the layout kitti");
+  expectRefused("--layout asl --truth", "--truth is for the layout kitti");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A KITTI sequence converted to a bag must be unchanged when it is read back.
+// A sequence converted to a bag must be unchanged when it is read back.
 
 #include <filesystem>
 #include <stdexcept>
@@ -7,13 +7,20 @@
 #include <gtest/gtest.h>
 #include <nav_msgs/Path.h>
 #include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <opencv2/core.hpp>
 
 #include "bags/bag_reading.h"
-#include "bags/kitti_bag_writer.h"
-#include "bags/kitti_mount.h"
+#include "bags/recorded_tf.h"
+#include "bags/sequence_bag_writer.h"
 #include "bags/stereo_bag.h"
+#include "input/message_conversion.h"
+#include "sequences/camera_info_calibration.h"
+#include "sequences/kitti_layout.h"
+#include "sequences/kitti_mount.h"
+#include "support/asl_folder.h"
 #include "support/expect_error.h"
 #include "support/synthetic_sequence.h"
 #include "support/temporary_directory.h"
@@ -24,14 +31,12 @@ namespace {
 constexpr int kPairs = 4;
 constexpr std::int64_t kStart_s = 1234567890;
 
-class KittiBagTest : public ::testing::Test {
+class SequenceBagTest : public ::testing::Test {
  protected:
-  KittiBagTest() {
+  SequenceBagTest() {
     writeSyntheticSequence(directory_ / "sequence", kPairs);
-    const KittiSequence sequence(directory_ / "sequence");
-    KittiBagWriter writer(bagPath(), sequence, kStart_s);
-    for (int i = 0; i < kPairs; ++i) writer.writePair(i);
-    writer.finish();
+    KittiLayout sequence(directory_ / "sequence");
+    writeSequenceBag(bagPath(), sequence, {kStart_s, false});
   }
 
   std::string bagPath() const { return directory_ / "sequence.bag"; }
@@ -43,7 +48,7 @@ bool equal(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0.0;
 }
 
-TEST_F(KittiBagTest, GivesBackPixelsCameraAndStamps) {
+TEST_F(SequenceBagTest, GivesBackPixelsCameraAndStamps) {
   const KittiSequence sequence(directory_ / "sequence");
   const rosbag::Bag file = openBag(bagPath());
   StereoBag bag(file, {});
@@ -68,7 +73,7 @@ TEST_F(KittiBagTest, GivesBackPixelsCameraAndStamps) {
   EXPECT_FALSE(bag.next(pair, camera));
 }
 
-TEST_F(KittiBagTest, FillsTheCameraInfo) {
+TEST_F(SequenceBagTest, FillsTheCameraInfo) {
   const rosbag::Bag bag = openBag(bagPath());
   const auto left = firstMessage<sensor_msgs::CameraInfo>(bag, "/stereo/left/camera_info");
   const auto right = firstMessage<sensor_msgs::CameraInfo>(bag, "/stereo/right/camera_info");
@@ -88,7 +93,7 @@ TEST_F(KittiBagTest, FillsTheCameraInfo) {
   }
 }
 
-TEST_F(KittiBagTest, HoldsTheTruePathOfTheBase) {
+TEST_F(SequenceBagTest, HoldsTheTruePathOfTheBase) {
   const rosbag::Bag bag = openBag(bagPath());
   const auto path = firstMessage<nav_msgs::Path>(bag, "/ground_truth/path");
   const Trajectory truth = KittiSequence(directory_ / "sequence").groundTruth();
@@ -105,7 +110,7 @@ TEST_F(KittiBagTest, HoldsTheTruePathOfTheBase) {
   EXPECT_EQ(poses.size(), truth.size());
 }
 
-TEST_F(KittiBagTest, PlaysInTheOrderItWasWritten) {
+TEST_F(SequenceBagTest, PlaysInTheOrderItWasWritten) {
   const rosbag::Bag bag = openBag(bagPath());
   rosbag::View view(bag);
   std::vector<std::string> topics;
@@ -122,23 +127,95 @@ TEST_F(KittiBagTest, PlaysInTheOrderItWasWritten) {
                                       "/stereo/right/image_rect"}));
 }
 
-TEST_F(KittiBagTest, LeavesNothingUnfinished) {
-  const KittiSequence sequence(directory_ / "sequence");
+TEST_F(SequenceBagTest, LeavesNothingUnfinished) {
+  KittiLayout sequence(directory_ / "sequence");
   {
-    KittiBagWriter writer(directory_ / "cut.bag", sequence, kStart_s);
+    SequenceBagWriter writer(directory_ / "cut.bag", sequence, {});
     writer.writePair(0);
   }
   EXPECT_FALSE(std::filesystem::exists(directory_ / "cut.bag"));
   EXPECT_FALSE(std::filesystem::exists(directory_ / "cut.bag.part"));
 }
 
-TEST_F(KittiBagTest, RefusesStampsThatRosHasNot) {
-  const KittiSequence sequence(directory_ / "sequence");
+TEST_F(SequenceBagTest, RefusesStampsThatRosHasNot) {
+  KittiLayout sequence(directory_ / "sequence");
   for (const std::int64_t start_s : {std::int64_t{0}, std::int64_t{5000000000}}) {
     expectError<std::invalid_argument>(
-        [&] { KittiBagWriter(directory_ / "other.bag", sequence, start_s); },
-        std::to_string(start_s));
+        [&] {
+          SequenceBagWriter(directory_ / "other.bag", sequence, {start_s, false});
+        },
+        "out of the range of ROS");
   }
+}
+
+/// Of unrectified images.
+class RawSequenceBagTest : public ::testing::Test {
+ protected:
+  std::string write(const SequenceBagWriter::Options& options = {}) const {
+    const auto sequence = openStereoSequence(folder_.path(), {});
+    writeSequenceBag(directory_ / "raw.bag", *sequence, options);
+    return directory_ / "raw.bag";
+  }
+
+  AslFolder folder_;
+  TemporaryDirectory directory_;
+};
+
+TEST_F(RawSequenceBagTest, HoldsImagesAndCalibrationAsRecorded) {
+  const rosbag::Bag bag = openBag(write());
+  const auto sequence = openStereoSequence(folder_.path(), {});
+  const auto image = firstMessage<sensor_msgs::Image>(bag, "/stereo/left/image_raw");
+  ASSERT_TRUE(image);
+  EXPECT_EQ(toNanoseconds(image->header.stamp), AslFolder::stamp_ns(0));
+  EXPECT_EQ(image->data[0], 50);
+  const auto left = firstMessage<sensor_msgs::CameraInfo>(bag, "/stereo/left/camera_info");
+  const auto right = firstMessage<sensor_msgs::CameraInfo>(bag, "/stereo/right/camera_info");
+  ASSERT_TRUE(left && right);
+  const StereoCalibration calibration = toStereoCalibration(*left, *right);
+  EXPECT_EQ(calibration.left.fx, 458.654);
+  EXPECT_EQ(calibration.right.distortion.coefficients(),
+            sequence->calibration().right.distortion.coefficients());
+  EXPECT_EQ(calibration.right.R_rectified_raw, sequence->calibration().right.R_rectified_raw);
+  EXPECT_DOUBLE_EQ(calibration.rectified.baseline_m, sequence->calibration().rectified.baseline_m);
+  const RecordedTf tf(bag, "base_link", "stereo_left_optical");
+  EXPECT_FALSE(tf.addedKittiMount());
+  EXPECT_TRUE(tf.T_base_camera().isApprox(sequence->T_base_camera(), 1e-9));
+}
+
+TEST_F(RawSequenceBagTest, HoldsRectifiedImagesOnRequest) {
+  const rosbag::Bag bag = openBag(write({std::nullopt, true}));
+  const auto left = firstMessage<sensor_msgs::CameraInfo>(bag, "/stereo/left/camera_info");
+  ASSERT_TRUE(left);
+  EXPECT_FALSE(describesRawImages(*left));
+  EXPECT_TRUE(firstMessage<sensor_msgs::Image>(bag, "/stereo/left/image_rect"));
+  EXPECT_FALSE(firstMessage<sensor_msgs::Image>(bag, "/stereo/left/image_raw"));
+}
+
+TEST_F(RawSequenceBagTest, TruthMayBeginAfterTheFirstPair) {
+  folder_.write("state_groundtruth_estimate0/data.csv",
+                "#timestamp, ...\n" + std::to_string(AslFolder::stamp_ns(1)) + ",0,0,0,1,0,0,0\n" +
+                    std::to_string(AslFolder::stamp_ns(2)) + ",1,0,0,1,0,0,0\n");
+  const rosbag::Bag bag = openBag(write());
+  const auto path = firstMessage<nav_msgs::Path>(bag, "/ground_truth/path");
+  ASSERT_TRUE(path);
+  EXPECT_EQ(path->poses.size(), 2u);
+  rosbag::View poses(bag, rosbag::TopicQuery("/ground_truth/pose"));
+  EXPECT_EQ(poses.size(), 2u);
+}
+
+TEST_F(RawSequenceBagTest, StampsMayBeMoved) {
+  const rosbag::Bag bag = openBag(write({1000, false}));
+  const auto image = firstMessage<sensor_msgs::Image>(bag, "/stereo/left/image_raw");
+  EXPECT_EQ(image->header.stamp, ros::Time(1000.0));
+}
+
+TEST_F(RawSequenceBagTest, HoldsTheGyroscopeInAxesOfTheBase) {
+  folder_.write("imu0/data.csv",
+                std::to_string(AslFolder::stamp_ns(0) - 5'000'000) + ",0.1,0.2,0.3,0,0,0\n");
+  const rosbag::Bag bag = openBag(write());
+  const auto imu = firstMessage<sensor_msgs::Imu>(bag, "/imu/data");
+  ASSERT_TRUE(imu);
+  EXPECT_NEAR(imu->angular_velocity.y, 0.2, 1e-9) << "the base is the body, as the gyroscope";
 }
 
 }  // namespace
