@@ -213,6 +213,25 @@ TEST_F(KittiBenchmarkTest, DoesNotMixResults) {
   EXPECT_NE(second.output.find("another run"), std::string::npos) << second.output;
 }
 
+TEST_F(KittiBenchmarkTest, RunsRecordingsOfRawImages) {
+  letGo();
+  const std::string recordings = directory_ / "recordings";
+  const CommandResult drive =
+      runCommand(PROGRAMS + std::string("/simulate_drive city ") + recordings +
+                 "/raw --layout asl --size 320x160 --focal 200 --frames 14");
+  ASSERT_EQ(drive.status, 0) << drive.output;
+  fs::copy(recordings + "/raw", recordings + "/untrue", fs::copy_options::recursive);
+  fs::remove_all(recordings + "/untrue/mav0/state_groundtruth_estimate0");
+  const CommandResult result =
+      runCommand(std::string(PYTHON) + " " + KITTI_BENCHMARK + " " + recordings + " --output " +
+                 directory_ / "out" + " --programs " + directory_ / "programs");
+  ASSERT_EQ(result.status, 0) << result.output;
+  ASSERT_EQ(rows().size(), 2u);
+  EXPECT_EQ(rows()[0].at("pairs"), "14");
+  EXPECT_EQ(rows()[0].at("group"), "short") << "it has errors";
+  EXPECT_EQ(rows()[1].at("group"), "none");
+}
+
 TEST_F(KittiBenchmarkTest, RefusesWhatIsNoDataSet) {
   EXPECT_EQ(runCommand(std::string(PYTHON) + " " + KITTI_BENCHMARK + " " + directory_ / "programs")
                 .status,
