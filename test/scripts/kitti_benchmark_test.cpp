@@ -217,7 +217,7 @@ TEST_F(KittiBenchmarkTest, RunsRecordingsOfRawImages) {
   letGo();
   const std::string recordings = directory_ / "recordings";
   const CommandResult drive =
-      runCommand(PROGRAMS + std::string("/simulate_drive city ") + recordings +
+      runCommand(PROGRAMS + std::string("/simulate_drive slip_road ") + recordings +
                  "/raw --layout asl --size 320x160 --focal 200 --frames 14");
   ASSERT_EQ(drive.status, 0) << drive.output;
   fs::copy(recordings + "/raw", recordings + "/untrue", fs::copy_options::recursive);
