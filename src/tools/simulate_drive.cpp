@@ -32,12 +32,9 @@ const char* const kUsage =
     "usage: simulate_drive SCENARIO OUT [options]\n"
     "       simulate_drive --poses FILE OUT [options]\n"
     "SCENARIO  city, motorway, slip_road, parking, shake, handheld, night, rain, field, hall, "
-    "walk
-"
-    "          or tunnel
-"
-    "OUT       a new directory, a .bag, or a .csv for the gyroscope alone
-";
+    "walk\n"
+    "          or tunnel\n"
+    "OUT       a new directory, a .bag, or a .csv for the gyroscope alone\n";
 
 struct Options {
   std::vector<std::string> names;
