@@ -1,11 +1,8 @@
 #include "rectification/stereo_rectifier.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
-
-#include <opencv2/imgproc.hpp>
 
 #include "common/sentence.h"
 
@@ -19,11 +16,7 @@ Eigen::Vector2d rawPixel(
   Eigen::Vector3d ray = raw.R_rectified_raw.transpose() * rectified;
   // A camera that is turned far sees no ray from behind; the nearest is at its horizon.
   ray.z() = std::max(ray.z(), 1e-6 * ray.norm());
-  const Eigen::Vector2d pixel = raw.project(ray);
-  // The maps of OpenCV have 16 bits. !(a < b) is true for NaN.
-  constexpr double kFar_px = 32000.0;
-  if (!(pixel.cwiseAbs().maxCoeff() < kFar_px)) return {-1.0, -1.0};
-  return pixel;
+  return raw.project(ray);
 }
 
 void checkImage(const char* side, const cv::Mat& image, const cv::Size& size) {
@@ -49,21 +42,21 @@ StereoRectifier::Side StereoRectifier::makeSide(const char* name,
                                                 double cx) {
   try {
     raw.check();
+    constexpr int kMax_px = 32000;  // places have 16 bits
+    if (std::max(raw.width, raw.height) > kMax_px) {
+      throw std::invalid_argument(sentence("its images are larger than ", kMax_px, " px"));
+    }
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(
         sentence("the calibration of the ", name, " camera: ", error.what()));
   }
-  cv::Mat places(camera.height, camera.width, CV_32FC2);
+  Side side = {ImageResampler({raw.width, raw.height}, {camera.width, camera.height}),
+               cv::Mat(camera.height, camera.width, CV_8UC1)};
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
-      const Eigen::Vector2f place = rawPixel(raw, camera, cx, x, y).cast<float>();
-      places.at<cv::Vec2f>(y, x) = {place.x(), place.y()};
+      side.resampler.setPlace(x, y, rawPixel(raw, camera, cx, x, y));
     }
   }
-  Side side;
-  side.raw_size = {raw.width, raw.height};
-  cv::convertMaps(places, cv::noArray(), side.map, side.fractions, CV_16SC2);
-  side.rectified.create(places.size(), CV_8UC1);
   return side;
 }
 
@@ -73,16 +66,11 @@ StereoRectifier::StereoRectifier(const StereoCalibration& calibration)
       right_(makeSide("right", calibration.right, camera_, camera_.cx_right)) {}
 
 StereoPair StereoRectifier::rectify(const StereoPair& raw) {
-  checkImage("left", raw.left, left_.raw_size);
-  checkImage("right", raw.right, right_.raw_size);
+  checkImage("left", raw.left, left_.resampler.source());
+  checkImage("right", raw.right, right_.resampler.source());
   workers_.run(2, [&](int part) {
     Side& side = part == 0 ? left_ : right_;
-    cv::remap(part == 0 ? raw.left : raw.right,
-              side.rectified,
-              side.map,
-              side.fractions,
-              cv::INTER_LINEAR,
-              cv::BORDER_REPLICATE);
+    side.resampler.resample(part == 0 ? raw.left : raw.right, side.rectified);
   });
   return {raw.stamp_ns, left_.rectified, right_.rectified};
 }

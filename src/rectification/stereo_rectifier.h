@@ -3,6 +3,7 @@
 #include <opencv2/core.hpp>
 
 #include "common/workers.h"
+#include "rectification/image_resampler.h"
 #include "rectification/stereo_calibration.h"
 #include "rotrocc/stereo_pair.h"
 
@@ -11,7 +12,8 @@ namespace rotrocc {
 /// Rectifies the images of a stereo pair, left and right in parallel, without allocating memory.
 class StereoRectifier {
  public:
-  /// Throws std::invalid_argument on a calibration that is not one, see RawCamera::check().
+  /// Throws std::invalid_argument on a calibration that is not one, see RawCamera::check(), and of
+  /// images larger than 32000 px.
   explicit StereoRectifier(const StereoCalibration& calibration);
 
   /// Of the rectified images.
@@ -23,11 +25,8 @@ class StereoRectifier {
   StereoPair rectify(const StereoPair& raw);
 
  private:
-  /// From the pixels of a rectified image to those of the raw one.
   struct Side {
-    cv::Size raw_size;
-    cv::Mat map;        // CV_16SC2: whole pixels
-    cv::Mat fractions;  // CV_16UC1: index in OpenCV's table of 1/32 px
+    ImageResampler resampler;
     cv::Mat rectified;
   };
 

@@ -152,6 +152,29 @@ TEST(StereoRectifierTest, BordersAreNotBlack) {
   EXPECT_EQ(cv::countNonZero(pair.right != 77), 0);
 }
 
+TEST(StereoRectifierTest, CubicsStayAsTheyAre) {
+  // A sinusoid of 8 px, shifted by fractions: bilinear interpolation is off by 8 grey levels.
+  StereoCamera camera;
+  camera.width = 120;
+  camera.height = 20;
+  camera.fx = camera.fy = 100.0;
+  camera.cx = camera.cx_right = 60.0;
+  camera.cy = 10.0;
+  camera.baseline_m = 0.1;
+  const auto wave = [](double x) { return 128.0 + 100.0 * std::sin(2.0 * M_PI / 8.0 * x); };
+  cv::Mat image(camera.height, camera.width, CV_8UC1);
+  for (int x = 0; x < image.cols; ++x) image.col(x) = std::lround(wave(x));
+  for (const double shift_px : {0.25, 0.5, 0.9}) {
+    StereoCalibration shifted = rectifiedCalibration(camera);
+    shifted.rectified.cx -= shift_px;
+    StereoRectifier rectifier(shifted);
+    const StereoPair pair = rectifier.rectify({0, image, image});
+    for (int x = 2; x < image.cols - 3; ++x) {
+      EXPECT_NEAR(pair.left.at<uchar>(7, x), wave(x + shift_px), 3.0) << x;
+    }
+  }
+}
+
 TEST(StereoRectifierTest, RefusesOtherImagesAndCalibrations) {
   StereoRectifier rectifier(calibrationOf(rawRig()));
   expectError<std::invalid_argument>(

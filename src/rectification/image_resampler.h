@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+namespace rotrocc {
+
+/// Makes images whose pixels are at given places of another one, by cubic convolution (Catmull-Rom)
+/// over 4 x 4 pixels. Bilinear interpolation blurs by the fraction of the place, which differs from
+/// pixel to pixel and disturbs tracking: errors of the odometry are a tenth larger with it.
+class ImageResampler {
+ public:
+  /// `source` is the size of the images that places are in, `size` that of the results. All places
+  /// are set to the first pixel.
+  ImageResampler(const cv::Size& source, const cv::Size& size);
+
+  /// The place of a pixel of the results, rounded to 1/256 px. Outside of the source image it is
+  /// that of the nearest border.
+  void setPlace(int x, int y, const Eigen::Vector2d& place);
+
+  const cv::Size& source() const { return source_; }
+
+  /// Fills `result`, CV_8UC1 of the size of the results. `image` is CV_8UC1 of the source size.
+  void resample(const cv::Mat& image, cv::Mat& result) const;
+
+ private:
+  static constexpr int kTaps = 4;
+  static constexpr int kPhases = 256;
+  using Weights = std::array<std::int16_t, kTaps>;
+
+  struct Place {
+    std::int16_t column = 0;  // of the pixel left above
+    std::int16_t row = 0;
+    std::uint8_t column_phase = 0;
+    std::uint8_t row_phase = 0;
+  };
+
+  static std::array<Weights, kPhases> weightTable();
+  std::uint8_t atBorder(const cv::Mat& image, const Place& place) const;
+  std::uint8_t inside(const cv::Mat& image, const Place& place) const;
+
+  cv::Size source_;
+  cv::Size size_;
+  std::vector<Place> places_;
+  std::array<Weights, kPhases> weights_ = weightTable();
+};
+
+}  // namespace rotrocc
