@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPairs = 8;
+constexpr int kPairs = 10;
 
 /// The start of a drive with a wide radial-tangential and a wide equidistant lens, rendered once.
 class UnrectifiedInputTest : public ::testing::Test {
@@ -26,7 +26,7 @@ class UnrectifiedInputTest : public ::testing::Test {
     for (const std::string lens : {"radtan", "equidistant"}) {
       const CommandResult result =
           runCommand(std::string(SIMULATE_DRIVE) + " slip_road " + *drives_ / lens +
-                     " --layout asl --imu --size 400x200 --focal 250 --frames " +
+                     " --layout asl --imu --size 480x240 --focal 300 --frames " +
                      std::to_string(kPairs) + " --lens " + lens);
       ASSERT_EQ(result.status, 0) << result.output;
     }
@@ -80,7 +80,7 @@ TEST_F(UnrectifiedInputTest, TheSequenceIsTheTruthOfAnEvaluation) {
   const std::string program = std::string(EVALUATE_TRAJECTORY) + " ";
   const CommandResult result = runCommand(program + drive() + " " + estimate + " --fit");
   EXPECT_EQ(result.status, 0) << result.output;
-  EXPECT_NE(result.output.find(", 8 poses, "), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find(", 10 poses, "), std::string::npos) << result.output;
   fs::copy(drive(), directory_ / "without", fs::copy_options::recursive);
   fs::remove_all(directory_ / "without/mav0/state_groundtruth_estimate0");
   const CommandResult without = runCommand(program + directory_ / "without" + " " + estimate);
@@ -106,7 +106,7 @@ TEST_F(UnrectifiedInputTest, TheRectifiedBagGivesTheSamePoses) {
 TEST_F(UnrectifiedInputTest, PredictsByItsGyroscope) {
   const CommandResult result = runCommand(std::string(OFFLINE_ODOMETRY) + " " + drive() +
                                           " --trajectory /dev/null --imu imu0");
-  EXPECT_NE(result.output.find("gyroscope: 7 of 7 rotations predicted"), std::string::npos)
+  EXPECT_NE(result.output.find("gyroscope: 9 of 9 rotations predicted"), std::string::npos)
       << result.output;
 }
 
