@@ -160,7 +160,8 @@ def dropped(drives, level, seed):
 
 def blur(drives, level, seed):
     positions, rotations = winding(drives.way())
-    angle = BLUR_TURN_DEG * grown(drives.pairs)
+    # At a constant rate: in an acceleration, the mean pose of an exposure is not that at its middle.
+    angle = BLUR_TURN_DEG * numpy.arange(drives.pairs)
     exposure_s = level / FOCAL_PX / numpy.radians(BLUR_TURN_DEG) * PERIOD_S
     return drives.render(label('blur', level), seed, positions, rotations @ about('y', angle),
                          '--motion-blur', '%.6f' % exposure_s)

@@ -102,9 +102,16 @@ struct MotionCheckConfig {
   /// variance of the noise is known to sqrt(2 / (2 n - 6)), a fifth for 25.
   int min_inliers = 25;
   double min_inlier_share = 0.15;  ///< of the feature set; below: lost
-  /// Share of the feature set that are inliers; below: degraded. The majority of the features may
-  /// then be right. Real clips have 0.58 and more, with steps of up to 0.2 s.
-  double degraded_inlier_share = 0.5;
+  /// Share of the keyframe's corners that have a disparity; below: degraded. Those of dirty lenses
+  /// or misaligned cameras are few, and chosen by chance. Real clips have 0.21 and more.
+  double degraded_depth_share = 0.15;
+  /// Share of the feature set that are inliers of the rotation stage; below: degraded. In a short
+  /// step, features at rest on the image (of dirt, or of its compression) agree on a standstill.
+  /// Real clips have 0.64 and more, with steps of up to 0.3 s.
+  double degraded_rotation_share = 0.7;
+  /// Share of the feature set that are inliers of the translation stage; below: degraded. Those of
+  /// far points with inexact disparities are missing, also if the motion is right.
+  double degraded_translation_share = 0.5;
   /// Share of the feature set that agrees on another motion; above: degraded.
   double degraded_rival_share = 0.2;
   /// Share of the keyframe's features with a depth that are inliers; below: degraded. After a wrong

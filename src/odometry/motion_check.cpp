@@ -30,9 +30,12 @@ int inliers(const MotionEstimator::Estimate& estimate) {
   return std::min(count(estimate.rotation_inliers), count(estimate.translation_inliers));
 }
 
+double shareOf(const FeatureSet& inliers) {
+  return static_cast<double>(count(inliers)) / static_cast<double>(inliers.size());
+}
+
 double inlierShare(const MotionEstimator::Estimate& estimate) {
-  return static_cast<double>(inliers(estimate)) /
-         static_cast<double>(estimate.rotation_inliers.size());
+  return std::min(shareOf(estimate.rotation_inliers), shareOf(estimate.translation_inliers));
 }
 
 }  // namespace
@@ -82,13 +85,9 @@ std::string MotionCheck::whyDegraded(const Hypothesis& accepted, const Matrix6d&
                     config_.min_inliers,
                     " inliers: the motion is that of the rotation stage");
   }
-  if (inlierShare(estimate) < config_.degraded_inlier_share) {
-    return sentence("a share of ",
-                    inlierShare(estimate),
-                    " of the features agrees on the motion, less than degraded_inlier_share = ",
-                    config_.degraded_inlier_share);
-  }
-  std::string why = whyFewSurvive(accepted);
+  std::string why = whyFewHaveDepth(accepted.counts);
+  if (why.empty()) why = whyFewAgree(estimate);
+  if (why.empty()) why = whyFewSurvive(accepted);
   if (why.empty()) why = whyAmbiguous(accepted);
   return why.empty() ? whyUndetermined(accepted, covariance) : why;
 }
@@ -97,7 +96,36 @@ std::string MotionCheck::whyDegraded(const Hypothesis& accepted, const Matrix6d&
 /// agree and be too few for the translation stage; the motion of the rotation stage is then as
 /// good.
 bool MotionCheck::isLarge(const FeatureSet& features) const {
-  return config_.min_inliers < config_.degraded_inlier_share * static_cast<double>(features.size());
+  return config_.min_inliers <
+         config_.degraded_translation_share * static_cast<double>(features.size());
+}
+
+std::string MotionCheck::whyFewHaveDepth(const StageCounts& counts) const {
+  if (counts.with_depth >= config_.degraded_depth_share * counts.corners) return "";
+  return sentence("only ",
+                  counts.with_depth,
+                  " of ",
+                  counts.corners,
+                  " corners have a disparity, a share below degraded_depth_share = ",
+                  config_.degraded_depth_share,
+                  "; are the lenses clean, and left and right rows aligned?");
+}
+
+std::string MotionCheck::whyFewAgree(const MotionEstimator::Estimate& estimate) const {
+  const double by_rotation = shareOf(estimate.rotation_inliers);
+  if (by_rotation < config_.degraded_rotation_share) {
+    return sentence("a share of ",
+                    by_rotation,
+                    " of the features agrees on the motion, less than degraded_rotation_share = ",
+                    config_.degraded_rotation_share);
+  }
+  const double by_translation = shareOf(estimate.translation_inliers);
+  if (by_translation >= config_.degraded_translation_share) return "";
+  return sentence("a share of ",
+                  by_translation,
+                  " of the features agrees on the translation, less than "
+                  "degraded_translation_share = ",
+                  config_.degraded_translation_share);
 }
 
 std::string MotionCheck::whyFewSurvive(const Hypothesis& accepted) const {

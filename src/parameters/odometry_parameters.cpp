@@ -26,12 +26,24 @@ void addMotionCheck(MotionCheckConfig& c, ParameterTable& table) {
             1.0,
             "",
             "share of inliers below which the motion is lost");
-  table.add(s + "degraded_inlier_share",
-            c.degraded_inlier_share,
+  table.add(s + "degraded_depth_share",
+            c.degraded_depth_share,
             0.0,
             1.0,
             "",
-            "share of inliers below which the motion is degraded");
+            "share of the keyframe's corners with a disparity, below which the motion is degraded");
+  table.add(s + "degraded_rotation_share",
+            c.degraded_rotation_share,
+            0.0,
+            1.0,
+            "",
+            "share of inliers of the rotation stage below which the motion is degraded");
+  table.add(s + "degraded_translation_share",
+            c.degraded_translation_share,
+            0.0,
+            1.0,
+            "",
+            "share of inliers of the translation stage below which the motion is degraded");
   table.add(s + "degraded_rival_share",
             c.degraded_rival_share,
             0.0,

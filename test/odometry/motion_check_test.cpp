@@ -144,9 +144,24 @@ TEST(MotionCheckTest, ComparesAShortStepWithTheScene) {
 TEST(MotionCheckTest, CallsAMotionOnASmallShareDegraded) {
   auto estimate = goodEstimate();
   estimate.translation_inliers = set(199, 400);
-  expectSays(whyDegraded(estimate), "0.4975", "degraded_inlier_share = 0.5");
+  expectSays(whyDegraded(estimate), "0.4975", "degraded_translation_share = 0.5");
   estimate.translation_inliers = set(200, 400);
   EXPECT_EQ(whyDegraded(estimate), "");
+  estimate.rotation_inliers = set(279, 400);
+  expectSays(whyDegraded(estimate), "0.6975", "degraded_rotation_share = 0.7");
+  estimate.rotation_inliers = set(280, 400);
+  EXPECT_EQ(whyDegraded(estimate), "");
+}
+
+TEST(MotionCheckTest, CallsAMotionDegradedIfFewCornersHaveADepth) {
+  const auto estimate = goodEstimate();
+  Hypothesis dirty = hypothesis(estimate);
+  dirty.counts.corners = 2667;
+  expectSays(MotionCheck({}).whyDegraded(dirty, estimate.covariance),
+             "400 of 2667 corners",
+             "degraded_depth_share = 0.15");
+  dirty.counts.corners = 2666;
+  EXPECT_EQ(MotionCheck({}).whyDegraded(dirty, estimate.covariance), "");
 }
 
 /// 300 features that fit the motion, and 100 others.
@@ -213,8 +228,8 @@ TEST(MotionCheckTest, AMotionWithoutItsTranslationStageIsDegraded) {
   estimate.translation_failed = true;
   EXPECT_EQ(whyLost(estimate), "");
   expectSays(whyDegraded(estimate), "translation stage", "min_inliers");
-  estimate.translation_inliers = estimate.rotation_inliers = set(30, 45);
-  EXPECT_EQ(whyDegraded(estimate), "") << "25 of 45 are more than degraded_inlier_share";
+  estimate.translation_inliers = estimate.rotation_inliers = set(35, 49);
+  EXPECT_EQ(whyDegraded(estimate), "") << "25 of 49 are more than degraded_translation_share";
 }
 
 }  // namespace
