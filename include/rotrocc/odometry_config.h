@@ -109,6 +109,9 @@ struct MotionCheckConfig {
   /// step, features at rest on the image (of dirt, or of its compression) agree on a standstill.
   /// Real clips have 0.64 and more, with steps of up to 0.3 s.
   double degraded_rotation_share = 0.7;
+  /// The same for a motion without a prediction, which nothing else confirms. Real clips have 0.86
+  /// and more.
+  double degraded_start_share = 0.8;
   /// Share of the feature set that are inliers of the translation stage; below: degraded. Those of
   /// far points with inexact disparities are missing, also if the motion is right.
   double degraded_translation_share = 0.5;

@@ -16,8 +16,9 @@ struct Hypothesis {
 
   StereoCamera camera;  ///< corrected by the disparity bias that was used for the features' depths
   Correspondences features;
-  double shared_ratio = 0.0;   ///< that was used, see Measurements
-  double exposure_gain = 1.0;  ///< see OdometryResult
+  bool has_prediction = false;  ///< the motion was searched near a prediction
+  double shared_ratio = 0.0;    ///< that was used, see Measurements
+  double exposure_gain = 1.0;   ///< see OdometryResult
   MotionEstimator::Estimate estimate;
   StageCounts counts;
   std::string why_lost = kNotTried;  ///< why the motion is rejected; empty if it is accepted

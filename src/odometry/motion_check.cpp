@@ -86,7 +86,7 @@ std::string MotionCheck::whyDegraded(const Hypothesis& accepted, const Matrix6d&
                     " inliers: the motion is that of the rotation stage");
   }
   std::string why = whyFewHaveDepth(accepted.counts);
-  if (why.empty()) why = whyFewAgree(estimate);
+  if (why.empty()) why = whyFewAgree(estimate, accepted.has_prediction);
   if (why.empty()) why = whyFewSurvive(accepted);
   if (why.empty()) why = whyAmbiguous(accepted);
   return why.empty() ? whyUndetermined(accepted, covariance) : why;
@@ -111,13 +111,20 @@ std::string MotionCheck::whyFewHaveDepth(const StageCounts& counts) const {
                   "; are the lenses clean, and left and right rows aligned?");
 }
 
-std::string MotionCheck::whyFewAgree(const MotionEstimator::Estimate& estimate) const {
+std::string MotionCheck::whyFewAgree(const MotionEstimator::Estimate& estimate,
+                                     bool has_prediction) const {
   const double by_rotation = shareOf(estimate.rotation_inliers);
   if (by_rotation < config_.degraded_rotation_share) {
     return sentence("a share of ",
                     by_rotation,
                     " of the features agrees on the motion, less than degraded_rotation_share = ",
                     config_.degraded_rotation_share);
+  }
+  if (!has_prediction && by_rotation < config_.degraded_start_share) {
+    return sentence("without a prediction, a share of ",
+                    by_rotation,
+                    " of the features agrees on the motion, less than degraded_start_share = ",
+                    config_.degraded_start_share);
   }
   const double by_translation = shareOf(estimate.translation_inliers);
   if (by_translation >= config_.degraded_translation_share) return "";

@@ -39,7 +39,7 @@ class MotionCheck {
  private:
   bool isLarge(const FeatureSet& features) const;
   std::string whyFewHaveDepth(const StageCounts& counts) const;
-  std::string whyFewAgree(const MotionEstimator::Estimate& estimate) const;
+  std::string whyFewAgree(const MotionEstimator::Estimate& estimate, bool has_prediction) const;
   std::string whyFewSurvive(const Hypothesis& accepted) const;
   std::string whyAmbiguous(const Hypothesis& accepted);
   std::string whyUndetermined(const Hypothesis& accepted, const Matrix6d& covariance);

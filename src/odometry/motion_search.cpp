@@ -89,6 +89,7 @@ void MotionSearch::tryMotion(const Frames& frames,
                              Hypothesis& hypothesis,
                              StageTimes& times) {
   hypothesis.camera = frames.camera;
+  hypothesis.has_prediction = start.is_prediction;
   hypothesis.shared_ratio = frames.shared_ratio;
   StageCounts& counts = hypothesis.counts;
   {

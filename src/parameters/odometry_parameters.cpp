@@ -38,6 +38,12 @@ void addMotionCheck(MotionCheckConfig& c, ParameterTable& table) {
             1.0,
             "",
             "share of inliers of the rotation stage below which the motion is degraded");
+  table.add(s + "degraded_start_share",
+            c.degraded_start_share,
+            0.0,
+            1.0,
+            "",
+            "degraded_rotation_share of a motion without a prediction, as after a start");
   table.add(s + "degraded_translation_share",
             c.degraded_translation_share,
             0.0,

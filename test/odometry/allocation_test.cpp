@@ -154,6 +154,7 @@ TEST_F(AllocationTest, AreNoneWithOtherCriteria) {
     // std_based leaves less than half of the features, for which a reason would be given and a
     // consensus searched.
     config.motion_check.degraded_rotation_share = 0.0;
+    config.motion_check.degraded_start_share = 0.0;
     config.motion_check.degraded_translation_share = 0.0;
     config.motion_estimator.retry_agreement_px = 0.0;
     EXPECT_EQ(countOfARepeatedDrive(config), 0) << criterion;

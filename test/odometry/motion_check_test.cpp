@@ -44,6 +44,7 @@ std::string whyLost(const MotionEstimator::Estimate& estimate) {
 Hypothesis hypothesis(const MotionEstimator::Estimate& estimate) {
   Hypothesis hypothesis;
   hypothesis.camera = kittiCamera();
+  hypothesis.has_prediction = true;
   hypothesis.estimate = estimate;
   hypothesis.features.resize(estimate.rotation_inliers.size());
   for (Correspondence& feature : hypothesis.features) {
@@ -151,6 +152,19 @@ TEST(MotionCheckTest, CallsAMotionOnASmallShareDegraded) {
   expectSays(whyDegraded(estimate), "0.6975", "degraded_rotation_share = 0.7");
   estimate.rotation_inliers = set(280, 400);
   EXPECT_EQ(whyDegraded(estimate), "");
+}
+
+TEST(MotionCheckTest, WantsMoreAgreementWithoutAPrediction) {
+  auto estimate = goodEstimate();
+  estimate.rotation_inliers = set(319, 400);
+  Hypothesis first = hypothesis(estimate);
+  EXPECT_EQ(MotionCheck({}).whyDegraded(first, estimate.covariance), "");
+  first.has_prediction = false;
+  expectSays(MotionCheck({}).whyDegraded(first, estimate.covariance),
+             "0.7975",
+             "degraded_start_share = 0.8");
+  first.estimate.rotation_inliers = set(320, 400);
+  EXPECT_EQ(MotionCheck({}).whyDegraded(first, estimate.covariance), "");
 }
 
 TEST(MotionCheckTest, CallsAMotionDegradedIfFewCornersHaveADepth) {
