@@ -71,10 +71,10 @@ int CorrespondenceFinder::find(const StereoCamera& camera,
                                const Keyframe& keyframe,
                                const StereoFrame& current,
                                const Eigen::Isometry3d& T_keyframe_cur,
-                               const FeatureTracker::Search& search,
+                               int levels,
                                Correspondences& features) {
   predict(camera, keyframe, T_keyframe_cur);
-  track(keyframe, current, search);
+  track(keyframe, current, levels);
   checkCircularConsistency(camera, keyframe, current, features);
   return static_cast<int>(std::count(tracked_.begin(), tracked_.end(), 1));
 }
@@ -104,20 +104,19 @@ void CorrespondenceFinder::predict(const StereoCamera& camera,
   }
 }
 
-void CorrespondenceFinder::track(const Keyframe& keyframe,
-                                 const StereoFrame& current,
-                                 const FeatureTracker::Search& search) {
-  FeatureTracker::Search left_search = search;
-  left_search.near = false;
+void CorrespondenceFinder::track(const Keyframe& keyframe, const StereoFrame& current, int levels) {
+  constexpr bool kNear = true;
+  constexpr bool kRoundTrip = true;
   tracker_.track(workers_,
                  keyframe.frame->left,
                  current.left,
                  keyframe.left_px,
                  scale_changes_,
-                 left_search,
+                 {levels, !kNear, kRoundTrip},
                  cur_left_px_,
                  tracked_);
-  // Predict the right position from the tracked left position and the predicted disparity.
+  // Predict the right position from the tracked left position and the predicted disparity. The
+  // disparity shows whether it is right, so it is not tracked back.
   const auto lower_px = static_cast<float>(keyframe.row_offset_px);
   for (std::size_t i = 0; i < cur_left_px_.size(); ++i) {
     cur_right_px_[i] = cur_left_px_[i] + cv::Point2f(-predicted_disparities_px_[i], lower_px);
@@ -127,7 +126,7 @@ void CorrespondenceFinder::track(const Keyframe& keyframe,
                  current.right,
                  keyframe.right_px,
                  scale_changes_,
-                 search,
+                 {levels, kNear, !kRoundTrip},
                  cur_right_px_,
                  tracked_);
 }

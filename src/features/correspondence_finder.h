@@ -40,12 +40,13 @@ class CorrespondenceFinder {
 
   /// Tracks the keyframe's points, starting at the positions given by the motion. Stores in
   /// `features` those that pass the circular consistency check: their current left and right
-  /// positions match each other. Returns the number of points tracked in both images.
+  /// positions match each other. `levels` of the pyramid are searched. Returns the number of points
+  /// tracked in both images.
   int find(const StereoCamera& camera,
            const Keyframe& keyframe,
            const StereoFrame& current,
            const Eigen::Isometry3d& T_keyframe_cur,
-           const FeatureTracker::Search& search,
+           int levels,
            Correspondences& features);
 
   /// Contrast of the right image relative to the left one, at the features found last; 1 before.
@@ -63,9 +64,7 @@ class CorrespondenceFinder {
   void predict(const StereoCamera& camera,
                const Keyframe& keyframe,
                const Eigen::Isometry3d& T_keyframe_cur);
-  void track(const Keyframe& keyframe,
-             const StereoFrame& current,
-             const FeatureTracker::Search& search);
+  void track(const Keyframe& keyframe, const StereoFrame& current, int levels);
   void checkCircularConsistency(const StereoCamera& camera,
                                 const Keyframe& keyframe,
                                 const StereoFrame& current,

@@ -142,7 +142,7 @@ bool FeatureTracker::follow(const ImagePyramid& from,
     if (!window.take(from[0], start, scale, gain) || !window.find(to[0], stop, found)) return false;
   }
   end = found;
-  return config_.max_round_trip_px == 0.0 ||
+  return !search.round_trip || config_.max_round_trip_px == 0.0 ||
          returns(from[0], to[0], start, scale, gain, window, end);
 }
 

@@ -31,6 +31,8 @@ class FeatureTracker {
     /// The points are expected to be close to their predictions: the smaller images are used only
     /// for those that are not.
     bool near = false;
+    /// Only points that return to within max_round_trip_px when tracked back count as tracked.
+    bool round_trip = true;
   };
 
   /// Builds a pyramid with all levels that can be searched. Reuses the memory of `pyramid`.
@@ -38,10 +40,9 @@ class FeatureTracker {
 
   /// Tracks the points `keyframe_px` from one image to another. `scales` are the expected scale
   /// changes of the points' windows, above 1 if a point comes nearer. `cur` contains the
-  /// predictions and receives the results. `tracked` becomes 1 for points that return to within
-  /// max_round_trip_px when tracked back, otherwise 0. Points with `tracked` = 0 on input are
-  /// skipped. Returns the gain from the keyframe's image to the current one, as
-  /// WindowGain::median().
+  /// predictions and receives the results. `tracked` becomes 1 for points that are found, otherwise
+  /// 0. Points with `tracked` = 0 on input are skipped. Returns the gain from the keyframe's image
+  /// to the current one, as WindowGain::median().
   double track(Workers& workers,
                const ImagePyramid& keyframe_pyramid,
                const ImagePyramid& cur_pyramid,

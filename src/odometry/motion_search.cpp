@@ -56,9 +56,9 @@ void MotionSearch::find(const Frames& frames,
 MotionSearch::Start MotionSearch::startAt(const Eigen::Isometry3d& T_keyframe_last,
                                           const Expectation& expected) const {
   if (expected.T_last_cur) {
-    return {T_keyframe_last * *expected.T_last_cur, true, {prediction_error_.levels(), true}};
+    return {T_keyframe_last * *expected.T_last_cur, true, prediction_error_.levels()};
   }
-  Start start = {T_keyframe_last, false, {tracker_.startup_levels, false}};
+  Start start = {T_keyframe_last, false, tracker_.startup_levels};
   if (expected.R_last_cur) start.T_keyframe_cur.rotate(*expected.R_last_cur);
   return start;
 }
@@ -80,7 +80,7 @@ bool MotionSearch::settle(
     if (shift_px < settled_px_) return true;
     if (tries >= most_tries) return false;
     start.T_keyframe_cur = T_found;
-    if (start.is_prediction) start.search.levels = tracker_.levels;
+    if (start.is_prediction) start.levels = tracker_.levels;
   }
 }
 
@@ -98,7 +98,7 @@ void MotionSearch::tryMotion(const Frames& frames,
                                         frames.keyframe,
                                         frames.current,
                                         start.T_keyframe_cur,
-                                        start.search,
+                                        start.levels,
                                         hypothesis.features);
     hypothesis.exposure_gain = frames.finder.stereoGain();
   }

@@ -69,11 +69,11 @@ class MotionSearch {
   void reset() { prediction_error_.reset(); }
 
  private:
-  /// Where the features are searched.
+  /// Where the features are searched, and over how many pyramid levels.
   struct Start {
     Eigen::Isometry3d T_keyframe_cur;
     bool is_prediction;
-    FeatureTracker::Search search;
+    int levels;
   };
 
   Start startAt(const Eigen::Isometry3d& T_keyframe_last, const Expectation& expected) const;

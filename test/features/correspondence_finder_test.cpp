@@ -24,7 +24,7 @@ StereoPair view(const SyntheticScene& scene, const Eigen::Isometry3d& T_world_ca
 }
 
 /// The search around a good prediction.
-constexpr FeatureTracker::Search kNear = {2, true};
+constexpr int kLevels = 2;
 
 /// A keyframe and a current frame.
 struct Frames {
@@ -52,7 +52,7 @@ Correspondences find(const StereoPair& prev,
   CorrespondenceFinder finder(config);
   const Frames frames(finder, prev, cur, camera);
   Correspondences features;
-  finder.find(camera, frames.keyframe, *frames.current, step(), kNear, features);
+  finder.find(camera, frames.keyframe, *frames.current, step(), kLevels, features);
   return features;
 }
 
@@ -119,7 +119,7 @@ TEST(CorrespondenceFinderTest, FindsFeaturesInALowerRightImage) {
     Frames frames(
         finder, withRightLower(prev, rows), withRightLower(cur, rows), scene.camera(), rows);
     Correspondences features;
-    finder.find(scene.camera(), frames.keyframe, *frames.current, step(), kNear, features);
+    finder.find(scene.camera(), frames.keyframe, *frames.current, step(), kLevels, features);
     // Interpolated rows have less noise, those at the border are missing.
     EXPECT_GT(static_cast<double>(features.size()), 0.9 * usual);
     std::vector<double> disparity_errors_px;
@@ -155,12 +155,12 @@ TEST(CorrespondenceFinderTest, CountsWhatIsLeft) {
   EXPECT_LE(with_depth, frames.keyframe.corners.size());
   Correspondences features;
   const int tracked =
-      finder.find(camera, frames.keyframe, *frames.current, step(), kNear, features);
+      finder.find(camera, frames.keyframe, *frames.current, step(), kLevels, features);
   EXPECT_GT(tracked, static_cast<int>(with_depth / 2));
   EXPECT_LE(static_cast<int>(features.size()), tracked);
   // A motion that moves every point behind the camera leaves nothing to track.
   const Eigen::Isometry3d beyond = motion({0.0, 0.0, 200.0}, {0.0, 0.0, 0.0});
-  EXPECT_EQ(finder.find(camera, frames.keyframe, *frames.current, beyond, kNear, features), 0);
+  EXPECT_EQ(finder.find(camera, frames.keyframe, *frames.current, beyond, kLevels, features), 0);
   EXPECT_TRUE(features.empty());
 }
 
@@ -201,7 +201,7 @@ TEST(CorrespondenceFinderTest, ScalesWindowsUnlessToldNotTo) {
     CorrespondenceFinder finder(config);
     const Frames frames(finder, prev, cur, scene.camera());
     Correspondences features;
-    finder.find(scene.camera(), frames.keyframe, *frames.current, far_step, kNear, features);
+    finder.find(scene.camera(), frames.keyframe, *frames.current, far_step, kLevels, features);
     std::vector<double> errors_px;
     for (const Correspondence& feature : features) {
       const Eigen::Vector3d point_cur = scene.pointAt(far_step, feature.cur_px);
