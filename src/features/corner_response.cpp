@@ -17,23 +17,23 @@ void CornerResponse::compute(
   gradients_.assign(static_cast<std::size_t>(2 * side_) * stride_, 0);
 
   response.create(last_row - first_row, image.cols + 2 * margin + kMostShorts, CV_32F);
-  const int first = std::max(first_row, radius_);
-  const int last = std::min(last_row, image.rows - radius_);
+  const int first = std::max(first_row, (radius_ + kRowStep - 1) / kRowStep);
+  const int last = std::min(last_row, (image.rows - radius_ + kRowStep - 1) / kRowStep);
   const int count = image.cols - 2 * radius_;
   if (first >= last || count <= 0) {
     response.setTo(0.0F);
     return;
   }
-  for (int y = first - radius_; y < first + radius_; ++y) addGradients(image, y);
-  for (int y = first_row; y < last_row; ++y) {
-    auto* row = response.ptr<float>(y - first_row);
-    auto* end = row + response.cols;
-    if (y < first || y >= last) {
-      std::fill(row, end, 0.0F);
+  int next = kRowStep * first - radius_;  // row of the image whose gradients are added next
+  for (int r = first_row; r < last_row; ++r) {
+    auto* out = response.ptr<float>(r - first_row);
+    auto* end = out + response.cols;
+    if (r < first || r >= last) {
+      std::fill(out, end, 0.0F);
       continue;
     }
-    addGradients(image, y + radius_);
-    auto* inner = std::fill_n(row, margin + radius_, 0.0F);
+    for (; next <= kRowStep * r + radius_; ++next) addGradients(image, next);
+    auto* inner = std::fill_n(out, margin + radius_, 0.0F);
     kernels_->respondRow({xx_.data(), xy_.data(), yy_.data()}, side_, count, inner);
     std::fill(inner + count, end, 0.0F);
   }
@@ -50,9 +50,9 @@ void CornerResponse::addGradients(const cv::Mat& image, int y) {
                              image.cols,
                              smooth,
                              steps);
-  for (std::int16_t* row : {smooth, steps}) {
-    row[-1] = row[0];
-    row[image.cols] = row[image.cols - 1];
+  for (std::int16_t* values : {smooth, steps}) {
+    values[-1] = values[0];
+    values[image.cols] = values[image.cols - 1];
   }
   std::int16_t* gradients = gradients_.data() + static_cast<std::size_t>(2 * (y % side_)) * stride_;
   kernels_->replaceGradients(smooth_.data(),

@@ -10,17 +10,20 @@ namespace rotrocc {
 
 struct Kernels;
 
-/// The corner response of each pixel: the smaller eigenvalue of the second moments of the gradients
-/// (Shi and Tomasi, CVPR 1994), averaged over a square, in (grey levels / px)^2. Sums are exact, so
-/// the response of a pixel does not depend on which rows are requested.
+/// The corner response of the pixels of each second row: the smaller eigenvalue of the second
+/// moments of the gradients (Shi and Tomasi, CVPR 1994), averaged over a square, in (grey levels /
+/// px)^2. Row r of the response is that of row kRowStep r of the image; between two rows, it hardly
+/// changes. Sums are exact, so the response of a pixel does not depend on which rows are requested.
 class CornerResponse {
  public:
+  static constexpr int kRowStep = 2;
+
   /// The square has a side of 2 radius + 1 pixels; the radius is at most 15 px.
   explicit CornerResponse(int block_radius_px);
 
-  /// Fills `response` (CV_32F) with rows [first_row, last_row) of `image` (CV_8UC1) and `margin`
-  /// columns of zeros on both sides. Rows may lie outside the image. The response is zero there,
-  /// and where the square would leave the image.
+  /// Fills `response` (CV_32F) with its rows [first_row, last_row) for `image` (CV_8UC1) and
+  /// `margin` columns of zeros on both sides. Rows may lie outside the image. The response is zero
+  /// there, and where the square would leave the image.
   void compute(const cv::Mat& image, int first_row, int last_row, int margin, cv::Mat& response);
 
  private:

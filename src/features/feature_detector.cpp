@@ -1,6 +1,7 @@
 #include "features/feature_detector.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "kernels/kernels.h"
@@ -8,24 +9,41 @@
 namespace rotrocc {
 namespace {
 
-/// Rows of a strip. Constant, so that the strips do not depend on the number of threads.
-constexpr int kStripRows = 64;
+constexpr int kRowStep = CornerResponse::kRowStep;
 
-/// Whether no pixel within `radius` has a larger response, and none above or to the left an equal
-/// one. Of equally strong corners, as in drawn patterns and saturated areas, the first one counts.
-bool isFirstOfStrongest(const cv::Mat& response, int x, int y, int radius) {
-  const float value = response.at<float>(y, x);
-  for (int v = y - radius; v <= y + radius; ++v) {
-    const auto* row = response.ptr<float>(v);
-    const int middle = v < y ? x + radius + 1 : (v == y ? x : x - radius);
-    for (int u = x - radius; u < middle; ++u) {
-      if (row[u] >= value) return false;
-    }
-    for (int u = middle; u <= x + radius; ++u) {
-      if (row[u] > value) return false;
+/// Rows of a strip, in those of the response as all rows below. Constant, so that the strips do not
+/// depend on the number of threads.
+constexpr int kStripRows = 32;
+
+/// Whether no pixel of these rows and columns has a response larger than `value`, or an equal one
+/// if `beats_equal` is false.
+bool isStrongest(const cv::Mat& response,
+                 const cv::Range& rows,
+                 const cv::Range& columns,
+                 float value,
+                 bool beats_equal) {
+  const float most = beats_equal ? value : std::nextafter(value, -1.0F);
+  for (int y = rows.start; y < rows.end; ++y) {
+    const auto* row = response.ptr<float>(y);
+    if (std::any_of(row + columns.start, row + columns.end, [&](float r) { return r > most; })) {
+      return false;
     }
   }
   return true;
+}
+
+/// Whether no pixel within `radius_px` of (x, row) has a larger response, and none above or to the
+/// left an equal one. Of equally strong corners, as in drawn patterns and saturated areas, the
+/// first one counts. None in the rows of `band` is larger.
+bool isFirstOfStrongest(
+    const cv::Mat& response, int x, int row, int radius_px, const cv::Range& band) {
+  const float value = response.at<float>(row, x);
+  const cv::Range columns(x - radius_px, x + radius_px + 1);
+  const int rows = radius_px / kRowStep;
+  return isStrongest(response, {row - rows, band.start}, columns, value, false) &&
+         isStrongest(response, {band.end, row + rows + 1}, columns, value, true) &&
+         isStrongest(response, {band.start, row}, columns, value, false) &&
+         isStrongest(response, {row, row + 1}, {columns.start, x}, value, false);
 }
 
 }  // namespace
@@ -39,11 +57,13 @@ void FeatureDetector::detect(Workers& workers,
   corners.clear();
   if (std::min(image.cols, image.rows) <= 2 * (config_.border_px + config_.nms_radius_px)) return;
 
-  const int strip_count = (image.rows + kStripRows - 1) / kStripRows;
+  const int first_row = (config_.border_px + kRowStep - 1) / kRowStep;
+  const int last_row = (image.rows - config_.border_px + kRowStep - 1) / kRowStep;
+  const int strip_count = (last_row + kStripRows - 1) / kStripRows;
   strips_.resize(static_cast<std::size_t>(strip_count), Strip(config_.block_radius_px));
   workers.run(strip_count, [&](int i) {
-    const int first = std::max(i * kStripRows, config_.border_px);
-    const int last = std::min((i + 1) * kStripRows, image.rows - config_.border_px);
+    const int first = std::max(i * kStripRows, first_row);
+    const int last = std::min((i + 1) * kStripRows, last_row);
     findCandidates(image, first, last, strips_[static_cast<std::size_t>(i)]);
   });
   selectByCells(image.size(), corners);
@@ -55,26 +75,26 @@ void FeatureDetector::findCandidates(const cv::Mat& image,
                                      Strip& strip) const {
   strip.candidates.clear();
   if (first_row >= last_row) return;
-  const int radius = config_.nms_radius_px;
+  const int rows = config_.nms_radius_px / kRowStep;
   strip.corner_response.compute(
-      image, first_row - radius, last_row + radius, radius, strip.response);
+      image, first_row - rows, last_row + rows, config_.nms_radius_px, strip.response);
   strip.highest.resize(static_cast<std::size_t>(strip.response.cols));
-  const int band_rows = radius + 1;
-  for (int y = first_row; y < last_row; y += band_rows) {
-    searchBand(image.cols, y, std::min(y + band_rows, last_row), first_row - radius, strip);
+  const int band_rows = rows + 1;
+  for (int first = first_row; first < last_row; first += band_rows) {
+    searchBand(image.cols, {first, std::min(first + band_rows, last_row)}, first_row - rows, strip);
   }
 }
 
-/// Searches rows [first, last) of the image, which are all within nms_radius_px of each other. A
-/// corner must be the maximum of its column in these rows, and no neighbouring column may have a
-/// larger one. Only these few pixels are then compared with all their neighbours. The strip's
-/// response begins with row `top`.
-void FeatureDetector::searchBand(int width, int first, int last, int top, Strip& strip) const {
+/// Searches rows that are all within nms_radius_px of each other. A corner must be the maximum of
+/// its column in these rows, and no neighbouring column may have a larger one. Only these few
+/// pixels are then compared with all their neighbours. The strip's response begins with row `top`.
+void FeatureDetector::searchBand(int width, const cv::Range& rows, int top, Strip& strip) const {
   const int radius = config_.nms_radius_px;
+  const cv::Range band(rows.start - top, rows.end - top);
   float* highest = strip.highest.data();
-  kernels_->highestOfColumns(strip.response.ptr<float>(first - top),
+  kernels_->highestOfColumns(strip.response.ptr<float>(band.start),
                              static_cast<std::ptrdiff_t>(strip.response.step1()),
-                             last - first,
+                             band.size(),
                              width + 2 * radius,
                              highest);
   strip.peaks.resize(strip.highest.size());
@@ -87,10 +107,10 @@ void FeatureDetector::searchBand(int width, int first, int last, int top, Strip&
   for (int i = 0; i < count; ++i) {
     const int x = strip.peaks[static_cast<std::size_t>(i)];
     const int column = x + radius;
-    int y = first;
-    while (strip.response.at<float>(y - top, column) != highest[column]) ++y;
-    if (isFirstOfStrongest(strip.response, column, y - top, radius)) {
-      strip.candidates.push_back({highest[column], x, y});
+    int row = band.start;
+    while (strip.response.at<float>(row, column) != highest[column]) ++row;
+    if (isFirstOfStrongest(strip.response, column, row, radius, band)) {
+      strip.candidates.push_back({highest[column], x, kRowStep * (top + row)});
     }
   }
 }

@@ -42,7 +42,7 @@ class FeatureDetector {
   };
 
   void findCandidates(const cv::Mat& image, int first_row, int last_row, Strip& strip) const;
-  void searchBand(int width, int first, int last, int top, Strip& strip) const;
+  void searchBand(int width, const cv::Range& rows, int top, Strip& strip) const;
   void selectByCells(const cv::Size& size, std::vector<cv::Point2f>& corners);
   void sortByCells(const cv::Size& size);
   static bool isStronger(const Candidate& a, const Candidate& b);

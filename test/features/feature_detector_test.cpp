@@ -83,27 +83,35 @@ TEST(FeatureDetectorTest, KeepsCornersApart) {
 /// decreasing order.
 Corners expectedCorners(const cv::Mat& image, const FeatureDetector::Config& config) {
   cv::Mat response;
-  CornerResponse(config.block_radius_px).compute(image, 0, image.rows, 0, response);
+  constexpr int kRowStep = CornerResponse::kRowStep;
+  const int rows = (image.rows + kRowStep - 1) / kRowStep;
+  CornerResponse(config.block_radius_px).compute(image, 0, rows, 0, response);
   const int radius = config.nms_radius_px;
-  const auto isCorner = [&](int x, int y) {
-    const float value = response.at<float>(y, x);
-    for (int v = std::max(y - radius, 0); v <= std::min(y + radius, image.rows - 1); ++v) {
+  const int row_radius = radius / kRowStep;
+  const auto isCorner = [&](int x, int row) {
+    const float value = response.at<float>(row, x);
+    for (int r = std::max(row - row_radius, 0); r <= std::min(row + row_radius, rows - 1); ++r) {
       for (int u = std::max(x - radius, 0); u <= std::min(x + radius, image.cols - 1); ++u) {
-        const float other = response.at<float>(v, u);
-        const bool earlier = v < y || (v == y && u < x);
+        const float other = response.at<float>(r, u);
+        const bool earlier = r < row || (r == row && u < x);
         if (other > value || (earlier && other == value)) return false;
       }
     }
     return value >= static_cast<float>(config.min_response);
   };
   Corners corners;
-  for (int y = config.border_px; y < image.rows - config.border_px; ++y) {
+  for (int row = 0; row < rows; ++row) {
+    const int y = kRowStep * row;
+    if (y < config.border_px || y >= image.rows - config.border_px) continue;
     for (int x = config.border_px; x < image.cols - config.border_px; ++x) {
-      if (isCorner(x, y)) corners.emplace_back(x, y);
+      if (isCorner(x, row)) corners.emplace_back(x, y);
     }
   }
+  const auto responseAt = [&](const cv::Point2f& corner) {
+    return response.at<float>(static_cast<int>(corner.y) / kRowStep, static_cast<int>(corner.x));
+  };
   std::stable_sort(corners.begin(), corners.end(), [&](const auto& a, const auto& b) {
-    return response.at<float>(a) > response.at<float>(b);
+    return responseAt(a) > responseAt(b);
   });
   return corners;
 }
