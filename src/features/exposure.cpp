@@ -18,17 +18,19 @@ struct PairSums {
 /// Sums over pixels whose difference to the expected level is at most `most`. Neither saturated
 /// pixels nor the black margins of rectified images tell the exposure.
 PairSums sumsNear(const cv::Mat& from, const cv::Mat& to, const Exposure& expected, double most) {
-  constexpr int kStep_px = 10;
+  constexpr double kPixels = 1000.0;
   constexpr int kDarkest = 3;
   constexpr int kLightest = 250;
   const auto gain = static_cast<float>(expected.gain);
   const auto offset = static_cast<float>(expected.offset);
   const auto limit = static_cast<float>(most);
+  const auto all = static_cast<double>(from.total());
+  const int step_px = std::max(1, cvFloor(std::sqrt(all / kPixels)));
   PairSums sums;
-  for (int y = 0; y < from.rows; y += kStep_px) {
+  for (int y = 0; y < from.rows; y += step_px) {
     const auto* in_from = from.ptr<uchar>(y);
     const auto* in_to = to.ptr<uchar>(y);
-    for (int x = 0; x < from.cols; x += kStep_px) {
+    for (int x = 0; x < from.cols; x += step_px) {
       const int lighter = std::max(in_from[x], in_to[x]);
       const float difference =
           static_cast<float>(in_to[x]) - gain * static_cast<float>(in_from[x]) - offset;

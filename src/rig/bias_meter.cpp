@@ -15,10 +15,10 @@ constexpr int kParameters = 7;
 /// With fewer features, the bias can hardly be distinguished from the motion.
 constexpr std::size_t kLeastFeatures = 30;
 
-/// Iterations end after a step below kSettled_px. Without parallax the bias is undetermined and
-/// steps would be arbitrarily long.
+/// Iterations end after a step below kSettled_px, because one more is added to the result. Without
+/// parallax the bias is undetermined and steps would be arbitrarily long.
 constexpr int kMostSteps = 15;
-constexpr double kSettled_px = 0.005;
+constexpr double kSettled_px = 0.05;
 constexpr double kLongestStep_px = 1.0;
 
 }  // namespace
