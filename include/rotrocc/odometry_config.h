@@ -7,7 +7,7 @@ namespace rotrocc {
 
 /// Shi-Tomasi corner detection.
 struct FeatureDetectorConfig {
-  int max_features = 2000;
+  int max_features = 1000;
   int block_radius_px = 2;    ///< gradients are summed over a square of side 2 radius + 1
   int nms_radius_px = 5;      ///< minimum distance in x or y to a stronger corner
   int cell_size_px = 32;      ///< side of a grid cell
@@ -28,8 +28,8 @@ struct FeatureTrackerConfig {
   int window_radius_px = 4;        ///< the window is a square of side 2 radius + 1
   int levels = 2;                  ///< pyramid levels when there is a prediction
   int startup_levels = 5;          ///< pyramid levels without a prediction
-  int max_iterations = 10;         ///< per level
-  double min_step_px = 0.02;       ///< iterations stop at a shorter step
+  int max_iterations = 6;          ///< per level
+  double min_step_px = 0.04;       ///< iterations stop at a shorter step
   double max_round_trip_px = 1.0;  ///< tolerance of forward-backward tracking; 0: not checked
   bool scale_windows = true;       ///< scale the windows by the predicted scale change
   bool ignore_brightness = true;   ///< compare windows without their brightness and contrast
