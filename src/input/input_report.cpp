@@ -144,6 +144,7 @@ std::string whyNoPairs(const InputReport& report) {
            "set "
            "use_sim_time to false";
   }
+  if (report.clock_stands) return "/clock stands still: the replay is paused or has ended";
   if (const std::string silent = whySilent(report); !silent.empty()) return silent;
   if (!report.camera_error.empty()) return report.camera_error;
   for (const TopicReport* info : {&report.left_info, &report.right_info}) {

@@ -36,6 +36,7 @@ struct InputReport {
   std::optional<double> median_skew_s;       ///< see medianSkew()
   std::optional<double> skew_of_a_period_s;  ///< see skewOfAPeriod()
   bool clock_missing = false;                ///< simulated time without /clock
+  bool clock_stands = false;                 ///< simulated time stands still
   std::string refused;                       ///< why recent input was dropped; empty if none
   std::string camera_error;                  ///< why camera_info is invalid although both arrived
   bool waits_for_info = false;               ///< a pair waits for camera_info

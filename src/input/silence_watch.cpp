@@ -64,7 +64,7 @@ bool SilenceWatch::isGap(Duration silence) const {
 }
 
 std::string SilenceWatch::onTick(const InputReport& input, Time now) {
-  if (now - last_pair_ < silence_limit_) return {};
+  if (input.clock_stands || now - last_pair_ < silence_limit_) return {};
   const std::string situation = situationOf(input);
   if (told_) {
     const bool is_news = situation != situation_;

@@ -23,7 +23,8 @@ class SilenceWatch {
 
   /// Call about once a second. Returns the duration of the silence, the received messages and a
   /// remedy: at its start, when topics or their messages appear or disappear (at most every 5 s),
-  /// and as a reminder after 10, 20, 40 s and then every minute. Otherwise empty.
+  /// and as a reminder after 10, 20, 40 s and then every minute. Otherwise empty; also while
+  /// simulated time stands still, as nobody expects pairs then.
   std::string onTick(const InputReport& input, Time now);
 
  private:

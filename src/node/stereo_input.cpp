@@ -92,8 +92,9 @@ void StereoInput::onRightInfo(const sensor_msgs::CameraInfo::ConstPtr& info) {
   intake_.addInfo(Side::kRight, info, now());
 }
 
-InputReport StereoInput::report() const {
-  InputReport report = intake_.report(std::chrono::steady_clock::now());
+InputReport StereoInput::report() {
+  const Arrival asked = now();
+  InputReport report = intake_.report(asked.time);
   report.left_image.topic = left_image_subscriber_.getTopic();
   report.left_image.publishers = left_image_subscriber_.getNumPublishers();
   report.right_image.topic = right_image_subscriber_.getTopic();
@@ -102,7 +103,8 @@ InputReport StereoInput::report() const {
   report.left_info.publishers = left_info_subscriber_.getNumPublishers();
   report.right_info.topic = right_info_subscriber_.getTopic();
   report.right_info.publishers = right_info_subscriber_.getNumPublishers();
-  report.clock_missing = ros::Time::isSimTime() && ros::Time::now().isZero();
+  report.clock_missing = ros::Time::isSimTime() && asked.clock_ns == 0;
+  report.clock_stands = clock_.standsStill(asked.clock_ns, asked.time);
   return report;
 }
 

@@ -6,6 +6,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 
+#include "input/clock_watch.h"
 #include "input/stereo_intake.h"
 #include "rotrocc/parameters.h"
 
@@ -22,7 +23,7 @@ class StereoInput {
               Log log);
 
   /// Call in the thread of the callbacks.
-  InputReport report() const;
+  InputReport report();
 
  private:
   void onLeftImage(const sensor_msgs::Image::ConstPtr& image);
@@ -31,6 +32,7 @@ class StereoInput {
   void onRightInfo(const sensor_msgs::CameraInfo::ConstPtr& info);
 
   StereoIntake intake_;
+  ClockWatch clock_;
 
   // Last, so that callbacks end before the other members are destroyed.
   image_transport::Subscriber left_image_subscriber_;

@@ -169,6 +169,12 @@ TEST_F(WhyNoPairsTest, ClocksThatDiffer) {
   expectSaid("the clocks of both drivers synchronized?");
 }
 
+TEST_F(WhyNoPairsTest, ReplaysThatEnded) {
+  report_.left_image.silent_s = report_.right_image.silent_s = 9.0;
+  report_.clock_stands = true;
+  expectSaid("/clock stands still: the replay is paused or has ended");
+}
+
 TEST_F(WhyNoPairsTest, CameraInfoThatIsMissing) {
   report_.waits_for_info = true;
   report_.right_info.total = report_.right_info.publishers = 0;

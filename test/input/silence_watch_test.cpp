@@ -74,6 +74,13 @@ TEST_F(SilenceWatchTest, SaysNothingWhilePairsCome) {
   }
 }
 
+TEST_F(SilenceWatchTest, SaysNothingWhileTheReplayStands) {
+  input_.clock_stands = true;
+  EXPECT_EQ(wait(100), Times());
+  input_.clock_stands = false;
+  EXPECT_EQ(wait(2), Times{101});
+}
+
 TEST_F(SilenceWatchTest, SaysThatPairsComeAgain) {
   EXPECT_EQ(wait(10), Times{5});
   EXPECT_EQ(pair(), "stereo pairs arrive again, after 10 s");
