@@ -1,0 +1,200 @@
+#include "viewer/trajectory_scene.h"
+
+#include <iomanip>
+#include <sstream>
+
+#include <std_msgs/ColorRGBA.h>
+#include <visualization_msgs/Marker.h>
+#include <opencv2/core.hpp>
+
+#include "drawing/okabe_ito.h"
+#include "node/health/odometry_health.h"
+
+namespace rotrocc {
+namespace {
+
+using visualization_msgs::Marker;
+
+// As parts of the distance of the camera.
+constexpr double kWayWidth = 0.004, kTruthWidth = 0.009, kStartSize = 0.015, kArrowLength = 0.06,
+                 kStep = 0.002;
+/// Of the text, at one metre.
+constexpr double kTextSize = 0.03, kTextHeight = -0.36;
+constexpr std::size_t kMostPoints = 20000;
+
+std_msgs::ColorRGBA colour(const cv::Scalar& bgr) {
+  std_msgs::ColorRGBA rgba;
+  rgba.r = static_cast<float>(bgr[2] / 255.0);
+  rgba.g = static_cast<float>(bgr[1] / 255.0);
+  rgba.b = static_cast<float>(bgr[0] / 255.0);
+  rgba.a = 1.0F;
+  return rgba;
+}
+
+/// The worse, the darker, for those who see no colours.
+cv::Scalar colourOf(std::uint8_t state) {
+  if (state == OdometryStatus::LOST) return okabe_ito::kBlack;
+  if (state == OdometryStatus::DEGRADED) return okabe_ito::kVermillion;
+  return okabe_ito::kOrange;
+}
+
+/// Other states say why there is none.
+bool isOfPair(std::uint8_t state) {
+  return state <= OdometryStatus::LOST;
+}
+
+template <class Point>
+Eigen::Vector3d toEigen(const Point& point) {
+  return {point.x, point.y, point.z};
+}
+
+geometry_msgs::Point toPoint(const Eigen::Vector3d& vector) {
+  geometry_msgs::Point point;
+  point.x = vector.x();
+  point.y = vector.y();
+  point.z = vector.z();
+  return point;
+}
+
+}  // namespace
+
+const char* const kViewFrame = "trajectory_view";
+
+void TrajectoryScene::setState(const OdometryStatus& status) {
+  status_ = status;
+}
+
+void TrajectoryScene::setTruth(const nav_msgs::Path& truth) {
+  truth_ = truth;
+}
+
+void TrajectoryScene::begin(const nav_msgs::Odometry& odometry) {
+  way_.clear();
+  view_ = WholeView();
+  length_m_ = 0.0;
+  const Eigen::Vector3d start = toEigen(odometry.pose.pose.position);
+  for (const int side : {-1, 1}) {
+    view_.add(start + side * 0.5 * least_size_m_ * Eigen::Vector3d::UnitX());
+    view_.add(start + side * 0.5 * least_size_m_ * Eigen::Vector3d::UnitY());
+  }
+}
+
+void TrajectoryScene::add(const nav_msgs::Odometry& odometry) {
+  if (empty() || odometry.header.stamp < last_.header.stamp ||
+      odometry.header.frame_id != last_.header.frame_id) {
+    begin(odometry);
+  } else {
+    length_m_ += (toEigen(odometry.pose.pose.position) - toEigen(last_.pose.pose.position)).norm();
+  }
+  last_ = odometry;
+  const WayPoint point = {toEigen(odometry.pose.pose.position), status_.state};
+  view_.add(point.position);
+  if (way_.empty() || way_.back().state != point.state ||
+      (way_.back().position - point.position).norm() > kStep * distance_m()) {
+    way_.push_back(point);
+  }
+  if (way_.size() < kMostPoints) return;
+  for (std::size_t i = 0; 2 * i < way_.size(); ++i) way_[i] = way_[2 * i];
+  way_.resize((way_.size() + 1) / 2);
+}
+
+double TrajectoryScene::distance_m() const {
+  return (view_.position() - toEigen(last_.pose.pose.position)).norm();
+}
+
+std::string TrajectoryScene::words() const {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << stateName(status_.state);
+  if (isOfPair(status_.state)) text << ",  " << toEigen(last_.twist.twist.linear).norm() << " m/s";
+  text << ",  " << std::setprecision(length_m_ < 100.0 ? 1 : 0) << length_m_ << " m";
+  if (!status_.reason.empty()) text << '\n' << status_.reason;
+  return text.str();
+}
+
+Marker TrajectoryScene::marker(const char* name, int type, double size) const {
+  Marker marker;
+  marker.header.frame_id = last_.header.frame_id;
+  marker.ns = name;
+  marker.type = type;
+  marker.pose.orientation.w = 1.0;
+  marker.scale.x = marker.scale.y = marker.scale.z = size;
+  marker.frame_locked = 1;  // with the time 0: drawn where the frame is now
+  return marker;
+}
+
+Marker TrajectoryScene::wayMarker() const {
+  Marker way = marker("estimate", Marker::LINE_STRIP, kWayWidth * distance_m());
+  way.pose.position.z = 0.5 * kTruthWidth * distance_m();  // above the truth
+  for (const WayPoint& point : way_) {
+    way.points.push_back(toPoint(point.position));
+    way.colors.push_back(colour(colourOf(point.state)));
+  }
+  way.points.push_back(last_.pose.pose.position);
+  way.colors.push_back(colour(colourOf(status_.state)));
+  return way;
+}
+
+Marker TrajectoryScene::truthMarker() const {
+  Marker truth = marker("truth", Marker::LINE_STRIP, kTruthWidth * distance_m());
+  truth.header.frame_id = truth_.header.frame_id;
+  truth.color = colour(okabe_ito::kSkyBlue);
+  for (const geometry_msgs::PoseStamped& pose : truth_.poses) {
+    truth.points.push_back(pose.pose.position);
+  }
+  return truth;
+}
+
+Marker TrajectoryScene::startMarker() const {
+  Marker start = marker("start", Marker::SPHERE, kStartSize * distance_m());
+  start.color = colour(okabe_ito::kBlack);
+  start.pose.position = toPoint(way_.front().position);
+  return start;
+}
+
+Marker TrajectoryScene::arrowMarker() const {
+  Marker arrow = marker("now", Marker::ARROW, kArrowLength * distance_m());
+  arrow.scale.y = arrow.scale.z = 0.25 * arrow.scale.x;
+  arrow.color = colour(okabe_ito::kBlack);
+  arrow.pose = last_.pose.pose;
+  return arrow;
+}
+
+Marker TrajectoryScene::textMarker() const {
+  Marker text = marker("state", Marker::TEXT_VIEW_FACING, kTextSize);
+  text.header.frame_id = kViewFrame;
+  text.pose.position.x = 1.0;
+  text.pose.position.z = kTextHeight;
+  text.color = colour(okabe_ito::kBlack);
+  text.text = words();
+  return text;
+}
+
+visualization_msgs::MarkerArray TrajectoryScene::markers() const {
+  visualization_msgs::MarkerArray markers;
+  if (empty()) return markers;
+  if (truth_.poses.size() > 1) markers.markers.push_back(truthMarker());
+  markers.markers.push_back(wayMarker());
+  markers.markers.push_back(startMarker());
+  markers.markers.push_back(arrowMarker());
+  markers.markers.push_back(textMarker());
+  return markers;
+}
+
+geometry_msgs::TransformStamped TrajectoryScene::view() const {
+  geometry_msgs::TransformStamped view;
+  view.header.stamp = last_.header.stamp;
+  view.header.frame_id = last_.header.frame_id;
+  view.child_frame_id = kViewFrame;
+  const Eigen::Vector3d position = view_.position();
+  view.transform.translation.x = position.x();
+  view.transform.translation.y = position.y();
+  view.transform.translation.z = position.z();
+  const Eigen::Quaterniond rotation = WholeView::orientation();
+  view.transform.rotation.w = rotation.w();
+  view.transform.rotation.x = rotation.x();
+  view.transform.rotation.y = rotation.y();
+  view.transform.rotation.z = rotation.z();
+  return view;
+}
+
+}  // namespace rotrocc

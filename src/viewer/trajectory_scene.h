@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <nav_msgs/Path.h>
+#include <visualization_msgs/MarkerArray.h>
+#include <Eigen/Core>
+
+#include "rotrocc/OdometryStatus.h"
+#include "viewer/whole_view.h"
+
+namespace rotrocc {
+
+/// What rviz shows of a trajectory as a whole: the way so far, coloured by the state, with widths
+/// that stay visible from afar; the truth, if there is one; state and speed in words; and the frame
+/// of a camera that sees all of it.
+class TrajectoryScene {
+ public:
+  /// `least_size_m`: what is seen around the start.
+  explicit TrajectoryScene(double least_size_m) : least_size_m_(least_size_m) {}
+
+  void setState(const OdometryStatus& status);
+  void setTruth(const nav_msgs::Path& truth);
+
+  /// The next pose. Begins anew if time went back, or the frame is another one.
+  void add(const nav_msgs::Odometry& odometry);
+
+  bool empty() const { return way_.empty(); }
+
+  /// In the frame of the poses and, for text, in that of the camera.
+  visualization_msgs::MarkerArray markers() const;
+
+  /// The frame of the camera, `view_frame`.
+  geometry_msgs::TransformStamped view() const;
+
+ private:
+  struct WayPoint {
+    Eigen::Vector3d position;
+    std::uint8_t state;
+  };
+
+  void begin(const nav_msgs::Odometry& odometry);
+  double distance_m() const;
+  std::string words() const;
+  visualization_msgs::Marker marker(const char* name, int type, double size) const;
+  visualization_msgs::Marker wayMarker() const;
+  visualization_msgs::Marker truthMarker() const;
+  visualization_msgs::Marker startMarker() const;
+  visualization_msgs::Marker arrowMarker() const;
+  visualization_msgs::Marker textMarker() const;
+
+  double least_size_m_;
+  OdometryStatus status_;
+  nav_msgs::Path truth_;
+  nav_msgs::Odometry last_;
+  std::vector<WayPoint> way_;  // thinned out
+  double length_m_ = 0.0;
+  WholeView view_;
+};
+
+extern const char* const kViewFrame;
+
+}  // namespace rotrocc

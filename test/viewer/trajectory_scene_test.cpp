@@ -1,0 +1,110 @@
+#include "viewer/trajectory_scene.h"
+
+#include <gtest/gtest.h>
+#include <visualization_msgs/Marker.h>
+
+namespace rotrocc {
+namespace {
+
+constexpr double kLeastSize_m = 10.0;
+
+class TrajectorySceneTest : public ::testing::Test {
+ protected:
+  void setState(std::uint8_t state, const std::string& reason = "") {
+    OdometryStatus status;
+    status.state = state;
+    status.reason = reason;
+    scene_.setState(status);
+  }
+
+  void addAt(double x_m, double time_s, const std::string& frame = "odom") {
+    nav_msgs::Odometry odometry;
+    odometry.header.frame_id = frame;
+    odometry.header.stamp = ros::Time(time_s);
+    odometry.pose.pose.position.x = x_m;
+    odometry.pose.pose.orientation.w = 1.0;
+    odometry.twist.twist.linear.x = 2.5;
+    scene_.add(odometry);
+  }
+
+  visualization_msgs::Marker marker(const std::string& name) const {
+    for (const visualization_msgs::Marker& marker : scene_.markers().markers) {
+      if (marker.ns == name) return marker;
+    }
+    return {};
+  }
+
+  TrajectoryScene scene_{kLeastSize_m};
+};
+
+TEST_F(TrajectorySceneTest, IsEmptyWithoutAPose) {
+  EXPECT_TRUE(scene_.empty());
+  EXPECT_TRUE(scene_.markers().markers.empty());
+}
+
+TEST_F(TrajectorySceneTest, SaysStateSpeedAndLength) {
+  setState(OdometryStatus::OK);
+  addAt(0.0, 1.0);
+  addAt(3.0, 2.0);
+  EXPECT_EQ(marker("state").text, "OK,  2.5 m/s,  3.0 m");
+  setState(OdometryStatus::LOST, "12 features");
+  EXPECT_EQ(marker("state").text, "LOST,  2.5 m/s,  3.0 m\n12 features");
+  setState(OdometryStatus::NO_INPUT, "the replay has ended");
+  EXPECT_EQ(marker("state").text, "NO_INPUT,  3.0 m\nthe replay has ended");
+}
+
+TEST_F(TrajectorySceneTest, ColoursTheWayByTheStateEvenAtStandstill) {
+  const std::uint8_t states[] = {
+      OdometryStatus::OK, OdometryStatus::DEGRADED, OdometryStatus::LOST};
+  for (int i = 0; i < 3; ++i) {
+    setState(states[i]);
+    addAt(0.0, i);
+  }
+  const visualization_msgs::Marker way = marker("estimate");
+  ASSERT_GE(way.colors.size(), 3u);
+  ASSERT_EQ(way.colors.size(), way.points.size());
+  for (int i = 1; i < 3; ++i) EXPECT_LT(way.colors[i].g, way.colors[i - 1].g) << "darker";
+}
+
+TEST_F(TrajectorySceneTest, GrowsWithTheWay) {
+  addAt(0.0, 0.0);
+  const double height_m = scene_.view().transform.translation.z;
+  const double width_m = marker("estimate").scale.x;
+  EXPECT_GT(height_m, 0.5 * kLeastSize_m);
+  for (int i = 1; i <= 1000; ++i) addAt(i, i);
+  EXPECT_GT(scene_.view().transform.translation.z, 20.0 * height_m);
+  EXPECT_GT(marker("estimate").scale.x, 20.0 * width_m);
+  EXPECT_EQ(scene_.view().header.frame_id, "odom");
+  EXPECT_EQ(scene_.view().child_frame_id, marker("state").header.frame_id);
+}
+
+TEST_F(TrajectorySceneTest, KeepsNoMorePointsThanAreSeen) {
+  for (int i = 0; i < 100000; ++i) addAt(i % 1000, i);
+  EXPECT_LT(marker("estimate").points.size(), 20001u);
+  EXPECT_EQ(marker("estimate").points.back().x, 999.0);
+}
+
+TEST_F(TrajectorySceneTest, BeginsAnewAfterAJumpBackOrInAnotherFrame) {
+  for (int i = 0; i < 100; ++i) addAt(i, i);
+  addAt(500.0, 0.0);
+  EXPECT_EQ(marker("estimate").points.size(), 2u);
+  EXPECT_EQ(marker("start").pose.position.x, 500.0);
+  addAt(501.0, 1.0);
+  addAt(7.0, 2.0, "map");
+  EXPECT_EQ(marker("start").pose.position.x, 7.0);
+}
+
+TEST_F(TrajectorySceneTest, ShowsTheTruthIfThereIsOne) {
+  addAt(0.0, 0.0);
+  EXPECT_EQ(marker("truth").ns, "");
+  nav_msgs::Path truth;
+  truth.header.frame_id = "odom";
+  truth.poses.resize(2);
+  truth.poses[1].pose.position.x = 4.0;
+  scene_.setTruth(truth);
+  EXPECT_EQ(marker("truth").points.size(), 2u);
+  EXPECT_GT(marker("truth").scale.x, marker("estimate").scale.x);
+}
+
+}  // namespace
+}  // namespace rotrocc
