@@ -37,11 +37,13 @@ bool parse(int argc, char** argv, Options& options) {
   po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(),
             variables);
   if (variables.count("help") > 0) {
-    std::cout << "usage: error_characteristics SEQUENCE_DIR --output DIR\n\n"
-                 "Computes reprojection error, normalized and decoupled normalized reprojection "
-                 "error of the\nfeatures in the first two pairs of a sequence, under wrong motion "
-                 "hypotheses: Fig. 4 and 5 of the paper.\n\n"
-              << visible;
+    std::cout
+        << "Computes the errors of features under wrong motions: Fig. 4 and 5 of the paper.\n\n"
+           "example: error_characteristics dataset/sequences/06 --output figures\n"
+           "usage:   error_characteristics SEQUENCE_DIR --output DIR\n\n"
+           "The errors are reprojection error, normalized and decoupled normalized "
+           "reprojection error of the\nfeatures in the first two pairs of a sequence.\n\n"
+        << visible;
     return false;
   }
   po::notify(variables);

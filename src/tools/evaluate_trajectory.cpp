@@ -73,15 +73,16 @@ bool parse(int argc, char** argv, Options& options) {
             variables);
   if (variables.count("help") > 0) {
     std::cout
-        << "usage: evaluate_trajectory GT EST [options]\n"
-           "       evaluate_trajectory EST --report DIR [options]    without ground truth\n\n"
-           "Compares a trajectory with the ground truth by the metric of the KITTI odometry "
-           "devkit. Both are in\nKITTI or TUM format; two KITTI files are matched line by line, "
-           "others by stamp, up to 10 ms apart.\nGT may also be the sequence that EST is of, with "
-           "its true poses: a directory in the layout of KITTI or\nASL (EuRoC), or with files of "
-           "camera_calibration.\n"
-           "Each row of the table by speed has the segments up to 2 m/s slower or faster, so "
-           "each segment counts twice.\n\n"
+        << "Compares a trajectory with the ground truth by the metric of the KITTI odometry "
+           "devkit, and writes a report.\n\n"
+           "example: evaluate_trajectory dataset/poses/06.txt 06.txt --fit --report 06_report\n"
+           "usage:   evaluate_trajectory GT EST [options]\n"
+           "         evaluate_trajectory EST --report DIR [options]    without ground truth\n\n"
+           "Both are in KITTI or TUM format; two KITTI files are matched line by line, others by "
+           "stamp, up to 10 ms\napart. GT may also be the sequence that EST is of, with its true "
+           "poses: a directory in the layout of\nKITTI or ASL (EuRoC), or with files of "
+           "camera_calibration. Each row of the table by speed has the\nsegments up to 2 m/s "
+           "slower or faster, so each segment counts twice.\n\n"
         << visible;
     return false;
   }

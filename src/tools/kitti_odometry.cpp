@@ -4,6 +4,7 @@
 #include <iostream>
 #include <string>
 
+#include "common/print_help.h"
 #include "rotrocc/kitti.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/pose_accumulator.h"
@@ -13,6 +14,15 @@
 namespace {
 
 using namespace rotrocc;
+
+const char* const kHelp =
+    "Runs the odometry on a sequence of the KITTI benchmark; an example of the library without "
+    "ROS.\n\n"
+    "example: kitti_odometry dataset/sequences/06 06.txt\n"
+    "usage:   kitti_odometry SEQUENCE TRAJECTORY [CONFIG.yaml]\n\n"
+    "SEQUENCE     a directory with image_0, image_1, calib.txt and times.txt\n"
+    "TRAJECTORY   output file for the poses of the left camera, in KITTI format\n"
+    "CONFIG.yaml  parameters, as config/default.yaml\n";
 
 void run(const std::string& directory, const std::string& output, const char* config) {
   Parameters parameters;
@@ -33,10 +43,10 @@ void run(const std::string& directory, const std::string& output, const char* co
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool help = argc == 2 && std::string(argv[1]) == "--help";
+  if (printHelp(argc, argv, kHelp)) return 0;
   if (argc < 3 || argc > 4) {
-    (help ? std::cout : std::cerr) << "usage: kitti_odometry SEQUENCE TRAJECTORY [CONFIG.yaml]\n";
-    return help ? 0 : 2;
+    std::cerr << "kitti_odometry: expected a sequence and an output file; --help shows the usage\n";
+    return 2;
   }
   try {
     run(argv[1], argv[2], argc == 4 ? argv[3] : nullptr);

@@ -69,8 +69,7 @@ bool parse(int argc, char** argv, Options& options) {
   add("rectify",
       po::value(&options.rectify)->default_value(options.rectify),
       "images of a bag by K, D, R and P of camera_info: yes, no, or auto: if the topic is not "
-      "named "
-      "image_rect or alike, and camera_info describes raw images");
+      "named image_rect or alike, and camera_info describes raw images");
   add("imu",
       po::value(&options.imu),
       "gyroscope that predicts rotations: a CSV file (timestamp [ns], three angular velocities "
@@ -92,11 +91,12 @@ bool parse(int argc, char** argv, Options& options) {
   if (variables.count("help") > 0) {
     std::cout
         << "Runs the odometry on all pairs of a recording, and writes the pose of the left "
-           "camera for each.\n"
+           "camera for each.\n\n"
+           "example: offline_odometry dataset/sequences/06 --trajectory 06.txt --stats 06.csv\n"
+           "usage:   offline_odometry INPUT --trajectory OUT.txt [options]\n\n"
            "INPUT is a bag, or a directory in the layout of KITTI's odometry benchmark, in ASL "
            "format\n(EuRoC), or with folders left and right and files left.yaml and "
-           "right.yaml of\ncamera_calibration. Images that are not rectified are.\n"
-           "usage: offline_odometry INPUT --trajectory OUT.txt [options]\n"
+           "right.yaml of\ncamera_calibration. Images that are not rectified are.\n\n"
         << visible;
     return false;
   }

@@ -50,10 +50,12 @@ bool parse(int argc, char** argv, Options& options) {
   if (variables.count("help") > 0) {
     std::cout
         << "Converts a sequence of stereo images to a bag with camera_info, tf and, if known, "
-           "ground truth and\ngyroscope. SEQUENCE_DIR is in the layout of KITTI's odometry "
-           "benchmark, in ASL format (EuRoC), or has\nfolders left and right and files "
-           "left.yaml and right.yaml of camera_calibration.\n"
-           "usage: sequence_to_bag SEQUENCE_DIR OUT.bag [options]\n"
+           "ground truth and gyroscope.\n\n"
+           "example: sequence_to_bag dataset/sequences/06 06.bag\n"
+           "usage:   sequence_to_bag SEQUENCE_DIR OUT.bag [options]\n\n"
+           "SEQUENCE_DIR is in the layout of KITTI's odometry benchmark, in ASL format (EuRoC), or "
+           "has folders left\nand right and files left.yaml and right.yaml of "
+           "camera_calibration.\n\n"
         << visible;
     return false;
   }

@@ -11,6 +11,7 @@
 
 #include "bags/sequence_bag_writer.h"
 #include "inertial/gyro_file.h"
+#include "input/to_text.h"
 #include "rotrocc/trajectory.h"
 #include "sequences/stereo_sequence.h"
 #include "simulation/asl_writer.h"
@@ -28,13 +29,14 @@ namespace po = boost::program_options;
 using namespace rotrocc;
 
 const char* const kUsage =
-    "Renders a simulated stereo drive with exact poses.\n"
-    "usage: simulate_drive SCENARIO OUT [options]\n"
-    "       simulate_drive --poses FILE OUT [options]\n"
+    "Renders a simulated stereo drive with exact poses.\n\n"
+    "example: simulate_drive city drive --frames 100\n"
+    "usage:   simulate_drive SCENARIO OUT [options]\n"
+    "         simulate_drive --poses FILE OUT [options]\n\n"
     "SCENARIO  city, motorway, slip_road, parking, shake, handheld, night, rain, field, hall, "
     "walk\n"
     "          or tunnel\n"
-    "OUT       a new directory, a .bag, or a .csv for the gyroscope alone\n";
+    "OUT       a new directory, a .bag, or a .csv for the gyroscope alone\n\n";
 
 struct Options {
   std::vector<std::string> names;
@@ -57,7 +59,9 @@ struct Options {
 po::options_description describe(Options& options) {
   SimulationOptions& simulation = options.simulation;
   CameraFaults& faults = simulation.faults;
-  const auto number = [](double& value) { return po::value(&value)->default_value(value); };
+  const auto number = [](double& value) {
+    return po::value(&value)->default_value(value, toText(value));
+  };
   po::options_description what("Contents");
   what.add_options()("help,h", "show this help")(
       "layout",

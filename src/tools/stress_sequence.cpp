@@ -20,10 +20,11 @@ namespace po = boost::program_options;
 using namespace rotrocc;
 
 const char* const kUsage =
-    "Makes the images of a sequence worse.\n"
-    "usage: stress_sequence IN OUT [options]\n"
+    "Makes the images of a sequence worse: fog, gains, noise, drops, JPEG.\n\n"
+    "example: stress_sequence drive foggy_drive --contrast 0.3\n"
+    "usage:   stress_sequence IN OUT [options]\n\n"
     "IN   a directory in KITTI odometry layout, best rendered with --noise 0\n"
-    "OUT  a new one with the same times, poses and calibration\n";
+    "OUT  a new one with the same times, poses and calibration\n\n";
 
 struct Options {
   std::vector<std::string> names;

@@ -1,18 +1,22 @@
-// What rviz shows of the trajectory as a whole: rosrun rotrocc rviz_scene, in the namespace of the
-// odometry. From odom, status and ground_truth/path it makes the markers `scene`, and the frame
-// trajectory_view in tf, which rviz/*.rviz look from.
-
-#include <chrono>
-
 #include <ros/ros.h>
 #include <tf2_ros/transform_broadcaster.h>
 
-#include "input/throttle.h"
+#include "common/print_help.h"
 #include "viewer/trajectory_scene.h"
 
 namespace {
 
 using namespace rotrocc;
+
+const char* const kHelp =
+    "Makes what rviz shows of the trajectory as a whole: its lines, state and speed in words.\n\n"
+    "example: ROS_NAMESPACE=camera rosrun rotrocc rviz_scene\n"
+    "usage:   rviz_scene [_least_size_m:=METRES] [TOPIC:=TOPIC...]\n\n"
+    "From odom, status and ground_truth/path it makes the markers `scene`, and the frame\n"
+    "trajectory_view in tf, which moves back as the path grows. The launch files start it with "
+    "rviz.\n\n"
+    "Parameters:\n"
+    "  least_size_m  what is seen around the start [m], default 4\n";
 
 class RvizScene {
  public:
@@ -48,6 +52,7 @@ class RvizScene {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (printHelp(argc, argv, kHelp)) return 0;
   ros::init(argc, argv, "rviz_scene");
   ros::NodeHandle nh;
   const RvizScene scene(nh, ros::NodeHandle("~"));
