@@ -1,0 +1,90 @@
+// The links of README.md and docs/*.md, and the length of the README.
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/read_file.h"
+
+namespace rotrocc {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> pages() {
+  std::vector<fs::path> pages = {fs::path(ROOT) / "README.md"};
+  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(ROOT) / "docs")) {
+    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  }
+  return pages;
+}
+
+/// As GitHub makes it of a heading.
+std::string anchorOf(const std::string& heading) {
+  std::string anchor;
+  for (const unsigned char letter : heading) {
+    if (letter == ' ') anchor += '-';
+    if (std::isalnum(letter) != 0 || letter == '-' || letter == '_') {
+      anchor += static_cast<char>(std::tolower(letter));
+    }
+  }
+  return anchor;
+}
+
+bool hasAnchor(const fs::path& page, const std::string& anchor) {
+  std::istringstream text(readFile(page));
+  for (std::string line; std::getline(text, line);) {
+    if (line.rfind('#', 0) == 0 && anchorOf(line.substr(line.find(' ') + 1)) == anchor) return true;
+  }
+  return false;
+}
+
+TEST(DocumentationTest, LinksLeadSomewhere) {
+  static const std::regex link(R"(\]\(([^)#\s]*)(?:#([^)\s]*))?\))");
+  int links = 0;
+  for (const fs::path& page : pages()) {
+    const std::string text = readFile(page);
+    for (std::sregex_iterator match(text.begin(), text.end(), link), end; match != end; ++match) {
+      const std::string file = (*match)[1], anchor = (*match)[2];
+      if (file.rfind("http", 0) == 0) continue;
+      const fs::path target = file.empty() ? page : page.parent_path() / file;
+      EXPECT_TRUE(fs::exists(target)) << page << " links to " << file;
+      if (!anchor.empty()) {
+        EXPECT_TRUE(hasAnchor(target, anchor)) << page << ": " << file << '#' << anchor;
+      }
+      ++links;
+    }
+  }
+  EXPECT_GT(links, 100);
+}
+
+/// Four screens of 50 lines, of about 115 letters.
+TEST(DocumentationTest, ReadmeFitsFourScreens) {
+  static const std::regex target(R"(\]\([^)]*\))");
+  std::istringstream text(readFile(fs::path(ROOT) / "README.md"));
+  std::size_t lines = 0;
+  for (std::string line; std::getline(text, line);) {
+    if (line.rfind("![", 0) == 0) lines += 25;  // a picture
+    lines += 1 + std::regex_replace(line, target, "").size() / 115;
+  }
+  EXPECT_LE(lines, 200u);
+}
+
+/// A page that nothing links to is not found.
+TEST(DocumentationTest, EveryPageIsLinkedFromTheReadme) {
+  const std::string readme = readFile(fs::path(ROOT) / "README.md");
+  for (const fs::path& page : pages()) {
+    if (page.filename() == "README.md") continue;
+    const std::string link = "](docs/" + page.filename().string();
+    EXPECT_NE(readme.find(link), std::string::npos) << page;
+  }
+}
+
+}  // namespace
+}  // namespace rotrocc
