@@ -7,7 +7,7 @@ from matplotlib import pyplot
 ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILLION, PURPLE, BLACK = (
     '#E69F00', '#56B4E9', '#009E73', '#F0E442', '#0072B2', '#D55E00', '#CC79A7', '#000000')
 TRUTH, ESTIMATE = BLUE, ORANGE
-DEGRADED, LOST = PURPLE, VERMILLION
+DEGRADED, LOST = VERMILLION, BLACK  # the worse, the darker, for those who see no colours
 TEXT, FAINT, GRID = '#333333', '#777777', '#DDDDDD'
 
 

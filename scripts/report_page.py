@@ -1,4 +1,4 @@
-"""Self-contained HTML pages: no scripts, no external files, embedded pictures."""
+"""Self-contained HTML pages: no external files, embedded pictures."""
 import base64
 import html
 import os
@@ -9,7 +9,7 @@ main { max-width: 1100px; margin: 0 auto; padding: 32px 20px 48px; }
 h1 { margin: 0; font-size: 28px; line-height: 1.25; overflow-wrap: anywhere; }
 h2 { margin: 0 0 4px; font-size: 19px; }
 p { margin: 4px 0 12px; color: #555; }
-section { margin-top: 20px; padding: 20px 24px 16px; background: #fff; border: 1px solid #e2e5e8; border-radius: 10px; }
+main > section { margin-top: 20px; padding: 20px 24px 16px; background: #fff; border: 1px solid #e2e5e8; border-radius: 10px; }
 .tiles { display: grid; grid-template-columns: repeat(3, 1fr); gap: 12px; margin-top: 20px; }
 .tiles.four { grid-template-columns: repeat(4, 1fr); }
 @media (max-width: 700px) { .tiles, .tiles.four { grid-template-columns: 1fr 1fr; } }
@@ -18,6 +18,7 @@ section { margin-top: 20px; padding: 20px 24px 16px; background: #fff; border: 1
 .tile b small { font-size: 15px; font-weight: normal; color: #555; }
 .tile span { color: #555; font-size: 14px; }
 img { display: block; width: 100%; max-width: 900px; height: auto; margin: 8px auto; }
+summary { margin: 12px 0 4px; color: #0072B2; cursor: pointer; }
 .scroll { overflow-x: auto; }
 .columns { display: grid; grid-template-columns: repeat(auto-fit, minmax(390px, 1fr)); gap: 0 40px; align-items: start; }
 table { border-collapse: collapse; margin: 10px 0; font-size: 14.5px; font-variant-numeric: tabular-nums; width: 100%; }
@@ -71,6 +72,11 @@ def columns(*parts):
 
 def section(title, note, *parts):
     return '<section><h2>%s</h2>\n<p>%s</p>\n%s</section>\n' % (text(title), note, ''.join(parts))
+
+
+def details(summary, *parts):
+    """Folded away at first."""
+    return '<details><summary>%s</summary>%s</details>\n' % (text(summary), ''.join(parts))
 
 
 def write_page(path, title, note, *parts):
