@@ -18,8 +18,10 @@ using visualization_msgs::Marker;
 // As parts of the distance of the camera.
 constexpr double kWayWidth = 0.004, kTruthWidth = 0.009, kStartSize = 0.015, kArrowLength = 0.06,
                  kStep = 0.002;
-/// Of the text, at one metre.
-constexpr double kTextSize = 0.03, kTextHeight = -0.36;
+/// The lines are above the points on the ground, and the estimate above the truth.
+constexpr double kWayHeight = 0.015, kTruthHeight = 0.01;
+/// Of the text. Nearer to the camera, it would tremble with it.
+constexpr double kTextDistance = 0.3, kTextSize = 0.035, kTextHeight = -0.36;
 constexpr std::size_t kMostPoints = 20000;
 
 std_msgs::ColorRGBA colour(const cv::Scalar& bgr) {
@@ -124,7 +126,7 @@ Marker TrajectoryScene::marker(const char* name, int type, double size) const {
 
 Marker TrajectoryScene::wayMarker() const {
   Marker way = marker("estimate", Marker::LINE_STRIP, kWayWidth * distance_m());
-  way.pose.position.z = 0.5 * kTruthWidth * distance_m();  // above the truth
+  way.pose.position.z = kWayHeight * distance_m();
   for (const WayPoint& point : way_) {
     way.points.push_back(toPoint(point.position));
     way.colors.push_back(colour(colourOf(point.state)));
@@ -137,6 +139,7 @@ Marker TrajectoryScene::wayMarker() const {
 Marker TrajectoryScene::truthMarker() const {
   Marker truth = marker("truth", Marker::LINE_STRIP, kTruthWidth * distance_m());
   truth.header.frame_id = truth_.header.frame_id;
+  truth.pose.position.z = kTruthHeight * distance_m();
   truth.color = colour(okabe_ito::kSkyBlue);
   for (const geometry_msgs::PoseStamped& pose : truth_.poses) {
     truth.points.push_back(pose.pose.position);
@@ -156,14 +159,16 @@ Marker TrajectoryScene::arrowMarker() const {
   arrow.scale.y = arrow.scale.z = 0.25 * arrow.scale.x;
   arrow.color = colour(okabe_ito::kBlack);
   arrow.pose = last_.pose.pose;
+  arrow.pose.position.z += kWayHeight * distance_m();
   return arrow;
 }
 
 Marker TrajectoryScene::textMarker() const {
-  Marker text = marker("state", Marker::TEXT_VIEW_FACING, kTextSize);
+  const double distance = kTextDistance * distance_m();
+  Marker text = marker("state", Marker::TEXT_VIEW_FACING, kTextSize * distance);
   text.header.frame_id = kViewFrame;
-  text.pose.position.x = 1.0;
-  text.pose.position.z = kTextHeight;
+  text.pose.position.x = distance;
+  text.pose.position.z = kTextHeight * distance;
   text.color = colour(okabe_ito::kBlack);
   text.text = words();
   return text;

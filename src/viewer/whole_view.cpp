@@ -9,7 +9,7 @@ namespace {
 constexpr double kPitch_rad = 1.05;
 /// Sides of the used part of the picture, as tangents: rviz sees 22.5 deg up and down, more to the
 /// sides, and text is below.
-constexpr double kSide = 0.42, kTop = 0.37, kBottom = 0.28;
+constexpr double kSide = 0.42, kTop = 0.33, kBottom = 0.28;
 
 const Eigen::Matrix3d kAxes = WholeView::orientation().toRotationMatrix();
 const Eigen::Vector3d kForward = kAxes.col(0);

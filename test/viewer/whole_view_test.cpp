@@ -37,7 +37,7 @@ void expectFilled(const std::vector<Eigen::Vector3d>& points) {
   EXPECT_GE(picture.bottom, -kEdge);
   // The nearest such place: the points reach both sides, or top and bottom.
   const double height = picture.top - picture.bottom;
-  EXPECT_TRUE(picture.side > 0.41 || height > 0.64) << picture.side << ", " << height;
+  EXPECT_TRUE(picture.side > 0.41 || height > 0.60) << picture.side << ", " << height;
 }
 
 TEST(WholeViewTest, WaysOfAnySizeFillThePicture) {
