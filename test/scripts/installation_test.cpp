@@ -49,6 +49,17 @@ TEST_F(InstallationTest, ProgramsFindTheirLibraries) {
                                    " --trajectory " + path("trajectory.txt"));
   EXPECT_EQ(result.status, 0) << result.output;
   EXPECT_TRUE(std::filesystem::exists(path("trajectory.txt"))) << result.output;
+  // The report is a script with modules of its own.
+  const CommandResult report = run("rosrun rotrocc evaluate_trajectory " + path("trajectory.txt") +
+                                   " --report " + path("report"));
+  EXPECT_EQ(report.status, 0) << report.output;
+  EXPECT_TRUE(std::filesystem::exists(path("report/index.html"))) << report.output;
+}
+
+TEST_F(InstallationTest, CompletionIsWhereBashLooksForIt) {
+  const std::string file = prefix() + "/share/bash-completion/completions/rotrocc";
+  const CommandResult result = run("bash -c '. " + file + "; complete -p rosrun'");
+  EXPECT_EQ(result.output, "complete -F _rotrocc_rosrun rosrun\n");
 }
 
 TEST_F(InstallationTest, LaunchFilesNameInstalledNodes) {
