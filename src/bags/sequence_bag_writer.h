@@ -1,16 +1,12 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
+#include <cstddef>
 #include <string>
 
-#include <nav_msgs/Path.h>
 #include <ros/time.h>
 #include <rosbag/bag.h>
-#include <sensor_msgs/CameraInfo.h>
-#include <opencv2/core.hpp>
 
-#include "rectification/stereo_rectifier.h"
+#include "bags/sequence_messages.h"
 #include "sequences/stereo_sequence.h"
 
 namespace rotrocc {
@@ -23,16 +19,9 @@ namespace rotrocc {
 ///   known /ground_truth/pose                 geometry_msgs/PoseStamped, one per pair that has one
 ///   /imu/data                          sensor_msgs/Imu in imu_link, whose axes are those of
 ///                                      base_link; the angular velocity only, if there is one
-/// Images and infos of both cameras are in the frame of the left one: P of a rectified pair refers
-/// to it (sensor_msgs/CameraInfo), and image_geometry requires equal frames.
 class SequenceBagWriter {
  public:
-  struct Options {
-    /// Time of the first pair of a sequence whose stamps are since 1970, otherwise of its time 0;
-    /// by default as it is, or kKittiStart_s.
-    std::optional<std::int64_t> start_time_s;
-    bool rectify = false;  ///< images that are not rectified
-  };
+  using Options = SequenceMessages::Options;
 
   /// Writes into `path`.part until finish(). Throws std::invalid_argument if the stamps are out of
   /// range, std::runtime_error if the file cannot be written.
@@ -50,25 +39,19 @@ class SequenceBagWriter {
   void finish();
 
  private:
-  ros::Time stamp(std::int64_t stamp_ns) const;
   void beginStamp(const ros::Time& stamp);
   void writeStatic();
   void writeTruth();
   void writeGyroscope(const ros::Time& end);
-  void writeCamera(const std::string& side, sensor_msgs::CameraInfo info, const cv::Mat& image);
+  void writeCamera(const std::string& side, const SequenceMessages::Camera& camera);
   template <typename Message>
   void write(const std::string& topic, const Message& message);
 
   std::string path_;
   std::string unfinished_path_;
-  StereoSequence& sequence_;
-  std::int64_t offset_ns_;
-  StereoCalibration calibration_;  // of the images in the bag
-  std::optional<StereoRectifier> rectifier_;
-  nav_msgs::Path ground_truth_;
+  SequenceMessages messages_;
   std::size_t next_truth_ = 0;
-  GyroRecording gyroscope_;
-  std::size_t next_sample_ = 0;
+  int next_sample_ = 0;
   rosbag::Bag bag_;
   ros::Time stamp_;
   ros::Time record_time_;
