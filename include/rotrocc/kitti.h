@@ -22,8 +22,9 @@ class KittiSequence {
  public:
   /// Reads everything except the images. Throws std::runtime_error that names the file and the
   /// problem if a file is missing or unreadable, if the numbers of images, times and poses differ,
-  /// if times do not increase, or if P0 and P1 are not those of a rectified stereo pair.
-  explicit KittiSequence(const std::string& directory);
+  /// if times do not increase, or if P0 and P1 are not those of a rectified stereo pair. Of a
+  /// sequence that is being written, only the first left image needs to be there.
+  explicit KittiSequence(const std::string& directory, bool being_written = false);
 
   const std::string& directory() const { return directory_; }
 
@@ -40,6 +41,9 @@ class KittiSequence {
   /// it is missing, unreadable or not of the camera's size.
   cv::Mat readLeft(int index) const;
   cv::Mat readRight(int index) const;
+
+  /// Whether the right image of pair `index`, which is written after the left one, is there.
+  bool hasPair(int index) const;
 
   bool hasGroundTruth() const { return !ground_truth_.empty(); }
 

@@ -107,13 +107,16 @@ Trajectory readGroundTruth(const std::string& path,
 
 }  // namespace
 
-KittiSequence::KittiSequence(const std::string& directory) : directory_(directory) {
+KittiSequence::KittiSequence(const std::string& directory, bool being_written)
+    : directory_(directory) {
   const fs::path root(directory);
   if (!fs::is_directory(root)) throw std::runtime_error(directory + " is not a directory");
   const std::string times_path = (root / "times.txt").string();
   stamps_ns_ = readTimes(times_path);
   for (const char* folder : {kLeftFolder, kRightFolder}) {
-    requireSameCount((root / folder).string(), countImages(root / folder), stamps_ns_.size());
+    const std::size_t count = countImages(root / folder);
+    if (being_written && count < stamps_ns_.size()) continue;
+    requireSameCount((root / folder).string(), count, stamps_ns_.size());
   }
   const cv::Mat first = readGreyImage(imagePath(directory, kLeftFolder, 0));
   camera_ = readCalibration((root / "calib.txt").string(), first.size());
@@ -128,6 +131,10 @@ cv::Mat KittiSequence::readLeft(int index) const {
 
 cv::Mat KittiSequence::readRight(int index) const {
   return read(kRightFolder, index);
+}
+
+bool KittiSequence::hasPair(int index) const {
+  return fs::exists(imagePath(directory_, kRightFolder, index));
 }
 
 cv::Mat KittiSequence::read(const char* folder, int index) const {

@@ -8,8 +8,8 @@
 
 namespace rotrocc {
 
-KittiLayout::KittiLayout(const std::string& directory)
-    : sequence_(directory), calibration_(rectifiedCalibration(sequence_.camera())) {}
+KittiLayout::KittiLayout(const std::string& directory, bool being_written)
+    : sequence_(directory, being_written), calibration_(rectifiedCalibration(sequence_.camera())) {}
 
 StereoPair KittiLayout::read(int index) {
   return {sequence_.stamp_ns(index), sequence_.readLeft(index), sequence_.readRight(index)};

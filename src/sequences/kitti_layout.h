@@ -10,11 +10,12 @@ namespace rotrocc {
 class KittiLayout : public StereoSequence {
  public:
   /// Throws like KittiSequence.
-  explicit KittiLayout(const std::string& directory);
+  explicit KittiLayout(const std::string& directory, bool being_written = false);
 
   const std::string& directory() const override { return sequence_.directory(); }
   int size() const override { return sequence_.size(); }
   std::int64_t stamp_ns(int index) const override { return sequence_.stamp_ns(index); }
+  bool hasPair(int index) const override { return sequence_.hasPair(index); }
   StereoPair read(int index) override;
   const StereoCalibration& calibration() const override { return calibration_; }
   const Trajectory& groundTruth() const override { return sequence_.groundTruth(); }

@@ -28,7 +28,9 @@ std::unique_ptr<StereoSequence> openStereoSequence(const std::string& directory,
     return std::make_unique<CalibratedFolder>(directory, options);
   }
   for (const char* part : {"image_0", "image_1", "calib.txt", "times.txt"}) {
-    if (fs::exists(root / part)) return std::make_unique<KittiLayout>(directory);
+    if (fs::exists(root / part)) {
+      return std::make_unique<KittiLayout>(directory, options.being_written);
+    }
   }
   throw std::runtime_error(directory +
                            " is no stereo sequence: it has neither image_0 (KITTI), nor mav0/cam0 "

@@ -27,6 +27,9 @@ class StereoSequence {
   /// Time of a pair; they increase.
   virtual std::int64_t stamp_ns(int index) const = 0;
 
+  /// Whether the images of a pair are there. They may not be yet if the sequence is being written.
+  virtual bool hasPair(int /*index*/) const { return true; }
+
   /// The images of a pair as they were recorded, CV_8UC1. Throws std::runtime_error if they are
   /// missing, unreadable or not of the size of the calibration.
   virtual StereoPair read(int index) = 0;
@@ -51,6 +54,7 @@ class StereoSequence {
 struct SequenceOptions {
   double max_stamp_difference_s = 0.01;  ///< between the images of a pair
   double baseline_m = 0.0;               ///< 0: that of camera_calibration
+  bool being_written = false;            ///< images may be missing yet, in KITTI's layout
 };
 
 /// Offset from the stamps of a sequence to ROS time: 0 if they are since 1970, and kKittiStart_s if

@@ -2,12 +2,15 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
 
 #include <opencv2/imgcodecs.hpp>
+
+#include "rotrocc/trajectory.h"
 
 namespace rotrocc {
 namespace {
@@ -41,8 +44,33 @@ void writeCalibration(const fs::path& path, const StereoCamera& camera) {
   if (!file) throw std::runtime_error("cannot write " + path.string());
 }
 
-void writeImage(const std::string& path, const cv::Mat& image) {
-  if (!cv::imwrite(path, image)) throw std::runtime_error("cannot write " + path);
+void writeTimes(const fs::path& path, const Simulator& simulator) {
+  std::ofstream file(path);
+  file << std::fixed << std::setprecision(9);
+  for (int i = 0; i < simulator.size(); ++i) {
+    file << 1e-9 * static_cast<double>(simulator.stamp_ns(i)) << '\n';
+  }
+  if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
+}
+
+void writePoses(const fs::path& path, const Simulator& simulator) {
+  TrajectoryWriter poses(path.string(), TrajectoryFormat::kKitti);
+  for (int i = 0; i < simulator.size(); ++i) {
+    poses.write({simulator.stamp_ns(i), simulator.pose(i)});
+  }
+}
+
+/// The file has its name when it is complete.
+void writeImage(const fs::path& path, const cv::Mat& image) {
+  std::vector<uchar> bytes;
+  cv::imencode(path.extension().string(), image, bytes);
+  const fs::path unfinished = path.string() + ".part";
+  std::ofstream file(unfinished, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes.data()),
+             static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) throw std::runtime_error("cannot write " + path.string() + ": is the disk full?");
+  fs::rename(unfinished, path);
 }
 
 cv::Mat storableDepth(const cv::Mat& depth) {
@@ -70,13 +98,13 @@ cv::Mat storableFlow(const cv::Mat& flow) {
 }  // namespace
 
 SequenceWriter::SequenceWriter(const std::string& directory,
-                               const StereoCamera& camera,
+                               const Simulator& simulator,
                                bool with_truth)
-    : directory_(makeDirectories(directory, with_truth)),
-      with_truth_(with_truth),
-      times_(fs::path(directory) / "times.txt"),
-      poses_((fs::path(directory) / "poses.txt").string(), TrajectoryFormat::kKitti) {
-  writeCalibration(fs::path(directory) / "calib.txt", camera);
+    : directory_(makeDirectories(directory, with_truth)), with_truth_(with_truth) {
+  const fs::path root(directory);
+  writeCalibration(root / "calib.txt", simulator.camera());
+  writeTimes(root / "times.txt", simulator);
+  writePoses(root / "poses.txt", simulator);
 }
 
 std::string SequenceWriter::path(const char* folder, const char* extension) const {
@@ -85,18 +113,13 @@ std::string SequenceWriter::path(const char* folder, const char* extension) cons
   return (fs::path(directory_) / folder / name.str()).string();
 }
 
-void SequenceWriter::write(const SimulatedFrame& frame, const Eigen::Isometry3d& T_first_left) {
+void SequenceWriter::write(const SimulatedFrame& frame) {
   writeImage(path("image_0", ".png"), frame.pair.left);
   writeImage(path("image_1", ".png"), frame.pair.right);
   if (with_truth_) {
     writeImage(path("depth", ".tiff"), storableDepth(frame.depth));
     if (!frame.flow.empty()) writeImage(path("flow", ".png"), storableFlow(frame.flow));
   }
-  times_ << std::fixed << std::setprecision(9) << 1e-9 * static_cast<double>(frame.pair.stamp_ns)
-         << '\n'
-         << std::flush;
-  if (!times_) throw std::runtime_error("cannot write times.txt: is the disk full?");
-  poses_.write({frame.pair.stamp_ns, T_first_left});
   ++count_;
 }
 

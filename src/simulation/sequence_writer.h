@@ -1,9 +1,7 @@
 #pragma once
 
-#include <fstream>
 #include <string>
 
-#include "rotrocc/trajectory.h"
 #include "simulation/simulator.h"
 
 namespace rotrocc {
@@ -13,14 +11,16 @@ namespace rotrocc {
 ///   flow/000000.png    flow from that left image to the next in the format of KITTI's flow
 ///                      benchmark: 16 bit, red (u) and green (v) are 64 * flow [px] + 2^15, blue is
 ///                      1 where there is one. Flow of 512 px or more does not fit and is left out.
-/// A depth is exact to 1e-7 of itself, a flow to 1/128 px.
+/// A depth is exact to 1e-7 of itself, a flow to 1/128 px. Calibration, times and poses are there
+/// from the start, and an image appears when it is complete, the right one after the left one: so
+/// others can follow while the drive is being rendered.
 class SequenceWriter {
  public:
   /// Creates the directory. Throws std::runtime_error if that fails or if it already has images.
-  SequenceWriter(const std::string& directory, const StereoCamera& camera, bool with_truth);
+  SequenceWriter(const std::string& directory, const Simulator& simulator, bool with_truth);
 
   /// Call for each frame, in order. Throws std::runtime_error if the disk is full.
-  void write(const SimulatedFrame& frame, const Eigen::Isometry3d& T_first_left);
+  void write(const SimulatedFrame& frame);
 
  private:
   std::string path(const char* folder, const char* extension) const;
@@ -28,8 +28,6 @@ class SequenceWriter {
   std::string directory_;
   bool with_truth_;
   int count_ = 0;
-  std::ofstream times_;
-  TrajectoryWriter poses_;
 };
 
 }  // namespace rotrocc

@@ -227,13 +227,13 @@ void print(const TruthErrors& errors) {
             << errors.sum_px / static_cast<double>(right) << " px; the rest are edges and leaves\n";
 }
 
-template <class Writer>
-void renderFrames(Simulator& simulator, Writer& writer, const Options& options) {
+template <class Write>
+void renderFrames(Simulator& simulator, const Options& options, const Write& write) {
   ProgressBar progress("simulate_drive", static_cast<std::size_t>(simulator.size()));
   TruthErrors errors;
   for (int index = 0; index < simulator.size(); ++index) {
     const SimulatedFrame frame = simulator.render(index, options.truth || options.check_truth);
-    writer.write(frame, simulator.pose(index));
+    write(frame, index);
     if (options.check_truth && index + 1 < simulator.size()) {
       checkTruth(simulator, index, frame, errors);
     }
@@ -247,12 +247,14 @@ void renderSequence(Simulator& simulator, const std::string& directory, const Op
   if (const auto& rig = simulator.unrectifiedRig()) {
     AslWriter writer(directory, *rig, simulator.camera().baseline_m);
     if (options.imu) writer.writeGyroscope(simulator.gyroscope());
-    renderFrames(simulator, writer, options);
+    renderFrames(simulator, options, [&](const SimulatedFrame& frame, int index) {
+      writer.write(frame, simulator.pose(index));
+    });
     return;
   }
-  SequenceWriter writer(directory, simulator.camera(), options.truth);
+  SequenceWriter writer(directory, simulator, options.truth);
   if (options.imu) writeGyroFile(directory + "/imu.csv", simulator.gyroscope());
-  renderFrames(simulator, writer, options);
+  renderFrames(simulator, options, [&](const SimulatedFrame& frame, int) { writer.write(frame); });
 }
 
 /// A temporary directory, removed with its contents.

@@ -382,23 +382,26 @@ TEST(Simulation, MotionBlurSoftensWhatMoves) {
 
 TEST(Simulation, WritesSequencesThatCanBeReadBack) {
   const TemporaryDirectory directory;
-  Simulator& simulator = cleanCity();
-  SequenceWriter writer(directory / "drive", simulator.camera(), true);
-  for (int i = 38; i < 41; ++i) writer.write(simulator.render(i, true), simulator.pose(i));
+  SimulationOptions options = cleanOptions();
+  options.frames = 3;
+  options.rate_hz = 0.5;  // far apart, so that flow and poses are
+  Simulator simulator(scenario("city", 1), options);
+  SequenceWriter writer(directory / "drive", simulator, true);
+  const SimulatedFrame frame = simulator.render(1, true);
+  for (const int i : {0, 1, 2}) writer.write(simulator.render(i, true));
 
   const KittiSequence sequence(directory / "drive");
   ASSERT_EQ(sequence.size(), 3);
   EXPECT_EQ(sequence.camera(), simulator.camera());
-  EXPECT_EQ(sequence.stamp_ns(2), simulator.stamp_ns(40));
-  EXPECT_TRUE(sequence.groundTruth()[1].T_world_body.isApprox(simulator.pose(39), 1e-6));
-  const SimulatedFrame frame = simulator.render(40, true);
-  EXPECT_EQ(differingPixels(sequence.readRight(2), frame.pair.right), 0);
+  EXPECT_EQ(sequence.stamp_ns(2), simulator.stamp_ns(2));
+  EXPECT_TRUE(sequence.groundTruth()[1].T_world_body.isApprox(simulator.pose(1), 1e-6));
+  EXPECT_EQ(differingPixels(sequence.readRight(1), frame.pair.right), 0);
 
-  const cv::Mat depth = cv::imread(directory / "drive/depth/000002.tiff", cv::IMREAD_UNCHANGED);
+  const cv::Mat depth = cv::imread(directory / "drive/depth/000001.tiff", cv::IMREAD_UNCHANGED);
   ASSERT_EQ(depth.type(), CV_32FC1);
   EXPECT_NEAR(depth.at<float>(80, 100), frame.depth.at<double>(80, 100), 1e-5);
   EXPECT_EQ(cv::countNonZero(depth == 0.0F), cv::countNonZero(frame.depth > 1e30));
-  const cv::Mat flow = cv::imread(directory / "drive/flow/000002.png", cv::IMREAD_UNCHANGED);
+  const cv::Mat flow = cv::imread(directory / "drive/flow/000001.png", cv::IMREAD_UNCHANGED);
   ASSERT_EQ(flow.type(), CV_16UC3);
   const cv::Vec3w code = flow.at<cv::Vec3w>(60, 100);
   EXPECT_EQ(code[0], 1);
@@ -406,7 +409,27 @@ TEST(Simulation, WritesSequencesThatCanBeReadBack) {
   EXPECT_NEAR((code[1] - 32768) / 64.0, frame.flow.at<cv::Vec2d>(60, 100)[1], 0.008);
 
   expectError<std::runtime_error>(
-      [&] { SequenceWriter again(directory / "drive", simulator.camera(), false); }, "not empty");
+      [&] { SequenceWriter again(directory / "drive", simulator, false); }, "not empty");
+}
+
+TEST(Simulation, SequencesCanBeReadWhileTheyAreWritten) {
+  const TemporaryDirectory directory;
+  SimulationOptions options = smallOptions();
+  options.frames = 2;
+  Simulator simulator(scenario("parking", 1), options);
+  SequenceWriter writer(directory / "drive", simulator, false);
+  writer.write(simulator.render(0, false));
+  expectError<std::runtime_error>([&] { KittiSequence(directory / "drive"); },
+                                  "has 1 entries, but times.txt has 2 times");
+  const KittiSequence sequence(directory / "drive", true);
+  EXPECT_EQ(sequence.size(), 2);
+  EXPECT_EQ(sequence.groundTruth().size(), 2U);
+  EXPECT_TRUE(sequence.hasPair(0));
+  EXPECT_FALSE(sequence.hasPair(1));
+  const SimulatedFrame frame = simulator.render(1, false);
+  writer.write(frame);
+  EXPECT_TRUE(sequence.hasPair(1));
+  EXPECT_EQ(differingPixels(sequence.readRight(1), frame.pair.right), 0);
 }
 
 TEST(Simulation, RefusesOptionsOutOfRange) {
