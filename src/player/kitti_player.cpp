@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include <ros/console.h>
 #include <ros/init.h>
-#include <rosbag/view.h>
 #include <rosgraph_msgs/Clock.h>
-#include <sensor_msgs/Image.h>
 
-#include "bags/bag_reading.h"
 #include "bags/ground_truth.h"
 #include "input/to_text.h"
 
@@ -20,14 +18,11 @@ namespace rotrocc {
 namespace {
 
 constexpr std::chrono::milliseconds kPollPeriod(100);
+constexpr std::chrono::milliseconds kRecordingPollPeriod(5);
 constexpr int kPollsPerWarning = 50;
 constexpr std::chrono::seconds kProgressPeriod(5);
 constexpr std::chrono::milliseconds kLastOdometryDelay(500);
 constexpr int kQueueSize = 10;
-
-std::string cameraFrame(const rosbag::Bag& bag, const StereoTopics& topics) {
-  return firstMessage<sensor_msgs::Image>(bag, topics.left_image)->header.frame_id;
-}
 
 std::string join(const std::vector<std::string>& words) {
   std::string text;
@@ -37,16 +32,14 @@ std::string join(const std::vector<std::string>& words) {
 
 }  // namespace
 
-KittiPlayer::TimeRange KittiPlayer::rangeToPlay(const rosbag::Bag& bag,
-                                                const StereoTopics& topics,
+KittiPlayer::TimeRange KittiPlayer::rangeToPlay(const Recording& recording,
                                                 const PlayerOptions& options) {
-  rosbag::View view(bag, rosbag::TopicQuery(topics.all()));
-  const double length_s = (view.getEndTime() - view.getBeginTime()).toSec();
+  const double length_s = (recording.end() - recording.begin()).toSec();
   if (options.start > length_s) {
     throw std::invalid_argument("parameter start is " + toText(options.start) +
-                                " s, but the bag is only " + toText(length_s) + " s long");
+                                " s, but the recording is only " + toText(length_s) + " s long");
   }
-  TimeRange range = {view.getBeginTime() + ros::Duration(options.start), view.getEndTime()};
+  TimeRange range = {recording.begin() + ros::Duration(options.start), recording.end()};
   if (options.duration > 0.0) {
     range.end = std::min(range.end, range.begin + ros::Duration(options.duration));
   }
@@ -57,11 +50,9 @@ KittiPlayer::KittiPlayer(ros::NodeHandle& nh,
                          ros::NodeHandle& private_nh,
                          std::function<void()> on_end)
     : options_(readPlayerOptions(private_nh)),
-      bag_(openBag(options_.bag)),
-      topics_(findStereoTopics(topicTypes(bag_), options_.left_image, options_.right_image)),
-      range_(rangeToPlay(bag_, topics_, options_)),
-      tf_(bag_, options_.base_frame, cameraFrame(bag_, topics_)),
-      publisher_(nh, bag_, topics_, tf_),
+      recording_(openRecording(options_)),
+      range_(rangeToPlay(*recording_, options_)),
+      publisher_(nh, *recording_),
       clock_publisher_(nh.advertise<rosgraph_msgs::Clock>("/clock", kQueueSize)),
       clock_(options_.rate,
              options_.paused,
@@ -75,7 +66,7 @@ KittiPlayer::KittiPlayer(ros::NodeHandle& nh,
       pause_service_(private_nh.advertiseService("pause", &KittiPlayer::onPause, this)),
       on_end_(std::move(on_end)) {
   if (!options_.ground_truth_file.empty()) {
-    writeGroundTruth(options_.ground_truth_file, publisher_.truth(), tf_.T_base_camera());
+    writeGroundTruth(options_.ground_truth_file, recording_->truth(), recording_->T_base_camera());
   }
   thread_ = std::thread(&KittiPlayer::run, this);
 }
@@ -98,12 +89,10 @@ bool KittiPlayer::onPause(std_srvs::SetBool::Request& request,
 }
 
 void KittiPlayer::run() {
-  ROS_INFO("playing %s and %s of %s",
-           topics_.left_image.c_str(),
-           topics_.right_image.c_str(),
-           options_.bag.c_str());
+  ROS_INFO("playing %s", recording_->description().c_str());
   if (!ros::Time::isSimTime()) {
-    ROS_WARN("use_sim_time is not set: nodes use the clock of this machine instead of the bag's");
+    ROS_WARN(
+        "use_sim_time is not set: nodes use the clock of this machine instead of the recording's");
   }
   try {
     waitForSubscribers();
@@ -143,35 +132,42 @@ void KittiPlayer::waitForSubscribers() {
 }
 
 void KittiPlayer::playOnce() {
-  rosbag::View view(
-      bag_, rosbag::TopicQuery(publisher_.recordedTopics()), range_.begin, range_.end);
+  recording_->select(range_.begin, range_.end);
   publisher_.publishBeginning();
   monitor_.restart();
   synchronizer_.reset();
-  clock_.start(view.getBeginTime());
+  clock_.start(range_.begin);
   last_progress_ = WallClock::now();
-  for (const rosbag::MessageInstance& message : view) {
-    if (!clock_.waitUntil(message.getTime()) || stopped()) return;
-    publisher_.publishTruthUntil(message.getTime());
-    if (message.getTopic() == topics_.left_image || message.getTopic() == topics_.right_image) {
-      playImage(message);
-    } else {
-      publisher_.publish(message);
-    }
-    showProgress(message.getTime());
+  RecordedMessage message;
+  while (waitForRecording() && recording_->next(message)) {
+    if (!clock_.waitUntil(message.time) || stopped()) return;
+    publisher_.publishTruthUntil(message.time);
+    play(message);
+    showProgress(message.time);
   }
 }
 
-void KittiPlayer::playImage(const rosbag::MessageInstance& message) {
-  const auto image = readMessage<sensor_msgs::Image>(message);
-  const bool left = message.getTopic() == topics_.left_image;
-  const auto pair = left ? synchronizer_.addLeft(image) : synchronizer_.addRight(image);
-  if (pair) monitor_.expect(pair->left->header.stamp);
-  if (left) {
-    publisher_.publishLeft(image);
-  } else {
-    publisher_.publishRight(image);
+/// Returns false if the player is stopped.
+bool KittiPlayer::waitForRecording() const {
+  const auto deadline = WallClock::now() + std::chrono::duration<double>(options_.image_timeout_s);
+  while (!recording_->hasNext()) {
+    if (stopped()) return false;
+    if (WallClock::now() > deadline) {
+      throw std::runtime_error("no further pair was written within " +
+                               toText(options_.image_timeout_s) +
+                               " s (image_timeout_s): is the program that writes them running?");
+    }
+    std::this_thread::sleep_for(kRecordingPollPeriod);
   }
+  return true;
+}
+
+void KittiPlayer::play(const RecordedMessage& message) {
+  std::optional<StereoImages> pair;
+  if (message.left_image) pair = synchronizer_.addLeft(message.left_image);
+  if (message.right_image) pair = synchronizer_.addRight(message.right_image);
+  if (pair) monitor_.expect(pair->left->header.stamp);
+  publisher_.publish(message);
   if (pair && options_.lockstep) waitForOdometry(pair->left->header.stamp);
 }
 

@@ -2,33 +2,32 @@
 
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <string>
 #include <thread>
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/service_server.h>
-#include <rosbag/bag.h>
-#include <rosbag/message_instance.h>
 #include <std_srvs/SetBool.h>
 
-#include "bags/recorded_tf.h"
-#include "bags/stereo_topics.h"
 #include "input/stereo_synchronizer.h"
 #include "player/odometry_monitor.h"
 #include "player/playback_clock.h"
 #include "player/player_options.h"
+#include "player/recording.h"
 #include "player/recording_publisher.h"
 
 namespace rotrocc {
 
-/// Replays a stereo bag to an odometry, with /clock. See RecordingPublisher for its topics and
-/// PlayerOptions for its private parameters; the service ~pause (std_srvs/SetBool) pauses. In
-/// lockstep it waits for the odometry of each pair, so no pair is dropped on a slow machine.
+/// Replays a stereo recording to an odometry, with /clock. See RecordingPublisher for its topics
+/// and PlayerOptions for its private parameters; the service ~pause (std_srvs/SetBool) pauses. In
+/// lockstep it waits for the odometry of each pair, so no pair is dropped on a slow machine. It
+/// also waits for the pairs of a sequence that is being written.
 class KittiPlayer {
  public:
   /// Plays in its own thread, which calls `on_end` at the end or on failure. Throws std::exception
-  /// on invalid parameters or an unusable bag.
+  /// on invalid parameters or an unusable recording.
   KittiPlayer(ros::NodeHandle& nh, ros::NodeHandle& private_nh, std::function<void()> on_end);
 
   /// Stops playing.
@@ -42,29 +41,26 @@ class KittiPlayer {
  private:
   using WallClock = std::chrono::steady_clock;
 
-  /// Time range to play, in record time of the bag.
+  /// Time range to play, in record time.
   struct TimeRange {
     ros::Time begin;
     ros::Time end;
   };
 
-  static TimeRange rangeToPlay(const rosbag::Bag& bag,
-                               const StereoTopics& topics,
-                               const PlayerOptions& options);
+  static TimeRange rangeToPlay(const Recording& recording, const PlayerOptions& options);
   void run();
   bool stopped() const;
   void waitForSubscribers();
   void playOnce();
-  void playImage(const rosbag::MessageInstance& message);
+  bool waitForRecording() const;
+  void play(const RecordedMessage& message);
   void waitForOdometry(const ros::Time& stamp);
   void showProgress(const ros::Time& time);
   bool onPause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
 
   const PlayerOptions options_;
-  rosbag::Bag bag_;
-  const StereoTopics topics_;
+  const std::unique_ptr<Recording> recording_;
   const TimeRange range_;
-  const RecordedTf tf_;
 
   RecordingPublisher publisher_;
   ros::Publisher clock_publisher_;

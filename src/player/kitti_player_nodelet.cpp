@@ -10,8 +10,9 @@
 namespace rotrocc {
 
 /// KittiPlayer as a nodelet: passes images to nodelets of the same manager without a copy. With the
-/// private parameter shutdown_at_end the manager shuts down at the end of the bag.
-/// Throws std::exception, after a fatal log, on an unusable bag.
+/// private parameter shutdown_at_end the manager shuts down at the end of the
+/// recording.
+/// Throws std::exception, after a fatal log, on an unusable recording.
 class KittiPlayerNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {

@@ -27,18 +27,21 @@ PlayerOptions readPlayerOptions(const ros::NodeHandle& private_nh) {
   private_nh.param("paused", options.paused, options.paused);
   private_nh.param("lockstep", options.lockstep, options.lockstep);
   private_nh.param("lockstep_timeout_s", options.lockstep_timeout_s, options.lockstep_timeout_s);
+  private_nh.param("image_timeout_s", options.image_timeout_s, options.image_timeout_s);
   private_nh.param(
       "max_stamp_difference_s", options.max_stamp_difference_s, options.max_stamp_difference_s);
   private_nh.param("ground_truth_file", options.ground_truth_file, options.ground_truth_file);
   private_nh.param("base_frame", options.base_frame, options.base_frame);
 
   if (options.bag.empty()) {
-    throw std::invalid_argument("parameter bag is missing: set it to the path of a bag");
+    throw std::invalid_argument(
+        "parameter bag is missing: set it to the path of a bag or sequence");
   }
   requireAtLeast(0.0, "rate", options.rate);
   requireAtLeast(0.0, "start", options.start);
   requireAtLeast(0.0, "duration", options.duration);
   requireAtLeast(0.0, "lockstep_timeout_s", options.lockstep_timeout_s);
+  requireAtLeast(0.0, "image_timeout_s", options.image_timeout_s);
   requireAtLeast(0.0, "max_stamp_difference_s", options.max_stamp_difference_s);
   return options;
 }

@@ -8,8 +8,8 @@ namespace rotrocc {
 
 /// Private parameters of the player, with the same names.
 struct PlayerOptions {
-  std::string bag;         ///< path
-  std::string left_image;  ///< topics of the pair; empty: findStereoTopics()
+  std::string bag;         ///< path; or a directory, see openStereoSequence()
+  std::string left_image;  ///< topics of the pair in a bag; empty: findStereoTopics()
   std::string right_image;
   double rate = 1.0;                     ///< playback rate; 0: as fast as possible
   double start = 0.0;                    ///< offset from the start of the bag [s]
@@ -18,6 +18,8 @@ struct PlayerOptions {
   bool paused = false;                   ///< starts paused
   bool lockstep = false;                 ///< waits for the odometry of each pair
   double lockstep_timeout_s = 10.0;      ///< longest wait [s]
+  double image_timeout_s = 0.0;          ///< longest wait for a pair of a sequence that is being
+                                         ///< written [s]; 0: all are there
   double max_stamp_difference_s = 0.01;  ///< between left and right image of a pair [s]
   std::string
       ground_truth_file;  ///< output of true poses of the left camera, see writeGroundTruth()

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -185,6 +186,78 @@ TEST_F(KittiPlayerTest, PlaysAllOfOwnBags) {
   EXPECT_GE(listener.count("/clock"), kPairs);
 }
 
+TEST_F(KittiPlayerTest, PlaysSequences) {
+  private_nh_.setParam("bag", directory_ / "sequence");
+  private_nh_.setParam("start", 0.1);
+  Listener listener(nh_);
+  playToTheEnd(listener);
+  const std::vector<ros::Time> stamps = listener.leftStamps();
+  ASSERT_EQ(stamps.size(), static_cast<std::size_t>(kPairs - 1));
+  EXPECT_NEAR(stamps.front().toSec(), 1317600000.1, 1e-6);
+  expectCount(listener, "left/camera_info", kPairs);  // one ahead of all images
+  expectCount(listener, "right/camera_info", kPairs);
+  expectCount(listener, "ground_truth/pose", kPairs);
+  expectCount(listener, "ground_truth/path", 1);
+  expectCount(listener, "/tf_static", 1);
+}
+
+/// A sequence of which only the first pair is there; the others are in another directory.
+class UnfinishedSequenceTest : public KittiPlayerTest {
+ protected:
+  UnfinishedSequenceTest() {
+    private_nh_.setParam("bag", directory_ / "sequence");
+    private_nh_.setParam("image_timeout_s", 600.0);
+    for (const char* folder : {"/image_0", "/image_1"}) {
+      std::filesystem::rename(path(folder, ""), path(folder, ".later"));
+      std::filesystem::create_directory(path(folder, ""));
+    }
+    write(0);
+  }
+
+  std::string path(const std::string& folder, const std::string& rest) const {
+    return directory_ / "sequence" + folder + rest;
+  }
+
+  void write(int index) const {
+    const std::string name = "/00000" + std::to_string(index) + ".png";
+    for (const char* folder : {"/image_0", "/image_1"}) {
+      std::filesystem::rename(path(folder, ".later" + name), path(folder, name));
+    }
+  }
+};
+
+TEST_F(UnfinishedSequenceTest, IsPlayedAsItIsWritten) {
+  Listener listener(nh_);
+  play(listener);
+  for (int written = 1; written < kPairs; ++written) {
+    ASSERT_TRUE(waitUntil([&] { return listener.leftStamps().size() == std::size_t(written); }));
+    EXPECT_FALSE(ended_);
+    write(written);
+  }
+  EXPECT_TRUE(waitForEnd());
+  EXPECT_EQ(listener.leftStamps().size(), static_cast<std::size_t>(kPairs));
+}
+
+TEST_F(UnfinishedSequenceTest, IsGivenUpAfterTheTimeout) {
+  private_nh_.setParam("image_timeout_s", 0.1);
+  Listener listener(nh_);
+  playToTheEnd(listener);
+  EXPECT_TRUE(waitUntil([&] { return listener.leftStamps().size() == 1; }));
+}
+
+TEST_F(UnfinishedSequenceTest, DoesNotKeepThePlayerFromStopping) {
+  Listener listener(nh_);
+  play(listener);
+  ASSERT_TRUE(waitUntil([&] { return listener.leftStamps().size() == 1; }));
+  player_.reset();
+  EXPECT_TRUE(ended_);
+}
+
+TEST_F(UnfinishedSequenceTest, IsRefusedIfNobodyWritesIt) {
+  private_nh_.setParam("image_timeout_s", 0.0);
+  expectError([this] { startPlayer(); }, "has 1 entries, but times.txt has 6 times");
+}
+
 TEST_F(KittiPlayerTest, ShowsRecordedPosesInsteadOfTheirTf) {
   writeKitti2bagRaw(sequence(), bag());
   Listener listener(nh_);
@@ -259,9 +332,11 @@ TEST_F(KittiPlayerTest, RefusesBadParameters) {
   expectError([this] { startPlayer(); }, "rate is -1");
   private_nh_.setParam("rate", 1.0);
   private_nh_.setParam("start", 60.0);
-  expectError([this] { startPlayer(); }, "start is 60 s, but the bag is only 0.5");
+  expectError([this] { startPlayer(); }, "start is 60 s, but the recording is only 0.5");
   private_nh_.setParam("bag", directory_ / "missing.bag");
   expectError([this] { startPlayer(); }, "missing.bag is not readable as a bag");
+  private_nh_.setParam("bag", directory_ / "");
+  expectError([this] { startPlayer(); }, "is no stereo sequence");
   private_nh_.deleteParam("bag");
   expectError([this] { startPlayer(); }, "parameter bag is missing");
 }
