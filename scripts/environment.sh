@@ -28,19 +28,61 @@ source_ros() {
 
 if [ -f /opt/ros/noetic/setup.bash ]; then source_ros /opt/ros/noetic/setup.bash; fi
 
+# Reads the output of make, and says how far it is: on a terminal in one line that changes, otherwise in one
+# for every 10 %. Warnings are shown.
+show_progress() {
+  local target=$1 line percent doing tenths=-1 width=0
+  if [ -t 1 ]; then width=$(tput cols 2>/dev/null || echo 80); fi
+  while IFS= read -r line; do
+    if [[ $line =~ ^\[\ *([0-9]+)%\]\ (.*) ]]; then
+      percent=${BASH_REMATCH[1]}
+      doing=${BASH_REMATCH[2]}
+      case $doing in
+        'Building CXX object '*) doing=${doing##*CMakeFiles/*.dir/}; doing="compiling ${doing%.o}" ;;
+        'Linking CXX '*) doing="linking ${doing##*[ /]}" ;;
+      esac
+      if ((width)); then
+        line=$(printf '[%4d s] building %s: %3d %%, %s' $((SECONDS - started)) "$target" "$percent" "$doing")
+        printf '\r%s\e[K' "${line:0:width}"
+      elif ((percent / 10 > tenths)); then
+        tenths=$((percent / 10))
+        step "building $target: $percent %"
+      fi
+    elif [[ $line == *warning:* ]]; then
+      ((width)) && printf '\r\e[K'
+      echo "$line"
+    fi
+  done
+  ((width)) && printf '\r\e[K'
+  return 0
+}
+
 # Configures with cmake_options, builds the given CMake targets (default: all but the tests), and adds
-# the package to the ROS environment.
+# the package to the ROS environment. With ROTROCC_PREBUILT=1 they are taken as they are.
 build_targets() {
-  local log=$build/build.log
-  step "building (log: $log)"
-  mkdir -p "$build"
-  if ! { cmake -S "$root" -B "$build" -DPYTHON_EXECUTABLE=/usr/bin/python3 "${cmake_options[@]}" &&
-         cmake --build "$build" -j"$(nproc)" --target "${@:-all}"; } >"$log" 2>&1; then
-    grep -E -A 5 'error|Error' "$log" | head -n 40 >&2 || true
-    echo "$(basename "$0"): the build failed; see $log" >&2
-    exit 1
+  local log=$build/build.log target
+  if [ -n "${ROTROCC_PREBUILT:-}" ]; then
+    source_ros "$build/devel/setup.bash"
+    return
   fi
+  step "configuring and building (log: $log)"
+  mkdir -p "$build"
+  if ! LC_ALL=C cmake -S "$root" -B "$build" -DPYTHON_EXECUTABLE=/usr/bin/python3 "${cmake_options[@]}" \
+    >"$log" 2>&1; then
+    build_failed "$log"
+  fi
+  for target in "${@:-all}"; do
+    LC_ALL=C cmake --build "$build" -j"$(nproc)" --target "$target" 2>&1 | tee -a "$log" |
+      show_progress "$target" || build_failed "$log"
+  done
   source_ros "$build/devel/setup.bash"
+}
+
+# Ends with the errors in a log.
+build_failed() {
+  grep -E -A 5 'error|Error' "$1" | head -n 40 >&2 || true
+  echo "$(basename "$0"): the build failed; see $1" >&2
+  exit 1
 }
 
 # Uses a free port for a separate ROS master, so that scripts do not interfere with a running robot.
