@@ -18,6 +18,7 @@ class BackgroundCommand {
     if (process_ < 0) throw std::runtime_error("cannot run " + command);
     setpgid(process_, process_);  // by both, as either may be first
     if (process_ > 0) return;
+    signal(SIGINT, SIG_DFL);  // ignored if the test runs in the background of a shell
     execl("/bin/sh", "sh", "-c", ("exec " + command + " >" + log + " 2>&1").c_str(), nullptr);
     _exit(127);
   }
