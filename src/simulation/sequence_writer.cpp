@@ -11,6 +11,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "rotrocc/trajectory.h"
+#include "simulation/rows.h"
 
 namespace rotrocc {
 namespace {
@@ -60,10 +61,14 @@ void writePoses(const fs::path& path, const Simulator& simulator) {
   }
 }
 
-/// The file has its name when it is complete.
-void writeImage(const fs::path& path, const cv::Mat& image) {
+std::vector<uchar> encoded(const fs::path& path, const cv::Mat& image) {
   std::vector<uchar> bytes;
   cv::imencode(path.extension().string(), image, bytes);
+  return bytes;
+}
+
+/// The file has its name when it is complete.
+void writeFile(const fs::path& path, const std::vector<uchar>& bytes) {
   const fs::path unfinished = path.string() + ".part";
   std::ofstream file(unfinished, std::ios::binary);
   file.write(reinterpret_cast<const char*>(bytes.data()),
@@ -71,6 +76,10 @@ void writeImage(const fs::path& path, const cv::Mat& image) {
   file.close();
   if (!file) throw std::runtime_error("cannot write " + path.string() + ": is the disk full?");
   fs::rename(unfinished, path);
+}
+
+void writeImage(const fs::path& path, const cv::Mat& image) {
+  writeFile(path, encoded(path, image));
 }
 
 cv::Mat storableDepth(const cv::Mat& depth) {
@@ -114,8 +123,12 @@ std::string SequenceWriter::path(const char* folder, const char* extension) cons
 }
 
 void SequenceWriter::write(const SimulatedFrame& frame) {
-  writeImage(path("image_0", ".png"), frame.pair.left);
-  writeImage(path("image_1", ".png"), frame.pair.right);
+  const std::string names[] = {path("image_0", ".png"), path("image_1", ".png")};
+  std::vector<uchar> images[2];
+  forEachRow(2, [&](int side) {
+    images[side] = encoded(names[side], side == 0 ? frame.pair.left : frame.pair.right);
+  });
+  for (const int side : {0, 1}) writeFile(names[side], images[side]);
   if (with_truth_) {
     writeImage(path("depth", ".tiff"), storableDepth(frame.depth));
     if (!frame.flow.empty()) writeImage(path("flow", ".png"), storableFlow(frame.flow));

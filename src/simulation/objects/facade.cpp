@@ -9,7 +9,15 @@
 namespace rotrocc {
 
 Facade::Facade(const FacadeStyle& style, const TextureTiles& tiles)
-    : style_(style), tiles_(tiles) {}
+    : style_(style),
+      tiles_(tiles),
+      front_half_row_(halfRow(style.half_width)),
+      side_half_row_(halfRow(style.half_depth)) {}
+
+double Facade::halfRow(double half_wall) const {
+  const double columns = std::max(1.0, std::floor((2.0 * half_wall - 0.6) / style_.window_spacing));
+  return 0.5 * columns * style_.window_spacing;
+}
 
 double Facade::reflectance(const SurfacePoint& point) const {
   const Place place = placeOf(point);
@@ -41,9 +49,7 @@ Facade::Place Facade::placeOf(const SurfacePoint& point) const {
   place.width = std::max(1.2 * place.point.width(0), 1e-4);
   place.height = std::max(1.2 * place.point.width(1), 1e-4);
   const bool front = std::abs(point.normal.z()) > std::abs(point.normal.x());
-  const double half = front ? style_.half_width : style_.half_depth;
-  const double columns = std::max(1.0, std::floor((2.0 * half - 0.6) / style_.window_spacing));
-  const double half_row = 0.5 * columns * style_.window_spacing;
+  const double half_row = front ? front_half_row_ : side_half_row_;
   place.u = place.point.at.x() + half_row;
   place.v = place.point.at.y();
   place.windows = coverageBetween(0.0, 2.0 * half_row, place.u, place.width) *
@@ -138,6 +144,7 @@ double Facade::withGroundFloor(const Place& place, double brightness) const {
   const double spacing = style_.window_spacing;
   if (style_.shop) {
     const double shop = place.windows * coverageBetween(0.0, 2.9, place.v, place.height);
+    if (shop <= 0.0) return brightness;
     const double glass =
         coveragePeriodic(2.0 * spacing, 2.0 * spacing - 0.3, place.u - 0.15, place.width) *
         coverageBetween(0.45, 2.35, place.v, place.height);
@@ -146,12 +153,14 @@ double Facade::withGroundFloor(const Place& place, double brightness) const {
     const double goods = mix(0.5 * things * things, 0.35, shelves);
     return mix(brightness, mix(0.45 * style_.wall, goods, glass), shop);
   }
+  constexpr double kDoor_m = 2.75;  // the highest of what follows
+  if (place.v - 0.5 * place.height >= kDoor_m) return brightness;
   const double centre = (style_.door + 0.5) * spacing;
   const auto area = [&](double half, double top) {
     return coverageBetween(centre - half, centre + half, place.u, place.width) *
            coverageBetween(0.0, top, place.v, place.height);
   };
-  brightness = mix(brightness, style_.wall * 0.9, area(0.5 * spacing - 0.1, 2.75));
+  brightness = mix(brightness, style_.wall * 0.9, area(0.5 * spacing - 0.1, kDoor_m));
   brightness = mix(brightness, style_.frame, area(0.68, 2.45));
   brightness = mix(brightness, 0.16, area(0.55, 2.3));
   const double panels = coveragePeriodic(0.7, 0.5, place.v - 0.15, place.height);

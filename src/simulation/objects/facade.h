@@ -48,6 +48,7 @@ class Facade : public Material {
     double resolved;       // 1: single windows are resolved, 0: they are not
   };
 
+  double halfRow(double half_wall) const;
   Place placeOf(const SurfacePoint& point) const;
   double wall(const Place& place) const;
   double glassCoverage(const Place& place) const;
@@ -60,6 +61,8 @@ class Facade : public Material {
 
   FacadeStyle style_;
   const TextureTiles& tiles_;
+  double front_half_row_;  // half of the width of all windows in a row [m]
+  double side_half_row_;
 };
 
 }  // namespace rotrocc

@@ -180,8 +180,8 @@ double World::bodyBrightness(const Body& body,
   const double lit = body.is_ground ? shadows_.lit(at.x(), at.z()) : body.lit;
   const Material& material = *body.parts()[static_cast<std::size_t>(hit.part)].material;
   const double light = illumination(at, normal, lit);
-  const double brightness = withTiles(material.reflectance(point), point) * light +
-                            lighting_.lights * material.glow(point);
+  double brightness = withTiles(material.reflectance(point), point) * light;
+  if (lighting_.lights > 0.0) brightness += lighting_.lights * material.glow(point);
   if (!weather_.reflections) return brightness;
   const double gloss = material.gloss(point);
   if (gloss <= 0.0) return brightness;

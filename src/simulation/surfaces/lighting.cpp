@@ -42,8 +42,9 @@ Lighting rainLighting() {
   return rain;
 }
 
-Eigen::Vector3d directionToSun() {
-  return Eigen::Vector3d(-0.45, -0.95, -0.62).normalized();
+const Eigen::Vector3d& directionToSun() {
+  static const Eigen::Vector3d kDirection = Eigen::Vector3d(-0.45, -0.95, -0.62).normalized();
+  return kDirection;
 }
 
 double daylight(const Lighting& lighting, const Eigen::Vector3d& normal, double sunlit) {

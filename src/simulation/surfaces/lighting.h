@@ -30,7 +30,7 @@ Lighting nightLighting();
 Lighting rainLighting();
 
 /// Direction to the sun, of unit length: behind the viewer at the start, to the left.
-Eigen::Vector3d directionToSun();
+const Eigen::Vector3d& directionToSun();
 
 /// Light of sun and sky on a surface; `sunlit` is the visible share of the sun, from 0 to 1.
 double daylight(const Lighting& lighting, const Eigen::Vector3d& normal, double sunlit);
