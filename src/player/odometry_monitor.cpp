@@ -8,13 +8,13 @@
 namespace rotrocc {
 namespace {
 
-constexpr std::uint32_t kQueueSize = 100;
+constexpr std::uint32_t kAnswerQueueSize = 100;
 
 }  // namespace
 
 OdometryMonitor::OdometryMonitor(ros::NodeHandle& nh)
-    : odom_(nh.subscribe("odom", kQueueSize, &OdometryMonitor::onOdometry, this)),
-      status_(nh.subscribe("status", kQueueSize, &OdometryMonitor::onStatus, this)) {}
+    : odom_(nh.subscribe("odom", kAnswerQueueSize, &OdometryMonitor::onOdometry, this)),
+      status_(nh.subscribe("status", kAnswerQueueSize, &OdometryMonitor::onStatus, this)) {}
 
 void OdometryMonitor::expect(const ros::Time& stamp) {
   std::lock_guard<std::mutex> lock(mutex_);

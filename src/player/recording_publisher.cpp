@@ -7,19 +7,19 @@
 namespace rotrocc {
 namespace {
 
-constexpr std::uint32_t kQueueSize = 10;
+constexpr std::uint32_t kTopicQueueSize = 10;
 }  // namespace
 
 RecordingPublisher::RecordingPublisher(ros::NodeHandle& nh, const Recording& recording)
     : recording_(recording),
-      left_image_(nh.advertise<sensor_msgs::Image>("left/image_rect", kQueueSize)),
-      right_image_(nh.advertise<sensor_msgs::Image>("right/image_rect", kQueueSize)),
-      left_info_(nh.advertise<sensor_msgs::CameraInfo>("left/camera_info", kQueueSize)),
-      right_info_(nh.advertise<sensor_msgs::CameraInfo>("right/camera_info", kQueueSize)),
-      moving_tf_(nh.advertise<tf2_msgs::TFMessage>("/tf", kQueueSize)),
+      left_image_(nh.advertise<sensor_msgs::Image>("left/image_rect", kTopicQueueSize)),
+      right_image_(nh.advertise<sensor_msgs::Image>("right/image_rect", kTopicQueueSize)),
+      left_info_(nh.advertise<sensor_msgs::CameraInfo>("left/camera_info", kTopicQueueSize)),
+      right_info_(nh.advertise<sensor_msgs::CameraInfo>("right/camera_info", kTopicQueueSize)),
+      moving_tf_(nh.advertise<tf2_msgs::TFMessage>("/tf", kTopicQueueSize)),
       static_tf_(nh.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true)),
       truth_path_(nh.advertise<nav_msgs::Path>("ground_truth/path", 1, true)),
-      truth_pose_(nh.advertise<geometry_msgs::PoseStamped>("ground_truth/pose", kQueueSize)) {
+      truth_pose_(nh.advertise<geometry_msgs::PoseStamped>("ground_truth/pose", kTopicQueueSize)) {
   for (const std::string& note : recording.notes()) ROS_INFO("%s", note.c_str());
 }
 

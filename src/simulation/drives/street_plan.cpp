@@ -7,7 +7,7 @@
 namespace rotrocc {
 namespace {
 
-constexpr double kSpacing_m = 0.5;
+constexpr double kPointSpacing_m = 0.5;
 constexpr double kNeighbour_m = 40.0;  // least distance along a path between two passages
 constexpr double kMinLength_m = 10.0;  // of a street
 
@@ -51,16 +51,16 @@ std::vector<Path> streetsAlong(const Path& path,
                                double right_m,
                                double beyond_m,
                                double same_street_m) {
-  const Path line = path.beside(right_m, kSpacing_m, beyond_m, beyond_m);
+  const Path line = path.beside(right_m, kPointSpacing_m, beyond_m, beyond_m);
   std::vector<Path> streets;
   PassedPoints passed(same_street_m);
   std::vector<Eigen::Vector3d> points;
   const auto finish = [&] {
-    if (static_cast<double>(points.size()) * kSpacing_m >= kMinLength_m)
+    if (static_cast<double>(points.size()) * kPointSpacing_m >= kMinLength_m)
       streets.emplace_back(points);
     points.clear();
   };
-  for (double station = 0.0; station <= line.length_m(); station += kSpacing_m) {
+  for (double station = 0.0; station <= line.length_m(); station += kPointSpacing_m) {
     const Eigen::Vector3d point = line.position(station);
     if (passed.cameBy(point, station)) {
       finish();

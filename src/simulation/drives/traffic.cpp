@@ -11,7 +11,7 @@ namespace rotrocc {
 namespace {
 
 constexpr double kVisible_m = 220.0;
-constexpr double kSpacing_m = 25.0;  // between places for cars
+constexpr double kPlaceSpacing_m = 25.0;  // between places for cars
 
 }  // namespace
 
@@ -37,14 +37,14 @@ Traffic::Traffic(const TrafficPlan& plan,
   if (plan.leader && share > 0.0) cars_.push_back({makeCar(random, true), 0.0, 9.5, 0.0, 1.6});
   if (plan.oncoming_mps > 0.0) {
     const double way_m = drive.path().length_m() + plan.oncoming_mps * drive.duration_s();
-    for (double station = 20.0; station < way_m; station += kSpacing_m) {
+    for (double station = 20.0; station < way_m; station += kPlaceSpacing_m) {
       add(plan.oncoming_m, station + random.uniform(-8.0, 8.0), -plan.oncoming_mps, 0.0);
     }
   }
   if (plan.overtaking_mps > 0.0) {
     const double start_m =
         drive.path().length_m() - plan.overtaking_mps * drive.duration_s() - kVisible_m;
-    for (double station = start_m; station < kVisible_m; station += 2.0 * kSpacing_m) {
+    for (double station = start_m; station < kVisible_m; station += 2.0 * kPlaceSpacing_m) {
       add(plan.overtaking_m, station, plan.overtaking_mps, 0.0);
     }
   }

@@ -6,14 +6,14 @@
 namespace rotrocc {
 namespace {
 
-constexpr double kSampling_m = 2.0;
+constexpr double kPathSampling_m = 2.0;
 
 }  // namespace
 
 GroundGrid GroundGrid::around(const std::vector<Path>& paths, double margin_m, double cell_m) {
   Eigen::AlignedBox2d box;
   for (const Path& path : paths) {
-    for (double s = 0.0; s < path.length_m() + kSampling_m; s += kSampling_m) {
+    for (double s = 0.0; s < path.length_m() + kPathSampling_m; s += kPathSampling_m) {
       const Eigen::Vector3d point = path.position(s);
       box.extend(Eigen::Vector2d(point.x(), point.z()));
     }

@@ -16,7 +16,7 @@ namespace {
 constexpr double kGridMargin_m = 200.0;
 constexpr double kStreetReach_m = 20.5;
 constexpr double kShadowReach_m = 14.0;
-constexpr double kNearest_m = 0.2;
+constexpr double kNearestSurface_m = 0.2;
 constexpr double kSkyDistance_m = 300.0;  // of what mist hides: hills and clouds
 
 constexpr std::uint32_t kSkySurface = 0xFFFFFFFF;
@@ -141,7 +141,7 @@ void World::goTo(double station_m) {
 Sighting World::look(const View& view, double x, double y) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const Ray ray = view.ray(x, y);
-  RayRange range = {kNearest_m, kInfinity};
+  RayRange range = {kNearestSurface_m, kInfinity};
   BodyHit hit;
   int number = -1;
   if (view.intersect(x, y, range, hit, number)) range.to = hit.distance;
