@@ -31,15 +31,20 @@ if [ -f /opt/ros/noetic/setup.bash ]; then source_ros /opt/ros/noetic/setup.bash
 # Reads the output of make, and says how far it is: on a terminal in one line that changes, otherwise in one
 # for every 10 %. Warnings are shown.
 show_progress() {
-  local target=$1 line percent doing tenths=-1 width=0
+  local target=$1 line percent doing part tenths=-1 width=0
   if [ -t 1 ]; then width=$(tput cols 2>/dev/null || echo 80); fi
   while IFS= read -r line; do
     if [[ $line =~ ^\[\ *([0-9]+)%\]\ (.*) ]]; then
       percent=${BASH_REMATCH[1]}
       doing=${BASH_REMATCH[2]}
       case $doing in
+        'Building CXX object '*/Unity/unity_*)  # a group of sources
+          doing=${doing##*CMakeFiles/}
+          part=${doing##*unity_}
+          doing="compiling ${doing%%.dir/*}, part $((${part%%_*} + 1))" ;;
         'Building CXX object '*) doing=${doing##*CMakeFiles/*.dir/}; doing="compiling ${doing%.o}" ;;
         'Linking CXX '*) doing="linking ${doing##*[ /]}" ;;
+        'Built target '*) doing="built ${doing##* }" ;;
       esac
       if ((width)); then
         line=$(printf '[%4d s] building %s: %3d %%, %s' $((SECONDS - started)) "$target" "$percent" "$doing")
@@ -80,7 +85,7 @@ build_targets() {
 
 # Ends with the errors in a log.
 build_failed() {
-  grep -E -A 5 'error|Error' "$1" | head -n 40 >&2 || true
+  grep -E -A 5 'error|Error|\*\*\*' "$1" | head -n 40 >&2 || true
   echo "$(basename "$0"): the build failed; see $1" >&2
   exit 1
 }
