@@ -37,7 +37,6 @@ class Canary {
   Canary() {
     ros::NodeHandle nh;
     image_publisher_ = nh.advertise<sensor_msgs::Image>("canary/image", 10);
-    info_publisher_ = nh.advertise<sensor_msgs::CameraInfo>("canary/camera_info", 10);
     subscriber_ = nh.subscribe<sensor_msgs::Image>(
         "canary/answer", 10, [this](const sensor_msgs::Image::ConstPtr&) { ++answers_; });
   }
@@ -59,16 +58,12 @@ class Canary {
     image.encoding = sensor_msgs::image_encodings::MONO8;
     image.width = image.height = image.step = 32;
     image.data.resize(32 * 32);
-    sensor_msgs::CameraInfo info;
-    info.header = image.header;
-    info.width = info.height = 32;
     image_publisher_.publish(image);
-    info_publisher_.publish(info);
   }
 
   std::uint32_t asked_ = 0;
   std::atomic<int> answers_{0};
-  ros::Publisher image_publisher_, info_publisher_;
+  ros::Publisher image_publisher_;
   ros::Subscriber subscriber_;
 };
 
