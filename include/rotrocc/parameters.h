@@ -22,6 +22,7 @@ struct NodeParameters {
   double guess_timeout_s = 0.05;  ///< how long a pair waits for that transform
   bool use_imu = false;           ///< predict rotations by the gyroscope of the topic imu
   double imu_timeout_s = 0.02;    ///< how long a pair waits for its samples
+  bool rectify = false;           ///< take raw images, and rectify them by camera_info
   std::string image_transport = "raw";
   double max_stamp_difference_s = 0.01;       ///< between the left and the right image of a pair
   int queue_size = 4;                         ///< unmatched images kept, for each side

@@ -6,7 +6,6 @@
 #include "bags/bag_reading.h"
 #include "input/camera_validation.h"
 #include "input/to_text.h"
-#include "sequences/camera_info_calibration.h"
 
 namespace rotrocc {
 namespace {
@@ -16,11 +15,9 @@ int countMessages(const rosbag::Bag& bag, const std::string& topic) {
   return static_cast<int>(view.size());
 }
 
-/// Whether two messages describe the same camera.
-bool isSameCamera(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo& b) {
-  return a.width == b.width && a.height == b.height && a.distortion_model == b.distortion_model &&
-         a.D == b.D && a.K == b.K && a.R == b.R && a.P == b.P && a.binning_x == b.binning_x &&
-         a.binning_y == b.binning_y && a.roi == b.roi;
+bool shallRectify(StereoBag::Rectify rectify, const rosbag::Bag& bag, const StereoTopics& topics) {
+  if (rectify == StereoBag::Rectify::kIfRaw) return hasRawImages(bag, topics);
+  return rectify == StereoBag::Rectify::kAlways;
 }
 
 }  // namespace
@@ -35,14 +32,8 @@ StereoBag::StereoBag(const rosbag::Bag& bag, const Options& options)
       baseline_m_(options.baseline_m),
       left_info_(firstMessage<sensor_msgs::CameraInfo>(bag, topics_.left_info)),
       right_info_(firstMessage<sensor_msgs::CameraInfo>(bag, topics_.right_info)),
-      rectifies_(shallRectify(options.rectify)) {}
-
-bool StereoBag::shallRectify(Rectify rectify) const {
-  if (rectify != Rectify::kIfRaw) return rectify == Rectify::kAlways;
-  if (isRectifiedByName(topics_.left_image)) return false;
-  return (left_info_ && describesRawImages(*left_info_)) ||
-         (right_info_ && describesRawImages(*right_info_));
-}
+      rectifies_(shallRectify(options.rectify, bag, topics_)),
+      calibration_(options.baseline_m) {}
 
 bool StereoBag::next(StereoPair& pair, StereoCamera& camera) {
   bool complete = false;
@@ -61,21 +52,9 @@ void StereoBag::convert(StereoPair& pair, StereoCamera& camera) {
   const StereoCamera current = toStereoCamera(*left_info_, *right_info_, baseline_m_);
   const StereoPair converted = converter_.convert(*images_.left, *images_.right);
   if (rectifies_) validateSize(*images_.left, current);
-  pair = rectifies_ ? rectify(converted) : converted;
+  pair = rectifies_ ? rectifier_.rectify(converted, calibration_.of(left_info_, right_info_))
+                    : converted;
   camera = current;
-}
-
-StereoPair StereoBag::rectify(const StereoPair& raw) {
-  // The maps take longer than a pair, and cameras hardly ever change.
-  const bool is_current = rectifier_ && isSameCamera(*left_info_, *rectifier_left_info_) &&
-                          isSameCamera(*right_info_, *rectifier_right_info_);
-  if (!is_current) {
-    rectifier_ = std::make_unique<StereoRectifier>(
-        toStereoCalibration(*left_info_, *right_info_, baseline_m_));
-    rectifier_left_info_ = left_info_;
-    rectifier_right_info_ = right_info_;
-  }
-  return rectifier_->rectify(raw);
 }
 
 bool StereoBag::read(const rosbag::MessageInstance& message) {
@@ -92,6 +71,15 @@ bool StereoBag::read(const rosbag::MessageInstance& message) {
   }
   if (images) images_ = *images;
   return images.has_value();
+}
+
+bool hasRawImages(const rosbag::Bag& bag, const StereoTopics& topics) {
+  if (isRectifiedByName(topics.left_image)) return false;
+  const auto isOfRawImages = [&](const std::string& info_topic) {
+    const auto info = firstMessage<sensor_msgs::CameraInfo>(bag, info_topic);
+    return info && describesRawImages(*info);
+  };
+  return isOfRawImages(topics.left_info) || isOfRawImages(topics.right_info);
 }
 
 StereoBag::Rectify rectifyOption(const std::string& text) {

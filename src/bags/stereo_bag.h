@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 
 #include <rosbag/bag.h>
@@ -10,9 +9,10 @@
 #include <sensor_msgs/CameraInfo.h>
 
 #include "bags/stereo_topics.h"
+#include "input/camera_calibration.h"
+#include "input/pair_rectifier.h"
 #include "input/stereo_pair_converter.h"
 #include "input/stereo_synchronizer.h"
-#include "rectification/stereo_rectifier.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
@@ -23,7 +23,7 @@ namespace rotrocc {
 class StereoBag {
  public:
   enum class Rectify {
-    kIfRaw,  ///< if the topic is not one of rectified images, and camera_info describes raw ones
+    kIfRaw,  ///< if they are raw, see hasRawImages()
     kAlways,
     kNever,
   };
@@ -58,9 +58,7 @@ class StereoBag {
 
  private:
   bool read(const rosbag::MessageInstance& message);
-  bool shallRectify(Rectify rectify) const;
   void convert(StereoPair& pair, StereoCamera& camera);
-  StereoPair rectify(const StereoPair& raw);
 
   StereoTopics topics_;
   int size_;
@@ -73,11 +71,12 @@ class StereoBag {
   sensor_msgs::CameraInfo::ConstPtr right_info_;
   StereoImages images_;
   bool rectifies_;
-  /// And the messages that it is made of.
-  std::unique_ptr<StereoRectifier> rectifier_;
-  sensor_msgs::CameraInfo::ConstPtr rectifier_left_info_;
-  sensor_msgs::CameraInfo::ConstPtr rectifier_right_info_;
+  CurrentCalibration calibration_;
+  PairRectifier rectifier_;
 };
+
+/// Whether a topic is not one of rectified images, and the first camera_info describes raw ones.
+bool hasRawImages(const rosbag::Bag& bag, const StereoTopics& topics);
 
 /// The value of an option: auto, yes or no. Throws std::invalid_argument on any other text.
 StereoBag::Rectify rectifyOption(const std::string& text);

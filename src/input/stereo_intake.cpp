@@ -38,7 +38,8 @@ StereoIntake::StereoIntake(const NodeParameters& parameters,
       left_("the left image", parameters.max_future_s),
       right_("the right image", parameters.max_future_s),
       synchronizer_(parameters.max_stamp_difference_s,
-                    static_cast<std::size_t>(parameters.queue_size)) {}
+                    static_cast<std::size_t>(parameters.queue_size)),
+      current_calibration_(parameters.baseline_m) {}
 
 void StereoIntake::addImage(Side side,
                             const sensor_msgs::Image::ConstPtr& image,
@@ -84,12 +85,13 @@ void StereoIntake::takePair(const std::optional<StereoImages>& images, const Arr
   if (!images) return;
   pairs_.add(arrival.time);
   if (waiting_) drops_.count(DropReason::kCameraInfoMissing);
-  waiting_ = ReceivedPair{*images, {}, arrival.time};
+  waiting_ = ReceivedPair{*images, {}, arrival.time, nullptr};
   handOver();
 }
 
 void StereoIntake::updateCamera() {
   if (!left_info_ || !right_info_) return;
+  if (parameters_.rectify) calibration_ = current_calibration_.of(left_info_, right_info_);
   setCamera(toStereoCamera(*left_info_, *right_info_, parameters_.baseline_m));
   handOver();
 }
@@ -100,14 +102,22 @@ void StereoIntake::setCamera(const StereoCamera& camera) {
   camera_error_.clear();
   drops_.forgetCameraError();
   log_.info("stereo camera from P: " + sizeText(camera.width, camera.height) + ", fx " +
-            toText(camera.fx) + " px, baseline " + toText(camera.baseline_m) + " m");
+            toText(camera.fx) + " px, baseline " + toText(camera.baseline_m) + " m" +
+            howRectified());
   const std::string oddity = oddityOf(camera);
   if (!oddity.empty()) log_.warn(oddity);
+}
+
+std::string StereoIntake::howRectified() const {
+  if (!calibration_) return "";
+  return std::string("; raw images are rectified by K, R and D (") +
+         calibration_->left.distortion.name() + ")";
 }
 
 void StereoIntake::handOver() {
   if (!waiting_ || !camera_) return;
   waiting_->camera = *camera_;
+  waiting_->calibration = calibration_;
   on_pair_(std::move(*waiting_));
   waiting_.reset();
 }

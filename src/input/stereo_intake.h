@@ -3,12 +3,14 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 
+#include "input/camera_calibration.h"
 #include "input/drop_log.h"
 #include "input/input_report.h"
 #include "input/log.h"
@@ -23,8 +25,9 @@ namespace rotrocc {
 /// A received pair, with the camera known at that time.
 struct ReceivedPair {
   StereoImages images;
-  StereoCamera camera;
+  StereoCamera camera;  ///< of the rectified images
   std::chrono::steady_clock::time_point arrival;
+  std::shared_ptr<const StereoCalibration> calibration;  ///< of raw images; null: rectified ones
 };
 
 /// Arrival of a message: by the steady clock, and in ROS time (0 if unknown).
@@ -71,6 +74,7 @@ class StereoIntake {
   void takePair(const std::optional<StereoImages>& images, const Arrival& arrival);
   void updateCamera();
   void setCamera(const StereoCamera& camera);
+  std::string howRectified() const;
   void handOver();
   void addStamps(InputReport& report) const;
 
@@ -85,6 +89,8 @@ class StereoIntake {
 
   sensor_msgs::CameraInfo::ConstPtr left_info_, right_info_;
   std::optional<StereoCamera> camera_;
+  CurrentCalibration current_calibration_;
+  std::shared_ptr<const StereoCalibration> calibration_;  // null if the images are rectified
   std::string camera_error_;
 
   TopicStatistics left_infos_, right_infos_, pairs_;

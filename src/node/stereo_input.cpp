@@ -39,14 +39,16 @@ std::string topicOf(const ros::NodeHandle& nh,
 image_transport::Subscriber subscribe(
     const ros::NodeHandle& nh,
     const std::string& side,
-    const std::string& transport,
+    const NodeParameters& parameters,
     void (StereoInput::*callback)(const sensor_msgs::Image::ConstPtr&),
     StereoInput* object) {
+  const std::string& transport = parameters.image_transport;
+  const std::string name = side + (parameters.rectify ? "/image_raw" : "/image_rect");
   const image_transport::TransportHints hints(
       transport, ros::TransportHints().tcpNoDelay(), ros::NodeHandle(nh, side));
   image_transport::ImageTransport images(nh);
   try {
-    const std::string topic = topicOf(nh, side + "/image_rect", transport);
+    const std::string topic = topicOf(nh, name, transport);
     return images.subscribe(topic, kQueueSize, callback, object, hints);
   } catch (const image_transport::TransportLoadException& error) {
     throw std::runtime_error("image_transport is " + transport + ", but this machine only has " +
@@ -71,9 +73,8 @@ StereoInput::StereoInput(ros::NodeHandle& nh,
       nh.subscribe("left/camera_info", kQueueSize, &StereoInput::onLeftInfo, this);
   right_info_subscriber_ =
       nh.subscribe("right/camera_info", kQueueSize, &StereoInput::onRightInfo, this);
-  const std::string& transport = parameters.image_transport;
-  left_image_subscriber_ = subscribe(nh, "left", transport, &StereoInput::onLeftImage, this);
-  right_image_subscriber_ = subscribe(nh, "right", transport, &StereoInput::onRightImage, this);
+  left_image_subscriber_ = subscribe(nh, "left", parameters, &StereoInput::onLeftImage, this);
+  right_image_subscriber_ = subscribe(nh, "right", parameters, &StereoInput::onRightImage, this);
 }
 
 void StereoInput::onLeftImage(const sensor_msgs::Image::ConstPtr& image) {

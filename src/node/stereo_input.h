@@ -13,7 +13,8 @@
 namespace rotrocc {
 
 /// Subscribes to left/image_rect, left/camera_info, right/image_rect and right/camera_info for an
-/// intake. Its callbacks must not run at the same time: take a handle of one queue and thread.
+/// intake; with the parameter rectify to left/image_raw and right/image_raw. Its callbacks must not
+/// run at the same time: take a handle of one queue and thread.
 class StereoInput {
  public:
   StereoInput(ros::NodeHandle& nh,

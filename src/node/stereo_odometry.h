@@ -30,12 +30,13 @@
 
 namespace rotrocc {
 
-/// Live stereo odometry: rectified stereo images in, nav_msgs/Odometry and tf out.
+/// Live stereo odometry: stereo images in, nav_msgs/Odometry and tf out.
 ///
 /// Subscribes to left/image_rect, right/image_rect (through image_transport), left/camera_info and
-/// right/camera_info; tf must connect base_frame and the frame of the left images. Publishes odom,
-/// path, inliers, flow, status, tf and /diagnostics, and has the services of OdometryServices.
-/// config/default.yaml lists the private parameters.
+/// right/camera_info, or with the parameter rectify to image_raw instead of image_rect; tf must
+/// connect base_frame and the frame of the left images. Publishes odom, path, inliers, flow,
+/// status, tf and /diagnostics, and has the services of OdometryServices. config/default.yaml lists
+/// the private parameters.
 ///
 /// The callbacks only match images to pairs. A worker thread processes them; if it is too slow, it
 /// skips to the newest pair.

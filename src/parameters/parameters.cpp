@@ -48,6 +48,11 @@ void addNode(NodeParameters& n, ParameterTable& table) {
             "s",
             "how long a pair waits for the samples of the gyroscope");
   table.add(
+      "rectify",
+      n.rectify,
+      "subscribe to left/image_raw and right/image_raw instead of image_rect, and rectify by K, "
+      "D, R and P of camera_info");
+  table.add(
       "image_transport", n.image_transport, {}, "transport of both images: raw, compressed, ...");
   table.add("max_stamp_difference_s",
             n.max_stamp_difference_s,

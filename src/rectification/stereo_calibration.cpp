@@ -137,7 +137,8 @@ void RawCamera::check() const {
   const Eigen::Matrix3d deviation =
       R_rectified_raw * R_rectified_raw.transpose() - Eigen::Matrix3d::Identity();
   if (!(deviation.cwiseAbs().maxCoeff() < kMaxDeviation) || R_rectified_raw.determinant() < 0.0) {
-    throw std::invalid_argument("the rectification matrix R is not a rotation");
+    throw std::invalid_argument(
+        "the rectification matrix R is not a rotation: calibrate the cameras as a pair");
   }
 }
 

@@ -60,10 +60,11 @@ StereoRectifier::Side StereoRectifier::makeSide(const char* name,
   return side;
 }
 
-StereoRectifier::StereoRectifier(const StereoCalibration& calibration)
+StereoRectifier::StereoRectifier(const StereoCalibration& calibration, int threads)
     : camera_(calibration.rectified),
       left_(makeSide("left", calibration.left, camera_, camera_.cx)),
-      right_(makeSide("right", calibration.right, camera_, camera_.cx_right)) {}
+      right_(makeSide("right", calibration.right, camera_, camera_.cx_right)),
+      workers_(std::min(threads, 2)) {}
 
 StereoPair StereoRectifier::rectify(const StereoPair& raw) {
   checkImage("left", raw.left, left_.resampler.source());

@@ -12,9 +12,10 @@ namespace rotrocc {
 /// Rectifies the images of a stereo pair, left and right in parallel, without allocating memory.
 class StereoRectifier {
  public:
-  /// Throws std::invalid_argument on a calibration that is not one, see RawCamera::check(), and of
-  /// images larger than 32000 px.
-  explicit StereoRectifier(const StereoCalibration& calibration);
+  /// With one thread, the left image is rectified before the right one; more than two are of no
+  /// use. Throws std::invalid_argument on a calibration that is not one, see RawCamera::check(),
+  /// and of images larger than 32000 px.
+  explicit StereoRectifier(const StereoCalibration& calibration, int threads = 2);
 
   /// Of the rectified images.
   const StereoCamera& camera() const { return camera_; }
@@ -38,7 +39,7 @@ class StereoRectifier {
   StereoCamera camera_;
   Side left_;
   Side right_;
-  Workers workers_{2};
+  Workers workers_;
 };
 
 }  // namespace rotrocc

@@ -8,6 +8,7 @@
 
 #include "evaluation/text_file.h"
 #include "evaluation/trajectory_sampling.h"
+#include "input/camera_calibration.h"
 #include "sequences/camera_info_calibration.h"
 #include "sequences/kitti_mount.h"
 

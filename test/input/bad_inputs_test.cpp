@@ -90,8 +90,8 @@ std::string badLeft(const OneImageChange& change) {
 }
 
 /// Both changed infos with a pair, then valid ones.
-std::string badInfos(const OdometryRig::InfoChange& change) {
-  const auto rig = drivingRig();
+std::string badInfos(const OdometryRig::InfoChange& change, const Parameters& parameters = {}) {
+  const auto rig = drivingRig(parameters);
   rig->sendInfos(change);
   rig->drive();
   const std::string observed = rig->stateWithoutAnswers() + ", " + rig->observed();
@@ -101,6 +101,17 @@ std::string badInfos(const OdometryRig::InfoChange& change) {
 
 std::string badInfos(const OneInfoChange& change) {
   return badInfos(both(change));
+}
+
+/// With raw images, which are rectified.
+Parameters rectifying() {
+  Parameters parameters;
+  parameters.node.rectify = true;
+  return parameters;
+}
+
+std::string badRawInfos(const OneInfoChange& change) {
+  return badInfos(both(change), rectifying());
 }
 
 /// A drive that is unusual from its first pair on.
@@ -115,11 +126,12 @@ std::string oddDrive(const OdometryRig::ImageChange& image_change,
 
 /// The same, compared with an unchanged drive.
 std::string comparedDrive(const OdometryRig::ImageChange& image_change,
-                          const OdometryRig::InfoChange& info_change = {}) {
+                          const OdometryRig::InfoChange& info_change = {},
+                          const Parameters& parameters = {}) {
   UncertainTransform poses[2];
   std::string observed;
   for (const bool changed : {false, true}) {
-    OdometryRig rig;
+    OdometryRig rig(changed ? parameters : Parameters());
     rig.sendInfos(changed ? info_change : OdometryRig::InfoChange());
     for (int i = 0; i < 3; ++i) rig.drive(changed ? image_change : OdometryRig::ImageChange());
     observed = rig.observed();
@@ -920,10 +932,92 @@ std::vector<BadInput> timeRows() {
   };
 }
 
+/// Raw images of a rig whose right camera is turned about its axis of view.
+std::string turnedCamera() {
+  OdometryRig rig(rectifying());
+  rig.sendInfos([](Info&, Info& right) {
+    const double turn_rad = 0.02;
+    right.R = {1,
+               0,
+               0,
+               0,
+               std::cos(turn_rad),
+               -std::sin(turn_rad),
+               0,
+               std::sin(turn_rad),
+               std::cos(turn_rad)};
+  });
+  rig.drivePairs(12);
+  const std::string observed = rig.observed();
+  rig.sendInfos();
+  return observed + recovery(rig);
+}
+
+std::vector<BadInput> rawRows() {
+  const std::string refused = "NO_CALIBRATION, dropped (camera_info_invalid): ";
+  return {
+      {53,
+       "with rectify: unknown distortion model",
+       "no calibration, the supported ones are listed",
+       [] { return badRawInfos([](Info& info) { info.distortion_model = "tilted"; }); },
+       refused + "D of the left camera_info: the distortion model 'tilted' is not supported: use "
+                 "plumb_bob *, rational_polynomial or equidistant *; then ok"},
+      {54,
+       "with rectify: D too short, or with NaN",
+       "no calibration",
+       [] {
+         return badRawInfos([](Info& info) { info.D.resize(3); }) + "; " +
+                badRawInfos([](Info& info) { info.D[1] = kNan; });
+       },
+       refused +
+           "D of the left camera_info: the distortion plumb_bob has 3 coefficients instead of "
+           "5: *; then ok; " +
+           refused +
+           "D of the left camera_info: a coefficient of the distortion plumb_bob is nan: "
+           "*; then ok"},
+      {55,
+       "with rectify: K or R of zeros",
+       "no calibration",
+       [] {
+         return badRawInfos([](Info& info) { info.K.fill(0.0); }) + "; " +
+                badRawInfos([](Info& info) { info.R.fill(0.0); });
+       },
+       refused +
+           "K of the left camera_info has focal lengths 0 and 0 px, but rectification needs "
+           "them: *; then ok; " +
+           refused +
+           "the left camera_info: the rectification matrix R is not a rotation: *; then ok"},
+      {56,
+       "with rectify: no D, of images without distortion",
+       "accepted",
+       [] {
+         return comparedDrive({},
+                              both([](Info& info) {
+                                info.D.clear();
+                                info.distortion_model.clear();
+                              }),
+                              rectifying());
+       },
+       "ok, bit-identical result"},
+      {57,
+       "with rectify: images not of the size in camera_info",
+       "no calibration",
+       [] { return badInfos(both([](Info& info) { info.height += 10; }), rectifying()); },
+       "*NO_CALIBRATION, dropped (image_not_of_camera_info): *; then ok"},
+      {58,
+       "with rectify: R of another rig",
+       "lost or degraded with a hint",
+       [] { return withoutChance(turnedCamera()); },
+       "lost or degraded, hint: the images match if the right one is shifted by about * rows: K, "
+       "D, "
+       "R or P of camera_info are wrong; recalibrate; then ok"},
+  };
+}
+
 TEST(BadInputsTest, EachIsHandledAsTheTableSays) {
   std::vector<BadInput> inputs;
   for (const auto& rows :
-       {messageRows(), pictureRows(), badInfoRows(), oddInfoRows(), timeRows()}) {
+       {messageRows(), pictureRows(), badInfoRows(), oddInfoRows(), timeRows(), rawRows()}) {
     inputs.insert(inputs.end(), rows.begin(), rows.end());
   }
   expectRows(Observer::kRig, inputs);

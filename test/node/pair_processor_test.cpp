@@ -1,10 +1,13 @@
 #include "node/base/pair_processor.h"
 
+#include <algorithm>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
 
 #include "support/odometry_rig.h"
 
@@ -272,6 +275,66 @@ TEST_F(PairProcessorTest, AResetBeginsAtTheInitialPose) {
   rig.processor().requestReset();
   rig.drive();
   EXPECT_NEAR(rig.answer()->state.T_odom_base.T.translation().x(), 5.0, 1e-12);
+}
+
+/// The images of a camera whose principal point is off, and its K.
+class RawImages {
+ public:
+  explicit RawImages(int off_px) : off_px_(off_px) {}
+
+  void operator()(sensor_msgs::CameraInfo& left, sensor_msgs::CameraInfo& right) const {
+    for (sensor_msgs::CameraInfo* info : {&left, &right}) info->K[2] += off_px_;
+  }
+
+  /// Moves the pixels of each row; those that come in at its start have no meaning.
+  void operator()(sensor_msgs::Image& left, sensor_msgs::Image& right) const {
+    for (sensor_msgs::Image* image : {&left, &right}) {
+      for (auto row = image->data.begin(); row != image->data.end(); row += image->step) {
+        std::rotate(row, row + (image->step - off_px_), row + image->step);
+      }
+    }
+  }
+
+ private:
+  unsigned off_px_;
+};
+
+TEST(RectifyTest, RawImagesAreRectifiedByTheCameraInfoOfTheirTime) {
+  Parameters parameters;
+  parameters.node.rectify = true;
+  OdometryRig rig(parameters);
+  for (const int off_px : {20, 20, 8, 20}) {
+    const RawImages raw(off_px);
+    sensor_msgs::Image rectified = rig.nextImage(StereoIntake::Side::kLeft);
+    rig.sendInfos(raw);
+    rig.drive(raw);
+    ASSERT_TRUE(rig.answer());
+    const cv::Mat& left = rig.answer()->pair.left;
+    const cv::Mat expected(left.size(), CV_8UC1, rectified.data.data(), rectified.step);
+    const cv::Range seen(0, left.cols - off_px);
+    EXPECT_EQ(cv::norm(left.colRange(seen), expected.colRange(seen), cv::NORM_INF), 0.0) << off_px;
+  }
+  EXPECT_EQ(rig.answer()->result.state, State::kOk);
+  EXPECT_NEAR(rig.answer()->state.T_odom_base.T.translation().x(), 3 * kStep_m, 0.05);
+}
+
+TEST(RectifyTest, TheResultDoesNotDependOnTheNumberOfThreads) {
+  std::string poses[2];
+  for (const int threads : {1, 2}) {
+    Parameters parameters;
+    parameters.node.rectify = true;
+    parameters.odometry.threads = threads;
+    OdometryRig rig(parameters);
+    const auto bend = [](sensor_msgs::CameraInfo& left, sensor_msgs::CameraInfo& right) {
+      left.D = right.D = {-0.01, 0.0, 0.0, 0.0, 0.0};
+    };
+    rig.sendInfos(bend);
+    rig.drivePairs(3);
+    std::ostringstream text;
+    text << std::hexfloat << rig.answer()->state.T_odom_base.T.matrix();
+    poses[threads - 1] = text.str();
+  }
+  EXPECT_EQ(poses[0], poses[1]);
 }
 
 }  // namespace

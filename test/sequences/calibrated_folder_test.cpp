@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
+#include "input/camera_calibration.h"
 #include "sequences/camera_info_calibration.h"
 #include "support/expect_error.h"
 #include "support/raw_rig.h"

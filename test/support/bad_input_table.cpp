@@ -13,7 +13,7 @@
 namespace rotrocc {
 namespace {
 
-constexpr int kRows = 52;
+constexpr int kRows = 58;
 const std::set<int> kRowsOfNodelet = {26, 40, 41, 49, 50, 51, 52};
 
 const char* const kHead =

@@ -13,8 +13,9 @@ PairProcessor::PairProcessor(const Parameters& parameters, Log log)
       parameters_(parameters.node),
       systematic_error_(parameters.odometry.systematic_error),
       converter_(parameters.node.max_image_pixels),
+      rectifier_(parameters.odometry.threads),
       odometry_(parameters.odometry),
-      inspector_(parameters.odometry.correspondence_finder) {}
+      inspector_(parameters.odometry.correspondence_finder, parameters.node.rectify) {}
 
 PairAnswer PairProcessor::process(const ReceivedPair& received,
                                   const Eigen::Isometry3d& T_base_camera,
@@ -23,6 +24,7 @@ PairAnswer PairProcessor::process(const ReceivedPair& received,
   PairAnswer answer;
   answer.pair = converter_.convert(*received.images.left, *received.images.right);
   validateSize(*received.images.left, received.camera);
+  if (received.calibration) answer.pair = rectifier_.rectify(answer.pair, received.calibration);
   const bool asked = restartIfAsked();
   const bool went_back = restartIfTimeWentBack(answer.pair.stamp_ns);
   const bool gave_up = restartIfLostForLong(answer.pair.stamp_ns);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "input/log.h"
+#include "input/pair_rectifier.h"
 #include "input/stereo_intake.h"
 #include "input/stereo_pair_converter.h"
 #include "node/base/base_odometry.h"
@@ -17,15 +18,15 @@ namespace rotrocc {
 
 /// Result of a pair.
 struct PairAnswer {
-  StereoPair pair;  ///< valid until the next call
+  StereoPair pair;  ///< rectified; valid until the next call
   OdometryResult result;
   BaseState state;
   std::string hint;                ///< suspected camera fault; empty if none
   bool starts_trajectory = false;  ///< a new trajectory: after a reset, a time jump or a long loss
 };
 
-/// Converts pairs to odometry of the base, in one thread. Other threads may request changes, which
-/// take effect with the next pair; requests do not block.
+/// Converts pairs to odometry of the base, in one thread, and rectifies those that are raw. Other
+/// threads may request changes, which take effect with the next pair; requests do not block.
 class PairProcessor {
  public:
   /// Motion of the base between two stamps from another odometry: T_prev_cur. It predicts the
@@ -77,6 +78,7 @@ class PairProcessor {
   NodeParameters parameters_;
   SystematicErrorConfig systematic_error_;
   StereoPairConverter converter_;
+  PairRectifier rectifier_;
   VisualOdometry odometry_;
   PairInspector inspector_;
   std::optional<BaseOdometry> base_odometry_;  // from the first pair on

@@ -43,8 +43,8 @@ std::string frozenText(const std::string& which, int pairs) {
 
 }  // namespace
 
-PairInspector::PairInspector(const CorrespondenceFinder::Config& config)
-    : detector_(config.feature_detector), matcher_(config.stereo_matcher) {}
+PairInspector::PairInspector(const CorrespondenceFinder::Config& config, bool rectifies)
+    : rectifies_(rectifies), detector_(config.feature_detector), matcher_(config.stereo_matcher) {}
 
 void PairInspector::configure(const CorrespondenceFinder::Config& config) {
   detector_ = FeatureDetector(config.feature_detector);
@@ -108,12 +108,18 @@ std::string PairInspector::explainLoss(const StereoPair& pair, const StereoCamer
     for (const int rows : {offset, -offset}) {
       if (countMatches(pair.left, shifted(pair.right, rows), infinity_px) < clearly_more) continue;
       return "the images match if the right one is shifted by about " + toText(rows) +
-             " rows: they are not rectified; remap to rectified images, or recalibrate";
+             " rows: " + rowRemedy();
     }
   }
   if (!few) return "";
   return "hardly any corner matches in the right image: are the images rectified and synchronized, "
          "and is max_disparity_px large enough for near objects?";
+}
+
+std::string PairInspector::rowRemedy() const {
+  if (rectifies_) return "K, D, R or P of camera_info are wrong; recalibrate";
+  return "they are not rectified; remap to rectified images, set the parameter rectify for raw "
+         "ones, or recalibrate";
 }
 
 /// Corners of `left` that have a disparity.

@@ -19,7 +19,8 @@ class PairInspector {
   /// Number of consecutive suspicious pairs before a hint.
   static constexpr int kPatience = 10;
 
-  explicit PairInspector(const CorrespondenceFinder::Config& config);
+  /// `rectifies`: whether the images are rectified here, so that their calibration is to blame.
+  explicit PairInspector(const CorrespondenceFinder::Config& config, bool rectifies = false);
 
   /// Uses another configuration from the next pair on, and forgets what was found with this one.
   void configure(const CorrespondenceFinder::Config& config);
@@ -33,9 +34,11 @@ class PairInspector {
  private:
   std::string findFrozen(const StereoPair& pair);
   std::string explainFewCorners(const StereoPair& pair) const;
+  std::string rowRemedy() const;
   std::string explainLoss(const StereoPair& pair, const StereoCamera& camera);
   int countMatches(const cv::Mat& left, const cv::Mat& right, double infinity_px);
 
+  bool rectifies_;
   Workers alone_{1};
   FeatureDetector detector_;
   StereoMatcher matcher_;
