@@ -1,8 +1,11 @@
 #include "player/bag_recording.h"
 
+#include <stdexcept>
+
 #include <boost/make_shared.hpp>
 
 #include "bags/bag_reading.h"
+#include "bags/stereo_bag.h"
 
 namespace rotrocc {
 namespace {
@@ -11,6 +14,17 @@ const char* const kTruthTopic = "/ground_truth/path";
 
 std::string cameraFrame(const rosbag::Bag& bag, const StereoTopics& topics) {
   return firstMessage<sensor_msgs::Image>(bag, topics.left_image)->header.frame_id;
+}
+
+/// Topics that an odometry can use: rectified images, or raw ones if it rectifies.
+StereoTopics usableTopics(const rosbag::Bag& bag, const PlayerOptions& options) {
+  const StereoTopics topics =
+      findStereoTopics(topicTypes(bag), options.left_image, options.right_image);
+  if (!options.rectify && hasRawImages(bag, topics)) {
+    throw std::invalid_argument("the images of " + topics.left_image +
+                                " are not rectified: start with rectify:=true");
+  }
+  return topics;
 }
 
 nav_msgs::Path recordedTruth(const rosbag::Bag& bag, const RecordedTf& tf) {
@@ -23,7 +37,8 @@ nav_msgs::Path recordedTruth(const rosbag::Bag& bag, const RecordedTf& tf) {
 BagRecording::BagRecording(const PlayerOptions& options)
     : path_(options.bag),
       bag_(openBag(options.bag)),
-      topics_(findStereoTopics(topicTypes(bag_), options.left_image, options.right_image)),
+      topics_(usableTopics(bag_, options)),
+      image_topic_(options.rectify ? "image_raw" : "image_rect"),
       tf_(bag_, options.base_frame, cameraFrame(bag_, topics_)),
       truth_(recordedTruth(bag_, tf_)),
       first_left_info_(firstMessage<sensor_msgs::CameraInfo>(bag_, topics_.left_info)),

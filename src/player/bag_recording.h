@@ -15,10 +15,12 @@ namespace rotrocc {
 /// odometry publishes the pose of the base.
 class BagRecording : public Recording {
  public:
-  /// Throws std::runtime_error if the bag is missing or has no stereo pair.
+  /// Throws std::runtime_error if the bag is missing or has no stereo pair, and
+  /// std::invalid_argument if its images are raw and the odometry does not rectify.
   explicit BagRecording(const PlayerOptions& options);
 
   std::string description() const override;
+  std::string imageTopic() const override { return image_topic_; }
   std::vector<std::string> notes() const override;
   ros::Time begin() const override { return begin_; }
   ros::Time end() const override { return end_; }
@@ -36,6 +38,7 @@ class BagRecording : public Recording {
   std::string path_;
   rosbag::Bag bag_;
   StereoTopics topics_;
+  std::string image_topic_;
   RecordedTf tf_;
   nav_msgs::Path truth_;
   sensor_msgs::CameraInfo::ConstPtr first_left_info_;

@@ -20,6 +20,7 @@ PlayerOptions readPlayerOptions(const ros::NodeHandle& private_nh) {
   private_nh.param("bag", options.bag, options.bag);
   private_nh.param("left_image", options.left_image, options.left_image);
   private_nh.param("right_image", options.right_image, options.right_image);
+  private_nh.param("rectify", options.rectify, options.rectify);
   private_nh.param("rate", options.rate, options.rate);
   private_nh.param("start", options.start, options.start);
   private_nh.param("duration", options.duration, options.duration);

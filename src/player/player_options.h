@@ -11,6 +11,7 @@ struct PlayerOptions {
   std::string bag;         ///< path; or a directory, see openStereoSequence()
   std::string left_image;  ///< topics of the pair in a bag; empty: findStereoTopics()
   std::string right_image;
+  bool rectify = false;                  ///< the odometry rectifies: it takes image_raw
   double rate = 1.0;                     ///< playback rate; 0: as fast as possible
   double start = 0.0;                    ///< offset from the start of the bag [s]
   double duration = 0.0;                 ///< duration to play [s]; 0: to the end

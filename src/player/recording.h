@@ -33,6 +33,9 @@ class Recording {
   /// For messages, e.g. "/stereo/left/image_rect and /stereo/right/image_rect of 06.bag".
   virtual std::string description() const = 0;
 
+  /// Name of the topics of the images: image_rect, or image_raw if the odometry rectifies them.
+  virtual std::string imageTopic() const { return "image_rect"; }
+
   /// How recorded poses are used; for the log.
   virtual std::vector<std::string> notes() const { return {}; }
 
@@ -60,7 +63,7 @@ class Recording {
 };
 
 /// Opens a bag, or the directory of a sequence: see openStereoSequence(). Throws std::exception if
-/// it is neither, or unusable.
+/// it is neither, or unusable, as images that are not rectified are for an odometry that does not.
 std::unique_ptr<Recording> openRecording(const PlayerOptions& options);
 
 }  // namespace rotrocc

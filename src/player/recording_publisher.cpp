@@ -12,8 +12,10 @@ constexpr std::uint32_t kTopicQueueSize = 10;
 
 RecordingPublisher::RecordingPublisher(ros::NodeHandle& nh, const Recording& recording)
     : recording_(recording),
-      left_image_(nh.advertise<sensor_msgs::Image>("left/image_rect", kTopicQueueSize)),
-      right_image_(nh.advertise<sensor_msgs::Image>("right/image_rect", kTopicQueueSize)),
+      left_image_(
+          nh.advertise<sensor_msgs::Image>("left/" + recording.imageTopic(), kTopicQueueSize)),
+      right_image_(
+          nh.advertise<sensor_msgs::Image>("right/" + recording.imageTopic(), kTopicQueueSize)),
       left_info_(nh.advertise<sensor_msgs::CameraInfo>("left/camera_info", kTopicQueueSize)),
       right_info_(nh.advertise<sensor_msgs::CameraInfo>("right/camera_info", kTopicQueueSize)),
       moving_tf_(nh.advertise<tf2_msgs::TFMessage>("/tf", kTopicQueueSize)),

@@ -11,8 +11,8 @@
 
 namespace rotrocc {
 
-/// Publishes a recording to {left,right}/image_rect,
-/// {left,right}/camera_info, /tf, /tf_static, ground_truth/path and ground_truth/pose.
+/// Publishes a recording to {left,right}/image_rect or image_raw, {left,right}/camera_info, /tf,
+/// /tf_static, ground_truth/path and ground_truth/pose.
 class RecordingPublisher {
  public:
   /// Advertises the topics. `recording` must outlive this object. Logs its notes.

@@ -1,5 +1,7 @@
 #include "player/sequence_recording.h"
 
+#include <stdexcept>
+
 #include <boost/make_shared.hpp>
 
 namespace rotrocc {
@@ -12,6 +14,13 @@ SequenceOptions sequenceOptions(const PlayerOptions& options) {
   return sequence;
 }
 
+/// Throws std::invalid_argument if the odometry would rectify images that already are.
+const std::string& pathOf(const PlayerOptions& options) {
+  if (!options.rectify) return options.bag;
+  throw std::invalid_argument("the images of " + options.bag +
+                              " are rectified as they are read: start without rectify:=true");
+}
+
 sensor_msgs::CameraInfo::ConstPtr stamped(sensor_msgs::CameraInfo info, const ros::Time& stamp) {
   info.header.stamp = stamp;
   return boost::make_shared<sensor_msgs::CameraInfo>(info);
@@ -20,7 +29,7 @@ sensor_msgs::CameraInfo::ConstPtr stamped(sensor_msgs::CameraInfo info, const ro
 }  // namespace
 
 SequenceRecording::SequenceRecording(const PlayerOptions& options)
-    : sequence_(openStereoSequence(options.bag, sequenceOptions(options))),
+    : sequence_(openStereoSequence(pathOf(options), sequenceOptions(options))),
       messages_(*sequence_, {std::nullopt, true}),
       last_(end()) {}
 

@@ -130,8 +130,7 @@ TEST_F(CamerasLaunchTest, UsbPair) {
   EXPECT_EQ(launched.param("/stereo/right/video_device"), "/dev/video4");
   EXPECT_EQ(launched.param("/stereo/right/camera_frame_id"), "stereo_right_optical");
   EXPECT_EQ(launched.param<int>("/stereo/right/framerate"), 25);
-  EXPECT_TRUE(launched.hasNode("/stereo/left_rectify"));
-  EXPECT_TRUE(launched.hasNode("/stereo/right_rectify"));
+  EXPECT_TRUE(launched.param<bool>("/stereo/stereo_odometry/rectify"));
   EXPECT_EQ(launched.param<double>("/stereo/stereo_odometry/max_stamp_difference_s"), 0.02);
   EXPECT_EQ(launched.property("/stereo_link_mount", "args"),
             "1 2 3 0.4 0.5 0.6 base_link stereo_link");
@@ -150,8 +149,8 @@ TEST_F(CamerasLaunchTest, Euroc) {
   EXPECT_EQ(launched.topic("/player", "/cam1/image_raw"), "stereo/right/image_raw");
   EXPECT_EQ(launched.topic("/stereo/right_info", "image"), "right/image_raw");
   EXPECT_EQ(launched.topic("/stereo/right_info", "camera_info"), "right/camera_info");
-  EXPECT_TRUE(launched.hasNode("/stereo/right_rectify"));
   const std::string odometry = "/stereo/stereo_odometry";
+  EXPECT_TRUE(launched.param<bool>(odometry + "/rectify"));
   EXPECT_EQ(launched.param(odometry + "/camera_frame"), "cam0");
 }
 

@@ -18,7 +18,7 @@ class StereoOdometryLaunchTest : public ::testing::Test {
  protected:
   Launched launch(const std::string& options = "") const {
     std::ofstream(path_) << "odom_frame: world\nbase_frame: body\npublish_tf: false\nplanar: true\n"
-                            "guess_frame: wheels\nmax_stamp_difference_s: 0.02\n"
+                            "guess_frame: wheels\nrectify: true\nmax_stamp_difference_s: 0.02\n"
                             "image_transport: compressed\ntrajectory_file: /tmp/of_yaml.txt\n"
                             "trajectory_format: kitti\n";
     return Launched("stereo_odometry.launch", "stereo:=/camera config:=" + path_ + " " + options);
@@ -35,6 +35,7 @@ TEST_F(StereoOdometryLaunchTest, TheConfigurationFileHolds) {
   EXPECT_FALSE(launched.param<bool>(kNode + "/publish_tf"));
   EXPECT_TRUE(launched.param<bool>(kNode + "/planar"));
   EXPECT_EQ(launched.param(kNode + "/guess_frame"), "wheels");
+  EXPECT_TRUE(launched.param<bool>(kNode + "/rectify"));
   EXPECT_EQ(launched.param<double>(kNode + "/max_stamp_difference_s"), 0.02);
   EXPECT_EQ(launched.param(kNode + "/image_transport"), "compressed");
   EXPECT_EQ(launched.param(kNode + "/trajectory_file"), "/tmp/of_yaml.txt");
@@ -44,7 +45,7 @@ TEST_F(StereoOdometryLaunchTest, TheConfigurationFileHolds) {
 TEST_F(StereoOdometryLaunchTest, ArgumentsOverrideIt) {
   const Launched launched = launch(
       "odom_frame:=odom base_frame:=base_link publish_tf:=true planar:=false "
-      "guess_frame:=wheel_odom "
+      "guess_frame:=wheel_odom rectify:=false "
       "max_stamp_difference_s:=0.005 image_transport:=raw trajectory_file:=/tmp/arg.txt "
       "trajectory_format:=tum");
   EXPECT_EQ(launched.param(kNode + "/odom_frame"), "odom");
@@ -52,6 +53,7 @@ TEST_F(StereoOdometryLaunchTest, ArgumentsOverrideIt) {
   EXPECT_TRUE(launched.param<bool>(kNode + "/publish_tf"));
   EXPECT_FALSE(launched.param<bool>(kNode + "/planar"));
   EXPECT_EQ(launched.param(kNode + "/guess_frame"), "wheel_odom");
+  EXPECT_FALSE(launched.param<bool>(kNode + "/rectify"));
   EXPECT_EQ(launched.param<double>(kNode + "/max_stamp_difference_s"), 0.005);
   EXPECT_EQ(launched.param(kNode + "/image_transport"), "raw");
   EXPECT_EQ(launched.param(kNode + "/trajectory_file"), "/tmp/arg.txt");
@@ -90,6 +92,15 @@ TEST_F(StereoOdometryLaunchTest, TopicsLandWhereTheUserWants) {
   EXPECT_EQ(renamed.topic("/camera/rviz", "odom"), "/odometry/visual") << "rviz shows nothing";
 }
 
+TEST_F(StereoOdometryLaunchTest, ImagesComeFromWhereTheUserSays) {
+  for (const std::string image : {"image_rect", "image_raw"}) {
+    EXPECT_EQ(launch().topic(kNode, "left/" + image), "left/" + image);
+    const Launched named = launch("left_image:=cam0/image right_image:=/cam1/image");
+    EXPECT_EQ(named.topic(kNode, "left/" + image), "cam0/image");
+    EXPECT_EQ(named.topic(kNode, "right/" + image), "/cam1/image");
+  }
+}
+
 TEST_F(StereoOdometryLaunchTest, AGyroscopeIsUsedIfItsTopicIsGiven) {
   const Launched launched = launch("imu:=/imu/data");
   EXPECT_TRUE(launched.param<bool>(kNode + "/use_imu"));
@@ -102,6 +113,12 @@ TEST_F(StereoOdometryLaunchTest, RvizShowsTheOdometryFrame) {
   EXPECT_NE(given.find("-f map"), std::string::npos) << given;
   const std::string none = launch("rviz:=true").property("/camera/rviz", "args");
   EXPECT_EQ(none.find("-f"), std::string::npos) << none;
+}
+
+TEST(KittiLaunchFileTest, PlayerAndOdometryAgreeOnRawImages) {
+  const Launched launched("kitti.launch", "bag:=any.bag rviz:=false rectify:=true");
+  EXPECT_TRUE(launched.param<bool>("/stereo/stereo_odometry/rectify"));
+  EXPECT_TRUE(launched.param<bool>("/stereo/kitti_player/rectify"));
 }
 
 TEST(KittiLaunchFileTest, TheConfigurationFileHolds) {

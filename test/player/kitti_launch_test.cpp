@@ -60,17 +60,33 @@ class KittiLaunchTest : public ::testing::Test {
     return std::regex_replace(trajectory, std::regex("(^|\\n)[^ ]*"), "\n");
   }
 
+  /// The start of a drive with wide lenses, rendered.
+  void writeRawBag(int pairs) const {
+    const std::string drive = directory_ / "drive";
+    const CommandResult rendered = runCommand(
+        std::string(SIMULATE_DRIVE) + " slip_road " + drive +
+        " --layout asl --lens radtan --size 480x240 --focal 300 --frames " + std::to_string(pairs));
+    ASSERT_EQ(rendered.status, 0) << rendered.output;
+    const CommandResult written =
+        runCommand(std::string(SEQUENCE_TO_BAG) + " " + drive + " " + bag());
+    ASSERT_EQ(written.status, 0) << written.output;
+  }
+
   /// Expects that the nodelet receives every pair of a recording, by default bag(), and has the
   /// poses of offline_odometry.
   void expectReplayAsOffline(int pairs) const { expectReplayAsOffline(pairs, bag()); }
-  void expectReplayAsOffline(int pairs, const std::string& recording) const {
-    const CommandResult launch = replay(recording,
-                                        " rate:=0 trajectory_file:=" + directory_ / "live.txt" +
-                                            " ground_truth_file:=" + directory_ / "truth.txt");
+  void expectReplayAsOffline(int pairs,
+                             const std::string& recording,
+                             const std::string& launch_options = "",
+                             const std::string& offline_options = "") const {
+    const CommandResult launch =
+        replay(recording,
+               launch_options + " rate:=0 trajectory_file:=" + directory_ / "live.txt" +
+                   " ground_truth_file:=" + directory_ / "truth.txt");
     EXPECT_EQ(launch.status, 0) << launch.output;
     const CommandResult offline =
         runCommand(std::string(OFFLINE_ODOMETRY) + " " + recording + " --format tum --trajectory " +
-                   directory_ / "offline.txt");
+                   directory_ / "offline.txt" + offline_options);
     EXPECT_EQ(offline.status, 0) << offline.output;
 
     const std::string live = readFile(directory_ / "live.txt");
@@ -102,6 +118,20 @@ TEST_F(KittiLaunchTest, ReplaysRawDrivesOfKitti2bag) {
 TEST_F(KittiLaunchTest, ReplaysOdometrySequencesOfKitti2bag) {
   writeKitti2bagOdometry(syntheticSequence(), bag());
   expectReplayAsOffline(kPairs);
+}
+
+TEST_F(KittiLaunchTest, ReplaysRawImages) {
+  writeRawBag(8);
+  expectReplayAsOffline(8, bag(), " rectify:=true", " --rectify yes");
+}
+
+TEST_F(KittiLaunchTest, SaysHowToReplayRawImages) {
+  writeRawBag(2);
+  const CommandResult launch = replay(bag());
+  EXPECT_NE(launch.output.find("the images of /stereo/left/image_raw are not rectified: start with "
+                               "rectify:=true"),
+            std::string::npos)
+      << launch.output;
 }
 
 TEST_F(KittiLaunchTest, ReplaysRealImages) {
