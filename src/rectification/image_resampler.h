@@ -30,7 +30,12 @@ class ImageResampler {
  private:
   static constexpr int kTaps = 4;
   static constexpr int kPhases = 256;
-  using Weights = std::array<std::int16_t, kTaps>;
+  /// Of one phase, once for each direction, as the registers of inside() need them.
+  struct Weights {
+    std::array<std::int32_t, kTaps> across;
+    std::array<std::int16_t, 2 * kTaps> down_0_2;  // those of rows 0 and 2 in turn
+    std::array<std::int16_t, 2 * kTaps> down_1_3;
+  };
 
   struct Place {
     std::int16_t column = 0;  // of the pixel left above
