@@ -76,7 +76,7 @@ struct Middle {
   }
 
   int find() {
-    return finder.find(drive().camera, keyframe, *current, T_prev_cur, {2, true}, features);
+    return finder.find(drive().camera, keyframe, *current, T_prev_cur, 2, features);
   }
 };
 

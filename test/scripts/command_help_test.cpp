@@ -35,7 +35,8 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> kPage = {
     {"Nodes", {"stereo_odometry", "kitti_player", "rviz_scene"}},
     {"Library", {"kitti_odometry", "error_characteristics"}},
     {"Scripts of the sources",
-     {"setup",
+     {"demo",
+      "setup",
       "test",
       "package",
       "accuracy",
@@ -70,13 +71,13 @@ std::vector<std::string> programs() {
   return names;
 }
 
-/// The executables of the folder scripts. The demo has a test of its own.
+/// The executables of the folder scripts.
 std::vector<std::string> scripts() {
   std::vector<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(SCRIPTS_DIR)) {
     const bool runs = (entry.status().permissions() & fs::perms::owner_exec) != fs::perms::none;
     const std::string name = entry.path().filename();
-    if (entry.is_regular_file() && runs && name != "demo") names.push_back(name);
+    if (entry.is_regular_file() && runs) names.push_back(name);
   }
   return names;
 }
