@@ -75,9 +75,7 @@ struct Middle {
     finder.findDepths(drive().camera, keyframe);
   }
 
-  int find() {
-    return finder.find(drive().camera, keyframe, *current, T_prev_cur, 2, features);
-  }
+  int find() { return finder.find(drive().camera, keyframe, *current, T_prev_cur, 2, features); }
 };
 
 void pyramids(benchmark::State& state) {

@@ -53,8 +53,7 @@ TEST_P(RowSearchTest, MeasuresAnOffsetThatIsRoughlyKnown) {
   finder_.findCorners(keyframe);
   finder_.findDepths(scene_.camera(), keyframe);
   Correspondences features;
-  finder_.find(
-      scene_.camera(), keyframe, *frame_, Eigen::Isometry3d::Identity(), 1, features);
+  finder_.find(scene_.camera(), keyframe, *frame_, Eigen::Isometry3d::Identity(), 1, features);
   const FeatureSet all(features.size(), 1);
   for (const double error_px : {-0.5, 0.5}) {
     RowOffsets offsets;
