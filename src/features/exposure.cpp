@@ -25,7 +25,7 @@ PairSums sumsNear(const cv::Mat& from, const cv::Mat& to, const Exposure& expect
   const auto offset = static_cast<float>(expected.offset);
   const auto limit = static_cast<float>(most);
   const auto all = static_cast<double>(from.total());
-  const int step_px = std::max(1, cvFloor(std::sqrt(all / kPixels)));
+  const int step_px = cvFloor(std::sqrt(all / kPixels)) | 1;  // odd, unlike periods of patterns
   PairSums sums;
   for (int y = 0; y < from.rows; y += step_px) {
     const auto* in_from = from.ptr<uchar>(y);

@@ -99,7 +99,7 @@ int countOfARepeatedDrive(const VisualOdometry::Config& config) {
   std::vector<StereoPair> pairs = renderDrive(scene);
   VisualOdometry odometry(config);
   // Hypotheses change places, so it takes some drives until all their buffers are large enough.
-  constexpr int kDrives = 7;
+  constexpr int kDrives = 12;
   for (int drive = 0; drive < kDrives; ++drive) {
     odometry.reset();
     int done = 0;
