@@ -19,6 +19,7 @@ BLUR_TURN_DEG = 4.0  # of a drive with motion blur, per pair
 
 Stress = collections.namedtuple('Stress', 'name title unit levels make')
 UNSEEN = ['focal', 'baseline']  # a wrong scale that no image shows
+LORRIES = ['lorry', 'lorry_across']  # something else fills the image
 
 
 def ladder(first, last, rungs=17):
