@@ -79,7 +79,7 @@ std::string badImages(const OdometryRig::ImageChange& change, int pairs = 1) {
 /// Chance matches may pass as a short motion, which is lost or degraded at the last pair.
 std::string withoutChance(const std::string& observed) {
   return std::regex_replace(observed,
-                            std::regex("lost, (pose held|pose moved [01]\\.[0-9] m), covariance "
+                            std::regex("lost, (pose held|pose moved [0-2](\\.[0-9])? m), covariance "
                                        "grows, twist unknown|degraded, moved 0\\.[0-9] m of 0.4 m"),
                             "lost or degraded");
 }
