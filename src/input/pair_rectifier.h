@@ -7,7 +7,7 @@
 
 namespace rotrocc {
 
-/// Rectifies pairs by a calibration, with maps that are made anew only when it changes.
+/// Rectifies pairs by a calibration, with maps that are rebuilt only when it changes.
 class PairRectifier {
  public:
   /// `threads`: of StereoRectifier.

@@ -26,7 +26,7 @@ class TrajectoryScene {
   void setState(const OdometryStatus& status);
   void setTruth(const nav_msgs::Path& truth);
 
-  /// The next pose. Begins anew if time went back, or the frame is another one.
+  /// The next pose. Restarts if time went back, or the frame is another one.
   void add(const nav_msgs::Odometry& odometry);
 
   bool empty() const { return way_.empty(); }

@@ -84,7 +84,7 @@ TEST_F(TrajectorySceneTest, KeepsNoMorePointsThanAreSeen) {
   EXPECT_EQ(marker("estimate").points.back().x, 999.0);
 }
 
-TEST_F(TrajectorySceneTest, BeginsAnewAfterAJumpBackOrInAnotherFrame) {
+TEST_F(TrajectorySceneTest, RestartsAfterAJumpBackOrInAnotherFrame) {
   for (int i = 0; i < 100; ++i) addAt(i, i);
   addAt(500.0, 0.0);
   EXPECT_EQ(marker("estimate").points.size(), 2u);
