@@ -14,17 +14,14 @@ namespace {
 
 using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-[[noreturn]] void refuse(const std::string& sentence) {
-  throw InputError(DropReason::kCameraInfoInvalid, sentence);
-}
-
 RawCamera toRawCamera(const std::string& side, const sensor_msgs::CameraInfo& info) {
   const auto& K = info.K;
   const double binning_x = std::max(info.binning_x, 1u);
   const double binning_y = std::max(info.binning_y, 1u);
   if (!(K[0] > 0.0 && K[4] > 0.0)) {
-    refuse("K of the " + side + " camera_info has focal lengths " + toText(K[0]) + " and " +
-           toText(K[4]) + " px, but rectification needs them: calibrate the camera");
+    refuseCameraInfo("K of the " + side + " camera_info has focal lengths " + toText(K[0]) +
+                     " and " + toText(K[4]) +
+                     " px, but rectification needs them: calibrate the camera");
   }
   RawCamera raw;
   raw.fx = K[0] / binning_x;
@@ -36,7 +33,7 @@ RawCamera toRawCamera(const std::string& side, const sensor_msgs::CameraInfo& in
     // Drivers without a calibration leave the name empty.
     raw.distortion = {info.distortion_model.empty() ? "plumb_bob" : info.distortion_model, info.D};
   } catch (const std::invalid_argument& error) {
-    refuse("D of the " + side + " camera_info: " + error.what());
+    refuseCameraInfo("D of the " + side + " camera_info: " + error.what());
   }
   return raw;
 }
@@ -45,7 +42,7 @@ void checkRaw(const std::string& side, const RawCamera& raw) {
   try {
     raw.check();
   } catch (const std::invalid_argument& error) {
-    refuse("the " + side + " camera_info: " + error.what());
+    refuseCameraInfo("the " + side + " camera_info: " + error.what());
   }
 }
 

@@ -23,29 +23,27 @@ struct Projection {
   double tx, ty;  // P[3], P[7]: the camera's position, times minus the focal length
 };
 
-[[noreturn]] void refuse(const std::string& sentence) {
-  throw InputError(DropReason::kCameraInfoInvalid, sentence);
-}
-
 void checkProjection(const std::string& side, const sensor_msgs::CameraInfo& info) {
   const auto& P = info.P;
   const std::string its = "P of the " + side + " camera_info";
   if (std::all_of(P.begin(), P.end(), [](double value) { return value == 0.0; })) {
-    refuse(its + " is all zeros: the camera is not calibrated; calibrate it as a stereo pair");
+    refuseCameraInfo(its +
+                     " is all zeros: the camera is not calibrated; calibrate it as a stereo pair");
   }
   for (std::size_t i = 0; i < P.size(); ++i) {
     if (std::isfinite(P[i])) continue;
-    refuse("P[" + toText(i) + "] of the " + side + " camera_info is " + toText(P[i]) +
-           ": check the calibration file of the driver");
+    refuseCameraInfo("P[" + toText(i) + "] of the " + side + " camera_info is " + toText(P[i]) +
+                     ": check the calibration file of the driver");
   }
   if (!(P[0] > 0.0 && P[5] > 0.0)) {
-    refuse(its + " has focal lengths P[0] = " + toText(P[0]) + " and P[5] = " + toText(P[5]) +
-           " px, but both must be positive: is the camera calibrated?");
+    refuseCameraInfo(its + " has focal lengths P[0] = " + toText(P[0]) + " and P[5] = " +
+                     toText(P[5]) + " px, but both must be positive: is the camera calibrated?");
   }
   if (P[1] != 0.0 || P[4] != 0.0 || P[8] != 0.0 || P[9] != 0.0 || P[10] != 1.0) {
-    refuse(its + " is not [fx 0 cx tx; 0 fy cy ty; 0 0 1 0], as for a rectified camera: P[1] = " +
-           toText(P[1]) + ", P[4] = " + toText(P[4]) + ", P[8] = " + toText(P[8]) + ", P[9] = " +
-           toText(P[9]) + ", P[10] = " + toText(P[10]) + "; calibrate the cameras as a pair");
+    refuseCameraInfo(
+        its + " is not [fx 0 cx tx; 0 fy cy ty; 0 0 1 0], as for a rectified camera: P[1] = " +
+        toText(P[1]) + ", P[4] = " + toText(P[4]) + ", P[8] = " + toText(P[8]) + ", P[9] = " +
+        toText(P[9]) + ", P[10] = " + toText(P[10]) + "; calibrate the cameras as a pair");
   }
 }
 
@@ -69,32 +67,36 @@ Projection toProjection(const std::string& side, const sensor_msgs::CameraInfo& 
 
 void requireEqual(const std::string& name, double left, double right) {
   if (std::abs(left - right) <= kMaxMismatch_px) return;
-  refuse("the cameras are not rectified as a pair: " + name + " is " + toText(left) +
-         " px in the left camera_info and " + toText(right) +
-         " px in the right one; calibrate them together");
+  refuseCameraInfo("the cameras are not rectified as a pair: " + name + " is " + toText(left) +
+                   " px in the left camera_info and " + toText(right) +
+                   " px in the right one; calibrate them together");
 }
 
 void requireSideBySide(const Projection& left, const Projection& right) {
   const std::string values =
       toText(left.tx + 0.0) + " left and " + toText(right.tx + 0.0) + " right";  // no "-0"
   if (left.tx == right.tx) {
-    refuse(
+    refuseCameraInfo(
         "the baseline is zero: P[3] of camera_info, which is -fx times the camera's position, is " +
         values + "; calibrate the cameras as a pair, or set the parameter baseline_m");
   }
   if (left.tx < right.tx) {
-    refuse(
+    refuseCameraInfo(
         "the baseline is negative: P[3] of camera_info, which is -fx times the camera's "
         "position, is " +
         values + "; are left and right swapped?");
   }
   if (std::abs(left.ty - right.ty) > kMaxOffRowShare * (left.tx - right.tx)) {
-    refuse("the cameras are not side by side: P[7] of camera_info is " + toText(left.ty) +
-           " left and " + toText(right.ty) + " right, P[3] " + values);
+    refuseCameraInfo("the cameras are not side by side: P[7] of camera_info is " + toText(left.ty) +
+                     " left and " + toText(right.ty) + " right, P[3] " + values);
   }
 }
 
 }  // namespace
+
+void refuseCameraInfo(const std::string& sentence) {
+  throw InputError(DropReason::kCameraInfoInvalid, sentence);
+}
 
 StereoCamera toStereoCamera(const sensor_msgs::CameraInfo& left_info,
                             const sensor_msgs::CameraInfo& right_info,
@@ -102,9 +104,9 @@ StereoCamera toStereoCamera(const sensor_msgs::CameraInfo& left_info,
   const Projection left = toProjection("left", left_info);
   const Projection right = toProjection("right", right_info);
   if (left.width != right.width || left.height != right.height) {
-    refuse("the left camera_info is for images of " + sizeText(left.width, left.height) +
-           ", the right one for " + sizeText(right.width, right.height) +
-           ": set both cameras to the same resolution");
+    refuseCameraInfo("the left camera_info is for images of " + sizeText(left.width, left.height) +
+                     ", the right one for " + sizeText(right.width, right.height) +
+                     ": set both cameras to the same resolution");
   }
   requireEqual("fx", left.fx, right.fx);
   requireEqual("fy", left.fy, right.fy);
@@ -123,7 +125,7 @@ StereoCamera toStereoCamera(const sensor_msgs::CameraInfo& left_info,
   try {
     camera.check();
   } catch (const std::invalid_argument& error) {
-    refuse(std::string("camera_info is not a valid camera: ") + error.what());
+    refuseCameraInfo(std::string("camera_info is not a valid camera: ") + error.what());
   }
   return camera;
 }

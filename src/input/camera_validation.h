@@ -19,6 +19,9 @@ StereoCamera toStereoCamera(const sensor_msgs::CameraInfo& left,
                             const sensor_msgs::CameraInfo& right,
                             double baseline_m = 0.0);
 
+/// Throws InputError for a camera_info, with the sentence.
+[[noreturn]] void refuseCameraInfo(const std::string& sentence);
+
 /// A warning about an unlikely camera, e.g. with a baseline in millimetres; empty if none.
 std::string oddityOf(const StereoCamera& camera);
 

@@ -12,7 +12,7 @@
 namespace rotrocc {
 namespace {
 
-constexpr int kQueueSize = 5;
+constexpr int kImageQueueSize = 5;
 
 using Side = StereoIntake::Side;
 
@@ -49,7 +49,7 @@ image_transport::Subscriber subscribe(
   image_transport::ImageTransport images(nh);
   try {
     const std::string topic = topicOf(nh, name, transport);
-    return images.subscribe(topic, kQueueSize, callback, object, hints);
+    return images.subscribe(topic, kImageQueueSize, callback, object, hints);
   } catch (const image_transport::TransportLoadException& error) {
     throw std::runtime_error("image_transport is " + transport + ", but this machine only has " +
                              listOf(images.getLoadableTransports()) +
@@ -70,9 +70,9 @@ StereoInput::StereoInput(ros::NodeHandle& nh,
                          Log log)
     : intake_(parameters, drops, std::move(on_pair), std::move(log)) {
   left_info_subscriber_ =
-      nh.subscribe("left/camera_info", kQueueSize, &StereoInput::onLeftInfo, this);
+      nh.subscribe("left/camera_info", kImageQueueSize, &StereoInput::onLeftInfo, this);
   right_info_subscriber_ =
-      nh.subscribe("right/camera_info", kQueueSize, &StereoInput::onRightInfo, this);
+      nh.subscribe("right/camera_info", kImageQueueSize, &StereoInput::onRightInfo, this);
   left_image_subscriber_ = subscribe(nh, "left", parameters, &StereoInput::onLeftImage, this);
   right_image_subscriber_ = subscribe(nh, "right", parameters, &StereoInput::onRightImage, this);
 }

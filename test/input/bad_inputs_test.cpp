@@ -78,10 +78,11 @@ std::string badImages(const OdometryRig::ImageChange& change, int pairs = 1) {
 
 /// Chance matches may pass as a short motion, which is lost or degraded at the last pair.
 std::string withoutChance(const std::string& observed) {
-  return std::regex_replace(observed,
-                            std::regex("lost, (pose held|pose moved [0-2](\\.[0-9])? m), covariance "
-                                       "grows, twist unknown|degraded, moved 0\\.[0-9] m of 0.4 m"),
-                            "lost or degraded");
+  return std::regex_replace(
+      observed,
+      std::regex("lost, (pose held|pose moved [0-2](\\.[0-9])? m), covariance "
+                 "grows, twist unknown|degraded, moved 0\\.[0-9] m of 0.4 m"),
+      "lost or degraded");
 }
 
 /// A pair with a changed left image, then valid ones.

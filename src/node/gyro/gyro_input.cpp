@@ -12,7 +12,7 @@
 namespace rotrocc {
 namespace {
 
-constexpr int kQueueSize = 1000;  // a second of the fastest gyroscopes
+constexpr int kSampleQueueSize = 1000;  // a second of the fastest gyroscopes
 
 }  // namespace
 
@@ -22,7 +22,7 @@ GyroInput::GyroInput(const ros::NodeHandle& nh, double timeout_s, Log log)
   own.setCallbackQueue(&queue_);
   subscriber_ = own.subscribe<sensor_msgs::Imu>(
       "imu",
-      kQueueSize,
+      kSampleQueueSize,
       [this](const sensor_msgs::Imu::ConstPtr& message) { receive(*message); },
       ros::VoidConstPtr(),
       ros::TransportHints().tcpNoDelay());

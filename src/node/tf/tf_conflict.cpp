@@ -11,7 +11,7 @@ namespace rotrocc {
 namespace {
 
 constexpr std::chrono::milliseconds kPeriod(100);
-constexpr std::uint32_t kQueueSize = 1000;  // of a period
+constexpr std::uint32_t kTfQueueSize = 1000;  // of a period
 constexpr std::chrono::seconds kGone(5);
 
 using SteadyClock = std::chrono::steady_clock;
@@ -106,9 +106,9 @@ TfConflict::TfConflict(PublishedTf own, const std::string& base_frame, Log log)
   ros::NodeHandle nh;  // like that of the broadcaster: tf is not remapped for a nodelet
   nh.setCallbackQueue(&queue_);
   tf_subscriber_ = nh.subscribe<tf2_msgs::TFMessage const, const Event&>(
-      "/tf", kQueueSize, [this](const Event& event) { onTf(event, false); });
+      "/tf", kTfQueueSize, [this](const Event& event) { onTf(event, false); });
   static_tf_subscriber_ = nh.subscribe<tf2_msgs::TFMessage const, const Event&>(
-      "/tf_static", kQueueSize, [this](const Event& event) { onTf(event, true); });
+      "/tf_static", kTfQueueSize, [this](const Event& event) { onTf(event, true); });
   Neighbours::instance().add(own_);
   thread_ = std::thread(&TfConflict::watch, this);
 }
