@@ -34,14 +34,15 @@ struct StageCounts {
   int tries = 0;  ///< number of times the features were tracked and a motion estimated
 };
 
-/// Wall time of each stage [ms], summed over all tries.
+/// Wall time of each stage [ms], summed over all tries, and with what prepare() did for the pair.
 struct StageTimes {
   double pyramids_ms = 0.0;
   double corners_ms = 0.0;
   double disparity_ms = 0.0;
   double tracking_ms = 0.0;
   double estimation_ms = 0.0;
-  double total_ms = 0.0;
+  double total_ms = 0.0;     ///< of process()
+  double prepared_ms = 0.0;  ///< of prepare() before this pair arrived; not in total_ms
 };
 
 /// The estimated bias of the disparities.

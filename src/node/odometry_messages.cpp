@@ -160,6 +160,7 @@ OdometryStatus toStatus(const OdometryResult& result,
   message.time_tracking = static_cast<float>(result.times.tracking_ms);
   message.time_estimation = static_cast<float>(result.times.estimation_ms);
   message.time_total = static_cast<float>(result.times.total_ms);
+  message.time_prepared = static_cast<float>(result.times.prepared_ms);
   message.latency = static_cast<float>(latency_ms);
 
   addCounters(health, message);

@@ -175,6 +175,7 @@ void StereoOdometry::process(const ReceivedPair& received, const Eigen::Isometry
   writeTrajectory(answer.state);
   logState(answer);
   publish(answer, received);
+  processor_.prepare();
 }
 
 void StereoOdometry::publish(const PairAnswer& answer, const ReceivedPair& received) {

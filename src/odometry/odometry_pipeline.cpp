@@ -38,6 +38,8 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
                                                  const OtherSensors& others) {
   OdometryResult result;
   result.stamp_ns = pair.stamp_ns;
+  result.times = std::exchange(prepared_, {});
+  result.times.prepared_ms = std::exchange(result.times.total_ms, 0.0);
   found_.clear();
   const StageTimer timer(result.times.total_ms);
   try {
@@ -58,6 +60,18 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
   result.time_skew = time_skew_.skew();
   result.row_offset.applied_px = result.hasMotion() ? keyframe_.row_offset_px : correctedRows();
   return result;
+}
+
+void VisualOdometry::Pipeline::prepare() {
+  // Until the rows are known, each keyframe adds to what is known of them. Not all keyframes that
+  // are prepared are used.
+  if (!last_ || keyframe_.frame || !rows_.isKnown()) return;
+  const StageTimer timer(prepared_.total_ms);
+  try {
+    makeKeyframe(last_, prepared_);
+  } catch (const std::exception&) {
+    keyframe_.frame.reset();  // process() tries again, and reports it
+  }
 }
 
 void VisualOdometry::Pipeline::reset() {
@@ -97,6 +111,8 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
   if (!result.reason.empty()) {
     forget();
     last_ = current;
+    // Now, as nobody waits for a motion.
+    makeKeyframe(last_, result.times);
     result.state = State::kInitialising;
     return;
   }

@@ -38,6 +38,7 @@ class VisualOdometry::Pipeline {
   OdometryResult process(const StereoPair& pair,
                          const StereoCamera& camera,
                          const OtherSensors& others);
+  void prepare();
   void reset();
   void configure(const Config& config);
 
@@ -81,6 +82,7 @@ class VisualOdometry::Pipeline {
   FramePtr lost_;        // latest frame without a motion since last_; may be null
   Keyframe keyframe_;    // no frame if it must be created from the last frame
 
+  StageTimes prepared_;  // of prepare() since the last pair
   Hypothesis found_;
   std::vector<float> searched_rows_px_;  // buffer, reused
   RowOffsets row_offsets_;               // buffer, reused

@@ -31,6 +31,10 @@ OdometryResult VisualOdometry::process(const StereoPair& pair,
   return pipeline_->process(pair, camera, {expected, measured_rotation});
 }
 
+void VisualOdometry::prepare() {
+  pipeline_->prepare();
+}
+
 void VisualOdometry::reset() {
   pipeline_->reset();
 }

@@ -118,6 +118,7 @@ PairRecord process(VisualOdometry& odometry,
   const double wall_ms = now(CLOCK_MONOTONIC);
   const double cpu_ms = now(CLOCK_PROCESS_CPUTIME_ID);
   PairRecord record;
+  odometry.prepare();  // as in the node, where it is done before the pair arrives
   record.result = odometry.process(pair, camera, std::nullopt, rotation);
   record.cpu_ms = now(CLOCK_PROCESS_CPUTIME_ID) - cpu_ms;
   record.wall_ms = now(CLOCK_MONOTONIC) - wall_ms;

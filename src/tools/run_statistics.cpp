@@ -68,7 +68,8 @@ void printTimes(std::ostream& out,
 StatisticsFile::StatisticsFile(const std::string& path) : path_(path), file_(path) {
   file_ << "stamp_ns,state,dt_s,tries,corners,with_depth,tracked,consistent,rotation_inliers,"
            "translation_inliers,pyramids_ms,corners_ms,disparity_ms,tracking_ms,estimation_ms,"
-           "wall_ms,cpu_ms,keyframe_stamp_ns,bias_estimated_px,bias_sigma_px,bias_applied_px,"
+           "prepared_ms,wall_ms,cpu_ms,keyframe_stamp_ns,bias_estimated_px,bias_sigma_px,bias_"
+           "applied_px,"
            "row_offset_px,row_offset_sigma_px,row_difference_px,row_offset_applied_px,time_skew_s,"
            "time_skew_sigma_s,exposure_gain,shared_error_ratio,flow_noise_px,x_m,y_m,z_m,rx_rad,"
            "ry_rad,rz_rad";
@@ -90,13 +91,13 @@ void StatisticsFile::write(const PairRecord& record) {
         << counts.tracked << ',' << counts.consistent << ',' << counts.rotation_inliers << ','
         << counts.translation_inliers << ',' << times.pyramids_ms << ',' << times.corners_ms << ','
         << times.disparity_ms << ',' << times.tracking_ms << ',' << times.estimation_ms << ','
-        << record.wall_ms << ',' << record.cpu_ms << ',' << result.keyframe_stamp_ns << ','
-        << result.disparity_bias.estimated_px << ',' << result.disparity_bias.sigma_px << ','
-        << result.disparity_bias.applied_px << ',' << result.row_offset.median_px << ','
-        << result.row_offset.sigma_px << ',' << result.row_offset.typical_px << ','
-        << result.row_offset.applied_px << ',' << result.time_skew.estimated_s << ','
-        << result.time_skew.sigma_s << ',' << result.exposure_gain << ','
-        << result.shared_error_ratio << ',' << result.flow_noise_px;
+        << times.prepared_ms << ',' << record.wall_ms << ',' << record.cpu_ms << ','
+        << result.keyframe_stamp_ns << ',' << result.disparity_bias.estimated_px << ','
+        << result.disparity_bias.sigma_px << ',' << result.disparity_bias.applied_px << ','
+        << result.row_offset.median_px << ',' << result.row_offset.sigma_px << ','
+        << result.row_offset.typical_px << ',' << result.row_offset.applied_px << ','
+        << result.time_skew.estimated_s << ',' << result.time_skew.sigma_s << ','
+        << result.exposure_gain << ',' << result.shared_error_ratio << ',' << result.flow_noise_px;
   for (const Eigen::Vector3d& part : {translation, rotation}) {
     for (const double value : {part.x(), part.y(), part.z()}) file_ << ',' << value;
   }
@@ -115,6 +116,9 @@ void printSummary(std::ostream& out, const std::vector<PairRecord>& records) {
   out << "ms per pair          mean   median      p95      p99\n";
   printTimes(out, "wall", records, [](const PairRecord& record) { return record.wall_ms; });
   printTimes(out, "cpu", records, [](const PairRecord& record) { return record.cpu_ms; });
+  printTimes(out, "latency", records, [](const PairRecord& record) {
+    return record.result.times.total_ms;
+  });
   for (const Stage& stage : kStages) {
     printTimes(out, stage.name, records, [&stage](const PairRecord& record) {
       return record.result.times.*stage.time_ms;

@@ -12,8 +12,8 @@ namespace rotrocc {
 /// Result and times of one pair, without reading its images.
 struct PairRecord {
   OdometryResult result;
-  double wall_ms = 0.0;
-  double cpu_ms = 0.0;  ///< all threads of the process
+  double wall_ms = 0.0;  ///< of VisualOdometry::prepare() and process()
+  double cpu_ms = 0.0;   ///< all threads of the process
 };
 
 /// CSV table with one row per pair: stamp, state, counts, times, the keyframe, the disparity bias,

@@ -184,6 +184,7 @@ TEST_F(StereoOdometryTest, DrivesForwardInAxesOfTheBase) {
   EXPECT_EQ(status_.drops.size(), drops_before);
   EXPECT_GT(status_.time_total, 0.0f);
   EXPECT_GE(status_.latency, status_.time_total);
+  EXPECT_GT(status_.time_prepared, 0.0f);
 }
 
 TEST_F(StereoOdometryTest, TfIsThePoseOfTheOdometry) {

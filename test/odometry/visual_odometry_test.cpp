@@ -269,7 +269,7 @@ TEST(VisualOdometryTest, SeesThatTheRightImageIsLower) {
   EXPECT_LT(offset.sigma_px, 0.05);
   odometry.reset();
   EXPECT_EQ(odometry.process(bend(0), camera()).row_offset.median_px, offset.median_px);
-  EXPECT_EQ(odometry.process(bend(1), wronglyCalibrated()).row_offset.median_px, 0.0);
+  EXPECT_NEAR(odometry.process(bend(1), wronglyCalibrated()).row_offset.median_px, 0.0, 0.1);
 }
 
 TEST(VisualOdometryTest, CorrectsTheRowsOfARig) {
@@ -311,6 +311,62 @@ TEST(VisualOdometryTest, FindsTheRowsOfAGoodRigAlike) {
   for (int i = 0; i < 4; ++i) result = odometry.process(bend(i), camera());
   EXPECT_NEAR(result.row_offset.median_px, 0.0, 0.05);
   EXPECT_LT(result.row_offset.typical_px, 0.2) << "the noise of the trackers";
+}
+
+/// The numbers of a result that depend on images, without times.
+std::vector<double> numbers(const OdometryResult& result) {
+  const Eigen::Matrix4d& motion = result.T_prev_cur.matrix();
+  std::vector<double> all(motion.data(), motion.data() + motion.size());
+  const Matrix6d& covariance = result.covariance;
+  all.insert(all.end(), covariance.data(), covariance.data() + covariance.size());
+  all.insert(all.end(),
+             {result.row_offset.median_px,
+              result.disparity_bias.estimated_px,
+              result.disparity_bias.sigma_px,
+              static_cast<double>(result.keyframe_stamp_ns),
+              static_cast<double>(result.counts.corners),
+              static_cast<double>(result.counts.consistent)});
+  return all;
+}
+
+TEST(VisualOdometryTest, PreparationChangesNoResult) {
+  VisualOdometry::Config fewer;
+  fewer.correspondence_finder.feature_detector.max_features = 300;
+  VisualOdometry prepared({});
+  VisualOdometry odometry({});
+  const auto expectTheSame = [&](const StereoPair& pair) {
+    prepared.prepare();
+    EXPECT_EQ(numbers(prepared.process(pair, wronglyCalibrated())),
+              numbers(odometry.process(pair, wronglyCalibrated())))
+        << "at " << pair.stamp_ns << " ns";
+  };
+  for (int i = 0; i < 3; ++i) expectTheSame(bend(i));
+  expectTheSame(black(bend(2).stamp_ns + 1));
+  expectTheSame(bend(3));
+  prepared.prepare();
+  prepared.configure(fewer);
+  odometry.configure(fewer);
+  expectTheSame(bend(4));
+  prepared.prepare();
+  prepared.reset();
+  odometry.reset();
+  expectTheSame(bend(5));
+  StereoPair late = bend(6);
+  late.stamp_ns += 60'000'000'000;
+  expectTheSame(late);
+  late = bend(7);
+  late.stamp_ns += 60'000'000'000;
+  expectTheSame(late);
+}
+
+TEST(VisualOdometryTest, TimesOfPreparationAreThoseOfTheNextPair) {
+  VisualOdometry odometry = started(3);
+  odometry.prepare();
+  odometry.prepare();  // does nothing
+  const StageTimes times = odometry.process(bend(3), camera()).times;
+  EXPECT_GT(times.prepared_ms, 0.0);
+  EXPECT_LE(times.corners_ms + times.disparity_ms, times.prepared_ms);
+  EXPECT_EQ(odometry.process(bend(4), camera()).times.prepared_ms, 0.0);
 }
 
 TEST(VisualOdometryTest, GoesOnWithOtherParameters) {
@@ -369,7 +425,7 @@ TEST(VisualOdometryTest, TellsWhatIsLeftAfterEachStage) {
   EXPECT_GT(times.estimation_ms, 0.0);
   EXPECT_LE(times.pyramids_ms + times.corners_ms + times.disparity_ms + times.tracking_ms +
                 times.estimation_ms,
-            times.total_ms);
+            times.prepared_ms + times.total_ms);
 }
 
 TEST(VisualOdometryTest, CorrespondencesAreThoseOfTheScene) {

@@ -43,6 +43,9 @@ class PairProcessor {
                      const MotionSource& expected = {},
                      const RotationSource& measured_rotation = {});
 
+  /// Prepares for the next pair, see VisualOdometry::prepare().
+  void prepare() { odometry_.prepare(); }
+
   const VisualOdometry& odometry() const { return odometry_; }
 
   /// Thread-safe. Sets the pose to the initial one; the next pair is a first one.
