@@ -49,7 +49,7 @@ class VisualOdometry {
                          const std::optional<Eigen::Isometry3d>& expected = std::nullopt,
                          const RotationSource& measured_rotation = {});
 
-  /// Finds the corners of the last pair and their disparities, which the next pair is compared with.
+  /// Finds the corners of the last pair and their disparities, that the next pair is compared with.
   /// To be called when the result of process() has been passed on: the next one is ready sooner.
   /// Without the call process() does the same, with the same results. Does nothing on the first
   /// pairs, and when the keyframe is kept. Never throws.

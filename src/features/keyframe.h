@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -24,5 +25,8 @@ struct Keyframe {
   UncertainTransform T_keyframe_last;  ///< the pose of the last frame in the keyframe
   int first_inliers = 0;               ///< of the first motion measured against it; 0 before
 };
+
+/// Stores in `few` a keyframe with at most `most_points` of the points, evenly chosen.
+void thinOut(const Keyframe& keyframe, std::size_t most_points, Keyframe& few);
 
 }  // namespace rotrocc

@@ -11,6 +11,9 @@ namespace {
 
 constexpr std::size_t kLeastFeatures = 4;
 
+/// As many tell the motion that most agree on; all of them take several times as long.
+constexpr std::size_t kMostFeatures = 200;
+
 /// Samples of three features. With half of the features wrong, one of 35 is expected to be the
 /// first without an outlier in 99 % of all cases; depths of far features are too inexact for most.
 constexpr int kSamples = 200;
@@ -28,7 +31,9 @@ std::optional<Eigen::Isometry3d> consensusMotion(const StereoCamera& camera,
   if (features.size() < kLeastFeatures) return std::nullopt;
   std::vector<cv::Point3d> points;
   std::vector<cv::Point2d> pixels;
-  for (const Correspondence& feature : features) {
+  const std::size_t step = (features.size() + kMostFeatures - 1) / kMostFeatures;
+  for (std::size_t i = 0; i < features.size(); i += step) {
+    const Correspondence& feature = features[i];
     points.emplace_back(feature.point_cur.x(), feature.point_cur.y(), feature.point_cur.z());
     pixels.emplace_back(feature.keyframe_px.x(), feature.keyframe_px.y());
   }

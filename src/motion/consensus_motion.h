@@ -10,9 +10,9 @@
 namespace rotrocc {
 
 /// The motion, current to keyframe, that most features agree on: perspective-three-point in a
-/// RANSAC loop. It is rough, but needs no initial value and tolerates many outliers. None if there
-/// are fewer than 4 features, or no three of them give a motion. The same features always give the
-/// same motion.
+/// RANSAC loop, over at most 200 of the features. It is rough, but needs no initial value and
+/// tolerates many outliers. None if there are fewer than 4 features, or no three of them give a
+/// motion. The same features always give the same motion.
 std::optional<Eigen::Isometry3d> consensusMotion(const StereoCamera& camera,
                                                  const Correspondences& features);
 

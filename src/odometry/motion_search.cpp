@@ -13,6 +13,10 @@ namespace {
 /// The motion is estimated once more if the applied bias changes by more than this.
 constexpr double kCalibrationSettled_px = 0.02;
 
+/// Features that a start at rest begins with. Tracking is what a start costs, and these find the
+/// motion as surely as all: RANSAC needs no more.
+constexpr std::size_t kScouts = 200;
+
 /// Whether to prefer hypothesis `a`.
 bool isBetter(const Hypothesis& a, const Hypothesis& b) {
   if (!b.isAccepted()) return true;
@@ -40,7 +44,7 @@ void MotionSearch::find(const Frames& frames,
   const Eigen::Isometry3d& T_keyframe_last = frames.keyframe.T_keyframe_last.T;
   const Start at_rest = startAt(T_keyframe_last, {});
   if (!expected.T_last_cur && !expected.R_last_cur) {
-    settle(frames, at_rest, most_tries, found, times);
+    findWithoutExpectation(frames, at_rest, most_tries, found, times);
     return;
   }
   const Start start = startAt(T_keyframe_last, expected);
@@ -63,6 +67,36 @@ MotionSearch::Start MotionSearch::startAt(const Eigen::Isometry3d& T_keyframe_la
   return start;
 }
 
+/// Starts where a part of the features leads, and at rest if that fails.
+void MotionSearch::findWithoutExpectation(const Frames& frames,
+                                          const Start& at_rest,
+                                          int most_tries,
+                                          Hypothesis& best,
+                                          StageTimes& times) {
+  const int others = most_tries - 1;  // one is kept for the start at rest
+  Start scouted = at_rest;
+  if (best.counts.tries < others && scout(frames, scouted, times)) {
+    const bool is_settled = settle(frames, scouted, others, best, times);
+    if (is_settled && best.isAccepted()) return;
+  }
+  settle(frames, at_rest, most_tries, best, times);
+}
+
+/// Moves `start` to the motion of a part of the features. Returns false if they are too few, or
+/// find none.
+bool MotionSearch::scout(const Frames& frames, Start& start, StageTimes& times) {
+  if (frames.keyframe.points.size() < 2 * kScouts) return false;
+  thinOut(frames.keyframe, kScouts, few_);
+  tryMotion({frames.finder, frames.camera, few_, frames.current, frames.shared_ratio},
+            start,
+            tried_,
+            times);
+  few_.frame.reset();
+  start.T_keyframe_cur = tried_.estimate.T_keyframe_cur;
+  start.is_scouted = true;
+  return tried_.isAccepted();
+}
+
 /// Tracks and estimates repeatedly, each time starting from the last result. `best` becomes the
 /// best hypothesis of these and itself. Returns whether it settled.
 bool MotionSearch::settle(
@@ -71,7 +105,9 @@ bool MotionSearch::settle(
     const int tries = best.counts.tries + 1;
     tryMotion(frames, start, tried_, times);
     const Eigen::Isometry3d T_found = tried_.estimate.T_keyframe_cur;
-    const bool is_usable = tried_.estimate.valid && tried_.counts.consistent >= least_features_;
+    bool is_usable = tried_.estimate.valid && tried_.counts.consistent >= least_features_;
+    // The features near a wrong prediction lead nowhere. A start at rest is better.
+    if (start.is_prediction && !tried_.isAccepted()) is_usable = false;
     if (isBetter(tried_, best)) std::swap(tried_, best);
     best.counts.tries = tries;
     if (!is_usable) return false;
@@ -107,7 +143,9 @@ void MotionSearch::tryMotion(const Frames& frames,
   counts.consistent = static_cast<int>(hypothesis.features.size());
   const StageTimer timer(times.estimation_ms);
   const double dt_s = secondsBetween(*frames.keyframe.frame, frames.current);
-  if (start.is_prediction) return estimate(start.T_keyframe_cur, true, dt_s, hypothesis);
+  if (start.is_prediction || start.is_scouted) {
+    return estimate(start.T_keyframe_cur, true, dt_s, hypothesis);
+  }
   const auto consensus = consensusMotion(frames.camera, hypothesis.features);
   estimate(consensus.value_or(start.T_keyframe_cur), consensus.has_value(), dt_s, hypothesis);
 }

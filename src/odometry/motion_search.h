@@ -44,7 +44,7 @@ class MotionSearch {
   /// they are tracked again from the result, until it settles. Starts at the expected motion,
   /// if there is one. Without one, starts at rest, turned by the expected rotation if there is one.
   /// If that does not settle, starts at rest. A start at rest since the last frame continues with
-  /// the motion that most features agree on.
+  /// the motion that most features agree on. If nothing is expected, a part of the features begins.
   ///
   /// `found` becomes the accepted hypothesis with the most inliers, or a rejected one if none is
   /// accepted. Its number of tries is added to that of `found`. There is at least one try, and none
@@ -74,9 +74,16 @@ class MotionSearch {
     Eigen::Isometry3d T_keyframe_cur;
     bool is_prediction;
     int levels;
+    bool is_scouted = false;
   };
 
   Start startAt(const Eigen::Isometry3d& T_keyframe_last, const Expectation& expected) const;
+  void findWithoutExpectation(const Frames& frames,
+                              const Start& at_rest,
+                              int most_tries,
+                              Hypothesis& best,
+                              StageTimes& times);
+  bool scout(const Frames& frames, Start& start, StageTimes& times);
   bool settle(
       const Frames& frames, Start start, int most_tries, Hypothesis& best, StageTimes& times);
   void tryMotion(const Frames& frames,
@@ -95,6 +102,7 @@ class MotionSearch {
   MotionCheck check_;
   PredictionError prediction_error_;
 
+  Keyframe few_;             // buffers of scout(), reused
   Hypothesis tried_;         // the latest, reused
   Hypothesis recalibrated_;  // buffers of calibrate(), reused
   FeatureSet consistent_;

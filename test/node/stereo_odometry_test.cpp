@@ -184,7 +184,14 @@ TEST_F(StereoOdometryTest, DrivesForwardInAxesOfTheBase) {
   EXPECT_EQ(status_.drops.size(), drops_before);
   EXPECT_GT(status_.time_total, 0.0f);
   EXPECT_GE(status_.latency, status_.time_total);
-  EXPECT_GT(status_.time_prepared, 0.0f);
+}
+
+TEST_F(StereoOdometryTest, FindsCornersBeforeThePairArrives) {
+  ASSERT_TRUE(waitUntil([&] {  // once the rows of the rig are known, if the keyframe is replaced
+    drive();
+    return status_.time_prepared > 0.0f;
+  }));
+  EXPECT_LE(status_.time_corners + status_.time_disparity, status_.time_prepared);
 }
 
 TEST_F(StereoOdometryTest, TfIsThePoseOfTheOdometry) {
