@@ -33,7 +33,8 @@ void BiasFilter::configure(const Config& config) {
   hypotheses_[1].walk_px = config.flex_px;
 }
 
-/// A pair that says little about the bias, as one at standstill, counts as a small share of a pair.
+/// A pair that says little about the bias, as one of a slow robot, counts as a small share of a
+/// pair.
 void BiasFilter::add(const BiasMeasurement& measurement) {
   shared_ratio2_ = sharedRatio2(measurement.shared_ratio2);
   const double prior_px2 = config_.prior_sigma_px * config_.prior_sigma_px;

@@ -21,6 +21,10 @@ constexpr int kMostSteps = 15;
 constexpr double kSettled_px = 0.05;
 constexpr double kLongestStep_px = 1.0;
 
+/// Standard deviation from which on a measurement says nothing: a drive has 0.02 to 0.6 px, a robot
+/// at rest 10 px and more.
+constexpr double kMostSigma_px = 5.0;
+
 }  // namespace
 
 bool BiasMeter::measure(const StereoCamera& camera,
@@ -35,7 +39,10 @@ bool BiasMeter::measure(const StereoCamera& camera,
     if (set[i] != 0) features_.push_back(features[i]);
   }
   for (int step = 0; step < kMostSteps && features_.size() >= kLeastFeatures; ++step) {
-    const Cells cells = eliminateMotion(collect(Curvature::kConvex));
+    const Sums sums = collect(Curvature::kConvex);
+    const Cells cells = eliminateMotion(sums);
+    const double variance_px2 = sums.variance.value(kParameters) / cells.bias_information;
+    if (!(variance_px2 < kMostSigma_px * kMostSigma_px)) return false;
     if (!std::isfinite(cells.bias_px)) return false;
     const double change_px = std::clamp(cells.bias_px, -kLongestStep_px, kLongestStep_px);
     const Vector6d moved = cells.motion_step + cells.motion_by_bias * change_px;

@@ -35,7 +35,7 @@ class BiasMeter {
       : noise_ratio_(noise_ratio), robust_factor_(robust_factor) {}
 
   /// Starts at the given motion, with depths as triangulated for `camera`. Returns false if the
-  /// flagged features do not determine a bias.
+  /// flagged features do not determine a bias, as at standstill.
   bool measure(const StereoCamera& camera,
                const Correspondences& features,
                const FeatureSet& set,

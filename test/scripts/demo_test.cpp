@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <regex>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
 
 #include "support/background_command.h"
 #include "support/read_file.h"
@@ -41,6 +43,21 @@ class DemoTest : public ::testing::Test {
 
   TemporaryDirectory directory_;
 };
+
+/// rviz subscribes for the displays that are enabled.
+TEST_F(DemoTest, AwaitsATopicThatRvizShows) {
+  const std::string script = readFile(DEMO);
+  std::smatch awaited;
+  ASSERT_TRUE(
+      std::regex_search(script, awaited, std::regex("info /stereo/(\\w+) \\| grep -q rviz")));
+  bool is_shown = false;
+  for (const YAML::Node& display : YAML::LoadFile(RVIZ)["Visualization Manager"]["Displays"]) {
+    const YAML::Node topic = display["Marker Topic"] ? display["Marker Topic"] : display["Topic"];
+    if (!topic || topic.as<std::string>() != awaited[1]) continue;
+    is_shown = display["Enabled"].as<bool>();
+  }
+  EXPECT_TRUE(is_shown) << awaited[1];
+}
 
 TEST_F(DemoTest, ReplaysADriveWhileItIsRenderedAndKeepsIt) {
   const std::string options = "--headless --drive 'parking --size 310x94 --focal 180 --frames 12'";
