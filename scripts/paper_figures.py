@@ -1,10 +1,9 @@
 """The plots of paper_experiments. Each function writes one PNG."""
 import collections
 
-from matplotlib import pyplot
 import numpy
 
-from plot_style import BLACK, BLUE, GREEN, ORANGE, PURPLE, VERMILLION, save
+from plot_style import BLACK, BLUE, GREEN, ORANGE, PURPLE, VERMILLION, pyplot, save
 
 COLOURS = {'rotrocc': BLUE, 'reprojection': VERMILLION, 'rocc': GREEN, 'truth': BLACK,
            'mean_based': ORANGE, 'std_based': PURPLE}

@@ -1,7 +1,5 @@
 """The figure of scripts/performance: scaling of the cost."""
-from matplotlib import pyplot
-
-from plot_style import BLUE, FAINT, ORANGE, TEXT, VERMILLION, dress, save
+from plot_style import BLUE, FAINT, ORANGE, TEXT, VERMILLION, dress, pyplot, save
 from speed_runs import CPU, WALL
 
 LINES = [(0, WALL, 'wall, 1 thread', BLUE, 'o'), (1, WALL, 'wall, 2 threads', ORANGE, 's'),

@@ -1,4 +1,4 @@
-"""Style of all plots."""
+"""Style of all plots. Scripts take pyplot from here: it needs a backend that needs no display."""
 import matplotlib
 matplotlib.use('Agg')
 from matplotlib import pyplot

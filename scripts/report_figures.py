@@ -2,11 +2,11 @@
 
 Tables are {column: array}, as report_tables.read_columns() gives them.
 """
-from matplotlib import patches, pyplot, ticker
+from matplotlib import patches, ticker
 import numpy
 
 from plot_style import (BLACK, BLUE, DEGRADED, FAINT, GREEN, LOST, ORANGE, SKY, TEXT, VERMILLION,
-                        dress, legend, save)
+                        dress, legend, pyplot, save)
 
 WIDTH_IN = 8.4
 EARLIER = {'color': FAINT, 'linestyle': (0, (4, 2)), 'linewidth': 1.3}

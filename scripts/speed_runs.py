@@ -13,7 +13,10 @@ STAGES = ['pyramids', 'corners', 'disparity', 'tracking', 'estimation']
 WALL, CPU, MEMORY, ERROR = ('wall mean [ms]', 'cpu mean [ms]', 'odometry memory [MB]',
                             'translation error [%]')
 P95 = 'wall p95 [ms]'
+P99 = 'wall p99 [ms]'
 MEDIAN = 'wall median [ms]'
+LATENCY = 'latency mean [ms]'
+FIRST_LATENCY = 'latency of the first motion [ms]'
 
 
 class Setting:
@@ -59,10 +62,14 @@ class Setting:
             return numpy.array([float(pair[name]) for pair in pairs])
 
         wall = column('wall_ms')
+        latency = wall
+        if 'prepared_ms' in pairs[0]:  # earlier builds do nothing before a pair arrives
+            latency = wall - column('prepared_ms')
         figures = collections.OrderedDict([
             (WALL, wall.mean()), (MEDIAN, numpy.median(wall)),
-            (P95, numpy.percentile(wall, 95)), ('wall p99 [ms]', numpy.percentile(wall, 99)),
-            (CPU, column('cpu_ms').mean())])
+            (P95, numpy.percentile(wall, 95)), (P99, numpy.percentile(wall, 99)),
+            (CPU, column('cpu_ms').mean()), (LATENCY, latency.mean()),
+            (FIRST_LATENCY, latency[1] if len(latency) > 1 else float('nan'))])
         for stage in STAGES:
             figures['  %s [ms]' % stage] = column(stage + '_ms').mean()
         figures['features tracked'] = column('tracked').mean()

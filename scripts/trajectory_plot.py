@@ -2,10 +2,10 @@
 import math
 import warnings
 
-from matplotlib import pyplot, ticker
+from matplotlib import ticker
 import numpy
 
-from plot_style import DEGRADED, ESTIMATE, FAINT, LOST, TEXT, TRUTH, dress, legend, save
+from plot_style import DEGRADED, ESTIMATE, FAINT, LOST, TEXT, TRUTH, dress, legend, pyplot, save
 
 PAGE_IN = 8.0
 

@@ -16,9 +16,11 @@ namespace rotrocc {
 class ScriptTest : public ::testing::Test {
  protected:
   /// To be called by SetUpTestSuite(). The script's output goes to the folder out of directory().
+  /// It must choose the backend of matplotlib itself: the default one may need what is missing.
   static void runScript(const std::string& script, const std::string& options = "") {
-    result_ = runCommand(std::string(PYTHON) + " " + script + " --short --programs " + PROGRAMS +
-                         " --output " + outputPath("") + " " + options);
+    result_ = runCommand(std::string("MPLBACKEND=module://none ") + PYTHON + " " + script +
+                         " --short --programs " + PROGRAMS + " --output " + outputPath("") + " " +
+                         options);
   }
   static void TearDownTestSuite() { directory_.reset(); }
 

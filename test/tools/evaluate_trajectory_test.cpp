@@ -56,7 +56,9 @@ class EvaluateTrajectoryTest : public ::testing::Test {
   }
 
   CommandResult run(const std::string& arguments) const {
-    return runCommand("cd " + directory_ / "" + " && " + EVALUATE_TRAJECTORY + " " + arguments);
+    // The default backend of matplotlib may need a display, or what is not installed.
+    return runCommand("cd " + directory_ / "" + " && MPLBACKEND=module://none " +
+                      EVALUATE_TRAJECTORY + " " + arguments);
   }
 
   CsvRow summary() const { return readCsv(directory_ / "report/summary.csv").at(0); }
