@@ -4,24 +4,38 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "common/sentence.h"
+#include "evaluation/image_codecs.h"
+#include "evaluation/png.h"
 
 namespace rotrocc {
 namespace {
 
-cv::Mat readImage(const std::string& path, int flags) {
+/// With 8 or 16 bits.
+cv::Mat readGrey(const std::string& path) {
   if (!std::filesystem::exists(path)) throw std::runtime_error(path + " is missing");
-  cv::Mat image = cv::imread(path, flags);
-  if (image.empty()) throw std::runtime_error(path + " is not a readable image");
+  if (isPng(path)) return readGreyPng(path);
+  cv::Mat image = readGreyByOpenCv(path);
+  if (image.empty()) {
+    throw std::runtime_error(path +
+                             " is not a readable image: is it damaged, or no image? Copy it again");
+  }
   return image;
+}
+
+/// Rounded down, as a shift is.
+cv::Mat to8Bits(const cv::Mat& image, int significant_bits) {
+  if (image.depth() == CV_8U) return image;
+  const double scale = std::ldexp(1.0, 8 - significant_bits);
+  cv::Mat grey;
+  image.convertTo(grey, CV_8U, scale, 0.5 * (scale - 1.0));
+  return grey;
 }
 
 }  // namespace
 
 cv::Mat readGreyImage(const std::string& path) {
-  return readImage(path, cv::IMREAD_GRAYSCALE);
+  return to8Bits(readGrey(path), 16);
 }
 
 void requireImageSize(const std::string& path,
@@ -44,16 +58,12 @@ void requireImageSize(const std::string& path,
 }
 
 cv::Mat GreyImageReader::read(const std::string& path) {
-  const cv::Mat image = readImage(path, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
-  if (image.depth() != CV_16U) return image.depth() == CV_8U ? image : readGreyImage(path);
+  const cv::Mat image = readGrey(path);
+  if (image.depth() == CV_8U) return image;
   double largest = 0.0;
   cv::minMaxLoc(image, nullptr, &largest);
   while (largest >= std::ldexp(1.0, significant_bits_)) ++significant_bits_;
-  // Rounded down, as a shift is.
-  const double scale = std::ldexp(1.0, 8 - significant_bits_);
-  cv::Mat grey;
-  image.convertTo(grey, CV_8U, scale, 0.5 * (scale - 1.0));
-  return grey;
+  return to8Bits(image, significant_bits_);
 }
 
 }  // namespace rotrocc

@@ -4,8 +4,7 @@
 #include <iomanip>
 #include <stdexcept>
 
-#include <opencv2/imgcodecs.hpp>
-
+#include "evaluation/png.h"
 #include "inertial/gyro_file.h"
 
 namespace rotrocc {
@@ -111,7 +110,8 @@ void AslWriter::writeImage(const std::string& camera,
   const std::string name = std::to_string(stamp_ns) + ".png";
   const std::string path = root_ + "/" + camera + "/data/" + name;
   list << stamp_ns << ',' << name << '\n';
-  if (!cv::imwrite(path, image) || !list.flush()) throw std::runtime_error("cannot write " + path);
+  if (!list.flush()) throw std::runtime_error("cannot write the list of " + path);
+  writePng(path, image);
 }
 
 void AslWriter::write(const SimulatedFrame& frame, const Eigen::Isometry3d& T_first_left) {

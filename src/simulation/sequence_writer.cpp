@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include <opencv2/imgcodecs.hpp>
-
+#include "evaluation/image_codecs.h"
+#include "evaluation/png.h"
 #include "rotrocc/trajectory.h"
 #include "simulation/rows.h"
 
@@ -61,12 +61,6 @@ void writePoses(const fs::path& path, const Simulator& simulator) {
   }
 }
 
-std::vector<uchar> encoded(const fs::path& path, const cv::Mat& image) {
-  std::vector<uchar> bytes;
-  cv::imencode(path.extension().string(), image, bytes);
-  return bytes;
-}
-
 /// The file has its name when it is complete.
 void writeFile(const fs::path& path, const std::vector<uchar>& bytes) {
   const fs::path unfinished = path.string() + ".part";
@@ -76,10 +70,6 @@ void writeFile(const fs::path& path, const std::vector<uchar>& bytes) {
   file.close();
   if (!file) throw std::runtime_error("cannot write " + path.string() + ": is the disk full?");
   fs::rename(unfinished, path);
-}
-
-void writeImage(const fs::path& path, const cv::Mat& image) {
-  writeFile(path, encoded(path, image));
 }
 
 cv::Mat storableDepth(const cv::Mat& depth) {
@@ -126,12 +116,12 @@ void SequenceWriter::write(const SimulatedFrame& frame) {
   const std::string names[] = {path("image_0", ".png"), path("image_1", ".png")};
   std::vector<uchar> images[2];
   forEachRow(2, [&](int side) {
-    images[side] = encoded(names[side], side == 0 ? frame.pair.left : frame.pair.right);
+    images[side] = encodePng(side == 0 ? frame.pair.left : frame.pair.right);
   });
   for (const int side : {0, 1}) writeFile(names[side], images[side]);
   if (with_truth_) {
-    writeImage(path("depth", ".tiff"), storableDepth(frame.depth));
-    if (!frame.flow.empty()) writeImage(path("flow", ".png"), storableFlow(frame.flow));
+    writeFile(path("depth", ".tiff"), encodeByOpenCv(".tiff", storableDepth(frame.depth)));
+    if (!frame.flow.empty()) writeFile(path("flow", ".png"), encodePng(storableFlow(frame.flow)));
   }
   ++count_;
 }

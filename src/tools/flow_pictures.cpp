@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include <opencv2/imgcodecs.hpp>
+#include "evaluation/png.h"
 
 namespace rotrocc {
 
@@ -31,9 +31,7 @@ void FlowPictures::write(const StereoPair& pair,
                   picture_);
   char name[32];
   std::snprintf(name, sizeof(name), "/%06d.png", pairs_++);
-  if (!cv::imwrite(folder_ + name, picture_)) {
-    throw std::runtime_error("cannot write " + folder_ + name);
-  }
+  writePng(folder_ + name, picture_);
 }
 
 }  // namespace rotrocc

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <boost/program_options.hpp>
-#include <opencv2/imgcodecs.hpp>
 
+#include "evaluation/png.h"
 #include "rotrocc/kitti.h"
 #include "simulation/stress/image_stress.h"
 #include "tools/program.h"
@@ -80,8 +80,7 @@ bool parse(int argc, char** argv, Options& options) {
 void writeImage(const fs::path& folder, int index, const cv::Mat& image) {
   std::ostringstream name;
   name << std::setw(6) << std::setfill('0') << index << ".png";
-  const std::string path = (folder / name.str()).string();
-  if (!cv::imwrite(path, image)) throw std::runtime_error("cannot write " + path);
+  writePng((folder / name.str()).string(), image);
 }
 
 void run(const Options& options) {
