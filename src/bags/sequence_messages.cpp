@@ -6,12 +6,12 @@
 #include <stdexcept>
 #include <string>
 
-#include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/image_encodings.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <boost/make_shared.hpp>
 
 #include "bags/ground_truth.h"
+#include "input/image_message.h"
 #include "input/message_conversion.h"
 #include "sequences/camera_info_calibration.h"
 
@@ -67,7 +67,7 @@ SequenceMessages::Camera message(sensor_msgs::CameraInfo info,
                                  const ros::Time& stamp) {
   info.header.stamp = stamp;
   return {boost::make_shared<sensor_msgs::CameraInfo>(info),
-          cv_bridge::CvImage(info.header, sensor_msgs::image_encodings::MONO8, image).toImageMsg()};
+          toImage(info.header, sensor_msgs::image_encodings::MONO8, image)};
 }
 
 }  // namespace
