@@ -3,11 +3,11 @@
 #include <chrono>
 #include <cmath>
 
-#include <cv_bridge/cv_bridge.h>
 #include <nav_msgs/Path.h>
 #include <sensor_msgs/image_encodings.h>
 #include <boost/make_shared.hpp>
 
+#include "input/image_message.h"
 #include "input/message_conversion.h"
 #include "node/advertise.h"
 #include "rotrocc/flow_picture.h"
@@ -105,8 +105,7 @@ void OdometryPublisher::publishPictures(const cv::Mat& left,
                      result},
                     flow_view_,
                     picture_);
-    flow_publisher_.publish(
-        cv_bridge::CvImage(header, sensor_msgs::image_encodings::BGR8, picture_).toImageMsg());
+    flow_publisher_.publish(toImage(header, sensor_msgs::image_encodings::BGR8, picture_));
   }
 }
 
