@@ -44,6 +44,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> kPage = {
       "realism",
       "limits",
       "performance",
+      "startup",
       "gyroscope",
       "paper_experiments",
       "soak",
