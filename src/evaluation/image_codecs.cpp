@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <filesystem>
 #include <stdexcept>
 
 #include "evaluation/opencv_codecs.h"
@@ -11,9 +12,17 @@ namespace {
 
 constexpr const char* kLibrary = "librotrocc_image_codecs.so";
 
+/// Beside this one, if it is there. (The dlopen() of AddressSanitizer does not know an RPATH.)
+std::string libraryPath() {
+  Dl_info own = {};
+  if (dladdr(&kLibrary, &own) == 0) return kLibrary;
+  const auto path = std::filesystem::path(own.dli_fname).replace_filename(kLibrary);
+  return std::filesystem::exists(path) ? path.string() : kLibrary;
+}
+
 /// `file` needs them.
 const OpenCvCodecs& load(const std::string& file) {
-  void* const library = dlopen(kLibrary, RTLD_NOW);
+  void* const library = dlopen(libraryPath().c_str(), RTLD_NOW);
   void* const codecs = library == nullptr ? nullptr : dlsym(library, "rotrocc_image_codecs");
   if (codecs != nullptr) return *static_cast<const OpenCvCodecs*>(codecs);
   throw std::runtime_error(file + " is not PNG, so it needs " + kLibrary +
