@@ -14,9 +14,10 @@ class LatestMailbox {
  public:
   /// Replaces an item that was not taken yet. Returns whether there was one.
   bool put(Item item) {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    std::unique_lock<std::mutex> lock(mutex_);
     const bool replaced = item_.has_value();
     item_ = std::move(item);
+    lock.unlock();  // or the consumer would wake only to wait for it
     changed_.notify_one();
     return replaced;
   }
