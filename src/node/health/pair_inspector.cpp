@@ -1,6 +1,7 @@
 #include "node/health/pair_inspector.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include <opencv2/imgproc.hpp>
 
@@ -20,10 +21,17 @@ constexpr double kClearlyMore = 2.0;
 
 /// A hash of some rows of an image (FNV-1a over 8 bytes at a time).
 std::uint64_t fingerprint(const cv::Mat& image) {
+  constexpr std::uint64_t kPrime = 1099511628211u;
   std::uint64_t print = 14695981039346656037u;
   for (int y = 0; y < image.rows; y += kRowStep) {
     const unsigned char* row = image.ptr(y);
-    for (int x = 0; x < image.cols; ++x) print = (print ^ row[x]) * 1099511628211u;
+    int x = 0;
+    for (; x + 8 <= image.cols; x += 8) {
+      std::uint64_t bytes = 0;
+      std::memcpy(&bytes, row + x, 8);
+      print = (print ^ bytes) * kPrime;
+    }
+    for (; x < image.cols; ++x) print = (print ^ row[x]) * kPrime;
   }
   return print;
 }
