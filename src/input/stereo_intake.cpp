@@ -61,7 +61,8 @@ void StereoIntake::addImage(Side side,
 void StereoIntake::match(Side side,
                          const sensor_msgs::Image::ConstPtr& image,
                          const Arrival& arrival) {
-  takePair(side == Side::kLeft ? synchronizer_.addLeft(image) : synchronizer_.addRight(image),
+  takePair(side == Side::kLeft ? synchronizer_.addLeft(image, arrival.time)
+                               : synchronizer_.addRight(image, arrival.time),
            arrival);
 }
 

@@ -25,8 +25,8 @@ namespace rotrocc {
 /// A received pair, with the camera known at that time.
 struct ReceivedPair {
   StereoImages images;
-  StereoCamera camera;  ///< of the rectified images
-  std::chrono::steady_clock::time_point arrival;
+  StereoCamera camera;                                   ///< of the rectified images
+  std::chrono::steady_clock::time_point arrival;         ///< of the second image
   std::shared_ptr<const StereoCalibration> calibration;  ///< of raw images; null: rectified ones
 };
 

@@ -22,17 +22,20 @@ bool isNearer(const std::optional<std::int64_t>& stamp_ns, std::int64_t a_ns, st
 StereoSynchronizer::StereoSynchronizer(double max_difference_s, std::size_t queue_size)
     : max_difference_ns_(std::llround(1e9 * max_difference_s)), queue_size_(queue_size) {}
 
-std::optional<StereoImages> StereoSynchronizer::addLeft(const sensor_msgs::Image::ConstPtr& image) {
-  const auto match = add(image, left_, right_);
+std::optional<StereoImages> StereoSynchronizer::addLeft(const sensor_msgs::Image::ConstPtr& image,
+                                                        Time arrival) {
+  const auto match = add(image, arrival, left_, right_);
   if (!match) return std::nullopt;
-  return StereoImages{match->own.image, match->other.image};
+  return StereoImages{
+      match->own.image, match->other.image, std::min(match->own.arrival, match->other.arrival)};
 }
 
-std::optional<StereoImages> StereoSynchronizer::addRight(
-    const sensor_msgs::Image::ConstPtr& image) {
-  const auto match = add(image, right_, left_);
+std::optional<StereoImages> StereoSynchronizer::addRight(const sensor_msgs::Image::ConstPtr& image,
+                                                         Time arrival) {
+  const auto match = add(image, arrival, right_, left_);
   if (!match) return std::nullopt;
-  return StereoImages{match->other.image, match->own.image};
+  return StereoImages{
+      match->other.image, match->own.image, std::min(match->own.arrival, match->other.arrival)};
 }
 
 double StereoSynchronizer::tolerance_s() const {
@@ -45,7 +48,7 @@ void StereoSynchronizer::reset() {
 }
 
 std::optional<StereoSynchronizer::Match> StereoSynchronizer::add(
-    const sensor_msgs::Image::ConstPtr& image, Side& own, Side& other) {
+    const sensor_msgs::Image::ConstPtr& image, Time arrival, Side& own, Side& other) {
   const std::int64_t stamp_ns = toNanoseconds(image->header.stamp);
   if (own.last_stamp_ns == stamp_ns) {
     ++unmatched_;
@@ -61,7 +64,7 @@ std::optional<StereoSynchronizer::Match> StereoSynchronizer::add(
   own.last_stamp_ns = stamp_ns;
 
   own.series.add(stamp_ns);
-  own.waiting.push_back({stamp_ns, image});
+  own.waiting.push_back({stamp_ns, image, arrival});
   const auto match = findMatch(own, other);
   if (match) {
     dropEarlierThan(match->own.stamp_ns, own);

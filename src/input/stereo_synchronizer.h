@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -15,6 +16,7 @@ namespace rotrocc {
 struct StereoImages {
   sensor_msgs::Image::ConstPtr left;
   sensor_msgs::Image::ConstPtr right;
+  std::chrono::steady_clock::time_point first_arrival{};  ///< of either
 };
 
 /// Matches left and right images by their stamps. A pair is complete with the arrival of its second
@@ -32,10 +34,13 @@ class StereoSynchronizer {
   /// the nearest is used. Each side keeps the latest `queue_size` > 0 unmatched images.
   StereoSynchronizer(double max_difference_s, std::size_t queue_size);
 
+  using Time = std::chrono::steady_clock::time_point;
+
   /// The pair that `image` completes, if any. An image with the same stamp as the previous one of
   /// its side is ignored.
-  std::optional<StereoImages> addLeft(const sensor_msgs::Image::ConstPtr& image);
-  std::optional<StereoImages> addRight(const sensor_msgs::Image::ConstPtr& image);
+  std::optional<StereoImages> addLeft(const sensor_msgs::Image::ConstPtr& image, Time arrival = {});
+  std::optional<StereoImages> addRight(const sensor_msgs::Image::ConstPtr& image,
+                                       Time arrival = {});
 
   /// Number of images dropped without a partner or with a repeated stamp.
   std::uint64_t unmatched() const { return unmatched_; }
@@ -54,6 +59,7 @@ class StereoSynchronizer {
   struct Waiting {
     std::int64_t stamp_ns;
     sensor_msgs::Image::ConstPtr image;
+    Time arrival;
   };
   struct Side {
     std::deque<Waiting> waiting;  // in the order of their stamps
@@ -66,7 +72,10 @@ class StereoSynchronizer {
     Waiting other;
   };
 
-  std::optional<Match> add(const sensor_msgs::Image::ConstPtr& image, Side& own, Side& other);
+  std::optional<Match> add(const sensor_msgs::Image::ConstPtr& image,
+                           Time arrival,
+                           Side& own,
+                           Side& other);
   std::optional<Match> findMatch(const Side& own, const Side& other) const;
   std::int64_t tolerance_ns() const;
   void dropEarlierThan(std::int64_t stamp_ns, Side& side);

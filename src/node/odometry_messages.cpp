@@ -53,6 +53,24 @@ std::uint8_t toMessage(State state) {
   return OdometryStatus::LOST;
 }
 
+void addTimes(const PairTimes& times, const OdometryResult& result, OdometryStatus& message) {
+  const StageTimes& stages = result.times;
+  message.time_pyramids = static_cast<float>(stages.pyramids_ms);
+  message.time_corners = static_cast<float>(stages.corners_ms);
+  message.time_disparity = static_cast<float>(stages.disparity_ms);
+  message.time_tracking = static_cast<float>(stages.tracking_ms);
+  message.time_estimation = static_cast<float>(stages.estimation_ms);
+  message.time_prepared = static_cast<float>(stages.prepared_ms);
+  message.time_pairing = static_cast<float>(times.pairing_ms);
+  message.time_waiting = static_cast<float>(times.waiting_ms);
+  message.time_conversion = static_cast<float>(times.conversion_ms);
+  message.time_total = static_cast<float>(stages.total_ms);
+  message.time_publishing = static_cast<float>(times.publishing_ms);
+  message.time_rest = static_cast<float>(times.latency_ms - times.waiting_ms - times.conversion_ms -
+                                         stages.total_ms - times.publishing_ms);
+  message.latency = static_cast<float>(times.latency_ms);
+}
+
 void addCounters(const HealthReport& health, OdometryStatus& message) {
   message.hint = health.statusHint();
   message.pairs_processed = health.pairs_processed;
@@ -126,7 +144,7 @@ geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& T_parent_ch
 
 OdometryStatus toStatus(const OdometryResult& result,
                         const HealthReport& health,
-                        double latency_ms,
+                        const PairTimes& times,
                         const std::string& camera_frame) {
   OdometryStatus message;
   message.header.stamp = toRosTime(result.stamp_ns);
@@ -154,15 +172,7 @@ OdometryStatus toStatus(const OdometryResult& result,
   message.time_skew_sigma = static_cast<float>(result.time_skew.sigma_s);
   message.exposure_gain = static_cast<float>(result.exposure_gain);
   message.flow_noise = static_cast<float>(result.flow_noise_px);
-  message.time_pyramids = static_cast<float>(result.times.pyramids_ms);
-  message.time_corners = static_cast<float>(result.times.corners_ms);
-  message.time_disparity = static_cast<float>(result.times.disparity_ms);
-  message.time_tracking = static_cast<float>(result.times.tracking_ms);
-  message.time_estimation = static_cast<float>(result.times.estimation_ms);
-  message.time_total = static_cast<float>(result.times.total_ms);
-  message.time_prepared = static_cast<float>(result.times.prepared_ms);
-  message.latency = static_cast<float>(latency_ms);
-
+  addTimes(times, result, message);
   addCounters(health, message);
   return message;
 }

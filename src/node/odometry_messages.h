@@ -13,6 +13,7 @@
 
 #include "node/base/base_odometry.h"
 #include "node/health/odometry_health.h"
+#include "node/health/pair_times.h"
 #include "rotrocc/OdometryStatus.h"
 #include "rotrocc/visual_odometry.h"
 
@@ -36,10 +37,10 @@ geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& T_parent_ch
                                             const std::string& parent,
                                             const std::string& child);
 
-/// `latency_ms`: since the arrival of the pair. The stamp is that of the result.
+/// The stamp is that of the result.
 OdometryStatus toStatus(const OdometryResult& result,
                         const HealthReport& health,
-                        double latency_ms,
+                        const PairTimes& times,
                         const std::string& camera_frame);
 
 /// The status without a recent pair.

@@ -2,9 +2,11 @@
 
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include <nav_msgs/Path.h>
 #include <sensor_msgs/image_encodings.h>
+#include <tf2_eigen/tf2_eigen.h>
 #include <boost/make_shared.hpp>
 
 #include "input/image_message.h"
@@ -26,28 +28,27 @@ OdometryPublisher::OdometryPublisher(ros::NodeHandle& nh, const NodeParameters& 
     : parameters_(parameters),
       path_throttle_(std::chrono::milliseconds(std::lround(1e3 / parameters.path_rate_hz))),
       flow_view_(flowView(parameters.flow_view)),
-      status_publisher_(advertise<OdometryStatus>(nh, "status", kMotionQueue)),
+      tf_broadcaster_(parameters.publish_tf ? std::make_optional<tf2_ros::TransformBroadcaster>()
+                                            : std::nullopt),
       odom_publisher_(advertise<nav_msgs::Odometry>(nh, "odom", kMotionQueue)),
       twist_publisher_(
           advertise<geometry_msgs::TwistWithCovarianceStamped>(nh, "twist", kMotionQueue)),
+      status_publisher_(advertise<OdometryStatus>(nh, "status", kMotionQueue)),
       path_publisher_(advertise<nav_msgs::Path>(nh, "path", kPictureQueue)),
       inliers_publisher_(advertise<sensor_msgs::PointCloud2>(nh, "inliers", kPictureQueue)),
-      flow_publisher_(image_transport::ImageTransport(nh).advertise("flow", kPictureQueue)) {
-  if (parameters.publish_tf) tf_broadcaster_.emplace();
-}
+      flow_publisher_(image_transport::ImageTransport(nh).advertise("flow", kPictureQueue)) {}
 
-void OdometryPublisher::publishMotion(const OdometryStatus& status,
-                                      const BaseState& state,
-                                      const std::optional<Eigen::Isometry3d>& T_guess_base) {
-  const nav_msgs::Odometry odometry =
-      toOdometry(state, parameters_.odom_frame, parameters_.base_frame);
-  status_publisher_.publish(status);
+std::chrono::steady_clock::time_point OdometryPublisher::publishMotion(
+    const BaseState& state, const std::optional<Eigen::Isometry3d>& T_guess_base) {
+  const auto odometry = boost::make_shared<nav_msgs::Odometry>(
+      toOdometry(state, parameters_.odom_frame, parameters_.base_frame));
   if (tf_broadcaster_) publishTf(state, T_guess_base);
+  const auto sent = std::chrono::steady_clock::now();
   odom_publisher_.publish(odometry);
   if (state.step_velocity) {
     twist_publisher_.publish(toTwist(*state.step_velocity, parameters_.base_frame));
   }
-  publishPath(odometry);
+  return sent;
 }
 
 /// With another odometry of the base, tf is published up to its odom frame: a frame has only one
@@ -69,15 +70,20 @@ void OdometryPublisher::publishTf(const BaseState& state,
   }
 }
 
-void OdometryPublisher::publishPath(const nav_msgs::Odometry& odometry) {
-  path_.push_back({odometry.header.stamp, odometry.pose.pose});
+void OdometryPublisher::publishStatus(OdometryStatus status) {
+  status_publisher_.publish(boost::make_shared<OdometryStatus>(std::move(status)));
+}
+
+void OdometryPublisher::publishPath(const BaseState& state) {
+  path_.push_back({toRosTime(state.stamp_ns), tf2::toMsg(state.T_odom_base.T)});
   while (path_.size() > static_cast<std::size_t>(parameters_.path_length)) path_.pop_front();
   if (path_publisher_.getNumSubscribers() == 0 || !path_throttle_.pass()) return;
   const auto path = boost::make_shared<nav_msgs::Path>();
-  path->header = odometry.header;
+  path->header.stamp = path_.back().stamp;
+  path->header.frame_id = parameters_.odom_frame;
   path->poses.resize(path_.size());
   for (std::size_t i = 0; i < path_.size(); ++i) {
-    path->poses[i].header.frame_id = odometry.header.frame_id;
+    path->poses[i].header.frame_id = parameters_.odom_frame;
     path->poses[i].header.stamp = path_[i].stamp;
     path->poses[i].pose = path_[i].pose;
   }
@@ -93,8 +99,8 @@ void OdometryPublisher::publishPictures(const cv::Mat& left,
   header.stamp = toRosTime(result.stamp_ns);
   header.frame_id = camera_frame;
   if (inliers_publisher_.getNumSubscribers() > 0) {
-    inliers_publisher_.publish(
-        toPointCloud(odometry.correspondences(), odometry.translationInliers(), left, header));
+    inliers_publisher_.publish(boost::make_shared<sensor_msgs::PointCloud2>(
+        toPointCloud(odometry.correspondences(), odometry.translationInliers(), left, header)));
   }
   if (flow_publisher_.getNumSubscribers() > 0) {
     drawFlowPicture({left,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <deque>
 #include <optional>
@@ -22,21 +23,23 @@
 
 namespace rotrocc {
 
-/// Publishes the results of each pair: status, tf, odom, twist, path, inliers and flow. The last
+/// Publishes the results of each pair: tf, odom, twist, status, path, inliers and flow. The last
 /// two cost nothing without subscribers. The path is sent at a limited rate, because it is long;
 /// its poses are kept for those who subscribe later.
 class OdometryPublisher {
  public:
   OdometryPublisher(ros::NodeHandle& nh, const NodeParameters& parameters);
 
-  /// Publishes status and tf first, so that receivers of the odometry already have them.
+  /// tf, odom and twist; tf first, so that receivers of the odometry already have it.
   /// `T_guess_base`: the pose of the base in guess_frame at that time, if there is such a frame and
-  /// tf knows it.
-  void publishMotion(const OdometryStatus& status,
-                     const BaseState& state,
-                     const std::optional<Eigen::Isometry3d>& T_guess_base);
+  /// tf knows it. Returns when odom was sent: receivers that it wakes may be served before this.
+  std::chrono::steady_clock::time_point publishMotion(
+      const BaseState& state, const std::optional<Eigen::Isometry3d>& T_guess_base);
 
-  void publishStatus(const OdometryStatus& status) { status_publisher_.publish(status); }
+  void publishStatus(OdometryStatus status);
+
+  /// Adds a pose to the path, and publishes it.
+  void publishPath(const BaseState& state);
 
   /// Clears the path.
   void forgetPath() { path_.clear(); }
@@ -51,7 +54,6 @@ class OdometryPublisher {
 
  private:
   void publishTf(const BaseState& state, const std::optional<Eigen::Isometry3d>& T_guess_base);
-  void publishPath(const nav_msgs::Odometry& odometry);
 
   struct PathPose {
     ros::Time stamp;
@@ -64,13 +66,14 @@ class OdometryPublisher {
   FlowView flow_view_;
   cv::Mat picture_;
 
-  ros::Publisher status_publisher_;
+  // roscpp sends what waits for its network thread in the order of advertising.
+  std::optional<tf2_ros::TransformBroadcaster> tf_broadcaster_;
   ros::Publisher odom_publisher_;
   ros::Publisher twist_publisher_;
+  ros::Publisher status_publisher_;
   ros::Publisher path_publisher_;
   ros::Publisher inliers_publisher_;
   image_transport::Publisher flow_publisher_;
-  std::optional<tf2_ros::TransformBroadcaster> tf_broadcaster_;
 };
 
 }  // namespace rotrocc

@@ -23,8 +23,8 @@ constexpr std::chrono::milliseconds kTfPoll(10);
 /// Period of diagnostics (REP 107).
 constexpr double kTick_s = 1.0;
 
-double millisecondsSince(SteadyClock::time_point start) {
-  return std::chrono::duration<double, std::milli>(SteadyClock::now() - start).count();
+double milliseconds(SteadyClock::duration duration) {
+  return std::chrono::duration<double, std::milli>(duration).count();
 }
 
 }  // namespace
@@ -152,6 +152,21 @@ bool StereoOdometry::tryPair(const ReceivedPair& received) {
 }
 
 void StereoOdometry::process(const ReceivedPair& received, const Eigen::Isometry3d& T_base_camera) {
+  PairTimes times;
+  times.pairing_ms = milliseconds(received.arrival - received.images.first_arrival);
+  times.waiting_ms = milliseconds(SteadyClock::now() - received.arrival);
+  const PairAnswer answer = estimate(received, T_base_camera);
+  times.conversion_ms = answer.conversion_ms;
+  const SteadyClock::time_point ready = SteadyClock::now();
+  const SteadyClock::time_point sent = publishMotion(answer);
+  times.publishing_ms = milliseconds(sent - ready);
+  times.latency_ms = milliseconds(sent - received.arrival);
+  followUp(answer, received, times);
+  processor_.prepare();
+}
+
+PairAnswer StereoOdometry::estimate(const ReceivedPair& received,
+                                    const Eigen::Isometry3d& T_base_camera) {
   PairProcessor::MotionSource expected;
   if (guess_) {
     expected = [this](std::int64_t prev_ns, std::int64_t cur_ns) {
@@ -165,55 +180,59 @@ void StereoOdometry::process(const ReceivedPair& received, const Eigen::Isometry
           cameraFrameOf(*received.images.left, parameters_.camera_frame), from_ns, to_ns);
     };
   }
-  const PairAnswer answer = processor_.process(received, T_base_camera, expected, rotation);
+  return processor_.process(received, T_base_camera, expected, rotation);
+}
+
+/// Returns when the odometry was sent.
+SteadyClock::time_point StereoOdometry::publishMotion(const PairAnswer& answer) {
+  std::optional<Eigen::Isometry3d> T_guess_base;
+  if (guess_) {
+    if (answer.starts_trajectory) guess_->clear();
+    T_guess_base = guess_->pose(answer.result.stamp_ns);
+  }
+  return publisher_.publishMotion(answer.state, T_guess_base);
+}
+
+/// All that the odometry of the pair need not wait for.
+void StereoOdometry::followUp(const PairAnswer& answer,
+                              const ReceivedPair& received,
+                              const PairTimes& times) {
   if (guess_) health_.setGuess(guess_->trouble(), guess_->misses());
   if (gyro_) {
     gyro_->observe(answer.result);
     health_.setGyro(gyro_->report());
   }
-  if (answer.starts_trajectory) endTrajectory();
-  writeTrajectory(answer.state);
-  logState(answer);
-  publish(answer, received);
-  processor_.prepare();
-}
-
-void StereoOdometry::publish(const PairAnswer& answer, const ReceivedPair& received) {
+  const std::string hint = processor_.inspect(answer, received.camera);
+  health_.addAnswer(answer.result, hint, times.latency_ms);
   const std::string camera_frame = cameraFrameOf(*received.images.left, parameters_.camera_frame);
-  std::optional<Eigen::Isometry3d> T_guess_base;
-  if (guess_) T_guess_base = guess_->pose(answer.result.stamp_ns);
-  const double latency_ms = millisecondsSince(received.arrival);
-  health_.addAnswer(answer.result, answer.hint, latency_ms);
-  publisher_.publishMotion(
-      toStatus(answer.result, health_.report({}, drops_), latency_ms, camera_frame),
-      answer.state,
-      T_guess_base);
+  publisher_.publishStatus(toStatus(answer.result, health_.counts(drops_), times, camera_frame));
+  keepPose(answer);
+  logState(answer.result, hint);
   publisher_.publishPictures(
       answer.pair.left, received.camera, processor_.odometry(), answer.result, camera_frame);
 }
 
-void StereoOdometry::endTrajectory() {
-  trajectory_.clear();
-  if (trajectory_recorder_) trajectory_recorder_->beginNew();
-  publisher_.forgetPath();
-  if (guess_) guess_->clear();
-}
-
-void StereoOdometry::writeTrajectory(const BaseState& state) {
-  const StampedPose pose = {state.stamp_ns, state.T_first_camera};
+/// In the path and the trajectories.
+void StereoOdometry::keepPose(const PairAnswer& answer) {
+  if (answer.starts_trajectory) {
+    trajectory_.clear();
+    if (trajectory_recorder_) trajectory_recorder_->beginNew();
+    publisher_.forgetPath();
+  }
+  const StampedPose pose = {answer.state.stamp_ns, answer.state.T_first_camera};
   trajectory_.add(pose);
   if (trajectory_recorder_) trajectory_recorder_->add(pose);
+  publisher_.publishPath(answer.state);
 }
 
-void StereoOdometry::logState(const PairAnswer& answer) {
-  const OdometryResult& result = answer.result;
+void StereoOdometry::logState(const OdometryResult& result, const std::string& hint) {
   const State before = std::exchange(last_state_, result.state);
   if (result.state == State::kLost) {
     if (lost_warning_.pass()) log_.warn("lost: " + result.reason);
   } else if (before == State::kLost) {
     log_.info(std::string("no longer lost: ") + toString(result.state));
   }
-  if (!answer.hint.empty() && hint_warning_.pass()) log_.warn(answer.hint);
+  if (!hint.empty() && hint_warning_.pass()) log_.warn(hint);
   const std::string rig = rigWarning(result);
   if (!rig.empty() && rig_warning_.pass()) log_.warn(rig);
 }

@@ -17,6 +17,7 @@
 #include "node/gyro/gyro_input.h"
 #include "node/health/diagnostics.h"
 #include "node/health/odometry_health.h"
+#include "node/health/pair_times.h"
 #include "node/live_parameters.h"
 #include "node/odometry_publisher.h"
 #include "node/odometry_services.h"
@@ -39,7 +40,8 @@ namespace rotrocc {
 /// the private parameters.
 ///
 /// The callbacks only match images to pairs. A worker thread processes them; if it is too slow, it
-/// skips to the newest pair.
+/// skips to the newest pair. It sends tf and odometry as soon as they are known, and does all else
+/// after that.
 class StereoOdometry {
  public:
   /// Throws std::exception if it cannot start; then nothing of it is left. `name` is that of the
@@ -61,10 +63,11 @@ class StereoOdometry {
   void work();
   bool tryPair(const ReceivedPair& received);
   void process(const ReceivedPair& received, const Eigen::Isometry3d& T_base_camera);
-  void publish(const PairAnswer& answer, const ReceivedPair& received);
-  void endTrajectory();
-  void writeTrajectory(const BaseState& state);
-  void logState(const PairAnswer& answer);
+  PairAnswer estimate(const ReceivedPair& received, const Eigen::Isometry3d& T_base_camera);
+  std::chrono::steady_clock::time_point publishMotion(const PairAnswer& answer);
+  void followUp(const PairAnswer& answer, const ReceivedPair& received, const PairTimes& times);
+  void keepPose(const PairAnswer& answer);
+  void logState(const OdometryResult& result, const std::string& hint);
 
   Log log_;
   NodeParameters parameters_;

@@ -83,10 +83,12 @@ class StereoIntakeTest : public testing::Test {
   bool clock_known_ = true;
   const std::chrono::steady_clock::time_point start_{};
   Stamps stamps_ms_;  // of the pairs, from the same origin
+  ReceivedPair last_pair_;
   DropLog drops_;
   StereoIntake intake_{{}, drops_, [this](const ReceivedPair& pair) {
                          const double stamp_s = pair.images.left->header.stamp.toSec() - kNow_s;
                          stamps_ms_.push_back(static_cast<int>(std::lround(1e3 * stamp_s)));
+                         last_pair_ = pair;
                        }};
 };
 
@@ -96,6 +98,18 @@ TEST_F(StereoIntakeTest, APairGoesOutWithItsSecondImage) {
   image(Side::kRight);
   EXPECT_EQ(stamps_ms_, Stamps{0});
   EXPECT_EQ(allDrops(), 0u);
+}
+
+TEST_F(StereoIntakeTest, APairKnowsWhenItsImagesCame) {
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const Arrival first = arrival();
+    image(side);
+    time_s_ += 0.02;
+    image(side == Side::kLeft ? Side::kRight : Side::kLeft);
+    EXPECT_EQ(last_pair_.images.first_arrival, first.time);
+    EXPECT_EQ(last_pair_.arrival, arrival().time);
+    wait(kPeriod_s);
+  }
 }
 
 TEST_F(StereoIntakeTest, AGlitchAheadCostsOnePair) {

@@ -85,7 +85,9 @@ TEST(OdometryMessagesTest, StatusHasStateCountsAndCounters) {
   health.hint = "frozen?";
   health.guess_trouble = "no tf from guess_frame";
   health.guess_misses = 3;
-  const OdometryStatus message = toStatus(result, health, 12.5, "camera");
+  result.times.total_ms = 2.0;
+  const PairTimes times = {8.0, 1.0, 0.5, 0.25, 12.5};
+  const OdometryStatus message = toStatus(result, health, times, "camera");
   EXPECT_EQ(message.header.stamp, ros::Time(5, 0));
   EXPECT_EQ(message.header.frame_id, "camera");
   EXPECT_EQ(message.state, OdometryStatus::DEGRADED);
@@ -105,6 +107,12 @@ TEST(OdometryMessagesTest, StatusHasStateCountsAndCounters) {
   EXPECT_EQ(message.time_skew_sigma, 0.001953125f);
   EXPECT_EQ(message.exposure_gain, 0.625f);
   EXPECT_EQ(message.flow_noise, 0.125f);
+  EXPECT_EQ(message.time_pairing, 8.0f);
+  EXPECT_EQ(message.time_waiting, 1.0f);
+  EXPECT_EQ(message.time_conversion, 0.5f);
+  EXPECT_EQ(message.time_total, 2.0f);
+  EXPECT_EQ(message.time_publishing, 0.25f);
+  EXPECT_EQ(message.time_rest, 8.75f);
   EXPECT_EQ(message.latency, 12.5f);
   EXPECT_EQ(message.pairs_processed, 9u);
   EXPECT_EQ(message.pairs_lost, 7u);
@@ -175,12 +183,12 @@ TEST(OdometryMessagesTest, IdleStatusSaysWhyNothingComes) {
 
 TEST(OdometryMessagesTest, StatusTellsAboutTheGyroscope) {
   HealthReport health;
-  EXPECT_EQ(toStatus({}, health, 0.0, "camera").imu_reason, "");
+  EXPECT_EQ(toStatus({}, health, {}, "camera").imu_reason, "");
   health.gyro.emplace();
   health.gyro->why_not_used = "no message on /imu";
   health.gyro->counts.predicted = 7;
   health.gyro->counts.missed = 2;
-  const OdometryStatus message = toStatus({}, health, 0.0, "camera");
+  const OdometryStatus message = toStatus({}, health, {}, "camera");
   EXPECT_EQ(message.imu_reason, "no message on /imu");
   EXPECT_EQ(message.rotations_predicted, 7u);
   EXPECT_EQ(message.rotations_missed, 2u);

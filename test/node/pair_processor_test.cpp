@@ -105,11 +105,11 @@ TEST_F(PairProcessorTest, HintsComeFromTheConfigInEffect) {
   const auto hintOf = [&](const VisualOdometry::Config& changed) {
     rig_.processor().requestConfig(changed);
     for (int i = 0; i < PairInspector::kPatience + 1; ++i) rig_.drive(swapSides);
-    return rig_.answer()->hint;
+    return rig_.hint();
   };
   const std::string swapped = "swap their topics";
-  EXPECT_EQ(hintOf(config).find(swapped), std::string::npos) << rig_.answer()->hint;
-  EXPECT_NE(hintOf({}).find(swapped), std::string::npos) << rig_.answer()->hint;
+  EXPECT_EQ(hintOf(config).find(swapped), std::string::npos) << rig_.hint();
+  EXPECT_NE(hintOf({}).find(swapped), std::string::npos) << rig_.hint();
 }
 
 TEST_F(PairProcessorTest, HintsAtCamerasThatExposeDifferently) {
@@ -118,7 +118,7 @@ TEST_F(PairProcessorTest, HintsAtCamerasThatExposeDifferently) {
   };
   for (std::size_t i = 0; i < ExposureWatch::kLeastPairs + 1; ++i) rig_.drive(darkenRight);
   EXPECT_EQ(state(), State::kOk);
-  EXPECT_NE(rig_.answer()->hint.find("couple the exposures"), std::string::npos);
+  EXPECT_NE(rig_.hint().find("couple the exposures"), std::string::npos);
 }
 
 TEST_F(PairProcessorTest, AsksForTheExpectedMotionBetweenItsPairs) {

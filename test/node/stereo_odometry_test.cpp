@@ -5,9 +5,11 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <set>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <dynamic_reconfigure/Reconfigure.h>
@@ -182,8 +184,26 @@ TEST_F(StereoOdometryTest, DrivesForwardInAxesOfTheBase) {
   // Not from pair to pair: of two measured against one keyframe, the later may be the better.
   EXPECT_GT(variance, first_variance);
   EXPECT_EQ(status_.drops.size(), drops_before);
-  EXPECT_GT(status_.time_total, 0.0f);
-  EXPECT_GE(status_.latency, status_.time_total);
+}
+
+TEST_F(StereoOdometryTest, StatusTellsThePartsOfTheLatency) {
+  const auto begin = std::chrono::steady_clock::now();
+  drive();
+  const std::chrono::duration<double, std::milli> elapsed =
+      std::chrono::steady_clock::now() - begin;
+  const std::vector<float> parts = {status_.time_waiting,
+                                    status_.time_conversion,
+                                    status_.time_total,
+                                    status_.time_publishing,
+                                    status_.time_rest};
+  for (std::size_t i = 0; i < parts.size(); ++i) EXPECT_GT(parts[i], 0.0f) << i;
+  const float rounding = 1e-5f * status_.latency;
+  EXPECT_NEAR(std::accumulate(parts.begin(), parts.end(), 0.0f), status_.latency, rounding);
+  EXPECT_LE(status_.time_pyramids + status_.time_corners + status_.time_disparity +
+                status_.time_tracking + status_.time_estimation,
+            status_.time_total + rounding);
+  EXPECT_GE(status_.time_pairing, 0.0f);
+  EXPECT_LT(status_.time_pairing + status_.latency, elapsed.count());
 }
 
 TEST_F(StereoOdometryTest, FindsCornersBeforeThePairArrives) {

@@ -147,7 +147,7 @@ std::string OdometryRig::describeAnswer() const {
     if (pose.covariance(0, 0) > before.covariance(0, 0)) text += ", covariance grows";
     if (answer_->state.twist.covariance(0, 0) == kUnknownVariance) text += ", twist unknown";
   }
-  return answer_->hint.empty() ? text : text + ", hint: " + answer_->hint;
+  return hint_.empty() ? text : text + ", hint: " + hint_;
 }
 
 std::string OdometryRig::describeDrops() const {
@@ -179,6 +179,7 @@ InputReport OdometryRig::report(std::chrono::steady_clock::time_point now) const
 void OdometryRig::process(const ReceivedPair& pair) {
   try {
     answer_ = processor_.process(pair, T_base_camera, expected);
+    hint_ = processor_.inspect(*answer_, pair.camera);
     ++answers_;
     state_ = answer_->state;
     const double place_m = kStep_m * next_;

@@ -50,6 +50,7 @@ class OdometryRig {
 
   /// Of the last pair that was processed since the last call of forget().
   const std::optional<PairAnswer>& answer() const { return answer_; }
+  const std::string& hint() const { return hint_; }
   void forget();
 
   /// Of the last pair since the last call of forget(): its state, as "ok", the error of its motion,
@@ -82,6 +83,7 @@ class OdometryRig {
   int next_ = 0;
   std::chrono::steady_clock::time_point now_ = std::chrono::steady_clock::now();
   std::optional<PairAnswer> answer_;
+  std::string hint_;                // with answer_
   BaseState state_, state_before_;  // of the last answer, and when forget() was called last
   double way_m_ = 0.0;              // between the last two pairs that were processed
   double last_place_m_ = 0.0;       // of the last one

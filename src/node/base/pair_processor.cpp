@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "common/stage_timer.h"
 #include "input/image_validation.h"
 #include "input/message_conversion.h"
 #include "input/to_text.h"
@@ -22,9 +23,10 @@ PairAnswer PairProcessor::process(const ReceivedPair& received,
                                   const MotionSource& expected,
                                   const RotationSource& measured_rotation) {
   PairAnswer answer;
-  answer.pair = converter_.convert(*received.images.left, *received.images.right);
-  validateSize(*received.images.left, received.camera);
-  if (received.calibration) answer.pair = rectifier_.rectify(answer.pair, received.calibration);
+  {
+    const StageTimer timer(answer.conversion_ms);
+    answer.pair = convert(received);
+  }
   const bool asked = restartIfAsked();
   const bool went_back = restartIfTimeWentBack(answer.pair.stamp_ns);
   const bool gave_up = restartIfLostForLong(answer.pair.stamp_ns);
@@ -32,9 +34,18 @@ PairAnswer PairProcessor::process(const ReceivedPair& received,
   if (!base_odometry_) base_odometry_.emplace(parameters_, systematic_error_);
   setPoseIfAsked();
   move(received.camera, T_base_camera, expected, measured_rotation, answer);
-  answer.hint = inspector_.inspect(answer.pair, received.camera, answer.result);
   last_stamp_ns_ = answer.pair.stamp_ns;
   return answer;
+}
+
+std::string PairProcessor::inspect(const PairAnswer& answer, const StereoCamera& camera) {
+  return inspector_.inspect(answer.pair, camera, answer.result);
+}
+
+StereoPair PairProcessor::convert(const ReceivedPair& received) {
+  const StereoPair pair = converter_.convert(*received.images.left, *received.images.right);
+  validateSize(*received.images.left, received.camera);
+  return received.calibration ? rectifier_.rectify(pair, received.calibration) : pair;
 }
 
 /// Returns whether a new trajectory starts.

@@ -4,6 +4,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <string>
 
 #include "input/log.h"
 #include "input/pair_rectifier.h"
@@ -21,8 +22,8 @@ struct PairAnswer {
   StereoPair pair;  ///< rectified; valid until the next call
   OdometryResult result;
   BaseState state;
-  std::string hint;                ///< suspected camera fault; empty if none
   bool starts_trajectory = false;  ///< a new trajectory: after a reset, a time jump or a long loss
+  double conversion_ms = 0.0;      ///< wall time of checks, conversion to grey and rectification
 };
 
 /// Converts pairs to odometry of the base, in one thread, and rectifies those that are raw. Other
@@ -42,6 +43,10 @@ class PairProcessor {
                      const Eigen::Isometry3d& T_base_camera,
                      const MotionSource& expected = {},
                      const RotationSource& measured_rotation = {});
+
+  /// The suspected camera fault after each pair, in one sentence; empty if none. Apart from
+  /// process(), so that the odometry need not wait for it.
+  std::string inspect(const PairAnswer& answer, const StereoCamera& camera);
 
   /// Prepares for the next pair, see VisualOdometry::prepare().
   void prepare() { odometry_.prepare(); }
@@ -67,6 +72,7 @@ class PairProcessor {
     std::optional<VisualOdometry::Config> config;
   };
 
+  StereoPair convert(const ReceivedPair& received);
   bool restartIfAsked();
   bool restartIfTimeWentBack(std::int64_t stamp_ns);
   bool restartIfLostForLong(std::int64_t stamp_ns);

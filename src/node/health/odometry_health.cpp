@@ -110,17 +110,23 @@ void OdometryHealth::setGyro(const GyroReport& gyro) {
   known_.gyro = gyro;
 }
 
-HealthReport OdometryHealth::report(const InputReport& input, const DropLog& drops) const {
-  const auto now = std::chrono::steady_clock::now();
+HealthReport OdometryHealth::counts(const DropLog& drops) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   HealthReport report = known_;
+  report.drops = drops.counters().nonZero();
+  return report;
+}
+
+HealthReport OdometryHealth::report(const InputReport& input, const DropLog& drops) const {
+  const auto now = std::chrono::steady_clock::now();
+  HealthReport report = counts(drops);
   report.input = input;
+  const std::lock_guard<std::mutex> lock(mutex_);
   report.answers = answers_.total() > 0 && now - answers_.lastArrival() < kAnswerAge;
   report.answer_rate_hz = answers_.rate_hz(now);
   report.latency_p50_ms = latencies_.quantile(0.5);
   report.latency_p95_ms = latencies_.quantile(0.95);
   report.latency_max_ms = latencies_.quantile(1.0);
-  report.drops = drops.counters().nonZero();
   const auto refused = drops.lastWithin(TopicStatistics::kWindow);
   report.not_of_camera = refused && refused->reason() == DropReason::kImageNotOfCamera;
   return report;

@@ -67,6 +67,9 @@ class OdometryHealth {
 
   HealthReport report(const InputReport& input, const DropLog& drops) const;
 
+  /// The same without input, rate and latencies: for the status of each pair.
+  HealthReport counts(const DropLog& drops) const;
+
  private:
   mutable std::mutex mutex_;
   HealthReport known_;  // reported by others

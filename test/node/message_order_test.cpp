@@ -1,0 +1,92 @@
+// In which order the odometry sends its messages. It runs in this process: what it publishes is
+// then in the queue of the subscribers when it publishes the next one.
+
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nav_msgs/Path.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <sensor_msgs/PointCloud2.h>
+
+#include "node/stereo_odometry_nodelet.h"
+#include "support/simulated_robot.h"
+
+namespace rotrocc {
+namespace {
+
+/// Topics in the order in which the messages of a stamp arrive.
+class Arrivals {
+ public:
+  Arrivals() {
+    nh_.setCallbackQueue(&queue_);
+    listen<nav_msgs::Odometry>("odom");
+    listen<OdometryStatus>("status");
+    listen<nav_msgs::Path>("path");
+    listen<sensor_msgs::PointCloud2>("inliers");
+    listen<sensor_msgs::Image>("flow");
+    spinner_.start();
+  }
+
+  /// The topics of each pair that has sent all of them.
+  std::vector<std::vector<std::string>> complete() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    std::vector<std::vector<std::string>> found;
+    for (const auto& [stamp, topics] : arrivals_) {
+      if (topics.size() == subscribers_.size()) found.push_back(topics);
+    }
+    return found;
+  }
+
+ private:
+  template <class Message>
+  void listen(const std::string& topic) {
+    const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
+        [this, topic](const boost::shared_ptr<const Message>& message) {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          arrivals_[message->header.stamp].push_back(topic);
+        };
+    subscribers_.push_back(nh_.subscribe<Message>(topic, 100, callback));
+  }
+
+  mutable std::mutex mutex_;
+  std::map<ros::Time, std::vector<std::string>> arrivals_;
+  ros::NodeHandle nh_;
+  ros::CallbackQueue queue_;
+  ros::AsyncSpinner spinner_{1, &queue_};  // one thread: keeps the order
+  std::vector<ros::Subscriber> subscribers_;
+};
+
+TEST(MessageOrderTest, OdometryComesBeforeStatusPathAndPictures) {
+  ros::AsyncSpinner spinner(2);
+  spinner.start();
+  ros::param::set("stereo_odometry/path_rate_hz", 1000.0);  // with each pair
+  ros::CallbackQueue queue;
+  StereoOdometryNodelet nodelet;
+  nodelet.init("/stereo_odometry", {}, {}, &queue, &queue);
+  ros::AsyncSpinner nodelet_spinner(1, &queue);
+  nodelet_spinner.start();
+  Arrivals arrivals;
+  SimulatedRobot robot;
+  robot.publishInfos();
+  robot.publishMount();
+
+  EXPECT_TRUE(waitUntil([&] {  // not all subscribers are connected at the first pairs
+    robot.odometryOf(robot.drive());
+    return arrivals.complete().size() >= 5;
+  }));
+  for (const auto& topics : arrivals.complete()) EXPECT_EQ(topics.front(), "odom");
+}
+
+}  // namespace
+}  // namespace rotrocc
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "message_order_test");
+  const ros::NodeHandle keeps_ros_alive;
+  return RUN_ALL_TESTS();
+}
