@@ -64,6 +64,10 @@ const char* const kViewFrame = "trajectory_view";
 
 void TrajectoryScene::setState(const OdometryStatus& status) {
   status_ = status;
+  const bool of_last = isOfPair(status.state) && status.header.stamp == last_.header.stamp;
+  if (empty() || !of_last) return;
+  if (keeps_last_) way_.pop_back();
+  keepLast();
 }
 
 void TrajectoryScene::setTruth(const nav_msgs::Path& truth) {
@@ -89,15 +93,20 @@ void TrajectoryScene::add(const nav_msgs::Odometry& odometry) {
     length_m_ += (toEigen(odometry.pose.pose.position) - toEigen(last_.pose.pose.position)).norm();
   }
   last_ = odometry;
-  const WayPoint point = {toEigen(odometry.pose.pose.position), status_.state};
-  view_.add(point.position);
-  if (way_.empty() || way_.back().state != point.state ||
-      (way_.back().position - point.position).norm() > kStep * distance_m()) {
-    way_.push_back(point);
-  }
+  view_.add(toEigen(odometry.pose.pose.position));
+  keepLast();
+}
+
+/// Adds the last pose to the way if it tells something new.
+void TrajectoryScene::keepLast() {
+  const WayPoint point = {toEigen(last_.pose.pose.position), status_.state};
+  keeps_last_ = way_.empty() || way_.back().state != point.state ||
+                (way_.back().position - point.position).norm() > kStep * distance_m();
+  if (keeps_last_) way_.push_back(point);
   if (way_.size() < kMostPoints) return;
   for (std::size_t i = 0; 2 * i < way_.size(); ++i) way_[i] = way_[2 * i];
   way_.resize((way_.size() + 1) / 2);
+  keeps_last_ = false;
 }
 
 double TrajectoryScene::distance_m() const {

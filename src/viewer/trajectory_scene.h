@@ -23,6 +23,7 @@ class TrajectoryScene {
   /// `least_size_m`: what is seen around the start.
   explicit TrajectoryScene(double least_size_m) : least_size_m_(least_size_m) {}
 
+  /// A pose has the state of the status with its stamp, whichever comes first.
   void setState(const OdometryStatus& status);
   void setTruth(const nav_msgs::Path& truth);
 
@@ -44,6 +45,7 @@ class TrajectoryScene {
   };
 
   void begin(const nav_msgs::Odometry& odometry);
+  void keepLast();
   double distance_m() const;
   std::string words() const;
   visualization_msgs::Marker marker(const char* name, int type, double size) const;
@@ -58,6 +60,7 @@ class TrajectoryScene {
   nav_msgs::Path truth_;
   nav_msgs::Odometry last_;
   std::vector<WayPoint> way_;  // thinned out
+  bool keeps_last_ = false;    // the last pose is the end of the way
   double length_m_ = 0.0;
   WholeView view_;
 };

@@ -1,5 +1,8 @@
 #include "viewer/trajectory_scene.h"
 
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 #include <visualization_msgs/Marker.h>
 
@@ -10,8 +13,9 @@ constexpr double kLeastSize_m = 10.0;
 
 class TrajectorySceneTest : public ::testing::Test {
  protected:
-  void setState(std::uint8_t state, const std::string& reason = "") {
+  void setState(std::uint8_t state, const std::string& reason = "", double time_s = 1000.0) {
     OdometryStatus status;
+    status.header.stamp = ros::Time(time_s);
     status.state = state;
     status.reason = reason;
     scene_.setState(status);
@@ -64,6 +68,26 @@ TEST_F(TrajectorySceneTest, ColoursTheWayByTheStateEvenAtStandstill) {
   ASSERT_GE(way.colors.size(), 3u);
   ASSERT_EQ(way.colors.size(), way.points.size());
   for (int i = 1; i < 3; ++i) EXPECT_LT(way.colors[i].g, way.colors[i - 1].g) << "darker";
+}
+
+TEST_F(TrajectorySceneTest, TheStatusOfAPoseMayComeAfterIt) {
+  const std::uint8_t states[] = {
+      OdometryStatus::OK, OdometryStatus::LOST, OdometryStatus::LOST, OdometryStatus::OK};
+  for (const double step_m : {0.0, 1.0}) {
+    scene_ = TrajectoryScene(kLeastSize_m);
+    for (int i = 0; i < 4; ++i) {
+      addAt(step_m * i, i);
+      setState(states[i], "", i);
+    }
+    const visualization_msgs::Marker way = marker("estimate");
+    std::vector<bool> lost;
+    for (const auto& colour : way.colors) lost.push_back(colour.r == 0.0f);
+    if (step_m > 0.0) {
+      EXPECT_EQ(lost, (std::vector<bool>{false, true, true, false, false}));
+    } else {
+      EXPECT_EQ(lost, (std::vector<bool>{false, true, false, false}));
+    }
+  }
 }
 
 TEST_F(TrajectorySceneTest, GrowsWithTheWay) {
