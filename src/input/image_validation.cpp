@@ -41,27 +41,29 @@ std::string quote(const std::string& text) {
 void validateSides(const std::string& side,
                    const sensor_msgs::Image& image,
                    std::int64_t max_pixels) {
-  const std::string is = "the " + side + " image is " + sizeText(image.width, image.height);
+  const auto is = [&] {
+    return "the " + side + " image is " + sizeText(image.width, image.height);
+  };
   if (image.width < kMinSize_px || image.height < kMinSize_px) {
     throw InputError(DropReason::kImageSize,
-                     is + ", but each side must be " + toText(kMinSize_px) +
+                     is() + ", but each side must be " + toText(kMinSize_px) +
                          " px or more: check the camera driver");
   }
   const std::uint64_t pixels = std::uint64_t{image.width} * image.height;
   if (pixels <= static_cast<std::uint64_t>(max_pixels)) return;
   throw InputError(DropReason::kImageSize,
-                   is + ", more than max_image_pixels = " + toText(max_pixels) +
+                   is() + ", more than max_image_pixels = " + toText(max_pixels) +
                        ": raise that parameter, or bin the images in the driver");
 }
 
 }  // namespace
 
 const ImageEncoding& encodingOf(const char* side, const sensor_msgs::Image& image) {
-  std::string known;
   for (const ImageEncoding& encoding : kEncodings) {
     if (image.encoding == encoding.name) return encoding;
-    known += std::string(" ") + encoding.name;
   }
+  std::string known;
+  for (const ImageEncoding& encoding : kEncodings) known += std::string(" ") + encoding.name;
   const bool is_float = image.encoding.find("FC") != std::string::npos;
   throw InputError(DropReason::kImageEncoding,
                    std::string("the ") + side + " image has the encoding " + quote(image.encoding) +
@@ -73,17 +75,17 @@ void validateImage(const char* side, const sensor_msgs::Image& image, std::int64
   const ImageEncoding& encoding = encodingOf(side, image);
   validateSides(side, image, max_pixels);
   const std::uint64_t row_bytes = std::uint64_t{image.width} * CV_ELEM_SIZE(encoding.cv_type);
-  const std::string has = std::string("the ") + side + " image has ";
+  const auto has = [&] { return std::string("the ") + side + " image has "; };
   if (image.step < row_bytes) {
     throw InputError(DropReason::kImageStep,
-                     has + "a step of " + toText(image.step) + " bytes, but " +
+                     has() + "a step of " + toText(image.step) + " bytes, but " +
                          toText(image.width) + " px of " + image.encoding + " take " +
                          toText(row_bytes) + ": the driver's encoding or step is wrong");
   }
   const std::uint64_t bytes = std::uint64_t{image.step} * image.height;
   if (image.data.size() < bytes) {
     throw InputError(DropReason::kImageData,
-                     has + toText(image.data.size()) + " bytes of data, but " +
+                     has() + toText(image.data.size()) + " bytes of data, but " +
                          toText(image.height) + " rows of " + toText(image.step) + " bytes take " +
                          toText(bytes) + ": the driver sends incomplete images");
   }
