@@ -7,6 +7,7 @@
 #include <nav_msgs/Path.h>
 #include <sensor_msgs/image_encodings.h>
 #include <tf2_eigen/tf2_eigen.h>
+#include <tf2_msgs/TFMessage.h>
 #include <boost/make_shared.hpp>
 
 #include "input/image_message.h"
@@ -22,14 +23,20 @@ constexpr int kMotionQueue = 50;
 /// Only the latest of large messages.
 constexpr int kPictureQueue = 1;
 
+/// Like that of a broadcaster: tf is not remapped for a nodelet. A broadcaster sends by way of the
+/// network thread even to receivers in this process.
+ros::Publisher advertiseTf() {
+  ros::NodeHandle nh;
+  return advertise<tf2_msgs::TFMessage>(nh, "/tf", kMotionQueue);
+}
+
 }  // namespace
 
 OdometryPublisher::OdometryPublisher(ros::NodeHandle& nh, const NodeParameters& parameters)
     : parameters_(parameters),
       path_throttle_(std::chrono::milliseconds(std::lround(1e3 / parameters.path_rate_hz))),
       flow_view_(flowView(parameters.flow_view)),
-      tf_broadcaster_(parameters.publish_tf ? std::make_optional<tf2_ros::TransformBroadcaster>()
-                                            : std::nullopt),
+      tf_publisher_(parameters.publish_tf ? advertiseTf() : ros::Publisher()),
       odom_publisher_(advertise<nav_msgs::Odometry>(nh, "odom", kMotionQueue)),
       twist_publisher_(
           advertise<geometry_msgs::TwistWithCovarianceStamped>(nh, "twist", kMotionQueue)),
@@ -42,7 +49,7 @@ std::chrono::steady_clock::time_point OdometryPublisher::publishMotion(
     const BaseState& state, const std::optional<Eigen::Isometry3d>& T_guess_base) {
   const auto odometry = boost::make_shared<nav_msgs::Odometry>(
       toOdometry(state, parameters_.odom_frame, parameters_.base_frame));
-  if (tf_broadcaster_) publishTf(state, T_guess_base);
+  if (tf_publisher_) publishTf(state, T_guess_base);
   const auto sent = std::chrono::steady_clock::now();
   odom_publisher_.publish(odometry);
   if (state.step_velocity) {
@@ -56,18 +63,19 @@ std::chrono::steady_clock::time_point OdometryPublisher::publishMotion(
 void OdometryPublisher::publishTf(const BaseState& state,
                                   const std::optional<Eigen::Isometry3d>& T_guess_base) {
   const std::string& odom = parameters_.odom_frame;
+  const std::string& base = parameters_.base_frame;
   const Eigen::Isometry3d& T_odom_base = state.T_odom_base.T;
+  const auto message = boost::make_shared<tf2_msgs::TFMessage>();
   if (!parameters_.guess_frame.empty()) {
     if (!T_guess_base) return;
-    tf_broadcaster_->sendTransform(toTransform(
+    message->transforms.push_back(toTransform(
         T_odom_base * T_guess_base->inverse(), state.stamp_ns, odom, parameters_.guess_frame));
   } else if (parameters_.invert_tf) {
-    tf_broadcaster_->sendTransform(
-        toTransform(T_odom_base.inverse(), state.stamp_ns, parameters_.base_frame, odom));
+    message->transforms.push_back(toTransform(T_odom_base.inverse(), state.stamp_ns, base, odom));
   } else {
-    tf_broadcaster_->sendTransform(
-        toTransform(T_odom_base, state.stamp_ns, odom, parameters_.base_frame));
+    message->transforms.push_back(toTransform(T_odom_base, state.stamp_ns, odom, base));
   }
+  tf_publisher_.publish(message);
 }
 
 void OdometryPublisher::publishStatus(OdometryStatus status) {

@@ -10,7 +10,6 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/time.h>
-#include <tf2_ros/transform_broadcaster.h>
 #include <opencv2/core.hpp>
 
 #include "input/throttle.h"
@@ -67,7 +66,7 @@ class OdometryPublisher {
   cv::Mat picture_;
 
   // roscpp sends what waits for its network thread in the order of advertising.
-  std::optional<tf2_ros::TransformBroadcaster> tf_broadcaster_;
+  ros::Publisher tf_publisher_;  // unless publish_tf is false
   ros::Publisher odom_publisher_;
   ros::Publisher twist_publisher_;
   ros::Publisher status_publisher_;

@@ -11,6 +11,7 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include "node/stereo_odometry_nodelet.h"
 #include "support/simulated_robot.h"
@@ -18,11 +19,21 @@
 namespace rotrocc {
 namespace {
 
+template <class Message>
+ros::Time stampOf(const Message& message) {
+  return message.header.stamp;
+}
+
+ros::Time stampOf(const tf2_msgs::TFMessage& message) {
+  return message.transforms.front().header.stamp;
+}
+
 /// Topics in the order in which the messages of a stamp arrive.
 class Arrivals {
  public:
   Arrivals() {
     nh_.setCallbackQueue(&queue_);
+    listen<tf2_msgs::TFMessage>("/tf");
     listen<nav_msgs::Odometry>("odom");
     listen<OdometryStatus>("status");
     listen<nav_msgs::Path>("path");
@@ -47,7 +58,7 @@ class Arrivals {
     const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
         [this, topic](const boost::shared_ptr<const Message>& message) {
           const std::lock_guard<std::mutex> lock(mutex_);
-          arrivals_[message->header.stamp].push_back(topic);
+          arrivals_[stampOf(*message)].push_back(topic);
         };
     subscribers_.push_back(nh_.subscribe<Message>(topic, 100, callback));
   }
@@ -60,7 +71,7 @@ class Arrivals {
   std::vector<ros::Subscriber> subscribers_;
 };
 
-TEST(MessageOrderTest, OdometryComesBeforeStatusPathAndPictures) {
+TEST(MessageOrderTest, TfAndOdometryComeBeforeStatusPathAndPictures) {
   ros::AsyncSpinner spinner(2);
   spinner.start();
   ros::param::set("stereo_odometry/path_rate_hz", 1000.0);  // with each pair
@@ -78,7 +89,10 @@ TEST(MessageOrderTest, OdometryComesBeforeStatusPathAndPictures) {
     robot.odometryOf(robot.drive());
     return arrivals.complete().size() >= 5;
   }));
-  for (const auto& topics : arrivals.complete()) EXPECT_EQ(topics.front(), "odom");
+  for (const auto& topics : arrivals.complete()) {
+    EXPECT_EQ(topics[0], "/tf");
+    EXPECT_EQ(topics[1], "odom");
+  }
 }
 
 }  // namespace
