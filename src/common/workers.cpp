@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/thread_name.h"
+
 namespace rotrocc {
 
 class Workers::Pool {
@@ -53,6 +55,7 @@ class Workers::Pool {
 
  private:
   void serve() {
+    nameThisThread("odometry_help");
     std::unique_lock<std::mutex> lock(mutex_);
     for (unsigned served = 0;;) {
       called_.wait(lock, [&] { return ending_ || (job_ != nullptr && jobs_ != served); });

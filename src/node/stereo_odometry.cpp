@@ -6,6 +6,7 @@
 #include <ros/init.h>
 #include <ros/time.h>
 
+#include "common/thread_name.h"
 #include "input/image_validation.h"
 #include "input/message_conversion.h"
 #include "node/odometry_messages.h"
@@ -122,6 +123,7 @@ void StereoOdometry::onTick(const ros::WallTimerEvent&) {
 }
 
 void StereoOdometry::work() {
+  nameThisThread("odometry");
   std::optional<ReceivedPair> pair;
   while (ros::ok() && !mailbox_.closed()) {
     if (auto newer = mailbox_.take(pair ? kTfPoll : kIdlePoll)) {

@@ -5,6 +5,7 @@
 
 #include <ros/this_node.h>
 
+#include "common/thread_name.h"
 #include "input/message_conversion.h"
 
 namespace rotrocc {
@@ -133,6 +134,7 @@ std::string TfConflict::description() {
 }
 
 void TfConflict::watch() {
+  nameThisThread("odometry_tf");
   std::unique_lock<std::mutex> lock(end_mutex_);
   while (!end_.wait_for(lock, kPeriod, [this] { return ended_; })) queue_.callAvailable();
 }

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/thread_name.h"
+
 namespace rotrocc {
 namespace {
 
@@ -50,6 +52,7 @@ void TrajectoryRecorder::add(const StampedPose& pose) {
 }
 
 void TrajectoryRecorder::work() {
+  nameThisThread("odometry_file");
   for (;;) {
     const std::vector<Item> items = queue_.takeAll();
     if (items.empty()) return;
