@@ -100,6 +100,16 @@ TEST_F(StereoIntakeTest, APairGoesOutWithItsSecondImage) {
   EXPECT_EQ(allDrops(), 0u);
 }
 
+TEST_F(StereoIntakeTest, ImagesAreNotCopied) {
+  const auto left = boost::make_shared<sensor_msgs::Image>();
+  const auto right = boost::make_shared<sensor_msgs::Image>();
+  left->header.stamp = right->header.stamp = ros::Time(kNow_s);
+  intake_.addImage(Side::kLeft, left, arrival());
+  intake_.addImage(Side::kRight, right, arrival());
+  EXPECT_EQ(last_pair_.images.left, left);
+  EXPECT_EQ(last_pair_.images.right, right);
+}
+
 TEST_F(StereoIntakeTest, APairKnowsWhenItsImagesCame) {
   for (const Side side : {Side::kLeft, Side::kRight}) {
     const Arrival first = arrival();

@@ -48,6 +48,15 @@ TEST(PerformanceTest, FillsTheTablesAndDrawsTheFigure) {
   EXPECT_EQ(rates[1].at("cameras [Hz]"), "20");
   EXPECT_GT(std::stod(rates[1].at("default: CPU a minute [s]")), 0.0);
 
+  const std::vector<CsvRow> arrival = readCsv(directory / "out/arrival.csv");
+  ASSERT_EQ(arrival.size(), 7u);
+  const std::vector<CsvRow> wakeups = readCsv(directory / "out/wakeups.csv");
+  ASSERT_EQ(wakeups.size(), 4u);
+  for (const char* mode : {"nodelet", "node over TCP"}) {
+    EXPECT_GT(std::stod(arrival[4].at(mode + std::string(": p50"))), 0.0) << mode;
+    EXPECT_GE(std::stod(wakeups[0].at(mode)), 1.0) << mode;  // with each pair
+  }
+
   EXPECT_GT(std::filesystem::file_size(directory / "cost.png"), 10000u);
   EXPECT_NE(readFile(report).find("| 640x480 | "), std::string::npos);
   EXPECT_EQ(readFile(report).find("| 1920x1200 |"), std::string::npos) << "rows of earlier runs";
