@@ -6,6 +6,12 @@
 
 namespace rotrocc {
 
+void PairRectifier::setThreads(int threads) {
+  if (threads == threads_) return;
+  threads_ = threads;
+  if (rectifier_) rectifier_->setThreads(threads);
+}
+
 StereoPair PairRectifier::rectify(const StereoPair& raw,
                                   const std::shared_ptr<const StereoCalibration>& calibration) {
   if (!rectifier_ || calibration != calibration_) {

@@ -13,6 +13,8 @@ class PairRectifier {
   /// `threads`: of StereoRectifier.
   explicit PairRectifier(int threads = 2) : threads_(threads) {}
 
+  void setThreads(int threads);
+
   /// `raw` has the size of the cameras. The rectified images are valid until the next call. Throws
   /// InputError if the images are too large for the maps.
   StereoPair rectify(const StereoPair& raw,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include <opencv2/core.hpp>
 
 #include "common/workers.h"
@@ -16,6 +18,9 @@ class StereoRectifier {
   /// use. Throws std::invalid_argument on a calibration that is not one, see RawCamera::check(),
   /// and of images larger than 32000 px.
   explicit StereoRectifier(const StereoCalibration& calibration, int threads = 2);
+
+  /// Keeps the maps. `threads` as above.
+  void setThreads(int threads) { workers_ = Workers(std::min(threads, 2)); }
 
   /// Of the rectified images.
   const StereoCamera& camera() const { return camera_; }

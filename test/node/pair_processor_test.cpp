@@ -1,8 +1,11 @@
 #include "node/base/pair_processor.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -10,6 +13,7 @@
 #include <opencv2/core.hpp>
 
 #include "support/odometry_rig.h"
+#include "support/wait_until.h"
 
 namespace rotrocc {
 namespace {
@@ -316,6 +320,32 @@ TEST(RectifyTest, RawImagesAreRectifiedByTheCameraInfoOfTheirTime) {
   }
   EXPECT_EQ(rig.answer()->result.state, State::kOk);
   EXPECT_NEAR(rig.answer()->state.T_odom_base.T.translation().x(), 3 * kStep_m, 0.05);
+}
+
+/// The threads of this process that share the work on a pair.
+int countHelpers() {
+  int count = 0;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::string name;
+    std::getline(std::ifstream(task.path() / "comm"), name);
+    count += name == "odometry_help" ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(RectifyTest, TheNumberOfThreadsCanBeChanged) {
+  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one processor, no helpers";
+  Parameters parameters;
+  parameters.node.rectify = true;
+  OdometryRig rig(parameters);
+  rig.sendInfos();
+  for (const int threads : {2, 1, 2}) {
+    parameters.odometry.threads = threads;
+    rig.processor().requestConfig(parameters.odometry);
+    rig.drive();
+    const int helpers = 2 * (threads - 1);  // of the estimator and of the rectification
+    EXPECT_TRUE(waitUntil([&] { return countHelpers() == helpers; })) << threads;
+  }
 }
 
 TEST(RectifyTest, TheResultDoesNotDependOnTheNumberOfThreads) {

@@ -22,6 +22,7 @@ PairAnswer PairProcessor::process(const ReceivedPair& received,
                                   const Eigen::Isometry3d& T_base_camera,
                                   const MotionSource& expected,
                                   const RotationSource& measured_rotation) {
+  configureIfAsked();
   PairAnswer answer;
   {
     const StageTimer timer(answer.conversion_ms);
@@ -48,18 +49,25 @@ StereoPair PairProcessor::convert(const ReceivedPair& received) {
   return received.calibration ? rectifier_.rectify(pair, received.calibration) : pair;
 }
 
+void PairProcessor::configureIfAsked() {
+  std::optional<VisualOdometry::Config> config;
+  {
+    const std::lock_guard<std::mutex> lock(requests_mutex_);
+    config.swap(requests_.config);
+  }
+  if (!config) return;
+  odometry_.configure(*config);
+  rectifier_.setThreads(config->threads);
+  inspector_.configure(config->correspondence_finder);
+  systematic_error_ = config->systematic_error;
+  if (base_odometry_) base_odometry_->setSystematicError(systematic_error_);
+}
+
 /// Returns whether a new trajectory starts.
 bool PairProcessor::restartIfAsked() {
   const std::lock_guard<std::mutex> lock(requests_mutex_);
-  if (requests_.config) {
-    odometry_.configure(*requests_.config);
-    inspector_.configure(requests_.config->correspondence_finder);
-    systematic_error_ = requests_.config->systematic_error;
-    if (base_odometry_) base_odometry_->setSystematicError(systematic_error_);
-  }
   if (requests_.reset || requests_.restart) odometry_.reset();
   if (requests_.reset) base_odometry_.reset();
-  requests_.config.reset();
   requests_.restart = false;
   return std::exchange(requests_.reset, false);
 }

@@ -73,6 +73,7 @@ class PairProcessor {
   };
 
   StereoPair convert(const ReceivedPair& received);
+  void configureIfAsked();
   bool restartIfAsked();
   bool restartIfTimeWentBack(std::int64_t stamp_ns);
   bool restartIfLostForLong(std::int64_t stamp_ns);
