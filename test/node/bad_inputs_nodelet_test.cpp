@@ -27,6 +27,7 @@
 #include "rotrocc/SetPose.h"
 #include "support/bad_input_table.h"
 #include "support/log_recorder.h"
+#include "support/service_caller.h"
 #include "support/simulated_robot.h"
 
 namespace rotrocc {
@@ -257,9 +258,9 @@ std::string badMount(const std::function<void(geometry_msgs::Transform&)>& spoil
 }
 
 /// Calls all services repeatedly in its own thread until end().
-class ServiceCaller {
+class RepeatedCalls {
  public:
-  ~ServiceCaller() { end(); }
+  ~RepeatedCalls() { end(); }
 
   /// Returns how many calls had a wrong response.
   int end() {
@@ -273,8 +274,7 @@ class ServiceCaller {
  private:
   template <class Service>
   void call(const std::string& name, Service service, bool success) {
-    const bool answered = ros::service::call(kName + ("/" + name), service);
-    if (!answered || service.response.success != success) ++wrong_answers_;
+    if (!services_.call(name, service) || service.response.success != success) ++wrong_answers_;
   }
 
   void work() {
@@ -298,7 +298,8 @@ class ServiceCaller {
   std::atomic<bool> done_{false};
   std::atomic<int> rounds_{0};
   std::atomic<int> wrong_answers_{0};
-  std::thread thread_{&ServiceCaller::work, this};
+  ServiceCaller services_{kName};
+  std::thread thread_{&RepeatedCalls::work, this};
 };
 
 std::string save(const std::string& path) {
@@ -312,7 +313,7 @@ std::string save(const std::string& path) {
 std::string services() {
   Drive drive;
   std::string observed = "before the first pair " + save("/no/such/directory/poses.txt");
-  ServiceCaller caller;
+  RepeatedCalls caller;
   EXPECT_TRUE(comesTrue([&] { return caller.rounds() > 5; }));
   drive.setUp();
   const int before = caller.rounds();

@@ -3,6 +3,7 @@
 #include "node/odometry_services.h"
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <thread>
 
@@ -37,6 +38,27 @@ TEST(OdometryServicesTest, NothingWaitsForASave) {
   EXPECT_TRUE(caller.call("reset", reset));
   EXPECT_TRUE(reset.response.success);
   saver.join();
+  EXPECT_TRUE(save.response.success) << save.response.message;
+}
+
+/// Of the tests themselves.
+TEST(ServiceCallerTest, EndsACallWithoutReply) {
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  std::atomic<bool> replies{false};
+  OdometryServices::Actions actions;
+  actions.save_trajectory = [&](const std::string&, const std::string&) -> std::string {
+    waitUntil([&] { return replies.load(); });
+    return "wrote 1 pose";
+  };
+  ros::NodeHandle nh("~");
+  const OdometryServices services(nh, actions);
+
+  ServiceCaller caller(nh.getNamespace(), std::chrono::milliseconds(300));
+  SaveTrajectory save;
+  EXPECT_FALSE(caller.call("save_trajectory", save));
+  replies = true;
+  EXPECT_TRUE(waitUntil([&] { return caller.call("save_trajectory", save); }));
   EXPECT_TRUE(save.response.success) << save.response.message;
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <chrono>
+#include <future>
+#include <iostream>
 #include <map>
 #include <string>
 #include <utility>
@@ -16,20 +19,36 @@ namespace rotrocc {
 /// connection per call about one call in a thousand fails.
 class ServiceCaller {
  public:
-  explicit ServiceCaller(std::string node) : node_(std::move(node)) {}
+  /// `limit`: of each call. roscpp may lose a reply, and would wait for it forever.
+  explicit ServiceCaller(std::string node, std::chrono::milliseconds limit = kHangLimit)
+      : node_(std::move(node)), limit_(limit) {}
 
+  /// Returns false, after a message, if there is no service or no reply within the limit.
   template <class Service>
   bool call(const std::string& name, Service& service) {
+    const std::string full_name = node_ + "/" + name;
     ros::ServiceClient& client = clients_[name];
-    waitUntil([&] {
-      if (!client.isValid()) client = nh_.serviceClient<Service>(node_ + "/" + name, true);
+    const bool there = waitUntil([&] {
+      if (!client.isValid()) client = nh_.serviceClient<Service>(full_name, true);
       return client.isValid();
     });
-    return client.call(service);
+    if (!there) return fail("there is no service " + full_name);
+    std::future<bool> reply = std::async(std::launch::async, [&] { return client.call(service); });
+    if (reply.wait_for(limit_) == std::future_status::ready) return reply.get();
+    client.shutdown();  // ends the call, and the next one connects anew
+    reply.wait();
+    return fail("no reply of the service " + full_name + " within " +
+                std::to_string(limit_.count()) + " ms");
   }
 
  private:
+  static bool fail(const std::string& why) {
+    std::cerr << why << std::endl;
+    return false;
+  }
+
   std::string node_;
+  std::chrono::milliseconds limit_;
   ros::NodeHandle nh_;
   std::map<std::string, ros::ServiceClient> clients_;
 };
