@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/to_seconds.h"
 #include "evaluation/trajectory_sampling.h"
 
 namespace rotrocc {
@@ -56,7 +57,7 @@ void requireMatched(const MatchedTrajectories& matched) {
 
 double duration_s(const StampedPose& first, const StampedPose& last) {
   const std::int64_t duration_ns = last.stamp_ns - first.stamp_ns;
-  if (duration_ns > 0) return 1e-9 * static_cast<double>(duration_ns);
+  if (duration_ns > 0) return toSeconds(duration_ns);
   throw std::invalid_argument(
       "stamps of the truth do not increase: " + std::to_string(last.stamp_ns) + " ns comes after " +
       std::to_string(first.stamp_ns) + " ns");

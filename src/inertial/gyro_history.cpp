@@ -4,18 +4,15 @@
 #include <iterator>
 
 #include "common/sentence.h"
+#include "common/to_seconds.h"
 #include "rotrocc/rigid_motion.h"
 
 namespace rotrocc {
 namespace {
 
-double secondsBetween(std::int64_t from_ns, std::int64_t to_ns) {
-  return 1e-9 * static_cast<double>(to_ns - from_ns);
-}
-
 Eigen::Vector3d rateAt(const GyroSample& before, const GyroSample& after, std::int64_t stamp_ns) {
   const double t =
-      secondsBetween(before.stamp_ns, stamp_ns) / secondsBetween(before.stamp_ns, after.stamp_ns);
+      toSeconds(stamp_ns - before.stamp_ns) / toSeconds(after.stamp_ns - before.stamp_ns);
   return (1.0 - t) * before.rate_rps + t * after.rate_rps;
 }
 
@@ -31,14 +28,14 @@ void append(const Eigen::Vector3d& angle_rad, double dt_s, GyroRotation& rotatio
 std::string GyroHistory::add(const GyroSample& sample) {
   if (!sample.rate_rps.allFinite()) return "the angular velocity is not a number";
   if (!samples_.empty() && sample.stamp_ns <= samples_.back().stamp_ns) {
-    const double back_s = secondsBetween(sample.stamp_ns, samples_.back().stamp_ns);
+    const double back_s = toSeconds(samples_.back().stamp_ns - sample.stamp_ns);
     if (back_s <= kJump_s) {
       return sentence("the stamp is ", back_s, " s before that of the sample before");
     }
     samples_.clear();
   }
   samples_.push_back(sample);
-  while (secondsBetween(samples_.front().stamp_ns, sample.stamp_ns) > kLength_s) {
+  while (toSeconds(sample.stamp_ns - samples_.front().stamp_ns) > kLength_s) {
     samples_.pop_front();
   }
   return "";
@@ -60,7 +57,7 @@ GyroHistory::Samples::const_iterator GyroHistory::lastUpTo(std::int64_t stamp_ns
 
 std::string GyroHistory::whyUnknown(std::int64_t from_ns, std::int64_t to_ns) const {
   if (samples_.empty()) return "there is no sample";
-  const double late_s = secondsBetween(samples_.back().stamp_ns, to_ns);
+  const double late_s = toSeconds(to_ns - samples_.back().stamp_ns);
   if (late_s > 0.0) {
     return sentence("the newest sample is ",
                     late_s,
@@ -69,11 +66,11 @@ std::string GyroHistory::whyUnknown(std::int64_t from_ns, std::int64_t to_ns) co
   auto sample = lastUpTo(from_ns);
   if (sample == samples_.end()) {
     return sentence("the oldest sample is ",
-                    secondsBetween(from_ns, samples_.front().stamp_ns),
+                    toSeconds(samples_.front().stamp_ns - from_ns),
                     " s newer than the image before");
   }
   for (; sample->stamp_ns < to_ns; ++sample) {
-    const double gap_s = secondsBetween(sample->stamp_ns, std::next(sample)->stamp_ns);
+    const double gap_s = toSeconds(std::next(sample)->stamp_ns - sample->stamp_ns);
     if (gap_s <= kMaxGap_s) continue;
     return sentence("two samples are ", gap_s, " s apart, more than ", kMaxGap_s, " s");
   }
@@ -88,7 +85,7 @@ GyroRotation GyroHistory::rotation(std::int64_t from_ns,
     const GyroSample& after = *std::next(before);
     const std::int64_t begin_ns = std::max(from_ns, before->stamp_ns);
     const std::int64_t end_ns = std::min(to_ns, after.stamp_ns);
-    const double dt_s = secondsBetween(begin_ns, end_ns);
+    const double dt_s = toSeconds(end_ns - begin_ns);
     const Eigen::Vector3d mean_rps =
         0.5 * (rateAt(*before, after, begin_ns) + rateAt(*before, after, end_ns));
     append(dt_s * (mean_rps - bias_rps), dt_s, rotation);

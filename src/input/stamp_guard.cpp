@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "common/to_seconds.h"
 #include "input/to_text.h"
 
 namespace rotrocc {
@@ -19,10 +20,6 @@ constexpr std::size_t kArrivals = 16;
 /// In periods. After a glitch of less, the following images are not late enough for a jump back.
 constexpr std::int64_t kTolerance = 3;
 constexpr std::int64_t kUnknownTolerance_ns = 1'000'000'000;
-
-double seconds(std::int64_t ns) {
-  return 1e-9 * static_cast<double>(ns);
-}
 
 }  // namespace
 
@@ -65,7 +62,7 @@ StampGuard::Verdict StampGuard::check(std::int64_t stamp_ns, std::int64_t clock_
 }
 
 void StampGuard::checkClock(const Arrival& arrival) const {
-  const double ahead_s = seconds(arrival.ahead_ns());
+  const double ahead_s = toSeconds(arrival.ahead_ns());
   if (arrival.clock_ns == 0 || ahead_s <= max_future_s_) return;
   throw InputError(DropReason::kStampFuture,
                    topic_ + " has the stamp " + stampText(arrival.stamp_ns) + " s, " +
@@ -97,7 +94,7 @@ bool StampGuard::goesBack(const Arrival& arrival) {
     if (!credible) {
       throw InputError(DropReason::kStampBackward,
                        topic_ + " has the stamp " + stampText(arrival.stamp_ns) + " s, " +
-                           toText(seconds(back_ns)) +
+                           toText(toSeconds(back_ns)) +
                            " s before the previous one: send images in the order of their stamps");
     }
   }

@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include "common/to_seconds.h"
+
 namespace rotrocc {
 namespace {
 
@@ -12,10 +14,6 @@ constexpr std::size_t kEnough = 16;
 constexpr double kLeastJitter_s = 2e-4;
 /// ... and times that of images of the same time, beyond chance.
 constexpr double kClearlyMore = 4.0;
-
-double seconds(std::int64_t ns) {
-  return 1e-9 * static_cast<double>(ns);
-}
 
 /// Nearest stamp minus `stamp_ns`; there must be a stamp.
 std::int64_t toNearest(std::int64_t stamp_ns, const StampSeries& series) {
@@ -33,7 +31,7 @@ std::vector<double> skewsNear(int periods, const StampSeries& left, const StampS
   for (const std::int64_t stamp_ns : left.stamps_ns()) {
     const std::int64_t shift_ns = periods * *period_ns;
     const std::int64_t rest_ns = toNearest(stamp_ns + shift_ns, right);
-    if (2 * std::abs(rest_ns) <= *period_ns) skews_s.push_back(seconds(shift_ns + rest_ns));
+    if (2 * std::abs(rest_ns) <= *period_ns) skews_s.push_back(toSeconds(shift_ns + rest_ns));
   }
   std::sort(skews_s.begin(), skews_s.end());
   return skews_s;
@@ -54,7 +52,7 @@ std::optional<double> greatestStampDifference(const StampSeries& left, const Sta
   for (const std::int64_t stamp_ns : left.stamps_ns()) {
     nearest_ns = std::min(nearest_ns, std::abs(toNearest(stamp_ns, right)));
   }
-  return seconds(nearest_ns);
+  return toSeconds(nearest_ns);
 }
 
 std::optional<double> medianSkew(const StampSeries& left, const StampSeries& right) {

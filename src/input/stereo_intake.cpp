@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/to_seconds.h"
 #include "input/camera_validation.h"
 #include "input/message_conversion.h"
 #include "input/stamp_skew.h"
@@ -151,7 +152,7 @@ void StereoIntake::addStamps(InputReport& report) const {
   const StampSeries& left = synchronizer_.leftStamps();
   const StampSeries& right = synchronizer_.rightStamps();
   if (const auto period_ns = commonPeriod_ns(left, right)) {
-    report.period_s = 1e-9 * static_cast<double>(*period_ns);
+    report.period_s = toSeconds(*period_ns);
   }
   report.stamp_difference_s = greatestStampDifference(left, right);
   report.max_stamp_difference_s = parameters_.max_stamp_difference_s;

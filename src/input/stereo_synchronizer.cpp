@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "common/to_seconds.h"
 #include "input/message_conversion.h"
 
 namespace rotrocc {
@@ -39,7 +40,7 @@ std::optional<StereoImages> StereoSynchronizer::addRight(const sensor_msgs::Imag
 }
 
 double StereoSynchronizer::tolerance_s() const {
-  return 1e-9 * static_cast<double>(tolerance_ns());
+  return toSeconds(tolerance_ns());
 }
 
 void StereoSynchronizer::reset() {

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <string>
 
+#include "common/to_seconds.h"
+
 namespace rotrocc {
 
 /// A number as a stream prints it: 0.54, not 0.540000.
@@ -26,7 +28,7 @@ inline std::string exactText(double value) {
 /// A stamp in seconds, to the millisecond: 1600000000.123
 inline std::string stampText(std::int64_t stamp_ns) {
   std::ostringstream text;
-  text << std::fixed << std::setprecision(3) << 1e-9 * static_cast<double>(stamp_ns);
+  text << std::fixed << std::setprecision(3) << toSeconds(stamp_ns);
   return text.str();
 }
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "common/sentence.h"
+#include "common/to_seconds.h"
 
 namespace rotrocc {
 namespace {
@@ -53,7 +54,7 @@ ImagePairs::ImagePairs(std::vector<StampedImage> left,
                                     " and ",
                                     counted(right.size(), "right image"),
                                     ", none have stamps within ",
-                                    1e-9 * static_cast<double>(tolerance_ns),
+                                    toSeconds(tolerance_ns),
                                     " s (max_stamp_difference_s); ",
                                     counted(missing_files_, "listed file"),
                                     " missing, the first left image is ",

@@ -11,6 +11,7 @@
 
 #include <boost/program_options.hpp>
 
+#include "common/to_seconds.h"
 #include "rotrocc/trajectory.h"
 #include "rotrocc/trajectory_error.h"
 #include "sequences/stereo_sequence.h"
@@ -109,8 +110,8 @@ bool isTum(const std::string& path) {
 std::string timeRange(const std::string& path, const Trajectory& trajectory) {
   std::ostringstream range;
   range << std::fixed << std::setprecision(2) << path << " covers "
-        << 1e-9 * static_cast<double>(trajectory.front().stamp_ns) << " to "
-        << 1e-9 * static_cast<double>(trajectory.back().stamp_ns) << " s";
+        << toSeconds(trajectory.front().stamp_ns) << " to " << toSeconds(trajectory.back().stamp_ns)
+        << " s";
   return range.str();
 }
 

@@ -13,6 +13,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/to_seconds.h"
+
 namespace rotrocc {
 namespace {
 
@@ -67,7 +69,7 @@ std::vector<Eigen::Vector3d> positions(const Trajectory& trajectory) {
 }
 
 double duration_s(const Trajectory& trajectory) {
-  return 1e-9 * static_cast<double>(trajectory.back().stamp_ns - trajectory.front().stamp_ns);
+  return toSeconds(trajectory.back().stamp_ns - trajectory.front().stamp_ns);
 }
 
 void writeMeans(const std::vector<MeanError>& means, const char* bin, const std::string& path) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/to_seconds.h"
 #include "odometry/systematic_error.h"
 
 namespace rotrocc {
@@ -176,7 +177,7 @@ Eigen::Isometry3d BaseOdometry::T_start_base() const {
 Matrix6d BaseOdometry::growthWithTime(std::int64_t stamp_ns) {
   const std::int64_t passed_ns = stamp_ns - last_.stamp_ns;
   const double before_s = without_motion_s_;
-  without_motion_s_ += 1e-9 * static_cast<double>(std::max<std::int64_t>(passed_ns, 0));
+  without_motion_s_ += toSeconds(std::max<std::int64_t>(passed_ns, 0));
   without_motion_s_ = std::min(without_motion_s_, kMaxWithoutMotion_s);
   const double growth_s2 = without_motion_s_ * without_motion_s_ - before_s * before_s;
   return diagonal(

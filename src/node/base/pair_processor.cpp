@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/stage_timer.h"
+#include "common/to_seconds.h"
 #include "input/image_validation.h"
 #include "input/message_conversion.h"
 #include "input/to_text.h"
@@ -87,7 +88,7 @@ bool PairProcessor::restartIfTimeWentBack(std::int64_t stamp_ns) {
 /// Whether a new trajectory starts.
 bool PairProcessor::restartIfLostForLong(std::int64_t stamp_ns) {
   if (!lost_since_ns_ || parameters_.reset_after_lost_s <= 0.0) return false;
-  const double lost_s = 1e-9 * static_cast<double>(stamp_ns - *lost_since_ns_);
+  const double lost_s = toSeconds(stamp_ns - *lost_since_ns_);
   if (lost_s < parameters_.reset_after_lost_s) return false;
   const bool keep = parameters_.pose_after_lost == "keep";
   log_.warn("lost for " + toText(lost_s) +
