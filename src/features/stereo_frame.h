@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/to_seconds.h"
 #include "features/image_pyramid.h"
 
 namespace rotrocc {
@@ -18,7 +19,7 @@ struct StereoFrame {
 using FramePtr = std::shared_ptr<const StereoFrame>;
 
 inline double secondsBetween(const StereoFrame& earlier, const StereoFrame& later) {
-  return 1e-9 * static_cast<double>(later.stamp_ns - earlier.stamp_ns);
+  return toSeconds(later.stamp_ns - earlier.stamp_ns);
 }
 
 /// A pool of frames. Frames that are no longer referenced are reused.

@@ -5,6 +5,7 @@
 
 #include "common/sentence.h"
 #include "common/stage_timer.h"
+#include "common/to_seconds.h"
 #include "odometry/pair_check.h"
 #include "odometry/systematic_error.h"
 
@@ -151,7 +152,7 @@ std::string VisualOdometry::Pipeline::whyRestart(const StereoPair& pair,
                                                  const StereoCamera& camera) const {
   if (!last_) return "first pair";
   if (camera != camera_) return "the camera has changed";
-  const double gap_s = 1e-9 * static_cast<double>(pair.stamp_ns - newest().stamp_ns);
+  const double gap_s = toSeconds(pair.stamp_ns - newest().stamp_ns);
   if (gap_s <= config_.max_gap_s) return "";
   return sentence("no pair for ", gap_s, " s, more than max_gap_s = ", config_.max_gap_s);
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "common/to_seconds.h"
 #include "rotrocc/rigid_motion.h"
 #include "simulation/counter_random.h"
 
@@ -44,7 +45,7 @@ std::vector<GyroSample> simulateGyroscope(const Drive& drive,
     const std::int64_t stamp_ns = first_ns + std::llround(1e9 * since_first_s);
     samples.push_back(
         {stamp_ns,
-         trueRate(drive, 1e-9 * static_cast<double>(stamp_ns)) + bias_rps +
+         trueRate(drive, toSeconds(stamp_ns)) + bias_rps +
              figures.noise_density * std::sqrt(figures.rate_hz) * noise(seed, kWhite, i)});
     bias_rps += figures.bias_walk * std::sqrt(period_s) * noise(seed, kWalk, i);
   }

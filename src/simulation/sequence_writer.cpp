@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/to_seconds.h"
 #include "evaluation/image_codecs.h"
 #include "evaluation/png.h"
 #include "rotrocc/trajectory.h"
@@ -49,7 +50,7 @@ void writeTimes(const fs::path& path, const Simulator& simulator) {
   std::ofstream file(path);
   file << std::fixed << std::setprecision(9);
   for (int i = 0; i < simulator.size(); ++i) {
-    file << 1e-9 * static_cast<double>(simulator.stamp_ns(i)) << '\n';
+    file << toSeconds(simulator.stamp_ns(i)) << '\n';
   }
   if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
 }

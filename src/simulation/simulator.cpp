@@ -95,7 +95,7 @@ std::vector<std::int64_t> keptStamps(const Scenario& scenario, const SimulationO
   std::vector<std::int64_t> kept;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (options.frames > 0 && static_cast<int>(kept.size()) == options.frames) break;
-    if (options.duration_s > 0.0 && 1e-9 * static_cast<double>(all[i]) > options.duration_s) break;
+    if (options.duration_s > 0.0 && toSeconds(all[i]) > options.duration_s) break;
     const bool dropped = i > 0 && randomUniform(options.seed, 0xD209, i) < options.drop_share;
     if (!dropped) kept.push_back(all[i]);
   }

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
+#include "common/to_seconds.h"
 #include "inertial/gyro_sample.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
@@ -86,7 +87,7 @@ class Simulator {
   std::vector<double> depthsAt(int index, const std::vector<Eigen::Vector2d>& pixels);
 
  private:
-  double time_s(int index) const { return 1e-9 * static_cast<double>(stamps_ns_.at(index)); }
+  double time_s(int index) const { return toSeconds(stamps_ns_.at(index)); }
   PixelRays rays(bool right) const;
   Eigen::Isometry3d cameraPose(double time_s, bool right) const;
   Picture look(double time_s, bool right, const PixelRays& rays);

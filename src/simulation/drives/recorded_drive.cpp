@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/to_seconds.h"
 #include "rotrocc/rigid_motion.h"
 #include "simulation/drives/drive.h"
 #include "simulation/drives/travelled_way.h"
@@ -39,7 +40,7 @@ RecordedDrive::RecordedDrive(Trajectory trajectory)
       path_(pathThrough(positionsOf(trajectory_), levelView(trajectory_))),
       stations_m_(stationsAlong(positionsOf(trajectory_))) {
   for (const StampedPose& pose : trajectory_) {
-    times_s_.push_back(1e-9 * static_cast<double>(pose.stamp_ns - trajectory_.front().stamp_ns));
+    times_s_.push_back(toSeconds(pose.stamp_ns - trajectory_.front().stamp_ns));
   }
 }
 
