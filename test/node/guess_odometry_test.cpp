@@ -48,12 +48,12 @@ TEST_F(GuessOdometryTest, MotionIsThatOfTheBase) {
 /// With waiting at each pair, this takes an hour.
 TEST_F(GuessOdometryTest, AFrameThatDoesNotExistIsToldOnceAndNotWaitedFor) {
   GuessOdometry guess("wheel_odom", "base_link", 0.2, tf_.feed());
-  for (int pair = 1; pair < GuessOdometry::kPatience; ++pair) {
+  for (int pair = 1; pair < Patience::kMisses; ++pair) {
     EXPECT_FALSE(motionTo(pair, guess));
     EXPECT_EQ(guess.trouble(), "") << pair;
   }
   constexpr int kPairs = 20'000;
-  for (int pair = GuessOdometry::kPatience; pair <= kPairs; ++pair) {
+  for (int pair = Patience::kMisses; pair <= kPairs; ++pair) {
     EXPECT_FALSE(motionTo(pair, guess));
   }
   EXPECT_EQ(guess.misses(), static_cast<std::uint64_t>(kPairs));

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "node/patience.h"
+
 namespace rotrocc {
 
 /// Decides what the log says about a gyroscope, and whether pairs wait for it: not for one that has
@@ -9,7 +11,7 @@ namespace rotrocc {
 class GyroWatch {
  public:
   /// Pairs in a row after which the log tells that it is used or not, and why.
-  static constexpr int kPairs = 5;
+  static constexpr int kPairs = Patience::kMisses;
   /// While it is missing, one of so many pairs waits for it.
   static constexpr int kRetryPairs = 10;
 
@@ -22,10 +24,11 @@ class GyroWatch {
   Message onPair(const std::string& why_not);
 
   /// Whether the next pair waits for samples.
-  bool waits() const { return missed_ < kPairs || missed_ % kRetryPairs == 0; }
+  bool waits() const { return patience_.waits(); }
 
  private:
-  int used_ = 0, missed_ = 0;  // pairs in a row
+  Patience patience_{kRetryPairs};
+  int used_ = 0;  // pairs in a row
   bool told_used_ = false, told_missed_ = false;
 };
 

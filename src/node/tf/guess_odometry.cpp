@@ -40,13 +40,10 @@ std::optional<Eigen::Isometry3d> GuessOdometry::motion(std::int64_t prev_ns, std
   return previous->inverse() * *current;
 }
 
-/// In trouble, only if the previous transform did come, and not at each pair: waiting would delay
+/// After misses, only if the previous transform did come, and not at each pair: waiting would delay
 /// all of them.
-bool GuessOdometry::mayWait(std::int64_t prev_ns) {
-  if (trouble_.empty()) return true;
-  if (++pairs_since_wait_ < kRetryPairs || !pose(prev_ns)) return false;
-  pairs_since_wait_ = 0;
-  return true;
+bool GuessOdometry::mayWait(std::int64_t prev_ns) const {
+  return patience_.waits() && (!patience_.hasEnded() || pose(prev_ns));
 }
 
 std::optional<Eigen::Isometry3d> GuessOdometry::waitForPose(std::int64_t stamp_ns) const {
@@ -72,19 +69,19 @@ std::optional<Eigen::Isometry3d> GuessOdometry::pose(std::int64_t stamp_ns) cons
 
 void GuessOdometry::onMiss(std::int64_t stamp_ns) {
   ++misses_;
-  if (++misses_in_a_row_ < kPatience || !trouble_.empty()) return;
+  patience_.onMiss();
+  if (!patience_.hasEnded() || !trouble_.empty()) return;
   trouble_ = describeMiss(stamp_ns);
-  pairs_since_wait_ = 0;
   log_.warn(trouble_);
 }
 
 void GuessOdometry::onMotion() {
   if (!trouble_.empty()) {
     log_.info("tf from guess_frame " + guess_frame_ + " to " + base_frame_ + " is back, after " +
-              std::to_string(misses_in_a_row_) + " pairs without it");
+              std::to_string(patience_.misses()) + " pairs without it");
   }
   trouble_.clear();
-  misses_in_a_row_ = 0;
+  patience_.onAnswer();
 }
 
 std::string GuessOdometry::describeMiss(std::int64_t stamp_ns) const {
@@ -100,7 +97,8 @@ std::string GuessOdometry::describeMiss(std::int64_t stamp_ns) const {
   }
   cause.erase(cause.find_last_not_of(". ") + 1);
   return "no tf from guess_frame " + guess_frame_ + " to " + base_frame_ + " at " +
-         std::to_string(kPatience) + " pairs in a row (" + cause + "), pairs do not wait for it: " +
+         std::to_string(Patience::kMisses) + " pairs in a row (" + cause +
+         "), pairs do not wait for it: " +
          (late ? "raise guess_timeout_s = " + toText(timeout_s_) + ", or synchronise the clocks"
                : "correct guess_frame, or start the odometry that publishes it");
 }

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "input/log.h"
+#include "node/patience.h"
 #include "node/tf/tf_feed.h"
 
 namespace rotrocc {
@@ -17,11 +18,10 @@ namespace rotrocc {
 /// Another odometry of the robot, e.g. wheel odometry, whose tf is the pose of the base in its own
 /// odom frame, the guess frame.
 ///
-/// Motions wait for tf. After kPatience misses in a row they no longer do, until tf has the
+/// Motions wait for tf. After Patience::kMisses in a row they no longer do, until tf has the
 /// transform again. Transforms that come, but late, are waited for once in kRetryPairs.
 class GuessOdometry {
  public:
-  static constexpr int kPatience = 5;
   static constexpr int kRetryPairs = 50;
 
   /// Waits at most `timeout_s` for a transform.
@@ -48,7 +48,7 @@ class GuessOdometry {
   void clear() { buffer_.clear(); }
 
  private:
-  bool mayWait(std::int64_t prev_ns);
+  bool mayWait(std::int64_t prev_ns) const;
   std::optional<Eigen::Isometry3d> waitForPose(std::int64_t stamp_ns) const;
   void onMiss(std::int64_t stamp_ns);
   void onMotion();
@@ -60,8 +60,7 @@ class GuessOdometry {
   double timeout_s_;
   std::string trouble_;
   std::uint64_t misses_ = 0;
-  std::uint64_t misses_in_a_row_ = 0;
-  int pairs_since_wait_ = 0;  // while in trouble
+  Patience patience_{kRetryPairs};
   tf2::BufferCore buffer_;
   std::shared_ptr<void> listener_;
 };
