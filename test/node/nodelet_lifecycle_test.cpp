@@ -148,8 +148,9 @@ std::vector<Obstacle> obstacles() {
   return {
       {"unknown parameter", {{"no_such", "1"}}, {}},
       {"frame", {{"base_frame", "/base_link"}}, {}},
-      {"status", {}, {{"status", "canary/answer"}}},
       {"odom", {}, {{"odom", "canary/answer"}}},
+      {"twist", {}, {{"twist", "canary/answer"}}},
+      {"status", {}, {{"status", "canary/answer"}}},
       {"path", {}, {{"path", "canary/answer"}}},
       {"inliers", {}, {{"inliers", "canary/answer"}}},
       {"trajectory file", {{"trajectory_file", "/no/such/directory/poses.txt"}}, {}},
