@@ -159,6 +159,7 @@ void StereoOdometry::process(const ReceivedPair& received, const Eigen::Isometry
   times.waiting_ms = milliseconds(SteadyClock::now() - received.arrival);
   const PairAnswer answer = estimate(received, T_base_camera);
   times.conversion_ms = answer.conversion_ms;
+  keepPose(answer);
   const SteadyClock::time_point ready = SteadyClock::now();
   const SteadyClock::time_point sent = publishMotion(answer);
   times.publishing_ms = milliseconds(sent - ready);
@@ -208,22 +209,27 @@ void StereoOdometry::followUp(const PairAnswer& answer,
   health_.addAnswer(answer.result, hint, times.latency_ms);
   const std::string camera_frame = cameraFrameOf(*received.images.left, parameters_.camera_frame);
   publisher_.publishStatus(toStatus(answer.result, health_.counts(drops_), times, camera_frame));
-  keepPose(answer);
+  writePose(answer);
   logState(answer.result, hint);
   publisher_.publishPictures(
       answer.pair.left, received.camera, processor_.odometry(), answer.result, camera_frame);
 }
 
-/// In the path and the trajectories.
+/// For ~save_trajectory. Before the odometry is sent: who has received it can save its pose.
 void StereoOdometry::keepPose(const PairAnswer& answer) {
+  if (answer.starts_trajectory) trajectory_.clear();
+  trajectory_.add({answer.state.stamp_ns, answer.state.T_first_camera});
+}
+
+/// Into trajectory_file and the path.
+void StereoOdometry::writePose(const PairAnswer& answer) {
   if (answer.starts_trajectory) {
-    trajectory_.clear();
     if (trajectory_recorder_) trajectory_recorder_->beginNew();
     publisher_.forgetPath();
   }
-  const StampedPose pose = {answer.state.stamp_ns, answer.state.T_first_camera};
-  trajectory_.add(pose);
-  if (trajectory_recorder_) trajectory_recorder_->add(pose);
+  if (trajectory_recorder_) {
+    trajectory_recorder_->add({answer.state.stamp_ns, answer.state.T_first_camera});
+  }
   publisher_.publishPath(answer.state);
 }
 

@@ -67,6 +67,7 @@ class StereoOdometry {
   std::chrono::steady_clock::time_point publishMotion(const PairAnswer& answer);
   void followUp(const PairAnswer& answer, const ReceivedPair& received, const PairTimes& times);
   void keepPose(const PairAnswer& answer);
+  void writePose(const PairAnswer& answer);
   void logState(const OdometryResult& result, const std::string& hint);
 
   Log log_;
