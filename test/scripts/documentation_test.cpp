@@ -1,4 +1,4 @@
-// The links of README.md and docs/*.md, and the length of the README.
+// The links of README.md and docs/*.md, the length of the README, and the addresses of maintainers.
 
 #include <algorithm>
 #include <cctype>
@@ -83,6 +83,17 @@ TEST(DocumentationTest, EveryPageIsLinkedFromTheReadme) {
     if (page.filename() == "README.md") continue;
     const std::string link = "](docs/" + page.filename().string();
     EXPECT_NE(readme.find(link), std::string::npos) << page;
+  }
+}
+
+/// The domain .invalid is nobody's.
+TEST(DocumentationTest, MaintainersHaveNoAddressOfSomebodyElse) {
+  static const std::regex address("email=\"([^\"]*)\"");
+  for (const char* folder : {".", "test/support/echo", "test/support/transport"}) {
+    const std::string package = readFile(fs::path(ROOT) / folder / "package.xml");
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(package, found, address)) << folder;
+    EXPECT_TRUE(std::regex_match(found.str(1), std::regex(".*[.]invalid"))) << found.str(1);
   }
 }
 
