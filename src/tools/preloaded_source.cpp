@@ -1,19 +1,23 @@
 #include "tools/preloaded_source.h"
 
-#include <sys/resource.h>
-
 #include <cstdio>
+#include <fstream>
 #include <ostream>
+#include <string>
 #include <tuple>
 
 namespace rotrocc {
 namespace {
 
-/// Peak resident memory of this process.
-double peak_MB() {
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024e-6 * static_cast<double>(usage.ru_maxrss);
+/// Memory of this process, by its name in /proc/self/status: VmRSS is that now, VmHWM its peak. The
+/// peak of getrusage() is no less than that of the process which has started this one.
+double memory_MB(const std::string& name) {
+  std::ifstream status("/proc/self/status");
+  std::string line;
+  while (std::getline(status, line)) {
+    if (line.rfind(name + ":", 0) == 0) return 1024e-6 * std::stod(line.substr(name.size() + 1));
+  }
+  return 0.0;
 }
 
 double size_MB(const cv::Mat& image) {
@@ -31,7 +35,7 @@ PreloadedSource::PreloadedSource(std::unique_ptr<StereoSource> source)
     // The source may overwrite its images.
     pairs_.emplace_back(StereoPair{pair.stamp_ns, pair.left.clone(), pair.right.clone()}, camera);
   }
-  loaded_MB_ = peak_MB();
+  loaded_MB_ = memory_MB("VmRSS");
 }
 
 bool PreloadedSource::next(StereoPair& pair, StereoCamera& camera) {
@@ -42,7 +46,7 @@ bool PreloadedSource::next(StereoPair& pair, StereoCamera& camera) {
 }
 
 void PreloadedSource::printMemory(std::ostream& out) const {
-  const double peak = peak_MB();
+  const double peak = memory_MB("VmHWM");
   char line[128];
   std::snprintf(
       line,
