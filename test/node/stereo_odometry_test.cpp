@@ -224,9 +224,10 @@ TEST_F(StereoOdometryTest, TfIsThePoseOfTheOdometry) {
   }));
   const geometry_msgs::TransformStamped transform =
       buffer.lookupTransform("odom", "base_link", odometry.header.stamp);
-  EXPECT_EQ(transform.transform.translation.x, odometry.pose.pose.position.x);
-  EXPECT_EQ(transform.transform.translation.z, odometry.pose.pose.position.z);
-  EXPECT_EQ(transform.transform.rotation.w, odometry.pose.pose.orientation.w);
+  constexpr double kRounding = 1e-12;  // tf multiplies transforms
+  EXPECT_NEAR(transform.transform.translation.x, odometry.pose.pose.position.x, kRounding);
+  EXPECT_NEAR(transform.transform.translation.z, odometry.pose.pose.position.z, kRounding);
+  EXPECT_NEAR(transform.transform.rotation.w, odometry.pose.pose.orientation.w, kRounding);
 }
 
 TEST_F(StereoOdometryTest, PicturesComeForSubscribers) {
