@@ -719,7 +719,7 @@ std::vector<BadInput> pictureRows() {
          return badJpeg([](std::vector<unsigned char>& jpeg) { jpeg[0] = jpeg[1] = 0; }) + "; " +
                 badJpeg([](std::vector<unsigned char>& jpeg) { jpeg.resize(jpeg.size() / 2); });
        },
-       "no image: no odometry; then ok; an image: ok; then ok"},
+       "no image: no odometry; then ok; an image: *; then ok"},
       {24,
        "very small or very large images",
        "dropped, memory bounded",
