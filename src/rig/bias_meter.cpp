@@ -22,7 +22,7 @@ constexpr double kSettled_px = 0.05;
 constexpr double kLongestStep_px = 1.0;
 
 /// Standard deviation from which on a measurement says nothing: a drive has 0.02 to 0.6 px, a robot
-/// at rest 10 px and more.
+/// at rest 8 px and more.
 constexpr double kMostSigma_px = 5.0;
 
 }  // namespace

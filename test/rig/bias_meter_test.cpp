@@ -84,6 +84,14 @@ TEST(BiasMeterTest, SlowMotionSaysLittle) {
   EXPECT_GT(measurement.shared_px2, 0.5 * 0.5);
 }
 
+TEST(BiasMeterTest, StandstillSaysNothing) {
+  const Eigen::Isometry3d rest = Eigen::Isometry3d::Identity();
+  const auto found = features(rest, 5, [](const Eigen::Vector2d&) { return 1.0; });
+  BiasMeasurement measurement;
+  EXPECT_FALSE(BiasMeter(kNoiseRatio, kRobustFactor)
+                   .measure(kittiCamera(), found, FeatureSet(found.size(), 1), rest, measurement));
+}
+
 TEST(BiasMeterTest, NeedsFeatures) {
   Correspondences few = features(ahead(), 4, [](const Eigen::Vector2d&) { return 0.0; });
   few.resize(20);
