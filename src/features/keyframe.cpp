@@ -7,9 +7,6 @@ namespace rotrocc {
 void thinOut(const Keyframe& keyframe, std::size_t most_points, Keyframe& few) {
   few.frame = keyframe.frame;
   few.row_offset_px = keyframe.row_offset_px;
-  few.T_keyframe_last = keyframe.T_keyframe_last;
-  few.first_inliers = keyframe.first_inliers;
-  few.corners.clear();
   few.left_px.clear();
   few.right_px.clear();
   few.points.clear();
@@ -17,7 +14,6 @@ void thinOut(const Keyframe& keyframe, std::size_t most_points, Keyframe& few) {
   const std::size_t chosen = std::min(points, most_points);
   for (std::size_t n = 0; n < chosen; ++n) {
     const std::size_t i = n * points / chosen;
-    few.corners.push_back(keyframe.left_px[i]);
     few.left_px.push_back(keyframe.left_px[i]);
     few.right_px.push_back(keyframe.right_px[i]);
     few.points.push_back(keyframe.points[i]);

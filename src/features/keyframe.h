@@ -26,7 +26,8 @@ struct Keyframe {
   int first_inliers = 0;               ///< of the first motion measured against it; 0 before
 };
 
-/// Stores in `few` a keyframe with at most `most_points` of the points, evenly chosen.
+/// Stores in `few` what features are searched by: the frame and at most `most_points` of the
+/// points, evenly chosen.
 void thinOut(const Keyframe& keyframe, std::size_t most_points, Keyframe& few);
 
 }  // namespace rotrocc

@@ -60,9 +60,9 @@ void MotionSearch::find(const Frames& frames,
 MotionSearch::Start MotionSearch::startAt(const Eigen::Isometry3d& T_keyframe_last,
                                           const Expectation& expected) const {
   if (expected.T_last_cur) {
-    return {T_keyframe_last * *expected.T_last_cur, true, prediction_error_.levels()};
+    return {T_keyframe_last * *expected.T_last_cur, prediction_error_.levels(), true, false};
   }
-  Start start = {T_keyframe_last, false, tracker_.startup_levels};
+  Start start = {T_keyframe_last, tracker_.startup_levels, false, true};
   if (expected.R_last_cur) start.T_keyframe_cur.rotate(*expected.R_last_cur);
   return start;
 }
@@ -93,7 +93,7 @@ bool MotionSearch::scout(const Frames& frames, Start& start, StageTimes& times) 
             times);
   few_.frame.reset();
   start.T_keyframe_cur = tried_.estimate.T_keyframe_cur;
-  start.is_scouted = true;
+  start.needs_consensus = false;
   return tried_.isAccepted();
 }
 
@@ -105,9 +105,10 @@ bool MotionSearch::settle(
     const int tries = best.counts.tries + 1;
     tryMotion(frames, start, tried_, times);
     const Eigen::Isometry3d T_found = tried_.estimate.T_keyframe_cur;
-    bool is_usable = tried_.estimate.valid && tried_.counts.consistent >= least_features_;
     // The features near a wrong prediction lead nowhere. A start at rest is better.
-    if (start.is_prediction && !tried_.isAccepted()) is_usable = false;
+    const bool is_usable =
+        start.is_prediction ? tried_.isAccepted()
+                            : tried_.estimate.valid && tried_.counts.consistent >= least_features_;
     if (isBetter(tried_, best)) std::swap(tried_, best);
     best.counts.tries = tries;
     if (!is_usable) return false;
@@ -143,9 +144,7 @@ void MotionSearch::tryMotion(const Frames& frames,
   counts.consistent = static_cast<int>(hypothesis.features.size());
   const StageTimer timer(times.estimation_ms);
   const double dt_s = secondsBetween(*frames.keyframe.frame, frames.current);
-  if (start.is_prediction || start.is_scouted) {
-    return estimate(start.T_keyframe_cur, true, dt_s, hypothesis);
-  }
+  if (!start.needs_consensus) return estimate(start.T_keyframe_cur, true, dt_s, hypothesis);
   const auto consensus = consensusMotion(frames.camera, hypothesis.features);
   estimate(consensus.value_or(start.T_keyframe_cur), consensus.has_value(), dt_s, hypothesis);
 }

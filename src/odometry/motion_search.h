@@ -72,9 +72,9 @@ class MotionSearch {
   /// Where the features are searched, and over how many pyramid levels.
   struct Start {
     Eigen::Isometry3d T_keyframe_cur;
-    bool is_prediction;
     int levels;
-    bool is_scouted = false;
+    bool is_prediction;    ///< of the motion, not only of its rotation
+    bool needs_consensus;  ///< the motion may be far: the features agree on a nearer one first
   };
 
   Start startAt(const Eigen::Isometry3d& T_keyframe_last, const Expectation& expected) const;
