@@ -26,13 +26,11 @@ struct Lost : std::runtime_error {
 VisualOdometry::Pipeline::Pipeline(const Config& config)
     : config_(config),
       finder_(config.correspondence_finder, config.threads),
-      row_search_(config.correspondence_finder),
       motion_model_(config.motion_model),
       search_(config),
       check_(config.motion_check),
-      calibrator_(config.stereo_calibrator),
-      shared_errors_(config.motion_estimator),
-      selector_(config.keyframe_selector) {}
+      selector_(config.keyframe_selector),
+      rig_(config) {}
 
 OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
                                                  const StereoCamera& camera,
@@ -53,20 +51,18 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
     result.state = State::kLost;
   }
   result.counts = found_.counts;
-  result.disparity_bias = calibrator_.bias();
+  rig_.report(result);
   if (result.hasMotion()) {
     result.disparity_bias.applied_px = found_.camera.cx_right - camera.cx_right;
+    result.row_offset.applied_px = keyframe_.row_offset_px;
   }
-  result.row_offset = rows_.offset();
-  result.time_skew = time_skew_.skew();
-  result.row_offset.applied_px = result.hasMotion() ? keyframe_.row_offset_px : correctedRows();
   return result;
 }
 
 void VisualOdometry::Pipeline::prepare() {
   // Until the rows are known, each keyframe adds to what is known of them. Not all keyframes that
   // are prepared are used.
-  if (!last_ || keyframe_.frame || !rows_.isKnown()) return;
+  if (!last_ || keyframe_.frame || !rig_.knowsRows()) return;
   const StageTimer timer(prepared_.total_ms);
   try {
     makeKeyframe(last_, prepared_);
@@ -93,12 +89,10 @@ void VisualOdometry::Pipeline::configure(const Config& config) {
   search_ = MotionSearch(config);  // first, because it may throw
   config_ = config;
   finder_ = CorrespondenceFinder(config.correspondence_finder, config.threads);
-  row_search_ = RowSearch(config.correspondence_finder);
   motion_model_.configure(config.motion_model);
   check_ = MotionCheck(config.motion_check);
-  calibrator_.configure(config.stereo_calibrator);
-  shared_errors_.configure(config.motion_estimator);
   selector_ = KeyframeSelector(config.keyframe_selector);
+  rig_.configure(config);
   keyframe_.frame.reset();  // its corners depend on the old parameters
 }
 
@@ -121,7 +115,7 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
   if (!found_.isAccepted()) {
     // Either this pair or the last one may be at fault. The next pair is compared with both.
     lost_ = current;
-    rows_.searchAgain();
+    rig_.searchRowsAgain();
     throw Lost(found_.why_lost);
   }
   accept(current, result);
@@ -151,7 +145,7 @@ void VisualOdometry::Pipeline::checkInput(const StereoPair& pair,
 std::string VisualOdometry::Pipeline::whyRestart(const StereoPair& pair,
                                                  const StereoCamera& camera) const {
   if (!last_) return "first pair";
-  if (camera != camera_) return "the camera has changed";
+  if (camera != rig_.camera()) return "the camera has changed";
   const double gap_s = toSeconds(pair.stamp_ns - newest().stamp_ns);
   if (gap_s <= config_.max_gap_s) return "";
   return sentence("no pair for ", gap_s, " s, more than max_gap_s = ", config_.max_gap_s);
@@ -161,38 +155,21 @@ FramePtr VisualOdometry::Pipeline::takeFrame(const StereoPair& pair,
                                              const StereoCamera& camera,
                                              StageTimes& times) {
   const StageTimer timer(times.pyramids_ms);
-  if (camera != camera_) {
-    calibrator_.reset();
-    shared_errors_.reset();
-    rows_.reset();
-    time_skew_.reset();
-  }
-  camera_ = camera;
+  rig_.setCamera(camera);
   return finder_.makeFrame(pair);
-}
-
-/// The row offset of the right image that is corrected, if the rig is calibrated.
-double VisualOdometry::Pipeline::correctedRows() const {
-  return config_.stereo_calibrator.enabled ? rows_.offset().applied_px : 0.0;
 }
 
 void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& times) {
   keyframe_.frame = frame;
   keyframe_.T_keyframe_last = {};
   keyframe_.first_inliers = 0;
-  calibrator_.advance();
   {
     const StageTimer timer(times.corners_ms);
     finder_.findCorners(keyframe_);
   }
   const StageTimer timer(times.disparity_ms);
-  const StereoCamera corrected = calibrator_.correct(camera_);
-  if (!rows_.isKnown()) {
-    row_search_.search(corrected, keyframe_, searched_rows_px_);
-    rows_.observe(searched_rows_px_);
-  }
-  keyframe_.row_offset_px = correctedRows();
-  finder_.findDepths(corrected, keyframe_);
+  rig_.startKeyframe(keyframe_);
+  finder_.findDepths(rig_.correctedCamera(), keyframe_);
 }
 
 /// The expected motion since the last frame. Without a velocity, a measured rotation is all that is
@@ -218,10 +195,10 @@ void VisualOdometry::Pipeline::findMotion(const FramePtr& current,
                                           OdometryResult& result) {
   result.dt_s = secondsBetween(*last_, *current);
   MotionSearch::Expectation expected = expectation(*current, others);
-  const StereoCamera corrected = calibrator_.correct(camera_);
+  const StereoCamera corrected = rig_.correctedCamera();
   const auto find = [&](int most_tries) {
     const MotionSearch::Frames frames = {
-        finder_, corrected, keyframe_, *current, shared_errors_.ratio()};
+        finder_, corrected, keyframe_, *current, rig_.sharedRatio()};
     search_.find(frames, expected, most_tries, found_, result.times);
   };
   if (!keyframe_.frame) makeKeyframe(last_, result.times);
@@ -243,32 +220,19 @@ void VisualOdometry::Pipeline::findMotion(const FramePtr& current,
     find(most);
   }
   if (!found_.isAccepted()) return;
-  search_.calibrate(
-      camera_, secondsBetween(*keyframe_.frame, *current), calibrator_, found_, result.times);
+  const double dt_s = secondsBetween(*keyframe_.frame, *current);
+  search_.calibrate(rig_.camera(), dt_s, rig_.calibrator(), found_, result.times);
 }
 
 void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& result) {
   const MotionEstimator::Estimate& estimate = found_.estimate;
-  shared_errors_.observe(
-      found_.camera, found_.features, estimate.rotation_inliers, estimate.T_keyframe_cur);
-  if (rows_.isKnown() || rows_.isNear(keyframe_.row_offset_px)) {
-    row_search_.measure(*current,
-                        found_.features,
-                        estimate.rotation_inliers,
-                        keyframe_.row_offset_px,
-                        found_.exposure_gain,
-                        row_offsets_);
-    rows_.observe(row_offsets_.offsets_px);
-    time_skew_.observe(
-        found_.camera, found_.features, row_offsets_, secondsBetween(*keyframe_.frame, *current));
-  }
+  rig_.observe(found_, keyframe_, *current);
 
   result.exposure_gain = found_.exposure_gain;
   result.shared_error_ratio = found_.shared_ratio;
   result.flow_noise_px = estimate.flow_noise_px;
   result.keyframe_stamp_ns = keyframe_.frame->stamp_ns;
-  result.T_keyframe_cur = {estimate.T_keyframe_cur,
-                           estimate.covariance + calibrator_.motionCovariance()};
+  result.T_keyframe_cur = {estimate.T_keyframe_cur, estimate.covariance + rig_.motionCovariance()};
   UncertainTransform step = compose(inverse(keyframe_.T_keyframe_last), result.T_keyframe_cur);
   if (keyframe_.frame != last_) step.covariance *= kNotShared;
   result.T_prev_cur = step.T;

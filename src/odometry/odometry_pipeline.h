@@ -3,23 +3,18 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include <Eigen/Geometry>
 
 #include "features/correspondence_finder.h"
 #include "features/keyframe.h"
-#include "features/row_search.h"
 #include "features/stereo_frame.h"
-#include "motion/shared_error_estimator.h"
 #include "odometry/hypothesis.h"
 #include "odometry/keyframe_selector.h"
 #include "odometry/motion_check.h"
 #include "odometry/motion_model.h"
 #include "odometry/motion_search.h"
-#include "rig/row_comparison.h"
-#include "rig/stereo_calibrator.h"
-#include "rig/time_skew_estimator.h"
+#include "odometry/rig_estimate.h"
 #include "rotrocc/visual_odometry.h"
 
 namespace rotrocc {
@@ -57,7 +52,6 @@ class VisualOdometry::Pipeline {
   FramePtr takeFrame(const StereoPair& pair, const StereoCamera& camera, StageTimes& times);
   void forget();
   const StereoFrame& newest() const { return lost_ ? *lost_ : *last_; }
-  double correctedRows() const;
   void makeKeyframe(const FramePtr& frame, StageTimes& times);
 
   MotionSearch::Expectation expectation(const StereoFrame& current,
@@ -67,25 +61,18 @@ class VisualOdometry::Pipeline {
 
   Config config_;
   CorrespondenceFinder finder_;
-  RowSearch row_search_;
   MotionModel motion_model_;
   MotionSearch search_;
   MotionCheck check_;
-  StereoCalibrator calibrator_;
-  SharedErrorEstimator shared_errors_;
-  RowComparison rows_;
-  TimeSkewEstimator time_skew_;
   KeyframeSelector selector_;
+  RigEstimate rig_;
 
-  StereoCamera camera_;  // without correction of the bias
-  FramePtr last_;        // last frame with a known pose; null before the first pair
-  FramePtr lost_;        // latest frame without a motion since last_; may be null
-  Keyframe keyframe_;    // no frame if it must be created from the last frame
+  FramePtr last_;      // last frame with a known pose; null before the first pair
+  FramePtr lost_;      // latest frame without a motion since last_; may be null
+  Keyframe keyframe_;  // no frame if it must be created from the last frame
 
   StageTimes prepared_;  // of prepare() since the last pair
   Hypothesis found_;
-  std::vector<float> searched_rows_px_;  // buffer, reused
-  RowOffsets row_offsets_;               // buffer, reused
 };
 
 }  // namespace rotrocc
