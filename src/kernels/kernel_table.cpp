@@ -17,7 +17,11 @@ const Kernels kernels = {kShorts,
                          takeWindow,
                          sumValues,
                          compareWindow,
-                         fitDisparities};
+                         fitDisparities,
+                         findResiduals,
+                         linearise,
+                         addColumnProducts,
+                         multiplyByShared};
 static_assert(kShorts <= kMostShorts);
 
 }  // namespace rotrocc::ROTROCC_INSTRUCTIONS

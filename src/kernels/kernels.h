@@ -3,6 +3,7 @@
 #include "kernels/corner_kernels.h"
 #include "kernels/fit_kernels.h"
 #include "kernels/half_image_kernels.h"
+#include "kernels/residual_kernels.h"
 #include "kernels/sad_kernels.h"
 #include "kernels/window_kernels.h"
 
@@ -27,6 +28,10 @@ struct Kernels {
   decltype(&ROTROCC_INSTRUCTIONS::sumValues) sumValues;
   decltype(&ROTROCC_INSTRUCTIONS::compareWindow) compareWindow;
   decltype(&ROTROCC_INSTRUCTIONS::fitDisparities) fitDisparities;
+  decltype(&ROTROCC_INSTRUCTIONS::findResiduals) findResiduals;
+  decltype(&ROTROCC_INSTRUCTIONS::linearise) linearise;
+  decltype(&ROTROCC_INSTRUCTIONS::addColumnProducts) addColumnProducts;
+  decltype(&ROTROCC_INSTRUCTIONS::multiplyByShared) multiplyByShared;
 };
 
 /// Values that a row needs beyond its end, because whole registers are read and written.

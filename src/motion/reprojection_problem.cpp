@@ -2,15 +2,35 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <numeric>
 
+#include "geometry/min_depth.h"
 #include "motion/shared_error.h"
 
 namespace rotrocc {
 namespace {
 
-/// The derivative of a feature's residual by the error of its disparity, up to the sign.
-Eigen::Vector2d byDisparityError(const FittedFeature& feature) {
-  return feature.whitening * feature.by_disparity;
+void put(const StereoCamera& camera,
+         const FittedFeature& feature,
+         ResidualBlock& block,
+         std::size_t lane) {
+  block.target_x[lane] = feature.target_px.x() - camera.cx;
+  block.target_y[lane] = feature.target_px.y() - camera.cy;
+  block.point_x[lane] = feature.rotated_point.x();
+  block.point_y[lane] = feature.rotated_point.y();
+  block.point_z[lane] = feature.rotated_point.z();
+  block.whitening_xx[lane] = feature.whitening(0, 0);
+  block.whitening_xy[lane] = feature.whitening(0, 1);
+  block.whitening_yy[lane] = feature.whitening(1, 1);
+  const Eigen::Vector2d by_disparity = feature.whitening * feature.by_disparity;
+  block.shared_x[lane] = by_disparity.x();
+  block.shared_y[lane] = by_disparity.y();
+  block.weight[lane] = 1.0;
+}
+
+double sum(const ResidualBlock::Numbers& numbers) {
+  return std::accumulate(std::begin(numbers), std::end(numbers), 0.0);
 }
 
 /// Eliminates the errors that the features of a cell share: sums of w g^T g and of w A g for each
@@ -23,12 +43,11 @@ class SharedErrors {
 
   SharedErrors() { products_.fill(Column::Zero()); }
 
-  void add(std::size_t cell,
-           double weight,
-           const Eigen::Vector2d& by_error,
-           const Column& product) {
-    information_[cell] += weight * by_error.squaredNorm();
-    products_[cell] += weight * product;
+  /// Adds w g^T g and w A g of a feature.
+  template <class Product>
+  void add(std::size_t cell, double information, const Product& product) {
+    information_[cell] += information;
+    products_[cell] += product;
   }
 
   /// What to subtract from the sum of w A A^T.
@@ -54,34 +73,61 @@ void ReprojectionProblem<kParameters>::assign(const StereoCamera& camera,
   camera_ = camera;
   T_keyframe_cur_ = fit.T_keyframe_cur;
   indices_.clear();
-  features_.clear();
+  blocks_.clear();
+  cells_.clear();
+  inverse_shared_variance_ = 0.0;
+  const SharedErrorGrid grid(camera);
   for (std::size_t i = 0; i < fit.features.size(); ++i) {
     if (set[i] == 0) continue;
+    const std::size_t lane = indices_.size() % kSize;
+    if (lane == 0) blocks_.emplace_back();
+    put(camera, fit.features[i], blocks_.back(), lane);
     indices_.push_back(i);
-    features_.push_back(fit.features[i]);
+    cells_.push_back(grid.cell(fit.features[i]));
   }
-  weights_.assign(features_.size(), 1.0);
-  cells_.clear();
 }
 
 template <int kParameters>
 void ReprojectionProblem<kParameters>::shareErrors(double ratio) {
-  cells_.clear();
-  if (ratio == 0.0) return;
-  inverse_shared_variance_ = 1.0 / (ratio * ratio);
-  const SharedErrorGrid grid(camera_);
-  for (const FittedFeature& feature : features_) cells_.push_back(grid.cell(feature));
+  inverse_shared_variance_ = ratio == 0.0 ? 0.0 : 1.0 / (ratio * ratio);
+}
+
+template <int kParameters>
+ResidualTerms ReprojectionProblem<kParameters>::termsAt(const Parameters& parameters) const {
+  ResidualTerms terms = {};
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R(terms.rotation);
+  R.setIdentity();
+  if (kRotates) R = expRotation(parameters.template head<3>());
+  Eigen::Map<Eigen::Vector3d>(terms.translation) = parameters.template tail<3>();
+  terms.fx = camera_.fx;
+  terms.fy = camera_.fy;
+  terms.least_depth = kMinDepth_m;
+  return terms;
+}
+
+template <int kParameters>
+template <class Visit>
+void ReprojectionProblem<kParameters>::visitResiduals(const Parameters& parameters,
+                                                      const Visit& visit) const {
+  const ResidualTerms terms = termsAt(parameters);
+  LinearBlock linear;
+  for (std::size_t i = 0; i < indices_.size(); ++i) {
+    if (i % kSize == 0) chooseKernels().findResiduals(terms, blocks_[i / kSize], linear);
+    visit(residualOf(i, linear));
+  }
 }
 
 template <int kParameters>
 void ReprojectionProblem<kParameters>::weigh(const Parameters& parameters, double robust_factor) {
   if (robust_factor == 0.0) return;  // equal, as assigned
-  const Motion motion(parameters);
   errors_px_.clear();
-  for (const FittedFeature& feature : features_) {
-    errors_px_.push_back(residual(feature, motion, nullptr).norm());
-  }
+  visitResiduals(parameters, [&](const Residual& residual) {
+    errors_px_.push_back(residual.residual_px.norm());
+  });
   cauchyWeights(robust_factor, errors_px_, weights_);
+  for (std::size_t i = 0; i < weights_.size(); ++i) {
+    blocks_[i / kSize].weight[i % kSize] = weights_[i];
+  }
 }
 
 template <int kParameters>
@@ -95,23 +141,38 @@ typename ReprojectionProblem<kParameters>::Parameters ReprojectionProblem<kParam
 template <int kParameters>
 typename ReprojectionProblem<kParameters>::NormalMatrix
 ReprojectionProblem<kParameters>::normalMatrix(const Parameters& parameters) const {
-  constexpr int kColumns = (kParameters + 2) / 2 * 2;  // even, for SIMD
-  Eigen::Matrix<double, kColumns, kColumns> sum = Eigen::Matrix<double, kColumns, kColumns>::Zero();
-  Eigen::Matrix<double, kColumns, 2> columns = Eigen::Matrix<double, kColumns, 2>::Zero();
+  constexpr int kColumns = kParameters + 1;
+  using Column = Eigen::Matrix<double, kColumns, 1>;
+  const Kernels& kernels = chooseKernels();
+  const ResidualTerms terms = termsAt(parameters);
+  const bool shares = inverse_shared_variance_ > 0.0;
+  LinearBlock linear;
+  ColumnProducts products = {};
   SharedErrors<kColumns> shared;
-  std::size_t feature = 0;
-  linearise(parameters, [&](const Term& term) {
-    columns.row(kParameters) = term.residual_px.transpose();
-    columns.template topRows<kParameters>() = term.jacobian.transpose();
-    sum += (term.weight * columns).lazyProduct(columns.transpose());
-    if (!sharesErrors()) return;
-    const Eigen::Vector2d by_error = byDisparityError(term.fitted);
-    shared.add(cells_[feature++], term.weight, by_error, columns * by_error);
-  });
+  ResidualBlock::Numbers by_shared[LinearBlock::kColumns];
+  for (std::size_t first = 0; first < indices_.size(); first += kSize) {
+    const ResidualBlock& block = blocks_[first / kSize];
+    kernels.linearise(terms, kFirst, block, linear);
+    kernels.addColumnProducts(kFirst, block, linear, products);
+    if (!shares) continue;
+    kernels.multiplyByShared(kFirst, block, linear, by_shared);
+    const std::size_t count = std::min(kSize, indices_.size() - first);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const Eigen::Vector2d by_error(block.shared_x[lane], block.shared_y[lane]);
+      const Eigen::Map<const Column, 0, Eigen::InnerStride<ResidualBlock::kSize>> product(
+          &by_shared[kFirst][lane]);
+      shared.add(cells_[first + lane], block.weight[lane] * by_error.squaredNorm(), product);
+    }
+  }
+  NormalMatrix normal;
+  for (int a = 0; a < kColumns; ++a) {
+    for (int b = a; b < kColumns; ++b) {
+      normal(a, b) = normal(b, a) = sum(products.of[kFirst + a][kFirst + b]);
+    }
+  }
   shared.eliminate(inverse_shared_variance_, [&](const auto& product, double factor) {
-    sum -= (factor * product).lazyProduct(product.transpose());
+    normal -= factor * product * product.transpose();
   });
-  NormalMatrix normal = sum.template topLeftCorner<kParameters + 1, kParameters + 1>();
   if (kRotates) {
     // The terms are derivatives by a rotation after that of the parameters; convert them to
     // derivatives by the parameters.
@@ -124,17 +185,16 @@ ReprojectionProblem<kParameters>::normalMatrix(const Parameters& parameters) con
 
 template <int kParameters>
 double ReprojectionProblem<kParameters>::cost(const Parameters& parameters) const {
-  const Motion motion(parameters);
+  const bool shares = inverse_shared_variance_ > 0.0;
   double sum = 0.0;
   SharedErrors<1> shared;
-  for (std::size_t i = 0; i < features_.size(); ++i) {
-    const Eigen::Vector2d residual_px = residual(features_[i], motion, nullptr);
-    sum += weights_[i] * residual_px.squaredNorm();
-    if (!sharesErrors()) continue;
-    const Eigen::Vector2d by_error = byDisparityError(features_[i]);
-    const Eigen::Matrix<double, 1, 1> product(by_error.dot(residual_px));
-    shared.add(cells_[i], weights_[i], by_error, product);
-  }
+  visitResiduals(parameters, [&](const Residual& residual) {
+    const Eigen::Vector2d& by_error = residual.by_disparity;
+    sum += residual.weight * residual.residual_px.squaredNorm();
+    if (!shares) return;
+    const Eigen::Matrix<double, 1, 1> product(residual.weight * by_error.dot(residual.residual_px));
+    shared.add(residual.cell, residual.weight * by_error.squaredNorm(), product);
+  });
   shared.eliminate(inverse_shared_variance_, [&](const auto& product, double factor) {
     sum -= factor * product.squaredNorm();
   });

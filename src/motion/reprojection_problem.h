@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "geometry/min_depth.h"
+#include "kernels/kernels.h"
 #include "motion/cauchy_weights.h"
 #include "motion/fitted_feature.h"
 #include "rotrocc/correspondence.h"
@@ -21,18 +21,25 @@ namespace rotrocc {
 /// With kParameters = 6 the parameters are a rotation vector relative to R_0, the rotation of the
 /// fit, and the translation (Eq. 25): R = Exp(p[0..2]) R_0, T = p[3..5]. With kParameters = 3 they
 /// are the translation alone, and the rotation is R_0 (Eq. 29).
+///
+/// The features are kept in blocks, for the kernels.
 template <int kParameters>
 class ReprojectionProblem {
  public:
   using Parameters = Eigen::Matrix<double, kParameters, 1>;
 
-  /// The contribution of one feature.
-  struct Term {
-    std::size_t feature;          ///< index among all features of the pair
-    const FittedFeature& fitted;  ///< the feature itself
-    double weight;                ///< weight of both residuals
+  /// The residual of one feature.
+  struct Residual {
+    std::size_t feature;  ///< index among all features of the pair
+    std::size_t cell;     ///< of SharedErrorGrid
+    double weight;        ///< of both rows
     Eigen::Vector2d residual_px;
-    /// Derivatives by a rotation applied after that of the parameters, and by the translation.
+    Eigen::Vector2d by_disparity;  ///< derivative by an error of the disparity, up to the sign
+  };
+
+  /// The same with derivatives by a rotation applied after that of the parameters, and by the
+  /// translation.
+  struct Term : Residual {
     Eigen::Matrix<double, 2, kParameters> jacobian;
   };
 
@@ -59,11 +66,17 @@ class ReprojectionProblem {
   /// Calls visit(const Term&) for each feature, in order.
   template <class Visit>
   void linearise(const Parameters& parameters, Visit&& visit) const {
-    const Motion motion(parameters);
+    const ResidualTerms terms = termsAt(parameters);
+    LinearBlock linear;
     for (std::size_t i = 0; i < indices_.size(); ++i) {
-      const FittedFeature& fitted = features_[i];
-      Term term = {indices_[i], fitted, weights_[i], {}, {}};
-      term.residual_px = residual(fitted, motion, &term.jacobian);
+      const std::size_t lane = i % kSize;
+      if (lane == 0) chooseKernels().linearise(terms, kFirst, blocks_[i / kSize], linear);
+      Term term;
+      static_cast<Residual&>(term) = residualOf(i, linear);
+      for (int column = 0; column < kParameters; ++column) {
+        term.jacobian(0, column) = linear.x[kFirst + column][lane];
+        term.jacobian(1, column) = linear.y[kFirst + column][lane];
+      }
       visit(static_cast<const Term&>(term));
     }
   }
@@ -75,57 +88,33 @@ class ReprojectionProblem {
   double cost(const Parameters& parameters) const;
 
  private:
-  using FeatureJacobian = Eigen::Matrix<double, 2, kParameters>;
   static constexpr bool kRotates = kParameters == 6;
+  static constexpr std::size_t kSize = ResidualBlock::kSize;
+  static constexpr int kFirst = LinearBlock::kResidual - kParameters;  // column of the blocks
 
-  bool sharesErrors() const { return !cells_.empty(); }
+  ResidualTerms termsAt(const Parameters& parameters) const;
 
-  /// The motion that the parameters describe.
-  struct Motion {
-    explicit Motion(const Parameters& parameters) : T(parameters.template tail<3>()) {
-      if (kRotates) R = expRotation(parameters.template head<3>());
-    }
-
-    Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-    Eigen::Vector3d T;
-  };
-
-  /// `jacobian` may be null.
-  Eigen::Vector2d residual(const FittedFeature& feature,
-                           const Motion& motion,
-                           FeatureJacobian* jacobian) const {
-    Eigen::Vector3d rotated = feature.rotated_point;
-    if (kRotates) rotated = motion.R * feature.rotated_point;
-    const Eigen::Vector3d moved = rotated + motion.T;
-    const bool in_front = moved.z() >= kMinDepth_m;
-    const double per_z = 1.0 / (in_front ? moved.z() : kMinDepth_m);
-    const double u = camera_.fx * moved.x() * per_z;
-    const double v = camera_.fy * moved.y() * per_z;
-    if (jacobian != nullptr) {
-      Eigen::Matrix<double, 2, 3> by_point;
-      by_point << -camera_.fx * per_z, 0.0, in_front ? u * per_z : 0.0, 0.0, -camera_.fy * per_z,
-          in_front ? v * per_z : 0.0;
-      by_point = feature.whitening * by_point;
-      jacobian->template rightCols<3>() = by_point;
-      if (kRotates) {
-        for (int i = 0; i < 2; ++i) {
-          jacobian->row(i).template head<3>() =
-              rotated.cross(by_point.row(i).transpose()).transpose();
-        }
-      }
-    }
-    const Eigen::Vector2d projected(u + camera_.cx, v + camera_.cy);
-    return feature.whitening * (feature.target_px - projected);
+  Residual residualOf(std::size_t i, const LinearBlock& linear) const {
+    const ResidualBlock& block = blocks_[i / kSize];
+    const std::size_t lane = i % kSize;
+    return {indices_[i],
+            cells_[i],
+            block.weight[lane],
+            {linear.x[LinearBlock::kResidual][lane], linear.y[LinearBlock::kResidual][lane]},
+            {block.shared_x[lane], block.shared_y[lane]}};
   }
+
+  /// Calls visit(const Residual&) for each feature, in order.
+  template <class Visit>
+  void visitResiduals(const Parameters& parameters, const Visit& visit) const;
 
   StereoCamera camera_;
   Eigen::Isometry3d T_keyframe_cur_;  // of the fit
   std::vector<std::size_t> indices_;
-  std::vector<FittedFeature> features_;
-  std::vector<double> weights_;
-  std::vector<std::size_t> cells_;  // of the features, if they share errors
-  double inverse_shared_variance_ = 0.0;
-  std::vector<double> errors_px_;  // reused
+  std::vector<ResidualBlock> blocks_;        // what is free in the last one has no weight
+  std::vector<std::size_t> cells_;           // of SharedErrorGrid
+  double inverse_shared_variance_ = 0.0;     // 0: no shared errors
+  std::vector<double> errors_px_, weights_;  // reused
 };
 
 }  // namespace rotrocc

@@ -39,7 +39,7 @@ void SharedErrorEstimator::observe(const StereoCamera& camera,
   fitAt({camera, features, config_.noise_ratio}, T_keyframe_cur, fit_);
   problem_.assign(camera, fit_, set);
   problem_.weigh(problem_.start(), config_.robust_factor);
-  const Moments pair = momentsOf(camera);
+  const Moments pair = momentsOf();
   if (!(pair.weight > 0.0) || !std::isfinite(pair.scatter)) return;
   if (pairs_.weight == 0.0) {
     pairs_.weight = kPriorPairs * pair.weight;
@@ -50,17 +50,16 @@ void SharedErrorEstimator::observe(const StereoCamera& camera,
   pairs_.weight = kept * (pairs_.weight + pair.weight);
 }
 
-SharedErrorEstimator::Moments SharedErrorEstimator::momentsOf(const StereoCamera& camera) {
+SharedErrorEstimator::Moments SharedErrorEstimator::momentsOf() {
   struct Cell {
     double information = 0.0;
     double weighted_px = 0.0;
   };
   std::array<Cell, SharedErrorGrid::kCells> cells;
-  const SharedErrorGrid grid(camera);
   WeightedVariance variance;
   problem_.linearise(problem_.start(), [&](const ReprojectionProblem<6>::Term& term) {
-    const Eigen::Vector2d by_error = term.fitted.whitening * term.fitted.by_disparity;
-    Cell& cell = cells[grid.cell(term.fitted)];
+    const Eigen::Vector2d& by_error = term.by_disparity;
+    Cell& cell = cells[term.cell];
     cell.information += term.weight * by_error.squaredNorm();
     cell.weighted_px += term.weight * by_error.dot(term.residual_px);
     variance.add(term.weight, term.residual_px.squaredNorm());

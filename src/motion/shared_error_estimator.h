@@ -41,7 +41,7 @@ class SharedErrorEstimator {
     double scatter = 0.0;
     double weight = 0.0;
   };
-  Moments momentsOf(const StereoCamera& camera);
+  Moments momentsOf();
 
   MotionEstimatorConfig config_;
   Moments pairs_;

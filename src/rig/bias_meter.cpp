@@ -68,7 +68,7 @@ BiasMeter::Sums BiasMeter::collect(Curvature curvature) {
   Sums sums;
   problem_.linearise(problem_.start(), [&](const ReprojectionProblem<6>::Term& term) {
     const auto cell = static_cast<Eigen::Index>(grid.cell(features_[term.feature].cur_px));
-    const Eigen::Vector2d by_bias = -term.fitted.whitening * term.fitted.by_disparity;
+    const Eigen::Vector2d by_bias = -term.by_disparity;
     const double weight2 = term.weight * term.weight;
     const double weight = curvature == Curvature::kConvex ? term.weight : weight2;
     sums.motion += weight * term.jacobian.transpose() * term.jacobian;

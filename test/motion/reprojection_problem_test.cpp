@@ -6,6 +6,7 @@
 
 #include <ceres/autodiff_cost_function.h>
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
 
 #include "motion/reprojection_error.h"
 #include "motion/reprojection_residual.h"
@@ -112,7 +113,6 @@ Eigen::MatrixXd schurComplement(const ReprojectionProblem<6>& problem,
                                 const Vector6d& parameters,
                                 double ratio) {
   constexpr auto kCells = static_cast<Eigen::Index>(SharedErrorGrid::kCells);
-  const SharedErrorGrid grid(kittiCamera());
   const Eigen::Matrix3d by_rotation = leftJacobian(parameters.head<3>());
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(7 + kCells, 7 + kCells);
   problem.linearise(parameters, [&](const ReprojectionProblem<6>::Term& term) {
@@ -120,8 +120,7 @@ Eigen::MatrixXd schurComplement(const ReprojectionProblem<6>& problem,
     row.leftCols<6>() = term.jacobian;
     row.leftCols<3>() = term.jacobian.leftCols<3>() * by_rotation;
     row.col(6) = term.residual_px;
-    row.col(7 + static_cast<Eigen::Index>(grid.cell(term.fitted))) =
-        term.fitted.whitening * term.fitted.by_disparity;
+    row.col(7 + static_cast<Eigen::Index>(term.cell)) = term.by_disparity;
     normal += term.weight * row.transpose() * row;
   });
   const Eigen::MatrixXd cells = normal.bottomRightCorner(kCells, kCells) +
@@ -148,6 +147,30 @@ TEST(ReprojectionProblemTest, EliminatesTheErrorsThatNeighboursShare) {
     without.assign(kittiCamera(), fitOf(features, T_0, kNoiseRatio), all(features));
     without.weigh(parameters, 2.0);
     EXPECT_EQ(problem.normalMatrix(parameters), without.normalMatrix(parameters));
+  }
+}
+
+template <int kParameters>
+void expectTheSameOnEachProcessor(const Correspondences& features, const Eigen::Isometry3d& T_0) {
+  ReprojectionProblem<kParameters> problem;
+  problem.assign(kittiCamera(), fitOf(features, T_0, kNoiseRatio), all(features));
+  problem.weigh(problem.start(), 2.0);
+  problem.shareErrors(0.5);
+  const auto normal = problem.normalMatrix(problem.start());
+  const double cost = problem.cost(problem.start());
+  cv::setUseOptimized(false);
+  EXPECT_EQ(problem.normalMatrix(problem.start()), normal);
+  EXPECT_EQ(problem.cost(problem.start()), cost);
+  cv::setUseOptimized(true);
+}
+
+TEST(ReprojectionProblemTest, IsTheSameOnEachProcessor) {
+  const Eigen::Isometry3d truth = motion({0.1, -0.02, 1.3}, {0.01, 0.06, -0.005});
+  std::mt19937 generator(3);
+  for (const int count : {4, 8, 203}) {  // a part of a block, one, and many with a part
+    const auto features = simulateFeatures(kittiCamera(), truth, count, {0.3, 0.9}, generator);
+    expectTheSameOnEachProcessor<6>(features, truth);
+    expectTheSameOnEachProcessor<3>(features, truth);
   }
 }
 

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "kernels/instructions.h"
+
+namespace rotrocc {
+
+/// A block of features whose residuals are linearised, see ReprojectionProblem.
+struct ResidualBlock {
+  static constexpr int kSize = 8;
+  using Numbers = double[kSize];
+
+  Numbers target_x, target_y;         ///< from the principal point [px]
+  Numbers point_x, point_y, point_z;  ///< in the axes of the keyframe's camera [m]
+  Numbers whitening_xx, whitening_xy, whitening_yy;
+  Numbers shared_x, shared_y;  ///< derivative of the residual by a shared error
+  Numbers weight;              ///< 0: no feature
+};
+
+/// The motion and camera at which residuals are linearised.
+struct ResidualTerms {
+  double rotation[9];  ///< row by row
+  double translation[3];
+  double fx, fy;
+  double least_depth;  ///< closer points are projected as if they were at this depth [m]
+};
+
+/// Whitened residuals of a block and their derivatives: three by a rotation, three by the
+/// translation, and the residual as the seventh.
+struct LinearBlock {
+  static constexpr int kColumns = 7;
+  static constexpr int kTranslation = 3;
+  static constexpr int kResidual = 6;
+
+  ResidualBlock::Numbers x[kColumns], y[kColumns];
+};
+
+/// Sums over features of the products of two columns, each in as many parts as a block has
+/// features.
+struct ColumnProducts {
+  ResidualBlock::Numbers of[LinearBlock::kColumns][LinearBlock::kColumns];
+};
+
+namespace ROTROCC_INSTRUCTIONS {
+
+/// Residuals alone.
+void findResiduals(ResidualTerms terms, const ResidualBlock& block, LinearBlock& linear);
+
+/// Residuals and derivatives from column `first` on: all of them, or without those by a rotation.
+void linearise(ResidualTerms terms, int first, const ResidualBlock& block, LinearBlock& linear);
+
+/// Adds the weighted products of column `first` and the following ones, each with itself and those
+/// after it.
+void addColumnProducts(int first,
+                       const ResidualBlock& block,
+                       const LinearBlock& linear,
+                       ColumnProducts& sums);
+
+/// Weighted products of the columns with the derivative by a shared error, from `first` on.
+void multiplyByShared(int first,
+                      const ResidualBlock& block,
+                      const LinearBlock& linear,
+                      ResidualBlock::Numbers* products);
+
+}  // namespace ROTROCC_INSTRUCTIONS
+}  // namespace rotrocc
