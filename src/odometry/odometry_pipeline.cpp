@@ -100,7 +100,9 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
                                        const StereoCamera& camera,
                                        const OtherSensors& others,
                                        OdometryResult& result) {
-  checkInput(pair, camera);
+  const auto newest_ns = last_ ? std::optional(newest().stamp_ns) : std::nullopt;
+  const std::string why_unusable = whyUnusable(pair, camera, newest_ns);
+  if (!why_unusable.empty()) throw Lost(why_unusable);
   result.reason = whyRestart(pair, camera);
   const FramePtr current = takeFrame(pair, camera, result.times);
   if (!result.reason.empty()) {
@@ -119,26 +121,6 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
     throw Lost(found_.why_lost);
   }
   accept(current, result);
-}
-
-void VisualOdometry::Pipeline::checkInput(const StereoPair& pair,
-                                          const StereoCamera& camera) const {
-  try {
-    camera.check();
-  } catch (const std::invalid_argument& error) {
-    throw Lost(error.what());
-  }
-  const std::string why_unusable = whyUnusable(pair, camera);
-  if (!why_unusable.empty()) throw Lost(why_unusable);
-  if (!last_) return;
-  const std::int64_t newest_ns = newest().stamp_ns;
-  if (pair.stamp_ns <= newest_ns) {
-    throw Lost(sentence("the stamp ",
-                        pair.stamp_ns,
-                        " ns is not later than that of the pair before, ",
-                        newest_ns,
-                        " ns"));
-  }
 }
 
 /// Why the pair cannot be compared with an earlier one; empty if it can.

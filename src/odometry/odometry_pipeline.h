@@ -47,7 +47,6 @@ class VisualOdometry::Pipeline {
                const StereoCamera& camera,
                const OtherSensors& others,
                OdometryResult& result);
-  void checkInput(const StereoPair& pair, const StereoCamera& camera) const;
   std::string whyRestart(const StereoPair& pair, const StereoCamera& camera) const;
   FramePtr takeFrame(const StereoPair& pair, const StereoCamera& camera, StageTimes& times);
   void forget();

@@ -1,5 +1,8 @@
 #include "odometry/pair_check.h"
 
+#include <stdexcept>
+#include <utility>
+
 #include "common/sentence.h"
 
 namespace rotrocc {
@@ -18,9 +21,24 @@ std::string whyUnusable(const std::string& side, const cv::Mat& image, const Ste
 
 }  // namespace
 
-std::string whyUnusable(const StereoPair& pair, const StereoCamera& camera) {
-  const std::string left = whyUnusable("left", pair.left, camera);
-  return left.empty() ? whyUnusable("right", pair.right, camera) : left;
+std::string whyUnusable(const StereoPair& pair,
+                        const StereoCamera& camera,
+                        const std::optional<std::int64_t>& newest_ns) {
+  try {
+    camera.check();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  for (const auto& [side, image] : {std::pair("left", pair.left), std::pair("right", pair.right)}) {
+    const std::string why = whyUnusable(side, image, camera);
+    if (!why.empty()) return why;
+  }
+  if (!newest_ns || pair.stamp_ns > *newest_ns) return "";
+  return sentence("the stamp ",
+                  pair.stamp_ns,
+                  " ns is not later than that of the pair before, ",
+                  *newest_ns,
+                  " ns");
 }
 
 }  // namespace rotrocc

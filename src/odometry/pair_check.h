@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "rotrocc/stereo_camera.h"
@@ -7,8 +9,11 @@
 
 namespace rotrocc {
 
-/// Why a pair cannot be used with this camera, in one sentence with the value. Empty if it can:
-/// both images are CV_8UC1 and of the camera's size.
-std::string whyUnusable(const StereoPair& pair, const StereoCamera& camera);
+/// Why a pair cannot be used, in one sentence with the value. Empty if it can: the camera is valid,
+/// both images are CV_8UC1 and of its size, and the stamp is later than `newest_ns`, that of the
+/// pair before, if there was one.
+std::string whyUnusable(const StereoPair& pair,
+                        const StereoCamera& camera,
+                        const std::optional<std::int64_t>& newest_ns);
 
 }  // namespace rotrocc
