@@ -17,6 +17,13 @@ namespace {
 namespace po = boost::program_options;
 using namespace rotrocc;
 
+const char* const kUsage =
+    "Computes the errors of features under wrong motions: Fig. 4 and 5 of the paper.\n\n"
+    "example: error_characteristics dataset/sequences/06 --output figures\n"
+    "usage:   error_characteristics SEQUENCE_DIR --output DIR\n\n"
+    "The errors are reprojection error, normalized and decoupled normalized "
+    "reprojection error of the\nfeatures in the first two pairs of a sequence.\n\n";
+
 struct Options {
   std::string sequence;
   std::string output;
@@ -28,26 +35,11 @@ bool parse(int argc, char** argv, Options& options) {
   auto add = visible.add_options();
   add("help,h", "show this help");
   add("output", po::value(&options.output)->required(), "output folder for fig4.csv and fig5.csv");
-  po::options_description all;
-  all.add(visible).add_options()("sequence", po::value(&options.sequence)->required());
-  po::positional_options_description positional;
-  positional.add("sequence", 1);
-
+  PositionalArguments sequence;
+  sequence.options.add_options()("sequence", po::value(&options.sequence)->required());
+  sequence.order.add("sequence", 1);
   po::variables_map variables;
-  po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(),
-            variables);
-  if (variables.count("help") > 0) {
-    std::cout
-        << "Computes the errors of features under wrong motions: Fig. 4 and 5 of the paper.\n\n"
-           "example: error_characteristics dataset/sequences/06 --output figures\n"
-           "usage:   error_characteristics SEQUENCE_DIR --output DIR\n\n"
-           "The errors are reprojection error, normalized and decoupled normalized "
-           "reprojection error of the\nfeatures in the first two pairs of a sequence.\n\n"
-        << visible;
-    return false;
-  }
-  po::notify(variables);
-  return true;
+  return parseCommandLine(argc, argv, kUsage, visible, sequence, variables);
 }
 
 /// Features of the odometry in the first two pairs, sorted by row and column.

@@ -23,6 +23,18 @@ namespace {
 namespace po = boost::program_options;
 using namespace rotrocc;
 
+const char* const kUsage =
+    "Compares a trajectory with the ground truth by the metric of the KITTI odometry "
+    "devkit, and writes a report.\n\n"
+    "example: evaluate_trajectory dataset/poses/06.txt 06.txt --fit --report 06_report\n"
+    "usage:   evaluate_trajectory GT EST [options]\n"
+    "         evaluate_trajectory EST --report DIR [options]    without ground truth\n\n"
+    "Both are in KITTI or TUM format; two KITTI files are matched line by line, others by "
+    "stamp, up to 10 ms\napart. GT may also be the sequence that EST is of, with its true "
+    "poses: a directory in the layout of\nKITTI or ASL (EuRoC), or with files of "
+    "camera_calibration. Each row of the table by speed has the\nsegments up to 2 m/s "
+    "slower or faster, so each segment counts twice.\n\n";
+
 struct Options {
   std::string truth;
   std::string estimate;
@@ -62,32 +74,12 @@ bool parse(int argc, char** argv, Options& options) {
   add("title",
       po::value(&options.title),
       "title of the report (default: the name of the estimate)");
-  po::options_description all;
-  auto add_positional = all.add(visible).add_options();
   std::vector<std::string> files;
-  add_positional("files", po::value(&files));
-  po::positional_options_description positional;
-  positional.add("files", -1);
-
+  PositionalArguments trajectories;
+  trajectories.options.add_options()("files", po::value(&files));
+  trajectories.order.add("files", -1);
   po::variables_map variables;
-  po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(),
-            variables);
-  if (variables.count("help") > 0) {
-    std::cout
-        << "Compares a trajectory with the ground truth by the metric of the KITTI odometry "
-           "devkit, and writes a report.\n\n"
-           "example: evaluate_trajectory dataset/poses/06.txt 06.txt --fit --report 06_report\n"
-           "usage:   evaluate_trajectory GT EST [options]\n"
-           "         evaluate_trajectory EST --report DIR [options]    without ground truth\n\n"
-           "Both are in KITTI or TUM format; two KITTI files are matched line by line, others by "
-           "stamp, up to 10 ms\napart. GT may also be the sequence that EST is of, with its true "
-           "poses: a directory in the layout of\nKITTI or ASL (EuRoC), or with files of "
-           "camera_calibration. Each row of the table by speed has the\nsegments up to 2 m/s "
-           "slower or faster, so each segment counts twice.\n\n"
-        << visible;
-    return false;
-  }
-  po::notify(variables);
+  if (!parseCommandLine(argc, argv, kUsage, visible, trajectories, variables)) return false;
   if (files.empty() || files.size() > 2 || (files.size() == 1 && options.report.empty())) {
     throw po::error("expected two trajectories GT and EST, or EST and --report DIR");
   }

@@ -29,6 +29,15 @@ namespace {
 namespace po = boost::program_options;
 using namespace rotrocc;
 
+const char* const kUsage =
+    "Runs the odometry on all pairs of a recording, and writes the pose of the left "
+    "camera for each.\n\n"
+    "example: offline_odometry dataset/sequences/06 --trajectory 06.txt --stats 06.csv\n"
+    "usage:   offline_odometry INPUT --trajectory OUT.txt [options]\n\n"
+    "INPUT is a bag, or a directory in the layout of KITTI's odometry benchmark, in ASL "
+    "format\n(EuRoC), or with folders left and right and files left.yaml and "
+    "right.yaml of\ncamera_calibration. Images that are not rectified are.\n\n";
+
 struct Options {
   std::string input;
   std::string trajectory;
@@ -80,28 +89,11 @@ bool parse(int argc, char** argv, Options& options) {
       "\"QX QY QZ QW\": rotation from axes of a CSV file to those of the left camera; that of a "
       "topic is from tf, that of a folder from sensor.yaml");
   add("preload", po::bool_switch(&options.preload), "read all images first; prints the memory use");
-  po::options_description all;
-  all.add(visible).add_options()("input", po::value(&options.input)->required());
-  po::positional_options_description positional;
-  positional.add("input", 1);
-
+  PositionalArguments input;
+  input.options.add_options()("input", po::value(&options.input)->required());
+  input.order.add("input", 1);
   po::variables_map variables;
-  po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(),
-            variables);
-  if (variables.count("help") > 0) {
-    std::cout
-        << "Runs the odometry on all pairs of a recording, and writes the pose of the left "
-           "camera for each.\n\n"
-           "example: offline_odometry dataset/sequences/06 --trajectory 06.txt --stats 06.csv\n"
-           "usage:   offline_odometry INPUT --trajectory OUT.txt [options]\n\n"
-           "INPUT is a bag, or a directory in the layout of KITTI's odometry benchmark, in ASL "
-           "format\n(EuRoC), or with folders left and right and files left.yaml and "
-           "right.yaml of\ncamera_calibration. Images that are not rectified are.\n\n"
-        << visible;
-    return false;
-  }
-  po::notify(variables);
-  return true;
+  return parseCommandLine(argc, argv, kUsage, visible, input, variables);
 }
 
 /// Time of a POSIX clock [ms].

@@ -14,6 +14,15 @@ namespace {
 namespace po = boost::program_options;
 using namespace rotrocc;
 
+const char* const kUsage =
+    "Converts a sequence of stereo images to a bag with camera_info, tf and, if known, "
+    "ground truth and gyroscope.\n\n"
+    "example: sequence_to_bag dataset/sequences/06 06.bag\n"
+    "usage:   sequence_to_bag SEQUENCE_DIR OUT.bag [options]\n\n"
+    "SEQUENCE_DIR is in the layout of KITTI's odometry benchmark, in ASL format (EuRoC), or "
+    "has folders left\nand right and files left.yaml and right.yaml of "
+    "camera_calibration.\n\n";
+
 struct Options {
   std::string sequence;
   std::string bag;
@@ -38,28 +47,12 @@ bool parse(int argc, char** argv, Options& options) {
   add("max-stamp-difference",
       po::value(&options.max_stamp_difference_s)->default_value(options.max_stamp_difference_s),
       "[s] between the images of a pair");
-  po::options_description all;
-  all.add(visible).add_options()("sequence", po::value(&options.sequence)->required())(
+  PositionalArguments names;
+  names.options.add_options()("sequence", po::value(&options.sequence)->required())(
       "bag", po::value(&options.bag)->required());
-  po::positional_options_description positional;
-  positional.add("sequence", 1).add("bag", 1);
-
+  names.order.add("sequence", 1).add("bag", 1);
   po::variables_map variables;
-  po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(),
-            variables);
-  if (variables.count("help") > 0) {
-    std::cout
-        << "Converts a sequence of stereo images to a bag with camera_info, tf and, if known, "
-           "ground truth and gyroscope.\n\n"
-           "example: sequence_to_bag dataset/sequences/06 06.bag\n"
-           "usage:   sequence_to_bag SEQUENCE_DIR OUT.bag [options]\n\n"
-           "SEQUENCE_DIR is in the layout of KITTI's odometry benchmark, in ASL format (EuRoC), or "
-           "has folders left\nand right and files left.yaml and right.yaml of "
-           "camera_calibration.\n\n"
-        << visible;
-    return false;
-  }
-  po::notify(variables);
+  if (!parseCommandLine(argc, argv, kUsage, visible, names, variables)) return false;
   if (variables.count("start-time") > 0) options.writer.start_time_s = start_time_s;
   return true;
 }

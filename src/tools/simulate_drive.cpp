@@ -182,20 +182,11 @@ void setLayout(const po::variables_map& variables, Options& options) {
 /// Returns false after printing the help; throws po::error on bad usage.
 bool parse(int argc, char** argv, Options& options) {
   const po::options_description visible = describe(options);
-  po::options_description all;
-  all.add(visible).add_options()("names", po::value(&options.names));
-  po::positional_options_description positional;
-  positional.add("names", -1);
+  PositionalArguments names;
+  names.options.add_options()("names", po::value(&options.names));
+  names.order.add("names", -1);
   po::variables_map variables;
-  const int style = po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
-  po::store(
-      po::command_line_parser(argc, argv).options(all).positional(positional).style(style).run(),
-      variables);
-  if (variables.count("help") > 0) {
-    std::cout << kUsage << visible;
-    return false;
-  }
-  po::notify(variables);
+  if (!parseCommandLine(argc, argv, kUsage, visible, names, variables)) return false;
   if (variables.count("noise-seed") == 0) options.simulation.noise_seed = options.simulation.seed;
   const std::size_t expected = options.poses.empty() ? 2 : 1;
   if (options.names.size() != expected) {

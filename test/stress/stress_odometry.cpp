@@ -32,18 +32,11 @@ bool parse(int argc, char** argv, StressOptions& options) {
       "pairs", number(options.pairs), "of the recording, which are kept in memory")(
       "seed", number(options.seed), "same seed, same faults")(
       "odometry", number(options.odometry), "name of the odometry's node or nodelet");
-  po::options_description all;
-  all.add(visible).add_options()("bag", po::value(&options.bag));
-  po::positional_options_description positional;
-  positional.add("bag", 1);
+  PositionalArguments bag;
+  bag.options.add_options()("bag", po::value(&options.bag));
+  bag.order.add("bag", 1);
   po::variables_map variables;
-  po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(),
-            variables);
-  po::notify(variables);
-  if (variables.count("help") > 0) {
-    std::cout << kUsage << visible;
-    return false;
-  }
+  if (!parseCommandLine(argc, argv, kUsage, visible, bag, variables)) return false;
   if (options.bag.empty()) throw po::error("no bag is given");
   if (!(options.rate_hz > 0.0 && options.duration_s > 0.0 && options.pairs >= 2)) {
     throw po::error("rate and duration must be positive, and pairs at least 2");
