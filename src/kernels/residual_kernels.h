@@ -55,10 +55,12 @@ void addColumnProducts(int first,
                        const LinearBlock& linear,
                        ColumnProducts& sums);
 
-/// Weighted products of the columns with the derivative by a shared error, from `first` on.
+/// Weighted products of the derivative by a shared error with itself, and with the columns from
+/// `first` on.
 void multiplyByShared(int first,
                       const ResidualBlock& block,
                       const LinearBlock& linear,
+                      ResidualBlock::Numbers& squares,
                       ResidualBlock::Numbers* products);
 
 }  // namespace ROTROCC_INSTRUCTIONS

@@ -106,18 +106,6 @@ ResidualTerms ReprojectionProblem<kParameters>::termsAt(const Parameters& parame
 }
 
 template <int kParameters>
-template <class Visit>
-void ReprojectionProblem<kParameters>::visitResiduals(const Parameters& parameters,
-                                                      const Visit& visit) const {
-  const ResidualTerms terms = termsAt(parameters);
-  LinearBlock linear;
-  for (std::size_t i = 0; i < indices_.size(); ++i) {
-    if (i % kSize == 0) chooseKernels().findResiduals(terms, blocks_[i / kSize], linear);
-    visit(residualOf(i, linear));
-  }
-}
-
-template <int kParameters>
 void ReprojectionProblem<kParameters>::weigh(const Parameters& parameters, double robust_factor) {
   if (robust_factor == 0.0) return;  // equal, as assigned
   errors_px_.clear();
@@ -131,6 +119,13 @@ void ReprojectionProblem<kParameters>::weigh(const Parameters& parameters, doubl
 }
 
 template <int kParameters>
+void ReprojectionProblem<kParameters>::squareWeights() {
+  for (ResidualBlock& block : blocks_) {
+    for (double& weight : block.weight) weight *= weight;
+  }
+}
+
+template <int kParameters>
 typename ReprojectionProblem<kParameters>::Parameters ReprojectionProblem<kParameters>::start()
     const {
   Parameters parameters = Parameters::Zero();
@@ -140,35 +135,28 @@ typename ReprojectionProblem<kParameters>::Parameters ReprojectionProblem<kParam
 
 template <int kParameters>
 typename ReprojectionProblem<kParameters>::NormalMatrix
-ReprojectionProblem<kParameters>::normalMatrix(const Parameters& parameters) const {
-  constexpr int kColumns = kParameters + 1;
-  using Column = Eigen::Matrix<double, kColumns, 1>;
-  const Kernels& kernels = chooseKernels();
-  const ResidualTerms terms = termsAt(parameters);
-  const bool shares = inverse_shared_variance_ > 0.0;
-  LinearBlock linear;
-  ColumnProducts products = {};
-  SharedErrors<kColumns> shared;
-  ResidualBlock::Numbers by_shared[LinearBlock::kColumns];
-  for (std::size_t first = 0; first < indices_.size(); first += kSize) {
-    const ResidualBlock& block = blocks_[first / kSize];
-    kernels.linearise(terms, kFirst, block, linear);
-    kernels.addColumnProducts(kFirst, block, linear, products);
-    if (!shares) continue;
-    kernels.multiplyByShared(kFirst, block, linear, by_shared);
-    const std::size_t count = std::min(kSize, indices_.size() - first);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const Eigen::Vector2d by_error(block.shared_x[lane], block.shared_y[lane]);
-      const Eigen::Map<const Column, 0, Eigen::InnerStride<ResidualBlock::kSize>> product(
-          &by_shared[kFirst][lane]);
-      shared.add(cells_[first + lane], block.weight[lane] * by_error.squaredNorm(), product);
+ReprojectionProblem<kParameters>::normalMatrixOf(const ColumnProducts& sums) {
+  NormalMatrix normal;
+  for (int a = 0; a <= kParameters; ++a) {
+    for (int b = a; b <= kParameters; ++b) {
+      normal(a, b) = normal(b, a) = sum(sums.of[kFirst + a][kFirst + b]);
     }
   }
+  return normal;
+}
+
+template <int kParameters>
+typename ReprojectionProblem<kParameters>::NormalMatrix
+ReprojectionProblem<kParameters>::normalMatrix(const Parameters& parameters) const {
+  constexpr int kColumns = kParameters + 1;
+  SharedErrors<kColumns> shared;
   NormalMatrix normal;
-  for (int a = 0; a < kColumns; ++a) {
-    for (int b = a; b < kColumns; ++b) {
-      normal(a, b) = normal(b, a) = sum(products.of[kFirst + a][kFirst + b]);
-    }
+  if (inverse_shared_variance_ == 0.0) {
+    normal = sumTerms(parameters, nullptr);
+  } else {
+    normal = sumTerms(parameters, [&](const ByDisparity& feature) {
+      shared.add(feature.cell, feature.information, feature.product);
+    });
   }
   shared.eliminate(inverse_shared_variance_, [&](const auto& product, double factor) {
     normal -= factor * product * product.transpose();

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -53,6 +55,9 @@ class ReprojectionProblem {
   /// factor.
   void weigh(const Parameters& parameters, double robust_factor);
 
+  /// Replaces the weights by their squares.
+  void squareWeights();
+
   /// Adds an unknown for each cell of SharedErrorGrid, a disparity error that its features share.
   /// Its standard deviation is `ratio` times that of a flow. The unknowns are eliminated (Schur
   /// complement) from normalMatrix() and cost(). 0: there are none, as after assign().
@@ -81,6 +86,41 @@ class ReprojectionProblem {
     }
   }
 
+  /// Calls visit(const Residual&) for each feature, in order.
+  template <class Visit>
+  void visitResiduals(const Parameters& parameters, const Visit& visit) const {
+    const ResidualTerms terms = termsAt(parameters);
+    LinearBlock linear;
+    for (std::size_t i = 0; i < indices_.size(); ++i) {
+      if (i % kSize == 0) chooseKernels().findResiduals(terms, blocks_[i / kSize], linear);
+      visit(residualOf(i, linear));
+    }
+  }
+
+  /// The products of a feature with g, its derivative by an error of the disparity.
+  struct ByDisparity {
+    std::size_t feature, cell;                          ///< as those of Residual
+    double information;                                 ///< w g^T g
+    Eigen::Matrix<double, kParameters + 1, 1> product;  ///< w [J r]^T g
+  };
+
+  /// The normal matrix with derivatives as those of Term. Calls visit(const ByDisparity&) for each
+  /// feature, in order, unless it is null.
+  template <class Visit>
+  NormalMatrix sumTerms(const Parameters& parameters, const Visit& visit) const {
+    const Kernels& kernels = chooseKernels();
+    const ResidualTerms terms = termsAt(parameters);
+    LinearBlock linear;
+    ColumnProducts sums = {};
+    for (std::size_t first = 0; first < size(); first += kSize) {
+      const ResidualBlock& block = blocks_[first / kSize];
+      kernels.linearise(terms, kFirst, block, linear);
+      kernels.addColumnProducts(kFirst, block, linear, sums);
+      if constexpr (!std::is_null_pointer_v<Visit>) visitByDisparity(first, block, linear, visit);
+    }
+    return normalMatrixOf(sums);
+  }
+
   /// The normal matrix of all terms by the parameters, without shared errors.
   NormalMatrix normalMatrix(const Parameters& parameters) const;
 
@@ -94,6 +134,29 @@ class ReprojectionProblem {
 
   ResidualTerms termsAt(const Parameters& parameters) const;
 
+  static NormalMatrix normalMatrixOf(const ColumnProducts& sums);
+
+  template <class Visit>
+  void visitByDisparity(std::size_t first,
+                        const ResidualBlock& block,
+                        const LinearBlock& linear,
+                        const Visit& visit) const {
+    ResidualBlock::Numbers information;
+    ResidualBlock::Numbers products[LinearBlock::kColumns];
+    chooseKernels().multiplyByShared(kFirst, block, linear, information, products);
+    ByDisparity by_disparity;
+    for (std::size_t i = first; i < std::min(first + kSize, size()); ++i) {
+      const std::size_t lane = i - first;
+      by_disparity.feature = indices_[i];
+      by_disparity.cell = cells_[i];
+      by_disparity.information = information[lane];
+      for (int column = 0; column <= kParameters; ++column) {
+        by_disparity.product[column] = products[kFirst + column][lane];
+      }
+      visit(static_cast<const ByDisparity&>(by_disparity));
+    }
+  }
+
   Residual residualOf(std::size_t i, const LinearBlock& linear) const {
     const ResidualBlock& block = blocks_[i / kSize];
     const std::size_t lane = i % kSize;
@@ -103,10 +166,6 @@ class ReprojectionProblem {
             {linear.x[LinearBlock::kResidual][lane], linear.y[LinearBlock::kResidual][lane]},
             {block.shared_x[lane], block.shared_y[lane]}};
   }
-
-  /// Calls visit(const Residual&) for each feature, in order.
-  template <class Visit>
-  void visitResiduals(const Parameters& parameters, const Visit& visit) const;
 
   StereoCamera camera_;
   Eigen::Isometry3d T_keyframe_cur_;  // of the fit

@@ -64,22 +64,37 @@ BiasMeter::Sums BiasMeter::collect(Curvature curvature) {
   all_.assign(features_.size(), 1);
   problem_.assign(camera_, fit_, all_);
   problem_.weigh(problem_.start(), robust_factor_);
-  const ImageGrid grid(camera_, kColumns, kRows);
   Sums sums;
-  problem_.linearise(problem_.start(), [&](const ReprojectionProblem<6>::Term& term) {
-    const auto cell = static_cast<Eigen::Index>(grid.cell(features_[term.feature].cur_px));
-    const Eigen::Vector2d by_bias = -term.by_disparity;
-    const double weight2 = term.weight * term.weight;
-    const double weight = curvature == Curvature::kConvex ? term.weight : weight2;
-    sums.motion += weight * term.jacobian.transpose() * term.jacobian;
-    sums.motion_by_cell.col(cell) += weight * term.jacobian.transpose() * by_bias;
-    sums.cells[cell] += weight * by_bias.squaredNorm();
-    sums.motion_residual += term.weight * term.jacobian.transpose() * term.residual_px;
-    sums.cell_residual[cell] += term.weight * by_bias.dot(term.residual_px);
-    sums.squared_weights += weight2;
-    sums.variance.add(term.weight, term.residual_px.squaredNorm());
+  problem_.visitResiduals(problem_.start(), [&](const ReprojectionProblem<6>::Residual& residual) {
+    sums.squared_weights += residual.weight * residual.weight;
+    sums.variance.add(residual.weight, residual.residual_px.squaredNorm());
   });
-  return sums;
+  sumEquations(sums);
+  if (curvature == Curvature::kConvex) return sums;
+  Sums expected = sums;
+  problem_.squareWeights();
+  sumEquations(expected);
+  expected.motion_residual = sums.motion_residual;
+  expected.cell_residual = sums.cell_residual;
+  return expected;
+}
+
+/// Adds up the equations with the present weights. A bias changes disparities as an error of theirs
+/// does, up to the sign.
+void BiasMeter::sumEquations(Sums& sums) const {
+  const ImageGrid grid(camera_, kColumns, kRows);
+  sums.motion_by_cell.setZero();
+  sums.cells.setZero();
+  sums.cell_residual.setZero();
+  const auto normal =
+      problem_.sumTerms(problem_.start(), [&](const ReprojectionProblem<6>::ByDisparity& feature) {
+        const auto cell = static_cast<Eigen::Index>(grid.cell(features_[feature.feature].cur_px));
+        sums.motion_by_cell.col(cell) -= feature.product.head<6>();
+        sums.cells[cell] += feature.information;
+        sums.cell_residual[cell] -= feature.product[6];
+      });
+  sums.motion = normal.topLeftCorner<6, 6>();
+  sums.motion_residual = normal.topRightCorner<6, 1>();
 }
 
 BiasMeter::Cells BiasMeter::eliminateMotion(const Sums& sums) {

@@ -76,6 +76,7 @@ class BiasMeter {
   enum class Curvature { kConvex, kExpected };
 
   Sums collect(Curvature curvature);
+  void sumEquations(Sums& sums) const;
   static Cells eliminateMotion(const Sums& sums);
   static bool describe(const Sums& sums, const Cells& cells, BiasMeasurement& measurement);
 
