@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 
 #include <opencv2/core/utility.hpp>
 
@@ -57,49 +56,14 @@ TrafficPlan plannedTraffic(const Scenario& scenario,
   return plan;
 }
 
-void requireShare(const std::string& name, double value) {
-  if (value >= 0.0 && value <= 1.0) return;
-  throw std::invalid_argument(name + " is " + std::to_string(value) + ": choose it from 0 to 1");
-}
-
 SimulationOptions checked(const SimulationOptions& options) {
-  options.camera.check();
-  options.faults.check();
-  requireShare("share of moving cars", options.moving_share);
-  requireShare("share of the lorry", options.lorry.share);
-  requireShare("share of repeated texture", options.tiled_share);
-  requireShare("share of dropped frames", options.drop_share);
-  if (!(options.rate_hz > 0.0 && options.rate_hz <= 1000.0)) {
-    throw std::invalid_argument("rate is " + std::to_string(options.rate_hz) +
-                                " Hz: choose it above 0, up to 1000");
-  }
+  options.check();
   return options;
 }
 
 Rain checkedRain(const Rain& rain) {
   rain.check();
   return rain;
-}
-
-std::vector<std::int64_t> allStamps(const Scenario& scenario, double rate_hz) {
-  if (!scenario.stamps_ns.empty()) return scenario.stamps_ns;
-  std::vector<std::int64_t> stamps_ns;
-  for (int i = 0; i <= scenario.drive->duration_s() * rate_hz; ++i) {
-    stamps_ns.push_back(std::llround(1e9 * i / rate_hz));
-  }
-  return stamps_ns;
-}
-
-std::vector<std::int64_t> keptStamps(const Scenario& scenario, const SimulationOptions& options) {
-  const std::vector<std::int64_t> all = allStamps(scenario, options.rate_hz);
-  std::vector<std::int64_t> kept;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (options.frames > 0 && static_cast<int>(kept.size()) == options.frames) break;
-    if (options.duration_s > 0.0 && toSeconds(all[i]) > options.duration_s) break;
-    const bool dropped = i > 0 && randomUniform(options.seed, 0xD209, i) < options.drop_share;
-    if (!dropped) kept.push_back(all[i]);
-  }
-  return kept;
 }
 
 }  // namespace
@@ -119,7 +83,7 @@ Simulator::Simulator(const Scenario& scenario, const SimulationOptions& options)
                                          *world_,
                                          options.moving_share,
                                          options.seed)),
-      stamps_ns_(keptStamps(scenario, options)) {}
+      stamps_ns_(frameStamps(scenario, options)) {}
 
 Eigen::Isometry3d Simulator::pose(int index) const {
   return drive_->pose(time_s(0)).inverse() * drive_->pose(time_s(index));
