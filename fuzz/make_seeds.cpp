@@ -9,6 +9,9 @@
 #include <ros/serialization.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
+#include <opencv2/core.hpp>
+
+#include "evaluation/png.h"
 
 namespace rotrocc {
 namespace {
@@ -80,6 +83,29 @@ void write(const fs::path& path, const std::string& text) {
   }
 }
 
+void writeCalibrations(const fs::path& folder) {
+  write(folder / "camera_calibration",
+        "image_width: 752\nimage_height: 480\ncamera_name: left\ncamera_matrix:\n  rows: 3\n"
+        "  cols: 3\n  data: [458, 0, 367, 0, 457, 248, 0, 0, 1]\ndistortion_model: plumb_bob\n"
+        "distortion_coefficients:\n  data: [-0.28, 0.07, 0, 0, 0]\nrectification_matrix:\n"
+        "  data: [1, 0, 0, 0, 1, 0, 0, 0, 1]\nprojection_matrix:\n"
+        "  data: [435, 0, 367, -47.9, 0, 435, 252, 0, 0, 0, 1, 0]\n");
+  write(folder / "asl",
+        "T_BS:\n  data: [0, -1, 0, -0.02, 1, 0, 0, -0.06, 0, 0, 1, 0.01, 0, 0, 0, 1]\n"
+        "resolution: [752, 480]\ncamera_model: pinhole\nintrinsics: [458, 457, 367, 248]\n"
+        "distortion_model: radial-tangential\ndistortion_coefficients: [-0.28, 0.07, 0, 0]\n");
+}
+
+/// Grey and colour, 8 and 16 bits.
+void writePngs(const fs::path& folder) {
+  fs::create_directories(folder);
+  for (const int type : {CV_8UC1, CV_16UC1, CV_8UC3, CV_16UC3}) {
+    cv::Mat image(8, 12, type);
+    cv::randu(image, 0, 255);
+    writePng((folder / std::to_string(type)).string(), image);
+  }
+}
+
 void writeSeeds(const fs::path& root) {
   const struct {
     const char* encoding;
@@ -95,6 +121,8 @@ void writeSeeds(const fs::path& root) {
           makeInfos(kTracked) + makeImages(kTracked, encoding, bytes));
   }
   write(root / "camera_info" / "infos", makeInfos(kTracked));
+  writeCalibrations(root / "calibration");
+  writePngs(root / "png");
 
   const std::string kitti_poses = "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0.1 0 0 -1 0 0 1 0 1e-3\n";
   write(root / "trajectory" / "kitti", kitti_poses);
