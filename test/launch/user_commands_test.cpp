@@ -1,4 +1,4 @@
-// What docs/robot.md tells users to type, with the packages of scripts/setup and beside a robot
+// What the documentation tells users to type, with the packages of scripts/setup and beside a robot
 // that drives.
 
 #include <atomic>

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -26,6 +27,16 @@ class BackgroundCommand {
   BackgroundCommand(const BackgroundCommand&) = delete;
   BackgroundCommand& operator=(const BackgroundCommand&) = delete;
 
+  /// The exit status if the command has ended by itself; -1 if a signal ended it.
+  std::optional<int> status() {
+    int status = 0;
+    if (process_ > 0 && waitpid(process_, &status, WNOHANG) == process_) {
+      process_ = 0;
+      status_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    return status_;
+  }
+
   /// Interrupts the command with the processes that it has started, and waits for its end.
   void interrupt() {
     if (process_ <= 0) return;
@@ -36,6 +47,7 @@ class BackgroundCommand {
 
  private:
   pid_t process_;
+  std::optional<int> status_;
 };
 
 }  // namespace rotrocc
