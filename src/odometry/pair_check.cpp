@@ -1,7 +1,6 @@
 #include "odometry/pair_check.h"
 
 #include <stdexcept>
-#include <utility>
 
 #include "common/sentence.h"
 
@@ -29,10 +28,10 @@ std::string whyUnusable(const StereoPair& pair,
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
-  for (const auto& [side, image] : {std::pair("left", pair.left), std::pair("right", pair.right)}) {
-    const std::string why = whyUnusable(side, image, camera);
-    if (!why.empty()) return why;
-  }
+  const std::string left = whyUnusable("left", pair.left, camera);
+  if (!left.empty()) return left;
+  const std::string right = whyUnusable("right", pair.right, camera);
+  if (!right.empty()) return right;
   if (!newest_ns || pair.stamp_ns > *newest_ns) return "";
   return sentence("the stamp ",
                   pair.stamp_ns,
