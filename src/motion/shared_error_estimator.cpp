@@ -57,12 +57,12 @@ SharedErrorEstimator::Moments SharedErrorEstimator::momentsOf() {
   };
   std::array<Cell, SharedErrorGrid::kCells> cells;
   WeightedVariance variance;
-  problem_.linearise(problem_.start(), [&](const ReprojectionProblem<6>::Term& term) {
-    const Eigen::Vector2d& by_error = term.by_disparity;
-    Cell& cell = cells[term.cell];
-    cell.information += term.weight * by_error.squaredNorm();
-    cell.weighted_px += term.weight * by_error.dot(term.residual_px);
-    variance.add(term.weight, term.residual_px.squaredNorm());
+  problem_.visitResiduals(problem_.start(), [&](const ReprojectionProblem<6>::Residual& residual) {
+    const Eigen::Vector2d& by_error = residual.by_disparity;
+    Cell& cell = cells[residual.cell];
+    cell.information += residual.weight * by_error.squaredNorm();
+    cell.weighted_px += residual.weight * by_error.dot(residual.residual_px);
+    variance.add(residual.weight, residual.residual_px.squaredNorm());
   });
   const double variance_px2 = variance.value(kParameters);
   if (!(variance_px2 > 0.0)) return {};
