@@ -21,7 +21,7 @@ const Kernels kernels = {kShorts,
                          findResiduals,
                          linearise,
                          addColumnProducts,
-                         multiplyByShared};
+                         multiplyByDisparity};
 static_assert(kShorts <= kMostShorts);
 
 }  // namespace rotrocc::ROTROCC_INSTRUCTIONS

@@ -31,7 +31,7 @@ struct Kernels {
   decltype(&ROTROCC_INSTRUCTIONS::findResiduals) findResiduals;
   decltype(&ROTROCC_INSTRUCTIONS::linearise) linearise;
   decltype(&ROTROCC_INSTRUCTIONS::addColumnProducts) addColumnProducts;
-  decltype(&ROTROCC_INSTRUCTIONS::multiplyByShared) multiplyByShared;
+  decltype(&ROTROCC_INSTRUCTIONS::multiplyByDisparity) multiplyByDisparity;
 };
 
 /// Values that a row needs beyond its end, because whole registers are read and written.

@@ -106,16 +106,16 @@ void addColumnProducts(const int first,
   }
 }
 
-void multiplyByShared(const int first,
-                      const ResidualBlock& block,
-                      const LinearBlock& linear,
-                      ResidualBlock::Numbers& squares,
-                      ResidualBlock::Numbers* const products) {
+void multiplyByDisparity(const int first,
+                         const ResidualBlock& block,
+                         const LinearBlock& linear,
+                         ResidualBlock::Numbers& squares,
+                         ResidualBlock::Numbers* const products) {
   ResidualBlock::Numbers x, y;
   for (int i = 0; i < kSize; ++i) {
-    x[i] = block.weight[i] * block.shared_x[i];
-    y[i] = block.weight[i] * block.shared_y[i];
-    squares[i] = x[i] * block.shared_x[i] + y[i] * block.shared_y[i];
+    x[i] = block.weight[i] * block.by_disparity_x[i];
+    y[i] = block.weight[i] * block.by_disparity_y[i];
+    squares[i] = x[i] * block.by_disparity_x[i] + y[i] * block.by_disparity_y[i];
   }
   for (int a = first; a < LinearBlock::kColumns; ++a) {
     for (int i = 0; i < kSize; ++i) {

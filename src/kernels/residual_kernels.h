@@ -12,8 +12,9 @@ struct ResidualBlock {
   Numbers target_x, target_y;         ///< from the principal point [px]
   Numbers point_x, point_y, point_z;  ///< in the axes of the keyframe's camera [m]
   Numbers whitening_xx, whitening_xy, whitening_yy;
-  Numbers shared_x, shared_y;  ///< derivative of the residual by a shared error
-  Numbers weight;              ///< 0: no feature
+  Numbers by_disparity_x,
+      by_disparity_y;  ///< derivative of the residual by an error of the disparity
+  Numbers weight;      ///< 0: no feature
 };
 
 /// The motion and camera at which residuals are linearised.
@@ -31,7 +32,7 @@ struct LinearBlock {
   static constexpr int kTranslation = 3;
   static constexpr int kResidual = 6;
 
-  ResidualBlock::Numbers x[kColumns], y[kColumns];
+  ResidualBlock::Numbers x[kColumns], y[kColumns];  ///< of both rows of a residual [px]
 };
 
 /// Sums over features of the products of two columns, each in as many parts as a block has
@@ -55,13 +56,13 @@ void addColumnProducts(int first,
                        const LinearBlock& linear,
                        ColumnProducts& sums);
 
-/// Weighted products of the derivative by a shared error with itself, and with the columns from
-/// `first` on.
-void multiplyByShared(int first,
-                      const ResidualBlock& block,
-                      const LinearBlock& linear,
-                      ResidualBlock::Numbers& squares,
-                      ResidualBlock::Numbers* products);
+/// Weighted products of the derivative by an error of the disparity with itself, and with the
+/// columns from `first` on.
+void multiplyByDisparity(int first,
+                         const ResidualBlock& block,
+                         const LinearBlock& linear,
+                         ResidualBlock::Numbers& squares,
+                         ResidualBlock::Numbers* products);
 
 }  // namespace ROTROCC_INSTRUCTIONS
 }  // namespace rotrocc

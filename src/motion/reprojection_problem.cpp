@@ -24,8 +24,8 @@ void put(const StereoCamera& camera,
   block.whitening_xy[lane] = feature.whitening(0, 1);
   block.whitening_yy[lane] = feature.whitening(1, 1);
   const Eigen::Vector2d by_disparity = feature.whitening * feature.by_disparity;
-  block.shared_x[lane] = by_disparity.x();
-  block.shared_y[lane] = by_disparity.y();
+  block.by_disparity_x[lane] = by_disparity.x();
+  block.by_disparity_y[lane] = by_disparity.y();
   block.weight[lane] = 1.0;
 }
 

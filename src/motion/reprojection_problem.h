@@ -143,7 +143,7 @@ class ReprojectionProblem {
                         const Visit& visit) const {
     ResidualBlock::Numbers information;
     ResidualBlock::Numbers products[LinearBlock::kColumns];
-    chooseKernels().multiplyByShared(kFirst, block, linear, information, products);
+    chooseKernels().multiplyByDisparity(kFirst, block, linear, information, products);
     ByDisparity by_disparity;
     for (std::size_t i = first; i < std::min(first + kSize, size()); ++i) {
       const std::size_t lane = i - first;
@@ -164,7 +164,7 @@ class ReprojectionProblem {
             cells_[i],
             block.weight[lane],
             {linear.x[LinearBlock::kResidual][lane], linear.y[LinearBlock::kResidual][lane]},
-            {block.shared_x[lane], block.shared_y[lane]}};
+            {block.by_disparity_x[lane], block.by_disparity_y[lane]}};
   }
 
   StereoCamera camera_;
