@@ -145,6 +145,21 @@ TEST(SimulationMotion, RecordedDriveTurnsSmoothly) {
   }
 }
 
+TEST(SimulationMotion, RecordedDriveGoesOnBeyondItsEnds) {
+  const auto poseAt = [](double time_s) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translate(Eigen::Vector3d(0.0, 0.0, 11.0 * time_s));
+    pose.rotate(Eigen::AngleAxisd(0.7 * time_s, Eigen::Vector3d::UnitY()));
+    return pose;
+  };
+  Trajectory trajectory;
+  for (int i = 0; i <= 10; ++i) trajectory.push_back({i * 100'000'000LL, poseAt(0.1 * i)});
+  const RecordedDrive drive(trajectory);
+  for (const double time_s : {-0.05, 1.05}) {
+    EXPECT_TRUE(drive.pose(time_s).isApprox(poseAt(time_s), 1e-9)) << time_s;
+  }
+}
+
 TEST(SimulationMotion, RefusesWhatIsNoDrive) {
   expectError<std::invalid_argument>([] { scenario("town", 1); }, "there is no scenario 'town'");
   Trajectory standing(5);

@@ -73,7 +73,8 @@ class ScriptedDrive : public Drive {
   double duration_s_ = 0.0;
 };
 
-/// A recorded drive, with smooth interpolation between its poses.
+/// A recorded drive, with smooth interpolation between its poses. Before the first and after the
+/// last one it goes on at the same velocity: an exposure may begin and end there.
 class RecordedDrive : public Drive {
  public:
   /// The stamps count from the first pose. Throws std::invalid_argument for fewer than two poses,
@@ -86,7 +87,17 @@ class RecordedDrive : public Drive {
   Eigen::Isometry3d pose(double time_s) const override;
 
  private:
+  /// The poses before and after one.
+  struct Difference {
+    const Eigen::Isometry3d& before;
+    const Eigen::Isometry3d& after;
+    double length_s;
+  };
+  Difference differenceAt(std::size_t pose) const;
+  Eigen::Vector3d velocity(std::size_t pose) const;
+  Eigen::Vector3d rate(std::size_t pose) const;
   std::size_t intervalAt(double time_s) const;
+  Eigen::Isometry3d between(double time_s) const;
 
   Trajectory trajectory_;
   std::vector<double> times_s_;

@@ -57,37 +57,54 @@ double RecordedDrive::station_m(double time_s) const {
 
 Eigen::Isometry3d RecordedDrive::pose(double time_s) const {
   const double time = std::clamp(time_s, 0.0, duration_s());
-  const std::size_t i = intervalAt(time);
+  Eigen::Isometry3d pose = between(time);
+  const double beyond_s = time_s - time;
+  if (beyond_s == 0.0) return pose;
+  const std::size_t end = beyond_s < 0.0 ? 0 : trajectory_.size() - 1;
+  pose.translation() += beyond_s * velocity(end);
+  pose.linear() = pose.linear() * expRotation(beyond_s * rate(end));
+  return pose;
+}
+
+/// The pose at a time of the recording: a cubic Hermite spline, for the rotation that of its vector
+/// since the pose before.
+Eigen::Isometry3d RecordedDrive::between(double time_s) const {
+  const std::size_t i = intervalAt(time_s);
   const double length_s = times_s_[i + 1] - times_s_[i];
-  const double t = (time - times_s_[i]) / length_s;
-  const auto position = [&](std::size_t k) -> Eigen::Vector3d {
-    return trajectory_[k].T_world_body.translation();
-  };
-  const auto velocity = [&](std::size_t k) -> Eigen::Vector3d {
-    const std::size_t before = k == 0 ? 0 : k - 1;
-    const std::size_t after = std::min(k + 1, trajectory_.size() - 1);
-    return (position(after) - position(before)) / (times_s_[after] - times_s_[before]);
-  };
-  const double ease = t * t * (3.0 - 2.0 * t);  // cubic Hermite basis
+  const double t = (time_s - times_s_[i]) / length_s;
+  const double ease = t * t * (3.0 - 2.0 * t);
+  const Eigen::Isometry3d& from = trajectory_[i].T_world_body;
+  const Eigen::Isometry3d& to = trajectory_[i + 1].T_world_body;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.translation() = (1.0 - ease) * position(i) + ease * position(i + 1) +
+  pose.translation() = (1.0 - ease) * from.translation() + ease * to.translation() +
                        length_s * t * (1.0 - t) * ((1.0 - t) * velocity(i) - t * velocity(i + 1));
-  const auto orientation = [&](std::size_t k) -> Eigen::Matrix3d {
-    return trajectory_[k].T_world_body.linear();
-  };
-  // Angular velocities in axes of pose k; the rotation since pose i is a cubic rotation vector.
-  const auto rate = [&](std::size_t k) -> Eigen::Vector3d {
-    const std::size_t before = k == 0 ? 0 : k - 1;
-    const std::size_t after = std::min(k + 1, trajectory_.size() - 1);
-    return logRotation(orientation(before).transpose() * orientation(after)) /
-           (times_s_[after] - times_s_[before]);
-  };
-  const Eigen::Vector3d turn = logRotation(orientation(i).transpose() * orientation(i + 1));
+  const Eigen::Vector3d turn = logRotation(from.linear().transpose() * to.linear());
   const Eigen::Vector3d end_slope = leftJacobian(-turn).inverse() * rate(i + 1);
   pose.linear() =
-      orientation(i) *
+      from.linear() *
       expRotation(ease * turn + length_s * t * (1.0 - t) * ((1.0 - t) * rate(i) - t * end_slope));
   return pose;
+}
+
+RecordedDrive::Difference RecordedDrive::differenceAt(std::size_t pose) const {
+  const std::size_t before = pose == 0 ? 0 : pose - 1;
+  const std::size_t after = std::min(pose + 1, trajectory_.size() - 1);
+  return {trajectory_[before].T_world_body,
+          trajectory_[after].T_world_body,
+          times_s_[after] - times_s_[before]};
+}
+
+/// In the world.
+Eigen::Vector3d RecordedDrive::velocity(std::size_t pose) const {
+  const Difference difference = differenceAt(pose);
+  return (difference.after.translation() - difference.before.translation()) / difference.length_s;
+}
+
+/// In axes of the pose.
+Eigen::Vector3d RecordedDrive::rate(std::size_t pose) const {
+  const Difference difference = differenceAt(pose);
+  return logRotation(difference.before.linear().transpose() * difference.after.linear()) /
+         difference.length_s;
 }
 
 }  // namespace rotrocc
