@@ -120,6 +120,10 @@ struct MotionCheckConfig {
   /// Share of the keyframe's features with a depth that are inliers; below: degraded. After a wrong
   /// prediction, up to a tenth of the features match somewhere by chance.
   double degraded_survivor_share = 0.1;
+  /// Share of the information about each part of the motion that inliers of the translation stage
+  /// have without the most informative one; below: degraded. If nearly all features are far away,
+  /// few near ones determine the translation, and those that are wrong may agree by chance.
+  double degraded_information_share = 0.15;
   /// Standard deviation of the translation, relative to its length since the keyframe, or to 2 % of
   /// the median depth if that is more; above: degraded.
   double degraded_relative_sigma = 0.05;

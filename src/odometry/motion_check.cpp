@@ -24,6 +24,15 @@ constexpr double kShortStep = 0.02;
 /// Features with a larger error contradict a motion. Those that are only inexact have a smaller
 /// one.
 constexpr double kContradiction_px = 2.0;
+/// What is this many times as deep is behind.
+constexpr double kBehind = 2.0;
+/// The share of degraded_rival_share that is enough for features behind the others.
+constexpr double kSuspicion = 0.5;
+/// Noise of the flow in any image of a camera. Only what is drawn, or left by compression, is more
+/// exact, and stands still when the camera moves.
+constexpr double kLeastNoise_px = 0.005;
+/// A smaller share of inliers is not all features but some mismatches.
+constexpr double kAll = 0.95;
 
 /// The smaller number of inliers of the two stages: both parts of the motion need enough of them.
 int inliers(const MotionEstimator::Estimate& estimate) {
@@ -89,6 +98,7 @@ std::string MotionCheck::whyDegraded(const Hypothesis& accepted, const Matrix6d&
   if (why.empty()) why = whyFewAgree(estimate, accepted.has_prediction);
   if (why.empty()) why = whyFewSurvive(accepted);
   if (why.empty()) why = whyAmbiguous(accepted);
+  if (why.empty()) why = whyFewDetermine(accepted);
   return why.empty() ? whyUndetermined(accepted, covariance) : why;
 }
 
@@ -126,6 +136,13 @@ std::string MotionCheck::whyFewAgree(const MotionEstimator::Estimate& estimate,
                     " of the features agrees on the motion, less than degraded_start_share = ",
                     config_.degraded_start_share);
   }
+  if (!has_prediction && by_rotation < kAll && estimate.flow_noise_px < kLeastNoise_px) {
+    return sentence("without a prediction, a share of ",
+                    by_rotation,
+                    " of the features agrees on the motion, more exactly (",
+                    estimate.flow_noise_px,
+                    " px) than features of the scene: something drawn or compressed stands still");
+  }
   const double by_translation = shareOf(estimate.translation_inliers);
   if (by_translation >= config_.degraded_translation_share) return "";
   return sentence("a share of ",
@@ -148,42 +165,74 @@ std::string MotionCheck::whyFewSurvive(const Hypothesis& accepted) const {
 }
 
 /// Whether many of the features that contradict the motion agree on another one. Then it may be
-/// that of an object that fills the image.
+/// that of an object that fills the image. Fewer are enough if they are behind the inliers, as what
+/// an object hides.
 std::string MotionCheck::whyAmbiguous(const Hypothesis& accepted) {
   const Correspondences& features = accepted.features;
-  const int many = std::max(
-      config_.min_inliers,
-      static_cast<int>(config_.degraded_rival_share * static_cast<double>(features.size())));
   reprojectionErrors(accepted.camera, features, accepted.estimate.T_keyframe_cur, errors_px_);
-  others_.clear();
+  rivals_.clear();
   for (std::size_t i = 0; i < features.size(); ++i) {
-    if (errors_px_[i] > kContradiction_px) others_.push_back(features[i]);
+    if (errors_px_[i] > kContradiction_px) rivals_.push_back(features[i]);
   }
-  if (static_cast<int>(others_.size()) < many) return "";
-  const auto rival = consensusMotion(accepted.camera, others_);
+  const auto areMany = [&](double factor) {
+    const double share = factor * config_.degraded_rival_share;
+    const double many = share * static_cast<double>(features.size());
+    return static_cast<double>(rivals_.size()) >= std::max<double>(config_.min_inliers, many);
+  };
+  if (!areMany(kSuspicion)) return "";
+  const auto rival = consensusMotion(accepted.camera, rivals_);
   if (!rival) return "";
-  reprojectionErrors(accepted.camera, others_, *rival, errors_px_);
-  const auto agree = std::count_if(errors_px_.begin(), errors_px_.end(), [](double error_px) {
-    return error_px < kContradiction_px;
-  });
-  if (agree < many) return "";
+  reprojectionErrors(accepted.camera, rivals_, *rival, errors_px_);
+  std::size_t agree = 0;
+  for (std::size_t i = 0; i < rivals_.size(); ++i) {
+    if (errors_px_[i] < kContradiction_px) rivals_[agree++] = rivals_[i];
+  }
+  rivals_.resize(agree);
+  if (!areMany(kSuspicion)) return "";
+  const FeatureSet all(agree, 1);
+  const bool are_behind = medianDepth(rivals_, all) >
+                          kBehind * medianDepth(features, accepted.estimate.rotation_inliers);
+  if (!are_behind && !areMany(1.0)) return "";
   return sentence("another motion fits ",
                   agree,
                   " of the ",
                   features.size(),
-                  " features, a share above degraded_rival_share = ",
+                  are_behind ? " features, which are behind the others, a share above "
+                             : " features, a share above ",
+                  are_behind ? "half of degraded_rival_share = " : "degraded_rival_share = ",
                   config_.degraded_rival_share,
                   ": one of the two is that of a large object");
 }
 
+/// Whether few inliers determine the motion, and other features contradict them. It may be that of
+/// a wrong match then.
+std::string MotionCheck::whyFewDetermine(const Hypothesis& accepted) {
+  if (config_.degraded_information_share == 0.0) return "";
+  const double share = information_share_.least({accepted.camera, accepted.features, noise_ratio_},
+                                                accepted.estimate.T_keyframe_cur,
+                                                accepted.estimate.translation_inliers);
+  if (share >= config_.degraded_information_share) return "";
+  return sentence("the inliers but one have a share of ",
+                  share,
+                  " of the information about a part of the motion, less than "
+                  "degraded_information_share = ",
+                  config_.degraded_information_share,
+                  ": few features determine it");
+}
+
+double MotionCheck::medianDepth(const Correspondences& features, const FeatureSet& set) {
+  depths_m_.clear();
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (set[i] != 0) depths_m_.push_back(features[i].point_cur.z());
+  }
+  return median(depths_m_);
+}
+
 std::string MotionCheck::whyUndetermined(const Hypothesis& accepted, const Matrix6d& covariance) {
   const MotionEstimator::Estimate& estimate = accepted.estimate;
-  depths_m_.clear();
-  for (std::size_t i = 0; i < accepted.features.size(); ++i) {
-    if (estimate.rotation_inliers[i] != 0) depths_m_.push_back(accepted.features[i].point_cur.z());
-  }
+  const double depth_m = medianDepth(accepted.features, estimate.rotation_inliers);
   const double step_m =
-      std::max(estimate.T_keyframe_cur.translation().norm(), kShortStep * median(depths_m_));
+      std::max(estimate.T_keyframe_cur.translation().norm(), kShortStep * depth_m);
   const double sigma_m = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
   if (sigma_m <= config_.degraded_relative_sigma * step_m) return "";
   return sentence("the translation has a standard deviation of ",

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "motion/information_share.h"
 #include "motion/motion_estimator.h"
 #include "odometry/hypothesis.h"
 #include "rotrocc/odometry_config.h"
@@ -15,7 +16,9 @@ class MotionCheck {
  public:
   using Config = MotionCheckConfig;
 
-  explicit MotionCheck(const Config& config) : config_(config) {}
+  /// `noise_ratio` is that of Measurements.
+  MotionCheck(const Config& config, double noise_ratio)
+      : config_(config), noise_ratio_(noise_ratio) {}
 
   /// Why the motion is rejected, in one sentence with the value and the parameter; empty if it is
   /// accepted. The motion took `dt_s` > 0.
@@ -42,13 +45,17 @@ class MotionCheck {
   std::string whyFewAgree(const MotionEstimator::Estimate& estimate, bool has_prediction) const;
   std::string whyFewSurvive(const Hypothesis& accepted) const;
   std::string whyAmbiguous(const Hypothesis& accepted);
+  std::string whyFewDetermine(const Hypothesis& accepted);
+  double medianDepth(const Correspondences& features, const FeatureSet& set);
   std::string whyUndetermined(const Hypothesis& accepted, const Matrix6d& covariance);
 
   Config config_;
+  double noise_ratio_;
   // Buffers, reused.
   std::vector<double> depths_m_;
   std::vector<double> errors_px_;
-  Correspondences others_;
+  Correspondences rivals_;
+  InformationShare information_share_;
 };
 
 }  // namespace rotrocc

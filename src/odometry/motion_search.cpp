@@ -30,7 +30,7 @@ MotionSearch::MotionSearch(const OdometryConfig& config)
       least_features_(config.motion_check.min_inliers),
       settled_px_(config.settled_px),
       estimator_(config.motion_estimator, config.motion_check.min_inliers),
-      check_(config.motion_check),
+      check_(config.motion_check, config.motion_estimator.noise_ratio),
       prediction_error_(tracker_) {}
 
 void MotionSearch::find(const Frames& frames,

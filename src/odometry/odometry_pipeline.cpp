@@ -28,7 +28,7 @@ VisualOdometry::Pipeline::Pipeline(const Config& config)
       finder_(config.correspondence_finder, config.threads),
       motion_model_(config.motion_model),
       search_(config),
-      check_(config.motion_check),
+      check_(config.motion_check, config.motion_estimator.noise_ratio),
       selector_(config.keyframe_selector),
       rig_(config) {}
 
@@ -90,7 +90,7 @@ void VisualOdometry::Pipeline::configure(const Config& config) {
   config_ = config;
   finder_ = CorrespondenceFinder(config.correspondence_finder, config.threads);
   motion_model_.configure(config.motion_model);
-  check_ = MotionCheck(config.motion_check);
+  check_ = MotionCheck(config.motion_check, config.motion_estimator.noise_ratio);
   selector_ = KeyframeSelector(config.keyframe_selector);
   rig_.configure(config);
   keyframe_.frame.reset();  // its corners depend on the old parameters

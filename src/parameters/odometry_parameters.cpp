@@ -62,6 +62,13 @@ void addMotionCheck(MotionCheckConfig& c, ParameterTable& table) {
             1.0,
             "",
             "share of the keyframe's features with a depth that must be inliers, else degraded");
+  table.add(s + "degraded_information_share",
+            c.degraded_information_share,
+            0.0,
+            1.0,
+            "",
+            "share of the information about each part of the motion that inliers must have without "
+            "the most informative one, else degraded");
   table.add(s + "degraded_relative_sigma",
             c.degraded_relative_sigma,
             0.001,

@@ -156,6 +156,7 @@ TEST_F(AllocationTest, AreNoneWithOtherCriteria) {
     config.motion_check.degraded_rotation_share = 0.0;
     config.motion_check.degraded_start_share = 0.0;
     config.motion_check.degraded_translation_share = 0.0;
+    config.motion_check.degraded_information_share = 0.0;
     config.motion_estimator.retry_agreement_px = 0.0;
     EXPECT_EQ(countOfARepeatedDrive(config), 0) << criterion;
   }

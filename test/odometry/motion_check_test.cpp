@@ -1,6 +1,7 @@
 #include "odometry/motion_check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <string>
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double kPeriod_s = 0.1;
 constexpr double kDepth_m = 15.0;
+constexpr double kNoiseRatio = 4.0;
 
 FeatureSet set(int inliers, int features) {
   FeatureSet flags(static_cast<std::size_t>(features), 0);
@@ -24,6 +26,7 @@ FeatureSet set(int inliers, int features) {
 MotionEstimator::Estimate goodEstimate() {
   MotionEstimator::Estimate estimate;
   estimate.valid = true;
+  estimate.flow_noise_px = 0.1;
   estimate.T_keyframe_cur = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
   estimate.rotation_inliers = set(300, 400);
   estimate.translation_inliers = set(300, 400);
@@ -35,28 +38,47 @@ void expectSays(const std::string& sentence, const std::string& value, const std
   EXPECT_NE(sentence.find(limit), std::string::npos) << sentence;
 }
 
-std::string whyLost(const MotionEstimator::Estimate& estimate) {
-  return MotionCheck({}).whyLost(estimate, kPeriod_s);
+MotionCheck defaultCheck() {
+  return {{}, kNoiseRatio};
 }
 
-/// All features are at the same place and fit the motion, and all of the keyframe's features were
+std::string whyLost(const MotionEstimator::Estimate& estimate) {
+  return defaultCheck().whyLost(estimate, kPeriod_s);
+}
+
+/// Exact features all over the image (the R2 sequence of Roberts, 2018), so that the first ones are
+/// as well.
+Correspondences featuresAt(double depth_m, const Eigen::Isometry3d& T_keyframe_cur, int count) {
+  const StereoCamera camera = kittiCamera();
+  Correspondences features(static_cast<std::size_t>(count));
+  double x = 0.5;
+  double y = 0.5;
+  for (Correspondence& feature : features) {
+    x = std::fmod(x + 0.7548776662, 1.0);
+    y = std::fmod(y + 0.5698402910, 1.0);
+    feature.cur_px = {x * camera.width, y * camera.height};
+    feature.disparity_px = camera.disparity(depth_m);
+    feature.point_cur = depth_m * camera.ray(feature.cur_px);
+    feature.keyframe_px = camera.project(T_keyframe_cur * feature.point_cur);
+  }
+  return features;
+}
+
+/// All features are equally deep and fit the motion, and all of the keyframe's features were
 /// tracked.
 Hypothesis hypothesis(const MotionEstimator::Estimate& estimate) {
   Hypothesis hypothesis;
   hypothesis.camera = kittiCamera();
   hypothesis.has_prediction = true;
   hypothesis.estimate = estimate;
-  hypothesis.features.resize(estimate.rotation_inliers.size());
-  for (Correspondence& feature : hypothesis.features) {
-    feature.point_cur = {0.0, 0.0, kDepth_m};
-    feature.keyframe_px = kittiCamera().project(estimate.T_keyframe_cur * feature.point_cur);
-  }
+  hypothesis.features = featuresAt(
+      kDepth_m, estimate.T_keyframe_cur, static_cast<int>(estimate.rotation_inliers.size()));
   hypothesis.counts.with_depth = static_cast<int>(hypothesis.features.size());
   return hypothesis;
 }
 
 std::string whyDegraded(const MotionEstimator::Estimate& estimate) {
-  return MotionCheck({}).whyDegraded(hypothesis(estimate), estimate.covariance);
+  return defaultCheck().whyDegraded(hypothesis(estimate), estimate.covariance);
 }
 
 TEST(MotionCheckTest, BelievesAGoodMotion) {
@@ -101,21 +123,21 @@ TEST(MotionCheckTest, KnowsHowFastARobotMoves) {
   auto estimate = goodEstimate();
   estimate.T_keyframe_cur = motion({0.0, 4.0, 5.9}, {0.0, 0.0, 0.0});
   expectSays(whyLost(estimate), "71.28", "max_speed_mps = 70");
-  EXPECT_EQ(MotionCheck({}).whyLost(estimate, 2.0 * kPeriod_s), "");  // half the speed
+  EXPECT_EQ(defaultCheck().whyLost(estimate, 2.0 * kPeriod_s), "");  // half the speed
   estimate.T_keyframe_cur = motion({0.0, 0.0, 1.0}, {0.0, 0.61, 0.0});
   expectSays(whyLost(estimate), "6.1 rad/s", "max_turn_rate_rps = 6");
-  EXPECT_EQ(MotionCheck({}).whyLost(estimate, 2.0 * kPeriod_s), "");
+  EXPECT_EQ(defaultCheck().whyLost(estimate, 2.0 * kPeriod_s), "");
 }
 
 TEST(MotionCheckTest, CallsAMotionOnFewSurvivorsDegraded) {
   auto estimate = goodEstimate();
   Hypothesis tracked = hypothesis(estimate);
   tracked.counts.with_depth = 3001;
-  expectSays(MotionCheck({}).whyDegraded(tracked, estimate.covariance),
+  expectSays(defaultCheck().whyDegraded(tracked, estimate.covariance),
              "300 of 3001 features",
              "degraded_survivor_share = 0.1");
   tracked.counts.with_depth = 3000;
-  EXPECT_EQ(MotionCheck({}).whyDegraded(tracked, estimate.covariance), "");
+  EXPECT_EQ(defaultCheck().whyDegraded(tracked, estimate.covariance), "");
 }
 
 TEST(MotionCheckTest, DoesNotMindASmallImage) {
@@ -158,24 +180,36 @@ TEST(MotionCheckTest, WantsMoreAgreementWithoutAPrediction) {
   auto estimate = goodEstimate();
   estimate.rotation_inliers = set(319, 400);
   Hypothesis first = hypothesis(estimate);
-  EXPECT_EQ(MotionCheck({}).whyDegraded(first, estimate.covariance), "");
+  EXPECT_EQ(defaultCheck().whyDegraded(first, estimate.covariance), "");
   first.has_prediction = false;
-  expectSays(MotionCheck({}).whyDegraded(first, estimate.covariance),
+  expectSays(defaultCheck().whyDegraded(first, estimate.covariance),
              "0.7975",
              "degraded_start_share = 0.8");
   first.estimate.rotation_inliers = set(320, 400);
-  EXPECT_EQ(MotionCheck({}).whyDegraded(first, estimate.covariance), "");
+  EXPECT_EQ(defaultCheck().whyDegraded(first, estimate.covariance), "");
+}
+
+TEST(MotionCheckTest, AStartOnFeaturesMoreExactThanImagesIsDegraded) {
+  auto estimate = goodEstimate();
+  estimate.rotation_inliers = set(360, 400);
+  estimate.flow_noise_px = 0.004;
+  Hypothesis first = hypothesis(estimate);
+  EXPECT_EQ(defaultCheck().whyDegraded(first, estimate.covariance), "");
+  first.has_prediction = false;
+  expectSays(defaultCheck().whyDegraded(first, estimate.covariance), "0.9", "0.004 px");
+  first.estimate.rotation_inliers = set(400, 400);
+  EXPECT_EQ(defaultCheck().whyDegraded(first, estimate.covariance), "") << "the same image twice";
 }
 
 TEST(MotionCheckTest, CallsAMotionDegradedIfFewCornersHaveADepth) {
   const auto estimate = goodEstimate();
   Hypothesis dirty = hypothesis(estimate);
   dirty.counts.corners = 2667;
-  expectSays(MotionCheck({}).whyDegraded(dirty, estimate.covariance),
+  expectSays(defaultCheck().whyDegraded(dirty, estimate.covariance),
              "400 of 2667 corners",
              "degraded_depth_share = 0.15");
   dirty.counts.corners = 2666;
-  EXPECT_EQ(MotionCheck({}).whyDegraded(dirty, estimate.covariance), "");
+  EXPECT_EQ(defaultCheck().whyDegraded(dirty, estimate.covariance), "");
 }
 
 /// 300 features that fit the motion, and 100 others.
@@ -196,12 +230,44 @@ TEST(MotionCheckTest, CallsAMotionBesideAnotherOneDegraded) {
       simulateFeatures(kittiCamera(), other, 100, {0.2, 0.2}, generator);
   const Hypothesis mixed = hypothesisAnd(on_lorry);
   const Matrix6d covariance = Matrix6d::Zero();
-  expectSays(MotionCheck({}).whyDegraded(mixed, covariance),
+  expectSays(defaultCheck().whyDegraded(mixed, covariance),
              "another motion fits",
              "of the 400 features, a share above degraded_rival_share = 0.2");
   MotionCheckConfig config;
   config.degraded_rival_share = 0.3;
-  EXPECT_EQ(MotionCheck(config).whyDegraded(mixed, covariance), "");
+  EXPECT_EQ(MotionCheck(config, kNoiseRatio).whyDegraded(mixed, covariance), "");
+}
+
+TEST(MotionCheckTest, FewerAreEnoughBehindTheOthers) {
+  const auto other = motion({0.5, 0.0, 0.2}, {0.0, 0.02, 0.0});
+  const auto whyBeside = [&](double depth_m, int count) {
+    Hypothesis mixed = hypothesis(goodEstimate());
+    const Correspondences others = featuresAt(depth_m, other, count);
+    std::copy(others.begin(), others.end(), mixed.features.end() - count);
+    MotionCheckConfig config;
+    config.degraded_information_share = 0.0;  // the others have most, at another depth
+    return MotionCheck(config, kNoiseRatio).whyDegraded(mixed, Matrix6d::Zero());
+  };
+  expectSays(whyBeside(2.1 * kDepth_m, 40), "40 of the 400 features, which are behind", "half of");
+  EXPECT_EQ(whyBeside(2.1 * kDepth_m, 39), "");
+  EXPECT_EQ(whyBeside(kDepth_m, 79), "");
+}
+
+TEST(MotionCheckTest, CallsAMotionThatOneFeatureDeterminesDegraded) {
+  auto estimate = goodEstimate();
+  estimate.rotation_inliers = estimate.translation_inliers = set(400, 400);
+  Hypothesis far = hypothesis(estimate);
+  far.features = featuresAt(2000.0, estimate.T_keyframe_cur, 400);
+  const auto bringNear = [&](int count) {
+    const Correspondences near = featuresAt(kDepth_m, estimate.T_keyframe_cur, count);
+    std::copy(near.begin(), near.end(), far.features.begin());
+  };
+  bringNear(1);
+  expectSays(defaultCheck().whyDegraded(far, Matrix6d::Zero()),
+             "information",
+             "degraded_information_share = 0.15");
+  bringNear(40);
+  EXPECT_EQ(defaultCheck().whyDegraded(far, Matrix6d::Zero()), "");
 }
 
 TEST(MotionCheckTest, FeaturesThatAgreeOnNothingAreNoOtherMotion) {
@@ -212,14 +278,14 @@ TEST(MotionCheckTest, FeaturesThatAgreeOnNothingAreNoOtherMotion) {
   for (Correspondence& feature : wrong) {
     feature.keyframe_px += Eigen::Vector2d(offset_px(generator), offset_px(generator));
   }
-  EXPECT_EQ(MotionCheck({}).whyDegraded(hypothesisAnd(wrong), Matrix6d::Zero()), "");
+  EXPECT_EQ(defaultCheck().whyDegraded(hypothesisAnd(wrong), Matrix6d::Zero()), "");
 }
 
 TEST(MotionCheckTest, WantsAReserveOfInliersForTheNextPair) {
   auto estimate = goodEstimate();
-  EXPECT_TRUE(MotionCheck({}).hasReserve(estimate));
+  EXPECT_TRUE(defaultCheck().hasReserve(estimate));
   estimate.translation_inliers = estimate.rotation_inliers = set(49, 300);
-  EXPECT_FALSE(MotionCheck({}).hasReserve(estimate));
+  EXPECT_FALSE(defaultCheck().hasReserve(estimate));
   EXPECT_EQ(whyLost(estimate), "") << "this one is accepted";
 }
 
@@ -227,7 +293,7 @@ TEST(MotionCheckTest, CallsAJumpDegraded) {
   const Eigen::Isometry3d expected = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
   UncertainTransform jump;
   jump.T = motion({0.0, 0.0, 1.31}, {0.0, 0.0, 0.0});
-  const MotionCheck check({});
+  const MotionCheck check = defaultCheck();
   expectSays(check.whyJump(jump, expected, kPeriod_s), "31 m/s2", "max_acceleration_mps2 = 30");
   EXPECT_EQ(check.whyJump(jump, expected, 2.0 * kPeriod_s), "");  // a quarter of the acceleration
   jump.covariance(2, 2) = 0.01 * 0.01;  // 3 sigma = 0.03 m, equivalent to 3 m/s2
