@@ -25,6 +25,7 @@ const char* toString(State state);
 struct StageCounts {
   int corners = 0;           ///< Shi-Tomasi corners of the keyframe
   int with_depth = 0;        ///< corners with a disparity
+  int searched = 0;          ///< of these, searched in the current images: a part of them at rest
   int tracked = 0;           ///< tracked to both current images
   int consistent = 0;        ///< passed the circular consistency check: the feature set F
   int rotation_inliers = 0;  ///< left after stage 1

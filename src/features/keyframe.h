@@ -23,7 +23,9 @@ struct Keyframe {
   std::vector<Eigen::Vector3d> points;
 
   UncertainTransform T_keyframe_last;  ///< the pose of the last frame in the keyframe
-  int first_inliers = 0;               ///< of the first motion measured against it; 0 before
+  /// Share of the searched features that are inliers of the first motion measured against it; 0
+  /// before.
+  double first_inlier_share = 0.0;
 };
 
 /// Stores in `few` what features are searched by: the frame and at most `most_points` of the

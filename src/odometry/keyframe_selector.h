@@ -2,12 +2,9 @@
 
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include "features/keyframe.h"
-#include "rotrocc/correspondence.h"
+#include "odometry/hypothesis.h"
 #include "rotrocc/odometry_config.h"
-#include "rotrocc/stereo_camera.h"
 
 namespace rotrocc {
 
@@ -20,13 +17,9 @@ class KeyframeSelector {
 
   explicit KeyframeSelector(const Config& config) : config_(config) {}
 
-  /// Whether to keep the keyframe for the next frame, given the features of the current frame and
-  /// the inliers of its motion. Sets the keyframe's first_inliers if it is not set yet.
-  bool keeps(const StereoCamera& camera,
-             const Correspondences& features,
-             const FeatureSet& inliers,
-             const Eigen::Isometry3d& T_keyframe_cur,
-             Keyframe& keyframe);
+  /// Whether to keep the keyframe for the next frame, given the motion of the current frame. Sets
+  /// the keyframe's first_inlier_share if it is not set yet.
+  bool keeps(const Hypothesis& accepted, Keyframe& keyframe);
 
  private:
   Config config_;

@@ -154,7 +154,7 @@ std::string MotionCheck::whyFewAgree(const MotionEstimator::Estimate& estimate,
 
 std::string MotionCheck::whyFewSurvive(const Hypothesis& accepted) const {
   const int survivors = inliers(accepted.estimate);
-  const int features = accepted.counts.with_depth;
+  const int features = accepted.counts.searched;
   if (survivors >= config_.degraded_survivor_share * features) return "";
   return sentence("the motion rests on ",
                   survivors,

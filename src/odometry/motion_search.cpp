@@ -13,9 +13,18 @@ namespace {
 /// The motion is estimated once more if the applied bias changes by more than this.
 constexpr double kCalibrationSettled_px = 0.02;
 
-/// Features that a start at rest begins with. Tracking is what a start costs, and these find the
-/// motion as surely as all: RANSAC needs no more.
+/// Features that a start at rest begins with, and all that are searched while the camera stays at
+/// rest. Tracking is what these cost. Few find the motion as surely as all (RANSAC needs no more),
+/// and the noise of a pose at rest does not accumulate.
 constexpr std::size_t kScouts = 200;
+
+/// If the median feature has moved by less since the keyframe, the camera is at rest [px]. Noise is
+/// a tenth of it.
+constexpr double kRest_px = 0.3;
+
+MotionSearch::Frames withKeyframe(const Keyframe& keyframe, const MotionSearch::Frames& frames) {
+  return {frames.finder, frames.camera, keyframe, frames.current, frames.shared_ratio};
+}
 
 /// Whether to prefer hypothesis `a`.
 bool isBetter(const Hypothesis& a, const Hypothesis& b) {
@@ -41,6 +50,16 @@ void MotionSearch::find(const Frames& frames,
   const int tries = found.counts.tries;
   found.clear();
   found.counts.tries = tries;
+  search(frames, expected, most_tries, found, times);
+  found.counts.corners = static_cast<int>(frames.keyframe.corners.size());
+  found.counts.with_depth = static_cast<int>(frames.keyframe.points.size());
+}
+
+void MotionSearch::search(const Frames& frames,
+                          const Expectation& expected,
+                          int most_tries,
+                          Hypothesis& found,
+                          StageTimes& times) {
   const Eigen::Isometry3d& T_keyframe_last = frames.keyframe.T_keyframe_last.T;
   const Start at_rest = startAt(T_keyframe_last, {});
   if (!expected.T_last_cur && !expected.R_last_cur) {
@@ -48,6 +67,7 @@ void MotionSearch::find(const Frames& frames,
     return;
   }
   const Start start = startAt(T_keyframe_last, expected);
+  if (expected.T_last_cur && staysAtRest(frames, start, found, times)) return;
   const bool is_settled = settle(frames, start, most_tries, found, times);
   if (!(is_settled && found.isAccepted()) && found.counts.tries < most_tries) {
     settle(frames, at_rest, most_tries, found, times);
@@ -65,6 +85,26 @@ MotionSearch::Start MotionSearch::startAt(const Eigen::Isometry3d& T_keyframe_la
   Start start = {T_keyframe_last, tracker_.startup_levels, false, true};
   if (expected.R_last_cur) start.T_keyframe_cur.rotate(*expected.R_last_cur);
   return start;
+}
+
+/// Whether the camera is still where it was in the keyframe, according to a part of the features.
+bool MotionSearch::staysAtRest(const Frames& frames,
+                               const Start& start,
+                               Hypothesis& found,
+                               StageTimes& times) {
+  if (frames.keyframe.points.size() < 2 * kScouts) return false;
+  thinOut(frames.keyframe, kScouts, few_);
+  const auto isAtRest = [&](const Eigen::Isometry3d& T_keyframe_cur) {
+    return frames.finder.medianShift(
+               frames.camera, few_, Eigen::Isometry3d::Identity(), T_keyframe_cur) < kRest_px;
+  };
+  if (!isAtRest(start.T_keyframe_cur)) return false;
+  tryMotion(withKeyframe(few_, frames), start, tried_, times);
+  few_.frame.reset();
+  if (!tried_.isAccepted() || !isAtRest(tried_.estimate.T_keyframe_cur)) return false;
+  tried_.counts.tries = found.counts.tries + 1;
+  std::swap(tried_, found);
+  return true;
 }
 
 /// Starts where a part of the features leads, and at rest if that fails.
@@ -87,10 +127,7 @@ void MotionSearch::findWithoutExpectation(const Frames& frames,
 bool MotionSearch::scout(const Frames& frames, Start& start, StageTimes& times) {
   if (frames.keyframe.points.size() < 2 * kScouts) return false;
   thinOut(frames.keyframe, kScouts, few_);
-  tryMotion({frames.finder, frames.camera, few_, frames.current, frames.shared_ratio},
-            start,
-            tried_,
-            times);
+  tryMotion(withKeyframe(few_, frames), start, tried_, times);
   few_.frame.reset();
   start.T_keyframe_cur = tried_.estimate.T_keyframe_cur;
   start.needs_consensus = false;
@@ -139,8 +176,7 @@ void MotionSearch::tryMotion(const Frames& frames,
                                         hypothesis.features);
     hypothesis.exposure_gain = frames.finder.stereoGain();
   }
-  counts.corners = static_cast<int>(frames.keyframe.corners.size());
-  counts.with_depth = static_cast<int>(frames.keyframe.points.size());
+  counts.searched = static_cast<int>(frames.keyframe.points.size());
   counts.consistent = static_cast<int>(hypothesis.features.size());
   const StageTimer timer(times.estimation_ms);
   const double dt_s = secondsBetween(*frames.keyframe.frame, frames.current);

@@ -49,6 +49,8 @@ class MotionSearch {
   /// `found` becomes the accepted hypothesis with the most inliers, or a rejected one if none is
   /// accepted. Its number of tries is added to that of `found`. There is at least one try, and none
   /// after `most_tries`.
+  ///
+  /// While the camera stays where it was in the keyframe, only a part of the features is searched.
   void find(const Frames& frames,
             const Expectation& expected,
             int most_tries,
@@ -77,6 +79,12 @@ class MotionSearch {
     bool needs_consensus;  ///< the motion may be far: the features agree on a nearer one first
   };
 
+  void search(const Frames& frames,
+              const Expectation& expected,
+              int most_tries,
+              Hypothesis& found,
+              StageTimes& times);
+  bool staysAtRest(const Frames& frames, const Start& start, Hypothesis& found, StageTimes& times);
   Start startAt(const Eigen::Isometry3d& T_keyframe_last, const Expectation& expected) const;
   void findWithoutExpectation(const Frames& frames,
                               const Start& at_rest,
@@ -102,7 +110,7 @@ class MotionSearch {
   MotionCheck check_;
   PredictionError prediction_error_;
 
-  Keyframe few_;             // buffers of scout(), reused
+  Keyframe few_;             // a part of the features, reused
   Hypothesis tried_;         // the latest, reused
   Hypothesis recalibrated_;  // buffers of calibrate(), reused
   FeatureSet consistent_;

@@ -144,7 +144,7 @@ FramePtr VisualOdometry::Pipeline::takeFrame(const StereoPair& pair,
 void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& times) {
   keyframe_.frame = frame;
   keyframe_.T_keyframe_last = {};
-  keyframe_.first_inliers = 0;
+  keyframe_.first_inlier_share = 0.0;
   {
     const StageTimer timer(times.corners_ms);
     finder_.findCorners(keyframe_);
@@ -230,11 +230,7 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   lost_.reset();
   keyframe_.T_keyframe_last = result.T_keyframe_cur;
   const bool serves = result.state == State::kOk && check_.hasReserve(estimate) &&
-                      selector_.keeps(found_.camera,
-                                      found_.features,
-                                      estimate.rotation_inliers,
-                                      estimate.T_keyframe_cur,
-                                      keyframe_);
+                      selector_.keeps(found_, keyframe_);
   if (!serves) keyframe_.frame.reset();
 }
 

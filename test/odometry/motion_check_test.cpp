@@ -73,7 +73,8 @@ Hypothesis hypothesis(const MotionEstimator::Estimate& estimate) {
   hypothesis.estimate = estimate;
   hypothesis.features = featuresAt(
       kDepth_m, estimate.T_keyframe_cur, static_cast<int>(estimate.rotation_inliers.size()));
-  hypothesis.counts.with_depth = static_cast<int>(hypothesis.features.size());
+  hypothesis.counts.with_depth = hypothesis.counts.searched =
+      static_cast<int>(hypothesis.features.size());
   return hypothesis;
 }
 
@@ -132,11 +133,11 @@ TEST(MotionCheckTest, KnowsHowFastARobotMoves) {
 TEST(MotionCheckTest, CallsAMotionOnFewSurvivorsDegraded) {
   auto estimate = goodEstimate();
   Hypothesis tracked = hypothesis(estimate);
-  tracked.counts.with_depth = 3001;
+  tracked.counts.searched = 3001;
   expectSays(defaultCheck().whyDegraded(tracked, estimate.covariance),
              "300 of 3001 features",
              "degraded_survivor_share = 0.1");
-  tracked.counts.with_depth = 3000;
+  tracked.counts.searched = 3000;
   EXPECT_EQ(defaultCheck().whyDegraded(tracked, estimate.covariance), "");
 }
 
