@@ -1,5 +1,6 @@
 #include "odometry/motion_search.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -113,11 +114,11 @@ void MotionSearch::findWithoutExpectation(const Frames& frames,
                                           int most_tries,
                                           Hypothesis& best,
                                           StageTimes& times) {
-  const int others = most_tries - 1;  // one is kept for the start at rest
   Start scouted = at_rest;
-  if (best.counts.tries < others && scout(frames, scouted, times)) {
+  if (scout(frames, scouted, times)) {
+    const int others = std::max(best.counts.tries + 1, most_tries - 1);
     const bool is_settled = settle(frames, scouted, others, best, times);
-    if (is_settled && best.isAccepted()) return;
+    if ((is_settled && best.isAccepted()) || best.counts.tries >= most_tries) return;
   }
   settle(frames, at_rest, most_tries, best, times);
 }
@@ -180,9 +181,19 @@ void MotionSearch::tryMotion(const Frames& frames,
   counts.consistent = static_cast<int>(hypothesis.features.size());
   const StageTimer timer(times.estimation_ms);
   const double dt_s = secondsBetween(*frames.keyframe.frame, frames.current);
+  if (counts.consistent < least_features_) return rejectUnseen(dt_s, hypothesis);
   if (!start.needs_consensus) return estimate(start.T_keyframe_cur, true, dt_s, hypothesis);
   const auto consensus = consensusMotion(frames.camera, hypothesis.features);
   estimate(consensus.value_or(start.T_keyframe_cur), consensus.has_value(), dt_s, hypothesis);
+}
+
+/// Rejects a hypothesis with too few features without an estimate, which would take long.
+void MotionSearch::rejectUnseen(double dt_s, Hypothesis& hypothesis) {
+  hypothesis.estimate.valid = false;
+  hypothesis.estimate.rotation_inliers.assign(hypothesis.features.size(), 0);
+  hypothesis.estimate.translation_inliers.assign(hypothesis.features.size(), 0);
+  hypothesis.counts.rotation_inliers = hypothesis.counts.translation_inliers = 0;
+  hypothesis.why_lost = check_.whyLost(hypothesis.estimate, dt_s);
 }
 
 void MotionSearch::estimate(const Eigen::Isometry3d& T_keyframe_cur,

@@ -98,6 +98,7 @@ class MotionSearch {
                  const Start& start,
                  Hypothesis& hypothesis,
                  StageTimes& times);
+  void rejectUnseen(double dt_s, Hypothesis& hypothesis);
   void estimate(const Eigen::Isometry3d& T_keyframe_cur,
                 bool is_prediction,
                 double dt_s,

@@ -410,7 +410,8 @@ TEST(VisualOdometryTest, TellsWhatIsLeftAfterEachStage) {
   const OdometryResult result = odometry.process(bend(2), camera());
   const StageCounts& counts = result.counts;
   EXPECT_GE(counts.corners, counts.with_depth);
-  EXPECT_GE(counts.with_depth, counts.tracked);
+  EXPECT_EQ(counts.with_depth, counts.searched);
+  EXPECT_GE(counts.searched, counts.tracked);
   EXPECT_GE(counts.tracked, counts.consistent);
   EXPECT_GE(counts.consistent, counts.rotation_inliers);
   EXPECT_GT(counts.rotation_inliers, 100);
@@ -469,6 +470,23 @@ TEST(VisualOdometryTest, StandsStillAtRest) {
     T_start_cur = T_start_cur * result.T_prev_cur;
   }
   EXPECT_LT(T_start_cur.translation().norm(), 0.003);  // measured: 0.4 mm in 4 pairs
+}
+
+TEST(VisualOdometryTest, SearchesAPartOfTheFeaturesAtRest) {
+  VisualOdometry odometry({});
+  for (int i = 0; i < 4; ++i) {
+    const auto pair = view(Eigen::Isometry3d::Identity(), i * kPeriod_ns);
+    const OdometryResult result = odometry.process(pair, camera());
+    if (i < 2) continue;  // nothing is expected of the first motion
+    ASSERT_GE(result.counts.with_depth, 400) << "fewer are not worth it";
+    EXPECT_EQ(result.counts.searched, 200);
+    EXPECT_LE(result.counts.tracked, 200);
+    EXPECT_EQ(result.keyframe_stamp_ns, 0);
+  }
+  const Eigen::Isometry3d step = motion({0.0, 0.0, 0.3}, {0.0, 0.01, 0.0});
+  const OdometryResult result = odometry.process(view(step, 4 * kPeriod_ns), camera());
+  expectMotion(result, step);
+  EXPECT_EQ(result.counts.searched, result.counts.with_depth);
 }
 
 TEST(VisualOdometryTest, TakesADroppedPair) {
