@@ -177,10 +177,12 @@ struct OdometryConfig {
   StereoCalibratorConfig stereo_calibrator;
   SystematicErrorConfig systematic_error;
 
-  int threads = 2;          ///< that process a pair, including the calling thread
-  int max_tries = 3;        ///< maximum number of tries (predict, track, estimate) per pair
-  double settled_px = 5.0;  ///< no further try if the median feature was found closer to its start
-  double max_gap_s = 1.0;   ///< between two pairs; if longer, the estimator restarts
+  int threads = 2;    ///< that process a pair, including the calling thread
+  int max_tries = 3;  ///< maximum number of tries (predict, track, estimate) per pair
+  /// No further try if the median feature was found closer to where it was searched: as far as a
+  /// window reaches over two pyramid levels.
+  double settled_px = 8.0;
+  double max_gap_s = 1.0;  ///< between two pairs; if longer, the estimator restarts
 };
 
 }  // namespace rotrocc

@@ -23,6 +23,9 @@ constexpr std::size_t kScouts = 200;
 /// a tenth of it.
 constexpr double kRest_px = 0.3;
 
+/// If fewer features agree that the camera is at rest, it may be an object that is.
+constexpr double kAtRest = 0.9;
+
 MotionSearch::Frames withKeyframe(const Keyframe& keyframe, const MotionSearch::Frames& frames) {
   return {frames.finder, frames.camera, keyframe, frames.current, frames.shared_ratio};
 }
@@ -102,7 +105,9 @@ bool MotionSearch::staysAtRest(const Frames& frames,
   if (!isAtRest(start.T_keyframe_cur)) return false;
   tryMotion(withKeyframe(few_, frames), start, tried_, times);
   few_.frame.reset();
-  if (!tried_.isAccepted() || !isAtRest(tried_.estimate.T_keyframe_cur)) return false;
+  const bool all_agree = tried_.counts.rotation_inliers >= kAtRest * tried_.counts.consistent;
+  if (!tried_.isAccepted() || !all_agree) return false;
+  if (!isAtRest(tried_.estimate.T_keyframe_cur)) return false;
   tried_.counts.tries = found.counts.tries + 1;
   std::swap(tried_, found);
   return true;
