@@ -5,7 +5,6 @@
 namespace rotrocc {
 
 void thinOut(const Keyframe& keyframe, std::size_t most_points, Keyframe& few) {
-  few.frame = keyframe.frame;
   few.row_offset_px = keyframe.row_offset_px;
   few.left_px.clear();
   few.right_px.clear();

@@ -28,8 +28,8 @@ struct Keyframe {
   double first_inlier_share = 0.0;
 };
 
-/// Stores in `few` what features are searched by: the frame and at most `most_points` of the
-/// points, evenly chosen.
+/// Stores in `few` at most `most_points` of the points, evenly chosen, and their pixels. Its frame
+/// is left to the caller.
 void thinOut(const Keyframe& keyframe, std::size_t most_points, Keyframe& few);
 
 }  // namespace rotrocc

@@ -26,10 +26,6 @@ constexpr double kRest_px = 0.3;
 /// If fewer features agree that the camera is at rest, it may be an object that is.
 constexpr double kAtRest = 0.9;
 
-MotionSearch::Frames withKeyframe(const Keyframe& keyframe, const MotionSearch::Frames& frames) {
-  return {frames.finder, frames.camera, keyframe, frames.current, frames.shared_ratio};
-}
-
 /// Whether to prefer hypothesis `a`.
 bool isBetter(const Hypothesis& a, const Hypothesis& b) {
   if (!b.isAccepted()) return true;
@@ -97,14 +93,13 @@ bool MotionSearch::staysAtRest(const Frames& frames,
                                Hypothesis& found,
                                StageTimes& times) {
   if (frames.keyframe.points.size() < 2 * kScouts) return false;
-  thinOut(frames.keyframe, kScouts, few_);
   const auto isAtRest = [&](const Eigen::Isometry3d& T_keyframe_cur) {
     return frames.finder.medianShift(
                frames.camera, few_, Eigen::Isometry3d::Identity(), T_keyframe_cur) < kRest_px;
   };
+  thinOut(frames.keyframe, kScouts, few_);
   if (!isAtRest(start.T_keyframe_cur)) return false;
-  tryMotion(withKeyframe(few_, frames), start, tried_, times);
-  few_.frame.reset();
+  tryFew(frames, start, times);
   const bool all_agree = tried_.counts.rotation_inliers >= kAtRest * tried_.counts.consistent;
   if (!tried_.isAccepted() || !all_agree) return false;
   if (!isAtRest(tried_.estimate.T_keyframe_cur)) return false;
@@ -133,11 +128,20 @@ void MotionSearch::findWithoutExpectation(const Frames& frames,
 bool MotionSearch::scout(const Frames& frames, Start& start, StageTimes& times) {
   if (frames.keyframe.points.size() < 2 * kScouts) return false;
   thinOut(frames.keyframe, kScouts, few_);
-  tryMotion(withKeyframe(few_, frames), start, tried_, times);
-  few_.frame.reset();
+  tryFew(frames, start, times);
   start.T_keyframe_cur = tried_.estimate.T_keyframe_cur;
   start.needs_consensus = false;
   return tried_.isAccepted();
+}
+
+/// Tries a motion with the features of `few_`.
+void MotionSearch::tryFew(const Frames& frames, const Start& start, StageTimes& times) {
+  few_.frame = frames.keyframe.frame;
+  tryMotion({frames.finder, frames.camera, few_, frames.current, frames.shared_ratio},
+            start,
+            tried_,
+            times);
+  few_.frame.reset();  // its images are reused when nobody else has it
 }
 
 /// Tracks and estimates repeatedly, each time starting from the last result. `best` becomes the

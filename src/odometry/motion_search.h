@@ -92,6 +92,7 @@ class MotionSearch {
                               Hypothesis& best,
                               StageTimes& times);
   bool scout(const Frames& frames, Start& start, StageTimes& times);
+  void tryFew(const Frames& frames, const Start& start, StageTimes& times);
   bool settle(
       const Frames& frames, Start start, int most_tries, Hypothesis& best, StageTimes& times);
   void tryMotion(const Frames& frames,
