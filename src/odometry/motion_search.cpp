@@ -14,10 +14,13 @@ namespace {
 /// The motion is estimated once more if the applied bias changes by more than this.
 constexpr double kCalibrationSettled_px = 0.02;
 
-/// Features that a start at rest begins with, and all that are searched while the camera stays at
-/// rest. Tracking is what these cost. Few find the motion as surely as all (RANSAC needs no more),
-/// and the noise of a pose at rest does not accumulate.
+/// Features that a start at rest begins with. Tracking is what a start costs, and these find the
+/// motion as surely as all: RANSAC needs no more.
 constexpr std::size_t kScouts = 200;
+
+/// Features that are searched while the camera stays at rest: the noise of its pose does not
+/// accumulate.
+constexpr std::size_t kGuards = 150;
 
 /// If the median feature has moved by less since the keyframe, the camera is at rest [px]. Noise is
 /// a tenth of it.
@@ -92,12 +95,12 @@ bool MotionSearch::staysAtRest(const Frames& frames,
                                const Start& start,
                                Hypothesis& found,
                                StageTimes& times) {
-  if (frames.keyframe.points.size() < 2 * kScouts) return false;
+  if (frames.keyframe.points.size() < 2 * kGuards) return false;
   const auto isAtRest = [&](const Eigen::Isometry3d& T_keyframe_cur) {
     return frames.finder.medianShift(
                frames.camera, few_, Eigen::Isometry3d::Identity(), T_keyframe_cur) < kRest_px;
   };
-  thinOut(frames.keyframe, kScouts, few_);
+  thinOut(frames.keyframe, kGuards, few_);
   if (!isAtRest(start.T_keyframe_cur)) return false;
   tryFew(frames, start, times);
   const bool all_agree = tried_.counts.rotation_inliers >= kAtRest * tried_.counts.consistent;
