@@ -4,11 +4,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "common/median.h"
 #include "common/sentence.h"
-#include "motion/consensus_motion.h"
+#include "motion/median_depth.h"
 #include "motion/outlier_rejection.h"
-#include "motion/reprojection_error.h"
 #include "rotrocc/rigid_motion.h"
 
 namespace rotrocc {
@@ -21,11 +19,6 @@ constexpr int kReserve = 2;
 /// Share of the median depth. A shorter step changes the image little: its uncertainty is compared
 /// with the scene, or it would have none small enough at standstill.
 constexpr double kShortStep = 0.02;
-/// Features with a larger error contradict a motion. Those that are only inexact have a smaller
-/// one.
-constexpr double kContradiction_px = 2.0;
-/// What is this many times as deep is behind.
-constexpr double kBehind = 2.0;
 /// The share of degraded_rival_share that is enough for features behind the others.
 constexpr double kSuspicion = 0.5;
 /// Noise of the flow in any image of a camera. Only what is drawn, or left by compression, is more
@@ -164,42 +157,26 @@ std::string MotionCheck::whyFewSurvive(const Hypothesis& accepted) const {
                   config_.degraded_survivor_share);
 }
 
-/// Whether many of the features that contradict the motion agree on another one. Then it may be
-/// that of an object that fills the image. Fewer are enough if they are behind the inliers, as what
-/// an object hides.
+/// Whether many features agree on another motion. Then it may be that of an object that fills the
+/// image. Fewer are enough if they are behind the inliers, as what an object hides.
 std::string MotionCheck::whyAmbiguous(const Hypothesis& accepted) {
-  const Correspondences& features = accepted.features;
-  reprojectionErrors(accepted.camera, features, accepted.estimate.T_keyframe_cur, errors_px_);
-  rivals_.clear();
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    if (errors_px_[i] > kContradiction_px) rivals_.push_back(features[i]);
-  }
-  const auto areMany = [&](double factor) {
-    const double share = factor * config_.degraded_rival_share;
-    const double many = share * static_cast<double>(features.size());
-    return static_cast<double>(rivals_.size()) >= std::max<double>(config_.min_inliers, many);
-  };
-  if (!areMany(kSuspicion)) return "";
-  const auto rival = consensusMotion(accepted.camera, rivals_);
-  if (!rival) return "";
-  reprojectionErrors(accepted.camera, rivals_, *rival, errors_px_);
-  std::size_t agree = 0;
-  for (std::size_t i = 0; i < rivals_.size(); ++i) {
-    if (errors_px_[i] < kContradiction_px) rivals_[agree++] = rivals_[i];
-  }
-  rivals_.resize(agree);
-  if (!areMany(kSuspicion)) return "";
-  const FeatureSet all(agree, 1);
-  const bool are_behind = medianDepth(rivals_, all) >
-                          kBehind * medianDepth(features, accepted.estimate.rotation_inliers);
-  if (!are_behind && !areMany(1.0)) return "";
+  const auto features = static_cast<double>(accepted.features.size());
+  const double many = config_.degraded_rival_share * features;
+  const int least = std::max(config_.min_inliers, static_cast<int>(std::ceil(kSuspicion * many)));
+  const RivalMotion::Rivals rivals = rival_motion_.find(accepted.camera,
+                                                        accepted.features,
+                                                        accepted.estimate.T_keyframe_cur,
+                                                        accepted.estimate.rotation_inliers,
+                                                        least);
+  if (rivals.count == 0 || (!rivals.are_behind && rivals.count < many)) return "";
   return sentence("another motion fits ",
-                  agree,
+                  rivals.count,
                   " of the ",
-                  features.size(),
-                  are_behind ? " features, which are behind the others, a share above "
-                             : " features, a share above ",
-                  are_behind ? "half of degraded_rival_share = " : "degraded_rival_share = ",
+                  features,
+                  rivals.are_behind
+                      ? " features, which are behind the others, a share above half of "
+                      : " features, a share above ",
+                  "degraded_rival_share = ",
                   config_.degraded_rival_share,
                   ": one of the two is that of a large object");
 }
@@ -220,17 +197,9 @@ std::string MotionCheck::whyFewDetermine(const Hypothesis& accepted) {
                   ": few features determine it");
 }
 
-double MotionCheck::medianDepth(const Correspondences& features, const FeatureSet& set) {
-  depths_m_.clear();
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    if (set[i] != 0) depths_m_.push_back(features[i].point_cur.z());
-  }
-  return median(depths_m_);
-}
-
 std::string MotionCheck::whyUndetermined(const Hypothesis& accepted, const Matrix6d& covariance) {
   const MotionEstimator::Estimate& estimate = accepted.estimate;
-  const double depth_m = medianDepth(accepted.features, estimate.rotation_inliers);
+  const double depth_m = medianDepth(accepted.features, estimate.rotation_inliers, depths_m_);
   const double step_m =
       std::max(estimate.T_keyframe_cur.translation().norm(), kShortStep * depth_m);
   const double sigma_m = std::sqrt(covariance.topLeftCorner<3, 3>().trace());

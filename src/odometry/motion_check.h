@@ -5,6 +5,7 @@
 
 #include "motion/information_share.h"
 #include "motion/motion_estimator.h"
+#include "motion/rival_motion.h"
 #include "odometry/hypothesis.h"
 #include "rotrocc/odometry_config.h"
 #include "rotrocc/uncertain_transform.h"
@@ -46,15 +47,13 @@ class MotionCheck {
   std::string whyFewSurvive(const Hypothesis& accepted) const;
   std::string whyAmbiguous(const Hypothesis& accepted);
   std::string whyFewDetermine(const Hypothesis& accepted);
-  double medianDepth(const Correspondences& features, const FeatureSet& set);
   std::string whyUndetermined(const Hypothesis& accepted, const Matrix6d& covariance);
 
   Config config_;
   double noise_ratio_;
   // Buffers, reused.
   std::vector<double> depths_m_;
-  std::vector<double> errors_px_;
-  Correspondences rivals_;
+  RivalMotion rival_motion_;
   InformationShare information_share_;
 };
 

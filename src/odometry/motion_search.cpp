@@ -27,7 +27,7 @@ constexpr std::size_t kGuards = 150;
 constexpr double kRest_px = 0.3;
 
 /// If fewer features agree that the camera is at rest, it may be an object that is.
-constexpr double kAtRest = 0.9;
+constexpr double kAgreeAtRest = 0.9;
 
 /// Whether to prefer hypothesis `a`.
 bool isBetter(const Hypothesis& a, const Hypothesis& b) {
@@ -103,7 +103,7 @@ bool MotionSearch::staysAtRest(const Frames& frames,
   thinOut(frames.keyframe, kGuards, few_);
   if (!isAtRest(start.T_keyframe_cur)) return false;
   tryFew(frames, start, times);
-  const bool all_agree = tried_.counts.rotation_inliers >= kAtRest * tried_.counts.consistent;
+  const bool all_agree = tried_.counts.rotation_inliers >= kAgreeAtRest * tried_.counts.consistent;
   if (!tried_.isAccepted() || !all_agree) return false;
   if (!isAtRest(tried_.estimate.T_keyframe_cur)) return false;
   tried_.counts.tries = found.counts.tries + 1;
@@ -119,6 +119,7 @@ void MotionSearch::findWithoutExpectation(const Frames& frames,
                                           StageTimes& times) {
   Start scouted = at_rest;
   if (scout(frames, scouted, times)) {
+    // The last try is kept for the start at rest, unless it is the only one.
     const int others = std::max(best.counts.tries + 1, most_tries - 1);
     const bool is_settled = settle(frames, scouted, others, best, times);
     if ((is_settled && best.isAccepted()) || best.counts.tries >= most_tries) return;

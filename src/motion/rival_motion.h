@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "rotrocc/correspondence.h"
+#include "rotrocc/stereo_camera.h"
+
+namespace rotrocc {
+
+/// Finds the features that contradict a motion and agree on another one: those of a large object,
+/// or of the scene if the object's motion was found.
+class RivalMotion {
+ public:
+  struct Rivals {
+    int count = 0;            ///< 0: fewer than asked for
+    bool are_behind = false;  ///< more than twice as deep as the inliers, by the median
+  };
+
+  /// Returns nothing if fewer than `least` > 0 features agree on another motion. There must be
+  /// inliers.
+  Rivals find(const StereoCamera& camera,
+              const Correspondences& features,
+              const Eigen::Isometry3d& T_keyframe_cur,
+              const FeatureSet& inliers,
+              int least);
+
+ private:
+  // Buffers, reused.
+  Correspondences others_;
+  FeatureSet agree_;
+  std::vector<double> errors_px_, depths_m_;
+};
+
+}  // namespace rotrocc
