@@ -12,9 +12,9 @@ struct ResidualBlock {
   Numbers target_x, target_y;         ///< from the principal point [px]
   Numbers point_x, point_y, point_z;  ///< in the axes of the keyframe's camera [m]
   Numbers whitening_xx, whitening_xy, whitening_yy;
-  Numbers by_disparity_x,
-      by_disparity_y;  ///< derivative of the residual by an error of the disparity
-  Numbers weight;      ///< 0: no feature
+  /// Derivative of the residual by an error of the disparity.
+  Numbers by_disparity_x, by_disparity_y;
+  Numbers weight;  ///< 0: no feature
 };
 
 /// The motion and camera at which residuals are linearised.

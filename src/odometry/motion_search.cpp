@@ -20,7 +20,7 @@ constexpr std::size_t kScouts = 200;
 
 /// Features that are searched while the camera stays at rest: the noise of its pose does not
 /// accumulate.
-constexpr std::size_t kGuards = 150;
+constexpr std::size_t kFeaturesAtRest = 150;
 
 /// If the median feature has moved by less since the keyframe, the camera is at rest [px]. Noise is
 /// a tenth of it.
@@ -70,10 +70,11 @@ void MotionSearch::search(const Frames& frames,
     return;
   }
   const Start start = startAt(T_keyframe_last, expected);
-  if (expected.T_last_cur && staysAtRest(frames, start, found, times)) return;
-  const bool is_settled = settle(frames, start, most_tries, found, times);
-  if (!(is_settled && found.isAccepted()) && found.counts.tries < most_tries) {
-    settle(frames, at_rest, most_tries, found, times);
+  if (!expected.T_last_cur || !staysAtRest(frames, start, found, times)) {
+    const bool is_settled = settle(frames, start, most_tries, found, times);
+    if (!(is_settled && found.isAccepted()) && found.counts.tries < most_tries) {
+      settle(frames, at_rest, most_tries, found, times);
+    }
   }
   if (!found.isAccepted() || !start.is_prediction) return;
   prediction_error_.observe(frames.finder.medianShift(
@@ -95,12 +96,12 @@ bool MotionSearch::staysAtRest(const Frames& frames,
                                const Start& start,
                                Hypothesis& found,
                                StageTimes& times) {
-  if (frames.keyframe.points.size() < 2 * kGuards) return false;
+  if (frames.keyframe.points.size() < 2 * kFeaturesAtRest) return false;
   const auto isAtRest = [&](const Eigen::Isometry3d& T_keyframe_cur) {
     return frames.finder.medianShift(
                frames.camera, few_, Eigen::Isometry3d::Identity(), T_keyframe_cur) < kRest_px;
   };
-  thinOut(frames.keyframe, kGuards, few_);
+  thinOut(frames.keyframe, kFeaturesAtRest, few_);
   if (!isAtRest(start.T_keyframe_cur)) return false;
   tryFew(frames, start, times);
   const bool all_agree = tried_.counts.rotation_inliers >= kAgreeAtRest * tried_.counts.consistent;

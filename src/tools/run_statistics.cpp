@@ -66,8 +66,8 @@ void printTimes(std::ostream& out,
 }  // namespace
 
 StatisticsFile::StatisticsFile(const std::string& path) : path_(path), file_(path) {
-  file_ << "stamp_ns,state,dt_s,tries,corners,with_depth,searched,tracked,consistent,rotation_"
-           "inliers,"
+  file_ << "stamp_ns,state,dt_s,tries,corners,with_depth,searched,tracked,consistent,"
+           "rotation_inliers,"
            "translation_inliers,pyramids_ms,corners_ms,disparity_ms,tracking_ms,estimation_ms,"
            "prepared_ms,wall_ms,cpu_ms,keyframe_stamp_ns,bias_estimated_px,bias_sigma_px,bias_"
            "applied_px,"
