@@ -148,7 +148,7 @@ struct StereoCalibratorConfig {
   double significance = 4.0;
   /// Typical error that neighbouring features share, over the noise of single ones. The estimate
   /// starts from it.
-  double shared_error_ratio = 1.5;
+  double shared_error_ratio = 1.3;
   /// Mean number of pairs before a rigid rig begins to move, or the reverse.
   double steady_pairs = 300.0;
   /// Standard deviation of the change of the bias from pair to pair while the rig moves.

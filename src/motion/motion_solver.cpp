@@ -1,5 +1,6 @@
 #include "motion/motion_solver.h"
 
+#include "motion/shared_error.h"
 #include "rotrocc/rigid_motion.h"
 
 namespace rotrocc {
@@ -15,7 +16,8 @@ bool MotionSolver::solveMotion(const Measurements& measured, const FeatureSet& s
   if (motion_problem_.size() < kLeastForMotion) return false;
   Vector6d parameters = motion_problem_.start();
   motion_problem_.weigh(parameters, options_.robust_factor);
-  if (options_.shares_errors) motion_problem_.shareErrors(measured.shared_ratio);
+  // Without the parabola: a rotation hardly depends on disparities, and needs all features.
+  if (options_.shares_errors) motion_problem_.shareErrors(measured.shared_ratio, 0.0);
   if (!minimise(motion_problem_, options_.minimise, parameters)) return false;
   Eigen::Isometry3d T_keyframe_cur = fit.T_keyframe_cur;
   const Eigen::Matrix3d R = expRotation(parameters.head<3>()) * T_keyframe_cur.linear();
@@ -30,7 +32,9 @@ bool MotionSolver::solveTranslation(const Measurements& measured, const FeatureS
   if (translation_problem_.size() < kLeastForTranslation) return false;
   Eigen::Vector3d translation = translation_problem_.start();
   translation_problem_.weigh(translation, options_.robust_factor);
-  if (options_.shares_errors) translation_problem_.shareErrors(measured.shared_ratio);
+  if (options_.shares_errors) {
+    translation_problem_.shareErrors(measured.shared_ratio, kSmoothShare * measured.shared_ratio);
+  }
   if (!minimise(translation_problem_, options_.minimise, translation)) return false;
   Eigen::Isometry3d T_keyframe_cur = fit.T_keyframe_cur;
   T_keyframe_cur.translation() = translation;

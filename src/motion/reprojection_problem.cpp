@@ -33,36 +33,60 @@ double sum(const ResidualBlock::Numbers& numbers) {
   return std::accumulate(std::begin(numbers), std::end(numbers), 0.0);
 }
 
-/// Eliminates the errors that the features of a cell share: sums of w g^T g and of w A g for each
-/// cell, where g are the derivatives of the residuals by the error. The columns of A are the
-/// derivatives by what is left, and the residuals.
+/// Eliminates the errors that the features share: those of the cells and the parabola. It needs
+/// sums of w g^T g and of w A g, where g are the derivatives of the residuals by an error of the
+/// disparity. The columns of A are the derivatives by what is left, and the residuals.
 template <int kColumns>
 class SharedErrors {
  public:
   using Column = Eigen::Matrix<double, kColumns, 1>;
+  using Products = Eigen::Matrix<double, kColumns, kColumns>;
 
-  SharedErrors() { products_.fill(Column::Zero()); }
+  SharedErrors() { cells_.fill({0.0, 0.0, Column::Zero()}); }
 
-  /// Adds w g^T g and w A g of a feature.
+  /// Adds a feature with w g^T g and w A g.
   template <class Product>
-  void add(std::size_t cell, double information, const Product& product) {
-    information_[cell] += information;
-    products_[cell] += product;
+  void add(std::size_t cell, double parabola, double information, const Product& product) {
+    const double both = parabola * information;
+    cells_[cell].information += information;
+    cells_[cell].with_parabola += both;
+    cells_[cell].product += product;
+    parabola_information_ += parabola * both;
+    parabola_product_ += parabola * product;
   }
 
-  /// What to subtract from the sum of w A A^T.
-  template <class Subtract>
-  void eliminate(double inverse_variance, const Subtract& subtract) const {
-    for (std::size_t cell = 0; cell < SharedErrorGrid::kCells; ++cell) {
-      if (information_[cell] == 0.0) continue;
-      subtract(products_[cell], 1.0 / (information_[cell] + inverse_variance));
+  /// What the errors explain of the sum of w A A^T. Without an inverse variance there is no
+  /// parabola.
+  Products explained(double of_cell, double of_parabola) const {
+    Products sum = Products::Zero();
+    double information = of_parabola + parabola_information_;
+    Column product = parabola_product_;
+    for (const Cell& cell : cells_) {  // eliminates the error of the cell
+      if (cell.information == 0.0) continue;
+      const double factor = 1.0 / (cell.information + of_cell);
+      sum += factor * cell.product * cell.product.transpose();
+      information -= factor * cell.with_parabola * cell.with_parabola;
+      product -= factor * cell.with_parabola * cell.product;
     }
+    if (of_parabola > 0.0) sum += 1.0 / information * product * product.transpose();
+    return sum;
   }
 
  private:
-  std::array<double, SharedErrorGrid::kCells> information_{};
-  std::array<Column, SharedErrorGrid::kCells> products_;
+  struct Cell {
+    double information;
+    double with_parabola;  // sum of w g^T g times the parabola
+    Column product;
+  };
+
+  std::array<Cell, SharedErrorGrid::kCells> cells_;
+  double parabola_information_ = 0.0;
+  Column parabola_product_ = Column::Zero();
 };
+
+double inverseVariance(double ratio) {
+  return ratio == 0.0 ? 0.0 : 1.0 / (ratio * ratio);
+}
 
 }  // namespace
 
@@ -75,7 +99,9 @@ void ReprojectionProblem<kParameters>::assign(const StereoCamera& camera,
   indices_.clear();
   blocks_.clear();
   cells_.clear();
-  inverse_shared_variance_ = 0.0;
+  parabolas_.clear();
+  inverse_cell_variance_ = 0.0;
+  inverse_parabola_variance_ = 0.0;
   const SharedErrorGrid grid(camera);
   for (std::size_t i = 0; i < fit.features.size(); ++i) {
     if (set[i] == 0) continue;
@@ -84,12 +110,14 @@ void ReprojectionProblem<kParameters>::assign(const StereoCamera& camera,
     put(camera, fit.features[i], blocks_.back(), lane);
     indices_.push_back(i);
     cells_.push_back(grid.cell(fit.features[i]));
+    parabolas_.push_back(parabolaOverRows(camera, fit.features[i].target_px));
   }
 }
 
 template <int kParameters>
-void ReprojectionProblem<kParameters>::shareErrors(double ratio) {
-  inverse_shared_variance_ = ratio == 0.0 ? 0.0 : 1.0 / (ratio * ratio);
+void ReprojectionProblem<kParameters>::shareErrors(double cell_ratio, double parabola_ratio) {
+  inverse_cell_variance_ = inverseVariance(cell_ratio);
+  inverse_parabola_variance_ = inverseVariance(parabola_ratio);
 }
 
 template <int kParameters>
@@ -148,19 +176,16 @@ ReprojectionProblem<kParameters>::normalMatrixOf(const ColumnProducts& sums) {
 template <int kParameters>
 typename ReprojectionProblem<kParameters>::NormalMatrix
 ReprojectionProblem<kParameters>::normalMatrix(const Parameters& parameters) const {
-  constexpr int kColumns = kParameters + 1;
-  SharedErrors<kColumns> shared;
   NormalMatrix normal;
-  if (inverse_shared_variance_ == 0.0) {
+  if (inverse_cell_variance_ == 0.0) {
     normal = sumTerms(parameters, nullptr);
   } else {
+    SharedErrors<kParameters + 1> shared;
     normal = sumTerms(parameters, [&](const ByDisparity& feature) {
-      shared.add(feature.cell, feature.information, feature.product);
+      shared.add(feature.cell, feature.parabola, feature.information, feature.product);
     });
+    normal -= shared.explained(inverse_cell_variance_, inverse_parabola_variance_);
   }
-  shared.eliminate(inverse_shared_variance_, [&](const auto& product, double factor) {
-    normal -= factor * product * product.transpose();
-  });
   if (kRotates) {
     // The terms are derivatives by a rotation after that of the parameters; convert them to
     // derivatives by the parameters.
@@ -173,7 +198,7 @@ ReprojectionProblem<kParameters>::normalMatrix(const Parameters& parameters) con
 
 template <int kParameters>
 double ReprojectionProblem<kParameters>::cost(const Parameters& parameters) const {
-  const bool shares = inverse_shared_variance_ > 0.0;
+  const bool shares = inverse_cell_variance_ > 0.0;
   double sum = 0.0;
   SharedErrors<1> shared;
   visitResiduals(parameters, [&](const Residual& residual) {
@@ -181,11 +206,9 @@ double ReprojectionProblem<kParameters>::cost(const Parameters& parameters) cons
     sum += residual.weight * residual.residual_px.squaredNorm();
     if (!shares) return;
     const Eigen::Matrix<double, 1, 1> product(residual.weight * by_error.dot(residual.residual_px));
-    shared.add(residual.cell, residual.weight * by_error.squaredNorm(), product);
+    shared.add(residual.cell, residual.parabola, residual.weight * by_error.squaredNorm(), product);
   });
-  shared.eliminate(inverse_shared_variance_, [&](const auto& product, double factor) {
-    sum -= factor * product.squaredNorm();
-  });
+  if (shares) sum -= shared.explained(inverse_cell_variance_, inverse_parabola_variance_).value();
   return std::max(sum, 0.0);  // it is zero for exact features, except for rounding
 }
 

@@ -34,6 +34,7 @@ class ReprojectionProblem {
   struct Residual {
     std::size_t feature;  ///< index among all features of the pair
     std::size_t cell;     ///< of SharedErrorGrid
+    double parabola;      ///< parabolaOverRows()
     double weight;        ///< of both rows
     Eigen::Vector2d residual_px;
     Eigen::Vector2d by_disparity;  ///< derivative by an error of the disparity, up to the sign
@@ -59,9 +60,12 @@ class ReprojectionProblem {
   void squareWeights();
 
   /// Adds an unknown for each cell of SharedErrorGrid, a disparity error that its features share.
-  /// Its standard deviation is `ratio` times that of a flow. The unknowns are eliminated (Schur
-  /// complement) from normalMatrix() and cost(). 0: there are none, as after assign().
-  void shareErrors(double ratio);
+  /// Its standard deviation is `cell_ratio` times that of a flow. One more unknown is a disparity
+  /// error that grows with parabolaOverRows(). At the top and the bottom of the image it has a
+  /// standard deviation of `parabola_ratio` times that of a flow. The unknowns are eliminated
+  /// (Schur complement) from normalMatrix() and cost(). A ratio of 0: there are none, as after
+  /// assign(). The parabola needs the cells.
+  void shareErrors(double cell_ratio, double parabola_ratio);
 
   /// The parameters of the motion of the fit.
   Parameters start() const;
@@ -100,6 +104,7 @@ class ReprojectionProblem {
   /// The products of a feature with g, its derivative by an error of the disparity.
   struct ByDisparity {
     std::size_t feature, cell;                          ///< as those of Residual
+    double parabola;                                    ///< likewise
     double information;                                 ///< w g^T g
     Eigen::Matrix<double, kParameters + 1, 1> product;  ///< w [J r]^T g
   };
@@ -149,6 +154,7 @@ class ReprojectionProblem {
       const std::size_t lane = i - first;
       by_disparity.feature = indices_[i];
       by_disparity.cell = cells_[i];
+      by_disparity.parabola = parabolas_[i];
       by_disparity.information = information[lane];
       for (int column = 0; column <= kParameters; ++column) {
         by_disparity.product[column] = products[kFirst + column][lane];
@@ -162,6 +168,7 @@ class ReprojectionProblem {
     const std::size_t lane = i % kSize;
     return {indices_[i],
             cells_[i],
+            parabolas_[i],
             block.weight[lane],
             {linear.x[LinearBlock::kResidual][lane], linear.y[LinearBlock::kResidual][lane]},
             {block.by_disparity_x[lane], block.by_disparity_y[lane]}};
@@ -172,7 +179,9 @@ class ReprojectionProblem {
   std::vector<std::size_t> indices_;
   std::vector<ResidualBlock> blocks_;        // what is free in the last one has no weight
   std::vector<std::size_t> cells_;           // of SharedErrorGrid
-  double inverse_shared_variance_ = 0.0;     // 0: no shared errors
+  std::vector<double> parabolas_;            // parabolaOverRows()
+  double inverse_cell_variance_ = 0.0;       // 0: no shared errors
+  double inverse_parabola_variance_ = 0.0;   // 0: no parabola
   std::vector<double> errors_px_, weights_;  // reused
 };
 

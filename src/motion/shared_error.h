@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include <Eigen/Core>
+
 #include "geometry/image_grid.h"
 #include "motion/fitted_feature.h"
 #include "rotrocc/stereo_camera.h"
@@ -11,6 +13,9 @@ namespace rotrocc {
 /// Neighbouring features share an error of their disparities: what calibration and rectification
 /// leave of the lenses, and texture that their windows have in common. The image is divided into
 /// cells, and the features of a cell share one unknown error.
+///
+/// What the lenses leave is also smooth over the whole image. On KITTI most of it is a parabola
+/// over the rows, see parabolaOverRows().
 struct SharedErrorGrid {
   static constexpr int kColumns = 12;
   static constexpr int kRows = 4;
@@ -22,5 +27,15 @@ struct SharedErrorGrid {
 
   ImageGrid grid;
 };
+
+/// Standard deviation of a smooth error at the borders of the image, as a share of that of the
+/// error of a cell.
+constexpr double kSmoothShare = 0.6;
+
+/// y^2 of a pixel, where y is -1 at the top and 1 at the bottom of the image.
+inline double parabolaOverRows(const StereoCamera& camera, const Eigen::Vector2d& pixel) {
+  const double y = 2.0 * pixel.y() / camera.height - 1.0;
+  return y * y;
+}
 
 }  // namespace rotrocc

@@ -235,7 +235,8 @@ void MotionSearch::calibrate(const StereoCamera& camera,
   const StageTimer timer(times.estimation_ms);
   const MotionEstimator::Estimate& estimated = found.estimate;
   consistent_.assign(found.features.size(), 1);
-  calibrator.observe(found.camera, found.features, consistent_, estimated.T_keyframe_cur);
+  calibrator.observe(
+      found.camera, found.features, consistent_, estimated.T_keyframe_cur, found.shared_ratio);
   const StereoCamera corrected = calibrator.correct(camera);
   if (std::abs(corrected.cx_right - found.camera.cx_right) < kCalibrationSettled_px) return;
   recalibrated_ = found;

@@ -24,8 +24,8 @@ BiasFilter::BiasFilter(const Config& config) : config_(config) {
   const double prior_px2 = config.prior_sigma_px * config.prior_sigma_px;
   const Eigen::Matrix2d covariance = Eigen::Vector2d(prior_px2, 1.0).asDiagonal();
   const double moving = 1.0 / config.steady_pairs;
-  hypotheses_[0] = {1.0 - moving, 0.0, Eigen::Vector2d::Zero(), covariance, 0.0};
-  hypotheses_[1] = {moving, config.flex_px, Eigen::Vector2d::Zero(), covariance, 0.0};
+  hypotheses_[0] = {1.0 - moving, 0.0, Eigen::Vector2d::Zero(), covariance, 0.0, 0.0};
+  hypotheses_[1] = {moving, config.flex_px, Eigen::Vector2d::Zero(), covariance, 0.0, 0.0};
 }
 
 void BiasFilter::configure(const Config& config) {
@@ -83,6 +83,7 @@ BiasFilter::Hypotheses BiasFilter::interact(double probability) const {
     const Eigen::Vector2d apart = other.mean - same.mean;
     mixed[i].mean += share * apart;
     mixed[i].shared_px += share * (other.shared_px - same.shared_px);
+    mixed[i].smooth_px += share * (other.smooth_px - same.smooth_px);
     mixed[i].covariance = (1.0 - share) * same.covariance + share * other.covariance +
                           share * (1.0 - share) * apart * apart.transpose();
   }
@@ -114,13 +115,16 @@ double BiasFilter::update(const BiasMeasurement& measurement,
   hypothesis.mean += gain * off_px;
   hypothesis.covariance -= gain * covariance.transpose();
   hypothesis.shared_px += gain[kBias] * (shared_px - hypothesis.shared_px);
+  const double smooth_px = std::sqrt(measurement.smooth_px2);
+  hypothesis.smooth_px += gain[kBias] * (smooth_px - hypothesis.smooth_px);
   return log_likelihood;
 }
 
 /// Variance of the bias, with that by lasting errors.
 double BiasFilter::variance(const Hypothesis& hypothesis) const {
   return hypothesis.covariance(kBias, kBias) +
-         kLastingShare * shared_ratio2_ * hypothesis.shared_px * hypothesis.shared_px;
+         kLastingShare * shared_ratio2_ * hypothesis.shared_px * hypothesis.shared_px +
+         hypothesis.smooth_px * hypothesis.smooth_px;
 }
 
 DisparityBias BiasFilter::bias() const {

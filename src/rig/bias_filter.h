@@ -49,6 +49,7 @@ class BiasFilter {
     Eigen::Vector2d mean;  ///< the bias [px], the passing error in its standard deviation
     Eigen::Matrix2d covariance;
     double shared_px;  ///< change of the bias by a lasting error as large as the noise
+    double smooth_px;  ///< standard deviation of the bias by smooth errors
   };
   using Hypotheses = std::array<Hypothesis, 2>;  // rigid, moving
 

@@ -5,12 +5,13 @@
 #include <cstddef>
 
 #include "geometry/image_grid.h"
+#include "motion/shared_error.h"
 
 namespace rotrocc {
 namespace {
 
-/// Number of parameters of motion and bias.
-constexpr int kParameters = 7;
+/// Number of parameters of motion, parabola and bias.
+constexpr int kParameters = 8;
 
 /// With fewer features, the bias can hardly be distinguished from the motion.
 constexpr std::size_t kLeastFeatures = 30;
@@ -31,31 +32,41 @@ bool BiasMeter::measure(const StereoCamera& camera,
                         const Correspondences& features,
                         const FeatureSet& set,
                         const Eigen::Isometry3d& T_keyframe_cur,
+                        double smooth_ratio,
                         BiasMeasurement& measurement) {
   camera_ = camera;
   T_keyframe_cur_ = T_keyframe_cur;
+  parabola_px_ = 0.0;
+  smooth_ratio_ = smooth_ratio;
   features_.clear();
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (set[i] != 0) features_.push_back(features[i]);
   }
   for (int step = 0; step < kMostSteps && features_.size() >= kLeastFeatures; ++step) {
     const Sums sums = collect(Curvature::kConvex);
-    const Cells cells = eliminateMotion(sums);
+    const Cells cells = eliminateCommon(sums);
     const double variance_px2 = sums.variance.value(kParameters) / cells.bias_information;
     if (!(variance_px2 < kMostSigma_px * kMostSigma_px)) return false;
     if (!std::isfinite(cells.bias_px)) return false;
     const double change_px = std::clamp(cells.bias_px, -kLongestStep_px, kLongestStep_px);
-    const Vector6d moved = cells.motion_step + cells.motion_by_bias * change_px;
-    T_keyframe_cur_.linear() = expRotation(moved.head<3>()) * T_keyframe_cur_.linear();
-    T_keyframe_cur_.translation() += moved.tail<3>();
-    camera_.cx_right += change_px;
-    triangulate(camera_, features_);
+    change(cells.common_step + cells.common_by_bias * change_px, change_px);
     if (std::abs(change_px) < kSettled_px) break;
   }
   if (features_.size() < kLeastFeatures) return false;
   measurement.bias_px = camera_.cx_right - camera.cx_right;
   const Sums sums = collect(Curvature::kExpected);
-  return describe(sums, eliminateMotion(sums), measurement);
+  return describe(sums, eliminateCommon(sums), measurement);
+}
+
+void BiasMeter::change(const Common& common, double bias_px) {
+  T_keyframe_cur_.linear() = expRotation(common.head<3>()) * T_keyframe_cur_.linear();
+  T_keyframe_cur_.translation() += common.segment<3>(3);
+  parabola_px_ += common[kParabola];
+  for (Correspondence& feature : features_) {
+    feature.disparity_px += common[kParabola] * parabolaOverRows(camera_, feature.cur_px);
+  }
+  camera_.cx_right += bias_px;
+  triangulate(camera_, features_);
 }
 
 /// Linearises the residuals at the current step.
@@ -74,7 +85,7 @@ BiasMeter::Sums BiasMeter::collect(Curvature curvature) {
   Sums expected = sums;
   problem_.squareWeights();
   sumEquations(expected);
-  expected.motion_residual = sums.motion_residual;
+  expected.common_residual = sums.common_residual;
   expected.cell_residual = sums.cell_residual;
   return expected;
 }
@@ -83,40 +94,73 @@ BiasMeter::Sums BiasMeter::collect(Curvature curvature) {
 /// does, up to the sign.
 void BiasMeter::sumEquations(Sums& sums) const {
   const ImageGrid grid(camera_, kColumns, kRows);
-  sums.motion_by_cell.setZero();
+  sums.common.setZero();
+  sums.common_by_cell.setZero();
+  sums.common_residual.setZero();
   sums.cells.setZero();
   sums.cell_residual.setZero();
   const auto normal =
       problem_.sumTerms(problem_.start(), [&](const ReprojectionProblem<6>::ByDisparity& feature) {
-        const auto cell = static_cast<Eigen::Index>(grid.cell(features_[feature.feature].cur_px));
-        sums.motion_by_cell.col(cell) -= feature.product.head<6>();
+        const Eigen::Vector2d& pixel = features_[feature.feature].cur_px;
+        const auto cell = static_cast<Eigen::Index>(grid.cell(pixel));
+        sums.common_by_cell.col(cell).head<6>() -= feature.product.head<6>();
         sums.cells[cell] += feature.information;
         sums.cell_residual[cell] -= feature.product[6];
+        if (smooth_ratio_ == 0.0) return;
+        addParabola(parabolaOverRows(camera_, pixel), cell, feature, sums);
       });
-  sums.motion = normal.topLeftCorner<6, 6>();
-  sums.motion_residual = normal.topRightCorner<6, 1>();
+  sums.common.topLeftCorner<6, 6>() = normal.topLeftCorner<6, 6>();
+  sums.common_residual.head<6>() = normal.topRightCorner<6, 1>();
+  // Without smooth errors, what is left is the equation 1 * parabola = 0.
+  const double known = smooth_ratio_ == 0.0 ? 1.0 : 1.0 / (smooth_ratio_ * smooth_ratio_);
+  sums.common(kParabola, kParabola) += known;
+  sums.common_residual[kParabola] += known * parabola_px_;
 }
 
-BiasMeter::Cells BiasMeter::eliminateMotion(const Sums& sums) {
-  const Eigen::LDLT<Matrix6d> solver(sums.motion);
-  const Eigen::Matrix<double, 6, kCells> of_cells = solver.solve(sums.motion_by_cell);
-  const Vector6d of_residual = solver.solve(sums.motion_residual);
+/// `height` is that of the parabola at the feature.
+void BiasMeter::addParabola(double height,
+                            Eigen::Index cell,
+                            const ByDisparity& feature,
+                            Sums& sums) {
+  sums.common.row(kParabola).head<6>() -= height * feature.product.head<6>();
+  sums.common.col(kParabola).head<6>() -= height * feature.product.head<6>();
+  sums.common(kParabola, kParabola) += height * height * feature.information;
+  sums.common_by_cell(kParabola, cell) += height * feature.information;
+  sums.common_residual[kParabola] -= height * feature.product[6];
+}
+
+BiasMeter::Cells BiasMeter::eliminateCommon(const Sums& sums) {
+  const Eigen::LDLT<Eigen::Matrix<double, kCommon, kCommon>> solver(sums.common);
+  const CommonByCell of_cells = solver.solve(sums.common_by_cell);
+  const Common of_residual = solver.solve(sums.common_residual);
   Cells cells;
-  cells.information = -sums.motion_by_cell.transpose() * of_cells;
+  cells.information = -sums.common_by_cell.transpose() * of_cells;
   cells.information.diagonal() += sums.cells;
-  cells.weighted = sums.motion_by_cell.transpose() * of_residual - sums.cell_residual;
+  cells.weighted = sums.common_by_cell.transpose() * of_residual - sums.cell_residual;
   cells.of_bias = cells.information.rowwise().sum();
   cells.bias_information = cells.of_bias.sum();
   cells.bias_px = cells.weighted.sum() / cells.bias_information;
-  cells.motion_by_bias = -of_cells.rowwise().sum();
-  cells.motion_step = -of_residual;
+  cells.common_by_bias = -of_cells.rowwise().sum();
+  cells.common_step = -of_residual;
   return cells;
+}
+
+/// Sum of the squared changes of the bias by errors that are not estimated: x^2 and x y, where x
+/// and y are -1 and 1 at the borders of the image.
+double BiasMeter::effectOfSmoothErrors(const Cells& cells) {
+  Eigen::Vector2d changes = Eigen::Vector2d::Zero();
+  for (int cell = 0; cell < kCells; ++cell) {
+    const double x = (2.0 * (cell % kColumns) + 1.0) / kColumns - 1.0;
+    const double y = (2.0 * (cell / kColumns) + 1.0) / kRows - 1.0;
+    changes += cells.of_bias[cell] / cells.bias_information * Eigen::Vector2d(x * x, x * y);
+  }
+  return changes.squaredNorm();
 }
 
 /// With information A, a = A 1 and I = 1^T a, the cells disagree by A M e = (A - a a^T / I) e. The
 /// expectation of the squared disagreement is the trace of M A for the noise, and that of its
 /// square for shared errors.
-bool BiasMeter::describe(const Sums& sums, const Cells& cells, BiasMeasurement& measurement) {
+bool BiasMeter::describe(const Sums& sums, const Cells& cells, BiasMeasurement& measurement) const {
   const double variance_px2 = sums.variance.value(kParameters);
   const double information = cells.bias_information;
   if (!(variance_px2 > 0.0) || !(information > 0.0)) return false;
@@ -132,10 +176,13 @@ bool BiasMeter::describe(const Sums& sums, const Cells& cells, BiasMeasurement& 
   measurement.shared_px2 =
       variance_px2 / slope2 * cells.of_bias.squaredNorm() / (information * information);
   measurement.shared_ratio2 = excess_px2 * slope2 / variance_px2;
-  measurement.motion_by_bias << cells.motion_by_bias.tail<3>(), cells.motion_by_bias.head<3>();
+  measurement.smooth_px2 =
+      variance_px2 * smooth_ratio_ * smooth_ratio_ * effectOfSmoothErrors(cells);
+  const Common& by_bias = cells.common_by_bias;
+  measurement.motion_by_bias << by_bias.segment<3>(3), by_bias.head<3>();
   return std::isfinite(measurement.bias_px) && std::isfinite(measurement.noise_px2) &&
          std::isfinite(measurement.shared_px2) && std::isfinite(measurement.shared_ratio2) &&
-         measurement.motion_by_bias.allFinite();
+         std::isfinite(measurement.smooth_px2) && measurement.motion_by_bias.allFinite();
 }
 
 }  // namespace rotrocc

@@ -19,6 +19,7 @@ struct BiasMeasurement {
   /// Estimated variance of the shared errors, divided by that of the noise. Its expectation is
   /// right, but a single value may be negative.
   double shared_ratio2 = 0.0;
+  double smooth_px2 = 0.0;  ///< variance by errors that are smooth over the image
   Vector6d motion_by_bias = Vector6d::Zero();  ///< translation, then rotation
 };
 
@@ -29,17 +30,24 @@ struct BiasMeasurement {
 /// model, all features in a cell of the image have a common disparity error. Its variance is
 /// estimated by the method of moments (DerSimonian and Laird 1986) from the amount by which the
 /// cells disagree about the bias beyond their noise.
+///
+/// What lenses leave is smooth over the image. Near points are at its bottom and sides, so that
+/// part of such errors passes for a bias. The largest one, parabolaOverRows(), is estimated
+/// together with the bias. Those by the columns add to the uncertainty.
 class BiasMeter {
  public:
   BiasMeter(double noise_ratio, double robust_factor)
       : noise_ratio_(noise_ratio), robust_factor_(robust_factor) {}
 
-  /// Starts at the given motion, with depths as triangulated for `camera`. Returns false if the
-  /// flagged features do not determine a bias, as at standstill.
+  /// Starts at the given motion, with depths as triangulated for `camera`. At the borders of the
+  /// image, smooth errors have a standard deviation of `smooth_ratio` times that of a flow; 0:
+  /// there are none. Returns false if the flagged features do not determine a bias, as at
+  /// standstill.
   bool measure(const StereoCamera& camera,
                const Correspondences& features,
                const FeatureSet& set,
                const Eigen::Isometry3d& T_keyframe_cur,
+               double smooth_ratio,
                BiasMeasurement& measurement);
 
  private:
@@ -47,43 +55,56 @@ class BiasMeter {
   static constexpr int kRows = 3;
   static constexpr int kCells = kColumns * kRows;
   using PerCell = Eigen::Matrix<double, kCells, 1>;
+  using ByDisparity = ReprojectionProblem<6>::ByDisparity;
 
-  /// Sums over the features: the normal equations of the motion and of one disparity error per
-  /// cell.
+  /// The unknowns but those of the cells: rotation, translation and the parabola.
+  static constexpr int kCommon = 7;
+  static constexpr int kParabola = 6;
+  using Common = Eigen::Matrix<double, kCommon, 1>;
+  using CommonByCell = Eigen::Matrix<double, kCommon, kCells>;
+
+  /// Sums over the features: the normal equations of the common unknowns and of one disparity error
+  /// per cell.
   struct Sums {
-    Matrix6d motion = Matrix6d::Zero();
-    Eigen::Matrix<double, 6, kCells> motion_by_cell = Eigen::Matrix<double, 6, kCells>::Zero();
+    Eigen::Matrix<double, kCommon, kCommon> common =
+        Eigen::Matrix<double, kCommon, kCommon>::Zero();
+    CommonByCell common_by_cell = CommonByCell::Zero();
     PerCell cells = PerCell::Zero();
-    Vector6d motion_residual = Vector6d::Zero();
+    Common common_residual = Common::Zero();
     PerCell cell_residual = PerCell::Zero();
     double squared_weights = 0.0;
     WeightedVariance variance;
   };
 
-  /// The same equations without the motion: information * errors = weighted.
+  /// The same equations without the common unknowns: information * errors = weighted.
   struct Cells {
     Eigen::Matrix<double, kCells, kCells> information;
     PerCell weighted;
     PerCell of_bias;  ///< information times an error of all cells alike
     double bias_information;
     double bias_px;
-    Vector6d motion_by_bias;  ///< rotation, then translation
-    Vector6d motion_step;     ///< likewise
+    Common common_by_bias;
+    Common common_step;
   };
 
   /// Of the robust cost: that of reweighted least squares, which never overshoots, or its
   /// expectation, which has the squared weights (see MotionCovariance).
   enum class Curvature { kConvex, kExpected };
 
+  void change(const Common& common, double bias_px);
   Sums collect(Curvature curvature);
   void sumEquations(Sums& sums) const;
-  static Cells eliminateMotion(const Sums& sums);
-  static bool describe(const Sums& sums, const Cells& cells, BiasMeasurement& measurement);
+  static void addParabola(double height, Eigen::Index cell, const ByDisparity& feature, Sums& sums);
+  static Cells eliminateCommon(const Sums& sums);
+  static double effectOfSmoothErrors(const Cells& cells);
+  bool describe(const Sums& sums, const Cells& cells, BiasMeasurement& measurement) const;
 
   double noise_ratio_;
   double robust_factor_;
 
   // The current step of one measurement, reused.
+  double smooth_ratio_ = 0.0;
+  double parabola_px_ = 0.0;
   StereoCamera camera_;
   Correspondences features_;
   Eigen::Isometry3d T_keyframe_cur_ = Eigen::Isometry3d::Identity();

@@ -1,5 +1,7 @@
 #include "rig/stereo_calibrator.h"
 
+#include "motion/shared_error.h"
+
 namespace rotrocc {
 
 StereoCalibrator::StereoCalibrator(const Config& config)
@@ -31,11 +33,13 @@ StereoCamera StereoCalibrator::correct(const StereoCamera& camera) const {
 void StereoCalibrator::observe(const StereoCamera& corrected,
                                const Correspondences& features,
                                const FeatureSet& set,
-                               const Eigen::Isometry3d& T_keyframe_cur) {
+                               const Eigen::Isometry3d& T_keyframe_cur,
+                               double shared_ratio) {
   if (!config_.enabled) return;
   motion_by_bias_.setZero();
   BiasMeasurement measurement;
-  if (!meter_.measure(corrected, features, set, T_keyframe_cur, measurement)) return;
+  const double smooth_ratio = kSmoothShare * shared_ratio;
+  if (!meter_.measure(corrected, features, set, T_keyframe_cur, smooth_ratio, measurement)) return;
   motion_by_bias_ = measurement.motion_by_bias;
   measurement.bias_px += bias_.applied_px - config_.bias_px;
   filter_ = past_;

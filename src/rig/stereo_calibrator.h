@@ -29,11 +29,12 @@ class StereoCalibrator {
 
   /// Adds a motion estimated from the flagged features. Their depths must be those of `corrected`,
   /// the last result of correct(). Motions from the same keyframe share its errors: only the last
-  /// one counts.
+  /// one counts. `shared_ratio` is that of Measurements.
   void observe(const StereoCamera& corrected,
                const Correspondences& features,
                const FeatureSet& set,
-               const Eigen::Isometry3d& T_keyframe_cur);
+               const Eigen::Isometry3d& T_keyframe_cur,
+               double shared_ratio);
 
   /// Covariance that the uncertainty of the bias adds to that of the last observed motion, in the
   /// order of OdometryResult::covariance.

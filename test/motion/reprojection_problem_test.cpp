@@ -111,22 +111,28 @@ TEST(ReprojectionProblemTest, JacobiansHoldForPointsBehindTheCameraToo) {
 /// The normal matrix of motion, shared errors and residuals, and its Schur complement.
 Eigen::MatrixXd schurComplement(const ReprojectionProblem<6>& problem,
                                 const Vector6d& parameters,
-                                double ratio) {
+                                double cell_ratio,
+                                double parabola_ratio) {
   constexpr auto kCells = static_cast<Eigen::Index>(SharedErrorGrid::kCells);
+  constexpr Eigen::Index kErrors = kCells + 1;
   const Eigen::Matrix3d by_rotation = leftJacobian(parameters.head<3>());
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(7 + kCells, 7 + kCells);
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(7 + kErrors, 7 + kErrors);
   problem.linearise(parameters, [&](const ReprojectionProblem<6>::Term& term) {
-    Eigen::MatrixXd row = Eigen::MatrixXd::Zero(2, 7 + kCells);
+    Eigen::MatrixXd row = Eigen::MatrixXd::Zero(2, 7 + kErrors);
     row.leftCols<6>() = term.jacobian;
     row.leftCols<3>() = term.jacobian.leftCols<3>() * by_rotation;
     row.col(6) = term.residual_px;
     row.col(7 + static_cast<Eigen::Index>(term.cell)) = term.by_disparity;
+    row.col(7 + kCells) = term.parabola * term.by_disparity;
     normal += term.weight * row.transpose() * row;
   });
-  const Eigen::MatrixXd cells = normal.bottomRightCorner(kCells, kCells) +
-                                Eigen::MatrixXd::Identity(kCells, kCells) / (ratio * ratio);
-  const Eigen::MatrixXd mixed = normal.topRightCorner(7, kCells);
-  return normal.topLeftCorner(7, 7) - mixed * cells.ldlt().solve(mixed.transpose());
+  Eigen::VectorXd inverse_variance =
+      Eigen::VectorXd::Constant(kErrors, 1.0 / (cell_ratio * cell_ratio));
+  inverse_variance[kCells] = 1.0 / (parabola_ratio * parabola_ratio);
+  Eigen::MatrixXd errors = normal.bottomRightCorner(kErrors, kErrors);
+  errors.diagonal() += inverse_variance;
+  const Eigen::MatrixXd mixed = normal.topRightCorner(7, kErrors);
+  return normal.topLeftCorner(7, 7) - mixed * errors.ldlt().solve(mixed.transpose());
 }
 
 TEST(ReprojectionProblemTest, EliminatesTheErrorsThatNeighboursShare) {
@@ -137,12 +143,17 @@ TEST(ReprojectionProblemTest, EliminatesTheErrorsThatNeighboursShare) {
     problem.assign(kittiCamera(), fitOf(features, T_0, kNoiseRatio), all(features));
     problem.weigh(parameters, 2.0);
     for (const double ratio : {0.5, 20.0}) {
-      const Eigen::MatrixXd expected = schurComplement(problem, parameters, ratio);
-      problem.shareErrors(ratio);
-      EXPECT_LT((problem.normalMatrix(parameters) - expected).norm(), 1e-9 * expected.norm());
-      EXPECT_NEAR(problem.cost(parameters), expected(6, 6), 1e-9 * expected(6, 6));
+      for (const double parabola_ratio : {1e-9, 0.7, 10.0}) {
+        const auto expected = schurComplement(problem, parameters, ratio, parabola_ratio);
+        problem.shareErrors(ratio, parabola_ratio);
+        EXPECT_LT((problem.normalMatrix(parameters) - expected).norm(), 1e-9 * expected.norm());
+        EXPECT_NEAR(problem.cost(parameters), expected(6, 6), 1e-9 * expected(6, 6));
+      }
+      const auto none = schurComplement(problem, parameters, ratio, 1e-9);
+      problem.shareErrors(ratio, 0.0);
+      EXPECT_LT((problem.normalMatrix(parameters) - none).norm(), 1e-9 * none.norm());
     }
-    problem.shareErrors(0.0);
+    problem.shareErrors(0.0, 0.0);
     ReprojectionProblem<6> without;
     without.assign(kittiCamera(), fitOf(features, T_0, kNoiseRatio), all(features));
     without.weigh(parameters, 2.0);
@@ -155,7 +166,7 @@ void expectTheSameOnEachProcessor(const Correspondences& features, const Eigen::
   ReprojectionProblem<kParameters> problem;
   problem.assign(kittiCamera(), fitOf(features, T_0, kNoiseRatio), all(features));
   problem.weigh(problem.start(), 2.0);
-  problem.shareErrors(0.5);
+  problem.shareErrors(0.5, 0.5);
   const auto normal = problem.normalMatrix(problem.start());
   const double cost = problem.cost(problem.start());
   cv::setUseOptimized(false);

@@ -23,8 +23,9 @@ Eigen::Isometry3d turnAhead() {
   return motion({0.03, -0.01, 1.3}, {0.002, 0.03, -0.001});
 }
 
-/// Features of a pair. Their disparities have their own noise, and an error common to each cell of
-/// the image with a standard deviation of `ratio` times the flow noise.
+/// Features of a pair. Their disparities have their own noise, an error common to each cell of the
+/// image, and a parabola over the rows, both with a standard deviation of `ratio` times the flow
+/// noise.
 Correspondences pairWith(double ratio, unsigned seed) {
   const StereoCamera camera = kittiCamera();
   std::mt19937 generator(seed);
@@ -34,9 +35,11 @@ Correspondences pairWith(double ratio, unsigned seed) {
   std::normal_distribution<double> error_px(0.0, ratio * kFlow_px);
   std::vector<double> of_cell(SharedErrorGrid::kCells);
   for (double& error : of_cell) error = error_px(generator);
+  const double at_border = error_px(generator);
   const SharedErrorGrid grid(camera);
   for (Correspondence& feature : features) {
-    feature.disparity_px += of_cell[grid.grid.cell(feature.keyframe_px)];
+    const double y = 2.0 * feature.keyframe_px.y() / camera.height - 1.0;
+    feature.disparity_px += of_cell[grid.grid.cell(feature.keyframe_px)] + at_border * y * y;
   }
   triangulate(camera, features);
   return features;

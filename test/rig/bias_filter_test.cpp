@@ -11,13 +11,15 @@ namespace {
 constexpr double kNoise_px = 0.05;
 constexpr double kShared_px = 0.1;  // if shared errors were as large as the noise
 
-/// A measurement of a rig whose shared errors are 1.5 times the noise of single features.
+/// As large as those of a typical rig, in units of the noise of single features.
+const double kSharedRatio = BiasFilter::Config().shared_error_ratio;
+
 BiasMeasurement measured(double bias_px) {
   BiasMeasurement measurement;
   measurement.bias_px = bias_px;
   measurement.noise_px2 = kNoise_px * kNoise_px;
   measurement.shared_px2 = kShared_px * kShared_px;
-  measurement.shared_ratio2 = 1.5 * 1.5;
+  measurement.shared_ratio2 = kSharedRatio * kSharedRatio;
   return measurement;
 }
 
@@ -31,7 +33,7 @@ TEST(BiasFilterTest, BeginsAtThePrior) {
 TEST(BiasFilterTest, IsAsUncertainAsItsFirstMeasurement) {
   BiasFilter filter{BiasFilter::Config()};
   filter.add(measured(0.1));
-  const double variance_px2 = kNoise_px * kNoise_px + 1.5 * 1.5 * kShared_px * kShared_px;
+  const double variance_px2 = kNoise_px * kNoise_px + std::pow(kSharedRatio * kShared_px, 2);
   // The prior takes part, and the moving rig has a wider one.
   EXPECT_NEAR(filter.bias().sigma_px, std::sqrt(variance_px2 / (1.0 + variance_px2)), 0.002);
 }
@@ -40,7 +42,16 @@ TEST(BiasFilterTest, SharedErrorsDoNotAverageOut) {
   BiasFilter filter{BiasFilter::Config()};
   for (int pair = 0; pair < 1000; ++pair) filter.add(measured(0.1));
   // Noise alone would be 0.0016 px. The share of 0.4 of the variance stays with the rig.
-  EXPECT_GT(filter.bias().sigma_px, 0.9 * std::sqrt(0.4) * 1.5 * kShared_px);
+  EXPECT_GT(filter.bias().sigma_px, 0.9 * std::sqrt(0.4) * kSharedRatio * kShared_px);
+}
+
+TEST(BiasFilterTest, SmoothErrorsStay) {
+  BiasFilter filter{BiasFilter::Config()};
+  BiasMeasurement measurement = measured(0.1);
+  measurement.smooth_px2 = 0.3 * 0.3;
+  for (int pair = 0; pair < 100; ++pair) filter.add(measurement);
+  EXPECT_GT(filter.bias().sigma_px, 0.3);
+  EXPECT_LT(filter.bias().sigma_px, 0.35);
 }
 
 TEST(BiasFilterTest, AppliesWhatIsBeyondDoubt) {
@@ -81,7 +92,7 @@ TEST(BiasFilterTest, IsHonestAboutNoise) {
   for (int drive = 0; drive < kDrives; ++drive) {
     BiasFilter filter{BiasFilter::Config()};
     const double truth_px = normal(generator);  // as the prior says
-    const double lasting_px = std::sqrt(0.4) * 1.5 * kShared_px * normal(generator);
+    const double lasting_px = std::sqrt(0.4) * kSharedRatio * kShared_px * normal(generator);
     double passing = normal(generator);
     for (int pair = 0; pair < 20; ++pair) {
       passing = 0.7 * passing + std::sqrt(1.0 - 0.7 * 0.7) * normal(generator);

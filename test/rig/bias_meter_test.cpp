@@ -30,11 +30,13 @@ Correspondences features(const Eigen::Isometry3d& T, unsigned seed, const Error&
   return found;
 }
 
-BiasMeasurement measure(const Correspondences& found, const Eigen::Isometry3d& start) {
+BiasMeasurement measure(const Correspondences& found,
+                        const Eigen::Isometry3d& start,
+                        double parabola_ratio = 0.0) {
   BiasMeasurement measurement;
   const FeatureSet all(found.size(), 1);
-  EXPECT_TRUE(
-      BiasMeter(kNoiseRatio, kRobustFactor).measure(kittiCamera(), found, all, start, measurement));
+  EXPECT_TRUE(BiasMeter(kNoiseRatio, kRobustFactor)
+                  .measure(kittiCamera(), found, all, start, parabola_ratio, measurement));
   return measurement;
 }
 
@@ -76,6 +78,40 @@ TEST(BiasMeterTest, FindsErrorsThatNeighboursShare) {
   EXPECT_GT(with, 1.0);
 }
 
+/// Features as a car sees them: near ones at the bottom of the image, far ones in the middle.
+template <class Error>
+Correspondences onARoad(unsigned seed, const Error& error_px) {
+  Correspondences found = features(ahead(), seed, error_px);
+  const auto isElsewhere = [](const Correspondence& feature) {
+    const double y = 2.0 * feature.cur_px.y() / kittiCamera().height - 1.0;
+    return (std::abs(y) > 0.5) != (feature.point_cur.z() < 15.0);
+  };
+  found.erase(std::remove_if(found.begin(), found.end(), isElsewhere), found.end());
+  return found;
+}
+
+TEST(BiasMeterTest, AParabolaOverTheRowsIsNoBias) {
+  constexpr double kBorder_px = 2.0;
+  constexpr double kRatio = kBorder_px / 0.12;  // the second is the noise of a flow
+  const auto parabola_px = [](const Eigen::Vector2d& pixel) {
+    const double y = 2.0 * pixel.y() / kittiCamera().height - 1.0;
+    return kBorder_px * y * y;
+  };
+  const auto found = onARoad(1, parabola_px);
+  const BiasMeasurement without = measure(found, ahead());
+  EXPECT_GT(std::abs(without.bias_px), 3.0 * std::sqrt(without.noise_px2));
+  const BiasMeasurement with = measure(found, ahead(), kRatio);
+  EXPECT_LT(std::abs(with.bias_px), 3.0 * std::sqrt(with.noise_px2));
+
+  // A bias is still one.
+  const auto biased = onARoad(1, [](const Eigen::Vector2d&) { return 1.0; });
+  const BiasMeasurement bias = measure(biased, ahead(), kRatio);
+  EXPECT_NEAR(bias.bias_px, 1.0, 3.0 * std::sqrt(bias.noise_px2));
+  // Errors by the columns are not estimated: they are uncertainty.
+  EXPECT_GT(bias.smooth_px2, bias.noise_px2);
+  EXPECT_EQ(measure(biased, ahead()).smooth_px2, 0.0);
+}
+
 TEST(BiasMeterTest, SlowMotionSaysLittle) {
   const Eigen::Isometry3d slow = motion({0.0, 0.0, 0.01}, {0.0, 0.0, 0.0});
   const auto none = [](const Eigen::Vector2d&) { return 0.0; };
@@ -88,8 +124,9 @@ TEST(BiasMeterTest, StandstillSaysNothing) {
   const Eigen::Isometry3d rest = Eigen::Isometry3d::Identity();
   const auto found = features(rest, 5, [](const Eigen::Vector2d&) { return 1.0; });
   BiasMeasurement measurement;
-  EXPECT_FALSE(BiasMeter(kNoiseRatio, kRobustFactor)
-                   .measure(kittiCamera(), found, FeatureSet(found.size(), 1), rest, measurement));
+  EXPECT_FALSE(
+      BiasMeter(kNoiseRatio, kRobustFactor)
+          .measure(kittiCamera(), found, FeatureSet(found.size(), 1), rest, 0.0, measurement));
 }
 
 TEST(BiasMeterTest, NeedsFeatures) {
@@ -97,7 +134,7 @@ TEST(BiasMeterTest, NeedsFeatures) {
   few.resize(20);
   BiasMeasurement measurement;
   EXPECT_FALSE(BiasMeter(kNoiseRatio, kRobustFactor)
-                   .measure(kittiCamera(), few, FeatureSet(20, 1), ahead(), measurement));
+                   .measure(kittiCamera(), few, FeatureSet(20, 1), ahead(), 0.0, measurement));
 }
 
 }  // namespace

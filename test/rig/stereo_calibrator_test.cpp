@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kFeatures = 400;
 constexpr double kPeriod_s = 0.1;
+constexpr double kSharedRatio = 1.0;
 
 /// As measured on KITTI, without outliers.
 const FeatureNoise kNoise = {0.12, 0.36};
@@ -47,7 +48,8 @@ void show(Correspondences features, const Eigen::Isometry3d& truth, StereoCalibr
   const auto estimate = MotionEstimator({}).estimate(corrected, features, truth, kPeriod_s);
   ASSERT_TRUE(estimate.valid);
   calibrator.advance();
-  calibrator.observe(corrected, features, estimate.rotation_inliers, estimate.T_keyframe_cur);
+  calibrator.observe(
+      corrected, features, estimate.rotation_inliers, estimate.T_keyframe_cur, kSharedRatio);
 }
 
 /// Simulates a drive of `pairs` pairs with a constant disparity bias.
@@ -157,9 +159,9 @@ TEST(StereoCalibratorTest, ThePairObservedAgainCountsOnce) {
   const Correspondences features =
       biasedFeatures(ahead(), 1, [](const Eigen::Vector2d&) { return 0.0; });
   const FeatureSet all(features.size(), 1);
-  once.observe(kittiCamera(), features, all, ahead());
-  twice.observe(kittiCamera(), features, all, ahead());
-  twice.observe(twice.correct(kittiCamera()), features, all, ahead());
+  once.observe(kittiCamera(), features, all, ahead(), kSharedRatio);
+  twice.observe(kittiCamera(), features, all, ahead(), kSharedRatio);
+  twice.observe(twice.correct(kittiCamera()), features, all, ahead(), kSharedRatio);
   // The second observation starts at another applied bias, hence the tolerance of its iterations.
   EXPECT_NEAR(once.bias().estimated_px, twice.bias().estimated_px, 0.005);
   EXPECT_NEAR(once.bias().sigma_px, twice.bias().sigma_px, 0.005);
