@@ -98,7 +98,7 @@ TEST(SharedErrorEstimatorTest, IsZeroWhileDisabled) {
 }
 
 /// Errors of cells with many features pull the translation. Knowing of them reduces its variance:
-/// measured to 0.53 times. The ratio of two variances of 40 pairs has a standard deviation of 20 %.
+/// measured to 0.50 times. The ratio of two variances of 40 pairs has a standard deviation of 20 %.
 TEST(SharedErrorEstimatorTest, MakesTheTranslationMoreAccurate) {
   constexpr double kRatio = 5.0;
   double with = 0.0;
