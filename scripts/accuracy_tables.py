@@ -6,9 +6,8 @@ import collections
 
 import numpy
 
-from odometry_runs import LENGTHS_M, STEP, read_poses
+from odometry_runs import CLIP_LENGTHS_M, LENGTHS_M, STEP, read_poses
 
-CLIP_LENGTHS_M = [5, 10, 20, 30, 40]
 LONG_CLIP_LENGTHS_M = [50, 60, 70, 80]  # for raw drives, whose ground truth is noisy over short distances
 BOUND_99 = 16.81  # of chi squared with 6 degrees of freedom
 AXES = ['x', 'y', 'z', 'rx', 'ry', 'rz']

@@ -14,7 +14,17 @@ SCRIPTS = pathlib.Path(__file__).resolve().parent
 PAPER_CONFIG = SCRIPTS.parent / 'config/paper.yaml'
 SCENARIOS = ['city', 'motorway', 'slip_road', 'parking', 'shake']
 LENGTHS_M = [10, 20, 50, 100, 200]  # segments of simulated drives, where they fit
+CLIP_LENGTHS_M = [5, 10, 20, 30, 40]  # those of real clips
 STEP = 5  # segments start at every STEP-th pair
+
+Clip = collections.namedtuple('Clip', 'folder lengths_m')
+
+
+def clip_of(text):
+    """FOLDER or FOLDER:LENGTHS, with the lengths of its segments [m]."""
+    folder, _, lengths = text.partition(':')
+    return Clip(pathlib.Path(folder).resolve(),
+                [float(length) for length in lengths.split(',')] if lengths else CLIP_LENGTHS_M)
 
 
 class Programs:
