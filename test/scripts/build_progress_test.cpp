@@ -45,6 +45,9 @@ TEST_F(BuildProgressTest, IsALineForEveryTenPercent) {
 }
 
 TEST_F(BuildProgressTest, SaysOnATerminalWhatIsBuilt) {
+  if (runCommand("script -qec true /dev/null").status != 0) {
+    GTEST_SKIP() << "no pseudo-terminals here: mount devpts at /dev/pts";
+  }
   const CommandResult run = runCommand("script -qec 'bash " + script() + "' /dev/null");
   EXPECT_EQ(run.status, 0);
   for (const char* part : {"  3 %, compiling rotrocc, part 3",
