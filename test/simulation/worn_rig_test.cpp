@@ -98,11 +98,11 @@ TEST(Remainder, StereoErrorsAreLikeKittis) {
     EXPECT_NEAR(columns[5], -10.3, 3.31) << seed;
     const auto rows = field.col(1);
     EXPECT_LT(rows.head<3>().cwiseAbs().maxCoeff(), 0.41) << seed;
-    EXPECT_NEAR(rows[4], -6.85, 0.5 + 1.2) << seed;  // its own range, and that of the lenses
+    EXPECT_NEAR(rows[4], -6.85, 0.36 + 1.11) << seed;  // 0.25 px of the lenses in the corners
   }
 }
 
-TEST(Remainder, IsAboutHalfToOnePixelInBothImages) {
+TEST(Remainder, VariesByHalfToThreePixelsOverBothImages) {
   const StereoCamera camera = kittiCamera();
   for (int seed = 0; seed < kSeeds; ++seed) {
     const StereoRemainders remainders = randomRemainders(camera, seed);
@@ -114,7 +114,8 @@ TEST(Remainder, IsAboutHalfToOnePixelInBothImages) {
         most = std::max(most, (remainder.at(pixel) - centre).norm());
       });
       EXPECT_GT(most, 0.4) << seed;
-      EXPECT_LT(most, 2.4) << seed;  // in the corners
+      // In the corners: 1.1 of the lens, and 0.7 of the 2.7 by which left and right may differ.
+      EXPECT_LT(most, 3.0) << seed;
     }
     EXPECT_GT((remainders.left.at({0, 0}) - remainders.right.at({0, 0})).norm(), 0.05);
   }
