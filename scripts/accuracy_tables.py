@@ -205,7 +205,7 @@ def pose_errors(run):
                                                                    AXES[max(i, j)])])
                                   for j in range(6)] for i in range(6)])
             covariances.append(upper)
-    return numpy.array(errors), numpy.array(covariances)
+    return numpy.reshape(errors, (-1, 6)), numpy.reshape(covariances, (-1, 6, 6))
 
 
 def normalized(errors, covariances, part):

@@ -24,7 +24,7 @@ declare -gA _rotrocc_options=(
     --rig= --gains= --lens= --disparity-bias= --right-rotation= --rows= --time-skew= --drop-frames= --noise=
     --vignetting= --exposure-jumps= --motion-blur='
   [step_length]='--columns= --pairs= --least='
-  [stress_sequence]='--plain= --drops= --gain-step= --gain-ratio= --contrast= --noise= --jpeg= --seed='
+  [stress_sequence]='--plain= --drops= --gain-step= --contrast= --right-gain= --right-offset= --noise= --jpeg= --seed='
 )
 
 # What an option or the first argument of a program takes, if it is neither a file nor a number.

@@ -19,6 +19,8 @@ BLUR_TURN_DEG = 4.0  # of a drive with motion blur, per pair
 
 Stress = collections.namedtuple('Stress', 'name title unit levels make')
 UNSEEN = ['focal', 'baseline']  # a wrong scale that no image shows
+# All levels are measured: a match that survives a large change may fail at a small one.
+WHOLE = ['right_gain_down', 'right_gain_up', 'right_offset_down', 'right_offset_up']
 LORRIES = ['lorry', 'lorry_across']  # something else fills the image
 
 
@@ -217,8 +219,15 @@ STRESSES = [
     Stress('dropped', 'pairs dropped', '%', [10, 20, 30, 40, 50, 60, 70, 80, 85, 90, 95], dropped),
     Stress('blur', 'motion blur', 'px', ladder(2, 25), blur),
     Stress('gain_step', 'exposure steps', 'factor', ladder(1.1, 40), worse('gain_step', '--gain-step')),
-    Stress('gain_ratio', 'left brighter than right', 'factor', ladder(1.1, 40),
-           worse('gain_ratio', '--gain-ratio')),
+    Stress('right_gain_down', 'right images: gain below 1', 'factor',
+           [0.9, 0.8, 0.7, 0.6, 0.5, 0.35, 0.25, 0.15, 0.1, 0.05, 0.02],
+           worse('right_gain_down', '--right-gain')),
+    Stress('right_gain_up', 'right images: gain above 1', 'factor',
+           [1.15, 1.25, 1.4, 1.7, 2, 2.5, 3.5, 5, 10, 20], worse('right_gain_up', '--right-gain')),
+    Stress('right_offset_down', 'right images: offset below 0', 'grey levels',
+           [-15, -25, -40, -60, -80, -100, -130, -160, -190], worse('right_offset_down', '--right-offset')),
+    Stress('right_offset_up', 'right images: offset above 0', 'grey levels',
+           [15, 25, 40, 60, 80, 100, 130, 160, 190, 220], worse('right_offset_up', '--right-offset')),
     Stress('contrast', 'contrast', '%', ladder(80, 1), worse('contrast', '--contrast', lambda level: level / 100)),
     Stress('noise', 'noise', 'grey levels', ladder(2, 80), worse('noise', '--noise', noise=False)),
     Stress('jpeg', 'JPEG quality', '', ladder(90, 1), worse('jpeg', '--jpeg', round)),

@@ -7,32 +7,24 @@ namespace rotrocc {
 
 /// Shi-Tomasi corner detection.
 struct FeatureDetectorConfig {
-  int max_features = 1000;
-  int block_radius_px = 2;    ///< gradients are summed over a square of side 2 radius + 1
-  int nms_radius_px = 5;      ///< minimum distance in x or y to a stronger corner
-  int cell_size_px = 32;      ///< side of a grid cell
-  double min_response = 2.0;  ///< minimum of the smaller eigenvalue: (grey levels / px)^2
-  int border_px = 8;          ///< no corners closer to the image border
+  int max_features = 600;  ///< that are tracked: a corner without a disparity is replaced
 };
 
-/// Sparse block matching along the row.
+/// Sparse matching along the row, by normalized correlation.
 struct StereoMatcherConfig {
   int max_disparity_px = 128;     ///< above the disparity at infinity; nearer points are not found
   double min_disparity_px = 1.0;  ///< above the disparity at infinity; farther points are dropped
-  double max_mean_difference = 16.0;  ///< of the best match, in grey levels per pixel
-  double uniqueness = 0.92;  ///< the best SAD must be below this times the next best on the row
 };
 
 /// Pyramidal Lucas-Kanade, and the circular consistency check.
 struct FeatureTrackerConfig {
   int window_radius_px = 4;        ///< the window is a square of side 2 radius + 1
-  int levels = 2;                  ///< pyramid levels when there is a prediction
-  int startup_levels = 5;          ///< pyramid levels without a prediction
+  int levels = 3;                  ///< of the pyramids; more than one if a prediction is far off
   int max_iterations = 6;          ///< per level
   double min_step_px = 0.04;       ///< iterations stop at a shorter step
   double max_round_trip_px = 1.0;  ///< tolerance of forward-backward tracking; 0: not checked
   bool scale_windows = true;       ///< scale the windows by the predicted scale change
-  bool ignore_brightness = true;   ///< compare windows without their brightness and contrast
+  bool ignore_brightness = true;   ///< estimate a change of brightness and contrast of windows
   double max_vertical_px = 1.0;    ///< tolerance of the row of left and right
   double max_disparity_difference_px = 1.0;  ///< between tracked and matched disparity, at t
 };
@@ -63,7 +55,7 @@ struct MotionEstimatorConfig {
   /// Ratio of disparity noise to flow noise, see fitted_feature.h. 0: the paper's least squares.
   double noise_ratio = 4.0;
   /// Ratio of the disparity error that the features of an image cell share to flow noise: start of
-  /// an estimate. 0: they share none, and none is estimated. Used as robust_factor.
+  /// an estimate of at most three times this. 0: they share none, and none is estimated.
   double shared_ratio = 2.0;
   /// Of cauchyWeights(), used once the set of a stage is stable. 0: no weights, as in the
   /// paper.
@@ -134,9 +126,7 @@ struct MotionCheckConfig {
 
 /// When a keyframe is replaced.
 struct KeyframeSelectorConfig {
-  bool adaptive = true;          ///< false: every frame is the keyframe of the next one
-  double max_parallax_px = 6.0;  ///< limit of the median flow caused by translation
-  double min_seen_share = 0.7;   ///< minimum share of the inliers of the keyframe's first motion
+  bool adaptive = true;  ///< keep it at rest; false: every frame is the keyframe of the next one
 };
 
 /// Online rig calibration: estimation of the disparity bias.
@@ -144,8 +134,9 @@ struct StereoCalibratorConfig {
   bool enabled = true;          ///< false: only bias_px is applied, and no row offset
   double bias_px = 0.0;         ///< known bias, added to every disparity; start of the estimate
   double prior_sigma_px = 1.0;  ///< standard deviation of the rig's bias about bias_px
-  /// Deviations from bias_px below this many standard deviations are not applied.
-  double significance = 4.0;
+  /// A deviation from bias_px of this many standard deviations is applied by half, a smaller one
+  /// hardly, a larger one as a whole.
+  double significance = 5.0;
   /// Typical error that neighbouring features share, over the noise of single ones. The estimate
   /// starts from it.
   double shared_error_ratio = 1.3;
@@ -177,11 +168,8 @@ struct OdometryConfig {
   StereoCalibratorConfig stereo_calibrator;
   SystematicErrorConfig systematic_error;
 
-  int threads = 2;    ///< that process a pair, including the calling thread
-  int max_tries = 3;  ///< maximum number of tries (predict, track, estimate) per pair
-  /// No further try if the median feature was found closer to where it was searched: as far as a
-  /// window reaches over two pyramid levels.
-  double settled_px = 8.0;
+  int threads = 2;         ///< that process a pair, including the calling thread
+  int max_tries = 8;       ///< maximum number of tries (start, track, estimate) per pair
   double max_gap_s = 1.0;  ///< between two pairs; if longer, the estimator restarts
 };
 

@@ -23,9 +23,8 @@ const char* toString(State state);
 
 /// Number of features left after each stage.
 struct StageCounts {
-  int corners = 0;           ///< Shi-Tomasi corners of the keyframe
-  int with_depth = 0;        ///< corners with a disparity
-  int searched = 0;          ///< of these, searched in the current images: a part of them at rest
+  int corners = 0;           ///< Shi-Tomasi corners of the keyframe that were tried
+  int with_depth = 0;        ///< of these, with a disparity: the features
   int tracked = 0;           ///< tracked to both current images
   int consistent = 0;        ///< passed the circular consistency check: the feature set F
   int rotation_inliers = 0;  ///< left after stage 1
@@ -99,8 +98,8 @@ struct OdometryResult {
   DisparityBias disparity_bias;  ///< of the rig
   RowOffset row_offset;          ///< of the rig, before the correction
   TimeSkew time_skew;            ///< of the rig
-  /// Contrast of the right image relative to the left one, the median over some features. 0: no
-  /// motion.
+  /// Contrast of the right image relative to the left one, the median over the matched windows. It
+  /// is only reported. 0: no motion.
   double exposure_gain = 0.0;
   /// Ratio of the disparity error that neighbouring features share to flow noise, as assumed for
   /// this motion; 0: no motion.

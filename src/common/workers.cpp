@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -17,8 +18,12 @@ class Workers::Pool {
  public:
   explicit Pool(int threads) {
     const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    for (int i = 1; i < std::min(threads, processors); ++i) {
-      threads_.emplace_back([this] { serve(); });
+    try {
+      for (int i = 1; i < std::min(threads, processors); ++i) {
+        threads_.emplace_back([this] { serve(); });
+      }
+    } catch (const std::system_error&) {
+      // The system has no more threads: those that there are do the same work.
     }
   }
 

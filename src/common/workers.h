@@ -11,7 +11,8 @@ namespace rotrocc {
 /// for other nodelets of the process.
 class Workers {
  public:
-  /// `threads` >= 1 includes the calling thread. There are never more threads than processors.
+  /// `threads` >= 1 includes the calling thread. There are never more threads than processors,
+  /// and fewer if the system cannot start them.
   explicit Workers(int threads);
   ~Workers();
   Workers(Workers&&) noexcept;

@@ -6,25 +6,24 @@
 
 namespace rotrocc {
 
-CornerResponse::CornerResponse(int block_radius_px)
-    : kernels_(&chooseKernels()), radius_(block_radius_px), side_(2 * block_radius_px + 1) {}
+CornerResponse::CornerResponse() : kernels_(&chooseKernels()) {}
 
 void CornerResponse::compute(
     const cv::Mat& image, int first_row, int last_row, int margin, cv::Mat& response) {
-  stride_ = static_cast<std::size_t>(image.cols + side_ + 2 * kMostShorts);
+  stride_ = static_cast<std::size_t>(image.cols + kSide + 2 * kMostShorts);
   for (auto* row : {&smooth_, &steps_}) row->resize(stride_);
   for (auto* sums : {&xx_, &xy_, &yy_}) sums->assign(stride_, 0);
-  gradients_.assign(static_cast<std::size_t>(2 * side_) * stride_, 0);
+  gradients_.assign(static_cast<std::size_t>(2 * kSide) * stride_, 0);
 
   response.create(last_row - first_row, image.cols + 2 * margin + kMostShorts, CV_32F);
-  const int first = std::max(first_row, (radius_ + kRowStep - 1) / kRowStep);
-  const int last = std::min(last_row, (image.rows - radius_ + kRowStep - 1) / kRowStep);
-  const int count = image.cols - 2 * radius_;
+  const int first = std::max(first_row, (kRadius_px + kRowStep - 1) / kRowStep);
+  const int last = std::min(last_row, (image.rows - kRadius_px + kRowStep - 1) / kRowStep);
+  const int count = image.cols - 2 * kRadius_px;
   if (first >= last || count <= 0) {
     response.setTo(0.0F);
     return;
   }
-  int next = kRowStep * first - radius_;  // row of the image whose gradients are added next
+  int next = kRowStep * first - kRadius_px;  // row of the image whose gradients are added next
   for (int r = first_row; r < last_row; ++r) {
     auto* out = response.ptr<float>(r - first_row);
     auto* end = out + response.cols;
@@ -32,14 +31,14 @@ void CornerResponse::compute(
       std::fill(out, end, 0.0F);
       continue;
     }
-    for (; next <= kRowStep * r + radius_; ++next) addGradients(image, next);
-    auto* inner = std::fill_n(out, margin + radius_, 0.0F);
-    kernels_->respondRow({xx_.data(), xy_.data(), yy_.data()}, side_, count, inner);
+    for (; next <= kRowStep * r + kRadius_px; ++next) addGradients(image, next);
+    auto* inner = std::fill_n(out, margin + kRadius_px, 0.0F);
+    kernels_->respondRow({xx_.data(), xy_.data(), yy_.data()}, kSide, count, inner);
     std::fill(inner + count, end, 0.0F);
   }
 }
 
-/// Adds the Sobel gradients of row y and removes those of the row `side_` rows before. smooth_ and
+/// Adds the Sobel gradients of row y and removes those of the row kSide rows before. smooth_ and
 /// steps_ start one pixel to the left of the image; pixels outside repeat the border.
 void CornerResponse::addGradients(const cv::Mat& image, int y) {
   std::int16_t* smooth = smooth_.data() + 1;
@@ -54,7 +53,7 @@ void CornerResponse::addGradients(const cv::Mat& image, int y) {
     values[-1] = values[0];
     values[image.cols] = values[image.cols - 1];
   }
-  std::int16_t* gradients = gradients_.data() + static_cast<std::size_t>(2 * (y % side_)) * stride_;
+  std::int16_t* gradients = gradients_.data() + static_cast<std::size_t>(2 * (y % kSide)) * stride_;
   kernels_->replaceGradients(smooth_.data(),
                              steps_.data(),
                              image.cols,

@@ -17,9 +17,10 @@ struct Kernels;
 class CornerResponse {
  public:
   static constexpr int kRowStep = 2;
+  /// The square has a side of 2 radius + 1 pixels.
+  static constexpr int kRadius_px = 2;
 
-  /// The square has a side of 2 radius + 1 pixels; the radius is at most 15 px.
-  explicit CornerResponse(int block_radius_px);
+  CornerResponse();
 
   /// Fills `response` (CV_32F) with its rows [first_row, last_row) for `image` (CV_8UC1) and
   /// `margin` columns of zeros on both sides. Rows may lie outside the image. The response is zero
@@ -29,12 +30,13 @@ class CornerResponse {
  private:
   void addGradients(const cv::Mat& image, int y);
 
+  static constexpr int kSide = 2 * kRadius_px + 1;
+
   const Kernels* kernels_;
-  int radius_, side_;
   std::size_t stride_ = 0;  // row length of the buffers below: image width plus padding for SIMD
   std::vector<std::int16_t> smooth_,
       steps_;                               // one row, smoothed and differentiated vertically
-  std::vector<std::int16_t> gradients_;     // gradients of the last `side_` rows (ring)
+  std::vector<std::int16_t> gradients_;     // gradients of the last kSide rows (ring)
   std::vector<std::int32_t> xx_, xy_, yy_;  // products of gradients, summed over those rows
 };
 

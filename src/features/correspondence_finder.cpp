@@ -8,6 +8,14 @@
 #include "geometry/min_depth.h"
 
 namespace rotrocc {
+namespace {
+
+/// Corners found for each feature that is wanted. More than half have a disparity, and at least a
+/// quarter where left and right differ much.
+constexpr int kCandidates = 4;
+
+}  // namespace
+
 CorrespondenceFinder::CorrespondenceFinder(const Config& config, int threads)
     : config_(config),
       workers_(threads),
@@ -26,24 +34,41 @@ FramePtr CorrespondenceFinder::makeFrame(const StereoPair& pair) {
 }
 
 void CorrespondenceFinder::findCorners(Keyframe& keyframe) {
-  detector_.detect(workers_, keyframe.frame->left.front(), keyframe.corners);
+  detector_.detect(workers_, keyframe.frame->left.front(), keyframe.corners, kCandidates);
 }
 
 void CorrespondenceFinder::findDepths(const StereoCamera& camera, Keyframe& keyframe) {
   keyframe.left_px.clear();
   keyframe.right_px.clear();
   keyframe.points.clear();
-  matcher_.match(workers_,
-                 keyframe.frame->left.front(),
-                 keyframe.frame->right.front(),
-                 keyframe.corners,
-                 camera.disparityAtInfinity(),
-                 disparities_px_,
-                 keyframe.row_offset_px);
-  if (keyframe.row_offset_px != 0.0) refineDisparities(camera, keyframe);
+  const auto wanted = static_cast<std::size_t>(config_.feature_detector.max_features);
+  std::size_t tried = 0;
+  while (keyframe.points.size() < wanted && tried < keyframe.corners.size()) {
+    const std::size_t missing = wanted - keyframe.points.size();
+    const std::size_t left = keyframe.corners.size() - tried;
+    // Of the next corners, about the same share has a depth; a few too many cost less than another
+    // batch.
+    const std::size_t enough = keyframe.points.empty()
+                                   ? std::max(missing, tried)
+                                   : missing * tried / keyframe.points.size() + missing / 4 + 1;
+    const auto first = keyframe.corners.begin() + static_cast<std::ptrdiff_t>(tried);
+    const std::size_t count = std::min(enough, left);
+    batch_.assign(first, first + static_cast<std::ptrdiff_t>(count));
+    matchBatch(camera, keyframe);
+    tried += addPoints(camera, wanted, keyframe);
+  }
+  keyframe.corners.resize(tried);
+}
+
+/// Adds the points of the batch up to the number that is wanted. Returns the number of corners that
+/// it took.
+std::size_t CorrespondenceFinder::addPoints(const StereoCamera& camera,
+                                            std::size_t wanted,
+                                            Keyframe& keyframe) const {
   const auto lower_px = static_cast<float>(keyframe.row_offset_px);
-  for (std::size_t i = 0; i < keyframe.corners.size(); ++i) {
-    const cv::Point2f& corner = keyframe.corners[i];
+  std::size_t i = 0;
+  for (; i < batch_.size() && keyframe.points.size() < wanted; ++i) {
+    const cv::Point2f& corner = batch_[i];
     const float disparity_px = disparities_px_[i];
     if (disparity_px == StereoMatcher::kNoDisparity) continue;
     const double depth_m = camera.depth(disparity_px);
@@ -52,15 +77,26 @@ void CorrespondenceFinder::findDepths(const StereoCamera& camera, Keyframe& keyf
     keyframe.right_px.emplace_back(corner.x - disparity_px, corner.y + lower_px);
     keyframe.points.push_back(depth_m * camera.ray({corner.x, corner.y}));
   }
+  return i;
 }
 
-/// Matches were searched in whole rows.
-void CorrespondenceFinder::refineDisparities(const StereoCamera& camera, const Keyframe& keyframe) {
+/// Finds the disparities of the batch. Matches are searched in whole rows first.
+void CorrespondenceFinder::matchBatch(const StereoCamera& camera, const Keyframe& keyframe) {
+  const cv::Mat& left = keyframe.frame->left.front();
+  const cv::Mat& right = keyframe.frame->right.front();
+  matcher_.match(workers_,
+                 left,
+                 right,
+                 batch_,
+                 camera.disparityAtInfinity(),
+                 disparities_px_,
+                 keyframe.row_offset_px);
+  if (keyframe.row_offset_px == 0.0) return;
   std::swap(matched_disparities_px_, disparities_px_);
   matcher_.matchNear(workers_,
-                     keyframe.frame->left.front(),
-                     keyframe.frame->right.front(),
-                     keyframe.corners,
+                     left,
+                     right,
+                     batch_,
                      matched_disparities_px_,
                      camera.disparityAtInfinity(),
                      disparities_px_,
@@ -71,10 +107,9 @@ int CorrespondenceFinder::find(const StereoCamera& camera,
                                const Keyframe& keyframe,
                                const StereoFrame& current,
                                const Eigen::Isometry3d& T_keyframe_cur,
-                               int levels,
                                Correspondences& features) {
   predict(camera, keyframe, T_keyframe_cur);
-  track(keyframe, current, levels);
+  track(keyframe, current);
   checkCircularConsistency(camera, keyframe, current, features);
   return static_cast<int>(std::count(tracked_.begin(), tracked_.end(), 1));
 }
@@ -104,15 +139,14 @@ void CorrespondenceFinder::predict(const StereoCamera& camera,
   }
 }
 
-void CorrespondenceFinder::track(const Keyframe& keyframe, const StereoFrame& current, int levels) {
-  constexpr bool kNear = true;
+void CorrespondenceFinder::track(const Keyframe& keyframe, const StereoFrame& current) {
   constexpr bool kRoundTrip = true;
   tracker_.track(workers_,
                  keyframe.frame->left,
                  current.left,
                  keyframe.left_px,
                  scale_changes_,
-                 {levels, !kNear, kRoundTrip},
+                 kRoundTrip,
                  cur_left_px_,
                  tracked_);
   // Predict the right position from the tracked left position and the predicted disparity. The
@@ -126,7 +160,7 @@ void CorrespondenceFinder::track(const Keyframe& keyframe, const StereoFrame& cu
                  current.right,
                  keyframe.right_px,
                  scale_changes_,
-                 {levels, kNear, !kRoundTrip},
+                 !kRoundTrip,
                  cur_right_px_,
                  tracked_);
 }

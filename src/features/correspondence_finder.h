@@ -33,20 +33,19 @@ class CorrespondenceFinder {
   /// Copies the images of the pair into a frame. Frames that are no longer referenced are reused.
   FramePtr makeFrame(const StereoPair& pair);
 
-  /// Finds the corners of the keyframe's left image.
+  /// Finds the corners of the keyframe's left image, more than are wanted: some have no match.
   void findCorners(Keyframe& keyframe);
-  /// Triangulates the corners that have a match in the keyframe's right image.
+  /// Matches the corners in the keyframe's right image, in their order, until max_features have a
+  /// depth, and triangulates these. Removes the corners that were not needed.
   void findDepths(const StereoCamera& camera, Keyframe& keyframe);
 
   /// Tracks the keyframe's points, starting at the positions given by the motion. Stores in
   /// `features` those that pass the circular consistency check: their current left and right
-  /// positions match each other. `levels` of the pyramid are searched. Returns the number of points
-  /// tracked in both images.
+  /// positions match each other. Returns the number of points tracked in both images.
   int find(const StereoCamera& camera,
            const Keyframe& keyframe,
            const StereoFrame& current,
            const Eigen::Isometry3d& T_keyframe_cur,
-           int levels,
            Correspondences& features);
 
   /// Contrast of the right image relative to the left one, at the features found last; 1 before.
@@ -60,11 +59,12 @@ class CorrespondenceFinder {
                      const Eigen::Isometry3d& T_keyframe_cur_b);
 
  private:
-  void refineDisparities(const StereoCamera& camera, const Keyframe& keyframe);
+  void matchBatch(const StereoCamera& camera, const Keyframe& keyframe);
+  std::size_t addPoints(const StereoCamera& camera, std::size_t wanted, Keyframe& keyframe) const;
   void predict(const StereoCamera& camera,
                const Keyframe& keyframe,
                const Eigen::Isometry3d& T_keyframe_cur);
-  void track(const Keyframe& keyframe, const StereoFrame& current, int levels);
+  void track(const Keyframe& keyframe, const StereoFrame& current);
   void checkCircularConsistency(const StereoCamera& camera,
                                 const Keyframe& keyframe,
                                 const StereoFrame& current,
@@ -82,6 +82,7 @@ class CorrespondenceFinder {
   std::vector<float> predicted_disparities_px_;
   std::vector<float> scale_changes_;
   std::vector<char> tracked_;
+  std::vector<cv::Point2f> batch_;  // of corners
   std::vector<float> matched_disparities_px_, tracked_disparities_px_, disparities_px_;
   std::vector<double> shifts_px_;
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "features/image_noise.h"
+#include "features/least_texture.h"
 #include "kernels/kernels.h"
 
 namespace rotrocc {
@@ -14,6 +16,17 @@ constexpr int kRowStep = CornerResponse::kRowStep;
 /// Rows of a strip, in those of the response as all rows below. Constant, so that the strips do not
 /// depend on the number of threads.
 constexpr int kStripRows = 32;
+
+/// The response that a corner needs: four times that to the noise of the image. Fine texture looks
+/// like noise, as that of gravel, so no more noise is assumed than cameras have in the dark: 4 grey
+/// levels.
+float leastResponse(double noise_variance) {
+  constexpr double kOverNoise = 4.0;
+  constexpr double kMostDeviation = 4.0;
+  constexpr double kSobelSquares = 12.0 / 64.0;  // of a gradient in grey levels per pixel
+  const double variance = std::min(noise_variance, kMostDeviation * kMostDeviation);
+  return std::max(kLeastTexture, static_cast<float>(kOverNoise * kSobelSquares * variance));
+}
 
 /// Whether no pixel of these rows and columns has a response larger than `value`, or an equal one
 /// if `beats_equal` is false.
@@ -53,20 +66,22 @@ FeatureDetector::FeatureDetector(const Config& config)
 
 void FeatureDetector::detect(Workers& workers,
                              const cv::Mat& image,
-                             std::vector<cv::Point2f>& corners) {
+                             std::vector<cv::Point2f>& corners,
+                             int candidates) {
   corners.clear();
-  if (std::min(image.cols, image.rows) <= 2 * (config_.border_px + config_.nms_radius_px)) return;
+  if (std::min(image.cols, image.rows) <= 2 * (kBorder_px + kRadius_px)) return;
 
-  const int first_row = (config_.border_px + kRowStep - 1) / kRowStep;
-  const int last_row = (image.rows - config_.border_px + kRowStep - 1) / kRowStep;
+  least_response_ = leastResponse(noiseVariance(image, noise_));
+  const int first_row = (kBorder_px + kRowStep - 1) / kRowStep;
+  const int last_row = (image.rows - kBorder_px + kRowStep - 1) / kRowStep;
   const int strip_count = (last_row + kStripRows - 1) / kStripRows;
-  strips_.resize(static_cast<std::size_t>(strip_count), Strip(config_.block_radius_px));
+  strips_.resize(static_cast<std::size_t>(strip_count));
   workers.run(strip_count, [&](int i) {
     const int first = std::max(i * kStripRows, first_row);
     const int last = std::min((i + 1) * kStripRows, last_row);
     findCandidates(image, first, last, strips_[static_cast<std::size_t>(i)]);
   });
-  selectByCells(image.size(), corners);
+  selectByCells(image.size(), static_cast<std::size_t>(candidates * config_.max_features), corners);
 }
 
 void FeatureDetector::findCandidates(const cv::Mat& image,
@@ -75,9 +90,9 @@ void FeatureDetector::findCandidates(const cv::Mat& image,
                                      Strip& strip) const {
   strip.candidates.clear();
   if (first_row >= last_row) return;
-  const int rows = config_.nms_radius_px / kRowStep;
+  const int rows = kRadius_px / kRowStep;
   strip.corner_response.compute(
-      image, first_row - rows, last_row + rows, config_.nms_radius_px, strip.response);
+      image, first_row - rows, last_row + rows, kRadius_px, strip.response);
   strip.highest.resize(static_cast<std::size_t>(strip.response.cols));
   const int band_rows = rows + 1;
   for (int first = first_row; first < last_row; first += band_rows) {
@@ -85,11 +100,11 @@ void FeatureDetector::findCandidates(const cv::Mat& image,
   }
 }
 
-/// Searches rows that are all within nms_radius_px of each other. A corner must be the maximum of
+/// Searches rows that are all within kRadius_px of each other. A corner must be the maximum of
 /// its column in these rows, and no neighbouring column may have a larger one. Only these few
 /// pixels are then compared with all their neighbours. The strip's response begins with row `top`.
 void FeatureDetector::searchBand(int width, const cv::Range& rows, int top, Strip& strip) const {
-  const int radius = config_.nms_radius_px;
+  const int radius = kRadius_px;
   const cv::Range band(rows.start - top, rows.end - top);
   float* highest = strip.highest.data();
   kernels_->highestOfColumns(strip.response.ptr<float>(band.start),
@@ -98,12 +113,8 @@ void FeatureDetector::searchBand(int width, const cv::Range& rows, int top, Stri
                              width + 2 * radius,
                              highest);
   strip.peaks.resize(strip.highest.size());
-  const int count = kernels_->findPeaks(highest,
-                                        config_.border_px,
-                                        width - config_.border_px,
-                                        radius,
-                                        static_cast<float>(config_.min_response),
-                                        strip.peaks.data());
+  const int count = kernels_->findPeaks(
+      highest, kBorder_px, width - kBorder_px, radius, least_response_, strip.peaks.data());
   for (int i = 0; i < count; ++i) {
     const int x = strip.peaks[static_cast<std::size_t>(i)];
     const int column = x + radius;
@@ -115,10 +126,11 @@ void FeatureDetector::searchBand(int width, const cv::Range& rows, int top, Stri
   }
 }
 
-void FeatureDetector::selectByCells(const cv::Size& size, std::vector<cv::Point2f>& corners) {
+void FeatureDetector::selectByCells(const cv::Size& size,
+                                    std::size_t most,
+                                    std::vector<cv::Point2f>& corners) {
   sortByCells(size);
-  const auto wanted = static_cast<std::size_t>(config_.max_features);
-  for (std::size_t rank = 0; corners.size() < wanted; ++rank) {
+  for (std::size_t rank = 0; corners.size() < most; ++rank) {
     rank_.clear();
     std::size_t begin = 0;
     for (const std::size_t end : cell_ends_) {
@@ -127,7 +139,7 @@ void FeatureDetector::selectByCells(const cv::Size& size, std::vector<cv::Point2
     }
     if (rank_.empty()) break;
     std::sort(rank_.begin(), rank_.end(), isStronger);
-    if (rank_.size() > wanted - corners.size()) rank_.resize(wanted - corners.size());
+    if (rank_.size() > most - corners.size()) rank_.resize(most - corners.size());
     for (const Candidate& c : rank_) {
       corners.emplace_back(static_cast<float>(c.x), static_cast<float>(c.y));
     }
@@ -136,11 +148,12 @@ void FeatureDetector::selectByCells(const cv::Size& size, std::vector<cv::Point2
 
 /// Sorts the candidates of all strips by cell, and within a cell by decreasing response.
 void FeatureDetector::sortByCells(const cv::Size& size) {
-  const int columns = (size.width + config_.cell_size_px - 1) / config_.cell_size_px;
-  const int rows = (size.height + config_.cell_size_px - 1) / config_.cell_size_px;
+  const double area_px2 = static_cast<double>(size.area()) / config_.max_features;
+  const int side_px = std::max(1, cvRound(std::sqrt(area_px2)));
+  const int columns = (size.width + side_px - 1) / side_px;
+  const int rows = (size.height + side_px - 1) / side_px;
   const auto cellOf = [&](const Candidate& c) {
-    return static_cast<std::size_t>((c.y / config_.cell_size_px) * columns +
-                                    c.x / config_.cell_size_px);
+    return static_cast<std::size_t>((c.y / side_px) * columns + c.x / side_px);
   };
   // These are the starts of the cells first. Each start moves to the cell's end as candidates are
   // added.

@@ -18,12 +18,20 @@ class FeatureDetector {
  public:
   using Config = FeatureDetectorConfig;
 
+  /// Smallest distance between two corners, in x or y: windows of the tracker overlap by half.
+  static constexpr int kRadius_px = 5;
+  /// No corners are closer to the border of the image: windows of the matcher fit in.
+  static constexpr int kBorder_px = 8;
+
   explicit FeatureDetector(const Config& config);
 
-  /// Finds at most max_features corners of `image` (CV_8UC1), at integer pixels. The strongest
-  /// corners of all cells come first, then the second strongest of all cells, and so on. Returns
-  /// none if the image is too small.
-  void detect(Workers& workers, const cv::Mat& image, std::vector<cv::Point2f>& corners);
+  /// Finds at most max_features times `candidates` corners of `image` (CV_8UC1), at integer pixels.
+  /// The image has about max_features cells. The strongest corners of all cells come first, then
+  /// the second strongest of all cells, and so on. Returns none if the image is too small.
+  void detect(Workers& workers,
+              const cv::Mat& image,
+              std::vector<cv::Point2f>& corners,
+              int candidates = 1);
 
  private:
   struct Candidate {
@@ -32,10 +40,8 @@ class FeatureDetector {
   };
   /// Rows that are searched by one thread.
   struct Strip {
-    explicit Strip(int block_radius_px) : corner_response(block_radius_px) {}
-
     CornerResponse corner_response;
-    cv::Mat response;            // includes a margin of nms_radius_px around the strip
+    cv::Mat response;            // includes a margin around the strip
     std::vector<float> highest;  // maximum of each column
     std::vector<int> peaks;      // local maxima of `highest`
     std::vector<Candidate> candidates;
@@ -43,7 +49,7 @@ class FeatureDetector {
 
   void findCandidates(const cv::Mat& image, int first_row, int last_row, Strip& strip) const;
   void searchBand(int width, const cv::Range& rows, int top, Strip& strip) const;
-  void selectByCells(const cv::Size& size, std::vector<cv::Point2f>& corners);
+  void selectByCells(const cv::Size& size, std::size_t most, std::vector<cv::Point2f>& corners);
   void sortByCells(const cv::Size& size);
   static bool isStronger(const Candidate& a, const Candidate& b);
 
@@ -53,6 +59,8 @@ class FeatureDetector {
   std::vector<std::size_t> cell_ends_;  // end of each cell in by_cell_
   std::vector<Candidate> by_cell_;
   std::vector<Candidate> rank_;
+  std::vector<int> noise_;  // responses to a mask
+  float least_response_ = 0.0F;
 };
 
 }  // namespace rotrocc

@@ -6,7 +6,6 @@
 #include <opencv2/core.hpp>
 
 #include "common/workers.h"
-#include "features/exposure.h"
 #include "features/image_pyramid.h"
 #include "rotrocc/odometry_config.h"
 
@@ -25,69 +24,46 @@ class FeatureTracker {
   FeatureTracker(FeatureTracker&&) noexcept;
   FeatureTracker& operator=(FeatureTracker&&) noexcept;
 
-  /// How points are searched.
-  struct Search {
-    int levels = 1;  ///< number of pyramid levels, from the smallest image to the largest
-    /// The points are expected to be close to their predictions: the smaller images are used only
-    /// for those that are not.
-    bool near = false;
-    /// Only points that return to within max_round_trip_px when tracked back count as tracked.
-    bool round_trip = true;
-  };
-
   /// Builds a pyramid with all levels that can be searched. Reuses the memory of `pyramid`.
   void makePyramid(const cv::Mat& image, ImagePyramid& pyramid) const;
 
   /// Tracks the points `keyframe_px` from one image to another. `scales` are the expected scale
   /// changes of the points' windows, above 1 if a point comes nearer. `cur` contains the
   /// predictions and receives the results. `tracked` becomes 1 for points that are found, otherwise
-  /// 0. Points with `tracked` = 0 on input are skipped. Returns the gain from the keyframe's image
-  /// to the current one, as WindowGain::median().
-  double track(Workers& workers,
-               const ImagePyramid& keyframe_pyramid,
-               const ImagePyramid& cur_pyramid,
-               const std::vector<cv::Point2f>& keyframe_px,
-               const std::vector<float>& scales,
-               const Search& search,
-               std::vector<cv::Point2f>& cur,
-               std::vector<char>& tracked);
+  /// 0. Points with `tracked` = 0 on input are skipped. The smaller images of the pyramids are used
+  /// only for points that are not close to their predictions. With `round_trip`, only points that
+  /// return to within max_round_trip_px when tracked back count as tracked.
+  void track(Workers& workers,
+             const ImagePyramid& keyframe_pyramid,
+             const ImagePyramid& cur_pyramid,
+             const std::vector<cv::Point2f>& keyframe_px,
+             const std::vector<float>& scales,
+             bool round_trip,
+             std::vector<cv::Point2f>& cur,
+             std::vector<char>& tracked);
 
   /// Moves `point` to the position in `to` that matches the surroundings of `start` in `from`.
   /// Start near the result, and at equal scale: only one level is used, without tracking back.
-  /// `gain` is that from the left image `from` to the right image `to`. Returns false if nothing is
-  /// found.
-  bool locate(const cv::Mat& from,
-              const cv::Mat& to,
-              const cv::Point2f& start,
-              double gain,
-              cv::Point2f& point);
+  /// Returns false if nothing is found.
+  bool locate(const cv::Mat& from, const cv::Mat& to, const cv::Point2f& start, cv::Point2f& point);
 
  private:
-  void divide(const std::vector<char>& wanted);
-  double expectedGain(const ImagePyramid& from, const ImagePyramid& to) const;
-  double usedGain(double gain, double noise) const;
   bool follow(const ImagePyramid& from,
               const ImagePyramid& to,
-              const Search& search,
+              bool round_trip,
               const cv::Point2f& start,
               float scale,
-              double gain,
               TrackingWindow& window,
               cv::Point2f& end) const;
   bool returns(const cv::Mat& from,
                const cv::Mat& to,
                const cv::Point2f& start,
                float scale,
-               double gain,
                TrackingWindow& window,
                const cv::Point2f& end) const;
 
   Config config_;
-  std::vector<TrackingWindow> windows_;   // one per part of a list
-  std::vector<std::size_t> indices_;      // of the points to track
-  std::vector<std::size_t> sample_;       // of the points that are tracked first
-  std::vector<cv::Point2f> predictions_;  // of the sample
-  WindowGain gain_;
+  std::vector<TrackingWindow> windows_;  // one per part of a list
 };
 
 }  // namespace rotrocc

@@ -23,13 +23,6 @@ struct Keyframe {
   std::vector<Eigen::Vector3d> points;
 
   UncertainTransform T_keyframe_last;  ///< the pose of the last frame in the keyframe
-  /// Share of the searched features that are inliers of the first motion measured against it; 0
-  /// before.
-  double first_inlier_share = 0.0;
 };
-
-/// Stores in `few` at most `most_points` of the points, evenly chosen, and their pixels. Its frame
-/// is left to the caller.
-void thinOut(const Keyframe& keyframe, std::size_t most_points, Keyframe& few);
 
 }  // namespace rotrocc

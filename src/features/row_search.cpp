@@ -58,12 +58,12 @@ void RowSearch::searchRow(const StereoCamera& camera, const StereoFrame& frame, 
   const cv::Mat& left = frame.left.front();
   const cv::Mat& right = frame.right.front();
   const auto lower_px = static_cast<float>(rows);
-  const double gain = matcher_.match(
+  matcher_.match(
       workers_, left, right, sample_px_, camera.disparityAtInfinity(), disparities_px_, rows);
   for (std::size_t i = 0; i < sample_px_.size(); ++i) {
     if (disparities_px_[i] == StereoMatcher::kNoDisparity) continue;
     cv::Point2f point = sample_px_[i] + cv::Point2f(-disparities_px_[i], lower_px);
-    if (!tracker_.locate(left, right, sample_px_[i], gain, point)) continue;
+    if (!tracker_.locate(left, right, sample_px_[i], point)) continue;
     found_[i].add(point.y - sample_px_[i].y, lower_px);
   }
 }
@@ -72,7 +72,6 @@ void RowSearch::measure(const StereoFrame& current,
                         const Correspondences& features,
                         const FeatureSet& set,
                         double row_offset_px,
-                        double stereo_gain,
                         RowOffsets& offsets) {
   offsets.features.clear();
   offsets.offsets_px.clear();
@@ -82,7 +81,7 @@ void RowSearch::measure(const StereoFrame& current,
                            static_cast<float>(features[i].cur_px.y()));
     cv::Point2f right = left + cv::Point2f(-static_cast<float>(features[i].disparity_px),
                                            static_cast<float>(row_offset_px));
-    if (tracker_.locate(current.left.front(), current.right.front(), left, stereo_gain, right)) {
+    if (tracker_.locate(current.left.front(), current.right.front(), left, right)) {
       offsets.features.push_back(i);
       offsets.offsets_px.push_back(right.y - left.y);
     }

@@ -34,12 +34,10 @@ class RowSearch {
   void search(const StereoCamera& camera, const Keyframe& keyframe, std::vector<float>& offsets_px);
 
   /// Offsets of a sample of the flagged features of `current`, near `row_offset_px`.
-  /// `stereo_gain`: contrast of the right image relative to the left one.
   void measure(const StereoFrame& current,
                const Correspondences& features,
                const FeatureSet& set,
                double row_offset_px,
-               double stereo_gain,
                RowOffsets& offsets);
 
  private:

@@ -4,169 +4,227 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 
-#include "features/exposure.h"
-#include "features/sad_costs.h"
+#include "common/median.h"
+#include "features/patch.h"
 #include "kernels/kernels.h"
 
 namespace rotrocc {
 namespace {
 
+using W = CorrelationWindow;
+
+constexpr int kHalf = W::kSide / 2;
+constexpr int kPixels = W::kSide * W::kSide;
+
 /// Costs within this distance [px] of the minimum are its slopes, not rivals.
 constexpr int kSlope = 2;
 
+/// The best match costs at most this share of its rival: 0.92 times as long a difference.
+constexpr double kUniqueness = 0.85;
+
 constexpr float kNoColumn = -1.0F;
 
-/// Initial capacity of the cost buffer, in columns.
-constexpr std::size_t kUsualColumns = 256;
+/// Largest cost of a part for the whole window to be compared, where `least` is the lowest cost of
+/// a part. With twice the margin, the same matches are found.
+float partLimit(float least) {
+  return 1.25F * least + 0.05F;
+}
 
-/// Whether windows in a row of the image can be read, including the pixels below.
+/// Variance of rounding to whole grey levels. It limits the correlation of windows without texture.
+constexpr double kRounding = 1.0 / 12.0;
+
+/// Columns of a strip for which memory is reserved.
+constexpr int kUsualColumns = 256;
+
+/// Whether windows in a row of the image can be read, including the pixels below. Registers read on
+/// into one more row.
 bool rowInside(const cv::Mat& image, float row) {
-  return row >= sad::kHalf && row < static_cast<float>(image.rows - sad::kHalf - 1);
+  return row >= kHalf && row < static_cast<float>(image.rows - kHalf - 2);
 }
 
 /// Whether the window around a left pixel can be read, including the pixels to its right and below.
 bool windowInside(const cv::Mat& image, const cv::Point2f& p) {
-  return p.x >= sad::kHalf && p.x < static_cast<float>(image.cols - sad::kRegister) &&
-         rowInside(image, p.y);
+  return p.x >= kHalf && p.x < static_cast<float>(image.cols - W::kStride) && rowInside(image, p.y);
 }
 
 /// The part of a range of right columns whose windows can be read.
 cv::Range clip(const cv::Mat& image, const cv::Range& columns) {
-  return {std::max(columns.start, sad::kHalf), std::min(columns.end, image.cols - sad::kRegister)};
+  return {std::max(columns.start, kHalf), std::min(columns.end, image.cols - W::kStride)};
 }
 
-/// Sub-pixel offset of the minimum of the costs at -1, 0 and 1. SAD changes linearly, so two lines
-/// of equal slope fit better than a parabola.
-float subPixelOffset(int before, int at, int after) {
-  const int slope = std::max(before, after) - at;
-  if (slope <= 0) return 0.0F;
-  return 0.5F * static_cast<float>(before - after) / static_cast<float>(slope);
+/// Offset of the minimum of the parabola through the costs at -1, 0 and 1.
+float subPixelOffset(double before, double at, double after) {
+  const double curvature = before - 2.0 * at + after;
+  if (!(curvature > 0.0)) return 0.0F;
+  return static_cast<float>(std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5));
 }
 
-std::int16_t least(const std::int16_t* begin, const std::int16_t* end) {
-  std::int16_t cost = SadSearch::kHigh;
-  for (; begin < end; ++begin) cost = std::min(cost, *begin);
-  return cost;
-}
-
-/// The exposure of the right image relative to the left one. Smaller differences are not corrected.
-/// They hide a part of the bright matches, which is no loss: of four clips with a gain of 0.85, two
-/// are more accurate without these and two with them.
-Exposure exposureOfRight(const cv::Mat& left, const cv::Mat& right) {
-  constexpr double kNotableGain = 0.2;
-  constexpr double kNotableOffset = 25.0;
-  const Exposure exposure = compareExposures(left, right);
-  const bool is_notable =
-      std::abs(exposure.gain - 1.0) >= kNotableGain || std::abs(exposure.offset) >= kNotableOffset;
-  return is_notable ? exposure : Exposure();
-}
-
-/// The window of a left pixel, as the right camera would expose it. Saturated pixels remain so.
-class ExposedWindow {
- public:
-  ExposedWindow(const cv::Mat& left, const cv::Point& upper_left, const Exposure& of_right)
-      : from_(left.ptr<uchar>(upper_left.y) + upper_left.x),
-        step_(static_cast<std::ptrdiff_t>(left.step)) {
-    if (of_right.gain != 1.0 || of_right.offset != 0.0) expose(of_right);
-  }
-  ExposedWindow(const ExposedWindow&) = delete;
-  ExposedWindow& operator=(const ExposedWindow&) = delete;
-
-  const uchar* pixels() const { return from_; }
-  std::ptrdiff_t step() const { return step_; }
-
- private:
-  void expose(const Exposure& of_right) {
-    constexpr int kUnit = 256;
-    constexpr int kSaturated = 250;
-    const int gain = cvRound(kUnit * of_right.gain);
-    const int offset = cvRound(kUnit * of_right.offset) + kUnit / 2;
-    for (int y = 0; y < sad::kWindow; ++y) {
-      const uchar* from = from_ + y * step_;
-      for (int x = 0; x < kColumns; ++x) {
-        const int exposed = std::clamp((from[x] * gain + offset) / kUnit, 0, 255);
-        pixels_[y * kColumns + x] = static_cast<uchar>(from[x] < kSaturated ? exposed : from[x]);
-      }
-    }
-    from_ = pixels_;
-    step_ = kColumns;
-  }
-
-  static constexpr int kColumns = SadSearch::kReadPixels;
-  const uchar* from_;
-  std::ptrdiff_t step_;
-  uchar pixels_[sad::kWindow * kColumns];
+/// A match and the contrast of its window relative to that of the left one.
+struct Match {
+  float column = kNoColumn;
+  double gain = 1.0;
 };
 
-/// Column of the best match, where `first` is the first column searched. kNoColumn if the match is
-/// at the end of the range, costs too much, or is ambiguous: at least `uniqueness` times the cost
-/// of a rival.
-float bestColumn(const Kernels& kernels, const SadSearch& search, int first) {
-  thread_local std::vector<std::int16_t> buffer;
-  std::vector<std::int16_t>& costs = buffer;  // one thread-local lookup
-  costs.reserve(kUsualColumns);
-  costs.resize(static_cast<std::size_t>(search.count + SadSearch::kGroup));
-  kernels.sadCosts(search, costs.data());
-  const std::int16_t* begin = costs.data();
-  const std::int16_t* end = begin + search.count;
-  const std::int16_t lowest = least(begin, end);
-  const std::int16_t* best = std::find(begin, end, lowest);
-  if (best == begin || best >= end - 1 || lowest > search.most) return kNoColumn;
-  const std::int16_t* before = best - std::min<std::ptrdiff_t>(kSlope, best - begin);
-  const std::int16_t* after = best + std::min<std::ptrdiff_t>(kSlope + 1, end - best);
-  const std::int16_t rival = std::min(least(begin, before), least(after, end));
-  if (rival != SadSearch::kHigh && lowest >= search.uniqueness * rival) return kNoColumn;
-  const auto exact = [&](const std::int16_t* cost) -> int {
-    return *cost != SadSearch::kHigh ? *cost
-                                     : kernels.sadCost(search, static_cast<int>(cost - begin));
+struct RowBuffers;
+
+/// The window around a left pixel. Its cost relative to another window is 1 minus their correlation
+/// coefficient: zero-mean normalized cross-correlation, which no difference in brightness or
+/// contrast changes. That is half the mean squared difference of both, each scaled to variance 1.
+class LeftWindow {
+ public:
+  /// At whole pixels.
+  LeftWindow(const Kernels& kernels, const cv::Mat& left, const cv::Point& pixel)
+      : kernels_(kernels), unit2_(1.0) {
+    kernels.widenRows(left.ptr<uchar>(pixel.y - kHalf) + pixel.x - kHalf,
+                      static_cast<std::ptrdiff_t>(left.step),
+                      W::kStride,
+                      values_,
+                      W::kStride);
+    describe();
+  }
+
+  /// Between pixels.
+  LeftWindow(const Kernels& kernels, const cv::Mat& left, const cv::Point2f& pixel)
+      : kernels_(kernels), unit2_(1 << 2 * W::kSampleBits) {
+    kernels.sampleRows(patchAt(left, pixel, kHalf), W::kStride, values_, W::kStride);
+    describe();
+  }
+
+  /// Searches the strip of a right row for the best of `count` windows.
+  Match searchRow(const std::int16_t* strip, int stride, int count, RowBuffers& buffers) const;
+
+  /// As searchRow(), for a few windows and without a test for rivals.
+  Match searchNear(const std::int16_t* strip, int stride, int count) const;
+
+ private:
+  struct Compared {
+    double cost;
+    double variance;
   };
-  return static_cast<float>(first + static_cast<int>(best - begin)) +
-         subPixelOffset(exact(best - 1), lowest, exact(best + 1));
+
+  void describe() {
+    for (int y = 0; y < W::kSide; ++y) {
+      std::fill_n(values_ + y * W::kStride + W::kSide, W::kStride - W::kSide, std::int16_t{0});
+    }
+    const ProductSums own = kernels_.multiplyWindow(values_, values_, W::kStride);
+    sum_ = own.b;
+    variance_ = varianceOf(kPixels, own.b, own.bb);
+  }
+
+  /// Times the square of the number of values.
+  double varianceOf(double count, double sum, double squares) const {
+    return count * squares - sum * sum + count * count * kRounding * unit2_;
+  }
+
+  Compared compare(const std::int16_t* strip, int stride) const {
+    const ProductSums sums = kernels_.multiplyWindow(values_, strip, stride);
+    const double variance = varianceOf(kPixels, sums.b, sums.bb);
+    const double covariance = static_cast<double>(kPixels) * sums.ab - double{sum_} * sums.b;
+    return {1.0 - covariance / std::sqrt(variance_ * variance), variance};
+  }
+
+  const Kernels& kernels_;
+  double unit2_;
+  double sum_ = 0.0;
+  double variance_ = 0.0;
+  std::int16_t values_[W::kSide * W::kStride];
+};
+
+/// Buffers of a search along a row, one for each thread.
+struct RowBuffers {
+  std::vector<std::int16_t> strip;
+  std::vector<std::int32_t> scratch;
+  std::vector<float> correlations;
+  std::vector<int> peaks;     // columns
+  std::vector<double> costs;  // of the peaks
+};
+
+Match LeftWindow::searchRow(const std::int16_t* strip,
+                            int stride,
+                            int count,
+                            RowBuffers& buffers) const {
+  buffers.scratch.resize(static_cast<std::size_t>(W::scratchOf(count)));
+  buffers.correlations.resize(static_cast<std::size_t>(count + kMostShorts));
+  float* const correlations = buffers.correlations.data();
+  constexpr auto kNoise = static_cast<float>(W::kPartPixels * W::kPartPixels * kRounding);
+  const float highest = kernels_.correlateParts(
+      values_, strip, stride, count, kNoise, buffers.scratch.data(), correlations);
+  if (!(highest > 0.0F)) return {};
+  const float most_cost = partLimit(1.0F - std::sqrt(highest));
+  const float least = most_cost < 1.0F ? (1.0F - most_cost) * (1.0F - most_cost) : 0.0F;
+  buffers.peaks.resize(static_cast<std::size_t>(count));
+  const int peaks = kernels_.findPeaks(correlations, 0, count - 2, 1, least, buffers.peaks.data());
+  buffers.costs.resize(static_cast<std::size_t>(peaks));
+  int best = -1;
+  Compared of_best = {2.0, 0.0};
+  for (int i = 0; i < peaks; ++i) {
+    const int column = ++buffers.peaks[i];  // it was that of the first neighbour
+    const Compared compared = compare(strip + column, stride);
+    buffers.costs[i] = compared.cost;
+    if (compared.cost >= of_best.cost) continue;
+    of_best = compared;
+    best = column;
+  }
+  if (best < 0) return {};
+  Compared before = compare(strip + best - 1, stride);
+  Compared after = compare(strip + best + 1, stride);
+  if (before.cost < of_best.cost && before.cost <= after.cost && best >= 2) {
+    --best;
+    after = of_best;
+    of_best = before;
+    before = compare(strip + best - 1, stride);
+  } else if (after.cost < of_best.cost && best + 2 < count) {
+    ++best;
+    before = of_best;
+    of_best = after;
+    after = compare(strip + best + 1, stride);
+  }
+  if (of_best.cost > StereoMatcher::kMostCost) return {};
+  for (int i = 0; i < peaks; ++i) {
+    const bool is_rival = std::abs(buffers.peaks[i] - best) > kSlope;
+    if (is_rival && of_best.cost >= kUniqueness * buffers.costs[i]) return {};
+  }
+  return {static_cast<float>(best) + subPixelOffset(before.cost, of_best.cost, after.cost),
+          std::sqrt(of_best.variance / variance_)};
 }
 
-/// As above, for a few columns and without a test for rivals.
-float bestColumn(const sad::SubPixelCosts& costs_of, const cv::Range& columns, double most) {
-  int costs[sad::SubPixelCosts::kColumns];
-  for (int k = 0; k < columns.size(); ++k) costs[k] = costs_of(k);
-  const int* best = std::min_element(costs, costs + columns.size());
-  if (best == costs || best == costs + columns.size() - 1) return kNoColumn;
-  if (*best > most * sad::SubPixelCosts::kUnit) return kNoColumn;
-  return static_cast<float>(columns.start + static_cast<int>(best - costs)) +
-         subPixelOffset(best[-1], best[0], best[1]);
+Match LeftWindow::searchNear(const std::int16_t* strip, int stride, int count) const {
+  constexpr int kMost = 2 * StereoMatcher::kNearRadius_px + 3;
+  Compared all[kMost];
+  int best = 0;
+  for (int k = 0; k < count; ++k) {
+    all[k] = compare(strip + k, stride);
+    if (all[k].cost < all[best].cost) best = k;
+  }
+  if (best == 0 || best == count - 1 || all[best].cost > StereoMatcher::kMostCost) return {};
+  return {static_cast<float>(best) +
+              subPixelOffset(all[best - 1].cost, all[best].cost, all[best + 1].cost),
+          std::sqrt(all[best].variance / variance_)};
 }
 
-/// Calls columnOf(i) for each pixel and converts the returned column to a disparity.
-template <class ColumnOf>
-void eachPixel(Workers& workers,
-               const std::vector<cv::Point2f>& pixels,
-               double least_px,
-               std::vector<float>& disparities_px,
-               const ColumnOf& columnOf) {
+/// Calls matchOf(i) for each pixel and converts the columns to disparities. Returns the median
+/// gain.
+template <class MatchOf>
+double eachPixel(Workers& workers,
+                 const std::vector<cv::Point2f>& pixels,
+                 double least_px,
+                 std::vector<float>& disparities_px,
+                 const MatchOf& matchOf) {
+  thread_local std::vector<float> gains;
+  gains.assign(pixels.size(), 0.0F);
+  float* const gain_of = gains.data();
   disparities_px.assign(pixels.size(), StereoMatcher::kNoDisparity);
   workers.forEach(pixels.size(), [&](std::size_t i, std::size_t) {
-    const float column = columnOf(i);
-    const float disparity_px = pixels[i].x - column;
-    if (column != kNoColumn && disparity_px >= least_px) disparities_px[i] = disparity_px;
+    const Match match = matchOf(i);
+    const float disparity_px = pixels[i].x - match.column;
+    if (match.column == kNoColumn || disparity_px < least_px) return;
+    disparities_px[i] = disparity_px;
+    gain_of[i] = static_cast<float>(match.gain);
   });
-}
-
-/// The gain from the left to the right image, at some of the pixels whose disparity is known.
-double gainAt(const cv::Mat& left,
-              const cv::Mat& right,
-              const std::vector<cv::Point2f>& pixels,
-              const std::vector<float>& disparities_px,
-              double row_offset_px,
-              double otherwise) {
-  const auto lower_px = static_cast<float>(row_offset_px);
-  thread_local WindowGain gain;
-  gain.clear();
-  const std::size_t step = WindowGain::step(pixels.size());
-  for (std::size_t i = 0; i < pixels.size(); i += step) {
-    if (disparities_px[i] == StereoMatcher::kNoDisparity) continue;
-    gain.add(left, pixels[i], right, pixels[i] + cv::Point2f(-disparities_px[i], lower_px));
-  }
-  return gain.median(otherwise);
+  gains.erase(std::remove(gains.begin(), gains.end(), 0.0F), gains.end());
+  return gains.empty() ? 1.0 : median(gains);
 }
 
 }  // namespace
@@ -184,28 +242,29 @@ double StereoMatcher::match(Workers& workers,
   const int nearest = config_.max_disparity_px + cvCeil(infinity_px);
   const int farthest = cvFloor(config_.min_disparity_px + infinity_px);
   const double least_px = config_.min_disparity_px + infinity_px;
-  const Exposure of_right = exposureOfRight(left, right);
-  // Costs are in grey levels of the right image, their limit in those of the lighter one.
-  const double most = config_.max_mean_difference * sad::kPixels * std::min(of_right.gain, 1.0);
-  eachPixel(workers, corners, least_px, disparities_px, [&](std::size_t i) {
-    if (!windowInside(left, corners[i])) return kNoColumn;
+  return eachPixel(workers, corners, least_px, disparities_px, [&](std::size_t i) -> Match {
+    if (!windowInside(left, corners[i])) return {};
     const cv::Point pixel(cvRound(corners[i].x), cvRound(corners[i].y));
     const int right_row = pixel.y + rows_lower;
-    if (!rowInside(right, static_cast<float>(right_row))) return kNoColumn;
+    if (!rowInside(right, static_cast<float>(right_row))) return {};
     const cv::Range columns = clip(right, cv::Range(pixel.x - nearest - 1, pixel.x - farthest + 2));
-    if (columns.size() < 3) return kNoColumn;
-    const cv::Point upper_left = pixel - cv::Point(sad::kHalf, sad::kHalf);
-    const ExposedWindow window(left, upper_left, of_right);
-    const SadSearch search = {window.pixels(),
-                              window.step(),
-                              right.ptr<uchar>(right_row - sad::kHalf) + columns.start - sad::kHalf,
-                              static_cast<std::ptrdiff_t>(right.step),
-                              columns.size(),
-                              most,
-                              config_.uniqueness};
-    return bestColumn(*kernels_, search, columns.start);
+    if (columns.size() < 3) return {};
+    thread_local RowBuffers buffers_of_thread;
+    RowBuffers& buffers = buffers_of_thread;  // one look-up
+    std::vector<std::int16_t>& strip = buffers.strip;
+    const int stride = columns.size() + W::kStride + kMostShorts;
+    strip.reserve(W::kSide * kUsualColumns);
+    strip.resize(static_cast<std::size_t>(W::kSide * stride + kMostShorts));
+    kernels_->widenRows(right.ptr<uchar>(right_row - kHalf) + columns.start - kHalf,
+                        static_cast<std::ptrdiff_t>(right.step),
+                        columns.size() + W::kSide - 1,
+                        strip.data(),
+                        stride);
+    Match found =
+        LeftWindow(*kernels_, left, pixel).searchRow(strip.data(), stride, columns.size(), buffers);
+    if (found.column != kNoColumn) found.column += static_cast<float>(columns.start);
+    return found;
   });
-  return gainAt(left, right, corners, disparities_px, rows_lower, of_right.gain);
 }
 
 double StereoMatcher::matchNear(Workers& workers,
@@ -216,23 +275,25 @@ double StereoMatcher::matchNear(Workers& workers,
                                 double infinity_px,
                                 std::vector<float>& disparities_px,
                                 double row_offset_px) const {
-  const double gain = gainAt(left, right, pixels, expected_px, row_offset_px, 1.0);
-  const double used = beyondNoise(gain, WindowGain::kStereoNoise);
-  // Costs are in grey levels of the darker image.
-  const double most = config_.max_mean_difference * sad::kPixels * std::min(used, 1.0 / used);
   const double least_px = config_.min_disparity_px + infinity_px;
-  eachPixel(workers, pixels, least_px, disparities_px, [&](std::size_t i) {
-    if (expected_px[i] == kNoDisparity || !windowInside(left, pixels[i])) return kNoColumn;
+  return eachPixel(workers, pixels, least_px, disparities_px, [&](std::size_t i) -> Match {
+    if (expected_px[i] == kNoDisparity || !windowInside(left, pixels[i])) return {};
     const float right_row = pixels[i].y + static_cast<float>(row_offset_px);
-    if (!rowInside(right, right_row)) return kNoColumn;
+    if (!rowInside(right, right_row)) return {};
     const int x = cvRound(pixels[i].x - expected_px[i]);
     const cv::Range columns =
         clip(right, cv::Range(x - kNearRadius_px - 1, x + kNearRadius_px + 2));
-    if (columns.size() < 3) return kNoColumn;
-    return bestColumn(
-        sad::SubPixelCosts(left, right, pixels[i], right_row, used, columns.start), columns, most);
+    if (columns.size() < 3) return {};
+    constexpr int kStride = 2 * W::kStride;
+    std::int16_t strip[W::kSide * kStride];
+    kernels_->sampleRows(patchAt(right, {static_cast<float>(columns.start), right_row}, kHalf),
+                         columns.size() + W::kSide - 1,
+                         strip,
+                         kStride);
+    Match found = LeftWindow(*kernels_, left, pixels[i]).searchNear(strip, kStride, columns.size());
+    if (found.column != kNoColumn) found.column += static_cast<float>(columns.start);
+    return found;
   });
-  return gain;
 }
 
 }  // namespace rotrocc

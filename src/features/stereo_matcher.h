@@ -13,15 +13,19 @@ namespace rotrocc {
 
 struct Kernels;
 
-/// Sparse block matching along the row: sum of absolute differences (SAD) with a sub-pixel fit.
-/// The cameras may differ in brightness and contrast. `row_offset_px` is how much lower points are
-/// in the right image.
+/// Sparse matching along the row, by zero-mean normalized cross-correlation with a sub-pixel
+/// fit: neither brightness nor contrast of the cameras matters, and they may differ over the image.
+/// `row_offset_px` is how much lower points are in the right image.
 class StereoMatcher {
  public:
   using Config = StereoMatcherConfig;
 
   /// Marks a pixel without a match.
   static constexpr float kNoDisparity = std::numeric_limits<float>::lowest();
+
+  /// Largest value of 1 - correlation coefficient of a match: either window explains half of the
+  /// variance of the other, rho^2 = 1/2.
+  static constexpr double kMostCost = 0.29;
 
   /// Search radius of matchNear() around the expected disparity.
   static constexpr int kNearRadius_px = 2;
@@ -31,9 +35,9 @@ class StereoMatcher {
   /// Computes the disparity x_left - x_right [px] of each corner of the left image. Corners must be
   /// at integer pixels. The result is kNoDisparity for corners too close to the border and for
   /// matches that are too different, ambiguous or out of range. `left` and `right` are CV_8UC1 and
-  /// of the same size; `infinity_px` is StereoCamera::disparityAtInfinity(). Returns the gain of
-  /// the right image relative to the left one: the median over windows, or 1 if there are few. The
-  /// row offset is rounded.
+  /// of the same size; `infinity_px` is StereoCamera::disparityAtInfinity(). Returns the contrast
+  /// of the right image relative to the left one: the median over the matches, or 1 if there are
+  /// none. The row offset is rounded.
   double match(Workers& workers,
                const cv::Mat& left,
                const cv::Mat& right,

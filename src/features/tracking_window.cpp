@@ -4,23 +4,23 @@
 #include <cmath>
 #include <cstring>
 
+#include "features/least_texture.h"
+#include "features/patch.h"
+
 namespace rotrocc {
 namespace {
 
-/// Minimum of the smaller eigenvalue of the normal matrix, per pixel: (grey levels / px)^2.
-constexpr float kLeastTexture = 0.1F;
+/// Sum of squares [grey levels^2] below which a window is plain: keeps steps finite.
+constexpr double kLeastVariance = 1e-3;
 
 /// If a step reverses the previous one to within this distance [px], the iteration oscillates and
 /// is stopped.
 constexpr float kSameStep_px = 0.01F;
 
 /// Grey levels, and grey levels times gradients, in the units of the kernels.
-constexpr double kOfValue = 1.0 / (1 << Window::kValueBits);
-constexpr double kOfProduct = kOfValue / (1 << Window::kGradientBits);
-
-std::int16_t fraction(float distance) {
-  return static_cast<std::int16_t>(32768.0F * distance);
-}
+constexpr double kOfGradient = 1.0 / (1 << Window::kGradientBits);
+constexpr double kOfContrast = 1.0 / (1 << Window::kContrastBits);
+constexpr double kOfDifference = 1.0 / (1 << MismatchSums::kDifferenceBits);
 
 }  // namespace
 
@@ -35,6 +35,7 @@ TrackingWindow::TrackingWindow(int radius_px, bool ignores_brightness)
       values_(static_cast<std::size_t>(side_ * stride_)),
       gradient_x_(values_.size()),
       gradient_y_(values_.size()),
+      contrast_(values_.size()),
       mask_(static_cast<std::size_t>(stride_)),
       spread_(mask_.size()),
       border_(static_cast<std::size_t>((side_ + 3) * (sample_stride_ + 1))) {
@@ -51,6 +52,7 @@ Window TrackingWindow::window() {
           values_.data(),
           gradient_x_.data(),
           gradient_y_.data(),
+          contrast_.data(),
           mask_.data(),
           spread_.data(),
           samples_.data(),
@@ -65,15 +67,16 @@ Patch TrackingWindow::patchAround(const cv::Mat& image,
                                   int columns) {
   const int x = cvFloor(center.x);
   const int y = cvFloor(center.y);
-  const std::int16_t fx = fraction(center.x - static_cast<float>(x));
-  const std::int16_t fy = fraction(center.y - static_cast<float>(y));
   const cv::Rect area(x - radius, y - radius, columns + 1, 2 * radius + 2);
   if (area.x >= 0 && area.y >= 0 && area.x + area.width <= image.cols &&
       area.y + area.height <= image.rows) {
-    return {image.ptr<uchar>(area.y) + area.x, static_cast<std::ptrdiff_t>(image.step), fx, fy};
+    return patchAt(image, center, radius);
   }
   copyWithEdge(image, area);
-  return {border_.data(), area.width, fx, fy};
+  return {border_.data(),
+          area.width,
+          fractionOf(center.x - static_cast<float>(x)),
+          fractionOf(center.y - static_cast<float>(y))};
 }
 
 /// Copies `area` into border_. It must contain at least one pixel of the image.
@@ -89,18 +92,13 @@ void TrackingWindow::copyWithEdge(const cv::Mat& image, const cv::Rect& area) {
   }
 }
 
-bool TrackingWindow::take(const cv::Mat& image,
-                          const cv::Point2f& center,
-                          float scale,
-                          double gain) {
+bool TrackingWindow::take(const cv::Mat& image, const cv::Point2f& center, float scale) {
   const cv::Rect2f inside(
       0.0F, 0.0F, static_cast<float>(image.cols), static_cast<float>(image.rows));
   if (!inside.contains(center)) return false;
   spread(scale);
   const Patch patch = patchAround(image, center, radius_ + 1, wholeRegisters(side_ + 2));
-  if (!invertNormalMatrix(kernels_->takeWindow(patch, window()))) return false;
-  changeContrast(gain);
-  return true;
+  return invertNormalMatrix(kernels_->takeWindow(patch, window()));
 }
 
 /// Sets the sampling offsets from the pixel grid. They must be less than one pixel.
@@ -108,25 +106,42 @@ void TrackingWindow::spread(float scale) {
   const float most = 0.9F / static_cast<float>(std::max(radius_, 1));
   const float per_px = std::clamp(1.0F / scale - 1.0F, -most, most);
   for (int i = 0; i < side_; ++i) {
-    spread_[static_cast<std::size_t>(i)] = fraction(per_px * static_cast<float>(i - radius_));
+    spread_[static_cast<std::size_t>(i)] = fractionOf(per_px * static_cast<float>(i - radius_));
   }
 }
 
-/// Inverts the normal matrix of the least squares for a shift and a brightness difference. The
-/// latter is eliminated by subtracting the mean gradient.
-bool TrackingWindow::invertNormalMatrix(const GradientSums& sums) {
-  const double unit = 1.0 / (1 << Window::kGradientBits);
+/// Sets what a change of brightness and contrast does to the least squares for a shift.
+bool TrackingWindow::describeContrast(const GradientSums& sums) {
   const double pixels = side_ * side_;
-  const double per_pixel = ignores_brightness_ ? unit / pixels : 0.0;
-  const double mean_x = per_pixel * static_cast<double>(sums.x);
-  const double mean_y = per_pixel * static_cast<double>(sums.y);
-  const auto about = [&](std::int64_t products, double mean_a, double mean_b) {
-    return static_cast<float>(unit * unit * static_cast<double>(products) -
-                              pixels * mean_a * mean_b);
+  const auto mean = static_cast<std::int16_t>(sums.value / (side_ * side_));
+  const ContrastSums contrast = kernels_->takeContrast(mean, window());
+  const cv::Point2d gradients(static_cast<double>(sums.x), static_cast<double>(sums.y));
+  const cv::Point2d products(static_cast<double>(contrast.x), static_cast<double>(contrast.y));
+  mean_gradient_ = kOfGradient / pixels * gradients;
+  mean_contrast_ = kOfContrast / pixels * static_cast<double>(contrast.one);
+  contrast_square_ = kOfContrast * kOfContrast * static_cast<double>(contrast.square) -
+                     pixels * mean_contrast_ * mean_contrast_;
+  if (!(contrast_square_ > kLeastVariance)) return false;
+  gradient_by_contrast_ =
+      1.0 / contrast_square_ *
+      (kOfContrast * kOfGradient * products - pixels * mean_contrast_ * mean_gradient_);
+  return true;
+}
+
+/// Inverts the normal matrix of the least squares for a shift and for a change of brightness and
+/// contrast. The latter two are eliminated: what they explain of the gradients is subtracted.
+bool TrackingWindow::invertNormalMatrix(const GradientSums& sums) {
+  if (ignores_brightness_ && !describeContrast(sums)) return false;
+  const double pixels = side_ * side_;
+  const cv::Point2d& mean = mean_gradient_;
+  const cv::Point2d& slope = gradient_by_contrast_;
+  const auto left = [&](std::int64_t products, double by_brightness, double by_contrast) {
+    return static_cast<float>(kOfGradient * kOfGradient * static_cast<double>(products) -
+                              pixels * by_brightness - contrast_square_ * by_contrast);
   };
-  const float xx = about(sums.xx, mean_x, mean_x);
-  const float xy = about(sums.xy, mean_x, mean_y);
-  const float yy = about(sums.yy, mean_y, mean_y);
+  const float xx = left(sums.xx, mean.x * mean.x, slope.x * slope.x);
+  const float xy = left(sums.xy, mean.x * mean.y, slope.x * slope.y);
+  const float yy = left(sums.yy, mean.y * mean.y, slope.y * slope.y);
   const float difference = xx - yy;
   const float smaller = 0.5F * (xx + yy - std::sqrt(difference * difference + 4.0F * xy * xy));
   if (!(smaller >= kLeastTexture * static_cast<float>(side_ * side_))) return false;
@@ -134,33 +149,27 @@ bool TrackingWindow::invertNormalMatrix(const GradientSums& sums) {
   inverse_xx_ = scale * yy;
   inverse_xy_ = -scale * xy;
   inverse_yy_ = scale * xx;
-  mean_gradient_ = {mean_x, mean_y};
   return true;
 }
 
-/// Gradients change with the contrast, so steps do, too.
-void TrackingWindow::changeContrast(double gain) {
-  contrast_ = {};
-  if (gain == 1.0) return;
-  const ValueSums sums = kernels_->sumValues(window());
-  const double value = kOfValue * static_cast<double>(sums.one);
-  const cv::Point2d products(static_cast<double>(sums.x), static_cast<double>(sums.y));
-  contrast_ = (gain - 1.0) * (kOfProduct * products - value * mean_gradient_);
-  const auto inverse = static_cast<float>(1.0 / gain);
-  inverse_xx_ *= inverse;
-  inverse_xy_ *= inverse;
-  inverse_yy_ *= inverse;
-}
-
-/// Sum of (difference to the window, without the differences of brightness and contrast) times its
-/// gradients.
-cv::Point2f TrackingWindow::mismatch(const Patch& patch, const Window& window) const {
+/// The shift towards the position that matches the window. The contrast there, relative to that of
+/// the window, multiplies the gradients.
+cv::Point2f TrackingWindow::stepFrom(const Patch& patch, const Window& window) const {
   const MismatchSums sums = kernels_->compareWindow(patch, window);
-  const double brighter = kOfValue * static_cast<double>(sums.one);
-  return {static_cast<float>(kOfProduct * static_cast<double>(sums.x) -
-                             brighter * mean_gradient_.x - contrast_.x),
-          static_cast<float>(kOfProduct * static_cast<double>(sums.y) -
-                             brighter * mean_gradient_.y - contrast_.y)};
+  const double brighter = kOfDifference * static_cast<double>(sums.one);
+  const double with_contrast =
+      kOfDifference * kOfContrast * static_cast<double>(sums.contrast) - brighter * mean_contrast_;
+  const cv::Point2d products(static_cast<double>(sums.x), static_cast<double>(sums.y));
+  cv::Point2d mismatch = kOfDifference * kOfGradient * products - brighter * mean_gradient_ -
+                         with_contrast * gradient_by_contrast_;
+  if (ignores_brightness_) {
+    const double square = kOfDifference * kOfDifference * static_cast<double>(sums.square) -
+                          brighter * brighter / (side_ * side_);
+    const double variance = contrast_square_ + 2.0 * with_contrast + square;
+    mismatch *= std::sqrt(contrast_square_ / std::max(variance, kLeastVariance));
+  }
+  const cv::Point2f b(static_cast<float>(mismatch.x), static_cast<float>(mismatch.y));
+  return {-inverse_xx_ * b.x - inverse_xy_ * b.y, -inverse_xy_ * b.x - inverse_yy_ * b.y};
 }
 
 bool TrackingWindow::find(const cv::Mat& image, const Stop& stop, cv::Point2f& center) {
@@ -172,9 +181,7 @@ bool TrackingWindow::find(const cv::Mat& image, const Stop& stop, cv::Point2f& c
   cv::Point2f last_step;
   for (int i = 0; i < stop.max_iterations; ++i) {
     if (!inside.contains(found)) return false;
-    const cv::Point2f b = mismatch(patchAround(image, found, radius_, stride_), window);
-    const cv::Point2f step(-inverse_xx_ * b.x - inverse_xy_ * b.y,
-                           -inverse_xy_ * b.x - inverse_yy_ * b.y);
+    const cv::Point2f step = stepFrom(patchAround(image, found, radius_, stride_), window);
     found += step;
     if (step.dot(step) <= least_px2) break;
     const cv::Point2f both = step + last_step;

@@ -4,24 +4,11 @@
 namespace rotrocc::ROTROCC_INSTRUCTIONS {
 
 extern const Kernels kernels;
-const Kernels kernels = {kShorts,
-                         smoothDown,
-                         smoothAlong,
-                         differentiateRow,
-                         replaceGradients,
-                         respondRow,
-                         highestOfColumns,
-                         findPeaks,
-                         sadCosts,
-                         sadCost,
-                         takeWindow,
-                         sumValues,
-                         compareWindow,
-                         fitDisparities,
-                         findResiduals,
-                         linearise,
-                         addColumnProducts,
-                         multiplyByDisparity};
+const Kernels kernels = {kShorts,          smoothDown,   smoothAlong,       differentiateRow,
+                         replaceGradients, respondRow,   highestOfColumns,  findPeaks,
+                         widenRows,        sampleRows,   correlateParts,    multiplyWindow,
+                         takeWindow,       takeContrast, compareWindow,     fitDisparities,
+                         findResiduals,    linearise,    addColumnProducts, multiplyByDisparity};
 static_assert(kShorts <= kMostShorts);
 
 }  // namespace rotrocc::ROTROCC_INSTRUCTIONS

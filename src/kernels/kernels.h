@@ -1,10 +1,10 @@
 #pragma once
 
 #include "kernels/corner_kernels.h"
+#include "kernels/correlation_kernels.h"
 #include "kernels/fit_kernels.h"
 #include "kernels/half_image_kernels.h"
 #include "kernels/residual_kernels.h"
-#include "kernels/sad_kernels.h"
 #include "kernels/window_kernels.h"
 
 namespace rotrocc {
@@ -22,10 +22,12 @@ struct Kernels {
   decltype(&ROTROCC_INSTRUCTIONS::respondRow) respondRow;
   decltype(&ROTROCC_INSTRUCTIONS::highestOfColumns) highestOfColumns;
   decltype(&ROTROCC_INSTRUCTIONS::findPeaks) findPeaks;
-  decltype(&ROTROCC_INSTRUCTIONS::sadCosts) sadCosts;
-  decltype(&ROTROCC_INSTRUCTIONS::sadCost) sadCost;
+  decltype(&ROTROCC_INSTRUCTIONS::widenRows) widenRows;
+  decltype(&ROTROCC_INSTRUCTIONS::sampleRows) sampleRows;
+  decltype(&ROTROCC_INSTRUCTIONS::correlateParts) correlateParts;
+  decltype(&ROTROCC_INSTRUCTIONS::multiplyWindow) multiplyWindow;
   decltype(&ROTROCC_INSTRUCTIONS::takeWindow) takeWindow;
-  decltype(&ROTROCC_INSTRUCTIONS::sumValues) sumValues;
+  decltype(&ROTROCC_INSTRUCTIONS::takeContrast) takeContrast;
   decltype(&ROTROCC_INSTRUCTIONS::compareWindow) compareWindow;
   decltype(&ROTROCC_INSTRUCTIONS::fitDisparities) fitDisparities;
   decltype(&ROTROCC_INSTRUCTIONS::findResiduals) findResiduals;

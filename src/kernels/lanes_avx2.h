@@ -126,6 +126,24 @@ inline void addProducts(Shorts a, Shorts b, Shorts c, Shorts d, std::int32_t* to
   store(to + kInts, load(to + kInts) + Ints{_mm256_permute2x128_si256(even, odd, 0x31)});
 }
 
+inline Shorts twoOf(const std::int16_t* from) {
+  return alternate(from[0], from[1]);
+}
+inline void addPairs(Shorts a, Shorts c, Shorts bd, Ints& low, Ints& high) {
+  low = low + dot({_mm256_unpacklo_epi16(a.bits, c.bits)}, bd);
+  high = high + dot({_mm256_unpackhi_epi16(a.bits, c.bits)}, bd);
+}
+inline void addSquares(Shorts a, Shorts c, Ints& low, Ints& high) {
+  const Shorts ac_low = {_mm256_unpacklo_epi16(a.bits, c.bits)};
+  const Shorts ac_high = {_mm256_unpackhi_epi16(a.bits, c.bits)};
+  low = low + dot(ac_low, ac_low);
+  high = high + dot(ac_high, ac_high);
+}
+inline void storePairs(Ints low, Ints high, std::int32_t* to) {
+  store(to, Ints{_mm256_permute2x128_si256(low.bits, high.bits, 0x20)});
+  store(to + kInts, Ints{_mm256_permute2x128_si256(low.bits, high.bits, 0x31)});
+}
+
 inline std::int64_t sum(Ints a) {
   const __m256i pairs =
       _mm256_add_epi64(_mm256_cvtepi32_epi64(_mm256_castsi256_si128(a.bits)),

@@ -104,6 +104,29 @@ inline void addProducts(
   store(to + kInts, load(to + kInts) + dot(ac_high, bd_high));
 }
 
+/// Two values, again and again: a, b, a, b, ...
+inline Shorts twoOf(const std::int16_t* from) {
+  return alternate(from[0], from[1]);
+}
+/// Adds a[i] b + c[i] d to sums that storePairs() puts in order. `bd`: of twoOf().
+inline void addPairs(const Shorts& a, const Shorts& c, const Shorts& bd, Ints& low, Ints& high) {
+  Shorts ac_low, ac_high;
+  cv::v_zip(a, c, ac_low, ac_high);
+  low = low + dot(ac_low, bd);
+  high = high + dot(ac_high, bd);
+}
+/// The same of a[i]^2 + c[i]^2.
+inline void addSquares(const Shorts& a, const Shorts& c, Ints& low, Ints& high) {
+  Shorts ac_low, ac_high;
+  cv::v_zip(a, c, ac_low, ac_high);
+  low = low + dot(ac_low, ac_low);
+  high = high + dot(ac_high, ac_high);
+}
+inline void storePairs(const Ints& low, const Ints& high, std::int32_t* to) {
+  store(to, low);
+  store(to + kInts, high);
+}
+
 inline std::int64_t sum(const Ints& a) {
   std::int32_t parts[kInts];
   store(parts, a);

@@ -93,6 +93,24 @@ inline void addProducts(Shorts a, Shorts b, Shorts c, Shorts d, std::int32_t* to
   store(to + kInts, vmlal_high_s16(high, c, d));
 }
 
+inline Shorts twoOf(const std::int16_t* from) {
+  return alternate(from[0], from[1]);
+}
+inline void addPairs(Shorts a, Shorts c, Shorts bd, Ints& low, Ints& high) {
+  low = vaddq_s32(low, dot(vzip1q_s16(a, c), bd));
+  high = vaddq_s32(high, dot(vzip2q_s16(a, c), bd));
+}
+inline void addSquares(Shorts a, Shorts c, Ints& low, Ints& high) {
+  const Shorts ac_low = vzip1q_s16(a, c);
+  const Shorts ac_high = vzip2q_s16(a, c);
+  low = vaddq_s32(low, dot(ac_low, ac_low));
+  high = vaddq_s32(high, dot(ac_high, ac_high));
+}
+inline void storePairs(Ints low, Ints high, std::int32_t* to) {
+  store(to, low);
+  store(to + kInts, high);
+}
+
 inline std::int64_t sum(Ints a) {
   return vaddlvq_s32(a);
 }

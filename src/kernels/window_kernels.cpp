@@ -1,28 +1,13 @@
 #include "kernels/window_kernels.h"
 
-#include "kernels/lanes.h"
+#include "kernels/interpolation.h"
 
 namespace rotrocc::ROTROCC_INSTRUCTIONS {
 namespace {
 
-/// Number of rows whose products fit into 32 bits: 255 grey levels times the steepest gradient, two
-/// per lane.
+/// Number of rows whose products fit into 32 bits, two per lane. With spreading, values are up to
+/// 485 grey levels, and differences as many; squares of the latter are the largest products.
 constexpr int kBlockRows = 16;
-
-/// The same for values, which spreading takes beyond 255 grey levels.
-constexpr int kValueRows = 8;
-
-/// Pixel values interpolated between a pixel and its right neighbour at fx / 2^15.
-Shorts betweenColumns(const std::uint8_t* pixels, const Shorts& fx) {
-  const Shorts left = loadBytes(pixels);
-  const Shorts right = loadBytes(pixels + 1);
-  return shiftLeft<Window::kValueBits>(left) +
-         multiplyHigh<Window::kValueBits + 1>(right - left, fx);
-}
-
-Shorts betweenRows(const Shorts& upper, const Shorts& lower, const Shorts& fy) {
-  return upper + multiplyHigh<1>(lower - upper, fy);
-}
 
 /// Scharr gradient, weighted by (3 10 3) / 16, from the differences of three rows or columns of
 /// pixels that are two apart.
@@ -46,10 +31,10 @@ void sample(const Patch& patch, const Window window) {
   for (int x = 0; x < side; x += kShorts) {
     const std::uint8_t* pixels = patch.pixels + x;
     std::int16_t* out = window.samples + x;
-    Shorts upper = betweenColumns(pixels, fx);
+    Shorts upper = betweenColumns<Window::kValueBits>(pixels, fx);
     for (int y = 0; y < side; ++y) {
       pixels += patch.step;
-      const Shorts lower = betweenColumns(pixels, fx);
+      const Shorts lower = betweenColumns<Window::kValueBits>(pixels, fx);
       store(out, betweenRows(upper, lower, fy));
       upper = lower;
       out += window.sample_stride;
@@ -63,11 +48,12 @@ GradientSums takeWindow(const Patch& patch, const Window window) {
   // A gradient times a sampling offset is a value with 16 extra bits.
   constexpr int kUpToValue = 1 + Window::kValueBits - Window::kGradientBits;
   sample(patch, window);
-  GradientSums sums = {0, 0, 0, 0, 0};
+  GradientSums sums = {0, 0, 0, 0, 0, 0};
   for (int x = 0; x < window.stride; x += kShorts) {
     const Shorts mask = load(window.mask + x);
     const Shorts spread_x = load(window.spread + x);
     const std::int16_t* spread_y = window.spread;
+    Ints minus_value = noInts();
     Ints minus_x = noInts();
     Ints minus_y = noInts();
     Ints xx = noInts();
@@ -87,9 +73,11 @@ GradientSums takeWindow(const Patch& patch, const Window window) {
                         mask;
       const Shorts aside = multiplyHigh<kUpToValue>(gx, spread_x);
       const Shorts down = multiplyHigh<kUpToValue>(gy, all(*spread_y++));
-      store(window.values + at, load(here + 1) + aside + down);
+      const Shorts value = load(here + 1) + aside + down;
+      store(window.values + at, value);
       store(window.gradient_x + at, gx);
       store(window.gradient_y + at, gy);
+      minus_value = addDot(minus_value, value, mask);
       minus_x = addDot(minus_x, gx, mask);
       minus_y = addDot(minus_y, gy, mask);
       xx = addDot(xx, gx, gx);
@@ -97,6 +85,7 @@ GradientSums takeWindow(const Patch& patch, const Window window) {
       yy = addDot(yy, gy, gy);
       above = here;
     }
+    sums.value -= sum(minus_value);
     sums.x -= sum(minus_x);
     sums.y -= sum(minus_y);
     sums.xx += sum(xx);
@@ -106,26 +95,28 @@ GradientSums takeWindow(const Patch& patch, const Window window) {
   return sums;
 }
 
-ValueSums sumValues(const Window& window) {
-  ValueSums sums = {0, 0, 0};
-  for (int first = 0; first < window.side; first += kValueRows) {
-    const int last = first + kValueRows < window.side ? first + kValueRows : window.side;
-    for (int x = 0; x < window.stride; x += kShorts) {
-      const Shorts mask = load(window.mask + x);
-      Ints minus_sum = noInts();
-      Ints sum_x = noInts();
-      Ints sum_y = noInts();
-      const int end = last * window.stride;
-      for (int at = first * window.stride + x; at < end; at += window.stride) {
-        const Shorts value = load(window.values + at);
-        minus_sum = addDot(minus_sum, value, mask);
-        sum_x = addDot(sum_x, value, load(window.gradient_x + at));
-        sum_y = addDot(sum_y, value, load(window.gradient_y + at));
-      }
-      sums.one -= sum(minus_sum);
-      sums.x += sum(sum_x);
-      sums.y += sum(sum_y);
+ContrastSums takeContrast(std::int16_t mean, const Window window) {
+  constexpr int kShift = Window::kValueBits - Window::kContrastBits;
+  const Shorts means = all(mean);
+  ContrastSums sums = {0, 0, 0, 0};
+  for (int x = 0; x < window.stride; x += kShorts) {
+    const Shorts mask = load(window.mask + x);
+    Ints minus_sum = noInts();
+    Ints square = noInts();
+    Ints sum_x = noInts();
+    Ints sum_y = noInts();
+    for (int at = x; at < window.side * window.stride; at += window.stride) {
+      const Shorts contrast = shiftRight<kShift>(load(window.values + at) - means) & mask;
+      store(window.contrast + at, contrast);
+      minus_sum = addDot(minus_sum, contrast, mask);
+      square = addDot(square, contrast, contrast);
+      sum_x = addDot(sum_x, contrast, load(window.gradient_x + at));
+      sum_y = addDot(sum_y, contrast, load(window.gradient_y + at));
     }
+    sums.one -= sum(minus_sum);
+    sums.square += sum(square);
+    sums.x += sum(sum_x);
+    sums.y += sum(sum_y);
   }
   return sums;
 }
@@ -133,7 +124,8 @@ ValueSums sumValues(const Window& window) {
 MismatchSums compareWindow(const Patch& patch, const Window& window) {
   const Shorts fx = all(patch.fx);
   const Shorts fy = all(patch.fy);
-  MismatchSums sums = {0, 0, 0};
+  constexpr int kShift = Window::kValueBits - MismatchSums::kDifferenceBits;
+  MismatchSums sums = {0, 0, 0, 0, 0};
   for (int first = 0; first < window.side; first += kBlockRows) {
     const int last = first + kBlockRows < window.side ? first + kBlockRows : window.side;
     for (int x = 0; x < window.stride; x += kShorts) {
@@ -142,20 +134,27 @@ MismatchSums compareWindow(const Patch& patch, const Window& window) {
       Ints minus_sum = noInts();
       Ints sum_x = noInts();
       Ints sum_y = noInts();
-      Shorts upper = betweenColumns(pixels, fx);
+      Ints contrast = noInts();
+      Ints square = noInts();
+      Shorts upper = betweenColumns<Window::kValueBits>(pixels, fx);
       const int end = last * window.stride;
       for (int at = first * window.stride + x; at < end; at += window.stride) {
         pixels += patch.step;
-        const Shorts lower = betweenColumns(pixels, fx);
-        const Shorts excess = betweenRows(upper, lower, fy) - load(window.values + at);
+        const Shorts lower = betweenColumns<Window::kValueBits>(pixels, fx);
+        const Shorts excess =
+            shiftRight<kShift>(betweenRows(upper, lower, fy) - load(window.values + at)) & mask;
         minus_sum = addDot(minus_sum, excess, mask);
         sum_x = addDot(sum_x, excess, load(window.gradient_x + at));
         sum_y = addDot(sum_y, excess, load(window.gradient_y + at));
+        contrast = addDot(contrast, excess, load(window.contrast + at));
+        square = addDot(square, excess, excess);
         upper = lower;
       }
       sums.one -= sum(minus_sum);
       sums.x += sum(sum_x);
       sums.y += sum(sum_y);
+      sums.contrast += sum(contrast);
+      sums.square += sum(square);
     }
   }
   return sums;

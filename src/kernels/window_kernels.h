@@ -19,42 +19,52 @@ struct Patch {
 struct Window {
   static constexpr int kValueBits = 6;
   static constexpr int kGradientBits = 5;
+  static constexpr int kContrastBits = 3;
 
   int side, stride;
   std::int16_t* values;
   std::int16_t* gradient_x;
   std::int16_t* gradient_y;
+  std::int16_t* contrast;      ///< values less a constant, in units of 1 / 2^kContrastBits
   const std::int16_t* mask;    ///< for a row: -1 within the side, else 0
   const std::int16_t* spread;  ///< sampling offset of each column and row [px / 2^15]
   std::int16_t* samples;       ///< scratch memory: values with a margin of one pixel
   int sample_stride;  ///< row length: side + 2 rounded up to whole registers, plus one register
 };
 
-/// Sums of gradients and of their products over a window.
+/// Sums of values, of gradients and of the products of gradients over a window.
 struct GradientSums {
+  std::int64_t value;
   std::int64_t x, y;
   std::int64_t xx, xy, yy;
 };
 
-/// Sums of grey levels, and of grey levels times gradients, over a window.
-struct ValueSums {
+/// Sums of the contrast of a window, and of its products with itself and the gradients.
+struct ContrastSums {
   std::int64_t one;
+  std::int64_t square;
   std::int64_t x, y;
 };
 
-/// Sums of differences, and of differences times gradients, over a window.
+/// Sums of differences, in units of 1 / 2^Window::kValueBits, and of their products with the
+/// gradients. Those with the contrast and of squares are of differences in units of 1 /
+/// 2^kDifferenceBits.
 struct MismatchSums {
+  static constexpr int kDifferenceBits = 4;
+
   std::int64_t one;
   std::int64_t x, y;
+  std::int64_t contrast;
+  std::int64_t square;
 };
 
 namespace ROTROCC_INSTRUCTIONS {
 
-/// Fills the window. The patch must include its margin.
+/// Fills the window but for its contrast. The patch must include its margin.
 GradientSums takeWindow(const Patch& patch, Window window);
 
-/// Of a window that is filled.
-ValueSums sumValues(const Window& window);
+/// Fills the contrast of the window: its values less `mean`, in their units.
+ContrastSums takeContrast(std::int16_t mean, Window window);
 
 /// Compares the window with the patch, which has no margin.
 MismatchSums compareWindow(const Patch& patch, const Window& window);

@@ -18,16 +18,13 @@ constexpr std::size_t kMostFeatures = 200;
 /// first without an outlier in 99 % of all cases; depths of far features are too inexact for most.
 constexpr int kSamples = 200;
 
-/// Tolerance of the reprojection error: about that of stage 1. Twice as much confuses a slow motion
-/// with that of an object ahead.
-constexpr float kTolerance_px = 0.7F;
-
 constexpr double kConfidence = 0.999;
 
 }  // namespace
 
 std::optional<Eigen::Isometry3d> consensusMotion(const StereoCamera& camera,
-                                                 const Correspondences& features) {
+                                                 const Correspondences& features,
+                                                 double tolerance_px) {
   if (features.size() < kLeastFeatures) return std::nullopt;
   std::vector<cv::Point3d> points;
   std::vector<cv::Point2d> pixels;
@@ -48,7 +45,7 @@ std::optional<Eigen::Isometry3d> consensusMotion(const StereoCamera& camera,
                                         translation,
                                         false,
                                         kSamples,
-                                        kTolerance_px,
+                                        static_cast<float>(tolerance_px),
                                         kConfidence,
                                         cv::noArray(),
                                         cv::SOLVEPNP_P3P);

@@ -38,25 +38,29 @@ Matrix6d covarianceOfPrediction(double dt_s) {
 
 MotionEstimator::MotionEstimator(const Config& config, int least_inliers)
     : config_(config), least_inliers_(least_inliers), two_stages_(config), covariance_(config) {
-  if (config.robust_factor > 0.0) refinement_.emplace(config.robust_factor);
+  if (config.robust_factor > 0.0 || config.shared_ratio > 0.0) {
+    refinement_.emplace(config.robust_factor);
+  }
 }
 
-const MotionEstimator::Estimate& MotionEstimator::estimate(const StereoCamera& camera,
-                                                           const Correspondences& features,
-                                                           const Eigen::Isometry3d& initial,
-                                                           double dt_s,
-                                                           bool is_prediction,
-                                                           double shared_ratio) {
+const MotionEstimator::Estimate& MotionEstimator::estimate(
+    const StereoCamera& camera,
+    const Correspondences& features,
+    const Eigen::Isometry3d& initial,
+    double dt_s,
+    const std::optional<Prediction>& prediction,
+    double shared_ratio) {
   const Measurements measured = {camera, features, config_.noise_ratio, shared_ratio};
   all_.assign(features.size(), 1);
   estimateFrom(all_, measured, initial, dt_s, found_);
   const int agree = found_.valid ? count(found_.rotation_inliers) : 0;
   const bool few = agree < config_.retry_share * static_cast<double>(features.size());
-  if (!few || !is_prediction || config_.retry_agreement_px == 0.0) return found_;
+  if (!few || config_.retry_agreement_px == 0.0) return found_;
 
   if (agree < kMajority * static_cast<double>(features.size())) takeConsensus(measured, dt_s);
-  retryNear(initial, measured, dt_s);
-  return isLikelier(retry_, initial, dt_s) ? retry_ : found_;
+  if (!prediction) return found_;
+  retryNear(prediction->T_keyframe_cur, measured, dt_s);
+  return isLikelier(retry_, *prediction) ? retry_ : found_;
 }
 
 /// The full set is a mixture of motions: its least squares fit may end at none of them, or at one
@@ -82,16 +86,14 @@ void MotionEstimator::retryNear(const Eigen::Isometry3d& motion,
 }
 
 /// Whether the retry is more plausible than the first motion.
-bool MotionEstimator::isLikelier(const Estimate& retry,
-                                 const Eigen::Isometry3d& prediction,
-                                 double dt_s) const {
+bool MotionEstimator::isLikelier(const Estimate& retry, const Prediction& prediction) const {
   if (!retry.valid || !found_.valid) return retry.valid;
   const int inliers = count(retry.rotation_inliers);
   const int inliers_before = count(found_.rotation_inliers);
   if (2 * inliers < inliers_before) return false;
   if (inliers > 2 * inliers_before) return true;
   const Matrix6d of_both = found_.covariance + retry.covariance;
-  const Matrix6d of_all = of_both + covarianceOfPrediction(dt_s);
+  const Matrix6d of_all = of_both + covarianceOfPrediction(prediction.dt_s);
   const auto distance2 =
       [](const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b, const Matrix6d& covariance) {
         Vector6d difference;
@@ -100,8 +102,8 @@ bool MotionEstimator::isLikelier(const Estimate& retry,
         return difference.dot(covariance.ldlt().solve(difference));
       };
   return distance2(retry.T_keyframe_cur, found_.T_keyframe_cur, of_both) > kSignificant2 &&
-         kHalf2 * distance2(retry.T_keyframe_cur, prediction, of_all) <
-             distance2(found_.T_keyframe_cur, prediction, of_all);
+         kHalf2 * distance2(retry.T_keyframe_cur, prediction.T_keyframe_cur, of_all) <
+             distance2(found_.T_keyframe_cur, prediction.T_keyframe_cur, of_all);
 }
 
 void MotionEstimator::estimateFrom(const FeatureSet& set,

@@ -36,18 +36,23 @@ class MotionEstimator {
   /// than `least_inliers`.
   explicit MotionEstimator(const Config& config, int least_inliers = 3);
 
+  /// A motion that was predicted by constant velocity over `dt_s`.
+  struct Prediction {
+    Eigen::Isometry3d T_keyframe_cur;
+    double dt_s;
+  };
+
   /// Estimates the motion that took `dt_s` > 0 from the full feature set, starting at `initial`.
   /// The result is invalid if fewer than 3 features are left, or if the equations have no unique
   /// solution.
   ///
-  /// If much of the image moves independently, the full set may give a wrong motion. If few
-  /// features are inliers and `initial` is a prediction, there are two more. If less than half are
-  /// inliers, the first motion is replaced by the consensus of the full set, if that has more. Then
-  /// a retry starts from the features close to
-  /// the prediction. It replaces the first motion if it has more than twice as many inliers, or if
-  /// all of this holds: it has at least half as many inliers, the two motions differ significantly,
-  /// and it is less than half as far from the prediction. Distances are relative to the uncertainty
-  /// of both motions and of the prediction.
+  /// If much of the image moves independently, the full set may give a wrong motion. If less than
+  /// half of the features are inliers, it is replaced by the consensus of the full set, if that has
+  /// more. If few are and there is a prediction, a retry starts from the features close to it. The
+  /// retry replaces the motion if it has more than twice as many inliers, or if all of this holds:
+  /// it has at least half as many inliers, the two motions differ significantly, and it is less
+  /// than half as far from the prediction. Distances are relative to the uncertainty of both
+  /// motions and of the prediction.
   ///
   /// `shared_ratio` is that of Measurements.
   ///
@@ -56,13 +61,13 @@ class MotionEstimator {
                            const Correspondences& features,
                            const Eigen::Isometry3d& initial,
                            double dt_s,
-                           bool is_prediction = true,
+                           const std::optional<Prediction>& prediction = std::nullopt,
                            double shared_ratio = 0.0);
 
  private:
   void takeConsensus(const Measurements& measured, double dt_s);
   void retryNear(const Eigen::Isometry3d& motion, const Measurements& measured, double dt_s);
-  bool isLikelier(const Estimate& retry, const Eigen::Isometry3d& prediction, double dt_s) const;
+  bool isLikelier(const Estimate& retry, const Prediction& prediction) const;
   void estimateFrom(const FeatureSet& set,
                     const Measurements& measured,
                     const Eigen::Isometry3d& initial,

@@ -10,11 +10,16 @@
 namespace rotrocc {
 namespace {
 
-/// The configured ratio counts as much as this many pairs.
-constexpr double kPriorPairs = 3.0;
+/// The configured ratio counts as much as this many pairs without noise. A usual one has a weight
+/// of a third.
+constexpr double kPriorPairs = 1.0;
 
-/// The weight of a pair falls by a factor e over this many pairs.
-constexpr double kMemoryPairs = 50.0;
+/// The weight of what was seen falls by a factor e over this many pairs without noise.
+constexpr double kMemoryPairs = 15.0;
+
+/// Smallest square of the ratio that weights are computed for: that of disparities as exact as
+/// flows.
+constexpr double kLeastRatio2 = 1.0;
 
 /// Number of parameters of a motion, which was fitted to the same features.
 constexpr int kParameters = 6;
@@ -27,8 +32,17 @@ void SharedErrorEstimator::configure(const MotionEstimatorConfig& config) {
 }
 
 double SharedErrorEstimator::ratio() const {
-  if (!(pairs_.weight > 0.0)) return config_.shared_ratio;
-  return std::sqrt(std::max(0.0, pairs_.scatter / pairs_.weight));
+  const double start = config_.shared_ratio;
+  const double scatter = kPriorPairs * start * start + past_.scatter + last_.scatter;
+  const double mean = scatter / (kPriorPairs + past_.weight + last_.weight);
+  return std::clamp(std::sqrt(std::max(0.0, mean)), 0.0, kMostGrowth * start);
+}
+
+void SharedErrorEstimator::advance() {
+  const double kept = std::exp(-last_.weight / kMemoryPairs);
+  past_.scatter = kept * past_.scatter + last_.scatter;
+  past_.weight = kept * past_.weight + last_.weight;
+  last_ = {};
 }
 
 void SharedErrorEstimator::observe(const StereoCamera& camera,
@@ -40,14 +54,7 @@ void SharedErrorEstimator::observe(const StereoCamera& camera,
   problem_.assign(camera, fit_, set);
   problem_.weigh(problem_.start(), config_.robust_factor);
   const Moments pair = momentsOf();
-  if (!(pair.weight > 0.0) || !std::isfinite(pair.scatter)) return;
-  if (pairs_.weight == 0.0) {
-    pairs_.weight = kPriorPairs * pair.weight;
-    pairs_.scatter = pairs_.weight * config_.shared_ratio * config_.shared_ratio;
-  }
-  const double kept = 1.0 - 1.0 / kMemoryPairs;
-  pairs_.scatter = kept * (pairs_.scatter + pair.scatter);
-  pairs_.weight = kept * (pairs_.weight + pair.weight);
+  if (pair.weight > 0.0 && std::isfinite(pair.scatter)) last_ = pair;
 }
 
 SharedErrorEstimator::Moments SharedErrorEstimator::momentsOf() {
@@ -66,7 +73,7 @@ SharedErrorEstimator::Moments SharedErrorEstimator::momentsOf() {
   });
   const double variance_px2 = variance.value(kParameters);
   if (!(variance_px2 > 0.0)) return {};
-  const double assumed = ratio() * ratio();
+  const double assumed = std::max(ratio() * ratio(), kLeastRatio2);
   Moments moments;
   int count = 0;
   for (const Cell& cell : cells) {
@@ -79,8 +86,10 @@ SharedErrorEstimator::Moments SharedErrorEstimator::momentsOf() {
     moments.weight += weight;
   }
   if (count <= kParameters) return {};
-  moments.weight *= static_cast<double>(count - kParameters) / count;
-  return moments;
+  // In units of the weight of as many cells without noise.
+  const double most = count / (assumed * assumed);
+  const double by_motion = static_cast<double>(count - kParameters) / count;  // it was fitted
+  return {moments.scatter / most, by_motion * moments.weight / most};
 }
 
 }  // namespace rotrocc

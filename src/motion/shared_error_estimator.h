@@ -15,7 +15,8 @@ namespace rotrocc {
 /// At the motion of a pair, the features of a cell measure the error of their disparities, with the
 /// variance 1/a + r^2 in units of the flow variance, where a is their information and r the ratio.
 /// The method of moments (DerSimonian and Laird 1986) gives r^2 from the scatter of the cells
-/// beyond 1/a. The estimate is a weighted mean over the pairs.
+/// beyond 1/a. The estimate is a mean over the pairs, each weighted by what it says: a robot at
+/// rest says nothing.
 class SharedErrorEstimator {
  public:
   explicit SharedErrorEstimator(const MotionEstimatorConfig& config) : config_(config) {}
@@ -23,20 +24,27 @@ class SharedErrorEstimator {
   /// Changes the parameters. The estimate is kept unless it is disabled.
   void configure(const MotionEstimatorConfig& config);
 
-  /// The estimate; shared_ratio of the configuration before the first pair. 0: disabled.
+  /// The estimate, at most kMostGrowth times shared_ratio of the configuration, which it is before
+  /// the first pair. 0: disabled.
   double ratio() const;
 
-  /// Adds a motion estimated from the flagged features.
+  static constexpr double kMostGrowth = 3.0;
+
+  /// Starts a new keyframe: the last observation becomes final.
+  void advance();
+
+  /// Adds a motion estimated from the flagged features. Motions from the same keyframe share its
+  /// errors: only the last one counts.
   void observe(const StereoCamera& camera,
                const Correspondences& features,
                const FeatureSet& set,
                const Eigen::Isometry3d& T_keyframe_cur);
 
   /// Discards the estimate, for use with another rig.
-  void reset() { pairs_ = {}; }
+  void reset() { past_ = last_ = {}; }
 
  private:
-  /// Sums over cells: the squared ratio is `scatter` divided by `weight`.
+  /// The squared ratio is `scatter` divided by `weight`. A pair without noise has a weight of 1.
   struct Moments {
     double scatter = 0.0;
     double weight = 0.0;
@@ -44,7 +52,8 @@ class SharedErrorEstimator {
   Moments momentsOf();
 
   MotionEstimatorConfig config_;
-  Moments pairs_;
+  Moments past_;                    // of earlier keyframes
+  Moments last_;                    // of the last motion from this keyframe
   Fit fit_;                         // buffer, reused
   ReprojectionProblem<6> problem_;  // buffer, reused
 };

@@ -156,7 +156,6 @@ OdometryStatus toStatus(const OdometryResult& result,
   message.tries = static_cast<std::uint32_t>(result.counts.tries);
   message.corners = static_cast<std::uint32_t>(result.counts.corners);
   message.with_depth = static_cast<std::uint32_t>(result.counts.with_depth);
-  message.searched = static_cast<std::uint32_t>(result.counts.searched);
   message.tracked = static_cast<std::uint32_t>(result.counts.tracked);
   message.consistent = static_cast<std::uint32_t>(result.counts.consistent);
   message.rotation_inliers = static_cast<std::uint32_t>(result.counts.rotation_inliers);

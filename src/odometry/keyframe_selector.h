@@ -2,24 +2,26 @@
 
 #include <vector>
 
-#include "features/keyframe.h"
 #include "odometry/hypothesis.h"
 #include "rotrocc/odometry_config.h"
 
 namespace rotrocc {
 
-/// Decides when the keyframe is replaced. Errors accumulate with each new keyframe, so a keyframe
-/// is kept as long as the camera has not moved far from it and most of its features are still seen.
-/// At standstill there is no drift at all.
+/// Decides when the keyframe is replaced. Noise accumulates with each new keyframe, so a keyframe
+/// is kept while the camera rests: there is no drift at standstill. In motion each frame is the
+/// keyframe of the next one, because the errors of a feature grow with the way that it is tracked.
 class KeyframeSelector {
  public:
   using Config = KeyframeSelectorConfig;
 
   explicit KeyframeSelector(const Config& config) : config_(config) {}
 
-  /// Whether to keep the keyframe for the next frame, given the motion of the current frame. Sets
-  /// the keyframe's first_inlier_share if it is not set yet.
-  bool keeps(const Hypothesis& accepted, Keyframe& keyframe);
+  /// Whether to keep the keyframe for the next frame, given the motion of the current frame: the
+  /// median inlier has moved by less than kRest times the noise of the flow.
+  bool keeps(const Hypothesis& accepted);
+
+  /// The noise of a frame-to-frame motion is a tenth of the motion there.
+  static constexpr double kRest = 10.0;
 
  private:
   Config config_;

@@ -42,7 +42,9 @@ double inlierShare(const MotionEstimator::Estimate& estimate) {
 
 }  // namespace
 
-std::string MotionCheck::whyLost(const MotionEstimator::Estimate& estimate, double dt_s) const {
+std::string MotionCheck::whyLost(const MotionEstimator::Estimate& estimate,
+                                 const Eigen::Isometry3d& T_keyframe_last,
+                                 double dt_s) const {
   const auto features = static_cast<int>(estimate.rotation_inliers.size());
   if (features < config_.min_inliers) {
     return sentence("only ",
@@ -63,14 +65,15 @@ std::string MotionCheck::whyLost(const MotionEstimator::Estimate& estimate, doub
                     " of the features agrees on a motion, less than min_inlier_share = ",
                     config_.min_inlier_share);
   }
-  const double speed_mps = estimate.T_keyframe_cur.translation().norm() / dt_s;
+  const Eigen::Isometry3d T_last_cur = T_keyframe_last.inverse() * estimate.T_keyframe_cur;
+  const double speed_mps = T_last_cur.translation().norm() / dt_s;
   if (speed_mps > config_.max_speed_mps) {
     return sentence("the estimated speed is ",
                     speed_mps,
                     " m/s, more than max_speed_mps = ",
                     config_.max_speed_mps);
   }
-  const double turn_rate_rps = logRotation(estimate.T_keyframe_cur.linear()).norm() / dt_s;
+  const double turn_rate_rps = logRotation(T_last_cur.linear()).norm() / dt_s;
   if (turn_rate_rps > config_.max_turn_rate_rps) {
     return sentence("the estimated turn rate is ",
                     turn_rate_rps,
@@ -147,7 +150,7 @@ std::string MotionCheck::whyFewAgree(const MotionEstimator::Estimate& estimate,
 
 std::string MotionCheck::whyFewSurvive(const Hypothesis& accepted) const {
   const int survivors = inliers(accepted.estimate);
-  const int features = accepted.counts.searched;
+  const int features = accepted.counts.with_depth;
   if (survivors >= config_.degraded_survivor_share * features) return "";
   return sentence("the motion rests on ",
                   survivors,

@@ -22,8 +22,11 @@ class MotionCheck {
       : config_(config), noise_ratio_(noise_ratio) {}
 
   /// Why the motion is rejected, in one sentence with the value and the parameter; empty if it is
-  /// accepted. The motion took `dt_s` > 0.
-  std::string whyLost(const MotionEstimator::Estimate& estimate, double dt_s) const;
+  /// accepted. The limits of speed and turn rate are for the step since the last frame, which took
+  /// `dt_s` > 0.
+  std::string whyLost(const MotionEstimator::Estimate& estimate,
+                      const Eigen::Isometry3d& T_keyframe_last,
+                      double dt_s) const;
 
   /// Why an accepted motion is less reliable; empty if it is not. `covariance` is that of the
   /// motion since the keyframe, including that of the rig's calibration.

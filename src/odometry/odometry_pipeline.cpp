@@ -1,5 +1,6 @@
 #include "odometry/odometry_pipeline.h"
 
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -47,8 +48,9 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
     result.reason = lost.what();
   } catch (const std::exception& error) {
     forget();  // the stored state may be the cause
+    result = {};
+    result.stamp_ns = pair.stamp_ns;
     result.reason = sentence("internal error: ", error.what());
-    result.state = State::kLost;
   }
   result.counts = found_.counts;
   rig_.report(result);
@@ -82,7 +84,6 @@ void VisualOdometry::Pipeline::forget() {
   lost_.reset();
   keyframe_.frame.reset();
   motion_model_.reset();
-  search_.reset();
 }
 
 void VisualOdometry::Pipeline::configure(const Config& config) {
@@ -144,7 +145,6 @@ FramePtr VisualOdometry::Pipeline::takeFrame(const StereoPair& pair,
 void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& times) {
   keyframe_.frame = frame;
   keyframe_.T_keyframe_last = {};
-  keyframe_.first_inlier_share = 0.0;
   {
     const StageTimer timer(times.corners_ms);
     finder_.findCorners(keyframe_);
@@ -154,56 +154,77 @@ void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& t
   finder_.findDepths(rig_.correctedCamera(), keyframe_);
 }
 
-/// The expected motion since the last frame. Without a velocity, a measured rotation is all that is
-/// known of it.
-MotionSearch::Expectation VisualOdometry::Pipeline::expectation(const StereoFrame& current,
-                                                                const OtherSensors& others) const {
-  MotionSearch::Expectation expected;
+VisualOdometry::Pipeline::Expectation VisualOdometry::Pipeline::expectation(
+    const StereoFrame& current, const OtherSensors& others) const {
+  Expectation expected = {secondsBetween(*last_, current), std::nullopt, others.T_last_cur};
   if (others.rotation) expected.R_last_cur = others.rotation(last_->stamp_ns, current.stamp_ns);
-  expected.T_last_cur = others.T_last_cur ? others.T_last_cur
-                                          : motion_model_.predict(secondsBetween(*last_, current),
-                                                                  expected.R_last_cur);
+  if (!expected.T_last_cur) {
+    expected.T_last_cur = motion_model_.predict(expected.dt_s, expected.R_last_cur);
+  }
   if (expected.T_last_cur && expected.R_last_cur) {
     expected.T_last_cur->linear() = *expected.R_last_cur;
   }
   return expected;
 }
 
-/// Measures the motion against the keyframe. If that fails, uses the last frame, then the latest
-/// lost frame, which is assigned the pose of the last frame. The total number of tries is limited,
-/// so that no pair takes much longer than one without a prediction.
+/// Measures the motion against the keyframe. If that fails, against the last frame, then against
+/// the latest lost frame: if that fits, it is assigned the pose of the last frame, which it
+/// replaces.
 void VisualOdometry::Pipeline::findMotion(const FramePtr& current,
                                           const OtherSensors& others,
                                           OdometryResult& result) {
-  result.dt_s = secondsBetween(*last_, *current);
-  MotionSearch::Expectation expected = expectation(*current, others);
-  const StereoCamera corrected = rig_.correctedCamera();
-  const auto find = [&](int most_tries) {
-    const MotionSearch::Frames frames = {
-        finder_, corrected, keyframe_, *current, rig_.sharedRatio()};
-    search_.find(frames, expected, most_tries, found_, result.times);
-  };
-  if (!keyframe_.frame) makeKeyframe(last_, result.times);
-  const int most = config_.max_tries;
-  const bool has_other = keyframe_.frame != last_ || lost_;
-  find(has_other ? most - 1 : most);
-  expected.T_last_cur.reset();  // has failed, if another find() is needed
-  if (!found_.isAccepted() && keyframe_.frame != last_) {
-    makeKeyframe(last_, result.times);
-    find(most);
+  const Expectation expected = expectation(*current, others);
+  result.dt_s = expected.dt_s;
+  const FramePtr keyframe = keyframe_.frame;
+  if (keyframe && keyframe != last_ && findMotionFrom(keyframe, *current, expected, result.times)) {
+    return;
   }
-  if (!found_.isAccepted() && lost_) {
+  if (findMotionFrom(last_, *current, expected, result.times) || !lost_) return;
+  // It has no pose of its own, so nothing predicts the motion from there.
+  Expectation of_lost = {secondsBetween(*lost_, *current), std::nullopt, std::nullopt};
+  if (others.rotation) of_lost.R_last_cur = others.rotation(lost_->stamp_ns, current->stamp_ns);
+  if (findMotionFrom(lost_, *current, of_lost, result.times)) {
+    result.dt_s = of_lost.dt_s;
     last_ = std::move(lost_);
-    lost_.reset();
     motion_model_.reset();
-    result.dt_s = secondsBetween(*last_, *current);
-    expected = expectation(*current, {std::nullopt, others.rotation});
-    makeKeyframe(last_, result.times);
-    find(most);
+  } else {
+    keyframe_.frame.reset();  // the next pair is compared with the last frame again
   }
-  if (!found_.isAccepted()) return;
-  const double dt_s = secondsBetween(*keyframe_.frame, *current);
-  search_.calibrate(rig_.camera(), dt_s, rig_.calibrator(), found_, result.times);
+}
+
+/// Makes `earlier` the keyframe, unless it is, and tries one start after the other until a motion
+/// is accepted: the predicted motion; rest, or the measured rotation; where the scene is
+/// recognized. An older keyframe gets no recognition, because more is seen of the last frame. The
+/// number of tries is limited, so that no pair takes much longer than others.
+bool VisualOdometry::Pipeline::findMotionFrom(const FramePtr& earlier,
+                                              const StereoFrame& current,
+                                              const Expectation& expected,
+                                              StageTimes& times) {
+  using Start = MotionSearch::Start;
+  if (keyframe_.frame != earlier) makeKeyframe(earlier, times);
+  const StereoCamera corrected = rig_.correctedCamera();
+  const MotionSearch::Frames frames = {
+      finder_, corrected, keyframe_, current, expected.dt_s, rig_.sharedRatio()};
+  const int most = config_.max_tries;
+  const auto settles = [&](const std::optional<Start>& start) {
+    return start && found_.counts.tries < most && search_.find(frames, *start, most, found_, times);
+  };
+  const Eigen::Isometry3d& T_keyframe_last = keyframe_.T_keyframe_last.T;
+  std::optional<Start> predicted;
+  if (expected.T_last_cur) predicted = {T_keyframe_last * *expected.T_last_cur, true, false};
+  Start at_rest = {T_keyframe_last, false, true};
+  if (expected.R_last_cur) at_rest.T_keyframe_cur.rotate(*expected.R_last_cur);
+  const bool is_newest = earlier == last_ || earlier == lost_;
+
+  const int tries = found_.counts.tries;
+  found_.clear();
+  found_.counts.tries = tries;
+  if (!settles(predicted) && !settles(at_rest) && is_newest && found_.counts.tries < most) {
+    settles(search_.recognize(frames, times));
+  }
+  if (!found_.isAccepted()) return false;
+  search_.calibrate(frames, rig_.camera(), rig_.calibrator(), found_, times);
+  return true;
 }
 
 void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& result) {
@@ -229,8 +250,8 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   last_ = current;
   lost_.reset();
   keyframe_.T_keyframe_last = result.T_keyframe_cur;
-  const bool serves = result.state == State::kOk && check_.hasReserve(estimate) &&
-                      selector_.keeps(found_, keyframe_);
+  const bool serves =
+      result.state == State::kOk && check_.hasReserve(estimate) && selector_.keeps(found_);
   if (!serves) keyframe_.frame.reset();
 }
 

@@ -53,9 +53,18 @@ class VisualOdometry::Pipeline {
   const StereoFrame& newest() const { return lost_ ? *lost_ : *last_; }
   void makeKeyframe(const FramePtr& frame, StageTimes& times);
 
-  MotionSearch::Expectation expectation(const StereoFrame& current,
-                                        const OtherSensors& others) const;
+  /// What is known of the motion from the last frame, or the lost one, to the current frame.
+  struct Expectation {
+    double dt_s;
+    std::optional<Eigen::Matrix3d> R_last_cur;    ///< as another sensor measured it
+    std::optional<Eigen::Isometry3d> T_last_cur;  ///< as predicted
+  };
+  Expectation expectation(const StereoFrame& current, const OtherSensors& others) const;
   void findMotion(const FramePtr& current, const OtherSensors& others, OdometryResult& result);
+  bool findMotionFrom(const FramePtr& earlier,
+                      const StereoFrame& current,
+                      const Expectation& expected,
+                      StageTimes& times);
   void accept(const FramePtr& current, OdometryResult& result);
 
   Config config_;

@@ -31,6 +31,7 @@ double RigEstimate::correctedRows() const {
 
 void RigEstimate::startKeyframe(Keyframe& keyframe) {
   calibrator_.advance();
+  shared_errors_.advance();
   if (!rows_.isKnown()) {
     row_search_.search(correctedCamera(), keyframe, searched_rows_px_);
     rows_.observe(searched_rows_px_);
@@ -44,8 +45,7 @@ void RigEstimate::observe(const Hypothesis& found,
   const FeatureSet& inliers = found.estimate.rotation_inliers;
   shared_errors_.observe(found.camera, found.features, inliers, found.estimate.T_keyframe_cur);
   if (!rows_.isKnown() && !rows_.isNear(keyframe.row_offset_px)) return;
-  row_search_.measure(
-      current, found.features, inliers, keyframe.row_offset_px, found.exposure_gain, row_offsets_);
+  row_search_.measure(current, found.features, inliers, keyframe.row_offset_px, row_offsets_);
   rows_.observe(row_offsets_.offsets_px);
   time_skew_.observe(
       found.camera, found.features, row_offsets_, secondsBetween(*keyframe.frame, current));

@@ -20,8 +20,8 @@ void addMotionEstimator(MotionEstimatorConfig& c, ParameterTable& table) {
       0.0,
       100.0,
       "",
-      "ratio of the disparity error that neighbours share to flow noise, start of an estimate; "
-      "0: there is none, as in the paper");
+      "ratio of the disparity error that neighbours share to flow noise, start of an estimate "
+      "of at most three times this; 0: there is none, as in the paper");
   table.add(s + "robust_factor",
             c.robust_factor,
             0.0,

@@ -113,12 +113,13 @@ void addStereoCalibrator(StereoCalibratorConfig& c, ParameterTable& table) {
             100.0,
             "px",
             "prior standard deviation of the bias around bias_px");
-  table.add(s + "significance",
-            c.significance,
-            0.0,
-            100.0,
-            "",
-            "the bias is not corrected below this number of standard deviations");
+  table.add(
+      s + "significance",
+      c.significance,
+      0.0,
+      100.0,
+      "",
+      "the bias is corrected by half at this number of standard deviations, and hardly below");
   table.add(s + "shared_error_ratio",
             c.shared_error_ratio,
             0.0,
@@ -153,23 +154,9 @@ void addStereoCalibrator(StereoCalibratorConfig& c, ParameterTable& table) {
 }
 
 void addKeyframeSelector(KeyframeSelectorConfig& c, ParameterTable& table) {
-  const std::string s = "keyframe_selector/";
-  table.add(s + "adaptive",
+  table.add("keyframe_selector/adaptive",
             c.adaptive,
-            "keep a keyframe over several pairs; if false, the previous pair is the keyframe");
-  table.add(s + "max_parallax_px",
-            c.max_parallax_px,
-            0.0,
-            1000.0,
-            "px",
-            "a new keyframe is selected if the median flow of the translation is larger");
-  table.add(
-      s + "min_seen_share",
-      c.min_seen_share,
-      0.0,
-      1.0,
-      "",
-      "a new keyframe is selected if a smaller share of the keyframe's first inliers is left");
+            "keep a keyframe while the camera rests; if false, the previous pair is the keyframe");
 }
 
 void addSystematicError(SystematicErrorConfig& c, ParameterTable& table) {
@@ -203,13 +190,6 @@ void addVisualOdometry(OdometryConfig& c, ParameterTable& table) {
             20,
             "",
             "largest number of tries of a pair: each tracks the features and estimates the motion");
-  table.add(s + "settled_px",
-            c.settled_px,
-            0.0,
-            100.0,
-            "px",
-            "if the median feature is found farther from where it was searched, it is tracked "
-            "again from there");
   table.add(s + "max_gap_s",
             c.max_gap_s,
             0.01,

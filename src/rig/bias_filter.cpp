@@ -140,16 +140,12 @@ DisparityBias BiasFilter::bias() const {
   return bias;
 }
 
-/// Probability that the bias differs from the known one, by the density ratio of Savage and Dickey
-/// (1971). A rig is taken to be right as long as that is as probable as a deviation of
-/// `significance` standard deviations is for a normal distribution.
+/// Probability that the bias differs from the known one: the ratio of the likelihoods of both. It
+/// is one half at `significance` standard deviations.
 double BiasFilter::probabilityOff(const Hypothesis& hypothesis) const {
-  const double prior_px2 = config_.prior_sigma_px * config_.prior_sigma_px;
-  const double variance_px2 = variance(hypothesis);
   const double mean_px = hypothesis.mean[kBias];
-  const double log_odds =
-      0.5 * (mean_px * mean_px / variance_px2 - std::log(prior_px2 / variance_px2) -
-             config_.significance * config_.significance);
+  const double log_odds = 0.5 * (mean_px * mean_px / variance(hypothesis) -
+                                 config_.significance * config_.significance);
   return 1.0 / (1.0 + std::exp(-log_odds));
 }
 

@@ -45,7 +45,9 @@ bool parse(int argc, char** argv, Options& options) {
 /// Features of the odometry in the first two pairs, sorted by row and column.
 std::vector<Eigen::Vector3d> featurePoints(const KittiSequence& sequence) {
   if (sequence.size() < 2) throw std::runtime_error("the sequence has fewer than two pairs");
-  VisualOdometry odometry{VisualOdometry::Config{}};
+  VisualOdometry::Config config;
+  config.correspondence_finder.feature_detector.max_features = 1000;  // as many as the figures of the paper show
+  VisualOdometry odometry(config);
   for (int i = 0; i < 2; ++i) {
     odometry.process({sequence.stamp_ns(i), sequence.readLeft(i), sequence.readRight(i)},
                      sequence.camera());

@@ -66,7 +66,7 @@ void printTimes(std::ostream& out,
 }  // namespace
 
 StatisticsFile::StatisticsFile(const std::string& path) : path_(path), file_(path) {
-  file_ << "stamp_ns,state,dt_s,tries,corners,with_depth,searched,tracked,consistent,"
+  file_ << "stamp_ns,state,dt_s,tries,corners,with_depth,tracked,consistent,"
            "rotation_inliers,"
            "translation_inliers,pyramids_ms,corners_ms,disparity_ms,tracking_ms,estimation_ms,"
            "prepared_ms,wall_ms,cpu_ms,keyframe_stamp_ns,bias_estimated_px,bias_sigma_px,bias_"
@@ -89,17 +89,16 @@ void StatisticsFile::write(const PairRecord& record) {
   const Eigen::Vector3d rotation = logRotation(result.T_prev_cur.linear());
   file_ << result.stamp_ns << ',' << toString(result.state) << ',' << result.dt_s << ','
         << counts.tries << ',' << counts.corners << ',' << counts.with_depth << ','
-        << counts.searched << ',' << counts.tracked << ',' << counts.consistent << ','
-        << counts.rotation_inliers << ',' << counts.translation_inliers << ',' << times.pyramids_ms
-        << ',' << times.corners_ms << ',' << times.disparity_ms << ',' << times.tracking_ms << ','
-        << times.estimation_ms << ',' << times.prepared_ms << ',' << record.wall_ms << ','
-        << record.cpu_ms << ',' << result.keyframe_stamp_ns << ','
-        << result.disparity_bias.estimated_px << ',' << result.disparity_bias.sigma_px << ','
-        << result.disparity_bias.applied_px << ',' << result.row_offset.median_px << ','
-        << result.row_offset.sigma_px << ',' << result.row_offset.typical_px << ','
-        << result.row_offset.applied_px << ',' << result.time_skew.estimated_s << ','
-        << result.time_skew.sigma_s << ',' << result.exposure_gain << ','
-        << result.shared_error_ratio << ',' << result.flow_noise_px;
+        << counts.tracked << ',' << counts.consistent << ',' << counts.rotation_inliers << ','
+        << counts.translation_inliers << ',' << times.pyramids_ms << ',' << times.corners_ms << ','
+        << times.disparity_ms << ',' << times.tracking_ms << ',' << times.estimation_ms << ','
+        << times.prepared_ms << ',' << record.wall_ms << ',' << record.cpu_ms << ','
+        << result.keyframe_stamp_ns << ',' << result.disparity_bias.estimated_px << ','
+        << result.disparity_bias.sigma_px << ',' << result.disparity_bias.applied_px << ','
+        << result.row_offset.median_px << ',' << result.row_offset.sigma_px << ','
+        << result.row_offset.typical_px << ',' << result.row_offset.applied_px << ','
+        << result.time_skew.estimated_s << ',' << result.time_skew.sigma_s << ','
+        << result.exposure_gain << ',' << result.shared_error_ratio << ',' << result.flow_noise_px;
   for (const Eigen::Vector3d& part : {translation, rotation}) {
     for (const double value : {part.x(), part.y(), part.z()}) file_ << ',' << value;
   }

@@ -44,10 +44,11 @@ po::options_description describe(ImageStress& stress) {
       "gain-step",
       number(stress.gain_step),
       "factor by which the gain of both cameras changes, up and down, every 5 pairs")(
-      "gain-ratio",
-      number(stress.gain_ratio),
-      "factor by which the left image is brighter than the right one")(
       "contrast", number(stress.contrast), "share of the contrast that is left, as in fog")(
+      "right-gain", number(stress.right_gain), "factor of all grey levels of the right images")(
+      "right-offset",
+      number(stress.right_offset),
+      "[grey levels] added to the right images after that")(
       "noise", number(stress.noise_sigma), "[grey levels] standard deviation of the noise")(
       "jpeg",
       po::value(&stress.jpeg_quality)->default_value(stress.jpeg_quality),

@@ -32,7 +32,8 @@ cv::Point gradient(const cv::Mat& image, int x, int y) {
 constexpr int kRowStep = CornerResponse::kRowStep;
 
 /// The definition of the response, in double precision.
-double expectedResponse(const cv::Mat& image, int x, int y, int radius) {
+double expectedResponse(const cv::Mat& image, int x, int y) {
+  constexpr int radius = CornerResponse::kRadius_px;
   if (std::min({x, y, image.cols - 1 - x, image.rows - 1 - y}) < radius) return 0.0;
   double xx = 0.0;
   double xy = 0.0;
@@ -52,21 +53,19 @@ double expectedResponse(const cv::Mat& image, int x, int y, int radius) {
 
 TEST(CornerResponseTest, IsTheSmallerEigenvalue) {
   cv::Mat response;
-  for (const int radius : {1, 2, 15}) {
-    CornerResponse corner_response(radius);
-    // Widths that are a whole number of registers and others, and sizes too small for a response.
-    for (const cv::Size size :
-         {cv::Size(64, 40), cv::Size(71, 45), cv::Size(33, 35), cv::Size(7, 5), cv::Size(2, 40)}) {
-      const cv::Mat image = noiseImage(size);
-      const int rows = (size.height + 1) / kRowStep;
-      corner_response.compute(image, 0, rows, 0, response);
-      for (int row = 0; row < rows; ++row) {
-        for (int x = 0; x < size.width; ++x) {
-          const int y = kRowStep * row;
-          // Single-precision error of eigenvalues up to 2e4.
-          ASSERT_NEAR(response.at<float>(row, x), expectedResponse(image, x, y, radius), 0.01)
-              << size << " radius " << radius << " at " << x << ", " << y;
-        }
+  CornerResponse corner_response;
+  // Widths that are a whole number of registers and others, and sizes too small for a response.
+  for (const cv::Size size :
+       {cv::Size(64, 40), cv::Size(71, 45), cv::Size(33, 35), cv::Size(7, 5), cv::Size(2, 40)}) {
+    const cv::Mat image = noiseImage(size);
+    const int rows = (size.height + 1) / kRowStep;
+    corner_response.compute(image, 0, rows, 0, response);
+    for (int row = 0; row < rows; ++row) {
+      for (int x = 0; x < size.width; ++x) {
+        const int y = kRowStep * row;
+        // Single-precision error of eigenvalues up to 2e4.
+        ASSERT_NEAR(response.at<float>(row, x), expectedResponse(image, x, y), 0.01)
+            << size << " at " << x << ", " << y;
       }
     }
   }
@@ -74,7 +73,7 @@ TEST(CornerResponseTest, IsTheSmallerEigenvalue) {
 
 TEST(CornerResponseTest, HasAMarginOfZeros) {
   const cv::Mat image = noiseImage({50, 30});
-  CornerResponse corner_response(2);
+  CornerResponse corner_response;
   cv::Mat whole;
   cv::Mat padded(25, 50 + 2 * 7 + 8, CV_32F, cv::Scalar(1.0));
   corner_response.compute(image, 0, 15, 0, whole);
@@ -90,8 +89,8 @@ TEST(CornerResponseTest, HasAMarginOfZeros) {
 TEST(CornerResponseTest, DoesNotDependOnTheRowsAskedForOrAskedForBefore) {
   const cv::Mat image = noiseImage({90, 120});
   cv::Mat whole;
-  CornerResponse(2).compute(image, 0, 60, 0, whole);
-  CornerResponse corner_response(2);
+  CornerResponse().compute(image, 0, 60, 0, whole);
+  CornerResponse corner_response;
   cv::Mat rows;
   for (const cv::Range& range : {cv::Range(20, 33), cv::Range(58, 70), cv::Range(-9, 5)}) {
     corner_response.compute(image, range.start, range.end, 0, rows);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
@@ -11,11 +13,22 @@ namespace {
 
 using Corners = std::vector<cv::Point2f>;
 
-Corners detect(const cv::Mat& image, const FeatureDetector::Config& config = {}, int threads = 1) {
+Corners detect(const cv::Mat& image,
+               const FeatureDetector::Config& config = {},
+               int candidates = 1,
+               int threads = 1) {
   Corners corners;
   Workers workers(threads);
-  FeatureDetector(config).detect(workers, image, corners);
+  FeatureDetector(config).detect(workers, image, corners, candidates);
   return corners;
+}
+
+/// All corners in decreasing strength: a square image is a single cell.
+Corners detectAll(const cv::Mat& image) {
+  EXPECT_EQ(image.rows, image.cols);
+  FeatureDetector::Config config;
+  config.max_features = 1;
+  return detect(image, config, 20000);
 }
 
 /// The larger of the distances in x and y.
@@ -23,12 +36,24 @@ float distance(const cv::Point2f& a, const cv::Point2f& b) {
   return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y));
 }
 
-/// Blurred noise of the given contrast, with corners everywhere.
-cv::Mat noiseImage(const cv::Size& size, double contrast) {
+/// Blurred noise with the given standard deviation [grey levels]: corners everywhere, and hardly
+/// any noise from pixel to pixel.
+cv::Mat textureImage(const cv::Size& size, double contrast) {
+  constexpr double kBlur_px = 2.0;
   cv::RNG generator(7);
+  cv::Mat texture(size, CV_32FC1);
+  generator.fill(texture, cv::RNG::NORMAL, 0.0, 1.0);
+  cv::GaussianBlur(texture, texture, cv::Size(), kBlur_px);
+  // Blurring divides the standard deviation by twice the blur times the root of pi.
+  texture.convertTo(texture, CV_8UC1, 2.0 * kBlur_px * std::sqrt(CV_PI) * contrast, 128.0);
+  return texture;
+}
+
+/// A plain image with independent noise in each pixel.
+cv::Mat noiseImage(const cv::Size& size, double sigma) {
+  cv::RNG generator(5);
   cv::Mat noise(size, CV_8UC1);
-  generator.fill(noise, cv::RNG::NORMAL, 128.0, contrast);
-  cv::GaussianBlur(noise, noise, cv::Size(), 1.0);
+  generator.fill(noise, cv::RNG::NORMAL, 128.0, sigma);
   return noise;
 }
 
@@ -61,34 +86,33 @@ TEST(FeatureDetectorTest, FindsTheCornersOfASquareAndNothingElse) {
 }
 
 TEST(FeatureDetectorTest, KeepsCornersApart) {
-  FeatureDetector::Config config;
-  config.nms_radius_px = 6;
   // Corners everywhere, and a regular pattern whose corners are all equally strong.
-  cv::Mat image = noiseImage({300, 200}, 60.0);
+  cv::Mat image = textureImage({300, 200}, 40.0);
   for (int y = 0; y < 100; ++y) {
     for (int x = 0; x < 300; ++x) image.at<uchar>(y, x) = (x / 3 + y / 3) % 2 == 0 ? 60 : 200;
   }
-  const Corners corners = detect(image, config);
-  ASSERT_GT(corners.size(), 50u);
+  const Corners corners = detect(image, {}, 4);
+  ASSERT_GT(corners.size(), 100u);
   float nearest = 1e9F;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       nearest = std::min(nearest, distance(corners[i], corners[k]));
     }
   }
-  EXPECT_GT(nearest, 6.0F);
+  EXPECT_EQ(nearest, FeatureDetector::kRadius_px + 1);
 }
 
 /// By definition: responses that no neighbour exceeds, and none above or to the left equals, in
 /// decreasing order.
-Corners expectedCorners(const cv::Mat& image, const FeatureDetector::Config& config) {
+Corners peaksOfTheResponse(const cv::Mat& image) {
   cv::Mat response;
   constexpr int kRowStep = CornerResponse::kRowStep;
   const int rows = (image.rows + kRowStep - 1) / kRowStep;
-  CornerResponse(config.block_radius_px).compute(image, 0, rows, 0, response);
-  const int radius = config.nms_radius_px;
+  CornerResponse().compute(image, 0, rows, 0, response);
+  const int radius = FeatureDetector::kRadius_px;
+  const int border = FeatureDetector::kBorder_px;
   const int row_radius = radius / kRowStep;
-  const auto isCorner = [&](int x, int row) {
+  const auto isPeak = [&](int x, int row) {
     const float value = response.at<float>(row, x);
     for (int r = std::max(row - row_radius, 0); r <= std::min(row + row_radius, rows - 1); ++r) {
       for (int u = std::max(x - radius, 0); u <= std::min(x + radius, image.cols - 1); ++u) {
@@ -97,14 +121,14 @@ Corners expectedCorners(const cv::Mat& image, const FeatureDetector::Config& con
         if (other > value || (earlier && other == value)) return false;
       }
     }
-    return value >= static_cast<float>(config.min_response);
+    return true;
   };
   Corners corners;
   for (int row = 0; row < rows; ++row) {
     const int y = kRowStep * row;
-    if (y < config.border_px || y >= image.rows - config.border_px) continue;
-    for (int x = config.border_px; x < image.cols - config.border_px; ++x) {
-      if (isCorner(x, row)) corners.emplace_back(x, y);
+    if (y < border || y >= image.rows - border) continue;
+    for (int x = border; x < image.cols - border; ++x) {
+      if (isPeak(x, row)) corners.emplace_back(x, y);
     }
   }
   const auto responseAt = [&](const cv::Point2f& corner) {
@@ -117,33 +141,48 @@ Corners expectedCorners(const cv::Mat& image, const FeatureDetector::Config& con
 }
 
 TEST(FeatureDetectorTest, FindsThePeaksOfTheResponse) {
-  cv::Mat image = noiseImage({203, 170}, 60.0);
-  for (int y = 50; y < 80; ++y) {  // equally strong corners across a strip boundary
-    for (int x = 0; x < 203; ++x) image.at<uchar>(y, x) = (x / 3 + y / 3) % 2 == 0 ? 60 : 200;
-  }
-  FeatureDetector::Config config;
-  config.cell_size_px = 1000;
-  config.max_features = 20000;
-  for (const int radius_px : {1, 4, 7, 30}) {
-    for (const int border_px : {1, 8}) {
-      for (const double min_response : {0.0, 2.0, 300.0}) {
-        config.nms_radius_px = radius_px;
-        config.border_px = border_px;
-        config.min_response = min_response;
-        EXPECT_EQ(detect(image, config), expectedCorners(image, config))
-            << radius_px << ", " << border_px << ", " << min_response;
-      }
+  for (const int side : {40, 128, 203}) {  // also with a part of a strip
+    cv::Mat image = textureImage({side, side}, 40.0);
+    for (int y = 50; y < std::min(80, side); ++y) {  // equal corners across a strip boundary
+      for (int x = 0; x < side; ++x) image.at<uchar>(y, x) = (x / 3 + y / 3) % 2 == 0 ? 60 : 200;
     }
+    const Corners corners = detectAll(image);
+    Corners peaks = peaksOfTheResponse(image);
+    // The weakest are left out.
+    ASSERT_LE(corners.size(), peaks.size()) << side;
+    EXPECT_FALSE(corners.empty()) << side;
+    EXPECT_GT(corners.size(), peaks.size() * 9 / 10) << side;
+    peaks.resize(corners.size());
+    EXPECT_EQ(corners, peaks) << side;
   }
 }
 
+TEST(FeatureDetectorTest, FindsNearlyNothingInNoise) {
+  // Measured: none. There is room for more than 2000.
+  for (const double sigma : {1.0, 2.0, 4.0}) {
+    EXPECT_LE(detect(noiseImage({640, 480}, sigma), {}, 4).size(), 5u) << sigma;
+  }
+}
+
+TEST(FeatureDetectorTest, FindsTheSameAtATenthOfTheContrast) {
+  const Corners full = detectAll(textureImage({300, 300}, 40.0));
+  const Corners tenth = detectAll(textureImage({300, 300}, 4.0));
+  ASSERT_GT(full.size(), 400u);
+  EXPECT_NEAR(static_cast<double>(tenth.size()), static_cast<double>(full.size()), 20.0);
+  const auto again = std::count_if(full.begin(), full.end(), [&](const cv::Point2f& a) {
+    return std::any_of(
+        tenth.begin(), tenth.end(), [&](const cv::Point2f& b) { return distance(a, b) <= 2.0F; });
+  });
+  EXPECT_GT(again, static_cast<std::ptrdiff_t>(full.size() * 9 / 10)) << again;
+}
+
 TEST(FeatureDetectorTest, SpreadsCornersOverStrongAndWeakTexture) {
-  cv::Mat image = noiseImage({320, 192}, 80.0);
+  cv::Mat image = textureImage({320, 192}, 50.0);
   const cv::Rect weak_half(160, 0, 160, 192);
-  noiseImage({160, 192}, 12.0).copyTo(image(weak_half));
+  textureImage({160, 192}, 8.0).copyTo(image(weak_half));
   FeatureDetector::Config config;
-  config.max_features = 120;  // two for each of the 60 cells
-  const Corners corners = detect(image, config);
+  config.max_features = 60;  // one for each cell of 32 px
+  const Corners corners = detect(image, config, 2);
   ASSERT_EQ(corners.size(), 120u);
   const auto weak = std::count_if(
       corners.begin(), corners.end(), [](const cv::Point2f& corner) { return corner.x >= 160; });
@@ -151,48 +190,73 @@ TEST(FeatureDetectorTest, SpreadsCornersOverStrongAndWeakTexture) {
   EXPECT_NEAR(static_cast<double>(weak), 60.0, 12.0);
 }
 
+TEST(FeatureDetectorTest, HasAboutOneCellForEachFeature) {
+  const cv::Mat image = textureImage({300, 200}, 40.0);
+  for (const auto& [features, side_px] : {std::pair(24, 50), {60, 32}, {150, 20}}) {
+    FeatureDetector::Config config;
+    config.max_features = features;
+    std::set<std::pair<int, int>> cells;
+    const Corners corners = detect(image, config);
+    ASSERT_EQ(static_cast<int>(corners.size()), features);
+    for (const cv::Point2f& corner : corners) {
+      cells.emplace(cvFloor(corner.x) / side_px, cvFloor(corner.y) / side_px);
+    }
+    // Measured: all of 24, 58 of 60 and 142 of 150. The border leaves others without a corner.
+    EXPECT_GE(static_cast<int>(cells.size()), features * 9 / 10);
+  }
+}
+
 TEST(FeatureDetectorTest, TakesTheStrongestFirst) {
   cv::Mat image = cv::Mat::zeros(64, 64, CV_8UC1);
   image(cv::Rect(12, 12, 6, 6)).setTo(60);
   image(cv::Rect(40, 40, 6, 6)).setTo(250);
-  FeatureDetector::Config config;
-  config.max_features = 1;
-  for (const int cell_size_px : {32, 1000}) {  // in separate cells, and in the same cell
-    config.cell_size_px = cell_size_px;
+  for (const int cells : {1, 4}) {  // in the same cell, and in separate cells
+    FeatureDetector::Config config;
+    config.max_features = cells;
     const Corners corners = detect(image, config);
-    ASSERT_EQ(corners.size(), 1u);
-    EXPECT_GT(corners[0].x, 32.0F) << cell_size_px;
+    ASSERT_FALSE(corners.empty());
+    EXPECT_GT(corners[0].x, 32.0F) << cells;
   }
 }
 
 TEST(FeatureDetectorTest, LeavesTheBorderFree) {
-  FeatureDetector::Config config;
-  config.border_px = 20;
-  const cv::Mat image = noiseImage({200, 100}, 60.0);
-  const Corners corners = detect(image, config);
-  ASSERT_FALSE(corners.empty());
-  const cv::Rect2f inner(20, 20, 160, 60);
-  for (const cv::Point2f& corner : corners) EXPECT_TRUE(inner.contains(corner)) << corner;
-  config.border_px = 4;
-  EXPECT_GT(detect(image, config).size(), corners.size());
+  const Corners corners = detect(textureImage({200, 100}, 40.0));
+  ASSERT_GT(corners.size(), 50u);
+  cv::Point2f low(1e9F, 1e9F);
+  cv::Point2f high(0.0F, 0.0F);
+  for (const cv::Point2f& corner : corners) {
+    low = {std::min(low.x, corner.x), std::min(low.y, corner.y)};
+    high = {std::max(high.x, corner.x), std::max(high.y, corner.y)};
+  }
+  const auto border = static_cast<float>(FeatureDetector::kBorder_px);
+  EXPECT_EQ(low, cv::Point2f(border, border));
+  // The last corners may be a few pixels from the border, but no more than two may be apart.
+  EXPECT_LT(high.x, 200.0F - border);
+  EXPECT_GE(high.x, 200.0F - border - 2.0F * FeatureDetector::kRadius_px);
+  EXPECT_LT(high.y, 100.0F - border);
+  EXPECT_GE(high.y, 100.0F - border - 2.0F * FeatureDetector::kRadius_px);
 }
 
 TEST(FeatureDetectorTest, GivesNoMoreThanAskedFor) {
   FeatureDetector::Config config;
   config.max_features = 50;
-  EXPECT_EQ(detect(noiseImage({300, 200}, 60.0), config).size(), 50u);
+  const cv::Mat image = textureImage({300, 200}, 40.0);
+  const Corners first = detect(image, config);
+  EXPECT_EQ(first.size(), 50u);
+  Corners more = detect(image, config, 3);
+  EXPECT_EQ(more.size(), 150u);
+  more.resize(50);
+  EXPECT_EQ(more, first) << "more candidates come after the first ones";
 }
 
 TEST(FeatureDetectorTest, FindsTheSameWhereverTheImageIsCutIntoStrips) {
   // The same texture 30 rows lower is divided differently into strips.
-  const cv::Mat image = noiseImage({120, 230}, 60.0);
-  FeatureDetector::Config config;
-  config.cell_size_px = 1000;
-  const Corners whole = detect(image, config);
-  const Corners lower = detect(image.rowRange(30, 230), config);
+  const cv::Mat image = textureImage({200, 230}, 40.0);
+  const Corners whole = detectAll(image.rowRange(0, 200));
+  const Corners lower = detectAll(image.rowRange(30, 230));
   int compared = 0;
   for (const cv::Point2f& corner : whole) {
-    if (corner.y < 50 || corner.y > 210) continue;
+    if (corner.y < 50 || corner.y > 180) continue;
     ++compared;
     EXPECT_NE(std::find(lower.begin(), lower.end(), corner - cv::Point2f(0, 30)), lower.end())
         << corner;
@@ -202,9 +266,6 @@ TEST(FeatureDetectorTest, FindsTheSameWhereverTheImageIsCutIntoStrips) {
 
 TEST(FeatureDetectorTest, FindsNothingWhereThereIsNothing) {
   EXPECT_TRUE(detect(cv::Mat(200, 300, CV_8UC1, cv::Scalar(90))).empty());
-  FeatureDetector::Config config;
-  config.min_response = 0.0;
-  EXPECT_TRUE(detect(cv::Mat(200, 300, CV_8UC1, cv::Scalar(90)), config).empty());
   // An edge is not a corner.
   cv::Mat edge = cv::Mat::zeros(200, 300, CV_8UC1);
   edge.colRange(150, 300).setTo(255);
@@ -213,14 +274,14 @@ TEST(FeatureDetectorTest, FindsNothingWhereThereIsNothing) {
 
 TEST(FeatureDetectorTest, FindsNothingInTinyImages) {
   for (const cv::Size size : {cv::Size(), cv::Size(1, 1), cv::Size(500, 20), cv::Size(20, 500)}) {
-    EXPECT_TRUE(detect(noiseImage({500, 500}, 60.0)(cv::Rect({0, 0}, size))).empty()) << size;
+    EXPECT_TRUE(detect(textureImage({500, 500}, 40.0)(cv::Rect({0, 0}, size))).empty()) << size;
   }
 }
 
 TEST(FeatureDetectorTest, FindsTheSameWithAnyNumberOfThreads) {
-  const cv::Mat image = noiseImage({400, 300}, 60.0);
-  const Corners one = detect(image, {}, 1);
-  const Corners two = detect(image, {}, 2);
+  const cv::Mat image = textureImage({400, 300}, 40.0);
+  const Corners one = detect(image, {}, 2, 1);
+  const Corners two = detect(image, {}, 2, 2);
   EXPECT_EQ(one, two);
   EXPECT_GT(one.size(), 500u);
 }

@@ -55,26 +55,26 @@ const TwoViews& drive() {
 struct Tracked {
   Points cur;
   std::vector<char> tracked;
-  double gain;
 };
 
 Tracked track(const cv::Mat& first,
               const cv::Mat& second,
               const Points& from,
               const Points& predictions,
-              const FeatureTracker::Search& search,
-              const FeatureTracker::Config& config = {},
+              int levels,
+              FeatureTracker::Config config = {},
               int threads = 1,
               const std::vector<float>& growth = {}) {
+  config.levels = levels;
   FeatureTracker tracker(config);
   ImagePyramid a, b;
   tracker.makePyramid(first, a);
   tracker.makePyramid(second, b);
-  Tracked result{predictions, std::vector<char>(from.size(), 1), 1.0};
+  Tracked result{predictions, std::vector<char>(from.size(), 1)};
   Workers workers(threads);
   const std::vector<float> same_size(from.size(), 1.0F);
-  result.gain = tracker.track(
-      workers, a, b, from, growth.empty() ? same_size : growth, search, result.cur, result.tracked);
+  tracker.track(
+      workers, a, b, from, growth.empty() ? same_size : growth, true, result.cur, result.tracked);
   return result;
 }
 
@@ -105,10 +105,10 @@ Points perturbed(const Points& points, double sigma_px) {
 TEST(FeatureTrackerTest, FindsTheFlowFromAPoorPrediction) {
   const Points predictions = perturbed(drive().truth, 2.0);
   ASSERT_GT(predictions.size(), 300u);
-  const Tracked result = track(drive().first, drive().second, drive().corners, predictions, {2});
+  const Tracked result = track(drive().first, drive().second, drive().corners, predictions, 2);
   const std::vector<double> errors = sortedErrors(result, drive().truth);
   EXPECT_GT(errors.size(), predictions.size() * 8 / 10);
-  // Measured: 0.19 and 0.54 px. The cause is the scale change of the street within the window, not
+  // Measured: 0.18 and 0.52 px. The cause is the scale change of the street within the window, not
   // the image noise.
   EXPECT_LT(quantile(errors, 0.5), 0.25);
   EXPECT_LT(quantile(errors, 0.9), 0.7);
@@ -117,10 +117,10 @@ TEST(FeatureTrackerTest, FindsTheFlowFromAPoorPrediction) {
 TEST(FeatureTrackerTest, FindsTheFlowOfARotationBetter) {
   const TwoViews views(motion({0.0, 0.0, 0.0}, {0.003, 0.02, 0.0}));
   const Tracked result =
-      track(views.first, views.second, views.corners, perturbed(views.truth, 2.0), {2});
+      track(views.first, views.second, views.corners, perturbed(views.truth, 2.0), 2);
   const std::vector<double> errors = sortedErrors(result, views.truth);
   EXPECT_GT(errors.size(), views.truth.size() * 9 / 10);
-  // Measured: 0.10 and 0.38 px, caused by noise of 2 grey levels, and by those that have not
+  // Measured: 0.11 and 0.33 px, caused by noise of 2 grey levels, and by those that have not
   // converged from far predictions when the iterations end.
   EXPECT_LT(quantile(errors, 0.5), 0.13);
   EXPECT_LT(quantile(errors, 0.9), 0.5);
@@ -134,7 +134,7 @@ TEST(FeatureTrackerTest, KnowsThatWhatComesNearerGrows) {
                               drive().second,
                               drive().corners,
                               perturbed(drive().truth, 2.0),
-                              {2},
+                              2,
                               large,
                               1,
                               growth),
@@ -153,8 +153,8 @@ TEST(FeatureTrackerTest, FindsTheFlowUnderAnotherExposure) {
   const auto errorsAt = [&](double gain, double offset) {
     cv::Mat exposed;
     views.second.convertTo(exposed, -1, gain, offset);
-    return sortedErrors(
-        track(views.first, exposed, views.corners, perturbed(views.truth, 2.0), {2}), views.truth);
+    return sortedErrors(track(views.first, exposed, views.corners, perturbed(views.truth, 2.0), 2),
+                        views.truth);
   };
   const std::vector<double> same = errorsAt(1.0, 0.0);
   const std::vector<double> brighter = errorsAt(1.0, 25.0);
@@ -166,72 +166,93 @@ TEST(FeatureTrackerTest, FindsTheFlowUnderAnotherExposure) {
   EXPECT_NEAR(quantile(darker, 0.5), quantile(same, 0.5), 0.02);
 }
 
-TEST(FeatureTrackerTest, FindsTheSamePositionsAtAnotherContrast) {
-  const TwoViews views(motion({0.0, 0.0, 0.0}, {0.003, 0.02, 0.0}));
-  const Points predictions = perturbed(views.truth, 2.0);
-  const Tracked same = track(views.first, views.second, views.corners, predictions, {2});
-  EXPECT_NEAR(same.gain, 1.0, 0.05);
-  for (const double gain : {0.5, 0.6}) {
-    cv::Mat exposed;
-    views.second.convertTo(exposed, -1, gain, 30.0);
-    const auto distances = [&](const Tracked& result, const Tracked& expected) {
-      std::vector<double> px;
-      for (std::size_t i = 0; i < result.cur.size(); ++i) {
-        if (result.tracked[i] == 0 || expected.tracked[i] == 0) continue;
-        px.push_back(cv::norm(result.cur[i] - expected.cur[i]));
-      }
-      std::sort(px.begin(), px.end());
-      return px;
-    };
-    const Tracked darker = track(views.first, exposed, views.corners, predictions, {2});
-    EXPECT_NEAR(darker.gain, gain, 0.05 * gain);
-    // The measured gain is off by a few percent, and grey levels are rounded.
-    const std::vector<double> there = distances(darker, same);
-    EXPECT_GT(there.size(), sortedErrors(same, views.truth).size() * 9 / 10);
-    EXPECT_LT(quantile(there, 0.5), 0.03);
-    EXPECT_LT(quantile(there, 0.9), 0.12);
-    const Tracked same_back = track(views.second, views.first, views.truth, views.corners, {2});
-    const Tracked lighter = track(exposed, views.first, views.truth, views.corners, {2});
-    EXPECT_NEAR(lighter.gain, 1.0 / gain, 0.05 / gain);
-    const std::vector<double> back = distances(lighter, same_back);
-    EXPECT_GT(back.size(), sortedErrors(same_back, views.corners).size() * 9 / 10);
-    EXPECT_LT(quantile(back, 0.5), 0.03);
-    EXPECT_LT(quantile(back, 0.9), 0.12);
+/// The image with a quarter of its grey levels, multiplied by a gain in steps of 1/2: rounding does
+/// not depend on the exposure. The gain falls from the middle to the corners by `vignette`.
+cv::Mat exposed(const cv::Mat& image, double gain, double offset, double vignette = 0.0) {
+  cv::Mat out(image.size(), CV_8UC1);
+  const cv::Point2d middle(0.5 * image.cols, 0.5 * image.rows);
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      const cv::Point2d aside = cv::Point2d(x, y) - middle;
+      const double there = gain * (1.0 - vignette * aside.dot(aside) / middle.dot(middle));
+      const double level = 2.0 * (image.at<uchar>(y, x) / 4 - 32);
+      out.at<uchar>(y, x) = cv::saturate_cast<uchar>(there * level + 128.0 + offset);
+    }
   }
+  return out;
 }
 
-TEST(FeatureTrackerTest, LocatesTheSamePositionAtAnotherContrast) {
+/// Sorted distances between points that are found both times [px].
+std::vector<double> distances(const Tracked& a, const Tracked& b) {
+  std::vector<double> px;
+  for (std::size_t i = 0; i < a.cur.size(); ++i) {
+    if (a.tracked[i] != 0 && b.tracked[i] != 0) px.push_back(cv::norm(a.cur[i] - b.cur[i]));
+  }
+  std::sort(px.begin(), px.end());
+  return px;
+}
+
+TEST(FeatureTrackerTest, FindsTheSamePositionsAtAnotherExposure) {
   const TwoViews views(motion({0.0, 0.0, 0.0}, {0.003, 0.02, 0.0}));
-  cv::Mat exposed;
-  views.second.convertTo(exposed, -1, 0.5, 30.0);
+  const Points near_there = perturbed(views.truth, 1.0);
+  const Points near_here = perturbed(views.corners, 1.0);
+  const cv::Mat first = exposed(views.first, 1.0, 0.0);
+  const cv::Mat second = exposed(views.second, 1.0, 0.0);
+  const Tracked same = track(first, second, views.corners, near_there, 2);
+  const Tracked same_back = track(second, first, views.truth, near_here, 2);
+  const auto expectTheSame =
+      [&](const Tracked& found, const Tracked& expected, double median_px, double most_px) {
+        const std::vector<double> px = distances(found, expected);
+        const auto all = std::count(expected.tracked.begin(), expected.tracked.end(), 1);
+        // Windows of little contrast are refused at half of it. Measured: 464 of 473.
+        EXPECT_GE(px.size(), static_cast<std::size_t>(all) * 96 / 100);
+        EXPECT_LT(quantile(px, 0.5), median_px);
+        EXPECT_LT(quantile(px, 0.9), most_px);
+      };
+  const auto expectTheSameWith = [&](const cv::Mat& other, double median_px, double most_px) {
+    expectTheSame(track(first, other, views.corners, near_there, 2), same, median_px, most_px);
+    expectTheSame(track(other, first, views.truth, near_here, 2), same_back, median_px, most_px);
+  };
+  for (const double gain : {0.5, 1.5, 2.0}) {
+    for (const double offset : {-30.0, 0.0, 30.0}) {
+      SCOPED_TRACE(::testing::Message() << gain << ' ' << offset);
+      // The lightest or darkest pixels are cut off. Measured: 0.0035 and 0.011 px.
+      expectTheSameWith(exposed(views.second, gain, offset), 0.007, 0.022);
+    }
+  }
+  SCOPED_TRACE("vignette");
+  // Rounded differently. Measured: 0.013 and 0.041 px.
+  expectTheSameWith(exposed(views.second, 1.5, 0.0, 0.4), 0.026, 0.08);
+}
+
+TEST(FeatureTrackerTest, LocatesTheSamePositionAtAnotherExposure) {
+  const TwoViews views(motion({0.0, 0.0, 0.0}, {0.003, 0.02, 0.0}));
+  const cv::Mat first = exposed(views.first, 1.0, 0.0);
+  const cv::Mat second = exposed(views.second, 1.0, 0.0);
+  const cv::Mat lighter = exposed(views.second, 2.0, 30.0);
   FeatureTracker tracker({});
-  int found = 0;
-  double known_px = 0.0;
-  double unknown_px = 0.0;
+  std::vector<double> distances_px;
   for (std::size_t i = 0; i < views.corners.size(); ++i) {
-    const auto locate = [&](const cv::Mat& to, double gain, cv::Point2f& point) {
-      point = views.truth[i];
-      return tracker.locate(views.first, to, views.corners[i], gain, point);
-    };
-    cv::Point2f same, known, unknown;
-    if (!locate(views.second, 1.0, same) || !locate(exposed, 0.5, known) ||
-        !locate(exposed, 1.0, unknown)) {
+    cv::Point2f same = views.truth[i];
+    cv::Point2f other = views.truth[i];
+    if (!tracker.locate(first, second, views.corners[i], same) ||
+        !tracker.locate(first, lighter, views.corners[i], other)) {
       continue;
     }
-    ++found;
-    known_px += std::min(1.0, cv::norm(known - same));
-    unknown_px += std::min(1.0, cv::norm(unknown - same));
+    distances_px.push_back(cv::norm(other - same));
   }
-  ASSERT_GT(found, 300);
-  EXPECT_LT(known_px / found, 0.03);
-  EXPECT_GT(unknown_px, 2.0 * known_px);
+  std::sort(distances_px.begin(), distances_px.end());
+  ASSERT_GT(distances_px.size(), 300u);
+  // Measured: 0.0008 and 0.0022 px.
+  EXPECT_LT(quantile(distances_px, 0.5), 0.002);
+  EXPECT_LT(quantile(distances_px, 0.9), 0.005);
 }
 
 TEST(FeatureTrackerTest, FindsALargeFlowFromNothingWithAllLevels) {
   // 26 deg/s at 10 Hz, as at the start of KITTI 01.
   const TwoViews views(motion({0.0, 0.0, 0.6}, {0.0, 0.045, 0.0}));
   const auto share_right = [&](int levels) {
-    const Tracked result = track(views.first, views.second, views.corners, views.corners, {levels});
+    const Tracked result = track(views.first, views.second, views.corners, views.corners, levels);
     const std::vector<double> errors = sortedErrors(result, views.truth);
     const auto right = std::lower_bound(errors.begin(), errors.end(), 1.0) - errors.begin();
     return static_cast<double>(right) / static_cast<double>(views.truth.size());
@@ -252,7 +273,7 @@ TEST(FeatureTrackerTest, DropsPointsThatDoNotComeBack) {
   // Some in noise return because they have not gone far.
   strict.max_iterations = 10;
   strict.min_step_px = 0.02;
-  const Tracked result = track(drive().first, changed, drive().corners, drive().truth, {2}, strict);
+  const Tracked result = track(drive().first, changed, drive().corners, drive().truth, 2, strict);
   int inside = 0;
   int kept_inside = 0;
   int outside = 0;
@@ -269,7 +290,7 @@ TEST(FeatureTrackerTest, DropsPointsThatDoNotComeBack) {
     }
   }
   ASSERT_GT(inside, 30);
-  // Some points in noise return by chance. Measured: 6 of 48.
+  // Some points in noise return by chance. Measured: 5 of 40.
   EXPECT_LT(kept_inside, inside / 4);
   EXPECT_GT(kept_outside, outside * 9 / 10);
 }
@@ -281,7 +302,7 @@ TEST(FeatureTrackerTest, ALooseRoundTripKeepsMore) {
   strict.max_round_trip_px = 0.05;
   const auto kept = [](const FeatureTracker::Config& config) {
     const Tracked result = track(
-        drive().first, drive().second, drive().corners, perturbed(drive().truth, 4.0), {1}, config);
+        drive().first, drive().second, drive().corners, perturbed(drive().truth, 4.0), 1, config);
     return std::count(result.tracked.begin(), result.tracked.end(), 1);
   };
   EXPECT_GT(kept(loose), kept(strict));
@@ -293,7 +314,7 @@ TEST(FeatureTrackerTest, UsesSmallImagesWhereAPointIsNotNear) {
                               drive().second,
                               drive().corners,
                               perturbed(drive().truth, distance_px),
-                              {levels, true}),
+                              levels),
                         drive().truth);
   };
   // One level is enough for close points. A few of them are not, in weak texture.
@@ -304,7 +325,9 @@ TEST(FeatureTrackerTest, UsesSmallImagesWhereAPointIsNotNear) {
 }
 
 TEST(FeatureTrackerTest, LeavesPointsAloneThatAreNotAskedFor) {
-  FeatureTracker tracker({});
+  FeatureTracker::Config two_levels;
+  two_levels.levels = 2;
+  FeatureTracker tracker(two_levels);
   ImagePyramid a, b;
   tracker.makePyramid(drive().first, a);
   tracker.makePyramid(drive().second, b);
@@ -314,8 +337,8 @@ TEST(FeatureTrackerTest, LeavesPointsAloneThatAreNotAskedFor) {
   for (std::size_t i = 0; i < tracked.size(); ++i) tracked[i] = i % 2;
   Workers workers(1);
   tracker.track(
-      workers, a, b, drive().corners, std::vector<float>(cur.size(), 1.0F), {2}, cur, tracked);
-  const Tracked all = track(drive().first, drive().second, drive().corners, before, {2});
+      workers, a, b, drive().corners, std::vector<float>(cur.size(), 1.0F), true, cur, tracked);
+  const Tracked all = track(drive().first, drive().second, drive().corners, before, 2);
   for (std::size_t i = 0; i < cur.size(); ++i) {
     EXPECT_EQ(cur[i], i % 2 == 0 ? before[i] : all.cur[i]);
     EXPECT_EQ(tracked[i], i % 2 == 0 ? 0 : all.tracked[i]);
@@ -338,7 +361,7 @@ TEST(FeatureTrackerTest, TakesTheLargestWindowAtFullContrast) {
   FeatureTracker::Config config;
   config.window_radius_px = 25;
   const Points from = {{100, 100}, {90, 110}};
-  const Tracked result = track(stripes, moved, from, from, {1}, config);
+  const Tracked result = track(stripes, moved, from, from, 1, config);
   for (std::size_t i = 0; i < from.size(); ++i) {
     EXPECT_EQ(result.tracked[i], 1);
     EXPECT_LT(cv::norm(result.cur[i] - from[i] + cv::Point2f(2, 0)), 0.05) << result.cur[i];
@@ -349,7 +372,7 @@ TEST(FeatureTrackerTest, TakesImagesOfAnySizeAndPointsOutside) {
   for (const cv::Size size : {cv::Size(1, 1), cv::Size(8, 8), cv::Size(16, 4), cv::Size(300, 2)}) {
     const cv::Mat image = drive().first(cv::Rect({0, 0}, size)).clone();
     const Points points = {{0, 0}, {4, 1}, {-100, 50}, {1e6F, 1e6F}};
-    const Tracked result = track(image, image, points, points, {5});
+    const Tracked result = track(image, image, points, points, 5);
     EXPECT_EQ(result.tracked[2], 0) << size;
     EXPECT_EQ(result.tracked[3], 0) << size;
   }
@@ -361,13 +384,12 @@ TEST(FeatureTrackerTest, FindsTheSameWithAnyNumberOfThreads) {
   const Points predictions = perturbed(drive().truth, 2.0);
   for (const cv::Mat& second : {drive().second, darker}) {
     const auto run = [&](int threads) {
-      return track(drive().first, second, drive().corners, predictions, {2}, {}, threads);
+      return track(drive().first, second, drive().corners, predictions, 2, {}, threads);
     };
     const Tracked one = run(1);
     const Tracked two = run(2);
     EXPECT_EQ(one.cur, two.cur);
     EXPECT_EQ(one.tracked, two.tracked);
-    EXPECT_EQ(one.gain, two.gain);
   }
 }
 
@@ -379,7 +401,7 @@ TEST(FeatureTrackerTest, ComparesBrightnessIfAsked) {
     FeatureTracker::Config config;
     config.ignore_brightness = ignore_brightness;
     const auto errors = sortedErrors(
-        track(views.first, brighter, views.corners, perturbed(views.truth, 2.0), {2}, config),
+        track(views.first, brighter, views.corners, perturbed(views.truth, 2.0), 2, config),
         views.truth);
     const auto right = std::lower_bound(errors.begin(), errors.end(), 0.5) - errors.begin();
     return static_cast<double>(right) / static_cast<double>(views.truth.size());
@@ -396,8 +418,7 @@ TEST(FeatureTrackerTest, ComparesContrastIfAsked) {
   const auto tracked = [&](bool ignore_brightness) {
     FeatureTracker::Config config;
     config.ignore_brightness = ignore_brightness;
-    const Tracked result = track(views.first, flatter, views.corners, views.truth, {2}, config);
-    EXPECT_NEAR(result.gain, 0.5, 0.05);
+    const Tracked result = track(views.first, flatter, views.corners, views.truth, 2, config);
     return sortedErrors(result, views.truth);
   };
   EXPECT_LT(quantile(tracked(true), 0.5), 0.5 * quantile(tracked(false), 0.5));
@@ -410,7 +431,7 @@ TEST(FeatureTrackerTest, KeepsPointsThatDoNotComeBackIfTheRoundTripIsNotChecked)
     FeatureTracker::Config config;
     config.max_round_trip_px = max_round_trip_px;
     const Tracked result =
-        track(elsewhere.first, elsewhere.second, elsewhere.corners, elsewhere.corners, {2}, config);
+        track(elsewhere.first, elsewhere.second, elsewhere.corners, elsewhere.corners, 2, config);
     return std::count(result.tracked.begin(), result.tracked.end(), 1);
   };
   EXPECT_GT(tracked(0.0), 2 * tracked(0.5));

@@ -26,7 +26,7 @@ std::vector<double> runFrontEnd(const cv::Mat& prev_left,
   Eigen::Isometry3d T_prev_cur = Eigen::Isometry3d::Identity();
   T_prev_cur.translation().z() = ahead_m;
   Correspondences features;
-  const int tracked = finder.find(camera, keyframe, *current, T_prev_cur, 2, features);
+  const int tracked = finder.find(camera, keyframe, *current, T_prev_cur, features);
   std::vector<double> all = {static_cast<double>(keyframe.corners.size()),
                              static_cast<double>(keyframe.points.size()),
                              static_cast<double>(tracked)};

@@ -104,6 +104,29 @@ TEST_F(LanesTest, MultiplyAndAdd) {
   }
 }
 
+TEST_F(LanesTest, MultiplyByPairs) {
+  const Shorts a = shiftRight<2>(load(a_));  // so that no sum overflows
+  const Shorts c = shiftRight<2>(load(c_));
+  expectEach(twoOf(b_ + 1), [&](int i) { return b_[1 + i % 2]; });
+  Ints low = noInts();
+  Ints high = noInts();
+  addPairs(a, c, twoOf(b_), low, high);
+  addPairs(c, a, twoOf(d_), low, high);
+  std::int32_t sums[2 * kInts];
+  storePairs(low, high, sums);
+  for (int i = 0; i < 2 * kInts; ++i) {
+    const std::int64_t expected =
+        std::int64_t{a_[i] >> 2} * (b_[0] + d_[1]) + std::int64_t{c_[i] >> 2} * (b_[1] + d_[0]);
+    EXPECT_EQ(sums[i], expected) << i;
+  }
+  low = high = noInts();
+  addSquares(a, c, low, high);
+  storePairs(low, high, sums);
+  for (int i = 0; i < 2 * kInts; ++i) {
+    EXPECT_EQ(sums[i], (a_[i] >> 2) * (a_[i] >> 2) + (c_[i] >> 2) * (c_[i] >> 2)) << i;
+  }
+}
+
 TEST_F(LanesTest, SumBeyond32Bits) {
   EXPECT_EQ(sum(all(std::int32_t{2147483647})), kInts * std::int64_t{2147483647});
   EXPECT_EQ(sum(all(std::int32_t{-2147483647})), -kInts * std::int64_t{2147483647});

@@ -53,11 +53,11 @@ TEST_P(RowSearchTest, MeasuresAnOffsetThatIsRoughlyKnown) {
   finder_.findCorners(keyframe);
   finder_.findDepths(scene_.camera(), keyframe);
   Correspondences features;
-  finder_.find(scene_.camera(), keyframe, *frame_, Eigen::Isometry3d::Identity(), 1, features);
+  finder_.find(scene_.camera(), keyframe, *frame_, Eigen::Isometry3d::Identity(), features);
   const FeatureSet all(features.size(), 1);
   for (const double error_px : {-0.5, 0.5}) {
     RowOffsets offsets;
-    search_.measure(*frame_, features, all, GetParam() + error_px, 1.0, offsets);
+    search_.measure(*frame_, features, all, GetParam() + error_px, offsets);
     EXPECT_EQ(offsets.features.size(), offsets.offsets_px.size());
     expectOffset(offsets.offsets_px);
   }

@@ -1,7 +1,11 @@
 #include "features/stereo_matcher.h"
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
 
 #include <gtest/gtest.h>
@@ -75,10 +79,14 @@ const Texture& texture() {
   return texture;
 }
 
-/// The texture, shifted to the left, as a camera of another exposure shows it.
-cv::Mat exposed(double shift_px, double gain, double offset) {
+/// The texture, shifted to the left, as a camera of another exposure shows it: with half the
+/// contrast, which leaves room for more, times `gain`. `ramp` is how much the right edge is lighter
+/// than the left one.
+cv::Mat exposed(double shift_px, double gain, double offset, double ramp = 0.0) {
   cv::Mat image;
-  texture().image(shift_px).convertTo(image, -1, gain, offset);
+  texture().image(shift_px).convertTo(image, CV_32F, 0.5 * gain, 128.0 - 64.0 * gain + offset);
+  for (int x = 0; x < image.cols; ++x) image.col(x) += ramp * ((x + 0.5) / image.cols - 0.5);
+  image.convertTo(image, CV_8U);
   return image;
 }
 
@@ -95,7 +103,7 @@ int countFound(const Disparities& disparities) {
       disparities.begin(), disparities.end(), [](float disparity) { return disparity != kNone; }));
 }
 
-/// Error of the two-line fit if the texture differs on both sides [px].
+/// Error of the sub-pixel fit if the texture differs on both sides [px]. Measured: at most 0.14.
 constexpr double kPeakLocking_px = 0.25;
 
 int countNear(double expected_px, const Disparities& disparities) {
@@ -116,7 +124,7 @@ const cv::Rect kMiddle(120, 10, 150, 60);
 TEST(StereoMatcherTest, FindsWholeShiftsExactly) {
   for (const int shift_px : {2, 17, 100}) {
     const Pixels pixels = grid(kMiddle, 10);
-    // Images as small as these may seem to differ in exposure, which costs a match or two.
+    // A window may have a similar one by chance.
     EXPECT_GE(countNear(shift_px, match(texture().image(0.0), texture().image(shift_px), pixels)),
               static_cast<int>(pixels.size() * 97 / 100));
   }
@@ -136,9 +144,9 @@ TEST(StereoMatcherTest, FindsFractionsOfAPixel) {
     const double rms =
         std::sqrt(std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0) /
                   static_cast<double>(errors.size()));
-    // Measured: bias 0.011 px, rms at most 0.028 px.
+    // Measured: bias at most 0.014 px, rms at most 0.039 px.
     EXPECT_NEAR(bias, 0.0, 0.03) << shift_px;
-    EXPECT_LT(rms, 0.06) << shift_px;
+    EXPECT_LT(rms, 0.08) << shift_px;
   }
 }
 
@@ -163,14 +171,12 @@ TEST(StereoMatcherTest, MatchNearLooksNoFurtherThanTold) {
 }
 
 TEST(StereoMatcherTest, MatchNearDoesNotMindADifferenceInBrightness) {
-  const cv::Mat left = exposed(0.0, 0.6, 50.0);
+  const cv::Mat left = exposed(0.0, 1.0, 0.0);
   const cv::Point2f pixel(150.3F, 40.6F);
-  const float alike_px = matchNear(left, exposed(20.375, 0.6, 50.0), pixel, 20.0F);
+  const float alike_px = matchNear(left, exposed(20.375, 1.0, 0.0), pixel, 20.0F);
   EXPECT_NEAR(alike_px, 20.375F, 0.1F);
-  for (const double offset : {10.0, 90.0}) {
-    // Means are subtracted in steps of 1/8 grey level.
-    EXPECT_NEAR(matchNear(left, exposed(20.375, 0.6, offset), pixel, 20.0F), alike_px, 0.01F)
-        << offset;
+  for (const double offset : {-60.0, 50.0}) {
+    EXPECT_FLOAT_EQ(matchNear(left, exposed(20.375, 1.0, offset), pixel, 20.0F), alike_px);
   }
 }
 
@@ -191,28 +197,30 @@ TEST(StereoMatcherTest, RefusesWhatIsAmbiguous) {
 
 TEST(StereoMatcherTest, RefusesWhatLooksDifferent) {
   const Pixels pixels = grid(kMiddle, 10);
-  const cv::Mat left = texture().image(0.0);
-  const cv::Mat right = texture().image(10.0) + cv::Scalar(4.0);
-  StereoMatcher::Config config;
-  config.max_mean_difference = 3.5;
-  EXPECT_EQ(countNear(10.0, match(left, right, pixels, config)), 0);
-  config.max_mean_difference = 4.5;
-  EXPECT_GT(countNear(10.0, match(left, right, pixels, config)), most(pixels));
+  const cv::Mat left = exposed(0.0, 1.0, 0.0);
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(left, mean, deviation);
+  cv::Mat noise(left.size(), CV_32F);
+  cv::RNG(5).fill(noise, cv::RNG::NORMAL, 0.0, 1.0);
+  const auto countWithNoise = [&](double variances) {
+    const cv::Mat added = std::sqrt(variances) * deviation[0] * noise;
+    cv::Mat right;
+    cv::add(exposed(10.0, 1.0, 0.0), added, right, cv::noArray(), CV_8U);
+    Disparities near_px;
+    Workers workers(1);
+    StereoMatcher({}).matchNear(
+        workers, left, right, pixels, Disparities(pixels.size(), 10.0F), 0.0, near_px);
+    EXPECT_EQ(countFound(near_px), countFound(match(left, right, pixels)));
+    return countFound(near_px);
+  };
+  // The left window explains 80 % of the variance of the right one, then a third. The variance of
+  // the texture is not the same everywhere. Measured: 88 of 90, and none.
+  EXPECT_GT(countWithNoise(0.25), most(pixels));
+  EXPECT_LE(countWithNoise(2.0), 2);
 }
 
-TEST(StereoMatcherTest, FindsWhatAnotherCameraShowsDarker) {
-  const Pixels pixels = grid(kMiddle, 10);
-  const cv::Mat left = texture().image(0.0);
-  for (const double darker : {-40.0, 40.0}) {
-    const cv::Mat right = texture().image(10.0) - cv::Scalar(darker);
-    EXPECT_GT(countNear(10.0, match(left, right, pixels)), most(pixels)) << darker;
-    EXPECT_GT(countNear(10.0, match(left, 0.6 * right, pixels)), most(pixels)) << darker;
-  }
-}
-
-TEST(StereoMatcherTest, FindsTheSameDisparitiesAtAnotherContrast) {
+TEST(StereoMatcherTest, FindsTheSameDisparitiesAtAnotherExposure) {
   const Pixels pixels = grid(kMiddle, 6);
-  const cv::Mat left = exposed(0.0, 0.9, 10.0);
   const Disparities expected_px(pixels.size(), 10.0F);
   Workers workers(1);
   const StereoMatcher matcher({});
@@ -222,61 +230,43 @@ TEST(StereoMatcherTest, FindsTheSameDisparitiesAtAnotherContrast) {
   const auto near = [&](const cv::Mat& a, const cv::Mat& b, Disparities& px) {
     return matcher.matchNear(workers, a, b, pixels, expected_px, 0.0, px);
   };
-  const auto expectTheSame = [&](const Disparities& found, const Disparities& alike) {
-    double sum_px = 0.0;
-    int both = 0;
+  const auto expectTheSame = [&](const Disparities& found, const Disparities& alike, bool ramped) {
+    std::vector<double> differences_px;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       if (found[i] == kNone || alike[i] == kNone) continue;
-      sum_px += std::abs(found[i] - alike[i]);
-      ++both;
+      differences_px.push_back(std::abs(found[i] - alike[i]));
     }
-    EXPECT_GT(both, countFound(alike) * 95 / 100);
-    // The grey levels of the darker image are rounded.
-    EXPECT_LT(sum_px / both, 0.03);
+    ASSERT_GE(differences_px.size(), pixels.size() * 98 / 100);
+    std::sort(differences_px.begin(), differences_px.end());
+    // Grey levels are rounded, and a ramp of 1.5 grey levels over a window looks like texture.
+    // Measured: median 0.006 px and at most 0.025 px, with the ramp 0.031 and 0.13 px.
+    EXPECT_LT(differences_px[differences_px.size() / 2], ramped ? 0.06 : 0.012);
+    EXPECT_LT(differences_px.back(), ramped ? 0.26 : 0.05);
   };
+  const cv::Mat left = exposed(0.0, 1.0, 0.0);
+  const cv::Mat right = exposed(10.25, 1.0, 0.0);
   Disparities alike, alike_near;
-  EXPECT_NEAR(match(left, exposed(10.25, 0.9, 10.0), alike), 1.0, 0.03);
-  EXPECT_NEAR(near(left, exposed(10.25, 0.9, 10.0), alike_near), 1.0, 0.03);
-  for (const double gain : {0.45, 0.6}) {
-    const cv::Mat darker = exposed(10.25, gain, 30.0);
-    Disparities found;
-    EXPECT_NEAR(match(left, darker, found), gain / 0.9, 0.03);
-    expectTheSame(found, alike);
-    EXPECT_NEAR(near(left, darker, found), gain / 0.9, 0.03);
-    expectTheSame(found, alike_near);
-    const cv::Mat darker_left = exposed(0.0, gain, 30.0);
-    EXPECT_NEAR(match(darker_left, exposed(10.25, 0.9, 10.0), found), 0.9 / gain, 0.05);
-    expectTheSame(found, alike);
-    EXPECT_NEAR(near(darker_left, exposed(10.25, 0.9, 10.0), found), 0.9 / gain, 0.05);
-    expectTheSame(found, alike_near);
-  }
-}
-
-TEST(StereoMatcherTest, LimitsDifferencesInGreyLevelsOfTheLighterImage) {
-  const Pixels pixels = grid(kMiddle, 10);
-  cv::Mat checkers(80, 300, CV_8UC1);  // differ from their mean by 4
-  for (int y = 0; y < checkers.rows; ++y) {
-    for (int x = 0; x < checkers.cols; ++x) {
-      checkers.at<uchar>(y, x) = static_cast<uchar>((x + y) % 2 == 0 ? 8 : 0);
+  EXPECT_NEAR(match(left, right, alike), 1.0, 0.004);
+  EXPECT_NEAR(near(left, right, alike_near), 1.0, 0.004);
+  for (const double gain : {0.5, 0.8, 1.3}) {
+    for (const double offset : {-25.0, 15.0, 25.0}) {
+      for (const double ramp : {0.0, 40.0}) {
+        SCOPED_TRACE(::testing::Message() << gain << ' ' << offset << ' ' << ramp);
+        const bool ramped = ramp != 0.0;
+        const cv::Mat other_right = exposed(10.25, gain, offset, ramp);
+        const cv::Mat other_left = exposed(0.0, gain, offset, ramp);
+        Disparities found;
+        // Measured: gains within 0.2 %.
+        EXPECT_NEAR(match(left, other_right, found) / gain, 1.0, 0.004);
+        expectTheSame(found, alike, ramped);
+        EXPECT_NEAR(near(left, other_right, found) / gain, 1.0, 0.004);
+        expectTheSame(found, alike_near, ramped);
+        EXPECT_NEAR(match(other_left, right, found) * gain, 1.0, 0.004);
+        expectTheSame(found, alike, ramped);
+        EXPECT_NEAR(near(other_left, right, found) * gain, 1.0, 0.004);
+        expectTheSame(found, alike_near, ramped);
+      }
     }
-  }
-  const auto found = [&](const cv::Mat& left, const cv::Mat& right, double limit) {
-    StereoMatcher::Config config;
-    config.max_mean_difference = limit;
-    Workers workers(1);
-    Disparities near_px;
-    StereoMatcher(config).matchNear(
-        workers, left, right, pixels, Disparities(pixels.size(), 10.0F), 0.0, near_px);
-    return std::min(countNear(10.0, match(left, right, pixels, config)), countNear(10.0, near_px));
-  };
-  for (const double gain : {1.0, 0.5}) {
-    const cv::Mat left = exposed(0.0, 0.8, 10.0) + checkers;
-    const cv::Mat right = exposed(10.0, 0.8 * gain, 14.0);
-    EXPECT_EQ(found(left, right, 3.0), 0) << gain;
-    EXPECT_GT(found(left, right, 6.0), most(pixels)) << gain;
-    const cv::Mat dark = exposed(0.0, 0.8 * gain, 14.0) + gain * checkers;
-    EXPECT_EQ(found(dark, exposed(10.0, 0.8, 14.0), 3.0), 0) << gain;
-    EXPECT_GT(found(dark, exposed(10.0, 0.8, 14.0), 6.0), most(pixels)) << gain;
   }
 }
 
@@ -315,6 +305,43 @@ TEST(StereoMatcherTest, RefusesPixelsWhoseWindowLeavesTheImage) {
   }
   // The same holds for windows of the right image, where the disparity is as large as x.
   EXPECT_EQ(match(left, right, {{12.0F, 40.0F}}).at(0), kNone);
+}
+
+/// An image whose last pixel is followed by memory that must not be read.
+class GuardedImage {
+ public:
+  explicit GuardedImage(const cv::Mat& image)
+      : page_(static_cast<std::size_t>(sysconf(_SC_PAGESIZE))),
+        size_((image.total() / page_ + 2) * page_),
+        memory_(mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0)) {
+    auto* const end = static_cast<uchar*>(memory_) + size_ - page_;
+    if (memory_ == MAP_FAILED || mprotect(end, page_, PROT_NONE) != 0) std::abort();
+    pixels = cv::Mat(image.size(), CV_8UC1, end - image.total());
+    image.copyTo(pixels);
+  }
+  ~GuardedImage() { munmap(memory_, size_); }
+  GuardedImage(const GuardedImage&) = delete;
+  GuardedImage& operator=(const GuardedImage&) = delete;
+
+  cv::Mat pixels;
+
+ private:
+  std::size_t page_, size_;
+  void* memory_;
+};
+
+TEST(StereoMatcherTest, ReadsNothingBeyondTheImages) {
+  const GuardedImage left(texture().image(0.0));
+  const GuardedImage right(texture().image(1.5));
+  const Pixels pixels = grid({270, 60, 30, 20}, 1);
+  EXPECT_GT(countFound(match(left.pixels, right.pixels, pixels)), 0);
+  for (const float fraction : {0.0F, 0.4F}) {
+    for (cv::Point2f pixel : pixels) {
+      pixel += {fraction, fraction};
+      matchNear(left.pixels, right.pixels, pixel, 1.0F);
+      matchNear(left.pixels, right.pixels, pixel, 6.0F);
+    }
+  }
 }
 
 TEST(StereoMatcherTest, TakesImagesOfAnySize) {
@@ -359,7 +386,7 @@ TEST(StereoMatcherTest, MeasuresTheDepthOfAStreet) {
   };
   const auto wrong = std::count_if(
       errors.begin(), errors.end(), [](double error) { return std::abs(error) > 2.0; });
-  // Measured: median -0.015 px, one sigma 0.16 px, no wrong match.
+  // Measured: median -0.019 px, one sigma 0.19 px, no wrong match.
   EXPECT_NEAR(quantile(0.5), 0.0, 0.05);
   EXPECT_LT(quantile(0.84) - quantile(0.16), 2.0 * 0.25);
   EXPECT_LT(wrong, static_cast<std::ptrdiff_t>(errors.size() / 50));

@@ -42,7 +42,8 @@ Estimate estimate(const Correspondences& features,
                   const MotionEstimator::Config& config = {},
                   const Eigen::Isometry3d& truth = turnAhead()) {
   const Eigen::Isometry3d initial = truth * motion({0.02, 0.01, -0.05}, {0.001, -0.002, 0.001});
-  return MotionEstimator(config).estimate(kittiCamera(), features, initial, kPeriod_s);
+  return MotionEstimator(config).estimate(
+      kittiCamera(), features, initial, kPeriod_s, MotionEstimator::Prediction{initial, kPeriod_s});
 }
 
 Correspondences goodFeatures(unsigned seed, const Eigen::Isometry3d& truth = turnAhead()) {

@@ -23,6 +23,8 @@ Eigen::Isometry3d turnAhead() {
   return motion({0.03, -0.01, 1.3}, {0.002, 0.03, -0.001});
 }
 
+const MotionEstimator::Prediction kPrediction = {turnAhead(), kPeriod_s};
+
 /// Features of a pair. Their disparities have their own noise, an error common to each cell of the
 /// image, and a parabola over the rows, both with a standard deviation of `ratio` times the flow
 /// noise.
@@ -51,7 +53,8 @@ double estimatedRatio(double ratio) {
     const Correspondences features = pairWith(ratio, pair);
     MotionEstimator motion_estimator({});
     const auto& estimate = motion_estimator.estimate(
-        kittiCamera(), features, turnAhead(), kPeriod_s, true, estimator.ratio());
+        kittiCamera(), features, turnAhead(), kPeriod_s, kPrediction, estimator.ratio());
+    estimator.advance();
     estimator.observe(kittiCamera(), features, estimate.rotation_inliers, estimate.T_keyframe_cur);
   }
   return estimator.ratio();
@@ -81,6 +84,48 @@ TEST(SharedErrorEstimatorTest, KnowsNothingWithoutParallax) {
   EXPECT_EQ(estimator.ratio(), MotionEstimatorConfig().shared_ratio);
 }
 
+/// 100 s at rest, with new keyframes or with one.
+TEST(SharedErrorEstimatorTest, RestSaysNothing) {
+  for (const bool one_keyframe : {false, true}) {
+    SharedErrorEstimator estimator({});
+    const Correspondences moving = pairWith(2.0, 1);
+    estimator.observe(kittiCamera(), moving, FeatureSet(moving.size(), 1), turnAhead());
+    const double before = estimator.ratio();
+    std::mt19937 generator(1);
+    const Eigen::Isometry3d none = Eigen::Isometry3d::Identity();
+    estimator.advance();
+    for (int pair = 0; pair < 1000; ++pair) {
+      const Correspondences resting =
+          simulateFeatures(kittiCamera(), none, 100, {kFlow_px, 4.0 * kFlow_px}, generator);
+      if (!one_keyframe) estimator.advance();
+      estimator.observe(kittiCamera(), resting, FeatureSet(resting.size(), 1), none);
+    }
+    EXPECT_NEAR(estimator.ratio(), before, 0.05 * before) << one_keyframe;
+  }
+}
+
+TEST(SharedErrorEstimatorTest, MotionsOfOneKeyframeCountOnce) {
+  SharedErrorEstimator once({});
+  SharedErrorEstimator often({});
+  const Correspondences features = pairWith(4.0, 1);
+  const FeatureSet all(features.size(), 1);
+  once.observe(kittiCamera(), features, all, turnAhead());
+  for (int i = 0; i < 50; ++i) often.observe(kittiCamera(), features, all, turnAhead());
+  // The weights of the cells depend on the estimate, which the first observation changes.
+  EXPECT_NEAR(often.ratio(), once.ratio(), 0.1 * once.ratio());
+}
+
+TEST(SharedErrorEstimatorTest, IsBounded) {
+  SharedErrorEstimator estimator({});
+  for (unsigned pair = 0; pair < kPairs; ++pair) {
+    const Correspondences features = pairWith(30.0, pair);
+    estimator.advance();
+    estimator.observe(kittiCamera(), features, FeatureSet(features.size(), 1), turnAhead());
+  }
+  EXPECT_LE(estimator.ratio(),
+            SharedErrorEstimator::kMostGrowth * MotionEstimatorConfig().shared_ratio);
+}
+
 TEST(SharedErrorEstimatorTest, IsZeroWhileDisabled) {
   MotionEstimatorConfig disabled;
   disabled.shared_ratio = 0.0;
@@ -107,8 +152,8 @@ TEST(SharedErrorEstimatorTest, MakesTheTranslationMoreAccurate) {
     const Correspondences features = pairWith(kRatio, pair);
     const auto error2 = [&](double shared_ratio) {
       MotionEstimator estimator({});
-      const auto& estimate =
-          estimator.estimate(kittiCamera(), features, turnAhead(), kPeriod_s, true, shared_ratio);
+      const auto& estimate = estimator.estimate(
+          kittiCamera(), features, turnAhead(), kPeriod_s, kPrediction, shared_ratio);
       return motionError(estimate.T_keyframe_cur, turnAhead()).head<3>().squaredNorm();
     };
     with += error2(kRatio);

@@ -70,7 +70,7 @@ TEST(OdometryMessagesTest, StatusHasStateCountsAndCounters) {
   result.reason = "few inliers";
   result.stamp_ns = 5'000'000'000;
   result.dt_s = 0.1;
-  result.counts = {7, 6, 5, 4, 3, 2, 1, 2};
+  result.counts = {7, 6, 4, 3, 2, 1, 2};
   result.times.tracking_ms = 1.5;
   result.disparity_bias = {0.75, 0.125, 0.5};
   result.row_offset = {-0.25, 0.0625, 0.375};
@@ -95,7 +95,6 @@ TEST(OdometryMessagesTest, StatusHasStateCountsAndCounters) {
   EXPECT_EQ(message.tries, 2u);
   EXPECT_EQ(message.corners, 7u);
   EXPECT_EQ(message.with_depth, 6u);
-  EXPECT_EQ(message.searched, 5u);
   EXPECT_EQ(message.tracked, 4u);
   EXPECT_EQ(message.translation_inliers, 1u);
   EXPECT_EQ(message.time_tracking, 1.5f);

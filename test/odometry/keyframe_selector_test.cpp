@@ -1,6 +1,5 @@
 #include "odometry/keyframe_selector.h"
 
-#include <algorithm>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -10,65 +9,44 @@
 namespace rotrocc {
 namespace {
 
-/// Whether the keyframe is kept after a step of this length, with `seen` inliers of `searched`
-/// features.
-bool keeps(KeyframeSelector& selector,
-           Keyframe& keyframe,
-           double step_m,
-           int seen = 400,
-           int searched = 400) {
+/// Whether the keyframe is kept after a motion, if the flow has this noise.
+bool keeps(const Eigen::Isometry3d& T_keyframe_cur,
+           double noise_px = 0.2,
+           int features = 400,
+           const KeyframeSelector::Config& config = {}) {
   std::mt19937 generator(1);
   Hypothesis accepted;
   accepted.camera = kittiCamera();
-  accepted.counts.searched = searched;
-  accepted.estimate.T_keyframe_cur = motion({0.0, 0.0, step_m}, {0.0, 0.1, 0.0});
+  accepted.estimate.T_keyframe_cur = T_keyframe_cur;
+  accepted.estimate.flow_noise_px = noise_px;
   accepted.features =
-      simulateFeatures(accepted.camera, accepted.estimate.T_keyframe_cur, searched, {}, generator);
-  FeatureSet& inliers = accepted.estimate.rotation_inliers;
-  inliers.assign(accepted.features.size(), 0);
-  std::fill(inliers.begin(), inliers.begin() + seen, 1);
-  return selector.keeps(accepted, keyframe);
+      simulateFeatures(accepted.camera, T_keyframe_cur, features, {noise_px, noise_px}, generator);
+  accepted.estimate.rotation_inliers.assign(accepted.features.size(), 1);
+  return KeyframeSelector(config).keeps(accepted);
 }
 
-TEST(KeyframeSelectorTest, KeepsAKeyframeWhileTheParallaxIsSmall) {
-  KeyframeSelector selector({});
-  Keyframe keyframe;
-  // Rotation causes no parallax.
-  EXPECT_TRUE(keeps(selector, keyframe, 0.0));
-  EXPECT_TRUE(keeps(selector, keyframe, 0.1));
-  EXPECT_FALSE(keeps(selector, keyframe, 3.0));
+const Eigen::Isometry3d kRest = Eigen::Isometry3d::Identity();
+
+TEST(KeyframeSelectorTest, KeepsAKeyframeAtRest) {
+  EXPECT_TRUE(keeps(kRest));
+  EXPECT_FALSE(keeps(motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0})));
+  EXPECT_FALSE(keeps(motion({0.0, 0.0, 0.0}, {0.0, 0.01, 0.0}))) << "7 px at this focal length";
 }
 
-TEST(KeyframeSelectorTest, KeepsAKeyframeWhileItIsSeen) {
-  KeyframeSelector selector({});
-  Keyframe keyframe;
-  EXPECT_TRUE(keeps(selector, keyframe, 0.0, 300));  // sets the inliers of the first motion
-  EXPECT_TRUE(keeps(selector, keyframe, 0.0, 211));
-  EXPECT_FALSE(keeps(selector, keyframe, 0.0, 209));
-  Keyframe other;
-  EXPECT_TRUE(keeps(selector, other, 0.0, 209));
-}
-
-TEST(KeyframeSelectorTest, ComparesSharesIfAPartIsSearched) {
-  KeyframeSelector selector({});
-  Keyframe keyframe;
-  EXPECT_TRUE(keeps(selector, keyframe, 0.0, 300));
-  EXPECT_TRUE(keeps(selector, keyframe, 0.0, 53, 100));
-  EXPECT_FALSE(keeps(selector, keyframe, 0.0, 52, 100));
+TEST(KeyframeSelectorTest, RestIsRelativeToTheNoise) {
+  const Eigen::Isometry3d slow = motion({0.0, 0.0, 0.0}, {0.0, 0.004, 0.0});  // 2.9 px
+  EXPECT_FALSE(keeps(slow, 0.2));
+  EXPECT_TRUE(keeps(slow, 0.4));
 }
 
 TEST(KeyframeSelectorTest, NeedsAFeature) {
-  KeyframeSelector selector({});
-  Keyframe keyframe;
-  EXPECT_FALSE(keeps(selector, keyframe, 0.0, 0));
+  EXPECT_FALSE(keeps(kRest, 0.2, 0));
 }
 
 TEST(KeyframeSelectorTest, TakesEveryFrameIfNotAdaptive) {
   KeyframeSelector::Config config;
   config.adaptive = false;
-  KeyframeSelector selector(config);
-  Keyframe keyframe;
-  EXPECT_FALSE(keeps(selector, keyframe, 0.0));
+  EXPECT_FALSE(keeps(kRest, 0.2, 400, config));
 }
 
 }  // namespace

@@ -69,10 +69,10 @@ TEST_P(KittiAccuracyTest, LosesNoPairAndStaysWithinTheError) {
 
 INSTANTIATE_TEST_SUITE_P(Clips,
                          KittiAccuracyTest,
-                         ::testing::Values(Clip{"06_000_050", 0.620, 0.01390},
-                                           Clip{"01_000_050", 0.919, 0.02334},
-                                           Clip{"04_000_050", 0.741, 0.00372},
-                                           Clip{"raw_0926_024_143", 1.246, 0.00682}),
+                         ::testing::Values(Clip{"06_000_050", 0.656, 0.01394},
+                                           Clip{"01_000_050", 0.993, 0.02380},
+                                           Clip{"04_000_050", 0.643, 0.00385},
+                                           Clip{"raw_0926_024_143", 1.230, 0.00708}),
                          [](const auto& clip) { return "On_" + std::string(clip.param.name); });
 
 }  // namespace

@@ -43,7 +43,7 @@ MotionCheck defaultCheck() {
 }
 
 std::string whyLost(const MotionEstimator::Estimate& estimate) {
-  return defaultCheck().whyLost(estimate, kPeriod_s);
+  return defaultCheck().whyLost(estimate, Eigen::Isometry3d::Identity(), kPeriod_s);
 }
 
 /// Exact features all over the image (the R2 sequence of Roberts, 2018), so that the first ones are
@@ -73,8 +73,7 @@ Hypothesis hypothesis(const MotionEstimator::Estimate& estimate) {
   hypothesis.estimate = estimate;
   hypothesis.features = featuresAt(
       kDepth_m, estimate.T_keyframe_cur, static_cast<int>(estimate.rotation_inliers.size()));
-  hypothesis.counts.with_depth = hypothesis.counts.searched =
-      static_cast<int>(hypothesis.features.size());
+  hypothesis.counts.with_depth = static_cast<int>(hypothesis.features.size());
   return hypothesis;
 }
 
@@ -121,23 +120,24 @@ TEST(MotionCheckTest, WantsAShareOfInliers) {
 }
 
 TEST(MotionCheckTest, KnowsHowFastARobotMoves) {
+  const Eigen::Isometry3d kStart = Eigen::Isometry3d::Identity();
   auto estimate = goodEstimate();
   estimate.T_keyframe_cur = motion({0.0, 4.0, 5.9}, {0.0, 0.0, 0.0});
   expectSays(whyLost(estimate), "71.28", "max_speed_mps = 70");
-  EXPECT_EQ(defaultCheck().whyLost(estimate, 2.0 * kPeriod_s), "");  // half the speed
+  EXPECT_EQ(defaultCheck().whyLost(estimate, kStart, 2.0 * kPeriod_s), "");  // half the speed
   estimate.T_keyframe_cur = motion({0.0, 0.0, 1.0}, {0.0, 0.61, 0.0});
   expectSays(whyLost(estimate), "6.1 rad/s", "max_turn_rate_rps = 6");
-  EXPECT_EQ(defaultCheck().whyLost(estimate, 2.0 * kPeriod_s), "");
+  EXPECT_EQ(defaultCheck().whyLost(estimate, kStart, 2.0 * kPeriod_s), "");
 }
 
 TEST(MotionCheckTest, CallsAMotionOnFewSurvivorsDegraded) {
   auto estimate = goodEstimate();
   Hypothesis tracked = hypothesis(estimate);
-  tracked.counts.searched = 3001;
+  tracked.counts.with_depth = 3001;
   expectSays(defaultCheck().whyDegraded(tracked, estimate.covariance),
              "300 of 3001 features",
              "degraded_survivor_share = 0.1");
-  tracked.counts.searched = 3000;
+  tracked.counts.with_depth = 3000;
   EXPECT_EQ(defaultCheck().whyDegraded(tracked, estimate.covariance), "");
 }
 

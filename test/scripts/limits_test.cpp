@@ -59,6 +59,18 @@ TEST_F(LimitsTest, WritesTablesAndAPicture) {
   EXPECT_EQ(readFile(outputPath("limits.png")).substr(1, 3), "PNG");
 }
 
+/// Bisection would miss a small difference of the cameras that fails where a larger one does not.
+TEST_F(LimitsTest, MeasuresAllLevelsOfUnequalCameras) {
+  const std::string output = directory() / "unequal";
+  const CommandResult result = runCommand(std::string("MPLBACKEND=module://none ") + PYTHON + " " +
+                                          LIMITS + " --short --programs " + PROGRAMS +
+                                          " --output " + output + " --stress right_offset_down");
+  ASSERT_EQ(result.status, 0) << result.output;
+  const std::vector<CsvRow> runs = readCsv(output + "/runs.csv");
+  ASSERT_EQ(runs.size(), 9u);
+  EXPECT_EQ(runs[1].at("level"), "-25");
+}
+
 /// The same command measures nothing again.
 TEST_F(LimitsTest, Resumes) {
   const std::string runs = readFile(outputPath("runs.csv"));

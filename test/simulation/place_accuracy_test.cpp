@@ -93,11 +93,11 @@ INSTANTIATE_TEST_SUITE_P(
     PlaceAccuracyTest,
     ::testing::Values(
         // At 100 deg/s.
-        Part{"HallTurn", "hall", indoorCamera(), 20.0, 10.6, {14.0, 3.0}, {90.0, 13.8}},
-        Part{"HallWall", "hall", indoorCamera(), 20.0, 19.4, {7.0, 0.8}, {35.0, 1.2}},
-        Part{"WalkStair", "walk", helmetCamera(), 20.0, 13.0, {3.1, 1.4}, {7.3, 4.0}},
-        Part{"WalkTurn", "walk", helmetCamera(), 20.0, 26.4, {14.5, 1.4}, {160.0, 12.1}},
-        Part{"Tunnel", "tunnel", carCamera(), 10.0, 6.0, {42.0, 1.4}, {326.0, 2.5}}),
+        Part{"HallTurn", "hall", indoorCamera(), 20.0, 10.6, {18.5, 2.6}, {42.0, 9.7}},
+        Part{"HallWall", "hall", indoorCamera(), 20.0, 19.4, {7.0, 1.3}, {20.2, 3.6}},
+        Part{"WalkStair", "walk", helmetCamera(), 20.0, 13.0, {8.5, 4.1}, {9.4, 3.4}},
+        Part{"WalkTurn", "walk", helmetCamera(), 20.0, 26.4, {10.6, 1.3}, {27.0, 7.3}},
+        Part{"Tunnel", "tunnel", carCamera(), 10.0, 6.0, {126.0, 1.4}, {244.0, 1.8}}),
     [](const auto& part) { return part.param.name; });
 
 }  // namespace

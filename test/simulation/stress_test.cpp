@@ -73,7 +73,7 @@ TEST(ImageStress, FogLeavesAShareOfTheContrast) {
   EXPECT_NEAR(contrastOf(stressed(street(), stress, 0, false)) / contrastOf(street()), 0.2, 0.01);
 }
 
-TEST(ImageStress, GainsChangeBothCamerasOrOne) {
+TEST(ImageStress, GainsChangeBothCamerasOrTheRightOne) {
   const cv::Mat grey(10, 10, CV_8UC1, cv::Scalar(100));
   const auto level = [&](const ImageStress& stress, int pair, bool right) {
     return cv::mean(stressed(grey, stress, pair, right))[0];
@@ -84,10 +84,11 @@ TEST(ImageStress, GainsChangeBothCamerasOrOne) {
   EXPECT_EQ(level(step, 5, false), 200.0);
   EXPECT_EQ(level(step, 5, true), 200.0);
   EXPECT_EQ(level(step, 10, false), 50.0);
-  ImageStress ratio;
-  ratio.gain_ratio = 4.0;
-  EXPECT_EQ(level(ratio, 0, false), 200.0);
-  EXPECT_EQ(level(ratio, 9, true), 50.0);
+  ImageStress right;
+  right.right_gain = 0.5;
+  right.right_offset = -20.0;
+  EXPECT_EQ(level(right, 0, false), 100.0);
+  EXPECT_EQ(level(right, 9, true), 30.0);
 }
 
 TEST(ImageStress, TextureVanishesFromTheLeft) {

@@ -5,6 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "features/image_noise.h"
 #include "input/to_text.h"
 
 namespace rotrocc {
@@ -70,7 +71,9 @@ std::string PairInspector::inspect(const StereoPair& pair,
   if (result.state == State::kInitialising) return fault;
   // Chance matches may occasionally look like a motion.
   doubtful_ = result.state == State::kOk ? 0 : doubtful_ + 1;
-  few_corners_ = result.counts.corners < kFewCorners ? few_corners_ + 1 : 0;
+  const bool shows_nothing =
+      result.counts.corners < kFewCorners || (result.state == State::kLost && isNoise(pair.left));
+  few_corners_ = shows_nothing ? few_corners_ + 1 : 0;
   if (doubtful_ == 0) explanation_.clear();
   if (few_corners_ >= kPatience) return explainFewCorners(pair);
   if (few_corners_ == 0 &&
@@ -93,6 +96,15 @@ std::string PairInspector::findFrozen(const StereoPair& pair) {
   if (left) return frozenText("the left image", left_frozen_);
   if (right) return frozenText("the right image", right_frozen_);
   return "";
+}
+
+/// Whether the grey levels hardly vary more than their noise, as behind a covered lens.
+bool PairInspector::isNoise(const cv::Mat& image) {
+  constexpr double kOverNoise = 2.0;
+  cv::Scalar mean;
+  cv::Scalar deviation;
+  cv::meanStdDev(image, mean, deviation);
+  return deviation[0] * deviation[0] < kOverNoise * kOverNoise * noiseVariance(image, noise_);
 }
 
 std::string PairInspector::explainFewCorners(const StereoPair& pair) const {

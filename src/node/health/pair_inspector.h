@@ -32,6 +32,7 @@ class PairInspector {
                       const OdometryResult& result);
 
  private:
+  bool isNoise(const cv::Mat& image);
   std::string findFrozen(const StereoPair& pair);
   std::string explainFewCorners(const StereoPair& pair) const;
   std::string rowRemedy() const;
@@ -50,6 +51,7 @@ class PairInspector {
   int few_corners_ = 0, doubtful_ = 0;
   ExposureWatch exposures_;
   std::string explanation_;  // kept until the motion is found again
+  std::vector<int> noise_;   // buffer, reused
 };
 
 }  // namespace rotrocc

@@ -24,10 +24,9 @@ void requireRange(const std::string& name, double value, double low, double high
 }
 
 /// Factors around 1, so that neither side of a step is all black or all white.
-double gainOf(const ImageStress& stress, int pair, bool right) {
+double gainOf(const ImageStress& stress, int pair) {
   const bool bright = pair / kPairsPerGain % 2 == 1;
-  return std::sqrt(bright ? stress.gain_step : 1.0 / stress.gain_step) *
-         std::sqrt(right ? 1.0 / stress.gain_ratio : stress.gain_ratio);
+  return std::sqrt(bright ? stress.gain_step : 1.0 / stress.gain_step);
 }
 
 /// Takes the texture away from a part of the image, without an edge.
@@ -110,8 +109,9 @@ void ImageStress::check() const {
   requireRange("share without texture", plain_share, 0.0, 1.0);
   requireRange("share of drops", drop_share, 0.0, 0.95);
   requireRange("gain step", gain_step, 1.0, 1000.0);
-  requireRange("gain ratio", gain_ratio, 0.001, 1000.0);
   requireRange("contrast", contrast, 0.0, 1.0);
+  requireRange("right gain", right_gain, 0.0, 1000.0);
+  requireRange("right offset [grey levels]", right_offset, -255.0, 255.0);
   requireRange("noise [grey levels]", noise_sigma, 0.0, 200.0);
   requireRange("JPEG quality", jpeg_quality, 0, 100);
 }
@@ -121,9 +121,10 @@ cv::Mat stressed(const cv::Mat& image, const ImageStress& stress, int pair, bool
   image.convertTo(light, CV_32F);
   if (stress.plain_share > 0.0) makePlain(light, stress.plain_share);
   if (stress.drop_share > 0.0) light = throughDrops(light, stress.drop_share, stress.seed, right);
-  light *= gainOf(stress, pair, right);
+  light *= gainOf(stress, pair);
   light = cv::min(light, 255.0);
   light = kFog + stress.contrast * (light - kFog);
+  if (right) light = stress.right_gain * light + stress.right_offset;
   const auto frame = 2 * static_cast<std::uint64_t>(pair) + (right ? 1 : 0);
   const cv::Mat grey = measured(light, stress.noise_sigma, randomBits(stress.seed, 0x57E55, frame));
   return stress.jpeg_quality > 0 ? throughJpeg(grey, stress.jpeg_quality) : grey;

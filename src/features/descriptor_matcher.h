@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <opencv2/core.hpp>
+#include <opencv2/features2d.hpp>
+
+#include "common/workers.h"
+#include "features/stereo_frame.h"
+#include "features/stereo_matcher.h"
+#include "rotrocc/correspondence.h"
+#include "rotrocc/odometry_config.h"
+#include "rotrocc/stereo_camera.h"
+
+namespace rotrocc {
+
+/// Finds correspondences without a prediction, anywhere in the image: oriented binary descriptors
+/// (ORB, Rublee et al. 2011) that are each other's nearest neighbour. They are exact to a pixel or
+/// two, and many are wrong. It takes about 10 ms.
+class DescriptorMatcher {
+ public:
+  explicit DescriptorMatcher(const StereoMatcherConfig& config);
+
+  /// Stores in `features` what is seen in the left images of both frames and has a depth in the
+  /// current one. Points of the current frame are `row_offset_px` lower in the right image.
+  void match(const StereoCamera& camera,
+             const StereoFrame& earlier,
+             const StereoFrame& current,
+             double row_offset_px,
+             Correspondences& features);
+
+ private:
+  struct Described {
+    std::vector<cv::KeyPoint> keypoints;
+    cv::Mat descriptors;
+  };
+  void describe(const cv::Mat& image, Described& described);
+
+  StereoMatcher matcher_;
+  cv::Ptr<cv::ORB> orb_;
+  cv::BFMatcher nearest_;
+  Workers workers_;  // the calling thread only
+
+  // Buffers, reused.
+  Described earlier_, current_;
+  std::vector<int> noise_;
+  std::vector<cv::DMatch> matches_;
+  std::vector<cv::Point2f> pixels_;
+  std::vector<float> disparities_px_;
+};
+
+}  // namespace rotrocc
