@@ -9,9 +9,6 @@
 #include <ros/serialization.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
-#include <opencv2/core.hpp>
-
-#include "evaluation/png.h"
 
 namespace rotrocc {
 namespace {
@@ -96,16 +93,6 @@ void writeCalibrations(const fs::path& folder) {
         "distortion_model: radial-tangential\ndistortion_coefficients: [-0.28, 0.07, 0, 0]\n");
 }
 
-/// Grey and colour, 8 and 16 bits.
-void writePngs(const fs::path& folder) {
-  fs::create_directories(folder);
-  for (const int type : {CV_8UC1, CV_16UC1, CV_8UC3, CV_16UC3}) {
-    cv::Mat image(8, 12, type);
-    cv::randu(image, 0, 255);
-    writePng((folder / std::to_string(type)).string(), image);
-  }
-}
-
 void writeSeeds(const fs::path& root) {
   const struct {
     const char* encoding;
@@ -122,7 +109,6 @@ void writeSeeds(const fs::path& root) {
   }
   write(root / "camera_info" / "infos", makeInfos(kTracked));
   writeCalibrations(root / "calibration");
-  writePngs(root / "png");
 
   const std::string kitti_poses = "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0.1 0 0 -1 0 0 1 0 1e-3\n";
   write(root / "trajectory" / "kitti", kitti_poses);

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "evaluation/grey_image.h"
+#include "evaluation/image_file.h"
 #include "evaluation/text_file.h"
 #include "evaluation/trajectory_sampling.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/grey_image.h"
+#include "evaluation/image_file.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
 

@@ -4,7 +4,7 @@
 #include <iomanip>
 #include <stdexcept>
 
-#include "evaluation/png.h"
+#include "evaluation/image_file.h"
 #include "inertial/gyro_file.h"
 
 namespace rotrocc {
@@ -111,7 +111,7 @@ void AslWriter::writeImage(const std::string& camera,
   const std::string path = root_ + "/" + camera + "/data/" + name;
   list << stamp_ns << ',' << name << '\n';
   if (!list.flush()) throw std::runtime_error("cannot write the list of " + path);
-  writePng(path, image);
+  rotrocc::writeImage(path, image);
 }
 
 void AslWriter::write(const SimulatedFrame& frame, const Eigen::Isometry3d& T_first_left) {

@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include <opencv2/imgcodecs.hpp>
+
 #include "common/to_seconds.h"
-#include "evaluation/image_codecs.h"
-#include "evaluation/png.h"
 #include "rotrocc/trajectory.h"
 #include "simulation/rows.h"
 
@@ -60,6 +60,12 @@ void writePoses(const fs::path& path, const Simulator& simulator) {
   for (int i = 0; i < simulator.size(); ++i) {
     poses.write({simulator.stamp_ns(i), simulator.pose(i)});
   }
+}
+
+std::vector<uchar> encode(const std::string& extension, const cv::Mat& image) {
+  std::vector<uchar> bytes;
+  cv::imencode(extension, image, bytes);
+  return bytes;
 }
 
 /// The file has its name when it is complete.
@@ -117,12 +123,13 @@ void SequenceWriter::write(const SimulatedFrame& frame) {
   const std::string names[] = {path("image_0", ".png"), path("image_1", ".png")};
   std::vector<uchar> images[2];
   forEachRow(2, [&](int side) {
-    images[side] = encodePng(side == 0 ? frame.pair.left : frame.pair.right);
+    images[side] = encode(".png", side == 0 ? frame.pair.left : frame.pair.right);
   });
   for (const int side : {0, 1}) writeFile(names[side], images[side]);
   if (with_truth_) {
-    writeFile(path("depth", ".tiff"), encodeByOpenCv(".tiff", storableDepth(frame.depth)));
-    if (!frame.flow.empty()) writeFile(path("flow", ".png"), encodePng(storableFlow(frame.flow)));
+    writeFile(path("depth", ".tiff"), encode(".tiff", storableDepth(frame.depth)));
+    if (!frame.flow.empty())
+      writeFile(path("flow", ".png"), encode(".png", storableFlow(frame.flow)));
   }
   ++count_;
 }

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "evaluation/png.h"
+#include "evaluation/image_file.h"
 
 namespace rotrocc {
 
@@ -31,7 +31,7 @@ void FlowPictures::write(const StereoPair& pair,
                   picture_);
   char name[32];
   std::snprintf(name, sizeof(name), "/%06d.png", pairs_++);
-  writePng(folder_ + name, picture_);
+  writeImage(folder_ + name, picture_);
 }
 
 }  // namespace rotrocc

@@ -8,7 +8,7 @@
 
 #include <boost/program_options.hpp>
 
-#include "evaluation/png.h"
+#include "evaluation/image_file.h"
 #include "rotrocc/kitti.h"
 #include "simulation/stress/image_stress.h"
 #include "tools/program.h"
@@ -72,7 +72,7 @@ bool parse(int argc, char** argv, Options& options) {
 void writeImage(const fs::path& folder, int index, const cv::Mat& image) {
   std::ostringstream name;
   name << std::setw(6) << std::setfill('0') << index << ".png";
-  writePng((folder / name.str()).string(), image);
+  rotrocc::writeImage((folder / name.str()).string(), image);
 }
 
 void run(const Options& options) {

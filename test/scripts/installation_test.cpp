@@ -5,10 +5,8 @@
 #include <memory>
 #include <sstream>
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include "support/run_command.h"
 #include "support/synthetic_sequence.h"
@@ -56,18 +54,6 @@ TEST_F(InstallationTest, ProgramsFindTheirLibraries) {
                                    " --report " + path("report"));
   EXPECT_EQ(report.status, 0) << report.output;
   EXPECT_TRUE(std::filesystem::exists(path("report/index.html"))) << report.output;
-}
-
-TEST_F(InstallationTest, ProgramsFindTheFormatsOfImagesOtherThanPng) {
-  writeSyntheticSequence(path("jpeg"), 2);
-  // What the name says does not matter.
-  const std::string image = path("jpeg/image_1/000001.png");
-  std::vector<uchar> bytes;
-  cv::imencode(".jpg", cv::imread(image), bytes);
-  std::ofstream(image) << std::string(bytes.begin(), bytes.end());
-  const CommandResult result =
-      run("rosrun rotrocc offline_odometry " + path("jpeg") + " --trajectory " + path("jpeg.txt"));
-  EXPECT_EQ(result.status, 0) << result.output;
 }
 
 TEST_F(InstallationTest, CompletionIsWhereBashLooksForIt) {

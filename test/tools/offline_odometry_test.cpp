@@ -230,14 +230,6 @@ TEST_F(OfflineOdometryTest, TakesParameters) {
             trajectoryOf(sequence(), "--set feature_detector/max_features=300"));
 }
 
-TEST_F(OfflineOdometryTest, LoadsNoLibrariesOfImageFiles) {
-  const CommandResult result = runCommand("ldd " OFFLINE_ODOMETRY);
-  ASSERT_EQ(result.status, 0) << result.output;
-  ASSERT_NE(result.output.find("opencv_core"), std::string::npos) << result.output;
-  EXPECT_EQ(result.output.find("opencv_imgcodecs"), std::string::npos)
-      << "with it come GDAL and 100 more, half of the memory";
-}
-
 TEST_F(OfflineOdometryTest, TellsBadUsageFromBadInput) {
   EXPECT_EQ(run("").status, 2);
   EXPECT_EQ(run(sequence()).status, 2) << "--trajectory is missing";

@@ -6,9 +6,13 @@
 
 namespace rotrocc {
 
-/// Reads an image file as CV_8UC1. Those with 16 bits are divided by 256. Throws std::runtime_error
-/// with the path if it is missing or unreadable.
+/// Reads an image file of any format of OpenCV as CV_8UC1. Colours are converted to grey, and those
+/// with 16 bits are divided by 256. Throws std::runtime_error with the path if it is missing or
+/// unreadable.
 cv::Mat readGreyImage(const std::string& path);
+
+/// The extension of the path is the format. Throws std::runtime_error with the path if it cannot.
+void writeImage(const std::string& path, const cv::Mat& image);
 
 /// Throws std::runtime_error with the path if an image that was read from it has another size.
 /// `whose` has the size, as "the first image".

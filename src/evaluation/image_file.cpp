@@ -1,21 +1,30 @@
-#include "evaluation/grey_image.h"
+#include "evaluation/image_file.h"
 
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
 
+#include <opencv2/imgcodecs.hpp>
+
 #include "common/sentence.h"
-#include "evaluation/image_codecs.h"
-#include "evaluation/png.h"
 
 namespace rotrocc {
 namespace {
 
-/// With 8 or 16 bits.
+/// With 8 or 16 bits; empty if it cannot.
+cv::Mat tryReadGrey(const std::string& path) {
+  try {
+    const cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
+    const bool is_integer = image.depth() == CV_8U || image.depth() == CV_16U;
+    return is_integer ? image : cv::imread(path, cv::IMREAD_GRAYSCALE);
+  } catch (const cv::Exception&) {  // too many pixels
+    return {};
+  }
+}
+
 cv::Mat readGrey(const std::string& path) {
   if (!std::filesystem::exists(path)) throw std::runtime_error(path + " is missing");
-  if (isPng(path)) return readGreyPng(path);
-  cv::Mat image = readGreyByOpenCv(path);
+  cv::Mat image = tryReadGrey(path);
   if (image.empty()) {
     throw std::runtime_error(path +
                              " is not a readable image: is it damaged, or no image? Copy it again");
@@ -36,6 +45,11 @@ cv::Mat to8Bits(const cv::Mat& image, int significant_bits) {
 
 cv::Mat readGreyImage(const std::string& path) {
   return to8Bits(readGrey(path), 16);
+}
+
+void writeImage(const std::string& path, const cv::Mat& image) {
+  if (cv::imwrite(path, image)) return;
+  throw std::runtime_error("cannot write " + path + ": is the disk full?");
 }
 
 void requireImageSize(const std::string& path,

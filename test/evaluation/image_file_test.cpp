@@ -1,0 +1,148 @@
+#include "evaluation/image_file.h"
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include "support/expect_error.h"
+#include "support/read_file.h"
+#include "support/temporary_directory.h"
+
+namespace rotrocc {
+namespace {
+
+/// Noise on a slope, so that each row differs.
+cv::Mat makeImage(int type, const cv::Size& size = {61, 40}) {
+  const int channels = CV_MAT_CN(type);
+  const double range = CV_MAT_DEPTH(type) == CV_16U ? 65535.0 : 255.0;
+  cv::Mat values(size, CV_64FC(channels));
+  cv::RNG(7).fill(values, cv::RNG::UNIFORM, 0.0, 0.3 * range);
+  for (int y = 0; y < size.height; ++y) {
+    values.row(y) += cv::Scalar::all(0.7 * range * y / size.height);
+  }
+  cv::Mat image;
+  values.convertTo(image, type);
+  return image;
+}
+
+void expectSame(const cv::Mat& image, const cv::Mat& expected) {
+  ASSERT_FALSE(expected.empty());
+  ASSERT_EQ(image.type(), expected.type());
+  ASSERT_EQ(image.size(), expected.size());
+  EXPECT_EQ(cv::norm(image, expected, cv::NORM_INF), 0.0);
+}
+
+class ImageFileTest : public ::testing::Test {
+ protected:
+  std::string write(const std::string& name, const cv::Mat& image) const {
+    EXPECT_TRUE(cv::imwrite(directory_ / name, image));
+    return directory_ / name;
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(ImageFileTest, ReadsAnyFormatAsGrey) {
+  for (const std::string name : {"a.png", "a.pgm", "a.jpg", "a.bmp", "a.tiff"}) {
+    SCOPED_TRACE(name);
+    const std::string path = write(name, makeImage(CV_8UC1));
+    expectSame(readGreyImage(path), cv::imread(path, cv::IMREAD_GRAYSCALE));
+    expectSame(GreyImageReader().read(path), cv::imread(path, cv::IMREAD_GRAYSCALE));
+  }
+  std::filesystem::rename(directory_ / "a.pgm", directory_ / "b.png");
+  expectSame(readGreyImage(directory_ / "b.png"), makeImage(CV_8UC1));
+}
+
+TEST_F(ImageFileTest, ConvertsColoursAndDepthsAsOpenCv) {
+  for (const int type : {CV_8UC3, CV_8UC4, CV_16UC1, CV_16UC3, CV_16UC4}) {
+    SCOPED_TRACE(type);
+    const std::string path = write("image.png", makeImage(type));
+    expectSame(readGreyImage(path), cv::imread(path, cv::IMREAD_GRAYSCALE));
+  }
+}
+
+TEST_F(ImageFileTest, TakesTheUpperBitsOf16) {
+  const cv::Mat image = makeImage(CV_16UC1);
+  for (const std::string name : {"a.png", "a.tiff", "a.pgm"}) {
+    const cv::Mat read = readGreyImage(write(name, image));
+    ASSERT_EQ(read.size(), image.size()) << name;
+    for (int y = 0; y < image.rows; ++y) {
+      for (int x = 0; x < image.cols; ++x) {
+        ASSERT_EQ(read.at<uchar>(y, x), image.at<ushort>(y, x) >> 8) << name;
+      }
+    }
+  }
+}
+
+TEST_F(ImageFileTest, RefusesATruncatedPng) {
+  const std::string bytes = readFile(write("image.png", makeImage(CV_8UC1)));
+  for (std::size_t size = 0; size < bytes.size(); size += 5) {
+    directory_.write("image.png", bytes.substr(0, size));
+    expectError<std::runtime_error>([&] { readGreyImage(directory_ / "image.png"); },
+                                    directory_ / "image.png is not a readable image");
+  }
+}
+
+TEST_F(ImageFileTest, ReadsOrRefusesADamagedPng) {
+  const std::string bytes = readFile(write("image.png", makeImage(CV_16UC3, {16, 12})));
+  for (std::size_t i = 8; i < bytes.size(); ++i) {  // behind the signature
+    std::string damaged = bytes;
+    damaged[i] = static_cast<char>(damaged[i] ^ (1 << i % 8));
+    directory_.write("image.png", damaged);
+    try {
+      readGreyImage(directory_ / "image.png");
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find("image.png is not a readable image"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+TEST_F(ImageFileTest, NamesWhatIsNoImage) {
+  const auto expectRefused = [&](const std::string& name, const std::string& part) {
+    expectError<std::runtime_error>([&] { readGreyImage(directory_ / name); }, name + part);
+  };
+  expectRefused("none.png", " is missing");
+  directory_.write("empty.png", "");
+  expectRefused("empty.png", " is not a readable image: is it damaged, or no image? Copy it again");
+  directory_.write("text.png", "no image");
+  expectRefused("text.png", " is not a readable image");
+  std::filesystem::create_directory(directory_ / "folder.png");
+  expectRefused("folder.png", " is not a readable image");
+}
+
+TEST_F(ImageFileTest, RefusesTooManyPixels) {
+  const std::string header(
+      "\x89PNG\r\n\x1a\n"
+      "\0\0\0\rIHDR\0\1\0\0\0\1\0\0\1\0\0\0\0\x44\xff\x0d\x4e"
+      "\0\0\0\1IDAT",
+      41);
+  directory_.write("huge.png", header);
+  expectError<std::runtime_error>([&] { readGreyImage(directory_ / "huge.png"); },
+                                  "huge.png is not a readable image");
+}
+
+TEST_F(ImageFileTest, WritesWhatOpenCvReads) {
+  for (const int type : {CV_8UC1, CV_8UC3, CV_16UC1}) {
+    SCOPED_TRACE(type);
+    const cv::Mat image = makeImage(type);
+    writeImage(directory_ / "a.png", image);
+    expectSame(cv::imread(directory_ / "a.png", cv::IMREAD_UNCHANGED), image);
+  }
+}
+
+TEST_F(ImageFileTest, ReportsWhatItCannotWrite) {
+  const cv::Mat image = makeImage(CV_8UC1, {300, 200});
+  std::filesystem::create_symlink("/dev/full", directory_ / "full.png");
+  expectError<std::runtime_error>([&] { writeImage(directory_ / "full.png", image); },
+                                  "full.png: is the disk full?");
+  expectError<std::runtime_error>([&] { writeImage(directory_ / "none/a.png", image); },
+                                  "none/a.png");
+}
+
+}  // namespace
+}  // namespace rotrocc
