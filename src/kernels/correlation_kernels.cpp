@@ -24,7 +24,8 @@ void multiplyParts(const std::int16_t* window,
       const std::int16_t* of_window = window + y * W::kStride + W::kPartFirst;
       const std::int16_t* row = strip + y * stride + W::kPartFirst + k;
       for (int x = 0; x < W::kPartWidth; x += 2) {
-        addPairs(load(row + x), load(row + x + 1), twoOf(of_window + x), low, high);
+        addPairs(
+            load(row + x), load(row + x + 1), alternate(of_window[x], of_window[x + 1]), low, high);
       }
     }
     storePairs(low, high, products + k);
@@ -133,9 +134,9 @@ ProductSums multiplyWindow(const std::int16_t* window, const std::int16_t* strip
     for (int x = 0; x < W::kStride; x += kShorts) {
       const Shorts mask = load(kMask + x);
       const Shorts values = load(strip + x);
-      minus_b = addDot(minus_b, values, mask);
-      bb = addDot(bb, values & mask, values);
-      ab = addDot(ab, values, load(window + x));
+      minus_b = minus_b + dot(values, mask);
+      bb = bb + dot(values & mask, values);
+      ab = ab + dot(values, load(window + x));
     }
   }
   return {-static_cast<std::int32_t>(sum(minus_b)),

@@ -9,8 +9,3 @@
 #else
 #define ROTROCC_INSTRUCTIONS baseline
 #endif
-
-/// 64-bit ARM always has NEON. Tests compare it with OpenCV's emulation of its SIMD types.
-#if defined __aarch64__ && !defined CV_FORCE_SIMD128_CPP
-#define ROTROCC_NEON
-#endif

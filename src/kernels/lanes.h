@@ -6,8 +6,6 @@
 
 #if defined ROTROCC_AVX2
 #include "kernels/lanes_avx2.h"
-#elif defined ROTROCC_NEON
-#include "kernels/lanes_neon.h"
 #else
 #include "kernels/lanes_baseline.h"
 #endif

@@ -106,15 +106,8 @@ Ints shiftRight(Ints a) {
 inline Shorts multiplyHigh(Shorts a, Shorts b) {
   return {_mm256_mulhi_epi16(a.bits, b.bits)};
 }
-template <int kBits>
-Shorts multiplyHigh(Shorts a, Shorts b) {
-  return multiplyHigh(shiftLeft<kBits>(a), b);
-}
 inline Ints dot(Shorts a, Shorts b) {
   return {_mm256_madd_epi16(a.bits, b.bits)};
-}
-inline Ints addDot(Ints sums, Shorts a, Shorts b) {
-  return sums + dot(a, b);
 }
 inline void addProducts(Shorts a, Shorts b, Shorts c, Shorts d, std::int32_t* to) {
   // AVX2 unpacks the two halves of a register separately: 0 to 3 and 8 to 11, then the others.
@@ -126,9 +119,6 @@ inline void addProducts(Shorts a, Shorts b, Shorts c, Shorts d, std::int32_t* to
   store(to + kInts, load(to + kInts) + Ints{_mm256_permute2x128_si256(even, odd, 0x31)});
 }
 
-inline Shorts twoOf(const std::int16_t* from) {
-  return alternate(from[0], from[1]);
-}
 inline void addPairs(Shorts a, Shorts c, Shorts bd, Ints& low, Ints& high) {
   low = low + dot({_mm256_unpacklo_epi16(a.bits, c.bits)}, bd);
   high = high + dot({_mm256_unpackhi_epi16(a.bits, c.bits)}, bd);

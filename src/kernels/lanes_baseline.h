@@ -81,18 +81,9 @@ Ints shiftRight(const Ints& a) {
 inline Shorts multiplyHigh(const Shorts& a, const Shorts& b) {
   return cv::v_mul_hi(a, b);
 }
-/// The same of a 2^kBits, which must fit into 16 bits, and b.
-template <int kBits>
-Shorts multiplyHigh(const Shorts& a, const Shorts& b) {
-  return multiplyHigh(shiftLeft<kBits>(a), b);
-}
 /// Sums of the products of two neighbours.
 inline Ints dot(const Shorts& a, const Shorts& b) {
   return cv::v_dotprod(a, b);
-}
-/// Adds all products, two to each sum. Which two is up to the processor.
-inline Ints addDot(const Ints& sums, const Shorts& a, const Shorts& b) {
-  return sums + dot(a, b);
 }
 /// Adds a[i] b[i] + c[i] d[i] to each to[i].
 inline void addProducts(
@@ -104,11 +95,7 @@ inline void addProducts(
   store(to + kInts, load(to + kInts) + dot(ac_high, bd_high));
 }
 
-/// Two values, again and again: a, b, a, b, ...
-inline Shorts twoOf(const std::int16_t* from) {
-  return alternate(from[0], from[1]);
-}
-/// Adds a[i] b + c[i] d to sums that storePairs() puts in order. `bd`: of twoOf().
+/// Adds a[i] b + c[i] d to sums that storePairs() puts in order. `bd`: b, d, b, d, ...
 inline void addPairs(const Shorts& a, const Shorts& c, const Shorts& bd, Ints& low, Ints& high) {
   Shorts ac_low, ac_high;
   cv::v_zip(a, c, ac_low, ac_high);

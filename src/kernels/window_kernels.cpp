@@ -12,8 +12,8 @@ constexpr int kBlockRows = 16;
 /// Scharr gradient, weighted by (3 10 3) / 16, from the differences of three rows or columns of
 /// pixels that are two apart.
 Shorts scharr(const Shorts& before, const Shorts& here, const Shorts& after) {
-  const Shorts middle = multiplyHigh<1>(here, all(std::int16_t{20480}));        // 10 / 32
-  const Shorts sides = multiplyHigh(before + after, all(std::int16_t{12288}));  // 3 / 16
+  const Shorts middle = multiplyHigh(shiftLeft<1>(here), all(std::int16_t{20480}));  // 10 / 32
+  const Shorts sides = multiplyHigh(before + after, all(std::int16_t{12288}));       // 3 / 16
   // One unit compensates the truncation of both products; the rest rounds.
   constexpr int kShift = Window::kValueBits + 1 - Window::kGradientBits;
   constexpr std::int16_t kRounding = 1 + (1 << (kShift - 1));
@@ -71,18 +71,18 @@ GradientSums takeWindow(const Patch& patch, const Window window) {
                                difference(below + 1, above + 1),
                                difference(below + 2, above + 2)) &
                         mask;
-      const Shorts aside = multiplyHigh<kUpToValue>(gx, spread_x);
-      const Shorts down = multiplyHigh<kUpToValue>(gy, all(*spread_y++));
+      const Shorts aside = multiplyHigh(shiftLeft<kUpToValue>(gx), spread_x);
+      const Shorts down = multiplyHigh(shiftLeft<kUpToValue>(gy), all(*spread_y++));
       const Shorts value = load(here + 1) + aside + down;
       store(window.values + at, value);
       store(window.gradient_x + at, gx);
       store(window.gradient_y + at, gy);
-      minus_value = addDot(minus_value, value, mask);
-      minus_x = addDot(minus_x, gx, mask);
-      minus_y = addDot(minus_y, gy, mask);
-      xx = addDot(xx, gx, gx);
-      xy = addDot(xy, gx, gy);
-      yy = addDot(yy, gy, gy);
+      minus_value = minus_value + dot(value, mask);
+      minus_x = minus_x + dot(gx, mask);
+      minus_y = minus_y + dot(gy, mask);
+      xx = xx + dot(gx, gx);
+      xy = xy + dot(gx, gy);
+      yy = yy + dot(gy, gy);
       above = here;
     }
     sums.value -= sum(minus_value);
@@ -108,10 +108,10 @@ ContrastSums takeContrast(std::int16_t mean, const Window window) {
     for (int at = x; at < window.side * window.stride; at += window.stride) {
       const Shorts contrast = shiftRight<kShift>(load(window.values + at) - means) & mask;
       store(window.contrast + at, contrast);
-      minus_sum = addDot(minus_sum, contrast, mask);
-      square = addDot(square, contrast, contrast);
-      sum_x = addDot(sum_x, contrast, load(window.gradient_x + at));
-      sum_y = addDot(sum_y, contrast, load(window.gradient_y + at));
+      minus_sum = minus_sum + dot(contrast, mask);
+      square = square + dot(contrast, contrast);
+      sum_x = sum_x + dot(contrast, load(window.gradient_x + at));
+      sum_y = sum_y + dot(contrast, load(window.gradient_y + at));
     }
     sums.one -= sum(minus_sum);
     sums.square += sum(square);
@@ -143,11 +143,11 @@ MismatchSums compareWindow(const Patch& patch, const Window& window) {
         const Shorts lower = betweenColumns<Window::kValueBits>(pixels, fx);
         const Shorts excess =
             shiftRight<kShift>(betweenRows(upper, lower, fy) - load(window.values + at)) & mask;
-        minus_sum = addDot(minus_sum, excess, mask);
-        sum_x = addDot(sum_x, excess, load(window.gradient_x + at));
-        sum_y = addDot(sum_y, excess, load(window.gradient_y + at));
-        contrast = addDot(contrast, excess, load(window.contrast + at));
-        square = addDot(square, excess, excess);
+        minus_sum = minus_sum + dot(excess, mask);
+        sum_x = sum_x + dot(excess, load(window.gradient_x + at));
+        sum_y = sum_y + dot(excess, load(window.gradient_y + at));
+        contrast = contrast + dot(excess, load(window.contrast + at));
+        square = square + dot(excess, excess);
         upper = lower;
       }
       sums.one -= sum(minus_sum);

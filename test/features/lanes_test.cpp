@@ -81,8 +81,6 @@ TEST_F(LanesTest, Shift) {
 
 TEST_F(LanesTest, Multiply) {
   expectEach(multiplyHigh(load(a_), load(b_)), [&](int i) { return a_[i] * b_[i] >> 16; });
-  expectEach(multiplyHigh<2>(shiftRight<2>(load(a_)), load(b_)),
-             [&](int i) { return 4 * (a_[i] >> 2) * b_[i] >> 16; });
 }
 
 TEST_F(LanesTest, MultiplyAndAdd) {
@@ -90,11 +88,6 @@ TEST_F(LanesTest, MultiplyAndAdd) {
   const Shorts a = shiftRight<2>(load(a_));
   const auto product = [&](int i) { return (a_[i] >> 2) * b_[i]; };
   expectEach(dot(a, load(b_)), [&](int i) { return product(2 * i) + product(2 * i + 1); });
-  std::int64_t expected = 0;
-  for (int i = 0; i < kInts; ++i) {
-    expected += (ints_[i] >> 8) + product(i) + product(i + kInts);
-  }
-  EXPECT_EQ(sum(addDot(shiftRight<8>(load(ints_)), a, load(b_))), expected);
 
   std::int32_t sums[2 * kInts];
   for (int i = 0; i < 2 * kInts; ++i) sums[i] = ints_[i] >> 8;
@@ -107,11 +100,10 @@ TEST_F(LanesTest, MultiplyAndAdd) {
 TEST_F(LanesTest, MultiplyByPairs) {
   const Shorts a = shiftRight<2>(load(a_));  // so that no sum overflows
   const Shorts c = shiftRight<2>(load(c_));
-  expectEach(twoOf(b_ + 1), [&](int i) { return b_[1 + i % 2]; });
   Ints low = noInts();
   Ints high = noInts();
-  addPairs(a, c, twoOf(b_), low, high);
-  addPairs(c, a, twoOf(d_), low, high);
+  addPairs(a, c, alternate(b_[0], b_[1]), low, high);
+  addPairs(c, a, alternate(d_[0], d_[1]), low, high);
   std::int32_t sums[2 * kInts];
   storePairs(low, high, sums);
   for (int i = 0; i < 2 * kInts; ++i) {
