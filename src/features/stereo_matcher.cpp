@@ -1,12 +1,11 @@
 #include "features/stereo_matcher.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 
 #include "common/median.h"
+#include "features/left_window.h"
 #include "features/patch.h"
 #include "kernels/kernels.h"
 
@@ -15,25 +14,7 @@ namespace {
 
 using W = CorrelationWindow;
 
-constexpr int kHalf = W::kSide / 2;
-constexpr int kPixels = W::kSide * W::kSide;
-
-/// Costs within this distance [px] of the minimum are its slopes, not rivals.
-constexpr int kSlope = 2;
-
-/// The best match costs at most this share of its rival: 0.92 times as long a difference.
-constexpr double kUniqueness = 0.85;
-
-constexpr float kNoColumn = -1.0F;
-
-/// Largest cost of a part for the whole window to be compared, where `least` is the lowest cost of
-/// a part. With twice the margin, the same matches are found.
-float partLimit(float least) {
-  return 1.25F * least + 0.05F;
-}
-
-/// Variance of rounding to whole grey levels. It limits the correlation of windows without texture.
-constexpr double kRounding = 1.0 / 12.0;
+constexpr int kHalf = LeftWindow::kHalf;
 
 /// Columns of a strip for which memory is reserved.
 constexpr int kUsualColumns = 256;
@@ -54,156 +35,6 @@ cv::Range clip(const cv::Mat& image, const cv::Range& columns) {
   return {std::max(columns.start, kHalf), std::min(columns.end, image.cols - W::kStride)};
 }
 
-/// Offset of the minimum of the parabola through the costs at -1, 0 and 1.
-float subPixelOffset(double before, double at, double after) {
-  const double curvature = before - 2.0 * at + after;
-  if (!(curvature > 0.0)) return 0.0F;
-  return static_cast<float>(std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5));
-}
-
-/// A match and the contrast of its window relative to that of the left one.
-struct Match {
-  float column = kNoColumn;
-  double gain = 1.0;
-};
-
-struct RowBuffers;
-
-/// The window around a left pixel. Its cost relative to another window is 1 minus their correlation
-/// coefficient: zero-mean normalized cross-correlation, which no difference in brightness or
-/// contrast changes. That is half the mean squared difference of both, each scaled to variance 1.
-class LeftWindow {
- public:
-  /// At whole pixels.
-  LeftWindow(const Kernels& kernels, const cv::Mat& left, const cv::Point& pixel)
-      : kernels_(kernels), unit2_(1.0) {
-    kernels.widenRows(left.ptr<uchar>(pixel.y - kHalf) + pixel.x - kHalf,
-                      static_cast<std::ptrdiff_t>(left.step),
-                      W::kStride,
-                      values_,
-                      W::kStride);
-    describe();
-  }
-
-  /// Between pixels.
-  LeftWindow(const Kernels& kernels, const cv::Mat& left, const cv::Point2f& pixel)
-      : kernels_(kernels), unit2_(1 << 2 * W::kSampleBits) {
-    kernels.sampleRows(patchAt(left, pixel, kHalf), W::kStride, values_, W::kStride);
-    describe();
-  }
-
-  /// Searches the strip of a right row for the best of `count` windows.
-  Match searchRow(const std::int16_t* strip, int stride, int count, RowBuffers& buffers) const;
-
-  /// As searchRow(), for a few windows and without a test for rivals.
-  Match searchNear(const std::int16_t* strip, int stride, int count) const;
-
- private:
-  struct Compared {
-    double cost;
-    double variance;
-  };
-
-  void describe() {
-    for (int y = 0; y < W::kSide; ++y) {
-      std::fill_n(values_ + y * W::kStride + W::kSide, W::kStride - W::kSide, std::int16_t{0});
-    }
-    const ProductSums own = kernels_.multiplyWindow(values_, values_, W::kStride);
-    sum_ = own.b;
-    variance_ = varianceOf(kPixels, own.b, own.bb);
-  }
-
-  /// Times the square of the number of values.
-  double varianceOf(double count, double sum, double squares) const {
-    return count * squares - sum * sum + count * count * kRounding * unit2_;
-  }
-
-  Compared compare(const std::int16_t* strip, int stride) const {
-    const ProductSums sums = kernels_.multiplyWindow(values_, strip, stride);
-    const double variance = varianceOf(kPixels, sums.b, sums.bb);
-    const double covariance = static_cast<double>(kPixels) * sums.ab - double{sum_} * sums.b;
-    return {1.0 - covariance / std::sqrt(variance_ * variance), variance};
-  }
-
-  const Kernels& kernels_;
-  double unit2_;
-  double sum_ = 0.0;
-  double variance_ = 0.0;
-  std::int16_t values_[W::kSide * W::kStride];
-};
-
-/// Buffers of a search along a row, one for each thread.
-struct RowBuffers {
-  std::vector<std::int16_t> strip;
-  std::vector<std::int32_t> scratch;
-  std::vector<float> correlations;
-  std::vector<int> peaks;     // columns
-  std::vector<double> costs;  // of the peaks
-};
-
-Match LeftWindow::searchRow(const std::int16_t* strip,
-                            int stride,
-                            int count,
-                            RowBuffers& buffers) const {
-  buffers.scratch.resize(static_cast<std::size_t>(W::scratchOf(count)));
-  buffers.correlations.resize(static_cast<std::size_t>(count + kMostShorts));
-  float* const correlations = buffers.correlations.data();
-  constexpr auto kNoise = static_cast<float>(W::kPartPixels * W::kPartPixels * kRounding);
-  const float highest = kernels_.correlateParts(
-      values_, strip, stride, count, kNoise, buffers.scratch.data(), correlations);
-  if (!(highest > 0.0F)) return {};
-  const float most_cost = partLimit(1.0F - std::sqrt(highest));
-  const float least = most_cost < 1.0F ? (1.0F - most_cost) * (1.0F - most_cost) : 0.0F;
-  buffers.peaks.resize(static_cast<std::size_t>(count));
-  const int peaks = kernels_.findPeaks(correlations, 0, count - 2, 1, least, buffers.peaks.data());
-  buffers.costs.resize(static_cast<std::size_t>(peaks));
-  int best = -1;
-  Compared of_best = {2.0, 0.0};
-  for (int i = 0; i < peaks; ++i) {
-    const int column = ++buffers.peaks[i];  // it was that of the first neighbour
-    const Compared compared = compare(strip + column, stride);
-    buffers.costs[i] = compared.cost;
-    if (compared.cost >= of_best.cost) continue;
-    of_best = compared;
-    best = column;
-  }
-  if (best < 0) return {};
-  Compared before = compare(strip + best - 1, stride);
-  Compared after = compare(strip + best + 1, stride);
-  if (before.cost < of_best.cost && before.cost <= after.cost && best >= 2) {
-    --best;
-    after = of_best;
-    of_best = before;
-    before = compare(strip + best - 1, stride);
-  } else if (after.cost < of_best.cost && best + 2 < count) {
-    ++best;
-    before = of_best;
-    of_best = after;
-    after = compare(strip + best + 1, stride);
-  }
-  if (of_best.cost > StereoMatcher::kMostCost) return {};
-  for (int i = 0; i < peaks; ++i) {
-    const bool is_rival = std::abs(buffers.peaks[i] - best) > kSlope;
-    if (is_rival && of_best.cost >= kUniqueness * buffers.costs[i]) return {};
-  }
-  return {static_cast<float>(best) + subPixelOffset(before.cost, of_best.cost, after.cost),
-          std::sqrt(of_best.variance / variance_)};
-}
-
-Match LeftWindow::searchNear(const std::int16_t* strip, int stride, int count) const {
-  constexpr int kMost = 2 * StereoMatcher::kNearRadius_px + 3;
-  Compared all[kMost];
-  int best = 0;
-  for (int k = 0; k < count; ++k) {
-    all[k] = compare(strip + k, stride);
-    if (all[k].cost < all[best].cost) best = k;
-  }
-  if (best == 0 || best == count - 1 || all[best].cost > StereoMatcher::kMostCost) return {};
-  return {static_cast<float>(best) +
-              subPixelOffset(all[best - 1].cost, all[best].cost, all[best + 1].cost),
-          std::sqrt(all[best].variance / variance_)};
-}
-
 /// Calls matchOf(i) for each pixel and converts the columns to disparities. Returns the median
 /// gain.
 template <class MatchOf>
@@ -217,9 +48,9 @@ double eachPixel(Workers& workers,
   float* const gain_of = gains.data();
   disparities_px.assign(pixels.size(), StereoMatcher::kNoDisparity);
   workers.forEach(pixels.size(), [&](std::size_t i, std::size_t) {
-    const Match match = matchOf(i);
+    const RowMatch match = matchOf(i);
     const float disparity_px = pixels[i].x - match.column;
-    if (match.column == kNoColumn || disparity_px < least_px) return;
+    if (match.column == RowMatch::kNoColumn || disparity_px < least_px) return;
     disparities_px[i] = disparity_px;
     gain_of[i] = static_cast<float>(match.gain);
   });
@@ -242,7 +73,7 @@ double StereoMatcher::match(Workers& workers,
   const int nearest = config_.max_disparity_px + cvCeil(infinity_px);
   const int farthest = cvFloor(config_.min_disparity_px + infinity_px);
   const double least_px = config_.min_disparity_px + infinity_px;
-  return eachPixel(workers, corners, least_px, disparities_px, [&](std::size_t i) -> Match {
+  return eachPixel(workers, corners, least_px, disparities_px, [&](std::size_t i) -> RowMatch {
     if (!windowInside(left, corners[i])) return {};
     const cv::Point pixel(cvRound(corners[i].x), cvRound(corners[i].y));
     const int right_row = pixel.y + rows_lower;
@@ -260,9 +91,9 @@ double StereoMatcher::match(Workers& workers,
                         columns.size() + W::kSide - 1,
                         strip.data(),
                         stride);
-    Match found =
+    RowMatch found =
         LeftWindow(*kernels_, left, pixel).searchRow(strip.data(), stride, columns.size(), buffers);
-    if (found.column != kNoColumn) found.column += static_cast<float>(columns.start);
+    if (found.column != RowMatch::kNoColumn) found.column += static_cast<float>(columns.start);
     return found;
   });
 }
@@ -276,7 +107,7 @@ double StereoMatcher::matchNear(Workers& workers,
                                 std::vector<float>& disparities_px,
                                 double row_offset_px) const {
   const double least_px = config_.min_disparity_px + infinity_px;
-  return eachPixel(workers, pixels, least_px, disparities_px, [&](std::size_t i) -> Match {
+  return eachPixel(workers, pixels, least_px, disparities_px, [&](std::size_t i) -> RowMatch {
     if (expected_px[i] == kNoDisparity || !windowInside(left, pixels[i])) return {};
     const float right_row = pixels[i].y + static_cast<float>(row_offset_px);
     if (!rowInside(right, right_row)) return {};
@@ -290,8 +121,9 @@ double StereoMatcher::matchNear(Workers& workers,
                          columns.size() + W::kSide - 1,
                          strip,
                          kStride);
-    Match found = LeftWindow(*kernels_, left, pixels[i]).searchNear(strip, kStride, columns.size());
-    if (found.column != kNoColumn) found.column += static_cast<float>(columns.start);
+    RowMatch found =
+        LeftWindow(*kernels_, left, pixels[i]).searchNear(strip, kStride, columns.size());
+    if (found.column != RowMatch::kNoColumn) found.column += static_cast<float>(columns.start);
     return found;
   });
 }

@@ -1,12 +1,12 @@
 #include "odometry/odometry_pipeline.h"
 
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "common/sentence.h"
 #include "common/stage_timer.h"
-#include "common/to_seconds.h"
 #include "odometry/pair_check.h"
 #include "odometry/systematic_error.h"
 
@@ -101,10 +101,11 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
                                        const StereoCamera& camera,
                                        const OtherSensors& others,
                                        OdometryResult& result) {
-  const auto newest_ns = last_ ? std::optional(newest().stamp_ns) : std::nullopt;
+  std::optional<std::int64_t> newest_ns;
+  if (last_) newest_ns = (lost_ ? lost_ : last_)->stamp_ns;
   const std::string why_unusable = whyUnusable(pair, camera, newest_ns);
   if (!why_unusable.empty()) throw Lost(why_unusable);
-  result.reason = whyRestart(pair, camera);
+  result.reason = whyRestart(pair, camera, newest_ns, rig_.camera(), config_.max_gap_s);
   const FramePtr current = takeFrame(pair, camera, result.times);
   if (!result.reason.empty()) {
     forget();
@@ -122,16 +123,6 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
     throw Lost(found_.why_lost);
   }
   accept(current, result);
-}
-
-/// Why the pair cannot be compared with an earlier one; empty if it can.
-std::string VisualOdometry::Pipeline::whyRestart(const StereoPair& pair,
-                                                 const StereoCamera& camera) const {
-  if (!last_) return "first pair";
-  if (camera != rig_.camera()) return "the camera has changed";
-  const double gap_s = toSeconds(pair.stamp_ns - newest().stamp_ns);
-  if (gap_s <= config_.max_gap_s) return "";
-  return sentence("no pair for ", gap_s, " s, more than max_gap_s = ", config_.max_gap_s);
 }
 
 FramePtr VisualOdometry::Pipeline::takeFrame(const StereoPair& pair,

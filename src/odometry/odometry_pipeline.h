@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <string>
 
 #include <Eigen/Geometry>
 
@@ -47,10 +45,8 @@ class VisualOdometry::Pipeline {
                const StereoCamera& camera,
                const OtherSensors& others,
                OdometryResult& result);
-  std::string whyRestart(const StereoPair& pair, const StereoCamera& camera) const;
   FramePtr takeFrame(const StereoPair& pair, const StereoCamera& camera, StageTimes& times);
   void forget();
-  const StereoFrame& newest() const { return lost_ ? *lost_ : *last_; }
   void makeKeyframe(const FramePtr& frame, StageTimes& times);
 
   /// What is known of the motion from the last frame, or the lost one, to the current frame.

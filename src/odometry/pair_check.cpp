@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "common/sentence.h"
+#include "common/to_seconds.h"
 
 namespace rotrocc {
 namespace {
@@ -38,6 +39,18 @@ std::string whyUnusable(const StereoPair& pair,
                   " ns is not later than that of the pair before, ",
                   *newest_ns,
                   " ns");
+}
+
+std::string whyRestart(const StereoPair& pair,
+                       const StereoCamera& camera,
+                       const std::optional<std::int64_t>& newest_ns,
+                       const StereoCamera& camera_before,
+                       double max_gap_s) {
+  if (!newest_ns) return "first pair";
+  if (camera != camera_before) return "the camera has changed";
+  const double gap_s = toSeconds(pair.stamp_ns - *newest_ns);
+  if (gap_s <= max_gap_s) return "";
+  return sentence("no pair for ", gap_s, " s, more than max_gap_s = ", max_gap_s);
 }
 
 }  // namespace rotrocc

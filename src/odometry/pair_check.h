@@ -16,4 +16,11 @@ std::string whyUnusable(const StereoPair& pair,
                         const StereoCamera& camera,
                         const std::optional<std::int64_t>& newest_ns);
 
+/// Why a usable pair cannot be compared with the one before; empty if it can.
+std::string whyRestart(const StereoPair& pair,
+                       const StereoCamera& camera,
+                       const std::optional<std::int64_t>& newest_ns,
+                       const StereoCamera& camera_before,
+                       double max_gap_s);
+
 }  // namespace rotrocc
