@@ -6,7 +6,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "common/sentence.h"
+#include "common/concatenate.h"
 
 namespace rotrocc {
 namespace {
@@ -57,18 +57,18 @@ void requireImageSize(const std::string& path,
                       const cv::Size& size,
                       const std::string& whose) {
   if (image.size() == size) return;
-  throw std::runtime_error(sentence(path,
-                                    " is ",
-                                    image.cols,
-                                    " x ",
-                                    image.rows,
-                                    " px, but ",
-                                    whose,
-                                    " is ",
-                                    size.width,
-                                    " x ",
-                                    size.height,
-                                    " px"));
+  throw std::runtime_error(concatenate(path,
+                                       " is ",
+                                       image.cols,
+                                       " x ",
+                                       image.rows,
+                                       " px, but ",
+                                       whose,
+                                       " is ",
+                                       size.width,
+                                       " x ",
+                                       size.height,
+                                       " px"));
 }
 
 cv::Mat GreyImageReader::read(const std::string& path) {

@@ -10,12 +10,12 @@ CornerResponse::CornerResponse() : kernels_(&chooseKernels()) {}
 
 void CornerResponse::compute(
     const cv::Mat& image, int first_row, int last_row, int margin, cv::Mat& response) {
-  stride_ = static_cast<std::size_t>(image.cols + kSide + 2 * kMostShorts);
+  stride_ = static_cast<std::size_t>(image.cols + kSide + 2 * kMaxShorts);
   for (auto* row : {&smooth_, &steps_}) row->resize(stride_);
   for (auto* sums : {&xx_, &xy_, &yy_}) sums->assign(stride_, 0);
   gradients_.assign(static_cast<std::size_t>(2 * kSide) * stride_, 0);
 
-  response.create(last_row - first_row, image.cols + 2 * margin + kMostShorts, CV_32F);
+  response.create(last_row - first_row, image.cols + 2 * margin + kMaxShorts, CV_32F);
   const int first = std::max(first_row, (kRadius_px + kRowStep - 1) / kRowStep);
   const int last = std::min(last_row, (image.rows - kRadius_px + kRowStep - 1) / kRowStep);
   const int count = image.cols - 2 * kRadius_px;

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "features/image_noise.h"
-#include "features/least_texture.h"
+#include "features/min_texture.h"
 #include "kernels/kernels.h"
 
 namespace rotrocc {
@@ -20,12 +20,12 @@ constexpr int kStripRows = 32;
 /// The response that a corner needs: four times that to the noise of the image. Fine texture looks
 /// like noise, as that of gravel, so no more noise is assumed than cameras have in the dark: 4 grey
 /// levels.
-float leastResponse(double noise_variance) {
+float minResponse(double noise_variance) {
   constexpr double kOverNoise = 4.0;
-  constexpr double kMostDeviation = 4.0;
+  constexpr double kMaxDeviation = 4.0;
   constexpr double kSobelSquares = 12.0 / 64.0;  // of a gradient in grey levels per pixel
-  const double variance = std::min(noise_variance, kMostDeviation * kMostDeviation);
-  return std::max(kLeastTexture, static_cast<float>(kOverNoise * kSobelSquares * variance));
+  const double variance = std::min(noise_variance, kMaxDeviation * kMaxDeviation);
+  return std::max(kMinTexture, static_cast<float>(kOverNoise * kSobelSquares * variance));
 }
 
 /// Whether no pixel of these rows and columns has a response larger than `value`, or an equal one
@@ -71,7 +71,7 @@ void FeatureDetector::detect(Workers& workers,
   corners.clear();
   if (std::min(image.cols, image.rows) <= 2 * (kBorder_px + kRadius_px)) return;
 
-  least_response_ = leastResponse(noiseVariance(image, noise_));
+  min_response_ = minResponse(noiseVariance(image, noise_));
   const int first_row = (kBorder_px + kRowStep - 1) / kRowStep;
   const int last_row = (image.rows - kBorder_px + kRowStep - 1) / kRowStep;
   const int strip_count = (last_row + kStripRows - 1) / kStripRows;
@@ -114,7 +114,7 @@ void FeatureDetector::searchBand(int width, const cv::Range& rows, int top, Stri
                              highest);
   strip.peaks.resize(strip.highest.size());
   const int count = kernels_->findPeaks(
-      highest, kBorder_px, width - kBorder_px, radius, least_response_, strip.peaks.data());
+      highest, kBorder_px, width - kBorder_px, radius, min_response_, strip.peaks.data());
   for (int i = 0; i < count; ++i) {
     const int x = strip.peaks[static_cast<std::size_t>(i)];
     const int column = x + radius;
@@ -127,10 +127,10 @@ void FeatureDetector::searchBand(int width, const cv::Range& rows, int top, Stri
 }
 
 void FeatureDetector::selectByCells(const cv::Size& size,
-                                    std::size_t most,
+                                    std::size_t max_count,
                                     std::vector<cv::Point2f>& corners) {
   sortByCells(size);
-  for (std::size_t rank = 0; corners.size() < most; ++rank) {
+  for (std::size_t rank = 0; corners.size() < max_count; ++rank) {
     rank_.clear();
     std::size_t begin = 0;
     for (const std::size_t end : cell_ends_) {
@@ -139,7 +139,7 @@ void FeatureDetector::selectByCells(const cv::Size& size,
     }
     if (rank_.empty()) break;
     std::sort(rank_.begin(), rank_.end(), isStronger);
-    if (rank_.size() > most - corners.size()) rank_.resize(most - corners.size());
+    if (rank_.size() > max_count - corners.size()) rank_.resize(max_count - corners.size());
     for (const Candidate& c : rank_) {
       corners.emplace_back(static_cast<float>(c.x), static_cast<float>(c.y));
     }

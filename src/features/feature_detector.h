@@ -49,7 +49,9 @@ class FeatureDetector {
 
   void findCandidates(const cv::Mat& image, int first_row, int last_row, Strip& strip) const;
   void searchBand(int width, const cv::Range& rows, int top, Strip& strip) const;
-  void selectByCells(const cv::Size& size, std::size_t most, std::vector<cv::Point2f>& corners);
+  void selectByCells(const cv::Size& size,
+                     std::size_t max_count,
+                     std::vector<cv::Point2f>& corners);
   void sortByCells(const cv::Size& size);
   static bool isStronger(const Candidate& a, const Candidate& b);
 
@@ -60,7 +62,7 @@ class FeatureDetector {
   std::vector<Candidate> by_cell_;
   std::vector<Candidate> rank_;
   std::vector<int> noise_;  // responses to a mask
-  float least_response_ = 0.0F;
+  float min_response_ = 0.0F;
 };
 
 }  // namespace rotrocc

@@ -109,10 +109,10 @@ bool FeatureTracker::returns(const cv::Mat& from,
                              TrackingWindow& window,
                              const cv::Point2f& end) const {
   const TrackingWindow::Stop stop = {config_.max_iterations, config_.min_step_px};
-  const auto most_px = static_cast<float>(config_.max_round_trip_px);
+  const auto max_px = static_cast<float>(config_.max_round_trip_px);
   cv::Point2f back = start;
   return window.take(to, end, 1.0F / scale) && window.find(from, stop, back) &&
-         distance2(back, start) <= most_px * most_px;
+         distance2(back, start) <= max_px * max_px;
 }
 
 }  // namespace rotrocc

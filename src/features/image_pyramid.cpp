@@ -30,9 +30,9 @@ void smoothDown(const Kernels& kernels, const cv::Mat& image, int y, std::int16_
 
 }  // namespace
 
-void buildPyramid(const cv::Mat& image, int levels, int least_side_px, ImagePyramid& pyramid) {
+void buildPyramid(const cv::Mat& image, int levels, int min_side_px, ImagePyramid& pyramid) {
   int count = 1;
-  while (count < levels && std::min(image.cols, image.rows) >> count > least_side_px) ++count;
+  while (count < levels && std::min(image.cols, image.rows) >> count > min_side_px) ++count;
   pyramid.resize(static_cast<std::size_t>(count));
   image.copyTo(pyramid[0]);
   for (std::size_t i = 1; i < pyramid.size(); ++i) halve(pyramid[i - 1], pyramid[i]);
@@ -42,7 +42,7 @@ void halve(const cv::Mat& image, cv::Mat& half) {
   half.create((image.rows + 1) / 2, (image.cols + 1) / 2, CV_8UC1);
   const Kernels& kernels = chooseKernels();
   thread_local std::vector<std::int16_t> buffer;  // buffer for one row
-  buffer.resize(static_cast<std::size_t>(image.cols + 2 * kReach + kMostShorts));
+  buffer.resize(static_cast<std::size_t>(image.cols + 2 * kReach + kMaxShorts));
   std::int16_t* sums = buffer.data() + kReach;
   for (int y = 0; y < half.rows; ++y) {
     smoothDown(kernels, image, 2 * y, sums);

@@ -10,8 +10,8 @@ namespace rotrocc {
 using ImagePyramid = std::vector<cv::Mat>;
 
 /// Builds a pyramid of at most `levels` levels including the image. The smaller copies are larger
-/// than `least_side_px` in both directions. Reuses the memory of `pyramid`.
-void buildPyramid(const cv::Mat& image, int levels, int least_side_px, ImagePyramid& pyramid);
+/// than `min_side_px` in both directions. Reuses the memory of `pyramid`.
+void buildPyramid(const cv::Mat& image, int levels, int min_side_px, ImagePyramid& pyramid);
 
 /// Smooths `image` (CV_8UC1) by (1 4 6 4 1) / 16 in both directions and keeps every other pixel of
 /// every other row, starting with the first: the reduction of Burt and Adelson (1983). The image is

@@ -15,16 +15,16 @@ using W = CorrelationWindow;
 
 constexpr int kPixels = W::kSide * W::kSide;
 
-/// Costs within this distance [px] of the minimum are its slopes, not rivals.
+/// Costs within this distance [px] of the minimum are its slopes.
 constexpr int kSlope = 2;
 
-/// The best match costs at most this share of its rival: 0.92 times as long a difference.
+/// The best match costs at most this share of its competitor: 0.92 times as long a difference.
 constexpr double kUniqueness = 0.85;
 
-/// Largest cost of a part for the whole window to be compared, where `least` is the lowest cost of
-/// a part. With twice the margin, the same matches are found.
-float partLimit(float least) {
-  return 1.25F * least + 0.05F;
+/// Largest cost of a part for the whole window to be compared, where `min_cost` is the lowest cost
+/// of a part. With twice the margin, the same matches are found.
+float partLimit(float min_cost) {
+  return 1.25F * min_cost + 0.05F;
 }
 
 /// Variance of rounding to whole grey levels. It limits the correlation of windows without texture.
@@ -89,16 +89,17 @@ RowMatch LeftWindow::searchRow(const std::int16_t* strip,
                                int count,
                                RowBuffers& buffers) const {
   buffers.scratch.resize(static_cast<std::size_t>(W::scratchOf(count)));
-  buffers.correlations.resize(static_cast<std::size_t>(count + kMostShorts));
+  buffers.correlations.resize(static_cast<std::size_t>(count + kMaxShorts));
   float* const correlations = buffers.correlations.data();
   constexpr auto kNoise = static_cast<float>(W::kPartPixels * W::kPartPixels * kRounding);
   const float highest = kernels_.correlateParts(
       values_, strip, stride, count, kNoise, buffers.scratch.data(), correlations);
   if (!(highest > 0.0F)) return {};
-  const float most_cost = partLimit(1.0F - std::sqrt(highest));
-  const float least = most_cost < 1.0F ? (1.0F - most_cost) * (1.0F - most_cost) : 0.0F;
+  const float max_cost = partLimit(1.0F - std::sqrt(highest));
+  const float min_correlation = max_cost < 1.0F ? (1.0F - max_cost) * (1.0F - max_cost) : 0.0F;
   buffers.peaks.resize(static_cast<std::size_t>(count));
-  const int peaks = kernels_.findPeaks(correlations, 0, count - 2, 1, least, buffers.peaks.data());
+  const int peaks =
+      kernels_.findPeaks(correlations, 0, count - 2, 1, min_correlation, buffers.peaks.data());
   buffers.costs.resize(static_cast<std::size_t>(peaks));
   int best = -1;
   Compared of_best = {2.0, 0.0};
@@ -124,23 +125,23 @@ RowMatch LeftWindow::searchRow(const std::int16_t* strip,
     of_best = after;
     after = compare(strip + best + 1, stride);
   }
-  if (of_best.cost > StereoMatcher::kMostCost) return {};
+  if (of_best.cost > StereoMatcher::kMaxCost) return {};
   for (int i = 0; i < peaks; ++i) {
-    const bool is_rival = std::abs(buffers.peaks[i] - best) > kSlope;
-    if (is_rival && of_best.cost >= kUniqueness * buffers.costs[i]) return {};
+    const bool competes = std::abs(buffers.peaks[i] - best) > kSlope;
+    if (competes && of_best.cost >= kUniqueness * buffers.costs[i]) return {};
   }
   return refined(best, before, of_best, after);
 }
 
 RowMatch LeftWindow::searchNear(const std::int16_t* strip, int stride, int count) const {
-  constexpr int kMost = 2 * StereoMatcher::kNearRadius_px + 3;
-  Compared all[kMost];
+  constexpr int kMaxCount = 2 * StereoMatcher::kNearRadius_px + 3;
+  Compared all[kMaxCount];
   int best = 0;
   for (int k = 0; k < count; ++k) {
     all[k] = compare(strip + k, stride);
     if (all[k].cost < all[best].cost) best = k;
   }
-  if (best == 0 || best == count - 1 || all[best].cost > StereoMatcher::kMostCost) return {};
+  if (best == 0 || best == count - 1 || all[best].cost > StereoMatcher::kMaxCost) return {};
   return refined(best, all[best - 1], all[best], all[best + 1]);
 }
 

@@ -42,7 +42,7 @@ class LeftWindow {
   /// Searches the strip of a right row for the best of `count` windows.
   RowMatch searchRow(const std::int16_t* strip, int stride, int count, RowBuffers& buffers) const;
 
-  /// As searchRow(), for a few windows and without a test for rivals.
+  /// As searchRow(), for a few windows and without a test for competitors.
   RowMatch searchNear(const std::int16_t* strip, int stride, int count) const;
 
  private:

@@ -12,7 +12,7 @@ constexpr std::size_t kFeatureSample = 16;
 
 /// Number of corners that are searched, and the largest offset at which they are found.
 constexpr std::size_t kCorners = 64;
-constexpr int kMostRows = 3;
+constexpr int kMaxRows = 3;
 
 /// A corner that is found in several rows must be at the same place, or its row is unknown.
 constexpr float kSamePlace_px = 1.0F;
@@ -45,7 +45,7 @@ void RowSearch::search(const StereoCamera& camera,
     sample_px_.push_back(keyframe.corners[i]);
   }
   found_.assign(sample_px_.size(), {});
-  for (int rows = -kMostRows; rows <= kMostRows; ++rows) searchRow(camera, *keyframe.frame, rows);
+  for (int rows = -kMaxRows; rows <= kMaxRows; ++rows) searchRow(camera, *keyframe.frame, rows);
   offsets_px.clear();
   for (const Found& found : found_) {
     if (found.isUnique()) offsets_px.push_back(found.nearest_px);

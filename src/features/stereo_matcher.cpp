@@ -40,7 +40,7 @@ cv::Range clip(const cv::Mat& image, const cv::Range& columns) {
 template <class MatchOf>
 double eachPixel(Workers& workers,
                  const std::vector<cv::Point2f>& pixels,
-                 double least_px,
+                 double min_px,
                  std::vector<float>& disparities_px,
                  const MatchOf& matchOf) {
   thread_local std::vector<float> gains;
@@ -50,7 +50,7 @@ double eachPixel(Workers& workers,
   workers.forEach(pixels.size(), [&](std::size_t i, std::size_t) {
     const RowMatch match = matchOf(i);
     const float disparity_px = pixels[i].x - match.column;
-    if (match.column == RowMatch::kNoColumn || disparity_px < least_px) return;
+    if (match.column == RowMatch::kNoColumn || disparity_px < min_px) return;
     disparities_px[i] = disparity_px;
     gain_of[i] = static_cast<float>(match.gain);
   });
@@ -72,8 +72,8 @@ double StereoMatcher::match(Workers& workers,
   const int rows_lower = cvRound(row_offset_px);
   const int nearest = config_.max_disparity_px + cvCeil(infinity_px);
   const int farthest = cvFloor(config_.min_disparity_px + infinity_px);
-  const double least_px = config_.min_disparity_px + infinity_px;
-  return eachPixel(workers, corners, least_px, disparities_px, [&](std::size_t i) -> RowMatch {
+  const double min_px = config_.min_disparity_px + infinity_px;
+  return eachPixel(workers, corners, min_px, disparities_px, [&](std::size_t i) -> RowMatch {
     if (!windowInside(left, corners[i])) return {};
     const cv::Point pixel(cvRound(corners[i].x), cvRound(corners[i].y));
     const int right_row = pixel.y + rows_lower;
@@ -83,9 +83,9 @@ double StereoMatcher::match(Workers& workers,
     thread_local RowBuffers buffers_of_thread;
     RowBuffers& buffers = buffers_of_thread;  // one look-up
     std::vector<std::int16_t>& strip = buffers.strip;
-    const int stride = columns.size() + W::kStride + kMostShorts;
+    const int stride = columns.size() + W::kStride + kMaxShorts;
     strip.reserve(W::kSide * kUsualColumns);
-    strip.resize(static_cast<std::size_t>(W::kSide * stride + kMostShorts));
+    strip.resize(static_cast<std::size_t>(W::kSide * stride + kMaxShorts));
     kernels_->widenRows(right.ptr<uchar>(right_row - kHalf) + columns.start - kHalf,
                         static_cast<std::ptrdiff_t>(right.step),
                         columns.size() + W::kSide - 1,
@@ -106,8 +106,8 @@ double StereoMatcher::matchNear(Workers& workers,
                                 double infinity_px,
                                 std::vector<float>& disparities_px,
                                 double row_offset_px) const {
-  const double least_px = config_.min_disparity_px + infinity_px;
-  return eachPixel(workers, pixels, least_px, disparities_px, [&](std::size_t i) -> RowMatch {
+  const double min_px = config_.min_disparity_px + infinity_px;
+  return eachPixel(workers, pixels, min_px, disparities_px, [&](std::size_t i) -> RowMatch {
     if (expected_px[i] == kNoDisparity || !windowInside(left, pixels[i])) return {};
     const float right_row = pixels[i].y + static_cast<float>(row_offset_px);
     if (!rowInside(right, right_row)) return {};

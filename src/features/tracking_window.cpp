@@ -4,14 +4,14 @@
 #include <cmath>
 #include <cstring>
 
-#include "features/least_texture.h"
+#include "features/min_texture.h"
 #include "features/patch.h"
 
 namespace rotrocc {
 namespace {
 
 /// Sum of squares [grey levels^2] below which a window is plain: keeps steps finite.
-constexpr double kLeastVariance = 1e-3;
+constexpr double kMinVariance = 1e-3;
 
 /// If a step reverses the previous one to within this distance [px], the iteration oscillates and
 /// is stopped.
@@ -121,7 +121,7 @@ bool TrackingWindow::describeContrast(const GradientSums& sums) {
   mean_contrast_ = kOfContrast / pixels * static_cast<double>(contrast.one);
   contrast_square_ = kOfContrast * kOfContrast * static_cast<double>(contrast.square) -
                      pixels * mean_contrast_ * mean_contrast_;
-  if (!(contrast_square_ > kLeastVariance)) return false;
+  if (!(contrast_square_ > kMinVariance)) return false;
   gradient_by_contrast_ =
       1.0 / contrast_square_ *
       (kOfContrast * kOfGradient * products - pixels * mean_contrast_ * mean_gradient_);
@@ -144,7 +144,7 @@ bool TrackingWindow::invertNormalMatrix(const GradientSums& sums) {
   const float yy = left(sums.yy, mean.y * mean.y, slope.y * slope.y);
   const float difference = xx - yy;
   const float smaller = 0.5F * (xx + yy - std::sqrt(difference * difference + 4.0F * xy * xy));
-  if (!(smaller >= kLeastTexture * static_cast<float>(side_ * side_))) return false;
+  if (!(smaller >= kMinTexture * static_cast<float>(side_ * side_))) return false;
   const float scale = 1.0F / (xx * yy - xy * xy);
   inverse_xx_ = scale * yy;
   inverse_xy_ = -scale * xy;
@@ -166,7 +166,7 @@ cv::Point2f TrackingWindow::stepFrom(const Patch& patch, const Window& window) c
     const double square = kOfDifference * kOfDifference * static_cast<double>(sums.square) -
                           brighter * brighter / (side_ * side_);
     const double variance = contrast_square_ + 2.0 * with_contrast + square;
-    mismatch *= std::sqrt(contrast_square_ / std::max(variance, kLeastVariance));
+    mismatch *= std::sqrt(contrast_square_ / std::max(variance, kMinVariance));
   }
   const cv::Point2f b(static_cast<float>(mismatch.x), static_cast<float>(mismatch.y));
   return {-inverse_xx_ * b.x - inverse_xy_ * b.y, -inverse_xy_ * b.x - inverse_yy_ * b.y};
@@ -175,7 +175,7 @@ cv::Point2f TrackingWindow::stepFrom(const Patch& patch, const Window& window) c
 bool TrackingWindow::find(const cv::Mat& image, const Stop& stop, cv::Point2f& center) {
   const cv::Rect2f inside(
       0.0F, 0.0F, static_cast<float>(image.cols), static_cast<float>(image.rows));
-  const auto least_px2 = static_cast<float>(stop.min_step_px * stop.min_step_px);
+  const auto min_px2 = static_cast<float>(stop.min_step_px * stop.min_step_px);
   const Window window = this->window();
   cv::Point2f found = center;
   cv::Point2f last_step;
@@ -183,7 +183,7 @@ bool TrackingWindow::find(const cv::Mat& image, const Stop& stop, cv::Point2f& c
     if (!inside.contains(found)) return false;
     const cv::Point2f step = stepFrom(patchAround(image, found, radius_, stride_), window);
     found += step;
-    if (step.dot(step) <= least_px2) break;
+    if (step.dot(step) <= min_px2) break;
     const cv::Point2f both = step + last_step;
     if (i > 0 && std::abs(both.x) < kSameStep_px && std::abs(both.y) < kSameStep_px) {
       found -= 0.5F * step;

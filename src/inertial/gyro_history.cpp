@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "common/sentence.h"
+#include "common/concatenate.h"
 #include "common/to_seconds.h"
 #include "rotrocc/rigid_motion.h"
 
@@ -30,7 +30,7 @@ std::string GyroHistory::add(const GyroSample& sample) {
   if (!samples_.empty() && sample.stamp_ns <= samples_.back().stamp_ns) {
     const double back_s = toSeconds(samples_.back().stamp_ns - sample.stamp_ns);
     if (back_s <= kJump_s) {
-      return sentence("the stamp is ", back_s, " s before that of the sample before");
+      return concatenate("the stamp is ", back_s, " s before that of the sample before");
     }
     samples_.clear();
   }
@@ -59,20 +59,20 @@ std::string GyroHistory::whyUnknown(std::int64_t from_ns, std::int64_t to_ns) co
   if (samples_.empty()) return "there is no sample";
   const double late_s = toSeconds(to_ns - samples_.back().stamp_ns);
   if (late_s > 0.0) {
-    return sentence("the newest sample is ",
-                    late_s,
-                    " s older than the image: it is late, has stopped or has another clock");
+    return concatenate("the newest sample is ",
+                       late_s,
+                       " s older than the image: it is late, has stopped or has another clock");
   }
   auto sample = lastUpTo(from_ns);
   if (sample == samples_.end()) {
-    return sentence("the oldest sample is ",
-                    toSeconds(samples_.front().stamp_ns - from_ns),
-                    " s newer than the image before");
+    return concatenate("the oldest sample is ",
+                       toSeconds(samples_.front().stamp_ns - from_ns),
+                       " s newer than the image before");
   }
   for (; sample->stamp_ns < to_ns; ++sample) {
     const double gap_s = toSeconds(std::next(sample)->stamp_ns - sample->stamp_ns);
     if (gap_s <= kMaxGap_s) continue;
-    return sentence("two samples are ", gap_s, " s apart, more than ", kMaxGap_s, " s");
+    return concatenate("two samples are ", gap_s, " s apart, more than ", kMaxGap_s, " s");
   }
   return "";
 }

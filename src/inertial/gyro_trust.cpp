@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "common/sentence.h"
+#include "common/concatenate.h"
 
 namespace rotrocc {
 namespace {
@@ -54,14 +54,15 @@ void GyroTrust::refuse() {
   const double ratio = gyro_rad_ / vision_rad_;
   if (isNear(ratio, kDegreesPerRadian, 1.5)) {
     why_not_ =
-        sentence("its rotations are ",
-                 ratio,
-                 " times those of the images: it seems to be in deg/s, but must be in rad/s");
+        concatenate("its rotations are ",
+                    ratio,
+                    " times those of the images: it seems to be in deg/s, but must be in rad/s");
     return;
   }
-  why_not_ = sentence("its rotations differ from those of the images by ",
-                      kDegreesPerRadian * difference_rad_ / disagreeing_,
-                      " deg per pair: check the tf from its frame to the camera's, and its stamps");
+  why_not_ =
+      concatenate("its rotations differ from those of the images by ",
+                  kDegreesPerRadian * difference_rad_ / disagreeing_,
+                  " deg per pair: check the tf from its frame to the camera's, and its stamps");
 }
 
 }  // namespace rotrocc

@@ -6,7 +6,7 @@ namespace {
 
 /// A fit changes the depth of a feature by at most this factor: a wrong match must not become an
 /// inlier.
-constexpr double kMostStretch = 2.0;
+constexpr double kMaxStretch = 2.0;
 
 void beginAtMeasured(const FitTerms terms, FitBlock& block) {
   const double* r = terms.rotation;
@@ -50,8 +50,8 @@ void improve(const FitTerms terms, FitBlock& block) {
                          j_y * (block.keyframe_y[i] - block.seen_y[i]);
     const double next = block.fitted[i] + (terms.ratio2 * along - (block.fitted[i] - measured)) /
                                               (1.0 + terms.ratio2 * (j_x * j_x + j_y * j_y));
-    const double least = measured / kMostStretch;
-    const double most = measured * kMostStretch;
+    const double least = measured / kMaxStretch;
+    const double most = measured * kMaxStretch;
     const double not_less = next < least ? least : next;
     block.fitted[i] = not_less > most ? most : not_less;
   }

@@ -9,6 +9,6 @@ const Kernels kernels = {kShorts,          smoothDown,   smoothAlong,       diff
                          widenRows,        sampleRows,   correlateParts,    multiplyWindow,
                          takeWindow,       takeContrast, compareWindow,     fitDisparities,
                          findResiduals,    linearise,    addColumnProducts, multiplyByDisparity};
-static_assert(kShorts <= kMostShorts);
+static_assert(kShorts <= kMaxShorts);
 
 }  // namespace rotrocc::ROTROCC_INSTRUCTIONS

@@ -13,7 +13,7 @@ namespace rotrocc {
 /// all kinds: integer sums are exact, and the order of floating-point sums does not depend on the
 /// register width.
 struct Kernels {
-  int shorts;  ///< number of 16-bit values in a register, at most kMostShorts
+  int shorts;  ///< number of 16-bit values in a register, at most kMaxShorts
 
   decltype(&ROTROCC_INSTRUCTIONS::smoothDown) smoothDown;
   decltype(&ROTROCC_INSTRUCTIONS::smoothAlong) smoothAlong;
@@ -37,7 +37,7 @@ struct Kernels {
 };
 
 /// Values that a row needs beyond its end, because whole registers are read and written.
-constexpr int kMostShorts = 16;
+constexpr int kMaxShorts = 16;
 
 /// The kernels for AVX2 if the processor has it, otherwise those for any processor. The latter are
 /// also chosen by cv::setUseOptimized(false), or by OPENCV_CPU_DISABLE=AVX2 in the environment.

@@ -9,10 +9,10 @@
 namespace rotrocc {
 namespace {
 
-constexpr std::size_t kLeastFeatures = 4;
+constexpr std::size_t kMinFeatures = 4;
 
 /// As many tell the motion that most agree on; all of them take several times as long.
-constexpr std::size_t kMostFeatures = 200;
+constexpr std::size_t kMaxFeatures = 200;
 
 /// Samples of three features. With half of the features wrong, one of 35 is expected to be the
 /// first without an outlier in 99 % of all cases; depths of far features are too inexact for most.
@@ -25,10 +25,10 @@ constexpr double kConfidence = 0.999;
 std::optional<Eigen::Isometry3d> consensusMotion(const StereoCamera& camera,
                                                  const Correspondences& features,
                                                  double tolerance_px) {
-  if (features.size() < kLeastFeatures) return std::nullopt;
+  if (features.size() < kMinFeatures) return std::nullopt;
   std::vector<cv::Point3d> points;
   std::vector<cv::Point2d> pixels;
-  const std::size_t step = (features.size() + kMostFeatures - 1) / kMostFeatures;
+  const std::size_t step = (features.size() + kMaxFeatures - 1) / kMaxFeatures;
   for (std::size_t i = 0; i < features.size(); i += step) {
     const Correspondence& feature = features[i];
     points.emplace_back(feature.point_cur.x(), feature.point_cur.y(), feature.point_cur.z());

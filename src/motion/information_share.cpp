@@ -17,9 +17,9 @@ double leastShare(const Matrix6d& part, const Matrix6d& whole) {
 
 }  // namespace
 
-double InformationShare::least(const Measurements& measured,
-                               const Eigen::Isometry3d& T_keyframe_cur,
-                               const FeatureSet& inliers) {
+double InformationShare::minimum(const Measurements& measured,
+                                 const Eigen::Isometry3d& T_keyframe_cur,
+                                 const FeatureSet& inliers) {
   fitAt(measured, T_keyframe_cur, fit_);
   all_.assign(inliers.size(), 1);
   const Matrix6d of_all = informationOf(measured.camera, all_);
@@ -27,12 +27,12 @@ double InformationShare::least(const Measurements& measured,
   const Eigen::LLT<Matrix6d> determined(of_inliers);
   if (determined.info() != Eigen::Success) return 0.0;
   const Matrix6d covariance = determined.solve(Matrix6d::Identity());
-  double most_leverage = 0.0;
+  double max_leverage = 0.0;
   Eigen::Matrix<double, 2, 6> of_most = Eigen::Matrix<double, 2, 6>::Zero();
   problem_.linearise(problem_.start(), [&](const ReprojectionProblem<6>::Term& term) {
     const double leverage = (term.jacobian * covariance).cwiseProduct(term.jacobian).sum();
-    if (leverage <= most_leverage) return;
-    most_leverage = leverage;
+    if (leverage <= max_leverage) return;
+    max_leverage = leverage;
     of_most = term.jacobian;
   });
   return leastShare(of_inliers - of_most.transpose() * of_most, of_all);

@@ -19,9 +19,9 @@ class InformationShare {
   ///
   /// If it is small, the motion depends on one feature, or other features contradict those that
   /// determine it. The inliers fit it nevertheless, and their residuals are as small as usual.
-  double least(const Measurements& measured,
-               const Eigen::Isometry3d& T_keyframe_cur,
-               const FeatureSet& inliers);
+  double minimum(const Measurements& measured,
+                 const Eigen::Isometry3d& T_keyframe_cur,
+                 const FeatureSet& inliers);
 
  private:
   Matrix6d informationOf(const StereoCamera& camera, const FeatureSet& set);

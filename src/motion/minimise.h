@@ -56,8 +56,8 @@ void setFunctionTolerance(Options&, double, long) {}
 
 /// Options of a minimisation.
 struct MinimiseOptions {
-  double damping = 1e-4;                ///< initial damping, relative to the diagonal of J^T J
-  double least_cost_change_px2 = 2e-6;  ///< stop when a step changes the cost by less
+  double damping = 1e-4;              ///< initial damping, relative to the diagonal of J^T J
+  double min_cost_change_px2 = 2e-6;  ///< stop when a step changes the cost by less
   int max_steps = 19;
 };
 
@@ -72,7 +72,7 @@ bool minimise(const ReprojectionProblem<kParameters>& problem,
   solver.options.max_num_iterations = options.max_steps + 1;  // it counts the start
   solver.options.initial_trust_region_radius = 1.0 / options.damping;
   solver.options.parameter_tolerance = 1e-7;
-  setFunctionTolerance(solver.options, 0.5 * options.least_cost_change_px2, 0);
+  setFunctionTolerance(solver.options, 0.5 * options.min_cost_change_px2, 0);
   const auto& summary = solver.Solve(CondensedProblem<kParameters>(problem), &parameters);
   return parameters.allFinite() && std::isfinite(summary.final_cost);
 }

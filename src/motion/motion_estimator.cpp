@@ -18,7 +18,7 @@ constexpr double kSignificant2 = 16.8;
 constexpr double kMajority = 0.5;
 
 /// Two sets of inliers that differ by less are of the same motion.
-constexpr double kClearly = 1.1;
+constexpr double kMinCountRatio = 1.1;
 
 /// The square of a factor of 2 between distances.
 constexpr double kHalf2 = 4.0;
@@ -36,8 +36,8 @@ Matrix6d covarianceOfPrediction(double dt_s) {
 
 }  // namespace
 
-MotionEstimator::MotionEstimator(const Config& config, int least_inliers)
-    : config_(config), least_inliers_(least_inliers), two_stages_(config), covariance_(config) {
+MotionEstimator::MotionEstimator(const Config& config, int min_inliers)
+    : config_(config), min_inliers_(min_inliers), two_stages_(config), covariance_(config) {
   if (config.robust_factor > 0.0 || config.shared_ratio > 0.0) {
     refinement_.emplace(config.robust_factor);
   }
@@ -70,7 +70,7 @@ void MotionEstimator::takeConsensus(const Measurements& measured, double dt_s) {
   if (!consensus) return;
   retryNear(*consensus, measured, dt_s);
   if (!retry_.valid) return;
-  const double clearly_more = kClearly * count(found_.rotation_inliers);
+  const double clearly_more = kMinCountRatio * count(found_.rotation_inliers);
   if (!found_.valid || count(retry_.rotation_inliers) > clearly_more) std::swap(found_, retry_);
 }
 
@@ -112,7 +112,7 @@ void MotionEstimator::estimateFrom(const FeatureSet& set,
                                    double dt_s,
                                    Estimate& estimate) {
   RobustRefinement* refinement = refinement_ ? &*refinement_ : nullptr;
-  two_stages_.estimate(measured, set, initial, dt_s, least_inliers_, refinement, motion_);
+  two_stages_.estimate(measured, set, initial, dt_s, min_inliers_, refinement, motion_);
   estimate.T_keyframe_cur = motion_.fit.T_keyframe_cur;
   estimate.rotation_inliers = motion_.rotation_inliers;
   estimate.translation_inliers = motion_.translation_inliers;

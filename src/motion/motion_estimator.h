@@ -33,8 +33,8 @@ class MotionEstimator {
   };
 
   /// Throws std::invalid_argument on an unknown criterion. Stage 2 fails if it has fewer inliers
-  /// than `least_inliers`.
-  explicit MotionEstimator(const Config& config, int least_inliers = 3);
+  /// than `min_inliers`.
+  explicit MotionEstimator(const Config& config, int min_inliers = 3);
 
   /// A motion that was predicted by constant velocity over `dt_s`.
   struct Prediction {
@@ -75,7 +75,7 @@ class MotionEstimator {
                     Estimate& estimate);
 
   Config config_;
-  int least_inliers_;
+  int min_inliers_;
   TwoStageEstimator two_stages_;
   std::optional<RobustRefinement> refinement_;
   MotionCovariance covariance_;

@@ -6,14 +6,14 @@
 namespace rotrocc {
 namespace {
 
-constexpr std::size_t kLeastForMotion = 3;
-constexpr std::size_t kLeastForTranslation = 2;
+constexpr std::size_t kMinForMotion = 3;
+constexpr std::size_t kMinForTranslation = 2;
 
 }  // namespace
 
 bool MotionSolver::solveMotion(const Measurements& measured, const FeatureSet& set, Fit& fit) {
   motion_problem_.assign(measured.camera, fit, set);
-  if (motion_problem_.size() < kLeastForMotion) return false;
+  if (motion_problem_.size() < kMinForMotion) return false;
   Vector6d parameters = motion_problem_.start();
   motion_problem_.weigh(parameters, options_.robust_factor);
   // Without the parabola: a rotation hardly depends on disparities, and needs all features.
@@ -29,7 +29,7 @@ bool MotionSolver::solveMotion(const Measurements& measured, const FeatureSet& s
 
 bool MotionSolver::solveTranslation(const Measurements& measured, const FeatureSet& set, Fit& fit) {
   translation_problem_.assign(measured.camera, fit, set);
-  if (translation_problem_.size() < kLeastForTranslation) return false;
+  if (translation_problem_.size() < kMinForTranslation) return false;
   Eigen::Vector3d translation = translation_problem_.start();
   translation_problem_.weigh(translation, options_.robust_factor);
   if (options_.shares_errors) {

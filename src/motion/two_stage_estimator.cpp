@@ -13,10 +13,10 @@ namespace rotrocc {
 namespace {
 
 /// Lower limit of the flow [px], so that normalized errors stay finite without flow.
-constexpr double kLeastFlow_px = 1e-6;
+constexpr double kMinFlow_px = 1e-6;
 
 /// The error of a feature that must not become an inlier.
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kExcludedError = std::numeric_limits<double>::infinity();
 
 OutlierThreshold rotationThreshold(Criterion criterion, const MotionEstimatorConfig& config) {
   switch (criterion) {
@@ -43,7 +43,7 @@ void TwoStageEstimator::estimate(const Measurements& measured,
                                  const FeatureSet& set,
                                  const Eigen::Isometry3d& initial,
                                  double dt_s,
-                                 int least_inliers,
+                                 int min_inliers,
                                  RobustRefinement* refinement,
                                  TwoStageMotion& motion) {
   fitAt(measured, initial, motion.fit);
@@ -65,7 +65,7 @@ void TwoStageEstimator::estimate(const Measurements& measured,
     fitAt(measured, T_start, motion.fit);
   }
   motion.has_translation_stage = estimateTranslation(measured, refinement, motion) &&  // 3)
-                                 count(motion.translation_inliers) >= least_inliers;
+                                 count(motion.translation_inliers) >= min_inliers;
   if (motion.has_translation_stage) return;
   motion.translation_failed = true;
   motion.translation_inliers = motion.rotation_inliers;
@@ -136,8 +136,8 @@ bool TwoStageEstimator::estimateTranslation(const Measurements& measured,
   const auto measure = [&] {
     reprojectionErrors(measured.camera, measured.features, fit.T_keyframe_cur, errors_);
     for (std::size_t i = 0; i < errors_.size(); ++i) {
-      const double flow_px = std::max(flow_px_[i], kLeastFlow_px);
-      errors_[i] = candidates_[i] != 0 ? errors_[i] / flow_px : kNever;
+      const double flow_px = std::max(flow_px_[i], kMinFlow_px);
+      errors_[i] = candidates_[i] != 0 ? errors_[i] / flow_px : kExcludedError;
     }
   };
   inliers = candidates_;

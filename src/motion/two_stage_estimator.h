@@ -33,13 +33,13 @@ class TwoStageEstimator {
 
   /// Estimates the motion that took `dt_s` > 0 from the features flagged in `set`, starting at
   /// `initial`. The result is invalid if stage 1 leaves fewer than 3 features. If stage 2 leaves
-  /// fewer than `least_inliers`, the motion is that of stage 1. `refinement`, if given, is applied
+  /// fewer than `min_inliers`, the motion is that of stage 1. `refinement`, if given, is applied
   /// after each stage.
   void estimate(const Measurements& measured,
                 const FeatureSet& set,
                 const Eigen::Isometry3d& initial,
                 double dt_s,
-                int least_inliers,
+                int min_inliers,
                 RobustRefinement* refinement,
                 TwoStageMotion& motion);
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "common/sentence.h"
+#include "common/concatenate.h"
 #include "motion/median_depth.h"
 #include "motion/outlier_rejection.h"
 #include "rotrocc/rigid_motion.h"
@@ -20,12 +20,12 @@ constexpr int kReserve = 2;
 /// with the scene, or it would have none small enough at standstill.
 constexpr double kShortStep = 0.02;
 /// The share of degraded_rival_share that is enough for features behind the others.
-constexpr double kSuspicion = 0.5;
+constexpr double kShareBehind = 0.5;
 /// Noise of the flow in any image of a camera. Only what is drawn, or left by compression, is more
 /// exact, and stands still when the camera moves.
-constexpr double kLeastNoise_px = 0.005;
+constexpr double kMinNoise_px = 0.005;
 /// A smaller share of inliers is not all features but some mismatches.
-constexpr double kAll = 0.95;
+constexpr double kUnanimousShare = 0.95;
 
 /// The smaller number of inliers of the two stages: both parts of the motion need enough of them.
 int inliers(const MotionEstimator::Estimate& estimate) {
@@ -42,43 +42,43 @@ double inlierShare(const MotionEstimator::Estimate& estimate) {
 
 }  // namespace
 
-std::string MotionCheck::whyLost(const MotionEstimator::Estimate& estimate,
-                                 const Eigen::Isometry3d& T_keyframe_last,
-                                 double dt_s) const {
+std::string MotionCheck::checkNotLost(const MotionEstimator::Estimate& estimate,
+                                      const Eigen::Isometry3d& T_keyframe_last,
+                                      double dt_s) const {
   const auto features = static_cast<int>(estimate.rotation_inliers.size());
   if (features < config_.min_inliers) {
-    return sentence("only ",
-                    features,
-                    " features were matched, fewer than min_inliers = ",
-                    config_.min_inliers);
+    return concatenate("only ",
+                       features,
+                       " features were matched, fewer than min_inliers = ",
+                       config_.min_inliers);
   }
   if (!estimate.valid) return "the features determine no motion";
   if (inliers(estimate) < config_.min_inliers) {
-    return sentence("only ",
-                    inliers(estimate),
-                    " features agree on a motion, fewer than min_inliers = ",
-                    config_.min_inliers);
+    return concatenate("only ",
+                       inliers(estimate),
+                       " features agree on a motion, fewer than min_inliers = ",
+                       config_.min_inliers);
   }
   if (inlierShare(estimate) < config_.min_inlier_share) {
-    return sentence("only a share of ",
-                    inlierShare(estimate),
-                    " of the features agrees on a motion, less than min_inlier_share = ",
-                    config_.min_inlier_share);
+    return concatenate("only a share of ",
+                       inlierShare(estimate),
+                       " of the features agrees on a motion, less than min_inlier_share = ",
+                       config_.min_inlier_share);
   }
   const Eigen::Isometry3d T_last_cur = T_keyframe_last.inverse() * estimate.T_keyframe_cur;
   const double speed_mps = T_last_cur.translation().norm() / dt_s;
   if (speed_mps > config_.max_speed_mps) {
-    return sentence("the estimated speed is ",
-                    speed_mps,
-                    " m/s, more than max_speed_mps = ",
-                    config_.max_speed_mps);
+    return concatenate("the estimated speed is ",
+                       speed_mps,
+                       " m/s, more than max_speed_mps = ",
+                       config_.max_speed_mps);
   }
   const double turn_rate_rps = logRotation(T_last_cur.linear()).norm() / dt_s;
   if (turn_rate_rps > config_.max_turn_rate_rps) {
-    return sentence("the estimated turn rate is ",
-                    turn_rate_rps,
-                    " rad/s, more than max_turn_rate_rps = ",
-                    config_.max_turn_rate_rps);
+    return concatenate("the estimated turn rate is ",
+                       turn_rate_rps,
+                       " rad/s, more than max_turn_rate_rps = ",
+                       config_.max_turn_rate_rps);
   }
   return "";
 }
@@ -86,9 +86,9 @@ std::string MotionCheck::whyLost(const MotionEstimator::Estimate& estimate,
 std::string MotionCheck::whyDegraded(const Hypothesis& accepted, const Matrix6d& covariance) {
   const MotionEstimator::Estimate& estimate = accepted.estimate;
   if (estimate.translation_failed && isLarge(estimate.rotation_inliers)) {
-    return sentence("the translation stage has fewer than min_inliers = ",
-                    config_.min_inliers,
-                    " inliers: the motion is that of the rotation stage");
+    return concatenate("the translation stage has fewer than min_inliers = ",
+                       config_.min_inliers,
+                       " inliers: the motion is that of the rotation stage");
   }
   std::string why = whyFewHaveDepth(accepted.counts);
   if (why.empty()) why = whyFewAgree(estimate, accepted.has_prediction);
@@ -108,56 +108,58 @@ bool MotionCheck::isLarge(const FeatureSet& features) const {
 
 std::string MotionCheck::whyFewHaveDepth(const StageCounts& counts) const {
   if (counts.with_depth >= config_.degraded_depth_share * counts.corners) return "";
-  return sentence("only ",
-                  counts.with_depth,
-                  " of ",
-                  counts.corners,
-                  " corners have a disparity, a share below degraded_depth_share = ",
-                  config_.degraded_depth_share,
-                  "; are the lenses clean, and left and right rows aligned?");
+  return concatenate("only ",
+                     counts.with_depth,
+                     " of ",
+                     counts.corners,
+                     " corners have a disparity, a share below degraded_depth_share = ",
+                     config_.degraded_depth_share,
+                     "; are the lenses clean, and left and right rows aligned?");
 }
 
 std::string MotionCheck::whyFewAgree(const MotionEstimator::Estimate& estimate,
                                      bool has_prediction) const {
   const double by_rotation = shareOf(estimate.rotation_inliers);
   if (by_rotation < config_.degraded_rotation_share) {
-    return sentence("a share of ",
-                    by_rotation,
-                    " of the features agrees on the motion, less than degraded_rotation_share = ",
-                    config_.degraded_rotation_share);
+    return concatenate(
+        "a share of ",
+        by_rotation,
+        " of the features agrees on the motion, less than degraded_rotation_share = ",
+        config_.degraded_rotation_share);
   }
   if (!has_prediction && by_rotation < config_.degraded_start_share) {
-    return sentence("without a prediction, a share of ",
-                    by_rotation,
-                    " of the features agrees on the motion, less than degraded_start_share = ",
-                    config_.degraded_start_share);
+    return concatenate("without a prediction, a share of ",
+                       by_rotation,
+                       " of the features agrees on the motion, less than degraded_start_share = ",
+                       config_.degraded_start_share);
   }
-  if (!has_prediction && by_rotation < kAll && estimate.flow_noise_px < kLeastNoise_px) {
-    return sentence("without a prediction, a share of ",
-                    by_rotation,
-                    " of the features agrees on the motion, more exactly (",
-                    estimate.flow_noise_px,
-                    " px) than features of the scene: something drawn or compressed stands still");
+  if (!has_prediction && by_rotation < kUnanimousShare && estimate.flow_noise_px < kMinNoise_px) {
+    return concatenate(
+        "without a prediction, a share of ",
+        by_rotation,
+        " of the features agrees on the motion, more exactly (",
+        estimate.flow_noise_px,
+        " px) than features of the scene: something drawn or compressed stands still");
   }
   const double by_translation = shareOf(estimate.translation_inliers);
   if (by_translation >= config_.degraded_translation_share) return "";
-  return sentence("a share of ",
-                  by_translation,
-                  " of the features agrees on the translation, less than "
-                  "degraded_translation_share = ",
-                  config_.degraded_translation_share);
+  return concatenate("a share of ",
+                     by_translation,
+                     " of the features agrees on the translation, less than "
+                     "degraded_translation_share = ",
+                     config_.degraded_translation_share);
 }
 
 std::string MotionCheck::whyFewSurvive(const Hypothesis& accepted) const {
   const int survivors = inliers(accepted.estimate);
   const int features = accepted.counts.with_depth;
   if (survivors >= config_.degraded_survivor_share * features) return "";
-  return sentence("the motion rests on ",
-                  survivors,
-                  " of ",
-                  features,
-                  " features, a share below degraded_survivor_share = ",
-                  config_.degraded_survivor_share);
+  return concatenate("the motion rests on ",
+                     survivors,
+                     " of ",
+                     features,
+                     " features, a share below degraded_survivor_share = ",
+                     config_.degraded_survivor_share);
 }
 
 /// Whether many features agree on another motion. Then it may be that of an object that fills the
@@ -165,39 +167,42 @@ std::string MotionCheck::whyFewSurvive(const Hypothesis& accepted) const {
 std::string MotionCheck::whyAmbiguous(const Hypothesis& accepted) {
   const auto features = static_cast<double>(accepted.features.size());
   const double many = config_.degraded_rival_share * features;
-  const int least = std::max(config_.min_inliers, static_cast<int>(std::ceil(kSuspicion * many)));
-  const RivalMotion::Rivals rivals = rival_motion_.find(accepted.camera,
-                                                        accepted.features,
-                                                        accepted.estimate.T_keyframe_cur,
-                                                        accepted.estimate.rotation_inliers,
-                                                        least);
-  if (rivals.count == 0 || (!rivals.are_behind && rivals.count < many)) return "";
-  return sentence("another motion fits ",
-                  rivals.count,
-                  " of the ",
-                  features,
-                  rivals.are_behind
-                      ? " features, which are behind the others, a share above half of "
-                      : " features, a share above ",
-                  "degraded_rival_share = ",
-                  config_.degraded_rival_share,
-                  ": one of the two is that of a large object");
+  const int min_count =
+      std::max(config_.min_inliers, static_cast<int>(std::ceil(kShareBehind * many)));
+  const CompetingMotion::Competitors competitors =
+      competing_motion_.find(accepted.camera,
+                             accepted.features,
+                             accepted.estimate.T_keyframe_cur,
+                             accepted.estimate.rotation_inliers,
+                             min_count);
+  if (competitors.count == 0 || (!competitors.are_behind && competitors.count < many)) return "";
+  return concatenate("another motion fits ",
+                     competitors.count,
+                     " of the ",
+                     features,
+                     competitors.are_behind
+                         ? " features, which are behind the others, a share above half of "
+                         : " features, a share above ",
+                     "degraded_rival_share = ",
+                     config_.degraded_rival_share,
+                     ": one of the two is that of a large object");
 }
 
 /// Whether few inliers determine the motion, and other features contradict them. It may be that of
 /// a wrong match then.
 std::string MotionCheck::whyFewDetermine(const Hypothesis& accepted) {
   if (config_.degraded_information_share == 0.0) return "";
-  const double share = information_share_.least({accepted.camera, accepted.features, noise_ratio_},
-                                                accepted.estimate.T_keyframe_cur,
-                                                accepted.estimate.translation_inliers);
+  const double share =
+      information_share_.minimum({accepted.camera, accepted.features, noise_ratio_},
+                                 accepted.estimate.T_keyframe_cur,
+                                 accepted.estimate.translation_inliers);
   if (share >= config_.degraded_information_share) return "";
-  return sentence("the inliers but one have a share of ",
-                  share,
-                  " of the information about a part of the motion, less than "
-                  "degraded_information_share = ",
-                  config_.degraded_information_share,
-                  ": few features determine it");
+  return concatenate("the inliers but one have a share of ",
+                     share,
+                     " of the information about a part of the motion, less than "
+                     "degraded_information_share = ",
+                     config_.degraded_information_share,
+                     ": few features determine it");
 }
 
 std::string MotionCheck::whyUndetermined(const Hypothesis& accepted, const Matrix6d& covariance) {
@@ -207,13 +212,13 @@ std::string MotionCheck::whyUndetermined(const Hypothesis& accepted, const Matri
       std::max(estimate.T_keyframe_cur.translation().norm(), kShortStep * depth_m);
   const double sigma_m = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
   if (sigma_m <= config_.degraded_relative_sigma * step_m) return "";
-  return sentence("the translation has a standard deviation of ",
-                  sigma_m,
-                  " m, more than degraded_relative_sigma = ",
-                  config_.degraded_relative_sigma,
-                  " of ",
-                  step_m,
-                  " m");
+  return concatenate("the translation has a standard deviation of ",
+                     sigma_m,
+                     " m, more than degraded_relative_sigma = ",
+                     config_.degraded_relative_sigma,
+                     " of ",
+                     step_m,
+                     " m");
 }
 
 bool MotionCheck::hasReserve(const MotionEstimator::Estimate& accepted) const {
@@ -228,10 +233,10 @@ std::string MotionCheck::whyJump(const UncertainTransform& motion,
   const double beyond_noise_m = change_m - kSigmas * std::sqrt(variance_m2);
   const double acceleration_mps2 = beyond_noise_m / (dt_s * dt_s);
   if (acceleration_mps2 <= config_.max_acceleration_mps2) return "";
-  return sentence("the velocity changed by ",
-                  acceleration_mps2,
-                  " m/s2, more than max_acceleration_mps2 = ",
-                  config_.max_acceleration_mps2);
+  return concatenate("the velocity changed by ",
+                     acceleration_mps2,
+                     " m/s2, more than max_acceleration_mps2 = ",
+                     config_.max_acceleration_mps2);
 }
 
 }  // namespace rotrocc

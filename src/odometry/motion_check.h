@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "motion/competing_motion.h"
 #include "motion/information_share.h"
 #include "motion/motion_estimator.h"
-#include "motion/rival_motion.h"
 #include "odometry/hypothesis.h"
 #include "rotrocc/odometry_config.h"
 #include "rotrocc/uncertain_transform.h"
@@ -24,9 +24,9 @@ class MotionCheck {
   /// Why the motion is rejected, in one sentence with the value and the parameter; empty if it is
   /// accepted. The limits of speed and turn rate are for the step since the last frame, which took
   /// `dt_s` > 0.
-  std::string whyLost(const MotionEstimator::Estimate& estimate,
-                      const Eigen::Isometry3d& T_keyframe_last,
-                      double dt_s) const;
+  std::string checkNotLost(const MotionEstimator::Estimate& estimate,
+                           const Eigen::Isometry3d& T_keyframe_last,
+                           double dt_s) const;
 
   /// Why an accepted motion is less reliable; empty if it is not. `covariance` is that of the
   /// motion since the keyframe, including that of the rig's calibration.
@@ -56,7 +56,7 @@ class MotionCheck {
   double noise_ratio_;
   // Buffers, reused.
   std::vector<double> depths_m_;
-  RivalMotion rival_motion_;
+  CompetingMotion competing_motion_;
   InformationShare information_share_;
 };
 

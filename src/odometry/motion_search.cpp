@@ -36,16 +36,13 @@ bool isConvincing(const Hypothesis& found) {
 
 MotionSearch::MotionSearch(const OdometryConfig& config)
     : tracker_(config.correspondence_finder.feature_tracker),
-      least_features_(config.motion_check.min_inliers),
+      min_features_(config.motion_check.min_inliers),
       estimator_(config.motion_estimator, config.motion_check.min_inliers),
       check_(config.motion_check, config.motion_estimator.noise_ratio),
       descriptors_(config.correspondence_finder.stereo_matcher) {}
 
-bool MotionSearch::find(const Frames& frames,
-                        const Start& start,
-                        int most_tries,
-                        Hypothesis& found,
-                        StageTimes& times) {
+bool MotionSearch::find(
+    const Frames& frames, const Start& start, int max_tries, Hypothesis& found, StageTimes& times) {
   // A window finds what is as far away as it reaches in the smallest image.
   const double reach_px = tracker_.window_radius_px * (1 << (tracker_.levels - 1));
   std::optional<MotionEstimator::Prediction> prediction;
@@ -56,16 +53,16 @@ bool MotionSearch::find(const Frames& frames,
     tryMotion(frames, next, prediction, tried_, times);
     const Eigen::Isometry3d T_found = tried_.estimate.T_keyframe_cur;
     // The features near a wrong prediction lead nowhere.
-    const bool is_usable =
-        start.is_prediction ? tried_.isAccepted()
-                            : tried_.estimate.valid && tried_.counts.consistent >= least_features_;
+    const bool is_usable = start.is_prediction
+                               ? tried_.isAccepted()
+                               : tried_.estimate.valid && tried_.counts.consistent >= min_features_;
     if (isBetter(tried_, found)) std::swap(tried_, found);
     found.counts.tries = tries;
     if (!is_usable) return false;
     const double shift_px =
         frames.finder.medianShift(frames.camera, frames.keyframe, next.T_keyframe_cur, T_found);
     if (shift_px < reach_px) return isConvincing(found);
-    if (tries >= most_tries) return false;
+    if (tries >= max_tries) return false;
     next.T_keyframe_cur = T_found;
   }
 }
@@ -102,7 +99,7 @@ void MotionSearch::tryMotion(const Frames& frames,
   counts.with_depth = static_cast<int>(frames.keyframe.points.size());
   counts.consistent = static_cast<int>(hypothesis.features.size());
   const StageTimer timer(times.estimation_ms);
-  if (counts.consistent < least_features_) return rejectUnseen(frames, hypothesis);
+  if (counts.consistent < min_features_) return rejectUnseen(frames, hypothesis);
   Eigen::Isometry3d initial = start.T_keyframe_cur;
   if (start.needs_consensus) {
     initial = consensusMotion(frames.camera, hypothesis.features).value_or(initial);
@@ -117,7 +114,7 @@ void MotionSearch::rejectUnseen(const Frames& frames, Hypothesis& hypothesis) {
   hypothesis.estimate.translation_inliers.assign(hypothesis.features.size(), 0);
   hypothesis.counts.rotation_inliers = hypothesis.counts.translation_inliers = 0;
   hypothesis.why_lost =
-      check_.whyLost(hypothesis.estimate, frames.keyframe.T_keyframe_last.T, frames.dt_s);
+      check_.checkNotLost(hypothesis.estimate, frames.keyframe.T_keyframe_last.T, frames.dt_s);
 }
 
 void MotionSearch::estimate(const Frames& frames,
@@ -134,7 +131,8 @@ void MotionSearch::estimate(const Frames& frames,
   hypothesis.counts.rotation_inliers = count(estimate.rotation_inliers);
   hypothesis.counts.translation_inliers =
       estimate.has_translation_stage ? count(estimate.translation_inliers) : 0;
-  hypothesis.why_lost = check_.whyLost(estimate, frames.keyframe.T_keyframe_last.T, frames.dt_s);
+  hypothesis.why_lost =
+      check_.checkNotLost(estimate, frames.keyframe.T_keyframe_last.T, frames.dt_s);
 }
 
 void MotionSearch::calibrate(const Frames& frames,

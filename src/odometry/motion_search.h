@@ -49,10 +49,10 @@ class MotionSearch {
   /// that is accepted.
   ///
   /// `found` becomes the hypothesis, unless it holds an accepted one with more inliers. There is at
-  /// least one try, and none after `most_tries`; they are added to those of `found`.
+  /// least one try, and none after `max_tries`; they are added to those of `found`.
   bool find(const Frames& frames,
             const Start& start,
-            int most_tries,
+            int max_tries,
             Hypothesis& found,
             StageTimes& times);
 
@@ -83,7 +83,7 @@ class MotionSearch {
                 Hypothesis& hypothesis);
 
   FeatureTrackerConfig tracker_;
-  int least_features_;
+  int min_features_;
   MotionEstimator estimator_;
   MotionCheck check_;
   DescriptorMatcher descriptors_;

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/sentence.h"
+#include "common/concatenate.h"
 #include "common/stage_timer.h"
 #include "odometry/pair_check.h"
 #include "odometry/systematic_error.h"
@@ -50,7 +50,7 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
     forget();  // the stored state may be the cause
     result = {};
     result.stamp_ns = pair.stamp_ns;
-    result.reason = sentence("internal error: ", error.what());
+    result.reason = concatenate("internal error: ", error.what());
   }
   result.counts = found_.counts;
   rig_.report(result);
@@ -196,9 +196,10 @@ bool VisualOdometry::Pipeline::findMotionFrom(const FramePtr& earlier,
   const StereoCamera corrected = rig_.correctedCamera();
   const MotionSearch::Frames frames = {
       finder_, corrected, keyframe_, current, expected.dt_s, rig_.sharedRatio()};
-  const int most = config_.max_tries;
+  const int max_tries = config_.max_tries;
   const auto settles = [&](const std::optional<Start>& start) {
-    return start && found_.counts.tries < most && search_.find(frames, *start, most, found_, times);
+    return start && found_.counts.tries < max_tries &&
+           search_.find(frames, *start, max_tries, found_, times);
   };
   const Eigen::Isometry3d& T_keyframe_last = keyframe_.T_keyframe_last.T;
   std::optional<Start> predicted;
@@ -210,7 +211,7 @@ bool VisualOdometry::Pipeline::findMotionFrom(const FramePtr& earlier,
   const int tries = found_.counts.tries;
   found_.clear();
   found_.counts.tries = tries;
-  if (!settles(predicted) && !settles(at_rest) && is_newest && found_.counts.tries < most) {
+  if (!settles(predicted) && !settles(at_rest) && is_newest && found_.counts.tries < max_tries) {
     settles(search_.recognize(frames, times));
   }
   if (!found_.isAccepted()) return false;

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "common/sentence.h"
+#include "common/concatenate.h"
 #include "common/to_seconds.h"
 
 namespace rotrocc {
@@ -11,11 +11,11 @@ namespace {
 std::string whyUnusable(const std::string& side, const cv::Mat& image, const StereoCamera& camera) {
   if (image.empty()) return "the " + side + " image is empty";
   if (image.type() != CV_8UC1) {
-    return sentence("the ", side, " image is of OpenCV type ", image.type(), ", not CV_8UC1");
+    return concatenate("the ", side, " image is of OpenCV type ", image.type(), ", not CV_8UC1");
   }
   if (image.cols == camera.width && image.rows == camera.height) return "";
-  const std::string image_size = sentence(image.cols, "x", image.rows);
-  const std::string camera_size = sentence(camera.width, "x", camera.height);
+  const std::string image_size = concatenate(image.cols, "x", image.rows);
+  const std::string camera_size = concatenate(camera.width, "x", camera.height);
   return "the " + side + " image has " + image_size + " pixels, the camera " + camera_size;
 }
 
@@ -34,11 +34,11 @@ std::string whyUnusable(const StereoPair& pair,
   const std::string right = whyUnusable("right", pair.right, camera);
   if (!right.empty()) return right;
   if (!newest_ns || pair.stamp_ns > *newest_ns) return "";
-  return sentence("the stamp ",
-                  pair.stamp_ns,
-                  " ns is not later than that of the pair before, ",
-                  *newest_ns,
-                  " ns");
+  return concatenate("the stamp ",
+                     pair.stamp_ns,
+                     " ns is not later than that of the pair before, ",
+                     *newest_ns,
+                     " ns");
 }
 
 std::string whyRestart(const StereoPair& pair,
@@ -50,7 +50,7 @@ std::string whyRestart(const StereoPair& pair,
   if (camera != camera_before) return "the camera has changed";
   const double gap_s = toSeconds(pair.stamp_ns - *newest_ns);
   if (gap_s <= max_gap_s) return "";
-  return sentence("no pair for ", gap_s, " s, more than max_gap_s = ", max_gap_s);
+  return concatenate("no pair for ", gap_s, " s, more than max_gap_s = ", max_gap_s);
 }
 
 }  // namespace rotrocc

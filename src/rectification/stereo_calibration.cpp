@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/sentence.h"
+#include "common/concatenate.h"
 
 namespace rotrocc {
 namespace {
@@ -14,7 +14,7 @@ constexpr double kMaxDeviation = 1e-3;  // of a rotation printed with four digit
 
 void requirePositive(const char* name, double value) {
   if (std::isfinite(value) && value > 0.0) return;
-  throw std::invalid_argument(sentence(name, " is ", value, ", but must be positive"));
+  throw std::invalid_argument(concatenate(name, " is ", value, ", but must be positive"));
 }
 
 bool isRectifiedBy(const RawCamera& raw, const StereoCamera& camera, double cx) {
@@ -44,15 +44,15 @@ void requireSideBySide(const Eigen::Isometry3d& T_left_right) {
   const Eigen::Vector3d& right = T_left_right.translation();
   const double turn_deg = Eigen::AngleAxisd(T_left_right.linear()).angle() * 180.0 / M_PI;
   if (!(turn_deg < kMaxAngle_deg)) {
-    throw std::invalid_argument(sentence("the right camera is turned against the left one by ",
-                                         turn_deg,
-                                         " degrees: check the poses of the cameras"));
+    throw std::invalid_argument(concatenate("the right camera is turned against the left one by ",
+                                            turn_deg,
+                                            " degrees: check the poses of the cameras"));
   }
   if (!(right.norm() > 1e-6)) {
     throw std::invalid_argument("the baseline is zero: check the poses of the cameras");
   }
   if (right.x() < std::cos(kMaxAngle_deg * M_PI / 180.0) * right.norm()) {
-    throw std::invalid_argument(sentence(
+    throw std::invalid_argument(concatenate(
         "the right camera is at ",
         right.transpose(),
         " m in the frame of the left one (right, down, forward), but must be to its right: "
@@ -132,7 +132,7 @@ void RawCamera::check() const {
   requirePositive("fx", fx);
   requirePositive("fy", fy);
   if (!std::isfinite(cx) || !std::isfinite(cy)) {
-    throw std::invalid_argument(sentence("the principal point ", cx, " ", cy, " is not finite"));
+    throw std::invalid_argument(concatenate("the principal point ", cx, " ", cy, " is not finite"));
   }
   const Eigen::Matrix3d deviation =
       R_rectified_raw * R_rectified_raw.transpose() - Eigen::Matrix3d::Identity();
@@ -166,15 +166,15 @@ StereoCalibration chooseRectification(const RawCamera& left,
   left.check();
   right.check();
   if (left.width != right.width || left.height != right.height) {
-    throw std::invalid_argument(sentence("the left camera has ",
-                                         left.width,
-                                         "x",
-                                         left.height,
-                                         " px, the right one ",
-                                         right.width,
-                                         "x",
-                                         right.height,
-                                         " px: both must have the same size"));
+    throw std::invalid_argument(concatenate("the left camera has ",
+                                            left.width,
+                                            "x",
+                                            left.height,
+                                            " px, the right one ",
+                                            right.width,
+                                            "x",
+                                            right.height,
+                                            " px: both must have the same size"));
   }
   requireSideBySide(T_left_right);
 

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/sentence.h"
+#include "common/concatenate.h"
 
 namespace rotrocc {
 namespace {
@@ -21,17 +21,18 @@ Eigen::Vector2d rawPixel(
 
 void checkImage(const char* side, const cv::Mat& image, const cv::Size& size) {
   if (image.type() == CV_8UC1 && image.size() == size) return;
-  throw std::invalid_argument(sentence("the ",
-                                       side,
-                                       " image has ",
-                                       image.cols,
-                                       "x",
-                                       image.rows,
-                                       " px, but its calibration is for ",
-                                       size.width,
-                                       "x",
-                                       size.height,
-                                       " px grey images: use the calibration of this resolution"));
+  throw std::invalid_argument(
+      concatenate("the ",
+                  side,
+                  " image has ",
+                  image.cols,
+                  "x",
+                  image.rows,
+                  " px, but its calibration is for ",
+                  size.width,
+                  "x",
+                  size.height,
+                  " px grey images: use the calibration of this resolution"));
 }
 
 }  // namespace
@@ -44,11 +45,11 @@ StereoRectifier::Side StereoRectifier::makeSide(const char* name,
     raw.check();
     constexpr int kMax_px = 32000;  // places have 16 bits
     if (std::max(raw.width, raw.height) > kMax_px) {
-      throw std::invalid_argument(sentence("its images are larger than ", kMax_px, " px"));
+      throw std::invalid_argument(concatenate("its images are larger than ", kMax_px, " px"));
     }
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(
-        sentence("the calibration of the ", name, " camera: ", error.what()));
+        concatenate("the calibration of the ", name, " camera: ", error.what()));
   }
   Side side = {ImageResampler({raw.width, raw.height}, {camera.width, camera.height}),
                cv::Mat(camera.height, camera.width, CV_8UC1)};

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "common/sentence.h"
+#include "common/concatenate.h"
 
 namespace rotrocc {
 namespace {
@@ -68,7 +68,7 @@ std::vector<double> YamlFile::numbers(const std::string& key) const {
     double number = 0.0;
     if (!entry.IsScalar() || !YAML::convert<double>::decode(entry, number) ||
         !std::isfinite(number)) {
-      fail(key, sentence("has a value that is not a finite number, after ", numbers.size()));
+      fail(key, concatenate("has a value that is not a finite number, after ", numbers.size()));
     }
     numbers.push_back(number);
   }
@@ -78,7 +78,7 @@ std::vector<double> YamlFile::numbers(const std::string& key) const {
 std::vector<double> YamlFile::numbers(const std::string& key, std::size_t count) const {
   std::vector<double> values = numbers(key);
   if (values.size() != count) {
-    fail(key, sentence("has ", values.size(), " numbers instead of ", count));
+    fail(key, concatenate("has ", values.size(), " numbers instead of ", count));
   }
   return values;
 }

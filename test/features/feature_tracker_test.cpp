@@ -201,17 +201,17 @@ TEST(FeatureTrackerTest, FindsTheSamePositionsAtAnotherExposure) {
   const Tracked same = track(first, second, views.corners, near_there, 2);
   const Tracked same_back = track(second, first, views.truth, near_here, 2);
   const auto expectTheSame =
-      [&](const Tracked& found, const Tracked& expected, double median_px, double most_px) {
+      [&](const Tracked& found, const Tracked& expected, double median_px, double max_px) {
         const std::vector<double> px = distances(found, expected);
         const auto all = std::count(expected.tracked.begin(), expected.tracked.end(), 1);
         // Windows of little contrast are refused at half of it. Measured: 464 of 473.
         EXPECT_GE(px.size(), static_cast<std::size_t>(all) * 96 / 100);
         EXPECT_LT(quantile(px, 0.5), median_px);
-        EXPECT_LT(quantile(px, 0.9), most_px);
+        EXPECT_LT(quantile(px, 0.9), max_px);
       };
-  const auto expectTheSameWith = [&](const cv::Mat& other, double median_px, double most_px) {
-    expectTheSame(track(first, other, views.corners, near_there, 2), same, median_px, most_px);
-    expectTheSame(track(other, first, views.truth, near_here, 2), same_back, median_px, most_px);
+  const auto expectTheSameWith = [&](const cv::Mat& other, double median_px, double max_px) {
+    expectTheSame(track(first, other, views.corners, near_there, 2), same, median_px, max_px);
+    expectTheSame(track(other, first, views.truth, near_here, 2), same_back, median_px, max_px);
   };
   for (const double gain : {0.5, 1.5, 2.0}) {
     for (const double offset : {-30.0, 0.0, 30.0}) {

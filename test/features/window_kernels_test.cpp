@@ -22,7 +22,7 @@ using Int = std::int64_t;
 /// The largest window, and the largest change of its size: by 0.9 px at its border.
 constexpr int kRadius = 25;
 constexpr int kSide = 2 * kRadius + 1;
-constexpr float kMostSpread_px = 0.9F;
+constexpr float kMaxSpread_px = 0.9F;
 
 /// Larger than a window by its margin, and by the registers that are read beyond.
 constexpr int kWidth = kSide + 40;
@@ -247,7 +247,7 @@ TEST_P(WindowKernelsTest, DoNotOverflow) {
   const std::vector<cv::Mat> images = hardImages();
   for (std::size_t i = 0; i < images.size(); ++i) {
     for (const float fraction : {0.0F, 0.4F}) {
-      for (const float spread_px : {-kMostSpread_px, 0.0F, kMostSpread_px}) {
+      for (const float spread_px : {-kMaxSpread_px, 0.0F, kMaxSpread_px}) {
         SCOPED_TRACE(::testing::Message() << i << ' ' << fraction << ' ' << spread_px);
         expectExactSums(images[i], fraction, spread_px);
         if (HasFailure()) return;

@@ -21,7 +21,7 @@ class InformationShareTest : public testing::Test {
   }
 
   double least(const FeatureSet& inliers) {
-    return share_.least({kittiCamera(), features_, 4.0}, motion_, inliers);
+    return share_.minimum({kittiCamera(), features_, 4.0}, motion_, inliers);
   }
 
   const Eigen::Isometry3d motion_ = motion({0.1, 0.0, 1.0}, {0.0, 0.02, 0.0});

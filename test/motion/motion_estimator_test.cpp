@@ -279,8 +279,8 @@ double meanNees(const MotionEstimator::Config& config, MakeFeatures make) {
 /// The mean of 300 chi-squared values with 6 degrees of freedom is 6 +- 0.2. In addition, depth is
 /// not a linear function of a disparity of 4 +- 0.9 px, and the scatter over the cells can only
 /// increase the covariance. Measured: 4.6 to 6.8.
-constexpr double kLeastNees = 4.2;
-constexpr double kMostNees = 8.0;
+constexpr double kMinNees = 4.2;
+constexpr double kMaxNees = 8.0;
 
 TEST(MotionEstimatorTest, TheCovarianceIsThatOfTheErrors) {
   const MakeFeatures good = [](unsigned seed) { return goodFeatures(seed); };
@@ -292,8 +292,8 @@ TEST(MotionEstimatorTest, TheCovarianceIsThatOfTheErrors) {
   one_stage.criterion = "reprojection";
   for (const auto& config : {one_stage, all_features}) {
     const double mean = meanNees(config, good);
-    EXPECT_GT(mean, kLeastNees) << config.criterion;
-    EXPECT_LT(mean, kMostNees) << config.criterion;
+    EXPECT_GT(mean, kMinNees) << config.criterion;
+    EXPECT_LT(mean, kMaxNees) << config.criterion;
   }
 }
 
@@ -304,8 +304,8 @@ TEST(MotionEstimatorTest, TheCovarianceAllowsForTheFeaturesDropped) {
   for (const std::string criterion : {"rotrocc", "reprojection"}) {
     for (const MakeFeatures make : {good, random, moving}) {
       const double mean = meanNees(configOf(criterion), make);
-      EXPECT_GT(mean, kLeastNees) << criterion;
-      EXPECT_LT(mean, kMostNees) << criterion;
+      EXPECT_GT(mean, kMinNees) << criterion;
+      EXPECT_LT(mean, kMaxNees) << criterion;
     }
   }
 }

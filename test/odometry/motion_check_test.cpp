@@ -42,8 +42,8 @@ MotionCheck defaultCheck() {
   return {{}, kNoiseRatio};
 }
 
-std::string whyLost(const MotionEstimator::Estimate& estimate) {
-  return defaultCheck().whyLost(estimate, Eigen::Isometry3d::Identity(), kPeriod_s);
+std::string checkNotLost(const MotionEstimator::Estimate& estimate) {
+  return defaultCheck().checkNotLost(estimate, Eigen::Isometry3d::Identity(), kPeriod_s);
 }
 
 /// Exact features all over the image (the R2 sequence of Roberts, 2018), so that the first ones are
@@ -82,52 +82,52 @@ std::string whyDegraded(const MotionEstimator::Estimate& estimate) {
 }
 
 TEST(MotionCheckTest, BelievesAGoodMotion) {
-  EXPECT_EQ(whyLost(goodEstimate()), "");
+  EXPECT_EQ(checkNotLost(goodEstimate()), "");
   EXPECT_EQ(whyDegraded(goodEstimate()), "");
 }
 
 TEST(MotionCheckTest, WantsEnoughFeatures) {
   auto estimate = goodEstimate();
   estimate.rotation_inliers = estimate.translation_inliers = set(24, 24);
-  expectSays(whyLost(estimate), "24 features were matched", "min_inliers = 25");
+  expectSays(checkNotLost(estimate), "24 features were matched", "min_inliers = 25");
   estimate.rotation_inliers = estimate.translation_inliers = set(25, 25);
-  EXPECT_EQ(whyLost(estimate), "");
+  EXPECT_EQ(checkNotLost(estimate), "");
   estimate.rotation_inliers = estimate.translation_inliers = {};
-  expectSays(whyLost(estimate), "only 0 features", "min_inliers = 25");
+  expectSays(checkNotLost(estimate), "only 0 features", "min_inliers = 25");
 }
 
 TEST(MotionCheckTest, WantsAValidMotion) {
   auto estimate = goodEstimate();
   estimate.valid = false;
-  expectSays(whyLost(estimate), "determine no motion", "");
+  expectSays(checkNotLost(estimate), "determine no motion", "");
 }
 
 TEST(MotionCheckTest, WantsEnoughInliersInBothStages) {
   auto estimate = goodEstimate();
   estimate.translation_inliers = set(24, 400);
-  expectSays(whyLost(estimate), "24 features agree", "min_inliers = 25");
+  expectSays(checkNotLost(estimate), "24 features agree", "min_inliers = 25");
   estimate = goodEstimate();
   estimate.rotation_inliers = set(24, 400);
-  expectSays(whyLost(estimate), "24 features agree", "min_inliers = 25");
+  expectSays(checkNotLost(estimate), "24 features agree", "min_inliers = 25");
 }
 
 TEST(MotionCheckTest, WantsAShareOfInliers) {
   auto estimate = goodEstimate();
   estimate.translation_inliers = set(59, 400);
-  expectSays(whyLost(estimate), "0.1475", "min_inlier_share = 0.15");
+  expectSays(checkNotLost(estimate), "0.1475", "min_inlier_share = 0.15");
   estimate.translation_inliers = set(60, 400);
-  EXPECT_EQ(whyLost(estimate), "");
+  EXPECT_EQ(checkNotLost(estimate), "");
 }
 
 TEST(MotionCheckTest, KnowsHowFastARobotMoves) {
   const Eigen::Isometry3d kStart = Eigen::Isometry3d::Identity();
   auto estimate = goodEstimate();
   estimate.T_keyframe_cur = motion({0.0, 4.0, 5.9}, {0.0, 0.0, 0.0});
-  expectSays(whyLost(estimate), "71.28", "max_speed_mps = 70");
-  EXPECT_EQ(defaultCheck().whyLost(estimate, kStart, 2.0 * kPeriod_s), "");  // half the speed
+  expectSays(checkNotLost(estimate), "71.28", "max_speed_mps = 70");
+  EXPECT_EQ(defaultCheck().checkNotLost(estimate, kStart, 2.0 * kPeriod_s), "");  // half the speed
   estimate.T_keyframe_cur = motion({0.0, 0.0, 1.0}, {0.0, 0.61, 0.0});
-  expectSays(whyLost(estimate), "6.1 rad/s", "max_turn_rate_rps = 6");
-  EXPECT_EQ(defaultCheck().whyLost(estimate, kStart, 2.0 * kPeriod_s), "");
+  expectSays(checkNotLost(estimate), "6.1 rad/s", "max_turn_rate_rps = 6");
+  EXPECT_EQ(defaultCheck().checkNotLost(estimate, kStart, 2.0 * kPeriod_s), "");
 }
 
 TEST(MotionCheckTest, CallsAMotionOnFewSurvivorsDegraded) {
@@ -287,7 +287,7 @@ TEST(MotionCheckTest, WantsAReserveOfInliersForTheNextPair) {
   EXPECT_TRUE(defaultCheck().hasReserve(estimate));
   estimate.translation_inliers = estimate.rotation_inliers = set(49, 300);
   EXPECT_FALSE(defaultCheck().hasReserve(estimate));
-  EXPECT_EQ(whyLost(estimate), "") << "this one is accepted";
+  EXPECT_EQ(checkNotLost(estimate), "") << "this one is accepted";
 }
 
 TEST(MotionCheckTest, CallsAJumpDegraded) {
@@ -307,7 +307,7 @@ TEST(MotionCheckTest, CallsAJumpDegraded) {
 TEST(MotionCheckTest, AMotionWithoutItsTranslationStageIsDegraded) {
   auto estimate = goodEstimate();
   estimate.translation_failed = true;
-  EXPECT_EQ(whyLost(estimate), "");
+  EXPECT_EQ(checkNotLost(estimate), "");
   expectSays(whyDegraded(estimate), "translation stage", "min_inliers");
   estimate.translation_inliers = estimate.rotation_inliers = set(35, 49);
   EXPECT_EQ(whyDegraded(estimate), "") << "25 of 49 are more than degraded_translation_share";

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "common/sentence.h"
+#include "common/concatenate.h"
 
 namespace rotrocc {
 namespace {
@@ -66,9 +66,9 @@ PixelRays raysOf(const RawCamera& raw, const Eigen::Matrix3d& R_nominal_raw) {
       const Eigen::Vector2d slope = ray.hnormalized();
       if (!(ray.z() > 0.0 && slope.norm() < kMaxSlope)) {
         throw std::invalid_argument(
-            sentence("the lens looks farther than ",
-                     std::atan(kMaxSlope) * 180.0 / M_PI,
-                     " degrees from its axis: choose a longer focal length or a smaller image"));
+            concatenate("the lens looks farther than ",
+                        std::atan(kMaxSlope) * 180.0 / M_PI,
+                        " degrees from its axis: choose a longer focal length or a smaller image"));
       }
       const Eigen::Vector2d place(raw.fx * slope.x(), raw.fy * slope.y());
       rays.places.at<cv::Vec2d>(y, x) = {place.x(), place.y()};

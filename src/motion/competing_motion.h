@@ -11,20 +11,20 @@ namespace rotrocc {
 
 /// Finds the features that contradict a motion and agree on another one: those of a large object,
 /// or of the scene if the object's motion was found.
-class RivalMotion {
+class CompetingMotion {
  public:
-  struct Rivals {
+  struct Competitors {
     int count = 0;            ///< 0: fewer than asked for
     bool are_behind = false;  ///< more than twice as deep as the inliers, by the median
   };
 
-  /// Returns nothing if fewer than `least` > 0 features agree on another motion. There must be
+  /// Returns nothing if fewer than `min_count` > 0 features agree on another motion. There must be
   /// inliers.
-  Rivals find(const StereoCamera& camera,
-              const Correspondences& features,
-              const Eigen::Isometry3d& T_keyframe_cur,
-              const FeatureSet& inliers,
-              int least);
+  Competitors find(const StereoCamera& camera,
+                   const Correspondences& features,
+                   const Eigen::Isometry3d& T_keyframe_cur,
+                   const FeatureSet& inliers,
+                   int min_count);
 
  private:
   // Buffers, reused.

@@ -7,7 +7,7 @@ namespace rotrocc {
 
 /// Prints the parts one after the other into a string.
 template <class... Parts>
-std::string sentence(const Parts&... parts) {
+std::string concatenate(const Parts&... parts) {
   std::ostringstream text;
   (text << ... << parts);
   return text.str();
