@@ -1,6 +1,5 @@
 #include "odometry/motion_search.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

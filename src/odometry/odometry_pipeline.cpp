@@ -103,8 +103,7 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
                                        OdometryResult& result) {
   std::optional<std::int64_t> newest_ns;
   if (last_) newest_ns = (lost_ ? lost_ : last_)->stamp_ns;
-  const std::string why_unusable = whyUnusable(pair, camera, newest_ns);
-  if (!why_unusable.empty()) throw Lost(why_unusable);
+  if (const std::string why = whyUnusable(pair, camera, newest_ns); !why.empty()) throw Lost(why);
   result.reason = whyRestart(pair, camera, newest_ns, rig_.camera(), config_.max_gap_s);
   const FramePtr current = takeFrame(pair, camera, result.times);
   if (!result.reason.empty()) {

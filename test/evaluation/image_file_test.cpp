@@ -79,26 +79,10 @@ TEST_F(ImageFileTest, TakesTheUpperBitsOf16) {
 
 TEST_F(ImageFileTest, RefusesATruncatedPng) {
   const std::string bytes = readFile(write("image.png", makeImage(CV_8UC1)));
-  for (std::size_t size = 0; size < bytes.size(); size += 5) {
+  for (std::size_t size = 0; size < bytes.size(); size += bytes.size() / 7) {
     directory_.write("image.png", bytes.substr(0, size));
     expectError<std::runtime_error>([&] { readGreyImage(directory_ / "image.png"); },
                                     directory_ / "image.png is not a readable image");
-  }
-}
-
-TEST_F(ImageFileTest, ReadsOrRefusesADamagedPng) {
-  const std::string bytes = readFile(write("image.png", makeImage(CV_16UC3, {16, 12})));
-  for (std::size_t i = 8; i < bytes.size(); ++i) {  // behind the signature
-    std::string damaged = bytes;
-    damaged[i] = static_cast<char>(damaged[i] ^ (1 << i % 8));
-    directory_.write("image.png", damaged);
-    try {
-      readGreyImage(directory_ / "image.png");
-    } catch (const std::runtime_error& error) {
-      EXPECT_NE(std::string(error.what()).find("image.png is not a readable image"),
-                std::string::npos)
-          << error.what();
-    }
   }
 }
 
