@@ -144,7 +144,7 @@ TEST_F(PairProcessorTest, AsksForTheExpectedMotionBetweenItsPairs) {
 TEST_F(PairProcessorTest, ExpectedMotionIsThatOfTheBase) {
   Parameters parameters;
   parameters.odometry.max_tries = 1;
-  parameters.odometry.correspondence_finder.feature_tracker.levels = 1;
+  parameters.odometry.correspondence_finder.feature_tracker.window_radius_px = 2;
   int inliers[2];
   for (const bool told : {false, true}) {
     OdometryRig rig(parameters);
@@ -168,7 +168,7 @@ TEST_F(PairProcessorTest, ExpectedMotionIsThatOfTheBase) {
 TEST_F(PairProcessorTest, ACameraThatMovesOnABaseAtRest) {
   Parameters parameters;
   parameters.odometry.max_tries = 1;
-  parameters.odometry.correspondence_finder.feature_tracker.levels = 1;
+  parameters.odometry.correspondence_finder.feature_tracker.window_radius_px = 2;
   OdometryRig rig(parameters);
   rig.expected = [](std::int64_t, std::int64_t) {
     return std::optional<Eigen::Isometry3d>(Eigen::Isometry3d::Identity());
@@ -191,7 +191,7 @@ TEST_F(PairProcessorTest, ACameraThatMovesOnABaseAtRest) {
 TEST_F(PairProcessorTest, ExpectedMotionsOfLostPairsAddUp) {
   Parameters parameters;
   parameters.odometry.max_tries = 2;
-  parameters.odometry.correspondence_finder.feature_tracker.levels = 1;
+  parameters.odometry.correspondence_finder.feature_tracker.window_radius_px = 2;
   OdometryRig rig(parameters);
   double step_m = 4 * kStep_m;
   rig.expected = [&](std::int64_t, std::int64_t) {

@@ -118,7 +118,7 @@ TEST(VisualOdometryTest, FollowsADriveAlongTheStreet) {
 
 TEST(VisualOdometryTest, StartsFromTheMotionThatIsExpected) {
   VisualOdometry::Config config;
-  config.correspondence_finder.feature_tracker.levels = 1;
+  config.correspondence_finder.feature_tracker.window_radius_px = 2;
   config.max_tries = 1;  // not enough for the flow of two steps
   const Eigen::Isometry3d two_steps = bendStep() * bendStep();
   VisualOdometry alone(config);
@@ -378,7 +378,7 @@ TEST(VisualOdometryTest, GoesOnWithOtherParameters) {
   for (int i = 0; i < 7; ++i) before = odometry.process(bend(i), wronglyCalibrated());
   VisualOdometry::Config config;
   config.correspondence_finder.feature_detector.max_features = 300;
-  config.correspondence_finder.feature_tracker.levels = 2;
+  config.correspondence_finder.feature_tracker.window_radius_px = 5;
   config.threads = 1;
   odometry.configure(config);
   const OdometryResult after = odometry.process(bend(7), wronglyCalibrated());
