@@ -17,9 +17,8 @@ namespace {
 /// keyframe's corners is common to both, and is half of the flow's noise.
 constexpr double kNotShared = 0.5;
 
-/// Share of max_gap_s in which the last motion predicts the next one. The velocity of what may
-/// still be compared with the last pair changes too much in the rest: the search starts at rest
-/// then.
+/// Share of max_gap_s in which the last motion predicts the next one. Later, the velocity may have
+/// changed so much that rest is as good a start.
 constexpr double kPredictable = 0.5;
 
 /// Ends the processing of a pair without a motion. what() is the reason, as a sentence.
