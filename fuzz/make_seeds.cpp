@@ -117,7 +117,7 @@ void writeSeeds(const fs::path& root) {
   write(root / "kitti" / "sequence",
         "0\n0.1\n---\nP0: 60 0 3 0 0 60 2 0 0 0 1 0\nP1: 60 0 3 -30 0 60 2 0 0 0 1 0\n---\n" +
             kitti_poses);
-  write(root / "yaml" / "alias", "motion_check: &a {min_inliers: 20}\nmotion_model: *a\n");
+  write(root / "yaml" / "alias", "motion_check: &a {min_inliers: 20}\nmotion_estimator: *a\n");
   write(root / "yaml" / "kinds",
         "planar: true\nqueue_size: 4\nsilence_s: 2.5 # s\nodom_frame: \"a b\"\n");
   write(root / "yaml" / "choice",

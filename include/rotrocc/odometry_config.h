@@ -16,17 +16,12 @@ struct StereoMatcherConfig {
   double min_disparity_px = 1.0;  ///< above the disparity at infinity; farther points are dropped
 };
 
-/// Pyramidal Lucas-Kanade, and the circular consistency check.
+/// Pyramidal Lucas-Kanade.
 struct FeatureTrackerConfig {
   int window_radius_px = 4;        ///< the window is a square of side 2 radius + 1
-  int levels = 3;                  ///< of the pyramids; more than one if a prediction is far off
-  int max_iterations = 6;          ///< per level
-  double min_step_px = 0.04;       ///< iterations stop at a shorter step
   double max_round_trip_px = 1.0;  ///< tolerance of forward-backward tracking; 0: not checked
   bool scale_windows = true;       ///< scale the windows by the predicted scale change
   bool ignore_brightness = true;   ///< estimate a change of brightness and contrast of windows
-  double max_vertical_px = 1.0;    ///< tolerance of the row of left and right
-  double max_disparity_difference_px = 1.0;  ///< between tracked and matched disparity, at t
 };
 
 /// From images to correspondences.
@@ -34,11 +29,6 @@ struct CorrespondenceFinderConfig {
   FeatureDetectorConfig feature_detector;
   StereoMatcherConfig stereo_matcher;
   FeatureTrackerConfig feature_tracker;
-};
-
-/// Motion prediction by constant linear and angular velocity.
-struct MotionModelConfig {
-  double max_age_s = 0.5;  ///< an older motion is not used as a prediction
 };
 
 /// The criteria that select the features for motion estimation:
@@ -62,30 +52,20 @@ struct MotionEstimatorConfig {
   double robust_factor = 1.5;
 
   // Stage 1: rotation.
-  double rotation_limit_px = 0.6;     ///< limit of the reprojection error, Eq. 26
-  double rotation_drop_share = 0.15;  ///< largest share dropped per iteration: b of Eq. 26
-  int rotation_max_iterations = 30;
-  /// If stage 1 leaves a smaller share of the features, there is one retry ...
-  double retry_share = 0.7;
-  /// ... with only the features whose error at the prediction is below this. 0: no retry.
+  double rotation_limit_px = 0.6;  ///< limit of the reprojection error, Eq. 26
+  /// If stage 1 leaves few of the features, there is one retry with only the features whose error
+  /// at the prediction is below this. 0: no retry.
   double retry_agreement_px = 2.0;
 
   // Stage 2: translation.
   double translation_limit = 0.04;  ///< limit of the DNRE, Eq. 30
   /// Errors of this many standard deviations of the flow pass even if the flow is small.
   double translation_noise_factor = 2.0;
-  double translation_drop_share = 0.15;  ///< b of Eq. 30
-  int translation_max_iterations = 30;
   /// Stage 2 starts at the prediction, not at the result of stage 1.
   bool translation_from_prediction = false;
   /// Features with a smaller error after stage 1 enter stage 2. 0: all features do.
   double translation_initial_px = 1.5;
   double min_speed_mps = 1.0;  ///< stage 2 is skipped at lower speed
-
-  // The comparison criteria.
-  double mean_factor = 9.0;       ///< of Eq. 32
-  double deviation_factor = 1.5;  ///< of Eq. 31
-  int comparison_iterations = 10;
 };
 
 /// Plausibility limits of an estimated motion. None depends on the size of the image.
@@ -93,32 +73,7 @@ struct MotionCheckConfig {
   /// Fewer: lost. The covariance comes from the residuals of the inliers: with n of them, the
   /// variance of the noise is known to sqrt(2 / (2 n - 6)), a fifth for 25.
   int min_inliers = 25;
-  double min_inlier_share = 0.15;  ///< of the feature set; below: lost
-  /// Share of the keyframe's corners that have a disparity; below: degraded. Those of dirty lenses
-  /// or misaligned cameras are few, and chosen by chance. Real clips have 0.21 and more.
-  double degraded_depth_share = 0.15;
-  /// Share of the feature set that are inliers of the rotation stage; below: degraded. In a short
-  /// step, features at rest on the image (of dirt, or of its compression) agree on a standstill.
-  /// Real clips have 0.64 and more, with steps of up to 0.3 s.
-  double degraded_rotation_share = 0.7;
-  /// The same for a motion without a prediction, which nothing else confirms. Real clips have 0.86
-  /// and more.
-  double degraded_start_share = 0.8;
-  /// Share of the feature set that are inliers of the translation stage; below: degraded. Those of
-  /// far points with inexact disparities are missing, also if the motion is right.
-  double degraded_translation_share = 0.5;
-  /// Share of the feature set that agrees on another motion; above: degraded.
-  double degraded_rival_share = 0.2;
-  /// Share of the keyframe's features with a depth that are inliers; below: degraded. After a wrong
-  /// prediction, up to a tenth of the features match somewhere by chance.
-  double degraded_survivor_share = 0.1;
-  /// Share of the information about each part of the motion that inliers of the translation stage
-  /// have without the most informative one; below: degraded. If nearly all features are far away,
-  /// few near ones determine the translation, and those that are wrong may agree by chance.
-  double degraded_information_share = 0.15;
-  /// Standard deviation of the translation, relative to its length since the keyframe, or to 2 % of
-  /// the median depth if that is more; above: degraded.
-  double degraded_relative_sigma = 0.05;
+  double min_inlier_share = 0.15;       ///< of the feature set; below: lost
   double max_speed_mps = 70.0;          ///< faster: lost
   double max_turn_rate_rps = 6.0;       ///< faster: lost
   double max_acceleration_mps2 = 30.0;  ///< above, as change of velocity per second: degraded
@@ -161,16 +116,17 @@ struct SystematicErrorConfig {
 /// All parameters of the visual odometry, in the order of the data flow.
 struct OdometryConfig {
   CorrespondenceFinderConfig correspondence_finder;
-  MotionModelConfig motion_model;
   MotionEstimatorConfig motion_estimator;
   MotionCheckConfig motion_check;
   KeyframeSelectorConfig keyframe_selector;
   StereoCalibratorConfig stereo_calibrator;
   SystematicErrorConfig systematic_error;
 
-  int threads = 2;         ///< that process a pair, including the calling thread
-  int max_tries = 8;       ///< maximum number of tries (start, track, estimate) per pair
-  double max_gap_s = 1.0;  ///< between two pairs; if longer, the estimator restarts
+  int threads = 2;    ///< that process a pair, including the calling thread
+  int max_tries = 8;  ///< maximum number of tries (start, track, estimate) per pair
+  /// Between two pairs: if longer, the estimator restarts. After half of it, the last motion does
+  /// not predict the next one.
+  double max_gap_s = 1.0;
 };
 
 }  // namespace rotrocc

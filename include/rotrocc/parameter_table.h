@@ -29,32 +29,29 @@ class ParameterTable {
     std::function<std::string()> get;  ///< the value in YAML syntax
   };
 
-  /// `value` holds the default and is changed by set(); it must outlive the table. Ranges include
-  /// their limits.
-  void add(const std::string& name,
-           int& value,
-           int min,
-           int max,
-           const std::string& unit,
-           const std::string& description);
-  void add(const std::string& name,
-           double& value,
-           double min,
-           double max,
-           const std::string& unit,
-           const std::string& description);
-  void add(const std::string& name, bool& value, const std::string& description);
-  /// Text: one of `choices`, or any text if there are none.
-  void add(const std::string& name,
-           std::string& value,
-           const std::vector<std::string>& choices,
-           const std::string& description);
+  /// Limits of a number, which are allowed, and its unit.
+  template <class Number>
+  struct Range {
+    Number min, max;
+    const char* unit = "";
+  };
 
+  /// What is added from now on belongs to this section.
+  void beginSection(const std::string& name) { prefix_ = name + "/"; }
+
+  /// `value` holds the default and is changed by set(); it must outlive the table. The result,
+  /// whose description the caller sets, is valid until the next call.
+  [[nodiscard]] Parameter& add(const std::string& leaf, int& value, const Range<int>& range);
+  [[nodiscard]] Parameter& add(const std::string& leaf, double& value, const Range<double>& range);
+  [[nodiscard]] Parameter& add(const std::string& leaf, bool& value);
+  /// Text: one of `choices`, or any text if there are none.
+  [[nodiscard]] Parameter& add(const std::string& leaf,
+                               std::string& value,
+                               const std::vector<std::string>& choices = {});
   /// Six finite numbers: a list, or text with spaces.
-  void add(const std::string& name,
-           std::array<double, 6>& value,
-           const std::string& unit,
-           const std::string& description);
+  [[nodiscard]] Parameter& add(const std::string& leaf,
+                               std::array<double, 6>& value,
+                               const char* unit);
 
   /// Throws std::invalid_argument with the name, the value and the range if there is no such
   /// parameter or `text` is not a valid value for it.
@@ -69,8 +66,10 @@ class ParameterTable {
   const std::vector<Parameter>& parameters() const { return parameters_; }
 
  private:
+  Parameter& append(const std::string& leaf, Parameter parameter);
   Parameter& find(const std::string& name);
 
+  std::string prefix_;  // of the names of the current section
   std::vector<Parameter> parameters_;
 };
 

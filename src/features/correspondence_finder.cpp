@@ -14,6 +14,13 @@ namespace {
 /// quarter where left and right differ much.
 constexpr int kCandidates = 4;
 
+/// Tolerance of the row of left and right. Rectified rows agree to a fraction of a pixel, and a
+/// constant offset is corrected.
+constexpr double kMaxVertical_px = 1.0;
+
+/// Between tracked and matched disparity. Correct ones differ by less, as both find the same point.
+constexpr double kMaxDisparityDifference_px = 1.0;
+
 }  // namespace
 
 CorrespondenceFinder::CorrespondenceFinder(const Config& config, int threads)
@@ -169,12 +176,11 @@ void CorrespondenceFinder::checkCircularConsistency(const StereoCamera& camera,
                                                     const Keyframe& keyframe,
                                                     const StereoFrame& current,
                                                     Correspondences& features) {
-  const FeatureTracker::Config& limits = config_.feature_tracker;
   tracked_disparities_px_.assign(cur_left_px_.size(), StereoMatcher::kNoDisparity);
   for (std::size_t i = 0; i < cur_left_px_.size(); ++i) {
     const cv::Point2f offset = cur_left_px_[i] - cur_right_px_[i];
     const double wrong_row_px = std::abs(offset.y + keyframe.row_offset_px);
-    if (tracked_[i] != 0 && wrong_row_px <= limits.max_vertical_px) {
+    if (tracked_[i] != 0 && wrong_row_px <= kMaxVertical_px) {
       tracked_disparities_px_[i] = offset.x;
     }
   }
@@ -192,7 +198,7 @@ void CorrespondenceFinder::checkCircularConsistency(const StereoCamera& camera,
     const float disparity_px = disparities_px_[i];
     if (disparity_px == StereoMatcher::kNoDisparity) continue;
     const double difference_px = std::abs(disparity_px - tracked_disparities_px_[i]);
-    if (difference_px > limits.max_disparity_difference_px) continue;
+    if (difference_px > kMaxDisparityDifference_px) continue;
     const double depth_m = camera.depth(disparity_px);
     if (!isUsableDepth(depth_m)) continue;
     Correspondence feature;

@@ -10,9 +10,12 @@ namespace {
 /// A point within this fraction of the window's radius counts as close to its prediction.
 constexpr float kNear = 0.5F;
 
-/// The small images only provide a start for the large one, so their iterations stop at a step this
-/// many times as long.
-constexpr double kCoarser = 3.0;
+/// When iterations of a level stop. Gauss-Newton converges within a few; steps below a fraction of
+/// the flow's noise, about 0.1 px, gain nothing.
+constexpr TrackingWindow::Stop kStop = {6, 0.04};
+
+/// The small images only provide a start for the large one.
+constexpr TrackingWindow::Stop kRoughly = {6, 0.12};
 
 float distance2(const cv::Point2f& a, const cv::Point2f& b) {
   const cv::Point2f difference = a - b;
@@ -36,7 +39,7 @@ FeatureTracker& FeatureTracker::operator=(FeatureTracker&&) noexcept = default;
 
 void FeatureTracker::makePyramid(const cv::Mat& image, ImagePyramid& pyramid) const {
   const int side = 2 * config_.window_radius_px + 1;
-  buildPyramid(image, config_.levels, side, pyramid);
+  buildPyramid(image, kLevels, side, pyramid);
 }
 
 void FeatureTracker::track(Workers& workers,
@@ -64,9 +67,8 @@ bool FeatureTracker::locate(const cv::Mat& from,
                             const cv::Mat& to,
                             const cv::Point2f& start,
                             cv::Point2f& point) {
-  const TrackingWindow::Stop stop = {config_.max_iterations, config_.min_step_px};
   TrackingWindow& window = windows_.front();
-  return window.take(from, start, 1.0F) && window.find(to, stop, point);
+  return window.take(from, start, 1.0F) && window.find(to, kStop, point);
 }
 
 bool FeatureTracker::follow(const ImagePyramid& from,
@@ -76,25 +78,22 @@ bool FeatureTracker::follow(const ImagePyramid& from,
                             float scale,
                             TrackingWindow& window,
                             cv::Point2f& end) const {
-  const TrackingWindow::Stop stop = {config_.max_iterations, config_.min_step_px};
-  const TrackingWindow::Stop roughly = {config_.max_iterations, kCoarser * config_.min_step_px};
   cv::Point2f found = end;
   const float near_px = kNear * static_cast<float>(config_.window_radius_px);
-  const bool is_near = window.take(from[0], start, scale) && window.find(to[0], stop, found) &&
+  const bool is_near = window.take(from[0], start, scale) && window.find(to[0], kStop, found) &&
                        distance2(found, end) < near_px * near_px;
   if (!is_near) {
     found = end;
-    const auto wanted = static_cast<std::size_t>(config_.levels);
-    for (std::size_t level = std::min({wanted, from.size(), to.size()}) - 1; level > 0; --level) {
+    for (std::size_t level = std::min(from.size(), to.size()) - 1; level > 0; --level) {
       const float at_level = scaleOf(level);
       cv::Point2f scaled = at_level * found;
       // Features that are not found in a small image are left to the larger ones.
       if (window.take(from[level], at_level * start, scale) &&
-          window.find(to[level], roughly, scaled)) {
+          window.find(to[level], kRoughly, scaled)) {
         found = scaled / at_level;
       }
     }
-    if (!window.take(from[0], start, scale) || !window.find(to[0], stop, found)) return false;
+    if (!window.take(from[0], start, scale) || !window.find(to[0], kStop, found)) return false;
   }
   end = found;
   return !round_trip || config_.max_round_trip_px == 0.0 ||
@@ -108,10 +107,9 @@ bool FeatureTracker::returns(const cv::Mat& from,
                              float scale,
                              TrackingWindow& window,
                              const cv::Point2f& end) const {
-  const TrackingWindow::Stop stop = {config_.max_iterations, config_.min_step_px};
   const auto max_px = static_cast<float>(config_.max_round_trip_px);
   cv::Point2f back = start;
-  return window.take(to, end, 1.0F / scale) && window.find(from, stop, back) &&
+  return window.take(to, end, 1.0F / scale) && window.find(from, kStop, back) &&
          distance2(back, start) <= max_px * max_px;
 }
 

@@ -18,12 +18,16 @@ class FeatureTracker {
  public:
   using Config = FeatureTrackerConfig;
 
+  /// Images of a pyramid. In the smallest one, a window reaches four times as far, for features
+  /// whose prediction is far off. What is farther is left to the search for the motion.
+  static constexpr int kLevels = 3;
+
   explicit FeatureTracker(const Config& config);
   ~FeatureTracker();
   FeatureTracker(FeatureTracker&&) noexcept;
   FeatureTracker& operator=(FeatureTracker&&) noexcept;
 
-  /// Builds a pyramid with all levels that can be searched. Reuses the memory of `pyramid`.
+  /// Builds a pyramid of kLevels, or fewer for a small image. Reuses the memory of `pyramid`.
   void makePyramid(const cv::Mat& image, ImagePyramid& pyramid) const;
 
   /// Tracks the points `keyframe_px` from one image to another. `scales` are the expected scale

@@ -14,6 +14,9 @@ namespace {
 /// 99 % quantile of the chi-squared distribution with 6 degrees of freedom.
 constexpr double kSignificant2 = 16.8;
 
+/// If stage 1 leaves a smaller share of the features, the motion may be that of an object.
+constexpr double kRetryShare = 0.7;
+
 /// A smaller share of the features is not what most agree on.
 constexpr double kMajority = 0.5;
 
@@ -54,7 +57,7 @@ const MotionEstimator::Estimate& MotionEstimator::estimate(
   all_.assign(features.size(), 1);
   estimateFrom(all_, measured, initial, dt_s, found_);
   const int agree = found_.valid ? count(found_.rotation_inliers) : 0;
-  const bool few = agree < config_.retry_share * static_cast<double>(features.size());
+  const bool few = agree < kRetryShare * static_cast<double>(features.size());
   if (!few || config_.retry_agreement_px == 0.0) return found_;
 
   if (agree < kMajority * static_cast<double>(features.size())) takeConsensus(measured, dt_s);

@@ -15,17 +15,29 @@ namespace {
 /// Lower limit of the flow [px], so that normalized errors stay finite without flow.
 constexpr double kMinFlow_px = 1e-6;
 
+/// The paper's b of Eq. 26 and 30: the largest share of the features that an iteration drops. With
+/// a larger one, a motion that outliers have bent drops features that fit the right one.
+constexpr double kDropShare = 0.15;
+
+/// Safety limits: sets are usually stable after a few iterations.
+constexpr int kMaxIterations = 30;
+constexpr int kComparisonIterations = 10;  // criteria mean_based and std_based
+
+/// The factors of Eq. 32 and 31.
+constexpr double kMeanFactor = 9.0;
+constexpr double kDeviationFactor = 1.5;
+
 /// The error of a feature that must not become an inlier.
 constexpr double kExcludedError = std::numeric_limits<double>::infinity();
 
 OutlierThreshold rotationThreshold(Criterion criterion, const MotionEstimatorConfig& config) {
   switch (criterion) {
     case Criterion::kMeanBased:
-      return OutlierThreshold::meanBased(config.mean_factor);
+      return OutlierThreshold::meanBased(kMeanFactor);
     case Criterion::kStdBased:
-      return OutlierThreshold::deviationBased(config.deviation_factor);
+      return OutlierThreshold::deviationBased(kDeviationFactor);
     default:
-      return OutlierThreshold::fixedLimit(config.rotation_limit_px, config.rotation_drop_share);
+      return OutlierThreshold::fixedLimit(config.rotation_limit_px, kDropShare);
   }
 }
 
@@ -36,8 +48,7 @@ TwoStageEstimator::TwoStageEstimator(const MotionEstimatorConfig& config)
       criterion_(criterionOf(config.criterion)),
       solver_({}),
       rotation_threshold_(rotationThreshold(criterion_, config)),
-      translation_threshold_(
-          OutlierThreshold::fixedLimit(config.translation_limit, config.translation_drop_share)) {}
+      translation_threshold_(OutlierThreshold::fixedLimit(config.translation_limit, kDropShare)) {}
 
 void TwoStageEstimator::estimate(const Measurements& measured,
                                  const FeatureSet& set,
@@ -81,8 +92,7 @@ bool TwoStageEstimator::estimateRotation(const Measurements& measured,
     return solver_.solveMotion(measured, set, fit);  // Eq. 25
   };
   const auto measure = [&] { fittedErrors(measured.camera, fit, errors_); };
-  const int iterations =
-      hasFixedLimit(criterion_) ? config_.rotation_max_iterations : config_.comparison_iterations;
+  const int iterations = hasFixedLimit(criterion_) ? kMaxIterations : kComparisonIterations;
   if (!iterate(rotation_threshold_, iterations, solve, measure, inliers)) return false;
   return refinement == nullptr || refinement->refineMotion(measured, inliers, fit);
 }
@@ -141,8 +151,7 @@ bool TwoStageEstimator::estimateTranslation(const Measurements& measured,
     }
   };
   inliers = candidates_;
-  const int iterations = config_.translation_max_iterations;
-  if (!iterate(translation_threshold_, iterations, solve, measure, inliers)) return false;
+  if (!iterate(translation_threshold_, kMaxIterations, solve, measure, inliers)) return false;
   return refinement == nullptr || refinement->refineTranslation(measured, inliers, fit);
 }
 

@@ -46,12 +46,18 @@ void setOne(const std::string& name, XmlRpc::XmlRpcValue value, ParameterTable& 
   }
 }
 
-void setBelow(const std::string& name, XmlRpc::XmlRpcValue value, ParameterTable& table) {
+void setBelow(const std::string& name,
+              XmlRpc::XmlRpcValue value,
+              ParameterTable& table,
+              std::vector<std::string>& warnings) {
+  if (const std::string why = whyIgnored(name); !why.empty()) return warnings.push_back(why);
   if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
     setOne(name, value, table);
     return;
   }
-  for (auto& [key, child] : value) setBelow(name.empty() ? key : name + "/" + key, child, table);
+  for (auto& [key, child] : value) {
+    setBelow(name.empty() ? key : name + "/" + key, child, table, warnings);
+  }
 }
 
 void requireFrame(const std::string& name, const std::string& frame) {
@@ -78,13 +84,15 @@ void requireDifferent(const std::string& name,
 
 }  // namespace
 
-Parameters readParameters(const ros::NodeHandle& private_nh) {
+Parameters readParameters(const ros::NodeHandle& private_nh, const Log& log) {
   const std::string& ns = private_nh.getNamespace();
   Parameters parameters;
   ParameterTable table = makeParameterTable(parameters);
   try {
     XmlRpc::XmlRpcValue tree;
-    if (private_nh.getParam(ns, tree)) setParameters(tree, table);
+    if (private_nh.getParam(ns, tree)) {
+      for (const std::string& warning : setParameters(tree, table)) log.warn(warning);
+    }
     requireFrames(parameters.node);
   } catch (const RefusedParameter& error) {
     // Parameters stay on the server when a node ends, so the user may not know of this one.
@@ -111,8 +119,10 @@ void requireFrames(const NodeParameters& node) {
   }
 }
 
-void setParameters(const XmlRpc::XmlRpcValue& tree, ParameterTable& table) {
-  setBelow("", tree, table);
+std::vector<std::string> setParameters(const XmlRpc::XmlRpcValue& tree, ParameterTable& table) {
+  std::vector<std::string> warnings;
+  setBelow("", tree, table, warnings);
+  return warnings;
 }
 
 }  // namespace rotrocc

@@ -2,10 +2,12 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
+#include "input/log.h"
 #include "rotrocc/parameters.h"
 
 namespace rotrocc {
@@ -22,17 +24,18 @@ class RefusedParameter : public std::invalid_argument {
   std::string name_;
 };
 
-/// The parameters in the namespace of `private_nh`, with defaults for missing ones. Throws
-/// std::invalid_argument as setParameters() and requireFrames() do, with the command that deletes
-/// the parameter from the server.
-Parameters readParameters(const ros::NodeHandle& private_nh);
+/// The parameters in the namespace of `private_nh`, with defaults for missing ones. Logs
+/// the warnings of setParameters(). Throws std::invalid_argument as setParameters() and
+/// requireFrames() do, with the command that deletes the parameter from the server.
+Parameters readParameters(const ros::NodeHandle& private_nh, const Log& log);
 
 /// Throws RefusedParameter with the name on invalid or conflicting frames.
 void requireFrames(const NodeParameters& node);
 
-/// Sets every parameter of `tree`, whose structs are the sections of the table. Throws
+/// Sets every parameter of `tree`, whose structs are the sections of the table. Returns a warning
+/// for each that exists no more. Throws
 /// RefusedParameter with name and range on an unknown parameter, a wrong type or a value out of
 /// range.
-void setParameters(const XmlRpc::XmlRpcValue& tree, ParameterTable& table);
+std::vector<std::string> setParameters(const XmlRpc::XmlRpcValue& tree, ParameterTable& table);
 
 }  // namespace rotrocc

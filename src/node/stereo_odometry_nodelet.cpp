@@ -15,8 +15,9 @@ void StereoOdometryNodelet::onInit() {
   // that a publisher, subscriber or timer left in it would be removed from a queue that is gone.
   // It catches std::exception only.
   try {
+    const Parameters parameters = readParameters(getPrivateNodeHandle(), Log(getName()));
     odometry_ = std::make_unique<StereoOdometry>(
-        getNodeHandle(), getPrivateNodeHandle(), getName(), readParameters(getPrivateNodeHandle()));
+        getNodeHandle(), getPrivateNodeHandle(), getName(), parameters);
   } catch (const std::exception& error) {
     Log(getName()).fatal(error.what());
     throw;

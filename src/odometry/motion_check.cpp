@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "common/concatenate.h"
 #include "motion/median_depth.h"
@@ -18,7 +19,36 @@ constexpr int kReserve = 2;
 /// Share of the median depth. A shorter step changes the image little: its uncertainty is compared
 /// with the scene, or it would have none small enough at standstill.
 constexpr double kShortStep = 0.02;
-/// The share of degraded_rival_share that is enough for features behind the others.
+
+// Limits beyond which a motion is degraded. None depends on the size of the image.
+
+/// Share of the keyframe's corners that have a disparity. Those of dirty lenses or misaligned
+/// cameras are few, and chosen by chance. Real clips have 0.21 and more.
+constexpr double kMinWithDepth = 0.15;
+/// Share of the feature set that are inliers of the rotation stage. In a short step, features at
+/// rest on the image (of dirt, or of its compression) agree on a standstill. Real clips have 0.64
+/// and more, with steps of up to 0.3 s.
+constexpr double kMinByRotation = 0.7;
+/// The same for a motion without a prediction, which nothing else confirms. Real clips have 0.86
+/// and more.
+constexpr double kMinAtStart = 0.8;
+/// Share of the feature set that are inliers of the translation stage. Those of far points with
+/// inexact disparities are missing, also if the motion is right.
+constexpr double kMinByTranslation = 0.5;
+/// Share of the feature set that agrees on another motion.
+constexpr double kMaxCompetitors = 0.2;
+/// Share of the keyframe's features with a depth that are inliers. After a wrong prediction, up to
+/// a tenth of the features match somewhere by chance.
+constexpr double kMinSurvivors = 0.1;
+/// Share of the information about each part of the motion that inliers of the translation stage
+/// have without the most informative one. If nearly all features are far away, few near ones
+/// determine the translation, and those that are wrong may agree by chance.
+constexpr double kMinInformation = 0.15;
+/// Standard deviation of the translation, relative to its length since the keyframe, or to 2 % of
+/// the median depth if that is more.
+constexpr double kMaxSigma = 0.05;
+
+/// The share of kMaxCompetitors that is enough for features behind the others.
 constexpr double kShareBehind = 0.5;
 /// Noise of the flow in any image of a camera. Only what is drawn, or left by compression, is more
 /// exact, and stands still when the camera moves.
@@ -101,36 +131,34 @@ std::string MotionCheck::whyDegraded(const Hypothesis& accepted, const Matrix6d&
 /// agree and be too few for the translation stage; the motion of the rotation stage is then as
 /// good.
 bool MotionCheck::isLarge(const FeatureSet& features) const {
-  return config_.min_inliers <
-         config_.degraded_translation_share * static_cast<double>(features.size());
+  return config_.min_inliers < kMinByTranslation * static_cast<double>(features.size());
 }
 
 std::string MotionCheck::whyFewHaveDepth(const StageCounts& counts) const {
-  if (counts.with_depth >= config_.degraded_depth_share * counts.corners) return "";
+  if (counts.with_depth >= kMinWithDepth * counts.corners) return "";
   return concatenate("only ",
                      counts.with_depth,
                      " of ",
                      counts.corners,
-                     " corners have a disparity, a share below degraded_depth_share = ",
-                     config_.degraded_depth_share,
+                     " corners have a disparity, a share below ",
+                     kMinWithDepth,
                      "; are the lenses clean, and left and right rows aligned?");
 }
 
 std::string MotionCheck::whyFewAgree(const MotionEstimator::Estimate& estimate,
                                      bool has_prediction) const {
   const double by_rotation = shareOf(estimate.rotation_inliers);
-  if (by_rotation < config_.degraded_rotation_share) {
-    return concatenate(
-        "a share of ",
-        by_rotation,
-        " of the features agrees on the motion, less than degraded_rotation_share = ",
-        config_.degraded_rotation_share);
+  if (by_rotation < kMinByRotation) {
+    return concatenate("a share of ",
+                       by_rotation,
+                       " of the features agrees on the motion, less than ",
+                       kMinByRotation);
   }
-  if (!has_prediction && by_rotation < config_.degraded_start_share) {
+  if (!has_prediction && by_rotation < kMinAtStart) {
     return concatenate("without a prediction, a share of ",
                        by_rotation,
-                       " of the features agrees on the motion, less than degraded_start_share = ",
-                       config_.degraded_start_share);
+                       " of the features agrees on the motion, less than ",
+                       kMinAtStart);
   }
   if (!has_prediction && by_rotation < kUnanimousShare && estimate.flow_noise_px < kMinNoise_px) {
     return concatenate(
@@ -141,31 +169,30 @@ std::string MotionCheck::whyFewAgree(const MotionEstimator::Estimate& estimate,
         " px) than features of the scene: something drawn or compressed stands still");
   }
   const double by_translation = shareOf(estimate.translation_inliers);
-  if (by_translation >= config_.degraded_translation_share) return "";
+  if (by_translation >= kMinByTranslation) return "";
   return concatenate("a share of ",
                      by_translation,
-                     " of the features agrees on the translation, less than "
-                     "degraded_translation_share = ",
-                     config_.degraded_translation_share);
+                     " of the features agrees on the translation, less than ",
+                     kMinByTranslation);
 }
 
 std::string MotionCheck::whyFewSurvive(const Hypothesis& accepted) const {
   const int survivors = inliers(accepted.estimate);
   const int features = accepted.counts.with_depth;
-  if (survivors >= config_.degraded_survivor_share * features) return "";
+  if (survivors >= kMinSurvivors * features) return "";
   return concatenate("the motion rests on ",
                      survivors,
                      " of ",
                      features,
-                     " features, a share below degraded_survivor_share = ",
-                     config_.degraded_survivor_share);
+                     " features, a share below ",
+                     kMinSurvivors);
 }
 
 /// Whether many features agree on another motion. Then it may be that of an object that fills the
 /// image. Fewer are enough if they are behind the inliers, as what an object hides.
 std::string MotionCheck::whyAmbiguous(const Hypothesis& accepted) {
   const auto features = static_cast<double>(accepted.features.size());
-  const double many = config_.degraded_rival_share * features;
+  const double many = kMaxCompetitors * features;
   const int min_count =
       std::max(config_.min_inliers, static_cast<int>(std::ceil(kShareBehind * many)));
   const CompetingMotion::Competitors competitors =
@@ -182,25 +209,22 @@ std::string MotionCheck::whyAmbiguous(const Hypothesis& accepted) {
                      competitors.are_behind
                          ? " features, which are behind the others, a share above half of "
                          : " features, a share above ",
-                     "degraded_rival_share = ",
-                     config_.degraded_rival_share,
+                     kMaxCompetitors,
                      ": one of the two is that of a large object");
 }
 
 /// Whether few inliers determine the motion, and other features contradict them. It may be that of
 /// a wrong match then.
 std::string MotionCheck::whyFewDetermine(const Hypothesis& accepted) {
-  if (config_.degraded_information_share == 0.0) return "";
   const double share =
       information_share_.minimum({accepted.camera, accepted.features, noise_ratio_},
                                  accepted.estimate.T_keyframe_cur,
                                  accepted.estimate.translation_inliers);
-  if (share >= config_.degraded_information_share) return "";
+  if (share >= kMinInformation) return "";
   return concatenate("the inliers but one have a share of ",
                      share,
-                     " of the information about a part of the motion, less than "
-                     "degraded_information_share = ",
-                     config_.degraded_information_share,
+                     " of the information about a part of the motion, less than ",
+                     kMinInformation,
                      ": few features determine it");
 }
 
@@ -210,11 +234,11 @@ std::string MotionCheck::whyUndetermined(const Hypothesis& accepted, const Matri
   const double step_m =
       std::max(estimate.T_keyframe_cur.translation().norm(), kShortStep * depth_m);
   const double sigma_m = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
-  if (sigma_m <= config_.degraded_relative_sigma * step_m) return "";
+  if (sigma_m <= kMaxSigma * step_m) return "";
   return concatenate("the translation has a standard deviation of ",
                      sigma_m,
-                     " m, more than degraded_relative_sigma = ",
-                     config_.degraded_relative_sigma,
+                     " m, more than a share of ",
+                     kMaxSigma,
                      " of ",
                      step_m,
                      " m");

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 
-#include "rotrocc/odometry_config.h"
 #include "rotrocc/rigid_motion.h"
 
 namespace rotrocc {
@@ -13,27 +12,26 @@ namespace rotrocc {
 /// time step.
 class MotionModel {
  public:
-  using Config = MotionModelConfig;
+  /// The last motion predicts no more than `max_age_s`.
+  explicit MotionModel(double max_age_s) : max_age_s_(max_age_s) {}
 
-  explicit MotionModel(const Config& config) : config_(config) {}
-
-  /// Changes the parameters and keeps the velocity.
-  void configure(const Config& config) { config_ = config; }
+  /// Keeps the velocity.
+  void setMaxAge(double max_age_s) { max_age_s_ = max_age_s; }
 
   /// Stores the velocity of a measured motion that took `dt_s` > 0.
   void update(const Eigen::Isometry3d& T_prev_cur, double dt_s);
 
   /// The predicted motion during `dt_s` after the last update. None without an update, or if `dt_s`
-  /// exceeds max_age_s. A measured rotation R_last_cur replaces the predicted one. The velocity
-  /// turns with the camera, as that of a vehicle does: then it keeps its direction in the camera's
-  /// axes.
+  /// exceeds the largest age. A measured rotation R_last_cur replaces the predicted one. The
+  /// velocity turns with the camera, as that of a vehicle does: then it keeps its direction in the
+  /// camera's axes.
   std::optional<Eigen::Isometry3d> predict(
       double dt_s, const std::optional<Eigen::Matrix3d>& measured_rotation = std::nullopt) const;
 
   void reset() { twist_.reset(); }
 
  private:
-  Config config_;
+  double max_age_s_;
   std::optional<Vector6d> twist_;  ///< [m/s; rad/s]
 };
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/stage_timer.h"
+#include "features/feature_tracker.h"
 #include "motion/consensus_motion.h"
 #include "motion/outlier_rejection.h"
 
@@ -34,7 +35,7 @@ bool isConvincing(const Hypothesis& found) {
 }  // namespace
 
 MotionSearch::MotionSearch(const OdometryConfig& config)
-    : tracker_(config.correspondence_finder.feature_tracker),
+    : window_radius_px_(config.correspondence_finder.feature_tracker.window_radius_px),
       min_features_(config.motion_check.min_inliers),
       estimator_(config.motion_estimator, config.motion_check.min_inliers),
       check_(config.motion_check, config.motion_estimator.noise_ratio),
@@ -43,7 +44,7 @@ MotionSearch::MotionSearch(const OdometryConfig& config)
 bool MotionSearch::find(
     const Frames& frames, const Start& start, int max_tries, Hypothesis& found, StageTimes& times) {
   // A window finds what is as far away as it reaches in the smallest image.
-  const double reach_px = tracker_.window_radius_px * (1 << (tracker_.levels - 1));
+  const double reach_px = window_radius_px_ * (1 << (FeatureTracker::kLevels - 1));
   std::optional<MotionEstimator::Prediction> prediction;
   if (start.is_prediction) prediction = {start.T_keyframe_cur, frames.dt_s};
   Start next = start;

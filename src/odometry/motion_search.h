@@ -82,7 +82,7 @@ class MotionSearch {
                 const std::optional<MotionEstimator::Prediction>& prediction,
                 Hypothesis& hypothesis);
 
-  FeatureTrackerConfig tracker_;
+  int window_radius_px_;
   int min_features_;
   MotionEstimator estimator_;
   MotionCheck check_;

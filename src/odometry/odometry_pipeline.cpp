@@ -17,6 +17,10 @@ namespace {
 /// keyframe's corners is common to both, and is half of the flow's noise.
 constexpr double kNotShared = 0.5;
 
+/// Share of max_gap_s in which the last motion predicts the next one. Later, the velocity may have
+/// changed so much that rest is as good a start.
+constexpr double kPredictable = 0.5;
+
 /// Ends the processing of a pair without a motion. what() is the reason, as a sentence.
 struct Lost : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -27,7 +31,7 @@ struct Lost : std::runtime_error {
 VisualOdometry::Pipeline::Pipeline(const Config& config)
     : config_(config),
       finder_(config.correspondence_finder, config.threads),
-      motion_model_(config.motion_model),
+      motion_model_(kPredictable * config.max_gap_s),
       search_(config),
       check_(config.motion_check, config.motion_estimator.noise_ratio),
       selector_(config.keyframe_selector),
@@ -90,7 +94,7 @@ void VisualOdometry::Pipeline::configure(const Config& config) {
   search_ = MotionSearch(config);  // first, because it may throw
   config_ = config;
   finder_ = CorrespondenceFinder(config.correspondence_finder, config.threads);
-  motion_model_.configure(config.motion_model);
+  motion_model_.setMaxAge(kPredictable * config.max_gap_s);
   check_ = MotionCheck(config.motion_check, config.motion_estimator.noise_ratio);
   selector_ = KeyframeSelector(config.keyframe_selector);
   rig_.configure(config);

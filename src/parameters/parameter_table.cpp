@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <type_traits>
+#include <utility>
 
 namespace rotrocc {
 namespace {
@@ -33,22 +34,26 @@ T parseNumber(const std::string& text, const std::string& wanted) {
 }
 
 template <class T>
-ParameterTable::Parameter makeNumber(T& value, T min, T max, const char* kind) {
+ParameterTable::Parameter makeNumber(T& value,
+                                     const ParameterTable::Range<T>& range,
+                                     const char* kind) {
   ParameterTable::Parameter parameter;
   parameter.type = std::is_integral<T>::value ? ParameterTable::Parameter::Type::kInt
                                               : ParameterTable::Parameter::Type::kDouble;
-  parameter.min = toText(min);
-  parameter.max = toText(max);
+  parameter.unit = range.unit;
+  parameter.min = toText(range.min);
+  parameter.max = toText(range.max);
   parameter.range = "[" + parameter.min + ", " + parameter.max + "]";
   const std::string in_range = "in " + parameter.range;
   const std::string wanted = std::string(kind) + " " + in_range;
-  parameter.set = [&value, min, max, in_range, wanted](const std::string& text) {
-    const T parsed = parseNumber<T>(text, wanted);
-    if (!(parsed >= min && parsed <= max)) {
-      throw std::invalid_argument("is " + text + ", but must be " + in_range);
-    }
-    value = parsed;
-  };
+  parameter.set =
+      [&value, min = range.min, max = range.max, in_range, wanted](const std::string& text) {
+        const T parsed = parseNumber<T>(text, wanted);
+        if (!(parsed >= min && parsed <= max)) {
+          throw std::invalid_argument("is " + text + ", but must be " + in_range);
+        }
+        value = parsed;
+      };
   parameter.get = [&value] { return toText(value); };
   return parameter;
 }
@@ -79,40 +84,30 @@ std::string join(const std::vector<std::string>& words) {
 
 }  // namespace
 
-void ParameterTable::add(const std::string& name,
-                         int& value,
-                         int min,
-                         int max,
-                         const std::string& unit,
-                         const std::string& description) {
-  Parameter parameter = makeNumber(value, min, max, "an integer");
-  parameter.name = name;
-  parameter.unit = unit;
-  parameter.description = description;
+ParameterTable::Parameter& ParameterTable::append(const std::string& leaf, Parameter parameter) {
+  parameter.name = prefix_ + leaf;
   parameters_.push_back(std::move(parameter));
+  return parameters_.back();
 }
 
-void ParameterTable::add(const std::string& name,
-                         double& value,
-                         double min,
-                         double max,
-                         const std::string& unit,
-                         const std::string& description) {
-  Parameter parameter = makeNumber(value, min, max, "a number");
-  parameter.name = name;
-  parameter.unit = unit;
-  parameter.description = description;
-  parameters_.push_back(std::move(parameter));
+ParameterTable::Parameter& ParameterTable::add(const std::string& leaf,
+                                               int& value,
+                                               const Range<int>& range) {
+  return append(leaf, makeNumber(value, range, "an integer"));
 }
 
-void ParameterTable::add(const std::string& name, bool& value, const std::string& description) {
+ParameterTable::Parameter& ParameterTable::add(const std::string& leaf,
+                                               double& value,
+                                               const Range<double>& range) {
+  return append(leaf, makeNumber(value, range, "a number"));
+}
+
+ParameterTable::Parameter& ParameterTable::add(const std::string& leaf, bool& value) {
   Parameter parameter;
-  parameter.name = name;
   parameter.type = Parameter::Type::kBool;
   parameter.min = "false";
   parameter.max = "true";
   parameter.range = "true or false";
-  parameter.description = description;
   parameter.set = [&value](const std::string& text) {
     if (text != "true" && text != "false") {
       throw std::invalid_argument("is \"" + text + "\", but must be true or false");
@@ -120,18 +115,15 @@ void ParameterTable::add(const std::string& name, bool& value, const std::string
     value = text == "true";
   };
   parameter.get = [&value] { return std::string(value ? "true" : "false"); };
-  parameters_.push_back(std::move(parameter));
+  return append(leaf, std::move(parameter));
 }
 
-void ParameterTable::add(const std::string& name,
-                         std::string& value,
-                         const std::vector<std::string>& choices,
-                         const std::string& description) {
+ParameterTable::Parameter& ParameterTable::add(const std::string& leaf,
+                                               std::string& value,
+                                               const std::vector<std::string>& choices) {
   Parameter parameter;
-  parameter.name = name;
   parameter.choices = choices;
   parameter.range = choices.empty() ? "any text" : "one of " + join(choices);
-  parameter.description = description;
   parameter.set = [&value, choices, range = parameter.range](const std::string& text) {
     if (!choices.empty() && std::find(choices.begin(), choices.end(), text) == choices.end()) {
       throw std::invalid_argument("is \"" + text + "\", but must be " + range);
@@ -139,26 +131,23 @@ void ParameterTable::add(const std::string& name,
     value = text;
   };
   parameter.get = [&value] { return value; };
-  parameters_.push_back(std::move(parameter));
+  return append(leaf, std::move(parameter));
 }
 
-void ParameterTable::add(const std::string& name,
-                         std::array<double, 6>& value,
-                         const std::string& unit,
-                         const std::string& description) {
+ParameterTable::Parameter& ParameterTable::add(const std::string& leaf,
+                                               std::array<double, 6>& value,
+                                               const char* unit) {
   Parameter parameter;
-  parameter.name = name;
   parameter.unit = unit;
   parameter.range = "6 numbers";
   parameter.is_list = true;
-  parameter.description = description;
   parameter.set = [&value](const std::string& text) { value = parseSix(text); };
   parameter.get = [&value] {
     std::string text;
     for (const double number : value) text += (text.empty() ? "" : " ") + toText(number);
     return text;
   };
-  parameters_.push_back(std::move(parameter));
+  return append(leaf, std::move(parameter));
 }
 
 ParameterTable::Parameter& ParameterTable::find(const std::string& name) {

@@ -1,6 +1,8 @@
 #include "rotrocc/parameters.h"
 
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <yaml-cpp/yaml.h>
 
@@ -20,7 +22,11 @@ void set(const std::string& name, const std::string& text, ParameterTable& table
 }
 
 /// Sets every scalar and list below `node`; `prefix` is the name of `node`.
-void setAll(const YAML::Node& node, const std::string& prefix, ParameterTable& table) {
+void setAll(const YAML::Node& node,
+            const std::string& prefix,
+            ParameterTable& table,
+            std::vector<std::string>& warnings) {
+  if (const std::string why = whyIgnored(prefix); !why.empty()) return warnings.push_back(why);
   if (node.IsScalar()) return set(prefix, node.Scalar(), table);
   if (node.IsSequence()) return table.setList(prefix, node.as<std::vector<std::string>>());
   if (!node.IsMap()) {
@@ -32,7 +38,7 @@ void setAll(const YAML::Node& node, const std::string& prefix, ParameterTable& t
   }
   for (const auto& entry : node) {
     const auto name = entry.first.as<std::string>();
-    setAll(entry.second, prefix.empty() ? name : prefix + "/" + name, table);
+    setAll(entry.second, prefix.empty() ? name : prefix + "/" + name, table, warnings);
   }
 }
 
@@ -47,15 +53,18 @@ std::string comment(const ParameterTable::Parameter& p) {
 
 }  // namespace
 
-void loadYaml(const std::string& path, ParameterTable& table) {
+std::vector<std::string> loadYaml(const std::string& path, ParameterTable& table) {
+  std::vector<std::string> warnings;
   try {
     const YAML::Node root = YAML::LoadFile(path);
-    if (!root.IsNull()) setAll(root, "", table);
+    if (!root.IsNull()) setAll(root, "", table, warnings);
   } catch (const YAML::Exception& error) {
     throw std::invalid_argument(path + ": " + error.what());
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(path + ": " + error.what());
   }
+  for (std::string& warning : warnings) warning = path + ": " + warning;
+  return warnings;
 }
 
 std::string toYaml(const ParameterTable& table) {

@@ -9,7 +9,5 @@ namespace rotrocc {
 // the table.
 
 void addOdometry(OdometryConfig& config, ParameterTable& table);
-void addFrontEnd(CorrespondenceFinderConfig& config, ParameterTable& table);
-void addMotionEstimator(MotionEstimatorConfig& config, ParameterTable& table);
 
 }  // namespace rotrocc

@@ -120,7 +120,11 @@ PairRecord process(VisualOdometry& odometry,
 Parameters readParameters(const Options& options) {
   Parameters parameters;
   ParameterTable table = makeParameterTable(parameters);
-  if (!options.config.empty()) loadYaml(options.config, table);
+  if (!options.config.empty()) {
+    for (const std::string& warning : loadYaml(options.config, table)) {
+      std::cerr << "offline_odometry: " << warning << '\n';
+    }
+  }
   for (const std::string& assignment : options.assignments) table.setAssignment(assignment);
   return parameters;
 }

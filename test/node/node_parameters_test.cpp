@@ -67,6 +67,17 @@ TEST_F(NodeParametersTest, RefusesWhatTheTableDoesNotKnow) {
   expectRefused(tree, "feature_detector/max_featurs");
 }
 
+TEST_F(NodeParametersTest, WarnsOfWhatNoLongerExists) {
+  XmlRpcValue tree;
+  tree["feature_tracker"]["levels"] = 2;
+  tree["queue_size"] = 9;
+  const std::vector<std::string> warnings = setParameters(tree, table_);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0],
+            "parameter feature_tracker/levels no longer exists and is ignored: delete it");
+  EXPECT_EQ(parameters_.node.queue_size, 9);
+}
+
 TEST_F(NodeParametersTest, RefusesValuesOutOfRange) {
   XmlRpcValue tree;
   tree["queue_size"] = 0;

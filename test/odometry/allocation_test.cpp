@@ -147,17 +147,11 @@ TEST_F(AllocationTest, AreTheBuffersOfAThreadThatWokeLate) {
 }
 
 TEST_F(AllocationTest, AreNoneWithOtherCriteria) {
-  for (const char* criterion : {"reprojection", "rocc", "mean_based", "std_based"}) {
+  // Not std_based: it leaves less than half of the features, for which a reason is given.
+  for (const char* criterion : {"reprojection", "rocc", "mean_based"}) {
     VisualOdometry::Config config;
     config.threads = 1;
     config.motion_estimator.criterion = criterion;
-    // std_based leaves less than half of the features, for which a reason would be given and a
-    // consensus searched.
-    config.motion_check.degraded_rotation_share = 0.0;
-    config.motion_check.degraded_start_share = 0.0;
-    config.motion_check.degraded_translation_share = 0.0;
-    config.motion_check.degraded_information_share = 0.0;
-    config.motion_estimator.retry_agreement_px = 0.0;
     EXPECT_EQ(countOfARepeatedDrive(config), 0) << criterion;
   }
 }

@@ -10,17 +10,18 @@ namespace rotrocc {
 namespace {
 
 constexpr double kRounding = 1e-12;
+constexpr double kMaxAge_s = 0.5;
 
 Eigen::Isometry3d turnAhead() {
   return motion({0.1, 0.0, 1.2}, {0.0, 0.05, 0.01});
 }
 
 TEST(MotionModelTest, KnowsNothingAtFirst) {
-  EXPECT_FALSE(MotionModel({}).predict(0.1));
+  EXPECT_FALSE(MotionModel(kMaxAge_s).predict(0.1));
 }
 
 TEST(MotionModelTest, ExpectsTheLastMotionAgain) {
-  MotionModel model({});
+  MotionModel model(kMaxAge_s);
   model.update(motion({5.0, 0.0, 0.0}, {0.0, 0.0, 0.2}), 0.1);
   model.update(turnAhead(), 0.1);
   const auto predicted = model.predict(0.1);
@@ -29,7 +30,7 @@ TEST(MotionModelTest, ExpectsTheLastMotionAgain) {
 }
 
 TEST(MotionModelTest, ScalesTheMotionToTheTimeThatPassed) {
-  MotionModel model({});
+  MotionModel model(kMaxAge_s);
   model.update(turnAhead(), 0.1);
   const auto twice = model.predict(0.2);
   ASSERT_TRUE(twice);
@@ -41,7 +42,7 @@ TEST(MotionModelTest, ScalesTheMotionToTheTimeThatPassed) {
 }
 
 TEST(MotionModelTest, TakesAMeasuredRotationAndTurnsItsVelocity) {
-  MotionModel model({});
+  MotionModel model(kMaxAge_s);
   model.update(motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}), 0.1);
   const Eigen::Matrix3d turn = expRotation({0.0, 0.4, 0.0});
   const auto predicted = model.predict(0.2, turn);
@@ -54,16 +55,17 @@ TEST(MotionModelTest, TakesAMeasuredRotationAndTurnsItsVelocity) {
 }
 
 TEST(MotionModelTest, ExpectsNothingAfterAGap) {
-  MotionModel::Config config;
-  config.max_age_s = 0.3;
-  MotionModel model(config);
+  MotionModel model(kMaxAge_s);
   model.update(turnAhead(), 0.1);
+  EXPECT_TRUE(model.predict(0.5));
+  EXPECT_FALSE(model.predict(0.51));
+  model.setMaxAge(0.3);
   EXPECT_TRUE(model.predict(0.3));
   EXPECT_FALSE(model.predict(0.31));
 }
 
 TEST(MotionModelTest, ForgetsWhenReset) {
-  MotionModel model({});
+  MotionModel model(kMaxAge_s);
   model.update(turnAhead(), 0.1);
   model.reset();
   EXPECT_FALSE(model.predict(0.1));
