@@ -88,22 +88,6 @@ struct KeyframeSelectorConfig {
 struct StereoCalibratorConfig {
   bool enabled = true;          ///< false: only bias_px is applied, and no row offset
   double bias_px = 0.0;         ///< known bias, added to every disparity; start of the estimate
-  double prior_sigma_px = 1.0;  ///< standard deviation of the rig's bias about bias_px
-  /// A deviation from bias_px of this many standard deviations is applied by half, a smaller one
-  /// hardly, a larger one as a whole.
-  double significance = 5.0;
-  /// Typical error that neighbouring features share, over the noise of single ones. The estimate
-  /// starts from it.
-  double shared_error_ratio = 1.3;
-  /// Mean number of pairs before a rigid rig begins to move, or the reverse.
-  double steady_pairs = 300.0;
-  /// Standard deviation of the change of the bias from pair to pair while the rig moves.
-  double flex_px = 1.0;
-  /// Ratio of disparity noise to flow noise, see fitted_feature.h. Smaller than the measured ratio:
-  /// fitted disparities also absorb errors that neighbouring features share, which biases the
-  /// estimate.
-  double noise_ratio = 1.0;
-  double robust_factor = 2.0;  ///< of cauchyWeights(); 0: equal weights
 };
 
 /// Errors that all features share, so that their scatter does not show them: standard deviations in

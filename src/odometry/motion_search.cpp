@@ -14,6 +14,10 @@ namespace {
 /// The motion is estimated once more if the applied bias changes by more than this.
 constexpr double kCalibrationSettled_px = 0.02;
 
+/// Tries from one start. A motion that does not settle in these wanders about, and leaves the other
+/// starts none.
+constexpr int kMaxSteps = 3;
+
 /// Errors of descriptors, which are taken from images of up to half the size.
 constexpr double kRecognitionTolerance_px = 3.0;
 
@@ -48,21 +52,18 @@ bool MotionSearch::find(
   std::optional<MotionEstimator::Prediction> prediction;
   if (start.is_prediction) prediction = {start.T_keyframe_cur, frames.dt_s};
   Start next = start;
-  for (;;) {
+  for (int step = 1;; ++step) {
     const int tries = found.counts.tries + 1;
     tryMotion(frames, next, prediction, tried_, times);
     const Eigen::Isometry3d T_found = tried_.estimate.T_keyframe_cur;
-    // The features near a wrong prediction lead nowhere.
-    const bool is_usable = start.is_prediction
-                               ? tried_.isAccepted()
-                               : tried_.estimate.valid && tried_.counts.consistent >= min_features_;
+    const bool is_usable = tried_.estimate.valid && tried_.counts.consistent >= min_features_;
     if (isBetter(tried_, found)) std::swap(tried_, found);
     found.counts.tries = tries;
     if (!is_usable) return false;
     const double shift_px =
         frames.finder.medianShift(frames.camera, frames.keyframe, next.T_keyframe_cur, T_found);
     if (shift_px < reach_px) return isConvincing(found);
-    if (tries >= max_tries) return false;
+    if (tries >= max_tries || step == kMaxSteps) return false;
     next.T_keyframe_cur = T_found;
   }
 }

@@ -4,13 +4,13 @@ namespace rotrocc {
 
 RigEstimate::RigEstimate(const OdometryConfig& config)
     : corrects_(config.stereo_calibrator.enabled),
-      calibrator_(config.stereo_calibrator),
+      calibrator_(config.stereo_calibrator, config.motion_estimator.robust_factor),
       shared_errors_(config.motion_estimator),
       row_search_(config.correspondence_finder) {}
 
 void RigEstimate::configure(const OdometryConfig& config) {
   corrects_ = config.stereo_calibrator.enabled;
-  calibrator_.configure(config.stereo_calibrator);
+  calibrator_.configure(config.stereo_calibrator, config.motion_estimator.robust_factor);
   shared_errors_.configure(config.motion_estimator);
   row_search_ = RowSearch(config.correspondence_finder);
 }

@@ -79,20 +79,6 @@ void addStereoCalibrator(StereoCalibratorConfig& c, ParameterTable& table) {
       "estimate and correct the disparity bias, and correct the row offset";
   table.add("bias_px", c.bias_px, {-20.0, 20.0, "px"}).description =
       "known correction, added to all disparities; initial value of the estimate";
-  table.add("prior_sigma_px", c.prior_sigma_px, {0.001, 100.0, "px"}).description =
-      "prior standard deviation of the bias around bias_px";
-  table.add("significance", c.significance, {0.0, 100.0}).description =
-      "the bias is corrected by half at this number of standard deviations, and hardly below";
-  table.add("shared_error_ratio", c.shared_error_ratio, {0.0, 100.0}).description =
-      "initial ratio of errors that neighbouring features share to the noise of one";
-  table.add("steady_pairs", c.steady_pairs, {2.0, 1e6}).description =
-      "mean number of pairs before a rigid rig begins to move, or the reverse";
-  table.add("flex_px", c.flex_px, {0.0, 100.0, "px"}).description =
-      "standard deviation of the change of the bias from pair to pair while the rig moves";
-  table.add("noise_ratio", c.noise_ratio, {0.0, 100.0}).description =
-      "ratio of disparity noise to flow noise that weights the residuals";
-  table.add("robust_factor", c.robust_factor, {0.0, 1000.0}).description =
-      "residual, in standard deviations, at which the Cauchy weight is 1/2; 0: equal weights";
 }
 
 void addKeyframeSelector(KeyframeSelectorConfig& c, ParameterTable& table) {

@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 
 #include "rig/bias_meter.h"
-#include "rotrocc/odometry_config.h"
 #include "rotrocc/odometry_result.h"
 
 namespace rotrocc {
@@ -14,7 +13,7 @@ namespace rotrocc {
 ///
 /// There are two hypotheses: the rig is rigid, or it moves, so its bias is a random walk. Each has
 /// a Kalman filter, and they interact as in the IMM (Blom and Bar-Shalom 1988): a rig changes from
-/// one to the other once in `steady_pairs` pairs on average.
+/// one to the other once in 300 pairs on average.
 ///
 /// Errors that neighbouring features share do not average out over a drive as noise does. Some
 /// stay with the rig, as those of a lens; others pass with the part of the scene that causes them.
@@ -26,17 +25,12 @@ namespace rotrocc {
 /// unless the next ones confirm it.
 class BiasFilter {
  public:
-  using Config = StereoCalibratorConfig;
+  BiasFilter();
 
-  explicit BiasFilter(const Config& config);
-
-  /// Changes the parameters, and keeps the state.
-  void configure(const Config& config);
-
-  /// `measurement` is relative to Config::bias_px.
+  /// `measurement` is relative to the known bias.
   void add(const BiasMeasurement& measurement);
 
-  /// The estimate over both hypotheses, relative to Config::bias_px. `applied_px` is weighted by
+  /// The estimate over both hypotheses, relative to the known bias. `applied_px` is weighted by
   /// the probability that the rig is off at all.
   DisparityBias bias() const;
 
@@ -61,7 +55,6 @@ class BiasFilter {
   double variance(const Hypothesis& hypothesis) const;
   double probabilityOff(const Hypothesis& hypothesis) const;
 
-  Config config_;
   Hypotheses hypotheses_;
   double shared_ratio2_ = 0.0;  // variance of the shared errors over that of the noise
   double learnt_pairs_ = 0.0;   // number of pairs that it was estimated from

@@ -16,6 +16,11 @@ constexpr int kParameters = 8;
 /// With fewer features, the bias can hardly be distinguished from the motion.
 constexpr std::size_t kLeastFeatures = 30;
 
+/// Ratio of disparity noise to flow noise, see fitted_feature.h: that of single matches. With a
+/// larger one, the fitted disparities would also absorb errors that neighbours share, and with them
+/// a part of the bias.
+constexpr double kNoiseRatio = 1.0;
+
 /// Iterations end after a step below kSettled_px, because one more is added to the result. Without
 /// parallax the bias is undetermined and steps would be arbitrarily long.
 constexpr int kMostSteps = 15;
@@ -71,7 +76,7 @@ void BiasMeter::change(const Common& common, double bias_px) {
 
 /// Linearises the residuals at the current step.
 BiasMeter::Sums BiasMeter::collect(Curvature curvature) {
-  fitAt({camera_, features_, noise_ratio_}, T_keyframe_cur_, fit_);
+  fitAt({camera_, features_, kNoiseRatio}, T_keyframe_cur_, fit_);
   all_.assign(features_.size(), 1);
   problem_.assign(camera_, fit_, all_);
   problem_.weigh(problem_.start(), robust_factor_);

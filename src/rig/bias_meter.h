@@ -36,8 +36,8 @@ struct BiasMeasurement {
 /// together with the bias. Those by the columns add to the uncertainty.
 class BiasMeter {
  public:
-  BiasMeter(double noise_ratio, double robust_factor)
-      : noise_ratio_(noise_ratio), robust_factor_(robust_factor) {}
+  /// `robust_factor`: of cauchyWeights().
+  explicit BiasMeter(double robust_factor) : robust_factor_(robust_factor) {}
 
   /// Starts at the given motion, with depths as triangulated for `camera`. At the borders of the
   /// image, smooth errors have a standard deviation of `smooth_ratio` times that of a flow; 0:
@@ -99,7 +99,6 @@ class BiasMeter {
   static double effectOfSmoothErrors(const Cells& cells);
   bool describe(const Sums& sums, const Cells& cells, BiasMeasurement& measurement) const;
 
-  double noise_ratio_;
   double robust_factor_;
 
   // The current step of one measurement, reused.

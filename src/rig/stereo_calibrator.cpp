@@ -4,20 +4,15 @@
 
 namespace rotrocc {
 
-StereoCalibrator::StereoCalibrator(const Config& config)
-    : config_(config),
-      meter_(config.noise_ratio, config.robust_factor),
-      past_(config),
-      filter_(config) {
+StereoCalibrator::StereoCalibrator(const Config& config, double robust_factor)
+    : config_(config), meter_(robust_factor) {
   update();
 }
 
-void StereoCalibrator::configure(const Config& config) {
+void StereoCalibrator::configure(const Config& config, double robust_factor) {
   config_ = config;
-  meter_ = BiasMeter(config.noise_ratio, config.robust_factor);
+  meter_ = BiasMeter(robust_factor);
   if (config_.enabled) {
-    past_.configure(config);
-    filter_.configure(config);
     update();
   } else {
     reset();
@@ -54,7 +49,7 @@ Matrix6d StereoCalibrator::motionCovariance() const {
 }
 
 void StereoCalibrator::reset() {
-  past_ = BiasFilter(config_);
+  past_ = BiasFilter();
   filter_ = past_;
   motion_by_bias_.setZero();
   update();

@@ -17,10 +17,11 @@ class StereoCalibrator {
  public:
   using Config = StereoCalibratorConfig;
 
-  explicit StereoCalibrator(const Config& config);
+  /// `robust_factor`: of cauchyWeights().
+  StereoCalibrator(const Config& config, double robust_factor);
 
   /// Changes the parameters. The estimate is kept unless the calibration is disabled.
-  void configure(const Config& config);
+  void configure(const Config& config, double robust_factor);
 
   const DisparityBias& bias() const { return bias_; }
 

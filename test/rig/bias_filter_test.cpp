@@ -12,7 +12,8 @@ constexpr double kNoise_px = 0.05;
 constexpr double kShared_px = 0.1;  // if shared errors were as large as the noise
 
 /// As large as those of a typical rig, in units of the noise of single features.
-const double kSharedRatio = BiasFilter::Config().shared_error_ratio;
+constexpr double kSharedRatio = 1.3;
+constexpr double kPrior_px = 1.0;
 
 BiasMeasurement measured(double bias_px) {
   BiasMeasurement measurement;
@@ -24,14 +25,14 @@ BiasMeasurement measured(double bias_px) {
 }
 
 TEST(BiasFilterTest, BeginsAtThePrior) {
-  const DisparityBias bias = BiasFilter(BiasFilter::Config()).bias();
+  const DisparityBias bias = BiasFilter().bias();
   EXPECT_EQ(bias.estimated_px, 0.0);
   EXPECT_EQ(bias.applied_px, 0.0);
-  EXPECT_DOUBLE_EQ(bias.sigma_px, BiasFilter::Config().prior_sigma_px);
+  EXPECT_DOUBLE_EQ(bias.sigma_px, kPrior_px);
 }
 
 TEST(BiasFilterTest, IsAsUncertainAsItsFirstMeasurement) {
-  BiasFilter filter{BiasFilter::Config()};
+  BiasFilter filter;
   filter.add(measured(0.1));
   const double variance_px2 = kNoise_px * kNoise_px + std::pow(kSharedRatio * kShared_px, 2);
   // The prior takes part, and the moving rig has a wider one.
@@ -39,14 +40,14 @@ TEST(BiasFilterTest, IsAsUncertainAsItsFirstMeasurement) {
 }
 
 TEST(BiasFilterTest, SharedErrorsDoNotAverageOut) {
-  BiasFilter filter{BiasFilter::Config()};
+  BiasFilter filter;
   for (int pair = 0; pair < 1000; ++pair) filter.add(measured(0.1));
   // Noise alone would be 0.0016 px. The share of 0.4 of the variance stays with the rig.
   EXPECT_GT(filter.bias().sigma_px, 0.9 * std::sqrt(0.4) * kSharedRatio * kShared_px);
 }
 
 TEST(BiasFilterTest, SmoothErrorsStay) {
-  BiasFilter filter{BiasFilter::Config()};
+  BiasFilter filter;
   BiasMeasurement measurement = measured(0.1);
   measurement.smooth_px2 = 0.3 * 0.3;
   for (int pair = 0; pair < 100; ++pair) filter.add(measurement);
@@ -55,8 +56,8 @@ TEST(BiasFilterTest, SmoothErrorsStay) {
 }
 
 TEST(BiasFilterTest, AppliesWhatIsBeyondDoubt) {
-  BiasFilter doubtful{BiasFilter::Config()};
-  BiasFilter certain{BiasFilter::Config()};
+  BiasFilter doubtful;
+  BiasFilter certain;
   for (int pair = 0; pair < 10; ++pair) {
     doubtful.add(measured(0.2));
     certain.add(measured(1.0));
@@ -67,7 +68,7 @@ TEST(BiasFilterTest, AppliesWhatIsBeyondDoubt) {
 }
 
 TEST(BiasFilterTest, HardlyBelievesASingleOutlier) {
-  BiasFilter filter{BiasFilter::Config()};
+  BiasFilter filter;
   for (int pair = 0; pair < 30; ++pair) filter.add(measured(0.0));
   const double before_px = filter.bias().sigma_px;
   filter.add(measured(0.6));  // 4 standard deviations
@@ -77,7 +78,7 @@ TEST(BiasFilterTest, HardlyBelievesASingleOutlier) {
 }
 
 TEST(BiasFilterTest, FollowsAStepWithinFourPairs) {
-  BiasFilter filter{BiasFilter::Config()};
+  BiasFilter filter;
   for (int pair = 0; pair < 30; ++pair) filter.add(measured(2.0));
   for (int pair = 0; pair < 4; ++pair) filter.add(measured(-1.0));
   EXPECT_NEAR(filter.bias().applied_px, -1.0, 2.0 * filter.bias().sigma_px);
@@ -90,7 +91,7 @@ TEST(BiasFilterTest, IsHonestAboutNoise) {
   double square = 0.0;
   constexpr int kDrives = 200;
   for (int drive = 0; drive < kDrives; ++drive) {
-    BiasFilter filter{BiasFilter::Config()};
+    BiasFilter filter;
     const double truth_px = normal(generator);  // as the prior says
     const double lasting_px = std::sqrt(0.4) * kSharedRatio * kShared_px * normal(generator);
     double passing = normal(generator);

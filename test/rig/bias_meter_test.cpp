@@ -13,7 +13,6 @@ namespace rotrocc {
 namespace {
 
 constexpr int kFeatures = 400;
-constexpr double kNoiseRatio = 0.5;
 constexpr double kRobustFactor = 2.0;
 
 Eigen::Isometry3d ahead() {
@@ -35,7 +34,7 @@ BiasMeasurement measure(const Correspondences& found,
                         double parabola_ratio = 0.0) {
   BiasMeasurement measurement;
   const FeatureSet all(found.size(), 1);
-  EXPECT_TRUE(BiasMeter(kNoiseRatio, kRobustFactor)
+  EXPECT_TRUE(BiasMeter(kRobustFactor)
                   .measure(kittiCamera(), found, all, start, parabola_ratio, measurement));
   return measurement;
 }
@@ -125,7 +124,7 @@ TEST(BiasMeterTest, StandstillSaysNothing) {
   const auto found = features(rest, 5, [](const Eigen::Vector2d&) { return 1.0; });
   BiasMeasurement measurement;
   EXPECT_FALSE(
-      BiasMeter(kNoiseRatio, kRobustFactor)
+      BiasMeter(kRobustFactor)
           .measure(kittiCamera(), found, FeatureSet(found.size(), 1), rest, 0.0, measurement));
 }
 
@@ -133,7 +132,7 @@ TEST(BiasMeterTest, NeedsFeatures) {
   Correspondences few = features(ahead(), 4, [](const Eigen::Vector2d&) { return 0.0; });
   few.resize(20);
   BiasMeasurement measurement;
-  EXPECT_FALSE(BiasMeter(kNoiseRatio, kRobustFactor)
+  EXPECT_FALSE(BiasMeter(kRobustFactor)
                    .measure(kittiCamera(), few, FeatureSet(20, 1), ahead(), 0.0, measurement));
 }
 

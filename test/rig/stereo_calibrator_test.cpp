@@ -15,6 +15,7 @@ namespace {
 constexpr int kFeatures = 400;
 constexpr double kPeriod_s = 0.1;
 constexpr double kSharedRatio = 1.0;
+constexpr double kRobustFactor = 1.5;
 
 /// As measured on KITTI, without outliers.
 const FeatureNoise kNoise = {0.12, 0.36};
@@ -65,7 +66,7 @@ void drive(double bias_px, int pairs, StereoCalibrator& calibrator, unsigned fir
 
 TEST(StereoCalibratorTest, FindsTheBiasOfARig) {
   for (const double bias_px : {-0.5, 0.5, 1.0, 2.0}) {
-    StereoCalibrator calibrator{StereoCalibrator::Config()};
+    StereoCalibrator calibrator({}, kRobustFactor);
     drive(bias_px, 30, calibrator);
     // Most of the uncertainty is that of shared errors, of which 30 pairs cannot show that there
     // are none.
@@ -78,7 +79,7 @@ TEST(StereoCalibratorTest, FindsTheBiasOfARig) {
 }
 
 TEST(StereoCalibratorTest, LeavesAPerfectRigAlone) {
-  StereoCalibrator calibrator{StereoCalibrator::Config()};
+  StereoCalibrator calibrator({}, kRobustFactor);
   for (unsigned pair = 0; pair < 50; ++pair) {
     drive(0.0, 1, calibrator, pair);
     EXPECT_LE(std::abs(calibrator.bias().applied_px), 0.02) << pair;
@@ -87,7 +88,7 @@ TEST(StereoCalibratorTest, LeavesAPerfectRigAlone) {
 }
 
 TEST(StereoCalibratorTest, LearnsNothingAtStandstill) {
-  StereoCalibrator calibrator{StereoCalibrator::Config()};
+  StereoCalibrator calibrator({}, kRobustFactor);
   for (unsigned pair = 0; pair < 50; ++pair) {
     const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
     show(
@@ -98,7 +99,7 @@ TEST(StereoCalibratorTest, LearnsNothingAtStandstill) {
 }
 
 TEST(StereoCalibratorTest, ForgetsNothingAtStandstill) {
-  StereoCalibrator calibrator{StereoCalibrator::Config()};
+  StereoCalibrator calibrator({}, kRobustFactor);
   drive(1.0, 30, calibrator);
   const double before_px = calibrator.bias().applied_px;
   for (unsigned pair = 0; pair < 100; ++pair) {
@@ -110,7 +111,7 @@ TEST(StereoCalibratorTest, ForgetsNothingAtStandstill) {
 }
 
 TEST(StereoCalibratorTest, IsNotFooledByAMovingObject) {
-  StereoCalibrator calibrator{StereoCalibrator::Config()};
+  StereoCalibrator calibrator({}, kRobustFactor);
   // A truck ahead, 3 m/s slower, with a quarter of the features.
   const Eigen::Isometry3d relative = ahead() * motion({0.0, 0.0, 0.3}, {0.0, 0.0, 0.0});
   for (unsigned pair = 0; pair < 50; ++pair) {
@@ -134,8 +135,8 @@ TEST(StereoCalibratorTest, DoubtsWhatPartsOfTheImageDisagreeAbout) {
     const double x = (pixel.x() - kittiCamera().cx) / kittiCamera().fx;
     return 1.0 * x * x;
   };
-  StereoCalibrator even({});
-  StereoCalibrator uneven({});
+  StereoCalibrator even({}, kRobustFactor);
+  StereoCalibrator uneven({}, kRobustFactor);
   double sigma_even_px = 0.0;
   double sigma_uneven_px = 0.0;
   for (unsigned pair = 0; pair < 100; ++pair) {
@@ -154,8 +155,8 @@ TEST(StereoCalibratorTest, DoubtsWhatPartsOfTheImageDisagreeAbout) {
 }
 
 TEST(StereoCalibratorTest, ThePairObservedAgainCountsOnce) {
-  StereoCalibrator once({});
-  StereoCalibrator twice({});
+  StereoCalibrator once({}, kRobustFactor);
+  StereoCalibrator twice({}, kRobustFactor);
   const Correspondences features =
       biasedFeatures(ahead(), 1, [](const Eigen::Vector2d&) { return 0.0; });
   const FeatureSet all(features.size(), 1);
@@ -168,7 +169,7 @@ TEST(StereoCalibratorTest, ThePairObservedAgainCountsOnce) {
 }
 
 TEST(StereoCalibratorTest, FollowsARigThatChanges) {
-  StereoCalibrator calibrator{StereoCalibrator::Config()};
+  StereoCalibrator calibrator({}, kRobustFactor);
   drive(1.0, 60, calibrator);
   drive(0.4, 20, calibrator, 1000);
   EXPECT_NEAR(calibrator.bias().estimated_px, 0.4, 0.1);
@@ -176,7 +177,7 @@ TEST(StereoCalibratorTest, FollowsARigThatChanges) {
 }
 
 TEST(StereoCalibratorTest, FollowsARigThatMoves) {
-  StereoCalibrator calibrator{StereoCalibrator::Config()};
+  StereoCalibrator calibrator({}, kRobustFactor);
   double square_px2 = 0.0;
   for (unsigned pair = 0; pair < 60; ++pair) {
     const double bias_px = 2.0 * std::sin(0.4 * pair);
@@ -192,11 +193,11 @@ TEST(StereoCalibratorTest, AddsAKnownBiasAndStopsThereIfNotEnabled) {
   StereoCalibrator::Config config;
   config.bias_px = 0.7;
   config.enabled = false;
-  StereoCalibrator fixed(config);
+  StereoCalibrator fixed(config, kRobustFactor);
   drive(1.0, 10, fixed);
   EXPECT_EQ(fixed.bias().applied_px, 0.7);
   config.enabled = true;
-  StereoCalibrator estimating(config);
+  StereoCalibrator estimating(config, kRobustFactor);
   EXPECT_EQ(estimating.bias().applied_px, 0.7);
   drive(1.0, 30, estimating);
   EXPECT_NEAR(estimating.bias().applied_px, 1.0, 0.1);
@@ -205,12 +206,12 @@ TEST(StereoCalibratorTest, AddsAKnownBiasAndStopsThereIfNotEnabled) {
 }
 
 TEST(StereoCalibratorTest, AddsNothingToTheCovarianceOnceItIsDisabled) {
-  StereoCalibrator calibrator({});
+  StereoCalibrator calibrator({}, kRobustFactor);
   drive(0.5, 5, calibrator);
   EXPECT_FALSE(calibrator.motionCovariance().isZero(0.0));
   StereoCalibrator::Config disabled;
   disabled.enabled = false;
-  calibrator.configure(disabled);
+  calibrator.configure(disabled, kRobustFactor);
   drive(0.5, 1, calibrator, 5);
   EXPECT_TRUE(calibrator.motionCovariance().isZero(0.0));
 }
