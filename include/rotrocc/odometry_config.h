@@ -86,8 +86,8 @@ struct KeyframeSelectorConfig {
 
 /// Online rig calibration: estimation of the disparity bias.
 struct StereoCalibratorConfig {
-  bool enabled = true;          ///< false: only bias_px is applied, and no row offset
-  double bias_px = 0.0;         ///< known bias, added to every disparity; start of the estimate
+  bool enabled = true;   ///< false: only bias_px is applied, and no row offset
+  double bias_px = 0.0;  ///< known bias, added to every disparity; start of the estimate
 };
 
 /// Errors that all features share, so that their scatter does not show them: standard deviations in

@@ -23,7 +23,7 @@ constexpr double kShortStep = 0.02;
 // Limits beyond which a motion is degraded. None depends on the size of the image.
 
 /// Share of the keyframe's corners that have a disparity. Those of dirty lenses or misaligned
-/// cameras are few, and chosen by chance. Real clips have 0.21 and more.
+/// cameras are few, and chosen by chance. Real clips have 0.53 and more.
 constexpr double kMinWithDepth = 0.15;
 /// Share of the feature set that are inliers of the rotation stage. In a short step, features at
 /// rest on the image (of dirt, or of its compression) agree on a standstill. Real clips have 0.64

@@ -45,9 +45,7 @@ bool parse(int argc, char** argv, Options& options) {
 /// Features of the odometry in the first two pairs, sorted by row and column.
 std::vector<Eigen::Vector3d> featurePoints(const KittiSequence& sequence) {
   if (sequence.size() < 2) throw std::runtime_error("the sequence has fewer than two pairs");
-  VisualOdometry::Config config;
-  config.correspondence_finder.feature_detector.max_features = 1000;  // as many as the figures of the paper show
-  VisualOdometry odometry(config);
+  VisualOdometry odometry{VisualOdometry::Config{}};
   for (int i = 0; i < 2; ++i) {
     odometry.process({sequence.stamp_ns(i), sequence.readLeft(i), sequence.readRight(i)},
                      sequence.camera());
@@ -61,10 +59,11 @@ std::vector<Eigen::Vector3d> featurePoints(const KittiSequence& sequence) {
   return points;
 }
 
-/// Every 100th feature up to the 500th gets too small a depth, as in Fig. 5.
+/// Five features, evenly spread, get too small a depth, as in Fig. 5.
 std::vector<double> depthFactors(std::size_t size) {
+  constexpr std::size_t kWrong = 5;
   std::vector<double> factors(size, 1.0);
-  for (std::size_t i = 100; i <= 500 && i < size; i += 100) factors[i] = 0.95;
+  for (std::size_t i = 1; i <= kWrong; ++i) factors[i * size / (kWrong + 1)] = 0.95;
   return factors;
 }
 

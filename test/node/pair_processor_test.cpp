@@ -118,7 +118,7 @@ TEST_F(PairProcessorTest, HintsComeFromTheConfigInEffect) {
 
 TEST_F(PairProcessorTest, HintsAtCamerasThatExposeDifferently) {
   const auto darkenRight = [](sensor_msgs::Image&, sensor_msgs::Image& right) {
-    for (auto& level : right.data) level = static_cast<std::uint8_t>(0.6 * level);
+    for (auto& level : right.data) level = static_cast<std::uint8_t>(0.4 * level);
   };
   for (std::size_t i = 0; i < ExposureWatch::kLeastPairs + 1; ++i) rig_.drive(darkenRight);
   EXPECT_EQ(state(), State::kOk);

@@ -46,7 +46,7 @@ TEST_F(PaperExperimentsTest, NormalizedErrorsLieAtATenthInSingleAxisMotions) {
     EXPECT_NEAR(number(row, "nre"), 0.1, 0.0154) << row.at("motion");
   }
   EXPECT_EQ(features.size(), 6u);
-  EXPECT_GT(features["t_z"], 500);
+  EXPECT_GT(features["t_z"], 300);  // half of those that are asked for
 }
 
 TEST_F(PaperExperimentsTest, OnlyTheDecoupledErrorTellsWrongDepths) {

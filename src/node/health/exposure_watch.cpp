@@ -7,8 +7,9 @@
 namespace rotrocc {
 namespace {
 
-/// Ratio of contrasts that causes a hint: far beyond the noise, 5 %, and what lenses differ by.
-constexpr double kApart = 1.2;
+/// Ratio of contrasts that causes a hint: one stop. On real clips, right images with half of their
+/// contrast cost nothing.
+constexpr double kApart = 2.0;
 /// Of the pairs, dropped at either end: single pairs may be wrong.
 constexpr double kDropped = 0.1;
 

@@ -7,8 +7,8 @@
 
 namespace rotrocc {
 
-/// Detects cameras whose exposures differ or move against each other. Both cost matches, and bias
-/// the disparities.
+/// Detects cameras whose exposures differ or move against each other so much that one of the images
+/// is likely to be dark or saturated. Smaller differences cost nothing.
 class ExposureWatch {
  public:
   /// Number of pairs that are watched, and that suffice for a hint.
