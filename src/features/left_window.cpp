@@ -15,6 +15,9 @@ using W = CorrelationWindow;
 
 constexpr int kPixels = W::kSide * W::kSide;
 
+/// Largest cost of a match: either window explains half of the variance of the other, rho^2 = 1/2.
+constexpr double kMaxCost = 0.29;
+
 /// Costs within this distance [px] of the minimum are its slopes.
 constexpr int kSlope = 2;
 
@@ -125,7 +128,7 @@ RowMatch LeftWindow::searchRow(const std::int16_t* strip,
     of_best = after;
     after = compare(strip + best + 1, stride);
   }
-  if (of_best.cost > StereoMatcher::kMaxCost) return {};
+  if (of_best.cost > kMaxCost) return {};
   for (int i = 0; i < peaks; ++i) {
     const bool competes = std::abs(buffers.peaks[i] - best) > kSlope;
     if (competes && of_best.cost >= kUniqueness * buffers.costs[i]) return {};
@@ -141,7 +144,7 @@ RowMatch LeftWindow::searchNear(const std::int16_t* strip, int stride, int count
     all[k] = compare(strip + k, stride);
     if (all[k].cost < all[best].cost) best = k;
   }
-  if (best == 0 || best == count - 1 || all[best].cost > StereoMatcher::kMaxCost) return {};
+  if (best == 0 || best == count - 1 || all[best].cost > kMaxCost) return {};
   return refined(best, all[best - 1], all[best], all[best + 1]);
 }
 

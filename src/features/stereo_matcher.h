@@ -22,10 +22,6 @@ class StereoMatcher {
   /// Marks a pixel without a match.
   static constexpr float kNoDisparity = std::numeric_limits<float>::lowest();
 
-  /// Largest value of 1 - correlation coefficient of a match: either window explains half of the
-  /// variance of the other, rho^2 = 1/2.
-  static constexpr double kMaxCost = 0.29;
-
   /// Search radius of matchNear() around the expected disparity.
   static constexpr int kNearRadius_px = 2;
 

@@ -23,14 +23,12 @@ constexpr double kShortStep = 0.02;
 // Limits beyond which a motion is degraded. None depends on the size of the image.
 
 /// Share of the keyframe's corners that have a disparity. Those of dirty lenses or misaligned
-/// cameras are few, and chosen by chance. Real clips have 0.53 and more.
+/// cameras are few, and chosen by chance.
 constexpr double kMinWithDepth = 0.15;
 /// Share of the feature set that are inliers of the rotation stage. In a short step, features at
-/// rest on the image (of dirt, or of its compression) agree on a standstill. Real clips have 0.64
-/// and more, with steps of up to 0.3 s.
+/// rest on the image (of dirt, or of its compression) agree on a standstill.
 constexpr double kMinByRotation = 0.7;
-/// The same for a motion without a prediction, which nothing else confirms. Real clips have 0.86
-/// and more.
+/// The same for a motion without a prediction, which nothing else confirms.
 constexpr double kMinAtStart = 0.8;
 /// Share of the feature set that are inliers of the translation stage. Those of far points with
 /// inexact disparities are missing, also if the motion is right.
