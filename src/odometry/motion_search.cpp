@@ -21,9 +21,9 @@ constexpr int kMaxSteps = 3;
 /// Errors of descriptors, which are taken from images of up to half the size.
 constexpr double kRecognitionTolerance_px = 3.0;
 
-/// Without a prediction, a smaller share of the features may be the wrong ones: there may be a
-/// better start.
-constexpr double kMajority = 0.5;
+/// A smaller share of the keyframe's features may agree by chance, or be those of an object: there
+/// may be a better start.
+constexpr double kConvincingShare = 0.25;
 
 /// Whether to prefer hypothesis `a`.
 bool isBetter(const Hypothesis& a, const Hypothesis& b) {
@@ -32,8 +32,8 @@ bool isBetter(const Hypothesis& a, const Hypothesis& b) {
 }
 
 bool isConvincing(const Hypothesis& found) {
-  return found.isAccepted() && (found.has_prediction || found.counts.rotation_inliers >=
-                                                            kMajority * found.counts.consistent);
+  return found.isAccepted() &&
+         found.counts.rotation_inliers >= kConvincingShare * found.counts.with_depth;
 }
 
 }  // namespace
