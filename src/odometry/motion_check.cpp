@@ -4,7 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "common/concatenate.h"
+#include <opencv2/core.hpp>
+
 #include "motion/median_depth.h"
 #include "motion/outlier_rejection.h"
 #include "rotrocc/rigid_motion.h"
@@ -63,8 +64,40 @@ double shareOf(const FeatureSet& inliers) {
   return static_cast<double>(count(inliers)) / static_cast<double>(inliers.size());
 }
 
-double inlierShare(const MotionEstimator::Estimate& estimate) {
-  return std::min(shareOf(estimate.rotation_inliers), shareOf(estimate.translation_inliers));
+std::string fewAgree(double share, const char* on_what, double limit) {
+  return cv::format(
+      "a share of %g of the features agrees on the %s, less than %g", share, on_what, limit);
+}
+
+std::string whyFewHaveDepth(const StageCounts& counts) {
+  if (counts.with_depth >= kMinWithDepth * counts.corners) return "";
+  return cv::format("only %d of %d corners have a disparity", counts.with_depth, counts.corners) +
+         cv::format(", a share below %g; are the lenses clean, and left and right rows aligned?",
+                    kMinWithDepth);
+}
+
+std::string whyFewAgree(const MotionEstimator::Estimate& estimate, bool has_prediction) {
+  const double by_rotation = shareOf(estimate.rotation_inliers);
+  if (by_rotation < kMinByRotation) return fewAgree(by_rotation, "motion", kMinByRotation);
+  if (!has_prediction && by_rotation < kMinAtStart) {
+    return "without a prediction, " + fewAgree(by_rotation, "motion", kMinAtStart);
+  }
+  if (!has_prediction && by_rotation < kUnanimousShare && estimate.flow_noise_px < kMinNoise_px) {
+    return cv::format("without a prediction, a share of %g of the features agrees", by_rotation) +
+           cv::format(" on the motion, more exactly (%g px)", estimate.flow_noise_px) +
+           " than features of the scene: something drawn or compressed stands still";
+  }
+  const double by_translation = shareOf(estimate.translation_inliers);
+  if (by_translation >= kMinByTranslation) return "";
+  return fewAgree(by_translation, "translation", kMinByTranslation);
+}
+
+std::string whyFewSurvive(const Hypothesis& accepted) {
+  const int survivors = inliers(accepted.estimate);
+  const int features = accepted.counts.with_depth;
+  if (survivors >= kMinSurvivors * features) return "";
+  return cv::format("the motion rests on %d of %d features", survivors, features) +
+         cv::format(", a share below %g", kMinSurvivors);
 }
 
 }  // namespace
@@ -72,50 +105,50 @@ double inlierShare(const MotionEstimator::Estimate& estimate) {
 std::string MotionCheck::checkNotLost(const MotionEstimator::Estimate& estimate,
                                       const Eigen::Isometry3d& T_keyframe_last,
                                       double dt_s) const {
+  const Config& c = config_;
   const auto features = static_cast<int>(estimate.rotation_inliers.size());
-  if (features < config_.min_inliers) {
-    return concatenate("only ",
-                       features,
-                       " features were matched, fewer than min_inliers = ",
-                       config_.min_inliers);
+  if (features < c.min_inliers) {
+    return cv::format(
+        "only %d features were matched, fewer than min_inliers = %d", features, c.min_inliers);
   }
   if (!estimate.valid) return "the features determine no motion";
-  if (inliers(estimate) < config_.min_inliers) {
-    return concatenate("only ",
-                       inliers(estimate),
-                       " features agree on a motion, fewer than min_inliers = ",
-                       config_.min_inliers);
+  const int agreeing = inliers(estimate);
+  if (agreeing < c.min_inliers) {
+    return cv::format(
+        "only %d features agree on a motion, fewer than min_inliers = %d", agreeing, c.min_inliers);
   }
-  if (inlierShare(estimate) < config_.min_inlier_share) {
-    return concatenate("only a share of ",
-                       inlierShare(estimate),
-                       " of the features agrees on a motion, less than min_inlier_share = ",
-                       config_.min_inlier_share);
+  const double share =
+      std::min(shareOf(estimate.rotation_inliers), shareOf(estimate.translation_inliers));
+  if (share < c.min_inlier_share) {
+    return cv::format(
+        "only a share of %g of the features agrees on a motion, less than min_inlier_share = %g",
+        share,
+        c.min_inlier_share);
   }
   const Eigen::Isometry3d T_last_cur = T_keyframe_last.inverse() * estimate.T_keyframe_cur;
   const double speed_mps = T_last_cur.translation().norm() / dt_s;
-  if (speed_mps > config_.max_speed_mps) {
-    return concatenate("the estimated speed is ",
-                       speed_mps,
-                       " m/s, more than max_speed_mps = ",
-                       config_.max_speed_mps);
+  if (speed_mps > c.max_speed_mps) {
+    return cv::format(
+        "the estimated speed is %g m/s, more than max_speed_mps = %g", speed_mps, c.max_speed_mps);
   }
   const double turn_rate_rps = logRotation(T_last_cur.linear()).norm() / dt_s;
-  if (turn_rate_rps > config_.max_turn_rate_rps) {
-    return concatenate("the estimated turn rate is ",
-                       turn_rate_rps,
-                       " rad/s, more than max_turn_rate_rps = ",
-                       config_.max_turn_rate_rps);
+  if (turn_rate_rps > c.max_turn_rate_rps) {
+    return cv::format("the estimated turn rate is %g rad/s, more than max_turn_rate_rps = %g",
+                      turn_rate_rps,
+                      c.max_turn_rate_rps);
   }
   return "";
 }
 
 std::string MotionCheck::whyDegraded(const Hypothesis& accepted, const Matrix6d& covariance) {
   const MotionEstimator::Estimate& estimate = accepted.estimate;
-  if (estimate.translation_failed && isLarge(estimate.rotation_inliers)) {
-    return concatenate("the translation stage has fewer than min_inliers = ",
-                       config_.min_inliers,
-                       " inliers: the motion is that of the rotation stage");
+  // Few inliers of a small set may agree and be too few for the translation stage; the motion of
+  // the rotation stage is then as good.
+  const double half = kMinByTranslation * static_cast<double>(estimate.rotation_inliers.size());
+  if (estimate.translation_failed && config_.min_inliers < half) {
+    return cv::format("the translation stage has fewer than min_inliers = %d inliers: ",
+                      config_.min_inliers) +
+           "the motion is that of the rotation stage";
   }
   std::string why = whyFewHaveDepth(accepted.counts);
   if (why.empty()) why = whyFewAgree(estimate, accepted.has_prediction);
@@ -125,90 +158,21 @@ std::string MotionCheck::whyDegraded(const Hypothesis& accepted, const Matrix6d&
   return why.empty() ? whyUndetermined(accepted, covariance) : why;
 }
 
-/// Whether fewer than min_inliers inliers mean that the features disagree. In a small set, they may
-/// agree and be too few for the translation stage; the motion of the rotation stage is then as
-/// good.
-bool MotionCheck::isLarge(const FeatureSet& features) const {
-  return config_.min_inliers < kMinByTranslation * static_cast<double>(features.size());
-}
-
-std::string MotionCheck::whyFewHaveDepth(const StageCounts& counts) const {
-  if (counts.with_depth >= kMinWithDepth * counts.corners) return "";
-  return concatenate("only ",
-                     counts.with_depth,
-                     " of ",
-                     counts.corners,
-                     " corners have a disparity, a share below ",
-                     kMinWithDepth,
-                     "; are the lenses clean, and left and right rows aligned?");
-}
-
-std::string MotionCheck::whyFewAgree(const MotionEstimator::Estimate& estimate,
-                                     bool has_prediction) const {
-  const double by_rotation = shareOf(estimate.rotation_inliers);
-  if (by_rotation < kMinByRotation) {
-    return concatenate("a share of ",
-                       by_rotation,
-                       " of the features agrees on the motion, less than ",
-                       kMinByRotation);
-  }
-  if (!has_prediction && by_rotation < kMinAtStart) {
-    return concatenate("without a prediction, a share of ",
-                       by_rotation,
-                       " of the features agrees on the motion, less than ",
-                       kMinAtStart);
-  }
-  if (!has_prediction && by_rotation < kUnanimousShare && estimate.flow_noise_px < kMinNoise_px) {
-    return concatenate(
-        "without a prediction, a share of ",
-        by_rotation,
-        " of the features agrees on the motion, more exactly (",
-        estimate.flow_noise_px,
-        " px) than features of the scene: something drawn or compressed stands still");
-  }
-  const double by_translation = shareOf(estimate.translation_inliers);
-  if (by_translation >= kMinByTranslation) return "";
-  return concatenate("a share of ",
-                     by_translation,
-                     " of the features agrees on the translation, less than ",
-                     kMinByTranslation);
-}
-
-std::string MotionCheck::whyFewSurvive(const Hypothesis& accepted) const {
-  const int survivors = inliers(accepted.estimate);
-  const int features = accepted.counts.with_depth;
-  if (survivors >= kMinSurvivors * features) return "";
-  return concatenate("the motion rests on ",
-                     survivors,
-                     " of ",
-                     features,
-                     " features, a share below ",
-                     kMinSurvivors);
-}
-
 /// Whether many features agree on another motion. Then it may be that of an object that fills the
 /// image. Fewer are enough if they are behind the inliers, as what an object hides.
 std::string MotionCheck::whyAmbiguous(const Hypothesis& accepted) {
-  const auto features = static_cast<double>(accepted.features.size());
-  const double many = kMaxCompetitors * features;
+  const double many = kMaxCompetitors * static_cast<double>(accepted.features.size());
   const int min_count =
       std::max(config_.min_inliers, static_cast<int>(std::ceil(kShareBehind * many)));
-  const CompetingMotion::Competitors competitors =
-      competing_motion_.find(accepted.camera,
-                             accepted.features,
-                             accepted.estimate.T_keyframe_cur,
-                             accepted.estimate.rotation_inliers,
-                             min_count);
-  if (competitors.count == 0 || (!competitors.are_behind && competitors.count < many)) return "";
-  return concatenate("another motion fits ",
-                     competitors.count,
-                     " of the ",
-                     features,
-                     competitors.are_behind
-                         ? " features, which are behind the others, a share above half of "
-                         : " features, a share above ",
-                     kMaxCompetitors,
-                     ": one of the two is that of a large object");
+  const auto [count, are_behind] = competing_motion_.find(accepted.camera,
+                                                          accepted.features,
+                                                          accepted.estimate.T_keyframe_cur,
+                                                          accepted.estimate.rotation_inliers,
+                                                          min_count);
+  if (count == 0 || (!are_behind && count < many)) return "";
+  return cv::format("another motion fits %d of the %zu features", count, accepted.features.size()) +
+         (are_behind ? ", which are behind the others, a share above half of" : ", a share above") +
+         cv::format(" %g: one of the two is that of a large object", kMaxCompetitors);
 }
 
 /// Whether few inliers determine the motion, and other features contradict them. It may be that of
@@ -219,11 +183,9 @@ std::string MotionCheck::whyFewDetermine(const Hypothesis& accepted) {
                                  accepted.estimate.T_keyframe_cur,
                                  accepted.estimate.translation_inliers);
   if (share >= kMinInformation) return "";
-  return concatenate("the inliers but one have a share of ",
-                     share,
-                     " of the information about a part of the motion, less than ",
-                     kMinInformation,
-                     ": few features determine it");
+  return cv::format("the inliers but one have a share of %g of the information", share) +
+         cv::format(" about a part of the motion, less than %g", kMinInformation) +
+         ": few features determine it";
 }
 
 std::string MotionCheck::whyUndetermined(const Hypothesis& accepted, const Matrix6d& covariance) {
@@ -233,13 +195,8 @@ std::string MotionCheck::whyUndetermined(const Hypothesis& accepted, const Matri
       std::max(estimate.T_keyframe_cur.translation().norm(), kShortStep * depth_m);
   const double sigma_m = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
   if (sigma_m <= kMaxSigma * step_m) return "";
-  return concatenate("the translation has a standard deviation of ",
-                     sigma_m,
-                     " m, more than a share of ",
-                     kMaxSigma,
-                     " of ",
-                     step_m,
-                     " m");
+  return cv::format("the translation has a standard deviation of %g m", sigma_m) +
+         cv::format(", more than a share of %g of %g m", kMaxSigma, step_m);
 }
 
 bool MotionCheck::hasReserve(const MotionEstimator::Estimate& accepted) const {
@@ -254,10 +211,9 @@ std::string MotionCheck::whyJump(const UncertainTransform& motion,
   const double beyond_noise_m = change_m - kSigmas * std::sqrt(variance_m2);
   const double acceleration_mps2 = beyond_noise_m / (dt_s * dt_s);
   if (acceleration_mps2 <= config_.max_acceleration_mps2) return "";
-  return concatenate("the velocity changed by ",
-                     acceleration_mps2,
-                     " m/s2, more than max_acceleration_mps2 = ",
-                     config_.max_acceleration_mps2);
+  return cv::format("the velocity changed by %g m/s2, more than max_acceleration_mps2 = %g",
+                    acceleration_mps2,
+                    config_.max_acceleration_mps2);
 }
 
 }  // namespace rotrocc

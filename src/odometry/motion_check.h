@@ -44,10 +44,6 @@ class MotionCheck {
                       double dt_s) const;
 
  private:
-  bool isLarge(const FeatureSet& features) const;
-  std::string whyFewHaveDepth(const StageCounts& counts) const;
-  std::string whyFewAgree(const MotionEstimator::Estimate& estimate, bool has_prediction) const;
-  std::string whyFewSurvive(const Hypothesis& accepted) const;
   std::string whyAmbiguous(const Hypothesis& accepted);
   std::string whyFewDetermine(const Hypothesis& accepted);
   std::string whyUndetermined(const Hypothesis& accepted, const Matrix6d& covariance);

@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/concatenate.h"
 #include "common/stage_timer.h"
 #include "odometry/pair_check.h"
 #include "odometry/systematic_error.h"
@@ -54,7 +53,7 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
     forget();  // the stored state may be the cause
     result = {};
     result.stamp_ns = pair.stamp_ns;
-    result.reason = concatenate("internal error: ", error.what());
+    result.reason = std::string("internal error: ") + error.what();
   }
   result.counts = found_.counts;
   rig_.report(result);
