@@ -1,5 +1,7 @@
 #include "common/workers.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
@@ -9,8 +11,6 @@
 #include <thread>
 #include <utility>
 #include <vector>
-
-#include "common/thread_name.h"
 
 namespace rotrocc {
 
@@ -38,7 +38,7 @@ class Workers::Pool {
 
   void share(int parts, const Job& job) {
     if (threads_.empty() || parts < 2) {
-      for (int i = 0; i < parts; ++i) job.call(job.function, i);
+      for (int i = 0; i < parts; ++i) job(i);
       return;
     }
     {
@@ -60,7 +60,7 @@ class Workers::Pool {
 
  private:
   void serve() {
-    nameThisThread("odometry_help");
+    pthread_setname_np(pthread_self(), "odometry_help");  // for `top -H` and debuggers
     std::unique_lock<std::mutex> lock(mutex_);
     for (unsigned served = 0;;) {
       called_.wait(lock, [&] { return ending_ || (job_ != nullptr && jobs_ != served); });
@@ -78,7 +78,7 @@ class Workers::Pool {
   /// Processes parts until none is left.
   void work(const Job& job) {
     try {
-      for (int i = next_++; i < parts_; i = next_++) job.call(job.function, i);
+      for (int i = next_++; i < parts_; i = next_++) job(i);
     } catch (...) {
       next_ = parts_;
       const std::lock_guard<std::mutex> lock(mutex_);

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
-#include <type_traits>
 
 namespace rotrocc {
 
@@ -24,9 +24,7 @@ class Workers {
   /// time, and not from within a part.
   template <class Part>
   void run(int parts, Part&& part) {
-    using Function = std::remove_reference_t<Part>;
-    share(parts,
-          {&part, [](void* function, int index) { (*static_cast<Function*>(function))(index); }});
+    share(parts, std::ref(part));  // no copy, which might allocate memory
   }
 
   /// Number of parts of a list. More parts than threads balance parts of different cost.
@@ -45,11 +43,7 @@ class Workers {
   }
 
  private:
-  /// A reference to part(index). A std::function might allocate memory.
-  struct Job {
-    void* function;
-    void (*call)(void* function, int index);
-  };
+  using Job = std::function<void(int part)>;
   class Pool;
 
   void share(int parts, const Job& job);

@@ -1,12 +1,13 @@
 #include "node/stereo_odometry.h"
 
+#include <pthread.h>
+
 #include <exception>
 #include <utility>
 
 #include <ros/init.h>
 #include <ros/time.h>
 
-#include "common/thread_name.h"
 #include "input/image_validation.h"
 #include "input/message_conversion.h"
 #include "node/odometry_messages.h"
@@ -123,7 +124,7 @@ void StereoOdometry::onTick(const ros::WallTimerEvent&) {
 }
 
 void StereoOdometry::work() {
-  nameThisThread("odometry");
+  pthread_setname_np(pthread_self(), "odometry");  // for `top -H` and debuggers
   std::optional<ReceivedPair> pair;
   while (ros::ok() && !mailbox_.closed()) {
     if (auto newer = mailbox_.take(pair ? kTfPoll : kIdlePoll)) {

@@ -1,11 +1,12 @@
 #include "node/tf/tf_conflict.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <list>
 
 #include <ros/this_node.h>
 
-#include "common/thread_name.h"
 #include "input/message_conversion.h"
 
 namespace rotrocc {
@@ -134,7 +135,7 @@ std::string TfConflict::description() {
 }
 
 void TfConflict::watch() {
-  nameThisThread("odometry_tf");
+  pthread_setname_np(pthread_self(), "odometry_tf");  // for `top -H` and debuggers
   std::unique_lock<std::mutex> lock(end_mutex_);
   while (!end_.wait_for(lock, kPeriod, [this] { return ended_; })) queue_.callAvailable();
 }

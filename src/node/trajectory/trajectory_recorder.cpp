@@ -1,12 +1,12 @@
 #include "node/trajectory/trajectory_recorder.h"
 
+#include <pthread.h>
+
 #include <exception>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 #include <vector>
-
-#include "common/thread_name.h"
 
 namespace rotrocc {
 namespace {
@@ -52,7 +52,7 @@ void TrajectoryRecorder::add(const StampedPose& pose) {
 }
 
 void TrajectoryRecorder::work() {
-  nameThisThread("odometry_file");
+  pthread_setname_np(pthread_self(), "odometry_file");  // for `top -H` and debuggers
   for (;;) {
     const std::vector<Item> items = queue_.takeAll();
     if (items.empty()) return;
