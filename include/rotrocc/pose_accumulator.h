@@ -10,7 +10,12 @@ class PoseAccumulator {
  public:
   /// Appends the motion to the current frame: `T_prev_cur` maps points of the current frame to the
   /// previous frame. Returns T_first_cur.
-  const Eigen::Isometry3d& add(const Eigen::Isometry3d& T_prev_cur);
+  const Eigen::Isometry3d& add(const Eigen::Isometry3d& T_prev_cur) {
+    T_first_cur_ = T_first_cur_ * T_prev_cur;
+    const Eigen::Quaterniond rotation(T_first_cur_.linear());
+    T_first_cur_.linear() = rotation.normalized().toRotationMatrix();
+    return T_first_cur_;
+  }
 
   const Eigen::Isometry3d& T_first_cur() const { return T_first_cur_; }
 

@@ -3,12 +3,6 @@
 #include <cmath>
 
 namespace rotrocc {
-namespace {
-
-/// Below this angle [rad], the truncated series is exact to double precision.
-constexpr double kSmallAngle = 1e-4;
-
-}  // namespace
 
 Eigen::Matrix3d skew(const Eigen::Vector3d& a) {
   Eigen::Matrix3d m;
@@ -28,9 +22,10 @@ Eigen::Vector3d logRotation(const Eigen::Matrix3d& R) {
 }
 
 Eigen::Matrix3d leftJacobian(const Eigen::Vector3d& v) {
+  constexpr double kSmall_rad = 1e-4;  // the truncated series is exact to double precision
   const double angle = v.norm();
   const Eigen::Matrix3d K = skew(v);
-  if (angle < kSmallAngle) return Eigen::Matrix3d::Identity() + K / 2.0 + K * K / 6.0;
+  if (angle < kSmall_rad) return Eigen::Matrix3d::Identity() + K / 2.0 + K * K / 6.0;
   const double angle2 = angle * angle;
   return Eigen::Matrix3d::Identity() + (1.0 - std::cos(angle)) / angle2 * K +
          (angle - std::sin(angle)) / (angle2 * angle) * K * K;

@@ -1,17 +1,17 @@
 #include "rotrocc/stereo_camera.h"
 
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
+
+#include <opencv2/core.hpp>
 
 namespace rotrocc {
 namespace {
 
 void require(bool ok, const char* name, double value, const char* wanted) {
   if (ok) return;
-  std::ostringstream message;
-  message << "stereo camera: " << name << " is " << value << ", but must be " << wanted;
-  throw std::invalid_argument(message.str());
+  throw std::invalid_argument(
+      cv::format("stereo camera: %s is %g, but must be %s", name, value, wanted));
 }
 
 }  // namespace

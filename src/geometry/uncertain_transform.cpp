@@ -6,10 +6,8 @@ namespace {
 /// The Jacobian of an error whose two parts are rotated by R, and whose rotation also changes the
 /// translation.
 Matrix6d jacobian(const Eigen::Matrix3d& R, const Eigen::Matrix3d& translation_by_rotation) {
-  Matrix6d J = Matrix6d::Zero();
-  J.topLeftCorner<3, 3>() = R;
-  J.topRightCorner<3, 3>() = translation_by_rotation;
-  J.bottomRightCorner<3, 3>() = R;
+  Matrix6d J;
+  J << R, translation_by_rotation, Eigen::Matrix3d::Zero(), R;
   return J;
 }
 
