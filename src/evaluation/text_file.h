@@ -21,6 +21,9 @@ struct TextLine {
   /// The word at `index` as an integer, rounded. Throws like number(), and on values beyond the
   /// range of 64 bit.
   std::int64_t integer(std::size_t index) const;
+
+  /// Throws std::runtime_error with `where` and what is wrong there.
+  [[noreturn]] void fail(const std::string& what) const;
 };
 
 /// The lines of a file except blank lines and comments that start with '#'; line ends are LF or

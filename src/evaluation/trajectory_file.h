@@ -1,9 +1,7 @@
 #pragma once
 
-#include <sys/types.h>  // off_t
-
+#include <filesystem>
 #include <optional>
-#include <sstream>
 #include <string>
 
 #include "rotrocc/trajectory.h"
@@ -33,8 +31,7 @@ class TrajectoryFile {
   std::string name_;
   TrajectoryFormat format_;
   int descriptor_;
-  off_t size_ = 0;
-  std::ostringstream text_;
+  std::string text_;  // not yet written
 };
 
 /// Replaces a file as a whole: until finish(), and if anything fails, it is as it was. A crash or a
@@ -45,15 +42,13 @@ class TrajectoryReplacement {
   /// or if a file cannot be written.
   TrajectoryReplacement(const std::string& path, TrajectoryFormat format);
   ~TrajectoryReplacement();
-  TrajectoryReplacement(const TrajectoryReplacement&) = delete;
-  TrajectoryReplacement& operator=(const TrajectoryReplacement&) = delete;
 
   /// These throw std::runtime_error if writing fails.
   void add(const StampedPose& pose) { file_->add(pose); }
   void finish();
 
  private:
-  std::string target_;
+  std::filesystem::path target_;
   std::string temporary_;
   std::optional<TrajectoryFile> file_;
 };
