@@ -103,10 +103,7 @@ struct StepSummary {
 StepSummary summarize(const std::vector<StepError>& steps);
 
 /// The motion error from the first to the last pose.
-struct Drift {
-  double translation_m = 0.0;
-  double rotation_rad = 0.0;
-};
+using Drift = StepError;
 
 /// Zero if there are no poses.
 Drift finalDrift(const MatchedTrajectories& matched);

@@ -6,30 +6,23 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "common/concatenate.h"
-
 namespace rotrocc {
 namespace {
 
-/// With 8 or 16 bits; empty if it cannot.
-cv::Mat tryReadGrey(const std::string& path) {
-  try {
-    const cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
-    const bool is_integer = image.depth() == CV_8U || image.depth() == CV_16U;
-    return is_integer ? image : cv::imread(path, cv::IMREAD_GRAYSCALE);
-  } catch (const cv::Exception&) {  // too many pixels
-    return {};
-  }
-}
-
+/// With 8 or 16 bits.
 cv::Mat readGrey(const std::string& path) {
   if (!std::filesystem::exists(path)) throw std::runtime_error(path + " is missing");
-  cv::Mat image = tryReadGrey(path);
-  if (image.empty()) {
-    throw std::runtime_error(path +
-                             " is not a readable image: is it damaged, or no image? Copy it again");
+  cv::Mat image;
+  try {
+    image = cv::imread(path, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
+    const bool is_integer = image.depth() == CV_8U || image.depth() == CV_16U;
+    if (!is_integer) image = cv::imread(path, cv::IMREAD_GRAYSCALE);
+  } catch (const cv::Exception&) {  // too many pixels
+    image.release();
   }
-  return image;
+  if (!image.empty()) return image;
+  throw std::runtime_error(path +
+                           " is not a readable image: is it damaged, or no image? Copy it again");
 }
 
 /// Rounded down, as a shift is.
@@ -57,18 +50,9 @@ void requireImageSize(const std::string& path,
                       const cv::Size& size,
                       const std::string& whose) {
   if (image.size() == size) return;
-  throw std::runtime_error(concatenate(path,
-                                       " is ",
-                                       image.cols,
-                                       " x ",
-                                       image.rows,
-                                       " px, but ",
-                                       whose,
-                                       " is ",
-                                       size.width,
-                                       " x ",
-                                       size.height,
-                                       " px"));
+  const auto text = [](const cv::Size& s) { return cv::format("%d x %d px", s.width, s.height); };
+  throw std::runtime_error(path + " is " + text(image.size()) + ", but " + whose + " is " +
+                           text(size));
 }
 
 cv::Mat GreyImageReader::read(const std::string& path) {

@@ -1,9 +1,8 @@
 #include "rotrocc/kitti.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iomanip>
-#include <sstream>
 #include <stdexcept>
 
 #include <Eigen/Core>
@@ -22,25 +21,21 @@ constexpr const char* kLeftFolder = "image_0";
 constexpr const char* kRightFolder = "image_1";
 
 std::string imagePath(const std::string& directory, const char* folder, int index) {
-  std::ostringstream name;
-  name << std::setw(6) << std::setfill('0') << index << ".png";
-  return (fs::path(directory) / folder / name.str()).string();
+  return (fs::path(directory) / folder / cv::format("%06d.png", index)).string();
 }
 
 std::size_t countImages(const fs::path& folder) {
   if (!fs::is_directory(folder)) {
     throw std::runtime_error(folder.string() + " is missing: is this a KITTI odometry sequence?");
   }
-  std::size_t count = 0;
-  for (const auto& entry : fs::directory_iterator(folder))
-    count += entry.path().extension() == ".png";
-  return count;
+  const auto is_image = [](const auto& entry) { return entry.path().extension() == ".png"; };
+  return std::count_if(fs::directory_iterator(folder), {}, is_image);
 }
 
 void requireSameCount(const std::string& what, std::size_t count, std::size_t times) {
   if (count == times) return;
-  throw std::runtime_error(what + " has " + std::to_string(count) + " entries, but times.txt has " +
-                           std::to_string(times) + " times");
+  throw std::runtime_error(
+      what + cv::format(" has %zu entries, but times.txt has %zu times", count, times));
 }
 
 Projection findProjection(const std::vector<TextLine>& lines,
@@ -49,8 +44,7 @@ Projection findProjection(const std::vector<TextLine>& lines,
   for (const TextLine& line : lines) {
     if (line.words.front() != name) continue;
     if (line.words.size() != 13) {
-      throw std::runtime_error(line.where + ": " + name + " has " +
-                               std::to_string(line.words.size() - 1) + " numbers instead of 12");
+      line.fail(name + cv::format(" has %zu numbers instead of 12", line.words.size() - 1));
     }
     Projection projection;
     for (int i = 0; i < 12; ++i) projection(i / 4, i % 4) = line.number(i + 1);
@@ -67,8 +61,9 @@ StereoCamera readCalibration(const std::string& path, const cv::Size& size) {
   const double difference = (left.middleCols<2>(0) - right.middleCols<2>(0)).cwiseAbs().maxCoeff() +
                             (left.col(2) - right.col(2)).tail<2>().cwiseAbs().maxCoeff();
   if (difference > 1e-6 * std::abs(left(0, 0))) {
-    throw std::runtime_error(path + ": P0 and P1 are not a rectified pair: they differ by " +
-                             std::to_string(difference) + " in fx, fy or cy");
+    throw std::runtime_error(
+        path + cv::format(": P0 and P1 are not a rectified pair: they differ by %f in fx, fy or cy",
+                          difference));
   }
   StereoCamera camera;
   camera.width = size.width;
@@ -99,8 +94,9 @@ Trajectory readGroundTruth(const std::string& path,
   }
   Trajectory poses = samplePoses(readTrajectory(path), stamps_ns, kMaxGap_ns);
   if (poses.size() != stamps_ns.size()) {
-    throw std::runtime_error(path + " has poses for " + std::to_string(poses.size()) + " of the " +
-                             std::to_string(stamps_ns.size()) + " times of times.txt");
+    throw std::runtime_error(path + cv::format(" has poses for %zu of the %zu times of times.txt",
+                                               poses.size(),
+                                               stamps_ns.size()));
   }
   return poses;
 }

@@ -6,7 +6,8 @@
 #include <numeric>
 #include <set>
 #include <stdexcept>
-#include <string>
+
+#include <opencv2/core.hpp>
 
 #include "common/to_seconds.h"
 #include "evaluation/trajectory_sampling.h"
@@ -14,45 +15,27 @@
 namespace rotrocc {
 namespace {
 
-constexpr double kSpeedBin_mps = 2.0;
-
-Eigen::Isometry3d motionError(const MatchedTrajectories& matched,
-                              std::size_t from,
-                              std::size_t to) {
+StepError motionError(const MatchedTrajectories& matched, std::size_t from, std::size_t to) {
   const auto motion = [=](const Trajectory& poses) -> Eigen::Isometry3d {
     return poses[from].T_world_body.inverse() * poses[to].T_world_body;
   };
-  return motion(matched.estimate).inverse() * motion(matched.truth);
-}
-
-double rotationAngle(const Eigen::Isometry3d& pose) {
-  return Eigen::AngleAxisd(pose.linear()).angle();
+  const Eigen::Isometry3d error = motion(matched.estimate).inverse() * motion(matched.truth);
+  return {error.translation().norm(), Eigen::AngleAxisd(error.linear()).angle()};
 }
 
 std::size_t nearest(const Trajectory& trajectory, std::int64_t stamp_ns) {
-  const auto later = std::lower_bound(
-      trajectory.begin(), trajectory.end(), stamp_ns, [](const StampedPose& pose, std::int64_t ns) {
-        return pose.stamp_ns < ns;
-      });
+  const auto later = firstFrom(trajectory, stamp_ns);
   const auto index = static_cast<std::size_t>(later - trajectory.begin());
   if (index == 0) return 0;
   if (later == trajectory.end()) return index - 1;
   return later->stamp_ns - stamp_ns < stamp_ns - trajectory[index - 1].stamp_ns ? index : index - 1;
 }
 
-/// The pose at `stamp_ns` if the truth has at least 50 Hz, otherwise that of its nearest pose: what
-/// moves by 1 m/s is 5 mm apart after half a period of 100 Hz.
-StampedPose truthAt(const Trajectory& truth, std::int64_t stamp_ns, const StampedPose& nearest) {
-  constexpr std::int64_t kMaxGap_ns = 20'000'000;
-  const auto pose = poseAt(truth, stamp_ns, kMaxGap_ns);
-  return pose ? StampedPose{stamp_ns, *pose} : nearest;
-}
-
 void requireMatched(const MatchedTrajectories& matched) {
   if (matched.truth.size() == matched.estimate.size()) return;
-  throw std::invalid_argument("trajectories are not matched: the truth has " +
-                              std::to_string(matched.truth.size()) + " poses, the estimate " +
-                              std::to_string(matched.estimate.size()));
+  throw std::invalid_argument(
+      cv::format("trajectories are not matched: the truth has %zu poses", matched.truth.size()) +
+      cv::format(", the estimate %zu", matched.estimate.size()));
 }
 
 double duration_s(const StampedPose& first, const StampedPose& last) {
@@ -65,44 +48,48 @@ double duration_s(const StampedPose& first, const StampedPose& last) {
 
 void check(const SegmentConfig& config) {
   for (const double length_m : config.lengths_m) {
-    if (!(std::isfinite(length_m) && length_m > 0.0)) {
-      throw std::invalid_argument("segment length " + std::to_string(length_m) +
-                                  " m must be positive");
+    if (std::isfinite(length_m) && length_m > 0.0) continue;
+    throw std::invalid_argument(cv::format("segment length %f m must be positive", length_m));
+  }
+  if (config.step >= 1) return;
+  throw std::invalid_argument(cv::format("segment step %d must be at least 1", config.step));
+}
+
+/// The mean of the errors in each bin; an error belongs to it if in_bin(error, bin).
+template <class InBin>
+std::vector<MeanError> meansOf(const std::vector<SegmentError>& errors,
+                               const std::set<double>& bins,
+                               InBin in_bin) {
+  std::vector<MeanError> means;
+  for (const double bin : bins) {
+    MeanError& mean = means.emplace_back();
+    mean.bin = bin;
+    for (const SegmentError& error : errors) {
+      if (!in_bin(error, bin)) continue;
+      ++mean.segments;
+      mean.translation += error.translation;
+      mean.rotation_rad_per_m += error.rotation_rad_per_m;
     }
+    if (mean.segments == 0) continue;
+    mean.translation /= mean.segments;
+    mean.rotation_rad_per_m /= mean.segments;
   }
-  if (config.step < 1) {
-    throw std::invalid_argument("segment step " + std::to_string(config.step) +
-                                " must be at least 1");
-  }
+  return means;
 }
 
-template <typename Predicate>
-MeanError meanWhere(const std::vector<SegmentError>& errors, double bin, Predicate belongs) {
-  MeanError mean;
-  mean.bin = bin;
-  for (const SegmentError& error : errors) {
-    if (!belongs(error)) continue;
-    ++mean.segments;
-    mean.translation += error.translation;
-    mean.rotation_rad_per_m += error.rotation_rad_per_m;
-  }
-  if (mean.segments == 0) return mean;
-  mean.translation /= mean.segments;
-  mean.rotation_rad_per_m /= mean.segments;
-  return mean;
-}
-
-Distribution distributionOf(std::vector<double> values) {
-  if (values.empty()) return {};
+/// Of one part of the errors.
+Distribution distributionOf(const std::vector<StepError>& steps, double StepError::*part) {
+  if (steps.empty()) return {};
+  std::vector<double> values;
+  for (const StepError& step : steps) values.push_back(step.*part);
   std::sort(values.begin(), values.end());
   const auto count = static_cast<double>(values.size());
-  Distribution distribution;
-  distribution.mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
-  distribution.rms =
-      std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) / count);
-  distribution.p95 = values[(values.size() * 95 + 99) / 100 - 1];
-  distribution.max = values.back();
-  return distribution;
+  const auto sum = std::accumulate(values.begin(), values.end(), 0.0);
+  const auto squares = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
+  return {sum / count,
+          std::sqrt(squares / count),
+          values[(values.size() * 95 + 99) / 100 - 1],
+          values.back()};
 }
 
 }  // namespace
@@ -116,14 +103,19 @@ MatchedTrajectories matchByIndex(const Trajectory& truth, const Trajectory& esti
 MatchedTrajectories matchByStamp(const Trajectory& truth,
                                  const Trajectory& estimate,
                                  double max_difference_s) {
+  // Between the poses of a truth of at least 50 Hz, otherwise its nearest pose: what moves by 1 m/s
+  // is 5 mm apart after half a period of 100 Hz.
+  constexpr std::int64_t kMaxGap_ns = 20'000'000;
   MatchedTrajectories matched;
   if (truth.empty()) return matched;
   const auto max_difference_ns = std::llround(max_difference_s * 1e9);
   for (std::size_t i = 0; i < estimate.size(); ++i) {
-    const StampedPose& partner = truth[nearest(truth, estimate[i].stamp_ns)];
-    if (std::llabs(partner.stamp_ns - estimate[i].stamp_ns) > max_difference_ns) continue;
+    const std::int64_t stamp_ns = estimate[i].stamp_ns;
+    const StampedPose& partner = truth[nearest(truth, stamp_ns)];
+    if (std::llabs(partner.stamp_ns - stamp_ns) > max_difference_ns) continue;
     if (nearest(estimate, partner.stamp_ns) != i) continue;
-    matched.truth.push_back(truthAt(truth, estimate[i].stamp_ns, partner));
+    const auto pose = poseAt(truth, stamp_ns, kMaxGap_ns);
+    matched.truth.push_back(pose ? StampedPose{stamp_ns, *pose} : partner);
     matched.estimate.push_back(estimate[i]);
   }
   return matched;
@@ -156,73 +148,60 @@ std::vector<SegmentError> segmentErrors(const MatchedTrajectories& matched,
       const auto end = std::upper_bound(path_m.begin(), path_m.end(), path_m[first] + length_m);
       if (end == path_m.end()) continue;
       const auto last = static_cast<std::size_t>(end - path_m.begin());
-      const Eigen::Isometry3d error = motionError(matched, first, last);
+      const StepError error = motionError(matched, first, last);
       errors.push_back({static_cast<int>(first),
                         length_m,
                         length_m / duration_s(matched.truth[first], matched.truth[last]),
-                        error.translation().norm() / length_m,
-                        rotationAngle(error) / length_m});
+                        error.translation_m / length_m,
+                        error.rotation_rad / length_m});
     }
   }
   return errors;
 }
 
 MeanError meanError(const std::vector<SegmentError>& errors) {
-  return meanWhere(errors, 0.0, [](const SegmentError&) { return true; });
+  return meansOf(errors, {0.0}, [](const SegmentError&, double) { return true; }).front();
 }
 
 std::vector<MeanError> meanErrorByLength(const std::vector<SegmentError>& errors) {
   std::set<double> lengths_m;
   for (const SegmentError& error : errors) lengths_m.insert(error.length_m);
-  std::vector<MeanError> means;
-  for (const double length_m : lengths_m) {
-    means.push_back(meanWhere(
-        errors, length_m, [=](const SegmentError& error) { return error.length_m == length_m; }));
-  }
-  return means;
+  return meansOf(errors, lengths_m, [](const SegmentError& error, double length_m) {
+    return error.length_m == length_m;
+  });
 }
 
 std::vector<MeanError> meanErrorBySpeed(const std::vector<SegmentError>& errors) {
+  constexpr double kBin_mps = 2.0;
   std::set<double> speeds_mps;
   for (const SegmentError& error : errors) {
-    const double below_mps = std::floor(error.speed_mps / kSpeedBin_mps) * kSpeedBin_mps;
+    const double below_mps = std::floor(error.speed_mps / kBin_mps) * kBin_mps;
     if (below_mps > 0.0) speeds_mps.insert(below_mps);
-    if (below_mps < error.speed_mps) speeds_mps.insert(below_mps + kSpeedBin_mps);
+    if (below_mps < error.speed_mps) speeds_mps.insert(below_mps + kBin_mps);
   }
-  std::vector<MeanError> means;
-  for (const double speed_mps : speeds_mps) {
-    means.push_back(meanWhere(errors, speed_mps, [=](const SegmentError& error) {
-      return std::abs(error.speed_mps - speed_mps) < kSpeedBin_mps;
-    }));
-  }
-  return means;
+  return meansOf(errors, speeds_mps, [](const SegmentError& error, double speed_mps) {
+    return std::abs(error.speed_mps - speed_mps) < kBin_mps;
+  });
 }
 
 std::vector<StepError> stepErrors(const MatchedTrajectories& matched) {
   requireMatched(matched);
   std::vector<StepError> steps;
   for (std::size_t i = 1; i < matched.truth.size(); ++i) {
-    const Eigen::Isometry3d error = motionError(matched, i - 1, i);
-    steps.push_back({error.translation().norm(), rotationAngle(error)});
+    steps.push_back(motionError(matched, i - 1, i));
   }
   return steps;
 }
 
 StepSummary summarize(const std::vector<StepError>& steps) {
-  std::vector<double> translations_m;
-  std::vector<double> rotations_rad;
-  for (const StepError& step : steps) {
-    translations_m.push_back(step.translation_m);
-    rotations_rad.push_back(step.rotation_rad);
-  }
-  return {distributionOf(std::move(translations_m)), distributionOf(std::move(rotations_rad))};
+  return {distributionOf(steps, &StepError::translation_m),
+          distributionOf(steps, &StepError::rotation_rad)};
 }
 
 Drift finalDrift(const MatchedTrajectories& matched) {
   requireMatched(matched);
   if (matched.truth.empty()) return {};
-  const Eigen::Isometry3d error = motionError(matched, 0, matched.truth.size() - 1);
-  return {error.translation().norm(), rotationAngle(error)};
+  return motionError(matched, 0, matched.truth.size() - 1);
 }
 
 }  // namespace rotrocc

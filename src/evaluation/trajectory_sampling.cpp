@@ -4,13 +4,17 @@
 
 namespace rotrocc {
 
+Trajectory::const_iterator firstFrom(const Trajectory& trajectory, std::int64_t stamp_ns) {
+  const auto is_before = [](const StampedPose& pose, std::int64_t ns) {
+    return pose.stamp_ns < ns;
+  };
+  return std::lower_bound(trajectory.begin(), trajectory.end(), stamp_ns, is_before);
+}
+
 std::optional<Eigen::Isometry3d> poseAt(const Trajectory& trajectory,
                                         std::int64_t stamp_ns,
                                         std::int64_t max_gap_ns) {
-  const auto after = std::lower_bound(
-      trajectory.begin(), trajectory.end(), stamp_ns, [](const StampedPose& pose, std::int64_t ns) {
-        return pose.stamp_ns < ns;
-      });
+  const auto after = firstFrom(trajectory, stamp_ns);
   if (after == trajectory.end()) return std::nullopt;
   if (after->stamp_ns == stamp_ns) return after->T_world_body;
   if (after == trajectory.begin()) return std::nullopt;
@@ -21,8 +25,7 @@ std::optional<Eigen::Isometry3d> poseAt(const Trajectory& trajectory,
                        static_cast<double>(after->stamp_ns - before.stamp_ns);
   const Eigen::Quaterniond from(before.T_world_body.linear());
   const Eigen::Quaterniond to(after->T_world_body.linear());
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = from.slerp(share, to).toRotationMatrix();
+  Eigen::Isometry3d pose(from.slerp(share, to));
   pose.translation() =
       (1.0 - share) * before.T_world_body.translation() + share * after->T_world_body.translation();
   return pose;

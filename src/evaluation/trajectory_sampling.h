@@ -10,6 +10,9 @@
 
 namespace rotrocc {
 
+/// The first pose that is not before a stamp. Stamps must increase.
+Trajectory::const_iterator firstFrom(const Trajectory& trajectory, std::int64_t stamp_ns);
+
 /// The pose at a stamp, between the poses before and after it if these are at most `max_gap_ns`
 /// apart; none outside of the trajectory and in longer gaps. Stamps must increase.
 std::optional<Eigen::Isometry3d> poseAt(const Trajectory& trajectory,
