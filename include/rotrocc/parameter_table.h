@@ -66,7 +66,7 @@ class ParameterTable {
   const std::vector<Parameter>& parameters() const { return parameters_; }
 
  private:
-  Parameter& append(const std::string& leaf, Parameter parameter);
+  Parameter& append(const std::string& leaf);
   Parameter& find(const std::string& name);
 
   std::string prefix_;  // of the names of the current section

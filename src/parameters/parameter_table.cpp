@@ -7,7 +7,9 @@
 #include <sstream>
 #include <stdexcept>
 #include <type_traits>
-#include <utility>
+
+#include <boost/algorithm/string/classification.hpp>
+#include <boost/algorithm/string/join.hpp>
 
 namespace rotrocc {
 namespace {
@@ -21,123 +23,111 @@ std::string toText(const T& value) {
   return text.str();
 }
 
+[[noreturn]] void refuse(const std::string& text, const std::string& wanted) {
+  throw std::invalid_argument("is \"" + text + "\", but must be " + wanted);
+}
+
 /// Parses the whole of `text`; throws if anything is left over.
 template <class T>
 T parseNumber(const std::string& text, const std::string& wanted) {
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
   T value{};
-  if (!(stream >> value) || !(stream >> std::ws).eof()) {
-    throw std::invalid_argument("is \"" + text + "\", but must be " + wanted);
-  }
+  if (!(stream >> value) || !(stream >> std::ws).eof()) refuse(text, wanted);
   return value;
 }
 
 template <class T>
-ParameterTable::Parameter makeNumber(T& value,
+ParameterTable::Parameter& setNumber(T& value,
                                      const ParameterTable::Range<T>& range,
-                                     const char* kind) {
-  ParameterTable::Parameter parameter;
-  parameter.type = std::is_integral<T>::value ? ParameterTable::Parameter::Type::kInt
-                                              : ParameterTable::Parameter::Type::kDouble;
-  parameter.unit = range.unit;
-  parameter.min = toText(range.min);
-  parameter.max = toText(range.max);
-  parameter.range = "[" + parameter.min + ", " + parameter.max + "]";
-  const std::string in_range = "in " + parameter.range;
-  const std::string wanted = std::string(kind) + " " + in_range;
-  parameter.set =
-      [&value, min = range.min, max = range.max, in_range, wanted](const std::string& text) {
-        const T parsed = parseNumber<T>(text, wanted);
-        if (!(parsed >= min && parsed <= max)) {
-          throw std::invalid_argument("is " + text + ", but must be " + in_range);
-        }
-        value = parsed;
-      };
-  parameter.get = [&value] { return toText(value); };
-  return parameter;
+                                     ParameterTable::Parameter& p) {
+  constexpr bool kIsInteger = std::is_integral_v<T>;
+  p.type =
+      kIsInteger ? ParameterTable::Parameter::Type::kInt : ParameterTable::Parameter::Type::kDouble;
+  p.unit = range.unit;
+  p.min = toText(range.min);
+  p.max = toText(range.max);
+  p.range = "[" + p.min + ", " + p.max + "]";
+  p.set = [&value, range, in_range = "in " + p.range](const std::string& text) {
+    const T parsed = parseNumber<T>(text, (kIsInteger ? "an integer " : "a number ") + in_range);
+    if (!(parsed >= range.min && parsed <= range.max)) {
+      throw std::invalid_argument("is " + text + ", but must be " + in_range);
+    }
+    value = parsed;
+  };
+  p.get = [&value] { return toText(value); };
+  return p;
 }
 
 /// As "1 2 3 4 5 6" or "[1, 2, 3, 4, 5, 6]".
 std::array<double, 6> parseSix(const std::string& text) {
   std::string spaced = text;
-  std::replace_if(
-      spaced.begin(), spaced.end(), [](char c) { return c == '[' || c == ']' || c == ','; }, ' ');
+  std::replace_if(spaced.begin(), spaced.end(), boost::is_any_of("[],"), ' ');
   std::istringstream words(spaced);
-  std::array<double, 6> numbers{};
-  std::size_t count = 0;
-  for (std::string word; words >> word; ++count) {
-    const double number = parseNumber<double>(word, "6 numbers");
-    if (count < numbers.size()) numbers[count] = number;
+  std::vector<double> numbers;
+  for (std::string word; words >> word;) {
+    numbers.push_back(parseNumber<double>(word, "6 numbers"));
   }
-  if (count != numbers.size()) {
-    throw std::invalid_argument("is \"" + text + "\", but must be 6 numbers");
-  }
-  return numbers;
-}
-
-std::string join(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
+  std::array<double, 6> six{};
+  if (numbers.size() != six.size()) refuse(text, "6 numbers");
+  std::copy(numbers.begin(), numbers.end(), six.begin());
+  return six;
 }
 
 }  // namespace
 
-ParameterTable::Parameter& ParameterTable::append(const std::string& leaf, Parameter parameter) {
+ParameterTable::Parameter& ParameterTable::append(const std::string& leaf) {
+  Parameter& parameter = parameters_.emplace_back();
   parameter.name = prefix_ + leaf;
-  parameters_.push_back(std::move(parameter));
-  return parameters_.back();
+  return parameter;
 }
 
 ParameterTable::Parameter& ParameterTable::add(const std::string& leaf,
                                                int& value,
                                                const Range<int>& range) {
-  return append(leaf, makeNumber(value, range, "an integer"));
+  return setNumber(value, range, append(leaf));
 }
 
 ParameterTable::Parameter& ParameterTable::add(const std::string& leaf,
                                                double& value,
                                                const Range<double>& range) {
-  return append(leaf, makeNumber(value, range, "a number"));
+  return setNumber(value, range, append(leaf));
 }
 
 ParameterTable::Parameter& ParameterTable::add(const std::string& leaf, bool& value) {
-  Parameter parameter;
+  Parameter& parameter = append(leaf);
   parameter.type = Parameter::Type::kBool;
   parameter.min = "false";
   parameter.max = "true";
   parameter.range = "true or false";
   parameter.set = [&value](const std::string& text) {
-    if (text != "true" && text != "false") {
-      throw std::invalid_argument("is \"" + text + "\", but must be true or false");
-    }
+    if (text != "true" && text != "false") refuse(text, "true or false");
     value = text == "true";
   };
-  parameter.get = [&value] { return std::string(value ? "true" : "false"); };
-  return append(leaf, std::move(parameter));
+  parameter.get = [&value] { return value ? "true" : "false"; };
+  return parameter;
 }
 
 ParameterTable::Parameter& ParameterTable::add(const std::string& leaf,
                                                std::string& value,
                                                const std::vector<std::string>& choices) {
-  Parameter parameter;
+  Parameter& parameter = append(leaf);
   parameter.choices = choices;
-  parameter.range = choices.empty() ? "any text" : "one of " + join(choices);
+  parameter.range = choices.empty() ? "any text" : "one of " + boost::join(choices, ", ");
   parameter.set = [&value, choices, range = parameter.range](const std::string& text) {
     if (!choices.empty() && std::find(choices.begin(), choices.end(), text) == choices.end()) {
-      throw std::invalid_argument("is \"" + text + "\", but must be " + range);
+      refuse(text, range);
     }
     value = text;
   };
   parameter.get = [&value] { return value; };
-  return append(leaf, std::move(parameter));
+  return parameter;
 }
 
 ParameterTable::Parameter& ParameterTable::add(const std::string& leaf,
                                                std::array<double, 6>& value,
                                                const char* unit) {
-  Parameter parameter;
+  Parameter& parameter = append(leaf);
   parameter.unit = unit;
   parameter.range = "6 numbers";
   parameter.is_list = true;
@@ -147,7 +137,7 @@ ParameterTable::Parameter& ParameterTable::add(const std::string& leaf,
     for (const double number : value) text += (text.empty() ? "" : " ") + toText(number);
     return text;
   };
-  return append(leaf, std::move(parameter));
+  return parameter;
 }
 
 ParameterTable::Parameter& ParameterTable::find(const std::string& name) {
@@ -164,9 +154,7 @@ void ParameterTable::setList(const std::string& name, const std::vector<std::str
   if (!parameter.is_list) {
     throw std::invalid_argument("parameter " + name + " is a list, but must be " + parameter.range);
   }
-  std::string text;
-  for (const std::string& element : elements) text += (text.empty() ? "" : " ") + element;
-  set(name, text);
+  set(name, boost::join(elements, " "));
 }
 
 void ParameterTable::set(const std::string& name, const std::string& text) {

@@ -1,5 +1,6 @@
 #include "rotrocc/parameters.h"
 
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -9,17 +10,23 @@
 namespace rotrocc {
 namespace {
 
-/// Whether a text can be written to a YAML file: yaml-cpp replaces what is not UTF-8.
-bool isWritable(const std::string& text) {
-  return YAML::Load(YAML::Dump(YAML::Node(text))).Scalar() == text;
-}
-
-void set(const std::string& name, const std::string& text, ParameterTable& table) {
-  if (!isWritable(text)) {
-    throw std::invalid_argument("the value of parameter \"" + name + "\" is not UTF-8");
-  }
-  table.set(name, text);
-}
+/// Parameters of earlier releases, by section.
+constexpr const char* kRemoved = R"(
+feature_detector: [block_radius_px, border_px, cell_size_px, min_response, nms_radius_px]
+feature_tracker: [levels, max_disparity_difference_px, max_iterations, max_vertical_px,
+  min_step_px, startup_levels]
+keyframe_selector: [max_parallax_px, min_seen_share]
+motion_check: [degraded_depth_share, degraded_information_share, degraded_relative_sigma,
+  degraded_rival_share, degraded_rotation_share, degraded_start_share, degraded_survivor_share,
+  degraded_translation_share]
+motion_estimator: [comparison_iterations, deviation_factor, mean_factor, retry_share,
+  rotation_drop_share, rotation_max_iterations, translation_drop_share, translation_max_iterations]
+motion_model: [max_age_s]
+stereo_calibrator: [flex_px, noise_ratio, prior_sigma_px, robust_factor, shared_error_ratio,
+  significance, steady_pairs]
+stereo_matcher: [max_mean_difference, uniqueness]
+visual_odometry: [settled_px]
+)";
 
 /// Sets every scalar and list below `node`; `prefix` is the name of `node`.
 void setAll(const YAML::Node& node,
@@ -27,7 +34,13 @@ void setAll(const YAML::Node& node,
             ParameterTable& table,
             std::vector<std::string>& warnings) {
   if (const std::string why = whyIgnored(prefix); !why.empty()) return warnings.push_back(why);
-  if (node.IsScalar()) return set(prefix, node.Scalar(), table);
+  if (node.IsScalar()) {
+    // Could not be written: yaml-cpp replaces what is not UTF-8.
+    if (YAML::Load(YAML::Dump(YAML::Node(node.Scalar()))).Scalar() != node.Scalar()) {
+      throw std::invalid_argument("the value of parameter \"" + prefix + "\" is not UTF-8");
+    }
+    return table.set(prefix, node.Scalar());
+  }
   if (node.IsSequence()) return table.setList(prefix, node.as<std::vector<std::string>>());
   if (!node.IsMap()) {
     throw std::invalid_argument("parameter \"" + prefix + "\" is neither a value nor a section");
@@ -42,25 +55,26 @@ void setAll(const YAML::Node& node,
   }
 }
 
-/// Column of the comments in a YAML file.
-constexpr std::size_t kCommentColumn = 34;
-
-std::string comment(const ParameterTable::Parameter& p) {
-  std::string text = "# ";
-  if (!p.unit.empty()) text += "[" + p.unit + "] ";
-  return text + p.description + "; " + p.range;
-}
-
 }  // namespace
+
+std::string whyIgnored(const std::string& name) {
+  using Sections = std::map<std::string, std::vector<std::string>>;
+  static const auto kSections = YAML::Load(kRemoved).as<Sections>();
+  for (const auto& [section, leaves] : kSections) {
+    for (const std::string& leaf : leaves) {
+      if (name != section + "/" + leaf) continue;
+      return "parameter " + name + " no longer exists and is ignored: delete it";
+    }
+  }
+  return "";
+}
 
 std::vector<std::string> loadYaml(const std::string& path, ParameterTable& table) {
   std::vector<std::string> warnings;
   try {
     const YAML::Node root = YAML::LoadFile(path);
     if (!root.IsNull()) setAll(root, "", table, warnings);
-  } catch (const YAML::Exception& error) {
-    throw std::invalid_argument(path + ": " + error.what());
-  } catch (const std::invalid_argument& error) {
+  } catch (const std::exception& error) {
     throw std::invalid_argument(path + ": " + error.what());
   }
   for (std::string& warning : warnings) warning = path + ": " + warning;
@@ -68,6 +82,7 @@ std::vector<std::string> loadYaml(const std::string& path, ParameterTable& table
 }
 
 std::string toYaml(const ParameterTable& table) {
+  constexpr std::size_t kCommentColumn = 34;
   std::string text;
   std::string section;
   for (const ParameterTable::Parameter& p : table.parameters()) {
@@ -80,7 +95,8 @@ std::string toYaml(const ParameterTable& table) {
     std::string line =
         (section.empty() ? "" : "  ") + p.name.substr(slash + 1) + ": " + value + "  ";
     if (line.size() < kCommentColumn) line.resize(kCommentColumn, ' ');
-    text += line + comment(p) + "\n";
+    const std::string unit = p.unit.empty() ? "" : "[" + p.unit + "] ";
+    text += line + "# " + unit + p.description + "; " + p.range + "\n";
   }
   return text;
 }
