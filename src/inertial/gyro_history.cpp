@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "common/concatenate.h"
+#include <opencv2/core.hpp>
+
 #include "common/to_seconds.h"
 #include "rotrocc/rigid_motion.h"
 
@@ -30,7 +31,7 @@ std::string GyroHistory::add(const GyroSample& sample) {
   if (!samples_.empty() && sample.stamp_ns <= samples_.back().stamp_ns) {
     const double back_s = toSeconds(samples_.back().stamp_ns - sample.stamp_ns);
     if (back_s <= kJump_s) {
-      return concatenate("the stamp is ", back_s, " s before that of the sample before");
+      return cv::format("the stamp is %g s before that of the sample before", back_s);
     }
     samples_.clear();
   }
@@ -59,20 +60,20 @@ std::string GyroHistory::whyUnknown(std::int64_t from_ns, std::int64_t to_ns) co
   if (samples_.empty()) return "there is no sample";
   const double late_s = toSeconds(to_ns - samples_.back().stamp_ns);
   if (late_s > 0.0) {
-    return concatenate("the newest sample is ",
-                       late_s,
-                       " s older than the image: it is late, has stopped or has another clock");
+    return cv::format(
+        "the newest sample is %g s older than the image: it is late, has stopped or has another "
+        "clock",
+        late_s);
   }
   auto sample = lastUpTo(from_ns);
   if (sample == samples_.end()) {
-    return concatenate("the oldest sample is ",
-                       toSeconds(samples_.front().stamp_ns - from_ns),
-                       " s newer than the image before");
+    return cv::format("the oldest sample is %g s newer than the image before",
+                      toSeconds(samples_.front().stamp_ns - from_ns));
   }
   for (; sample->stamp_ns < to_ns; ++sample) {
     const double gap_s = toSeconds(std::next(sample)->stamp_ns - sample->stamp_ns);
     if (gap_s <= kMaxGap_s) continue;
-    return concatenate("two samples are ", gap_s, " s apart, more than ", kMaxGap_s, " s");
+    return cv::format("two samples are %g s apart, more than %g s", gap_s, kMaxGap_s);
   }
   return "";
 }

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "common/concatenate.h"
+#include <opencv2/core.hpp>
 
 namespace rotrocc {
 namespace {
@@ -53,16 +53,16 @@ void GyroTrust::refuse() {
   agreeing_ = 0;
   const double ratio = gyro_rad_ / vision_rad_;
   if (isNear(ratio, kDegreesPerRadian, 1.5)) {
-    why_not_ =
-        concatenate("its rotations are ",
-                    ratio,
-                    " times those of the images: it seems to be in deg/s, but must be in rad/s");
+    why_not_ = cv::format(
+        "its rotations are %g times those of the images: it seems to be in deg/s, but must "
+        "be in rad/s",
+        ratio);
     return;
   }
-  why_not_ =
-      concatenate("its rotations differ from those of the images by ",
-                  kDegreesPerRadian * difference_rad_ / disagreeing_,
-                  " deg per pair: check the tf from its frame to the camera's, and its stamps");
+  why_not_ = cv::format(
+      "its rotations differ from those of the images by %g deg per pair: check the tf "
+      "from its frame to the camera's, and its stamps",
+      kDegreesPerRadian * difference_rad_ / disagreeing_);
 }
 
 }  // namespace rotrocc

@@ -5,7 +5,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "common/concatenate.h"
+#include <opencv2/core.hpp>
 
 namespace rotrocc {
 namespace {
@@ -26,10 +26,9 @@ Model modelNamed(const std::string& name) {
       {"fisheye", Model::kEquidistant}};
   const auto found = models.find(name);
   if (found != models.end()) return found->second;
-  throw std::invalid_argument(concatenate("the distortion model '",
-                                          name,
-                                          "' is not supported: use plumb_bob (radial-tangential), "
-                                          "rational_polynomial or equidistant (fisheye)"));
+  throw std::invalid_argument("the distortion model '" + name +
+                              "' is not supported: use plumb_bob (radial-tangential), "
+                              "rational_polynomial or equidistant (fisheye)");
 }
 
 /// As many as the model has, zeros for those that may be left out.
@@ -37,18 +36,16 @@ std::vector<double> complete(Model model, const std::string& name, std::vector<d
   const std::size_t count = model == Model::kPlumbBob ? 5 : model == Model::kEquidistant ? 4 : 8;
   const bool lacks_k3 = model == Model::kPlumbBob && values.size() == 4;
   if (!values.empty() && !lacks_k3 && values.size() != count) {
-    throw std::invalid_argument(concatenate("the distortion ",
-                                            name,
-                                            " has ",
-                                            values.size(),
-                                            " coefficients instead of ",
-                                            count,
-                                            ": check the calibration file"));
+    throw std::invalid_argument(
+        "the distortion " + name +
+        cv::format(" has %zu coefficients instead of %zu: check the calibration file",
+                   values.size(),
+                   count));
   }
   for (const double value : values) {
     if (std::isfinite(value)) continue;
-    throw std::invalid_argument(concatenate(
-        "a coefficient of the distortion ", name, " is ", value, ": check the calibration file"));
+    throw std::invalid_argument("a coefficient of the distortion " + name +
+                                cv::format(" is %g: check the calibration file", value));
   }
   values.resize(count, 0.0);
   return values;
@@ -61,10 +58,9 @@ Distortion::Distortion(const std::string& model, const std::vector<double>& coef
       coefficients_(complete(model_, model, coefficients)),
       limit_(findLimit()) {
   if (limit_ > 0.0) return;
-  throw std::invalid_argument(concatenate("the distortion ",
-                                          model,
-                                          " shows everything in the middle of the image: check its "
-                                          "coefficients"));
+  throw std::invalid_argument(
+      "the distortion " + model +
+      " shows everything in the middle of the image: check its coefficients");
 }
 
 const char* Distortion::name() const {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
-#include <string>
 
-#include "common/concatenate.h"
+#include <opencv2/core.hpp>
 
 namespace rotrocc {
 namespace {
@@ -14,7 +14,7 @@ constexpr double kMaxDeviation = 1e-3;  // of a rotation printed with four digit
 
 void requirePositive(const char* name, double value) {
   if (std::isfinite(value) && value > 0.0) return;
-  throw std::invalid_argument(concatenate(name, " is ", value, ", but must be positive"));
+  throw std::invalid_argument(cv::format("%s is %g, but must be positive", name, value));
 }
 
 bool isRectifiedBy(const RawCamera& raw, const StereoCamera& camera, double cx) {
@@ -44,19 +44,20 @@ void requireSideBySide(const Eigen::Isometry3d& T_left_right) {
   const Eigen::Vector3d& right = T_left_right.translation();
   const double turn_deg = Eigen::AngleAxisd(T_left_right.linear()).angle() * 180.0 / M_PI;
   if (!(turn_deg < kMaxAngle_deg)) {
-    throw std::invalid_argument(concatenate("the right camera is turned against the left one by ",
-                                            turn_deg,
-                                            " degrees: check the poses of the cameras"));
+    throw std::invalid_argument(
+        cv::format("the right camera is turned against the left one by %g degrees: check the poses "
+                   "of the cameras",
+                   turn_deg));
   }
   if (!(right.norm() > 1e-6)) {
     throw std::invalid_argument("the baseline is zero: check the poses of the cameras");
   }
   if (right.x() < std::cos(kMaxAngle_deg * M_PI / 180.0) * right.norm()) {
-    throw std::invalid_argument(concatenate(
-        "the right camera is at ",
-        right.transpose(),
-        " m in the frame of the left one (right, down, forward), but must be to its right: "
-        "are left and right swapped, or the poses of the cameras inverted?"));
+    std::ostringstream message;
+    message << "the right camera is at " << right.transpose()
+            << " m in the frame of the left one (right, down, forward), but must be to its right: "
+               "are left and right swapped, or the poses of the cameras inverted?";
+    throw std::invalid_argument(message.str());
   }
 }
 
@@ -132,7 +133,7 @@ void RawCamera::check() const {
   requirePositive("fx", fx);
   requirePositive("fy", fy);
   if (!std::isfinite(cx) || !std::isfinite(cy)) {
-    throw std::invalid_argument(concatenate("the principal point ", cx, " ", cy, " is not finite"));
+    throw std::invalid_argument(cv::format("the principal point %g %g is not finite", cx, cy));
   }
   const Eigen::Matrix3d deviation =
       R_rectified_raw * R_rectified_raw.transpose() - Eigen::Matrix3d::Identity();
@@ -166,15 +167,10 @@ StereoCalibration chooseRectification(const RawCamera& left,
   left.check();
   right.check();
   if (left.width != right.width || left.height != right.height) {
-    throw std::invalid_argument(concatenate("the left camera has ",
-                                            left.width,
-                                            "x",
-                                            left.height,
-                                            " px, the right one ",
-                                            right.width,
-                                            "x",
-                                            right.height,
-                                            " px: both must have the same size"));
+    throw std::invalid_argument(
+        cv::format("the left camera has %dx%d px, ", left.width, left.height) +
+        cv::format(
+            "the right one %dx%d px: both must have the same size", right.width, right.height));
   }
   requireSideBySide(T_left_right);
 

@@ -4,8 +4,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/concatenate.h"
-
 namespace rotrocc {
 namespace {
 
@@ -22,17 +20,10 @@ Eigen::Vector2d rawPixel(
 void checkImage(const char* side, const cv::Mat& image, const cv::Size& size) {
   if (image.type() == CV_8UC1 && image.size() == size) return;
   throw std::invalid_argument(
-      concatenate("the ",
-                  side,
-                  " image has ",
-                  image.cols,
-                  "x",
-                  image.rows,
-                  " px, but its calibration is for ",
-                  size.width,
-                  "x",
-                  size.height,
-                  " px grey images: use the calibration of this resolution"));
+      cv::format("the %s image has %dx%d px, but its calibration", side, image.cols, image.rows) +
+      cv::format(" is for %dx%d px grey images: use the calibration of this resolution",
+                 size.width,
+                 size.height));
 }
 
 }  // namespace
@@ -45,11 +36,11 @@ StereoRectifier::Side StereoRectifier::makeSide(const char* name,
     raw.check();
     constexpr int kMax_px = 32000;  // places have 16 bits
     if (std::max(raw.width, raw.height) > kMax_px) {
-      throw std::invalid_argument(concatenate("its images are larger than ", kMax_px, " px"));
+      throw std::invalid_argument(cv::format("its images are larger than %d px", kMax_px));
     }
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(
-        concatenate("the calibration of the ", name, " camera: ", error.what()));
+        cv::format("the calibration of the %s camera: %s", name, error.what()));
   }
   Side side = {ImageResampler({raw.width, raw.height}, {camera.width, camera.height}),
                cv::Mat(camera.height, camera.width, CV_8UC1)};

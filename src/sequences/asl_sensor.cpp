@@ -3,7 +3,8 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "common/concatenate.h"
+#include <opencv2/core.hpp>
+
 #include "sequences/yaml_file.h"
 
 namespace rotrocc {
@@ -19,10 +20,10 @@ Eigen::Isometry3d poseOf(const YamlFile& file) {
       (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(error < kMaxRoundingError) || rotation.determinant() < 0.0) {
     file.fail("T_BS",
-              concatenate("is not rigid: its left 3x3 part is ",
-                          error < kMaxRoundingError ? std::string("a reflection")
-                                                    : concatenate("off orthonormality by ", error),
-                          "; the rows of a 4x4 matrix are expected"));
+              "is not rigid: its left 3x3 part is " +
+                  (error < kMaxRoundingError ? std::string("a reflection")
+                                             : cv::format("off orthonormality by %g", error)) +
+                  "; the rows of a 4x4 matrix are expected");
   }
   if (matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)) {
     file.fail("T_BS", "is not rigid: its last row is not 0 0 0 1");
@@ -48,7 +49,7 @@ AslCamera readAslCamera(const std::string& path) {
   AslCamera sensor;
   RawCamera& camera = sensor.camera;
   if (!(size[0] >= 1.0 && size[1] >= 1.0 && size[0] <= 1e5 && size[1] <= 1e5)) {
-    file.fail("resolution", concatenate("is ", size[0], " x ", size[1], " px"));
+    file.fail("resolution", cv::format("is %g x %g px", size[0], size[1]));
   }
   camera.width = static_cast<int>(size[0]);
   camera.height = static_cast<int>(size[1]);

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "common/concatenate.h"
 #include "common/to_seconds.h"
 
 namespace rotrocc {
@@ -35,7 +34,7 @@ std::int64_t period_ns(const std::vector<StampedImage>& images) {
 }
 
 std::string counted(std::size_t count, const std::string& what) {
-  return concatenate(count, " ", what, count == 1 ? "" : "s");
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -49,16 +48,13 @@ ImagePairs::ImagePairs(std::vector<StampedImage> left,
       std::min<std::int64_t>(std::llround(1e9 * max_stamp_difference_s), (period_ns(left) - 1) / 2);
   match(left, right, tolerance_ns);
   if (!pairs_.empty()) return;
-  throw std::runtime_error(concatenate("there is no pair: of ",
-                                       counted(left.size(), "left image"),
-                                       " and ",
-                                       counted(right.size(), "right image"),
-                                       ", none have stamps within ",
-                                       toSeconds(tolerance_ns),
-                                       " s (max_stamp_difference_s); ",
-                                       counted(missing_files_, "listed file"),
-                                       " missing, the first left image is ",
-                                       first_left.empty() ? "none" : first_left));
+  throw std::runtime_error("there is no pair: of " + counted(left.size(), "left image") + " and " +
+                           counted(right.size(), "right image") +
+                           cv::format(", none have stamps within %g s (max_stamp_difference_s); ",
+                                      toSeconds(tolerance_ns)) +
+                           counted(missing_files_, "listed file") +
+                           " missing, the first left image is " +
+                           (first_left.empty() ? "none" : first_left));
 }
 
 /// Each left image with the nearest right one, unless that is nearer to another left one.

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "common/concatenate.h"
+#include <opencv2/core.hpp>
 
 namespace rotrocc {
 namespace {
@@ -68,7 +68,7 @@ std::vector<double> YamlFile::numbers(const std::string& key) const {
     double number = 0.0;
     if (!entry.IsScalar() || !YAML::convert<double>::decode(entry, number) ||
         !std::isfinite(number)) {
-      fail(key, concatenate("has a value that is not a finite number, after ", numbers.size()));
+      fail(key, cv::format("has a value that is not a finite number, after %zu", numbers.size()));
     }
     numbers.push_back(number);
   }
@@ -78,7 +78,7 @@ std::vector<double> YamlFile::numbers(const std::string& key) const {
 std::vector<double> YamlFile::numbers(const std::string& key, std::size_t count) const {
   std::vector<double> values = numbers(key);
   if (values.size() != count) {
-    fail(key, concatenate("has ", values.size(), " numbers instead of ", count));
+    fail(key, cv::format("has %zu numbers instead of %zu", values.size(), count));
   }
   return values;
 }

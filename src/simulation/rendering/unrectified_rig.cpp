@@ -5,8 +5,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "common/concatenate.h"
-
 namespace rotrocc {
 namespace {
 
@@ -65,10 +63,10 @@ PixelRays raysOf(const RawCamera& raw, const Eigen::Matrix3d& R_nominal_raw) {
       const Eigen::Vector3d ray = R_nominal_raw * raw.ray(Eigen::Vector2d(x, y));
       const Eigen::Vector2d slope = ray.hnormalized();
       if (!(ray.z() > 0.0 && slope.norm() < kMaxSlope)) {
-        throw std::invalid_argument(
-            concatenate("the lens looks farther than ",
-                        std::atan(kMaxSlope) * 180.0 / M_PI,
-                        " degrees from its axis: choose a longer focal length or a smaller image"));
+        throw std::invalid_argument(cv::format(
+            "the lens looks farther than %g degrees from its axis: choose a longer focal "
+            "length or a smaller image",
+            std::atan(kMaxSlope) * 180.0 / M_PI));
       }
       const Eigen::Vector2d place(raw.fx * slope.x(), raw.fy * slope.y());
       rays.places.at<cv::Vec2d>(y, x) = {place.x(), place.y()};
