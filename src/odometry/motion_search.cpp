@@ -78,7 +78,7 @@ std::optional<MotionSearch::Start> MotionSearch::recognize(const Frames& frames,
                      recognized_);
   const auto T_keyframe_cur = consensusMotion(frames.camera, recognized_, kRecognitionTolerance_px);
   if (!T_keyframe_cur) return std::nullopt;
-  return Start{*T_keyframe_cur, false, false};
+  return Start{*T_keyframe_cur, false};
 }
 
 void MotionSearch::tryMotion(const Frames& frames,
@@ -101,11 +101,7 @@ void MotionSearch::tryMotion(const Frames& frames,
   counts.consistent = static_cast<int>(hypothesis.features.size());
   const StageTimer timer(times.estimation_ms);
   if (counts.consistent < min_features_) return rejectUnseen(frames, hypothesis);
-  Eigen::Isometry3d initial = start.T_keyframe_cur;
-  if (start.needs_consensus) {
-    initial = consensusMotion(frames.camera, hypothesis.features).value_or(initial);
-  }
-  estimate(frames, initial, prediction, hypothesis);
+  estimate(frames, start.T_keyframe_cur, prediction, hypothesis);
 }
 
 /// Rejects a hypothesis with too few features without an estimate, which would take long.

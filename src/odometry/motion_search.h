@@ -35,9 +35,6 @@ class MotionSearch {
   struct Start {
     Eigen::Isometry3d T_keyframe_cur;
     bool is_prediction;  ///< of the motion, not only of its rotation
-    /// The motion may be far, and only some of the features may be found: those agree on a motion
-    /// before it is estimated.
-    bool needs_consensus;
   };
 
   /// Throws as the constructor of MotionEstimator.

@@ -205,8 +205,8 @@ bool VisualOdometry::Pipeline::findMotionFrom(const FramePtr& earlier,
   };
   const Eigen::Isometry3d& T_keyframe_last = keyframe_.T_keyframe_last.T;
   std::optional<Start> predicted;
-  if (expected.T_last_cur) predicted = {T_keyframe_last * *expected.T_last_cur, true, false};
-  Start at_rest = {T_keyframe_last, false, true};
+  if (expected.T_last_cur) predicted = {T_keyframe_last * *expected.T_last_cur, true};
+  Start at_rest = {T_keyframe_last, false};
   if (expected.R_last_cur) at_rest.T_keyframe_cur.rotate(*expected.R_last_cur);
   const bool is_newest = earlier == last_ || earlier == lost_;
 
