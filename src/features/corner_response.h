@@ -6,9 +6,9 @@
 
 #include <opencv2/core.hpp>
 
-namespace rotrocc {
+#include "kernels/corner_kernels.h"
 
-struct Kernels;
+namespace rotrocc {
 
 /// The corner response of the pixels of each second row: the smaller eigenvalue of the second
 /// moments of the gradients (Shi and Tomasi, CVPR 1994), averaged over a square, in (grey levels /
@@ -18,9 +18,7 @@ class CornerResponse {
  public:
   static constexpr int kRowStep = 2;
   /// The square has a side of 2 radius + 1 pixels.
-  static constexpr int kRadius_px = 2;
-
-  CornerResponse();
+  static constexpr int kRadius_px = ColumnSums::kSide / 2;
 
   /// Fills `response` (CV_32F) with its rows [first_row, last_row) for `image` (CV_8UC1) and
   /// `margin` columns of zeros on both sides. Rows may lie outside the image. The response is zero
@@ -30,9 +28,8 @@ class CornerResponse {
  private:
   void addGradients(const cv::Mat& image, int y);
 
-  static constexpr int kSide = 2 * kRadius_px + 1;
+  static constexpr int kSide = ColumnSums::kSide;
 
-  const Kernels* kernels_;
   std::size_t stride_ = 0;  // row length of the buffers below: image width plus padding for SIMD
   std::vector<std::int16_t> smooth_,
       steps_;                               // one row, smoothed and differentiated vertically

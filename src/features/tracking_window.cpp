@@ -22,6 +22,11 @@ constexpr double kOfGradient = 1.0 / (1 << Window::kGradientBits);
 constexpr double kOfContrast = 1.0 / (1 << Window::kContrastBits);
 constexpr double kOfDifference = 1.0 / (1 << MismatchSums::kDifferenceBits);
 
+/// Columns that are read for so many columns of a window: whole registers.
+constexpr int columnsOf(int count) {
+  return (count + kMaxShorts - 1) / kMaxShorts * kMaxShorts;
+}
+
 }  // namespace
 
 TrackingWindow::TrackingWindow(int radius_px, bool ignores_brightness)
@@ -29,54 +34,29 @@ TrackingWindow::TrackingWindow(int radius_px, bool ignores_brightness)
       radius_(radius_px),
       side_(2 * radius_px + 1),
       ignores_brightness_(ignores_brightness),
-      stride_(wholeRegisters(side_)),
-      sample_stride_(wholeRegisters(side_ + 2) + kernels_->shorts),
-      samples_(static_cast<std::size_t>((side_ + 2) * sample_stride_)),
-      values_(static_cast<std::size_t>(side_ * stride_)),
-      gradient_x_(values_.size()),
-      gradient_y_(values_.size()),
-      contrast_(values_.size()),
-      mask_(static_cast<std::size_t>(stride_)),
-      spread_(mask_.size()),
-      border_(static_cast<std::size_t>((side_ + 3) * (sample_stride_ + 1))) {
-  std::fill_n(mask_.begin(), side_, static_cast<std::int16_t>(-1));
+      border_(static_cast<std::size_t>((side_ + 3) * (columnsOf(side_ + 2) + 1))) {
+  CV_Assert(side_ <= Window::kMaxSide);
+  window_.side = side_;
+  std::fill_n(window_.mask, side_, std::int16_t{-1});
 }
 
-int TrackingWindow::wholeRegisters(int count) const {
-  return (count + kernels_->shorts - 1) / kernels_->shorts * kernels_->shorts;
-}
-
-Window TrackingWindow::window() {
-  return {side_,
-          stride_,
-          values_.data(),
-          gradient_x_.data(),
-          gradient_y_.data(),
-          contrast_.data(),
-          mask_.data(),
-          spread_.data(),
-          samples_.data(),
-          sample_stride_};
-}
-
-/// The patch for a window of the given radius and number of columns, a multiple of the lanes.
-/// Pixels outside the image repeat its border.
-Patch TrackingWindow::patchAround(const cv::Mat& image,
-                                  const cv::Point2f& center,
-                                  int radius,
-                                  int columns) {
+/// The patch for a window of the given radius. Pixels outside the image repeat its border.
+Patch TrackingWindow::patchAround(const cv::Mat& image, const cv::Point2f& center, int radius) {
   const int x = cvFloor(center.x);
   const int y = cvFloor(center.y);
-  const cv::Rect area(x - radius, y - radius, columns + 1, 2 * radius + 2);
+  const cv::Rect area(x - radius, y - radius, columnsOf(2 * radius + 1) + 1, 2 * radius + 2);
+  Patch patch = {border_.data(),
+                 area.width,
+                 fractionOf(center.x - static_cast<float>(x)),
+                 fractionOf(center.y - static_cast<float>(y))};
   if (area.x >= 0 && area.y >= 0 && area.x + area.width <= image.cols &&
       area.y + area.height <= image.rows) {
-    return patchAt(image, center, radius);
+    patch.pixels = image.ptr<uchar>(area.y) + area.x;
+    patch.step = static_cast<std::ptrdiff_t>(image.step);
+  } else {
+    copyWithEdge(image, area);
   }
-  copyWithEdge(image, area);
-  return {border_.data(),
-          area.width,
-          fractionOf(center.x - static_cast<float>(x)),
-          fractionOf(center.y - static_cast<float>(y))};
+  return patch;
 }
 
 /// Copies `area` into border_. It must contain at least one pixel of the image.
@@ -97,8 +77,8 @@ bool TrackingWindow::take(const cv::Mat& image, const cv::Point2f& center, float
       0.0F, 0.0F, static_cast<float>(image.cols), static_cast<float>(image.rows));
   if (!inside.contains(center)) return false;
   spread(scale);
-  const Patch patch = patchAround(image, center, radius_ + 1, wholeRegisters(side_ + 2));
-  return invertNormalMatrix(kernels_->takeWindow(patch, window()));
+  const Patch patch = patchAround(image, center, radius_ + 1);
+  return invertNormalMatrix(kernels_->takeWindow(patch, window_));
 }
 
 /// Sets the sampling offsets from the pixel grid. They must be less than one pixel.
@@ -106,7 +86,7 @@ void TrackingWindow::spread(float scale) {
   const float most = 0.9F / static_cast<float>(std::max(radius_, 1));
   const float per_px = std::clamp(1.0F / scale - 1.0F, -most, most);
   for (int i = 0; i < side_; ++i) {
-    spread_[static_cast<std::size_t>(i)] = fractionOf(per_px * static_cast<float>(i - radius_));
+    window_.spread[i] = fractionOf(per_px * static_cast<float>(i - radius_));
   }
 }
 
@@ -114,7 +94,7 @@ void TrackingWindow::spread(float scale) {
 bool TrackingWindow::describeContrast(const GradientSums& sums) {
   const double pixels = side_ * side_;
   const auto mean = static_cast<std::int16_t>(sums.value / (side_ * side_));
-  const ContrastSums contrast = kernels_->takeContrast(mean, window());
+  const ContrastSums contrast = kernels_->takeContrast(mean, window_);
   const cv::Point2d gradients(static_cast<double>(sums.x), static_cast<double>(sums.y));
   const cv::Point2d products(static_cast<double>(contrast.x), static_cast<double>(contrast.y));
   mean_gradient_ = kOfGradient / pixels * gradients;
@@ -154,8 +134,8 @@ bool TrackingWindow::invertNormalMatrix(const GradientSums& sums) {
 
 /// The shift towards the position that matches the window. The contrast there, relative to that of
 /// the window, multiplies the gradients.
-cv::Point2f TrackingWindow::stepFrom(const Patch& patch, const Window& window) const {
-  const MismatchSums sums = kernels_->compareWindow(patch, window);
+cv::Point2f TrackingWindow::stepFrom(const Patch& patch) const {
+  const MismatchSums sums = kernels_->compareWindow(patch, window_);
   const double brighter = kOfDifference * static_cast<double>(sums.one);
   const double with_contrast =
       kOfDifference * kOfContrast * static_cast<double>(sums.contrast) - brighter * mean_contrast_;
@@ -176,12 +156,11 @@ bool TrackingWindow::find(const cv::Mat& image, const Stop& stop, cv::Point2f& c
   const cv::Rect2f inside(
       0.0F, 0.0F, static_cast<float>(image.cols), static_cast<float>(image.rows));
   const auto min_px2 = static_cast<float>(stop.min_step_px * stop.min_step_px);
-  const Window window = this->window();
   cv::Point2f found = center;
   cv::Point2f last_step;
   for (int i = 0; i < stop.max_iterations; ++i) {
     if (!inside.contains(found)) return false;
-    const cv::Point2f step = stepFrom(patchAround(image, found, radius_, stride_), window);
+    const cv::Point2f step = stepFrom(patchAround(image, found, radius_));
     found += step;
     if (step.dot(step) <= min_px2) break;
     const cv::Point2f both = step + last_step;

@@ -36,21 +36,17 @@ class TrackingWindow {
   bool find(const cv::Mat& image, const Stop& stop, cv::Point2f& center);
 
  private:
-  Patch patchAround(const cv::Mat& image, const cv::Point2f& center, int radius, int columns);
+  Patch patchAround(const cv::Mat& image, const cv::Point2f& center, int radius);
   void copyWithEdge(const cv::Mat& image, const cv::Rect& area);
-  int wholeRegisters(int count) const;
-  Window window();
   void spread(float scale);
   bool describeContrast(const GradientSums& sums);
   bool invertNormalMatrix(const GradientSums& sums);
-  cv::Point2f stepFrom(const Patch& patch, const Window& window) const;
+  cv::Point2f stepFrom(const Patch& patch) const;
 
   const Kernels* kernels_;
   int radius_, side_;
   bool ignores_brightness_;
-  int stride_;         // row length: the side, rounded up to whole registers
-  int sample_stride_;  // row length of samples_
-  std::vector<std::int16_t> samples_, values_, gradient_x_, gradient_y_, contrast_, mask_, spread_;
+  Window window_ = {};
   std::vector<uchar> border_;  // copy of a patch that extends beyond the image border
   // With ignores_brightness_; otherwise zero.
   cv::Point2d mean_gradient_;         // [grey levels / px]

@@ -7,8 +7,10 @@
 
 namespace rotrocc {
 
-/// Products of the x and y gradients, summed over rows, for each column.
+/// Products of the x and y gradients, summed over kSide rows, for each column.
 struct ColumnSums {
+  static constexpr int kSide = 5;  ///< [px]
+
   std::int32_t* xx;
   std::int32_t* xy;
   std::int32_t* yy;
@@ -35,9 +37,9 @@ void replaceGradients(const std::int16_t* smooth,
                       std::int16_t* gradient_y,
                       ColumnSums sums);
 
-/// Smaller eigenvalues of the sums over `side` columns each, divided by the number of pixels, in
+/// Smaller eigenvalues of the sums over kSide columns each, divided by the number of pixels, in
 /// (grey levels / px)^2.
-void respondRow(ColumnSums sums, int side, int columns, float* response);
+void respondRow(ColumnSums sums, int columns, float* response);
 
 /// The maximum of each column over some rows, which are `step` values apart.
 void highestOfColumns(

@@ -18,37 +18,45 @@ void multiplyParts(const std::int16_t* window,
                    int count,
                    std::int32_t* products) {
   for (int k = 0; k < count; k += kShorts) {
-    Ints low = noInts();
-    Ints high = noInts();
+    Ints even = vx_setzero_s32();
+    Ints odd = vx_setzero_s32();
     for (const int y : W::kPartRows) {
       const std::int16_t* of_window = window + y * W::kStride + W::kPartFirst;
       const std::int16_t* row = strip + y * stride + W::kPartFirst + k;
       for (int x = 0; x < W::kPartWidth; x += 2) {
-        addPairs(
-            load(row + x), load(row + x + 1), alternate(of_window[x], of_window[x + 1]), low, high);
+        const Shorts pair = alternate(of_window[x], of_window[x + 1]);
+        even += v_dotprod(vx_load(row + x), pair);
+        odd += v_dotprod(vx_load(row + x + 1), pair);
       }
     }
-    storePairs(low, high, products + k);
+    Ints low, high;
+    v_zip(even, odd, low, high);
+    v_store(products + k, low);
+    v_store(products + k + kInts, high);
   }
 }
 
 /// For each column of the strip, sums over the rows of a part: of values and of their squares.
 void sumPartColumns(
     const std::int16_t* strip, int stride, int columns, std::int32_t* sums, std::int32_t* squares) {
-  const Shorts one = all(std::int16_t{1});
   for (int x = 0; x < columns; x += kShorts) {
-    Ints low = noInts();
-    Ints high = noInts();
-    Ints low_squares = noInts();
-    Ints high_squares = noInts();
+    Shorts sum = vx_setall_s16(0);
+    Ints low = vx_setzero_s32();
+    Ints high = vx_setzero_s32();
     for (int i = 0; i < W::kParts; i += 2) {
-      const Shorts a = load(strip + W::kPartRows[i] * stride + x);
-      const Shorts b = load(strip + W::kPartRows[i + 1] * stride + x);
-      addPairs(a, b, one, low, high);
-      addSquares(a, b, low_squares, high_squares);
+      const Shorts a = vx_load(strip + W::kPartRows[i] * stride + x);
+      const Shorts b = vx_load(strip + W::kPartRows[i + 1] * stride + x);
+      sum = sum + a + b;
+      Shorts ab_low, ab_high;
+      v_zip(a, b, ab_low, ab_high);
+      low += v_dotprod(ab_low, ab_low);
+      high += v_dotprod(ab_high, ab_high);
     }
-    storePairs(low, high, sums + x);
-    storePairs(low_squares, high_squares, squares + x);
+    v_store(squares + x, low);
+    v_store(squares + x + kInts, high);
+    v_expand(sum, low, high);
+    v_store(sums + x, low);
+    v_store(sums + x + kInts, high);
   }
 }
 
@@ -65,23 +73,12 @@ void sumNeighbours(std::int32_t* values, int count) {
 void widenRows(
     const std::uint8_t* pixels, std::ptrdiff_t step, int columns, std::int16_t* strip, int stride) {
   for (int y = 0; y < W::kSide; ++y, pixels += step, strip += stride) {
-    for (int x = 0; x < columns; x += kShorts) store(strip + x, loadBytes(pixels + x));
+    for (int x = 0; x < columns; x += kShorts) v_store(strip + x, loadBytes(pixels + x));
   }
 }
 
 void sampleRows(const Patch& patch, int columns, std::int16_t* strip, int stride) {
-  const Shorts fx = all(patch.fx);
-  const Shorts fy = all(patch.fy);
-  for (int x = 0; x < columns; x += kShorts) {
-    const std::uint8_t* pixels = patch.pixels + x;
-    Shorts upper = betweenColumns<W::kSampleBits>(pixels, fx);
-    for (int y = 0; y < W::kSide; ++y) {
-      pixels += patch.step;
-      const Shorts lower = betweenColumns<W::kSampleBits>(pixels, fx);
-      store(strip + y * stride + x, betweenRows(upper, lower, fy));
-      upper = lower;
-    }
-  }
+  samplePatch<W::kSampleBits>(patch, columns, W::kSide, strip, stride);
 }
 
 float correlateParts(const std::int16_t* window,
@@ -115,33 +112,28 @@ float correlateParts(const std::int16_t* window,
     const float magnitude = covariance < 0.0F ? -covariance : covariance;
     correlations[k] = covariance * magnitude / (variance + noise) * per_variance;
   }
-  float highest = correlations[0];
   int k = 0;
-  Floats several = all(highest);
-  for (; k + kInts <= count; k += kInts) several = higher(several, load(correlations + k));
+  Floats several = vx_setall_f32(correlations[0]);
+  for (; k + kInts <= count; k += kInts) several = v_max(several, vx_load(correlations + k));
+  float highest = v_reduce_max(several);
   for (; k < count; ++k) highest = correlations[k] > highest ? correlations[k] : highest;
-  float parts[kInts];
-  store(parts, several);
-  for (const float part : parts) highest = part > highest ? part : highest;
   return highest;
 }
 
 ProductSums multiplyWindow(const std::int16_t* window, const std::int16_t* strip, int stride) {
-  Ints minus_b = noInts();
-  Ints bb = noInts();
-  Ints ab = noInts();
+  Ints minus_b = vx_setzero_s32();
+  Ints bb = vx_setzero_s32();
+  Ints ab = vx_setzero_s32();
   for (int y = 0; y < W::kSide; ++y, window += W::kStride, strip += stride) {
     for (int x = 0; x < W::kStride; x += kShorts) {
-      const Shorts mask = load(kMask + x);
-      const Shorts values = load(strip + x);
-      minus_b = minus_b + dot(values, mask);
-      bb = bb + dot(values & mask, values);
-      ab = ab + dot(values, load(window + x));
+      const Shorts mask = vx_load(kMask + x);
+      const Shorts values = vx_load(strip + x);
+      minus_b += v_dotprod(values, mask);
+      bb += v_dotprod(values & mask, values);
+      ab += v_dotprod(values, vx_load(window + x));
     }
   }
-  return {-static_cast<std::int32_t>(sum(minus_b)),
-          static_cast<std::int32_t>(sum(bb)),
-          static_cast<std::int32_t>(sum(ab))};
+  return {-v_reduce_sum(minus_b), v_reduce_sum(bb), v_reduce_sum(ab)};
 }
 
 }  // namespace rotrocc::ROTROCC_INSTRUCTIONS

@@ -23,12 +23,12 @@ void smoothDown(const std::uint8_t* const* rows, int columns, std::int16_t* sums
   const std::uint8_t* e = rows[4];
   int x = 0;
   for (; x <= columns - kShorts; x += kShorts) {
-    store(sums + x,
-          smooth(loadBytes(a + x),
-                 loadBytes(b + x),
-                 loadBytes(c + x),
-                 loadBytes(d + x),
-                 loadBytes(e + x)));
+    v_store(sums + x,
+            smooth(loadBytes(a + x),
+                   loadBytes(b + x),
+                   loadBytes(c + x),
+                   loadBytes(d + x),
+                   loadBytes(e + x)));
   }
   for (; x < columns; ++x) {
     sums[x] = static_cast<std::int16_t>(smooth(a[x], b[x], c[x], d[x], e[x]));
@@ -39,10 +39,10 @@ void smoothAlong(const std::int16_t* sums, int columns, std::uint8_t* out) {
   const Shorts first = alternate(1, 4);
   const Shorts middle = alternate(6, 4);
   const Shorts last = alternate(1, 0);
-  const Ints rounding = all(std::int32_t{128});
+  const Ints rounding = vx_setall_s32(128);
   const auto smoothPairs = [&](const std::int16_t* at) {
-    return shiftRight<8>(dot(load(at - 2), first) + dot(load(at), middle) +
-                         dot(load(at + 2), last) + rounding);
+    return v_shr<8>(v_dotprod(vx_load(at - 2), first) + v_dotprod(vx_load(at), middle) +
+                    v_dotprod(vx_load(at + 2), last) + rounding);
   };
   int x = 0;
   for (; x <= columns - kShorts; x += kShorts, sums += 2 * kShorts) {

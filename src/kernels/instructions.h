@@ -4,8 +4,6 @@
 /// time into a separate namespace. The sources for AVX2 must not contain inline functions of other
 /// namespaces, nor templates of the standard library: the linker keeps only one of several copies
 /// of such a function, and this might be a copy that not all processors can execute.
-#ifdef ROTROCC_AVX2
-#define ROTROCC_INSTRUCTIONS avx2
-#else
+#ifndef ROTROCC_INSTRUCTIONS
 #define ROTROCC_INSTRUCTIONS baseline
 #endif

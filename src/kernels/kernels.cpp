@@ -2,11 +2,37 @@
 
 #include <opencv2/core.hpp>
 
-namespace rotrocc {
+#include "kernels/lanes.h"
 
-namespace baseline {
+namespace rotrocc {
+namespace ROTROCC_INSTRUCTIONS {
+
+static_assert(kShorts <= kMaxShorts);
+
 extern const Kernels kernels;
-}
+const Kernels kernels = {smoothDown,
+                         smoothAlong,
+                         differentiateRow,
+                         replaceGradients,
+                         respondRow,
+                         highestOfColumns,
+                         findPeaks,
+                         widenRows,
+                         sampleRows,
+                         correlateParts,
+                         multiplyWindow,
+                         takeWindow,
+                         takeContrast,
+                         compareWindow,
+                         fitDisparities,
+                         findResiduals,
+                         linearise,
+                         addColumnProducts,
+                         multiplyByDisparity};
+
+}  // namespace ROTROCC_INSTRUCTIONS
+
+#if !CV_AVX2
 #ifdef ROTROCC_HAS_AVX2
 namespace avx2 {
 extern const Kernels kernels;
@@ -19,5 +45,6 @@ const Kernels& chooseKernels() {
 #endif
   return baseline::kernels;
 }
+#endif
 
 }  // namespace rotrocc

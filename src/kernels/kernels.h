@@ -13,8 +13,6 @@ namespace rotrocc {
 /// all kinds: integer sums are exact, and the order of floating-point sums does not depend on the
 /// register width.
 struct Kernels {
-  int shorts;  ///< number of 16-bit values in a register, at most kMaxShorts
-
   decltype(&ROTROCC_INSTRUCTIONS::smoothDown) smoothDown;
   decltype(&ROTROCC_INSTRUCTIONS::smoothAlong) smoothAlong;
   decltype(&ROTROCC_INSTRUCTIONS::differentiateRow) differentiateRow;
@@ -36,7 +34,8 @@ struct Kernels {
   decltype(&ROTROCC_INSTRUCTIONS::multiplyByDisparity) multiplyByDisparity;
 };
 
-/// Values that a row needs beyond its end, because whole registers are read and written.
+/// Largest number of 16-bit values in a register. Rows need as many values beyond their end,
+/// because whole registers are read and written.
 constexpr int kMaxShorts = 16;
 
 /// The kernels for AVX2 if the processor has it, otherwise those for any processor. The latter are

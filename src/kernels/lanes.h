@@ -1,11 +1,65 @@
 #pragma once
 
-/// Registers of 16-bit integers (Shorts), 32-bit integers (Ints, half as many) and floats (Floats),
-/// in the width of the processor, and the operations that the kernels need.
+/// Registers of 16-bit integers (Shorts), 32-bit integers (Ints, half as many) and floats (Floats):
+/// OpenCV's universal intrinsics in the width of the processor, and what they lack. In the sources
+/// for AVX2, they have 256 bits and a namespace of their own.
+#if CV_AVX2
+#include <immintrin.h>
+#endif
+
+#include <cstdint>
+
+#include <opencv2/core.hpp>
+#include <opencv2/core/hal/intrin.hpp>
+
 #include "kernels/instructions.h"
 
-#if defined ROTROCC_AVX2
-#include "kernels/lanes_avx2.h"
-#else
-#include "kernels/lanes_baseline.h"
-#endif
+namespace rotrocc::ROTROCC_INSTRUCTIONS {
+
+using cv::v_shr;
+using cv::vx_load;
+using cv::vx_setall_f32;
+using cv::vx_setall_s16;
+using cv::vx_setall_s32;
+using cv::vx_setzero_s32;
+
+using Shorts = cv::v_int16;
+using Ints = cv::v_int32;
+using Floats = cv::v_float32;
+constexpr int kShorts = sizeof(Shorts) / sizeof(std::int16_t);
+constexpr int kInts = kShorts / 2;
+
+/// Loads bytes and widens them to 16 bits.
+inline Shorts loadBytes(const std::uint8_t* from) {
+  return v_reinterpret_as_s16(cv::vx_load_expand(from));
+}
+
+/// Stores the lowest bytes of `low`, then of `high`. All values must be 0 to 255.
+inline void storeBytes(std::uint8_t* to, const Ints& low, const Ints& high) {
+  v_pack_u_store(to, v_pack(low, high));
+}
+
+/// a, b, a, b, ...
+inline Shorts alternate(std::int16_t a, std::int16_t b) {
+  return v_reinterpret_as_s16(vx_setall_s32(
+      static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::uint16_t>(b)) << 16 |
+                                static_cast<std::uint16_t>(a))));
+}
+
+template <int kBits>
+Shorts shiftLeft(const Shorts& a) {
+  // Unsigned, because OpenCV's emulation shifts with <<.
+  return v_reinterpret_as_s16(cv::v_shl<kBits>(v_reinterpret_as_u16(a)));
+}
+
+inline std::int64_t sum(const Ints& a) {
+  cv::v_int64 low, high;
+  v_expand(a, low, high);
+  std::int64_t parts[kInts / 2];
+  v_store(parts, low + high);
+  std::int64_t sum = 0;
+  for (const std::int64_t part : parts) sum += part;
+  return sum;
+}
+
+}  // namespace rotrocc::ROTROCC_INSTRUCTIONS

@@ -9,60 +9,47 @@ namespace {
 /// 485 grey levels, and differences as many; squares of the latter are the largest products.
 constexpr int kBlockRows = 16;
 
+constexpr int kStride = Window::kStride;
+
 /// Scharr gradient, weighted by (3 10 3) / 16, from the differences of three rows or columns of
 /// pixels that are two apart.
 Shorts scharr(const Shorts& before, const Shorts& here, const Shorts& after) {
-  const Shorts middle = multiplyHigh(shiftLeft<1>(here), all(std::int16_t{20480}));  // 10 / 32
-  const Shorts sides = multiplyHigh(before + after, all(std::int16_t{12288}));       // 3 / 16
+  const Shorts middle = v_mul_hi(shiftLeft<1>(here), vx_setall_s16(20480));  // 10 / 32
+  const Shorts sides = v_mul_hi(before + after, vx_setall_s16(12288));       // 3 / 16
   // One unit compensates the truncation of both products; the rest rounds.
   constexpr int kShift = Window::kValueBits + 1 - Window::kGradientBits;
   constexpr std::int16_t kRounding = 1 + (1 << (kShift - 1));
-  return shiftRight<kShift>(middle + sides + all(kRounding));
+  return v_shr<kShift>(middle + sides + vx_setall_s16(kRounding));
 }
 
 Shorts difference(const std::int16_t* a, const std::int16_t* b) {
-  return load(a) - load(b);
-}
-
-void sample(const Patch& patch, const Window window) {
-  const Shorts fx = all(patch.fx);
-  const Shorts fy = all(patch.fy);
-  const int side = window.side + 2;
-  for (int x = 0; x < side; x += kShorts) {
-    const std::uint8_t* pixels = patch.pixels + x;
-    std::int16_t* out = window.samples + x;
-    Shorts upper = betweenColumns<Window::kValueBits>(pixels, fx);
-    for (int y = 0; y < side; ++y) {
-      pixels += patch.step;
-      const Shorts lower = betweenColumns<Window::kValueBits>(pixels, fx);
-      store(out, betweenRows(upper, lower, fy));
-      upper = lower;
-      out += window.sample_stride;
-    }
-  }
+  return vx_load(a) - vx_load(b);
 }
 
 }  // namespace
 
-GradientSums takeWindow(const Patch& patch, const Window window) {
+GradientSums takeWindow(const Patch& patch, Window& window) {
   // A gradient times a sampling offset is a value with 16 extra bits.
   constexpr int kUpToValue = 1 + Window::kValueBits - Window::kGradientBits;
-  sample(patch, window);
-  GradientSums sums = {0, 0, 0, 0, 0, 0};
-  for (int x = 0; x < window.stride; x += kShorts) {
-    const Shorts mask = load(window.mask + x);
-    const Shorts spread_x = load(window.spread + x);
+  // As wide as a window, and a register to read on.
+  constexpr int kSampleStride = Window::kStride + kShorts;
+  std::int16_t samples[(Window::kMaxSide + 2) * kSampleStride];
+  samplePatch<Window::kValueBits>(patch, window.side + 2, window.side + 2, samples, kSampleStride);
+  GradientSums sums = {};
+  for (int x = 0; x < window.side; x += kShorts) {
+    const Shorts mask = vx_load(window.mask + x);
+    const Shorts spread_x = vx_load(window.spread + x);
     const std::int16_t* spread_y = window.spread;
-    Ints minus_value = noInts();
-    Ints minus_x = noInts();
-    Ints minus_y = noInts();
-    Ints xx = noInts();
-    Ints xy = noInts();
-    Ints yy = noInts();
-    const std::int16_t* above = window.samples + x;
-    for (int at = x; at < window.side * window.stride; at += window.stride) {
-      const std::int16_t* here = above + window.sample_stride;
-      const std::int16_t* below = here + window.sample_stride;
+    Ints minus_value = vx_setzero_s32();
+    Ints minus_x = vx_setzero_s32();
+    Ints minus_y = vx_setzero_s32();
+    Ints xx = vx_setzero_s32();
+    Ints xy = vx_setzero_s32();
+    Ints yy = vx_setzero_s32();
+    const std::int16_t* above = samples + x;
+    for (int at = x; at < window.side * kStride; at += kStride) {
+      const std::int16_t* here = above + kSampleStride;
+      const std::int16_t* below = here + kSampleStride;
       const Shorts gx = scharr(difference(above + 2, above),
                                difference(here + 2, here),
                                difference(below + 2, below)) &
@@ -71,18 +58,18 @@ GradientSums takeWindow(const Patch& patch, const Window window) {
                                difference(below + 1, above + 1),
                                difference(below + 2, above + 2)) &
                         mask;
-      const Shorts aside = multiplyHigh(shiftLeft<kUpToValue>(gx), spread_x);
-      const Shorts down = multiplyHigh(shiftLeft<kUpToValue>(gy), all(*spread_y++));
-      const Shorts value = load(here + 1) + aside + down;
-      store(window.values + at, value);
-      store(window.gradient_x + at, gx);
-      store(window.gradient_y + at, gy);
-      minus_value = minus_value + dot(value, mask);
-      minus_x = minus_x + dot(gx, mask);
-      minus_y = minus_y + dot(gy, mask);
-      xx = xx + dot(gx, gx);
-      xy = xy + dot(gx, gy);
-      yy = yy + dot(gy, gy);
+      const Shorts aside = v_mul_hi(shiftLeft<kUpToValue>(gx), spread_x);
+      const Shorts down = v_mul_hi(shiftLeft<kUpToValue>(gy), vx_setall_s16(*spread_y++));
+      const Shorts value = vx_load(here + 1) + aside + down;
+      v_store(window.values + at, value);
+      v_store(window.gradient_x + at, gx);
+      v_store(window.gradient_y + at, gy);
+      minus_value += v_dotprod(value, mask);
+      minus_x += v_dotprod(gx, mask);
+      minus_y += v_dotprod(gy, mask);
+      xx += v_dotprod(gx, gx);
+      xy += v_dotprod(gx, gy);
+      yy += v_dotprod(gy, gy);
       above = here;
     }
     sums.value -= sum(minus_value);
@@ -95,23 +82,23 @@ GradientSums takeWindow(const Patch& patch, const Window window) {
   return sums;
 }
 
-ContrastSums takeContrast(std::int16_t mean, const Window window) {
+ContrastSums takeContrast(std::int16_t mean, Window& window) {
   constexpr int kShift = Window::kValueBits - Window::kContrastBits;
-  const Shorts means = all(mean);
-  ContrastSums sums = {0, 0, 0, 0};
-  for (int x = 0; x < window.stride; x += kShorts) {
-    const Shorts mask = load(window.mask + x);
-    Ints minus_sum = noInts();
-    Ints square = noInts();
-    Ints sum_x = noInts();
-    Ints sum_y = noInts();
-    for (int at = x; at < window.side * window.stride; at += window.stride) {
-      const Shorts contrast = shiftRight<kShift>(load(window.values + at) - means) & mask;
-      store(window.contrast + at, contrast);
-      minus_sum = minus_sum + dot(contrast, mask);
-      square = square + dot(contrast, contrast);
-      sum_x = sum_x + dot(contrast, load(window.gradient_x + at));
-      sum_y = sum_y + dot(contrast, load(window.gradient_y + at));
+  const Shorts means = vx_setall_s16(mean);
+  ContrastSums sums = {};
+  for (int x = 0; x < window.side; x += kShorts) {
+    const Shorts mask = vx_load(window.mask + x);
+    Ints minus_sum = vx_setzero_s32();
+    Ints square = vx_setzero_s32();
+    Ints sum_x = vx_setzero_s32();
+    Ints sum_y = vx_setzero_s32();
+    for (int at = x; at < window.side * kStride; at += kStride) {
+      const Shorts contrast = v_shr<kShift>(vx_load(window.values + at) - means) & mask;
+      v_store(window.contrast + at, contrast);
+      minus_sum += v_dotprod(contrast, mask);
+      square += v_dotprod(contrast, contrast);
+      sum_x += v_dotprod(contrast, vx_load(window.gradient_x + at));
+      sum_y += v_dotprod(contrast, vx_load(window.gradient_y + at));
     }
     sums.one -= sum(minus_sum);
     sums.square += sum(square);
@@ -122,32 +109,31 @@ ContrastSums takeContrast(std::int16_t mean, const Window window) {
 }
 
 MismatchSums compareWindow(const Patch& patch, const Window& window) {
-  const Shorts fx = all(patch.fx);
-  const Shorts fy = all(patch.fy);
+  const Shorts fx = vx_setall_s16(patch.fx);
+  const Shorts fy = vx_setall_s16(patch.fy);
   constexpr int kShift = Window::kValueBits - MismatchSums::kDifferenceBits;
-  MismatchSums sums = {0, 0, 0, 0, 0};
+  MismatchSums sums = {};
   for (int first = 0; first < window.side; first += kBlockRows) {
     const int last = first + kBlockRows < window.side ? first + kBlockRows : window.side;
-    for (int x = 0; x < window.stride; x += kShorts) {
+    for (int x = 0; x < window.side; x += kShorts) {
       const std::uint8_t* pixels = patch.pixels + first * patch.step + x;
-      const Shorts mask = load(window.mask + x);
-      Ints minus_sum = noInts();
-      Ints sum_x = noInts();
-      Ints sum_y = noInts();
-      Ints contrast = noInts();
-      Ints square = noInts();
+      const Shorts mask = vx_load(window.mask + x);
+      Ints minus_sum = vx_setzero_s32();
+      Ints sum_x = vx_setzero_s32();
+      Ints sum_y = vx_setzero_s32();
+      Ints contrast = vx_setzero_s32();
+      Ints square = vx_setzero_s32();
       Shorts upper = betweenColumns<Window::kValueBits>(pixels, fx);
-      const int end = last * window.stride;
-      for (int at = first * window.stride + x; at < end; at += window.stride) {
+      for (int at = first * kStride + x; at < last * kStride; at += kStride) {
         pixels += patch.step;
         const Shorts lower = betweenColumns<Window::kValueBits>(pixels, fx);
         const Shorts excess =
-            shiftRight<kShift>(betweenRows(upper, lower, fy) - load(window.values + at)) & mask;
-        minus_sum = minus_sum + dot(excess, mask);
-        sum_x = sum_x + dot(excess, load(window.gradient_x + at));
-        sum_y = sum_y + dot(excess, load(window.gradient_y + at));
-        contrast = contrast + dot(excess, load(window.contrast + at));
-        square = square + dot(excess, excess);
+            v_shr<kShift>(betweenRows(upper, lower, fy) - vx_load(window.values + at)) & mask;
+        minus_sum += v_dotprod(excess, mask);
+        sum_x += v_dotprod(excess, vx_load(window.gradient_x + at));
+        sum_y += v_dotprod(excess, vx_load(window.gradient_y + at));
+        contrast += v_dotprod(excess, vx_load(window.contrast + at));
+        square += v_dotprod(excess, excess);
         upper = lower;
       }
       sums.one -= sum(minus_sum);

@@ -14,22 +14,22 @@ struct Patch {
   std::int16_t fx, fy;
 };
 
-/// The grey levels of a window, in units of 1 / 2^kValueBits, and its gradients. A row has `stride`
-/// values, which is a whole number of registers. Gradients beyond `side` are zero.
+/// The grey levels of a window, in units of 1 / 2^kValueBits, and its gradients. A row has kStride
+/// values, of which `side` are used. Gradients beyond are zero.
 struct Window {
+  static constexpr int kMaxSide = 51;
+  static constexpr int kStride = 64;  ///< whole registers
   static constexpr int kValueBits = 6;
   static constexpr int kGradientBits = 5;
   static constexpr int kContrastBits = 3;
 
-  int side, stride;
-  std::int16_t* values;
-  std::int16_t* gradient_x;
-  std::int16_t* gradient_y;
-  std::int16_t* contrast;      ///< values less a constant, in units of 1 / 2^kContrastBits
-  const std::int16_t* mask;    ///< for a row: -1 within the side, else 0
-  const std::int16_t* spread;  ///< sampling offset of each column and row [px / 2^15]
-  std::int16_t* samples;       ///< scratch memory: values with a margin of one pixel
-  int sample_stride;  ///< row length: side + 2 rounded up to whole registers, plus one register
+  using Rows = std::int16_t[kMaxSide * kStride];
+
+  int side;
+  Rows values, gradient_x, gradient_y;
+  Rows contrast;                 ///< values less a constant, in units of 1 / 2^kContrastBits
+  std::int16_t mask[kStride];    ///< for a row: -1 within the side, else 0
+  std::int16_t spread[kStride];  ///< sampling offset of each column and row [px / 2^15]
 };
 
 /// Sums of values, of gradients and of the products of gradients over a window.
@@ -61,10 +61,10 @@ struct MismatchSums {
 namespace ROTROCC_INSTRUCTIONS {
 
 /// Fills the window but for its contrast. The patch must include its margin.
-GradientSums takeWindow(const Patch& patch, Window window);
+GradientSums takeWindow(const Patch& patch, Window& window);
 
 /// Fills the contrast of the window: its values less `mean`, in their units.
-ContrastSums takeContrast(std::int16_t mean, Window window);
+ContrastSums takeContrast(std::int16_t mean, Window& window);
 
 /// Compares the window with the patch, which has no margin.
 MismatchSums compareWindow(const Patch& patch, const Window& window);

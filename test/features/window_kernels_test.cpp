@@ -132,50 +132,15 @@ class Reference {
   }
 };
 
-/// The memory of a window for one kind of registers.
-class Memory {
- public:
-  Memory(int shorts, const std::vector<std::int16_t>& spread)
-      : stride_(whole(kSide, shorts)), sample_stride_(whole(kSide + 2, shorts) + shorts) {
-    for (auto* pixels : {&values_, &gradient_x_, &gradient_y_, &contrast_}) {
-      pixels->resize(static_cast<std::size_t>(kSide * stride_));
-    }
-    samples_.resize(static_cast<std::size_t>((kSide + 2) * sample_stride_));
-    mask_.assign(static_cast<std::size_t>(stride_), 0);
-    std::fill_n(mask_.begin(), kSide, std::int16_t{-1});
-    spread_ = spread;
-    spread_.resize(mask_.size(), 0);
+/// The pixels within the side.
+std::vector<Int> pixelsOf(const Window::Rows& rows) {
+  std::vector<Int> pixels;
+  for (int y = 0; y < kSide; ++y) {
+    const std::int16_t* row = rows + y * Window::kStride;
+    pixels.insert(pixels.end(), row, row + kSide);
   }
-
-  Window window() {
-    return {kSide,
-            stride_,
-            values_.data(),
-            gradient_x_.data(),
-            gradient_y_.data(),
-            contrast_.data(),
-            mask_.data(),
-            spread_.data(),
-            samples_.data(),
-            sample_stride_};
-  }
-
-  /// The pixels within the side.
-  std::vector<Int> pixelsOf(const std::int16_t* first) const {
-    std::vector<Int> pixels;
-    for (int y = 0; y < kSide; ++y) {
-      pixels.insert(pixels.end(), first + y * stride_, first + y * stride_ + kSide);
-    }
-    return pixels;
-  }
-
- private:
-  static int whole(int count, int shorts) { return (count + shorts - 1) / shorts * shorts; }
-
-  int stride_, sample_stride_;
-  std::vector<std::int16_t> values_, gradient_x_, gradient_y_, contrast_;
-  std::vector<std::int16_t> mask_, spread_, samples_;
-};
+  return pixels;
+}
 
 /// The image that differs most from the window where it is steep.
 cv::Mat opposite(const Reference& reference) {
@@ -205,14 +170,16 @@ class WindowKernelsTest : public ::testing::TestWithParam<bool> {
       spread.push_back(fractionOf(spread_px * static_cast<float>(i) / kRadius));
     }
     const Kernels& kernels = chooseKernels();
-    Memory memory(kernels.shorts, spread);
-    const Window window = memory.window();
+    Window window = {};
+    window.side = kSide;
+    std::fill_n(window.mask, kSide, std::int16_t{-1});
+    std::copy(spread.begin(), spread.end(), window.spread);
     const Patch patch = patchOf(image, 1, fraction);
     Reference expected(patch, spread);
     const GradientSums gradients = kernels.takeWindow(patch, window);
-    ASSERT_EQ(memory.pixelsOf(window.values), expected.values);
-    ASSERT_EQ(memory.pixelsOf(window.gradient_x), expected.gradient_x);
-    ASSERT_EQ(memory.pixelsOf(window.gradient_y), expected.gradient_y);
+    ASSERT_EQ(pixelsOf(window.values), expected.values);
+    ASSERT_EQ(pixelsOf(window.gradient_x), expected.gradient_x);
+    ASSERT_EQ(pixelsOf(window.gradient_y), expected.gradient_y);
     EXPECT_EQ(gradients.value, expected.gradients.value);
     EXPECT_EQ(gradients.x, expected.gradients.x);
     EXPECT_EQ(gradients.y, expected.gradients.y);
@@ -223,7 +190,7 @@ class WindowKernelsTest : public ::testing::TestWithParam<bool> {
     const auto mean = static_cast<std::int16_t>(gradients.value / (kSide * kSide));
     expected.takeContrast(mean);
     const ContrastSums contrasts = kernels.takeContrast(mean, window);
-    ASSERT_EQ(memory.pixelsOf(window.contrast), expected.contrast);
+    ASSERT_EQ(pixelsOf(window.contrast), expected.contrast);
     EXPECT_EQ(contrasts.one, expected.contrasts.one);
     EXPECT_EQ(contrasts.square, expected.contrasts.square);
     EXPECT_EQ(contrasts.x, expected.contrasts.x);
