@@ -25,7 +25,6 @@ const Kernels kernels = {smoothDown,
                          takeContrast,
                          compareWindow,
                          fitDisparities,
-                         findResiduals,
                          linearise,
                          addColumnProducts,
                          multiplyByDisparity};

@@ -28,7 +28,6 @@ struct Kernels {
   decltype(&ROTROCC_INSTRUCTIONS::takeContrast) takeContrast;
   decltype(&ROTROCC_INSTRUCTIONS::compareWindow) compareWindow;
   decltype(&ROTROCC_INSTRUCTIONS::fitDisparities) fitDisparities;
-  decltype(&ROTROCC_INSTRUCTIONS::findResiduals) findResiduals;
   decltype(&ROTROCC_INSTRUCTIONS::linearise) linearise;
   decltype(&ROTROCC_INSTRUCTIONS::addColumnProducts) addColumnProducts;
   decltype(&ROTROCC_INSTRUCTIONS::multiplyByDisparity) multiplyByDisparity;

@@ -47,12 +47,6 @@ void subtract(const ResidualBlock& block, const Moved& moved, LinearBlock& linea
 
 }  // namespace
 
-void findResiduals(const ResidualTerms terms, const ResidualBlock& block, LinearBlock& linear) {
-  Moved moved;
-  move(terms, block, moved);
-  subtract(block, moved, linear);
-}
-
 void linearise(const ResidualTerms terms,
                const int first,
                const ResidualBlock& block,
@@ -60,6 +54,7 @@ void linearise(const ResidualTerms terms,
   Moved moved;
   move(terms, block, moved);
   subtract(block, moved, linear);
+  if (first > LinearBlock::kTranslation) return;
   auto* by_x = linear.x + LinearBlock::kTranslation;
   auto* by_y = linear.y + LinearBlock::kTranslation;
   for (int i = 0; i < kSize; ++i) {
@@ -74,7 +69,7 @@ void linearise(const ResidualTerms terms,
     by_y[1][i] = block.whitening_yy[i] * v_by_y;
     by_y[2][i] = block.whitening_xy[i] * u_by_z + block.whitening_yy[i] * v_by_z;
   }
-  if (first >= LinearBlock::kTranslation) return;
+  if (first == LinearBlock::kTranslation) return;
   for (int i = 0; i < kSize; ++i) {
     const double x = moved.turned_x[i];
     const double y = moved.turned_y[i];

@@ -43,10 +43,7 @@ struct ColumnProducts {
 
 namespace ROTROCC_INSTRUCTIONS {
 
-/// Residuals alone.
-void findResiduals(ResidualTerms terms, const ResidualBlock& block, LinearBlock& linear);
-
-/// Residuals and derivatives from column `first` on: all of them, or without those by a rotation.
+/// Columns from `first` on: all, those from kTranslation, or kResidual alone.
 void linearise(ResidualTerms terms, int first, const ResidualBlock& block, LinearBlock& linear);
 
 /// Adds the weighted products of column `first` and the following ones, each with itself and those

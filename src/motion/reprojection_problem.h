@@ -96,7 +96,9 @@ class ReprojectionProblem {
     const ResidualTerms terms = termsAt(parameters);
     LinearBlock linear;
     for (std::size_t i = 0; i < indices_.size(); ++i) {
-      if (i % kSize == 0) chooseKernels().findResiduals(terms, blocks_[i / kSize], linear);
+      if (i % kSize == 0) {
+        chooseKernels().linearise(terms, LinearBlock::kResidual, blocks_[i / kSize], linear);
+      }
       visit(residualOf(i, linear));
     }
   }
