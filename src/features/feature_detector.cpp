@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "features/image_noise.h"
 #include "features/min_texture.h"
@@ -28,41 +27,29 @@ float minResponse(double noise_variance) {
   return std::max(kMinTexture, static_cast<float>(kOverNoise * kSobelSquares * variance));
 }
 
-/// Whether no pixel of these rows and columns has a response larger than `value`, or an equal one
-/// if `beats_equal` is false.
-bool isStrongest(const cv::Mat& response,
-                 const cv::Range& rows,
-                 const cv::Range& columns,
-                 float value,
-                 bool beats_equal) {
-  const float most = beats_equal ? value : std::nextafter(value, -1.0F);
-  for (int y = rows.start; y < rows.end; ++y) {
-    const auto* row = response.ptr<float>(y);
-    if (std::any_of(row + columns.start, row + columns.end, [&](float r) { return r > most; })) {
-      return false;
-    }
-  }
-  return true;
-}
-
 /// Whether no pixel within `radius_px` of (x, row) has a larger response, and none above or to the
 /// left an equal one. Of equally strong corners, as in drawn patterns and saturated areas, the
-/// first one counts. None in the rows of `band` is larger.
-bool isFirstOfStrongest(
-    const cv::Mat& response, int x, int row, int radius_px, const cv::Range& band) {
+/// first one counts. None in the rows from `row` to `below` is larger.
+bool isFirstOfStrongest(const cv::Mat& response, int x, int row, int radius_px, int below) {
   const float value = response.at<float>(row, x);
-  const cv::Range columns(x - radius_px, x + radius_px + 1);
+  const auto isLess = [&](float other) { return other < value; };
+  const auto isNotMore = [&](float other) { return other <= value; };
+  const auto allIn = [&](int first_row, int end_row, const auto& holds) {
+    for (int y = first_row; y < end_row; ++y) {
+      const auto* center = response.ptr<float>(y) + x;
+      if (!std::all_of(center - radius_px, center + radius_px + 1, holds)) return false;
+    }
+    return true;
+  };
   const int rows = radius_px / kRowStep;
-  return isStrongest(response, {row - rows, band.start}, columns, value, false) &&
-         isStrongest(response, {band.end, row + rows + 1}, columns, value, true) &&
-         isStrongest(response, {band.start, row}, columns, value, false) &&
-         isStrongest(response, {row, row + 1}, {columns.start, x}, value, false);
+  const auto* here = response.ptr<float>(row) + x;
+  return allIn(row - rows, row, isLess) && std::all_of(here - radius_px, here, isLess) &&
+         allIn(below, row + rows + 1, isNotMore);
 }
 
 }  // namespace
 
-FeatureDetector::FeatureDetector(const Config& config)
-    : config_(config), kernels_(&chooseKernels()) {}
+FeatureDetector::FeatureDetector(const Config& config) : config_(config) {}
 
 void FeatureDetector::detect(Workers& workers,
                              const cv::Mat& image,
@@ -107,21 +94,22 @@ void FeatureDetector::searchBand(int width, const cv::Range& rows, int top, Stri
   const int radius = kRadius_px;
   const cv::Range band(rows.start - top, rows.end - top);
   float* highest = strip.highest.data();
-  kernels_->highestOfColumns(strip.response.ptr<float>(band.start),
-                             static_cast<std::ptrdiff_t>(strip.response.step1()),
-                             band.size(),
-                             width + 2 * radius,
-                             highest);
+  const Kernels& kernels = chooseKernels();
+  kernels.highestOfColumns(strip.response.ptr<float>(band.start),
+                           static_cast<std::ptrdiff_t>(strip.response.step1()),
+                           band.size(),
+                           width + 2 * radius,
+                           highest);
   strip.peaks.resize(strip.highest.size());
-  const int count = kernels_->findPeaks(
+  const int count = kernels.findPeaks(
       highest, kBorder_px, width - kBorder_px, radius, min_response_, strip.peaks.data());
   for (int i = 0; i < count; ++i) {
     const int x = strip.peaks[static_cast<std::size_t>(i)];
     const int column = x + radius;
     int row = band.start;
     while (strip.response.at<float>(row, column) != highest[column]) ++row;
-    if (isFirstOfStrongest(strip.response, column, row, radius, band)) {
-      strip.candidates.push_back({highest[column], x, kRowStep * (top + row)});
+    if (isFirstOfStrongest(strip.response, column, row, radius, band.end)) {
+      strip.candidates.push_back({highest[column], x, kRowStep * (top + row), 0});
     }
   }
 }
@@ -129,56 +117,37 @@ void FeatureDetector::searchBand(int width, const cv::Range& rows, int top, Stri
 void FeatureDetector::selectByCells(const cv::Size& size,
                                     std::size_t max_count,
                                     std::vector<cv::Point2f>& corners) {
-  sortByCells(size);
-  for (std::size_t rank = 0; corners.size() < max_count; ++rank) {
-    rank_.clear();
-    std::size_t begin = 0;
-    for (const std::size_t end : cell_ends_) {
-      if (begin + rank < end) rank_.push_back(by_cell_[begin + rank]);
-      begin = end;
-    }
-    if (rank_.empty()) break;
-    std::sort(rank_.begin(), rank_.end(), isStronger);
-    if (rank_.size() > max_count - corners.size()) rank_.resize(max_count - corners.size());
-    for (const Candidate& c : rank_) {
+  rankByCells(size);
+  std::size_t left = std::min(max_count, candidates_.size());
+  for (int rank = 0; left > 0; ++rank) {
+    for (const Candidate& c : candidates_) {
+      if (c.rank != rank) continue;
       corners.emplace_back(static_cast<float>(c.x), static_cast<float>(c.y));
+      if (--left == 0) break;
     }
   }
 }
 
-/// Sorts the candidates of all strips by cell, and within a cell by decreasing response.
-void FeatureDetector::sortByCells(const cv::Size& size) {
+/// Sorts the candidates of all strips by decreasing response, and ranks those of each cell. Ties
+/// are broken by position, so that the order is deterministic.
+void FeatureDetector::rankByCells(const cv::Size& size) {
+  candidates_.clear();
+  for (const Strip& strip : strips_) {
+    candidates_.insert(candidates_.end(), strip.candidates.begin(), strip.candidates.end());
+  }
+  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+    if (a.response != b.response) return a.response > b.response;
+    return a.y != b.y ? a.y < b.y : a.x < b.x;
+  });
   const double area_px2 = static_cast<double>(size.area()) / config_.max_features;
   const int side_px = std::max(1, cvRound(std::sqrt(area_px2)));
   const int columns = (size.width + side_px - 1) / side_px;
   const int rows = (size.height + side_px - 1) / side_px;
-  const auto cellOf = [&](const Candidate& c) {
-    return static_cast<std::size_t>((c.y / side_px) * columns + c.x / side_px);
-  };
-  // These are the starts of the cells first. Each start moves to the cell's end as candidates are
-  // added.
-  cell_ends_.assign(static_cast<std::size_t>(columns * rows) + 1, 0);
-  for (const Strip& strip : strips_) {
-    for (const Candidate& c : strip.candidates) ++cell_ends_[cellOf(c) + 1];
+  cell_counts_.assign(static_cast<std::size_t>(columns * rows), 0);
+  for (Candidate& c : candidates_) {
+    const int cell = (c.y / side_px) * columns + c.x / side_px;
+    c.rank = cell_counts_[static_cast<std::size_t>(cell)]++;
   }
-  std::partial_sum(cell_ends_.begin(), cell_ends_.end(), cell_ends_.begin());
-  by_cell_.resize(cell_ends_.back());
-  cell_ends_.pop_back();
-  for (const Strip& strip : strips_) {
-    for (const Candidate& c : strip.candidates) by_cell_[cell_ends_[cellOf(c)]++] = c;
-  }
-  auto begin = by_cell_.begin();
-  for (const std::size_t cell_end : cell_ends_) {
-    const auto end = by_cell_.begin() + static_cast<std::ptrdiff_t>(cell_end);
-    std::sort(begin, end, isStronger);
-    begin = end;
-  }
-}
-
-/// Ties are broken by position, so that the order is deterministic.
-bool FeatureDetector::isStronger(const Candidate& a, const Candidate& b) {
-  if (a.response != b.response) return a.response > b.response;
-  return a.y != b.y ? a.y < b.y : a.x < b.x;
 }
 
 }  // namespace rotrocc

@@ -11,8 +11,6 @@
 
 namespace rotrocc {
 
-struct Kernels;
-
 /// Shi-Tomasi corners (Shi and Tomasi, CVPR 1994), distributed over the image by a grid.
 class FeatureDetector {
  public:
@@ -37,6 +35,7 @@ class FeatureDetector {
   struct Candidate {
     float response;
     int x, y;
+    int rank;  ///< number of stronger ones in its cell
   };
   /// Rows that are searched by one thread.
   struct Strip {
@@ -52,15 +51,12 @@ class FeatureDetector {
   void selectByCells(const cv::Size& size,
                      std::size_t max_count,
                      std::vector<cv::Point2f>& corners);
-  void sortByCells(const cv::Size& size);
-  static bool isStronger(const Candidate& a, const Candidate& b);
+  void rankByCells(const cv::Size& size);
 
   Config config_;
-  const Kernels* kernels_;
   std::vector<Strip> strips_;
-  std::vector<std::size_t> cell_ends_;  // end of each cell in by_cell_
-  std::vector<Candidate> by_cell_;
-  std::vector<Candidate> rank_;
+  std::vector<Candidate> candidates_;
+  std::vector<int> cell_counts_;
   std::vector<int> noise_;  // responses to a mask
   float min_response_ = 0.0F;
 };
