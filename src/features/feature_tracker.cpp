@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "features/tracking_window.h"
-
 namespace rotrocc {
 namespace {
 
@@ -33,9 +31,6 @@ FeatureTracker::FeatureTracker(const Config& config)
     : config_(config),
       windows_(Workers::kListParts,
                TrackingWindow(config.window_radius_px, config.ignore_brightness)) {}
-FeatureTracker::~FeatureTracker() = default;
-FeatureTracker::FeatureTracker(FeatureTracker&&) noexcept = default;
-FeatureTracker& FeatureTracker::operator=(FeatureTracker&&) noexcept = default;
 
 void FeatureTracker::makePyramid(const cv::Mat& image, ImagePyramid& pyramid) const {
   const int side = 2 * config_.window_radius_px + 1;

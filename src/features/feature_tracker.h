@@ -6,11 +6,10 @@
 
 #include "common/workers.h"
 #include "features/image_pyramid.h"
+#include "features/tracking_window.h"
 #include "rotrocc/odometry_config.h"
 
 namespace rotrocc {
-
-class TrackingWindow;
 
 /// Pyramidal Lucas-Kanade (Bouguet 2001), starting at a predicted position and verified by tracking
 /// back.
@@ -23,9 +22,6 @@ class FeatureTracker {
   static constexpr int kLevels = 3;
 
   explicit FeatureTracker(const Config& config);
-  ~FeatureTracker();
-  FeatureTracker(FeatureTracker&&) noexcept;
-  FeatureTracker& operator=(FeatureTracker&&) noexcept;
 
   /// Builds a pyramid of kLevels, or fewer for a small image. Reuses the memory of `pyramid`.
   void makePyramid(const cv::Mat& image, ImagePyramid& pyramid) const;

@@ -60,7 +60,7 @@ double eachPixel(Workers& workers,
 
 }  // namespace
 
-StereoMatcher::StereoMatcher(const Config& config) : config_(config), kernels_(&chooseKernels()) {}
+StereoMatcher::StereoMatcher(const Config& config) : config_(config) {}
 
 double StereoMatcher::match(Workers& workers,
                             const cv::Mat& left,
@@ -73,6 +73,7 @@ double StereoMatcher::match(Workers& workers,
   const int nearest = config_.max_disparity_px + cvCeil(infinity_px);
   const int farthest = cvFloor(config_.min_disparity_px + infinity_px);
   const double min_px = config_.min_disparity_px + infinity_px;
+  const Kernels& kernels = chooseKernels();
   return eachPixel(workers, corners, min_px, disparities_px, [&](std::size_t i) -> RowMatch {
     if (!windowInside(left, corners[i])) return {};
     const cv::Point pixel(cvRound(corners[i].x), cvRound(corners[i].y));
@@ -86,13 +87,13 @@ double StereoMatcher::match(Workers& workers,
     const int stride = columns.size() + W::kStride + kMaxShorts;
     strip.reserve(W::kSide * kUsualColumns);
     strip.resize(static_cast<std::size_t>(W::kSide * stride + kMaxShorts));
-    kernels_->widenRows(right.ptr<uchar>(right_row - kHalf) + columns.start - kHalf,
-                        static_cast<std::ptrdiff_t>(right.step),
-                        columns.size() + W::kSide - 1,
-                        strip.data(),
-                        stride);
+    kernels.widenRows(right.ptr<uchar>(right_row - kHalf) + columns.start - kHalf,
+                      static_cast<std::ptrdiff_t>(right.step),
+                      columns.size() + W::kSide - 1,
+                      strip.data(),
+                      stride);
     RowMatch found =
-        LeftWindow(*kernels_, left, pixel).searchRow(strip.data(), stride, columns.size(), buffers);
+        LeftWindow(kernels, left, pixel).searchRow(strip.data(), stride, columns.size(), buffers);
     if (found.column != RowMatch::kNoColumn) found.column += static_cast<float>(columns.start);
     return found;
   });
@@ -107,6 +108,7 @@ double StereoMatcher::matchNear(Workers& workers,
                                 std::vector<float>& disparities_px,
                                 double row_offset_px) const {
   const double min_px = config_.min_disparity_px + infinity_px;
+  const Kernels& kernels = chooseKernels();
   return eachPixel(workers, pixels, min_px, disparities_px, [&](std::size_t i) -> RowMatch {
     if (expected_px[i] == kNoDisparity || !windowInside(left, pixels[i])) return {};
     const float right_row = pixels[i].y + static_cast<float>(row_offset_px);
@@ -117,12 +119,12 @@ double StereoMatcher::matchNear(Workers& workers,
     if (columns.size() < 3) return {};
     constexpr int kStride = 2 * W::kStride;
     std::int16_t strip[W::kSide * kStride];
-    kernels_->sampleRows(patchAt(right, {static_cast<float>(columns.start), right_row}, kHalf),
-                         columns.size() + W::kSide - 1,
-                         strip,
-                         kStride);
+    kernels.sampleRows(patchAt(right, {static_cast<float>(columns.start), right_row}, kHalf),
+                       columns.size() + W::kSide - 1,
+                       strip,
+                       kStride);
     RowMatch found =
-        LeftWindow(*kernels_, left, pixels[i]).searchNear(strip, kStride, columns.size());
+        LeftWindow(kernels, left, pixels[i]).searchNear(strip, kStride, columns.size());
     if (found.column != RowMatch::kNoColumn) found.column += static_cast<float>(columns.start);
     return found;
   });

@@ -10,8 +10,6 @@
 
 namespace rotrocc {
 
-struct Kernels;
-
 /// Sparse matching along the row, by zero-mean normalized cross-correlation with a sub-pixel
 /// fit: neither brightness nor contrast of the cameras matters, and they may differ over the image.
 /// `row_offset_px` is how much lower points are in the right image.
@@ -55,7 +53,6 @@ class StereoMatcher {
 
  private:
   Config config_;
-  const Kernels* kernels_;
 };
 
 }  // namespace rotrocc
