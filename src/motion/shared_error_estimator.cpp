@@ -53,11 +53,6 @@ void SharedErrorEstimator::observe(const StereoCamera& camera,
   fitAt({camera, features, config_.noise_ratio}, T_keyframe_cur, fit_);
   problem_.assign(camera, fit_, set);
   problem_.weigh(problem_.start(), config_.robust_factor);
-  const Moments pair = momentsOf();
-  if (pair.weight > 0.0 && std::isfinite(pair.scatter)) last_ = pair;
-}
-
-SharedErrorEstimator::Moments SharedErrorEstimator::momentsOf() {
   struct Cell {
     double information = 0.0;
     double weighted_px = 0.0;
@@ -72,9 +67,9 @@ SharedErrorEstimator::Moments SharedErrorEstimator::momentsOf() {
     variance.add(residual.weight, residual.residual_px.squaredNorm());
   });
   const double variance_px2 = variance.value(kParameters);
-  if (!(variance_px2 > 0.0)) return {};
+  if (!(variance_px2 > 0.0)) return;
   const double assumed = std::max(ratio() * ratio(), kLeastRatio2);
-  Moments moments;
+  Moments pair;
   int count = 0;
   for (const Cell& cell : cells) {
     if (!(cell.information > 0.0)) continue;
@@ -82,14 +77,15 @@ SharedErrorEstimator::Moments SharedErrorEstimator::momentsOf() {
     const double error_px = cell.weighted_px / cell.information;
     const double noise = 1.0 / cell.information;
     const double weight = 1.0 / ((noise + assumed) * (noise + assumed));
-    moments.scatter += weight * (error_px * error_px / variance_px2 - noise);
-    moments.weight += weight;
+    pair.scatter += weight * (error_px * error_px / variance_px2 - noise);
+    pair.weight += weight;
   }
-  if (count <= kParameters) return {};
+  if (count <= kParameters) return;
   // In units of the weight of as many cells without noise.
   const double most = count / (assumed * assumed);
   const double by_motion = static_cast<double>(count - kParameters) / count;  // it was fitted
-  return {moments.scatter / most, by_motion * moments.weight / most};
+  pair = {pair.scatter / most, by_motion * pair.weight / most};
+  if (pair.weight > 0.0 && std::isfinite(pair.scatter)) last_ = pair;
 }
 
 }  // namespace rotrocc

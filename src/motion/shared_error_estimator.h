@@ -49,7 +49,6 @@ class SharedErrorEstimator {
     double scatter = 0.0;
     double weight = 0.0;
   };
-  Moments momentsOf();
 
   MotionEstimatorConfig config_;
   Moments past_;                    // of earlier keyframes

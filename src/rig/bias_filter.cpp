@@ -50,13 +50,17 @@ BiasFilter::BiasFilter() {
 /// A pair that says little about the bias, as one of a slow robot, counts as a small share of a
 /// pair.
 void BiasFilter::add(const BiasMeasurement& measurement) {
-  shared_ratio2_ = sharedRatio2(measurement.shared_ratio2);
+  const double typical_sum = kTypicalPairs * (kTypicalRatio * kTypicalRatio);
+  const double ratio2_sum = typical_sum + learnt_ratio2_ + measurement.shared_ratio2;
+  shared_ratio2_ = std::max(ratio2_sum / (kTypicalPairs + learnt_pairs_ + 1.0), 0.0);
   const double prior_px2 = kPrior_px * kPrior_px;
   const double measured_px2 = measurement.noise_px2 + shared_ratio2_ * measurement.shared_px2;
   const double share = prior_px2 / (prior_px2 + measured_px2);
-  learnSharedRatio2(measurement.shared_ratio2, share);
+  const double changes = share / kSteadyPairs;
+  learnt_ratio2_ = (1.0 - changes) * learnt_ratio2_ + share * measurement.shared_ratio2;
+  learnt_pairs_ = (1.0 - changes) * learnt_pairs_ + share;
 
-  hypotheses_ = interact(share / kSteadyPairs);
+  hypotheses_ = interact(changes);
   double sum = 0.0;
   std::array<double, 2> log_likelihood;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -69,19 +73,6 @@ void BiasFilter::add(const BiasMeasurement& measurement) {
     sum += hypotheses_[i].probability;
   }
   for (Hypothesis& hypothesis : hypotheses_) hypothesis.probability /= sum;
-}
-
-double BiasFilter::sharedRatio2(double measured) const {
-  const double typical = kTypicalRatio * kTypicalRatio;
-  const double mean =
-      (kTypicalPairs * typical + learnt_ratio2_ + measured) / (kTypicalPairs + learnt_pairs_ + 1.0);
-  return std::max(mean, 0.0);
-}
-
-void BiasFilter::learnSharedRatio2(double measured, double share) {
-  const double kept = 1.0 - share / kSteadyPairs;
-  learnt_ratio2_ = kept * learnt_ratio2_ + share * measured;
-  learnt_pairs_ = kept * learnt_pairs_ + share;
 }
 
 /// The hypotheses before the next measurement, if each changes to the other with the given

@@ -47,8 +47,6 @@ class BiasFilter {
   };
   using Hypotheses = std::array<Hypothesis, 2>;  // rigid, moving
 
-  double sharedRatio2(double measured) const;
-  void learnSharedRatio2(double measured, double share);
   Hypotheses interact(double probability) const;
   static void predict(double share, Hypothesis& hypothesis);
   static double update(const BiasMeasurement& measurement, double ratio2, Hypothesis& hypothesis);

@@ -55,11 +55,8 @@ void RowComparison::estimate() {
   const double scatter_px = kDeviationOverMedian * medianDistanceFrom(offset_.median_px);
   offset_.sigma_px = kOfMedian * scatter_px / std::sqrt(static_cast<double>(last_px_.size()));
   offset_.typical_px = medianDistanceFrom(0.0);
-  if (isKnown()) correct(scatter_px);
-}
-
-/// An offset above the scatter is above 8 sigma, because there are at least kLeastFeatures.
-void RowComparison::correct(double scatter_px) {
+  if (!isKnown()) return;
+  // An offset above the scatter is above 8 sigma, because there are at least kLeastFeatures.
   const double notable_px = std::max(kNotable_px, scatter_px);
   const double least_px = offset_.applied_px != 0.0 ? 0.5 * notable_px : notable_px;
   offset_.applied_px = std::abs(offset_.median_px) > least_px ? offset_.median_px : 0.0;

@@ -35,7 +35,6 @@ class RowComparison {
 
  private:
   void estimate();
-  void correct(double scatter_px);
 
   RowOffset offset_;
   std::vector<float> last_px_;  // the last offsets, a ring buffer once it is full
