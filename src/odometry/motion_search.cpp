@@ -100,18 +100,7 @@ void MotionSearch::tryMotion(const Frames& frames,
   counts.with_depth = static_cast<int>(frames.keyframe.points.size());
   counts.consistent = static_cast<int>(hypothesis.features.size());
   const StageTimer timer(times.estimation_ms);
-  if (counts.consistent < min_features_) return rejectUnseen(frames, hypothesis);
   estimate(frames, start.T_keyframe_cur, prediction, hypothesis);
-}
-
-/// Rejects a hypothesis with too few features without an estimate, which would take long.
-void MotionSearch::rejectUnseen(const Frames& frames, Hypothesis& hypothesis) {
-  hypothesis.estimate.valid = false;
-  hypothesis.estimate.rotation_inliers.assign(hypothesis.features.size(), 0);
-  hypothesis.estimate.translation_inliers.assign(hypothesis.features.size(), 0);
-  hypothesis.counts.rotation_inliers = hypothesis.counts.translation_inliers = 0;
-  hypothesis.why_lost =
-      check_.checkNotLost(hypothesis.estimate, frames.keyframe.T_keyframe_last.T, frames.dt_s);
 }
 
 void MotionSearch::estimate(const Frames& frames,
@@ -119,12 +108,18 @@ void MotionSearch::estimate(const Frames& frames,
                             const std::optional<MotionEstimator::Prediction>& prediction,
                             Hypothesis& hypothesis) {
   MotionEstimator::Estimate& estimate = hypothesis.estimate;
-  estimate = estimator_.estimate(hypothesis.camera,
-                                 hypothesis.features,
-                                 initial,
-                                 secondsBetween(*frames.keyframe.frame, frames.current),
-                                 prediction,
-                                 hypothesis.shared_ratio);
+  if (hypothesis.counts.consistent < min_features_) {  // it is rejected, and would take long
+    estimate.valid = false;
+    estimate.rotation_inliers.assign(hypothesis.features.size(), 0);
+    estimate.translation_inliers = estimate.rotation_inliers;
+  } else {
+    estimate = estimator_.estimate(hypothesis.camera,
+                                   hypothesis.features,
+                                   initial,
+                                   secondsBetween(*frames.keyframe.frame, frames.current),
+                                   prediction,
+                                   hypothesis.shared_ratio);
+  }
   hypothesis.counts.rotation_inliers = count(estimate.rotation_inliers);
   hypothesis.counts.translation_inliers =
       estimate.has_translation_stage ? count(estimate.translation_inliers) : 0;

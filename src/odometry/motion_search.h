@@ -73,7 +73,6 @@ class MotionSearch {
                  const std::optional<MotionEstimator::Prediction>& prediction,
                  Hypothesis& hypothesis,
                  StageTimes& times);
-  void rejectUnseen(const Frames& frames, Hypothesis& hypothesis);
   void estimate(const Frames& frames,
                 const Eigen::Isometry3d& initial,
                 const std::optional<MotionEstimator::Prediction>& prediction,
