@@ -3,7 +3,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "motion/flow_decoupling.h"
 #include "motion/reprojection_error.h"
 #include "rotrocc/correspondence.h"
 

@@ -45,14 +45,6 @@ void get(const FitBlock& block, int i, FittedFeature& fitted) {
   fitted.by_disparity = {block.slope_x[i], block.slope_y[i]};
 }
 
-double errorOf(const StereoCamera& camera,
-               const FittedFeature& feature,
-               const Eigen::Vector3d& translation) {
-  Eigen::Vector3d point = feature.rotated_point + translation;
-  point.z() = std::max(point.z(), kMinDepth_m);
-  return (feature.whitening * (feature.target_px - camera.project(point))).norm();
-}
-
 }  // namespace
 
 void fitAt(const Measurements& measured, const Eigen::Isometry3d& T_keyframe_cur, Fit& fit) {
@@ -72,13 +64,6 @@ void fitAt(const Measurements& measured, const Eigen::Isometry3d& T_keyframe_cur
     kernels.fitDisparities(terms, block);
     for (int i = 0; i < count; ++i)
       get(block, i, fit.features[first + static_cast<std::size_t>(i)]);
-  }
-}
-
-void fittedErrors(const StereoCamera& camera, const Fit& fit, std::vector<double>& errors_px) {
-  errors_px.clear();
-  for (const FittedFeature& feature : fit.features) {
-    errors_px.push_back(errorOf(camera, feature, fit.T_keyframe_cur.translation()));
   }
 }
 

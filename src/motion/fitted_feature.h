@@ -47,8 +47,4 @@ struct Fit {
 /// squares.
 void fitAt(const Measurements& measured, const Eigen::Isometry3d& T_keyframe_cur, Fit& fit);
 
-/// Whitened reprojection errors |W (target - pi(R X_cur + T))| of all features [px], at the motion
-/// of the fit.
-void fittedErrors(const StereoCamera& camera, const Fit& fit, std::vector<double>& errors_px);
-
 }  // namespace rotrocc

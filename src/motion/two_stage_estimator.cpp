@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "motion/cauchy_weights.h"
-#include "motion/flow_decoupling.h"
 #include "motion/reprojection_error.h"
 
 namespace rotrocc {

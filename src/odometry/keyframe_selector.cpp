@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "common/median.h"
-#include "motion/flow_decoupling.h"
+#include "motion/reprojection_error.h"
 
 namespace rotrocc {
 

@@ -1,4 +1,4 @@
-#include "motion/flow_decoupling.h"
+#include "motion/reprojection_error.h"
 
 #include <algorithm>
 #include <random>
