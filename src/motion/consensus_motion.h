@@ -9,17 +9,14 @@
 
 namespace rotrocc {
 
-/// For tracked features: about that of stage 1. Twice as much confuses a slow motion with that of
-/// an object ahead.
-constexpr double kConsensusTolerance_px = 0.7;
-
 /// The motion, current to keyframe, that most features agree on: perspective-three-point in a
 /// RANSAC loop, over at most 200 of the features. It is rough, but needs no initial value and
 /// tolerates many outliers. None if there are fewer than 4 features, or no three of them give a
 /// motion. The same features always give the same motion. Features agree on a motion if their
-/// reprojection errors are below `tolerance_px`.
+/// reprojection errors are below `tolerance_px`. That for tracked features is about that of stage
+/// 1: twice as much confuses a slow motion with that of an object ahead.
 std::optional<Eigen::Isometry3d> consensusMotion(const StereoCamera& camera,
                                                  const Correspondences& features,
-                                                 double tolerance_px = kConsensusTolerance_px);
+                                                 double tolerance_px = 0.7);
 
 }  // namespace rotrocc

@@ -37,26 +37,12 @@ double inflation(double scatter_px2, double residual_px2) {
   return residual_px2 > 0.0 ? std::max(1.0, scatter_px2 / residual_px2) : 1.0;
 }
 
-template <std::size_t kCells>
-Matrix6d scatterOf(const std::array<Vector6d, kCells>& gradients) {
-  Matrix6d sum = Matrix6d::Zero();
-  int cells = 0;
-  for (const Vector6d& gradient : gradients) {
-    if (gradient.isZero(0.0)) continue;
-    sum += gradient * gradient.transpose();
-    ++cells;
-  }
-  // The motion was fitted to these features, so they scatter less than the errors.
-  return sum * cells / std::max(1, cells - 6);
-}
-
 }  // namespace
 
 bool MotionCovariance::estimate(const Measurements& measured,
-                                const TwoStageMotion& motion,
-                                Matrix6d& covariance,
-                                double& flow_noise_px) {
-  const Information one = collect(measured, motion.fit, motion.rotation_inliers, 6);
+                                const Fit& fit,
+                                MotionEstimate& motion) {
+  const Information one = collect(measured, fit, motion.rotation_inliers, 6);
   const Eigen::LDLT<Matrix6d> full(one.matrix);
   if (full.info() != Eigen::Success || !full.isPositive()) return false;
   const double share = is_truncated_ ? shareOfVariance(one.residual_variance, limit_px_) : 1.0;
@@ -64,11 +50,11 @@ bool MotionCovariance::estimate(const Measurements& measured,
   const double alike = inflation(full.solve(one.scatter).trace() / 6.0, one.residual_variance);
   const Matrix6d both = alike * variance / share * full.solve(Matrix6d::Identity());
   if (!both.allFinite()) return false;
-  covariance = both;
-  flow_noise_px = std::sqrt(variance);
+  motion.covariance = both;
+  motion.flow_noise_px = std::sqrt(variance);
   if (!motion.has_translation_stage) return true;
 
-  const Information two = collect(measured, motion.fit, motion.translation_inliers, 3);
+  const Information two = collect(measured, fit, motion.translation_inliers, 3);
   const Eigen::LDLT<Eigen::Matrix3d> translation(two.matrix.topLeftCorner<3, 3>());
   if (translation.info() != Eigen::Success || !translation.isPositive()) return false;
   const Eigen::Matrix3d by_rotation = -translation.solve(two.matrix.topRightCorner<3, 3>());
@@ -76,12 +62,12 @@ bool MotionCovariance::estimate(const Measurements& measured,
   const Eigen::Matrix3d scatter = two.scatter.topLeftCorner<3, 3>();
   const double alike_two =
       inflation(translation.solve(scatter).trace() / 3.0, two.residual_variance);
-  covariance.topLeftCorner<3, 3>() = alike_two * std::max(two.residual_variance, variance) *
-                                         translation.solve(Eigen::Matrix3d::Identity()) +
-                                     by_rotation * rotation * by_rotation.transpose();
-  covariance.topRightCorner<3, 3>() = by_rotation * rotation;
-  covariance.bottomLeftCorner<3, 3>() = rotation * by_rotation.transpose();
-  return covariance.allFinite();
+  motion.covariance.topLeftCorner<3, 3>() = alike_two * std::max(two.residual_variance, variance) *
+                                                translation.solve(Eigen::Matrix3d::Identity()) +
+                                            by_rotation * rotation * by_rotation.transpose();
+  motion.covariance.topRightCorner<3, 3>() = by_rotation * rotation;
+  motion.covariance.bottomLeftCorner<3, 3>() = rotation * by_rotation.transpose();
+  return motion.covariance.allFinite();
 }
 
 MotionCovariance::Information MotionCovariance::collect(const Measurements& measured,
@@ -104,7 +90,14 @@ MotionCovariance::Information MotionCovariance::collect(const Measurements& meas
     variance.add(term.weight, term.residual_px.squaredNorm());
   });
   information.residual_variance = variance.value(estimated_parameters);
-  information.scatter = scatterOf(gradients);
+  int cells = 0;
+  for (const Vector6d& gradient : gradients) {
+    if (gradient.isZero(0.0)) continue;
+    information.scatter += gradient * gradient.transpose();
+    ++cells;
+  }
+  // The motion was fitted to these features, so they scatter less than the errors.
+  information.scatter = information.scatter * cells / std::max(1, cells - 6);
   return information;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "motion/cauchy_weights.h"
-#include "motion/criterion.h"
 #include "motion/fitted_feature.h"
 #include "motion/reprojection_problem.h"
 #include "motion/two_stage_estimator.h"
@@ -29,12 +28,9 @@ class MotionCovariance {
         limit_px_(config.rotation_limit_px),
         robust_factor_(config.robust_factor) {}
 
-  /// Returns false if the features do not determine the motion. `flow_noise_px` becomes the
-  /// standard deviation of the residuals in each direction, corrected for the dropped features.
-  bool estimate(const Measurements& measured,
-                const TwoStageMotion& motion,
-                Matrix6d& covariance,
-                double& flow_noise_px);
+  /// Sets the covariance and the noise, corrected for the dropped features, of a valid motion with
+  /// its fit. Returns false if the features do not determine the motion.
+  bool estimate(const Measurements& measured, const Fit& fit, MotionEstimate& motion);
 
  private:
   /// The parts of the covariance, in the order translation [m], rotation [rad].

@@ -40,11 +40,7 @@ Matrix6d covarianceOfPrediction(double dt_s) {
 }  // namespace
 
 MotionEstimator::MotionEstimator(const Config& config, int min_inliers)
-    : config_(config), min_inliers_(min_inliers), two_stages_(config), covariance_(config) {
-  if (config.robust_factor > 0.0 || config.shared_ratio > 0.0) {
-    refinement_.emplace(config.robust_factor);
-  }
-}
+    : config_(config), two_stages_(config, min_inliers), covariance_(config) {}
 
 const MotionEstimator::Estimate& MotionEstimator::estimate(
     const StereoCamera& camera,
@@ -114,18 +110,10 @@ void MotionEstimator::estimateFrom(const FeatureSet& set,
                                    const Eigen::Isometry3d& initial,
                                    double dt_s,
                                    Estimate& estimate) {
-  RobustRefinement* refinement = refinement_ ? &*refinement_ : nullptr;
-  two_stages_.estimate(measured, set, initial, dt_s, min_inliers_, refinement, motion_);
-  estimate.T_keyframe_cur = motion_.fit.T_keyframe_cur;
-  estimate.rotation_inliers = motion_.rotation_inliers;
-  estimate.translation_inliers = motion_.translation_inliers;
-  estimate.has_translation_stage = motion_.has_translation_stage;
-  estimate.translation_failed = motion_.translation_failed;
+  two_stages_.estimate(measured, set, initial, dt_s, fit_, estimate);
   estimate.covariance.setZero();
   estimate.flow_noise_px = 0.0;
-  estimate.valid =
-      motion_.valid &&
-      covariance_.estimate(measured, motion_, estimate.covariance, estimate.flow_noise_px);
+  estimate.valid = estimate.valid && covariance_.estimate(measured, fit_, estimate);
 }
 
 }  // namespace rotrocc

@@ -5,12 +5,11 @@
 
 #include <Eigen/Geometry>
 
+#include "motion/fitted_feature.h"
 #include "motion/motion_covariance.h"
-#include "motion/robust_refinement.h"
 #include "motion/two_stage_estimator.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/odometry_config.h"
-#include "rotrocc/rigid_motion.h"
 #include "rotrocc/stereo_camera.h"
 
 namespace rotrocc {
@@ -20,17 +19,7 @@ namespace rotrocc {
 class MotionEstimator {
  public:
   using Config = MotionEstimatorConfig;
-
-  struct Estimate {
-    bool valid = false;
-    Eigen::Isometry3d T_keyframe_cur = Eigen::Isometry3d::Identity();
-    Matrix6d covariance = Matrix6d::Zero();  ///< as OdometryResult::covariance
-    FeatureSet rotation_inliers;
-    FeatureSet translation_inliers;
-    bool has_translation_stage = false;
-    bool translation_failed = false;  ///< stage 2 failed: the motion is that of stage 1
-    double flow_noise_px = 0.0;       ///< standard deviation in x and y, from the inliers
-  };
+  using Estimate = MotionEstimate;
 
   /// Throws std::invalid_argument on an unknown criterion. Stage 2 fails if it has fewer inliers
   /// than `min_inliers`.
@@ -75,14 +64,12 @@ class MotionEstimator {
                     Estimate& estimate);
 
   Config config_;
-  int min_inliers_;
   TwoStageEstimator two_stages_;
-  std::optional<RobustRefinement> refinement_;
   MotionCovariance covariance_;
 
   // Buffers, reused.
   Estimate found_, retry_;
-  TwoStageMotion motion_;
+  Fit fit_;
   FeatureSet all_, near_;
   std::vector<double> errors_px_;
 };

@@ -1,45 +1,108 @@
 #include "motion/motion_solver.h"
 
+#include <cmath>
+#include <limits>
+
+#include <ceres/tiny_solver.h>
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
 #include "motion/shared_error.h"
-#include "rotrocc/rigid_motion.h"
 
 namespace rotrocc {
 namespace {
 
-constexpr std::size_t kMinForMotion = 3;
-constexpr std::size_t kMinForTranslation = 2;
+/// Presents a problem with many residuals to ceres::TinySolver as one with few residuals that has
+/// the same J^T J, J^T r and r^T r. The solver uses nothing else.
+template <int kParameters>
+class CondensedProblem {
+ public:
+  using Scalar = double;
+  enum { NUM_RESIDUALS = kParameters + 1, NUM_PARAMETERS = kParameters };
+
+  explicit CondensedProblem(const ReprojectionProblem<kParameters>& problem) : problem_(problem) {}
+
+  bool operator()(const double* parameters, double* residuals, double* jacobian) const {
+    const Eigen::Map<const Eigen::Matrix<double, kParameters, 1>> p(parameters);
+    Eigen::Map<Eigen::Matrix<double, NUM_RESIDUALS, 1>> r(residuals);
+    if (jacobian == nullptr) {
+      r.setZero();
+      r[0] = std::sqrt(problem_.cost(p));
+      return true;
+    }
+    // A square root of the normal matrix, which is positive semidefinite except for rounding
+    // errors.
+    using Matrix = typename ReprojectionProblem<kParameters>::NormalMatrix;
+    const Eigen::LDLT<Matrix> ldlt(problem_.normalMatrix(p));
+    const Matrix root = ldlt.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
+                        Matrix(ldlt.matrixU()) *
+                        Matrix(ldlt.transpositionsP() * Matrix::Identity());
+    r = root.col(kParameters);
+    Eigen::Map<Eigen::Matrix<double, NUM_RESIDUALS, kParameters>> J(jacobian);
+    J = root.template leftCols<kParameters>();
+    return true;
+  }
+
+ private:
+  const ReprojectionProblem<kParameters>& problem_;
+};
+
+/// TinySolver of Ceres 1.14 has no function_tolerance: there it goes on to the other limits.
+template <class SolverOptions>
+auto setFunctionTolerance(SolverOptions& options, double tolerance, int)
+    -> decltype(options.function_tolerance, void()) {
+  options.function_tolerance = tolerance;
+}
+template <class SolverOptions>
+void setFunctionTolerance(SolverOptions&, double, long) {}
+
+/// Minimises the cost: no step increases it. Also stops when a step changes the parameters by less
+/// than 1e-7 of their length. Returns false, with undefined parameters, if these are not finite.
+template <int kParameters>
+bool minimise(const ReprojectionProblem<kParameters>& problem,
+              const MotionSolver::Options& options,
+              Eigen::Matrix<double, kParameters, 1>& parameters) {
+  ceres::TinySolver<CondensedProblem<kParameters>> solver;
+  solver.options.max_num_iterations = options.max_steps + 1;  // it counts the start
+  solver.options.initial_trust_region_radius = 1.0 / options.damping;
+  solver.options.parameter_tolerance = 1e-7;
+  setFunctionTolerance(solver.options, 0.5 * options.min_cost_change_px2, 0);
+  const auto& summary = solver.Solve(CondensedProblem<kParameters>(problem), &parameters);
+  return parameters.allFinite() && std::isfinite(summary.final_cost);
+}
 
 }  // namespace
 
-bool MotionSolver::solveMotion(const Measurements& measured, const FeatureSet& set, Fit& fit) {
-  motion_problem_.assign(measured.camera, fit, set);
-  if (motion_problem_.size() < kMinForMotion) return false;
-  Vector6d parameters = motion_problem_.start();
-  motion_problem_.weigh(parameters, options_.robust_factor);
-  // Without the parabola: a rotation hardly depends on disparities, and needs all features.
-  if (options_.shares_errors) motion_problem_.shareErrors(measured.shared_ratio, 0.0);
-  if (!minimise(motion_problem_, options_.minimise, parameters)) return false;
-  Eigen::Isometry3d T_keyframe_cur = fit.T_keyframe_cur;
-  const Eigen::Matrix3d R = expRotation(parameters.head<3>()) * T_keyframe_cur.linear();
-  T_keyframe_cur.linear() = Eigen::Quaterniond(R).normalized().toRotationMatrix();
-  T_keyframe_cur.translation() = parameters.tail<3>();
-  fitAt(measured, T_keyframe_cur, fit);
+MotionSolver::Options MotionSolver::refinement(double robust_factor) {
+  // Gauss-Newton steps with negligible damping, because the start is close to the minimum.
+  return {robust_factor, true, 4, 1e-12, std::numeric_limits<double>::infinity(), 1};
+}
+
+template <int kParameters>
+bool MotionSolver::solve(const Measurements& measured,
+                         const FeatureSet& set,
+                         double parabola_ratio,
+                         ReprojectionProblem<kParameters>& problem,
+                         Fit& fit) const {
+  for (int i = 0; i < options_.minimisations; ++i) {
+    problem.assign(measured.camera, fit, set);
+    if (2 * problem.size() < kParameters) return false;  // a feature gives two equations
+    auto parameters = problem.start();
+    problem.weigh(parameters, options_.robust_factor);
+    if (options_.shares_errors) problem.shareErrors(measured.shared_ratio, parabola_ratio);
+    if (!minimise(problem, options_, parameters)) return false;
+    fitAt(measured, problem.motionAt(parameters), fit);
+  }
   return true;
 }
 
+bool MotionSolver::solveMotion(const Measurements& measured, const FeatureSet& set, Fit& fit) {
+  // Without the parabola: a rotation hardly depends on disparities, and needs all features.
+  return solve(measured, set, 0.0, motion_problem_, fit);
+}
+
 bool MotionSolver::solveTranslation(const Measurements& measured, const FeatureSet& set, Fit& fit) {
-  translation_problem_.assign(measured.camera, fit, set);
-  if (translation_problem_.size() < kMinForTranslation) return false;
-  Eigen::Vector3d translation = translation_problem_.start();
-  translation_problem_.weigh(translation, options_.robust_factor);
-  if (options_.shares_errors) {
-    translation_problem_.shareErrors(measured.shared_ratio, kSmoothShare * measured.shared_ratio);
-  }
-  if (!minimise(translation_problem_, options_.minimise, translation)) return false;
-  Eigen::Isometry3d T_keyframe_cur = fit.T_keyframe_cur;
-  T_keyframe_cur.translation() = translation;
-  fitAt(measured, T_keyframe_cur, fit);
-  return true;
+  return solve(measured, set, kSmoothShare * measured.shared_ratio, translation_problem_, fit);
 }
 
 }  // namespace rotrocc

@@ -1,26 +1,35 @@
 #pragma once
 
 #include "motion/fitted_feature.h"
-#include "motion/minimise.h"
 #include "motion/reprojection_problem.h"
 #include "rotrocc/correspondence.h"
 
 namespace rotrocc {
 
-/// Least squares over the reprojection errors of a feature set. Has no state except reused buffers.
+/// Least squares over the reprojection errors of a feature set, by Levenberg-Marquardt. Has no
+/// state except reused buffers.
 class MotionSolver {
  public:
   struct Options {
     double robust_factor = 0.0;  ///< of cauchyWeights() at the start; 0: equal weights
     bool shares_errors = false;  ///< whether to account for Measurements::shared_ratio
-    MinimiseOptions minimise;
+    int minimisations = 1;       ///< each starts, and has weights, at the result of the one before
+    double damping = 1e-4;       ///< at the start, relative to the diagonal of J^T J
+    double min_cost_change_px2 = 2e-6;  ///< stop when a step changes the cost by less
+    int max_steps = 19;
   };
+
+  /// Options that refine the result of a stage once its set is stable, by iteratively reweighted
+  /// least squares with the errors that neighbouring features share. Not part of the paper. The
+  /// stages do not account for these errors when they select the features: far from the solution,
+  /// they explain wrong motions too.
+  static Options refinement(double robust_factor);
 
   explicit MotionSolver(const Options& options) : options_(options) {}
 
   /// Minimises Eq. 25 over rotation and translation, starting at the motion of `fit`, then fits the
-  /// features at the result. Returns false and does not change `fit` if the set has fewer than 3
-  /// features or the result is not finite.
+  /// features at the result. Returns false if the set has fewer than 3 features or the result is
+  /// not finite; `fit` stays as it was before that minimisation.
   bool solveMotion(const Measurements& measured, const FeatureSet& set, Fit& fit);
 
   /// Minimises Eq. 29 over the translation with a fixed rotation. Returns false as solveMotion(),
@@ -28,6 +37,13 @@ class MotionSolver {
   bool solveTranslation(const Measurements& measured, const FeatureSet& set, Fit& fit);
 
  private:
+  template <int kParameters>
+  bool solve(const Measurements& measured,
+             const FeatureSet& set,
+             double parabola_ratio,
+             ReprojectionProblem<kParameters>& problem,
+             Fit& fit) const;
+
   Options options_;
   ReprojectionProblem<6> motion_problem_;
   ReprojectionProblem<3> translation_problem_;

@@ -7,39 +7,33 @@
 #include <numeric>
 
 namespace rotrocc {
+namespace {
 
-OutlierThreshold OutlierThreshold::fixedLimit(double limit, double drop_share) {
-  return {Rule::kFixedLimit, limit, drop_share};
+double meanOf(const std::vector<double>& errors) {
+  if (errors.empty()) return std::numeric_limits<double>::infinity();
+  return std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
 }
 
-OutlierThreshold OutlierThreshold::meanBased(double factor) {
-  return {Rule::kMean, factor, 0.0};
+}  // namespace
+
+double fixedLimit(double limit, double drop_share, std::vector<double>& errors) {
+  if (errors.empty()) return std::numeric_limits<double>::infinity();
+  const double dropped = std::ceil(drop_share * static_cast<double>(errors.size()));
+  const auto highest = errors.begin() + static_cast<std::ptrdiff_t>(std::max(dropped, 1.0)) - 1;
+  std::nth_element(errors.begin(), highest, errors.end(), std::greater<double>());
+  return std::max(*highest, limit);
 }
 
-OutlierThreshold OutlierThreshold::deviationBased(double factor) {
-  return {Rule::kDeviation, factor, 0.0};
+double meanBasedLimit(double factor, const std::vector<double>& errors) {
+  return factor * meanOf(errors);
 }
 
-double OutlierThreshold::operator()(const std::vector<double>& errors, const FeatureSet& set) {
-  sorted_.clear();
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    if (set[i] != 0) sorted_.push_back(errors[i]);
-  }
-  if (sorted_.empty()) return std::numeric_limits<double>::infinity();
-  const auto size = static_cast<double>(sorted_.size());
-
-  if (rule_ == Rule::kFixedLimit) {
-    const auto dropped = static_cast<std::ptrdiff_t>(std::ceil(drop_share_ * size));
-    const auto highest = sorted_.begin() + std::max<std::ptrdiff_t>(dropped, 1) - 1;
-    std::nth_element(sorted_.begin(), highest, sorted_.end(), std::greater<double>());
-    return std::max(*highest, limit_);
-  }
-
-  const double mean = std::accumulate(sorted_.begin(), sorted_.end(), 0.0) / size;
-  if (rule_ == Rule::kMean) return limit_ * mean;
+double deviationBasedLimit(double factor, const std::vector<double>& errors) {
+  const double mean = meanOf(errors);
   double squares = 0.0;
-  for (const double error : sorted_) squares += (error - mean) * (error - mean);
-  return mean + limit_ * std::sqrt(squares / std::max(size - 1.0, 1.0));
+  for (const double error : errors) squares += (error - mean) * (error - mean);
+  return mean +
+         factor * std::sqrt(squares / std::max(static_cast<double>(errors.size()) - 1.0, 1.0));
 }
 
 bool keepBelow(const std::vector<double>& errors, double threshold, FeatureSet& set) {

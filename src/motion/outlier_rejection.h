@@ -1,36 +1,33 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "rotrocc/correspondence.h"
 
 namespace rotrocc {
 
-/// The error threshold between inliers and outliers, computed in each iteration from the errors of
-/// the current set.
-class OutlierThreshold {
- public:
-  /// Eq. 26 and 30: the larger of a fixed limit and the b-th highest error, where b is `drop_share`
-  /// of the set. No iteration drops a larger share.
-  static OutlierThreshold fixedLimit(double limit, double drop_share);
-  /// Eq. 32: `factor` times the mean error.
-  static OutlierThreshold meanBased(double factor);
-  /// Eq. 31: `factor` standard deviations above the mean error.
-  static OutlierThreshold deviationBased(double factor);
+/// The entries of those features that are in the set.
+template <class Entry>
+void select(const std::vector<Entry>& entries,
+            const FeatureSet& set,
+            std::vector<Entry>& selected) {
+  selected.clear();
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (set[i] != 0) selected.push_back(entries[i]);
+  }
+}
 
-  /// The threshold for the errors of the features flagged in `set`. Infinite if the set is empty.
-  double operator()(const std::vector<double>& errors, const FeatureSet& set);
+// The thresholds between inliers and outliers are computed in each iteration, from the errors of
+// the current set. They are infinite if it is empty.
 
- private:
-  enum class Rule { kFixedLimit, kMean, kDeviation };
-  OutlierThreshold(Rule rule, double limit, double drop_share)
-      : rule_(rule), limit_(limit), drop_share_(drop_share) {}
-
-  Rule rule_;
-  double limit_;
-  double drop_share_;
-  std::vector<double> sorted_;
-};
+/// Eq. 26 and 30: the larger of a fixed limit and the b-th highest error, where b is `drop_share`
+/// of the set. No iteration drops a larger share. Reorders the errors.
+double fixedLimit(double limit, double drop_share, std::vector<double>& errors);
+/// Eq. 32: `factor` times the mean error.
+double meanBasedLimit(double factor, const std::vector<double>& errors);
+/// Eq. 31: `factor` standard deviations above the mean error.
+double deviationBasedLimit(double factor, const std::vector<double>& errors);
 
 /// Flags in `set` exactly the features with an error below `threshold`. Dropped features may be
 /// added again, as in Eq. 26. Returns whether the set changed.

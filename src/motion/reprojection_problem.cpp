@@ -42,8 +42,6 @@ class SharedErrors {
   using Column = Eigen::Matrix<double, kColumns, 1>;
   using Products = Eigen::Matrix<double, kColumns, kColumns>;
 
-  SharedErrors() { cells_.fill({0.0, 0.0, Column::Zero()}); }
-
   /// Adds a feature with w g^T g and w A g.
   template <class Product>
   void add(std::size_t cell, double parabola, double information, const Product& product) {
@@ -74,9 +72,9 @@ class SharedErrors {
 
  private:
   struct Cell {
-    double information;
-    double with_parabola;  // sum of w g^T g times the parabola
-    Column product;
+    double information = 0.0;
+    double with_parabola = 0.0;  // sum of w g^T g times the parabola
+    Column product = Column::Zero();
   };
 
   std::array<Cell, SharedErrorGrid::kCells> cells_;
@@ -109,7 +107,7 @@ void ReprojectionProblem<kParameters>::assign(const StereoCamera& camera,
     if (lane == 0) blocks_.emplace_back();
     put(camera, fit.features[i], blocks_.back(), lane);
     indices_.push_back(i);
-    cells_.push_back(grid.cell(fit.features[i]));
+    cells_.push_back(grid.cell(fit.features[i].target_px));
     parabolas_.push_back(parabolaOverRows(camera, fit.features[i].target_px));
   }
 }
@@ -159,6 +157,17 @@ typename ReprojectionProblem<kParameters>::Parameters ReprojectionProblem<kParam
   Parameters parameters = Parameters::Zero();
   parameters.template tail<3>() = T_keyframe_cur_.translation();
   return parameters;
+}
+
+template <int kParameters>
+Eigen::Isometry3d ReprojectionProblem<kParameters>::motionAt(const Parameters& parameters) const {
+  Eigen::Isometry3d T_keyframe_cur = T_keyframe_cur_;
+  if (kRotates) {
+    const Eigen::Matrix3d R = expRotation(parameters.template head<3>()) * T_keyframe_cur_.linear();
+    T_keyframe_cur.linear() = Eigen::Quaterniond(R).normalized().toRotationMatrix();
+  }
+  T_keyframe_cur.translation() = parameters.template tail<3>();
+  return T_keyframe_cur;
 }
 
 template <int kParameters>

@@ -70,6 +70,8 @@ class ReprojectionProblem {
   /// The parameters of the motion of the fit.
   Parameters start() const;
 
+  Eigen::Isometry3d motionAt(const Parameters& parameters) const;
+
   std::size_t size() const { return indices_.size(); }
 
   /// Calls visit(const Term&) for each feature, in order.

@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 
 #include "geometry/image_grid.h"
-#include "motion/fitted_feature.h"
 #include "rotrocc/stereo_camera.h"
 
 namespace rotrocc {
@@ -16,16 +15,12 @@ namespace rotrocc {
 ///
 /// What the lenses leave is also smooth over the whole image. On KITTI most of it is a parabola
 /// over the rows, see parabolaOverRows().
-struct SharedErrorGrid {
+struct SharedErrorGrid : ImageGrid {
   static constexpr int kColumns = 12;
   static constexpr int kRows = 4;
   static constexpr std::size_t kCells = kColumns * kRows;
 
-  explicit SharedErrorGrid(const StereoCamera& camera) : grid(camera, kColumns, kRows) {}
-
-  std::size_t cell(const FittedFeature& feature) const { return grid.cell(feature.target_px); }
-
-  ImageGrid grid;
+  explicit SharedErrorGrid(const StereoCamera& camera) : ImageGrid(camera, kColumns, kRows) {}
 };
 
 /// Standard deviation of a smooth error at the borders of the image, as a share of that of the

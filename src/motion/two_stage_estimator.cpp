@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <stdexcept>
 
 #include "motion/cauchy_weights.h"
+#include "motion/outlier_rejection.h"
 #include "motion/reprojection_error.h"
 
 namespace rotrocc {
@@ -29,99 +31,117 @@ constexpr double kDeviationFactor = 1.5;
 /// The error of a feature that must not become an inlier.
 constexpr double kExcludedError = std::numeric_limits<double>::infinity();
 
-OutlierThreshold rotationThreshold(Criterion criterion, const MotionEstimatorConfig& config) {
+double rotationThreshold(Criterion criterion, double limit_px, std::vector<double>& errors_px) {
   switch (criterion) {
     case Criterion::kMeanBased:
-      return OutlierThreshold::meanBased(kMeanFactor);
+      return meanBasedLimit(kMeanFactor, errors_px);
     case Criterion::kStdBased:
-      return OutlierThreshold::deviationBased(kDeviationFactor);
+      return deviationBasedLimit(kDeviationFactor, errors_px);
     default:
-      return OutlierThreshold::fixedLimit(config.rotation_limit_px, kDropShare);
+      return fixedLimit(limit_px, kDropShare, errors_px);
   }
 }
 
 }  // namespace
 
-TwoStageEstimator::TwoStageEstimator(const MotionEstimatorConfig& config)
+const std::vector<std::string>& criterionNames() {
+  static const std::vector<std::string> names = {
+      "rotrocc", "reprojection", "rocc", "mean_based", "std_based"};
+  return names;
+}
+
+Criterion criterionOf(const std::string& name) {
+  const auto& names = criterionNames();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw std::invalid_argument(
+        "criterion is \"" + name +
+        "\", but must be rotrocc, reprojection, rocc, mean_based or std_based");
+  }
+  return static_cast<Criterion>(found - names.begin());
+}
+
+TwoStageEstimator::TwoStageEstimator(const MotionEstimatorConfig& config, int min_inliers)
     : config_(config),
       criterion_(criterionOf(config.criterion)),
-      solver_({}),
-      rotation_threshold_(rotationThreshold(criterion_, config)),
-      translation_threshold_(OutlierThreshold::fixedLimit(config.translation_limit, kDropShare)) {}
+      min_inliers_(min_inliers),
+      solver_({}) {
+  if (config.robust_factor > 0.0 || config.shared_ratio > 0.0) {
+    refinement_.emplace(MotionSolver::refinement(config.robust_factor));
+  }
+}
 
 void TwoStageEstimator::estimate(const Measurements& measured,
                                  const FeatureSet& set,
                                  const Eigen::Isometry3d& initial,
                                  double dt_s,
-                                 int min_inliers,
-                                 RobustRefinement* refinement,
-                                 TwoStageMotion& motion) {
-  fitAt(measured, initial, motion.fit);
+                                 Fit& fit,
+                                 MotionEstimate& motion) {
+  fitAt(measured, initial, fit);
   motion.rotation_inliers = set;
   motion.has_translation_stage = false;
   motion.translation_failed = false;
-  motion.valid = estimateRotation(measured, refinement, motion);  // 1)
+  motion.valid = estimateRotation(measured, fit, motion.rotation_inliers);  // 1)
   motion.translation_inliers = motion.rotation_inliers;
+  motion.T_keyframe_cur = fit.T_keyframe_cur;
 
-  const double step_m = motion.fit.T_keyframe_cur.translation().norm();
-  const bool is_slow = step_m < config_.min_speed_mps * dt_s;
-  if (!motion.valid || !hasTwoStages(criterion_) || is_slow) return;
-  const Eigen::Isometry3d T_stage_one = motion.fit.T_keyframe_cur;
-  decouple(measured, motion);  // 2)
-  selectCandidates(measured, motion.fit);
+  const bool has_two_stages = criterion_ == Criterion::kRotrocc || criterion_ == Criterion::kRocc;
+  const bool is_slow = fit.T_keyframe_cur.translation().norm() < config_.min_speed_mps * dt_s;
+  if (!motion.valid || !has_two_stages || is_slow) return;
+  decouple(measured, fit, motion.rotation_inliers);  // 2)
+  selectCandidates(measured, fit);
   if (config_.translation_from_prediction) {
-    Eigen::Isometry3d T_start = T_stage_one;
+    Eigen::Isometry3d T_start = motion.T_keyframe_cur;
     T_start.translation() = initial.translation();
-    fitAt(measured, T_start, motion.fit);
+    fitAt(measured, T_start, fit);
   }
-  motion.has_translation_stage = estimateTranslation(measured, refinement, motion) &&  // 3)
-                                 count(motion.translation_inliers) >= min_inliers;
-  if (motion.has_translation_stage) return;
+  motion.has_translation_stage =
+      estimateTranslation(measured, fit, motion.translation_inliers) &&  // 3)
+      count(motion.translation_inliers) >= min_inliers_;
+  if (motion.has_translation_stage) {
+    motion.T_keyframe_cur = fit.T_keyframe_cur;
+    return;
+  }
   motion.translation_failed = true;
   motion.translation_inliers = motion.rotation_inliers;
-  fitAt(measured, T_stage_one, motion.fit);
+  fitAt(measured, motion.T_keyframe_cur, fit);
 }
 
 bool TwoStageEstimator::estimateRotation(const Measurements& measured,
-                                         RobustRefinement* refinement,
-                                         TwoStageMotion& motion) {
-  Fit& fit = motion.fit;
-  FeatureSet& inliers = motion.rotation_inliers;
+                                         Fit& fit,
+                                         FeatureSet& inliers) {
   const auto solve = [&](const FeatureSet& set) {
     return solver_.solveMotion(measured, set, fit);  // Eq. 25
   };
   const auto measure = [&] { fittedErrors(measured.camera, fit, errors_); };
+  const auto threshold = [&](std::vector<double>& errors_px) {
+    return rotationThreshold(criterion_, config_.rotation_limit_px, errors_px);
+  };
   const int iterations = hasFixedLimit(criterion_) ? kMaxIterations : kComparisonIterations;
-  if (!iterate(rotation_threshold_, iterations, solve, measure, inliers)) return false;
-  return refinement == nullptr || refinement->refineMotion(measured, inliers, fit);
+  if (!iterate(iterations, solve, measure, threshold, inliers)) return false;
+  return !refinement_ || refinement_->solveMotion(measured, inliers, fit);
 }
 
 /// Computes the flow by which the DNRE (or NRE) is normalized. Where the limit is less than the
 /// noise, it would select by chance: a part for the noise is added.
-void TwoStageEstimator::decouple(const Measurements& measured, const TwoStageMotion& stage_one) {
+void TwoStageEstimator::decouple(const Measurements& measured,
+                                 const Fit& fit,
+                                 const FeatureSet& inliers) {
   if (criterion_ == Criterion::kRotrocc) {
     decoupledFlow(measured.camera,
                   measured.features,
-                  stage_one.fit.T_keyframe_cur.linear(),
+                  fit.T_keyframe_cur.linear(),
                   flow_px_);  // Eq. 27, 28
   } else {
     coupledFlow(measured.features, flow_px_);
   }
   if (config_.translation_noise_factor == 0.0) return;
-  const double passes_px = config_.translation_noise_factor * flowNoise(measured, stage_one);
+  fittedErrors(measured.camera, fit, errors_);
+  select(errors_, inliers, set_errors_);
+  const double passes_px = config_.translation_noise_factor * deviationOf(set_errors_);
   for (double& flow_px : flow_px_) {
     flow_px = std::hypot(flow_px, passes_px / config_.translation_limit);
   }
-}
-
-/// Standard deviation of the flow [px], from the errors of stage 1.
-double TwoStageEstimator::flowNoise(const Measurements& measured, const TwoStageMotion& stage_one) {
-  fittedErrors(measured.camera, stage_one.fit, errors_);
-  inlier_errors_px_.clear();
-  for (std::size_t i = 0; i < errors_.size(); ++i) {
-    if (stage_one.rotation_inliers[i] != 0) inlier_errors_px_.push_back(errors_[i]);
-  }
-  return deviationOf(inlier_errors_px_);
 }
 
 /// Selects the features that may enter stage 2.
@@ -133,10 +153,8 @@ void TwoStageEstimator::selectCandidates(const Measurements& measured, const Fit
 }
 
 bool TwoStageEstimator::estimateTranslation(const Measurements& measured,
-                                            RobustRefinement* refinement,
-                                            TwoStageMotion& motion) {
-  Fit& fit = motion.fit;
-  FeatureSet& inliers = motion.translation_inliers;
+                                            Fit& fit,
+                                            FeatureSet& inliers) {
   const auto solve = [&](const FeatureSet& set) {
     return solver_.solveTranslation(measured, set, fit);  // Eq. 29
   };
@@ -149,24 +167,28 @@ bool TwoStageEstimator::estimateTranslation(const Measurements& measured,
       errors_[i] = candidates_[i] != 0 ? errors_[i] / flow_px : kExcludedError;
     }
   };
+  const auto threshold = [&](std::vector<double>& errors) {
+    return fixedLimit(config_.translation_limit, kDropShare, errors);
+  };
   inliers = candidates_;
-  if (!iterate(translation_threshold_, kMaxIterations, solve, measure, inliers)) return false;
-  return refinement == nullptr || refinement->refineTranslation(measured, inliers, fit);
+  if (!iterate(kMaxIterations, solve, measure, threshold, inliers)) return false;
+  return !refinement_ || refinement_->solveTranslation(measured, inliers, fit);
 }
 
 /// Alternates between solving for the motion of the set and thresholding the errors of all
 /// features, until the set is stable (Eq. 26, 30, 31, 32). Returns false if `solve` does.
-template <class Solve, class Measure>
-bool TwoStageEstimator::iterate(OutlierThreshold& threshold,
-                                int max_iterations,
+template <class Solve, class Measure, class Threshold>
+bool TwoStageEstimator::iterate(int max_iterations,
                                 const Solve& solve,
                                 const Measure& measure,
+                                const Threshold& threshold,
                                 FeatureSet& set) {
   next_ = set;
   for (int i = 0; i < max_iterations; ++i) {
     if (!solve(set)) return false;
     measure();
-    if (!keepBelow(errors_, threshold(errors_, set), next_)) break;
+    select(errors_, set, set_errors_);
+    if (!keepBelow(errors_, threshold(set_errors_), next_)) break;
     set = next_;
   }
   return true;

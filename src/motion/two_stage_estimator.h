@@ -1,27 +1,39 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
 
-#include "motion/criterion.h"
 #include "motion/fitted_feature.h"
 #include "motion/motion_solver.h"
-#include "motion/outlier_rejection.h"
-#include "motion/robust_refinement.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/odometry_config.h"
+#include "rotrocc/rigid_motion.h"
 
 namespace rotrocc {
 
-/// The result of the two stages.
-struct TwoStageMotion {
+/// The criterion that selects inliers, see criterionNames().
+enum class Criterion { kRotrocc, kReprojection, kRocc, kMeanBased, kStdBased };
+
+/// The criterion of that name. Throws std::invalid_argument on any other name.
+Criterion criterionOf(const std::string& name);
+
+/// Whether the criterion has a fixed limit of the reprojection error in stage 1.
+constexpr bool hasFixedLimit(Criterion criterion) {
+  return criterion != Criterion::kMeanBased && criterion != Criterion::kStdBased;
+}
+
+struct MotionEstimate {
   bool valid = false;
-  Fit fit;  ///< the motion and the features fitted at it
+  Eigen::Isometry3d T_keyframe_cur = Eigen::Isometry3d::Identity();
   FeatureSet rotation_inliers;
   FeatureSet translation_inliers;  ///< equal to rotation_inliers without a stage 2
   bool has_translation_stage = false;
-  bool translation_failed = false;  ///< stage 2 failed: the motion is that of stage 1
+  bool translation_failed = false;         ///< stage 2 failed: the motion is that of stage 1
+  Matrix6d covariance = Matrix6d::Zero();  ///< as OdometryResult::covariance
+  double flow_noise_px = 0.0;              ///< standard deviation in x and y, from the inliers
 };
 
 /// The estimator of section V-B: rotation, flow decoupling, translation. Alternatively one of the
@@ -29,46 +41,41 @@ struct TwoStageMotion {
 class TwoStageEstimator {
  public:
   /// Throws std::invalid_argument on an unknown criterion.
-  explicit TwoStageEstimator(const MotionEstimatorConfig& config);
+  TwoStageEstimator(const MotionEstimatorConfig& config, int min_inliers);
 
   /// Estimates the motion that took `dt_s` > 0 from the features flagged in `set`, starting at
-  /// `initial`. The result is invalid if stage 1 leaves fewer than 3 features. If stage 2 leaves
-  /// fewer than `min_inliers`, the motion is that of stage 1. `refinement`, if given, is applied
-  /// after each stage.
+  /// `initial`, without covariance and noise; `fit` becomes that at the motion. The result is
+  /// invalid if stage 1 leaves fewer than 3 features. If stage 2 leaves fewer than `min_inliers`,
+  /// the motion is that of stage 1. Each stage is refined, unless robust weights and shared errors
+  /// are disabled.
   void estimate(const Measurements& measured,
                 const FeatureSet& set,
                 const Eigen::Isometry3d& initial,
                 double dt_s,
-                int min_inliers,
-                RobustRefinement* refinement,
-                TwoStageMotion& motion);
+                Fit& fit,
+                MotionEstimate& motion);
 
  private:
-  bool estimateRotation(const Measurements& measured,
-                        RobustRefinement* refinement,
-                        TwoStageMotion& motion);
-  void decouple(const Measurements& measured, const TwoStageMotion& stage_one);
-  double flowNoise(const Measurements& measured, const TwoStageMotion& stage_one);
+  bool estimateRotation(const Measurements& measured, Fit& fit, FeatureSet& inliers);
+  void decouple(const Measurements& measured, const Fit& fit, const FeatureSet& inliers);
   void selectCandidates(const Measurements& measured, const Fit& fit);
-  bool estimateTranslation(const Measurements& measured,
-                           RobustRefinement* refinement,
-                           TwoStageMotion& motion);
-  template <class Solve, class Measure>
-  bool iterate(OutlierThreshold& threshold,
-               int max_iterations,
+  bool estimateTranslation(const Measurements& measured, Fit& fit, FeatureSet& inliers);
+  template <class Solve, class Measure, class Threshold>
+  bool iterate(int max_iterations,
                const Solve& solve,
                const Measure& measure,
+               const Threshold& threshold,
                FeatureSet& set);
 
   MotionEstimatorConfig config_;
   Criterion criterion_;
+  int min_inliers_;
   MotionSolver solver_;
-  OutlierThreshold rotation_threshold_;
-  OutlierThreshold translation_threshold_;
+  std::optional<MotionSolver> refinement_;
 
   // Buffers, reused.
   FeatureSet candidates_, next_;
-  std::vector<double> errors_, inlier_errors_px_;
+  std::vector<double> errors_, set_errors_;
   std::vector<double> flow_px_;
 };
 

@@ -154,7 +154,7 @@ double biasByFattening(double robust_factor) {
   const Eigen::Isometry3d truth = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
   std::mt19937 generator(3);
   const StereoCamera camera = kittiCamera();
-  MotionSolver solver({robust_factor, false, {}});
+  MotionSolver solver({robust_factor, false});
   double sum = 0.0;
   for (int draw = 0; draw < kDraws; ++draw) {
     Correspondences features = simulateFeatures(kittiCamera(), truth, 400, {0.15, 0.15}, generator);

@@ -10,43 +10,53 @@ namespace {
 const std::vector<double> kErrors = {1.0, 10.0, 2.0, 9.0, 3.0, 8.0, 4.0, 7.0, 5.0, 6.0};
 const FeatureSet kAll(10, 1);
 
+std::vector<double> ofSet(const std::vector<double>& errors, const FeatureSet& set) {
+  std::vector<double> selected;
+  select(errors, set, selected);
+  return selected;
+}
+
+double limitOf(double limit, double drop_share, const FeatureSet& set) {
+  std::vector<double> errors = ofSet(kErrors, set);
+  return fixedLimit(limit, drop_share, errors);
+}
+
 TEST(OutlierRejectionTest, DropsNoMoreThanAShareAtOnce) {
   // b = 20 % of 10: the 2nd highest error; the limit is far below (Eq. 26, 30).
-  EXPECT_DOUBLE_EQ(OutlierThreshold::fixedLimit(0.5, 0.2)(kErrors, kAll), 9.0);
+  EXPECT_DOUBLE_EQ(limitOf(0.5, 0.2, kAll), 9.0);
   // A share that is not a whole number of features is rounded up, so at least one is dropped.
-  EXPECT_DOUBLE_EQ(OutlierThreshold::fixedLimit(0.5, 0.25)(kErrors, kAll), 8.0);
-  EXPECT_DOUBLE_EQ(OutlierThreshold::fixedLimit(0.5, 0.001)(kErrors, kAll), 10.0);
-  EXPECT_DOUBLE_EQ(OutlierThreshold::fixedLimit(0.5, 1.0)(kErrors, kAll), 1.0);
+  EXPECT_DOUBLE_EQ(limitOf(0.5, 0.25, kAll), 8.0);
+  EXPECT_DOUBLE_EQ(limitOf(0.5, 0.001, kAll), 10.0);
+  EXPECT_DOUBLE_EQ(limitOf(0.5, 1.0, kAll), 1.0);
 }
 
 TEST(OutlierRejectionTest, EndsAtTheFixedLimit) {
-  EXPECT_DOUBLE_EQ(OutlierThreshold::fixedLimit(9.5, 0.2)(kErrors, kAll), 9.5);
+  EXPECT_DOUBLE_EQ(limitOf(9.5, 0.2, kAll), 9.5);
 }
 
 TEST(OutlierRejectionTest, TakesTheErrorsOfTheSetOnly) {
   FeatureSet set = kAll;
   set[1] = set[3] = 0;  // 10 and 9
-  EXPECT_DOUBLE_EQ(OutlierThreshold::fixedLimit(0.5, 0.1)(kErrors, set), 8.0);
-  EXPECT_DOUBLE_EQ(OutlierThreshold::meanBased(1.0)(kErrors, set), 4.5);
+  EXPECT_DOUBLE_EQ(limitOf(0.5, 0.1, set), 8.0);
+  EXPECT_DOUBLE_EQ(meanBasedLimit(1.0, ofSet(kErrors, set)), 4.5);
 }
 
 TEST(OutlierRejectionTest, MeanBasedIsAMultipleOfTheMean) {
-  EXPECT_DOUBLE_EQ(OutlierThreshold::meanBased(9.0)(kErrors, kAll), 9.0 * 5.5);  // Eq. 32
+  EXPECT_DOUBLE_EQ(meanBasedLimit(9.0, ofSet(kErrors, kAll)), 9.0 * 5.5);  // Eq. 32
 }
 
 TEST(OutlierRejectionTest, DeviationBasedIsSomeDeviationsAboveTheMean) {
   // Eq. 31: the squares of 1..10 about 5.5 add up to 82.5, divided by N - 1.
-  EXPECT_NEAR(OutlierThreshold::deviationBased(1.5)(kErrors, kAll),
-              5.5 + 1.5 * std::sqrt(82.5 / 9.0),
-              1e-12);
-  EXPECT_DOUBLE_EQ(OutlierThreshold::deviationBased(1.5)({4.0}, {1}), 4.0);
+  EXPECT_NEAR(
+      deviationBasedLimit(1.5, ofSet(kErrors, kAll)), 5.5 + 1.5 * std::sqrt(82.5 / 9.0), 1e-12);
+  EXPECT_DOUBLE_EQ(deviationBasedLimit(1.5, ofSet({4.0}, {1})), 4.0);
 }
 
 TEST(OutlierRejectionTest, AnEmptySetHasNoThreshold) {
   const FeatureSet none(10, 0);
-  EXPECT_TRUE(std::isinf(OutlierThreshold::fixedLimit(0.5, 0.2)(kErrors, none)));
-  EXPECT_TRUE(std::isinf(OutlierThreshold::meanBased(9.0)(kErrors, none)));
-  EXPECT_TRUE(std::isinf(OutlierThreshold::deviationBased(1.5)(kErrors, none)));
+  EXPECT_TRUE(std::isinf(limitOf(0.5, 0.2, none)));
+  EXPECT_TRUE(std::isinf(meanBasedLimit(9.0, ofSet(kErrors, none))));
+  EXPECT_TRUE(std::isinf(deviationBasedLimit(1.5, ofSet(kErrors, none))));
 }
 
 TEST(OutlierRejectionTest, KeepsWhatIsBelowTheThreshold) {

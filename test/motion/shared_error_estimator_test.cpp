@@ -41,7 +41,7 @@ Correspondences pairWith(double ratio, unsigned seed) {
   const SharedErrorGrid grid(camera);
   for (Correspondence& feature : features) {
     const double y = 2.0 * feature.keyframe_px.y() / camera.height - 1.0;
-    feature.disparity_px += of_cell[grid.grid.cell(feature.keyframe_px)] + at_border * y * y;
+    feature.disparity_px += of_cell[grid.cell(feature.keyframe_px)] + at_border * y * y;
   }
   triangulate(camera, features);
   return features;

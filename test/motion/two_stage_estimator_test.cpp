@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "motion/outlier_rejection.h"
 #include "support/simulated_features.h"
 
 namespace rotrocc {
@@ -22,6 +23,7 @@ MotionEstimatorConfig paper() {
   MotionEstimatorConfig config;
   config.noise_ratio = 0.0;
   config.robust_factor = 0.0;
+  config.shared_ratio = 0.0;
   config.translation_noise_factor = 0.0;
   config.translation_initial_px = 0.0;
   config.retry_agreement_px = 0.0;
@@ -31,41 +33,42 @@ MotionEstimatorConfig paper() {
 
 /// Runs only this estimator, starting at a prediction with an error of some centimetres and a tenth
 /// of a degree.
-TwoStageMotion estimate(const MotionEstimatorConfig& config, const FeatureNoise& noise) {
+MotionEstimate estimate(const MotionEstimatorConfig& config, const FeatureNoise& noise) {
   std::mt19937 generator(1);
   const Correspondences features =
       simulateFeatures(kittiCamera(), turnAhead(), 500, noise, generator);
   const StereoCamera camera = kittiCamera();
   const Eigen::Isometry3d initial =
       turnAhead() * motion({0.02, 0.01, -0.05}, {0.001, -0.002, 0.001});
-  TwoStageMotion found;
-  TwoStageEstimator(config).estimate({camera, features, config.noise_ratio},
-                                     FeatureSet(features.size(), 1),
-                                     initial,
-                                     kPeriod_s,
-                                     3,
-                                     nullptr,
-                                     found);
+  Fit fit;
+  MotionEstimate found;
+  TwoStageEstimator(config, 3).estimate({camera, features, config.noise_ratio},
+                                        FeatureSet(features.size(), 1),
+                                        initial,
+                                        kPeriod_s,
+                                        fit,
+                                        found);
+  EXPECT_EQ(fit.T_keyframe_cur.matrix(), found.T_keyframe_cur.matrix());
   return found;
 }
 
 TEST(TwoStageEstimatorTest, FindsTheMotionOfExactFeaturesByThePapersParameters) {
-  const TwoStageMotion found = estimate(paper(), {});
+  const MotionEstimate found = estimate(paper(), {});
   ASSERT_TRUE(found.valid);
   EXPECT_TRUE(found.has_translation_stage);
   EXPECT_FALSE(found.translation_failed);
   EXPECT_EQ(count(found.rotation_inliers), 500);
   // The solver stops when a step changes the cost by less than 1e-6 px^2.
-  EXPECT_LT(motionError(found.fit.T_keyframe_cur, turnAhead()).norm(), 1e-5);
+  EXPECT_LT(motionError(found.T_keyframe_cur, turnAhead()).norm(), 1e-5);
 }
 
 TEST(TwoStageEstimatorTest, StageTwoKeepsTheRotationOfStageOne) {
   MotionEstimatorConfig one_stage = paper();
   one_stage.criterion = "reprojection";
-  const TwoStageMotion one = estimate(one_stage, {0.3, 0.9});
-  const TwoStageMotion two = estimate(paper(), {0.3, 0.9});
-  EXPECT_EQ(two.fit.T_keyframe_cur.linear(), one.fit.T_keyframe_cur.linear());
-  EXPECT_NE(two.fit.T_keyframe_cur.translation(), one.fit.T_keyframe_cur.translation());
+  const MotionEstimate one = estimate(one_stage, {0.3, 0.9});
+  const MotionEstimate two = estimate(paper(), {0.3, 0.9});
+  EXPECT_EQ(two.T_keyframe_cur.linear(), one.T_keyframe_cur.linear());
+  EXPECT_NE(two.T_keyframe_cur.translation(), one.T_keyframe_cur.translation());
 }
 
 TEST(TwoStageEstimatorTest, FallsBackToStageOneIfStageTwoFails) {
@@ -73,20 +76,20 @@ TEST(TwoStageEstimatorTest, FallsBackToStageOneIfStageTwoFails) {
   strict.translation_initial_px = 1e-6;  // excludes noisy features
   MotionEstimatorConfig one_stage = paper();
   one_stage.criterion = "reprojection";
-  const TwoStageMotion found = estimate(strict, {0.3, 0.9});
-  const TwoStageMotion one = estimate(one_stage, {0.3, 0.9});
+  const MotionEstimate found = estimate(strict, {0.3, 0.9});
+  const MotionEstimate one = estimate(one_stage, {0.3, 0.9});
   ASSERT_TRUE(found.valid);
   EXPECT_TRUE(found.translation_failed);
   EXPECT_FALSE(found.has_translation_stage);
-  EXPECT_EQ(found.fit.T_keyframe_cur.matrix(), one.fit.T_keyframe_cur.matrix());
+  EXPECT_EQ(found.T_keyframe_cur.matrix(), one.T_keyframe_cur.matrix());
   EXPECT_EQ(found.translation_inliers, found.rotation_inliers);
 }
 
 TEST(TwoStageEstimatorTest, StageTwoMayStartFromThePrediction) {
   MotionEstimatorConfig from_stage_one = paper();
   from_stage_one.translation_from_prediction = false;
-  const Eigen::Isometry3d a = estimate(paper(), {0.3, 0.9}).fit.T_keyframe_cur;
-  const Eigen::Isometry3d b = estimate(from_stage_one, {0.3, 0.9}).fit.T_keyframe_cur;
+  const Eigen::Isometry3d a = estimate(paper(), {0.3, 0.9}).T_keyframe_cur;
+  const Eigen::Isometry3d b = estimate(from_stage_one, {0.3, 0.9}).T_keyframe_cur;
   // The same minimum, up to the solver's tolerance.
   EXPECT_NE(a.translation(), b.translation());
   EXPECT_LT((a.translation() - b.translation()).norm(), 1e-4);
@@ -100,18 +103,20 @@ TEST(TwoStageEstimatorTest, DoesNotTakeNoiseForOutliersWhereTheFlowIsSmall) {
   Correspondences features = simulateFeatures(kittiCamera(), step, 500, noise, generator);
   for (std::size_t i = 0; i < 50; ++i) features[i].cur_px.y() += 8.0;
   const StereoCamera camera = kittiCamera();
-  MotionEstimatorConfig of_the_flow;
+  MotionEstimatorConfig of_the_noise;
+  of_the_noise.robust_factor = of_the_noise.shared_ratio = 0.0;  // no refinement
+  MotionEstimatorConfig of_the_flow = of_the_noise;
   of_the_flow.translation_noise_factor = 0.0;
   for (const auto& [config, least, most] :
-       {std::tuple(MotionEstimatorConfig(), 360, 450), std::tuple(of_the_flow, 0, 150)}) {
-    TwoStageMotion found;
-    TwoStageEstimator(config).estimate({camera, features, config.noise_ratio},
-                                       FeatureSet(features.size(), 1),
-                                       step,
-                                       kPeriod_s,
-                                       3,
-                                       nullptr,
-                                       found);
+       {std::tuple(of_the_noise, 360, 450), std::tuple(of_the_flow, 0, 150)}) {
+    Fit fit;
+    MotionEstimate found;
+    TwoStageEstimator(config, 3).estimate({camera, features, config.noise_ratio},
+                                          FeatureSet(features.size(), 1),
+                                          step,
+                                          kPeriod_s,
+                                          fit,
+                                          found);
     ASSERT_TRUE(found.has_translation_stage);
     EXPECT_GE(count(found.translation_inliers), least);
     EXPECT_LE(count(found.translation_inliers), most);
