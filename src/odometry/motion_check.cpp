@@ -6,7 +6,6 @@
 
 #include <opencv2/core.hpp>
 
-#include "motion/median_depth.h"
 #include "motion/outlier_rejection.h"
 #include "rotrocc/rigid_motion.h"
 
@@ -164,11 +163,11 @@ std::string MotionCheck::whyAmbiguous(const Hypothesis& accepted) {
   const double many = kMaxCompetitors * static_cast<double>(accepted.features.size());
   const int min_count =
       std::max(config_.min_inliers, static_cast<int>(std::ceil(kShareBehind * many)));
-  const auto [count, are_behind] = competing_motion_.find(accepted.camera,
-                                                          accepted.features,
-                                                          accepted.estimate.T_keyframe_cur,
-                                                          accepted.estimate.rotation_inliers,
-                                                          min_count);
+  const auto [count, are_behind] = evidence_.competitors(accepted.camera,
+                                                         accepted.features,
+                                                         accepted.estimate.T_keyframe_cur,
+                                                         accepted.estimate.rotation_inliers,
+                                                         min_count);
   if (count == 0 || (!are_behind && count < many)) return "";
   return cv::format("another motion fits %d of the %zu features", count, accepted.features.size()) +
          (are_behind ? ", which are behind the others, a share above half of" : ", a share above") +
@@ -179,7 +178,7 @@ std::string MotionCheck::whyAmbiguous(const Hypothesis& accepted) {
 /// a wrong match then.
 std::string MotionCheck::whyFewDetermine(const Hypothesis& accepted) {
   const double share =
-      information_share_.minimum({accepted.camera, accepted.features, noise_ratio_},
+      evidence_.informationShare({accepted.camera, accepted.features, noise_ratio_},
                                  accepted.estimate.T_keyframe_cur,
                                  accepted.estimate.translation_inliers);
   if (share >= kMinInformation) return "";
@@ -190,7 +189,7 @@ std::string MotionCheck::whyFewDetermine(const Hypothesis& accepted) {
 
 std::string MotionCheck::whyUndetermined(const Hypothesis& accepted, const Matrix6d& covariance) {
   const MotionEstimator::Estimate& estimate = accepted.estimate;
-  const double depth_m = medianDepth(accepted.features, estimate.rotation_inliers, depths_m_);
+  const double depth_m = evidence_.medianDepth(accepted.features, estimate.rotation_inliers);
   const double step_m =
       std::max(estimate.T_keyframe_cur.translation().norm(), kShortStep * depth_m);
   const double sigma_m = std::sqrt(covariance.topLeftCorner<3, 3>().trace());

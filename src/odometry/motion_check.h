@@ -1,11 +1,9 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "motion/competing_motion.h"
-#include "motion/information_share.h"
 #include "motion/motion_estimator.h"
+#include "motion/motion_evidence.h"
 #include "odometry/hypothesis.h"
 #include "rotrocc/odometry_config.h"
 #include "rotrocc/uncertain_transform.h"
@@ -50,10 +48,7 @@ class MotionCheck {
 
   Config config_;
   double noise_ratio_;
-  // Buffers, reused.
-  std::vector<double> depths_m_;
-  CompetingMotion competing_motion_;
-  InformationShare information_share_;
+  MotionEvidence evidence_;
 };
 
 }  // namespace rotrocc
