@@ -6,7 +6,9 @@
 
 #include <opencv2/core.hpp>
 
+#include "common/median.h"
 #include "motion/outlier_rejection.h"
+#include "motion/reprojection_error.h"
 #include "rotrocc/rigid_motion.h"
 
 namespace rotrocc {
@@ -16,6 +18,8 @@ namespace {
 constexpr double kSigmas = 3.0;
 /// A keyframe serves another pair if it has this many times min_inliers.
 constexpr int kReserve = 2;
+/// The camera rests while the median flow is below this many times its noise.
+constexpr double kRest = 10.0;
 /// Share of the median depth. A shorter step changes the image little: its uncertainty is compared
 /// with the scene, or it would have none small enough at standstill.
 constexpr double kShortStep = 0.02;
@@ -200,6 +204,13 @@ std::string MotionCheck::whyUndetermined(const Hypothesis& accepted, const Matri
 
 bool MotionCheck::hasReserve(const MotionEstimator::Estimate& accepted) const {
   return inliers(accepted) >= kReserve * config_.min_inliers;
+}
+
+bool MotionCheck::isAtRest(const Hypothesis& accepted) {
+  coupledFlow(accepted.features, flow_px_);
+  select(flow_px_, accepted.estimate.rotation_inliers, inlier_flow_px_);
+  return !inlier_flow_px_.empty() &&
+         median(inlier_flow_px_) <= kRest * accepted.estimate.flow_noise_px;
 }
 
 std::string MotionCheck::whyJump(const UncertainTransform& motion,

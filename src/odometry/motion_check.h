@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "motion/motion_estimator.h"
 #include "motion/motion_evidence.h"
@@ -34,6 +35,10 @@ class MotionCheck {
   /// fewer.
   bool hasReserve(const MotionEstimator::Estimate& accepted) const;
 
+  /// Whether the camera rests: the median inlier has moved by less than 10 times the noise of the
+  /// flow. The noise of a motion is then a tenth of it, or more.
+  bool isAtRest(const Hypothesis& accepted);
+
   /// Why a motion during `dt_s` > 0 is an implausible jump; empty if it is not. `expected` is the
   /// motion during `dt_s` at the previous velocity. Changes within 3 standard deviations of the
   /// noise are accepted.
@@ -49,6 +54,7 @@ class MotionCheck {
   Config config_;
   double noise_ratio_;
   MotionEvidence evidence_;
+  std::vector<double> flow_px_, inlier_flow_px_;  // buffers, reused
 };
 
 }  // namespace rotrocc

@@ -33,7 +33,6 @@ VisualOdometry::Pipeline::Pipeline(const Config& config)
       motion_model_(kPredictable * config.max_gap_s),
       search_(config),
       check_(config.motion_check, config.motion_estimator.noise_ratio),
-      selector_(config.keyframe_selector),
       rig_(config) {}
 
 OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
@@ -95,7 +94,6 @@ void VisualOdometry::Pipeline::configure(const Config& config) {
   finder_ = CorrespondenceFinder(config.correspondence_finder, config.threads);
   motion_model_.setMaxAge(kPredictable * config.max_gap_s);
   check_ = MotionCheck(config.motion_check, config.motion_estimator.noise_ratio);
-  selector_ = KeyframeSelector(config.keyframe_selector);
   rig_.configure(config);
   keyframe_.frame.reset();  // its corners depend on the old parameters
 }
@@ -108,7 +106,12 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
   if (last_) newest_ns = (lost_ ? lost_ : last_)->stamp_ns;
   if (const std::string why = whyUnusable(pair, camera, newest_ns); !why.empty()) throw Lost(why);
   result.reason = whyRestart(pair, camera, newest_ns, rig_.camera(), config_.max_gap_s);
-  const FramePtr current = takeFrame(pair, camera, result.times);
+  FramePtr current;
+  {
+    const StageTimer timer(result.times.pyramids_ms);
+    rig_.setCamera(camera);
+    current = finder_.makeFrame(pair);
+  }
   if (!result.reason.empty()) {
     forget();
     last_ = current;
@@ -125,14 +128,6 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
     throw Lost(found_.why_lost);
   }
   accept(current, result);
-}
-
-FramePtr VisualOdometry::Pipeline::takeFrame(const StereoPair& pair,
-                                             const StereoCamera& camera,
-                                             StageTimes& times) {
-  const StageTimer timer(times.pyramids_ms);
-  rig_.setCamera(camera);
-  return finder_.makeFrame(pair);
 }
 
 void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& times) {
@@ -244,8 +239,11 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   last_ = current;
   lost_.reset();
   keyframe_.T_keyframe_last = result.T_keyframe_cur;
-  const bool serves =
-      result.state == State::kOk && check_.hasReserve(estimate) && selector_.keeps(found_);
+  // Noise accumulates with each new keyframe, so one is kept while the camera rests: there is no
+  // drift at standstill. In motion each frame is the keyframe of the next one, because the errors
+  // of a feature grow with the way that it is tracked.
+  const bool serves = result.state == State::kOk && check_.hasReserve(estimate) &&
+                      config_.keyframe_selector.adaptive && check_.isAtRest(found_);
   if (!serves) keyframe_.frame.reset();
 }
 

@@ -8,7 +8,6 @@
 #include "features/keyframe.h"
 #include "features/stereo_frame.h"
 #include "odometry/hypothesis.h"
-#include "odometry/keyframe_selector.h"
 #include "odometry/motion_check.h"
 #include "odometry/motion_model.h"
 #include "odometry/motion_search.h"
@@ -45,7 +44,6 @@ class VisualOdometry::Pipeline {
                const StereoCamera& camera,
                const OtherSensors& others,
                OdometryResult& result);
-  FramePtr takeFrame(const StereoPair& pair, const StereoCamera& camera, StageTimes& times);
   void forget();
   void makeKeyframe(const FramePtr& frame, StageTimes& times);
 
@@ -68,7 +66,6 @@ class VisualOdometry::Pipeline {
   MotionModel motion_model_;
   MotionSearch search_;
   MotionCheck check_;
-  KeyframeSelector selector_;
   RigEstimate rig_;
 
   FramePtr last_;      // last frame with a known pose; null before the first pair

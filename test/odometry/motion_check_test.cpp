@@ -286,6 +286,35 @@ TEST(MotionCheckTest, WantsAReserveOfInliersForTheNextPair) {
   EXPECT_EQ(checkNotLost(estimate), "") << "this one is accepted";
 }
 
+/// Whether the camera rests after a motion, if the flow has this noise.
+bool isAtRest(const Eigen::Isometry3d& T_keyframe_cur, double noise_px = 0.2, int features = 400) {
+  std::mt19937 generator(1);
+  Hypothesis accepted;
+  accepted.camera = kittiCamera();
+  accepted.estimate.T_keyframe_cur = T_keyframe_cur;
+  accepted.estimate.flow_noise_px = noise_px;
+  accepted.features =
+      simulateFeatures(accepted.camera, T_keyframe_cur, features, {noise_px, noise_px}, generator);
+  accepted.estimate.rotation_inliers.assign(accepted.features.size(), 1);
+  return defaultCheck().isAtRest(accepted);
+}
+
+TEST(MotionCheckTest, TellsRestFromMotion) {
+  EXPECT_TRUE(isAtRest(Eigen::Isometry3d::Identity()));
+  EXPECT_FALSE(isAtRest(motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0})));
+  EXPECT_FALSE(isAtRest(motion({0.0, 0.0, 0.0}, {0.0, 0.01, 0.0}))) << "7 px at this focal length";
+}
+
+TEST(MotionCheckTest, RestIsRelativeToTheNoise) {
+  const Eigen::Isometry3d slow = motion({0.0, 0.0, 0.0}, {0.0, 0.004, 0.0});  // 2.9 px
+  EXPECT_FALSE(isAtRest(slow, 0.2));
+  EXPECT_TRUE(isAtRest(slow, 0.4));
+}
+
+TEST(MotionCheckTest, RestNeedsAFeature) {
+  EXPECT_FALSE(isAtRest(Eigen::Isometry3d::Identity(), 0.2, 0));
+}
+
 TEST(MotionCheckTest, CallsAJumpDegraded) {
   const Eigen::Isometry3d expected = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
   UncertainTransform jump;

@@ -681,6 +681,18 @@ TEST(VisualOdometryTest, DoesNotCreepAtRest) {
   EXPECT_LT(farthest_m, 0.002);
 }
 
+TEST(VisualOdometryTest, TakesEveryFrameAsKeyframeIfNotAdaptive) {
+  VisualOdometry::Config config;
+  config.keyframe_selector.adaptive = false;
+  VisualOdometry odometry(config);
+  for (int i = 0; i < 4; ++i) {
+    const auto pair = view(Eigen::Isometry3d::Identity(), i * kPeriod_ns);
+    const OdometryResult result = odometry.process(pair, camera());
+    if (i == 0) continue;
+    EXPECT_EQ(result.keyframe_stamp_ns, (i - 1) * kPeriod_ns);
+  }
+}
+
 TEST(VisualOdometryTest, ANewKeyframeIsThePreviousPair) {
   const Eigen::Isometry3d small = motion({0.0, 0.0, 0.06}, {0.0, 0.002, 0.0});
   VisualOdometry odometry({});
