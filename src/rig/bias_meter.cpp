@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "geometry/image_grid.h"
+#include "motion/outlier_rejection.h"
 #include "motion/shared_error.h"
 
 namespace rotrocc {
@@ -33,34 +34,30 @@ constexpr double kMostSigma_px = 5.0;
 
 }  // namespace
 
-bool BiasMeter::measure(const StereoCamera& camera,
-                        const Correspondences& features,
-                        const FeatureSet& set,
-                        const Eigen::Isometry3d& T_keyframe_cur,
-                        double smooth_ratio,
-                        BiasMeasurement& measurement) {
+std::optional<BiasMeasurement> BiasMeter::measure(const StereoCamera& camera,
+                                                  const Correspondences& features,
+                                                  const FeatureSet& set,
+                                                  const Eigen::Isometry3d& T_keyframe_cur,
+                                                  double smooth_ratio) {
   camera_ = camera;
   T_keyframe_cur_ = T_keyframe_cur;
   parabola_px_ = 0.0;
   smooth_ratio_ = smooth_ratio;
-  features_.clear();
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    if (set[i] != 0) features_.push_back(features[i]);
-  }
+  select(features, set, features_);
   for (int step = 0; step < kMostSteps && features_.size() >= kLeastFeatures; ++step) {
-    const Sums sums = collect(Curvature::kConvex);
-    const Cells cells = eliminateCommon(sums);
-    const double variance_px2 = sums.variance.value(kParameters) / cells.bias_information;
-    if (!(variance_px2 < kMostSigma_px * kMostSigma_px)) return false;
-    if (!std::isfinite(cells.bias_px)) return false;
+    const WeightedVariance variance = linearise();
+    const Cells cells = eliminateCommon(sumEquations());
+    const double variance_px2 = variance.value(kParameters) / cells.bias_information;
+    if (!(variance_px2 < kMostSigma_px * kMostSigma_px)) return std::nullopt;
+    if (!std::isfinite(cells.bias_px)) return std::nullopt;
     const double change_px = std::clamp(cells.bias_px, -kLongestStep_px, kLongestStep_px);
     change(cells.common_step + cells.common_by_bias * change_px, change_px);
     if (std::abs(change_px) < kSettled_px) break;
   }
-  if (features_.size() < kLeastFeatures) return false;
-  measurement.bias_px = camera_.cx_right - camera.cx_right;
-  const Sums sums = collect(Curvature::kExpected);
-  return describe(sums, eliminateCommon(sums), measurement);
+  if (features_.size() < kLeastFeatures) return std::nullopt;
+  auto measurement = describe();
+  if (measurement) measurement->bias_px += camera_.cx_right - camera.cx_right;
+  return measurement;
 }
 
 void BiasMeter::change(const Common& common, double bias_px) {
@@ -74,36 +71,24 @@ void BiasMeter::change(const Common& common, double bias_px) {
   triangulate(camera_, features_);
 }
 
-/// Linearises the residuals at the current step.
-BiasMeter::Sums BiasMeter::collect(Curvature curvature) {
+/// Sets the problem of the current step.
+WeightedVariance BiasMeter::linearise() {
   fitAt({camera_, features_, kNoiseRatio}, T_keyframe_cur_, fit_);
   all_.assign(features_.size(), 1);
   problem_.assign(camera_, fit_, all_);
   problem_.weigh(problem_.start(), robust_factor_);
-  Sums sums;
+  WeightedVariance variance;
   problem_.visitResiduals(problem_.start(), [&](const ReprojectionProblem<6>::Residual& residual) {
-    sums.squared_weights += residual.weight * residual.weight;
-    sums.variance.add(residual.weight, residual.residual_px.squaredNorm());
+    variance.add(residual.weight, residual.residual_px.squaredNorm());
   });
-  sumEquations(sums);
-  if (curvature == Curvature::kConvex) return sums;
-  Sums expected = sums;
-  problem_.squareWeights();
-  sumEquations(expected);
-  expected.common_residual = sums.common_residual;
-  expected.cell_residual = sums.cell_residual;
-  return expected;
+  return variance;
 }
 
 /// Adds up the equations with the present weights. A bias changes disparities as an error of theirs
 /// does, up to the sign.
-void BiasMeter::sumEquations(Sums& sums) const {
+BiasMeter::Equations BiasMeter::sumEquations() const {
   const ImageGrid grid(camera_, kColumns, kRows);
-  sums.common.setZero();
-  sums.common_by_cell.setZero();
-  sums.common_residual.setZero();
-  sums.cells.setZero();
-  sums.cell_residual.setZero();
+  Equations sums;
   const auto normal =
       problem_.sumTerms(problem_.start(), [&](const ReprojectionProblem<6>::ByDisparity& feature) {
         const Eigen::Vector2d& pixel = features_[feature.feature].cur_px;
@@ -112,7 +97,12 @@ void BiasMeter::sumEquations(Sums& sums) const {
         sums.cells[cell] += feature.information;
         sums.cell_residual[cell] -= feature.product[6];
         if (smooth_ratio_ == 0.0) return;
-        addParabola(parabolaOverRows(camera_, pixel), cell, feature, sums);
+        const double height = parabolaOverRows(camera_, pixel);
+        sums.common.row(kParabola).head<6>() -= height * feature.product.head<6>();
+        sums.common.col(kParabola).head<6>() -= height * feature.product.head<6>();
+        sums.common(kParabola, kParabola) += height * height * feature.information;
+        sums.common_by_cell(kParabola, cell) += height * feature.information;
+        sums.common_residual[kParabola] -= height * feature.product[6];
       });
   sums.common.topLeftCorner<6, 6>() = normal.topLeftCorner<6, 6>();
   sums.common_residual.head<6>() = normal.topRightCorner<6, 1>();
@@ -120,21 +110,10 @@ void BiasMeter::sumEquations(Sums& sums) const {
   const double known = smooth_ratio_ == 0.0 ? 1.0 : 1.0 / (smooth_ratio_ * smooth_ratio_);
   sums.common(kParabola, kParabola) += known;
   sums.common_residual[kParabola] += known * parabola_px_;
+  return sums;
 }
 
-/// `height` is that of the parabola at the feature.
-void BiasMeter::addParabola(double height,
-                            Eigen::Index cell,
-                            const ByDisparity& feature,
-                            Sums& sums) {
-  sums.common.row(kParabola).head<6>() -= height * feature.product.head<6>();
-  sums.common.col(kParabola).head<6>() -= height * feature.product.head<6>();
-  sums.common(kParabola, kParabola) += height * height * feature.information;
-  sums.common_by_cell(kParabola, cell) += height * feature.information;
-  sums.common_residual[kParabola] -= height * feature.product[6];
-}
-
-BiasMeter::Cells BiasMeter::eliminateCommon(const Sums& sums) {
+BiasMeter::Cells BiasMeter::eliminateCommon(const Equations& sums) {
   const Eigen::LDLT<Eigen::Matrix<double, kCommon, kCommon>> solver(sums.common);
   const CommonByCell of_cells = solver.solve(sums.common_by_cell);
   const Common of_residual = solver.solve(sums.common_residual);
@@ -165,18 +144,28 @@ double BiasMeter::effectOfSmoothErrors(const Cells& cells) {
 /// With information A, a = A 1 and I = 1^T a, the cells disagree by A M e = (A - a a^T / I) e. The
 /// expectation of the squared disagreement is the trace of M A for the noise, and that of its
 /// square for shared errors.
-bool BiasMeter::describe(const Sums& sums, const Cells& cells, BiasMeasurement& measurement) const {
-  const double variance_px2 = sums.variance.value(kParameters);
+std::optional<BiasMeasurement> BiasMeter::describe() {
+  const WeightedVariance variance = linearise();
+  const Equations reweighted = sumEquations();
+  // The curvature of reweighted least squares never overshoots. That which the robust cost has on
+  // average, from the squared weights (see MotionCovariance), tells the uncertainty.
+  problem_.squareWeights();
+  Equations expected = sumEquations();
+  expected.common_residual = reweighted.common_residual;
+  expected.cell_residual = reweighted.cell_residual;
+  const Cells cells = eliminateCommon(expected);
+  const double variance_px2 = variance.value(kParameters);
   const double information = cells.bias_information;
-  if (!(variance_px2 > 0.0) || !(information > 0.0)) return false;
+  if (!(variance_px2 > 0.0) || !(information > 0.0)) return std::nullopt;
   const Eigen::Matrix<double, kCells, kCells> within =
       cells.information - cells.of_bias * cells.of_bias.transpose() / information;
   const PerCell disagreement = cells.weighted - cells.of_bias * cells.bias_px;
   const double excess_px2 =
       (disagreement.squaredNorm() - variance_px2 * within.trace()) / within.squaredNorm();
   // Mean square of the flow that one pixel of disparity causes.
-  const double slope2 = sums.cells.sum() / sums.squared_weights;
-  measurement.bias_px += cells.bias_px;
+  const double slope2 = expected.cells.sum() / variance.squaredWeights();
+  BiasMeasurement measurement;
+  measurement.bias_px = cells.bias_px;
   measurement.noise_px2 = variance_px2 / information;
   measurement.shared_px2 =
       variance_px2 / slope2 * cells.of_bias.squaredNorm() / (information * information);
@@ -185,9 +174,11 @@ bool BiasMeter::describe(const Sums& sums, const Cells& cells, BiasMeasurement& 
       variance_px2 * smooth_ratio_ * smooth_ratio_ * effectOfSmoothErrors(cells);
   const Common& by_bias = cells.common_by_bias;
   measurement.motion_by_bias << by_bias.segment<3>(3), by_bias.head<3>();
-  return std::isfinite(measurement.bias_px) && std::isfinite(measurement.noise_px2) &&
-         std::isfinite(measurement.shared_px2) && std::isfinite(measurement.shared_ratio2) &&
-         std::isfinite(measurement.smooth_px2) && measurement.motion_by_bias.allFinite();
+  const bool is_finite =
+      std::isfinite(measurement.bias_px) && std::isfinite(measurement.noise_px2) &&
+      std::isfinite(measurement.shared_px2) && std::isfinite(measurement.shared_ratio2) &&
+      std::isfinite(measurement.smooth_px2) && measurement.motion_by_bias.allFinite();
+  return is_finite ? std::optional(measurement) : std::nullopt;
 }
 
 }  // namespace rotrocc

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -41,21 +43,18 @@ class BiasMeter {
 
   /// Starts at the given motion, with depths as triangulated for `camera`. At the borders of the
   /// image, smooth errors have a standard deviation of `smooth_ratio` times that of a flow; 0:
-  /// there are none. Returns false if the flagged features do not determine a bias, as at
-  /// standstill.
-  bool measure(const StereoCamera& camera,
-               const Correspondences& features,
-               const FeatureSet& set,
-               const Eigen::Isometry3d& T_keyframe_cur,
-               double smooth_ratio,
-               BiasMeasurement& measurement);
+  /// there are none. None if the flagged features do not determine a bias, as at standstill.
+  std::optional<BiasMeasurement> measure(const StereoCamera& camera,
+                                         const Correspondences& features,
+                                         const FeatureSet& set,
+                                         const Eigen::Isometry3d& T_keyframe_cur,
+                                         double smooth_ratio);
 
  private:
   static constexpr int kColumns = 6;
   static constexpr int kRows = 3;
   static constexpr int kCells = kColumns * kRows;
   using PerCell = Eigen::Matrix<double, kCells, 1>;
-  using ByDisparity = ReprojectionProblem<6>::ByDisparity;
 
   /// The unknowns but those of the cells: rotation, translation and the parabola.
   static constexpr int kCommon = 7;
@@ -63,17 +62,14 @@ class BiasMeter {
   using Common = Eigen::Matrix<double, kCommon, 1>;
   using CommonByCell = Eigen::Matrix<double, kCommon, kCells>;
 
-  /// Sums over the features: the normal equations of the common unknowns and of one disparity error
-  /// per cell.
-  struct Sums {
+  /// The normal equations of the common unknowns and of one disparity error per cell.
+  struct Equations {
     Eigen::Matrix<double, kCommon, kCommon> common =
         Eigen::Matrix<double, kCommon, kCommon>::Zero();
     CommonByCell common_by_cell = CommonByCell::Zero();
     PerCell cells = PerCell::Zero();
     Common common_residual = Common::Zero();
     PerCell cell_residual = PerCell::Zero();
-    double squared_weights = 0.0;
-    WeightedVariance variance;
   };
 
   /// The same equations without the common unknowns: information * errors = weighted.
@@ -87,17 +83,12 @@ class BiasMeter {
     Common common_step;
   };
 
-  /// Of the robust cost: that of reweighted least squares, which never overshoots, or its
-  /// expectation, which has the squared weights (see MotionCovariance).
-  enum class Curvature { kConvex, kExpected };
-
   void change(const Common& common, double bias_px);
-  Sums collect(Curvature curvature);
-  void sumEquations(Sums& sums) const;
-  static void addParabola(double height, Eigen::Index cell, const ByDisparity& feature, Sums& sums);
-  static Cells eliminateCommon(const Sums& sums);
+  WeightedVariance linearise();
+  Equations sumEquations() const;
+  static Cells eliminateCommon(const Equations& equations);
   static double effectOfSmoothErrors(const Cells& cells);
-  bool describe(const Sums& sums, const Cells& cells, BiasMeasurement& measurement) const;
+  std::optional<BiasMeasurement> describe();
 
   double robust_factor_;
 

@@ -32,13 +32,13 @@ void StereoCalibrator::observe(const StereoCamera& corrected,
                                double shared_ratio) {
   if (!config_.enabled) return;
   motion_by_bias_.setZero();
-  BiasMeasurement measurement;
   const double smooth_ratio = kSmoothShare * shared_ratio;
-  if (!meter_.measure(corrected, features, set, T_keyframe_cur, smooth_ratio, measurement)) return;
-  motion_by_bias_ = measurement.motion_by_bias;
-  measurement.bias_px += bias_.applied_px - config_.bias_px;
+  auto measurement = meter_.measure(corrected, features, set, T_keyframe_cur, smooth_ratio);
+  if (!measurement) return;
+  motion_by_bias_ = measurement->motion_by_bias;
+  measurement->bias_px += bias_.applied_px - config_.bias_px;
   filter_ = past_;
-  filter_.add(measurement);
+  filter_.add(*measurement);
   update();
 }
 
