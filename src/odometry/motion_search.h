@@ -43,7 +43,8 @@ class MotionSearch {
   /// Tracks the features from the positions that the start predicts, and estimates the motion. If
   /// the result is far from the start, most features were searched at the wrong place: then they
   /// are tracked again from the result, until it settles, at most three times in all. Returns
-  /// whether it settled at a motion that is accepted.
+  /// whether it settled at a motion that is accepted and that a quarter of the keyframe's features
+  /// agree on.
   ///
   /// `found` becomes the hypothesis, unless it holds an accepted one with more inliers. There is at
   /// least one try, and none after `max_tries`; they are added to those of `found`.
