@@ -1,12 +1,16 @@
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <boost/program_options.hpp>
@@ -61,7 +65,7 @@ bool parse(int argc, char** argv, Options& options) {
   add("fit", po::bool_switch(&options.fit), "choose both from the path length");
   add("times",
       po::value(&options.times),
-      "times.txt with the stamps of poses in KITTI format (default: 10 Hz)");
+      "times.txt with the stamps of poses in KITTI format (default: those of --stats, or 10 Hz)");
   add("segments",
       po::value(&options.segments_file),
       "CSV output file with one row per segment: first pose, length, speed and errors");
@@ -119,6 +123,38 @@ MatchedTrajectories matchStamps(const Trajectory& truth,
   return matched;
 }
 
+/// The stamps of statistics, which are in the first column.
+std::vector<std::int64_t> stampsOf(const std::string& statistics) {
+  std::ifstream file(statistics);
+  std::string line;
+  if (!std::getline(file, line)) throw std::runtime_error(statistics + " cannot be read");
+  std::vector<std::int64_t> stamps_ns;
+  while (std::getline(file, line)) {
+    std::int64_t stamp_ns = 0;
+    if (std::from_chars(line.data(), line.data() + line.size(), stamp_ns).ec != std::errc()) {
+      throw std::runtime_error(statistics + ": no stamp in \"" + line + "\"");
+    }
+    stamps_ns.push_back(stamp_ns);
+  }
+  return stamps_ns;
+}
+
+/// Poses without stamps get those of --times, or else those of --stats, if they are given.
+Trajectory readEstimate(const Options& options) {
+  Trajectory estimate = readTrajectory(options.estimate, options.times);
+  const bool has_stamps = isTum(options.estimate) || !options.times.empty();
+  if (has_stamps || options.statistics.empty()) return estimate;
+  const std::vector<std::int64_t> stamps_ns = stampsOf(options.statistics);
+  if (stamps_ns.size() != estimate.size()) {
+    throw std::runtime_error(options.estimate + " has " + std::to_string(estimate.size()) +
+                             " poses, but " + options.statistics + " has " +
+                             std::to_string(stamps_ns.size()) +
+                             " pairs: both must be from the same run");
+  }
+  for (std::size_t i = 0; i < stamps_ns.size(); ++i) estimate[i].stamp_ns = stamps_ns[i];
+  return estimate;
+}
+
 /// With the poses of a sequence, and its stamps if the estimate has none.
 MatchedTrajectories loadWithSequence(const Options& options) {
   const auto sequence = openStereoSequence(options.truth, {});
@@ -142,7 +178,9 @@ MatchedTrajectories load(const Options& options) {
   if (std::filesystem::is_directory(options.truth)) return loadWithSequence(options);
   const bool truth_tum = isTum(options.truth);
   const bool estimate_tum = isTum(options.estimate);
-  if (truth_tum != estimate_tum && options.times.empty()) {
+  const bool has_times =
+      !options.times.empty() || (truth_tum && !options.statistics.empty());  // of the estimate
+  if (truth_tum != estimate_tum && !has_times) {
     throw std::runtime_error((truth_tum ? options.estimate : options.truth) +
                              " has no stamps, but the other file has: give --times FILE");
   }
@@ -150,14 +188,20 @@ MatchedTrajectories load(const Options& options) {
     throw std::runtime_error("both files have stamps: leave out --times " + options.times);
   }
   const Trajectory truth = readTrajectory(options.truth, truth_tum ? "" : options.times);
-  const Trajectory estimate = readTrajectory(options.estimate, estimate_tum ? "" : options.times);
+  Options of_estimate = options;
+  if (estimate_tum) of_estimate.times.clear();  // they are those of the truth
+  const Trajectory estimate = readEstimate(of_estimate);
   if (!truth_tum && !estimate_tum) {
     if (truth.size() != estimate.size()) {
       std::cerr << "evaluate_trajectory: only the first poses of the longer file are used: "
                 << options.truth << " has " << truth.size() << ", " << options.estimate << " has "
                 << estimate.size() << '\n';
     }
-    return matchByIndex(truth, estimate);
+    MatchedTrajectories matched = matchByIndex(truth, estimate);
+    for (std::size_t i = 0; i < matched.truth.size(); ++i) {
+      matched.truth[i].stamp_ns = matched.estimate[i].stamp_ns;
+    }
+    return matched;
   }
   return matchStamps(truth, estimate, options);
 }
@@ -229,7 +273,7 @@ void print(const Evaluation& evaluation) {
 
 void run(const Options& options) {
   if (options.truth.empty()) {
-    writeReportTables(readTrajectory(options.estimate, options.times), options.report);
+    writeReportTables(readEstimate(options), options.report);
   } else {
     const Evaluation evaluation = evaluateTruth(options);
     if (!options.segments_file.empty()) writeSegments(evaluation.segments, options.segments_file);

@@ -19,6 +19,7 @@ namespace {
 
 constexpr int kPoses = 301;
 constexpr std::int64_t kPeriod_ns = 100'000'000;
+constexpr std::int64_t kStart_ns = 1'317'046'453'072'943'872;
 
 class EvaluateTrajectoryTest : public ::testing::Test {
  protected:
@@ -155,6 +156,24 @@ TEST_F(EvaluateTrajectoryTest, NoTruthIsNeeded) {
   EXPECT_EQ(page().find("translation error"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(directory_ / "report/by_length.csv"))
       << "of the report that was there";
+}
+
+TEST_F(EvaluateTrajectoryTest, PosesWithoutStampsGetThoseOfTheStatistics) {
+  std::string late = readFile(statistics());
+  // The clock of a recording, at 5 Hz.
+  for (int i = kPoses - 1; i >= 0; --i) {
+    const std::string stamp = "\n" + std::to_string(i * kPeriod_ns) + ",";
+    late.replace(late.find(stamp),
+                 stamp.size(),
+                 "\n" + std::to_string(kStart_ns + 2 * i * kPeriod_ns) + ",");
+  }
+  directory_.write("late.csv", late);
+  const CommandResult result = run("truth.txt estimate.txt --fit --report report --stats late.csv");
+  ASSERT_EQ(result.status, 0) << result.output;
+  EXPECT_NEAR(std::stod(summary().at("duration_s")), 60.0, 1e-6);
+  const auto poses = readCsv(directory_ / "report/poses.csv");
+  ASSERT_EQ(poses.size(), static_cast<std::size_t>(kPoses));
+  EXPECT_EQ(poses.back().at("stamp_ns"), std::to_string(kStart_ns + 2 * (kPoses - 1) * kPeriod_ns));
 }
 
 TEST_F(EvaluateTrajectoryTest, StatisticsMustBeOfTheSameRun) {
