@@ -48,7 +48,7 @@ Eigen::Isometry3d tumPose(const TextLine& line) {
     line.fail(cv::format("the quaternion has the length %f instead of 1", quaternion.norm()));
   }
   Eigen::Isometry3d pose(quaternion.normalized());
-  pose.translation() << line.number(1), line.number(2), line.number(3);
+  pose.translation() = Eigen::Vector3d(line.number(1), line.number(2), line.number(3));
   return pose;
 }
 
