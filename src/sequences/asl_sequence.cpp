@@ -65,7 +65,7 @@ Eigen::Isometry3d poseOf(const TextLine& line) {
   }
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = q.normalized().toRotationMatrix();
-  pose.translation() << line.number(1), line.number(2), line.number(3);
+  pose.translation() = Eigen::Vector3d(line.number(1), line.number(2), line.number(3));
   return pose;
 }
 
