@@ -1,25 +1,18 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iomanip>
 #include <iostream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <boost/program_options.hpp>
 
-#include "common/to_seconds.h"
-#include "rotrocc/trajectory.h"
 #include "rotrocc/trajectory_error.h"
-#include "sequences/stereo_sequence.h"
 #include "tools/program.h"
+#include "tools/trajectory_files.h"
 #include "tools/trajectory_report.h"
 
 namespace {
@@ -40,12 +33,9 @@ const char* const kUsage =
     "slower or faster, so each segment counts twice.\n\n";
 
 struct Options {
-  std::string truth;
-  std::string estimate;
-  std::string times;
+  TrajectoryFiles files;
   std::string segments_file;
   std::string report;
-  std::string statistics;
   std::string title;
   bool fit = false;
   SegmentConfig segments;
@@ -64,7 +54,7 @@ bool parse(int argc, char** argv, Options& options) {
       "segments start at every N-th pose");
   add("fit", po::bool_switch(&options.fit), "choose both from the path length");
   add("times",
-      po::value(&options.times),
+      po::value(&options.files.times),
       "times.txt with the stamps of poses in KITTI format (default: those of --stats, or 10 Hz)");
   add("segments",
       po::value(&options.segments_file),
@@ -73,7 +63,7 @@ bool parse(int argc, char** argv, Options& options) {
       po::value(&options.report),
       "output directory for an HTML report, its pictures (PNG) and its tables (CSV)");
   add("stats",
-      po::value(&options.statistics),
+      po::value(&options.files.statistics),
       "statistics of offline_odometry --stats from the same run, for the report");
   add("title",
       po::value(&options.title),
@@ -90,120 +80,13 @@ bool parse(int argc, char** argv, Options& options) {
   if (options.fit && !(variables["lengths"].empty() && variables["step"].defaulted())) {
     throw po::error("--fit cannot be combined with --lengths or --step");
   }
-  if (options.report.empty() && !options.statistics.empty()) {
+  if (options.report.empty() && !options.files.statistics.empty()) {
     throw po::error("--stats is for the report: give --report DIR");
   }
-  options.estimate = files.back();
-  if (files.size() == 2) options.truth = files.front();
-  if (options.title.empty()) options.title = std::filesystem::path(options.estimate).stem();
+  options.files.estimate = files.back();
+  if (files.size() == 2) options.files.truth = files.front();
+  if (options.title.empty()) options.title = std::filesystem::path(options.files.estimate).stem();
   return true;
-}
-
-bool isTum(const std::string& path) {
-  return detectTrajectoryFormat(path) == TrajectoryFormat::kTum;
-}
-
-std::string timeRange(const std::string& path, const Trajectory& trajectory) {
-  std::ostringstream range;
-  range << std::fixed << std::setprecision(2) << path << " covers "
-        << toSeconds(trajectory.front().stamp_ns) << " to " << toSeconds(trajectory.back().stamp_ns)
-        << " s";
-  return range.str();
-}
-
-MatchedTrajectories matchStamps(const Trajectory& truth,
-                                const Trajectory& estimate,
-                                const Options& options) {
-  MatchedTrajectories matched = matchByStamp(truth, estimate);
-  if (matched.truth.size() < 2) {
-    throw std::runtime_error(
-        "fewer than two stamps match within 10 ms: " + timeRange(options.truth, truth) + ", " +
-        timeRange(options.estimate, estimate));
-  }
-  return matched;
-}
-
-/// The stamps of statistics, which are in the first column.
-std::vector<std::int64_t> stampsOf(const std::string& statistics) {
-  std::ifstream file(statistics);
-  std::string line;
-  if (!std::getline(file, line)) throw std::runtime_error(statistics + " cannot be read");
-  std::vector<std::int64_t> stamps_ns;
-  while (std::getline(file, line)) {
-    std::int64_t stamp_ns = 0;
-    if (std::from_chars(line.data(), line.data() + line.size(), stamp_ns).ec != std::errc()) {
-      throw std::runtime_error(statistics + ": no stamp in \"" + line + "\"");
-    }
-    stamps_ns.push_back(stamp_ns);
-  }
-  return stamps_ns;
-}
-
-/// Poses without stamps get those of --times, or else those of --stats, if they are given.
-Trajectory readEstimate(const Options& options) {
-  Trajectory estimate = readTrajectory(options.estimate, options.times);
-  const bool has_stamps = isTum(options.estimate) || !options.times.empty();
-  if (has_stamps || options.statistics.empty()) return estimate;
-  const std::vector<std::int64_t> stamps_ns = stampsOf(options.statistics);
-  if (stamps_ns.size() != estimate.size()) {
-    throw std::runtime_error(options.estimate + " has " + std::to_string(estimate.size()) +
-                             " poses, but " + options.statistics + " has " +
-                             std::to_string(stamps_ns.size()) +
-                             " pairs: both must be from the same run");
-  }
-  for (std::size_t i = 0; i < stamps_ns.size(); ++i) estimate[i].stamp_ns = stamps_ns[i];
-  return estimate;
-}
-
-/// With the poses of a sequence, and its stamps if the estimate has none.
-MatchedTrajectories loadWithSequence(const Options& options) {
-  const auto sequence = openStereoSequence(options.truth, {});
-  if (sequence->groundTruth().empty()) {
-    throw std::runtime_error(options.truth + " has no true poses");
-  }
-  Trajectory estimate = readTrajectory(options.estimate, options.times);
-  if (!isTum(options.estimate) && options.times.empty()) {
-    if (static_cast<int>(estimate.size()) != sequence->size()) {
-      throw std::runtime_error(options.estimate + " has " + std::to_string(estimate.size()) +
-                               " poses without stamps, but " + options.truth + " has " +
-                               std::to_string(sequence->size()) +
-                               " pairs: write it with --format tum");
-    }
-    for (int i = 0; i < sequence->size(); ++i) estimate[i].stamp_ns = sequence->stamp_ns(i);
-  }
-  return matchStamps(sequence->groundTruth(), estimate, options);
-}
-
-MatchedTrajectories load(const Options& options) {
-  if (std::filesystem::is_directory(options.truth)) return loadWithSequence(options);
-  const bool truth_tum = isTum(options.truth);
-  const bool estimate_tum = isTum(options.estimate);
-  const bool has_times =
-      !options.times.empty() || (truth_tum && !options.statistics.empty());  // of the estimate
-  if (truth_tum != estimate_tum && !has_times) {
-    throw std::runtime_error((truth_tum ? options.estimate : options.truth) +
-                             " has no stamps, but the other file has: give --times FILE");
-  }
-  if (truth_tum && estimate_tum && !options.times.empty()) {
-    throw std::runtime_error("both files have stamps: leave out --times " + options.times);
-  }
-  const Trajectory truth = readTrajectory(options.truth, truth_tum ? "" : options.times);
-  Options of_estimate = options;
-  if (estimate_tum) of_estimate.times.clear();  // they are those of the truth
-  const Trajectory estimate = readEstimate(of_estimate);
-  if (!truth_tum && !estimate_tum) {
-    if (truth.size() != estimate.size()) {
-      std::cerr << "evaluate_trajectory: only the first poses of the longer file are used: "
-                << options.truth << " has " << truth.size() << ", " << options.estimate << " has "
-                << estimate.size() << '\n';
-    }
-    MatchedTrajectories matched = matchByIndex(truth, estimate);
-    for (std::size_t i = 0; i < matched.truth.size(); ++i) {
-      matched.truth[i].stamp_ns = matched.estimate[i].stamp_ns;
-    }
-    return matched;
-  }
-  return matchStamps(truth, estimate, options);
 }
 
 void requireSegments(const std::vector<SegmentError>& errors,
@@ -241,7 +124,7 @@ void printDistribution(const char* name, const Distribution& values, double scal
 
 /// Evaluates the matched poses; throws if no segment fits and no report is requested.
 Evaluation evaluateTruth(const Options& options) {
-  MatchedTrajectories matched = load(options);
+  MatchedTrajectories matched = readMatched(options.files);
   const double path_m = pathLengths(matched.truth).back();
   const SegmentConfig segments = options.fit ? fittingSegments(path_m) : options.segments;
   Evaluation evaluation = evaluate(std::move(matched), segments);
@@ -272,15 +155,15 @@ void print(const Evaluation& evaluation) {
 }
 
 void run(const Options& options) {
-  if (options.truth.empty()) {
-    writeReportTables(readEstimate(options), options.report);
+  if (options.files.truth.empty()) {
+    writeReportTables(readEstimate(options.files), options.report);
   } else {
     const Evaluation evaluation = evaluateTruth(options);
     if (!options.segments_file.empty()) writeSegments(evaluation.segments, options.segments_file);
     if (!options.report.empty()) writeReportTables(evaluation, options.report);
     print(evaluation);
   }
-  if (!options.report.empty()) drawReport(options.report, options.statistics, options.title);
+  if (!options.report.empty()) drawReport(options.report, options.files.statistics, options.title);
 }
 
 }  // namespace

@@ -1,0 +1,113 @@
+#include "tools/trajectory_files.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "common/to_seconds.h"
+#include "evaluation/text_file.h"
+#include "sequences/stereo_sequence.h"
+
+namespace rotrocc {
+namespace {
+
+bool isTum(const std::string& path) {
+  return detectTrajectoryFormat(path) == TrajectoryFormat::kTum;
+}
+
+std::string timeRange(const std::string& path, const Trajectory& trajectory) {
+  return path + cv::format(" covers %.2f to %.2f s",
+                           toSeconds(trajectory.front().stamp_ns),
+                           toSeconds(trajectory.back().stamp_ns));
+}
+
+MatchedTrajectories matchStamps(const Trajectory& truth,
+                                const Trajectory& estimate,
+                                const TrajectoryFiles& files) {
+  MatchedTrajectories matched = matchByStamp(truth, estimate);
+  if (matched.truth.size() < 2) {
+    throw std::runtime_error(
+        "fewer than two stamps match within 10 ms: " + timeRange(files.truth, truth) + ", " +
+        timeRange(files.estimate, estimate));
+  }
+  return matched;
+}
+
+/// Sets the stamps in the first column of the statistics, below their header.
+void setStamps(const TrajectoryFiles& files, Trajectory& estimate) {
+  const std::vector<TextLine> lines = readTextLines(files.statistics, ',');
+  if (lines.size() != estimate.size() + 1) {
+    throw std::runtime_error(files.estimate + cv::format(" has %zu poses, but ", estimate.size()) +
+                             files.statistics + cv::format(" has %zu pairs", lines.size() - 1) +
+                             ": both must be from the same run");
+  }
+  for (std::size_t i = 0; i < estimate.size(); ++i) estimate[i].stamp_ns = lines[i + 1].integer(0);
+}
+
+/// With the poses of a sequence, and its stamps if the estimate has none.
+MatchedTrajectories readWithSequence(const TrajectoryFiles& files) {
+  const auto sequence = openStereoSequence(files.truth, {});
+  if (sequence->groundTruth().empty()) throw std::runtime_error(files.truth + " has no true poses");
+  Trajectory estimate = readTrajectory(files.estimate, files.times);
+  if (!isTum(files.estimate) && files.times.empty()) {
+    const auto pairs = static_cast<std::size_t>(sequence->size());
+    if (estimate.size() != pairs) {
+      throw std::runtime_error(
+          files.estimate + cv::format(" has %zu poses without stamps, but ", estimate.size()) +
+          files.truth + cv::format(" has %zu pairs: write it with --format tum", pairs));
+    }
+    for (std::size_t i = 0; i < pairs; ++i) {
+      estimate[i].stamp_ns = sequence->stamp_ns(static_cast<int>(i));
+    }
+  }
+  return matchStamps(sequence->groundTruth(), estimate, files);
+}
+
+/// The stamps are those of the estimate.
+MatchedTrajectories matchLines(const Trajectory& truth,
+                               const Trajectory& estimate,
+                               const TrajectoryFiles& files) {
+  if (truth.size() != estimate.size()) {
+    std::cerr << "evaluate_trajectory: only the first poses of the longer file are used: "
+              << files.truth << " has " << truth.size() << ", " << files.estimate << " has "
+              << estimate.size() << '\n';
+  }
+  MatchedTrajectories matched = matchByIndex(truth, estimate);
+  for (std::size_t i = 0; i < matched.truth.size(); ++i) {
+    matched.truth[i].stamp_ns = matched.estimate[i].stamp_ns;
+  }
+  return matched;
+}
+
+}  // namespace
+
+Trajectory readEstimate(const TrajectoryFiles& files) {
+  Trajectory estimate = readTrajectory(files.estimate, files.times);
+  const bool has_stamps = isTum(files.estimate) || !files.times.empty();
+  if (!has_stamps && !files.statistics.empty()) setStamps(files, estimate);
+  return estimate;
+}
+
+MatchedTrajectories readMatched(const TrajectoryFiles& files) {
+  if (std::filesystem::is_directory(files.truth)) return readWithSequence(files);
+  const bool truth_tum = isTum(files.truth);
+  const bool estimate_tum = isTum(files.estimate);
+  const bool finds_stamps = !files.times.empty() || (truth_tum && !files.statistics.empty());
+  if (truth_tum != estimate_tum && !finds_stamps) {
+    throw std::runtime_error((truth_tum ? files.estimate : files.truth) +
+                             " has no stamps, but the other file has: give --times FILE");
+  }
+  if (truth_tum && estimate_tum && !files.times.empty()) {
+    throw std::runtime_error("both files have stamps: leave out --times " + files.times);
+  }
+  const Trajectory truth = readTrajectory(files.truth, truth_tum ? "" : files.times);
+  const Trajectory estimate = estimate_tum ? readTrajectory(files.estimate) : readEstimate(files);
+  return truth_tum || estimate_tum ? matchStamps(truth, estimate, files)
+                                   : matchLines(truth, estimate, files);
+}
+
+}  // namespace rotrocc
