@@ -25,6 +25,7 @@ constexpr bool hasFixedLimit(Criterion criterion) {
   return criterion != Criterion::kMeanBased && criterion != Criterion::kStdBased;
 }
 
+/// A motion, and what it was estimated from.
 struct MotionEstimate {
   bool valid = false;
   Eigen::Isometry3d T_keyframe_cur = Eigen::Isometry3d::Identity();
