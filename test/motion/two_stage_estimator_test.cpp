@@ -31,15 +31,11 @@ MotionEstimatorConfig paper() {
   return config;
 }
 
-/// Runs only this estimator, starting at a prediction with an error of some centimetres and a tenth
-/// of a degree.
-MotionEstimate estimate(const MotionEstimatorConfig& config, const FeatureNoise& noise) {
-  std::mt19937 generator(1);
-  const Correspondences features =
-      simulateFeatures(kittiCamera(), turnAhead(), 500, noise, generator);
+/// Runs only this estimator.
+MotionEstimate estimate(const MotionEstimatorConfig& config,
+                        const Correspondences& features,
+                        const Eigen::Isometry3d& initial) {
   const StereoCamera camera = kittiCamera();
-  const Eigen::Isometry3d initial =
-      turnAhead() * motion({0.02, 0.01, -0.05}, {0.001, -0.002, 0.001});
   Fit fit;
   MotionEstimate found;
   TwoStageEstimator(config, 3).estimate({camera, features, config.noise_ratio},
@@ -50,6 +46,14 @@ MotionEstimate estimate(const MotionEstimatorConfig& config, const FeatureNoise&
                                         found);
   EXPECT_EQ(fit.T_keyframe_cur.matrix(), found.T_keyframe_cur.matrix());
   return found;
+}
+
+/// Starts at a prediction with an error of some centimetres and a tenth of a degree.
+MotionEstimate estimate(const MotionEstimatorConfig& config, const FeatureNoise& noise) {
+  std::mt19937 generator(1);
+  return estimate(config,
+                  simulateFeatures(kittiCamera(), turnAhead(), 500, noise, generator),
+                  turnAhead() * motion({0.02, 0.01, -0.05}, {0.001, -0.002, 0.001}));
 }
 
 TEST(TwoStageEstimatorTest, FindsTheMotionOfExactFeaturesByThePapersParameters) {
@@ -102,21 +106,13 @@ TEST(TwoStageEstimatorTest, DoesNotTakeNoiseForOutliersWhereTheFlowIsSmall) {
   std::mt19937 generator(1);
   Correspondences features = simulateFeatures(kittiCamera(), step, 500, noise, generator);
   for (std::size_t i = 0; i < 50; ++i) features[i].cur_px.y() += 8.0;
-  const StereoCamera camera = kittiCamera();
   MotionEstimatorConfig of_the_noise;
   of_the_noise.robust_factor = of_the_noise.shared_ratio = 0.0;  // no refinement
   MotionEstimatorConfig of_the_flow = of_the_noise;
   of_the_flow.translation_noise_factor = 0.0;
   for (const auto& [config, least, most] :
        {std::tuple(of_the_noise, 360, 450), std::tuple(of_the_flow, 0, 150)}) {
-    Fit fit;
-    MotionEstimate found;
-    TwoStageEstimator(config, 3).estimate({camera, features, config.noise_ratio},
-                                          FeatureSet(features.size(), 1),
-                                          step,
-                                          kPeriod_s,
-                                          fit,
-                                          found);
+    const MotionEstimate found = estimate(config, features, step);
     ASSERT_TRUE(found.has_translation_stage);
     EXPECT_GE(count(found.translation_inliers), least);
     EXPECT_LE(count(found.translation_inliers), most);
