@@ -53,8 +53,8 @@ struct MotionEstimatorConfig {
 
   // Stage 1: rotation.
   double rotation_limit_px = 0.6;  ///< limit of the reprojection error, Eq. 26
-  /// If stage 1 leaves few of the features, there is one retry with only the features whose error
-  /// at the prediction is below this. 0: no retry.
+  /// If stage 1 leaves few of the features, it is retried with only those whose error is below this
+  /// at the motion that most agree on, and at the prediction. 0: no retry.
   double retry_agreement_px = 2.0;
 
   // Stage 2: translation.

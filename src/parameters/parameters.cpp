@@ -112,8 +112,8 @@ void addMotion(OdometryConfig& config, ParameterTable& table) {
   table.add("rotation_limit_px", c.rotation_limit_px, {0.01, 100.0, "px"}).description =
       "stage 1: termination limit of the reprojection error (Eq. 26)";
   table.add("retry_agreement_px", c.retry_agreement_px, {0.0, 1000.0, "px"}).description =
-      "stage 1: a retry starts from features with an error below this at the predicted motion; 0: "
-      "no retry";
+      "stage 1: retries start from features with an error below this at the motion that most "
+      "agree on, or at the predicted one; 0: no retry";
   table.add("translation_limit", c.translation_limit, {0.001, 100.0}).description =
       "stage 2: termination limit of the DNRE (Eq. 30)";
   table.add("translation_noise_factor", c.translation_noise_factor, {0.0, 100.0}).description =
