@@ -10,11 +10,11 @@
 
 #include "features/correspondence_finder.h"
 #include "features/image_pyramid.h"
+#include "geometry/kitti_camera.h"
 #include "motion/motion_estimator.h"
 #include "motion/outlier_rejection.h"
 #include "rotrocc/kitti.h"
 #include "rotrocc/visual_odometry.h"
-#include "simulation/kitti_camera.h"
 #include "support/synthetic_scene.h"
 
 namespace rotrocc {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "simulation/kitti_camera.h"
+#include "geometry/kitti_camera.h"
 #include "support/expect_error.h"
 
 namespace rotrocc {

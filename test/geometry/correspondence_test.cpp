@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "simulation/kitti_camera.h"
+#include "geometry/kitti_camera.h"
 
 namespace rotrocc {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/kitti_camera.h"
 #include "simulation/counter_random.h"
-#include "simulation/kitti_camera.h"
 
 namespace rotrocc {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kitti_camera.h"
 #include "rotrocc/stereo_camera.h"
 #include "simulation/drives/scenario.h"
-#include "simulation/kitti_camera.h"
 #include "simulation/rendering/camera_faults.h"
 #include "simulation/stress/lorry.h"
 

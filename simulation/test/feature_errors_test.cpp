@@ -1,13 +1,13 @@
 /// The findings of Fig. 4 and 5, over the points that a KITTI camera sees of a street.
 
-#include "experiments/error_characteristics.h"
+#include "simulation/tools/feature_errors.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "simulation/kitti_camera.h"
+#include "geometry/kitti_camera.h"
 #include "support/expect_error.h"
 
 namespace rotrocc {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "geometry/kitti_camera.h"
 #include "simulation/counter_random.h"
-#include "simulation/kitti_camera.h"
 
 namespace rotrocc {
 namespace {

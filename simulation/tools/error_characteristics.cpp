@@ -7,9 +7,9 @@
 
 #include <boost/program_options.hpp>
 
-#include "experiments/error_characteristics.h"
 #include "rotrocc/kitti.h"
 #include "rotrocc/visual_odometry.h"
+#include "simulation/tools/feature_errors.h"
 #include "tools/program.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/error_characteristics.h"
+#include "simulation/tools/feature_errors.h"
 
 #include <cmath>
 #include <stdexcept>

@@ -10,8 +10,8 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "geometry/kitti_camera.h"
 #include "simulation/drives/scenario.h"
-#include "simulation/kitti_camera.h"
 #include "simulation/rendering/gains.h"
 #include "simulation/rendering/lens.h"
 #include "simulation/rendering/remainder.h"
