@@ -11,7 +11,7 @@ step() {
   printf '[%4d s] %s\n' $((SECONDS - started)) "$*"
 }
 
-# ROS's CMake files call python3 from PATH; a python of pyenv or conda lacks the ROS modules.
+# Programs of ROS call python3 from PATH; a python of pyenv or conda lacks the ROS modules.
 python=$(command -v python3 || true)
 if [ -n "$python" ] && [ "$(realpath "$python")" != "$(realpath /usr/bin/python3)" ]; then
   step "using the system's /usr/bin/python3, which has ROS, instead of $python"
@@ -72,8 +72,7 @@ build_targets() {
   fi
   step "configuring and building (log: $log)"
   mkdir -p "$build"
-  if ! LC_ALL=C cmake -S "$root" -B "$build" -DPYTHON_EXECUTABLE=/usr/bin/python3 "${cmake_options[@]}" \
-    >"$log" 2>&1; then
+  if ! LC_ALL=C cmake -S "$root" -B "$build" "${cmake_options[@]}" >"$log" 2>&1; then
     build_failed "$log"
   fi
   for target in "${@:-all}"; do

@@ -120,5 +120,16 @@ TEST_F(InstallationTest, ProgramsAreBuiltAgainstIt) {
   EXPECT_EQ(result.output, "motions: 2");
 }
 
+TEST(ConfigurationTest, APythonWithoutRosIsNotUsed) {
+  const TemporaryDirectory directory;
+  const std::string python = directory.write("python3", "#!/bin/sh\nexit 1\n");
+  std::filesystem::permissions(python, std::filesystem::perms::owner_all);
+  // As it is first in PATH, an earlier run has stored it.
+  const CommandResult result =
+      runCommand("PATH=" + directory / "" + ":$PATH cmake -S " SOURCE " -B " + directory / "build" +
+                 " -DCATKIN_ENABLE_TESTING=OFF -DPYTHON_EXECUTABLE=" + python);
+  EXPECT_EQ(result.status, 0) << result.output;
+}
+
 }  // namespace
 }  // namespace rotrocc
