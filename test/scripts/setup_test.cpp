@@ -1,26 +1,37 @@
-// Runs scripts/setup with stand-ins for dpkg-query, apt and id, so that nothing is installed.
+// The lists of dependencies, and scripts/setup with stand-ins for dpkg-query, apt and id, so that
+// nothing is installed.
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "support/read_file.h"
 #include "support/run_command.h"
 #include "support/temporary_directory.h"
 
 namespace rotrocc {
 namespace {
 
+const std::string kSetup = ROOT "/scripts/setup";
+const std::string kControl = ROOT "/packaging/debian/control";
+const std::string kPackageXml = ROOT "/package.xml";
+
 class SetupTest : public ::testing::Test {
  protected:
   SetupTest() {
-    // The real list, without the packages of missing.txt.
+    // All that setup may name, without the packages of missing.txt.
     command("dpkg-query",
-            "for package in $(grep -o -E '[a-z0-9.+-]+' " SETUP
-            " | sort -u); do\n"
-            "  grep -q -x -e \"$package\" " +
-                directory_ / "missing.txt" + " || echo \"|installed|$package|\"\ndone");
+            "cat " + kSetup + " " + kControl +
+                " | grep -o -E '[a-z0-9.+-]+' | sort -u |\n"
+                "  grep -v -x -F -f " +
+                directory_ / "missing.txt" + " | sed 's/.*/|installed|&|/'");
     command("id", "echo 0");
     command("apt-cache", "echo '  Candidate: 1.0'");
     command("apt-get",
@@ -36,15 +47,15 @@ class SetupTest : public ::testing::Test {
 
   void setMissing(const std::string& packages) const { directory_.write("missing.txt", packages); }
 
-  CommandResult setup(const std::string& arguments = "") const {
-    return runCommand("PATH=" + directory_ / "" + ":/usr/bin:/bin " SETUP " " + arguments +
+  CommandResult setup(const std::string& arguments = "", const std::string& script = kSetup) const {
+    return runCommand("PATH=" + directory_ / "" + ":/usr/bin:/bin " + script + " " + arguments +
                       " </dev/null");
   }
 
   /// With a terminal, on which the user types an answer.
   CommandResult setupOnTerminal(const std::string& answer) const {
     return runCommand("echo " + answer + " | PATH=" + directory_ / "" +
-                      ":/usr/bin:/bin script -qec " SETUP " /dev/null");
+                      ":/usr/bin:/bin script -qec " + kSetup + " /dev/null");
   }
 
   std::string aptCalls() const {
@@ -98,7 +109,7 @@ TEST_F(SetupTest, GoesOnWithoutWhatIsNotNeeded) {
   EXPECT_EQ(result.status, 0) << result.output;
   EXPECT_NE(result.output.find("for the linters: clang-format"), std::string::npos)
       << result.output;
-  EXPECT_NE(result.output.find("for some of the tests and scripts: parallel"), std::string::npos)
+  EXPECT_NE(result.output.find("for reports, rviz and tools of ROS: parallel"), std::string::npos)
       << result.output;
 }
 
@@ -117,6 +128,77 @@ TEST_F(SetupTest, NamesPackagesThatTheReleaseLacks) {
   const CommandResult result = setup();
   EXPECT_EQ(result.status, 1) << result.output;
   EXPECT_NE(result.output.find("apt knows no package g++"), std::string::npos) << result.output;
+}
+
+TEST_F(SetupTest, UbuntuGetsThePackagesOfNoetic) {
+  for (const char* folder : {"scripts", "packaging/debian"}) {
+    std::filesystem::create_directories(directory_ / folder);
+  }
+  std::filesystem::copy_file(kControl, directory_ / "packaging/debian/control");
+  std::filesystem::copy_file(kPackageXml, directory_ / "package.xml");
+  const std::string system = directory_.write("os-release", "ID=ubuntu\nVERSION_ID=20.04\n");
+  const std::string script =
+      std::regex_replace(readFile(kSetup), std::regex("/etc/os-release"), system);
+  command("scripts/setup", script);
+  command("dpkg-query", "echo '|installed|g++|'");
+  const CommandResult result = setup("", "bash " + directory_ / "scripts/setup");
+  EXPECT_EQ(result.status, 0) << result.output;
+  for (const char* package : {"libeigen3-dev", "python3-yaml", "ros-noetic-tf2-ros", "parallel"}) {
+    EXPECT_NE(aptCalls().find(std::string(" ") + package + " "), std::string::npos) << package;
+  }
+  EXPECT_EQ(aptCalls().find("python3-ros"), std::string::npos) << "Debian's and Noetic's conflict";
+}
+
+/// The first groups of all matches.
+std::set<std::string> find(const std::string& text, const std::string& pattern) {
+  const std::regex regex(pattern);
+  std::set<std::string> found;
+  for (std::sregex_iterator match(text.begin(), text.end(), regex), end; match != end; ++match) {
+    found.insert((*match)[1]);
+  }
+  return found;
+}
+
+/// What a Debian package or a key of package.xml is called without the parts of the one or the
+/// other.
+std::string bareName(const std::string& name) {
+  static const std::map<std::string, std::string> kOthers = {
+      {"boost", "boost-program-options"},
+      {"eigen", "eigen3"},
+      {"libdynamic-reconfigure-config-init-mutex-dev", "dynamic-reconfigure"},
+      {"libnodeletlib-dev", "nodelet"},
+      {"libnodeletlib-tools", "nodelet"}};
+  const auto other = kOthers.find(name);
+  if (other != kOthers.end()) return other->second;
+  const std::string bare =
+      std::regex_replace(name, std::regex("^(lib)?(ros-)?(python3-)?|-dev$"), "");
+  return std::regex_replace(bare, std::regex("_"), "-");
+}
+
+std::set<std::string> bareNames(const std::set<std::string>& names) {
+  std::set<std::string> bare;
+  std::transform(names.begin(), names.end(), std::inserter(bare, bare.end()), bareName);
+  return bare;
+}
+
+TEST(DependenciesTest, ThoseOfDebianAndOfPackageXmlAreTheSame) {
+  std::string fields;
+  const std::string control = std::regex_replace(readFile(kControl), std::regex("\n#[^\n]*"), "");
+  for (const std::string& field :
+       find(control, "\n((?:Build-Depends|Depends|Recommends):[^\n]*(?:\n [^\n]*)*)")) {
+    fields += std::regex_replace(field, std::regex(R"(^[^:]*:|\([^)]*\)|<[^>]*>|\$\{[^}]*\})"), "");
+  }
+  std::set<std::string> debian = bareNames(find(fields, "([a-z][a-z0-9.+-]+)"));
+  std::set<std::string> ros = bareNames(find(readFile(kPackageXml), "depend[^>]*>([^<]+)</"));
+  // Of these, ROS has no keys; Debian has no package, or setup installs it for tests.
+  for (const char* name :
+       {"cmake", "debhelper-compat", "js-leaflet", "netbase", "parallel", "rotrocc"}) {
+    EXPECT_EQ(debian.erase(name), 1u) << name;
+  }
+  for (const char* name : {"pil", "psutil", "robot-localization"}) {
+    EXPECT_EQ(ros.erase(name), 1u) << name;
+  }
+  EXPECT_EQ(debian, ros);
 }
 
 }  // namespace
