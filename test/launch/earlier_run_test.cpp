@@ -14,45 +14,38 @@
 namespace rotrocc {
 namespace {
 
-const std::string kNode = "/stereo/stereo_odometry";
+const std::string kNode = "/stereo/stereo_odometry/";
 
-class EarlierRunTest : public ::testing::Test {
- protected:
-  void TearDown() override { ros::param::del(kNode); }
-
-  /// Expects that the node refuses to start, names `cause` and has the command that deletes
-  /// `parameter`, and that this command does so.
-  static void expectRefused(const std::string& cause, const std::string& parameter) {
-    const CommandResult node = runCommand(STEREO_ODOMETRY " __ns:=stereo");
-    EXPECT_NE(node.status, 0);
-    EXPECT_NE(node.output.find(cause), std::string::npos) << node.output;
-    const std::string command = "rosparam delete " + parameter;
-    EXPECT_NE(node.output.find(command), std::string::npos) << node.output;
-    const CommandResult deleted = runCommand(command);
-    EXPECT_EQ(deleted.status, 0) << deleted.output;
-    EXPECT_FALSE(ros::param::has(parameter));
-  }
-};
-
-TEST_F(EarlierRunTest, TheRefusalHasTheCommandThatDeletesTheParameter) {
-  ros::param::set(kNode + "/feature_detector/max_featurs", 5);
-  expectRefused("unknown parameter \"feature_detector/max_featurs\"",
-                kNode + "/feature_detector/max_featurs");
-  ros::param::set(kNode + "/queue_size", 0);
-  expectRefused("queue_size is 0, but must be in [1, 100]", kNode + "/queue_size");
-  ros::param::set(kNode + "/guess_frame", "odom");
-  expectRefused("guess_frame and odom_frame are both \"odom\"", kNode + "/guess_frame");
+/// Sets a parameter and expects that the node refuses to start, names `cause` and has the command
+/// that deletes the parameter, and that this command does so.
+template <class T>
+void expectRefused(const std::string& parameter, const T& value, const std::string& cause) {
+  ros::param::set(kNode + parameter, value);
+  const CommandResult node = runCommand(STEREO_ODOMETRY " __ns:=stereo");
+  EXPECT_NE(node.status, 0);
+  EXPECT_NE(node.output.find(cause), std::string::npos) << node.output;
+  const std::string command = "rosparam delete " + kNode + parameter;
+  EXPECT_NE(node.output.find(command), std::string::npos) << node.output;
+  EXPECT_EQ(runCommand(command).status, 0);
+  EXPECT_FALSE(ros::param::has(kNode + parameter));
 }
 
-TEST_F(EarlierRunTest, ALaunchBeginsWithItsOwnParameters) {
-  ros::param::set(kNode + "/max_featurs", 5);
-  ros::param::set(kNode + "/planar", true);
+TEST(EarlierRunTest, TheRefusalHasTheCommandThatDeletesTheParameter) {
+  expectRefused(
+      "feature_detector/max_featurs", 5, "unknown parameter \"feature_detector/max_featurs\"");
+  expectRefused("queue_size", 0, "queue_size is 0, but must be in [1, 100]");
+  expectRefused("guess_frame", "odom", "guess_frame and odom_frame are both \"odom\"");
+}
+
+TEST(EarlierRunTest, ALaunchBeginsWithItsOwnParameters) {
+  ros::param::set(kNode + "max_featurs", 5);
+  ros::param::set(kNode + "planar", true);
   const TemporaryDirectory directory;
   BackgroundCommand launch("roslaunch rotrocc stereo_odometry.launch", directory / "log");
-  EXPECT_TRUE(waitUntil([] { return ros::service::exists(kNode + "/reset", false); }))
+  EXPECT_TRUE(waitUntil([] { return ros::service::exists(kNode + "reset", false); }))
       << readFile(directory / "log");
-  EXPECT_FALSE(ros::param::has(kNode + "/max_featurs"));
-  EXPECT_FALSE(ros::param::param(kNode + "/planar", true));
+  EXPECT_FALSE(ros::param::has(kNode + "max_featurs"));
+  EXPECT_FALSE(ros::param::param(kNode + "planar", true));
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-"""Prints what a launch file would start and set, as JSON, without a master: read_launch.py FILE [NAME:=VALUE]..."""
+"""Prints what a launch file would start and set, as JSON, without a master: read_launch.py FILE [NAME:=VALUE]...
+
+The keys are NODE (package/type args), NODE TOPIC (the topic it is remapped to), PARAMETER, cleared and warnings.
+"""
 
 import json
 import sys
@@ -7,14 +10,12 @@ import sys
 from roslaunch.config import load_config_default
 
 config = load_config_default([(sys.argv[1], sys.argv[2:])], None, assign_machines=False)
-nodes = {
-    node.namespace + node.name: {
-        "type": node.package + "/" + node.type,
-        "args": node.args,
-        "required": node.required,
-        "remappings": {old: new for old, new in node.remap_args},
-    }
-    for node in config.nodes
-}
-params = {name: param.value for name, param in config.params.items()}
-json.dump({"nodes": nodes, "params": params, "cleared": config.clear_params}, sys.stdout, default=str)
+found = {name: param.value for name, param in config.params.items()}
+for node in config.nodes:
+    name = node.namespace + node.name
+    found[name] = f'{node.package}/{node.type} {node.args}'
+    for topic, target in node.remap_args:
+        found[f'{name} {topic}'] = target
+found['cleared'] = ' '.join(config.clear_params)
+found['warnings'] = ' '.join(config.config_errors)
+json.dump(found, sys.stdout, default=str)

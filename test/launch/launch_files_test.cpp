@@ -1,0 +1,338 @@
+// What the launch files start and set for the arguments that users give, without starting anything.
+// The drivers of cameras are stand-ins, with the arguments and parameters that docs/cameras.md
+// relies on.
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include "support/run_command.h"
+#include "support/temporary_directory.h"
+
+namespace rotrocc {
+namespace {
+
+/// What read_launch.py prints.
+using Launched = std::map<std::string, std::string>;
+
+class LaunchFilesTest : public ::testing::Test {
+ protected:
+  /// Throws std::runtime_error if roslaunch refuses the file. `options` in the syntax of the shell.
+  Launched launch(const std::string& file, const std::string& options = "") const {
+    const std::string environment = "ROS_PACKAGE_PATH=" + directory_ / "" + ":$ROS_PACKAGE_PATH ";
+    const CommandResult result =
+        runCommand(environment + PYTHON " " ROOT "/test/launch/read_launch.py " ROOT "/launch/" +
+                   file + " " + options);
+    const auto json = result.output.find("{\"");
+    if (result.status != 0 || json == std::string::npos) throw std::runtime_error(result.output);
+    return YAML::Load(result.output.substr(json)).as<Launched>();
+  }
+
+  /// Expects these entries; "" for none.
+  void expect(const std::string& file, const std::string& options, const Launched& entries) const {
+    Launched launched = launch(file, options);
+    for (const auto& [name, value] : entries) {
+      EXPECT_EQ(launched[name], value) << name << " of " << file << " " << options;
+    }
+  }
+
+  /// A package, whose launch file has `arguments` and sets them as parameters /driver/ARGUMENT.
+  void addDriver(const std::string& package,
+                 const std::string& file,
+                 const std::string& arguments,
+                 const std::string& further = "") const {
+    std::filesystem::create_directories(directory_ / package + "/launch");
+    directory_.write(package + "/package.xml",
+                     "<package format=\"2\"><name>" + package +
+                         "</name><version>1.0.0</version><description/><maintainer "
+                         "email=\"a@b.invalid\">a</maintainer><license>BSD</license></package>");
+    std::ofstream launch(directory_ / package + "/launch/" + file);
+    launch << "<launch>" << further;
+    std::istringstream names(arguments);
+    for (std::string name; names >> name;) {
+      launch << "<arg name=\"" << name << "\" default=\"\"/><param name=\"/driver/" << name
+             << "\" value=\"$(arg " << name << ")\"/>";
+    }
+    launch << "</launch>";
+  }
+
+  TemporaryDirectory directory_;
+};
+
+/// Of a file for the argument config.
+const Launched kParameters = {{"base_frame", "body"},
+                              {"guess_frame", "wheels"},
+                              {"image_transport", "compressed"},
+                              {"max_stamp_difference_s", "0.02"},
+                              {"odom_frame", "world"},
+                              {"planar", "true"},
+                              {"publish_tf", "false"},
+                              {"rectify", "true"},
+                              {"trajectory_file", "/of_config"},
+                              {"trajectory_format", "kitti"}};
+const std::string kNode = "/camera/stereo_odometry";
+const std::string kRviz = "rviz/rviz -d " ROOT "/rviz/stereo_odometry.rviz";
+
+/// stereo_odometry.launch and kitti.launch with that file.
+class ConfiguredLaunchTest : public LaunchFilesTest {
+ protected:
+  ConfiguredLaunchTest() {
+    std::ofstream file(directory_ / "robot.yaml");
+    for (const auto& [name, value] : kParameters) file << name << ": " << value << "\n";
+  }
+
+  Launched launchCamera(const std::string& options = "") const {
+    return launch("stereo_odometry.launch", "stereo:=/camera " + config_ + options);
+  }
+  void expectCamera(const std::string& options, const Launched& entries) const {
+    expect("stereo_odometry.launch", "stereo:=/camera " + config_ + options, entries);
+  }
+
+  /// Gives each parameter as an argument, and expects its value; and the entries.
+  void expectArguments(const Launched& arguments, Launched entries) const {
+    std::string options;
+    for (const auto& [name, value] : arguments) {
+      options += " " + name + ":=" + value;
+      entries[kNode + "/" + name] = value;
+    }
+    expectCamera(options, entries);
+  }
+
+  const std::string config_ = "config:=" + directory_ / "robot.yaml";
+};
+
+TEST_F(ConfiguredLaunchTest, TheFileHolds) {
+  Launched entries = {{kNode + "/use_imu", ""},
+                      {"cleared", kNode + "/"},
+                      {"warnings", ""},
+                      {kNode + " odom", "odom"}};
+  for (const auto& [name, value] : kParameters) entries[kNode + "/" + name] = value;
+  expectCamera("", entries);
+  expect("kitti.launch",
+         "bag:=any.bag rviz:=false " + config_,
+         {{"/stereo/stereo_odometry/trajectory_file", "/of_config"},
+          {"/stereo/stereo_odometry/trajectory_format", "kitti"},
+          {"/stereo/kitti_player/lockstep", "true"},
+          {"cleared", "/stereo/stereo_odometry/ /stereo/kitti_player/"},
+          {"warnings", ""}});
+}
+
+TEST_F(ConfiguredLaunchTest, ArgumentsOverrideIt) {
+  expectArguments({{"odom_frame", "odom"},
+                   {"base_frame", "base_link"},
+                   {"publish_tf", "true"},
+                   {"rectify", "false"}},
+                  {{"warnings", ""}});
+  expect("kitti.launch",
+         "bag:=any.bag rviz:=false rectify:=true lockstep_timeout:=0 trajectory_file:=/new",
+         {{"/stereo/stereo_odometry/rectify", "true"},
+          {"/stereo/stereo_odometry/trajectory_file", "/new"},
+          {"/stereo/kitti_player/rectify", "true"},
+          {"/stereo/kitti_player/lockstep", "false"},
+          {"warnings", ""}});
+}
+
+TEST_F(ConfiguredLaunchTest, ArgumentsOfTheLastReleaseWorkAndAreReported) {
+  expectArguments({{"planar", "false"},
+                   {"guess_frame", "odom_2"},
+                   {"max_stamp_difference_s", "0.005"},
+                   {"image_transport", "raw"},
+                   {"trajectory_file", "/new"},
+                   {"trajectory_format", "tum"}},
+                  {});
+  for (const std::string argument : {"planar:=false", "trajectory_format:=tum", "imu:=/imu/data"}) {
+    const std::string warnings = launchCamera(" " + argument)["warnings"];
+    EXPECT_NE(warnings.find("DEPRECATED"), std::string::npos) << argument << warnings;
+  }
+  expectCamera(" imu:=/imu/data", {{kNode + " imu", "/imu/data"}, {kNode + "/use_imu", "true"}});
+  expect("kitti.launch",
+         "bag:=any.bag rviz:=false lockstep:=false",
+         {{"/stereo/kitti_player/lockstep", "false"}});
+  expect("cameras/realsense.launch",
+         "driver:=false publish_tf:=false mount:='1 2 3 0.4 0.5 0.6'",
+         {{"/camera_link_mount",
+           "tf2_ros/static_transform_publisher 1 2 3 0.4 0.5 0.6 base_link camera_link"},
+          {"/camera/stereo_odometry/publish_tf", "false"}});
+}
+
+TEST_F(ConfiguredLaunchTest, TopicsAreWhereTheUserWants) {
+  Launched entries;
+  for (const std::string topic : {"odom", "twist", "path", "status", "inliers", "flow"}) {
+    entries[kNode + " " + topic] = "/vo/" + topic;
+  }
+  expectCamera(" output_ns:=/vo", entries);
+  expectCamera(" output_ns:=vo odom_topic:=/odometry/visual rviz:=true",
+               {{kNode + " odom", "/odometry/visual"},
+                {kNode + " path", "vo/path"},
+                {"/camera/rviz odom", "/odometry/visual"},
+                {"/camera/rviz", kRviz}});
+  expectCamera(" rviz:=true odom_frame:=map", {{"/camera/rviz", kRviz + " -f map"}});
+  expectCamera(" left_image:=cam0/image right_image:=/cam1/image gyroscope:=/imu/data",
+               {{kNode + " left/image_rect", "cam0/image"},
+                {kNode + " left/image_raw", "cam0/image"},
+                {kNode + " right/image_rect", "/cam1/image"},
+                {kNode + " right/image_raw", "/cam1/image"},
+                {kNode + " imu", "/imu/data"},
+                {kNode + "/use_imu", "true"}});
+}
+
+const std::string kPose = " camera_pose:='1 2 3 0.4 0.5 0.6'";
+const std::string kPublisher = "tf2_ros/static_transform_publisher ";
+
+TEST_F(LaunchFilesTest, WithoutADriverInstalledTheOdometryStarts) {
+  EXPECT_EQ(launch("cameras/realsense.launch", "driver:=false").count("/camera/stereo_odometry"),
+            1u);
+  EXPECT_EQ(launch("cameras/usb_pair.launch", "driver:=false").count("/stereo/stereo_odometry"),
+            1u);
+  EXPECT_EQ(launch("cameras/zed.launch", "driver:=false").count("/zed2/stereo_odometry"), 1u);
+}
+
+TEST_F(LaunchFilesTest, Realsense) {
+  addDriver("realsense2_camera",
+            "rs_camera.launch",
+            "camera enable_infra1 enable_infra2 enable_color enable_depth infra_width infra_height "
+            "infra_fps");
+  const std::string odometry = "/front/stereo_odometry";
+  expect("cameras/realsense.launch",
+         "camera:=front" + kPose,
+         {{"/driver/enable_infra1", "true"},
+          {"/front/stereo_module/emitter_enabled", "0"},
+          {odometry + " left/image_rect", "infra1/image_rect_raw"},
+          {odometry + " right/image_rect", "infra2/image_rect_raw"},
+          {odometry + " left/camera_info", "infra1/camera_info"},
+          {odometry + " right/camera_info", "infra2/camera_info"},
+          {"/front_link_mount", kPublisher + "1 2 3 0.6 0.5 0.4 base_link front_link"},
+          {"warnings", ""}});
+  expect("cameras/realsense.launch", "", {{"/camera_link_mount", ""}});
+}
+
+TEST_F(LaunchFilesTest, Zed) {
+  addDriver("zed_wrapper",
+            "zed2i.launch",
+            "camera_name base_frame publish_urdf cam_pos_x cam_pos_y cam_pos_z cam_roll cam_pitch "
+            "cam_yaw",
+            "<group ns=\"$(arg camera_name)/zed_node/pos_tracking\">"
+            "<param name=\"publish_tf\" value=\"true\"/>"
+            "<param name=\"publish_map_tf\" value=\"true\"/></group>");
+  const std::string odometry = "/eyes/stereo_odometry";
+  expect("cameras/zed.launch",
+         "model:=zed2i camera:=eyes base_frame:=body" + kPose,
+         {{"/driver/cam_pos_z", "3"},
+          {"/driver/cam_roll", "0.4"},
+          {"/driver/cam_pitch", "0.5"},
+          {"/driver/cam_yaw", "0.6"},
+          {"/driver/base_frame", "body"},
+          {"/driver/publish_urdf", "true"},
+          {"/eyes/zed_node/pos_tracking/publish_tf", "false"},
+          {"/eyes/zed_node/pos_tracking/publish_map_tf", "false"},
+          {odometry + " left/image_rect", "zed_node/left/image_rect_gray"},
+          {odometry + " right/image_rect", "zed_node/right/image_rect_gray"},
+          {odometry + " left/camera_info", "zed_node/left/camera_info"},
+          {odometry + " right/camera_info", "zed_node/right/camera_info"},
+          {odometry + "/base_frame", "body"},
+          {"warnings", ""}});
+  expect("cameras/zed.launch", "model:=zed2i", {{"/driver/publish_urdf", "false"}});
+  expect("cameras/zed.launch",
+         "model:=zed2i mount:='1 2 3 0.4 0.5 0.6'",
+         {{"/driver/cam_yaw", "0.4"}, {"/driver/cam_roll", "0.6"}});
+}
+
+TEST_F(LaunchFilesTest, UsbPair) {
+  expect("cameras/usb_pair.launch",
+         "right_device:=/dev/video4 framerate:=25" + kPose,
+         {{"/stereo/left", "usb_cam/usb_cam_node "},
+          {"/stereo/left/video_device", "/dev/video0"},
+          {"/stereo/right/video_device", "/dev/video4"},
+          {"/stereo/right/camera_name", "right"},
+          {"/stereo/right/camera_frame_id", "stereo_right_optical"},
+          {"/stereo/right/image_width", "640"},
+          {"/stereo/right/framerate", "25"},
+          {"/stereo/right/pixel_format", "mjpeg"},
+          {"/stereo/stereo_odometry/rectify", "true"},
+          {"/stereo/stereo_odometry/max_stamp_difference_s", "0.02"},
+          {"/stereo_link_mount", kPublisher + "1 2 3 0.6 0.5 0.4 base_link stereo_link"},
+          {"/stereo_left_optical_tf",
+           kPublisher + "0 0 0 -1.570796 0 -1.570796 stereo_link stereo_left_optical"},
+          {"warnings", ""}});
+}
+
+TEST_F(LaunchFilesTest, Euroc) {
+  expect("cameras/euroc.launch",
+         "bag:=/MH_01.bag rviz:=false",
+         {{"/player", "rosbag/play --clock --delay 3 --rate 1.0 --start 0.0 /MH_01.bag"},
+          {"/use_sim_time", "true"},
+          {"/reset_sim_time", "rotrocc/reset_sim_time player"},
+          {"/player /cam0/image_raw", "stereo/left/image_raw"},
+          {"/player /cam1/image_raw", "stereo/right/image_raw"},
+          {"/stereo/right_info image", "right/image_raw"},
+          {"/stereo/right_info camera_info", "right/camera_info"},
+          {"/stereo/stereo_odometry/rectify", "true"},
+          {"/stereo/stereo_odometry/camera_frame", "cam0"},
+          {"warnings", ""}});
+}
+
+/// From the rows of a matrix.
+template <int kColumns>
+Eigen::Matrix<double, 3, kColumns> matrix(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::Matrix<double, 3, kColumns, Eigen::RowMajor>>(values.data());
+}
+
+// T_BS of sensor.yaml of the data set.
+// clang-format off
+const Eigen::Affine3d kBodyLeft(matrix<4>({
+    0.0148655429818, -0.999880929698, 0.00414029679422, -0.0216401454975,
+    0.999557249008, 0.0149672133247, 0.025715529948, -0.064676986768,
+    -0.0257744366974, 0.00375618835797, 0.999660727178, 0.00981073058949}));
+const Eigen::Affine3d kBodyRight(matrix<4>({
+    0.0125552670891, -0.999755099723, 0.0182237714554, -0.0198435579556,
+    0.999598781151, 0.0130119051815, 0.0251588363115, 0.0453689425024,
+    -0.0253898008918, 0.0179005838253, 0.999517347078, 0.00786212447038}));
+// clang-format on
+
+TEST(EurocCalibrationTest, RectifiesTheCamerasAsAPair) {
+  constexpr double kDigits = 1e-9;  // of T_BS
+  const YAML::Node left = YAML::LoadFile(ROOT "/config/cameras/euroc_left.yaml");
+  const YAML::Node right = YAML::LoadFile(ROOT "/config/cameras/euroc_right.yaml");
+  const auto data = [](const YAML::Node& camera, const char* name) {
+    return camera[name]["data"].as<std::vector<double>>();
+  };
+  const Eigen::Matrix3d R_left = matrix<3>(data(left, "rectification_matrix"));
+  const Eigen::Matrix3d R_right = matrix<3>(data(right, "rectification_matrix"));
+  const Eigen::Affine3d right_left = kBodyRight.inverse() * kBodyLeft;
+  EXPECT_LT((R_right * right_left.linear() - R_left).norm(), kDigits);
+  const Eigen::Vector3d baseline = R_right * right_left.translation();
+  EXPECT_LT(baseline.tail<2>().norm(), kDigits);
+  const auto P_left = matrix<4>(data(left, "projection_matrix"));
+  const auto P_right = matrix<4>(data(right, "projection_matrix"));
+  EXPECT_NEAR(P_right(0, 3) / P_right(0, 0), baseline.x(), kDigits);
+  EXPECT_EQ(P_right.leftCols<3>(), P_left.leftCols<3>());
+}
+
+TEST_F(LaunchFilesTest, TheBaseOfEurocHasTheAxesOfARobot) {
+  std::istringstream mount(
+      launch("cameras/euroc.launch", "bag:=any.bag rviz:=false")["/cam0_mount"]);
+  std::string program;
+  double x, y, z, yaw, pitch, roll;
+  mount >> program >> x >> y >> z >> yaw >> pitch >> roll;
+  const Eigen::Affine3d camera = Eigen::Translation3d(x, y, z) *
+                                 Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
+                                 Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
+                                 Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
+  // The body has x up, y right and z forward.
+  const Eigen::Matrix3d base_body = matrix<3>({0, 0, 1, 0, -1, 0, 1, 0, 0});
+  constexpr double kDigits = 2e-6;  // of the launch file
+  EXPECT_LT((camera.matrix() - (base_body * kBodyLeft).matrix()).norm(), kDigits);
+}
+
+}  // namespace
+}  // namespace rotrocc
