@@ -7,7 +7,8 @@
 
 # Options of each program. Those with a value end in =.
 declare -gA _rotrocc_options=(
-  [benchmark]='--repeat= --programs= --config= --set= --against-programs= --against-config= --against-set='
+  [benchmark]='--repeat= --programs= --config= --set= --against-programs= --against-config= --against-set=
+    --settings= --starts='
   [draw_report]='--title='
   [error_characteristics]='--output='
   [evaluate_trajectory]='--lengths= --step= --fit --times= --segments= --report= --stats= --title='
@@ -23,7 +24,6 @@ declare -gA _rotrocc_options=(
     --lorry-across= --tiles= --seed= --noise-seed= --truth --check-truth --imu --size= --focal= --baseline=
     --rig= --gains= --lens= --disparity-bias= --right-rotation= --rows= --time-skew= --drop-frames= --noise=
     --vignetting= --exposure-jumps= --motion-blur='
-  [step_length]='--columns= --pairs= --least='
   [stress_sequence]='--plain= --drops= --gain-step= --contrast= --right-gain= --right-offset= --noise= --jpeg= --seed='
 )
 

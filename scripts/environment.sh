@@ -1,10 +1,16 @@
 # shellcheck shell=bash
-# Sourced by the other scripts: paths and build functions.
+# Sourced by the other scripts: paths, usage and build functions.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${ROTROCC_BUILD_DIR:-$root/build}
 started=$SECONDS
 cmake_options=()
+
+# Prints the comment at the top of a script, and ends it with a status.
+usage() {
+  sed -n '2,/^set/{/^set/d;s/^# \{0,1\}//;p}' "$0"
+  exit "$1"
+}
 
 # Prints a step, with the seconds since the start of the script.
 step() {
@@ -13,9 +19,6 @@ step() {
 
 # Programs of ROS call python3 from PATH; a python of pyenv or conda lacks the ROS modules.
 python=$(command -v python3 || true)
-if [ -n "$python" ] && [ "$(realpath "$python")" != "$(realpath /usr/bin/python3)" ]; then
-  step "using the system's /usr/bin/python3, which has ROS, instead of $python"
-fi
 export PATH=/usr/bin:$PATH
 
 # Sources a setup.bash of ROS, which does not support set -u.
@@ -26,49 +29,38 @@ source_ros() {
   set -u
 }
 
-if [ -f /opt/ros/noetic/setup.bash ]; then source_ros /opt/ros/noetic/setup.bash; fi
-
 # Reads the output of make, and says how far it is: on a terminal in one line that changes, otherwise in one
 # for every 10 %. Warnings are shown.
 show_progress() {
-  local target=$1 line percent doing part tenths=-1 width=0
-  if [ -t 1 ]; then width=$(tput cols 2>/dev/null || echo 80); fi
+  local target=$1 line percent tenths=-1 is_terminal
+  [ ! -t 1 ] || is_terminal=yes
   while IFS= read -r line; do
-    if [[ $line =~ ^\[\ *([0-9]+)%\]\ (.*) ]]; then
+    if [[ $line =~ ^\[\ *([0-9]+)%\] ]]; then
       percent=${BASH_REMATCH[1]}
-      doing=${BASH_REMATCH[2]}
-      case $doing in
-        'Building CXX object '*/Unity/unity_*)  # a group of sources
-          doing=${doing##*CMakeFiles/}
-          part=${doing##*unity_}
-          doing="compiling ${doing%%.dir/*}, part $((${part%%_*} + 1))" ;;
-        'Building CXX object '*) doing=${doing##*CMakeFiles/*.dir/}; doing="compiling ${doing%.o}" ;;
-        'Linking CXX '*) doing="linking ${doing##*[ /]}" ;;
-        'Built target '*) doing="built ${doing##* }" ;;
-      esac
-      if ((width)); then
-        line=$(printf '[%4d s] building %s: %3d %%, %s' $((SECONDS - started)) "$target" "$percent" "$doing")
-        printf '\r%s\e[K' "${line:0:width}"
+      if [ -n "${is_terminal:-}" ]; then
+        printf '\r[%4d s] building %s: %3d %%' $((SECONDS - started)) "$target" "$percent"
       elif ((percent / 10 > tenths)); then
         tenths=$((percent / 10))
         step "building $target: $percent %"
       fi
     elif [[ $line == *warning:* ]]; then
-      ((width)) && printf '\r\e[K'
-      echo "$line"
+      echo "${is_terminal:+$'\n'}$line"
     fi
   done
-  ((width)) && printf '\r\e[K'
-  return 0
+  [ -z "${is_terminal:-}" ] || echo
 }
 
 # Configures with cmake_options, builds the given CMake targets (default: all but the tests), and adds
 # the package to the ROS environment. With ROTROCC_PREBUILT=1 they are taken as they are.
 build_targets() {
   local log=$build/build.log target
+  if [ -f /opt/ros/noetic/setup.bash ]; then source_ros /opt/ros/noetic/setup.bash; fi
   if [ -n "${ROTROCC_PREBUILT:-}" ]; then
     source_ros "$build/devel/setup.bash"
     return
+  fi
+  if [ -n "$python" ] && [ "$(realpath "$python")" != "$(realpath /usr/bin/python3)" ]; then
+    step "using the system's /usr/bin/python3, which has ROS, instead of $python"
   fi
   step "configuring and building (log: $log)"
   mkdir -p "$build"

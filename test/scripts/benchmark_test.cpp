@@ -1,5 +1,6 @@
 // Runs scripts/benchmark on a small sequence. Times are not checked.
 
+#include <cstdio>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -68,6 +69,42 @@ TEST_F(BenchmarkTest, ComparesParametersInTurns) {
   EXPECT_NEAR(figure(result.output, row, 2), b - a, 0.01);
   EXPECT_EQ(figure(result.output, row, 3), 0.0) << "the same in both turns";
   EXPECT_NEAR(figure(result.output, row, 4), b / a, 0.001);
+}
+
+TEST_F(BenchmarkTest, ComparesTheSettingsOfAFile) {
+  const std::string file = directory_.write("settings.yaml",
+                                            "settings:\n  default: {}\n  fast: {config: " CONFIG
+                                            "/fast.yaml}\n"
+                                            "  few: {feature_detector/max_features: 200}\n");
+  const CommandResult result = run(sequence() + " --repeat 1 --settings " + file);
+  ASSERT_EQ(result.status, 0) << result.output;
+  for (const char* name : {"default", "fast", "few"}) {
+    EXPECT_GT(figure(result.output, std::string("| ") + name + " |"), 0.0) << name;
+  }
+}
+
+TEST_F(BenchmarkTest, StartsTheNodeAndItsLaunchFile) {
+  const CommandResult result = run(sequence() + " --starts 1");
+  ASSERT_EQ(result.status, 0) << result.output;
+  for (const char* name : {"stereo_odometry ", "stereo_odometry.launch "}) {
+    const std::size_t line = result.output.find(std::string("\n") + name);
+    ASSERT_NE(line, std::string::npos) << result.output;
+    double first_s = 0.0, second_s = 0.0, memory_mb = 0.0;
+    int libraries = 0;
+    EXPECT_EQ(std::sscanf(result.output.c_str() + line,
+                          "%*s %lf (%*f to %*f) %lf (%*f to %*f) %d %lf",
+                          &first_s,
+                          &second_s,
+                          &libraries,
+                          &memory_mb),
+              4)
+        << result.output;
+    EXPECT_GT(first_s, 0.0);
+    EXPECT_GE(second_s, first_s);
+    EXPECT_GT(libraries, 20) << "those of ROS and OpenCV";
+    EXPECT_GT(memory_mb, 5.0);
+  }
+  EXPECT_NE(run("none --starts 1").output.find("none does not exist"), std::string::npos);
 }
 
 TEST_F(BenchmarkTest, TakesAnotherBuild) {

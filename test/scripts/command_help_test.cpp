@@ -29,28 +29,12 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> kPage = {
       "kitti_benchmark",
       "benchmark",
       "plot_trajectory",
-      "draw_report",
-      "step_length"}},
+      "draw_report"}},
     {"Recordings", {"sequence_to_bag", "simulate_drive", "stress_sequence", "publish_camera_info"}},
     {"Nodes", {"stereo_odometry", "kitti_player", "rviz_scene"}},
     {"Library", {"kitti_odometry", "error_characteristics"}},
     {"Scripts of the sources",
-     {"demo",
-      "setup",
-      "test",
-      "package",
-      "accuracy",
-      "real_clips",
-      "realism",
-      "limits",
-      "performance",
-      "startup",
-      "gyroscope",
-      "paper_experiments",
-      "soak",
-      "sanitize",
-      "fuzz",
-      "arm64"}}};
+     {"demo", "setup", "test", "package", "soak", "sanitize", "fuzz", "arm64"}}};
 
 bool isNode(const std::string& name) {
   return name == "stereo_odometry" || name == "kitti_player" || name == "rviz_scene";

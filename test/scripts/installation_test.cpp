@@ -56,6 +56,28 @@ TEST_F(InstallationTest, ProgramsFindTheirLibraries) {
   EXPECT_TRUE(std::filesystem::exists(path("report/index.html"))) << report.output;
 }
 
+TEST_F(InstallationTest, PythonCommandsFindTheirModules) {
+  for (const std::string name : {"benchmark",
+                                 "draw_report",
+                                 "kitti_benchmark",
+                                 "plot_trajectory",
+                                 "publish_camera_info",
+                                 "reset_sim_time"}) {
+    const CommandResult help = run("rosrun rotrocc " + name + " --help");
+    EXPECT_EQ(help.status, 0) << help.output;
+  }
+  // Without the environment of ROS: from the devel space, and from a checkout.
+  for (const std::string folder : {BUILD "/devel/lib/rotrocc", SOURCE "/scripts"}) {
+    const CommandResult help = runCommand("env -i PATH=/usr/bin " + folder + "/draw_report --help");
+    EXPECT_EQ(help.status, 0) << help.output;
+  }
+  // One of the modules is a program.
+  writeSyntheticSequence(path("one"), 3);
+  const CommandResult one =
+      run("rosrun rotrocc kitti_benchmark " + path("one") + " --output " + path("benchmark"));
+  EXPECT_EQ(one.status, 0) << one.output;
+}
+
 TEST_F(InstallationTest, CompletionIsWhereBashLooksForIt) {
   const std::string file = prefix() + "/share/bash-completion/completions/rotrocc";
   const CommandResult result = run("bash -c '. " + file + "; complete -p rosrun'");

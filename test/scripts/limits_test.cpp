@@ -1,4 +1,4 @@
-// Runs scripts/limits in its short form.
+// Runs experiments/limits in its short form.
 
 #include <string>
 #include <vector>
@@ -13,7 +13,7 @@ namespace {
 
 class LimitsTest : public ScriptTest {
  protected:
-  static void SetUpTestSuite() { runScript(LIMITS); }
+  static void SetUpTestSuite() { runScript(LIMITS, "--short"); }
 };
 
 TEST_F(LimitsTest, FindsTheLimitsOfEachStress) {
@@ -59,34 +59,31 @@ TEST_F(LimitsTest, WritesTablesAndAPicture) {
   EXPECT_EQ(readFile(outputPath("limits.png")).substr(1, 3), "PNG");
 }
 
-/// Bisection would miss a small difference of the cameras that fails where a larger one does not.
-TEST_F(LimitsTest, MeasuresAllLevelsOfUnequalCameras) {
-  const std::string output = directory() / "unequal";
-  const CommandResult result = runCommand(std::string("MPLBACKEND=module://none ") + PYTHON + " " +
-                                          LIMITS + " --short --programs " + PROGRAMS +
-                                          " --output " + output + " --stress right_offset_down");
-  ASSERT_EQ(result.status, 0) << result.output;
-  const std::vector<CsvRow> runs = readCsv(output + "/runs.csv");
-  ASSERT_EQ(runs.size(), 9u);
-  EXPECT_EQ(runs[1].at("level"), "-25");
-}
-
 /// The same command measures nothing again.
 TEST_F(LimitsTest, Resumes) {
   const std::string runs = readFile(outputPath("runs.csv"));
-  runScript(LIMITS);
-  SetUp();
+  EXPECT_EQ(run(LIMITS, "--short").status, 0);
   EXPECT_EQ(readFile(outputPath("runs.csv")), runs);
 }
 
 TEST_F(LimitsTest, ShowsThePairsOfALevel) {
-  const CommandResult shown =
-      runCommand(std::string(PYTHON) + " " + LIMITS + " --short --programs " + PROGRAMS +
-                 " --output " + outputPath("") + " --stress jpeg --show 90 1");
+  const CommandResult shown = run(LIMITS, "--short --stress jpeg --show 90 1");
   ASSERT_EQ(shown.status, 0) << shown.output;
   EXPECT_NE(shown.output.find("offline_odometry " + outputPath("")), std::string::npos)
       << shown.output;
   EXPECT_NE(shown.output.find("\n   7  ok "), std::string::npos) << shown.output;
+}
+
+/// Bisection would miss a small difference of the cameras that fails where a larger one does not.
+TEST_F(LimitsTest, MeasuresAllLevelsOfUnequalCameras) {
+  const CommandResult result = run(LIMITS, "--short --stress right_offset_down");
+  ASSERT_EQ(result.status, 0) << result.output;
+  std::vector<std::string> levels;
+  for (const CsvRow& run : readTable("runs")) {
+    if (run.at("stress") == "right_offset_down") levels.push_back(run.at("level"));
+  }
+  ASSERT_EQ(levels.size(), 9u);
+  EXPECT_EQ(levels[1], "-25");
 }
 
 }  // namespace

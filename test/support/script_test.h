@@ -12,19 +12,24 @@
 
 namespace rotrocc {
 
-/// For tests of the results of a Python script in its short form, which runs once for all tests.
+/// For tests of the results of a Python script, which runs once for all tests.
 class ScriptTest : public ::testing::Test {
  protected:
-  /// To be called by SetUpTestSuite(). The script's output goes to the folder out of directory().
-  /// It must choose the backend of matplotlib itself: the default one may need what is missing.
-  static void runScript(const std::string& script, const std::string& options = "") {
-    result_ = runCommand(std::string("MPLBACKEND=module://none ") + PYTHON + " " + script +
-                         " --short --programs " + PROGRAMS + " --output " + outputPath("") + " " +
-                         options);
+  /// The output goes to the folder out of directory(). A script must choose the backend of
+  /// matplotlib itself: the default one may need what is missing.
+  static CommandResult run(const std::string& script, const std::string& arguments) {
+    return runCommand(std::string("MPLBACKEND=module://none ") + PYTHON + " " + script +
+                      " --programs " + PROGRAMS + " --output " + outputPath("") + " " + arguments);
+  }
+  /// To be called by SetUpTestSuite().
+  static void runScript(const std::string& script, const std::string& arguments) {
+    result_ = run(script, arguments);
   }
   static void TearDownTestSuite() { directory_.reset(); }
 
   void SetUp() override { ASSERT_EQ(result_.status, 0) << result_.output; }
+
+  static const std::string& printed() { return result_.output; }
 
   static const TemporaryDirectory& directory() {
     if (!directory_) directory_ = std::make_unique<TemporaryDirectory>();

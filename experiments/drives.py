@@ -1,0 +1,44 @@
+"""Drives in KITTI layout: parts of them, and their ground truth."""
+import shutil
+
+import numpy
+
+
+def take_pairs(sequence, taken, target):
+    """A folder with some pairs of a sequence, by their numbers; images are links."""
+    shutil.rmtree(str(target), ignore_errors=True)
+    for side in ('image_0', 'image_1'):
+        (target / side).mkdir(parents=True)
+        images = sorted((sequence / side).iterdir())
+        for index, image in enumerate(images[pair] for pair in taken):
+            (target / side / ('%06d%s' % (index, image.suffix))).symlink_to(image.resolve())
+    (target / 'calib.txt').write_text((sequence / 'calib.txt').read_text())
+    for name in ('times.txt', 'poses.txt', 'ins.txt'):
+        if (sequence / name).is_file():
+            lines = (sequence / name).read_text().splitlines(True)
+            (target / name).write_text(''.join(lines[pair] for pair in taken))
+    return target
+
+
+def count_pairs(sequence):
+    return len((sequence / 'times.txt').read_text().splitlines())
+
+
+def take_every(sequence, every, target):
+    """A folder with each `every`-th pair of a sequence."""
+    return take_pairs(sequence, range(0, count_pairs(sequence), every), target)
+
+
+def read_poses(path):
+    """n x 3 x 4."""
+    return numpy.loadtxt(str(path), ndmin=2).reshape(-1, 3, 4)
+
+
+def read_truth(sequence):
+    """The true poses, or None, and the true positions (n x 3) [m], or None."""
+    if (sequence / 'poses.txt').is_file():
+        poses = read_poses(sequence / 'poses.txt')
+        return poses, poses[:, :, 3]
+    if (sequence / 'ins.txt').is_file():
+        return None, numpy.loadtxt(str(sequence / 'ins.txt'), ndmin=2, usecols=[4, 5, 6])
+    return None, None

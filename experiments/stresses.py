@@ -1,0 +1,240 @@
+"""Stressed drives for experiments/limits: each stress has a ladder of levels, and makes a sequence for each."""
+import collections
+import threading
+
+import numpy
+from PIL import Image
+
+from drives import count_pairs, take_every, take_pairs
+from rotrocc_tools.programs import make_once
+
+CAMERA = ['--size', '640x240', '--focal', 370, '--baseline', 0.54]  # as KITTI's at half the resolution
+FOCAL_PX = 370.0
+PERIOD_S = 0.1
+STEP_M = 0.5
+START_PAIRS = 5  # speed and turn rate grow from 0 to full during this time
+NOISE = 2.0  # [grey levels] of all drives but those of the stress noise
+BLUR_TURN_DEG = 4.0  # of a drive with motion blur, per pair
+
+Stress = collections.namedtuple('Stress', 'name title unit levels make')
+UNSEEN = ['focal', 'baseline']  # a wrong scale that no image shows
+# All levels are measured: a match that survives a large change may fail at a small one.
+WHOLE = ['right_gain_down', 'right_gain_up', 'right_offset_down', 'right_offset_up']
+LORRIES = ['lorry', 'lorry_across']  # something else fills the image
+
+
+def ladder(first, last, rungs=17):
+    """Levels in equal ratios."""
+    return [float('%.3g' % level) for level in numpy.geomspace(first, last, rungs)]
+
+
+def about(axis, angle_deg):
+    """Rotation about a camera's x, y or z axis by each angle, n x 3 x 3."""
+    angle = numpy.radians(numpy.asarray(angle_deg, dtype=float))
+    rotations = numpy.tile(numpy.eye(3), (len(angle), 1, 1))
+    a, b = [(1, 2), (2, 0), (0, 1)]['xyz'.index(axis)]
+    rotations[:, a, a] = rotations[:, b, b] = numpy.cos(angle)
+    rotations[:, b, a] = numpy.sin(angle)
+    rotations[:, a, b] = -numpy.sin(angle)
+    return rotations
+
+
+def grown(pairs):
+    """Sum of steps that grow smoothly from 0 to 1 during the start."""
+    t = numpy.clip(numpy.arange(1, pairs) / START_PAIRS, 0, 1)
+    return numpy.concatenate([[0], numpy.cumsum(t * t * (3 - 2 * t))])
+
+
+def winding(way_m):
+    """Positions and orientations along a road that winds."""
+    steps = numpy.diff(way_m, prepend=0)
+    heading = 0.25 * numpy.sin(way_m / 9.0)
+    positions = numpy.cumsum(steps[:, None] * numpy.stack(
+        [numpy.sin(heading), 0 * heading, numpy.cos(heading)], axis=1), axis=0)
+    return positions, about('y', numpy.degrees(heading))
+
+
+class Drives:
+    """Makes sequences in a folder, each once."""
+
+    def __init__(self, programs, folder, pairs):
+        self.programs = programs
+        self.folder = folder
+        self.pairs = pairs
+        self.lock = threading.Lock()
+        self.locks = {}
+        folder.mkdir(parents=True, exist_ok=True)
+
+    def way(self, step_m=STEP_M):
+        return step_m * grown(self.pairs)
+
+    def render(self, name, seed, positions, rotations, *arguments, noise=NOISE):
+        """A drive in a street along these poses."""
+        def make(target):
+            poses = self.folder / ('%s_%d.txt' % (name, seed))
+            rows = numpy.concatenate([rotations, positions[:, :, None]], axis=2).reshape(-1, 12)
+            numpy.savetxt(str(poses), rows, fmt='%.9g')
+            self.simulate('--poses', poses, target, '--seed', seed, '--noise', noise, *arguments)
+        return self.once('%s_%d' % (name, seed), make)
+
+    def simulate(self, *arguments):
+        self.programs.run('simulate_drive', *CAMERA, '--moving-share', 0, *arguments)
+
+    def base(self, seed, *arguments, name='base', noise=NOISE):
+        return self.render(name, seed, *winding(self.way()), *arguments, noise=noise)
+
+    def clean(self, seed):
+        return self.base(seed, name='clean', noise=0)
+
+    def worse(self, name, seed, *arguments):
+        """The base drive with worse images."""
+        return self.once('%s_%d' % (name, seed), lambda target: self.programs.run(
+            'stress_sequence', self.clean(seed), target, '--seed', seed, *arguments))
+
+    def once(self, name, make):
+        """The folder that `make` fills, unless it exists. Stresses that run in parallel share some."""
+        target = self.folder / name
+        with self.lock:
+            own_lock = self.locks.setdefault(name, threading.Lock())
+        with own_lock:
+            return make_once(target, make)
+
+    def round_trip(self, seed):
+        """A drive of 18 s with 10 m/s and a turn of 26 deg/s."""
+        return self.once('slip_road_%d' % seed, lambda target: self.simulate(
+            'slip_road', target, '--seed', seed, '--noise', NOISE))
+
+    def median_depth_m(self, seed):
+        """Of what the base drive sees, without the sky."""
+        drive = self.base(seed, '--truth', name='depth')
+        depths = [numpy.asarray(Image.open(str(path)))[::4, ::4] for path in
+                  sorted((drive / 'depth').iterdir())[::4]]
+        depths = numpy.concatenate(depths, axis=None)
+        return float(numpy.median(depths[depths > 0]))
+
+
+def label(name, level):
+    return '%s_%g' % (name, level)
+
+
+def turn(axis):
+    """A constant turn rate [deg] per pair."""
+    def make(drives, level, seed):
+        positions, rotations = winding(drives.way())
+        return drives.render(label('turn_' + axis, level), seed, positions,
+                             rotations @ about(axis, level * grown(drives.pairs)))
+    return make
+
+
+def swing(axis, amplitude_deg):
+    """Turning to and fro, by at most `level` [deg] per pair."""
+    def make(drives, level, seed):
+        positions, rotations = winding(drives.way())
+        angle = amplitude_deg * numpy.sin(level / amplitude_deg * grown(drives.pairs))
+        return drives.render(label('swing_' + axis, level), seed, positions, rotations @ about(axis, angle))
+    return make
+
+
+def step(drives, level, seed):
+    way = drives.way(level * drives.median_depth_m(seed) / 100)
+    return drives.render(label('step', level), seed, *winding(way))
+
+
+def each(drives, level, seed):
+    """Each `level`-th pair of a drive."""
+    source = drives.round_trip(seed)
+    return drives.once('%s_%d' % (label('each', level), seed),
+                       lambda target: take_every(source, int(level), target))
+
+
+def dropped(drives, level, seed):
+    """`level` % of the pairs of a drive are missing."""
+    source = drives.round_trip(seed)
+    kept = numpy.random.RandomState(seed).uniform(size=count_pairs(source)) >= level / 100
+    return drives.once('%s_%d' % (label('dropped', level), seed),
+                       lambda target: take_pairs(source, numpy.flatnonzero(kept)[:2 * drives.pairs], target))
+
+
+def blur(drives, level, seed):
+    positions, rotations = winding(drives.way())
+    # At a constant rate: in an acceleration, the mean pose of an exposure is not that at its middle.
+    angle = BLUR_TURN_DEG * numpy.arange(drives.pairs)
+    exposure_s = level / FOCAL_PX / numpy.radians(BLUR_TURN_DEG) * PERIOD_S
+    return drives.render(label('blur', level), seed, positions, rotations @ about('y', angle),
+                         '--motion-blur', '%.6f' % exposure_s)
+
+
+def rendered(name, option, factor=1.0, *arguments):
+    """The base drive with an option of simulate_drive."""
+    def make(drives, level, seed):
+        return drives.base(seed, option, '%.6g' % (level * factor), *arguments, name=label(name, level))
+    return make
+
+
+# Places in a line of calib.txt: focal lengths, and focal length times baseline.
+FOCAL, BASELINE = (1, 6, 4), (4,)
+
+
+def miscalibrated(name, places):
+    """The base drive with a focal length or a baseline that is `level` % too large."""
+    def make(drives, level, seed):
+        source = drives.base(seed)
+
+        def write(target):
+            take_pairs(source, range(count_pairs(source)), target)
+            lines = []
+            for line in (source / 'calib.txt').read_text().splitlines():
+                words = line.split()
+                for place in places:
+                    words[place] = '%.9g' % (float(words[place]) * (1 + level / 100))
+                lines.append(' '.join(words) + '\n')
+            (target / 'calib.txt').write_text(''.join(lines))
+        return drives.once('%s_%d' % (label(name, level), seed), write)
+    return make
+
+
+def worse(name, option, convert=lambda level: level, noise=True):
+    """The base drive with worse images."""
+    def make(drives, level, seed):
+        options = ['--noise', NOISE] if noise else []
+        return drives.worse(label(name, level), seed, *options, option, '%.6g' % convert(level))
+    return make
+
+
+SHARES = [5, 10, 15, 20, 25, 30, 35, 40, 45, 50, 55, 60, 65, 70, 75, 80, 85, 90, 95]
+
+STRESSES = [
+    Stress('turn', 'turn rate', 'deg per pair', ladder(2, 32), turn('y')),
+    Stress('swing', 'turning to and fro', 'deg per pair', ladder(1, 24), swing('y', 25.0)),
+    Stress('pitch', 'nodding', 'deg per pair', ladder(0.5, 12), swing('x', 10.0)),
+    Stress('roll', 'roll rate', 'deg per pair', ladder(2, 32), turn('z')),
+    Stress('step', 'step', '% of the median depth', ladder(4, 64), step),
+    Stress('each', 'frame rate', 'each n-th pair', [1, 2, 3, 4, 5, 6, 7, 8, 10, 12], each),
+    Stress('dropped', 'pairs dropped', '%', [10, 20, 30, 40, 50, 60, 70, 80, 85, 90, 95], dropped),
+    Stress('blur', 'motion blur', 'px', ladder(2, 25), blur),
+    Stress('gain_step', 'exposure steps', 'factor', ladder(1.1, 40), worse('gain_step', '--gain-step')),
+    Stress('right_gain_down', 'right images: gain below 1', 'factor',
+           [0.9, 0.8, 0.7, 0.6, 0.5, 0.35, 0.25, 0.15, 0.1, 0.05, 0.02],
+           worse('right_gain_down', '--right-gain')),
+    Stress('right_gain_up', 'right images: gain above 1', 'factor',
+           [1.15, 1.25, 1.4, 1.7, 2, 2.5, 3.5, 5, 10, 20], worse('right_gain_up', '--right-gain')),
+    Stress('right_offset_down', 'right images: offset below 0', 'grey levels',
+           [-15, -25, -40, -60, -80, -100, -130, -160, -190], worse('right_offset_down', '--right-offset')),
+    Stress('right_offset_up', 'right images: offset above 0', 'grey levels',
+           [15, 25, 40, 60, 80, 100, 130, 160, 190, 220], worse('right_offset_up', '--right-offset')),
+    Stress('contrast', 'contrast', '%', ladder(80, 1), worse('contrast', '--contrast', lambda level: level / 100)),
+    Stress('noise', 'noise', 'grey levels', ladder(2, 80), worse('noise', '--noise', noise=False)),
+    Stress('jpeg', 'JPEG quality', '', ladder(90, 1), worse('jpeg', '--jpeg', round)),
+    Stress('lorry', 'a lorry that moves with the camera', '% of the image', SHARES,
+           rendered('lorry', '--lorry', 0.01)),
+    Stress('lorry_across', 'a lorry that changes lanes', '% of the image', SHARES,
+           rendered('lorry_across', '--lorry', 0.01, '--lorry-across', 1.0)),
+    Stress('plain', 'no texture', '% of the image', SHARES, worse('plain', '--plain', lambda level: level / 100)),
+    Stress('tiles', 'repeated texture', '% of all texture', SHARES, rendered('tiles', '--tiles', 0.01)),
+    Stress('drops', 'drops on the lenses', '% of the image', SHARES,
+           worse('drops', '--drops', lambda level: level / 100)),
+    Stress('rows', 'right rows off', 'px', ladder(0.25, 16), rendered('rows', '--rows')),
+    Stress('skew', 'right image late', 'ms', ladder(1, 100), rendered('skew', '--time-skew', 1e-3)),
+    Stress('focal', 'focal length too large', '%', ladder(0.25, 16), miscalibrated('focal', FOCAL)),
+    Stress('baseline', 'baseline too large', '%', ladder(0.25, 16), miscalibrated('baseline', BASELINE)),
+]

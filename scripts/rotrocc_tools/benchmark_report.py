@@ -1,0 +1,266 @@
+"""The report of kitti_benchmark: summary of all sequences, and a row for each."""
+import shutil
+
+import numpy
+
+from rotrocc_tools import report_figures as figures
+from rotrocc_tools import report_page as page
+from rotrocc_tools import trajectory_plot
+from rotrocc_tools.tables import positions, read_columns, read_table, write_table
+
+DEVKIT_M = 100.0  # shortest segment of the devkit; short sequences use shorter ones
+GROUPS = [('devkit', 'Sequences by the KITTI metric', 'Segments of 100 to 800 m, as on the KITTI leaderboard.'),
+          ('short', 'Short sequences', 'Segments of 5 to 40 m: too short for longer ones.'),
+          ('none', 'Sequences without errors', 'No ground truth, or too short for any segment.')]
+COLUMNS = ['sequence', 'group', 'pairs', 'path_m', 'segments', 'translation_percent',
+           'rotation_deg_per_m', 'lost', 'degraded', 'wall_ms', 'cpu_ms', 'bias_px', 'bias_sigma_px',
+           'duration_s']
+BINS = {'length': 'length_m', 'speed': 'speed_mps'}
+ERRORS = ['translation_percent', 'rotation_deg_per_m']
+END_HEADER = ['lost', 'degr.', 'CPU<br>[ms]', 'bias [px]']
+
+
+class Result:
+    """A finished sequence. Errors are nan without ground truth."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        summary = {name: column[0] for name, column in read_columns(folder / 'summary.csv').items()}
+        pairs = read_columns(folder / 'pairs.csv')
+        self.segments = int(summary.get('segments', 0))
+        self.bins = {}
+        if self.segments:
+            self.bins = {name: read_columns(folder / ('by_%s.csv' % name)) for name in BINS}
+        self.group = 'none'
+        if self.segments:
+            longest = self.bins['length']['length_m'][-1]
+            self.group = 'devkit' if longest >= DEVKIT_M else 'short'
+        self.row = {
+            'sequence': folder.name, 'group': self.group, 'pairs': len(pairs['stamp_ns']),
+            'path_m': summary['path_m'], 'segments': self.segments,
+            'lost': numpy.count_nonzero(pairs['state'] == 'lost'),
+            'degraded': numpy.count_nonzero(pairs['state'] == 'degraded'),
+            'wall_ms': pairs['wall_ms'].mean(), 'cpu_ms': pairs['cpu_ms'].mean(),
+            'bias_px': pairs['bias_estimated_px'][-1], 'bias_sigma_px': pairs['bias_sigma_px'][-1],
+            'duration_s': read_columns(folder / 'duration.csv')['seconds'][0]}
+        for name in ERRORS:
+            self.row[name] = summary[name] if self.segments else float('nan')
+
+
+def pool(tables, bin_name):
+    """Mean over the segments of all sequences, from their means and counts."""
+    sums = {}
+    for table in tables:
+        for i, key in enumerate(table[bin_name]):
+            count = table['segments'][i]
+            total = sums.setdefault(key, numpy.zeros(3))
+            total += [count] + [count * table[name][i] for name in ERRORS]
+    keys = sorted(sums)
+    pooled = {bin_name: numpy.array(keys), 'segments': numpy.array([sums[key][0] for key in keys])}
+    for i, name in enumerate(ERRORS):
+        pooled[name] = numpy.array([sums[key][i + 1] / sums[key][0] for key in keys])
+    return pooled
+
+
+def mean_error(rows, name):
+    """Mean over the segments of all sequences, as on the KITTI leaderboard."""
+    return (sum(row['segments'] * row[name] for row in rows) / sum(row['segments'] for row in rows))
+
+
+def read_earlier(folder):
+    """Tables of an earlier report: {'sequences': {name: row}, 'length': ..., 'speed': ...}."""
+    path = folder / 'sequences.csv'
+    if not path.is_file():
+        raise RuntimeError('%s is not a result folder: it has no sequences.csv' % folder)
+    rows = {row['sequence']: row for row in read_table(path)}
+    for row in rows.values():
+        for name in ERRORS + ['segments']:
+            row[name] = float(row[name])
+    earlier = {'sequences': rows}
+    for name in BINS:
+        earlier[name] = read_columns(folder / ('by_%s.csv' % name))
+    return earlier
+
+
+def of_group(table, group):
+    inside = table['group'] == group
+    return {name: column[inside] for name, column in table.items()}
+
+
+def write_tables(output, results):
+    def cell(value):
+        return '%.10g' % value if isinstance(value, float) else value
+    write_table(output / 'sequences.csv', COLUMNS,
+               [[cell(result.row[name]) for name in COLUMNS] for result in results])
+    for name, bin_name in BINS.items():
+        rows = []
+        for group, _, _ in GROUPS:
+            pooled = pool([result.bins[name] for result in results if result.group == group
+                           and result.bins], bin_name)
+            rows += [[group, '%g' % pooled[bin_name][i], '%d' % pooled['segments'][i]] +
+                     ['%.10g' % pooled[error][i] for error in ERRORS]
+                     for i in range(len(pooled[bin_name]))]
+        write_table(output / ('by_%s.csv' % name), ['group', bin_name, 'segments'] + ERRORS, rows)
+
+
+def change(now, before):
+    """Relative change, with sign and colour."""
+    if not before > 0.0:
+        return '–'
+    percent = 100.0 * (now / before - 1.0)
+    if abs(percent) < 0.05:
+        return 'same'
+    return '<span class="%s">%+.1f %%</span>' % ('worse' if percent > 0 else 'better', percent)
+
+
+class GroupSection:
+    """Table and pictures of the sequences with the same metric."""
+
+    def __init__(self, output, group, results, earlier):
+        self.output, self.group = output, group
+        self.rows = [result.row for result in results]
+        self.tables = [pool([result.bins[name] for result in results], bin_name)
+                       for name, bin_name in BINS.items()]
+        self.before = {}
+        self.tables_before = None
+        if earlier:
+            names = [row['sequence'] for row in self.rows]
+            self.before = {name: row for name, row in earlier['sequences'].items()
+                           if row['group'] == group and name in names}
+            self.tables_before = [of_group(earlier[name], group) for name in BINS]
+
+    def error_cells(self, row, before):
+        cells = []
+        for name, form in zip(ERRORS, ('%.3f', '%.5f')):
+            cells.append(form % row[name])
+            if self.before:
+                cells += [form % before[name], change(row[name], before[name])] if before else [
+                    '–', '–']
+        return cells
+
+    def total(self):
+        cells = ['mean', '%d' % sum(row['pairs'] for row in self.rows),
+                 '%.0f' % sum(row['path_m'] for row in self.rows)]
+        common = [row for row in self.rows if row['sequence'] in self.before]
+        now = {name: mean_error(common or self.rows, name) for name in ERRORS}
+        before = {name: mean_error(list(self.before.values()), name)
+                  for name in ERRORS} if common else None
+        pairs = numpy.array([row['pairs'] for row in self.rows], float)
+        cpu_ms = numpy.array([row['cpu_ms'] for row in self.rows])
+        return cells + self.error_cells(now, before) + [
+            '%d' % sum(row['lost'] for row in self.rows),
+            '%d' % sum(row['degraded'] for row in self.rows),
+            '%.1f' % (pairs.dot(cpu_ms) / pairs.sum()), '']
+
+    def write(self, title, note):
+        header = ['sequence', 'pairs', 'path<br>[m]']
+        for name in ('translation<br>[%]', 'rotation<br>[deg/m]'):
+            header += [name] + (['earlier', 'change'] if self.before else [])
+        header += END_HEADER
+        rows = [begin_cells(row) + self.error_cells(row, self.before.get(row['sequence']))
+                + end_cells(row) for row in self.rows]
+        note += ' The mean is over all %d segments%s.' % (
+            sum(row['segments'] for row in self.rows),
+            ' of the sequences in both reports' if self.before else '')
+
+        def errors(rows):
+            return {row['sequence']: [row[name] for name in ERRORS] for row in rows}
+        bars = self.output / ('sequences_%s.png' % self.group)
+        figures.plot_sequences([row['sequence'] for row in self.rows], errors(self.rows), bars,
+                               errors(self.before.values()))
+        curves = self.output / ('errors_%s.png' % self.group)
+        figures.plot_errors(*self.tables, curves, self.tables_before)
+        return page.section(title, note, page.table(header, rows, self.total()),
+                            page.picture(bars, 'errors of each sequence'),
+                            page.picture(curves, 'errors by length and by speed'))
+
+
+def begin_cells(row):
+    return [page.link('sequences/%s/index.html' % row['sequence'], row['sequence']),
+            '%d' % row['pairs'], '%.0f' % row['path_m']]
+
+
+def end_cells(row):
+    return ['%d' % row['lost'], '%d' % row['degraded'], '%.1f' % row['cpu_ms'],
+            '%+.2f ± %.2f' % (row['bias_px'], row['bias_sigma_px'])]
+
+
+def section_without_errors(title, note, results):
+    header = ['sequence', 'pairs', 'path<br>[m]'] + END_HEADER
+    rows = [begin_cells(result.row) + end_cells(result.row) for result in results]
+    return page.section(title, note, page.table(header, rows))
+
+
+def tiles(results):
+    entries = []
+    for group, what in (('devkit', ''), ('short', ', short')):
+        rows = [result.row for result in results if result.group == group]
+        if rows:
+            entries += [('%.3f' % mean_error(rows, ERRORS[0]), '%', 'translation error' + what),
+                        ('%.5f' % mean_error(rows, ERRORS[1]), 'deg/m', 'rotation error' + what)]
+    rows = [result.row for result in results]
+    pairs = sum(row['pairs'] for row in rows)
+    cpu_ms = sum(row['pairs'] * row['cpu_ms'] for row in rows) / pairs
+    entries += [('%d' % len(rows), 'sequences', '%d pairs, %.1f km' % (
+                    pairs, 1e-3 * sum(row['path_m'] for row in rows))),
+                ('%d' % sum(row['lost'] for row in rows), 'lost',
+                 '%d degraded' % sum(row['degraded'] for row in rows)),
+                ('%.1f' % cpu_ms, 'ms', 'CPU time per pair'),
+                ('%.0f' % sum(row['duration_s'] for row in rows), 's', 'run time of all jobs')]
+    return page.tiles(entries)
+
+
+def trajectories(output, results):
+    drives = []
+    for result in results:
+        poses = read_columns(result.folder / 'poses.csv')
+        drives.append((result.folder.name, positions(poses),
+                       positions(poses, 'true_') if 'true_x_m' in poses else None))
+    path = output / 'trajectories.png'
+    trajectory_plot.draw_all(drives, path)
+    return page.section('Trajectories', 'Top view, each at its own scale.',
+                        page.picture(path, 'trajectories from above'))
+
+
+def print_table(results):
+    print('%-20s %6s %8s %15s %16s %5s %8s' % ('sequence', 'pairs', 'path [m]', 'translation [%]',
+                                             'rotation [deg/m]', 'lost', 'CPU [ms]'))
+    for group, _, _ in GROUPS:
+        rows = [result.row for result in results if result.group == group]
+        for row in rows:
+            print('%-20s %6d %8.0f %15.3f %16.5f %5d %8.1f' % tuple(row[name] for name in (
+                'sequence', 'pairs', 'path_m', *ERRORS, 'lost', 'cpu_ms')))
+        if rows and group != 'none':
+            print('%-20s %6d %8.0f %15.3f %16.5f' % (
+                'mean of segments', sum(row['pairs'] for row in rows),
+                sum(row['path_m'] for row in rows), *(mean_error(rows, name) for name in ERRORS)))
+
+
+def write(output, names, failed, earlier, title):
+    """Writes the report of finished sequences; `failed` is {name: reason}, `earlier` is from read_earlier()."""
+    results = [Result(output / 'sequences' / name) for name in names]
+    write_tables(output, results)
+    (output / 'trajectories').mkdir(exist_ok=True)
+    for result in results:
+        shutil.copyfile(str(result.folder / 'estimate.txt'),
+                        str(output / 'trajectories' / (result.folder.name + '.txt')))
+
+    parts = [tiles(results)]
+    if failed:
+        parts.append(page.section('Failed', '', page.table(['sequence', 'reason'], [
+            (page.text(name), page.text(why)) for name, why in failed.items()])))
+    for group, heading, note in GROUPS:
+        members = [result for result in results if result.group == group]
+        if members and group == 'none':
+            parts.append(section_without_errors(heading, note, members))
+        elif members:
+            parts.append(GroupSection(output, group, members, earlier).write(heading, note))
+    parts.append(trajectories(output, results))
+    parts.append(page.section('Tables', 'Files next to this page: %s; estimated poses in KITTI format '
+                              'in trajectories.' % ', '.join(
+                                  page.link(name, name) for name in (
+                                      'sequences.csv', 'by_length.csv', 'by_speed.csv'))))
+    page.write_page(output / 'index.html', title, 'Stereo visual odometry, %d sequences%s' % (
+        len(results), ', compared with an earlier report' if earlier else ''), *parts)
+    print_table(results)
+    print('report: %s' % (output / 'index.html'))

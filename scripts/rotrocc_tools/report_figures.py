@@ -1,0 +1,190 @@
+"""The figures of reports. Each function writes one PNG.
+
+Tables are {column: array}, as tables.read_columns() gives them.
+"""
+from matplotlib import patches, ticker
+import numpy
+
+from rotrocc_tools.plot_style import (BLACK, BLUE, DEGRADED, FAINT, GREEN, LOST, ORANGE, SKY, TEXT, VERMILLION,
+                        dress, legend, pyplot, save)
+
+WIDTH_IN = 8.4
+OTHER = {'color': FAINT, 'linestyle': (0, (4, 2)), 'linewidth': 1.3}
+# From corners to inliers: light to dark.
+COUNTS = [('corners', '#DCEAF5', 'corners'),
+          ('with_depth', '#B9D5EA', 'with a depth'),
+          ('tracked', '#8FBBDC', 'tracked'),
+          ('consistent', '#5B9AC6', 'consistent'),
+          ('rotation_inliers', '#1F77AF', 'inliers, stage 1'),
+          ('translation_inliers', '#0B3C5D', 'stage 2')]
+TIMES = [('pyramids_ms', SKY, 'pyramids'), ('corners_ms', ORANGE, 'corners'),
+         ('disparity_ms', GREEN, 'disparity'), ('tracking_ms', BLUE, 'tracking'),
+         ('estimation_ms', VERMILLION, 'estimation')]
+
+
+def panels(rows, columns, height_in, **options):
+    figure, axes = pyplot.subplots(rows, columns, figsize=(WIDTH_IN, height_in), squeeze=False,
+                                   **options)
+    for panel in axes.flat:
+        dress(panel)
+    return figure, axes
+
+
+def plot_errors(by_length, by_speed, path, other=None, of_other='earlier'):
+    """Translation and rotation error by length and speed of the segments, as the devkit draws them.
+    `other` has two tables to compare with, `of_other` says which."""
+    figure, axes = panels(2, 2, 4.6, sharey='row')
+    bins = [('length_m', 1.0, 'length of the segment [m]'), ('speed_mps', 3.6, 'speed [km/h]')]
+    errors = [('translation_percent', 'translation error [%]', BLUE, 'o'),
+              ('rotation_deg_per_m', 'rotation error [deg/m]', ORANGE, 's')]
+    for column, (bin_name, scale, bin_label) in enumerate(bins):
+        table = (by_length, by_speed)[column]
+        for row, (name, label, colour, marker) in enumerate(errors):
+            panel = axes[row, column]
+            if other and len(other[column][bin_name]):
+                panel.plot(scale * other[column][bin_name], other[column][name], **OTHER)
+            panel.plot(scale * table[bin_name], table[name], marker=marker, color=colour,
+                       markersize=5, linewidth=1.8, clip_on=False, zorder=3)
+            panel.set_xlabel(bin_label)
+            panel.xaxis.set_major_locator(ticker.MaxNLocator(9, steps=[1, 2, 5, 10]))
+            if column == 0:
+                panel.set_ylabel(label)
+    for row in axes:
+        row[0].set_ylim(0, 1.12 * row[0].get_ylim()[1])
+    figure.tight_layout(h_pad=1.6, w_pad=1.6, rect=(0, 0, 1, 0.95 if other else 1))
+    if other:
+        lines = [axes[0, 0].lines[-1], axes[1, 0].lines[-1], axes[0, 0].lines[0]]
+        legend(figure, lines, ['translation', 'rotation', of_other], loc='upper right', ncol=3,
+               bbox_to_anchor=(0.985, 0.99))
+    save(figure, path)
+
+
+def shade(panel, time_s, states):
+    """Shades degraded and lost pairs."""
+    edges = numpy.concatenate([time_s[:1], 0.5 * (time_s[1:] + time_s[:-1]), time_s[-1:]])
+    for state, colour, opacity in (('degraded', DEGRADED, 0.22), ('lost', LOST, 0.32)):
+        inside = numpy.concatenate([[False], states == state, [False]])
+        begins = numpy.flatnonzero(inside[1:] & ~inside[:-1])
+        ends = numpy.flatnonzero(~inside[1:] & inside[:-1])
+        for begin, end in zip(begins, ends):
+            panel.axvspan(edges[begin], edges[end], color=colour, alpha=opacity, linewidth=0)
+
+
+def time_axis(panel, time_s):
+    panel.set_xlabel('time [s]')
+    panel.set_xlim(time_s[0], max(time_s[-1], time_s[0] + 1e-3))
+    panel.xaxis.set_major_locator(ticker.MaxNLocator(10, steps=[1, 2, 5, 10]))
+
+
+def robust_top(values, margin=1.15):
+    """An upper limit that ignores single outliers."""
+    values = values[numpy.isfinite(values)]
+    if not len(values) or values.max() <= 0:
+        return 1.0
+    return margin * min(values.max(), 3.0 * numpy.percentile(values, 99))
+
+
+def plot_steps(poses, states, path):
+    """Errors from pose to pose, and the speed, over time. `states` has the state of each pose."""
+    time_s = 1e-9 * (poses['stamp_ns'] - poses['stamp_ns'][0])
+    speed = numpy.concatenate([[numpy.nan], numpy.diff(poses['path_m']) / numpy.diff(time_s)])
+    rows = [(3.6 * speed, 'speed [km/h]', FAINT)]
+    if 'step_translation_error_m' in poses:
+        rows = [(1e3 * poses['step_translation_error_m'], 'translation [mm]', BLUE),
+                (1e3 * poses['step_rotation_error_deg'], 'rotation [mdeg]', ORANGE)] + rows
+    figure, axes = panels(len(rows), 1, 0.6 + 1.35 * len(rows), sharex=True)
+    for panel, (values, label, colour) in zip(axes[:, 0], rows):
+        shade(panel, time_s, states)
+        panel.plot(time_s, values, color=colour, linewidth=1.0)
+        panel.set_ylabel(label)
+        panel.set_ylim(0, robust_top(values))
+        panel.yaxis.set_major_locator(ticker.MaxNLocator(4, steps=[1, 2, 5, 10]))
+    time_axis(axes[-1, 0], time_s)
+    figure.align_ylabels(axes[:, 0])
+    figure.tight_layout(h_pad=0.8, rect=(0, 0, 1, 1 - 0.22 / figure.get_figheight()))
+    handles = [patches.Patch(color=colour, alpha=0.35, linewidth=0) for colour in (DEGRADED, LOST)]
+    counts = ['%s: %d of %d pairs' % (state, numpy.count_nonzero(states == state), len(states))
+              for state in ('degraded', 'lost')]
+    legend(figure, handles, counts, loc='upper right', ncol=2, bbox_to_anchor=(0.985, 0.995))
+    save(figure, path)
+
+
+def plot_counts(pairs, time_s, path):
+    """Features left after each stage."""
+    figure, axes = panels(1, 1, 2.9)
+    panel = axes[0, 0]
+    for name, colour, label in COUNTS:
+        panel.fill_between(time_s, pairs[name], color=colour, linewidth=0, label=label)
+    panel.set_ylabel('features')
+    panel.set_ylim(0, 1.05 * max(1, pairs['corners'].max()))
+    finish_timeline(figure, panel, time_s, path)
+
+
+def plot_times(pairs, time_s, path):
+    """Stacked times of the stages."""
+    figure, axes = panels(1, 1, 2.9)
+    panel = axes[0, 0]
+    panel.stackplot(time_s, [pairs[name] for name, _, _ in TIMES], linewidth=0,
+                    colors=[colour for _, colour, _ in TIMES],
+                    labels=[label for _, _, label in TIMES])
+    panel.plot(time_s, pairs['wall_ms'], color=BLACK, linewidth=0.6, label='whole pair')
+    panel.set_ylabel('wall time [ms]')
+    panel.set_ylim(0, robust_top(pairs['wall_ms']))
+    finish_timeline(figure, panel, time_s, path)
+
+
+def plot_bias(pairs, time_s, path):
+    """Estimated disparity bias with its standard deviation, and the applied correction."""
+    figure, axes = panels(1, 1, 2.9)
+    panel = axes[0, 0]
+    bias, sigma = pairs['bias_estimated_px'], pairs['bias_sigma_px']
+    panel.axhline(0.0, color=FAINT, linewidth=0.8)
+    panel.fill_between(time_s, bias - 2 * sigma, bias + 2 * sigma, color=BLUE, alpha=0.13,
+                       linewidth=0, label='2 sigma')
+    panel.fill_between(time_s, bias - sigma, bias + sigma, color=BLUE, alpha=0.25, linewidth=0,
+                       label='1 sigma')
+    panel.plot(time_s, bias, color=BLUE, linewidth=1.6, label='estimated')
+    panel.plot(time_s, pairs['bias_applied_px'], color=VERMILLION, linewidth=1.2, label='applied')
+    settled = sigma <= 2 * numpy.median(sigma)  # all but the first pairs
+    low = min(0.0, (bias - 2 * sigma)[settled].min())
+    high = max(0.0, (bias + 2 * sigma)[settled].max())
+    margin = max(0.08 * (high - low), 0.02)
+    panel.set_ylim(low - margin, high + margin)
+    panel.set_ylabel('disparity bias [px]')
+    finish_timeline(figure, panel, time_s, path)
+
+
+def finish_timeline(figure, panel, time_s, path):
+    time_axis(panel, time_s)
+    handles, labels = panel.get_legend_handles_labels()
+    figure.tight_layout(rect=(0, 0, 1, 0.91))
+    legend(figure, handles, labels, loc='upper left', ncol=len(labels),
+           bbox_to_anchor=(panel.get_position().x0, 0.985))
+    save(figure, path)
+
+
+def plot_sequences(names, errors, path, earlier=None):
+    """A bar for each sequence: `errors` and `earlier` are {name of the sequence: (translation [%],
+    rotation [deg/m])}."""
+    height_in = 1.1 + 0.26 * len(names)
+    figure, axes = panels(1, 2, height_in, sharey=True)
+    places = numpy.arange(len(names))
+    for index, (label, colour) in enumerate((('translation error [%]', BLUE),
+                                             ('rotation error [deg/m]', ORANGE))):
+        panel = axes[0, index]
+        panel.barh(places, [errors[name][index] for name in names], height=0.62, color=colour)
+        if earlier:
+            known = [i for i, name in enumerate(names) if name in earlier]
+            panel.plot([earlier[names[i]][index] for i in known], places[known], '|', color=BLACK,
+                       markersize=13, markeredgewidth=2)
+        panel.set_xlabel(label)
+        panel.grid(False, axis='y')
+        panel.xaxis.set_major_locator(ticker.MaxNLocator(5, steps=[1, 2, 5, 10]))
+    axes[0, 0].set_yticks(places)
+    axes[0, 0].set_yticklabels(names, color=TEXT)
+    axes[0, 0].invert_yaxis()
+    figure.tight_layout(w_pad=1.6, rect=(0, 0, 1, 1 - 0.2 / height_in))
+    if earlier:
+        legend(figure, axes[0, 0].lines[-1:], ['earlier'], loc='upper right',
+               bbox_to_anchor=(0.985, 1 - 0.04 / height_in))
+    save(figure, path)

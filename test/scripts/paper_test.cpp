@@ -1,0 +1,82 @@
+// Runs experiments/paper in its short form, and checks its results.
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/read_file.h"
+#include "support/script_test.h"
+#include "support/slow_build.h"
+
+namespace rotrocc {
+namespace {
+
+class PaperTest : public ScriptTest {
+ protected:
+  static void SetUpTestSuite() {
+    runScript(PAPER, isSlowBuild() ? "--short --scenarios motorway --frames 12" : "--short");
+  }
+
+  static std::vector<std::string> drives() {
+    if (isSlowBuild()) return {"motorway"};
+    return {"motorway", "slip_road"};
+  }
+  static int steps() { return isSlowBuild() ? 11 : 39; }
+};
+
+TEST_F(PaperTest, DrawsAllFigures) {
+  for (const std::string name : {"fig5", "fig7", "fig8"}) {
+    const std::string picture = readFile(outputPath(name) + ".png");
+    EXPECT_EQ(picture.substr(0, 4), "\x89PNG") << name;
+    EXPECT_GT(picture.size(), 10000u) << name << " is next to empty";
+  }
+}
+
+/// feature_errors_test checks their values.
+TEST_F(PaperTest, TellsTheErrorsOfFeatures) {
+  std::map<std::string, int> features;
+  for (const CsvRow& row : readTable("fig4")) ++features[row.at("motion")];
+  EXPECT_EQ(features.size(), 6u);
+  EXPECT_GT(features["t_z"], 300);  // half of those that are asked for
+  int wrong = 0;
+  for (const CsvRow& row : readTable("fig5")) wrong += number(row, "depth_factor") == 1.0 ? 0 : 1;
+  EXPECT_EQ(wrong, 5);
+}
+
+TEST_F(PaperTest, EveryCriterionFollowsTheDrives) {
+  for (const std::string& drive : drives()) {
+    const std::vector<CsvRow> frames = readTable("fig6_" + drive);
+    EXPECT_EQ(frames.size(), static_cast<std::size_t>(steps()));
+    double squares = 0.0;
+    for (const CsvRow& frame : frames) {
+      squares += std::pow(number(frame, "rotrocc") - number(frame, "truth"), 2) / steps();
+    }
+    EXPECT_LT(std::sqrt(squares), 0.015) << drive;  // [m]; the steps are 1 and 2.5 m
+  }
+  for (const CsvRow& row : readTable("summary")) {
+    for (const std::string criterion : {"rotrocc", "reprojection", "rocc"}) {
+      EXPECT_LT(number(row, criterion + "_translation_percent"), 1.0) << row.at("drive");
+      EXPECT_LT(number(row, criterion + "_rotation_deg_per_m"), 0.005) << row.at("drive");
+    }
+  }
+}
+
+TEST_F(PaperTest, ErrorsBySpeedAndLengthHaveBothCriteria) {
+  for (const std::string figure : {"fig7", "fig8"}) {
+    for (const std::string column : {"speed_mps", "length_m"}) {
+      std::map<std::string, int> rows;
+      for (const CsvRow& row : readTable(figure + "_" + column)) {
+        ++rows[row.at("criterion")];
+        EXPECT_GT(number(row, "segments"), 0.0);
+      }
+      EXPECT_EQ(rows.size(), 2u) << figure;
+      EXPECT_GE(rows["rotrocc"], 2) << figure << " by " << column;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rotrocc
