@@ -5,6 +5,8 @@ and rotation vector [rad] in the camera at the pair before, with covariances n x
 """
 import numpy
 
+from rotrocc_tools.tables import path_lengths
+
 BOUND_99 = 16.81  # of chi squared with 6 degrees of freedom
 REST_M = 1e-6  # shorter true steps count as standstill
 ANTENNA_PRIOR = numpy.diag([0.1, 1e4, 0.1])  # a car cannot show how high above the camera the antenna is
@@ -12,11 +14,6 @@ AXES = ['x', 'y', 'z', 'rx', 'ry', 'rz']
 
 
 # Of trajectories.
-
-def path_lengths(positions):
-    """The distance travelled up to each position (n x 3) [m]."""
-    return numpy.concatenate([[0.0], numpy.cumsum(numpy.linalg.norm(numpy.diff(positions, axis=0), axis=1))])
-
 
 def step_errors_percent(estimate, truth, pairs, least_m):
     """The errors of the length of the way over each window of `pairs` pairs in which `least_m` is travelled.

@@ -43,3 +43,9 @@ def read_columns(path):
 def positions(poses, prefix=''):
     """n x 3 positions of the estimate, or of the ground truth with the prefix 'true_'."""
     return numpy.stack([poses['%s%s_m' % (prefix, axis)] for axis in 'xyz'], axis=1)
+
+
+def path_lengths(positions_m):
+    """The distance travelled up to each position, n x 3 [m]."""
+    steps = numpy.linalg.norm(numpy.diff(positions_m, axis=0), axis=1)
+    return numpy.concatenate([[0.0], numpy.cumsum(steps)])

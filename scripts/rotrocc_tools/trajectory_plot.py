@@ -6,6 +6,7 @@ from matplotlib import ticker
 import numpy
 
 from rotrocc_tools.plot_style import DEGRADED, ESTIMATE, FAINT, LOST, TEXT, TRUTH, dress, legend, pyplot, save
+from rotrocc_tools.tables import path_lengths
 
 PAGE_IN = 8.0
 
@@ -34,11 +35,6 @@ def read_positions(path):
     if not numpy.isfinite(rows).all():
         raise ValueError('%s: not all numbers are finite' % path)
     return (positions - positions[0]) @ first
-
-
-def path_lengths(positions):
-    steps = numpy.linalg.norm(numpy.diff(positions, axis=0), axis=1)
-    return numpy.concatenate([[0.0], numpy.cumsum(steps)])
 
 
 def round_step(span, parts):
