@@ -7,8 +7,6 @@ at once, later or never, so its growth is the slope of its maxima over two minut
 The exit status is 1 if there are more threads in the second half than in the first or, in runs longer than
 ten minutes, if memory grows by 1 MB per hour or more after the first five.
 """
-
-import csv
 import signal
 import statistics
 import sys
@@ -51,24 +49,13 @@ def slope_of_maxima(samples, window_s):
     return 3600.0 * numpy.polyfit(times_s, memory_mb, 1)[0]
 
 
-def read(path):
-    return numpy.loadtxt(path, delimiter=',', skiprows=1, ndmin=2).tolist()
-
-
-def write(samples, path):
-    with open(path, 'w', newline='') as file:
-        writer = csv.writer(file)
-        writer.writerow(['time_s', 'memory_mb', 'threads', 'cpu_s'])
-        writer.writerows(samples)
-
-
 def main(*arguments):
     if len(arguments) == 1:
-        samples = read(arguments[0])
+        samples = numpy.loadtxt(arguments[0], delimiter=',', skiprows=1, ndmin=2).tolist()
     else:
         signal.signal(signal.SIGINT, signal.default_int_handler)  # in the background it is ignored
         samples = watch(int(arguments[0]))
-        write(samples, arguments[1])
+        numpy.savetxt(arguments[1], samples, '%.3f', ',', header='time_s,memory_mb,threads,cpu_s', comments='')
     if len(samples) < 10:
         print("the process was there for too short a time to say anything")
         return 1
