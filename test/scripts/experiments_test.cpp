@@ -2,10 +2,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
 
 #include "support/read_file.h"
 #include "support/script_test.h"
@@ -149,6 +151,22 @@ TEST_F(ExperimentsTest, ComparesTwinsWithTheirClips) {
   EXPECT_GT(number(row("clip_twin"), "translation_percent"), 0.0);
   EXPECT_NE(result.output.find("of twins and clips: rank correlation"), std::string::npos)
       << result.output;
+}
+
+TEST(SettingsFilesTest, HaveParametersThatThereAre) {
+  static const std::regex parameter(R"((\w+)/(\w+):)");
+  const YAML::Node defaults = YAML::LoadFile(CONFIG "/default.yaml");
+  int count = 0;
+  for (const fs::directory_entry& file : fs::directory_iterator(fs::path(RUN).parent_path())) {
+    if (file.path().extension() != ".yaml") continue;
+    const std::string text = readFile(file.path());
+    for (std::sregex_iterator match(text.begin(), text.end(), parameter), end; match != end;
+         ++match, ++count) {
+      EXPECT_TRUE(defaults[match->str(1)] && defaults[match->str(1)][match->str(2)])
+          << file.path() << ": " << match->str();
+    }
+  }
+  EXPECT_GT(count, 20);
 }
 
 TEST_F(ExperimentsTest, RefusesAFileWithoutSettings) {
