@@ -47,7 +47,8 @@ void drive(const sensor_msgs::CameraInfo& left_info,
   DropLog drops;
   StereoIntake intake(parameters.node, drops, [&](const ReceivedPair& pair) {
     try {
-      const PairAnswer answer = processor.process(pair, kittiMount());
+      const PairAnswer answer =
+          processor.process(processor.convert(pair), pair.camera, kittiMount());
       processor.inspect(answer, pair.camera);
       require(answer.result.T_prev_cur.matrix().allFinite(), "the motion is finite");
       require(answer.result.covariance.allFinite(), "the covariance is finite");

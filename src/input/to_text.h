@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <iomanip>
 #include <limits>
@@ -16,6 +17,11 @@ std::string toText(Number value) {
   std::ostringstream text;
   text << value;
   return text.str();
+}
+
+/// A number with at most two decimals.
+inline std::string hundredths(double value) {
+  return toText(0.01 * std::round(100.0 * value));
 }
 
 /// A number with all its digits, so that it can be read back.

@@ -8,6 +8,7 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/service_server.h>
+#include <boost/function.hpp>
 
 namespace rotrocc {
 
@@ -27,14 +28,15 @@ ros::Publisher advertise(ros::NodeHandle& nh,
 }
 
 /// The same for NodeHandle::advertiseService() and a service that the process already has.
-template <class Object, class Request, class Response>
-ros::ServiceServer advertiseService(ros::NodeHandle& nh,
-                                    const std::string& service,
-                                    bool (Object::*callback)(Request&, Response&),
-                                    Object* object) {
-  ros::ServiceServer server = nh.advertiseService(service, callback, object);
+template <class Service>
+ros::ServiceServer advertiseService(
+    ros::NodeHandle& nh,
+    const std::string& name,
+    const boost::function<bool(typename Service::Request&, typename Service::Response&)>&
+        callback) {
+  ros::ServiceServer server = nh.advertiseService(name, callback);
   if (server || ros::isShuttingDown()) return server;
-  throw std::runtime_error("cannot advertise the service " + nh.resolveName(service) +
+  throw std::runtime_error("cannot advertise the service " + nh.resolveName(name) +
                            ": this process already has one of that name; remap one of them");
 }
 

@@ -1,8 +1,11 @@
 #include "node/live_parameters.h"
 
+#include <map>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
+#include <dynamic_reconfigure/config_tools.h>
 #include <ros/init.h>
 
 #include "input/to_text.h"
@@ -11,57 +14,26 @@
 namespace rotrocc {
 namespace {
 
+using dynamic_reconfigure::Config;
+using dynamic_reconfigure::ConfigTools;
+using dynamic_reconfigure::Group;
 using Parameter = ParameterTable::Parameter;
-using Type = Parameter::Type;
 
 bool isLive(const Parameter& parameter) {
   return parameter.name.find('/') != std::string::npos;
 }
 
-std::string sectionOf(const Parameter& parameter) {
-  return parameter.name.substr(0, parameter.name.find('/'));
-}
-
-const char* typeName(Type type) {
-  switch (type) {
-    case Type::kInt:
-      return "int";
-    case Type::kDouble:
-      return "double";
-    case Type::kBool:
-      return "bool";
-    case Type::kText:
-      break;
-  }
-  return "str";
-}
-
-template <class Entry, class Value>
-Entry makeEntry(const std::string& name, const Value& value) {
-  Entry entry;
-  entry.name = name;
-  entry.value = value;
-  return entry;
-}
-
-void append(const std::string& name,
-            Type type,
-            const std::string& value,
-            dynamic_reconfigure::Config& config) {
-  switch (type) {
-    case Type::kInt:
-      config.ints.push_back(makeEntry<dynamic_reconfigure::IntParameter>(name, std::stoi(value)));
-      break;
-    case Type::kDouble:
-      config.doubles.push_back(
-          makeEntry<dynamic_reconfigure::DoubleParameter>(name, std::stod(value)));
-      break;
-    case Type::kBool:
-      config.bools.push_back(makeEntry<dynamic_reconfigure::BoolParameter>(name, value == "true"));
-      break;
-    case Type::kText:
-      config.strs.push_back(makeEntry<dynamic_reconfigure::StrParameter>(name, value));
-      break;
+void append(const Parameter& parameter, const std::string& value, Config& config) {
+  const std::string& name = parameter.name;
+  switch (parameter.type) {
+    case Parameter::Type::kInt:
+      return ConfigTools::appendParameter(config, name, std::stoi(value));
+    case Parameter::Type::kDouble:
+      return ConfigTools::appendParameter(config, name, std::stod(value));
+    case Parameter::Type::kBool:
+      return ConfigTools::appendParameter(config, name, value == "true");
+    case Parameter::Type::kText:
+      return ConfigTools::appendParameter(config, name, value);
   }
 }
 
@@ -77,74 +49,71 @@ std::string choiceMenu(const Parameter& parameter) {
 }
 
 dynamic_reconfigure::ParamDescription describe(const Parameter& parameter) {
+  static const std::map<Parameter::Type, std::string> kTypes = {
+      {Parameter::Type::kInt, "int"},
+      {Parameter::Type::kDouble, "double"},
+      {Parameter::Type::kBool, "bool"},
+      {Parameter::Type::kText, "str"}};
   dynamic_reconfigure::ParamDescription description;
   description.name = parameter.name;
-  description.type = typeName(parameter.type);
+  description.type = kTypes.at(parameter.type);
   description.description =
       (parameter.unit.empty() ? "" : "[" + parameter.unit + "] ") + parameter.description;
   description.edit_method = choiceMenu(parameter);
   return description;
 }
 
-dynamic_reconfigure::Group makeGroup(const std::string& name, int id) {
-  dynamic_reconfigure::Group group;
-  group.name = name;
-  group.id = id;
-  group.parent = 0;
-  return group;
+/// One group for each section.
+std::vector<Group> makeGroups(const ParameterTable& table) {
+  std::vector<Group> groups(1);
+  groups.front().name = "Default";
+  for (const Parameter& parameter : table.parameters()) {
+    if (!isLive(parameter)) continue;
+    const std::string section = parameter.name.substr(0, parameter.name.find('/'));
+    if (groups.back().name != section) {
+      groups.emplace_back();
+      groups.back().name = section;
+      groups.back().id = static_cast<int>(groups.size()) - 1;
+    }
+    groups.back().parameters.push_back(describe(parameter));
+  }
+  return groups;
 }
 
-void appendGroupState(const dynamic_reconfigure::Group& group,
-                      dynamic_reconfigure::Config& config) {
-  dynamic_reconfigure::GroupState state;
-  state.name = group.name;
-  state.state = true;
-  state.id = group.id;
-  state.parent = group.parent;
-  config.groups.push_back(state);
+/// A value of each live parameter, and the states of all groups.
+Config makeConfig(const ParameterTable& table,
+                  const std::function<std::string(const Parameter&)>& value) {
+  struct {
+    bool state = true;
+  } const open;
+  Config config;
+  for (const Group& group : makeGroups(table)) {
+    ConfigTools::appendGroup(config, group.name, group.id, group.parent, open);
+  }
+  for (const Parameter& parameter : table.parameters()) {
+    if (isLive(parameter)) append(parameter, value(parameter), config);
+  }
+  return config;
 }
 
 }  // namespace
 
 dynamic_reconfigure::ConfigDescription describeLiveParameters(Parameters parameters) {
-  dynamic_reconfigure::ConfigDescription description;
-  description.groups.push_back(makeGroup("Default", 0));
   const ParameterTable table = makeParameterTable(parameters);
-  for (const Parameter& parameter : table.parameters()) {
-    if (!isLive(parameter)) continue;
-    if (description.groups.back().name != sectionOf(parameter)) {
-      const int id = static_cast<int>(description.groups.size());
-      description.groups.push_back(makeGroup(sectionOf(parameter), id));
-    }
-    description.groups.back().parameters.push_back(describe(parameter));
-    append(parameter.name, parameter.type, parameter.min, description.min);
-    append(parameter.name, parameter.type, parameter.max, description.max);
-  }
-  for (const dynamic_reconfigure::Group& group : description.groups) {
-    appendGroupState(group, description.min);
-    appendGroupState(group, description.max);
-  }
+  dynamic_reconfigure::ConfigDescription description;
+  description.groups = makeGroups(table);
+  description.min = makeConfig(table, [](const Parameter& parameter) { return parameter.min; });
+  description.max = makeConfig(table, [](const Parameter& parameter) { return parameter.max; });
   description.dflt = toConfig({});
   return description;
 }
 
-dynamic_reconfigure::Config toConfig(Parameters parameters) {
-  dynamic_reconfigure::Config config;
-  auto group = makeGroup("Default", 0);
-  appendGroupState(group, config);
-  const ParameterTable table = makeParameterTable(parameters);
-  for (const Parameter& parameter : table.parameters()) {
-    if (!isLive(parameter)) continue;
-    if (group.name != sectionOf(parameter)) {
-      group = makeGroup(sectionOf(parameter), group.id + 1);
-      appendGroupState(group, config);
-    }
-    append(parameter.name, parameter.type, parameter.get(), config);
-  }
-  return config;
+Config toConfig(Parameters parameters) {
+  return makeConfig(makeParameterTable(parameters),
+                    [](const Parameter& parameter) { return parameter.get(); });
 }
 
-void applyConfig(const dynamic_reconfigure::Config& config, Parameters& parameters) {
+void applyConfig(const Config& config, Parameters& parameters) {
   Parameters changed = parameters;
   ParameterTable table = makeParameterTable(changed);
   const auto set = [&](const std::string& name, const std::string& value) {
@@ -171,28 +140,32 @@ LiveParameters::LiveParameters(ros::NodeHandle& private_nh,
       descriptions_(advertise<dynamic_reconfigure::ConfigDescription>(
           private_nh, "parameter_descriptions", 1, true)),
       updates_(advertise<dynamic_reconfigure::Config>(private_nh, "parameter_updates", 1, true)),
-      service_(advertiseService(private_nh, "set_parameters", &LiveParameters::onSet, this)) {
+      service_(advertiseService<dynamic_reconfigure::Reconfigure>(
+          private_nh, "set_parameters", [this](auto& request, auto& response) {
+            response.config = set(request.config);
+            return true;
+          })) {
   if (ros::isShuttingDown()) return;  // there are no publishers during shutdown
   descriptions_.publish(describeLiveParameters(parameters_));
   updates_.publish(toConfig(parameters_));
 }
 
-bool LiveParameters::onSet(dynamic_reconfigure::Reconfigure::Request& request,
-                           dynamic_reconfigure::Reconfigure::Response& response) {
+/// Returns all values, whether they have changed or not.
+Config LiveParameters::set(const Config& config) {
   try {
-    applyConfig(request.config, parameters_);
-    store(request.config);
+    applyConfig(config, parameters_);
+    store(config);
     on_change_(parameters_.odometry);
   } catch (const std::exception& error) {
     log_.warn(std::string("parameters not changed: ") + error.what());
   }
-  response.config = toConfig(parameters_);
-  updates_.publish(response.config);
-  return true;
+  const Config all = toConfig(parameters_);
+  updates_.publish(all);
+  return all;
 }
 
 /// Stores changes on the parameter server, for the next start and for other nodes.
-void LiveParameters::store(const dynamic_reconfigure::Config& config) {
+void LiveParameters::store(const Config& config) {
   for (const auto& entry : config.ints) private_nh_.setParam(entry.name, entry.value);
   for (const auto& entry : config.doubles) private_nh_.setParam(entry.name, entry.value);
   for (const auto& entry : config.bools) private_nh_.setParam(entry.name, entry.value != 0);

@@ -37,8 +37,7 @@ class LiveParameters {
                  Log log);
 
  private:
-  bool onSet(dynamic_reconfigure::Reconfigure::Request& request,
-             dynamic_reconfigure::Reconfigure::Response& response);
+  dynamic_reconfigure::Config set(const dynamic_reconfigure::Config& config);
   void store(const dynamic_reconfigure::Config& config);
 
   ros::NodeHandle private_nh_;

@@ -9,27 +9,23 @@
 namespace rotrocc {
 namespace {
 
-/// A value as text for the table. XmlRpcValue has non-const conversions only.
+/// A value as text for the table, with all digits. XmlRpcValue has non-const conversions only.
 std::string textOf(const std::string& name, XmlRpc::XmlRpcValue value) {
   std::ostringstream text;
   text.precision(std::numeric_limits<double>::max_digits10);
   switch (value.getType()) {
     case XmlRpc::XmlRpcValue::TypeBoolean:
-      text << (static_cast<bool>(value) ? "true" : "false");
-      break;
-    case XmlRpc::XmlRpcValue::TypeInt:
-      text << static_cast<int>(value);
-      break;
+      return static_cast<bool>(value) ? "true" : "false";
     case XmlRpc::XmlRpcValue::TypeDouble:
       text << static_cast<double>(value);
-      break;
+      return text.str();
+    case XmlRpc::XmlRpcValue::TypeInt:
+      return std::to_string(static_cast<int>(value));
     case XmlRpc::XmlRpcValue::TypeString:
-      text << static_cast<std::string>(value);
-      break;
+      return static_cast<std::string>(value);
     default:
       throw std::invalid_argument("parameter " + name + " is neither a value nor a section");
   }
-  return text.str();
 }
 
 /// Sets a value or a list.
@@ -60,16 +56,11 @@ void setBelow(const std::string& name,
   }
 }
 
-void requireFrame(const std::string& name, const std::string& frame) {
-  if (!frame.empty() && frame.front() != '/') return;
+void requireFrame(const std::string& name, const std::string& frame, bool may_be_empty = false) {
+  if (frame.empty() ? may_be_empty : frame.front() != '/') return;
   throw RefusedParameter(
       name,
       "parameter " + name + " is \"" + frame + "\", but must be a tf frame without leading slash");
-}
-
-/// The same for a frame that may be empty.
-void requireFrameIfAny(const std::string& name, const std::string& frame) {
-  if (!frame.empty()) requireFrame(name, frame);
 }
 
 void requireDifferent(const std::string& name,
@@ -106,8 +97,8 @@ Parameters readParameters(const ros::NodeHandle& private_nh, const Log& log) {
 void requireFrames(const NodeParameters& node) {
   requireFrame("odom_frame", node.odom_frame);
   requireFrame("base_frame", node.base_frame);
-  requireFrameIfAny("camera_frame", node.camera_frame);
-  requireFrameIfAny("guess_frame", node.guess_frame);
+  requireFrame("camera_frame", node.camera_frame, true);
+  requireFrame("guess_frame", node.guess_frame, true);
   requireDifferent("odom_frame", node.odom_frame, "base_frame", node.base_frame);
   requireDifferent("guess_frame", node.guess_frame, "odom_frame", node.odom_frame);
   requireDifferent("guess_frame", node.guess_frame, "base_frame", node.base_frame);

@@ -53,42 +53,6 @@ std::uint8_t toMessage(State state) {
   return OdometryStatus::LOST;
 }
 
-void addTimes(const PairTimes& times, const OdometryResult& result, OdometryStatus& message) {
-  const StageTimes& stages = result.times;
-  message.time_pyramids = static_cast<float>(stages.pyramids_ms);
-  message.time_corners = static_cast<float>(stages.corners_ms);
-  message.time_disparity = static_cast<float>(stages.disparity_ms);
-  message.time_tracking = static_cast<float>(stages.tracking_ms);
-  message.time_estimation = static_cast<float>(stages.estimation_ms);
-  message.time_prepared = static_cast<float>(stages.prepared_ms);
-  message.time_pairing = static_cast<float>(times.pairing_ms);
-  message.time_waiting = static_cast<float>(times.waiting_ms);
-  message.time_conversion = static_cast<float>(times.conversion_ms);
-  message.time_total = static_cast<float>(stages.total_ms);
-  message.time_publishing = static_cast<float>(times.publishing_ms);
-  message.time_rest = static_cast<float>(times.latency_ms - times.waiting_ms - times.conversion_ms -
-                                         stages.total_ms - times.publishing_ms);
-  message.latency = static_cast<float>(times.latency_ms);
-}
-
-void addCounters(const HealthReport& health, OdometryStatus& message) {
-  message.hint = health.statusHint();
-  message.pairs_processed = health.pairs_processed;
-  message.pairs_lost = health.pairs_lost;
-  message.guess_misses = health.guess_misses;
-  if (health.gyro) {
-    message.imu_reason = health.gyro->why_not_used;
-    message.rotations_predicted = health.gyro->counts.predicted;
-    message.rotations_missed = health.gyro->counts.missed;
-  }
-  for (const auto& [reason, count] : health.drops) {
-    DropCount drop;
-    drop.reason = toString(reason);
-    drop.count = count;
-    message.drops.push_back(drop);
-  }
-}
-
 }  // namespace
 
 nav_msgs::Odometry toOdometry(const BaseState& state,
@@ -142,10 +106,7 @@ geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& T_parent_ch
   return message;
 }
 
-OdometryStatus toStatus(const OdometryResult& result,
-                        const HealthReport& health,
-                        const PairTimes& times,
-                        const std::string& camera_frame) {
+OdometryStatus toStatus(const OdometryResult& result, const std::string& camera_frame) {
   OdometryStatus message;
   message.header.stamp = toRosTime(result.stamp_ns);
   message.header.frame_id = camera_frame;
@@ -172,18 +133,30 @@ OdometryStatus toStatus(const OdometryResult& result,
   message.time_skew_sigma = static_cast<float>(result.time_skew.sigma_s);
   message.exposure_gain = static_cast<float>(result.exposure_gain);
   message.flow_noise = static_cast<float>(result.flow_noise_px);
-  addTimes(times, result, message);
-  addCounters(health, message);
+
+  message.time_pyramids = static_cast<float>(result.times.pyramids_ms);
+  message.time_corners = static_cast<float>(result.times.corners_ms);
+  message.time_disparity = static_cast<float>(result.times.disparity_ms);
+  message.time_tracking = static_cast<float>(result.times.tracking_ms);
+  message.time_estimation = static_cast<float>(result.times.estimation_ms);
+  message.time_prepared = static_cast<float>(result.times.prepared_ms);
+  message.time_total = static_cast<float>(result.times.total_ms);
   return message;
 }
 
-OdometryStatus toIdleStatus(const HealthReport& health, const ros::Time& stamp) {
-  const NodeState state = stateOf(health);
+OdometryStatus toIdleStatus(const OdometryStatus& now, const ros::Time& stamp) {
   OdometryStatus message;
   message.header.stamp = stamp;
-  message.state = state.state;
-  message.reason = state.reason;
-  addCounters(health, message);
+  message.state = now.state;
+  message.reason = now.reason;
+  message.hint = now.hint;
+  message.imu_reason = now.imu_reason;
+  message.rotations_predicted = now.rotations_predicted;
+  message.rotations_missed = now.rotations_missed;
+  message.pairs_processed = now.pairs_processed;
+  message.pairs_lost = now.pairs_lost;
+  message.guess_misses = now.guess_misses;
+  message.drops = now.drops;
   return message;
 }
 

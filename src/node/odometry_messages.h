@@ -12,8 +12,6 @@
 #include <opencv2/core.hpp>
 
 #include "node/base/base_odometry.h"
-#include "node/health/odometry_health.h"
-#include "node/health/pair_times.h"
 #include "rotrocc/OdometryStatus.h"
 #include "rotrocc/visual_odometry.h"
 
@@ -37,14 +35,12 @@ geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& T_parent_ch
                                             const std::string& parent,
                                             const std::string& child);
 
-/// The stamp is that of the result.
-OdometryStatus toStatus(const OdometryResult& result,
-                        const HealthReport& health,
-                        const PairTimes& times,
-                        const std::string& camera_frame);
+/// State and numbers of a pair, with the stamp of the result. Lacks the hint, the counters since
+/// the start, and the times outside of the estimator.
+OdometryStatus toStatus(const OdometryResult& result, const std::string& camera_frame);
 
-/// The status without a recent pair.
-OdometryStatus toIdleStatus(const HealthReport& health, const ros::Time& stamp);
+/// The status without a recent pair: state, hint and counters of `now`.
+OdometryStatus toIdleStatus(const OdometryStatus& now, const ros::Time& stamp);
 
 /// The points of the features in `set`, in the frame of the header, which must be the left
 /// camera's: x, y, z [m] and the intensity of the image there, all FLOAT32.

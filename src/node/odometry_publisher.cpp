@@ -82,19 +82,18 @@ void OdometryPublisher::publishStatus(OdometryStatus status) {
   status_publisher_.publish(boost::make_shared<OdometryStatus>(std::move(status)));
 }
 
-void OdometryPublisher::publishPath(const BaseState& state) {
-  path_.push_back({toRosTime(state.stamp_ns), tf2::toMsg(state.T_odom_base.T)});
+void OdometryPublisher::publishPath(const BaseState& state, bool starts) {
+  if (starts) path_.clear();
+  path_.emplace_back();
+  path_.back().header.stamp = toRosTime(state.stamp_ns);
+  path_.back().header.frame_id = parameters_.odom_frame;
+  path_.back().pose = tf2::toMsg(state.T_odom_base.T);
   while (path_.size() > static_cast<std::size_t>(parameters_.path_length)) path_.pop_front();
   if (path_publisher_.getNumSubscribers() == 0 || !path_throttle_.pass()) return;
   const auto path = boost::make_shared<nav_msgs::Path>();
-  path->header.stamp = path_.back().stamp;
+  path->header.stamp = toRosTime(state.stamp_ns);
   path->header.frame_id = parameters_.odom_frame;
-  path->poses.resize(path_.size());
-  for (std::size_t i = 0; i < path_.size(); ++i) {
-    path->poses[i].header.frame_id = parameters_.odom_frame;
-    path->poses[i].header.stamp = path_[i].stamp;
-    path->poses[i].pose = path_[i].pose;
-  }
+  path->poses.assign(path_.begin(), path_.end());
   path_publisher_.publish(path);
 }
 

@@ -1,15 +1,13 @@
 #pragma once
 
 #include <chrono>
-#include <cstddef>
 #include <deque>
 #include <optional>
 
-#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/PoseStamped.h>
 #include <image_transport/image_transport.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
-#include <ros/time.h>
 #include <opencv2/core.hpp>
 
 #include "input/throttle.h"
@@ -37,11 +35,8 @@ class OdometryPublisher {
 
   void publishStatus(OdometryStatus status);
 
-  /// Adds a pose to the path, and publishes it.
-  void publishPath(const BaseState& state);
-
-  /// Clears the path.
-  void forgetPath() { path_.clear(); }
+  /// Adds a pose to the path, or to a new one, and publishes it.
+  void publishPath(const BaseState& state, bool starts);
 
   /// Publishes inliers and flow of the last call of odometry.process(), with input `left` and
   /// `camera` and output `result`.
@@ -54,13 +49,8 @@ class OdometryPublisher {
  private:
   void publishTf(const BaseState& state, const std::optional<Eigen::Isometry3d>& T_guess_base);
 
-  struct PathPose {
-    ros::Time stamp;
-    geometry_msgs::Pose pose;
-  };
-
   NodeParameters parameters_;
-  std::deque<PathPose> path_;
+  std::deque<geometry_msgs::PoseStamped> path_;
   Throttle path_throttle_;
   FlowView flow_view_;
   cv::Mat picture_;

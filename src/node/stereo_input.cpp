@@ -6,6 +6,8 @@
 #include <vector>
 
 #include <ros/time.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
 
 #include "input/message_conversion.h"
 
@@ -36,12 +38,11 @@ std::string topicOf(const ros::NodeHandle& nh,
 
 /// Transports have parameters of their own: in the namespace of the topic, not in the private
 /// namespace, where unknown names are errors.
-image_transport::Subscriber subscribe(
+image_transport::Subscriber subscribeImages(
     const ros::NodeHandle& nh,
     const std::string& side,
     const NodeParameters& parameters,
-    void (StereoInput::*callback)(const sensor_msgs::Image::ConstPtr&),
-    StereoInput* object) {
+    const boost::function<void(const sensor_msgs::Image::ConstPtr&)>& callback) {
   const std::string& transport = parameters.image_transport;
   const std::string name = side + (parameters.rectify ? "/image_raw" : "/image_rect");
   const image_transport::TransportHints hints(
@@ -49,7 +50,7 @@ image_transport::Subscriber subscribe(
   image_transport::ImageTransport images(nh);
   try {
     const std::string topic = topicOf(nh, name, transport);
-    return images.subscribe(topic, kImageQueueSize, callback, object, hints);
+    return images.subscribe(topic, kImageQueueSize, callback, ros::VoidPtr(), hints);
   } catch (const image_transport::TransportLoadException& error) {
     throw std::runtime_error("image_transport is " + transport + ", but this machine only has " +
                              listOf(images.getLoadableTransports()) +
@@ -61,6 +62,12 @@ Arrival now() {
   return {std::chrono::steady_clock::now(), toNanoseconds(ros::Time::now())};
 }
 
+template <class Subscriber>
+void addTopic(const Subscriber& subscriber, TopicReport& report) {
+  report.topic = subscriber.getTopic();
+  report.publishers = subscriber.getNumPublishers();
+}
+
 }  // namespace
 
 StereoInput::StereoInput(ros::NodeHandle& nh,
@@ -68,42 +75,35 @@ StereoInput::StereoInput(ros::NodeHandle& nh,
                          DropLog& drops,
                          StereoIntake::PairHandler on_pair,
                          Log log)
-    : intake_(parameters, drops, std::move(on_pair), std::move(log)) {
-  left_info_subscriber_ =
-      nh.subscribe("left/camera_info", kImageQueueSize, &StereoInput::onLeftInfo, this);
-  right_info_subscriber_ =
-      nh.subscribe("right/camera_info", kImageQueueSize, &StereoInput::onRightInfo, this);
-  left_image_subscriber_ = subscribe(nh, "left", parameters, &StereoInput::onLeftImage, this);
-  right_image_subscriber_ = subscribe(nh, "right", parameters, &StereoInput::onRightImage, this);
-}
+    : intake_(parameters, drops, std::move(on_pair), std::move(log)),
+      left_(subscribe(nh, parameters, Side::kLeft)),
+      right_(subscribe(nh, parameters, Side::kRight)) {}
 
-void StereoInput::onLeftImage(const sensor_msgs::Image::ConstPtr& image) {
-  intake_.addImage(Side::kLeft, image, now());
-}
-
-void StereoInput::onRightImage(const sensor_msgs::Image::ConstPtr& image) {
-  intake_.addImage(Side::kRight, image, now());
-}
-
-void StereoInput::onLeftInfo(const sensor_msgs::CameraInfo::ConstPtr& info) {
-  intake_.addInfo(Side::kLeft, info, now());
-}
-
-void StereoInput::onRightInfo(const sensor_msgs::CameraInfo::ConstPtr& info) {
-  intake_.addInfo(Side::kRight, info, now());
+StereoInput::Subscribers StereoInput::subscribe(ros::NodeHandle& nh,
+                                                const NodeParameters& parameters,
+                                                Side side) {
+  const std::string name = side == Side::kLeft ? "left" : "right";
+  Subscribers subscribers;
+  subscribers.info = nh.subscribe<sensor_msgs::CameraInfo>(
+      name + "/camera_info",
+      kImageQueueSize,
+      [this, side](const sensor_msgs::CameraInfo::ConstPtr& info) {
+        intake_.addInfo(side, info, now());
+      });
+  subscribers.image = subscribeImages(
+      nh, name, parameters, [this, side](const sensor_msgs::Image::ConstPtr& image) {
+        intake_.addImage(side, image, now());
+      });
+  return subscribers;
 }
 
 InputReport StereoInput::report() {
   const Arrival asked = now();
   InputReport report = intake_.report(asked.time);
-  report.left_image.topic = left_image_subscriber_.getTopic();
-  report.left_image.publishers = left_image_subscriber_.getNumPublishers();
-  report.right_image.topic = right_image_subscriber_.getTopic();
-  report.right_image.publishers = right_image_subscriber_.getNumPublishers();
-  report.left_info.topic = left_info_subscriber_.getTopic();
-  report.left_info.publishers = left_info_subscriber_.getNumPublishers();
-  report.right_info.topic = right_info_subscriber_.getTopic();
-  report.right_info.publishers = right_info_subscriber_.getNumPublishers();
+  addTopic(left_.image, report.left_image);
+  addTopic(right_.image, report.right_image);
+  addTopic(left_.info, report.left_info);
+  addTopic(right_.info, report.right_info);
   report.clock_missing = ros::Time::isSimTime() && asked.clock_ns == 0;
   report.clock_stands = clock_.standsStill(asked.clock_ns, asked.time);
   return report;

@@ -3,8 +3,7 @@
 #include <image_transport/image_transport.h>
 #include <image_transport/subscriber.h>
 #include <ros/node_handle.h>
-#include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
+#include <ros/subscriber.h>
 
 #include "input/clock_watch.h"
 #include "input/stereo_intake.h"
@@ -27,19 +26,19 @@ class StereoInput {
   InputReport report();
 
  private:
-  void onLeftImage(const sensor_msgs::Image::ConstPtr& image);
-  void onRightImage(const sensor_msgs::Image::ConstPtr& image);
-  void onLeftInfo(const sensor_msgs::CameraInfo::ConstPtr& info);
-  void onRightInfo(const sensor_msgs::CameraInfo::ConstPtr& info);
+  /// Topics of one camera.
+  struct Subscribers {
+    image_transport::Subscriber image;
+    ros::Subscriber info;
+  };
+
+  Subscribers subscribe(ros::NodeHandle& nh,
+                        const NodeParameters& parameters,
+                        StereoIntake::Side side);
 
   StereoIntake intake_;
   ClockWatch clock_;
-
-  // Last, so that callbacks end before the other members are destroyed.
-  image_transport::Subscriber left_image_subscriber_;
-  image_transport::Subscriber right_image_subscriber_;
-  ros::Subscriber left_info_subscriber_;
-  ros::Subscriber right_info_subscriber_;
+  Subscribers left_, right_;  // last, so that callbacks end before the other members are destroyed
 };
 
 }  // namespace rotrocc

@@ -25,8 +25,8 @@ constexpr std::chrono::milliseconds kTfPoll(10);
 /// Period of diagnostics (REP 107).
 constexpr double kTick_s = 1.0;
 
-double milliseconds(SteadyClock::duration duration) {
-  return std::chrono::duration<double, std::milli>(duration).count();
+float milliseconds(SteadyClock::duration duration) {
+  return std::chrono::duration<float, std::milli>(duration).count();
 }
 
 }  // namespace
@@ -60,8 +60,13 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
     tf_conflict_.emplace(publishedTf(name, parameters_), parameters_.base_frame, log_);
   }
   diagnostics_.emplace(nh, private_nh, name);
-  if (gyro_) diagnostics_->addGyro();
-  services_.emplace(private_nh, makeActions(), log_);
+  if (gyro_) {
+    diagnostics_->add("gyroscope", [this](StatusWrapper& status) { gyro_->describe(status); });
+  }
+  const auto save = [this](const std::string& path, const std::string& format) {
+    return trajectory_.save(path, format);
+  };
+  services_.emplace(private_nh, processor_, health_, save, parameters_.odom_frame, log_);
   live_parameters_.emplace(
       private_nh,
       parameters,
@@ -77,19 +82,6 @@ StereoOdometry::~StereoOdometry() {
   if (worker_.joinable()) worker_.join();
 }
 
-OdometryServices::Actions StereoOdometry::makeActions() {
-  OdometryServices::Actions actions;
-  actions.reset = [this] { processor_.requestReset(); };
-  actions.set_pose = [this](const geometry_msgs::PoseWithCovarianceStamped& pose) {
-    processor_.requestPose(toPose(pose, parameters_.odom_frame));
-  };
-  actions.pause = [this](bool paused) { onPause(paused); };
-  actions.save_trajectory = [this](const std::string& path, const std::string& format) {
-    return trajectory_.save(path, format);
-  };
-  return actions;
-}
-
 void StereoOdometry::onPair(ReceivedPair pair) {
   const std::string said = silence_.onPair(SteadyClock::now());
   if (!said.empty()) log_.warn(said);
@@ -97,26 +89,17 @@ void StereoOdometry::onPair(ReceivedPair pair) {
   if (mailbox_.put(std::move(pair))) drops_.count(DropReason::kSuperseded);
 }
 
-void StereoOdometry::onPause(bool paused) {
-  if (health_.paused() && !paused) processor_.requestRestart();
-  health_.setPaused(paused);
-}
-
 /// Once a second: diagnostics, a status if there was no pair, and a report of missing input.
 void StereoOdometry::onTick(const ros::WallTimerEvent&) {
   try {
-    const SteadyClock::time_point now = SteadyClock::now();
-    const InputReport input = input_->report();
-    const std::string fault = faultOfPairs(input);
-    health_.setInputFault(fault);
-    if (!fault.empty() && input_warning_.pass()) log_.warn(fault);
-    if (tf_conflict_) health_.setTfConflict(tf_conflict_->description());
-    const HealthReport report = health_.report(input, drops_);
+    HealthReport report = health_.report(input_->report(), drops_);
+    if (tf_conflict_) report.tf_conflict = tf_conflict_->check();
     diagnostics_->publish(report);
     if (!report.answers || report.paused) {
-      publisher_.publishStatus(toIdleStatus(report, ros::Time::now()));
+      publisher_.publishStatus(toIdleStatus(report.status, ros::Time::now()));
     }
-    const std::string said = silence_.onTick(input, now);
+    if (!report.input_fault.empty() && input_warning_.pass()) log_.warn(report.input_fault);
+    const std::string said = silence_.onTick(report.input, SteadyClock::now());
     if (!said.empty()) log_.warn(said);
   } catch (const std::exception& error) {
     log_.error(std::string("diagnostics: ") + error.what());
@@ -155,28 +138,30 @@ bool StereoOdometry::tryPair(const ReceivedPair& received) {
 }
 
 void StereoOdometry::process(const ReceivedPair& received, const Eigen::Isometry3d& T_base_camera) {
-  PairTimes times;
-  times.pairing_ms = milliseconds(received.arrival - received.images.first_arrival);
-  times.waiting_ms = milliseconds(SteadyClock::now() - received.arrival);
-  const PairAnswer answer = estimate(received, T_base_camera);
-  times.conversion_ms = answer.conversion_ms;
+  const SteadyClock::time_point begin = SteadyClock::now();
+  const StereoPair pair = processor_.convert(received);
+  const SteadyClock::time_point converted = SteadyClock::now();
+  const PairAnswer answer = estimate(pair, received, T_base_camera);
   keepPose(answer);
   const SteadyClock::time_point ready = SteadyClock::now();
   const SteadyClock::time_point sent = publishMotion(answer);
-  times.publishing_ms = milliseconds(sent - ready);
-  times.latency_ms = milliseconds(sent - received.arrival);
-  followUp(answer, received, times);
+  OdometryStatus status =
+      toStatus(answer.result, cameraFrameOf(*received.images.left, parameters_.camera_frame));
+  status.time_pairing = milliseconds(received.arrival - received.images.first_arrival);
+  status.time_waiting = milliseconds(begin - received.arrival);
+  status.time_conversion = milliseconds(converted - begin);
+  status.time_publishing = milliseconds(sent - ready);
+  status.time_rest = milliseconds(ready - converted) - status.time_total;
+  status.latency = milliseconds(sent - received.arrival);
+  followUp(answer, received, status);
   processor_.prepare();
 }
 
-PairAnswer StereoOdometry::estimate(const ReceivedPair& received,
+PairAnswer StereoOdometry::estimate(const StereoPair& pair,
+                                    const ReceivedPair& received,
                                     const Eigen::Isometry3d& T_base_camera) {
-  PairProcessor::MotionSource expected;
-  if (guess_) {
-    expected = [this](std::int64_t prev_ns, std::int64_t cur_ns) {
-      return guess_->motion(prev_ns, cur_ns);
-    };
-  }
+  std::optional<Eigen::Isometry3d> T_last_base;
+  if (guess_) T_last_base = guess_->motionTo(pair.stamp_ns);
   RotationSource rotation;
   if (gyro_) {
     rotation = [&](std::int64_t from_ns, std::int64_t to_ns) {
@@ -184,7 +169,18 @@ PairAnswer StereoOdometry::estimate(const ReceivedPair& received,
           cameraFrameOf(*received.images.left, parameters_.camera_frame), from_ns, to_ns);
     };
   }
-  return processor_.process(received, T_base_camera, expected, rotation);
+  return processor_.process(pair, received.camera, T_base_camera, T_last_base, rotation);
+}
+
+/// For ~save_trajectory and trajectory_file. Before the odometry is sent: who has received it can
+/// save its pose.
+void StereoOdometry::keepPose(const PairAnswer& answer) {
+  const StampedPose pose = {answer.state.stamp_ns, answer.state.T_first_camera};
+  if (answer.starts_trajectory) trajectory_.clear();
+  trajectory_.add(pose);
+  if (!trajectory_recorder_) return;
+  if (answer.starts_trajectory) trajectory_recorder_->beginNew();
+  trajectory_recorder_->add(pose);
 }
 
 /// Returns when the odometry was sent.
@@ -192,6 +188,7 @@ SteadyClock::time_point StereoOdometry::publishMotion(const PairAnswer& answer) 
   std::optional<Eigen::Isometry3d> T_guess_base;
   if (guess_) {
     if (answer.starts_trajectory) guess_->clear();
+    guess_->setLast(answer.result.stamp_ns);
     T_guess_base = guess_->pose(answer.result.stamp_ns);
   }
   return publisher_.publishMotion(answer.state, T_guess_base);
@@ -200,49 +197,33 @@ SteadyClock::time_point StereoOdometry::publishMotion(const PairAnswer& answer) 
 /// All that the odometry of the pair need not wait for.
 void StereoOdometry::followUp(const PairAnswer& answer,
                               const ReceivedPair& received,
-                              const PairTimes& times) {
-  if (guess_) health_.setGuess(guess_->trouble(), guess_->misses());
+                              OdometryStatus& status) {
+  if (guess_) status.guess_misses = guess_->misses();
   if (gyro_) {
     gyro_->observe(answer.result);
-    health_.setGyro(gyro_->report());
+    gyro_->report(status);
   }
-  const std::string hint = processor_.inspect(answer, received.camera);
-  health_.addAnswer(answer.result, hint, times.latency_ms);
-  const std::string camera_frame = cameraFrameOf(*received.images.left, parameters_.camera_frame);
-  publisher_.publishStatus(toStatus(answer.result, health_.counts(drops_), times, camera_frame));
-  writePose(answer);
-  logState(answer.result, hint);
-  publisher_.publishPictures(
-      answer.pair.left, received.camera, processor_.odometry(), answer.result, camera_frame);
+  const std::string camera_fault = processor_.inspect(answer, received.camera);
+  status = health_.addAnswer(status, camera_fault, guess_ ? guess_->trouble() : "", drops_);
+  publisher_.publishStatus(status);
+  publisher_.publishPath(answer.state, answer.starts_trajectory);
+  log(status, camera_fault);
+  publisher_.publishPictures(answer.pair.left,
+                             received.camera,
+                             processor_.odometry(),
+                             answer.result,
+                             status.header.frame_id);
 }
 
-/// For ~save_trajectory. Before the odometry is sent: who has received it can save its pose.
-void StereoOdometry::keepPose(const PairAnswer& answer) {
-  if (answer.starts_trajectory) trajectory_.clear();
-  trajectory_.add({answer.state.stamp_ns, answer.state.T_first_camera});
-}
-
-/// Into trajectory_file and the path.
-void StereoOdometry::writePose(const PairAnswer& answer) {
-  if (answer.starts_trajectory) {
-    if (trajectory_recorder_) trajectory_recorder_->beginNew();
-    publisher_.forgetPath();
+void StereoOdometry::log(const OdometryStatus& status, const std::string& camera_fault) {
+  const bool was_lost = std::exchange(lost_, status.state == OdometryStatus::LOST);
+  if (lost_) {
+    if (lost_warning_.pass()) log_.warn("lost: " + status.reason);
+  } else if (was_lost) {
+    log_.info(std::string("recovered: ") + stateName(status.state));
   }
-  if (trajectory_recorder_) {
-    trajectory_recorder_->add({answer.state.stamp_ns, answer.state.T_first_camera});
-  }
-  publisher_.publishPath(answer.state);
-}
-
-void StereoOdometry::logState(const OdometryResult& result, const std::string& hint) {
-  const State before = std::exchange(last_state_, result.state);
-  if (result.state == State::kLost) {
-    if (lost_warning_.pass()) log_.warn("lost: " + result.reason);
-  } else if (before == State::kLost) {
-    log_.info(std::string("no longer lost: ") + toString(result.state));
-  }
-  if (!hint.empty() && hint_warning_.pass()) log_.warn(hint);
-  const std::string rig = rigWarning(result);
+  if (!camera_fault.empty() && hint_warning_.pass()) log_.warn(camera_fault);
+  const std::string rig = rigWarning(status);
   if (!rig.empty() && rig_warning_.pass()) log_.warn(rig);
 }
 

@@ -17,7 +17,6 @@
 #include "node/gyro/gyro_input.h"
 #include "node/health/diagnostics.h"
 #include "node/health/odometry_health.h"
-#include "node/health/pair_times.h"
 #include "node/live_parameters.h"
 #include "node/odometry_publisher.h"
 #include "node/odometry_services.h"
@@ -54,21 +53,20 @@ class StereoOdometry {
 
  private:
   // In the thread of the nodelet.
-  OdometryServices::Actions makeActions();
   void onPair(ReceivedPair pair);
-  void onPause(bool paused);
   void onTick(const ros::WallTimerEvent& event);
 
   // In the worker thread.
   void work();
   bool tryPair(const ReceivedPair& received);
   void process(const ReceivedPair& received, const Eigen::Isometry3d& T_base_camera);
-  PairAnswer estimate(const ReceivedPair& received, const Eigen::Isometry3d& T_base_camera);
-  std::chrono::steady_clock::time_point publishMotion(const PairAnswer& answer);
-  void followUp(const PairAnswer& answer, const ReceivedPair& received, const PairTimes& times);
+  PairAnswer estimate(const StereoPair& pair,
+                      const ReceivedPair& received,
+                      const Eigen::Isometry3d& T_base_camera);
   void keepPose(const PairAnswer& answer);
-  void writePose(const PairAnswer& answer);
-  void logState(const OdometryResult& result, const std::string& hint);
+  std::chrono::steady_clock::time_point publishMotion(const PairAnswer& answer);
+  void followUp(const PairAnswer& answer, const ReceivedPair& received, OdometryStatus& status);
+  void log(const OdometryStatus& status, const std::string& camera_fault);
 
   Log log_;
   NodeParameters parameters_;
@@ -82,7 +80,7 @@ class StereoOdometry {
   std::optional<TrajectoryRecorder> trajectory_recorder_;
   TrajectoryHistory trajectory_;
 
-  State last_state_ = State::kInitialising;  // of the worker
+  bool lost_ = false;  // at the last pair of the worker
   Throttle lost_warning_{std::chrono::seconds(5)};
   Throttle hint_warning_{std::chrono::seconds(5)};
   Throttle rig_warning_{std::chrono::minutes(5)};

@@ -1,15 +1,25 @@
-#include "node/stereo_odometry_nodelet.h"
-
 #include <exception>
+#include <memory>
 #include <stdexcept>
 
+#include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "input/log.h"
 #include "node/node_parameters.h"
+#include "node/stereo_odometry.h"
 
 namespace rotrocc {
 
+/// StereoOdometry as a nodelet.
+class StereoOdometryNodelet : public nodelet::Nodelet {
+ private:
+  void onInit() override;
+
+  std::unique_ptr<StereoOdometry> odometry_;
+};
+
+/// Throws std::exception, after a fatal log, if the odometry cannot start.
 void StereoOdometryNodelet::onInit() {
   // The loader destroys the callback queues of a nodelet that fails before the nodelet itself, so
   // that a publisher, subscriber or timer left in it would be removed from a queue that is gone.

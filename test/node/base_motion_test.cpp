@@ -76,47 +76,31 @@ void expectCovariance(const UncertainTransform& transform, Sample sample) {
   }
 }
 
-TEST(UncertainTransformTest, ComposedErrorsAreThoseOfSamples) {
+TEST(UncertainTransformTest, ErrorsAreThoseOfSamples) {
+  Noise noise;
   const UncertainTransform a{makeTransform({10.0, -4.0, 1.0}, {0.3, -0.2, 1.9}),
                              makeCovariance(0.05, 0.004)};
   const UncertainTransform b{makeTransform({5.0, 1.0, -3.0}, {-0.1, 0.4, 0.2}),
                              makeCovariance(0.02, 0.006)};
-  const UncertainTransform c = compose(a, b);
-  EXPECT_TRUE(c.T.isApprox(a.T * b.T));
-  Noise noise;
-  expectCovariance(c, [&] { return noise.sample(a) * noise.sample(b); });
+  EXPECT_TRUE(compose(a, b).T.isApprox(a.T * b.T));
+  expectCovariance(compose(a, b), [&] { return noise.sample(a) * noise.sample(b); });
+  EXPECT_TRUE(inverse(b).T.isApprox(b.T.inverse()));
+  expectCovariance(inverse(b), [&] { return noise.sample(b).inverse(); });
 }
 
-TEST(UncertainTransformTest, InvertedErrorsAreThoseOfSamples) {
-  const UncertainTransform a{makeTransform({2.0, -1.0, 3.0}, {0.3, -0.2, 1.1}),
-                             makeCovariance(0.02, 0.004)};
-  const UncertainTransform back = inverse(a);
-  EXPECT_TRUE(back.T.isApprox(a.T.inverse()));
+TEST(BaseMotionTest, ErrorsAreThoseOfSamplesUnderAFixedAndAMovingCamera) {
   Noise noise;
-  expectCovariance(back, [&] { return noise.sample(a).inverse(); });
-}
-
-TEST(UncertainTransformTest, ErrorsOfTheBaseAreThoseOfSamples) {
-  const UncertainTransform camera{makeTransform({0.1, 0.0, 1.2}, {0.01, 0.08, -0.02}),
-                                  makeCovariance(0.01, 0.005)};
-  const Eigen::Isometry3d T_base_camera = makeTransform({1.5, 0.3, 1.65}, {-1.2, 1.2, -1.2});
-  const UncertainTransform base = motionOfBase(camera, T_base_camera, T_base_camera);
-  Noise noise;
-  expectCovariance(base,
-                   [&] { return T_base_camera * noise.sample(camera) * T_base_camera.inverse(); });
-}
-
-TEST(UncertainTransformTest, ErrorsOfTheBaseUnderAMovingCameraAreThoseOfSamples) {
   const UncertainTransform camera{makeTransform({0.1, 0.0, 1.2}, {0.01, 0.08, -0.02}),
                                   makeCovariance(0.01, 0.005)};
   const Eigen::Isometry3d before = makeTransform({1.5, 0.3, 1.65}, {-1.2, 1.2, -1.2});
-  const Eigen::Isometry3d after = makeTransform({0.9, -0.4, 2.65}, {-1.0, 0.8, -1.5});
-  const UncertainTransform base = motionOfBase(camera, before, after);
-  Noise noise;
-  expectCovariance(base, [&] { return before * noise.sample(camera) * after.inverse(); });
+  const Eigen::Isometry3d moved = makeTransform({0.9, -0.4, 2.65}, {-1.0, 0.8, -1.5});
+  for (const Eigen::Isometry3d& after : {before, moved}) {
+    expectCovariance(motionOfBase(camera, before, after),
+                     [&] { return before * noise.sample(camera) * after.inverse(); });
+  }
 }
 
-TEST(UncertainTransformTest, ForwardInTheImageIsForwardForTheBase) {
+TEST(BaseMotionTest, ForwardInTheImageIsForwardForTheBase) {
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
   T_base_camera.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   UncertainTransform camera;
@@ -125,26 +109,20 @@ TEST(UncertainTransformTest, ForwardInTheImageIsForwardForTheBase) {
   EXPECT_TRUE(base.T.isApprox(makeTransform({1.0, 0.0, 0.0}, {0.0, 0.0, 0.0})));
 }
 
-TEST(UncertainTransformTest, TwistMakesTheMotion) {
+TEST(BaseMotionTest, TwistAndMeanVelocityMakeTheMotion) {
   const double dt_s = 0.1;
   const UncertainTransform motion{makeTransform({1.2, 0.05, 0.0}, {0.0, 0.01, 0.15}),
                                   makeCovariance(0.01, 0.001)};
   const UncertainTwist twist = twistOf(motion, dt_s);
   EXPECT_TRUE(expMotion(twist.twist * dt_s).isApprox(motion.T, 1e-12));
   EXPECT_NEAR(twist.twist[5], 1.5, 0.01);
-}
-
-TEST(UncertainTransformTest, MeanVelocityInTheFirstFrameMakesTheMotion) {
-  const double dt_s = 0.1;
-  const UncertainTransform motion{makeTransform({1.2, 0.05, 0.0}, {0.0, 0.01, 0.15}),
-                                  makeCovariance(0.01, 0.001)};
   const UncertainTwist velocity = meanVelocityOf(motion, dt_s);
   EXPECT_TRUE((velocity.twist.head<3>() * dt_s).isApprox(motion.T.translation(), 1e-12));
   EXPECT_TRUE(expRotation(velocity.twist.tail<3>() * dt_s).isApprox(motion.T.linear(), 1e-12));
   EXPECT_TRUE((velocity.covariance * dt_s * dt_s).isApprox(motion.covariance, 1e-12));
 }
 
-TEST(UncertainTransformTest, ErrorsOfTheTwistAreThoseOfSamples) {
+TEST(BaseMotionTest, ErrorsOfTheTwistAreThoseOfSamples) {
   const double dt_s = 0.1;
   const UncertainTransform motion{makeTransform({1.2, 0.0, 0.0}, {0.0, 0.0, 0.01}),
                                   makeCovariance(0.02, 0.001)};

@@ -34,40 +34,53 @@ NodeParameters parameters() {
   return node;
 }
 
+/// A pair whose motion is measured against the pair before and against a keyframe, if that is
+/// another one.
+OdometryResult found(std::int64_t stamp_ns,
+                     const Eigen::Isometry3d& T_prev_cur,
+                     const Matrix6d& covariance = 1e-6 * Matrix6d::Identity()) {
+  OdometryResult result;
+  result.state = State::kOk;
+  result.stamp_ns = stamp_ns;
+  result.dt_s = 0.1;
+  result.T_prev_cur = T_prev_cur;
+  result.covariance = covariance;
+  result.keyframe_stamp_ns = stamp_ns - kPeriod_ns;
+  result.T_keyframe_cur = {T_prev_cur, covariance};
+  return result;
+}
+
+OdometryResult withoutMotion(std::int64_t stamp_ns, State state = State::kLost) {
+  OdometryResult result;
+  result.state = state;
+  result.stamp_ns = stamp_ns;
+  return result;
+}
+
+/// The motion of the camera while the base makes a motion.
+Eigen::Isometry3d seen(const Eigen::Isometry3d& T_base) {
+  return cameraMount().inverse() * T_base * cameraMount();
+}
+
 class BaseOdometryTest : public testing::Test {
  protected:
   /// A pair after which the base has made a motion.
   BaseState move(const Eigen::Isometry3d& T_base) {
-    OdometryResult result;
-    result.state = State::kOk;
-    result.stamp_ns = stamp_ns_ += kPeriod_ns;
-    result.dt_s = 0.1;
-    result.T_prev_cur = cameraMount().inverse() * T_base * cameraMount();
-    result.covariance = 1e-6 * Matrix6d::Identity();
-    result.keyframe_stamp_ns = stamp_ns_ - kPeriod_ns;
-    result.T_keyframe_cur = {result.T_prev_cur, result.covariance};
-    return odometry_.add(result, mount_);
+    return odometry_.add(found(stamp_ns_ += kPeriod_ns, seen(T_base)), cameraMount());
   }
 
   /// A pair at rest, measured against an earlier one.
   BaseState rest(std::int64_t keyframe_stamp_ns) {
-    OdometryResult result;
-    result.state = State::kOk;
-    result.stamp_ns = stamp_ns_ += kPeriod_ns;
-    result.dt_s = 0.1;
-    result.covariance = 2e-6 * Matrix6d::Identity();
+    OdometryResult result = found(stamp_ns_ += kPeriod_ns, Eigen::Isometry3d::Identity());
+    result.covariance *= 2.0;
     result.keyframe_stamp_ns = keyframe_stamp_ns;
-    result.T_keyframe_cur.covariance = 1e-6 * Matrix6d::Identity();
-    return odometry_.add(result, mount_);
+    return odometry_.add(result, cameraMount());
   }
 
   BaseState lose(std::int64_t passed_ns,
                  State state = State::kLost,
                  const std::optional<Eigen::Isometry3d>& T_last_cur = std::nullopt) {
-    OdometryResult result;
-    result.state = state;
-    result.stamp_ns = stamp_ns_ += passed_ns;
-    return odometry_.add(result, mount_, T_last_cur);
+    return odometry_.add(withoutMotion(stamp_ns_ += passed_ns, state), cameraMount(), T_last_cur);
   }
 
   static double sigma(const BaseState& state, int axis) {
@@ -75,7 +88,6 @@ class BaseOdometryTest : public testing::Test {
   }
 
   BaseOdometry odometry_{parameters(), {0.0, 0.0}};
-  Eigen::Isometry3d mount_ = cameraMount();
   std::int64_t stamp_ns_ = 5'000'000'000;
 };
 
@@ -178,8 +190,7 @@ TEST_F(BaseOdometryTest, TimeThatStepsBackAddsNothing) {
 TEST_F(BaseOdometryTest, CameraPoseIsThatOfTheCamera) {
   move(makeMotion(1.0, 0.2));
   const BaseState state = move(makeMotion(1.0, 0.2));
-  const Eigen::Isometry3d T_camera = cameraMount().inverse() * state.T_odom_base.T * cameraMount();
-  EXPECT_TRUE(state.T_first_camera.isApprox(T_camera, 1e-12));
+  EXPECT_TRUE(state.T_first_camera.isApprox(seen(state.T_odom_base.T), 1e-12));
 }
 
 TEST_F(BaseOdometryTest, PoseThatIsSetIsWhereItGoesOn) {
@@ -209,8 +220,7 @@ TEST_F(BaseOdometryTest, AnotherOdometryMovesThePoseWhileLost) {
     EXPECT_TRUE(state.T_odom_base.T.isApprox(expected, 1e-9)) << i;
     EXPECT_EQ(state.twist.covariance(0, 0), 9999.0);
   }
-  const Eigen::Isometry3d T_camera = cameraMount().inverse() * state.T_odom_base.T * cameraMount();
-  EXPECT_TRUE(state.T_first_camera.isApprox(T_camera, 1e-9));
+  EXPECT_TRUE(state.T_first_camera.isApprox(seen(state.T_odom_base.T), 1e-9));
   // guess_error_share = 0.1 of 10 m, 1 rad and the turn of 0.1 rad/m; at the default speed and turn
   // rate the errors of two seconds would be 20 m and 1 rad.
   EXPECT_NEAR(sigma(state, 5), 0.1 * (1.0 + 0.1 * 10.0), 0.01);
@@ -258,9 +268,8 @@ TEST_F(BaseOdometryTest, BeginsAtTheInitialPose) {
   NodeParameters node = parameters();
   node.initial_pose = {1.0, 2.0, 3.0, 0.1, -0.2, 1.5};
   BaseOdometry odometry(node, {0.0, 0.0});
-  OdometryResult result;
-  result.state = State::kInitialising;
-  const Eigen::Isometry3d T = odometry.add(result, cameraMount()).T_odom_base.T;
+  const Eigen::Isometry3d T =
+      odometry.add(withoutMotion(0, State::kInitialising), cameraMount()).T_odom_base.T;
   EXPECT_TRUE(T.translation().isApprox(Eigen::Vector3d(1.0, 2.0, 3.0), 1e-12));
   // Roll about x first, then pitch about y, then yaw about z of odom, as tf has it.
   const Eigen::Vector3d forward = T.linear().col(0);
@@ -288,29 +297,20 @@ class MovingMountTest : public testing::Test {
 
   static Eigen::Isometry3d cameraAt(int pair) { return baseAt(pair) * mountAt(pair); }
 
-  BaseState begin() {
-    OdometryResult result;
-    result.state = State::kInitialising;
-    return odometry_.add(result, mountAt(0));
-  }
+  BaseState begin() { return odometry_.add(withoutMotion(0, State::kInitialising), mountAt(0)); }
 
   /// Measured against two earlier pairs.
   BaseState see(int pair, int prev, int keyframe) {
-    OdometryResult result;
-    result.state = State::kOk;
-    result.stamp_ns = pair * kPeriod_ns;
+    OdometryResult result =
+        found(pair * kPeriod_ns, cameraAt(prev).inverse() * cameraAt(pair), covariance_);
     result.dt_s = 0.1 * (pair - prev);
-    result.T_prev_cur = cameraAt(prev).inverse() * cameraAt(pair);
-    result.covariance = covariance_;
     result.keyframe_stamp_ns = keyframe * kPeriod_ns;
-    result.T_keyframe_cur = {cameraAt(keyframe).inverse() * cameraAt(pair), covariance_};
+    result.T_keyframe_cur.T = cameraAt(keyframe).inverse() * cameraAt(pair);
     return odometry_.add(result, mountAt(pair));
   }
 
   BaseState lose(int pair) {
-    OdometryResult result;
-    result.stamp_ns = pair * kPeriod_ns;
-    return odometry_.add(result, mountAt(pair));
+    return odometry_.add(withoutMotion(pair * kPeriod_ns), mountAt(pair));
   }
 
   BaseOdometry odometry_{parameters(), {0.0, 0.0}};
@@ -384,15 +384,7 @@ TEST(PlanarOdometryTest, LeavesOutWhatIsNotInThePlane) {
   BaseState state;
   Eigen::Isometry3d expected = Eigen::Isometry3d::Identity();
   for (int i = 0; i < 10; ++i) {
-    OdometryResult result;
-    result.state = State::kOk;
-    result.stamp_ns = i * kPeriod_ns;
-    result.keyframe_stamp_ns = (i - 1) * kPeriod_ns;
-    result.dt_s = 0.1;
-    result.T_prev_cur = cameraMount().inverse() * bump * cameraMount();
-    result.covariance = 1e-6 * Matrix6d::Identity();
-    result.T_keyframe_cur = {result.T_prev_cur, result.covariance};
-    state = odometry.add(result, cameraMount());
+    state = odometry.add(found(i * kPeriod_ns, seen(bump)), cameraMount());
     expected = expected * makeMotion(1.0, 0.1);
   }
   EXPECT_TRUE(state.T_odom_base.T.isApprox(expected, 1e-9));
@@ -404,28 +396,22 @@ TEST(PlanarOdometryTest, LeavesOutWhatIsNotInThePlane) {
   EXPECT_LT(covariance(4, 4), 1e-8);
   EXPECT_GT(covariance(0, 0), 1e-6);
   EXPECT_GT(covariance(5, 5), 1e-6);
-  EXPECT_TRUE(
-      state.T_first_camera.isApprox(cameraMount().inverse() * expected * cameraMount(), 1e-9));
+  EXPECT_TRUE(state.T_first_camera.isApprox(seen(expected), 1e-9));
 }
 
 /// Independent errors of 100 motions of 1 m would give 0.1 m.
 TEST_F(BaseOdometryTest, SystematicErrorsGrowWithTheDistance) {
-  const Eigen::Isometry3d mount = Eigen::Isometry3d::Identity();
   BaseOdometry odometry(parameters(), {0.01, 0.0});
-  OdometryResult result;
-  result.state = State::kOk;
-  result.dt_s = 0.1;
-  result.T_prev_cur.translation().z() = 1.0;
-  result.T_keyframe_cur.T = result.T_prev_cur;
+  const Eigen::Isometry3d step = seen(makeMotion(1.0, 0.0));
   BaseState state;
+  std::int64_t stamp_ns = 0;
   for (int i = 0; i < 100; ++i) {
-    result.keyframe_stamp_ns = result.stamp_ns;
-    result.stamp_ns += kPeriod_ns;
-    state = odometry.add(result, mount);
+    state = odometry.add(found(stamp_ns += kPeriod_ns, step, Matrix6d::Zero()), cameraMount());
   }
   EXPECT_NEAR(sigma(state, 0), 1.0, 0.01);
   odometry.setPose({state.T_odom_base.T, Matrix6d::Zero()});
-  EXPECT_NEAR(sigma(odometry.add(result, mount), 0), 0.01, 1e-3);
+  state = odometry.add(found(stamp_ns + kPeriod_ns, step, Matrix6d::Zero()), cameraMount());
+  EXPECT_NEAR(sigma(state, 0), 0.01, 1e-3);
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "node/trajectory/bounded_queue.h"
 
-#include <thread>
-
 #include <gtest/gtest.h>
 
 namespace rotrocc {
@@ -16,24 +14,6 @@ TEST(BoundedQueueTest, LeavesOutWhatIsTooMuchForASlowConsumer) {
   queue.close();
   EXPECT_EQ(queue.takeAll(), std::vector<int>{4}) << "what waits at the end is not lost";
   EXPECT_TRUE(queue.takeAll().empty());
-}
-
-TEST(BoundedQueueTest, PassesAllInOrderToAnotherThread) {
-  constexpr int kItems = 10000;
-  BoundedQueue<int> queue(kItems);
-  std::vector<int> taken;
-  std::thread consumer([&] {
-    for (;;) {
-      const std::vector<int> items = queue.takeAll();
-      if (items.empty()) return;
-      taken.insert(taken.end(), items.begin(), items.end());
-    }
-  });
-  for (int i = 0; i < kItems; ++i) EXPECT_TRUE(queue.put(i));
-  queue.close();
-  consumer.join();
-  ASSERT_EQ(taken.size(), static_cast<std::size_t>(kItems));
-  for (int i = 0; i < kItems; ++i) ASSERT_EQ(taken[static_cast<std::size_t>(i)], i);
 }
 
 }  // namespace

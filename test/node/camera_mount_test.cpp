@@ -13,29 +13,19 @@
 namespace rotrocc {
 namespace {
 
-TEST(DescribeMountTest, CameraOfACar) {
+TEST(DescribeMountTest, SaysPlaceViewAndImage) {
   EXPECT_EQ(describeMount(kittiMount()),
             "at 0 0 1.65 m, looks along +x (forward), its image is upright");
-}
-
-TEST(DescribeMountTest, TiltedCameraUpsideDown) {
-  Eigen::Isometry3d T_base_camera = kittiMount();
-  T_base_camera.rotate(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ()));
-  T_base_camera.rotate(Eigen::AngleAxisd(M_PI / 9.0, Eigen::Vector3d::UnitY()));
-  EXPECT_EQ(describeMount(T_base_camera),
+  Eigen::Isometry3d tilted = kittiMount();
+  tilted.rotate(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ()));
+  tilted.rotate(Eigen::AngleAxisd(M_PI / 9.0, Eigen::Vector3d::UnitY()));
+  EXPECT_EQ(describeMount(tilted),
             "at 0 0 1.65 m, looks along +x (forward), 20 deg off, its image is not upright");
-}
-
-TEST(DescribeMountTest, FrameThatIsNotOptical) {
   EXPECT_EQ(describeMount(Eigen::Isometry3d::Identity()),
             "at 0 0 0 m, looks along +z (up); is its frame an optical frame, with z forward?");
-}
-
-TEST(DescribeMountTest, CameraThatLooksDown) {
-  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
-  T_base_camera.translation().z() = 12.0;
-  T_base_camera.rotate(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
-  EXPECT_EQ(describeMount(T_base_camera), "at 0 0 12 m, looks along -z (down)");
+  Eigen::Isometry3d down(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
+  down.translation().z() = 12.0;
+  EXPECT_EQ(describeMount(down), "at 0 0 12 m, looks along -z (down)");
 }
 
 constexpr std::int64_t kSecond = 1'000'000'000;
@@ -76,6 +66,21 @@ TEST_F(CameraMountTest, AFixedMountIsLookedUpOnceAndTfIsLeft) {
   EXPECT_FALSE(tf_.hasListener());
   EXPECT_NEAR(panOf(mount.find("camera", 7 * kSecond)), 0.2, 1e-12);
   EXPECT_EQ(tf_.listenersStarted(), 1);
+}
+
+TEST_F(CameraMountTest, WaitsForAValidTransform) {
+  CameraMount mount("base_link", 0.0, tf_.feed());
+  Eigen::Isometry3d longer = panned(0.2);
+  longer.linear() *= 2.0;
+  Eigen::Isometry3d unknown = panned(0.2);
+  unknown.translation().x() = NAN;
+  for (const Eigen::Isometry3d& invalid : {longer, unknown}) {
+    tf_.sendStatic("torso", "camera", invalid);
+    EXPECT_FALSE(mount.find("camera", 5 * kSecond));
+    EXPECT_EQ(mount.missing().find("no tf from base_link to camera"), 0u) << mount.missing();
+  }
+  tf_.sendStatic("torso", "camera", panned(0.2));
+  EXPECT_NEAR(panOf(mount.find("camera", 6 * kSecond)), 0.2, 1e-12);
 }
 
 TEST_F(CameraMountTest, TheBaseItselfNeedsNoTf) {

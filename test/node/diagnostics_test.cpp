@@ -1,8 +1,9 @@
 #include "node/health/diagnostics.h"
 
-#include <gtest/gtest.h>
+#include <utility>
+#include <vector>
 
-#include "rotrocc/OdometryStatus.h"
+#include <gtest/gtest.h>
 
 namespace rotrocc {
 namespace {
@@ -29,11 +30,14 @@ HealthReport goodReport() {
   report.answer_rate_hz = 10.0;
   report.latency_p50_ms = 12.0;
   report.latency_p95_ms = 15.0;
-  report.last_result.state = State::kOk;
-  report.last_result.counts.rotation_inliers = 512;
-  report.last_result.disparity_bias = {0.42, 0.05, 0.36};
-  report.last_result.exposure_gain = 1.02;
-  report.last_result.flow_noise_px = 0.15;
+  OdometryStatus& status = report.status;
+  status.state = OdometryStatus::OK;
+  status.rotation_inliers = 512;
+  status.disparity_bias = 0.42f;
+  status.disparity_bias_sigma = 0.05f;
+  status.disparity_bias_applied = 0.36f;
+  status.exposure_gain = 1.02f;
+  status.flow_noise = 0.15f;
   return report;
 }
 
@@ -44,276 +48,259 @@ std::string valueOf(const StatusWrapper& status, const std::string& key) {
   return "no such key";
 }
 
-TEST(StateOfTest, FollowsTheAnswersWhileTheyCome) {
-  HealthReport report = goodReport();
-  EXPECT_EQ(stateOf(report).state, OdometryStatus::OK);
-  report.last_result.state = State::kLost;
-  report.last_result.reason = "only 3 features";
-  EXPECT_EQ(stateOf(report).state, OdometryStatus::LOST);
-  EXPECT_EQ(stateOf(report).reason, "only 3 features");
-  report.paused = true;
-  EXPECT_EQ(stateOf(report).state, OdometryStatus::PAUSED);
+void expectPart(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << "'" << text << "' lacks '" << part << "'";
 }
 
-TEST(StateOfTest, SaysWhatIsMissingWhileNoneCome) {
+/// `reason`: a part of it.
+void expectState(HealthReport report, std::uint8_t state, const std::string& reason) {
+  updateState(report);
+  EXPECT_STREQ(stateName(report.status.state), stateName(state));
+  expectPart(report.status.reason, reason);
+}
+
+TEST(UpdateStateTest, FollowsTheAnswersWhileTheyCome) {
   HealthReport report = goodReport();
-  report.answers = false;
+  expectState(report, OdometryStatus::OK, "");
+  report.status.state = OdometryStatus::LOST;
+  report.status.reason = "only 3 features";
+  expectState(report, OdometryStatus::LOST, "only 3 features");
+  report.paused = true;
+  expectState(report, OdometryStatus::PAUSED, "~pause");
+}
+
+TEST(UpdateStateTest, SaysWhatIsMissingWhileNoneCome) {
+  HealthReport silent = goodReport();
+  silent.answers = false;
+  expectState(silent, OdometryStatus::NO_INPUT, "none has been processed in the last 2 s");
+  HealthReport report = silent;
   report.waits_for_tf = "no tf from base_link to camera";
-  EXPECT_EQ(stateOf(report).state, OdometryStatus::NO_TF);
-  EXPECT_EQ(stateOf(report).reason, "no tf from base_link to camera");
+  expectState(report, OdometryStatus::NO_TF, "no tf from base_link to camera");
   report.not_of_camera = true;
   report.input.refused = "the images are 3x3 px";
-  EXPECT_EQ(stateOf(report).state, OdometryStatus::NO_CALIBRATION);
-  EXPECT_EQ(stateOf(report).reason, "the images are 3x3 px");
-  report = goodReport();
-  report.answers = false;
+  expectState(report, OdometryStatus::NO_CALIBRATION, "the images are 3x3 px");
+  report.input.camera_error = "P is all zeros";
+  expectState(report, OdometryStatus::NO_CALIBRATION, "P is all zeros");
+  report = silent;
   report.input.waits_for_info = true;
   report.input.left_info.total = report.input.left_info.publishers = 0;
-  EXPECT_EQ(stateOf(report).state, OdometryStatus::NO_CALIBRATION);
-  EXPECT_NE(stateOf(report).reason.find("nobody publishes /l/info"), std::string::npos);
+  expectState(report, OdometryStatus::NO_CALIBRATION, "nobody publishes /l/info");
+  report = silent;
   report.input.left_image.recent = report.input.recent_pairs = 0;
-  report.input.waits_for_info = false;
-  EXPECT_EQ(stateOf(report).state, OdometryStatus::NO_INPUT);
-}
-
-TEST(StateOfTest, SaysAlwaysWhyThereIsNoInput) {
-  HealthReport report = goodReport();
-  report.answers = false;
-  EXPECT_EQ(stateOf(report).state, OdometryStatus::NO_INPUT);
-  EXPECT_EQ(stateOf(report).reason,
-            "stereo pairs arrive, but none has been processed in the last 2 s");
+  expectState(report, OdometryStatus::NO_INPUT, "/l/image has a publisher");
+  report = silent;
   report.input.pairs_silent_s.reset();
-  EXPECT_EQ(stateOf(report).reason, "no stereo pair has arrived yet");
+  expectState(report, OdometryStatus::NO_INPUT, "no stereo pair has arrived yet");
   report.input.pairs_silent_s = 3.1;
-  EXPECT_EQ(stateOf(report).reason, "no stereo pair for 3 s");
+  expectState(report, OdometryStatus::NO_INPUT, "no stereo pair for 3 s");
   report.input.left_image.silent_s = report.input.right_image.silent_s = 3.1;
-  EXPECT_NE(stateOf(report).reason.find("/l/image has been silent for 3.1 s"), std::string::npos)
-      << stateOf(report).reason;
+  expectState(report, OdometryStatus::NO_INPUT, "/l/image has been silent for 3.1 s");
 }
 
-TEST(StateOfTest, EveryStateHasAName) {
+TEST(StateNameTest, EveryStateHasAName) {
   EXPECT_STREQ(stateName(OdometryStatus::INITIALISING), "INITIALISING");
-  EXPECT_STREQ(stateName(OdometryStatus::LOST), "LOST");
   EXPECT_STREQ(stateName(OdometryStatus::NO_TF), "NO_TF");
   EXPECT_STREQ(stateName(OdometryStatus::PAUSED), "PAUSED");
   EXPECT_STREQ(stateName(99), "unknown");
 }
 
+using Describe = void(const HealthReport&, StatusWrapper&);
+
+/// Of 5 drops, none is new.
+void describeNewDrops(const HealthReport& report, StatusWrapper& status) {
+  describeDrops(report, 5, status);
+}
+
+/// Expects level and a part of the message. Returns the entry.
+StatusWrapper expectEntry(Describe* describe,
+                          const HealthReport& report,
+                          unsigned char level,
+                          const std::string& message) {
+  StatusWrapper status;
+  describe(report, status);
+  EXPECT_EQ(status.level, level) << message;
+  expectPart(status.message, message);
+  return status;
+}
+
+HealthReport withDrops(std::uint64_t zero_stamps, std::uint64_t superseded) {
+  HealthReport report = goodReport();
+  report.status.drops.resize(2);
+  report.status.drops[0].reason = "stamp_zero";
+  report.status.drops[0].count = zero_stamps;
+  report.status.drops[1].reason = "newer_pair_came";
+  report.status.drops[1].count = superseded;
+  return report;
+}
+
 TEST(DiagnosticsTest, AllIsWell) {
   const HealthReport report = goodReport();
-  StatusWrapper odometry, input, timing, tf, drops;
-  describeOdometry(report, odometry);
-  describeInput(report, input);
-  describeTiming(report, timing);
-  describeTf(report, tf);
-  describeDrops(report, 0, drops);
-  for (const StatusWrapper* status : {&odometry, &input, &timing, &tf, &drops}) {
-    EXPECT_EQ(status->level, Level::OK) << status->message;
-    EXPECT_FALSE(status->message.empty());
-  }
+  const StatusWrapper odometry = expectEntry(describeOdometry, report, Level::OK, "OK");
   EXPECT_EQ(valueOf(odometry, "state"), "OK");
   EXPECT_EQ(valueOf(odometry, "disparity bias"), "0.42 +- 0.05 px, 0.36 px applied");
   EXPECT_EQ(valueOf(odometry, "contrast of the right image relative to the left one"), "1.02");
   EXPECT_EQ(valueOf(odometry, "flow noise"), "0.15 px");
   EXPECT_EQ(valueOf(odometry, "inliers of the rotation"), "512");
+  const StatusWrapper input = expectEntry(describeInput, report, Level::OK, "stereo pairs arrive");
   EXPECT_EQ(valueOf(input, "/r/image"), "10.0 Hz, 50 in 5 s, 500 in total, 1 publishers");
   EXPECT_EQ(valueOf(input, "largest stamp difference of left and right"), "2.000 ms");
+  const StatusWrapper timing =
+      expectEntry(describeTiming, report, Level::OK, "10.0 results per second");
   EXPECT_EQ(valueOf(timing, "latency p50"), "12.0 ms");
   EXPECT_EQ(valueOf(timing, "latency p95"), "15.0 ms");
+  expectEntry(describeTf, report, Level::OK, "no conflict");
+  expectEntry(describeNewDrops, withDrops(3, 2), Level::OK, "none in the last second");
 }
 
-TEST(DiagnosticsTest, TellsWhyTheGyroscopeIsNotUsed) {
-  HealthReport report = goodReport();
-  StatusWrapper before;
-  describeGyro(report, before);
-  EXPECT_EQ(before.level, Level::OK);
-  report.gyro.emplace();
-  report.gyro->topic = "/imu";
-  report.gyro->counts = {1000, 3, 50, 2};
-  report.gyro->bias_rps = {0.01, -0.02, 0.0};
-  report.gyro->bias_sigma_rps = 0.0005;
-  StatusWrapper used;
-  describeGyro(report, used);
-  EXPECT_EQ(used.level, Level::OK);
-  EXPECT_EQ(valueOf(used, "bias"), "0.0100 -0.0200 0.0000 rad/s, +- 0.0005");
-  EXPECT_EQ(valueOf(used, "rotations predicted"), "50");
-  EXPECT_EQ(valueOf(used, "samples refused"), "3");
-  report.gyro->why_not_used = "no message on /imu";
-  StatusWrapper missing;
-  describeGyro(report, missing);
-  EXPECT_EQ(missing.level, Level::WARN);
-  EXPECT_EQ(missing.message, "not used: no message on /imu");
-}
+TEST(DiagnosticsTest, FaultsOfTheRigAskForACalibration) {
+  HealthReport bias = goodReport();
+  bias.status.disparity_bias = -1.25f;
+  bias.status.disparity_bias_applied = -1.0f;
+  const std::string advice = ": recalibrate the stereo rig";
+  expectEntry(describeOdometry,
+              bias,
+              Level::WARN,
+              "disparities have a bias of 1.25 px (+- 0.05), which is corrected" + advice);
 
-TEST(DiagnosticsTest, ALargeBiasAsksForACalibration) {
-  HealthReport report = goodReport();
-  report.last_result.disparity_bias = {-1.25, 0.05, -1.0};
-  StatusWrapper status;
-  describeOdometry(report, status);
-  EXPECT_EQ(status.level, Level::WARN);
-  EXPECT_NE(status.message.find("bias of 1.25 px (+- 0.05)"), std::string::npos) << status.message;
-  EXPECT_NE(status.message.find("calibrate"), std::string::npos) << status.message;
-}
-
-TEST(DiagnosticsTest, RowsThatAreApartAskForACalibration) {
-  HealthReport report = goodReport();
-  report.last_result.row_offset = {-0.62, 0.01, 0.75};
-  StatusWrapper status;
-  describeOdometry(report, status);
-  EXPECT_EQ(status.level, Level::WARN);
-  EXPECT_NE(status.message.find("rows of left and right differ by 0.75 px"), std::string::npos)
-      << status.message;
-  EXPECT_EQ(status.message.find("disparities"), std::string::npos) << status.message;
-  EXPECT_NE(status.message.find("calibrate"), std::string::npos) << status.message;
+  HealthReport rows = goodReport();
+  rows.status.row_offset = -0.62f;
+  rows.status.row_offset_sigma = 0.01f;
+  rows.status.row_difference = 0.75f;
+  const std::string apart =
+      "rows of left and right differ by 0.75 px, with a median offset of -0.62 px (+- 0.01)";
+  StatusWrapper status = expectEntry(describeOdometry, rows, Level::WARN, apart + advice);
   EXPECT_EQ(valueOf(status, "row offset of the right image"),
             "-0.62 +- 0.01 px, median difference 0.75 px");
+
+  HealthReport skew = goodReport();
+  skew.status.time_skew = -0.0062f;
+  skew.status.time_skew_sigma = 0.0011f;
+  status = expectEntry(describeOdometry,
+                       skew,
+                       Level::WARN,
+                       "the right images are taken 6.2 ms (+- 1.1) before the left ones: trigger "
+                       "both cameras by one signal");
+  EXPECT_EQ(valueOf(status, "delay of the right image"), "-6.2 +- 1.1 ms");
 }
 
-TEST(DiagnosticsTest, ATimeSkewBeyondDoubtIsAWarning) {
-  HealthReport report = goodReport();
-  report.last_result.time_skew = {-0.0062, 0.0011};
-  StatusWrapper status;
-  describeOdometry(report, status);
-  EXPECT_EQ(status.level, Level::WARN);
-  EXPECT_EQ(status.message,
-            "the right images are taken 6.2 ms (+- 1.1) before the left ones: trigger both "
-            "cameras by one signal");
-  EXPECT_EQ(valueOf(status, "delay of the right image"), "-6.2 +- 1.1 ms");
-  for (const TimeSkew& skew : {TimeSkew{-0.0062, 0.002}, TimeSkew{0.0015, 0.0002}, TimeSkew{}}) {
-    report.last_result.time_skew = skew;
-    EXPECT_EQ(rigWarning(report.last_result), "") << skew.estimated_s;
+TEST(DiagnosticsTest, ATimeSkewInDoubtOrWithoutEffectIsNoWarning) {
+  for (const auto& [skew_s, sigma_s] :
+       std::vector<std::pair<float, float>>{{-0.0062f, 0.002f}, {0.0015f, 0.0002f}, {0.0f, 0.0f}}) {
+    OdometryStatus status;
+    status.time_skew = skew_s;
+    status.time_skew_sigma = sigma_s;
+    EXPECT_EQ(rigWarning(status), "") << skew_s;
   }
 }
 
 TEST(DiagnosticsTest, LossIsAnErrorWithItsReason) {
   HealthReport report = goodReport();
-  report.last_result.state = State::kLost;
-  report.last_result.reason = "only 3 features";
-  report.hint = "the lens is covered";
-  StatusWrapper status;
-  describeOdometry(report, status);
-  EXPECT_EQ(status.level, Level::ERROR);
-  EXPECT_NE(status.message.find("LOST: only 3 features"), std::string::npos) << status.message;
+  report.status.state = OdometryStatus::LOST;
+  report.status.reason = "only 3 features";
+  report.camera_fault = "the lens is covered";
+  const StatusWrapper status =
+      expectEntry(describeOdometry, report, Level::ERROR, "LOST: only 3 features");
   EXPECT_EQ(valueOf(status, "hint"), "the lens is covered");
 }
 
-TEST(DiagnosticsTest, LostImagesAreAWarning) {
-  HealthReport report = goodReport();
-  report.input.right_image.rate_hz = 5.0;
-  report.input.together = {50, 25, 25};
-  StatusWrapper status;
-  describeInput(report, status);
-  EXPECT_EQ(status.level, Level::WARN);
-  EXPECT_NE(status.message.find("/l/image arrives at 10.0 Hz, /r/image at 5.0 Hz"),
-            std::string::npos)
-      << status.message;
+TEST(DiagnosticsTest, FaultsOfTheInputAreTold) {
+  HealthReport lossy = goodReport();
+  lossy.input.right_image.rate_hz = 5.0;
+  lossy.input.together = {50, 25, 25};
+  const std::string rates = "/l/image arrives at 10.0 Hz, /r/image at 5.0 Hz";
+  expectEntry(describeInput, lossy, Level::WARN, rates);
+  HealthReport first = goodReport();
+  first.input.right_image.rate_hz = 0.0;
+  first.input.right_image.recent = first.input.right_image.total = first.input.recent_pairs = 1;
+  first.input.together = {2, 1, 1};
+  expectEntry(describeInput, first, Level::OK, "stereo pairs arrive");
+  HealthReport gap = goodReport();
+  gap.input.right_image.silent_s = gap.input.pairs_silent_s = 2.5;
+  expectEntry(describeInput, gap, Level::WARN, "/r/image has been silent for 2.5 s");
+  HealthReport refused = goodReport();
+  refused.input.refused = "the left image has the stamp 0";
+  const std::string dropped = "dropped in the last 5 s: the left image has the stamp 0";
+  expectEntry(describeInput, refused, Level::WARN, dropped);
+  HealthReport silent = goodReport();
+  silent.input.recent_pairs = silent.input.right_image.recent = 0;
+  expectEntry(describeInput, silent, Level::ERROR, "/r/image has a publisher");
 }
 
-TEST(DiagnosticsTest, TheFirstImageOfASideIsNoFault) {
-  HealthReport report = goodReport();
-  report.input.right_image.rate_hz = 0.0;
-  report.input.right_image.recent = report.input.right_image.total = report.input.recent_pairs = 1;
-  report.input.together = {2, 1, 1};
-  StatusWrapper status;
-  describeInput(report, status);
-  EXPECT_EQ(status.level, Level::OK) << status.message;
-}
-
-TEST(DiagnosticsTest, AGapIsAWarning) {
-  HealthReport report = goodReport();
-  report.input.right_image.silent_s = report.input.pairs_silent_s = 2.5;
-  StatusWrapper status;
-  describeInput(report, status);
-  EXPECT_EQ(status.level, Level::WARN);
-  EXPECT_NE(status.message.find("/r/image has been silent for 2.5 s"), std::string::npos)
-      << status.message;
-}
-
-TEST(DiagnosticsTest, DropsBetweenPairsAreAWarning) {
-  HealthReport report = goodReport();
-  report.input.refused = "the left image has the stamp 0";
-  StatusWrapper status;
-  describeInput(report, status);
-  EXPECT_EQ(status.level, Level::WARN);
-  EXPECT_EQ(status.message, "dropped in the last 5 s: the left image has the stamp 0");
-}
-
-TEST(DiagnosticsTest, SilenceIsAnError) {
-  HealthReport report = goodReport();
-  report.input.recent_pairs = report.input.right_image.recent = 0;
-  StatusWrapper status;
-  describeInput(report, status);
-  EXPECT_EQ(status.level, Level::ERROR);
-  EXPECT_NE(status.message.find("/r/image has a publisher"), std::string::npos) << status.message;
-}
-
-TEST(DiagnosticsTest, SlownessIsAWarning) {
-  HealthReport report = goodReport();
-  report.latency_p50_ms = 130.0;
-  StatusWrapper status;
-  describeTiming(report, status);
-  EXPECT_EQ(status.level, Level::WARN);
-  EXPECT_NE(status.message.find("130.0 ms, but pairs arrive every 100.0 ms"), std::string::npos)
-      << status.message;
-}
-
-TEST(DiagnosticsTest, NewDropsAreAWarningByReason) {
-  HealthReport report = goodReport();
-  report.drops = {{DropReason::kStampZero, 3}, {DropReason::kSuperseded, 4}};
-  StatusWrapper status;
-  describeDrops(report, 5, status);
-  EXPECT_EQ(status.level, Level::WARN);
-  EXPECT_EQ(status.message, "2 more dropped in the last second");
+TEST(DiagnosticsTest, SlownessDropsAndFaultsOfTfAreWarnings) {
+  HealthReport slow = goodReport();
+  slow.latency_p50_ms = 130.0;
+  expectEntry(describeTiming, slow, Level::WARN, "130.0 ms, but pairs arrive every 100.0 ms");
+  StatusWrapper status = expectEntry(
+      describeNewDrops, withDrops(3, 4), Level::WARN, "2 more dropped in the last second");
   EXPECT_EQ(valueOf(status, "stamp_zero"), "3");
   EXPECT_EQ(valueOf(status, "newer_pair_came"), "4");
   EXPECT_EQ(valueOf(status, "dropped in total"), "7");
-  StatusWrapper later;
-  describeDrops(report, 7, later);
-  EXPECT_EQ(later.level, Level::OK);
-}
-
-TEST(DiagnosticsTest, AnotherParentOfTheBaseIsAWarning) {
-  HealthReport report = goodReport();
-  report.tf_conflict = "node /ekf publishes tf odom -> base_link";
-  StatusWrapper status;
-  describeTf(report, status);
-  EXPECT_EQ(status.level, Level::WARN);
-  EXPECT_EQ(status.message, report.tf_conflict);
-}
-
-TEST(OdometryHealthTest, AFaultOfTheInputIsAHintIfTheCamerasHaveNone) {
-  OdometryHealth health;
-  const DropLog drops;
-  health.addAnswer({}, "", 1.0);
-  EXPECT_EQ(health.report({}, drops).statusHint(), "");
-  health.setInputFault("30 % of the images have no partner");
-  EXPECT_EQ(health.report({}, drops).statusHint(), "30 % of the images have no partner");
-  EXPECT_EQ(health.report({}, drops).hint, "");
-  health.addAnswer({}, "the lens is covered", 1.0);
-  EXPECT_EQ(health.report({}, drops).statusHint(), "the lens is covered");
-}
-
-TEST(DiagnosticsTest, AGuessFrameThatIsNotInTfIsAWarning) {
-  OdometryHealth health;
-  health.setGuess("no tf from guess_frame wheel_odom", 7);
-  StatusWrapper status;
-  describeTf(health.report({}, DropLog()), status);
-  EXPECT_EQ(status.level, Level::WARN);
-  EXPECT_EQ(status.message, "no tf from guess_frame wheel_odom");
+  HealthReport conflict = goodReport();
+  conflict.tf_conflict = "node /ekf publishes tf odom -> base_link";
+  expectEntry(describeTf, conflict, Level::WARN, conflict.tf_conflict);
+  HealthReport guess = goodReport();
+  guess.guess_trouble = "no tf from guess_frame wheel_odom";
+  guess.status.guess_misses = 7;
+  status = expectEntry(describeTf, guess, Level::WARN, guess.guess_trouble);
   EXPECT_EQ(valueOf(status, "pairs without the motion of guess_frame"), "7");
 }
 
-TEST(OdometryHealthTest, CountsAnswersAndTheirLatency) {
+TEST(DiagnosticsTest, TellsWhyTheGyroscopeIsNotUsed) {
+  GyroPredictor gyro;
+  const auto describe = [&gyro] {
+    StatusWrapper status;
+    describeGyro(gyro, "/imu", status);
+    return status;
+  };
+  EXPECT_EQ(describe().level, Level::OK) << "no pair yet";
+  gyro.add({0, {0.0, 0.0, 0.0}});
+  gyro.add({10'000'000, {0.0, 0.0, 0.0}});
+  gyro.refuse("no stamp");
+  ASSERT_TRUE(gyro.rotation(0, 10'000'000));
+  EXPECT_EQ(describe().level, Level::OK);
+  EXPECT_EQ(describe().message, "predicts rotations");
+  EXPECT_EQ(valueOf(describe(), "bias").find("0.0000 0.0000 0.0000 rad/s, +- "), 0u);
+  EXPECT_EQ(valueOf(describe(), "rotations predicted"), "1");
+  EXPECT_EQ(valueOf(describe(), "samples refused"), "1");
+  gyro.miss("no message on /imu");
+  EXPECT_EQ(describe().level, Level::WARN);
+  EXPECT_EQ(describe().message, "not used: no message on /imu");
+}
+
+TEST(OdometryHealthTest, TheHintIsAFaultOfTheCamerasOrElseOfTheInputAndOfGuessFrame) {
   OdometryHealth health;
   const DropLog drops;
+  InputReport lossy = goodReport().input;
+  lossy.together = {50, 25, 25};
+  const auto hint = [&](const std::string& camera_fault, const std::string& guess_trouble) {
+    return health.addAnswer({}, camera_fault, guess_trouble, drops).hint;
+  };
+  EXPECT_EQ(hint("", ""), "");
+  EXPECT_EQ(hint("", "no tf from guess_frame"), "no tf from guess_frame");
+  EXPECT_EQ(health.report(lossy, drops).camera_fault, "");
+  EXPECT_EQ(hint("", "").find("50 % of the images have no partner"), 0u);
+  EXPECT_EQ(hint("frozen?", "no tf from guess_frame"), "frozen?; no tf from guess_frame");
+}
+
+TEST(OdometryHealthTest, CountsAnswersTheirLatencyAndDrops) {
+  OdometryHealth health;
+  DropLog drops;
   EXPECT_FALSE(health.report({}, drops).answers);
-  OdometryResult result;
-  result.state = State::kLost;
-  for (int i = 1; i <= 100; ++i) health.addAnswer(result, "", i);
+  drops.count(DropReason::kStampZero, 5);
+  OdometryStatus status;
+  status.state = OdometryStatus::LOST;
+  status.guess_misses = 3;
+  for (int i = 1; i <= 100; ++i) {
+    status.latency = static_cast<float>(i);
+    EXPECT_EQ(health.addAnswer(status, "", "", drops).pairs_lost, static_cast<std::uint64_t>(i));
+  }
   const HealthReport report = health.report({}, drops);
   EXPECT_TRUE(report.answers);
-  EXPECT_EQ(report.pairs_processed, 100u);
-  EXPECT_EQ(report.pairs_lost, 100u);
+  EXPECT_EQ(report.status.pairs_processed, 100u);
+  EXPECT_EQ(report.status.guess_misses, 3u);
+  ASSERT_EQ(report.status.drops.size(), 1u);
+  EXPECT_EQ(report.status.drops[0].reason, "stamp_zero");
+  EXPECT_EQ(report.status.drops[0].count, 5u);
   EXPECT_EQ(report.latency_p50_ms, 50.0);
   EXPECT_EQ(report.latency_p95_ms, 95.0);
   EXPECT_EQ(report.latency_max_ms, 100.0);

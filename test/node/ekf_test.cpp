@@ -1,16 +1,9 @@
 // ekf.launch: the odometry as input of ekf_localization_node, in simulated time.
 
-#include <sys/prctl.h>
-#include <sys/types.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <map>
 #include <mutex>
-#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -20,8 +13,10 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
+#include "support/background_command.h"
 #include "support/run_command.h"
 #include "support/simulated_robot.h"
+#include "support/temporary_directory.h"
 
 namespace rotrocc {
 namespace {
@@ -30,31 +25,6 @@ constexpr double kSpeed_mps = SimulatedRobot::kStep_m / SimulatedRobot::kPeriod_
 /// Of way and speed, by odometry and filter together.
 constexpr double kWayError = 0.01;
 constexpr double kTick_s = 0.01;
-
-/// A launch file that runs until the end of its scope, in the global namespace.
-class Launch {
- public:
-  explicit Launch(const std::string& arguments) : pid_(fork()) {
-    if (pid_ < 0) throw std::runtime_error("cannot fork");
-    if (pid_ > 0) return;
-    prctl(PR_SET_PDEATHSIG, SIGINT);  // a test that is killed leaves nothing behind
-    execl("/bin/sh",
-          "sh",
-          "-c",
-          ("exec env -u ROS_NAMESPACE roslaunch " + arguments).c_str(),
-          nullptr);
-    _exit(127);
-  }
-  ~Launch() {
-    kill(pid_, SIGINT);
-    waitpid(pid_, nullptr, 0);
-  }
-  Launch(const Launch&) = delete;
-  Launch& operator=(const Launch&) = delete;
-
- private:
-  pid_t pid_;
-};
 
 /// The output of the filter, by stamp.
 class FilterOutput {
@@ -158,7 +128,9 @@ class EkfTest : public testing::Test {
 TEST_F(EkfTest, FollowsTheRobotThroughLostMotionAndAGap) {
   const CommandResult nodes = runCommand("roslaunch --nodes rotrocc ekf.launch");
   if (nodes.status != 0) GTEST_SKIP() << "needs the package robot_localization";
-  const Launch launch("rotrocc ekf.launch stereo:=/stereo");
+  const TemporaryDirectory directory;
+  const BackgroundCommand launch(
+      "env -u ROS_NAMESPACE roslaunch rotrocc ekf.launch stereo:=/stereo", directory / "log");
   SimulatedRobot robot;
   ASSERT_TRUE(waitUntil([&] { return output_.connected(); }));
   robot.publishMount();

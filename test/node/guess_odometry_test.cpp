@@ -24,7 +24,8 @@ class GuessOdometryTest : public testing::Test {
 
   /// The motion to a pair from the one before.
   std::optional<Eigen::Isometry3d> motionTo(int pair, GuessOdometry& guess) {
-    return guess.motion(stampOf(pair - 1), stampOf(pair));
+    guess.setLast(stampOf(pair - 1));
+    return guess.motionTo(stampOf(pair));
   }
 
   static std::int64_t stampOf(int pair) {
@@ -42,18 +43,19 @@ TEST_F(GuessOdometryTest, MotionIsThatOfTheBase) {
   const auto motion = motionTo(1, guess);
   ASSERT_TRUE(motion);
   EXPECT_NEAR(motion->translation().x(), kStep_m, 1e-9);
+  EXPECT_FALSE(guess.motionTo(stampOf(0))) << "it is asked for later pairs only";
   EXPECT_EQ(guess.misses(), 0u);
 }
 
 /// With waiting at each pair, this takes an hour.
 TEST_F(GuessOdometryTest, AFrameThatDoesNotExistIsToldOnceAndNotWaitedFor) {
   GuessOdometry guess("wheel_odom", "base_link", 0.2, tf_.feed());
-  for (int pair = 1; pair < Patience::kMisses; ++pair) {
+  for (int pair = 1; pair < MissBackoff::kMisses; ++pair) {
     EXPECT_FALSE(motionTo(pair, guess));
     EXPECT_EQ(guess.trouble(), "") << pair;
   }
   constexpr int kPairs = 20'000;
-  for (int pair = Patience::kMisses; pair <= kPairs; ++pair) {
+  for (int pair = MissBackoff::kMisses; pair <= kPairs; ++pair) {
     EXPECT_FALSE(motionTo(pair, guess));
   }
   EXPECT_EQ(guess.misses(), static_cast<std::uint64_t>(kPairs));

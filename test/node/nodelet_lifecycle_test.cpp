@@ -19,9 +19,12 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/image_encodings.h>
 
+#include "support/background_command.h"
+#include "support/read_file.h"
 #include "support/run_command.h"
 #include "support/service_caller.h"
 #include "support/simulated_robot.h"
+#include "support/temporary_directory.h"
 
 namespace rotrocc {
 namespace {
@@ -252,6 +255,16 @@ TEST(NodeTest, EndsWithTheReasonIfItCannotStart) {
                                "only has raw: install its plugin"),
             std::string::npos)
       << result.output;
+}
+
+TEST(NodeTest, SaysThatThereIsNoClock) {
+  const TemporaryDirectory directory;
+  const std::string log = directory / "log";
+  ros::param::set("/use_sim_time", true);
+  BackgroundCommand node(STEREO_ODOMETRY " __name:=without_clock _silence_s:=0.5", log);
+  const std::string text = "use_sim_time is true, but there is no message on /clock";
+  EXPECT_TRUE(waitUntil([&] { return readFile(log).find(text) != std::string::npos; }));
+  ros::param::set("/use_sim_time", false);
 }
 
 TEST(NodeTest, EndsCleanlyAtAnyMoment) {

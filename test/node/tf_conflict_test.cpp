@@ -52,35 +52,28 @@ TEST(TfConflictTest, KnowsWhatIsPublished) {
   EXPECT_EQ(publishedTf("/odometry", parameters).child, "odom");
 }
 
-TEST(TfRivalsTest, RivalsInTurnAreNewOnce) {
-  TfRivals rivals;
-  TfRivals::Time now{};
+TEST(RecentConflictsTest, ConflictsInTurnAreNewOnce) {
+  RecentConflicts conflicts;
+  RecentConflicts::Time now{};
   int found = 0;
   for (int i = 0; i < 100; ++i, now += milliseconds(50)) {
-    found += rivals.add({i % 2 == 0 ? "/ekf" : "/wheels", "odom", "base_link"}, false, now);
-    EXPECT_EQ(rivals.present(now).front().node, "/ekf");
+    found += conflicts.add(i % 2 == 0 ? "/ekf" : "/wheels", false, now);
+    EXPECT_EQ(conflicts.first(now), "/ekf");
   }
   EXPECT_EQ(found, 2);
 }
 
-TEST(TfRivalsTest, AreGoneAfterSomeSeconds) {
-  const PublishedTf rival = {"/ekf", "odom", "base_link"};
-  const TfRivals::Time start{};
-  TfRivals rivals;
-  EXPECT_TRUE(rivals.add(rival, false, start));
-  EXPECT_FALSE(rivals.add(rival, false, start + seconds(2))) << "may be slow";
-  EXPECT_FALSE(rivals.present(start + seconds(4)).empty());
-  EXPECT_TRUE(rivals.present(start + seconds(10)).empty());
-  EXPECT_TRUE(rivals.add(rival, false, start + seconds(10))) << "is back";
-}
-
-TEST(TfRivalsTest, StaticTransformsStay) {
-  const PublishedTf rival = {"/static", "map", "base_link"};
-  const TfRivals::Time start{};
-  TfRivals rivals;
-  EXPECT_TRUE(rivals.add(rival, true, start));
-  EXPECT_FALSE(rivals.present(start + std::chrono::hours(1)).empty());
-  EXPECT_FALSE(rivals.add(rival, true, start + std::chrono::hours(1)));
+TEST(RecentConflictsTest, AreGoneAfterSomeSecondsUnlessStatic) {
+  const RecentConflicts::Time start{};
+  RecentConflicts conflicts;
+  EXPECT_TRUE(conflicts.add("/ekf", false, start));
+  EXPECT_FALSE(conflicts.add("/ekf", false, start + seconds(2))) << "may be slow";
+  EXPECT_EQ(conflicts.first(start + seconds(4)), "/ekf");
+  EXPECT_EQ(conflicts.first(start + seconds(10)), "");
+  EXPECT_TRUE(conflicts.add("/ekf", false, start + seconds(10))) << "is back";
+  EXPECT_TRUE(conflicts.add("/static", true, start));
+  EXPECT_EQ(conflicts.first(start + std::chrono::hours(1)), "/static");
+  EXPECT_FALSE(conflicts.add("/static", true, start + std::chrono::hours(1)));
 }
 
 }  // namespace

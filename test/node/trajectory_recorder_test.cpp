@@ -3,7 +3,6 @@
 #include <sys/stat.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include <gtest/gtest.h>
 
@@ -21,11 +20,6 @@ StampedPose poseAt(double time_s) {
   pose.stamp_ns = std::llround(1e9 * time_s);
   pose.T_world_body.translation().z() = time_s;
   return pose;
-}
-
-std::size_t filesIn(const TemporaryDirectory& directory) {
-  const std::filesystem::directory_iterator files(directory / "");
-  return static_cast<std::size_t>(std::distance(begin(files), end(files)));
 }
 
 TEST(TrajectoryRecorderTest, NamesAreNumbered) {
@@ -66,7 +60,7 @@ TEST(TrajectoryRecorderTest, ATrajectoryHasAFileOfItsOwn) {
   EXPECT_EQ(readTrajectory(directory / "odom_2.txt").size(), 3u);
   EXPECT_EQ(readTrajectory(directory / "odom_3.txt").size(), 2u);
   EXPECT_EQ(readTrajectory(directory / "odom_4.txt").size(), 1u);
-  EXPECT_EQ(filesIn(directory), 4u);
+  EXPECT_EQ(directory.files(), 4u);
 }
 
 TEST(TrajectoryRecorderTest, NothingIsReplaced) {
@@ -107,7 +101,7 @@ TEST(TrajectoryRecorderTest, WrongPathsAreRefusedAtTheStart) {
   expectError([&] { TrajectoryRecorder("/dev/null", "tum"); }, "it is a device");
   expectError([&] { TrajectoryRecorder(directory / "no/odom.txt", "tum"); }, "cannot write");
   expectError([&] { TrajectoryRecorder(directory / "odom.txt", "csv"); }, "csv");
-  EXPECT_EQ(filesIn(directory), 1u);
+  EXPECT_EQ(directory.files(), 1u);
 }
 
 }  // namespace

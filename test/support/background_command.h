@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sys/prctl.h>
 #include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,7 +20,8 @@ class BackgroundCommand {
     if (process_ < 0) throw std::runtime_error("cannot run " + command);
     setpgid(process_, process_);  // by both, as either may be first
     if (process_ > 0) return;
-    signal(SIGINT, SIG_DFL);  // ignored if the test runs in the background of a shell
+    prctl(PR_SET_PDEATHSIG, SIGINT);  // a test that is killed leaves nothing behind
+    signal(SIGINT, SIG_DFL);          // ignored if the test runs in the background of a shell
     execl("/bin/sh", "sh", "-c", ("exec " + command + " >" + log + " 2>&1").c_str(), nullptr);
     _exit(127);
   }

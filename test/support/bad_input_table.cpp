@@ -14,18 +14,17 @@ namespace rotrocc {
 namespace {
 
 constexpr int kRows = 58;
-const std::set<int> kRowsOfNodelet = {26, 40, 41, 49, 50, 51, 52};
+/// What the tests of the node show.
+const std::set<int> kRowsOfNode = {26, 40, 41, 49, 50, 51, 52};
 
 const char* const kHead =
     R"(# Bad input
 
-How the odometry handles bad input that occurs on robots. `bad_inputs_test` writes the table; the rows
-that need a ROS master come from `bad_inputs_nodelet_test`, which runs the nodelet. Both tests fail
-if this file is out of date. To update it:
+How the odometry handles bad input that occurs on robots. `bad_inputs_test` observes it, and fails
+if the table is out of date; rows 26, 40, 41 and 49 to 52 are those of the tests in test/node. To
+update it:
 
-    export ROTROCC_UPDATE_FILES=1
-    build/devel/lib/rotrocc/bad_inputs_test
-    rostest rotrocc bad_inputs_nodelet.test
+    ROTROCC_UPDATE_FILES=1 build/devel/lib/rotrocc/bad_inputs_test
 
 "; then" is the state after the valid pairs that follow. The motion of each pair that is ok is within
 5 % of the truth, unless the row says otherwise.
@@ -36,15 +35,6 @@ if this file is out of date. To update it:
 
 std::string path() {
   return std::string(ROTROCC_DOCS_DIR) + "/bad_inputs.md";
-}
-
-std::set<int> rowsOf(Observer observer) {
-  if (observer == Observer::kNodelet) return kRowsOfNodelet;
-  std::set<int> rows;
-  for (int row = 1; row <= kRows; ++row) {
-    if (kRowsOfNodelet.count(row) == 0) rows.insert(row);
-  }
-  return rows;
 }
 
 bool matches(const std::string& text, const std::string& pattern) {
@@ -73,21 +63,21 @@ std::map<int, std::string> readRows() {
 
 }  // namespace
 
-void expectRows(Observer observer, const std::vector<BadInput>& inputs) {
+void expectRows(const std::vector<BadInput>& inputs) {
   std::map<int, std::string> rows = readRows();
-  std::set<int> observed_rows;
+  std::set<int> known_rows = kRowsOfNode;
   for (const BadInput& input : inputs) {
     const std::string observed = input.observe();
     EXPECT_TRUE(matches(observed, input.pattern))
         << "row " << input.row << ", " << input.input << ":\n  " << observed << "\nis not\n  "
         << input.pattern;
-    observed_rows.insert(input.row);
+    known_rows.insert(input.row);
     std::ostringstream row;
     row << "| " << input.row << " | " << input.input << " | " << input.expected << " | " << observed
         << " |";
     rows[input.row] = row.str();
   }
-  EXPECT_EQ(observed_rows, rowsOf(observer));
+  EXPECT_EQ(known_rows.size(), static_cast<std::size_t>(kRows));
   std::string text = kHead;
   for (int row = 1; row <= kRows; ++row) text += rows[row] + '\n';
   expectFileHolds(path(), text);

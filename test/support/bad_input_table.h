@@ -15,11 +15,8 @@ struct BadInput {
   std::string pattern;  ///< must match the whole observation; a * stands for any text
 };
 
-/// The test of a row: bad_inputs_test, or bad_inputs_nodelet_test if it needs a ROS master.
-enum class Observer { kRig, kNodelet };
-
-/// Observes each of `inputs`, which must be all the rows of `observer`. Expects that the
+/// Observes each of `inputs`, which must be all rows that need no ROS master. Expects that the
 /// observations match and that docs/bad_inputs.md contains them.
-void expectRows(Observer observer, const std::vector<BadInput>& inputs);
+void expectRows(const std::vector<BadInput>& inputs);
 
 }  // namespace rotrocc

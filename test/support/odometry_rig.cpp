@@ -164,7 +164,7 @@ std::string OdometryRig::describeDrops() const {
 }
 
 std::string OdometryRig::stateWithoutAnswers() const {
-  return stateName(stateOf(OdometryHealth().report(report(now_), drops_)).state);
+  return stateName(OdometryHealth().report(report(now_), drops_).status.state);
 }
 
 InputReport OdometryRig::report(std::chrono::steady_clock::time_point now) const {
@@ -178,7 +178,13 @@ InputReport OdometryRig::report(std::chrono::steady_clock::time_point now) const
 
 void OdometryRig::process(const ReceivedPair& pair) {
   try {
-    answer_ = processor_.process(pair, T_base_camera, expected);
+    const StereoPair converted = processor_.convert(pair);
+    std::optional<Eigen::Isometry3d> T_last_base;
+    if (expected && last_stamp_ns_ && converted.stamp_ns > *last_stamp_ns_) {
+      T_last_base = expected(*last_stamp_ns_, converted.stamp_ns);
+    }
+    last_stamp_ns_ = converted.stamp_ns;
+    answer_ = processor_.process(converted, pair.camera, T_base_camera, T_last_base);
     hint_ = processor_.inspect(*answer_, pair.camera);
     ++answers_;
     state_ = answer_->state;

@@ -45,8 +45,9 @@ class OdometryRig {
   /// The mount at the next pair.
   Eigen::Isometry3d T_base_camera = kittiMount();
 
-  /// The motion by another sensor.
-  PairProcessor::MotionSource expected;
+  /// The motion of the base between the stamps of two pairs by another sensor.
+  std::function<std::optional<Eigen::Isometry3d>(std::int64_t prev_ns, std::int64_t cur_ns)>
+      expected;
 
   /// Of the last pair that was processed since the last call of forget().
   const std::optional<PairAnswer>& answer() const { return answer_; }
@@ -87,6 +88,7 @@ class OdometryRig {
   BaseState state_, state_before_;  // of the last answer, and when forget() was called last
   double way_m_ = 0.0;              // between the last two pairs that were processed
   double last_place_m_ = 0.0;       // of the last one
+  std::optional<std::int64_t> last_stamp_ns_;  // of the last one
   int answers_ = 0;
   std::map<DropReason, std::uint64_t> drops_before_;
 };

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <future>
 #include <iostream>
 #include <map>
@@ -19,11 +18,10 @@ namespace rotrocc {
 /// connection per call about one call in a thousand fails.
 class ServiceCaller {
  public:
-  /// `limit`: of each call. roscpp may lose a reply, and would wait for it forever.
-  explicit ServiceCaller(std::string node, std::chrono::milliseconds limit = kHangLimit)
-      : node_(std::move(node)), limit_(limit) {}
+  explicit ServiceCaller(std::string node) : node_(std::move(node)) {}
 
-  /// Returns false, after a message, if there is no service or no reply within the limit.
+  /// Returns false, after a message, if there is no service or no reply within kHangLimit: roscpp
+  /// may lose a reply, and would wait for it forever.
   template <class Service>
   bool call(const std::string& name, Service& service) {
     const std::string full_name = node_ + "/" + name;
@@ -34,11 +32,10 @@ class ServiceCaller {
     });
     if (!there) return fail("there is no service " + full_name);
     std::future<bool> reply = std::async(std::launch::async, [&] { return client.call(service); });
-    if (reply.wait_for(limit_) == std::future_status::ready) return reply.get();
+    if (reply.wait_for(kHangLimit) == std::future_status::ready) return reply.get();
     client.shutdown();  // ends the call, and the next one connects anew
     reply.wait();
-    return fail("no reply of the service " + full_name + " within " +
-                std::to_string(limit_.count()) + " ms");
+    return fail("no reply of the service " + full_name);
   }
 
  private:
@@ -48,7 +45,6 @@ class ServiceCaller {
   }
 
   std::string node_;
-  std::chrono::milliseconds limit_;
   ros::NodeHandle nh_;
   std::map<std::string, ros::ServiceClient> clients_;
 };

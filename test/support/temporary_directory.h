@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -26,6 +27,11 @@ class TemporaryDirectory {
 
   /// The path of a file or directory in it.
   std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+  /// The number of its files and directories.
+  std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
+  }
 
   /// Writes a text file into it and returns its path.
   std::string write(const std::string& name, const std::string& text) const {

@@ -137,7 +137,7 @@ void BaseOdometry::addUnseen(const OdometryResult& result,
   if (T_last_cur) step.T = parameters_.planar ? planar(*T_last_cur) : *T_last_cur;
   last_.T_odom_base = compose(last_.T_odom_base, step);
   last_.T_odom_base.covariance +=
-      T_last_cur ? growthWithWay(step.T) : growthWithTime(result.stamp_ns);
+      T_last_cur ? growthWithDistance(step.T) : growthWithTime(result.stamp_ns);
   camera_.add(Eigen::Isometry3d::Identity());
   if (T_last_cur || T_base_camera.matrix() != last_.T_base_camera.matrix()) {
     const Eigen::Isometry3d T_camera_step = last_.T_base_camera.inverse() * step.T * T_base_camera;
@@ -186,12 +186,12 @@ Matrix6d BaseOdometry::growthWithTime(std::int64_t stamp_ns) {
 }
 
 /// The same for the way that another odometry tells.
-Matrix6d BaseOdometry::growthWithWay(const Eigen::Isometry3d& T_last_cur) {
+Matrix6d BaseOdometry::growthWithDistance(const Eigen::Isometry3d& T_last_cur) {
   const double before_m = guessed_m_;
   const double before_rad = guessed_rad_;
-  const double way_m = T_last_cur.translation().norm();
-  guessed_m_ += way_m;
-  guessed_rad_ += logRotation(T_last_cur.linear()).norm() + kTurn_radpm * way_m;
+  const double distance_m = T_last_cur.translation().norm();
+  guessed_m_ += distance_m;
+  guessed_rad_ += logRotation(T_last_cur.linear()).norm() + kTurn_radpm * distance_m;
   const double share2 = parameters_.guess_error_share * parameters_.guess_error_share;
   return diagonal(share2 * (guessed_m_ * guessed_m_ - before_m * before_m),
                   share2 * (guessed_rad_ * guessed_rad_ - before_rad * before_rad));

@@ -75,7 +75,7 @@ class BaseOdometry {
                  const Eigen::Isometry3d& T_base_camera,
                  const std::optional<Eigen::Isometry3d>& T_last_cur);
   Matrix6d growthWithTime(std::int64_t stamp_ns);
-  Matrix6d growthWithWay(const Eigen::Isometry3d& T_last_cur);
+  Matrix6d growthWithDistance(const Eigen::Isometry3d& T_last_cur);
   UncertainTransform withSystematicError(const UncertainTransform& T_odom_base) const;
   Eigen::Isometry3d T_start_base() const;
 

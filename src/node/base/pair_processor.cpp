@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "common/stage_timer.h"
 #include "common/to_seconds.h"
 #include "input/image_validation.h"
 #include "input/message_conversion.h"
@@ -19,24 +18,30 @@ PairProcessor::PairProcessor(const Parameters& parameters, Log log)
       odometry_(parameters.odometry),
       inspector_(parameters.odometry.correspondence_finder, parameters.node.rectify) {}
 
-PairAnswer PairProcessor::process(const ReceivedPair& received,
+StereoPair PairProcessor::convert(const ReceivedPair& received) {
+  const StereoPair pair = converter_.convert(*received.images.left, *received.images.right);
+  validateSize(*received.images.left, received.camera);
+  return received.calibration ? rectifier_.rectify(pair, received.calibration) : pair;
+}
+
+PairAnswer PairProcessor::process(const StereoPair& pair,
+                                  const StereoCamera& camera,
                                   const Eigen::Isometry3d& T_base_camera,
-                                  const MotionSource& expected,
+                                  const std::optional<Eigen::Isometry3d>& T_last_base,
                                   const RotationSource& measured_rotation) {
-  configureIfAsked();
-  PairAnswer answer;
+  Requests requests;
   {
-    const StageTimer timer(answer.conversion_ms);
-    answer.pair = convert(received);
+    const std::lock_guard<std::mutex> lock(requests_mutex_);
+    std::swap(requests, requests_);
   }
-  const bool asked = restartIfAsked();
-  const bool went_back = restartIfTimeWentBack(answer.pair.stamp_ns);
-  const bool gave_up = restartIfLostForLong(answer.pair.stamp_ns);
-  answer.starts_trajectory = asked || went_back || gave_up;
+  if (requests.config) configure(*requests.config);
+  PairAnswer answer;
+  answer.pair = pair;
+  answer.starts_trajectory = restartIfNeeded(requests, pair.stamp_ns);
   if (!base_odometry_) base_odometry_.emplace(parameters_, systematic_error_);
-  setPoseIfAsked();
-  move(received.camera, T_base_camera, expected, measured_rotation, answer);
-  last_stamp_ns_ = answer.pair.stamp_ns;
+  if (requests.T_odom_base) setPose(*requests.T_odom_base);
+  move(camera, T_base_camera, T_last_base, measured_rotation, answer);
+  last_stamp_ns_ = pair.stamp_ns;
   return answer;
 }
 
@@ -44,81 +49,63 @@ std::string PairProcessor::inspect(const PairAnswer& answer, const StereoCamera&
   return inspector_.inspect(answer.pair, camera, answer.result);
 }
 
-StereoPair PairProcessor::convert(const ReceivedPair& received) {
-  const StereoPair pair = converter_.convert(*received.images.left, *received.images.right);
-  validateSize(*received.images.left, received.camera);
-  return received.calibration ? rectifier_.rectify(pair, received.calibration) : pair;
-}
-
-void PairProcessor::configureIfAsked() {
-  std::optional<VisualOdometry::Config> config;
-  {
-    const std::lock_guard<std::mutex> lock(requests_mutex_);
-    config.swap(requests_.config);
-  }
-  if (!config) return;
-  odometry_.configure(*config);
-  rectifier_.setThreads(config->threads);
-  inspector_.configure(config->correspondence_finder);
-  systematic_error_ = config->systematic_error;
+void PairProcessor::configure(const VisualOdometry::Config& config) {
+  odometry_.configure(config);
+  rectifier_.setThreads(config.threads);
+  inspector_.configure(config.correspondence_finder);
+  systematic_error_ = config.systematic_error;
   if (base_odometry_) base_odometry_->setSystematicError(systematic_error_);
 }
 
 /// Returns whether a new trajectory starts.
-bool PairProcessor::restartIfAsked() {
-  const std::lock_guard<std::mutex> lock(requests_mutex_);
-  if (requests_.reset || requests_.restart) odometry_.reset();
-  if (requests_.reset) base_odometry_.reset();
-  requests_.restart = false;
-  return std::exchange(requests_.reset, false);
+bool PairProcessor::restartIfNeeded(const Requests& requests, std::int64_t stamp_ns) {
+  bool starts_trajectory = requests.reset;
+  if (requests.reset || requests.restart) odometry_.reset();
+  if (requests.reset) base_odometry_.reset();
+  if (last_stamp_ns_ && stamp_ns < *last_stamp_ns_) {  // a looping bag, or a restarted simulation
+    restart(
+        "time jumped back from " + stampText(*last_stamp_ns_) + " to " + stampText(stamp_ns) + " s",
+        "pose_after_time_jump",
+        parameters_.pose_after_time_jump);
+    starts_trajectory = true;
+  }
+  const double lost_s = lost_since_ns_ ? toSeconds(stamp_ns - *lost_since_ns_) : 0.0;
+  const double limit_s = parameters_.reset_after_lost_s;
+  if (lost_since_ns_ && limit_s > 0.0 && lost_s >= limit_s) {
+    const bool keep =
+        restart("lost for " + toText(lost_s) + " s, reset_after_lost_s = " + toText(limit_s),
+                "pose_after_lost",
+                parameters_.pose_after_lost);
+    starts_trajectory = starts_trajectory || !keep;
+  }
+  return starts_trajectory;
 }
 
-/// A looping bag, or a restarted simulation.
-bool PairProcessor::restartIfTimeWentBack(std::int64_t stamp_ns) {
-  if (!last_stamp_ns_ || stamp_ns >= *last_stamp_ns_) return false;
-  const bool keep = parameters_.pose_after_time_jump == "keep";
-  log_.warn("time jumped back from " + stampText(*last_stamp_ns_) + " to " + stampText(stamp_ns) +
-            " s: restarting at " + (keep ? "the last pose" : "initial_pose") +
-            " (pose_after_time_jump)");
+/// At the pose that `parameter`, of value `pose`, says. Returns whether it is kept.
+bool PairProcessor::restart(const std::string& why,
+                            const std::string& parameter,
+                            const std::string& pose) {
+  const bool keep = pose == "keep";
+  log_.warn(why + ": restarting at " + (keep ? "the last pose" : "initial_pose") + " (" +
+            parameter + ")");
   odometry_.reset();
   if (!keep) base_odometry_.reset();
-  return true;
-}
-
-/// Whether a new trajectory starts.
-bool PairProcessor::restartIfLostForLong(std::int64_t stamp_ns) {
-  if (!lost_since_ns_ || parameters_.reset_after_lost_s <= 0.0) return false;
-  const double lost_s = toSeconds(stamp_ns - *lost_since_ns_);
-  if (lost_s < parameters_.reset_after_lost_s) return false;
-  const bool keep = parameters_.pose_after_lost == "keep";
-  log_.warn("lost for " + toText(lost_s) +
-            " s, reset_after_lost_s = " + toText(parameters_.reset_after_lost_s) +
-            ": restarting at " + (keep ? "the last pose" : "initial_pose") + " (pose_after_lost)");
-  odometry_.reset();
-  if (!keep) base_odometry_.reset();
-  return !keep;
+  return keep;
 }
 
 /// A pose that is set while lost would be lost again if the next pair were compared with one from
 /// before the loss.
-void PairProcessor::setPoseIfAsked() {
-  const std::lock_guard<std::mutex> lock(requests_mutex_);
-  if (!requests_.T_odom_base) return;
-  base_odometry_->setPose(*requests_.T_odom_base);
+void PairProcessor::setPose(const UncertainTransform& T_odom_base) {
+  base_odometry_->setPose(T_odom_base);
   if (lost_since_ns_) odometry_.reset();
-  requests_.T_odom_base.reset();
 }
 
 void PairProcessor::move(const StereoCamera& camera,
                          const Eigen::Isometry3d& T_base_camera,
-                         const MotionSource& expected,
+                         const std::optional<Eigen::Isometry3d>& T_last_base,
                          const RotationSource& measured_rotation,
                          PairAnswer& answer) {
-  const std::int64_t stamp_ns = answer.pair.stamp_ns;
-  std::optional<Eigen::Isometry3d> T_last_base, T_known_base, T_known_camera;
-  if (expected && last_stamp_ns_ && stamp_ns > *last_stamp_ns_) {
-    T_last_base = expected(*last_stamp_ns_, stamp_ns);
-  }
+  std::optional<Eigen::Isometry3d> T_known_base, T_known_camera;
   if (T_last_base && T_known_last_) {
     T_known_base = *T_known_last_ * *T_last_base;
     T_known_camera = T_base_camera_known_.inverse() * *T_known_base * T_base_camera;
@@ -126,7 +113,7 @@ void PairProcessor::move(const StereoCamera& camera,
   answer.result = odometry_.process(answer.pair, camera, T_known_camera, measured_rotation);
   answer.state = base_odometry_->add(answer.result, T_base_camera, T_last_base);
   if (answer.result.state == State::kLost) {
-    if (!lost_since_ns_) lost_since_ns_ = stamp_ns;
+    if (!lost_since_ns_) lost_since_ns_ = answer.pair.stamp_ns;
     T_known_last_ = T_known_base;
   } else {
     lost_since_ns_.reset();

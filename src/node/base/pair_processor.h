@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -19,29 +18,30 @@ namespace rotrocc {
 
 /// Result of a pair.
 struct PairAnswer {
-  StereoPair pair;  ///< rectified; valid until the next call
+  StereoPair pair;  ///< rectified; valid until the next call of convert()
   OdometryResult result;
   BaseState state;
   bool starts_trajectory = false;  ///< a new trajectory: after a reset, a time jump or a long loss
-  double conversion_ms = 0.0;      ///< wall time of checks, conversion to grey and rectification
 };
 
 /// Converts pairs to odometry of the base, in one thread, and rectifies those that are raw. Other
 /// threads may request changes, which take effect with the next pair; requests do not block.
 class PairProcessor {
  public:
-  /// Motion of the base between two stamps from another odometry: T_prev_cur. It predicts the
-  /// motion of a pair, and moves the pose while the motion is lost.
-  using MotionSource =
-      std::function<std::optional<Eigen::Isometry3d>(std::int64_t prev_ns, std::int64_t cur_ns)>;
-
   explicit PairProcessor(const Parameters& parameters, Log log = Log());
 
-  /// `T_base_camera`: the mount at the stamp of the pair. `measured_rotation` is that of the
-  /// camera, see VisualOdometry::process(). Throws InputError on images that cannot be used.
-  PairAnswer process(const ReceivedPair& received,
+  /// Checks a pair, converts it to grey and rectifies it. It is valid until the next call. Throws
+  /// InputError on images that cannot be used.
+  StereoPair convert(const ReceivedPair& received);
+
+  /// `T_base_camera`: the mount at the stamp of the pair. `T_last_base`: the motion of the base
+  /// since the pair before by another odometry, if any. It predicts the motion of the pair, and
+  /// moves the pose while the motion is lost. `measured_rotation` is that of the camera, see
+  /// VisualOdometry::process().
+  PairAnswer process(const StereoPair& pair,
+                     const StereoCamera& camera,
                      const Eigen::Isometry3d& T_base_camera,
-                     const MotionSource& expected = {},
+                     const std::optional<Eigen::Isometry3d>& T_last_base = std::nullopt,
                      const RotationSource& measured_rotation = {});
 
   /// The suspected camera fault after each pair, in one sentence; empty if none. Apart from
@@ -72,15 +72,13 @@ class PairProcessor {
     std::optional<VisualOdometry::Config> config;
   };
 
-  StereoPair convert(const ReceivedPair& received);
-  void configureIfAsked();
-  bool restartIfAsked();
-  bool restartIfTimeWentBack(std::int64_t stamp_ns);
-  bool restartIfLostForLong(std::int64_t stamp_ns);
-  void setPoseIfAsked();
+  bool restartIfNeeded(const Requests& requests, std::int64_t stamp_ns);
+  bool restart(const std::string& why, const std::string& parameter, const std::string& pose);
+  void configure(const VisualOdometry::Config& config);
+  void setPose(const UncertainTransform& T_odom_base);
   void move(const StereoCamera& camera,
             const Eigen::Isometry3d& T_base_camera,
-            const MotionSource& expected,
+            const std::optional<Eigen::Isometry3d>& T_last_base,
             const RotationSource& measured_rotation,
             PairAnswer& answer);
 
@@ -94,8 +92,8 @@ class PairProcessor {
   std::optional<BaseOdometry> base_odometry_;  // from the first pair on
   std::optional<std::int64_t> last_stamp_ns_;
   std::optional<std::int64_t> lost_since_ns_;
-  // The last pair that was not lost: the mount then, and the expected motion from then to the last
-  // pair, if every part of it was known.
+  // The last pair that was not lost: the mount then, and the motion by the other odometry from then
+  // to the last pair, if every part of it was known.
   Eigen::Isometry3d T_base_camera_known_ = Eigen::Isometry3d::Identity();
   std::optional<Eigen::Isometry3d> T_known_last_;
 

@@ -1,6 +1,5 @@
 #include "node/gyro/gyro_input.h"
 
-#include <cmath>
 #include <utility>
 
 #include <ros/transport_hints.h>
@@ -88,24 +87,25 @@ void GyroInput::observe(const OdometryResult& result) {
   if (!mounted_on_.empty()) predictor_.observe(result);
   if (!was_asked_) return;  // a first pair
   was_asked_ = false;
-  const GyroWatch::Message message = watch_.onPair(predictor_.whyNot());
-  if (message.text.empty()) return;
-  if (message.is_warning) {
-    log_.warn(message.text);
+  const std::string& why_not = predictor_.whyNot();
+  if (!watch_.tellsOf(why_not.empty())) return;
+  if (why_not.empty()) {
+    log_.info("the gyroscope predicts rotations (" + mounted_on_ + ")");
   } else {
-    log_.info(message.text + " (" + mounted_on_ + ")");
+    log_.warn("the gyroscope is not used: " + why_not);
   }
 }
 
-GyroReport GyroInput::report() const {
+void GyroInput::report(OdometryStatus& status) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  GyroReport report;
-  report.topic = subscriber_.getTopic();
-  report.why_not_used = predictor_.whyNot();
-  report.counts = predictor_.counts();
-  report.bias_rps = predictor_.bias().bias_rps();
-  report.bias_sigma_rps = std::sqrt(predictor_.bias().covariance().trace());
-  return report;
+  status.imu_reason = predictor_.whyNot();
+  status.rotations_predicted = predictor_.counts().predicted;
+  status.rotations_missed = predictor_.counts().missed;
+}
+
+void GyroInput::describe(StatusWrapper& status) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  describeGyro(predictor_, subscriber_.getTopic(), status);
 }
 
 }  // namespace rotrocc

@@ -18,8 +18,9 @@
 
 #include "inertial/gyro_predictor.h"
 #include "input/log.h"
-#include "node/gyro/gyro_report.h"
 #include "node/gyro/gyro_watch.h"
+#include "node/health/diagnostics.h"
+#include "rotrocc/OdometryStatus.h"
 #include "rotrocc/odometry_result.h"
 
 namespace rotrocc {
@@ -43,7 +44,10 @@ class GyroInput {
   /// To be called with the result of each pair.
   void observe(const OdometryResult& result);
 
-  GyroReport report() const;
+  /// Sets the fields of the gyroscope.
+  void report(OdometryStatus& status) const;
+  /// The entry of /diagnostics.
+  void describe(StatusWrapper& status) const;
 
  private:
   void receive(const sensor_msgs::Imu& message);

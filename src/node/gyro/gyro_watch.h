@@ -1,35 +1,37 @@
 #pragma once
 
-#include <string>
-
-#include "node/patience.h"
+#include "node/miss_backoff.h"
 
 namespace rotrocc {
 
-/// Decides what the log says about a gyroscope, and whether pairs wait for it: not for one that has
+/// Decides when the log tells of a gyroscope, and whether pairs wait for it: not for one that has
 /// been missing for a while, except now and then.
 class GyroWatch {
  public:
-  /// Pairs in a row after which the log tells that it is used or not, and why.
-  static constexpr int kPairs = Patience::kMisses;
+  /// Pairs in a row after which the log tells that it is used or not.
+  static constexpr int kPairs = MissBackoff::kMisses;
   /// While it is missing, one of so many pairs waits for it.
   static constexpr int kRetryPairs = 10;
 
-  struct Message {
-    bool is_warning = false;
-    std::string text;  ///< empty: nothing to tell
-  };
-
-  /// What to tell after a pair. `why_not` is empty if the gyroscope predicted its rotation.
-  Message onPair(const std::string& why_not);
+  /// Call after each pair. Returns whether to tell that it is used, or that it is not.
+  bool tellsOf(bool used) {
+    used ? backoff_.onHit() : backoff_.onMiss();
+    in_a_row_ = used == was_used_ ? in_a_row_ + 1 : 1;
+    was_used_ = used;
+    const int change = used ? 1 : -1;
+    if (in_a_row_ < kPairs || told_ == change) return false;
+    told_ = change;
+    return true;
+  }
 
   /// Whether the next pair waits for samples.
-  bool waits() const { return patience_.waits(); }
+  bool waits() const { return backoff_.waits(); }
 
  private:
-  Patience patience_{kRetryPairs};
-  int used_ = 0;  // pairs in a row
-  bool told_used_ = false, told_missed_ = false;
+  MissBackoff backoff_{kRetryPairs};
+  bool was_used_ = false;
+  int in_a_row_ = 0;  // pairs
+  int told_ = 0;      // 1: used, -1: not used
 };
 
 }  // namespace rotrocc

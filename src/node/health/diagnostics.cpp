@@ -6,8 +6,7 @@
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <ros/init.h>
 
-#include "node/health/hundredths.h"
-#include "rotrocc/OdometryStatus.h"
+#include "input/to_text.h"
 
 namespace rotrocc {
 namespace {
@@ -48,73 +47,72 @@ void addTopic(const TopicReport& topic, StatusWrapper& status) {
 }
 
 /// Empty unless the skew is notable and beyond doubt.
-std::string skewWarning(const TimeSkew& skew) {
-  const double least_s = std::max(kNotableSkew_s, kSkewSigmas * skew.sigma_s);
-  if (skew.sigma_s == 0.0 || std::abs(skew.estimated_s) < least_s) return "";
-  return "the right images are taken " + hundredths(1e3 * std::abs(skew.estimated_s)) + " ms (+- " +
-         hundredths(1e3 * skew.sigma_s) + ") " + (skew.estimated_s > 0.0 ? "after" : "before") +
+std::string skewWarning(double skew_s, double sigma_s) {
+  const double least_s = std::max(kNotableSkew_s, kSkewSigmas * sigma_s);
+  if (sigma_s == 0.0 || std::abs(skew_s) < least_s) return "";
+  return "the right images are taken " + hundredths(1e3 * std::abs(skew_s)) + " ms (+- " +
+         hundredths(1e3 * sigma_s) + ") " + (skew_s > 0.0 ? "after" : "before") +
          " the left ones: trigger both cameras by one signal";
+}
+
+std::uint64_t countDrops(const OdometryStatus& status) {
+  std::uint64_t total = 0;
+  for (const DropCount& drop : status.drops) total += drop.count;
+  return total;
 }
 
 }  // namespace
 
-std::string rigWarning(const OdometryResult& result) {
-  const DisparityBias& bias = result.disparity_bias;
-  const RowOffset& rows = result.row_offset;
+std::string rigWarning(const OdometryStatus& status) {
   std::string what;
-  if (std::abs(bias.applied_px) >= kLargeBias_px) {
-    what = "disparities have a bias of " + hundredths(-bias.estimated_px) + " px (+- " +
-           hundredths(bias.sigma_px) + "), which is corrected";
+  if (std::abs(status.disparity_bias_applied) >= kLargeBias_px) {
+    what = "disparities have a bias of " + hundredths(-status.disparity_bias) + " px (+- " +
+           hundredths(status.disparity_bias_sigma) + "), which is corrected";
   }
-  if (rows.typical_px >= kRowsApart_px) {
+  if (status.row_difference >= kRowsApart_px) {
     what += (what.empty() ? "" : "; ") + std::string("rows of left and right differ by ") +
-            hundredths(rows.typical_px) + " px, with a median offset of " +
-            hundredths(rows.median_px) + " px (+- " + hundredths(rows.sigma_px) + ")" +
-            (rows.applied_px != 0.0 ? ", which is corrected" : "");
+            hundredths(status.row_difference) + " px, with a median offset of " +
+            hundredths(status.row_offset) + " px (+- " + hundredths(status.row_offset_sigma) + ")" +
+            (status.row_offset_applied != 0.0f ? ", which is corrected" : "");
   }
   if (!what.empty()) what += ": recalibrate the stereo rig";
-  const std::string skew = skewWarning(result.time_skew);
+  const std::string skew = skewWarning(status.time_skew, status.time_skew_sigma);
   return what.empty() || skew.empty() ? what + skew : what + "; " + skew;
 }
 
 void describeOdometry(const HealthReport& report, StatusWrapper& status) {
-  const NodeState state = stateOf(report);
-  const std::string name = stateName(state.state);
-  status.summary(levelOf(state.state), state.reason.empty() ? name : name + ": " + state.reason);
-  if (!report.hint.empty()) status.mergeSummary(DiagnosticStatus::WARN, report.hint);
-  if (const std::string rig = rigWarning(report.last_result); !rig.empty()) {
-    status.mergeSummary(DiagnosticStatus::WARN, rig);
+  const OdometryStatus& last = report.status;
+  const std::string name = stateName(last.state);
+  status.summary(levelOf(last.state), last.reason.empty() ? name : name + ": " + last.reason);
+  for (const std::string& warning : {report.camera_fault, rigWarning(last)}) {
+    if (!warning.empty()) status.mergeSummary(DiagnosticStatus::WARN, warning);
   }
-  const StageCounts& counts = report.last_result.counts;
   status.add("state", name);
-  status.add("reason", state.reason);
-  status.add("hint", report.hint);
-  status.add("corners", counts.corners);
-  status.add("corners with a disparity", counts.with_depth);
-  status.add("features tracked and consistent", counts.consistent);
-  status.add("inliers of the rotation", counts.rotation_inliers);
-  status.add("inliers of the translation", counts.translation_inliers);
-  const DisparityBias& bias = report.last_result.disparity_bias;
+  status.add("reason", last.reason);
+  status.add("hint", report.camera_fault);
+  status.add("corners", last.corners);
+  status.add("corners with a disparity", last.with_depth);
+  status.add("features tracked and consistent", last.consistent);
+  status.add("inliers of the rotation", last.rotation_inliers);
+  status.add("inliers of the translation", last.translation_inliers);
   status.addf("disparity bias",
               "%.2f +- %.2f px, %.2f px applied",
-              bias.estimated_px,
-              bias.sigma_px,
-              bias.applied_px);
-  const RowOffset& rows = report.last_result.row_offset;
+              last.disparity_bias,
+              last.disparity_bias_sigma,
+              last.disparity_bias_applied);
   status.addf("row offset of the right image",
               "%.2f +- %.2f px, median difference %.2f px",
-              rows.median_px,
-              rows.sigma_px,
-              rows.typical_px);
-  const TimeSkew& skew = report.last_result.time_skew;
-  status.addf(
-      "delay of the right image", "%.1f +- %.1f ms", 1e3 * skew.estimated_s, 1e3 * skew.sigma_s);
-  status.addf("contrast of the right image relative to the left one",
-              "%.2f",
-              report.last_result.exposure_gain);
-  status.addf("flow noise", "%.2f px", report.last_result.flow_noise_px);
-  status.add("pairs processed", report.pairs_processed);
-  status.add("pairs lost", report.pairs_lost);
+              last.row_offset,
+              last.row_offset_sigma,
+              last.row_difference);
+  status.addf("delay of the right image",
+              "%.1f +- %.1f ms",
+              1e3 * last.time_skew,
+              1e3 * last.time_skew_sigma);
+  status.addf("contrast of the right image relative to the left one", "%.2f", last.exposure_gain);
+  status.addf("flow noise", "%.2f px", last.flow_noise);
+  status.add("pairs processed", last.pairs_processed);
+  status.add("pairs lost", last.pairs_lost);
 }
 
 void describeInput(const HealthReport& report, StatusWrapper& status) {
@@ -161,7 +159,7 @@ void describeTiming(const HealthReport& report, StatusWrapper& status) {
   status.addf("latency p50", "%.1f ms", report.latency_p50_ms);
   status.addf("latency p95", "%.1f ms", report.latency_p95_ms);
   status.addf("latency max", "%.1f ms", report.latency_max_ms);
-  status.addf("time of the estimator", "%.1f ms", report.last_result.times.total_ms);
+  status.addf("time of the estimator", "%.1f ms", report.status.time_total);
 }
 
 void describeTf(const HealthReport& report, StatusWrapper& status) {
@@ -175,17 +173,11 @@ void describeTf(const HealthReport& report, StatusWrapper& status) {
   if (!report.guess_trouble.empty()) {
     status.mergeSummary(DiagnosticStatus::WARN, report.guess_trouble);
   }
-  status.add("pairs without the motion of guess_frame", report.guess_misses);
-}
-
-std::uint64_t countDrops(const HealthReport& report) {
-  std::uint64_t total = 0;
-  for (const auto& [reason, count] : report.drops) total += count;
-  return total;
+  status.add("pairs without the motion of guess_frame", report.status.guess_misses);
 }
 
 void describeDrops(const HealthReport& report, std::uint64_t drops_before, StatusWrapper& status) {
-  const std::uint64_t total = countDrops(report);
+  const std::uint64_t total = countDrops(report.status);
   if (total > drops_before) {
     status.summaryf(DiagnosticStatus::WARN,
                     "%llu more dropped in the last second",
@@ -194,52 +186,51 @@ void describeDrops(const HealthReport& report, std::uint64_t drops_before, Statu
     status.summary(DiagnosticStatus::OK, "none in the last second");
   }
   status.add("dropped in total", total);
-  for (const auto& [reason, count] : report.drops) status.add(toString(reason), count);
+  for (const DropCount& drop : report.status.drops) status.add(drop.reason, drop.count);
 }
 
-void describeGyro(const HealthReport& report, StatusWrapper& status) {
-  if (!report.gyro) return status.summary(DiagnosticStatus::OK, "no pair yet");
-  const GyroReport& gyro = *report.gyro;
-  if (gyro.why_not_used.empty()) {
+void describeGyro(const GyroPredictor& gyro, const std::string& topic, StatusWrapper& status) {
+  const GyroPredictor::Counts& counts = gyro.counts();
+  if (counts.predicted + counts.missed == 0) {
+    status.summary(DiagnosticStatus::OK, "no pair yet");
+  } else if (gyro.whyNot().empty()) {
     status.summary(DiagnosticStatus::OK, "predicts rotations");
   } else {
-    status.summary(DiagnosticStatus::WARN, "not used: " + gyro.why_not_used);
+    status.summary(DiagnosticStatus::WARN, "not used: " + gyro.whyNot());
   }
-  status.add("topic", gyro.topic);
+  const Eigen::Vector3d& bias_rps = gyro.bias().bias_rps();
+  status.add("topic", topic);
   status.addf("bias",
               "%.4f %.4f %.4f rad/s, +- %.4f",
-              gyro.bias_rps.x(),
-              gyro.bias_rps.y(),
-              gyro.bias_rps.z(),
-              gyro.bias_sigma_rps);
-  status.add("rotations predicted", gyro.counts.predicted);
-  status.add("rotations missed", gyro.counts.missed);
-  status.add("samples", gyro.counts.samples);
-  status.add("samples refused", gyro.counts.refused);
+              bias_rps.x(),
+              bias_rps.y(),
+              bias_rps.z(),
+              std::sqrt(gyro.bias().covariance().trace()));
+  status.add("rotations predicted", counts.predicted);
+  status.add("rotations missed", counts.missed);
+  status.add("samples", counts.samples);
+  status.add("samples refused", counts.refused);
 }
 
 Diagnostics::Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const std::string& name)
     : updater_(nh, private_nh, name) {
   updater_.setHardwareID("none");
-  // During shutdown there is no publisher, and the first task would abort a Debug build.
-  if (ros::isShuttingDown()) return;
-  updater_.add("odometry", [this](StatusWrapper& status) { describeOdometry(report_, status); });
-  updater_.add("input", [this](StatusWrapper& status) { describeInput(report_, status); });
-  updater_.add("timing", [this](StatusWrapper& status) { describeTiming(report_, status); });
-  updater_.add("tf", [this](StatusWrapper& status) { describeTf(report_, status); });
-  updater_.add("drops",
-               [this](StatusWrapper& status) { describeDrops(report_, drops_before_, status); });
+  add("odometry", [this](StatusWrapper& status) { describeOdometry(report_, status); });
+  add("input", [this](StatusWrapper& status) { describeInput(report_, status); });
+  add("timing", [this](StatusWrapper& status) { describeTiming(report_, status); });
+  add("tf", [this](StatusWrapper& status) { describeTf(report_, status); });
+  add("drops", [this](StatusWrapper& status) { describeDrops(report_, drops_before_, status); });
 }
 
-void Diagnostics::addGyro() {
-  if (ros::isShuttingDown()) return;
-  updater_.add("gyroscope", [this](StatusWrapper& status) { describeGyro(report_, status); });
+void Diagnostics::add(const std::string& name, const std::function<void(StatusWrapper&)>& task) {
+  // During shutdown there is no publisher, and the first task would abort a Debug build.
+  if (!ros::isShuttingDown()) updater_.add(name, task);
 }
 
 void Diagnostics::publish(const HealthReport& report) {
   report_ = report;
   updater_.force_update();
-  drops_before_ = countDrops(report);
+  drops_before_ = countDrops(report.status);
 }
 
 }  // namespace rotrocc

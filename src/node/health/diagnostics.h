@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 
+#include "inertial/gyro_predictor.h"
 #include "node/health/odometry_health.h"
 
 namespace rotrocc {
@@ -15,7 +17,7 @@ using StatusWrapper = diagnostic_updater::DiagnosticStatusWrapper;
 
 /// Warning about a large disparity bias, row offset or time skew, one sentence; empty if there is
 /// none.
-std::string rigWarning(const OdometryResult& result);
+std::string rigWarning(const OdometryStatus& status);
 
 void describeOdometry(const HealthReport& report, StatusWrapper& status);
 void describeInput(const HealthReport& report, StatusWrapper& status);
@@ -23,20 +25,17 @@ void describeTiming(const HealthReport& report, StatusWrapper& status);
 void describeTf(const HealthReport& report, StatusWrapper& status);
 /// Warns if the number of drops exceeds `drops_before`.
 void describeDrops(const HealthReport& report, std::uint64_t drops_before, StatusWrapper& status);
+/// Warns if the gyroscope of `topic` was not used for the last pair.
+void describeGyro(const GyroPredictor& gyro, const std::string& topic, StatusWrapper& status);
 
-/// Warns if the gyroscope was not used for the last pair.
-void describeGyro(const HealthReport& report, StatusWrapper& status);
-
-std::uint64_t countDrops(const HealthReport& report);
-
-/// Publishes these entries on request.
+/// Publishes these entries, but for the gyroscope's, on request.
 class Diagnostics {
  public:
   /// `name`: node or nodelet, with its namespace.
   Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const std::string& name);
 
-  /// Adds the entry of the gyroscope, which is not there without one.
-  void addGyro();
+  /// Adds an entry, which `task` fills.
+  void add(const std::string& name, const std::function<void(StatusWrapper&)>& task);
 
   void publish(const HealthReport& report);
 

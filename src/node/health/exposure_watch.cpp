@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "node/health/hundredths.h"
+#include "input/to_text.h"
 
 namespace rotrocc {
 namespace {

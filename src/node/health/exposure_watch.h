@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "node/health/latency_window.h"
+#include "node/health/sliding_quantiles.h"
 #include "rotrocc/odometry_result.h"
 
 namespace rotrocc {
@@ -20,7 +20,7 @@ class ExposureWatch {
   std::string observe(const OdometryResult& result);
 
  private:
-  LatencyWindow gains_{kPairs};
+  SlidingQuantiles gains_{kPairs};
 };
 
 }  // namespace rotrocc

@@ -1,9 +1,9 @@
 #include "node/health/odometry_health.h"
 
+#include <chrono>
 #include <cmath>
 
 #include "input/to_text.h"
-#include "rotrocc/OdometryStatus.h"
 
 namespace rotrocc {
 namespace {
@@ -23,36 +23,22 @@ std::string whyNoAnswer(const HealthReport& report) {
 
 }  // namespace
 
-NodeState stateOf(const HealthReport& report) {
-  if (report.paused) return {OdometryStatus::PAUSED, "paused by the service ~pause"};
-  if (report.answers) {
-    const OdometryResult& last = report.last_result;
-    switch (last.state) {
-      case State::kInitialising:
-        return {OdometryStatus::INITIALISING, last.reason};
-      case State::kOk:
-        return {OdometryStatus::OK, ""};
-      case State::kDegraded:
-        return {OdometryStatus::DEGRADED, last.reason};
-      case State::kLost:
-        return {OdometryStatus::LOST, last.reason};
-    }
-  }
+void updateState(HealthReport& report) {
+  const auto set = [&report](std::uint8_t state, const std::string& reason) {
+    report.status.state = state;
+    report.status.reason = reason;
+  };
+  if (report.paused) return set(OdometryStatus::PAUSED, "paused by the service ~pause");
+  if (report.answers) return;
   const InputReport& input = report.input;
   const std::string why = whyNoPairs(input);
-  if (!input.camera_error.empty()) return {OdometryStatus::NO_CALIBRATION, input.camera_error};
-  if (report.not_of_camera) return {OdometryStatus::NO_CALIBRATION, input.refused};
-  if (input.waits_for_info) return {OdometryStatus::NO_CALIBRATION, why};
+  if (!input.camera_error.empty()) return set(OdometryStatus::NO_CALIBRATION, input.camera_error);
+  if (report.not_of_camera) return set(OdometryStatus::NO_CALIBRATION, input.refused);
+  if (input.waits_for_info) return set(OdometryStatus::NO_CALIBRATION, why);
   if (input.recent_pairs > 0 && !report.waits_for_tf.empty()) {
-    return {OdometryStatus::NO_TF, report.waits_for_tf};
+    return set(OdometryStatus::NO_TF, report.waits_for_tf);
   }
-  return {OdometryStatus::NO_INPUT, why.empty() ? whyNoAnswer(report) : why};
-}
-
-std::string HealthReport::statusHint() const {
-  const std::string& fault = hint.empty() ? input_fault : hint;
-  return fault.empty() || guess_trouble.empty() ? fault + guess_trouble
-                                                : fault + "; " + guess_trouble;
+  set(OdometryStatus::NO_INPUT, why.empty() ? whyNoAnswer(report) : why);
 }
 
 const char* stateName(std::uint8_t state) {
@@ -61,22 +47,37 @@ const char* stateName(std::uint8_t state) {
   return state <= OdometryStatus::PAUSED ? kNames[state] : "unknown";
 }
 
-void OdometryHealth::addAnswer(const OdometryResult& result,
-                               const std::string& hint,
-                               double latency_ms) {
+OdometryStatus OdometryHealth::addAnswer(const OdometryStatus& status,
+                                         const std::string& camera_fault,
+                                         const std::string& guess_trouble,
+                                         const DropLog& drops) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  known_.last_result = result;
-  known_.hint = hint;
+  const std::uint64_t processed = known_.status.pairs_processed;
+  const std::uint64_t lost = known_.status.pairs_lost;
+  known_.status = status;
+  known_.status.pairs_processed = processed + 1;
+  known_.status.pairs_lost = lost + (status.state == OdometryStatus::LOST ? 1 : 0);
+  known_.camera_fault = camera_fault;
+  known_.guess_trouble = guess_trouble;
   known_.waits_for_tf.clear();
-  ++known_.pairs_processed;
-  if (result.state == State::kLost) ++known_.pairs_lost;
   answers_.add(std::chrono::steady_clock::now());
-  latencies_.add(latency_ms);
+  latencies_ms_.add(status.latency);
+  updateStatus(drops);
+  return known_.status;
 }
 
-void OdometryHealth::setInputFault(const std::string& fault) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  known_.input_fault = fault;
+/// The hint is a fault of the cameras, or else of the input; and of guess_frame.
+void OdometryHealth::updateStatus(const DropLog& drops) {
+  OdometryStatus& status = known_.status;
+  status.hint = known_.camera_fault.empty() ? known_.input_fault : known_.camera_fault;
+  if (!status.hint.empty() && !known_.guess_trouble.empty()) status.hint += "; ";
+  status.hint += known_.guess_trouble;
+  status.drops.clear();
+  for (const auto& [reason, count] : drops.counters().nonZero()) {
+    status.drops.emplace_back();
+    status.drops.back().reason = toString(reason);
+    status.drops.back().count = count;
+  }
 }
 
 void OdometryHealth::setPaused(bool paused) {
@@ -94,41 +95,21 @@ void OdometryHealth::setWaitsForTf(const std::string& transform) {
   known_.waits_for_tf = transform;
 }
 
-void OdometryHealth::setTfConflict(const std::string& conflict) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  known_.tf_conflict = conflict;
-}
-
-void OdometryHealth::setGuess(const std::string& trouble, std::uint64_t misses) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  known_.guess_trouble = trouble;
-  known_.guess_misses = misses;
-}
-
-void OdometryHealth::setGyro(const GyroReport& gyro) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  known_.gyro = gyro;
-}
-
-HealthReport OdometryHealth::counts(const DropLog& drops) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  HealthReport report = known_;
-  report.drops = drops.counters().nonZero();
-  return report;
-}
-
-HealthReport OdometryHealth::report(const InputReport& input, const DropLog& drops) const {
+HealthReport OdometryHealth::report(const InputReport& input, const DropLog& drops) {
   const auto now = std::chrono::steady_clock::now();
-  HealthReport report = counts(drops);
-  report.input = input;
-  const std::lock_guard<std::mutex> lock(mutex_);
-  report.answers = answers_.total() > 0 && now - answers_.lastArrival() < kAnswerAge;
-  report.answer_rate_hz = answers_.rate_hz(now);
-  report.latency_p50_ms = latencies_.quantile(0.5);
-  report.latency_p95_ms = latencies_.quantile(0.95);
-  report.latency_max_ms = latencies_.quantile(1.0);
   const auto refused = drops.lastWithin(TopicStatistics::kWindow);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  known_.input_fault = faultOfPairs(input);
+  updateStatus(drops);
+  HealthReport report = known_;
+  report.input = input;
+  report.answers = answers_.total() > 0 && now - answers_.lastArrival() < kAnswerAge;
   report.not_of_camera = refused && refused->reason() == DropReason::kImageNotOfCamera;
+  report.answer_rate_hz = answers_.rate_hz(now);
+  report.latency_p50_ms = latencies_ms_.quantile(0.5);
+  report.latency_p95_ms = latencies_ms_.quantile(0.95);
+  report.latency_max_ms = latencies_ms_.quantile(1.0);
+  updateState(report);
   return report;
 }
 

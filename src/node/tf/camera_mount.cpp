@@ -4,10 +4,7 @@
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
-#include <thread>
 #include <utility>
-
-#include <ros/init.h>
 
 #include "input/message_conversion.h"
 #include "input/to_text.h"
@@ -20,7 +17,6 @@ constexpr double kMaxNormError = 0.01;
 constexpr double kUpright = 45.0 * kDegree;
 /// Before a warning: tf takes a moment after startup.
 constexpr std::chrono::seconds kPatience(1);
-constexpr std::chrono::milliseconds kPoll(2);
 /// A mount that differs less is at rest: joints have noise.
 constexpr double kRest_m = 1e-4;
 constexpr double kRest_rad = 1e-4;
@@ -105,7 +101,9 @@ Eigen::Isometry3d CameraMount::lookUp(const ros::Time& stamp) {
   const Eigen::Isometry3d T_latest = toEigen(latest.transform);
   if (latest.header.stamp.isZero()) return fix(T_latest);
   watchMovement(T_latest);
-  if (stamp > latest.header.stamp && (waits_ || moves_)) waits_ = waitFor(stamp);
+  if (stamp > latest.header.stamp && (waits_ || moves_)) {
+    waits_ = waitForTransform(buffer_, base_frame_, camera_frame_, stamp, timeout_s_);
+  }
   const bool exact = moves_ || buffer_.canTransform(base_frame_, camera_frame_, stamp);
   return exact ? toEigen(transformAt(stamp).transform) : T_latest;
 }
@@ -115,18 +113,6 @@ Eigen::Isometry3d CameraMount::fix(const Eigen::Isometry3d& T_base_camera) {
   // If the frame has changed before, it may change again.
   if (previous_frame_.empty()) listener_.reset();
   return T_base_camera;
-}
-
-/// Whether the transform came in time.
-bool CameraMount::waitFor(const ros::Time& stamp) const {
-  // In real time: ROS time may stand still.
-  const auto deadline =
-      std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s_);
-  while (!buffer_.canTransform(base_frame_, camera_frame_, stamp)) {
-    if (ros::isShuttingDown() || std::chrono::steady_clock::now() >= deadline) return false;
-    std::this_thread::sleep_for(kPoll);
-  }
-  return true;
 }
 
 void CameraMount::watchMovement(const Eigen::Isometry3d& T_base_camera) {

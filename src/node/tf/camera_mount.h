@@ -44,7 +44,6 @@ class CameraMount {
   void lookFor(const std::string& camera_frame);
   Eigen::Isometry3d lookUp(const ros::Time& stamp);
   Eigen::Isometry3d fix(const Eigen::Isometry3d& T_base_camera);
-  bool waitFor(const ros::Time& stamp) const;
   void watchMovement(const Eigen::Isometry3d& T_base_camera);
   void tellMount(const Eigen::Isometry3d& T_base_camera);
   void onMissing(const std::string& why);

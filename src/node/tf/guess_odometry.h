@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -10,7 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "input/log.h"
-#include "node/patience.h"
+#include "node/miss_backoff.h"
 #include "node/tf/tf_feed.h"
 
 namespace rotrocc {
@@ -18,7 +17,7 @@ namespace rotrocc {
 /// Another odometry of the robot, e.g. wheel odometry, whose tf is the pose of the base in its own
 /// odom frame, the guess frame.
 ///
-/// Motions wait for tf. After Patience::kMisses in a row they no longer do, until tf has the
+/// Motions wait for tf. After MissBackoff::kMisses in a row they no longer do, until tf has the
 /// transform again. Transforms that come, but late, are waited for once in kRetryPairs.
 class GuessOdometry {
  public:
@@ -33,9 +32,12 @@ class GuessOdometry {
   GuessOdometry(const GuessOdometry&) = delete;
   GuessOdometry& operator=(const GuessOdometry&) = delete;
 
-  /// Motion of the base T_prev_cur between two stamps; nothing, and a miss, if tf does not have it
-  /// in time.
-  std::optional<Eigen::Isometry3d> motion(std::int64_t prev_ns, std::int64_t cur_ns);
+  /// Motion of the base T_last_cur from the stamp of setLast() to a later one; nothing, and a miss,
+  /// if tf does not have it in time.
+  std::optional<Eigen::Isometry3d> motionTo(std::int64_t stamp_ns);
+
+  /// The pair from which the next motion is asked for.
+  void setLast(std::int64_t stamp_ns) { last_stamp_ns_ = stamp_ns; }
 
   /// T_guess_base at a stamp, if tf already has it.
   std::optional<Eigen::Isometry3d> pose(std::int64_t stamp_ns) const;
@@ -48,8 +50,6 @@ class GuessOdometry {
   void clear() { buffer_.clear(); }
 
  private:
-  bool mayWait(std::int64_t prev_ns) const;
-  std::optional<Eigen::Isometry3d> waitForPose(std::int64_t stamp_ns) const;
   void onMiss(std::int64_t stamp_ns);
   void onMotion();
   std::string describeMiss(std::int64_t stamp_ns) const;
@@ -58,9 +58,10 @@ class GuessOdometry {
   std::string guess_frame_;
   std::string base_frame_;
   double timeout_s_;
+  std::optional<std::int64_t> last_stamp_ns_;
   std::string trouble_;
   std::uint64_t misses_ = 0;
-  Patience patience_{kRetryPairs};
+  MissBackoff backoff_{kRetryPairs};
   tf2::BufferCore buffer_;
   std::shared_ptr<void> listener_;
 };

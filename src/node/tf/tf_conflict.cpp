@@ -1,9 +1,9 @@
 #include "node/tf/tf_conflict.h"
 
-#include <pthread.h>
-
 #include <algorithm>
-#include <list>
+#include <mutex>
+#include <utility>
+#include <vector>
 
 #include <ros/this_node.h>
 
@@ -12,55 +12,34 @@
 namespace rotrocc {
 namespace {
 
-constexpr std::chrono::milliseconds kPeriod(100);
-constexpr std::uint32_t kTfQueueSize = 1000;  // of a period
+/// Of a topic, for a check. Looking at them takes a fraction of a millisecond, which may delay an
+/// image; a robot with more transforms has the rival among them sooner or later.
+constexpr std::uint32_t kTfQueueSize = 200;
 constexpr std::chrono::seconds kGone(5);
-
-using SteadyClock = std::chrono::steady_clock;
 
 std::string edge(const PublishedTf& tf) {
   return tf.parent + " -> " + tf.child;
 }
 
 /// The odometries of this process that publish tf.
-class Neighbours {
- public:
-  static Neighbours& instance() {
-    static Neighbours neighbours;
-    return neighbours;
-  }
-
-  void add(const PublishedTf& tf) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    published_.push_back(tf);
-  }
-
-  void remove(const PublishedTf& tf) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    published_.remove_if([&](const PublishedTf& other) { return other.node == tf.node; });
-  }
-
-  /// All that publish a parent of a frame.
-  std::vector<PublishedTf> ofChild(const std::string& child) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    std::vector<PublishedTf> found;
-    for (const PublishedTf& tf : published_) {
-      if (tf.child == child) found.push_back(tf);
-    }
-    return found;
-  }
-
- private:
-  std::mutex mutex_;
-  std::list<PublishedTf> published_;
+struct Neighbours {
+  std::mutex mutex;
+  std::vector<PublishedTf> published;
 };
 
-/// Whether a transform with the name of this process is from an odometry in it.
-bool isOfNeighbour(const PublishedTf& tf) {
-  const auto neighbours = Neighbours::instance().ofChild(tf.child);
-  return std::any_of(neighbours.begin(), neighbours.end(), [&](const PublishedTf& neighbour) {
-    return neighbour.parent == tf.parent;
-  });
+Neighbours& neighbours() {
+  static Neighbours neighbours;
+  return neighbours;
+}
+
+/// Those that publish a parent of a frame.
+std::vector<PublishedTf> neighboursWithChild(const std::string& child) {
+  const std::lock_guard<std::mutex> lock(neighbours().mutex);
+  std::vector<PublishedTf> found;
+  for (const PublishedTf& tf : neighbours().published) {
+    if (tf.child == child) found.push_back(tf);
+  }
+  return found;
 }
 
 }  // namespace
@@ -87,76 +66,71 @@ std::string describeConflict(const PublishedTf& own,
          rival.parent + " if it is another odometry";
 }
 
-bool TfRivals::add(const PublishedTf& rival, bool is_static, Time now) {
-  const auto [found, is_new] = last_seen_.try_emplace({rival.node, rival.parent}, rival, now);
-  Time& last = found->second.second;
-  const bool was_gone = now - last > kGone;
-  last = is_static ? Time::max() : std::max(last, now);
+bool RecentConflicts::add(const std::string& conflict, bool is_static, Time now) {
+  const auto [found, is_new] = last_seen_.try_emplace(conflict, now);
+  const bool was_gone = now - found->second > kGone;
+  found->second = is_static ? Time::max() : std::max(found->second, now);
   return is_new || was_gone;
 }
 
-std::vector<PublishedTf> TfRivals::present(Time now) const {
-  std::vector<PublishedTf> rivals;
-  for (const auto& [key, seen] : last_seen_) {
-    if (now - seen.second <= kGone) rivals.push_back(seen.first);
+std::string RecentConflicts::first(Time now) const {
+  for (const auto& [conflict, last] : last_seen_) {
+    if (now - last <= kGone) return conflict;
   }
-  return rivals;
+  return "";
 }
 
 TfConflict::TfConflict(PublishedTf own, const std::string& base_frame, Log log)
-    : own_(std::move(own)), base_frame_(base_frame), log_(std::move(log)) {
-  ros::NodeHandle nh;  // like that of the broadcaster: tf is not remapped for a nodelet
-  nh.setCallbackQueue(&queue_);
-  tf_subscriber_ = nh.subscribe<tf2_msgs::TFMessage const, const Event&>(
-      "/tf", kTfQueueSize, [this](const Event& event) { onTf(event, false); });
-  static_tf_subscriber_ = nh.subscribe<tf2_msgs::TFMessage const, const Event&>(
-      "/tf_static", kTfQueueSize, [this](const Event& event) { onTf(event, true); });
-  Neighbours::instance().add(own_);
-  thread_ = std::thread(&TfConflict::watch, this);
+    : own_(std::move(own)),
+      base_frame_(base_frame),
+      log_(std::move(log)),
+      tf_subscriber_(subscribe("/tf", false)),
+      static_tf_subscriber_(subscribe("/tf_static", true)) {
+  const std::lock_guard<std::mutex> lock(neighbours().mutex);
+  neighbours().published.push_back(own_);
 }
 
 TfConflict::~TfConflict() {
-  {
-    const std::lock_guard<std::mutex> lock(end_mutex_);
-    ended_ = true;
-  }
-  end_.notify_all();
-  thread_.join();
-  Neighbours::instance().remove(own_);
+  const std::lock_guard<std::mutex> lock(neighbours().mutex);
+  auto& published = neighbours().published;
+  const auto is_own = [this](const PublishedTf& other) { return other.node == own_.node; };
+  published.erase(std::remove_if(published.begin(), published.end(), is_own), published.end());
 }
 
-std::string TfConflict::description() {
-  for (const PublishedTf& neighbour : Neighbours::instance().ofChild(own_.child)) {
+ros::Subscriber TfConflict::subscribe(const std::string& topic, bool is_static) {
+  ros::NodeHandle nh;  // like that of the broadcaster: tf is not remapped for a nodelet
+  nh.setCallbackQueue(&queue_);
+  return nh.subscribe<tf2_msgs::TFMessage const, const Event&>(
+      topic, kTfQueueSize, [this, is_static](const Event& event) { onTf(event, is_static); });
+}
+
+std::string TfConflict::check() {
+  for (const PublishedTf& neighbour : neighboursWithChild(own_.child)) {
     if (neighbour.node != own_.node) add(neighbour, false);
   }
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const std::vector<PublishedTf> rivals = rivals_.present(SteadyClock::now());
-  return rivals.empty() ? "" : describeConflict(own_, rivals.front(), base_frame_);
-}
-
-void TfConflict::watch() {
-  pthread_setname_np(pthread_self(), "odometry_tf");  // for `top -H` and debuggers
-  std::unique_lock<std::mutex> lock(end_mutex_);
-  while (!end_.wait_for(lock, kPeriod, [this] { return ended_; })) queue_.callAvailable();
+  queue_.callAvailable();
+  return conflicts_.first(RecentConflicts::Time::clock::now());
 }
 
 void TfConflict::onTf(const Event& event, bool is_static) {
   for (const auto& transform : event.getConstMessage()->transforms) {
     if (withoutSlash(transform.child_frame_id) != own_.child) continue;
-    PublishedTf tf = {
-        event.getPublisherName(), withoutSlash(transform.header.frame_id), own_.child};
-    if (tf.node == ros::this_node::getName()) {
-      if (isOfNeighbour(tf)) continue;
-      tf.node = "another nodelet in " + tf.node;
+    const std::string parent = withoutSlash(transform.header.frame_id);
+    std::string node = event.getPublisherName();
+    if (node == ros::this_node::getName()) {
+      const auto is_its = [&](const PublishedTf& neighbour) { return neighbour.parent == parent; };
+      const auto neighbours = neighboursWithChild(own_.child);
+      if (std::any_of(neighbours.begin(), neighbours.end(), is_its)) continue;
+      node = "another nodelet in " + node;
     }
-    add(tf, is_static);
+    add({node, parent, own_.child}, is_static);
   }
 }
 
 void TfConflict::add(const PublishedTf& rival, bool is_static) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (rivals_.add(rival, is_static, SteadyClock::now())) {
-    log_.warn(describeConflict(own_, rival, base_frame_));
+  const std::string conflict = describeConflict(own_, rival, base_frame_);
+  if (conflicts_.add(conflict, is_static, RecentConflicts::Time::clock::now())) {
+    log_.warn(conflict);
   }
 }
 

@@ -1,13 +1,8 @@
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <map>
-#include <mutex>
 #include <string>
-#include <thread>
-#include <utility>
-#include <vector>
 
 #include <ros/callback_queue.h>
 #include <ros/message_event.h>
@@ -36,21 +31,21 @@ std::string describeConflict(const PublishedTf& own,
                              const PublishedTf& rival,
                              const std::string& base_frame);
 
-/// The rivals of the last seconds.
-class TfRivals {
+/// The conflicts of the last seconds.
+class RecentConflicts {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Returns whether it is new, or was gone. Static transforms stay in the receivers, so the rival
-  /// stays here.
-  bool add(const PublishedTf& rival, bool is_static, Time now);
+  /// Returns whether it is new, or was gone. Static transforms stay in the receivers, so the
+  /// conflict stays here.
+  bool add(const std::string& conflict, bool is_static, Time now);
 
-  /// Those that are not gone, in an order that does not change.
-  std::vector<PublishedTf> present(Time now) const;
+  /// The first of those that are not gone, in an order that does not change; empty if there is
+  /// none.
+  std::string first(Time now) const;
 
  private:
-  using Key = std::pair<std::string, std::string>;  // node, parent
-  std::map<Key, std::pair<PublishedTf, Time>> last_seen_;
+  std::map<std::string, Time> last_seen_;
 };
 
 /// Watches for rivals, in tf and in this process, where all have the same node name in tf. Warns of
@@ -62,30 +57,23 @@ class TfConflict {
   TfConflict(const TfConflict&) = delete;
   TfConflict& operator=(const TfConflict&) = delete;
 
-  /// The conflict with the first rival, as from describeConflict(); empty if there is none.
-  std::string description();
+  /// Looks at the tf since the last call: call it about once a second. Returns the conflict with
+  /// the first rival, as from describeConflict(); empty if there is none.
+  std::string check();
 
  private:
   using Event = ros::MessageEvent<tf2_msgs::TFMessage const>;
-  void watch();
+  ros::Subscriber subscribe(const std::string& topic, bool is_static);
   void onTf(const Event& event, bool is_static);
   void add(const PublishedTf& rival, bool is_static);
 
   PublishedTf own_;
   std::string base_frame_;
   Log log_;
-  std::mutex mutex_;
-  TfRivals rivals_;
-
-  // tf may have a thousand messages a second, which must not delay the images. They are taken from
-  // the queue several times a second: to wake for each would cost more than to look at it.
+  RecentConflicts conflicts_;
   ros::CallbackQueue queue_;
   ros::Subscriber tf_subscriber_;
   ros::Subscriber static_tf_subscriber_;
-  std::mutex end_mutex_;
-  std::condition_variable end_;
-  bool ended_ = false;
-  std::thread thread_;
 };
 
 }  // namespace rotrocc

@@ -8,10 +8,10 @@
 
 namespace rotrocc {
 
-/// Quantiles of the last measurements of something.
-class LatencyWindow {
+/// Quantiles of the last `size` measurements of something.
+class SlidingQuantiles {
  public:
-  explicit LatencyWindow(std::size_t size) : size_(size) {}
+  explicit SlidingQuantiles(std::size_t size) : size_(size) {}
 
   void add(double value) {
     values_.push_back(value);
@@ -19,7 +19,6 @@ class LatencyWindow {
   }
 
   std::size_t size() const { return values_.size(); }
-  bool empty() const { return values_.empty(); }
 
   /// Quantile `share` in [0, 1]; 0 without measurements.
   double quantile(double share) const {

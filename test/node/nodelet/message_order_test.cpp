@@ -1,20 +1,13 @@
-// In which order the odometry sends its messages. It runs in this process: what it publishes is
-// then in the queue of the subscribers when it publishes the next one.
+// In which order the odometry sends its messages: what it publishes is in the queue of the
+// subscribers in this process when it publishes the next one.
 
-#include <map>
-#include <mutex>
-#include <string>
 #include <vector>
 
-#include <gtest/gtest.h>
 #include <nav_msgs/Path.h>
-#include <ros/callback_queue.h>
-#include <ros/ros.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include "node/stereo_odometry_nodelet.h"
-#include "support/simulated_robot.h"
+#include "nodelet_drive.h"
 
 namespace rotrocc {
 namespace {
@@ -72,21 +65,11 @@ class Arrivals {
 };
 
 TEST(MessageOrderTest, TfAndOdometryComeBeforeStatusPathAndPictures) {
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  ros::param::set("stereo_odometry/path_rate_hz", 1000.0);  // with each pair
-  ros::CallbackQueue queue;
-  StereoOdometryNodelet nodelet;
-  nodelet.init("/stereo_odometry", {}, {}, &queue, &queue);
-  ros::AsyncSpinner nodelet_spinner(1, &queue);
-  nodelet_spinner.start();
+  NodeletDrive drive({{"path_rate_hz", 1000.0}});  // with each pair
   Arrivals arrivals;
-  SimulatedRobot robot;
-  robot.publishInfos();
-  robot.publishMount();
-
+  drive.setUp();
   EXPECT_TRUE(waitUntil([&] {  // not all subscribers are connected at the first pairs
-    robot.odometryOf(robot.drive());
+    drive.odometryOf(drive.robot.drive());
     return arrivals.complete().size() >= 5;
   }));
   for (const auto& topics : arrivals.complete()) {
@@ -97,10 +80,3 @@ TEST(MessageOrderTest, TfAndOdometryComeBeforeStatusPathAndPictures) {
 
 }  // namespace
 }  // namespace rotrocc
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "message_order_test");
-  const ros::NodeHandle keeps_ros_alive;
-  return RUN_ALL_TESTS();
-}

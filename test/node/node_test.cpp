@@ -1,4 +1,4 @@
-// The odometry gets its images through a transport, on remapped topics.
+// The odometry as a node: it gets its images through a transport, on remapped topics.
 
 #include <atomic>
 #include <cstdint>
@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Image.h>
+#include <tf2_ros/transform_broadcaster.h>
 
+#include "support/diagnostics_listener.h"
 #include "support/simulated_robot.h"
 
 namespace rotrocc {
@@ -18,7 +20,7 @@ void invert(sensor_msgs::Image& image) {
   for (std::uint8_t& level : image.data) level = static_cast<std::uint8_t>(255 - level);
 }
 
-TEST(ImageTransportTest, NamesAreRemappedBeforeTheTransportIsAppended) {
+TEST(NodeTest, NamesAreRemappedBeforeTheTransportIsAppended) {
   SimulatedRobot robot;
   std::atomic<int> pictures{0};
   const ros::Subscriber flow = ros::NodeHandle().subscribe<sensor_msgs::Image>(
@@ -31,7 +33,7 @@ TEST(ImageTransportTest, NamesAreRemappedBeforeTheTransportIsAppended) {
   }));
 }
 
-TEST(ImageTransportTest, SwappedTopicsAreRemappedOnce) {
+TEST(NodeTest, SwappedTopicsAreRemappedOnce) {
   std::mutex mutex;
   std::string reason;
   const ros::Subscriber status = ros::NodeHandle().subscribe<OdometryStatus>(
@@ -46,12 +48,26 @@ TEST(ImageTransportTest, SwappedTopicsAreRemappedOnce) {
   }));
 }
 
+TEST(NodeTest, DiagnosticsTellAnotherParentOfTheBase) {
+  DiagnosticsListener diagnostics;
+  tf2_ros::TransformBroadcaster broadcaster;
+  geometry_msgs::TransformStamped wheels;
+  wheels.header.frame_id = "wheel_odom";
+  wheels.child_frame_id = "base_link";
+  wheels.transform.rotation.w = 1.0;
+  const std::string rival = ros::this_node::getName() + " publishes tf wheel_odom -> base_link";
+  EXPECT_TRUE(waitUntil([&] {
+    broadcaster.sendTransform(wheels);
+    return diagnostics.text("stereo_odometry: tf").find(rival) == 0;
+  }));
+}
+
 }  // namespace
 }  // namespace rotrocc
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "image_transport_test");
+  ros::init(argc, argv, "node_test");
   const ros::NodeHandle keeps_ros_alive;
   ros::AsyncSpinner spinner(2);
   spinner.start();

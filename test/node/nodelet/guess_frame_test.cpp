@@ -1,0 +1,135 @@
+// Beside another odometry, which owns the base in tf: guess_frame.
+
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_broadcaster.h>
+#include <tf2_ros/transform_listener.h>
+
+#include "nodelet_drive.h"
+
+namespace rotrocc {
+namespace {
+
+geometry_msgs::TransformStamped wheelOdometry(const ros::Time& stamp,
+                                              double x_m,
+                                              double y_m = 0.0) {
+  geometry_msgs::TransformStamped transform;
+  transform.header.stamp = stamp;
+  transform.header.frame_id = "wheel_odom";
+  transform.child_frame_id = "base_link";
+  transform.transform.translation.x = x_m;
+  transform.transform.translation.y = y_m;
+  transform.transform.rotation.w = 1.0;
+  return transform;
+}
+
+TEST(GuessFrameTest, IfItIsMissingThatIsToldCountedAndTriedAgain) {
+  DiagnosticsListener diagnostics;
+  NodeletDrive drive({{"guess_frame", "wheel_odom"}, {"guess_timeout_s", 0.3}});
+  drive.setUp();
+  const std::string told = "no tf from guess_frame wheel_odom to base_link";
+  OdometryStatus status;
+  for (int pair = 0; pair < 10; ++pair) status = drive.statusOf(drive.robot.drive());
+  EXPECT_EQ(status.state, OdometryStatus::OK) << status.reason;
+  ASSERT_EQ(status.hint.find(told), 0u) << status.hint;
+  EXPECT_EQ(status.guess_misses, 9u) << "all but the first pair";
+  EXPECT_TRUE(diagnostics.says("stereo_odometry: tf", told));
+
+  tf2_ros::TransformBroadcaster wheels;
+  double way_m = 0.0;
+  EXPECT_TRUE(waitUntil([&] {
+    const auto [left, right] = drive.robot.see();
+    wheels.sendTransform(wheelOdometry(left.header.stamp, way_m += SimulatedRobot::kStep_m));
+    drive.robot.publish(left, right);
+    status = drive.statusOf(left.header.stamp);
+    return status.hint.empty();
+  }));
+  EXPECT_GE(status.guess_misses, 9u);
+  EXPECT_TRUE(diagnostics.says("stereo_odometry: tf", "no conflict"));
+}
+
+TEST(GuessFrameTest, BaseHasOneParentOnly) {
+  const RunningNodelet inverted({{"invert_tf", true}},
+                                "/inverted",
+                                {{"odom", "inverted_odom"}, {"status", "inverted_status"}});
+  NodeletDrive drive(
+      {{"odom_frame", "visual_odom"}, {"guess_frame", "wheel_odom"}, {"guess_timeout_s", 1.0}});
+  std::mutex mutex;
+  std::map<ros::Time, double> inverted_x_m;
+  const ros::Subscriber subscriber = ros::NodeHandle().subscribe<nav_msgs::Odometry>(
+      "inverted_odom", 100, [&](const nav_msgs::Odometry::ConstPtr& message) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        inverted_x_m[message->header.stamp] = message->pose.pose.position.x;
+      });
+  tf2_ros::Buffer buffer;
+  const tf2_ros::TransformListener listener(buffer);
+  tf2_ros::TransformBroadcaster wheels;
+  drive.setUp();
+
+  // If the tf of the wheels, which have a slip of 5 %, is late, the pair has no tf either.
+  ros::Time first;
+  double way_m = 0.0;
+  nav_msgs::Odometry odometry;
+  ASSERT_TRUE(waitUntil([&] {
+    const ros::Time stamp = drive.robot.drive();
+    if (first.isZero()) first = stamp;
+    way_m = (stamp - first).toSec() / SimulatedRobot::kPeriod_s * SimulatedRobot::kStep_m;
+    wheels.sendTransform(wheelOdometry(stamp, 1.05 * way_m, 7.0));
+    odometry = drive.odometryOf(stamp);
+    const auto has_tf = [&](const char* target, const char* source) {
+      return buffer.canTransform(target, source, stamp, ros::Duration(0.2));
+    };
+    const bool complete = has_tf("visual_odom", "base_link") && has_tf("base_link", "odom");
+    const std::lock_guard<std::mutex> lock(mutex);
+    return complete && inverted_x_m.count(stamp) > 0 && way_m > 1.9;
+  }));
+  EXPECT_NEAR(odometry.pose.pose.position.x, way_m, 0.02 + 0.02 * way_m);
+  EXPECT_EQ(odometry.header.frame_id, "visual_odom");
+
+  // The pose of the base in the visual frame is composed with that of the wheels.
+  const ros::Time& stamp = odometry.header.stamp;
+  const auto pose = buffer.lookupTransform("visual_odom", "base_link", stamp);
+  EXPECT_NEAR(pose.transform.translation.x, odometry.pose.pose.position.x, 1e-9);
+  EXPECT_NEAR(pose.transform.translation.y, odometry.pose.pose.position.y, 1e-9);
+  // The other odometry publishes its own frame below the base.
+  for (const auto& [child, expected] : std::map<std::string, std::string>{
+           {"base_link", "wheel_odom"}, {"wheel_odom", "visual_odom"}, {"odom", "base_link"}}) {
+    std::string parent;
+    ASSERT_TRUE(buffer._getParent(child, stamp, parent));
+    EXPECT_EQ(parent, expected);
+  }
+  const auto inverse = buffer.lookupTransform("base_link", "odom", stamp);
+  const std::lock_guard<std::mutex> lock(mutex);
+  const double inverted_way_m = inverted_x_m.at(stamp);
+  EXPECT_GT(inverted_way_m, SimulatedRobot::kStep_m);
+  EXPECT_NEAR(inverse.transform.translation.x, -inverted_way_m, 0.01 * inverted_way_m);
+}
+
+/// Pairs of a robot at rest that arrive at once, while each waits for the tf of its wheels, which
+/// comes with every tenth pair.
+TEST(GuessFrameTest, OfABurstTheNewestPairIsProcessedAndDropsAreCounted) {
+  constexpr std::uint64_t kPairs = 101;
+  NodeletDrive drive({{"guess_frame", "wheel_odom"}, {"guess_timeout_s", 1.0}});
+  tf2_ros::TransformBroadcaster wheels;
+  drive.setUp();
+  OdometryStatus status;
+  for (int i = 0; i < 3; ++i) status = drive.statusOf(drive.robot.drive());
+  const std::uint64_t processed_before = status.pairs_processed;
+  auto [left, right] = drive.robot.see();
+  for (std::uint64_t i = 0; i < kPairs; ++i) {
+    left.header.stamp += ros::Duration(0.01);
+    right.header.stamp = left.header.stamp;
+    drive.robot.publish(left, right);
+    drive.nodelet.finish();
+    if (i % 10 == 0) wheels.sendTransform(wheelOdometry(left.header.stamp, 0.0));
+  }
+  status = drive.statusOf(left.header.stamp);
+  EXPECT_EQ(status.state, OdometryStatus::OK) << status.reason;
+  EXPECT_NEAR(drive.odometryOf(left.header.stamp).twist.twist.linear.x, 0.0, 0.2);
+  ASSERT_EQ(status.drops.size(), 1u);
+  EXPECT_EQ(status.drops[0].reason, "newer_pair_came");
+  EXPECT_GT(status.drops[0].count, kPairs / 2);
+  EXPECT_EQ(status.pairs_processed - processed_before + status.drops[0].count, kPairs);
+}
+
+}  // namespace
+}  // namespace rotrocc

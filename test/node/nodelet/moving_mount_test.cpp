@@ -1,0 +1,90 @@
+// The mount and the frame of the camera: one that moves on a robot at rest, and another one in its
+// place.
+
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include "nodelet_drive.h"
+
+namespace rotrocc {
+namespace {
+
+/// Along the base's x axis, and looking along it.
+geometry_msgs::TransformStamped mountAt(double x_m, const std::string& frame) {
+  geometry_msgs::TransformStamped mount;
+  mount.header.frame_id = "base_link";
+  mount.child_frame_id = frame;
+  mount.transform.translation.x = x_m;
+  mount.transform.rotation.x = -0.5;
+  mount.transform.rotation.y = 0.5;
+  mount.transform.rotation.z = -0.5;
+  mount.transform.rotation.w = 0.5;
+  return mount;
+}
+
+TEST(MovingMountTest, TheBaseRestsWhileItsCameraMoves) {
+  NodeletDrive drive({{"mount_timeout_s", 5.0}});
+  SimulatedRobot& robot = drive.robot;
+  robot.publishInfos();
+  tf2_ros::TransformBroadcaster joints;
+  double x_m = 1.0;
+  for (int pair = 0; pair < 8; ++pair) {
+    const auto [left, right] = robot.see();
+    robot.publish(left, right);
+    // The tf of a joint comes after the images, and its first messages may be lost.
+    geometry_msgs::TransformStamped mount = mountAt(x_m, "camera_left");
+    mount.header.stamp = left.header.stamp;
+    x_m += SimulatedRobot::kStep_m;
+    std::optional<nav_msgs::Odometry> at_rest;
+    ASSERT_TRUE(waitUntil([&] {
+      joints.sendTransform(mount);
+      at_rest = robot.odometryOf(mount.header.stamp, std::chrono::milliseconds(100));
+      return at_rest.has_value();
+    }));
+    EXPECT_NEAR(at_rest->pose.pose.position.x, 0.0, 0.05) << pair;
+    EXPECT_NEAR(at_rest->twist.twist.linear.x, 0.0, 0.2) << pair;
+  }
+
+  // Now the base drives: its new camera is fixed, and where the other one was.
+  tf2_ros::StaticTransformBroadcaster fixed;
+  fixed.sendTransform(mountAt(x_m, "other_camera"));
+  const auto driveWithOther = [&] {
+    return drive.odometryOf(
+        robot.drive([](sensor_msgs::Image& image) { image.header.frame_id = "other_camera"; }));
+  };
+  const double before_m = driveWithOther().pose.pose.position.x;
+  nav_msgs::Odometry odometry;
+  for (int pair = 0; pair < 3; ++pair) odometry = driveWithOther();
+  EXPECT_NEAR(odometry.pose.pose.position.x - before_m, 3 * SimulatedRobot::kStep_m, 0.05);
+  EXPECT_EQ(drive.statusOf(odometry.header.stamp).header.frame_id, "other_camera");
+}
+
+TEST(CameraFrameTest, IsThatOfTheLeftImageUnlessAParameterNamesIt) {
+  const auto leaveOut = [](sensor_msgs::Image& image) { image.header.frame_id.clear(); };
+  {
+    NodeletDrive drive;
+    drive.setUp();
+    for (int i = 0; i < 3; ++i) {  // tf knows the frame of the left images only
+      auto [left, right] = drive.robot.see();
+      right.header.frame_id = "other";
+      drive.robot.publish(left, right);
+      drive.odometryOf(left.header.stamp);
+    }
+    const ros::Time stamp = drive.robot.drive(leaveOut);
+    EXPECT_TRUE(waitUntil([&] {
+      return !drive.log
+                  .with(
+                      "dropped (frame_id_missing, 1 so far): the left image has an empty "
+                      "frame_id: set it in the driver, or set the parameter camera_frame")
+                  .empty();
+    }));
+    EXPECT_FALSE(drive.robot.odometryOf(stamp, std::chrono::milliseconds(0)));
+  }
+  NodeletDrive drive({{"camera_frame", "camera_left"}});
+  drive.setUp();
+  drive.statusOf(drive.robot.drive(leaveOut));
+  EXPECT_EQ(drive.statusOf(drive.robot.drive(leaveOut)).state, OdometryStatus::OK);
+}
+
+}  // namespace
+}  // namespace rotrocc
