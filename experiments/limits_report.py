@@ -111,5 +111,6 @@ def draw(path, stresses, zones, configs):
     figure.subplots_adjust(left=0.27, right=0.93, top=1 - 1.1 * ROW_IN / figure.get_figheight(), bottom=0.01)
     legend(figure, handles=[Patch(color=color, label=text) for text, color in ZONES.values()], ncol=3,
            loc='upper left', bbox_to_anchor=(0.27, 1 - 0.15 * ROW_IN / figure.get_figheight()))
-    figure.text(0.27, top, 'bars from above: %s; numbers: the level from which' % ', '.join(configs), fontsize=8.5, color=BLUE, va='top')
+    figure.text(0.27, top, 'bars from above: %s; numbers: the level from which' % ', '.join(configs),
+                fontsize=8.5, color=BLUE, va='top')
     save(figure, path)
