@@ -1,21 +1,28 @@
-// Follows docs/robot.md as a user does who copies and pastes: runs its commands one after the other
-// in the rehearsal, and expects the output that the page prints.
+// Follows the README and each page as a user does who copies and pastes: runs the commands of their
+// code blocks one after the other, and expects the output that the page prints.
+//
+// A block marked ```sh has commands, one marked ```console commands after "$ " and what they print.
+// Blocks with other marks or without one are not for the shell. The tables below list what is
+// replaced in the commands, and which of them are left out and why.
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
 #include <regex>
-#include <set>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "pages/pages.h"
 #include "support/background_command.h"
 #include "support/read_file.h"
 #include "support/run_command.h"
@@ -26,7 +33,20 @@
 namespace rotrocc {
 namespace {
 
-/// What the test replaces in the commands of the page.
+namespace fs = std::filesystem;
+
+/// The folder that the commands of a page run in: that of the sources with the user's recordings.
+const std::string kRecordings = R"(set -e
+simulate=)" PROGRAMS R"(/simulate_drive
+for name in config experiments scripts; do ln -s )" ROOT R"(/$name; done
+mkdir -p dataset/sequences dataset/poses EUROC_DIR
+$simulate motorway dataset/sequences/06 --frames 50 --size 310x94 --focal 180
+mv dataset/sequences/06/poses.txt dataset/poses/06.txt
+$simulate slip_road MH_01_easy --layout asl --imu --frames 40 --size 310x94 --focal 180
+cp -r MH_01_easy EUROC_DIR
+)";
+
+/// What the test replaces in the commands of the pages.
 struct Difference {
   std::string page;
   std::string test;
@@ -36,36 +56,72 @@ const Difference kDifferences[] = {
     {"roscore", "rosnode list"},
     // rosrun finds no programs in the folder build of the sources.
     {"rosrun rotrocc ", PROGRAMS "/"},
+    // There is no display.
+    {"kitti.launch bag:=", "kitti.launch rviz:=false bag:="},
     // A quarter of the pixels, which are rendered in 10 s.
     {"--size 620x188 --focal 359", "--size 310x94 --focal 180"},
     {"max_disparity_px: 200", "max_disparity_px: 100"},
+    // Short drives of small images.
+    {"simulate_drive city drive", "simulate_drive city drive --frames 2"},
+    {"--rate 20 --imu", "--rate 20 --imu --frames 30 --size 310x94 --focal 180"},
     // All steps fit into one drive, and a busy machine keeps up with it.
     {"rosbag play ", "rosbag play --rate 0.5 "},
+    // Any calibration will do.
+    {"LEFT.yaml", "config/cameras/euroc_left.yaml"},
 };
 
-/// What a machine may lack.
+/// Commands that contain `part` do not run here.
+struct Omission {
+  std::string part;
+  std::string reason;
+};
+const Omission kOmissions[] = {
+    {"scripts/demo", "demo_test runs it"},
+    {"scripts/test", "runs this test"},
+    {"cmake -S", "builds the package"},
+    {"make -C build", "builds the package"},
+    {"apt install", "installs packages"},
+    {"--sshlogin", "needs other machines"},
+    {"realsense.launch", "needs a camera with its driver"},
+    {"/camera/stereo_module", "needs a camera with its driver"},
+    {"cameracalibrator.py", "needs a camera with its driver"},
+    {"drive.bag", "minutes of live replay; the truth of base_link comes from elsewhere"},
+    {"filtered.", "minutes of live replay; the truth of base_link comes from elsewhere"},
+    {"experiments/", "takes minutes to hours; test/experiments runs the short forms"},
+    {"06_000_050", "a clip of KITTI; benchmark_test runs the script"},
+    {"devel/setup.bash", "the environment of the tests is set up"},
+    {"valgrind", "takes minutes"},
+};
+
+/// Commands that contain `part` run only where `check` succeeds.
 struct Requirement {
-  std::string command;  ///< part of the commands that need it
-  std::string check;    ///< a command that fails without it
+  std::string part;
+  std::string check;
 };
 const Requirement kRequirements[] = {
     {"ekf.launch", "rospack find robot_localization"},
     {"/odometry/filtered", "rospack find robot_localization"},
+    {"kitti_benchmark", "command -v parallel"},
     {"view_frames.py", "command -v dot"},
 };
 
 /// Parts of the commands whose numbers are those of the page, whatever the drive.
 const std::string kExact[] = {"/status/state", "echo.py base_link stereo_left_optical"};
 
-/// Beginnings of the commands that go on during later steps, or until they are started anew.
+/// Beginnings of the commands that go on during later ones, or until they are started anew.
 const std::string kDrive = "rosbag play";
-const std::string kLasting[] = {kDrive, "roslaunch", "rosrun tf2_ros static_transform_publisher"};
+const std::string kLasting[] = {kDrive,
+                                "roslaunch rotrocc ekf",
+                                "roslaunch rotrocc stereo_odometry",
+                                "rosrun tf2_ros static_transform_publisher",
+                                PROGRAMS "/publish_camera_info"};
+/// Of these, the first and the second are in place of each other.
+const std::string kOdometry[] = {kLasting[1], kLasting[2]};
 
 /// Output arrives line by line.
 const std::string kLikeATerminal = "export PYTHONUNBUFFERED=1 ROSCONSOLE_STDOUT_LINE_BUFFERED=1\n";
 
 struct Command {
-  int step;                          ///< of the page; 0: the rehearsal
   std::string text;                  ///< for the shell
   std::vector<std::string> printed;  ///< lines below it
 };
@@ -78,23 +134,23 @@ bool beginsWith(const std::string& text, const std::string& part) {
   return text.rfind(part, 0) == 0;
 }
 
-/// Those of the code blocks, which begin with "$ ".
+/// Those of the code blocks for the shell.
 std::vector<Command> readCommands(const std::string& page) {
-  static const std::regex kStep(R"(\*\*(\d+)\. .*)");
   std::vector<Command> commands;
-  int step = 0;
-  bool is_code = false;
+  std::string block;  // its mark, with "```"
   std::istringstream lines(page);
   for (std::string line; std::getline(lines, line);) {
-    std::smatch number;
+    const bool is_console = block == "```console";
     if (beginsWith(line, "```")) {
-      is_code = !is_code;
-    } else if (!is_code) {
-      if (std::regex_match(line, number, kStep)) step = std::stoi(number[1]);
-    } else if (beginsWith(line, "$ ")) {
-      commands.push_back({step, line.substr(2), {}});
+      block = block.empty() ? line : "";
+    } else if (block != "```sh" && !is_console) {
+      continue;
     } else if (!commands.empty() && commands.back().text.back() == '\\') {
       commands.back().text += "\n" + line;
+    } else if (!is_console) {
+      if (!line.empty()) commands.push_back({line, {}});
+    } else if (beginsWith(line, "$ ")) {
+      commands.push_back({line.substr(2), {}});
     } else if (!commands.empty()) {
       commands.back().printed.push_back(line);
     }
@@ -102,18 +158,27 @@ std::vector<Command> readCommands(const std::string& page) {
   return commands;
 }
 
-/// Puts the differences into the commands. Expects that each has a place there.
-void replaceDifferences(std::vector<Command>& commands) {
+std::string withDifferences(std::string command) {
   for (const Difference& difference : kDifferences) {
-    bool is_used = false;
-    for (Command& command : commands) {
-      const std::size_t position = command.text.find(difference.page);
-      if (position == std::string::npos) continue;
-      command.text.replace(position, difference.page.size(), difference.test);
-      is_used = true;
+    const std::size_t position = command.find(difference.page);
+    if (position != std::string::npos) {
+      command.replace(position, difference.page.size(), difference.test);
     }
-    EXPECT_TRUE(is_used) << "no command of the page has " << difference.page;
   }
+  return command;
+}
+
+/// Why a command does not run here; empty if it does.
+std::string reasonToOmit(const Command& command) {
+  for (const Omission& omission : kOmissions) {
+    if (contains(command.text, omission.part)) return omission.reason;
+  }
+  for (const Requirement& requirement : kRequirements) {
+    if (contains(command.text, requirement.part) && runCommand(requirement.check).status != 0) {
+      return "this fails: " + requirement.check;
+    }
+  }
+  return "";
 }
 
 /// Of the lines that are like one of the page: with any numbers, unless these are exact, with
@@ -176,14 +241,31 @@ double growthOf(const std::vector<double>& values) {
   return growth;
 }
 
-class RobotPageTest : public ::testing::Test {
+/// Made once for all pages.
+const TemporaryDirectory& recordings() {
+  static const TemporaryDirectory directory;
+  static const CommandResult made = runCommand("(cd " + directory / "" + "\n" + kRecordings + ")");
+  if (made.status != 0) throw std::runtime_error(made.output);
+  return directory;
+}
+
+class PageCommandsTest : public ::testing::TestWithParam<fs::path> {
  protected:
+  void SetUp() override {
+    runCommand("rosparam delete /use_sim_time");  // of the page before
+    const CommandResult made = runCommand("cp -a " + recordings() / "." + " " + directory_ / "");
+    ASSERT_EQ(made.status, 0) << made.output;
+  }
+
   /// Runs a command until it has ended or, if it goes on, has printed what the page prints.
   void follow(const Command& command) {
     const auto begins = [&](const std::string& part) { return beginsWith(command.text, part); };
     const auto* lasting = std::find_if(std::begin(kLasting), std::end(kLasting), begins);
     const bool lasts = lasting != std::end(kLasting);
     if (lasts) running_.erase(*lasting);
+    if (std::any_of(std::begin(kOdometry), std::end(kOdometry), begins)) {
+      for (const std::string& odometry : kOdometry) running_.erase(odometry);
+    }
     Running run = start(command);
     const bool is_done = waitUntil(
         [&] {
@@ -272,34 +354,41 @@ class RobotPageTest : public ::testing::Test {
   std::map<std::string, Running> running_;  ///< by the beginnings of the commands
 };
 
-/// The check that fails for what a command needs; empty if all is there.
-std::string missingFor(const Command& command) {
-  for (const Requirement& requirement : kRequirements) {
-    if (contains(command.text, requirement.command) && runCommand(requirement.check).status != 0) {
-      return requirement.check;
-    }
-  }
-  return "";
-}
-
-TEST_F(RobotPageTest, CommandsPrintWhatThePagePrints) {
+TEST_P(PageCommandsTest, PrintWhatThePagePrints) {
   if (isSlowBuild()) GTEST_SKIP() << "the launch file starts a manager without the sanitizer";
-  std::vector<Command> commands = readCommands(readFile(ROBOT_MD));
-  std::set<int> steps;
-  for (const Command& command : commands) steps.insert(command.step);
-  ASSERT_EQ(steps, (std::set<int>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}));
-  replaceDifferences(commands);
-  for (const Command& command : commands) {
-    const std::string missing = missingFor(command);
-    std::cout << "step " << command.step << ": " << command.text
-              << (missing.empty() ? "" : "\n    skipped, as this fails: " + missing) << std::endl;
-    if (!missing.empty()) continue;
+  for (Command command : readCommands(readFile(GetParam()))) {
+    const std::string reason = reasonToOmit(command);
+    std::cout << command.text << (reason.empty() ? "" : "\n    left out: " + reason) << std::endl;
+    if (!reason.empty()) continue;
+    command.text = withDifferences(command.text);
     ASSERT_NO_FATAL_FAILURE(follow(command));
-    ASSERT_FALSE(HasFailure()) << "in step " << command.step << ":\n"
-                               << command.text << "\n"
-                               << output();
+    ASSERT_FALSE(HasFailure()) << command.text << "\n" << output();
   }
   expectLastingOnesToGoOn();
+}
+
+std::string nameOf(const ::testing::TestParamInfo<fs::path>& page) {
+  const fs::path& path = page.param;
+  return path.stem() == "README" && path.parent_path() != ROOT
+             ? path.parent_path().filename().string()
+             : path.stem().string();
+}
+
+INSTANTIATE_TEST_SUITE_P(Page, PageCommandsTest, ::testing::ValuesIn(pages()), nameOf);
+
+/// An entry that no command needs is one of a page that has changed.
+TEST(PageCommandsTablesTest, EveryEntryIsForACommand) {
+  std::string commands;
+  for (const fs::path& page : pages()) {
+    for (const Command& command : readCommands(readFile(page))) commands += command.text + "\n";
+  }
+  for (const Difference& entry : kDifferences)
+    EXPECT_TRUE(contains(commands, entry.page)) << entry.page;
+  for (const Omission& entry : kOmissions)
+    EXPECT_TRUE(contains(commands, entry.part)) << entry.part;
+  for (const Requirement& entry : kRequirements) {
+    EXPECT_TRUE(contains(commands, entry.part)) << entry.part;
+  }
 }
 
 }  // namespace

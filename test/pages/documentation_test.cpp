@@ -1,4 +1,5 @@
-// The links of README.md and docs/*.md, the length of the README, and the addresses of maintainers.
+// The links of the README and the pages, the length of the README, and the addresses of
+// maintainers.
 
 #include <algorithm>
 #include <cctype>
@@ -10,20 +11,13 @@
 
 #include <gtest/gtest.h>
 
+#include "pages/pages.h"
 #include "support/read_file.h"
 
 namespace rotrocc {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<fs::path> pages() {
-  std::vector<fs::path> pages = {fs::path(ROOT) / "README.md"};
-  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(ROOT) / "docs")) {
-    if (entry.path().extension() == ".md") pages.push_back(entry.path());
-  }
-  return pages;
-}
 
 /// As GitHub makes it of a heading.
 std::string anchorOf(const std::string& heading) {
@@ -80,8 +74,8 @@ TEST(DocumentationTest, ReadmeFitsFourScreens) {
 TEST(DocumentationTest, EveryPageIsLinkedFromTheReadme) {
   const std::string readme = readFile(fs::path(ROOT) / "README.md");
   for (const fs::path& page : pages()) {
-    if (page.filename() == "README.md") continue;
-    const std::string link = "](docs/" + page.filename().string();
+    if (page == pages().front()) continue;
+    const std::string link = "](" + fs::relative(page, ROOT).string();
     EXPECT_NE(readme.find(link), std::string::npos) << page;
   }
 }
