@@ -87,7 +87,7 @@ const Omission kOmissions[] = {
     {"cameracalibrator.py", "needs a camera with its driver"},
     {"drive.bag", "minutes of live replay; the truth of base_link comes from elsewhere"},
     {"filtered.", "minutes of live replay; the truth of base_link comes from elsewhere"},
-    {"experiments/", "takes minutes to hours; test/experiments runs the short forms"},
+    {"experiments/", "takes minutes to hours; experiments_test runs short forms"},
     {"06_000_050", "a clip of KITTI; benchmark_test runs the script"},
     {"devel/setup.bash", "the environment of the tests is set up"},
     {"valgrind", "takes minutes"},
