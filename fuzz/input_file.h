@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -36,10 +35,5 @@ class InputFile {
   std::string path_;
   int descriptor_;
 };
-
-/// The input from libFuzzer, as text.
-inline std::string_view asText(const std::uint8_t* data, std::size_t size) {
-  return {reinterpret_cast<const char*>(data), size};
-}
 
 }  // namespace rotrocc

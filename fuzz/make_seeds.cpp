@@ -15,13 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Image size [px].
-struct Size {
-  std::uint32_t width;
-  std::uint32_t height;
-};
-constexpr Size kTracked{48, 36};  // large enough to track features
-constexpr Size kRead{20, 16};     // small, because that is faster
+// Of the images [px]: large enough to track features.
+constexpr std::uint32_t kWidth = 48;
+constexpr std::uint32_t kHeight = 36;
 
 template <class... Messages>
 std::string serialized(const Messages&... messages) {
@@ -34,19 +30,18 @@ std::string serialized(const Messages&... messages) {
 }
 
 /// A pattern with corners, shifted to the left by `offset_px`.
-sensor_msgs::Image makeImage(const Size& size,
-                             const std::string& encoding,
+sensor_msgs::Image makeImage(const std::string& encoding,
                              std::uint32_t bytes,
                              std::uint32_t offset_px) {
   sensor_msgs::Image image;
   image.header.stamp = ros::Time(1000.0);
   image.header.frame_id = "camera_gray_left";
   image.encoding = encoding;
-  image.width = size.width;
-  image.height = size.height;
-  image.step = size.width * bytes;
-  for (std::uint32_t y = 0; y < size.height; ++y) {
-    for (std::uint32_t x = offset_px; x < size.width + offset_px; ++x) {
+  image.width = kWidth;
+  image.height = kHeight;
+  image.step = kWidth * bytes;
+  for (std::uint32_t y = 0; y < kHeight; ++y) {
+    for (std::uint32_t x = offset_px; x < kWidth + offset_px; ++x) {
       const std::uint32_t tile = (x / 5 * 7919 + y / 5 * 104729) % 251;
       image.data.insert(image.data.end(), bytes, static_cast<std::uint8_t>(tile));
     }
@@ -54,23 +49,15 @@ sensor_msgs::Image makeImage(const Size& size,
   return image;
 }
 
-std::string makeImages(const Size& size, const std::string& encoding, std::uint32_t bytes) {
-  return serialized(makeImage(size, encoding, bytes, 0), makeImage(size, encoding, bytes, 3));
-}
-
-sensor_msgs::CameraInfo makeInfo(const Size& size, double baseline_m) {
+sensor_msgs::CameraInfo makeInfo(double baseline_m) {
   sensor_msgs::CameraInfo info;
   info.header.stamp = ros::Time(1000.0);
-  info.width = size.width;
-  info.height = size.height;
-  const double cx = 0.5 * (size.width - 1.0);
-  const double cy = 0.5 * (size.height - 1.0);
+  info.width = kWidth;
+  info.height = kHeight;
+  const double cx = 0.5 * (kWidth - 1.0);
+  const double cy = 0.5 * (kHeight - 1.0);
   info.P = {60, 0, cx, -60 * baseline_m, 0, 60, cy, 0, 0, 0, 1, 0};
   return info;
-}
-
-std::string makeInfos(const Size& size) {
-  return serialized(makeInfo(size, 0.0), makeInfo(size, 0.5));
 }
 
 void write(const fs::path& path, const std::string& text) {
@@ -80,48 +67,40 @@ void write(const fs::path& path, const std::string& text) {
   }
 }
 
-void writeCalibrations(const fs::path& folder) {
+/// The first byte names the reader, see files_fuzzer.
+void writeFiles(const fs::path& folder) {
   write(folder / "camera_calibration",
-        "image_width: 752\nimage_height: 480\ncamera_name: left\ncamera_matrix:\n  rows: 3\n"
+        "cimage_width: 752\nimage_height: 480\ncamera_name: left\ncamera_matrix:\n  rows: 3\n"
         "  cols: 3\n  data: [458, 0, 367, 0, 457, 248, 0, 0, 1]\ndistortion_model: plumb_bob\n"
         "distortion_coefficients:\n  data: [-0.28, 0.07, 0, 0, 0]\nrectification_matrix:\n"
         "  data: [1, 0, 0, 0, 1, 0, 0, 0, 1]\nprojection_matrix:\n"
         "  data: [435, 0, 367, -47.9, 0, 435, 252, 0, 0, 0, 1, 0]\n");
   write(folder / "asl",
-        "T_BS:\n  data: [0, -1, 0, -0.02, 1, 0, 0, -0.06, 0, 0, 1, 0.01, 0, 0, 0, 1]\n"
+        "cT_BS:\n  data: [0, -1, 0, -0.02, 1, 0, 0, -0.06, 0, 0, 1, 0.01, 0, 0, 0, 1]\n"
         "resolution: [752, 480]\ncamera_model: pinhole\nintrinsics: [458, 457, 367, 248]\n"
         "distortion_model: radial-tangential\ndistortion_coefficients: [-0.28, 0.07, 0, 0]\n");
+  write(folder / "calib", "kP0: 60 0 3 0 0 60 2 0 0 0 1 0\nP1: 60 0 3 -30 0 60 2 0 0 0 1 0\n");
+  write(folder / "poses", "t1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0.1 0 0 -1 0 0 1 0 1e-3\n");
+  write(folder / "tum", "t# t x y z\n0.5 0 0 0 0 0 0 1\n1.6e9 1 2 3 0 0.6 0 -0.8\n");
+  write(folder / "times", "t0\n0.1\n");
+  write(folder / "alias", "pmotion_check: &a {min_inliers: 20}\nmotion_estimator: *a\n");
+  write(folder / "kinds",
+        "pplanar: true\nqueue_size: 4\nsilence_s: 2.5 # s\nodom_frame: \"a b\"\n");
+  write(folder / "choice", "ptrajectory_format: kitti\nvisual_odometry:\n  max_gap_s: 1e-1\n");
 }
 
-void writeSeeds(const fs::path& root) {
+void writeMessages(const fs::path& folder) {
   const struct {
     const char* encoding;
     std::uint32_t bytes;
   } kEncodings[] = {{"mono8", 1}, {"mono16", 2}, {"bgr8", 3}, {"rgba8", 4}, {"bayer_rggb8", 1}};
-  const double kMount[] = {0.1, 0.0, 1.5, -0.5, 0.5, -0.5, 0.5};
-  const std::string mount(reinterpret_cast<const char*>(kMount), sizeof(kMount));
   for (const auto& [encoding, bytes] : kEncodings) {
-    const std::string images = makeImages(kRead, encoding, bytes);
-    write(root / "image" / encoding, images);
-    write(root / "bag" / encoding, mount + makeInfos(kRead) + images);
-    write(root / "odometry" / encoding,
-          makeInfos(kTracked) + makeImages(kTracked, encoding, bytes));
+    write(folder / encoding,
+          serialized(makeInfo(0.0),
+                     makeInfo(0.5),
+                     makeImage(encoding, bytes, 0),
+                     makeImage(encoding, bytes, 3)));
   }
-  write(root / "camera_info" / "infos", makeInfos(kTracked));
-  writeCalibrations(root / "calibration");
-
-  const std::string kitti_poses = "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0.1 0 0 -1 0 0 1 0 1e-3\n";
-  write(root / "trajectory" / "kitti", kitti_poses);
-  write(root / "trajectory" / "tum", "# t x y z\n0.5 0 0 0 0 0 0 1\n1.6e9 1 2 3 0 0.6 0 -0.8\n");
-  write(root / "trajectory" / "times", "0\n0.1\n");
-  write(root / "kitti" / "sequence",
-        "0\n0.1\n---\nP0: 60 0 3 0 0 60 2 0 0 0 1 0\nP1: 60 0 3 -30 0 60 2 0 0 0 1 0\n---\n" +
-            kitti_poses);
-  write(root / "yaml" / "alias", "motion_check: &a {min_inliers: 20}\nmotion_estimator: *a\n");
-  write(root / "yaml" / "kinds",
-        "planar: true\nqueue_size: 4\nsilence_s: 2.5 # s\nodom_frame: \"a b\"\n");
-  write(root / "yaml" / "choice",
-        "trajectory_format: kitti\nvisual_odometry:\n  max_gap_s: 1e-1\n");
 }
 
 }  // namespace
@@ -133,7 +112,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    rotrocc::writeSeeds(argv[1]);
+    const std::filesystem::path root = argv[1];
+    rotrocc::writeFiles(root / "files");
+    rotrocc::writeMessages(root / "odometry");
   } catch (const std::exception& error) {
     std::cerr << "fuzz_seeds: " << error.what() << '\n';
     return 1;
