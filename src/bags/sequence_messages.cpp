@@ -11,7 +11,6 @@
 #include <boost/make_shared.hpp>
 
 #include "bags/ground_truth.h"
-#include "input/image_message.h"
 #include "input/message_conversion.h"
 #include "sequences/camera_info_calibration.h"
 

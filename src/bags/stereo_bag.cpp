@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "bags/bag_reading.h"
-#include "input/camera_validation.h"
 #include "input/to_text.h"
 
 namespace rotrocc {

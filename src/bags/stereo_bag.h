@@ -10,9 +10,9 @@
 
 #include "bags/stereo_topics.h"
 #include "input/camera_calibration.h"
-#include "input/pair_rectifier.h"
 #include "input/stereo_pair_converter.h"
 #include "input/stereo_synchronizer.h"
+#include "rectification/stereo_rectifier.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
@@ -72,7 +72,7 @@ class StereoBag {
   StereoImages images_;
   bool rectifies_;
   CurrentCalibration calibration_;
-  PairRectifier rectifier_;
+  StereoRectifier rectifier_;
 };
 
 /// Whether a topic is not one of rectified images, and the first camera_info describes raw ones.

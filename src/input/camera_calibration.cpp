@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "input/camera_validation.h"
 #include "input/input_error.h"
 #include "input/to_text.h"
 
@@ -14,7 +13,95 @@ namespace {
 
 using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-RawCamera toRawCamera(const std::string& side, const sensor_msgs::CameraInfo& info) {
+constexpr double kMaxMismatch_px = 0.1;   // of fx, fy and cy between rectified cameras
+constexpr double kMaxOffRowShare = 0.05;  // of the baseline that may be along y
+constexpr double kMaxSize_px = 1e6;       // keeps sizes in the range of int
+constexpr double kSmallBaseline_m = 0.005;
+constexpr double kGreatBaseline_m = 10.0;
+
+[[noreturn]] void refuseCameraInfo(const std::string& sentence) {
+  throw InputError(DropReason::kCameraInfoInvalid, sentence);
+}
+
+/// Contents of P of one camera.
+struct Projection {
+  int width, height;
+  double fx, fy, cx, cy;
+  double tx, ty;  // P[3], P[7]: the camera's position, times minus the focal length
+};
+
+void checkProjection(const std::string& side, const sensor_msgs::CameraInfo& info) {
+  const auto& P = info.P;
+  const std::string its = "P of the " + side + " camera_info";
+  if (std::all_of(P.begin(), P.end(), [](double value) { return value == 0.0; })) {
+    refuseCameraInfo(its +
+                     " is all zeros: the camera is not calibrated; calibrate it as a stereo pair");
+  }
+  for (std::size_t i = 0; i < P.size(); ++i) {
+    if (std::isfinite(P[i])) continue;
+    refuseCameraInfo("P[" + toText(i) + "] of the " + side + " camera_info is " + toText(P[i]) +
+                     ": check the calibration file of the driver");
+  }
+  if (!(P[0] > 0.0 && P[5] > 0.0)) {
+    refuseCameraInfo(its + " has focal lengths P[0] = " + toText(P[0]) + " and P[5] = " +
+                     toText(P[5]) + " px, but both must be positive: is the camera calibrated?");
+  }
+  if (P[1] != 0.0 || P[4] != 0.0 || P[8] != 0.0 || P[9] != 0.0 || P[10] != 1.0) {
+    refuseCameraInfo(
+        its + " is not [fx 0 cx tx; 0 fy cy ty; 0 0 1 0], as for a rectified camera: P[1] = " +
+        toText(P[1]) + ", P[4] = " + toText(P[4]) + ", P[8] = " + toText(P[8]) + ", P[9] = " +
+        toText(P[9]) + ", P[10] = " + toText(P[10]) + "; calibrate the cameras as a pair");
+  }
+}
+
+Projection toProjection(const std::string& side, const sensor_msgs::CameraInfo& info) {
+  checkProjection(side, info);
+  const double binning_x = std::max(info.binning_x, 1u);
+  const double binning_y = std::max(info.binning_y, 1u);
+  const double width = info.roi.width > 0 ? info.roi.width : info.width;
+  const double height = info.roi.height > 0 ? info.roi.height : info.height;
+  Projection projection;
+  projection.width = static_cast<int>(std::min(width / binning_x, kMaxSize_px));
+  projection.height = static_cast<int>(std::min(height / binning_y, kMaxSize_px));
+  projection.fx = info.P[0] / binning_x;
+  projection.fy = info.P[5] / binning_y;
+  projection.cx = (info.P[2] - info.roi.x_offset) / binning_x;
+  projection.cy = (info.P[6] - info.roi.y_offset) / binning_y;
+  projection.tx = info.P[3] / binning_x;
+  projection.ty = info.P[7] / binning_y;
+  return projection;
+}
+
+void requireEqual(const std::string& name, double left, double right) {
+  if (std::abs(left - right) <= kMaxMismatch_px) return;
+  refuseCameraInfo("the cameras are not rectified as a pair: " + name + " is " + toText(left) +
+                   " px in the left camera_info and " + toText(right) +
+                   " px in the right one; calibrate them together");
+}
+
+void requireSideBySide(const Projection& left, const Projection& right) {
+  const std::string values =
+      toText(left.tx + 0.0) + " left and " + toText(right.tx + 0.0) + " right";  // no "-0"
+  if (left.tx == right.tx) {
+    refuseCameraInfo(
+        "the baseline is zero: P[3] of camera_info, which is -fx times the camera's position, is " +
+        values + "; calibrate the cameras as a pair, or set the parameter baseline_m");
+  }
+  if (left.tx < right.tx) {
+    refuseCameraInfo(
+        "the baseline is negative: P[3] of camera_info, which is -fx times the camera's "
+        "position, is " +
+        values + "; are left and right swapped?");
+  }
+  if (std::abs(left.ty - right.ty) > kMaxOffRowShare * (left.tx - right.tx)) {
+    refuseCameraInfo("the cameras are not side by side: P[7] of camera_info is " + toText(left.ty) +
+                     " left and " + toText(right.ty) + " right, P[3] " + values);
+  }
+}
+
+RawCamera toRawCamera(const std::string& side,
+                      const sensor_msgs::CameraInfo& info,
+                      const StereoCamera& rectified) {
   const auto& K = info.K;
   const double binning_x = std::max(info.binning_x, 1u);
   const double binning_y = std::max(info.binning_y, 1u);
@@ -24,26 +111,23 @@ RawCamera toRawCamera(const std::string& side, const sensor_msgs::CameraInfo& in
                      " px, but rectification needs them: calibrate the camera");
   }
   RawCamera raw;
+  raw.width = rectified.width;
+  raw.height = rectified.height;
   raw.fx = K[0] / binning_x;
   raw.fy = K[4] / binning_y;
   raw.cx = (K[2] - info.roi.x_offset) / binning_x;
   raw.cy = (K[5] - info.roi.y_offset) / binning_y;
   raw.R_rectified_raw = Eigen::Map<const Matrix3>(info.R.data());
+  std::string what = "D of the ";
   try {
     // Drivers without a calibration leave the name empty.
     raw.distortion = {info.distortion_model.empty() ? "plumb_bob" : info.distortion_model, info.D};
-  } catch (const std::invalid_argument& error) {
-    refuseCameraInfo("D of the " + side + " camera_info: " + error.what());
-  }
-  return raw;
-}
-
-void checkRaw(const std::string& side, const RawCamera& raw) {
-  try {
+    what = "the ";
     raw.check();
   } catch (const std::invalid_argument& error) {
-    refuseCameraInfo("the " + side + " camera_info: " + error.what());
+    refuseCameraInfo(what + side + " camera_info: " + error.what());
   }
+  return raw;
 }
 
 /// Whether two messages describe the same camera.
@@ -55,19 +139,49 @@ bool isSameCamera(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInf
 
 }  // namespace
 
+StereoCamera toStereoCamera(const sensor_msgs::CameraInfo& left_info,
+                            const sensor_msgs::CameraInfo& right_info,
+                            double baseline_m) {
+  const Projection left = toProjection("left", left_info);
+  const Projection right = toProjection("right", right_info);
+  if (left.width != right.width || left.height != right.height) {
+    refuseCameraInfo("the left camera_info is for images of " + sizeText(left.width, left.height) +
+                     ", the right one for " + sizeText(right.width, right.height) +
+                     ": set both cameras to the same resolution");
+  }
+  requireEqual("fx", left.fx, right.fx);
+  requireEqual("fy", left.fy, right.fy);
+  requireEqual("cy", left.cy, right.cy);
+  if (baseline_m == 0.0) requireSideBySide(left, right);
+
+  StereoCamera camera;
+  camera.width = left.width;
+  camera.height = left.height;
+  camera.fx = left.fx;
+  camera.fy = left.fy;
+  camera.cx = left.cx;
+  camera.cy = left.cy;
+  camera.cx_right = right.cx;
+  camera.baseline_m = baseline_m > 0.0 ? baseline_m : (left.tx - right.tx) / left.fx;
+  try {
+    camera.check();
+  } catch (const std::invalid_argument& error) {
+    refuseCameraInfo(std::string("camera_info is not a valid camera: ") + error.what());
+  }
+  return camera;
+}
+
+std::string oddityOf(const StereoCamera& camera) {
+  if (camera.baseline_m >= kSmallBaseline_m && camera.baseline_m <= kGreatBaseline_m) return "";
+  return "a baseline of " + toText(camera.baseline_m) +
+         " m is unusual: is P[3] of camera_info in pixels times metres?";
+}
+
 StereoCalibration toStereoCalibration(const sensor_msgs::CameraInfo& left,
                                       const sensor_msgs::CameraInfo& right,
                                       double baseline_m) {
   const StereoCamera rectified = toStereoCamera(left, right, baseline_m);
-  StereoCalibration calibration = {
-      toRawCamera("left", left), toRawCamera("right", right), rectified};
-  for (RawCamera* raw : {&calibration.left, &calibration.right}) {
-    raw->width = rectified.width;
-    raw->height = rectified.height;
-  }
-  checkRaw("left", calibration.left);
-  checkRaw("right", calibration.right);
-  return calibration;
+  return {toRawCamera("left", left, rectified), toRawCamera("right", right, rectified), rectified};
 }
 
 bool describesRawImages(const sensor_msgs::CameraInfo& info) {

@@ -5,8 +5,8 @@
 namespace rotrocc {
 
 void DropLog::add(const InputError& error) {
-  counters_.add(error.reason());
   const std::lock_guard<std::mutex> lock(mutex_);
+  ++countOf(error.reason());
   log(error);
   last_ = error;
   last_time_ = std::chrono::steady_clock::now();
@@ -23,7 +23,26 @@ void DropLog::log(const InputError& error) {
       throttles_.try_emplace(error.reason(), std::chrono::seconds(5)).first->second;
   if (!throttle.pass()) return;
   log_.warn(std::string("dropped (") + toString(error.reason()) + ", " +
-            toText(counters_.count(error.reason())) + " so far): " + error.what());
+            toText(countOf(error.reason())) + " so far): " + error.what());
+}
+
+void DropLog::count(DropReason reason, std::uint64_t count) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  countOf(reason) += count;
+}
+
+void DropLog::set(DropReason reason, std::uint64_t count) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  countOf(reason) = count;
+}
+
+DropLog::Counts DropLog::counts() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Counts counts;
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    if (counts_[i] > 0) counts.emplace_back(static_cast<DropReason>(i), counts_[i]);
+  }
+  return counts;
 }
 
 std::optional<InputError> DropLog::lastWithin(std::chrono::seconds age) const {

@@ -1,16 +1,18 @@
 #pragma once
 
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "input/input_error.h"
 #include "input/log.h"
-#include "input/throttle.h"
 
 namespace rotrocc {
 
@@ -18,15 +20,18 @@ namespace rotrocc {
 /// camera_info once until there is a valid one. Thread-safe.
 class DropLog {
  public:
+  using Counts = std::vector<std::pair<DropReason, std::uint64_t>>;
+
   explicit DropLog(Log log = Log()) : log_(std::move(log)) {}
 
   void add(const InputError& error);
 
   /// Counts without logging, for drops that are not a fault of the input.
-  void count(DropReason reason, std::uint64_t count = 1) { counters_.add(reason, count); }
-  void set(DropReason reason, std::uint64_t count) { counters_.set(reason, count); }
+  void count(DropReason reason, std::uint64_t count = 1);
+  void set(DropReason reason, std::uint64_t count);
 
-  const DropCounters& counters() const { return counters_; }
+  /// The reasons that have occurred, in the order of DropReason.
+  Counts counts() const;
 
   /// The last drop, if it is not older than `age`.
   std::optional<InputError> lastWithin(std::chrono::seconds age) const;
@@ -35,11 +40,12 @@ class DropLog {
   void forgetCameraError();
 
  private:
+  std::uint64_t& countOf(DropReason reason) { return counts_[static_cast<std::size_t>(reason)]; }
   void log(const InputError& error);
 
   Log log_;
-  DropCounters counters_;
   mutable std::mutex mutex_;
+  std::array<std::uint64_t, static_cast<std::size_t>(DropReason::kCount)> counts_{};
   std::map<DropReason, Throttle> throttles_;
   Throttle camera_throttle_{std::chrono::seconds(1)};
   std::string camera_error_;

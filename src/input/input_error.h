@@ -1,13 +1,7 @@
 #pragma once
 
-#include <array>
-#include <atomic>
-#include <cstddef>
-#include <cstdint>
 #include <stdexcept>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace rotrocc {
 
@@ -47,24 +41,6 @@ class InputError : public std::invalid_argument {
 
  private:
   DropReason reason_;
-};
-
-/// Counts drops by reason. Thread-safe.
-class DropCounters {
- public:
-  void add(DropReason reason, std::uint64_t count = 1) { at(reason) += count; }
-  void set(DropReason reason, std::uint64_t count) { at(reason) = count; }
-  std::uint64_t count(DropReason reason) const { return counts_[static_cast<std::size_t>(reason)]; }
-
-  /// The reasons that have occurred, in the order of DropReason.
-  std::vector<std::pair<DropReason, std::uint64_t>> nonZero() const;
-
- private:
-  std::atomic<std::uint64_t>& at(DropReason reason) {
-    return counts_[static_cast<std::size_t>(reason)];
-  }
-
-  std::array<std::atomic<std::uint64_t>, static_cast<std::size_t>(DropReason::kCount)> counts_{};
 };
 
 }  // namespace rotrocc

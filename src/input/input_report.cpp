@@ -5,6 +5,8 @@
 #include <iomanip>
 #include <sstream>
 
+#include "input/to_text.h"
+
 namespace rotrocc {
 namespace {
 
@@ -27,18 +29,8 @@ std::string milliseconds(double seconds) {
 }
 
 std::string describe(const TopicReport& topic) {
-  std::ostringstream text;
-  text << topic.topic << ' ' << topic.recent;
-  if (topic.rate_hz > 0.0) {
-    text << " (" << std::fixed << std::setprecision(1) << topic.rate_hz << " Hz)";
-  }
-  return text.str();
-}
-
-std::string tenths(double value) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(1) << value;
-  return text.str();
+  return topic.topic + ' ' + std::to_string(topic.recent) +
+         (topic.rate_hz > 0.0 ? " (" + fixedText(topic.rate_hz, 1) + " Hz)" : "");
 }
 
 bool isSilent(const TopicReport& topic) {
@@ -57,7 +49,7 @@ std::string whySilent(const TopicReport& topic) {
            ": start the driver, or remap it to the right topic (see rostopic list)";
   }
   if (topic.recent > 0) {
-    return topic.topic + " has been silent for " + tenths(*topic.silent_s) +
+    return topic.topic + " has been silent for " + fixedText(*topic.silent_s, 1) +
            " s: has the driver or the connection stopped?";
   }
   return topic.topic +
@@ -98,9 +90,8 @@ std::string whyUnmatched(const InputReport& report) {
       apart + "max_stamp_difference_s = " + milliseconds(report.max_stamp_difference_s);
   if (difference_s <= kPlausibleSkew_s) {
     const double enough_s = std::ceil(1.2e3 * difference_s) * 1e-3;
-    std::ostringstream advice;
-    advice << ": trigger the cameras synchronously, or set max_stamp_difference_s to " << enough_s;
-    return too_far + advice.str();
+    return too_far + ": trigger the cameras synchronously, or set max_stamp_difference_s to " +
+           toText(enough_s);
   }
   return too_far +
          ": are both topics from the same rig, and the clocks of both drivers synchronized?";
@@ -116,8 +107,8 @@ std::string whyLost(const InputReport& report) {
   const TopicReport& fewer = left < right ? report.left_image : report.right_image;
   return std::to_string(100 * lost / images) +
          " % of the images have no partner: " + report.left_image.topic + " arrives at " +
-         tenths(report.left_image.rate_hz) + " Hz, " + report.right_image.topic + " at " +
-         tenths(report.right_image.rate_hz) + " Hz" +
+         fixedText(report.left_image.rate_hz, 1) + " Hz, " + report.right_image.topic + " at " +
+         fixedText(report.right_image.rate_hz, 1) + " Hz" +
          (2 * missing > lost ? ": the camera of " + fewer.topic + " or its connection loses images"
                              : ": both lose images, or stamps are more than " +
                                    milliseconds(report.tolerance_s) + " apart");

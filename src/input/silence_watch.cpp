@@ -1,8 +1,8 @@
 #include "input/silence_watch.h"
 
 #include <algorithm>
-#include <iomanip>
-#include <sstream>
+
+#include "input/to_text.h"
 
 namespace rotrocc {
 namespace {
@@ -17,9 +17,7 @@ constexpr std::size_t kIntervals = 16;
 
 /// "3.1 s", "35 s"
 std::string seconds(std::chrono::duration<double> duration) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(duration.count() < 9.95 ? 1 : 0) << duration.count();
-  return text.str() + " s";
+  return fixedText(duration.count(), duration.count() < 9.95 ? 1 : 0) + " s";
 }
 
 /// The parts that cause a new report when they change; without numbers, which always change.

@@ -4,25 +4,19 @@
 #include <utility>
 
 #include "common/to_seconds.h"
-#include "input/camera_validation.h"
 #include "input/message_conversion.h"
-#include "input/stamp_skew.h"
+#include "input/stamp_series.h"
 #include "input/to_text.h"
 
 namespace rotrocc {
 namespace {
-
-std::optional<double> silence(const TopicStatistics& statistics, TopicStatistics::Time now) {
-  if (statistics.total() == 0) return std::nullopt;
-  return std::chrono::duration<double>(now - statistics.lastArrival()).count();
-}
 
 TopicReport reportOf(const TopicStatistics& statistics, TopicStatistics::Time now) {
   TopicReport report;
   report.recent = statistics.recent(now);
   report.total = statistics.total();
   report.rate_hz = statistics.rate_hz(now);
-  report.silent_s = silence(statistics, now);
+  report.silent_s = statistics.silent_s(now);
   return report;
 }
 
@@ -103,17 +97,14 @@ void StereoIntake::setCamera(const StereoCamera& camera) {
   camera_ = camera;
   camera_error_.clear();
   drops_.forgetCameraError();
+  const std::string rectified = calibration_
+                                    ? std::string("; raw images are rectified by K, R and D (") +
+                                          calibration_->left.distortion.name() + ")"
+                                    : "";
   log_.info("stereo camera from P: " + sizeText(camera.width, camera.height) + ", fx " +
-            toText(camera.fx) + " px, baseline " + toText(camera.baseline_m) + " m" +
-            howRectified());
+            toText(camera.fx) + " px, baseline " + toText(camera.baseline_m) + " m" + rectified);
   const std::string oddity = oddityOf(camera);
   if (!oddity.empty()) log_.warn(oddity);
-}
-
-std::string StereoIntake::howRectified() const {
-  if (!calibration_) return "";
-  return std::string("; raw images are rectified by K, R and D (") +
-         calibration_->left.distortion.name() + ")";
 }
 
 void StereoIntake::handOver() {
@@ -131,7 +122,7 @@ InputReport StereoIntake::report(std::chrono::steady_clock::time_point now) cons
   report.left_info = reportOf(left_infos_, now);
   report.right_info = reportOf(right_infos_, now);
   report.recent_pairs = pairs_.recent(now);
-  report.pairs_silent_s = silence(pairs_, now);
+  report.pairs_silent_s = pairs_.silent_s(now);
   addStamps(report);
   if (left_.statistics.total() > 0 && right_.statistics.total() > 0) {
     const auto begin = std::max({now - TopicStatistics::kWindow,

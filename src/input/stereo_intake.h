@@ -74,7 +74,6 @@ class StereoIntake {
   void takePair(const std::optional<StereoImages>& images, const Arrival& arrival);
   void updateCamera();
   void setCamera(const StereoCamera& camera);
-  std::string howRectified() const;
   void handOver();
   void addStamps(InputReport& report) const;
 

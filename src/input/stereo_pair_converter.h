@@ -1,17 +1,19 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include <sensor_msgs/Image.h>
 #include <opencv2/core.hpp>
 
-#include "input/image_validation.h"
+#include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
 
 namespace rotrocc {
 
-/// Converts the images of a pair to grey images for the estimator. See encodingOf() for supported
-/// encodings.
+/// Checks the images of a pair, the header before a pixel is read, and converts them to grey images
+/// for the estimator. Supports mono8, 8UC1, mono16, 16UC1, rgb8, bgr8, rgba8, bgra8, yuv422,
+/// yuv422_yuy2, and Bayer patterns of 8 and 16 bits.
 ///
 /// 16-bit images of 10 or 12-bit cameras use only a part of their range. They are shifted right by
 /// b - 8 bits, where b is the number of bits of the largest value in any image so far, at least 8.
@@ -21,27 +23,32 @@ class StereoPairConverter {
  public:
   static constexpr std::int64_t kMaxPixels = 50'000'000;
 
+  /// `max_pixels`: limit of width times height.
   explicit StereoPairConverter(std::int64_t max_pixels = kMaxPixels) : max_pixels_(max_pixels) {}
 
   /// The resulting images refer to the data of `left` and `right` if these are 8-bit grey,
   /// otherwise to a buffer that the next call overwrites. They must not be modified. The stamp is
-  /// the left one. Throws InputError like validatePair().
+  /// the left one. Throws InputError with the value and a remedy on an unknown encoding, sizes out
+  /// of range or that differ, and a step or data that are too short; more data is ignored.
   StereoPair convert(const sensor_msgs::Image& left, const sensor_msgs::Image& right);
 
- private:
   struct Buffers {
-    cv::Mat scaled;  // to 8 bits
+    cv::Mat scaled;  ///< to 8 bits
     cv::Mat grey;
   };
 
-  cv::Mat toGrey(const sensor_msgs::Image& image,
-                 const ImageEncoding& encoding,
-                 Buffers& buffers) const;
-
+ private:
   std::int64_t max_pixels_;
   int significant_bits_ = 8;
   Buffers left_buffers_;
   Buffers right_buffers_;
 };
+
+/// Throws InputError if the images have not the size of camera_info.
+void validateSize(const sensor_msgs::Image& left, const StereoCamera& camera);
+
+/// The tf frame of the left camera: `camera_frame`, or if that is empty the frame of the image,
+/// without the leading slash of older drivers. Throws InputError if both are empty.
+std::string cameraFrameOf(const sensor_msgs::Image& left, const std::string& camera_frame);
 
 }  // namespace rotrocc

@@ -27,25 +27,14 @@ std::optional<StereoImages> StereoSynchronizer::addLeft(const sensor_msgs::Image
                                                         Time arrival) {
   const auto match = add(image, arrival, left_, right_);
   if (!match) return std::nullopt;
-  return StereoImages{
-      match->own.image, match->other.image, std::min(match->own.arrival, match->other.arrival)};
+  return StereoImages{match->own.image, match->other.image, match->first_arrival()};
 }
 
 std::optional<StereoImages> StereoSynchronizer::addRight(const sensor_msgs::Image::ConstPtr& image,
                                                          Time arrival) {
   const auto match = add(image, arrival, right_, left_);
   if (!match) return std::nullopt;
-  return StereoImages{
-      match->other.image, match->own.image, std::min(match->own.arrival, match->other.arrival)};
-}
-
-double StereoSynchronizer::tolerance_s() const {
-  return toSeconds(tolerance_ns());
-}
-
-void StereoSynchronizer::reset() {
-  left_ = {};
-  right_ = {};
+  return StereoImages{match->other.image, match->own.image, match->first_arrival()};
 }
 
 std::optional<StereoSynchronizer::Match> StereoSynchronizer::add(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +9,7 @@
 
 #include <sensor_msgs/Image.h>
 
+#include "common/to_seconds.h"
 #include "input/stamp_series.h"
 
 namespace rotrocc {
@@ -46,14 +48,14 @@ class StereoSynchronizer {
   std::uint64_t unmatched() const { return unmatched_; }
 
   /// The largest difference that is accepted now.
-  double tolerance_s() const;
+  double tolerance_s() const { return toSeconds(tolerance_ns()); }
 
   /// Stamps that have arrived.
   const StampSeries& leftStamps() const { return left_.series; }
   const StampSeries& rightStamps() const { return right_.series; }
 
   /// Discards all waiting images; they do not count as unmatched.
-  void reset();
+  void reset() { left_ = right_ = {}; }
 
  private:
   struct Waiting {
@@ -70,6 +72,8 @@ class StereoSynchronizer {
   struct Match {
     Waiting own;
     Waiting other;
+
+    Time first_arrival() const { return std::min(own.arrival, other.arrival); }
   };
 
   std::optional<Match> add(const sensor_msgs::Image::ConstPtr& image,

@@ -31,11 +31,16 @@ inline std::string exactText(double value) {
   return text.str();
 }
 
+/// A number with so many digits behind the point.
+inline std::string fixedText(double value, int digits) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(digits) << value;
+  return text.str();
+}
+
 /// A stamp in seconds, to the millisecond: 1600000000.123
 inline std::string stampText(std::int64_t stamp_ns) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(3) << toSeconds(stamp_ns);
-  return text.str();
+  return fixedText(toSeconds(stamp_ns), 3);
 }
 
 /// "640x480 px"

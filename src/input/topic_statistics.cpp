@@ -18,6 +18,11 @@ void TopicStatistics::add(Time now) {
   }
 }
 
+std::optional<double> TopicStatistics::silent_s(Time now) const {
+  if (total_ == 0) return std::nullopt;
+  return std::chrono::duration<double>(now - arrivals_.back()).count();
+}
+
 std::size_t TopicStatistics::since(Time begin) const {
   const auto first = std::lower_bound(arrivals_.begin(), arrivals_.end(), begin);
   return static_cast<std::size_t>(arrivals_.end() - first);

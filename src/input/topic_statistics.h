@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <optional>
 
 namespace rotrocc {
 
@@ -23,6 +24,8 @@ class TopicStatistics {
   /// Arrival of the last message, and of the first one of its run; there must be one.
   Time lastArrival() const { return arrivals_.back(); }
   Time startOfRun() const { return start_of_run_; }
+  /// Seconds since the last message; none if there was none.
+  std::optional<double> silent_s(Time now) const;
   /// Messages within the window.
   std::size_t recent(Time now) const { return since(now - kWindow); }
   /// Messages from a time within the window on.

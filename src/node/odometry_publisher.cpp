@@ -10,7 +10,6 @@
 #include <tf2_msgs/TFMessage.h>
 #include <boost/make_shared.hpp>
 
-#include "input/image_message.h"
 #include "input/message_conversion.h"
 #include "node/advertise.h"
 #include "rotrocc/flow_picture.h"

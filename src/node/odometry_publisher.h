@@ -10,7 +10,7 @@
 #include <ros/publisher.h>
 #include <opencv2/core.hpp>
 
-#include "input/throttle.h"
+#include "input/log.h"
 #include "node/base/base_odometry.h"
 #include "node/odometry_messages.h"
 #include "rotrocc/OdometryStatus.h"

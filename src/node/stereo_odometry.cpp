@@ -8,8 +8,8 @@
 #include <ros/init.h>
 #include <ros/time.h>
 
-#include "input/image_validation.h"
 #include "input/message_conversion.h"
+#include "input/stereo_pair_converter.h"
 #include "node/odometry_messages.h"
 
 namespace rotrocc {

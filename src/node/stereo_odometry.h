@@ -12,7 +12,6 @@
 #include "input/latest_mailbox.h"
 #include "input/log.h"
 #include "input/silence_watch.h"
-#include "input/throttle.h"
 #include "node/base/pair_processor.h"
 #include "node/gyro/gyro_input.h"
 #include "node/health/diagnostics.h"

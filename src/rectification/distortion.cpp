@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <iterator>
 #include <stdexcept>
 
 #include <opencv2/core.hpp>
@@ -15,25 +15,35 @@ using Model = Distortion::Model;
 constexpr double kDegree = M_PI / 180.0;
 constexpr double kMaxAngle = 89.0 * kDegree;  // of a ray that a pinhole camera could show
 
+const struct {
+  const char* name;  // that of sensor_msgs/CameraInfo first
+  Model model;
+  std::size_t coefficients;
+} kModels[] = {{"plumb_bob", Model::kPlumbBob, 5},
+               {"radial-tangential", Model::kPlumbBob, 5},
+               {"radtan", Model::kPlumbBob, 5},
+               {"rational_polynomial", Model::kRationalPolynomial, 8},
+               {"equidistant", Model::kEquidistant, 4},
+               {"equi", Model::kEquidistant, 4},
+               {"fisheye", Model::kEquidistant, 4}};
+
 Model modelNamed(const std::string& name) {
-  static const std::map<std::string, Model> models = {
-      {"plumb_bob", Model::kPlumbBob},
-      {"radial-tangential", Model::kPlumbBob},
-      {"radtan", Model::kPlumbBob},
-      {"rational_polynomial", Model::kRationalPolynomial},
-      {"equidistant", Model::kEquidistant},
-      {"equi", Model::kEquidistant},
-      {"fisheye", Model::kEquidistant}};
-  const auto found = models.find(name);
-  if (found != models.end()) return found->second;
+  for (const auto& known : kModels) {
+    if (name == known.name) return known.model;
+  }
   throw std::invalid_argument("the distortion model '" + name +
                               "' is not supported: use plumb_bob (radial-tangential), "
                               "rational_polynomial or equidistant (fisheye)");
 }
 
+const auto& entryOf(Model model) {
+  return *std::find_if(
+      std::begin(kModels), std::end(kModels), [&](const auto& m) { return m.model == model; });
+}
+
 /// As many as the model has, zeros for those that may be left out.
 std::vector<double> complete(Model model, const std::string& name, std::vector<double> values) {
-  const std::size_t count = model == Model::kPlumbBob ? 5 : model == Model::kEquidistant ? 4 : 8;
+  const std::size_t count = entryOf(model).coefficients;
   const bool lacks_k3 = model == Model::kPlumbBob && values.size() == 4;
   if (!values.empty() && !lacks_k3 && values.size() != count) {
     throw std::invalid_argument(
@@ -64,15 +74,7 @@ Distortion::Distortion(const std::string& model, const std::vector<double>& coef
 }
 
 const char* Distortion::name() const {
-  switch (model_) {
-    case Model::kPlumbBob:
-      return "plumb_bob";
-    case Model::kRationalPolynomial:
-      return "rational_polynomial";
-    case Model::kEquidistant:
-      break;
-  }
-  return "equidistant";
+  return entryOf(model_).name;
 }
 
 bool Distortion::isNone() const {

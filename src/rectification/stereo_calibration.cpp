@@ -10,6 +10,7 @@
 namespace rotrocc {
 namespace {
 
+constexpr int kMaxSize_px = 32000;      // 16 bits of the places in a raw image
 constexpr double kMaxDeviation = 1e-3;  // of a rotation printed with four digits or more
 
 void requirePositive(const char* name, double value) {
@@ -29,14 +30,14 @@ bool isRectifiedBy(const RawCamera& raw, const StereoCamera& camera, double cx) 
 }
 
 RawCamera asRaw(const StereoCamera& camera, double cx) {
-  RawCamera raw;
-  raw.width = camera.width;
-  raw.height = camera.height;
-  raw.fx = camera.fx;
-  raw.fy = camera.fy;
-  raw.cx = cx;
-  raw.cy = camera.cy;
-  return raw;
+  return {camera.width,
+          camera.height,
+          camera.fx,
+          camera.fy,
+          cx,
+          camera.cy,
+          {},
+          Eigen::Matrix3d::Identity()};
 }
 
 void requireSideBySide(const Eigen::Isometry3d& T_left_right) {
@@ -99,19 +100,21 @@ class CommonImage {
     return camera;
   }
 
+  /// Whether both see the border of the rectified image.
   bool isSeen(const StereoCamera& camera) const {
-    for (int x = 0; x < camera.width; ++x) {
-      if (!isSeen(camera, x, 0) || !isSeen(camera, x, camera.height - 1)) return false;
+    const double right = camera.width - 1;
+    const double bottom = camera.height - 1;
+    for (double x = 0; x <= right; ++x) {
+      if (!isSeen(camera, {x, 0}) || !isSeen(camera, {x, bottom})) return false;
     }
-    for (int y = 0; y < camera.height; ++y) {
-      if (!isSeen(camera, 0, y) || !isSeen(camera, camera.width - 1, y)) return false;
+    for (double y = 0; y <= bottom; ++y) {
+      if (!isSeen(camera, {0, y}) || !isSeen(camera, {right, y})) return false;
     }
     return true;
   }
 
-  bool isSeen(const StereoCamera& camera, int x, int y) const {
-    const Eigen::Vector3d ray = camera.ray(Eigen::Vector2d(x, y));
-    return isSeenBy(left_, ray) && isSeenBy(right_, ray);
+  bool isSeen(const StereoCamera& camera, const Eigen::Vector2d& pixel) const {
+    return isSeenBy(left_, camera.ray(pixel)) && isSeenBy(right_, camera.ray(pixel));
   }
 
   static bool isSeenBy(const RawCamera& raw, const Eigen::Vector3d& rectified_ray) {
@@ -130,6 +133,9 @@ class CommonImage {
 void RawCamera::check() const {
   requirePositive("width", width);
   requirePositive("height", height);
+  if (std::max(width, height) > kMaxSize_px) {
+    throw std::invalid_argument(cv::format("its images are larger than %d px", kMaxSize_px));
+  }
   requirePositive("fx", fx);
   requirePositive("fy", fy);
   if (!std::isfinite(cx) || !std::isfinite(cy)) {

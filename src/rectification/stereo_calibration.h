@@ -19,8 +19,8 @@ struct RawCamera {
   Distortion distortion;
   Eigen::Matrix3d R_rectified_raw = Eigen::Matrix3d::Identity();
 
-  /// Throws std::invalid_argument that names the first value that is not finite or not positive, or
-  /// a matrix that is no rotation.
+  /// Throws std::invalid_argument that names the first value that is not finite or not positive, a
+  /// side of more than 32000 px, or a matrix that is no rotation.
   void check() const;
 
   /// Pixel of a point in the frame of the raw camera, whose z must be positive.

@@ -34,10 +34,6 @@ StereoRectifier::Side StereoRectifier::makeSide(const char* name,
                                                 double cx) {
   try {
     raw.check();
-    constexpr int kMax_px = 32000;  // places have 16 bits
-    if (std::max(raw.width, raw.height) > kMax_px) {
-      throw std::invalid_argument(cv::format("its images are larger than %d px", kMax_px));
-    }
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(
         cv::format("the calibration of the %s camera: %s", name, error.what()));
@@ -53,19 +49,31 @@ StereoRectifier::Side StereoRectifier::makeSide(const char* name,
 }
 
 StereoRectifier::StereoRectifier(const StereoCalibration& calibration, int threads)
-    : camera_(calibration.rectified),
-      left_(makeSide("left", calibration.left, camera_, camera_.cx)),
-      right_(makeSide("right", calibration.right, camera_, camera_.cx_right)),
-      workers_(std::min(threads, 2)) {}
+    : StereoRectifier(threads) {
+  setCalibration(calibration);
+}
+
+void StereoRectifier::setCalibration(const StereoCalibration& calibration) {
+  const StereoCamera& camera = calibration.rectified;
+  left_ = makeSide("left", calibration.left, camera, camera.cx);
+  right_ = makeSide("right", calibration.right, camera, camera.cx_right);
+}
+
+StereoPair StereoRectifier::rectify(const StereoPair& raw,
+                                    const std::shared_ptr<const StereoCalibration>& calibration) {
+  if (calibration != calibration_) setCalibration(*calibration);
+  calibration_ = calibration;
+  return rectify(raw);
+}
 
 StereoPair StereoRectifier::rectify(const StereoPair& raw) {
-  checkImage("left", raw.left, left_.resampler.source());
-  checkImage("right", raw.right, right_.resampler.source());
+  checkImage("left", raw.left, left_->resampler.source());
+  checkImage("right", raw.right, right_->resampler.source());
   workers_.run(2, [&](int part) {
-    Side& side = part == 0 ? left_ : right_;
+    Side& side = part == 0 ? *left_ : *right_;
     side.resampler.resample(part == 0 ? raw.left : raw.right, side.rectified);
   });
-  return {raw.stamp_ns, left_.rectified, right_.rectified};
+  return {raw.stamp_ns, left_->rectified, right_->rectified};
 }
 
 }  // namespace rotrocc

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
+#include <optional>
 
 #include <opencv2/core.hpp>
 
@@ -14,21 +16,24 @@ namespace rotrocc {
 /// Rectifies the images of a stereo pair, left and right in parallel, without allocating memory.
 class StereoRectifier {
  public:
-  /// With one thread, the left image is rectified before the right one; more than two are of no
-  /// use. Throws std::invalid_argument on a calibration that is not one, see RawCamera::check(),
-  /// and of images larger than 32000 px.
+  /// For calibrations that change. With one thread, the left image is rectified before the right
+  /// one; more than two are of no use.
+  explicit StereoRectifier(int threads = 2) : workers_(std::min(threads, 2)) {}
+
+  /// For one calibration. Throws std::invalid_argument if it is none, see RawCamera::check().
   explicit StereoRectifier(const StereoCalibration& calibration, int threads = 2);
 
   /// Keeps the maps. `threads` as above.
   void setThreads(int threads) { workers_ = Workers(std::min(threads, 2)); }
 
-  /// Of the rectified images.
-  const StereoCamera& camera() const { return camera_; }
-
   /// The rectified images are valid until the next call. Pixels that a camera does not see repeat
   /// the border of its image, which has fewer corners than a black edge. Throws
   /// std::invalid_argument if the images are not CV_8UC1 of the size of the raw cameras.
   StereoPair rectify(const StereoPair& raw);
+
+  /// The same by the calibration of this pair: the maps are rebuilt when it is another object.
+  StereoPair rectify(const StereoPair& raw,
+                     const std::shared_ptr<const StereoCalibration>& calibration);
 
  private:
   struct Side {
@@ -40,10 +45,11 @@ class StereoRectifier {
                        const RawCamera& raw,
                        const StereoCamera& camera,
                        double cx);
+  void setCalibration(const StereoCalibration& calibration);
 
-  StereoCamera camera_;
-  Side left_;
-  Side right_;
+  std::optional<Side> left_, right_;
+  std::shared_ptr<const StereoCalibration>
+      calibration_;  // that the maps are made of, if it changes
   Workers workers_;
 };
 

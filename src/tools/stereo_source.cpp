@@ -10,7 +10,7 @@
 
 #include "bags/bag_reading.h"
 #include "bags/recorded_tf.h"
-#include "input/gyro_conversion.h"
+#include "input/message_conversion.h"
 #include "rectification/stereo_rectifier.h"
 #include "sequences/stereo_sequence.h"
 

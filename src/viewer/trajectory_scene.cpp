@@ -8,7 +8,9 @@
 #include <opencv2/core.hpp>
 
 #include "drawing/okabe_ito.h"
+#include "input/message_conversion.h"
 #include "node/health/odometry_health.h"
+#include "node/odometry_messages.h"
 
 namespace rotrocc {
 namespace {
@@ -122,93 +124,69 @@ std::string TrajectoryScene::words() const {
   return text.str();
 }
 
-Marker TrajectoryScene::marker(const char* name, int type, double size) const {
+Marker TrajectoryScene::marker(const char* name,
+                               int type,
+                               double size,
+                               const cv::Scalar& bgr) const {
   Marker marker;
   marker.header.frame_id = last_.header.frame_id;
   marker.ns = name;
   marker.type = type;
   marker.pose.orientation.w = 1.0;
   marker.scale.x = marker.scale.y = marker.scale.z = size;
+  marker.color = colour(bgr);
   marker.frame_locked = 1;  // with the time 0: drawn where the frame is now
   return marker;
 }
 
-Marker TrajectoryScene::wayMarker() const {
-  Marker way = marker("estimate", Marker::LINE_STRIP, kWayWidth * distance_m());
-  way.pose.position.z = kWayHeight * distance_m();
+visualization_msgs::MarkerArray TrajectoryScene::markers() const {
+  visualization_msgs::MarkerArray markers;
+  if (empty()) return markers;
+  const double distance = distance_m();
+
+  if (truth_.poses.size() > 1) {
+    Marker truth = marker("truth", Marker::LINE_STRIP, kTruthWidth * distance, okabe_ito::kSkyBlue);
+    truth.header.frame_id = truth_.header.frame_id;
+    truth.pose.position.z = kTruthHeight * distance;
+    for (const auto& pose : truth_.poses) truth.points.push_back(pose.pose.position);
+    markers.markers.push_back(truth);
+  }
+
+  Marker way = marker("estimate", Marker::LINE_STRIP, kWayWidth * distance, okabe_ito::kOrange);
+  way.pose.position.z = kWayHeight * distance;
   for (const WayPoint& point : way_) {
     way.points.push_back(toPoint(point.position));
     way.colors.push_back(colour(colourOf(point.state)));
   }
   way.points.push_back(last_.pose.pose.position);
   way.colors.push_back(colour(colourOf(status_.state)));
-  return way;
-}
+  markers.markers.push_back(way);
 
-Marker TrajectoryScene::truthMarker() const {
-  Marker truth = marker("truth", Marker::LINE_STRIP, kTruthWidth * distance_m());
-  truth.header.frame_id = truth_.header.frame_id;
-  truth.pose.position.z = kTruthHeight * distance_m();
-  truth.color = colour(okabe_ito::kSkyBlue);
-  for (const geometry_msgs::PoseStamped& pose : truth_.poses) {
-    truth.points.push_back(pose.pose.position);
-  }
-  return truth;
-}
-
-Marker TrajectoryScene::startMarker() const {
-  Marker start = marker("start", Marker::SPHERE, kStartSize * distance_m());
-  start.color = colour(okabe_ito::kBlack);
+  Marker start = marker("start", Marker::SPHERE, kStartSize * distance, okabe_ito::kBlack);
   start.pose.position = toPoint(way_.front().position);
-  return start;
-}
+  markers.markers.push_back(start);
 
-Marker TrajectoryScene::arrowMarker() const {
-  Marker arrow = marker("now", Marker::ARROW, kArrowLength * distance_m());
+  Marker arrow = marker("now", Marker::ARROW, kArrowLength * distance, okabe_ito::kBlack);
   arrow.scale.y = arrow.scale.z = 0.25 * arrow.scale.x;
-  arrow.color = colour(okabe_ito::kBlack);
   arrow.pose = last_.pose.pose;
-  arrow.pose.position.z += kWayHeight * distance_m();
-  return arrow;
-}
+  arrow.pose.position.z += kWayHeight * distance;
+  markers.markers.push_back(arrow);
 
-Marker TrajectoryScene::textMarker() const {
-  const double distance = kTextDistance * distance_m();
-  Marker text = marker("state", Marker::TEXT_VIEW_FACING, kTextSize * distance);
+  const double to_text = kTextDistance * distance;
+  Marker text = marker("state", Marker::TEXT_VIEW_FACING, kTextSize * to_text, okabe_ito::kBlack);
   text.header.frame_id = kViewFrame;
-  text.pose.position.x = distance;
-  text.pose.position.z = kTextHeight * distance;
-  text.color = colour(okabe_ito::kBlack);
+  text.pose.position.x = to_text;
+  text.pose.position.z = kTextHeight * to_text;
   text.text = words();
-  return text;
-}
-
-visualization_msgs::MarkerArray TrajectoryScene::markers() const {
-  visualization_msgs::MarkerArray markers;
-  if (empty()) return markers;
-  if (truth_.poses.size() > 1) markers.markers.push_back(truthMarker());
-  markers.markers.push_back(wayMarker());
-  markers.markers.push_back(startMarker());
-  markers.markers.push_back(arrowMarker());
-  markers.markers.push_back(textMarker());
+  markers.markers.push_back(text);
   return markers;
 }
 
 geometry_msgs::TransformStamped TrajectoryScene::view() const {
-  geometry_msgs::TransformStamped view;
-  view.header.stamp = last_.header.stamp;
-  view.header.frame_id = last_.header.frame_id;
-  view.child_frame_id = kViewFrame;
-  const Eigen::Vector3d position = view_.position();
-  view.transform.translation.x = position.x();
-  view.transform.translation.y = position.y();
-  view.transform.translation.z = position.z();
-  const Eigen::Quaterniond rotation = WholeView::orientation();
-  view.transform.rotation.w = rotation.w();
-  view.transform.rotation.x = rotation.x();
-  view.transform.rotation.y = rotation.y();
-  view.transform.rotation.z = rotation.z();
-  return view;
+  Eigen::Isometry3d T_odom_view(WholeView::orientation());
+  T_odom_view.translation() = view_.position();
+  return toTransform(
+      T_odom_view, toNanoseconds(last_.header.stamp), last_.header.frame_id, kViewFrame);
 }
 
 }  // namespace rotrocc

@@ -9,6 +9,7 @@
 #include <nav_msgs/Path.h>
 #include <visualization_msgs/MarkerArray.h>
 #include <Eigen/Core>
+#include <opencv2/core.hpp>
 
 #include "rotrocc/OdometryStatus.h"
 #include "viewer/whole_view.h"
@@ -48,12 +49,10 @@ class TrajectoryScene {
   void keepLast();
   double distance_m() const;
   std::string words() const;
-  visualization_msgs::Marker marker(const char* name, int type, double size) const;
-  visualization_msgs::Marker wayMarker() const;
-  visualization_msgs::Marker truthMarker() const;
-  visualization_msgs::Marker startMarker() const;
-  visualization_msgs::Marker arrowMarker() const;
-  visualization_msgs::Marker textMarker() const;
+  visualization_msgs::Marker marker(const char* name,
+                                    int type,
+                                    double size,
+                                    const cv::Scalar& bgr) const;
 
   double least_size_m_;
   OdometryStatus status_;

@@ -31,12 +31,6 @@ double sigma(const GyroBias& filter) {
   return std::sqrt(filter.covariance().trace());
 }
 
-TEST(GyroBiasTest, StartsAtZeroWithThePrior) {
-  const GyroBias filter;
-  EXPECT_EQ(filter.bias_rps(), Eigen::Vector3d::Zero());
-  EXPECT_NEAR(sigma(filter), std::sqrt(3.0) * GyroBias::kPriorSigma_rps, 1e-12);
-}
-
 TEST(GyroBiasTest, FindsTheBiasWithinItsUncertainty) {
   GyroBias filter;
   Observer observer;
@@ -49,17 +43,10 @@ TEST(GyroBiasTest, FindsTheBiasWithinItsUncertainty) {
   }
   // 100 observations of 3e-4 rad in 0.1 s.
   EXPECT_LT(sigma(filter), 2.0 * std::sqrt(3.0) * kNoise_rad / kPeriod_s / 10.0);
-}
-
-TEST(GyroBiasTest, WrongRotationsHaveLittleInfluence) {
-  GyroBias filter;
-  Observer observer;
-  for (int i = 0; i < 100; ++i) {
-    filter.observe(observer.difference(filter), kByBias, kCovariance, kPeriod_s);
-  }
-  const Eigen::Vector3d before = filter.bias_rps();
-  filter.observe({0.0, 0.1, 0.0}, kByBias, kCovariance, kPeriod_s);  // by a bus that passes
-  EXPECT_LT((filter.bias_rps() - before).norm(), 2.0 * sigma(filter));
+  // A wrong rotation, as by a bus that passes, has little influence.
+  const Eigen::Vector3d found = filter.bias_rps();
+  filter.observe({0.0, 0.1, 0.0}, kByBias, kCovariance, kPeriod_s);
+  EXPECT_LT((filter.bias_rps() - found).norm(), 2.0 * sigma(filter));
 }
 
 TEST(GyroBiasTest, FollowsABiasThatMoves) {

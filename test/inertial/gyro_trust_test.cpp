@@ -14,16 +14,13 @@ void compare(GyroTrust& trust, const GyroTrust::Comparison& comparison, int time
   for (int i = 0; i < times; ++i) trust.compare(comparison);
 }
 
-TEST(GyroTrustTest, AGyroscopeIsTrustedAtFirst) {
-  EXPECT_EQ(GyroTrust().whyNot(), "");
-}
-
 TEST(GyroTrustTest, OneWrongMotionIsNoReason) {
   GyroTrust trust;
   for (int i = 0; i < 20; ++i) {
     EXPECT_FALSE(trust.compare(kWrong));
     EXPECT_TRUE(trust.compare(kGood));
   }
+  compare(trust, {0.06, 0.03, 0.05, 0.05}, 20);  // within the uncertainty
   EXPECT_EQ(trust.whyNot(), "");
 }
 
@@ -44,12 +41,6 @@ TEST(GyroTrustTest, RecognisesDegrees) {
       trust.whyNot(),
       "its rotations are 57.3 times those of the images: it seems to be in deg/s, but must be "
       "in rad/s");
-}
-
-TEST(GyroTrustTest, DifferencesWithinTheUncertaintyAreNone) {
-  GyroTrust trust;
-  compare(trust, {0.06, 0.03, 0.05, 0.05}, 20);
-  EXPECT_EQ(trust.whyNot(), "");
 }
 
 TEST(GyroTrustTest, ComesBackByRotationsThatAgree) {

@@ -1,6 +1,5 @@
 #include "input/latest_mailbox.h"
 
-#include <memory>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -10,7 +9,6 @@ namespace {
 
 using std::chrono::hours;
 using std::chrono::milliseconds;
-using std::chrono::steady_clock;
 
 TEST(LatestMailboxTest, LatestItemWins) {
   LatestMailbox<int> mailbox;
@@ -21,12 +19,6 @@ TEST(LatestMailboxTest, LatestItemWins) {
   EXPECT_FALSE(mailbox.take(milliseconds(0)).has_value());
 }
 
-TEST(LatestMailboxTest, ItemsMayBeMoveOnly) {
-  LatestMailbox<std::unique_ptr<int>> mailbox;
-  mailbox.put(std::make_unique<int>(7));
-  EXPECT_EQ(**mailbox.take(milliseconds(0)), 7);
-}
-
 TEST(LatestMailboxTest, TakeWaitsForAnItem) {
   LatestMailbox<int> mailbox;
   std::thread producer([&] {
@@ -35,13 +27,6 @@ TEST(LatestMailboxTest, TakeWaitsForAnItem) {
   });
   EXPECT_EQ(mailbox.take(hours(1)), 5);
   producer.join();
-}
-
-TEST(LatestMailboxTest, TakeGivesUpInTime) {
-  LatestMailbox<int> mailbox;
-  const auto start = steady_clock::now();
-  EXPECT_FALSE(mailbox.take(milliseconds(20)).has_value());
-  EXPECT_GE(steady_clock::now() - start, milliseconds(20));
 }
 
 TEST(LatestMailboxTest, ClosingEndsTheWait) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -61,6 +62,102 @@ TEST(StampSeriesTest, TheShorterPeriodCounts) {
   EXPECT_EQ(commonPeriod_ns(right, left), kPeriod_ns);
   for (int i = 0; i < 3; ++i) right.add(2 * i * kPeriod_ns);
   EXPECT_EQ(commonPeriod_ns(left, right), kPeriod_ns);
+}
+
+constexpr double kPeriod_s = 1.0 / 30.0;
+constexpr std::int64_t kNow_ns = 1'600'000'000'000'000'000;
+
+StampSeries makeSeries(const std::vector<double>& stamps_s) {
+  StampSeries series;
+  for (const double stamp_s : stamps_s) series.add(kNow_ns + std::llround(1e9 * stamp_s));
+  return series;
+}
+
+TEST(StampDifferenceTest, IsTheLargestToTheNearest) {
+  const struct {
+    std::vector<double> left_s, right_s;
+    double difference_s;
+  } kCases[] = {
+      {{0, 0.1, 0.2}, {0.003, 0.104, 0.25}, 0.050},
+      {{0}, {0.02}, 0.02},
+      {{0, 0.1}, {3, 4}, 2.9},        // clocks that differ
+      {{0, 0.1, 0.2}, {0, 0.1}, 0.0}  // its partner is still to come
+  };
+  for (const auto& [left_s, right_s, difference_s] : kCases) {
+    const auto found_s = greatestStampDifference(makeSeries(left_s), makeSeries(right_s));
+    ASSERT_TRUE(found_s);
+    EXPECT_NEAR(*found_s, difference_s, 1e-9);
+  }
+  EXPECT_FALSE(greatestStampDifference({}, makeSeries({1})));
+  EXPECT_FALSE(greatestStampDifference(makeSeries({1}), {}));
+}
+
+/// Otherwise a lost image looks like a skew of a period, and the advice would be to accept that.
+TEST(StampDifferenceTest, PartnersThatAreLostDoNotCount) {
+  const StampSeries left = makeSeries({0, 0.1, 0.2, 0.3});
+  const StampSeries right = makeSeries({0.003, 0.103, 0.303});
+  EXPECT_NEAR(*greatestStampDifference(left, right), 0.003, 1e-9);
+  EXPECT_NEAR(*greatestStampDifference(right, left), 0.003, 1e-9);
+}
+
+/// Images of both cameras, whose triggers and stamps jitter; some are lost.
+class SkewTest : public testing::Test {
+ protected:
+  void take(double skew_s, double trigger_jitter_s, double stamp_jitter_s, double loss = 0.0) {
+    std::mt19937 random(11);
+    std::normal_distribution<double> normal;
+    std::bernoulli_distribution lost(loss);
+    left_ = right_ = {};
+    for (int i = 0; i < 60; ++i) {
+      const double time_s = i * kPeriod_s + trigger_jitter_s * normal(random);
+      const double left_s = time_s + stamp_jitter_s * normal(random);
+      const double right_s = time_s + skew_s + stamp_jitter_s * normal(random);
+      if (!lost(random)) left_.add(kNow_ns + std::llround(1e9 * left_s));
+      if (!lost(random)) right_.add(kNow_ns + std::llround(1e9 * right_s));
+    }
+  }
+
+  StampSeries left_, right_;
+};
+
+TEST_F(SkewTest, MedianIsSigned) {
+  take(0.012, 1e-3, 1e-4, 0.2);
+  EXPECT_NEAR(*medianSkew(left_, right_), 0.012, 1e-4);
+  EXPECT_NEAR(*medianSkew(right_, left_), -0.012, 1e-4);
+  EXPECT_FALSE(medianSkew(left_, makeSeries({0, 1})));
+}
+
+TEST_F(SkewTest, ThatOfAPeriodIsToldByCommonJitter) {
+  for (const double skew_s : {kPeriod_s, -kPeriod_s, 0.9 * kPeriod_s, 0.7 * kPeriod_s}) {
+    for (const double loss : {0.0, 0.2}) {
+      take(skew_s, 1e-3, 1e-4, loss);
+      const auto found_s = skewOfAPeriod(left_, right_);
+      ASSERT_TRUE(found_s) << skew_s;
+      EXPECT_NEAR(*found_s, skew_s, 1e-4);
+    }
+  }
+}
+
+TEST_F(SkewTest, SynchronousCamerasHaveNone) {
+  for (const double skew_s : {0.0, 0.005, -0.012}) {
+    for (const double trigger_jitter_s : {0.0, 1e-4, 3e-3}) {
+      for (const double stamp_jitter_s : {0.0, 1e-5, 1e-3, 3e-3}) {
+        for (const double loss : {0.0, 0.3}) {
+          take(skew_s, trigger_jitter_s, stamp_jitter_s, loss);
+          EXPECT_FALSE(skewOfAPeriod(left_, right_))
+              << skew_s << ' ' << trigger_jitter_s << ' ' << stamp_jitter_s << ' ' << loss;
+        }
+      }
+    }
+  }
+}
+
+TEST_F(SkewTest, ClocksThatRunApartHaveNone) {
+  for (int i = 0; i < 60; ++i) {
+    left_.add(kNow_ns + std::llround(1e9 * i * kPeriod_s));
+    right_.add(kNow_ns + std::llround(1e9 * i * 1.001 * kPeriod_s));
+  }
+  EXPECT_FALSE(skewOfAPeriod(left_, right_));
 }
 
 }  // namespace

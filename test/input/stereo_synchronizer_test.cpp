@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <utility>
 #include <vector>
@@ -25,125 +26,101 @@ sensor_msgs::Image::ConstPtr makeImage(double stamp_ms) {
   return image;
 }
 
+/// Whether an image of a side completes a pair, and right minus left stamp of that pair [ms].
+struct Event {
+  char side;  // l or r
+  double stamp_ms;
+  std::optional<double> skew_ms = std::nullopt;
+};
+
 class StereoSynchronizerTest : public testing::Test {
  protected:
-  /// Whether an image completes a pair.
-  bool left(double stamp_ms) { return take(synchronizer_.addLeft(makeImage(stamp_ms))); }
-  bool right(double stamp_ms) { return take(synchronizer_.addRight(makeImage(stamp_ms))); }
+  std::optional<double> add(char side, const sensor_msgs::Image::ConstPtr& image) {
+    const auto pair = side == 'l' ? synchronizer_.addLeft(image) : synchronizer_.addRight(image);
+    if (!pair) return std::nullopt;
+    return 1e3 * (pair->right->header.stamp - pair->left->header.stamp).toSec();
+  }
+  std::optional<double> left(double stamp_ms) { return add('l', makeImage(stamp_ms)); }
+  std::optional<double> right(double stamp_ms) { return add('r', makeImage(stamp_ms)); }
 
-  /// Right minus left stamp of the last pair [ms].
-  double skew_ms() const {
-    return 1e3 * (pair_.right->header.stamp - pair_.left->header.stamp).toSec();
+  void expect(const std::vector<Event>& events, std::uint64_t unmatched) {
+    for (const Event& event : events) {
+      const auto skew_ms = add(event.side, makeImage(event.stamp_ms));
+      ASSERT_EQ(skew_ms.has_value(), event.skew_ms.has_value()) << event.side << event.stamp_ms;
+      if (skew_ms) {
+        EXPECT_NEAR(*skew_ms, *event.skew_ms, 1e-3) << event.side << event.stamp_ms;
+      }
+    }
+    EXPECT_EQ(synchronizer_.unmatched(), unmatched);
   }
 
   StereoSynchronizer synchronizer_{kMaxDifference_s, 4};
-  StereoImages pair_;
-
- private:
-  bool take(const std::optional<StereoImages>& pair) {
-    if (pair) pair_ = *pair;
-    return pair.has_value();
-  }
 };
 
-TEST_F(StereoSynchronizerTest, SecondImageCompletesThePair) {
-  EXPECT_FALSE(left(0));
-  EXPECT_TRUE(right(0));
-  EXPECT_EQ(skew_ms(), 0.0);
-  EXPECT_FALSE(right(100));
-  EXPECT_TRUE(left(100));
-  EXPECT_EQ(synchronizer_.unmatched(), 0u);
-}
-
-TEST_F(StereoSynchronizerTest, ToleranceIsInclusive) {
-  EXPECT_FALSE(left(0));
-  EXPECT_TRUE(right(10));
-  EXPECT_FALSE(left(100));
-  EXPECT_FALSE(right(110.001));
-}
-
-TEST_F(StereoSynchronizerTest, NearestCandidateWins) {
-  EXPECT_FALSE(right(93));
-  EXPECT_FALSE(right(102));
-  EXPECT_FALSE(right(107));
-  EXPECT_TRUE(left(100));
-  EXPECT_NEAR(skew_ms(), 2.0, 1e-9);
-  EXPECT_EQ(synchronizer_.unmatched(), 1u);  // 93 cannot be matched any more; 107 still can
-  EXPECT_TRUE(left(108));
-  EXPECT_NEAR(skew_ms(), -1.0, 1e-9);
-}
-
-TEST_F(StereoSynchronizerTest, OneSideMayBeLate) {
-  for (int i = 0; i < 4; ++i) EXPECT_FALSE(left(100.0 * i));
-  for (int i = 0; i < 4; ++i) EXPECT_TRUE(right(100.0 * i + 3.0)) << i;
-  EXPECT_EQ(synchronizer_.unmatched(), 0u);
+TEST_F(StereoSynchronizerTest, PairsAreOfTheNearestStampsWithinTheTolerance) {
+  const struct {
+    const char* what;
+    std::vector<Event> events;
+    std::uint64_t unmatched;
+  } kCases[] = {
+      {"the second image completes a pair",
+       {{'l', 0}, {'r', 0, 0.0}, {'r', 100}, {'l', 100, 0.0}},
+       0},
+      {"the tolerance is inclusive", {{'l', 0}, {'r', 10, 10.0}, {'l', 100}, {'r', 110.001}}, 0},
+      {"the nearest candidate wins; 107 can still be matched, 93 cannot",
+       {{'r', 93}, {'r', 102}, {'r', 107}, {'l', 100, 2.0}, {'l', 108, -1.0}},
+       1},
+      {"one side may be late",
+       {{'l', 0}, {'l', 100}, {'l', 200}, {'r', 3, 3.0}, {'r', 103, 3.0}, {'r', 203, 3.0}},
+       0},
+      {"an image that is skipped is unmatched; a late one waits",
+       {{'l', 0}, {'l', 100}, {'r', 100, 0.0}, {'r', 0}},
+       1},
+      {"repeated stamps are not looked at",
+       {{'l', 0}, {'l', 0}, {'r', 0, 0.0}, {'r', 0}, {'l', 0}},
+       3},
+      {"time jumps back on the left before the last right image arrives",
+       {{'l', 900},
+        {'r', 900, 0.0},
+        {'l', 1000},
+        {'l', 0},
+        {'r', 1001},
+        {'r', 0, 0.0},
+        {'l', 100},
+        {'r', 100, 0.0}},
+       2},
+      {"one side may be ahead after time jumps back",
+       {{'l', 900}, {'r', 900, 0.0}, {'l', 0}, {'l', 100}, {'r', 0, 0.0}, {'r', 100, 0.0}},
+       0},
+  };
+  for (const auto& [what, events, unmatched] : kCases) {
+    SCOPED_TRACE(what);
+    synchronizer_ = StereoSynchronizer(kMaxDifference_s, 4);
+    expect(events, unmatched);
+  }
 }
 
 TEST_F(StereoSynchronizerTest, QueuesAreBounded) {
   for (int i = 0; i < 10; ++i) EXPECT_FALSE(left(100.0 * i));
-  EXPECT_EQ(synchronizer_.unmatched(), 6u);
-  EXPECT_FALSE(right(500));  // was discarded
-  EXPECT_TRUE(right(600));
-  EXPECT_TRUE(right(900));
-}
-
-TEST_F(StereoSynchronizerTest, SkippedImagesAreUnmatched) {
-  EXPECT_FALSE(left(0));
-  EXPECT_FALSE(left(100));
-  EXPECT_TRUE(right(100));
-  EXPECT_EQ(synchronizer_.unmatched(), 1u);
-  EXPECT_FALSE(right(0));  // late, or after a time jump: waits
-}
-
-TEST_F(StereoSynchronizerTest, RepeatedStampsAreNotLookedAt) {
-  EXPECT_FALSE(left(0));
-  EXPECT_FALSE(left(0));
-  EXPECT_TRUE(right(0));
-  EXPECT_FALSE(right(0));
-  EXPECT_FALSE(left(0));
-  EXPECT_EQ(synchronizer_.unmatched(), 3u);
-}
-
-TEST_F(StereoSynchronizerTest, SurvivesTimeThatJumpsBack) {
-  EXPECT_FALSE(left(900));
-  EXPECT_TRUE(right(900));
-  EXPECT_FALSE(left(1000));
-  // The bag restarts. The left side jumps first, before the last right image arrives.
-  EXPECT_FALSE(left(0));
-  EXPECT_FALSE(right(1001));
-  EXPECT_TRUE(right(0));
-  EXPECT_EQ(skew_ms(), 0.0);
-  EXPECT_FALSE(left(100));
-  EXPECT_TRUE(right(100));
-  EXPECT_EQ(synchronizer_.unmatched(), 2u);
-}
-
-TEST_F(StereoSynchronizerTest, OneSideMayBeAheadAfterTimeJumpsBack) {
-  EXPECT_FALSE(left(900));
-  EXPECT_TRUE(right(900));
-  EXPECT_FALSE(left(0));
-  EXPECT_FALSE(left(100));
-  EXPECT_TRUE(right(0));
-  EXPECT_TRUE(right(100));
-  EXPECT_EQ(synchronizer_.unmatched(), 0u);
+  // 500 was discarded.
+  expect({{'r', 500}, {'r', 600, 0.0}, {'r', 900, 0.0}}, 6 + 3);
 }
 
 TEST_F(StereoSynchronizerTest, ResetForgetsWhatWaits) {
   EXPECT_FALSE(left(0));
   synchronizer_.reset();
-  EXPECT_FALSE(right(0));
-  EXPECT_TRUE(left(0));
+  expect({{'r', 0}, {'l', 0, 0.0}}, 0);
 }
 
 TEST_F(StereoSynchronizerTest, StampsAtTheEndOfTimeDoNoHarm) {
   const auto late = boost::make_shared<sensor_msgs::Image>();
   late->header.stamp = ros::TIME_MAX;
   const auto early = boost::make_shared<sensor_msgs::Image>();
-  EXPECT_FALSE(synchronizer_.addLeft(late));
-  EXPECT_FALSE(synchronizer_.addRight(early));
-  EXPECT_TRUE(synchronizer_.addRight(late));
-  EXPECT_FALSE(synchronizer_.addLeft(early));  // its partner was discarded
-  EXPECT_TRUE(synchronizer_.addRight(early));
+  EXPECT_FALSE(add('l', late));
+  EXPECT_FALSE(add('r', early));
+  EXPECT_TRUE(add('r', late));
+  EXPECT_FALSE(add('l', early));  // its partner was discarded
+  EXPECT_TRUE(add('r', early));
 }
 
 /// A camera at 30 Hz whose user has raised the tolerance beyond half a period.
@@ -166,35 +143,24 @@ TEST_F(WideToleranceTest, LostImagesLeaveTheOthersTogether) {
       const bool right_first = i % 3 == 0;
       for (const bool is_right : {right_first, !right_first}) {
         if (is_right ? !has_right : !has_left) continue;
-        if (!(is_right ? right(i * kPeriod_ms) : left(i * kPeriod_ms))) continue;
+        const auto skew_ms = add(is_right ? 'r' : 'l', makeImage(i * kPeriod_ms));
+        if (!skew_ms) continue;
         ++pairs;
-        EXPECT_EQ(skew_ms(), 0.0) << i;
+        EXPECT_EQ(*skew_ms, 0.0) << i;
       }
     }
     EXPECT_EQ(pairs, both);
   }
 }
 
-TEST_F(WideToleranceTest, AnOddStartDoesNoHarm) {
-  EXPECT_FALSE(left(0));
-  EXPECT_FALSE(right(kPeriod_ms));  // the right image of 0 is lost
-  EXPECT_TRUE(left(kPeriod_ms));
-  EXPECT_EQ(skew_ms(), 0.0);
-  EXPECT_EQ(synchronizer_.unmatched(), 1u);
-}
-
 /// Two images alone do not tell whether they are of one time: the next one does.
-TEST_F(WideToleranceTest, TheFirstPairOfSkewedCamerasIsNotLost) {
-  EXPECT_FALSE(left(0));
-  EXPECT_FALSE(right(15));
-  EXPECT_TRUE(left(kPeriod_ms));
-  EXPECT_NEAR(skew_ms(), 15.0, 1e-9);
+TEST_F(WideToleranceTest, TheFirstPairIsNotLost) {
+  expect({{'l', 0}, {'r', 15}, {'l', kPeriod_ms, 15.0}}, 0);
   for (int i = 1; i < 20; ++i) {
-    EXPECT_TRUE(right(15 + i * kPeriod_ms)) << i;
-    EXPECT_NEAR(skew_ms(), 15.0, 1e-3);
-    EXPECT_FALSE(left((i + 1) * kPeriod_ms)) << i;
+    expect({{'r', 15 + i * kPeriod_ms, 15.0}, {'l', (i + 1) * kPeriod_ms}}, 0);
   }
-  EXPECT_EQ(synchronizer_.unmatched(), 0u);
+  synchronizer_ = StereoSynchronizer(0.04, 4);
+  expect({{'l', 0}, {'r', kPeriod_ms}, {'l', kPeriod_ms, 0.0}}, 1);  // the right one of 0 is lost
 }
 
 TEST_F(WideToleranceTest, ToleranceIsAtMostHalfThePeriod) {
@@ -221,9 +187,10 @@ TEST_F(StereoSynchronizerTest, MatchesEveryPairOfAnUnsynchronisedDrive) {
   std::sort(arrivals.begin(), arrivals.end());
   int pairs = 0;
   for (const auto& [stamp_ms, is_left] : arrivals) {
-    if (!(is_left ? left(stamp_ms) : right(stamp_ms))) continue;
+    const auto skew_ms = add(is_left ? 'l' : 'r', makeImage(stamp_ms));
+    if (!skew_ms) continue;
     ++pairs;
-    EXPECT_LE(std::abs(skew_ms()), 7.0);
+    EXPECT_LE(std::abs(*skew_ms), 7.0);
   }
   EXPECT_EQ(pairs, kPairs);
   EXPECT_EQ(synchronizer_.unmatched(), 0u);

@@ -70,31 +70,21 @@ TEST(DistortionTest, DoesNotFoldBack) {
 }
 
 TEST(DistortionTest, RefusesWhatIsNone) {
-  expectError<std::invalid_argument>(
-      [] {
-        Distortion("omni", {1, 2, 3, 4});
-      },
-      "'omni' is not supported: use plumb_bob");
-  expectError<std::invalid_argument>(
-      [] {
-        Distortion("plumb_bob", {1, 2, 3});
-      },
-      "3 coefficients instead of 5");
-  expectError<std::invalid_argument>(
-      [] {
-        Distortion("equidistant", {1, 2, 3, 4, 5});
-      },
-      "5 coefficients instead of 4");
-  expectError<std::invalid_argument>(
-      [] {
-        Distortion("plumb_bob", {0, std::numeric_limits<double>::quiet_NaN(), 0, 0});
-      },
-      "nan");
-  expectError<std::invalid_argument>(
-      [] {
-        Distortion("plumb_bob", {-1e6, 0, 0, 0});
-      },
-      "in the middle of the image");
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const struct {
+    const char* model;
+    std::vector<double> coefficients;
+    const char* part;
+  } kCases[] = {{"omni", {1, 2, 3, 4}, "'omni' is not supported: use plumb_bob"},
+                {"plumb_bob", {1, 2, 3}, "3 coefficients instead of 5"},
+                {"equidistant", {1, 2, 3, 4, 5}, "5 coefficients instead of 4"},
+                {"plumb_bob", {0, nan, 0, 0}, "nan"},
+                {"plumb_bob", {-1e6, 0, 0, 0}, "in the middle of the image"}};
+  for (const auto& [model, coefficients, part] : kCases) {
+    const std::string name = model;
+    const std::vector<double>& values = coefficients;
+    expectError<std::invalid_argument>([&] { Distortion(name, values); }, part);
+  }
 }
 
 }  // namespace

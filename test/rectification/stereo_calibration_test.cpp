@@ -1,5 +1,6 @@
 #include "rectification/stereo_calibration.h"
 
+#include <functional>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -90,30 +91,25 @@ TEST(StereoCalibrationTest, KnowsWhatIsRectified) {
 }
 
 TEST(StereoCalibrationTest, RefusesCamerasThatAreNoPair) {
-  const auto expectRefused = [](const RawRig& rig, const std::string& part) {
+  const struct {
+    std::function<void(RawRig&)> change;
+    const char* part;
+  } kCases[] = {
+      {[](RawRig& rig) { rig.T_left_right = rig.T_left_right.inverse(); },
+       "are left and right swapped"},
+      {[](RawRig& rig) { rig.T_left_right.translation() << 0.0, 0.1, 0.0; },
+       "must be to its right"},
+      {[](RawRig& rig) { rig.T_left_right.translation().setZero(); }, "the baseline is zero"},
+      {[](RawRig& rig) { rig.T_left_right.rotate(Eigen::AngleAxisd(3, Eigen::Vector3d::UnitY())); },
+       "turned against the left one by 17"},
+      {[](RawRig& rig) { rig.right.width = 640; }, "752x480 px, the right one 640x480 px"},
+      {[](RawRig& rig) { rig.left.fy = 0.0; }, "fy is 0, but must be positive"},
+      {[](RawRig& rig) { rig.right.cx = -4000.0; }, "share no view"}};
+  for (const auto& [change, part] : kCases) {
+    RawRig rig = rawRig();
+    change(rig);
     expectError<std::invalid_argument>([&] { choose(rig); }, part);
-  };
-  RawRig swapped = rawRig();
-  swapped.T_left_right = swapped.T_left_right.inverse();
-  expectRefused(swapped, "are left and right swapped");
-  RawRig above = rawRig();
-  above.T_left_right.translation() << 0.0, 0.1, 0.0;
-  expectRefused(above, "must be to its right");
-  RawRig one = rawRig();
-  one.T_left_right.translation().setZero();
-  expectRefused(one, "the baseline is zero");
-  RawRig back = rawRig();
-  back.T_left_right.rotate(Eigen::AngleAxisd(3.0, Eigen::Vector3d::UnitY()));
-  expectRefused(back, "turned against the left one by 17");
-  RawRig sizes = rawRig();
-  sizes.right.width = 640;
-  expectRefused(sizes, "752x480 px, the right one 640x480 px");
-  RawRig focal = rawRig();
-  focal.left.fy = 0.0;
-  expectRefused(focal, "fy is 0, but must be positive");
-  RawRig apart = rawRig();
-  apart.right.cx = -4000.0;
-  expectRefused(apart, "share no view");
+  }
 }
 
 }  // namespace

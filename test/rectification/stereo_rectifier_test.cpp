@@ -1,6 +1,7 @@
 #include "rectification/stereo_rectifier.h"
 
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -16,79 +17,25 @@
 namespace rotrocc {
 namespace {
 
-/// Points at 2 to 8 m all over the rectified images, far apart from each other.
-std::vector<Eigen::Vector3d> scene() {
-  std::vector<Eigen::Vector3d> points;
-  for (int row = -2; row <= 2; ++row) {
-    for (int column = -3; column <= 3; ++column) {
-      const double depth_m = 5.0 + 3.0 * std::sin(7.0 * row + 3.0 * column);
-      points.emplace_back(depth_m * Eigen::Vector3d(0.23 * column, 0.2 * row, 1.0));
-    }
-  }
-  return points;
-}
-
-/// Where OpenCV says that the pixels of a raw image are in the rectified one.
-std::vector<cv::Point2d> rectified(const RawCamera& raw,
-                                   const StereoCamera& camera,
-                                   const std::vector<cv::Point2d>& pixels) {
+/// What OpenCV makes of a raw image.
+cv::Mat byOpenCv(const RawCamera& raw,
+                 const StereoCamera& camera,
+                 double cx,
+                 const cv::Mat& image) {
   const cv::Matx33d K(raw.fx, 0, raw.cx, 0, raw.fy, raw.cy, 0, 0, 1);
-  const cv::Matx33d P(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+  const cv::Matx33d P(camera.fx, 0, cx, 0, camera.fy, camera.cy, 0, 0, 1);
   cv::Matx33d R;
   cv::eigen2cv(raw.R_rectified_raw, R);
   const std::vector<double>& D = raw.distortion.coefficients();
-  std::vector<cv::Point2d> places;
+  const cv::Size size(camera.width, camera.height);
+  cv::Mat x, y, rectified;
   if (std::string(raw.distortion.name()) == "equidistant") {
-    cv::fisheye::undistortPoints(pixels, places, K, D, R, P);
+    cv::fisheye::initUndistortRectifyMap(K, D, R, P, size, CV_32FC1, x, y);
   } else {
-    const cv::TermCriteria exact(cv::TermCriteria::MAX_ITER | cv::TermCriteria::EPS, 100, 1e-12);
-    cv::undistortPoints(pixels, places, K, D, R, P, exact);
+    cv::initUndistortRectifyMap(K, D, R, P, size, CV_32FC1, x, y);
   }
-  return places;
-}
-
-constexpr double kSigma_px = 2.0;
-
-/// What a raw camera sees of spots at places of the rectified image, where they are round.
-cv::Mat drawSpots(const RawCamera& raw,
-                  const StereoCamera& camera,
-                  const std::vector<Eigen::Vector2d>& spots) {
-  std::vector<cv::Point2d> pixels;
-  for (int y = 0; y < raw.height; ++y) {
-    for (int x = 0; x < raw.width; ++x) pixels.emplace_back(x, y);
-  }
-  const std::vector<cv::Point2d> places = rectified(raw, camera, pixels);
-  cv::Mat image(raw.height, raw.width, CV_8UC1);
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    double value = 20.0;
-    for (const Eigen::Vector2d& spot : spots) {
-      const double square = (Eigen::Vector2d(places[i].x, places[i].y) - spot).squaredNorm();
-      value += 220.0 * std::exp(-0.5 * square / (kSigma_px * kSigma_px));
-    }
-    image.at<uchar>(pixels[i]) = cv::saturate_cast<uchar>(value);
-  }
-  return image;
-}
-
-/// Centre of the spot near a place.
-Eigen::Vector2d spotAt(const cv::Mat& image, const Eigen::Vector2d& place) {
-  constexpr int kReach_px = 8;
-  Eigen::Vector2d centre = place;
-  for (int round = 0; round < 3; ++round) {  // the window moves to the spot
-    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-    double weights = 0.0;
-    const int x0 = static_cast<int>(std::lround(centre.x()));
-    const int y0 = static_cast<int>(std::lround(centre.y()));
-    for (int y = y0 - kReach_px; y <= y0 + kReach_px; ++y) {
-      for (int x = x0 - kReach_px; x <= x0 + kReach_px; ++x) {
-        const double weight = std::max(0.0, image.at<uchar>(y, x) - 20.0);
-        sum += weight * Eigen::Vector2d(x, y);
-        weights += weight;
-      }
-    }
-    centre = sum / weights;
-  }
-  return centre;
+  cv::remap(image, rectified, x, y, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
+  return rectified;
 }
 
 StereoCalibration calibrationOf(const RawRig& rig) {
@@ -99,48 +46,61 @@ StereoPair greyPair(int grey, const cv::Size& size = {752, 480}) {
   return {7, cv::Mat(size, CV_8UC1, cv::Scalar(grey)), cv::Mat(size, CV_8UC1, cv::Scalar(grey))};
 }
 
-class RectifiesPoints : public ::testing::TestWithParam<const char*> {};
-
-TEST_P(RectifiesPoints, ToTheirExactProjection) {
-  const StereoCalibration calibration = calibrationOf(rawRig(GetParam()));
-  const StereoCamera& camera = calibration.rectified;
-  std::vector<Eigen::Vector2d> left;
-  std::vector<Eigen::Vector2d> right;
-  for (const Eigen::Vector3d& point : scene()) {
-    left.push_back(camera.project(point));
-    right.push_back(left.back() - Eigen::Vector2d(camera.disparity(point.z()), 0.0));
-  }
-  StereoRectifier rectifier(calibration);
-  const StereoPair pair = rectifier.rectify(
-      {5, drawSpots(calibration.left, camera, left), drawSpots(calibration.right, camera, right)});
-  EXPECT_EQ(pair.stamp_ns, 5);
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    EXPECT_LT((spotAt(pair.left, left[i]) - left[i]).norm(), 0.05) << left[i].transpose();
-    EXPECT_LT((spotAt(pair.right, right[i]) - right[i]).norm(), 0.05) << right[i].transpose();
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Models,
-                         RectifiesPoints,
-                         ::testing::Values("radial-tangential", "equidistant"));
-
-TEST(StereoRectifierTest, LeavesRectifiedImagesAsTheyAre) {
+StereoPair noise() {
   StereoPair pair = greyPair(0);
   cv::randu(pair.left, 0, 255);
   cv::randu(pair.right, 0, 255);
-  StereoRectifier rectifier(rectifiedCalibration(calibrationOf(rawRig()).rectified));
-  const StereoPair same = rectifier.rectify(pair);
-  EXPECT_EQ(cv::norm(pair.left, same.left, cv::NORM_INF), 0.0);
-  EXPECT_EQ(cv::norm(pair.right, same.right, cv::NORM_INF), 0.0);
+  return pair;
 }
 
-TEST(StereoRectifierTest, UsesItsMemoryAgain) {
-  StereoRectifier rectifier(calibrationOf(rawRig()));
-  const StereoPair first = rectifier.rectify(greyPair(10));
-  const StereoPair second = rectifier.rectify(greyPair(20));
-  EXPECT_EQ(first.left.data, second.left.data);
-  EXPECT_EQ(first.right.data, second.right.data);
-  EXPECT_EQ(second.right.at<uchar>(100, 100), 20);
+bool isSame(const StereoPair& a, const StereoPair& b) {
+  return a.stamp_ns == b.stamp_ns && cv::norm(a.left, b.left, cv::NORM_INF) == 0.0 &&
+         cv::norm(a.right, b.right, cv::NORM_INF) == 0.0;
+}
+
+TEST(StereoRectifierTest, PutsPixelsWhereOpenCvPutsThem) {
+  for (const char* model : {"radial-tangential", "equidistant"}) {
+    const StereoCalibration calibration = calibrationOf(rawRig(model));
+    const StereoCamera& camera = calibration.rectified;
+    StereoPair raw = noise();
+    // Smooth, so that pixels differ by the places and not by the interpolation; 10 levels per px.
+    for (cv::Mat* image : {&raw.left, &raw.right}) {
+      cv::GaussianBlur(*image, *image, {0, 0}, 2.0);
+      cv::normalize(*image, *image, 0, 255, cv::NORM_MINMAX);
+    }
+    StereoRectifier rectifier(calibration);
+    const StereoPair pair = rectifier.rectify(raw);
+    const cv::Mat left = byOpenCv(calibration.left, camera, camera.cx, raw.left);
+    const cv::Mat right = byOpenCv(calibration.right, camera, camera.cx_right, raw.right);
+    EXPECT_LT(cv::norm(pair.left, left, cv::NORM_L1) / camera.width / camera.height, 0.5) << model;
+    EXPECT_LT(cv::norm(pair.right, right, cv::NORM_L1) / camera.width / camera.height, 0.5)
+        << model;
+    EXPECT_LE(cv::norm(pair.left, left, cv::NORM_INF), 4.0) << model;
+    EXPECT_LE(cv::norm(pair.right, right, cv::NORM_INF), 4.0) << model;
+  }
+}
+
+TEST(StereoRectifierTest, LeavesRectifiedImagesAsTheyAre) {
+  const StereoPair pair = noise();
+  StereoRectifier rectifier(rectifiedCalibration(calibrationOf(rawRig()).rectified));
+  EXPECT_TRUE(isSame(rectifier.rectify(pair), pair));
+}
+
+TEST(StereoRectifierTest, FollowsTheCalibrationOfThePairAndUsesItsMemoryAgain) {
+  const auto first = std::make_shared<const StereoCalibration>(calibrationOf(rawRig()));
+  auto turned = *first;
+  turned.left.R_rectified_raw = Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitX()).matrix();
+  const auto second = std::make_shared<const StereoCalibration>(turned);
+  const StereoPair raw = noise();
+  StereoRectifier rectifier;
+  StereoRectifier alone(1);
+  for (const auto& current : {first, first, second, first}) {
+    const StereoPair expected = StereoRectifier(*current).rectify(raw);
+    EXPECT_TRUE(isSame(rectifier.rectify(raw, current), expected));
+    EXPECT_TRUE(isSame(alone.rectify(raw, current), expected));
+  }
+  const StereoPair result = rectifier.rectify(raw, first);
+  EXPECT_EQ(rectifier.rectify(raw, first).left.data, result.left.data);
 }
 
 TEST(StereoRectifierTest, BordersAreNotBlack) {
@@ -191,6 +151,11 @@ TEST(StereoRectifierTest, RefusesOtherImagesAndCalibrations) {
   expectError<std::invalid_argument>(
       [&] { StereoRectifier{sheared}; },
       "the right camera: the rectification matrix R is not a rotation");
+  StereoCalibration wide = calibrationOf(rawRig());
+  wide.left.width = 40000;
+  expectError<std::invalid_argument>(
+      [&] { StereoRectifier{wide}; },
+      "the calibration of the left camera: its images are larger than 32000 px");
 }
 
 }  // namespace

@@ -121,7 +121,7 @@ void OdometryRig::forget() {
   answer_.reset();
   state_before_ = state_;
   drops_before_.clear();
-  for (const auto& [reason, count] : drops_.counters().nonZero()) drops_before_[reason] = count;
+  for (const auto& [reason, count] : drops_.counts()) drops_before_[reason] = count;
 }
 
 std::string OdometryRig::observed() const {
@@ -152,7 +152,7 @@ std::string OdometryRig::describeAnswer() const {
 
 std::string OdometryRig::describeDrops() const {
   std::string text;
-  for (const auto& [reason, count] : drops_.counters().nonZero()) {
+  for (const auto& [reason, count] : drops_.counts()) {
     const auto before = drops_before_.find(reason);
     if (before != drops_before_.end() && before->second == count) continue;
     const auto last = drops_.lastWithin(std::chrono::seconds(60));

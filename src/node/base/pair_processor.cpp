@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "common/to_seconds.h"
-#include "input/image_validation.h"
 #include "input/message_conversion.h"
 #include "input/to_text.h"
 

@@ -6,11 +6,11 @@
 #include <string>
 
 #include "input/log.h"
-#include "input/pair_rectifier.h"
 #include "input/stereo_intake.h"
 #include "input/stereo_pair_converter.h"
 #include "node/base/base_odometry.h"
 #include "node/health/pair_inspector.h"
+#include "rectification/stereo_rectifier.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/visual_odometry.h"
 
@@ -86,7 +86,7 @@ class PairProcessor {
   NodeParameters parameters_;
   SystematicErrorConfig systematic_error_;
   StereoPairConverter converter_;
-  PairRectifier rectifier_;
+  StereoRectifier rectifier_;
   VisualOdometry odometry_;
   PairInspector inspector_;
   std::optional<BaseOdometry> base_odometry_;  // from the first pair on

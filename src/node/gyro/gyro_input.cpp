@@ -4,7 +4,6 @@
 
 #include <ros/transport_hints.h>
 
-#include "input/gyro_conversion.h"
 #include "input/message_conversion.h"
 #include "node/tf/camera_mount.h"
 

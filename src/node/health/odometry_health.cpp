@@ -73,7 +73,7 @@ void OdometryHealth::updateStatus(const DropLog& drops) {
   if (!status.hint.empty() && !known_.guess_trouble.empty()) status.hint += "; ";
   status.hint += known_.guess_trouble;
   status.drops.clear();
-  for (const auto& [reason, count] : drops.counters().nonZero()) {
+  for (const auto& [reason, count] : drops.counts()) {
     status.drops.emplace_back();
     status.drops.back().reason = toString(reason);
     status.drops.back().count = count;

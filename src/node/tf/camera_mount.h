@@ -12,7 +12,6 @@
 #include <Eigen/Geometry>
 
 #include "input/log.h"
-#include "input/throttle.h"
 #include "node/tf/tf_feed.h"
 
 namespace rotrocc {

@@ -9,7 +9,6 @@
 
 #include "evaluation/trajectory_file.h"
 #include "input/log.h"
-#include "input/throttle.h"
 #include "node/trajectory/bounded_queue.h"
 #include "rotrocc/trajectory.h"
 

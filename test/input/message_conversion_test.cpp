@@ -1,4 +1,4 @@
-#include "input/image_message.h"
+#include "input/message_conversion.h"
 
 #include <cv_bridge/cv_bridge.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,13 @@
 namespace rotrocc {
 namespace {
 
-TEST(ImageMessageTest, IsThatOfCvBridge) {
+TEST(MessageConversionTest, KeepsEveryNanosecond) {
+  const ros::Time stamp(1'317'384'506, 123'456'789);
+  EXPECT_EQ(toNanoseconds(stamp), 1'317'384'506'123'456'789);
+  EXPECT_EQ(toRosTime(toNanoseconds(stamp)), stamp);
+}
+
+TEST(MessageConversionTest, ImagesAreThoseOfCvBridge) {
   std_msgs::Header header;
   header.frame_id = "camera";
   header.stamp = ros::Time(12, 34);
