@@ -20,10 +20,9 @@ declare -gA _rotrocc_options=(
   [plot_trajectory]='--truth= --title='
   [publish_camera_info]=''
   [sequence_to_bag]='--start-time= --rectify --max-stamp-difference='
-  [simulate_drive]='--layout= --poses= --times= --frames= --duration= --rate= --moving-share= --lorry=
-    --lorry-across= --tiles= --seed= --noise-seed= --truth --check-truth --imu --size= --focal= --baseline=
-    --rig= --gains= --lens= --disparity-bias= --right-rotation= --rows= --time-skew= --drop-frames= --noise=
-    --vignetting= --exposure-jumps= --motion-blur='
+  [simulate_drive]='--layout= --poses= --times= --frames= --rate= --seed= --noise-seed= --moving-share= --truth --imu
+    --size= --focal= --baseline= --rig= --lens= --disparity-bias= --right-rotation= --rows= --time-skew= --noise=
+    --motion-blur= --lorry= --lorry-across= --tiles='
   [stress_sequence]='--plain= --drops= --gain-step= --contrast= --right-gain= --right-offset= --noise= --jpeg= --seed='
 )
 
@@ -31,11 +30,10 @@ declare -gA _rotrocc_options=(
 declare -gA _rotrocc_values=(
   ['offline_odometry --format']='kitti tum'
   ['offline_odometry --rectify']='auto yes no'
-  ['simulate_drive']='city motorway slip_road parking shake handheld night rain field hall walk tunnel'
+  ['simulate_drive']='city motorway slip_road parking shake handheld night hall'
   ['simulate_drive --layout']='kitti asl'
   ['simulate_drive --lens']='radtan equidistant'
   ['simulate_drive --rig']='perfect worn'
-  ['simulate_drive --gains']='of-the-rig out-of-step'
 )
 _rotrocc_reads_recordings() {
   case $1 in

@@ -13,7 +13,6 @@ namespace rotrocc {
 namespace {
 
 constexpr int kBlurSteps = 8;
-constexpr double kRainBrightness = 1.3;  // of drops over the sky: they are lenses
 
 std::optional<WornRig> chosenRig(const SimulationOptions& options, const Exposure& exposure) {
   if (!options.worn_rig) return std::nullopt;
@@ -28,20 +27,12 @@ std::optional<UnrectifiedRig> chosenLens(const SimulationOptions& options) {
   return unrectifiedRig(options.camera, options.lens);
 }
 
-Gains chosenGains(const SimulationOptions& options, const std::optional<WornRig>& worn) {
-  if (options.gains_out_of_step) return outOfStepGains(options.seed);
-  return worn ? worn->gains : Gains();
-}
-
 WorldPlan plannedWorld(const Scenario& scenario,
                        const SimulationOptions& options,
                        const std::optional<WornRig>& worn) {
   WorldPlan plan = scenario.world;
   plan.tiled_share = options.tiled_share;
-  if (worn) {
-    plan.weather.wind = worn->weather.wind;
-    plan.weather.reflections = worn->weather.reflections;
-  }
+  if (worn) plan.weather = worn->weather;
   return plan;
 }
 
@@ -61,21 +52,59 @@ SimulationOptions checked(const SimulationOptions& options) {
   return options;
 }
 
-Rain checkedRain(const Rain& rain) {
-  rain.check();
-  return rain;
+std::vector<std::int64_t> frameStamps(const Scenario& scenario, const SimulationOptions& options) {
+  std::vector<std::int64_t> stamps_ns = scenario.stamps_ns;
+  if (stamps_ns.empty()) {
+    for (int i = 0; i <= scenario.drive->duration_s() * options.rate_hz; ++i) {
+      stamps_ns.push_back(std::llround(1e9 * i / options.rate_hz));
+    }
+  }
+  const auto frames = static_cast<std::size_t>(std::max(0, options.frames));
+  if (frames > 0 && frames < stamps_ns.size()) stamps_ns.resize(frames);
+  return stamps_ns;
+}
+
+void requireRange(const std::string& name, double value, double low, double high) {
+  if (value >= low && value <= high) return;
+  throw std::invalid_argument(name + " is " + std::to_string(value) + ": choose it from " +
+                              std::to_string(low) + " to " + std::to_string(high));
 }
 
 }  // namespace
 
+void CameraFaults::check() const {
+  requireRange("disparity bias [px]", disparity_bias_px, -20.0, 20.0);
+  requireRange("rotation of the right camera [rad]", right_rotation_rad.norm(), 0.0, 0.2);
+  requireRange("row offset [px]", row_offset_px, -20.0, 20.0);
+  requireRange("time skew [s]", time_skew_s, -0.1, 0.1);
+  requireRange("noise [grey levels]", sensor.noise_sigma, 0.0, 50.0);
+  requireRange("vignetting", sensor.vignetting, 0.0, 1.0);
+  requireRange("motion blur [s]", motion_blur_s, 0.0, 0.1);
+}
+
+Eigen::Isometry3d CameraFaults::rightCamera(const StereoCamera& camera) const {
+  Eigen::Isometry3d T_left_right = Eigen::Isometry3d::Identity();
+  T_left_right.translation().x() = camera.baseline_m;
+  T_left_right.rotate(Eigen::AngleAxisd(right_rotation_rad[2], Eigen::Vector3d::UnitY()));
+  T_left_right.rotate(Eigen::AngleAxisd(right_rotation_rad[1], Eigen::Vector3d::UnitX()));
+  T_left_right.rotate(Eigen::AngleAxisd(right_rotation_rad[0], Eigen::Vector3d::UnitZ()));
+  return T_left_right;
+}
+
+void SimulationOptions::check() const {
+  camera.check();
+  faults.check();
+  requireRange("share of moving cars", moving_share, 0.0, 1.0);
+  requireRange("share of the lorry", lorry.share, 0.0, 1.0);
+  requireRange("share of repeated texture", tiled_share, 0.0, 1.0);
+  requireRange("rate [Hz]", rate_hz, 1e-3, 1000.0);
+}
+
 Simulator::Simulator(const Scenario& scenario, const SimulationOptions& options)
     : options_(checked(options)),
       exposure_(scenario.exposure),
-      rain_(checkedRain(scenario.rain)),
-      rain_brightness_(kRainBrightness * scenario.world.lighting.sky),
       worn_(chosenRig(options_, exposure_)),
       unrectified_(chosenLens(options_)),
-      gains_(chosenGains(options_, worn_)),
       drive_(scenario.drive),
       world_(std::make_unique<World>(plannedWorld(scenario, options_, worn_))),
       traffic_(std::make_unique<Traffic>(plannedTraffic(scenario, options_, *world_),
@@ -96,7 +125,7 @@ std::vector<GyroSample> Simulator::gyroscope() const {
 PixelRays Simulator::rays(bool right) const {
   PixelRays rays = {options_.camera, {}};
   if (right) rays.pinhole.cx = options_.camera.cx_right;
-  if (worn_) rays = (right ? worn_->right : worn_->left).rays();
+  if (worn_) rays = (right ? worn_->right : worn_->left).rays;
   if (unrectified_) rays = (right ? unrectified_->right : unrectified_->left).rays;
   if (!right) return rays;
   const double scale = rays.pinhole.fx / options_.camera.fx;
@@ -141,37 +170,6 @@ cv::Mat Simulator::smearedLight(const Picture& picture,
   return blurred(picture, rays, motions(time_s - half_s, time_s + half_s, right));
 }
 
-std::vector<Streak> Simulator::streaks(int index, double exposure_s, bool right) const {
-  constexpr double kFall_mps = 8.0;
-  const double time = exposedAt(index, right);
-  const Eigen::Isometry3d T_left_world = drive_->pose(time).inverse();
-  const Eigen::Vector3d fall(0.0, kFall_mps * exposure_s, 0.0);
-  const Eigen::Vector3d ride = drive_->pose(time + 0.5 * exposure_s).translation() -
-                               drive_->pose(time - 0.5 * exposure_s).translation();
-  const Eigen::Vector3d way = T_left_world.linear() * (fall - ride);
-  std::vector<Streak> streaks =
-      fallingDrops(rain_, options_.camera, way, randomBits(options_.seed, 0xFA11, index));
-  if (!right) return streaks;
-  const Eigen::Isometry3d T_right_left = options_.faults.rightCamera(options_.camera).inverse();
-  for (Streak& streak : streaks) {
-    streak.from = T_right_left * streak.from;
-    streak.to = T_right_left * streak.to;
-  }
-  return streaks;
-}
-
-cv::Mat Simulator::throughRain(
-    const cv::Mat& light, const PixelRays& rays, int index, double exposure_s, bool right) const {
-  const cv::Mat before =
-      throughStreaks(light, rays, streaks(index, exposure_s, right), rain_brightness_);
-  const std::uint64_t lens = randomBits(options_.seed, 0x1E45, right ? 1 : 0);
-  return throughDrops(before, dropsOnLens(rain_, light.size(), exposedAt(index, right), lens));
-}
-
-double Simulator::gain(int index, bool right) const {
-  return jumpGain(options_.faults, index, options_.noise_seed) * gains_.at(time_s(index), right);
-}
-
 std::uint64_t Simulator::noiseKey(int index, bool right) const {
   return randomBits(
       options_.noise_seed, 0x4015E, 2 * static_cast<std::uint64_t>(index) + (right ? 1 : 0));
@@ -180,7 +178,6 @@ std::uint64_t Simulator::noiseKey(int index, bool right) const {
 cv::Mat Simulator::perfectImage(int index, bool right, Picture sharp) {
   const double time = exposedAt(index, right);
   const PixelRays own_rays = rays(right);
-  const double exposure_s = std::max(exposure_.time_s, options_.faults.motion_blur_s);
   cv::Mat light;
   if (options_.faults.motion_blur_s > 0.0) {
     light = meanLight(time, own_rays, right);
@@ -188,10 +185,7 @@ cv::Mat Simulator::perfectImage(int index, bool right, Picture sharp) {
     if (sharp.brightness.empty()) sharp = look(time, right, own_rays);
     light = smearedLight(sharp, time, exposure_.time_s, own_rays, right);
   }
-  return develop(throughRain(light, own_rays, index, exposure_s, right),
-                 exposure_.of(options_.faults.sensor),
-                 gain(index, right),
-                 noiseKey(index, right));
+  return develop(light, exposure_.of(options_.faults.sensor), 1.0, noiseKey(index, right));
 }
 
 cv::Mat Simulator::wornImage(int index, bool right) {
@@ -200,14 +194,11 @@ cv::Mat Simulator::wornImage(int index, bool right) {
   const Picture picture = look(time, right, own_rays);
   const cv::Mat light = smearedLight(picture, time, worn_->exposure_s, own_rays, right);
   const WornCamera& camera = right ? worn_->right : worn_->left;
-  return camera.develop(throughRain(light, own_rays, index, worn_->exposure_s, right),
-                        gain(index, right),
-                        noiseKey(index, right));
+  return camera.develop(light, worn_->gains.at(time_s(index), right), noiseKey(index, right));
 }
 
 SimulatedFrame Simulator::render(int index, bool with_flow) {
   const double time = time_s(index);
-  world_->goTo(drive_->station_m(time));
   SimulatedFrame frame;
   frame.pair.stamp_ns = stamp_ns(index);
   Picture left;
@@ -223,20 +214,6 @@ SimulatedFrame Simulator::render(int index, bool with_flow) {
   frame.depth = left.depth;
   if (with_flow && index + 1 < size()) frame.flow = flowToNext(index, left);
   return frame;
-}
-
-std::vector<double> Simulator::depthsAt(int index, const std::vector<Eigen::Vector2d>& pixels) {
-  const double time = time_s(index);
-  world_->goTo(drive_->station_m(time));
-  const MovingCars cars = traffic_->at(time);
-  world_->setTime(time);
-  const View view(
-      world_->bodies(), cars.bodies, options_.camera, options_.camera.cx, drive_->pose(time));
-  std::vector<double> depths;
-  for (const Eigen::Vector2d& pixel : pixels) {
-    depths.push_back(world_->look(view, pixel.x(), pixel.y()).depth);
-  }
-  return depths;
 }
 
 SeenMotions Simulator::motions(double from_s, double to_s, bool right) const {

@@ -9,18 +9,56 @@
 #include <opencv2/core.hpp>
 
 #include "common/to_seconds.h"
+#include "geometry/kitti_camera.h"
 #include "inertial/gyro_sample.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
 #include "rotrocc/trajectory.h"
 #include "simulation/drives/scenario.h"
-#include "simulation/rendering/gains.h"
 #include "simulation/rendering/renderer.h"
+#include "simulation/rendering/sensor.h"
 #include "simulation/rendering/unrectified_rig.h"
 #include "simulation/rendering/worn_rig.h"
-#include "simulation/simulation_options.h"
+#include "simulation/stress/lorry.h"
 
 namespace rotrocc {
+
+/// Faults of a stereo rig that are not in its calibration file.
+struct CameraFaults {
+  double disparity_bias_px = 0.0;                                ///< added to all disparities
+  Eigen::Vector3d right_rotation_rad = Eigen::Vector3d::Zero();  ///< of the right camera: about its
+                                                                 ///< z (roll), x (pitch), y (yaw)
+  double row_offset_px = 0.0;  ///< of the right image: what it shows is this much lower
+  double time_skew_s = 0.0;    ///< delay of the right camera
+  double motion_blur_s = 0.0;  ///< exposure time, around the stamp
+  Sensor sensor;
+
+  /// Throws std::invalid_argument, naming the first value out of range.
+  void check() const;
+
+  /// True T_left_right of the rig.
+  Eigen::Isometry3d rightCamera(const StereoCamera& camera) const;
+};
+
+struct SimulationOptions {
+  StereoCamera camera = kittiCamera();
+  /// Cameras with the remainders of calibration, sensors, wind and reflections of the real world,
+  /// by the seed. They have motion blur and noise of their own: those of `faults` are not used.
+  bool worn_rig = false;
+  /// Lens of cameras whose images are not rectified: radtan or equidistant; empty: none.
+  std::string lens;
+  CameraFaults faults;
+  double moving_share = 0.35;  ///< occupied share of the places for moving cars
+  LorryPlan lorry;
+  double tiled_share = 0.0;  ///< share of all textures that is the same tile everywhere
+  double rate_hz = 10.0;     ///< of scripted drives; recorded ones have stamps
+  int frames = 0;            ///< largest number of frames; 0: all
+  std::uint64_t seed = 1;
+  std::uint64_t noise_seed = 1;  ///< of the noise of the images
+
+  /// Throws std::invalid_argument on options out of range.
+  void check() const;
+};
 
 /// A stereo pair with ground truth for the left image.
 struct SimulatedFrame {
@@ -43,7 +81,6 @@ class Simulator {
   /// Set if the options have a lens.
   const std::optional<UnrectifiedRig>& unrectifiedRig() const { return unrectified_; }
 
-  /// Number of frames, without dropped frames.
   int size() const { return static_cast<int>(stamps_ns_.size()); }
 
   std::int64_t stamp_ns(int index) const { return stamps_ns_.at(index); }
@@ -55,13 +92,8 @@ class Simulator {
   /// last one.
   std::vector<GyroSample> gyroscope() const;
 
-  /// Renders both images and the depth of a frame, optionally the flow. Updates the world to this
-  /// frame.
+  /// Renders both images and the depth of a frame, optionally the flow.
   SimulatedFrame render(int index, bool with_flow);
-
-  /// Depths [m] at sub-pixel positions in the left image of a frame; infinite for the sky. Updates
-  /// the world to this frame.
-  std::vector<double> depthsAt(int index, const std::vector<Eigen::Vector2d>& pixels);
 
  private:
   double time_s(int index) const { return toSeconds(stamps_ns_.at(index)); }
@@ -76,22 +108,15 @@ class Simulator {
                        double exposure_s,
                        const PixelRays& rays,
                        bool right) const;
-  std::vector<Streak> streaks(int index, double exposure_s, bool right) const;
-  cv::Mat throughRain(
-      const cv::Mat& light, const PixelRays& rays, int index, double exposure_s, bool right) const;
   cv::Mat perfectImage(int index, bool right, Picture sharp);
   cv::Mat wornImage(int index, bool right);
-  double gain(int index, bool right) const;
   std::uint64_t noiseKey(int index, bool right) const;
   cv::Mat flowToNext(int index, const Picture& left) const;
 
   SimulationOptions options_;
   Exposure exposure_;
-  Rain rain_;
-  double rain_brightness_;
   std::optional<WornRig> worn_;
   std::optional<UnrectifiedRig> unrectified_;
-  Gains gains_;
   std::shared_ptr<const Drive> drive_;
   std::unique_ptr<World> world_;
   std::unique_ptr<const Traffic> traffic_;

@@ -41,8 +41,6 @@ struct Sway {
   double roll_rad_per_mps2 = 0.005;   ///< it leans out of a bend
   double bump_rad = 0.0012;           ///< amplitude of pitch and roll on an uneven road
   double bump_m = 0.006;              ///< amplitude of the height
-  double bump_scale = 1.0;            ///< length of the bumps, which are 4 to 14 m long at 1
-  double look_down_rad = 0.0;         ///< how the camera is mounted
   double shake_pitch_rad = 0.0;       ///< amplitude of pitch at 1.3 Hz
   double shake_roll_rad = 0.0;        ///< amplitude of roll at 0.9 Hz
   double look_yaw_rad = 0.0;          ///< amplitude of yaw at 0.6 Hz; a fifth of it at 1.9 Hz

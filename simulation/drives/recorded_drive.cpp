@@ -7,10 +7,11 @@
 #include "common/to_seconds.h"
 #include "rotrocc/rigid_motion.h"
 #include "simulation/drives/drive.h"
-#include "simulation/drives/travelled_way.h"
 
 namespace rotrocc {
 namespace {
+
+constexpr double kMinStep_m = 1.0;  // shorter ones are left out: at a standstill they are noise
 
 std::vector<Eigen::Vector3d> positionsOf(const Trajectory& trajectory) {
   std::vector<Eigen::Vector3d> positions;
@@ -31,6 +32,33 @@ Eigen::Vector3d levelView(const Trajectory& trajectory) {
   Eigen::Vector3d view = trajectory.front().T_world_body.linear().col(2);
   view.y() = 0.0;
   return view.norm() > kLeastLevel ? view.normalized() : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
+}
+
+/// The path through the positions, or along `view` if they stay within kMinStep_m.
+Path pathThrough(const std::vector<Eigen::Vector3d>& positions, const Eigen::Vector3d& view) {
+  std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector3d& position : positions) {
+    if (points.empty() || (position - points.back()).norm() >= kMinStep_m)
+      points.push_back(position);
+  }
+  if (points.size() < 2) points.push_back(points.front() + view);
+  return Path(std::move(points));
+}
+
+/// The station on that path of each position; it never decreases.
+std::vector<double> stationsAlong(const std::vector<Eigen::Vector3d>& positions) {
+  std::vector<double> stations;
+  Eigen::Vector3d last_point = positions.front();
+  double last_station = 0.0;
+  for (const Eigen::Vector3d& position : positions) {
+    const double beyond = (position - last_point).norm();
+    const double station = last_station + beyond;
+    stations.push_back(stations.empty() ? station : std::max(station, stations.back()));
+    if (beyond < kMinStep_m) continue;
+    last_point = position;
+    last_station = station;
+  }
+  return stations;
 }
 
 }  // namespace

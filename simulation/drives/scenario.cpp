@@ -6,12 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "simulation/drives/conditions.h"
-#include "simulation/drives/field.h"
-#include "simulation/drives/street_plan.h"
-#include "simulation/places/hall.h"
-#include "simulation/places/tunnel.h"
-#include "simulation/places/walk.h"
+#include "simulation/drives/hall.h"
 #include "simulation/street/street_style.h"
 
 namespace rotrocc {
@@ -56,6 +51,43 @@ Path sideStreet(const Path& path, double station_m, double angle_rad, double lan
   const Eigen::Vector3d start = path.position(station_m);
   return Path({start, start + kLength_m * Eigen::Vector3d(direction.x(), 0.0, direction.z())})
       .beside(-lane_m, kSpacing_m);
+}
+
+/// The centre lines of the streets along a path, `right_m` beside it and `beyond_m` longer at both
+/// ends. Where the path comes within `same_street_m` of an earlier street, it reuses that street.
+std::vector<Path> streetsAlong(const Path& path,
+                               double right_m,
+                               double beyond_m,
+                               double same_street_m) {
+  constexpr double kNeighbour_m = 40.0;  // least distance along a path between two passages
+  constexpr double kMinLength_m = 10.0;  // of a street
+  const Path line = path.beside(right_m, kSpacing_m, beyond_m, beyond_m);
+  std::vector<Path> streets;
+  std::vector<std::pair<Eigen::Vector3d, double>> passed;  // points with their stations
+  std::vector<Eigen::Vector3d> points;                     // of the street that is being built
+  const auto cameBy = [&](const Eigen::Vector3d& point, double station) {
+    for (const auto& [other, other_station] : passed) {
+      if (station - other_station < kNeighbour_m) return false;
+      if (std::hypot(point.x() - other.x(), point.z() - other.z()) < same_street_m) return true;
+    }
+    return false;
+  };
+  const auto finish = [&] {
+    if (static_cast<double>(points.size()) * kSpacing_m >= kMinLength_m)
+      streets.emplace_back(points);
+    points.clear();
+  };
+  for (double station = 0.0; station <= line.length_m(); station += kSpacing_m) {
+    const Eigen::Vector3d point = line.position(station);
+    if (cameBy(point, station)) {
+      finish();
+      continue;
+    }
+    passed.emplace_back(point, station);
+    points.push_back(point);
+  }
+  finish();
+  return streets;
 }
 
 Scenario city(std::uint64_t seed) {
@@ -158,11 +190,11 @@ Scenario handheld(std::uint64_t seed) {
 }
 
 Scenario night(std::uint64_t seed) {
-  return atNight(city(seed));
-}
-
-Scenario rain(std::uint64_t seed) {
-  return inRain(city(seed));
+  Scenario scenario = city(seed);
+  scenario.world.lighting = nightLighting();
+  scenario.world.style.lamp_overhang_m = 2.0;  // all lamps
+  scenario.exposure = {0.018, 8.0};
+  return scenario;
 }
 
 using Maker = std::function<Scenario(std::uint64_t)>;
@@ -175,11 +207,7 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
                                                                      {"shake", shake},
                                                                      {"handheld", handheld},
                                                                      {"night", night},
-                                                                     {"rain", rain},
-                                                                     {"field", field},
-                                                                     {"hall", hall},
-                                                                     {"walk", walk},
-                                                                     {"tunnel", tunnel}};
+                                                                     {"hall", hall}};
   return kMakers;
 }
 

@@ -7,7 +7,6 @@
 
 #include "simulation/drives/drive.h"
 #include "simulation/drives/traffic.h"
-#include "simulation/rendering/rain.h"
 #include "simulation/rendering/sensor.h"
 #include "simulation/scene/world.h"
 
@@ -19,7 +18,6 @@ struct Scenario {
   WorldPlan world;
   TrafficPlan traffic;
   Exposure exposure;
-  Rain rain;
   std::vector<std::int64_t> stamps_ns;  ///< of the frames; empty: at any rate
 };
 
@@ -34,16 +32,11 @@ const std::vector<std::string>& scenarioNames();
 ///   shake      a town street with strong pitching and rolling
 ///   handheld   1.4 m/s along that street, looking around with up to 120 deg/s
 ///   night      city at night: head lamps, a long exposure, noise
-///   rain       city in the rain: drops on the lenses, streaks, mist, a wet road
-///   field      a rover at 0.5 to 0.9 m/s on gravel between meadows, shaken by uneven ground
 ///   hall       a multicopter in a hall: take-off, turns of 100 deg/s, a wall at half a metre
-///   walk       on foot through a lane: a stair, a turn on the spot, looking around
-///   tunnel     14 m/s between equal segments with lamps, dim, with oncoming cars
 Scenario scenario(const std::string& name, std::uint64_t seed);
 
-/// A town along a recorded drive, including hills. A street that the drive revisits is built once;
-/// if it is revisited at another height, the ground changes between the visits. The frames have the
-/// stamps of the poses, from 0.
+/// A town along a recorded drive, including hills. A street that the drive revisits is built once.
+/// The frames have the stamps of the poses, from 0.
 Scenario scenarioAlong(const Trajectory& trajectory, std::uint64_t seed);
 
 }  // namespace rotrocc

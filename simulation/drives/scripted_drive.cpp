@@ -5,10 +5,14 @@
 #include <utility>
 
 #include "simulation/drives/drive.h"
-#include "simulation/drives/ease.h"
 
 namespace rotrocc {
 namespace {
+
+/// From 0 at 0 to 1 at 1, with zero slope and curvature at both ends.
+double ease(double t) {
+  return t * t * t * (t * (6.0 * t - 15.0) + 10.0);
+}
 
 /// The integral of ease() from 0 to t.
 double easeIntegral(double t) {
@@ -101,11 +105,10 @@ Eigen::Isometry3d ScriptedDrive::pose(double time_s) const {
   const double right_mps2 = speed * speed * bend / (2.0 * kStep_m);
 
   const double slope = std::asin(-path_.direction(station).y());
-  const double pitch = slope - sway_.look_down_rad + sway_.pitch_rad_per_mps2 * forward_mps2 +
-                       sway_.bump_rad * bump(station / sway_.bump_scale, 0) +
+  const double pitch = slope + sway_.pitch_rad_per_mps2 * forward_mps2 +
+                       sway_.bump_rad * bump(station, 0) +
                        sway_.shake_pitch_rad * std::sin(2.0 * M_PI * 1.3 * time_s);
-  const double roll = -sway_.roll_rad_per_mps2 * right_mps2 +
-                      sway_.bump_rad * bump(station / sway_.bump_scale, 1) +
+  const double roll = -sway_.roll_rad_per_mps2 * right_mps2 + sway_.bump_rad * bump(station, 1) +
                       sway_.shake_roll_rad * std::sin(2.0 * M_PI * 0.9 * time_s);
   const double yaw =
       path_.heading_rad(station) + sway_.look_yaw_rad * (std::sin(2.0 * M_PI * 0.6 * time_s) +
@@ -113,7 +116,7 @@ Eigen::Isometry3d ScriptedDrive::pose(double time_s) const {
 
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = path_.position(station);
-  pose.translation().y() += sway_.bump_m * bump(station / sway_.bump_scale, 2);
+  pose.translation().y() += sway_.bump_m * bump(station, 2);
   pose.rotate(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitY()));
   pose.rotate(Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitX()));  // positive: looks up
   pose.rotate(Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()));   // positive: right side down

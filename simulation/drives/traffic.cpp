@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "simulation/counter_random.h"
-#include "simulation/objects/car.h"
+#include "simulation/objects/objects.h"
 #include "simulation/scene/placement.h"
 #include "simulation/stress/lorry.h"
 

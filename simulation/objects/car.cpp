@@ -1,4 +1,4 @@
-#include "simulation/objects/car.h"
+#include "simulation/objects/objects.h"
 
 #include <algorithm>
 #include <cmath>

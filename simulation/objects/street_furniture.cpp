@@ -1,4 +1,4 @@
-#include "simulation/objects/street_furniture.h"
+#include "simulation/objects/objects.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,27 +64,6 @@ class Writing : public Material {
   double line_m_;
 };
 
-/// Three lamps, the upper one lit.
-class LampBox : public Material {
- public:
-  explicit LampBox(double bottom) : bottom_(bottom) {}
-
-  double reflectance(const SurfacePoint& point) const override {
-    if (point.normal.z() > -0.5) return 0.08;
-    const TexturePoint at = faceCoordinates(point);
-    double brightness = 0.08;
-    for (int lamp = 0; lamp < 3; ++lamp) {
-      const double y = at.at.y() - bottom_ - 0.17 - 0.3 * lamp;
-      const double disc = 1.0 - coverageAbove(0.1, std::hypot(at.at.x(), y), at.pixelWidth());
-      brightness = mix(brightness, lamp == 2 ? 1.2 : 0.2, disc);
-    }
-    return brightness;
-  }
-
- private:
-  double bottom_;
-};
-
 /// Corrugated steel with stains, and at its left end the bolts of a joint.
 class Rail : public Material {
  public:
@@ -135,12 +114,6 @@ Body makeSign(const TextureTiles& tiles, RandomStream& random) {
                      std::make_shared<Writing>(tiles.writing, 0.85, 0.1, 0.2)});
   }
   return Body(std::move(parts));
-}
-
-Body makeTrafficLight() {
-  return Body(
-      {makePost(3.3, 0.06, 0.3),
-       {boxBetween({-0.16, -3.3, -0.3}, {0.16, -2.35, -0.06}), std::make_shared<LampBox>(2.35)}});
 }
 
 Body makeKerb(double length_m, const TextureTiles& tiles, RandomStream& random) {

@@ -1,4 +1,4 @@
-#include "simulation/objects/vegetation.h"
+#include "simulation/objects/objects.h"
 
 #include <cmath>
 #include <utility>
@@ -89,23 +89,6 @@ Body makeForestTree(const TextureTiles& tiles, RandomStream& random) {
         {ball({away * std::cos(angle), -height * (0.25 + 0.7 * share), away * std::sin(angle)},
               {size, random.uniform(0.11, 0.17) * height, size}),
          leaves});
-  }
-  return Body(std::move(parts));
-}
-
-Body makeBush(const TextureTiles& tiles, RandomStream& random) {
-  const double reach = random.uniform(0.25, 0.7);
-  const auto leaves = std::make_shared<Leaves>(tiles, random.uniform(0.22, 0.4), 2.3, 0.36);
-  std::vector<Part> parts;
-  const int balls = 3 + random.index(4);
-  for (int i = 0; i < balls; ++i) {
-    const double angle = 2.0 * M_PI * (i + random.uniform(0.0, 0.7)) / balls;
-    const double size = reach * random.uniform(0.4, 0.7);
-    parts.push_back({ball({0.5 * reach * std::cos(angle),
-                           -reach * random.uniform(0.3, 0.9),
-                           0.5 * reach * std::sin(angle)},
-                          {size, 0.9 * size, size}),
-                     leaves});
   }
   return Body(std::move(parts));
 }

@@ -37,6 +37,23 @@ double meanAlong(const cv::Mat& image, const Eigen::Vector2d& middle, const Eige
 
 }  // namespace
 
+PixelRays raysThrough(const cv::Mat& places, double fx, double fy, const Eigen::Vector2d& centre) {
+  Eigen::AlignedBox2d bounds;
+  for (const cv::Vec2d& place : cv::Mat_<cv::Vec2d>(places)) {
+    if (!std::isnan(place[0])) bounds.extend(Eigen::Vector2d(place[0], place[1]));
+  }
+  const Eigen::Vector2d first = bounds.min();
+  PixelRays rays;
+  rays.places = places - cv::Scalar(first.x(), first.y());
+  rays.pinhole.fx = fx;
+  rays.pinhole.fy = fy;
+  rays.pinhole.cx = centre.x() - first.x();
+  rays.pinhole.cy = centre.y() - first.y();
+  rays.pinhole.width = static_cast<int>(std::ceil(bounds.sizes().x())) + 1;
+  rays.pinhole.height = static_cast<int>(std::ceil(bounds.sizes().y())) + 1;
+  return rays;
+}
+
 Eigen::Vector2d flowAt(
     int x, int y, const Picture& picture, const PixelRays& rays, const SeenMotions& motions) {
   const Eigen::Vector2d place = rays.place(x, y);

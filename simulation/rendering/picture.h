@@ -27,6 +27,11 @@ struct PixelRays {
   }
 };
 
+/// Rays through `places` (CV_64FC2, NaN for pixels that are not needed) in the image of a pinhole
+/// camera with these focal lengths and this principal point [px]. The image of the result is
+/// shifted and as large as the places need.
+PixelRays raysThrough(const cv::Mat& places, double fx, double fy, const Eigen::Vector2d& centre);
+
 /// Image of a camera without faults.
 struct Picture {
   cv::Mat brightness;  ///< CV_32FC1, 1 is white, the mean over each pixel

@@ -55,9 +55,7 @@ Eigen::Matrix3d rotation(const Eigen::Vector3d& turn_rad) {
 /// Through an image that shows all that the raw one does, in the axes of the nominal camera.
 PixelRays raysOf(const RawCamera& raw, const Eigen::Matrix3d& R_nominal_raw) {
   constexpr double kMaxSlope = 4.0;  // 76 degrees
-  PixelRays rays;
-  rays.places.create(raw.height, raw.width, CV_64FC2);
-  Eigen::AlignedBox2d bounds;
+  cv::Mat places(raw.height, raw.width, CV_64FC2);
   for (int y = 0; y < raw.height; ++y) {
     for (int x = 0; x < raw.width; ++x) {
       const Eigen::Vector3d ray = R_nominal_raw * raw.ray(Eigen::Vector2d(x, y));
@@ -68,20 +66,10 @@ PixelRays raysOf(const RawCamera& raw, const Eigen::Matrix3d& R_nominal_raw) {
             "length or a smaller image",
             std::atan(kMaxSlope) * 180.0 / M_PI));
       }
-      const Eigen::Vector2d place(raw.fx * slope.x(), raw.fy * slope.y());
-      rays.places.at<cv::Vec2d>(y, x) = {place.x(), place.y()};
-      bounds.extend(place);
+      places.at<cv::Vec2d>(y, x) = {raw.fx * slope.x(), raw.fy * slope.y()};
     }
   }
-  const Eigen::Vector2d first = bounds.min();
-  rays.places -= cv::Scalar(first.x(), first.y());
-  rays.pinhole.fx = raw.fx;
-  rays.pinhole.fy = raw.fy;
-  rays.pinhole.cx = -first.x();
-  rays.pinhole.cy = -first.y();
-  rays.pinhole.width = static_cast<int>(std::ceil(bounds.sizes().x())) + 1;
-  rays.pinhole.height = static_cast<int>(std::ceil(bounds.sizes().y())) + 1;
-  return rays;
+  return raysThrough(places, raw.fx, raw.fy, Eigen::Vector2d::Zero());
 }
 
 UnrectifiedCamera camera(const StereoCamera& nominal,

@@ -62,7 +62,6 @@ class Body {
 
   double lit = 1.0;                     ///< visible share of the direct light, from 0 to 1
   bool contact_shadow = false;          ///< darkens the ground below and close to it
-  bool is_ground = false;               ///< shadows fall on it as on the ground below
   bool own_shade = false;               ///< small: is shaded as a whole by its surroundings
   std::optional<Eigen::Vector3d> lamp;  ///< of a street lamp: where it shines, in its frame
 

@@ -18,17 +18,14 @@ GroundGrid GroundGrid::around(const std::vector<Path>& paths, double margin_m, d
       box.extend(Eigen::Vector2d(point.x(), point.z()));
     }
   }
-  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(margin_m);
-  return over({box.min() - margin, box.max() + margin}, cell_m);
-}
-
-GroundGrid GroundGrid::over(const Eigen::AlignedBox2d& area, double cell_m) {
+  box.extend(Eigen::Vector2d(box.min() - Eigen::Vector2d::Constant(margin_m)));
+  box.extend(Eigen::Vector2d(box.max() + Eigen::Vector2d::Constant(margin_m)));
   GroundGrid grid;
   grid.cell_m = cell_m;
   grid.cells_per_m = 1.0 / cell_m;
-  grid.origin = area.min();
-  grid.columns = static_cast<int>(std::ceil(area.sizes().x() / cell_m));
-  grid.rows = static_cast<int>(std::ceil(area.sizes().y() / cell_m));
+  grid.origin = box.min();
+  grid.columns = static_cast<int>(std::ceil(box.sizes().x() / cell_m));
+  grid.rows = static_cast<int>(std::ceil(box.sizes().y() / cell_m));
   return grid;
 }
 

@@ -21,9 +21,6 @@ struct GroundGrid {
   /// The grid that covers all paths with a margin of `margin_m`.
   static GroundGrid around(const std::vector<Path>& paths, double margin_m, double cell_m);
 
-  /// The grid over an area of (x, z), from its least corner on.
-  static GroundGrid over(const Eigen::AlignedBox2d& area, double cell_m);
-
   int column(double x) const { return floorToInt((x - origin.x()) * cells_per_m); }
   int row(double z) const { return floorToInt((z - origin.y()) * cells_per_m); }
   bool contains(int column, int row) const {

@@ -2,13 +2,9 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
-#include <optional>
 #include <vector>
 
 #include "simulation/scene/body.h"
-#include "simulation/scene/ground_history.h"
-#include "simulation/scene/light.h"
 #include "simulation/scene/scene_geometry.h"
 #include "simulation/scene/view.h"
 #include "simulation/street/path.h"
@@ -16,20 +12,12 @@
 #include "simulation/street/street_map.h"
 #include "simulation/street/street_style.h"
 #include "simulation/surfaces/lighting.h"
-#include "simulation/surfaces/sky.h"
+#include "simulation/surfaces/shadows.h"
 #include "simulation/surfaces/street_lamps.h"
-#include "simulation/surfaces/sunlight.h"
 #include "simulation/surfaces/texture_tiles.h"
 #include "simulation/surfaces/weather.h"
 
 namespace rotrocc {
-
-/// A ground of a given shape.
-struct GroundPlan {
-  Eigen::AlignedBox2d area;                          ///< (x, z); it ends there
-  double cell_m = 1.0;                               ///< linear between heights at this distance
-  std::function<double(double x, double z)> height;  ///< y; it points down
-};
 
 /// Description of the simulated world.
 struct WorldPlan {
@@ -40,18 +28,10 @@ struct WorldPlan {
   std::vector<Crossing> crossings;
   Weather weather;
   Lighting lighting;
-  std::shared_ptr<const Light> light;  ///< instead of the sun and the sky of `lighting`, if given
-  double shadow_cell_m = 0.2;          ///< shadows on the ground are that coarse
-  bool under_sky = true;               ///< the sky is reflected
-  std::optional<GroundPlan> ground;    ///< none: below the drives and streets
-  /// Material of the ground, in the frame of the world; none: that of streets and meadows.
-  std::function<std::shared_ptr<const Material>(const TextureTiles&)> floor;
+  bool indoors = false;  ///< the ground is level at y = 0, and the sky is not reflected
   /// Bodies that stand there besides those of the streets.
   std::function<std::vector<Body>(const TextureTiles&)> furniture;
-  double camera_height_m = 1.65;
   double tiled_share = 0.0;  ///< share of all textures that is the same tile everywhere
-  double cell_m = 8.0;       ///< of the ground, which bends at their borders
-  double rough_m = 0.0;      ///< the corners of the cells are this much higher or lower, at random
   std::uint64_t seed = 1;
 
   /// The drives with their extensions.
@@ -75,12 +55,7 @@ class World {
 
   const Terrain& terrain() const { return scene_.terrain(); }
   const std::vector<Body>& bodies() const { return scene_.bodies(); }
-  const StreetMap& streets() const { return streets_; }
   const TextureTiles& tiles() const { return tiles_; }
-
-  /// Updates ground and bodies to a station of the camera's path. They may change where the path
-  /// revisits a place at another height.
-  void goTo(double station_m);
 
   /// Moves leaves and grass to where they are at this time.
   void setTime(double time_s) { tiles_.wind.time_s = time_s; }
@@ -91,11 +66,10 @@ class World {
   /// Casts a ray through a (sub-)pixel of a view, whose static bodies are bodies().
   Sighting look(const View& view, double x, double y) const;
 
-  /// Visible share of the direct light at a place on the ground, from 0 to 1.
+  /// Visible share of the sun at a place on the ground, from 0 to 1.
   double lit(double x, double z) const { return shadows_.lit(x, z); }
 
  private:
-  Terrain terrainAt(std::size_t stage) const;
   double bodyBrightness(const Body& body,
                         const BodyHit& hit,
                         const Ray& ray,
@@ -107,12 +81,6 @@ class World {
   double illumination(const Eigen::Vector3d& position,
                       const Eigen::Vector3d& normal,
                       double lit) const;
-  double wetBrightness(const SurfacePoint& point,
-                       double dry,
-                       const Ray& ray,
-                       double depth,
-                       const PixelSpread& spread) const;
-  double inMist(double brightness, const Ray& ray, double depth) const;
   double groundBrightness(const SurfacePoint& point, const std::vector<Body>& moving) const;
 
   StreetStyle style_;
@@ -123,18 +91,9 @@ class World {
   TextureTiles tiles_;
   StreetMap streets_;
   RoadSurface road_;
-  std::shared_ptr<const Material> floor_;  // instead of the road, if any
-  std::shared_ptr<const Light> light_;
-  GroundGrid grid_;
-  GroundHistory ground_;
-  double rough_m_;
-  std::uint64_t seed_;
-  SceneGeometry start_;  // the scene at the start of the drive
-  SceneGeometry scene_;  // current scene
-  std::size_t stage_ = 0;
+  SceneGeometry scene_;
   GroundShadows shadows_;
   StreetLamps lamps_;
-  Sky sky_;
 };
 
 }  // namespace rotrocc

@@ -43,16 +43,11 @@ double RoadSurface::reflectance(const SurfacePoint& point) const {
   place.length = spread(place.street.station_gradient);
   place.width = spread(place.street.right_gradient);
 
-  constexpr double kSoft = 0.3;  // width of a ragged edge, over how far it wanders
-  const double width = place.width + kSoft * style_.ragged_m;
-  double right_m = place.street.right_m;
-  if (style_.ragged_m > 0.0) {
-    right_m += 2.0 * style_.ragged_m * (tiles_.blotches.at(scaled(at, 1.0 / 5.0)) - 0.5);
-  }
   double brightness = 0.0;
   double rest = 1.0;
   for (const Zone& zone : style_.zones) {
-    const double share = coverageBetween(zone.left_m, zone.right_m, right_m, width);
+    const double share =
+        coverageBetween(zone.left_m, zone.right_m, place.street.right_m, place.width);
     if (share <= 0.0) continue;
     double surface = pavement(zone.pavement, at);
     if (zone.pavement == Pavement::kAsphalt) {
@@ -68,37 +63,16 @@ double RoadSurface::reflectance(const SurfacePoint& point) const {
   return mix(brightness, kPaint, worn * paint);
 }
 
-double RoadSurface::water(const SurfacePoint& point) const {
-  const TexturePoint at = project(point, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitZ());
-  StreetPoint street;
-  if (!streets_.locate(at.at.x(), at.at.y(), street)) return 0.0;
-  const bool paved = std::any_of(style_.zones.begin(), style_.zones.end(), [&](const Zone& zone) {
-    return zone.pavement != Pavement::kGrass && zone.left_m <= street.right_m &&
-           street.right_m <= zone.right_m;
-  });
-  if (!paved) return 0.0;
-  const double hollow = tiles_.blotches.at(scaled(at, 1.0 / 11.0));
-  return mix(0.4, 1.0, smoothStep(0.5, 0.6, hollow));
-}
-
 double RoadSurface::pavement(Pavement kind, const TexturePoint& at) const {
   switch (kind) {
     case Pavement::kAsphalt:
       return 0.31 * (1.0 + 2.0 * style_.asphalt_contrast * (tiles_.asphalt.at(at) - 0.47));
     case Pavement::kSlabs:
       return 0.42 * (1.0 + 0.9 * (tiles_.paving.at(at) - 0.5));
-    case Pavement::kGravel: {
-      const double stain = tiles_.blotches.at(scaled(at, 1.0 / 3.0)) - 0.5;
-      return 0.36 * (1.0 + 1.5 * (tiles_.gravel.at(at) - 0.5) + 0.7 * stain);
-    }
     case Pavement::kGrass: {
       const double stain = tiles_.blotches.at(scaled(at, 1.0 / 41.0)) - 0.5;
       const TexturePoint swayed = shifted(at, tiles_.wind.sway(at.at));
-      double blades = tiles_.grass.at(swayed);
-      if (style_.fine_grass > 0.0) {
-        blades = mix(blades, tiles_.grass.at(scaled(swayed, 3.0)), style_.fine_grass);
-      }
-      return 0.26 * (1.0 + 1.3 * (blades - 0.5) + 0.9 * stain);
+      return 0.26 * (1.0 + 1.3 * (tiles_.grass.at(swayed) - 0.5) + 0.9 * stain);
     }
   }
   return 0.0;

@@ -29,9 +29,6 @@ class RoadSurface {
   /// Reflectance of the ground, averaged over the pixel. `point` is in the world's frame.
   double reflectance(const SurfacePoint& point) const;
 
-  /// Share of the pixel that water covers, if it can stand there.
-  double water(const SurfacePoint& point) const;
-
  private:
   /// A pixel on the street: along and across it.
   struct Place {

@@ -5,15 +5,148 @@
 #include <utility>
 
 #include "simulation/counter_random.h"
-#include "simulation/objects/car.h"
-#include "simulation/objects/field_things.h"
-#include "simulation/objects/house.h"
-#include "simulation/objects/street_furniture.h"
-#include "simulation/objects/vegetation.h"
-#include "simulation/street/building_ground.h"
+#include "simulation/objects/objects.h"
+#include "simulation/scene/placement.h"
 
 namespace rotrocc {
 namespace {
+
+constexpr double kKerb_m = 1.5;            // length of a stone
+constexpr double kRail_m = 4.0;            // from post to post
+constexpr double kDriveClearance_m = 1.6;  // from where cars drive: half a car and something
+
+Eigen::Vector3d level(Eigen::Vector3d direction) {
+  direction.y() = 0.0;
+  return direction.normalized();
+}
+
+/// Orientation of a body beside a street: the direction of its z axis.
+enum class Facing { kAhead, kBack, kOutwards };
+
+/// Placement rules.
+struct PlacementRules {
+  double clearance_m;        // from every centre line
+  bool may_overlap = false;  // with bodies placed earlier
+  bool upright = true;       // otherwise it follows the slope
+  bool contact_shadow = false;
+};
+
+/// Footprint of a body on the ground (x, z).
+struct Footprint {
+  /// Of a placed body.
+  static Footprint of(const Body& body) {
+    const Eigen::Isometry3d& pose = body.T_world_body();
+    const Eigen::Vector3d centre = pose * body.ownBounds().center();
+    const Eigen::Vector3d half = 0.5 * body.ownBounds().sizes();
+    Footprint footprint;
+    footprint.centre = {centre.x(), centre.z()};
+    footprint.ahead = Eigen::Vector2d(pose.linear()(0, 2), pose.linear()(2, 2)).normalized();
+    footprint.right = Eigen::Vector2d(pose.linear()(0, 0), pose.linear()(2, 0)).normalized();
+    footprint.half_length = half.z();
+    footprint.half_width = half.x();
+    return footprint;
+  }
+
+  /// Half the length of its projection on an axis.
+  double halfExtent(const Eigen::Vector2d& axis) const {
+    return half_length * std::abs(axis.dot(ahead)) + half_width * std::abs(axis.dot(right));
+  }
+
+  /// Whether two rectangles overlap by more than `margin_m`.
+  bool overlaps(const Footprint& other, double margin_m) const {
+    for (const Eigen::Vector2d& axis : {ahead, right, other.ahead, other.right}) {
+      const double gap =
+          std::abs(axis.dot(other.centre - centre)) - halfExtent(axis) - other.halfExtent(axis);
+      if (gap > -margin_m) return false;  // separating axis
+    }
+    return true;
+  }
+
+  /// Points along its border, at most `spacing_m` from each other.
+  std::vector<Eigen::Vector2d> border(double spacing_m) const {
+    std::vector<Eigen::Vector2d> points;
+    const auto addSides =
+        [&](const Eigen::Vector2d& along, double half, const Eigen::Vector2d& out) {
+          const int steps = std::max(1, static_cast<int>(std::ceil(2.0 * half / spacing_m)));
+          for (int i = 0; i <= steps; ++i) {
+            const double offset = half * (2.0 * i / steps - 1.0);
+            points.push_back(centre + offset * along + out);
+            points.push_back(centre + offset * along - out);
+          }
+        };
+    addSides(ahead, half_length, half_width * right);
+    addSides(right, half_width, half_length * ahead);
+    return points;
+  }
+
+  Eigen::Vector2d centre;
+  Eigen::Vector2d ahead;  // of unit length
+  Eigen::Vector2d right;
+  double half_length;  // along `ahead`
+  double half_width;
+};
+
+/// The ground beside the streets, and the bodies placed there.
+class BuildingGround {
+ public:
+  BuildingGround(const WorldPlan& plan, const StreetMap& streets, const Terrain& terrain)
+      : streets_(streets),
+        drives_(plan.wholeDrives(), kDriveClearance_m + 1.0),
+        terrain_(terrain) {}
+
+  /// Places a body `right_m` beside a street if the rules allow it. Returns whether they do.
+  bool place(Body body,
+             const Path& street,
+             double station_m,
+             double right_m,
+             Facing facing,
+             const PlacementRules& rules) {
+    const Eigen::Vector3d right = street.right(station_m);
+    const Eigen::Vector3d position = street.position(station_m) + right_m * right;
+    const Eigen::Vector2d at(position.x(), position.z());
+    Eigen::Vector3d ahead = std::copysign(1.0, right_m) * right;
+    if (facing != Facing::kOutwards) {
+      ahead = level(street.direction(station_m) * (facing == Facing::kAhead ? 1.0 : -1.0));
+    }
+    body.place(rules.upright ? standingUpright(terrain_, at, ahead)
+                             : lyingOnGround(terrain_, at, ahead));
+    const Footprint footprint = Footprint::of(body);
+    if (!isFree(footprint, rules)) return false;
+    if (!rules.may_overlap) taken_.push_back(footprint);
+    body.contact_shadow = rules.contact_shadow;
+    bodies_.push_back(std::move(body));
+    return true;
+  }
+
+  /// Places a body over a street, across it.
+  void placeAcross(Body body, const Path& street, double station_m) {
+    const Eigen::Vector3d position = street.position(station_m);
+    body.place(standingUpright(
+        terrain_, {position.x(), position.z()}, level(street.direction(station_m))));
+    bodies_.push_back(std::move(body));
+  }
+
+  /// Everything that was placed.
+  std::vector<Body> takeBodies() { return std::move(bodies_); }
+
+ private:
+  bool isFree(const Footprint& footprint, const PlacementRules& rules) const {
+    for (const Eigen::Vector2d& point : footprint.border(0.8)) {
+      if (streets_.distance(point.x(), point.y()) < rules.clearance_m) return false;
+      if (drives_.distance(point.x(), point.y()) < kDriveClearance_m) return false;
+    }
+    if (rules.may_overlap) return true;
+    return std::none_of(taken_.begin(), taken_.end(), [&](const Footprint& other) {
+      return footprint.overlaps(other, 0.3);
+    });
+  }
+
+  const StreetMap& streets_;
+  StreetMap drives_;
+  const Terrain& terrain_;
+  std::vector<Footprint> taken_;
+  std::vector<Body> bodies_;
+};
 
 class Layout {
  public:
@@ -38,14 +171,19 @@ class Layout {
   void buildSide(const Path& street, double side, RandomStream random) {
     if (style_.houses_m > 0.0) addHouses(street, side, random);
     if (style_.parked_m > 0.0) addParkedCars(street, side, random);
-    if (style_.kerb_m > 0.0) addKerbs(street, side, random);
-    if (style_.guard_rail_m > 0.0) addGuardRails(street, side);
+    if (style_.kerb_m > 0.0) {
+      addLine(street, side * style_.kerb_m, kKerb_m, style_.kerb_m - 0.3, [&] {
+        return makeKerb(kKerb_m, tiles_, random);
+      });
+    }
+    if (style_.guard_rail_m > 0.0) {
+      addLine(street, side * style_.guard_rail_m, kRail_m, style_.clear_half_width_m, [&] {
+        return makeGuardRail(kRail_m, tiles_);
+      });
+    }
     if (style_.lamps_m > 0.0) addPosts(street, side, random);
     if (style_.trees_m > 0.0) addTrees(street, side, random);
     if (style_.forest_m > 0.0) addForest(street, side, random);
-    if (style_.stones_per_m > 0.0) addStones(street, side, random);
-    if (style_.bushes_per_m > 0.0) addBushes(street, side, random);
-    if (style_.fence_m > 0.0 && side < 0.0) addFence(street, random);
   }
 
   /// Length of a line `right_m` beside the street over the length of the street.
@@ -111,32 +249,13 @@ class Layout {
     }
   }
 
-  void addKerbs(const Path& street, double side, RandomStream& random) {
-    constexpr double kLength = 1.5;
-    const PlacementRules rules = {style_.kerb_m - 0.3, true, false, false};
+  /// A line of equal pieces, `right_m` beside the street; `make` makes the next one.
+  template <class Make>
+  void addLine(const Path& street, double right_m, double length_m, double clearance_m, Make make) {
+    const PlacementRules rules = {clearance_m, true, false, false};
     for (double station = 0.0; station < street.length_m();) {
-      const double step = kLength / stretch(street, station, side * style_.kerb_m);
-      ground_.place(makeKerb(kLength, tiles_, random),
-                    street,
-                    station + 0.5 * step,
-                    side * style_.kerb_m,
-                    Facing::kOutwards,
-                    rules);
-      station += step;
-    }
-  }
-
-  void addGuardRails(const Path& street, double side) {
-    constexpr double kLength = 4.0;
-    const PlacementRules rules = {style_.clear_half_width_m, true, false, false};
-    for (double station = 0.0; station < street.length_m();) {
-      const double step = kLength / stretch(street, station, side * style_.guard_rail_m);
-      ground_.place(makeGuardRail(kLength, tiles_),
-                    street,
-                    station + 0.5 * step,
-                    side * style_.guard_rail_m,
-                    Facing::kOutwards,
-                    rules);
+      const double step = length_m / stretch(street, station, right_m);
+      ground_.place(make(), street, station + 0.5 * step, right_m, Facing::kOutwards, rules);
       station += step;
     }
   }
@@ -175,43 +294,6 @@ class Layout {
       const double at = station + random.uniform(-1.5, 1.5);
       ground_.place(
           makeForestTree(tiles_, random), street, at, side * right, Facing::kOutwards, rules);
-    }
-  }
-
-  void addStones(const Path& street, double side, RandomStream& random) {
-    constexpr double kNearest_m = 1.7;
-    constexpr double kSpread_m = 12.0;
-    const PlacementRules rules = {style_.clear_half_width_m, true, true, true};
-    for (double station = 0.0; station < street.length_m(); station += 1.0 / style_.stones_per_m) {
-      const double away = kNearest_m + kSpread_m * std::pow(random.uniform(0.0, 1.0), 2.0);
-      const double at = station + random.uniform(-0.5, 0.5);
-      ground_.place(makeStone(tiles_, random), street, at, side * away, Facing::kOutwards, rules);
-    }
-  }
-
-  void addBushes(const Path& street, double side, RandomStream& random) {
-    constexpr double kNearest_m = 2.2;
-    constexpr double kSpread_m = 25.0;
-    const PlacementRules rules = {style_.clear_half_width_m, true, true, true};
-    for (double station = 0.0; station < street.length_m(); station += 1.0 / style_.bushes_per_m) {
-      const double away = kNearest_m + kSpread_m * random.uniform(0.0, 1.0);
-      const double at = station + random.uniform(-4.0, 4.0);
-      ground_.place(makeBush(tiles_, random), street, at, side * away, Facing::kOutwards, rules);
-    }
-  }
-
-  void addFence(const Path& street, RandomStream& random) {
-    constexpr double kLength = 2.5;
-    const PlacementRules rules = {style_.clear_half_width_m, true, false, false};
-    for (double station = 0.0; station < street.length_m();) {
-      const double step = kLength / stretch(street, station, -style_.fence_m);
-      ground_.place(makeFence(kLength, tiles_, random),
-                    street,
-                    station + 0.5 * step,
-                    -style_.fence_m,
-                    Facing::kOutwards,
-                    rules);
-      station += step;
     }
   }
 

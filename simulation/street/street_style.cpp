@@ -59,21 +59,6 @@ StreetStyle rampStyle() {
   return style;
 }
 
-StreetStyle fieldStyle() {
-  StreetStyle style;
-  style.zones = {{-1.0, 1.0, Pavement::kGravel}};
-  style.fine_grass = 0.6;
-  style.repairs_share = 0.0;
-  style.lane_m = 0.0;
-  style.clear_half_width_m = 1.2;
-  style.forest_m = 75.0;
-  style.stones_per_m = 1.2;
-  style.bushes_per_m = 0.12;
-  style.fence_m = 4.5;
-  style.ragged_m = 0.9;
-  return style;
-}
-
 StreetStyle carParkStyle() {
   StreetStyle style;
   style.zones = {{-kFar_m, kFar_m, Pavement::kAsphalt}};

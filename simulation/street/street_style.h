@@ -5,7 +5,7 @@
 namespace rotrocc {
 
 /// Surface of the ground.
-enum class Pavement { kAsphalt, kSlabs, kGrass, kGravel };
+enum class Pavement { kAsphalt, kSlabs, kGrass };
 
 /// A strip along the street; distances are from its centre line, to the right.
 struct Zone {
@@ -36,7 +36,6 @@ struct StreetStyle {
   std::vector<Marking> markings;
   std::vector<Bay> bays;
   double asphalt_contrast = 1.0;    ///< 1: well worn, 0: like new
-  double fine_grass = 0.0;          ///< share of blades a third as long, for cameras close to it
   double repairs_share = 0.25;      ///< share of 12 m sections with a patch
   double lane_m = 1.75;             ///< centre of the own lane; the other is at -lane_m
   double clear_half_width_m = 5.9;  ///< minimum distance of bodies from a centre line
@@ -54,10 +53,6 @@ struct StreetStyle {
   double guard_rail_m = 0.0;      ///< on both sides; 0: none
   double forest_m = 0.0;          ///< edge of the woods; 0: none
   double gantry_spacing_m = 0.0;  ///< of signs over the street; 0: none
-  double stones_per_m = 0.0;      ///< beside the street, on each side
-  double bushes_per_m = 0.0;
-  double fence_m = 0.0;   ///< on the left side; 0: none
-  double ragged_m = 0.0;  ///< by which the edges of zones wander
 };
 
 /// A street in a town: parked cars, pavements, houses.
@@ -68,9 +63,6 @@ StreetStyle motorwayStyle();
 
 /// A single lane through a meadow.
 StreetStyle rampStyle();
-
-/// A gravel track through meadows with stones, bushes and a fence, and woods far away.
-StreetStyle fieldStyle();
 
 /// Rows of cars parked at right angles, with houses around.
 StreetStyle carParkStyle();

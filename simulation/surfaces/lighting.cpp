@@ -34,14 +34,6 @@ Lighting nightLighting() {
   return night;
 }
 
-Lighting rainLighting() {
-  Lighting rain;
-  rain.sun = 0.0;
-  rain.ambient = 0.7;
-  rain.sky = 0.8;
-  return rain;
-}
-
 const Eigen::Vector3d& directionToSun() {
   static const Eigen::Vector3d kDirection = Eigen::Vector3d(-0.45, -0.95, -0.62).normalized();
   return kDirection;

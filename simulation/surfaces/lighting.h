@@ -26,9 +26,6 @@ struct Lighting {
 /// A clear night in a lit street, as cameras see it that expose for that.
 Lighting nightLighting();
 
-/// A rainy day.
-Lighting rainLighting();
-
 /// Direction to the sun, of unit length: behind the viewer at the start, to the left.
 const Eigen::Vector3d& directionToSun();
 

@@ -7,19 +7,10 @@
 
 namespace rotrocc {
 
-/// The background at infinity: clouds, and wooded hills along the horizon.
-class Sky {
- public:
-  /// The textures must outlive this object.
-  explicit Sky(const TextureTiles& tiles) : tiles_(tiles) {}
-
-  /// Brightness in a direction of any length, averaged over the pixel.
-  double brightness(const Eigen::Vector3d& direction, const PixelSpread& spread) const;
-
- private:
-  double clouds(const Eigen::Vector3d& direction, const PixelSpread& spread) const;
-
-  const TextureTiles& tiles_;
-};
+/// Brightness of the background at infinity, clouds and wooded hills along the horizon, in a
+/// direction of any length, averaged over the pixel.
+double skyBrightness(const TextureTiles& tiles,
+                     const Eigen::Vector3d& direction,
+                     const PixelSpread& spread);
 
 }  // namespace rotrocc

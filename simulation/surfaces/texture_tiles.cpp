@@ -148,14 +148,6 @@ Texture makeGrass(std::uint64_t key) {
   return soften(tile, 0.8, 6.0);
 }
 
-Texture makeGravel(std::uint64_t key) {
-  cv::Mat tile(kSize, kSize, CV_32F, cv::Scalar(0.22));
-  scatter(tile, {26000, 1.5, 4.0, 1.4, 0.2, 0.9}, RandomStream(key, 1));
-  scatter(tile, {1500, 4.0, 9.0, 1.4, 0.35, 1.0}, RandomStream(key, 2));
-  tile = tile + 0.05 * fractalNoise(4, 256, 0.9, key);
-  return soften(tile, 0.7, 2.4);
-}
-
 Texture makeLeaves(std::uint64_t key) {
   cv::Mat tile(kSize, kSize, CV_32F, cv::Scalar(0.12));
   scatter(tile, {9000, 5.0, 17.0, 1.7, 0.12, 1.0}, RandomStream(key, 1));
@@ -217,7 +209,6 @@ TextureTiles::TextureTiles(std::uint64_t seed)
     : asphalt(makeAsphalt(randomBits(seed, 1))),
       paving(makePaving(randomBits(seed, 2))),
       grass(makeGrass(randomBits(seed, 3))),
-      gravel(makeGravel(randomBits(seed, 10))),
       leaves(makeLeaves(randomBits(seed, 4))),
       plaster(makePlaster(randomBits(seed, 5))),
       bricks(makeBricks(randomBits(seed, 6))),

@@ -15,7 +15,6 @@ struct TextureTiles {
   Texture asphalt;     ///< speckles, stains and cracks
   Texture paving;      ///< concrete slabs
   Texture grass;       ///< blades
-  Texture gravel;      ///< stones of up to 4 cm
   Texture leaves;      ///< of trees and hedges, light and dark
   Texture plaster;     ///< faint stains
   Texture bricks;      ///< rows with mortar between

@@ -1,8 +1,6 @@
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <iostream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -14,11 +12,9 @@
 #include "input/to_text.h"
 #include "rotrocc/trajectory.h"
 #include "sequences/stereo_sequence.h"
-#include "simulation/asl_writer.h"
 #include "simulation/drives/scenario.h"
 #include "simulation/sequence_writer.h"
 #include "simulation/simulator.h"
-#include "simulation/truth_check.h"
 #include "tools/program.h"
 #include "tools/progress_bar.h"
 
@@ -33,9 +29,12 @@ const char* const kUsage =
     "example: simulate_drive city drive --frames 100\n"
     "usage:   simulate_drive SCENARIO OUT [options]\n"
     "         simulate_drive --poses FILE OUT [options]\n\n"
-    "SCENARIO  city, motorway, slip_road, parking, shake, handheld, night, rain, field, hall, "
-    "walk\n"
-    "          or tunnel\n"
+    "SCENARIO  city (a town with a stop), motorway (25 m/s), slip_road (26 deg/s), parking (0.8 "
+    "m/s "
+    "and a\n"
+    "          standstill while a car passes), shake (pitch and roll), handheld (1.4 m/s, looking "
+    "around),\n"
+    "          night (city with head lamps) or hall (a multicopter indoors)\n"
     "OUT       a new directory, a .bag, or a .csv for the gyroscope alone\n\n";
 
 struct Options {
@@ -46,12 +45,10 @@ struct Options {
   double focal_px = kittiCamera().fx;
   double baseline_m = kittiCamera().baseline_m;
   std::string rig = "perfect";
-  std::string gains = "of-the-rig";
   std::string layout = "kitti";
   std::string lens = "radtan";
   std::vector<double> right_rotation_deg;
   bool truth = false;
-  bool check_truth = false;
   bool imu = false;
   SimulationOptions simulation;
 };
@@ -62,70 +59,61 @@ po::options_description describe(Options& options) {
   const auto number = [](double& value) {
     return po::value(&value)->default_value(value, toText(value));
   };
+  const auto text = [](std::string& value) { return po::value(&value)->default_value(value); };
   po::options_description what("Contents");
-  what.add_options()("help,h", "show this help")(
-      "layout",
-      po::value(&options.layout)->default_value(options.layout),
+  auto add = what.add_options();
+  add("help,h", "show this help");
+  add("layout",
+      text(options.layout),
       "of the directory: kitti, rectified images as in KITTI's odometry benchmark, or asl, raw "
-      "images "
-      "as in EuRoC's recordings")("poses",
-                                  po::value(&options.poses),
-                                  "build the street along these poses (KITTI or TUM format)")(
-      "times", po::value(&options.times), "times.txt of poses in KITTI format (default: 10 Hz)")(
-      "frames", po::value(&simulation.frames), "largest number of pairs")(
-      "duration", po::value(&simulation.duration_s), "[s] largest duration")(
-      "rate", number(simulation.rate_hz), "[Hz] frame rate of a scenario")(
-      "moving-share", number(simulation.moving_share), "density of moving cars, 0 to 1")(
-      "lorry",
-      number(simulation.lorry.share),
-      "share of the image that a lorry ahead of the camera covers, which moves with it")(
-      "lorry-across",
-      number(simulation.lorry.across_mps),
-      "[m/s] speed of the lorry to the right, relative to the camera")(
-      "tiles",
-      number(simulation.tiled_share),
-      "share of all textures that is the same tile everywhere")(
-      "seed", po::value(&simulation.seed)->default_value(simulation.seed), "same seed, same bytes")(
-      "noise-seed", po::value(&simulation.noise_seed), "seed of the image noise (default: seed)")(
-      "truth", po::bool_switch(&options.truth), "also write depth and flow of each pixel")(
-      "check-truth",
-      po::bool_switch(&options.check_truth),
-      "verify poses, depth and flow against the next frame, and print the errors")(
-      "imu",
+      "images as in EuRoC's recordings");
+  add("poses",
+      po::value(&options.poses),
+      "build the street along these poses (KITTI or TUM format)");
+  add("times", po::value(&options.times), "times.txt of poses in KITTI format (default: 10 Hz)");
+  add("frames", po::value(&simulation.frames), "largest number of pairs");
+  add("rate", number(simulation.rate_hz), "[Hz] frame rate of a scenario");
+  add("seed", po::value(&simulation.seed)->default_value(simulation.seed), "same seed, same bytes");
+  add("noise-seed", po::value(&simulation.noise_seed), "of the image noise (default: seed)");
+  add("moving-share", number(simulation.moving_share), "density of moving cars, 0 to 1");
+  add("truth", po::bool_switch(&options.truth), "also write depth and flow of each pixel");
+  add("imu",
       po::bool_switch(&options.imu),
       "also write a gyroscope of 200 Hz with noise and bias: imu.csv in axes of the left camera, "
-      "or "
-      "/imu/data in axes of base_link");
+      "or /imu/data in axes of base_link");
   po::options_description camera("Camera");
-  camera.add_options()(
-      "size", po::value(&options.size)->default_value(options.size), "image size WxH [px]")(
-      "focal", number(options.focal_px), "focal length [px]")(
-      "baseline", number(options.baseline_m), "baseline [m]")(
-      "rig",
-      po::value(&options.rig)->default_value(options.rig),
+  add = camera.add_options();
+  add("size", text(options.size), "image size WxH [px]");
+  add("focal", number(options.focal_px), "focal length [px]");
+  add("baseline", number(options.baseline_m), "baseline [m]");
+  add("rig",
+      text(options.rig),
       "perfect, or worn: with what calibration leaves, a sensor's noise, wind and reflections as "
-      "in "
-      "the real world, by the seed")("gains",
-                                     po::value(&options.gains)->default_value(options.gains),
-                                     "of-the-rig, or out-of-step: each camera exposes for itself");
-  camera.add_options()("lens",
-                       po::value(&options.lens)->default_value(options.lens),
-                       "distortion of the images of the layout asl: radtan or equidistant");
-  po::options_description wrong("Faults, not in calib.txt");
-  wrong.add_options()(
-      "disparity-bias", number(faults.disparity_bias_px), "[px] added to all disparities")(
-      "right-rotation",
+      "in the real world, by the seed");
+  add("lens",
+      text(options.lens),
+      "distortion of the images of the layout asl: radtan or equidistant");
+  po::options_description wrong("Faults, not in calib.txt, and stresses");
+  add = wrong.add_options();
+  add("disparity-bias", number(faults.disparity_bias_px), "[px] added to all disparities");
+  add("right-rotation",
       po::value(&options.right_rotation_deg)->multitoken(),
-      "ROLL PITCH YAW [deg]: rotation of the right camera")(
-      "rows", number(faults.row_offset_px), "[px] by which the right image is lower")(
-      "time-skew", number(faults.time_skew_s), "[s] delay of the right camera")(
-      "drop-frames", number(simulation.drop_share), "share of dropped frames")(
-      "noise",
+      "ROLL PITCH YAW [deg]: rotation of the right camera");
+  add("rows", number(faults.row_offset_px), "[px] by which the right image is lower");
+  add("time-skew", number(faults.time_skew_s), "[s] delay of the right camera");
+  add("noise",
       number(faults.sensor.noise_sigma),
-      "[grey levels] standard deviation of the image noise")(
-      "vignetting", number(faults.sensor.vignetting), "relative loss of light in the corners")(
-      "exposure-jumps", number(faults.exposure_jumps), "relative size of gain jumps")(
-      "motion-blur", number(faults.motion_blur_s), "[s] exposure time");
+      "[grey levels] standard deviation of the image noise");
+  add("motion-blur", number(faults.motion_blur_s), "[s] exposure time");
+  add("lorry",
+      number(simulation.lorry.share),
+      "share of the image that a lorry ahead of the camera covers, which moves with it");
+  add("lorry-across",
+      number(simulation.lorry.across_mps),
+      "[m/s] speed of the lorry to the right, relative to the camera");
+  add("tiles",
+      number(simulation.tiled_share),
+      "share of all textures that is the same tile everywhere");
   po::options_description all;
   all.add(what).add(camera).add(wrong);
   return all;
@@ -159,9 +147,7 @@ bool isChosen(const char* name,
 
 void setRig(const po::variables_map& variables, Options& options) {
   options.simulation.worn_rig = isChosen("rig", options.rig, "perfect", "worn");
-  options.simulation.gains_out_of_step =
-      isChosen("gains", options.gains, "of-the-rig", "out-of-step");
-  for (const char* name : {"noise", "vignetting", "motion-blur"}) {
+  for (const char* name : {"noise", "motion-blur"}) {
     if (!options.simulation.worn_rig || variables[name].defaulted()) continue;
     throw po::error(std::string("--") + name + " is for a perfect rig: a worn one has its own");
   }
@@ -209,29 +195,15 @@ Scenario chosenScenario(const Options& options) {
   return scenarioAlong(readTrajectory(options.poses, options.times), seed);
 }
 
-void print(const TruthErrors& errors) {
-  const long long seen = std::max(1LL, errors.right + errors.wrong);
-  const long long right = std::max(1LL, errors.right);
-  std::cout << "truth: " << seen << " points visible in the next frame, "
-            << 100.0 * static_cast<double>(errors.right) / static_cast<double>(seen)
-            << " % of them within " << kTruthLimit_px << " px, mean error "
-            << errors.sum_px / static_cast<double>(right) << " px; the rest are edges and leaves\n";
-}
-
 template <class Write>
 void renderFrames(Simulator& simulator, const Options& options, const Write& write) {
   ProgressBar progress("simulate_drive", static_cast<std::size_t>(simulator.size()));
-  TruthErrors errors;
   for (int index = 0; index < simulator.size(); ++index) {
-    const SimulatedFrame frame = simulator.render(index, options.truth || options.check_truth);
+    const SimulatedFrame frame = simulator.render(index, options.truth);
     write(frame, index);
-    if (options.check_truth && index + 1 < simulator.size()) {
-      checkTruth(simulator, index, frame, errors);
-    }
     progress.advance();
   }
   progress.finish();
-  if (options.check_truth) print(errors);
 }
 
 void renderSequence(Simulator& simulator, const std::string& directory, const Options& options) {

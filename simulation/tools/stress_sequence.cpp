@@ -34,26 +34,27 @@ struct Options {
 po::options_description describe(ImageStress& stress) {
   const auto number = [](double& value) { return po::value(&value)->default_value(value); };
   po::options_description visible("Options");
-  visible.add_options()("help,h", "show this help")(
-      "plain",
+  auto add = visible.add_options();
+  add("help,h", "show this help");
+  add("plain",
       number(stress.plain_share),
-      "share of the image, from its left border on, that has no texture")(
-      "drops",
+      "share of the image, from its left border on, that has no texture");
+  add("drops",
       number(stress.drop_share),
-      "share of the image that drops on the lenses cover, others in left and right")(
-      "gain-step",
+      "share of the image that drops on the lenses cover, others in left and right");
+  add("gain-step",
       number(stress.gain_step),
-      "factor by which the gain of both cameras changes, up and down, every 5 pairs")(
-      "contrast", number(stress.contrast), "share of the contrast that is left, as in fog")(
-      "right-gain", number(stress.right_gain), "factor of all grey levels of the right images")(
-      "right-offset",
+      "factor by which the gain of both cameras changes, up and down, every 5 pairs");
+  add("contrast", number(stress.contrast), "share of the contrast that is left, as in fog");
+  add("right-gain", number(stress.right_gain), "factor of all grey levels of the right images");
+  add("right-offset",
       number(stress.right_offset),
-      "[grey levels] added to the right images after that")(
-      "noise", number(stress.noise_sigma), "[grey levels] standard deviation of the noise")(
-      "jpeg",
+      "[grey levels] added to the right images after that");
+  add("noise", number(stress.noise_sigma), "[grey levels] standard deviation of the noise");
+  add("jpeg",
       po::value(&stress.jpeg_quality)->default_value(stress.jpeg_quality),
-      "quality of a JPEG compression, 1 to 100; 0: none")(
-      "seed", po::value(&stress.seed)->default_value(stress.seed), "same seed, same bytes");
+      "quality of a JPEG compression, 1 to 100; 0: none");
+  add("seed", po::value(&stress.seed)->default_value(stress.seed), "same seed, same bytes");
   return visible;
 }
 
