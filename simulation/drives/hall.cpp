@@ -76,9 +76,10 @@ class Furnishing {
 
  private:
   void add(const Eigen::AlignedBox3d& box, const Texture& texture) {
+    const double contrast = random_.uniform(0.4, 0.8);
+    const double mean = random_.uniform(0.3, 0.6);
     bodies_.push_back(Body({{std::make_shared<ConvexSolid>(box),
-                             std::make_shared<TexturedMaterial>(
-                                 texture, random_.uniform(0.3, 0.6), random_.uniform(0.4, 0.8))}}));
+                             std::make_shared<TexturedMaterial>(texture, mean, contrast)}}));
   }
 
   const Texture& anyTexture() {
@@ -89,10 +90,12 @@ class Furnishing {
 
   /// Boxes on each other, where there is room for them.
   void addStack() {
-    const Eigen::Vector3d half(random_.uniform(0.25, 0.7), 0.0, random_.uniform(0.25, 0.7));
-    const Eigen::Vector3d at(random_.uniform(kRoom.min().x() + 0.8, kRoom.max().x() - 0.8),
-                             0.0,
-                             random_.uniform(kRoom.min().z() + 0.8, kRoom.max().z() - 0.8));
+    Eigen::Vector3d half = Eigen::Vector3d::Zero();
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    for (const int axis : {2, 0}) half[axis] = random_.uniform(0.25, 0.7);
+    for (const int axis : {2, 0}) {
+      at[axis] = random_.uniform(kRoom.min()[axis] + 0.8, kRoom.max()[axis] - 0.8);
+    }
     const int boxes = 1 + random_.index(4);
     std::vector<Eigen::AlignedBox3d> stack;
     double top = -0.1;  // height; the lowest stands in the ground
