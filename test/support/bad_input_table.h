@@ -1,22 +1,27 @@
 #pragma once
 
-#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace rotrocc {
 
-/// A kind of bad input and the expected behaviour: a row of docs/bad_inputs.md.
-struct BadInput {
-  int row;  ///< from 1
-  std::string input;
-  std::string expected;  ///< for readers
-  std::function<std::string()> observe;
-  std::string pattern;  ///< must match the whole observation; a * stands for any text
-};
+/// The rows of docs/bad_inputs.md that need no ROS master. What is observed must be in the page,
+/// word by word.
+class BadInputTable {
+ public:
+  /// A kind of bad input: its row from 1, what readers expect, and what was observed, which is
+  /// joined by semicolons.
+  void add(int row,
+           const std::string& input,
+           const std::string& expected,
+           const std::vector<std::string>& observed);
 
-/// Observes each of `inputs`, which must be all rows that need no ROS master. Expects that the
-/// observations match and that docs/bad_inputs.md contains them.
-void expectRows(const std::vector<BadInput>& inputs);
+  /// Expects that all these rows were added, and that the page has them.
+  void expectInPage() const;
+
+ private:
+  std::map<int, std::string> rows_;
+};
 
 }  // namespace rotrocc
