@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iomanip>
 #include <regex>
 #include <sstream>
 
@@ -25,11 +26,12 @@ float quantile(std::vector<float> values, double share) {
   return values[static_cast<std::size_t>(index)];
 }
 
-template <class... Values>
-std::string line(const char* format, Values... values) {
-  char text[200];
-  std::snprintf(text, sizeof(text), format, values...);
-  return text;
+/// A row of the report.
+template <class Value>
+std::string row(const std::string& name, const Value& value) {
+  std::ostringstream text;
+  text << std::left << std::setw(27) << name << std::fixed << std::setprecision(1) << value << '\n';
+  return text.str();
 }
 
 std::uint64_t countDropped(const ImageAccount& images) {
@@ -38,15 +40,18 @@ std::uint64_t countDropped(const ImageAccount& images) {
   return dropped;
 }
 
+/// How many images one drop for that reason is: 0 for a camera_info, 2 for a pair.
+std::uint64_t imagesPerDrop(const std::string& reason) {
+  if (reason == "camera_info_invalid") return 0;
+  return reason == "no_partner" || reason.compare(0, 6, "stamp_") == 0 ? 1 : 2;
+}
+
 std::string imageTable(const ImageAccount& images) {
-  const auto row = [](const std::string& name, std::uint64_t count) {
-    return line("%-26s %llu\n", name.c_str(), static_cast<unsigned long long>(count));
-  };
-  std::string text = row("images sent", images.sent) +
-                     row("  lost in queues of ROS", images.sent - images.received) +
+  const std::uint64_t lost = images.sent - images.received;
+  std::string text = row("images sent", images.sent) + row("  lost in queues of ROS", lost) +
                      row("  used", images.used);
   for (const auto& [reason, count] : images.dropped) text += row("  " + reason, count);
-  return text + row("  sum", images.sent - images.received + images.used + countDropped(images)) +
+  return text + row("  sum", lost + images.used + countDropped(images)) +
          (images.addsUp() ? "the counts add up\n" : "THE COUNTS DO NOT ADD UP\n");
 }
 
@@ -54,11 +59,6 @@ std::string imageTable(const ImageAccount& images) {
 
 bool ImageAccount::addsUp() const {
   return received <= sent && received == used + countDropped(*this);
-}
-
-std::uint64_t imagesPerDrop(const std::string& reason) {
-  if (reason == "camera_info_invalid") return 0;
-  return reason == "no_partner" || reason.compare(0, 6, "stamp_") == 0 ? 1 : 2;
 }
 
 bool isSound(const nav_msgs::Odometry& odometry) {
@@ -194,30 +194,19 @@ std::string AnswerAudit::report() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   const double sent = static_cast<double>(std::max<std::uint64_t>(pairs_sent_, 1));
   const double share = 100.0 * (1.0 - static_cast<double>(answers_) / sent);
-  std::ostringstream text;
-  text << line("pairs sent                 %llu\n", static_cast<unsigned long long>(pairs_sent_))
-       << line("answers                    %llu\n", static_cast<unsigned long long>(answers_))
-       << line("without an answer          %.1f %%\n", std::max(share, 0.0))
-       << line("answers that are unsound   %llu\n", static_cast<unsigned long long>(unsound_))
-       << line("age of the answers         p50 %.1f ms, p95 %.1f ms, max %.1f ms\n",
-               quantile(ages_ms_, 0.5),
-               quantile(ages_ms_, 0.95),
-               quantile(ages_ms_, 1.0))
-       << line("time of the estimator      %.1f ms (last pair)\n",
-               static_cast<double>(last_status_.time_total));
-  text << imageTable(account());
-  if (loops_ > 1) {
-    text << line("loops                      %llu\n", static_cast<unsigned long long>(loops_ - 1))
-         << line("loops recovered            %llu\n",
-                 static_cast<unsigned long long>(loops_recovered_));
+  std::string text =
+      row("pairs sent", pairs_sent_) + row("answers", answers_) +
+      row("without an answer [%]", std::max(share, 0.0)) +
+      row("answers that are unsound", unsound_) + row("age, median [ms]", quantile(ages_ms_, 0.5)) +
+      row("age, p95 [ms]", quantile(ages_ms_, 0.95)) +
+      row("age, largest [ms]", quantile(ages_ms_, 1.0)) +
+      row("estimator, last pair [ms]", last_status_.time_total) + imageTable(account());
+  if (loops_ > 1) text += row("loops", loops_ - 1) + row("loops recovered", loops_recovered_);
+  if (faults_ > 0) text += row("faults", faults_) + row("faults recovered", faults_recovered_);
+  for (const auto& [said, count] : log_) {
+    text += "log: " + std::to_string(count) + " x " + said + '\n';
   }
-  if (faults_ > 0) {
-    text << line("faults ended, recovered     %llu, %llu\n",
-                 static_cast<unsigned long long>(faults_),
-                 static_cast<unsigned long long>(faults_recovered_));
-  }
-  for (const auto& [said, count] : log_) text << "log: " << count << " x " << said << '\n';
-  return text.str();
+  return text;
 }
 
 bool AnswerAudit::passed() const {

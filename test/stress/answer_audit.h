@@ -34,9 +34,6 @@ struct ImageAccount {
   bool addsUp() const;
 };
 
-/// How many images one drop for that reason is: 0 for a camera_info, 2 for a pair.
-std::uint64_t imagesPerDrop(const std::string& reason);
-
 /// Listens to an odometry under stress, which has just been started: counts its answers, the images
 /// it used and dropped, and what the log says.
 class AnswerAudit {

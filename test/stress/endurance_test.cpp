@@ -1,6 +1,9 @@
 // A drive with each fault of scripts/soak once, the next one after the recovery from the one
 // before.
 
+#include <cmath>
+#include <utility>
+
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
@@ -20,6 +23,34 @@ void writeBag(const std::string& path) {
   writeSyntheticSequence(directory / "sequence", kPairs);
   KittiLayout sequence(directory / "sequence");
   writeSequenceBag(path, sequence, {1000, false});
+}
+
+TEST(EnduranceTest, KnowsSoundAnswersAndAccounts) {
+  nav_msgs::Odometry sound;
+  EXPECT_FALSE(isSound(sound)) << "a quaternion of zeros";
+  sound.pose.pose.orientation.w = 1.0;
+  EXPECT_TRUE(isSound(sound));
+  for (double* value : {&sound.pose.pose.position.z,
+                        &sound.pose.pose.orientation.w,
+                        &sound.pose.covariance[1],
+                        &sound.twist.covariance[7]}) {
+    const double before = std::exchange(*value, NAN);
+    EXPECT_FALSE(isSound(sound));
+    *value = before;
+  }
+  sound.twist.covariance[7] = -1e-9;
+  EXPECT_FALSE(isSound(sound));
+
+  ImageAccount images;
+  images.sent = 100;
+  images.received = 96;
+  images.used = 90;
+  images.dropped = {{"no_partner", 2}, {"image_data", 2}};
+  EXPECT_FALSE(images.addsUp()) << "two are missing";
+  images.dropped["paused"] = 2;
+  EXPECT_TRUE(images.addsUp());
+  images.sent = 95;
+  EXPECT_FALSE(images.addsUp()) << "more than sent";
 }
 
 TEST(EnduranceTest, EveryFaultIsToldCountedAndOver) {

@@ -27,58 +27,39 @@ void fill(sensor_msgs::Image& image, unsigned char value) {
 
 const std::vector<Fault>& faults() {
   static const std::vector<Fault> kFaults = {
-      {"left image missing", [](StressPair& pair, std::mt19937&) { pair.send_left = false; }},
-      {"right image missing", [](StressPair& pair, std::mt19937&) { pair.send_right = false; }},
-      {"stamp 0", [](StressPair& pair, std::mt19937&) { pair.left.header.stamp = ros::Time(); }},
-      {"stamp of the future",
-       [](StressPair& pair, std::mt19937&) { pair.left.header.stamp = ros::TIME_MAX; }},
+      {"left image missing", [](auto& pair, auto&) { pair.send_left = false; }},
+      {"right image missing", [](auto& pair, auto&) { pair.send_right = false; }},
+      {"stamp 0", [](auto& pair, auto&) { pair.left.header.stamp = ros::Time(); }},
+      {"stamp of the future", [](auto& pair, auto&) { pair.left.header.stamp = ros::TIME_MAX; }},
       {"stamps of a glitch",
-       [](StressPair& pair, std::mt19937&) {
-         pair.left.header.stamp += ros::Duration(5.0);
-         pair.right.header.stamp += ros::Duration(5.0);
+       [](auto& pair, auto&) {
+         for (auto* image : {&pair.left, &pair.right}) image->header.stamp += ros::Duration(5.0);
        }},
-      {"stamps apart",
-       [](StressPair& pair, std::mt19937&) { pair.right.header.stamp += ros::Duration(0.04); }},
-      {"data cut off",
-       [](StressPair& pair, std::mt19937&) { pair.left.data.resize(pair.left.data.size() / 2); }},
-      {"no data", [](StressPair& pair, std::mt19937&) { pair.right.data.clear(); }},
-      {"unknown encoding", [](StressPair& pair, std::mt19937&) { pair.left.encoding = "jpeg"; }},
+      {"stamps apart", [](auto& pair, auto&) { pair.right.header.stamp += ros::Duration(0.04); }},
+      {"data cut off", [](auto& pair, auto&) { pair.left.data.resize(pair.left.data.size() / 2); }},
+      {"no data", [](auto& pair, auto&) { pair.right.data.clear(); }},
+      {"unknown encoding", [](auto& pair, auto&) { pair.left.encoding = "jpeg"; }},
       {"sizes that overflow",
-       [](StressPair& pair, std::mt19937&) {
-         pair.left.width = pair.left.height = pair.left.step = ~0u;
-       }},
-      {"step too short", [](StressPair& pair, std::mt19937&) { pair.left.step /= 2; }},
-      {"sizes differ", [](StressPair& pair, std::mt19937&) { pair.right.height -= 2; }},
+       [](auto& pair, auto&) { pair.left.width = pair.left.height = pair.left.step = ~0u; }},
+      {"step too short", [](auto& pair, auto&) { pair.left.step /= 2; }},
+      {"sizes differ", [](auto& pair, auto&) { pair.right.height -= 2; }},
       {"camera_info of NaN",
-       [](StressPair& pair, std::mt19937&) {
-         pair.left_info.P[0] = std::numeric_limits<double>::quiet_NaN();
-       }},
-      {"camera_info of zeros",
-       [](StressPair& pair, std::mt19937&) { pair.right_info.P.fill(0.0); }},
-      {"exchanged cameras",
-       [](StressPair& pair, std::mt19937&) { std::swap(pair.left.data, pair.right.data); }},
+       [](auto& pair, auto&) { pair.left_info.P[0] = std::numeric_limits<double>::quiet_NaN(); }},
+      {"camera_info of zeros", [](auto& pair, auto&) { pair.right_info.P.fill(0.0); }},
+      {"exchanged cameras", [](auto& pair, auto&) { std::swap(pair.left.data, pair.right.data); }},
       {"black images",
-       [](StressPair& pair, std::mt19937&) {
-         fill(pair.left, 0);
-         fill(pair.right, 0);
+       [](auto& pair, auto&) {
+         for (auto* image : {&pair.left, &pair.right}) fill(*image, 0);
        }},
-      {"white left image", [](StressPair& pair, std::mt19937&) { fill(pair.left, 255); }},
-      {"no images for a while", [](StressPair& pair, std::mt19937&) { pair.pause_ms = 1500; }},
-      {"burst", [](StressPair& pair, std::mt19937&) { pair.burst = true; }},
-      {"stamps 5 s ahead",
-       [](StressPair& pair, std::mt19937&) {
-         pair.left.header.stamp += ros::Duration(5.0);
-         pair.right.header.stamp += ros::Duration(5.0);
-       }},
-      {"a gap of 3 s", [](StressPair& pair, std::mt19937&) { pair.gap_s = 3.0; }},
+      {"white left image", [](auto& pair, auto&) { fill(pair.left, 255); }},
+      {"no images for a while", [](auto& pair, auto&) { pair.pause_ms = 1500; }},
+      {"burst", [](auto& pair, auto&) { pair.burst = true; }},
+      {"a gap of 3 s", [](auto& pair, auto&) { pair.gap_s = 3.0; }},
       {"30 % of the right images lost",
-       [](StressPair& pair, std::mt19937& random) { pair.send_right = chance(random) >= 0.3; },
+       [](auto& pair, auto& random) { pair.send_right = chance(random) >= 0.3; },
        kStretch},
-      {"rival tf publisher",
-       [](StressPair& pair, std::mt19937&) { pair.rival_tf = true; },
-       kStretch},
-      {"save_trajectory onto a FIFO",
-       [](StressPair& pair, std::mt19937&) { pair.save_to_fifo = true; }}};
+      {"rival tf publisher", [](auto& pair, auto&) { pair.rival_tf = true; }, kStretch},
+      {"save_trajectory onto a FIFO", [](auto& pair, auto&) { pair.save_to_fifo = true; }}};
   return kFaults;
 }
 

@@ -27,6 +27,7 @@ namespace {
 
 using std::chrono::steady_clock;
 
+constexpr std::size_t kPairs = 100;  // of the recording, kept in memory
 constexpr int kQueueSize = 100;
 constexpr double kMaxStampDifference_s = 0.01;
 constexpr int kBurst = 20;         // pairs at once
@@ -41,6 +42,10 @@ ros::Time firstStamp() {
   return ros::Time(1000.0);
 }
 
+void setStamp(const ros::Time& stamp, StressPair& pair) {
+  pair.left.header.stamp = pair.right.header.stamp = stamp;
+}
+
 }  // namespace
 
 StressPlayer::StressPlayer(ros::NodeHandle& nh, const StressOptions& options)
@@ -48,7 +53,7 @@ StressPlayer::StressPlayer(ros::NodeHandle& nh, const StressOptions& options)
       faults_(options.in_turn ? FaultInjector(options.seed)
                               : FaultInjector(options.fault_share, options.seed)),
       audit_(nh),
-      services_(options.odometry),
+      services_("stereo_odometry"),
       left_image_(nh.advertise<sensor_msgs::Image>("left/image_rect", kQueueSize)),
       right_image_(nh.advertise<sensor_msgs::Image>("right/image_rect", kQueueSize)),
       left_info_(nh.advertise<sensor_msgs::CameraInfo>("left/camera_info", kQueueSize)),
@@ -69,8 +74,10 @@ void StressPlayer::readBag() {
     const auto image = readMessage<sensor_msgs::Image>(message);
     const auto pair = message.getTopic() == topics.left_image ? synchronizer.addLeft(image)
                                                               : synchronizer.addRight(image);
-    if (pair) recording_.push_back({*pair->left, *pair->right, *left_info, *right_info});
-    if (recording_.size() >= static_cast<std::size_t>(options_.pairs)) break;
+    if (!pair) continue;
+    recording_.push_back({*pair->left, *pair->right, *left_info, *right_info});
+    recording_.back().left.header.frame_id = kCameraFrame;
+    if (recording_.size() >= kPairs) break;
   }
   if (recording_.size() < 2) throw std::runtime_error(options_.bag + " has no two stereo pairs");
   const ros::Duration length =
@@ -134,8 +141,7 @@ bool StressPlayer::ended() const {
 }
 
 void StressPlayer::send(StressPair pair, ros::Time& stamp) {
-  pair.left.header.stamp = pair.right.header.stamp = stamp;
-  pair.left.header.frame_id = kCameraFrame;
+  setStamp(stamp, pair);
   const bool may_begin = !options_.in_turn || (!was_faulty_ && audit_.recovered());
   const bool is_faulty = faults_.apply(pair, may_begin);
   if (was_faulty_ && !is_faulty) audit_.endFault();
@@ -163,8 +169,7 @@ void StressPlayer::pauseAfter(const StressPair& pair) {
 void StressPlayer::settle(ros::Time& stamp) {
   for (int i = 0; i < kLastPairs; ++i) {
     StressPair pair = recording_.front();
-    pair.left.header.stamp = pair.right.header.stamp = stamp;
-    pair.left.header.frame_id = kCameraFrame;
+    setStamp(stamp, pair);
     audit_.expect(stamp, 2);
     publish(pair);
     stamp += step_;

@@ -19,13 +19,11 @@
 namespace rotrocc {
 
 struct StressOptions {
-  std::string bag;  ///< stereo recording, played forwards and backwards in a loop
-  std::string odometry = "stereo_odometry";  ///< name of the node, for its services
-  double rate_hz = 10.0;                     ///< of the pairs
-  double duration_s = 60.0;                  ///< of the whole run
+  std::string bag;            ///< stereo recording, played forwards and backwards in a loop
+  double rate_hz = 10.0;      ///< of the pairs
+  double duration_s = 60.0;   ///< of the whole run
   double fault_share = 0.05;  ///< of the pairs that get a fault; 0: none, and no restart of stamps
   bool in_turn = false;       ///< each fault once instead, the next after a recovery
-  int pairs = 100;            ///< of the recording that are kept in memory
   unsigned seed = 1;          ///< same seed, same faults
 };
 
