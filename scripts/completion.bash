@@ -14,7 +14,6 @@ declare -gA _rotrocc_options=(
   [evaluate_trajectory]='--lengths= --step= --fit --times= --segments= --report= --stats= --title='
   [kitti_benchmark]='--output= --jobs= --sshlogin= --config= --set= --compare= --title= --programs='
   [kitti_odometry]=''
-  [kitti_to_bag]='--start-time= --rectify --max-stamp-difference='
   [offline_odometry]='--trajectory= --format= --config= --set= --stats= --bag= --pictures= --left-image=
     --right-image= --rectify= --imu= --imu-rotation= --preload'
   [plot_trajectory]='--truth= --title='
@@ -37,7 +36,7 @@ declare -gA _rotrocc_values=(
 )
 _rotrocc_reads_recordings() {
   case $1 in
-    benchmark | error_characteristics | kitti_benchmark | kitti_odometry | kitti_to_bag) ;;
+    benchmark | error_characteristics | kitti_benchmark | kitti_odometry) ;;
     offline_odometry | sequence_to_bag | stress_sequence) ;;
     *) return 1 ;;
   esac

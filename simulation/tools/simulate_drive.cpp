@@ -233,7 +233,7 @@ void renderBag(Simulator& simulator, const std::string& bag, const Options& opti
   const ScratchDirectory frames{bag + ".frames"};
   fs::remove_all(frames.path);
   renderSequence(simulator, frames.path, options);
-  writeSequenceBag(bag, *openStereoSequence(frames.path, {}));
+  writeSequenceBag(bag, frames.path);
 }
 
 void run(const Options& options) {

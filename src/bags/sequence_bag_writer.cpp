@@ -1,99 +1,122 @@
 #include "bags/sequence_bag_writer.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <stdexcept>
+#include <vector>
 
 #include <geometry_msgs/PoseStamped.h>
-#include <nav_msgs/Path.h>
+#include <rosbag/bag.h>
 
 namespace rotrocc {
+namespace {
 
-SequenceBagWriter::SequenceBagWriter(const std::string& path,
-                                     StereoSequence& sequence,
-                                     const Options& options)
-    : path_(path), unfinished_path_(path + ".part"), messages_(sequence, options) {
-  try {
-    bag_.open(unfinished_path_, rosbag::bagmode::Write);
-  } catch (const rosbag::BagException& error) {
-    throw std::runtime_error(unfinished_path_ + " cannot be written: " + error.what());
+/// Writes into `path`.part until finish().
+class Writer {
+ public:
+  Writer(const std::string& path, const SequenceRecording& recording)
+      : path_(path),
+        recording_(recording),
+        image_topic_(recording.isRaw() ? "/image_raw" : "/image_rect"),
+        truth_(recording.truth()),
+        gyroscope_(recording.gyroscopeMessages()) {
+    try {
+      bag_.open(unfinishedPath(), rosbag::bagmode::Write);
+    } catch (const rosbag::BagException& error) {
+      throw std::runtime_error(unfinishedPath() + " cannot be written: " + error.what());
+    }
   }
-}
 
-SequenceBagWriter::~SequenceBagWriter() {
-  if (finished_) return;
-  std::error_code ignored;
-  std::filesystem::remove(unfinished_path_, ignored);
-}
-
-void SequenceBagWriter::writePair(int index) {
-  const ros::Time time = messages_.stamp(index);
-  writeGyroscope(time);
-  beginStamp(time);
-  if (index == 0) writeStatic();
-  writeTruth();
-  const SequenceMessages::Pair pair = messages_.read(index);
-  writeCamera("left", pair.left);
-  writeCamera("right", pair.right);
-}
-
-void SequenceBagWriter::finish() {
-  writeGyroscope(ros::TIME_MAX);
-  bag_.close();
-  std::filesystem::rename(unfinished_path_, path_);
-  finished_ = true;
-}
-
-void SequenceBagWriter::beginStamp(const ros::Time& stamp) {
-  stamp_ = stamp;
-  record_time_ = stamp;
-}
-
-void SequenceBagWriter::writeStatic() {
-  write("/tf_static", messages_.mounts());
-  const nav_msgs::Path& truth = messages_.groundTruth();
-  if (!truth.poses.empty()) write("/ground_truth/path", truth);
-}
-
-/// The pose of this stamp, if there is one.
-void SequenceBagWriter::writeTruth() {
-  const nav_msgs::Path& truth = messages_.groundTruth();
-  if (next_truth_ == truth.poses.size()) return;
-  const geometry_msgs::PoseStamped& pose = truth.poses[next_truth_];
-  if (pose.header.stamp != stamp_) return;
-  write("/ground_truth/pose", pose);
-  ++next_truth_;
-}
-
-/// Writes the samples before `end`.
-void SequenceBagWriter::writeGyroscope(const ros::Time& end) {
-  for (; next_sample_ < messages_.gyroscopeSamples(); ++next_sample_) {
-    const sensor_msgs::Imu sample = messages_.gyroscope(next_sample_);
-    if (sample.header.stamp >= end) return;
-    beginStamp(sample.header.stamp);
-    write("/imu/data", sample);
+  /// Removes an unfinished file.
+  ~Writer() {
+    std::error_code ignored;
+    std::filesystem::remove(unfinishedPath(), ignored);
   }
-}
 
-void SequenceBagWriter::writeCamera(const std::string& side,
-                                    const SequenceMessages::Camera& camera) {
-  const std::string name = "/stereo/" + side;
-  write(name + "/camera_info", *camera.info);
-  write(name + (messages_.isRectified() ? "/image_rect" : "/image_raw"), *camera.image);
-}
+  void write(const RecordedMessage& message) {
+    if (message.left_info) {
+      beginPair(message.time);
+      write("/stereo/left/camera_info", *message.left_info);
+    }
+    if (message.left_image) write("/stereo/left" + image_topic_, *message.left_image);
+    if (message.right_info) write("/stereo/right/camera_info", *message.right_info);
+    if (message.right_image) write("/stereo/right" + image_topic_, *message.right_image);
+  }
 
-template <typename Message>
-void SequenceBagWriter::write(const std::string& topic, const Message& message) {
-  bag_.write(topic, record_time_, message);
-  // Players sort by record time; equal times would have an undefined order.
-  record_time_ += ros::Duration(0, 1);
+  /// Renames the complete file to its final name.
+  void finish() {
+    writeGyroscope(ros::TIME_MAX);
+    bag_.close();
+    std::filesystem::rename(unfinishedPath(), path_);
+  }
+
+ private:
+  std::string unfinishedPath() const { return path_ + ".part"; }
+
+  /// Writes what is before the first message of a pair.
+  void beginPair(const ros::Time& time) {
+    writeGyroscope(time);
+    time_ = time;
+    if (time == recording_.begin()) writeStatic();
+    const auto& poses = truth_.poses;
+    if (next_truth_ == poses.size() || poses[next_truth_].header.stamp != time) return;
+    write("/ground_truth/pose", poses[next_truth_]);
+    ++next_truth_;
+  }
+
+  void writeStatic() {
+    write("/tf_static", recording_.staticTransforms());
+    if (!truth_.poses.empty()) write("/ground_truth/path", truth_);
+  }
+
+  /// Writes the samples before `end`.
+  void writeGyroscope(const ros::Time& end) {
+    for (; next_sample_ < gyroscope_.size(); ++next_sample_) {
+      const sensor_msgs::Imu& sample = gyroscope_[next_sample_];
+      if (sample.header.stamp >= end) return;
+      time_ = sample.header.stamp;
+      write("/imu/data", sample);
+    }
+  }
+
+  template <typename Message>
+  void write(const std::string& topic, const Message& message) {
+    bag_.write(topic, time_, message);
+    // Players sort by record time; equal times would have an undefined order.
+    time_ += ros::Duration(0, 1);
+  }
+
+  std::string path_;
+  const SequenceRecording& recording_;
+  std::string image_topic_;
+  nav_msgs::Path truth_;
+  std::vector<sensor_msgs::Imu> gyroscope_;
+  std::size_t next_truth_ = 0;
+  std::size_t next_sample_ = 0;
+  rosbag::Bag bag_;
+  ros::Time time_;  // of the next message
+};
+
+}  // namespace
+
+void writeSequenceBag(const std::string& path,
+                      SequenceRecording& recording,
+                      const std::function<void()>& on_pair) {
+  Writer writer(path, recording);
+  recording.select(recording.begin(), recording.end(), false);
+  RecordedMessage message;
+  while (recording.next(message)) {
+    writer.write(message);
+    if (message.right_image && on_pair) on_pair();
+  }
+  writer.finish();
 }
 
 void writeSequenceBag(const std::string& path,
-                      StereoSequence& sequence,
-                      const SequenceBagWriter::Options& options) {
-  SequenceBagWriter writer(path, sequence, options);
-  for (int index = 0; index < sequence.size(); ++index) writer.writePair(index);
-  writer.finish();
+                      const std::string& directory,
+                      const SequenceRecording::Options& options) {
+  SequenceRecording recording(directory, options);
+  writeSequenceBag(path, recording);
 }
 
 }  // namespace rotrocc

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -30,6 +31,26 @@ std::string join(const std::vector<std::string>& words) {
   return text;
 }
 
+/// Throws std::invalid_argument if nobody, or both player and odometry, would rectify the images.
+std::unique_ptr<Recording> openPlayable(const PlayerOptions& options) {
+  RecordingOptions how;
+  how.left_image = options.left_image;
+  how.right_image = options.right_image;
+  how.base_frame = options.base_frame;
+  how.max_stamp_difference_s = options.max_stamp_difference_s;
+  how.being_written = options.image_timeout_s > 0.0;
+  std::unique_ptr<Recording> recording = openRecording(options.bag, how);
+  if (!options.rectify && recording->isRaw()) {
+    throw std::invalid_argument("the images of " + recording->description() +
+                                " are not rectified: start with rectify:=true");
+  }
+  if (options.rectify && std::filesystem::is_directory(options.bag)) {
+    throw std::invalid_argument("the images of " + options.bag +
+                                " are rectified as they are read: start without rectify:=true");
+  }
+  return recording;
+}
+
 }  // namespace
 
 KittiPlayer::TimeRange KittiPlayer::rangeToPlay(const Recording& recording,
@@ -50,9 +71,9 @@ KittiPlayer::KittiPlayer(ros::NodeHandle& nh,
                          ros::NodeHandle& private_nh,
                          std::function<void()> on_end)
     : options_(readPlayerOptions(private_nh)),
-      recording_(openRecording(options_)),
+      recording_(openPlayable(options_)),
       range_(rangeToPlay(*recording_, options_)),
-      publisher_(nh, *recording_),
+      publisher_(nh, *recording_, options_.rectify ? "image_raw" : "image_rect"),
       clock_publisher_(nh.advertise<rosgraph_msgs::Clock>("/clock", kQueueSize)),
       clock_(options_.rate,
              options_.paused,
@@ -66,7 +87,7 @@ KittiPlayer::KittiPlayer(ros::NodeHandle& nh,
       pause_service_(private_nh.advertiseService("pause", &KittiPlayer::onPause, this)),
       on_end_(std::move(on_end)) {
   if (!options_.ground_truth_file.empty()) {
-    writeGroundTruth(options_.ground_truth_file, recording_->truth(), recording_->T_base_camera());
+    writeGroundTruth(options_.ground_truth_file, publisher_.truth(), recording_->T_base_camera());
   }
   thread_ = std::thread(&KittiPlayer::run, this);
 }
@@ -132,7 +153,7 @@ void KittiPlayer::waitForSubscribers() {
 }
 
 void KittiPlayer::playOnce() {
-  recording_->select(range_.begin, range_.end);
+  recording_->select(range_.begin, range_.end, true);
   publisher_.publishBeginning();
   monitor_.restart();
   synchronizer_.reset();

@@ -11,11 +11,11 @@
 #include <ros/service_server.h>
 #include <std_srvs/SetBool.h>
 
+#include "bags/recording.h"
 #include "input/stereo_synchronizer.h"
 #include "player/odometry_monitor.h"
 #include "player/playback_clock.h"
 #include "player/player_options.h"
-#include "player/recording.h"
 #include "player/recording_publisher.h"
 
 namespace rotrocc {

@@ -1,21 +1,22 @@
 #include "player/recording_publisher.h"
 
 #include <geometry_msgs/PoseStamped.h>
-#include <nav_msgs/Path.h>
 #include <ros/console.h>
 
 namespace rotrocc {
 namespace {
 
 constexpr std::uint32_t kTopicQueueSize = 10;
+
 }  // namespace
 
-RecordingPublisher::RecordingPublisher(ros::NodeHandle& nh, const Recording& recording)
+RecordingPublisher::RecordingPublisher(ros::NodeHandle& nh,
+                                       const Recording& recording,
+                                       const std::string& image_topic)
     : recording_(recording),
-      left_image_(
-          nh.advertise<sensor_msgs::Image>("left/" + recording.imageTopic(), kTopicQueueSize)),
-      right_image_(
-          nh.advertise<sensor_msgs::Image>("right/" + recording.imageTopic(), kTopicQueueSize)),
+      truth_(recording.truth()),
+      left_image_(nh.advertise<sensor_msgs::Image>("left/" + image_topic, kTopicQueueSize)),
+      right_image_(nh.advertise<sensor_msgs::Image>("right/" + image_topic, kTopicQueueSize)),
       left_info_(nh.advertise<sensor_msgs::CameraInfo>("left/camera_info", kTopicQueueSize)),
       right_info_(nh.advertise<sensor_msgs::CameraInfo>("right/camera_info", kTopicQueueSize)),
       moving_tf_(nh.advertise<tf2_msgs::TFMessage>("/tf", kTopicQueueSize)),
@@ -36,7 +37,7 @@ std::vector<std::string> RecordingPublisher::topicsWithoutSubscriber() const {
 
 void RecordingPublisher::publishBeginning() {
   static_tf_.publish(recording_.staticTransforms());
-  if (!recording_.truth().poses.empty()) truth_path_.publish(recording_.truth());
+  if (!truth_.poses.empty()) truth_path_.publish(truth_);
   left_info_.publish(recording_.firstLeftInfo());
   right_info_.publish(recording_.firstRightInfo());
   next_truth_ = 0;
@@ -51,9 +52,8 @@ void RecordingPublisher::publish(const RecordedMessage& message) {
 }
 
 void RecordingPublisher::publishTruthUntil(const ros::Time& time) {
-  const nav_msgs::Path& truth = recording_.truth();
-  for (; next_truth_ < truth.poses.size(); ++next_truth_) {
-    const geometry_msgs::PoseStamped& pose = truth.poses[next_truth_];
+  for (; next_truth_ < truth_.poses.size(); ++next_truth_) {
+    const geometry_msgs::PoseStamped& pose = truth_.poses[next_truth_];
     if (pose.header.stamp > time) return;
     truth_pose_.publish(pose);
   }

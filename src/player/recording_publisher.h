@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
+#include <nav_msgs/Path.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 
-#include "player/recording.h"
+#include "bags/recording.h"
 
 namespace rotrocc {
 
@@ -15,8 +16,14 @@ namespace rotrocc {
 /// /tf_static, ground_truth/path and ground_truth/pose.
 class RecordingPublisher {
  public:
-  /// Advertises the topics. `recording` must outlive this object. Logs its notes.
-  RecordingPublisher(ros::NodeHandle& nh, const Recording& recording);
+  /// Advertises the topics. `image_topic`: image_rect, or image_raw if the odometry rectifies.
+  /// `recording` must outlive this object. Logs its notes.
+  RecordingPublisher(ros::NodeHandle& nh,
+                     const Recording& recording,
+                     const std::string& image_topic);
+
+  /// True path of the base in the frame odom; empty if it is not known.
+  const nav_msgs::Path& truth() const { return truth_; }
 
   /// Topics that an odometry needs but that have no subscriber.
   std::vector<std::string> topicsWithoutSubscriber() const;
@@ -32,6 +39,7 @@ class RecordingPublisher {
 
  private:
   const Recording& recording_;
+  const nav_msgs::Path truth_;
   std::size_t next_truth_ = 0;
 
   ros::Publisher left_image_;

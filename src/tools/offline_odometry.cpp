@@ -5,24 +5,20 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <boost/program_options.hpp>
 
+#include "bags/recorded_pairs.h"
 #include "inertial/gyro_file.h"
 #include "rotrocc/parameters.h"
-#include "rotrocc/pose_accumulator.h"
-#include "rotrocc/trajectory.h"
 #include "rotrocc/visual_odometry.h"
-#include "tools/flow_pictures.h"
-#include "tools/odometry_bag.h"
-#include "tools/preloaded_source.h"
+#include "tools/odometry_outputs.h"
+#include "tools/preloaded_pairs.h"
 #include "tools/program.h"
 #include "tools/progress_bar.h"
 #include "tools/recorded_gyro.h"
 #include "tools/run_statistics.h"
-#include "tools/stereo_source.h"
 
 namespace {
 
@@ -40,45 +36,37 @@ const char* const kUsage =
 
 struct Options {
   std::string input;
-  std::string trajectory;
-  std::string format = "kitti";
-  std::string config;
-  std::vector<std::string> assignments;
-  std::string statistics;
-  std::string bag;
-  std::string pictures;
-  std::string left_image;
-  std::string right_image;
+  RecordingOptions recording;
   std::string rectify = "auto";
+  bool preload = false;
   std::string imu;
   std::string imu_rotation = "0 0 0 1";
-  bool preload = false;
+  std::string config;
+  std::vector<std::string> assignments;
+  OutputFiles output;
 };
 
 /// Returns false after printing the help; throws po::error on bad usage.
 bool parse(int argc, char** argv, Options& options) {
-  po::options_description visible("Options");
-  auto add = visible.add_options();
-  add("help,h", "show this help");
-  add("trajectory", po::value(&options.trajectory)->required(), "output file for the poses");
-  add("format", po::value(&options.format)->default_value(options.format), "kitti or tum");
+  po::options_description output("Output");
+  auto add = output.add_options();
+  add("trajectory", po::value(&options.output.trajectory)->required(), "file for the poses");
+  add("format",
+      po::value(&options.output.format)->default_value(options.output.format),
+      "kitti or tum");
+  add("stats", po::value(&options.output.statistics), "CSV file with a row of statistics per pair");
+  add("bag",
+      po::value(&options.output.bag),
+      "bag with /stereo/odom and /tf, as the node publishes them");
+  add("pictures", po::value(&options.output.pictures), "folder for the flow picture of each pair");
+
+  po::options_description parameters("Parameters");
+  add = parameters.add_options();
   add("config", po::value(&options.config), "YAML file with parameters");
   add("set", po::value(&options.assignments), "name=value: set a parameter; may be repeated");
-  add("stats",
-      po::value(&options.statistics),
-      "CSV output file with one row of statistics per pair");
-  add("bag",
-      po::value(&options.bag),
-      "output bag with /stereo/odom and /tf, as the node publishes them");
-  add("pictures", po::value(&options.pictures), "output folder for the flow picture of each pair");
-  add("left-image",
-      po::value(&options.left_image),
-      "topic of the left images, if a bag has several stereo pairs");
-  add("right-image", po::value(&options.right_image), "topic of the right images");
-  add("rectify",
-      po::value(&options.rectify)->default_value(options.rectify),
-      "images of a bag by K, D, R and P of camera_info: yes, no, or auto: if the topic is not "
-      "named image_rect or alike, and camera_info describes raw images");
+
+  po::options_description gyroscope("Gyroscope");
+  add = gyroscope.add_options();
   add("imu",
       po::value(&options.imu),
       "gyroscope that predicts rotations: a CSV file (timestamp [ns], three angular velocities "
@@ -88,11 +76,26 @@ bool parse(int argc, char** argv, Options& options) {
       po::value(&options.imu_rotation)->default_value(options.imu_rotation),
       "\"QX QY QZ QW\": rotation from axes of a CSV file to those of the left camera; that of a "
       "topic is from tf, that of a folder from sensor.yaml");
+
+  po::options_description images("Images");
+  add = images.add_options();
+  add("left-image",
+      po::value(&options.recording.left_image),
+      "topic of the left images, if a bag has several stereo pairs");
+  add("right-image", po::value(&options.recording.right_image), "topic of the right images");
+  add("rectify",
+      po::value(&options.rectify)->default_value(options.rectify),
+      "images of a bag by K, D, R and P of camera_info: yes, no, or auto: if the topic is not "
+      "named image_rect or alike, and camera_info describes raw images");
   add("preload", po::bool_switch(&options.preload), "read all images first; prints the memory use");
+
   PositionalArguments input;
   input.options.add_options()("input", po::value(&options.input)->required());
   input.order.add("input", 1);
   po::variables_map variables;
+  po::options_description visible("Options");
+  visible.add_options()("help,h", "show this help");
+  visible.add(output).add(parameters).add(gyroscope).add(images);
   return parseCommandLine(argc, argv, kUsage, visible, input, variables);
 }
 
@@ -129,48 +132,34 @@ Parameters readParameters(const Options& options) {
   return parameters;
 }
 
-std::unique_ptr<StereoSource> openInput(const Options& options, const NodeParameters& node) {
-  StereoBag::Options bag = bagOptions(node);
-  bag.left_image = options.left_image;
-  bag.right_image = options.right_image;
-  bag.rectify = rectifyOption(options.rectify);
-  return openStereoSource(options.input, bag);
+std::unique_ptr<Recording> openInput(const Options& options, const NodeParameters& node) {
+  RecordingOptions recording = options.recording;
+  recording.base_frame = node.base_frame;
+  recording.max_stamp_difference_s = node.max_stamp_difference_s;
+  recording.baseline_m = node.baseline_m;
+  return openRecording(options.input, recording);
 }
 
-std::optional<RecordedGyro> openGyro(const Options& options,
-                                     const StereoSource& source,
-                                     const NodeParameters& node) {
+std::optional<RecordedGyro> openGyro(const Options& options, const Recording& recording) {
   if (options.imu.empty()) return std::nullopt;
   if (std::filesystem::is_regular_file(options.imu)) {
     return RecordedGyro({readGyroFile(options.imu), parseRotation(options.imu_rotation)});
   }
-  return RecordedGyro(source.gyroscope(options.imu, node.base_frame));
+  return RecordedGyro(recording.gyroscope(options.imu));
 }
 
 void run(const Options& options) {
   const Parameters parameters = readParameters(options);
-
-  std::unique_ptr<StereoSource> source = openInput(options, parameters.node);
-  std::cerr << "offline_odometry: reading " << source->description() << '\n';
-  std::optional<RecordedGyro> gyro = openGyro(options, *source, parameters.node);
-  const PreloadedSource* preloaded = nullptr;
-  if (options.preload) {
-    auto all = std::make_unique<PreloadedSource>(std::move(source));
-    preloaded = all.get();
-    source = std::move(all);
-  }
-  TrajectoryWriter trajectory(options.trajectory, trajectoryFormat(options.format));
-  std::optional<StatisticsFile> statistics;
-  if (!options.statistics.empty()) statistics.emplace(options.statistics);
-  std::optional<OdometryBag> bag;
-  if (!options.bag.empty()) {
-    bag.emplace(
-        options.bag, source->mount(parameters.node.base_frame), parameters, source->start_ns());
-  }
-  std::optional<FlowPictures> pictures;
-  if (!options.pictures.empty()) {
-    pictures.emplace(options.pictures, flowView(parameters.node.flow_view));
-  }
+  const std::unique_ptr<Recording> recording = openInput(options, parameters.node);
+  const Rectify rectify = rectifyOption(options.rectify);
+  const bool is_bag = !std::filesystem::is_directory(options.input);
+  RecordedPairs pairs(*recording, parameters.node, is_bag ? rectify : Rectify::kIfRaw);
+  std::cerr << "offline_odometry: reading " << recording->description()
+            << (pairs.rectifies() ? ", rectified by camera_info" : "") << '\n';
+  std::optional<RecordedGyro> gyro = openGyro(options, *recording);
+  std::optional<PreloadedPairs> preloaded;
+  if (options.preload) preloaded.emplace(pairs);
+  OdometryOutputs outputs(options.output, *recording, parameters);
 
   RotationSource rotation;
   if (gyro) {
@@ -179,25 +168,21 @@ void run(const Options& options) {
     };
   }
   VisualOdometry odometry(parameters.odometry);
-  PoseAccumulator accumulator;
-  ProgressBar progress("odometry", source->size());
+  ProgressBar progress("odometry", recording->size());
   std::vector<PairRecord> records;
   StereoPair pair;
   StereoCamera camera;
-  while (source->next(pair, camera)) {
+  while (preloaded ? preloaded->next(pair, camera) : pairs.next(pair, camera)) {
     records.push_back(process(odometry, pair, camera, rotation));
     if (gyro) gyro->observe(records.back().result);
-    trajectory.write({pair.stamp_ns, accumulator.add(records.back().result.T_prev_cur)});
-    if (statistics) statistics->write(records.back());
-    if (bag) bag->write(records.back().result);
-    if (pictures) pictures->write(pair, camera, odometry, records.back().result);
+    outputs.write(records.back(), pair, camera, odometry);
     progress.advance();
   }
   progress.finish();
   printSummary(std::cout, records);
   if (gyro) gyro->printSummary(std::cout);
-  if (preloaded != nullptr) preloaded->printMemory(std::cout);
-  if (const std::string left_out = source->leftOut(); !left_out.empty()) {
+  if (preloaded) preloaded->printMemory(std::cout);
+  if (const std::string left_out = pairs.leftOut(); !left_out.empty()) {
     std::cout << left_out << " within " << parameters.node.max_stamp_difference_s
               << " s (max_stamp_difference_s)\n";
   }

@@ -22,24 +22,17 @@ ProgressBar::ProgressBar(std::string label, std::size_t total)
 
 void ProgressBar::advance() {
   ++done_;
-  if (on_terminal_) {
-    const auto now = Clock::now();
-    if (now - last_drawn_ < kRedrawPeriod) return;
-    last_drawn_ = now;
-    draw();
-  } else if (total_ > 0 && 10 * done_ / total_ > tenths_shown_) {
-    tenths_shown_ = 10 * done_ / total_;
-    draw();
-  }
+  const auto now = Clock::now();
+  const std::size_t tenths = total_ > 0 ? 10 * done_ / total_ : 0;
+  if (on_terminal_ ? now - last_drawn_ < kRedrawPeriod : tenths == tenths_drawn_) return;
+  last_drawn_ = now;
+  tenths_drawn_ = tenths;
+  draw();
 }
 
 void ProgressBar::finish() {
-  if (on_terminal_) {
-    draw();
-    std::fputc('\n', stderr);
-  } else if (tenths_shown_ < 10) {
-    draw();
-  }
+  if (on_terminal_ || tenths_drawn_ < 10) draw();
+  if (on_terminal_) std::fputc('\n', stderr);
 }
 
 void ProgressBar::draw() const {

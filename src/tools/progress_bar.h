@@ -26,7 +26,7 @@ class ProgressBar {
   std::string label_;
   std::size_t total_;
   std::size_t done_ = 0;
-  std::size_t tenths_shown_ = 0;
+  std::size_t tenths_drawn_ = 0;
   bool on_terminal_;
   Clock::time_point start_;
   Clock::time_point last_drawn_;

@@ -1,11 +1,11 @@
 #include <cstdint>
+#include <filesystem>
 #include <iostream>
 #include <string>
 
 #include <boost/program_options.hpp>
 
 #include "bags/sequence_bag_writer.h"
-#include "sequences/stereo_sequence.h"
 #include "tools/program.h"
 #include "tools/progress_bar.h"
 
@@ -26,8 +26,7 @@ const char* const kUsage =
 struct Options {
   std::string sequence;
   std::string bag;
-  double max_stamp_difference_s = 0.01;
-  SequenceBagWriter::Options writer;
+  SequenceRecording::Options recording;
 };
 
 /// Returns false after printing the help; throws po::error on bad usage.
@@ -35,17 +34,17 @@ bool parse(int argc, char** argv, Options& options) {
   po::options_description visible("Options");
   auto add = visible.add_options();
   add("help,h", "show this help");
+  add("rectify",
+      po::bool_switch(&options.recording.rectify),
+      "write rectified images, if those of the sequence are not: image_rect instead of image_raw");
   std::int64_t start_time_s = 0;
   add("start-time",
       po::value(&start_time_s),
       "time of the first pair [s since 1970, integer]; default: that of the sequence, or "
-      "1317600000 "
-      "if its times start at 0, as ROS does not accept stamp 0");
-  add("rectify",
-      po::bool_switch(&options.writer.rectify),
-      "write rectified images, if those of the sequence are not: image_rect instead of image_raw");
+      "1317600000 if its times start at 0, as ROS does not accept stamp 0");
+  double& max_stamp_difference_s = options.recording.sequence.max_stamp_difference_s;
   add("max-stamp-difference",
-      po::value(&options.max_stamp_difference_s)->default_value(options.max_stamp_difference_s),
+      po::value(&max_stamp_difference_s)->default_value(max_stamp_difference_s),
       "[s] between the images of a pair");
   PositionalArguments names;
   names.options.add_options()("sequence", po::value(&options.sequence)->required())(
@@ -53,31 +52,29 @@ bool parse(int argc, char** argv, Options& options) {
   names.order.add("sequence", 1).add("bag", 1);
   po::variables_map variables;
   if (!parseCommandLine(argc, argv, kUsage, visible, names, variables)) return false;
-  if (variables.count("start-time") > 0) options.writer.start_time_s = start_time_s;
+  if (variables.count("start-time") > 0) options.recording.start_time_s = start_time_s;
   return true;
 }
 
 void run(const Options& options) {
-  const auto sequence = openStereoSequence(options.sequence, {options.max_stamp_difference_s, 0.0});
-  if (sequence->groundTruth().empty()) {
+  SequenceRecording recording(options.sequence, options.recording);
+  if (recording.truth().poses.empty()) {
     std::cerr << "sequence_to_bag: " << options.sequence
               << " has no true poses: the bag will have no ground truth\n";
   }
-  SequenceBagWriter writer(options.bag, *sequence, options.writer);
-  ProgressBar progress("sequence_to_bag", sequence->size());
-  for (int index = 0; index < sequence->size(); ++index) {
-    writer.writePair(index);
-    progress.advance();
-  }
-  writer.finish();
+  ProgressBar progress("sequence_to_bag", recording.size());
+  writeSequenceBag(options.bag, recording, [&] { progress.advance(); });
   progress.finish();
-  if (!sequence->leftOut().empty()) {
-    std::cerr << "sequence_to_bag: " << sequence->leftOut() << '\n';
+  if (!recording.leftOut().empty()) {
+    std::cerr << "sequence_to_bag: " << recording.leftOut() << '\n';
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (std::filesystem::path(argv[0]).filename() == "kitti_to_bag") {
+    std::cerr << "kitti_to_bag: its name is sequence_to_bag now\n";
+  }
   return runProgram("sequence_to_bag", argc, argv, parse, run);
 }

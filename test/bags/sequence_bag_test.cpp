@@ -10,15 +10,13 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 #include <tf2_eigen/tf2_eigen.h>
-#include <opencv2/core.hpp>
 
 #include "bags/bag_reading.h"
 #include "bags/recorded_tf.h"
 #include "bags/sequence_bag_writer.h"
-#include "bags/stereo_bag.h"
 #include "input/camera_calibration.h"
 #include "input/message_conversion.h"
-#include "sequences/kitti_layout.h"
+#include "rotrocc/kitti.h"
 #include "sequences/kitti_mount.h"
 #include "support/asl_folder.h"
 #include "support/expect_error.h"
@@ -35,43 +33,13 @@ class SequenceBagTest : public ::testing::Test {
  protected:
   SequenceBagTest() {
     writeSyntheticSequence(directory_ / "sequence", kPairs);
-    KittiLayout sequence(directory_ / "sequence");
-    writeSequenceBag(bagPath(), sequence, {kStart_s, false});
+    writeSequenceBag(bagPath(), directory_ / "sequence", {kStart_s, false});
   }
 
   std::string bagPath() const { return directory_ / "sequence.bag"; }
 
   TemporaryDirectory directory_;
 };
-
-bool equal(const cv::Mat& a, const cv::Mat& b) {
-  return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0.0;
-}
-
-TEST_F(SequenceBagTest, GivesBackPixelsCameraAndStamps) {
-  const KittiSequence sequence(directory_ / "sequence");
-  const rosbag::Bag file = openBag(bagPath());
-  StereoBag bag(file, {});
-  EXPECT_EQ(bag.size(), kPairs);
-  StereoPair pair;
-  StereoCamera camera;
-  for (int i = 0; i < kPairs; ++i) {
-    ASSERT_TRUE(bag.next(pair, camera)) << "pair " << i;
-    EXPECT_EQ(pair.stamp_ns, kStart_s * 1'000'000'000 + sequence.stamp_ns(i));
-    EXPECT_TRUE(equal(pair.left, sequence.readLeft(i))) << "pair " << i;
-    EXPECT_TRUE(equal(pair.right, sequence.readRight(i))) << "pair " << i;
-    EXPECT_EQ(camera.width, sequence.camera().width);
-    EXPECT_EQ(camera.height, sequence.camera().height);
-    EXPECT_EQ(camera.fx, sequence.camera().fx);
-    EXPECT_EQ(camera.fy, sequence.camera().fy);
-    EXPECT_EQ(camera.cx, sequence.camera().cx);
-    EXPECT_EQ(camera.cy, sequence.camera().cy);
-    EXPECT_EQ(camera.cx_right, sequence.camera().cx_right);
-    // The bag stores fx * baseline, which is rounded.
-    EXPECT_DOUBLE_EQ(camera.baseline_m, sequence.camera().baseline_m);
-  }
-  EXPECT_FALSE(bag.next(pair, camera));
-}
 
 TEST_F(SequenceBagTest, FillsTheCameraInfo) {
   const rosbag::Bag bag = openBag(bagPath());
@@ -128,21 +96,22 @@ TEST_F(SequenceBagTest, PlaysInTheOrderItWasWritten) {
 }
 
 TEST_F(SequenceBagTest, LeavesNothingUnfinished) {
-  KittiLayout sequence(directory_ / "sequence");
-  {
-    SequenceBagWriter writer(directory_ / "cut.bag", sequence, {});
-    writer.writePair(0);
-  }
+  SequenceRecording recording(directory_ / "sequence", {});
+  expectError<std::runtime_error>(
+      [&] {
+        writeSequenceBag(
+            directory_ / "cut.bag", recording, [] { throw std::runtime_error("cut"); });
+      },
+      "cut");
   EXPECT_FALSE(std::filesystem::exists(directory_ / "cut.bag"));
   EXPECT_FALSE(std::filesystem::exists(directory_ / "cut.bag.part"));
 }
 
 TEST_F(SequenceBagTest, RefusesStampsThatRosHasNot) {
-  KittiLayout sequence(directory_ / "sequence");
   for (const std::int64_t start_s : {std::int64_t{0}, std::int64_t{5000000000}}) {
     expectError<std::invalid_argument>(
         [&] {
-          SequenceBagWriter(directory_ / "other.bag", sequence, {start_s, false});
+          SequenceRecording(directory_ / "sequence", {start_s, false});
         },
         "out of the range of ROS");
   }
@@ -151,9 +120,8 @@ TEST_F(SequenceBagTest, RefusesStampsThatRosHasNot) {
 /// Of unrectified images.
 class RawSequenceBagTest : public ::testing::Test {
  protected:
-  std::string write(const SequenceBagWriter::Options& options = {}) const {
-    const auto sequence = openStereoSequence(folder_.path(), {});
-    writeSequenceBag(directory_ / "raw.bag", *sequence, options);
+  std::string write(const SequenceRecording::Options& options = {}) const {
+    writeSequenceBag(directory_ / "raw.bag", folder_.path(), options);
     return directory_ / "raw.bag";
   }
 
@@ -211,11 +179,14 @@ TEST_F(RawSequenceBagTest, StampsMayBeMoved) {
 
 TEST_F(RawSequenceBagTest, HoldsTheGyroscopeInAxesOfTheBase) {
   folder_.write("imu0/data.csv",
-                std::to_string(AslFolder::stamp_ns(0) - 5'000'000) + ",0.1,0.2,0.3,0,0,0\n");
+                std::to_string(AslFolder::stamp_ns(0) - 5'000'000) + ",0.1,0.2,0.3,0,0,0\n" +
+                    std::to_string(AslFolder::stamp_ns(9)) + ",0.1,0.2,0.3,0,0,0\n");
   const rosbag::Bag bag = openBag(write());
   const auto imu = firstMessage<sensor_msgs::Imu>(bag, "/imu/data");
   ASSERT_TRUE(imu);
   EXPECT_NEAR(imu->angular_velocity.y, 0.2, 1e-9) << "the base is the body, as the gyroscope";
+  rosbag::View samples(bag, rosbag::TopicQuery("/imu/data"));
+  EXPECT_EQ(samples.size(), 2u) << "also after the last pair";
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include "bags/stereo_topics.h"
 
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -12,93 +14,90 @@ namespace {
 const char* const kImage = "sensor_msgs/Image";
 const char* const kInfo = "sensor_msgs/CameraInfo";
 
-void addCamera(TopicTypes& types, const std::string& camera, const std::string& image) {
-  types[camera + "/" + image] = kImage;
-  types[camera + "/camera_info"] = kInfo;
-}
-
-void addPair(TopicTypes& types, const std::string& prefix, const std::string& image) {
-  addCamera(types, prefix + "left", image);
-  addCamera(types, prefix + "right", image);
-}
-
-TEST(FindStereoTopics, FindsImagesAndInfosOfOwnBags) {
+/// Image topics, each with its camera_info.
+TopicTypes withInfos(const std::vector<std::string>& images) {
   TopicTypes types = {{"/tf_static", "tf2_msgs/TFMessage"}};
-  addPair(types, "/stereo/", "image_rect");
-  const StereoTopics topics = findStereoTopics(types);
-  EXPECT_EQ(topics.left_image, "/stereo/left/image_rect");
-  EXPECT_EQ(topics.right_image, "/stereo/right/image_rect");
-  EXPECT_EQ(topics.left_info, "/stereo/left/camera_info");
-  EXPECT_EQ(topics.right_info, "/stereo/right/camera_info");
+  for (const std::string& image : images) {
+    types[image] = kImage;
+    types[image.substr(0, image.rfind('/')) + "/camera_info"] = kInfo;
+  }
+  return types;
 }
 
-TEST(FindStereoTopics, PrefersGrayToColour) {
-  TopicTypes types;
-  addPair(types, "/kitti/camera_color_", "image_raw");
-  addPair(types, "/kitti/camera_gray_", "image_raw");
-  EXPECT_EQ(findStereoTopics(types).left_image, "/kitti/camera_gray_left/image_raw");
+/// The left and right topics of these names.
+std::vector<std::string> pairs(const std::vector<std::string>& names) {
+  std::vector<std::string> images;
+  for (const std::string& name : names) {
+    const std::size_t star = name.find('*');
+    for (const char* side : {"left", "right"}) {
+      images.push_back(std::string(name).replace(star, 1, side));
+    }
+  }
+  return images;
 }
 
-TEST(FindStereoTopics, TakesColourIfThereIsNoGray) {
-  TopicTypes types;
-  addPair(types, "/kitti/camera_color_", "image_rect");
-  EXPECT_EQ(findStereoTopics(types).right_image, "/kitti/camera_color_right/image_rect");
-}
-
-TEST(FindStereoTopics, PrefersRectifiedToRaw) {
-  TopicTypes types;
-  addPair(types, "/camera/", "image_raw");
-  addPair(types, "/camera/", "image_rect");
-  addPair(types, "/camera/", "image_rect_color");
-  EXPECT_EQ(findStereoTopics(types).left_image, "/camera/left/image_rect");
-}
-
-TEST(FindStereoTopics, ChangesOnlyTheLastLeftOfAName) {
-  TopicTypes types;
-  addPair(types, "/left_arm/stereo/", "image_rect");
-  EXPECT_EQ(findStereoTopics(types).right_image, "/left_arm/stereo/right/image_rect");
+TEST(FindStereoTopics, FindsThePair) {
+  const struct {
+    const char* why;
+    std::vector<std::string> pairs;
+    const char* left_image;
+    const char* right_image;
+  } rows[] = {
+      {"own bags", {"/stereo/*/image_rect"}, "/stereo/left/image_rect", "/stereo/right/image_rect"},
+      {"gray rather than colour",
+       {"/kitti/camera_color_*/image_raw", "/kitti/camera_gray_*/image_raw"},
+       "/kitti/camera_gray_left/image_raw",
+       "/kitti/camera_gray_right/image_raw"},
+      {"colour if there is no gray",
+       {"/kitti/camera_color_*/image_rect"},
+       "/kitti/camera_color_left/image_rect",
+       "/kitti/camera_color_right/image_rect"},
+      {"rectified rather than raw",
+       {"/camera/*/image_raw", "/camera/*/image_rect", "/camera/*/image_rect_color"},
+       "/camera/left/image_rect",
+       "/camera/right/image_rect"},
+      {"the last left of a name",
+       {"/left_arm/stereo/*/image_rect"},
+       "/left_arm/stereo/left/image_rect",
+       "/left_arm/stereo/right/image_rect"},
+  };
+  for (const auto& row : rows) {
+    SCOPED_TRACE(row.why);
+    const StereoTopics topics = findStereoTopics(withInfos(pairs(row.pairs)));
+    EXPECT_EQ(topics.left_image, row.left_image);
+    EXPECT_EQ(topics.right_image, row.right_image);
+    const auto infoOf = [](const std::string& image) {
+      return image.substr(0, image.rfind('/')) + "/camera_info";
+    };
+    EXPECT_EQ(topics.left_info, infoOf(row.left_image));
+    EXPECT_EQ(topics.right_info, infoOf(row.right_image));
+  }
 }
 
 TEST(FindStereoTopics, ListsTopicsWhenItCannotChoose) {
-  TopicTypes types;
-  addPair(types, "/front/", "image_rect");
-  addPair(types, "/rear/", "image_rect");
-  expectError<std::runtime_error>([&] { findStereoTopics(types); }, "more than one stereo pair");
-  expectError<std::runtime_error>([&] { findStereoTopics(types); }, "/rear/left/image_rect");
-}
-
-TEST(FindStereoTopics, ListsTopicsWhenThereIsNoPair) {
-  TopicTypes types;
-  addCamera(types, "/cam0", "image_rect");
-  expectError<std::runtime_error>([&] { findStereoTopics(types); }, "no stereo pair");
-  expectError<std::runtime_error>([&] { findStereoTopics(types); }, "/cam0/image_rect");
-  expectError<std::runtime_error>([] { findStereoTopics({}); }, "image topics: none");
-}
-
-TEST(FindStereoTopics, WantsACameraInfoBesideEachImage) {
-  TopicTypes types;
-  addPair(types, "/stereo/", "image_rect");
-  types.erase("/stereo/right/camera_info");
-  expectError<std::runtime_error>([&] { findStereoTopics(types); }, "no stereo pair");
+  const auto expectRefused = [](const TopicTypes& types, const std::vector<std::string>& parts) {
+    for (const std::string& part : parts) {
+      expectError<std::runtime_error>([&] { findStereoTopics(types); }, part);
+    }
+  };
+  expectRefused(withInfos(pairs({"/front/*/image_rect", "/rear/*/image_rect"})),
+                {"more than one stereo pair", "/rear/left/image_rect"});
+  expectRefused(withInfos({"/cam0/image_rect"}), {"no stereo pair", "/cam0/image_rect"});
+  expectRefused({}, {"image topics: none"});
+  TopicTypes without_info = withInfos(pairs({"/stereo/*/image_rect"}));
+  without_info.erase("/stereo/right/camera_info");
+  expectRefused(without_info, {"no stereo pair"});
 }
 
 TEST(FindStereoTopics, TakesTheNamedPair) {
-  TopicTypes types;
-  addCamera(types, "/cam0", "image_rect");
-  addCamera(types, "/cam1", "image_rect");
+  const TopicTypes types = withInfos({"/cam0/image_rect", "/cam1/image_rect"});
   const StereoTopics topics = findStereoTopics(types, "/cam1/image_rect", "/cam0/image_rect");
   EXPECT_EQ(topics.left_image, "/cam1/image_rect");
   EXPECT_EQ(topics.right_info, "/cam0/camera_info");
-}
-
-TEST(FindStereoTopics, RefusesNamesThatAreNoImages) {
-  TopicTypes types;
-  addPair(types, "/stereo/", "image_rect");
   expectError<std::runtime_error>(
-      [&] { findStereoTopics(types, "/stereo/left/camera_info", "/stereo/right/image_rect"); },
-      "no topic '/stereo/left/camera_info' of type sensor_msgs/Image");
-  expectError<std::runtime_error>([&] { findStereoTopics(types, "/stereo/left/image_rect"); },
-                                  "both");
+      [&] { findStereoTopics(types, "/cam0/camera_info", "/cam1/image_rect"); },
+      "no topic '/cam0/camera_info' of type sensor_msgs/Image");
+  expectError<std::runtime_error>([&] { findStereoTopics(types, "/cam0/image_rect"); }, "both");
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
 #include <ros/ros.h>
+#include <rosbag/bag.h>
 #include <rosgraph_msgs/Clock.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
@@ -26,7 +27,8 @@
 
 #include "bags/sequence_bag_writer.h"
 #include "input/stereo_synchronizer.h"
-#include "sequences/kitti_layout.h"
+#include "rotrocc/kitti.h"
+#include "support/asl_folder.h"
 #include "support/expect_error.h"
 #include "support/kitti2bag_writer.h"
 #include "support/service_caller.h"
@@ -132,10 +134,7 @@ class KittiPlayerTest : public ::testing::Test {
   KittiSequence sequence() const { return KittiSequence(directory_ / "sequence"); }
   std::string bag() const { return directory_ / "test.bag"; }
 
-  void writeOwnBag() const {
-    KittiLayout layout(directory_ / "sequence");
-    writeSequenceBag(bag(), layout, {1000, false});
-  }
+  void writeOwnBag() const { writeSequenceBag(bag(), directory_ / "sequence", {1000, false}); }
 
   void startPlayer() {
     player_ = std::make_unique<KittiPlayer>(nh_, private_nh_, [this] { ended_ = true; });
@@ -326,19 +325,34 @@ TEST_F(KittiPlayerTest, WaitsForSubscribers) {
   EXPECT_EQ(listener.leftStamps().size(), static_cast<std::size_t>(kPairs));
 }
 
-TEST_F(KittiPlayerTest, RefusesBadParameters) {
+TEST_F(KittiPlayerTest, RefusesWhatItCannotPlay) {
   writeOwnBag();
-  private_nh_.setParam("rate", -1.0);
-  expectError([this] { startPlayer(); }, "rate is -1");
-  private_nh_.setParam("rate", 1.0);
-  private_nh_.setParam("start", 60.0);
-  expectError([this] { startPlayer(); }, "start is 60 s, but the recording is only 0.5");
-  private_nh_.setParam("bag", directory_ / "missing.bag");
-  expectError([this] { startPlayer(); }, "missing.bag is not readable as a bag");
-  private_nh_.setParam("bag", directory_ / "");
-  expectError([this] { startPlayer(); }, "is no stereo sequence");
-  private_nh_.deleteParam("bag");
-  expectError([this] { startPlayer(); }, "parameter bag is missing");
+  const AslFolder raw;
+  writeSequenceBag(directory_ / "raw.bag", raw.path());
+  rosbag::Bag(directory_ / "empty.bag", rosbag::bagmode::Write).close();
+  const struct {
+    const char* name;
+    XmlRpc::XmlRpcValue value;
+    const char* message;
+  } rows[] = {
+      {"rate", -1.0, "rate is -1"},
+      {"start", 60.0, "start is 60 s, but the recording is only 0.5"},
+      {"bag", directory_ / "missing.bag", "missing.bag is not readable as a bag"},
+      {"bag", directory_ / "empty.bag", "no stereo pair ("},
+      {"bag", directory_ / "raw.bag", "raw.bag are not rectified: start with rectify:=true"},
+      {"bag", directory_ / "", "is no stereo sequence"},
+      {"bag", "", "parameter bag is missing"},
+  };
+  for (const auto& row : rows) {
+    private_nh_.setParam("bag", bag());
+    private_nh_.setParam("rate", 1.0);
+    private_nh_.setParam("start", 0.0);
+    private_nh_.setParam(row.name, row.value);
+    expectError([this] { startPlayer(); }, row.message);
+  }
+  private_nh_.setParam("bag", directory_ / "sequence");
+  private_nh_.setParam("rectify", true);
+  expectError([this] { startPlayer(); }, "start without rectify:=true");
 }
 
 }  // namespace

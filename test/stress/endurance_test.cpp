@@ -8,7 +8,6 @@
 #include <ros/ros.h>
 
 #include "bags/sequence_bag_writer.h"
-#include "sequences/kitti_layout.h"
 #include "stress/stress_player.h"
 #include "support/synthetic_sequence.h"
 #include "support/temporary_directory.h"
@@ -21,8 +20,7 @@ constexpr int kPairs = 30;
 void writeBag(const std::string& path) {
   const TemporaryDirectory directory;
   writeSyntheticSequence(directory / "sequence", kPairs);
-  KittiLayout sequence(directory / "sequence");
-  writeSequenceBag(path, sequence, {1000, false});
+  writeSequenceBag(path, directory / "sequence", {1000, false});
 }
 
 TEST(EnduranceTest, KnowsSoundAnswersAndAccounts) {

@@ -27,20 +27,11 @@ TEST(ProgressBarTest, PrintsALineForEveryTenthOffATerminal) {
   EXPECT_EQ(output.find('\r'), std::string::npos);
   EXPECT_EQ(output.rfind("work  10 %  100/1000", 0), 0u) << output;
   EXPECT_NE(output.find("work 100 %  1000/1000"), std::string::npos) << output;
-}
-
-TEST(ProgressBarTest, PrintsEachStepOnceIfThereAreFew) {
-  EXPECT_EQ(lineCount(outputOf(3, 3)), 3);
-}
-
-TEST(ProgressBarTest, FinishShowsHowFarAnEarlyEndCame) {
-  const std::string output = outputOf(100, 15);
-  EXPECT_EQ(lineCount(output), 2);
-  EXPECT_NE(output.find("work  15 %  15/100"), std::string::npos) << output;
-}
-
-TEST(ProgressBarTest, NothingToDoIsDone) {
-  EXPECT_NE(outputOf(0, 0).find("100 %  0/0"), std::string::npos);
+  EXPECT_EQ(lineCount(outputOf(3, 3)), 3) << "each step once, if there are few";
+  EXPECT_NE(outputOf(0, 0).find("100 %  0/0"), std::string::npos) << "nothing to do is done";
+  const std::string early_end = outputOf(100, 15);
+  EXPECT_EQ(lineCount(early_end), 2);
+  EXPECT_NE(early_end.find("work  15 %  15/100"), std::string::npos) << early_end;
 }
 
 }  // namespace

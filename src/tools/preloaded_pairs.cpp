@@ -1,4 +1,4 @@
-#include "tools/preloaded_source.h"
+#include "tools/preloaded_pairs.h"
 
 #include <cstdio>
 #include <fstream>
@@ -26,26 +26,25 @@ double size_MB(const cv::Mat& image) {
 
 }  // namespace
 
-PreloadedSource::PreloadedSource(std::unique_ptr<StereoSource> source)
-    : source_(std::move(source)) {
+PreloadedPairs::PreloadedPairs(RecordedPairs& pairs) {
   StereoPair pair;
   StereoCamera camera;
-  while (source_->next(pair, camera)) {
+  while (pairs.next(pair, camera)) {
     images_MB_ += size_MB(pair.left) + size_MB(pair.right);
-    // The source may overwrite its images.
+    // The next call overwrites its images.
     pairs_.emplace_back(StereoPair{pair.stamp_ns, pair.left.clone(), pair.right.clone()}, camera);
   }
   loaded_MB_ = memory_MB("VmRSS");
 }
 
-bool PreloadedSource::next(StereoPair& pair, StereoCamera& camera) {
+bool PreloadedPairs::next(StereoPair& pair, StereoCamera& camera) {
   if (next_ == pairs_.size()) return false;
   std::tie(pair, camera) = pairs_[next_];
   ++next_;
   return true;
 }
 
-void PreloadedSource::printMemory(std::ostream& out) const {
+void PreloadedPairs::printMemory(std::ostream& out) const {
   const double peak = memory_MB("VmHWM");
   char line[128];
   std::snprintf(

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nav_msgs/Path.h>
+#include <ros/time.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <tf2_msgs/TFMessage.h>
+#include <Eigen/Geometry>
+
+#include "sequences/gyro_recording.h"
+
+namespace rotrocc {
+
+/// A message of a recording, and when it was recorded. One of the pointers is set.
+struct RecordedMessage {
+  ros::Time time;
+  sensor_msgs::Image::ConstPtr left_image;
+  sensor_msgs::Image::ConstPtr right_image;
+  sensor_msgs::CameraInfo::ConstPtr left_info;
+  sensor_msgs::CameraInfo::ConstPtr right_info;
+  tf2_msgs::TFMessage::ConstPtr tf;
+};
+
+/// A stereo recording as messages of ROS, whatever its format is.
+class Recording {
+ public:
+  virtual ~Recording() = default;
+
+  /// For messages, e.g. "/stereo/left/image_rect and /stereo/right/image_rect of 06.bag".
+  virtual std::string description() const = 0;
+
+  /// An upper bound of the number of pairs.
+  virtual int size() const = 0;
+
+  /// Whether the images have to be rectified.
+  virtual bool isRaw() const = 0;
+
+  /// How recorded poses are used; for the log.
+  virtual std::vector<std::string> notes() const { return {}; }
+
+  /// Times of the first and the last image or camera_info.
+  virtual ros::Time begin() const = 0;
+  virtual ros::Time end() const = 0;
+
+  /// From the stamps of the recording to those of the messages: ROS does not accept stamp 0.
+  virtual std::int64_t offset_ns() const { return 0; }
+
+  virtual sensor_msgs::CameraInfo::ConstPtr firstLeftInfo() const = 0;
+  virtual sensor_msgs::CameraInfo::ConstPtr firstRightInfo() const = 0;
+  virtual tf2_msgs::TFMessage staticTransforms() const = 0;
+
+  /// True path of the base in the frame odom; empty if it is not known.
+  virtual nav_msgs::Path truth() const = 0;
+  virtual Eigen::Isometry3d T_base_camera() const = 0;
+
+  /// The gyroscope of a topic of a bag, with its mount from tf, or of a folder or file of a
+  /// sequence, with the stamps of the recording. Throws std::runtime_error if there is none of that
+  /// name.
+  virtual GyroRecording gyroscope(const std::string& name) const = 0;
+
+  /// Selects the messages from `from` to `to`, both included. Without tf it is not read.
+  virtual void select(const ros::Time& from, const ros::Time& to, bool with_tf) = 0;
+
+  /// Whether the next message is there; in a recording that is being written it may not be yet.
+  virtual bool hasNext() const { return true; }
+
+  /// Reads the next selected message. Returns false at the end. Throws std::runtime_error if it is
+  /// unreadable.
+  virtual bool next(RecordedMessage& message) = 0;
+
+  /// Images that were left out, e.g. "1 left image and 0 right images without a partner"; empty if
+  /// none.
+  virtual std::string leftOut() const { return ""; }
+};
+
+/// How a recording is opened.
+struct RecordingOptions {
+  std::string left_image;  ///< topics of the pair in a bag; empty: findStereoTopics()
+  std::string right_image;
+  std::string base_frame = "base_link";  ///< of a bag: its recorded poses are the true path
+  double max_stamp_difference_s = 0.01;  ///< between the images of a pair of a sequence
+  double baseline_m = 0.0;               ///< of a sequence; 0: that of camera_calibration
+  bool being_written = false;            ///< a sequence whose images may be missing yet
+};
+
+/// Opens a bag, or the directory of a sequence, whose images are rectified as they are read: see
+/// openStereoSequence(). Throws std::runtime_error if `path` is neither, or has no stereo pair.
+std::unique_ptr<Recording> openRecording(const std::string& path,
+                                         const RecordingOptions& options = {});
+
+}  // namespace rotrocc

@@ -1,0 +1,172 @@
+#include "bags/sequence_recording.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include <sensor_msgs/image_encodings.h>
+#include <tf2_eigen/tf2_eigen.h>
+#include <boost/make_shared.hpp>
+
+#include "bags/ground_truth.h"
+#include "input/message_conversion.h"
+#include "sequences/camera_info_calibration.h"
+
+namespace rotrocc {
+namespace {
+
+using sensor_msgs::image_encodings::MONO8;
+
+constexpr std::int64_t kNsPerS = 1000000000;
+const char* const kBaseFrame = "base_link";
+const char* const kOdomFrame = "odom";
+const char* const kCameraFrame = "stereo_left_optical";
+const char* const kImuFrame = "imu_link";
+
+std::int64_t offsetOf(const StereoSequence& sequence, std::optional<std::int64_t> start_time_s) {
+  const std::int64_t usual_ns = rosTimeOffset_ns(sequence);
+  if (!start_time_s) return usual_ns;
+  constexpr std::int64_t kMaxStart_s = std::numeric_limits<std::uint32_t>::max();
+  const std::int64_t start_s = std::clamp<std::int64_t>(*start_time_s, -1, kMaxStart_s);
+  return start_s * kNsPerS - (usual_ns == 0 ? sequence.stamp_ns(0) : 0);
+}
+
+void requireRosStamps(const StereoSequence& sequence, std::int64_t offset_ns) {
+  const std::int64_t first_s = (sequence.stamp_ns(0) + offset_ns) / kNsPerS;
+  const std::int64_t last_s = (sequence.stamp_ns(sequence.size() - 1) + offset_ns) / kNsPerS;
+  if (first_s >= 1 && last_s < std::numeric_limits<std::uint32_t>::max()) return;
+  throw std::invalid_argument("the stamps from " + std::to_string(first_s) + " to " +
+                              std::to_string(last_s) +
+                              " s are out of the range of ROS: choose a start time from 1 to 4e9");
+}
+
+geometry_msgs::TransformStamped mount(const Eigen::Isometry3d& T_base_sensor,
+                                      const ros::Time& stamp,
+                                      const std::string& frame) {
+  geometry_msgs::TransformStamped transform = tf2::eigenToTransform(T_base_sensor);
+  transform.header.frame_id = kBaseFrame;
+  transform.header.stamp = stamp;
+  transform.child_frame_id = frame;
+  return transform;
+}
+
+/// P[3] of the right camera, rounded so that those who divide it get the same baseline.
+double shiftOf(const StereoCamera& camera) {
+  const double product = -camera.fx * camera.baseline_m;
+  const double nearer = std::nextafter(product, 0.0);
+  const double farther = std::nextafter(product, 2.0 * product);
+  for (const double shift : {product, nearer, farther}) {
+    if (shift / -camera.fx == camera.baseline_m) return shift;
+  }
+  return product;
+}
+
+sensor_msgs::CameraInfo::Ptr stamped(sensor_msgs::CameraInfo info, const ros::Time& stamp) {
+  info.header.frame_id = kCameraFrame;
+  info.header.stamp = stamp;
+  return boost::make_shared<sensor_msgs::CameraInfo>(std::move(info));
+}
+
+}  // namespace
+
+SequenceRecording::SequenceRecording(const std::string& directory, const Options& options)
+    : sequence_(openStereoSequence(directory, options.sequence)),
+      offset_ns_(offsetOf(*sequence_, options.start_time_s)),
+      calibration_(sequence_->calibration()) {
+  requireRosStamps(*sequence_, offset_ns_);
+  if (options.rectify && !calibration_.isRectified()) {
+    rectifier_.emplace(calibration_);
+    calibration_ = rectifiedCalibration(calibration_.rectified);
+  }
+  last_ = end();
+}
+
+std::string SequenceRecording::description() const {
+  return "the pairs of " + sequence_->directory() + (rectifier_ ? ", rectified" : "");
+}
+
+tf2_msgs::TFMessage SequenceRecording::staticTransforms() const {
+  tf2_msgs::TFMessage mounts;
+  mounts.transforms.push_back(mount(T_base_camera(), begin(), kCameraFrame));
+  if (!gyroscope("").samples.empty()) {
+    mounts.transforms.push_back(mount(Eigen::Isometry3d::Identity(), begin(), kImuFrame));
+  }
+  return mounts;
+}
+
+nav_msgs::Path SequenceRecording::truth() const {
+  Trajectory poses = sequence_->groundTruth();
+  for (StampedPose& pose : poses) pose.stamp_ns += offset_ns_;
+  return groundTruthPath(poses, T_base_camera(), kOdomFrame);
+}
+
+std::vector<sensor_msgs::Imu> SequenceRecording::gyroscopeMessages() const {
+  const GyroRecording gyro = gyroscope("");
+  const Eigen::Matrix3d R_base_gyro = T_base_camera().linear() * gyro.R_camera_gyro;
+  std::vector<sensor_msgs::Imu> messages;
+  for (const GyroSample& sample : gyro.samples) {
+    sensor_msgs::Imu& message = messages.emplace_back();
+    message.header.stamp = toRosTime(offset_ns_ + sample.stamp_ns);
+    message.header.frame_id = kImuFrame;
+    tf2::toMsg(Eigen::Vector3d(R_base_gyro * sample.rate_rps), message.angular_velocity);
+    // Not measured, by the convention of sensor_msgs/Imu.
+    message.orientation_covariance[0] = message.linear_acceleration_covariance[0] = -1.0;
+  }
+  return messages;
+}
+
+void SequenceRecording::select(const ros::Time& from, const ros::Time& to, bool /*with_tf*/) {
+  next_pair_ = 0;
+  while (next_pair_ < size() && stamp(next_pair_) < from) ++next_pair_;
+  last_ = to;
+  of_pair_.clear();
+}
+
+bool SequenceRecording::hasNext() const {
+  return !of_pair_.empty() || atEnd() || sequence_->hasPair(next_pair_);
+}
+
+bool SequenceRecording::next(RecordedMessage& message) {
+  if (of_pair_.empty()) {
+    if (atEnd()) return false;
+    readPair();
+  }
+  message = of_pair_.front();
+  of_pair_.pop_front();
+  return true;
+}
+
+ros::Time SequenceRecording::stamp(int pair) const {
+  return toRosTime(offset_ns_ + sequence_->stamp_ns(pair));
+}
+
+sensor_msgs::CameraInfo::Ptr SequenceRecording::leftInfo(int pair) const {
+  const StereoCamera& camera = calibration_.rectified;
+  return stamped(toCameraInfo(calibration_.left, camera, camera.cx, 0.0), stamp(pair));
+}
+
+sensor_msgs::CameraInfo::Ptr SequenceRecording::rightInfo(int pair) const {
+  const StereoCamera& camera = calibration_.rectified;
+  return stamped(toCameraInfo(calibration_.right, camera, camera.cx_right, shiftOf(camera)),
+                 stamp(pair));
+}
+
+bool SequenceRecording::atEnd() const {
+  return next_pair_ == size() || stamp(next_pair_) > last_;
+}
+
+void SequenceRecording::readPair() {
+  StereoPair pair = sequence_->read(next_pair_);
+  if (rectifier_) pair = rectifier_->rectify(pair);
+  of_pair_.resize(4);
+  of_pair_[0].left_info = leftInfo(next_pair_);
+  of_pair_[1].left_image = toImage(of_pair_[0].left_info->header, MONO8, pair.left);
+  of_pair_[2].right_info = rightInfo(next_pair_);
+  of_pair_[3].right_image = toImage(of_pair_[2].right_info->header, MONO8, pair.right);
+  for (RecordedMessage& message : of_pair_) message.time = stamp(next_pair_);
+  ++next_pair_;
+}
+
+}  // namespace rotrocc

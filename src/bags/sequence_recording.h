@@ -1,0 +1,78 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sensor_msgs/Imu.h>
+
+#include "bags/recording.h"
+#include "rectification/stereo_rectifier.h"
+#include "sequences/stereo_sequence.h"
+
+namespace rotrocc {
+
+/// A sequence as messages of ROS. Images and infos of both cameras are in the frame of the left
+/// one, stereo_left_optical: P of a rectified pair refers to it (sensor_msgs/CameraInfo), and
+/// image_geometry requires equal frames. It may still be written by another program, e.g.
+/// simulate_drive.
+class SequenceRecording : public Recording {
+ public:
+  struct Options {
+    /// Time of the first pair of a sequence whose stamps are since 1970, otherwise of its time 0;
+    /// by default as it is, or kKittiStart_s.
+    std::optional<std::int64_t> start_time_s;
+    bool rectify = false;  ///< images that are not rectified
+    SequenceOptions sequence = {};
+  };
+
+  /// Throws like openStereoSequence(), and std::invalid_argument if the stamps are out of range.
+  SequenceRecording(const std::string& directory, const Options& options);
+
+  std::string description() const override;
+  int size() const override { return sequence_->size(); }
+  bool isRaw() const override { return !calibration_.isRectified(); }
+  ros::Time begin() const override { return stamp(0); }
+  ros::Time end() const override { return stamp(size() - 1); }
+  std::int64_t offset_ns() const override { return offset_ns_; }
+  sensor_msgs::CameraInfo::ConstPtr firstLeftInfo() const override { return leftInfo(0); }
+  sensor_msgs::CameraInfo::ConstPtr firstRightInfo() const override { return rightInfo(0); }
+
+  /// base_link -> stereo_left_optical: the rectified left camera; and the gyroscope, if there is
+  /// one, with the axes of base_link.
+  tf2_msgs::TFMessage staticTransforms() const override;
+  nav_msgs::Path truth() const override;
+  Eigen::Isometry3d T_base_camera() const override { return sequence_->T_base_camera(); }
+  GyroRecording gyroscope(const std::string& name) const override {
+    return sequence_->gyroscope(name);
+  }
+
+  /// The gyroscope in imu_link: the angular velocity only. Empty if there is none.
+  std::vector<sensor_msgs::Imu> gyroscopeMessages() const;
+
+  /// For each pair four messages with its time: left info, left image (mono8), right info, right
+  /// image.
+  void select(const ros::Time& from, const ros::Time& to, bool with_tf) override;
+  bool hasNext() const override;
+  bool next(RecordedMessage& message) override;
+  std::string leftOut() const override { return sequence_->leftOut(); }
+
+ private:
+  ros::Time stamp(int pair) const;
+  sensor_msgs::CameraInfo::Ptr leftInfo(int pair) const;
+  sensor_msgs::CameraInfo::Ptr rightInfo(int pair) const;
+  bool atEnd() const;
+  void readPair();
+
+  std::unique_ptr<StereoSequence> sequence_;
+  std::int64_t offset_ns_;
+  StereoCalibration calibration_;  // of the images of next()
+  std::optional<StereoRectifier> rectifier_;
+  int next_pair_ = 0;
+  ros::Time last_;
+  std::deque<RecordedMessage> of_pair_;  // read, but not yet returned
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bags/recording.h"
+#include "rotrocc/parameters.h"
+#include "rotrocc/pose_accumulator.h"
+#include "rotrocc/stereo_camera.h"
+#include "rotrocc/stereo_pair.h"
+#include "rotrocc/trajectory.h"
+#include "rotrocc/visual_odometry.h"
+#include "tools/run_statistics.h"
+
+namespace rotrocc {
+
+/// What a run writes. Those that are empty are not written, but for the trajectory.
+struct OutputFiles {
+  std::string trajectory;        ///< poses of the left camera
+  std::string format = "kitti";  ///< of the trajectory: kitti or tum
+  std::string statistics;        ///< CSV table, see StatisticsFile
+  std::string bag;       ///< with the messages that the node would publish for each pair, by
+                         ///< stamp: /stereo/odom, /tf odom_frame -> base_frame
+  std::string pictures;  ///< folder for flow pictures: 000000.png, 000001.png and so on
+};
+
+/// Writes the results of a run, pair by pair.
+class OdometryOutputs {
+ public:
+  /// Throws std::runtime_error if a file or folder cannot be written, and std::invalid_argument on
+  /// an unknown format.
+  OdometryOutputs(const OutputFiles& files,
+                  const Recording& recording,
+                  const Parameters& parameters);
+  ~OdometryOutputs();
+
+  /// `record` is of the last call of odometry.process(), with input `pair` and `camera`. Throws
+  /// std::runtime_error if writing fails.
+  void write(const PairRecord& record,
+             const StereoPair& pair,
+             const StereoCamera& camera,
+             const VisualOdometry& odometry);
+
+ private:
+  class OdometryBag;
+  class FlowPictures;
+
+  PoseAccumulator accumulator_;
+  TrajectoryWriter trajectory_;
+  std::optional<StatisticsFile> statistics_;
+  std::unique_ptr<OdometryBag> bag_;
+  std::unique_ptr<FlowPictures> pictures_;
+};
+
+}  // namespace rotrocc
