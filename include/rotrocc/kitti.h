@@ -42,8 +42,9 @@ class KittiSequence {
   cv::Mat readLeft(int index) const;
   cv::Mat readRight(int index) const;
 
-  /// Whether the right image of pair `index`, which is written after the left one, is there.
-  bool hasPair(int index) const;
+  /// The files of pair `index`. The right one is written after the left one.
+  std::string leftPath(int index) const;
+  std::string rightPath(int index) const;
 
   bool hasGroundTruth() const { return !ground_truth_.empty(); }
 
@@ -51,7 +52,7 @@ class KittiSequence {
   const Trajectory& groundTruth() const { return ground_truth_; }
 
  private:
-  cv::Mat read(const char* folder, int index) const;
+  cv::Mat read(const std::string& path) const;
 
   std::string directory_;
   StereoCamera camera_;

@@ -279,9 +279,9 @@ TEST(Simulation, WritesSequencesThatCanBeReadMeanwhile) {
   expectError<std::runtime_error>([&] { KittiSequence(directory / "drive"); },
                                   "has 1 entries, but times.txt has 2 times");
   const KittiSequence sequence(directory / "drive", true);
-  EXPECT_FALSE(sequence.hasPair(1));
+  EXPECT_FALSE(std::filesystem::exists(sequence.rightPath(1)));
   writer.write(simulator.render(1, true));
-  EXPECT_TRUE(sequence.hasPair(1));
+  EXPECT_TRUE(std::filesystem::exists(sequence.rightPath(1)));
   EXPECT_EQ(sequence.size(), 2);
   EXPECT_EQ(sequence.camera(), simulator.camera());
   EXPECT_EQ(sequence.stamp_ns(1), simulator.stamp_ns(1));

@@ -86,13 +86,12 @@ StereoCamera readCalibration(const std::string& path, const cv::Size& size) {
 Trajectory readGroundTruth(const std::string& path,
                            const std::string& times_path,
                            const std::vector<std::int64_t>& stamps_ns) {
-  constexpr std::int64_t kMaxGap_ns = 100'000'000;
   if (detectTrajectoryFormat(path) == TrajectoryFormat::kKitti) {
     Trajectory poses = readTrajectory(path, times_path);
     requireSameCount(path, poses.size(), stamps_ns.size());
     return poses;
   }
-  Trajectory poses = samplePoses(readTrajectory(path), stamps_ns, kMaxGap_ns);
+  Trajectory poses = samplePoses(readTrajectory(path), stamps_ns);
   if (poses.size() != stamps_ns.size()) {
     throw std::runtime_error(path + cv::format(" has poses for %zu of the %zu times of times.txt",
                                                poses.size(),
@@ -121,20 +120,23 @@ KittiSequence::KittiSequence(const std::string& directory, bool being_written)
   ground_truth_ = readGroundTruth(poses_path, times_path, stamps_ns_);
 }
 
+std::string KittiSequence::leftPath(int index) const {
+  return imagePath(directory_, kLeftFolder, index);
+}
+
+std::string KittiSequence::rightPath(int index) const {
+  return imagePath(directory_, kRightFolder, index);
+}
+
 cv::Mat KittiSequence::readLeft(int index) const {
-  return read(kLeftFolder, index);
+  return read(leftPath(index));
 }
 
 cv::Mat KittiSequence::readRight(int index) const {
-  return read(kRightFolder, index);
+  return read(rightPath(index));
 }
 
-bool KittiSequence::hasPair(int index) const {
-  return fs::exists(imagePath(directory_, kRightFolder, index));
-}
-
-cv::Mat KittiSequence::read(const char* folder, int index) const {
-  const std::string path = imagePath(directory_, folder, index);
+cv::Mat KittiSequence::read(const std::string& path) const {
   cv::Mat image = readGreyImage(path);
   requireImageSize(path, image, {camera_.width, camera_.height}, "the first image");
   return image;

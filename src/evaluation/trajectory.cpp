@@ -1,11 +1,11 @@
 #include "rotrocc/trajectory.h"
 
-#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 
 #include <opencv2/core.hpp>
 
+#include "evaluation/pose_text.h"
 #include "evaluation/text_file.h"
 
 namespace rotrocc {
@@ -14,7 +14,6 @@ namespace {
 constexpr std::size_t kKittiNumbers = 12;
 constexpr std::size_t kTumNumbers = 8;
 constexpr std::int64_t kKittiPeriod_ns = 100'000'000;
-constexpr double kMaxRoundingError = 1e-3;  // of a rotation printed with four digits or more
 
 TrajectoryFormat formatOf(const TextLine& line) {
   if (line.words.size() == kKittiNumbers) return TrajectoryFormat::kKitti;
@@ -31,32 +30,19 @@ Eigen::Isometry3d kittiPose(const TextLine& line) {
   Eigen::Matrix<double, 3, 4> matrix;
   for (int i = 0; i < matrix.size(); ++i) matrix(i / 4, i % 4) = line.number(i);
   const Eigen::Matrix3d rotation = matrix.leftCols<3>();
-  const Eigen::Matrix3d deviation = rotation * rotation.transpose() - Eigen::Matrix3d::Identity();
-  const double error = deviation.cwiseAbs().maxCoeff();
-  const std::string part = "the left 3x3 part is not a rotation: it is ";
-  if (error > kMaxRoundingError) line.fail(part + cv::format("off orthonormality by %f", error));
-  if (rotation.determinant() < 0.0) line.fail(part + "a reflection");
+  if (const std::string why = whyNoRotation(rotation); !why.empty()) {
+    line.fail("the left 3x3 part is not a rotation: it is " + why);
+  }
   Eigen::Isometry3d pose(Eigen::Quaterniond(rotation).normalized());
   pose.translation() = matrix.col(3);
   return pose;
 }
 
-Eigen::Isometry3d tumPose(const TextLine& line) {
-  const Eigen::Quaterniond quaternion(
-      line.number(7), line.number(4), line.number(5), line.number(6));
-  if (!(std::abs(quaternion.norm() - 1.0) < kMaxRoundingError)) {
-    line.fail(cv::format("the quaternion has the length %f instead of 1", quaternion.norm()));
-  }
-  Eigen::Isometry3d pose(quaternion.normalized());
-  pose.translation() = Eigen::Vector3d(line.number(1), line.number(2), line.number(3));
-  return pose;
-}
-
-/// The first number of a line.
+/// The first number of a line [s].
 std::int64_t timeAfter(std::int64_t previous_ns, const TextLine& line) {
   const std::int64_t stamp_ns = line.nanoseconds(0);
-  if (stamp_ns > previous_ns) return stamp_ns;
-  line.fail("the time " + line.words.front() + " s is not later than the one before it");
+  requireLater(line, stamp_ns, previous_ns);
+  return stamp_ns;
 }
 
 void setStamps(Trajectory& trajectory, const std::string& path, const std::string& times_path) {
@@ -93,7 +79,7 @@ Trajectory readTrajectory(const std::string& path, const std::string& times_path
   for (const TextLine& line : lines) {
     requireCount(line, is_tum ? kTumNumbers : kKittiNumbers);
     stamp_ns = is_tum ? timeAfter(stamp_ns, line) : stamp_ns + kKittiPeriod_ns;
-    trajectory.push_back({stamp_ns, is_tum ? tumPose(line) : kittiPose(line)});
+    trajectory.push_back({stamp_ns, is_tum ? quaternionPose(line, false) : kittiPose(line)});
   }
   if (!times_path.empty()) setStamps(trajectory, path, times_path);
   return trajectory;

@@ -110,8 +110,10 @@ void TrajectoryFile::flush() {
     } else if (errno != EINTR) {
       int error = errno;
       const std::size_t whole_lines = text.substr(0, written).rfind('\n') + 1;
-      const off_t end = ::lseek(descriptor_, 0, SEEK_CUR);
-      if (::ftruncate(descriptor_, end - static_cast<off_t>(written - whole_lines)) != 0) {
+      const off_t end =
+          ::lseek(descriptor_, 0, SEEK_CUR) - static_cast<off_t>(written - whole_lines);
+      // What may be written later begins there too, not after a gap.
+      if (::ftruncate(descriptor_, end) != 0 || ::lseek(descriptor_, end, SEEK_SET) < 0) {
         error = errno;
       }
       throw failure(error, "cannot write to " + name_);

@@ -31,12 +31,11 @@ std::optional<Eigen::Isometry3d> poseAt(const Trajectory& trajectory,
   return pose;
 }
 
-Trajectory samplePoses(const Trajectory& trajectory,
-                       const std::vector<std::int64_t>& stamps_ns,
-                       std::int64_t max_gap_ns) {
+Trajectory samplePoses(const Trajectory& trajectory, const std::vector<std::int64_t>& stamps_ns) {
+  constexpr std::int64_t kMaxGap_ns = 100'000'000;
   Trajectory samples;
   for (const std::int64_t stamp_ns : stamps_ns) {
-    if (const auto pose = poseAt(trajectory, stamp_ns, max_gap_ns)) {
+    if (const auto pose = poseAt(trajectory, stamp_ns, kMaxGap_ns)) {
       samples.push_back({stamp_ns, *pose});
     }
   }

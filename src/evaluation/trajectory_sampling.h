@@ -19,9 +19,8 @@ std::optional<Eigen::Isometry3d> poseAt(const Trajectory& trajectory,
                                         std::int64_t stamp_ns,
                                         std::int64_t max_gap_ns);
 
-/// The poses at those stamps at which there are some.
-Trajectory samplePoses(const Trajectory& trajectory,
-                       const std::vector<std::int64_t>& stamps_ns,
-                       std::int64_t max_gap_ns);
+/// The poses at those stamps at which there are some, with gaps of up to 0.1 s: recorded truths
+/// have 10 Hz (KITTI) to 200 Hz (EuRoC).
+Trajectory samplePoses(const Trajectory& trajectory, const std::vector<std::int64_t>& stamps_ns);
 
 }  // namespace rotrocc

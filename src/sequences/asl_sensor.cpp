@@ -5,25 +5,20 @@
 
 #include <opencv2/core.hpp>
 
+#include "evaluation/pose_text.h"
 #include "sequences/yaml_file.h"
 
 namespace rotrocc {
 namespace {
 
-constexpr double kMaxRoundingError = 1e-3;  // of a rotation printed with four digits or more
-
 Eigen::Isometry3d poseOf(const YamlFile& file) {
   const std::vector<double> values = file.numbers("T_BS", 16);
   const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(values.data());
   const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
-  const double error =
-      (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(error < kMaxRoundingError) || rotation.determinant() < 0.0) {
-    file.fail("T_BS",
-              "is not rigid: its left 3x3 part is " +
-                  (error < kMaxRoundingError ? std::string("a reflection")
-                                             : cv::format("off orthonormality by %g", error)) +
-                  "; the rows of a 4x4 matrix are expected");
+  if (const std::string why = whyNoRotation(rotation); !why.empty()) {
+    file.fail(
+        "T_BS",
+        "is not rigid: its left 3x3 part is " + why + "; the rows of a 4x4 matrix are expected");
   }
   if (matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)) {
     file.fail("T_BS", "is not rigid: its last row is not 0 0 0 1");

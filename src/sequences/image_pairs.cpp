@@ -82,6 +82,10 @@ std::vector<std::int64_t> ImagePairs::stamps_ns() const {
   return stamps_ns;
 }
 
+bool ImagePairs::hasFiles(int index) const {
+  return std::filesystem::exists(pairs_.at(static_cast<std::size_t>(index)).right.path);
+}
+
 StereoPair ImagePairs::read(int index, const cv::Size& size) {
   const Pair& pair = pairs_.at(static_cast<std::size_t>(index));
   StereoPair images = {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "evaluation/image_file.h"
@@ -27,9 +28,20 @@ class ImagePairs {
              std::vector<StampedImage> right,
              double max_stamp_difference_s);
 
+  struct Pair {
+    StampedImage left;
+    StampedImage right;
+  };
+
+  /// Pairs whose files may be missing yet.
+  explicit ImagePairs(std::vector<Pair> pairs) : pairs_(std::move(pairs)) {}
+
   int size() const { return static_cast<int>(pairs_.size()); }
   std::int64_t stamp_ns(int index) const { return pairs_.at(index).left.stamp_ns; }
   std::vector<std::int64_t> stamps_ns() const;
+
+  /// Whether the files of a pair are there; the right one is written last.
+  bool hasFiles(int index) const;
 
   /// Throws std::runtime_error if a file is unreadable or has not the size `size`.
   StereoPair read(int index, const cv::Size& size);
@@ -38,11 +50,6 @@ class ImagePairs {
   std::string leftOut() const;
 
  private:
-  struct Pair {
-    StampedImage left;
-    StampedImage right;
-  };
-
   void match(const std::vector<StampedImage>& left,
              const std::vector<StampedImage>& right,
              std::int64_t tolerance_ns);

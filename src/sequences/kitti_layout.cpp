@@ -1,31 +1,35 @@
-#include "sequences/kitti_layout.h"
+#include "rotrocc/kitti.h"
 
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "inertial/gyro_file.h"
 #include "sequences/kitti_mount.h"
+#include "sequences/layouts.h"
 
 namespace rotrocc {
 
-KittiLayout::KittiLayout(const std::string& directory, bool being_written)
-    : sequence_(directory, being_written), calibration_(rectifiedCalibration(sequence_.camera())) {}
-
-StereoPair KittiLayout::read(int index) {
-  return {sequence_.stamp_ns(index), sequence_.readLeft(index), sequence_.readRight(index)};
-}
-
-Eigen::Isometry3d KittiLayout::T_base_camera() const {
-  return kittiMount();
-}
-
-GyroRecording KittiLayout::gyroscope(const std::string& name) const {
-  const std::string file = directory() + "/" + (name.empty() ? "imu.csv" : name);
-  if (std::filesystem::is_regular_file(file)) {
-    return {readGyroFile(file), Eigen::Matrix3d::Identity()};
+StereoSequence::Parts readKittiLayout(const std::string& directory,
+                                      const SequenceOptions& options) {
+  const KittiSequence sequence(directory, options.being_written);
+  std::vector<ImagePairs::Pair> pairs;
+  for (int i = 0; i < sequence.size(); ++i) {
+    const std::int64_t stamp_ns = sequence.stamp_ns(i);
+    pairs.push_back({{stamp_ns, sequence.leftPath(i)}, {stamp_ns, sequence.rightPath(i)}});
   }
-  if (name.empty()) return {};
-  throw std::runtime_error("there is no file " + name + " with a gyroscope");
+  const auto gyroscope = [directory](const std::string& name) -> GyroRecording {
+    const std::string file = directory + "/" + name;
+    if (std::filesystem::is_regular_file(file)) return {readGyroFile(file)};
+    throw std::runtime_error("there is no file " + name + " with a gyroscope");
+  };
+  return {ImagePairs(std::move(pairs)),
+          rectifiedCalibration(sequence.camera()),
+          sequence.groundTruth(),
+          kittiMount(),
+          gyroscope,
+          std::filesystem::is_regular_file(directory + "/imu.csv") ? "imu.csv" : ""};
 }
 
 }  // namespace rotrocc

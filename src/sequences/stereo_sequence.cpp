@@ -2,15 +2,43 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
-#include "sequences/asl_sequence.h"
-#include "sequences/calibrated_folder.h"
-#include "sequences/kitti_layout.h"
 #include "sequences/kitti_mount.h"
+#include "sequences/layouts.h"
 
 namespace rotrocc {
+namespace {
 
 namespace fs = std::filesystem;
+
+StereoSequence::Parts readLayout(const std::string& directory, const SequenceOptions& options) {
+  if (!fs::is_directory(directory)) throw std::runtime_error(directory + " is not a directory");
+  if (isAslLayout(directory)) return readAslLayout(directory, options);
+  if (isFolderLayout(directory)) return readFolderLayout(directory, options);
+  for (const char* part : {"image_0", "image_1", "calib.txt", "times.txt"}) {
+    if (fs::exists(fs::path(directory) / part)) return readKittiLayout(directory, options);
+  }
+  throw std::runtime_error(directory +
+                           " is no stereo sequence: it has neither image_0 (KITTI), nor mav0/cam0 "
+                           "(ASL, EuRoC), nor left and left.yaml (camera_calibration)");
+}
+
+}  // namespace
+
+StereoSequence::StereoSequence(const std::string& directory, Parts parts)
+    : directory_(directory), parts_(std::move(parts)) {}
+
+StereoPair StereoSequence::read(int index) {
+  const RawCamera& camera = parts_.calibration.left;
+  return parts_.pairs.read(index, {camera.width, camera.height});
+}
+
+GyroRecording StereoSequence::gyroscope(const std::string& name) const {
+  if (!name.empty()) return parts_.gyroscope(name);
+  if (parts_.usual_gyroscope.empty()) return {};
+  return parts_.gyroscope(parts_.usual_gyroscope);
+}
 
 std::int64_t rosTimeOffset_ns(const StereoSequence& sequence) {
   constexpr std::int64_t kDay_ns = 86'400'000'000'000;
@@ -19,22 +47,7 @@ std::int64_t rosTimeOffset_ns(const StereoSequence& sequence) {
 
 std::unique_ptr<StereoSequence> openStereoSequence(const std::string& directory,
                                                    const SequenceOptions& options) {
-  const fs::path root(directory);
-  if (!fs::is_directory(root)) throw std::runtime_error(directory + " is not a directory");
-  if (AslSequence::isLayoutOf(directory)) {
-    return std::make_unique<AslSequence>(directory, options);
-  }
-  if (CalibratedFolder::isLayoutOf(directory)) {
-    return std::make_unique<CalibratedFolder>(directory, options);
-  }
-  for (const char* part : {"image_0", "image_1", "calib.txt", "times.txt"}) {
-    if (fs::exists(root / part)) {
-      return std::make_unique<KittiLayout>(directory, options.being_written);
-    }
-  }
-  throw std::runtime_error(directory +
-                           " is no stereo sequence: it has neither image_0 (KITTI), nor mav0/cam0 "
-                           "(ASL, EuRoC), nor left and left.yaml (camera_calibration)");
+  return std::make_unique<StereoSequence>(directory, readLayout(directory, options));
 }
 
 }  // namespace rotrocc

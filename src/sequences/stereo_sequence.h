@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -10,6 +11,7 @@
 #include "rotrocc/stereo_pair.h"
 #include "rotrocc/trajectory.h"
 #include "sequences/gyro_recording.h"
+#include "sequences/image_pairs.h"
 
 namespace rotrocc {
 
@@ -17,38 +19,53 @@ namespace rotrocc {
 /// that follows: poses, mount, and axes of the gyroscope.
 class StereoSequence {
  public:
-  virtual ~StereoSequence() = default;
+  /// What its layout tells.
+  struct Parts {
+    ImagePairs pairs;
+    StereoCalibration calibration;
+    Trajectory ground_truth;
+    Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
+    /// As gyroscope(), for a name that is not empty; throws if there is none.
+    std::function<GyroRecording(const std::string& name)> gyroscope;
+    std::string usual_gyroscope;  ///< the name if none is given; empty: there is none
+  };
 
-  virtual const std::string& directory() const = 0;
+  StereoSequence(const std::string& directory, Parts parts);
+
+  const std::string& directory() const { return directory_; }
 
   /// Number of pairs.
-  virtual int size() const = 0;
+  int size() const { return parts_.pairs.size(); }
 
   /// Time of a pair; they increase.
-  virtual std::int64_t stamp_ns(int index) const = 0;
+  std::int64_t stamp_ns(int index) const { return parts_.pairs.stamp_ns(index); }
 
   /// Whether the images of a pair are there. They may not be yet if the sequence is being written.
-  virtual bool hasPair(int /*index*/) const { return true; }
+  bool hasPair(int index) const { return parts_.pairs.hasFiles(index); }
 
   /// The images of a pair as they were recorded, CV_8UC1. Throws std::runtime_error if they are
   /// missing, unreadable or not of the size of the calibration.
-  virtual StereoPair read(int index) = 0;
+  StereoPair read(int index);
 
   /// Of the images as they were recorded, and how to rectify them.
-  virtual const StereoCalibration& calibration() const = 0;
+  const StereoCalibration& calibration() const { return parts_.calibration; }
 
   /// Poses of the left camera with the stamps of pairs; not of all pairs, if the truth is shorter.
   /// Empty if there is none.
-  virtual const Trajectory& groundTruth() const = 0;
+  const Trajectory& groundTruth() const { return parts_.ground_truth; }
 
-  virtual Eigen::Isometry3d T_base_camera() const = 0;
+  const Eigen::Isometry3d& T_base_camera() const { return parts_.T_base_camera; }
 
   /// The gyroscope called `name`; empty: the one that the sequence has, or no samples if there is
   /// none. Throws std::runtime_error if there is none of that name.
-  virtual GyroRecording gyroscope(const std::string& name) const = 0;
+  GyroRecording gyroscope(const std::string& name) const;
 
   /// What was left out, e.g. "3 left images and 1 right image without a partner"; empty if nothing.
-  virtual std::string leftOut() const = 0;
+  std::string leftOut() const { return parts_.pairs.leftOut(); }
+
+ private:
+  std::string directory_;
+  Parts parts_;
 };
 
 struct SequenceOptions {

@@ -8,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "support/expect_error.h"
+#include "support/read_file.h"
 #include "support/temporary_directory.h"
 
 namespace rotrocc {
@@ -45,7 +46,7 @@ class KittiSequenceTest : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(KittiSequenceTest, ReadsCalibrationTimesAndPoses) {
+TEST_F(KittiSequenceTest, ReadsCalibrationTimesPosesAndImages) {
   const KittiSequence sequence = open();
   EXPECT_EQ(sequence.size(), 2);
   StereoCamera camera;
@@ -64,10 +65,6 @@ TEST_F(KittiSequenceTest, ReadsCalibrationTimesAndPoses) {
   ASSERT_EQ(sequence.groundTruth().size(), 2u);
   EXPECT_EQ(sequence.groundTruth()[1].stamp_ns, 103'759'500);
   EXPECT_EQ(sequence.groundTruth()[1].T_world_body.translation().z(), 1.5);
-}
-
-TEST_F(KittiSequenceTest, ReadsGreyImagesOfEachSide) {
-  const KittiSequence sequence = open();
   const cv::Mat left = sequence.readLeft(1);
   EXPECT_EQ(left.type(), CV_8UC1);
   EXPECT_EQ(left.size(), cv::Size(8, 6));
@@ -83,13 +80,7 @@ TEST_F(KittiSequenceTest, BaselineIsTheDistanceBetweenTheTwoCameras) {
   EXPECT_DOUBLE_EQ(open().camera().baseline_m, 0.5);
 }
 
-TEST_F(KittiSequenceTest, GroundTruthMayBeMissing) {
-  std::filesystem::remove(directory_ / "poses.txt");
-  EXPECT_FALSE(open().hasGroundTruth());
-  EXPECT_TRUE(open().groundTruth().empty());
-}
-
-TEST_F(KittiSequenceTest, ReadsTruthInTumFormat) {
+TEST_F(KittiSequenceTest, TruthMayBeInTumFormatOrMissing) {
   directory_.write("poses.txt", "0 0 0 0 0 0 0 1\n0.1 0 0 1 0 0 0 1\n0.2 0 0 2 0 0 0 1\n");
   const Trajectory truth = open().groundTruth();
   ASSERT_EQ(truth.size(), 2u) << "one for each pair";
@@ -97,33 +88,29 @@ TEST_F(KittiSequenceTest, ReadsTruthInTumFormat) {
   EXPECT_NEAR(truth[1].T_world_body.translation().z(), 1.037595, 1e-9);
   directory_.write("poses.txt", "0 0 0 0 0 0 0 1\n0.1 0 0 1 0 0 0 1\n");
   expectRefused("poses.txt has poses for 1 of the 2 times");
+  std::filesystem::remove(directory_ / "poses.txt");
+  EXPECT_FALSE(open().hasGroundTruth());
 }
 
-TEST_F(KittiSequenceTest, RefusesCountsThatDiffer) {
-  directory_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
-  expectRefused("poses.txt has 1 entries, but times.txt has 2 times");
-  std::filesystem::remove(directory_ / "image_1/000001.png");
-  expectRefused("image_1 has 1 entries, but times.txt has 2 times");
-}
-
-TEST_F(KittiSequenceTest, RefusesABadCalibration) {
-  directory_.write("calib.txt", "P0: 700 0 4 0 0 700 3 0 0 0 1 0\n");
-  expectRefused("calib.txt has no line 'P1: ...'");
-  directory_.write("calib.txt", "P0: 700 0 4 0\nP1: 700 0 4 0\n");
-  expectRefused("calib.txt:1: P0: has 4 numbers instead of 12");
-  directory_.write("calib.txt",
-                   "P0: 700 0 4 0 0 700 3 0 0 0 1 0\n"
-                   "P1: 700 0 4 -350 0 700 4 0 0 0 1 0\n");
-  expectRefused("P0 and P1 are not a rectified pair");
-  directory_.write("calib.txt",
-                   "P0: 700 0 4 0 0 700 3 0 0 0 1 0\n"
-                   "P1: 700 0 4 350 0 700 3 0 0 0 1 0\n");
-  expectRefused("calib.txt: stereo camera: baseline_m is -0.5");
-}
-
-TEST_F(KittiSequenceTest, RefusesTimesThatDoNotIncrease) {
-  directory_.write("times.txt", "0.1\n0.1\n");
-  expectRefused("times.txt:2: the time 0.1 s");
+TEST_F(KittiSequenceTest, RefusesWrongFiles) {
+  const std::string left = "P0: 700 0 4 0 0 700 3 0 0 0 1 0\n";
+  const struct {
+    std::string file, text, message;
+  } rows[] = {
+      {"poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n", "has 1 entries, but times.txt has 2 times"},
+      {"calib.txt", left, "calib.txt has no line 'P1: ...'"},
+      {"calib.txt", "P0: 700 0 4 0\nP1: 7\n", "calib.txt:1: P0: has 4 numbers instead of 12"},
+      {"calib.txt", left + "P1: 700 0 4 -350 0 700 4 0 0 0 1 0\n", "are not a rectified pair"},
+      {"calib.txt", left + "P1: 700 0 4 350 0 700 3 0 0 0 1 0\n", "baseline_m is -0.5"},
+      {"times.txt", "0.1\n0.1\n", "times.txt:2: the time 0.1"},
+      {"image_1/000002.png", "", "image_1 has 3 entries, but times.txt has 2 times"}};
+  for (const auto& row : rows) {
+    const bool existed = std::filesystem::exists(directory_ / row.file);
+    const std::string text = existed ? readFile(directory_ / row.file) : "";
+    directory_.write(row.file, row.text);
+    expectRefused(row.message);
+    directory_.write(row.file, text);
+  }
 }
 
 TEST_F(KittiSequenceTest, NamesTheFileThatIsMissing) {

@@ -2,27 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "evaluation/trajectory_file.h"
 #include "support/expect_error.h"
+#include "support/file_size_limit.h"
+#include "support/read_file.h"
 #include "support/temporary_directory.h"
 
 namespace rotrocc {
 namespace {
 
 const std::string kIdentity = "1 0 0 0 0 1 0 0 0 0 1 0\n";
-
-std::string contentOf(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 StampedPose somePose(std::int64_t stamp_ns) {
   StampedPose pose;
@@ -35,9 +33,11 @@ StampedPose somePose(std::int64_t stamp_ns) {
 
 class TrajectoryTest : public ::testing::Test {
  protected:
-  void expectRefused(const std::string& text, const std::string& part) {
-    const std::string path = directory_.write("bad.txt", text);
-    expectError<std::runtime_error>([&] { readTrajectory(path); }, part);
+  /// The file of these poses.
+  std::string write(const std::vector<StampedPose>& poses, TrajectoryFormat format) const {
+    TrajectoryWriter writer(directory_ / "out.txt", format);
+    for (const StampedPose& pose : poses) writer.write(pose);
+    return directory_ / "out.txt";
   }
 
   TemporaryDirectory directory_;
@@ -64,7 +64,7 @@ TEST_F(TrajectoryTest, WritesKittiLinesAsKittiDoes) {
   StampedPose pose;
   pose.T_world_body.translation().z() = 1.0 / 3.0;
   writer.write(pose);
-  EXPECT_EQ(contentOf(path),
+  EXPECT_EQ(readFile(path),
             "1.000000000e+00 0.000000000e+00 0.000000000e+00 0.000000000e+00 "
             "0.000000000e+00 1.000000000e+00 0.000000000e+00 0.000000000e+00 "
             "0.000000000e+00 0.000000000e+00 1.000000000e+00 3.333333333e-01\n")
@@ -72,27 +72,22 @@ TEST_F(TrajectoryTest, WritesKittiLinesAsKittiDoes) {
 }
 
 TEST_F(TrajectoryTest, WritesTumStampsExactlyToTheNanosecond) {
-  const std::string path = directory_ / "out.txt";
-  TrajectoryWriter writer(path, TrajectoryFormat::kTum);
-  for (const std::int64_t stamp_ns : {-1'500'000'000LL, 5LL, 1'317'000'000'123'456'789LL}) {
-    StampedPose pose;
-    pose.stamp_ns = stamp_ns;
-    writer.write(pose);
-  }
+  std::vector<StampedPose> poses(3);
+  poses[0].stamp_ns = -1'500'000'000;
+  poses[1].stamp_ns = 5;
+  poses[2].stamp_ns = 1'317'000'000'123'456'789;
+  const std::string path = write(poses, TrajectoryFormat::kTum);
   const std::string zeros =
       " 0.000000000 0.000000000 0.000000000 0.000000000 0.000000000 0.000000000";
-  EXPECT_EQ(contentOf(path),
+  EXPECT_EQ(readFile(path),
             "-1.500000000" + zeros + " 1.000000000\n0.000000005" + zeros +
                 " 1.000000000\n1317000000.123456789" + zeros + " 1.000000000\n");
 }
 
 TEST_F(TrajectoryTest, WritesQuaternionsWithPositiveW) {
-  const std::string path = directory_ / "out.txt";
-  TrajectoryWriter writer(path, TrajectoryFormat::kTum);
   StampedPose pose;  // a rotation by 200 deg equals one by -160 deg: w must be cos(80 deg)
   pose.T_world_body.rotate(Eigen::AngleAxisd(200.0 * M_PI / 180.0, Eigen::Vector3d::UnitY()));
-  writer.write(pose);
-  const std::string line = contentOf(path);
+  const std::string line = readFile(write({pose}, TrajectoryFormat::kTum));
   EXPECT_NE(line.find(" -0.984807753 "), std::string::npos) << line;
   EXPECT_NE(line.find(" 0.173648178\n"), std::string::npos) << line;
 }
@@ -101,7 +96,7 @@ TEST_F(TrajectoryTest, WritesQuaternionsWithPositiveW) {
 /// one space between values, none at the end, and the same number of values in each line.
 std::vector<std::vector<double>> readAsEvo(const std::string& path, std::size_t count) {
   std::vector<std::vector<double>> rows;
-  std::istringstream file(contentOf(path));
+  std::istringstream file(readFile(path));
   for (std::string line; std::getline(file, line);) {
     rows.emplace_back();
     for (std::size_t begin = 0; begin <= line.size();) {
@@ -117,15 +112,13 @@ std::vector<std::vector<double>> readAsEvo(const std::string& path, std::size_t 
   return rows;
 }
 
-TEST_F(TrajectoryTest, WritesWhatEvoTakes) {
+TEST_F(TrajectoryTest, WritesWhatEvoTakesAndReadsItBack) {
   constexpr double kTolerance = 1e-6;  // tolerance of evo's --full_check
-  const std::string path = directory_ / "out.txt";
+  const std::vector<StampedPose> poses = {somePose(1'317'000'000'123'456'789),
+                                          somePose(1'317'000'000'223'456'788)};
   for (const auto format : {TrajectoryFormat::kKitti, TrajectoryFormat::kTum}) {
-    TrajectoryWriter writer(path, format);
-    for (const std::int64_t stamp_ns : {1'317'000'000'123'456'789, 1'317'000'000'223'456'788}) {
-      writer.write(somePose(stamp_ns));
-    }
     const bool tum = format == TrajectoryFormat::kTum;
+    const std::string path = write(poses, format);
     const auto rows = readAsEvo(path, tum ? 8 : 12);
     ASSERT_EQ(rows.size(), 2u);
     for (const std::vector<double>& row : rows) {
@@ -138,29 +131,12 @@ TEST_F(TrajectoryTest, WritesWhatEvoTakes) {
         EXPECT_NEAR(R.determinant(), 1.0, kTolerance);
       }
     }
-    if (tum) {
-      EXPECT_LT(rows[0][0], rows[1][0]);
-    }
-  }
-}
-
-TEST_F(TrajectoryTest, ReadsBackWhatItWrote) {
-  for (const auto format : {TrajectoryFormat::kKitti, TrajectoryFormat::kTum}) {
-    const std::string path = directory_ / "out.txt";
-    const StampedPose first = somePose(1'317'000'000'123'456'789);
-    const StampedPose second = somePose(1'317'000'000'223'456'788);
-    {
-      TrajectoryWriter writer(path, format);
-      writer.write(first);
-      writer.write(second);
-    }
     const Trajectory read = readTrajectory(path);
     ASSERT_EQ(read.size(), 2u);
     // KITTI keeps 10 digits of 1234.6 m, TUM 9 decimals.
-    EXPECT_TRUE(read[0].T_world_body.isApprox(first.T_world_body, 1e-9));
-    const bool tum = format == TrajectoryFormat::kTum;
-    EXPECT_EQ(read[0].stamp_ns, tum ? first.stamp_ns : 0);
-    EXPECT_EQ(read[1].stamp_ns, tum ? second.stamp_ns : 100'000'000);
+    EXPECT_TRUE(read[0].T_world_body.isApprox(poses[0].T_world_body, 1e-9));
+    EXPECT_EQ(read[0].stamp_ns, tum ? poses[0].stamp_ns : 0);
+    EXPECT_EQ(read[1].stamp_ns, tum ? poses[1].stamp_ns : 100'000'000);
   }
 }
 
@@ -194,33 +170,49 @@ TEST_F(TrajectoryTest, RemovesTheRoundingOfPrintedRotations) {
   EXPECT_NEAR(std::atan2(rotation(0, 2), rotation(0, 0)), 20.0 * M_PI / 180.0, 1e-4);
 }
 
-TEST_F(TrajectoryTest, RefusesWhatIsNoRigidFinitePose) {
-  expectRefused("1.1 0 0 0 0 1 0 0 0 0 1 0\n", "bad.txt:1: the left 3x3 part is not a rotation");
-  expectRefused("-1 0 0 0 0 1 0 0 0 0 1 0\n", "a reflection");
-  expectRefused(kIdentity + "nan 0 0 0 0 1 0 0 0 0 1 0\n", "bad.txt:2: 'nan'");
-  expectRefused("1 0 0 inf 0 1 0 0 0 0 1 0\n", "'inf'");
-  expectRefused("1 0 0 1e999 0 1 0 0 0 0 1 0\n", "1e999");
-  expectRefused("1 0 0 0x 0 1 0 0 0 0 1 0\n", "'0x' is not a finite number");
-  expectRefused("1 0 0 0,5 0 1 0 0 0 0 1 0\n", "'0,5' is not a finite number");
-  expectRefused("0 0 0 0 0 0 0 0\n", "the quaternion has the length 0.0");
-  expectRefused("1e12 0 0 0 0 0 0 1\n", "'1e12' is not a time");
-}
-
-TEST_F(TrajectoryTest, RefusesWrongCounts) {
-  expectRefused("1 0 0 0 0 1 0 0 0 0 1\n", "11 numbers");
-  expectRefused(kIdentity + "1 0 0 0 0 1 0 0 0 0 1 0 garbage\n", "bad.txt:2: 13 numbers");
-  expectRefused(kIdentity + "0 0 0 0 0 0 0 1\n", "bad.txt:2: 8 numbers, but 12");
-  expectRefused("", "no data");
-  expectRefused("# only a comment\n\n", "no data");
+TEST_F(TrajectoryTest, RefusesWhatIsNoTrajectory) {
+  const std::pair<std::string, const char*> rows[] = {
+      {"1.1 0 0 0 0 1 0 0 0 0 1 0\n", "bad.txt:1: the left 3x3 part is not a rotation"},
+      {"-1 0 0 0 0 1 0 0 0 0 1 0\n", "a reflection"},
+      {kIdentity + "nan 0 0 0 0 1 0 0 0 0 1 0\n", "bad.txt:2: 'nan'"},
+      {"1 0 0 inf 0 1 0 0 0 0 1 0\n", "'inf'"},
+      {"1 0 0 1e999 0 1 0 0 0 0 1 0\n", "1e999"},
+      {"1 0 0 0x 0 1 0 0 0 0 1 0\n", "'0x' is not a finite number"},
+      {"1 0 0 0,5 0 1 0 0 0 0 1 0\n", "'0,5' is not a finite number"},
+      {"0 0 0 0 0 0 0 0\n", "the quaternion has the length 0.0"},
+      {"1e12 0 0 0 0 0 0 1\n", "'1e12' is not a time"},
+      {"1.5 0 0 0 0 0 0 1\n1.5 0 0 0 0 0 0 1\n", "bad.txt:2: the time 1.5"},
+      {"1 0 0 0 0 1 0 0 0 0 1\n", "11 numbers"},
+      {kIdentity + "1 0 0 0 0 1 0 0 0 0 1 0 garbage\n", "bad.txt:2: 13 numbers"},
+      {kIdentity + "0 0 0 0 0 0 0 1\n", "bad.txt:2: 8 numbers, but 12"},
+      {"", "no data"},
+      {"# only a comment\n\n", "no data"}};
+  for (const auto& [text, message] : rows) {
+    const std::string path = directory_.write("bad.txt", text);
+    expectError<std::runtime_error>([&] { readTrajectory(path); }, message);
+  }
   expectError<std::runtime_error>([&] { readTrajectory(directory_ / "none.txt"); }, "none.txt");
   // A directory opens like a file on Linux, but has no lines.
   expectError<std::runtime_error>([&] { readTrajectory(directory_ / ""); }, "cannot read");
+  const std::string times = directory_.write("times.txt", "0.1\n0.0\n");
+  expectError<std::runtime_error>([&] { readTimes(times); }, "times.txt:2: the time 0.0");
 }
 
-TEST_F(TrajectoryTest, RefusesStampsThatDoNotIncrease) {
-  expectRefused("1.5 0 0 0 0 0 0 1\n1.5 0 0 0 0 0 0 1\n", "bad.txt:2: the time 1.5 s");
-  const std::string times = directory_.write("times.txt", "0.1\n0.0\n");
-  expectError<std::runtime_error>([&] { readTimes(times); }, "times.txt:2: the time 0.0 s");
+TEST_F(TrajectoryTest, FileGoesOnAfterAFullDiskWithoutAGap) {
+  const std::string path = directory_ / "out.txt";
+  TrajectoryFile file(path, TrajectoryFormat::kTum, "out.txt");
+  {
+    const FileSizeLimit limit(1000);
+    for (int i = 0; i < 50; ++i) file.add(somePose(i));
+    expectError<std::system_error>([&] { file.flush(); }, "cannot write to out.txt");
+  }
+  const std::size_t before = readTrajectory(path).size();
+  EXPECT_GT(before, 5u);
+  file.add(somePose(100));
+  file.flush();
+  const Trajectory written = readTrajectory(path);
+  ASSERT_EQ(written.size(), before + 1);
+  EXPECT_EQ(written.back().stamp_ns, 100);
 }
 
 TEST_F(TrajectoryTest, WriterSaysWhenItCannotWrite) {

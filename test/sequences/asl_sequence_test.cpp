@@ -1,4 +1,4 @@
-#include "sequences/asl_sequence.h"
+#include "sequences/stereo_sequence.h"
 
 #include <fstream>
 #include <stdexcept>
@@ -55,11 +55,8 @@ TEST_F(AslSequenceTest, ReadsPairsAndCalibration) {
   EXPECT_EQ(calibration.right.distortion.coefficients()[1], 0.07451284);
 }
 
-TEST_F(AslSequenceTest, OpensMav0Itself) {
+TEST_F(AslSequenceTest, ReadsMav0ItselfAndFilesWithTheHeaderOfOpenCv) {
   EXPECT_EQ(openStereoSequence(folder_ / "", {})->size(), 3);
-}
-
-TEST_F(AslSequenceTest, ReadsFilesWithTheHeaderOfOpenCv) {
   folder_.write("cam0/sensor.yaml", "%YAML:1.0\n---\n" + readFile(folder_ / "cam0/sensor.yaml"));
   change("cam1/sensor.yaml", "T_BS:", "T_BS: !!opencv-matrix");
   EXPECT_EQ(open()->size(), 3);
@@ -155,61 +152,47 @@ TEST_F(AslSequenceTest, ScalesImagesOf16BitsToTheirRange) {
 }
 
 TEST_F(AslSequenceTest, NamesWhatIsWrong) {
-  const auto restored = [this](const std::string& name, auto&& check) {
-    const std::string text = readFile(folder_ / name);
-    check();
-    folder_.write(name, text);
+  const struct {
+    const char *file, *text, *changed_text, *message;
+  } rows[] = {
+      {"cam0/sensor.yaml",
+       "radial-tangential",
+       "omni",
+       "cam0/sensor.yaml: the distortion model 'omni' is not supported"},
+      {"cam0/sensor.yaml",
+       "camera_model: pinhole",
+       "camera_model: omni",
+       "camera_model is omni, but only pinhole is supported"},
+      {"cam0/sensor.yaml",
+       "0.0148655429818",
+       "0.5",
+       "T_BS is not rigid: its left 3x3 part is off orthonormality by 0."},
+      {"cam0/sensor.yaml", "0.0, 0.0, 0.0, 1.0", "0.0, 0.0", "T_BS has 14 numbers instead of 16"},
+      {"cam0/sensor.yaml", "458.654", ".nan", "intrinsics has a value that is not a finite number"},
+      {"cam0/sensor.yaml", "intrinsics:", "intrinsic:", "cam0/sensor.yaml: intrinsics is missing"},
+      {"cam1/sensor.yaml", "[752, 480]", "[640, 480]", "752x480 px, the right one 640x480 px"},
+      {"cam1/sensor.yaml", "sensor_type:", "a: [b\n", "cam1/sensor.yaml is not YAML"},
+      {"cam0/data.csv",
+       "#timestamp [ns],filename\r\n",
+       "1403636579763555584\n",
+       "cam0/data.csv:1 has 1 columns: timestamp [ns] and file name are expected"},
+      {"cam0/data.csv",
+       "#timestamp [ns],filename\r\n",
+       "5,a.png\n5,b.png\n",
+       "data.csv:2: the time 5 is not later than the one before it: sort the file by time"},
   };
-  restored("cam0/sensor.yaml", [&] {
-    change("cam0/sensor.yaml", "radial-tangential", "omni");
-    expectRefused("cam0/sensor.yaml: the distortion model 'omni' is not supported");
-  });
-  restored("cam0/sensor.yaml", [&] {
-    change("cam0/sensor.yaml", "camera_model: pinhole", "camera_model: omni");
-    expectRefused("camera_model is omni, but only pinhole is supported");
-  });
-  restored("cam0/sensor.yaml", [&] {
-    change("cam0/sensor.yaml", "0.0148655429818", "0.5");
-    expectRefused("T_BS is not rigid: its left 3x3 part is off orthonormality by 0.");
-  });
-  restored("cam0/sensor.yaml", [&] {
-    change("cam0/sensor.yaml", "0.0, 0.0, 0.0, 1.0", "0.0, 0.0, 0.0");
-    expectRefused("T_BS has 15 numbers instead of 16");
-  });
-  restored("cam0/sensor.yaml", [&] {
-    change("cam0/sensor.yaml", "458.654", ".nan");
-    expectRefused("intrinsics has a value that is not a finite number");
-  });
-  restored("cam0/sensor.yaml", [&] {
-    change("cam0/sensor.yaml", "intrinsics:", "intrinsic:");
-    expectRefused("cam0/sensor.yaml: intrinsics is missing");
-  });
-  restored("cam1/sensor.yaml", [&] {
-    change("cam1/sensor.yaml", "[752, 480]", "[640, 480]");
-    expectRefused("752x480 px, the right one 640x480 px");
-  });
-  restored("cam1/sensor.yaml", [&] {
-    folder_.write("cam1/sensor.yaml", readFile(folder_ / "cam0/sensor.yaml"));
-    expectRefused("the baseline is zero");
-  });
-  restored("cam1/sensor.yaml", [&] {
-    folder_.write("cam1/sensor.yaml", "a: [b\n");
-    expectRefused("cam1/sensor.yaml is not YAML");
-  });
-  restored("cam0/data.csv", [&] {
-    folder_.write("cam0/data.csv", "1403636579763555584\n");
-    expectRefused("cam0/data.csv:1 has 1 columns: timestamp [ns] and file name are expected");
-  });
-  restored("cam0/data.csv", [&] {
-    folder_.write("cam0/data.csv", "5,a.png\n5,b.png\n");
-    expectRefused("data.csv:2: the timestamp 5 ns is not later");
-  });
-  restored("cam1/data.csv", [&] {
-    std::filesystem::remove(folder_ / "cam1/data.csv");
-    expectRefused("cannot read");
-  });
+  for (const auto& row : rows) {
+    const std::string text = readFile(folder_ / row.file);
+    change(row.file, row.text, row.changed_text);
+    expectRefused(row.message);
+    folder_.write(row.file, text);
+  }
+  folder_.write("cam1/sensor.yaml", readFile(folder_ / "cam0/sensor.yaml"));
+  expectRefused("the baseline is zero");
   std::filesystem::remove_all(folder_ / "cam1/data");
   expectRefused("there is no pair: of 3 left images and 0 right images");
+  std::filesystem::remove(folder_ / "cam1/data.csv");
+  expectRefused("cannot read");
 }
 
 TEST_F(AslSequenceTest, ReadsOrRefusesAnyFile) {

@@ -1,5 +1,3 @@
-#include "sequences/calibrated_folder.h"
-
 #include <filesystem>
 #include <stdexcept>
 
@@ -8,6 +6,7 @@
 
 #include "input/camera_calibration.h"
 #include "sequences/camera_info_calibration.h"
+#include "sequences/stereo_sequence.h"
 #include "support/expect_error.h"
 #include "support/raw_rig.h"
 #include "support/read_file.h"

@@ -1,23 +1,22 @@
-#include "sequences/calibrated_folder.h"
-
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "evaluation/text_file.h"
 #include "evaluation/trajectory_sampling.h"
 #include "input/camera_calibration.h"
 #include "sequences/camera_info_calibration.h"
 #include "sequences/kitti_mount.h"
+#include "sequences/layouts.h"
 
 namespace rotrocc {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::int64_t kMaxGap_ns = 100'000'000;  // between poses, for interpolation
 
 bool isImage(const fs::path& path) {
   static const std::array<const char*, 8> extensions = {
@@ -93,42 +92,36 @@ StereoCalibration readCalibration(const std::string& root, double baseline_m) {
   }
 }
 
+Trajectory readGroundTruth(const std::string& path, const std::vector<std::int64_t>& stamps_ns) {
+  if (!fs::exists(path)) return {};
+  if (detectTrajectoryFormat(path) != TrajectoryFormat::kTum) {
+    throw std::runtime_error(path +
+                             " has no stamps: TUM format is expected, stamp [s], position "
+                             "and quaternion x y z w");
+  }
+  return samplePoses(readTrajectory(path), stamps_ns);
+}
+
 }  // namespace
 
-bool CalibratedFolder::isLayoutOf(const std::string& directory) {
+bool isFolderLayout(const std::string& directory) {
   const fs::path root(directory);
   return fs::exists(root / "left.yaml") || fs::is_directory(root / "left");
 }
 
-CalibratedFolder::CalibratedFolder(const std::string& directory, const SequenceOptions& options)
-    : directory_(directory),
-      pairs_(readImageList(directory, "left"),
-             readImageList(directory, "right"),
-             options.max_stamp_difference_s),
-      calibration_(readCalibration(directory, options.baseline_m)) {
-  const std::string truth = directory + "/groundtruth.txt";
-  if (!fs::exists(truth)) return;
-  if (detectTrajectoryFormat(truth) != TrajectoryFormat::kTum) {
-    throw std::runtime_error(truth +
-                             " has no stamps: TUM format is expected, stamp [s], position "
-                             "and quaternion x y z w");
-  }
-  ground_truth_ = samplePoses(readTrajectory(truth), pairs_.stamps_ns(), kMaxGap_ns);
-}
-
-StereoPair CalibratedFolder::read(int index) {
-  return pairs_.read(index, {calibration_.left.width, calibration_.left.height});
-}
-
-Eigen::Isometry3d CalibratedFolder::T_base_camera() const {
+StereoSequence::Parts readFolderLayout(const std::string& directory,
+                                       const SequenceOptions& options) {
+  ImagePairs pairs(readImageList(directory, "left"),
+                   readImageList(directory, "right"),
+                   options.max_stamp_difference_s);
+  const StereoCalibration calibration = readCalibration(directory, options.baseline_m);
+  const Trajectory truth = readGroundTruth(directory + "/groundtruth.txt", pairs.stamps_ns());
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
   T_base_camera.linear() = kittiMount().linear();
-  return T_base_camera;
-}
-
-GyroRecording CalibratedFolder::gyroscope(const std::string& name) const {
-  if (name.empty()) return {};
-  throw std::runtime_error("there is no file " + name + " with a gyroscope");
+  const auto gyroscope = [](const std::string& name) -> GyroRecording {
+    throw std::runtime_error("there is no file " + name + " with a gyroscope");
+  };
+  return {std::move(pairs), calibration, truth, T_base_camera, gyroscope, ""};
 }
 
 }  // namespace rotrocc

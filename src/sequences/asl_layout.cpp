@@ -1,0 +1,105 @@
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "evaluation/pose_text.h"
+#include "evaluation/text_file.h"
+#include "evaluation/trajectory_sampling.h"
+#include "inertial/gyro_file.h"
+#include "sequences/asl_sensor.h"
+#include "sequences/layouts.h"
+
+namespace rotrocc {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string rootOf(const std::string& directory) {
+  const fs::path nested = fs::path(directory) / "mav0";
+  return fs::is_directory(nested) ? nested.string() : directory;
+}
+
+void requireColumns(const TextLine& line, std::size_t columns, const std::string& what) {
+  if (line.words.size() >= columns) return;
+  throw std::runtime_error(line.where + " has " + std::to_string(line.words.size()) +
+                           " columns: " + what + " are expected, separated by commas");
+}
+
+std::vector<StampedImage> readImageList(const std::string& camera) {
+  std::vector<StampedImage> images;
+  for (const TextLine& line : readTextLines(camera + "/data.csv", ',')) {
+    requireColumns(line, 2, "timestamp [ns] and file name");
+    const std::int64_t stamp_ns = line.integer(0);
+    if (!images.empty()) requireLater(line, stamp_ns, images.back().stamp_ns);
+    images.push_back({stamp_ns, camera + "/data/" + line.words[1]});
+  }
+  return images;
+}
+
+StereoCalibration readCalibration(const AslCamera& left,
+                                  const AslCamera& right,
+                                  const std::string& root) {
+  try {
+    return chooseRectification(
+        left.camera, right.camera, left.T_body_camera.inverse() * right.T_body_camera);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(root + "/cam0/sensor.yaml and cam1/sensor.yaml: " + error.what());
+  }
+}
+
+/// Poses of the left camera at the stamps of the pairs.
+Trajectory readGroundTruth(const std::string& folder,
+                           const Eigen::Isometry3d& T_body_camera,
+                           const std::vector<std::int64_t>& stamps_ns) {
+  if (!fs::exists(folder + "/data.csv")) return {};
+  const Eigen::Isometry3d T_sensor_camera =
+      readAslPose(folder + "/sensor.yaml").inverse() * T_body_camera;
+  Trajectory poses;
+  for (const TextLine& line : readTextLines(folder + "/data.csv", ',')) {
+    requireColumns(line, 8, "timestamp [ns], position [m] and quaternion w x y z");
+    const Eigen::Isometry3d T_world_sensor = quaternionPose(line, true);
+    const std::int64_t stamp_ns = line.integer(0);
+    if (!poses.empty()) requireLater(line, stamp_ns, poses.back().stamp_ns);
+    poses.push_back({stamp_ns, T_world_sensor * T_sensor_camera});
+  }
+  return samplePoses(poses, stamps_ns);
+}
+
+}  // namespace
+
+bool isAslLayout(const std::string& directory) {
+  return fs::is_directory(rootOf(directory) + "/cam0");
+}
+
+StereoSequence::Parts readAslLayout(const std::string& directory, const SequenceOptions& options) {
+  const std::string root = rootOf(directory);
+  ImagePairs pairs(
+      readImageList(root + "/cam0"), readImageList(root + "/cam1"), options.max_stamp_difference_s);
+  const AslCamera left = readAslCamera(root + "/cam0/sensor.yaml");
+  const AslCamera right = readAslCamera(root + "/cam1/sensor.yaml");
+  const StereoCalibration calibration = readCalibration(left, right, root);
+  // Of the rectified camera.
+  const Eigen::Isometry3d T_body_camera =
+      left.T_body_camera * Eigen::Quaterniond(calibration.left.R_rectified_raw).inverse();
+  const Trajectory truth =
+      readGroundTruth(root + "/state_groundtruth_estimate0", T_body_camera, pairs.stamps_ns());
+  const auto gyroscope = [root, T_body_camera](const std::string& name) -> GyroRecording {
+    const std::string folder = root + "/" + name;
+    if (!fs::exists(folder + "/data.csv")) {
+      throw std::runtime_error(folder +
+                               "/data.csv does not exist: name a folder of the sequence, as imu0, "
+                               "or a CSV file");
+    }
+    const Eigen::Isometry3d T_body_gyro = readAslPose(folder + "/sensor.yaml");
+    return {readGyroFile(folder + "/data.csv"), (T_body_camera.inverse() * T_body_gyro).linear()};
+  };
+  return {std::move(pairs),
+          calibration,
+          truth,
+          T_body_camera,
+          gyroscope,
+          fs::exists(root + "/imu0/data.csv") ? "imu0" : ""};
+}
+
+}  // namespace rotrocc
