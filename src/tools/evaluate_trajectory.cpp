@@ -43,31 +43,40 @@ struct Options {
 
 /// Returns false after printing the help; throws po::error on bad usage.
 bool parse(int argc, char** argv, Options& options) {
-  po::options_description visible("Options");
-  auto add = visible.add_options();
-  add("help,h", "show this help");
+  po::options_description segments("Segments");
+  auto add = segments.add_options();
+  add("fit", po::bool_switch(&options.fit), "choose lengths and step from the path length");
   add("lengths",
       po::value(&options.segments.lengths_m)->multitoken(),
       "lengths of the segments [m] (default: 100 200 300 400 500 600 700 800)");
   add("step",
       po::value(&options.segments.step)->default_value(options.segments.step),
       "segments start at every N-th pose");
-  add("fit", po::bool_switch(&options.fit), "choose both from the path length");
-  add("times",
-      po::value(&options.files.times),
-      "times.txt with the stamps of poses in KITTI format (default: those of --stats, or 10 Hz)");
-  add("segments",
-      po::value(&options.segments_file),
-      "CSV output file with one row per segment: first pose, length, speed and errors");
+
+  po::options_description output("Output");
+  add = output.add_options();
   add("report",
       po::value(&options.report),
-      "output directory for an HTML report, its pictures (PNG) and its tables (CSV)");
+      "directory for an HTML report, its pictures (PNG) and its tables (CSV)");
   add("stats",
       po::value(&options.files.statistics),
       "statistics of offline_odometry --stats from the same run, for the report");
   add("title",
       po::value(&options.title),
       "title of the report (default: the name of the estimate)");
+  add("segments",
+      po::value(&options.segments_file),
+      "CSV file with one row per segment: first pose, length, speed and errors");
+
+  po::options_description stamps("Stamps");
+  stamps.add_options()(
+      "times",
+      po::value(&options.files.times),
+      "times.txt with the stamps of poses in KITTI format (default: those of --stats, or 10 Hz)");
+
+  po::options_description visible("Options");
+  visible.add_options()("help,h", "show this help");
+  visible.add(segments).add(output).add(stamps);
   std::vector<std::string> files;
   PositionalArguments trajectories;
   trajectories.options.add_options()("files", po::value(&files));

@@ -1,5 +1,6 @@
 #include "tools/trajectory_files.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <iostream>
@@ -37,15 +38,40 @@ MatchedTrajectories matchStamps(const Trajectory& truth,
   return matched;
 }
 
-/// Sets the stamps in the first column of the statistics, below their header.
+/// The stamps of the pairs in a file of statistics.
+std::vector<std::int64_t> readStamps(const std::string& statistics) {
+  const std::vector<TextLine> lines = readTextLines(statistics, ',');
+  if (lines.front().words.front() != "stamp_ns") {
+    lines.front().fail("there is no column stamp_ns: give a file of offline_odometry --stats");
+  }
+  std::vector<std::int64_t> stamps_ns;
+  for (std::size_t i = 1; i < lines.size(); ++i) stamps_ns.push_back(lines[i].integer(0));
+  return stamps_ns;
+}
+
 void setStamps(const TrajectoryFiles& files, Trajectory& estimate) {
-  const std::vector<TextLine> lines = readTextLines(files.statistics, ',');
-  if (lines.size() != estimate.size() + 1) {
+  const std::vector<std::int64_t> stamps_ns = readStamps(files.statistics);
+  if (stamps_ns.size() != estimate.size()) {
     throw std::runtime_error(files.estimate + cv::format(" has %zu poses, but ", estimate.size()) +
-                             files.statistics + cv::format(" has %zu pairs", lines.size() - 1) +
+                             files.statistics + cv::format(" has %zu pairs", stamps_ns.size()) +
                              ": both must be from the same run");
   }
-  for (std::size_t i = 0; i < estimate.size(); ++i) estimate[i].stamp_ns = lines[i + 1].integer(0);
+  for (std::size_t i = 0; i < estimate.size(); ++i) estimate[i].stamp_ns = stamps_ns[i];
+}
+
+/// Each pose must have its pair.
+void requireStatisticsOf(const Trajectory& estimate, const TrajectoryFiles& files) {
+  if (files.statistics.empty()) return;
+  std::vector<std::int64_t> stamps_ns = readStamps(files.statistics);
+  std::sort(stamps_ns.begin(), stamps_ns.end());
+  for (const StampedPose& pose : estimate) {
+    if (std::binary_search(stamps_ns.begin(), stamps_ns.end(), pose.stamp_ns)) continue;
+    throw std::runtime_error(files.statistics + " has no pair at " +
+                             cv::format("%.6f s", toSeconds(pose.stamp_ns)) +
+                             ", where there is a pose: the stamps of poses and statistics differ, "
+                             "both must be from the same run, and poses in KITTI format need "
+                             "--times");
+  }
 }
 
 /// With the poses of a sequence, and its stamps if the estimate has none.
@@ -83,16 +109,15 @@ MatchedTrajectories matchLines(const Trajectory& truth,
   return matched;
 }
 
-}  // namespace
-
-Trajectory readEstimate(const TrajectoryFiles& files) {
+/// As readEstimate(), before its stamps are compared with those of the statistics.
+Trajectory readStamped(const TrajectoryFiles& files) {
   Trajectory estimate = readTrajectory(files.estimate, files.times);
   const bool has_stamps = isTum(files.estimate) || !files.times.empty();
   if (!has_stamps && !files.statistics.empty()) setStamps(files, estimate);
   return estimate;
 }
 
-MatchedTrajectories readMatched(const TrajectoryFiles& files) {
+MatchedTrajectories match(const TrajectoryFiles& files) {
   if (std::filesystem::is_directory(files.truth)) return readWithSequence(files);
   const bool truth_tum = isTum(files.truth);
   const bool estimate_tum = isTum(files.estimate);
@@ -105,9 +130,23 @@ MatchedTrajectories readMatched(const TrajectoryFiles& files) {
     throw std::runtime_error("both files have stamps: leave out --times " + files.times);
   }
   const Trajectory truth = readTrajectory(files.truth, truth_tum ? "" : files.times);
-  const Trajectory estimate = estimate_tum ? readTrajectory(files.estimate) : readEstimate(files);
+  const Trajectory estimate = estimate_tum ? readTrajectory(files.estimate) : readStamped(files);
   return truth_tum || estimate_tum ? matchStamps(truth, estimate, files)
                                    : matchLines(truth, estimate, files);
+}
+
+}  // namespace
+
+Trajectory readEstimate(const TrajectoryFiles& files) {
+  Trajectory estimate = readStamped(files);
+  requireStatisticsOf(estimate, files);
+  return estimate;
+}
+
+MatchedTrajectories readMatched(const TrajectoryFiles& files) {
+  MatchedTrajectories matched = match(files);
+  requireStatisticsOf(matched.estimate, files);
+  return matched;
 }
 
 }  // namespace rotrocc

@@ -16,7 +16,8 @@ struct TrajectoryFiles {
 };
 
 /// Poses without stamps get those of the times, or else those of the statistics, if they are given,
-/// or else 10 Hz. Throws std::runtime_error if they do not fit the poses, and as readTrajectory().
+/// or else 10 Hz. Throws std::runtime_error if they do not fit the poses, if the statistics have no
+/// pair at a pose, and as readTrajectory().
 Trajectory readEstimate(const TrajectoryFiles& files);
 
 /// Pairs of poses: by line if both files have no stamps, else by stamp, up to 10 ms apart. Throws

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -23,15 +24,16 @@ constexpr std::int64_t kStart_ns = 1'317'046'453'072'943'872;
 
 class EvaluateTrajectoryTest : public ::testing::Test {
  protected:
-  /// A drive of 300 m, and an estimate of it whose steps are 1 % too long.
+  /// A drive of 300 m at 10 m/s, and an estimate of it whose steps are 1 % too long and roll by
+  /// 0.02 deg, which does not change the way.
   EvaluateTrajectoryTest() {
-    write("truth.txt", 1.0);
-    write("estimate.txt", 1.01);
+    write("truth.txt", 1.0, 0.0);
+    write("estimate.txt", 1.01, 0.02);
     std::ofstream times(directory_ / "times.txt");
     for (int i = 0; i < kPoses; ++i) times << 0.2 * i << '\n';
   }
 
-  void write(const std::string& name, double step_m) const {
+  void write(const std::string& name, double step_m, double roll_deg) const {
     for (const TrajectoryFormat format : {TrajectoryFormat::kKitti, TrajectoryFormat::kTum}) {
       const bool tum = format == TrajectoryFormat::kTum;
       TrajectoryWriter writer(directory_ / ((tum ? "tum_" : "") + name), format);
@@ -39,6 +41,7 @@ class EvaluateTrajectoryTest : public ::testing::Test {
       for (int i = 0; i < kPoses; ++i) {
         writer.write({i * kPeriod_ns, pose});
         pose.translate(Eigen::Vector3d(0.0, 0.0, step_m));
+        pose.rotate(Eigen::AngleAxisd(roll_deg * M_PI / 180.0, Eigen::Vector3d::UnitZ()));
       }
     }
   }
@@ -62,6 +65,14 @@ class EvaluateTrajectoryTest : public ::testing::Test {
                       EVALUATE_TRAJECTORY + " " + arguments);
   }
 
+  /// Expects values in columns of a row.
+  static void expectRow(const CsvRow& row,
+                        const std::vector<std::pair<const char*, double>>& expected) {
+    for (const auto& [column, value] : expected) {
+      EXPECT_NEAR(std::stod(row.at(column)), value, 1e-5 * value) << column;
+    }
+  }
+
   CsvRow summary() const { return readCsv(directory_ / "report/summary.csv").at(0); }
   std::string page() const { return readFile(directory_ / "report/index.html"); }
 
@@ -82,25 +93,74 @@ class EvaluateTrajectoryTest : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
+/// Each figure in its unit: metres, percent, degrees. A segment of 100 m ends after 101 steps, one
+/// of 200 m after 201; 20 and 10 of them begin at each tenth pose.
 TEST_F(EvaluateTrajectoryTest, ReportHasTheFigures) {
   const CommandResult result = run("truth.txt estimate.txt --fit --report report");
   ASSERT_EQ(result.status, 0) << result.output;
-  EXPECT_NE(result.output.find("translation 1.00"), std::string::npos) << result.output;
-  EXPECT_EQ(std::stod(summary().at("poses")), kPoses);
-  EXPECT_NEAR(std::stod(summary().at("path_m")), 300.0, 1e-6);
-  EXPECT_NEAR(std::stod(summary().at("translation_percent")), 1.0, 0.02);
-  EXPECT_NEAR(std::stod(summary().at("step_translation_max_m")), 0.01, 1e-6);
-  EXPECT_NEAR(std::stod(summary().at("drift_m")), 3.0, 1e-6);
+  for (const char* line :
+       {"translation 1.008 %, rotation 0.02017 deg/m (30 segments, 301 poses, 300.0 m)\n",
+        "         100        20            1.010           0.02020\n",
+        "          10        30            1.008           0.02017\n",
+        "translation [m]        0.0100     0.0100     0.0100     0.0100\n",
+        "rotation [deg]         0.0200     0.0200     0.0200     0.0200\n",
+        "final drift: 3.000 m (1.000 % of the path), 6.000 deg\n"}) {
+    EXPECT_NE(result.output.find(line), std::string::npos) << line << result.output;
+  }
+  const double translation_percent = (20 * 1.01 + 10 * 1.005) / 30;
+  const double rotation_deg_per_m = 0.02 * translation_percent;
+  expectRow(summary(),
+            {{"poses", kPoses},
+             {"path_m", 300.0},
+             {"duration_s", 30.0},
+             {"segments", 30},
+             {"translation_percent", translation_percent},
+             {"rotation_deg_per_m", rotation_deg_per_m},
+             {"step_translation_mean_m", 0.01},
+             {"step_translation_rms_m", 0.01},
+             {"step_translation_p95_m", 0.01},
+             {"step_translation_max_m", 0.01},
+             {"step_rotation_mean_deg", 0.02},
+             {"step_rotation_rms_deg", 0.02},
+             {"step_rotation_p95_deg", 0.02},
+             {"step_rotation_max_deg", 0.02},
+             {"drift_m", 3.0},
+             {"drift_percent", 1.0},
+             {"drift_deg", 6.0}});
 
   const std::vector<CsvRow> poses = readCsv(directory_ / "report/poses.csv");
-  ASSERT_EQ(poses.size(), static_cast<std::size_t>(kPoses));
-  EXPECT_EQ(poses[1].at("stamp_ns"), "100000000");
-  EXPECT_NEAR(std::stod(poses[100].at("true_z_m")), 100.0, 1e-6);
-  EXPECT_NEAR(std::stod(poses[100].at("z_m")), 101.0, 1e-6);
+  ASSERT_EQ(poses.size(), static_cast<std::size_t>(kPoses)) << "to the last one";
+  expectRow(poses[100],
+            {{"stamp_ns", 100 * kPeriod_ns},
+             {"path_m", 100.0},
+             {"true_z_m", 100.0},
+             {"z_m", 101.0},
+             {"step_translation_error_m", 0.01},
+             {"step_rotation_error_deg", 0.02}});
+  expectRow(readCsv(directory_ / "report/segments.csv").at(0),
+            {{"length_m", 100.0},
+             {"speed_mps", 100.0 / 10.1},
+             {"translation_percent", 1.01},
+             {"rotation_deg_per_m", 0.0202}});
   const std::vector<CsvRow> by_length = readCsv(directory_ / "report/by_length.csv");
   ASSERT_EQ(by_length.size(), 2u);
-  EXPECT_EQ(by_length[1].at("length_m"), "200");
-  EXPECT_EQ(readCsv(directory_ / "report/by_speed.csv").at(0).at("speed_mps"), "8");
+  expectRow(by_length[1],
+            {{"length_m", 200.0}, {"translation_percent", 1.005}, {"rotation_deg_per_m", 0.0201}});
+  expectRow(readCsv(directory_ / "report/by_speed.csv").at(1),
+            {{"speed_mps", 10.0},
+             {"translation_percent", translation_percent},
+             {"rotation_deg_per_m", rotation_deg_per_m}});
+
+  for (const char* part : {"<b>1.008 <small>%</small>",
+                           "<b>0.02017 <small>deg/m</small>",
+                           "<b>3.00 <small>m</small>",
+                           "<b>300 <small>m</small></b><span>301 poses, 30.0 s<",
+                           "<th>speed<br>[km/h]</th>",
+                           "<td>36</td><td>30</td><td>1.008</td><td>0.02017</td>",
+                           "<td>translation [mm]</td><td>10</td>",
+                           "<td>rotation [mdeg]</td><td>20</td>"}) {
+    EXPECT_EQ(count(page(), part), 1) << part;
+  }
   expectPictures({"trajectory", "errors", "steps"});
 }
 
@@ -176,11 +236,23 @@ TEST_F(EvaluateTrajectoryTest, PosesWithoutStampsGetThoseOfTheStatistics) {
   EXPECT_EQ(poses.back().at("stamp_ns"), std::to_string(kStart_ns + 2 * (kPoses - 1) * kPeriod_ns));
 }
 
-TEST_F(EvaluateTrajectoryTest, StatisticsMustBeOfTheSameRun) {
-  const CommandResult result =
-      run("truth.txt estimate.txt --times times.txt --fit --report report --stats " + statistics());
-  EXPECT_EQ(result.status, 1);
-  EXPECT_NE(result.output.find("need --times"), std::string::npos) << result.output;
+TEST_F(EvaluateTrajectoryTest, NothingIsWrittenIfAnInputIsWrong) {
+  statistics();
+  directory_.write("other.csv", "stamp_ns,state\n0,ok\n");
+  const std::string with_report = " --fit --report report --segments segments.csv --stats ";
+  for (const auto& [arguments, message] : std::vector<std::pair<std::string, std::string>>{
+           {"truth.txt estimate.txt --times times.txt" + with_report + "stats.csv", "need --times"},
+           {"tum_truth.txt tum_estimate.txt" + with_report + "other.csv", "no pair at 0.100000 s"},
+           {"truth.txt estimate.txt" + with_report + "other.csv", "other.csv has 1 pairs"},
+           {"tum_estimate.txt --report report --stats other.csv", "no pair at 0.100000 s"},
+           {"truth.txt estimate.txt" + with_report + "times.txt", "no column stamp_ns"},
+           {"truth.txt estimate.txt" + with_report + "none.csv", "cannot read none.csv"}}) {
+    const CommandResult result = run(arguments);
+    EXPECT_EQ(result.status, 1) << arguments;
+    EXPECT_NE(result.output.find(message), std::string::npos) << arguments << result.output;
+    EXPECT_FALSE(std::filesystem::exists(directory_ / "report")) << arguments;
+    EXPECT_FALSE(std::filesystem::exists(directory_ / "segments.csv")) << arguments;
+  }
 }
 
 TEST_F(EvaluateTrajectoryTest, RefusesBadUsage) {
