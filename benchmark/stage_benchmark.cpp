@@ -6,10 +6,9 @@
 #include <vector>
 
 #include <benchmark/benchmark.h>
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core.hpp>
 
 #include "features/correspondence_finder.h"
-#include "features/image_pyramid.h"
 #include "geometry/kitti_camera.h"
 #include "motion/motion_estimator.h"
 #include "motion/outlier_rejection.h"
@@ -130,18 +129,6 @@ void odometry(benchmark::State& state) {
       pairs, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-/// One reduction of an image by half, by our own code and by OpenCV's, on one thread.
-void halving(benchmark::State& state) {
-  cv::Mat half;
-  for (auto _ : state) halve(drive().pairs[0].left, half);
-}
-
-void pyrDown(benchmark::State& state) {
-  cv::setNumThreads(1);
-  cv::Mat half;
-  for (auto _ : state) cv::pyrDown(drive().pairs[0].left, half);
-}
-
 /// Two of seven pairs are upside down: mean times of pairs that are found by the first try, that
 /// are lost, and that are found later.
 void failures(benchmark::State& state) {
@@ -172,8 +159,6 @@ BENCHMARK(corners)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseR
 BENCHMARK(disparities)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(tracking)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(estimation)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
-BENCHMARK(halving)->Unit(benchmark::kMillisecond);
-BENCHMARK(pyrDown)->Unit(benchmark::kMillisecond);
 BENCHMARK(failures)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(odometry)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 

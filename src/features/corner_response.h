@@ -6,7 +6,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "kernels/corner_kernels.h"
+#include "kernels/image_kernels.h"
 
 namespace rotrocc {
 

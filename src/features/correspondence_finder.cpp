@@ -21,6 +21,16 @@ constexpr double kMaxVertical_px = 1.0;
 /// Between tracked and matched disparity. Correct ones differ by less, as both find the same point.
 constexpr double kMaxDisparityDifference_px = 1.0;
 
+/// Those of a frame, whose rows are as far apart as those of the keyframe.
+RectifiedImages imagesOf(const StereoFrame& frame,
+                         const StereoCamera& camera,
+                         const Keyframe& keyframe) {
+  return {frame.left.front(),
+          frame.right.front(),
+          camera.disparityAtInfinity(),
+          keyframe.row_offset_px};
+}
+
 }  // namespace
 
 CorrespondenceFinder::CorrespondenceFinder(const Config& config, int threads)
@@ -89,25 +99,11 @@ std::size_t CorrespondenceFinder::addPoints(const StereoCamera& camera,
 
 /// Finds the disparities of the batch. Matches are searched in whole rows first.
 void CorrespondenceFinder::matchBatch(const StereoCamera& camera, const Keyframe& keyframe) {
-  const cv::Mat& left = keyframe.frame->left.front();
-  const cv::Mat& right = keyframe.frame->right.front();
-  matcher_.match(workers_,
-                 left,
-                 right,
-                 batch_,
-                 camera.disparityAtInfinity(),
-                 disparities_px_,
-                 keyframe.row_offset_px);
+  const RectifiedImages images = imagesOf(*keyframe.frame, camera, keyframe);
+  matcher_.match(workers_, images, batch_, disparities_px_);
   if (keyframe.row_offset_px == 0.0) return;
   std::swap(matched_disparities_px_, disparities_px_);
-  matcher_.matchNear(workers_,
-                     left,
-                     right,
-                     batch_,
-                     matched_disparities_px_,
-                     camera.disparityAtInfinity(),
-                     disparities_px_,
-                     keyframe.row_offset_px);
+  matcher_.matchNear(workers_, images, batch_, matched_disparities_px_, disparities_px_);
 }
 
 int CorrespondenceFinder::find(const StereoCamera& camera,
@@ -184,14 +180,9 @@ void CorrespondenceFinder::checkCircularConsistency(const StereoCamera& camera,
       tracked_disparities_px_[i] = offset.x;
     }
   }
-  stereo_gain_ = matcher_.matchNear(workers_,
-                                    current.left.front(),
-                                    current.right.front(),
-                                    cur_left_px_,
-                                    tracked_disparities_px_,
-                                    camera.disparityAtInfinity(),
-                                    disparities_px_,
-                                    keyframe.row_offset_px);
+  const RectifiedImages images = imagesOf(current, camera, keyframe);
+  stereo_gain_ =
+      matcher_.matchNear(workers_, images, cur_left_px_, tracked_disparities_px_, disparities_px_);
 
   features.clear();
   for (std::size_t i = 0; i < cur_left_px_.size(); ++i) {
@@ -199,15 +190,11 @@ void CorrespondenceFinder::checkCircularConsistency(const StereoCamera& camera,
     if (disparity_px == StereoMatcher::kNoDisparity) continue;
     const double difference_px = std::abs(disparity_px - tracked_disparities_px_[i]);
     if (difference_px > kMaxDisparityDifference_px) continue;
-    const double depth_m = camera.depth(disparity_px);
-    if (!isUsableDepth(depth_m)) continue;
-    Correspondence feature;
-    feature.keyframe_px = {keyframe.left_px[i].x, keyframe.left_px[i].y};
-    feature.cur_px = {cur_left_px_[i].x, cur_left_px_[i].y};
-    feature.disparity_px = disparity_px;
-    feature.point_cur = depth_m * camera.ray(feature.cur_px);
-    features.push_back(feature);
+    features.push_back({{keyframe.left_px[i].x, keyframe.left_px[i].y},
+                        {cur_left_px_[i].x, cur_left_px_[i].y},
+                        disparity_px});
   }
+  triangulate(camera, features);
 }
 
 double CorrespondenceFinder::medianShift(const StereoCamera& camera,

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "features/image_noise.h"
-#include "geometry/min_depth.h"
 
 namespace rotrocc {
 namespace {
@@ -54,26 +53,17 @@ void DescriptorMatcher::match(const StereoCamera& camera,
     const cv::Point2f& px = current_.keypoints[static_cast<std::size_t>(match.trainIdx)].pt;
     pixels_.emplace_back(std::round(px.x), std::round(px.y));  // depths are found at whole pixels
   }
-  matcher_.match(workers_,
-                 left,
-                 current.right.front(),
-                 pixels_,
-                 camera.disparityAtInfinity(),
-                 disparities_px_,
-                 row_offset_px);
+  const RectifiedImages images = {
+      left, current.right.front(), camera.disparityAtInfinity(), row_offset_px};
+  matcher_.match(workers_, images, pixels_, disparities_px_);
   for (std::size_t i = 0; i < matches_.size(); ++i) {
     if (disparities_px_[i] == StereoMatcher::kNoDisparity) continue;
-    const double depth_m = camera.depth(disparities_px_[i]);
-    if (!isUsableDepth(depth_m)) continue;
     const auto& in_earlier = earlier_.keypoints[static_cast<std::size_t>(matches_[i].queryIdx)].pt;
     const auto& in_current = current_.keypoints[static_cast<std::size_t>(matches_[i].trainIdx)].pt;
-    Correspondence feature;
-    feature.keyframe_px = {in_earlier.x, in_earlier.y};
-    feature.cur_px = {in_current.x, in_current.y};
-    feature.disparity_px = disparities_px_[i];
-    feature.point_cur = depth_m * camera.ray(feature.cur_px);
-    features.push_back(feature);
+    features.push_back(
+        {{in_earlier.x, in_earlier.y}, {in_current.x, in_current.y}, disparities_px_[i]});
   }
+  triangulate(camera, features);
 }
 
 }  // namespace rotrocc

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "features/image_noise.h"
-#include "features/min_texture.h"
 #include "kernels/kernels.h"
 
 namespace rotrocc {

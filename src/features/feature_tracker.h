@@ -47,20 +47,6 @@ class FeatureTracker {
   bool locate(const cv::Mat& from, const cv::Mat& to, const cv::Point2f& start, cv::Point2f& point);
 
  private:
-  bool follow(const ImagePyramid& from,
-              const ImagePyramid& to,
-              bool round_trip,
-              const cv::Point2f& start,
-              float scale,
-              TrackingWindow& window,
-              cv::Point2f& end) const;
-  bool returns(const cv::Mat& from,
-               const cv::Mat& to,
-               const cv::Point2f& start,
-               float scale,
-               TrackingWindow& window,
-               const cv::Point2f& end) const;
-
   Config config_;
   std::vector<TrackingWindow> windows_;  // one per part of a list
 };

@@ -1,7 +1,6 @@
 #include "features/row_search.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 namespace rotrocc {
@@ -14,24 +13,7 @@ constexpr std::size_t kFeatureSample = 16;
 constexpr std::size_t kCorners = 64;
 constexpr int kMaxRows = 3;
 
-/// A corner that is found in several rows must be at the same place, or its row is unknown.
-constexpr float kSamePlace_px = 1.0F;
-
 }  // namespace
-
-void RowSearch::Found::add(float offset_px, float searched_px) {
-  const float distance_px = std::abs(offset_px - searched_px);
-  if (distance_px > kSamePlace_px) return;
-  lowest_px = std::min(lowest_px, offset_px);
-  highest_px = std::max(highest_px, offset_px);
-  if (distance_px >= nearest_distance_px) return;
-  nearest_distance_px = distance_px;
-  nearest_px = offset_px;
-}
-
-bool RowSearch::Found::isUnique() const {
-  return highest_px >= lowest_px && highest_px - lowest_px <= kSamePlace_px;
-}
 
 RowSearch::RowSearch(const CorrespondenceFinderConfig& config)
     : matcher_(config.stereo_matcher), tracker_(config.feature_tracker), workers_(1) {}
@@ -58,8 +40,8 @@ void RowSearch::searchRow(const StereoCamera& camera, const StereoFrame& frame, 
   const cv::Mat& left = frame.left.front();
   const cv::Mat& right = frame.right.front();
   const auto lower_px = static_cast<float>(rows);
-  matcher_.match(
-      workers_, left, right, sample_px_, camera.disparityAtInfinity(), disparities_px_, rows);
+  const RectifiedImages images = {left, right, camera.disparityAtInfinity(), lower_px};
+  matcher_.match(workers_, images, sample_px_, disparities_px_);
   for (std::size_t i = 0; i < sample_px_.size(); ++i) {
     if (disparities_px_[i] == StereoMatcher::kNoDisparity) continue;
     cv::Point2f point = sample_px_[i] + cv::Point2f(-disparities_px_[i], lower_px);

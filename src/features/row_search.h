@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -41,16 +43,30 @@ class RowSearch {
                RowOffsets& offsets);
 
  private:
-  /// Where a corner was found when several rows were searched.
+  /// Where a corner was found when several rows were searched. If these are not the same place, its
+  /// row is unknown.
   struct Found {
-    /// Adds a position at the offset `offset_px`, found by a search at `searched_px`.
-    void add(float offset_px, float searched_px);
-    bool isUnique() const;
+    static constexpr float kSamePlace_px = 1.0F;
 
     float lowest_px = std::numeric_limits<float>::max();
     float highest_px = std::numeric_limits<float>::lowest();
     float nearest_px = 0.0F;  ///< of the position nearest to where it was searched
     float nearest_distance_px = std::numeric_limits<float>::max();
+
+    /// Adds a position at the offset `offset_px`, found by a search at `searched_px`.
+    void add(float offset_px, float searched_px) {
+      const float distance_px = std::abs(offset_px - searched_px);
+      if (distance_px > kSamePlace_px) return;
+      lowest_px = std::min(lowest_px, offset_px);
+      highest_px = std::max(highest_px, offset_px);
+      if (distance_px >= nearest_distance_px) return;
+      nearest_distance_px = distance_px;
+      nearest_px = offset_px;
+    }
+
+    bool isUnique() const {
+      return highest_px >= lowest_px && highest_px - lowest_px <= kSamePlace_px;
+    }
   };
 
   void searchRow(const StereoCamera& camera, const StereoFrame& frame, int rows);

@@ -25,7 +25,12 @@ inline double secondsBetween(const StereoFrame& earlier, const StereoFrame& late
 /// A pool of frames. Frames that are no longer referenced are reused.
 class FramePool {
  public:
-  std::shared_ptr<StereoFrame> acquire();
+  std::shared_ptr<StereoFrame> acquire() {
+    for (const auto& frame : frames_) {
+      if (frame.use_count() == 1) return frame;
+    }
+    return frames_.emplace_back(std::make_shared<StereoFrame>());
+  }
 
  private:
   std::vector<std::shared_ptr<StereoFrame>> frames_;

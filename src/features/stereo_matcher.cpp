@@ -1,11 +1,12 @@
 #include "features/stereo_matcher.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 
 #include "common/median.h"
-#include "features/left_window.h"
 #include "features/patch.h"
 #include "kernels/kernels.h"
 
@@ -14,10 +15,187 @@ namespace {
 
 using W = CorrelationWindow;
 
-constexpr int kHalf = LeftWindow::kHalf;
+constexpr int kHalf = W::kSide / 2;
+constexpr int kPixels = W::kSide * W::kSide;
 
 /// Columns of a strip for which memory is reserved.
 constexpr int kUsualColumns = 256;
+
+/// Largest cost of a match: either window explains half of the variance of the other, rho^2 = 1/2.
+constexpr double kMaxCost = 0.29;
+
+/// Costs within this distance [px] of the minimum are its slopes.
+constexpr int kSlope = 2;
+
+/// The best match costs at most this share of its competitor: 0.92 times as long a difference.
+constexpr double kUniqueness = 0.85;
+
+/// Largest cost of a part for the whole window to be compared, where `min_cost` is the lowest cost
+/// of a part. With twice the margin, the same matches are found.
+float partLimit(float min_cost) {
+  return 1.25F * min_cost + 0.05F;
+}
+
+/// Variance of rounding to whole grey levels. It limits the correlation of windows without texture.
+constexpr double kRounding = 1.0 / 12.0;
+
+/// Offset of the minimum of the parabola through the costs at -1, 0 and 1.
+float subPixelOffset(double before, double at, double after) {
+  const double curvature = before - 2.0 * at + after;
+  if (!(curvature > 0.0)) return 0.0F;
+  return static_cast<float>(std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5));
+}
+
+/// A match and the contrast of its window relative to that of the left one.
+struct RowMatch {
+  static constexpr float kNoColumn = -1.0F;
+
+  float column = kNoColumn;
+  double gain = 1.0;
+};
+
+/// Buffers of a search along a row, one for each thread.
+struct RowBuffers {
+  std::vector<std::int16_t> strip;
+  std::vector<std::int32_t> scratch;
+  std::vector<float> correlations;
+  std::vector<int> peaks;     // columns
+  std::vector<double> costs;  // of the peaks
+};
+
+/// The window around a left pixel. Its cost relative to another window is 1 minus their correlation
+/// coefficient: zero-mean normalized cross-correlation, which no difference in brightness or
+/// contrast changes. That is half the mean squared difference of both, each scaled to variance 1.
+class LeftWindow {
+ public:
+  /// At whole pixels.
+  LeftWindow(const Kernels& kernels, const cv::Mat& left, const cv::Point& pixel)
+      : kernels_(kernels), unit2_(1.0) {
+    kernels.widenRows(left.ptr<uchar>(pixel.y - kHalf) + pixel.x - kHalf,
+                      static_cast<std::ptrdiff_t>(left.step),
+                      W::kStride,
+                      values_,
+                      W::kStride);
+    describe();
+  }
+
+  /// Between pixels.
+  LeftWindow(const Kernels& kernels, const cv::Mat& left, const cv::Point2f& pixel)
+      : kernels_(kernels), unit2_(1 << 2 * W::kSampleBits) {
+    kernels.sampleRows(patchAt(left, pixel, kHalf), W::kStride, values_, W::kStride);
+    describe();
+  }
+
+  /// Searches the strip of a right row for the best of `count` windows.
+  RowMatch searchRow(const std::int16_t* strip, int stride, int count, RowBuffers& buffers) const;
+
+  /// As searchRow(), for a few windows and without a test for competitors.
+  RowMatch searchNear(const std::int16_t* strip, int stride, int count) const;
+
+ private:
+  struct Compared {
+    double cost;
+    double variance;
+  };
+
+  void describe() {
+    for (int y = 0; y < W::kSide; ++y) {
+      std::fill_n(values_ + y * W::kStride + W::kSide, W::kStride - W::kSide, std::int16_t{0});
+    }
+    const ProductSums own = kernels_.multiplyWindow(values_, values_, W::kStride);
+    sum_ = own.b;
+    variance_ = varianceOf(own);
+  }
+
+  /// Times the square of the number of pixels.
+  double varianceOf(const ProductSums& sums) const {
+    constexpr double kCount = kPixels;
+    const double sum = sums.b;
+    return kCount * sums.bb - sum * sum + kCount * kCount * kRounding * unit2_;
+  }
+
+  Compared compare(const std::int16_t* strip, int stride) const {
+    const ProductSums sums = kernels_.multiplyWindow(values_, strip, stride);
+    const double variance = varianceOf(sums);
+    const double covariance = static_cast<double>(kPixels) * sums.ab - double{sum_} * sums.b;
+    return {1.0 - covariance / std::sqrt(variance_ * variance), variance};
+  }
+
+  RowMatch refined(int column,
+                   const Compared& before,
+                   const Compared& at,
+                   const Compared& after) const {
+    return {static_cast<float>(column) + subPixelOffset(before.cost, at.cost, after.cost),
+            std::sqrt(at.variance / variance_)};
+  }
+
+  const Kernels& kernels_;
+  double unit2_;
+  double sum_ = 0.0;
+  double variance_ = 0.0;
+  std::int16_t values_[W::kSide * W::kStride];
+};
+
+RowMatch LeftWindow::searchRow(const std::int16_t* strip,
+                               int stride,
+                               int count,
+                               RowBuffers& buffers) const {
+  buffers.scratch.resize(static_cast<std::size_t>(W::scratchOf(count)));
+  buffers.correlations.resize(static_cast<std::size_t>(count + kMaxShorts));
+  float* const correlations = buffers.correlations.data();
+  constexpr auto kNoise = static_cast<float>(W::kPartPixels * W::kPartPixels * kRounding);
+  const float highest = kernels_.correlateParts(
+      values_, strip, stride, count, kNoise, buffers.scratch.data(), correlations);
+  if (!(highest > 0.0F)) return {};
+  const float max_cost = partLimit(1.0F - std::sqrt(highest));
+  const float min_correlation = max_cost < 1.0F ? (1.0F - max_cost) * (1.0F - max_cost) : 0.0F;
+  buffers.peaks.resize(static_cast<std::size_t>(count));
+  const int peaks =
+      kernels_.findPeaks(correlations, 0, count - 2, 1, min_correlation, buffers.peaks.data());
+  buffers.costs.resize(static_cast<std::size_t>(peaks));
+  int best = -1;
+  Compared of_best = {2.0, 0.0};
+  for (int i = 0; i < peaks; ++i) {
+    const int column = ++buffers.peaks[i];  // it was that of the first neighbour
+    const Compared compared = compare(strip + column, stride);
+    buffers.costs[i] = compared.cost;
+    if (compared.cost >= of_best.cost) continue;
+    of_best = compared;
+    best = column;
+  }
+  if (best < 0) return {};
+  Compared before = compare(strip + best - 1, stride);
+  Compared after = compare(strip + best + 1, stride);
+  if (before.cost < of_best.cost && before.cost <= after.cost && best >= 2) {
+    --best;
+    after = of_best;
+    of_best = before;
+    before = compare(strip + best - 1, stride);
+  } else if (after.cost < of_best.cost && best + 2 < count) {
+    ++best;
+    before = of_best;
+    of_best = after;
+    after = compare(strip + best + 1, stride);
+  }
+  if (of_best.cost > kMaxCost) return {};
+  for (int i = 0; i < peaks; ++i) {
+    const bool competes = std::abs(buffers.peaks[i] - best) > kSlope;
+    if (competes && of_best.cost >= kUniqueness * buffers.costs[i]) return {};
+  }
+  return refined(best, before, of_best, after);
+}
+
+RowMatch LeftWindow::searchNear(const std::int16_t* strip, int stride, int count) const {
+  constexpr int kMaxCount = 2 * StereoMatcher::kNearRadius_px + 3;
+  Compared all[kMaxCount];
+  int best = 0;
+  for (int k = 0; k < count; ++k) {
+    all[k] = compare(strip + k, stride);
+    if (all[k].cost < all[best].cost) best = k;
+  }
+  if (best == 0 || best == count - 1 || all[best].cost > kMaxCost) return {};
+  return refined(best, all[best - 1], all[best], all[best + 1]);
+}
 
 /// Whether windows in a row of the image can be read, including the pixels below. Registers read on
 /// into one more row.
@@ -35,10 +213,11 @@ cv::Range clip(const cv::Mat& image, const cv::Range& columns) {
   return {std::max(columns.start, kHalf), std::min(columns.end, image.cols - W::kStride)};
 }
 
-/// Calls matchOf(i) for each pixel and converts the columns to disparities. Returns the median
-/// gain.
+/// Calls matchOf(i) for each pixel with a window, for its match and the column where its strip
+/// begins, and converts them to disparities of at least `min_px`. Returns the median gain.
 template <class MatchOf>
 double eachPixel(Workers& workers,
+                 const RectifiedImages& images,
                  const std::vector<cv::Point2f>& pixels,
                  double min_px,
                  std::vector<float>& disparities_px,
@@ -48,9 +227,12 @@ double eachPixel(Workers& workers,
   float* const gain_of = gains.data();
   disparities_px.assign(pixels.size(), StereoMatcher::kNoDisparity);
   workers.forEach(pixels.size(), [&](std::size_t i, std::size_t) {
-    const RowMatch match = matchOf(i);
-    const float disparity_px = pixels[i].x - match.column;
-    if (match.column == RowMatch::kNoColumn || disparity_px < min_px) return;
+    if (!windowInside(images.left, pixels[i])) return;
+    int first = 0;
+    const RowMatch match = matchOf(i, first);
+    if (match.column == RowMatch::kNoColumn) return;
+    const float disparity_px = pixels[i].x - (match.column + static_cast<float>(first));
+    if (disparity_px < min_px) return;
     disparities_px[i] = disparity_px;
     gain_of[i] = static_cast<float>(match.gain);
   });
@@ -60,74 +242,66 @@ double eachPixel(Workers& workers,
 
 }  // namespace
 
-StereoMatcher::StereoMatcher(const Config& config) : config_(config) {}
-
 double StereoMatcher::match(Workers& workers,
-                            const cv::Mat& left,
-                            const cv::Mat& right,
+                            const RectifiedImages& images,
                             const std::vector<cv::Point2f>& corners,
-                            double infinity_px,
-                            std::vector<float>& disparities_px,
-                            double row_offset_px) const {
-  const int rows_lower = cvRound(row_offset_px);
-  const int nearest = config_.max_disparity_px + cvCeil(infinity_px);
-  const int farthest = cvFloor(config_.min_disparity_px + infinity_px);
-  const double min_px = config_.min_disparity_px + infinity_px;
+                            std::vector<float>& disparities_px) const {
+  const cv::Mat& right = images.right;
+  const int rows_lower = cvRound(images.row_offset_px);
+  const int nearest = config_.max_disparity_px + cvCeil(images.infinity_px);
+  const double min_px = config_.min_disparity_px + images.infinity_px;
+  const int farthest = cvFloor(min_px);
   const Kernels& kernels = chooseKernels();
-  return eachPixel(workers, corners, min_px, disparities_px, [&](std::size_t i) -> RowMatch {
-    if (!windowInside(left, corners[i])) return {};
+  const auto matchOf = [&](std::size_t i, int& first) -> RowMatch {
     const cv::Point pixel(cvRound(corners[i].x), cvRound(corners[i].y));
     const int right_row = pixel.y + rows_lower;
     if (!rowInside(right, static_cast<float>(right_row))) return {};
     const cv::Range columns = clip(right, cv::Range(pixel.x - nearest - 1, pixel.x - farthest + 2));
     if (columns.size() < 3) return {};
+    first = columns.start;
     thread_local RowBuffers buffers_of_thread;
     RowBuffers& buffers = buffers_of_thread;  // one look-up
     std::vector<std::int16_t>& strip = buffers.strip;
     const int stride = columns.size() + W::kStride + kMaxShorts;
     strip.reserve(W::kSide * kUsualColumns);
     strip.resize(static_cast<std::size_t>(W::kSide * stride + kMaxShorts));
-    kernels.widenRows(right.ptr<uchar>(right_row - kHalf) + columns.start - kHalf,
+    kernels.widenRows(right.ptr<uchar>(right_row - kHalf) + first - kHalf,
                       static_cast<std::ptrdiff_t>(right.step),
                       columns.size() + W::kSide - 1,
                       strip.data(),
                       stride);
-    RowMatch found =
-        LeftWindow(kernels, left, pixel).searchRow(strip.data(), stride, columns.size(), buffers);
-    if (found.column != RowMatch::kNoColumn) found.column += static_cast<float>(columns.start);
-    return found;
-  });
+    const LeftWindow window(kernels, images.left, pixel);
+    return window.searchRow(strip.data(), stride, columns.size(), buffers);
+  };
+  return eachPixel(workers, images, corners, min_px, disparities_px, matchOf);
 }
 
 double StereoMatcher::matchNear(Workers& workers,
-                                const cv::Mat& left,
-                                const cv::Mat& right,
+                                const RectifiedImages& images,
                                 const std::vector<cv::Point2f>& pixels,
                                 const std::vector<float>& expected_px,
-                                double infinity_px,
-                                std::vector<float>& disparities_px,
-                                double row_offset_px) const {
-  const double min_px = config_.min_disparity_px + infinity_px;
+                                std::vector<float>& disparities_px) const {
+  const double min_px = config_.min_disparity_px + images.infinity_px;
   const Kernels& kernels = chooseKernels();
-  return eachPixel(workers, pixels, min_px, disparities_px, [&](std::size_t i) -> RowMatch {
-    if (expected_px[i] == kNoDisparity || !windowInside(left, pixels[i])) return {};
-    const float right_row = pixels[i].y + static_cast<float>(row_offset_px);
-    if (!rowInside(right, right_row)) return {};
+  const auto matchOf = [&](std::size_t i, int& first) -> RowMatch {
+    if (expected_px[i] == kNoDisparity) return {};
+    const float right_row = pixels[i].y + static_cast<float>(images.row_offset_px);
+    if (!rowInside(images.right, right_row)) return {};
     const int x = cvRound(pixels[i].x - expected_px[i]);
     const cv::Range columns =
-        clip(right, cv::Range(x - kNearRadius_px - 1, x + kNearRadius_px + 2));
+        clip(images.right, cv::Range(x - kNearRadius_px - 1, x + kNearRadius_px + 2));
     if (columns.size() < 3) return {};
+    first = columns.start;
     constexpr int kStride = 2 * W::kStride;
     std::int16_t strip[W::kSide * kStride];
-    kernels.sampleRows(patchAt(right, {static_cast<float>(columns.start), right_row}, kHalf),
+    kernels.sampleRows(patchAt(images.right, {static_cast<float>(first), right_row}, kHalf),
                        columns.size() + W::kSide - 1,
                        strip,
                        kStride);
-    RowMatch found =
-        LeftWindow(kernels, left, pixels[i]).searchNear(strip, kStride, columns.size());
-    if (found.column != RowMatch::kNoColumn) found.column += static_cast<float>(columns.start);
-    return found;
-  });
+    const LeftWindow window(kernels, images.left, pixels[i]);
+    return window.searchNear(strip, kStride, columns.size());
+  };
+  return eachPixel(workers, images, pixels, min_px, disparities_px, matchOf);
 }
 
 }  // namespace rotrocc

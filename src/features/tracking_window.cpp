@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "features/min_texture.h"
+#include "features/image_noise.h"
 #include "features/patch.h"
 
 namespace rotrocc {

@@ -1,10 +1,8 @@
 #pragma once
 
-#include "kernels/corner_kernels.h"
 #include "kernels/correlation_kernels.h"
-#include "kernels/fit_kernels.h"
-#include "kernels/half_image_kernels.h"
-#include "kernels/residual_kernels.h"
+#include "kernels/feature_kernels.h"
+#include "kernels/image_kernels.h"
 #include "kernels/window_kernels.h"
 
 namespace rotrocc {

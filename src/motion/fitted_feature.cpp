@@ -11,23 +11,6 @@ namespace {
 /// The fit is nearly linear: after two steps the remaining error is below 1 % of the first step.
 constexpr int kFitSteps = 2;
 
-FitTerms termsOf(const StereoCamera& camera,
-                 const Eigen::Isometry3d& T_keyframe_cur,
-                 double noise_ratio) {
-  FitTerms terms;
-  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(terms.rotation) =
-      T_keyframe_cur.linear();
-  Eigen::Map<Eigen::Vector3d>(terms.translation) = T_keyframe_cur.translation();
-  terms.fx = camera.fx;
-  terms.fy = camera.fy;
-  terms.cx = camera.cx;
-  terms.cy = camera.cy;
-  terms.least_depth = kMinDepth_m;
-  terms.ratio2 = noise_ratio * noise_ratio;
-  terms.steps = noise_ratio > 0.0 ? kFitSteps : 0;
-  return terms;
-}
-
 void put(const StereoCamera& camera, const Correspondence& feature, FitBlock& block, int i) {
   block.keyframe_x[i] = feature.keyframe_px.x();
   block.keyframe_y[i] = feature.keyframe_px.y();
@@ -47,11 +30,20 @@ void get(const FitBlock& block, int i, FittedFeature& fitted) {
 
 }  // namespace
 
+MotionTerms termsAt(const StereoCamera& camera, const Eigen::Isometry3d& T_keyframe_cur) {
+  MotionTerms terms = {{}, {}, camera.fx, camera.fy, camera.cx, camera.cy, kMinDepth_m};
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(terms.rotation) =
+      T_keyframe_cur.linear();
+  Eigen::Map<Eigen::Vector3d>(terms.translation) = T_keyframe_cur.translation();
+  return terms;
+}
+
 void fitAt(const Measurements& measured, const Eigen::Isometry3d& T_keyframe_cur, Fit& fit) {
   const StereoCamera& camera = measured.camera;
   const Correspondences& features = measured.features;
   const Kernels& kernels = chooseKernels();
-  const FitTerms terms = termsOf(camera, T_keyframe_cur, measured.noise_ratio);
+  const MotionTerms terms = termsAt(camera, T_keyframe_cur);
+  const int steps = measured.noise_ratio > 0.0 ? kFitSteps : 0;
   FitBlock block = {};
   fit.T_keyframe_cur = T_keyframe_cur;
   fit.features.resize(features.size());
@@ -61,7 +53,7 @@ void fitAt(const Measurements& measured, const Eigen::Isometry3d& T_keyframe_cur
     for (int i = 0; i < FitBlock::kSize; ++i) {
       put(camera, features[first + static_cast<std::size_t>(std::min(i, count - 1))], block, i);
     }
-    kernels.fitDisparities(terms, block);
+    kernels.fitDisparities(terms, measured.noise_ratio * measured.noise_ratio, steps, block);
     for (int i = 0; i < count; ++i)
       get(block, i, fit.features[first + static_cast<std::size_t>(i)]);
   }

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "kernels/feature_kernels.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/stereo_camera.h"
 
@@ -34,6 +35,9 @@ struct Fit {
   Eigen::Isometry3d T_keyframe_cur = Eigen::Isometry3d::Identity();
   std::vector<FittedFeature> features;
 };
+
+/// For the kernels.
+MotionTerms termsAt(const StereoCamera& camera, const Eigen::Isometry3d& T_keyframe_cur);
 
 /// Fits each feature's disparity to the measured disparity and, at the given motion, to the
 /// measured flow.

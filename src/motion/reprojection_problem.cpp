@@ -5,7 +5,6 @@
 #include <iterator>
 #include <numeric>
 
-#include "geometry/min_depth.h"
 #include "motion/shared_error.h"
 
 namespace rotrocc {
@@ -119,16 +118,12 @@ void ReprojectionProblem<kParameters>::shareErrors(double cell_ratio, double par
 }
 
 template <int kParameters>
-ResidualTerms ReprojectionProblem<kParameters>::termsAt(const Parameters& parameters) const {
-  ResidualTerms terms = {};
-  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R(terms.rotation);
-  R.setIdentity();
-  if (kRotates) R = expRotation(parameters.template head<3>());
-  Eigen::Map<Eigen::Vector3d>(terms.translation) = parameters.template tail<3>();
-  terms.fx = camera_.fx;
-  terms.fy = camera_.fy;
-  terms.least_depth = kMinDepth_m;
-  return terms;
+MotionTerms ReprojectionProblem<kParameters>::termsAt(const Parameters& parameters) const {
+  // The points are rotated already.
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  if (kRotates) motion.linear() = expRotation(parameters.template head<3>());
+  motion.translation() = parameters.template tail<3>();
+  return rotrocc::termsAt(camera_, motion);
 }
 
 template <int kParameters>

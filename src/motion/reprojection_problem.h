@@ -77,7 +77,7 @@ class ReprojectionProblem {
   /// Calls visit(const Term&) for each feature, in order.
   template <class Visit>
   void linearise(const Parameters& parameters, Visit&& visit) const {
-    const ResidualTerms terms = termsAt(parameters);
+    const MotionTerms terms = termsAt(parameters);
     LinearBlock linear;
     for (std::size_t i = 0; i < indices_.size(); ++i) {
       const std::size_t lane = i % kSize;
@@ -95,7 +95,7 @@ class ReprojectionProblem {
   /// Calls visit(const Residual&) for each feature, in order.
   template <class Visit>
   void visitResiduals(const Parameters& parameters, const Visit& visit) const {
-    const ResidualTerms terms = termsAt(parameters);
+    const MotionTerms terms = termsAt(parameters);
     LinearBlock linear;
     for (std::size_t i = 0; i < indices_.size(); ++i) {
       if (i % kSize == 0) {
@@ -118,7 +118,7 @@ class ReprojectionProblem {
   template <class Visit>
   NormalMatrix sumTerms(const Parameters& parameters, const Visit& visit) const {
     const Kernels& kernels = chooseKernels();
-    const ResidualTerms terms = termsAt(parameters);
+    const MotionTerms terms = termsAt(parameters);
     LinearBlock linear;
     ColumnProducts sums = {};
     for (std::size_t first = 0; first < size(); first += kSize) {
@@ -141,7 +141,7 @@ class ReprojectionProblem {
   static constexpr std::size_t kSize = ResidualBlock::kSize;
   static constexpr int kFirst = LinearBlock::kResidual - kParameters;  // column of the blocks
 
-  ResidualTerms termsAt(const Parameters& parameters) const;
+  MotionTerms termsAt(const Parameters& parameters) const;
 
   static NormalMatrix normalMatrixOf(const ColumnProducts& sums);
 

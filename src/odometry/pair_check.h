@@ -2,8 +2,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
+#include "common/to_seconds.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
 
@@ -12,15 +15,39 @@ namespace rotrocc {
 /// Why a pair cannot be used, in one sentence with the value. Empty if it can: the camera is valid,
 /// both images are CV_8UC1 and of its size, and the stamp is later than `newest_ns`, that of the
 /// pair before, if there was one.
-std::string whyUnusable(const StereoPair& pair,
-                        const StereoCamera& camera,
-                        const std::optional<std::int64_t>& newest_ns);
+inline std::string whyUnusable(const StereoPair& pair,
+                               const StereoCamera& camera,
+                               const std::optional<std::int64_t>& newest_ns) {
+  try {
+    camera.check();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  for (const auto& [side, image] : {std::pair("left", pair.left), std::pair("right", pair.right)}) {
+    if (image.empty()) return cv::format("the %s image is empty", side);
+    if (image.type() != CV_8UC1) {
+      return cv::format("the %s image is of OpenCV type %d, not CV_8UC1", side, image.type());
+    }
+    if (image.cols == camera.width && image.rows == camera.height) continue;
+    return cv::format("the %s image has %dx%d pixels", side, image.cols, image.rows) +
+           cv::format(", the camera %dx%d", camera.width, camera.height);
+  }
+  if (!newest_ns || pair.stamp_ns > *newest_ns) return "";
+  return "the stamp " + std::to_string(pair.stamp_ns) +
+         " ns is not later than that of the pair before, " + std::to_string(*newest_ns) + " ns";
+}
 
 /// Why a usable pair cannot be compared with the one before; empty if it can.
-std::string whyRestart(const StereoPair& pair,
-                       const StereoCamera& camera,
-                       const std::optional<std::int64_t>& newest_ns,
-                       const StereoCamera& camera_before,
-                       double max_gap_s);
+inline std::string whyRestart(const StereoPair& pair,
+                              const StereoCamera& camera,
+                              const std::optional<std::int64_t>& newest_ns,
+                              const StereoCamera& camera_before,
+                              double max_gap_s) {
+  if (!newest_ns) return "first pair";
+  if (camera != camera_before) return "the camera has changed";
+  const double gap_s = toSeconds(pair.stamp_ns - *newest_ns);
+  if (gap_s <= max_gap_s) return "";
+  return cv::format("no pair for %g s, more than max_gap_s = %g", gap_s, max_gap_s);
+}
 
 }  // namespace rotrocc

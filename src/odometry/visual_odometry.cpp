@@ -1,8 +1,315 @@
 #include "rotrocc/visual_odometry.h"
 
-#include "odometry/odometry_pipeline.h"
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "common/stage_timer.h"
+#include "features/correspondence_finder.h"
+#include "odometry/hypothesis.h"
+#include "odometry/motion_check.h"
+#include "odometry/motion_model.h"
+#include "odometry/motion_search.h"
+#include "odometry/pair_check.h"
+#include "odometry/rig_estimate.h"
+#include "odometry/systematic_error.h"
 
 namespace rotrocc {
+namespace {
+
+/// Part of the covariance that two motions from the same keyframe do not share: the noise of the
+/// keyframe's corners is common to both, and is half of the flow's noise.
+constexpr double kNotShared = 0.5;
+
+/// Share of max_gap_s in which the last motion predicts the next one. Later, the velocity may have
+/// changed so much that rest is as good a start.
+constexpr double kPredictable = 0.5;
+
+/// Ends the processing of a pair without a motion. what() is the reason, as a sentence.
+struct Lost : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace
+
+/// The state between pairs, and the processing stages in the order of section V.
+class VisualOdometry::Pipeline {
+ public:
+  explicit Pipeline(const Config& config);
+
+  /// What other sensors know of the motion, see VisualOdometry::process().
+  struct OtherSensors {
+    const std::optional<Eigen::Isometry3d>& T_last_cur;
+    const RotationSource& rotation;
+  };
+
+  OdometryResult process(const StereoPair& pair,
+                         const StereoCamera& camera,
+                         const OtherSensors& others);
+  void prepare();
+  void reset();
+  void configure(const Config& config);
+
+  const Hypothesis& found() const { return found_; }
+
+ private:
+  /// Throws Lost if there is no motion.
+  void advance(const StereoPair& pair,
+               const StereoCamera& camera,
+               const OtherSensors& others,
+               OdometryResult& result);
+  void forget();
+  void makeKeyframe(const FramePtr& frame, StageTimes& times);
+
+  /// What is known of the motion from the last frame, or the lost one, to the current frame.
+  struct Expectation {
+    double dt_s;
+    std::optional<Eigen::Matrix3d> R_last_cur;    ///< as another sensor measured it
+    std::optional<Eigen::Isometry3d> T_last_cur;  ///< as predicted
+  };
+  Expectation expectation(const StereoFrame& current, const OtherSensors& others) const;
+  void findMotion(const FramePtr& current, const OtherSensors& others, OdometryResult& result);
+  bool findMotionFrom(const FramePtr& earlier,
+                      const StereoFrame& current,
+                      const Expectation& expected,
+                      StageTimes& times);
+  void accept(const FramePtr& current, OdometryResult& result);
+
+  Config config_;
+  CorrespondenceFinder finder_;
+  MotionModel motion_model_;
+  MotionSearch search_;
+  MotionCheck check_;
+  RigEstimate rig_;
+
+  FramePtr last_;      // last frame with a known pose; null before the first pair
+  FramePtr lost_;      // latest frame without a motion since last_; may be null
+  Keyframe keyframe_;  // no frame if it must be created from the last frame
+
+  StageTimes prepared_;  // of prepare() since the last pair
+  Hypothesis found_;
+};
+
+VisualOdometry::Pipeline::Pipeline(const Config& config)
+    : config_(config),
+      finder_(config.correspondence_finder, config.threads),
+      motion_model_(kPredictable * config.max_gap_s),
+      search_(config),
+      check_(config.motion_check, config.motion_estimator.noise_ratio),
+      rig_(config) {}
+
+OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
+                                                 const StereoCamera& camera,
+                                                 const OtherSensors& others) {
+  OdometryResult result;
+  result.stamp_ns = pair.stamp_ns;
+  result.times = std::exchange(prepared_, {});
+  result.times.prepared_ms = std::exchange(result.times.total_ms, 0.0);
+  found_.clear();
+  const StageTimer timer(result.times.total_ms);
+  try {
+    advance(pair, camera, others, result);
+  } catch (const Lost& lost) {
+    result.reason = lost.what();
+  } catch (const std::exception& error) {
+    forget();  // the stored state may be the cause
+    result = {};
+    result.stamp_ns = pair.stamp_ns;
+    result.reason = std::string("internal error: ") + error.what();
+  }
+  result.counts = found_.counts;
+  rig_.report(result);
+  if (result.hasMotion()) {
+    result.disparity_bias.applied_px = found_.camera.cx_right - camera.cx_right;
+    result.row_offset.applied_px = keyframe_.row_offset_px;
+  }
+  return result;
+}
+
+void VisualOdometry::Pipeline::prepare() {
+  // Until the rows are known, each keyframe adds to what is known of them. Not all keyframes that
+  // are prepared are used.
+  if (!last_ || keyframe_.frame || !rig_.knowsRows()) return;
+  const StageTimer timer(prepared_.total_ms);
+  try {
+    makeKeyframe(last_, prepared_);
+  } catch (const std::exception&) {
+    keyframe_.frame.reset();  // process() tries again, and reports it
+  }
+}
+
+void VisualOdometry::Pipeline::reset() {
+  forget();
+  found_.clear();
+}
+
+/// Restarts with the next pair.
+void VisualOdometry::Pipeline::forget() {
+  last_.reset();
+  lost_.reset();
+  keyframe_.frame.reset();
+  motion_model_.reset();
+}
+
+void VisualOdometry::Pipeline::configure(const Config& config) {
+  search_ = MotionSearch(config);  // first, because it may throw
+  config_ = config;
+  finder_ = CorrespondenceFinder(config.correspondence_finder, config.threads);
+  motion_model_.setMaxAge(kPredictable * config.max_gap_s);
+  check_ = MotionCheck(config.motion_check, config.motion_estimator.noise_ratio);
+  rig_.configure(config);
+  keyframe_.frame.reset();  // its corners depend on the old parameters
+}
+
+void VisualOdometry::Pipeline::advance(const StereoPair& pair,
+                                       const StereoCamera& camera,
+                                       const OtherSensors& others,
+                                       OdometryResult& result) {
+  std::optional<std::int64_t> newest_ns;
+  if (last_) newest_ns = (lost_ ? lost_ : last_)->stamp_ns;
+  if (const std::string why = whyUnusable(pair, camera, newest_ns); !why.empty()) throw Lost(why);
+  result.reason = whyRestart(pair, camera, newest_ns, rig_.camera(), config_.max_gap_s);
+  FramePtr current;
+  {
+    const StageTimer timer(result.times.pyramids_ms);
+    rig_.setCamera(camera);
+    current = finder_.makeFrame(pair);
+  }
+  if (!result.reason.empty()) {
+    forget();
+    last_ = current;
+    // Now, as nobody waits for a motion.
+    makeKeyframe(last_, result.times);
+    result.state = State::kInitialising;
+    return;
+  }
+  findMotion(current, others, result);
+  if (!found_.isAccepted()) {
+    // Either this pair or the last one may be at fault. The next pair is compared with both.
+    lost_ = current;
+    rig_.searchRowsAgain();
+    throw Lost(found_.why_lost);
+  }
+  accept(current, result);
+}
+
+void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& times) {
+  keyframe_.frame = frame;
+  keyframe_.T_keyframe_last = {};
+  {
+    const StageTimer timer(times.corners_ms);
+    finder_.findCorners(keyframe_);
+  }
+  const StageTimer timer(times.disparity_ms);
+  rig_.startKeyframe(keyframe_);
+  finder_.findDepths(rig_.correctedCamera(), keyframe_);
+}
+
+VisualOdometry::Pipeline::Expectation VisualOdometry::Pipeline::expectation(
+    const StereoFrame& current, const OtherSensors& others) const {
+  Expectation expected = {secondsBetween(*last_, current), std::nullopt, others.T_last_cur};
+  if (others.rotation) expected.R_last_cur = others.rotation(last_->stamp_ns, current.stamp_ns);
+  if (!expected.T_last_cur) {
+    expected.T_last_cur = motion_model_.predict(expected.dt_s, expected.R_last_cur);
+  }
+  if (expected.T_last_cur && expected.R_last_cur) {
+    expected.T_last_cur->linear() = *expected.R_last_cur;
+  }
+  return expected;
+}
+
+/// Measures the motion against the keyframe. If that fails, against the last frame, then against
+/// the latest lost frame: if that fits, it is assigned the pose of the last frame, which it
+/// replaces.
+void VisualOdometry::Pipeline::findMotion(const FramePtr& current,
+                                          const OtherSensors& others,
+                                          OdometryResult& result) {
+  const Expectation expected = expectation(*current, others);
+  result.dt_s = expected.dt_s;
+  const FramePtr keyframe = keyframe_.frame;
+  if (keyframe && keyframe != last_ && findMotionFrom(keyframe, *current, expected, result.times)) {
+    return;
+  }
+  if (findMotionFrom(last_, *current, expected, result.times) || !lost_) return;
+  // It has no pose of its own, so nothing predicts the motion from there.
+  Expectation of_lost = {secondsBetween(*lost_, *current), std::nullopt, std::nullopt};
+  if (others.rotation) of_lost.R_last_cur = others.rotation(lost_->stamp_ns, current->stamp_ns);
+  if (findMotionFrom(lost_, *current, of_lost, result.times)) {
+    result.dt_s = of_lost.dt_s;
+    last_ = std::move(lost_);
+    motion_model_.reset();
+  } else {
+    keyframe_.frame.reset();  // the next pair is compared with the last frame again
+  }
+}
+
+/// Makes `earlier` the keyframe, unless it is, and tries one start after the other until a motion
+/// is accepted: the predicted motion; rest, or the measured rotation; where the scene is
+/// recognized. An older keyframe gets no recognition, because more is seen of the last frame. The
+/// number of tries is limited, so that no pair takes much longer than others.
+bool VisualOdometry::Pipeline::findMotionFrom(const FramePtr& earlier,
+                                              const StereoFrame& current,
+                                              const Expectation& expected,
+                                              StageTimes& times) {
+  using Start = MotionSearch::Start;
+  if (keyframe_.frame != earlier) makeKeyframe(earlier, times);
+  const StereoCamera corrected = rig_.correctedCamera();
+  const MotionSearch::Frames frames = {
+      finder_, corrected, keyframe_, current, expected.dt_s, rig_.sharedRatio()};
+  const int max_tries = config_.max_tries;
+  const auto settles = [&](const std::optional<Start>& start) {
+    return start && found_.counts.tries < max_tries &&
+           search_.find(frames, *start, max_tries, found_, times);
+  };
+  const Eigen::Isometry3d& T_keyframe_last = keyframe_.T_keyframe_last.T;
+  std::optional<Start> predicted;
+  if (expected.T_last_cur) predicted = {T_keyframe_last * *expected.T_last_cur, true};
+  Start at_rest = {T_keyframe_last, false};
+  if (expected.R_last_cur) at_rest.T_keyframe_cur.rotate(*expected.R_last_cur);
+  const bool is_newest = earlier == last_ || earlier == lost_;
+
+  const int tries = found_.counts.tries;
+  found_.clear();
+  found_.counts.tries = tries;
+  if (!settles(predicted) && !settles(at_rest) && is_newest && found_.counts.tries < max_tries) {
+    settles(search_.recognize(frames, times));
+  }
+  if (!found_.isAccepted()) return false;
+  search_.calibrate(frames, rig_.camera(), rig_.calibrator(), found_, times);
+  return true;
+}
+
+void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& result) {
+  const MotionEstimator::Estimate& estimate = found_.estimate;
+  rig_.observe(found_, keyframe_, *current);
+
+  result.exposure_gain = found_.exposure_gain;
+  result.shared_error_ratio = found_.shared_ratio;
+  result.flow_noise_px = estimate.flow_noise_px;
+  result.keyframe_stamp_ns = keyframe_.frame->stamp_ns;
+  result.T_keyframe_cur = {estimate.T_keyframe_cur, estimate.covariance + rig_.motionCovariance()};
+  UncertainTransform step = compose(inverse(keyframe_.T_keyframe_last), result.T_keyframe_cur);
+  if (keyframe_.frame != last_) step.covariance *= kNotShared;
+  result.T_prev_cur = step.T;
+  result.covariance = step.covariance + systematicCovariance(config_.systematic_error, step.T);
+  result.reason = check_.whyDegraded(found_, result.T_keyframe_cur.covariance);
+  if (const auto expected = motion_model_.predict(result.dt_s); expected && result.reason.empty()) {
+    result.reason = check_.whyJump(step, *expected, result.dt_s);
+  }
+  result.state = result.reason.empty() ? State::kOk : State::kDegraded;
+  motion_model_.update(step.T, result.dt_s);
+
+  last_ = current;
+  lost_.reset();
+  keyframe_.T_keyframe_last = result.T_keyframe_cur;
+  // Noise accumulates with each new keyframe, so one is kept while the camera rests: there is no
+  // drift at standstill. In motion each frame is the keyframe of the next one, because the errors
+  // of a feature grow with the way that it is tracked.
+  const bool serves = result.state == State::kOk && check_.hasReserve(estimate) &&
+                      config_.keyframe_selector.adaptive && check_.isAtRest(found_);
+  if (!serves) keyframe_.frame.reset();
+}
 
 const char* toString(State state) {
   switch (state) {
@@ -44,13 +351,13 @@ void VisualOdometry::configure(const Config& config) {
 }
 
 const Correspondences& VisualOdometry::correspondences() const {
-  return pipeline_->correspondences();
+  return pipeline_->found().features;
 }
 const FeatureSet& VisualOdometry::rotationInliers() const {
-  return pipeline_->rotationInliers();
+  return pipeline_->found().estimate.rotation_inliers;
 }
 const FeatureSet& VisualOdometry::translationInliers() const {
-  return pipeline_->translationInliers();
+  return pipeline_->found().estimate.translation_inliers;
 }
 
 }  // namespace rotrocc

@@ -71,36 +71,5 @@ TEST(CornerResponseTest, IsTheSmallerEigenvalue) {
   }
 }
 
-TEST(CornerResponseTest, HasAMarginOfZeros) {
-  const cv::Mat image = noiseImage({50, 30});
-  CornerResponse corner_response;
-  cv::Mat whole;
-  cv::Mat padded(25, 50 + 2 * 7 + 8, CV_32F, cv::Scalar(1.0));
-  corner_response.compute(image, 0, 15, 0, whole);
-  corner_response.compute(image, -4, 21, 7, padded);
-  for (int y = -4; y < 21; ++y) {
-    for (int x = -7; x < 57; ++x) {
-      const bool inside = x >= 0 && x < 50 && y >= 0 && y < 15;
-      ASSERT_EQ(padded.at<float>(y + 4, x + 7), inside ? whole.at<float>(y, x) : 0.0F) << x << y;
-    }
-  }
-}
-
-TEST(CornerResponseTest, DoesNotDependOnTheRowsAskedForOrAskedForBefore) {
-  const cv::Mat image = noiseImage({90, 120});
-  cv::Mat whole;
-  CornerResponse().compute(image, 0, 60, 0, whole);
-  CornerResponse corner_response;
-  cv::Mat rows;
-  for (const cv::Range& range : {cv::Range(20, 33), cv::Range(58, 70), cv::Range(-9, 5)}) {
-    corner_response.compute(image, range.start, range.end, 0, rows);
-    for (int y = std::max(range.start, 0); y < std::min(range.end, 60); ++y) {
-      for (int x = 0; x < 90; ++x) {
-        ASSERT_EQ(rows.at<float>(y - range.start, x), whole.at<float>(y, x)) << x << ", " << y;
-      }
-    }
-  }
-}
-
 }  // namespace
 }  // namespace rotrocc

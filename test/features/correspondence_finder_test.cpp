@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <opencv2/imgproc.hpp>
 
+#include "common/median.h"
 #include "support/simulated_features.h"
 #include "support/synthetic_scene.h"
 
@@ -53,12 +53,6 @@ Correspondences find(const StereoPair& prev,
   return features;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 TEST(CorrespondenceFinderTest, FindsPointsOfTheSceneInBothPairs) {
   StereoCamera verged = SyntheticScene::defaultCamera();
   verged.cx_right += 12.0;  // far points have negative disparities
@@ -85,10 +79,7 @@ TEST(CorrespondenceFinderTest, FindsPointsOfTheSceneInBothPairs) {
 
 /// The pair with its right image moved down.
 StereoPair withRightLower(StereoPair pair, double rows) {
-  const cv::Mat down = (cv::Mat_<double>(2, 3) << 1.0, 0.0, 0.0, 0.0, 1.0, rows);
-  cv::Mat moved;
-  cv::warpAffine(pair.right, moved, down, pair.right.size());
-  pair.right = moved;
+  SyntheticScene::lowerRight(pair, rows);
   return pair;
 }
 
@@ -144,22 +135,14 @@ TEST(CorrespondenceFinderTest, WantsTrackedAndMatchedDisparityToAgree) {
   EXPECT_LT(featuresWith(1.5F), all / 10);
 }
 
-TEST(CorrespondenceFinderTest, CountsWhatIsLeft) {
+TEST(CorrespondenceFinderTest, TracksNothingBehindTheCamera) {
   const SyntheticScene scene;
-  const StereoCamera& camera = scene.camera();
   CorrespondenceFinder finder({});
-  const Frames frames(
-      finder, view(scene, Eigen::Isometry3d::Identity()), view(scene, step()), camera);
-  const std::size_t with_depth = frames.keyframe.points.size();
-  EXPECT_GT(with_depth, frames.keyframe.corners.size() / 2);
-  EXPECT_LE(with_depth, frames.keyframe.corners.size());
-  Correspondences features;
-  const int tracked = finder.find(camera, frames.keyframe, *frames.current, step(), features);
-  EXPECT_GT(tracked, static_cast<int>(with_depth / 2));
-  EXPECT_LE(static_cast<int>(features.size()), tracked);
-  // A motion that moves every point behind the camera leaves nothing to track.
+  const StereoPair pair = view(scene, Eigen::Isometry3d::Identity());
+  const Frames frames(finder, pair, pair, scene.camera());
+  Correspondences features(1);
   const Eigen::Isometry3d beyond = motion({0.0, 0.0, 200.0}, {0.0, 0.0, 0.0});
-  EXPECT_EQ(finder.find(camera, frames.keyframe, *frames.current, beyond, features), 0);
+  EXPECT_EQ(finder.find(scene.camera(), frames.keyframe, *frames.current, beyond, features), 0);
   EXPECT_TRUE(features.empty());
 }
 
@@ -169,7 +152,7 @@ std::vector<cv::Point2f> firstWithDisparity(const StereoPair& pair,
                                             std::size_t most) {
   Workers workers(1);
   std::vector<float> disparities_px;
-  StereoMatcher({}).match(workers, pair.left, pair.right, all, 0.0, disparities_px);
+  StereoMatcher({}).match(workers, {pair.left, pair.right}, all, disparities_px);
   std::vector<cv::Point2f> found;
   for (std::size_t i = 0; i < all.size() && found.size() < most; ++i) {
     if (disparities_px[i] != StereoMatcher::kNoDisparity) found.push_back(all[i]);
@@ -215,17 +198,6 @@ TEST(CorrespondenceFinderTest, TriesAllCornersIfFewHaveADepth) {
     EXPECT_EQ(keyframe.left_px, firstWithDisparity(pair, all, 500));
     EXPECT_EQ(keyframe.left_px.empty(), columns == 0);
   }
-}
-
-TEST(CorrespondenceFinderTest, ReusesTheMemoryOfFramesThatNobodyHolds) {
-  const SyntheticScene scene;
-  const StereoPair pair = view(scene, Eigen::Isometry3d::Identity());
-  CorrespondenceFinder finder({});
-  const FramePtr kept = finder.makeFrame(pair);
-  const StereoFrame* dropped = finder.makeFrame(pair).get();
-  const FramePtr next = finder.makeFrame(pair);
-  EXPECT_EQ(next.get(), dropped);
-  EXPECT_NE(next, kept);
 }
 
 TEST(CorrespondenceFinderTest, ShiftIsHowFarTheFeaturesMoveInTheImage) {

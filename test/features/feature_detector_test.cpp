@@ -15,10 +15,9 @@ using Corners = std::vector<cv::Point2f>;
 
 Corners detect(const cv::Mat& image,
                const FeatureDetector::Config& config = {},
-               int candidates = 1,
-               int threads = 1) {
+               int candidates = 1) {
   Corners corners;
-  Workers workers(threads);
+  Workers workers(1);
   FeatureDetector(config).detect(workers, image, corners, candidates);
   return corners;
 }
@@ -55,51 +54,6 @@ cv::Mat noiseImage(const cv::Size& size, double sigma) {
   cv::Mat noise(size, CV_8UC1);
   generator.fill(noise, cv::RNG::NORMAL, 128.0, sigma);
   return noise;
-}
-
-/// A white square on black whose edges cover half a pixel: corners at integer pixels, without
-/// aliasing.
-cv::Mat squareImage(const cv::Rect& square) {
-  cv::Mat image = cv::Mat::zeros(160, 200, CV_8UC1);
-  const cv::Point last = square.br() - cv::Point(1, 1);
-  image(square).setTo(128);
-  image(cv::Rect(square.tl() + cv::Point(1, 1), last)).setTo(255);
-  for (const int x : {square.x, last.x}) {
-    for (const int y : {square.y, last.y}) image.at<uchar>(y, x) = 64;
-  }
-  return image;
-}
-
-TEST(FeatureDetectorTest, FindsTheCornersOfASquareAndNothingElse) {
-  const cv::Rect square(60, 40, 51, 61);
-  Corners corners = detect(squareImage(square));
-  ASSERT_EQ(corners.size(), 4u);
-  for (const cv::Point2f expected :
-       {cv::Point2f(60, 40), cv::Point2f(110, 40), cv::Point2f(60, 100), cv::Point2f(110, 100)}) {
-    // A block contains both edges completely if its centre is inside the corner by up to its
-    // radius.
-    const auto found = std::find_if(corners.begin(), corners.end(), [&](const cv::Point2f& corner) {
-      return distance(corner, expected) <= 2.0F && square.contains(corner);
-    });
-    EXPECT_NE(found, corners.end()) << expected;
-  }
-}
-
-TEST(FeatureDetectorTest, KeepsCornersApart) {
-  // Corners everywhere, and a regular pattern whose corners are all equally strong.
-  cv::Mat image = textureImage({300, 200}, 40.0);
-  for (int y = 0; y < 100; ++y) {
-    for (int x = 0; x < 300; ++x) image.at<uchar>(y, x) = (x / 3 + y / 3) % 2 == 0 ? 60 : 200;
-  }
-  const Corners corners = detect(image, {}, 4);
-  ASSERT_GT(corners.size(), 100u);
-  float nearest = 1e9F;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      nearest = std::min(nearest, distance(corners[i], corners[k]));
-    }
-  }
-  EXPECT_EQ(nearest, FeatureDetector::kRadius_px + 1);
 }
 
 /// By definition: responses that no neighbour exceeds, and none above or to the left equals, in
@@ -219,24 +173,6 @@ TEST(FeatureDetectorTest, TakesTheStrongestFirst) {
   }
 }
 
-TEST(FeatureDetectorTest, LeavesTheBorderFree) {
-  const Corners corners = detect(textureImage({200, 100}, 40.0));
-  ASSERT_GT(corners.size(), 50u);
-  cv::Point2f low(1e9F, 1e9F);
-  cv::Point2f high(0.0F, 0.0F);
-  for (const cv::Point2f& corner : corners) {
-    low = {std::min(low.x, corner.x), std::min(low.y, corner.y)};
-    high = {std::max(high.x, corner.x), std::max(high.y, corner.y)};
-  }
-  const auto border = static_cast<float>(FeatureDetector::kBorder_px);
-  EXPECT_EQ(low, cv::Point2f(border, border));
-  // The last corners may be a few pixels from the border, but no more than two may be apart.
-  EXPECT_LT(high.x, 200.0F - border);
-  EXPECT_GE(high.x, 200.0F - border - 2.0F * FeatureDetector::kRadius_px);
-  EXPECT_LT(high.y, 100.0F - border);
-  EXPECT_GE(high.y, 100.0F - border - 2.0F * FeatureDetector::kRadius_px);
-}
-
 TEST(FeatureDetectorTest, GivesNoMoreThanAskedFor) {
   FeatureDetector::Config config;
   config.max_features = 50;
@@ -249,41 +185,15 @@ TEST(FeatureDetectorTest, GivesNoMoreThanAskedFor) {
   EXPECT_EQ(more, first) << "more candidates come after the first ones";
 }
 
-TEST(FeatureDetectorTest, FindsTheSameWhereverTheImageIsCutIntoStrips) {
-  // The same texture 30 rows lower is divided differently into strips.
-  const cv::Mat image = textureImage({200, 230}, 40.0);
-  const Corners whole = detectAll(image.rowRange(0, 200));
-  const Corners lower = detectAll(image.rowRange(30, 230));
-  int compared = 0;
-  for (const cv::Point2f& corner : whole) {
-    if (corner.y < 50 || corner.y > 180) continue;
-    ++compared;
-    EXPECT_NE(std::find(lower.begin(), lower.end(), corner - cv::Point2f(0, 30)), lower.end())
-        << corner;
-  }
-  EXPECT_GT(compared, 50);
-}
-
 TEST(FeatureDetectorTest, FindsNothingWhereThereIsNothing) {
   EXPECT_TRUE(detect(cv::Mat(200, 300, CV_8UC1, cv::Scalar(90))).empty());
   // An edge is not a corner.
   cv::Mat edge = cv::Mat::zeros(200, 300, CV_8UC1);
   edge.colRange(150, 300).setTo(255);
   EXPECT_TRUE(detect(edge).empty());
-}
-
-TEST(FeatureDetectorTest, FindsNothingInTinyImages) {
   for (const cv::Size size : {cv::Size(), cv::Size(1, 1), cv::Size(500, 20), cv::Size(20, 500)}) {
     EXPECT_TRUE(detect(textureImage({500, 500}, 40.0)(cv::Rect({0, 0}, size))).empty()) << size;
   }
-}
-
-TEST(FeatureDetectorTest, FindsTheSameWithAnyNumberOfThreads) {
-  const cv::Mat image = textureImage({400, 300}, 40.0);
-  const Corners one = detect(image, {}, 2, 1);
-  const Corners two = detect(image, {}, 2, 2);
-  EXPECT_EQ(one, two);
-  EXPECT_GT(one.size(), 500u);
 }
 
 }  // namespace

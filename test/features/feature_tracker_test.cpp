@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -19,7 +21,6 @@ using Points = std::vector<cv::Point2f>;
 struct TwoViews {
   cv::Mat first, second;
   Points corners, truth;
-  std::vector<float> growth;  // scale changes at the corners
 
   explicit TwoViews(const Eigen::Isometry3d& T_prev_cur) {
     const SyntheticScene scene;
@@ -42,8 +43,6 @@ struct TwoViews {
       if (!inner.contains(there)) continue;
       corners.push_back(corner);
       truth.push_back(there);
-      const double before_m = scene.pointAt(start, {corner.x, corner.y}).z();
-      growth.push_back(static_cast<float>(before_m / point.z()));
     }
   }
 };
@@ -63,19 +62,16 @@ Tracked track(const cv::Mat& first,
               const Points& from,
               const Points& predictions,
               int levels,
-              FeatureTracker::Config config = {},
-              int threads = 1,
-              const std::vector<float>& growth = {}) {
+              FeatureTracker::Config config = {}) {
   FeatureTracker tracker(config);
   const int side = 2 * config.window_radius_px + 1;
   ImagePyramid a, b;
   buildPyramid(first, levels, side, a);
   buildPyramid(second, levels, side, b);
   Tracked result{predictions, std::vector<char>(from.size(), 1)};
-  Workers workers(threads);
+  Workers workers(1);
   const std::vector<float> same_size(from.size(), 1.0F);
-  tracker.track(
-      workers, a, b, from, growth.empty() ? same_size : growth, true, result.cur, result.tracked);
+  tracker.track(workers, a, b, from, same_size, true, result.cur, result.tracked);
   return result;
 }
 
@@ -104,67 +100,19 @@ Points perturbed(const Points& points, double sigma_px) {
 }
 
 TEST(FeatureTrackerTest, FindsTheFlowFromAPoorPrediction) {
-  const Points predictions = perturbed(drive().truth, 2.0);
-  ASSERT_GT(predictions.size(), 300u);
-  const Tracked result = track(drive().first, drive().second, drive().corners, predictions, 2);
-  const std::vector<double> errors = sortedErrors(result, drive().truth);
-  EXPECT_GT(errors.size(), predictions.size() * 8 / 10);
-  // Measured: 0.18 and 0.52 px. The cause is the scale change of the street within the window, not
-  // the image noise.
-  EXPECT_LT(quantile(errors, 0.5), 0.25);
-  EXPECT_LT(quantile(errors, 0.9), 0.7);
-}
-
-TEST(FeatureTrackerTest, FindsTheFlowOfARotationBetter) {
-  const TwoViews views(motion({0.0, 0.0, 0.0}, {0.003, 0.02, 0.0}));
-  const Tracked result =
-      track(views.first, views.second, views.corners, perturbed(views.truth, 2.0), 2);
-  const std::vector<double> errors = sortedErrors(result, views.truth);
-  EXPECT_GT(errors.size(), views.truth.size() * 9 / 10);
-  // Measured: 0.11 and 0.33 px, caused by noise of 2 grey levels, and by those that have not
-  // converged from far predictions when the iterations end.
-  EXPECT_LT(quantile(errors, 0.5), 0.13);
-  EXPECT_LT(quantile(errors, 0.9), 0.5);
-}
-
-TEST(FeatureTrackerTest, KnowsThatWhatComesNearerGrows) {
-  FeatureTracker::Config large;  // the border of a window moves most
-  large.window_radius_px = 5;
-  const auto errorsWith = [&](const std::vector<float>& growth) {
-    return sortedErrors(track(drive().first,
-                              drive().second,
-                              drive().corners,
-                              perturbed(drive().truth, 2.0),
-                              2,
-                              large,
-                              1,
-                              growth),
-                        drive().truth);
-  };
-  const std::vector<double> known = errorsWith(drive().growth);
-  const std::vector<double> unknown = errorsWith({});
-  EXPECT_GE(known.size(), unknown.size() * 98 / 100);
-  // Road and walls are seen at a slant, so their windows do not only change in scale.
-  EXPECT_LT(quantile(known, 0.5), 0.8 * quantile(unknown, 0.5));
-  EXPECT_LT(quantile(known, 0.9), 0.9 * quantile(unknown, 0.9));
-}
-
-TEST(FeatureTrackerTest, FindsTheFlowUnderAnotherExposure) {
-  const TwoViews views(motion({0.0, 0.0, 0.0}, {0.003, 0.02, 0.0}));
-  const auto errorsAt = [&](double gain, double offset) {
-    cv::Mat exposed;
-    views.second.convertTo(exposed, -1, gain, offset);
-    return sortedErrors(track(views.first, exposed, views.corners, perturbed(views.truth, 2.0), 2),
-                        views.truth);
-  };
-  const std::vector<double> same = errorsAt(1.0, 0.0);
-  const std::vector<double> brighter = errorsAt(1.0, 25.0);
-  EXPECT_GT(brighter.size(), same.size() * 95 / 100) << "the lightest pixels are cut off";
-  EXPECT_NEAR(quantile(brighter, 0.5), quantile(same, 0.5), 0.01);
-  // Darker images are rounded more coarsely.
-  const std::vector<double> darker = errorsAt(0.8, 0.0);
-  EXPECT_GT(darker.size(), same.size() * 95 / 100);
-  EXPECT_NEAR(quantile(darker, 0.5), quantile(same, 0.5), 0.02);
+  const TwoViews turn(motion({0.0, 0.0, 0.0}, {0.003, 0.02, 0.0}));
+  // Measured: 0.18 and 0.52 px, by the scale change of the street within the window. Without it
+  // 0.11 and 0.33 px, by noise of 2 grey levels, and by far predictions when the iterations end.
+  for (const auto& [views, share, median_px, most_px] :
+       {std::tuple(&drive(), 0.8, 0.25, 0.7), std::tuple(&turn, 0.9, 0.13, 0.5)}) {
+    ASSERT_GT(views->truth.size(), 300u);
+    const std::vector<double> errors = sortedErrors(
+        track(views->first, views->second, views->corners, perturbed(views->truth, 2.0), 2),
+        views->truth);
+    EXPECT_GT(static_cast<double>(errors.size()), share * static_cast<double>(views->truth.size()));
+    EXPECT_LT(quantile(errors, 0.5), median_px);
+    EXPECT_LT(quantile(errors, 0.9), most_px);
+  }
 }
 
 /// The image with a quarter of its grey levels, multiplied by a gain in steps of 1/2: rounding does
@@ -249,63 +197,6 @@ TEST(FeatureTrackerTest, LocatesTheSamePositionAtAnotherExposure) {
   EXPECT_LT(quantile(distances_px, 0.9), 0.005);
 }
 
-TEST(FeatureTrackerTest, FindsALargeFlowFromNothingWithAllLevels) {
-  // 26 deg/s at 10 Hz, as at the start of KITTI 01.
-  const TwoViews views(motion({0.0, 0.0, 0.6}, {0.0, 0.045, 0.0}));
-  const auto share_right = [&](int levels) {
-    const Tracked result = track(views.first, views.second, views.corners, views.corners, levels);
-    const std::vector<double> errors = sortedErrors(result, views.truth);
-    const auto right = std::lower_bound(errors.begin(), errors.end(), 1.0) - errors.begin();
-    return static_cast<double>(right) / static_cast<double>(views.truth.size());
-  };
-  EXPECT_GT(share_right(5), 0.7);
-  EXPECT_LT(share_right(1), 0.3);
-}
-
-TEST(FeatureTrackerTest, DropsPointsThatDoNotComeBack) {
-  cv::Mat changed = drive().second.clone();
-  cv::RNG generator(9);
-  const cv::Rect patch(200, 60, 150, 80);
-  cv::Mat noise(patch.size(), CV_8UC1);
-  generator.fill(noise, cv::RNG::UNIFORM, 0, 256);
-  noise.copyTo(changed(patch));
-  FeatureTracker::Config strict;
-  strict.max_round_trip_px = 0.3;
-  const Tracked result = track(drive().first, changed, drive().corners, drive().truth, 2, strict);
-  int inside = 0;
-  int kept_inside = 0;
-  int outside = 0;
-  int kept_outside = 0;
-  const cv::Rect2f well_inside(206, 66, 138, 68);
-  const cv::Rect2f well_outside(180, 40, 190, 120);
-  for (std::size_t i = 0; i < result.tracked.size(); ++i) {
-    if (well_inside.contains(drive().truth[i])) {
-      ++inside;
-      kept_inside += result.tracked[i];
-    } else if (!well_outside.contains(drive().truth[i])) {
-      ++outside;
-      kept_outside += result.tracked[i];
-    }
-  }
-  ASSERT_GT(inside, 30);
-  // Some points in noise return by chance. Measured: 8 of 43.
-  EXPECT_LT(kept_inside, inside / 4);
-  EXPECT_GT(kept_outside, outside * 9 / 10);
-}
-
-TEST(FeatureTrackerTest, ALooseRoundTripKeepsMore) {
-  FeatureTracker::Config loose;
-  loose.max_round_trip_px = 10.0;
-  FeatureTracker::Config strict;
-  strict.max_round_trip_px = 0.05;
-  const auto kept = [](const FeatureTracker::Config& config) {
-    const Tracked result = track(
-        drive().first, drive().second, drive().corners, perturbed(drive().truth, 4.0), 1, config);
-    return std::count(result.tracked.begin(), result.tracked.end(), 1);
-  };
-  EXPECT_GT(kept(loose), kept(strict));
-}
-
 TEST(FeatureTrackerTest, UsesSmallImagesWhereAPointIsNotNear) {
   const auto errors = [](double distance_px, int levels) {
     return sortedErrors(track(drive().first,
@@ -342,29 +233,6 @@ TEST(FeatureTrackerTest, LeavesPointsAloneThatAreNotAskedFor) {
   }
 }
 
-TEST(FeatureTrackerTest, TakesTheLargestWindowAtFullContrast) {
-  // Sums of black-white differences over 51 rows must not overflow.
-  cv::Mat stripes(200, 200, CV_8UC1);
-  cv::Mat moved(stripes.size(), CV_8UC1);
-  const auto texture = [](int x, int y) {
-    return static_cast<uchar>((x / 8 + y / 8) % 2 == 0 ? 255 : 0);
-  };
-  for (int y = 0; y < stripes.rows; ++y) {
-    for (int x = 0; x < stripes.cols; ++x) {
-      stripes.at<uchar>(y, x) = texture(x, y);
-      moved.at<uchar>(y, x) = texture(x + 2, y);
-    }
-  }
-  FeatureTracker::Config config;
-  config.window_radius_px = 25;
-  const Points from = {{100, 100}, {90, 110}};
-  const Tracked result = track(stripes, moved, from, from, 1, config);
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    EXPECT_EQ(result.tracked[i], 1);
-    EXPECT_LT(cv::norm(result.cur[i] - from[i] + cv::Point2f(2, 0)), 0.05) << result.cur[i];
-  }
-}
-
 TEST(FeatureTrackerTest, TakesImagesOfAnySizeAndPointsOutside) {
   for (const cv::Size size : {cv::Size(1, 1), cv::Size(8, 8), cv::Size(16, 4), cv::Size(300, 2)}) {
     const cv::Mat image = drive().first(cv::Rect({0, 0}, size)).clone();
@@ -375,50 +243,20 @@ TEST(FeatureTrackerTest, TakesImagesOfAnySizeAndPointsOutside) {
   }
 }
 
-TEST(FeatureTrackerTest, FindsTheSameWithAnyNumberOfThreads) {
-  cv::Mat darker;
-  drive().second.convertTo(darker, -1, 0.6);
-  const Points predictions = perturbed(drive().truth, 2.0);
-  for (const cv::Mat& second : {drive().second, darker}) {
-    const auto run = [&](int threads) {
-      return track(drive().first, second, drive().corners, predictions, 2, {}, threads);
-    };
-    const Tracked one = run(1);
-    const Tracked two = run(2);
-    EXPECT_EQ(one.cur, two.cur);
-    EXPECT_EQ(one.tracked, two.tracked);
-  }
-}
-
-TEST(FeatureTrackerTest, ComparesBrightnessIfAsked) {
-  const TwoViews views(motion({0.0, 0.0, 0.0}, {0.003, 0.02, 0.0}));
-  cv::Mat brighter;
-  views.second.convertTo(brighter, -1, 1.0, 25.0);
-  const auto share_right = [&](bool ignore_brightness) {
-    FeatureTracker::Config config;
-    config.ignore_brightness = ignore_brightness;
-    const auto errors = sortedErrors(
-        track(views.first, brighter, views.corners, perturbed(views.truth, 2.0), 2, config),
-        views.truth);
-    const auto right = std::lower_bound(errors.begin(), errors.end(), 0.5) - errors.begin();
-    return static_cast<double>(right) / static_cast<double>(views.truth.size());
-  };
-  EXPECT_GT(share_right(true), 0.8);
-  EXPECT_LT(share_right(false), 0.5 * share_right(true));
-}
-
-TEST(FeatureTrackerTest, ComparesContrastIfAsked) {
+TEST(FeatureTrackerTest, ComparesBrightnessAndContrastIfAsked) {
   const TwoViews views(motion({0.0, 0.0, 0.0}, {0.003, 0.02, 0.0}));
   const double mean = cv::mean(views.second)[0];
-  cv::Mat flatter;
-  views.second.convertTo(flatter, -1, 0.5, 0.5 * mean);
-  const auto tracked = [&](bool ignore_brightness) {
-    FeatureTracker::Config config;
-    config.ignore_brightness = ignore_brightness;
-    const Tracked result = track(views.first, flatter, views.corners, views.truth, 2, config);
-    return sortedErrors(result, views.truth);
-  };
-  EXPECT_LT(quantile(tracked(true), 0.5), 0.5 * quantile(tracked(false), 0.5));
+  for (const auto& [gain, offset] : {std::pair(1.0, 25.0), std::pair(0.5, 0.5 * mean)}) {
+    cv::Mat other;
+    views.second.convertTo(other, -1, gain, offset);
+    const auto medianWith = [&](bool ignore_brightness) {
+      FeatureTracker::Config config;
+      config.ignore_brightness = ignore_brightness;
+      const Tracked result = track(views.first, other, views.corners, views.truth, 2, config);
+      return quantile(sortedErrors(result, views.truth), 0.5);
+    };
+    EXPECT_LT(medianWith(true), 0.5 * medianWith(false)) << gain;
+  }
 }
 
 TEST(FeatureTrackerTest, KeepsPointsThatDoNotComeBackIfTheRoundTripIsNotChecked) {
@@ -431,6 +269,7 @@ TEST(FeatureTrackerTest, KeepsPointsThatDoNotComeBackIfTheRoundTripIsNotChecked)
         track(elsewhere.first, elsewhere.second, elsewhere.corners, elsewhere.corners, 2, config);
     return std::count(result.tracked.begin(), result.tracked.end(), 1);
   };
+  EXPECT_GT(tracked(10.0), tracked(0.5)) << "a loose one keeps more";
   EXPECT_GT(tracked(0.0), 2 * tracked(0.5));
 }
 

@@ -21,15 +21,6 @@ TEST(HalfImageTest, IsThatOfOpenCvForAnySize) {
   }
 }
 
-TEST(HalfImageTest, KeepsTheExtremes) {
-  for (const int grey : {0, 1, 255}) {
-    const cv::Mat image(33, 50, CV_8UC1, cv::Scalar(grey));
-    cv::Mat half;
-    halve(image, half);
-    EXPECT_EQ(cv::norm(half, cv::Mat(17, 25, CV_8UC1, cv::Scalar(grey)), cv::NORM_INF), 0.0);
-  }
-}
-
 TEST(HalfImageTest, TakesPartsOfImagesAndUsesMemoryAgain) {
   cv::Mat whole(60, 90, CV_8UC1);
   cv::RNG(2).fill(whole, cv::RNG::UNIFORM, 0, 256);

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <opencv2/imgproc.hpp>
 
 #include "common/median.h"
 #include "features/correspondence_finder.h"
@@ -16,10 +15,7 @@ namespace {
 StereoPair withRightLower(const SyntheticScene& scene, double rows) {
   StereoPair pair = scene.render(Eigen::Isometry3d::Identity(), 0);
   SyntheticScene::addNoise(pair, 1.5, 1);
-  const cv::Mat down = (cv::Mat_<double>(2, 3) << 1.0, 0.0, 0.0, 0.0, 1.0, rows);
-  cv::Mat moved;
-  cv::warpAffine(pair.right, moved, down, pair.right.size());
-  pair.right = moved;
+  SyntheticScene::lowerRight(pair, rows);
   return pair;
 }
 

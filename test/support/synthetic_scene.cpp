@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <opencv2/imgproc.hpp>
+
 namespace rotrocc {
 namespace {
 
@@ -130,6 +132,13 @@ void SyntheticScene::addNoise(StereoPair& pair, double sigma, std::uint64_t seed
     generator.fill(noise, cv::RNG::NORMAL, 0.0, sigma);
     cv::add(*image, noise, *image, cv::noArray(), CV_8U);
   }
+}
+
+void SyntheticScene::lowerRight(StereoPair& pair, double rows) {
+  const cv::Mat down = (cv::Mat_<double>(2, 3) << 1.0, 0.0, 0.0, 0.0, 1.0, rows);
+  cv::Mat moved;
+  cv::warpAffine(pair.right, moved, down, pair.right.size());
+  pair.right = moved;
 }
 
 }  // namespace rotrocc

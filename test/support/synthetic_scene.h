@@ -34,6 +34,9 @@ class SyntheticScene {
   /// Adds Gaussian noise of `sigma` grey levels, the same for the same seed.
   static void addNoise(StereoPair& pair, double sigma, std::uint64_t seed);
 
+  /// Moves the right image down, as that of a pitched camera.
+  static void lowerRight(StereoPair& pair, double rows);
+
  private:
   cv::Mat renderImage(const Eigen::Isometry3d& T_world_camera, double cx) const;
 

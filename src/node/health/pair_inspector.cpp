@@ -145,7 +145,7 @@ std::string PairInspector::rowRemedy() const {
 /// Corners of `left` that have a disparity.
 int PairInspector::countMatches(const cv::Mat& left, const cv::Mat& right, double infinity_px) {
   detector_.detect(alone_, left, corners_);
-  matcher_.match(alone_, left, right, corners_, infinity_px, disparities_);
+  matcher_.match(alone_, {left, right, infinity_px}, corners_, disparities_);
   return static_cast<int>(
       std::count_if(disparities_.begin(), disparities_.end(), [](float disparity_px) {
         return disparity_px != StereoMatcher::kNoDisparity;
