@@ -14,12 +14,6 @@ Eigen::Isometry3d step() {
   return T;
 }
 
-TEST(PoseAccumulatorTest, BeginsInItsOwnFrame) {
-  PoseAccumulator pose;
-  EXPECT_TRUE(pose.T_first_cur().isApprox(Eigen::Isometry3d::Identity(), 0.0));
-  EXPECT_TRUE(pose.add(step()).isApprox(step(), 1e-15));
-}
-
 TEST(PoseAccumulatorTest, LaterMotionsAreInLaterFrames) {
   // A quarter turn about y, then forward: the step is along the x axis of the first frame.
   Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();

@@ -20,14 +20,6 @@ StereoCamera vergedCamera() {
   return camera;
 }
 
-TEST(StereoCameraTest, ProjectsAPointOfARayBackToItsPixel) {
-  const StereoCamera camera = kittiCamera();
-  const Eigen::Vector2d pixel(123.4, 300.5);
-  const Eigen::Vector3d point = camera.ray(pixel) * 17.0;
-  EXPECT_DOUBLE_EQ(point.z(), 17.0);
-  EXPECT_LT((camera.project(point) - pixel).norm(), kRounding * pixel.norm());
-}
-
 TEST(StereoCameraTest, ProjectsByFocalLengthAndPrincipalPoint) {
   StereoCamera camera = kittiCamera();
   camera.fx = 100.0;
@@ -35,6 +27,7 @@ TEST(StereoCameraTest, ProjectsByFocalLengthAndPrincipalPoint) {
   camera.cx = 10.0;
   camera.cy = 20.0;
   EXPECT_EQ(camera.project({1.0, 2.0, 4.0}), Eigen::Vector2d(35.0, 120.0));
+  EXPECT_EQ(camera.ray({35.0, 120.0}), Eigen::Vector3d(0.25, 0.5, 1.0));
 }
 
 TEST(StereoCameraTest, DepthAndDisparityAreInverse) {
@@ -59,10 +52,6 @@ TEST(StereoCameraTest, APointAtInfinityHasTheDifferenceOfThePrincipalPoints) {
   EXPECT_LT(camera.depth(4.0), 0.0);
 }
 
-TEST(StereoCameraTest, CheckTakesAGoodCamera) {
-  EXPECT_NO_THROW(kittiCamera().check());
-}
-
 TEST(StereoCameraTest, CheckNamesTheValueThatIsWrong) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto expect_refused = [](auto member, auto value, const std::string& part) {
@@ -70,6 +59,7 @@ TEST(StereoCameraTest, CheckNamesTheValueThatIsWrong) {
     camera.*member = value;
     expectError<std::invalid_argument>([&] { camera.check(); }, part);
   };
+  EXPECT_NO_THROW(kittiCamera().check());
   expect_refused(&StereoCamera::width, 0, "width is 0");
   expect_refused(&StereoCamera::height, -3, "height is -3");
   expect_refused(&StereoCamera::fx, 0.0, "fx is 0");

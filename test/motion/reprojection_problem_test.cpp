@@ -220,38 +220,5 @@ TEST(ReprojectionProblemTest, RobustWeightsFallWithTheResiduals) {
   });
 }
 
-TEST(ReprojectionProblemTest, NormalMatrixIsThatOfTheErrorsOfAMotion) {
-  const Eigen::Isometry3d truth = motion({0.1, -0.02, 1.3}, {0.01, 0.06, -0.005});
-  std::mt19937 generator(2);
-  const Correspondences features =
-      simulateFeatures(kittiCamera(), truth, 200, {0.3, 0.9}, generator);
-  ReprojectionProblem<6> problem;
-  problem.assign(kittiCamera(), fitOf(features, truth, kNoiseRatio), all(features));
-  const Matrix6d matrix = problem.normalMatrix(problem.start()).topLeftCorner<6, 6>();
-  // An error e, rotation first, increases the cost by e^T J^T J e.
-  const auto cost = [&](const Vector6d& error) {
-    Eigen::Isometry3d T = truth;
-    T.linear() = expRotation(error.head<3>()) * T.linear();
-    T.translation() += error.tail<3>();
-    double sum = 0.0;
-    for (const Correspondence& feature : features) {
-      const FittedFeature fitted = fitDisparity(kittiCamera(), feature, truth, kNoiseRatio);
-      const Eigen::Vector3d turned = T.linear() * truth.linear().transpose() * fitted.rotated_point;
-      const Eigen::Vector2d shift_px =
-          kittiCamera().project(turned + T.translation()) -
-          kittiCamera().project(fitted.rotated_point + truth.translation());
-      sum += (fitted.whitening * shift_px).squaredNorm();
-    }
-    return sum;
-  };
-  for (int i = 0; i < 6; ++i) {
-    for (int k = 0; k <= i; ++k) {
-      const Vector6d e = 1e-6 * (Vector6d::Unit(i) + Vector6d::Unit(k));
-      const double expected = e.dot(matrix * e);
-      EXPECT_NEAR(cost(e), expected, 1e-3 * expected) << i << ' ' << k;
-    }
-  }
-}
-
 }  // namespace
 }  // namespace rotrocc

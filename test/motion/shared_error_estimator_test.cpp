@@ -1,7 +1,6 @@
 #include "motion/shared_error_estimator.h"
 
 #include <cmath>
-#include <cstdio>
 #include <random>
 #include <vector>
 
@@ -58,12 +57,6 @@ double estimatedRatio(double ratio) {
     estimator.observe(kittiCamera(), features, estimate.rotation_inliers, estimate.T_keyframe_cur);
   }
   return estimator.ratio();
-}
-
-TEST(SharedErrorEstimatorTest, StartsWithTheConfiguredRatio) {
-  MotionEstimatorConfig config;
-  config.shared_ratio = 1.5;
-  EXPECT_EQ(SharedErrorEstimator(config).ratio(), 1.5);
 }
 
 /// 40 pairs of about 30 informative cells give a standard deviation of the ratio of 3 %. Large
@@ -159,9 +152,6 @@ TEST(SharedErrorEstimatorTest, MakesTheTranslationMoreAccurate) {
     with += error2(kRatio);
     without += error2(0.0);
   }
-  std::printf("RMS translation error %.4f m, without shared errors %.4f m\n",
-              std::sqrt(with / kPairs),
-              std::sqrt(without / kPairs));
   EXPECT_LT(with, 0.75 * without);
 }
 

@@ -33,17 +33,18 @@ MotionEstimator::Estimate goodEstimate() {
   return estimate;
 }
 
-void expectSays(const std::string& sentence, const std::string& value, const std::string& limit) {
+/// Expects both parts, or nothing if `value` is null.
+void expectSays(const std::string& sentence, const char* value, const char* limit) {
+  if (value == nullptr) {
+    EXPECT_EQ(sentence, "");
+    return;
+  }
   EXPECT_NE(sentence.find(value), std::string::npos) << sentence;
   EXPECT_NE(sentence.find(limit), std::string::npos) << sentence;
 }
 
 MotionCheck defaultCheck() {
   return {{}, kNoiseRatio};
-}
-
-std::string checkNotLost(const MotionEstimator::Estimate& estimate) {
-  return defaultCheck().checkNotLost(estimate, Eigen::Isometry3d::Identity(), kPeriod_s);
 }
 
 /// Exact features all over the image (the R2 sequence of Roberts, 2018), so that the first ones are
@@ -77,140 +78,102 @@ Hypothesis hypothesis(const MotionEstimator::Estimate& estimate) {
   return hypothesis;
 }
 
-std::string whyDegraded(const MotionEstimator::Estimate& estimate) {
-  return defaultCheck().whyDegraded(hypothesis(estimate), estimate.covariance);
+std::string whyDegraded(const Hypothesis& accepted) {
+  return defaultCheck().whyDegraded(accepted, accepted.estimate.covariance);
 }
 
-TEST(MotionCheckTest, BelievesAGoodMotion) {
-  EXPECT_EQ(checkNotLost(goodEstimate()), "");
-  EXPECT_EQ(whyDegraded(goodEstimate()), "");
+TEST(MotionCheckTest, TellsWhichMotionsAreLost) {
+  struct Case {
+    int by_rotation, by_translation, features;
+    double down_m, turn_rad, dt_s;
+    const char* value;
+    const char* limit;
+  };
+  for (const Case& c : {Case{300, 300, 400, 0.0, 0.0, 0.1, nullptr, ""},
+                        Case{24, 24, 24, 0.0, 0.0, 0.1, "24 features were matched", "= 25"},
+                        Case{25, 25, 25, 0.0, 0.0, 0.1, nullptr, ""},
+                        Case{0, 0, 0, 0.0, 0.0, 0.1, "only 0 features", "min_inliers = 25"},
+                        Case{300, 24, 400, 0.0, 0.0, 0.1, "24 features agree", "= 25"},
+                        Case{24, 300, 400, 0.0, 0.0, 0.1, "24 features agree", "= 25"},
+                        Case{300, 59, 400, 0.0, 0.0, 0.1, "0.1475", "min_inlier_share = 0.15"},
+                        Case{300, 60, 400, 0.0, 0.0, 0.1, nullptr, ""},
+                        Case{300, 300, 400, 7.1, 0.0, 0.1, "71", "max_speed_mps = 70"},
+                        Case{300, 300, 400, 7.1, 0.0, 0.2, nullptr, ""},
+                        Case{300, 300, 400, 0.0, 0.61, 0.1, "6.1", "max_turn_rate_rps = 6"},
+                        Case{300, 300, 400, 0.0, 0.61, 0.2, nullptr, ""}}) {
+    auto estimate = goodEstimate();
+    estimate.rotation_inliers = set(c.by_rotation, c.features);
+    estimate.translation_inliers = set(c.by_translation, c.features);
+    estimate.T_keyframe_cur = motion({0.0, c.down_m, 0.0}, {0.0, c.turn_rad, 0.0});
+    const Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
+    expectSays(defaultCheck().checkNotLost(estimate, start, c.dt_s), c.value, c.limit);
+    estimate.valid = false;
+    EXPECT_NE(defaultCheck().checkNotLost(estimate, start, c.dt_s), "");
+  }
 }
 
-TEST(MotionCheckTest, WantsEnoughFeatures) {
+TEST(MotionCheckTest, TellsWhichMotionsAreDegraded) {
+  struct Case {
+    int by_rotation, by_translation, corners, with_depth;
+    double ahead_m, sigma_m;
+    const char* value;
+    const char* limit;
+  };
+  const char* const kFewDepths = "400 of 2667 corners";
+  for (const Case& c : {Case{300, 300, 0, 400, 1.0, 0.0, nullptr, ""},
+                        Case{300, 199, 0, 400, 1.0, 0.0, "0.4975", "translation, less than 0.5"},
+                        Case{300, 200, 0, 400, 1.0, 0.0, nullptr, ""},
+                        Case{279, 300, 0, 400, 1.0, 0.0, "0.6975", "motion, less than 0.7"},
+                        Case{280, 300, 0, 400, 1.0, 0.0, nullptr, ""},
+                        Case{300, 300, 2667, 400, 1.0, 0.0, kFewDepths, "a share below 0.15"},
+                        Case{300, 300, 2666, 400, 1.0, 0.0, nullptr, ""},
+                        Case{300, 300, 0, 3001, 1.0, 0.0, "300 of 3001", "a share below 0.1"},
+                        Case{300, 300, 0, 3000, 1.0, 0.0, nullptr, ""},
+                        Case{300, 300, 0, 400, 1.0, 0.051, "0.051", "a share of 0.05 of 1 m"},
+                        Case{300, 300, 0, 400, 1.0, 0.049, nullptr, ""},
+                        // A short step is compared with the scene.
+                        Case{300, 300, 0, 400, 0.0, 0.0151, "0.0151 m", "of 0.3 m"},
+                        Case{300, 300, 0, 400, 0.0, 0.0149, nullptr, ""}}) {
+    auto estimate = goodEstimate();
+    estimate.rotation_inliers = set(c.by_rotation, 400);
+    estimate.translation_inliers = set(c.by_translation, 400);
+    estimate.T_keyframe_cur.translation().z() = c.ahead_m;
+    estimate.covariance.topLeftCorner<3, 3>().setConstant(c.sigma_m * c.sigma_m / 3.0);
+    Hypothesis accepted = hypothesis(estimate);
+    accepted.counts.corners = c.corners;
+    accepted.counts.with_depth = c.with_depth;
+    expectSays(whyDegraded(accepted), c.value, c.limit);
+  }
+}
+
+TEST(MotionCheckTest, WantsMoreOfAMotionWithoutAPrediction) {
+  struct Case {
+    bool has_prediction;
+    int by_rotation;
+    double noise_px;
+    const char* value;
+    const char* limit;
+  };
+  for (const Case& c : {Case{true, 319, 0.1, nullptr, ""},
+                        Case{false, 319, 0.1, "without a prediction, a share of 0.7975", "0.8"},
+                        Case{false, 320, 0.1, nullptr, ""},
+                        Case{true, 360, 0.004, nullptr, ""},
+                        Case{false, 360, 0.004, "0.9", "0.004 px"},  // more exact than images
+                        Case{false, 400, 0.004, nullptr, ""}}) {     // the same image twice
+    Hypothesis first = hypothesis(goodEstimate());
+    first.has_prediction = c.has_prediction;
+    first.estimate.rotation_inliers = set(c.by_rotation, 400);
+    first.estimate.flow_noise_px = c.noise_px;
+    expectSays(whyDegraded(first), c.value, c.limit);
+  }
+}
+
+TEST(MotionCheckTest, AMotionWithoutItsTranslationStageIsDegraded) {
   auto estimate = goodEstimate();
-  estimate.rotation_inliers = estimate.translation_inliers = set(24, 24);
-  expectSays(checkNotLost(estimate), "24 features were matched", "min_inliers = 25");
-  estimate.rotation_inliers = estimate.translation_inliers = set(25, 25);
-  EXPECT_EQ(checkNotLost(estimate), "");
-  estimate.rotation_inliers = estimate.translation_inliers = {};
-  expectSays(checkNotLost(estimate), "only 0 features", "min_inliers = 25");
-}
-
-TEST(MotionCheckTest, WantsAValidMotion) {
-  auto estimate = goodEstimate();
-  estimate.valid = false;
-  expectSays(checkNotLost(estimate), "determine no motion", "");
-}
-
-TEST(MotionCheckTest, WantsEnoughInliersInBothStages) {
-  auto estimate = goodEstimate();
-  estimate.translation_inliers = set(24, 400);
-  expectSays(checkNotLost(estimate), "24 features agree", "min_inliers = 25");
-  estimate = goodEstimate();
-  estimate.rotation_inliers = set(24, 400);
-  expectSays(checkNotLost(estimate), "24 features agree", "min_inliers = 25");
-}
-
-TEST(MotionCheckTest, WantsAShareOfInliers) {
-  auto estimate = goodEstimate();
-  estimate.translation_inliers = set(59, 400);
-  expectSays(checkNotLost(estimate), "0.1475", "min_inlier_share = 0.15");
-  estimate.translation_inliers = set(60, 400);
-  EXPECT_EQ(checkNotLost(estimate), "");
-}
-
-TEST(MotionCheckTest, KnowsHowFastARobotMoves) {
-  const Eigen::Isometry3d kStart = Eigen::Isometry3d::Identity();
-  auto estimate = goodEstimate();
-  estimate.T_keyframe_cur = motion({0.0, 4.0, 5.9}, {0.0, 0.0, 0.0});
-  expectSays(checkNotLost(estimate), "71.28", "max_speed_mps = 70");
-  EXPECT_EQ(defaultCheck().checkNotLost(estimate, kStart, 2.0 * kPeriod_s), "");  // half the speed
-  estimate.T_keyframe_cur = motion({0.0, 0.0, 1.0}, {0.0, 0.61, 0.0});
-  expectSays(checkNotLost(estimate), "6.1 rad/s", "max_turn_rate_rps = 6");
-  EXPECT_EQ(defaultCheck().checkNotLost(estimate, kStart, 2.0 * kPeriod_s), "");
-}
-
-TEST(MotionCheckTest, CallsAMotionOnFewSurvivorsDegraded) {
-  auto estimate = goodEstimate();
-  Hypothesis tracked = hypothesis(estimate);
-  tracked.counts.with_depth = 3001;
-  expectSays(defaultCheck().whyDegraded(tracked, estimate.covariance),
-             "300 of 3001 features",
-             "a share below 0.1");
-  tracked.counts.with_depth = 3000;
-  EXPECT_EQ(defaultCheck().whyDegraded(tracked, estimate.covariance), "");
-}
-
-TEST(MotionCheckTest, DoesNotMindASmallImage) {
-  auto estimate = goodEstimate();
-  estimate.translation_inliers = estimate.rotation_inliers = set(30, 40);
-  EXPECT_EQ(whyDegraded(estimate), "");
-}
-
-TEST(MotionCheckTest, CallsAnUndeterminedTranslationDegraded) {
-  auto estimate = goodEstimate();  // 1 m
-  estimate.covariance(0, 0) = 0.03 * 0.03;
-  estimate.covariance(2, 2) = 0.041 * 0.041;
-  expectSays(whyDegraded(estimate), "0.0508", "a share of 0.05 of 1 m");
-  estimate.covariance(2, 2) = 0.039 * 0.039;
-  EXPECT_EQ(whyDegraded(estimate), "");
-}
-
-TEST(MotionCheckTest, ComparesAShortStepWithTheScene) {
-  auto estimate = goodEstimate();
-  estimate.T_keyframe_cur.setIdentity();
-  estimate.covariance(2, 2) = 0.0149 * 0.0149;
-  EXPECT_EQ(whyDegraded(estimate), "");
-  estimate.covariance(2, 2) = 0.0151 * 0.0151;
-  expectSays(whyDegraded(estimate), "0.0151 m", "of 0.3 m");
-}
-
-TEST(MotionCheckTest, CallsAMotionOnASmallShareDegraded) {
-  auto estimate = goodEstimate();
-  estimate.translation_inliers = set(199, 400);
-  expectSays(whyDegraded(estimate), "0.4975", "the translation, less than 0.5");
-  estimate.translation_inliers = set(200, 400);
-  EXPECT_EQ(whyDegraded(estimate), "");
-  estimate.rotation_inliers = set(279, 400);
-  expectSays(whyDegraded(estimate), "0.6975", "the motion, less than 0.7");
-  estimate.rotation_inliers = set(280, 400);
-  EXPECT_EQ(whyDegraded(estimate), "");
-}
-
-TEST(MotionCheckTest, WantsMoreAgreementWithoutAPrediction) {
-  auto estimate = goodEstimate();
-  estimate.rotation_inliers = set(319, 400);
-  Hypothesis first = hypothesis(estimate);
-  EXPECT_EQ(defaultCheck().whyDegraded(first, estimate.covariance), "");
-  first.has_prediction = false;
-  expectSays(defaultCheck().whyDegraded(first, estimate.covariance),
-             "without a prediction, a share of 0.7975",
-             "less than 0.8");
-  first.estimate.rotation_inliers = set(320, 400);
-  EXPECT_EQ(defaultCheck().whyDegraded(first, estimate.covariance), "");
-}
-
-TEST(MotionCheckTest, AStartOnFeaturesMoreExactThanImagesIsDegraded) {
-  auto estimate = goodEstimate();
-  estimate.rotation_inliers = set(360, 400);
-  estimate.flow_noise_px = 0.004;
-  Hypothesis first = hypothesis(estimate);
-  EXPECT_EQ(defaultCheck().whyDegraded(first, estimate.covariance), "");
-  first.has_prediction = false;
-  expectSays(defaultCheck().whyDegraded(first, estimate.covariance), "0.9", "0.004 px");
-  first.estimate.rotation_inliers = set(400, 400);
-  EXPECT_EQ(defaultCheck().whyDegraded(first, estimate.covariance), "") << "the same image twice";
-}
-
-TEST(MotionCheckTest, CallsAMotionDegradedIfFewCornersHaveADepth) {
-  const auto estimate = goodEstimate();
-  Hypothesis dirty = hypothesis(estimate);
-  dirty.counts.corners = 2667;
-  expectSays(defaultCheck().whyDegraded(dirty, estimate.covariance),
-             "400 of 2667 corners",
-             "a share below 0.15");
-  dirty.counts.corners = 2666;
-  EXPECT_EQ(defaultCheck().whyDegraded(dirty, estimate.covariance), "");
+  estimate.translation_failed = true;
+  expectSays(whyDegraded(hypothesis(estimate)), "translation stage", "min_inliers");
+  estimate.translation_inliers = estimate.rotation_inliers = set(35, 49);
+  EXPECT_EQ(whyDegraded(hypothesis(estimate)), "") << "25 of 49 are more than half";
 }
 
 /// 300 features that fit the motion, and 100 others.
@@ -230,12 +193,9 @@ TEST(MotionCheckTest, CallsAMotionBesideAnotherOneDegraded) {
   const Correspondences on_lorry =
       simulateFeatures(kittiCamera(), other, 100, {0.2, 0.2}, generator);
   const Hypothesis mixed = hypothesisAnd(on_lorry);
-  const Matrix6d covariance = Matrix6d::Zero();
-  expectSays(defaultCheck().whyDegraded(mixed, covariance),
-             "another motion fits",
-             "of the 400 features, a share above 0.2");
+  expectSays(whyDegraded(mixed), "another motion fits", "of the 400 features, a share above 0.2");
   Correspondences few(on_lorry.begin(), on_lorry.begin() + 70);
-  EXPECT_EQ(defaultCheck().whyDegraded(hypothesisAnd(few), covariance), "");
+  EXPECT_EQ(whyDegraded(hypothesisAnd(few)), "");
 }
 
 TEST(MotionCheckTest, FewerAreEnoughBehindTheOthers) {
@@ -244,7 +204,7 @@ TEST(MotionCheckTest, FewerAreEnoughBehindTheOthers) {
     Hypothesis mixed = hypothesis(goodEstimate());
     const Correspondences others = featuresAt(depth_m, other, count);
     std::copy(others.begin(), others.end(), mixed.features.end() - count);
-    return defaultCheck().whyDegraded(mixed, Matrix6d::Zero());
+    return whyDegraded(mixed);
   };
   expectSays(whyBeside(2.1 * kDepth_m, 40), "40 of the 400 features, which are behind", "half of");
   // Too few for that. They are still degraded: the other features have most of the information.
@@ -262,9 +222,9 @@ TEST(MotionCheckTest, CallsAMotionThatOneFeatureDeterminesDegraded) {
     std::copy(near.begin(), near.end(), far.features.begin());
   };
   bringNear(1);
-  expectSays(defaultCheck().whyDegraded(far, Matrix6d::Zero()), "information", "less than 0.15");
+  expectSays(whyDegraded(far), "information", "less than 0.15");
   bringNear(40);
-  EXPECT_EQ(defaultCheck().whyDegraded(far, Matrix6d::Zero()), "");
+  EXPECT_EQ(whyDegraded(far), "");
 }
 
 TEST(MotionCheckTest, FeaturesThatAgreeOnNothingAreNoOtherMotion) {
@@ -275,7 +235,7 @@ TEST(MotionCheckTest, FeaturesThatAgreeOnNothingAreNoOtherMotion) {
   for (Correspondence& feature : wrong) {
     feature.keyframe_px += Eigen::Vector2d(offset_px(generator), offset_px(generator));
   }
-  EXPECT_EQ(defaultCheck().whyDegraded(hypothesisAnd(wrong), Matrix6d::Zero()), "");
+  EXPECT_EQ(whyDegraded(hypothesisAnd(wrong)), "");
 }
 
 TEST(MotionCheckTest, WantsAReserveOfInliersForTheNextPair) {
@@ -283,7 +243,6 @@ TEST(MotionCheckTest, WantsAReserveOfInliersForTheNextPair) {
   EXPECT_TRUE(defaultCheck().hasReserve(estimate));
   estimate.translation_inliers = estimate.rotation_inliers = set(49, 300);
   EXPECT_FALSE(defaultCheck().hasReserve(estimate));
-  EXPECT_EQ(checkNotLost(estimate), "") << "this one is accepted";
 }
 
 /// Whether the camera rests after a motion, if the flow has this noise.
@@ -301,18 +260,11 @@ bool isAtRest(const Eigen::Isometry3d& T_keyframe_cur, double noise_px = 0.2, in
 
 TEST(MotionCheckTest, TellsRestFromMotion) {
   EXPECT_TRUE(isAtRest(Eigen::Isometry3d::Identity()));
+  EXPECT_FALSE(isAtRest(Eigen::Isometry3d::Identity(), 0.2, 0)) << "without a feature";
   EXPECT_FALSE(isAtRest(motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0})));
-  EXPECT_FALSE(isAtRest(motion({0.0, 0.0, 0.0}, {0.0, 0.01, 0.0}))) << "7 px at this focal length";
-}
-
-TEST(MotionCheckTest, RestIsRelativeToTheNoise) {
   const Eigen::Isometry3d slow = motion({0.0, 0.0, 0.0}, {0.0, 0.004, 0.0});  // 2.9 px
   EXPECT_FALSE(isAtRest(slow, 0.2));
-  EXPECT_TRUE(isAtRest(slow, 0.4));
-}
-
-TEST(MotionCheckTest, RestNeedsAFeature) {
-  EXPECT_FALSE(isAtRest(Eigen::Isometry3d::Identity(), 0.2, 0));
+  EXPECT_TRUE(isAtRest(slow, 0.4)) << "relative to the noise";
 }
 
 TEST(MotionCheckTest, CallsAJumpDegraded) {
@@ -327,15 +279,6 @@ TEST(MotionCheckTest, CallsAJumpDegraded) {
   jump.T = motion({0.31, 0.0, 1.0}, {0.0, 0.0, 0.0});
   jump.covariance.setZero();
   EXPECT_NE(check.whyJump(jump, expected, kPeriod_s), "");
-}
-
-TEST(MotionCheckTest, AMotionWithoutItsTranslationStageIsDegraded) {
-  auto estimate = goodEstimate();
-  estimate.translation_failed = true;
-  EXPECT_EQ(checkNotLost(estimate), "");
-  expectSays(whyDegraded(estimate), "translation stage", "min_inliers");
-  estimate.translation_inliers = estimate.rotation_inliers = set(35, 49);
-  EXPECT_EQ(whyDegraded(estimate), "") << "25 of 49 are more than half";
 }
 
 }  // namespace

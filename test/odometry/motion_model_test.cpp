@@ -16,10 +16,6 @@ Eigen::Isometry3d turnAhead() {
   return motion({0.1, 0.0, 1.2}, {0.0, 0.05, 0.01});
 }
 
-TEST(MotionModelTest, KnowsNothingAtFirst) {
-  EXPECT_FALSE(MotionModel(kMaxAge_s).predict(0.1));
-}
-
 TEST(MotionModelTest, ExpectsTheLastMotionAgain) {
   MotionModel model(kMaxAge_s);
   model.update(motion({5.0, 0.0, 0.0}, {0.0, 0.0, 0.2}), 0.1);
@@ -54,19 +50,15 @@ TEST(MotionModelTest, TakesAMeasuredRotationAndTurnsItsVelocity) {
   EXPECT_LT((predicted->translation() - chord).norm(), kRounding);
 }
 
-TEST(MotionModelTest, ExpectsNothingAfterAGap) {
+TEST(MotionModelTest, ExpectsNothingAtFirstOrAfterAGapOrAReset) {
   MotionModel model(kMaxAge_s);
+  EXPECT_FALSE(model.predict(0.1));
   model.update(turnAhead(), 0.1);
   EXPECT_TRUE(model.predict(0.5));
   EXPECT_FALSE(model.predict(0.51));
   model.setMaxAge(0.3);
   EXPECT_TRUE(model.predict(0.3));
   EXPECT_FALSE(model.predict(0.31));
-}
-
-TEST(MotionModelTest, ForgetsWhenReset) {
-  MotionModel model(kMaxAge_s);
-  model.update(turnAhead(), 0.1);
   model.reset();
   EXPECT_FALSE(model.predict(0.1));
 }

@@ -18,9 +18,5 @@ TEST(SystematicErrorTest, IsAShareOfTheLengthAndOfTheAngle) {
   EXPECT_LT((covariance - Matrix6d(sigma.cwiseAbs2().asDiagonal())).norm(), kRounding);
 }
 
-TEST(SystematicErrorTest, IsZeroAtRest) {
-  EXPECT_EQ(systematicCovariance({}, Eigen::Isometry3d::Identity()), Matrix6d::Zero());
-}
-
 }  // namespace
 }  // namespace rotrocc

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <opencv2/imgproc.hpp>
 
 #include "support/simulated_features.h"
 #include "support/synthetic_scene.h"
@@ -130,13 +129,6 @@ TEST(VisualOdometryTest, StartsFromTheMotionThatIsExpected) {
   expectMotion(result, four_steps, 0.02);
 }
 
-TEST(VisualOdometryTest, SurvivesAWrongExpectation) {
-  VisualOdometry odometry = started(2);
-  const OdometryResult result =
-      odometry.process(bend(2), camera(), motion({0.0, 0.0, -3.0}, {0.0, 0.3, 0.0}));
-  expectMotion(result, bendStep());
-}
-
 /// A drone turns back at once: the prediction is wrong by 8 degrees, about 60 px.
 TEST(VisualOdometryTest, TracksFeaturesAgainAfterAWrongPrediction) {
   const int usual = started(3).process(bend(3), camera()).counts.consistent;
@@ -145,6 +137,8 @@ TEST(VisualOdometryTest, TracksFeaturesAgainAfterAWrongPrediction) {
   expectMotion(result, bendStep());
   EXPECT_GT(result.counts.tries, 1);
   EXPECT_GT(result.counts.consistent, 0.85 * usual);  // measured: 0.89
+  const Eigen::Isometry3d absurd = motion({0.0, 0.0, -3.0}, {0.0, 0.3, 0.0});
+  expectMotion(started(2).process(bend(2), camera(), absurd), bendStep());
 }
 
 /// A turn by 14 degrees at once, about 100 px, after two steps of the bend.
@@ -165,29 +159,20 @@ RotationSource gyroscope(std::int64_t from_ns, std::int64_t to_ns, const Eigen::
 }
 
 TEST(VisualOdometryTest, SearchesWhereAMeasuredRotationPoints) {
-  const OdometryResult without = started(2).process(afterTheTurn(), camera());
   const RotationSource gyro = gyroscope(kPeriod_ns, 2 * kPeriod_ns, sharpTurn().linear());
-  const OdometryResult with = started(2).process(afterTheTurn(), camera(), std::nullopt, gyro);
-  expectMotion(with, sharpTurn(), 0.02);
-  EXPECT_EQ(with.counts.tries, 1);
-  EXPECT_GT(without.counts.tries, 1);
-}
-
-TEST(VisualOdometryTest, TakesOnlyTheTranslationOfAnotherExpectationThen) {
-  const RotationSource gyro = gyroscope(kPeriod_ns, 2 * kPeriod_ns, sharpTurn().linear());
+  EXPECT_GT(started(2).process(afterTheTurn(), camera()).counts.tries, 1) << "without it";
   const Eigen::Isometry3d wrongly_turned = motion({0.0, 0.0, 0.8}, {0.3, -0.25, 0.0});
-  const OdometryResult result = started(2).process(afterTheTurn(), camera(), wrongly_turned, gyro);
-  expectMotion(result, sharpTurn(), 0.02);
-  EXPECT_EQ(result.counts.tries, 1);
-}
-
-TEST(VisualOdometryTest, StartsAtAMeasuredRotationWithoutAVelocity) {
-  VisualOdometry::Config config;
-  VisualOdometry odometry(config);
-  odometry.process(view(bendStep(), kPeriod_ns), camera());
-  const RotationSource gyro = gyroscope(kPeriod_ns, 2 * kPeriod_ns, sharpTurn().linear());
-  const OdometryResult result = odometry.process(afterTheTurn(), camera(), std::nullopt, gyro);
-  expectMotion(result, sharpTurn(), 0.02);
+  for (const auto& expected : {std::optional<Eigen::Isometry3d>(), {wrongly_turned}}) {
+    const OdometryResult result = started(2).process(afterTheTurn(), camera(), expected, gyro);
+    expectMotion(result, sharpTurn(), 0.02);
+    EXPECT_EQ(result.counts.tries, 1);
+  }
+  VisualOdometry without_velocity({});
+  without_velocity.process(view(bendStep(), kPeriod_ns), camera());
+  expectMotion(
+      without_velocity.process(afterTheTurn(), camera(), std::nullopt, gyro), sharpTurn(), 0.02);
+  const RotationSource wrong = gyroscope(kPeriod_ns, 2 * kPeriod_ns, expRotation({0.0, -0.3, 0.2}));
+  expectMotion(started(2).process(bend(2), camera(), std::nullopt, wrong), bendStep());
 }
 
 TEST(VisualOdometryTest, AsksForTheRotationSinceALostPair) {
@@ -204,11 +189,6 @@ TEST(VisualOdometryTest, AsksForTheRotationSinceALostPair) {
       odometry.process(view(elsewhere * sharpTurn(), 3 * kPeriod_ns), camera(), std::nullopt, gyro);
   EXPECT_EQ(asked_from_ns, (std::vector<std::int64_t>{kPeriod_ns, 2 * kPeriod_ns}));
   expectMotion(result, sharpTurn(), 0.05, 2e-3);  // less to see: walls close by
-}
-
-TEST(VisualOdometryTest, SurvivesAWronglyMeasuredRotation) {
-  const RotationSource wrong = gyroscope(kPeriod_ns, 2 * kPeriod_ns, expRotation({0.0, -0.3, 0.2}));
-  expectMotion(started(2).process(bend(2), camera(), std::nullopt, wrong), bendStep());
 }
 
 /// The camera according to a calibration with a disparity error of one pixel.
@@ -251,27 +231,9 @@ TEST(VisualOdometryTest, KeepsTheBiasOverAResetButNotForAnotherCamera) {
 
 /// A pair of the bend, its right image moved down.
 StereoPair bendWithRightLower(int index, double rows) {
-  const cv::Mat down = (cv::Mat_<double>(2, 3) << 1.0, 0.0, 0.0, 0.0, 1.0, rows);
   StereoPair pair = bend(index);
-  cv::Mat moved;
-  cv::warpAffine(pair.right, moved, down, pair.right.size());
-  pair.right = moved;
+  SyntheticScene::lowerRight(pair, rows);
   return pair;
-}
-
-TEST(VisualOdometryTest, SeesThatTheRightImageIsLower) {
-  VisualOdometry odometry({});
-  OdometryResult result;
-  for (int i = 0; i < 4; ++i) result = odometry.process(bendWithRightLower(i, 0.6), camera());
-  ASSERT_TRUE(result.hasMotion());
-  const RowOffset offset = result.row_offset;
-  EXPECT_NEAR(offset.median_px, 0.6, 0.1);
-  EXPECT_NEAR(offset.typical_px, 0.6, 0.1);
-  EXPECT_GT(offset.sigma_px, 0.0);
-  EXPECT_LT(offset.sigma_px, 0.05);
-  odometry.reset();
-  EXPECT_EQ(odometry.process(bend(0), camera()).row_offset.median_px, offset.median_px);
-  EXPECT_NEAR(odometry.process(bend(1), wronglyCalibrated()).row_offset.median_px, 0.0, 0.1);
 }
 
 TEST(VisualOdometryTest, CorrectsTheRowsOfARig) {
@@ -289,7 +251,12 @@ TEST(VisualOdometryTest, CorrectsTheRowsOfARig) {
       expectMotion(result, bendStep());  // as without an offset
     }
     EXPECT_EQ(usual.row_offset.applied_px, 0.0);
+    EXPECT_NEAR(usual.row_offset.median_px, 0.0, 0.05);
+    EXPECT_LT(usual.row_offset.typical_px, 0.2) << "the noise of the trackers";
     EXPECT_NEAR(result.row_offset.median_px, rows, 0.1) << "of the images, not what is left";
+    EXPECT_NEAR(result.row_offset.typical_px, std::abs(rows), 0.1);
+    EXPECT_GT(result.row_offset.sigma_px, 0.0);
+    EXPECT_LT(result.row_offset.sigma_px, 0.05);
     EXPECT_GT(result.counts.rotation_inliers, 0.9 * usual.counts.rotation_inliers);
     odometry.reset();
     EXPECT_NE(odometry.process(bend(0), camera()).row_offset.applied_px, 0.0);
@@ -305,14 +272,6 @@ TEST(VisualOdometryTest, LeavesTheRowsOfARigThatIsNotToBeCalibrated) {
   for (int i = 0; i < 8; ++i) result = odometry.process(bendWithRightLower(i, 1.5), camera());
   EXPECT_EQ(result.row_offset.applied_px, 0.0);
   EXPECT_NEAR(result.row_offset.median_px, 1.5, 0.6) << "few features within the tolerance";
-}
-
-TEST(VisualOdometryTest, FindsTheRowsOfAGoodRigAlike) {
-  VisualOdometry odometry({});
-  OdometryResult result;
-  for (int i = 0; i < 4; ++i) result = odometry.process(bend(i), camera());
-  EXPECT_NEAR(result.row_offset.median_px, 0.0, 0.05);
-  EXPECT_LT(result.row_offset.typical_px, 0.2) << "the noise of the trackers";
 }
 
 /// The numbers of a result that depend on images, without times.
@@ -431,25 +390,6 @@ TEST(VisualOdometryTest, TellsWhatIsLeftAfterEachStage) {
             times.prepared_ms + times.total_ms);
 }
 
-TEST(VisualOdometryTest, CorrespondencesAreThoseOfTheScene) {
-  VisualOdometry::Config frame_to_frame;
-  frame_to_frame.keyframe_selector.adaptive = false;
-  VisualOdometry odometry(frame_to_frame);
-  for (int i = 0; i < 3; ++i) odometry.process(bend(i), camera());
-  const Eigen::Isometry3d T_world_cur = bendStep() * bendStep();
-  std::vector<double> errors_px;
-  for (std::size_t i = 0; i < odometry.correspondences().size(); ++i) {
-    if (odometry.rotationInliers()[i] == 0) continue;
-    const Correspondence& feature = odometry.correspondences()[i];
-    const Eigen::Vector3d point_cur = scene().pointAt(T_world_cur, feature.cur_px);
-    errors_px.push_back((camera().project(bendStep() * point_cur) - feature.keyframe_px).norm());
-  }
-  std::sort(errors_px.begin(), errors_px.end());
-  // Measured: 0.17 and 0.52 px.
-  EXPECT_LT(errors_px.at(errors_px.size() / 2), 0.3);
-  EXPECT_LT(errors_px.at(errors_px.size() * 95 / 100), 1.0);
-}
-
 TEST(VisualOdometryTest, StartsInAFastTurnWithoutAPrediction) {
   // 26 deg/s at 10 Hz causes a flow of 16 px here, and 33 px at KITTI's image size; 52 deg/s causes
   // 33 px.
@@ -460,46 +400,6 @@ TEST(VisualOdometryTest, StartsInAFastTurnWithoutAPrediction) {
     expectMotion(odometry.process(view(step, kPeriod_ns), camera()), step);
     expectMotion(odometry.process(view(step * step, 2 * kPeriod_ns), camera()), step);
   }
-}
-
-TEST(VisualOdometryTest, StandsStillAtRest) {
-  VisualOdometry odometry({});
-  Eigen::Isometry3d T_start_cur = Eigen::Isometry3d::Identity();
-  for (int i = 0; i < 5; ++i) {
-    const StereoPair pair = view(Eigen::Isometry3d::Identity(), i * kPeriod_ns);
-    const OdometryResult result = odometry.process(pair, camera());
-    EXPECT_EQ(result.counts.translation_inliers, 0);
-    T_start_cur = T_start_cur * result.T_prev_cur;
-  }
-  EXPECT_LT(T_start_cur.translation().norm(), 0.003);  // measured: 0.4 mm in 4 pairs
-}
-
-TEST(VisualOdometryTest, TakesADroppedPair) {
-  VisualOdometry odometry = started(4);
-  const OdometryResult result = odometry.process(bend(5), camera());
-  EXPECT_NEAR(result.dt_s, 0.2, 1e-12);
-  expectMotion(result, bendStep() * bendStep());
-  expectMotion(odometry.process(bend(6), camera()), bendStep());
-}
-
-TEST(VisualOdometryTest, RecoversFromABlackPairAtOnce) {
-  VisualOdometry odometry = started(3);
-  expectLost(odometry.process(black(3 * kPeriod_ns), camera()), "only 0 features were matched");
-  // The next pair is compared with the last good one.
-  const OdometryResult next = odometry.process(bend(4), camera());
-  EXPECT_NEAR(next.dt_s, 0.2, 1e-12);
-  expectMotion(next, bendStep() * bendStep());
-  expectMotion(odometry.process(bend(5), camera()), bendStep());
-}
-
-TEST(VisualOdometryTest, TwoBadPairsDoNotCostTheLastGoodOne) {
-  VisualOdometry odometry = started(3);
-  for (const int i : {3, 4}) {
-    expectLost(odometry.process(black(i * kPeriod_ns), camera()), "only 0 features were matched");
-  }
-  const OdometryResult next = odometry.process(bend(5), camera());
-  EXPECT_NEAR(next.dt_s, 0.3, 1e-12);
-  expectMotion(next, bendStep() * bendStep() * bendStep(), 0.02);
 }
 
 /// Dark for two seconds, and turned by 17 degrees meanwhile: no prediction is left, and no pyramid
@@ -553,11 +453,15 @@ StereoPair exposed(const StereoPair& pair, double gain) {
 }
 
 TEST(VisualOdometryTest, FollowsThroughAChangeOfTheExposure) {
-  for (const double gain : {0.8, 1.25}) {
+  for (const double gain : {0.3, 0.8, 1.25}) {
     SCOPED_TRACE(gain);
     VisualOdometry odometry = started(4);
-    expectMotion(odometry.process(exposed(bend(4), gain), camera()), bendStep(), 0.02, 1e-3);
-    expectMotion(odometry.process(exposed(bend(5), gain), camera()), bendStep());
+    const OdometryResult change = odometry.process(exposed(bend(4), gain), camera());
+    // A pair may be lost when it jumps.
+    if (gain > 0.5 || change.state == State::kOk) expectMotion(change, bendStep(), 0.02, 1e-3);
+    const OdometryResult next = odometry.process(exposed(bend(5), gain), camera());
+    EXPECT_EQ(next.keyframe_stamp_ns, 4 * kPeriod_ns);
+    expectMotion(next, bendStep(), gain > 0.5 ? 0.01 : 0.02);
   }
 }
 
@@ -571,16 +475,6 @@ TEST(VisualOdometryTest, FollowsWithCamerasThatExposeDifferently) {
     expectMotion(result, bendStep());
     EXPECT_NEAR(result.exposure_gain, 0.6, 0.6 * kGainError);
   }
-}
-
-TEST(VisualOdometryTest, LosesAPairAtMostWhenTheExposureJumps) {
-  VisualOdometry odometry = started(4);
-  const OdometryResult jump = odometry.process(exposed(bend(4), 0.3), camera());
-  if (jump.state == State::kOk) expectMotion(jump, bendStep());
-  const OdometryResult next = odometry.process(exposed(bend(5), 0.3), camera());
-  ASSERT_TRUE(next.hasMotion()) << next.reason;
-  EXPECT_EQ(next.keyframe_stamp_ns, 4 * kPeriod_ns);
-  expectMotion(next, bendStep(), 0.02);
 }
 
 /// The pair with an object in front that moves with the camera, such as a truck ahead.
@@ -635,18 +529,6 @@ TEST(VisualOdometryTest, ATruckThatHidesNearlyAllIsNotFollowedSilently) {
   }
 }
 
-/// A road and walls of uniform grey, except for noise.
-TEST(VisualOdometryTest, IsLostWithoutTextureAndGoesOnAfterIt) {
-  VisualOdometry odometry = started(3);
-  StereoPair plain = {3 * kPeriod_ns,
-                      cv::Mat(camera().height, camera().width, CV_8UC1, cv::Scalar(128)),
-                      cv::Mat(camera().height, camera().width, CV_8UC1, cv::Scalar(128))};
-  SyntheticScene::addNoise(plain, 1.5, 3);
-  EXPECT_EQ(odometry.process(plain, camera()).state, State::kLost);
-  const OdometryResult next = odometry.process(bend(4), camera());
-  expectMotion(next, bendStep() * bendStep(), 0.02);
-}
-
 TEST(VisualOdometryTest, GoesOnFromElsewhereAtOnce) {
   // The last good pair cannot be matched any more.
   const Eigen::Isometry3d elsewhere = motion({0.0, 0.0, 20.0}, {0.0, 0.6, 0.0});
@@ -666,30 +548,22 @@ TEST(VisualOdometryTest, StartsWithABlackPairAndGoesOn) {
   expectMotion(odometry.process(bend(2), camera()), bendStep());
 }
 
-TEST(VisualOdometryTest, DoesNotCreepAtRest) {
+TEST(VisualOdometryTest, KeepsTheKeyframeAtRestAndDoesNotCreep) {
+  VisualOdometry::Config not_adaptive;
+  not_adaptive.keyframe_selector.adaptive = false;
   VisualOdometry odometry({});
+  VisualOdometry frame_to_frame(not_adaptive);
   Eigen::Isometry3d T_start_cur = Eigen::Isometry3d::Identity();
-  double farthest_m = 0.0;
   for (int i = 0; i < 40; ++i) {
     const auto pair = view(Eigen::Isometry3d::Identity(), i * kPeriod_ns);
     const OdometryResult result = odometry.process(pair, camera());
     T_start_cur = T_start_cur * result.T_prev_cur;
-    farthest_m = std::max(farthest_m, T_start_cur.translation().norm());
+    EXPECT_LT(T_start_cur.translation().norm(), 0.002);  // measured: 0.6 mm, as of a single pair
+    EXPECT_EQ(result.counts.translation_inliers, 0);
     EXPECT_EQ(result.keyframe_stamp_ns, 0);
-  }
-  // The noise of a single pair. Measured: 0.6 mm.
-  EXPECT_LT(farthest_m, 0.002);
-}
-
-TEST(VisualOdometryTest, TakesEveryFrameAsKeyframeIfNotAdaptive) {
-  VisualOdometry::Config config;
-  config.keyframe_selector.adaptive = false;
-  VisualOdometry odometry(config);
-  for (int i = 0; i < 4; ++i) {
-    const auto pair = view(Eigen::Isometry3d::Identity(), i * kPeriod_ns);
-    const OdometryResult result = odometry.process(pair, camera());
-    if (i == 0) continue;
-    EXPECT_EQ(result.keyframe_stamp_ns, (i - 1) * kPeriod_ns);
+    if (i > 4) continue;
+    const std::int64_t keyframe_ns = frame_to_frame.process(pair, camera()).keyframe_stamp_ns;
+    EXPECT_EQ(keyframe_ns, std::max(i - 1, 0) * kPeriod_ns);
   }
 }
 
@@ -734,51 +608,68 @@ TEST(VisualOdometryTest, TakesLeftAndRightThatAreTheSameImage) {
   }
 }
 
-/// Processes an unusable pair between good ones and expects the given reason.
-void expectRefused(const StereoPair& pair,
-                   const StereoCamera& its_camera,
-                   const std::string& reason) {
-  VisualOdometry odometry = started(3);
-  expectLost(odometry.process(pair, its_camera), reason);
-  // The next good pair is compared with the last good one.
-  const OdometryResult next = odometry.process(bend(4), camera());
-  EXPECT_NEAR(next.dt_s, 0.2, 1e-12);
-  expectMotion(next, bendStep() * bendStep());
+/// A pair that cannot be used, after three pairs of the bend.
+struct BadPair {
+  StereoPair pair;
+  std::string reason;
+  StereoCamera camera = rotrocc::camera();
+};
+
+std::vector<BadPair> badPairs() {
+  const auto withLeft = [](const cv::Mat& left) {
+    return StereoPair{3 * kPeriod_ns, left, bend(3).right};
+  };
+  const auto withRight = [](const cv::Mat& right) {
+    return StereoPair{3 * kPeriod_ns, bend(3).left, right};
+  };
+  const auto stampedAt = [](std::int64_t stamp_ns) {
+    return StereoPair{stamp_ns, bend(3).left, bend(3).right};
+  };
+  const cv::Mat colour(camera().height, camera().width, CV_8UC3, cv::Scalar(0, 0, 0));
+  const cv::Mat grey(camera().height, camera().width, CV_8UC1, cv::Scalar(128));
+  StereoPair noisy_grey = {3 * kPeriod_ns, grey, grey.clone()};
+  SyntheticScene::addNoise(noisy_grey, 1.5, 3);
+  StereoCamera reversed = camera();
+  reversed.baseline_m = -0.54;
+  StereoCamera undefined = camera();
+  undefined.fx = std::numeric_limits<double>::quiet_NaN();
+  return {{black(3 * kPeriod_ns), "only 0 features were matched"},
+          {noisy_grey, "features were matched"},
+          {withLeft({}), "the left image is empty"},
+          {withRight({}), "the right image is empty"},
+          {withRight(colour), "the right image is of OpenCV type 16, not CV_8UC1"},
+          {withLeft(bend(3).left.rowRange(0, 100)),
+           "the left image has 620x100 pixels, the camera 620x188"},
+          {withRight(bend(3).right.colRange(0, 300)), "the right image has 300x188 pixels"},
+          {stampedAt(200'000'000), "the stamp 200000000 ns is not later"},
+          {stampedAt(-5), "the stamp -5 ns is not later"},
+          {bend(3), "baseline_m is -0.54", reversed},
+          {bend(3), "fx is nan", undefined}};
 }
 
-TEST(VisualOdometryTest, RefusesImagesItCannotUse) {
-  StereoPair pair = bend(3);
-  pair.left = cv::Mat();
-  expectRefused(pair, camera(), "the left image is empty");
-  pair = bend(3);
-  pair.right = cv::Mat();
-  expectRefused(pair, camera(), "the right image is empty");
-  pair = bend(3);
-  pair.right = cv::Mat(camera().height, camera().width, CV_8UC3, cv::Scalar(0, 0, 0));
-  expectRefused(pair, camera(), "the right image is of OpenCV type 16, not CV_8UC1");
-  pair = bend(3);
-  pair.left = pair.left.rowRange(0, 100);
-  expectRefused(pair, camera(), "the left image has 620x100 pixels, the camera 620x188");
-  pair = bend(3);
-  pair.right = pair.right.colRange(0, 300);
-  expectRefused(pair, camera(), "the right image has 300x188 pixels");
-}
-
-TEST(VisualOdometryTest, RefusesAStampThatDoesNotIncrease) {
-  StereoPair pair = bend(3);
-  pair.stamp_ns = 200'000'000;
-  expectRefused(pair, camera(), "the stamp 200000000 ns is not later");
-  pair.stamp_ns = -5;
-  expectRefused(pair, camera(), "the stamp -5 ns is not later");
-}
-
-TEST(VisualOdometryTest, RefusesABadCamera) {
-  StereoCamera bad = camera();
-  bad.baseline_m = -0.54;
-  expectRefused(bend(3), bad, "baseline_m is -0.54");
-  bad = camera();
-  bad.fx = std::numeric_limits<double>::quiet_NaN();
-  expectRefused(bend(3), bad, "fx is nan");
+/// Without a pair, after a bad one and after two.
+TEST(VisualOdometryTest, ComparesWithTheLastGoodPair) {
+  const auto expectTheNext = [](VisualOdometry& odometry, int index) {
+    const OdometryResult next = odometry.process(bend(index), camera());
+    EXPECT_NEAR(next.dt_s, 0.1 * (index - 2), 1e-12);
+    Eigen::Isometry3d T_last_next = Eigen::Isometry3d::Identity();
+    for (int i = 2; i < index; ++i) T_last_next = T_last_next * bendStep();
+    expectMotion(next, T_last_next, index == 4 ? 0.01 : 0.02);
+    expectMotion(odometry.process(bend(index + 1), camera()), bendStep());
+  };
+  VisualOdometry dropped = started(3);
+  expectTheNext(dropped, 4);
+  for (const BadPair& bad : badPairs()) {
+    SCOPED_TRACE(bad.reason);
+    VisualOdometry odometry = started(3);
+    expectLost(odometry.process(bad.pair, bad.camera), bad.reason);
+    expectTheNext(odometry, 4);
+  }
+  VisualOdometry dark = started(3);
+  for (const int i : {3, 4}) {
+    expectLost(dark.process(black(i * kPeriod_ns), camera()), "only 0 features were matched");
+  }
+  expectTheNext(dark, 5);
 }
 
 TEST(VisualOdometryTest, StartsAnewAfterAGap) {
@@ -829,20 +720,19 @@ void expectSameBytes(const std::vector<OdometryResult>& a, const std::vector<Odo
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].T_prev_cur.matrix(), b[i].T_prev_cur.matrix());
     EXPECT_EQ(a[i].covariance, b[i].covariance);
+    EXPECT_EQ(a[i].counts.with_depth, b[i].counts.with_depth);
     EXPECT_EQ(a[i].counts.consistent, b[i].counts.consistent);
   }
 }
 
-TEST(VisualOdometryTest, GivesTheSameBytesWithAnyNumberOfThreads) {
-  expectSameBytes(alongTheBend(1), alongTheBend(2));
-}
-
-TEST(VisualOdometryTest, GivesTheSameBytesWithoutTheOptimizedCodeOfOpenCv) {
-  const auto optimized = alongTheBend(1);
+TEST(VisualOdometryTest, GivesTheSameBytesWithAnyNumberOfThreadsOnAnyProcessor) {
+  const auto expected = alongTheBend(1);
+  expectSameBytes(alongTheBend(2), expected);
+  expectSameBytes(alongTheBend(4), expected);
   cv::setUseOptimized(false);
   const auto plain = alongTheBend(1);
   cv::setUseOptimized(true);
-  expectSameBytes(optimized, plain);
+  expectSameBytes(plain, expected);
 }
 
 TEST(VisualOdometryTest, DoesNotThrowOnImagesOfAnySize) {
@@ -869,13 +759,6 @@ TEST(VisualOdometryTest, DoesNotThrowOnImagesOfAnySize) {
       stamp_ns += kPeriod_ns;
     }
   }
-}
-
-TEST(VisualOdometryTest, NamesItsStates) {
-  EXPECT_STREQ(toString(State::kInitialising), "initialising");
-  EXPECT_STREQ(toString(State::kOk), "ok");
-  EXPECT_STREQ(toString(State::kDegraded), "degraded");
-  EXPECT_STREQ(toString(State::kLost), "lost");
 }
 
 TEST(VisualOdometryTest, ReportsTheBiasThatTheDepthsWereComputedWith) {

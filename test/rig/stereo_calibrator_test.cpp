@@ -87,27 +87,24 @@ TEST(StereoCalibratorTest, LeavesAPerfectRigAlone) {
   EXPECT_NEAR(calibrator.bias().estimated_px, 0.0, 0.05);
 }
 
-TEST(StereoCalibratorTest, LearnsNothingAtStandstill) {
-  StereoCalibrator calibrator({}, kRobustFactor);
-  for (unsigned pair = 0; pair < 50; ++pair) {
-    const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
-    show(
-        biasedFeatures(still, pair, [](const Eigen::Vector2d&) { return 1.0; }), still, calibrator);
-    EXPECT_NEAR(calibrator.bias().applied_px, 0.0, 0.002) << pair;  // no visible depth error
-  }
-  EXPECT_GT(calibrator.bias().sigma_px, 0.5);
+/// Features of a pair at standstill, with a bias of 1 px.
+Correspondences atRest(unsigned seed) {
+  return biasedFeatures(
+      Eigen::Isometry3d::Identity(), seed, [](const Eigen::Vector2d&) { return 1.0; });
 }
 
-TEST(StereoCalibratorTest, ForgetsNothingAtStandstill) {
-  StereoCalibrator calibrator({}, kRobustFactor);
-  drive(1.0, 30, calibrator);
-  const double before_px = calibrator.bias().applied_px;
+TEST(StereoCalibratorTest, LearnsAndForgetsNothingAtStandstill) {
+  StereoCalibrator unaware({}, kRobustFactor);
+  StereoCalibrator aware({}, kRobustFactor);
+  drive(1.0, 30, aware);
+  const double before_px = aware.bias().applied_px;
   for (unsigned pair = 0; pair < 100; ++pair) {
-    const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
-    show(
-        biasedFeatures(still, pair, [](const Eigen::Vector2d&) { return 1.0; }), still, calibrator);
+    show(atRest(pair), Eigen::Isometry3d::Identity(), unaware);
+    show(atRest(pair), Eigen::Isometry3d::Identity(), aware);
+    EXPECT_NEAR(unaware.bias().applied_px, 0.0, 0.002) << pair;  // no visible depth error
   }
-  EXPECT_NEAR(calibrator.bias().applied_px, before_px, 0.02);
+  EXPECT_GT(unaware.bias().sigma_px, 0.5);
+  EXPECT_NEAR(aware.bias().applied_px, before_px, 0.02);
 }
 
 TEST(StereoCalibratorTest, IsNotFooledByAMovingObject) {
@@ -129,31 +126,6 @@ TEST(StereoCalibratorTest, IsNotFooledByAMovingObject) {
   }
 }
 
-TEST(StereoCalibratorTest, DoubtsWhatPartsOfTheImageDisagreeAbout) {
-  // A rotation of the right camera about its vertical axis that was calibrated as a shift.
-  const auto lens = [](const Eigen::Vector2d& pixel) {
-    const double x = (pixel.x() - kittiCamera().cx) / kittiCamera().fx;
-    return 1.0 * x * x;
-  };
-  StereoCalibrator even({}, kRobustFactor);
-  StereoCalibrator uneven({}, kRobustFactor);
-  double sigma_even_px = 0.0;
-  double sigma_uneven_px = 0.0;
-  for (unsigned pair = 0; pair < 100; ++pair) {
-    drive(0.3, 1, even, pair);
-    show(biasedFeatures(ahead(), pair, lens), ahead(), uneven);
-    if (pair < 50) continue;
-    sigma_even_px += even.bias().sigma_px / 50.0;
-    sigma_uneven_px += uneven.bias().sigma_px / 50.0;
-  }
-  EXPECT_GT(sigma_uneven_px, 1.2 * sigma_even_px);
-  // A bias beyond doubt is applied completely, another one is not.
-  EXPECT_NEAR(even.bias().applied_px, even.bias().estimated_px, 0.01);
-  EXPECT_GT(even.bias().applied_px, 0.25);
-  ASSERT_LT(std::abs(uneven.bias().estimated_px), 2.0 * uneven.bias().sigma_px);
-  EXPECT_NEAR(uneven.bias().applied_px, 0.0, 0.01);
-}
-
 TEST(StereoCalibratorTest, ThePairObservedAgainCountsOnce) {
   StereoCalibrator once({}, kRobustFactor);
   StereoCalibrator twice({}, kRobustFactor);
@@ -166,14 +138,6 @@ TEST(StereoCalibratorTest, ThePairObservedAgainCountsOnce) {
   // The second observation starts at another applied bias, hence the tolerance of its iterations.
   EXPECT_NEAR(once.bias().estimated_px, twice.bias().estimated_px, 0.005);
   EXPECT_NEAR(once.bias().sigma_px, twice.bias().sigma_px, 0.005);
-}
-
-TEST(StereoCalibratorTest, FollowsARigThatChanges) {
-  StereoCalibrator calibrator({}, kRobustFactor);
-  drive(1.0, 60, calibrator);
-  drive(0.4, 20, calibrator, 1000);
-  EXPECT_NEAR(calibrator.bias().estimated_px, 0.4, 0.1);
-  EXPECT_NEAR(calibrator.bias().applied_px, 0.4, 0.1);
 }
 
 TEST(StereoCalibratorTest, FollowsARigThatMoves) {

@@ -15,9 +15,8 @@ namespace {
 
 constexpr std::int64_t kStart_ns = 1317042145000000000;  // 2011-09-26
 
-/// A camera as kitti2bag names it, and which of a pair's images it took.
+/// Which of a pair's images a camera took.
 struct Camera {
-  std::string name;
   bool right;
   bool colour;
 };
@@ -67,15 +66,26 @@ sensor_msgs::CameraInfo withUnrectifiedCalibration(sensor_msgs::CameraInfo info)
   return info;
 }
 
-void writeImage(rosbag::Bag& bag,
-                const std::string& topic,
-                const sensor_msgs::CameraInfo& info,
-                const Camera& camera,
-                const cv::Mat& gray) {
-  cv::Mat pixels = gray;
-  if (camera.colour) cv::cvtColor(gray, pixels, cv::COLOR_GRAY2BGR);
-  const cv_bridge::CvImage image(info.header, camera.colour ? "bgr8" : "mono8", pixels);
-  bag.write(topic, info.header.stamp, *image.toImageMsg());
+/// Writes the images and infos of a camera; those of raw drives have the calibration and the delays
+/// of unsynchronized cameras.
+void writeCamera(const KittiSequence& sequence,
+                 const Camera& camera,
+                 const std::string& image_topic,
+                 bool raw,
+                 rosbag::Bag& bag) {
+  const std::string name = std::string(camera.colour ? "camera_color" : "camera_gray") +
+                           (camera.right ? "_right" : "_left");
+  sensor_msgs::CameraInfo info = projectionOnly(sequence, camera.right);
+  if (raw) info = withUnrectifiedCalibration(info);
+  info.header.frame_id = name;
+  for (int index = 0; index < sequence.size(); ++index) {
+    info.header.stamp = stampOf(sequence, index, raw && camera.right ? skew_ms(index) : 0.0);
+    cv::Mat pixels = camera.right ? sequence.readRight(index) : sequence.readLeft(index);
+    if (camera.colour) cv::cvtColor(pixels, pixels, cv::COLOR_GRAY2BGR);
+    const cv_bridge::CvImage image(info.header, camera.colour ? "bgr8" : "mono8", pixels);
+    bag.write("/kitti/" + name + "/" + image_topic, info.header.stamp, *image.toImageMsg());
+    bag.write("/kitti/" + name + "/camera_info", info.header.stamp, info);
+  }
 }
 
 Eigen::Isometry3d translation(double x, double y, double z) {
@@ -108,17 +118,9 @@ void writeKitti2bagRaw(const KittiSequence& sequence, const std::string& path) {
     const Eigen::Isometry3d T_world_base = poseInWorld(sequence.groundTruth()[index]);
     writeTransform(bag, "/tf", stamp, "world", "base_link", T_world_base);
   }
-  for (const Camera& camera : {Camera{"camera_gray_left", false, false},
-                               Camera{"camera_gray_right", true, false},
-                               Camera{"camera_color_left", false, true},
-                               Camera{"camera_color_right", true, true}}) {
-    auto info = withUnrectifiedCalibration(projectionOnly(sequence, camera.right));
-    info.header.frame_id = camera.name;
-    for (int index = 0; index < sequence.size(); ++index) {
-      info.header.stamp = stampOf(sequence, index, camera.right ? skew_ms(index) : 0.0);
-      const cv::Mat image = camera.right ? sequence.readRight(index) : sequence.readLeft(index);
-      writeImage(bag, "/kitti/" + camera.name + "/image_raw", info, camera, image);
-      bag.write("/kitti/" + camera.name + "/camera_info", info.header.stamp, info);
+  for (const bool colour : {false, true}) {
+    for (const bool right : {false, true}) {
+      writeCamera(sequence, {right, colour}, "image_raw", true, bag);
     }
   }
 }
@@ -130,16 +132,8 @@ void writeKitti2bagOdometry(const KittiSequence& sequence, const std::string& pa
     const Eigen::Isometry3d& T_world_camera = sequence.groundTruth()[index].T_world_body;
     writeTransform(bag, "/tf", stamp, "world", "camera_left", T_world_camera);
   }
-  for (const Camera& camera :
-       {Camera{"camera_gray_left", false, false}, Camera{"camera_gray_right", true, false}}) {
-    sensor_msgs::CameraInfo info = projectionOnly(sequence, camera.right);
-    info.header.frame_id = camera.name;
-    for (int index = 0; index < sequence.size(); ++index) {
-      info.header.stamp = stampOf(sequence, index);
-      const cv::Mat image = camera.right ? sequence.readRight(index) : sequence.readLeft(index);
-      writeImage(bag, "/kitti/" + camera.name + "/image_rect", info, camera, image);
-      bag.write("/kitti/" + camera.name + "/camera_info", info.header.stamp, info);
-    }
+  for (const bool right : {false, true}) {
+    writeCamera(sequence, {right, false}, "image_rect", false, bag);
   }
 }
 
