@@ -567,6 +567,23 @@ TEST(VisualOdometryTest, KeepsTheKeyframeAtRestAndDoesNotCreep) {
   }
 }
 
+/// A crawl of 0.1 m/s, with a keyframe that is kept for several pairs. The distance since then is
+/// soon longer than one step at the limit of the speed.
+TEST(VisualOdometryTest, TheSpeedIsThatSinceTheKeyframe) {
+  VisualOdometry::Config config;
+  config.motion_estimator.min_speed_mps = 0.2;
+  VisualOdometry odometry(config);
+  std::int64_t longest_ns = 0;
+  for (int i = 0; i < 12; ++i) {
+    const Eigen::Isometry3d T_world_camera = motion({0.0, 0.0, 0.01 * i}, {0.0, 0.0, 0.0});
+    const std::int64_t stamp_ns = i * kPeriod_ns;
+    const OdometryResult result = odometry.process(view(T_world_camera, stamp_ns), camera());
+    EXPECT_EQ(result.counts.translation_inliers, 0) << "of a stage 2 that slow motions do not have";
+    if (i > 0) longest_ns = std::max(longest_ns, stamp_ns - result.keyframe_stamp_ns);
+  }
+  EXPECT_GE(longest_ns, 3 * kPeriod_ns);
+}
+
 TEST(VisualOdometryTest, ANewKeyframeIsThePreviousPair) {
   const Eigen::Isometry3d small = motion({0.0, 0.0, 0.06}, {0.0, 0.002, 0.0});
   VisualOdometry odometry({});
