@@ -66,7 +66,7 @@ bool RecordedPairs::add(const RecordedMessage& message) {
     images = synchronizer_.addRight(message.right_image);
   } else if (message.left_info) {
     left_info_ = message.left_info;
-  } else {
+  } else if (message.right_info) {
     right_info_ = message.right_info;
   }
   if (images) images_ = *images;

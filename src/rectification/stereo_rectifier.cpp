@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace rotrocc {
 namespace {
@@ -55,8 +56,9 @@ StereoRectifier::StereoRectifier(const StereoCalibration& calibration, int threa
 
 void StereoRectifier::setCalibration(const StereoCalibration& calibration) {
   const StereoCamera& camera = calibration.rectified;
-  left_ = makeSide("left", calibration.left, camera, camera.cx);
+  Side left = makeSide("left", calibration.left, camera, camera.cx);
   right_ = makeSide("right", calibration.right, camera, camera.cx_right);
+  left_ = std::move(left);  // after all that may throw: the sides are of one calibration
 }
 
 StereoPair StereoRectifier::rectify(const StereoPair& raw,

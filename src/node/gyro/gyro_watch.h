@@ -4,11 +4,11 @@
 
 namespace rotrocc {
 
-/// Decides when the log tells of a gyroscope, and whether pairs wait for it: not for one that has
-/// been missing for a while, except now and then.
+/// Decides when the log reports that a gyroscope is used or not, and whether pairs wait for its
+/// samples: not for those of one that has been missing for a while, except now and then.
 class GyroWatch {
  public:
-  /// Pairs in a row after which the log tells that it is used or not.
+  /// Pairs in a row after which the log reports that it is used or not.
   static constexpr int kPairs = MissBackoff::kMisses;
   /// While it is missing, one of so many pairs waits for it.
   static constexpr int kRetryPairs = 10;
