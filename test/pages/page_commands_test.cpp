@@ -86,12 +86,9 @@ const Omission kOmissions[] = {
     {"realsense.launch", "needs a camera with its driver"},
     {"/camera/stereo_module", "needs a camera with its driver"},
     {"cameracalibrator.py", "needs a camera with its driver"},
-    {"drive.bag", "minutes of live replay; the truth of base_link comes from elsewhere"},
-    {"filtered.", "minutes of live replay; the truth of base_link comes from elsewhere"},
     {"experiments/", "takes minutes to hours; experiments_test runs short forms"},
     {"06_000_050", "a clip of KITTI; benchmark_test runs the script"},
     {"devel/setup.bash", "the environment of the tests is set up"},
-    {"valgrind", "takes minutes"},
 };
 
 /// Commands that contain `part` run only where `check` succeeds.
