@@ -9,6 +9,12 @@
 namespace rotrocc {
 namespace {
 
+// Figures of the ADIS16448 in the EuRoC data set's sensor.yaml.
+constexpr double kRate_hz = 200.0;
+constexpr double kNoiseDensity = 1.6968e-4;      // [rad/s/sqrt(Hz)], white
+constexpr double kBiasWalk = 1.9393e-5;          // [rad/s^2/sqrt(Hz)]
+constexpr double kBiasSigma_rps = M_PI / 180.0;  // of the bias at the start, for each axis
+
 constexpr double kPhase = 0.4;  // of a period: the first sample after first_ns
 
 enum Kind : std::uint64_t { kStart, kWalk, kWhite };
@@ -35,19 +41,17 @@ Eigen::Vector3d trueRate(const Drive& drive, double time_s) {
 std::vector<GyroSample> simulateGyroscope(const Drive& drive,
                                           std::int64_t first_ns,
                                           std::int64_t last_ns,
-                                          std::uint64_t seed,
-                                          const GyroFigures& figures) {
-  const double period_s = 1.0 / figures.rate_hz;
-  Eigen::Vector3d bias_rps = figures.bias_sigma_rps * noise(seed, kStart, 0);
+                                          std::uint64_t seed) {
+  const double period_s = 1.0 / kRate_hz;
+  Eigen::Vector3d bias_rps = kBiasSigma_rps * noise(seed, kStart, 0);
   std::vector<GyroSample> samples;
   for (std::uint64_t i = 0; samples.empty() || samples.back().stamp_ns <= last_ns; ++i) {
     const double since_first_s = (static_cast<double>(i) - 1.0 + kPhase) * period_s;
     const std::int64_t stamp_ns = first_ns + std::llround(1e9 * since_first_s);
-    samples.push_back(
-        {stamp_ns,
-         trueRate(drive, toSeconds(stamp_ns)) + bias_rps +
-             figures.noise_density * std::sqrt(figures.rate_hz) * noise(seed, kWhite, i)});
-    bias_rps += figures.bias_walk * std::sqrt(period_s) * noise(seed, kWalk, i);
+    samples.push_back({stamp_ns,
+                       trueRate(drive, toSeconds(stamp_ns)) + bias_rps +
+                           kNoiseDensity * std::sqrt(kRate_hz) * noise(seed, kWhite, i)});
+    bias_rps += kBiasWalk * std::sqrt(period_s) * noise(seed, kWalk, i);
   }
   return samples;
 }

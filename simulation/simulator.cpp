@@ -14,19 +14,6 @@ namespace {
 
 constexpr int kBlurSteps = 8;
 
-std::optional<WornRig> chosenRig(const SimulationOptions& options, const Exposure& exposure) {
-  if (!options.worn_rig) return std::nullopt;
-  return wornRig(options.camera, options.seed, exposure);
-}
-
-std::optional<UnrectifiedRig> chosenLens(const SimulationOptions& options) {
-  if (options.lens.empty()) return std::nullopt;
-  if (options.worn_rig) {
-    throw std::invalid_argument("the images of a worn rig are rectified: leave out the lens");
-  }
-  return unrectifiedRig(options.camera, options.lens);
-}
-
 WorldPlan plannedWorld(const Scenario& scenario,
                        const SimulationOptions& options,
                        const std::optional<WornRig>& worn) {
@@ -45,11 +32,6 @@ TrafficPlan plannedTraffic(const Scenario& scenario,
     plan.lorry = makeLorry(options.lorry.share, options.camera, world.tiles());
   }
   return plan;
-}
-
-SimulationOptions checked(const SimulationOptions& options) {
-  options.check();
-  return options;
 }
 
 std::vector<std::int64_t> frameStamps(const Scenario& scenario, const SimulationOptions& options) {
@@ -101,18 +83,18 @@ void SimulationOptions::check() const {
 }
 
 Simulator::Simulator(const Scenario& scenario, const SimulationOptions& options)
-    : options_(checked(options)),
-      exposure_(scenario.exposure),
-      worn_(chosenRig(options_, exposure_)),
-      unrectified_(chosenLens(options_)),
-      drive_(scenario.drive),
-      world_(std::make_unique<World>(plannedWorld(scenario, options_, worn_))),
-      traffic_(std::make_unique<Traffic>(plannedTraffic(scenario, options_, *world_),
-                                         *drive_,
-                                         *world_,
-                                         options.moving_share,
-                                         options.seed)),
-      stamps_ns_(frameStamps(scenario, options)) {}
+    : options_(options), exposure_(scenario.exposure), drive_(scenario.drive) {
+  options.check();
+  if (options.worn_rig) worn_ = wornRig(options.camera, options.seed, exposure_);
+  if (!options.lens.empty()) unrectified_ = rotrocc::unrectifiedRig(options.camera, options.lens);
+  world_ = std::make_unique<World>(plannedWorld(scenario, options, worn_));
+  traffic_ = std::make_unique<Traffic>(plannedTraffic(scenario, options, *world_),
+                                       *drive_,
+                                       *world_,
+                                       options.moving_share,
+                                       options.seed);
+  stamps_ns_ = frameStamps(scenario, options);
+}
 
 Eigen::Isometry3d Simulator::pose(int index) const {
   return drive_->pose(time_s(0)).inverse() * drive_->pose(time_s(index));

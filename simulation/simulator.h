@@ -45,7 +45,8 @@ struct SimulationOptions {
   /// Cameras with the remainders of calibration, sensors, wind and reflections of the real world,
   /// by the seed. They have motion blur and noise of their own: those of `faults` are not used.
   bool worn_rig = false;
-  /// Lens of cameras whose images are not rectified: radtan or equidistant; empty: none.
+  /// Lens of cameras whose images are not rectified, without worn_rig: radtan or equidistant;
+  /// empty: none.
   std::string lens;
   CameraFaults faults;
   double moving_share = 0.35;  ///< occupied share of the places for moving cars

@@ -49,8 +49,8 @@ struct Sway {
 /// A drive along a path with given speed phases.
 class ScriptedDrive : public Drive {
  public:
-  /// Starts with `initial_speed_mps` at the start of the path. Throws std::invalid_argument if a
-  /// phase begins and ends at rest but has a length, or the phases are longer than the path.
+  /// Starts with `initial_speed_mps` at the start of the path, which must be as long as the phases.
+  /// A phase with a length must not begin and end at rest.
   ScriptedDrive(Path path,
                 std::vector<SpeedPhase> phases,
                 double initial_speed_mps,

@@ -1,5 +1,3 @@
-#include "simulation/drives/hall.h"
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -7,6 +5,7 @@
 #include <vector>
 
 #include "simulation/counter_random.h"
+#include "simulation/drives/scenario.h"
 
 namespace rotrocc {
 namespace {

@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "simulation/drives/hall.h"
 #include "simulation/street/street_style.h"
 
 namespace rotrocc {

@@ -32,8 +32,12 @@ const std::vector<std::string>& scenarioNames();
 ///   shake      a town street with strong pitching and rolling
 ///   handheld   1.4 m/s along that street, looking around with up to 120 deg/s
 ///   night      city at night: head lamps, a long exposure, noise
-///   hall       a multicopter in a hall: take-off, turns of 100 deg/s, a wall at half a metre
+///   hall       a multicopter in a hall of 16 m x 24 m: take-off, a turn of 100 deg/s on the spot,
+///              a wall at half a metre
 Scenario scenario(const std::string& name, std::uint64_t seed);
+
+/// The scenario hall.
+Scenario hall(std::uint64_t seed);
 
 /// A town along a recorded drive, including hills. A street that the drive revisits is built once.
 /// The frames have the stamps of the poses, from 0.

@@ -4,7 +4,6 @@
 
 #include "simulation/counter_random.h"
 #include "simulation/objects/objects.h"
-#include "simulation/scene/placement.h"
 #include "simulation/stress/lorry.h"
 
 namespace rotrocc {
@@ -61,9 +60,8 @@ Eigen::Isometry3d Traffic::poseWithCamera(const Car& car, double time_s) const {
   const double right_m = car.right_m + lorry_across_mps_ * (time_s - 0.5 * drive_.duration_s());
   const Eigen::Vector3d position = T_world_camera * Eigen::Vector3d(right_m, 0.0, car.station_m);
   const Eigen::Vector3d ahead = T_world_camera.linear().col(2);
-  return standingUpright(world_.terrain(),
-                         {position.x(), position.z()},
-                         Eigen::Vector3d(ahead.x(), 0.0, ahead.z()).normalized());
+  return world_.terrain().standing({position.x(), position.z()},
+                                   Eigen::Vector3d(ahead.x(), 0.0, ahead.z()).normalized());
 }
 
 Eigen::Isometry3d Traffic::pose(int car, double time_s) const {
@@ -73,8 +71,8 @@ Eigen::Isometry3d Traffic::pose(int car, double time_s) const {
   const double station = stationOf(moving, time_s);
   const Eigen::Vector3d position = path.position(station) + moving.right_m * path.right(station);
   const double heading = path.heading_rad(station) + (moving.speed_mps < 0.0 ? M_PI : 0.0);
-  return lyingOnGround(
-      world_.terrain(), {position.x(), position.z()}, {std::sin(heading), 0.0, std::cos(heading)});
+  return world_.terrain().lying({position.x(), position.z()},
+                                {std::sin(heading), 0.0, std::cos(heading)});
 }
 
 MovingCars Traffic::at(double time_s) const {

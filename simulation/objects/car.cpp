@@ -46,14 +46,14 @@ class CarBody : public Material {
     return coverageBetween(size_.half_width - 0.42,
                            size_.half_width - 0.08,
                            std::abs(at.at.x()),
-                           std::max(at.width(0), 1e-4)) *
-           coverageBetween(bottom, bottom + 0.18, at.at.y(), std::max(at.width(1), 1e-4));
+                           at.pixelWidth()) *
+           coverageBetween(bottom, bottom + 0.18, at.at.y(), at.pixelHeight());
   }
 
   double side(const SurfacePoint& point, double sheen) const {
     const TexturePoint at = faceCoordinates(point);
-    const double width = std::max(at.width(0), 1e-4);
-    const double height = std::max(at.width(1), 1e-4);
+    const double width = at.pixelWidth();
+    const double height = at.pixelHeight();
     double brightness = paint_ * sheen;
     for (const double seam : {-0.95, 0.1, 0.95}) {
       const double line = coverageBetween(seam - 0.012, seam + 0.012, at.at.x(), width);
@@ -73,8 +73,8 @@ class CarBody : public Material {
 
   double end(const SurfacePoint& point, double sheen) const {
     const TexturePoint at = faceCoordinates(point);
-    const double width = std::max(at.width(0), 1e-4);
-    const double height = std::max(at.width(1), 1e-4);
+    const double width = at.pixelWidth();
+    const double height = at.pixelHeight();
     const bool front = point.normal.z() > 0.0;
     const double x = std::abs(at.at.x());
     const auto area = [&](double left, double right, double bottom, double top) {
@@ -104,8 +104,8 @@ class CarCabin : public Material {
   double reflectance(const SurfacePoint& point) const override {
     if (point.normal.y() < -0.9) return 0.95 * paint_ + 0.08;
     const TexturePoint at = faceCoordinates(point);
-    const double width = std::max(at.width(0), 1e-4);
-    const double height = std::max(at.width(1), 1e-4);
+    const double width = at.pixelWidth();
+    const double height = at.pixelHeight();
     double glass = coverageBetween(size_.belt + 0.05, size_.roof - 0.09, at.at.y(), height);
     if (std::abs(point.normal.x()) > 0.6) {
       for (const double pillar : {-0.85, 0.1}) {

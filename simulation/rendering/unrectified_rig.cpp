@@ -29,9 +29,6 @@ const Individual kRight = {1.0475,
                            {0.0034, 0.0018, -0.0027, 0.0003}};
 
 RawCamera rawCamera(const StereoCamera& nominal, const std::string& lens, const Individual& own) {
-  if (lens != "radtan" && lens != "equidistant") {
-    throw std::invalid_argument("the lens '" + lens + "' is unknown: use radtan or equidistant");
-  }
   // The offsets are those of an image 752 px wide.
   const Eigen::Vector2d offset = nominal.width / 752.0 * own.centre_px;
   RawCamera raw;

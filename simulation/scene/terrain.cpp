@@ -64,6 +64,28 @@ Eigen::Vector3d Terrain::normal(double x, double z) const {
       .normalized();
 }
 
+Eigen::Isometry3d Terrain::placed(const Eigen::Vector2d& at,
+                                  const Eigen::Vector3d& down,
+                                  const Eigen::Vector3d& ahead) const {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  const Eigen::Vector3d right = down.cross(ahead).normalized();
+  pose.linear() << right, down, right.cross(down);
+  pose.translation() << at.x(), height(at.x(), at.y()), at.y();
+  return pose;
+}
+
+Eigen::Isometry3d Terrain::standing(const Eigen::Vector2d& at, const Eigen::Vector3d& ahead) const {
+  return placed(at, Eigen::Vector3d::UnitY(), ahead);
+}
+
+Eigen::Isometry3d Terrain::lying(const Eigen::Vector2d& at, const Eigen::Vector3d& ahead) const {
+  // Mean slope: the slope at a point is discontinuous between cells.
+  constexpr double kReach = 1.5;
+  const double dx = height(at.x() + kReach, at.y()) - height(at.x() - kReach, at.y());
+  const double dz = height(at.x(), at.y() + kReach) - height(at.x(), at.y() - kReach);
+  return placed(at, Eigen::Vector3d(-dx, 2.0 * kReach, -dz).normalized(), ahead);
+}
+
 bool Terrain::intersect(
     const Ray& ray, const RayRange& range, int column, int row, double& distance) const {
   const Patch& p = patch(column, row);

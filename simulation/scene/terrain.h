@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "simulation/scene/shape.h"
 #include "simulation/street/path.h"
@@ -42,6 +42,13 @@ class Terrain {
   /// Normal of unit length, upwards.
   Eigen::Vector3d normal(double x, double z) const;
 
+  /// The pose of a body that stands upright on the ground at (x, z) with its z axis along `ahead`
+  /// (level, of unit length).
+  Eigen::Isometry3d standing(const Eigen::Vector2d& at, const Eigen::Vector3d& ahead) const;
+
+  /// The same for a body that follows the slope of the ground: cars, kerb stones.
+  Eigen::Isometry3d lying(const Eigen::Vector2d& at, const Eigen::Vector3d& ahead) const;
+
   /// Smallest y (highest ground) of a cell.
   double top(int column, int row) const { return patch(column, row).top; }
 
@@ -58,6 +65,10 @@ class Terrain {
   const Patch& patch(int column, int row) const {
     return patches_[static_cast<std::size_t>(row) * grid_.columns + column];
   }
+
+  Eigen::Isometry3d placed(const Eigen::Vector2d& at,
+                           const Eigen::Vector3d& down,
+                           const Eigen::Vector3d& ahead) const;
 
   GroundGrid grid_;
   std::vector<Patch> patches_;  // of the cells, row by row

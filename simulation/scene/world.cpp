@@ -101,13 +101,14 @@ World::World(const WorldPlan& plan)
       streets_(plan.streets, kStreetReach_m),
       road_(streets_, style_, tiles_, plan.crossings, plan.seed),
       scene_(makeScene(plan, streets_, tiles_)),
-      shadows_(scene_,
-               [&](double x, double z) {
-                 return plan.lighting.sun > 0.0 && streets_.distance(x, z) < kShadowReach_m;
-               }),
-      lamps_(scene_) {
+      shadows_(scene_, [&](double x, double z) {
+        return plan.lighting.sun > 0.0 && streets_.distance(x, z) < kShadowReach_m;
+      }) {
   weather_.reflections = plan.weather.reflections && !plan.indoors;
   tiles_.wind = plan.weather.wind;
+  for (const Body& body : bodies()) {
+    if (body.lamp) lamps_.push_back(body.T_world_body() * *body.lamp);
+  }
 }
 
 Sighting World::look(const View& view, double x, double y) const {
@@ -193,7 +194,7 @@ double World::illumination(const Eigen::Vector3d& position,
                            double lit) const {
   double light = daylight(lighting_, normal, lit);
   if (lighting_.street_lamps > 0.0) {
-    light += lighting_.street_lamps * lamps_.light(position, normal);
+    light += lighting_.street_lamps * streetLight(lamps_, position, normal);
   }
   if (lighting_.head_lamps.brightness > 0.0) {
     light +=

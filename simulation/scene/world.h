@@ -13,7 +13,6 @@
 #include "simulation/street/street_style.h"
 #include "simulation/surfaces/lighting.h"
 #include "simulation/surfaces/shadows.h"
-#include "simulation/surfaces/street_lamps.h"
 #include "simulation/surfaces/texture_tiles.h"
 #include "simulation/surfaces/weather.h"
 
@@ -93,7 +92,7 @@ class World {
   RoadSurface road_;
   SceneGeometry scene_;
   GroundShadows shadows_;
-  StreetLamps lamps_;
+  std::vector<Eigen::Vector3d> lamps_;  // where the street lamps are
 };
 
 }  // namespace rotrocc

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "simulation/surfaces/coverage.h"
@@ -11,17 +9,8 @@
 namespace rotrocc {
 
 Path::Path(std::vector<Eigen::Vector3d> points) : points_(std::move(points)), stations_{0.0} {
-  if (points_.size() < 2) {
-    throw std::invalid_argument("a path of " + std::to_string(points_.size()) +
-                                " points: give at least two");
-  }
   for (std::size_t i = 1; i < points_.size(); ++i) {
-    const double step = (points_[i] - points_[i - 1]).norm();
-    if (!(step > 0.0)) {
-      throw std::invalid_argument("points " + std::to_string(i - 1) + " and " + std::to_string(i) +
-                                  " of a path coincide: leave one out");
-    }
-    stations_.push_back(stations_.back() + step);
+    stations_.push_back(stations_.back() + (points_[i] - points_[i - 1]).norm());
   }
 }
 
@@ -112,11 +101,6 @@ Path layPath(const std::vector<PathPiece>& pieces, const std::function<double(do
 
 std::vector<PathPiece> turn(double angle_rad, double radius_m, double transition_m) {
   const double arc_m = std::abs(angle_rad) * radius_m - transition_m;  // each transition turns half
-  if (arc_m < 0.0) {
-    throw std::invalid_argument("transitions of " + std::to_string(transition_m) +
-                                " m are too long for a turn by " + std::to_string(angle_rad) +
-                                " rad: make them shorter");
-  }
   const double curvature = std::copysign(1.0 / radius_m, angle_rad);
   return {{transition_m, curvature}, {arc_m, curvature}, {transition_m, 0.0}};
 }

@@ -11,8 +11,7 @@ namespace rotrocc {
 /// simulation: x right and z forward at the start, y down.
 class Path {
  public:
-  /// A Catmull-Rom spline through the points. Throws std::invalid_argument if there are fewer than
-  /// two or two neighbours coincide.
+  /// A Catmull-Rom spline through the points: at least two, of which no neighbours coincide.
   explicit Path(std::vector<Eigen::Vector3d> points);
 
   double length_m() const { return stations_.back(); }
@@ -56,8 +55,8 @@ struct PathPiece {
 Path layPath(const std::vector<PathPiece>& pieces, const std::function<double(double)>& rise_m);
 
 /// The pieces of a turn by `angle_rad` (positive to the right): over `transition_m` the curvature
-/// grows to 1 / radius and decreases again at the end. Throws std::invalid_argument if the angle is
-/// smaller than what the transitions turn.
+/// grows to 1 / radius and decreases again at the end. The angle must not be smaller than what the
+/// transitions turn.
 std::vector<PathPiece> turn(double angle_rad, double radius_m, double transition_m);
 
 }  // namespace rotrocc

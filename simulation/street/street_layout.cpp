@@ -6,7 +6,6 @@
 
 #include "simulation/counter_random.h"
 #include "simulation/objects/objects.h"
-#include "simulation/scene/placement.h"
 
 namespace rotrocc {
 namespace {
@@ -108,8 +107,7 @@ class BuildingGround {
     if (facing != Facing::kOutwards) {
       ahead = level(street.direction(station_m) * (facing == Facing::kAhead ? 1.0 : -1.0));
     }
-    body.place(rules.upright ? standingUpright(terrain_, at, ahead)
-                             : lyingOnGround(terrain_, at, ahead));
+    body.place(rules.upright ? terrain_.standing(at, ahead) : terrain_.lying(at, ahead));
     const Footprint footprint = Footprint::of(body);
     if (!isFree(footprint, rules)) return false;
     if (!rules.may_overlap) taken_.push_back(footprint);
@@ -121,8 +119,7 @@ class BuildingGround {
   /// Places a body over a street, across it.
   void placeAcross(Body body, const Path& street, double station_m) {
     const Eigen::Vector3d position = street.position(station_m);
-    body.place(standingUpright(
-        terrain_, {position.x(), position.z()}, level(street.direction(station_m))));
+    body.place(terrain_.standing({position.x(), position.z()}, level(street.direction(station_m))));
     bodies_.push_back(std::move(body));
   }
 

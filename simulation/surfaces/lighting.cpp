@@ -60,4 +60,24 @@ double headLight(const HeadLamps& lamps,
   return light;
 }
 
+double streetLight(const std::vector<Eigen::Vector3d>& lamps,
+                   const Eigen::Vector3d& position,
+                   const Eigen::Vector3d& normal) {
+  constexpr double kReach_m = 35.0;
+  constexpr double kHeight_m = 6.5;
+  double light = 0.0;
+  for (const Eigen::Vector3d& lamp : lamps) {
+    const Eigen::Vector3d way = position - lamp;
+    if (way.squaredNorm() > kReach_m * kReach_m) continue;
+    const double distance = std::max(way.norm(), 0.5);
+    const double facing = -normal.dot(way) / distance;
+    const double down = way.y() / distance;  // cosine to the vertical: a lamp shines downwards
+    if (facing <= 0.0 || down <= 0.0) continue;
+    const double near = kHeight_m / distance;
+    light += near * near * facing * std::sqrt(down) *
+             (1.0 - smoothStep(0.5 * kReach_m, kReach_m, distance));
+  }
+  return light;
+}
+
 }  // namespace rotrocc

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Geometry>
 
 namespace rotrocc {
@@ -36,5 +38,11 @@ double daylight(const Lighting& lighting, const Eigen::Vector3d& normal, double 
 double headLight(const HeadLamps& lamps,
                  const Eigen::Vector3d& position,
                  const Eigen::Vector3d& normal);
+
+/// Light of street lamps at these places on a surface, all in the axes of the world: 1 on level
+/// ground right below a lamp of 6.5 m. It passes through everything.
+double streetLight(const std::vector<Eigen::Vector3d>& lamps,
+                   const Eigen::Vector3d& position,
+                   const Eigen::Vector3d& normal);
 
 }  // namespace rotrocc

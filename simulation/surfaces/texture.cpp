@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <stdexcept>
-#include <string>
 
 #include <opencv2/imgproc.hpp>
 
@@ -17,10 +15,6 @@ constexpr int kMaxTaps = 4;          // along the longer side of a pixel
 constexpr float kLevelBias = 0.25F;  // compensates for aliasing of the box filter between levels
 constexpr float kOne = 65536.0F;     // a texel, in fixed point
 constexpr int kHalf = 32768;
-
-bool isPowerOfTwo(int value) {
-  return value > 0 && (value & (value - 1)) == 0;
-}
 
 /// Fast logarithm to base 2, linear between powers of two: at most 0.09 too small.
 float roughLog2(float value) {
@@ -48,11 +42,6 @@ std::vector<std::uint8_t> quantize(const cv::Mat& tile) {
 
 Texture::Texture(const cv::Mat& tile, double period_m)
     : periods_per_m_(1.0 / period_m), texels_per_period_(static_cast<float>(tile.cols)) {
-  if (tile.type() != CV_32FC1 || tile.rows != tile.cols || !isPowerOfTwo(tile.cols)) {
-    throw std::invalid_argument("a texture tile of " + std::to_string(tile.cols) + " x " +
-                                std::to_string(tile.rows) +
-                                " texels: make it CV_32FC1, square and a power of two");
-  }
   cv::Mat level = tile;
   while (true) {
     levels_.push_back({static_cast<int>(levels_.size()), sizeBits(level), quantize(level)});

@@ -13,8 +13,7 @@ namespace rotrocc {
 /// is elongated (roads at a flat angle): detail below pixel size fades out instead of aliasing.
 class Texture {
  public:
-  /// `tile` is CV_32FC1, square, its side a power of two; it covers `period_m` x `period_m`. Throws
-  /// std::invalid_argument otherwise.
+  /// `tile` is CV_32FC1, square, its side a power of two; it covers `period_m` x `period_m`.
   Texture(const cv::Mat& tile, double period_m);
 
   double at(const TexturePoint& point) const;

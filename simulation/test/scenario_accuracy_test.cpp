@@ -1,6 +1,7 @@
 /// The whole pipeline on each simulated scenario, against exact truth.
 
 #include <cmath>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -14,29 +15,27 @@
 namespace rotrocc {
 namespace {
 
-int pairsToDrive() {
-  return isSlowBuild() ? 5 : 13;
-}
-
 struct Step {
   OdometryResult estimate;
   Eigen::Isometry3d T_prev_cur_true;
 };
 
-/// The motions between pairs in the middle of a scenario, where the car drives.
-std::vector<Step> drive(const std::string& name) {
-  SimulationOptions options;
-  if (name == "handheld") options.rate_hz = 20.0;  // 10 Hz needs a gyroscope
-  Simulator simulator(scenario(name, 1), options);
-  const int first = simulator.size() / 4;
+/// The motions between `pairs` pairs of a drive, from `first` on.
+std::vector<Step> drive(Simulator& simulator, int first, int pairs) {
   VisualOdometry odometry{VisualOdometry::Config{}};
   std::vector<Step> steps;
-  for (int i = first; i < first + pairsToDrive(); ++i) {
+  for (int i = first; i < first + pairs; ++i) {
     const auto result = odometry.process(simulator.render(i, false).pair, simulator.camera());
     if (i == first) continue;
     steps.push_back({result, simulator.pose(i - 1).inverse() * simulator.pose(i)});
   }
   return steps;
+}
+
+/// The same in the middle of a scenario, where the car drives.
+std::vector<Step> drive(const std::string& name, const SimulationOptions& options, int pairs) {
+  Simulator simulator(scenario(name, 1), options);
+  return drive(simulator, simulator.size() / 4, pairs);
 }
 
 /// The row offset estimated for a rig whose right camera is turned, and its true value at infinity.
@@ -48,19 +47,11 @@ struct TurnedRig {
 TurnedRig turnRightCamera(double roll_rad, double pitch_rad) {
   SimulationOptions options;
   options.faults.right_rotation_rad = {roll_rad, pitch_rad, 0.0};
-  Simulator simulator(scenario("city", 1), options);
-  const int first = simulator.size() / 4;
-  VisualOdometry odometry{VisualOdometry::Config{}};
-  TurnedRig rig;
-  for (int i = first; i < first + 4; ++i) {
-    rig.found = odometry.process(simulator.render(i, false).pair, simulator.camera()).row_offset;
-  }
   const Eigen::Vector3d far(0.0, 0.0, 1e6);
-  const StereoCamera& camera = simulator.camera();
-  rig.lower_px =
-      (camera.project(options.faults.rightCamera(camera).inverse() * far) - camera.project(far))
-          .y();
-  return rig;
+  const StereoCamera& camera = options.camera;
+  const Eigen::Vector3d far_right = options.faults.rightCamera(camera).inverse() * far;
+  return {drive("city", options, 4).back().estimate.row_offset,
+          (camera.project(far_right) - camera.project(far)).y()};
 }
 
 TEST(TurnedRigTest, ShowsInTheRows) {
@@ -84,13 +75,7 @@ TEST(SkewedRigTest, ShowsInTheRowsOfMovingFeatures) {
   for (const double skew_s : {0.0, 0.005}) {
     SimulationOptions options;
     options.faults.time_skew_s = skew_s;
-    Simulator simulator(scenario("shake", 1), options);
-    const int first = simulator.size() / 4;
-    VisualOdometry odometry{VisualOdometry::Config{}};
-    TimeSkew skew;
-    for (int i = first; i < first + 16; ++i) {
-      skew = odometry.process(simulator.render(i, false).pair, simulator.camera()).time_skew;
-    }
+    const TimeSkew skew = drive("shake", options, 16).back().estimate.time_skew;
     // Most of sigma is the floor that lenses ask for, which these do not have.
     ASSERT_GT(skew.sigma_s, 0.0);
     EXPECT_LT(skew.sigma_s, 0.001);
@@ -107,8 +92,10 @@ double noiseOf(const std::string& name) {
 class ScenarioAccuracyTest : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(ScenarioAccuracyTest, FollowsTheDriveWithoutABias) {
+  SimulationOptions options;
+  if (GetParam() == "handheld") options.rate_hz = 20.0;  // 10 Hz needs a gyroscope
   std::vector<double> errors;
-  for (const Step& step : drive(GetParam())) {
+  for (const Step& step : drive(GetParam(), options, isSlowBuild() ? 5 : 13)) {
     ASSERT_TRUE(step.estimate.hasMotion()) << step.estimate.reason;
     const double length_m = step.T_prev_cur_true.translation().norm();
     ASSERT_GT(length_m, 0.0);
@@ -137,6 +124,61 @@ INSTANTIATE_TEST_SUITE_P(
     ScenarioAccuracyTest,
     ::testing::Values("city", "motorway", "slip_road", "parking", "shake", "handheld", "night"),
     [](const auto& name) { return name.param; });
+
+/// That of EuRoC.
+StereoCamera indoorCamera() {
+  StereoCamera camera;
+  camera.width = 752;
+  camera.height = 480;
+  camera.fx = camera.fy = 460.0;
+  camera.cx = camera.cx_right = 375.5;
+  camera.cy = 239.5;
+  camera.baseline_m = 0.11;
+  return camera;
+}
+
+/// One of the hardest short parts of the hall, and limits of the error at its end: twice the
+/// largest error of five seeds.
+struct HallPart {
+  std::string name;
+  double start_s;
+  bool worn;
+  double limit_mm;
+  double limit_mrad;
+};
+
+void PrintTo(const HallPart& part, std::ostream* out) {
+  *out << part.name;
+}
+
+class HallAccuracyTest : public ::testing::TestWithParam<HallPart> {};
+
+TEST_P(HallAccuracyTest, FollowsThePart) {
+  SimulationOptions options;
+  options.camera = indoorCamera();
+  options.rate_hz = 20.0;
+  options.worn_rig = GetParam().worn;
+  Simulator simulator(scenario("hall", 1), options);
+  const int first = static_cast<int>(std::lround(GetParam().start_s * options.rate_hz));
+  Eigen::Isometry3d T_first_now = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d truth = Eigen::Isometry3d::Identity();
+  for (const Step& step : drive(simulator, first, isSlowBuild() ? 4 : 10)) {
+    ASSERT_TRUE(step.estimate.hasMotion()) << step.estimate.reason;
+    T_first_now = T_first_now * step.estimate.T_prev_cur;
+    truth = truth * step.T_prev_cur_true;
+  }
+  const Eigen::Isometry3d error = truth.inverse() * T_first_now;
+  EXPECT_LT(1e3 * error.translation().norm(), GetParam().limit_mm);
+  EXPECT_LT(1e3 * Eigen::AngleAxisd(error.linear()).angle(), GetParam().limit_mrad);
+}
+
+INSTANTIATE_TEST_SUITE_P(Hall,
+                         HallAccuracyTest,
+                         ::testing::Values(HallPart{"TurnOf100DegPerS", 9.9, false, 2.1, 0.4},
+                                           HallPart{"TurnWithAWornRig", 9.9, true, 54.0, 9.0},
+                                           HallPart{"Wall", 17.9, false, 1.7, 0.3},
+                                           HallPart{"WallWithAWornRig", 17.9, true, 22.0, 0.8}),
+                         [](const auto& part) { return part.param.name; });
 
 }  // namespace
 }  // namespace rotrocc

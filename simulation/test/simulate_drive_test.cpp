@@ -73,6 +73,7 @@ TEST_F(SimulateDriveTest, RefusesWhatDoesNotFit) {
   expectRefused("--rig old", "--rig is 'old', not perfect or worn");
   expectRefused("--rig worn --noise 3", "--noise is for a perfect rig");
   expectRefused("--rows 21", "row offset [px] is 21");
+  expectRefused("--moving-share 1.5", "share of moving cars is 1.5");
   expectRefused("--layout tum", "--layout is 'tum', not kitti or asl");
   expectRefused("--layout asl --lens omni", "--lens is 'omni', not radtan or equidistant");
   expectRefused("--lens radtan", "--lens is for the layout asl");

@@ -16,15 +16,25 @@
 #include "rotrocc/kitti.h"
 #include "rotrocc/rigid_motion.h"
 #include "simulation/drives/scenario.h"
-#include "simulation/gyroscope.h"
 #include "simulation/sequence_writer.h"
 #include "simulation/simulator.h"
 #include "support/expect_error.h"
-#include "support/small_camera.h"
 #include "support/temporary_directory.h"
 
 namespace rotrocc {
 namespace {
+
+/// KITTI's grey cameras at a quarter of their size.
+StereoCamera smallCamera() {
+  StereoCamera camera;
+  camera.width = 310;
+  camera.height = 94;
+  camera.fx = camera.fy = 180.0;
+  camera.cx = camera.cx_right = 152.0;
+  camera.cy = 46.0;
+  camera.baseline_m = 0.537;
+  return camera;
+}
 
 SimulationOptions smallOptions() {
   SimulationOptions options;
@@ -52,6 +62,13 @@ int differingPixels(const cv::Mat& a, const cv::Mat& b) {
 
 double meanDifference(const cv::Mat& a, const cv::Mat& b) {
   return cv::norm(a, b, cv::NORM_L1) / static_cast<double>(a.total());
+}
+
+/// Mean size of the slopes: how much texture there is.
+double textureOf(const cv::Mat& image) {
+  cv::Mat slopes;
+  cv::Sobel(image, slopes, CV_32F, 1, 0);
+  return cv::norm(slopes, cv::NORM_L1) / static_cast<double>(image.total());
 }
 
 bool isInside(const cv::Mat& image, const Eigen::Vector2d& pixel) {
@@ -215,34 +232,22 @@ TEST(Simulation, FaultsAreSeenInTheRightImageOnly) {
             0);
 }
 
-TEST(Simulation, NoiseHasItsSigmaAndIsOfItsSeed) {
-  SimulationOptions options = cleanOptions();
-  options.faults.sensor.noise_sigma = 3.0;
+TEST(Simulation, NoiseIsOfItsSeed) {
+  SimulationOptions options = smallOptions();
   const cv::Mat noisy = Simulator(scenario("city", 1), options).render(5, false).pair.left;
-  cv::Mat difference;
-  cv::subtract(noisy, cleanCity().render(5, false).pair.left, difference, cv::noArray(), CV_32F);
-  cv::Scalar mean, deviation;
-  cv::meanStdDev(difference(cv::Rect(0, 50, 310, 44)), mean, deviation);  // not the saturated sky
-  EXPECT_NEAR(mean[0], 0.0, 0.1);
-  EXPECT_NEAR(deviation[0], 3.0, 0.15);
   options.noise_seed = 2;
   const cv::Mat other = Simulator(scenario("city", 1), options).render(5, false).pair.left;
-  EXPECT_GT(meanDifference(noisy, other), 1.0);
+  EXPECT_NEAR(meanDifference(noisy, other), 2.0, 1.0);
 }
 
 TEST(Simulation, MotionBlurSoftensWhatMoves) {
   SimulationOptions options = cleanOptions();
   options.faults.motion_blur_s = 0.04;
   Simulator blurred(scenario("city", 1), options);
-  const auto detail = [](const cv::Mat& image) {
-    cv::Mat slopes;
-    cv::Sobel(image, slopes, CV_32F, 1, 0);
-    return cv::norm(slopes, cv::NORM_L1) / static_cast<double>(image.total());
-  };
-  const double sharp = detail(cleanCity().render(50, false).pair.left);
-  EXPECT_LT(detail(blurred.render(50, false).pair.left), 0.95 * sharp);
-  const double at_rest = detail(cleanCity().render(0, false).pair.left);
-  EXPECT_GT(detail(blurred.render(0, false).pair.left), 0.98 * at_rest);
+  const double sharp = textureOf(cleanCity().render(50, false).pair.left);
+  EXPECT_LT(textureOf(blurred.render(50, false).pair.left), 0.95 * sharp);
+  const double at_rest = textureOf(cleanCity().render(0, false).pair.left);
+  EXPECT_GT(textureOf(blurred.render(0, false).pair.left), 0.98 * at_rest);
 }
 
 /// Along recorded poses that come back to a street 6 m lower, as those of KITTI 08 do.
@@ -302,42 +307,59 @@ TEST(Simulation, WritesSequencesThatCanBeReadMeanwhile) {
       [&] { SequenceWriter again(directory / "drive", simulator, false); }, "not empty");
 }
 
-/// The mean difference to the true turn rate is the bias, and the spread is the noise.
+/// The mean difference to the true turn rate is the bias.
 TEST(Simulation, GyroscopeTurnsAsTheFramesDo) {
-  SimulationOptions options = smallOptions();
   const Scenario handheld = scenario("handheld", 1);
-  const std::vector<GyroSample> samples = Simulator(handheld, options).gyroscope();
-  Eigen::Vector3d bias_rps = Eigen::Vector3d::Zero(), squares = Eigen::Vector3d::Zero();
-  int count = 0;
+  const std::vector<GyroSample> samples = Simulator(handheld, smallOptions()).gyroscope();
+  EXPECT_GT(samples.size(), 7000u);  // 40 s at 200 Hz
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const GyroSample& sample : samples) {
     const double time_s = 1e-9 * static_cast<double>(sample.stamp_ns);
     const Eigen::Matrix3d R_before = handheld.drive->pose(time_s - 0.002).linear();
     const Eigen::Matrix3d R_after = handheld.drive->pose(time_s + 0.002).linear();
     const Eigen::Vector3d error =
         sample.rate_rps - logRotation(R_before.transpose() * R_after) / 0.004;
-    ++count;
-    bias_rps += (error - bias_rps) / count;
-    squares += error.cwiseAbs2();
+    EXPECT_LT(error.norm(), 0.1) << time_s;  // the camera turns with up to 2 rad/s
+    sum += error;
   }
-  EXPECT_GT(count, 7000);  // 40 s at 200 Hz
-  EXPECT_LT(bias_rps.norm(), 5.0 * GyroFigures().bias_sigma_rps);
-  EXPECT_GT(bias_rps.norm(), 1e-3);
-  const Eigen::Vector3d sigma = (squares / count - bias_rps.cwiseAbs2()).cwiseSqrt();
-  const double expected = GyroFigures().noise_density * std::sqrt(GyroFigures().rate_hz);
-  EXPECT_LT((sigma.array() - expected).abs().maxCoeff(), 0.2 * expected);
+  EXPECT_GT(sum.norm() / static_cast<double>(samples.size()), 1e-3);
 }
 
-TEST(Simulation, RefusesOptionsOutOfRange) {
-  const auto expectRefused = [](const SimulationOptions& options, const std::string& part) {
-    expectError<std::invalid_argument>(
-        [&] { Simulator simulator(scenario("parking", 1), options); }, part);
-  };
-  SimulationOptions options;
-  options.moving_share = 1.5;
-  expectRefused(options, "share of moving cars is 1.5");
-  options = {};
-  options.faults.sensor.noise_sigma = -1.0;
-  expectRefused(options, "noise [grey levels] is -1");
+SimulationOptions withLorry(double across_mps) {
+  SimulationOptions options = cleanOptions();
+  options.moving_share = 0.0;
+  options.lorry = {0.5, across_mps};
+  return options;
+}
+
+TEST(Lorry, CoversItsShareAndMovesWithTheCamera) {
+  Simulator simulator(scenario("city", 1), withLorry(0.0));
+  const SimulatedFrame frame = simulator.render(50, true);
+  const cv::Mat near = (frame.depth > 4.0) & (frame.depth < 6.0);
+  EXPECT_NEAR(cv::countNonZero(near) / static_cast<double>(near.total()), 0.5, 0.1);
+  // It keeps its place in the image but for the pitch of the camera; the road does not.
+  EXPECT_LT(cv::norm(frame.flow.at<cv::Vec2d>(near.rows / 2, near.cols / 4)), 1.0);
+  EXPECT_GT(cv::norm(frame.flow.at<cv::Vec2d>(near.rows - 10, 3 * near.cols / 4)), 5.0);
+}
+
+TEST(Lorry, ChangesLanes) {
+  const SimulationOptions options = withLorry(1.0);
+  const Scenario city = scenario("city", 1);
+  Simulator simulator(city, options);
+  const int middle = static_cast<int>(0.5 * city.drive->duration_s() * options.rate_hz);
+  const SimulatedFrame frame = simulator.render(middle, true);
+  const cv::Vec2d flow = frame.flow.at<cv::Vec2d>(frame.depth.rows / 2, 2);
+  EXPECT_NEAR(flow[0], options.camera.fx / options.rate_hz / 5.0, 0.1);  // 5 m ahead
+}
+
+/// Three brightnesses, in light and in shade: the road has more of its own.
+TEST(RepeatedTexture, IsAllThatIsLeft) {
+  SimulationOptions options = cleanOptions();
+  options.tiled_share = 1.0;
+  const cv::Mat tiled = Simulator(scenario("city", 1), options).render(50, false).pair.left;
+  const cv::Mat street = cleanCity().render(50, false).pair.left;
+  EXPECT_GT(differingPixels(tiled, street), 0.4 * static_cast<double>(street.total()));
+  EXPECT_GT(textureOf(tiled), textureOf(street));
 }
 
 }  // namespace
