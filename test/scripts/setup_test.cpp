@@ -33,11 +33,17 @@ class SetupTest : public ::testing::Test {
                 "  grep -v -x -F -f " +
                 directory_ / "missing.txt" + " | sed 's/.*/|installed|&|/'");
     command("id", "echo 0");
+    setUpApt();
+  }
+
+  /// No package is missing, and apt has all packages.
+  void setUpApt() const {
+    setMissing("");
     command("apt-cache", "echo '  Candidate: 1.0'");
     command("apt-get",
             "echo \"$@\" >>" + directory_ / "apt.txt" +
                 "\n[ \"$1\" != install ] || echo 'Need to get 5 MB of archives.'");
-    setMissing("");
+    std::filesystem::remove(directory_ / "apt.txt");
   }
 
   void command(const std::string& name, const std::string& body) const {
@@ -66,27 +72,34 @@ class SetupTest : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(SetupTest, DoesNothingIfAllIsInstalled) {
-  const CommandResult result = setup();
-  EXPECT_EQ(result.status, 0) << result.output;
-  EXPECT_NE(result.output.find("packages are installed"), std::string::npos) << result.output;
-  EXPECT_EQ(aptCalls(), "");
-}
-
-TEST_F(SetupTest, TellsWhatAndHowMuchBeforeItInstalls) {
-  setMissing("g++\n");
-  const CommandResult result = setup();
-  EXPECT_EQ(result.status, 0) << result.output;
-  EXPECT_NE(result.output.find("to install: g++\nNeed to get 5 MB"), std::string::npos)
-      << result.output;
-  EXPECT_NE(aptCalls().find("-y -qq g++"), std::string::npos) << aptCalls();
-}
-
-TEST_F(SetupTest, InstallsFurtherPackages) {
-  setMissing("rotrocc-example\n");
-  const CommandResult result = setup("rotrocc-example");
-  EXPECT_EQ(result.status, 0) << result.output;
-  EXPECT_NE(aptCalls().find("-y -qq rotrocc-example"), std::string::npos) << aptCalls();
+TEST_F(SetupTest, InstallsWhatIsMissingOrSaysForWhat) {
+  const std::string kNoNetwork = "exit 100", kUnknown = "echo '  Candidate: (none)'";
+  const struct {
+    std::string missing, further;
+    std::string apt, answer;  // a command of apt, and what it does instead
+    int status;
+    std::string printed, called;
+  } rows[] = {
+      {"", "", "", "", 0, "packages are installed", ""},
+      {"g++", "", "", "", 0, "to install: g++\nNeed to get 5 MB", "-y -qq g++"},
+      {"an-example", "an-example", "", "", 0, "done", "-y -qq an-example"},
+      {"clang-format", "", "apt-get", kNoNetwork, 0, "for the linters: clang-format", ""},
+      {"parallel", "", "apt-get", kNoNetwork, 0, "reports, rviz and tools of ROS: parallel", ""},
+      {"g++", "", "apt-get", kNoNetwork, 1, "for building and running: g++", ""},
+      {"g++", "", "apt-cache", kUnknown, 1, "apt knows no package g++", "update"}};
+  for (const auto& row : rows) {
+    setUpApt();
+    setMissing(row.missing + "\n");
+    if (!row.apt.empty()) command(row.apt, row.answer);
+    const CommandResult result = setup(row.further);
+    EXPECT_EQ(result.status, row.status) << row.printed << ": " << result.output;
+    EXPECT_NE(result.output.find(row.printed), std::string::npos) << result.output;
+    if (row.called.empty()) {
+      EXPECT_EQ(aptCalls(), "") << row.printed;
+    } else {
+      EXPECT_NE(aptCalls().find(row.called), std::string::npos) << aptCalls();
+    }
+  }
 }
 
 TEST_F(SetupTest, AsksOnATerminal) {
@@ -100,34 +113,6 @@ TEST_F(SetupTest, AsksOnATerminal) {
   const CommandResult agreed = setupOnTerminal("y");
   EXPECT_EQ(agreed.status, 0) << agreed.output;
   EXPECT_NE(aptCalls().find("-y -qq g++"), std::string::npos) << aptCalls();
-}
-
-TEST_F(SetupTest, GoesOnWithoutWhatIsNotNeeded) {
-  setMissing("clang-format\nparallel\n");
-  command("apt-get", "exit 100");  // no network
-  const CommandResult result = setup();
-  EXPECT_EQ(result.status, 0) << result.output;
-  EXPECT_NE(result.output.find("for the linters: clang-format"), std::string::npos)
-      << result.output;
-  EXPECT_NE(result.output.find("for reports, rviz and tools of ROS: parallel"), std::string::npos)
-      << result.output;
-}
-
-TEST_F(SetupTest, FailsWithoutWhatTheBuildNeeds) {
-  setMissing("g++\n");
-  command("apt-get", "exit 100");
-  const CommandResult result = setup();
-  EXPECT_EQ(result.status, 1) << result.output;
-  EXPECT_NE(result.output.find("for building and running: g++"), std::string::npos)
-      << result.output;
-}
-
-TEST_F(SetupTest, NamesPackagesThatTheReleaseLacks) {
-  setMissing("g++\n");
-  command("apt-cache", "echo '  Candidate: (none)'");
-  const CommandResult result = setup();
-  EXPECT_EQ(result.status, 1) << result.output;
-  EXPECT_NE(result.output.find("apt knows no package g++"), std::string::npos) << result.output;
 }
 
 TEST_F(SetupTest, UbuntuGetsThePackagesOfNoetic) {
