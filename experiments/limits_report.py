@@ -40,23 +40,6 @@ def wrong_of_1000(runs):
     return '%.1f' % (1000 * wrong / max(1, ok))
 
 
-def kind_table(runs, stresses, configs):
-    """Wrong pairs by stress."""
-    rows = []
-    for stress in stresses:
-        cells = []
-        for config in configs:
-            wrong = [row for row in runs if row['config'] == config and row['stress'] == stress.name
-                     and int(row['wrong'])]
-            levels = ' '.join(sorted({row['level'] for row in wrong}, key=float))
-            cells.append('%d at %s, up to %g sigma' % (
-                sum(int(row['wrong']) for row in wrong), levels,
-                max(float(row['largest_sigma']) for row in wrong)) if wrong else '')
-        if any(cells):
-            rows.append([stress.title, *cells])
-    return ['stress', *configs], rows
-
-
 def wrong_table(runs):
     names = ['config', 'stress', 'level', 'seed', 'wrong_pairs']
     return names[:4] + ['pair:sigma'], [[row[name] for name in names] for row in runs if int(row['wrong'])]

@@ -66,14 +66,6 @@ TEST_F(LimitsTest, Resumes) {
   EXPECT_EQ(readFile(outputPath("runs.csv")), runs);
 }
 
-TEST_F(LimitsTest, ShowsThePairsOfALevel) {
-  const CommandResult shown = run(LIMITS, "--short --stress jpeg --show 90 1");
-  ASSERT_EQ(shown.status, 0) << shown.output;
-  EXPECT_NE(shown.output.find("offline_odometry " + outputPath("")), std::string::npos)
-      << shown.output;
-  EXPECT_NE(shown.output.find("\n   7  ok "), std::string::npos) << shown.output;
-}
-
 /// Bisection would miss a small difference of the cameras that fails where a larger one does not.
 TEST_F(LimitsTest, MeasuresAllLevelsOfUnequalCameras) {
   const CommandResult result = run(LIMITS, "--short --stress right_offset_down");
