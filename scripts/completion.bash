@@ -8,15 +8,13 @@
 # Options of each program. Those with a value end in =.
 declare -gA _rotrocc_options=(
   [benchmark]='--repeat= --programs= --config= --set= --against-programs= --against-config= --against-set=
-    --settings= --starts='
+    --settings='
   [draw_report]='--title='
-  [error_characteristics]='--output='
   [evaluate_trajectory]='--lengths= --step= --fit --times= --segments= --report= --stats= --title='
   [kitti_benchmark]='--output= --jobs= --sshlogin= --config= --set= --compare= --title= --programs='
   [kitti_odometry]=''
   [offline_odometry]='--trajectory= --format= --config= --set= --stats= --bag= --pictures= --left-image=
     --right-image= --rectify= --imu= --imu-rotation= --preload'
-  [plot_trajectory]='--truth= --title='
   [publish_camera_info]=''
   [sequence_to_bag]='--start-time= --rectify --max-stamp-difference='
   [simulate_drive]='--layout= --poses= --times= --frames= --rate= --seed= --noise-seed= --moving-share= --truth --imu
@@ -36,8 +34,7 @@ declare -gA _rotrocc_values=(
 )
 _rotrocc_reads_recordings() {
   case $1 in
-    benchmark | error_characteristics | kitti_benchmark | kitti_odometry) ;;
-    offline_odometry | sequence_to_bag | stress_sequence) ;;
+    benchmark | kitti_benchmark | kitti_odometry | offline_odometry | sequence_to_bag | stress_sequence) ;;
     *) return 1 ;;
   esac
 }

@@ -1,40 +1,13 @@
 """Picture of a trajectory: top view, and height along the path."""
 import math
-import warnings
 
 from matplotlib import ticker
 import numpy
 
-from rotrocc_tools.plot_style import DEGRADED, ESTIMATE, FAINT, LOST, TEXT, TRUTH, dress, legend, pyplot, save
+from rotrocc_tools.plot_style import DEGRADED, ESTIMATE, LOST, TEXT, TRUTH, dress, legend, pyplot, save
 from rotrocc_tools.tables import path_lengths
 
 PAGE_IN = 8.0
-
-
-def rotation_from_quaternion(x, y, z, w):
-    x, y, z, w = numpy.array([x, y, z, w]) / math.sqrt(x * x + y * y + z * z + w * w)
-    return numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
-
-
-def read_positions(path):
-    """Returns the N x 3 positions [m] in the frame of the first pose."""
-    with warnings.catch_warnings():
-        warnings.simplefilter('ignore')  # about an empty file, which is an error below
-        rows = numpy.loadtxt(path, ndmin=2)
-    if rows.size == 0:
-        raise ValueError('%s has no poses' % path)
-    if rows.shape[1] == 12:
-        positions, first = rows[:, [3, 7, 11]], rows[0].reshape(3, 4)[:, :3]
-    elif rows.shape[1] == 8:
-        positions, first = rows[:, 1:4], rotation_from_quaternion(*rows[0, 4:])
-    else:
-        raise ValueError('%s: %d numbers in a line, but a pose has 12 (KITTI) or 8 (TUM)'
-                         % (path, rows.shape[1]))
-    if not numpy.isfinite(rows).all():
-        raise ValueError('%s: not all numbers are finite' % path)
-    return (positions - positions[0]) @ first
 
 
 def round_step(span, parts):
@@ -44,15 +17,18 @@ def round_step(span, parts):
     return power * min((1, 2, 5, 10), key=lambda factor: abs(math.log(factor * power / raw)))
 
 
-def draw_from_above(axes, estimate, truth):
+def draw_lines(axes, estimate, truth, scale):
     if truth is not None:
-        axes.plot(truth[:, 0], truth[:, 2], color=TRUTH, linewidth=4.0, solid_capstyle='round',
-                  label='truth')
+        axes.plot(truth[:, 0], truth[:, 2], color=TRUTH, linewidth=4.0 * scale, solid_capstyle='round', label='truth')
+    axes.plot(estimate[:, 0], estimate[:, 2], color=ESTIMATE, linewidth=1.6 * scale, label='estimate')
+    axes.plot(0.0, 0.0, 'o', color=TEXT, markersize=9 * scale, markeredgecolor='white', zorder=4, label='start')
+
+
+def draw_from_above(axes, estimate, truth):
+    draw_lines(axes, estimate, truth, 1.0)
+    if truth is not None:
         axes.plot(truth[-1, 0], truth[-1, 2], 's', color=TRUTH, markersize=11,
                   markeredgecolor='white', zorder=3)
-    axes.plot(estimate[:, 0], estimate[:, 2], color=ESTIMATE, linewidth=1.6, label='estimate')
-    axes.plot(0.0, 0.0, 'o', color=TEXT, markersize=9, markeredgecolor='white', zorder=4,
-              label='start')
     axes.plot(estimate[-1, 0], estimate[-1, 2], 's', color=ESTIMATE, markersize=8,
               markeredgecolor='white', zorder=4, label='end')
     axes.set_xlabel('x, to the right [m]', color=TEXT)
@@ -61,7 +37,7 @@ def draw_from_above(axes, estimate, truth):
 
 def draw_marks(axes, estimate, marks):
     for name, colour, size in (('degraded', DEGRADED, 5), ('lost', LOST, 7)):
-        marked = estimate[marks.get(name, numpy.zeros(len(estimate), bool))]
+        marked = estimate[marks[name]]
         if len(marked):
             axes.plot(marked[:, 0], marked[:, 2], 'X', color=colour, markersize=size,
                       markeredgewidth=0, linestyle='none', label=name, zorder=3.5)
@@ -92,25 +68,13 @@ def limits(estimate, truth):
     return middle - span / 2.0, middle + span / 2.0
 
 
-def summary(estimate, truth):
-    if truth is None:
-        return '%d poses, %.1f m' % (len(estimate), path_lengths(estimate)[-1])
-    length = path_lengths(truth)[-1]
-    text = '%d poses, %.1f m' % (len(estimate), length)
-    if len(estimate) == len(truth) and length > 0.0:
-        drift = numpy.linalg.norm(estimate[-1] - truth[-1])
-        text += ', final drift %.2f m (%.2f %%)' % (drift, 100.0 * drift / length)
-    return text
-
-
-def draw(estimate, truth, path, heading=None, marks=None):
-    """Writes a PNG. `heading` is a title and a line below it; `marks` flags the estimated poses:
-    {'degraded': ..., 'lost': ...}."""
+def draw(estimate, truth, path, marks):
+    """Writes a PNG of positions [m], n x 3. `marks` flags the estimated poses: {'degraded': ..., 'lost': ...}."""
     low, high = limits(estimate, truth)
     width_in = PAGE_IN - 1.1
     above_in = width_in * (high - low)[1] / (high - low)[0]
     below_in = 1.2
-    top_in = 1.15 if heading else 0.45
+    top_in = 0.45
     page_in = top_in + above_in + 0.85 + below_in + 0.6
 
     figure = pyplot.figure(figsize=(PAGE_IN, page_in))
@@ -120,7 +84,7 @@ def draw(estimate, truth, path, heading=None, marks=None):
     for axes in (above, below):
         dress(axes)
     draw_from_above(above, estimate, truth)
-    draw_marks(above, estimate, marks or {})
+    draw_marks(above, estimate, marks)
     draw_height(below, estimate, truth)
     above.set_xlim(low[0], high[0])
     above.set_ylim(low[1], high[1])
@@ -130,10 +94,6 @@ def draw(estimate, truth, path, heading=None, marks=None):
     for axes in (above, below):  # figure.align_ylabels needs a newer matplotlib than Debian 11's
         axes.yaxis.set_label_coords(-0.065, 0.5)
 
-    if heading:
-        figure.text(left, 1.0 - 0.38 / page_in, heading[0], color=TEXT, fontsize=14,
-                    fontweight='bold')
-        figure.text(left, 1.0 - 0.62 / page_in, heading[1], color=FAINT, fontsize=10)
     legend(figure, *above.get_legend_handles_labels(), loc='upper left', ncol=6,
            bbox_to_anchor=(left, 1.0 - (top_in - 0.37) / page_in))
     save(figure, path)
@@ -149,11 +109,7 @@ def draw_all(drives, path):
         axes = figure.add_subplot(rows, columns, index + 1, aspect='equal', adjustable='datalim')
         dress(axes)
         axes.tick_params(labelsize=7.5)
-        if truth is not None:
-            axes.plot(truth[:, 0], truth[:, 2], color=TRUTH, linewidth=3.0, label='truth',
-                      solid_capstyle='round')
-        axes.plot(estimate[:, 0], estimate[:, 2], color=ESTIMATE, linewidth=1.3, label='estimate')
-        axes.plot(0.0, 0.0, 'o', color=TEXT, markersize=5, markeredgecolor='white', label='start')
+        draw_lines(axes, estimate, truth, 0.7)
         axes.margins(0.08)
         axes.set_title(name, fontsize=10, color=TEXT)
         axes.xaxis.set_major_locator(ticker.MaxNLocator(4, steps=[1, 2, 5, 10]))

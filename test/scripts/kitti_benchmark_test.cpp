@@ -58,8 +58,11 @@ class KittiBenchmarkTest : public ::testing::Test {
   void letGo() const { directory_.write("go", ""); }
 
   std::string command(const std::string& options = "") const {
-    return std::string(PYTHON) + " " + KITTI_BENCHMARK + " " + dataset().string() + " --output " +
-           directory_ / "out" + " --programs " + directory_ / "programs" + " " + options;
+    return commandFor(dataset()) + options;
+  }
+  std::string commandFor(const std::string& recordings) const {
+    return std::string(PYTHON) + " " + KITTI_BENCHMARK + " " + recordings + " --output " +
+           directory_ / "out" + " --programs " + directory_ / "programs" + " ";
   }
   CommandResult run(const std::string& options = "") const { return runCommand(command(options)); }
 
@@ -202,7 +205,7 @@ TEST_F(KittiBenchmarkTest, UsesOtherMachines) {
   EXPECT_NE(hosts.find("bob"), std::string::npos) << hosts;
 }
 
-TEST_F(KittiBenchmarkTest, DoesNotMixResults) {
+TEST_F(KittiBenchmarkTest, RefusesToMixResultsAndWhatIsNoDataSet) {
   fs::create_directory(directory_ / "out");
   directory_.write("out/settings.json", "{\"odometry options\": [\"--set\", \"a=b\"]}");
   const CommandResult result = run();
@@ -211,6 +214,9 @@ TEST_F(KittiBenchmarkTest, DoesNotMixResults) {
   const CommandResult second = runCommand("flock " + directory_ / "out/lock" + " " + command());
   EXPECT_EQ(second.status, 1);
   EXPECT_NE(second.output.find("another run"), std::string::npos) << second.output;
+  const CommandResult third = runCommand(commandFor(directory_ / "programs"));
+  EXPECT_EQ(third.status, 1);
+  EXPECT_NE(third.output.find("has no sequences"), std::string::npos) << third.output;
 }
 
 TEST_F(KittiBenchmarkTest, RunsRecordingsOfRawImages) {
@@ -222,20 +228,12 @@ TEST_F(KittiBenchmarkTest, RunsRecordingsOfRawImages) {
   ASSERT_EQ(drive.status, 0) << drive.output;
   fs::copy(recordings + "/raw", recordings + "/untrue", fs::copy_options::recursive);
   fs::remove_all(recordings + "/untrue/mav0/state_groundtruth_estimate0");
-  const CommandResult result =
-      runCommand(std::string(PYTHON) + " " + KITTI_BENCHMARK + " " + recordings + " --output " +
-                 directory_ / "out" + " --programs " + directory_ / "programs");
+  const CommandResult result = runCommand(commandFor(recordings));
   ASSERT_EQ(result.status, 0) << result.output;
   ASSERT_EQ(rows().size(), 2u);
   EXPECT_EQ(rows()[0].at("pairs"), "14");
   EXPECT_EQ(rows()[0].at("group"), "short") << "it has errors";
   EXPECT_EQ(rows()[1].at("group"), "none");
-}
-
-TEST_F(KittiBenchmarkTest, RefusesWhatIsNoDataSet) {
-  EXPECT_EQ(runCommand(std::string(PYTHON) + " " + KITTI_BENCHMARK + " " + directory_ / "programs")
-                .status,
-            1);
 }
 
 }  // namespace
