@@ -77,7 +77,8 @@ SequenceRecording::SequenceRecording(const std::string& directory, const Options
       calibration_(sequence_->calibration()) {
   requireRosStamps(*sequence_, offset_ns_);
   if (options.rectify && !calibration_.isRectified()) {
-    rectifier_.emplace(calibration_);
+    rectifier_.emplace();
+    raw_calibration_ = std::make_shared<const StereoCalibration>(calibration_);
     calibration_ = rectifiedCalibration(calibration_.rectified);
   }
   last_ = end();
@@ -159,7 +160,7 @@ bool SequenceRecording::atEnd() const {
 
 void SequenceRecording::readPair() {
   StereoPair pair = sequence_->read(next_pair_);
-  if (rectifier_) pair = rectifier_->rectify(pair);
+  if (rectifier_) pair = rectifier_->rectify(pair, raw_calibration_);
   of_pair_.resize(4);
   of_pair_[0].left_info = leftInfo(next_pair_);
   of_pair_[1].left_image = toImage(of_pair_[0].left_info->header, MONO8, pair.left);

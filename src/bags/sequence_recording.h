@@ -68,7 +68,8 @@ class SequenceRecording : public Recording {
 
   std::unique_ptr<StereoSequence> sequence_;
   std::int64_t offset_ns_;
-  StereoCalibration calibration_;  // of the images of next()
+  StereoCalibration calibration_;                             // of the images of next()
+  std::shared_ptr<const StereoCalibration> raw_calibration_;  // of images that are rectified
   std::optional<StereoRectifier> rectifier_;
   int next_pair_ = 0;
   ros::Time last_;

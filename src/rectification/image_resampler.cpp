@@ -70,10 +70,11 @@ void ImageResampler::setPlace(int x, int y, const Eigen::Vector2d& place) {
   stored.row_phase = static_cast<std::uint8_t>(row % kPhases);
 }
 
-/// The same sum as atBorder(), of integers. The registers have rows 0 and 2, and 1 and 3, in turn.
-std::uint8_t ImageResampler::inside(const cv::Mat& image, const Place& place) const {
-  const std::uint8_t* pixels = image.ptr(place.row - 1) + place.column - 1;
-  const std::size_t step = image.step;
+/// The sum of the weighted pixels, of integers. The registers have rows 0 and 2, and 1 and 3, in
+/// turn.
+std::uint8_t ImageResampler::pixelAt(const Place& place) const {
+  const std::uint8_t* pixels = framed_.ptr(place.row) + place.column;
+  const std::size_t step = framed_.step;
   const cv::v_uint8x16 rows =
       cv::v_reinterpret_as_u8(cv::v_uint32x4(fourPixels(pixels),
                                              fourPixels(pixels + step),
@@ -90,29 +91,13 @@ std::uint8_t ImageResampler::inside(const cv::Mat& image, const Place& place) co
   return toGrey(cv::v_reduce_sum(columns * across));
 }
 
-/// Repeats the pixels of the border.
-std::uint8_t ImageResampler::atBorder(const cv::Mat& image, const Place& place) const {
-  const auto& across = weights_[place.column_phase].across;
-  const auto& down = weights_[place.row_phase].across;
-  int sum = 0;
-  for (int j = 0; j < kTaps; ++j) {
-    const std::uint8_t* row = image.ptr(std::clamp(place.row - 1 + j, 0, image.rows - 1));
-    for (int i = 0; i < kTaps; ++i) {
-      sum += down[j] * across[i] * row[std::clamp(place.column - 1 + i, 0, image.cols - 1)];
-    }
-  }
-  return toGrey(sum);
-}
-
-void ImageResampler::resample(const cv::Mat& image, cv::Mat& result) const {
+void ImageResampler::resample(const cv::Mat& image, cv::Mat& result) {
+  cv::copyMakeBorder(
+      image, framed_, 1, kTaps - 2, 1, kTaps - 2, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
   const Place* place = places_.data();
   for (int y = 0; y < size_.height; ++y) {
     std::uint8_t* pixels = result.ptr(y);
-    for (int x = 0; x < size_.width; ++x, ++place) {
-      const bool is_inside = place->column > 0 && place->column + 2 < source_.width &&
-                             place->row > 0 && place->row + 2 < source_.height;
-      pixels[x] = is_inside ? inside(image, *place) : atBorder(image, *place);
-    }
+    for (int x = 0; x < size_.width; ++x, ++place) pixels[x] = pixelAt(*place);
   }
 }
 

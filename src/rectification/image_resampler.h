@@ -30,12 +30,12 @@ class ImageResampler {
   const cv::Size& source() const { return source_; }
 
   /// Fills `result`, CV_8UC1 of the size of the results. `image` is CV_8UC1 of the source size.
-  void resample(const cv::Mat& image, cv::Mat& result) const;
+  void resample(const cv::Mat& image, cv::Mat& result);
 
  private:
   static constexpr int kTaps = 4;
   static constexpr int kPhases = 256;
-  /// Of one phase, once for each direction, as the registers of inside() need them.
+  /// Of one phase, once for each direction, as the registers of pixelAt() need them.
   struct Weights {
     std::array<std::int32_t, kTaps> across;
     std::array<std::int16_t, 2 * kTaps> down_0_2;  // those of rows 0 and 2 in turn
@@ -50,12 +50,12 @@ class ImageResampler {
   };
 
   static std::array<Weights, kPhases> weightTable();
-  std::uint8_t atBorder(const cv::Mat& image, const Place& place) const;
-  std::uint8_t inside(const cv::Mat& image, const Place& place) const;
+  std::uint8_t pixelAt(const Place& place) const;
 
   cv::Size source_;
   cv::Size size_;
   std::vector<Place> places_;
+  cv::Mat framed_;  // the source image and copies of its border, which pixels there need
   std::array<Weights, kPhases> weights_ = weightTable();
 };
 

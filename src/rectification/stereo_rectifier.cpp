@@ -49,11 +49,6 @@ StereoRectifier::Side StereoRectifier::makeSide(const char* name,
   return side;
 }
 
-StereoRectifier::StereoRectifier(const StereoCalibration& calibration, int threads)
-    : StereoRectifier(threads) {
-  setCalibration(calibration);
-}
-
 void StereoRectifier::setCalibration(const StereoCalibration& calibration) {
   const StereoCamera& camera = calibration.rectified;
   Side left = makeSide("left", calibration.left, camera, camera.cx);
@@ -65,10 +60,6 @@ StereoPair StereoRectifier::rectify(const StereoPair& raw,
                                     const std::shared_ptr<const StereoCalibration>& calibration) {
   if (calibration != calibration_) setCalibration(*calibration);
   calibration_ = calibration;
-  return rectify(raw);
-}
-
-StereoPair StereoRectifier::rectify(const StereoPair& raw) {
   checkImage("left", raw.left, left_->resampler.source());
   checkImage("right", raw.right, right_->resampler.source());
   workers_.run(2, [&](int part) {

@@ -16,22 +16,18 @@ namespace rotrocc {
 /// Rectifies the images of a stereo pair, left and right in parallel, without allocating memory.
 class StereoRectifier {
  public:
-  /// For calibrations that change. With one thread, the left image is rectified before the right
-  /// one; more than two are of no use.
+  /// With one thread, the left image is rectified before the right one; more than two are of no
+  /// use.
   explicit StereoRectifier(int threads = 2) : workers_(std::min(threads, 2)) {}
-
-  /// For one calibration. Throws std::invalid_argument if it is none, see RawCamera::check().
-  explicit StereoRectifier(const StereoCalibration& calibration, int threads = 2);
 
   /// Keeps the maps. `threads` as above.
   void setThreads(int threads) { workers_ = Workers(std::min(threads, 2)); }
 
-  /// The rectified images are valid until the next call. Pixels that a camera does not see repeat
-  /// the border of its image, which has fewer corners than a black edge. Throws
-  /// std::invalid_argument if the images are not CV_8UC1 of the size of the raw cameras.
-  StereoPair rectify(const StereoPair& raw);
-
-  /// The same by the calibration of this pair: the maps are rebuilt when it is another object.
+  /// By the calibration of this pair: the maps are rebuilt when it is another object. The rectified
+  /// images are valid until the next call. Pixels that a camera does not see repeat the border of
+  /// its image, which has fewer corners than a black edge. Throws std::invalid_argument if the
+  /// calibration is none, see RawCamera::check(), or if the images are not CV_8UC1 of the size of
+  /// the raw cameras.
   StereoPair rectify(const StereoPair& raw,
                      const std::shared_ptr<const StereoCalibration>& calibration);
 
@@ -48,8 +44,7 @@ class StereoRectifier {
   void setCalibration(const StereoCalibration& calibration);
 
   std::optional<Side> left_, right_;
-  std::shared_ptr<const StereoCalibration>
-      calibration_;  // that the maps are made of, if it changes
+  std::shared_ptr<const StereoCalibration> calibration_;  // that the maps are made of
   Workers workers_;
 };
 

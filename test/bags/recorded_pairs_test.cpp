@@ -197,14 +197,15 @@ class RawBagTest : public ::testing::Test {
 };
 
 TEST_F(RawBagTest, IsRectified) {
-  StereoRectifier rectifier(sequence_->calibration());
+  StereoRectifier rectifier;
+  const auto calibration = std::make_shared<const StereoCalibration>(sequence_->calibration());
   for (const std::string& recording : {path(), folder_.path()}) {
     SCOPED_TRACE(recording);
     Reader reader(recording);
     EXPECT_EQ(reader.pairs.rectifies(), recording == path()) << "a sequence is, as it is read";
     for (int i = 0; i < 3; ++i) {
       ASSERT_TRUE(reader.next());
-      const StereoPair expected = rectifier.rectify(sequence_->read(i));
+      const StereoPair expected = rectifier.rectify(sequence_->read(i), calibration);
       EXPECT_EQ(reader.pair.stamp_ns, AslFolder::stamp_ns(i));
       EXPECT_EQ(cv::norm(reader.pair.left, expected.left, cv::NORM_INF), 0.0);
       EXPECT_EQ(cv::norm(reader.pair.right, expected.right, cv::NORM_INF), 0.0);

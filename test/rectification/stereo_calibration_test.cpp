@@ -2,8 +2,11 @@
 
 #include <functional>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
 
 #include "support/expect_error.h"
 #include "support/raw_rig.h"
@@ -15,20 +18,21 @@ StereoCalibration choose(const RawRig& rig) {
   return chooseRectification(rig.left, rig.right, rig.T_left_right);
 }
 
-TEST(StereoCalibrationTest, RotationsAreThoseOfOpenCv) {
-  // Of cv::stereoRectify, as in config/cameras.
-  Eigen::Matrix3d left;
-  left << 0.9999663475300326, -0.001422739138719227, 0.00807958048348973, 0.001365741834640026,
-      0.9999741760894847, 0.007055629199258191, -0.008089410156936382, -0.007044357138835821,
-      0.9999424675829172;
-  Eigen::Matrix3d right;
-  right << 0.9999633526194371, -0.00362581187155556, 0.007755443660230348, 0.003680398547255406,
-      0.9999684752771629, -0.007035845251224841, -0.007729688520780144, 0.007064130529506772,
-      0.9999451734846435;
+/// That of EuRoC in config/cameras is of cv::stereoRectify.
+TEST(StereoCalibrationTest, RotationsAndBaselineAreThoseOfOpenCv) {
+  const auto read = [](const std::string& camera, const char* matrix) {
+    const YAML::Node file = YAML::LoadFile(ROTROCC_CONFIG_DIR "/cameras/euroc_" + camera + ".yaml");
+    return file[matrix]["data"].as<std::vector<double>>();
+  };
+  const auto rotation = [&](const char* camera) -> Eigen::Matrix3d {
+    return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(
+        read(camera, "rectification_matrix").data());
+  };
   const StereoCalibration calibration = choose(rawRig());
-  EXPECT_TRUE(calibration.left.R_rectified_raw.isApprox(left, 1e-7));
-  EXPECT_TRUE(calibration.right.R_rectified_raw.isApprox(right, 1e-7));
-  EXPECT_NEAR(calibration.rectified.baseline_m, 48.01976196062409 / 436.2345864026956, 1e-7);
+  EXPECT_TRUE(calibration.left.R_rectified_raw.isApprox(rotation("left"), 1e-7));
+  EXPECT_TRUE(calibration.right.R_rectified_raw.isApprox(rotation("right"), 1e-7));
+  const std::vector<double> P = read("right", "projection_matrix");
+  EXPECT_NEAR(calibration.rectified.baseline_m, -P[3] / P[0], 1e-7);
 }
 
 TEST(StereoCalibrationTest, PointsAreInTheSameRowAndAtTheirDisparity) {

@@ -42,6 +42,10 @@ StereoCalibration calibrationOf(const RawRig& rig) {
   return chooseRectification(rig.left, rig.right, rig.T_left_right);
 }
 
+StereoPair rectify(const StereoPair& raw, const StereoCalibration& calibration) {
+  return StereoRectifier().rectify(raw, std::make_shared<const StereoCalibration>(calibration));
+}
+
 StereoPair greyPair(int grey, const cv::Size& size = {752, 480}) {
   return {7, cv::Mat(size, CV_8UC1, cv::Scalar(grey)), cv::Mat(size, CV_8UC1, cv::Scalar(grey))};
 }
@@ -68,8 +72,7 @@ TEST(StereoRectifierTest, PutsPixelsWhereOpenCvPutsThem) {
       cv::GaussianBlur(*image, *image, {0, 0}, 2.0);
       cv::normalize(*image, *image, 0, 255, cv::NORM_MINMAX);
     }
-    StereoRectifier rectifier(calibration);
-    const StereoPair pair = rectifier.rectify(raw);
+    const StereoPair pair = rectify(raw, calibration);
     const cv::Mat left = byOpenCv(calibration.left, camera, camera.cx, raw.left);
     const cv::Mat right = byOpenCv(calibration.right, camera, camera.cx_right, raw.right);
     EXPECT_LT(cv::norm(pair.left, left, cv::NORM_L1) / camera.width / camera.height, 0.5) << model;
@@ -82,8 +85,8 @@ TEST(StereoRectifierTest, PutsPixelsWhereOpenCvPutsThem) {
 
 TEST(StereoRectifierTest, LeavesRectifiedImagesAsTheyAre) {
   const StereoPair pair = noise();
-  StereoRectifier rectifier(rectifiedCalibration(calibrationOf(rawRig()).rectified));
-  EXPECT_TRUE(isSame(rectifier.rectify(pair), pair));
+  const StereoCamera camera = calibrationOf(rawRig()).rectified;
+  EXPECT_TRUE(isSame(rectify(pair, rectifiedCalibration(camera)), pair));
 }
 
 TEST(StereoRectifierTest, FollowsTheCalibrationOfThePairAndUsesItsMemoryAgain) {
@@ -95,7 +98,7 @@ TEST(StereoRectifierTest, FollowsTheCalibrationOfThePairAndUsesItsMemoryAgain) {
   StereoRectifier rectifier;
   StereoRectifier alone(1);
   for (const auto& current : {first, first, second, first}) {
-    const StereoPair expected = StereoRectifier(*current).rectify(raw);
+    const StereoPair expected = rectify(raw, *current);
     EXPECT_TRUE(isSame(rectifier.rectify(raw, current), expected));
     EXPECT_TRUE(isSame(alone.rectify(raw, current), expected));
   }
@@ -106,8 +109,7 @@ TEST(StereoRectifierTest, FollowsTheCalibrationOfThePairAndUsesItsMemoryAgain) {
 TEST(StereoRectifierTest, BordersAreNotBlack) {
   StereoCalibration wide = calibrationOf(rawRig());
   wide.rectified.fx = wide.rectified.fy = 200.0;  // shows more than the cameras see
-  StereoRectifier rectifier(wide);
-  const StereoPair pair = rectifier.rectify(greyPair(77));
+  const StereoPair pair = rectify(greyPair(77), wide);
   EXPECT_EQ(cv::countNonZero(pair.left != 77), 0);
   EXPECT_EQ(cv::countNonZero(pair.right != 77), 0);
 }
@@ -127,8 +129,7 @@ TEST(StereoRectifierTest, CubicsStayAsTheyAre) {
   for (const double shift_px : {0.25, 0.5, 0.9}) {
     StereoCalibration shifted = rectifiedCalibration(camera);
     shifted.rectified.cx -= shift_px;
-    StereoRectifier rectifier(shifted);
-    const StereoPair pair = rectifier.rectify({0, image, image});
+    const StereoPair pair = rectify({0, image, image}, shifted);
     for (int x = 2; x < image.cols - 3; ++x) {
       EXPECT_NEAR(pair.left.at<uchar>(7, x), wave(x + shift_px), 3.0) << x;
     }
@@ -136,26 +137,25 @@ TEST(StereoRectifierTest, CubicsStayAsTheyAre) {
 }
 
 TEST(StereoRectifierTest, RefusesOtherImagesAndCalibrations) {
-  StereoRectifier rectifier(calibrationOf(rawRig()));
-  expectError<std::invalid_argument>(
-      [&] {
-        rectifier.rectify(greyPair(0, {640, 480}));
-      },
-      "the left image has 640x480 px, but its calibration is for "
-      "752x480 px");
+  const StereoCalibration good = calibrationOf(rawRig());
+  const auto expect_refused =
+      [](const StereoPair& pair, const StereoCalibration& calibration, const std::string& part) {
+        expectError<std::invalid_argument>([&] { rectify(pair, calibration); }, part);
+      };
+  expect_refused(greyPair(0, {640, 480}),
+                 good,
+                 "the left image has 640x480 px, but its calibration is for 752x480 px");
   StereoPair colour = greyPair(0);
   colour.right = cv::Mat(480, 752, CV_8UC3, cv::Scalar::all(0));
-  expectError<std::invalid_argument>([&] { rectifier.rectify(colour); }, "the right image");
-  StereoCalibration sheared = calibrationOf(rawRig());
+  expect_refused(colour, good, "the right image");
+  StereoCalibration sheared = good;
   sheared.right.R_rectified_raw(0, 1) += 0.1;
-  expectError<std::invalid_argument>(
-      [&] { StereoRectifier{sheared}; },
-      "the right camera: the rectification matrix R is not a rotation");
-  StereoCalibration wide = calibrationOf(rawRig());
+  expect_refused(
+      greyPair(0), sheared, "the right camera: the rectification matrix R is not a rotation");
+  StereoCalibration wide = good;
   wide.left.width = 40000;
-  expectError<std::invalid_argument>(
-      [&] { StereoRectifier{wide}; },
-      "the calibration of the left camera: its images are larger than 32000 px");
+  expect_refused(
+      greyPair(0), wide, "the calibration of the left camera: its images are larger than 32000 px");
 }
 
 }  // namespace

@@ -206,8 +206,8 @@ TEST_F(AslSequenceTest, ReadsOrRefusesAnyFile) {
       folder_.write(name, changed);
       try {
         const auto sequence = open();
-        StereoRectifier rectifier(sequence->calibration());
-        rectifier.rectify(sequence->read(0));
+        StereoRectifier().rectify(
+            sequence->read(0), std::make_shared<const StereoCalibration>(sequence->calibration()));
       } catch (const std::runtime_error&) {
       } catch (const std::invalid_argument&) {
       }
