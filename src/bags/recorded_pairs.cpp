@@ -61,9 +61,9 @@ bool RecordedPairs::add(const RecordedMessage& message) {
   std::optional<StereoImages> images;
   if (message.left_image) {
     ++left_images_;
-    images = synchronizer_.addLeft(message.left_image);
+    images = synchronizer_.add(StereoSynchronizer::Side::kLeft, message.left_image);
   } else if (message.right_image) {
-    images = synchronizer_.addRight(message.right_image);
+    images = synchronizer_.add(StereoSynchronizer::Side::kRight, message.right_image);
   } else if (message.left_info) {
     left_info_ = message.left_info;
   } else if (message.right_info) {

@@ -56,9 +56,13 @@ void StereoIntake::addImage(Side side,
 void StereoIntake::match(Side side,
                          const sensor_msgs::Image::ConstPtr& image,
                          const Arrival& arrival) {
-  takePair(side == Side::kLeft ? synchronizer_.addLeft(image, arrival.time)
-                               : synchronizer_.addRight(image, arrival.time),
-           arrival);
+  const auto images = synchronizer_.add(side, image, arrival.time);
+  drops_.set(DropReason::kNoPartner, synchronizer_.unmatched());
+  if (!images) return;
+  pairs_.add(arrival.time);
+  if (waiting_) drops_.count(DropReason::kCameraInfoMissing);
+  waiting_ = ReceivedPair{*images, {}, arrival.time, nullptr};
+  handOver();
 }
 
 void StereoIntake::addInfo(Side side,
@@ -74,15 +78,6 @@ void StereoIntake::addInfo(Side side,
     camera_error_ = error.what();
     drops_.add(error);
   }
-}
-
-void StereoIntake::takePair(const std::optional<StereoImages>& images, const Arrival& arrival) {
-  drops_.set(DropReason::kNoPartner, synchronizer_.unmatched());
-  if (!images) return;
-  pairs_.add(arrival.time);
-  if (waiting_) drops_.count(DropReason::kCameraInfoMissing);
-  waiting_ = ReceivedPair{*images, {}, arrival.time, nullptr};
-  handOver();
 }
 
 void StereoIntake::updateCamera() {

@@ -43,8 +43,7 @@ class StereoIntake {
  public:
   using PairHandler = std::function<void(ReceivedPair)>;
 
-  /// One of the two cameras.
-  enum class Side { kLeft, kRight };
+  using Side = StereoSynchronizer::Side;
 
   /// Passes each pair to `on_pair` as soon as it is complete. The latest one waits while there is
   /// no valid camera_info. `drops` must outlive this.
@@ -71,7 +70,6 @@ class StereoIntake {
   };
 
   void match(Side side, const sensor_msgs::Image::ConstPtr& image, const Arrival& arrival);
-  void takePair(const std::optional<StereoImages>& images, const Arrival& arrival);
   void updateCamera();
   void setCamera(const StereoCamera& camera);
   void handOver();

@@ -122,8 +122,9 @@ int value16(const unsigned char* bytes, bool big_endian) {
   return big_endian ? bytes[0] << 8 | bytes[1] : bytes[1] << 8 | bytes[0];
 }
 
-/// Number of bits of the largest value of a 16-bit image.
-int countSignificantBits(const sensor_msgs::Image& image) {
+/// Number of bits of the largest value of a 16-bit image; 8 of others.
+int countSignificantBits(const sensor_msgs::Image& image, const ImageEncoding& encoding) {
+  if (!encoding.has16Bits()) return 8;
   int any = 0;
   for (std::size_t y = 0; y < image.height; ++y) {
     const unsigned char* row = image.data.data() + y * image.step;
@@ -175,12 +176,9 @@ StereoPair StereoPairConverter::convert(const sensor_msgs::Image& left,
   validatePair(left, right, max_pixels_);
   const ImageEncoding& left_encoding = encodingOf("left", left);
   const ImageEncoding& right_encoding = encodingOf("right", right);
-  if (left_encoding.has16Bits()) {
-    significant_bits_ = std::max(significant_bits_, countSignificantBits(left));
-  }
-  if (right_encoding.has16Bits()) {
-    significant_bits_ = std::max(significant_bits_, countSignificantBits(right));
-  }
+  significant_bits_ = std::max({significant_bits_,
+                                countSignificantBits(left, left_encoding),
+                                countSignificantBits(right, right_encoding)});
   return {toNanoseconds(left.header.stamp),
           toGrey(left, left_encoding, significant_bits_, left_buffers_),
           toGrey(right, right_encoding, significant_bits_, right_buffers_)};

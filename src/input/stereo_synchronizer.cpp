@@ -23,22 +23,11 @@ bool isNearer(const std::optional<std::int64_t>& stamp_ns, std::int64_t a_ns, st
 StereoSynchronizer::StereoSynchronizer(double max_difference_s, std::size_t queue_size)
     : max_difference_ns_(std::llround(1e9 * max_difference_s)), queue_size_(queue_size) {}
 
-std::optional<StereoImages> StereoSynchronizer::addLeft(const sensor_msgs::Image::ConstPtr& image,
-                                                        Time arrival) {
-  const auto match = add(image, arrival, left_, right_);
-  if (!match) return std::nullopt;
-  return StereoImages{match->own.image, match->other.image, match->first_arrival()};
-}
-
-std::optional<StereoImages> StereoSynchronizer::addRight(const sensor_msgs::Image::ConstPtr& image,
-                                                         Time arrival) {
-  const auto match = add(image, arrival, right_, left_);
-  if (!match) return std::nullopt;
-  return StereoImages{match->other.image, match->own.image, match->first_arrival()};
-}
-
-std::optional<StereoSynchronizer::Match> StereoSynchronizer::add(
-    const sensor_msgs::Image::ConstPtr& image, Time arrival, Side& own, Side& other) {
+std::optional<StereoImages> StereoSynchronizer::add(Side side,
+                                                    const sensor_msgs::Image::ConstPtr& image,
+                                                    Time arrival) {
+  Images& own = side == Side::kLeft ? left_ : right_;
+  Images& other = side == Side::kLeft ? right_ : left_;
   const std::int64_t stamp_ns = toNanoseconds(image->header.stamp);
   if (own.last_stamp_ns == stamp_ns) {
     ++unmatched_;
@@ -55,23 +44,26 @@ std::optional<StereoSynchronizer::Match> StereoSynchronizer::add(
 
   own.series.add(stamp_ns);
   own.waiting.push_back({stamp_ns, image, arrival});
-  const auto match = findMatch(own, other);
-  if (match) {
+  if (const auto match = findMatch(own, other)) {
     dropEarlierThan(match->own.stamp_ns, own);
     dropEarlierThan(match->other.stamp_ns, other);
     own.waiting.pop_front();
     other.waiting.pop_front();
-  } else if (own.waiting.size() > queue_size_) {
+    const Waiting& left = side == Side::kLeft ? match->own : match->other;
+    const Waiting& right = side == Side::kLeft ? match->other : match->own;
+    return StereoImages{left.image, right.image, std::min(left.arrival, right.arrival)};
+  }
+  if (own.waiting.size() > queue_size_) {
     own.waiting.pop_front();
     ++unmatched_;
   }
-  return match;
+  return std::nullopt;
 }
 
 /// The partner of the new image; without one, that of an earlier image, because the new one may
 /// have told the period.
-std::optional<StereoSynchronizer::Match> StereoSynchronizer::findMatch(const Side& own,
-                                                                       const Side& other) const {
+std::optional<StereoSynchronizer::Match> StereoSynchronizer::findMatch(const Images& own,
+                                                                       const Images& other) const {
   const std::int64_t tolerance = tolerance_ns();
   for (auto image = own.waiting.rbegin(); image != own.waiting.rend(); ++image) {
     const auto nearest = std::min_element(
@@ -89,16 +81,16 @@ std::int64_t StereoSynchronizer::tolerance_ns() const {
   return std::min(max_difference_ns_, period_ns ? *period_ns / 2 : kUnknownTolerance_ns);
 }
 
-void StereoSynchronizer::dropEarlierThan(std::int64_t stamp_ns, Side& side) {
-  while (!side.waiting.empty() && side.waiting.front().stamp_ns < stamp_ns) {
-    side.waiting.pop_front();
+void StereoSynchronizer::dropEarlierThan(std::int64_t stamp_ns, Images& images) {
+  while (!images.waiting.empty() && images.waiting.front().stamp_ns < stamp_ns) {
+    images.waiting.pop_front();
     ++unmatched_;
   }
 }
 
-void StereoSynchronizer::dropLaterThan(std::int64_t stamp_ns, Side& side) {
-  while (!side.waiting.empty() && side.waiting.back().stamp_ns > stamp_ns) {
-    side.waiting.pop_back();
+void StereoSynchronizer::dropLaterThan(std::int64_t stamp_ns, Images& images) {
+  while (!images.waiting.empty() && images.waiting.back().stamp_ns > stamp_ns) {
+    images.waiting.pop_back();
     ++unmatched_;
   }
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -38,11 +37,14 @@ class StereoSynchronizer {
 
   using Time = std::chrono::steady_clock::time_point;
 
+  /// One of the two cameras.
+  enum class Side { kLeft, kRight };
+
   /// The pair that `image` completes, if any. An image with the same stamp as the previous one of
   /// its side is ignored.
-  std::optional<StereoImages> addLeft(const sensor_msgs::Image::ConstPtr& image, Time arrival = {});
-  std::optional<StereoImages> addRight(const sensor_msgs::Image::ConstPtr& image,
-                                       Time arrival = {});
+  std::optional<StereoImages> add(Side side,
+                                  const sensor_msgs::Image::ConstPtr& image,
+                                  Time arrival = {});
 
   /// Number of images dropped without a partner or with a repeated stamp.
   std::uint64_t unmatched() const { return unmatched_; }
@@ -63,32 +65,24 @@ class StereoSynchronizer {
     sensor_msgs::Image::ConstPtr image;
     Time arrival;
   };
-  struct Side {
+  struct Images {
     std::deque<Waiting> waiting;  // in the order of their stamps
     std::optional<std::int64_t> last_stamp_ns;
     StampSeries series;
   };
   /// Two of one time.
   struct Match {
-    Waiting own;
-    Waiting other;
-
-    Time first_arrival() const { return std::min(own.arrival, other.arrival); }
+    Waiting own, other;
   };
 
-  std::optional<Match> add(const sensor_msgs::Image::ConstPtr& image,
-                           Time arrival,
-                           Side& own,
-                           Side& other);
-  std::optional<Match> findMatch(const Side& own, const Side& other) const;
+  std::optional<Match> findMatch(const Images& own, const Images& other) const;
   std::int64_t tolerance_ns() const;
-  void dropEarlierThan(std::int64_t stamp_ns, Side& side);
-  void dropLaterThan(std::int64_t stamp_ns, Side& side);
+  void dropEarlierThan(std::int64_t stamp_ns, Images& images);
+  void dropLaterThan(std::int64_t stamp_ns, Images& images);
 
   std::int64_t max_difference_ns_;
   std::size_t queue_size_;
-  Side left_;
-  Side right_;
+  Images left_, right_;
   std::uint64_t unmatched_ = 0;
 };
 

@@ -185,8 +185,9 @@ bool KittiPlayer::waitForRecording() const {
 
 void KittiPlayer::play(const RecordedMessage& message) {
   std::optional<StereoImages> pair;
-  if (message.left_image) pair = synchronizer_.addLeft(message.left_image);
-  if (message.right_image) pair = synchronizer_.addRight(message.right_image);
+  using Side = StereoSynchronizer::Side;
+  if (message.left_image) pair = synchronizer_.add(Side::kLeft, message.left_image);
+  if (message.right_image) pair = synchronizer_.add(Side::kRight, message.right_image);
   if (pair) monitor_.expect(pair->left->header.stamp);
   publisher_.publish(message);
   if (pair && options_.lockstep) waitForOdometry(pair->left->header.stamp);

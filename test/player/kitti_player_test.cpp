@@ -95,12 +95,12 @@ class Listener {
   void onLeft(const sensor_msgs::Image::ConstPtr& image) {
     std::lock_guard<std::mutex> lock(mutex_);
     left_stamps_.push_back(image->header.stamp);
-    answer(synchronizer_.addLeft(image));
+    answer(synchronizer_.add(StereoSynchronizer::Side::kLeft, image));
   }
 
   void onRight(const sensor_msgs::Image::ConstPtr& image) {
     std::lock_guard<std::mutex> lock(mutex_);
-    answer(synchronizer_.addRight(image));
+    answer(synchronizer_.add(StereoSynchronizer::Side::kRight, image));
   }
 
   void answer(const std::optional<StereoImages>& pair) {

@@ -72,8 +72,9 @@ void StressPlayer::readBag() {
       bag, rosbag::TopicQuery(std::vector<std::string>{topics.left_image, topics.right_image}));
   for (const rosbag::MessageInstance& message : view) {
     const auto image = readMessage<sensor_msgs::Image>(message);
-    const auto pair = message.getTopic() == topics.left_image ? synchronizer.addLeft(image)
-                                                              : synchronizer.addRight(image);
+    using Side = StereoSynchronizer::Side;
+    const Side side = message.getTopic() == topics.left_image ? Side::kLeft : Side::kRight;
+    const auto pair = synchronizer.add(side, image);
     if (!pair) continue;
     recording_.push_back({*pair->left, *pair->right, *left_info, *right_info});
     recording_.back().left.header.frame_id = kCameraFrame;
