@@ -21,6 +21,8 @@ Info makeRectifiedInfo(double baseline_m) {
   Info info;
   info.width = 1226;
   info.height = 370;
+  info.K = {984.2, 0, 690, 0, 980.8, 233.2, 0, 0, 1};  // of the raw images
+  info.D = {-0.37, 0.2, 0.001, 0.002, -0.07};
   info.P = {kFocal, 0, 601.5, -kFocal * baseline_m, 0, kFocal, 183.25, 0, 0, 0, 1, 0};
   return info;
 }
@@ -78,6 +80,7 @@ TEST(StereoCameraConversionTest, RefusesWhatIsNoRectifiedCamera) {
     std::function<void(Info&)> change;
     const char* part;
   } kCases[] = {{[](Info& info) { info.P[1] = 3.0; }, "P[1] = 3"},
+                {[](Info& info) { info.P[5] = 0.0; }, "P[5] = 0 px"},
                 {[](Info& info) { info.P[10] = 0.0; }, "P[10] = 0"},
                 {[](Info& info) { info.width = 640; }, "640x370 px"},
                 {[](Info& info) { info.P[0] = 705.0; }, "fx is 70"},
@@ -124,6 +127,14 @@ TEST(CurrentCalibrationTest, IsTheSameUntilACameraChanges) {
   EXPECT_NE(second, first);
   EXPECT_EQ(second->right.distortion.coefficients()[0], -0.2);
   EXPECT_EQ(first->right.distortion.coefficients()[0], -0.3);
+}
+
+TEST(CurrentCalibrationTest, ALensWithoutAModelDistortsNothing) {
+  CurrentCalibration current(0.0);
+  const auto left = makeInfo(1.0, 0.0);
+  left->distortion_model.clear();
+  left->D.clear();
+  EXPECT_TRUE(current.of(left, makeInfo(1.0, 0.5))->left.distortion.isNone());
 }
 
 TEST(CurrentCalibrationTest, OutlivesAnInvalidMessage) {

@@ -100,10 +100,11 @@ TEST(StereoPairConverterTest, GreyImagesAreNotCopied) {
   EXPECT_EQ(pair.stamp_ns, 12'000'000'345);
 }
 
-TEST(StereoPairConverterTest, PaddedRowsMakeNoDifference) {
+TEST(StereoPairConverterTest, PaddingOfRowsAndDataIsIgnored) {
   for (const auto& [encoding, bytes] : {std::pair{"mono8", 1}, {"bgr8", 3}, {"mono16", 2}}) {
     StereoPairConverter converter;
-    const sensor_msgs::Image padded = makeImage(encoding, bytes, 5);
+    sensor_msgs::Image padded = makeImage(encoding, bytes, 5);
+    padded.data.resize(padded.data.size() + 99);
     const sensor_msgs::Image plain = makeImage(encoding, bytes);
     const StereoPair pair = converter.convert(padded, plain);
     EXPECT_TRUE(equal(pair.left, pair.right)) << encoding;

@@ -1,6 +1,5 @@
 #include "support/kitti2bag_writer.h"
 
-#include <cv_bridge/cv_bridge.h>
 #include <rosbag/bag.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
@@ -8,6 +7,7 @@
 #include <tf2_msgs/TFMessage.h>
 #include <opencv2/imgproc.hpp>
 
+#include "input/message_conversion.h"
 #include "sequences/kitti_mount.h"
 
 namespace rotrocc {
@@ -23,8 +23,7 @@ struct Camera {
 
 ros::Time stampOf(const KittiSequence& sequence, int index, double delay_ms = 0.0) {
   const auto delay_ns = static_cast<std::int64_t>(1e6 * delay_ms);
-  return ros::Time().fromNSec(
-      static_cast<std::uint64_t>(kStart_ns + sequence.stamp_ns(index) + delay_ns));
+  return toRosTime(kStart_ns + sequence.stamp_ns(index) + delay_ns);
 }
 
 /// How much later than the left image the right one is: anything from 0 to 7 ms.
@@ -82,8 +81,9 @@ void writeCamera(const KittiSequence& sequence,
     info.header.stamp = stampOf(sequence, index, raw && camera.right ? skew_ms(index) : 0.0);
     cv::Mat pixels = camera.right ? sequence.readRight(index) : sequence.readLeft(index);
     if (camera.colour) cv::cvtColor(pixels, pixels, cv::COLOR_GRAY2BGR);
-    const cv_bridge::CvImage image(info.header, camera.colour ? "bgr8" : "mono8", pixels);
-    bag.write("/kitti/" + name + "/" + image_topic, info.header.stamp, *image.toImageMsg());
+    bag.write("/kitti/" + name + "/" + image_topic,
+              info.header.stamp,
+              *toImage(info.header, camera.colour ? "bgr8" : "mono8", pixels));
     bag.write("/kitti/" + name + "/camera_info", info.header.stamp, info);
   }
 }

@@ -10,10 +10,13 @@
 #include "input/message_conversion.h"
 #include "input/to_text.h"
 #include "node/health/odometry_health.h"
+#include "sequences/camera_info_calibration.h"
 #include "support/synthetic_scene.h"
 
 namespace rotrocc {
 namespace {
+
+using sensor_msgs::image_encodings::MONO8;
 
 constexpr int kPairs = 40;
 constexpr double kStep_m = 0.4;
@@ -45,31 +48,6 @@ std::string tenths(double value) {
   return toText(0.1 * std::round(10.0 * value));
 }
 
-sensor_msgs::Image toMessage(const cv::Mat& image, const ros::Time& stamp) {
-  sensor_msgs::Image message;
-  message.header.stamp = stamp;
-  message.header.frame_id = "camera_left";
-  message.encoding = sensor_msgs::image_encodings::MONO8;
-  message.width = static_cast<std::uint32_t>(image.cols);
-  message.height = static_cast<std::uint32_t>(image.rows);
-  message.step = message.width;
-  message.data.assign(image.datastart, image.dataend);
-  return message;
-}
-
-sensor_msgs::CameraInfo toInfo(const StereoCamera& camera, double baseline_m) {
-  sensor_msgs::CameraInfo info;
-  info.width = static_cast<std::uint32_t>(camera.width);
-  info.height = static_cast<std::uint32_t>(camera.height);
-  info.distortion_model = "plumb_bob";
-  info.D.assign(5, 0.0);
-  info.K = {camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1};
-  info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  info.P = {
-      camera.fx, 0, camera.cx, -camera.fx * baseline_m, 0, camera.fy, camera.cy, 0, 0, 0, 1, 0};
-  return info;
-}
-
 }  // namespace
 
 OdometryRig::OdometryRig(const Parameters& parameters)
@@ -77,8 +55,11 @@ OdometryRig::OdometryRig(const Parameters& parameters)
       intake_(parameters.node, drops_, [this](const ReceivedPair& pair) { process(pair); }) {}
 
 void OdometryRig::sendInfos(const InfoChange& change) {
-  sensor_msgs::CameraInfo left = toInfo(scene().camera(), 0.0);
-  sensor_msgs::CameraInfo right = toInfo(scene().camera(), scene().camera().baseline_m);
+  const StereoCamera& camera = scene().camera();
+  const StereoCalibration calibration = rectifiedCalibration(camera);
+  sensor_msgs::CameraInfo left = toCameraInfo(calibration.left, camera, camera.cx, 0.0);
+  sensor_msgs::CameraInfo right =
+      toCameraInfo(calibration.right, camera, camera.cx_right, -camera.fx * camera.baseline_m);
   if (change) change(left, right);
   const Arrival arrival = {now_, 0};
   intake_.addInfo(
@@ -89,7 +70,10 @@ void OdometryRig::sendInfos(const InfoChange& change) {
 
 sensor_msgs::Image OdometryRig::nextImage(StereoIntake::Side side) const {
   const StereoPair& pair = pairAt(next_);
-  return toMessage(side == StereoIntake::Side::kLeft ? pair.left : pair.right, stamp);
+  std_msgs::Header header;
+  header.stamp = stamp;
+  header.frame_id = "camera_left";
+  return *toImage(header, MONO8, side == StereoIntake::Side::kLeft ? pair.left : pair.right);
 }
 
 void OdometryRig::sendImage(StereoIntake::Side side, const sensor_msgs::Image& image) {
@@ -164,11 +148,11 @@ std::string OdometryRig::describeDrops() const {
 }
 
 std::string OdometryRig::stateWithoutAnswers() const {
-  return stateName(OdometryHealth().report(report(now_), drops_).status.state);
+  return stateName(OdometryHealth().report(report(), drops_).status.state);
 }
 
-InputReport OdometryRig::report(std::chrono::steady_clock::time_point now) const {
-  InputReport report = intake_.report(now);
+InputReport OdometryRig::report() const {
+  InputReport report = intake_.report(now_);
   report.left_image.topic = "left/image_rect";
   report.right_image.topic = "right/image_rect";
   report.left_info.topic = "left/camera_info";

@@ -62,16 +62,14 @@ class OdometryRig {
   /// The state that a node reports after some seconds without odometry, as "NO_CALIBRATION".
   std::string stateWithoutAnswers() const;
 
-  /// With the names of the topics.
-  InputReport report(std::chrono::steady_clock::time_point now) const;
+  /// Of now, with the names of the topics.
+  InputReport report() const;
 
   /// Pairs that were processed.
   int answers() const { return answers_; }
 
-  StereoIntake& intake() { return intake_; }
   PairProcessor& processor() { return processor_; }
   const DropLog& drops() const { return drops_; }
-  std::chrono::steady_clock::time_point now() const { return now_; }
 
  private:
   void process(const ReceivedPair& pair);

@@ -8,34 +8,15 @@
 #include <boost/make_shared.hpp>
 
 #include "input/message_conversion.h"
+#include "sequences/camera_info_calibration.h"
 
 namespace rotrocc {
 namespace {
 
+using sensor_msgs::image_encodings::MONO8;
+
 const char* const kCameraFrame = "camera_left";
 constexpr int kQueueSize = 50;
-
-sensor_msgs::Image toMessage(const cv::Mat& image, const ros::Time& stamp) {
-  sensor_msgs::Image message;
-  message.header.stamp = stamp;
-  message.header.frame_id = kCameraFrame;
-  message.encoding = sensor_msgs::image_encodings::MONO8;
-  message.width = static_cast<std::uint32_t>(image.cols);
-  message.height = static_cast<std::uint32_t>(image.rows);
-  message.step = message.width;
-  message.data.assign(image.datastart, image.dataend);
-  return message;
-}
-
-sensor_msgs::CameraInfo toInfo(const StereoCamera& camera, double baseline_m) {
-  sensor_msgs::CameraInfo info;
-  info.header.frame_id = kCameraFrame;
-  info.width = static_cast<std::uint32_t>(camera.width);
-  info.height = static_cast<std::uint32_t>(camera.height);
-  info.P = {
-      camera.fx, 0, camera.cx, -camera.fx * baseline_m, 0, camera.fy, camera.cy, 0, 0, 0, 1, 0};
-  return info;
-}
 
 }  // namespace
 
@@ -69,8 +50,12 @@ SimulatedRobot::SimulatedRobot(std::uint32_t odometries) {
 }
 
 void SimulatedRobot::publishInfos(const std::function<void(sensor_msgs::CameraInfo&)>& change) {
-  sensor_msgs::CameraInfo left = toInfo(scene_.camera(), 0.0);
-  sensor_msgs::CameraInfo right = toInfo(scene_.camera(), scene_.camera().baseline_m);
+  const StereoCamera& camera = scene_.camera();
+  const StereoCalibration calibration = rectifiedCalibration(camera);
+  sensor_msgs::CameraInfo left = toCameraInfo(calibration.left, camera, camera.cx, 0.0);
+  sensor_msgs::CameraInfo right =
+      toCameraInfo(calibration.right, camera, camera.cx_right, -camera.fx * camera.baseline_m);
+  left.header.frame_id = right.header.frame_id = kCameraFrame;
   if (change) {
     change(left);
     change(right);
@@ -108,10 +93,12 @@ std::pair<sensor_msgs::Image, sensor_msgs::Image> SimulatedRobot::see() {
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
   T_world_camera.translation().z() = way_m_;
   const StereoPair pair = scene_.render(T_world_camera, toNanoseconds(stamp_));
-  const ros::Time stamp = stamp_;
+  std_msgs::Header header;
+  header.stamp = stamp_;
+  header.frame_id = kCameraFrame;
   way_m_ += kStep_m;
   stamp_ += ros::Duration(kPeriod_s);
-  return {toMessage(pair.left, stamp), toMessage(pair.right, stamp)};
+  return {*toImage(header, MONO8, pair.left), *toImage(header, MONO8, pair.right)};
 }
 
 void SimulatedRobot::publish(const sensor_msgs::Image& left, const sensor_msgs::Image& right) {
