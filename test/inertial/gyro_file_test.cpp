@@ -1,7 +1,5 @@
 #include "inertial/gyro_file.h"
 
-#include <fstream>
-
 #include <gtest/gtest.h>
 
 #include "support/expect_error.h"
@@ -12,11 +10,7 @@ namespace {
 
 class GyroFileTest : public ::testing::Test {
  protected:
-  std::string write(const std::string& text) const {
-    const std::string path = directory_ / "imu.csv";
-    std::ofstream(path) << text;
-    return path;
-  }
+  std::string write(const std::string& text) const { return directory_.write("imu.csv", text); }
 
   TemporaryDirectory directory_;
 };

@@ -67,13 +67,6 @@ TEST_F(SilenceWatchTest, TellsOnceAndRemindsMoreAndMoreSeldom) {
   EXPECT_NE(said_.find(". Likely: /l/image has a publisher"), std::string::npos) << said_;
 }
 
-TEST_F(SilenceWatchTest, SaysNothingWhilePairsCome) {
-  for (int i = 0; i < 30; ++i) {
-    EXPECT_EQ(wait(4), Times());
-    EXPECT_EQ(pair(), "");
-  }
-}
-
 TEST_F(SilenceWatchTest, SaysNothingWhileTheReplayStands) {
   input_.clock_stands = true;
   EXPECT_EQ(wait(100), Times());

@@ -11,15 +11,6 @@ namespace {
 
 constexpr std::int64_t kPeriod_ns = 33'333'333;
 
-TEST(StampSeriesTest, OneStampHasNoPeriod) {
-  StampSeries series;
-  EXPECT_FALSE(series.period_ns());
-  series.add(5);
-  EXPECT_FALSE(series.period_ns());
-  series.add(5 + kPeriod_ns);
-  EXPECT_EQ(series.period_ns(), kPeriod_ns);
-}
-
 TEST(StampSeriesTest, LostImagesAndGapsDoNotMatter) {
   std::mt19937 random(3);
   std::bernoulli_distribution lost(0.5);
@@ -46,18 +37,11 @@ TEST(StampSeriesTest, JitterShortensThePeriodByLittle) {
   }
 }
 
-TEST(StampSeriesTest, ATimeJumpIsNoStep) {
-  StampSeries series;
-  for (int loop = 0; loop < 10; ++loop) {
-    for (int i = 0; i < 3; ++i) series.add(i * kPeriod_ns);
-  }
-  EXPECT_EQ(series.period_ns(), kPeriod_ns);
-}
-
-TEST(StampSeriesTest, TheShorterPeriodCounts) {
+TEST(StampSeriesTest, TheShorterPeriodCountsAndATimeJumpIsNoStep) {
   StampSeries left, right;
+  left.add(0);
   EXPECT_FALSE(commonPeriod_ns(left, right));
-  for (int i = 0; i < 3; ++i) left.add(i * kPeriod_ns);
+  for (int i = 0; i < 30; ++i) left.add(i % 3 * kPeriod_ns);
   EXPECT_EQ(commonPeriod_ns(left, right), kPeriod_ns);
   EXPECT_EQ(commonPeriod_ns(right, left), kPeriod_ns);
   for (int i = 0; i < 3; ++i) right.add(2 * i * kPeriod_ns);
@@ -80,9 +64,11 @@ TEST(StampDifferenceTest, IsTheLargestToTheNearest) {
   } kCases[] = {
       {{0, 0.1, 0.2}, {0.003, 0.104, 0.25}, 0.050},
       {{0}, {0.02}, 0.02},
-      {{0, 0.1}, {3, 4}, 2.9},        // clocks that differ
-      {{0, 0.1, 0.2}, {0, 0.1}, 0.0}  // its partner is still to come
-  };
+      {{0, 0.1}, {3, 4}, 2.9},         // clocks that differ
+      {{0, 0.1, 0.2}, {0, 0.1}, 0.0},  // its partner is still to come
+      // Otherwise a lost image looks like a skew of a period, and the advice would be to accept it.
+      {{0, 0.1, 0.2, 0.3}, {0.003, 0.103, 0.303}, 0.003},
+      {{0.003, 0.103, 0.303}, {0, 0.1, 0.2, 0.3}, 0.003}};
   for (const auto& [left_s, right_s, difference_s] : kCases) {
     const auto found_s = greatestStampDifference(makeSeries(left_s), makeSeries(right_s));
     ASSERT_TRUE(found_s);
@@ -90,14 +76,6 @@ TEST(StampDifferenceTest, IsTheLargestToTheNearest) {
   }
   EXPECT_FALSE(greatestStampDifference({}, makeSeries({1})));
   EXPECT_FALSE(greatestStampDifference(makeSeries({1}), {}));
-}
-
-/// Otherwise a lost image looks like a skew of a period, and the advice would be to accept that.
-TEST(StampDifferenceTest, PartnersThatAreLostDoNotCount) {
-  const StampSeries left = makeSeries({0, 0.1, 0.2, 0.3});
-  const StampSeries right = makeSeries({0.003, 0.103, 0.303});
-  EXPECT_NEAR(*greatestStampDifference(left, right), 0.003, 1e-9);
-  EXPECT_NEAR(*greatestStampDifference(right, left), 0.003, 1e-9);
 }
 
 /// Images of both cameras, whose triggers and stamps jitter; some are lost.

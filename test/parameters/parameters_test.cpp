@@ -69,44 +69,6 @@ TEST(ParametersTest, ShippedFilesLoad) {
   }
 }
 
-TEST(ParametersTest, ThePapersFileTurnsOffWhatThePaperDoesNotHave) {
-  Settings settings;
-  loadYaml(std::string(ROTROCC_CONFIG_DIR) + "/paper.yaml", settings.table);
-  const std::vector<std::string> paper = values(settings.table);
-  for (const char* value : {"feature_tracker/max_round_trip_px = 0",
-                            "feature_tracker/scale_windows = false",
-                            "feature_tracker/ignore_brightness = false",
-                            "motion_estimator/criterion = rotrocc",
-                            "motion_estimator/noise_ratio = 0",
-                            "motion_estimator/shared_ratio = 0",
-                            "motion_estimator/robust_factor = 0",
-                            "motion_estimator/translation_noise_factor = 0",
-                            "motion_estimator/translation_initial_px = 0",
-                            "motion_estimator/retry_agreement_px = 0",
-                            "motion_estimator/translation_from_prediction = true",
-                            "stereo_calibrator/enabled = false",
-                            "keyframe_selector/adaptive = false"}) {
-    EXPECT_EQ(std::count(paper.begin(), paper.end(), value), 1) << value;
-  }
-}
-
-TEST(ParametersTest, TheFastPresetHoldsOnlyWhatIsDifferentFromTheDefault) {
-  const std::string path = std::string(ROTROCC_CONFIG_DIR) + "/fast.yaml";
-  Settings settings;
-  loadYaml(path, settings.table);
-  const std::vector<std::string> preset = values(settings.table);
-  const std::vector<std::string> defaults = values(Settings().table);
-  int different = 0;
-  for (std::size_t i = 0; i < preset.size(); ++i) different += preset[i] != defaults[i];
-  std::istringstream lines(readFile(path));
-  int named = 0;
-  for (std::string line; std::getline(lines, line);) named += line.compare(0, 2, "  ") == 0;
-  EXPECT_GT(different, 0);
-  EXPECT_EQ(named, different);
-  const auto& finder = settings.parameters.odometry.correspondence_finder;
-  EXPECT_LT(finder.feature_detector.max_features, FeatureDetectorConfig().max_features);
-}
-
 TEST(ParametersTest, EveryValueThatIsSetIsReadBack) {
   Settings settings;
   for (const auto& parameter : settings.table.parameters()) {
@@ -235,15 +197,6 @@ TEST(ParametersTest, AFileOfAnEarlierReleaseLoadsWithWarnings) {
   EXPECT_EQ(loadYaml(path, settings.table), expected);
   EXPECT_EQ(settings.parameters.odometry.correspondence_finder.feature_tracker.window_radius_px, 5);
   expectRefused("feature_tracker/levels", "2", "unknown parameter \"feature_tracker/levels\"");
-}
-
-TEST(ParametersTest, WhatExistsIsNotIgnored) {
-  const Settings settings;
-  for (const auto& parameter : settings.table.parameters()) {
-    EXPECT_EQ(whyIgnored(parameter.name), "");
-  }
-  EXPECT_EQ(whyIgnored("feature_tracker/level"), "");
-  EXPECT_EQ(whyIgnored(""), "");
 }
 
 TEST(ParametersTest, WhatIsWrittenIsReadBack) {
