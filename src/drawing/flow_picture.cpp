@@ -4,14 +4,19 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <opencv2/imgproc.hpp>
 
-#include "drawing/flow_legend.h"
 #include "drawing/okabe_ito.h"
 
 namespace rotrocc {
 namespace {
+
+const cv::Scalar kNearColour = okabe_ito::kOrange;
+const cv::Scalar kFarColour = okabe_ito::kSkyBlue;
+constexpr double kNear_m = 5.0;
+constexpr double kFar_m = 50.0;
 
 const cv::Scalar kRotationOnly(255, 255, 255);
 const cv::Scalar kOutlier(185, 60, 220);
@@ -46,6 +51,74 @@ void drawDot(const Eigen::Vector2d& pixel, const cv::Scalar& colour, cv::Mat& im
   cv::circle(image, toSubpixel(pixel), radius, colour, cv::FILLED, cv::LINE_AA, kSubpixelBits);
 }
 
+/// Colour (BGR) by the logarithm of the depth, from near (orange) to far (blue).
+cv::Scalar colourOfDepth(double depth_m) {
+  const double share = std::log(depth_m / kNear_m) / std::log(kFar_m / kNear_m);
+  const double far = std::clamp(share, 0.0, 1.0);
+  return kNearColour * (1.0 - far) + kFarColour * far;
+}
+
+/// The text line below a flow picture: labels and colours from left to right, as far as they fit.
+class Legend {
+ public:
+  static constexpr int kHeight_px = 24;
+
+  /// Draws into `band`, CV_8UC3 and kHeight_px high, on a dark background.
+  explicit Legend(cv::Mat band) : band_(std::move(band)) { band_.setTo(cv::Scalar(35, 30, 30)); }
+
+  void text(const std::string& words) {
+    constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
+    constexpr double kFontScale = 0.42;
+    const cv::Scalar colour(230, 230, 230);
+    int baseline = 0;
+    const int width = cv::getTextSize(words, kFont, kFontScale, 1, &baseline).width;
+    if (!reserve(width)) return;
+    cv::putText(band_, words, {x_, kHeight_px - 8}, kFont, kFontScale, colour, 1, cv::LINE_AA);
+    x_ += width + kGap_px;
+  }
+
+  /// A sample of a flow line with its dot and label.
+  void sample(const cv::Scalar& colour, const std::string& words) {
+    constexpr int kSample_px = 18;
+    if (!reserve(kSample_px)) return;
+    const int y = kHeight_px / 2;
+    cv::line(band_, {x_, y}, {x_ + kSample_px, y}, colour, 2, cv::LINE_AA);
+    cv::circle(band_, {x_ + kSample_px, y}, 3, colour, cv::FILLED, cv::LINE_AA);
+    x_ += kSample_px + kGap_px;
+    text(words);
+    space();
+  }
+
+  /// The colour scale of depths.
+  void depthScale() {
+    constexpr int kScale_px = 80;
+    text(cv::format("%.0f m", kNear_m));
+    if (!reserve(kScale_px)) return;
+    for (int i = 0; i < kScale_px; ++i) {
+      const double depth_m = kNear_m * std::pow(kFar_m / kNear_m, i / (kScale_px - 1.0));
+      cv::line(band_, {x_ + i, 8}, {x_ + i, kHeight_px - 9}, colourOfDepth(depth_m));
+    }
+    x_ += kScale_px + kGap_px;
+    text(cv::format("%.0f m", kFar_m));
+    space();
+  }
+
+  /// A wider gap between groups.
+  void space() { x_ += 2 * kGap_px; }
+
+ private:
+  static constexpr int kGap_px = 8;
+
+  /// Once an element does not fit, the following ones are omitted.
+  bool reserve(int width_px) {
+    if (x_ + width_px > band_.cols) x_ = band_.cols;
+    return x_ < band_.cols;
+  }
+
+  cv::Mat band_;
+  int x_ = kGap_px;
+};
+
 /// Projects a point; a point behind the camera stays at its previous position.
 Eigen::Vector2d projectOr(const StereoCamera& camera,
                           const Eigen::Vector3d& point,
@@ -63,26 +136,25 @@ bool contains(const FeatureSet& set, std::size_t i) {
   return !set.empty() && set[i] != 0;
 }
 
-void describe(const OdometryResult& result, FlowLegend& legend) {
+void describe(const OdometryResult& result, Legend& legend) {
   legend.text(toString(result.state));
   if (result.hasMotion()) {
     const double speed_mps = result.T_prev_cur.translation().norm() / result.dt_s;
-    legend.text(FlowLegend::format("%.1f m/s", speed_mps));
+    legend.text(cv::format("%.1f m/s", speed_mps));
   }
   legend.space();
 }
 
-void describeCounts(const FlowScene& scene, FlowLegend& legend) {
+void describeCounts(const FlowScene& scene, Legend& legend) {
   const StageCounts& counts = scene.result.counts;
-  const std::string features = FlowLegend::format("%zu features, ", scene.features.size());
+  const std::string features = cv::format("%zu features, ", scene.features.size());
   const bool had_stage_2 = counts.translation_inliers > 0;
-  legend.text(features + (had_stage_2
-                              ? FlowLegend::format("%d fit the rotation, %d the translation",
+  legend.text(features + (had_stage_2 ? cv::format("%d fit the rotation, %d the translation",
                                                    counts.rotation_inliers,
                                                    counts.translation_inliers)
-                              : FlowLegend::format("%d fit", counts.rotation_inliers)));
+                                      : cv::format("%d fit", counts.rotation_inliers)));
   legend.space();
-  legend.text(FlowLegend::format("bias %+.2f px", scene.result.disparity_bias.applied_px));
+  legend.text(cv::format("bias %+.2f px", scene.result.disparity_bias.applied_px));
 }
 
 void drawMotion(const FlowScene& scene, cv::Mat& image) {
@@ -90,7 +162,7 @@ void drawMotion(const FlowScene& scene, cv::Mat& image) {
   // Outliers are few; draw them last, on top of the inliers.
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (!contains(scene.translation_inliers, i)) continue;
-    const cv::Scalar colour = FlowLegend::colourOfDepth(features[i].point_cur.z());
+    const cv::Scalar colour = colourOfDepth(features[i].point_cur.z());
     drawLine(features[i].keyframe_px, features[i].cur_px, colour, image);
     drawDot(features[i].cur_px, colour, image);
   }
@@ -123,24 +195,6 @@ void drawDecoupled(const FlowScene& scene, cv::Mat& image) {
   }
 }
 
-void explainMotion(FlowLegend& legend) {
-  legend.depthScale();
-  legend.space();
-  legend.sample(kRotationOnly, "rotation only");
-  legend.space();
-  legend.sample(kOutlier, "outlier");
-  legend.space();
-  legend.sample(kExpected, "as expected");
-  legend.space();
-}
-
-void explainDecoupled(FlowLegend& legend) {
-  legend.sample(kOfRotation, "flow of the rotation");
-  legend.space();
-  legend.sample(kOfTranslation, "flow of the translation");
-  legend.space();
-}
-
 }  // namespace
 
 const std::vector<std::string>& flowViewNames() {
@@ -166,19 +220,23 @@ void drawFlowPicture(const FlowScene& scene, FlowView view, cv::Mat& picture) {
   }
   requireFlags(scene.rotation_inliers, scene.features);
   requireFlags(scene.translation_inliers, scene.features);
-  picture.create(scene.left.rows + FlowLegend::kHeight_px, scene.left.cols, CV_8UC3);
+  picture.create(scene.left.rows + Legend::kHeight_px, scene.left.cols, CV_8UC3);
   cv::Mat image = picture.rowRange(0, scene.left.rows);
   cv::cvtColor(scene.left, image, cv::COLOR_GRAY2BGR);
   image *= kBrightness;
 
-  FlowLegend legend(picture.rowRange(scene.left.rows, picture.rows));
+  Legend legend(picture.rowRange(scene.left.rows, picture.rows));
   describe(scene.result, legend);
   if (view == FlowView::kDecoupled) {
     drawDecoupled(scene, image);
-    explainDecoupled(legend);
+    legend.sample(kOfRotation, "flow of the rotation");
+    legend.sample(kOfTranslation, "flow of the translation");
   } else {
     drawMotion(scene, image);
-    explainMotion(legend);
+    legend.depthScale();
+    legend.sample(kRotationOnly, "rotation only");
+    legend.sample(kOutlier, "outlier");
+    legend.sample(kExpected, "as expected");
   }
   describeCounts(scene, legend);
 }

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include <std_msgs/ColorRGBA.h>
+#include <tf2_eigen/tf2_eigen.h>
 #include <visualization_msgs/Marker.h>
 #include <opencv2/core.hpp>
 
@@ -50,14 +51,6 @@ bool isOfPair(std::uint8_t state) {
 template <class Point>
 Eigen::Vector3d toEigen(const Point& point) {
   return {point.x, point.y, point.z};
-}
-
-geometry_msgs::Point toPoint(const Eigen::Vector3d& vector) {
-  geometry_msgs::Point point;
-  point.x = vector.x();
-  point.y = vector.y();
-  point.z = vector.z();
-  return point;
 }
 
 }  // namespace
@@ -155,7 +148,7 @@ visualization_msgs::MarkerArray TrajectoryScene::markers() const {
   Marker way = marker("estimate", Marker::LINE_STRIP, kWayWidth * distance, okabe_ito::kOrange);
   way.pose.position.z = kWayHeight * distance;
   for (const WayPoint& point : way_) {
-    way.points.push_back(toPoint(point.position));
+    way.points.push_back(tf2::toMsg(point.position));
     way.colors.push_back(colour(colourOf(point.state)));
   }
   way.points.push_back(last_.pose.pose.position);
@@ -163,7 +156,7 @@ visualization_msgs::MarkerArray TrajectoryScene::markers() const {
   markers.markers.push_back(way);
 
   Marker start = marker("start", Marker::SPHERE, kStartSize * distance, okabe_ito::kBlack);
-  start.pose.position = toPoint(way_.front().position);
+  start.pose.position = tf2::toMsg(way_.front().position);
   markers.markers.push_back(start);
 
   Marker arrow = marker("now", Marker::ARROW, kArrowLength * distance, okabe_ito::kBlack);
