@@ -14,8 +14,7 @@
 #include "rotrocc/kitti.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/trajectory.h"
-#include "sequences/asl_sensor.h"
-#include "sequences/camera_info_calibration.h"
+#include "sequences/layouts.h"
 #include "support/temporary_directory.h"
 
 namespace rotrocc {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -12,7 +13,18 @@
 namespace rotrocc {
 
 /// Opens a bag for reading. Throws std::runtime_error if it is missing or incomplete.
-rosbag::Bag openBag(const std::string& path);
+inline rosbag::Bag openBag(const std::string& path) {
+  try {
+    return rosbag::Bag(path, rosbag::bagmode::Read);
+  } catch (const rosbag::BagUnindexedException&) {
+    throw std::runtime_error(path +
+                             " was not closed when it was written: run 'rosbag reindex' on it");
+  } catch (const rosbag::BagException& error) {
+    // Programs of a launch file have their own working directory, so print the absolute path.
+    throw std::runtime_error(std::filesystem::absolute(path).string() +
+                             " is not readable as a bag: " + error.what());
+  }
+}
 
 /// Returns a message of a bag. Throws std::runtime_error if it has another type or an old version
 /// of it.

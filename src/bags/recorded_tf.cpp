@@ -1,24 +1,27 @@
 #include "bags/recorded_tf.h"
 
 #include <algorithm>
+#include <optional>
+#include <vector>
 
 #include <rosbag/view.h>
 #include <tf2/buffer_core.h>
 #include <tf2_eigen/tf2_eigen.h>
 
 #include "bags/bag_reading.h"
-#include "bags/ground_truth.h"
+#include "bags/recording.h"
 #include "input/message_conversion.h"
 
 namespace rotrocc {
 namespace {
 
+using Transforms = std::vector<geometry_msgs::TransformStamped>;
+
 /// Frame of kitti2bag's ground truth of odometry sequences; its images have another one.
 const char* const kKitti2bagCamera = "camera_left";
 
-std::vector<geometry_msgs::TransformStamped> readTransforms(const rosbag::Bag& bag,
-                                                            const std::string& topic) {
-  std::vector<geometry_msgs::TransformStamped> transforms;
+Transforms readTransforms(const rosbag::Bag& bag, const std::string& topic) {
+  Transforms transforms;
   rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{topic, "/" + topic}));
   for (const rosbag::MessageInstance& instance : view) {
     const auto message = readMessage<tf2_msgs::TFMessage>(instance);
@@ -35,43 +38,30 @@ std::string nameOf(const geometry_msgs::TransformStamped& transform) {
   return transform.header.frame_id + " -> " + transform.child_frame_id;
 }
 
-}  // namespace
-
-RecordedTf::RecordedTf(const rosbag::Bag& bag,
-                       const std::string& base_frame,
-                       const std::string& camera_frame)
-    : base_frame_(withoutSlash(base_frame)), camera_frame_(withoutSlash(camera_frame)) {
-  const Transforms fixed = readTransforms(bag, "tf_static");
-  const Transforms moving = readTransforms(bag, "tf");
-  added_kitti_mount_ = !findMount(fixed, moving);
-  for (const auto& transform : fixed) addStatic(transform);
-  if (added_kitti_mount_) addKittiMount();
-  buildTrajectory(moving);
-}
-
-bool RecordedTf::isTrajectory(const geometry_msgs::TransformStamped& transform) const {
+bool isTrajectory(const geometry_msgs::TransformStamped& transform, const RecordedTf& tf) {
   const std::string child = withoutSlash(transform.child_frame_id);
-  if (child == base_frame_) return true;
-  return added_kitti_mount_ && (child == camera_frame_ || child == kKitti2bagCamera);
+  if (child == tf.base_frame) return true;
+  return tf.added_kitti_mount && (child == tf.camera_frame || child == kKitti2bagCamera);
 }
 
-bool RecordedTf::findMount(const Transforms& fixed, const Transforms& moving) {
+/// T_base_camera, if transforms connect them.
+std::optional<Eigen::Isometry3d> findMount(const RecordedTf& tf,
+                                           const Transforms& fixed,
+                                           const Transforms& moving) {
   tf2::BufferCore buffer;
   for (const Transforms* transforms : {&fixed, &moving}) {
     for (const auto& transform : *transforms) {
-      const bool is_mount = transform.child_frame_id != base_frame_;
+      const bool is_mount = transform.child_frame_id != tf.base_frame;
       if (is_mount) buffer.setTransform(transform, "bag", true);
     }
   }
-  if (!buffer.canTransform(base_frame_, camera_frame_, ros::Time())) return false;
-  T_base_camera_ =
-      tf2::transformToEigen(buffer.lookupTransform(base_frame_, camera_frame_, ros::Time()));
-  return true;
+  if (!buffer.canTransform(tf.base_frame, tf.camera_frame, ros::Time())) return std::nullopt;
+  return tf2::transformToEigen(buffer.lookupTransform(tf.base_frame, tf.camera_frame, ros::Time()));
 }
 
-void RecordedTf::addStatic(const geometry_msgs::TransformStamped& transform) {
-  if (isTrajectory(transform)) return;
-  auto& transforms = static_transforms_.transforms;
+void addStatic(const geometry_msgs::TransformStamped& transform, RecordedTf& tf) {
+  if (isTrajectory(transform, tf)) return;
+  auto& transforms = tf.static_transforms.transforms;
   const auto known = std::find_if(transforms.begin(), transforms.end(), [&](const auto& other) {
     return other.child_frame_id == transform.child_frame_id;
   });
@@ -82,36 +72,54 @@ void RecordedTf::addStatic(const geometry_msgs::TransformStamped& transform) {
   }
 }
 
-void RecordedTf::addKittiMount() {
-  geometry_msgs::TransformStamped mount = tf2::eigenToTransform(T_base_camera_);
-  mount.header.frame_id = base_frame_;
-  mount.child_frame_id = camera_frame_;
-  static_transforms_.transforms.push_back(mount);
+void addKittiMount(RecordedTf& tf) {
+  geometry_msgs::TransformStamped mount = tf2::eigenToTransform(tf.T_base_camera);
+  mount.header.frame_id = tf.base_frame;
+  mount.child_frame_id = tf.camera_frame;
+  tf.static_transforms.transforms.push_back(mount);
 }
+
+void buildTrajectory(const Transforms& moving, RecordedTf& tf) {
+  Trajectory recorded;
+  bool of_base = false;
+  for (const auto& transform : moving) {
+    if (!isTrajectory(transform, tf)) continue;
+    if (recorded.empty()) {
+      tf.trajectory_name = nameOf(transform);
+      of_base = transform.child_frame_id == tf.base_frame;
+    }
+    if (nameOf(transform) != tf.trajectory_name) continue;
+    recorded.push_back({toNanoseconds(transform.header.stamp), tf2::transformToEigen(transform)});
+  }
+  tf.trajectory = pathOfBase(
+      recorded, of_base ? Eigen::Isometry3d(Eigen::Isometry3d::Identity()) : tf.T_base_camera);
+}
+
+}  // namespace
 
 tf2_msgs::TFMessage RecordedTf::transformsToPlay(const tf2_msgs::TFMessage& message) const {
   tf2_msgs::TFMessage kept;
   for (const auto& transform : message.transforms) {
-    if (!isTrajectory(transform)) kept.transforms.push_back(transform);
+    if (!isTrajectory(transform, *this)) kept.transforms.push_back(transform);
   }
   return kept;
 }
 
-void RecordedTf::buildTrajectory(const Transforms& moving) {
-  Trajectory recorded;
-  bool of_base = false;
-  for (const auto& transform : moving) {
-    if (!isTrajectory(transform)) continue;
-    if (recorded.empty()) {
-      trajectory_name_ = nameOf(transform);
-      of_base = transform.child_frame_id == base_frame_;
-    }
-    if (nameOf(transform) != trajectory_name_) continue;
-    recorded.push_back({toNanoseconds(transform.header.stamp), tf2::transformToEigen(transform)});
-  }
-  const Eigen::Isometry3d T_base_body =
-      of_base ? Eigen::Isometry3d(Eigen::Isometry3d::Identity()) : T_base_camera_;
-  trajectory_ = groundTruthPath(recorded, T_base_body, "odom");
+RecordedTf readTf(const rosbag::Bag& bag,
+                  const std::string& base_frame,
+                  const std::string& camera_frame) {
+  RecordedTf tf;
+  tf.base_frame = withoutSlash(base_frame);
+  tf.camera_frame = withoutSlash(camera_frame);
+  const Transforms fixed = readTransforms(bag, "tf_static");
+  const Transforms moving = readTransforms(bag, "tf");
+  const auto T_base_camera = findMount(tf, fixed, moving);
+  tf.added_kitti_mount = !T_base_camera;
+  if (T_base_camera) tf.T_base_camera = *T_base_camera;
+  for (const auto& transform : fixed) addStatic(transform, tf);
+  if (tf.added_kitti_mount) addKittiMount(tf);
+  buildTrajectory(moving, tf);
+  return tf;
 }
 
 }  // namespace rotrocc

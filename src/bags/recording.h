@@ -12,7 +12,8 @@
 #include <tf2_msgs/TFMessage.h>
 #include <Eigen/Geometry>
 
-#include "sequences/gyro_recording.h"
+#include "rotrocc/trajectory.h"
+#include "sequences/stereo_sequence.h"
 
 namespace rotrocc {
 
@@ -83,14 +84,18 @@ struct RecordingOptions {
   std::string left_image;  ///< topics of the pair in a bag; empty: findStereoTopics()
   std::string right_image;
   std::string base_frame = "base_link";  ///< of a bag: its recorded poses are the true path
-  double max_stamp_difference_s = 0.01;  ///< between the images of a pair of a sequence
-  double baseline_m = 0.0;               ///< of a sequence; 0: that of camera_calibration
-  bool being_written = false;            ///< a sequence whose images may be missing yet
+  SequenceOptions sequence;
 };
 
-/// Opens a bag, or the directory of a sequence, whose images are rectified as they are read: see
-/// openStereoSequence(). Throws std::runtime_error if `path` is neither, or has no stereo pair.
+/// Opens a stereo bag, whatever its topics are, or the directory of a sequence, whose images are
+/// rectified as they are read: see openStereoSequence(). Recorded poses of the base in a bag are
+/// its true path, not tf: the odometry publishes the pose of the base. Throws std::runtime_error if
+/// `path` is neither, or has no stereo pair.
 std::unique_ptr<Recording> openRecording(const std::string& path,
                                          const RecordingOptions& options = {});
+
+/// Converts a recorded trajectory of a body to the path of the base it is mounted on, relative to
+/// the first pose of the base, where the odometry starts: in the frame odom.
+nav_msgs::Path pathOfBase(const Trajectory& recorded, const Eigen::Isometry3d& T_base_body);
 
 }  // namespace rotrocc

@@ -10,9 +10,7 @@
 #include <tf2_eigen/tf2_eigen.h>
 #include <boost/make_shared.hpp>
 
-#include "bags/ground_truth.h"
 #include "input/message_conversion.h"
-#include "sequences/camera_info_calibration.h"
 
 namespace rotrocc {
 namespace {
@@ -21,7 +19,6 @@ using sensor_msgs::image_encodings::MONO8;
 
 constexpr std::int64_t kNsPerS = 1000000000;
 const char* const kBaseFrame = "base_link";
-const char* const kOdomFrame = "odom";
 const char* const kCameraFrame = "stereo_left_optical";
 const char* const kImuFrame = "imu_link";
 
@@ -63,19 +60,34 @@ double shiftOf(const StereoCamera& camera) {
   return product;
 }
 
-sensor_msgs::CameraInfo::Ptr stamped(sensor_msgs::CameraInfo info, const ros::Time& stamp) {
-  info.header.frame_id = kCameraFrame;
-  info.header.stamp = stamp;
-  return boost::make_shared<sensor_msgs::CameraInfo>(std::move(info));
+/// `shift_px`: P[3].
+sensor_msgs::CameraInfo::Ptr toCameraInfo(const RawCamera& raw,
+                                          const StereoCamera& rectified,
+                                          double cx,
+                                          double shift_px,
+                                          const ros::Time& stamp) {
+  const auto info = boost::make_shared<sensor_msgs::CameraInfo>();
+  info->header.frame_id = kCameraFrame;
+  info->header.stamp = stamp;
+  info->width = static_cast<std::uint32_t>(raw.width);
+  info->height = static_cast<std::uint32_t>(raw.height);
+  info->distortion_model = raw.distortion.name();
+  info->D = raw.distortion.coefficients();
+  info->K = {raw.fx, 0, raw.cx, 0, raw.fy, raw.cy, 0, 0, 1};
+  using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  Eigen::Map<Matrix3>(info->R.data()) = raw.R_rectified_raw;
+  info->P = {rectified.fx, 0, cx, shift_px, 0, rectified.fy, rectified.cy, 0, 0, 0, 1, 0};
+  return info;
 }
 
 }  // namespace
 
 SequenceRecording::SequenceRecording(const std::string& directory, const Options& options)
-    : sequence_(openStereoSequence(directory, options.sequence)),
-      offset_ns_(offsetOf(*sequence_, options.start_time_s)),
-      calibration_(sequence_->calibration()) {
-  requireRosStamps(*sequence_, offset_ns_);
+    : directory_(directory),
+      sequence_(openStereoSequence(directory, options.sequence)),
+      offset_ns_(offsetOf(sequence_, options.start_time_s)),
+      calibration_(sequence_.calibration) {
+  requireRosStamps(sequence_, offset_ns_);
   if (options.rectify && !calibration_.isRectified()) {
     rectifier_.emplace();
     raw_calibration_ = std::make_shared<const StereoCalibration>(calibration_);
@@ -85,7 +97,7 @@ SequenceRecording::SequenceRecording(const std::string& directory, const Options
 }
 
 std::string SequenceRecording::description() const {
-  return "the pairs of " + sequence_->directory() + (rectifier_ ? ", rectified" : "");
+  return "the pairs of " + directory_ + (rectifier_ ? ", rectified" : "");
 }
 
 tf2_msgs::TFMessage SequenceRecording::staticTransforms() const {
@@ -98,9 +110,9 @@ tf2_msgs::TFMessage SequenceRecording::staticTransforms() const {
 }
 
 nav_msgs::Path SequenceRecording::truth() const {
-  Trajectory poses = sequence_->groundTruth();
+  Trajectory poses = sequence_.ground_truth;
   for (StampedPose& pose : poses) pose.stamp_ns += offset_ns_;
-  return groundTruthPath(poses, T_base_camera(), kOdomFrame);
+  return pathOfBase(poses, T_base_camera());
 }
 
 std::vector<sensor_msgs::Imu> SequenceRecording::gyroscopeMessages() const {
@@ -126,7 +138,7 @@ void SequenceRecording::select(const ros::Time& from, const ros::Time& to, bool 
 }
 
 bool SequenceRecording::hasNext() const {
-  return !of_pair_.empty() || atEnd() || sequence_->hasPair(next_pair_);
+  return !of_pair_.empty() || atEnd() || sequence_.pairs.hasFiles(next_pair_);
 }
 
 bool SequenceRecording::next(RecordedMessage& message) {
@@ -140,18 +152,17 @@ bool SequenceRecording::next(RecordedMessage& message) {
 }
 
 ros::Time SequenceRecording::stamp(int pair) const {
-  return toRosTime(offset_ns_ + sequence_->stamp_ns(pair));
+  return toRosTime(offset_ns_ + sequence_.stamp_ns(pair));
 }
 
 sensor_msgs::CameraInfo::Ptr SequenceRecording::leftInfo(int pair) const {
   const StereoCamera& camera = calibration_.rectified;
-  return stamped(toCameraInfo(calibration_.left, camera, camera.cx, 0.0), stamp(pair));
+  return toCameraInfo(calibration_.left, camera, camera.cx, 0.0, stamp(pair));
 }
 
 sensor_msgs::CameraInfo::Ptr SequenceRecording::rightInfo(int pair) const {
   const StereoCamera& camera = calibration_.rectified;
-  return stamped(toCameraInfo(calibration_.right, camera, camera.cx_right, shiftOf(camera)),
-                 stamp(pair));
+  return toCameraInfo(calibration_.right, camera, camera.cx_right, shiftOf(camera), stamp(pair));
 }
 
 bool SequenceRecording::atEnd() const {
@@ -159,7 +170,7 @@ bool SequenceRecording::atEnd() const {
 }
 
 void SequenceRecording::readPair() {
-  StereoPair pair = sequence_->read(next_pair_);
+  StereoPair pair = sequence_.read(next_pair_);
   if (rectifier_) pair = rectifier_->rectify(pair, raw_calibration_);
   of_pair_.resize(4);
   of_pair_[0].left_info = leftInfo(next_pair_);

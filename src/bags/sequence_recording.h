@@ -32,7 +32,7 @@ class SequenceRecording : public Recording {
   SequenceRecording(const std::string& directory, const Options& options);
 
   std::string description() const override;
-  int size() const override { return sequence_->size(); }
+  int size() const override { return sequence_.size(); }
   bool isRaw() const override { return !calibration_.isRectified(); }
   ros::Time begin() const override { return stamp(0); }
   ros::Time end() const override { return stamp(size() - 1); }
@@ -44,9 +44,9 @@ class SequenceRecording : public Recording {
   /// one, with the axes of base_link.
   tf2_msgs::TFMessage staticTransforms() const override;
   nav_msgs::Path truth() const override;
-  Eigen::Isometry3d T_base_camera() const override { return sequence_->T_base_camera(); }
+  Eigen::Isometry3d T_base_camera() const override { return sequence_.T_base_camera; }
   GyroRecording gyroscope(const std::string& name) const override {
-    return sequence_->gyroscope(name);
+    return sequence_.gyroscope(name);
   }
 
   /// The gyroscope in imu_link: the angular velocity only. Empty if there is none.
@@ -57,7 +57,7 @@ class SequenceRecording : public Recording {
   void select(const ros::Time& from, const ros::Time& to, bool with_tf) override;
   bool hasNext() const override;
   bool next(RecordedMessage& message) override;
-  std::string leftOut() const override { return sequence_->leftOut(); }
+  std::string leftOut() const override { return sequence_.pairs.leftOut(); }
 
  private:
   ros::Time stamp(int pair) const;
@@ -66,7 +66,8 @@ class SequenceRecording : public Recording {
   bool atEnd() const;
   void readPair();
 
-  std::unique_ptr<StereoSequence> sequence_;
+  std::string directory_;
+  StereoSequence sequence_;
   std::int64_t offset_ns_;
   StereoCalibration calibration_;                             // of the images of next()
   std::shared_ptr<const StereoCalibration> raw_calibration_;  // of images that are rectified

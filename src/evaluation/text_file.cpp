@@ -8,8 +8,12 @@
 #include <sstream>
 #include <stdexcept>
 
+#include <opencv2/core.hpp>
+
 namespace rotrocc {
 namespace {
+
+constexpr double kMaxRoundingError = 1e-3;  // of four digits
 
 std::istringstream makeStream() {
   std::istringstream stream;
@@ -53,6 +57,23 @@ std::int64_t TextLine::integer(std::size_t index) const {
   return std::llround(value);
 }
 
+Eigen::Isometry3d TextLine::quaternionPose(bool w_first) const {
+  const std::size_t x = w_first ? 5 : 4;
+  const Eigen::Quaterniond quaternion(
+      number(w_first ? 4 : 7), number(x), number(x + 1), number(x + 2));
+  if (!(std::abs(quaternion.norm() - 1.0) < 10.0 * kMaxRoundingError)) {
+    fail(cv::format("the quaternion has the length %f instead of 1", quaternion.norm()));
+  }
+  Eigen::Isometry3d pose(quaternion.normalized());
+  pose.translation() = Eigen::Vector3d(number(1), number(2), number(3));
+  return pose;
+}
+
+void TextLine::requireLater(std::int64_t stamp_ns, std::int64_t previous_ns) const {
+  if (stamp_ns > previous_ns) return;
+  fail("the time " + words.front() + " is not later than the one before it: sort the file by time");
+}
+
 void TextLine::fail(const std::string& what) const {
   throw std::runtime_error(where + ": " + what);
 }
@@ -75,6 +96,13 @@ std::vector<TextLine> readTextLines(const std::string& path, char separator) {
   if (file.bad()) throw std::runtime_error("cannot read " + path + " to its end");
   if (lines.empty()) throw std::runtime_error(path + " has no data");
   return lines;
+}
+
+std::string whyNoRotation(const Eigen::Matrix3d& matrix) {
+  const Eigen::Matrix3d deviation = matrix * matrix.transpose() - Eigen::Matrix3d::Identity();
+  const double error = deviation.cwiseAbs().maxCoeff();
+  if (!(error <= kMaxRoundingError)) return cv::format("off orthonormality by %g", error);
+  return matrix.determinant() < 0.0 ? "a reflection" : "";
 }
 
 }  // namespace rotrocc

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 namespace rotrocc {
 
 /// A line of a text file, split into words.
@@ -22,6 +24,13 @@ struct TextLine {
   /// range of 64 bit.
   std::int64_t integer(std::size_t index) const;
 
+  /// The pose of a position [m] in the words 1 to 3 and a quaternion in the words 4 to 7, w last or
+  /// first. Throws like number(), and if the quaternion has not the length 1.
+  Eigen::Isometry3d quaternionPose(bool w_first) const;
+
+  /// Throws std::runtime_error unless `stamp_ns`, of the first word, is later than the one before.
+  void requireLater(std::int64_t stamp_ns, std::int64_t previous_ns) const;
+
   /// Throws std::runtime_error with `where` and what is wrong there.
   [[noreturn]] void fail(const std::string& what) const;
 };
@@ -30,5 +39,8 @@ struct TextLine {
 /// CRLF. Words are separated by white space, and by `separator`. Throws std::runtime_error if the
 /// file cannot be read or no line is left.
 std::vector<TextLine> readTextLines(const std::string& path, char separator = ' ');
+
+/// Why a matrix, printed with four digits or more, is no rotation; empty if it is one.
+std::string whyNoRotation(const Eigen::Matrix3d& matrix);
 
 }  // namespace rotrocc

@@ -5,7 +5,6 @@
 
 #include <opencv2/core.hpp>
 
-#include "evaluation/pose_text.h"
 #include "evaluation/text_file.h"
 
 namespace rotrocc {
@@ -41,7 +40,7 @@ Eigen::Isometry3d kittiPose(const TextLine& line) {
 /// The first number of a line [s].
 std::int64_t timeAfter(std::int64_t previous_ns, const TextLine& line) {
   const std::int64_t stamp_ns = line.nanoseconds(0);
-  requireLater(line, stamp_ns, previous_ns);
+  line.requireLater(stamp_ns, previous_ns);
   return stamp_ns;
 }
 
@@ -79,7 +78,7 @@ Trajectory readTrajectory(const std::string& path, const std::string& times_path
   for (const TextLine& line : lines) {
     requireCount(line, is_tum ? kTumNumbers : kKittiNumbers);
     stamp_ns = is_tum ? timeAfter(stamp_ns, line) : stamp_ns + kKittiPeriod_ns;
-    trajectory.push_back({stamp_ns, is_tum ? quaternionPose(line, false) : kittiPose(line)});
+    trajectory.push_back({stamp_ns, is_tum ? line.quaternionPose(false) : kittiPose(line)});
   }
   if (!times_path.empty()) setStamps(trajectory, path, times_path);
   return trajectory;

@@ -11,9 +11,11 @@
 #include <ros/console.h>
 #include <ros/init.h>
 #include <rosgraph_msgs/Clock.h>
+#include <tf2_eigen/tf2_eigen.h>
 
-#include "bags/ground_truth.h"
+#include "input/message_conversion.h"
 #include "input/to_text.h"
+#include "rotrocc/trajectory.h"
 
 namespace rotrocc {
 namespace {
@@ -37,8 +39,8 @@ std::unique_ptr<Recording> openPlayable(const PlayerOptions& options) {
   how.left_image = options.left_image;
   how.right_image = options.right_image;
   how.base_frame = options.base_frame;
-  how.max_stamp_difference_s = options.max_stamp_difference_s;
-  how.being_written = options.image_timeout_s > 0.0;
+  how.sequence.max_stamp_difference_s = options.max_stamp_difference_s;
+  how.sequence.being_written = options.image_timeout_s > 0.0;
   std::unique_ptr<Recording> recording = openRecording(options.bag, how);
   if (!options.rectify && recording->isRaw()) {
     throw std::invalid_argument("the images of " + recording->description() +
@@ -49,6 +51,20 @@ std::unique_ptr<Recording> openPlayable(const PlayerOptions& options) {
                                 " are rectified as they are read: start without rectify:=true");
   }
   return recording;
+}
+
+/// As poses of the camera, relative to the first one, like the trajectory that the odometry writes.
+/// Throws std::runtime_error if the file cannot be written.
+void writeGroundTruth(const std::string& file,
+                      const nav_msgs::Path& path_of_base,
+                      const Eigen::Isometry3d& T_base_camera) {
+  TrajectoryWriter writer(file, TrajectoryFormat::kTum);
+  for (const geometry_msgs::PoseStamped& pose : path_of_base.poses) {
+    Eigen::Isometry3d T_first_base;
+    tf2::fromMsg(pose.pose, T_first_base);
+    writer.write(
+        {toNanoseconds(pose.header.stamp), T_base_camera.inverse() * T_first_base * T_base_camera});
+  }
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct PlayerOptions {
   double image_timeout_s = 0.0;          ///< longest wait for a pair of a sequence that is being
                                          ///< written [s]; 0: all are there
   double max_stamp_difference_s = 0.01;  ///< between left and right image of a pair [s]
-  std::string ground_truth_file;         ///< output, see writeGroundTruth()
+  std::string ground_truth_file;         ///< output of the true poses, in TUM format
   std::string base_frame = "base_link";  ///< frame whose recorded poses are ground truth
 };
 

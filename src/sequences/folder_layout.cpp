@@ -9,9 +9,9 @@
 #include "evaluation/text_file.h"
 #include "evaluation/trajectory_sampling.h"
 #include "input/camera_calibration.h"
-#include "sequences/camera_info_calibration.h"
 #include "sequences/kitti_mount.h"
 #include "sequences/layouts.h"
+#include "sequences/yaml_file.h"
 
 namespace rotrocc {
 namespace {
@@ -104,13 +104,29 @@ Trajectory readGroundTruth(const std::string& path, const std::vector<std::int64
 
 }  // namespace
 
-bool isFolderLayout(const std::string& directory) {
-  const fs::path root(directory);
-  return fs::exists(root / "left.yaml") || fs::is_directory(root / "left");
+sensor_msgs::CameraInfo readCameraInfo(const std::string& path) {
+  const YamlFile file(path);
+  sensor_msgs::CameraInfo info;
+  info.width = static_cast<std::uint32_t>(file.pixels("image_width"));
+  info.height = static_cast<std::uint32_t>(file.pixels("image_height"));
+  // Old files have no name.
+  if (file.has("distortion_model")) info.distortion_model = file.text("distortion_model");
+  info.D = file.numbers("distortion_coefficients");
+  const auto read = [&](const char* key, auto& matrix) {
+    const std::vector<double> values = file.numbers(key, matrix.size());
+    std::copy(values.begin(), values.end(), matrix.begin());
+  };
+  read("camera_matrix", info.K);
+  read("rectification_matrix", info.R);
+  read("projection_matrix", info.P);
+  return info;
 }
 
-StereoSequence::Parts readFolderLayout(const std::string& directory,
-                                       const SequenceOptions& options) {
+std::optional<StereoSequence> readFolderLayout(const std::string& directory,
+                                               const SequenceOptions& options) {
+  if (!fs::exists(directory + "/left.yaml") && !fs::is_directory(directory + "/left")) {
+    return std::nullopt;
+  }
   ImagePairs pairs(readImageList(directory, "left"),
                    readImageList(directory, "right"),
                    options.max_stamp_difference_s);
@@ -121,7 +137,7 @@ StereoSequence::Parts readFolderLayout(const std::string& directory,
   const auto gyroscope = [](const std::string& name) -> GyroRecording {
     throw std::runtime_error("there is no file " + name + " with a gyroscope");
   };
-  return {std::move(pairs), calibration, truth, T_base_camera, gyroscope, ""};
+  return StereoSequence{std::move(pairs), calibration, truth, T_base_camera, gyroscope, ""};
 }
 
 }  // namespace rotrocc

@@ -46,7 +46,7 @@ class ImagePairs {
   /// Throws std::runtime_error if a file is unreadable or has not the size `size`.
   StereoPair read(int index, const cv::Size& size);
 
-  /// As StereoSequence::leftOut().
+  /// What was left out, e.g. "3 left images and 1 right image without a partner"; empty if nothing.
   std::string leftOut() const;
 
  private:

@@ -11,8 +11,13 @@
 
 namespace rotrocc {
 
-StereoSequence::Parts readKittiLayout(const std::string& directory,
-                                      const SequenceOptions& options) {
+std::optional<StereoSequence> readKittiLayout(const std::string& directory,
+                                              const SequenceOptions& options) {
+  namespace fs = std::filesystem;
+  const auto has = [&](const char* part) { return fs::exists(fs::path(directory) / part); };
+  if (!(has("image_0") || has("image_1") || has("calib.txt") || has("times.txt"))) {
+    return std::nullopt;
+  }
   const KittiSequence sequence(directory, options.being_written);
   std::vector<ImagePairs::Pair> pairs;
   for (int i = 0; i < sequence.size(); ++i) {
@@ -21,15 +26,15 @@ StereoSequence::Parts readKittiLayout(const std::string& directory,
   }
   const auto gyroscope = [directory](const std::string& name) -> GyroRecording {
     const std::string file = directory + "/" + name;
-    if (std::filesystem::is_regular_file(file)) return {readGyroFile(file)};
+    if (fs::is_regular_file(file)) return {readGyroFile(file)};
     throw std::runtime_error("there is no file " + name + " with a gyroscope");
   };
-  return {ImagePairs(std::move(pairs)),
-          rectifiedCalibration(sequence.camera()),
-          sequence.groundTruth(),
-          kittiMount(),
-          gyroscope,
-          std::filesystem::is_regular_file(directory + "/imu.csv") ? "imu.csv" : ""};
+  return StereoSequence{ImagePairs(std::move(pairs)),
+                        rectifiedCalibration(sequence.camera()),
+                        sequence.groundTruth(),
+                        kittiMount(),
+                        gyroscope,
+                        fs::is_regular_file(directory + "/imu.csv") ? "imu.csv" : ""};
 }
 
 }  // namespace rotrocc

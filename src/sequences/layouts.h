@@ -1,18 +1,25 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include <sensor_msgs/CameraInfo.h>
+#include <Eigen/Geometry>
+
+#include "rectification/stereo_calibration.h"
 #include "sequences/stereo_sequence.h"
 
 namespace rotrocc {
 
-/// Read what a directory has, see openStereoSequence(), and throw like it.
+/// These read a directory, see openStereoSequence(), and throw like it; nothing if it has another
+/// layout.
 
 /// KittiSequence with KITTI's mount, and the gyroscope of imu.csv in axes of the left camera, as
 /// simulate_drive --imu writes it.
-StereoSequence::Parts readKittiLayout(const std::string& directory, const SequenceOptions& options);
+std::optional<StereoSequence> readKittiLayout(const std::string& directory,
+                                              const SequenceOptions& options);
 
-/// A recording in ASL format, as those of EuRoC:
+/// A recording in ASL format, as those of EuRoC; mav0 may be the directory itself:
 ///   mav0/cam0/data.csv, sensor.yaml, data/*.png    left camera: stamps [ns] and file names,
 ///                                                  intrinsics, distortion and pose on the body
 ///   mav0/cam1/...                                  right camera
@@ -21,10 +28,8 @@ StereoSequence::Parts readKittiLayout(const std::string& directory, const Sequen
 ///                                                  z), and the body's pose in sensor.yaml;
 ///                                                  optional
 /// The base is the body. The pairs are rectified as chooseRectification() says.
-StereoSequence::Parts readAslLayout(const std::string& directory, const SequenceOptions& options);
-
-/// Whether the directory, or mav0 in it, has a cam0.
-bool isAslLayout(const std::string& directory);
+std::optional<StereoSequence> readAslLayout(const std::string& directory,
+                                            const SequenceOptions& options);
 
 /// Images with the calibration of ROS:
 ///   left.yaml, right.yaml    files of camera_calibration
@@ -33,10 +38,22 @@ bool isAslLayout(const std::string& directory);
 ///                            times: [ns] without a dot, [s] with one
 ///   groundtruth.txt          poses of the left camera in TUM format; optional
 /// The base is at the left camera, with x forward.
-StereoSequence::Parts readFolderLayout(const std::string& directory,
-                                       const SequenceOptions& options);
+std::optional<StereoSequence> readFolderLayout(const std::string& directory,
+                                               const SequenceOptions& options);
 
-/// Whether the directory has left images, or their calibration.
-bool isFolderLayout(const std::string& directory);
+/// A file of camera_calibration. Throws std::runtime_error with path, key and problem.
+sensor_msgs::CameraInfo readCameraInfo(const std::string& path);
+
+/// A file sensor.yaml of a camera in the ASL format. Throws std::runtime_error with path, key,
+/// value and problem.
+struct AslCamera {
+  RawCamera camera;
+  Eigen::Isometry3d T_body_camera;
+};
+AslCamera readAslCamera(const std::string& path);
+
+/// T_BS of the sensor.yaml of any sensor: maps its points to those of the body. Identity if the
+/// file does not exist. Throws as readAslCamera().
+Eigen::Isometry3d readAslPose(const std::string& path);
 
 }  // namespace rotrocc

@@ -2,42 +2,19 @@
 
 #include <filesystem>
 #include <stdexcept>
-#include <utility>
 
 #include "sequences/kitti_mount.h"
 #include "sequences/layouts.h"
 
 namespace rotrocc {
-namespace {
-
-namespace fs = std::filesystem;
-
-StereoSequence::Parts readLayout(const std::string& directory, const SequenceOptions& options) {
-  if (!fs::is_directory(directory)) throw std::runtime_error(directory + " is not a directory");
-  if (isAslLayout(directory)) return readAslLayout(directory, options);
-  if (isFolderLayout(directory)) return readFolderLayout(directory, options);
-  for (const char* part : {"image_0", "image_1", "calib.txt", "times.txt"}) {
-    if (fs::exists(fs::path(directory) / part)) return readKittiLayout(directory, options);
-  }
-  throw std::runtime_error(directory +
-                           " is no stereo sequence: it has neither image_0 (KITTI), nor mav0/cam0 "
-                           "(ASL, EuRoC), nor left and left.yaml (camera_calibration)");
-}
-
-}  // namespace
-
-StereoSequence::StereoSequence(const std::string& directory, Parts parts)
-    : directory_(directory), parts_(std::move(parts)) {}
 
 StereoPair StereoSequence::read(int index) {
-  const RawCamera& camera = parts_.calibration.left;
-  return parts_.pairs.read(index, {camera.width, camera.height});
+  return pairs.read(index, {calibration.left.width, calibration.left.height});
 }
 
 GyroRecording StereoSequence::gyroscope(const std::string& name) const {
-  if (!name.empty()) return parts_.gyroscope(name);
-  if (parts_.usual_gyroscope.empty()) return {};
-  return parts_.gyroscope(parts_.usual_gyroscope);
+  if (!name.empty()) return named_gyroscope(name);
+  return usual_gyroscope.empty() ? GyroRecording() : named_gyroscope(usual_gyroscope);
 }
 
 std::int64_t rosTimeOffset_ns(const StereoSequence& sequence) {
@@ -45,9 +22,16 @@ std::int64_t rosTimeOffset_ns(const StereoSequence& sequence) {
   return sequence.stamp_ns(0) < kDay_ns ? kKittiStart_s * 1'000'000'000 : 0;
 }
 
-std::unique_ptr<StereoSequence> openStereoSequence(const std::string& directory,
-                                                   const SequenceOptions& options) {
-  return std::make_unique<StereoSequence>(directory, readLayout(directory, options));
+StereoSequence openStereoSequence(const std::string& directory, const SequenceOptions& options) {
+  if (!std::filesystem::is_directory(directory)) {
+    throw std::runtime_error(directory + " is not a directory");
+  }
+  for (const auto& readLayout : {readAslLayout, readFolderLayout, readKittiLayout}) {
+    if (auto sequence = readLayout(directory, options)) return *std::move(sequence);
+  }
+  throw std::runtime_error(directory +
+                           " is no stereo sequence: it has neither image_0 (KITTI), nor mav0/cam0 "
+                           "(ASL, EuRoC), nor left and left.yaml (camera_calibration)");
 }
 
 }  // namespace rotrocc

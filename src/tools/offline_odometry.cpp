@@ -1,20 +1,24 @@
+#include <cstddef>
 #include <cstdint>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <boost/program_options.hpp>
+#include <opencv2/core.hpp>
 
 #include "bags/recorded_pairs.h"
 #include "inertial/gyro_file.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/visual_odometry.h"
 #include "tools/odometry_outputs.h"
-#include "tools/preloaded_pairs.h"
 #include "tools/program.h"
 #include "tools/progress_bar.h"
 #include "tools/recorded_gyro.h"
@@ -135,8 +139,8 @@ Parameters readParameters(const Options& options) {
 std::unique_ptr<Recording> openInput(const Options& options, const NodeParameters& node) {
   RecordingOptions recording = options.recording;
   recording.base_frame = node.base_frame;
-  recording.max_stamp_difference_s = node.max_stamp_difference_s;
-  recording.baseline_m = node.baseline_m;
+  recording.sequence.max_stamp_difference_s = node.max_stamp_difference_s;
+  recording.sequence.baseline_m = node.baseline_m;
   return openRecording(options.input, recording);
 }
 
@@ -147,6 +151,58 @@ std::optional<RecordedGyro> openGyro(const Options& options, const Recording& re
   }
   return RecordedGyro(recording.gyroscope(options.imu));
 }
+
+/// Memory of this process, by its name in /proc/self/status: VmRSS is that now, VmHWM its peak. The
+/// peak of getrusage() is no less than that of the process which has started this one.
+double memory_MB(const std::string& name) {
+  std::ifstream status("/proc/self/status");
+  std::string line;
+  while (std::getline(status, line)) {
+    if (line.rfind(name + ":", 0) == 0) return 1024e-6 * std::stod(line.substr(name.size() + 1));
+  }
+  return 0.0;
+}
+
+/// All pairs of a recording, read in advance, so that reading does not disturb the timing.
+class PreloadedPairs {
+ public:
+  explicit PreloadedPairs(RecordedPairs& pairs) {
+    StereoPair pair;
+    StereoCamera camera;
+    while (pairs.next(pair, camera)) {
+      for (const cv::Mat& image : {pair.left, pair.right}) {
+        images_MB_ += 1e-6 * static_cast<double>(image.total() * image.elemSize());
+      }
+      // The next call overwrites its images.
+      pairs_.emplace_back(StereoPair{pair.stamp_ns, pair.left.clone(), pair.right.clone()}, camera);
+    }
+    loaded_MB_ = memory_MB("VmRSS");
+  }
+
+  /// Returns false and leaves the arguments unchanged at the end.
+  bool next(StereoPair& pair, StereoCamera& camera) {
+    if (next_ == pairs_.size()) return false;
+    std::tie(pair, camera) = pairs_[next_];
+    ++next_;
+    return true;
+  }
+
+  /// Prints the peak memory of the process, split by use.
+  void printMemory() const {
+    const double peak_MB = memory_MB("VmHWM");
+    std::cout << cv::format(
+        "peak memory: %.1f MB without the images (%.1f MB), of which %.1f MB for the odometry\n",
+        peak_MB - images_MB_,
+        images_MB_,
+        peak_MB - loaded_MB_);
+  }
+
+ private:
+  std::vector<std::pair<StereoPair, StereoCamera>> pairs_;
+  std::size_t next_ = 0;
+  double images_MB_ = 0.0;
+  double loaded_MB_ = 0.0;  // memory of the process after reading all images
+};
 
 void run(const Options& options) {
   const Parameters parameters = readParameters(options);
@@ -181,7 +237,7 @@ void run(const Options& options) {
   progress.finish();
   printSummary(std::cout, records);
   if (gyro) gyro->printSummary(std::cout);
-  if (preloaded) preloaded->printMemory(std::cout);
+  if (preloaded) preloaded->printMemory();
   if (const std::string left_out = pairs.leftOut(); !left_out.empty()) {
     std::cout << left_out << " within " << parameters.node.max_stamp_difference_s
               << " s (max_stamp_difference_s)\n";

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include "inertial/gyro_predictor.h"
-#include "sequences/gyro_recording.h"
+#include "sequences/stereo_sequence.h"
 
 namespace rotrocc {
 

@@ -66,14 +66,12 @@ void printTimes(std::ostream& out,
 }  // namespace
 
 StatisticsFile::StatisticsFile(const std::string& path) : path_(path), file_(path) {
-  file_ << "stamp_ns,state,dt_s,tries,corners,with_depth,tracked,consistent,"
-           "rotation_inliers,"
+  file_ << "stamp_ns,state,dt_s,tries,corners,with_depth,tracked,consistent,rotation_inliers,"
            "translation_inliers,pyramids_ms,corners_ms,disparity_ms,tracking_ms,estimation_ms,"
-           "prepared_ms,wall_ms,cpu_ms,keyframe_stamp_ns,bias_estimated_px,bias_sigma_px,bias_"
-           "applied_px,"
-           "row_offset_px,row_offset_sigma_px,row_difference_px,row_offset_applied_px,time_skew_s,"
-           "time_skew_sigma_s,exposure_gain,shared_error_ratio,flow_noise_px,x_m,y_m,z_m,rx_rad,"
-           "ry_rad,rz_rad";
+           "prepared_ms,wall_ms,cpu_ms,keyframe_stamp_ns,bias_estimated_px,bias_sigma_px,"
+           "bias_applied_px,row_offset_px,row_offset_sigma_px,row_difference_px,"
+           "row_offset_applied_px,time_skew_s,time_skew_sigma_s,exposure_gain,shared_error_ratio,"
+           "flow_noise_px,x_m,y_m,z_m,rx_rad,ry_rad,rz_rad";
   for (int i = 0; i < 6; ++i) {
     for (int j = i; j < 6; ++j) file_ << ",covariance_" << kAxes[i] << '_' << kAxes[j];
   }

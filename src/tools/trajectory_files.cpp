@@ -76,21 +76,21 @@ void requireStatisticsOf(const Trajectory& estimate, const TrajectoryFiles& file
 
 /// With the poses of a sequence, and its stamps if the estimate has none.
 MatchedTrajectories readWithSequence(const TrajectoryFiles& files) {
-  const auto sequence = openStereoSequence(files.truth, {});
-  if (sequence->groundTruth().empty()) throw std::runtime_error(files.truth + " has no true poses");
+  const StereoSequence sequence = openStereoSequence(files.truth, {});
+  if (sequence.ground_truth.empty()) throw std::runtime_error(files.truth + " has no true poses");
   Trajectory estimate = readTrajectory(files.estimate, files.times);
   if (!isTum(files.estimate) && files.times.empty()) {
-    const auto pairs = static_cast<std::size_t>(sequence->size());
+    const auto pairs = static_cast<std::size_t>(sequence.size());
     if (estimate.size() != pairs) {
       throw std::runtime_error(
           files.estimate + cv::format(" has %zu poses without stamps, but ", estimate.size()) +
           files.truth + cv::format(" has %zu pairs: write it with --format tum", pairs));
     }
     for (std::size_t i = 0; i < pairs; ++i) {
-      estimate[i].stamp_ns = sequence->stamp_ns(static_cast<int>(i));
+      estimate[i].stamp_ns = sequence.stamp_ns(static_cast<int>(i));
     }
   }
-  return matchStamps(sequence->groundTruth(), estimate, files);
+  return matchStamps(sequence.ground_truth, estimate, files);
 }
 
 /// The stamps are those of the estimate.

@@ -131,7 +131,7 @@ class RawSequenceBagTest : public ::testing::Test {
 
 TEST_F(RawSequenceBagTest, HoldsImagesAndCalibrationAsRecorded) {
   const rosbag::Bag bag = openBag(write());
-  const auto sequence = openStereoSequence(folder_.path(), {});
+  const StereoSequence sequence = openStereoSequence(folder_.path(), {});
   const auto image = firstMessage<sensor_msgs::Image>(bag, "/stereo/left/image_raw");
   ASSERT_TRUE(image);
   EXPECT_EQ(toNanoseconds(image->header.stamp), AslFolder::stamp_ns(0));
@@ -142,20 +142,38 @@ TEST_F(RawSequenceBagTest, HoldsImagesAndCalibrationAsRecorded) {
   const StereoCalibration calibration = toStereoCalibration(*left, *right);
   EXPECT_EQ(calibration.left.fx, 458.654);
   EXPECT_EQ(calibration.right.distortion.coefficients(),
-            sequence->calibration().right.distortion.coefficients());
-  EXPECT_EQ(calibration.right.R_rectified_raw, sequence->calibration().right.R_rectified_raw);
-  EXPECT_DOUBLE_EQ(calibration.rectified.baseline_m, sequence->calibration().rectified.baseline_m);
-  const RecordedTf tf(bag, "base_link", "stereo_left_optical");
-  EXPECT_FALSE(tf.addedKittiMount());
-  EXPECT_TRUE(tf.T_base_camera().isApprox(sequence->T_base_camera(), 1e-9));
+            sequence.calibration.right.distortion.coefficients());
+  EXPECT_EQ(calibration.right.R_rectified_raw, sequence.calibration.right.R_rectified_raw);
+  EXPECT_DOUBLE_EQ(calibration.rectified.baseline_m, sequence.calibration.rectified.baseline_m);
+  for (const auto& info : {left, right}) {
+    EXPECT_TRUE(describesRawImages(*info));
+    info->binning_x = info->binning_y = 2;
+    info->roi.x_offset = 100;
+    info->roi.width = 600;
+    info->roi.height = 480;
+  }
+  const StereoCalibration binned = toStereoCalibration(*left, *right);
+  EXPECT_EQ(binned.left.width, 300);
+  EXPECT_EQ(binned.left.height, 240);
+  EXPECT_DOUBLE_EQ(binned.left.fx, calibration.left.fx / 2.0);
+  EXPECT_DOUBLE_EQ(binned.left.cx, (calibration.left.cx - 100.0) / 2.0);
+  EXPECT_DOUBLE_EQ(binned.rectified.cx, (calibration.rectified.cx - 100.0) / 2.0);
+
+  const RecordedTf tf = readTf(bag, "base_link", "stereo_left_optical");
+  EXPECT_FALSE(tf.added_kitti_mount);
+  EXPECT_EQ(tf.static_transforms.transforms.size(), 1u);
+  EXPECT_TRUE(tf.trajectory.poses.empty());
+  EXPECT_TRUE(tf.T_base_camera.isApprox(sequence.T_base_camera, 1e-9));
 }
 
-TEST_F(RawSequenceBagTest, HoldsRectifiedImagesOnRequest) {
-  const rosbag::Bag bag = openBag(write({std::nullopt, true}));
+TEST_F(RawSequenceBagTest, HoldsRectifiedImagesAndMovedStampsOnRequest) {
+  const rosbag::Bag bag = openBag(write({1000, true}));
   const auto left = firstMessage<sensor_msgs::CameraInfo>(bag, "/stereo/left/camera_info");
   ASSERT_TRUE(left);
   EXPECT_FALSE(describesRawImages(*left));
-  EXPECT_TRUE(firstMessage<sensor_msgs::Image>(bag, "/stereo/left/image_rect"));
+  const auto image = firstMessage<sensor_msgs::Image>(bag, "/stereo/left/image_rect");
+  ASSERT_TRUE(image);
+  EXPECT_EQ(image->header.stamp, ros::Time(1000.0));
   EXPECT_FALSE(firstMessage<sensor_msgs::Image>(bag, "/stereo/left/image_raw"));
 }
 
@@ -169,12 +187,6 @@ TEST_F(RawSequenceBagTest, TruthMayBeginAfterTheFirstPair) {
   EXPECT_EQ(path->poses.size(), 2u);
   rosbag::View poses(bag, rosbag::TopicQuery("/ground_truth/pose"));
   EXPECT_EQ(poses.size(), 2u);
-}
-
-TEST_F(RawSequenceBagTest, StampsMayBeMoved) {
-  const rosbag::Bag bag = openBag(write({1000, false}));
-  const auto image = firstMessage<sensor_msgs::Image>(bag, "/stereo/left/image_raw");
-  EXPECT_EQ(image->header.stamp, ros::Time(1000.0));
 }
 
 TEST_F(RawSequenceBagTest, HoldsTheGyroscopeInAxesOfTheBase) {

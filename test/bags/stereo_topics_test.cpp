@@ -24,14 +24,16 @@ TopicTypes withInfos(const std::vector<std::string>& images) {
   return types;
 }
 
+/// The topic of a side, for the star of a name.
+std::string topic(std::string name, const char* side) {
+  return name.replace(name.find('*'), 1, side);
+}
+
 /// The left and right topics of these names.
 std::vector<std::string> pairs(const std::vector<std::string>& names) {
   std::vector<std::string> images;
   for (const std::string& name : names) {
-    const std::size_t star = name.find('*');
-    for (const char* side : {"left", "right"}) {
-      images.push_back(std::string(name).replace(star, 1, side));
-    }
+    for (const char* side : {"left", "right"}) images.push_back(topic(name, side));
   }
   return images;
 }
@@ -40,37 +42,33 @@ TEST(FindStereoTopics, FindsThePair) {
   const struct {
     const char* why;
     std::vector<std::string> pairs;
-    const char* left_image;
-    const char* right_image;
+    std::string folder, image;
   } rows[] = {
-      {"own bags", {"/stereo/*/image_rect"}, "/stereo/left/image_rect", "/stereo/right/image_rect"},
+      {"own bags", {"/stereo/*/image_rect"}, "/stereo/*", "/image_rect"},
       {"gray rather than colour",
        {"/kitti/camera_color_*/image_raw", "/kitti/camera_gray_*/image_raw"},
-       "/kitti/camera_gray_left/image_raw",
-       "/kitti/camera_gray_right/image_raw"},
+       "/kitti/camera_gray_*",
+       "/image_raw"},
       {"colour if there is no gray",
        {"/kitti/camera_color_*/image_rect"},
-       "/kitti/camera_color_left/image_rect",
-       "/kitti/camera_color_right/image_rect"},
+       "/kitti/camera_color_*",
+       "/image_rect"},
       {"rectified rather than raw",
        {"/camera/*/image_raw", "/camera/*/image_rect", "/camera/*/image_rect_color"},
-       "/camera/left/image_rect",
-       "/camera/right/image_rect"},
+       "/camera/*",
+       "/image_rect"},
       {"the last left of a name",
        {"/left_arm/stereo/*/image_rect"},
-       "/left_arm/stereo/left/image_rect",
-       "/left_arm/stereo/right/image_rect"},
+       "/left_arm/stereo/*",
+       "/image_rect"},
   };
   for (const auto& row : rows) {
     SCOPED_TRACE(row.why);
     const StereoTopics topics = findStereoTopics(withInfos(pairs(row.pairs)));
-    EXPECT_EQ(topics.left_image, row.left_image);
-    EXPECT_EQ(topics.right_image, row.right_image);
-    const auto infoOf = [](const std::string& image) {
-      return image.substr(0, image.rfind('/')) + "/camera_info";
-    };
-    EXPECT_EQ(topics.left_info, infoOf(row.left_image));
-    EXPECT_EQ(topics.right_info, infoOf(row.right_image));
+    EXPECT_EQ(topics.left_image, topic(row.folder, "left") + row.image);
+    EXPECT_EQ(topics.right_image, topic(row.folder, "right") + row.image);
+    EXPECT_EQ(topics.left_info, topic(row.folder, "left") + "/camera_info");
+    EXPECT_EQ(topics.right_info, topic(row.folder, "right") + "/camera_info");
   }
 }
 

@@ -4,11 +4,8 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "input/camera_calibration.h"
-#include "sequences/camera_info_calibration.h"
 #include "sequences/stereo_sequence.h"
 #include "support/expect_error.h"
-#include "support/raw_rig.h"
 #include "support/read_file.h"
 #include "support/temporary_directory.h"
 
@@ -34,7 +31,7 @@ class CalibratedFolderTest : public ::testing::Test {
     cv::imwrite(directory_ / name, cv::Mat(480, 752, CV_8UC1, cv::Scalar(grey)));
   }
 
-  std::unique_ptr<StereoSequence> open(const SequenceOptions& options = {}) const {
+  StereoSequence open(const SequenceOptions& options = {}) const {
     return openStereoSequence(directory_ / "", options);
   }
 
@@ -53,17 +50,17 @@ class CalibratedFolderTest : public ::testing::Test {
 };
 
 TEST_F(CalibratedFolderTest, ReadsPairsNamedByTheirTimes) {
-  const auto sequence = open();
-  ASSERT_EQ(sequence->size(), 2);
-  EXPECT_EQ(sequence->stamp_ns(0), 1403636579763555584);
-  EXPECT_EQ(sequence->read(1).right.at<uchar>(0, 0), 20);
+  StereoSequence sequence = open();
+  ASSERT_EQ(sequence.size(), 2);
+  EXPECT_EQ(sequence.stamp_ns(0), 1403636579763555584);
+  EXPECT_EQ(sequence.read(1).right.at<uchar>(0, 0), 20);
   fs::rename(directory_ / "left/1403636579813555456.png",
              directory_ / "left/1403636579.813555.png");
-  EXPECT_EQ(open()->stamp_ns(1), 1403636579813555000) << "in seconds, 456 ns earlier";
+  EXPECT_EQ(open().stamp_ns(1), 1403636579813555000) << "in seconds, 456 ns earlier";
 }
 
 TEST_F(CalibratedFolderTest, CalibrationIsThatOfTheFiles) {
-  const StereoCalibration calibration = open()->calibration();
+  const StereoCalibration calibration = open().calibration;
   EXPECT_EQ(calibration.left.fx, 458.654);
   EXPECT_EQ(calibration.right.cy, 255.238);
   EXPECT_EQ(calibration.right.distortion.coefficients()[0], -0.28368365);
@@ -77,10 +74,10 @@ TEST_F(CalibratedFolderTest, TakesTheTimesOfAFile) {
   fs::rename(directory_ / "left/1403636579763555584.png", directory_ / "left/a.png");
   expectRefused("a.png is not named by its time, e.g. 1403636579763555584.png [ns]");
   directory_.write("times.txt", "0.5\n0.6\n");
-  const auto sequence = open();
-  EXPECT_EQ(sequence->stamp_ns(1), 600'000'000);
-  EXPECT_EQ(sequence->read(0).left.at<uchar>(0, 0), 20) << "in the order of their names";
-  EXPECT_EQ(rosTimeOffset_ns(*sequence), 1'317'600'000'000'000'000);
+  StereoSequence sequence = open();
+  EXPECT_EQ(sequence.stamp_ns(1), 600'000'000);
+  EXPECT_EQ(sequence.read(0).left.at<uchar>(0, 0), 20) << "in the order of their names";
+  EXPECT_EQ(rosTimeOffset_ns(sequence), 1'317'600'000'000'000'000);
   directory_.write("times.txt", "0.5\n");
   expectRefused("times.txt has 1 times, but");
 }
@@ -89,7 +86,7 @@ TEST_F(CalibratedFolderTest, ReadsTruthInTumFormat) {
   directory_.write("groundtruth.txt",
                    "# timestamp tx ty tz qx qy qz qw\n"
                    "1403636579.70 0 0 0 0 0 0 1\n1403636579.80 0 0 1 0 0 0 1\n");
-  const Trajectory truth = open()->groundTruth();
+  const Trajectory truth = open().ground_truth;
   ASSERT_EQ(truth.size(), 1u) << "the second pair is later";
   EXPECT_EQ(truth[0].stamp_ns, 1403636579763555584);
   EXPECT_NEAR(truth[0].T_world_body.translation().z(), 0.63555584, 1e-6);
@@ -100,7 +97,7 @@ TEST_F(CalibratedFolderTest, ReadsTruthInTumFormat) {
 TEST_F(CalibratedFolderTest, NamesWhatIsWrong) {
   change("right.yaml", "-48.01976196062409", "0");
   expectRefused("the baseline is zero: P[3] of camera_info");
-  EXPECT_EQ(open({0.01, 0.2})->calibration().rectified.baseline_m, 0.2);
+  EXPECT_EQ(open({0.01, 0.2}).calibration.rectified.baseline_m, 0.2);
   change("right.yaml", "364.441234588623, 0,", "364.441234588623, -48.0,");
   change("right.yaml", "plumb_bob", "mirror");
   expectRefused("the distortion model 'mirror' is not supported");
@@ -112,44 +109,6 @@ TEST_F(CalibratedFolderTest, NamesWhatIsWrong) {
   expectRefused("cannot read");
   fs::remove_all(directory_ / "right");
   expectRefused("right is missing");
-}
-
-TEST(CameraInfoCalibrationTest, WritesWhatItReads) {
-  const RawRig rig = rawRig("equidistant");
-  const StereoCalibration calibration = chooseRectification(rig.left, rig.right, rig.T_left_right);
-  const StereoCamera& camera = calibration.rectified;
-  const auto left = toCameraInfo(calibration.left, camera, camera.cx, 0.0);
-  const auto right =
-      toCameraInfo(calibration.right, camera, camera.cx_right, -camera.fx * camera.baseline_m);
-  const StereoCalibration same = toStereoCalibration(left, right);
-  EXPECT_EQ(same.left.fx, rig.left.fx);
-  EXPECT_EQ(same.right.distortion.coefficients(), rig.right.distortion.coefficients());
-  EXPECT_STREQ(same.right.distortion.name(), "equidistant");
-  EXPECT_EQ(same.right.R_rectified_raw, calibration.right.R_rectified_raw);
-  EXPECT_DOUBLE_EQ(same.rectified.baseline_m, camera.baseline_m);
-  EXPECT_TRUE(describesRawImages(left));
-  const auto rectified = rectifiedCalibration(camera);
-  EXPECT_FALSE(describesRawImages(toCameraInfo(rectified.left, camera, camera.cx, 0.0)));
-}
-
-TEST(CameraInfoCalibrationTest, ScalesByBinningAndRegionOfInterest) {
-  const RawRig rig = rawRig();
-  const StereoCalibration calibration = chooseRectification(rig.left, rig.right, rig.T_left_right);
-  const StereoCamera& camera = calibration.rectified;
-  auto left = toCameraInfo(calibration.left, camera, camera.cx, 0.0);
-  auto right = toCameraInfo(calibration.right, camera, camera.cx, -camera.fx * camera.baseline_m);
-  for (auto* info : {&left, &right}) {
-    info->binning_x = info->binning_y = 2;
-    info->roi.x_offset = 100;
-    info->roi.width = 600;
-    info->roi.height = 480;
-  }
-  const StereoCalibration binned = toStereoCalibration(left, right);
-  EXPECT_EQ(binned.left.width, 300);
-  EXPECT_EQ(binned.left.height, 240);
-  EXPECT_DOUBLE_EQ(binned.left.fx, rig.left.fx / 2.0);
-  EXPECT_DOUBLE_EQ(binned.left.cx, (rig.left.cx - 100.0) / 2.0);
-  EXPECT_DOUBLE_EQ(binned.rectified.cx, (camera.cx - 100.0) / 2.0);
 }
 
 }  // namespace
