@@ -14,25 +14,11 @@
 namespace rotrocc {
 namespace {
 
-/// Noise on a slope, so that each row differs.
+/// Noise.
 cv::Mat makeImage(int type, const cv::Size& size = {61, 40}) {
-  const int channels = CV_MAT_CN(type);
-  const double range = CV_MAT_DEPTH(type) == CV_16U ? 65535.0 : 255.0;
-  cv::Mat values(size, CV_64FC(channels));
-  cv::RNG(7).fill(values, cv::RNG::UNIFORM, 0.0, 0.3 * range);
-  for (int y = 0; y < size.height; ++y) {
-    values.row(y) += cv::Scalar::all(0.7 * range * y / size.height);
-  }
-  cv::Mat image;
-  values.convertTo(image, type);
+  cv::Mat image(size, type);
+  cv::RNG(7).fill(image, cv::RNG::UNIFORM, 0.0, CV_MAT_DEPTH(type) == CV_16U ? 65535.0 : 255.0);
   return image;
-}
-
-void expectSame(const cv::Mat& image, const cv::Mat& expected) {
-  ASSERT_FALSE(expected.empty());
-  ASSERT_EQ(image.type(), expected.type());
-  ASSERT_EQ(image.size(), expected.size());
-  EXPECT_EQ(cv::norm(image, expected, cv::NORM_INF), 0.0);
 }
 
 class ImageFileTest : public ::testing::Test {
@@ -45,23 +31,11 @@ class ImageFileTest : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(ImageFileTest, ReadsAnyFormatAsGrey) {
-  for (const std::string name : {"a.png", "a.pgm", "a.jpg", "a.bmp", "a.tiff"}) {
-    SCOPED_TRACE(name);
-    const std::string path = write(name, makeImage(CV_8UC1));
-    expectSame(readGreyImage(path), cv::imread(path, cv::IMREAD_GRAYSCALE));
-    expectSame(GreyImageReader().read(path), cv::imread(path, cv::IMREAD_GRAYSCALE));
-  }
-  std::filesystem::rename(directory_ / "a.pgm", directory_ / "b.png");
-  expectSame(readGreyImage(directory_ / "b.png"), makeImage(CV_8UC1));
-}
-
-TEST_F(ImageFileTest, ConvertsColoursAndDepthsAsOpenCv) {
-  for (const int type : {CV_8UC3, CV_8UC4, CV_16UC1, CV_16UC3, CV_16UC4}) {
-    SCOPED_TRACE(type);
-    const std::string path = write("image.png", makeImage(type));
-    expectSame(readGreyImage(path), cv::imread(path, cv::IMREAD_GRAYSCALE));
-  }
+TEST_F(ImageFileTest, ConvertsColoursToGrey) {
+  const std::string path = write("image.png", makeImage(CV_8UC3));
+  const cv::Mat grey = readGreyImage(path);
+  ASSERT_EQ(grey.type(), CV_8UC1);
+  EXPECT_EQ(cv::norm(grey, cv::imread(path, cv::IMREAD_GRAYSCALE), cv::NORM_INF), 0.0);
 }
 
 TEST_F(ImageFileTest, TakesTheUpperBitsOf16) {
@@ -98,15 +72,6 @@ TEST_F(ImageFileTest, NamesWhatIsNoImage) {
   std::filesystem::create_directory(directory_ / "folder.png");
   expectRefused("folder.png", " is not a readable image");
   expectRefused("none.png", " is missing");
-}
-
-TEST_F(ImageFileTest, WritesWhatOpenCvReads) {
-  for (const int type : {CV_8UC1, CV_8UC3, CV_16UC1}) {
-    SCOPED_TRACE(type);
-    const cv::Mat image = makeImage(type);
-    writeImage(directory_ / "a.png", image);
-    expectSame(cv::imread(directory_ / "a.png", cv::IMREAD_UNCHANGED), image);
-  }
 }
 
 TEST_F(ImageFileTest, ReportsWhatItCannotWrite) {

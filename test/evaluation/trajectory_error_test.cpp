@@ -47,16 +47,6 @@ TEST(SegmentErrorsTest, ScaleErrorIsTheTranslationError) {
   EXPECT_EQ(errors[1].first_pose, 10);
 }
 
-TEST(SegmentErrorsTest, TurnRateErrorIsTheRotationError) {
-  // Each of the 77 steps turns by 0.05 deg too much.
-  const MatchedTrajectories matched{drive(200, 1.3, 0.5 * kDegree),
-                                    drive(200, 1.3, 0.55 * kDegree)};
-  const auto errors = segmentErrors(matched, {{100.0}, 1});
-  ASSERT_EQ(errors.size(), 123u);
-  EXPECT_NEAR(errors.front().rotation_rad_per_m, 77 * 0.05 * kDegree / 100.0, 1e-12);
-  EXPECT_NEAR(errors.back().rotation_rad_per_m, 77 * 0.05 * kDegree / 100.0, 1e-12);
-}
-
 TEST(SegmentErrorsTest, DoNotDependOnTheWorldFrame) {
   MatchedTrajectories matched{drive(200, 1.0, 0.01), drive(200, 1.01, 0.011)};
   const MeanError before = meanError(segmentErrors(matched));
@@ -104,22 +94,6 @@ TEST(SegmentErrorsTest, RefuseBadInput) {
       "7 ns comes after 7 ns");
 }
 
-TEST(MeanErrorTest, AveragesAllAndByLength) {
-  const std::vector<SegmentError> errors = {
-      {0, 200.0, 5.0, 0.03, 0.003}, {0, 100.0, 5.0, 0.01, 0.001}, {10, 100.0, 5.0, 0.02, 0.002}};
-  const MeanError all = meanError(errors);
-  EXPECT_EQ(all.segments, 3);
-  EXPECT_NEAR(all.translation, 0.02, 1e-15);
-  EXPECT_NEAR(all.rotation_rad_per_m, 0.002, 1e-15);
-  const auto by_length = meanErrorByLength(errors);
-  ASSERT_EQ(by_length.size(), 2u);
-  EXPECT_EQ(by_length[0].bin, 100.0);
-  EXPECT_EQ(by_length[0].segments, 2);
-  EXPECT_NEAR(by_length[0].translation, 0.015, 1e-15);
-  EXPECT_EQ(by_length[1].bin, 200.0);
-  EXPECT_NEAR(by_length[1].rotation_rad_per_m, 0.003, 1e-15);
-}
-
 TEST(MeanErrorTest, SpeedsCountForBothNeighbours) {
   // 4 m/s is exactly 2 m/s away from the neighbours 2 and 6, so it counts only for 4.
   const auto by_speed = meanErrorBySpeed({{0, 1.0, 0.5, 0.1, 0.0},
@@ -156,13 +130,6 @@ TEST(StepErrorsTest, DescribeTheMotionsFromPoseToPose) {
   EXPECT_NEAR(turning.rotation_rad.mean, 1e-6, 1e-12) << "tiny angles must survive";
   EXPECT_NEAR(turning.rotation_rad.p95, 1e-6, 1e-12);
   EXPECT_EQ(summarize(stepErrors({{}, {}})).translation_m.max, 0.0);
-}
-
-TEST(FinalDriftTest, IsTheErrorOfTheLastPose) {
-  const Drift drift = finalDrift({drive(101, 1.0), drive(101, 1.02)});
-  EXPECT_NEAR(drift.translation_m, 2.0, 1e-9);
-  EXPECT_NEAR(drift.rotation_rad, 0.0, 1e-12);
-  EXPECT_NEAR(finalDrift({drive(11, 1.0), drive(11, 1.0, 0.01)}).rotation_rad, 0.1, 1e-9);
   EXPECT_EQ(finalDrift({{}, {}}).translation_m, 0.0);
 }
 
