@@ -12,6 +12,7 @@
 
 #include "input/message_conversion.h"
 #include "node/advertise.h"
+#include "node/tf/tf_conflict.h"
 #include "rotrocc/flow_picture.h"
 
 namespace rotrocc {
@@ -61,19 +62,17 @@ std::chrono::steady_clock::time_point OdometryPublisher::publishMotion(
 /// parent.
 void OdometryPublisher::publishTf(const BaseState& state,
                                   const std::optional<Eigen::Isometry3d>& T_guess_base) {
-  const std::string& odom = parameters_.odom_frame;
-  const std::string& base = parameters_.base_frame;
-  const Eigen::Isometry3d& T_odom_base = state.T_odom_base.T;
-  const auto message = boost::make_shared<tf2_msgs::TFMessage>();
+  Eigen::Isometry3d T_parent_child = state.T_odom_base.T;
   if (!parameters_.guess_frame.empty()) {
     if (!T_guess_base) return;
-    message->transforms.push_back(toTransform(
-        T_odom_base * T_guess_base->inverse(), state.stamp_ns, odom, parameters_.guess_frame));
+    T_parent_child = T_parent_child * T_guess_base->inverse();
   } else if (parameters_.invert_tf) {
-    message->transforms.push_back(toTransform(T_odom_base.inverse(), state.stamp_ns, base, odom));
-  } else {
-    message->transforms.push_back(toTransform(T_odom_base, state.stamp_ns, odom, base));
+    T_parent_child = T_parent_child.inverse();
   }
+  const PublishedTf frames = publishedTf("", parameters_);
+  const auto message = boost::make_shared<tf2_msgs::TFMessage>();
+  message->transforms.push_back(
+      toTransform(T_parent_child, state.stamp_ns, frames.parent, frames.child));
   tf_publisher_.publish(message);
 }
 
@@ -96,13 +95,12 @@ void OdometryPublisher::publishPath(const BaseState& state, bool starts) {
   path_publisher_.publish(path);
 }
 
-void OdometryPublisher::publishPictures(const cv::Mat& left,
-                                        const StereoCamera& camera,
+void OdometryPublisher::publishPictures(const PairAnswer& answer,
                                         const VisualOdometry& odometry,
-                                        const OdometryResult& result,
                                         const std::string& camera_frame) {
+  const cv::Mat& left = answer.pair.left;
   std_msgs::Header header;
-  header.stamp = toRosTime(result.stamp_ns);
+  header.stamp = toRosTime(answer.result.stamp_ns);
   header.frame_id = camera_frame;
   if (inliers_publisher_.getNumSubscribers() > 0) {
     inliers_publisher_.publish(boost::make_shared<sensor_msgs::PointCloud2>(
@@ -110,11 +108,11 @@ void OdometryPublisher::publishPictures(const cv::Mat& left,
   }
   if (flow_publisher_.getNumSubscribers() > 0) {
     drawFlowPicture({left,
-                     camera,
+                     answer.camera,
                      odometry.correspondences(),
                      odometry.rotationInliers(),
                      odometry.translationInliers(),
-                     result},
+                     answer.result},
                     flow_view_,
                     picture_);
     flow_publisher_.publish(toImage(header, sensor_msgs::image_encodings::BGR8, picture_));

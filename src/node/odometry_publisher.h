@@ -11,7 +11,7 @@
 #include <opencv2/core.hpp>
 
 #include "input/log.h"
-#include "node/base/base_odometry.h"
+#include "node/base/pair_processor.h"
 #include "node/odometry_messages.h"
 #include "rotrocc/OdometryStatus.h"
 #include "rotrocc/flow_picture.h"
@@ -38,12 +38,9 @@ class OdometryPublisher {
   /// Adds a pose to the path, or to a new one, and publishes it.
   void publishPath(const BaseState& state, bool starts);
 
-  /// Publishes inliers and flow of the last call of odometry.process(), with input `left` and
-  /// `camera` and output `result`.
-  void publishPictures(const cv::Mat& left,
-                       const StereoCamera& camera,
+  /// Publishes inliers and flow of the last call of odometry.process(), which gave `answer`.
+  void publishPictures(const PairAnswer& answer,
                        const VisualOdometry& odometry,
-                       const OdometryResult& result,
                        const std::string& camera_frame);
 
  private:

@@ -41,11 +41,11 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
       processor_(parameters, log_),
       mount_(parameters_.base_frame, parameters_.mount_timeout_s, listenToTf, log_),
       publisher_(nh, parameters_),
-      trajectory_(static_cast<std::size_t>(parameters_.trajectory_length)),
+      trajectory_(static_cast<std::size_t>(parameters_.trajectory_length),
+                  parameters_.trajectory_file,
+                  parameters_.trajectory_format,
+                  log_),
       silence_(parameters_.silence_s, SteadyClock::now()) {
-  if (!parameters_.trajectory_file.empty()) {
-    trajectory_recorder_.emplace(parameters_.trajectory_file, parameters_.trajectory_format, log_);
-  }
   if (!parameters_.guess_frame.empty()) {
     guess_.emplace(parameters_.guess_frame,
                    parameters_.base_frame,
@@ -122,13 +122,13 @@ void StereoOdometry::work() {
 bool StereoOdometry::tryPair(const ReceivedPair& received) {
   try {
     const sensor_msgs::Image& left = *received.images.left;
-    const auto T_base_camera = mount_.find(cameraFrameOf(left, parameters_.camera_frame),
-                                           toNanoseconds(left.header.stamp));
+    const std::string frame = cameraFrameOf(left, parameters_.camera_frame);
+    const auto T_base_camera = mount_.find(frame, toNanoseconds(left.header.stamp));
     if (!T_base_camera) {
       health_.setWaitsForTf(mount_.missing());
       return false;
     }
-    process(received, *T_base_camera);
+    process(received, frame, *T_base_camera);
   } catch (const InputError& error) {
     drops_.add(error);
   } catch (const std::exception& error) {
@@ -137,50 +137,33 @@ bool StereoOdometry::tryPair(const ReceivedPair& received) {
   return true;
 }
 
-void StereoOdometry::process(const ReceivedPair& received, const Eigen::Isometry3d& T_base_camera) {
+void StereoOdometry::process(const ReceivedPair& received,
+                             const std::string& frame,
+                             const Eigen::Isometry3d& T_base_camera) {
   const SteadyClock::time_point begin = SteadyClock::now();
   const StereoPair pair = processor_.convert(received);
   const SteadyClock::time_point converted = SteadyClock::now();
-  const PairAnswer answer = estimate(pair, received, T_base_camera);
-  keepPose(answer);
+  PairContext context = {received.camera, T_base_camera};
+  if (guess_) context.T_last_base = guess_->motionTo(pair.stamp_ns);
+  if (gyro_) {
+    context.measured_rotation = [&](std::int64_t from_ns, std::int64_t to_ns) {
+      return gyro_->rotation(frame, from_ns, to_ns);
+    };
+  }
+  const PairAnswer answer = processor_.process(pair, context);
+  // Before the odometry is sent: who has received it can save its pose.
+  trajectory_.add({answer.state.stamp_ns, answer.state.T_first_camera}, answer.starts_trajectory);
   const SteadyClock::time_point ready = SteadyClock::now();
   const SteadyClock::time_point sent = publishMotion(answer);
-  OdometryStatus status =
-      toStatus(answer.result, cameraFrameOf(*received.images.left, parameters_.camera_frame));
+  OdometryStatus status = toStatus(answer.result, frame);
   status.time_pairing = milliseconds(received.arrival - received.images.first_arrival);
   status.time_waiting = milliseconds(begin - received.arrival);
   status.time_conversion = milliseconds(converted - begin);
   status.time_publishing = milliseconds(sent - ready);
   status.time_rest = milliseconds(ready - converted) - status.time_total;
   status.latency = milliseconds(sent - received.arrival);
-  followUp(answer, received, status);
+  followUp(answer, status);
   processor_.prepare();
-}
-
-PairAnswer StereoOdometry::estimate(const StereoPair& pair,
-                                    const ReceivedPair& received,
-                                    const Eigen::Isometry3d& T_base_camera) {
-  std::optional<Eigen::Isometry3d> T_last_base;
-  if (guess_) T_last_base = guess_->motionTo(pair.stamp_ns);
-  RotationSource rotation;
-  if (gyro_) {
-    rotation = [&](std::int64_t from_ns, std::int64_t to_ns) {
-      return gyro_->rotation(
-          cameraFrameOf(*received.images.left, parameters_.camera_frame), from_ns, to_ns);
-    };
-  }
-  return processor_.process(pair, received.camera, T_base_camera, T_last_base, rotation);
-}
-
-/// For ~save_trajectory and trajectory_file. Before the odometry is sent: who has received it can
-/// save its pose.
-void StereoOdometry::keepPose(const PairAnswer& answer) {
-  const StampedPose pose = {answer.state.stamp_ns, answer.state.T_first_camera};
-  if (answer.starts_trajectory) trajectory_.clear();
-  trajectory_.add(pose);
-  if (!trajectory_recorder_) return;
-  if (answer.starts_trajectory) trajectory_recorder_->beginNew();
-  trajectory_recorder_->add(pose);
 }
 
 /// Returns when the odometry was sent.
@@ -195,24 +178,18 @@ SteadyClock::time_point StereoOdometry::publishMotion(const PairAnswer& answer) 
 }
 
 /// All that the odometry of the pair need not wait for.
-void StereoOdometry::followUp(const PairAnswer& answer,
-                              const ReceivedPair& received,
-                              OdometryStatus& status) {
+void StereoOdometry::followUp(const PairAnswer& answer, OdometryStatus& status) {
   if (guess_) status.guess_misses = guess_->misses();
   if (gyro_) {
     gyro_->observe(answer.result);
     gyro_->report(status);
   }
-  const std::string camera_fault = processor_.inspect(answer, received.camera);
+  const std::string camera_fault = processor_.inspect(answer);
   status = health_.addAnswer(status, camera_fault, guess_ ? guess_->trouble() : "", drops_);
   publisher_.publishStatus(status);
   publisher_.publishPath(answer.state, answer.starts_trajectory);
   log(status, camera_fault);
-  publisher_.publishPictures(answer.pair.left,
-                             received.camera,
-                             processor_.odometry(),
-                             answer.result,
-                             status.header.frame_id);
+  publisher_.publishPictures(answer, processor_.odometry(), status.header.frame_id);
 }
 
 void StereoOdometry::log(const OdometryStatus& status, const std::string& camera_fault) {

@@ -23,8 +23,7 @@
 #include "node/tf/camera_mount.h"
 #include "node/tf/guess_odometry.h"
 #include "node/tf/tf_conflict.h"
-#include "node/trajectory/trajectory_history.h"
-#include "node/trajectory/trajectory_recorder.h"
+#include "node/trajectory_store.h"
 #include "rotrocc/parameters.h"
 
 namespace rotrocc {
@@ -58,13 +57,11 @@ class StereoOdometry {
   // In the worker thread.
   void work();
   bool tryPair(const ReceivedPair& received);
-  void process(const ReceivedPair& received, const Eigen::Isometry3d& T_base_camera);
-  PairAnswer estimate(const StereoPair& pair,
-                      const ReceivedPair& received,
-                      const Eigen::Isometry3d& T_base_camera);
-  void keepPose(const PairAnswer& answer);
+  void process(const ReceivedPair& received,
+               const std::string& frame,
+               const Eigen::Isometry3d& T_base_camera);
   std::chrono::steady_clock::time_point publishMotion(const PairAnswer& answer);
-  void followUp(const PairAnswer& answer, const ReceivedPair& received, OdometryStatus& status);
+  void followUp(const PairAnswer& answer, OdometryStatus& status);
   void log(const OdometryStatus& status, const std::string& camera_fault);
 
   Log log_;
@@ -76,8 +73,7 @@ class StereoOdometry {
   std::optional<GuessOdometry> guess_;
   std::optional<GyroInput> gyro_;
   OdometryPublisher publisher_;
-  std::optional<TrajectoryRecorder> trajectory_recorder_;
-  TrajectoryHistory trajectory_;
+  TrajectoryStore trajectory_;
 
   bool lost_ = false;  // at the last pair of the worker
   Throttle lost_warning_{std::chrono::seconds(5)};

@@ -1,4 +1,4 @@
-#include "node/base/base_motion.h"
+#include "node/base/base_odometry.h"
 
 #include <random>
 
@@ -116,29 +116,11 @@ TEST(BaseMotionTest, TwistAndMeanVelocityMakeTheMotion) {
   const UncertainTwist twist = twistOf(motion, dt_s);
   EXPECT_TRUE(expMotion(twist.twist * dt_s).isApprox(motion.T, 1e-12));
   EXPECT_NEAR(twist.twist[5], 1.5, 0.01);
+  EXPECT_TRUE((twist.covariance * dt_s * dt_s).isApprox(motion.covariance, 1e-12));
   const UncertainTwist velocity = meanVelocityOf(motion, dt_s);
   EXPECT_TRUE((velocity.twist.head<3>() * dt_s).isApprox(motion.T.translation(), 1e-12));
   EXPECT_TRUE(expRotation(velocity.twist.tail<3>() * dt_s).isApprox(motion.T.linear(), 1e-12));
   EXPECT_TRUE((velocity.covariance * dt_s * dt_s).isApprox(motion.covariance, 1e-12));
-}
-
-TEST(BaseMotionTest, ErrorsOfTheTwistAreThoseOfSamples) {
-  const double dt_s = 0.1;
-  const UncertainTransform motion{makeTransform({1.2, 0.0, 0.0}, {0.0, 0.0, 0.01}),
-                                  makeCovariance(0.02, 0.001)};
-  const UncertainTwist twist = twistOf(motion, dt_s);
-  Noise noise;
-  constexpr int kSamples = 40000;
-  Vector6d sum = Vector6d::Zero();
-  for (int i = 0; i < kSamples; ++i) {
-    const Vector6d error = logMotion(noise.sample(motion)) / dt_s - twist.twist;
-    sum += error.cwiseAbs2();
-  }
-  const Vector6d sampled = (sum / kSamples).cwiseSqrt();
-  const Vector6d sigma = twist.covariance.diagonal().cwiseSqrt();
-  // Twice 1 % for the samples, and 3 % for the half turn between the axes that the covariance
-  // neglects.
-  for (int i = 0; i < 6; ++i) EXPECT_NEAR(sampled[i], sigma[i], 0.05 * sigma[i]) << i;
 }
 
 }  // namespace

@@ -13,6 +13,18 @@ namespace {
 constexpr double kPeriod_s = 0.1;
 constexpr double kStep_m = 0.4;
 
+TEST(MissBackoffTest, StopsWaitingAndTriesAgainNowAndThen) {
+  MissBackoff backoff(10);
+  int waits = 0;
+  for (int i = 0; i < 100; ++i) {
+    waits += backoff.waits();
+    backoff.onMiss();
+  }
+  EXPECT_EQ(waits, MissBackoff::kMisses + 9);  // at 10, 20, ... 90
+  backoff.onHit();
+  EXPECT_TRUE(backoff.waits());
+}
+
 class GuessOdometryTest : public testing::Test {
  protected:
   /// tf of the wheels at a pair.

@@ -168,8 +168,8 @@ void OdometryRig::process(const ReceivedPair& pair) {
       T_last_base = expected(*last_stamp_ns_, converted.stamp_ns);
     }
     last_stamp_ns_ = converted.stamp_ns;
-    answer_ = processor_.process(converted, pair.camera, T_base_camera, T_last_base);
-    hint_ = processor_.inspect(*answer_, pair.camera);
+    answer_ = processor_.process(converted, {pair.camera, T_base_camera, T_last_base});
+    hint_ = processor_.inspect(*answer_);
     ++answers_;
     state_ = answer_->state;
     const double place_m = kStep_m * next_;

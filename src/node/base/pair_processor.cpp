@@ -23,11 +23,7 @@ StereoPair PairProcessor::convert(const ReceivedPair& received) {
   return received.calibration ? rectifier_.rectify(pair, received.calibration) : pair;
 }
 
-PairAnswer PairProcessor::process(const StereoPair& pair,
-                                  const StereoCamera& camera,
-                                  const Eigen::Isometry3d& T_base_camera,
-                                  const std::optional<Eigen::Isometry3d>& T_last_base,
-                                  const RotationSource& measured_rotation) {
+PairAnswer PairProcessor::process(const StereoPair& pair, const PairContext& context) {
   Requests requests;
   {
     const std::lock_guard<std::mutex> lock(requests_mutex_);
@@ -36,16 +32,13 @@ PairAnswer PairProcessor::process(const StereoPair& pair,
   if (requests.config) configure(*requests.config);
   PairAnswer answer;
   answer.pair = pair;
+  answer.camera = context.camera;
   answer.starts_trajectory = restartIfNeeded(requests, pair.stamp_ns);
   if (!base_odometry_) base_odometry_.emplace(parameters_, systematic_error_);
   if (requests.T_odom_base) setPose(*requests.T_odom_base);
-  move(camera, T_base_camera, T_last_base, measured_rotation, answer);
+  move(context, answer);
   last_stamp_ns_ = pair.stamp_ns;
   return answer;
-}
-
-std::string PairProcessor::inspect(const PairAnswer& answer, const StereoCamera& camera) {
-  return inspector_.inspect(answer.pair, camera, answer.result);
 }
 
 void PairProcessor::configure(const VisualOdometry::Config& config) {
@@ -99,25 +92,22 @@ void PairProcessor::setPose(const UncertainTransform& T_odom_base) {
   if (lost_since_ns_) odometry_.reset();
 }
 
-void PairProcessor::move(const StereoCamera& camera,
-                         const Eigen::Isometry3d& T_base_camera,
-                         const std::optional<Eigen::Isometry3d>& T_last_base,
-                         const RotationSource& measured_rotation,
-                         PairAnswer& answer) {
+void PairProcessor::move(const PairContext& context, PairAnswer& answer) {
   std::optional<Eigen::Isometry3d> T_known_base, T_known_camera;
-  if (T_last_base && T_known_last_) {
-    T_known_base = *T_known_last_ * *T_last_base;
-    T_known_camera = T_base_camera_known_.inverse() * *T_known_base * T_base_camera;
+  if (context.T_last_base && T_known_last_) {
+    T_known_base = *T_known_last_ * *context.T_last_base;
+    T_known_camera = T_base_camera_known_.inverse() * *T_known_base * context.T_base_camera;
   }
-  answer.result = odometry_.process(answer.pair, camera, T_known_camera, measured_rotation);
-  answer.state = base_odometry_->add(answer.result, T_base_camera, T_last_base);
+  answer.result =
+      odometry_.process(answer.pair, context.camera, T_known_camera, context.measured_rotation);
+  answer.state = base_odometry_->add(answer.result, context.T_base_camera, context.T_last_base);
   if (answer.result.state == State::kLost) {
     if (!lost_since_ns_) lost_since_ns_ = answer.pair.stamp_ns;
     T_known_last_ = T_known_base;
   } else {
     lost_since_ns_.reset();
     T_known_last_ = Eigen::Isometry3d::Identity();
-    T_base_camera_known_ = T_base_camera;
+    T_base_camera_known_ = context.T_base_camera;
   }
 }
 

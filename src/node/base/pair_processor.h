@@ -16,9 +16,22 @@
 
 namespace rotrocc {
 
+/// What is known of a pair beside its images.
+struct PairContext {
+  StereoCamera camera;
+  /// The mount at the stamp of the pair.
+  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
+  /// The motion of the base since the pair before by another odometry, if any. It predicts the
+  /// motion of the pair, and moves the pose while the motion is lost.
+  std::optional<Eigen::Isometry3d> T_last_base = std::nullopt;
+  /// Of the camera, see VisualOdometry::process().
+  RotationSource measured_rotation = {};
+};
+
 /// Result of a pair.
 struct PairAnswer {
   StereoPair pair;  ///< rectified; valid until the next call of convert()
+  StereoCamera camera;
   OdometryResult result;
   BaseState state;
   bool starts_trajectory = false;  ///< a new trajectory: after a reset, a time jump or a long loss
@@ -34,19 +47,13 @@ class PairProcessor {
   /// InputError on images that cannot be used.
   StereoPair convert(const ReceivedPair& received);
 
-  /// `T_base_camera`: the mount at the stamp of the pair. `T_last_base`: the motion of the base
-  /// since the pair before by another odometry, if any. It predicts the motion of the pair, and
-  /// moves the pose while the motion is lost. `measured_rotation` is that of the camera, see
-  /// VisualOdometry::process().
-  PairAnswer process(const StereoPair& pair,
-                     const StereoCamera& camera,
-                     const Eigen::Isometry3d& T_base_camera,
-                     const std::optional<Eigen::Isometry3d>& T_last_base = std::nullopt,
-                     const RotationSource& measured_rotation = {});
+  PairAnswer process(const StereoPair& pair, const PairContext& context);
 
   /// The suspected camera fault after each pair, in one sentence; empty if none. Apart from
   /// process(), so that the odometry need not wait for it.
-  std::string inspect(const PairAnswer& answer, const StereoCamera& camera);
+  std::string inspect(const PairAnswer& answer) {
+    return inspector_.inspect(answer.pair, answer.camera, answer.result);
+  }
 
   /// Prepares for the next pair, see VisualOdometry::prepare().
   void prepare() { odometry_.prepare(); }
@@ -76,11 +83,7 @@ class PairProcessor {
   bool restart(const std::string& why, const std::string& parameter, const std::string& pose);
   void configure(const VisualOdometry::Config& config);
   void setPose(const UncertainTransform& T_odom_base);
-  void move(const StereoCamera& camera,
-            const Eigen::Isometry3d& T_base_camera,
-            const std::optional<Eigen::Isometry3d>& T_last_base,
-            const RotationSource& measured_rotation,
-            PairAnswer& answer);
+  void move(const PairContext& context, PairAnswer& answer);
 
   Log log_;
   NodeParameters parameters_;

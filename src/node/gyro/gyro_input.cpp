@@ -50,7 +50,7 @@ std::optional<Eigen::Matrix3d> GyroInput::rotation(const std::string& camera_fra
                                                    std::int64_t to_ns) {
   std::unique_lock<std::mutex> lock(mutex_);
   was_asked_ = true;
-  if (watch_.waits() && predictor_.whyDistrusted().empty()) {
+  if (backoff_.waits() && predictor_.whyDistrusted().empty()) {
     received_.wait_for(lock, timeout_, [&] {
       const auto newest_ns = predictor_.history().newest_ns();
       return newest_ns && *newest_ns >= to_ns;
@@ -86,12 +86,20 @@ void GyroInput::observe(const OdometryResult& result) {
   if (!mounted_on_.empty()) predictor_.observe(result);
   if (!was_asked_) return;  // a first pair
   was_asked_ = false;
-  const std::string& why_not = predictor_.whyNot();
-  if (!watch_.tellsOf(why_not.empty())) return;
-  if (why_not.empty()) {
+  const bool used = predictor_.whyNot().empty();
+  used ? backoff_.onHit() : backoff_.onMiss();
+  tell(used);
+}
+
+void GyroInput::tell(bool used) {
+  in_a_row_ = used == was_used_ ? in_a_row_ + 1 : 1;
+  was_used_ = used;
+  if (in_a_row_ < kPairs || told_used_ == used) return;
+  told_used_ = used;
+  if (used) {
     log_.info("the gyroscope predicts rotations (" + mounted_on_ + ")");
   } else {
-    log_.warn("the gyroscope is not used: " + why_not);
+    log_.warn("the gyroscope is not used: " + predictor_.whyNot());
   }
 }
 

@@ -18,8 +18,8 @@
 
 #include "inertial/gyro_predictor.h"
 #include "input/log.h"
-#include "node/gyro/gyro_watch.h"
 #include "node/health/diagnostics.h"
+#include "node/miss_backoff.h"
 #include "rotrocc/OdometryStatus.h"
 #include "rotrocc/odometry_result.h"
 
@@ -27,9 +27,14 @@ namespace rotrocc {
 
 /// Rotations of the camera from the topic imu. It is received in a thread of its own, so that
 /// images do not delay it. The mount is looked up in tf once, for each frame of the camera and of
-/// the messages. Logs when it is used, and when not and why.
+/// the messages. Logs when it is used, and when not and why, after kPairs in a row. Samples of one
+/// that has been missing for a while are waited for only now and then.
 class GyroInput {
  public:
+  static constexpr int kPairs = MissBackoff::kMisses;
+  /// While it is missing, one of so many pairs waits for it.
+  static constexpr int kRetryPairs = 10;
+
   /// Subscribes. A pair waits for its samples for at most `timeout_s`, in real time.
   GyroInput(const ros::NodeHandle& nh, double timeout_s, Log log);
   ~GyroInput();
@@ -52,6 +57,7 @@ class GyroInput {
  private:
   void receive(const sensor_msgs::Imu& message);
   std::string whyNoMount(const std::string& camera_frame);
+  void tell(bool used);
 
   Log log_;
   std::chrono::duration<double> timeout_;
@@ -59,10 +65,13 @@ class GyroInput {
   mutable std::mutex mutex_;  // of what follows, up to the empty line
   std::condition_variable received_;
   GyroPredictor predictor_;
-  GyroWatch watch_;
-  std::string gyro_frame_;  // of the last message
-  std::string mounted_on_;  // camera frame and gyroscope frame of the mount; empty: unknown
-  bool was_asked_ = false;  // for the rotation of this pair
+  MissBackoff backoff_{kRetryPairs};
+  bool was_used_ = false;
+  int in_a_row_ = 0;               // pairs that it was used, or was not
+  std::optional<bool> told_used_;  // as the log says
+  std::string gyro_frame_;         // of the last message
+  std::string mounted_on_;         // camera frame and gyroscope frame of the mount; empty: unknown
+  bool was_asked_ = false;         // for the rotation of this pair
 
   tf2_ros::Buffer tf_;
   std::unique_ptr<tf2_ros::TransformListener> listener_;  // until the mount is known

@@ -19,6 +19,11 @@ constexpr int kRowStep = 8;  // sampling of rows
 /// Row offsets tried on images that do not match; matches must exceed chance.
 constexpr int kOffsets_px[] = {2, 4, 7, 12, 20};
 constexpr double kClearlyMore = 2.0;
+/// Ratio of contrasts that causes a hint: one stop. On real clips, right images with half of their
+/// contrast cost nothing.
+constexpr double kApart = 2.0;
+/// Share of the gains that is dropped at either end: single pairs may be wrong.
+constexpr double kDropped = 0.1;
 
 /// A hash of some rows of an image (FNV-1a over 8 bytes at a time).
 std::uint64_t fingerprint(const cv::Mat& image) {
@@ -65,7 +70,7 @@ void PairInspector::configure(const CorrespondenceFinder::Config& config) {
 std::string PairInspector::inspect(const StereoPair& pair,
                                    const StereoCamera& camera,
                                    const OdometryResult& result) {
-  const std::string exposures = exposures_.observe(result);
+  const std::string exposures = compareExposures(result);
   std::string fault = findFrozen(pair);
   if (fault.empty()) fault = exposures;
   if (result.state == State::kInitialising) return fault;
@@ -96,6 +101,22 @@ std::string PairInspector::findFrozen(const StereoPair& pair) {
   if (left) return frozenText("the left image", left_frozen_);
   if (right) return frozenText("the right image", right_frozen_);
   return "";
+}
+
+std::string PairInspector::compareExposures(const OdometryResult& result) {
+  constexpr const char* kRemedy = ": couple the exposures of the cameras";
+  if (result.hasMotion()) gains_.add(result.exposure_gain);
+  if (gains_.size() < kMinExposures) return "";
+  const double least = gains_.quantile(kDropped);
+  const double most = gains_.quantile(1.0 - kDropped);
+  if (most > kApart * least) {
+    return "the right camera's contrast moves between " + hundredths(least) + " and " +
+           hundredths(most) + " times the left one's" + kRemedy;
+  }
+  const double typical = gains_.quantile(0.5);
+  if (std::max(typical, 1.0 / typical) <= kApart) return "";
+  return "the right camera's contrast is " + hundredths(typical) + " times the left one's" +
+         kRemedy;
 }
 
 /// Whether the grey levels hardly vary more than their noise, as behind a covered lens.

@@ -7,17 +7,21 @@
 #include <opencv2/core.hpp>
 
 #include "features/correspondence_finder.h"
-#include "node/health/exposure_watch.h"
+#include "node/health/sliding_quantiles.h"
 #include "rotrocc/visual_odometry.h"
 
 namespace rotrocc {
 
-/// Detects camera faults: a frozen or dark camera, swapped cameras, or images that are not
-/// rectified or that are exposed differently.
+/// Detects camera faults: a frozen or dark camera, swapped cameras, images that are not rectified,
+/// or exposures that differ or move against each other so much that one of the images is likely to
+/// be dark or saturated.
 class PairInspector {
  public:
   /// Number of consecutive suspicious pairs before a hint.
   static constexpr int kPatience = 10;
+  /// Number of pairs with a motion whose exposures are watched, and that suffice for a hint.
+  static constexpr std::size_t kExposures = 50;
+  static constexpr std::size_t kMinExposures = 10;
 
   /// `rectifies`: whether the images are rectified here, so that their calibration is to blame.
   explicit PairInspector(const CorrespondenceFinder::Config& config, bool rectifies = false);
@@ -34,6 +38,7 @@ class PairInspector {
  private:
   bool isNoise(const cv::Mat& image);
   std::string findFrozen(const StereoPair& pair);
+  std::string compareExposures(const OdometryResult& result);
   std::string explainFewCorners(const StereoPair& pair) const;
   std::string rowRemedy() const;
   std::string explainLoss(const StereoPair& pair, const StereoCamera& camera);
@@ -49,7 +54,7 @@ class PairInspector {
   std::uint64_t left_print_ = 0, right_print_ = 0;  // of the last pair
   int left_frozen_ = 0, right_frozen_ = 0;          // pairs in a row
   int few_corners_ = 0, doubtful_ = 0;
-  ExposureWatch exposures_;
+  SlidingQuantiles gains_{kExposures};
   std::string explanation_;  // kept until the motion is found again
   std::vector<int> noise_;   // buffer, reused
 };

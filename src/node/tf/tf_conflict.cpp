@@ -66,20 +66,6 @@ std::string describeConflict(const PublishedTf& own,
          rival.parent + " if it is another odometry";
 }
 
-bool RecentConflicts::add(const std::string& conflict, bool is_static, Time now) {
-  const auto [found, is_new] = last_seen_.try_emplace(conflict, now);
-  const bool was_gone = now - found->second > kGone;
-  found->second = is_static ? Time::max() : std::max(found->second, now);
-  return is_new || was_gone;
-}
-
-std::string RecentConflicts::first(Time now) const {
-  for (const auto& [conflict, last] : last_seen_) {
-    if (now - last <= kGone) return conflict;
-  }
-  return "";
-}
-
 TfConflict::TfConflict(PublishedTf own, const std::string& base_frame, Log log)
     : own_(std::move(own)),
       base_frame_(base_frame),
@@ -109,7 +95,11 @@ std::string TfConflict::check() {
     if (neighbour.node != own_.node) add(neighbour, false);
   }
   queue_.callAvailable();
-  return conflicts_.first(RecentConflicts::Time::clock::now());
+  const auto now = Clock::now();
+  for (const auto& [conflict, last] : last_seen_) {
+    if (now - last <= kGone) return conflict;
+  }
+  return "";
 }
 
 void TfConflict::onTf(const Event& event, bool is_static) {
@@ -127,11 +117,14 @@ void TfConflict::onTf(const Event& event, bool is_static) {
   }
 }
 
+/// Static transforms stay in the receivers, so their conflicts stay here.
 void TfConflict::add(const PublishedTf& rival, bool is_static) {
+  const auto now = Clock::now();
   const std::string conflict = describeConflict(own_, rival, base_frame_);
-  if (conflicts_.add(conflict, is_static, RecentConflicts::Time::clock::now())) {
-    log_.warn(conflict);
-  }
+  const auto [found, is_new] = last_seen_.try_emplace(conflict, now);
+  const bool was_gone = now - found->second > kGone;
+  found->second = is_static ? Clock::time_point::max() : std::max(found->second, now);
+  if (is_new || was_gone) log_.warn(conflict);
 }
 
 }  // namespace rotrocc

@@ -31,23 +31,6 @@ std::string describeConflict(const PublishedTf& own,
                              const PublishedTf& rival,
                              const std::string& base_frame);
 
-/// The conflicts of the last seconds.
-class RecentConflicts {
- public:
-  using Time = std::chrono::steady_clock::time_point;
-
-  /// Returns whether it is new, or was gone. Static transforms stay in the receivers, so the
-  /// conflict stays here.
-  bool add(const std::string& conflict, bool is_static, Time now);
-
-  /// The first of those that are not gone, in an order that does not change; empty if there is
-  /// none.
-  std::string first(Time now) const;
-
- private:
-  std::map<std::string, Time> last_seen_;
-};
-
 /// Watches for rivals, in tf and in this process, where all have the same node name in tf. Warns of
 /// each once when it appears.
 class TfConflict {
@@ -63,6 +46,8 @@ class TfConflict {
 
  private:
   using Event = ros::MessageEvent<tf2_msgs::TFMessage const>;
+  using Clock = std::chrono::steady_clock;
+
   ros::Subscriber subscribe(const std::string& topic, bool is_static);
   void onTf(const Event& event, bool is_static);
   void add(const PublishedTf& rival, bool is_static);
@@ -70,7 +55,7 @@ class TfConflict {
   PublishedTf own_;
   std::string base_frame_;
   Log log_;
-  RecentConflicts conflicts_;
+  std::map<std::string, Clock::time_point> last_seen_;  // conflicts; the maximum if static
   ros::CallbackQueue queue_;
   ros::Subscriber tf_subscriber_;
   ros::Subscriber static_tf_subscriber_;

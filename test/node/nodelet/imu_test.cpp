@@ -8,6 +8,7 @@
 #include <sensor_msgs/Imu.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
+#include "node/odometry_messages.h"
 #include "nodelet_drive.h"
 
 namespace rotrocc {
@@ -25,11 +26,8 @@ class ImuTest : public testing::Test {
   }
 
   void publishImuFrame() {
-    geometry_msgs::TransformStamped mount;
-    mount.header.frame_id = "base_link";
-    mount.child_frame_id = "imu_link";
-    mount.transform.rotation.w = 1.0;
-    broadcaster_.sendTransform(mount);
+    broadcaster_.sendTransform(
+        toTransform(Eigen::Isometry3d::Identity(), 0, "base_link", "imu_link"));
   }
 
   /// Drives a step. The samples up to the pair are published before it, plus a bias in yaw.
@@ -84,12 +82,17 @@ TEST_F(ImuTest, IsUsedWhenItIsThereAndToldWhenNot) {
   ASSERT_TRUE(drivesUntil("", biased));
   EXPECT_EQ(last_.state, OdometryStatus::OK);
 
+  for (int pair = 0; pair < GyroInput::kPairs; ++pair) biased();
+  const auto told = [&] { return drive_.log.with("the gyroscope is not used").size(); };
+  const std::size_t told_before = told();
+
   // Without samples, the odometry goes on, and is told why.
   EXPECT_TRUE(drivesUntil("older than the image", [&] { return driveWithout(); }));
   for (int pair = 0; pair < 10; ++pair) {
     const OdometryStatus status = driveWithout();
     EXPECT_EQ(status.state, OdometryStatus::OK) << status.reason;
   }
+  EXPECT_EQ(told(), told_before + 1) << "once for all of them";
   ASSERT_TRUE(drivesUntil("", biased));
 
   EXPECT_TRUE(drivesUntil("the angular velocity is not a number",

@@ -2,19 +2,17 @@
 
 #include <optional>
 
+#include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include "node/odometry_messages.h"
 #include "nodelet_drive.h"
 
 namespace rotrocc {
 namespace {
 
-void sendTf(tf2_ros::TransformBroadcaster& broadcaster, const std::string& parent) {
-  geometry_msgs::TransformStamped transform;
-  transform.header.frame_id = parent;
-  transform.child_frame_id = "base_link";
-  transform.transform.rotation.w = 1.0;
-  broadcaster.sendTransform(transform);
+geometry_msgs::TransformStamped parentOfBase(const std::string& parent) {
+  return toTransform(Eigen::Isometry3d::Identity(), 0, parent, "base_link");
 }
 
 TEST(TfRivalsTest, NameEachOtherAndOthersUntilTheyAreGone) {
@@ -33,16 +31,22 @@ TEST(TfRivalsTest, NameEachOtherAndOthersUntilTheyAreGone) {
   rear.reset();
   EXPECT_TRUE(diagnostics.says("front: tf", "no conflict"));
 
-  tf2_ros::TransformBroadcaster broadcaster;
+  // Those of a frame that is not static are gone some seconds after they were sent.
   const std::string rival = "another nodelet in " + ros::this_node::getName() + " publishes tf ";
+  tf2_ros::StaticTransformBroadcaster static_broadcaster;
+  static_broadcaster.sendTransform(parentOfBase("world"));
+  tf2_ros::TransformBroadcaster broadcaster;
   EXPECT_TRUE(waitUntil([&] {
-    sendTf(broadcaster, "map");
-    sendTf(broadcaster, "wheel_odom");
+    broadcaster.sendTransform(parentOfBase("map"));
+    broadcaster.sendTransform(parentOfBase("wheel_odom"));
     return diagnostics.text("front: tf").find(rival + "map -> base_link") == 0 &&
            isLogged("/front: " + rival + "map -> base_link") &&
            isLogged("/front: " + rival + "wheel_odom -> base_link");
   }));
-  EXPECT_TRUE(diagnostics.says("front: tf", "no conflict"));
+  EXPECT_TRUE(diagnostics.says("front: tf", rival + "world -> base_link"));
+  for (const char* parent : {"map", "wheel_odom", "world"}) {
+    EXPECT_EQ(log.with("/front: " + rival + parent + " -> base_link").size(), 1u) << parent;
+  }
 }
 
 }  // namespace

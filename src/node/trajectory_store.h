@@ -1,0 +1,83 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "evaluation/trajectory_file.h"
+#include "input/log.h"
+#include "rotrocc/trajectory.h"
+
+namespace rotrocc {
+
+/// The poses of the left camera: the latest in memory, to be saved, and with a path each one in a
+/// file.
+///
+/// A thread of its own writes that file: a slow disk does not delay the odometry. No file is
+/// replaced: a trajectory goes to the next number that is free, as in poses.txt, poses_2.txt,
+/// poses_3.txt. Its stamps increase; a pose that is not later than the one before it begins another
+/// file.
+class TrajectoryStore {
+ public:
+  /// Keeps the latest `max_length` poses of a trajectory for save(). Allocates all memory at once,
+  /// so that it cannot run out after hours. Without `path`, no file is written. Throws
+  /// std::exception with one sentence if that cannot be a file, or on an unknown format.
+  explicit TrajectoryStore(std::size_t max_length,
+                           const std::string& path = "",
+                           const std::string& format = "tum",
+                           Log log = Log());
+  /// Writes what still waits.
+  ~TrajectoryStore();
+  TrajectoryStore(const TrajectoryStore&) = delete;
+  TrajectoryStore& operator=(const TrajectoryStore&) = delete;
+
+  /// `starts`: it is the first pose of a trajectory. Does not wait for a disk, nor throw: errors of
+  /// writing go to the log. If the disk is too slow for long, poses are left out of the file.
+  void add(const StampedPose& pose, bool starts = false);
+
+  /// Replaces a file by the poses of the present trajectory; `format` is "tum" or "kitti". Returns
+  /// a sentence with the count and the path. Throws std::exception with one sentence if there are
+  /// no poses or writing fails; the file is then as it was.
+  std::string save(const std::string& path, const std::string& format) const;
+
+ private:
+  struct Item {
+    StampedPose pose;
+    std::uint64_t trajectory = 0;  // number
+  };
+
+  Trajectory latest() const;
+  void work();
+  std::vector<Item> takeAll();
+  void write(const Item& item);
+  void openNext();
+  void fail(const std::exception& error);
+
+  Log log_;
+  std::size_t max_length_;
+  std::string path_;
+  TrajectoryFormat format_;
+  Throttle left_out_warning_{std::chrono::seconds(5)};
+
+  mutable std::mutex mutex_;  // of what follows, up to the empty line
+  std::condition_variable changed_;
+  std::vector<Item> items_;  // ring buffer
+  std::uint64_t added_ = 0;  // poses
+  std::uint64_t taken_ = 0;  // by the thread, or left out
+  std::uint64_t left_out_ = 0;
+  std::uint64_t trajectory_ = 0;
+  bool closed_ = false;
+
+  // Of the thread.
+  std::optional<TrajectoryFile> file_;  // none after an error
+  std::optional<Item> last_;
+  int number_ = 0;
+
+  std::thread thread_;
+};
+
+}  // namespace rotrocc
