@@ -187,12 +187,6 @@ TEST_F(BaseOdometryTest, TimeThatStepsBackAddsNothing) {
   EXPECT_EQ(sigma(after, 0), sigma(before, 0));
 }
 
-TEST_F(BaseOdometryTest, CameraPoseIsThatOfTheCamera) {
-  move(makeMotion(1.0, 0.2));
-  const BaseState state = move(makeMotion(1.0, 0.2));
-  EXPECT_TRUE(state.T_first_camera.isApprox(seen(state.T_odom_base.T), 1e-12));
-}
-
 TEST_F(BaseOdometryTest, PoseThatIsSetIsWhereItGoesOn) {
   move(makeMotion(1.0, 0.2));
   lose(kPeriod_ns);

@@ -26,41 +26,18 @@ constexpr double kSpeed_mps = SimulatedRobot::kStep_m / SimulatedRobot::kPeriod_
 constexpr double kWayError = 0.01;
 constexpr double kTick_s = 0.01;
 
-/// The output of the filter, by stamp.
-class FilterOutput {
- public:
-  FilterOutput() {
-    subscriber_ = ros::NodeHandle().subscribe<nav_msgs::Odometry>(
-        "/odometry/filtered", 1000, [this](const nav_msgs::Odometry::ConstPtr& message) {
-          const std::lock_guard<std::mutex> lock(mutex_);
-          messages_[message->header.stamp] = *message;
-        });
-  }
-
-  bool connected() const { return subscriber_.getNumPublishers() > 0; }
-
-  /// The first one from that time on; an empty message if there is none.
-  nav_msgs::Odometry from(const ros::Time& stamp) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    const auto found = messages_.lower_bound(stamp);
-    return found == messages_.end() ? nav_msgs::Odometry() : found->second;
-  }
-
- private:
-  std::mutex mutex_;
-  std::map<ros::Time, nav_msgs::Odometry> messages_;
-  ros::Subscriber subscriber_;
-};
-
 class EkfTest : public testing::Test {
  protected:
   EkfTest()
       : clock_(ros::NodeHandle().advertise<rosgraph_msgs::Clock>("/clock", 1000)),
         now_(1000.0),
         buffer_(ros::Duration(100.0)),
-        listener_(buffer_) {
-    spinner_.start();
-  }
+        listener_(buffer_),
+        output_(ros::NodeHandle().subscribe<nav_msgs::Odometry>(
+            "/odometry/filtered", 1000, [this](const nav_msgs::Odometry::ConstPtr& message) {
+              const std::lock_guard<std::mutex> lock(mutex_);
+              filtered_[message->header.stamp] = *message;
+            })) {}
 
   /// Drives and publishes, and waits for the odometry.
   ros::Time drive(SimulatedRobot& robot, bool dark = false) {
@@ -92,11 +69,18 @@ class EkfTest : public testing::Test {
     std::this_thread::sleep_for(std::chrono::milliseconds(4));
   }
 
+  /// The first output of the filter from that time on; an empty message if there is none.
+  nav_msgs::Odometry outputFrom(const ros::Time& stamp) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto found = filtered_.lower_bound(stamp);
+    return found == filtered_.end() ? nav_msgs::Odometry() : found->second;
+  }
+
   /// The output of the filter from that time on, for which the time may go on.
   nav_msgs::Odometry filteredFrom(const ros::Time& stamp) {
     nav_msgs::Odometry message;
     EXPECT_TRUE(waitUntil([&] {
-      message = output_.from(stamp);
+      message = outputFrom(stamp);
       if (message.header.stamp.isZero()) tick();
       return !message.header.stamp.isZero();
     })) << "no output from "
@@ -116,13 +100,14 @@ class EkfTest : public testing::Test {
     return std::sqrt(filtered.pose.covariance[0]);
   }
 
-  ros::AsyncSpinner spinner_{2};
   ros::Publisher clock_;
   ros::Time now_;
   nav_msgs::Odometry start_;  // the first output
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_;
-  FilterOutput output_;
+  std::mutex mutex_;
+  std::map<ros::Time, nav_msgs::Odometry> filtered_;  // by stamp
+  ros::Subscriber output_;
 };
 
 TEST_F(EkfTest, FollowsTheRobotThroughLostMotionAndAGap) {
@@ -132,7 +117,7 @@ TEST_F(EkfTest, FollowsTheRobotThroughLostMotionAndAGap) {
   const BackgroundCommand launch(
       "env -u ROS_NAMESPACE roslaunch rotrocc ekf.launch stereo:=/stereo", directory / "log");
   SimulatedRobot robot;
-  ASSERT_TRUE(waitUntil([&] { return output_.connected(); }));
+  ASSERT_TRUE(waitUntil([&] { return output_.getNumPublishers() > 0; }));
   robot.publishMount();
   robot.publishInfos();
   tick();
@@ -141,7 +126,7 @@ TEST_F(EkfTest, FollowsTheRobotThroughLostMotionAndAGap) {
   ros::Time last = drive(robot);
   ASSERT_TRUE(waitUntil([&] {
     last = drive(robot);
-    start_ = output_.from(ros::Time(1.0));
+    start_ = outputFrom(ros::Time(1.0));
     return !start_.header.stamp.isZero();
   }));
   for (int i = 0; i < 10; ++i) last = drive(robot);
@@ -182,10 +167,3 @@ TEST_F(EkfTest, LaunchSaysHowToGetAMissingFilter) {
 
 }  // namespace
 }  // namespace rotrocc
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "ekf_test");
-  const ros::NodeHandle keeps_ros_alive;
-  return RUN_ALL_TESTS();
-}

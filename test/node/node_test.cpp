@@ -8,9 +8,7 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Image.h>
-#include <tf2_ros/transform_broadcaster.h>
 
-#include "support/diagnostics_listener.h"
 #include "support/simulated_robot.h"
 
 namespace rotrocc {
@@ -48,28 +46,5 @@ TEST(NodeTest, SwappedTopicsAreRemappedOnce) {
   }));
 }
 
-TEST(NodeTest, DiagnosticsTellAnotherParentOfTheBase) {
-  DiagnosticsListener diagnostics;
-  tf2_ros::TransformBroadcaster broadcaster;
-  geometry_msgs::TransformStamped wheels;
-  wheels.header.frame_id = "wheel_odom";
-  wheels.child_frame_id = "base_link";
-  wheels.transform.rotation.w = 1.0;
-  const std::string rival = ros::this_node::getName() + " publishes tf wheel_odom -> base_link";
-  EXPECT_TRUE(waitUntil([&] {
-    broadcaster.sendTransform(wheels);
-    return diagnostics.text("stereo_odometry: tf").find(rival) == 0;
-  }));
-}
-
 }  // namespace
 }  // namespace rotrocc
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "node_test");
-  const ros::NodeHandle keeps_ros_alive;
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

@@ -54,18 +54,6 @@ TEST(OdometryMessagesTest, TwistHasVelocityStampAndFrame) {
   EXPECT_EQ(message.twist.covariance[35], 2.0);
 }
 
-TEST(OdometryMessagesTest, TransformIsThePose) {
-  const nav_msgs::Odometry odometry = toOdometry(makeState(), "odom", "base_link");
-  const geometry_msgs::TransformStamped message =
-      toTransform(makeState().T_odom_base.T, makeState().stamp_ns, "odom", "base_link");
-  EXPECT_EQ(message.header.stamp, odometry.header.stamp);
-  EXPECT_EQ(message.header.frame_id, "odom");
-  EXPECT_EQ(message.child_frame_id, "base_link");
-  EXPECT_EQ(message.transform.translation.x, 1.0);
-  EXPECT_EQ(message.transform.translation.z, 3.0);
-  EXPECT_NEAR(message.transform.rotation.z, odometry.pose.pose.orientation.z, 1e-15);
-}
-
 TEST(OdometryMessagesTest, StatusHasTheResultOfThePair) {
   OdometryResult result;
   result.state = State::kDegraded;
@@ -195,11 +183,7 @@ TEST(OdometryMessagesTest, CloudHasTheInliersAndTheirGreyLevels) {
   EXPECT_EQ(*intensity, 99.0f);
   ++intensity;
   EXPECT_EQ(*intensity, 0.0f);
-}
-
-TEST(OdometryMessagesTest, CloudOfNoInliersIsEmpty) {
-  const cv::Mat image(10, 20, CV_8UC1, cv::Scalar(0));
-  EXPECT_EQ(toPointCloud(Correspondences(3), {}, image, {}).width, 0u);
+  EXPECT_EQ(toPointCloud(features, {}, image, header).width, 0u);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <tf2_ros/transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
 
+#include "input/message_conversion.h"
+#include "node/odometry_messages.h"
 #include "nodelet_drive.h"
 
 namespace rotrocc {
@@ -12,14 +14,8 @@ namespace {
 geometry_msgs::TransformStamped wheelOdometry(const ros::Time& stamp,
                                               double x_m,
                                               double y_m = 0.0) {
-  geometry_msgs::TransformStamped transform;
-  transform.header.stamp = stamp;
-  transform.header.frame_id = "wheel_odom";
-  transform.child_frame_id = "base_link";
-  transform.transform.translation.x = x_m;
-  transform.transform.translation.y = y_m;
-  transform.transform.rotation.w = 1.0;
-  return transform;
+  const Eigen::Isometry3d T_wheels_base(Eigen::Translation3d(x_m, y_m, 0.0));
+  return toTransform(T_wheels_base, toNanoseconds(stamp), "wheel_odom", "base_link");
 }
 
 TEST(GuessFrameTest, IfItIsMissingThatIsToldCountedAndTriedAgain) {

@@ -4,22 +4,21 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include "input/message_conversion.h"
+#include "node/odometry_messages.h"
 #include "nodelet_drive.h"
+#include "sequences/kitti_mount.h"
 
 namespace rotrocc {
 namespace {
 
 /// Along the base's x axis, and looking along it.
-geometry_msgs::TransformStamped mountAt(double x_m, const std::string& frame) {
-  geometry_msgs::TransformStamped mount;
-  mount.header.frame_id = "base_link";
-  mount.child_frame_id = frame;
-  mount.transform.translation.x = x_m;
-  mount.transform.rotation.x = -0.5;
-  mount.transform.rotation.y = 0.5;
-  mount.transform.rotation.z = -0.5;
-  mount.transform.rotation.w = 0.5;
-  return mount;
+geometry_msgs::TransformStamped mountAt(double x_m,
+                                        const ros::Time& stamp,
+                                        const std::string& frame) {
+  Eigen::Isometry3d T_base_camera = kittiMount();
+  T_base_camera.translation() << x_m, 0.0, 0.0;
+  return toTransform(T_base_camera, toNanoseconds(stamp), "base_link", frame);
 }
 
 TEST(MovingMountTest, TheBaseRestsWhileItsCameraMoves) {
@@ -32,8 +31,7 @@ TEST(MovingMountTest, TheBaseRestsWhileItsCameraMoves) {
     const auto [left, right] = robot.see();
     robot.publish(left, right);
     // The tf of a joint comes after the images, and its first messages may be lost.
-    geometry_msgs::TransformStamped mount = mountAt(x_m, "camera_left");
-    mount.header.stamp = left.header.stamp;
+    const geometry_msgs::TransformStamped mount = mountAt(x_m, left.header.stamp, "camera_left");
     x_m += SimulatedRobot::kStep_m;
     std::optional<nav_msgs::Odometry> at_rest;
     ASSERT_TRUE(waitUntil([&] {
@@ -47,7 +45,7 @@ TEST(MovingMountTest, TheBaseRestsWhileItsCameraMoves) {
 
   // Now the base drives: its new camera is fixed, and where the other one was.
   tf2_ros::StaticTransformBroadcaster fixed;
-  fixed.sendTransform(mountAt(x_m, "other_camera"));
+  fixed.sendTransform(mountAt(x_m, ros::Time(), "other_camera"));
   const auto driveWithOther = [&] {
     return drive.odometryOf(
         robot.drive([](sensor_msgs::Image& image) { image.header.frame_id = "other_camera"; }));
