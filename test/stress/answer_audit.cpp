@@ -15,17 +15,6 @@ namespace {
 constexpr std::uint32_t kQueueSize = 1000;
 /// Limit of pairs without an answer that are kept.
 constexpr std::size_t kMaxPending = 1000;
-/// Limit of ages that are kept: an hour at 60 Hz.
-constexpr std::size_t kMaxAges = 250000;
-
-float quantile(std::vector<float> values, double share) {
-  if (values.empty()) return 0.0f;
-  const auto index =
-      static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), values.begin() + index, values.end());
-  return values[static_cast<std::size_t>(index)];
-}
-
 /// A row of the report.
 template <class Value>
 std::string row(const std::string& name, const Value& value) {
@@ -152,8 +141,8 @@ void AnswerAudit::onOdometry(const nav_msgs::Odometry::ConstPtr& message) {
   if (!isSound(*message)) ++unsound_;
   const auto sent = sent_.find(message->header.stamp);
   if (sent == sent_.end()) return;
-  const std::chrono::duration<float, std::milli> age = Clock::now() - sent->second;
-  if (ages_ms_.size() < kMaxAges) ages_ms_.push_back(age.count());
+  const std::chrono::duration<double, std::milli> age = Clock::now() - sent->second;
+  ages_ms_.add(age.count());
   sent_.erase(sent);
 }
 
@@ -197,9 +186,9 @@ std::string AnswerAudit::report() const {
   std::string text =
       row("pairs sent", pairs_sent_) + row("answers", answers_) +
       row("without an answer [%]", std::max(share, 0.0)) +
-      row("answers that are unsound", unsound_) + row("age, median [ms]", quantile(ages_ms_, 0.5)) +
-      row("age, p95 [ms]", quantile(ages_ms_, 0.95)) +
-      row("age, largest [ms]", quantile(ages_ms_, 1.0)) +
+      row("answers that are unsound", unsound_) + row("age, median [ms]", ages_ms_.quantile(0.5)) +
+      row("age, p95 [ms]", ages_ms_.quantile(0.95)) +
+      row("age, largest [ms]", ages_ms_.quantile(1.0)) +
       row("estimator, last pair [ms]", last_status_.time_total) + imageTable(account());
   if (loops_ > 1) text += row("loops", loops_ - 1) + row("loops recovered", loops_recovered_);
   if (faults_ > 0) text += row("faults", faults_) + row("faults recovered", faults_recovered_);

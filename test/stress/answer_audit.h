@@ -6,7 +6,6 @@
 #include <mutex>
 #include <set>
 #include <string>
-#include <vector>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <nav_msgs/Odometry.h>
@@ -15,6 +14,7 @@
 #include <ros/time.h>
 #include <rosgraph_msgs/Log.h>
 
+#include "node/health/sliding_quantiles.h"
 #include "rotrocc/OdometryStatus.h"
 
 namespace rotrocc {
@@ -81,7 +81,7 @@ class AnswerAudit {
   mutable std::mutex mutex_;
   std::map<ros::Time, Clock::time_point> sent_;
   std::uint64_t pairs_sent_ = 0, images_sent_ = 0, answers_ = 0, unsound_ = 0;
-  std::vector<float> ages_ms_;
+  SlidingQuantiles ages_ms_{250'000};  // an hour at 60 Hz
   std::uint64_t loops_ = 0, loops_recovered_ = 0;
   bool loop_recovered_ = false;
   std::uint64_t faults_ = 0, faults_recovered_ = 0;

@@ -7,21 +7,12 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
-#include "bags/sequence_bag_writer.h"
 #include "stress/stress_player.h"
 #include "support/synthetic_sequence.h"
 #include "support/temporary_directory.h"
 
 namespace rotrocc {
 namespace {
-
-constexpr int kPairs = 30;
-
-void writeBag(const std::string& path) {
-  const TemporaryDirectory directory;
-  writeSyntheticSequence(directory / "sequence", kPairs);
-  writeSequenceBag(path, directory / "sequence", {1000, false});
-}
 
 TEST(EnduranceTest, KnowsSoundAnswersAndAccounts) {
   nav_msgs::Odometry sound;
@@ -52,15 +43,13 @@ TEST(EnduranceTest, KnowsSoundAnswersAndAccounts) {
 }
 
 TEST(EnduranceTest, EveryFaultIsToldCountedAndOver) {
-  ros::AsyncSpinner spinner(1);
-  spinner.start();
   const TemporaryDirectory directory;
   StressOptions options;
-  options.bag = directory / "drive.bag";
+  options.recording = directory / "drive";
   options.rate_hz = 30.0;
   options.duration_s = 600.0;  // only against hanging
   options.in_turn = true;
-  writeBag(options.bag);
+  writeSyntheticSequence(options.recording, 30);
   ros::NodeHandle nh;
   StressPlayer player(nh, options);
   EXPECT_TRUE(player.run()) << "see the report above";
@@ -80,10 +69,3 @@ TEST(EnduranceTest, EveryFaultIsToldCountedAndOver) {
 
 }  // namespace
 }  // namespace rotrocc
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "endurance_test");
-  const ros::NodeHandle keeps_ros_alive;
-  return RUN_ALL_TESTS();
-}

@@ -27,11 +27,11 @@ bool parse(int argc, char** argv, StressOptions& options) {
       "faults", number(options.fault_share), "share of the pairs that get a fault; 0: none")(
       "seed", number(options.seed), "same seed, same faults");
   PositionalArguments bag;
-  bag.options.add_options()("bag", po::value(&options.bag));
+  bag.options.add_options()("bag", po::value(&options.recording));
   bag.order.add("bag", 1);
   po::variables_map variables;
   if (!parseCommandLine(argc, argv, kUsage, visible, bag, variables)) return false;
-  if (options.bag.empty()) throw po::error("no bag is given");
+  if (options.recording.empty()) throw po::error("no bag is given");
   if (!(options.rate_hz > 0.0)) throw po::error("the rate must be positive");
   return true;
 }

@@ -9,12 +9,10 @@
 #include <utility>
 
 #include <ros/init.h>
-#include <rosbag/view.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
-#include "bags/bag_reading.h"
-#include "bags/stereo_topics.h"
+#include "bags/recording.h"
 #include "input/message_conversion.h"
 #include "input/stereo_synchronizer.h"
 #include "node/odometry_messages.h"
@@ -37,6 +35,12 @@ constexpr std::chrono::seconds kTfLimit(20);
 constexpr std::chrono::seconds kSettleLimit(180);
 const char* const kCameraFrame = "stress_camera";
 
+/// Subscribes to all that the odometry publishes, and mostly stands still: then it does not read
+/// its sockets, as a computer behind a bad network. First it has the time to connect.
+const char* const kSlowSubscriber =
+    "sh -c 'rostopic hz odom path status flow inliers & trap \"kill -KILL $!; exit\" INT; "
+    "while sleep 3; do kill -STOP $!; sleep 8; kill -CONT $!; done'";
+
 /// Not the current time: in a previous run, the odometry may have received later stamps.
 ros::Time firstStamp() {
   return ros::Time(1000.0);
@@ -58,29 +62,29 @@ StressPlayer::StressPlayer(ros::NodeHandle& nh, const StressOptions& options)
       right_image_(nh.advertise<sensor_msgs::Image>("right/image_rect", kQueueSize)),
       left_info_(nh.advertise<sensor_msgs::CameraInfo>("left/camera_info", kQueueSize)),
       right_info_(nh.advertise<sensor_msgs::CameraInfo>("right/camera_info", kQueueSize)) {
-  readBag();
+  read();
   if (mkfifo(fifo_.c_str(), 0600) != 0) throw std::runtime_error("cannot make " + fifo_);
 }
 
-void StressPlayer::readBag() {
-  const rosbag::Bag bag = openBag(options_.bag);
-  const StereoTopics topics = findStereoTopics(topicTypes(bag), "", "");
-  const auto left_info = firstMessage<sensor_msgs::CameraInfo>(bag, topics.left_info);
-  const auto right_info = firstMessage<sensor_msgs::CameraInfo>(bag, topics.right_info);
+void StressPlayer::read() {
+  const auto recording = openRecording(options_.recording);
+  recording->select(recording->begin(), recording->end(), false);
   StereoSynchronizer synchronizer(kMaxStampDifference_s, kQueueSize);
-  rosbag::View view(
-      bag, rosbag::TopicQuery(std::vector<std::string>{topics.left_image, topics.right_image}));
-  for (const rosbag::MessageInstance& message : view) {
-    const auto image = readMessage<sensor_msgs::Image>(message);
+  RecordedMessage message;
+  while (recording_.size() < kPairs && recording->next(message)) {
     using Side = StereoSynchronizer::Side;
-    const Side side = message.getTopic() == topics.left_image ? Side::kLeft : Side::kRight;
+    const Side side = message.left_image ? Side::kLeft : Side::kRight;
+    const auto& image = message.left_image ? message.left_image : message.right_image;
+    if (!image) continue;
     const auto pair = synchronizer.add(side, image);
     if (!pair) continue;
-    recording_.push_back({*pair->left, *pair->right, *left_info, *right_info});
+    recording_.push_back(
+        {*pair->left, *pair->right, *recording->firstLeftInfo(), *recording->firstRightInfo()});
     recording_.back().left.header.frame_id = kCameraFrame;
-    if (recording_.size() >= kPairs) break;
   }
-  if (recording_.size() < 2) throw std::runtime_error(options_.bag + " has no two stereo pairs");
+  if (recording_.size() < 2) {
+    throw std::runtime_error(options_.recording + " has no two stereo pairs");
+  }
   const ros::Duration length =
       recording_.back().left.header.stamp - recording_.front().left.header.stamp;
   step_ = length * (1.0 / static_cast<double>(recording_.size() - 1));
@@ -96,7 +100,7 @@ void StressPlayer::waitForOdometry() {
 bool StressPlayer::run() {
   waitForOdometry();
   const bool with_faults = options_.in_turn || options_.fault_share > 0.0;
-  if (with_faults) slow_subscriber_.emplace();
+  if (with_faults) slow_subscriber_.emplace(kSlowSubscriber, "/dev/null");
   const auto period = std::chrono::duration_cast<steady_clock::duration>(
       std::chrono::duration<double>(1.0 / options_.rate_hz));
   end_ = steady_clock::now() + std::chrono::duration_cast<steady_clock::duration>(
@@ -119,7 +123,6 @@ bool StressPlayer::run() {
     const std::size_t back = static_cast<std::size_t>(loop) - forth;
     send(recording_[std::min(forth, back)], stamp);
     if (with_faults && i % kPairsPerCall == kPairsPerCall - 1) callServices();
-    if (slow_subscriber_) slow_subscriber_->poll();
     next_ += period;
     if (burst_left_ > 0) {
       --burst_left_;

@@ -12,14 +12,14 @@
 
 #include "stress/answer_audit.h"
 #include "stress/fault_injector.h"
-#include "stress/slow_subscriber.h"
+#include "support/background_command.h"
 #include "support/service_caller.h"
 #include "support/temporary_directory.h"
 
 namespace rotrocc {
 
 struct StressOptions {
-  std::string bag;            ///< stereo recording, played forwards and backwards in a loop
+  std::string recording;      ///< bag or sequence, played forwards and backwards in a loop
   double rate_hz = 10.0;      ///< of the pairs
   double duration_s = 60.0;   ///< of the whole run
   double fault_share = 0.05;  ///< of the pairs that get a fault; 0: none, and no restart of stamps
@@ -32,7 +32,7 @@ struct StressOptions {
 /// slow.
 class StressPlayer {
  public:
-  /// Throws std::runtime_error on a bag that cannot be used.
+  /// Throws std::runtime_error on a recording that cannot be used.
   StressPlayer(ros::NodeHandle& nh, const StressOptions& options);
 
   /// Prints the report; returns whether the test passed.
@@ -42,7 +42,7 @@ class StressPlayer {
   const AnswerAudit& audit() const { return audit_; }
 
  private:
-  void readBag();
+  void read();
   void waitForOdometry();
   bool ended() const;
   void send(StressPair pair, ros::Time& stamp);
@@ -68,7 +68,7 @@ class StressPlayer {
   bool has_mount_ = false;
   TemporaryDirectory directory_;
   std::string fifo_ = directory_ / "fifo";
-  std::optional<SlowSubscriber> slow_subscriber_;
+  std::optional<BackgroundCommand> slow_subscriber_;
 
   tf2_ros::StaticTransformBroadcaster mount_broadcaster_;
   tf2_ros::TransformBroadcaster tf_broadcaster_;
