@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "input/to_text.h"
 
@@ -47,21 +48,20 @@ const char* stateName(std::uint8_t state) {
   return state <= OdometryStatus::PAUSED ? kNames[state] : "unknown";
 }
 
-OdometryStatus OdometryHealth::addAnswer(const OdometryStatus& status,
+OdometryStatus OdometryHealth::addAnswer(OdometryStatus status,
                                          const std::string& camera_fault,
                                          const std::string& guess_trouble,
                                          const DropLog& drops) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const std::uint64_t processed = known_.status.pairs_processed;
-  const std::uint64_t lost = known_.status.pairs_lost;
-  known_.status = status;
-  known_.status.pairs_processed = processed + 1;
-  known_.status.pairs_lost = lost + (status.state == OdometryStatus::LOST ? 1 : 0);
+  const bool lost = status.state == OdometryStatus::LOST;
+  status.pairs_processed = known_.status.pairs_processed + 1;
+  status.pairs_lost = known_.status.pairs_lost + (lost ? 1 : 0);
+  known_.status = std::move(status);
   known_.camera_fault = camera_fault;
   known_.guess_trouble = guess_trouble;
   known_.waits_for_tf.clear();
   answers_.add(std::chrono::steady_clock::now());
-  latencies_ms_.add(status.latency);
+  latencies_ms_.add(known_.status.latency);
   updateStatus(drops);
   return known_.status;
 }

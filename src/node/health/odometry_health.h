@@ -40,7 +40,7 @@ class OdometryHealth {
  public:
   /// The odometry of a pair was published. Returns its status with the hint and the counters that
   /// it lacks.
-  OdometryStatus addAnswer(const OdometryStatus& status,
+  OdometryStatus addAnswer(OdometryStatus status,
                            const std::string& camera_fault,
                            const std::string& guess_trouble,
                            const DropLog& drops);

@@ -80,7 +80,11 @@ std::string PairInspector::inspect(const StereoPair& pair,
       result.counts.corners < kFewCorners || (result.state == State::kLost && isNoise(pair.left));
   few_corners_ = shows_nothing ? few_corners_ + 1 : 0;
   if (doubtful_ == 0) explanation_.clear();
-  if (few_corners_ >= kPatience) return explainFewCorners(pair);
+  if (few_corners_ >= kPatience) {
+    return "the left image has hardly any corners, its mean grey level is " +
+           toText(cvRound(cv::mean(pair.left)[0])) +
+           " of 255: is it dark, overexposed or out of focus, or the lens covered?";
+  }
   if (few_corners_ == 0 &&
       (doubtful_ == kPatience || (doubtful_ > 0 && doubtful_ % kPatienceAgain == 0))) {
     explanation_ = explainLoss(pair, camera);
@@ -128,12 +132,6 @@ bool PairInspector::isNoise(const cv::Mat& image) {
   return deviation[0] * deviation[0] < kOverNoise * kOverNoise * noiseVariance(image, noise_);
 }
 
-std::string PairInspector::explainFewCorners(const StereoPair& pair) const {
-  return "the left image has hardly any corners, its mean grey level is " +
-         toText(cvRound(cv::mean(pair.left)[0])) +
-         " of 255: is it dark, overexposed or out of focus, or the lens covered?";
-}
-
 std::string PairInspector::explainLoss(const StereoPair& pair, const StereoCamera& camera) {
   if (cv::norm(pair.left, pair.right, cv::NORM_INF) == 0.0) {
     return "left and right image are identical: are both topics from the same camera?";
@@ -148,19 +146,15 @@ std::string PairInspector::explainLoss(const StereoPair& pair, const StereoCamer
   for (const int offset : kOffsets_px) {
     for (const int rows : {offset, -offset}) {
       if (countMatches(pair.left, shifted(pair.right, rows), infinity_px) < clearly_more) continue;
-      return "the images match if the right one is shifted by about " + toText(rows) +
-             " rows: " + rowRemedy();
+      return "the images match if the right one is shifted by about " + toText(rows) + " rows: " +
+             (rectifies_ ? "K, D, R or P of camera_info are wrong; recalibrate"
+                         : "they are not rectified; remap to rectified images, set the parameter "
+                           "rectify for raw ones, or recalibrate");
     }
   }
   if (!few) return "";
   return "hardly any corner matches in the right image: are the images rectified and synchronized, "
          "and is max_disparity_px large enough for near objects?";
-}
-
-std::string PairInspector::rowRemedy() const {
-  if (rectifies_) return "K, D, R or P of camera_info are wrong; recalibrate";
-  return "they are not rectified; remap to rectified images, set the parameter rectify for raw "
-         "ones, or recalibrate";
 }
 
 /// Corners of `left` that have a disparity.

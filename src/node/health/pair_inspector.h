@@ -39,8 +39,6 @@ class PairInspector {
   bool isNoise(const cv::Mat& image);
   std::string findFrozen(const StereoPair& pair);
   std::string compareExposures(const OdometryResult& result);
-  std::string explainFewCorners(const StereoPair& pair) const;
-  std::string rowRemedy() const;
   std::string explainLoss(const StereoPair& pair, const StereoCamera& camera);
   int countMatches(const cv::Mat& left, const cv::Mat& right, double infinity_px);
 
