@@ -16,81 +16,64 @@ using WallClock = std::chrono::steady_clock;
 
 const ros::Time kBegin(1000.0);
 
-/// Collects what the clock publishes.
-struct Times {
-  std::vector<ros::Time> times;
-  std::function<void(const ros::Time&)> adder() {
-    return [this](const ros::Time& time) { times.push_back(time); };
-  }
+/// What the clocks of a test publish.
+class PlaybackClockTest : public ::testing::Test {
+ protected:
+  const std::function<void(const ros::Time&)> publish_ = [this](const ros::Time& time) {
+    published_.push_back(time);
+    if (published_.size() == 10) has_published_10_.set_value();
+  };
+  std::vector<ros::Time> published_;
+  std::promise<void> has_published_10_;
 };
 
-TEST(PlaybackClock, IsNeverEarly) {
-  Times published;
-  PlaybackClock clock(10.0, false, published.adder());
+/// How late it may be is up to the machine.
+TEST_F(PlaybackClockTest, IsNeitherEarlyNorHurriesAfterADelay) {
+  PlaybackClock clock(2.0, false, publish_);
   clock.start(kBegin);
+  std::this_thread::sleep_for(milliseconds(100));
   const WallClock::time_point begin = WallClock::now();
-  EXPECT_TRUE(clock.waitUntil(kBegin + ros::Duration(1.0)));
-  // How late it may be is up to the machine.
-  EXPECT_GE(WallClock::now() - begin, milliseconds(99));
-  EXPECT_EQ(published.times.back(), kBegin + ros::Duration(1.0));
+  EXPECT_TRUE(clock.waitUntil(kBegin + ros::Duration(0.01)));
+  EXPECT_EQ(published_.back(), kBegin + ros::Duration(0.01));
+  EXPECT_TRUE(clock.waitUntil(kBegin + ros::Duration(0.11)));
+  EXPECT_GE(WallClock::now() - begin, milliseconds(49));
+  EXPECT_EQ(published_.back(), kBegin + ros::Duration(0.11));
 }
 
-TEST(PlaybackClock, TellsTheTimeWhileItWaits) {
-  std::vector<ros::Time> times;
-  std::promise<void> enough;
-  PlaybackClock clock(1.0, false, [&](const ros::Time& time) {
-    times.push_back(time);
-    if (times.size() == 10) enough.set_value();
-  });
+TEST_F(PlaybackClockTest, TellsTheTimeWhileItWaits) {
+  PlaybackClock clock(1.0, false, publish_);
   clock.start(kBegin);
   auto waiting = std::async(std::launch::async,
                             [&] { return clock.waitUntil(kBegin + ros::Duration(3600.0)); });
-  enough.get_future().wait();
+  has_published_10_.get_future().wait();
   clock.stop();
   EXPECT_FALSE(waiting.get());
-  EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
+  EXPECT_TRUE(std::is_sorted(published_.begin(), published_.end()));
 }
 
-TEST(PlaybackClock, DoesNotWaitAtRateZero) {
-  Times published;
-  PlaybackClock clock(0.0, false, published.adder());
+TEST_F(PlaybackClockTest, DoesNotWaitAtRateZero) {
+  PlaybackClock clock(0.0, false, publish_);
   clock.start(kBegin);
   EXPECT_TRUE(clock.waitUntil(kBegin + ros::Duration(1e6)));
-  EXPECT_EQ(published.times.back(), kBegin + ros::Duration(1e6));
+  EXPECT_EQ(published_.back(), kBegin + ros::Duration(1e6));
 }
 
-TEST(PlaybackClock, DoesNotHurryAfterADelay) {
-  Times published;
-  PlaybackClock clock(1.0, false, published.adder());
-  clock.start(kBegin);
-  std::this_thread::sleep_for(milliseconds(100));
-  EXPECT_TRUE(clock.waitUntil(kBegin + ros::Duration(0.01)));
-  EXPECT_EQ(published.times.back(), kBegin + ros::Duration(0.01));
-  const WallClock::time_point begin = WallClock::now();
-  EXPECT_TRUE(clock.waitUntil(kBegin + ros::Duration(0.06)));
-  EXPECT_GE(WallClock::now() - begin, milliseconds(49));
-}
-
-TEST(PlaybackClock, StandsStillDuringAPause) {
-  Times published;
-  PlaybackClock clock(1.0, true, published.adder());
-  clock.start(kBegin);
-  auto waiting =
-      std::async(std::launch::async, [&] { return clock.waitUntil(kBegin + ros::Duration(0.01)); });
-  EXPECT_EQ(waiting.wait_for(milliseconds(100)), std::future_status::timeout);
-  EXPECT_TRUE(clock.paused());
-  clock.setPaused(false);
-  EXPECT_TRUE(waiting.get());
-}
-
-TEST(PlaybackClock, StopEndsAPause) {
-  Times published;
-  PlaybackClock clock(1.0, true, published.adder());
-  clock.start(kBegin);
-  auto waiting = std::async(std::launch::async, [&] { return clock.waitUntil(kBegin); });
-  clock.stop();
-  EXPECT_FALSE(waiting.get());
-  EXPECT_TRUE(clock.stopped());
+TEST_F(PlaybackClockTest, StandsStillDuringAPauseUntilItEndsOrIsStopped) {
+  for (const bool stop : {false, true}) {
+    PlaybackClock clock(1.0, true, publish_);
+    clock.start(kBegin);
+    auto waiting = std::async(std::launch::async,
+                              [&] { return clock.waitUntil(kBegin + ros::Duration(0.01)); });
+    EXPECT_EQ(waiting.wait_for(milliseconds(100)), std::future_status::timeout);
+    EXPECT_TRUE(clock.paused());
+    if (stop) {
+      clock.stop();
+    } else {
+      clock.setPaused(false);
+    }
+    EXPECT_EQ(waiting.get(), !stop);
+    EXPECT_EQ(clock.stopped(), stop);
+  }
 }
 
 }  // namespace
