@@ -10,6 +10,7 @@
 #include <tf2_eigen/tf2_eigen.h>
 #include <boost/make_shared.hpp>
 
+#include "input/camera_calibration.h"
 #include "input/message_conversion.h"
 
 namespace rotrocc {
@@ -60,24 +61,11 @@ double shiftOf(const StereoCamera& camera) {
   return product;
 }
 
-/// `shift_px`: P[3].
-sensor_msgs::CameraInfo::Ptr toCameraInfo(const RawCamera& raw,
-                                          const StereoCamera& rectified,
-                                          double cx,
-                                          double shift_px,
-                                          const ros::Time& stamp) {
-  const auto info = boost::make_shared<sensor_msgs::CameraInfo>();
-  info->header.frame_id = kCameraFrame;
-  info->header.stamp = stamp;
-  info->width = static_cast<std::uint32_t>(raw.width);
-  info->height = static_cast<std::uint32_t>(raw.height);
-  info->distortion_model = raw.distortion.name();
-  info->D = raw.distortion.coefficients();
-  info->K = {raw.fx, 0, raw.cx, 0, raw.fy, raw.cy, 0, 0, 1};
-  using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  Eigen::Map<Matrix3>(info->R.data()) = raw.R_rectified_raw;
-  info->P = {rectified.fx, 0, cx, shift_px, 0, rectified.fy, rectified.cy, 0, 0, 0, 1, 0};
-  return info;
+/// The message of one camera at a stamp.
+sensor_msgs::CameraInfo::Ptr stamped(sensor_msgs::CameraInfo info, const ros::Time& stamp) {
+  info.header.frame_id = kCameraFrame;
+  info.header.stamp = stamp;
+  return boost::make_shared<sensor_msgs::CameraInfo>(std::move(info));
 }
 
 }  // namespace
@@ -157,12 +145,13 @@ ros::Time SequenceRecording::stamp(int pair) const {
 
 sensor_msgs::CameraInfo::Ptr SequenceRecording::leftInfo(int pair) const {
   const StereoCamera& camera = calibration_.rectified;
-  return toCameraInfo(calibration_.left, camera, camera.cx, 0.0, stamp(pair));
+  return stamped(toCameraInfo(calibration_.left, camera, camera.cx, 0.0), stamp(pair));
 }
 
 sensor_msgs::CameraInfo::Ptr SequenceRecording::rightInfo(int pair) const {
   const StereoCamera& camera = calibration_.rectified;
-  return toCameraInfo(calibration_.right, camera, camera.cx_right, shiftOf(camera), stamp(pair));
+  return stamped(toCameraInfo(calibration_.right, camera, camera.cx_right, shiftOf(camera)),
+                 stamp(pair));
 }
 
 bool SequenceRecording::atEnd() const {

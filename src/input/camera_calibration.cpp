@@ -177,6 +177,22 @@ std::string oddityOf(const StereoCamera& camera) {
          " m is unusual: is P[3] of camera_info in pixels times metres?";
 }
 
+sensor_msgs::CameraInfo toCameraInfo(const RawCamera& raw,
+                                     const StereoCamera& rectified,
+                                     double cx,
+                                     double shift_px) {
+  using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  sensor_msgs::CameraInfo info;
+  info.width = static_cast<std::uint32_t>(raw.width);
+  info.height = static_cast<std::uint32_t>(raw.height);
+  info.distortion_model = raw.distortion.name();
+  info.D = raw.distortion.coefficients();
+  info.K = {raw.fx, 0, raw.cx, 0, raw.fy, raw.cy, 0, 0, 1};
+  Eigen::Map<Matrix3>(info.R.data()) = raw.R_rectified_raw;
+  info.P = {rectified.fx, 0, cx, shift_px, 0, rectified.fy, rectified.cy, 0, 0, 0, 1, 0};
+  return info;
+}
+
 StereoCalibration toStereoCalibration(const sensor_msgs::CameraInfo& left,
                                       const sensor_msgs::CameraInfo& right,
                                       double baseline_m) {

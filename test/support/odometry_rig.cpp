@@ -7,10 +7,10 @@
 #include <sensor_msgs/image_encodings.h>
 #include <boost/make_shared.hpp>
 
+#include "input/camera_calibration.h"
 #include "input/message_conversion.h"
 #include "input/to_text.h"
 #include "node/health/odometry_health.h"
-#include "sequences/camera_info_calibration.h"
 #include "support/synthetic_scene.h"
 
 namespace rotrocc {

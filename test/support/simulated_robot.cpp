@@ -7,8 +7,8 @@
 #include <sensor_msgs/image_encodings.h>
 #include <boost/make_shared.hpp>
 
+#include "input/camera_calibration.h"
 #include "input/message_conversion.h"
-#include "sequences/camera_info_calibration.h"
 
 namespace rotrocc {
 namespace {
