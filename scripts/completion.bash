@@ -7,8 +7,7 @@
 
 # Options of each program. Those with a value end in =.
 declare -gA _rotrocc_options=(
-  [benchmark]='--repeat= --programs= --config= --set= --against-programs= --against-config= --against-set=
-    --settings='
+  [benchmark]='--repeat= --programs= --config= --set= --against-programs= --against-config= --against-set='
   [draw_report]='--title='
   [evaluate_trajectory]='--lengths= --step= --fit --times= --segments= --report= --stats= --title='
   [kitti_benchmark]='--output= --jobs= --sshlogin= --config= --set= --compare= --title= --programs='

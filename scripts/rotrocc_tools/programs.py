@@ -5,8 +5,6 @@ import shutil
 import subprocess
 import sys
 
-import yaml
-
 from rotrocc_tools.tables import read_table
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]  # of a checkout
@@ -66,18 +64,6 @@ def make_once(target, make):
         make(part)
         os.replace(str(part), str(target))
     return target
-
-
-def read_settings(path):
-    """A YAML file with `settings`, {name: {parameter: value}}, whose paths are relative to the file."""
-    with open(str(path)) as file:
-        content = yaml.safe_load(file)
-    if not isinstance(content, dict) or not isinstance(content.get('settings'), dict):
-        raise RuntimeError('%s has no settings' % path)
-    for setting in content['settings'].values():
-        for key in {'config', 'programs'} & set(setting):
-            setting[key] = path.parent / setting[key]
-    return content
 
 
 def odometry_options(setting):

@@ -70,18 +70,6 @@ TEST_F(BenchmarkTest, ComparesParametersInTurns) {
   EXPECT_NEAR(figure(result.output, row, 4), b / a, 0.001);
 }
 
-TEST_F(BenchmarkTest, ComparesTheSettingsOfAFile) {
-  const std::string file = directory_.write("settings.yaml",
-                                            "settings:\n  default: {}\n  fast: {config: " CONFIG
-                                            "/fast.yaml}\n"
-                                            "  few: {feature_detector/max_features: 200}\n");
-  const CommandResult result = run(sequence() + " --repeat 1 --settings " + file);
-  ASSERT_EQ(result.status, 0) << result.output;
-  for (const char* name : {"default", "fast", "few"}) {
-    EXPECT_GT(figure(result.output, std::string("| ") + name + " |"), 0.0) << name;
-  }
-}
-
 TEST_F(BenchmarkTest, SaysWhatIsWrong) {
   const struct {
     std::string arguments;
