@@ -1,4 +1,6 @@
 """Tables and picture of experiments/limits."""
+import itertools
+
 from matplotlib.patches import Patch
 from rotrocc_tools.plot_style import BLUE, FAINT, GREEN, TEXT, VERMILLION, YELLOW, legend, pyplot, save
 from stresses import LORRIES, UNSEEN
@@ -45,23 +47,11 @@ def wrong_table(runs):
     return names[:4] + ['pair:sigma'], [[row[name] for name in names] for row in runs if int(row['wrong'])]
 
 
-def zones_of_rungs(zones, rungs):
-    """The zone of each rung: that of the last measured one, up to there."""
-    filled = []
-    for rung in range(rungs):
-        filled.append(zones[max(known for known in zones if known <= rung)])
-    return filled
-
-
-def spans(filled):
-    """[(first rung, number of rungs, zone)]"""
-    found = []
-    for rung, zone in enumerate(filled):
-        if found and found[-1][2] == zone:
-            found[-1][1] += 1
-        else:
-            found.append([rung, 1, zone])
-    return found
+def spans(zones, rungs):
+    """[(first rung, number of rungs, zone)]; a rung that was not measured has the zone of the last one before."""
+    changes = [next(same) for _, same in itertools.groupby(sorted(zones.items()), key=lambda entry: entry[1])]
+    ends = [rung for rung, _ in changes[1:]] + [rungs]
+    return [(rung, end - rung, zone) for (rung, zone), end in zip(changes, ends)]
 
 
 def draw_stress(axes, y, stress, zones, configs):
@@ -70,7 +60,7 @@ def draw_stress(axes, y, stress, zones, configs):
     height = 0.78 / len(configs)
     for number, config in enumerate(configs):
         middle = y + (number - 0.5 * (len(configs) - 1)) * height
-        for first, count, zone in spans(zones_of_rungs(zones[config, stress.name], rungs)):
+        for first, count, zone in spans(zones[config, stress.name], rungs):
             axes.barh(middle, count / rungs, left=first / rungs, height=0.8 * height, color=ZONES[zone][1],
                       linewidth=0)
             if first > 0:
