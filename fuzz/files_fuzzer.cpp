@@ -1,8 +1,5 @@
 // Text files that users write or download. The first byte of an input names its reader.
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -20,36 +17,14 @@
 namespace rotrocc {
 namespace {
 
-/// A file for readers that need a path. It stays open, because opening and truncating files would
-/// take most of the time of a small input.
-class InputFile {
- public:
-  explicit InputFile(const std::string& path)
-      : path_(path), descriptor_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)) {
-    if (descriptor_ < 0) throw std::runtime_error("cannot write " + path);
-  }
-  ~InputFile() { close(descriptor_); }
-  InputFile(const InputFile&) = delete;
-  InputFile& operator=(const InputFile&) = delete;
-
-  const std::string& path() const { return path_; }
-
-  void write(std::string_view text) const {
-    const auto size = static_cast<ssize_t>(text.size());
-    if (pwrite(descriptor_, text.data(), text.size(), 0) != size ||
-        ftruncate(descriptor_, size) != 0) {
-      throw std::runtime_error("cannot write to " + path_);
-    }
-  }
-
- private:
-  std::string path_;
-  int descriptor_;
-};
-
 const TemporaryDirectory& directory() {
   static const TemporaryDirectory directory;
   return directory;
+}
+
+/// The path of a file for readers that need one.
+std::string write(const std::string& name, std::string_view text) {
+  return directory().write(name, std::string(text));
 }
 
 /// Whether a reader accepts its file. It says what is wrong by this exception alone.
@@ -71,30 +46,27 @@ struct Settings {
 
 /// Parameters that were read can be written, and read again.
 void readParameters(std::string_view text) {
-  static const InputFile file(directory() / "parameters.yaml");
   static Settings settings, again;
-  file.write(text);
+  const std::string file = write("parameters.yaml", text);
   settings.parameters = {};
-  if (!accepts<std::invalid_argument>([] { loadYaml(file.path(), settings.table); })) return;
+  if (!accepts<std::invalid_argument>([&] { loadYaml(file, settings.table); })) return;
   // Reading a file with all parameters takes a hundred times as long as reading a typical input.
   if (std::hash<std::string_view>()(text) % 32 != 0) return;
   const std::string written = toYaml(settings.table);
-  file.write(written);
   again.parameters = {};
-  loadYaml(file.path(), again.table);
+  loadYaml(write("parameters.yaml", written), again.table);
   require(toYaml(again.table) == written, "no value is lost");
 }
 
 /// A trajectory that was read can be written, and read again.
 void readTrajectories(std::string_view text) {
-  static const InputFile file(directory() / "trajectory.txt");
   static const std::string written = directory() / "written.txt";
-  file.write(text);
-  accepts<std::runtime_error>([] { readTimes(file.path()); });
+  const std::string file = write("trajectory.txt", text);
+  accepts<std::runtime_error>([&] { readTimes(file); });
   Trajectory trajectory;
   const bool is_trajectory = accepts<std::runtime_error>([&] {
-    detectTrajectoryFormat(file.path());
-    trajectory = readTrajectory(file.path());
+    detectTrajectoryFormat(file);
+    trajectory = readTrajectory(file);
   });
   if (!is_trajectory) return;
   {
@@ -111,24 +83,23 @@ void readTrajectories(std::string_view text) {
 
 /// As a file of camera_calibration, and as a sensor.yaml of the ASL format.
 void readCalibrations(std::string_view text) {
-  static const InputFile file(directory() / "calibration.yaml");
-  file.write(text);
-  accepts<std::runtime_error>([] {
-    const auto info = readCameraInfo(file.path());
+  const std::string file = write("calibration.yaml", text);
+  accepts<std::runtime_error>([&] {
+    const auto info = readCameraInfo(file);
     require(info.width > 0 && info.height > 0, "a camera has pixels");
   });
-  accepts<std::runtime_error>([] {
-    const AslCamera read = readAslCamera(file.path());
+  accepts<std::runtime_error>([&] {
+    const AslCamera read = readAslCamera(file);
     require(read.T_body_camera.matrix().allFinite(), "the pose is finite");
     require(read.camera.width > 0 && read.camera.height > 0, "a camera has pixels");
   });
   accepts<std::runtime_error>(
-      [] { require(readAslPose(file.path()).matrix().allFinite(), "the pose is finite"); });
+      [&] { require(readAslPose(file).matrix().allFinite(), "the pose is finite"); });
 }
 
 /// calib.txt of a KITTI sequence of one pair.
 void readKitti(std::string_view text) {
-  static const InputFile file = [] {
+  static const std::string sequence = [] {
     // PGM is faster to read than PNG, and OpenCV identifies it by its content.
     const std::string image = "P5 6 4 255\n" + std::string(24, '\x80');
     for (const char* folder : {"image_0", "image_1"}) {
@@ -136,10 +107,10 @@ void readKitti(std::string_view text) {
       directory().write(folder + std::string("/000000.png"), image);
     }
     directory().write("times.txt", "0\n");
-    return InputFile(directory() / "calib.txt");
+    return directory() / "";
   }();
-  file.write(text);
-  accepts<std::runtime_error>([] { KittiSequence(directory() / "").camera().check(); });
+  write("calib.txt", text);
+  accepts<std::runtime_error>([] { KittiSequence(sequence).camera().check(); });
 }
 
 const std::map<char, std::function<void(std::string_view)>> kReaders = {
