@@ -83,16 +83,6 @@ TEST(ImageStress, DropsStayOnTheirLens) {
   EXPECT_GT(shareOfDifference(first, stressed(image, drops, 0, true) != image), 0.2);
 }
 
-TEST(ImageStress, JpegChangesMoreAtALowerQuality) {
-  const auto change = [](int quality) {
-    ImageStress stress;
-    stress.jpeg_quality = quality;
-    return cv::norm(stressed(texture(), stress, 0, false), texture(), cv::NORM_L1);
-  };
-  EXPECT_GT(change(90), 0.0);
-  EXPECT_GT(change(5), 3.0 * change(90));
-}
-
 TEST(ImageStress, RefusesLevelsOutOfRange) {
   expectError<std::invalid_argument>([] { stress(&ImageStress::contrast, 1.5).check(); },
                                      "contrast is 1.5");
