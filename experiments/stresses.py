@@ -83,14 +83,6 @@ class Drives:
     def base(self, seed, *arguments, name='base', noise=NOISE):
         return self.render(name, seed, *winding(self.way()), *arguments, noise=noise)
 
-    def clean(self, seed):
-        return self.base(seed, name='clean', noise=0)
-
-    def worse(self, name, seed, *arguments):
-        """The base drive with worse images."""
-        return self.once('%s_%d' % (name, seed), lambda target: self.programs.run(
-            'stress_sequence', self.clean(seed), target, '--seed', seed, *arguments))
-
     def once(self, name, make):
         """The folder that `make` fills, unless it exists. Stresses that run in parallel share some."""
         target = self.folder / name
@@ -196,12 +188,14 @@ def miscalibrated(name, places):
 def worse(name, option, convert=lambda level: level, noise=True):
     """The base drive with worse images."""
     def make(drives, level, seed):
+        clean = drives.base(seed, name='clean', noise=0)
         options = ['--noise', NOISE] if noise else []
-        return drives.worse(label(name, level), seed, *options, option, '%.6g' % convert(level))
+        return drives.once('%s_%d' % (label(name, level), seed), lambda target: drives.programs.run(
+            'stress_sequence', clean, target, '--seed', seed, *options, option, '%.6g' % convert(level)))
     return make
 
 
-SHARES = [5, 10, 15, 20, 25, 30, 35, 40, 45, 50, 55, 60, 65, 70, 75, 80, 85, 90, 95]
+SHARES = list(range(5, 100, 5))
 
 STRESSES = [
     Stress('turn', 'turn rate', 'deg per pair', ladder(2, 32), turn('y')),

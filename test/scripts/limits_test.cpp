@@ -40,18 +40,6 @@ TEST_F(LimitsTest, TellsEachRun) {
   }
 }
 
-TEST_F(LimitsTest, TheLastFineLevelIsFine) {
-  const std::vector<CsvRow> limits = readTable("limits");
-  for (const CsvRow& run : readTable("runs")) {
-    for (const CsvRow& limit : limits) {
-      if (run.at("stress") != limit.at("stress") || run.at("level") != limit.at("fine_to"))
-        continue;
-      EXPECT_LT(number(run, "translation_percent"), 2.0);
-      EXPECT_EQ(number(run, "lost") + number(run, "wrong"), 0.0);
-    }
-  }
-}
-
 TEST_F(LimitsTest, WritesTablesAndAPicture) {
   const std::string text = readFile(outputPath("limits.md"));
   EXPECT_NE(text.find("| stress | levels | default: fine to |"), std::string::npos) << text;
