@@ -38,39 +38,6 @@ std::vector<Step> drive(const std::string& name, const SimulationOptions& option
   return drive(simulator, simulator.size() / 4, pairs);
 }
 
-/// The row offset estimated for a rig whose right camera is turned, and its true value at infinity.
-struct TurnedRig {
-  RowOffset found;
-  double lower_px;
-};
-
-TurnedRig turnRightCamera(double roll_rad, double pitch_rad) {
-  SimulationOptions options;
-  options.faults.right_rotation_rad = {roll_rad, pitch_rad, 0.0};
-  const Eigen::Vector3d far(0.0, 0.0, 1e6);
-  const StereoCamera& camera = options.camera;
-  const Eigen::Vector3d far_right = options.faults.rightCamera(camera).inverse() * far;
-  return {drive("city", options, 4).back().estimate.row_offset,
-          (camera.project(far_right) - camera.project(far)).y()};
-}
-
-TEST(TurnedRigTest, ShowsInTheRows) {
-  const TurnedRig good = turnRightCamera(0.0, 0.0);
-  // The median of a few hundred features, each measured to 0.1 px.
-  EXPECT_NEAR(good.found.median_px, 0.0, 0.02);
-  EXPECT_LT(good.found.typical_px, 0.1);
-
-  const TurnedRig pitched = turnRightCamera(0.0, 0.001);
-  EXPECT_GT(std::abs(pitched.lower_px), 0.5);
-  EXPECT_NEAR(pitched.found.median_px, pitched.lower_px, 0.05);
-  EXPECT_NEAR(pitched.found.typical_px, std::abs(pitched.lower_px), 0.05);
-
-  // Up on one side, down on the other: up to 1.2 px at the edges.
-  const TurnedRig rolled = turnRightCamera(0.002, 0.0);
-  EXPECT_LT(std::abs(rolled.found.median_px), 0.4);
-  EXPECT_GT(rolled.found.typical_px, 0.2);
-}
-
 TEST(SkewedRigTest, ShowsInTheRowsOfMovingFeatures) {
   for (const double skew_s : {0.0, 0.005}) {
     SimulationOptions options;
