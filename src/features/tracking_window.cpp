@@ -27,6 +27,10 @@ constexpr int columnsOf(int count) {
   return (count + kMaxShorts - 1) / kMaxShorts * kMaxShorts;
 }
 
+bool contains(const cv::Mat& image, const cv::Point2f& point) {
+  return cv::Rect2f({}, cv::Size2f(image.size())).contains(point);
+}
+
 }  // namespace
 
 TrackingWindow::TrackingWindow(int radius_px, bool ignores_brightness)
@@ -73,9 +77,7 @@ void TrackingWindow::copyWithEdge(const cv::Mat& image, const cv::Rect& area) {
 }
 
 bool TrackingWindow::take(const cv::Mat& image, const cv::Point2f& center, float scale) {
-  const cv::Rect2f inside(
-      0.0F, 0.0F, static_cast<float>(image.cols), static_cast<float>(image.rows));
-  if (!inside.contains(center)) return false;
+  if (!contains(image, center)) return false;
   spread(scale);
   const Patch patch = patchAround(image, center, radius_ + 1);
   return invertNormalMatrix(kernels_->takeWindow(patch, window_));
@@ -153,13 +155,11 @@ cv::Point2f TrackingWindow::stepFrom(const Patch& patch) const {
 }
 
 bool TrackingWindow::find(const cv::Mat& image, const Stop& stop, cv::Point2f& center) {
-  const cv::Rect2f inside(
-      0.0F, 0.0F, static_cast<float>(image.cols), static_cast<float>(image.rows));
   const auto min_px2 = static_cast<float>(stop.min_step_px * stop.min_step_px);
   cv::Point2f found = center;
   cv::Point2f last_step;
   for (int i = 0; i < stop.max_iterations; ++i) {
-    if (!inside.contains(found)) return false;
+    if (!contains(image, found)) return false;
     const cv::Point2f step = stepFrom(patchAround(image, found, radius_));
     found += step;
     if (step.dot(step) <= min_px2) break;
@@ -170,7 +170,7 @@ bool TrackingWindow::find(const cv::Mat& image, const Stop& stop, cv::Point2f& c
     }
     last_step = step;
   }
-  if (!inside.contains(found)) return false;
+  if (!contains(image, found)) return false;
   center = found;
   return true;
 }

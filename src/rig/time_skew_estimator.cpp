@@ -4,7 +4,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "common/median.h"
+#include "motion/cauchy_weights.h"
 
 namespace rotrocc {
 namespace {
@@ -25,8 +25,9 @@ constexpr double kVelocity_pxps = 100.0;
 /// skew of up to 1.5 ms with the cameras of KITTI, which are triggered together.
 constexpr double kRemainder_px = 0.05;
 
-/// Cauchy weights are 1/2 at this number of standard deviations.
-constexpr double kRobustFactor = 1.5;
+/// Of cauchyWeights(), for weights of 1/2 at 1.5 standard deviations: that of errors in one
+/// direction is 1.746 times that which it assumes of lengths with the same median.
+constexpr double kRobustFactor = 1.5 * 1.746;
 
 }  // namespace
 
@@ -65,14 +66,11 @@ void TimeSkewEstimator::observe(const StereoCamera& camera,
   errors_px_.clear();
   for (std::size_t i = 0; i < rows.features.size(); ++i) {
     rows_.push_back(coefficients(camera, features[rows.features[i]], interval_s));
-    errors_px_.push_back(rows.offsets_px[i] - rows_.back().dot(before));
+    errors_px_.push_back(std::abs(rows.offsets_px[i] - rows_.back().dot(before)));
   }
-  sorted_px_.resize(errors_px_.size());
-  for (std::size_t i = 0; i < errors_px_.size(); ++i) sorted_px_[i] = std::abs(errors_px_[i]);
-  const double limit_px = kRobustFactor * kDeviationOverMedian * median(sorted_px_);
+  cauchyWeights(kRobustFactor, errors_px_, robust_weights_);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const double relative = limit_px > 0.0 ? errors_px_[i] / limit_px : 0.0;
-    const double weight = 1.0 / (1.0 + relative * relative);
+    const double weight = robust_weights_[i];
     information_ += weight * rows_[i] * rows_[i].transpose();
     weighted_px_ += weight * rows.offsets_px[i] * rows_[i];
     squares_px2_ += weight * errors_px_[i] * errors_px_[i];

@@ -47,7 +47,7 @@ class TimeSkewEstimator {
 
   // Buffers, reused.
   std::vector<Unknowns> rows_;
-  std::vector<double> errors_px_, sorted_px_;
+  std::vector<double> errors_px_, robust_weights_;
 };
 
 }  // namespace rotrocc
