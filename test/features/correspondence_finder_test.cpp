@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -23,34 +24,55 @@ StereoPair view(const SyntheticScene& scene, const Eigen::Isometry3d& T_world_ca
   return pair;
 }
 
-/// A keyframe and a current frame.
-struct Frames {
-  Frames(CorrespondenceFinder& finder,
-         const StereoPair& prev,
-         const StereoPair& cur,
-         const StereoCamera& camera,
-         double row_offset_px = 0.0) {
-    keyframe.frame = finder.makeFrame(prev);
-    keyframe.row_offset_px = row_offset_px;
-    finder.findCorners(keyframe);
-    finder.findDepths(camera, keyframe);
-    current = finder.makeFrame(cur);
-  }
+const SyntheticScene& scene() {
+  static const SyntheticScene scene;
+  return scene;
+}
 
+/// Views of the scene before and after step().
+const StereoPair& before() {
+  static const StereoPair pair = view(scene(), Eigen::Isometry3d::Identity());
+  return pair;
+}
+
+const StereoPair& after() {
+  static const StereoPair pair = view(scene(), step());
+  return pair;
+}
+
+Keyframe makeKeyframe(CorrespondenceFinder& finder,
+                      const StereoPair& pair,
+                      const StereoCamera& camera) {
   Keyframe keyframe;
-  FramePtr current;
-};
+  keyframe.frame = finder.makeFrame(pair);
+  finder.findCorners(keyframe);
+  finder.findDepths(camera, keyframe);
+  return keyframe;
+}
 
 /// All stages from two pairs to the feature set. The prediction is the true motion.
 Correspondences find(const StereoPair& prev,
                      const StereoPair& cur,
                      const StereoCamera& camera,
+                     const Eigen::Isometry3d& T_prev_cur = step(),
                      const CorrespondenceFinder::Config& config = {}) {
   CorrespondenceFinder finder(config);
-  const Frames frames(finder, prev, cur, camera);
+  const Keyframe keyframe = makeKeyframe(finder, prev, camera);
   Correspondences features;
-  finder.find(camera, frames.keyframe, *frames.current, step(), features);
+  finder.find(camera, keyframe, *finder.makeFrame(cur), T_prev_cur, features);
   return features;
+}
+
+double medianFlowError(const SyntheticScene& scene,
+                       const Correspondences& features,
+                       const Eigen::Isometry3d& T_prev_cur) {
+  std::vector<double> errors_px;
+  for (const Correspondence& feature : features) {
+    const Eigen::Vector3d point_cur = scene.pointAt(T_prev_cur, feature.cur_px);
+    errors_px.push_back(
+        (scene.camera().project(T_prev_cur * point_cur) - feature.keyframe_px).norm());
+  }
+  return median(errors_px);
 }
 
 TEST(CorrespondenceFinderTest, FindsPointsOfTheSceneInBothPairs) {
@@ -61,73 +83,41 @@ TEST(CorrespondenceFinderTest, FindsPointsOfTheSceneInBothPairs) {
     const Correspondences features =
         find(view(scene, Eigen::Isometry3d::Identity()), view(scene, step()), camera);
     ASSERT_GT(features.size(), 300u);
-    std::vector<double> flow_errors_px;
     std::vector<double> disparity_errors_px;
     for (const Correspondence& feature : features) {
-      const Eigen::Vector3d point_cur = scene.pointAt(step(), feature.cur_px);
-      flow_errors_px.push_back((camera.project(step() * point_cur) - feature.keyframe_px).norm());
-      disparity_errors_px.push_back(
-          std::abs(feature.disparity_px - camera.disparity(point_cur.z())));
+      const double depth_m = scene.pointAt(step(), feature.cur_px).z();
+      disparity_errors_px.push_back(std::abs(feature.disparity_px - camera.disparity(depth_m)));
       EXPECT_LT((camera.project(feature.point_cur) - feature.cur_px).norm(), 1e-9);
       EXPECT_NEAR(camera.disparity(feature.point_cur.z()), feature.disparity_px, 1e-9);
     }
     // The measured accuracy of the tracker and the matcher alone.
-    EXPECT_LT(median(flow_errors_px), 0.25);
+    EXPECT_LT(medianFlowError(scene, features, step()), 0.25);
     EXPECT_LT(median(disparity_errors_px), 0.25);
   }
 }
 
-/// The pair with its right image moved down.
-StereoPair withRightLower(StereoPair pair, double rows) {
-  SyntheticScene::lowerRight(pair, rows);
-  return pair;
-}
-
+/// The right image shifts down between the pairs.
 TEST(CorrespondenceFinderTest, WantsLeftAndRightOnOneRow) {
-  const SyntheticScene scene;
-  const StereoPair prev = view(scene, Eigen::Isometry3d::Identity());
-  const StereoPair cur = view(scene, step());
-  const auto good = find(prev, cur, scene.camera()).size();
-  // The right image shifts down between the pairs.
-  EXPECT_GT(find(prev, withRightLower(cur, 0.5), scene.camera()).size(), good / 2);
-  EXPECT_LT(find(prev, withRightLower(cur, 2.0), scene.camera()).size(), good / 10);
-}
-
-TEST(CorrespondenceFinderTest, FindsFeaturesInALowerRightImage) {
-  const SyntheticScene scene;
-  const StereoPair prev = view(scene, Eigen::Isometry3d::Identity());
-  const StereoPair cur = view(scene, step());
-  const auto usual = static_cast<double>(find(prev, cur, scene.camera()).size());
-  for (const double rows : {-3.0, -1.5, 1.5, 3.0}) {
-    CorrespondenceFinder finder({});
-    Frames frames(
-        finder, withRightLower(prev, rows), withRightLower(cur, rows), scene.camera(), rows);
-    Correspondences features;
-    finder.find(scene.camera(), frames.keyframe, *frames.current, step(), features);
-    // Interpolated rows have less noise, those at the border are missing.
-    EXPECT_GT(static_cast<double>(features.size()), 0.9 * usual);
-    std::vector<double> disparity_errors_px;
-    for (const Correspondence& feature : features) {
-      const double depth_m = scene.pointAt(step(), feature.cur_px).z();
-      disparity_errors_px.push_back(
-          std::abs(feature.disparity_px - scene.camera().disparity(depth_m)));
-    }
-    EXPECT_LT(median(disparity_errors_px), 0.25) << "as without an offset";
-  }
+  const auto countWithRightLower = [](double rows) {
+    StereoPair cur = after();
+    SyntheticScene::lowerRight(cur, rows);
+    return find(before(), cur, scene().camera()).size();
+  };
+  const auto good = find(before(), after(), scene().camera()).size();
+  EXPECT_GT(countWithRightLower(0.5), good / 2);
+  EXPECT_LT(countWithRightLower(2.0), good / 10);
 }
 
 TEST(CorrespondenceFinderTest, WantsTrackedAndMatchedDisparityToAgree) {
-  const SyntheticScene scene;
-  const StereoPair prev = view(scene, Eigen::Isometry3d::Identity());
-  const StereoPair cur = view(scene, step());
   CorrespondenceFinder finder({});
-  const Frames frames(finder, prev, cur, scene.camera());
+  const Keyframe usual = makeKeyframe(finder, before(), scene().camera());
+  const FramePtr current = finder.makeFrame(after());
   // Tracked are the surroundings of another point of the right image than the one that is matched.
   const auto featuresWith = [&](float beside_px) {
-    Keyframe keyframe = frames.keyframe;
+    Keyframe keyframe = usual;
     for (cv::Point2f& right : keyframe.right_px) right.x += beside_px;
     Correspondences features;
-    finder.find(scene.camera(), keyframe, *frames.current, step(), features);
+    finder.find(scene().camera(), keyframe, *current, step(), features);
     return features.size();
   };
   const std::size_t all = featuresWith(0.0F);
@@ -136,14 +126,8 @@ TEST(CorrespondenceFinderTest, WantsTrackedAndMatchedDisparityToAgree) {
 }
 
 TEST(CorrespondenceFinderTest, TracksNothingBehindTheCamera) {
-  const SyntheticScene scene;
-  CorrespondenceFinder finder({});
-  const StereoPair pair = view(scene, Eigen::Isometry3d::Identity());
-  const Frames frames(finder, pair, pair, scene.camera());
-  Correspondences features(1);
   const Eigen::Isometry3d beyond = motion({0.0, 0.0, 200.0}, {0.0, 0.0, 0.0});
-  EXPECT_EQ(finder.find(scene.camera(), frames.keyframe, *frames.current, beyond, features), 0);
-  EXPECT_TRUE(features.empty());
+  EXPECT_TRUE(find(before(), before(), scene().camera(), beyond).empty());
 }
 
 /// The corners of `all` that have a disparity and come first.
@@ -161,79 +145,61 @@ std::vector<cv::Point2f> firstWithDisparity(const StereoPair& pair,
 }
 
 TEST(CorrespondenceFinderTest, ReplacesCornersWithoutADepth) {
-  const SyntheticScene scene;
-  StereoPair pair = view(scene, Eigen::Isometry3d::Identity());
-  pair.right.colRange(pair.right.cols / 2, pair.right.cols).setTo(128);
-  CorrespondenceFinder::Config config;
-  config.feature_detector.max_features = 150;
-  CorrespondenceFinder finder(config);
-  Keyframe keyframe;
-  keyframe.frame = finder.makeFrame(pair);
-  finder.findCorners(keyframe);
-  const std::vector<cv::Point2f> all = keyframe.corners;
-  finder.findDepths(scene.camera(), keyframe);
-  EXPECT_EQ(keyframe.points.size(), 150u);
-  EXPECT_EQ(keyframe.left_px, firstWithDisparity(pair, all, 150)) << "in the order of the corners";
-  ASSERT_FALSE(keyframe.left_px.empty());
-  EXPECT_EQ(keyframe.corners.back(), keyframe.left_px.back()) << "no more than needed are tried";
-  // Measured: 301 of 566.
-  EXPECT_LT(keyframe.corners.size(), all.size());
-  EXPECT_TRUE(std::equal(keyframe.corners.begin(), keyframe.corners.end(), all.begin()));
-}
-
-TEST(CorrespondenceFinderTest, TriesAllCornersIfFewHaveADepth) {
-  const SyntheticScene scene;
-  const StereoPair usual = view(scene, Eigen::Isometry3d::Identity());
-  for (const int columns : {0, 60}) {  // that are left of the right image
-    StereoPair pair = usual;
-    pair.right = usual.right.clone();
+  // The columns that are left of the right image, and how many features are wanted.
+  for (const auto& [columns, wanted] : {std::pair(310, 150), {60, 500}, {0, 500}}) {
+    StereoPair pair = before();
+    pair.right = pair.right.clone();
     pair.right.colRange(columns, pair.right.cols).setTo(128);
-    CorrespondenceFinder finder({});
+    CorrespondenceFinder::Config config;
+    config.feature_detector.max_features = wanted;
+    CorrespondenceFinder finder(config);
     Keyframe keyframe;
     keyframe.frame = finder.makeFrame(pair);
     finder.findCorners(keyframe);
     const std::vector<cv::Point2f> all = keyframe.corners;
-    finder.findDepths(scene.camera(), keyframe);
-    EXPECT_EQ(keyframe.corners, all);
-    EXPECT_EQ(keyframe.left_px, firstWithDisparity(pair, all, 500));
-    EXPECT_EQ(keyframe.left_px.empty(), columns == 0);
+    finder.findDepths(scene().camera(), keyframe);
+    const auto expected = firstWithDisparity(pair, all, static_cast<std::size_t>(wanted));
+    EXPECT_EQ(keyframe.left_px, expected) << "in the order of the corners";
+    EXPECT_EQ(keyframe.points.size(), expected.size());
+    EXPECT_EQ(expected.empty(), columns == 0);
+    const bool is_enough = static_cast<int>(expected.size()) == wanted;
+    EXPECT_EQ(is_enough, columns == 310);
+    if (!is_enough) {
+      EXPECT_EQ(keyframe.corners, all) << "all are tried";
+      continue;
+    }
+    EXPECT_EQ(keyframe.corners.back(), keyframe.left_px.back()) << "no more than needed are tried";
+    // Measured: 301 of 566.
+    EXPECT_LT(keyframe.corners.size(), all.size());
+    EXPECT_TRUE(std::equal(keyframe.corners.begin(), keyframe.corners.end(), all.begin()));
   }
 }
 
 TEST(CorrespondenceFinderTest, ShiftIsHowFarTheFeaturesMoveInTheImage) {
-  const SyntheticScene scene;
-  const StereoCamera& camera = scene.camera();
   CorrespondenceFinder finder({});
-  const Eigen::Isometry3d none = Eigen::Isometry3d::Identity();
-  const Eigen::Isometry3d yaw = motion({0.0, 0.0, 0.0}, {0.0, 0.01, 0.0});
-  EXPECT_EQ(finder.medianShift(camera, {}, none, yaw), 0.0);  // there are no points
-  const Frames frames(finder, view(scene, none), view(scene, none), camera);
-  EXPECT_EQ(finder.medianShift(camera, frames.keyframe, yaw, yaw), 0.0);
+  const Keyframe keyframe = makeKeyframe(finder, before(), scene().camera());
+  const auto shift = [&](const Keyframe& keyframe, double from_rad, double to_rad) {
+    return finder.medianShift(scene().camera(),
+                              keyframe,
+                              motion({0.0, 0.0, 0.0}, {0.0, from_rad, 0.0}),
+                              motion({0.0, 0.0, 0.0}, {0.0, to_rad, 0.0}));
+  };
+  EXPECT_EQ(shift({}, 0.0, 0.01), 0.0);  // there are no points
+  EXPECT_EQ(shift(keyframe, 0.01, 0.01), 0.0);
   // Yaw shifts the middle of the image by f times the angle, 3.6 px, and its sides by up to 1.7
   // times as much.
-  EXPECT_GT(finder.medianShift(camera, frames.keyframe, none, yaw), 3.6);
-  EXPECT_LT(finder.medianShift(camera, frames.keyframe, none, yaw), 6.2);
+  EXPECT_GT(shift(keyframe, 0.0, 0.01), 3.6);
+  EXPECT_LT(shift(keyframe, 0.0, 0.01), 6.2);
 }
 
 TEST(CorrespondenceFinderTest, ScalesWindowsUnlessToldNotTo) {
-  const SyntheticScene scene;
   const Eigen::Isometry3d far_step = motion({0.0, 0.0, 1.5}, {0.0, 0.0, 0.0});
-  const StereoPair prev = view(scene, Eigen::Isometry3d::Identity());
-  const StereoPair cur = view(scene, far_step);
+  const StereoPair cur = view(scene(), far_step);
   const auto medianError = [&](bool scale_windows) {
     CorrespondenceFinder::Config config;
     config.feature_tracker.scale_windows = scale_windows;
-    CorrespondenceFinder finder(config);
-    const Frames frames(finder, prev, cur, scene.camera());
-    Correspondences features;
-    finder.find(scene.camera(), frames.keyframe, *frames.current, far_step, features);
-    std::vector<double> errors_px;
-    for (const Correspondence& feature : features) {
-      const Eigen::Vector3d point_cur = scene.pointAt(far_step, feature.cur_px);
-      errors_px.push_back(
-          (scene.camera().project(far_step * point_cur) - feature.keyframe_px).norm());
-    }
-    return median(errors_px);
+    const auto features = find(before(), cur, scene().camera(), far_step, config);
+    return medianFlowError(scene(), features, far_step);
   };
   EXPECT_LT(1.2 * medianError(true), medianError(false));
 }

@@ -59,38 +59,29 @@ cv::Mat noiseImage(const cv::Size& size, double sigma) {
 /// By definition: responses that no neighbour exceeds, and none above or to the left equals, in
 /// decreasing order.
 Corners peaksOfTheResponse(const cv::Mat& image) {
-  cv::Mat response;
   constexpr int kRowStep = CornerResponse::kRowStep;
-  const int rows = (image.rows + kRowStep - 1) / kRowStep;
-  CornerResponse().compute(image, 0, rows, 0, response);
-  const int radius = FeatureDetector::kRadius_px;
-  const int border = FeatureDetector::kBorder_px;
-  const int row_radius = radius / kRowStep;
-  const auto isPeak = [&](int x, int row) {
-    const float value = response.at<float>(row, x);
-    for (int r = std::max(row - row_radius, 0); r <= std::min(row + row_radius, rows - 1); ++r) {
-      for (int u = std::max(x - radius, 0); u <= std::min(x + radius, image.cols - 1); ++u) {
-        const float other = response.at<float>(r, u);
-        const bool earlier = r < row || (r == row && u < x);
-        if (other > value || (earlier && other == value)) return false;
-      }
-    }
-    return true;
-  };
-  Corners corners;
-  for (int row = 0; row < rows; ++row) {
-    const int y = kRowStep * row;
-    if (y < border || y >= image.rows - border) continue;
-    for (int x = border; x < image.cols - border; ++x) {
-      if (isPeak(x, row)) corners.emplace_back(x, y);
-    }
-  }
-  const auto responseAt = [&](const cv::Point2f& corner) {
-    return response.at<float>(static_cast<int>(corner.y) / kRowStep, static_cast<int>(corner.x));
-  };
-  std::stable_sort(corners.begin(), corners.end(), [&](const auto& a, const auto& b) {
-    return responseAt(a) > responseAt(b);
+  constexpr int kRadius = FeatureDetector::kRadius_px;
+  constexpr int kRows = kRadius / kRowStep;
+  constexpr int kBorder = FeatureDetector::kBorder_px;
+  cv::Mat response;
+  CornerResponse().compute(image, 0, (image.rows + kRowStep - 1) / kRowStep, 0, response);
+  cv::Mat before = cv::Mat::zeros(2 * kRows + 1, 2 * kRadius + 1, CV_8UC1);
+  before.rowRange(0, kRows).setTo(1);
+  before.row(kRows).colRange(0, kRadius).setTo(1);
+  cv::Mat highest_before, highest;
+  cv::dilate(response, highest_before, before);
+  cv::dilate(response, highest, 1 - before);
+  std::vector<cv::Point> peaks;
+  cv::findNonZero((response > highest_before) & (response == highest), peaks);
+  std::stable_sort(peaks.begin(), peaks.end(), [&](const cv::Point& a, const cv::Point& b) {
+    return response.at<float>(a) > response.at<float>(b);
   });
+  const cv::Rect inside(kBorder, kBorder, image.cols - 2 * kBorder, image.rows - 2 * kBorder);
+  Corners corners;
+  for (const cv::Point& peak : peaks) {
+    const cv::Point pixel(peak.x, kRowStep * peak.y);
+    if (inside.contains(pixel)) corners.emplace_back(pixel);
+  }
   return corners;
 }
 
@@ -130,22 +121,9 @@ TEST(FeatureDetectorTest, FindsTheSameAtATenthOfTheContrast) {
   EXPECT_GT(again, static_cast<std::ptrdiff_t>(full.size() * 9 / 10)) << again;
 }
 
-TEST(FeatureDetectorTest, SpreadsCornersOverStrongAndWeakTexture) {
-  cv::Mat image = textureImage({320, 192}, 50.0);
-  const cv::Rect weak_half(160, 0, 160, 192);
-  textureImage({160, 192}, 8.0).copyTo(image(weak_half));
-  FeatureDetector::Config config;
-  config.max_features = 60;  // one for each cell of 32 px
-  const Corners corners = detect(image, config, 2);
-  ASSERT_EQ(corners.size(), 120u);
-  const auto weak = std::count_if(
-      corners.begin(), corners.end(), [](const cv::Point2f& corner) { return corner.x >= 160; });
-  // Cells at the border are smaller and may have fewer than two.
-  EXPECT_NEAR(static_cast<double>(weak), 60.0, 12.0);
-}
-
-TEST(FeatureDetectorTest, HasAboutOneCellForEachFeature) {
-  const cv::Mat image = textureImage({300, 200}, 40.0);
+TEST(FeatureDetectorTest, HasAboutOneCellForEachFeatureInStrongAndWeakTexture) {
+  cv::Mat image = textureImage({300, 200}, 50.0);
+  textureImage({150, 200}, 8.0).copyTo(image(cv::Rect(150, 0, 150, 200)));
   for (const auto& [features, side_px] : {std::pair(24, 50), {60, 32}, {150, 20}}) {
     FeatureDetector::Config config;
     config.max_features = features;
@@ -155,7 +133,7 @@ TEST(FeatureDetectorTest, HasAboutOneCellForEachFeature) {
     for (const cv::Point2f& corner : corners) {
       cells.emplace(cvFloor(corner.x) / side_px, cvFloor(corner.y) / side_px);
     }
-    // Measured: all of 24, 58 of 60 and 142 of 150. The border leaves others without a corner.
+    // The border leaves some without a corner.
     EXPECT_GE(static_cast<int>(cells.size()), features * 9 / 10);
   }
 }

@@ -21,18 +21,5 @@ TEST(HalfImageTest, IsThatOfOpenCvForAnySize) {
   }
 }
 
-TEST(HalfImageTest, TakesPartsOfImagesAndUsesMemoryAgain) {
-  cv::Mat whole(60, 90, CV_8UC1);
-  cv::RNG(2).fill(whole, cv::RNG::UNIFORM, 0, 256);
-  const cv::Mat part = whole(cv::Rect(7, 5, 61, 40));
-  cv::Mat of_part, of_copy;
-  halve(part, of_part);
-  const uchar* memory = of_part.data;
-  halve(part, of_part);
-  EXPECT_EQ(of_part.data, memory);
-  halve(part.clone(), of_copy);
-  EXPECT_EQ(cv::norm(of_part, of_copy, cv::NORM_INF), 0.0);
-}
-
 }  // namespace
 }  // namespace rotrocc

@@ -35,16 +35,6 @@ TEST(CauchyWeightsTest, AreAHalfAtTheFactorTimesTheStandardDeviation) {
   }
 }
 
-TEST(CauchyWeightsTest, FallWithTheError) {
-  const auto weights = weightsOf(2.0, {0.3, 0.0, 0.1, 10.0, 0.2});
-  EXPECT_EQ(weights[1], 1.0);
-  EXPECT_LT(weights[2], weights[1]);
-  EXPECT_LT(weights[4], weights[2]);
-  EXPECT_LT(weights[0], weights[4]);
-  EXPECT_LT(weights[3], 0.01);
-  EXPECT_GT(weights[3], 0.0);
-}
-
 TEST(CauchyWeightsTest, AreEqualWithoutAFactorOrAnError) {
   const std::vector<double> ones(4, 1.0);
   EXPECT_EQ(weightsOf(0.0, {0.3, 5.0, 0.1, 1.0}), ones);
@@ -53,20 +43,17 @@ TEST(CauchyWeightsTest, AreEqualWithoutAFactorOrAnError) {
 }
 
 TEST(WeightedVarianceTest, IsThatOfTheResidualsWithAndWithoutWeights) {
-  std::mt19937 generator(2);
-  std::normal_distribution<double> number(0.0, 0.3);
-  std::vector<double> errors_px(10000);
-  for (double& error_px : errors_px) error_px = std::hypot(number(generator), number(generator));
+  const std::vector<double> errors_px = gaussianErrors(0.3, 0.3);
   for (const double factor : {0.0, 100.0}) {
     const auto weights = weightsOf(factor, errors_px);
     WeightedVariance variance;
     for (std::size_t i = 0; i < weights.size(); ++i) {
       variance.add(weights[i], errors_px[i] * errors_px[i]);
     }
-    // The variance of 20000 values has a standard deviation of 1 %. With this factor, all weights
+    // The variance of 20002 values has a standard deviation of 1 %. With this factor, all weights
     // are close to 1.
     EXPECT_NEAR(variance.value(6), 0.09, 0.04 * 0.09);
-    EXPECT_EQ(variance.value(20000), 0.0);
+    EXPECT_EQ(variance.value(20002), 0.0);
   }
 }
 

@@ -14,17 +14,9 @@ namespace {
 
 constexpr double kNoiseRatio = 3.0;
 
-Eigen::Isometry3d turnAhead() {
-  return motion({0.1, -0.02, 1.3}, {0.01, 0.06, -0.005});
-}
-
 Correspondences exactFeatures(int count) {
   std::mt19937 generator(1);
   return simulateFeatures(kittiCamera(), turnAhead(), count, {}, generator);
-}
-
-FeatureSet all(const Correspondences& features) {
-  return FeatureSet(features.size(), 1);
 }
 
 using Method = bool (MotionSolver::*)(const Measurements&, const FeatureSet&, Fit&);

@@ -17,11 +17,6 @@ constexpr double kPeriod_s = 0.1;
 constexpr double kFlow_px = 0.1;
 constexpr int kPairs = 40;
 
-/// 13 m/s in a bend.
-Eigen::Isometry3d turnAhead() {
-  return motion({0.03, -0.01, 1.3}, {0.002, 0.03, -0.001});
-}
-
 const MotionEstimator::Prediction kPrediction = {turnAhead(), kPeriod_s};
 
 /// Features of a pair. Their disparities have their own noise, an error common to each cell of the
@@ -67,22 +62,12 @@ TEST(SharedErrorEstimatorTest, FindsTheErrorThatNeighboursShare) {
   EXPECT_NEAR(estimatedRatio(5.0), 4.0, 0.8);
 }
 
-TEST(SharedErrorEstimatorTest, KnowsNothingWithoutParallax) {
-  SharedErrorEstimator estimator({});
-  std::mt19937 generator(1);
-  const Eigen::Isometry3d none = Eigen::Isometry3d::Identity();
-  const Correspondences features =
-      simulateFeatures(kittiCamera(), none, 300, {0.0, 0.3}, generator);
-  estimator.observe(kittiCamera(), features, FeatureSet(features.size(), 1), none);
-  EXPECT_EQ(estimator.ratio(), MotionEstimatorConfig().shared_ratio);
-}
-
 /// 100 s at rest, with new keyframes or with one.
 TEST(SharedErrorEstimatorTest, RestSaysNothing) {
   for (const bool one_keyframe : {false, true}) {
     SharedErrorEstimator estimator({});
     const Correspondences moving = pairWith(2.0, 1);
-    estimator.observe(kittiCamera(), moving, FeatureSet(moving.size(), 1), turnAhead());
+    estimator.observe(kittiCamera(), moving, all(moving), turnAhead());
     const double before = estimator.ratio();
     std::mt19937 generator(1);
     const Eigen::Isometry3d none = Eigen::Isometry3d::Identity();
@@ -91,7 +76,7 @@ TEST(SharedErrorEstimatorTest, RestSaysNothing) {
       const Correspondences resting =
           simulateFeatures(kittiCamera(), none, 100, {kFlow_px, 4.0 * kFlow_px}, generator);
       if (!one_keyframe) estimator.advance();
-      estimator.observe(kittiCamera(), resting, FeatureSet(resting.size(), 1), none);
+      estimator.observe(kittiCamera(), resting, all(resting), none);
     }
     EXPECT_NEAR(estimator.ratio(), before, 0.05 * before) << one_keyframe;
   }
@@ -101,9 +86,8 @@ TEST(SharedErrorEstimatorTest, MotionsOfOneKeyframeCountOnce) {
   SharedErrorEstimator once({});
   SharedErrorEstimator often({});
   const Correspondences features = pairWith(4.0, 1);
-  const FeatureSet all(features.size(), 1);
-  once.observe(kittiCamera(), features, all, turnAhead());
-  for (int i = 0; i < 50; ++i) often.observe(kittiCamera(), features, all, turnAhead());
+  once.observe(kittiCamera(), features, all(features), turnAhead());
+  for (int i = 0; i < 50; ++i) often.observe(kittiCamera(), features, all(features), turnAhead());
   // The weights of the cells depend on the estimate, which the first observation changes.
   EXPECT_NEAR(often.ratio(), once.ratio(), 0.1 * once.ratio());
 }
@@ -113,7 +97,7 @@ TEST(SharedErrorEstimatorTest, IsBounded) {
   for (unsigned pair = 0; pair < kPairs; ++pair) {
     const Correspondences features = pairWith(30.0, pair);
     estimator.advance();
-    estimator.observe(kittiCamera(), features, FeatureSet(features.size(), 1), turnAhead());
+    estimator.observe(kittiCamera(), features, all(features), turnAhead());
   }
   EXPECT_LE(estimator.ratio(),
             SharedErrorEstimator::kMostGrowth * MotionEstimatorConfig().shared_ratio);
@@ -124,12 +108,11 @@ TEST(SharedErrorEstimatorTest, IsZeroWhileDisabled) {
   disabled.shared_ratio = 0.0;
   SharedErrorEstimator estimator({});
   const Correspondences features = pairWith(5.0, 1);
-  const FeatureSet all(features.size(), 1);
-  estimator.observe(kittiCamera(), features, all, turnAhead());
+  estimator.observe(kittiCamera(), features, all(features), turnAhead());
   EXPECT_GT(estimator.ratio(), MotionEstimatorConfig().shared_ratio);
   estimator.configure(disabled);
   EXPECT_EQ(estimator.ratio(), 0.0);
-  estimator.observe(kittiCamera(), features, all, turnAhead());
+  estimator.observe(kittiCamera(), features, all(features), turnAhead());
   EXPECT_EQ(estimator.ratio(), 0.0);
   estimator.configure({});
   EXPECT_EQ(estimator.ratio(), MotionEstimatorConfig().shared_ratio);

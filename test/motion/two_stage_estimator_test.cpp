@@ -13,11 +13,6 @@ namespace {
 
 constexpr double kPeriod_s = 0.1;
 
-/// 13 m/s in a bend.
-Eigen::Isometry3d turnAhead() {
-  return motion({0.03, -0.01, 1.3}, {0.002, 0.03, -0.001});
-}
-
 /// The parameters of config/paper.yaml.
 MotionEstimatorConfig paper() {
   MotionEstimatorConfig config;
@@ -38,22 +33,17 @@ MotionEstimate estimate(const MotionEstimatorConfig& config,
   const StereoCamera camera = kittiCamera();
   Fit fit;
   MotionEstimate found;
-  TwoStageEstimator(config, 3).estimate({camera, features, config.noise_ratio},
-                                        FeatureSet(features.size(), 1),
-                                        initial,
-                                        kPeriod_s,
-                                        fit,
-                                        found);
+  TwoStageEstimator(config, 3).estimate(
+      {camera, features, config.noise_ratio}, all(features), initial, kPeriod_s, fit, found);
   EXPECT_EQ(fit.T_keyframe_cur.matrix(), found.T_keyframe_cur.matrix());
   return found;
 }
 
-/// Starts at a prediction with an error of some centimetres and a tenth of a degree.
 MotionEstimate estimate(const MotionEstimatorConfig& config, const FeatureNoise& noise) {
   std::mt19937 generator(1);
   return estimate(config,
                   simulateFeatures(kittiCamera(), turnAhead(), 500, noise, generator),
-                  turnAhead() * motion({0.02, 0.01, -0.05}, {0.001, -0.002, 0.001}));
+                  roughly(turnAhead()));
 }
 
 TEST(TwoStageEstimatorTest, FindsTheMotionOfExactFeaturesByThePapersParameters) {

@@ -12,19 +12,23 @@
 namespace rotrocc {
 namespace {
 
-constexpr int kFeatures = 400;
 constexpr double kRobustFactor = 2.0;
 
 Eigen::Isometry3d ahead() {
   return motion({0.0, 0.0, 1.2}, {0.0, 0.01, 0.0});
 }
 
-/// Features whose disparities are too small by error_px(pixel).
+double none(const Eigen::Vector2d&) {
+  return 0.0;
+}
+
+double onePixel(const Eigen::Vector2d&) {
+  return 1.0;
+}
+
 template <class Error>
 Correspondences features(const Eigen::Isometry3d& T, unsigned seed, const Error& error_px) {
-  std::mt19937 generator(seed);
-  Correspondences found = simulateFeatures(kittiCamera(), T, kFeatures, {0.12, 0.06}, generator);
-  for (Correspondence& feature : found) feature.disparity_px -= error_px(feature.cur_px);
+  Correspondences found = biasedFeatures(T, seed, {0.12, 0.06}, error_px);
   triangulate(kittiCamera(), found);
   return found;
 }
@@ -32,9 +36,8 @@ Correspondences features(const Eigen::Isometry3d& T, unsigned seed, const Error&
 BiasMeasurement measure(const Correspondences& found,
                         const Eigen::Isometry3d& start,
                         double parabola_ratio = 0.0) {
-  const FeatureSet all(found.size(), 1);
   const auto measurement =
-      BiasMeter(kRobustFactor).measure(kittiCamera(), found, all, start, parabola_ratio);
+      BiasMeter(kRobustFactor).measure(kittiCamera(), found, all(found), start, parabola_ratio);
   EXPECT_TRUE(measurement);
   return measurement.value_or(BiasMeasurement());
 }
@@ -49,7 +52,7 @@ TEST(BiasMeterTest, MeasuresTheBiasWithinItsNoise) {
 }
 
 TEST(BiasMeterTest, DependsLittleOnTheStart) {
-  const auto found = features(ahead(), 2, [](const Eigen::Vector2d&) { return 1.0; });
+  const auto found = features(ahead(), 2, onePixel);
   const BiasMeasurement near = measure(found, ahead());
   const BiasMeasurement far = measure(found, ahead() * motion({0.0, 0.0, 0.1}, {0.0, 0.0, 0.0}));
   EXPECT_NEAR(near.bias_px, far.bias_px, 0.02);
@@ -69,7 +72,6 @@ TEST(BiasMeterTest, FindsErrorsThatNeighboursShare) {
       const int row = std::min(2, static_cast<int>(3 * pixel.y() / kittiCamera().height));
       return errors_px[static_cast<std::size_t>(row * 6 + column)];
     };
-    const auto none = [](const Eigen::Vector2d&) { return 0.0; };
     without += measure(features(ahead(), seed, none), ahead()).shared_ratio2 / kPairs;
     with += measure(features(ahead(), seed, ofCell), ahead()).shared_ratio2 / kPairs;
   }
@@ -103,7 +105,7 @@ TEST(BiasMeterTest, AParabolaOverTheRowsIsNoBias) {
   EXPECT_LT(std::abs(with.bias_px), 3.0 * std::sqrt(with.noise_px2));
 
   // A bias is still one.
-  const auto biased = onARoad(1, [](const Eigen::Vector2d&) { return 1.0; });
+  const auto biased = onARoad(1, onePixel);
   const BiasMeasurement bias = measure(biased, ahead(), kRatio);
   EXPECT_NEAR(bias.bias_px, 1.0, 3.0 * std::sqrt(bias.noise_px2));
   // Errors by the columns are not estimated: they are uncertainty.
@@ -113,24 +115,19 @@ TEST(BiasMeterTest, AParabolaOverTheRowsIsNoBias) {
 
 TEST(BiasMeterTest, SlowMotionSaysLittle) {
   const Eigen::Isometry3d slow = motion({0.0, 0.0, 0.01}, {0.0, 0.0, 0.0});
-  const auto none = [](const Eigen::Vector2d&) { return 0.0; };
   const BiasMeasurement measurement = measure(features(slow, 3, none), slow);
   EXPECT_GT(measurement.noise_px2, 0.5 * 0.5);
   EXPECT_GT(measurement.shared_px2, 0.5 * 0.5);
 }
 
-TEST(BiasMeterTest, StandstillSaysNothing) {
+TEST(BiasMeterTest, StandstillAndFewFeaturesSayNothing) {
   const Eigen::Isometry3d rest = Eigen::Isometry3d::Identity();
-  const auto found = features(rest, 5, [](const Eigen::Vector2d&) { return 1.0; });
-  const FeatureSet all(found.size(), 1);
-  EXPECT_FALSE(BiasMeter(kRobustFactor).measure(kittiCamera(), found, all, rest, 0.0));
-}
-
-TEST(BiasMeterTest, NeedsFeatures) {
-  Correspondences few = features(ahead(), 4, [](const Eigen::Vector2d&) { return 0.0; });
+  const auto at_rest = features(rest, 5, onePixel);
+  BiasMeter meter(kRobustFactor);
+  EXPECT_FALSE(meter.measure(kittiCamera(), at_rest, all(at_rest), rest, 0.0));
+  Correspondences few = features(ahead(), 4, none);
   few.resize(20);
-  const FeatureSet all(20, 1);
-  EXPECT_FALSE(BiasMeter(kRobustFactor).measure(kittiCamera(), few, all, ahead(), 0.0));
+  EXPECT_FALSE(meter.measure(kittiCamera(), few, all(few), ahead(), 0.0));
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 namespace rotrocc {
 namespace {
 
-constexpr int kFeatures = 400;
 constexpr double kPeriod_s = 0.1;
 constexpr double kSharedRatio = 1.0;
 constexpr double kRobustFactor = 1.5;
@@ -24,15 +23,8 @@ Eigen::Isometry3d ahead() {
   return motion({0.0, 0.0, 1.2}, {0.0, 0.01, 0.0});
 }
 
-/// Features of a drive whose disparities are too small by error_px(pixel).
-template <class Error>
-Correspondences biasedFeatures(const Eigen::Isometry3d& T, unsigned seed, const Error& error_px) {
-  std::mt19937 generator(seed);
-  Correspondences features = simulateFeatures(kittiCamera(), T, kFeatures, kNoise, generator);
-  for (Correspondence& feature : features) {
-    feature.disparity_px -= error_px(feature.cur_px);
-  }
-  return features;
+Correspondences biased(const Eigen::Isometry3d& T, unsigned seed, double bias_px) {
+  return biasedFeatures(T, seed, kNoise, [=](const Eigen::Vector2d&) { return bias_px; });
 }
 
 /// Estimates the motion of one pair and passes it to the calibrator, as the odometry does.
@@ -56,11 +48,7 @@ void show(Correspondences features, const Eigen::Isometry3d& truth, StereoCalibr
 /// Simulates a drive of `pairs` pairs with a constant disparity bias.
 void drive(double bias_px, int pairs, StereoCalibrator& calibrator, unsigned first_seed = 0) {
   for (int i = 0; i < pairs; ++i) {
-    show(biasedFeatures(ahead(),
-                        first_seed + static_cast<unsigned>(i),
-                        [&](const Eigen::Vector2d&) { return bias_px; }),
-         ahead(),
-         calibrator);
+    show(biased(ahead(), first_seed + static_cast<unsigned>(i), bias_px), ahead(), calibrator);
   }
 }
 
@@ -87,20 +75,15 @@ TEST(StereoCalibratorTest, LeavesAPerfectRigAlone) {
   EXPECT_NEAR(calibrator.bias().estimated_px, 0.0, 0.05);
 }
 
-/// Features of a pair at standstill, with a bias of 1 px.
-Correspondences atRest(unsigned seed) {
-  return biasedFeatures(
-      Eigen::Isometry3d::Identity(), seed, [](const Eigen::Vector2d&) { return 1.0; });
-}
-
 TEST(StereoCalibratorTest, LearnsAndForgetsNothingAtStandstill) {
   StereoCalibrator unaware({}, kRobustFactor);
   StereoCalibrator aware({}, kRobustFactor);
   drive(1.0, 30, aware);
   const double before_px = aware.bias().applied_px;
+  const Eigen::Isometry3d rest = Eigen::Isometry3d::Identity();
   for (unsigned pair = 0; pair < 100; ++pair) {
-    show(atRest(pair), Eigen::Isometry3d::Identity(), unaware);
-    show(atRest(pair), Eigen::Isometry3d::Identity(), aware);
+    show(biased(rest, pair, 1.0), rest, unaware);
+    show(biased(rest, pair, 1.0), rest, aware);
     EXPECT_NEAR(unaware.bias().applied_px, 0.0, 0.002) << pair;  // no visible depth error
   }
   EXPECT_GT(unaware.bias().sigma_px, 0.5);
@@ -109,18 +92,10 @@ TEST(StereoCalibratorTest, LearnsAndForgetsNothingAtStandstill) {
 
 TEST(StereoCalibratorTest, IsNotFooledByAMovingObject) {
   StereoCalibrator calibrator({}, kRobustFactor);
-  // A truck ahead, 3 m/s slower, with a quarter of the features.
-  const Eigen::Isometry3d relative = ahead() * motion({0.0, 0.0, 0.3}, {0.0, 0.0, 0.0});
   for (unsigned pair = 0; pair < 50; ++pair) {
-    Correspondences features =
-        biasedFeatures(ahead(), pair, [](const Eigen::Vector2d&) { return 0.0; });
+    Correspondences features = biased(ahead(), pair, 0.0);
     std::mt19937 generator(pair + 1000);
-    std::uniform_real_distribution<double> x(-2.0, 1.0);
-    std::uniform_real_distribution<double> y(-2.0, 1.2);
-    for (std::size_t i = 0; i < kFeatures / 4;) {
-      const Eigen::Vector3d point(x(generator), y(generator), 12.0);
-      if (measure(kittiCamera(), point, relative, kNoise, generator, features[i])) ++i;
-    }
+    putOnTruck(features, features.size() / 4, ahead(), kNoise, generator);
     show(features, ahead(), calibrator);
     EXPECT_LE(std::abs(calibrator.bias().applied_px), 0.05) << pair;
   }
@@ -129,12 +104,10 @@ TEST(StereoCalibratorTest, IsNotFooledByAMovingObject) {
 TEST(StereoCalibratorTest, ThePairObservedAgainCountsOnce) {
   StereoCalibrator once({}, kRobustFactor);
   StereoCalibrator twice({}, kRobustFactor);
-  const Correspondences features =
-      biasedFeatures(ahead(), 1, [](const Eigen::Vector2d&) { return 0.0; });
-  const FeatureSet all(features.size(), 1);
-  once.observe(kittiCamera(), features, all, ahead(), kSharedRatio);
-  twice.observe(kittiCamera(), features, all, ahead(), kSharedRatio);
-  twice.observe(twice.correct(kittiCamera()), features, all, ahead(), kSharedRatio);
+  const Correspondences features = biased(ahead(), 1, 0.0);
+  once.observe(kittiCamera(), features, all(features), ahead(), kSharedRatio);
+  twice.observe(kittiCamera(), features, all(features), ahead(), kSharedRatio);
+  twice.observe(twice.correct(kittiCamera()), features, all(features), ahead(), kSharedRatio);
   // The second observation starts at another applied bias, hence the tolerance of its iterations.
   EXPECT_NEAR(once.bias().estimated_px, twice.bias().estimated_px, 0.005);
   EXPECT_NEAR(once.bias().sigma_px, twice.bias().sigma_px, 0.005);

@@ -48,6 +48,45 @@ Correspondences simulateFeatures(const StereoCamera& camera,
   return features;
 }
 
+void mismatch(Correspondences& features,
+              std::size_t first,
+              std::size_t count,
+              double most_px,
+              std::mt19937& generator) {
+  std::uniform_real_distribution<double> offset_px(-most_px, most_px);
+  for (std::size_t i = first; i < first + count; ++i) {
+    features[i].keyframe_px += Eigen::Vector2d(offset_px(generator), offset_px(generator));
+  }
+}
+
+void putOnTruck(Correspondences& features,
+                std::size_t count,
+                const Eigen::Isometry3d& T_keyframe_cur,
+                const FeatureNoise& noise,
+                std::mt19937& generator) {
+  std::uniform_real_distribution<double> x(-3.0, 1.0);
+  std::uniform_real_distribution<double> y(-2.0, 1.2);
+  const Eigen::Isometry3d relative = T_keyframe_cur * motion({0.0, 0.0, 0.3}, {0.0, 0.0, 0.0});
+  for (std::size_t i = 0; i < count;) {
+    const Eigen::Vector3d point(x(generator), y(generator), 12.0);
+    if (measure(kittiCamera(), point, relative, noise, generator, features[i])) ++i;
+  }
+}
+
+Correspondences biasedFeatures(const Eigen::Isometry3d& T_keyframe_cur,
+                               unsigned seed,
+                               const FeatureNoise& noise,
+                               const std::function<double(const Eigen::Vector2d&)>& error_px) {
+  std::mt19937 generator(seed);
+  Correspondences features = simulateFeatures(kittiCamera(), T_keyframe_cur, 400, noise, generator);
+  for (Correspondence& feature : features) feature.disparity_px -= error_px(feature.cur_px);
+  return features;
+}
+
+FeatureSet all(const Correspondences& features) {
+  return FeatureSet(features.size(), 1);
+}
+
 FittedFeature fitDisparity(const StereoCamera& camera,
                            const Correspondence& feature,
                            const Eigen::Isometry3d& T_keyframe_cur,
@@ -64,6 +103,14 @@ Eigen::Isometry3d motion(const Eigen::Vector3d& translation_m,
   T.linear() = expRotation(rotation_rad);
   T.translation() = translation_m;
   return T;
+}
+
+Eigen::Isometry3d turnAhead() {
+  return motion({0.03, -0.01, 1.3}, {0.002, 0.03, -0.001});
+}
+
+Eigen::Isometry3d roughly(const Eigen::Isometry3d& T_keyframe_cur) {
+  return T_keyframe_cur * motion({0.02, 0.01, -0.05}, {0.001, -0.002, 0.001});
 }
 
 Vector6d motionError(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth) {

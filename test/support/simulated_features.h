@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <random>
 #include <vector>
 
@@ -37,6 +39,29 @@ Correspondences simulateFeatures(const StereoCamera& camera,
                                  const FeatureNoise& noise,
                                  std::mt19937& generator);
 
+/// Gives `count` features from `first` on random matches, up to `most_px` off in x and y.
+void mismatch(Correspondences& features,
+              std::size_t first,
+              std::size_t count,
+              double most_px,
+              std::mt19937& generator);
+
+/// Puts the first `count` features on a truck 12 m ahead, which is slower by 0.3 m per pair.
+void putOnTruck(Correspondences& features,
+                std::size_t count,
+                const Eigen::Isometry3d& T_keyframe_cur,
+                const FeatureNoise& noise,
+                std::mt19937& generator);
+
+/// 400 features whose disparities are too small by error_px(pixel).
+Correspondences biasedFeatures(const Eigen::Isometry3d& T_keyframe_cur,
+                               unsigned seed,
+                               const FeatureNoise& noise,
+                               const std::function<double(const Eigen::Vector2d&)>& error_px);
+
+/// The set of all features.
+FeatureSet all(const Correspondences& features);
+
 /// fitAt() of one feature.
 FittedFeature fitDisparity(const StereoCamera& camera,
                            const Correspondence& feature,
@@ -45,6 +70,12 @@ FittedFeature fitDisparity(const StereoCamera& camera,
 
 /// The motion with translation [m] and rotation vector [rad].
 Eigen::Isometry3d motion(const Eigen::Vector3d& translation_m, const Eigen::Vector3d& rotation_rad);
+
+/// 13 m/s in a bend, during 0.1 s.
+Eigen::Isometry3d turnAhead();
+
+/// A prediction of a motion, with an error of some centimetres and a tenth of a degree.
+Eigen::Isometry3d roughly(const Eigen::Isometry3d& T_keyframe_cur);
 
 /// The error of an estimated motion in the order of OdometryResult::covariance.
 Vector6d motionError(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth);
