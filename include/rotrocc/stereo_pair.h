@@ -12,6 +12,12 @@ struct StereoPair {
   std::int64_t stamp_ns = 0;
   cv::Mat left;
   cv::Mat right;
+
+  /// Where they are not zero, e.g. because the robot itself is in view, there are no features. Of
+  /// the type and the size of the images, or empty: features may be anywhere. Masks are kept, so
+  /// their pixels must never change.
+  cv::Mat left_mask = {};
+  cv::Mat right_mask = {};
 };
 
 }  // namespace rotrocc

@@ -43,6 +43,10 @@ CorrespondenceFinder::CorrespondenceFinder(const Config& config, int threads)
 FramePtr CorrespondenceFinder::makeFrame(const StereoPair& pair) {
   const auto frame = frames_.acquire();
   frame->stamp_ns = pair.stamp_ns;
+  left_mask_.assign(pair.left_mask, FeatureDetector::kBorder_px);
+  right_mask_.assign(pair.right_mask, FeatureDetector::kBorder_px);
+  frame->left_mask = left_mask_;
+  frame->right_mask = right_mask_;
   workers_.run(2, [&](int side) {
     tracker_.makePyramid(side == 0 ? pair.left : pair.right,
                          side == 0 ? frame->left : frame->right);
@@ -51,7 +55,8 @@ FramePtr CorrespondenceFinder::makeFrame(const StereoPair& pair) {
 }
 
 void CorrespondenceFinder::findCorners(Keyframe& keyframe) {
-  detector_.detect(workers_, keyframe.frame->left.front(), keyframe.corners, kCandidates);
+  const StereoFrame& frame = *keyframe.frame;
+  detector_.detect(workers_, frame.left.front(), keyframe.corners, kCandidates, frame.left_mask);
 }
 
 void CorrespondenceFinder::findDepths(const StereoCamera& camera, Keyframe& keyframe) {
@@ -90,8 +95,10 @@ std::size_t CorrespondenceFinder::addPoints(const StereoCamera& camera,
     if (disparity_px == StereoMatcher::kNoDisparity) continue;
     const double depth_m = camera.depth(disparity_px);
     if (!isUsableDepth(depth_m)) continue;
+    const cv::Point2f right(corner.x - disparity_px, corner.y + lower_px);
+    if (keyframe.frame->right_mask.excludes(right)) continue;
     keyframe.left_px.push_back(corner);
-    keyframe.right_px.emplace_back(corner.x - disparity_px, corner.y + lower_px);
+    keyframe.right_px.push_back(right);
     keyframe.points.push_back(depth_m * camera.ray({corner.x, corner.y}));
   }
   return i;
@@ -174,6 +181,8 @@ void CorrespondenceFinder::checkCircularConsistency(const StereoCamera& camera,
                                                     Correspondences& features) {
   tracked_disparities_px_.assign(cur_left_px_.size(), StereoMatcher::kNoDisparity);
   for (std::size_t i = 0; i < cur_left_px_.size(); ++i) {
+    if (current.left_mask.excludes(cur_left_px_[i])) continue;
+    if (current.right_mask.excludes(cur_right_px_[i])) continue;
     const cv::Point2f offset = cur_left_px_[i] - cur_right_px_[i];
     const double wrong_row_px = std::abs(offset.y + keyframe.row_offset_px);
     if (tracked_[i] != 0 && wrong_row_px <= kMaxVertical_px) {

@@ -76,6 +76,7 @@ class CorrespondenceFinder {
   StereoMatcher matcher_;
   FeatureTracker tracker_;
   FramePool frames_;
+  FeatureMask left_mask_, right_mask_;  // of the latest frame
 
   // Buffers for the keyframe's points, reused.
   std::vector<cv::Point2f> cur_left_px_, cur_right_px_;

@@ -29,11 +29,13 @@ DescriptorMatcher::DescriptorMatcher(const StereoMatcherConfig& config)
       nearest_(cv::NORM_HAMMING, kEachOthersNearest),
       workers_(1) {}
 
-void DescriptorMatcher::describe(const cv::Mat& image, Described& described) {
+void DescriptorMatcher::describe(const cv::Mat& image,
+                                 const FeatureMask& mask,
+                                 Described& described) {
   const double sigma = std::sqrt(noiseVariance(image, noise_));
   orb_->setFastThreshold(std::max(1, cvRound(kFastOverNoise * sigma)));
   described.keypoints.clear();
-  orb_->detectAndCompute(image, cv::noArray(), described.keypoints, described.descriptors);
+  orb_->detectAndCompute(image, mask.usable(), described.keypoints, described.descriptors);
 }
 
 void DescriptorMatcher::match(const StereoCamera& camera,
@@ -43,9 +45,9 @@ void DescriptorMatcher::match(const StereoCamera& camera,
                               Correspondences& features) {
   features.clear();
   const cv::Mat& left = current.left.front();
-  describe(left, current_);
+  describe(left, current.left_mask, current_);
   if (current_.keypoints.empty()) return;
-  describe(earlier.left.front(), earlier_);
+  describe(earlier.left.front(), earlier.left_mask, earlier_);
   if (earlier_.keypoints.empty()) return;
   nearest_.match(earlier_.descriptors, current_.descriptors, matches_);
   pixels_.clear();

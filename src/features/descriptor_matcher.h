@@ -34,7 +34,7 @@ class DescriptorMatcher {
     std::vector<cv::KeyPoint> keypoints;
     cv::Mat descriptors;
   };
-  void describe(const cv::Mat& image, Described& described);
+  void describe(const cv::Mat& image, const FeatureMask& mask, Described& described);
 
   StereoMatcher matcher_;
   cv::Ptr<cv::ORB> orb_;

@@ -53,7 +53,8 @@ FeatureDetector::FeatureDetector(const Config& config) : config_(config) {}
 void FeatureDetector::detect(Workers& workers,
                              const cv::Mat& image,
                              std::vector<cv::Point2f>& corners,
-                             int candidates) {
+                             int candidates,
+                             const FeatureMask& mask) {
   corners.clear();
   if (std::min(image.cols, image.rows) <= 2 * (kBorder_px + kRadius_px)) return;
 
@@ -67,7 +68,17 @@ void FeatureDetector::detect(Workers& workers,
     const int last = std::min((i + 1) * kStripRows, last_row);
     findCandidates(image, first, last, strips_[static_cast<std::size_t>(i)]);
   });
+  collectCandidates(mask);
   selectByCells(image.size(), static_cast<std::size_t>(candidates * config_.max_features), corners);
+}
+
+void FeatureDetector::collectCandidates(const FeatureMask& mask) {
+  candidates_.clear();
+  for (const Strip& strip : strips_) {
+    for (const Candidate& c : strip.candidates) {
+      if (!mask.excludes(cv::Point(c.x, c.y))) candidates_.push_back(c);
+    }
+  }
 }
 
 void FeatureDetector::findCandidates(const cv::Mat& image,
@@ -127,13 +138,9 @@ void FeatureDetector::selectByCells(const cv::Size& size,
   }
 }
 
-/// Sorts the candidates of all strips by decreasing response, and ranks those of each cell. Ties
-/// are broken by position, so that the order is deterministic.
+/// Sorts the candidates by decreasing response, and ranks those of each cell. Ties are broken by
+/// position, so that the order is deterministic.
 void FeatureDetector::rankByCells(const cv::Size& size) {
-  candidates_.clear();
-  for (const Strip& strip : strips_) {
-    candidates_.insert(candidates_.end(), strip.candidates.begin(), strip.candidates.end());
-  }
   std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
     if (a.response != b.response) return a.response > b.response;
     return a.y != b.y ? a.y < b.y : a.x < b.x;

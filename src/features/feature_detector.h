@@ -7,6 +7,7 @@
 
 #include "common/workers.h"
 #include "features/corner_response.h"
+#include "features/feature_mask.h"
 #include "rotrocc/odometry_config.h"
 
 namespace rotrocc {
@@ -23,13 +24,15 @@ class FeatureDetector {
 
   explicit FeatureDetector(const Config& config);
 
-  /// Finds at most max_features times `candidates` corners of `image` (CV_8UC1), at integer pixels.
+  /// Finds at most max_features times `candidates` corners of `image` (CV_8UC1), at integer pixels
+  /// that the mask does not exclude.
   /// The image has about max_features cells. The strongest corners of all cells come first, then
   /// the second strongest of all cells, and so on. Returns none if the image is too small.
   void detect(Workers& workers,
               const cv::Mat& image,
               std::vector<cv::Point2f>& corners,
-              int candidates = 1);
+              int candidates = 1,
+              const FeatureMask& mask = {});
 
  private:
   struct Candidate {
@@ -51,6 +54,7 @@ class FeatureDetector {
   void selectByCells(const cv::Size& size,
                      std::size_t max_count,
                      std::vector<cv::Point2f>& corners);
+  void collectCandidates(const FeatureMask& mask);
   void rankByCells(const cv::Size& size);
 
   Config config_;

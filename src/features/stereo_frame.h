@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/to_seconds.h"
+#include "features/feature_mask.h"
 #include "features/image_pyramid.h"
 
 namespace rotrocc {
@@ -13,6 +14,7 @@ namespace rotrocc {
 struct StereoFrame {
   std::int64_t stamp_ns = 0;
   ImagePyramid left, right;
+  FeatureMask left_mask, right_mask;
 };
 
 /// A frame may be used as the last frame, the lost frame and the keyframe at the same time.

@@ -4,7 +4,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "common/to_seconds.h"
 #include "rotrocc/stereo_camera.h"
@@ -13,8 +12,8 @@
 namespace rotrocc {
 
 /// Why a pair cannot be used, in one sentence with the value. Empty if it can: the camera is valid,
-/// both images are CV_8UC1 and of its size, and the stamp is later than `newest_ns`, that of the
-/// pair before, if there was one.
+/// images and masks are CV_8UC1 and of its size, and the stamp is later than `newest_ns`, that of
+/// the pair before, if there was one.
 inline std::string whyUnusable(const StereoPair& pair,
                                const StereoCamera& camera,
                                const std::optional<std::int64_t>& newest_ns) {
@@ -23,13 +22,23 @@ inline std::string whyUnusable(const StereoPair& pair,
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
-  for (const auto& [side, image] : {std::pair("left", pair.left), std::pair("right", pair.right)}) {
-    if (image.empty()) return cv::format("the %s image is empty", side);
+  struct Part {
+    const char* name;
+    const cv::Mat& image;
+    bool is_required;
+  };
+  for (const Part& part : {Part{"left image", pair.left, true},
+                           Part{"right image", pair.right, true},
+                           Part{"left mask", pair.left_mask, false},
+                           Part{"right mask", pair.right_mask, false}}) {
+    const auto& [name, image, is_required] = part;
+    if (image.empty() && is_required) return cv::format("the %s is empty", name);
+    if (image.empty()) continue;
     if (image.type() != CV_8UC1) {
-      return cv::format("the %s image is of OpenCV type %d, not CV_8UC1", side, image.type());
+      return cv::format("the %s is of OpenCV type %d, not CV_8UC1", name, image.type());
     }
     if (image.cols == camera.width && image.rows == camera.height) continue;
-    return cv::format("the %s image has %dx%d pixels", side, image.cols, image.rows) +
+    return cv::format("the %s has %dx%d pixels", name, image.cols, image.rows) +
            cv::format(", the camera %dx%d", camera.width, camera.height);
   }
   if (!newest_ns || pair.stamp_ns > *newest_ns) return "";

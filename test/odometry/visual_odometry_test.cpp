@@ -529,6 +529,48 @@ TEST(VisualOdometryTest, ATruckThatHidesNearlyAllIsNotFollowedSilently) {
   }
 }
 
+/// The robot's own body fills the lower half of both images.
+TEST(VisualOdometryTest, MaskedBodyOfTheRobotIsNoFeature) {
+  const cv::Rect body(0, camera().height / 2, camera().width, camera().height / 2);
+  const cv::Mat mask(camera().height, camera().width, CV_8UC1, cv::Scalar(0));
+  mask(body).setTo(255);
+  constexpr int kMargin_px = 8;  // of the windows
+  const auto lowest = [](const Correspondences& features) {
+    double y_px = 0.0;
+    for (const Correspondence& f : features) {
+      y_px = std::max({y_px, f.keyframe_px.y(), f.cur_px.y()});
+    }
+    return y_px;
+  };
+  VisualOdometry masked({}), unmasked({});
+  for (int i = 0; i < 8; ++i) {
+    StereoPair pair = behindATruck(bend(i), body);
+    unmasked.process(pair, camera());
+    pair.left_mask = pair.right_mask = mask;
+    const OdometryResult result = masked.process(pair, camera());
+    if (i == 0) continue;
+    expectMotion(result, bendStep(), 0.04, 2e-3);  // without the road there is less to see
+    EXPECT_GT(lowest(unmasked.correspondences()), body.y + kMargin_px);
+    EXPECT_LT(lowest(masked.correspondences()), body.y - kMargin_px + 0.5);
+  }
+}
+
+TEST(VisualOdometryTest, PartsHiddenInOneImageOnlyAreNoFeatures) {
+  const cv::Rect right_half(camera().width / 2, 0, camera().width / 2, camera().height);
+  cv::Mat mask(camera().height, camera().width, CV_8UC1, cv::Scalar(0));
+  mask(right_half).setTo(1);
+  VisualOdometry odometry({});
+  for (int i = 0; i < 4; ++i) {
+    StereoPair pair = bend(i);
+    pair.right_mask = mask;
+    odometry.process(pair, camera());
+  }
+  ASSERT_GT(odometry.correspondences().size(), 100U);
+  for (const Correspondence& f : odometry.correspondences()) {
+    EXPECT_LT(f.cur_px.x() - f.disparity_px, right_half.x);
+  }
+}
+
 TEST(VisualOdometryTest, GoesOnFromElsewhereAtOnce) {
   // The last good pair cannot be matched any more.
   const Eigen::Isometry3d elsewhere = motion({0.0, 0.0, 20.0}, {0.0, 0.6, 0.0});
@@ -639,6 +681,11 @@ std::vector<BadPair> badPairs() {
   const auto withRight = [](const cv::Mat& right) {
     return StereoPair{3 * kPeriod_ns, bend(3).left, right};
   };
+  const auto withMask = [](const cv::Mat& right_mask) {
+    StereoPair pair = bend(3);
+    pair.right_mask = right_mask;
+    return pair;
+  };
   const auto stampedAt = [](std::int64_t stamp_ns) {
     return StereoPair{stamp_ns, bend(3).left, bend(3).right};
   };
@@ -655,6 +702,8 @@ std::vector<BadPair> badPairs() {
           {withLeft({}), "the left image is empty"},
           {withRight({}), "the right image is empty"},
           {withRight(colour), "the right image is of OpenCV type 16, not CV_8UC1"},
+          {withMask(bend(3).left.rowRange(0, 100)), "the right mask has 620x100 pixels"},
+          {withMask(colour), "the right mask is of OpenCV type 16"},
           {withLeft(bend(3).left.rowRange(0, 100)),
            "the left image has 620x100 pixels, the camera 620x188"},
           {withRight(bend(3).right.colRange(0, 300)), "the right image has 300x188 pixels"},
