@@ -48,6 +48,11 @@ struct StereoCamera {
     return {fx * point.x() / point.z() + cx, fy * point.y() / point.z() + cy};
   }
 
+  /// How far another calibration differs: the largest change of the tangent of a viewing direction,
+  /// over both images, or the relative change of the baseline if that is more. Infinite if the
+  /// images have another size.
+  double differenceTo(const StereoCamera& other) const;
+
   bool operator==(const StereoCamera& other) const;
   bool operator!=(const StereoCamera& other) const { return !(*this == other); }
 };

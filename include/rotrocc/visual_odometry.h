@@ -36,7 +36,8 @@ class VisualOdometry {
   /// Estimates the motion since the previous pair. Never throws. The state is lost, with a reason,
   /// on: images that are empty, not CV_8UC1, of different sizes or not of the camera's size; an
   /// invalid camera; a stamp that does not increase; errors inside OpenCV or Ceres. The state is
-  /// initialising on the first pair, a new camera and a gap of more than max_gap_s.
+  /// initialising on the first pair, on images of another size, a calibration that changes by more
+  /// than a thousandth, and after a gap of more than max_gap_s.
   ///
   /// `expected` is the motion T_prev_cur measured by another sensor, if any. It replaces the motion
   /// model's prediction as the start of tracking.

@@ -1,6 +1,8 @@
 #include "rotrocc/stereo_camera.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include <opencv2/core.hpp>
@@ -32,6 +34,22 @@ void StereoCamera::check() const {
           "baseline_m",
           baseline_m,
           "positive (are left and right exchanged?)");
+}
+
+double StereoCamera::differenceTo(const StereoCamera& other) const {
+  if (width != other.width || height != other.height)
+    return std::numeric_limits<double>::infinity();
+  double difference = std::abs(other.baseline_m / baseline_m - 1.0);
+  // Both are linear in the pixel, so the largest change is at a border.
+  const auto compare = [&](double size, double f, double c, double other_f, double other_c) {
+    for (const double px : {0.0, size}) {
+      difference = std::max(difference, std::abs((px - other_c) / other_f - (px - c) / f));
+    }
+  };
+  compare(width, fx, cx, other.fx, other.cx);
+  compare(width, fx, cx_right, other.fx, other.cx_right);
+  compare(height, fy, cy, other.fy, other.cy);
+  return difference;
 }
 
 bool StereoCamera::operator==(const StereoCamera& other) const {

@@ -11,6 +11,15 @@
 
 namespace rotrocc {
 
+/// Smaller differences of a calibration, see StereoCamera::differenceTo(), are rounding: a
+/// hundredth of a pixel of a usual camera.
+constexpr double kSameCamera = 1e-5;
+
+/// A calibration that changes by less, as one that is refined while driving, describes the same
+/// images. The pairs before and after are compared: the error is no more than this, in radians and
+/// as a share of the way, where a restart would lose all of the way between them.
+constexpr double kRefinedCamera = 1e-3;
+
 /// Why a pair cannot be used, in one sentence with the value. Empty if it can: the camera is valid,
 /// images and masks are CV_8UC1 and of its size, and the stamp is later than `newest_ns`, that of
 /// the pair before, if there was one.
@@ -53,7 +62,13 @@ inline std::string whyRestart(const StereoPair& pair,
                               const StereoCamera& camera_before,
                               double max_gap_s) {
   if (!newest_ns) return "first pair";
-  if (camera != camera_before) return "the camera has changed";
+  if (camera_before.width != camera.width || camera_before.height != camera.height) {
+    return "the size of the images has changed";
+  }
+  if (const double difference = camera_before.differenceTo(camera); difference > kRefinedCamera) {
+    return cv::format("the calibration has changed by %.2g of the focal length or baseline",
+                      difference);
+  }
   const double gap_s = toSeconds(pair.stamp_ns - *newest_ns);
   if (gap_s <= max_gap_s) return "";
   return cv::format("no pair for %g s, more than max_gap_s = %g", gap_s, max_gap_s);

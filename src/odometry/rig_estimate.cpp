@@ -1,5 +1,7 @@
 #include "odometry/rig_estimate.h"
 
+#include "odometry/pair_check.h"
+
 namespace rotrocc {
 
 RigEstimate::RigEstimate(const OdometryConfig& config)
@@ -15,13 +17,15 @@ void RigEstimate::configure(const OdometryConfig& config) {
   row_search_ = RowSearch(config.correspondence_finder);
 }
 
-void RigEstimate::setCamera(const StereoCamera& camera) {
-  if (camera == camera_) return;
+bool RigEstimate::setCamera(const StereoCamera& camera) {
+  const bool is_same = camera_.differenceTo(camera) < kSameCamera;
   camera_ = camera;
+  if (is_same) return true;
   calibrator_.reset();
   shared_errors_.reset();
   rows_.reset();
   time_skew_.reset();
+  return false;
 }
 
 /// The row offset of the right image that is corrected, if the rig is calibrated.

@@ -26,8 +26,9 @@ class RigEstimate {
   /// Changes the parameters. What is estimated is kept unless it is disabled.
   void configure(const OdometryConfig& config);
 
-  /// Discards all estimates if this is another camera.
-  void setCamera(const StereoCamera& camera);
+  /// Discards all estimates if this is another camera, or another calibration of it. Returns
+  /// whether they are kept.
+  bool setCamera(const StereoCamera& camera);
 
   /// The camera as it was passed.
   const StereoCamera& camera() const { return camera_; }

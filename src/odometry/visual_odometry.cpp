@@ -173,7 +173,7 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
   FramePtr current;
   {
     const StageTimer timer(result.times.pyramids_ms);
-    rig_.setCamera(camera);
+    if (!rig_.setCamera(camera)) keyframe_.frame.reset();  // its depths are of the old calibration
     current = finder_.makeFrame(pair);
   }
   if (!result.reason.empty()) {

@@ -226,7 +226,10 @@ TEST(VisualOdometryTest, KeepsTheBiasOverAResetButNotForAnotherCamera) {
   // behind.
   EXPECT_NEAR(
       odometry.process(bend(0), wronglyCalibrated()).disparity_bias.applied_px, applied_px, 0.02);
-  EXPECT_EQ(odometry.process(bend(1), camera()).disparity_bias.applied_px, 0.0);
+  StereoCamera rounded = wronglyCalibrated();
+  rounded.fx *= 1.000'001;
+  EXPECT_NEAR(odometry.process(bend(1), rounded).disparity_bias.applied_px, applied_px, 0.05);
+  EXPECT_EQ(odometry.process(bend(2), camera()).disparity_bias.applied_px, 0.0);
 }
 
 /// A pair of the bend, its right image moved down.
@@ -758,10 +761,26 @@ TEST(VisualOdometryTest, StartsAnewWithAnotherCamera) {
       3 * kPeriod_ns, bend(3).left.colRange(0, 300), bend(3).right.colRange(0, 300)};
   const OdometryResult result = odometry.process(pair, half);
   EXPECT_EQ(result.state, State::kInitialising);
-  EXPECT_EQ(result.reason, "the camera has changed");
+  EXPECT_EQ(result.reason, "the size of the images has changed");
   const StereoPair next = {
       4 * kPeriod_ns, bend(4).left.colRange(0, 300), bend(4).right.colRange(0, 300)};
   expectMotion(odometry.process(next, half), bendStep(), 0.04, 0.0012);  // half the image size
+}
+
+/// A camera whose calibration is refined while it drives: by rounding, by half a pixel, by a zoom.
+TEST(VisualOdometryTest, FollowsARefinedCalibration) {
+  const auto scaled = [](double factor) {
+    StereoCamera other = camera();
+    other.fx *= factor;
+    other.fy *= factor;
+    return other;
+  };
+  expectMotion(started(3).process(bend(3), scaled(1.000'001)), bendStep());
+  expectMotion(started(3).process(bend(3), scaled(1.001)), bendStep());
+  const OdometryResult zoomed = started(3).process(bend(3), scaled(1.1));
+  EXPECT_EQ(zoomed.state, State::kInitialising);
+  EXPECT_NE(zoomed.reason.find("the calibration has changed by 0.0"), std::string::npos)
+      << zoomed.reason;
 }
 
 TEST(VisualOdometryTest, StartsAnewWhenReset) {
