@@ -1,8 +1,13 @@
 #include "odometry/rig_estimate.h"
 
-#include "odometry/pair_check.h"
-
 namespace rotrocc {
+namespace {
+
+/// Smaller differences of a calibration, see StereoCamera::differenceTo(), are rounding: a
+/// hundredth of a pixel of a usual camera.
+constexpr double kSameCamera = 1e-5;
+
+}  // namespace
 
 RigEstimate::RigEstimate(const OdometryConfig& config)
     : corrects_(config.stereo_calibrator.enabled),
