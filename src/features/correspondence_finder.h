@@ -9,7 +9,6 @@
 #include "common/workers.h"
 #include "features/feature_detector.h"
 #include "features/feature_tracker.h"
-#include "features/keyframe.h"
 #include "features/stereo_frame.h"
 #include "features/stereo_matcher.h"
 #include "rotrocc/correspondence.h"

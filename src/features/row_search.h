@@ -10,7 +10,6 @@
 
 #include "common/workers.h"
 #include "features/feature_tracker.h"
-#include "features/keyframe.h"
 #include "features/stereo_frame.h"
 #include "features/stereo_matcher.h"
 #include "rotrocc/correspondence.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/image_grid.h"
+#include "motion/shared_error.h"
 
 namespace rotrocc {
 namespace {

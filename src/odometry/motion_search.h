@@ -6,7 +6,6 @@
 
 #include "features/correspondence_finder.h"
 #include "features/descriptor_matcher.h"
-#include "features/keyframe.h"
 #include "features/stereo_frame.h"
 #include "motion/motion_estimator.h"
 #include "odometry/hypothesis.h"

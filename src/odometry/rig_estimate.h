@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "features/keyframe.h"
 #include "features/row_search.h"
 #include "features/stereo_frame.h"
 #include "motion/shared_error_estimator.h"

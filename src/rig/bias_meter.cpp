@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "geometry/image_grid.h"
 #include "motion/outlier_rejection.h"
 #include "motion/shared_error.h"
 
