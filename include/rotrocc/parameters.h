@@ -29,12 +29,14 @@ struct NodeParameters {
   int queue_size = 4;                         ///< unmatched images kept, for each side
   int max_image_pixels = 20'000'000;          ///< larger images are rejected
   double max_future_s = 10.0;                 ///< stamps further ahead of the clock are rejected
+  int significant_bits = 0;                   ///< of 16-bit images; 0: found from them
   double baseline_m = 0.0;                    ///< 0: that of camera_info
   std::string pose_after_time_jump = "keep";  ///< or "zero": when time jumps back
   double silence_s = 5.0;              ///< time without a pair before the log reports the reason
   std::string flow_view = "motion";    ///< one of flowViewNames()
   int path_length = 10000;             ///< number of poses on the path topic; 0: no path
   double path_rate_hz = 2.0;           ///< at most, of the messages on the path topic
+  std::string while_lost = "hold";     ///< or "silent" or "null": what is published then
   double lost_speed_sigma_mps = 10.0;  ///< growth rate of the position's uncertainty while lost
   double lost_turn_rate_sigma_rps = 0.5;
   double guess_error_share = 0.1;         ///< error of the motion of guess_frame, while lost

@@ -17,7 +17,7 @@ Rectify rectifyOption(const std::string& text) {
 RecordedPairs::RecordedPairs(Recording& recording, const NodeParameters& node, Rectify rectify)
     : recording_(recording),
       synchronizer_(node.max_stamp_difference_s, node.queue_size),
-      converter_(node.max_image_pixels),
+      converter_(node.max_image_pixels, node.significant_bits),
       baseline_m_(node.baseline_m),
       left_info_(recording.firstLeftInfo()),
       right_info_(recording.firstRightInfo()),

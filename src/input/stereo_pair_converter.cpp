@@ -1,6 +1,8 @@
 #include "input/stereo_pair_converter.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include <opencv2/imgproc.hpp>
@@ -122,18 +124,28 @@ int value16(const unsigned char* bytes, bool big_endian) {
   return big_endian ? bytes[0] << 8 | bytes[1] : bytes[1] << 8 | bytes[0];
 }
 
-/// Number of bits of the largest value of a 16-bit image; 8 of others.
-int countSignificantBits(const sensor_msgs::Image& image, const ImageEncoding& encoding) {
-  if (!encoding.has16Bits()) return 8;
-  int any = 0;
+/// Share of the pixels that may be brighter than the range in use.
+constexpr double kBrighterShare = 0.01;
+
+/// Number of bits that all but the brightest pixels of a 16-bit image use; at least 8, and 8 of
+/// others.
+int countSignificantBits(const sensor_msgs::Image& image) {
+  if (!encodingOf("", image).has16Bits()) return 8;
+  std::array<std::size_t, 256> counts = {};  // by the upper byte
   for (std::size_t y = 0; y < image.height; ++y) {
     const unsigned char* row = image.data.data() + y * image.step;
     for (std::size_t x = 0; x < image.width; ++x) {
-      any |= value16(row + 2 * x, image.is_bigendian != 0);
+      ++counts[static_cast<std::size_t>(value16(row + 2 * x, image.is_bigendian != 0) >> 8)];
     }
   }
-  int bits = 0;
-  for (; any != 0; any >>= 1) ++bits;
+  const double admitted = kBrighterShare * static_cast<double>(image.width) * image.height;
+  std::size_t brighter = 0;
+  std::size_t upper = counts.size();
+  while (upper > 1 && static_cast<double>(brighter + counts[upper - 1]) <= admitted) {
+    brighter += counts[--upper];
+  }
+  int bits = 8;
+  for (std::size_t rest = upper - 1; rest != 0; rest >>= 1) ++bits;
   return bits;
 }
 
@@ -144,7 +156,8 @@ void scaleTo8Bits(const sensor_msgs::Image& image, int significant_bits, cv::Mat
     const unsigned char* from = image.data.data() + static_cast<std::size_t>(y) * image.step;
     unsigned char* to = pixels.ptr(y);
     for (int x = 0; x < pixels.cols; ++x, from += 2) {
-      to[x] = static_cast<unsigned char>(value16(from, image.is_bigendian != 0) >> shift);
+      const int value = value16(from, image.is_bigendian != 0) >> shift;
+      to[x] = static_cast<unsigned char>(std::min(value, 255));
     }
   }
 }
@@ -176,12 +189,27 @@ StereoPair StereoPairConverter::convert(const sensor_msgs::Image& left,
   validatePair(left, right, max_pixels_);
   const ImageEncoding& left_encoding = encodingOf("left", left);
   const ImageEncoding& right_encoding = encodingOf("right", right);
-  significant_bits_ = std::max({significant_bits_,
-                                countSignificantBits(left, left_encoding),
-                                countSignificantBits(right, right_encoding)});
+  findSignificantBits(left, right);
   return {toNanoseconds(left.header.stamp),
           toGrey(left, left_encoding, significant_bits_, left_buffers_),
           toGrey(right, right_encoding, significant_bits_, right_buffers_)};
+}
+
+void StereoPairConverter::findSignificantBits(const sensor_msgs::Image& left,
+                                              const sensor_msgs::Image& right) {
+  if (known_bits_ > 0) {
+    significant_bits_ = std::max(known_bits_, 8);
+    return;
+  }
+  recent_bits_.push_back(std::max(countSignificantBits(left), countSignificantBits(right)));
+  if (recent_bits_.size() > kShrinkPairs) recent_bits_.pop_front();
+  if (recent_bits_.size() == 1) significant_bits_ = recent_bits_.back();
+  if (recent_bits_.size() < 2) return;
+  const int in_two = std::min(recent_bits_.back(), *(recent_bits_.rbegin() + 1));
+  significant_bits_ = std::max(significant_bits_, in_two);
+  if (recent_bits_.size() < kShrinkPairs) return;
+  const int in_all = *std::max_element(recent_bits_.begin(), recent_bits_.end());
+  significant_bits_ = std::min(significant_bits_, in_all);
 }
 
 void validateSize(const sensor_msgs::Image& left, const StereoCamera& camera) {

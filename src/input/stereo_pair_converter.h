@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <string>
 
 #include <sensor_msgs/Image.h>
@@ -16,15 +18,18 @@ namespace rotrocc {
 /// yuv422_yuy2, and Bayer patterns of 8 and 16 bits.
 ///
 /// 16-bit images of 10 or 12-bit cameras use only a part of their range. They are shifted right by
-/// b - 8 bits, where b is the number of bits of the largest value in any image so far, at least 8.
-/// So both images of a pair have the same scale, which stays constant once a camera has used its
-/// full range.
+/// b - 8 bits, where b is the number of bits in use, at least 8, and both images of a pair have the
+/// same. Brighter pixels are white. A pair uses the bits of all but the brightest hundredth of its
+/// pixels, so lamps, hot pixels and rows of metadata do not count. b grows when two pairs in a row
+/// use more, and shrinks when kShrinkPairs use less, so a single bad image does not change it.
 class StereoPairConverter {
  public:
   static constexpr std::int64_t kMaxPixels = 50'000'000;
+  static constexpr std::size_t kShrinkPairs = 10;
 
-  /// `max_pixels`: limit of width times height.
-  explicit StereoPairConverter(std::int64_t max_pixels = kMaxPixels) : max_pixels_(max_pixels) {}
+  /// `max_pixels`: limit of width times height. `significant_bits`: b if it is known, or 0.
+  explicit StereoPairConverter(std::int64_t max_pixels = kMaxPixels, int significant_bits = 0)
+      : max_pixels_(max_pixels), known_bits_(significant_bits) {}
 
   /// The resulting images refer to the data of `left` and `right` if these are 8-bit grey,
   /// otherwise to a buffer that the next call overwrites. They must not be modified. The stamp is
@@ -32,14 +37,21 @@ class StereoPairConverter {
   /// of range or that differ, and a step or data that are too short; more data is ignored.
   StereoPair convert(const sensor_msgs::Image& left, const sensor_msgs::Image& right);
 
+  /// b of the last pair; 8 if it had no 16-bit image.
+  int significantBits() const { return significant_bits_; }
+
   struct Buffers {
     cv::Mat scaled;  ///< to 8 bits
     cv::Mat grey;
   };
 
  private:
+  void findSignificantBits(const sensor_msgs::Image& left, const sensor_msgs::Image& right);
+
   std::int64_t max_pixels_;
+  int known_bits_;
   int significant_bits_ = 8;
+  std::deque<int> recent_bits_;  // of the last pairs
   Buffers left_buffers_;
   Buffers right_buffers_;
 };

@@ -46,7 +46,15 @@ OdometryPublisher::OdometryPublisher(ros::NodeHandle& nh, const NodeParameters& 
       flow_publisher_(image_transport::ImageTransport(nh).advertise("flow", kPictureQueue)) {}
 
 std::chrono::steady_clock::time_point OdometryPublisher::publishMotion(
-    const BaseState& state, const std::optional<Eigen::Isometry3d>& T_guess_base) {
+    const BaseState& state, bool is_lost, const std::optional<Eigen::Isometry3d>& T_guess_base) {
+  if (is_lost && parameters_.while_lost != "hold") {
+    const auto sent = std::chrono::steady_clock::now();
+    if (parameters_.while_lost == "null") {
+      odom_publisher_.publish(boost::make_shared<nav_msgs::Odometry>(
+          toNullOdometry(state.stamp_ns, parameters_.odom_frame, parameters_.base_frame)));
+    }
+    return sent;
+  }
   const auto odometry = boost::make_shared<nav_msgs::Odometry>(
       toOdometry(state, parameters_.odom_frame, parameters_.base_frame));
   if (tf_publisher_) publishTf(state, T_guess_base);

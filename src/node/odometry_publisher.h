@@ -27,11 +27,12 @@ class OdometryPublisher {
  public:
   OdometryPublisher(ros::NodeHandle& nh, const NodeParameters& parameters);
 
-  /// tf, odom and twist; tf first, so that receivers of the odometry already have it.
+  /// tf, odom and twist; tf first, so that receivers of the odometry already have it. If the motion
+  /// is lost, what while_lost says.
   /// `T_guess_base`: the pose of the base in guess_frame at that time, if there is such a frame and
   /// tf knows it. Returns when odom was sent: receivers that it wakes may be served before this.
   std::chrono::steady_clock::time_point publishMotion(
-      const BaseState& state, const std::optional<Eigen::Isometry3d>& T_guess_base);
+      const BaseState& state, bool is_lost, const std::optional<Eigen::Isometry3d>& T_guess_base);
 
   void publishStatus(OdometryStatus status);
 

@@ -54,7 +54,7 @@ OdometryServices::OdometryServices(ros::NodeHandle& private_nh,
     if (health.paused() && !request.data) processor.requestRestart();
     health.setPaused(request.data);
     return request.data ? "paused: pairs are dropped, the pose is held"
-                        : "resumed at the last pose";
+                        : "resumed at the last pose, moved by guess_frame if there is one";
   }));
   ros::NodeHandle save_nh(private_nh);
   save_nh.setCallbackQueue(&save_queue_);

@@ -121,6 +121,7 @@ void StereoOdometry::work() {
 /// Whether the pair is done with: processed, or dropped. Otherwise tf lacks the camera pose.
 bool StereoOdometry::tryPair(const ReceivedPair& received) {
   try {
+    if (processor_.takeRequests()) mount_.lookAgain();
     const sensor_msgs::Image& left = *received.images.left;
     const std::string frame = cameraFrameOf(left, parameters_.camera_frame);
     const auto T_base_camera = mount_.find(frame, toNanoseconds(left.header.stamp));
@@ -174,7 +175,8 @@ SteadyClock::time_point StereoOdometry::publishMotion(const PairAnswer& answer) 
     guess_->setLast(answer.result.stamp_ns);
     T_guess_base = guess_->pose(answer.result.stamp_ns);
   }
-  return publisher_.publishMotion(answer.state, T_guess_base);
+  const bool is_lost = answer.result.state == State::kLost;
+  return publisher_.publishMotion(answer.state, is_lost, T_guess_base);
 }
 
 /// All that the odometry of the pair need not wait for.

@@ -39,6 +39,8 @@ void addNode(NodeParameters& n, ParameterTable& table) {
       "largest number of pixels of an image; larger images are dropped";
   table.add("max_future_s", n.max_future_s, {0.0, 1e9, "s"}).description =
       "images with stamps further ahead of the clock are dropped";
+  table.add("significant_bits", n.significant_bits, {0, 16}).description =
+      "bits that 16-bit images use, e.g. 10 or 12; 0: found from the images";
   table.add("baseline_m", n.baseline_m, {0.0, 100.0, "m"}).description =
       "baseline, if camera_info has none in P[3]; 0: use P[3]";
   table.add("pose_after_time_jump", n.pose_after_time_jump, {"keep", "zero"}).description =
@@ -50,6 +52,9 @@ void addNode(NodeParameters& n, ParameterTable& table) {
       "number of poses in the path topic";
   table.add("path_rate_hz", n.path_rate_hz, {0.01, 1000.0, "Hz"}).description =
       "rate of the path topic, at most, in real time";
+  table.add("while_lost", n.while_lost, {"hold", "silent", "null"}).description =
+      "what is published while the motion is lost: the pose held, with growing covariance; neither "
+      "tf nor odom; or odom with a zero pose of variance 9999, without tf";
   table.add("lost_speed_sigma_mps", n.lost_speed_sigma_mps, {0.0, 1000.0, "m/s"}).description =
       "assumed standard deviation of the speed while lost";
   table.add("lost_turn_rate_sigma_rps", n.lost_turn_rate_sigma_rps, {0.0, 100.0, "rad/s"})

@@ -144,7 +144,7 @@ TEST(StereoPairConverterTest, BayerPatternsOfSixteenBitsAreThoseOfEight) {
   for (const char* filter : {"rggb", "bggr", "gbrg", "grbg"}) {
     const sensor_msgs::Image bayer8 = makeBayerImage(filter, 255, 100, 50);
     const std::string encoding = "bayer_" + std::string(filter) + "16";
-    StereoPairConverter converter;
+    StereoPairConverter converter(StereoPairConverter::kMaxPixels, 16);
     const cv::Mat grey = converter.convert(bayer8, bayer8).left.clone();
     const StereoPair pair =
         converter.convert(widen(bayer8, encoding, false), widen(bayer8, encoding, true));
@@ -175,9 +175,35 @@ TEST(StereoPairConverterTest, TwelveBitsKeepTheirContrast) {
   EXPECT_EQ(pair.left.at<unsigned char>(0, 1), 63);
   EXPECT_EQ(pair.right.at<unsigned char>(0, 1), 63);
   EXPECT_EQ(pair.right.at<unsigned char>(0, 2), 255);
-  // ... and stays when it gets dark.
-  pair = converter.convert(dark, dark);
-  EXPECT_EQ(pair.left.at<unsigned char>(0, 1), 63);
+  // ... stays when it gets dark for a moment ...
+  for (std::size_t i = 1; i < StereoPairConverter::kShrinkPairs; ++i) {
+    pair = converter.convert(dark, dark);
+    EXPECT_EQ(pair.left.at<unsigned char>(0, 1), 63);
+  }
+  // ... and then has all levels for the dark image.
+  EXPECT_EQ(converter.convert(dark, dark).left.at<unsigned char>(0, 1), 255);
+  EXPECT_EQ(converter.significantBits(), 10);
+  // The range of the brighter image is back after two pairs; before, it is white.
+  EXPECT_EQ(converter.convert(bright, bright).left.at<unsigned char>(0, 2), 255);
+  EXPECT_EQ(converter.convert(bright, bright).left.at<unsigned char>(0, 1), 63);
+}
+
+TEST(StereoPairConverterTest, ABadImageOrAFewBadPixelsDoNotBlindIt) {
+  const sensor_msgs::Image good = makeImage16({0, 300, 1023}, false);
+  sensor_msgs::Image hot = good;
+  for (std::size_t x = 0; x < kWidth * kHeight / 100; ++x) hot.data[2 * x + 1] = 255;
+  StereoPairConverter converter;
+  for (const sensor_msgs::Image& image : {good, hot, makeImage16({65535}, false), good, hot}) {
+    const StereoPair pair = converter.convert(image, good);
+    EXPECT_EQ(pair.right.at<unsigned char>(0, 1), 75);
+    EXPECT_EQ(converter.significantBits(), 10);
+  }
+}
+
+TEST(StereoPairConverterTest, KnownBitsAreKept) {
+  StereoPairConverter converter(StereoPairConverter::kMaxPixels, 12);
+  const sensor_msgs::Image dark = makeImage16({0, 300, 1023}, false);
+  EXPECT_EQ(converter.convert(dark, dark).left.at<unsigned char>(0, 2), 63);
 }
 
 TEST(StereoPairConverterTest, MemoryIsUsedAgain) {

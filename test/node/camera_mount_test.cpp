@@ -68,6 +68,17 @@ TEST_F(CameraMountTest, AFixedMountIsLookedUpOnceAndTfIsLeft) {
   EXPECT_EQ(tf_.listenersStarted(), 1);
 }
 
+TEST_F(CameraMountTest, ANewFixedMountIsFoundWhenItLooksAgain) {
+  tf_.sendStatic("torso", "camera", panned(0.2));
+  CameraMount mount("base_link", 0.0, tf_.feed());
+  EXPECT_NEAR(panOf(mount.find("camera", 5 * kSecond)), 0.2, 1e-12);
+  tf_.sendStatic("torso", "camera", panned(0.3));
+  EXPECT_NEAR(panOf(mount.find("camera", 6 * kSecond)), 0.2, 1e-12);
+  mount.lookAgain();
+  EXPECT_NEAR(panOf(mount.find("camera", 7 * kSecond)), 0.3, 1e-12);
+  EXPECT_FALSE(tf_.hasListener());
+}
+
 TEST_F(CameraMountTest, WaitsForAValidTransform) {
   CameraMount mount("base_link", 0.0, tf_.feed());
   Eigen::Isometry3d longer = panned(0.2);

@@ -59,6 +59,18 @@ TEST_F(GuessOdometryTest, MotionIsThatOfTheBase) {
   EXPECT_EQ(guess.misses(), 0u);
 }
 
+/// tf2 forgets after 10 s.
+TEST_F(GuessOdometryTest, MotionIsKnownAcrossALongGap) {
+  GuessOdometry guess("wheel_odom", "base_link", 0.0, tf_.feed());
+  sendTf(0);
+  guess.setLast(stampOf(0));
+  constexpr int kPairs = 300;
+  for (int pair = 1; pair <= kPairs; ++pair) sendTf(pair);
+  const auto motion = guess.motionTo(stampOf(kPairs));
+  ASSERT_TRUE(motion);
+  EXPECT_NEAR(motion->translation().x(), kStep_m * kPairs, 1e-9);
+}
+
 /// With waiting at each pair, this takes an hour.
 TEST_F(GuessOdometryTest, AFrameThatDoesNotExistIsToldOnceAndNotWaitedFor) {
   GuessOdometry guess("wheel_odom", "base_link", 0.2, tf_.feed());

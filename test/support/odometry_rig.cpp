@@ -23,8 +23,6 @@ constexpr double kStep_m = 0.4;
 constexpr std::chrono::milliseconds kPeriod(100);
 constexpr double kMotionTolerance = 0.05;
 constexpr double kRounding = 1e-9;
-/// Of an unknown twist, by the convention for nav_msgs/Odometry.
-constexpr double kUnknownVariance = 9999.0;
 
 const SyntheticScene& scene() {
   static const SyntheticScene scene;
@@ -168,6 +166,7 @@ void OdometryRig::process(const ReceivedPair& pair) {
       T_last_base = expected(*last_stamp_ns_, converted.stamp_ns);
     }
     last_stamp_ns_ = converted.stamp_ns;
+    processor_.takeRequests();
     answer_ = processor_.process(converted, {pair.camera, T_base_camera, T_last_base});
     hint_ = processor_.inspect(*answer_);
     ++answers_;

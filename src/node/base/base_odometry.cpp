@@ -12,8 +12,6 @@ namespace {
 /// Variance [m^2, rad^2] of the first pose, which defines the odom frame; not zero, because filters
 /// invert it.
 constexpr double kFirstVariance = 1e-9;
-/// Variance of an unknown twist, by convention of nav_msgs/Odometry.
-constexpr double kUnknownVariance = 9999.0;
 /// Variance [m^2, rad^2] of the components that planar motion excludes.
 constexpr double kPlanarVariance = 1e-9;
 /// Longer gaps do not increase the uncertainty further: filters need finite numbers.

@@ -13,6 +13,9 @@
 
 namespace rotrocc {
 
+/// Variance of what is unknown, by convention of nav_msgs/Odometry.
+constexpr double kUnknownVariance = 9999.0;
+
 /// Motion of the base on which a camera is mounted, where `camera_motion` is T_prev_cur of the
 /// camera: T_base_camera_prev * T_prev_cur * T_base_camera_cur^-1. The mounts have no errors.
 UncertainTransform motionOfBase(const UncertainTransform& camera_motion,

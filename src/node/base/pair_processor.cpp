@@ -12,7 +12,7 @@ PairProcessor::PairProcessor(const Parameters& parameters, Log log)
     : log_(std::move(log)),
       parameters_(parameters.node),
       systematic_error_(parameters.odometry.systematic_error),
-      converter_(parameters.node.max_image_pixels),
+      converter_(parameters.node.max_image_pixels, parameters.node.significant_bits),
       rectifier_(parameters.odometry.threads),
       odometry_(parameters.odometry),
       inspector_(parameters.odometry.correspondence_finder, parameters.node.rectify) {}
@@ -23,12 +23,18 @@ StereoPair PairProcessor::convert(const ReceivedPair& received) {
   return received.calibration ? rectifier_.rectify(pair, received.calibration) : pair;
 }
 
+bool PairProcessor::takeRequests() {
+  const std::lock_guard<std::mutex> lock(requests_mutex_);
+  const Requests requests = std::exchange(requests_, {});
+  taken_.reset |= requests.reset;
+  taken_.restart |= requests.restart;
+  if (requests.reset || requests.T_odom_base) taken_.T_odom_base = requests.T_odom_base;
+  if (requests.config) taken_.config = requests.config;
+  return requests.reset;
+}
+
 PairAnswer PairProcessor::process(const StereoPair& pair, const PairContext& context) {
-  Requests requests;
-  {
-    const std::lock_guard<std::mutex> lock(requests_mutex_);
-    std::swap(requests, requests_);
-  }
+  const Requests requests = std::exchange(taken_, {});
   if (requests.config) configure(*requests.config);
   PairAnswer answer;
   answer.pair = pair;

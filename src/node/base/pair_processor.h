@@ -38,7 +38,8 @@ struct PairAnswer {
 };
 
 /// Converts pairs to odometry of the base, in one thread, and rectifies those that are raw. Other
-/// threads may request changes, which take effect with the next pair; requests do not block.
+/// threads may request changes, which takeRequests() takes over for the next pair; requests do not
+/// block.
 class PairProcessor {
  public:
   explicit PairProcessor(const Parameters& parameters, Log log = Log());
@@ -46,6 +47,11 @@ class PairProcessor {
   /// Checks a pair, converts it to grey and rectifies it. It is valid until the next call. Throws
   /// InputError on images that cannot be used.
   StereoPair convert(const ReceivedPair& received);
+
+  /// Takes over what was requested so far, for the next call of process(). Returns whether there is
+  /// a new request for a reset. To be called before the mount is looked up: after a reset, a new
+  /// one may be used.
+  bool takeRequests();
 
   PairAnswer process(const StereoPair& pair, const PairContext& context);
 
@@ -99,6 +105,8 @@ class PairProcessor {
   // to the last pair, if every part of it was known.
   Eigen::Isometry3d T_base_camera_known_ = Eigen::Isometry3d::Identity();
   std::optional<Eigen::Isometry3d> T_known_last_;
+
+  Requests taken_;  // for the next pair
 
   std::mutex requests_mutex_;
   Requests requests_;

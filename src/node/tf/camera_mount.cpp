@@ -61,14 +61,15 @@ CameraMount::CameraMount(const std::string& base_frame, double timeout_s, TfFeed
       base_frame_(base_frame),
       timeout_s_(timeout_s),
       feed_(std::move(feed)),
-      listener_(feed_(buffer_)) {}
+      buffer_(std::make_unique<tf2::BufferCore>()),
+      listener_(feed_(*buffer_)) {}
 
 std::optional<Eigen::Isometry3d> CameraMount::find(const std::string& camera_frame,
                                                    std::int64_t stamp_ns) {
   if (camera_frame != camera_frame_) lookFor(camera_frame);
   if (fixed_) return T_base_camera_;
   const ros::Time stamp = toRosTime(stamp_ns);
-  if (stamp < last_stamp_) buffer_.clear();  // a time jump: tf refuses what is older than it has
+  if (stamp < last_stamp_) buffer_->clear();  // a time jump: tf refuses what is older than it has
   last_stamp_ = stamp;
   try {
     const Eigen::Isometry3d T = lookUp(stamp);
@@ -86,12 +87,20 @@ std::optional<Eigen::Isometry3d> CameraMount::find(const std::string& camera_fra
   return T_base_camera_;
 }
 
+void CameraMount::lookAgain() {
+  listener_.reset();
+  buffer_ = std::make_unique<tf2::BufferCore>();  // it never forgets static transforms
+  const std::string frame = std::exchange(camera_frame_, "");
+  if (!frame.empty()) lookFor(frame);
+  previous_frame_.clear();
+}
+
 void CameraMount::lookFor(const std::string& camera_frame) {
   previous_frame_ = std::exchange(camera_frame_, camera_frame);
   T_base_camera_.reset();
   fixed_ = moves_ = false;
   waits_ = true;
-  if (!listener_) listener_ = feed_(buffer_);
+  if (!listener_) listener_ = feed_(*buffer_);
 }
 
 /// Throws std::exception if tf does not have the mount.
@@ -102,9 +111,9 @@ Eigen::Isometry3d CameraMount::lookUp(const ros::Time& stamp) {
   if (latest.header.stamp.isZero()) return fix(T_latest);
   watchMovement(T_latest);
   if (stamp > latest.header.stamp && (waits_ || moves_)) {
-    waits_ = waitForTransform(buffer_, base_frame_, camera_frame_, stamp, timeout_s_);
+    waits_ = waitForTransform(*buffer_, base_frame_, camera_frame_, stamp, timeout_s_);
   }
-  const bool exact = moves_ || buffer_.canTransform(base_frame_, camera_frame_, stamp);
+  const bool exact = moves_ || buffer_->canTransform(base_frame_, camera_frame_, stamp);
   return exact ? toEigen(transformAt(stamp).transform) : T_latest;
 }
 
@@ -149,7 +158,7 @@ void CameraMount::onMissing(const std::string& why) {
 }
 
 geometry_msgs::TransformStamped CameraMount::transformAt(const ros::Time& stamp) const {
-  return buffer_.lookupTransform(base_frame_, camera_frame_, stamp);
+  return buffer_->lookupTransform(base_frame_, camera_frame_, stamp);
 }
 
 std::string describeMount(const Eigen::Isometry3d& T_base_camera) {

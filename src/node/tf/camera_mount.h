@@ -18,7 +18,8 @@ namespace rotrocc {
 
 /// Pose of the camera on the robot, from tf.
 ///
-/// A mount from /tf_static alone is looked up once, and then tf is no longer listened to. Other
+/// A mount from /tf_static alone is looked up once, and then tf is no longer listened to, until
+/// lookAgain(): a mount that changes without it would look like a motion of the camera. Other
 /// mounts are looked up at each stamp, and late transforms are waited for. If one does not come in
 /// time, a mount that has not moved so far is assumed at rest, and no longer waited for until it
 /// moves.
@@ -35,6 +36,9 @@ class CameraMount {
   /// T_base_camera at a stamp; nothing if tf does not have it. Logs the camera pose, that it moves,
   /// a new camera frame and, after repeated calls, the missing frames.
   std::optional<Eigen::Isometry3d> find(const std::string& camera_frame, std::int64_t stamp_ns);
+
+  /// The next find() looks the mount up again, also a fixed one, as it is after a new calibration.
+  void lookAgain();
 
   /// The transform that find() is missing, in one sentence; empty if found.
   const std::string& missing() const { return missing_; }
@@ -65,7 +69,7 @@ class CameraMount {
   std::optional<std::chrono::steady_clock::time_point> missing_since_;
   Throttle warning_{std::chrono::seconds(5)};
   Throttle change_warning_{std::chrono::seconds(5)};
-  tf2::BufferCore buffer_;
+  std::unique_ptr<tf2::BufferCore> buffer_;
   std::shared_ptr<void> listener_;  // until a fixed mount is found
 };
 

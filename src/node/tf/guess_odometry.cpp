@@ -26,17 +26,29 @@ std::optional<Eigen::Isometry3d> GuessOdometry::motionTo(std::int64_t stamp_ns) 
   auto current = pose(stamp_ns);
   // After misses, waits only if the last transform did come, and not at each pair: waiting would
   // delay all of them.
-  if (!current && backoff_.waits() && (!backoff_.hasBegun() || pose(*last_stamp_ns_)) &&
+  if (!current && backoff_.waits() &&
+      (!backoff_.hasBegun() || T_guess_last_ || pose(*last_stamp_ns_)) &&
       waitForTransform(buffer_, guess_frame_, base_frame_, toRosTime(stamp_ns), timeout_s_)) {
     current = pose(stamp_ns);
   }
-  const auto last = pose(*last_stamp_ns_);
-  if (!current || !last) {
+  if (!T_guess_last_) T_guess_last_ = pose(*last_stamp_ns_);
+  if (!current || !T_guess_last_) {
     onMiss(current ? *last_stamp_ns_ : stamp_ns);
     return std::nullopt;
   }
   onMotion();
-  return last->inverse() * *current;
+  return T_guess_last_->inverse() * *current;
+}
+
+void GuessOdometry::setLast(std::int64_t stamp_ns) {
+  last_stamp_ns_ = stamp_ns;
+  T_guess_last_ = pose(stamp_ns);
+}
+
+void GuessOdometry::clear() {
+  buffer_.clear();
+  last_stamp_ns_.reset();
+  T_guess_last_.reset();
 }
 
 std::optional<Eigen::Isometry3d> GuessOdometry::pose(std::int64_t stamp_ns) const {

@@ -32,12 +32,12 @@ class GuessOdometry {
   GuessOdometry(const GuessOdometry&) = delete;
   GuessOdometry& operator=(const GuessOdometry&) = delete;
 
-  /// Motion of the base T_last_cur from the stamp of setLast() to a later one; nothing, and a miss,
-  /// if tf does not have it in time.
+  /// Motion of the base T_last_cur from the stamp of setLast() to a later one, however long ago
+  /// that is; nothing, and a miss, if tf does not have it in time.
   std::optional<Eigen::Isometry3d> motionTo(std::int64_t stamp_ns);
 
   /// The pair from which the next motion is asked for.
-  void setLast(std::int64_t stamp_ns) { last_stamp_ns_ = stamp_ns; }
+  void setLast(std::int64_t stamp_ns);
 
   /// T_guess_base at a stamp, if tf already has it.
   std::optional<Eigen::Isometry3d> pose(std::int64_t stamp_ns) const;
@@ -47,7 +47,7 @@ class GuessOdometry {
   std::uint64_t misses() const { return misses_; }
 
   /// Discards transforms from before a time jump.
-  void clear() { buffer_.clear(); }
+  void clear();
 
  private:
   void onMiss(std::int64_t stamp_ns);
@@ -59,6 +59,8 @@ class GuessOdometry {
   std::string base_frame_;
   double timeout_s_;
   std::optional<std::int64_t> last_stamp_ns_;
+  /// The pose at that stamp, as soon as tf has it: tf forgets it after 10 s.
+  std::optional<Eigen::Isometry3d> T_guess_last_;
   std::string trouble_;
   std::uint64_t misses_ = 0;
   MissBackoff backoff_{kRetryPairs};

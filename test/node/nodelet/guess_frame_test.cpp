@@ -43,6 +43,40 @@ TEST(GuessFrameTest, IfItIsMissingThatIsToldCountedAndTriedAgain) {
   EXPECT_TRUE(diagnostics.says("stereo_odometry: tf", "no conflict"));
 }
 
+/// The images are away for longer than tf2 remembers, while the wheels go on.
+TEST(GuessFrameTest, TheBaseMovesByItThroughALongGap) {
+  // The stamps run faster than the clock.
+  NodeletDrive drive(
+      {{"guess_frame", "wheel_odom"}, {"guess_timeout_s", 1.0}, {"max_future_s", 1000.0}});
+  drive.setUp();
+  tf2_ros::TransformBroadcaster wheels;
+  double way_m = 0.0;
+  const auto see = [&] {
+    const auto images = drive.robot.see();
+    way_m += SimulatedRobot::kStep_m;
+    wheels.sendTransform(wheelOdometry(images.first.header.stamp, way_m));
+    return images;
+  };
+  double start_m = 0.0, found_m = 0.0;
+  EXPECT_TRUE(waitUntil([&] {  // the tf of the wheels is connected
+    const auto [left, right] = see();
+    drive.robot.publish(left, right);
+    const bool misses = drive.statusOf(left.header.stamp).guess_misses > 0;
+    found_m = drive.odometryOf(left.header.stamp).pose.pose.position.x;
+    start_m = way_m;
+    return !misses && found_m > 0.0;
+  }));
+  for (int i = 0; i < 120; ++i) see();
+  ros::Time stamp;
+  for (int i = 0; i < 2; ++i) {  // a stamp far ahead is used when the next one follows it
+    const auto [left, right] = see();
+    stamp = left.header.stamp;
+    drive.robot.publish(left, right);
+  }
+  const double after_m = drive.odometryOf(stamp).pose.pose.position.x;
+  EXPECT_NEAR(after_m - found_m, way_m - start_m, 0.05) << "one of the pairs was seen";
+}
+
 TEST(GuessFrameTest, BaseHasOneParentOnly) {
   const RunningNodelet inverted({{"invert_tf", true}},
                                 "/inverted",

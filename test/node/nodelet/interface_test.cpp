@@ -360,5 +360,30 @@ TEST_F(InterfaceTest, DiagnosticsHaveEachPart) {
   }
 }
 
+/// One bad image of a camera with 10 bits: before, all later ones had four grey levels.
+TEST(SixteenBitTest, ABadImageCostsNoOtherPair) {
+  NodeletDrive drive;
+  drive.setUp();
+  const auto to10Bits = [](sensor_msgs::Image& image) {
+    std::vector<std::uint8_t> wide;
+    for (const std::uint8_t level : image.data) {
+      wide.push_back(static_cast<std::uint8_t>(level << 2));
+      wide.push_back(static_cast<std::uint8_t>(level >> 6));
+    }
+    image.data = wide;
+    image.step *= 2;
+    image.encoding = "mono16";
+  };
+  for (int pair = 0; pair < 3; ++pair) drive.statusOf(drive.robot.drive(to10Bits));
+  drive.statusOf(drive.robot.drive([&](sensor_msgs::Image& image) {
+    to10Bits(image);
+    std::fill(image.data.begin(), image.data.end(), 255);
+  }));
+  for (int pair = 0; pair < 3; ++pair) {
+    const OdometryStatus status = drive.statusOf(drive.robot.drive(to10Bits));
+    EXPECT_EQ(status.state, OdometryStatus::OK) << status.reason;
+  }
+}
+
 }  // namespace
 }  // namespace rotrocc

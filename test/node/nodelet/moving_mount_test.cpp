@@ -1,6 +1,7 @@
 // The mount and the frame of the camera: one that moves on a robot at rest, and another one in its
 // place.
 
+#include <std_srvs/Trigger.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
@@ -82,6 +83,31 @@ TEST(CameraFrameTest, IsThatOfTheLeftImageUnlessAParameterNamesIt) {
   drive.setUp();
   drive.statusOf(drive.robot.drive(leaveOut));
   EXPECT_EQ(drive.statusOf(drive.robot.drive(leaveOut)).state, OdometryStatus::OK);
+}
+
+/// The mount is calibrated while the odometry runs: the camera looks to the left.
+TEST(MovingMountTest, AResetTakesANewFixedMount) {
+  NodeletDrive drive;
+  drive.setUp();
+  const auto position = [&] { return drive.odometryOf(drive.robot.drive()).pose.pose.position; };
+  EXPECT_TRUE(waitUntil([&] { return position().x > 1.0; }));
+  geometry_msgs::TransformStamped mount;
+  mount.header.frame_id = "base_link";
+  mount.child_frame_id = "camera_left";
+  mount.transform.rotation.x = -M_SQRT1_2;
+  mount.transform.rotation.w = M_SQRT1_2;
+  tf2_ros::StaticTransformBroadcaster broadcaster;
+  broadcaster.sendTransform(mount);
+  EXPECT_LT(std::abs(position().y), 0.1) << "not before";
+  std_srvs::Trigger reset;
+  ASSERT_TRUE(drive.services.call("reset", reset));
+  geometry_msgs::Point last;
+  EXPECT_TRUE(waitUntil([&] {
+    drive.robot.drive();
+    last = position();
+    return last.y > 1.0;
+  }));
+  EXPECT_LT(std::abs(last.x), 0.1);
 }
 
 }  // namespace

@@ -1,0 +1,69 @@
+// What is published while the motion is lost.
+
+#include <tf2_msgs/TFMessage.h>
+
+#include "nodelet_drive.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr std::chrono::milliseconds kSoon(200);
+
+void makeBlack(sensor_msgs::Image& image) {
+  std::fill(image.data.begin(), image.data.end(), 0);
+}
+
+/// Stamps of the transforms of the odometry.
+class TfStamps {
+ public:
+  bool has(const ros::Time& stamp) {
+    queue_.callAvailable();
+    return stamps_.count(stamp) > 0;
+  }
+
+ private:
+  ros::CallbackQueue queue_;
+  std::map<ros::Time, int> stamps_;
+  ros::Subscriber subscriber_ = [this] {
+    ros::NodeHandle nh;
+    nh.setCallbackQueue(&queue_);
+    const boost::function<void(const tf2_msgs::TFMessage::ConstPtr&)> keep =
+        [this](const tf2_msgs::TFMessage::ConstPtr& message) {
+          ++stamps_[message->transforms.front().header.stamp];
+        };
+    return nh.subscribe<tf2_msgs::TFMessage>("/tf", 100, keep);
+  }();
+};
+
+TEST(WhileLostTest, WhatIsPublishedIsWhatIsAskedFor) {
+  for (const std::string while_lost : {"hold", "silent", "null"}) {
+    SCOPED_TRACE(while_lost);
+    NodeletDrive drive({{"while_lost", while_lost}});
+    TfStamps tf;
+    drive.setUp();
+    ros::Time stamp;
+    EXPECT_TRUE(waitUntil([&] {
+      stamp = drive.robot.drive();
+      return drive.odometryOf(stamp).pose.pose.position.x > 1.0 && tf.has(stamp);
+    }));
+    const double held_m = drive.odometryOf(stamp).pose.pose.position.x;
+    const ros::Time lost = drive.robot.drive(makeBlack);
+    EXPECT_EQ(drive.statusOf(lost).state, OdometryStatus::LOST);
+    EXPECT_EQ(tf.has(lost), while_lost == "hold");
+    const auto odometry = drive.robot.odometryOf(lost, kSoon);
+    ASSERT_EQ(odometry.has_value(), while_lost != "silent");
+    if (odometry) {
+      const bool is_null = while_lost == "null";
+      EXPECT_EQ(odometry->pose.pose.position.x, is_null ? 0.0 : held_m);
+      EXPECT_EQ(odometry->pose.covariance[0] == 9999.0, is_null);
+      EXPECT_EQ(odometry->twist.covariance[0], 9999.0);
+      EXPECT_EQ(odometry->header.frame_id, "odom");
+    }
+    stamp = drive.robot.drive();
+    EXPECT_GT(drive.odometryOf(stamp).pose.pose.position.x, held_m);
+    EXPECT_TRUE(tf.has(stamp));
+  }
+}
+
+}  // namespace
+}  // namespace rotrocc
