@@ -34,10 +34,10 @@ class VisualOdometry {
   VisualOdometry& operator=(VisualOdometry&&) noexcept;
 
   /// Estimates the motion since the previous pair. Never throws. The state is lost, with a reason,
-  /// on: images that are empty, not CV_8UC1, of different sizes or not of the camera's size; an
-  /// invalid camera; a stamp that does not increase; errors inside OpenCV or Ceres. The state is
-  /// initialising on the first pair, on images of another size, a calibration that changes by more
-  /// than a thousandth, and after a gap of more than max_gap_s.
+  /// on: images that are empty, not CV_8UC1, of different sizes or not of the camera's size, or
+  /// masks that are not; an invalid camera; a stamp that does not increase; errors inside OpenCV or
+  /// Ceres. The state is initialising on the first pair, on images of another size, a calibration
+  /// that changes by more than a thousandth, and after a gap of more than max_gap_s.
   ///
   /// `expected` is the motion T_prev_cur measured by another sensor, if any. It replaces the motion
   /// model's prediction as the start of tracking.

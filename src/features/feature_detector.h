@@ -25,9 +25,9 @@ class FeatureDetector {
   explicit FeatureDetector(const Config& config);
 
   /// Finds at most max_features times `candidates` corners of `image` (CV_8UC1), at integer pixels
-  /// that the mask does not exclude.
-  /// The image has about max_features cells. The strongest corners of all cells come first, then
-  /// the second strongest of all cells, and so on. Returns none if the image is too small.
+  /// that the mask does not exclude. The image has about max_features cells. The strongest corners
+  /// of all cells come first, then the second strongest of all cells, and so on. Returns none if
+  /// the image is too small.
   void detect(Workers& workers,
               const cv::Mat& image,
               std::vector<cv::Point2f>& corners,
