@@ -4,9 +4,12 @@
 #include <cmath>
 #include <cstddef>
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <opencv2/core.hpp>
 
 #include "common/median.h"
+#include "motion/consensus_motion.h"
 #include "motion/outlier_rejection.h"
 #include "motion/reprojection_error.h"
 #include "rotrocc/rigid_motion.h"
@@ -50,6 +53,11 @@ constexpr double kMinInformation = 0.15;
 /// the median depth if that is more.
 constexpr double kMaxSigma = 0.05;
 
+/// Features with a larger error contradict a motion. Those that are only inexact have a smaller
+/// one.
+constexpr double kContradiction_px = 2.0;
+/// What is this many times as deep is behind.
+constexpr double kBehind = 2.0;
 /// The share of kMaxCompetitors that is enough for features behind the others.
 constexpr double kShareBehind = 0.5;
 /// Noise of the flow in any image of a camera. Only what is drawn, or left by compression, is more
@@ -57,6 +65,13 @@ constexpr double kShareBehind = 0.5;
 constexpr double kMinNoise_px = 0.005;
 /// A smaller share of inliers is not all features but some mismatches.
 constexpr double kUnanimousShare = 0.95;
+
+/// The smallest eigenvalue of part v = lambda whole v.
+double leastShare(const Matrix6d& part, const Matrix6d& whole) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> shares(
+      part, whole, Eigen::EigenvaluesOnly | Eigen::Ax_lBx);
+  return shares.info() == Eigen::Success ? std::clamp(shares.eigenvalues()[0], 0.0, 1.0) : 0.0;
+}
 
 /// The smaller number of inliers of the two stages: both parts of the motion need enough of them.
 int inliers(const MotionEstimator::Estimate& estimate) {
@@ -164,16 +179,28 @@ std::string MotionCheck::whyDegraded(const Hypothesis& accepted, const Matrix6d&
 /// Whether many features agree on another motion. Then it may be that of an object that fills the
 /// image. Fewer are enough if they are behind the inliers, as what an object hides.
 std::string MotionCheck::whyAmbiguous(const Hypothesis& accepted) {
-  const double many = kMaxCompetitors * static_cast<double>(accepted.features.size());
+  const Correspondences& features = accepted.features;
+  const MotionEstimator::Estimate& estimate = accepted.estimate;
+  reprojectionErrors(accepted.camera, features, estimate.T_keyframe_cur, errors_px_);
+  others_.clear();
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (errors_px_[i] > kContradiction_px) others_.push_back(features[i]);
+  }
+  const double many = kMaxCompetitors * static_cast<double>(features.size());
   const int min_count =
       std::max(config_.min_inliers, static_cast<int>(std::ceil(kShareBehind * many)));
-  const auto [count, are_behind] = evidence_.competitors(accepted.camera,
-                                                         accepted.features,
-                                                         accepted.estimate.T_keyframe_cur,
-                                                         accepted.estimate.rotation_inliers,
-                                                         min_count);
-  if (count == 0 || (!are_behind && count < many)) return "";
-  return cv::format("another motion fits %d of the %zu features", count, accepted.features.size()) +
+  if (static_cast<int>(others_.size()) < min_count) return "";
+  const auto competitor = consensusMotion(accepted.camera, others_);
+  if (!competitor) return "";
+  reprojectionErrors(accepted.camera, others_, *competitor, errors_px_);
+  set_.resize(others_.size());
+  keepBelow(errors_px_, kContradiction_px, set_);
+  const int agree = count(set_);
+  if (agree < min_count) return "";
+  const bool are_behind =
+      medianDepth(others_, set_) > kBehind * medianDepth(features, estimate.rotation_inliers);
+  if (!are_behind && agree < many) return "";
+  return cv::format("another motion fits %d of the %zu features", agree, features.size()) +
          (are_behind ? ", which are behind the others, a share above half of" : ", a share above") +
          cv::format(" %g: one of the two is that of a large object", kMaxCompetitors);
 }
@@ -181,19 +208,55 @@ std::string MotionCheck::whyAmbiguous(const Hypothesis& accepted) {
 /// Whether few inliers determine the motion, and other features contradict them. It may be that of
 /// a wrong match then.
 std::string MotionCheck::whyFewDetermine(const Hypothesis& accepted) {
-  const double share =
-      evidence_.informationShare({accepted.camera, accepted.features, noise_ratio_},
-                                 accepted.estimate.T_keyframe_cur,
-                                 accepted.estimate.translation_inliers);
+  const double share = informationShare(accepted);
   if (share >= kMinInformation) return "";
   return cv::format("the inliers but one have a share of %g of the information", share) +
          cv::format(" about a part of the motion, less than %g", kMinInformation) +
          ": few features determine it";
 }
 
+/// The smallest share, over all directions of the six-dimensional motion, of the Fisher information
+/// of all features that the inliers have, without the inlier of greatest leverage. In [0, 1]; 0 if
+/// these features do not determine the motion.
+///
+/// If it is small, the motion depends on one feature, or other features contradict those that
+/// determine it. The inliers fit it nevertheless, and their residuals are as small as usual.
+double MotionCheck::informationShare(const Hypothesis& accepted) {
+  fitAt({accepted.camera, accepted.features, noise_ratio_}, accepted.estimate.T_keyframe_cur, fit_);
+  const auto informationOf = [&](const FeatureSet& set) -> Matrix6d {
+    problem_.assign(accepted.camera, fit_, set);
+    return problem_.normalMatrix(problem_.start()).topLeftCorner<6, 6>();
+  };
+  set_.assign(accepted.features.size(), 1);
+  const Matrix6d of_all = informationOf(set_);
+  // They stay in the problem.
+  const Matrix6d of_inliers = informationOf(accepted.estimate.translation_inliers);
+  const Eigen::LLT<Matrix6d> determined(of_inliers);
+  if (determined.info() != Eigen::Success) return 0.0;
+  const Matrix6d covariance = determined.solve(Matrix6d::Identity());
+  double max_leverage = 0.0;
+  Eigen::Matrix<double, 2, 6> of_most = Eigen::Matrix<double, 2, 6>::Zero();
+  problem_.linearise(problem_.start(), [&](const ReprojectionProblem<6>::Term& term) {
+    const double leverage = (term.jacobian * covariance).cwiseProduct(term.jacobian).sum();
+    if (leverage <= max_leverage) return;
+    max_leverage = leverage;
+    of_most = term.jacobian;
+  });
+  return leastShare(of_inliers - of_most.transpose() * of_most, of_all);
+}
+
+/// The median depth [m] of the features of a set that is not empty, in the current frame.
+double MotionCheck::medianDepth(const Correspondences& features, const FeatureSet& set) {
+  depths_m_.clear();
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (set[i] != 0) depths_m_.push_back(features[i].point_cur.z());
+  }
+  return median(depths_m_);
+}
+
 std::string MotionCheck::whyUndetermined(const Hypothesis& accepted, const Matrix6d& covariance) {
   const MotionEstimator::Estimate& estimate = accepted.estimate;
-  const double depth_m = evidence_.medianDepth(accepted.features, estimate.rotation_inliers);
+  const double depth_m = medianDepth(accepted.features, estimate.rotation_inliers);
   const double step_m =
       std::max(estimate.T_keyframe_cur.translation().norm(), kShortStep * depth_m);
   const double sigma_m = std::sqrt(covariance.topLeftCorner<3, 3>().trace());

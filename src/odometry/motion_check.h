@@ -3,9 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "motion/fitted_feature.h"
 #include "motion/motion_estimator.h"
-#include "motion/motion_evidence.h"
+#include "motion/reprojection_problem.h"
 #include "odometry/hypothesis.h"
+#include "rotrocc/correspondence.h"
 #include "rotrocc/odometry_config.h"
 #include "rotrocc/uncertain_transform.h"
 
@@ -50,11 +52,18 @@ class MotionCheck {
   std::string whyAmbiguous(const Hypothesis& accepted);
   std::string whyFewDetermine(const Hypothesis& accepted);
   std::string whyUndetermined(const Hypothesis& accepted, const Matrix6d& covariance);
+  double informationShare(const Hypothesis& accepted);
+  double medianDepth(const Correspondences& features, const FeatureSet& set);
 
   Config config_;
   double noise_ratio_;
-  MotionEvidence evidence_;
-  std::vector<double> flow_px_, inlier_flow_px_;  // buffers, reused
+
+  // Buffers, reused.
+  Correspondences others_;
+  FeatureSet set_;
+  std::vector<double> errors_px_, depths_m_, flow_px_, inlier_flow_px_;
+  Fit fit_;
+  ReprojectionProblem<6> problem_;
 };
 
 }  // namespace rotrocc

@@ -128,21 +128,17 @@ void MotionSearch::estimate(const Frames& frames,
 }
 
 void MotionSearch::calibrate(const Frames& frames,
-                             const StereoCamera& camera,
-                             StereoCalibrator& calibrator,
+                             RigEstimate& rig,
                              Hypothesis& found,
                              StageTimes& times) {
   const StageTimer timer(times.estimation_ms);
-  const MotionEstimator::Estimate& estimated = found.estimate;
-  consistent_.assign(found.features.size(), 1);
-  calibrator.observe(
-      found.camera, found.features, consistent_, estimated.T_keyframe_cur, found.shared_ratio);
-  const StereoCamera corrected = calibrator.correct(camera);
+  rig.observeBias(found);
+  const StereoCamera corrected = rig.correctedCamera();
   if (std::abs(corrected.cx_right - found.camera.cx_right) < kCalibrationSettled_px) return;
   recalibrated_ = found;
   recalibrated_.camera = corrected;
   triangulate(corrected, recalibrated_.features);
-  const Eigen::Isometry3d T_found = estimated.T_keyframe_cur;
+  const Eigen::Isometry3d T_found = found.estimate.T_keyframe_cur;
   estimate(frames, T_found, MotionEstimator::Prediction{T_found, frames.dt_s}, recalibrated_);
   if (recalibrated_.isAccepted()) std::swap(found, recalibrated_);
 }

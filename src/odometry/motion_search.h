@@ -10,7 +10,7 @@
 #include "motion/motion_estimator.h"
 #include "odometry/hypothesis.h"
 #include "odometry/motion_check.h"
-#include "rig/stereo_calibrator.h"
+#include "odometry/rig_estimate.h"
 #include "rotrocc/odometry_config.h"
 #include "rotrocc/odometry_result.h"
 #include "rotrocc/stereo_camera.h"
@@ -57,15 +57,9 @@ class MotionSearch {
   /// not.
   std::optional<Start> recognize(const Frames& frames, StageTimes& times);
 
-  /// Passes the found motion to the calibrator. If this changes the applied bias, estimates the
-  /// motion once more, and keeps it unless it is lost. `camera` is the camera without correction.
-  /// The calibrator gets all consistent features: the inliers of a motion with a wrong bias are
-  /// those that agree with this bias.
-  void calibrate(const Frames& frames,
-                 const StereoCamera& camera,
-                 StereoCalibrator& calibrator,
-                 Hypothesis& found,
-                 StageTimes& times);
+  /// Measures the disparity bias at the found motion. If this changes the applied bias, estimates
+  /// the motion once more, and keeps it unless it is lost.
+  void calibrate(const Frames& frames, RigEstimate& rig, Hypothesis& found, StageTimes& times);
 
  private:
   void tryMotion(const Frames& frames,
@@ -85,8 +79,7 @@ class MotionSearch {
   DescriptorMatcher descriptors_;
 
   Hypothesis tried_;         // the latest, reused
-  Hypothesis recalibrated_;  // buffers of calibrate(), reused
-  FeatureSet consistent_;
+  Hypothesis recalibrated_;  // buffer of calibrate(), reused
   Correspondences recognized_;
 };
 

@@ -1,5 +1,7 @@
 #include "odometry/rig_estimate.h"
 
+#include "motion/shared_error.h"
+
 namespace rotrocc {
 namespace {
 
@@ -10,14 +12,15 @@ constexpr double kSameCamera = 1e-5;
 }  // namespace
 
 RigEstimate::RigEstimate(const OdometryConfig& config)
-    : corrects_(config.stereo_calibrator.enabled),
-      calibrator_(config.stereo_calibrator, config.motion_estimator.robust_factor),
+    : config_(config.stereo_calibrator),
+      meter_(config.motion_estimator.robust_factor),
       shared_errors_(config.motion_estimator),
       row_search_(config.correspondence_finder) {}
 
 void RigEstimate::configure(const OdometryConfig& config) {
-  corrects_ = config.stereo_calibrator.enabled;
-  calibrator_.configure(config.stereo_calibrator, config.motion_estimator.robust_factor);
+  config_ = config.stereo_calibrator;
+  if (!config_.enabled) resetBias();
+  meter_ = BiasMeter(config.motion_estimator.robust_factor);
   shared_errors_.configure(config.motion_estimator);
   row_search_ = RowSearch(config.correspondence_finder);
 }
@@ -26,26 +29,65 @@ bool RigEstimate::setCamera(const StereoCamera& camera) {
   const bool is_same = camera_.differenceTo(camera) < kSameCamera;
   camera_ = camera;
   if (is_same) return true;
-  calibrator_.reset();
+  resetBias();
   shared_errors_.reset();
   rows_.reset();
   time_skew_.reset();
   return false;
 }
 
+void RigEstimate::resetBias() {
+  past_ = filter_ = BiasFilter();
+  motion_by_bias_.setZero();
+}
+
+StereoCamera RigEstimate::correctedCamera() const {
+  StereoCamera corrected = camera_;
+  corrected.cx_right += bias().applied_px;
+  return corrected;
+}
+
+DisparityBias RigEstimate::bias() const {
+  DisparityBias bias = filter_.bias();
+  bias.estimated_px += config_.bias_px;
+  bias.applied_px += config_.bias_px;
+  return bias;
+}
+
+Matrix6d RigEstimate::motionCovariance() const {
+  const DisparityBias bias = this->bias();
+  const double left_px = bias.estimated_px - bias.applied_px;
+  const double variance = bias.sigma_px * bias.sigma_px + left_px * left_px;
+  return variance * motion_by_bias_ * motion_by_bias_.transpose();
+}
+
 /// The row offset of the right image that is corrected, if the rig is calibrated.
 double RigEstimate::correctedRows() const {
-  return corrects_ ? rows_.offset().applied_px : 0.0;
+  return config_.enabled ? rows_.offset().applied_px : 0.0;
 }
 
 void RigEstimate::startKeyframe(Keyframe& keyframe) {
-  calibrator_.advance();
+  past_ = filter_;
   shared_errors_.advance();
   if (!rows_.isKnown()) {
     row_search_.search(correctedCamera(), keyframe, searched_rows_px_);
     rows_.observe(searched_rows_px_);
   }
   keyframe.row_offset_px = correctedRows();
+}
+
+void RigEstimate::observeBias(const Hypothesis& found) {
+  if (!config_.enabled) return;
+  motion_by_bias_.setZero();
+  auto measurement = meter_.measure(found.camera,
+                                    found.features,
+                                    found.estimate.T_keyframe_cur,
+                                    kSmoothShare * found.shared_ratio);
+  if (!measurement) return;
+  motion_by_bias_ = measurement->motion_by_bias;
+  measurement->bias_px += bias().applied_px - config_.bias_px;
+  filter_ = past_;
+  filter_.add(*measurement);
 }
 
 void RigEstimate::observe(const Hypothesis& found,
@@ -61,7 +103,7 @@ void RigEstimate::observe(const Hypothesis& found,
 }
 
 void RigEstimate::report(OdometryResult& result) const {
-  result.disparity_bias = calibrator_.bias();
+  result.disparity_bias = bias();
   result.row_offset = rows_.offset();
   result.row_offset.applied_px = correctedRows();
   result.time_skew = time_skew_.skew();

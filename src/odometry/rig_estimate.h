@@ -6,8 +6,9 @@
 #include "features/stereo_frame.h"
 #include "motion/shared_error_estimator.h"
 #include "odometry/hypothesis.h"
+#include "rig/bias_filter.h"
+#include "rig/bias_meter.h"
 #include "rig/row_comparison.h"
-#include "rig/stereo_calibrator.h"
 #include "rig/time_skew_estimator.h"
 #include "rotrocc/odometry_config.h"
 #include "rotrocc/odometry_result.h"
@@ -16,8 +17,9 @@
 
 namespace rotrocc {
 
-/// What the features of all pairs so far show of the rig: disparity bias, row offset, time skew and
-/// the errors that neighbouring features share.
+/// What the features of all pairs so far show of the rig: row offset, time skew, the errors that
+/// neighbouring features share, and the disparity bias, a constant error of all disparities caused
+/// by an inexact stereo calibration, or by a rig that moves.
 class RigEstimate {
  public:
   explicit RigEstimate(const OdometryConfig& config);
@@ -32,13 +34,14 @@ class RigEstimate {
   /// The camera as it was passed.
   const StereoCamera& camera() const { return camera_; }
   /// The camera corrected by the disparity bias.
-  StereoCamera correctedCamera() const { return calibrator_.correct(camera_); }
+  StereoCamera correctedCamera() const;
+  DisparityBias bias() const;
 
   /// See Measurements.
   double sharedRatio() const { return shared_errors_.ratio(); }
-  /// Covariance that the uncertainty of the rig adds to that of the last motion.
-  Matrix6d motionCovariance() const { return calibrator_.motionCovariance(); }
-  StereoCalibrator& calibrator() { return calibrator_; }
+  /// Covariance that the uncertainty of the bias adds to that of the last motion, in the order of
+  /// OdometryResult::covariance.
+  Matrix6d motionCovariance() const;
 
   /// Whether the row offset is known. Before, each keyframe adds to what is known of it.
   bool knowsRows() const { return rows_.isKnown(); }
@@ -48,6 +51,11 @@ class RigEstimate {
   /// Measures a new keyframe, whose corners are known, and sets its row offset.
   void startKeyframe(Keyframe& keyframe);
 
+  /// Measures the bias at an accepted motion, whose features have depths of correctedCamera().
+  /// Motions from the same keyframe share its errors: only the last one counts. All features are
+  /// used: the inliers of a motion with a wrong bias are those that agree with this bias.
+  void observeBias(const Hypothesis& found);
+
   /// Adds an accepted motion from the keyframe to the current frame.
   void observe(const Hypothesis& found, const Keyframe& keyframe, const StereoFrame& current);
 
@@ -56,10 +64,14 @@ class RigEstimate {
 
  private:
   double correctedRows() const;
+  void resetBias();
 
-  bool corrects_;
+  StereoCalibratorConfig config_;
   StereoCamera camera_;
-  StereoCalibrator calibrator_;
+  BiasMeter meter_;
+  BiasFilter past_;                             // without the observations of the current keyframe
+  BiasFilter filter_;                           // with the last of them
+  Vector6d motion_by_bias_ = Vector6d::Zero();  // translation, then rotation
   SharedErrorEstimator shared_errors_;
   RowSearch row_search_;
   RowComparison rows_;

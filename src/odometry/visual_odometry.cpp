@@ -336,7 +336,7 @@ bool VisualOdometry::Pipeline::findMotionFrom(const FramePtr& earlier,
     settles(search_.recognize(frames, times));
   }
   if (!found_.isAccepted()) return false;
-  search_.calibrate(frames, rig_.camera(), rig_.calibrator(), found_, times);
+  search_.calibrate(frames, rig_, found_, times);
   return true;
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "motion/outlier_rejection.h"
 #include "motion/shared_error.h"
 
 namespace rotrocc {
@@ -35,14 +34,13 @@ constexpr double kMostSigma_px = 5.0;
 
 std::optional<BiasMeasurement> BiasMeter::measure(const StereoCamera& camera,
                                                   const Correspondences& features,
-                                                  const FeatureSet& set,
                                                   const Eigen::Isometry3d& T_keyframe_cur,
                                                   double smooth_ratio) {
   camera_ = camera;
   T_keyframe_cur_ = T_keyframe_cur;
   parabola_px_ = 0.0;
   smooth_ratio_ = smooth_ratio;
-  select(features, set, features_);
+  features_ = features;
   for (int step = 0; step < kMostSteps && features_.size() >= kLeastFeatures; ++step) {
     const WeightedVariance variance = linearise();
     const Cells cells = eliminateCommon(sumEquations());

@@ -43,10 +43,9 @@ class BiasMeter {
 
   /// Starts at the given motion, with depths as triangulated for `camera`. At the borders of the
   /// image, smooth errors have a standard deviation of `smooth_ratio` times that of a flow; 0:
-  /// there are none. None if the flagged features do not determine a bias, as at standstill.
+  /// there are none. None if the features do not determine a bias, as at standstill.
   std::optional<BiasMeasurement> measure(const StereoCamera& camera,
                                          const Correspondences& features,
-                                         const FeatureSet& set,
                                          const Eigen::Isometry3d& T_keyframe_cur,
                                          double smooth_ratio);
 

@@ -37,7 +37,7 @@ BiasMeasurement measure(const Correspondences& found,
                         const Eigen::Isometry3d& start,
                         double parabola_ratio = 0.0) {
   const auto measurement =
-      BiasMeter(kRobustFactor).measure(kittiCamera(), found, all(found), start, parabola_ratio);
+      BiasMeter(kRobustFactor).measure(kittiCamera(), found, start, parabola_ratio);
   EXPECT_TRUE(measurement);
   return measurement.value_or(BiasMeasurement());
 }
@@ -124,10 +124,10 @@ TEST(BiasMeterTest, StandstillAndFewFeaturesSayNothing) {
   const Eigen::Isometry3d rest = Eigen::Isometry3d::Identity();
   const auto at_rest = features(rest, 5, onePixel);
   BiasMeter meter(kRobustFactor);
-  EXPECT_FALSE(meter.measure(kittiCamera(), at_rest, all(at_rest), rest, 0.0));
+  EXPECT_FALSE(meter.measure(kittiCamera(), at_rest, rest, 0.0));
   Correspondences few = features(ahead(), 4, none);
   few.resize(20);
-  EXPECT_FALSE(meter.measure(kittiCamera(), few, all(few), ahead(), 0.0));
+  EXPECT_FALSE(meter.measure(kittiCamera(), few, ahead(), 0.0));
 }
 
 }  // namespace
