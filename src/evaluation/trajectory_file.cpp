@@ -97,19 +97,19 @@ TrajectoryFile::~TrajectoryFile() {
 }
 
 void TrajectoryFile::add(const StampedPose& pose) {
-  text_ += poseLine(pose, format_);
   if (text_.size() >= kPart_bytes) flush();
+  text_ += poseLine(pose, format_);
 }
 
 void TrajectoryFile::flush() {
-  const std::string text = std::exchange(text_, "");
-  for (std::size_t written = 0; written < text.size();) {
-    const ssize_t count = ::write(descriptor_, text.data() + written, text.size() - written);
+  for (std::size_t written = 0; written < text_.size();) {
+    const ssize_t count = ::write(descriptor_, text_.data() + written, text_.size() - written);
     if (count >= 0) {
       written += static_cast<std::size_t>(count);
     } else if (errno != EINTR) {
       int error = errno;
-      const std::size_t whole_lines = text.substr(0, written).rfind('\n') + 1;
+      const std::size_t whole_lines = text_.substr(0, written).rfind('\n') + 1;
+      text_.erase(0, whole_lines);
       const off_t end =
           ::lseek(descriptor_, 0, SEEK_CUR) - static_cast<off_t>(written - whole_lines);
       // What may be written later begins there too, not after a gap.
@@ -119,6 +119,7 @@ void TrajectoryFile::flush() {
       throw failure(error, "cannot write to " + name_);
     }
   }
+  text_.clear();
 }
 
 void TrajectoryFile::sync() {

@@ -22,7 +22,8 @@ class TrajectoryFile {
   TrajectoryFile(const TrajectoryFile&) = delete;
   TrajectoryFile& operator=(const TrajectoryFile&) = delete;
 
-  /// These throw std::system_error if writing fails, e.g. when the disk is full.
+  /// These throw std::system_error if writing fails, e.g. when the disk is full, and may be called
+  /// again then: nothing is lost or written twice.
   void add(const StampedPose& pose);
   void flush();  ///< hands over all poses to the operating system
   void sync();   ///< waits until they are on the disk

@@ -63,11 +63,17 @@ void TrajectoryStore::add(const StampedPose& pose, bool starts) {
   }
   items_[added_++ % items_.size()] = {pose, trajectory_};
   const std::uint64_t left_out = left_out_;
+  const bool is_told = !fault_.empty();
   lock.unlock();
   changed_.notify_one();
-  if (!leaves_out || !left_out_warning_.pass()) return;
+  if (!leaves_out || is_told || !left_out_warning_.pass()) return;
   log_.warn("trajectory file: the disk of " + path_ + " is too slow, " + std::to_string(left_out) +
             " poses so far are left out");
+}
+
+std::string TrajectoryStore::fault() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return fault_;
 }
 
 /// Of the present trajectory, from the oldest to the latest.
@@ -99,14 +105,45 @@ void TrajectoryStore::work() {
   pthread_setname_np(pthread_self(), "odometry_file");  // for `top -H` and debuggers
   for (;;) {
     const std::vector<Item> items = takeAll();
-    if (items.empty()) return;
-    for (const Item& item : items) write(item);
-    try {
+    if (items.empty()) break;
+    for (const Item& item : items) untilDone([&] { write(item); });
+    untilDone([&] {
       if (file_) file_->flush();
+    });
+  }
+  const std::string why = fault();
+  if (!why.empty()) log_.error("trajectory file: its end is lost: " + why);
+}
+
+/// Tries again after errors, until the store is closed.
+void TrajectoryStore::untilDone(const std::function<void()>& action) {
+  for (;;) {
+    try {
+      action();
+      break;
     } catch (const std::exception& error) {
-      fail(error);
+      if (!waitAfter(error)) return;
     }
   }
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (std::exchange(fault_, "").empty()) return;
+  const std::uint64_t left_out = left_out_;
+  lock.unlock();
+  log_.info("trajectory file: written again, " + std::to_string(left_out) +
+            " poses so far are left out");
+}
+
+/// Returns whether to try again.
+bool TrajectoryStore::waitAfter(const std::exception& error) {
+  constexpr std::chrono::seconds kRetry(1);
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (std::exchange(fault_, error.what()).empty()) {
+    lock.unlock();
+    log_.error(std::string("trajectory file: ") + error.what() +
+               "; the latest poses wait until it can be written");
+    lock.lock();
+  }
+  return !changed_.wait_for(lock, kRetry, [this] { return closed_; });
 }
 
 /// Waits for poses; none if there will be no more.
@@ -121,35 +158,26 @@ std::vector<TrajectoryStore::Item> TrajectoryStore::takeAll() {
 }
 
 void TrajectoryStore::write(const Item& item) {
-  try {
-    const bool begins = !last_ || item.trajectory != last_->trajectory ||
-                        item.pose.stamp_ns <= last_->pose.stamp_ns;
-    if (begins) openNext();
-    if (file_) file_->add(item.pose);
-  } catch (const std::exception& error) {
-    fail(error);
-  }
+  const bool begins = !file_ || !last_ || item.trajectory != last_->trajectory ||
+                      item.pose.stamp_ns <= last_->pose.stamp_ns;
+  if (begins) openNext();
+  file_->add(item.pose);
   last_ = item;
 }
 
 void TrajectoryStore::openNext() {
   if (file_) file_->flush();
-  file_.reset();
-  for (;;) {
-    const std::string path = numberedPath(path_, ++number_);
+  for (int number = number_ + 1;; ++number) {
+    const std::string path = numberedPath(path_, number);
     try {
       file_.emplace(path, format_, path);
+      number_ = number;
       log_.info("trajectory file: " + path);
       return;
     } catch (const std::system_error& error) {
       if (error.code() != std::errc::file_exists) throw;
     }
   }
-}
-
-void TrajectoryStore::fail(const std::exception& error) {
-  log_.error(std::string("trajectory file closed: ") + error.what());
-  file_.reset();
 }
 
 }  // namespace rotrocc

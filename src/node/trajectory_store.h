@@ -2,6 +2,8 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <exception>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -17,10 +19,10 @@ namespace rotrocc {
 /// The poses of the left camera: the latest in memory, to be saved, and with a path each one in a
 /// file.
 ///
-/// A thread of its own writes that file: a slow disk does not delay the odometry. No file is
-/// replaced: a trajectory goes to the next number that is free, as in poses.txt, poses_2.txt,
-/// poses_3.txt. Its stamps increase; a pose that is not later than the one before it begins another
-/// file.
+/// A thread of its own writes that file: a slow disk does not delay the odometry, and while it is
+/// full, the latest poses wait for space. No file is replaced: a trajectory goes to the next number
+/// that is free, as in poses.txt, poses_2.txt, poses_3.txt. Its stamps increase; a pose that is not
+/// later than the one before it begins another file.
 class TrajectoryStore {
  public:
   /// Keeps the latest `max_length` poses of a trajectory for save(). Allocates all memory at once,
@@ -36,8 +38,12 @@ class TrajectoryStore {
   TrajectoryStore& operator=(const TrajectoryStore&) = delete;
 
   /// `starts`: it is the first pose of a trajectory. Does not wait for a disk, nor throw: errors of
-  /// writing go to the log. If the disk is too slow for long, poses are left out of the file.
+  /// writing go to the log. If the disk is too slow or full for long, poses are left out of the
+  /// file.
   void add(const StampedPose& pose, bool starts = false);
+
+  /// Why poses wait, in one sentence; empty if they are written.
+  std::string fault() const;
 
   /// Replaces a file by the poses of the present trajectory; `format` is "tum" or "kitti". Returns
   /// a sentence with the count and the path. Throws std::exception with one sentence if there are
@@ -53,15 +59,16 @@ class TrajectoryStore {
   Trajectory latest() const;
   void work();
   std::vector<Item> takeAll();
+  void untilDone(const std::function<void()>& action);
+  bool waitAfter(const std::exception& error);
   void write(const Item& item);
   void openNext();
-  void fail(const std::exception& error);
 
   Log log_;
   std::size_t max_length_;
   std::string path_;
   TrajectoryFormat format_;
-  Throttle left_out_warning_{std::chrono::seconds(5)};
+  Throttle left_out_warning_{std::chrono::seconds(5), std::chrono::minutes(5)};
 
   mutable std::mutex mutex_;  // of what follows, up to the empty line
   std::condition_variable changed_;
@@ -70,10 +77,11 @@ class TrajectoryStore {
   std::uint64_t taken_ = 0;  // by the thread, or left out
   std::uint64_t left_out_ = 0;
   std::uint64_t trajectory_ = 0;
+  std::string fault_;
   bool closed_ = false;
 
   // Of the thread.
-  std::optional<TrajectoryFile> file_;  // none after an error
+  std::optional<TrajectoryFile> file_;
   std::optional<Item> last_;
   int number_ = 0;
 

@@ -162,7 +162,7 @@ TEST_F(TrajectoryTest, RefusesWhatIsNoTrajectory) {
   expectError<std::runtime_error>([&] { readTimes(times); }, "times.txt:2: the time 0.0");
 }
 
-TEST_F(TrajectoryTest, FileGoesOnAfterAFullDiskWithoutAGap) {
+TEST_F(TrajectoryTest, FileGoesOnAfterAFullDiskWithoutALoss) {
   const std::string path = directory_ / "out.txt";
   TrajectoryFile file(path, TrajectoryFormat::kTum, "out.txt");
   {
@@ -172,10 +172,11 @@ TEST_F(TrajectoryTest, FileGoesOnAfterAFullDiskWithoutAGap) {
   }
   const std::size_t before = readTrajectory(path).size();
   EXPECT_GT(before, 5u);
+  EXPECT_LT(before, 20u);
   file.add(somePose(100));
   file.flush();
   const Trajectory written = readTrajectory(path);
-  ASSERT_EQ(written.size(), before + 1);
+  ASSERT_EQ(written.size(), 51u);
   EXPECT_EQ(written.back().stamp_ns, 100);
 }
 

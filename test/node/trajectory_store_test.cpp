@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "support/log_recorder.h"
 #include "support/read_file.h"
 #include "support/temporary_directory.h"
+#include "support/wait_until.h"
 
 namespace rotrocc {
 namespace {
@@ -155,17 +157,29 @@ TEST_F(TrajectoryStoreTest, ATrajectoryHasAFileOfItsOwnAndReplacesNone) {
   EXPECT_EQ(directory_.files(), 6u);
 }
 
-TEST_F(TrajectoryStoreTest, AFullDiskLeavesWholeLines) {
+TEST_F(TrajectoryStoreTest, OnAFullDiskPosesWaitForSpace) {
   const LogRecorder log;
-  {
-    const FileSizeLimit limit(1000);
-    TrajectoryStore store(1, directory_ / "odom.txt");
-    for (int i = 0; i < 100; ++i) store.add(poseAt(0.1 * i));
+  for (const bool gets_space : {true, false}) {
+    const std::string name = gets_space ? "odom.txt" : "end.txt";
+    std::optional<FileSizeLimit> limit(1000);
+    std::optional<TrajectoryStore> store;
+    store.emplace(1, directory_ / name);
+    for (int i = 0; i < 100; ++i) store->add(poseAt(0.1 * i));
+    const auto fails = [&] { return store->fault().find("cannot write to") == 0; };
+    EXPECT_TRUE(waitUntil(fails));
+    EXPECT_LT(readTrajectory(directory_ / name).size(), 20u) << "whole lines";
+    if (gets_space) {
+      limit.reset();
+      for (int i = 100; i < 200; ++i) store->add(poseAt(0.1 * i), i == 150);
+      EXPECT_TRUE(waitUntil([&] { return store->fault().empty(); }));
+    }
+    store.reset();
   }
-  const Trajectory written = readTrajectory(directory_ / "odom.txt");
-  EXPECT_GT(written.size(), 5u);
-  EXPECT_LT(written.size(), 20u);
-  EXPECT_EQ(log.with("trajectory file closed: cannot write to").size(), 1u);
+  expectLength("odom.txt", 150);
+  expectLength("odom_2.txt", 50);
+  EXPECT_EQ(log.with("the latest poses wait until it can be written").size(), 2u);
+  EXPECT_EQ(log.with("written again, 0 poses", ros::console::levels::Info).size(), 1u);
+  EXPECT_EQ(log.with("its end is lost: cannot write to").size(), 1u);
 }
 
 /// To keep a pose takes some hundredths of the time to write it.
