@@ -20,7 +20,8 @@ void DropLog::log(const InputError& error) {
     return;
   }
   Throttle& throttle =
-      throttles_.try_emplace(error.reason(), std::chrono::seconds(5)).first->second;
+      throttles_.try_emplace(error.reason(), std::chrono::seconds(5), std::chrono::minutes(5))
+          .first->second;
   if (!throttle.pass()) return;
   log_.warn(std::string("dropped (") + toString(error.reason()) + ", " +
             toText(countOf(error.reason())) + " so far): " + error.what());

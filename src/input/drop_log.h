@@ -16,8 +16,8 @@
 
 namespace rotrocc {
 
-/// Counts dropped input by reason and logs it: each reason at most every 5 s, an invalid
-/// camera_info once until there is a valid one. Thread-safe.
+/// Counts dropped input by reason and logs it: each reason at most every 5 s, then more and more
+/// seldom, an invalid camera_info once until there is a valid one. Thread-safe.
 class DropLog {
  public:
   using Counts = std::vector<std::pair<DropReason, std::uint64_t>>;

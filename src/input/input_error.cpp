@@ -22,6 +22,7 @@ const char* const kNames[] = {"image_size",
                               "stamp_future",
                               "stamp_glitch",
                               "no_partner",
+                              "partner_dropped",
                               "newer_pair_came",
                               "paused",
                               "failed"};

@@ -18,12 +18,13 @@ enum class DropReason {
   kFrameMissing,       ///< no frame_id in the left image
   kTfMissing,          ///< no camera pose in tf for a pair
   kStampZero,
-  kStampRepeated,  ///< same as the previous image
-  kStampBackward,  ///< slightly earlier than the previous image
-  kStampFuture,    ///< too far ahead of the clock
-  kStampGlitch,    ///< far from the images before and after
-  kNoPartner,      ///< no image of the other side within max_stamp_difference_s
-  kSuperseded,     ///< a newer pair came while the estimator was busy
+  kStampRepeated,   ///< same as the previous image
+  kStampBackward,   ///< slightly earlier than the previous image
+  kStampFuture,     ///< too far ahead of the clock
+  kStampGlitch,     ///< far from the images before and after
+  kNoPartner,       ///< no image of the other side within max_stamp_difference_s
+  kPartnerDropped,  ///< the image of the other side was dropped for its stamp
+  kSuperseded,      ///< a newer pair came while the estimator was busy
   kPaused,
   kFailed,  ///< internal error
   kCount

@@ -15,8 +15,7 @@ constexpr double kPlausibleSkew_s = 0.05;
 /// In periods. With more, jitter makes neighbours the nearest ones.
 constexpr double kLargeSkew = 0.25;
 constexpr double kLargestSkew = 0.5;
-/// Share and number of images without a partner that are worth a warning.
-constexpr double kManyLost = 0.1;
+/// Images without a partner that are worth a warning, if they are a tenth of all.
 constexpr std::size_t kLeastLost = 5;
 /// A topic is silent after this, and after so many of its periods.
 constexpr double kSilent_s = 1.0;
@@ -98,13 +97,12 @@ std::string whyUnmatched(const InputReport& report) {
 }
 
 std::string whyLost(const InputReport& report) {
-  const auto& [left, right, pairs] = report.together;
-  const std::size_t images = std::max(left, right);
-  if (images < pairs + kLeastLost) return "";
-  const std::size_t lost = images - pairs;
-  if (static_cast<double>(lost) < kManyLost * static_cast<double>(images)) return "";
-  const std::size_t missing = images - std::min(left, right);
-  const TopicReport& fewer = left < right ? report.left_image : report.right_image;
+  const auto& [left, right, pairs] = report.unmatched;
+  const std::size_t lost = std::max(left, right);
+  const std::size_t images = pairs + lost;
+  if (lost < kLeastLost || 10 * lost < images) return "";
+  const std::size_t missing = lost - std::min(left, right);
+  const TopicReport& fewer = left > right ? report.right_image : report.left_image;
   return std::to_string(100 * lost / images) +
          " % of the images have no partner: " + report.left_image.topic + " arrives at " +
          fixedText(report.left_image.rate_hz, 1) + " Hz, " + report.right_image.topic + " at " +

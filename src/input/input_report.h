@@ -24,10 +24,11 @@ struct InputReport {
   std::size_t recent_pairs = 0;
   std::optional<double> pairs_silent_s;  ///< since the last pair; none if there was none
 
-  /// Within TopicStatistics::kWindow, since both images arrive.
+  /// Within TopicStatistics::kWindow, since both images arrive: images without a partner, but for
+  /// those whose partner was dropped, and pairs.
   struct {
-    std::size_t left_images = 0, right_images = 0, pairs = 0;
-  } together;
+    std::size_t left = 0, right = 0, pairs = 0;
+  } unmatched;
 
   std::optional<double> stamp_difference_s;  ///< largest; none while a side is missing
   double max_stamp_difference_s = 0.0;       ///< the parameter
@@ -38,7 +39,7 @@ struct InputReport {
   bool clock_missing = false;                ///< simulated time without /clock
   bool clock_stands = false;                 ///< simulated time stands still
   std::string refused;                       ///< why recent input was dropped; empty if none
-  std::string camera_error;                  ///< why camera_info is invalid although both arrived
+  std::string camera_error;                  ///< why camera_info is invalid or not of the images
   bool waits_for_info = false;               ///< a pair waits for camera_info
 };
 

@@ -14,6 +14,8 @@ constexpr std::chrono::seconds kLastReminder(60);
 constexpr std::chrono::seconds kLeastGap(1);
 constexpr double kUsualIntervals = 4.0;
 constexpr std::size_t kIntervals = 16;
+/// Of the stamps, within less time.
+constexpr std::chrono::seconds kLeastJump(1);
 
 /// "3.1 s", "35 s"
 std::string seconds(std::chrono::duration<double> duration) {
@@ -39,13 +41,19 @@ std::string situationOf(const InputReport& input) {
 SilenceWatch::SilenceWatch(double silence_s, Time now)
     : silence_limit_(silence_s), last_pair_(now), last_return_(now) {}
 
-std::string SilenceWatch::onPair(Time now) {
+std::string SilenceWatch::onPair(std::int64_t stamp_ns, Time now) {
   const Duration silence = now - last_pair_;
+  const bool may_tell = now - last_return_ >= kLeastDistance;
   std::string said;
-  if (told_ || (isGap(silence) && now - last_return_ >= kLeastDistance)) {
+  if (told_ || (isGap(silence) && may_tell)) {
     said = "stereo pairs arrive again, after " + seconds(silence);
-    last_return_ = now;
+  } else if (last_stamp_ns_ && silence < kLeastJump && may_tell &&
+             toSeconds(stamp_ns - *last_stamp_ns_) > Duration(kLeastJump).count()) {
+    said = "time jumped forward from " + stampText(*last_stamp_ns_) + " to " + stampText(stamp_ns) +
+           " s: the odometry goes on at the last pose";
   }
+  if (!said.empty()) last_return_ = now;
+  last_stamp_ns_ = stamp_ns;
   told_ = false;
   last_pair_ = now;
   intervals_.push_back(silence);

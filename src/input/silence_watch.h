@@ -1,15 +1,17 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 
 #include "input/input_report.h"
 
 namespace rotrocc {
 
-/// Reports missing pairs, and their return, for the log; gaps too short for that at their end. Uses
-/// real time: simulated time may stand still. Not thread-safe.
+/// Reports missing pairs, and their return, for the log; gaps too short for that at their end, and
+/// stamps that jump forward. Uses real time: simulated time may stand still. Not thread-safe.
 class SilenceWatch {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -18,8 +20,8 @@ class SilenceWatch {
   SilenceWatch(double silence_s, Time now);
 
   /// Call for every pair. Returns a message if the silence before it was reported, or if it was far
-  /// longer than usual, at most every 5 s; otherwise empty.
-  std::string onPair(Time now);
+  /// longer than usual, or much shorter than the stamps say, at most every 5 s; otherwise empty.
+  std::string onPair(std::int64_t stamp_ns, Time now);
 
   /// Call about once a second. Returns the duration of the silence, the received messages and a
   /// remedy: at its start, when topics or their messages appear or disappear (at most every 5 s),
@@ -34,10 +36,11 @@ class SilenceWatch {
 
   Duration silence_limit_;
   Time last_pair_;
+  std::optional<std::int64_t> last_stamp_ns_;
   std::deque<Duration> intervals_;  // the latest, between pairs
   bool told_ = false;               // this silence was reported
   Time last_told_;
-  Time last_return_;       // that was reported
+  Time last_return_;       // or jump, that was reported
   std::string situation_;  // at the last report
   std::chrono::seconds reminder_{};
 };

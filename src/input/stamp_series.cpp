@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <vector>
 
@@ -70,7 +71,7 @@ std::optional<std::int64_t> commonPeriod_ns(const StampSeries& left, const Stamp
 std::optional<double> greatestStampDifference(const StampSeries& left, const StampSeries& right) {
   if (left.stamps_ns().empty() || right.stamps_ns().empty()) return std::nullopt;
   const std::vector<double> skews_s = skewsNear(0, left, right);
-  if (!skews_s.empty()) return std::max(-skews_s.front(), skews_s.back());
+  if (!skews_s.empty()) return std::max(std::abs(skews_s.front()), std::abs(skews_s.back()));
   std::int64_t nearest_ns = INT64_MAX;
   for (const std::int64_t stamp_ns : left.stamps_ns()) {
     nearest_ns = std::min(nearest_ns, std::abs(toNearest(stamp_ns, right)));

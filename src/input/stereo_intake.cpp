@@ -44,13 +44,18 @@ void StereoIntake::addImage(Side side,
   stream.statistics.add(arrival.time);
   try {
     const StampGuard::Verdict verdict = stream.guard.check(stamp_ns, arrival.clock_ns);
-    if (verdict.glitch) drops_.add(*verdict.glitch);
+    if (verdict.glitch) drop(side, *verdict.glitch);
     const auto held = std::exchange(stream.held, verdict.held ? image : nullptr);
     if (verdict.held_is_valid) match(side, held, arrival);
     if (!verdict.held) match(side, image, arrival);
   } catch (const InputError& error) {
-    drops_.add(error);
+    drop(side, error);
   }
+}
+
+void StereoIntake::drop(Side side, const InputError& error) {
+  drops_.add(error);
+  if (error.reason() != DropReason::kStampRepeated) synchronizer_.excusePartner(side);
 }
 
 void StereoIntake::match(Side side,
@@ -58,6 +63,11 @@ void StereoIntake::match(Side side,
                          const Arrival& arrival) {
   const auto images = synchronizer_.add(side, image, arrival.time);
   drops_.set(DropReason::kNoPartner, synchronizer_.unmatched());
+  drops_.set(DropReason::kPartnerDropped, synchronizer_.excused());
+  for (const Side each : {Side::kLeft, Side::kRight}) {
+    TopicStatistics& unmatched = (each == Side::kLeft ? left_ : right_).unmatched;
+    while (unmatched.total() < synchronizer_.unmatched(each)) unmatched.add(arrival.time);
+  }
   if (!images) return;
   pairs_.add(arrival.time);
   if (waiting_) drops_.count(DropReason::kCameraInfoMissing);
@@ -123,13 +133,14 @@ InputReport StereoIntake::report(std::chrono::steady_clock::time_point now) cons
     const auto begin = std::max({now - TopicStatistics::kWindow,
                                  left_.statistics.startOfRun(),
                                  right_.statistics.startOfRun()});
-    report.together = {
-        left_.statistics.since(begin), right_.statistics.since(begin), pairs_.since(begin)};
-  }
-  if (const auto refused = drops_.lastWithin(TopicStatistics::kWindow)) {
-    report.refused = refused->what();
+    report.unmatched = {
+        left_.unmatched.since(begin), right_.unmatched.since(begin), pairs_.since(begin)};
   }
   report.camera_error = camera_error_;
+  if (const auto refused = drops_.lastWithin(TopicStatistics::kWindow)) {
+    report.refused = refused->what();
+    if (refused->reason() == DropReason::kImageNotOfCamera) report.camera_error = refused->what();
+  }
   report.waits_for_info = waiting_.has_value();
   return report;
 }

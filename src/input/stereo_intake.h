@@ -67,8 +67,10 @@ class StereoIntake {
     StampGuard guard;
     sensor_msgs::Image::ConstPtr held;
     TopicStatistics statistics;
+    TopicStatistics unmatched;  // without a partner, though none was dropped
   };
 
+  void drop(Side side, const InputError& error);
   void match(Side side, const sensor_msgs::Image::ConstPtr& image, const Arrival& arrival);
   void updateCamera();
   void setCamera(const StereoCamera& camera);

@@ -30,7 +30,7 @@ std::optional<StereoImages> StereoSynchronizer::add(Side side,
   Images& other = side == Side::kLeft ? right_ : left_;
   const std::int64_t stamp_ns = toNanoseconds(image->header.stamp);
   if (own.last_stamp_ns == stamp_ns) {
-    ++unmatched_;
+    drop(own);
     return std::nullopt;
   }
   if (own.last_stamp_ns && stamp_ns < *own.last_stamp_ns) {
@@ -55,7 +55,7 @@ std::optional<StereoImages> StereoSynchronizer::add(Side side,
   }
   if (own.waiting.size() > queue_size_) {
     own.waiting.pop_front();
-    ++unmatched_;
+    drop(own);
   }
   return std::nullopt;
 }
@@ -81,17 +81,36 @@ std::int64_t StereoSynchronizer::tolerance_ns() const {
   return std::min(max_difference_ns_, period_ns ? *period_ns / 2 : kUnknownTolerance_ns);
 }
 
+void StereoSynchronizer::excusePartner(Side side) {
+  Images& own = side == Side::kLeft ? left_ : right_;
+  Images& other = side == Side::kLeft ? right_ : left_;
+  if (own.excused > 0) {  // both are dropped
+    --own.excused;
+  } else {
+    other.excused = std::min(other.excused + 1, queue_size_);
+  }
+}
+
+void StereoSynchronizer::drop(Images& images) {
+  if (images.excused > 0) {
+    --images.excused;
+    ++excused_;
+  } else {
+    ++unmatched_[&images == &right_];
+  }
+}
+
 void StereoSynchronizer::dropEarlierThan(std::int64_t stamp_ns, Images& images) {
   while (!images.waiting.empty() && images.waiting.front().stamp_ns < stamp_ns) {
     images.waiting.pop_front();
-    ++unmatched_;
+    drop(images);
   }
 }
 
 void StereoSynchronizer::dropLaterThan(std::int64_t stamp_ns, Images& images) {
   while (!images.waiting.empty() && images.waiting.back().stamp_ns > stamp_ns) {
     images.waiting.pop_back();
-    ++unmatched_;
+    drop(images);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -46,8 +47,14 @@ class StereoSynchronizer {
                                   const sensor_msgs::Image::ConstPtr& image,
                                   Time arrival = {});
 
+  /// An image of `side` was dropped before it came here: the one that would be its partner counts
+  /// as excused, not as unmatched.
+  void excusePartner(Side side);
+
   /// Number of images dropped without a partner or with a repeated stamp.
-  std::uint64_t unmatched() const { return unmatched_; }
+  std::uint64_t unmatched() const { return unmatched(Side::kLeft) + unmatched(Side::kRight); }
+  std::uint64_t unmatched(Side side) const { return unmatched_[side == Side::kRight]; }
+  std::uint64_t excused() const { return excused_; }
 
   /// The largest difference that is accepted now.
   double tolerance_s() const { return toSeconds(tolerance_ns()); }
@@ -69,6 +76,7 @@ class StereoSynchronizer {
     std::deque<Waiting> waiting;  // in the order of their stamps
     std::optional<std::int64_t> last_stamp_ns;
     StampSeries series;
+    std::size_t excused = 0;  // of those that are dropped next
   };
   /// Two of one time.
   struct Match {
@@ -77,13 +85,15 @@ class StereoSynchronizer {
 
   std::optional<Match> findMatch(const Images& own, const Images& other) const;
   std::int64_t tolerance_ns() const;
+  void drop(Images& images);
   void dropEarlierThan(std::int64_t stamp_ns, Images& images);
   void dropLaterThan(std::int64_t stamp_ns, Images& images);
 
   std::int64_t max_difference_ns_;
   std::size_t queue_size_;
   Images left_, right_;
-  std::uint64_t unmatched_ = 0;
+  std::array<std::uint64_t, 2> unmatched_{};  // of left and right
+  std::uint64_t excused_ = 0;
 };
 
 }  // namespace rotrocc

@@ -21,7 +21,7 @@ std::string toText(Number value) {
 
 /// A number with at most two decimals.
 inline std::string hundredths(double value) {
-  return toText(0.01 * std::round(100.0 * value));
+  return toText(0.01 * std::round(100.0 * value) + 0.0);  // not -0
 }
 
 /// A number with all its digits, so that it can be read back.

@@ -96,6 +96,20 @@ Config makeConfig(const ParameterTable& table,
   return config;
 }
 
+/// "a/b from 1 to 2, ..."; empty if all are equal.
+std::string changes(Parameters before, Parameters after) {
+  const ParameterTable old = makeParameterTable(before);
+  const ParameterTable table = makeParameterTable(after);
+  std::string text;
+  for (std::size_t i = 0; i < table.parameters().size(); ++i) {
+    const std::string was = old.parameters()[i].get();
+    const std::string is = table.parameters()[i].get();
+    if (is == was) continue;
+    text += (text.empty() ? "" : ", ") + table.parameters()[i].name + " from " + was + " to " + is;
+  }
+  return text;
+}
+
 }  // namespace
 
 dynamic_reconfigure::ConfigDescription describeLiveParameters(Parameters parameters) {
@@ -153,9 +167,12 @@ LiveParameters::LiveParameters(ros::NodeHandle& private_nh,
 /// Returns all values, whether they have changed or not.
 Config LiveParameters::set(const Config& config) {
   try {
+    const Parameters before = parameters_;
     applyConfig(config, parameters_);
     store(config);
     on_change_(parameters_.odometry);
+    const std::string changed = changes(before, parameters_);
+    if (!changed.empty()) log_.info("parameters changed: " + changed);
   } catch (const std::exception& error) {
     log_.warn(std::string("parameters not changed: ") + error.what());
   }

@@ -46,6 +46,7 @@ void setBelow(const std::string& name,
               XmlRpc::XmlRpcValue value,
               ParameterTable& table,
               std::vector<std::string>& warnings) {
+  if (name == "diagnostic_period") return;  // of diagnostic_updater
   if (const std::string why = whyIgnored(name); !why.empty()) return warnings.push_back(why);
   if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
     setOne(name, value, table);

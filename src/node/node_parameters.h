@@ -32,10 +32,9 @@ Parameters readParameters(const ros::NodeHandle& private_nh, const Log& log);
 /// Throws RefusedParameter with the name on invalid or conflicting frames.
 void requireFrames(const NodeParameters& node);
 
-/// Sets every parameter of `tree`, whose structs are the sections of the table. Returns a warning
-/// for each that exists no more. Throws
-/// RefusedParameter with name and range on an unknown parameter, a wrong type or a value out of
-/// range.
+/// Sets every parameter of `tree`, whose structs are the sections of the table, but for those that
+/// libraries read. Returns a warning for each that exists no more. Throws RefusedParameter with
+/// name and range on an unknown parameter, a wrong type or a value out of range.
 std::vector<std::string> setParameters(const XmlRpc::XmlRpcValue& tree, ParameterTable& table);
 
 }  // namespace rotrocc

@@ -63,6 +63,13 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
   if (gyro_) {
     diagnostics_->add("gyroscope", [this](StatusWrapper& status) { gyro_->describe(status); });
   }
+  if (!parameters_.trajectory_file.empty()) {
+    diagnostics_->add("trajectory file", [this](StatusWrapper& status) {
+      const std::string fault = trajectory_.fault();
+      fault.empty() ? status.summary(StatusWrapper::OK, "written")
+                    : status.summary(StatusWrapper::ERROR, fault);
+    });
+  }
   const auto save = [this](const std::string& path, const std::string& format) {
     return trajectory_.save(path, format);
   };
@@ -83,7 +90,8 @@ StereoOdometry::~StereoOdometry() {
 }
 
 void StereoOdometry::onPair(ReceivedPair pair) {
-  const std::string said = silence_.onPair(SteadyClock::now());
+  const std::int64_t stamp_ns = toNanoseconds(pair.images.left->header.stamp);
+  const std::string said = silence_.onPair(stamp_ns, SteadyClock::now());
   if (!said.empty()) log_.warn(said);
   if (health_.paused()) return drops_.count(DropReason::kPaused);
   if (mailbox_.put(std::move(pair))) drops_.count(DropReason::kSuperseded);
@@ -98,7 +106,9 @@ void StereoOdometry::onTick(const ros::WallTimerEvent&) {
     if (!report.answers || report.paused) {
       publisher_.publishStatus(toIdleStatus(report.status, ros::Time::now()));
     }
-    if (!report.input_fault.empty() && input_warning_.pass()) log_.warn(report.input_fault);
+    if (!report.input_fault.empty() && input_warning_.pass(report.input_fault)) {
+      log_.warn(report.input_fault);
+    }
     const std::string said = silence_.onTick(report.input, SteadyClock::now());
     if (!said.empty()) log_.warn(said);
   } catch (const std::exception& error) {
@@ -145,6 +155,7 @@ void StereoOdometry::process(const ReceivedPair& received,
   const StereoPair pair = processor_.convert(received);
   const SteadyClock::time_point converted = SteadyClock::now();
   PairContext context = {received.camera, T_base_camera};
+  context.is_simulated = ros::Time::isSimTime();
   if (guess_) context.T_last_base = guess_->motionTo(pair.stamp_ns);
   if (gyro_) {
     context.measured_rotation = [&](std::int64_t from_ns, std::int64_t to_ns) {
@@ -165,6 +176,7 @@ void StereoOdometry::process(const ReceivedPair& received,
   status.latency = milliseconds(sent - received.arrival);
   followUp(answer, status);
   processor_.prepare();
+  publisher_.publishPictures(answer, processor_.odometry(), frame);
 }
 
 /// Returns when the odometry was sent.
@@ -191,17 +203,17 @@ void StereoOdometry::followUp(const PairAnswer& answer, OdometryStatus& status) 
   publisher_.publishStatus(status);
   publisher_.publishPath(answer.state, answer.starts_trajectory);
   log(status, camera_fault);
-  publisher_.publishPictures(answer, processor_.odometry(), status.header.frame_id);
 }
 
 void StereoOdometry::log(const OdometryStatus& status, const std::string& camera_fault) {
   const bool was_lost = std::exchange(lost_, status.state == OdometryStatus::LOST);
-  if (lost_) {
-    if (lost_warning_.pass()) log_.warn("lost: " + status.reason);
-  } else if (was_lost) {
+  if (lost_ && !was_lost && warning_.pass("lost: " + status.reason)) {
+    log_.warn("lost: " + status.reason);
+    loss_is_told_ = true;
+  } else if (!lost_ && std::exchange(loss_is_told_, false)) {
     log_.info(std::string("recovered: ") + stateName(status.state));
   }
-  if (!camera_fault.empty() && hint_warning_.pass()) log_.warn(camera_fault);
+  if (!camera_fault.empty() && warning_.pass(camera_fault)) log_.warn(camera_fault);
   const std::string rig = rigWarning(status);
   if (!rig.empty() && rig_warning_.pass()) log_.warn(rig);
 }

@@ -75,12 +75,14 @@ class StereoOdometry {
   OdometryPublisher publisher_;
   TrajectoryStore trajectory_;
 
-  bool lost_ = false;  // at the last pair of the worker
-  Throttle lost_warning_{std::chrono::seconds(5)};
-  Throttle hint_warning_{std::chrono::seconds(5)};
+  // Of the worker.
+  bool lost_ = false;          // at the last pair
+  bool loss_is_told_ = false;  // and not yet the recovery
+  FaultThrottle warning_;
   Throttle rig_warning_{std::chrono::minutes(5)};
-  Throttle input_warning_{std::chrono::minutes(1)};
-  SilenceWatch silence_;  // of the callbacks
+  // Of the callbacks.
+  FaultThrottle input_warning_;
+  SilenceWatch silence_;
 
   LatestMailbox<ReceivedPair> mailbox_;
   // Order matters from here on: members are destroyed after those that call them.

@@ -395,7 +395,7 @@ void observePictures(Rows& rows) {
            "lost or degraded with a hint",
            {withoutChance(badImages(
                [](Image& left, Image& right) { std::swap(left.data, right.data); }, 12))});
-  rows.add("frozen camera", "no motion, with a hint", {frozenCamera()});
+  rows.add("frozen camera", "lost", {frozenCamera()});
   const std::string half = badLeft([](Image& image) {
     std::fill(image.data.begin() + image.data.size() / 2, image.data.end(), 128);
   });

@@ -58,7 +58,7 @@ InputReport soundReport() {
   report.max_stamp_difference_s = report.tolerance_s = 0.01;
   report.period_s = 0.1;
   report.pairs_silent_s = 0.05;
-  report.together = {50, 50, 50};
+  report.unmatched = {0, 0, 50};
   report.stamp_difference_s = 0.0;
   report.recent_pairs = 50;
   return report;
@@ -152,14 +152,14 @@ TEST(InputReportTest, SaysWhyStampsAreNoPairs) {
 }
 
 TEST(InputReportTest, SaysWhatIsWrongWithPairs) {
-  const auto received = [](double left_hz, double right_hz, auto together) {
+  const auto received = [](double left_hz, double right_hz, auto unmatched) {
     return [=](InputReport& report) {
       report.left_image.rate_hz = left_hz;
       report.right_image.rate_hz = right_hz;
-      report.together = together;
+      report.unmatched = unmatched;
     };
   };
-  using Together = decltype(InputReport::together);
+  using Unmatched = decltype(InputReport::unmatched);
   expectSaid(
       faultOfPairs,
       {{[](InputReport&) {}, ""},
@@ -173,15 +173,15 @@ TEST(InputReportTest, SaysWhatIsWrongWithPairs) {
         },
         "right stamps are 100 ms after the left ones with the same jitter, about a period, so "
         "images of different times have the nearest stamps: correct the stamps of the drivers"},
-       {received(10.0, 7.0, Together{50, 35, 35}),
+       {received(10.0, 7.0, Unmatched{15, 0, 35}),
         "30 % of the images have no partner: /l/image arrives at 10.0 Hz, /r/image at 7.0 Hz: "
         "the camera of /r/image or its connection loses images"},
-       {received(7.0, 7.0, Together{36, 35, 25}),
+       {received(7.0, 7.0, Unmatched{11, 10, 25}),
         "30 % of the images have no partner: /l/image arrives at 7.0 Hz, /r/image at 7.0 Hz: "
         "both lose images, or stamps are more than 10 ms apart"},
-       {received(10.0, 10.0, Together{50, 46, 46}), ""},
-       {received(10.0, 10.0, Together{1000, 950, 950}), ""},
-       {received(10.0, 10.0, Together{4, 1, 1}), ""}});  // at a start
+       {received(10.0, 10.0, Unmatched{4, 0, 46}), ""},
+       {received(10.0, 10.0, Unmatched{50, 0, 950}), ""},
+       {received(10.0, 10.0, Unmatched{3, 0, 1}), ""}});  // at a start
 }
 
 TEST(InputReportTest, TopicsAreToldInOneLine) {

@@ -34,7 +34,7 @@ class SilenceWatchTest : public testing::Test {
     return said_s;
   }
 
-  std::string pair() { return watch_.onPair(now()); }
+  std::string pair() { return watch_.onPair(stamp_ns_ += 100'000'000, now()); }
 
   /// Pairs at a rate for some seconds; what is said at one of them.
   std::string pairs(double rate_hz, double length_s) {
@@ -53,6 +53,7 @@ class SilenceWatchTest : public testing::Test {
 
   int now_s_ = 0;
   double fraction_s_ = 0.0;
+  std::int64_t stamp_ns_ = 0;
   InputReport input_;
   SilenceWatch watch_{5.0, now()};
   std::string said_;
@@ -88,6 +89,19 @@ TEST_F(SilenceWatchTest, TellsAGapAtItsEnd) {
   fraction_s_ += 3.0;
   EXPECT_EQ(pair(), "stereo pairs arrive again, after 3.0 s");
   EXPECT_EQ(pairs(10.0, 10.0), "");
+}
+
+TEST_F(SilenceWatchTest, TellsThatTheStampsJumpedForwardIfNoGapDoes) {
+  pairs(10.0, 10.0);
+  const std::string jump = "time jumped forward from 10.000 to 17.200 s: the odometry goes on";
+  stamp_ns_ = 17'100'000'000;
+  EXPECT_EQ(pairs(10.0, 1.0).find(jump), 0u);
+  stamp_ns_ += 7'000'000'000;
+  EXPECT_EQ(pairs(10.0, 1.0), "") << "at most every 5 s";
+  EXPECT_EQ(pairs(10.0, 10.0), "");
+  stamp_ns_ += 7'000'000'000;
+  fraction_s_ += 7.0;
+  EXPECT_EQ(pairs(10.0, 1.0), "stereo pairs arrive again, after 7.1 s");
 }
 
 TEST_F(SilenceWatchTest, ManyGapsAreNoStream) {

@@ -74,6 +74,7 @@ TEST(StampDifferenceTest, IsTheLargestToTheNearest) {
     ASSERT_TRUE(found_s);
     EXPECT_NEAR(*found_s, difference_s, 1e-9);
   }
+  EXPECT_FALSE(std::signbit(*greatestStampDifference(makeSeries({1, 2}), makeSeries({1, 2}))));
   EXPECT_FALSE(greatestStampDifference({}, makeSeries({1})));
   EXPECT_FALSE(greatestStampDifference(makeSeries({1}), {}));
 }

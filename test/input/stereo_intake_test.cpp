@@ -184,10 +184,34 @@ TEST_F(StereoIntakeTest, GlitchesAheadCostThemselves) {
   expectDropped({{DropReason::kStampGlitch, 6}});
 }
 
+/// What was dropped for its stamp had a partner.
+TEST_F(StereoIntakeTest, OnlyAnImageThatNeverCameIsMissing) {
+  const auto others = [&] {
+    const InputReport report = intake_->report(arrival().time);
+    return report.unmatched.left + report.unmatched.right;
+  };
+  for (int i = 0; i < 40; ++i) pair(i % 2 == 0 ? -kNow_s - stamp_s_ : 0.0);
+  EXPECT_EQ(stamps_ms_.size(), 20u);
+  expectDropped({{DropReason::kStampZero, 20}, {DropReason::kPartnerDropped, 20}});
+  EXPECT_EQ(others(), 0u);
+  EXPECT_EQ(faultOfPairs(intake_->report(arrival().time)), "");
+  for (int i = 0; i < 20; ++i) {  // of both, there are no partners
+    const double no_stamp_s = -kNow_s - stamp_s_;
+    pair(no_stamp_s, no_stamp_s);
+    image(Side::kLeft);
+    wait(kPeriod_s);
+    pair();
+  }
+  expectDropped({{DropReason::kStampZero, 60},
+                 {DropReason::kNoPartner, 20},
+                 {DropReason::kPartnerDropped, 20}});
+  EXPECT_GT(others(), 15u);
+}
+
 /// Not as many images that seem to be late that time seems to have jumped back.
 TEST_F(StereoIntakeTest, AGlitchCostsItsPairAndNoRestart) {
   const DropLog::Counts both = {{DropReason::kStampGlitch, 2}};
-  const DropLog::Counts one = {{DropReason::kStampGlitch, 1}, {DropReason::kNoPartner, 1}};
+  const DropLog::Counts one = {{DropReason::kStampGlitch, 1}, {DropReason::kPartnerDropped, 1}};
   const struct {
     double left_off_s, right_off_s;
     DropLog::Counts dropped;

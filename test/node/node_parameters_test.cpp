@@ -35,6 +35,7 @@ class NodeParametersTest : public testing::Test {
 TEST_F(NodeParametersTest, EveryTypeOfTheServer) {
   XmlRpcValue tree;
   tree["base_frame"] = std::string("robot");
+  tree["diagnostic_period"] = 2.0;  // of diagnostic_updater
   tree["publish_tf"] = false;
   tree["queue_size"] = 9;
   tree["max_stamp_difference_s"] = 0.1 + 0.2;  // keeps every bit

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -129,6 +131,44 @@ TEST_F(PairProcessorTest, HintsComeFromTheConfigInEffect) {
   const std::string swapped = "swap their topics";
   EXPECT_EQ(hintOf(config).find(swapped), std::string::npos) << rig_.hint();
   EXPECT_NE(hintOf({}).find(swapped), std::string::npos) << rig_.hint();
+}
+
+/// The images are always the same, and the wheels may turn.
+TEST(FrozenCameraTest, ItsPairsAreNoMeasurementsUnlessASimulatedBaseIsAtRest) {
+  const std::vector<std::tuple<bool, std::optional<double>, State>> kCases = {
+      {false, {}, State::kLost},
+      {false, 0.0, State::kLost},
+      {true, {}, State::kOk},
+      {true, 0.0, State::kOk},
+      {true, 0.2, State::kLost}};
+  for (const auto& [is_simulated, wheels_m, expected] : kCases) {
+    SCOPED_TRACE(testing::Message() << is_simulated << " " << wheels_m.value_or(-1.0));
+    OdometryRig rig;
+    rig.is_simulated = is_simulated;
+    rig.sendInfos();
+    rig.drivePairs(4);
+    std::optional<std::pair<sensor_msgs::Image, sensor_msgs::Image>> frozen;
+    const auto freeze = [&](sensor_msgs::Image& left, sensor_msgs::Image& right) {
+      if (!frozen) frozen = {left, right};
+      left.data = frozen->first.data;
+      right.data = frozen->second.data;
+    };
+    rig.drive(freeze);
+    const double before_m = xOf(rig);
+    const double step_m = wheels_m.value_or(0.0);
+    if (wheels_m) rig.expected = [=](auto, auto) { return forward(step_m); };
+    for (int i = 0; i < PairInspector::kPatience + 1; ++i) rig.drive(freeze);
+    const PairAnswer& answer = *rig.answer();
+    EXPECT_EQ(answer.result.state, expected);
+    const bool is_lost = expected == State::kLost;
+    EXPECT_EQ(answer.state.twist.covariance(0, 0) == kUnknownVariance, is_lost);
+    EXPECT_EQ(answer.result.reason.find("is the camera frozen") != std::string::npos, is_lost);
+    EXPECT_NEAR(xOf(rig) - before_m, (PairInspector::kPatience + 1) * step_m, 0.05);
+    EXPECT_EQ(rig.hint(), "");
+    rig.expected = {};
+    rig.drivePairs(4);
+    EXPECT_EQ(rig.answer()->result.state, State::kOk) << rig.answer()->result.reason;
+  }
 }
 
 TEST_F(PairProcessorTest, HintsAtCamerasThatExposeDifferently) {

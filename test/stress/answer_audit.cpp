@@ -32,7 +32,8 @@ std::uint64_t countDropped(const ImageAccount& images) {
 /// How many images one drop for that reason is: 0 for a camera_info, 2 for a pair.
 std::uint64_t imagesPerDrop(const std::string& reason) {
   if (reason == "camera_info_invalid") return 0;
-  return reason == "no_partner" || reason.compare(0, 6, "stamp_") == 0 ? 1 : 2;
+  const bool is_one = reason == "no_partner" || reason == "partner_dropped";
+  return is_one || reason.compare(0, 6, "stamp_") == 0 ? 1 : 2;
 }
 
 std::string imageTable(const ImageAccount& images) {

@@ -2,14 +2,14 @@
 
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <ros/console.h>
 
 namespace rotrocc {
 
-/// Records the warnings and errors that this process logs from its construction on. At most one
-/// instance at a time.
+/// Records what this process logs from its construction on. At most one instance at a time.
 class LogRecorder {
  public:
   LogRecorder() {
@@ -19,12 +19,19 @@ class LogRecorder {
   LogRecorder(const LogRecorder&) = delete;
   LogRecorder& operator=(const LogRecorder&) = delete;
 
-  /// Those that contain `part`.
-  std::vector<std::string> with(const std::string& part) const {
+  /// "file:line" of the last one.
+  std::string lastCaller() const {
+    const std::lock_guard<std::mutex> lock(appender().mutex);
+    return appender().last_caller;
+  }
+
+  /// The warnings and errors that contain `part`, or those of a lower level as well.
+  std::vector<std::string> with(const std::string& part,
+                                ros::console::Level least = ros::console::levels::Warn) const {
     const std::lock_guard<std::mutex> lock(appender().mutex);
     std::vector<std::string> found;
-    for (const std::string& text : appender().texts) {
-      if (text.find(part) != std::string::npos) found.push_back(text);
+    for (const auto& [level, text] : appender().texts) {
+      if (level >= least && text.find(part) != std::string::npos) found.push_back(text);
     }
     return found;
   }
@@ -33,16 +40,17 @@ class LogRecorder {
   struct Appender : ros::console::LogAppender {
     void log(ros::console::Level level,
              const char* text,
-             const char* /*file*/,
+             const char* file,
              const char* /*function*/,
-             int /*line*/) override {
-      if (level < ros::console::levels::Warn) return;
+             int line) override {
       const std::lock_guard<std::mutex> lock(mutex);
-      texts.emplace_back(text);
+      texts.emplace_back(level, text);
+      last_caller = std::string(file) + ":" + std::to_string(line);
     }
 
     std::mutex mutex;
-    std::vector<std::string> texts;
+    std::vector<std::pair<ros::console::Level, std::string>> texts;
+    std::string last_caller;
   };
 
   /// Stays registered until the process ends: deregistering crashes in rosconsole of Debian 11.

@@ -167,8 +167,11 @@ void OdometryRig::process(const ReceivedPair& pair) {
     }
     last_stamp_ns_ = converted.stamp_ns;
     processor_.takeRequests();
-    answer_ = processor_.process(converted, {pair.camera, T_base_camera, T_last_base});
+    PairContext context = {pair.camera, T_base_camera, T_last_base};
+    context.is_simulated = is_simulated;
+    answer_ = processor_.process(converted, context);
     hint_ = processor_.inspect(*answer_);
+    processor_.finishInspection();
     ++answers_;
     state_ = answer_->state;
     const double place_m = kStep_m * next_;

@@ -49,6 +49,9 @@ class OdometryRig {
   std::function<std::optional<Eigen::Isometry3d>(std::int64_t prev_ns, std::int64_t cur_ns)>
       expected;
 
+  /// See PairContext.
+  bool is_simulated = false;
+
   /// Of the last pair that was processed since the last call of forget().
   const std::optional<PairAnswer>& answer() const { return answer_; }
   const std::string& hint() const { return hint_; }

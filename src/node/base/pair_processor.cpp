@@ -5,8 +5,16 @@
 #include "common/to_seconds.h"
 #include "input/message_conversion.h"
 #include "input/to_text.h"
+#include "rotrocc/rigid_motion.h"
 
 namespace rotrocc {
+namespace {
+
+/// Below these a base is at rest: wheels that do not turn still have noise in a simulator.
+constexpr double kRest_mps = 0.05;
+constexpr double kRest_rps = 0.05;
+
+}  // namespace
 
 PairProcessor::PairProcessor(const Parameters& parameters, Log log)
     : log_(std::move(log)),
@@ -98,14 +106,40 @@ void PairProcessor::setPose(const UncertainTransform& T_odom_base) {
   if (lost_since_ns_) odometry_.reset();
 }
 
+/// Whether the pair is that before, though the base may have moved since. At rest in a simulator
+/// the images may be the same, unless another sensor sees a motion.
+bool PairProcessor::isFrozen(const StereoPair& pair, const PairContext& context) {
+  if (!inspector_.isRepeated(pair)) return false;
+  if (!context.is_simulated) return true;
+  if (!last_stamp_ns_ || pair.stamp_ns <= *last_stamp_ns_) return false;
+  const double passed_s = toSeconds(pair.stamp_ns - *last_stamp_ns_);
+  const auto moves = [&](const Eigen::Matrix3d& R) {
+    return logRotation(R).norm() > kRest_rps * passed_s;
+  };
+  if (const auto& T = context.T_last_base) {
+    return T->translation().norm() > kRest_mps * passed_s || moves(T->linear());
+  }
+  const auto R = context.measured_rotation
+                     ? context.measured_rotation(*last_stamp_ns_, pair.stamp_ns)
+                     : std::nullopt;
+  return R && moves(*R);
+}
+
 void PairProcessor::move(const PairContext& context, PairAnswer& answer) {
   std::optional<Eigen::Isometry3d> T_known_base, T_known_camera;
   if (context.T_last_base && T_known_last_) {
     T_known_base = *T_known_last_ * *context.T_last_base;
     T_known_camera = T_base_camera_known_.inverse() * *T_known_base * context.T_base_camera;
   }
-  answer.result =
-      odometry_.process(answer.pair, context.camera, T_known_camera, context.measured_rotation);
+  if (isFrozen(answer.pair, context)) {  // no measurement: the next one is compared with an earlier
+    answer.result.stamp_ns = answer.pair.stamp_ns;
+    answer.result.reason =
+        "both images are those of the pair before: is the camera frozen, or does its driver repeat "
+        "images?";
+  } else {
+    answer.result =
+        odometry_.process(answer.pair, context.camera, T_known_camera, context.measured_rotation);
+  }
   answer.state = base_odometry_->add(answer.result, context.T_base_camera, context.T_last_base);
   if (answer.result.state == State::kLost) {
     if (!lost_since_ns_) lost_since_ns_ = answer.pair.stamp_ns;

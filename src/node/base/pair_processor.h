@@ -26,6 +26,8 @@ struct PairContext {
   std::optional<Eigen::Isometry3d> T_last_base = std::nullopt;
   /// Of the camera, see VisualOdometry::process().
   RotationSource measured_rotation = {};
+  /// Whether the time is simulated: only cameras without noise have the same image twice at rest.
+  bool is_simulated = false;
 };
 
 /// Result of a pair.
@@ -60,6 +62,8 @@ class PairProcessor {
   std::string inspect(const PairAnswer& answer) {
     return inspector_.inspect(answer.pair, answer.camera, answer.result);
   }
+  /// Waits until the next call of inspect() knows all that the last one has begun to look for.
+  void finishInspection() const { inspector_.finish(); }
 
   /// Prepares for the next pair, see VisualOdometry::prepare().
   void prepare() { odometry_.prepare(); }
@@ -89,6 +93,7 @@ class PairProcessor {
   bool restart(const std::string& why, const std::string& parameter, const std::string& pose);
   void configure(const VisualOdometry::Config& config);
   void setPose(const UncertainTransform& T_odom_base);
+  bool isFrozen(const StereoPair& pair, const PairContext& context);
   void move(const PairContext& context, PairAnswer& answer);
 
   Log log_;

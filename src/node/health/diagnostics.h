@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -37,10 +38,13 @@ class Diagnostics {
   /// Adds an entry, which `task` fills.
   void add(const std::string& name, const std::function<void(StatusWrapper&)>& task);
 
+  /// Call once a second. Publishes each ~diagnostic_period, as all of diagnostic_updater do.
   void publish(const HealthReport& report);
 
  private:
   HealthReport report_;
+  double period_s_ = 1.0;
+  std::chrono::steady_clock::time_point published_;
   std::uint64_t drops_before_ = 0;
   diagnostic_updater::Updater updater_;
 };

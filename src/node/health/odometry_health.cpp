@@ -34,7 +34,6 @@ void updateState(HealthReport& report) {
   const InputReport& input = report.input;
   const std::string why = whyNoPairs(input);
   if (!input.camera_error.empty()) return set(OdometryStatus::NO_CALIBRATION, input.camera_error);
-  if (report.not_of_camera) return set(OdometryStatus::NO_CALIBRATION, input.refused);
   if (input.waits_for_info) return set(OdometryStatus::NO_CALIBRATION, why);
   if (input.recent_pairs > 0 && !report.waits_for_tf.empty()) {
     return set(OdometryStatus::NO_TF, report.waits_for_tf);
@@ -97,14 +96,12 @@ void OdometryHealth::setWaitsForTf(const std::string& transform) {
 
 HealthReport OdometryHealth::report(const InputReport& input, const DropLog& drops) {
   const auto now = std::chrono::steady_clock::now();
-  const auto refused = drops.lastWithin(TopicStatistics::kWindow);
   const std::lock_guard<std::mutex> lock(mutex_);
   known_.input_fault = faultOfPairs(input);
   updateStatus(drops);
   HealthReport report = known_;
   report.input = input;
   report.answers = answers_.total() > 0 && now - answers_.lastArrival() < kAnswerAge;
-  report.not_of_camera = refused && refused->reason() == DropReason::kImageNotOfCamera;
   report.answer_rate_hz = answers_.rate_hz(now);
   report.latency_p50_ms = latencies_ms_.quantile(0.5);
   report.latency_p95_ms = latencies_ms_.quantile(0.95);

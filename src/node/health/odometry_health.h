@@ -17,13 +17,12 @@ struct HealthReport {
   OdometryStatus status;  ///< of the last pair, with the state, the hint and the counters of now
   InputReport input;
   bool paused = false;
-  bool answers = false;        ///< a pair was processed recently
-  bool not_of_camera = false;  ///< recent images differ in size from camera_info
-  std::string camera_fault;    ///< see PairInspector; empty if none
-  std::string input_fault;     ///< of the pairs that arrive, see faultOfPairs(); empty if none
-  std::string guess_trouble;   ///< why tf has no motion of guess_frame; empty if it has
-  std::string waits_for_tf;    ///< which transform is missing; empty if none is
-  std::string tf_conflict;     ///< other publisher of a parent of the base; empty if none
+  bool answers = false;       ///< a pair was processed recently
+  std::string camera_fault;   ///< see PairInspector; empty if none
+  std::string input_fault;    ///< of the pairs that arrive, see faultOfPairs(); empty if none
+  std::string guess_trouble;  ///< why tf has no motion of guess_frame; empty if it has
+  std::string waits_for_tf;   ///< which transform is missing; empty if none is
+  std::string tf_conflict;    ///< other publisher of a parent of the base; empty if none
   double answer_rate_hz = 0.0;
   double latency_p50_ms = 0.0, latency_p95_ms = 0.0, latency_max_ms = 0.0;
 };

@@ -1,7 +1,12 @@
 #include "node/health/pair_inspector.h"
 
+#include <pthread.h>
+
 #include <algorithm>
+#include <chrono>
 #include <cstring>
+#include <exception>
+#include <vector>
 
 #include <opencv2/imgproc.hpp>
 
@@ -13,9 +18,7 @@ namespace {
 
 constexpr int kFewCorners = 50;
 constexpr double kFewShare = 0.2;  // of the corners that have a disparity
-/// Interval of repeated inspections during a loss, in pairs.
-constexpr int kPatienceAgain = 100;
-constexpr int kRowStep = 8;  // sampling of rows
+constexpr int kRowStep = 8;        // sampling of rows
 /// Row offsets tried on images that do not match; matches must exceed chance.
 constexpr int kOffsets_px[] = {2, 4, 7, 12, 20};
 constexpr double kClearlyMore = 2.0;
@@ -51,60 +54,158 @@ cv::Mat shifted(const cv::Mat& image, int rows) {
   return result;
 }
 
-std::string frozenText(const std::string& which, int pairs) {
-  return which + " has been unchanged for " + toText(pairs) + " pairs: is the camera frozen?";
+/// Whether the grey levels hardly vary more than their noise, as behind a covered lens.
+bool isNoise(const cv::Mat& image) {
+  constexpr double kOverNoise = 2.0;
+  cv::Scalar mean;
+  cv::Scalar deviation;
+  cv::meanStdDev(image, mean, deviation);
+  std::vector<int> buffer;
+  return deviation[0] * deviation[0] < kOverNoise * kOverNoise * noiseVariance(image, buffer);
+}
+
+/// Counts the corners of an image that have a disparity.
+class MatchCounter {
+ public:
+  MatchCounter(const CorrespondenceFinder::Config& config, double infinity_px)
+      : detector_(config.feature_detector),
+        matcher_(config.stereo_matcher),
+        infinity_px_(infinity_px) {}
+
+  int count(const cv::Mat& left, const cv::Mat& right, bool swapped = false) {
+    detector_.detect(alone_, left, corners_);
+    matcher_.match(
+        alone_, {left, right, swapped ? -infinity_px_ : infinity_px_}, corners_, disparities_);
+    return static_cast<int>(
+        std::count_if(disparities_.begin(), disparities_.end(), [](float disparity_px) {
+          return disparity_px != StereoMatcher::kNoDisparity;
+        }));
+  }
+
+  /// Of the last image.
+  int corners() const { return static_cast<int>(corners_.size()); }
+
+ private:
+  Workers alone_{1};
+  FeatureDetector detector_;
+  StereoMatcher matcher_;
+  double infinity_px_;
+  std::vector<cv::Point2f> corners_;
+  std::vector<float> disparities_;
+};
+
+/// Why a pair has no motion, as far as its images tell; empty if they do not.
+std::string explainLoss(const cv::Mat& left,
+                        const cv::Mat& right,
+                        MatchCounter& matches,
+                        bool rectifies) {
+  const int direct = matches.count(left, right);
+  if (matches.corners() < kFewCorners || isNoise(left)) {
+    return "the left image has hardly any corners, its mean grey level is " +
+           toText(cvRound(cv::mean(left)[0])) +
+           " of 255: is it dark, overexposed or out of focus, or the lens covered?";
+  }
+  if (cv::norm(left, right, cv::NORM_INF) == 0.0) {
+    return "left and right image are identical: are both topics from the same camera?";
+  }
+  const bool few = direct < kFewShare * matches.corners();
+  const double clearly_more = kClearlyMore * std::max(direct, kFewCorners);
+  if (matches.count(right, left, true) > clearly_more) {
+    return "the images match if left and right are swapped: swap their topics";
+  }
+  for (const int offset : kOffsets_px) {
+    for (const int rows : {offset, -offset}) {
+      if (matches.count(left, shifted(right, rows)) < clearly_more) continue;
+      return "the images match if the right one is shifted by about " + toText(rows) + " rows: " +
+             (rectifies ? "K, D, R or P of camera_info are wrong; recalibrate"
+                        : "they are not rectified; remap to rectified images, set the parameter "
+                          "rectify for raw ones, or recalibrate");
+    }
+  }
+  if (!few) return "";
+  return "hardly any corner matches in the right image: are the images rectified and synchronized, "
+         "and is max_disparity_px large enough for near objects?";
 }
 
 }  // namespace
 
 PairInspector::PairInspector(const CorrespondenceFinder::Config& config, bool rectifies)
-    : rectifies_(rectifies), detector_(config.feature_detector), matcher_(config.stereo_matcher) {}
+    : rectifies_(rectifies), config_(config) {}
 
 void PairInspector::configure(const CorrespondenceFinder::Config& config) {
-  detector_ = FeatureDetector(config.feature_detector);
-  matcher_ = StereoMatcher(config.stereo_matcher);
-  doubtful_ = 0;
-  explanation_.clear();
+  config_ = config;
+  forgetLoss();
 }
 
-std::string PairInspector::inspect(const StereoPair& pair,
-                                   const StereoCamera& camera,
-                                   const OdometryResult& result) {
-  const std::string exposures = compareExposures(result);
-  std::string fault = findFrozen(pair);
-  if (fault.empty()) fault = exposures;
-  if (result.state == State::kInitialising) return fault;
-  // Chance matches may occasionally look like a motion.
-  doubtful_ = result.state == State::kOk ? 0 : doubtful_ + 1;
-  const bool shows_nothing =
-      result.counts.corners < kFewCorners || (result.state == State::kLost && isNoise(pair.left));
-  few_corners_ = shows_nothing ? few_corners_ + 1 : 0;
-  if (doubtful_ == 0) explanation_.clear();
-  if (few_corners_ >= kPatience) {
-    return "the left image has hardly any corners, its mean grey level is " +
-           toText(cvRound(cv::mean(pair.left)[0])) +
-           " of 255: is it dark, overexposed or out of focus, or the lens covered?";
-  }
-  if (few_corners_ == 0 &&
-      (doubtful_ == kPatience || (doubtful_ > 0 && doubtful_ % kPatienceAgain == 0))) {
-    explanation_ = explainLoss(pair, camera);
-  }
-  return explanation_.empty() ? fault : explanation_;
-}
-
-std::string PairInspector::findFrozen(const StereoPair& pair) {
+bool PairInspector::isRepeated(const StereoPair& pair) {
   const std::uint64_t left_print = fingerprint(pair.left);
   const std::uint64_t right_print = fingerprint(pair.right);
   left_frozen_ = left_print == left_print_ ? left_frozen_ + 1 : 0;
   right_frozen_ = right_print == right_print_ ? right_frozen_ + 1 : 0;
   left_print_ = left_print;
   right_print_ = right_print;
+  return left_frozen_ > 0 && right_frozen_ > 0 && !isNoise(pair.left);
+}
+
+std::string PairInspector::inspect(const StereoPair& pair,
+                                   const StereoCamera& camera,
+                                   const OdometryResult& result) {
+  const std::string exposures = compareExposures(result);
+  std::string fault = findFrozen();
+  if (fault.empty()) fault = exposures;
+  if (result.state == State::kInitialising) return fault;
+  // Chance matches may occasionally look like a motion.
+  if (result.state == State::kOk) {
+    forgetLoss();
+    return fault;
+  }
+  ++doubtful_;
+  try {
+    explain(pair, camera);
+  } catch (const std::exception&) {
+    return fault;  // no memory, or no thread
+  }
+  return explanation_.empty() ? fault : explanation_;
+}
+
+std::string PairInspector::findFrozen() const {
   const bool left = left_frozen_ >= kPatience;
   const bool right = right_frozen_ >= kPatience;
-  if (left && right) return frozenText("each image", std::min(left_frozen_, right_frozen_));
-  if (left) return frozenText("the left image", left_frozen_);
-  if (right) return frozenText("the right image", right_frozen_);
-  return "";
+  if (left == right) return "";  // if both are, the pairs are no measurements
+  return std::string(left ? "the left" : "the right") + " image has been unchanged for " +
+         toText(std::max(left_frozen_, right_frozen_)) + " pairs: is the camera frozen?";
+}
+
+/// Takes over the explanation if there is a new one, and looks for the next one if it is time.
+/// Throws std::exception if it cannot be looked for.
+void PairInspector::explain(const StereoPair& pair, const StereoCamera& camera) {
+  if (search_.valid()) {
+    if (search_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    const std::string found = search_.get();
+    if (search_is_of_this_loss_) explanation_ = found;
+  }
+  if (doubtful_ < explain_at_) return;
+  explain_at_ = 2 * doubtful_;
+  search_is_of_this_loss_ = true;
+  search_ = std::async(std::launch::async,
+                       [left = pair.left.clone(),
+                        right = pair.right.clone(),
+                        matches = MatchCounter(config_, camera.disparityAtInfinity()),
+                        rectifies = rectifies_]() mutable {
+                         pthread_setname_np(pthread_self(), "odometry_hint");
+                         return explainLoss(left, right, matches, rectifies);
+                       });
+}
+
+void PairInspector::forgetLoss() {
+  doubtful_ = 0;
+  explain_at_ = kPatience;
+  explanation_.clear();
+  search_is_of_this_loss_ = false;
+}
+
+void PairInspector::finish() const {
+  if (search_.valid()) search_.wait();
 }
 
 std::string PairInspector::compareExposures(const OdometryResult& result) {
@@ -121,50 +222,6 @@ std::string PairInspector::compareExposures(const OdometryResult& result) {
   if (std::max(typical, 1.0 / typical) <= kApart) return "";
   return "the right camera's contrast is " + hundredths(typical) + " times the left one's" +
          kRemedy;
-}
-
-/// Whether the grey levels hardly vary more than their noise, as behind a covered lens.
-bool PairInspector::isNoise(const cv::Mat& image) {
-  constexpr double kOverNoise = 2.0;
-  cv::Scalar mean;
-  cv::Scalar deviation;
-  cv::meanStdDev(image, mean, deviation);
-  return deviation[0] * deviation[0] < kOverNoise * kOverNoise * noiseVariance(image, noise_);
-}
-
-std::string PairInspector::explainLoss(const StereoPair& pair, const StereoCamera& camera) {
-  if (cv::norm(pair.left, pair.right, cv::NORM_INF) == 0.0) {
-    return "left and right image are identical: are both topics from the same camera?";
-  }
-  const double infinity_px = camera.disparityAtInfinity();
-  const int matches = countMatches(pair.left, pair.right, infinity_px);
-  const bool few = matches < kFewShare * static_cast<double>(corners_.size());
-  const double clearly_more = kClearlyMore * std::max(matches, kFewCorners);
-  if (countMatches(pair.right, pair.left, -infinity_px) > clearly_more) {
-    return "the images match if left and right are swapped: swap their topics";
-  }
-  for (const int offset : kOffsets_px) {
-    for (const int rows : {offset, -offset}) {
-      if (countMatches(pair.left, shifted(pair.right, rows), infinity_px) < clearly_more) continue;
-      return "the images match if the right one is shifted by about " + toText(rows) + " rows: " +
-             (rectifies_ ? "K, D, R or P of camera_info are wrong; recalibrate"
-                         : "they are not rectified; remap to rectified images, set the parameter "
-                           "rectify for raw ones, or recalibrate");
-    }
-  }
-  if (!few) return "";
-  return "hardly any corner matches in the right image: are the images rectified and synchronized, "
-         "and is max_disparity_px large enough for near objects?";
-}
-
-/// Corners of `left` that have a disparity.
-int PairInspector::countMatches(const cv::Mat& left, const cv::Mat& right, double infinity_px) {
-  detector_.detect(alone_, left, corners_);
-  matcher_.match(alone_, {left, right, infinity_px}, corners_, disparities_);
-  return static_cast<int>(
-      std::count_if(disparities_.begin(), disparities_.end(), [](float disparity_px) {
-        return disparity_px != StereoMatcher::kNoDisparity;
-      }));
 }
 
 }  // namespace rotrocc

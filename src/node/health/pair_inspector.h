@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <future>
 #include <string>
-#include <vector>
 
 #include <opencv2/core.hpp>
 
@@ -14,10 +14,11 @@ namespace rotrocc {
 
 /// Detects camera faults: a frozen or dark camera, swapped cameras, images that are not rectified,
 /// or exposures that differ or move against each other so much that one of the images is likely to
-/// be dark or saturated.
+/// be dark or saturated. What may cause a loss is looked for in a thread of its own.
 class PairInspector {
  public:
-  /// Number of consecutive suspicious pairs before a hint.
+  /// Number of consecutive suspicious pairs before a hint. While they last, their cause is looked
+  /// for again after twice as many.
   static constexpr int kPatience = 10;
   /// Number of pairs with a motion whose exposures are watched, and that suffice for a hint.
   static constexpr std::size_t kExposures = 50;
@@ -29,32 +30,38 @@ class PairInspector {
   /// Uses another configuration from the next pair on, and forgets what was found with this one.
   void configure(const CorrespondenceFinder::Config& config);
 
-  /// The suspected fault and a remedy, in one sentence; empty if none. Takes negligible time,
-  /// except some 50 ms when the kPatience-th consecutive pair is lost or degraded.
+  /// Whether both images show something, and are those of the pair before, byte for byte: noise
+  /// makes those of a camera differ even at rest. To be called for each pair, before inspect().
+  bool isRepeated(const StereoPair& pair);
+
+  /// The suspected fault and a remedy, in one sentence; empty if none.
   std::string inspect(const StereoPair& pair,
                       const StereoCamera& camera,
                       const OdometryResult& result);
 
+  /// Waits until what was looked for is known to the next inspect().
+  void finish() const;
+
  private:
-  bool isNoise(const cv::Mat& image);
-  std::string findFrozen(const StereoPair& pair);
+  std::string findFrozen() const;
   std::string compareExposures(const OdometryResult& result);
-  std::string explainLoss(const StereoPair& pair, const StereoCamera& camera);
-  int countMatches(const cv::Mat& left, const cv::Mat& right, double infinity_px);
+  void explain(const StereoPair& pair, const StereoCamera& camera);
+  void forgetLoss();
 
   bool rectifies_;
-  Workers alone_{1};
-  FeatureDetector detector_;
-  StereoMatcher matcher_;
-  std::vector<cv::Point2f> corners_;
-  std::vector<float> disparities_;
+  CorrespondenceFinder::Config config_;
 
   std::uint64_t left_print_ = 0, right_print_ = 0;  // of the last pair
   int left_frozen_ = 0, right_frozen_ = 0;          // pairs in a row
-  int few_corners_ = 0, doubtful_ = 0;
   SlidingQuantiles gains_{kExposures};
-  std::string explanation_;  // kept until the motion is found again
-  std::vector<int> noise_;   // buffer, reused
+
+  // Of a loss: the pairs in a row without a good motion, and at how many the next explanation is
+  // looked for; the last one, kept until the motion is found again.
+  int doubtful_ = 0;
+  int explain_at_ = kPatience;
+  std::string explanation_;
+  std::future<std::string> search_;
+  bool search_is_of_this_loss_ = false;
 };
 
 }  // namespace rotrocc

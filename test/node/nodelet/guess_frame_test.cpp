@@ -148,6 +148,7 @@ TEST(GuessFrameTest, OfABurstTheNewestPairIsProcessedAndDropsAreCounted) {
   for (std::uint64_t i = 0; i < kPairs; ++i) {
     left.header.stamp += ros::Duration(0.01);
     right.header.stamp = left.header.stamp;
+    left.data.front() ^= 1;  // noise
     drive.robot.publish(left, right);
     drive.nodelet.finish();
     if (i % 10 == 0) wheels.sendTransform(wheelOdometry(left.header.stamp, 0.0));

@@ -1,0 +1,66 @@
+#include "input/log.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <mutex>
+
+namespace rotrocc {
+namespace {
+
+using ros::console::LogLocation;
+
+/// What rosconsole knows of a level of a logger. It never forgets its address.
+LogLocation& locationOf(const std::string& name, Log::Level level) {
+  static std::mutex mutex;
+  static auto* const loggers =
+      new std::map<std::string, std::array<LogLocation, ros::console::levels::Count>>;
+  const std::lock_guard<std::mutex> lock(mutex);
+  LogLocation& location = (*loggers)[name][level];
+  if (!location.initialized_) {
+    const std::string logger = ROSCONSOLE_DEFAULT_NAME + (name.empty() ? "" : "." + name);
+    ros::console::initializeLogLocation(&location, logger, level);
+  }
+  return location;
+}
+
+}  // namespace
+
+void Log::write(Level level, const std::string& text, const Caller& caller) const {
+  ROSCONSOLE_AUTOINIT;
+  const LogLocation& location = locationOf(name_, level);
+  if (!location.logger_enabled_) return;
+  const std::string line = name_.empty() ? text : name_ + ": " + text;
+  ros::console::print(nullptr,
+                      location.logger_,
+                      level,
+                      caller.file,
+                      caller.line,
+                      caller.function,
+                      "%s",
+                      line.c_str());
+}
+
+bool Throttle::pass(Time now) {
+  if (!asked_ || now - *asked_ >= first_) {
+    wait_ = first_;
+    not_before_ = now;
+  }
+  asked_ = now;
+  if (now < not_before_) return false;
+  not_before_ = now + wait_;
+  wait_ = std::min(2 * wait_, longest_);
+  return true;
+}
+
+bool FaultThrottle::pass(const std::string& fault, Throttle::Time now) {
+  constexpr std::chrono::seconds kFirst(5);
+  constexpr std::chrono::minutes kLongest(5);
+  std::string cause;
+  for (const char c : fault) {
+    if (std::isdigit(static_cast<unsigned char>(c)) == 0) cause += c;
+  }
+  return throttles_.try_emplace(cause, kFirst, kLongest).first->second.pass(now);
+}
+
+}  // namespace rotrocc
