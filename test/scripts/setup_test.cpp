@@ -186,5 +186,11 @@ TEST(DependenciesTest, ThoseOfDebianAndOfPackageXmlAreTheSame) {
   EXPECT_EQ(debian, ros);
 }
 
+TEST(DependenciesTest, ARobotWithoutAScreenNeedsNoneOfRvizAndPlots) {
+  for (const std::string& key : find(readFile(kPackageXml), "<(?:exec_)?depend[^>]*>([^<]+)</")) {
+    EXPECT_TRUE(key != "rviz" && key != "python3-matplotlib") << key;
+  }
+}
+
 }  // namespace
 }  // namespace rotrocc
