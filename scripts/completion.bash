@@ -15,6 +15,7 @@ declare -gA _rotrocc_options=(
   [offline_odometry]='--trajectory= --format= --config= --set= --stats= --bag= --pictures= --left-image=
     --right-image= --rectify= --imu= --imu-rotation= --preload'
   [publish_camera_info]=''
+  [rig_view]=''
   [sequence_to_bag]='--start-time= --rectify --max-stamp-difference='
   [simulate_drive]='--layout= --poses= --times= --frames= --rate= --seed= --noise-seed= --moving-share= --truth --imu
     --size= --focal= --baseline= --rig= --lens= --disparity-bias= --right-rotation= --rows= --time-skew= --noise=

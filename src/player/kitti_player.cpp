@@ -48,7 +48,7 @@ std::unique_ptr<Recording> openPlayable(const PlayerOptions& options) {
   }
   if (options.rectify && std::filesystem::is_directory(options.bag)) {
     throw std::invalid_argument("the images of " + options.bag +
-                                " are rectified as they are read: start without rectify:=true");
+                                " are rectified as they are read: start with rectify:=false");
   }
   return recording;
 }

@@ -1,3 +1,7 @@
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <ros/ros.h>
 #include <tf2_ros/transform_broadcaster.h>
 
@@ -12,41 +16,64 @@ const char* const kHelp =
     "Makes what rviz shows of the trajectory as a whole: its lines, state and speed in words.\n\n"
     "example: ROS_NAMESPACE=camera rosrun rotrocc rviz_scene\n"
     "usage:   rviz_scene [_least_size_m:=METRES] [TOPIC:=TOPIC...]\n\n"
-    "From odom, status and ground_truth/path it makes the markers `scene`, and the frame\n"
-    "trajectory_view in tf, which moves back as the path grows. The launch files start it with "
+    "From odom, status and ground_truth/path it makes the markers `scene`, and in tf the frame\n"
+    "trajectory_view/NAMESPACE, which moves back as the path grows. The launch files start it with "
     "rviz.\n\n"
     "Parameters:\n"
     "  least_size_m  what is seen around the start [m], default 4\n";
 
+std::string viewFrame(const std::string& ns) {
+  return "trajectory_view" + (ns == "/" ? "" : ns);
+}
+
 class RvizScene {
  public:
   RvizScene(ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
-      : scene_(private_nh.param("least_size_m", 4.0)),
-        publisher_(nh.advertise<visualization_msgs::MarkerArray>("scene", 1, true)),
+      : scene_(private_nh.param("least_size_m", 4.0), viewFrame(nh.getNamespace())),
+        publisher_(nh.advertise<visualization_msgs::MarkerArray>(
+            "scene", kQueueSize, [this](const ros::SingleSubscriberPublisher&) { forgetSent(); })),
         odometry_(nh.subscribe("odom", 10, &TrajectoryScene::add, &scene_)),
         status_(nh.subscribe("status", 10, &TrajectoryScene::setState, &scene_)),
         truth_(nh.subscribe("ground_truth/path", 1, &TrajectoryScene::setTruth, &scene_)),
-        timer_(nh.createWallTimer(ros::WallDuration(kPeriod_s), &RvizScene::onTimer, this)) {}
+        timer_(nh.createWallTimer(ros::WallDuration(0.1), &RvizScene::sendChanges, this)),
+        // For a viewer that was reset, or has missed a message.
+        refresh_(nh.createWallTimer(ros::WallDuration(5.0), &RvizScene::forgetSent, this)) {}
 
  private:
-  static constexpr double kPeriod_s = 0.1;
+  static constexpr int kQueueSize = 100;
 
-  void onTimer(const ros::WallTimerEvent&) {
+  void forgetSent(const ros::WallTimerEvent& = {}) { sent_.clear(); }
+
+  void sendChanges(const ros::WallTimerEvent&) {
     if (scene_.empty()) return;
     const geometry_msgs::TransformStamped view = scene_.view();
-    if (view.header.stamp != sent_) broadcaster_.sendTransform(view);  // tf warns of repetitions
-    sent_ = view.header.stamp;
-    publisher_.publish(scene_.markers());
+    if (view.header.stamp != view_time_)
+      broadcaster_.sendTransform(view);  // tf warns of repetitions
+    view_time_ = view.header.stamp;
+
+    std::vector<visualization_msgs::Marker> markers = scene_.markers().markers;
+    visualization_msgs::MarkerArray changed;
+    if (markers.size() < sent_.size()) {
+      sent_.clear();
+      changed.markers.emplace_back().action = visualization_msgs::Marker::DELETEALL;
+    }
+    for (std::size_t i = 0; i < markers.size(); ++i) {
+      if (i >= sent_.size() || markers[i] != sent_[i]) changed.markers.push_back(markers[i]);
+    }
+    if (!changed.markers.empty()) publisher_.publish(changed);
+    sent_ = std::move(markers);
   }
 
   TrajectoryScene scene_;
-  ros::Time sent_;
+  std::vector<visualization_msgs::Marker> sent_;
+  ros::Time view_time_;
   tf2_ros::TransformBroadcaster broadcaster_;
   ros::Publisher publisher_;
   ros::Subscriber odometry_;
   ros::Subscriber status_;
   ros::Subscriber truth_;
   ros::WallTimer timer_;
+  ros::WallTimer refresh_;
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "viewer/trajectory_scene.h"
 
+#include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -25,7 +27,9 @@ constexpr double kWayWidth = 0.004, kTruthWidth = 0.009, kStartSize = 0.015, kAr
 constexpr double kWayHeight = 0.015, kTruthHeight = 0.01;
 /// Of the text. Nearer to the camera, it would tremble with it.
 constexpr double kTextDistance = 0.3, kTextSize = 0.035, kTextHeight = -0.36;
-constexpr std::size_t kMostPoints = 20000;
+constexpr std::size_t kMostPoints = 20000, kPointsPerMarker = 200;
+/// Sizes change by this factor at once, so that markers of things that rest stay as they are.
+constexpr double kSizeStep = 1.1;
 
 std_msgs::ColorRGBA colour(const cv::Scalar& bgr) {
   std_msgs::ColorRGBA rgba;
@@ -54,8 +58,6 @@ Eigen::Vector3d toEigen(const Point& point) {
 }
 
 }  // namespace
-
-const char* const kViewFrame = "trajectory_view";
 
 void TrajectoryScene::setState(const OdometryStatus& status) {
   status_ = status;
@@ -135,7 +137,8 @@ Marker TrajectoryScene::marker(const char* name,
 visualization_msgs::MarkerArray TrajectoryScene::markers() const {
   visualization_msgs::MarkerArray markers;
   if (empty()) return markers;
-  const double distance = distance_m();
+  const double distance =
+      std::pow(kSizeStep, std::round(std::log(distance_m()) / std::log(kSizeStep)));
 
   if (truth_.poses.size() > 1) {
     Marker truth = marker("truth", Marker::LINE_STRIP, kTruthWidth * distance, okabe_ito::kSkyBlue);
@@ -144,16 +147,6 @@ visualization_msgs::MarkerArray TrajectoryScene::markers() const {
     for (const auto& pose : truth_.poses) truth.points.push_back(pose.pose.position);
     markers.markers.push_back(truth);
   }
-
-  Marker way = marker("estimate", Marker::LINE_STRIP, kWayWidth * distance, okabe_ito::kOrange);
-  way.pose.position.z = kWayHeight * distance;
-  for (const WayPoint& point : way_) {
-    way.points.push_back(tf2::toMsg(point.position));
-    way.colors.push_back(colour(colourOf(point.state)));
-  }
-  way.points.push_back(last_.pose.pose.position);
-  way.colors.push_back(colour(colourOf(status_.state)));
-  markers.markers.push_back(way);
 
   Marker start = marker("start", Marker::SPHERE, kStartSize * distance, okabe_ito::kBlack);
   start.pose.position = tf2::toMsg(way_.front().position);
@@ -167,11 +160,28 @@ visualization_msgs::MarkerArray TrajectoryScene::markers() const {
 
   const double to_text = kTextDistance * distance;
   Marker text = marker("state", Marker::TEXT_VIEW_FACING, kTextSize * to_text, okabe_ito::kBlack);
-  text.header.frame_id = kViewFrame;
+  text.header.frame_id = view_frame_;
   text.pose.position.x = to_text;
   text.pose.position.z = kTextHeight * to_text;
   text.text = words();
   markers.markers.push_back(text);
+
+  // In parts, of which only the last one changes while the way grows.
+  for (std::size_t begin = 0; begin < way_.size(); begin += kPointsPerMarker) {
+    Marker way = marker("estimate", Marker::LINE_STRIP, kWayWidth * distance, okabe_ito::kOrange);
+    way.id = static_cast<int>(begin / kPointsPerMarker);
+    way.pose.position.z = kWayHeight * distance;
+    const auto add = [&way](const Eigen::Vector3d& position, std::uint8_t state) {
+      way.points.push_back(tf2::toMsg(position));
+      way.colors.push_back(colour(colourOf(state)));
+    };
+    const std::size_t end = std::min(begin + kPointsPerMarker + 1, way_.size());
+    for (std::size_t i = begin; i < end; ++i) add(way_[i].position, way_[i].state);
+    if (begin + kPointsPerMarker >= way_.size()) {
+      add(toEigen(last_.pose.pose.position), status_.state);
+    }
+    markers.markers.push_back(way);
+  }
   return markers;
 }
 
@@ -179,7 +189,7 @@ geometry_msgs::TransformStamped TrajectoryScene::view() const {
   Eigen::Isometry3d T_odom_view(WholeView::orientation());
   T_odom_view.translation() = view_.position();
   return toTransform(
-      T_odom_view, toNanoseconds(last_.header.stamp), last_.header.frame_id, kViewFrame);
+      T_odom_view, toNanoseconds(last_.header.stamp), last_.header.frame_id, view_frame_);
 }
 
 }  // namespace rotrocc

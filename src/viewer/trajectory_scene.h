@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <geometry_msgs/TransformStamped.h>
@@ -21,8 +22,9 @@ namespace rotrocc {
 /// of a camera that sees all of it.
 class TrajectoryScene {
  public:
-  /// `least_size_m`: what is seen around the start.
-  explicit TrajectoryScene(double least_size_m) : least_size_m_(least_size_m) {}
+  /// `least_size_m`: what is seen around the start. `view_frame`: of the camera.
+  TrajectoryScene(double least_size_m, std::string view_frame)
+      : least_size_m_(least_size_m), view_frame_(std::move(view_frame)) {}
 
   /// A pose has the state of the status with its stamp, whichever comes first.
   void setState(const OdometryStatus& status);
@@ -33,10 +35,11 @@ class TrajectoryScene {
 
   bool empty() const { return way_.empty(); }
 
-  /// In the frame of the poses and, for text, in that of the camera.
+  /// In the frame of the poses and, for text, in that of the camera. While the way grows, further
+  /// markers follow, and few of the others change.
   visualization_msgs::MarkerArray markers() const;
 
-  /// The frame of the camera, `view_frame`.
+  /// The frame of the camera.
   geometry_msgs::TransformStamped view() const;
 
  private:
@@ -55,6 +58,7 @@ class TrajectoryScene {
                                     const cv::Scalar& bgr) const;
 
   double least_size_m_;
+  std::string view_frame_;
   OdometryStatus status_;
   nav_msgs::Path truth_;
   nav_msgs::Odometry last_;
@@ -63,7 +67,5 @@ class TrajectoryScene {
   double length_m_ = 0.0;
   WholeView view_;
 };
-
-extern const char* const kViewFrame;
 
 }  // namespace rotrocc

@@ -46,6 +46,9 @@ TEST(EarlierRunTest, ALaunchBeginsWithItsOwnParameters) {
       << readFile(directory / "log");
   EXPECT_FALSE(ros::param::has(kNode + "max_featurs"));
   EXPECT_FALSE(ros::param::param(kNode + "planar", true));
+  EXPECT_TRUE(waitUntil([&] {
+    return readFile(directory / "log").find("Initializing nodelet") != std::string::npos;
+  })) << "the log has a message while the node runs";
 }
 
 }  // namespace

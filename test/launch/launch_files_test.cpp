@@ -74,13 +74,15 @@ const Launched kParameters = {{"base_frame", "body"},
                               {"image_transport", "compressed"},
                               {"max_stamp_difference_s", "0.02"},
                               {"odom_frame", "world"},
+                              {"path_rate_hz", "5"},
                               {"planar", "true"},
                               {"publish_tf", "false"},
                               {"rectify", "true"},
                               {"trajectory_file", "/of_config"},
                               {"trajectory_format", "kitti"}};
 const std::string kNode = "/camera/stereo_odometry";
-const std::string kRviz = "rviz/rviz -d " ROOT "/rviz/stereo_odometry.rviz";
+const std::string kPose = " camera_pose:='1 2 3 0.4 0.5 0.6'";
+const std::string kPublisher = "tf2_ros/static_transform_publisher ";
 
 /// stereo_odometry.launch and kitti.launch with that file.
 class ConfiguredLaunchTest : public LaunchFilesTest {
@@ -112,15 +114,18 @@ TEST_F(ConfiguredLaunchTest, TheFileHolds) {
                       {"cleared", kNode + "/"},
                       {"warnings", "0"},
                       {kNode + " odom", "odom"}};
-  for (const auto& [name, value] : kParameters) entries[kNode + "/" + name] = value;
+  Launched of_kitti = {{"/stereo/kitti_player/base_frame", "body"},
+                       {"/stereo/kitti_player/lockstep", "true"},
+                       {"/stereo/kitti_player/max_stamp_difference_s", "0.02"},
+                       {"/stereo/kitti_player/rectify", "true"},
+                       {"cleared", "/stereo/stereo_odometry/ /stereo/kitti_player/"},
+                       {"warnings", "0"}};
+  for (const auto& [name, value] : kParameters) {
+    entries[kNode + "/" + name] = value;
+    of_kitti["/stereo/stereo_odometry/" + name] = value;
+  }
   expectCamera("", entries);
-  expect("kitti.launch",
-         "bag:=any.bag rviz:=false " + config_,
-         {{"/stereo/stereo_odometry/trajectory_file", "/of_config"},
-          {"/stereo/stereo_odometry/trajectory_format", "kitti"},
-          {"/stereo/kitti_player/lockstep", "true"},
-          {"cleared", "/stereo/stereo_odometry/ /stereo/kitti_player/"},
-          {"warnings", "0"}});
+  expect("kitti.launch", "bag:=any.bag rviz:=false " + config_, of_kitti);
 }
 
 TEST_F(ConfiguredLaunchTest, ArgumentsOverrideIt) {
@@ -130,8 +135,11 @@ TEST_F(ConfiguredLaunchTest, ArgumentsOverrideIt) {
                    {"rectify", "false"}},
                   {{"warnings", "0"}});
   expect("kitti.launch",
-         "bag:=any.bag rviz:=false rectify:=true lockstep_timeout:=0 trajectory_file:=/new",
-         {{"/stereo/stereo_odometry/rectify", "true"},
+         "bag:=any.bag rectify:=true base_frame:=body lockstep_timeout:=0 trajectory_file:=/new",
+         {{"/stereo/rviz", "rotrocc/rig_view " ROOT "/rviz/kitti.rviz"},
+          {"/stereo/stereo_odometry/base_frame", "body"},
+          {"/stereo/kitti_player/base_frame", "body"},
+          {"/stereo/stereo_odometry/rectify", "true"},
           {"/stereo/stereo_odometry/trajectory_file", "/new"},
           {"/stereo/kitti_player/rectify", "true"},
           {"/stereo/kitti_player/lockstep", "false"},
@@ -153,10 +161,8 @@ TEST_F(ConfiguredLaunchTest, ArgumentsOfTheLastReleaseWorkAndAreReported) {
          "bag:=any.bag rviz:=false lockstep:=false",
          {{"/stereo/kitti_player/lockstep", "false"}, {"warnings", "1"}});
   expect("cameras/realsense.launch",
-         "driver:=false publish_tf:=false mount:='1 2 3 0.4 0.5 0.6'",
-         {{"/camera_link_mount",
-           "tf2_ros/static_transform_publisher 1 2 3 0.4 0.5 0.6 base_link camera_link"},
-          {"/camera/stereo_odometry/publish_tf", "false"},
+         "driver:=false mount:='1 2 3 0.4 0.5 0.6'",
+         {{"/camera/camera_pose", kPublisher + "1 2 3 0.4 0.5 0.6 base_link camera_link"},
           {"warnings", "1"}});
 }
 
@@ -170,8 +176,7 @@ TEST_F(ConfiguredLaunchTest, TopicsAreWhereTheUserWants) {
                {{kNode + " odom", "/odometry/visual"},
                 {kNode + " path", "vo/path"},
                 {"/camera/rviz odom", "/odometry/visual"},
-                {"/camera/rviz", kRviz}});
-  expectCamera(" rviz:=true odom_frame:=map", {{"/camera/rviz", kRviz + " -f map"}});
+                {"/camera/rviz", "rotrocc/rig_view " ROOT "/rviz/stereo_odometry.rviz"}});
   expectCamera(" left_image:=cam0/image right_image:=/cam1/image gyroscope:=/imu/data",
                {{kNode + " left/image_rect", "cam0/image"},
                 {kNode + " left/image_raw", "cam0/image"},
@@ -181,19 +186,46 @@ TEST_F(ConfiguredLaunchTest, TopicsAreWhereTheUserWants) {
                 {kNode + "/use_imu", "true"}});
 }
 
-TEST_F(LaunchFilesTest, TheFilterBroadcastsTf) {
-  addDriver("robot_localization", "any.launch", "");
-  expect("ekf.launch",
-         "planar:=true imu:=/imu/data",
-         {{"/stereo/stereo_odometry/planar", "true"},
-          {"/stereo/stereo_odometry/publish_tf", "false"},
-          {"/ekf/two_d_mode", "true"},
-          {"/ekf/imu0", "/imu/data"},
-          {"warnings", "0"}});
+TEST_F(ConfiguredLaunchTest, TheCameraIsWhereTheUserSays) {
+  expectCamera(kPose + " base_frame:=body camera_link:=eyes",
+               {{"/camera/camera_pose", kPublisher + "1 2 3 0.6 0.5 0.4 body eyes"}});
+  expectCamera("", {{"/camera/camera_pose", ""}});
 }
 
-const std::string kPose = " camera_pose:='1 2 3 0.4 0.5 0.6'";
-const std::string kPublisher = "tf2_ros/static_transform_publisher ";
+TEST_F(ConfiguredLaunchTest, NodesStartAgainOnRequest) {
+  expectCamera("", {{"respawned", ""}});
+  expectCamera(" respawn:=true", {{"respawned", "/camera/stereo_manager /camera/stereo_odometry"}});
+}
+
+TEST_F(ConfiguredLaunchTest, TheFilterBroadcastsTf) {
+  addDriver("robot_localization", "any.launch", "");
+  expect("ekf.launch",
+         "planar:=true imu:=/imu/data gyroscope:=/gyro left_image:=/cam0 base_frame:=body "
+         "odom_frame:=world respawn:=true",
+         {{"/stereo/stereo_odometry/planar", "true"},
+          {"/stereo/stereo_odometry/publish_tf", "false"},
+          {"/stereo/stereo_odometry/base_frame", "body"},
+          {"/stereo/stereo_odometry imu", "/gyro"},
+          {"/stereo/stereo_odometry left/image_rect", "/cam0"},
+          {"/ekf/two_d_mode", "true"},
+          {"/ekf/base_link_frame", "body"},
+          {"/ekf/odom_frame", "world"},
+          {"/ekf/world_frame", "world"},
+          {"/ekf/imu0", "/imu/data"},
+          {"respawned", "/stereo/stereo_manager /stereo/stereo_odometry /ekf"},
+          {"warnings", "0"}});
+  Launched entries = {{"/stereo/stereo_odometry/base_frame", "body"},
+                      {"/stereo/stereo_odometry/odom_frame", "world"},
+                      {"/stereo/stereo_odometry imu", ""},
+                      {"/ekf/base_link_frame", "body"},
+                      {"/ekf/odom_frame", "world"}};
+  expect("ekf.launch", config_, entries);
+  entries["/ekf/odom_frame"] = "filtered";
+  expect("ekf.launch",
+         config_ + " filter_config:=" + directory_.write("filter.yaml", "odom_frame: filtered"),
+         entries);
+  expect("ekf.launch", "", {{"/ekf/base_link_frame", "base_link"}, {"/ekf/odom_frame", "odom"}});
+}
 
 TEST_F(LaunchFilesTest, WithoutADriverInstalledTheOdometryStarts) {
   for (const std::string file : {"realsense", "usb_pair", "zed"}) {
@@ -201,23 +233,46 @@ TEST_F(LaunchFilesTest, WithoutADriverInstalledTheOdometryStarts) {
   }
 }
 
+TEST_F(LaunchFilesTest, CamerasTakeTheArgumentsOfTheOdometry) {
+  const std::map<std::string, std::string> namespaces = {
+      {"realsense", "/camera"}, {"usb_pair", "/stereo"}, {"zed", "/zed2"}};
+  for (const auto& [file, ns] : namespaces) {
+    const std::string odometry = ns + "/stereo_odometry";
+    expect("cameras/" + file + ".launch",
+           "driver:=false manager:=/theirs respawn:=true gyroscope:=/imu output_ns:=/vo "
+           "odom_topic:=visual odom_frame:=world base_frame:=body publish_tf:=false",
+           {{odometry, "nodelet/nodelet load rotrocc/StereoOdometry /theirs"},
+            {odometry + " imu", "/imu"},
+            {odometry + " odom", "/vo/visual"},
+            {odometry + "/odom_frame", "world"},
+            {odometry + "/base_frame", "body"},
+            {odometry + "/publish_tf", "false"},
+            {"respawned", odometry},
+            {"warnings", "0"}});
+  }
+}
+
 TEST_F(LaunchFilesTest, Realsense) {
   addDriver("realsense2_camera",
             "rs_camera.launch",
-            "camera enable_infra1 enable_infra2 enable_color enable_depth infra_width infra_height "
-            "infra_fps");
+            "camera respawn enable_infra1 enable_infra2 enable_color enable_depth enable_gyro "
+            "infra_width infra_height infra_fps");
   const std::string odometry = "/front/stereo_odometry";
   expect("cameras/realsense.launch",
          "camera:=front" + kPose,
-         {{"/driver/enable_infra1", "true"},
+         {{odometry, "nodelet/nodelet load rotrocc/StereoOdometry realsense2_camera_manager"},
+          {"/driver/enable_infra1", "true"},
+          {"/driver/enable_gyro", "false"},
           {"/front/stereo_module/emitter_enabled", "0"},
           {odometry + " left/image_rect", "infra1/image_rect_raw"},
           {odometry + " right/image_rect", "infra2/image_rect_raw"},
           {odometry + " left/camera_info", "infra1/camera_info"},
           {odometry + " right/camera_info", "infra2/camera_info"},
-          {"/front_link_mount", kPublisher + "1 2 3 0.6 0.5 0.4 base_link front_link"},
+          {"/front/camera_pose", kPublisher + "1 2 3 0.6 0.5 0.4 base_link front_link"},
           {"warnings", "0"}});
-  expect("cameras/realsense.launch", "", {{"/camera_link_mount", ""}});
+  expect("cameras/realsense.launch",
+         "gyroscope:=gyro/sample",
+         {{"/camera/camera_pose", ""}, {"/driver/enable_gyro", "true"}});
 }
 
 TEST_F(LaunchFilesTest, Zed) {
@@ -231,7 +286,9 @@ TEST_F(LaunchFilesTest, Zed) {
   const std::string odometry = "/eyes/stereo_odometry";
   expect("cameras/zed.launch",
          "model:=zed2i camera:=eyes base_frame:=body" + kPose,
-         {{"/driver/cam_pos_z", "3"},
+         {{odometry, "nodelet/nodelet load rotrocc/StereoOdometry zed_node"},
+          {"/eyes/camera_pose", ""},
+          {"/driver/cam_pos_z", "3"},
           {"/driver/cam_roll", "0.4"},
           {"/driver/cam_pitch", "0.5"},
           {"/driver/cam_yaw", "0.6"},
@@ -248,7 +305,7 @@ TEST_F(LaunchFilesTest, Zed) {
   expect("cameras/zed.launch", "model:=zed2i", {{"/driver/publish_urdf", "false"}});
   expect("cameras/zed.launch",
          "model:=zed2i mount:='1 2 3 0.4 0.5 0.6'",
-         {{"/driver/cam_yaw", "0.4"}, {"/driver/cam_roll", "0.6"}});
+         {{"/driver/cam_yaw", "0.4"}, {"/driver/cam_roll", "0.6"}, {"warnings", "1"}});
 }
 
 TEST_F(LaunchFilesTest, UsbPair) {
@@ -257,17 +314,21 @@ TEST_F(LaunchFilesTest, UsbPair) {
          {{"/stereo/left", "usb_cam/usb_cam_node "},
           {"/stereo/left/video_device", "/dev/video0"},
           {"/stereo/right/video_device", "/dev/video4"},
-          {"/stereo/right/camera_name", "right"},
+          {"/stereo/right/camera_name", "stereo_right"},
           {"/stereo/right/camera_frame_id", "stereo_right_optical"},
           {"/stereo/right/image_width", "640"},
           {"/stereo/right/framerate", "25"},
           {"/stereo/right/pixel_format", "mjpeg"},
           {"/stereo/stereo_odometry/rectify", "true"},
           {"/stereo/stereo_odometry/max_stamp_difference_s", "0.02"},
-          {"/stereo_link_mount", kPublisher + "1 2 3 0.6 0.5 0.4 base_link stereo_link"},
-          {"/stereo_left_optical_tf",
+          {"/stereo/camera_pose", kPublisher + "1 2 3 0.6 0.5 0.4 base_link stereo_link"},
+          {"/stereo/left_optical",
            kPublisher + "0 0 0 -1.570796 0 -1.570796 stereo_link stereo_left_optical"},
           {"warnings", "0"}});
+  expect("cameras/usb_pair.launch",
+         "stereo:=/rig/rear",
+         {{"/rig/rear/left/camera_name", "rig_rear_left"},
+          {"/rig/rear/left/camera_frame_id", "rig_rear_left_optical"}});
 }
 
 TEST_F(LaunchFilesTest, Euroc) {

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Prints what a launch file would start and set, as JSON, without a master: read_launch.py FILE [NAME:=VALUE]...
 
-The keys are NODE (package/type args), NODE TOPIC (the topic it is remapped to), PARAMETER, cleared, and warnings (their number).
+The keys are NODE (package/type args), NODE TOPIC (the topic it is remapped to), PARAMETER, cleared,
+respawned (nodes), and warnings (their number).
 """
 
 import json
@@ -17,6 +18,7 @@ for node in config.nodes:
     found[name] = f'{node.package}/{node.type} {node.args}'
     for topic, target in node.remap_args:
         found[f'{name} {topic}'] = target
+found['respawned'] = ' '.join(node.namespace + node.name for node in config.nodes if node.respawn)
 found['cleared'] = ' '.join(config.clear_params)
 found['warnings'] = len(config.config_errors)
 json.dump(found, sys.stdout, default=str)

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <string>
 
@@ -140,21 +139,13 @@ bool simulatesTime() {
 
 /// With a program in the place of rviz that does nothing.
 TEST_F(KittiLaunchTest, EndsByItselfIfTheBagCannotBePlayed) {
-  const std::string workspace = directory_ / "workspace";
-  const std::string program = workspace + "/lib/rviz/rviz";
-  std::filesystem::create_directories(workspace + "/lib/rviz");
-  std::filesystem::create_directories(workspace + "/share/rviz");
-  std::ofstream(workspace + "/.catkin");
-  std::ofstream(workspace + "/share/rviz/package.xml")
-      << "<package format=\"2\"><name>rviz</name><version>1.0.0</version><description/>"
-         "<maintainer email=\"a@b.invalid\">a</maintainer><license>BSD</license></package>";
-  std::ofstream(program) << "#!/bin/sh\nexec sleep infinity\n";
+  const std::string program = directory_.write("rviz", "#!/bin/sh\nexec sleep infinity\n");
   std::filesystem::permissions(program, std::filesystem::perms::owner_all);
-  const CommandResult launch = replay(directory_ / "missing.bag",
-                                      " rviz:=true",
-                                      "CMAKE_PREFIX_PATH=" + workspace +
-                                          ":$CMAKE_PREFIX_PATH ROS_PACKAGE_PATH=" + workspace +
-                                          "/share:$ROS_PACKAGE_PATH timeout --signal INT 120");
+  const CommandResult launch =
+      replay(directory_ / "missing.bag",
+             " rviz:=true",
+             "PATH=" + directory_ / "" + ":$PATH ROS_HOME=" + directory_ / "" +
+                 " timeout --signal INT 120");
   EXPECT_NE(launch.status, 124) << "still open: " << launch.output;
   EXPECT_NE(launch.output.find("missing.bag is not readable as a bag"), std::string::npos)
       << launch.output;
@@ -167,6 +158,15 @@ TEST_F(KittiLaunchTest, AnotherSimulationKeepsItsClock) {
   ASSERT_TRUE(waitUntil([] { return runCommand("rostopic info /clock").status == 0; }));
   replay(directory_ / "missing.bag");
   EXPECT_TRUE(simulatesTime());
+}
+
+TEST_F(KittiLaunchTest, TheSettingBeforeIsThatAfter) {
+  for (const std::string value : {"true", "false"}) {
+    ASSERT_EQ(runCommand("rosparam set /use_sim_time " + value).status, 0);
+    replay(directory_ / "missing.bag");
+    EXPECT_EQ(runCommand("rosparam get /use_sim_time").output, value + "\n");
+  }
+  runCommand("rosparam delete /use_sim_time");
 }
 
 }  // namespace

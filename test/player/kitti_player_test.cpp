@@ -349,7 +349,7 @@ TEST_F(KittiPlayerTest, RefusesWhatItCannotPlay) {
   }
   private_nh_.setParam("bag", directory_ / "sequence");
   private_nh_.setParam("rectify", true);
-  expectError([this] { startPlayer(); }, "start without rectify:=true");
+  expectError([this] { startPlayer(); }, "start with rectify:=false");
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ class TrajectorySceneTest : public ::testing::Test {
     return {};
   }
 
-  TrajectoryScene scene_{kLeastSize_m};
+  TrajectoryScene scene_{kLeastSize_m, "view"};
 };
 
 TEST_F(TrajectorySceneTest, SaysStateSpeedAndLength) {
@@ -69,7 +69,7 @@ TEST_F(TrajectorySceneTest, TheStatusOfAPoseMayComeAfterIt) {
   const std::uint8_t states[] = {
       OdometryStatus::OK, OdometryStatus::LOST, OdometryStatus::LOST, OdometryStatus::OK};
   for (const double step_m : {0.0, 1.0}) {
-    scene_ = TrajectoryScene(kLeastSize_m);
+    scene_ = TrajectoryScene(kLeastSize_m, "view");
     for (int i = 0; i < 4; ++i) {
       addAt(step_m * i, i);
       setState(states[i], "", i);
@@ -99,8 +99,30 @@ TEST_F(TrajectorySceneTest, GrowsWithTheWay) {
 
 TEST_F(TrajectorySceneTest, KeepsNoMorePointsThanAreSeen) {
   for (int i = 0; i < 100000; ++i) addAt(i % 1000, i);
-  EXPECT_LT(marker("estimate").points.size(), 20001u);
-  EXPECT_EQ(marker("estimate").points.back().x, 999.0);
+  std::size_t points = 0;
+  for (const visualization_msgs::Marker& marker : scene_.markers().markers) {
+    if (marker.ns == "estimate") points += marker.points.size();
+  }
+  EXPECT_LT(points, 20200u);
+  EXPECT_EQ(scene_.markers().markers.back().points.back().x, 999.0);
+}
+
+TEST_F(TrajectorySceneTest, AStepChangesFewPoints) {
+  for (int i = 0; i < 6050; ++i) addAt(10 * (i % 50), i);
+  constexpr int kSteps = 10;
+  std::size_t points = 0, changed = 0;
+  std::vector<visualization_msgs::Marker> before = scene_.markers().markers;
+  for (int step = 1; step <= kSteps; ++step) {
+    addAt(490.0 + step, 6050.0 + step);
+    const std::vector<visualization_msgs::Marker> after = scene_.markers().markers;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      points += after[i].points.size();
+      if (i >= before.size() || after[i] != before[i]) changed += after[i].points.size();
+    }
+    before = after;
+  }
+  EXPECT_GT(points, kSteps * 6000u);
+  EXPECT_LT(changed, 300u * kSteps + 6200u) << "the sizes may change once";
 }
 
 TEST_F(TrajectorySceneTest, RestartsAfterAJumpBackOrInAnotherFrame) {
