@@ -32,19 +32,18 @@ struct NodeParameters {
   int significant_bits = 0;                   ///< of 16-bit images; 0: found from them
   double baseline_m = 0.0;                    ///< 0: that of camera_info
   std::string pose_after_time_jump = "keep";  ///< or "zero": when time jumps back
-  double silence_s = 5.0;              ///< time without a pair before the log reports the reason
-  std::string flow_view = "motion";    ///< one of flowViewNames()
-  int path_length = 10000;             ///< number of poses on the path topic; 0: no path
-  double path_rate_hz = 2.0;           ///< at most, of the messages on the path topic
-  std::string while_lost = "hold";     ///< or "silent" or "null": what is published then
-  double lost_speed_sigma_mps = 10.0;  ///< growth rate of the position's uncertainty while lost
-  double lost_turn_rate_sigma_rps = 0.5;
+  double silence_s = 5.0;                 ///< time without a pair before the log reports the reason
+  std::string flow_view = "motion";       ///< one of flowViewNames()
+  int path_length = 10000;                ///< number of poses on the path topic; 0: no path
+  double path_rate_hz = 2.0;              ///< at most, of the messages on the path topic
+  std::string while_lost = "hold";        ///< or "silent" or "null": what is published then
   double guess_error_share = 0.1;         ///< error of the motion of guess_frame, while lost
   double reset_after_lost_s = 0.0;        ///< the estimator restarts after a longer loss; 0: never
   std::string pose_after_lost = "keep";   ///< or "zero": after that
   int trajectory_length = 100'000;        ///< number of poses kept for ~save_trajectory
   std::string trajectory_file;            ///< first of the files of all poses; empty: none
   std::string trajectory_format = "tum";  ///< or "kitti"
+  std::string continue_from;  ///< file of the latest pose, where the next run begins; empty: none
 };
 
 /// All parameters of the package.

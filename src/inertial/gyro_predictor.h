@@ -28,6 +28,7 @@ class GyroPredictor {
       : R_camera_gyro_(R_camera_gyro) {}
 
   void setMount(const Eigen::Matrix3d& R_camera_gyro) { R_camera_gyro_ = R_camera_gyro; }
+  const Eigen::Matrix3d& R_camera_gyro() const { return R_camera_gyro_; }
 
   /// Samples that are no numbers or out of order are refused.
   void add(const GyroSample& sample);

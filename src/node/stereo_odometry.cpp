@@ -20,8 +20,8 @@ using SteadyClock = std::chrono::steady_clock;
 /// Period at which the worker checks for shutdown, which may happen without a call of the
 /// destructor.
 constexpr std::chrono::milliseconds kIdlePoll(100);
-/// Period of tf lookups while a pair waits for tf.
-constexpr std::chrono::milliseconds kTfPoll(10);
+/// Period at which a pair is tried again that waits for tf, or for the vertical.
+constexpr std::chrono::milliseconds kRetry(10);
 /// Period of diagnostics (REP 107).
 constexpr double kTick_s = 1.0;
 
@@ -119,17 +119,20 @@ void StereoOdometry::onTick(const ros::WallTimerEvent&) {
 void StereoOdometry::work() {
   pthread_setname_np(pthread_self(), "odometry");  // for `top -H` and debuggers
   std::optional<ReceivedPair> pair;
+  std::optional<DropReason> waits_for;
   while (ros::ok() && !mailbox_.closed()) {
-    if (auto newer = mailbox_.take(pair ? kTfPoll : kIdlePoll)) {
-      if (pair) drops_.count(DropReason::kTfMissing);
+    if (auto newer = mailbox_.take(pair ? kRetry : kIdlePoll)) {
+      if (pair) drops_.count(*waits_for);
       pair = std::move(newer);
     }
-    if (pair && tryPair(*pair)) pair.reset();
+    if (pair) waits_for = tryPair(*pair);
+    if (!waits_for) pair.reset();
   }
 }
 
-/// Whether the pair is done with: processed, or dropped. Otherwise tf lacks the camera pose.
-bool StereoOdometry::tryPair(const ReceivedPair& received) {
+/// Nothing if the pair is done with: processed, or dropped. Otherwise it waits, and a newer one
+/// replaces it for that reason: tf lacks the camera pose, or the vertical is not known yet.
+std::optional<DropReason> StereoOdometry::tryPair(const ReceivedPair& received) {
   try {
     if (processor_.takeRequests()) mount_.lookAgain();
     const sensor_msgs::Image& left = *received.images.left;
@@ -137,7 +140,10 @@ bool StereoOdometry::tryPair(const ReceivedPair& received) {
     const auto T_base_camera = mount_.find(frame, toNanoseconds(left.header.stamp));
     if (!T_base_camera) {
       health_.setWaitsForTf(mount_.missing());
-      return false;
+      return DropReason::kTfMissing;
+    }
+    if (gyro_ && processor_.startsLevel() && gyro_->waitsForVertical(frame)) {
+      return DropReason::kSuperseded;
     }
     process(received, frame, *T_base_camera);
   } catch (const InputError& error) {
@@ -145,7 +151,7 @@ bool StereoOdometry::tryPair(const ReceivedPair& received) {
   } catch (const std::exception& error) {
     drops_.add(InputError(DropReason::kFailed, std::string("internal error: ") + error.what()));
   }
-  return true;
+  return std::nullopt;
 }
 
 void StereoOdometry::process(const ReceivedPair& received,
@@ -161,6 +167,7 @@ void StereoOdometry::process(const ReceivedPair& received,
     context.measured_rotation = [&](std::int64_t from_ns, std::int64_t to_ns) {
       return gyro_->rotation(frame, from_ns, to_ns);
     };
+    context.up = [&] { return gyro_->up(frame, pair.stamp_ns); };
   }
   const PairAnswer answer = processor_.process(pair, context);
   // Before the odometry is sent: who has received it can save its pose.

@@ -56,7 +56,7 @@ class StereoOdometry {
 
   // In the worker thread.
   void work();
-  bool tryPair(const ReceivedPair& received);
+  std::optional<DropReason> tryPair(const ReceivedPair& received);
   void process(const ReceivedPair& received,
                const std::string& frame,
                const Eigen::Isometry3d& T_base_camera);

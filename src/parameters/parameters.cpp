@@ -24,7 +24,9 @@ void addNode(NodeParameters& n, ParameterTable& table) {
   table.add("guess_timeout_s", n.guess_timeout_s, {0.0, 1.0, "s"}).description =
       "how long a pair waits for the transform from guess_frame";
   table.add("use_imu", n.use_imu).description =
-      "predict rotations by the gyroscope of the topic imu; its frame must be in tf";
+      "predict rotations by the gyroscope of the topic imu, whose frame must be in tf; if the "
+      "robot "
+      "rests, its accelerations level the first pose, unless initial_pose has roll or pitch";
   table.add("imu_timeout_s", n.imu_timeout_s, {0.0, 1.0, "s"}).description =
       "how long a pair waits for the samples of the gyroscope";
   table.add("rectify", n.rectify).description =
@@ -55,10 +57,6 @@ void addNode(NodeParameters& n, ParameterTable& table) {
   table.add("while_lost", n.while_lost, {"hold", "silent", "null"}).description =
       "what is published while the motion is lost: the pose held, with growing covariance; neither "
       "tf nor odom; or odom with a zero pose of variance 9999, without tf";
-  table.add("lost_speed_sigma_mps", n.lost_speed_sigma_mps, {0.0, 1000.0, "m/s"}).description =
-      "assumed standard deviation of the speed while lost";
-  table.add("lost_turn_rate_sigma_rps", n.lost_turn_rate_sigma_rps, {0.0, 100.0, "rad/s"})
-      .description = "assumed standard deviation of the turn rate while lost";
   table.add("guess_error_share", n.guess_error_share, {0.0, 10.0}).description =
       "standard deviation of the motion in guess_frame that moves the pose while lost, as a share "
       "of way and angle";
@@ -74,6 +72,9 @@ void addNode(NodeParameters& n, ParameterTable& table) {
       "trajectory goes to NAME_2, NAME_3, ...";
   table.add("trajectory_format", n.trajectory_format, {"tum", "kitti"}).description =
       "format of trajectory_file";
+  table.add("continue_from", n.continue_from).description =
+      "file in which the latest pose is kept, and from which the odometry continues when it is "
+      "started again; none if empty";
 }
 
 void addFrontEnd(CorrespondenceFinderConfig& finder, ParameterTable& table) {

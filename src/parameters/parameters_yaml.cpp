@@ -12,6 +12,7 @@ namespace {
 
 /// Parameters of earlier releases, by section.
 constexpr const char* kRemoved = R"(
+"": [lost_speed_sigma_mps, lost_turn_rate_sigma_rps]
 feature_detector: [block_radius_px, border_px, cell_size_px, min_response, nms_radius_px]
 feature_tracker: [levels, max_disparity_difference_px, max_iterations, max_vertical_px,
   min_step_px, startup_levels]
@@ -62,7 +63,7 @@ std::string whyIgnored(const std::string& name) {
   static const auto kSections = YAML::Load(kRemoved).as<Sections>();
   for (const auto& [section, leaves] : kSections) {
     for (const std::string& leaf : leaves) {
-      if (name != section + "/" + leaf) continue;
+      if (name != (section.empty() ? leaf : section + "/" + leaf)) continue;
       return "parameter " + name + " no longer exists and is ignored: delete it";
     }
   }

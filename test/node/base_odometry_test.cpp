@@ -7,8 +7,6 @@
 namespace rotrocc {
 namespace {
 
-constexpr double kSpeedSigma = 10.0;
-constexpr double kTurnSigma = 0.5;
 constexpr std::int64_t kPeriod_ns = 100'000'000;
 
 /// A camera 1 m ahead of and 2 m above the base that looks along the base's x axis.
@@ -25,13 +23,6 @@ Eigen::Isometry3d makeMotion(double step_m, double left_rad) {
   T.translation().x() = step_m;
   T.rotate(Eigen::AngleAxisd(left_rad, Eigen::Vector3d::UnitZ()));
   return T;
-}
-
-NodeParameters parameters() {
-  NodeParameters node;
-  node.lost_speed_sigma_mps = kSpeedSigma;
-  node.lost_turn_rate_sigma_rps = kTurnSigma;
-  return node;
 }
 
 /// A pair whose motion is measured against the pair before and against a keyframe, if that is
@@ -87,7 +78,7 @@ class BaseOdometryTest : public testing::Test {
     return std::sqrt(state.T_odom_base.covariance(axis, axis));
   }
 
-  BaseOdometry odometry_{parameters(), {0.0, 0.0}};
+  BaseOdometry odometry_{NodeParameters(), {0.0, 0.0}};
   std::int64_t stamp_ns_ = 5'000'000'000;
 };
 
@@ -151,7 +142,7 @@ TEST_F(BaseOdometryTest, APairComparedWithOneBeforeALossIsAsCertainAsThat) {
   move(makeMotion(1.0, 0.0));
   const std::int64_t reference_ns = stamp_ns_;
   const double before = sigma(rest(reference_ns), 0);
-  EXPECT_GT(sigma(lose(kPeriod_ns), 0), 10.0 * before);
+  EXPECT_GT(sigma(lose(kPeriod_ns), 0), 5.0 * before);
   EXPECT_DOUBLE_EQ(sigma(rest(reference_ns), 0), before);
   // A pair measured against a lost one is at least as uncertain as that.
   const double lost = sigma(lose(kPeriod_ns), 0);
@@ -164,8 +155,8 @@ TEST_F(BaseOdometryTest, LostKeepsThePoseAndSaysItIsUnknown) {
   EXPECT_TRUE(lost.T_odom_base.T.isApprox(before.T_odom_base.T, 1e-14));
   EXPECT_EQ(lost.twist.twist.norm(), 0.0);
   EXPECT_TRUE(lost.twist.covariance.isApprox(9999.0 * Matrix6d::Identity()));
-  EXPECT_NEAR(sigma(lost, 0), kSpeedSigma * 0.1, 1e-3);
-  EXPECT_NEAR(sigma(lost, 5), kTurnSigma * 0.1, 1e-3);
+  EXPECT_NEAR(sigma(lost, 0), 1.0, 0.01) << "of 10 m/s";
+  EXPECT_NEAR(sigma(lost, 5), 0.1, 0.01) << "of 1 rad/s";
   const BaseState after = move(makeMotion(1.0, 0.0));
   EXPECT_NEAR(
       (after.T_odom_base.T.translation() - lost.T_odom_base.T.translation()).norm(), 1.0, 1e-9);
@@ -173,11 +164,62 @@ TEST_F(BaseOdometryTest, LostKeepsThePoseAndSaysItIsUnknown) {
 }
 
 TEST_F(BaseOdometryTest, GrowthDoesNotDependOnTheFrameRate) {
-  lose(0, State::kInitialising);
-  BaseState state;
-  for (int i = 0; i < 30; ++i) state = lose(kPeriod_ns);
-  EXPECT_NEAR(sigma(state, 0), kSpeedSigma * 3.0, 1e-6);
-  EXPECT_NEAR(sigma(state, 5), kTurnSigma * 3.0, 1e-6);
+  const auto lostFor3s = [](int steps) {
+    BaseOdometry odometry(NodeParameters(), {0.0, 0.0});
+    BaseState state;
+    for (int i = 0; i <= steps; ++i) {
+      state = odometry.add(withoutMotion(i * 3'000'000'000 / steps), cameraMount());
+    }
+    return state;
+  };
+  EXPECT_TRUE(lostFor3s(1).T_odom_base.covariance.isApprox(lostFor3s(30).T_odom_base.covariance));
+}
+
+TEST_F(BaseOdometryTest, GrowsByWhatTheRobotMayDo) {
+  const auto sigmaAfter = [](double speed_mps, double last_mps, double lost_s) {
+    BaseOdometry odometry(NodeParameters(), {0.0, 0.0});
+    std::int64_t stamp_ns = 0;
+    for (const double mps : {speed_mps, last_mps}) {
+      const Eigen::Isometry3d step = seen(makeMotion(0.1 * mps, 0.0));
+      odometry.add(found(stamp_ns += kPeriod_ns, step), cameraMount());
+    }
+    const std::int64_t lost_ns = std::llround(1e9 * lost_s);
+    return sigma(odometry.add(withoutMotion(stamp_ns + lost_ns), cameraMount()), 0);
+  };
+  EXPECT_LT(sigmaAfter(0.5, 0.0, 1.2), 1.2) << "a slow robot at rest";
+  EXPECT_LT(sigmaAfter(0.5, 0.0, 20.0), 25.0) << "is not a car";
+  EXPECT_GT(sigmaAfter(15.0, 0.0, 3.0), 4.0) << "a car at rest drives off";
+  EXPECT_NEAR(sigmaAfter(15.0, 15.0, 3.0), 45.0, 1.0) << "a car drives on";
+}
+
+TEST_F(BaseOdometryTest, ContinuesFromAnEarlierRunAsIfLostSinceThen) {
+  move(makeMotion(1.0, 0.3));
+  const BaseState saved = move(makeMotion(1.0, 0.3));
+  BaseOdometry next(NodeParameters(), {0.0, 0.0});
+  next.continueFrom(saved);
+  const std::int64_t stamp_ns = saved.stamp_ns + 2'000'000'000;
+  const BaseState state = next.add(withoutMotion(stamp_ns, State::kInitialising), cameraMount());
+  const BaseState lost = lose(2'000'000'000);
+  EXPECT_TRUE(state.T_odom_base.T.isApprox(saved.T_odom_base.T, 1e-12));
+  EXPECT_NEAR(sigma(state, 0), sigma(lost, 0), 0.01 * sigma(lost, 0));
+  EXPECT_NEAR(sigma(state, 5), sigma(lost, 5), 0.01 * sigma(lost, 5));
+  const Eigen::Isometry3d step = makeMotion(1.0, 0.0);
+  EXPECT_TRUE(next.add(found(stamp_ns + kPeriod_ns, seen(step)), cameraMount())
+                  .T_odom_base.T.isApprox(saved.T_odom_base.T * step, 1e-12));
+}
+
+TEST_F(BaseOdometryTest, BeginsLevel) {
+  NodeParameters node;
+  node.initial_pose = {1.0, 2.0, 3.0, 0.0, 0.0, 1.5};
+  const Eigen::Vector3d up = Eigen::Vector3d(0.1, -0.2, 0.9).normalized();
+  BaseOdometry odometry(node, {0.0, 0.0}, up);
+  const BaseState state = odometry.add(withoutMotion(0, State::kInitialising), cameraMount());
+  const Eigen::Isometry3d& T = state.T_odom_base.T;
+  EXPECT_TRUE((T.linear() * up).isApprox(Eigen::Vector3d::UnitZ(), 1e-12));
+  EXPECT_NEAR(std::atan2(T(1, 0), T(0, 0)), 1.5, 1e-12);
+  EXPECT_TRUE(T.translation().isApprox(Eigen::Vector3d(1.0, 2.0, 3.0), 1e-12));
+  EXPECT_NEAR(sigma(state, 3), 0.01, 1e-4);
+  EXPECT_LT(sigma(state, 5), 1e-4);
 }
 
 TEST_F(BaseOdometryTest, TimeThatStepsBackAddsNothing) {
@@ -200,7 +242,7 @@ TEST_F(BaseOdometryTest, PoseThatIsSetIsWhereItGoesOn) {
 TEST_F(BaseOdometryTest, GapsOfYearsLeaveNumbersThatFiltersCanUse) {
   lose(0, State::kInitialising);
   const BaseState state = lose(50'000'000LL * 1'000'000'000, State::kInitialising);
-  EXPECT_NEAR(sigma(state, 0), kSpeedSigma * 1000.0, 1.0);
+  EXPECT_NEAR(sigma(state, 0), 1000.0, 1.0) << "a walk of 1000 s";
 }
 
 TEST_F(BaseOdometryTest, AnotherOdometryMovesThePoseWhileLost) {
@@ -215,8 +257,8 @@ TEST_F(BaseOdometryTest, AnotherOdometryMovesThePoseWhileLost) {
     EXPECT_EQ(state.twist.covariance(0, 0), 9999.0);
   }
   EXPECT_TRUE(state.T_first_camera.isApprox(seen(state.T_odom_base.T), 1e-9));
-  // guess_error_share = 0.1 of 10 m, 1 rad and the turn of 0.1 rad/m; at the default speed and turn
-  // rate the errors of two seconds would be 20 m and 1 rad.
+  // guess_error_share = 0.1 of 10 m, 1 rad and the turn of 0.1 rad/m; at the last speed and turn
+  // rate the errors of two seconds would be 20 m and 2 rad.
   EXPECT_NEAR(sigma(state, 5), 0.1 * (1.0 + 0.1 * 10.0), 0.01);
   EXPECT_GT(sigma(state, 2), 0.99);
   EXPECT_LT(sigma(state, 0), 2.0);
@@ -259,7 +301,7 @@ TEST_F(BaseOdometryTest, ASetPoseHasItsCovariance) {
 }
 
 TEST_F(BaseOdometryTest, BeginsAtTheInitialPose) {
-  NodeParameters node = parameters();
+  NodeParameters node;
   node.initial_pose = {1.0, 2.0, 3.0, 0.1, -0.2, 1.5};
   BaseOdometry odometry(node, {0.0, 0.0});
   const Eigen::Isometry3d T =
@@ -307,7 +349,7 @@ class MovingMountTest : public testing::Test {
     return odometry_.add(withoutMotion(pair * kPeriod_ns), mountAt(pair));
   }
 
-  BaseOdometry odometry_{parameters(), {0.0, 0.0}};
+  BaseOdometry odometry_{NodeParameters(), {0.0, 0.0}};
   Matrix6d covariance_ = 1e-6 * Matrix6d::Identity();
 };
 
@@ -369,7 +411,7 @@ TEST_F(MovingMountTest, APoseThatIsSetIsThatOfTheBase) {
 }
 
 TEST(PlanarOdometryTest, LeavesOutWhatIsNotInThePlane) {
-  NodeParameters planar = parameters();
+  NodeParameters planar;
   planar.planar = true;
   BaseOdometry odometry(planar, {0.0, 0.0});
   Eigen::Isometry3d bump = makeMotion(1.0, 0.1);
@@ -395,7 +437,7 @@ TEST(PlanarOdometryTest, LeavesOutWhatIsNotInThePlane) {
 
 /// Independent errors of 100 motions of 1 m would give 0.1 m.
 TEST_F(BaseOdometryTest, SystematicErrorsGrowWithTheDistance) {
-  BaseOdometry odometry(parameters(), {0.01, 0.0});
+  BaseOdometry odometry(NodeParameters(), {0.01, 0.0});
   const Eigen::Isometry3d step = seen(makeMotion(1.0, 0.0));
   BaseState state;
   std::int64_t stamp_ns = 0;

@@ -189,11 +189,13 @@ TEST(ParametersTest, AFileOfAnEarlierReleaseLoadsWithWarnings) {
   const TemporaryDirectory directory;
   const std::string path = directory.write(
       "old.yaml",
-      "feature_tracker:\n  levels: 2\n  window_radius_px: 5\nmotion_model: {max_age_s: [1, 2]}\n");
+      "feature_tracker:\n  levels: 2\n  window_radius_px: 5\nmotion_model: {max_age_s: [1, 2]}\n"
+      "lost_speed_sigma_mps: 10\n");
   Settings settings;
   const std::vector<std::string> expected = {
       path + ": parameter feature_tracker/levels no longer exists and is ignored: delete it",
-      path + ": parameter motion_model/max_age_s no longer exists and is ignored: delete it"};
+      path + ": parameter motion_model/max_age_s no longer exists and is ignored: delete it",
+      path + ": parameter lost_speed_sigma_mps no longer exists and is ignored: delete it"};
   EXPECT_EQ(loadYaml(path, settings.table), expected);
   EXPECT_EQ(settings.parameters.odometry.correspondence_finder.feature_tracker.window_radius_px, 5);
   expectRefused("feature_tracker/levels", "2", "unknown parameter \"feature_tracker/levels\"");

@@ -12,7 +12,7 @@
 
 namespace rotrocc {
 
-/// A command of the shell that runs until it is interrupted, as with Ctrl-C.
+/// A command of the shell that runs until it is interrupted, as with Ctrl-C, or killed.
 class BackgroundCommand {
  public:
   /// Its output goes to the file `log`.
@@ -39,10 +39,10 @@ class BackgroundCommand {
     return status_;
   }
 
-  /// Interrupts the command with the processes that it has started, and waits for its end.
-  void interrupt() {
+  /// Sends a signal to the command with the processes that it has started, and waits for its end.
+  void interrupt(int signal = SIGINT) {
     if (process_ <= 0) return;
-    kill(-process_, SIGINT);
+    kill(-process_, signal);
     waitpid(process_, nullptr, 0);
     process_ = 0;
   }

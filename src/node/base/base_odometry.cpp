@@ -14,12 +14,21 @@ namespace {
 constexpr double kFirstVariance = 1e-9;
 /// Variance [m^2, rad^2] of the components that planar motion excludes.
 constexpr double kPlanarVariance = 1e-9;
+/// Variance [rad^2] of roll and pitch by gravity: 0.1 m/s^2 of bias are usual.
+constexpr double kLevelVariance = 1e-4;
 /// Longer gaps do not increase the uncertainty further: filters need finite numbers.
 constexpr double kMaxWithoutMotion_s = 1000.0;
 
 /// Part of a rotation's error that comes with the way: wheels that slip turn a base that drives
 /// straight on.
 constexpr double kTurn_radpm = 0.1;
+
+// What a robot may do unseen: speeds up by 1.4 m/s and 0.7 rad/s in a second, as a car that starts
+// and a robot that turns on the spot. One that was never faster than a walk stays so.
+constexpr double kSpeedVariance = 2.0;     // per second [m^2/s^3]
+constexpr double kTurnRateVariance = 0.5;  // [rad^2/s^3]
+constexpr double kWalk_mps = 1.0;
+constexpr double kTurn_rps = 0.5;
 
 /// From x y z roll pitch yaw.
 Eigen::Isometry3d poseOf(const std::array<double, 6>& values) {
@@ -85,9 +94,27 @@ UncertainTwist meanVelocityOf(const UncertainTransform& T_prev_cur, double dt_s)
 }
 
 BaseOdometry::BaseOdometry(const NodeParameters& parameters,
-                           const SystematicErrorConfig& systematic_error)
-    : parameters_(parameters), systematic_error_(systematic_error) {
-  setPose({poseOf(parameters.initial_pose), Matrix6d::Zero()});
+                           const SystematicErrorConfig& systematic_error,
+                           const std::optional<Eigen::Vector3d>& up)
+    : parameters_(parameters),
+      systematic_error_(systematic_error),
+      speed_{kSpeedVariance, kWalk_mps},
+      turn_rate_{kTurnRateVariance, kTurn_rps} {
+  std::array<double, 6> pose = parameters.initial_pose;
+  Matrix6d covariance = Matrix6d::Zero();
+  if (up) {
+    pose[3] = std::atan2(up->y(), up->z());
+    pose[4] = std::atan2(-up->x(), std::hypot(up->y(), up->z()));
+    covariance(3, 3) = covariance(4, 4) = kLevelVariance;
+  }
+  setPose({poseOf(pose), covariance});
+}
+
+void BaseOdometry::continueFrom(const BaseState& state) {
+  setPose(state.T_odom_base);
+  last_.stamp_ns = state.stamp_ns;
+  speed_.set(state.twist.twist.head<3>().norm());
+  turn_rate_.set(state.twist.twist.tail<3>().norm());
 }
 
 BaseState BaseOdometry::add(const OdometryResult& result,
@@ -98,12 +125,14 @@ BaseState BaseOdometry::add(const OdometryResult& result,
   const bool first = !T_start_camera_;
   if (first) {
     T_start_camera_ = last_.T_base_camera = T_base_camera;
-    last_.stamp_ns = result.stamp_ns;
+    if (!last_.stamp_ns) last_.stamp_ns = result.stamp_ns;
     known_ = last_;
   }
   if (result.hasMotion()) {
     const UncertainTransform step = addMotion(result, T_base_camera);
     state.twist = twistOf(step, result.dt_s);
+    speed_.set(state.twist.twist.head<3>().norm());
+    turn_rate_.set(state.twist.twist.tail<3>().norm());
     state.step_velocity = {result.stamp_ns - std::llround(1e9 * result.dt_s),
                            meanVelocityOf(step, result.dt_s)};
   } else {
@@ -130,7 +159,7 @@ UncertainTransform BaseOdometry::motionOfBase(const UncertainTransform& camera_m
 UncertainTransform BaseOdometry::addMotion(const OdometryResult& result,
                                            const Eigen::Isometry3d& T_base_camera) {
   // Compared with a lost pair, that one is the keyframe.
-  const Pose prev = result.keyframe_stamp_ns > known_.stamp_ns ? last_ : known_;
+  const Pose prev = result.keyframe_stamp_ns > *known_.stamp_ns ? last_ : known_;
   if (result.keyframe_stamp_ns != keyframe_stamp_ns_) {
     keyframe_stamp_ns_ = result.keyframe_stamp_ns;
     keyframe_ = prev;
@@ -195,17 +224,25 @@ Eigen::Isometry3d BaseOdometry::T_start_base() const {
   return *T_start_camera_ * camera_.T_first_cur() * last_.T_base_camera.inverse();
 }
 
-/// Increment of the covariance, so that the standard deviation grows linearly with time for any
-/// rate of calls.
+void BaseOdometry::Speed::set(double speed) {
+  last = speed;
+  fastest = std::max(fastest, speed);
+}
+
+/// By the last speed and its random walk, which does not get faster than what was seen.
+double BaseOdometry::Speed::wayVariance(double time_s) const {
+  const double change2 = std::min(variance_per_s * time_s / 3.0, fastest * fastest);
+  return time_s * time_s * (last * last + change2);
+}
+
+/// Increment of the covariance, so that its growth does not depend on the rate of calls.
 Matrix6d BaseOdometry::growthWithTime(std::int64_t stamp_ns) {
-  const std::int64_t passed_ns = stamp_ns - last_.stamp_ns;
+  const std::int64_t passed_ns = stamp_ns - *last_.stamp_ns;
   const double before_s = without_motion_s_;
   without_motion_s_ += toSeconds(std::max<std::int64_t>(passed_ns, 0));
   without_motion_s_ = std::min(without_motion_s_, kMaxWithoutMotion_s);
-  const double growth_s2 = without_motion_s_ * without_motion_s_ - before_s * before_s;
-  return diagonal(
-      parameters_.lost_speed_sigma_mps * parameters_.lost_speed_sigma_mps * growth_s2,
-      parameters_.lost_turn_rate_sigma_rps * parameters_.lost_turn_rate_sigma_rps * growth_s2);
+  return diagonal(speed_.wayVariance(without_motion_s_) - speed_.wayVariance(before_s),
+                  turn_rate_.wayVariance(without_motion_s_) - turn_rate_.wayVariance(before_s));
 }
 
 /// The same for the way that another odometry tells.

@@ -56,15 +56,21 @@ struct BaseState {
 /// The camera may move on the base.
 ///
 /// Without a motion, the base moves as another odometry tells, and the standard deviation of the
-/// pose grows with its way; if there is none, the base is assumed at rest, and it grows with time.
-/// The twist is zero with a very large covariance.
+/// pose grows with its way; if there is none, the base is assumed at rest, and it grows by the way
+/// that the base may make in the time. The twist is zero with a very large covariance.
 class BaseOdometry {
  public:
   /// Of `parameters`: initial_pose; planar, which discards other components of a motion;
-  /// lost_speed_sigma_mps, lost_turn_rate_sigma_rps and guess_error_share, along and about each
-  /// axis. `systematic_error`: its part of the pose covariance is in proportion to the distance
-  /// from the first pose.
-  BaseOdometry(const NodeParameters& parameters, const SystematicErrorConfig& systematic_error);
+  /// guess_error_share, along and about each axis. `systematic_error`: its part of the pose
+  /// covariance is in proportion to the distance from the first pose. `up`: the vertical in axes of
+  /// the base at the first pair; if it is known, roll and pitch are by it.
+  BaseOdometry(const NodeParameters& parameters,
+               const SystematicErrorConfig& systematic_error,
+               const std::optional<Eigen::Vector3d>& up = std::nullopt);
+
+  /// Continues from stamp, pose and twist of an earlier run, as if it was lost since then. To be
+  /// called before the first pair.
+  void continueFrom(const BaseState& state);
 
   /// `T_base_camera`: the mount of the camera at the pair. `T_last_cur`: motion of the base since
   /// the last pair by another odometry, if any.
@@ -80,13 +86,24 @@ class BaseOdometry {
  private:
   /// What later pairs are measured against.
   struct Pose {
-    std::int64_t stamp_ns = 0;
+    std::optional<std::int64_t> stamp_ns;
     Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
     UncertainTransform T_odom_base;  // without systematic errors
     // What is added to the visual poses of base and camera: by setPose(), and by motions of the
     // base or the mount that were not seen.
     Eigen::Isometry3d T_odom_start = Eigen::Isometry3d::Identity();
     Eigen::Isometry3d T_first_start = Eigen::Isometry3d::Identity();
+  };
+
+  /// Speed [m/s] or turn rate [rad/s] of the base.
+  struct Speed {
+    double variance_per_s;  ///< by which it changes
+    double fastest;         ///< so far; at first, what any robot may reach
+    double last = 0.0;      ///< at the last motion
+
+    void set(double speed);
+    /// Variance of the way or angle that nothing measures in that time.
+    double wayVariance(double time_s) const;
   };
 
   UncertainTransform motionOfBase(const UncertainTransform& camera_motion,
@@ -114,6 +131,8 @@ class BaseOdometry {
   // Errors accumulate from keyframe to keyframe.
   std::optional<std::int64_t> keyframe_stamp_ns_;
   std::optional<Pose> keyframe_;  // none after setPose(), until the next keyframe
+  Speed speed_;
+  Speed turn_rate_;
   // Since the last motion.
   double without_motion_s_ = 0.0;
   double guessed_m_ = 0.0;

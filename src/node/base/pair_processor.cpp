@@ -23,7 +23,11 @@ PairProcessor::PairProcessor(const Parameters& parameters, Log log)
       converter_(parameters.node.max_image_pixels, parameters.node.significant_bits),
       rectifier_(parameters.odometry.threads),
       odometry_(parameters.odometry),
-      inspector_(parameters.odometry.correspondence_finder, parameters.node.rectify) {}
+      inspector_(parameters.odometry.correspondence_finder, parameters.node.rectify) {
+  if (parameters_.continue_from.empty()) return;
+  saved_ = readPoseFile(parameters_.continue_from, parameters_.odom_frame, log_);
+  pose_file_.emplace(parameters_.continue_from, parameters_.odom_frame, log_);
+}
 
 StereoPair PairProcessor::convert(const ReceivedPair& received) {
   const StereoPair pair = converter_.convert(*received.images.left, *received.images.right);
@@ -48,11 +52,44 @@ PairAnswer PairProcessor::process(const StereoPair& pair, const PairContext& con
   answer.pair = pair;
   answer.camera = context.camera;
   answer.starts_trajectory = restartIfNeeded(requests, pair.stamp_ns);
-  if (!base_odometry_) base_odometry_.emplace(parameters_, systematic_error_);
+  if (requests.reset || requests.T_odom_base) saved_.reset();
+  if (!base_odometry_) begin(context, pair.stamp_ns);
   if (requests.T_odom_base) setPose(*requests.T_odom_base);
   move(context, answer);
   last_stamp_ns_ = pair.stamp_ns;
+  // While lost, the one before is kept: its uncertainty will grow over all of the time.
+  if (pose_file_ && answer.result.hasMotion()) pose_file_->put(answer.state);
   return answer;
+}
+
+/// Whether initial_pose leaves roll and pitch to gravity.
+bool PairProcessor::isLevelled() const {
+  return !parameters_.planar && parameters_.initial_pose[3] == 0.0 &&
+         parameters_.initial_pose[4] == 0.0;
+}
+
+/// At the pose that an earlier run has saved, or at the initial one.
+void PairProcessor::begin(const PairContext& context, std::int64_t stamp_ns) {
+  const std::optional<BaseState> saved = std::exchange(saved_, std::nullopt);
+  if (saved && saved->stamp_ns <= stamp_ns) {
+    base_odometry_.emplace(parameters_, systematic_error_);
+    base_odometry_->continueFrom(*saved);
+    log_.info("continues from the pose of " + parameters_.continue_from + ", " +
+              toText(toSeconds(stamp_ns - saved->stamp_ns)) + " s before the first pair");
+    return;
+  }
+  if (saved) {
+    log_.warn("the pose of " + parameters_.continue_from + " is of " + stampText(saved->stamp_ns) +
+              " s, but the first pair of " + stampText(stamp_ns) + " s: starting at initial_pose");
+  }
+  std::optional<Eigen::Vector3d> up;
+  if (context.up && isLevelled()) up = context.up();
+  if (up) {
+    up = context.T_base_camera.linear() * *up;
+    log_.info("the first pose is level: up is " + toText(up->x()) + " " + toText(up->y()) + " " +
+              toText(up->z()) + " in " + parameters_.base_frame);
+  }
+  base_odometry_.emplace(parameters_, systematic_error_, up);
 }
 
 void PairProcessor::configure(const VisualOdometry::Config& config) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "input/stereo_intake.h"
 #include "input/stereo_pair_converter.h"
 #include "node/base/base_odometry.h"
+#include "node/base/pose_file.h"
 #include "node/health/pair_inspector.h"
 #include "rectification/stereo_rectifier.h"
 #include "rotrocc/parameters.h"
@@ -28,6 +30,8 @@ struct PairContext {
   RotationSource measured_rotation = {};
   /// Whether the time is simulated: only cameras without noise have the same image twice at rest.
   bool is_simulated = false;
+  /// The vertical in axes of the camera, if it is known.
+  std::function<std::optional<Eigen::Vector3d>()> up = {};
 };
 
 /// Result of a pair.
@@ -39,11 +43,12 @@ struct PairAnswer {
   bool starts_trajectory = false;  ///< a new trajectory: after a reset, a time jump or a long loss
 };
 
-/// Converts pairs to odometry of the base, in one thread, and rectifies those that are raw. Other
-/// threads may request changes, which takeRequests() takes over for the next pair; requests do not
-/// block.
+/// Converts pairs to odometry of the base, in one thread, and rectifies those that are raw. Begins
+/// at the pose of the file continue_from, or else at initial_pose. Other threads may request
+/// changes, which takeRequests() takes over for the next pair; requests do not block.
 class PairProcessor {
  public:
+  /// Throws std::exception with one sentence if continue_from cannot be a file.
   explicit PairProcessor(const Parameters& parameters, Log log = Log());
 
   /// Checks a pair, converts it to grey and rectifies it. It is valid until the next call. Throws
@@ -54,6 +59,9 @@ class PairProcessor {
   /// a new request for a reset. To be called before the mount is looked up: after a reset, a new
   /// one may be used.
   bool takeRequests();
+
+  /// Whether the next pair is the first one, and roll and pitch of its pose are by the vertical.
+  bool startsLevel() const { return !base_odometry_ && !saved_ && isLevelled(); }
 
   PairAnswer process(const StereoPair& pair, const PairContext& context);
 
@@ -89,6 +97,8 @@ class PairProcessor {
     std::optional<VisualOdometry::Config> config;
   };
 
+  bool isLevelled() const;
+  void begin(const PairContext& context, std::int64_t stamp_ns);
   bool restartIfNeeded(const Requests& requests, std::int64_t stamp_ns);
   bool restart(const std::string& why, const std::string& parameter, const std::string& pose);
   void configure(const VisualOdometry::Config& config);
@@ -103,6 +113,8 @@ class PairProcessor {
   StereoRectifier rectifier_;
   VisualOdometry odometry_;
   PairInspector inspector_;
+  std::optional<PoseFile> pose_file_;
+  std::optional<BaseState> saved_;             // of an earlier run, to continue from
   std::optional<BaseOdometry> base_odometry_;  // from the first pair on
   std::optional<std::int64_t> last_stamp_ns_;
   std::optional<std::int64_t> lost_since_ns_;

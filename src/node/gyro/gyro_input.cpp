@@ -11,6 +11,7 @@ namespace rotrocc {
 namespace {
 
 constexpr int kSampleQueueSize = 1000;  // a second of the fastest gyroscopes
+constexpr std::chrono::seconds kVerticalWait(2);
 
 }  // namespace
 
@@ -42,6 +43,10 @@ void GyroInput::receive(const sensor_msgs::Imu& message) {
   }
   gyro_frame_ = withoutSlash(message.header.frame_id);
   predictor_.add(toGyroSample(message));
+  if (message.linear_acceleration_covariance[0] != -1.0) {
+    const geometry_msgs::Vector3& acceleration = message.linear_acceleration;
+    vertical_.add(toGyroSample(message), {acceleration.x, acceleration.y, acceleration.z});
+  }
   received_.notify_all();
 }
 
@@ -79,6 +84,24 @@ std::string GyroInput::whyNoMount(const std::string& camera_frame) {
   mounted_on_ = frames;
   listener_.reset();
   return "";
+}
+
+bool GyroInput::waitsForVertical(const std::string& camera_frame) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto now = std::chrono::steady_clock::now();
+  if (!vertical_wait_) vertical_wait_ = now;
+  const bool is_known = whyNoMount(withoutSlash(camera_frame)).empty() && vertical_.isComplete();
+  return !is_known && now < *vertical_wait_ + kVerticalWait;
+}
+
+std::optional<Eigen::Vector3d> GyroInput::up(const std::string& camera_frame,
+                                             std::int64_t stamp_ns) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::string why = whyNoMount(withoutSlash(camera_frame));
+  if (why.empty()) why = vertical_.whyUnknown(stamp_ns);
+  if (why.empty()) return predictor_.R_camera_gyro() * vertical_.up();
+  log_.warn("the first pose is not level, but as the robot stands: " + why);
+  return std::nullopt;
 }
 
 void GyroInput::observe(const OdometryResult& result) {

@@ -17,6 +17,7 @@
 #include <tf2_ros/transform_listener.h>
 
 #include "inertial/gyro_predictor.h"
+#include "inertial/vertical.h"
 #include "input/log.h"
 #include "node/health/diagnostics.h"
 #include "node/miss_backoff.h"
@@ -25,10 +26,10 @@
 
 namespace rotrocc {
 
-/// Rotations of the camera from the topic imu. It is received in a thread of its own, so that
-/// images do not delay it. The mount is looked up in tf once, for each frame of the camera and of
-/// the messages. Logs when it is used, and when not and why, after kPairs in a row. Samples of one
-/// that has been missing for a while are waited for only now and then.
+/// Rotations of the camera from the topic imu, and the vertical. It is received in a thread of its
+/// own, so that images do not delay it. The mount is looked up in tf once, for each frame of the
+/// camera and of the messages. Logs when it is used, and when not and why, after kPairs in a row.
+/// Samples of one that has been missing for a while are waited for only now and then.
 class GyroInput {
  public:
   static constexpr int kPairs = MissBackoff::kMisses;
@@ -45,6 +46,13 @@ class GyroInput {
   std::optional<Eigen::Matrix3d> rotation(const std::string& camera_frame,
                                           std::int64_t from_ns,
                                           std::int64_t to_ns);
+
+  /// Whether a first pair shall wait for tf and the accelerations of a second, which it does for
+  /// two seconds of real time at most.
+  bool waitsForVertical(const std::string& camera_frame);
+
+  /// The vertical in axes of the camera, if it is known. Logs why not.
+  std::optional<Eigen::Vector3d> up(const std::string& camera_frame, std::int64_t stamp_ns);
 
   /// To be called with the result of each pair.
   void observe(const OdometryResult& result);
@@ -65,6 +73,8 @@ class GyroInput {
   mutable std::mutex mutex_;  // of what follows, up to the empty line
   std::condition_variable received_;
   GyroPredictor predictor_;
+  Vertical vertical_;
+  std::optional<std::chrono::steady_clock::time_point> vertical_wait_;  // since then
   MissBackoff backoff_{kRetryPairs};
   bool was_used_ = false;
   int in_a_row_ = 0;               // pairs that it was used, or was not

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <sensor_msgs/Imu.h>
+#include <std_srvs/Trigger.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include "node/odometry_messages.h"
@@ -47,9 +48,28 @@ class ImuTest : public testing::Test {
     last_sample_ = stamp;
     sensor_msgs::Imu message;
     message.header.stamp = stamp;
-    message.header.frame_id = "imu_link";
+    message.header.frame_id = frame_;
     message.angular_velocity.z = yaw_rate_rps;
+    message.linear_acceleration.x = acceleration_.x();
+    message.linear_acceleration.y = acceleration_.y();
+    message.linear_acceleration.z = acceleration_.z();
+    message.linear_acceleration_covariance[0] = acceleration_.isZero() ? -1.0 : 0.0;
     publisher_.publish(message);
+  }
+
+  /// The odometry of a first pair, after samples of a second up to it.
+  nav_msgs::Odometry begin() {
+    const auto [left, right] = drive_.robot.see();
+    const ros::Time stamp = left.header.stamp;
+    for (int i = -200; i <= 1; ++i) publishSample(stamp + ros::Duration(i * kSample_s), 0.02);
+    drive_.robot.publish(left, right);
+    return drive_.odometryOf(stamp);
+  }
+
+  /// The vertical of odom in axes of the base.
+  static Eigen::Vector3d upOf(const nav_msgs::Odometry& odometry) {
+    const geometry_msgs::Quaternion& q = odometry.pose.pose.orientation;
+    return Eigen::Quaterniond(q.w, q.x, q.y, q.z).inverse() * Eigen::Vector3d::UnitZ();
   }
 
   /// Drives, with `drive`, until the gyroscope is used or not for a reason.
@@ -71,6 +91,8 @@ class ImuTest : public testing::Test {
   ros::Publisher publisher_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
   ros::Time last_sample_;
+  std::string frame_ = "imu_link";
+  Eigen::Vector3d acceleration_ = Eigen::Vector3d::Zero();  // none
   OdometryStatus last_;
 };
 
@@ -104,6 +126,29 @@ TEST_F(ImuTest, IsUsedWhenItIsThereAndToldWhenNot) {
   EXPECT_TRUE(drivesUntil("differ from those of the images", [&] { return drive(2.0); }));
   EXPECT_GT(last_.rotations_missed, before);
   EXPECT_EQ(last_.state, OdometryStatus::OK) << last_.reason;
+}
+
+TEST_F(ImuTest, LevelsTheFirstPoseAtRest) {
+  frame_ = "base_link";
+  acceleration_ = 9.8 * Eigen::Vector3d(0.1, -0.2, 0.9).normalized();
+  const nav_msgs::Odometry first = begin();
+  EXPECT_LT((upOf(first) - acceleration_.normalized()).norm(), 1e-3);
+  EXPECT_NEAR(std::sqrt(first.pose.covariance[21]), 0.01, 1e-3);
+  EXPECT_EQ(drive_.log.with("is not level").size(), 0u);
+  // In motion, a reset cannot do it again. A pair waits for the samples up to it.
+  for (int pair = 0; pair < 3; ++pair) drive(0.5);
+  std_srvs::Trigger reset;
+  ASSERT_TRUE(drive_.services.call("reset", reset));
+  const nav_msgs::Odometry again = drive_.odometryOf(drive_.robot.drive());
+  EXPECT_TRUE(upOf(again).isApprox(Eigen::Vector3d::UnitZ(), 1e-9));
+  EXPECT_EQ(drive_.log.with("not level, but as the robot stands: the robot is not at rest").size(),
+            1u);
+}
+
+TEST_F(ImuTest, SaysThatThereIsNothingToLevelItBy) {
+  frame_ = "base_link";
+  EXPECT_TRUE(upOf(begin()).isApprox(Eigen::Vector3d::UnitZ(), 1e-9));
+  EXPECT_EQ(drive_.log.with("there are no accelerations of 1 s").size(), 1u);
 }
 
 }  // namespace

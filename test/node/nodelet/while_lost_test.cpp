@@ -1,5 +1,7 @@
 // What is published while the motion is lost.
 
+#include <cmath>
+
 #include <tf2_msgs/TFMessage.h>
 
 #include "nodelet_drive.h"
@@ -57,6 +59,8 @@ TEST(WhileLostTest, WhatIsPublishedIsWhatIsAskedFor) {
       EXPECT_EQ(odometry->pose.pose.position.x, is_null ? 0.0 : held_m);
       EXPECT_EQ(odometry->pose.covariance[0] == 9999.0, is_null);
       EXPECT_EQ(odometry->twist.covariance[0], 9999.0);
+      const double way_m = SimulatedRobot::kStep_m;  // at the last speed
+      EXPECT_TRUE(is_null || std::sqrt(odometry->pose.covariance[0]) < 1.2 * way_m);
       EXPECT_EQ(odometry->header.frame_id, "odom");
     }
     stamp = drive.robot.drive();

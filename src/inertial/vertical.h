@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "inertial/gyro_sample.h"
+
+namespace rotrocc {
+
+/// The vertical from the accelerations of an IMU at rest, in its own axes.
+class Vertical {
+ public:
+  static constexpr double kLength_s = 1.0;  ///< of the samples that it is the mean of
+  /// Scatters, as root mean squares, up to which the robot counts as at rest: engines may run.
+  static constexpr double kMaxRate_rps = 0.05;
+  static constexpr double kMaxAcceleration_mps2 = 0.5;
+
+  /// Samples that are no numbers are ignored; one that is not later than the one before begins
+  /// again.
+  void add(const GyroSample& gyro, const Eigen::Vector3d& acceleration_mps2);
+
+  /// Whether there are samples of that length.
+  bool isComplete() const;
+
+  /// Why it is not known at that time, in one sentence; empty if it is.
+  std::string whyUnknown(std::int64_t stamp_ns) const;
+
+  /// The unit vector up. whyUnknown() must be empty.
+  Eigen::Vector3d up() const;
+
+ private:
+  struct Sample {
+    GyroSample gyro;
+    Eigen::Vector3d acceleration_mps2;
+  };
+
+  std::deque<Sample> samples_;
+};
+
+}  // namespace rotrocc
