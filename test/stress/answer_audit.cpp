@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iomanip>
+#include <iterator>
 #include <regex>
 #include <sstream>
 
@@ -95,6 +96,11 @@ void AnswerAudit::beginLoop() {
   sent_since_fault_.clear();
 }
 
+void AnswerAudit::beginFault(const Fault& fault) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  fault_logs_.push_back({&fault, ros::Time::now(), {}});
+}
+
 void AnswerAudit::endFault() {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++faults_;
@@ -134,6 +140,11 @@ bool AnswerAudit::logged(const std::string& part) const {
   return std::any_of(log_.begin(), log_.end(), [&](const auto& entry) {
     return entry.first.find(part) != std::string::npos;
   });
+}
+
+std::vector<FaultLog> AnswerAudit::faultLogs() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return fault_logs_;
 }
 
 void AnswerAudit::onOdometry(const nav_msgs::Odometry::ConstPtr& message) {
@@ -178,6 +189,10 @@ void AnswerAudit::onLog(const rosgraph_msgs::Log::ConstPtr& message) {
   }
   const std::lock_guard<std::mutex> lock(mutex_);
   ++log_[std::regex_replace(message->msg, std::regex("[0-9]+([.][0-9]+)?(e[-+]?[0-9]+)?"), "#")];
+  const auto after = std::find_if(fault_logs_.begin(), fault_logs_.end(), [&](const auto& log) {
+    return log.begin > message->header.stamp;
+  });
+  if (after != fault_logs_.begin()) std::prev(after)->lines.push_back(message->msg);
 }
 
 std::string AnswerAudit::report() const {

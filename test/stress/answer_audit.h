@@ -6,6 +6,7 @@
 #include <mutex>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <nav_msgs/Odometry.h>
@@ -16,6 +17,7 @@
 
 #include "node/health/sliding_quantiles.h"
 #include "rotrocc/OdometryStatus.h"
+#include "stress/fault_injector.h"
 
 namespace rotrocc {
 
@@ -34,6 +36,13 @@ struct ImageAccount {
   bool addsUp() const;
 };
 
+/// Warnings and errors from the beginning of a fault to that of the next one.
+struct FaultLog {
+  const Fault* fault;
+  ros::Time begin;
+  std::vector<std::string> lines;
+};
+
 /// Listens to an odometry under stress, which has just been started: counts its answers, the images
 /// it used and dropped, and what the log says.
 class AnswerAudit {
@@ -48,6 +57,9 @@ class AnswerAudit {
   /// To be called when stamps restart: the odometry must become OK again.
   void beginLoop();
 
+  /// To be called when a fault begins. What the log says from now on is of it.
+  void beginFault(const Fault& fault);
+
   /// To be called when a fault has ended: the odometry must become OK again.
   void endFault();
 
@@ -61,6 +73,9 @@ class AnswerAudit {
 
   /// Whether the odometry's log has a warning or an error that contains `part`.
   bool logged(const std::string& part) const;
+
+  /// What the log said of each fault, in their order.
+  std::vector<FaultLog> faultLogs() const;
 
   /// A table: answers, their age, what became of the images, loops, recoveries and the log.
   std::string report() const;
@@ -90,6 +105,7 @@ class AnswerAudit {
   OdometryStatus last_status_;
   std::map<std::string, std::uint64_t> images_received_;  // by topic
   std::map<std::string, std::uint64_t> log_;  // counts of texts, with # for their numbers
+  std::vector<FaultLog> fault_logs_;
 
   // Last, so that no callback runs after the other members are destroyed.
   ros::Subscriber odom_, status_, diagnostics_, rosout_;

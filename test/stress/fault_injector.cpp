@@ -6,16 +6,10 @@
 #include <vector>
 
 namespace rotrocc {
-
-struct Fault {
-  const char* name;
-  std::function<void(StressPair&, std::mt19937&)> change;
-  int pairs = 1;
-};
-
 namespace {
 
 constexpr int kStretch = 30;  // pairs
+constexpr int kSilence = 75;  // pairs at 10 Hz, longer than silence_s
 
 double chance(std::mt19937& random) {
   return std::uniform_real_distribution<double>(0.0, 1.0)(random);
@@ -25,51 +19,114 @@ void fill(sensor_msgs::Image& image, unsigned char value) {
   std::fill(image.data.begin(), image.data.end(), value);
 }
 
-const std::vector<Fault>& faults() {
-  static const std::vector<Fault> kFaults = {
-      {"left image missing", [](auto& pair, auto&) { pair.send_left = false; }},
-      {"right image missing", [](auto& pair, auto&) { pair.send_right = false; }},
-      {"stamp 0", [](auto& pair, auto&) { pair.left.header.stamp = ros::Time(); }},
-      {"stamp of the future", [](auto& pair, auto&) { pair.left.header.stamp = ros::TIME_MAX; }},
-      {"stamps of a glitch",
-       [](auto& pair, auto&) {
-         for (auto* image : {&pair.left, &pair.right}) image->header.stamp += ros::Duration(5.0);
-       }},
-      {"stamps apart", [](auto& pair, auto&) { pair.right.header.stamp += ros::Duration(0.04); }},
-      {"data cut off", [](auto& pair, auto&) { pair.left.data.resize(pair.left.data.size() / 2); }},
-      {"no data", [](auto& pair, auto&) { pair.right.data.clear(); }},
-      {"unknown encoding", [](auto& pair, auto&) { pair.left.encoding = "jpeg"; }},
-      {"sizes that overflow",
-       [](auto& pair, auto&) { pair.left.width = pair.left.height = pair.left.step = ~0u; }},
-      {"step too short", [](auto& pair, auto&) { pair.left.step /= 2; }},
-      {"sizes differ", [](auto& pair, auto&) { pair.right.height -= 2; }},
-      {"camera_info of NaN",
-       [](auto& pair, auto&) { pair.left_info.P[0] = std::numeric_limits<double>::quiet_NaN(); }},
-      {"camera_info of zeros", [](auto& pair, auto&) { pair.right_info.P.fill(0.0); }},
-      {"exchanged cameras", [](auto& pair, auto&) { std::swap(pair.left.data, pair.right.data); }},
-      {"black images",
-       [](auto& pair, auto&) {
-         for (auto* image : {&pair.left, &pair.right}) fill(*image, 0);
-       }},
-      {"white left image", [](auto& pair, auto&) { fill(pair.left, 255); }},
-      {"no images for a while", [](auto& pair, auto&) { pair.pause_ms = 1500; }},
-      {"burst", [](auto& pair, auto&) { pair.burst = true; }},
-      {"a gap of 3 s", [](auto& pair, auto&) { pair.gap_s = 3.0; }},
-      {"30 % of the right images lost",
-       [](auto& pair, auto& random) { pair.send_right = chance(random) >= 0.3; },
-       kStretch},
-      {"rival tf publisher", [](auto& pair, auto&) { pair.rival_tf = true; }, kStretch},
-      {"save_trajectory onto a FIFO", [](auto& pair, auto&) { pair.save_to_fifo = true; }}};
-  return kFaults;
+void fillBoth(StressPair& pair, unsigned char value) {
+  fill(pair.left, value);
+  fill(pair.right, value);
+}
+
+void shiftStamps(StressPair& pair, double shift_s) {
+  for (auto* image : {&pair.left, &pair.right}) image->header.stamp += ros::Duration(shift_s);
+}
+
+/// As if it were not rectified.
+void moveDown(sensor_msgs::Image& image, std::size_t rows) {
+  const auto bytes = static_cast<std::ptrdiff_t>(rows * image.step);
+  std::rotate(image.data.begin(), image.data.end() - bytes, image.data.end());
 }
 
 }  // namespace
 
+const std::vector<Fault>& faults() {
+  static const std::vector<Fault> kFaults = {
+      {"left image missing", {}, [](auto& pair, auto&) { pair.send_left = false; }, 1, 1},
+      {"right image missing", {}, [](auto& pair, auto&) { pair.send_right = false; }, 1, 1},
+      {"30 % of the right images lost",
+       {},
+       [](auto& pair, auto& random) { pair.send_right = chance(random) >= 0.3; },
+       kStretch},
+      {"stamp 0", {"has the stamp 0"}, [](auto& pair, auto&) { pair.left.header.stamp = {}; }},
+      {"stamp of the future",
+       {"ahead of the clock"},
+       [](auto& pair, auto&) { pair.left.header.stamp = ros::TIME_MAX; }},
+      {"stamps of a glitch", {"a glitch"}, [](auto& pair, auto&) { shiftStamps(pair, 5.0); }, 1, 1},
+      {"stamps apart",
+       {"stamps are up to"},
+       [](auto& pair, auto&) { pair.right.header.stamp += ros::Duration(0.04); },
+       1,
+       kSilence},
+      {"the cameras' clock 20 s behind",
+       {},
+       [](auto& pair, auto&) { shiftStamps(pair, -20.0); },
+       1,
+       60},
+      {"the cameras' clock 3 s ahead",
+       {},
+       [](auto& pair, auto&) { shiftStamps(pair, 3.0); },
+       1,
+       60},
+      {"data cut off",
+       {"bytes of data"},
+       [](auto& pair, auto&) { pair.left.data.resize(pair.left.data.size() / 2); }},
+      {"no data", {"bytes of data"}, [](auto& pair, auto&) { pair.right.data.clear(); }},
+      {"unknown encoding",
+       {"has the encoding"},
+       [](auto& pair, auto&) { pair.left.encoding = "jpeg"; }},
+      {"sizes that overflow",
+       {"more than max_image_pixels"},
+       [](auto& pair, auto&) { pair.left.width = pair.left.height = pair.left.step = ~0u; }},
+      {"step too short", {"a step of"}, [](auto& pair, auto&) { pair.left.step /= 2; }},
+      {"sizes differ", {"same resolution"}, [](auto& pair, auto&) { pair.right.height -= 2; }},
+      {"camera_info of NaN",
+       {"camera_info is nan"},
+       [](auto& pair, auto&) { pair.left_info.P[0] = std::numeric_limits<double>::quiet_NaN(); }},
+      {"camera_info of zeros",
+       {"all zeros"},
+       [](auto& pair, auto&) { pair.right_info.P.fill(0.0); }},
+      {"camera_info whose last digits change",
+       {},
+       [](auto& pair, auto& random) {
+         for (auto* info : {&pair.left_info, &pair.right_info}) {
+           info->P[0] *= 1.0 + 1e-9 * chance(random);
+         }
+       }},
+      {"exchanged cameras",
+       {"swap their topics", "lost:"},
+       [](auto& pair, auto&) { std::swap(pair.left.data, pair.right.data); }},
+      {"images that are not rectified",
+       {"not rectified", "lost:"},
+       [](auto& pair, auto&) { moveDown(pair.right, 7); }},
+      {"black images", {"is it dark", "lost:"}, [](auto& pair, auto&) { fillBoth(pair, 0); }},
+      {"white left image",
+       {"overexposed", "lost:"},
+       [](auto& pair, auto&) { fill(pair.left, 255); }},
+      {"frozen images", {"frozen"}, [](auto& pair, auto&) { pair.frozen = true; }},
+      {"no images for a while", {}, [](auto& pair, auto&) { pair.pause_ms = 1500; }, 1, 1},
+      {"burst", {}, [](auto& pair, auto&) { pair.burst = true; }, 1, 1},
+      {"a gap of 3 s", {"no stereo pairs"}, [](auto& pair, auto&) { pair.gap_s = 3.0; }, 1, 1},
+      {"rival tf publisher",
+       {"a frame has only one parent"},
+       [](auto& pair, auto&) { pair.rival_tf = true; },
+       kStretch,
+       60},
+      {"save_trajectory onto a FIFO",
+       {"it is a FIFO"},
+       [](auto& pair, auto&) { pair.save_path = kFifo; },
+       1,
+       1},
+      {"save_trajectory into no folder",
+       {"No such file or directory"},
+       [](auto& pair, auto&) { pair.save_path = "/no/such/directory/poses.txt"; },
+       1,
+       1}};
+  return kFaults;
+}
+
 bool FaultInjector::apply(StressPair& pair, bool may_begin) {
   if (pairs_left_ == 0) {
-    active_ = may_begin ? choose() : nullptr;
-    if (active_ == nullptr) return false;
-    pairs_left_ = active_->pairs;
+    const Fault* next = may_begin ? choose() : nullptr;
+    if (next == nullptr) return false;
+    active_ = next;
+    pairs_left_ = in_turn_ ? active_->pairs_in_turn : active_->pairs;
     ++counts_[active_->name];
   }
   --pairs_left_;

@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <random>
 #include <string>
+#include <vector>
 
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
@@ -16,17 +18,31 @@ struct StressPair {
   sensor_msgs::Image left, right;
   sensor_msgs::CameraInfo left_info, right_info;
   bool send_left = true, send_right = true;
-  int pause_ms = 0;           ///< nothing is sent for so long afterwards
-  double gap_s = 0.0;         ///< the same, and the stamps go on
-  bool burst = false;         ///< it and those after it are sent at once
-  bool rival_tf = false;      ///< another node publishes tf of the base
-  bool save_to_fifo = false;  ///< the trajectory is to be saved to a FIFO that nobody reads
+  int pause_ms = 0;       ///< nothing is sent for so long afterwards
+  double gap_s = 0.0;     ///< the same, and the stamps go on
+  bool burst = false;     ///< it and those after it are sent at once
+  bool frozen = false;    ///< the images are those of the pair before
+  bool rival_tf = false;  ///< another node publishes tf of the base
+  std::string save_path;  ///< to which the trajectory is to be saved; kFifo, or empty
 };
 
-struct Fault;
+/// In place of the path of a FIFO that nobody reads.
+constexpr const char* kFifo = "a FIFO";
 
-/// Applies faults of drivers, cables, clocks and other nodes to some pairs. A fault lasts for a
-/// pair or for a stretch of pairs.
+/// What happens to some pairs.
+struct Fault {
+  const char* name;
+  /// Parts of what the log says of it: each of its lines has one of them.
+  std::vector<const char*> says;
+  std::function<void(StressPair&, std::mt19937&)> change;
+  int pairs = 1;           ///< for how many it lasts
+  int pairs_in_turn = 40;  ///< the same, if each fault has its turn
+};
+
+const std::vector<Fault>& faults();
+
+/// Applies faults of drivers, cables, clocks and other nodes to some pairs. At random, a fault
+/// lasts for a pair or for a stretch of pairs; in turn, until a user would be told of it.
 class FaultInjector {
  public:
   /// At random: a fault begins with a `share` of the pairs.
@@ -37,6 +53,9 @@ class FaultInjector {
   /// Changes the pair, or not; returns whether it has a fault. Another fault begins only if it
   /// `may_begin`.
   bool apply(StressPair& pair, bool may_begin = true);
+
+  /// The fault that began last; none before the first.
+  const Fault* current() const { return active_; }
 
   /// Whether each fault had its turn.
   bool finished() const;

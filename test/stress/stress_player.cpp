@@ -31,6 +31,8 @@ constexpr double kMaxStampDifference_s = 0.01;
 constexpr int kBurst = 20;         // pairs at once
 constexpr int kPairsPerCall = 50;  // of the services
 constexpr int kLastPairs = 3;
+/// Between two faults in turn, so that the log of one is not held back for that of another.
+constexpr std::chrono::seconds kRest(6);
 constexpr std::chrono::seconds kTfLimit(20);
 constexpr std::chrono::seconds kSettleLimit(180);
 const char* const kCameraFrame = "stress_camera";
@@ -78,8 +80,11 @@ void StressPlayer::read() {
     if (!image) continue;
     const auto pair = synchronizer.add(side, image);
     if (!pair) continue;
-    recording_.push_back(
-        {*pair->left, *pair->right, *recording->firstLeftInfo(), *recording->firstRightInfo()});
+    recording_.emplace_back();
+    recording_.back().left = *pair->left;
+    recording_.back().right = *pair->right;
+    recording_.back().left_info = *recording->firstLeftInfo();
+    recording_.back().right_info = *recording->firstRightInfo();
     recording_.back().left.header.frame_id = kCameraFrame;
   }
   if (recording_.size() < 2) {
@@ -113,16 +118,16 @@ bool StressPlayer::run() {
   for (int i = 0; ros::ok() && !ended(); ++i) {
     if (!has_mount_ && (!with_faults || tfIsLate())) publishMount();
     started = started || audit_.loopRecovered();
-    // In turn, a loop lasts until its motion is found: on a busy machine, that may take longer.
-    const bool may_restart = options_.in_turn ? audit_.loopRecovered() : started;
-    if (with_faults && may_restart && i % loop == 0) {
+    if (options_.in_turn) {
+      if (burst_left_ == 0) stamp = ros::Time::now();
+    } else if (with_faults && started && i % loop == 0) {
       audit_.beginLoop();
       stamp = firstStamp();
     }
     const auto forth = static_cast<std::size_t>(i % loop);
     const std::size_t back = static_cast<std::size_t>(loop) - forth;
     send(recording_[std::min(forth, back)], stamp);
-    if (with_faults && i % kPairsPerCall == kPairsPerCall - 1) callServices();
+    if (with_faults && !options_.in_turn && i % kPairsPerCall == kPairsPerCall - 1) callServices();
     next_ += period;
     if (burst_left_ > 0) {
       --burst_left_;
@@ -146,25 +151,41 @@ bool StressPlayer::ended() const {
 
 void StressPlayer::send(StressPair pair, ros::Time& stamp) {
   setStamp(stamp, pair);
-  const bool may_begin = !options_.in_turn || (!was_faulty_ && audit_.recovered());
-  const bool is_faulty = faults_.apply(pair, may_begin);
-  if (was_faulty_ && !is_faulty) audit_.endFault();
+  const Fault* before = was_faulty_ ? faults_.current() : nullptr;
+  const bool is_faulty = faults_.apply(pair, mayBegin());
+  if (is_faulty && faults_.current() != before) audit_.beginFault(*faults_.current());
+  if (was_faulty_ && !is_faulty) {
+    audit_.endFault();
+    fault_end_ = steady_clock::now();
+  }
   was_faulty_ = is_faulty;
+  if (pair.frozen) {
+    pair.left.data = sent_.left.data;
+    pair.right.data = sent_.right.data;
+  }
   audit_.expect(stamp, std::uint64_t{pair.send_left} + std::uint64_t{pair.send_right});
   publish(pair);
   if (pair.rival_tf) publishRival(stamp);
-  if (pair.save_to_fifo) saveToFifo();
+  if (!pair.save_path.empty()) save(pair.save_path == kFifo ? fifo_ : pair.save_path);
   stamp += step_ + ros::Duration(pair.gap_s);
   pauseAfter(pair);
+  sent_ = std::move(pair);
+}
+
+/// In turn, after a recovery and a rest.
+bool StressPlayer::mayBegin() const {
+  if (!options_.in_turn) return true;
+  return !was_faulty_ && audit_.recovered() && steady_clock::now() > fault_end_ + kRest;
 }
 
 void StressPlayer::pauseAfter(const StressPair& pair) {
-  if (pair.burst) burst_left_ = kBurst;
-  const auto pause = std::chrono::milliseconds(pair.pause_ms) +
-                     std::chrono::duration_cast<std::chrono::milliseconds>(
-                         std::chrono::duration<double>(pair.gap_s));
-  if (pause.count() == 0) return;
-  std::this_thread::sleep_for(pause);
+  double pause_s = 1e-3 * pair.pause_ms + pair.gap_s;
+  if (pair.burst) {
+    burst_left_ = kBurst;
+    if (options_.in_turn) pause_s += kBurst / options_.rate_hz;
+  }
+  if (pause_s == 0.0) return;
+  std::this_thread::sleep_for(std::chrono::duration<double>(pause_s));
   next_ = steady_clock::now();
 }
 
@@ -238,10 +259,10 @@ void StressPlayer::callServices() {
   }
 }
 
-/// Must be refused at once: nobody will ever read it.
-void StressPlayer::saveToFifo() {
+/// Must be refused at once.
+void StressPlayer::save(const std::string& path) {
   SaveTrajectory save;
-  save.request.path = fifo_;
+  save.request.path = path;
   save.request.format = "tum";
   ++calls_;
   if (!services_.call("save_trajectory", save) || save.response.success) ++failed_calls_;

@@ -27,9 +27,9 @@ struct StressOptions {
   unsigned seed = 1;          ///< same seed, same faults
 };
 
-/// Plays a recording to an odometry in a loop, forwards and backwards, with faults and calls of all
-/// its services. Stamps restart with each loop, tf of the camera comes late, and a subscriber is
-/// slow.
+/// Plays a recording to an odometry in a loop, forwards and backwards, with faults; tf of the
+/// camera comes late, and a subscriber is slow. With faults at random, all services are called and
+/// the stamps restart with each loop. In turn, the stamps are those of the clock.
 class StressPlayer {
  public:
   /// Throws std::runtime_error on a recording that cannot be used.
@@ -45,6 +45,7 @@ class StressPlayer {
   void read();
   void waitForOdometry();
   bool ended() const;
+  bool mayBegin() const;
   void send(StressPair pair, ros::Time& stamp);
   void publish(const StressPair& pair);
   void pauseAfter(const StressPair& pair);
@@ -53,16 +54,17 @@ class StressPlayer {
   void publishMount();
   void publishRival(const ros::Time& stamp);
   void callServices();
-  void saveToFifo();
+  void save(const std::string& path);
 
   StressOptions options_;
   std::vector<StressPair> recording_;
+  StressPair sent_;     // last
   ros::Duration step_;  // of the stamps, as recorded whatever the rate: the speed stays plausible
   FaultInjector faults_;
   AnswerAudit audit_;
   ServiceCaller services_;
   std::uint64_t calls_ = 0, failed_calls_ = 0;
-  std::chrono::steady_clock::time_point begin_, next_, end_;
+  std::chrono::steady_clock::time_point begin_, next_, end_, fault_end_;
   int burst_left_ = 0;
   bool was_faulty_ = false;
   bool has_mount_ = false;
