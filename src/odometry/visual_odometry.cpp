@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "common/stage_timer.h"
-#include "common/to_seconds.h"
 #include "features/correspondence_finder.h"
 #include "odometry/hypothesis.h"
 #include "odometry/motion_check.h"
 #include "odometry/motion_model.h"
 #include "odometry/motion_search.h"
+#include "odometry/pair_check.h"
 #include "odometry/rig_estimate.h"
 #include "odometry/systematic_error.h"
 
@@ -26,65 +26,6 @@ constexpr double kNotShared = 0.5;
 /// Share of max_gap_s in which the last motion predicts the next one. Later, the velocity may have
 /// changed so much that rest is as good a start.
 constexpr double kPredictable = 0.5;
-
-/// A calibration that changes by less, as one that is refined while driving, describes the same
-/// images. The pairs before and after are compared: the error is no more than this, in radians and
-/// as a share of the way, where a restart would lose all of the way between them.
-constexpr double kRefinedCamera = 1e-3;
-
-/// Why a pair cannot be used, in one sentence with the value. Empty if it can: the camera is valid,
-/// images and masks are CV_8UC1 and of its size, and the stamp is later than `newest_ns`, that of
-/// the pair before, if there was one.
-std::string whyUnusable(const StereoPair& pair,
-                        const StereoCamera& camera,
-                        const std::optional<std::int64_t>& newest_ns) {
-  try {
-    camera.check();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  struct Part {
-    const char* name;
-    const cv::Mat& image;
-    bool is_required;
-  };
-  for (const Part& part : {Part{"left image", pair.left, true},
-                           Part{"right image", pair.right, true},
-                           Part{"left mask", pair.left_mask, false},
-                           Part{"right mask", pair.right_mask, false}}) {
-    const auto& [name, image, is_required] = part;
-    if (image.empty() && is_required) return cv::format("the %s is empty", name);
-    if (image.empty()) continue;
-    if (image.type() != CV_8UC1) {
-      return cv::format("the %s is of OpenCV type %d, not CV_8UC1", name, image.type());
-    }
-    if (image.cols == camera.width && image.rows == camera.height) continue;
-    return cv::format("the %s has %dx%d pixels", name, image.cols, image.rows) +
-           cv::format(", the camera %dx%d", camera.width, camera.height);
-  }
-  if (!newest_ns || pair.stamp_ns > *newest_ns) return "";
-  return "the stamp " + std::to_string(pair.stamp_ns) +
-         " ns is not later than that of the pair before, " + std::to_string(*newest_ns) + " ns";
-}
-
-/// Why a usable pair cannot be compared with the one before; empty if it can.
-std::string whyRestart(const StereoPair& pair,
-                       const StereoCamera& camera,
-                       const std::optional<std::int64_t>& newest_ns,
-                       const StereoCamera& camera_before,
-                       double max_gap_s) {
-  if (!newest_ns) return "first pair";
-  if (camera_before.width != camera.width || camera_before.height != camera.height) {
-    return "the size of the images has changed";
-  }
-  if (const double difference = camera_before.differenceTo(camera); difference > kRefinedCamera) {
-    return cv::format("the calibration has changed by %.2g of the focal length or baseline",
-                      difference);
-  }
-  const double gap_s = toSeconds(pair.stamp_ns - *newest_ns);
-  if (gap_s <= max_gap_s) return "";
-  return cv::format("no pair for %g s, more than max_gap_s = %g", gap_s, max_gap_s);
-}
 
 /// Ends the processing of a pair without a motion. what() is the reason, as a sentence.
 struct Lost : std::runtime_error {
