@@ -26,9 +26,9 @@ void RigEstimate::configure(const OdometryConfig& config) {
 }
 
 bool RigEstimate::setCamera(const StereoCamera& camera) {
-  const bool is_same = camera_.differenceTo(camera) < kSameCamera;
   camera_ = camera;
-  if (is_same) return true;
+  if (first_camera_.differenceTo(camera) < kSameCamera) return true;
+  first_camera_ = camera;
   resetBias();
   shared_errors_.reset();
   rows_.reset();

@@ -27,8 +27,8 @@ class RigEstimate {
   /// Changes the parameters. What is estimated is kept unless it is disabled.
   void configure(const OdometryConfig& config);
 
-  /// Discards all estimates if this is another camera, or another calibration of it. Returns
-  /// whether they are kept.
+  /// Discards all estimates if this is another camera, or another calibration of it, than they
+  /// began with. Returns whether they are kept.
   bool setCamera(const StereoCamera& camera);
 
   /// The camera as it was passed.
@@ -68,6 +68,7 @@ class RigEstimate {
 
   StereoCalibratorConfig config_;
   StereoCamera camera_;
+  StereoCamera first_camera_;  // of the estimates
   BiasMeter meter_;
   BiasFilter past_;                             // without the observations of the current keyframe
   BiasFilter filter_;                           // with the last of them

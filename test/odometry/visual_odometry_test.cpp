@@ -226,10 +226,15 @@ TEST(VisualOdometryTest, KeepsTheBiasOverAResetButNotForAnotherCamera) {
   // behind.
   EXPECT_NEAR(
       odometry.process(bend(0), wronglyCalibrated()).disparity_bias.applied_px, applied_px, 0.02);
-  StereoCamera rounded = wronglyCalibrated();
-  rounded.fx *= 1.000'001;
-  EXPECT_NEAR(odometry.process(bend(1), rounded).disparity_bias.applied_px, applied_px, 0.05);
-  EXPECT_EQ(odometry.process(bend(2), camera()).disparity_bias.applied_px, 0.0);
+  const auto driftTo = [&](double factor, int pair) {
+    StereoCamera drifted = wronglyCalibrated();
+    drifted.fx *= factor;
+    return odometry.process(bend(pair), drifted).disparity_bias.applied_px;
+  };
+  EXPECT_NEAR(driftTo(1.000'001, 1), applied_px, 0.05) << "rounding";
+  EXPECT_NEAR(driftTo(1.000'009, 2), applied_px, 0.05);
+  EXPECT_EQ(driftTo(1.000'017, 3), 0.0) << "by small steps, another camera";
+  EXPECT_EQ(odometry.process(bend(4), camera()).disparity_bias.applied_px, 0.0);
 }
 
 /// A pair of the bend, its right image moved down.
