@@ -198,7 +198,7 @@ StereoPair StereoPairConverter::convert(const sensor_msgs::Image& left,
 void StereoPairConverter::findSignificantBits(const sensor_msgs::Image& left,
                                               const sensor_msgs::Image& right) {
   if (known_bits_ > 0) {
-    significant_bits_ = std::max(known_bits_, 8);
+    significant_bits_ = known_bits_;
     return;
   }
   recent_bits_.push_back(std::max(countSignificantBits(left), countSignificantBits(right)));

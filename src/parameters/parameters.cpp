@@ -1,5 +1,7 @@
 #include "rotrocc/parameters.h"
 
+#include <stdexcept>
+
 #include "rotrocc/flow_picture.h"
 
 namespace rotrocc {
@@ -17,7 +19,9 @@ void addNode(NodeParameters& n, ParameterTable& table) {
   table.add("initial_pose", n.initial_pose, "m, rad").description =
       "x y z roll pitch yaw of base_frame in odom_frame at the first pair, also after a reset";
   table.add("mount_timeout_s", n.mount_timeout_s, {0.0, 10.0, "s"}).description =
-      "how long a pair waits for the transform of a camera that moves on the robot";
+      "how long a pair waits for the transform of a camera that moves on the robot, and how far "
+      "that "
+      "is extrapolated if it does not come";
   table.add("guess_frame", n.guess_frame).description =
       "odom frame of another odometry in tf, used as motion prediction; odom_frame -> guess_frame "
       "is then broadcast; none if empty";
@@ -41,8 +45,16 @@ void addNode(NodeParameters& n, ParameterTable& table) {
       "largest number of pixels of an image; larger images are dropped";
   table.add("max_future_s", n.max_future_s, {0.0, 1e9, "s"}).description =
       "images with stamps further ahead of the clock are dropped";
-  table.add("significant_bits", n.significant_bits, {0, 16}).description =
-      "bits that 16-bit images use, e.g. 10 or 12; 0: found from the images";
+  auto& bits = table.add("significant_bits", n.significant_bits, {0, 16});
+  bits.description = "bits that 16-bit images use, e.g. 10 or 12; 0: found from the images";
+  bits.range = "0 or [8, 16]";
+  bits.set = [&value = n.significant_bits, set = bits.set](const std::string& text) {
+    const int before = value;
+    set(text);
+    if (value == 0 || value >= 8) return;
+    value = before;
+    throw std::invalid_argument("is " + text + ", but must be 0 or in [8, 16]");
+  };
   table.add("baseline_m", n.baseline_m, {0.0, 100.0, "m"}).description =
       "baseline, if camera_info has none in P[3]; 0: use P[3]";
   table.add("pose_after_time_jump", n.pose_after_time_jump, {"keep", "zero"}).description =

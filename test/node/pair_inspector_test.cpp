@@ -55,5 +55,21 @@ TEST_F(ExposuresTest, IgnoresSinglePairsAndThoseWithoutAMotion) {
   EXPECT_EQ(inspect(4.0, kPairs, State::kInitialising), "");
 }
 
+TEST(DarkImagesTest, TheHintNamesTheRangeOf16BitImages) {
+  PairInspector inspector{CorrespondenceFinder::Config()};
+  cv::Mat image = cv::Mat::zeros(8, 8, CV_8UC1);
+  OdometryResult lost;
+  lost.state = State::kLost;
+  std::string hint;
+  for (int pair = 0; pair < PairInspector::kPatience; ++pair) {
+    image += 1;  // not frozen
+    hint = inspector.inspect({0, image, image}, StereoCamera(), lost, 10);
+  }
+  EXPECT_NE(hint.find("mean grey level is 10 of 255, where 255 is 1023 of the 16-bit image: set "
+                      "significant_bits"),
+            std::string::npos)
+      << hint;
+}
+
 }  // namespace
 }  // namespace rotrocc

@@ -124,6 +124,7 @@ TEST(ParametersTest, RefusesWithNameValueAndRange) {
       "feature_detector/max_feature", "100", "unknown parameter \"feature_detector/max_feature\"");
   expectRefused("queue_size", "101", "parameter queue_size is 101, but must be in [1, 100]");
   expectRefused("queue_size", "0", "is 0, but must be in [1, 100]");
+  expectRefused("significant_bits", "7", "is 7, but must be 0 or in [8, 16]");
   expectRefused("queue_size", "many", "is \"many\", but must be an integer in [1, 100]");
   expectRefused("queue_size", "2.5", "is \"2.5\", but must be an integer in [1, 100]");
   expectRefused("queue_size", "99999999999", "is \"99999999999\", but must be");

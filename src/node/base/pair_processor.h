@@ -68,7 +68,8 @@ class PairProcessor {
   /// The suspected camera fault after each pair, in one sentence; empty if none. Apart from
   /// process(), so that the odometry need not wait for it.
   std::string inspect(const PairAnswer& answer) {
-    return inspector_.inspect(answer.pair, answer.camera, answer.result);
+    return inspector_.inspect(
+        answer.pair, answer.camera, answer.result, converter_.significantBits());
   }
   /// Waits until the next call of inspect() knows all that the last one has begun to look for.
   void finishInspection() const { inspector_.finish(); }

@@ -98,12 +98,17 @@ class MatchCounter {
 std::string explainLoss(const cv::Mat& left,
                         const cv::Mat& right,
                         MatchCounter& matches,
-                        bool rectifies) {
+                        bool rectifies,
+                        int significant_bits) {
   const int direct = matches.count(left, right);
   if (matches.corners() < kFewCorners || isNoise(left)) {
     return "the left image has hardly any corners, its mean grey level is " +
-           toText(cvRound(cv::mean(left)[0])) +
-           " of 255: is it dark, overexposed or out of focus, or the lens covered?";
+           toText(cvRound(cv::mean(left)[0])) + " of 255" +
+           (significant_bits == 8
+                ? ""
+                : ", where 255 is " + toText((1 << significant_bits) - 1) +
+                      " of the 16-bit image: set significant_bits if it should be another value") +
+           ": is it dark, overexposed or out of focus, or the lens covered?";
   }
   if (cv::norm(left, right, cv::NORM_INF) == 0.0) {
     return "left and right image are identical: are both topics from the same camera?";
@@ -149,7 +154,8 @@ bool PairInspector::isRepeated(const StereoPair& pair) {
 
 std::string PairInspector::inspect(const StereoPair& pair,
                                    const StereoCamera& camera,
-                                   const OdometryResult& result) {
+                                   const OdometryResult& result,
+                                   int significant_bits) {
   const std::string exposures = compareExposures(result);
   std::string fault = findFrozen();
   if (fault.empty()) fault = exposures;
@@ -161,7 +167,7 @@ std::string PairInspector::inspect(const StereoPair& pair,
   }
   ++doubtful_;
   try {
-    explain(pair, camera);
+    explain(pair, camera, significant_bits);
   } catch (const std::exception&) {
     return fault;  // no memory, or no thread
   }
@@ -178,7 +184,9 @@ std::string PairInspector::findFrozen() const {
 
 /// Takes over the explanation if there is a new one, and looks for the next one if it is time.
 /// Throws std::exception if it cannot be looked for.
-void PairInspector::explain(const StereoPair& pair, const StereoCamera& camera) {
+void PairInspector::explain(const StereoPair& pair,
+                            const StereoCamera& camera,
+                            int significant_bits) {
   if (search_.valid()) {
     if (search_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
     const std::string found = search_.get();
@@ -191,9 +199,10 @@ void PairInspector::explain(const StereoPair& pair, const StereoCamera& camera) 
                        [left = pair.left.clone(),
                         right = pair.right.clone(),
                         matches = MatchCounter(config_, camera.disparityAtInfinity()),
-                        rectifies = rectifies_]() mutable {
+                        rectifies = rectifies_,
+                        significant_bits]() mutable {
                          pthread_setname_np(pthread_self(), "odometry_hint");
-                         return explainLoss(left, right, matches, rectifies);
+                         return explainLoss(left, right, matches, rectifies, significant_bits);
                        });
 }
 

@@ -34,10 +34,12 @@ class PairInspector {
   /// makes those of a camera differ even at rest. To be called for each pair, before inspect().
   bool isRepeated(const StereoPair& pair);
 
-  /// The suspected fault and a remedy, in one sentence; empty if none.
+  /// The suspected fault and a remedy, in one sentence; empty if none. `significant_bits`: those of
+  /// 16-bit images that grey levels were taken from, or 8.
   std::string inspect(const StereoPair& pair,
                       const StereoCamera& camera,
-                      const OdometryResult& result);
+                      const OdometryResult& result,
+                      int significant_bits = 8);
 
   /// Waits until what was looked for is known to the next inspect().
   void finish() const;
@@ -45,7 +47,7 @@ class PairInspector {
  private:
   std::string findFrozen() const;
   std::string compareExposures(const OdometryResult& result);
-  void explain(const StereoPair& pair, const StereoCamera& camera);
+  void explain(const StereoPair& pair, const StereoCamera& camera, int significant_bits);
   void forgetLoss();
 
   bool rectifies_;
