@@ -17,6 +17,12 @@ constexpr double kLargeSkew = 0.25;
 constexpr double kLargestSkew = 0.5;
 /// Images without a partner that are worth a warning, if they are a tenth of all.
 constexpr std::size_t kLeastLost = 5;
+/// Older images are late for any use; drivers and networks take less.
+constexpr double kOld_s = 1.0;
+/// Further ahead than simulated time between two messages on /clock.
+constexpr double kAhead_s = 0.2;
+/// Clocks that differ by more are not those of one robot.
+constexpr double kOtherClock_s = 3600.0;
 /// A topic is silent after this, and after so many of its periods.
 constexpr double kSilent_s = 1.0;
 constexpr double kSilentPeriods = 3.0;
@@ -112,6 +118,23 @@ std::string whyLost(const InputReport& report) {
                                    milliseconds(report.tolerance_s) + " apart");
 }
 
+/// Empty if the age is usual, or the clock is another one.
+std::string ageText(const InputReport& report) {
+  const double age_s = report.stamp_age_s.value_or(0.0);
+  if (isOfAnotherClock(report) || (age_s < kOld_s && age_s > -kAhead_s)) return "";
+  const std::string stamps =
+      "the stamps of " + report.left_image.topic + " are " + fixedText(std::abs(age_s), 1) + " s ";
+  if (age_s < 0.0) {
+    return stamps +
+           "ahead of the clock, and so are odometry and tf, which others cannot use yet: "
+           "synchronise the clocks of camera and computer";
+  }
+  return stamps +
+         "behind the clock when the images arrive: synchronise the clocks of camera and "
+         "computer, or if the images are late, find out what delays them; a bag is to be "
+         "played with --clock and use_sim_time";
+}
+
 }  // namespace
 
 std::string describeTopics(const InputReport& report) {
@@ -162,7 +185,12 @@ std::string faultOfPairs(const InputReport& report) {
            " apart, " + ofPeriod(*report.median_skew_s, *report.period_s) +
            ", so it is not sure which images are of one time: trigger the cameras synchronously";
   }
-  return whyLost(report);
+  const std::string lost = whyLost(report);
+  return lost.empty() ? ageText(report) : lost;
+}
+
+bool isOfAnotherClock(const InputReport& report) {
+  return std::abs(report.stamp_age_s.value_or(0.0)) > kOtherClock_s;
 }
 
 }  // namespace rotrocc

@@ -36,6 +36,7 @@ struct InputReport {
   std::optional<double> period_s;            ///< of the images
   std::optional<double> median_skew_s;       ///< see medianSkew()
   std::optional<double> skew_of_a_period_s;  ///< see skewOfAPeriod()
+  std::optional<double> stamp_age_s;         ///< of left images, see StampGuard::age_s()
   bool clock_missing = false;                ///< simulated time without /clock
   bool clock_stands = false;                 ///< simulated time stands still
   std::string refused;                       ///< why recent input was dropped; empty if none
@@ -53,8 +54,11 @@ std::string whyNoPairs(const InputReport& report);
 /// Which image topic has gone silent, in one sentence; empty if none.
 std::string whySilent(const InputReport& report);
 
-/// What is wrong with pairs that arrive: lost images, or a skew that makes pairs of different
-/// times. One sentence with a remedy; empty if nothing is.
+/// What is wrong with pairs that arrive: lost images, a skew that makes pairs of different times,
+/// or stamps that are old or ahead of the clock. One sentence with a remedy; empty if nothing is.
 std::string faultOfPairs(const InputReport& report);
+
+/// Whether stamps and clock have nothing to do with each other, as in a replay without /clock.
+bool isOfAnotherClock(const InputReport& report);
 
 }  // namespace rotrocc

@@ -61,6 +61,17 @@ StampGuard::Verdict StampGuard::check(std::int64_t stamp_ns, std::int64_t clock_
   return verdict;
 }
 
+std::optional<double> StampGuard::age_s() const {
+  if (ahead_ns_.empty() || last_clock_ns_ == 0) return std::nullopt;
+  const double age_s = toSeconds(-usualAhead_ns());
+  if (age_s < -max_future_s_) return std::nullopt;  // of one that arrived before the first /clock
+  return age_s;
+}
+
+std::int64_t StampGuard::usualAhead_ns() const {
+  return *std::max_element(ahead_ns_.begin(), ahead_ns_.end());
+}
+
 void StampGuard::checkClock(const Arrival& arrival) const {
   const double ahead_s = toSeconds(arrival.ahead_ns());
   if (arrival.clock_ns == 0 || ahead_s <= max_future_s_) return;
@@ -76,8 +87,7 @@ void StampGuard::checkClock(const Arrival& arrival) const {
 bool StampGuard::continues(const Arrival& arrival) {
   if (!last_stamp_ns_) return true;
   if (arrival.stamp_ns < *last_stamp_ns_) return goesBack(arrival);
-  const std::int64_t usual_ns = *std::max_element(ahead_ns_.begin(), ahead_ns_.end());
-  return arrival.ahead_ns() - usual_ns <= tolerance_ns();
+  return arrival.ahead_ns() - usualAhead_ns() <= tolerance_ns();
 }
 
 /// Whether a stamp earlier than the last one is credible. Throws if it is out of order.

@@ -37,6 +37,10 @@ class StampGuard {
   /// is accepted if it is the third in a row.
   Verdict check(std::int64_t stamp_ns, std::int64_t clock_ns);
 
+  /// How far the clock is ahead of the stamps of recent images in time when they arrive; none if
+  /// there are none, or ROS time is not known.
+  std::optional<double> age_s() const;
+
  private:
   struct Arrival {
     std::int64_t stamp_ns;
@@ -48,6 +52,7 @@ class StampGuard {
   void checkClock(const Arrival& arrival) const;
   bool continues(const Arrival& arrival);
   bool goesBack(const Arrival& arrival);
+  std::int64_t usualAhead_ns() const;
   std::int64_t tolerance_ns() const;
   InputError glitchOf(const Arrival& held) const;
   void accept(const Arrival& arrival);

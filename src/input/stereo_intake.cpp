@@ -11,6 +11,21 @@
 namespace rotrocc {
 namespace {
 
+/// Number of infos kept for each side: those of an image arrive at about the same time.
+constexpr std::size_t kInfos = 8;
+
+/// The log tells of a camera again if it has changed by more, see StereoCamera::differenceTo(): not
+/// of one that is refined while it drives.
+constexpr double kToldAgain = 1e-3;
+
+/// The newest info of a stamp; null if there is none.
+sensor_msgs::CameraInfo::ConstPtr infoAt(
+    const ros::Time& stamp, const std::deque<sensor_msgs::CameraInfo::ConstPtr>& infos) {
+  const auto found = std::find_if(
+      infos.rbegin(), infos.rend(), [&](const auto& info) { return info->header.stamp == stamp; });
+  return found == infos.rend() ? nullptr : *found;
+}
+
 TopicReport reportOf(const TopicStatistics& statistics, TopicStatistics::Time now) {
   TopicReport report;
   report.recent = statistics.recent(now);
@@ -71,18 +86,40 @@ void StereoIntake::match(Side side,
   if (!images) return;
   pairs_.add(arrival.time);
   if (waiting_) drops_.count(DropReason::kCameraInfoMissing);
-  waiting_ = ReceivedPair{*images, {}, arrival.time, nullptr};
+  const std::int64_t age_ns = arrival.clock_ns - toNanoseconds(images->left->header.stamp);
+  const double age_s = arrival.clock_ns == 0 ? 0.0 : toSeconds(age_ns);
+  waiting_ = ReceivedPair{*images, {}, arrival.time, age_s, nullptr};
   handOver();
 }
 
-void StereoIntake::addInfo(Side side,
-                           const sensor_msgs::CameraInfo::ConstPtr& info,
-                           const Arrival& arrival) {
+void StereoIntake::addInfo(Side side, const Info& info, const Arrival& arrival) {
   const bool left = side == Side::kLeft;
-  (left ? left_infos_ : right_infos_).add(arrival.time);
-  (left ? left_info_ : right_info_) = info;
+  (left ? left_info_statistics_ : right_info_statistics_).add(arrival.time);
+  Infos& infos = left ? left_infos_ : right_infos_;
+  infos.push_back(info);
+  if (infos.size() > kInfos) infos.pop_front();
+  useNewestInfos();
+  handOver();
+}
+
+void StereoIntake::useNewestInfos() {
+  if (left_infos_.empty() || right_infos_.empty()) return;
+  for (auto left = left_infos_.rbegin(); left != left_infos_.rend(); ++left) {
+    if (const Info right = infoAt((*left)->header.stamp, right_infos_)) return use(*left, right);
+  }
+  use(left_infos_.back(), right_infos_.back());
+}
+
+/// Without a camera if they are invalid.
+void StereoIntake::use(const Info& left, const Info& right) {
+  if (left == left_info_ && right == right_info_) return;
+  left_info_ = left;
+  right_info_ = right;
   try {
-    updateCamera();
+    if (parameters_.rectify) calibration_ = current_calibration_.of(left, right);
+    camera_ = toStereoCamera(*left, *right, parameters_.baseline_m);
+    camera_error_.clear();
+    drops_.forgetCameraError();
   } catch (const InputError& error) {
     camera_.reset();
     camera_error_ = error.what();
@@ -90,18 +127,22 @@ void StereoIntake::addInfo(Side side,
   }
 }
 
-void StereoIntake::updateCamera() {
-  if (!left_info_ || !right_info_) return;
-  if (parameters_.rectify) calibration_ = current_calibration_.of(left_info_, right_info_);
-  setCamera(toStereoCamera(*left_info_, *right_info_, parameters_.baseline_m));
-  handOver();
+void StereoIntake::handOver() {
+  if (!waiting_) return;
+  const Info left = infoAt(waiting_->images.left->header.stamp, left_infos_);
+  const Info right = infoAt(waiting_->images.right->header.stamp, right_infos_);
+  left&& right ? use(left, right) : useNewestInfos();
+  if (!camera_) return;
+  tell(*camera_);
+  waiting_->camera = *camera_;
+  waiting_->calibration = calibration_;
+  on_pair_(std::move(*waiting_));
+  waiting_.reset();
 }
 
-void StereoIntake::setCamera(const StereoCamera& camera) {
-  if (camera_ == camera) return;
-  camera_ = camera;
-  camera_error_.clear();
-  drops_.forgetCameraError();
+void StereoIntake::tell(const StereoCamera& camera) {
+  if (told_camera_.differenceTo(camera) <= kToldAgain) return;
+  told_camera_ = camera;
   const std::string rectified = calibration_
                                     ? std::string("; raw images are rectified by K, R and D (") +
                                           calibration_->left.distortion.name() + ")"
@@ -112,20 +153,12 @@ void StereoIntake::setCamera(const StereoCamera& camera) {
   if (!oddity.empty()) log_.warn(oddity);
 }
 
-void StereoIntake::handOver() {
-  if (!waiting_ || !camera_) return;
-  waiting_->camera = *camera_;
-  waiting_->calibration = calibration_;
-  on_pair_(std::move(*waiting_));
-  waiting_.reset();
-}
-
 InputReport StereoIntake::report(std::chrono::steady_clock::time_point now) const {
   InputReport report;
   report.left_image = reportOf(left_.statistics, now);
   report.right_image = reportOf(right_.statistics, now);
-  report.left_info = reportOf(left_infos_, now);
-  report.right_info = reportOf(right_infos_, now);
+  report.left_info = reportOf(left_info_statistics_, now);
+  report.right_info = reportOf(right_info_statistics_, now);
   report.recent_pairs = pairs_.recent(now);
   report.pairs_silent_s = pairs_.silent_s(now);
   addStamps(report);
@@ -153,6 +186,7 @@ void StereoIntake::addStamps(InputReport& report) const {
   }
   report.stamp_difference_s = greatestStampDifference(left, right);
   report.max_stamp_difference_s = parameters_.max_stamp_difference_s;
+  report.stamp_age_s = left_.guard.age_s();
   report.tolerance_s = synchronizer_.tolerance_s();
   report.median_skew_s = medianSkew(left, right);
   report.skew_of_a_period_s = skewOfAPeriod(left, right);

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -27,6 +28,7 @@ struct ReceivedPair {
   StereoImages images;
   StereoCamera camera;                                   ///< of the rectified images
   std::chrono::steady_clock::time_point arrival;         ///< of the second image
+  double stamp_age_s = 0.0;                              ///< then; 0 if ROS time is not known
   std::shared_ptr<const StereoCalibration> calibration;  ///< of raw images; null: rectified ones
 };
 
@@ -37,8 +39,9 @@ struct Arrival {
 };
 
 /// Matches the messages of four topics to pairs, and keeps statistics. An image with a doubtful
-/// stamp waits for the next one of its side, see StampGuard. Independent of ROS communication; not
-/// thread-safe.
+/// stamp waits for the next one of its side, see StampGuard. A pair gets the camera of the infos
+/// with its stamps if these are there, or else that of the newest ones: of the newest stamp that
+/// both sides have, if any. Independent of ROS communication; not thread-safe.
 class StereoIntake {
  public:
   using PairHandler = std::function<void(ReceivedPair)>;
@@ -70,11 +73,15 @@ class StereoIntake {
     TopicStatistics unmatched;  // without a partner, though none was dropped
   };
 
+  using Info = sensor_msgs::CameraInfo::ConstPtr;
+  using Infos = std::deque<Info>;
+
   void drop(Side side, const InputError& error);
   void match(Side side, const sensor_msgs::Image::ConstPtr& image, const Arrival& arrival);
-  void updateCamera();
-  void setCamera(const StereoCamera& camera);
+  void useNewestInfos();
+  void use(const Info& left, const Info& right);
   void handOver();
+  void tell(const StereoCamera& camera);
   void addStamps(InputReport& report) const;
 
   NodeParameters parameters_;
@@ -86,13 +93,15 @@ class StereoIntake {
   StereoSynchronizer synchronizer_;
   std::optional<ReceivedPair> waiting_;
 
-  sensor_msgs::CameraInfo::ConstPtr left_info_, right_info_;
+  Infos left_infos_, right_infos_;  // the last ones
+  Info left_info_, right_info_;     // that camera and calibration are from
   std::optional<StereoCamera> camera_;
+  StereoCamera told_camera_;  // by the log
   CurrentCalibration current_calibration_;
   std::shared_ptr<const StereoCalibration> calibration_;  // null if the images are rectified
   std::string camera_error_;
 
-  TopicStatistics left_infos_, right_infos_, pairs_;
+  TopicStatistics left_info_statistics_, right_info_statistics_, pairs_;
 };
 
 }  // namespace rotrocc

@@ -159,6 +159,9 @@ TEST(InputReportTest, SaysWhatIsWrongWithPairs) {
       report.unmatched = unmatched;
     };
   };
+  const auto aged = [](double age_s) {
+    return [=](InputReport& report) { report.stamp_age_s = age_s; };
+  };
   using Unmatched = decltype(InputReport::unmatched);
   expectSaid(
       faultOfPairs,
@@ -179,6 +182,15 @@ TEST(InputReportTest, SaysWhatIsWrongWithPairs) {
        {received(7.0, 7.0, Unmatched{11, 10, 25}),
         "30 % of the images have no partner: /l/image arrives at 7.0 Hz, /r/image at 7.0 Hz: "
         "both lose images, or stamps are more than 10 ms apart"},
+       {aged(0.9), ""},
+       {aged(-0.1), ""},
+       {aged(20.0),
+        "the stamps of /l/image are 20.0 s behind the clock when the images arrive: synchronise "
+        "the clocks of camera and computer"},
+       {aged(-3.0),
+        "the stamps of /l/image are 3.0 s ahead of the clock, and so are odometry and tf, which "
+        "others cannot use yet: synchronise the clocks of camera and computer"},
+       {aged(1e8), ""},  // a replay without /clock
        {received(10.0, 10.0, Unmatched{4, 0, 46}), ""},
        {received(10.0, 10.0, Unmatched{50, 0, 950}), ""},
        {received(10.0, 10.0, Unmatched{3, 0, 1}), ""}});  // at a start

@@ -34,9 +34,9 @@ class StereoIntakeTest : public testing::Test {
  protected:
   StereoIntakeTest() { restart(); }
 
-  void infos(double off_s) {
+  void infos(double off_s, double baseline_m = 0.5) {
     intake_->addInfo(Side::kLeft, makeInfo(kNow_s + time_s_ + off_s, 0.0), arrival());
-    intake_->addInfo(Side::kRight, makeInfo(kNow_s + time_s_ + off_s, 0.5), arrival());
+    intake_->addInfo(Side::kRight, makeInfo(kNow_s + time_s_ + off_s, baseline_m), arrival());
   }
 
   /// An image of now, whose stamp is off.
@@ -309,6 +309,27 @@ TEST_F(StereoIntakeTest, AGlitchOfCameraInfoDoesNoHarm) {
   infos(-5.0);
   pairs(1);
   EXPECT_EQ(stamps_ms_, (Stamps{0, 100, 200, 300, 400}));
+  expectDropped({});
+}
+
+/// The messages of a pair in any order: its own infos count, or else the newest ones.
+TEST_F(StereoIntakeTest, APairGetsTheInfosOfItsStamp) {
+  const auto expectBaseline = [&](double baseline_m) {
+    EXPECT_EQ(last_pair_.camera.baseline_m, baseline_m);
+  };
+  wait(kPeriod_s);
+  infos(0.0, 0.6);
+  infos(kPeriod_s, 0.7);
+  pair();
+  expectBaseline(0.6);
+  pair();
+  expectBaseline(0.7);
+  pair();
+  expectBaseline(0.7);
+  const auto left = makeInfo(kNow_s + time_s_, 0.0);
+  intake_->addInfo(Side::kLeft, left, arrival());
+  pair();  // without its right info
+  expectBaseline(0.7);
   expectDropped({});
 }
 

@@ -57,14 +57,18 @@ TEST_F(ExposuresTest, IgnoresSinglePairsAndThoseWithoutAMotion) {
 
 TEST(DarkImagesTest, TheHintNamesTheRangeOf16BitImages) {
   PairInspector inspector{CorrespondenceFinder::Config()};
-  cv::Mat image = cv::Mat::zeros(8, 8, CV_8UC1);
+  cv::Mat image = cv::Mat::zeros(48, 64, CV_8UC1);
   OdometryResult lost;
   lost.state = State::kLost;
-  std::string hint;
+  const auto inspect = [&] {
+    return inspector.inspect({0, image, image}, StereoCamera(), lost, 10);
+  };
   for (int pair = 0; pair < PairInspector::kPatience; ++pair) {
     image += 1;  // not frozen
-    hint = inspector.inspect({0, image, image}, StereoCamera(), lost, 10);
+    inspect();
   }
+  inspector.finish();
+  const std::string hint = inspect();
   EXPECT_NE(hint.find("mean grey level is 10 of 255, where 255 is 1023 of the 16-bit image: set "
                       "significant_bits"),
             std::string::npos)
