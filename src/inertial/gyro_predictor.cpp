@@ -11,6 +11,10 @@ namespace {
 /// on robots vibrate.
 constexpr double kAngleWalk = 1e-3;
 
+/// The gyroscope moves relative to the camera by more than that from pair to pair. The error of the
+/// mount would pass for a bias.
+constexpr double kMoving_rad = 1e-3;
+
 }  // namespace
 
 void GyroPredictor::add(const GyroSample& sample) {
@@ -44,7 +48,7 @@ std::optional<Eigen::Matrix3d> GyroPredictor::rotation(std::int64_t from_ns, std
   why_refused_.clear();
   ++counts_.predicted;
   const GyroRotation rotation = history_.rotation(from_ns, to_ns, bias_.bias_rps());
-  return R_camera_gyro_ * rotation.R_from_to * R_camera_gyro_.transpose();
+  return R_camera_gyro_from_ * rotation.R_from_to * R_camera_gyro_to_.transpose();
 }
 
 void GyroPredictor::observe(const OdometryResult& result) {
@@ -54,9 +58,9 @@ void GyroPredictor::observe(const OdometryResult& result) {
   const GyroRotation gyro = history_.rotation(from_ns, result.stamp_ns, bias_.bias_rps());
   // All in axes of the gyroscope at the current pair.
   const Eigen::Matrix3d seen =
-      R_camera_gyro_.transpose() * result.T_prev_cur.linear() * R_camera_gyro_;
+      R_camera_gyro_from_.transpose() * result.T_prev_cur.linear() * R_camera_gyro_to_;
   const Eigen::Vector3d difference_rad = logRotation(gyro.R_from_to.transpose() * seen);
-  const Eigen::Matrix3d to_gyro = (R_camera_gyro_ * seen).transpose();
+  const Eigen::Matrix3d to_gyro = (R_camera_gyro_from_ * seen).transpose();
   const Eigen::Matrix3d covariance =
       to_gyro * result.covariance.bottomRightCorner<3, 3>() * to_gyro.transpose() +
       kAngleWalk * kAngleWalk * result.dt_s * Eigen::Matrix3d::Identity();
@@ -65,6 +69,9 @@ void GyroPredictor::observe(const OdometryResult& result) {
                                       std::sqrt((of_bias + covariance).trace()),
                                       gyro.turned_rad,
                                       logRotation(seen).norm()});
+  const bool moves =
+      logRotation(R_camera_gyro_from_.transpose() * R_camera_gyro_to_).norm() > kMoving_rad;
+  if (agrees && moves) return;
   if (agrees) {
     bias_.observe(difference_rad, gyro.by_bias_s, covariance, result.dt_s);
   } else if (!trust_.whyNot().empty()) {

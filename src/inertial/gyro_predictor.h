@@ -13,8 +13,8 @@
 
 namespace rotrocc {
 
-/// Predicts rotations of a camera from a gyroscope that is fixed to it. Learns the bias of the
-/// gyroscope from the motions of the odometry.
+/// Predicts rotations of a camera from a gyroscope on the same robot. Learns the bias of the
+/// gyroscope from the motions of the odometry, while it does not move relative to the camera.
 class GyroPredictor {
  public:
   struct Counts {
@@ -25,10 +25,14 @@ class GyroPredictor {
   };
 
   explicit GyroPredictor(const Eigen::Matrix3d& R_camera_gyro = Eigen::Matrix3d::Identity())
-      : R_camera_gyro_(R_camera_gyro) {}
+      : R_camera_gyro_from_(R_camera_gyro), R_camera_gyro_to_(R_camera_gyro) {}
 
-  void setMount(const Eigen::Matrix3d& R_camera_gyro) { R_camera_gyro_ = R_camera_gyro; }
-  const Eigen::Matrix3d& R_camera_gyro() const { return R_camera_gyro_; }
+  /// At the beginning and at the end of the rotations that are asked for and observed from now on.
+  void setMount(const Eigen::Matrix3d& R_camera_gyro_from,
+                const Eigen::Matrix3d& R_camera_gyro_to) {
+    R_camera_gyro_from_ = R_camera_gyro_from;
+    R_camera_gyro_to_ = R_camera_gyro_to;
+  }
 
   /// Samples that are no numbers or out of order are refused.
   void add(const GyroSample& sample);
@@ -58,7 +62,7 @@ class GyroPredictor {
  private:
   std::string whyUnknown(std::int64_t from_ns, std::int64_t to_ns) const;
 
-  Eigen::Matrix3d R_camera_gyro_;
+  Eigen::Matrix3d R_camera_gyro_from_, R_camera_gyro_to_;
   GyroHistory history_;
   GyroBias bias_;
   GyroTrust trust_;

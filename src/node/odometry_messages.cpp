@@ -9,7 +9,7 @@
 
 #include "input/message_conversion.h"
 #include "input/to_text.h"
-#include "node/tf/camera_mount.h"
+#include "node/tf/sensor_mount.h"
 
 namespace rotrocc {
 namespace {

@@ -53,7 +53,7 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
                    listenToTf,
                    log_);
   }
-  if (parameters_.use_imu) gyro_.emplace(nh, parameters_.imu_timeout_s, log_);
+  if (parameters_.use_imu) gyro_.emplace(nh, parameters_, log_);
   input_.emplace(
       nh, parameters_, drops_, [this](ReceivedPair pair) { onPair(std::move(pair)); }, log_);
   if (parameters_.publish_tf) {
@@ -109,6 +109,9 @@ void StereoOdometry::onTick(const ros::WallTimerEvent&) {
     if (!report.input_fault.empty() && input_warning_.pass(report.input_fault)) {
       log_.warn(report.input_fault);
     }
+    if (!report.rig_fault.empty() && report.answers && rig_warning_.pass()) {
+      log_.warn(report.rig_fault);
+    }
     const std::string said = silence_.onTick(report.input, SteadyClock::now());
     if (!said.empty()) log_.warn(said);
   } catch (const std::exception& error) {
@@ -120,32 +123,39 @@ void StereoOdometry::work() {
   pthread_setname_np(pthread_self(), "odometry");  // for `top -H` and debuggers
   std::optional<ReceivedPair> pair;
   std::optional<DropReason> waits_for;
+  SteadyClock::time_point taken;
   while (ros::ok() && !mailbox_.closed()) {
     if (auto newer = mailbox_.take(pair ? kRetry : kIdlePoll)) {
       if (pair) drops_.count(*waits_for);
       pair = std::move(newer);
+      taken = SteadyClock::now();
     }
-    if (pair) waits_for = tryPair(*pair);
+    if (pair) waits_for = tryPair(*pair, taken);
     if (!waits_for) pair.reset();
   }
 }
 
 /// Nothing if the pair is done with: processed, or dropped. Otherwise it waits, and a newer one
 /// replaces it for that reason: tf lacks the camera pose, or the vertical is not known yet.
-std::optional<DropReason> StereoOdometry::tryPair(const ReceivedPair& received) {
+std::optional<DropReason> StereoOdometry::tryPair(const ReceivedPair& received,
+                                                  SteadyClock::time_point taken) {
   try {
-    if (processor_.takeRequests()) mount_.lookAgain();
+    if (processor_.takeRequests()) {
+      mount_.lookAgain();
+      if (gyro_) gyro_->lookAgain();
+    }
     const sensor_msgs::Image& left = *received.images.left;
     const std::string frame = cameraFrameOf(left, parameters_.camera_frame);
-    const auto T_base_camera = mount_.find(frame, toNanoseconds(left.header.stamp));
+    const std::int64_t stamp_ns = toNanoseconds(left.header.stamp);
+    const auto T_base_camera = mount_.find(frame, stamp_ns);
     if (!T_base_camera) {
       health_.setWaitsForTf(mount_.missing());
       return DropReason::kTfMissing;
     }
-    if (gyro_ && processor_.startsLevel() && gyro_->waitsForVertical(frame)) {
+    if (gyro_ && processor_.startsLevel() && gyro_->waitsForVertical(stamp_ns, *T_base_camera)) {
       return DropReason::kSuperseded;
     }
-    process(received, frame, *T_base_camera);
+    process(received, taken, frame, *T_base_camera);
   } catch (const InputError& error) {
     drops_.add(error);
   } catch (const std::exception& error) {
@@ -155,6 +165,7 @@ std::optional<DropReason> StereoOdometry::tryPair(const ReceivedPair& received) 
 }
 
 void StereoOdometry::process(const ReceivedPair& received,
+                             SteadyClock::time_point taken,
                              const std::string& frame,
                              const Eigen::Isometry3d& T_base_camera) {
   const SteadyClock::time_point begin = SteadyClock::now();
@@ -164,10 +175,11 @@ void StereoOdometry::process(const ReceivedPair& received,
   context.is_simulated = ros::Time::isSimTime();
   if (guess_) context.T_last_base = guess_->motionTo(pair.stamp_ns);
   if (gyro_) {
+    gyro_->follow(pair.stamp_ns, T_base_camera);
     context.measured_rotation = [&](std::int64_t from_ns, std::int64_t to_ns) {
-      return gyro_->rotation(frame, from_ns, to_ns);
+      return gyro_->rotation(from_ns, to_ns);
     };
-    context.up = [&] { return gyro_->up(frame, pair.stamp_ns); };
+    context.up = [&] { return gyro_->up(pair.stamp_ns); };
   }
   const PairAnswer answer = processor_.process(pair, context);
   // Before the odometry is sent: who has received it can save its pose.
@@ -175,8 +187,10 @@ void StereoOdometry::process(const ReceivedPair& received,
   const SteadyClock::time_point ready = SteadyClock::now();
   const SteadyClock::time_point sent = publishMotion(answer);
   OdometryStatus status = toStatus(answer.result, frame);
+  status.stamp_age = static_cast<float>(received.stamp_age_s);
   status.time_pairing = milliseconds(received.arrival - received.images.first_arrival);
-  status.time_waiting = milliseconds(begin - received.arrival);
+  status.time_waiting = milliseconds(taken - received.arrival);
+  status.time_tf = milliseconds(begin - taken);
   status.time_conversion = milliseconds(converted - begin);
   status.time_publishing = milliseconds(sent - ready);
   status.time_rest = milliseconds(ready - converted) - status.time_total;
@@ -206,7 +220,11 @@ void StereoOdometry::followUp(const PairAnswer& answer, OdometryStatus& status) 
     gyro_->report(status);
   }
   const std::string camera_fault = processor_.inspect(answer);
-  status = health_.addAnswer(status, camera_fault, guess_ ? guess_->trouble() : "", drops_);
+  std::string tf_trouble = mount_.trouble();
+  if (guess_ && !guess_->trouble().empty()) {
+    tf_trouble += (tf_trouble.empty() ? "" : "; ") + guess_->trouble();
+  }
+  status = health_.addAnswer(status, camera_fault, tf_trouble, drops_);
   publisher_.publishStatus(status);
   publisher_.publishPath(answer.state, answer.starts_trajectory);
   log(status, camera_fault);
@@ -221,8 +239,6 @@ void StereoOdometry::log(const OdometryStatus& status, const std::string& camera
     log_.info(std::string("recovered: ") + stateName(status.state));
   }
   if (!camera_fault.empty() && warning_.pass(camera_fault)) log_.warn(camera_fault);
-  const std::string rig = rigWarning(status);
-  if (!rig.empty() && rig_warning_.pass()) log_.warn(rig);
 }
 
 }  // namespace rotrocc

@@ -20,8 +20,8 @@
 #include "node/odometry_publisher.h"
 #include "node/odometry_services.h"
 #include "node/stereo_input.h"
-#include "node/tf/camera_mount.h"
 #include "node/tf/guess_odometry.h"
+#include "node/tf/sensor_mount.h"
 #include "node/tf/tf_conflict.h"
 #include "node/trajectory_store.h"
 #include "rotrocc/parameters.h"
@@ -56,8 +56,10 @@ class StereoOdometry {
 
   // In the worker thread.
   void work();
-  std::optional<DropReason> tryPair(const ReceivedPair& received);
+  std::optional<DropReason> tryPair(const ReceivedPair& received,
+                                    std::chrono::steady_clock::time_point taken);
   void process(const ReceivedPair& received,
+               std::chrono::steady_clock::time_point taken,
                const std::string& frame,
                const Eigen::Isometry3d& T_base_camera);
   std::chrono::steady_clock::time_point publishMotion(const PairAnswer& answer);
@@ -69,7 +71,7 @@ class StereoOdometry {
   DropLog drops_;
   OdometryHealth health_;
   PairProcessor processor_;
-  CameraMount mount_;
+  SensorMount mount_;
   std::optional<GuessOdometry> guess_;
   std::optional<GyroInput> gyro_;
   OdometryPublisher publisher_;

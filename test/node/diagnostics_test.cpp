@@ -149,45 +149,68 @@ TEST(DiagnosticsTest, AllIsWell) {
   expectEntry(describeNewDrops, withDrops(3, 2), Level::OK, "none since the last report");
 }
 
-TEST(DiagnosticsTest, FaultsOfTheRigAskForACalibration) {
-  HealthReport bias = goodReport();
-  bias.status.disparity_bias = -1.25f;
-  bias.status.disparity_bias_applied = -1.0f;
-  const std::string advice = ": recalibrate the stereo rig";
-  expectEntry(describeOdometry,
-              bias,
-              Level::WARN,
-              "disparities have a bias of 1.25 px (+- 0.05), which is corrected" + advice);
+/// What is said after so many pairs of that status.
+std::string rigFault(const OdometryStatus& status, int pairs = RigWatch::kPairs) {
+  RigWatch watch;
+  std::string said;
+  for (int pair = 0; pair < pairs; ++pair) said = watch.observe(status);
+  return said;
+}
 
-  HealthReport rows = goodReport();
-  rows.status.row_offset = -0.62f;
-  rows.status.row_offset_sigma = 0.01f;
-  rows.status.row_difference = 0.75f;
-  const std::string apart =
-      "rows of left and right differ by 0.75 px, with a median offset of -0.62 px (+- 0.01)";
-  StatusWrapper status = expectEntry(describeOdometry, rows, Level::WARN, apart + advice);
+OdometryStatus biased(float bias_px, float sigma_px) {
+  OdometryStatus status = goodReport().status;
+  status.disparity_bias = status.disparity_bias_applied = -bias_px;
+  status.disparity_bias_sigma = sigma_px;
+  return status;
+}
+
+TEST(RigWatchTest, FaultsThatLastAskForACalibration) {
+  const std::string advice = ": recalibrate the stereo rig";
+  const std::string bias =
+      "disparities have a bias of 1.25 px (+- 0.05), which is corrected" + advice;
+  EXPECT_EQ(rigFault(biased(1.25f, 0.05f)), bias);
+  HealthReport report = goodReport();
+  report.rig_fault = bias;
+  expectEntry(describeOdometry, report, Level::WARN, bias);
+
+  OdometryStatus rows = goodReport().status;
+  rows.row_offset = -0.62f;
+  rows.row_offset_sigma = 0.01f;
+  rows.row_difference = 0.75f;
+  EXPECT_EQ(rigFault(rows),
+            "rows of left and right differ by 0.75 px, with a median offset of -0.62 px (+- 0.01)" +
+                advice);
+  report.status = rows;
+  const StatusWrapper status = expectEntry(describeOdometry, report, Level::WARN, "");
   EXPECT_EQ(valueOf(status, "row offset of the right image"),
             "-0.62 +- 0.01 px, median difference 0.75 px");
 
-  HealthReport skew = goodReport();
-  skew.status.time_skew = -0.0062f;
-  skew.status.time_skew_sigma = 0.0011f;
-  status = expectEntry(describeOdometry,
-                       skew,
-                       Level::WARN,
-                       "the right images are taken 6.2 ms (+- 1.1) before the left ones: trigger "
-                       "both cameras by one signal");
-  EXPECT_EQ(valueOf(status, "delay of the right image"), "-6.2 +- 1.1 ms");
+  OdometryStatus skew = goodReport().status;
+  skew.time_skew = -0.0062f;
+  skew.time_skew_sigma = 0.0011f;
+  EXPECT_EQ(rigFault(skew),
+            "the right images are taken 6.2 ms (+- 1.1) before the left ones: trigger both cameras "
+            "by one signal");
 }
 
-TEST(DiagnosticsTest, ATimeSkewInDoubtOrWithoutEffectIsNoWarning) {
+TEST(RigWatchTest, WhatIsInDoubtOrDoesNotLastIsNoFault) {
+  EXPECT_EQ(rigFault(biased(1.25f, 0.05f), RigWatch::kPairs - 1), "");
+  EXPECT_EQ(rigFault(biased(4.07f, 1.11f)), "") << "3.7 standard deviations";
   for (const auto& [skew_s, sigma_s] :
        std::vector<std::pair<float, float>>{{-0.0062f, 0.002f}, {0.0015f, 0.0002f}, {0.0f, 0.0f}}) {
-    OdometryStatus status;
+    OdometryStatus status = goodReport().status;
     status.time_skew = skew_s;
     status.time_skew_sigma = sigma_s;
-    EXPECT_EQ(rigWarning(status), "") << skew_s;
+    EXPECT_EQ(rigFault(status), "") << skew_s;
   }
+  RigWatch watch;
+  const OdometryStatus fault = biased(1.25f, 0.05f);
+  OdometryStatus lost = fault;
+  lost.state = OdometryStatus::LOST;
+  for (int pair = 1; pair < RigWatch::kPairs; ++pair) watch.observe(fault);
+  for (int pair = 0; pair < RigWatch::kPairs; ++pair) EXPECT_EQ(watch.observe(lost), "");
+  EXPECT_NE(watch.observe(fault), "");
+  EXPECT_EQ(watch.observe(biased(0.0f, 0.05f)), "") << "it is gone";
 }
 
 TEST(DiagnosticsTest, LossIsAnErrorWithItsReason) {
@@ -218,6 +241,9 @@ TEST(DiagnosticsTest, FaultsOfTheInputAreTold) {
   refused.input.refused = "the left image has the stamp 0";
   const std::string dropped = "dropped in the last 5 s: the left image has the stamp 0";
   expectEntry(describeInput, refused, Level::WARN, dropped);
+  HealthReport replay = goodReport();
+  replay.input.stamp_age_s = 1e8;
+  expectEntry(describeInput, replay, Level::OK, "a replay without --clock");
   HealthReport silent = goodReport();
   silent.input.recent_pairs = silent.input.right_image.recent = 0;
   expectEntry(describeInput, silent, Level::ERROR, "/r/image has a publisher");
@@ -226,7 +252,12 @@ TEST(DiagnosticsTest, FaultsOfTheInputAreTold) {
 TEST(DiagnosticsTest, SlownessDropsAndFaultsOfTfAreWarnings) {
   HealthReport slow = goodReport();
   slow.latency_p50_ms = 130.0;
-  expectEntry(describeTiming, slow, Level::WARN, "130.0 ms, but pairs arrive every 100.0 ms");
+  expectEntry(describeTiming,
+              slow,
+              Level::WARN,
+              "130.0 ms, but pairs arrive every 100.0 ms; they wait for tf of the camera");
+  slow.latency_without_tf_p50_ms = 120.0;
+  expectEntry(describeTiming, slow, Level::WARN, "every 100.0 ms; reduce feature_detector/");
   StatusWrapper status = expectEntry(
       describeNewDrops, withDrops(3, 4), Level::WARN, "2 more dropped since the last report");
   EXPECT_EQ(valueOf(status, "stamp_zero"), "3");
@@ -236,9 +267,9 @@ TEST(DiagnosticsTest, SlownessDropsAndFaultsOfTfAreWarnings) {
   conflict.tf_conflict = "node /ekf publishes tf odom -> base_link";
   expectEntry(describeTf, conflict, Level::WARN, conflict.tf_conflict);
   HealthReport guess = goodReport();
-  guess.guess_trouble = "no tf from guess_frame wheel_odom";
+  guess.tf_trouble = "no tf from guess_frame wheel_odom";
   guess.status.guess_misses = 7;
-  status = expectEntry(describeTf, guess, Level::WARN, guess.guess_trouble);
+  status = expectEntry(describeTf, guess, Level::WARN, guess.tf_trouble);
   EXPECT_EQ(valueOf(status, "pairs without the motion of guess_frame"), "7");
 }
 
@@ -264,13 +295,13 @@ TEST(DiagnosticsTest, TellsWhyTheGyroscopeIsNotUsed) {
   EXPECT_EQ(describe().message, "not used: no message on /imu");
 }
 
-TEST(OdometryHealthTest, TheHintIsAFaultOfTheCamerasOrElseOfTheInputAndOfGuessFrame) {
+TEST(OdometryHealthTest, TheHintIsAFaultOfTheCamerasOrElseOfTheInputAndOfTf) {
   OdometryHealth health;
   const DropLog drops;
   InputReport lossy = goodReport().input;
   lossy.unmatched = {25, 0, 25};
-  const auto hint = [&](const std::string& camera_fault, const std::string& guess_trouble) {
-    return health.addAnswer({}, camera_fault, guess_trouble, drops).hint;
+  const auto hint = [&](const std::string& camera_fault, const std::string& tf_trouble) {
+    return health.addAnswer({}, camera_fault, tf_trouble, drops).hint;
   };
   EXPECT_EQ(hint("", ""), "");
   EXPECT_EQ(hint("", "no tf from guess_frame"), "no tf from guess_frame");

@@ -92,6 +92,7 @@ ros::Time SimulatedRobot::drive(const std::function<void(sensor_msgs::Image&)>& 
 std::pair<sensor_msgs::Image, sensor_msgs::Image> SimulatedRobot::see() {
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
   T_world_camera.translation().z() = way_m_;
+  T_world_camera.rotate(Eigen::AngleAxisd(-left_rad_, Eigen::Vector3d::UnitY()));
   const StereoPair pair = scene_.render(T_world_camera, toNanoseconds(stamp_));
   std_msgs::Header header;
   header.stamp = stamp_;

@@ -48,8 +48,12 @@ class SimulatedRobot {
   std::pair<sensor_msgs::Image, sensor_msgs::Image> see();
   void publish(const sensor_msgs::Image& left, const sensor_msgs::Image& right);
 
-  /// The next pairs have stamps from before the first ones.
+  /// The next pairs have stamps from before the first ones, or from a time on.
   void turnBackTime();
+  void setTime(const ros::Time& stamp) { stamp_ = stamp; }
+
+  /// The camera looks to the left of the way by that angle from the next pair on.
+  void look(double left_rad) { left_rad_ = left_rad; }
 
   /// The answer to the pair of a stamp; nothing after the timeout.
   std::optional<nav_msgs::Odometry> odometryOf(const ros::Time& stamp,
@@ -78,6 +82,7 @@ class SimulatedRobot {
 
   SyntheticScene scene_;
   double way_m_ = 0.0;
+  double left_rad_ = 0.0;
   ros::Time stamp_{1000.0};
 
   std::mutex mutex_;

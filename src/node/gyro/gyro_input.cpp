@@ -1,22 +1,26 @@
 #include "node/gyro/gyro_input.h"
 
+#include <cmath>
 #include <utility>
 
 #include <ros/transport_hints.h>
 
 #include "input/message_conversion.h"
-#include "node/tf/camera_mount.h"
 
 namespace rotrocc {
 namespace {
 
 constexpr int kSampleQueueSize = 1000;  // a second of the fastest gyroscopes
 constexpr std::chrono::seconds kVerticalWait(2);
+constexpr std::int64_t kMemory_ns = static_cast<std::int64_t>(1e9 * GyroHistory::kLength_s);
 
 }  // namespace
 
-GyroInput::GyroInput(const ros::NodeHandle& nh, double timeout_s, Log log)
-    : log_(std::move(log)), timeout_(timeout_s) {
+GyroInput::GyroInput(const ros::NodeHandle& nh, const NodeParameters& parameters, Log log)
+    : log_(std::move(log)),
+      base_frame_(parameters.base_frame),
+      timeout_(parameters.imu_timeout_s),
+      mount_(base_frame_, parameters.mount_timeout_s, listenToTf, std::nullopt) {
   ros::NodeHandle own(nh);
   own.setCallbackQueue(&queue_);
   subscriber_ = own.subscribe<sensor_msgs::Imu>(
@@ -50,9 +54,20 @@ void GyroInput::receive(const sensor_msgs::Imu& message) {
   received_.notify_all();
 }
 
-std::optional<Eigen::Matrix3d> GyroInput::rotation(const std::string& camera_frame,
-                                                   std::int64_t from_ns,
-                                                   std::int64_t to_ns) {
+void GyroInput::follow(std::int64_t stamp_ns, const Eigen::Isometry3d& T_base_camera) {
+  const std::string frame = [this] {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return gyro_frame_;
+  }();
+  // Without those from before a time jump, and those that are too old for its samples.
+  auto& mounts = R_camera_gyro_;
+  mounts.erase(mounts.lower_bound(stamp_ns), mounts.end());
+  mounts.erase(mounts.begin(), mounts.lower_bound(stamp_ns - kMemory_ns));
+  const auto T_base_gyro = frame.empty() ? std::nullopt : mount_.find(frame, stamp_ns);
+  if (T_base_gyro) mounts[stamp_ns] = T_base_camera.linear().transpose() * T_base_gyro->linear();
+}
+
+std::optional<Eigen::Matrix3d> GyroInput::rotation(std::int64_t from_ns, std::int64_t to_ns) {
   std::unique_lock<std::mutex> lock(mutex_);
   was_asked_ = true;
   if (backoff_.waits() && predictor_.whyDistrusted().empty()) {
@@ -61,52 +76,47 @@ std::optional<Eigen::Matrix3d> GyroInput::rotation(const std::string& camera_fra
       return newest_ns && *newest_ns >= to_ns;
     });
   }
-  const std::string why_no_mount = whyNoMount(withoutSlash(camera_frame));
+  const std::string why_no_mount = whyNoMount(from_ns, to_ns);
   if (why_no_mount.empty()) return predictor_.rotation(from_ns, to_ns);
   predictor_.miss(why_no_mount);
   return std::nullopt;
 }
 
-/// Looks up the mount, unless it is known. Does not wait for tf.
-std::string GyroInput::whyNoMount(const std::string& camera_frame) {
+/// Sets the mount at two pairs, if it is known.
+std::string GyroInput::whyNoMount(std::int64_t from_ns, std::int64_t to_ns) {
   if (!predictor_.history().newest_ns()) return "no message on " + subscriber_.getTopic();
-  const std::string frames = gyro_frame_ + " to " + camera_frame;
-  if (frames == mounted_on_) return "";
-  mounted_on_.clear();
-  if (!listener_) listener_ = std::make_unique<tf2_ros::TransformListener>(tf_);
-  try {
-    predictor_.setMount(
-        toEigen(tf_.lookupTransform(camera_frame, gyro_frame_, ros::Time()).transform).linear());
-  } catch (const std::exception&) {
+  const auto from = R_camera_gyro_.find(from_ns);
+  const auto to = R_camera_gyro_.find(to_ns);
+  if (from == R_camera_gyro_.end() || to == R_camera_gyro_.end()) {
     return "no tf from '" + gyro_frame_ + "', the frame of " + subscriber_.getTopic() + ", to " +
-           camera_frame;
+           base_frame_ + " at a pair";
   }
-  mounted_on_ = frames;
-  listener_.reset();
+  predictor_.setMount(from->second, to->second);
   return "";
 }
 
-bool GyroInput::waitsForVertical(const std::string& camera_frame) {
+bool GyroInput::waitsForVertical(std::int64_t stamp_ns, const Eigen::Isometry3d& T_base_camera) {
+  follow(stamp_ns, T_base_camera);
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto now = std::chrono::steady_clock::now();
   if (!vertical_wait_) vertical_wait_ = now;
-  const bool is_known = whyNoMount(withoutSlash(camera_frame)).empty() && vertical_.isComplete();
+  const bool is_known = whyNoMount(stamp_ns, stamp_ns).empty() && vertical_.isComplete();
   return !is_known && now < *vertical_wait_ + kVerticalWait;
 }
 
-std::optional<Eigen::Vector3d> GyroInput::up(const std::string& camera_frame,
-                                             std::int64_t stamp_ns) {
+std::optional<Eigen::Vector3d> GyroInput::up(std::int64_t stamp_ns) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  std::string why = whyNoMount(withoutSlash(camera_frame));
+  std::string why = whyNoMount(stamp_ns, stamp_ns);
   if (why.empty()) why = vertical_.whyUnknown(stamp_ns);
-  if (why.empty()) return predictor_.R_camera_gyro() * vertical_.up();
+  if (why.empty()) return R_camera_gyro_.at(stamp_ns) * vertical_.up();
   log_.warn("the first pose is not level, but as the robot stands: " + why);
   return std::nullopt;
 }
 
 void GyroInput::observe(const OdometryResult& result) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!mounted_on_.empty()) predictor_.observe(result);
+  const std::int64_t from_ns = result.stamp_ns - std::llround(1e9 * result.dt_s);
+  if (whyNoMount(from_ns, result.stamp_ns).empty()) predictor_.observe(result);
   if (!was_asked_) return;  // a first pair
   was_asked_ = false;
   const bool used = predictor_.whyNot().empty();
@@ -120,7 +130,7 @@ void GyroInput::tell(bool used) {
   if (in_a_row_ < kPairs || told_used_ == used) return;
   told_used_ = used;
   if (used) {
-    log_.info("the gyroscope predicts rotations (" + mounted_on_ + ")");
+    log_.info("the gyroscope predicts rotations (" + gyro_frame_ + " on " + base_frame_ + ")");
   } else {
     log_.warn("the gyroscope is not used: " + predictor_.whyNot());
   }

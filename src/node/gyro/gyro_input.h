@@ -3,7 +3,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
-#include <memory>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -13,22 +13,23 @@
 #include <ros/spinner.h>
 #include <ros/subscriber.h>
 #include <sensor_msgs/Imu.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
+#include <Eigen/Geometry>
 
 #include "inertial/gyro_predictor.h"
 #include "inertial/vertical.h"
 #include "input/log.h"
 #include "node/health/diagnostics.h"
 #include "node/miss_backoff.h"
+#include "node/tf/sensor_mount.h"
 #include "rotrocc/OdometryStatus.h"
 #include "rotrocc/odometry_result.h"
+#include "rotrocc/parameters.h"
 
 namespace rotrocc {
 
 /// Rotations of the camera from the topic imu, and the vertical. It is received in a thread of its
-/// own, so that images do not delay it. The mount is looked up in tf once, for each frame of the
-/// camera and of the messages. Logs when it is used, and when not and why, after kPairs in a row.
+/// own, so that images do not delay it. Its mount on the base is that of tf, as the camera's is, so
+/// either of them may move. Logs when it is used, and when not and why, after kPairs in a row.
 /// Samples of one that has been missing for a while are waited for only now and then.
 class GyroInput {
  public:
@@ -36,23 +37,30 @@ class GyroInput {
   /// While it is missing, one of so many pairs waits for it.
   static constexpr int kRetryPairs = 10;
 
-  /// Subscribes. A pair waits for its samples for at most `timeout_s`, in real time.
-  GyroInput(const ros::NodeHandle& nh, double timeout_s, Log log);
+  /// Subscribes. A pair waits for its samples for at most imu_timeout_s, in real time, and for the
+  /// mount for mount_timeout_s.
+  GyroInput(const ros::NodeHandle& nh, const NodeParameters& parameters, Log log);
   ~GyroInput();
   GyroInput(const GyroInput&) = delete;
   GyroInput& operator=(const GyroInput&) = delete;
 
-  /// R_from_to of the camera, if samples of that time and tf are there in time. For one thread.
-  std::optional<Eigen::Matrix3d> rotation(const std::string& camera_frame,
-                                          std::int64_t from_ns,
-                                          std::int64_t to_ns);
+  // For one thread:
+
+  /// Looks up the mount at a pair, where that of the camera is known. To be called with each one.
+  void follow(std::int64_t stamp_ns, const Eigen::Isometry3d& T_base_camera);
+  /// A fixed mount is looked up again.
+  void lookAgain() { mount_.lookAgain(); }
+
+  /// R_from_to of the camera between two pairs, if samples of that time are there in time, and the
+  /// mount is known at both.
+  std::optional<Eigen::Matrix3d> rotation(std::int64_t from_ns, std::int64_t to_ns);
 
   /// Whether a first pair shall wait for tf and the accelerations of a second, which it does for
-  /// two seconds of real time at most.
-  bool waitsForVertical(const std::string& camera_frame);
+  /// two seconds of real time at most. Includes follow().
+  bool waitsForVertical(std::int64_t stamp_ns, const Eigen::Isometry3d& T_base_camera);
 
-  /// The vertical in axes of the camera, if it is known. Logs why not.
-  std::optional<Eigen::Vector3d> up(const std::string& camera_frame, std::int64_t stamp_ns);
+  /// The vertical in axes of the camera at a pair, if it is known. Logs why not.
+  std::optional<Eigen::Vector3d> up(std::int64_t stamp_ns);
 
   /// To be called with the result of each pair.
   void observe(const OdometryResult& result);
@@ -64,11 +72,14 @@ class GyroInput {
 
  private:
   void receive(const sensor_msgs::Imu& message);
-  std::string whyNoMount(const std::string& camera_frame);
+  std::string whyNoMount(std::int64_t from_ns, std::int64_t to_ns);
   void tell(bool used);
 
   Log log_;
+  std::string base_frame_;
   std::chrono::duration<double> timeout_;
+  SensorMount mount_;
+  std::map<std::int64_t, Eigen::Matrix3d> R_camera_gyro_;  // at the stamps of recent pairs
 
   mutable std::mutex mutex_;  // of what follows, up to the empty line
   std::condition_variable received_;
@@ -80,11 +91,8 @@ class GyroInput {
   int in_a_row_ = 0;               // pairs that it was used, or was not
   std::optional<bool> told_used_;  // as the log says
   std::string gyro_frame_;         // of the last message
-  std::string mounted_on_;         // camera frame and gyroscope frame of the mount; empty: unknown
   bool was_asked_ = false;         // for the rotation of this pair
 
-  tf2_ros::Buffer tf_;
-  std::unique_ptr<tf2_ros::TransformListener> listener_;  // until the mount is known
   ros::CallbackQueue queue_;
   ros::Subscriber subscriber_;
   ros::AsyncSpinner spinner_{1, &queue_};

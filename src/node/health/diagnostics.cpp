@@ -15,15 +15,6 @@ using diagnostic_msgs::DiagnosticStatus;
 
 /// Latencies vary with the load of the machine: warn only if most pairs are late.
 constexpr double kLateShareOfPeriod = 1.0;
-/// Rigs are rarely better calibrated; the correction is right on average only, and leaves more of a
-/// larger bias.
-constexpr double kLargeBias_px = 0.5;
-/// More than a good rectification leaves, and more than the matching of small windows tolerates.
-constexpr double kRowsApart_px = 0.5;
-/// At 10 m/s, or at half a radian per second, a pixel or so of disparity error.
-constexpr double kNotableSkew_s = 0.002;
-constexpr double kSkewSigmas = 4.0;
-
 unsigned char levelOf(std::uint8_t state) {
   switch (state) {
     case OdometryStatus::OK:
@@ -46,15 +37,6 @@ void addTopic(const TopicReport& topic, StatusWrapper& status) {
               topic.publishers);
 }
 
-/// Empty unless the skew is notable and beyond doubt.
-std::string skewWarning(double skew_s, double sigma_s) {
-  const double least_s = std::max(kNotableSkew_s, kSkewSigmas * sigma_s);
-  if (sigma_s == 0.0 || std::abs(skew_s) < least_s) return "";
-  return "the right images are taken " + hundredths(1e3 * std::abs(skew_s)) + " ms (+- " +
-         hundredths(1e3 * sigma_s) + ") " + (skew_s > 0.0 ? "after" : "before") +
-         " the left ones: trigger both cameras by one signal";
-}
-
 std::uint64_t countDrops(const OdometryStatus& status) {
   std::uint64_t total = 0;
   for (const DropCount& drop : status.drops) total += drop.count;
@@ -63,28 +45,11 @@ std::uint64_t countDrops(const OdometryStatus& status) {
 
 }  // namespace
 
-std::string rigWarning(const OdometryStatus& status) {
-  std::string what;
-  if (std::abs(status.disparity_bias_applied) >= kLargeBias_px) {
-    what = "disparities have a bias of " + hundredths(-status.disparity_bias) + " px (+- " +
-           hundredths(status.disparity_bias_sigma) + "), which is corrected";
-  }
-  if (status.row_difference >= kRowsApart_px) {
-    what += (what.empty() ? "" : "; ") + std::string("rows of left and right differ by ") +
-            hundredths(status.row_difference) + " px, with a median offset of " +
-            hundredths(status.row_offset) + " px (+- " + hundredths(status.row_offset_sigma) + ")" +
-            (status.row_offset_applied != 0.0f ? ", which is corrected" : "");
-  }
-  if (!what.empty()) what += ": recalibrate the stereo rig";
-  const std::string skew = skewWarning(status.time_skew, status.time_skew_sigma);
-  return what.empty() || skew.empty() ? what + skew : what + "; " + skew;
-}
-
 void describeOdometry(const HealthReport& report, StatusWrapper& status) {
   const OdometryStatus& last = report.status;
   const std::string name = stateName(last.state);
   status.summary(levelOf(last.state), last.reason.empty() ? name : name + ": " + last.reason);
-  for (const std::string& warning : {report.camera_fault, rigWarning(last)}) {
+  for (const std::string& warning : {report.camera_fault, report.rig_fault}) {
     if (!warning.empty()) status.mergeSummary(DiagnosticStatus::WARN, warning);
   }
   status.add("state", name);
@@ -126,6 +91,10 @@ void describeInput(const HealthReport& report, StatusWrapper& status) {
     status.summary(DiagnosticStatus::WARN, fault);
   } else if (!why.empty()) {
     status.summary(DiagnosticStatus::WARN, "dropped in the last 5 s: " + why);
+  } else if (isOfAnotherClock(input)) {
+    status.summary(DiagnosticStatus::OK,
+                   "stereo pairs arrive, whose stamps are not of this clock: a replay without "
+                   "--clock, or a driver that does not stamp by ROS time");
   } else {
     status.summary(DiagnosticStatus::OK, "stereo pairs arrive");
   }
@@ -138,6 +107,9 @@ void describeInput(const HealthReport& report, StatusWrapper& status) {
     status.addf(
         "largest stamp difference of left and right", "%.3f ms", 1e3 * *input.stamp_difference_s);
   }
+  if (input.stamp_age_s) {
+    status.addf("age of the stamps of left images", "%.3f s", *input.stamp_age_s);
+  }
   status.addf("max_stamp_difference_s", "%.3f ms", 1e3 * input.max_stamp_difference_s);
   status.addf("accepted stamp difference", "%.3f ms", 1e3 * input.tolerance_s);
 }
@@ -145,13 +117,16 @@ void describeInput(const HealthReport& report, StatusWrapper& status) {
 void describeTiming(const HealthReport& report, StatusWrapper& status) {
   const double input_hz = report.input.left_image.rate_hz;
   const double period_ms = input_hz > 0.0 ? 1e3 / input_hz : 0.0;
-  if (report.answers && period_ms > 0.0 && report.latency_p50_ms > kLateShareOfPeriod * period_ms) {
+  const double limit_ms = kLateShareOfPeriod * period_ms;
+  if (report.answers && period_ms > 0.0 && report.latency_p50_ms > limit_ms) {
     status.summaryf(DiagnosticStatus::WARN,
                     "too slow: half of the results take more than %.1f ms, but pairs arrive every "
-                    "%.1f ms; reduce feature_detector/max_features, or the rate or size of the "
-                    "images",
+                    "%.1f ms; %s",
                     report.latency_p50_ms,
-                    period_ms);
+                    period_ms,
+                    report.latency_without_tf_p50_ms > limit_ms
+                        ? "reduce feature_detector/max_features, or the rate or size of the images"
+                        : "they wait for tf of the camera: publish it earlier or more often");
   } else {
     status.summaryf(DiagnosticStatus::OK, "%.1f results per second", report.answer_rate_hz);
   }
@@ -170,8 +145,8 @@ void describeTf(const HealthReport& report, StatusWrapper& status) {
   } else {
     status.summary(DiagnosticStatus::OK, "no conflict");
   }
-  if (!report.guess_trouble.empty()) {
-    status.mergeSummary(DiagnosticStatus::WARN, report.guess_trouble);
+  if (!report.tf_trouble.empty()) {
+    status.mergeSummary(DiagnosticStatus::WARN, report.tf_trouble);
   }
   status.add("pairs without the motion of guess_frame", report.status.guess_misses);
 }

@@ -16,10 +16,6 @@ namespace rotrocc {
 /// The entries of /diagnostics.
 using StatusWrapper = diagnostic_updater::DiagnosticStatusWrapper;
 
-/// Warning about a large disparity bias, row offset or time skew, one sentence; empty if there is
-/// none.
-std::string rigWarning(const OdometryStatus& status);
-
 void describeOdometry(const HealthReport& report, StatusWrapper& status);
 void describeInput(const HealthReport& report, StatusWrapper& status);
 void describeTiming(const HealthReport& report, StatusWrapper& status);

@@ -49,7 +49,7 @@ const char* stateName(std::uint8_t state) {
 
 OdometryStatus OdometryHealth::addAnswer(OdometryStatus status,
                                          const std::string& camera_fault,
-                                         const std::string& guess_trouble,
+                                         const std::string& tf_trouble,
                                          const DropLog& drops) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const bool lost = status.state == OdometryStatus::LOST;
@@ -57,20 +57,22 @@ OdometryStatus OdometryHealth::addAnswer(OdometryStatus status,
   status.pairs_lost = known_.status.pairs_lost + (lost ? 1 : 0);
   known_.status = std::move(status);
   known_.camera_fault = camera_fault;
-  known_.guess_trouble = guess_trouble;
+  known_.rig_fault = rig_watch_.observe(known_.status);
+  known_.tf_trouble = tf_trouble;
   known_.waits_for_tf.clear();
   answers_.add(std::chrono::steady_clock::now());
   latencies_ms_.add(known_.status.latency);
+  without_tf_ms_.add(known_.status.latency - known_.status.time_tf);
   updateStatus(drops);
   return known_.status;
 }
 
-/// The hint is a fault of the cameras, or else of the input; and of guess_frame.
+/// The hint is a fault of the cameras, or else of the input; and of tf.
 void OdometryHealth::updateStatus(const DropLog& drops) {
   OdometryStatus& status = known_.status;
   status.hint = known_.camera_fault.empty() ? known_.input_fault : known_.camera_fault;
-  if (!status.hint.empty() && !known_.guess_trouble.empty()) status.hint += "; ";
-  status.hint += known_.guess_trouble;
+  if (!status.hint.empty() && !known_.tf_trouble.empty()) status.hint += "; ";
+  status.hint += known_.tf_trouble;
   status.drops.clear();
   for (const auto& [reason, count] : drops.counts()) {
     status.drops.emplace_back();
@@ -106,6 +108,7 @@ HealthReport OdometryHealth::report(const InputReport& input, const DropLog& dro
   report.latency_p50_ms = latencies_ms_.quantile(0.5);
   report.latency_p95_ms = latencies_ms_.quantile(0.95);
   report.latency_max_ms = latencies_ms_.quantile(1.0);
+  report.latency_without_tf_p50_ms = without_tf_ms_.quantile(0.5);
   updateState(report);
   return report;
 }

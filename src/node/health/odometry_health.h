@@ -7,6 +7,7 @@
 #include "input/drop_log.h"
 #include "input/input_report.h"
 #include "input/topic_statistics.h"
+#include "node/health/rig_watch.h"
 #include "node/health/sliding_quantiles.h"
 #include "rotrocc/OdometryStatus.h"
 
@@ -17,14 +18,16 @@ struct HealthReport {
   OdometryStatus status;  ///< of the last pair, with the state, the hint and the counters of now
   InputReport input;
   bool paused = false;
-  bool answers = false;       ///< a pair was processed recently
-  std::string camera_fault;   ///< see PairInspector; empty if none
-  std::string input_fault;    ///< of the pairs that arrive, see faultOfPairs(); empty if none
-  std::string guess_trouble;  ///< why tf has no motion of guess_frame; empty if it has
-  std::string waits_for_tf;   ///< which transform is missing; empty if none is
-  std::string tf_conflict;    ///< other publisher of a parent of the base; empty if none
+  bool answers = false;      ///< a pair was processed recently
+  std::string camera_fault;  ///< see PairInspector; empty if none
+  std::string input_fault;   ///< of the pairs that arrive, see faultOfPairs(); empty if none
+  std::string rig_fault;     ///< see RigWatch; empty if none
+  std::string tf_trouble;    ///< of guess_frame or of a mount that moves; empty if none
+  std::string waits_for_tf;  ///< which transform is missing; empty if none is
+  std::string tf_conflict;   ///< other publisher of a parent of the base; empty if none
   double answer_rate_hz = 0.0;
   double latency_p50_ms = 0.0, latency_p95_ms = 0.0, latency_max_ms = 0.0;
+  double latency_without_tf_p50_ms = 0.0;  ///< without the time for which pairs wait for tf
 };
 
 /// Sets state and reason of the status, which are those of the last pair, if there was none
@@ -41,7 +44,7 @@ class OdometryHealth {
   /// it lacks.
   OdometryStatus addAnswer(OdometryStatus status,
                            const std::string& camera_fault,
-                           const std::string& guess_trouble,
+                           const std::string& tf_trouble,
                            const DropLog& drops);
   void setPaused(bool paused);
   bool paused() const;
@@ -56,7 +59,9 @@ class OdometryHealth {
   mutable std::mutex mutex_;
   HealthReport known_;
   TopicStatistics answers_;
+  RigWatch rig_watch_;
   SlidingQuantiles latencies_ms_{300};
+  SlidingQuantiles without_tf_ms_{300};
 };
 
 }  // namespace rotrocc

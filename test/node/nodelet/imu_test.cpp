@@ -8,40 +8,71 @@
 #include <sensor_msgs/Imu.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
 
+#include "input/message_conversion.h"
 #include "node/odometry_messages.h"
 #include "nodelet_drive.h"
+#include "sequences/kitti_mount.h"
 
 namespace rotrocc {
 namespace {
 
 constexpr double kSample_s = 0.005;
 constexpr int kSamplesPerPair = 20;
+constexpr double kSwing_rad = 0.05;  // per pair
 
 class ImuTest : public testing::Test {
  protected:
   ImuTest() {
     publisher_ = ros::NodeHandle().advertise<sensor_msgs::Imu>("imu", 1000);
     EXPECT_TRUE(waitUntil([&] { return publisher_.getNumSubscribers() > 0; }));
-    drive_.setUp();
+    drive_.robot.publishInfos();
   }
 
-  void publishImuFrame() {
-    broadcaster_.sendTransform(
-        toTransform(Eigen::Isometry3d::Identity(), 0, "base_link", "imu_link"));
+  void publishImuFrame(const Eigen::Isometry3d& T_base_imu = Eigen::Isometry3d::Identity()) {
+    broadcaster_.sendTransform(toTransform(T_base_imu, 0, "base_link", "imu_link"));
+  }
+
+  /// Turns the camera by a step of alternating direction.
+  double swing() {
+    const double step_rad = pairs_++ / 8 % 2 == 0 ? kSwing_rad : -kSwing_rad;
+    drive_.robot.look(left_rad_ += step_rad);
+    return step_rad;
   }
 
   /// Drives a step. The samples up to the pair are published before it, plus a bias in yaw.
   OdometryStatus drive(double yaw_rate_rps) {
     const auto [left, right] = drive_.robot.see();
-    for (int i = 1 - kSamplesPerPair; i <= 1; ++i) {
-      publishSample(left.header.stamp + ros::Duration((i - 0.5) * kSample_s), yaw_rate_rps);
-    }
+    publishSamples(left.header.stamp, yaw_rate_rps);
     drive_.robot.publish(left, right);
     return drive_.statusOf(left.header.stamp);
   }
 
+  /// The same with a camera on a head, whose tf comes after the images.
+  OdometryStatus driveWithHead(double yaw_rate_rps) {
+    const auto [left, right] = drive_.robot.see();
+    publishSamples(left.header.stamp, yaw_rate_rps);
+    drive_.robot.publish(left, right);
+    Eigen::Isometry3d T_base_camera(Eigen::AngleAxisd(left_rad_, Eigen::Vector3d::UnitZ()));
+    T_base_camera.rotate(kittiMount().linear());
+    std::optional<OdometryStatus> status;
+    EXPECT_TRUE(waitUntil([&] {  // the first transforms may be lost
+      joints_.sendTransform(
+          toTransform(T_base_camera, toNanoseconds(left.header.stamp), "base_link", "camera_left"));
+      status = drive_.robot.statusOf(left.header.stamp, std::chrono::milliseconds(100));
+      return status.has_value();
+    }));
+    return status.value_or(OdometryStatus());
+  }
+
   OdometryStatus driveWithout() { return drive_.statusOf(drive_.robot.drive()); }
+
+  void publishSamples(const ros::Time& pair, double yaw_rate_rps) {
+    for (int i = 1 - kSamplesPerPair; i <= 1; ++i) {
+      publishSample(pair + ros::Duration((i - 0.5) * kSample_s), yaw_rate_rps);
+    }
+  }
 
   void publishSample(const ros::Time& stamp, double yaw_rate_rps) {
     if (stamp <= last_sample_) return;
@@ -87,19 +118,23 @@ class ImuTest : public testing::Test {
   }
 
   // It waits longer for a sample than the load of a machine delays one.
-  NodeletDrive drive_{{{"use_imu", true}, {"imu_timeout_s", 1.0}}};
+  NodeletDrive drive_{{{"use_imu", true}, {"imu_timeout_s", 1.0}, {"mount_timeout_s", 5.0}}};
   ros::Publisher publisher_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
+  tf2_ros::TransformBroadcaster joints_;
   ros::Time last_sample_;
   std::string frame_ = "imu_link";
   Eigen::Vector3d acceleration_ = Eigen::Vector3d::Zero();  // none
   OdometryStatus last_;
+  double left_rad_ = 0.0;
+  int pairs_ = 0;
 };
 
 TEST_F(ImuTest, IsUsedWhenItIsThereAndToldWhenNot) {
+  drive_.robot.publishMount();
   const auto biased = [&] { return drive(0.02); };
   EXPECT_TRUE(drivesUntil("no message on /imu", [&] { return driveWithout(); }));
-  EXPECT_TRUE(drivesUntil("no tf from 'imu_link', the frame of /imu, to camera_left", biased));
+  EXPECT_TRUE(drivesUntil("no tf from 'imu_link', the frame of /imu, to base_link", biased));
   publishImuFrame();
   ASSERT_TRUE(drivesUntil("", biased));
   EXPECT_EQ(last_.state, OdometryStatus::OK);
@@ -149,6 +184,34 @@ TEST_F(ImuTest, SaysThatThereIsNothingToLevelItBy) {
   frame_ = "base_link";
   EXPECT_TRUE(upOf(begin()).isApprox(Eigen::Vector3d::UnitZ(), 1e-9));
   EXPECT_EQ(drive_.log.with("there are no accelerations of 1 s").size(), 1u);
+}
+
+/// The robot turns. The mount of the gyroscope is wrong, then calibrated.
+TEST_F(ImuTest, AResetTakesANewMount) {
+  drive_.robot.publishMount();
+  const auto turn = [&] { return drive(swing() / SimulatedRobot::kPeriod_s); };
+  publishImuFrame(Eigen::Isometry3d(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX())));
+  EXPECT_TRUE(drivesUntil("differ from those of the images", turn));
+  publishImuFrame();
+  EXPECT_TRUE(waitUntil([&] {
+    std_srvs::Trigger reset;
+    return drive_.services.call("reset", reset) && drivesUntil("", turn);
+  }));
+}
+
+/// The camera turns, and the base with the gyroscope does not.
+TEST_F(ImuTest, TheTurnsOfAHeadAreNoBias) {
+  publishImuFrame();
+  const auto turn = [&] {
+    swing();
+    return driveWithHead(0.0);
+  };
+  ASSERT_TRUE(drivesUntil("", turn));
+  for (int pair = 0; pair < 24; ++pair) {
+    const OdometryStatus status = turn();
+    EXPECT_EQ(status.imu_reason, "");
+    EXPECT_EQ(status.state, OdometryStatus::OK) << status.reason;
+  }
 }
 
 }  // namespace

@@ -148,6 +148,7 @@ TEST_F(InterfaceTest, StatusTellsThePartsOfTheLatency) {
   const std::chrono::duration<double, std::milli> elapsed =
       std::chrono::steady_clock::now() - begin;
   const std::vector<float> parts = {status_.time_waiting,
+                                    status_.time_tf,
                                     status_.time_conversion,
                                     status_.time_total,
                                     status_.time_publishing,

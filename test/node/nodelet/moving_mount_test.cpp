@@ -58,6 +58,42 @@ TEST(MovingMountTest, TheBaseRestsWhileItsCameraMoves) {
   EXPECT_EQ(drive.statusOf(odometry.header.stamp).header.frame_id, "other_camera");
 }
 
+/// tf of each third pair only: one is extrapolated, the next one waits.
+TEST(MovingMountTest, SlowTfOfAMovingMountCostsNoPairAndIsTold) {
+  NodeletDrive drive({{"mount_timeout_s", 0.19}});
+  DiagnosticsListener diagnostics;
+  SimulatedRobot& robot = drive.robot;
+  robot.publishInfos();
+  tf2_ros::TransformBroadcaster joints;
+  double x_m = 1.0;
+  for (int pair = 0; pair < 16; ++pair, x_m += SimulatedRobot::kStep_m) {
+    const auto [left, right] = robot.see();
+    robot.publish(left, right);
+    std::vector<geometry_msgs::TransformStamped> mounts;
+    if (pair < 4) mounts = {mountAt(x_m, left.header.stamp, "camera_left")};
+    if (pair >= 4 && pair % 3 == 2) {
+      mounts = {mountAt(x_m + SimulatedRobot::kStep_m,
+                        left.header.stamp + ros::Duration(SimulatedRobot::kPeriod_s),
+                        "camera_left")};
+    }
+    std::optional<nav_msgs::Odometry> at_rest;
+    EXPECT_TRUE(waitUntil([&] {
+      joints.sendTransform(mounts);
+      at_rest = robot.odometryOf(left.header.stamp, std::chrono::milliseconds(100));
+      return at_rest.has_value();
+    })) << pair;
+    ASSERT_TRUE(at_rest);
+    EXPECT_NEAR(at_rest->pose.pose.position.x, 0.0, 0.05) << pair;
+  }
+  const std::string said =
+      "tf from base_link to camera_left, which moves, comes at 3.3 Hz, too seldom";
+  EXPECT_TRUE(robot.statusThat([&](const OdometryStatus& status) {
+    return status.hint.find(said) == 0 && status.state == OdometryStatus::OK;
+  }));
+  EXPECT_EQ(drive.log.with(said).size(), 1u);
+  EXPECT_TRUE(diagnostics.says("stereo_odometry: tf", said));
+}
+
 TEST(CameraFrameTest, IsThatOfTheLeftImageUnlessAParameterNamesIt) {
   const auto leaveOut = [](sensor_msgs::Image& image) { image.header.frame_id.clear(); };
   {

@@ -16,26 +16,27 @@
 
 namespace rotrocc {
 
-/// Pose of the camera on the robot, from tf.
+/// Pose of a sensor on the robot, from tf.
 ///
 /// A mount from /tf_static alone is looked up once, and then tf is no longer listened to, until
-/// lookAgain(): a mount that changes without it would look like a motion of the camera. Other
+/// lookAgain(): a mount that changes without it would look like a motion of the sensor. Other
 /// mounts are looked up at each stamp, and late transforms are waited for. If one does not come in
 /// time, a mount that has not moved so far is assumed at rest, and no longer waited for until it
-/// moves.
-class CameraMount {
+/// moves. One that moves is extrapolated, as its motion was just before.
+class SensorMount {
  public:
-  /// Waits at most `timeout_s` for a transform at a stamp.
-  CameraMount(const std::string& base_frame,
+  /// Waits at most `timeout_s` for a transform at a stamp, and extrapolates by no more than that.
+  /// Without a log, it is silent.
+  SensorMount(const std::string& base_frame,
               double timeout_s,
               TfFeed feed = listenToTf,
-              Log log = Log());
-  CameraMount(const CameraMount&) = delete;
-  CameraMount& operator=(const CameraMount&) = delete;
+              const std::optional<Log>& log = Log());
+  SensorMount(const SensorMount&) = delete;
+  SensorMount& operator=(const SensorMount&) = delete;
 
-  /// T_base_camera at a stamp; nothing if tf does not have it. Logs the camera pose, that it moves,
-  /// a new camera frame and, after repeated calls, the missing frames.
-  std::optional<Eigen::Isometry3d> find(const std::string& camera_frame, std::int64_t stamp_ns);
+  /// T_base_sensor at a stamp; nothing if tf does not have it. Logs the pose of the camera, that it
+  /// moves, a new frame, transforms that are slow or late and, after repeated calls, missing ones.
+  std::optional<Eigen::Isometry3d> find(const std::string& frame, std::int64_t stamp_ns);
 
   /// The next find() looks the mount up again, also a fixed one, as it is after a new calibration.
   void lookAgain();
@@ -43,27 +44,43 @@ class CameraMount {
   /// The transform that find() is missing, in one sentence; empty if found.
   const std::string& missing() const { return missing_; }
 
+  /// Why a mount was recently extrapolated or missing while it moves, in one sentence with a
+  /// remedy; empty if it was not.
+  const std::string& trouble() const { return trouble_; }
+
  private:
-  void lookFor(const std::string& camera_frame);
+  void lookFor(const std::string& frame);
   Eigen::Isometry3d lookUp(const ros::Time& stamp);
-  Eigen::Isometry3d fix(const Eigen::Isometry3d& T_base_camera);
-  void watchMovement(const Eigen::Isometry3d& T_base_camera);
-  void tellMount(const Eigen::Isometry3d& T_base_camera);
+  geometry_msgs::TransformStamped latest();
+  bool comesInTime(const ros::Time& stamp, bool is_known) const;
+  Eigen::Isometry3d extrapolate(const ros::Time& stamp) const;
+  Eigen::Isometry3d fix(const Eigen::Isometry3d& T_base_sensor);
+  void watchMovement(const Eigen::Isometry3d& T_base_sensor);
+  void tellMount(const Eigen::Isometry3d& T_base_sensor);
   void onMissing(const std::string& why);
+  void onInexact(const ros::Time& stamp, bool is_slow);
+  void endTrouble();
   geometry_msgs::TransformStamped transformAt(const ros::Time& stamp) const;
 
-  Log log_;
+  std::optional<Log> log_;
   std::string base_frame_;
   double timeout_s_;
   TfFeed feed_;
-  std::string camera_frame_;
+  std::string frame_;
   std::string previous_frame_;  // empty until it changes
-  std::optional<Eigen::Isometry3d> T_base_camera_;
-  Eigen::Isometry3d T_base_camera_first_ = Eigen::Isometry3d::Identity();
+  std::optional<Eigen::Isometry3d> T_base_sensor_;
+  Eigen::Isometry3d T_base_sensor_first_ = Eigen::Isometry3d::Identity();
   bool fixed_ = false;  // by /tf_static
   bool moves_ = false;
   bool waits_ = true;  // unless it moves
   ros::Time last_stamp_;
+
+  ros::Time latest_;              // of tf, when it was looked up last; zero: not yet
+  std::optional<double> step_s_;  // from the one before
+  int exact_ = 0;                 // stamps in a row
+  int inexact_ = 0;               // stamps, until there were enough exact ones
+  ros::Time last_inexact_;
+  std::string trouble_;
 
   std::string missing_;
   std::optional<std::chrono::steady_clock::time_point> missing_since_;

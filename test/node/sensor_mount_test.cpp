@@ -1,4 +1,4 @@
-#include "node/tf/camera_mount.h"
+#include "node/tf/sensor_mount.h"
 
 #include <cmath>
 #include <thread>
@@ -43,7 +43,7 @@ double panOf(const std::optional<Eigen::Isometry3d>& T_base_camera) {
   return std::atan2(T_base_camera->linear()(1, 0), T_base_camera->linear()(0, 0));
 }
 
-class CameraMountTest : public testing::Test {
+class SensorMountTest : public testing::Test {
  protected:
   void sendPan(double stamp_s, double left_rad) {
     tf_.send("torso", "camera", stamp_s, panned(left_rad));
@@ -56,8 +56,8 @@ class CameraMountTest : public testing::Test {
   LogRecorder log_;
 };
 
-TEST_F(CameraMountTest, AFixedMountIsLookedUpOnceAndTfIsLeft) {
-  CameraMount mount("base_link", 0.0, tf_.feed());
+TEST_F(SensorMountTest, AFixedMountIsLookedUpOnceAndTfIsLeft) {
+  SensorMount mount("base_link", 0.0, tf_.feed());
   EXPECT_FALSE(mount.find("camera", 5 * kSecond));
   EXPECT_NE(mount.missing(), "");
   tf_.sendStatic("torso", "camera", panned(0.2));
@@ -68,9 +68,9 @@ TEST_F(CameraMountTest, AFixedMountIsLookedUpOnceAndTfIsLeft) {
   EXPECT_EQ(tf_.listenersStarted(), 1);
 }
 
-TEST_F(CameraMountTest, ANewFixedMountIsFoundWhenItLooksAgain) {
+TEST_F(SensorMountTest, ANewFixedMountIsFoundWhenItLooksAgain) {
   tf_.sendStatic("torso", "camera", panned(0.2));
-  CameraMount mount("base_link", 0.0, tf_.feed());
+  SensorMount mount("base_link", 0.0, tf_.feed());
   EXPECT_NEAR(panOf(mount.find("camera", 5 * kSecond)), 0.2, 1e-12);
   tf_.sendStatic("torso", "camera", panned(0.3));
   EXPECT_NEAR(panOf(mount.find("camera", 6 * kSecond)), 0.2, 1e-12);
@@ -79,8 +79,8 @@ TEST_F(CameraMountTest, ANewFixedMountIsFoundWhenItLooksAgain) {
   EXPECT_FALSE(tf_.hasListener());
 }
 
-TEST_F(CameraMountTest, WaitsForAValidTransform) {
-  CameraMount mount("base_link", 0.0, tf_.feed());
+TEST_F(SensorMountTest, WaitsForAValidTransform) {
+  SensorMount mount("base_link", 0.0, tf_.feed());
   Eigen::Isometry3d longer = panned(0.2);
   longer.linear() *= 2.0;
   Eigen::Isometry3d unknown = panned(0.2);
@@ -94,14 +94,14 @@ TEST_F(CameraMountTest, WaitsForAValidTransform) {
   EXPECT_NEAR(panOf(mount.find("camera", 6 * kSecond)), 0.2, 1e-12);
 }
 
-TEST_F(CameraMountTest, TheBaseItselfNeedsNoTf) {
-  CameraMount mount("camera", 0.0, tf_.feed());
+TEST_F(SensorMountTest, TheBaseItselfNeedsNoTf) {
+  SensorMount mount("camera", 0.0, tf_.feed());
   EXPECT_TRUE(mount.find("camera", 5 * kSecond)->isApprox(Eigen::Isometry3d::Identity()));
   EXPECT_FALSE(tf_.hasListener());
 }
 
-TEST_F(CameraMountTest, AMovingMountIsThatAtTheStamp) {
-  CameraMount mount("base_link", 0.0, tf_.feed());
+TEST_F(SensorMountTest, AMovingMountIsThatAtTheStamp) {
+  SensorMount mount("base_link", 0.0, tf_.feed());
   sendPan(100.0, 0.0);
   sendPan(101.0, 0.5);
   sendPan(102.0, 0.7);
@@ -111,15 +111,15 @@ TEST_F(CameraMountTest, AMovingMountIsThatAtTheStamp) {
   EXPECT_TRUE(tf_.hasListener());
 }
 
-TEST_F(CameraMountTest, ALateTransformIsWaitedForWithABound) {
-  CameraMount mount("base_link", 1000.0, tf_.feed());
+TEST_F(SensorMountTest, ALateTransformIsWaitedForWithABound) {
+  SensorMount mount("base_link", 1000.0, tf_.feed());
   sendPan(100.0, 0.0);
   EXPECT_TRUE(mount.find("camera", 100 * kSecond));
   sendPan(101.0, 0.5);
   std::thread late([&] { sendPan(102.0, 0.7); });
   EXPECT_NEAR(panOf(mount.find("camera", 102 * kSecond)), 0.7, 1e-9);
   late.join();
-  CameraMount impatient("base_link", 0.01, tf_.feed());
+  SensorMount impatient("base_link", 0.01, tf_.feed());
   sendPan(100.0, 0.0);
   sendPan(101.0, 0.5);
   EXPECT_TRUE(impatient.find("camera", 100 * kSecond));
@@ -129,8 +129,8 @@ TEST_F(CameraMountTest, ALateTransformIsWaitedForWithABound) {
 }
 
 /// With waiting at each stamp, this takes an hour.
-TEST_F(CameraMountTest, AMountAtRestWhoseTfIsSlowIsWaitedForOnce) {
-  CameraMount mount("base_link", 0.2, tf_.feed());
+TEST_F(SensorMountTest, AMountAtRestWhoseTfIsSlowIsWaitedForOnce) {
+  SensorMount mount("base_link", 0.2, tf_.feed());
   sendPan(100.0, 0.3);
   for (int i = 0; i < 20'000; ++i) {
     if (i == 100) sendPan(101.0, 0.3 + 1e-6);  // noise of a joint
@@ -140,16 +140,44 @@ TEST_F(CameraMountTest, AMountAtRestWhoseTfIsSlowIsWaitedForOnce) {
   EXPECT_FALSE(mount.find("camera", 103 * kSecond)) << "it moves";
 }
 
+TEST_F(SensorMountTest, AMovingMountWhoseTfIsSlowIsExtrapolatedWithABound) {
+  SensorMount mount("base_link", 0.2, tf_.feed());
+  const auto panAt = [&](std::int64_t ms) { return panOf(mount.find("camera", ms * 1'000'000)); };
+  sendPan(100.0, 0.0);
+  EXPECT_NEAR(panAt(100'000), 0.0, 1e-9);
+  sendPan(100.36, 0.36);
+  EXPECT_NEAR(panAt(100'360), 0.36, 1e-9);
+  const auto begin = std::chrono::steady_clock::now();
+  for (const int ms : {10, 20, 30}) {
+    EXPECT_EQ(mount.trouble(), "");
+    EXPECT_NEAR(panAt(100'360 + ms), 0.36 + 1e-3 * ms, 1e-6);
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(500))
+      << "the next one is due later";
+  EXPECT_TRUE(std::isnan(panAt(100'600)));
+  const std::string said =
+      "tf from base_link to camera, which moves, comes at 2.8 Hz, too seldom for the images: "
+      "publish it at their rate. Until then, its motion is extrapolated for 0.2 s; later pairs are "
+      "dropped";
+  EXPECT_EQ(mount.trouble(), said);
+  EXPECT_EQ(log_.with(said).size(), 1u);
+  for (int i = 1; i <= 50; ++i) {
+    sendPan(101.0 + 0.1 * i, 0.0);
+    panAt(101'000 + 100 * i);
+  }
+  EXPECT_EQ(mount.trouble(), "");
+}
+
 /// As at a start, when images come before tf.
-TEST_F(CameraMountTest, ATransformAfterTheImagesIsNotWaitedFor) {
-  CameraMount mount("base_link", 1000.0, tf_.feed());
+TEST_F(SensorMountTest, ATransformAfterTheImagesIsNotWaitedFor) {
+  SensorMount mount("base_link", 1000.0, tf_.feed());
   sendPan(100.0, 0.3);
   EXPECT_NEAR(panOf(mount.find("camera", 99 * kSecond)), 0.3, 1e-9);
 }
 
 /// tf refuses transforms from 10 s before the latest.
-TEST_F(CameraMountTest, GoesOnAfterATimeJump) {
-  CameraMount mount("base_link", 0.0, tf_.feed());
+TEST_F(SensorMountTest, GoesOnAfterATimeJump) {
+  SensorMount mount("base_link", 0.0, tf_.feed());
   sendPan(100.0, 0.0);
   sendPan(101.0, 0.5);
   EXPECT_TRUE(mount.find("camera", 100 * kSecond));
@@ -161,8 +189,8 @@ TEST_F(CameraMountTest, GoesOnAfterATimeJump) {
   EXPECT_NEAR(panOf(mount.find("camera", 21 * kSecond)), 0.1, 1e-9);
 }
 
-TEST_F(CameraMountTest, AnotherFrameIsAnotherMountAndIsTold) {
-  CameraMount mount("base_link", 0.0, tf_.feed());
+TEST_F(SensorMountTest, AnotherFrameIsAnotherMountAndIsTold) {
+  SensorMount mount("base_link", 0.0, tf_.feed());
   tf_.sendStatic("torso", "camera", panned(0.2));
   tf_.sendStatic("torso", "rear_camera", panned(M_PI / 2.0));
   EXPECT_NEAR(panOf(mount.find("camera", 5 * kSecond)), 0.2, 1e-12);

@@ -1,0 +1,60 @@
+#include "node/health/rig_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "input/to_text.h"
+
+namespace rotrocc {
+namespace {
+
+/// Rigs are rarely better calibrated; the correction is right on average only, and leaves more of a
+/// larger bias.
+constexpr double kLargeBias_px = 0.5;
+/// More than a good rectification leaves, and more than the matching of small windows tolerates.
+constexpr double kRowsApart_px = 0.5;
+/// At 10 m/s, or at half a radian per second, a pixel or so of disparity error.
+constexpr double kNotableSkew_s = 0.002;
+/// Standard deviations of a fault that is beyond doubt.
+constexpr double kSigmas = 4.0;
+
+bool isBeyond(double limit, double value, double sigma) {
+  return std::abs(value) >= std::max(limit, kSigmas * sigma);
+}
+
+}  // namespace
+
+std::string RigWatch::observe(const OdometryStatus& status) {
+  const auto lasts = [&status](bool is_fault, int& pairs) {
+    const bool has_motion =
+        status.state == OdometryStatus::OK || status.state == OdometryStatus::DEGRADED;
+    if (has_motion) pairs = is_fault ? pairs + 1 : 0;
+    return pairs >= kPairs;
+  };
+  std::string what;
+  const bool is_biased = std::abs(status.disparity_bias_applied) >= kLargeBias_px &&
+                         isBeyond(0.0, status.disparity_bias, status.disparity_bias_sigma);
+  if (lasts(is_biased, bias_)) {
+    what = "disparities have a bias of " + hundredths(-status.disparity_bias) + " px (+- " +
+           hundredths(status.disparity_bias_sigma) + "), which is corrected";
+  }
+  if (lasts(status.row_difference >= kRowsApart_px, rows_)) {
+    what += (what.empty() ? "" : "; ") + std::string("rows of left and right differ by ") +
+            hundredths(status.row_difference) + " px, with a median offset of " +
+            hundredths(status.row_offset) + " px (+- " + hundredths(status.row_offset_sigma) + ")" +
+            (status.row_offset_applied != 0.0f ? ", which is corrected" : "");
+  }
+  if (!what.empty()) what += ": recalibrate the stereo rig";
+  const bool is_skewed = status.time_skew_sigma > 0.0f &&
+                         isBeyond(kNotableSkew_s, status.time_skew, status.time_skew_sigma);
+  if (lasts(is_skewed, skew_)) {
+    what += (what.empty() ? "" : "; ") + std::string("the right images are taken ") +
+            hundredths(1e3 * std::abs(status.time_skew)) + " ms (+- " +
+            hundredths(1e3 * status.time_skew_sigma) + ") " +
+            (status.time_skew > 0.0f ? "after" : "before") +
+            " the left ones: trigger both cameras by one signal";
+  }
+  return what;
+}
+
+}  // namespace rotrocc
