@@ -8,6 +8,7 @@
 #include "rotrocc/correspondence.h"
 #include "rotrocc/odometry_result.h"
 #include "rotrocc/stereo_camera.h"
+#include "rotrocc/stereo_pair.h"
 
 namespace rotrocc {
 
@@ -25,7 +26,7 @@ FlowView flowView(const std::string& name);
 
 /// The odometry's result for one pair. An empty set has no inliers.
 struct FlowScene {
-  const cv::Mat& left;  ///< CV_8UC1, the current image
+  const StereoPair& pair;  ///< the current one, of which the left image and its mask are drawn
   const StereoCamera& camera;
   const Correspondences& features;
   const FeatureSet& rotation_inliers;
@@ -36,6 +37,7 @@ struct FlowScene {
 /// Draws the flow of each feature on the darkened left image, as a line from its position in the
 /// keyframe to its current position. A line of text below the image gives the state, speed, feature
 /// counts and disparity bias, and explains the colours. They are safe for colour-blind readers.
+/// What is masked is tinted red.
 ///
 /// FlowView::kMotion: inliers of both stages are coloured by depth, from orange (near) to blue
 /// (far). Inliers of the rotation stage only are white, all other features magenta. For these two,
@@ -48,7 +50,7 @@ struct FlowScene {
 /// not drawn.
 ///
 /// `picture` becomes CV_8UC3 in BGR order, as wide as the image and one text line higher. Its
-/// buffer is reused. Throws std::invalid_argument if `left` is empty or not CV_8UC1, or if a
+/// buffer is reused. Throws std::invalid_argument if the image is empty or not CV_8UC1, or if a
 /// non-empty set does not have one flag per feature.
 void drawFlowPicture(const FlowScene& scene, FlowView view, cv::Mat& picture);
 

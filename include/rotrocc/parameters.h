@@ -25,12 +25,13 @@ struct NodeParameters {
   double imu_timeout_s = 0.02;    ///< how long a pair waits for its samples
   bool rectify = false;           ///< take raw images, and rectify them by camera_info
   std::string image_transport = "raw";
-  double max_stamp_difference_s = 0.01;       ///< between the left and the right image of a pair
-  int queue_size = 4;                         ///< unmatched images kept, for each side
-  int max_image_pixels = 20'000'000;          ///< larger images are rejected
-  double max_future_s = 10.0;                 ///< stamps further ahead of the clock are rejected
-  int significant_bits = 0;                   ///< of 16-bit images; 0: found from them
-  double baseline_m = 0.0;                    ///< 0: that of camera_info
+  double max_stamp_difference_s = 0.01;  ///< between the left and the right image of a pair
+  int queue_size = 4;                    ///< unmatched images kept, for each side
+  int max_image_pixels = 20'000'000;     ///< larger images are rejected
+  double max_future_s = 10.0;            ///< stamps further ahead of the clock are rejected
+  int significant_bits = 0;              ///< of 16-bit images; 0: found from them
+  std::string mask;         ///< PNG file, not black where images have no features; empty: none
+  double baseline_m = 0.0;  ///< 0: that of camera_info
   std::string pose_after_time_jump = "keep";  ///< or "zero": when time jumps back
   double silence_s = 5.0;                 ///< time without a pair before the log reports the reason
   std::string flow_view = "motion";       ///< one of flowViewNames()

@@ -21,6 +21,7 @@ constexpr double kFar_m = 50.0;
 const cv::Scalar kRotationOnly(255, 255, 255);
 const cv::Scalar kOutlier(185, 60, 220);
 const cv::Scalar kExpected = okabe_ito::kGreen;
+const cv::Scalar kMasked(0, 30, 90);  // is added
 const cv::Scalar kFeature(230, 230, 230);
 const cv::Scalar kOfRotation = okabe_ito::kSkyBlue;
 const cv::Scalar kOfTranslation = okabe_ito::kOrange;
@@ -213,19 +214,22 @@ FlowView flowView(const std::string& name) {
 }
 
 void drawFlowPicture(const FlowScene& scene, FlowView view, cv::Mat& picture) {
-  if (scene.left.empty() || scene.left.type() != CV_8UC1) {
+  const cv::Mat& left = scene.pair.left;
+  const cv::Mat& mask = scene.pair.left_mask;
+  if (left.empty() || left.type() != CV_8UC1) {
     throw std::invalid_argument(
         "a flow picture needs an 8-bit grey image, not one of OpenCV type " +
-        std::to_string(scene.left.type()));
+        std::to_string(left.type()));
   }
   requireFlags(scene.rotation_inliers, scene.features);
   requireFlags(scene.translation_inliers, scene.features);
-  picture.create(scene.left.rows + Legend::kHeight_px, scene.left.cols, CV_8UC3);
-  cv::Mat image = picture.rowRange(0, scene.left.rows);
-  cv::cvtColor(scene.left, image, cv::COLOR_GRAY2BGR);
+  picture.create(left.rows + Legend::kHeight_px, left.cols, CV_8UC3);
+  cv::Mat image = picture.rowRange(0, left.rows);
+  cv::cvtColor(left, image, cv::COLOR_GRAY2BGR);
   image *= kBrightness;
+  if (!mask.empty()) cv::add(image, kMasked, image, mask);
 
-  Legend legend(picture.rowRange(scene.left.rows, picture.rows));
+  Legend legend(picture.rowRange(left.rows, picture.rows));
   describe(scene.result, legend);
   if (view == FlowView::kDecoupled) {
     drawDecoupled(scene, image);

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "input/input_error.h"
+#include "input/mask_file.h"
 #include "input/message_conversion.h"
 #include "input/to_text.h"
 
@@ -184,15 +185,41 @@ cv::Mat toGrey(const sensor_msgs::Image& image,
 
 }  // namespace
 
+StereoPairConverter::StereoPairConverter(std::int64_t max_pixels,
+                                         int significant_bits,
+                                         const std::string& mask)
+    : max_pixels_(max_pixels), known_bits_(significant_bits), mask_(mask) {
+  if (mask.empty()) return;
+  left_mask_ = readMask(pathOfSide(mask, "left"));
+  right_mask_ = readMask(pathOfSide(mask, "right"));
+}
+
 StereoPair StereoPairConverter::convert(const sensor_msgs::Image& left,
                                         const sensor_msgs::Image& right) {
   validatePair(left, right, max_pixels_);
+  validateMasks(left);
   const ImageEncoding& left_encoding = encodingOf("left", left);
   const ImageEncoding& right_encoding = encodingOf("right", right);
   findSignificantBits(left, right);
   return {toNanoseconds(left.header.stamp),
           toGrey(left, left_encoding, significant_bits_, left_buffers_),
-          toGrey(right, right_encoding, significant_bits_, right_buffers_)};
+          toGrey(right, right_encoding, significant_bits_, right_buffers_),
+          left_mask_,
+          right_mask_};
+}
+
+void StereoPairConverter::validateMasks(const sensor_msgs::Image& left) const {
+  if (mask_.empty()) return;
+  const cv::Size size(static_cast<int>(left.width), static_cast<int>(left.height));
+  for (const bool is_left : {true, false}) {
+    const cv::Mat& mask = is_left ? left_mask_ : right_mask_;
+    if (mask.size() == size) continue;
+    throw InputError(DropReason::kImageSize,
+                     "the images are " + sizeText(left.width, left.height) + ", but the mask " +
+                         pathOfSide(mask_, is_left ? "left" : "right") + " is " +
+                         sizeText(mask.cols, mask.rows) +
+                         ": make it from an image as the camera takes them");
+  }
 }
 
 void StereoPairConverter::findSignificantBits(const sensor_msgs::Image& left,

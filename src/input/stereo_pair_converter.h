@@ -27,14 +27,19 @@ class StereoPairConverter {
   static constexpr std::int64_t kMaxPixels = 50'000'000;
   static constexpr std::size_t kShrinkPairs = 10;
 
-  /// `max_pixels`: limit of width times height. `significant_bits`: b if it is known, or 0.
-  explicit StereoPairConverter(std::int64_t max_pixels = kMaxPixels, int significant_bits = 0)
-      : max_pixels_(max_pixels), known_bits_(significant_bits) {}
+  /// `max_pixels`: limit of width times height. `significant_bits`: b if it is known, or 0. `mask`:
+  /// path of a PNG file that is not black where pairs have no features (StereoPair::left_mask);
+  /// with "%s" in place of left and right if there are two; empty: none. Throws std::runtime_error
+  /// if it cannot be read.
+  explicit StereoPairConverter(std::int64_t max_pixels = kMaxPixels,
+                               int significant_bits = 0,
+                               const std::string& mask = "");
 
   /// The resulting images refer to the data of `left` and `right` if these are 8-bit grey,
   /// otherwise to a buffer that the next call overwrites. They must not be modified. The stamp is
   /// the left one. Throws InputError with the value and a remedy on an unknown encoding, sizes out
-  /// of range or that differ, and a step or data that are too short; more data is ignored.
+  /// of range or that differ, also from those of the masks, and a step or data that are too short;
+  /// more data is ignored.
   StereoPair convert(const sensor_msgs::Image& left, const sensor_msgs::Image& right);
 
   /// b of the last pair; 8 if it had no 16-bit image.
@@ -46,10 +51,14 @@ class StereoPairConverter {
   };
 
  private:
+  void validateMasks(const sensor_msgs::Image& left) const;
   void findSignificantBits(const sensor_msgs::Image& left, const sensor_msgs::Image& right);
 
   std::int64_t max_pixels_;
   int known_bits_;
+  std::string mask_;
+  cv::Mat left_mask_;
+  cv::Mat right_mask_;
   int significant_bits_ = 8;
   std::deque<int> recent_bits_;  // of the last pairs
   Buffers left_buffers_;

@@ -115,7 +115,7 @@ void OdometryPublisher::publishPictures(const PairAnswer& answer,
         toPointCloud(odometry.correspondences(), odometry.translationInliers(), left, header)));
   }
   if (flow_publisher_.getNumSubscribers() > 0) {
-    drawFlowPicture({left,
+    drawFlowPicture({answer.pair,
                      answer.camera,
                      odometry.correspondences(),
                      odometry.rotationInliers(),

@@ -55,6 +55,9 @@ void addNode(NodeParameters& n, ParameterTable& table) {
     value = before;
     throw std::invalid_argument("is " + text + ", but must be 0 or in [8, 16]");
   };
+  table.add("mask", n.mask).description =
+      "PNG file of the size of the images, not black where they have no features, e.g. on the "
+      "robot itself; %s in its name is replaced by left and right; none if empty";
   table.add("baseline_m", n.baseline_m, {0.0, 100.0, "m"}).description =
       "baseline, if camera_info has none in P[3]; 0: use P[3]";
   table.add("pose_after_time_jump", n.pose_after_time_jump, {"keep", "zero"}).description =

@@ -18,10 +18,10 @@ Eigen::Vector2d rawPixel(
   return raw.project(ray);
 }
 
-void checkImage(const char* side, const cv::Mat& image, const cv::Size& size) {
+void checkImage(const char* name, const cv::Mat& image, const cv::Size& size) {
   if (image.type() == CV_8UC1 && image.size() == size) return;
   throw std::invalid_argument(
-      cv::format("the %s image has %dx%d px, but its calibration", side, image.cols, image.rows) +
+      cv::format("the %s has %dx%d px, but its calibration", name, image.cols, image.rows) +
       cv::format(" is for %dx%d px grey images: use the calibration of this resolution",
                  size.width,
                  size.height));
@@ -56,17 +56,34 @@ void StereoRectifier::setCalibration(const StereoCalibration& calibration) {
   left_ = std::move(left);  // after all that may throw: the sides are of one calibration
 }
 
+/// Once for each mask, into memory of its own: who has the last result may keep it.
+const cv::Mat& StereoRectifier::rectifyMask(const char* name, const cv::Mat& raw_mask, Side& side) {
+  if (raw_mask.data == side.raw_mask.data) return side.mask;
+  if (!raw_mask.empty()) checkImage(name, raw_mask, side.resampler.source());
+  side.raw_mask = raw_mask;
+  side.mask.release();
+  if (raw_mask.empty()) return side.mask;
+  cv::Mat shares(side.rectified.size(), CV_8UC1);
+  side.resampler.resample(raw_mask, shares);
+  side.mask = shares > 0;
+  return side.mask;
+}
+
 StereoPair StereoRectifier::rectify(const StereoPair& raw,
                                     const std::shared_ptr<const StereoCalibration>& calibration) {
   if (calibration != calibration_) setCalibration(*calibration);
   calibration_ = calibration;
-  checkImage("left", raw.left, left_->resampler.source());
-  checkImage("right", raw.right, right_->resampler.source());
+  checkImage("left image", raw.left, left_->resampler.source());
+  checkImage("right image", raw.right, right_->resampler.source());
   workers_.run(2, [&](int part) {
     Side& side = part == 0 ? *left_ : *right_;
     side.resampler.resample(part == 0 ? raw.left : raw.right, side.rectified);
   });
-  return {raw.stamp_ns, left_->rectified, right_->rectified};
+  return {raw.stamp_ns,
+          left_->rectified,
+          right_->rectified,
+          rectifyMask("left mask", raw.left_mask, *left_),
+          rectifyMask("right mask", raw.right_mask, *right_)};
 }
 
 }  // namespace rotrocc

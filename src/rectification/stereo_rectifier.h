@@ -24,10 +24,11 @@ class StereoRectifier {
   void setThreads(int threads) { workers_ = Workers(std::min(threads, 2)); }
 
   /// By the calibration of this pair: the maps are rebuilt when it is another object. The rectified
-  /// images are valid until the next call. Pixels that a camera does not see repeat the border of
+  /// images are valid until the next call. Masks are rectified, too: a pixel is masked if a masked
+  /// one contributes to it. Pixels that a camera does not see repeat the border of
   /// its image, which has fewer corners than a black edge. Throws std::invalid_argument if the
-  /// calibration is none, see RawCamera::check(), or if the images are not CV_8UC1 of the size of
-  /// the raw cameras.
+  /// calibration is none, see RawCamera::check(), or if images or masks are not CV_8UC1 of the
+  /// size of the raw cameras.
   StereoPair rectify(const StereoPair& raw,
                      const std::shared_ptr<const StereoCalibration>& calibration);
 
@@ -35,12 +36,15 @@ class StereoRectifier {
   struct Side {
     ImageResampler resampler;
     cv::Mat rectified;
+    cv::Mat raw_mask = {};
+    cv::Mat mask = {};  // of raw_mask
   };
 
   static Side makeSide(const char* name,
                        const RawCamera& raw,
                        const StereoCamera& camera,
                        double cx);
+  static const cv::Mat& rectifyMask(const char* name, const cv::Mat& raw_mask, Side& side);
   void setCalibration(const StereoCalibration& calibration);
 
   std::optional<Side> left_, right_;

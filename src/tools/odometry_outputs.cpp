@@ -64,7 +64,7 @@ class OdometryOutputs::FlowPictures {
              const StereoCamera& camera,
              const VisualOdometry& odometry,
              const OdometryResult& result) {
-    drawFlowPicture({pair.left,
+    drawFlowPicture({pair,
                      camera,
                      odometry.correspondences(),
                      odometry.rotationInliers(),

@@ -32,7 +32,7 @@ class FlowPictureTest : public testing::Test {
   }
 
   void draw() {
-    drawFlowPicture({image_, camera_, features_, rotation_inliers_, translation_inliers_, result_},
+    drawFlowPicture({pair_, camera_, features_, rotation_inliers_, translation_inliers_, result_},
                     view_,
                     picture_);
   }
@@ -41,7 +41,7 @@ class FlowPictureTest : public testing::Test {
 
   const StereoCamera camera_ = kittiCamera();
   FlowView view_ = FlowView::kMotion;
-  cv::Mat image_ = cv::Mat(200, 640, CV_8UC1, cv::Scalar(100));
+  StereoPair pair_ = {0, cv::Mat(200, 640, CV_8UC1, cv::Scalar(100)), {}};
   Correspondences features_;
   FeatureSet rotation_inliers_ = {1, 1, 1, 0};
   FeatureSet translation_inliers_ = {1, 1, 0, 0};
@@ -61,6 +61,14 @@ TEST_F(FlowPictureTest, IsTheDarkenedImageWithALineBelow) {
   EXPECT_EQ(picture_.data, memory) << "memory is used again";
 }
 
+TEST_F(FlowPictureTest, TintsWhatIsMasked) {
+  pair_.left_mask = cv::Mat(pair_.left.size(), CV_8UC1, cv::Scalar(0));
+  pair_.left_mask.colRange(300, 640).setTo(1);
+  draw();
+  EXPECT_EQ(colourAt(299, 100), cv::Vec3b(65, 65, 65));
+  EXPECT_EQ(colourAt(300, 100), cv::Vec3b(65, 95, 155));
+}
+
 TEST_F(FlowPictureTest, ColoursTellDepthAndStage) {
   draw();
   // The dot at the current position.
@@ -77,9 +85,9 @@ TEST_F(FlowPictureTest, TextSaysTheState) {
   const cv::Mat ok = picture_.clone();
   result_.state = State::kDegraded;
   draw();
-  const cv::Rect image({0, 0}, image_.size());
+  const cv::Rect image({0, 0}, pair_.left.size());
   EXPECT_EQ(cv::norm(ok(image), picture_(image), cv::NORM_INF), 0.0);
-  const cv::Rect text(0, image_.rows, 100, picture_.rows - image_.rows);
+  const cv::Rect text(0, pair_.left.rows, 100, picture_.rows - pair_.left.rows);
   EXPECT_GT(cv::norm(ok(text), picture_(text), cv::NORM_INF), 100.0);
 }
 
@@ -91,7 +99,7 @@ TEST_F(FlowPictureTest, WithoutEstimateAllAreOutliers) {
 }
 
 TEST_F(FlowPictureTest, AnyFlowAndSmallImagesAreDrawn) {
-  image_ = cv::Mat(20, 30, CV_8UC1, cv::Scalar(100));
+  pair_.left = cv::Mat(20, 30, CV_8UC1, cv::Scalar(100));
   addFeature({-500, 7000}, {1e5, -1e5}, 1e-3);
   rotation_inliers_.push_back(1);
   translation_inliers_.push_back(1);
@@ -145,7 +153,7 @@ TEST_F(FlowPictureTest, RefusesWhatDoesNotFit) {
   expectError<std::invalid_argument>([] { flowView("3d"); }, "must be motion or decoupled");
   rotation_inliers_.pop_back();
   expectError<std::invalid_argument>([&] { draw(); }, "4 features, but 3 inlier flags");
-  image_ = cv::Mat();
+  pair_.left = cv::Mat();
   expectError<std::invalid_argument>([&] { draw(); }, "8-bit grey image");
 }
 

@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 #include <sensor_msgs/image_encodings.h>
+#include <opencv2/imgcodecs.hpp>
 
 #include "input/input_error.h"
+#include "input/to_text.h"
 #include "support/expect_error.h"
+#include "support/temporary_directory.h"
 
 namespace rotrocc {
 namespace {
@@ -98,6 +101,30 @@ TEST(StereoPairConverterTest, GreyImagesAreNotCopied) {
   EXPECT_EQ(pair.left.size(), cv::Size(kWidth, kHeight));
   EXPECT_EQ(pair.left.type(), CV_8UC1);
   EXPECT_EQ(pair.stamp_ns, 12'000'000'345);
+}
+
+TEST(StereoPairConverterTest, PairsHaveTheMasksOfTheirSides) {
+  const TemporaryDirectory directory;
+  cv::Mat grey(kHeight, kWidth, CV_8UC1, cv::Scalar(0));
+  grey.at<uchar>(3, 5) = 1;
+  cv::Mat colour(kHeight, kWidth, CV_16UC4, cv::Scalar(0, 0, 0, 65535));
+  colour.at<cv::Vec4w>(2, 1)[0] = 65535;
+  cv::imwrite(directory / "left.png", grey);
+  cv::imwrite(directory / "right.png", colour);
+  const auto convert = [&](const std::string& mask) {
+    StereoPairConverter converter(StereoPairConverter::kMaxPixels, 0, directory / mask);
+    return converter.convert(makeImage("mono8", 1), makeImage("bgr8", 3));
+  };
+  const StereoPair pair = convert("%s.png");
+  EXPECT_TRUE(equal(pair.left_mask, grey > 0));
+  EXPECT_EQ(cv::countNonZero(pair.right_mask), 1);
+  EXPECT_EQ(pair.right_mask.at<uchar>(2, 1), 255);
+  EXPECT_TRUE(equal(convert("left.png").right_mask, grey > 0)) << "one for both";
+
+  cv::imwrite(directory / "right.png", grey.colRange(0, kWidth - 1));
+  expectError<InputError>([&] { convert("%s.png"); },
+                          "right.png is " + sizeText(kWidth - 1, kHeight));
+  expectError<std::runtime_error>([&] { convert("other_%s.png"); }, "other_left.png cannot be");
 }
 
 TEST(StereoPairConverterTest, PaddingOfRowsAndDataIsIgnored) {

@@ -106,6 +106,32 @@ TEST(StereoRectifierTest, FollowsTheCalibrationOfThePairAndUsesItsMemoryAgain) {
   EXPECT_EQ(rectifier.rectify(raw, first).left.data, result.left.data);
 }
 
+TEST(StereoRectifierTest, MasksCoverWhatTheyCoverInTheRawImages) {
+  StereoPair raw = greyPair(0);
+  const cv::Rect left_body(0, 400, 752, 80), right_body(500, 100, 60, 40);
+  raw.left(left_body).setTo(255);
+  raw.right(right_body).setTo(255);
+  raw.left_mask = raw.left.clone();
+  raw.right_mask = raw.right.clone();
+  const auto calibration = std::make_shared<const StereoCalibration>(calibrationOf(rawRig()));
+  StereoRectifier rectifier;
+  const StereoPair pair = rectifier.rectify(raw, calibration);
+  EXPECT_EQ(cv::norm(pair.left_mask, pair.left > 0, cv::NORM_INF), 0.0);
+  EXPECT_EQ(cv::norm(pair.right_mask, pair.right > 0, cv::NORM_INF), 0.0);
+  EXPECT_GT(cv::countNonZero(pair.right_mask), 1000);
+  EXPECT_EQ(rectifier.rectify(raw, calibration).left_mask.data, pair.left_mask.data) << "kept";
+
+  const cv::Mat before = pair.left_mask.clone();
+  raw.left_mask = cv::Mat(raw.left.size(), CV_8UC1, cv::Scalar(0));
+  EXPECT_EQ(cv::countNonZero(rectifier.rectify(raw, calibration).left_mask), 0);
+  EXPECT_EQ(cv::norm(pair.left_mask, before, cv::NORM_INF), 0.0) << "those of others do not change";
+  raw.left_mask = cv::Mat();
+  EXPECT_TRUE(rectifier.rectify(raw, calibration).left_mask.empty());
+  raw.right_mask = cv::Mat(3, 4, CV_8UC1);
+  expectError<std::invalid_argument>([&] { rectifier.rectify(raw, calibration); },
+                                     "the right mask has 4x3 px");
+}
+
 TEST(StereoRectifierTest, BordersAreNotBlack) {
   StereoCalibration wide = calibrationOf(rawRig());
   wide.rectified.fx = wide.rectified.fy = 200.0;  // shows more than the cameras see

@@ -1,0 +1,91 @@
+// A part of the images that has no features.
+
+#include <sensor_msgs/PointCloud2.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include "nodelet_drive.h"
+#include "support/expect_error.h"
+#include "support/temporary_directory.h"
+
+namespace rotrocc {
+namespace {
+
+const StereoCamera camera = SyntheticScene::defaultCamera();
+constexpr int kMaskedRow = 90;  // and all below it
+
+/// A mask of both images, or with "%s" in its name one of each.
+std::string writeMask(const std::string& path, const cv::Size& size) {
+  cv::Mat mask(size, CV_8UC1, cv::Scalar(0));
+  mask.rowRange(kMaskedRow, mask.rows).setTo(255);
+  EXPECT_TRUE(cv::imwrite(path, mask));
+  return path;
+}
+
+/// The latest message of a topic.
+template <class Message>
+class Latest {
+ public:
+  explicit Latest(const std::string& topic) {
+    ros::NodeHandle nh;
+    nh.setCallbackQueue(&queue_);
+    const boost::function<void(const typename Message::ConstPtr&)> keep =
+        [this](const typename Message::ConstPtr& message) { message_ = message; };
+    subscriber_ = nh.subscribe<Message>(topic, 1, keep);
+  }
+
+  /// Null if none has come yet.
+  typename Message::ConstPtr get() {
+    queue_.callAvailable();
+    return message_;
+  }
+
+ private:
+  ros::CallbackQueue queue_;
+  typename Message::ConstPtr message_;
+  ros::Subscriber subscriber_;
+};
+
+TEST(MaskTest, MaskedPartsOfTheImagesHaveNoFeatures) {
+  const TemporaryDirectory directory;
+  writeMask(directory / "left.png", {camera.width, camera.height});
+  writeMask(directory / "right.png", {camera.width, camera.height});
+  NodeletDrive drive({{"mask", directory / "%s.png"}});
+  Latest<sensor_msgs::PointCloud2> inliers("inliers");
+  Latest<sensor_msgs::Image> flow("flow");
+  drive.setUp();
+  EXPECT_TRUE(waitUntil([&] {
+    drive.statusOf(drive.robot.drive());
+    return inliers.get() && inliers.get()->width > 20 && flow.get();
+  }));
+  const auto cloud = inliers.get();
+  const auto picture = flow.get();
+  ASSERT_TRUE(cloud && picture);
+  for (sensor_msgs::PointCloud2ConstIterator<float> point(*cloud, "x"); point != point.end();
+       ++point) {
+    EXPECT_LT(camera.fy * point[1] / point[2] + camera.cy, kMaskedRow);
+  }
+  const auto colourAt = [&](int row) { return &picture->data.at(row * picture->step); };
+  EXPECT_EQ(colourAt(kMaskedRow - 1)[2], colourAt(kMaskedRow - 1)[0]) << "grey";
+  EXPECT_GT(colourAt(kMaskedRow)[2], colourAt(kMaskedRow)[0]) << "tinted red";
+}
+
+TEST(MaskTest, MasksThatCannotBeUsedAreNamed) {
+  const TemporaryDirectory directory;
+  const auto start = [&](const std::string& mask) { NodeletDrive({{"mask", mask}}); };
+  directory.write("text.png", "no image");
+  expectError([&] { start(directory / "none_%s.png"); }, "none_left.png cannot be read as a PNG");
+  expectError([&] { start(directory / "text.png"); }, "cannot be read as a PNG file");
+
+  NodeletDrive drive({{"mask", writeMask(directory / "small.png", {320, 240})}});
+  drive.setUp();
+  drive.robot.drive();
+  const auto isDropped = [](const OdometryStatus& status) {
+    return !status.drops.empty() && status.drops.front().reason == "image_size";
+  };
+  EXPECT_TRUE(drive.robot.statusThat(isDropped));
+  EXPECT_FALSE(drive.log.with("small.png is 320x240 px: make it from an image").empty());
+}
+
+}  // namespace
+}  // namespace rotrocc
