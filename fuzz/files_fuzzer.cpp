@@ -11,7 +11,7 @@
 #include "rotrocc/kitti.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/trajectory.h"
-#include "sequences/layouts.h"
+#include "sequences/calibration_file.h"
 #include "support/temporary_directory.h"
 
 namespace rotrocc {

@@ -13,7 +13,7 @@ declare -gA _rotrocc_options=(
   [kitti_benchmark]='--output= --jobs= --sshlogin= --config= --set= --compare= --title= --programs='
   [kitti_odometry]=''
   [offline_odometry]='--trajectory= --format= --config= --set= --stats= --bag= --pictures= --left-image=
-    --right-image= --rectify= --imu= --imu-rotation= --preload'
+    --right-image= --rectify= --calibration= --imu= --imu-rotation= --preload'
   [publish_camera_info]=''
   [rig_view]=''
   [sequence_to_bag]='--start-time= --rectify --max-stamp-difference='

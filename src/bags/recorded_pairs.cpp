@@ -1,76 +1,110 @@
 #include "bags/recorded_pairs.h"
 
-#include <optional>
+#include <chrono>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
+#include "input/message_conversion.h"
 #include "input/to_text.h"
 
 namespace rotrocc {
+namespace {
 
-Rectify rectifyOption(const std::string& text) {
-  if (text == "auto") return Rectify::kIfRaw;
-  if (text == "yes") return Rectify::kAlways;
-  if (text == "no") return Rectify::kNever;
-  throw std::invalid_argument("--rectify is '" + text + "', not auto, yes or no");
+/// The parameters of the node that takes the recording. Its clock is that of the recorder, which
+/// may have been another than that of the cameras.
+NodeParameters withoutClock(NodeParameters node, bool rectify) {
+  node.rectify = rectify;
+  node.max_future_s = std::numeric_limits<double>::infinity();
+  return node;
 }
 
-RecordedPairs::RecordedPairs(Recording& recording, const NodeParameters& node, Rectify rectify)
+}  // namespace
+
+RecordedPairs::RecordedPairs(Recording& recording,
+                             const NodeParameters& node,
+                             const std::string& rectify)
     : recording_(recording),
-      synchronizer_(node.max_stamp_difference_s, node.queue_size),
-      converter_(node.max_image_pixels, node.significant_bits),
-      baseline_m_(node.baseline_m),
-      left_info_(recording.firstLeftInfo()),
-      right_info_(recording.firstRightInfo()),
-      rectifies_(rectify == Rectify::kIfRaw ? recording.isRaw() : rectify == Rectify::kAlways),
-      calibration_(node.baseline_m) {
+      rectifies_(rectify == "auto" ? recording.isRaw() : rectify == "yes"),
+      intake_(withoutClock(node, rectifies_),
+              drops_,
+              [this](ReceivedPair pair) { received_.push_back(std::move(pair)); }),
+      converter_(node.max_image_pixels, node.significant_bits, node.mask) {
+  if (rectify != "auto" && rectify != "yes" && rectify != "no") {
+    throw std::invalid_argument("--rectify is '" + rectify + "', not auto, yes or no");
+  }
   recording.select(recording.begin(), recording.end(), false);
+  RecordedMessage first;
+  first.time = recording.begin();
+  first.left_info = recording.firstLeftInfo();
+  first.right_info = recording.firstRightInfo();
+  add(first);
 }
 
 bool RecordedPairs::next(StereoPair& pair, StereoCamera& camera) {
-  RecordedMessage message;
-  bool complete = false;
-  while (!complete && recording_.next(message)) complete = add(message);
-  if (!complete) return false;
-  try {
-    convert(pair, camera);
-  } catch (const std::invalid_argument& error) {
-    throw std::runtime_error("pair of " + toText(images_.left->header.stamp) +
-                             " s: " + error.what());
+  while (!received_.empty() || readMessage()) {
+    if (received_.empty()) continue;
+    current_ = std::move(received_.front());
+    received_.pop_front();
+    try {
+      pair = convert(current_);
+    } catch (const InputError& error) {
+      const std::string stamp = toText(current_.images.left->header.stamp);
+      drops_.add(InputError(error.reason(), "pair of " + stamp + " s: " + error.what()));
+      continue;
+    }
+    pair.stamp_ns -= recording_.offset_ns();
+    camera = current_.camera;
+    ++pairs_;
+    return true;
   }
-  pair.stamp_ns -= recording_.offset_ns();
-  ++pairs_;
-  return true;
+  if (pairs_ > 0) return false;
+  const auto last = drops_.lastWithin(std::chrono::hours(1));
+  throw std::runtime_error("there is no pair that can be used" +
+                           (last ? std::string(": ") + last->what() : ""));
 }
 
 std::string RecordedPairs::leftOut() const {
-  if (left_images_ == pairs_) return recording_.leftOut();
-  return std::to_string(left_images_ - pairs_) + " left images without a partner";
-}
-
-void RecordedPairs::convert(StereoPair& pair, StereoCamera& camera) {
-  const StereoCamera current = toStereoCamera(*left_info_, *right_info_, baseline_m_);
-  const StereoPair converted = converter_.convert(*images_.left, *images_.right);
-  if (rectifies_) validateSize(*images_.left, current);
-  pair = rectifies_ ? rectifier_.rectify(converted, calibration_.of(left_info_, right_info_))
-                    : converted;
-  camera = current;
-}
-
-/// Returns whether it completes a pair.
-bool RecordedPairs::add(const RecordedMessage& message) {
-  std::optional<StereoImages> images;
-  if (message.left_image) {
-    ++left_images_;
-    images = synchronizer_.add(StereoSynchronizer::Side::kLeft, message.left_image);
-  } else if (message.right_image) {
-    images = synchronizer_.add(StereoSynchronizer::Side::kRight, message.right_image);
-  } else if (message.left_info) {
-    left_info_ = message.left_info;
-  } else if (message.right_info) {
-    right_info_ = message.right_info;
+  std::string reasons;
+  for (const auto& [reason, count] : drops_.counts()) {
+    reasons += (reasons.empty() ? " (" : ", ") + std::to_string(count) + " " + toString(reason);
   }
-  if (images) images_ = *images;
-  return images.has_value();
+  const int left_out = recording_.size() - pairs_;
+  std::string text = recording_.leftOut();
+  if (left_out == 0 && reasons.empty()) return text;
+  text += (text.empty() ? "" : ", ") + std::to_string(left_out) + " of " +
+          std::to_string(recording_.size()) + " pairs";
+  return text + (reasons.empty() ? "" : reasons + ")");
+}
+
+/// Returns false at the end.
+bool RecordedPairs::readMessage() {
+  RecordedMessage message;
+  try {
+    if (!recording_.next(message)) return false;
+    add(message);
+  } catch (const InputError& error) {
+    drops_.add(error);
+  }
+  return true;
+}
+
+void RecordedPairs::add(const RecordedMessage& message) {
+  using Side = StereoIntake::Side;
+  const std::int64_t time_ns = toNanoseconds(message.time);
+  const Arrival arrival = {std::chrono::steady_clock::time_point(std::chrono::nanoseconds(time_ns)),
+                           time_ns};
+  if (message.left_info) intake_.addInfo(Side::kLeft, message.left_info, arrival);
+  if (message.right_info) intake_.addInfo(Side::kRight, message.right_info, arrival);
+  if (message.left_image) intake_.addImage(Side::kLeft, message.left_image, arrival);
+  if (message.right_image) intake_.addImage(Side::kRight, message.right_image, arrival);
+}
+
+/// As PairProcessor::convert().
+StereoPair RecordedPairs::convert(const ReceivedPair& received) {
+  const StereoPair pair = converter_.convert(*received.images.left, *received.images.right);
+  validateSize(*received.images.left, received.camera);
+  return received.calibration ? rectifier_.rectify(pair, received.calibration) : pair;
 }
 
 }  // namespace rotrocc

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <cstdint>
+#include <deque>
 #include <string>
 
-#include <sensor_msgs/CameraInfo.h>
-
 #include "bags/recording.h"
-#include "input/camera_calibration.h"
+#include "input/drop_log.h"
+#include "input/stereo_intake.h"
 #include "input/stereo_pair_converter.h"
-#include "input/stereo_synchronizer.h"
 #include "rectification/stereo_rectifier.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/stereo_camera.h"
@@ -16,25 +14,18 @@
 
 namespace rotrocc {
 
-/// Which images are rectified by K, D, R and P of camera_info.
-enum class Rectify {
-  kIfRaw,  ///< those that have to be, see Recording::isRaw()
-  kAlways,
-  kNever,
-};
-
-/// The value of an option: auto, yes or no. Throws std::invalid_argument on any other text.
-Rectify rectifyOption(const std::string& text);
-
 /// The stereo pairs that the node makes of the messages of a recording, in the order in which they
-/// are complete.
+/// are complete. Images that cannot be used, and those with a wrong stamp, are dropped as in the
+/// node, and logged.
 class RecordedPairs {
  public:
-  /// `recording` must outlive this. Of `node` it takes what limits and matches images, and the
-  /// baseline.
+  /// `recording` must outlive this. Of `node` it takes what is about images, and the baseline.
+  /// `rectify`: whether images are rectified by K, D, R and P of camera_info: yes, no, or auto:
+  /// those that have to be, see Recording::isRaw(). Throws std::invalid_argument on any other text,
+  /// and std::runtime_error if the mask cannot be read.
   explicit RecordedPairs(Recording& recording,
                          const NodeParameters& node = {},
-                         Rectify rectify = Rectify::kIfRaw);
+                         const std::string& rectify = "auto");
   RecordedPairs(const RecordedPairs&) = delete;
   RecordedPairs& operator=(const RecordedPairs&) = delete;
 
@@ -42,28 +33,27 @@ class RecordedPairs {
   bool rectifies() const { return rectifies_; }
 
   /// Reads the next pair, with a stamp of the recording, and its camera. The images are valid until
-  /// the next call. Returns false and leaves the arguments unchanged at the end. Throws
-  /// std::runtime_error, with its stamp, on a pair that cannot be read or converted.
+  /// the next call. Stamps go back where time jumps back. Returns false and leaves the arguments
+  /// unchanged at the end. Throws std::runtime_error if the recording is unreadable, or has no pair
+  /// that can be used.
   bool next(StereoPair& pair, StereoCamera& camera);
 
-  /// After the last pair: what had no partner; empty if nothing.
+  /// After the last pair: how many there could have been but are not, and why; empty if none.
   std::string leftOut() const;
 
  private:
-  bool add(const RecordedMessage& message);
-  void convert(StereoPair& pair, StereoCamera& camera);
+  bool readMessage();
+  void add(const RecordedMessage& message);
+  StereoPair convert(const ReceivedPair& received);
 
   Recording& recording_;
-  StereoSynchronizer synchronizer_;
-  StereoPairConverter converter_;
-  double baseline_m_;
-  sensor_msgs::CameraInfo::ConstPtr left_info_;
-  sensor_msgs::CameraInfo::ConstPtr right_info_;
-  StereoImages images_;
   bool rectifies_;
-  CurrentCalibration calibration_;
+  DropLog drops_;
+  StereoIntake intake_;
+  std::deque<ReceivedPair> received_;
+  ReceivedPair current_;  // of the last call of next()
+  StereoPairConverter converter_;
   StereoRectifier rectifier_;
-  int left_images_ = 0;
   int pairs_ = 0;
 };
 

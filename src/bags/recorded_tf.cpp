@@ -4,11 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include <rosbag/view.h>
 #include <tf2/buffer_core.h>
 #include <tf2_eigen/tf2_eigen.h>
 
-#include "bags/bag_reading.h"
 #include "bags/recording.h"
 #include "input/message_conversion.h"
 
@@ -20,10 +18,9 @@ using Transforms = std::vector<geometry_msgs::TransformStamped>;
 /// Frame of kitti2bag's ground truth of odometry sequences; its images have another one.
 const char* const kKitti2bagCamera = "camera_left";
 
-Transforms readTransforms(const rosbag::Bag& bag, const std::string& topic) {
+Transforms readTransforms(const Bags& bags, const std::string& topic) {
   Transforms transforms;
-  rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{topic, "/" + topic}));
-  for (const rosbag::MessageInstance& instance : view) {
+  for (const rosbag::MessageInstance& instance : BagView(bags, {topic, "/" + topic})) {
     const auto message = readMessage<tf2_msgs::TFMessage>(instance);
     transforms.insert(transforms.end(), message->transforms.begin(), message->transforms.end());
   }
@@ -105,14 +102,14 @@ tf2_msgs::TFMessage RecordedTf::transformsToPlay(const tf2_msgs::TFMessage& mess
   return kept;
 }
 
-RecordedTf readTf(const rosbag::Bag& bag,
+RecordedTf readTf(const Bags& bags,
                   const std::string& base_frame,
                   const std::string& camera_frame) {
   RecordedTf tf;
   tf.base_frame = withoutSlash(base_frame);
   tf.camera_frame = withoutSlash(camera_frame);
-  const Transforms fixed = readTransforms(bag, "tf_static");
-  const Transforms moving = readTransforms(bag, "tf");
+  const Transforms fixed = readTransforms(bags, "tf_static");
+  const Transforms moving = readTransforms(bags, "tf");
   const auto T_base_camera = findMount(tf, fixed, moving);
   tf.added_kitti_mount = !T_base_camera;
   if (T_base_camera) tf.T_base_camera = *T_base_camera;

@@ -3,16 +3,16 @@
 #include <string>
 
 #include <nav_msgs/Path.h>
-#include <rosbag/bag.h>
 #include <tf2_msgs/TFMessage.h>
 #include <Eigen/Geometry>
 
+#include "bags/bag_reading.h"
 #include "sequences/kitti_mount.h"
 
 namespace rotrocc {
 
-/// The transforms of a bag: those to play, apart from those that conflict with the odometry. A
-/// parent of the base is a trajectory, not a mount. kitti2bag records world -> base_link for raw
+/// The transforms of a recording: those to play, apart from those that conflict with the odometry.
+/// A parent of the base is a trajectory, not a mount. kitti2bag records world -> base_link for raw
 /// drives; for odometry sequences it records world -> camera_left and no mount.
 struct RecordedTf {
   std::string base_frame;
@@ -31,9 +31,7 @@ struct RecordedTf {
   tf2_msgs::TFMessage transformsToPlay(const tf2_msgs::TFMessage& message) const;
 };
 
-/// Reads all transforms of `bag`. The frames may have leading slashes.
-RecordedTf readTf(const rosbag::Bag& bag,
-                  const std::string& base_frame,
-                  const std::string& camera_frame);
+/// Reads all transforms of `bags`. The frames may have leading slashes.
+RecordedTf readTf(const Bags& bags, const std::string& base_frame, const std::string& camera_frame);
 
 }  // namespace rotrocc

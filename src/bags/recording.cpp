@@ -1,61 +1,108 @@
 #include "bags/recording.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 #include <sensor_msgs/Imu.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <boost/make_shared.hpp>
 
 #include "bags/bag_reading.h"
+#include "bags/compressed_image.h"
 #include "bags/recorded_tf.h"
 #include "bags/sequence_recording.h"
 #include "bags/stereo_topics.h"
 #include "input/camera_calibration.h"
+#include "input/input_error.h"
 #include "input/message_conversion.h"
+#include "sequences/calibration_file.h"
 
 namespace rotrocc {
 namespace {
 
-/// Throws std::runtime_error if there is none.
-template <typename Message>
-boost::shared_ptr<Message> requireFirst(const rosbag::Bag& bag, const std::string& topic) {
-  const auto message = firstMessage<Message>(bag, topic);
-  if (!message) throw std::runtime_error("the bag has no messages of " + topic);
-  return message;
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuseEmpty(const std::string& topic) {
+  throw std::runtime_error("the bag has no messages of " + topic);
+}
+
+bool isCompressed(const rosbag::MessageInstance& instance) {
+  return instance.getDataType() == "sensor_msgs/CompressedImage";
+}
+
+sensor_msgs::Image::ConstPtr readImage(const rosbag::MessageInstance& instance) {
+  if (isCompressed(instance)) return decode(*readMessage<sensor_msgs::CompressedImage>(instance));
+  return readMessage<sensor_msgs::Image>(instance);
+}
+
+/// The frame of the first image.
+std::string frameOf(const Bags& bags, const std::string& topic) {
+  BagView view(bags, {topic});
+  if (view.size() == 0) refuseEmpty(topic);
+  const rosbag::MessageInstance first = *view.begin();
+  return isCompressed(first) ? readMessage<sensor_msgs::CompressedImage>(first)->header.frame_id
+                             : readMessage<sensor_msgs::Image>(first)->header.frame_id;
+}
+
+sensor_msgs::CameraInfo firstInfo(const Bags& bags, const std::string& topic) {
+  const auto message = firstMessage<sensor_msgs::CameraInfo>(bags, topic);
+  if (!message) refuseEmpty(topic);
+  return *message;
+}
+
+sensor_msgs::CameraInfo::Ptr withHeader(sensor_msgs::CameraInfo info,
+                                        const std_msgs::Header& header) {
+  info.header = header;
+  return boost::make_shared<sensor_msgs::CameraInfo>(std::move(info));
 }
 
 class BagRecording : public Recording {
  public:
-  BagRecording(const std::string& path, const RecordingOptions& options)
-      : path_(path),
-        bag_(openBag(path)),
-        base_frame_(options.base_frame),
-        topics_(findStereoTopics(topicTypes(bag_), options.left_image, options.right_image)),
-        camera_frame_(requireFirst<sensor_msgs::Image>(bag_, topics_.left_image)->header.frame_id),
-        first_left_info_(requireFirst<sensor_msgs::CameraInfo>(bag_, topics_.left_info)),
-        first_right_info_(requireFirst<sensor_msgs::CameraInfo>(bag_, topics_.right_info)) {
-    rosbag::View view(bag_, rosbag::TopicQuery(topics_.all()));
+  BagRecording(const std::vector<std::string>& paths, const RecordingOptions& options)
+      : name_(paths.front() + (paths.size() > 1 ? " to " + paths.back() : "")),
+        bags_(openBags(paths)),
+        options_(options),
+        topics_(findStereoTopics(
+            topicTypes(bags_), options.left_image, options.right_image, usesInfos())),
+        camera_frame_(frameOf(bags_, topics_.left_image)) {
+    if (usesInfos()) {
+      left_info_ = firstInfo(bags_, topics_.left_info);
+      right_info_ = firstInfo(bags_, topics_.right_info);
+    } else {
+      std::tie(left_info_, right_info_) =
+          toCameraInfos(readStereoCalibration(options.calibration, options.sequence.baseline_m));
+      left_info_.header.frame_id = right_info_.header.frame_id = camera_frame_;
+      topics_.left_info = topics_.right_info = "";
+    }
+    BagView view(bags_, topics_.all());
     begin_ = view.getBeginTime();
     end_ = view.getEndTime();
   }
 
   std::string description() const override {
-    return topics_.left_image + " and " + topics_.right_image + " of " + path_;
+    return topics_.left_image + " and " + topics_.right_image + " of " + name_;
   }
 
   int size() const override {
-    rosbag::View view(bag_, rosbag::TopicQuery(topics_.left_image));
-    return static_cast<int>(view.size());
+    return static_cast<int>(BagView(bags_, {topics_.left_image}).size());
   }
 
-  /// Whether a topic is not one of rectified images, and the first camera_info describes raw ones.
+  /// Whether the topic is not one of rectified images, and camera_info describes raw ones. A
+  /// camchain does not know rectified images.
   bool isRaw() const override {
-    if (isRectifiedByName(topics_.left_image)) return false;
-    return describesRawImages(*first_left_info_) || describesRawImages(*first_right_info_);
+    const bool is_camchain = options_.calibration.size() == 1;
+    if (isRectifiedByName(topics_.left_image) && !is_camchain) return false;
+    if (left_info_.K[0] == 0.0) return false;  // it says nothing about them
+    try {
+      const double baseline_m = options_.sequence.baseline_m;
+      return !toStereoCalibration(left_info_, right_info_, baseline_m).isRectified();
+    } catch (const InputError&) {
+      return true;  // who rectifies says what is wrong
+    }
   }
 
   std::vector<std::string> notes() const override {
@@ -74,20 +121,24 @@ class BagRecording : public Recording {
 
   ros::Time begin() const override { return begin_; }
   ros::Time end() const override { return end_; }
-  sensor_msgs::CameraInfo::ConstPtr firstLeftInfo() const override { return first_left_info_; }
-  sensor_msgs::CameraInfo::ConstPtr firstRightInfo() const override { return first_right_info_; }
+  sensor_msgs::CameraInfo::ConstPtr firstLeftInfo() const override {
+    return boost::make_shared<sensor_msgs::CameraInfo>(left_info_);
+  }
+  sensor_msgs::CameraInfo::ConstPtr firstRightInfo() const override {
+    return boost::make_shared<sensor_msgs::CameraInfo>(right_info_);
+  }
   tf2_msgs::TFMessage staticTransforms() const override { return tf().static_transforms; }
   Eigen::Isometry3d T_base_camera() const override { return tf().T_base_camera; }
 
   nav_msgs::Path truth() const override {
-    const auto path = firstMessage<nav_msgs::Path>(bag_, "/ground_truth/path");
+    const auto path = firstMessage<nav_msgs::Path>(bags_, "/ground_truth/path");
     return path ? *path : tf().trajectory;
   }
 
   GyroRecording gyroscope(const std::string& topic) const override {
     GyroRecording recording;
     std::string frame;
-    for (const rosbag::MessageInstance& instance : rosbag::View(bag_, rosbag::TopicQuery(topic))) {
+    for (const rosbag::MessageInstance& instance : BagView(bags_, {topic})) {
       const auto message = readMessage<sensor_msgs::Imu>(instance);
       frame = message->header.frame_id;
       recording.samples.push_back(toGyroSample(*message));
@@ -96,9 +147,9 @@ class BagRecording : public Recording {
       throw std::runtime_error("there is neither a file nor a topic " + topic +
                                " with a gyroscope");
     }
-    const RecordedTf tf_of_gyroscope = readTf(bag_, base_frame_, frame);
+    const RecordedTf tf_of_gyroscope = readTf(bags_, options_.base_frame, frame);
     if (tf_of_gyroscope.added_kitti_mount) {
-      throw std::runtime_error("the bag has no tf from " + base_frame_ + " to '" + frame +
+      throw std::runtime_error("the bag has no tf from " + options_.base_frame + " to '" + frame +
                                "', the frame of " + topic);
     }
     recording.R_camera_gyro =
@@ -109,7 +160,7 @@ class BagRecording : public Recording {
   void select(const ros::Time& from, const ros::Time& to, bool with_tf) override {
     std::vector<std::string> topics = topics_.all();
     if (with_tf) topics.insert(topics.end(), {"/tf", "tf"});
-    selected_.emplace(bag_, rosbag::TopicQuery(topics), from, to);
+    selected_.emplace(bags_, topics, from, to);
     next_ = selected_->begin();
   }
 
@@ -123,8 +174,10 @@ class BagRecording : public Recording {
   }
 
  private:
+  bool usesInfos() const { return options_.calibration.empty(); }
+
   const RecordedTf& tf() const {
-    if (!tf_) tf_ = readTf(bag_, base_frame_, camera_frame_);
+    if (!tf_) tf_ = readTf(bags_, options_.base_frame, camera_frame_);
     return *tf_;
   }
 
@@ -134,9 +187,11 @@ class BagRecording : public Recording {
     message.time = instance.getTime();
     const std::string& topic = instance.getTopic();
     if (topic == topics_.left_image) {
-      message.left_image = readMessage<sensor_msgs::Image>(instance);
+      message.left_image = readImage(instance);
+      if (!usesInfos()) message.left_info = withHeader(left_info_, message.left_image->header);
     } else if (topic == topics_.right_image) {
-      message.right_image = readMessage<sensor_msgs::Image>(instance);
+      message.right_image = readImage(instance);
+      if (!usesInfos()) message.right_info = withHeader(right_info_, message.right_image->header);
     } else if (topic == topics_.left_info) {
       message.left_info = readMessage<sensor_msgs::CameraInfo>(instance);
     } else if (topic == topics_.right_info) {
@@ -150,28 +205,46 @@ class BagRecording : public Recording {
     return true;
   }
 
-  std::string path_;
-  rosbag::Bag bag_;
-  std::string base_frame_;
+  std::string name_;
+  Bags bags_;
+  RecordingOptions options_;
   StereoTopics topics_;
   std::string camera_frame_;
   mutable std::optional<RecordedTf> tf_;  // read when it is needed: there may be much of it
-  sensor_msgs::CameraInfo::ConstPtr first_left_info_;
-  sensor_msgs::CameraInfo::ConstPtr first_right_info_;
+  sensor_msgs::CameraInfo left_info_, right_info_;  // the first ones, or those of the calibration
   ros::Time begin_;
   ros::Time end_;
-  std::optional<rosbag::View> selected_;
+  std::optional<BagView> selected_;
   rosbag::View::iterator next_;
 };
 
+/// Of a directory with nothing but files.
+std::vector<std::string> bagsIn(const std::string& directory) {
+  std::vector<std::string> bags;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
+    if (entry.is_directory()) return {};
+    if (entry.path().extension() == ".bag") bags.push_back(entry.path().string());
+  }
+  std::sort(bags.begin(), bags.end());
+  return bags;
+}
+
 }  // namespace
 
-std::unique_ptr<Recording> openRecording(const std::string& path, const RecordingOptions& options) {
-  if (!std::filesystem::is_directory(path)) {
-    return std::make_unique<BagRecording>(path, options);
+std::unique_ptr<Recording> openRecording(const std::vector<std::string>& paths,
+                                         const RecordingOptions& options) {
+  if (paths.size() != 1 || !fs::is_directory(paths[0])) {
+    return std::make_unique<BagRecording>(paths, options);
+  }
+  const std::string& directory = paths[0];
+  if (const auto bags = bagsIn(directory); !bags.empty()) {
+    return std::make_unique<BagRecording>(bags, options);
+  }
+  if (!options.calibration.empty()) {
+    throw std::invalid_argument(directory + " is no bag, and a sequence has its own calibration");
   }
   return std::make_unique<SequenceRecording>(
-      path, SequenceRecording::Options{std::nullopt, true, options.sequence});
+      directory, SequenceRecording::Options{std::nullopt, !options.raw_sequence, options.sequence});
 }
 
 nav_msgs::Path pathOfBase(const Trajectory& recorded, const Eigen::Isometry3d& T_base_body) {

@@ -17,7 +17,8 @@
 
 namespace rotrocc {
 
-/// A message of a recording, and when it was recorded. One of the pointers is set.
+/// A message of a recording, and when it was recorded. One of the pointers is set, or those of an
+/// image and its camera_info.
 struct RecordedMessage {
   ros::Time time;
   sensor_msgs::Image::ConstPtr left_image;
@@ -70,7 +71,8 @@ class Recording {
   /// Whether the next message is there; in a recording that is being written it may not be yet.
   virtual bool hasNext() const { return true; }
 
-  /// Reads the next selected message. Returns false at the end. Throws std::runtime_error if it is
+  /// Reads the next selected message. Returns false at the end. Throws InputError if an image
+  /// cannot be decoded, which the next call skips, and std::runtime_error if the recording is
   /// unreadable.
   virtual bool next(RecordedMessage& message) = 0;
 
@@ -84,14 +86,17 @@ struct RecordingOptions {
   std::string left_image;  ///< topics of the pair in a bag; empty: findStereoTopics()
   std::string right_image;
   std::string base_frame = "base_link";  ///< of a bag: its recorded poses are the true path
+  /// Files of readStereoCalibration(), in place of the camera_info of a bag; empty: none.
+  std::vector<std::string> calibration;
+  bool raw_sequence = false;  ///< images of a sequence as they were recorded; otherwise rectified
   SequenceOptions sequence;
 };
 
-/// Opens a stereo bag, whatever its topics are, or the directory of a sequence, whose images are
-/// rectified as they are read: see openStereoSequence(). Recorded poses of the base in a bag are
-/// its true path, not tf: the odometry publishes the pose of the base. Throws std::runtime_error if
-/// `path` is neither, or has no stereo pair.
-std::unique_ptr<Recording> openRecording(const std::string& path,
+/// Opens a stereo bag, whatever its topics are, several bags or a directory of bags as one, or the
+/// directory of a sequence: see openStereoSequence(). Recorded poses of the base in a bag are its
+/// true path, not tf: the odometry publishes the pose of the base. Throws std::runtime_error if
+/// `paths` are none of these, or have no stereo pair.
+std::unique_ptr<Recording> openRecording(const std::vector<std::string>& paths,
                                          const RecordingOptions& options = {});
 
 /// Converts a recorded trajectory of a body to the path of the base it is mounted on, relative to

@@ -8,7 +8,8 @@
 namespace rotrocc {
 
 /// Writes a sequence as a bag:
-///   /stereo/{left,right}/image_rect    sensor_msgs/Image, mono8; image_raw if not rectified
+///   /stereo/{left,right}/image_rect    sensor_msgs/Image, mono8 or mono16; image_raw if
+///                                      not rectified
 ///   /stereo/{left,right}/camera_info   sensor_msgs/CameraInfo: of raw images with their K, D and R
 ///   /tf_static                         base_link -> stereo_left_optical: the rectified left camera
 ///   /ground_truth/path                 nav_msgs/Path of base_link in odom, once, if known

@@ -1,7 +1,6 @@
 #include "bags/sequence_recording.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -11,12 +10,13 @@
 #include <boost/make_shared.hpp>
 
 #include "input/camera_calibration.h"
+#include "input/input_error.h"
 #include "input/message_conversion.h"
 
 namespace rotrocc {
 namespace {
 
-using sensor_msgs::image_encodings::MONO8;
+namespace enc = sensor_msgs::image_encodings;
 
 constexpr std::int64_t kNsPerS = 1000000000;
 const char* const kBaseFrame = "base_link";
@@ -50,15 +50,8 @@ geometry_msgs::TransformStamped mount(const Eigen::Isometry3d& T_base_sensor,
   return transform;
 }
 
-/// P[3] of the right camera, rounded so that those who divide it get the same baseline.
-double shiftOf(const StereoCamera& camera) {
-  const double product = -camera.fx * camera.baseline_m;
-  const double nearer = std::nextafter(product, 0.0);
-  const double farther = std::nextafter(product, 2.0 * product);
-  for (const double shift : {product, nearer, farther}) {
-    if (shift / -camera.fx == camera.baseline_m) return shift;
-  }
-  return product;
+sensor_msgs::Image::Ptr toGreyImage(const std_msgs::Header& header, const cv::Mat& pixels) {
+  return toImage(header, pixels.depth() == CV_16U ? enc::MONO16 : enc::MONO8, pixels);
 }
 
 /// The message of one camera at a stamp.
@@ -144,14 +137,11 @@ ros::Time SequenceRecording::stamp(int pair) const {
 }
 
 sensor_msgs::CameraInfo::Ptr SequenceRecording::leftInfo(int pair) const {
-  const StereoCamera& camera = calibration_.rectified;
-  return stamped(toCameraInfo(calibration_.left, camera, camera.cx, 0.0), stamp(pair));
+  return stamped(toCameraInfos(calibration_).first, stamp(pair));
 }
 
 sensor_msgs::CameraInfo::Ptr SequenceRecording::rightInfo(int pair) const {
-  const StereoCamera& camera = calibration_.rectified;
-  return stamped(toCameraInfo(calibration_.right, camera, camera.cx_right, shiftOf(camera)),
-                 stamp(pair));
+  return stamped(toCameraInfos(calibration_).second, stamp(pair));
 }
 
 bool SequenceRecording::atEnd() const {
@@ -159,15 +149,27 @@ bool SequenceRecording::atEnd() const {
 }
 
 void SequenceRecording::readPair() {
-  StereoPair pair = sequence_.read(next_pair_);
-  if (rectifier_) pair = rectifier_->rectify(pair, raw_calibration_);
+  const int index = next_pair_++;
+  StereoPair pair;
+  try {
+    pair = sequence_.read(index);
+  } catch (const std::runtime_error& error) {
+    throw InputError(DropReason::kImageData, error.what());
+  }
+  const sensor_msgs::CameraInfo::Ptr left_info = leftInfo(index);
+  sensor_msgs::Image::Ptr left = toGreyImage(left_info->header, pair.left);
+  sensor_msgs::Image::Ptr right = toGreyImage(left_info->header, pair.right);
+  if (rectifier_) {
+    pair = rectifier_->rectify(converter_.convert(*left, *right), raw_calibration_);
+    left = toGreyImage(left_info->header, pair.left);
+    right = toGreyImage(left_info->header, pair.right);
+  }
   of_pair_.resize(4);
-  of_pair_[0].left_info = leftInfo(next_pair_);
-  of_pair_[1].left_image = toImage(of_pair_[0].left_info->header, MONO8, pair.left);
-  of_pair_[2].right_info = rightInfo(next_pair_);
-  of_pair_[3].right_image = toImage(of_pair_[2].right_info->header, MONO8, pair.right);
-  for (RecordedMessage& message : of_pair_) message.time = stamp(next_pair_);
-  ++next_pair_;
+  of_pair_[0].left_info = left_info;
+  of_pair_[1].left_image = left;
+  of_pair_[2].right_info = rightInfo(index);
+  of_pair_[3].right_image = right;
+  for (RecordedMessage& message : of_pair_) message.time = stamp(index);
 }
 
 }  // namespace rotrocc

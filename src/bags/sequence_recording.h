@@ -8,6 +8,7 @@
 #include <sensor_msgs/Imu.h>
 
 #include "bags/recording.h"
+#include "input/stereo_pair_converter.h"
 #include "rectification/stereo_rectifier.h"
 #include "sequences/stereo_sequence.h"
 
@@ -51,8 +52,8 @@ class SequenceRecording : public Recording {
   /// The gyroscope in imu_link: the angular velocity only. Empty if there is none.
   std::vector<sensor_msgs::Imu> gyroscopeMessages() const;
 
-  /// For each pair four messages with its time: left info, left image (mono8), right info, right
-  /// image.
+  /// For each pair four messages with its time: left info, left image (mono8 or mono16), right
+  /// info, right image.
   void select(const ros::Time& from, const ros::Time& to, bool with_tf) override;
   bool hasNext() const override;
   bool next(RecordedMessage& message) override;
@@ -71,6 +72,7 @@ class SequenceRecording : public Recording {
   StereoCalibration calibration_;                             // of the images of next()
   std::shared_ptr<const StereoCalibration> raw_calibration_;  // of images that are rectified
   std::optional<StereoRectifier> rectifier_;
+  StereoPairConverter converter_;  // of images that are rectified
   int next_pair_ = 0;
   ros::Time last_;
   std::deque<RecordedMessage> of_pair_;  // read, but not yet returned

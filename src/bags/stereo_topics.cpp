@@ -1,27 +1,35 @@
 #include "bags/stereo_topics.h"
 
 #include <stdexcept>
+#include <utility>
 #include <vector>
-
-#include <rosbag/view.h>
 
 namespace rotrocc {
 namespace {
 
-const char* const kImageType = "sensor_msgs/Image";
 const char* const kInfoType = "sensor_msgs/CameraInfo";
-
-bool hasTopic(const TopicTypes& types, const std::string& topic, const std::string& type) {
-  const auto found = types.find(topic);
-  return found != types.end() && found->second == type;
-}
+const char* const kCompressed = "/compressed";
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
+bool isImage(const TopicTypes& types, const std::string& topic) {
+  const auto found = types.find(topic);
+  if (found == types.end()) return false;
+  // compressedDepth and theora are of other types, or not of a camera.
+  return found->second == "sensor_msgs/Image" ||
+         (found->second == "sensor_msgs/CompressedImage" && !contains(topic, "Depth"));
+}
+
+bool isInfo(const TopicTypes& types, const std::string& topic) {
+  const auto found = types.find(topic);
+  return found != types.end() && found->second == kInfoType;
+}
+
 /// The camera_info topic of an image topic.
-std::string infoOf(const std::string& image) {
+std::string infoOf(std::string image) {
+  if (const auto end = image.rfind(kCompressed); end != std::string::npos) image.resize(end);
   return image.substr(0, image.rfind('/') + 1) + "camera_info";
 }
 
@@ -29,51 +37,75 @@ StereoTopics withInfos(const std::string& left_image, const std::string& right_i
   return {left_image, right_image, infoOf(left_image), infoOf(right_image)};
 }
 
-/// The name with its last "left" replaced by "right"; empty if it has none.
+/// The name with the last name of a left camera replaced by that of the right one; empty if it has
+/// none.
 std::string rightOf(const std::string& left_image) {
-  const std::string left = "left";
-  const std::size_t position = left_image.rfind(left);
-  if (position == std::string::npos) return "";
-  return std::string(left_image).replace(position, left.size(), "right");
+  for (const auto& [left, right] : {std::pair<std::string, const char*>{"left", "right"},
+                                    {"cam0", "cam1"},
+                                    {"infra1", "infra2"}}) {
+    const std::size_t position = left_image.rfind(left);
+    if (position == std::string::npos) continue;
+    return std::string(left_image).replace(position, left.size(), right);
+  }
+  return "";
 }
 
 /// Lower is better.
 int rank(const StereoTopics& topics) {
   const bool rectified = contains(topics.left_image, "rect");
   const bool colour = contains(topics.left_image, "color");
-  return (rectified ? 0 : 2) + (colour ? 1 : 0);
+  const bool compressed = contains(topics.left_image, kCompressed);
+  return (rectified ? 0 : 4) + (colour ? 2 : 0) + (compressed ? 1 : 0);
 }
 
 std::string imageTopics(const TopicTypes& types) {
   std::string list;
   for (const auto& [topic, type] : types) {
-    if (type == kImageType) list += "\n  " + topic;
+    if (isImage(types, topic)) list += "\n  " + topic;
   }
   return list.empty() ? " none" : list;
 }
 
 StereoTopics namedTopics(const TopicTypes& types,
                          const std::string& left_image,
-                         const std::string& right_image) {
+                         const std::string& right_image,
+                         bool with_infos) {
   const StereoTopics topics = withInfos(left_image, right_image);
   for (const std::string& image : {topics.left_image, topics.right_image}) {
-    if (hasTopic(types, image, kImageType)) continue;
-    throw std::runtime_error("no topic '" + image + "' of type " + kImageType +
-                             ", image topics:" + imageTopics(types));
+    if (isImage(types, image)) continue;
+    throw std::runtime_error(
+        "no topic '" + image +
+        "' of type sensor_msgs/Image or CompressedImage, image topics:" + imageTopics(types));
   }
   for (const std::string& info : {topics.left_info, topics.right_info}) {
-    if (hasTopic(types, info, kInfoType)) continue;
+    if (!with_infos || isInfo(types, info)) continue;
     throw std::runtime_error("no topic '" + info + "' of type " + kInfoType +
-                             ", which is required with the images");
+                             ", which is required with the images: name the files of a calibration "
+                             "if there is none (calibration)");
   }
   return topics;
 }
 
+/// All pairs of the best rank.
+std::vector<StereoTopics> bestTopics(const TopicTypes& types, bool with_infos) {
+  std::vector<StereoTopics> best;
+  for (const auto& [topic, type] : types) {
+    const StereoTopics topics = withInfos(topic, rightOf(topic));
+    if (!isImage(types, topics.left_image) || !isImage(types, topics.right_image)) continue;
+    if (with_infos && !(isInfo(types, topics.left_info) && isInfo(types, topics.right_info))) {
+      continue;
+    }
+    if (!best.empty() && rank(topics) < rank(best.front())) best.clear();
+    if (best.empty() || rank(topics) == rank(best.front())) best.push_back(topics);
+  }
+  return best;
+}
+
 }  // namespace
 
-TopicTypes topicTypes(const rosbag::Bag& bag) {
+TopicTypes topicTypes(const Bags& bags) {
   TopicTypes types;
-  rosbag::View view(bag);
+  BagView view(bags);
   for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
     types[connection->topic] = connection->datatype;
   }
@@ -82,36 +114,23 @@ TopicTypes topicTypes(const rosbag::Bag& bag) {
 
 StereoTopics findStereoTopics(const TopicTypes& types,
                               const std::string& left_image,
-                              const std::string& right_image) {
+                              const std::string& right_image,
+                              bool with_infos) {
   if (left_image.empty() != right_image.empty()) {
     throw std::runtime_error("specify both the left and the right image topic, or none");
   }
-  if (!left_image.empty()) return namedTopics(types, left_image, right_image);
+  if (!left_image.empty()) return namedTopics(types, left_image, right_image, with_infos);
 
-  std::vector<StereoTopics> best;
-  for (const auto& [topic, type] : types) {
-    const StereoTopics topics = withInfos(topic, rightOf(topic));
-    if (!hasTopic(types, topics.left_image, kImageType) ||
-        !hasTopic(types, topics.right_image, kImageType) ||
-        !hasTopic(types, topics.left_info, kInfoType) ||
-        !hasTopic(types, topics.right_info, kInfoType)) {
-      continue;
-    }
-    if (!best.empty() && rank(topics) < rank(best.front())) best.clear();
-    if (best.empty() || rank(topics) == rank(best.front())) best.push_back(topics);
-  }
-  if (best.empty()) {
-    throw std::runtime_error(
-        "no stereo pair (.../left/image..., .../right/image..., each with camera_info); "
-        "specify the left and right image topics, image topics:" +
-        imageTopics(types));
-  }
-  if (best.size() > 1) {
-    throw std::runtime_error(
-        "more than one stereo pair; specify the left and right image topics, image topics:" +
-        imageTopics(types));
-  }
-  return best.front();
+  const std::vector<StereoTopics> best = bestTopics(types, with_infos);
+  if (best.size() == 1) return best.front();
+  const bool lacks_infos = best.empty() && !bestTopics(types, false).empty();
+  throw std::runtime_error(
+      (best.size() > 1 ? "more than one stereo pair; specify the left and right image topics"
+       : lacks_infos   ? "no stereo pair with camera_info: name the files of a calibration "
+                         "(calibration)"
+                       : "no stereo pair (.../left/image..., .../right/image..., each with "
+                         "camera_info); specify the left and right image topics") +
+      (", image topics:" + imageTopics(types)));
 }
 
 bool isRectifiedByName(const std::string& image_topic) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <rosbag/bag.h>
+#include "bags/bag_reading.h"
 
 namespace rotrocc {
 
@@ -21,15 +21,17 @@ struct StereoTopics {
 /// Types of all topics, such as "sensor_msgs/Image".
 using TopicTypes = std::map<std::string, std::string>;
 
-TopicTypes topicTypes(const rosbag::Bag& bag);
+TopicTypes topicTypes(const Bags& bags);
 
-/// Finds a stereo pair: two image topics whose names differ in left and right, each with a
-/// camera_info in the same namespace. Prefers rectified to other images, and grey to colour.
-/// `left_image` and `right_image` name the pair explicitly; empty: search. Throws
-/// std::runtime_error with a list of the topics if there is no pair, or more than one.
+/// Finds a stereo pair: two image topics whose names differ in left and right, cam0 and cam1 or
+/// infra1 and infra2, each with a camera_info in the same namespace if `with_infos`. Prefers
+/// rectified to other images, grey to colour, and raw to compressed ones. `left_image` and
+/// `right_image` name the pair explicitly; empty: search. Throws std::runtime_error with a list of
+/// the topics if there is no pair, or more than one.
 StereoTopics findStereoTopics(const TopicTypes& types,
                               const std::string& left_image = "",
-                              const std::string& right_image = "");
+                              const std::string& right_image = "",
+                              bool with_infos = true);
 
 /// Whether a name tells that its images are rectified: image_rect and the like, and all topics of
 /// kitti2bag, whose image_raw has KITTI's rectified images beside a camera_info of the raw ones.

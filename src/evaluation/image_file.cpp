@@ -7,10 +7,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 namespace rotrocc {
-namespace {
 
-/// With 8 or 16 bits.
-cv::Mat readGrey(const std::string& path) {
+cv::Mat readGreyImageOfAnyDepth(const std::string& path) {
   if (!std::filesystem::exists(path)) throw std::runtime_error(path + " is missing");
   cv::Mat image;
   try {
@@ -25,19 +23,12 @@ cv::Mat readGrey(const std::string& path) {
                            " is not a readable image: is it damaged, or no image? Copy it again");
 }
 
-/// Rounded down, as a shift is.
-cv::Mat to8Bits(const cv::Mat& image, int significant_bits) {
-  if (image.depth() == CV_8U) return image;
-  const double scale = std::ldexp(1.0, 8 - significant_bits);
-  cv::Mat grey;
-  image.convertTo(grey, CV_8U, scale, 0.5 * (scale - 1.0));
-  return grey;
-}
-
-}  // namespace
-
 cv::Mat readGreyImage(const std::string& path) {
-  return to8Bits(readGrey(path), 16);
+  cv::Mat image = readGreyImageOfAnyDepth(path);
+  if (image.depth() == CV_8U) return image;
+  const double scale = std::ldexp(1.0, -8);
+  image.convertTo(image, CV_8U, scale, 0.5 * (scale - 1.0));  // rounded down, as a shift is
+  return image;
 }
 
 void writeImage(const std::string& path, const cv::Mat& image) {
@@ -53,15 +44,6 @@ void requireImageSize(const std::string& path,
   const auto text = [](const cv::Size& s) { return cv::format("%d x %d px", s.width, s.height); };
   throw std::runtime_error(path + " is " + text(image.size()) + ", but " + whose + " is " +
                            text(size));
-}
-
-cv::Mat GreyImageReader::read(const std::string& path) {
-  const cv::Mat image = readGrey(path);
-  if (image.depth() == CV_8U) return image;
-  double largest = 0.0;
-  cv::minMaxLoc(image, nullptr, &largest);
-  while (largest >= std::ldexp(1.0, significant_bits_)) ++significant_bits_;
-  return to8Bits(image, significant_bits_);
 }
 
 }  // namespace rotrocc

@@ -11,6 +11,9 @@ namespace rotrocc {
 /// unreadable.
 cv::Mat readGreyImage(const std::string& path);
 
+/// The same, but CV_16UC1 if the file has 16 bits.
+cv::Mat readGreyImageOfAnyDepth(const std::string& path);
+
 /// The extension of the path is the format. Throws std::runtime_error with the path if it cannot.
 void writeImage(const std::string& path, const cv::Mat& image);
 
@@ -20,16 +23,5 @@ void requireImageSize(const std::string& path,
                       const cv::Mat& image,
                       const cv::Size& size,
                       const std::string& whose);
-
-/// Reads the images of one camera, whose 16-bit images may use only a part of their range: 10 or 12
-/// bits. They are shifted right by b - 8 bits, where b is the number of bits of the largest value
-/// so far, at least 8, as in bags.
-class GreyImageReader {
- public:
-  cv::Mat read(const std::string& path);
-
- private:
-  int significant_bits_ = 8;
-};
 
 }  // namespace rotrocc

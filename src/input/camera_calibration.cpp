@@ -130,6 +130,34 @@ RawCamera toRawCamera(const std::string& side,
   return raw;
 }
 
+/// `rectified` has the size and focal lengths of P, `cx` is its principal point and `shift_px` its
+/// P[3].
+sensor_msgs::CameraInfo toCameraInfo(const RawCamera& raw,
+                                     const StereoCamera& rectified,
+                                     double cx,
+                                     double shift_px) {
+  sensor_msgs::CameraInfo info;
+  info.width = static_cast<std::uint32_t>(raw.width);
+  info.height = static_cast<std::uint32_t>(raw.height);
+  info.distortion_model = raw.distortion.name();
+  info.D = raw.distortion.coefficients();
+  info.K = {raw.fx, 0, raw.cx, 0, raw.fy, raw.cy, 0, 0, 1};
+  Eigen::Map<Matrix3>(info.R.data()) = raw.R_rectified_raw;
+  info.P = {rectified.fx, 0, cx, shift_px, 0, rectified.fy, rectified.cy, 0, 0, 0, 1, 0};
+  return info;
+}
+
+/// P[3] of the right camera, rounded so that those who divide it get the same baseline.
+double shiftOf(const StereoCamera& camera) {
+  const double product = -camera.fx * camera.baseline_m;
+  const double nearer = std::nextafter(product, 0.0);
+  const double farther = std::nextafter(product, 2.0 * product);
+  for (const double shift : {product, nearer, farther}) {
+    if (shift / -camera.fx == camera.baseline_m) return shift;
+  }
+  return product;
+}
+
 /// Whether two messages describe the same camera.
 bool isSameCamera(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo& b) {
   return a.width == b.width && a.height == b.height && a.distortion_model == b.distortion_model &&
@@ -177,20 +205,11 @@ std::string oddityOf(const StereoCamera& camera) {
          " m is unusual: is P[3] of camera_info in pixels times metres?";
 }
 
-sensor_msgs::CameraInfo toCameraInfo(const RawCamera& raw,
-                                     const StereoCamera& rectified,
-                                     double cx,
-                                     double shift_px) {
-  using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  sensor_msgs::CameraInfo info;
-  info.width = static_cast<std::uint32_t>(raw.width);
-  info.height = static_cast<std::uint32_t>(raw.height);
-  info.distortion_model = raw.distortion.name();
-  info.D = raw.distortion.coefficients();
-  info.K = {raw.fx, 0, raw.cx, 0, raw.fy, raw.cy, 0, 0, 1};
-  Eigen::Map<Matrix3>(info.R.data()) = raw.R_rectified_raw;
-  info.P = {rectified.fx, 0, cx, shift_px, 0, rectified.fy, rectified.cy, 0, 0, 0, 1, 0};
-  return info;
+std::pair<sensor_msgs::CameraInfo, sensor_msgs::CameraInfo> toCameraInfos(
+    const StereoCalibration& calibration) {
+  const StereoCamera& camera = calibration.rectified;
+  return {toCameraInfo(calibration.left, camera, camera.cx, 0.0),
+          toCameraInfo(calibration.right, camera, camera.cx_right, shiftOf(camera))};
 }
 
 StereoCalibration toStereoCalibration(const sensor_msgs::CameraInfo& left,
@@ -198,20 +217,6 @@ StereoCalibration toStereoCalibration(const sensor_msgs::CameraInfo& left,
                                       double baseline_m) {
   const StereoCamera rectified = toStereoCamera(left, right, baseline_m);
   return {toRawCamera("left", left, rectified), toRawCamera("right", right, rectified), rectified};
-}
-
-bool describesRawImages(const sensor_msgs::CameraInfo& info) {
-  constexpr double kSame_px = 1e-2;
-  constexpr double kSame_rad = 1e-5;
-  const auto& K = info.K;
-  const auto& P = info.P;
-  if (K[0] == 0.0) return false;  // it says nothing about them
-  const bool is_distorted =
-      std::any_of(info.D.begin(), info.D.end(), [](double value) { return value != 0.0; });
-  const double difference = std::max(
-      {std::abs(K[0] - P[0]), std::abs(K[2] - P[2]), std::abs(K[4] - P[5]), std::abs(K[5] - P[6])});
-  return is_distorted || difference > kSame_px ||
-         !Eigen::Map<const Matrix3>(info.R.data()).isIdentity(kSame_rad);
 }
 
 const std::shared_ptr<const StereoCalibration>& CurrentCalibration::of(

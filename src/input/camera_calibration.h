@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <sensor_msgs/CameraInfo.h>
 
@@ -32,15 +33,9 @@ StereoCalibration toStereoCalibration(const sensor_msgs::CameraInfo& left,
                                       const sensor_msgs::CameraInfo& right,
                                       double baseline_m = 0.0);
 
-/// The message of one camera of a pair, without a header. `rectified` has the size and focal
-/// lengths of P, `cx` is its principal point and `shift_px` its P[3].
-sensor_msgs::CameraInfo toCameraInfo(const RawCamera& raw,
-                                     const StereoCamera& rectified,
-                                     double cx,
-                                     double shift_px);
-
-/// Whether K, D and R describe images that are not rectified.
-bool describesRawImages(const sensor_msgs::CameraInfo& info);
+/// The messages of left and right camera that toStereoCalibration() makes this of, without headers.
+std::pair<sensor_msgs::CameraInfo, sensor_msgs::CameraInfo> toCameraInfos(
+    const StereoCalibration& calibration);
 
 /// The calibration of the latest messages. Cameras send them with each image, but hardly ever
 /// change.

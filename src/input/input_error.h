@@ -7,10 +7,10 @@ namespace rotrocc {
 
 /// Why received input is dropped.
 enum class DropReason {
-  kImageSize,          ///< an image is empty, too small or too large
+  kImageSize,          ///< an image is empty, too small, too large, or not of the size of the mask
   kImageEncoding,      ///< unknown encoding
   kImageStep,          ///< rows shorter than their pixels
-  kImageData,          ///< less data than the header says
+  kImageData,          ///< less data than the header says, or damaged
   kImageSizesDiffer,   ///< left and right differ
   kImageNotOfCamera,   ///< the images are not of the size in camera_info
   kCameraInfoInvalid,  ///< camera_info is not a rectified stereo camera

@@ -33,8 +33,8 @@ inline GyroSample toGyroSample(const sensor_msgs::Imu& message) {
   return {toNanoseconds(message.header.stamp), {rate.x, rate.y, rate.z}};
 }
 
-/// The message that cv_bridge makes of 8-bit pixels, without its library: that loads 120 others,
-/// for image files.
+/// The message that cv_bridge makes of pixels of 8 or 16 bits, without its library: that loads 120
+/// others, for image files.
 inline sensor_msgs::Image::Ptr toImage(const std_msgs::Header& header,
                                        const std::string& encoding,
                                        const cv::Mat& pixels) {

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
+#include <iterator>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include <rosgraph_msgs/Clock.h>
 #include <tf2_eigen/tf2_eigen.h>
 
+#include "input/input_error.h"
 #include "input/message_conversion.h"
 #include "input/to_text.h"
 #include "rotrocc/trajectory.h"
@@ -33,22 +35,21 @@ std::string join(const std::vector<std::string>& words) {
   return text;
 }
 
-/// Throws std::invalid_argument if nobody, or both player and odometry, would rectify the images.
+/// Throws std::invalid_argument if nobody would rectify the images.
 std::unique_ptr<Recording> openPlayable(const PlayerOptions& options) {
   RecordingOptions how;
   how.left_image = options.left_image;
   how.right_image = options.right_image;
+  std::istringstream files(options.calibration);
+  how.calibration.assign(std::istream_iterator<std::string>(files), {});
   how.base_frame = options.base_frame;
+  how.raw_sequence = options.rectify;
   how.sequence.max_stamp_difference_s = options.max_stamp_difference_s;
   how.sequence.being_written = options.image_timeout_s > 0.0;
-  std::unique_ptr<Recording> recording = openRecording(options.bag, how);
+  std::unique_ptr<Recording> recording = openRecording({options.bag}, how);
   if (!options.rectify && recording->isRaw()) {
     throw std::invalid_argument("the images of " + recording->description() +
                                 " are not rectified: start with rectify:=true");
-  }
-  if (options.rectify && std::filesystem::is_directory(options.bag)) {
-    throw std::invalid_argument("the images of " + options.bag +
-                                " are rectified as they are read: start with rectify:=false");
   }
   return recording;
 }
@@ -176,11 +177,22 @@ void KittiPlayer::playOnce() {
   clock_.start(range_.begin);
   last_progress_ = WallClock::now();
   RecordedMessage message;
-  while (waitForRecording() && recording_->next(message)) {
+  while (waitForRecording() && readMessage(message)) {
     if (!clock_.waitUntil(message.time) || stopped()) return;
     publisher_.publishTruthUntil(message.time);
     play(message);
     showProgress(message.time);
+  }
+}
+
+/// Skips images that cannot be decoded. Returns false at the end.
+bool KittiPlayer::readMessage(RecordedMessage& message) const {
+  while (true) {
+    try {
+      return recording_->next(message);
+    } catch (const InputError& error) {
+      ROS_WARN("an image is left out: %s", error.what());
+    }
   }
 }
 

@@ -53,6 +53,7 @@ class KittiPlayer {
   void waitForSubscribers();
   void playOnce();
   bool waitForRecording() const;
+  bool readMessage(RecordedMessage& message) const;
   void play(const RecordedMessage& message);
   void waitForOdometry(const ros::Time& stamp);
   void showProgress(const ros::Time& time);

@@ -12,7 +12,9 @@ namespace {
 template <class Visitor>
 void visitOptions(PlayerOptions& options, Visitor& visit) {
   visit.section("Playback");
-  visit.option("bag", options.bag, "path of a bag, or the directory of a sequence");
+  visit.option("bag",
+               options.bag,
+               "path of a bag, or the directory of a sequence, or of bags that are one recording");
   visit.option("rate", options.rate, "times as fast as recorded; 0: as fast as possible");
   visit.option("start", options.start, "offset from the start of the recording [s]");
   visit.option("duration", options.duration, "duration to play [s]; 0: to the end");
@@ -25,6 +27,10 @@ void visitOptions(PlayerOptions& options, Visitor& visit) {
                options.left_image,
                "topic of the left images, if the bag has several stereo pairs");
   visit.option("right_image", options.right_image, "topic of the right images");
+  visit.option("calibration",
+               options.calibration,
+               "files in place of camera_info of a bag: \"left.yaml right.yaml\" of "
+               "camera_calibration, or a camchain of Kalibr");
   visit.option(
       "max_stamp_difference_s", options.max_stamp_difference_s, "between the images of a pair [s]");
   visit.section("Ground truth");

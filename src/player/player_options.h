@@ -11,6 +11,7 @@ struct PlayerOptions {
   std::string bag;         ///< path; or a directory, see openStereoSequence()
   std::string left_image;  ///< topics of the pair in a bag; empty: findStereoTopics()
   std::string right_image;
+  std::string calibration;               ///< files in place of camera_info, separated by spaces
   bool rectify = false;                  ///< the odometry rectifies: it takes image_raw
   double rate = 1.0;                     ///< times as fast as recorded; 0: as fast as possible
   double start = 0.0;                    ///< offset from the start of the recording [s]

@@ -44,10 +44,10 @@ void RecordingPublisher::publishBeginning() {
 }
 
 void RecordingPublisher::publish(const RecordedMessage& message) {
-  if (message.left_image) left_image_.publish(message.left_image);
-  if (message.right_image) right_image_.publish(message.right_image);
   if (message.left_info) left_info_.publish(message.left_info);
   if (message.right_info) right_info_.publish(message.right_info);
+  if (message.left_image) left_image_.publish(message.left_image);
+  if (message.right_image) right_image_.publish(message.right_image);
   if (message.tf) moving_tf_.publish(message.tf);
 }
 

@@ -8,10 +8,9 @@
 
 #include "evaluation/text_file.h"
 #include "evaluation/trajectory_sampling.h"
-#include "input/camera_calibration.h"
+#include "sequences/calibration_file.h"
 #include "sequences/kitti_mount.h"
 #include "sequences/layouts.h"
-#include "sequences/yaml_file.h"
 
 namespace rotrocc {
 namespace {
@@ -82,16 +81,6 @@ std::vector<StampedImage> readImageList(const fs::path& root, const char* side) 
   return fs::exists(times) ? stampedByTimes(files, times.string()) : stampedByName(files);
 }
 
-StereoCalibration readCalibration(const std::string& root, double baseline_m) {
-  const auto left = readCameraInfo(root + "/left.yaml");
-  const auto right = readCameraInfo(root + "/right.yaml");
-  try {
-    return toStereoCalibration(left, right, baseline_m);
-  } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(root + "/left.yaml and right.yaml: " + error.what());
-  }
-}
-
 Trajectory readGroundTruth(const std::string& path, const std::vector<std::int64_t>& stamps_ns) {
   if (!fs::exists(path)) return {};
   if (detectTrajectoryFormat(path) != TrajectoryFormat::kTum) {
@@ -104,24 +93,6 @@ Trajectory readGroundTruth(const std::string& path, const std::vector<std::int64
 
 }  // namespace
 
-sensor_msgs::CameraInfo readCameraInfo(const std::string& path) {
-  const YamlFile file(path);
-  sensor_msgs::CameraInfo info;
-  info.width = static_cast<std::uint32_t>(file.pixels("image_width"));
-  info.height = static_cast<std::uint32_t>(file.pixels("image_height"));
-  // Old files have no name.
-  if (file.has("distortion_model")) info.distortion_model = file.text("distortion_model");
-  info.D = file.numbers("distortion_coefficients");
-  const auto read = [&](const char* key, auto& matrix) {
-    const std::vector<double> values = file.numbers(key, matrix.size());
-    std::copy(values.begin(), values.end(), matrix.begin());
-  };
-  read("camera_matrix", info.K);
-  read("rectification_matrix", info.R);
-  read("projection_matrix", info.P);
-  return info;
-}
-
 std::optional<StereoSequence> readFolderLayout(const std::string& directory,
                                                const SequenceOptions& options) {
   if (!fs::exists(directory + "/left.yaml") && !fs::is_directory(directory + "/left")) {
@@ -130,14 +101,12 @@ std::optional<StereoSequence> readFolderLayout(const std::string& directory,
   ImagePairs pairs(readImageList(directory, "left"),
                    readImageList(directory, "right"),
                    options.max_stamp_difference_s);
-  const StereoCalibration calibration = readCalibration(directory, options.baseline_m);
+  const StereoCalibration calibration = readStereoCalibration(
+      {directory + "/left.yaml", directory + "/right.yaml"}, options.baseline_m);
   const Trajectory truth = readGroundTruth(directory + "/groundtruth.txt", pairs.stamps_ns());
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
   T_base_camera.linear() = kittiMount().linear();
-  const auto gyroscope = [](const std::string& name) -> GyroRecording {
-    throw std::runtime_error("there is no file " + name + " with a gyroscope");
-  };
-  return StereoSequence{std::move(pairs), calibration, truth, T_base_camera, gyroscope, ""};
+  return StereoSequence{directory, std::move(pairs), calibration, truth, T_base_camera};
 }
 
 }  // namespace rotrocc

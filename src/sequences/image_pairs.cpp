@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "common/to_seconds.h"
+#include "evaluation/image_file.h"
 
 namespace rotrocc {
 namespace {
@@ -86,10 +87,11 @@ bool ImagePairs::hasFiles(int index) const {
   return std::filesystem::exists(pairs_.at(static_cast<std::size_t>(index)).right.path);
 }
 
-StereoPair ImagePairs::read(int index, const cv::Size& size) {
+StereoPair ImagePairs::read(int index, const cv::Size& size) const {
   const Pair& pair = pairs_.at(static_cast<std::size_t>(index));
-  StereoPair images = {
-      pair.left.stamp_ns, left_reader_.read(pair.left.path), right_reader_.read(pair.right.path)};
+  StereoPair images = {pair.left.stamp_ns,
+                       readGreyImageOfAnyDepth(pair.left.path),
+                       readGreyImageOfAnyDepth(pair.right.path)};
   requireImageSize(pair.left.path, images.left, size, "the calibrated image");
   requireImageSize(pair.right.path, images.right, size, "the calibrated image");
   return images;

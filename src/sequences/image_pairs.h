@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "evaluation/image_file.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
 
@@ -43,8 +42,9 @@ class ImagePairs {
   /// Whether the files of a pair are there; the right one is written last.
   bool hasFiles(int index) const;
 
-  /// Throws std::runtime_error if a file is unreadable or has not the size `size`.
-  StereoPair read(int index, const cv::Size& size);
+  /// CV_8UC1, or CV_16UC1 where a file has 16 bits. Throws std::runtime_error if a file is
+  /// unreadable or has not the size `size`.
+  StereoPair read(int index, const cv::Size& size) const;
 
   /// What was left out, e.g. "3 left images and 1 right image without a partner"; empty if nothing.
   std::string leftOut() const;
@@ -58,8 +58,6 @@ class ImagePairs {
   std::size_t left_alone_ = 0;
   std::size_t right_alone_ = 0;
   std::size_t missing_files_ = 0;
-  GreyImageReader left_reader_;
-  GreyImageReader right_reader_;
 };
 
 }  // namespace rotrocc

@@ -1,11 +1,9 @@
 #include "rotrocc/kitti.h"
 
 #include <filesystem>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include "inertial/gyro_file.h"
 #include "sequences/kitti_mount.h"
 #include "sequences/layouts.h"
 
@@ -24,17 +22,11 @@ std::optional<StereoSequence> readKittiLayout(const std::string& directory,
     const std::int64_t stamp_ns = sequence.stamp_ns(i);
     pairs.push_back({{stamp_ns, sequence.leftPath(i)}, {stamp_ns, sequence.rightPath(i)}});
   }
-  const auto gyroscope = [directory](const std::string& name) -> GyroRecording {
-    const std::string file = directory + "/" + name;
-    if (fs::is_regular_file(file)) return {readGyroFile(file)};
-    throw std::runtime_error("there is no file " + name + " with a gyroscope");
-  };
-  return StereoSequence{ImagePairs(std::move(pairs)),
+  return StereoSequence{directory,
+                        ImagePairs(std::move(pairs)),
                         rectifiedCalibration(sequence.camera()),
                         sequence.groundTruth(),
-                        kittiMount(),
-                        gyroscope,
-                        fs::is_regular_file(directory + "/imu.csv") ? "imu.csv" : ""};
+                        kittiMount()};
 }
 
 }  // namespace rotrocc

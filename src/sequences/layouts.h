@@ -3,10 +3,6 @@
 #include <optional>
 #include <string>
 
-#include <sensor_msgs/CameraInfo.h>
-#include <Eigen/Geometry>
-
-#include "rectification/stereo_calibration.h"
 #include "sequences/stereo_sequence.h"
 
 namespace rotrocc {
@@ -40,20 +36,5 @@ std::optional<StereoSequence> readAslLayout(const std::string& directory,
 /// The base is at the left camera, with x forward.
 std::optional<StereoSequence> readFolderLayout(const std::string& directory,
                                                const SequenceOptions& options);
-
-/// A file of camera_calibration. Throws std::runtime_error with path, key and problem.
-sensor_msgs::CameraInfo readCameraInfo(const std::string& path);
-
-/// A file sensor.yaml of a camera in the ASL format. Throws std::runtime_error with path, key,
-/// value and problem.
-struct AslCamera {
-  RawCamera camera;
-  Eigen::Isometry3d T_body_camera;
-};
-AslCamera readAslCamera(const std::string& path);
-
-/// T_BS of the sensor.yaml of any sensor: maps its points to those of the body. Identity if the
-/// file does not exist. Throws as readAslCamera().
-Eigen::Isometry3d readAslPose(const std::string& path);
 
 }  // namespace rotrocc

@@ -3,18 +3,29 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "inertial/gyro_file.h"
+#include "sequences/calibration_file.h"
 #include "sequences/kitti_mount.h"
 #include "sequences/layouts.h"
 
 namespace rotrocc {
 
-StereoPair StereoSequence::read(int index) {
+StereoPair StereoSequence::read(int index) const {
   return pairs.read(index, {calibration.left.width, calibration.left.height});
 }
 
 GyroRecording StereoSequence::gyroscope(const std::string& name) const {
-  if (!name.empty()) return named_gyroscope(name);
-  return usual_gyroscope.empty() ? GyroRecording() : named_gyroscope(usual_gyroscope);
+  using Names = std::vector<std::string>;
+  for (const std::string& one : name.empty() ? Names{"imu0", "imu.csv"} : Names{name}) {
+    const std::string path = root + "/" + one;
+    if (std::filesystem::is_regular_file(path)) return {readGyroFile(path)};
+    if (!std::filesystem::exists(path + "/data.csv")) continue;
+    const Eigen::Isometry3d T_base_gyro = readAslPose(path + "/sensor.yaml");
+    return {readGyroFile(path + "/data.csv"), (T_base_camera.inverse() * T_base_gyro).linear()};
+  }
+  if (name.empty()) return {};
+  throw std::runtime_error(root + " has no gyroscope " + name +
+                           ": name a folder of it, as imu0, or a CSV file");
 }
 
 std::int64_t rosTimeOffset_ns(const StereoSequence& sequence) {

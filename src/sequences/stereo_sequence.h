@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,6 +22,7 @@ struct GyroRecording {
 /// A recording of stereo pairs as folders of images. The left camera is the rectified one in all
 /// that follows: poses, mount, and axes of the gyroscope.
 struct StereoSequence {
+  std::string root;
   ImagePairs pairs;
 
   /// Of the images as they were recorded, and how to rectify them.
@@ -34,22 +34,19 @@ struct StereoSequence {
 
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
 
-  /// As gyroscope(), for a name that is not empty.
-  std::function<GyroRecording(const std::string& name)> named_gyroscope;
-  std::string usual_gyroscope;  ///< the name if none is given; empty: there is none
-
   /// Number of pairs.
   int size() const { return pairs.size(); }
 
   /// Time of a pair; they increase.
   std::int64_t stamp_ns(int index) const { return pairs.stamp_ns(index); }
 
-  /// The images of a pair as they were recorded, CV_8UC1. Throws std::runtime_error if they are
-  /// missing, unreadable or not of the size of the calibration.
-  StereoPair read(int index);
+  /// The images of a pair as they were recorded, CV_8UC1 or CV_16UC1. Throws std::runtime_error if
+  /// they are missing, unreadable or not of the size of the calibration.
+  StereoPair read(int index) const;
 
-  /// The gyroscope called `name`; empty: the one that the sequence has, or no samples if there is
-  /// none. Throws std::runtime_error if there is none of that name.
+  /// The gyroscope called `name`: a folder in ASL format with its pose on the base, or a CSV file
+  /// in axes of the left camera. Empty: imu0 or imu.csv, or no samples if there is neither. Throws
+  /// std::runtime_error if there is none of that name.
   GyroRecording gyroscope(const std::string& name) const;
 };
 

@@ -1,5 +1,6 @@
 #include "sequences/yaml_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -37,6 +38,12 @@ void YamlFile::fail(const std::string& key, const std::string& what) const {
   throw std::runtime_error(path_ + ": " + key + " " + what);
 }
 
+YamlFile YamlFile::section(const std::string& key) const {
+  const YAML::Node node = find(key);
+  if (!node.IsMap()) fail(key, "is not a map");
+  return {path_ + ": " + key, node};
+}
+
 YAML::Node YamlFile::find(const std::string& key) const {
   YAML::Node node = root_[key];
   if (!node.IsDefined()) fail(key, "is missing");
@@ -64,13 +71,17 @@ std::vector<double> YamlFile::numbers(const std::string& key) const {
   if (list.IsMap()) list.reset(list["data"]);
   if (!list.IsDefined() || !list.IsSequence()) fail(key, "is not a list of numbers");
   std::vector<double> numbers;
-  for (const YAML::Node& entry : list) {
+  const auto append = [&](const YAML::Node& entry) {
     double number = 0.0;
     if (!entry.IsScalar() || !YAML::convert<double>::decode(entry, number) ||
         !std::isfinite(number)) {
       fail(key, cv::format("has a value that is not a finite number, after %zu", numbers.size()));
     }
     numbers.push_back(number);
+  };
+  for (const YAML::Node& entry : list) {
+    if (!entry.IsSequence()) append(entry);
+    if (entry.IsSequence()) std::for_each(entry.begin(), entry.end(), append);
   }
   return numbers;
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include <ros/console.h>
 #include <boost/program_options.hpp>
 #include <opencv2/core.hpp>
 
@@ -33,13 +35,14 @@ const char* const kUsage =
     "Runs the odometry on all pairs of a recording, and writes the pose of the left "
     "camera for each.\n\n"
     "example: offline_odometry dataset/sequences/06 --trajectory 06.txt --stats 06.csv\n"
-    "usage:   offline_odometry INPUT --trajectory OUT.txt [options]\n\n"
-    "INPUT is a bag, or a directory in the layout of KITTI's odometry benchmark, in ASL "
-    "format\n(EuRoC), or with folders left and right and files left.yaml and "
-    "right.yaml of\ncamera_calibration. Images that are not rectified are.\n\n";
+    "usage:   offline_odometry INPUT... --trajectory OUT.txt [options]\n\n"
+    "INPUT is a bag, the bags or the directory of bags into which a recording is split, or a\n"
+    "directory in the layout of KITTI's odometry benchmark, in ASL format (EuRoC), or with\n"
+    "folders left and right and files left.yaml and right.yaml of camera_calibration.\n"
+    "Images that are not rectified are. What cannot be used is dropped and counted.\n\n";
 
 struct Options {
-  std::string input;
+  std::vector<std::string> input;
   RecordingOptions recording;
   std::string rectify = "auto";
   bool preload = false;
@@ -89,13 +92,17 @@ bool parse(int argc, char** argv, Options& options) {
   add("right-image", po::value(&options.recording.right_image), "topic of the right images");
   add("rectify",
       po::value(&options.rectify)->default_value(options.rectify),
-      "images of a bag by K, D, R and P of camera_info: yes, no, or auto: if the topic is not "
-      "named image_rect or alike, and camera_info describes raw images");
+      "by K, D, R and P of camera_info: yes, no, or auto: if the topic is not named image_rect or "
+      "alike, and camera_info describes raw images");
+  add("calibration",
+      po::value(&options.recording.calibration)->multitoken(),
+      "files in place of camera_info: left.yaml right.yaml of camera_calibration, or a camchain of "
+      "Kalibr");
   add("preload", po::bool_switch(&options.preload), "read all images first; prints the memory use");
 
   PositionalArguments input;
   input.options.add_options()("input", po::value(&options.input)->required());
-  input.order.add("input", 1);
+  input.order.add("input", -1);
   po::variables_map variables;
   po::options_description visible("Options");
   visible.add_options()("help,h", "show this help");
@@ -139,6 +146,7 @@ Parameters readParameters(const Options& options) {
 std::unique_ptr<Recording> openInput(const Options& options, const NodeParameters& node) {
   RecordingOptions recording = options.recording;
   recording.base_frame = node.base_frame;
+  recording.raw_sequence = true;
   recording.sequence.max_stamp_difference_s = node.max_stamp_difference_s;
   recording.sequence.baseline_m = node.baseline_m;
   return openRecording(options.input, recording);
@@ -174,7 +182,9 @@ class PreloadedPairs {
         images_MB_ += 1e-6 * static_cast<double>(image.total() * image.elemSize());
       }
       // The next call overwrites its images.
-      pairs_.emplace_back(StereoPair{pair.stamp_ns, pair.left.clone(), pair.right.clone()}, camera);
+      pair.left = pair.left.clone();
+      pair.right = pair.right.clone();
+      pairs_.emplace_back(pair, camera);
     }
     loaded_MB_ = memory_MB("VmRSS");
   }
@@ -207,9 +217,7 @@ class PreloadedPairs {
 void run(const Options& options) {
   const Parameters parameters = readParameters(options);
   const std::unique_ptr<Recording> recording = openInput(options, parameters.node);
-  const Rectify rectify = rectifyOption(options.rectify);
-  const bool is_bag = !std::filesystem::is_directory(options.input);
-  RecordedPairs pairs(*recording, parameters.node, is_bag ? rectify : Rectify::kIfRaw);
+  RecordedPairs pairs(*recording, parameters.node, options.rectify);
   std::cerr << "offline_odometry: reading " << recording->description()
             << (pairs.rectifies() ? ", rectified by camera_info" : "") << '\n';
   std::optional<RecordedGyro> gyro = openGyro(options, *recording);
@@ -228,7 +236,14 @@ void run(const Options& options) {
   std::vector<PairRecord> records;
   StereoPair pair;
   StereoCamera camera;
+  std::int64_t last_ns = std::numeric_limits<std::int64_t>::min();
   while (preloaded ? preloaded->next(pair, camera) : pairs.next(pair, camera)) {
+    if (pair.stamp_ns <= last_ns) {  // as in the node, the pose is kept
+      std::cerr << "offline_odometry: time jumps back from " << 1e-9 * last_ns << " to "
+                << 1e-9 * pair.stamp_ns << " s: restarting at the last pose\n";
+      odometry.reset();
+    }
+    last_ns = pair.stamp_ns;
     records.push_back(process(odometry, pair, camera, rotation));
     if (gyro) gyro->observe(records.back().result);
     outputs.write(records.back(), pair, camera, odometry);
@@ -239,13 +254,17 @@ void run(const Options& options) {
   if (gyro) gyro->printSummary(std::cout);
   if (preloaded) preloaded->printMemory();
   if (const std::string left_out = pairs.leftOut(); !left_out.empty()) {
-    std::cout << left_out << " within " << parameters.node.max_stamp_difference_s
-              << " s (max_stamp_difference_s)\n";
+    std::cout << "left out: " << left_out << "; pairs are within "
+              << parameters.node.max_stamp_difference_s << " s (max_stamp_difference_s)\n";
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Of what the node logs, only warnings: stdout is for the figures.
+  if (ros::console::set_logger_level(ROSCONSOLE_DEFAULT_NAME, ros::console::levels::Warn)) {
+    ros::console::notifyLoggerLevelsChanged();
+  }
   return runProgram("offline_odometry", argc, argv, parse, run);
 }

@@ -1,16 +1,20 @@
 #include "bags/recorded_pairs.h"
 
+#include <functional>
 #include <memory>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
+#include <sensor_msgs/CompressedImage.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "bags/bag_reading.h"
 #include "bags/sequence_bag_writer.h"
 #include "rotrocc/kitti.h"
+#include "sequences/calibration_file.h"
 #include "support/asl_folder.h"
 #include "support/expect_error.h"
 #include "support/kitti2bag_writer.h"
@@ -27,8 +31,8 @@ struct Reader {
   explicit Reader(const std::string& path,
                   const NodeParameters& node = {},
                   const RecordingOptions& options = {},
-                  Rectify rectify = Rectify::kIfRaw)
-      : recording(openRecording(path, options)), pairs(*recording, node, rectify) {}
+                  const std::string& rectify = "auto")
+      : recording(openRecording({path}, options)), pairs(*recording, node, rectify) {}
 
   bool next() { return pairs.next(pair, camera); }
 
@@ -64,6 +68,21 @@ class RecordedPairsTest : public ::testing::Test {
     }
     EXPECT_FALSE(reader.next());
     EXPECT_EQ(reader.pairs.leftOut(), "");
+  }
+
+  /// Writes what is left of a message, and returns true; or false: it stays as it is.
+  using Change = std::function<bool(const rosbag::MessageInstance& message, rosbag::Bag& bag)>;
+
+  /// A bag of the sequence, after a change.
+  std::string writeChanged(const std::string& name, const Change& change) const {
+    writeSequenceBag(directory_ / "own.bag", directory_ / "sequence", {1000, false});
+    const Bags own = openBags({directory_ / "own.bag"});
+    rosbag::Bag changed(directory_ / name, rosbag::bagmode::Write);
+    for (const rosbag::MessageInstance& message : BagView(own)) {
+      if (change(message, changed)) continue;
+      changed.write(message.getTopic(), message.getTime(), message);
+    }
+    return directory_ / name;
   }
 
   /// A bag with the same for left and right.
@@ -120,8 +139,95 @@ TEST_F(RecordedPairsTest, ImagesWithoutAPartnerAreLeftOut) {
   while (reader.next()) ++pairs;
   EXPECT_GT(pairs, 0);
   EXPECT_LT(pairs, kPairs);
+  const std::string left_out = std::to_string(kPairs - pairs);
+  EXPECT_EQ(reader.pairs.leftOut().find(left_out + " of 20 pairs ("), 0u);
+  EXPECT_NE(reader.pairs.leftOut().find(" no_partner)"), std::string::npos);
+}
+
+TEST_F(RecordedPairsTest, BadImagesAreDroppedAndCounted) {
+  int left = 0;
+  const auto damage = [&](const rosbag::MessageInstance& message, rosbag::Bag& bag) {
+    if (message.getTopic() != "/stereo/left/image_rect") return false;
+    const auto image = readMessage<sensor_msgs::Image>(message);
+    ++left;
+    if (left == 3) image->data.resize(100);
+    if (left == 6) image->header.stamp = ros::Time();
+    if (left == 9) image->header.stamp += ros::Duration(50.0);
+    bag.write(message.getTopic(), message.getTime(), image);
+    return true;
+  };
+  Reader reader(writeChanged("damaged.bag", damage));
+  std::vector<std::int64_t> expected, stamps;
+  for (int i = 0; i < kPairs; ++i) {
+    const bool is_bad = i == 2 || i == 5 || i == 8;
+    if (!is_bad) expected.push_back(1'000'000'000'000 + sequence().stamp_ns(i));
+  }
+  while (reader.next()) stamps.push_back(reader.pair.stamp_ns);
+  EXPECT_EQ(stamps, expected);
   EXPECT_EQ(reader.pairs.leftOut(),
-            std::to_string(kPairs - pairs) + " left images without a partner");
+            "3 of 20 pairs (1 image_data, 1 stamp_zero, 1 stamp_glitch, 2 partner_dropped)");
+}
+
+/// 12 bits, but for a row of metadata in one image.
+TEST(RecordedSequenceTest, ImagesOf16BitsAreScaledToTheirRange) {
+  const AslFolder folder;
+  for (int i = 0; i < 3; ++i) {
+    cv::Mat image(480, 752, CV_16UC1, cv::Scalar(4095 - 1600 * i));
+    if (i == 1) image.row(0).setTo(65535);
+    const std::string name = std::to_string(AslFolder::stamp_ns(i)) + ".png";
+    for (const char* camera : {"cam0/data/", "cam1/data/"}) {
+      cv::imwrite(folder / (camera + name), image);
+    }
+  }
+  for (const bool is_raw : {true, false}) {
+    RecordingOptions options;
+    options.raw_sequence = is_raw;
+    Reader reader(folder.path(), {}, options);
+    for (const int level : {255, 2495 >> 4, 895 >> 4}) {
+      ASSERT_TRUE(reader.next());
+      EXPECT_EQ(reader.pair.left.at<uchar>(240, 376), level) << is_raw;
+    }
+  }
+}
+
+TEST_F(RecordedPairsTest, CompressedImagesAreDecoded) {
+  bool damaged = false;
+  const auto compress = [&](const rosbag::MessageInstance& message, rosbag::Bag& bag) {
+    if (message.getDataType() != "sensor_msgs/Image") return false;
+    const auto image = readMessage<sensor_msgs::Image>(message);
+    sensor_msgs::CompressedImage compressed;
+    compressed.header = image->header;
+    compressed.format = "mono8; png compressed ";
+    const cv::Mat pixels(static_cast<int>(image->height),
+                         static_cast<int>(image->width),
+                         CV_8UC1,
+                         image->data.data());
+    cv::imencode(".png", pixels, compressed.data);
+    if (std::exchange(damaged, false)) compressed.data.resize(50);
+    bag.write(message.getTopic() + "/compressed", message.getTime(), compressed);
+    return true;
+  };
+  Reader reader(writeChanged("compressed.bag", compress));
+  EXPECT_EQ(reader.recording->description().find("/stereo/left/image_rect/compressed and "), 0u);
+  expectAllPairs(reader);
+  damaged = true;
+  Reader without(writeChanged("damaged.bag", compress));
+  while (without.next()) {
+  }
+  EXPECT_EQ(without.pairs.leftOut(), "1 of 20 pairs (1 image_data, 1 no_partner)");
+}
+
+TEST_F(RecordedPairsTest, BagsOfADirectoryAreOneRecording) {
+  std::filesystem::create_directory(directory_ / "split");
+  for (const bool is_first : {true, false}) {
+    const auto keepHalf = [&](const rosbag::MessageInstance& message, rosbag::Bag&) {
+      return (message.getTime() < ros::Time(1001.0)) != is_first;
+    };
+    writeChanged(is_first ? "split/drive_0.bag" : "split/drive_1.bag", keepHalf);
+  }
+  Reader reader(directory_ / "split");
+  expectAllPairs(reader);
+  EXPECT_FALSE(reader.recording->truth().poses.empty()) << "of the first bag";
 }
 
 TEST_F(RecordedPairsTest, TakeTheBaselineThatCameraInfoLacks) {
@@ -142,8 +248,10 @@ TEST_F(RecordedPairsTest, TakeTheBaselineThatCameraInfoLacks) {
   ASSERT_TRUE(with.next());
   EXPECT_EQ(with.camera.baseline_m, 0.37);
 
+  info.K = {40, 0, 16, 0, 40, 16, 0, 0, 1};
+  info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   info.width = 16;
-  Reader rectified(writePair(info, image), parameters, {}, Rectify::kAlways);
+  Reader rectified(writePair(info, image), parameters, {}, "yes");
   expectError<std::runtime_error>([&] { rectified.next(); }, "s: the images are 32x32");
 }
 
@@ -158,12 +266,12 @@ TEST_F(RecordedPairsTest, HaveNoMorePixelsThanTheLimit) {
   expectAllPairs(reader);
 }
 
-TEST_F(RecordedPairsTest, ThePairWhoseCameraIsWrongIsNamed) {
+TEST_F(RecordedPairsTest, ACameraThatIsWrongIsExplained) {
   sensor_msgs::CameraInfo uncalibrated;
   sensor_msgs::Image image;
   image.header.stamp = ros::Time(12.5);
   Reader reader(writePair(uncalibrated, image));
-  expectError<std::runtime_error>([&] { reader.next(); }, "pair of 12.5");
+  expectError<std::runtime_error>([&] { reader.next(); }, "P of the left camera_info is all zeros");
 }
 
 /// A bag of unrectified images, and what is expected of them.
@@ -192,10 +300,15 @@ class RawBagTest : public ::testing::Test {
 TEST_F(RawBagTest, IsRectified) {
   StereoRectifier rectifier;
   const auto calibration = std::make_shared<const StereoCalibration>(sequence_.calibration);
-  for (const std::string& recording : {path(), folder_.path()}) {
-    SCOPED_TRACE(recording);
-    Reader reader(recording);
-    EXPECT_EQ(reader.pairs.rectifies(), recording == path()) << "a sequence is, as it is read";
+  RecordingOptions raw;
+  raw.raw_sequence = true;
+  for (const auto& [recording, options] : {std::pair<std::string, RecordingOptions>{path(), {}},
+                                           {folder_.path(), {}},
+                                           {folder_.path(), raw}}) {
+    Reader reader(recording, {}, options);
+    const bool is_rectified_as_read = recording == folder_.path() && !options.raw_sequence;
+    SCOPED_TRACE(recording + (is_rectified_as_read ? ", rectified" : ", raw"));
+    EXPECT_EQ(reader.pairs.rectifies(), !is_rectified_as_read);
     for (int i = 0; i < 3; ++i) {
       ASSERT_TRUE(reader.next());
       const StereoPair expected = rectifier.rectify(sequence_.read(i), calibration);
@@ -208,12 +321,96 @@ TEST_F(RawBagTest, IsRectified) {
   }
 }
 
+/// The files of a calibration of the rig.
+std::string kalibrChain(const AslFolder& folder) {
+  std::ostringstream chain;
+  chain.precision(17);
+  const AslCamera left = readAslCamera(folder / "cam0/sensor.yaml");
+  const AslCamera right = readAslCamera(folder / "cam1/sensor.yaml");
+  const Eigen::Matrix4d T_right_left =
+      (right.T_body_camera.inverse() * left.T_body_camera).matrix();
+  for (const AslCamera* camera : {&left, &right}) {
+    const RawCamera& raw = camera->camera;
+    const std::vector<double>& d = raw.distortion.coefficients();
+    chain << (camera == &left ? "cam0:\n" : "cam1:\n  T_cn_cnm1:\n");
+    for (int i = 0; i < 4 && camera == &right; ++i) {
+      const Eigen::RowVector4d row = T_right_left.row(i);
+      chain << "  - [" << row[0] << ", " << row[1] << ", " << row[2] << ", " << row[3] << "]\n";
+    }
+    chain << "  camera_model: pinhole\n  distortion_model: radtan\n  distortion_coeffs: [" << d[0]
+          << ", " << d[1] << ", " << d[2] << ", " << d[3] << "]\n  intrinsics: [" << raw.fx << ", "
+          << raw.fy << ", " << raw.cx << ", " << raw.cy << "]\n  resolution: [752, 480]\n"
+          << "  rostopic: /cam/image_raw\n";
+  }
+  return chain.str();
+}
+
+TEST_F(RawBagTest, IsRectifiedByFilesInPlaceOfCameraInfo) {
+  {
+    const Bags bags = openBags({path()});
+    rosbag::Bag without(directory_ / "images.bag", rosbag::bagmode::Write);
+    for (const rosbag::MessageInstance& message : BagView(bags)) {
+      if (message.getDataType() != "sensor_msgs/Image") continue;
+      const bool is_left = message.getTopic().find("left") != std::string::npos;
+      without.write(is_left ? "/cam0/image_raw" : "/cam1/image_raw", message.getTime(), message);
+    }
+  }
+  const std::string bag = directory_ / "images.bag";
+  expectError<std::runtime_error>([&] { Reader{bag}; }, "name the files of a calibration");
+  directory_.write("camchain.yaml", kalibrChain(folder_));
+  const std::string cameras = std::string(CAMERAS) + "/euroc_";
+  using Files = std::vector<std::string>;
+  for (const Files& files : {Files{directory_ / "camchain.yaml"},
+                             Files{cameras + "left.yaml", cameras + "right.yaml"}}) {
+    SCOPED_TRACE(files[0]);
+    RecordingOptions options;
+    options.calibration = files;
+    Reader reader(bag, {}, options);
+    EXPECT_TRUE(reader.pairs.rectifies());
+    const auto calibration =
+        std::make_shared<const StereoCalibration>(readStereoCalibration(files));
+    StereoRectifier rectifier;
+    for (int i = 0; i < 3; ++i) {
+      ASSERT_TRUE(reader.next());
+      const StereoPair expected = rectifier.rectify(sequence_.read(i), calibration);
+      EXPECT_EQ(cv::norm(reader.pair.left, expected.left, cv::NORM_INF), 0.0);
+      EXPECT_EQ(cv::norm(reader.pair.right, expected.right, cv::NORM_INF), 0.0);
+      expectCamera(reader.camera, calibration->rectified);
+    }
+    EXPECT_EQ(reader.pairs.leftOut(), "");
+    EXPECT_NEAR(reader.camera.baseline_m, sequence_.calibration.rectified.baseline_m, 1e-4);
+  }
+  RecordingOptions options;
+  options.calibration = {directory_ / "camchain.yaml"};
+  expectError([&] { Reader(folder_.path(), {}, options); }, "a sequence has its own calibration");
+}
+
+TEST_F(RawBagTest, MasksAreThoseOfTheRawImages) {
+  cv::Mat mask(480, 752, CV_8UC1, cv::Scalar(0));
+  mask.rowRange(400, 480).setTo(255);
+  cv::imwrite(directory_ / "mask.png", mask);
+  NodeParameters node;
+  node.mask = directory_ / "mask.png";
+  RecordingOptions raw;
+  raw.raw_sequence = true;
+  StereoRectifier rectifier;
+  StereoPair expected = sequence_.read(0);
+  expected.left_mask = mask;
+  expected =
+      rectifier.rectify(expected, std::make_shared<const StereoCalibration>(sequence_.calibration));
+  for (const std::string& recording : {path(), folder_.path()}) {
+    Reader reader(recording, node, raw);
+    ASSERT_TRUE(reader.next());
+    EXPECT_EQ(cv::norm(reader.pair.left_mask, expected.left_mask, cv::NORM_INF), 0.0);
+  }
+}
+
 TEST_F(RawBagTest, IsLeftAsItIsOnRequest) {
-  Reader reader(path(), {}, {}, rectifyOption("no"));
+  Reader reader(path(), {}, {}, "no");
   EXPECT_FALSE(reader.pairs.rectifies());
   ASSERT_TRUE(reader.next());
   EXPECT_EQ(cv::norm(reader.pair.left, sequence_.read(0).left, cv::NORM_INF), 0.0);
-  expectError<std::invalid_argument>([] { rectifyOption("maybe"); },
+  expectError<std::invalid_argument>([this] { Reader(path(), {}, {}, "maybe"); },
                                      "'maybe', not auto, yes or no");
 }
 

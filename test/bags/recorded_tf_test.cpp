@@ -42,7 +42,7 @@ class RecordedTfTest : public ::testing::Test {
 
 TEST_F(RecordedTfTest, TurnsPosesOfTheBaseIntoGroundTruth) {
   writeKitti2bagRaw(sequence(), directory_ / "raw.bag");
-  const RecordedTf tf = readTf(openBag(directory_ / "raw.bag"), "base_link", "camera_gray_left");
+  const RecordedTf tf = readTf(openBags({directory_ / "raw.bag"}), "base_link", "camera_gray_left");
   EXPECT_FALSE(tf.added_kitti_mount);
   EXPECT_EQ(tf.static_transforms.transforms.size(), 2u) << "each mount once";
   EXPECT_EQ(tf.trajectory_name, "world -> base_link");
@@ -63,7 +63,7 @@ TEST_F(RecordedTfTest, TurnsPosesOfTheBaseIntoGroundTruth) {
 TEST_F(RecordedTfTest, AddsTheMountWhereThereIsNone) {
   writeKitti2bagOdometry(sequence(), directory_ / "odometry.bag");
   const RecordedTf tf =
-      readTf(openBag(directory_ / "odometry.bag"), "base_link", "camera_gray_left");
+      readTf(openBags({directory_ / "odometry.bag"}), "base_link", "camera_gray_left");
   EXPECT_TRUE(tf.added_kitti_mount);
   ASSERT_EQ(tf.static_transforms.transforms.size(), 1u);
   const geometry_msgs::TransformStamped& mount = tf.static_transforms.transforms.front();

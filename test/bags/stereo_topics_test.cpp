@@ -19,7 +19,9 @@ TopicTypes withInfos(const std::vector<std::string>& images) {
   TopicTypes types = {{"/tf_static", "tf2_msgs/TFMessage"}};
   for (const std::string& image : images) {
     types[image] = kImage;
-    types[image.substr(0, image.rfind('/')) + "/camera_info"] = kInfo;
+    const std::string name = image.substr(0, image.rfind("/compressed"));
+    if (name != image) types[image] = "sensor_msgs/CompressedImage";
+    types[name.substr(0, name.rfind('/')) + "/camera_info"] = kInfo;
   }
   return types;
 }
@@ -57,6 +59,14 @@ TEST(FindStereoTopics, FindsThePair) {
        {"/camera/*/image_raw", "/camera/*/image_rect", "/camera/*/image_rect_color"},
        "/camera/*",
        "/image_rect"},
+      {"images rather than compressed ones",
+       {"/camera/*/image_raw", "/camera/*/image_raw/compressed"},
+       "/camera/*",
+       "/image_raw"},
+      {"compressed ones if there are no others",
+       {"/camera/*/image_raw/compressed", "/camera/*/image_raw/compressedDepth"},
+       "/camera/*",
+       "/image_raw/compressed"},
       {"the last left of a name",
        {"/left_arm/stereo/*/image_rect"},
        "/left_arm/stereo/*",
@@ -85,6 +95,18 @@ TEST(FindStereoTopics, ListsTopicsWhenItCannotChoose) {
   TopicTypes without_info = withInfos(pairs({"/stereo/*/image_rect"}));
   without_info.erase("/stereo/right/camera_info");
   expectRefused(without_info, {"no stereo pair"});
+}
+
+TEST(FindStereoTopics, KnowsOtherNamesOfTheCameras) {
+  for (const std::string left : {"/cam0", "/camera/infra1"}) {
+    const std::string right = left == "/cam0" ? "/cam1" : "/camera/infra2";
+    TopicTypes types = withInfos({left + "/image_raw", right + "/image_raw"});
+    EXPECT_EQ(findStereoTopics(types).right_info, right + "/camera_info");
+    types.erase(right + "/camera_info");
+    expectError<std::runtime_error>([&] { findStereoTopics(types); },
+                                    "no stereo pair with camera_info: name the files");
+    EXPECT_EQ(findStereoTopics(types, "", "", false).right_image, right + "/image_raw");
+  }
 }
 
 TEST(FindStereoTopics, TakesTheNamedPair) {

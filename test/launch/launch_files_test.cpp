@@ -135,13 +135,15 @@ TEST_F(ConfiguredLaunchTest, ArgumentsOverrideIt) {
                    {"rectify", "false"}},
                   {{"warnings", "0"}});
   expect("kitti.launch",
-         "bag:=any.bag rectify:=true base_frame:=body lockstep_timeout:=0 trajectory_file:=/new",
+         "bag:=any.bag rectify:=true base_frame:=body lockstep_timeout:=0 trajectory_file:=/new "
+         "calibration:=/camchain.yaml",
          {{"/stereo/rviz", "rotrocc/rig_view " ROOT "/rviz/kitti.rviz"},
           {"/stereo/stereo_odometry/base_frame", "body"},
           {"/stereo/kitti_player/base_frame", "body"},
           {"/stereo/stereo_odometry/rectify", "true"},
           {"/stereo/stereo_odometry/trajectory_file", "/new"},
           {"/stereo/kitti_player/rectify", "true"},
+          {"/stereo/kitti_player/calibration", "/camchain.yaml"},
           {"/stereo/kitti_player/lockstep", "false"},
           {"warnings", "0"}});
 }

@@ -347,9 +347,6 @@ TEST_F(KittiPlayerTest, RefusesWhatItCannotPlay) {
     private_nh_.setParam(row.name, row.value);
     expectError([this] { startPlayer(); }, row.message);
   }
-  private_nh_.setParam("bag", directory_ / "sequence");
-  private_nh_.setParam("rectify", true);
-  expectError([this] { startPlayer(); }, "start with rectify:=false");
 }
 
 }  // namespace

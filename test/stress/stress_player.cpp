@@ -69,7 +69,7 @@ StressPlayer::StressPlayer(ros::NodeHandle& nh, const StressOptions& options)
 }
 
 void StressPlayer::read() {
-  const auto recording = openRecording(options_.recording);
+  const auto recording = openRecording({options_.recording});
   recording->select(recording->begin(), recording->end(), false);
   StereoSynchronizer synchronizer(kMaxStampDifference_s, kQueueSize);
   RecordedMessage message;

@@ -53,11 +53,7 @@ OdometryRig::OdometryRig(const Parameters& parameters)
       intake_(parameters.node, drops_, [this](const ReceivedPair& pair) { process(pair); }) {}
 
 void OdometryRig::sendInfos(const InfoChange& change) {
-  const StereoCamera& camera = scene().camera();
-  const StereoCalibration calibration = rectifiedCalibration(camera);
-  sensor_msgs::CameraInfo left = toCameraInfo(calibration.left, camera, camera.cx, 0.0);
-  sensor_msgs::CameraInfo right =
-      toCameraInfo(calibration.right, camera, camera.cx_right, -camera.fx * camera.baseline_m);
+  auto [left, right] = toCameraInfos(rectifiedCalibration(scene().camera()));
   if (change) change(left, right);
   const Arrival arrival = {now_, 0};
   intake_.addInfo(

@@ -50,11 +50,7 @@ SimulatedRobot::SimulatedRobot(std::uint32_t odometries) {
 }
 
 void SimulatedRobot::publishInfos(const std::function<void(sensor_msgs::CameraInfo&)>& change) {
-  const StereoCamera& camera = scene_.camera();
-  const StereoCalibration calibration = rectifiedCalibration(camera);
-  sensor_msgs::CameraInfo left = toCameraInfo(calibration.left, camera, camera.cx, 0.0);
-  sensor_msgs::CameraInfo right =
-      toCameraInfo(calibration.right, camera, camera.cx_right, -camera.fx * camera.baseline_m);
+  auto [left, right] = toCameraInfos(rectifiedCalibration(scene_.camera()));
   left.header.frame_id = right.header.frame_id = kCameraFrame;
   if (change) {
     change(left);

@@ -116,10 +116,9 @@ TEST_F(OfflineOdometryTest, WritesTheFlowPictureOfEachPair) {
 TEST_F(OfflineOdometryTest, WritesOdometryOfTheBaseToABag) {
   const std::string file = directory_ / "odometry.bag";
   trajectoryOf(sequence(), "--bag " + file);
-  const rosbag::Bag bag = openBag(file);
+  const Bags bag = openBags({file});
   std::vector<nav_msgs::Odometry::ConstPtr> messages;
-  for (const rosbag::MessageInstance& message :
-       rosbag::View(bag, rosbag::TopicQuery("/stereo/odom"))) {
+  for (const rosbag::MessageInstance& message : BagView(bag, {"/stereo/odom"})) {
     messages.push_back(readMessage<nav_msgs::Odometry>(message));
   }
   ASSERT_EQ(messages.size(), static_cast<std::size_t>(kPairs));
@@ -136,7 +135,7 @@ TEST_F(OfflineOdometryTest, WritesOdometryOfTheBaseToABag) {
   EXPECT_NEAR(position.y, T_odom_base.translation().y(), 1e-6);
   EXPECT_GT(messages.back()->pose.covariance[0], 0.0);
 
-  rosbag::View transforms(bag, rosbag::TopicQuery("/tf"));
+  BagView transforms(bag, {"/tf"});
   EXPECT_EQ(transforms.size(), static_cast<std::uint32_t>(kPairs));
   const auto tf = firstMessage<tf2_msgs::TFMessage>(bag, "/tf");
   EXPECT_EQ(tf->transforms.at(0).child_frame_id, "base_link");
@@ -151,6 +150,37 @@ TEST_F(OfflineOdometryTest, PreloadedImagesGiveTheSamePoses) {
        {"12 pairs: 11 ok, 0 degraded, 0 lost, 1 initialising", "peak memory: "}) {
     EXPECT_NE(result.output.find(part), std::string::npos) << result.output;
   }
+}
+
+TEST_F(OfflineOdometryTest, ABadImageIsNotTheEndOfTheRun) {
+  directory_.write("sequence/image_0/000004.png", "no image");
+  const CommandResult result = run(sequence() + " --trajectory /dev/null");
+  EXPECT_EQ(result.status, 0) << result.output;
+  for (const char* part : {"11 pairs: 10 ok, ",
+                           "left out: 1 of 12 pairs (1 image_data);",
+                           "000004.png is not a readable image"}) {
+    EXPECT_NE(result.output.find(part), std::string::npos) << result.output;
+  }
+}
+
+TEST_F(OfflineOdometryTest, ThePoseIsKeptWhenTimeJumpsBack) {
+  writeSequenceBag(directory_ / "once.bag", sequence(), {1000, false});
+  {
+    const Bags once = openBags({directory_ / "once.bag"});
+    rosbag::Bag again(directory_ / "again.bag", rosbag::bagmode::Write);
+    for (const rosbag::MessageInstance& message : BagView(once)) {
+      again.write(message.getTopic(), message.getTime() + ros::Duration(60.0), message);
+    }
+  }
+  const std::string bags = directory_ / "once.bag" + " " + directory_ / "again.bag";
+  const CommandResult result = run(bags + " --trajectory " + directory_ / "loop.txt");
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_NE(result.output.find("24 pairs: 22 ok, 0 degraded, 0 lost, 2 init"), std::string::npos)
+      << result.output;
+  EXPECT_NE(result.output.find("time jumps back"), std::string::npos) << result.output;
+  const Trajectory poses = readTrajectory(directory_ / "loop.txt");
+  ASSERT_EQ(poses.size(), 24u);
+  EXPECT_TRUE(poses[12].T_world_body.isApprox(poses[11].T_world_body, 1e-9));
 }
 
 /// Of the drive, whose camera looks to and fro, with a bias.
@@ -213,6 +243,8 @@ TEST_F(OfflineOdometryTest, TellsBadUsageFromBadInput) {
               {good + " --format xyz", 1},
               {good + " --rectify maybe", 1},
               {good + " --imu /nowhere", 1},
+              {good + " --calibration a b c", 1, "a sequence has its own calibration"},
+              {good + " --set mask=/nowhere.png", 1, "/nowhere.png cannot be read as a PNG"},
               {good + " --bag /nowhere/out.bag", 1},
               {good + " --set feature_detector/max_features=5", 1, "[50, 20000]"}};
   for (const auto& row : rows) {
