@@ -46,8 +46,8 @@ void addNode(NodeParameters& n, ParameterTable& table) {
   table.add("max_future_s", n.max_future_s, {0.0, 1e9, "s"}).description =
       "images with stamps further ahead of the clock are dropped";
   auto& bits = table.add("significant_bits", n.significant_bits, {0, 16});
-  bits.description = "bits that 16-bit images use, e.g. 10 or 12; 0: found from the images";
-  bits.range = "0 or [8, 16]";
+  bits.description =
+      "bits that 16-bit images use, 8 or more, e.g. 10 or 12; 0: found from the images";
   bits.set = [&value = n.significant_bits, set = bits.set](const std::string& text) {
     const int before = value;
     set(text);

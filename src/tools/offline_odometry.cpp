@@ -255,7 +255,10 @@ void run(const Options& options) {
   if (preloaded) preloaded->printMemory();
   if (const std::string left_out = pairs.leftOut(); !left_out.empty()) {
     std::cout << "left out: " << left_out << "; pairs are within "
-              << parameters.node.max_stamp_difference_s << " s (max_stamp_difference_s)\n";
+              << parameters.node.max_stamp_difference_s << " s (max_stamp_difference_s)"
+              << (options.output.format == "kitti"
+                      ? "; lines of the trajectory are not those of the images: use --format tum\n"
+                      : "\n");
   }
 }
 

@@ -32,7 +32,7 @@ constexpr const char* kFifo = "a FIFO";
 /// What happens to some pairs.
 struct Fault {
   const char* name;
-  /// Parts of what the log says of it: each of its lines has one of them.
+  /// Parts of what the log says of it: each of its lines has one of them, and the first is there.
   std::vector<const char*> says;
   std::function<void(StressPair&, std::mt19937&)> change;
   int pairs = 1;           ///< for how many it lasts

@@ -39,6 +39,10 @@ class SimulatedRobot {
 
   /// The transform from base_link to the camera, which is ahead of and above it.
   void publishMount();
+  /// Of several broadcasters of a process, only the last one's transforms reach late subscribers.
+  void publishStatic(const geometry_msgs::TransformStamped& transform) {
+    tf_broadcaster_.sendTransform(transform);
+  }
 
   /// Drives a step and publishes both images, after `change` to each of them. Returns their stamp.
   ros::Time drive(const std::function<void(sensor_msgs::Image&)>& change = {});

@@ -38,8 +38,11 @@ class TfRecording {
 
   void sendStatic(const std::string& parent,
                   const std::string& child,
-                  const Eigen::Isometry3d& T_parent_child) {
+                  const Eigen::Isometry3d& T_parent_child,
+                  double quaternion_length = 1.0) {
     static_.push_back(make(parent, child, 0.0, T_parent_child));
+    geometry_msgs::Quaternion& q = static_.back().transform.rotation;
+    for (double* value : {&q.w, &q.x, &q.y, &q.z}) *value *= quaternion_length;
     if (buffer_) buffer_->setTransform(static_.back(), "test", true);
   }
 

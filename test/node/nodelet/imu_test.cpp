@@ -7,7 +7,6 @@
 
 #include <sensor_msgs/Imu.h>
 #include <std_srvs/Trigger.h>
-#include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
 #include "input/message_conversion.h"
@@ -31,7 +30,7 @@ class ImuTest : public testing::Test {
   }
 
   void publishImuFrame(const Eigen::Isometry3d& T_base_imu = Eigen::Isometry3d::Identity()) {
-    broadcaster_.sendTransform(toTransform(T_base_imu, 0, "base_link", "imu_link"));
+    drive_.robot.publishStatic(toTransform(T_base_imu, 0, "base_link", "imu_link"));
   }
 
   /// Turns the camera by a step of alternating direction.
@@ -120,7 +119,6 @@ class ImuTest : public testing::Test {
   // It waits longer for a sample than the load of a machine delays one.
   NodeletDrive drive_{{{"use_imu", true}, {"imu_timeout_s", 1.0}, {"mount_timeout_s", 5.0}}};
   ros::Publisher publisher_;
-  tf2_ros::StaticTransformBroadcaster broadcaster_;
   tf2_ros::TransformBroadcaster joints_;
   ros::Time last_sample_;
   std::string frame_ = "imu_link";
@@ -164,6 +162,7 @@ TEST_F(ImuTest, IsUsedWhenItIsThereAndToldWhenNot) {
 }
 
 TEST_F(ImuTest, LevelsTheFirstPoseAtRest) {
+  drive_.robot.publishMount();
   frame_ = "base_link";
   acceleration_ = 9.8 * Eigen::Vector3d(0.1, -0.2, 0.9).normalized();
   const nav_msgs::Odometry first = begin();
@@ -181,6 +180,7 @@ TEST_F(ImuTest, LevelsTheFirstPoseAtRest) {
 }
 
 TEST_F(ImuTest, SaysThatThereIsNothingToLevelItBy) {
+  drive_.robot.publishMount();
   frame_ = "base_link";
   EXPECT_TRUE(upOf(begin()).isApprox(Eigen::Vector3d::UnitZ(), 1e-9));
   EXPECT_EQ(drive_.log.with("there are no accelerations of 1 s").size(), 1u);
