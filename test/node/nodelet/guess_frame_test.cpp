@@ -148,7 +148,7 @@ TEST(GuessFrameTest, OfABurstTheNewestPairIsProcessedAndDropsAreCounted) {
   for (std::uint64_t i = 0; i < kPairs; ++i) {
     left.header.stamp += ros::Duration(0.01);
     right.header.stamp = left.header.stamp;
-    left.data.front() ^= 1;  // noise
+    left.data.front() = static_cast<unsigned char>(i);  // noise: no pair is that of one before
     drive.robot.publish(left, right);
     drive.nodelet.finish();
     if (i % 10 == 0) wheels.sendTransform(wheelOdometry(left.header.stamp, 0.0));
