@@ -214,17 +214,17 @@ cv::Range clip(const cv::Mat& image, const cv::Range& columns) {
 }
 
 /// Calls matchOf(i) for each pixel with a window, for its match and the column where its strip
-/// begins, and converts them to disparities of at least `min_px`. Returns the median gain.
+/// begins, and converts them to disparities of at least `min_px`. `gains`: 0 without a disparity;
+/// null if nobody needs them.
 template <class MatchOf>
-double eachPixel(Workers& workers,
-                 const RectifiedImages& images,
-                 const std::vector<cv::Point2f>& pixels,
-                 double min_px,
-                 std::vector<float>& disparities_px,
-                 const MatchOf& matchOf) {
-  thread_local std::vector<float> gains;
-  gains.assign(pixels.size(), 0.0F);
-  float* const gain_of = gains.data();
+void eachPixel(Workers& workers,
+               const RectifiedImages& images,
+               const std::vector<cv::Point2f>& pixels,
+               double min_px,
+               std::vector<float>& disparities_px,
+               std::vector<float>* gains,
+               const MatchOf& matchOf) {
+  if (gains != nullptr) gains->assign(pixels.size(), 0.0F);
   disparities_px.assign(pixels.size(), StereoMatcher::kNoDisparity);
   workers.forEach(pixels.size(), [&](std::size_t i, std::size_t) {
     if (!windowInside(images.left, pixels[i])) return;
@@ -234,18 +234,16 @@ double eachPixel(Workers& workers,
     const float disparity_px = pixels[i].x - (match.column + static_cast<float>(first));
     if (disparity_px < min_px) return;
     disparities_px[i] = disparity_px;
-    gain_of[i] = static_cast<float>(match.gain);
+    if (gains != nullptr) (*gains)[i] = static_cast<float>(match.gain);
   });
-  gains.erase(std::remove(gains.begin(), gains.end(), 0.0F), gains.end());
-  return gains.empty() ? 1.0 : median(gains);
 }
 
 }  // namespace
 
-double StereoMatcher::match(Workers& workers,
-                            const RectifiedImages& images,
-                            const std::vector<cv::Point2f>& corners,
-                            std::vector<float>& disparities_px) const {
+void StereoMatcher::match(Workers& workers,
+                          const RectifiedImages& images,
+                          const std::vector<cv::Point2f>& corners,
+                          std::vector<float>& disparities_px) const {
   const cv::Mat& right = images.right;
   const int rows_lower = cvRound(images.row_offset_px);
   const int nearest = config_.max_disparity_px + cvCeil(images.infinity_px);
@@ -273,7 +271,7 @@ double StereoMatcher::match(Workers& workers,
     const LeftWindow window(kernels, images.left, pixel);
     return window.searchRow(strip.data(), stride, columns.size(), buffers);
   };
-  return eachPixel(workers, images, corners, min_px, disparities_px, matchOf);
+  eachPixel(workers, images, corners, min_px, disparities_px, nullptr, matchOf);
 }
 
 double StereoMatcher::matchNear(Workers& workers,
@@ -301,7 +299,10 @@ double StereoMatcher::matchNear(Workers& workers,
     const LeftWindow window(kernels, images.left, pixels[i]);
     return window.searchNear(strip, kStride, columns.size());
   };
-  return eachPixel(workers, images, pixels, min_px, disparities_px, matchOf);
+  thread_local std::vector<float> gains;
+  eachPixel(workers, images, pixels, min_px, disparities_px, &gains, matchOf);
+  gains.erase(std::remove(gains.begin(), gains.end(), 0.0F), gains.end());
+  return gains.empty() ? 1.0 : median(gains);
 }
 
 }  // namespace rotrocc

@@ -34,17 +34,17 @@ class StereoMatcher {
 
   /// Computes the disparity x_left - x_right [px] of each corner of the left image. Corners must be
   /// at integer pixels. The result is kNoDisparity for corners too close to the border and for
-  /// matches that are too different, ambiguous or out of range. The row offset is rounded. Returns
-  /// the contrast of the right image relative to the left one: the median over the matches, or 1 if
-  /// there are none.
-  double match(Workers& workers,
-               const RectifiedImages& images,
-               const std::vector<cv::Point2f>& corners,
-               std::vector<float>& disparities_px) const;
+  /// matches that are too different, ambiguous or out of range. The row offset is rounded.
+  void match(Workers& workers,
+             const RectifiedImages& images,
+             const std::vector<cv::Point2f>& corners,
+             std::vector<float>& disparities_px) const;
 
   /// As match(), but for pixels at sub-pixel positions, within kNearRadius_px of the disparities
   /// `expected_px`. Does not test for uniqueness, because the expected disparity resolves
-  /// ambiguity. Pixels with an expected disparity of kNoDisparity are skipped.
+  /// ambiguity. Pixels with an expected disparity of kNoDisparity are skipped. Returns the contrast
+  /// of the right image relative to the left one: the median over the matches, or 1 if there are
+  /// none.
   double matchNear(Workers& workers,
                    const RectifiedImages& images,
                    const std::vector<cv::Point2f>& pixels,

@@ -14,8 +14,8 @@ namespace {
 /// Number of infos kept for each side: those of an image arrive at about the same time.
 constexpr std::size_t kInfos = 8;
 
-/// The log tells of a camera again if it has changed by more, see StereoCamera::differenceTo(): not
-/// of one that is refined while it drives.
+/// A camera is logged again if it has changed by more, see StereoCamera::differenceTo(), but not
+/// one whose calibration is refined while it drives.
 constexpr double kToldAgain = 1e-3;
 
 /// The newest info of a stamp; null if there is none.
@@ -131,7 +131,11 @@ void StereoIntake::handOver() {
   if (!waiting_) return;
   const Info left = infoAt(waiting_->images.left->header.stamp, left_infos_);
   const Info right = infoAt(waiting_->images.right->header.stamp, right_infos_);
-  left&& right ? use(left, right) : useNewestInfos();
+  if (left != nullptr && right != nullptr) {
+    use(left, right);
+  } else {
+    useNewestInfos();
+  }
   if (!camera_) return;
   tell(*camera_);
   waiting_->camera = *camera_;
