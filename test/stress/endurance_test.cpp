@@ -52,9 +52,10 @@ TEST(EnduranceTest, KnowsSoundAnswersAndAccounts) {
 /// Each line begins with it.
 const std::string kNode = "/stereo_odometry: ";
 
-/// Of a machine that is too busy for the drive, or of pairs that are too far apart or the same
-/// where it turns around: any fault may lose the motion.
-const char* const kOfLoad[] = {"no stereo pair", "stereo pairs arrive again", "lost:"};
+/// Of a machine that is too busy for the drive, whose queues overflow, or of pairs that are too far
+/// apart or the same where it turns around: any fault may lose the motion.
+const char* const kOfLoad[] = {
+    "no stereo pair", "stereo pairs arrive again", "have no partner", "lost:"};
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
