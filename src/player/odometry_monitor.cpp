@@ -35,28 +35,30 @@ void OdometryMonitor::restart() {
 std::string OdometryMonitor::summary() const {
   std::lock_guard<std::mutex> lock(mutex_);
   std::ostringstream text;
-  text << pairs_expected_ << " pairs played, " << pairs_received_ << " with odometry, "
-       << pairs_lost_ << " lost, " << pairs_expected_ - pairs_received_ << " dropped, "
-       << std::fixed << std::setprecision(1) << latency_sum_.count() / std::max(pairs_received_, 1)
-       << " ms from pair to odometry";
+  text << pairs_expected_ << " pairs played, " << pairs_answered_ << " answered, " << pairs_lost_
+       << " lost, " << pairs_expected_ - pairs_answered_ << " dropped, " << std::fixed
+       << std::setprecision(1) << latency_sum_.count() / std::max(pairs_answered_, 1)
+       << " ms from pair to answer";
   return text.str();
 }
 
-void OdometryMonitor::onOdometry(const nav_msgs::Odometry::ConstPtr& message) {
+void OdometryMonitor::onAnswer(const ros::Time& stamp) {
   {
     std::lock_guard<std::mutex> lock(mutex_);
-    const auto sent = pending_.find(message->header.stamp);
+    const auto sent = pending_.find(stamp);
     if (sent == pending_.end()) return;
     latency_sum_ += WallClock::now() - sent->second;
-    ++pairs_received_;
+    ++pairs_answered_;
     pending_.erase(pending_.begin(), std::next(sent));  // earlier ones will not arrive any more
   }
   received_.notify_all();
 }
 
 void OdometryMonitor::onStatus(const OdometryStatus::ConstPtr& message) {
+  if (message->state != OdometryStatus::LOST) return;
+  onAnswer(message->header.stamp);
   std::lock_guard<std::mutex> lock(mutex_);
-  if (message->state == OdometryStatus::LOST) ++pairs_lost_;
+  ++pairs_lost_;
 }
 
 }  // namespace rotrocc

@@ -91,7 +91,7 @@ class KittiLaunchTest : public ::testing::Test {
     EXPECT_TRUE(poses(live) == poses(readFile(directory_ / "offline.txt")));
     EXPECT_EQ(readTrajectory(directory_ / "truth.txt").size(), static_cast<std::size_t>(pairs));
     const std::string played = std::to_string(pairs) + " pairs played, " + std::to_string(pairs) +
-                               " with odometry, 0 lost, 0 dropped";
+                               " answered, 0 lost, 0 dropped";
     EXPECT_NE(launch.output.find(played), std::string::npos) << launch.output;
   }
 

@@ -27,6 +27,7 @@
 
 #include "bags/sequence_bag_writer.h"
 #include "input/stereo_synchronizer.h"
+#include "rotrocc/OdometryStatus.h"
 #include "rotrocc/kitti.h"
 #include "support/asl_folder.h"
 #include "support/expect_error.h"
@@ -47,7 +48,9 @@ constexpr int kPairs = 6;  // at 10 Hz
 /// stamp.
 class Listener {
  public:
-  explicit Listener(ros::NodeHandle nh) : odom_(nh.advertise<nav_msgs::Odometry>("odom", 10)) {
+  explicit Listener(ros::NodeHandle nh)
+      : odom_(nh.advertise<nav_msgs::Odometry>("odom", 10)),
+        status_(nh.advertise<OdometryStatus>("status", 10)) {
     count<sensor_msgs::CameraInfo>(nh, "left/camera_info");
     count<sensor_msgs::CameraInfo>(nh, "right/camera_info");
     count<geometry_msgs::PoseStamped>(nh, "ground_truth/pose");
@@ -81,6 +84,9 @@ class Listener {
   /// From now on, pairs are not answered.
   void fallSilent() { silent_ = true; }
 
+  /// From now on, pairs are lost, and as with the parameter while_lost silent have no odometry.
+  void loseAll() { lost_ = true; }
+
  private:
   template <typename Message>
   void count(ros::NodeHandle& nh, const std::string& topic) {
@@ -105,17 +111,23 @@ class Listener {
 
   void answer(const std::optional<StereoImages>& pair) {
     if (!pair || silent_) return;
+    if (lost_) {
+      OdometryStatus status;
+      status.header.stamp = pair->left->header.stamp;
+      status.state = OdometryStatus::LOST;
+      return status_.publish(status);
+    }
     nav_msgs::Odometry odometry;
     odometry.header.stamp = pair->left->header.stamp;
     odom_.publish(odometry);
   }
 
-  ros::Publisher odom_;
+  ros::Publisher odom_, status_;
   mutable std::mutex mutex_;
   std::map<std::string, int> counts_;
   std::vector<ros::Time> left_stamps_;
   StereoSynchronizer synchronizer_{0.01, 10};
-  std::atomic<bool> silent_{false};
+  std::atomic<bool> silent_{false}, lost_{false};
   std::vector<ros::Subscriber> subscribers_;
 };
 
@@ -282,6 +294,15 @@ TEST_F(KittiPlayerTest, GoesOnWithoutOdometryAfterTheTimeout) {
   playToTheEnd(listener);
   EXPECT_GE(std::chrono::steady_clock::now() - begin, kPairs * milliseconds(100));
   EXPECT_TRUE(waitUntil([&] { return listener.leftStamps().size() == kPairs; }));
+}
+
+/// Otherwise it would wait for lockstep_timeout_s at each of them.
+TEST_F(KittiPlayerTest, TheStatusAnswersALostPair) {
+  writeOwnBag();
+  Listener listener(nh_);
+  listener.loseAll();
+  playToTheEnd(listener);
+  EXPECT_EQ(listener.leftStamps().size(), static_cast<std::size_t>(kPairs));
 }
 
 TEST_F(KittiPlayerTest, PausesByService) {

@@ -67,7 +67,7 @@ TEST_F(DemoTest, ReplaysADriveWhileItIsRenderedAndKeepsIt) {
     EXPECT_NE(run.output.find(part), std::string::npos) << part << " in " << run.output;
   };
   expectPart(first, "replaying the drive while it is being rendered");
-  expectPart(first, "12 pairs played, 12 with odometry");
+  expectPart(first, "12 pairs played, 12 answered");
   expectPart(first, ", 0 dropped");
   expectPart(first, "\naccuracy    translation");
   expectPart(first, "/report/index.html\ntry next\n");
@@ -76,7 +76,7 @@ TEST_F(DemoTest, ReplaysADriveWhileItIsRenderedAndKeepsIt) {
   const CommandResult second = runCommand(demo(options));
   EXPECT_EQ(second.status, 0) << second.output;
   EXPECT_EQ(second.output.find("rendered"), std::string::npos) << second.output;
-  expectPart(second, "12 pairs played, 12 with odometry");
+  expectPart(second, "12 pairs played, 12 answered");
 }
 
 TEST_F(DemoTest, LeavesNothingWhenItIsInterrupted) {
