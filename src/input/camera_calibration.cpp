@@ -15,7 +15,9 @@ using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 constexpr double kMaxMismatch_px = 0.1;   // of fx, fy and cy between rectified cameras
 constexpr double kMaxOffRowShare = 0.05;  // of the baseline that may be along y
-constexpr double kMaxSize_px = 1e6;       // keeps sizes in the range of int
+/// Relative difference of a number in camera_info: thousandths of a pixel for a focal length.
+constexpr double kSameNumber = 1e-6;
+constexpr double kMaxSize_px = 1e6;  // keeps sizes in the range of int
 constexpr double kSmallBaseline_m = 0.005;
 constexpr double kGreatBaseline_m = 10.0;
 
@@ -158,11 +160,18 @@ double shiftOf(const StereoCamera& camera) {
   return product;
 }
 
-/// Whether two messages describe the same camera.
+template <class Numbers>
+bool areSame(const Numbers& a, const Numbers& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) {
+    return std::abs(x - y) <= kSameNumber * std::abs(x);
+  });
+}
+
+/// Whether two messages describe the same camera, up to what no pixel shows.
 bool isSameCamera(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo& b) {
   return a.width == b.width && a.height == b.height && a.distortion_model == b.distortion_model &&
-         a.D == b.D && a.K == b.K && a.R == b.R && a.P == b.P && a.binning_x == b.binning_x &&
-         a.binning_y == b.binning_y && a.roi == b.roi;
+         areSame(a.D, b.D) && areSame(a.K, b.K) && areSame(a.R, b.R) && areSame(a.P, b.P) &&
+         a.binning_x == b.binning_x && a.binning_y == b.binning_y && a.roi == b.roi;
 }
 
 }  // namespace

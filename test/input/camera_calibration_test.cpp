@@ -121,6 +121,9 @@ TEST(CurrentCalibrationTest, IsTheSameUntilACameraChanges) {
   EXPECT_EQ(first->left.fx, 350.0);
   EXPECT_EQ(first->rectified.baseline_m, 0.5);
   EXPECT_EQ(current.of(makeInfo(2.0, 0.0), makeInfo(2.0, 0.5)), first);
+  const auto refined = makeInfo(2.5, 0.5);
+  refined->K[0] *= 1.0 + 1e-9;
+  EXPECT_EQ(current.of(makeInfo(2.5, 0.0), refined), first) << "the same for each pixel";
   const auto changed = makeInfo(3.0, 0.5);
   changed->D[0] = -0.2;
   const auto second = current.of(makeInfo(3.0, 0.0), changed);
