@@ -19,10 +19,7 @@ void DropLog::log(const InputError& error) {
     log_.error(std::string("no calibration: ") + error.what());
     return;
   }
-  Throttle& throttle =
-      throttles_.try_emplace(error.reason(), std::chrono::seconds(5), std::chrono::minutes(5))
-          .first->second;
-  if (!throttle.pass()) return;
+  if (!throttles_[error.reason()].pass()) return;
   log_.warn(std::string("dropped (") + toString(error.reason()) + ", " +
             toText(countOf(error.reason())) + " so far): " + error.what());
 }
@@ -46,7 +43,7 @@ DropLog::Counts DropLog::counts() const {
   return counts;
 }
 
-std::optional<InputError> DropLog::lastWithin(std::chrono::seconds age) const {
+std::optional<InputError> DropLog::lastWithin(std::chrono::duration<double> age) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (last_ && std::chrono::steady_clock::now() - last_time_ > age) return std::nullopt;
   return last_;

@@ -16,8 +16,8 @@
 
 namespace rotrocc {
 
-/// Counts dropped input by reason and logs it: each reason at most every 5 s, then more and more
-/// seldom, an invalid camera_info once until there is a valid one. Thread-safe.
+/// Counts dropped input by reason and logs it: each reason at once, then more and more seldom,
+/// an invalid camera_info once until there is a valid one. Thread-safe.
 class DropLog {
  public:
   using Counts = std::vector<std::pair<DropReason, std::uint64_t>>;
@@ -34,7 +34,7 @@ class DropLog {
   Counts counts() const;
 
   /// The last drop, if it is not older than `age`.
-  std::optional<InputError> lastWithin(std::chrono::seconds age) const;
+  std::optional<InputError> lastWithin(std::chrono::duration<double> age) const;
 
   /// A valid camera_info: the next invalid one is logged again, even if it is the same.
   void forgetCameraError();

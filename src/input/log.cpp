@@ -24,6 +24,15 @@ LogLocation& locationOf(const std::string& name, Log::Level level) {
   return location;
 }
 
+/// A fault without its numbers.
+std::string causeOf(const std::string& fault) {
+  std::string cause;
+  for (const char c : fault) {
+    if (std::isdigit(static_cast<unsigned char>(c)) == 0) cause += c;
+  }
+  return cause;
+}
+
 }  // namespace
 
 void Log::write(Level level, const std::string& text, const Caller& caller) const {
@@ -54,13 +63,16 @@ bool Throttle::pass(Time now) {
 }
 
 bool FaultThrottle::pass(const std::string& fault, Throttle::Time now) {
-  constexpr std::chrono::seconds kFirst(5);
-  constexpr std::chrono::minutes kLongest(5);
-  std::string cause;
-  for (const char c : fault) {
-    if (std::isdigit(static_cast<unsigned char>(c)) == 0) cause += c;
+  return throttles_[causeOf(fault)].pass(now);
+}
+
+std::string LastingFault::observe(const std::string& fault, Throttle::Time now) {
+  const std::string cause = causeOf(fault);
+  if (cause != cause_) {
+    cause_ = cause;
+    since_ = now;
   }
-  return throttles_.try_emplace(cause, kFirst, kLongest).first->second.pass(now);
+  return now - since_ > window_ ? fault : "";
 }
 
 }  // namespace rotrocc

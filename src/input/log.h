@@ -29,6 +29,7 @@ class Log {
   explicit Log(const std::string& name = "") : name_(name) {}
 
   using Level = ros::console::Level;
+  void write(Level level, const std::string& text, const Caller& caller = {}) const;
   void info(const std::string& text, const Caller& caller = {}) const {
     write(Level::Info, text, caller);
   }
@@ -43,8 +44,6 @@ class Log {
   }
 
  private:
-  void write(Level level, const std::string& text, const Caller& caller) const;
-
   std::string name_;
 };
 
@@ -54,13 +53,14 @@ class Throttle {
  public:
   using Duration = std::chrono::milliseconds;
 
-  /// The period doubles up to `longest`, if there is one, until there is no call for `period`.
-  explicit Throttle(Duration period, std::optional<Duration> longest = {})
-      : first_(period), longest_(longest.value_or(period)) {}
+  /// Of a fault: after 30 s, and while it lasts, more and more seldom up to each 5 minutes.
+  Throttle() : first_(std::chrono::seconds(30)), longest_(std::chrono::minutes(5)) {}
+  explicit Throttle(Duration period) : first_(period), longest_(period) {}
 
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Whether the period has passed since this returned true.
+  /// Whether the period has passed since this returned true. It doubles if it is to grow, until
+  /// there is no call for as long as the first one.
   bool pass(Time now = std::chrono::steady_clock::now());
 
  private:
@@ -69,14 +69,30 @@ class Throttle {
   Time not_before_;
 };
 
-/// Tells faults that last: each at once, then more and more seldom. Those that differ in numbers
-/// only are one.
+/// A throttle for each fault. Those that differ in numbers only are one.
 class FaultThrottle {
  public:
   bool pass(const std::string& fault, Throttle::Time now = std::chrono::steady_clock::now());
 
  private:
   std::map<std::string, Throttle> throttles_;
+};
+
+/// Holds a fault back until it has been there without a break for longer than the windows of time
+/// that show it, which at first also have what was before.
+class LastingFault {
+ public:
+  explicit LastingFault(Throttle::Duration window) : window_(window) {}
+
+  /// The fault of now if it lasts; otherwise empty. To be called with what there is, also if that
+  /// is nothing.
+  std::string observe(const std::string& fault,
+                      Throttle::Time now = std::chrono::steady_clock::now());
+
+ private:
+  Throttle::Duration window_;
+  std::string cause_;
+  Throttle::Time since_;
 };
 
 }  // namespace rotrocc

@@ -1,7 +1,9 @@
 #include "input/silence_watch.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "common/to_seconds.h"
 #include "input/to_text.h"
 
 namespace rotrocc {
@@ -38,27 +40,26 @@ std::string situationOf(const InputReport& input) {
 
 }  // namespace
 
-SilenceWatch::SilenceWatch(double silence_s, Time now)
-    : silence_limit_(silence_s), last_pair_(now), last_return_(now) {}
+SilenceWatch::SilenceWatch(double silence_s, Time now, Log log)
+    : log_(std::move(log)), silence_limit_(silence_s), last_pair_(now), last_warning_(now) {}
 
-std::string SilenceWatch::onPair(std::int64_t stamp_ns, Time now) {
-  const Duration silence = now - last_pair_;
-  const bool may_tell = now - last_return_ >= kLeastDistance;
-  std::string said;
-  if (told_ || (isGap(silence) && may_tell)) {
-    said = "stereo pairs arrive again, after " + seconds(silence);
-  } else if (last_stamp_ns_ && silence < kLeastJump && may_tell &&
-             toSeconds(stamp_ns - *last_stamp_ns_) > Duration(kLeastJump).count()) {
-    said = "time jumped forward from " + stampText(*last_stamp_ns_) + " to " + stampText(stamp_ns) +
-           " s: the odometry goes on at the last pose";
+void SilenceWatch::onPair(const Pair& pair, bool explains, Time now) {
+  const Duration gap = silence(now);
+  const std::string again = "stereo pairs arrive again, after " + seconds(gap);
+  const bool may_warn = now - last_warning_ >= kLeastDistance;
+  if (std::exchange(told_, false)) {
+    log_.info(again);
+  } else if (may_warn && ((isGap(gap) && !explains) || isJump(pair, gap))) {
+    last_warning_ = now;
+    log_.warn(isGap(gap)
+                  ? again
+                  : "time jumped forward from " + stampText(last_->stamp_ns) + " to " +
+                        stampText(pair.stamp_ns) + " s: the odometry goes on at the last pose");
   }
-  if (!said.empty()) last_return_ = now;
-  last_stamp_ns_ = stamp_ns;
-  told_ = false;
+  last_ = pair;
   last_pair_ = now;
-  intervals_.push_back(silence);
+  intervals_.push_back(gap);
   if (intervals_.size() > kIntervals) intervals_.pop_front();
-  return said;
 }
 
 bool SilenceWatch::isGap(Duration silence) const {
@@ -69,12 +70,20 @@ bool SilenceWatch::isGap(Duration silence) const {
   return silence >= kUsualIntervals * *median;
 }
 
-std::string SilenceWatch::onTick(const InputReport& input, Time now) {
-  if (input.clock_stands || now - last_pair_ < silence_limit_) return {};
+/// Whether stamps and clock jumped forward by more than the time that passed.
+bool SilenceWatch::isJump(const Pair& pair, Duration passed) const {
+  if (!last_ || passed >= kLeastJump) return false;
+  const Duration step(toSeconds(pair.stamp_ns - last_->stamp_ns));
+  const Duration ahead_of_clock(last_->stamp_age_s - pair.stamp_age_s);
+  return step > kLeastJump && 2.0 * ahead_of_clock < step;
+}
+
+void SilenceWatch::onTick(const InputReport& input, Time now) {
+  if (input.clock_stands || silence(now) < silence_limit_) return;
   const std::string situation = situationOf(input);
   if (told_) {
     const bool is_news = situation != situation_;
-    if (now - last_told_ < (is_news ? kLeastDistance : reminder_)) return {};
+    if (now - last_told_ < (is_news ? kLeastDistance : reminder_)) return;
     if (!is_news) reminder_ = std::min(2 * reminder_, kLastReminder);
   } else {
     reminder_ = kFirstReminder;
@@ -83,9 +92,8 @@ std::string SilenceWatch::onTick(const InputReport& input, Time now) {
   last_told_ = now;
   situation_ = situation;
   const std::string why = whyNoPairs(input);
-  return "no stereo pair for " + seconds(now - last_pair_) +
-         ". Messages in the last 5 s: " + describeTopics(input) +
-         (why.empty() ? "" : ". Likely: ") + why;
+  log_.warn("no stereo pair for " + seconds(silence(now)) + ". Messages in the last 5 s: " +
+            describeTopics(input) + (why.empty() ? "" : ". Likely: ") + why);
 }
 
 }  // namespace rotrocc

@@ -45,7 +45,8 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
                   parameters_.trajectory_file,
                   parameters_.trajectory_format,
                   log_),
-      silence_(parameters_.silence_s, SteadyClock::now()) {
+      loss_log_(log_),
+      silence_(parameters_.silence_s, SteadyClock::now(), log_) {
   if (!parameters_.guess_frame.empty()) {
     guess_.emplace(parameters_.guess_frame,
                    parameters_.base_frame,
@@ -90,9 +91,10 @@ StereoOdometry::~StereoOdometry() {
 }
 
 void StereoOdometry::onPair(ReceivedPair pair) {
+  const SteadyClock::time_point now = SteadyClock::now();
   const std::int64_t stamp_ns = toNanoseconds(pair.images.left->header.stamp);
-  const std::string said = silence_.onPair(stamp_ns, SteadyClock::now());
-  if (!said.empty()) log_.warn(said);
+  const bool drops_explain_it = drops_.lastWithin(silence_.silence(now)).has_value();
+  silence_.onPair({stamp_ns, pair.stamp_age_s}, drops_explain_it, now);
   if (health_.paused()) return drops_.count(DropReason::kPaused);
   if (mailbox_.put(std::move(pair))) drops_.count(DropReason::kSuperseded);
 }
@@ -106,14 +108,10 @@ void StereoOdometry::onTick(const ros::WallTimerEvent&) {
     if (!report.answers || report.paused) {
       publisher_.publishStatus(toIdleStatus(report.status, ros::Time::now()));
     }
-    if (!report.input_fault.empty() && input_warning_.pass(report.input_fault)) {
-      log_.warn(report.input_fault);
+    for (const std::string& fault : {report.input_fault, report.rig_fault}) {
+      if (!fault.empty() && warning_.pass(fault)) log_.warn(fault);
     }
-    if (!report.rig_fault.empty() && report.answers && rig_warning_.pass()) {
-      log_.warn(report.rig_fault);
-    }
-    const std::string said = silence_.onTick(report.input, SteadyClock::now());
-    if (!said.empty()) log_.warn(said);
+    silence_.onTick(report.input, SteadyClock::now());
   } catch (const std::exception& error) {
     log_.error(std::string("diagnostics: ") + error.what());
   }
@@ -227,18 +225,7 @@ void StereoOdometry::followUp(const PairAnswer& answer, OdometryStatus& status) 
   status = health_.addAnswer(status, camera_fault, tf_trouble, drops_);
   publisher_.publishStatus(status);
   publisher_.publishPath(answer.state, answer.starts_trajectory);
-  log(status, camera_fault);
-}
-
-void StereoOdometry::log(const OdometryStatus& status, const std::string& camera_fault) {
-  const bool was_lost = std::exchange(lost_, status.state == OdometryStatus::LOST);
-  if (lost_ && !was_lost && warning_.pass("lost: " + status.reason)) {
-    log_.warn("lost: " + status.reason);
-    loss_is_told_ = true;
-  } else if (!lost_ && std::exchange(loss_is_told_, false)) {
-    log_.info(std::string("recovered: ") + stateName(status.state));
-  }
-  if (!camera_fault.empty() && warning_.pass(camera_fault)) log_.warn(camera_fault);
+  loss_log_.observe(status, camera_fault);
 }
 
 }  // namespace rotrocc

@@ -15,6 +15,7 @@
 #include "node/base/pair_processor.h"
 #include "node/gyro/gyro_input.h"
 #include "node/health/diagnostics.h"
+#include "node/health/loss_log.h"
 #include "node/health/odometry_health.h"
 #include "node/live_parameters.h"
 #include "node/odometry_publisher.h"
@@ -64,7 +65,6 @@ class StereoOdometry {
                const Eigen::Isometry3d& T_base_camera);
   std::chrono::steady_clock::time_point publishMotion(const PairAnswer& answer);
   void followUp(const PairAnswer& answer, OdometryStatus& status);
-  void log(const OdometryStatus& status, const std::string& camera_fault);
 
   Log log_;
   NodeParameters parameters_;
@@ -77,13 +77,9 @@ class StereoOdometry {
   OdometryPublisher publisher_;
   TrajectoryStore trajectory_;
 
-  // Of the worker.
-  bool lost_ = false;          // at the last pair
-  bool loss_is_told_ = false;  // and not yet the recovery
-  FaultThrottle warning_;
-  Throttle rig_warning_{std::chrono::minutes(5)};
+  LossLog loss_log_;  // of the worker
   // Of the callbacks.
-  FaultThrottle input_warning_;
+  FaultThrottle warning_;
   SilenceWatch silence_;
 
   LatestMailbox<ReceivedPair> mailbox_;

@@ -68,7 +68,7 @@ class TrajectoryStore {
   std::size_t max_length_;
   std::string path_;
   TrajectoryFormat format_;
-  Throttle left_out_warning_{std::chrono::seconds(5), std::chrono::minutes(5)};
+  Throttle left_out_warning_;
 
   mutable std::mutex mutex_;  // of what follows, up to the empty line
   std::condition_variable changed_;

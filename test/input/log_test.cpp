@@ -25,9 +25,9 @@ Seconds passes(Throttle& throttle, int begin_s, int end_s) {
 TEST(ThrottleTest, WhatLastsIsToldMoreAndMoreSeldom) {
   Throttle even(seconds(5));
   EXPECT_EQ(passes(even, 100, 120), (Seconds{100, 105, 110, 115}));
-  Throttle seldom(seconds(5), seconds(30));
-  EXPECT_EQ(passes(seldom, 100, 200), (Seconds{100, 105, 115, 135, 165, 195}));
-  EXPECT_EQ(passes(seldom, 205, 215), (Seconds{205, 210})) << "it was away";
+  Throttle seldom;
+  EXPECT_EQ(passes(seldom, 100, 1300), (Seconds{100, 130, 190, 310, 550, 850, 1150}));
+  EXPECT_EQ(passes(seldom, 1330, 1370), (Seconds{1330, 1360})) << "it was away";
 }
 
 TEST(FaultThrottleTest, EachFaultIsToldAtOnce) {
@@ -36,7 +36,21 @@ TEST(FaultThrottleTest, EachFaultIsToldAtOnce) {
   EXPECT_TRUE(throttle.pass("frozen for 10 pairs", now));
   EXPECT_FALSE(throttle.pass("frozen for 11 pairs", now));
   EXPECT_TRUE(throttle.pass("dark", now));
-  EXPECT_TRUE(throttle.pass("frozen for 60 pairs", now + seconds(5)));
+  EXPECT_TRUE(throttle.pass("frozen for 400 pairs", now + seconds(30)));
+}
+
+TEST(LastingFaultTest, WhatIsShorterThanTheWindowOrBreaksOffIsHeldBack) {
+  LastingFault fault(seconds(5));
+  const auto at = [&](int now_s, const char* text) {
+    return fault.observe(text, Throttle::Time(seconds(now_s)));
+  };
+  EXPECT_EQ(at(10, "3 lost"), "");
+  EXPECT_EQ(at(15, "4 lost"), "");
+  EXPECT_EQ(at(16, "5 lost"), "5 lost") << "since 10 s, whatever the number";
+  EXPECT_EQ(at(17, ""), "");
+  EXPECT_EQ(at(18, "5 lost"), "");
+  EXPECT_EQ(at(24, "stamps apart"), "") << "another one";
+  EXPECT_EQ(at(30, "stamps apart"), "stamps apart");
 }
 
 TEST(LogTest, EachNodeletHasALoggerAndEachLineItsCaller) {

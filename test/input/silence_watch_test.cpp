@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/log_recorder.h"
+
 namespace rotrocc {
 namespace {
 
@@ -26,7 +28,8 @@ class SilenceWatchTest : public testing::Test {
     std::vector<int> said_s;
     for (const int end_s = now_s_ + seconds; now_s_ < end_s;) {
       ++now_s_;
-      const std::string said = watch_.onTick(input_, now());
+      watch_.onTick(input_, now());
+      const std::string said = logged();
       if (said.empty()) continue;
       said_s.push_back(now_s_);
       said_ = said;
@@ -34,7 +37,18 @@ class SilenceWatchTest : public testing::Test {
     return said_s;
   }
 
-  std::string pair() { return watch_.onPair(stamp_ns_ += 100'000'000, now()); }
+  std::string pair() {
+    watch_.onPair({stamp_ns_ += 100'000'000, stamp_age_s_}, is_explained_, now());
+    return logged();
+  }
+
+  /// Since the last call.
+  std::string logged() {
+    const auto lines = recorder_.with("", ros::console::levels::Info);
+    std::string added;
+    for (; logged_ < lines.size(); ++logged_) added += lines[logged_];
+    return added;
+  }
 
   /// Pairs at a rate for some seconds; what is said at one of them.
   std::string pairs(double rate_hz, double length_s) {
@@ -54,8 +68,12 @@ class SilenceWatchTest : public testing::Test {
   int now_s_ = 0;
   double fraction_s_ = 0.0;
   std::int64_t stamp_ns_ = 0;
+  double stamp_age_s_ = 0.1;
+  bool is_explained_ = false;
   InputReport input_;
-  SilenceWatch watch_{5.0, now()};
+  LogRecorder recorder_;
+  std::size_t logged_ = 0;
+  SilenceWatch watch_{5.0, now(), Log()};
   std::string said_;
 };
 
@@ -89,6 +107,9 @@ TEST_F(SilenceWatchTest, TellsAGapAtItsEnd) {
   fraction_s_ += 3.0;
   EXPECT_EQ(pair(), "stereo pairs arrive again, after 3.0 s");
   EXPECT_EQ(pairs(10.0, 10.0), "");
+  fraction_s_ += 3.0;
+  is_explained_ = true;
+  EXPECT_EQ(pair(), "");
 }
 
 TEST_F(SilenceWatchTest, TellsThatTheStampsJumpedForwardIfNoGapDoes) {
@@ -102,6 +123,10 @@ TEST_F(SilenceWatchTest, TellsThatTheStampsJumpedForwardIfNoGapDoes) {
   stamp_ns_ += 7'000'000'000;
   fraction_s_ += 7.0;
   EXPECT_EQ(pairs(10.0, 1.0), "stereo pairs arrive again, after 7.1 s");
+  EXPECT_EQ(pairs(10.0, 10.0), "");
+  stamp_ns_ += 7'000'000'000;
+  stamp_age_s_ -= 7.0;
+  EXPECT_EQ(pairs(10.0, 1.0), "") << "the clock did not jump";
 }
 
 TEST_F(SilenceWatchTest, ManyGapsAreNoStream) {

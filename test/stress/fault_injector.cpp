@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace rotrocc {
 namespace {
 
-constexpr int kStretch = 30;  // pairs
-constexpr int kSilence = 75;  // pairs at 10 Hz, longer than silence_s
+constexpr int kStretch = 30;   // pairs
+constexpr int kSilence = 75;   // pairs at 10 Hz, longer than silence_s
+constexpr int kLasting = 100;  // longer than the 5 s of the statistics, and what lasts for 5 s
+const char* const kFrameChanged = "frame_id of the left images changed";
 
 double chance(std::mt19937& random) {
   return std::uniform_real_distribution<double>(0.0, 1.0)(random);
@@ -24,8 +27,19 @@ void fillBoth(StressPair& pair, unsigned char value) {
   fill(pair.right, value);
 }
 
-void shiftStamps(StressPair& pair, double shift_s) {
-  for (auto* image : {&pair.left, &pair.right}) image->header.stamp += ros::Duration(shift_s);
+/// To 10 of 16 bits, with a row of other data whose bits are all set.
+void widen(sensor_msgs::Image& image) {
+  std::vector<unsigned char> wide;
+  wide.reserve(2 * image.data.size());
+  for (std::size_t i = 0; i < image.data.size(); ++i) {
+    const unsigned value = i < image.step ? 0xffffu : 4u * image.data[i];
+    wide.push_back(static_cast<unsigned char>(value & 0xffu));
+    wide.push_back(static_cast<unsigned char>(value >> 8));
+  }
+  image.data = std::move(wide);
+  image.step *= 2;
+  image.encoding = "mono16";
+  image.is_bigendian = 0;
 }
 
 /// As if it were not rectified.
@@ -43,31 +57,37 @@ const std::vector<Fault>& faults() {
       {"30 % of the right images lost",
        {"have no partner"},
        [](auto& pair, auto& random) { pair.send_right = chance(random) >= 0.3; },
-       kStretch},
+       kStretch,
+       kLasting},
       {"stamp 0", {"has the stamp 0"}, [](auto& pair, auto&) { pair.left.header.stamp = {}; }},
       {"stamp of the future",
        {"ahead of the clock"},
        [](auto& pair, auto&) { pair.left.header.stamp = ros::TIME_MAX; }},
-      {"stamps of a glitch", {"a glitch"}, [](auto& pair, auto&) { shiftStamps(pair, 5.0); }, 1, 1},
+      {"stamps of a glitch",
+       {"a glitch"},
+       [](auto& pair, auto&) {
+         for (auto* image : {&pair.left, &pair.right}) image->header.stamp += ros::Duration(5.0);
+       },
+       1,
+       1},
       {"stamps apart",
-       {"stamps are 40 ms apart", "with the same jitter", "have no partner"},
+       {"trigger the cameras synchronously"},
        [](auto& pair, auto&) { pair.right.header.stamp += ros::Duration(0.04); },
        1,
        kSilence},
-      {"the cameras' clock 20 s behind",
-       {"behind the clock", "time jumped"},
-       [](auto& pair, auto&) { shiftStamps(pair, -20.0); },
+      {"the sensors' clock 20 s behind",
+       {"behind the clock", "time jumped back"},
+       [](auto& pair, auto&) { pair.clock_s = -20.0; },
        1,
-       60},
-      {"the cameras' clock 3 s ahead",
-       {"ahead of the clock", "time jumped"},
-       [](auto& pair, auto&) { shiftStamps(pair, 3.0); },
+       kLasting},
+      {"the sensors' clock 3 s ahead",
+       {"ahead of the clock", "time jumped back"},
+       [](auto& pair, auto&) { pair.clock_s = 3.0; },
        1,
-       60},
+       kLasting},
       {"data cut off",
        {"bytes of data"},
        [](auto& pair, auto&) { pair.left.data.resize(pair.left.data.size() / 2); }},
-      {"no data", {"bytes of data"}, [](auto& pair, auto&) { pair.right.data.clear(); }},
       {"unknown encoding",
        {"has the encoding"},
        [](auto& pair, auto&) { pair.left.encoding = "jpeg"; }},
@@ -89,16 +109,20 @@ const std::vector<Fault>& faults() {
            info->P[0] *= 1.0 + 1e-9 * chance(random);
          }
        }},
+      {"16-bit images with a row of other data",
+       {},
+       [](auto& pair, auto&) {
+         widen(pair.left);
+         widen(pair.right);
+       }},
       {"exchanged cameras",
-       {"swap their topics", "lost:"},
+       {"swap their topics"},
        [](auto& pair, auto&) { std::swap(pair.left.data, pair.right.data); }},
       {"images that are not rectified",
-       {"not rectified", "lost:"},
+       {"not rectified"},
        [](auto& pair, auto&) { moveDown(pair.right, 7); }},
-      {"black images", {"is it dark", "lost:"}, [](auto& pair, auto&) { fillBoth(pair, 0); }},
-      {"white left image",
-       {"overexposed", "lost:"},
-       [](auto& pair, auto&) { fill(pair.left, 255); }},
+      {"black images", {"is it dark"}, [](auto& pair, auto&) { fillBoth(pair, 0); }},
+      {"no data", {"bytes of data"}, [](auto& pair, auto&) { pair.right.data.clear(); }},
       {"frozen images", {"frozen"}, [](auto& pair, auto&) { pair.frozen = true; }},
       {"no images for a while",
        {"arrive again"},
@@ -107,6 +131,21 @@ const std::vector<Fault>& faults() {
        1},
       {"burst", {}, [](auto& pair, auto&) { pair.burst = true; }, 1, 1},
       {"a gap of 3 s", {"arrive again"}, [](auto& pair, auto&) { pair.gap_s = 3.0; }, 1, 1},
+      {"a mount that moves with 3 Hz of tf",
+       {"too seldom for the images", kFrameChanged},
+       [](auto& pair, auto&) { pair.on_head = true; },
+       kStretch,
+       kLasting},
+      {"another mount on /tf_static, and a reset",
+       {},
+       [](auto& pair, auto&) { pair.moved = true; },
+       1,
+       1},
+      {"no tf of guess_frame",
+       {"no tf from guess_frame"},
+       [](auto& pair, auto&) { pair.guess = false; },
+       kStretch},
+      {"white left image", {"overexposed"}, [](auto& pair, auto&) { fill(pair.left, 255); }},
       {"rival tf publisher",
        {"a frame has only one parent"},
        [](auto& pair, auto&) { pair.rival_tf = true; },

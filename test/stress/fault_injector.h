@@ -23,6 +23,10 @@ struct StressPair {
   bool burst = false;     ///< it and those after it are sent at once
   bool frozen = false;    ///< the images are those of the pair before
   bool rival_tf = false;  ///< another node publishes tf of the base
+  bool on_head = false;   ///< the cameras are on a head that moves, whose tf is too slow
+  bool moved = false;     ///< the mount is another one from now on, and the odometry is reset
+  bool guess = true;      ///< tf of guess_frame is sent
+  double clock_s = 0.0;   ///< by which the clock of all sensors is ahead
   std::string save_path;  ///< to which the trajectory is to be saved; kFifo, or empty
 };
 
@@ -36,7 +40,7 @@ struct Fault {
   std::vector<const char*> says;
   std::function<void(StressPair&, std::mt19937&)> change;
   int pairs = 1;           ///< for how many it lasts
-  int pairs_in_turn = 40;  ///< the same, if each fault has its turn
+  int pairs_in_turn = 40;  ///< the same, if each fault has its turn: until the log tells it
 };
 
 const std::vector<Fault>& faults();

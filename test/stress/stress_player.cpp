@@ -36,6 +36,8 @@ constexpr std::chrono::seconds kRest(6);
 constexpr std::chrono::seconds kTfLimit(20);
 constexpr std::chrono::seconds kSettleLimit(180);
 const char* const kCameraFrame = "stress_camera";
+const char* const kHeadFrame = "stress_head";
+constexpr unsigned kPairsPerHead = 3;
 
 /// Subscribes to all that the odometry publishes, and mostly stands still: then it does not read
 /// its sockets, as a computer behind a bad network. First it has the time to connect.
@@ -71,6 +73,7 @@ StressPlayer::StressPlayer(ros::NodeHandle& nh, const StressOptions& options)
 void StressPlayer::read() {
   const auto recording = openRecording({options_.recording});
   recording->select(recording->begin(), recording->end(), false);
+  truth_ = recording->truth();
   StereoSynchronizer synchronizer(kMaxStampDifference_s, kQueueSize);
   RecordedMessage message;
   while (recording_.size() < kPairs && recording->next(message)) {
@@ -89,6 +92,9 @@ void StressPlayer::read() {
   }
   if (recording_.size() < 2) {
     throw std::runtime_error(options_.recording + " has no two stereo pairs");
+  }
+  if (!options_.guess_frame.empty() && truth_.poses.size() < recording_.size()) {
+    throw std::runtime_error(options_.recording + " has no true path for guess_frame");
   }
   const ros::Duration length =
       recording_.back().left.header.stamp - recording_.front().left.header.stamp;
@@ -126,7 +132,7 @@ bool StressPlayer::run() {
     }
     const auto forth = static_cast<std::size_t>(i % loop);
     const std::size_t back = static_cast<std::size_t>(loop) - forth;
-    send(recording_[std::min(forth, back)], stamp);
+    send(std::min(forth, back), stamp);
     if (with_faults && !options_.in_turn && i % kPairsPerCall == kPairsPerCall - 1) callServices();
     next_ += period;
     if (burst_left_ > 0) {
@@ -149,8 +155,11 @@ bool StressPlayer::ended() const {
   return options_.in_turn && faults_.finished() && !was_faulty_ && audit_.recovered();
 }
 
-void StressPlayer::send(StressPair pair, ros::Time& stamp) {
+void StressPlayer::send(std::size_t index, ros::Time& stamp) {
+  StressPair pair = recording_[index];
   setStamp(stamp, pair);
+  // Noise: where it turns around, the pair after a dropped one would be that before it.
+  pair.left.data[0] = pair.right.data[0] = static_cast<unsigned char>(++pairs_sent_);
   const Fault* before = was_faulty_ ? faults_.current() : nullptr;
   const bool is_faulty = faults_.apply(pair, mayBegin());
   if (is_faulty && faults_.current() != before) audit_.beginFault(*faults_.current());
@@ -159,13 +168,16 @@ void StressPlayer::send(StressPair pair, ros::Time& stamp) {
     fault_end_ = steady_clock::now();
   }
   was_faulty_ = is_faulty;
+  if (pair.on_head) pair.left.header.frame_id = kHeadFrame;
   if (pair.frozen) {
     pair.left.data = sent_.left.data;
     pair.right.data = sent_.right.data;
   }
   audit_.expect(stamp, std::uint64_t{pair.send_left} + std::uint64_t{pair.send_right});
+  const ros::Duration ahead(pair.clock_s);
+  publishTf(pair, index, stamp + ahead);
+  for (auto* image : {&pair.left, &pair.right}) image->header.stamp += ahead;
   publish(pair);
-  if (pair.rival_tf) publishRival(stamp);
   if (!pair.save_path.empty()) save(pair.save_path == kFifo ? fifo_ : pair.save_path);
   stamp += step_ + ros::Duration(pair.gap_s);
   pauseAfter(pair);
@@ -213,14 +225,45 @@ bool StressPlayer::tfIsLate() const {
   return audit_.logged("no tf from base_link") || steady_clock::now() > begin_ + kTfLimit;
 }
 
-void StressPlayer::publishMount() {
+void StressPlayer::publishMount(double height_m) {
   has_mount_ = true;
-  mount_broadcaster_.sendTransform(toTransform(kittiMount(), 0, "base_link", kCameraFrame));
+  const Eigen::Isometry3d T_base_camera = Eigen::Translation3d(0, 0, height_m) * kittiMount();
+  mount_broadcaster_.sendTransform(toTransform(T_base_camera, 0, "base_link", kCameraFrame));
 }
 
-void StressPlayer::publishRival(const ros::Time& stamp) {
-  tf_broadcaster_.sendTransform(
-      toTransform(Eigen::Isometry3d::Identity(), toNanoseconds(stamp), "rival_odom", "base_link"));
+void StressPlayer::publishTf(const StressPair& pair, std::size_t index, const ros::Time& stamp) {
+  const std::int64_t stamp_ns = toNanoseconds(stamp);
+  const std::string& guess_frame = options_.guess_frame;
+  if (!guess_frame.empty() && pair.guess) {
+    geometry_msgs::TransformStamped guess;
+    guess.header.stamp = stamp;
+    guess.header.frame_id = guess_frame;
+    guess.child_frame_id = "base_link";
+    const geometry_msgs::Pose& pose = truth_.poses[index].pose;
+    guess.transform.translation.x = pose.position.x;
+    guess.transform.translation.y = pose.position.y;
+    guess.transform.translation.z = pose.position.z;
+    guess.transform.rotation = pose.orientation;
+    tf_broadcaster_.sendTransform(guess);
+  }
+  if (pair.rival_tf) {
+    tf_broadcaster_.sendTransform(toTransform(Eigen::Isometry3d::Identity(),
+                                              stamp_ns,
+                                              "rival_odom",
+                                              guess_frame.empty() ? "base_link" : guess_frame));
+  }
+  if (pair.on_head && pairs_sent_ % kPairsPerHead == 0) {
+    const double pan_rad = 1e-3 * (pairs_sent_ / kPairsPerHead % 2);
+    const Eigen::Isometry3d T_base_head =
+        Eigen::AngleAxisd(pan_rad, Eigen::Vector3d::UnitZ()) * kittiMount();
+    tf_broadcaster_.sendTransform(toTransform(T_base_head, stamp_ns, "base_link", kHeadFrame));
+  }
+  if (pair.moved) {
+    publishMount(0.1);
+    ++calls_;
+    std_srvs::Trigger reset;
+    if (!services_.call("reset", reset)) ++failed_calls_;
+  }
 }
 
 void StressPlayer::publish(const StressPair& pair) {

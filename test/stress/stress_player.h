@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <nav_msgs/Path.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <tf2_ros/static_transform_broadcaster.h>
@@ -24,6 +25,7 @@ struct StressOptions {
   double duration_s = 60.0;   ///< of the whole run
   double fault_share = 0.05;  ///< of the pairs that get a fault; 0: none, and no restart of stamps
   bool in_turn = false;       ///< each fault once instead, the next after a recovery
+  std::string guess_frame;    ///< parent of base_link in tf, from the true path; empty: no tf
   unsigned seed = 1;          ///< same seed, same faults
 };
 
@@ -46,18 +48,19 @@ class StressPlayer {
   void waitForOdometry();
   bool ended() const;
   bool mayBegin() const;
-  void send(StressPair pair, ros::Time& stamp);
+  void send(std::size_t index, ros::Time& stamp);
   void publish(const StressPair& pair);
   void pauseAfter(const StressPair& pair);
   void settle(ros::Time& stamp);
   bool tfIsLate() const;
-  void publishMount();
-  void publishRival(const ros::Time& stamp);
+  void publishMount(double height_m = 0.0);
+  void publishTf(const StressPair& pair, std::size_t index, const ros::Time& stamp);
   void callServices();
   void save(const std::string& path);
 
   StressOptions options_;
   std::vector<StressPair> recording_;
+  nav_msgs::Path truth_;
   StressPair sent_;     // last
   ros::Duration step_;  // of the stamps, as recorded whatever the rate: the speed stays plausible
   FaultInjector faults_;
@@ -67,6 +70,7 @@ class StressPlayer {
   std::chrono::steady_clock::time_point begin_, next_, end_, fault_end_;
   int burst_left_ = 0;
   bool was_faulty_ = false;
+  unsigned pairs_sent_ = 0;
   bool has_mount_ = false;
   TemporaryDirectory directory_;
   std::string fifo_ = directory_ / "fifo";

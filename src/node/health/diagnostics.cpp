@@ -87,8 +87,8 @@ void describeInput(const HealthReport& report, StatusWrapper& status) {
     status.summary(DiagnosticStatus::ERROR, why.empty() ? "no stereo pairs" : why);
   } else if (const std::string silent = whySilent(input); !silent.empty()) {
     status.summary(DiagnosticStatus::WARN, silent);
-  } else if (const std::string fault = faultOfPairs(input); !fault.empty()) {
-    status.summary(DiagnosticStatus::WARN, fault);
+  } else if (!report.input_fault.empty()) {
+    status.summary(DiagnosticStatus::WARN, report.input_fault);
   } else if (!why.empty()) {
     status.summary(DiagnosticStatus::WARN, "dropped in the last 5 s: " + why);
   } else if (isOfAnotherClock(input)) {

@@ -99,11 +99,12 @@ void OdometryHealth::setWaitsForTf(const std::string& transform) {
 HealthReport OdometryHealth::report(const InputReport& input, const DropLog& drops) {
   const auto now = std::chrono::steady_clock::now();
   const std::lock_guard<std::mutex> lock(mutex_);
-  known_.input_fault = faultOfPairs(input);
+  known_.input_fault = input_fault_.observe(faultOfPairs(input), now);
   updateStatus(drops);
   HealthReport report = known_;
   report.input = input;
   report.answers = answers_.total() > 0 && now - answers_.lastArrival() < kAnswerAge;
+  if (!report.answers) report.rig_fault.clear();
   report.answer_rate_hz = answers_.rate_hz(now);
   report.latency_p50_ms = latencies_ms_.quantile(0.5);
   report.latency_p95_ms = latencies_ms_.quantile(0.95);

@@ -6,6 +6,7 @@
 
 #include "input/drop_log.h"
 #include "input/input_report.h"
+#include "input/log.h"
 #include "input/topic_statistics.h"
 #include "node/health/rig_watch.h"
 #include "node/health/sliding_quantiles.h"
@@ -20,7 +21,7 @@ struct HealthReport {
   bool paused = false;
   bool answers = false;      ///< a pair was processed recently
   std::string camera_fault;  ///< see PairInspector; empty if none
-  std::string input_fault;   ///< of the pairs that arrive, see faultOfPairs(); empty if none
+  std::string input_fault;   ///< of the pairs that arrive, see faultOfPairs(), if it lasts
   std::string rig_fault;     ///< see RigWatch; empty if none
   std::string tf_trouble;    ///< of guess_frame or of a mount that moves; empty if none
   std::string waits_for_tf;  ///< which transform is missing; empty if none is
@@ -60,6 +61,7 @@ class OdometryHealth {
   HealthReport known_;
   TopicStatistics answers_;
   RigWatch rig_watch_;
+  LastingFault input_fault_{TopicStatistics::kWindow};
   SlidingQuantiles latencies_ms_{300};
   SlidingQuantiles without_tf_ms_{300};
 };

@@ -84,8 +84,8 @@ class SensorMount {
 
   std::string missing_;
   std::optional<std::chrono::steady_clock::time_point> missing_since_;
-  Throttle warning_{std::chrono::seconds(5), std::chrono::minutes(5)};
-  Throttle change_warning_{std::chrono::seconds(5), std::chrono::minutes(5)};
+  Throttle warning_;
+  Throttle change_warning_;
   std::unique_ptr<tf2::BufferCore> buffer_;
   std::shared_ptr<void> listener_;  // until a fixed mount is found
 };

@@ -62,7 +62,7 @@ TEST_F(FaultsTest, AFrozenCameraMeasuresNothing) {
         odometry.pose.pose.position.x - before.pose.pose.position.x, SimulatedRobot::kStep_m, 0.05);
   }
   recover();
-  EXPECT_EQ(drive_.log.with("lost: both images").size(), 1u);
+  EXPECT_EQ(drive_.log.with("s: both images are those of the pair before").size(), 1u);
 }
 
 TEST_F(FaultsTest, EachCauseIsToldOnceAndSoIsItsEnd) {
@@ -94,19 +94,23 @@ TEST_F(FaultsTest, EachCauseIsToldOnceAndSoIsItsEnd) {
   EXPECT_EQ(status.drops[1].reason, "partner_dropped");
   EXPECT_EQ(status.hint, "");
 
-  const auto most = 1 + (std::chrono::steady_clock::now() - begin) / std::chrono::seconds(5);
+  const auto most = 1 + (std::chrono::steady_clock::now() - begin) / std::chrono::seconds(30);
   std::map<std::string, int> causes;
   std::size_t losses = 0;
   for (std::string text : drive_.log.with("")) {
     text.erase(std::remove_if(text.begin(), text.end(), ::isdigit), text.end());
-    EXPECT_LE(++causes[text], most) << text;
     const bool is_loss = has(text, ": lost: ");
     losses += is_loss ? 1 : 0;
-    // What single pairs say of the rig is not of interest here.
-    if (is_loss || has(text, "recalibrate the stereo rig")) causes.erase(text);
+    if (is_loss) text.erase(0, std::min(text.find("; "), text.size()));
+    // Losses without a known cause, and what single pairs say of the rig, are not of interest here.
+    if (text.empty() || has(text, ": lost for ") || has(text, "recalibrate the stereo rig"))
+      continue;
+    EXPECT_LE(++causes[text], most) << text;
   }
   EXPECT_EQ(causes.size(), 3u) << "dark, swapped, no stamp";
-  EXPECT_EQ(drive_.log.with("recovered", kInfo).size(), losses);
+  const std::size_t recoveries = drive_.log.with("recovered", kInfo).size();
+  EXPECT_GE(recoveries, 1u);
+  EXPECT_LE(recoveries, losses);
 }
 
 TEST(DiagnosticsPeriodTest, IsThatOfTheStandardParameter) {

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "input/log.h"
+#include "rotrocc/OdometryStatus.h"
+
+namespace rotrocc {
+
+/// Warns of lost motions and of faults of the cameras, in one line for each: of a loss as soon as
+/// its cause is found, after kPatience at the latest, or at its end. A cause that lasts or returns
+/// is told more and more seldom.
+class LossLog {
+ public:
+  static constexpr std::chrono::seconds kPatience{2};
+
+  explicit LossLog(Log log) : log_(std::move(log)) {}
+
+  /// To be called for each pair. `camera_fault`: see PairInspector; empty if none.
+  void observe(const OdometryStatus& status,
+               const std::string& camera_fault,
+               Throttle::Time now = std::chrono::steady_clock::now());
+
+ private:
+  Log log_;
+  FaultThrottle throttle_;
+  std::optional<Throttle::Time> lost_since_;
+  std::string reason_;  // of the loss, at its first pair
+  bool told_ = false;   // the loss
+};
+
+}  // namespace rotrocc
