@@ -88,7 +88,7 @@ void StereoIntake::match(Side side,
   if (waiting_) drops_.count(DropReason::kCameraInfoMissing);
   const std::int64_t age_ns = arrival.clock_ns - toNanoseconds(images->left->header.stamp);
   const double age_s = arrival.clock_ns == 0 ? 0.0 : toSeconds(age_ns);
-  waiting_ = ReceivedPair{*images, {}, arrival.time, age_s, nullptr};
+  waiting_ = ReceivedPair{*images, {}, arrival.time, {}, age_s, nullptr};
   handOver();
 }
 

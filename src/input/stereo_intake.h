@@ -28,6 +28,7 @@ struct ReceivedPair {
   StereoImages images;
   StereoCamera camera;                                   ///< of the rectified images
   std::chrono::steady_clock::time_point arrival;         ///< of the second image
+  std::chrono::steady_clock::time_point taken;           ///< by who processes it
   double stamp_age_s = 0.0;                              ///< then; 0 if ROS time is not known
   std::shared_ptr<const StereoCalibration> calibration;  ///< of raw images; null: rectified ones
 };

@@ -121,22 +121,20 @@ void StereoOdometry::work() {
   pthread_setname_np(pthread_self(), "odometry");  // for `top -H` and debuggers
   std::optional<ReceivedPair> pair;
   std::optional<DropReason> waits_for;
-  SteadyClock::time_point taken;
   while (ros::ok() && !mailbox_.closed()) {
     if (auto newer = mailbox_.take(pair ? kRetry : kIdlePoll)) {
       if (pair) drops_.count(*waits_for);
       pair = std::move(newer);
-      taken = SteadyClock::now();
+      pair->taken = SteadyClock::now();
     }
-    if (pair) waits_for = tryPair(*pair, taken);
+    if (pair) waits_for = tryPair(*pair);
     if (!waits_for) pair.reset();
   }
 }
 
 /// Nothing if the pair is done with: processed, or dropped. Otherwise it waits, and a newer one
 /// replaces it for that reason: tf lacks the camera pose, or the vertical is not known yet.
-std::optional<DropReason> StereoOdometry::tryPair(const ReceivedPair& received,
-                                                  SteadyClock::time_point taken) {
+std::optional<DropReason> StereoOdometry::tryPair(const ReceivedPair& received) {
   try {
     if (processor_.takeRequests()) {
       mount_.lookAgain();
@@ -150,10 +148,11 @@ std::optional<DropReason> StereoOdometry::tryPair(const ReceivedPair& received,
       health_.setWaitsForTf(mount_.missing());
       return DropReason::kTfMissing;
     }
-    if (gyro_ && processor_.startsLevel() && gyro_->waitsForVertical(stamp_ns, *T_base_camera)) {
+    if (gyro_) gyro_->follow(stamp_ns, *T_base_camera);
+    if (gyro_ && processor_.startsLevel() && gyro_->waitsForVertical(stamp_ns)) {
       return DropReason::kSuperseded;
     }
-    process(received, taken, frame, *T_base_camera);
+    process(received, frame, *T_base_camera);
   } catch (const InputError& error) {
     drops_.add(error);
   } catch (const std::exception& error) {
@@ -163,7 +162,6 @@ std::optional<DropReason> StereoOdometry::tryPair(const ReceivedPair& received,
 }
 
 void StereoOdometry::process(const ReceivedPair& received,
-                             SteadyClock::time_point taken,
                              const std::string& frame,
                              const Eigen::Isometry3d& T_base_camera) {
   const SteadyClock::time_point begin = SteadyClock::now();
@@ -173,11 +171,10 @@ void StereoOdometry::process(const ReceivedPair& received,
   context.is_simulated = ros::Time::isSimTime();
   if (guess_) context.T_last_base = guess_->motionTo(pair.stamp_ns);
   if (gyro_) {
-    gyro_->follow(pair.stamp_ns, T_base_camera);
     context.measured_rotation = [&](std::int64_t from_ns, std::int64_t to_ns) {
       return gyro_->rotation(from_ns, to_ns);
     };
-    context.up = [&] { return gyro_->up(pair.stamp_ns); };
+    if (processor_.startsLevel()) context.up = gyro_->up(pair.stamp_ns);
   }
   const PairAnswer answer = processor_.process(pair, context);
   // Before the odometry is sent: who has received it can save its pose.
@@ -187,8 +184,8 @@ void StereoOdometry::process(const ReceivedPair& received,
   OdometryStatus status = toStatus(answer.result, frame);
   status.stamp_age = static_cast<float>(received.stamp_age_s);
   status.time_pairing = milliseconds(received.arrival - received.images.first_arrival);
-  status.time_waiting = milliseconds(taken - received.arrival);
-  status.time_tf = milliseconds(begin - taken);
+  status.time_waiting = milliseconds(received.taken - received.arrival);
+  status.time_tf = milliseconds(begin - received.taken);
   status.time_conversion = milliseconds(converted - begin);
   status.time_publishing = milliseconds(sent - ready);
   status.time_rest = milliseconds(ready - converted) - status.time_total;
@@ -201,11 +198,7 @@ void StereoOdometry::process(const ReceivedPair& received,
 /// Returns when the odometry was sent.
 SteadyClock::time_point StereoOdometry::publishMotion(const PairAnswer& answer) {
   std::optional<Eigen::Isometry3d> T_guess_base;
-  if (guess_) {
-    if (answer.starts_trajectory) guess_->clear();
-    guess_->setLast(answer.result.stamp_ns);
-    T_guess_base = guess_->pose(answer.result.stamp_ns);
-  }
+  if (guess_) T_guess_base = guess_->moveTo(answer.result.stamp_ns, answer.starts_trajectory);
   const bool is_lost = answer.result.state == State::kLost;
   return publisher_.publishMotion(answer.state, is_lost, T_guess_base);
 }
@@ -213,10 +206,7 @@ SteadyClock::time_point StereoOdometry::publishMotion(const PairAnswer& answer) 
 /// All that the odometry of the pair need not wait for.
 void StereoOdometry::followUp(const PairAnswer& answer, OdometryStatus& status) {
   if (guess_) status.guess_misses = guess_->misses();
-  if (gyro_) {
-    gyro_->observe(answer.result);
-    gyro_->report(status);
-  }
+  if (gyro_) gyro_->observe(answer.result, status);
   const std::string camera_fault = processor_.inspect(answer);
   std::string tf_trouble = mount_.trouble();
   if (guess_ && !guess_->trouble().empty()) {

@@ -57,10 +57,8 @@ class StereoOdometry {
 
   // In the worker thread.
   void work();
-  std::optional<DropReason> tryPair(const ReceivedPair& received,
-                                    std::chrono::steady_clock::time_point taken);
+  std::optional<DropReason> tryPair(const ReceivedPair& received);
   void process(const ReceivedPair& received,
-               std::chrono::steady_clock::time_point taken,
                const std::string& frame,
                const Eigen::Isometry3d& T_base_camera);
   std::chrono::steady_clock::time_point publishMotion(const PairAnswer& answer);

@@ -36,7 +36,7 @@ class GuessOdometryTest : public testing::Test {
 
   /// The motion to a pair from the one before.
   std::optional<Eigen::Isometry3d> motionTo(int pair, GuessOdometry& guess) {
-    guess.setLast(stampOf(pair - 1));
+    guess.moveTo(stampOf(pair - 1));
     return guess.motionTo(stampOf(pair));
   }
 
@@ -63,7 +63,7 @@ TEST_F(GuessOdometryTest, MotionIsThatOfTheBase) {
 TEST_F(GuessOdometryTest, MotionIsKnownAcrossALongGap) {
   GuessOdometry guess("wheel_odom", "base_link", 0.0, tf_.feed());
   sendTf(0);
-  guess.setLast(stampOf(0));
+  guess.moveTo(stampOf(0));
   constexpr int kPairs = 300;
   for (int pair = 1; pair <= kPairs; ++pair) sendTf(pair);
   const auto motion = guess.motionTo(stampOf(kPairs));

@@ -95,8 +95,7 @@ std::string GyroInput::whyNoMount(std::int64_t from_ns, std::int64_t to_ns) {
   return "";
 }
 
-bool GyroInput::waitsForVertical(std::int64_t stamp_ns, const Eigen::Isometry3d& T_base_camera) {
-  follow(stamp_ns, T_base_camera);
+bool GyroInput::waitsForVertical(std::int64_t stamp_ns) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto now = std::chrono::steady_clock::now();
   if (!vertical_wait_) vertical_wait_ = now;
@@ -113,15 +112,18 @@ std::optional<Eigen::Vector3d> GyroInput::up(std::int64_t stamp_ns) {
   return std::nullopt;
 }
 
-void GyroInput::observe(const OdometryResult& result) {
+void GyroInput::observe(const OdometryResult& result, OdometryStatus& status) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const std::int64_t from_ns = result.stamp_ns - std::llround(1e9 * result.dt_s);
   if (whyNoMount(from_ns, result.stamp_ns).empty()) predictor_.observe(result);
-  if (!was_asked_) return;  // a first pair
-  was_asked_ = false;
-  const bool used = predictor_.whyNot().empty();
-  used ? backoff_.onHit() : backoff_.onMiss();
-  tell(used);
+  if (std::exchange(was_asked_, false)) {  // not by a first pair
+    const bool used = predictor_.whyNot().empty();
+    used ? backoff_.onHit() : backoff_.onMiss();
+    tell(used);
+  }
+  status.imu_reason = predictor_.whyNot();
+  status.rotations_predicted = predictor_.counts().predicted;
+  status.rotations_missed = predictor_.counts().missed;
 }
 
 void GyroInput::tell(bool used) {
@@ -134,13 +136,6 @@ void GyroInput::tell(bool used) {
   } else {
     log_.warn("the gyroscope is not used: " + predictor_.whyNot());
   }
-}
-
-void GyroInput::report(OdometryStatus& status) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  status.imu_reason = predictor_.whyNot();
-  status.rotations_predicted = predictor_.counts().predicted;
-  status.rotations_missed = predictor_.counts().missed;
 }
 
 void GyroInput::describe(StatusWrapper& status) const {

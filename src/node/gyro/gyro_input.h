@@ -56,17 +56,14 @@ class GyroInput {
   std::optional<Eigen::Matrix3d> rotation(std::int64_t from_ns, std::int64_t to_ns);
 
   /// Whether a first pair shall wait for tf and the accelerations of a second, which it does for
-  /// two seconds of real time at most. Includes follow().
-  bool waitsForVertical(std::int64_t stamp_ns, const Eigen::Isometry3d& T_base_camera);
+  /// two seconds of real time at most.
+  bool waitsForVertical(std::int64_t stamp_ns);
 
   /// The vertical in axes of the camera at a pair, if it is known. Logs why not.
   std::optional<Eigen::Vector3d> up(std::int64_t stamp_ns);
 
-  /// To be called with the result of each pair.
-  void observe(const OdometryResult& result);
-
-  /// Sets the fields of the gyroscope.
-  void report(OdometryStatus& status) const;
+  /// To be called with the result of each pair. Sets the fields of the gyroscope.
+  void observe(const OdometryResult& result, OdometryStatus& status);
   /// The entry of /diagnostics.
   void describe(StatusWrapper& status) const;
 

@@ -40,17 +40,15 @@ std::optional<Eigen::Isometry3d> GuessOdometry::motionTo(std::int64_t stamp_ns) 
   return T_guess_last_->inverse() * *current;
 }
 
-void GuessOdometry::setLast(std::int64_t stamp_ns) {
+std::optional<Eigen::Isometry3d> GuessOdometry::moveTo(std::int64_t stamp_ns,
+                                                       bool starts_trajectory) {
+  if (starts_trajectory) buffer_.clear();
   last_stamp_ns_ = stamp_ns;
   T_guess_last_ = pose(stamp_ns);
+  return T_guess_last_;
 }
 
-void GuessOdometry::clear() {
-  buffer_.clear();
-  last_stamp_ns_.reset();
-  T_guess_last_.reset();
-}
-
+/// T_guess_base at a stamp, if tf already has it.
 std::optional<Eigen::Isometry3d> GuessOdometry::pose(std::int64_t stamp_ns) const {
   try {
     return toEigen(

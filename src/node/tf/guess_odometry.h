@@ -32,24 +32,20 @@ class GuessOdometry {
   GuessOdometry(const GuessOdometry&) = delete;
   GuessOdometry& operator=(const GuessOdometry&) = delete;
 
-  /// Motion of the base T_last_cur from the stamp of setLast() to a later one, however long ago
-  /// that is; nothing, and a miss, if tf does not have it in time.
+  /// Motion of the base T_last_cur from the last pair to a later stamp, however long ago that is;
+  /// nothing, and a miss, if tf does not have it in time.
   std::optional<Eigen::Isometry3d> motionTo(std::int64_t stamp_ns);
 
-  /// The pair from which the next motion is asked for.
-  void setLast(std::int64_t stamp_ns);
-
-  /// T_guess_base at a stamp, if tf already has it.
-  std::optional<Eigen::Isometry3d> pose(std::int64_t stamp_ns) const;
+  /// The pair of this stamp is the last one. Returns T_guess_base then, if tf already has it. With
+  /// `starts_trajectory` time may have jumped: transforms from before are discarded.
+  std::optional<Eigen::Isometry3d> moveTo(std::int64_t stamp_ns, bool starts_trajectory = false);
 
   /// Why motions no longer wait, with a remedy, in one sentence; empty if they do.
   const std::string& trouble() const { return trouble_; }
   std::uint64_t misses() const { return misses_; }
 
-  /// Discards transforms from before a time jump.
-  void clear();
-
  private:
+  std::optional<Eigen::Isometry3d> pose(std::int64_t stamp_ns) const;
   void onMiss(std::int64_t stamp_ns);
   void onMotion();
   std::string describeMiss(std::int64_t stamp_ns) const;
