@@ -323,6 +323,7 @@ std::string slowCamera() {
   HealthReport report;
   report.input = rig.report();
   StatusWrapper status;
+  report.input_fault = faultOfPairs(report.input);
   describeInput(report, status);
   return "20 left and 10 right images: " + toText(rig.answers()) + " pairs processed, the last " +
          rig.observed() + "; diagnostics: " + status.message;

@@ -227,6 +227,7 @@ TEST(DiagnosticsTest, FaultsOfTheInputAreTold) {
   HealthReport lossy = goodReport();
   lossy.input.right_image.rate_hz = 5.0;
   lossy.input.unmatched = {25, 0, 25};
+  lossy.input_fault = faultOfPairs(lossy.input);
   const std::string rates = "/l/image arrives at 10.0 Hz, /r/image at 5.0 Hz";
   expectEntry(describeInput, lossy, Level::WARN, rates);
   HealthReport first = goodReport();
@@ -305,7 +306,10 @@ TEST(OdometryHealthTest, TheHintIsAFaultOfTheCamerasOrElseOfTheInputAndOfTf) {
   };
   EXPECT_EQ(hint("", ""), "");
   EXPECT_EQ(hint("", "no tf from guess_frame"), "no tf from guess_frame");
-  EXPECT_EQ(health.report(lossy, drops).camera_fault, "");
+  const auto now = std::chrono::steady_clock::now();
+  EXPECT_EQ(health.report(lossy, drops, now).camera_fault, "");
+  EXPECT_EQ(hint("", ""), "") << "it may have just begun";
+  health.report(lossy, drops, now + TopicStatistics::kWindow + std::chrono::seconds(1));
   EXPECT_EQ(hint("", "").find("50 % of the images have no partner"), 0u);
   EXPECT_EQ(hint("frozen?", "no tf from guess_frame"), "frozen?; no tf from guess_frame");
 }

@@ -28,8 +28,9 @@ class LossLog {
   Log log_;
   FaultThrottle throttle_;
   std::optional<Throttle::Time> lost_since_;
-  std::string reason_;  // of the loss, at its first pair
-  bool told_ = false;   // the loss
+  std::string reason_;        // of the loss, at its first pair
+  std::string camera_fault_;  // that caused it, as far as it is known
+  bool told_ = false;         // the loss
 };
 
 }  // namespace rotrocc

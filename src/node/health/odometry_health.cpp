@@ -96,8 +96,9 @@ void OdometryHealth::setWaitsForTf(const std::string& transform) {
   known_.waits_for_tf = transform;
 }
 
-HealthReport OdometryHealth::report(const InputReport& input, const DropLog& drops) {
-  const auto now = std::chrono::steady_clock::now();
+HealthReport OdometryHealth::report(const InputReport& input,
+                                    const DropLog& drops,
+                                    TopicStatistics::Time now) {
   const std::lock_guard<std::mutex> lock(mutex_);
   known_.input_fault = input_fault_.observe(faultOfPairs(input), now);
   updateStatus(drops);

@@ -52,7 +52,9 @@ class OdometryHealth {
   void setWaitsForTf(const std::string& transform);
 
   /// All but tf_conflict. The fault of this input is in the hints of the next pairs.
-  HealthReport report(const InputReport& input, const DropLog& drops);
+  HealthReport report(const InputReport& input,
+                      const DropLog& drops,
+                      TopicStatistics::Time now = std::chrono::steady_clock::now());
 
  private:
   void updateStatus(const DropLog& drops);
