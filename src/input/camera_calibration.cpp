@@ -208,7 +208,7 @@ StereoCamera toStereoCamera(const sensor_msgs::CameraInfo& left_info,
   return camera;
 }
 
-std::string oddityOf(const StereoCamera& camera) {
+std::string baselineWarning(const StereoCamera& camera) {
   if (camera.baseline_m >= kSmallBaseline_m && camera.baseline_m <= kGreatBaseline_m) return "";
   return "a baseline of " + toText(camera.baseline_m) +
          " m is unusual: is P[3] of camera_info in pixels times metres?";

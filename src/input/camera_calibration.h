@@ -23,7 +23,7 @@ StereoCamera toStereoCamera(const sensor_msgs::CameraInfo& left,
                             double baseline_m = 0.0);
 
 /// A warning about an unlikely camera, e.g. with a baseline in millimetres; empty if none.
-std::string oddityOf(const StereoCamera& camera);
+std::string baselineWarning(const StereoCamera& camera);
 
 /// What K, D, R and P of two messages describe, with binning and region of interest as in
 /// image_geometry. `baseline_m` > 0 replaces the baseline from P[3]. Throws InputError with the

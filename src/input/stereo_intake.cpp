@@ -153,8 +153,8 @@ void StereoIntake::tell(const StereoCamera& camera) {
                                     : "";
   log_.info("stereo camera from P: " + sizeText(camera.width, camera.height) + ", fx " +
             toText(camera.fx) + " px, baseline " + toText(camera.baseline_m) + " m" + rectified);
-  const std::string oddity = oddityOf(camera);
-  if (!oddity.empty()) log_.warn(oddity);
+  const std::string warning = baselineWarning(camera);
+  if (!warning.empty()) log_.warn(warning);
 }
 
 InputReport StereoIntake::report(std::chrono::steady_clock::time_point now) const {
