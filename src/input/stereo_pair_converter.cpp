@@ -131,8 +131,8 @@ constexpr double kBrighterShare = 0.01;
 /// Number of bits that all but the brightest pixels of a 16-bit image use; at least 8, and 8 of
 /// others.
 int countSignificantBits(const sensor_msgs::Image& image) {
-  if (!encodingOf("", image).has16Bits()) return 8;
-  std::array<std::size_t, 256> counts = {};  // by the upper byte
+  if (!encodingOf("", image).has16Bits()) return 8;  // left and right may differ
+  std::array<std::size_t, 256> counts = {};          // by the upper byte
   for (std::size_t y = 0; y < image.height; ++y) {
     const unsigned char* row = image.data.data() + y * image.step;
     for (std::size_t x = 0; x < image.width; ++x) {
@@ -226,6 +226,11 @@ void StereoPairConverter::findSignificantBits(const sensor_msgs::Image& left,
                                               const sensor_msgs::Image& right) {
   if (known_bits_ > 0) {
     significant_bits_ = known_bits_;
+    return;
+  }
+  if (!encodingOf("left", left).has16Bits() && !encodingOf("right", right).has16Bits()) {
+    recent_bits_.clear();  // another mode of the camera says nothing of this one
+    significant_bits_ = 8;
     return;
   }
   recent_bits_.push_back(std::max(countSignificantBits(left), countSignificantBits(right)));

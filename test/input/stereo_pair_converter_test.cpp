@@ -227,6 +227,16 @@ TEST(StereoPairConverterTest, ABadImageOrAFewBadPixelsDoNotBlindIt) {
   }
 }
 
+TEST(StereoPairConverterTest, ImagesOf8BitsSayNothingOfThe16BitsOfOthers) {
+  StereoPairConverter converter;
+  const sensor_msgs::Image narrow = makeImage("mono8", 1);
+  const sensor_msgs::Image wide = makeImage16({0, 300, 1023}, false);
+  converter.convert(narrow, narrow);
+  EXPECT_EQ(converter.convert(wide, wide).left.at<unsigned char>(0, 1), 75);
+  converter.convert(narrow, narrow);
+  EXPECT_EQ(converter.significantBits(), 8);
+}
+
 TEST(StereoPairConverterTest, KnownBitsAreKept) {
   StereoPairConverter converter(StereoPairConverter::kMaxPixels, 12);
   const sensor_msgs::Image dark = makeImage16({0, 300, 1023}, false);

@@ -19,19 +19,25 @@ void LossLog::observe(const OdometryStatus& status,
     return;
   }
   if (!camera_fault.empty()) camera_fault_ = camera_fault;
-  const Throttle::Time::duration passed = now - *lost_since_;
   if (status.state == OdometryStatus::OK || status.state == OdometryStatus::DEGRADED) {
-    lost_since_.reset();
-    if (told_) return log_.info(std::string("recovered: ") + stateName(status.state));
-    const double passed_s = std::chrono::duration<double>(passed).count();
-    if (throttle_.pass(reason_, now)) {
-      log_.warn("lost for " + fixedText(passed_s, 1) + " s: " + reason_);
-    }
-  } else if (!camera_fault_.empty() || passed >= kPatience) {
-    const std::string& cause = camera_fault_.empty() ? reason_ : camera_fault_;
-    if (!throttle_.pass(cause, now)) return;
-    log_.warn("lost: " + reason_ + (camera_fault_.empty() ? "" : "; " + camera_fault_));
-    told_ = true;
+    if (!found_since_) found_since_ = now;
+    if (now - *found_since_ >= kRecovery) end(status.state, now);
+    return;
+  }
+  found_since_.reset();
+  if (camera_fault_.empty() && now - *lost_since_ < kPatience) return;
+  if (!throttle_.pass(camera_fault_.empty() ? reason_ : camera_fault_, now)) return;
+  log_.warn("lost: " + reason_ + (camera_fault_.empty() ? "" : "; " + camera_fault_));
+  told_ = true;
+}
+
+void LossLog::end(std::uint8_t state, Throttle::Time now) {
+  const std::chrono::duration<double> length = *found_since_ - *lost_since_;
+  lost_since_.reset();
+  found_since_.reset();
+  if (told_) return log_.info(std::string("recovered: ") + stateName(state));
+  if (throttle_.pass(camera_fault_.empty() ? reason_ : camera_fault_, now)) {
+    log_.warn("lost for " + fixedText(length.count(), 1) + " s: " + reason_);
   }
 }
 

@@ -12,10 +12,12 @@ namespace rotrocc {
 
 /// Warns of lost motions and of faults of the cameras, in one line for each: of a loss as soon as
 /// its cause is found, after kPatience at the latest, or at its end. A cause that lasts or returns
-/// is told more and more seldom.
+/// is told more and more seldom. Chance matches may look like a motion: a loss has ended when there
+/// were motions for kRecovery.
 class LossLog {
  public:
   static constexpr std::chrono::seconds kPatience{2};
+  static constexpr std::chrono::seconds kRecovery{1};
 
   explicit LossLog(Log log) : log_(std::move(log)) {}
 
@@ -25,9 +27,11 @@ class LossLog {
                Throttle::Time now = std::chrono::steady_clock::now());
 
  private:
+  void end(std::uint8_t state, Throttle::Time now);
+
   Log log_;
   FaultThrottle throttle_;
-  std::optional<Throttle::Time> lost_since_;
+  std::optional<Throttle::Time> lost_since_, found_since_;
   std::string reason_;        // of the loss, at its first pair
   std::string camera_fault_;  // that caused it, as far as it is known
   bool told_ = false;         // the loss
