@@ -174,7 +174,7 @@ void StereoOdometry::process(const ReceivedPair& received,
     context.measured_rotation = [&](std::int64_t from_ns, std::int64_t to_ns) {
       return gyro_->rotation(from_ns, to_ns);
     };
-    if (processor_.startsLevel()) context.up = gyro_->up(pair.stamp_ns);
+    context.up = [&] { return gyro_->up(pair.stamp_ns); };
   }
   const PairAnswer answer = processor_.process(pair, context);
   // Before the odometry is sent: who has received it can save its pose.

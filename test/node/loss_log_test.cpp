@@ -72,6 +72,13 @@ TEST_F(LossLogTest, AShortLossIsToldAtItsEnd) {
   EXPECT_EQ(pairs(11, kOk), Lines()) << "the same again";
 }
 
+TEST_F(LossLogTest, AShortLossIsToldWithItsCause) {
+  pair(kLost);
+  EXPECT_EQ(pairs(10, OdometryStatus::DEGRADED, kSwapped), Lines());
+  EXPECT_EQ(pair(OdometryStatus::DEGRADED, kSwapped),
+            Lines{"lost for 0.1 s: " + kFew + "; " + kSwapped});
+}
+
 TEST_F(LossLogTest, AFaultIsToldAlsoWithoutALoss) {
   EXPECT_EQ(pair(kOk, kSwapped), Lines{kSwapped});
   EXPECT_EQ(pairs(100, kOk, kSwapped), Lines());

@@ -84,8 +84,9 @@ void PairProcessor::begin(const PairContext& context, std::int64_t stamp_ns) {
               " s, but the first pair of " + stampText(stamp_ns) + " s: starting at initial_pose");
   }
   std::optional<Eigen::Vector3d> up;
-  if (context.up && isLevelled()) {
-    up = context.T_base_camera.linear() * *context.up;
+  if (context.up && isLevelled()) up = context.up();
+  if (up) {
+    up = context.T_base_camera.linear() * *up;
     log_.info("the first pose is level: up is " + toText(up->x()) + " " + toText(up->y()) + " " +
               toText(up->z()) + " in " + parameters_.base_frame);
   }

@@ -30,8 +30,8 @@ struct PairContext {
   RotationSource measured_rotation = {};
   /// Whether the time is simulated: only cameras without noise have the same image twice at rest.
   bool is_simulated = false;
-  /// The vertical in axes of the camera, if it is known; only for a pair that startsLevel().
-  std::optional<Eigen::Vector3d> up = std::nullopt;
+  /// The vertical in axes of the camera, if it is known. Called for a first pose.
+  std::function<std::optional<Eigen::Vector3d>()> up = {};
 };
 
 /// Result of a pair.

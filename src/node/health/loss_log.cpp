@@ -26,9 +26,14 @@ void LossLog::observe(const OdometryStatus& status,
   }
   found_since_.reset();
   if (camera_fault_.empty() && now - *lost_since_ < kPatience) return;
-  if (!throttle_.pass(camera_fault_.empty() ? reason_ : camera_fault_, now)) return;
-  log_.warn("lost: " + reason_ + (camera_fault_.empty() ? "" : "; " + camera_fault_));
-  told_ = true;
+  if (tell("lost: ", now)) told_ = true;
+}
+
+/// Returns whether it was not told before.
+bool LossLog::tell(const std::string& what, Throttle::Time now) {
+  if (!throttle_.pass(camera_fault_.empty() ? reason_ : camera_fault_, now)) return false;
+  log_.warn(what + reason_ + (camera_fault_.empty() ? "" : "; " + camera_fault_));
+  return true;
 }
 
 void LossLog::end(std::uint8_t state, Throttle::Time now) {
@@ -36,9 +41,7 @@ void LossLog::end(std::uint8_t state, Throttle::Time now) {
   lost_since_.reset();
   found_since_.reset();
   if (told_) return log_.info(std::string("recovered: ") + stateName(state));
-  if (throttle_.pass(camera_fault_.empty() ? reason_ : camera_fault_, now)) {
-    log_.warn("lost for " + fixedText(length.count(), 1) + " s: " + reason_);
-  }
+  tell("lost for " + fixedText(length.count(), 1) + " s: ", now);
 }
 
 }  // namespace rotrocc

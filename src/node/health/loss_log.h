@@ -27,6 +27,7 @@ class LossLog {
                Throttle::Time now = std::chrono::steady_clock::now());
 
  private:
+  bool tell(const std::string& what, Throttle::Time now);
   void end(std::uint8_t state, Throttle::Time now);
 
   Log log_;
