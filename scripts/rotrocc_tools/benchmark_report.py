@@ -239,10 +239,8 @@ def write(output, names, failed, earlier, title):
         elif members:
             parts.append(GroupSection(output, group, members, earlier).write(heading, note))
     parts.append(trajectories(output, results))
-    parts.append(page.section('Tables', 'Files next to this page: %s; estimated poses in KITTI format '
-                              'in trajectories.' % ', '.join(
-                                  page.link(name, name) for name in (
-                                      'sequences.csv', 'by_length.csv', 'by_speed.csv'))))
+    parts.append(page.section('Tables', 'Files next to this page: %s; estimated poses in KITTI format in trajectories.'
+                              % page.links(['sequences.csv', 'by_length.csv', 'by_speed.csv'])))
     page.write_page(output / 'index.html', title, 'Stereo visual odometry, %d sequences%s' % (
         len(results), ', compared with an earlier report' if earlier else ''), *parts)
     print_table(results)
