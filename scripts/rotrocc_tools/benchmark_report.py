@@ -48,7 +48,7 @@ def pool(tables, bin_name):
     """Mean over the segments of all sequences, from their means and counts."""
     together = {name: numpy.concatenate([table[name] for table in tables]) for name in (bin_name, 'segments', *ERRORS)}
     keys, places = numpy.unique(together[bin_name], return_inverse=True)
-    counts = numpy.bincount(places, together['segments'])
+    counts = numpy.bincount(places, together['segments']).astype(int)
     return {bin_name: keys, 'segments': counts, **{
         name: numpy.bincount(places, together['segments'] * together[name]) / counts for name in ERRORS}}
 

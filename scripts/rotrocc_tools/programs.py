@@ -66,10 +66,13 @@ def make_once(target, make):
     return target
 
 
+def repeated(option, values):
+    """A command line with the option for each of the values."""
+    return [word for value in values for word in (option, value)]
+
+
 def odometry_options(setting):
     """The options of offline_odometry for a setting, {parameter: value}; the key config is a file of parameters."""
-    options = ['--config', setting['config']] if setting.get('config') else []
-    for name, value in setting.items():
-        if '/' in name:
-            options += ['--set', '%s=%s' % (name, str(value).lower() if isinstance(value, bool) else value)]
-    return options
+    return repeated('--config', filter(None, [setting.get('config')])) + repeated('--set', [
+        '%s=%s' % (name, str(value).lower() if isinstance(value, bool) else value)
+        for name, value in setting.items() if '/' in name])
