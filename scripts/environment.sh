@@ -96,6 +96,14 @@ end_processes() {
   done
 }
 
+# Prints the failed and skipped tests in a folder of results, and sets tests_passed and tests_failed.
+count_tests() {
+  local summary
+  summary=$(python3 "$root/scripts/rotrocc_tools/test_summary.py" "$1")
+  sed '$d' <<<"$summary"
+  read -r tests_passed tests_failed <<<"${summary##*$'\n'}"
+}
+
 # Uses a free port for a separate ROS master, so that scripts do not interfere with a running robot.
 use_own_ros_master() {
   local port
