@@ -17,7 +17,6 @@ COLUMNS = ['sequence', 'group', 'pairs', 'path_m', 'segments', 'translation_perc
            'duration_s']
 BINS = {'length': 'length_m', 'speed': 'speed_mps'}
 ERRORS = ['translation_percent', 'rotation_deg_per_m']
-END_HEADER = ['lost', 'degr.', 'CPU<br>[ms]', 'bias [px]']
 
 
 class Result:
@@ -107,6 +106,14 @@ def change(now, before):
     return '<span class="%s">%+.1f %%</span>' % ('worse' if percent > 0 else 'better', percent)
 
 
+def results_table(rows, names_of_errors=(), cells_of_errors=lambda row: [], total=None):
+    header = ['sequence', 'pairs', 'path<br>[m]', *names_of_errors, 'lost', 'degr.', 'CPU<br>[ms]', 'bias [px]']
+    return page.table(header, [[
+        page.link('sequences/%s/index.html' % row['sequence'], row['sequence']), '%d' % row['pairs'],
+        '%.0f' % row['path_m'], *cells_of_errors(row), '%d' % row['lost'], '%d' % row['degraded'],
+        '%.1f' % row['cpu_ms'], '%+.2f ± %.2f' % (row['bias_px'], row['bias_sigma_px'])] for row in rows], total)
+
+
 class GroupSection:
     """Table and pictures of the sequences with the same metric."""
 
@@ -140,12 +147,9 @@ class GroupSection:
                 '%d' % total_of(self.rows, 'degraded'), '%.1f' % mean_cpu_ms(self.rows), '']
 
     def write(self, title, note):
-        header = ['sequence', 'pairs', 'path<br>[m]']
-        for name in ('translation<br>[%]', 'rotation<br>[deg/m]'):
-            header += [name] + (['earlier', 'change'] if self.before else [])
-        header += END_HEADER
-        rows = [begin_cells(row) + self.error_cells(row, self.before.get(row['sequence']))
-                + end_cells(row) for row in self.rows]
+        further = ['earlier', 'change'] if self.before else []
+        table = results_table(self.rows, ['translation<br>[%]', *further, 'rotation<br>[deg/m]', *further],
+                              lambda row: self.error_cells(row, self.before.get(row['sequence'])), self.total())
         note += ' The mean is over all %d segments%s.' % (
             total_of(self.rows, 'segments'), ' of the sequences in both reports' if self.before else '')
 
@@ -156,25 +160,8 @@ class GroupSection:
                                errors(self.before.values()))
         curves = self.output / ('errors_%s.png' % self.group)
         figures.plot_errors(*self.tables, curves, self.tables_before)
-        return page.section(title, note, page.table(header, rows, self.total()),
-                            page.picture(bars, 'errors of each sequence'),
+        return page.section(title, note, table, page.picture(bars, 'errors of each sequence'),
                             page.picture(curves, 'errors by length and by speed'))
-
-
-def begin_cells(row):
-    return [page.link('sequences/%s/index.html' % row['sequence'], row['sequence']),
-            '%d' % row['pairs'], '%.0f' % row['path_m']]
-
-
-def end_cells(row):
-    return ['%d' % row['lost'], '%d' % row['degraded'], '%.1f' % row['cpu_ms'],
-            '%+.2f ± %.2f' % (row['bias_px'], row['bias_sigma_px'])]
-
-
-def section_without_errors(title, note, results):
-    header = ['sequence', 'pairs', 'path<br>[m]'] + END_HEADER
-    rows = [begin_cells(result.row) + end_cells(result.row) for result in results]
-    return page.section(title, note, page.table(header, rows))
 
 
 def tiles(results):
@@ -235,7 +222,7 @@ def write(output, names, failed, earlier, title):
     for group, heading, note in GROUPS:
         members = [result for result in results if result.group == group]
         if members and group == 'none':
-            parts.append(section_without_errors(heading, note, members))
+            parts.append(page.section(heading, note, results_table([result.row for result in members])))
         elif members:
             parts.append(GroupSection(output, group, members, earlier).write(heading, note))
     parts.append(trajectories(output, results))
