@@ -101,6 +101,7 @@ count_tests() {
   local summary
   summary=$(python3 "$root/scripts/rotrocc_tools/test_summary.py" "$1")
   sed '$d' <<<"$summary"
+  # shellcheck disable=SC2034
   read -r tests_passed tests_failed <<<"${summary##*$'\n'}"
 }
 

@@ -5,7 +5,7 @@ import shutil
 import subprocess
 import sys
 
-from rotrocc_tools.tables import read_table
+from rotrocc_tools.tables import read_columns, read_table
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]  # of a checkout
 PAPER_CONFIG = ROOT / 'config/paper.yaml'
@@ -48,12 +48,12 @@ class Programs:
         return read_table(folder / 'pairs.csv')
 
     def segments(self, sequence, folder, lengths_m, step):
-        """The errors of all segments of the trajectory in `folder`, also written to segments.csv there: [{first_pose,
-        length_m, speed_mps, translation_percent, rotation_deg_per_m}]."""
+        """The errors of all segments of the trajectory in `folder`, also written to segments.csv there: arrays of
+        first_pose, length_m, speed_mps, translation_percent, rotation_deg_per_m."""
         table = folder / 'segments.csv'
         self.run('evaluate_trajectory', sequence / 'poses.txt', folder / 'trajectory.txt', '--times',
                  sequence / 'times.txt', '--step', step, '--segments', table, '--lengths', *lengths_m)
-        return [{name: float(value) for name, value in row.items()} for row in read_table(table)]
+        return read_columns(table)
 
 
 def make_once(target, make):
