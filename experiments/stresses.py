@@ -61,35 +61,29 @@ class Drives:
         self.programs = programs
         self.folder = folder
         self.pairs = pairs
-        self.lock = threading.Lock()
         self.locks = {}
         folder.mkdir(parents=True, exist_ok=True)
 
-    def way(self, step_m=STEP_M):
-        return step_m * grown(self.pairs)
-
-    def render(self, name, seed, positions, rotations, *arguments, noise=NOISE):
-        """A drive in a street along these poses."""
-        def make(target):
-            poses = self.folder / ('%s_%d.txt' % (name, seed))
-            rows = numpy.concatenate([rotations, positions[:, :, None]], axis=2).reshape(-1, 12)
-            numpy.savetxt(str(poses), rows, fmt='%.9g')
-            self.simulate('--poses', poses, target, '--seed', seed, '--noise', noise, *arguments)
-        return self.once('%s_%d' % (name, seed), make)
-
-    def simulate(self, *arguments):
-        self.programs.run('simulate_drive', *CAMERA, '--moving-share', 0, *arguments)
-
-    def base(self, seed, *arguments, name='base', noise=NOISE):
-        return self.render(name, seed, *winding(self.way()), *arguments, noise=noise)
+    def make(self, stress, level, seed):
+        return stress.make(self, '%s_%g_%d' % (stress.name, level, seed), level, seed)
 
     def once(self, name, make):
         """The folder that `make` fills, unless it exists. Stresses that run in parallel share some."""
-        target = self.folder / name
-        with self.lock:
-            own_lock = self.locks.setdefault(name, threading.Lock())
-        with own_lock:
-            return make_once(target, make)
+        with self.locks.setdefault(name, threading.Lock()):
+            return make_once(self.folder / name, make)
+
+    def render(self, name, seed, *arguments, turned=None, step_m=STEP_M, noise=NOISE):
+        """A drive along a street that winds. At each pose the camera is turned, by n x 3 x 3."""
+        def make(target):
+            positions, rotations = winding(step_m * grown(self.pairs))
+            rotations = rotations if turned is None else rotations @ turned
+            poses = self.folder / (name + '.txt')
+            numpy.savetxt(str(poses), numpy.dstack([rotations, positions]).reshape(-1, 12), fmt='%.9g')
+            self.simulate('--poses', poses, target, '--seed', seed, '--noise', noise, *arguments)
+        return self.once(name, make)
+
+    def simulate(self, *arguments):
+        self.programs.run('simulate_drive', *CAMERA, '--moving-share', 0, *arguments)
 
     def round_trip(self, seed):
         """A drive of 18 s with 10 m/s and a turn of 26 deg/s."""
@@ -97,100 +91,82 @@ class Drives:
             'slip_road', target, '--seed', seed, '--noise', NOISE))
 
     def median_depth_m(self, seed):
-        """Of what the base drive sees, without the sky."""
-        drive = self.base(seed, '--truth', name='depth')
-        depths = [numpy.asarray(Image.open(str(path)))[::4, ::4] for path in
-                  sorted((drive / 'depth').iterdir())[::4]]
-        depths = numpy.concatenate(depths, axis=None)
+        """Of what a camera sees on the street, without the sky."""
+        drive = self.render('depth_%d' % seed, seed, '--truth')
+        depths = numpy.stack([numpy.asarray(Image.open(str(path)))[::4, ::4] for path in
+                              sorted((drive / 'depth').iterdir())[::4]])
         return float(numpy.median(depths[depths > 0]))
 
 
-def label(name, level):
-    return '%s_%g' % (name, level)
-
+# What makes the sequence `name` of a stress from a level and a seed.
 
 def turn(axis):
     """A constant turn rate [deg] per pair."""
-    def make(drives, level, seed):
-        positions, rotations = winding(drives.way())
-        return drives.render(label('turn_' + axis, level), seed, positions,
-                             rotations @ about(axis, level * grown(drives.pairs)))
-    return make
+    return lambda drives, name, level, seed: drives.render(
+        name, seed, turned=about(axis, level * grown(drives.pairs)))
 
 
 def swing(axis, amplitude_deg):
     """Turning to and fro, by at most `level` [deg] per pair."""
-    def make(drives, level, seed):
-        positions, rotations = winding(drives.way())
-        angle = amplitude_deg * numpy.sin(level / amplitude_deg * grown(drives.pairs))
-        return drives.render(label('swing_' + axis, level), seed, positions, rotations @ about(axis, angle))
-    return make
+    return lambda drives, name, level, seed: drives.render(name, seed, turned=about(
+        axis, amplitude_deg * numpy.sin(level / amplitude_deg * grown(drives.pairs))))
 
 
-def step(drives, level, seed):
-    way = drives.way(level * drives.median_depth_m(seed) / 100)
-    return drives.render(label('step', level), seed, *winding(way))
+def step(drives, name, level, seed):
+    return drives.render(name, seed, step_m=level * drives.median_depth_m(seed) / 100)
 
 
-def each(drives, level, seed):
+def each(drives, name, level, seed):
     """Each `level`-th pair of a drive."""
     source = drives.round_trip(seed)
-    return drives.once('%s_%d' % (label('each', level), seed),
-                       lambda target: take_every(source, int(level), target))
+    return drives.once(name, lambda target: take_every(source, int(level), target))
 
 
-def dropped(drives, level, seed):
+def dropped(drives, name, level, seed):
     """`level` % of the pairs of a drive are missing."""
     source = drives.round_trip(seed)
     kept = numpy.random.RandomState(seed).uniform(size=count_pairs(source)) >= level / 100
-    return drives.once('%s_%d' % (label('dropped', level), seed),
-                       lambda target: take_pairs(source, numpy.flatnonzero(kept)[:2 * drives.pairs], target))
+    return drives.once(name, lambda target: take_pairs(source, numpy.flatnonzero(kept)[:2 * drives.pairs], target))
 
 
-def blur(drives, level, seed):
-    positions, rotations = winding(drives.way())
+def blur(drives, name, level, seed):
     # At a constant rate: in an acceleration, the mean pose of an exposure is not that at its middle.
-    angle = BLUR_TURN_DEG * numpy.arange(drives.pairs)
     exposure_s = level / FOCAL_PX / numpy.radians(BLUR_TURN_DEG) * PERIOD_S
-    return drives.render(label('blur', level), seed, positions, rotations @ about('y', angle),
-                         '--motion-blur', '%.6f' % exposure_s)
+    return drives.render(name, seed, '--motion-blur', '%.6f' % exposure_s,
+                         turned=about('y', BLUR_TURN_DEG * numpy.arange(drives.pairs)))
 
 
-def rendered(name, option, factor=1.0, *arguments):
-    """The base drive with an option of simulate_drive."""
-    def make(drives, level, seed):
-        return drives.base(seed, option, '%.6g' % (level * factor), *arguments, name=label(name, level))
-    return make
+def rendered(option, factor=1.0, *arguments):
+    """With an option of simulate_drive."""
+    return lambda drives, name, level, seed: drives.render(name, seed, option, '%.6g' % (level * factor), *arguments)
 
 
 # Places in a line of calib.txt: focal lengths, and focal length times baseline.
 FOCAL, BASELINE = (1, 6, 4), (4,)
 
 
-def miscalibrated(name, places):
-    """The base drive with a focal length or a baseline that is `level` % too large."""
-    def make(drives, level, seed):
-        source = drives.base(seed)
+def miscalibrated(places):
+    """With a focal length or a baseline that is `level` % too large."""
+    def make(drives, name, level, seed):
+        source = drives.render('base_%d' % seed, seed)
 
         def write(target):
             take_pairs(source, range(count_pairs(source)), target)
-            lines = []
-            for line in (source / 'calib.txt').read_text().splitlines():
-                words = line.split()
+            lines = [line.split() for line in (source / 'calib.txt').read_text().splitlines()]
+            for words in lines:
                 for place in places:
                     words[place] = '%.9g' % (float(words[place]) * (1 + level / 100))
-                lines.append(' '.join(words) + '\n')
-            (target / 'calib.txt').write_text(''.join(lines))
-        return drives.once('%s_%d' % (label(name, level), seed), write)
+            (target / 'calib.txt').write_text(''.join(' '.join(words) + '\n' for words in lines))
+        return drives.once(name, write)
     return make
 
 
-def worse(name, option, convert=lambda level: level, noise=True):
-    """The base drive with worse images."""
-    def make(drives, level, seed):
-        clean = drives.base(seed, name='clean', noise=0)
+def worse(option, convert=lambda level: level, noise=True):
+    """With worse images."""
+    def make(drives, name, level, seed):
+        clean = drives.render('clean_%d' % seed, seed, noise=0)
         options = ['--noise', NOISE] if noise else []
-        return drives.once('%s_%d' % (label(name, level), seed), lambda target: drives.programs.run(
+        return drives.once(name, lambda target: drives.programs.run(
             'stress_sequence', clean, target, '--seed', seed, *options, option, '%.6g' % convert(level)))
     return make
 
@@ -206,29 +182,29 @@ STRESSES = [
     Stress('each', 'frame rate', 'each n-th pair', [1, 2, 3, 4, 5, 6, 7, 8, 10, 12], each),
     Stress('dropped', 'pairs dropped', '%', [10, 20, 30, 40, 50, 60, 70, 80, 85, 90, 95], dropped),
     Stress('blur', 'motion blur', 'px', ladder(2, 25), blur),
-    Stress('gain_step', 'exposure steps', 'factor', ladder(1.1, 40), worse('gain_step', '--gain-step')),
+    Stress('gain_step', 'exposure steps', 'factor', ladder(1.1, 40), worse('--gain-step')),
     Stress('right_gain_down', 'right images: gain below 1', 'factor',
            [0.9, 0.8, 0.7, 0.6, 0.5, 0.35, 0.25, 0.15, 0.1, 0.05, 0.02],
-           worse('right_gain_down', '--right-gain')),
+           worse('--right-gain')),
     Stress('right_gain_up', 'right images: gain above 1', 'factor',
-           [1.15, 1.25, 1.4, 1.7, 2, 2.5, 3.5, 5, 10, 20], worse('right_gain_up', '--right-gain')),
+           [1.15, 1.25, 1.4, 1.7, 2, 2.5, 3.5, 5, 10, 20], worse('--right-gain')),
     Stress('right_offset_down', 'right images: offset below 0', 'grey levels',
-           [-15, -25, -40, -60, -80, -100, -130, -160, -190], worse('right_offset_down', '--right-offset')),
+           [-15, -25, -40, -60, -80, -100, -130, -160, -190], worse('--right-offset')),
     Stress('right_offset_up', 'right images: offset above 0', 'grey levels',
-           [15, 25, 40, 60, 80, 100, 130, 160, 190, 220], worse('right_offset_up', '--right-offset')),
-    Stress('contrast', 'contrast', '%', ladder(80, 1), worse('contrast', '--contrast', lambda level: level / 100)),
-    Stress('noise', 'noise', 'grey levels', ladder(2, 80), worse('noise', '--noise', noise=False)),
-    Stress('jpeg', 'JPEG quality', '', ladder(90, 1), worse('jpeg', '--jpeg', round)),
+           [15, 25, 40, 60, 80, 100, 130, 160, 190, 220], worse('--right-offset')),
+    Stress('contrast', 'contrast', '%', ladder(80, 1), worse('--contrast', lambda level: level / 100)),
+    Stress('noise', 'noise', 'grey levels', ladder(2, 80), worse('--noise', noise=False)),
+    Stress('jpeg', 'JPEG quality', '', ladder(90, 1), worse('--jpeg', round)),
     Stress('lorry', 'a lorry that moves with the camera', '% of the image', SHARES,
-           rendered('lorry', '--lorry', 0.01)),
+           rendered('--lorry', 0.01)),
     Stress('lorry_across', 'a lorry that changes lanes', '% of the image', SHARES,
-           rendered('lorry_across', '--lorry', 0.01, '--lorry-across', 1.0)),
-    Stress('plain', 'no texture', '% of the image', SHARES, worse('plain', '--plain', lambda level: level / 100)),
-    Stress('tiles', 'repeated texture', '% of all texture', SHARES, rendered('tiles', '--tiles', 0.01)),
+           rendered('--lorry', 0.01, '--lorry-across', 1.0)),
+    Stress('plain', 'no texture', '% of the image', SHARES, worse('--plain', lambda level: level / 100)),
+    Stress('tiles', 'repeated texture', '% of all texture', SHARES, rendered('--tiles', 0.01)),
     Stress('drops', 'drops on the lenses', '% of the image', SHARES,
-           worse('drops', '--drops', lambda level: level / 100)),
-    Stress('rows', 'right rows off', 'px', ladder(0.25, 16), rendered('rows', '--rows')),
-    Stress('skew', 'right image late', 'ms', ladder(1, 100), rendered('skew', '--time-skew', 1e-3)),
-    Stress('focal', 'focal length too large', '%', ladder(0.25, 16), miscalibrated('focal', FOCAL)),
-    Stress('baseline', 'baseline too large', '%', ladder(0.25, 16), miscalibrated('baseline', BASELINE)),
+           worse('--drops', lambda level: level / 100)),
+    Stress('rows', 'right rows off', 'px', ladder(0.25, 16), rendered('--rows')),
+    Stress('skew', 'right image late', 'ms', ladder(1, 100), rendered('--time-skew', 1e-3)),
+    Stress('focal', 'focal length too large', '%', ladder(0.25, 16), miscalibrated(FOCAL)),
+    Stress('baseline', 'baseline too large', '%', ladder(0.25, 16), miscalibrated(BASELINE)),
 ]

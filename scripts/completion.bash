@@ -32,12 +32,7 @@ declare -gA _rotrocc_values=(
   ['simulate_drive --lens']='radtan equidistant'
   ['simulate_drive --rig']='perfect worn'
 )
-_rotrocc_reads_recordings() {
-  case $1 in
-    benchmark | kitti_benchmark | kitti_odometry | offline_odometry | sequence_to_bag | stress_sequence) ;;
-    *) return 1 ;;
-  esac
-}
+_rotrocc_readers=' benchmark kitti_benchmark kitti_odometry offline_odometry sequence_to_bag stress_sequence '
 
 # Recordings: sequences, bags, and the folders that lead to them.
 _rotrocc_recordings() {
@@ -68,7 +63,7 @@ _rotrocc_complete() {
       return
     fi
     if [ "$cword" -eq 1 ]; then values=${_rotrocc_values[$program]-}; fi
-    if [ -z "$values" ] && _rotrocc_reads_recordings "$program"; then
+    if [ -z "$values" ] && [[ $_rotrocc_readers == *" $program "* ]]; then
       _rotrocc_recordings "$word"
       return
     fi

@@ -12,6 +12,12 @@ usage() {
   exit "$1"
 }
 
+# Ends the script with a message, and a status of 1 unless there is another one.
+fail() {
+  echo "$(basename "$0"): $1" >&2
+  exit "${2:-1}"
+}
+
 # Prints a step, with the seconds since the start of the script.
 step() {
   printf '[%4d s] %s\n' $((SECONDS - started)) "$*"
@@ -77,8 +83,26 @@ build_targets() {
 # Ends with the errors in a log.
 build_failed() {
   grep -E -A 5 'error|Error|\*\*\*' "$1" | head -n 40 >&2 || true
-  echo "$(basename "$0"): the build failed; see $1" >&2
-  exit 1
+  fail "the build failed; see $1"
+}
+
+# Ends what the script has started and still runs, the latest first.
+end_processes() {
+  local process
+  trap '' INT TERM
+  for process in $(jobs -rp | tac); do
+    kill "$process" 2>/dev/null || true
+    wait "$process" 2>/dev/null || true
+  done
+}
+
+# Prints the failed and skipped tests in a folder of results, and sets tests_passed and tests_failed.
+count_tests() {
+  local summary
+  summary=$(python3 "$root/scripts/rotrocc_tools/test_summary.py" "$1")
+  sed '$d' <<<"$summary"
+  # shellcheck disable=SC2034
+  read -r tests_passed tests_failed <<<"${summary##*$'\n'}"
 }
 
 # Uses a free port for a separate ROS master, so that scripts do not interfere with a running robot.
@@ -88,4 +112,11 @@ use_own_ros_master() {
   unset ROS_IP
   export ROS_HOSTNAME=localhost ROS_MASTER_URI=http://localhost:$port
   export ROS_LOG_DIR=${ROS_LOG_DIR:-$build/ros_logs}
+}
+
+# Starts that master, with a log.
+start_ros_master() {
+  rosmaster --core -p "${ROS_MASTER_URI##*:}" >"$1" 2>&1 &
+  timeout 20 bash -c 'until rosparam list; do sleep 0.2; done' >/dev/null 2>&1 ||
+    fail "the ROS master does not start; see $1"
 }

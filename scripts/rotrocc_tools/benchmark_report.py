@@ -17,7 +17,6 @@ COLUMNS = ['sequence', 'group', 'pairs', 'path_m', 'segments', 'translation_perc
            'duration_s']
 BINS = {'length': 'length_m', 'speed': 'speed_mps'}
 ERRORS = ['translation_percent', 'rotation_deg_per_m']
-END_HEADER = ['lost', 'degr.', 'CPU<br>[ms]', 'bias [px]']
 
 
 class Result:
@@ -28,13 +27,10 @@ class Result:
         summary = {name: column[0] for name, column in read_columns(folder / 'summary.csv').items()}
         pairs = read_columns(folder / 'pairs.csv')
         self.segments = int(summary.get('segments', 0))
-        self.bins = {}
+        self.bins, self.group = {}, 'none'
         if self.segments:
             self.bins = {name: read_columns(folder / ('by_%s.csv' % name)) for name in BINS}
-        self.group = 'none'
-        if self.segments:
-            longest = self.bins['length']['length_m'][-1]
-            self.group = 'devkit' if longest >= DEVKIT_M else 'short'
+            self.group = 'devkit' if self.bins['length']['length_m'][-1] >= DEVKIT_M else 'short'
         self.row = {
             'sequence': folder.name, 'group': self.group, 'pairs': len(pairs['stamp_ns']),
             'path_m': summary['path_m'], 'segments': self.segments,
@@ -49,22 +45,24 @@ class Result:
 
 def pool(tables, bin_name):
     """Mean over the segments of all sequences, from their means and counts."""
-    sums = {}
-    for table in tables:
-        for i, key in enumerate(table[bin_name]):
-            count = table['segments'][i]
-            total = sums.setdefault(key, numpy.zeros(3))
-            total += [count] + [count * table[name][i] for name in ERRORS]
-    keys = sorted(sums)
-    pooled = {bin_name: numpy.array(keys), 'segments': numpy.array([sums[key][0] for key in keys])}
-    for i, name in enumerate(ERRORS):
-        pooled[name] = numpy.array([sums[key][i + 1] / sums[key][0] for key in keys])
-    return pooled
+    together = {name: numpy.concatenate([table[name] for table in tables]) for name in (bin_name, 'segments', *ERRORS)}
+    keys, places = numpy.unique(together[bin_name], return_inverse=True)
+    counts = numpy.bincount(places, together['segments']).astype(int)
+    return {bin_name: keys, 'segments': counts, **{
+        name: numpy.bincount(places, together['segments'] * together[name]) / counts for name in ERRORS}}
+
+
+def total_of(rows, name):
+    return sum(row[name] for row in rows)
 
 
 def mean_error(rows, name):
     """Mean over the segments of all sequences, as on the KITTI leaderboard."""
-    return (sum(row['segments'] * row[name] for row in rows) / sum(row['segments'] for row in rows))
+    return numpy.average([row[name] for row in rows], weights=[row['segments'] for row in rows])
+
+
+def mean_cpu_ms(rows):
+    return numpy.average([row['cpu_ms'] for row in rows], weights=[row['pairs'] for row in rows])
 
 
 def read_earlier(folder):
@@ -76,10 +74,7 @@ def read_earlier(folder):
     for row in rows.values():
         for name in ERRORS + ['segments']:
             row[name] = float(row[name])
-    earlier = {'sequences': rows}
-    for name in BINS:
-        earlier[name] = read_columns(folder / ('by_%s.csv' % name))
-    return earlier
+    return {'sequences': rows, **{name: read_columns(folder / ('by_%s.csv' % name)) for name in BINS}}
 
 
 def of_group(table, group):
@@ -94,12 +89,10 @@ def write_tables(output, results):
                [[cell(result.row[name]) for name in COLUMNS] for result in results])
     for name, bin_name in BINS.items():
         rows = []
-        for group, _, _ in GROUPS:
-            pooled = pool([result.bins[name] for result in results if result.group == group
-                           and result.bins], bin_name)
-            rows += [[group, '%g' % pooled[bin_name][i], '%d' % pooled['segments'][i]] +
-                     ['%.10g' % pooled[error][i] for error in ERRORS]
-                     for i in range(len(pooled[bin_name]))]
+        for group in sorted({result.group for result in results if result.bins}):
+            pooled = pool([result.bins[name] for result in results if result.group == group], bin_name)
+            rows += [[group, '%g' % key, '%d' % count, *['%.10g' % error for error in errors]]
+                     for key, count, *errors in zip(*pooled.values())]
         write_table(output / ('by_%s.csv' % name), ['group', bin_name, 'segments'] + ERRORS, rows)
 
 
@@ -111,6 +104,14 @@ def change(now, before):
     if abs(percent) < 0.05:
         return 'same'
     return '<span class="%s">%+.1f %%</span>' % ('worse' if percent > 0 else 'better', percent)
+
+
+def results_table(rows, names_of_errors=(), cells_of_errors=lambda row: [], total=None):
+    header = ['sequence', 'pairs', 'path<br>[m]', *names_of_errors, 'lost', 'degr.', 'CPU<br>[ms]', 'bias [px]']
+    return page.table(header, [[
+        page.link('sequences/%s/index.html' % row['sequence'], row['sequence']), '%d' % row['pairs'],
+        '%.0f' % row['path_m'], *cells_of_errors(row), '%d' % row['lost'], '%d' % row['degraded'],
+        '%.1f' % row['cpu_ms'], '%+.2f ± %.2f' % (row['bias_px'], row['bias_sigma_px'])] for row in rows], total)
 
 
 class GroupSection:
@@ -134,34 +135,23 @@ class GroupSection:
         for name, form in zip(ERRORS, ('%.3f', '%.5f')):
             cells.append(form % row[name])
             if self.before:
-                cells += [form % before[name], change(row[name], before[name])] if before else [
-                    '–', '–']
+                cells += [form % before[name], change(row[name], before[name])] if before else ['–', '–']
         return cells
 
     def total(self):
-        cells = ['mean', '%d' % sum(row['pairs'] for row in self.rows),
-                 '%.0f' % sum(row['path_m'] for row in self.rows)]
         common = [row for row in self.rows if row['sequence'] in self.before]
         now = {name: mean_error(common or self.rows, name) for name in ERRORS}
-        before = {name: mean_error(list(self.before.values()), name)
-                  for name in ERRORS} if common else None
-        pairs = numpy.array([row['pairs'] for row in self.rows], float)
-        cpu_ms = numpy.array([row['cpu_ms'] for row in self.rows])
-        return cells + self.error_cells(now, before) + [
-            '%d' % sum(row['lost'] for row in self.rows),
-            '%d' % sum(row['degraded'] for row in self.rows),
-            '%.1f' % (pairs.dot(cpu_ms) / pairs.sum()), '']
+        before = {name: mean_error(self.before.values(), name) for name in ERRORS} if common else None
+        return ['mean', '%d' % total_of(self.rows, 'pairs'), '%.0f' % total_of(self.rows, 'path_m'),
+                *self.error_cells(now, before), '%d' % total_of(self.rows, 'lost'),
+                '%d' % total_of(self.rows, 'degraded'), '%.1f' % mean_cpu_ms(self.rows), '']
 
     def write(self, title, note):
-        header = ['sequence', 'pairs', 'path<br>[m]']
-        for name in ('translation<br>[%]', 'rotation<br>[deg/m]'):
-            header += [name] + (['earlier', 'change'] if self.before else [])
-        header += END_HEADER
-        rows = [begin_cells(row) + self.error_cells(row, self.before.get(row['sequence']))
-                + end_cells(row) for row in self.rows]
+        further = ['earlier', 'change'] if self.before else []
+        table = results_table(self.rows, ['translation<br>[%]', *further, 'rotation<br>[deg/m]', *further],
+                              lambda row: self.error_cells(row, self.before.get(row['sequence'])), self.total())
         note += ' The mean is over all %d segments%s.' % (
-            sum(row['segments'] for row in self.rows),
-            ' of the sequences in both reports' if self.before else '')
+            total_of(self.rows, 'segments'), ' of the sequences in both reports' if self.before else '')
 
         def errors(rows):
             return {row['sequence']: [row[name] for name in ERRORS] for row in rows}
@@ -170,25 +160,8 @@ class GroupSection:
                                errors(self.before.values()))
         curves = self.output / ('errors_%s.png' % self.group)
         figures.plot_errors(*self.tables, curves, self.tables_before)
-        return page.section(title, note, page.table(header, rows, self.total()),
-                            page.picture(bars, 'errors of each sequence'),
+        return page.section(title, note, table, page.picture(bars, 'errors of each sequence'),
                             page.picture(curves, 'errors by length and by speed'))
-
-
-def begin_cells(row):
-    return [page.link('sequences/%s/index.html' % row['sequence'], row['sequence']),
-            '%d' % row['pairs'], '%.0f' % row['path_m']]
-
-
-def end_cells(row):
-    return ['%d' % row['lost'], '%d' % row['degraded'], '%.1f' % row['cpu_ms'],
-            '%+.2f ± %.2f' % (row['bias_px'], row['bias_sigma_px'])]
-
-
-def section_without_errors(title, note, results):
-    header = ['sequence', 'pairs', 'path<br>[m]'] + END_HEADER
-    rows = [begin_cells(result.row) + end_cells(result.row) for result in results]
-    return page.section(title, note, page.table(header, rows))
 
 
 def tiles(results):
@@ -199,14 +172,11 @@ def tiles(results):
             entries += [('%.3f' % mean_error(rows, ERRORS[0]), '%', 'translation error' + what),
                         ('%.5f' % mean_error(rows, ERRORS[1]), 'deg/m', 'rotation error' + what)]
     rows = [result.row for result in results]
-    pairs = sum(row['pairs'] for row in rows)
-    cpu_ms = sum(row['pairs'] * row['cpu_ms'] for row in rows) / pairs
     entries += [('%d' % len(rows), 'sequences', '%d pairs, %.1f km' % (
-                    pairs, 1e-3 * sum(row['path_m'] for row in rows))),
-                ('%d' % sum(row['lost'] for row in rows), 'lost',
-                 '%d degraded' % sum(row['degraded'] for row in rows)),
-                ('%.1f' % cpu_ms, 'ms', 'CPU time per pair'),
-                ('%.0f' % sum(row['duration_s'] for row in rows), 's', 'run time of all jobs')]
+                    total_of(rows, 'pairs'), 1e-3 * total_of(rows, 'path_m'))),
+                ('%d' % total_of(rows, 'lost'), 'lost', '%d degraded' % total_of(rows, 'degraded')),
+                ('%.1f' % mean_cpu_ms(rows), 'ms', 'CPU time per pair'),
+                ('%.0f' % total_of(rows, 'duration_s'), 's', 'run time of all jobs')]
     return page.tiles(entries)
 
 
@@ -232,8 +202,8 @@ def print_table(results):
                 'sequence', 'pairs', 'path_m', *ERRORS, 'lost', 'cpu_ms')))
         if rows and group != 'none':
             print('%-20s %6d %8.0f %15.3f %16.5f' % (
-                'mean of segments', sum(row['pairs'] for row in rows),
-                sum(row['path_m'] for row in rows), *(mean_error(rows, name) for name in ERRORS)))
+                'mean of segments', total_of(rows, 'pairs'), total_of(rows, 'path_m'),
+                *(mean_error(rows, name) for name in ERRORS)))
 
 
 def write(output, names, failed, earlier, title):
@@ -252,14 +222,12 @@ def write(output, names, failed, earlier, title):
     for group, heading, note in GROUPS:
         members = [result for result in results if result.group == group]
         if members and group == 'none':
-            parts.append(section_without_errors(heading, note, members))
+            parts.append(page.section(heading, note, results_table([result.row for result in members])))
         elif members:
             parts.append(GroupSection(output, group, members, earlier).write(heading, note))
     parts.append(trajectories(output, results))
-    parts.append(page.section('Tables', 'Files next to this page: %s; estimated poses in KITTI format '
-                              'in trajectories.' % ', '.join(
-                                  page.link(name, name) for name in (
-                                      'sequences.csv', 'by_length.csv', 'by_speed.csv'))))
+    parts.append(page.section('Tables', 'Files next to this page: %s; estimated poses in KITTI format in trajectories.'
+                              % page.links(['sequences.csv', 'by_length.csv', 'by_speed.csv'])))
     page.write_page(output / 'index.html', title, 'Stereo visual odometry, %d sequences%s' % (
         len(results), ', compared with an earlier report' if earlier else ''), *parts)
     print_table(results)

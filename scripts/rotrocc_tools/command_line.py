@@ -1,5 +1,7 @@
 """Command lines of the scripts, whose --help is like that of the programs."""
 import argparse
+import pathlib
+import sys
 
 
 class Parser(argparse.ArgumentParser):
@@ -19,3 +21,11 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message):
         self.exit(2, '%s: %s; --help shows the usage\n' % (self.prog, message))
+
+
+def run(main):
+    """Ends a script with the status of main(), or with the message of its error."""
+    try:
+        sys.exit(main())
+    except (RuntimeError, OSError, ValueError, KeyError) as error:
+        sys.exit('%s: %s' % (pathlib.Path(sys.argv[0]).name, error))

@@ -1,7 +1,7 @@
 """Style of all plots. Scripts take pyplot from here: it needs a backend that needs no display."""
 import matplotlib
 matplotlib.use('Agg')
-from matplotlib import pyplot
+from matplotlib import pyplot, ticker
 
 # Okabe and Ito's colours, distinguishable with colour blindness.
 ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILLION, PURPLE, BLACK = (
@@ -20,6 +20,11 @@ def dress(axes):
     axes.yaxis.label.set_color(TEXT)
     for side in axes.spines.values():
         side.set_visible(False)
+
+
+def place_ticks(axis, most):
+    """At multiples of 1, 2 or 5 times a power of ten."""
+    axis.set_major_locator(ticker.MaxNLocator(most, steps=[1, 2, 5, 10]))
 
 
 def legend(owner, *arguments, **options):

@@ -5,7 +5,7 @@ import shutil
 import subprocess
 import sys
 
-from rotrocc_tools.tables import read_table
+from rotrocc_tools.tables import read_columns, read_table
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]  # of a checkout
 PAPER_CONFIG = ROOT / 'config/paper.yaml'
@@ -48,12 +48,12 @@ class Programs:
         return read_table(folder / 'pairs.csv')
 
     def segments(self, sequence, folder, lengths_m, step):
-        """The errors of all segments of the trajectory in `folder`, also written to segments.csv there: [{first_pose,
-        length_m, speed_mps, translation_percent, rotation_deg_per_m}]."""
+        """The errors of all segments of the trajectory in `folder`, also written to segments.csv there: arrays of
+        first_pose, length_m, speed_mps, translation_percent, rotation_deg_per_m."""
         table = folder / 'segments.csv'
         self.run('evaluate_trajectory', sequence / 'poses.txt', folder / 'trajectory.txt', '--times',
                  sequence / 'times.txt', '--step', step, '--segments', table, '--lengths', *lengths_m)
-        return [{name: float(value) for name, value in row.items()} for row in read_table(table)]
+        return read_columns(table)
 
 
 def make_once(target, make):
@@ -66,10 +66,13 @@ def make_once(target, make):
     return target
 
 
+def repeated(option, values):
+    """A command line with the option for each of the values."""
+    return [word for value in values for word in (option, value)]
+
+
 def odometry_options(setting):
     """The options of offline_odometry for a setting, {parameter: value}; the key config is a file of parameters."""
-    options = ['--config', setting['config']] if setting.get('config') else []
-    for name, value in setting.items():
-        if '/' in name:
-            options += ['--set', '%s=%s' % (name, str(value).lower() if isinstance(value, bool) else value)]
-    return options
+    return repeated('--config', filter(None, [setting.get('config')])) + repeated('--set', [
+        '%s=%s' % (name, str(value).lower() if isinstance(value, bool) else value)
+        for name, value in setting.items() if '/' in name])

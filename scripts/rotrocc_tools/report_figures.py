@@ -2,11 +2,13 @@
 
 Tables are {column: array}, as tables.read_columns() gives them.
 """
-from matplotlib import patches, ticker
+import contextlib
+
+from matplotlib import patches
 import numpy
 
 from rotrocc_tools.plot_style import (BLACK, BLUE, DEGRADED, FAINT, GREEN, LOST, ORANGE, SKY, TEXT, VERMILLION,
-                        dress, legend, pyplot, save)
+                        dress, legend, place_ticks, pyplot, save)
 
 WIDTH_IN = 8.4
 OTHER = {'color': FAINT, 'linestyle': (0, (4, 2)), 'linewidth': 1.3}
@@ -46,7 +48,7 @@ def plot_errors(by_length, by_speed, path, other=None, of_other='earlier'):
             panel.plot(scale * table[bin_name], table[name], marker=marker, color=colour,
                        markersize=5, linewidth=1.8, clip_on=False, zorder=3)
             panel.set_xlabel(bin_label)
-            panel.xaxis.set_major_locator(ticker.MaxNLocator(9, steps=[1, 2, 5, 10]))
+            place_ticks(panel.xaxis, 9)
             if column == 0:
                 panel.set_ylabel(label)
     for row in axes:
@@ -73,7 +75,7 @@ def shade(panel, time_s, states):
 def time_axis(panel, time_s):
     panel.set_xlabel('time [s]')
     panel.set_xlim(time_s[0], max(time_s[-1], time_s[0] + 1e-3))
-    panel.xaxis.set_major_locator(ticker.MaxNLocator(10, steps=[1, 2, 5, 10]))
+    place_ticks(panel.xaxis, 10)
 
 
 def robust_top(values, margin=1.15):
@@ -98,7 +100,7 @@ def plot_steps(poses, states, path):
         panel.plot(time_s, values, color=colour, linewidth=1.0)
         panel.set_ylabel(label)
         panel.set_ylim(0, robust_top(values))
-        panel.yaxis.set_major_locator(ticker.MaxNLocator(4, steps=[1, 2, 5, 10]))
+        place_ticks(panel.yaxis, 4)
     time_axis(axes[-1, 0], time_s)
     figure.align_ylabels(axes[:, 0])
     figure.tight_layout(h_pad=0.8, rect=(0, 0, 1, 1 - 0.22 / figure.get_figheight()))
@@ -109,58 +111,53 @@ def plot_steps(poses, states, path):
     save(figure, path)
 
 
-def plot_counts(pairs, time_s, path):
-    """Features left after each stage."""
+@contextlib.contextmanager
+def timeline(label, time_s, path):
+    """A panel to draw on, whose legend is above it."""
     figure, axes = panels(1, 1, 2.9)
     panel = axes[0, 0]
-    for name, colour, label in COUNTS:
-        panel.fill_between(time_s, pairs[name], color=colour, linewidth=0, label=label)
-    panel.set_ylabel('features')
-    panel.set_ylim(0, 1.05 * max(1, pairs['corners'].max()))
-    finish_timeline(figure, panel, time_s, path)
-
-
-def plot_times(pairs, time_s, path):
-    """Stacked times of the stages."""
-    figure, axes = panels(1, 1, 2.9)
-    panel = axes[0, 0]
-    panel.stackplot(time_s, [pairs[name] for name, _, _ in TIMES], linewidth=0,
-                    colors=[colour for _, colour, _ in TIMES],
-                    labels=[label for _, _, label in TIMES])
-    panel.plot(time_s, pairs['wall_ms'], color=BLACK, linewidth=0.6, label='whole pair')
-    panel.set_ylabel('wall time [ms]')
-    panel.set_ylim(0, robust_top(pairs['wall_ms']))
-    finish_timeline(figure, panel, time_s, path)
-
-
-def plot_bias(pairs, time_s, path):
-    """Estimated disparity bias with its standard deviation, and the applied correction."""
-    figure, axes = panels(1, 1, 2.9)
-    panel = axes[0, 0]
-    bias, sigma = pairs['bias_estimated_px'], pairs['bias_sigma_px']
-    panel.axhline(0.0, color=FAINT, linewidth=0.8)
-    panel.fill_between(time_s, bias - 2 * sigma, bias + 2 * sigma, color=BLUE, alpha=0.13,
-                       linewidth=0, label='2 sigma')
-    panel.fill_between(time_s, bias - sigma, bias + sigma, color=BLUE, alpha=0.25, linewidth=0,
-                       label='1 sigma')
-    panel.plot(time_s, bias, color=BLUE, linewidth=1.6, label='estimated')
-    panel.plot(time_s, pairs['bias_applied_px'], color=VERMILLION, linewidth=1.2, label='applied')
-    settled = sigma <= 2 * numpy.median(sigma)  # all but the first pairs
-    low = min(0.0, (bias - 2 * sigma)[settled].min())
-    high = max(0.0, (bias + 2 * sigma)[settled].max())
-    margin = max(0.08 * (high - low), 0.02)
-    panel.set_ylim(low - margin, high + margin)
-    panel.set_ylabel('disparity bias [px]')
-    finish_timeline(figure, panel, time_s, path)
-
-
-def finish_timeline(figure, panel, time_s, path):
+    panel.set_ylabel(label)
+    yield panel
     time_axis(panel, time_s)
     handles, labels = panel.get_legend_handles_labels()
     figure.tight_layout(rect=(0, 0, 1, 0.91))
     legend(figure, handles, labels, loc='upper left', ncol=len(labels),
            bbox_to_anchor=(panel.get_position().x0, 0.985))
     save(figure, path)
+
+
+def plot_counts(pairs, time_s, path):
+    """Features left after each stage."""
+    with timeline('features', time_s, path) as panel:
+        for name, colour, label in COUNTS:
+            panel.fill_between(time_s, pairs[name], color=colour, linewidth=0, label=label)
+        panel.set_ylim(0, 1.05 * max(1, pairs['corners'].max()))
+
+
+def plot_times(pairs, time_s, path):
+    """Stacked times of the stages."""
+    names, colours, labels = zip(*TIMES)
+    with timeline('wall time [ms]', time_s, path) as panel:
+        panel.stackplot(time_s, [pairs[name] for name in names], linewidth=0, colors=colours, labels=labels)
+        panel.plot(time_s, pairs['wall_ms'], color=BLACK, linewidth=0.6, label='whole pair')
+        panel.set_ylim(0, robust_top(pairs['wall_ms']))
+
+
+def plot_bias(pairs, time_s, path):
+    """Estimated disparity bias with its standard deviation, and the applied correction."""
+    bias, sigma = pairs['bias_estimated_px'], pairs['bias_sigma_px']
+    settled = sigma <= 2 * numpy.median(sigma)  # all but the first pairs
+    low = min(0.0, (bias - 2 * sigma)[settled].min())
+    high = max(0.0, (bias + 2 * sigma)[settled].max())
+    margin = max(0.08 * (high - low), 0.02)
+    with timeline('disparity bias [px]', time_s, path) as panel:
+        panel.axhline(0.0, color=FAINT, linewidth=0.8)
+        for factor, opacity in ((2, 0.13), (1, 0.25)):
+            panel.fill_between(time_s, bias - factor * sigma, bias + factor * sigma, color=BLUE, alpha=opacity,
+                               linewidth=0, label='%d sigma' % factor)
+        panel.plot(time_s, bias, color=BLUE, linewidth=1.6, label='estimated')
+        panel.plot(time_s, pairs['bias_applied_px'], color=VERMILLION, linewidth=1.2, label='applied')
+        panel.set_ylim(low - margin, high + margin)
 
 
 def plot_sequences(names, errors, path, earlier=None):
@@ -179,7 +176,7 @@ def plot_sequences(names, errors, path, earlier=None):
                        markersize=13, markeredgewidth=2)
         panel.set_xlabel(label)
         panel.grid(False, axis='y')
-        panel.xaxis.set_major_locator(ticker.MaxNLocator(5, steps=[1, 2, 5, 10]))
+        place_ticks(panel.xaxis, 5)
     axes[0, 0].set_yticks(places)
     axes[0, 0].set_yticklabels(names, color=TEXT)
     axes[0, 0].invert_yaxis()

@@ -1,7 +1,8 @@
 """Self-contained HTML pages: no external files, embedded pictures."""
 import base64
 import html
-import os
+
+from rotrocc_tools.tables import replaced
 
 STYLE = '''
 body { margin: 0; background: #f6f7f8; color: #222; font: 16px/1.5 system-ui, "DejaVu Sans", Arial, sans-serif; }
@@ -37,6 +38,10 @@ def text(words):
 
 def link(target, words):
     return '<a href="%s">%s</a>' % (html.escape(target, quote=True), text(words))
+
+
+def links(files):
+    return ', '.join(link(name, name) for name in files)
 
 
 def tiles(entries):
@@ -85,7 +90,5 @@ def write_page(path, title, note, *parts):
             '<title>%s</title>\n<style>%s</style>\n</head>\n<body>\n<main>\n<h1>%s</h1>\n<p>%s</p>\n'
             '%s</main>\n</body>\n</html>\n'
             % (text(title), STYLE, text(title), note, ''.join(parts)))
-    part = path.with_suffix('.part')
-    with open(str(part), 'w', encoding='utf-8') as file:
+    with replaced(path) as file:
         file.write(page)
-    os.replace(str(part), str(path))

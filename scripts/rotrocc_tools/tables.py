@@ -1,4 +1,5 @@
 """Tables: CSV files of the programs and of reports, and markdown."""
+import contextlib
 import csv
 import os
 
@@ -11,14 +12,18 @@ def read_table(path):
         return list(csv.DictReader(file))
 
 
-def write_table(path, names, rows):
-    """Replaces the file at once, so that nobody reads half of it."""
+@contextlib.contextmanager
+def replaced(path):
+    """A file to write, which replaces that of the path at once, so that nobody reads half of it."""
     part = path.with_suffix('.part')
-    with open(str(part), 'w') as file:
-        writer = csv.writer(file, lineterminator='\n')
-        writer.writerow(names)
-        writer.writerows(rows)
+    with open(str(part), 'w', encoding='utf-8') as file:
+        yield file
     os.replace(str(part), str(path))
+
+
+def write_table(path, names, rows):
+    with replaced(path) as file:
+        csv.writer(file, lineterminator='\n').writerows([names, *rows])
 
 
 def markdown(header, rows):
@@ -29,9 +34,9 @@ def markdown(header, rows):
 def read_columns(path):
     """{column: array}, numeric if all cells are numbers."""
     with open(str(path)) as file:
-        rows = list(csv.reader(file))
+        names, *rows = csv.reader(file)
     columns = {}
-    for name, cells in zip(rows[0], zip(*rows[1:]) if rows[1:] else [()] * len(rows[0])):
+    for name, cells in zip(names, zip(*rows) if rows else [()] * len(names)):
         kind = numpy.int64 if name.endswith('_ns') else float
         try:
             columns[name] = numpy.array(cells, dtype=kind)

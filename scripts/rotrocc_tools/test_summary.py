@@ -12,23 +12,11 @@ MOST_LINES = 25  # of the output of a test
 
 def outcome(case):
     """Returns "passed", "failed" or "skipped" of a <testcase>, and why."""
-    for kind in ("failure", "error"):
+    for kind, result in (("failure", "failed"), ("error", "failed"), ("skipped", "skipped")):
         found = case.find(kind)
         if found is not None:
-            return "failed", (found.get("message") or found.text or "").strip()
-    skipped = case.find("skipped")
-    if skipped is not None or case.get("result") == "skipped":
-        message = "" if skipped is None else (skipped.get("message") or skipped.text or "")
-        return "skipped", message.strip()
-    return "passed", ""
-
-
-def shortened(text, path):
-    """Returns the first lines of a text from the file at path."""
-    lines = text.splitlines()
-    if len(lines) > MOST_LINES:
-        lines[MOST_LINES:] = [f"... and {len(lines) - MOST_LINES} more lines in {path}"]
-    return "\n".join(lines)
+            return result, (found.get("message") or found.text or "").strip()
+    return case.get("result") if case.get("result") == "skipped" else "passed", ""
 
 
 def main(directory):
@@ -47,8 +35,10 @@ def main(directory):
                 continue  # wrapper of a rostest; its cases are in a separate file
             counts[result] += 1
             if result != "passed":
-                name = f"{case.get('classname')}.{case.get('name')}"
-                print(f"{result.upper()} {name}: {shortened(why, path)}")
+                print(f"{result.upper()} {case.get('classname')}.{case.get('name')}: ", end="")
+                print(*why.splitlines()[:MOST_LINES], sep="\n")
+                if len(why.splitlines()) > MOST_LINES:
+                    print(f"... and more in {path}")
     if not counts["passed"] + counts["failed"]:
         counts["failed"] += 1
         print(f"FAILED no test was run: {directory} has no results")

@@ -1,20 +1,11 @@
 """Picture of a trajectory: top view, and height along the path."""
-import math
-
 from matplotlib import ticker
 import numpy
 
-from rotrocc_tools.plot_style import DEGRADED, ESTIMATE, LOST, TEXT, TRUTH, dress, legend, pyplot, save
+from rotrocc_tools.plot_style import DEGRADED, ESTIMATE, LOST, TEXT, TRUTH, dress, legend, place_ticks, pyplot, save
 from rotrocc_tools.tables import path_lengths
 
 PAGE_IN = 8.0
-
-
-def round_step(span, parts):
-    """Grid step of 1, 2 or 5 times a power of ten for about `parts` steps in `span`."""
-    raw = span / parts
-    power = 10.0 ** math.floor(math.log10(raw))
-    return power * min((1, 2, 5, 10), key=lambda factor: abs(math.log(factor * power / raw)))
 
 
 def draw_lines(axes, estimate, truth, scale):
@@ -53,8 +44,8 @@ def draw_height(axes, estimate, truth):
     low, high = axes.get_ylim()
     middle, half = (low + high) / 2.0, max(0.5, 0.55 * (high - low))  # keeps flat roads flat
     axes.set_ylim(middle - half, middle + half)
-    axes.yaxis.set_major_locator(ticker.MaxNLocator(4, steps=[1, 2, 5, 10]))
-    axes.xaxis.set_major_locator(ticker.MaxNLocator(8, steps=[1, 2, 5, 10]))
+    place_ticks(axes.yaxis, 4)
+    place_ticks(axes.xaxis, 8)
     axes.margins(x=0.02)
 
 
@@ -88,9 +79,8 @@ def draw(estimate, truth, path, marks):
     draw_height(below, estimate, truth)
     above.set_xlim(low[0], high[0])
     above.set_ylim(low[1], high[1])
-    step = round_step(max(high - low), 7)
-    above.xaxis.set_major_locator(ticker.MultipleLocator(step))
-    above.yaxis.set_major_locator(ticker.MultipleLocator(step))
+    place_ticks(above.xaxis, 11)
+    above.yaxis.set_major_locator(ticker.MultipleLocator(numpy.diff(above.get_xticks())[0]))  # squares
     for axes in (above, below):  # figure.align_ylabels needs a newer matplotlib than Debian 11's
         axes.yaxis.set_label_coords(-0.065, 0.5)
 
@@ -112,8 +102,8 @@ def draw_all(drives, path):
         draw_lines(axes, estimate, truth, 0.7)
         axes.margins(0.08)
         axes.set_title(name, fontsize=10, color=TEXT)
-        axes.xaxis.set_major_locator(ticker.MaxNLocator(4, steps=[1, 2, 5, 10]))
-        axes.yaxis.set_major_locator(ticker.MaxNLocator(4, steps=[1, 2, 5, 10]))
+        place_ticks(axes.xaxis, 4)
+        place_ticks(axes.yaxis, 4)
     figure.tight_layout(rect=(0, 0, 1, 1 - 0.25 / figure.get_figheight()), w_pad=0.6)
     best = max(figure.axes, key=lambda axes: len(axes.lines))
     legend(figure, *best.get_legend_handles_labels(), loc='upper left', ncol=3,
