@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
-#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -171,9 +170,7 @@ SequenceWriter::SequenceWriter(const std::string& directory,
 }
 
 std::string SequenceWriter::path(const char* folder, const char* extension) const {
-  std::ostringstream name;
-  name << std::setw(6) << std::setfill('0') << count_ << extension;
-  return (fs::path(directory_) / folder / name.str()).string();
+  return (fs::path(directory_) / folder / cv::format("%06d%s", count_, extension)).string();
 }
 
 void SequenceWriter::write(const SimulatedFrame& frame) {
@@ -200,10 +197,10 @@ AslWriter::AslWriter(const std::string& directory, const UnrectifiedRig& rig, do
                         "q_RS_x [], q_RS_y [], q_RS_z []")) {
   const Eigen::Isometry3d T_body_right = bodyMount() * Eigen::Translation3d(baseline_m, 0.0, 0.0);
   writeSensor(root_ + "/cam0/sensor.yaml",
-              bodyMount() * Eigen::Quaterniond(rig.left.R_nominal_raw),
+              bodyMount() * Eigen::Quaterniond(rig.left.camera.R_rectified_raw),
               &rig.left.camera);
   writeSensor(root_ + "/cam1/sensor.yaml",
-              T_body_right * Eigen::Quaterniond(rig.right.R_nominal_raw),
+              T_body_right * Eigen::Quaterniond(rig.right.camera.R_rectified_raw),
               &rig.right.camera);
   writeSensor(root_ + kAslTruth + "/sensor.yaml", Eigen::Isometry3d::Identity(), nullptr);
 }

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <opencv2/core/utility.hpp>
 
 #include "simulation/counter_random.h"
 #include "simulation/gyroscope.h"
+#include "simulation/require_range.h"
 
 namespace rotrocc {
 namespace {
@@ -44,12 +44,6 @@ std::vector<std::int64_t> frameStamps(const Scenario& scenario, const Simulation
   const auto frames = static_cast<std::size_t>(std::max(0, options.frames));
   if (frames > 0 && frames < stamps_ns.size()) stamps_ns.resize(frames);
   return stamps_ns;
-}
-
-void requireRange(const std::string& name, double value, double low, double high) {
-  if (value >= low && value <= high) return;
-  throw std::invalid_argument(name + " is " + std::to_string(value) + ": choose it from " +
-                              std::to_string(low) + " to " + std::to_string(high));
 }
 
 }  // namespace

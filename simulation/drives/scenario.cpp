@@ -12,7 +12,7 @@ namespace rotrocc {
 namespace {
 
 constexpr double kBeyond_m = 160.0;  // extension of the street before the start and after the end
-constexpr double kSpacing_m = 0.5;   // spacing of the points of a centre line
+constexpr double kSpacing_m = 0.5;   // between the points of a street
 constexpr double kRight_rad = 0.5 * M_PI;
 
 std::vector<PathPiece> joined(const std::vector<std::vector<PathPiece>>& groups) {
@@ -32,7 +32,7 @@ double hills(double station_m) {
 /// The street of a path, with its extensions.
 Scenario alongOneStreet(std::shared_ptr<const Drive> drive, StreetStyle style, std::uint64_t seed) {
   Scenario scenario;
-  scenario.world.streets = {drive->path().beside(-style.lane_m, kSpacing_m, kBeyond_m, kBeyond_m)};
+  scenario.world.streets = {drive->path().beside(-style.lane_m, kBeyond_m)};
   scenario.world.drives = {drive->path()};
   scenario.world.beyond_m = kBeyond_m;
   scenario.traffic.oncoming_m = -2.0 * style.lane_m;
@@ -49,7 +49,7 @@ Path sideStreet(const Path& path, double station_m, double angle_rad, double lan
   const Eigen::Vector3d direction = turned * path.direction(station_m);
   const Eigen::Vector3d start = path.position(station_m);
   return Path({start, start + kLength_m * Eigen::Vector3d(direction.x(), 0.0, direction.z())})
-      .beside(-lane_m, kSpacing_m);
+      .beside(-lane_m);
 }
 
 /// The centre lines of the streets along a path, `right_m` beside it and `beyond_m` longer at both
@@ -60,7 +60,7 @@ std::vector<Path> streetsAlong(const Path& path,
                                double same_street_m) {
   constexpr double kNeighbour_m = 40.0;  // least distance along a path between two passages
   constexpr double kMinLength_m = 10.0;  // of a street
-  const Path line = path.beside(right_m, kSpacing_m, beyond_m, beyond_m);
+  const Path line = path.beside(right_m, beyond_m);
   std::vector<Path> streets;
   std::vector<std::pair<Eigen::Vector3d, double>> passed;  // points with their stations
   std::vector<Eigen::Vector3d> points;                     // of the street that is being built

@@ -95,7 +95,7 @@ Body makeLamp() {
               plain(0.3)},
              {std::make_shared<Ellipsoid>(Eigen::Vector3d(0.0, -kHeight, -1.6),
                                           Eigen::Vector3d(0.14, 0.09, 0.38)),
-              std::make_shared<LampMaterial>(0.65, 6.0)}});
+              std::make_shared<PlainMaterial>(0.65, 6.0)}});
   lamp.lamp = Eigen::Vector3d(0.0, -kHeight + 0.1, -1.6);
   return lamp;
 }

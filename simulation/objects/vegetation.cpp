@@ -23,8 +23,11 @@ class Leaves : public Material {
               const Eigen::Vector3d& normal,
               double pixel_m) const override {
     if (hole_limit_ <= 0.0) return false;
-    const Eigen::Vector2d at = faceCoordinates(position, normal);
-    return pattern({at, {pixel_m, 0.0}, {0.0, pixel_m}}) < hole_limit_;
+    const Eigen::Vector3d no_spread = Eigen::Vector3d::Zero();
+    TexturePoint at = faceCoordinates({position, normal, no_spread, no_spread});
+    at.per_column = {pixel_m, 0.0};
+    at.per_row = {0.0, pixel_m};
+    return pattern(at) < hole_limit_;
   }
 
   bool isTangle() const override { return true; }

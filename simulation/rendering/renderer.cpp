@@ -29,12 +29,7 @@ class Rendering {
       : world_(world),
         cars_(cars),
         rays_(rays),
-        view_(world.bodies(),
-              cars.bodies,
-              rays.pinhole,
-              rays.pinhole.cx,
-              T_world_camera,
-              rays.footprint),
+        view_(world.bodies(), cars.bodies, rays.pinhole, T_world_camera, rays.footprint),
         surfaces_(rays.size(), CV_32SC1, cv::Scalar(0)),
         picture_(emptyPicture(rays.size())) {}
 

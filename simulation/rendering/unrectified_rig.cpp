@@ -28,6 +28,13 @@ const Individual kRight = {1.0475,
                            {-0.28368365, 0.07451284, -0.00010473, -3.55590700e-05},
                            {0.0034, 0.0018, -0.0027, 0.0003}};
 
+Eigen::Matrix3d rotation(const Eigen::Vector3d& turn_rad) {
+  return (Eigen::AngleAxisd(turn_rad.z(), Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(turn_rad.y(), Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(turn_rad.x(), Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
 RawCamera rawCamera(const StereoCamera& nominal, const std::string& lens, const Individual& own) {
   // The offsets are those of an image 752 px wide.
   const Eigen::Vector2d offset = nominal.width / 752.0 * own.centre_px;
@@ -38,24 +45,18 @@ RawCamera rawCamera(const StereoCamera& nominal, const std::string& lens, const 
   raw.fy = 0.997 * own.focal_ratio * nominal.fy;
   raw.cx = 0.5 * (nominal.width - 1) + offset.x();
   raw.cy = 0.5 * (nominal.height - 1) + offset.y();
+  raw.R_rectified_raw = rotation(own.turn_rad);
   raw.distortion = {lens, lens == "radtan" ? own.radtan : own.equidistant};
   return raw;
 }
 
-Eigen::Matrix3d rotation(const Eigen::Vector3d& turn_rad) {
-  return (Eigen::AngleAxisd(turn_rad.z(), Eigen::Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(turn_rad.y(), Eigen::Vector3d::UnitY()) *
-          Eigen::AngleAxisd(turn_rad.x(), Eigen::Vector3d::UnitX()))
-      .toRotationMatrix();
-}
-
 /// Through an image that shows all that the raw one does, in the axes of the nominal camera.
-PixelRays raysOf(const RawCamera& raw, const Eigen::Matrix3d& R_nominal_raw) {
+PixelRays raysOf(const RawCamera& raw) {
   constexpr double kMaxSlope = 4.0;  // 76 degrees
   cv::Mat places(raw.height, raw.width, CV_64FC2);
   for (int y = 0; y < raw.height; ++y) {
     for (int x = 0; x < raw.width; ++x) {
-      const Eigen::Vector3d ray = R_nominal_raw * raw.ray(Eigen::Vector2d(x, y));
+      const Eigen::Vector3d ray = raw.R_rectified_raw * raw.ray(Eigen::Vector2d(x, y));
       const Eigen::Vector2d slope = ray.hnormalized();
       if (!(ray.z() > 0.0 && slope.norm() < kMaxSlope)) {
         throw std::invalid_argument(cv::format(
@@ -72,11 +73,8 @@ PixelRays raysOf(const RawCamera& raw, const Eigen::Matrix3d& R_nominal_raw) {
 UnrectifiedCamera camera(const StereoCamera& nominal,
                          const std::string& lens,
                          const Individual& own) {
-  UnrectifiedCamera unrectified;
-  unrectified.camera = rawCamera(nominal, lens, own);
-  unrectified.R_nominal_raw = rotation(own.turn_rad);
-  unrectified.rays = raysOf(unrectified.camera, unrectified.R_nominal_raw);
-  return unrectified;
+  const RawCamera raw = rawCamera(nominal, lens, own);
+  return {raw, raysOf(raw)};
 }
 
 }  // namespace

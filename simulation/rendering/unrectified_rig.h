@@ -12,7 +12,6 @@ namespace rotrocc {
 /// A camera with a lens, turned by up to a degree from the nominal rectified one at its place.
 struct UnrectifiedCamera {
   RawCamera camera;
-  Eigen::Matrix3d R_nominal_raw;
   PixelRays rays;  ///< as seen from the nominal camera
 };
 

@@ -37,17 +37,14 @@ void Body::place(const Eigen::Isometry3d& T_world_body) {
   world_bounds_ = transformed(own_bounds_, T_world_body_);
 }
 
-bool Body::intersect(const Ray& ray, const RayRange& range, double pixel_m, BodyHit& hit) const {
+bool Body::blocks(const Ray& ray, const RayRange& range, double pixel_m) const {
   const Ray own = toBody(ray);
   if (!BoxTest(own).passes(range, own_bounds_)) return false;
-  RayRange nearer = range;
-  bool found = false;
+  BodyHit hit;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
-    if (!intersectPart(static_cast<int>(i), own, nearer, pixel_m, hit)) continue;
-    nearer.to = hit.distance;
-    found = true;
+    if (intersectPart(static_cast<int>(i), own, range, pixel_m, hit)) return true;
   }
-  return found;
+  return false;
 }
 
 bool Body::intersectPart(

@@ -42,11 +42,10 @@ class Body {
   /// Bounding box in the frame of the body.
   const Eigen::AlignedBox3d& ownBounds() const { return own_bounds_; }
 
-  /// First hit of a ray of the world in `range`; false if there is none. A pixel is `pixel_m` wide
-  /// at distance 1.
-  bool intersect(const Ray& ray, const RayRange& range, double pixel_m, BodyHit& hit) const;
+  /// Whether it blocks a ray of the world in `range`. A pixel is `pixel_m` wide at distance 1.
+  bool blocks(const Ray& ray, const RayRange& range, double pixel_m) const;
 
-  /// The same for one part, with the ray in the frame of the body.
+  /// First hit of a ray in the frame of the body with one part; false if there is none.
   bool intersectPart(
       int part, const Ray& own_ray, const RayRange& range, double pixel_m, BodyHit& hit) const;
 

@@ -62,6 +62,21 @@ RayRange belowHeight(const Ray& ray, const RayRange& range, double top) {
   return range;
 }
 
+/// Looks for a hit in the cells along a ray, in order, until hits(column, row, part of `range` in
+/// the cell) is true. Leaves out cells that the ray passes above their top(column, row).
+template <class Top, class Hits>
+bool anyCell(const GroundGrid& grid, const Ray& ray, const RayRange& range, Top top, Hits hits) {
+  const bool rises = ray.direction.y() < 0.0;
+  for (CellWalk walk(grid, ray, range); walk.onGrid(); walk.advance()) {
+    if (walk.enter() >= range.to) return false;
+    const RayRange in_cell = {walk.enter(), std::min(walk.leave(), range.to)};
+    const double lowest = ray.origin.y() + ray.direction.y() * (rises ? in_cell.from : in_cell.to);
+    if (lowest < top(walk.column(), walk.row())) continue;
+    if (hits(walk.column(), walk.row(), in_cell)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 SceneGeometry::SceneGeometry(Terrain terrain, std::vector<Body> bodies)
@@ -107,57 +122,33 @@ const std::vector<std::int32_t>& SceneGeometry::bodiesAround(double x, double z)
   return grid.contains(column, row) ? cell(column, row).bodies : kNone;
 }
 
-bool SceneGeometry::trace(const Ray& ray,
-                          const RayRange& range,
-                          double pixel_m,
-                          SceneHit& hit) const {
+bool SceneGeometry::isBlocked(const Ray& ray, const RayRange& range, double pixel_m) const {
   const BoxTest test(ray);
-  const bool rises = ray.direction.y() < 0.0;
-  const RayRange low = belowHeight(ray, range, top_);
-  for (CellWalk walk(terrain_.grid(), ray, low); walk.onGrid(); walk.advance()) {
-    if (walk.enter() >= low.to) return false;
-    const RayRange in_cell = {walk.enter(), std::min(walk.leave(), low.to)};
-    const double lowest = ray.origin.y() + ray.direction.y() * (rises ? in_cell.from : in_cell.to);
-    if (lowest < cell(walk.column(), walk.row()).top) continue;
-    if (traceCell(ray, test, in_cell, walk.column(), walk.row(), pixel_m, hit)) return true;
-  }
-  return false;
+  return anyCell(
+      terrain_.grid(),
+      ray,
+      belowHeight(ray, range, top_),
+      [&](int column, int row) { return cell(column, row).top; },
+      [&](int column, int row, const RayRange& in_cell) {
+        double distance = 0.0;
+        if (terrain_.intersect(ray, in_cell, column, row, distance)) return true;
+        const std::vector<std::int32_t>& bodies = cell(column, row).bodies;
+        return std::any_of(bodies.begin(), bodies.end(), [&](std::int32_t index) {
+          const Body& body = bodies_[index];
+          return test.passes(in_cell, body.bounds()) && body.blocks(ray, in_cell, pixel_m);
+        });
+      });
 }
 
 bool SceneGeometry::traceGround(const Ray& ray, const RayRange& range, double& distance) const {
-  const RayRange low = belowHeight(ray, range, ground_top_);
-  const bool rises = ray.direction.y() < 0.0;
-  for (CellWalk walk(terrain_.grid(), ray, low); walk.onGrid(); walk.advance()) {
-    if (walk.enter() >= low.to) return false;
-    const RayRange in_cell = {walk.enter(), std::min(walk.leave(), low.to)};
-    const double lowest = ray.origin.y() + ray.direction.y() * (rises ? in_cell.from : in_cell.to);
-    if (lowest < terrain_.top(walk.column(), walk.row())) continue;
-    if (terrain_.intersect(ray, in_cell, walk.column(), walk.row(), distance)) return true;
-  }
-  return false;
-}
-
-bool SceneGeometry::traceCell(const Ray& ray,
-                              const BoxTest& test,
-                              const RayRange& in_cell,
-                              int column,
-                              int row,
-                              double pixel_m,
-                              SceneHit& hit) const {
-  RayRange nearer = in_cell;
-  bool found = terrain_.intersect(ray, in_cell, column, row, hit.at.distance);
-  if (found) {
-    hit.body = -1;
-    nearer.to = hit.at.distance;
-  }
-  for (const std::int32_t index : cell(column, row).bodies) {
-    if (!test.passes(nearer, bodies_[index].bounds())) continue;
-    if (!bodies_[index].intersect(ray, nearer, pixel_m, hit.at)) continue;
-    hit.body = index;
-    nearer.to = hit.at.distance;
-    found = true;
-  }
-  return found;
+  return anyCell(
+      terrain_.grid(),
+      ray,
+      belowHeight(ray, range, ground_top_),
+      [&](int column, int row) { return terrain_.top(column, row); },
+      [&](int column, int row, const RayRange& in_cell) {
+        return terrain_.intersect(ray, in_cell, column, row, distance);
+      });
 }
 
 }  // namespace rotrocc

@@ -8,12 +8,6 @@
 
 namespace rotrocc {
 
-/// First hit of a ray with the ground or a body on it.
-struct SceneHit {
-  int body = -1;  ///< -1: the ground
-  BodyHit at;
-};
-
 /// The ground and the bodies on it, in a grid for fast ray casting.
 class SceneGeometry {
  public:
@@ -21,15 +15,16 @@ class SceneGeometry {
 
   const Terrain& terrain() const { return terrain_; }
   const std::vector<Body>& bodies() const { return bodies_; }
+  std::vector<Body>& bodies() { return bodies_; }  ///< to light them, not to move them
 
   /// The bodies in or next to the cell of a place on the ground.
   const std::vector<std::int32_t>& bodiesAround(double x, double z) const;
 
-  /// First hit in `range`, within the grid of the ground. A pixel is `pixel_m` wide at distance 1.
-  /// Returns false if there is none; the ray must start above the ground.
-  bool trace(const Ray& ray, const RayRange& range, double pixel_m, SceneHit& hit) const;
+  /// Whether the ground or a body blocks a ray in `range`, within the grid of the ground. A pixel
+  /// is `pixel_m` wide at distance 1. The ray must start above the ground.
+  bool isBlocked(const Ray& ray, const RayRange& range, double pixel_m) const;
 
-  /// First hit with the ground only.
+  /// First hit with the ground only; false if there is none.
   bool traceGround(const Ray& ray, const RayRange& range, double& distance) const;
 
  private:
@@ -42,13 +37,6 @@ class SceneGeometry {
   const Cell& cell(int column, int row) const {
     return cells_[static_cast<std::size_t>(row) * terrain_.grid().columns + column];
   }
-  bool traceCell(const Ray& ray,
-                 const BoxTest& test,
-                 const RayRange& in_cell,
-                 int column,
-                 int row,
-                 double pixel_m,
-                 SceneHit& hit) const;
 
   Terrain terrain_;
   std::vector<Body> bodies_;

@@ -17,13 +17,11 @@ constexpr int kTile_px = 16;
 View::View(const std::vector<Body>& standing,
            const std::vector<Body>& moving,
            const StereoCamera& camera,
-           double cx,
            const Eigen::Isometry3d& T_world_camera,
            double footprint)
     : standing_(standing),
       moving_(moving),
       camera_(camera),
-      cx_(cx),
       origin_(T_world_camera.translation()),
       axes_(T_world_camera.linear()),
       spread_{footprint * axes_.col(0) / camera.fx, footprint * axes_.col(1) / camera.fy} {
@@ -67,8 +65,7 @@ bool View::cover(const Eigen::AlignedBox3d& box,
   candidate.nearest_m = kInfinity;
   const auto add = [&](const Eigen::Vector3d& point) {
     candidate.nearest_m = std::min(candidate.nearest_m, point.z());
-    pixels.extend(Eigen::Vector2d(camera_.fx * point.x() / point.z() + cx_,
-                                  camera_.fy * point.y() / point.z() + camera_.cy));
+    pixels.extend(camera_.project(point));
   };
   // Sections of the twelve edges in front of the camera.
   const auto corner = [&](int index) -> Eigen::Vector3d {
@@ -121,7 +118,7 @@ bool View::intersect(double x, double y, const RayRange& range, BodyHit& hit, in
                              0,
                              static_cast<int>(tiles_.size()) / tile_columns_ - 1);
   const double pixel_m = 1.0 / camera_.fx;
-  const Eigen::Vector3d direction = cameraRay(x, y);
+  const Eigen::Vector3d direction = camera_.ray({x, y});
   RayRange nearer = range;
   bool found = false;
   for (const std::int32_t index : tiles_[static_cast<std::size_t>(row * tile_columns_ + column)]) {

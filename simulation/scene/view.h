@@ -14,22 +14,21 @@ namespace rotrocc {
 /// A camera at one time: its rays, and the bodies in each part of its image.
 class View {
  public:
-  /// The focal lengths and size of `camera` with the principal point (cx, camera.cy). Surfaces are
-  /// averaged over `footprint` pixels in either direction. Bodies are numbered: static ones first,
-  /// then moving ones. All must outlive the view.
+  /// Through the left image of `camera`. Surfaces are averaged over `footprint` pixels in either
+  /// direction. Bodies are numbered: static ones first, then moving ones. All must outlive the
+  /// view.
   View(const std::vector<Body>& standing,
        const std::vector<Body>& moving,
        const StereoCamera& camera,
-       double cx,
        const Eigen::Isometry3d& T_world_camera,
-       double footprint = 1.0);
+       double footprint);
 
   const std::vector<Body>& moving() const { return moving_; }
   int standingCount() const { return static_cast<int>(standing_.size()); }
   const Body& body(int number) const;
 
   /// The ray through a pixel, of unit depth, in the world.
-  Ray ray(double x, double y) const { return {origin_, axes_ * cameraRay(x, y)}; }
+  Ray ray(double x, double y) const { return {origin_, axes_ * camera_.ray({x, y})}; }
   const PixelSpread& spread() const { return spread_; }
 
   /// First body that the ray through a pixel hits in `range`; false if there is none. The pixel
@@ -47,9 +46,6 @@ class View {
     Eigen::Matrix3d R_body_camera;
   };
 
-  Eigen::Vector3d cameraRay(double x, double y) const {
-    return {(x - cx_) / camera_.fx, (y - camera_.cy) / camera_.fy, 1.0};
-  }
   void addBody(int number, const Eigen::Isometry3d& T_world_camera);
   bool cover(const Eigen::AlignedBox3d& box,
              const Eigen::Isometry3d& T_camera_body,
@@ -59,7 +55,6 @@ class View {
   const std::vector<Body>& standing_;
   const std::vector<Body>& moving_;
   StereoCamera camera_;
-  double cx_;
   Eigen::Vector3d origin_;
   Eigen::Matrix3d axes_;
   PixelSpread spread_;

@@ -48,11 +48,11 @@ SceneGeometry makeScene(const WorldPlan& plan,
   if (plan.furniture) {
     for (Body& body : plan.furniture(tiles)) bodies.push_back(std::move(body));
   }
-  const SceneGeometry scene(terrain, bodies);
-  for (Body& body : bodies) {
+  SceneGeometry scene(std::move(terrain), std::move(bodies));
+  for (Body& body : scene.bodies()) {
     if (body.own_shade) body.lit = sunlitTop(scene, body);
   }
-  return {std::move(terrain), std::move(bodies)};
+  return scene;
 }
 
 /// Ambient occlusion beside and below a body on the ground: 1 is full light.
@@ -85,10 +85,8 @@ double tiledReflectance(const TexturePoint& point) {
 }  // namespace
 
 std::vector<Path> WorldPlan::wholeDrives() const {
-  constexpr double kSpacing_m = 0.5;
   std::vector<Path> whole;
-  for (const Path& drive : drives)
-    whole.push_back(drive.beside(0.0, kSpacing_m, beyond_m, beyond_m));
+  for (const Path& drive : drives) whole.push_back(drive.beside(0.0, beyond_m));
   return whole;
 }
 
@@ -196,9 +194,9 @@ double World::illumination(const Eigen::Vector3d& position,
   if (lighting_.street_lamps > 0.0) {
     light += lighting_.street_lamps * streetLight(lamps_, position, normal);
   }
-  if (lighting_.head_lamps.brightness > 0.0) {
+  if (lighting_.head_lamps > 0.0) {
     light +=
-        headLight(lighting_.head_lamps, T_car_world_ * position, T_car_world_.linear() * normal);
+        lighting_.head_lamps * headLight(T_car_world_ * position, T_car_world_.linear() * normal);
   }
   return light;
 }

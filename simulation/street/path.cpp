@@ -59,15 +59,16 @@ double Path::heading_rad(double station_m) const {
   return std::atan2(ahead.x(), ahead.z());
 }
 
-Path Path::beside(double right_m, double spacing_m, double before_m, double after_m) const {
-  const double length = before_m + length_m() + after_m;
-  const int steps = std::max(1, static_cast<int>(std::ceil(length / spacing_m)));
+Path Path::beside(double right_m, double beyond_m) const {
+  constexpr double kSpacing_m = 0.5;
+  const double length = beyond_m + length_m() + beyond_m;
+  const int steps = std::max(1, static_cast<int>(std::ceil(length / kSpacing_m)));
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i <= steps; ++i) {
-    const double station = -before_m + length * i / steps;
+    const double station = -beyond_m + length * i / steps;
     const Eigen::Vector3d point = position(station) + right_m * right(station);
     // On the inner side of a bend with a radius below `right_m` the points would reverse.
-    if (points.empty() || (point - points.back()).dot(direction(station)) > 0.1 * spacing_m) {
+    if (points.empty() || (point - points.back()).dot(direction(station)) > 0.1 * kSpacing_m) {
       points.push_back(point);
     }
   }

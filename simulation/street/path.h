@@ -28,9 +28,9 @@ class Path {
   /// Heading [rad]: 0 along z, positive to the right.
   double heading_rad(double station_m) const;
 
-  /// The path `right_m` beside this one, with a point every `spacing_m` of this one's stations,
-  /// also for `before_m` before its start and `after_m` beyond its end.
-  Path beside(double right_m, double spacing_m, double before_m = 0.0, double after_m = 0.0) const;
+  /// The path `right_m` beside this one, with a point every 0.5 m of this one's stations, also for
+  /// `beyond_m` before its start and after its end.
+  Path beside(double right_m, double beyond_m = 0.0) const;
 
  private:
   struct Piece {

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kKerb_m = 1.5;            // length of a stone
 constexpr double kRail_m = 4.0;            // from post to post
+constexpr double kTree_m = 14.0;           // from tree to tree
 constexpr double kDriveClearance_m = 1.6;  // from where cars drive: half a car and something
 
 Eigen::Vector3d level(Eigen::Vector3d direction) {
@@ -276,7 +277,7 @@ class Layout {
 
   void addTrees(const Path& street, double side, RandomStream& random) {
     const PlacementRules rules = {style_.clear_half_width_m - 2.3, true};
-    for (double station = 3.0; station < street.length_m(); station += style_.tree_spacing_m) {
+    for (double station = 3.0; station < street.length_m(); station += kTree_m) {
       Body tree = makeTree(tiles_, random);
       const double at = station + random.uniform(-2.0, 2.0);
       if (!random.chance(0.7)) continue;

@@ -46,8 +46,7 @@ struct StreetStyle {
   double parked_share = 0.0;   ///< occupied share of the places
   bool parked_across = false;  ///< at right angles to the street
   double trees_m = 0.0;        ///< a row on both sides; 0: none
-  double tree_spacing_m = 14.0;
-  double lamps_m = 0.0;  ///< lamp posts and occasional signs; 0: none
+  double lamps_m = 0.0;        ///< lamp posts and occasional signs; 0: none
   double lamp_spacing_m = 28.0;
   double lamp_overhang_m = 1.8;   ///< lamps that reach farther towards the street are left out
   double guard_rail_m = 0.0;      ///< on both sides; 0: none

@@ -1,14 +1,13 @@
 #include "simulation/stress/image_stress.h"
 
 #include <cmath>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "simulation/counter_random.h"
+#include "simulation/require_range.h"
 #include "simulation/surfaces/coverage.h"
 
 namespace rotrocc {
@@ -16,12 +15,6 @@ namespace {
 
 constexpr int kPairsPerGain = 5;
 constexpr double kFog = 110.0;  // grey level that everything has without contrast
-
-void requireRange(const std::string& name, double value, double low, double high) {
-  if (value >= low && value <= high) return;
-  throw std::invalid_argument(name + " is " + std::to_string(value) + ": choose it from " +
-                              std::to_string(low) + " to " + std::to_string(high));
-}
 
 /// Factors around 1, so that neither side of a step is all black or all white.
 double gainOf(const ImageStress& stress, int pair) {

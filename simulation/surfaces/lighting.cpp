@@ -9,13 +9,15 @@ namespace rotrocc {
 namespace {
 
 /// Share of a lamp's greatest intensity: fades to the sides, and downwards from the cut-off.
-double beam(const HeadLamps& lamps, const Eigen::Vector3d& direction) {
-  constexpr double kStray = 0.02;  // above the cut-off
+double beam(const Eigen::Vector3d& direction) {
+  constexpr double kHalfWidth_rad = 0.45;  // where the light has fallen to 37 %
+  constexpr double kCutOff_rad = 0.01;     // below the horizon; hardly any light above
+  constexpr double kStray = 0.02;          // above the cut-off
   constexpr double kEdge_rad = 0.012;
   constexpr double kDeep_rad = 0.2;
   if (direction.z() <= 0.0) return 0.0;
-  const double aside = std::atan2(direction.x(), direction.z()) / lamps.half_width_rad;
-  const double below = direction.y() / direction.z() - lamps.cut_off_rad;
+  const double aside = std::atan2(direction.x(), direction.z()) / kHalfWidth_rad;
+  const double below = direction.y() / direction.z() - kCutOff_rad;
   const double deep = std::max(below, 0.0) / kDeep_rad;
   const double full = mix(kStray, 1.0, smoothStep(-kEdge_rad, kEdge_rad, below));
   return full * std::exp(-aside * aside) / (1.0 + deep * deep);
@@ -30,7 +32,7 @@ Lighting nightLighting() {
   night.sky = 0.02;
   night.street_lamps = 0.5;
   night.lights = 1.0;
-  night.head_lamps.brightness = 4.0;
+  night.head_lamps = 4.0;
   return night;
 }
 
@@ -44,18 +46,15 @@ double daylight(const Lighting& lighting, const Eigen::Vector3d& normal, double 
   return sky + lighting.sun * sunlit * std::max(0.0, normal.dot(directionToSun()));
 }
 
-double headLight(const HeadLamps& lamps,
-                 const Eigen::Vector3d& position,
-                 const Eigen::Vector3d& normal) {
-  constexpr double kDistance_m = 10.0;  // of the given brightness
+double headLight(const Eigen::Vector3d& position, const Eigen::Vector3d& normal) {
+  constexpr double kDistance_m = 10.0;  // of the wall
   double light = 0.0;
-  for (const double side : {-0.5, 0.5}) {
-    const Eigen::Vector3d lamp = lamps.middle_m + Eigen::Vector3d(side * lamps.apart_m, 0.0, 0.0);
-    const Eigen::Vector3d way = position - lamp;
+  for (const double right_m : {-0.65, 0.65}) {
+    const Eigen::Vector3d way = position - Eigen::Vector3d(right_m, 1.0, 1.5);
     const double distance = std::max(way.norm(), 1.0);
     const double facing = std::max(0.0, -normal.dot(way) / distance);
     const double near = kDistance_m / distance;
-    light += 0.5 * lamps.brightness * near * near * facing * beam(lamps, way);
+    light += 0.5 * near * near * facing * beam(way);
   }
   return light;
 }

@@ -6,15 +6,6 @@
 
 namespace rotrocc {
 
-/// Dipped beams of the own car, in the axes of its left camera.
-struct HeadLamps {
-  double brightness = 0.0;                     ///< of a white wall 10 m ahead, by both; 0: off
-  double half_width_rad = 0.45;                ///< where the light has fallen to 37 %
-  double cut_off_rad = 0.01;                   ///< below the horizon; hardly any light above
-  Eigen::Vector3d middle_m = {0.0, 1.0, 1.5};  ///< between the two
-  double apart_m = 1.3;
-};
-
 /// What lights the world. A brightness is that of a white surface, 1 is white on a picture.
 struct Lighting {
   double sun = 0.8;           ///< on a surface that faces it
@@ -22,7 +13,7 @@ struct Lighting {
   double sky = 1.0;           ///< brightness of the sky itself, relative to that of a fine day
   double street_lamps = 0.0;  ///< on the ground below a lamp
   double lights = 0.0;        ///< of windows, lamps and the lights of cars; 0: off
-  HeadLamps head_lamps;
+  double head_lamps = 0.0;    ///< of the own car, on a white wall 10 m ahead; 0: off
 };
 
 /// A clear night in a lit street, as cameras see it that expose for that.
@@ -34,10 +25,9 @@ const Eigen::Vector3d& directionToSun();
 /// Light of sun and sky on a surface; `sunlit` is the visible share of the sun, from 0 to 1.
 double daylight(const Lighting& lighting, const Eigen::Vector3d& normal, double sunlit);
 
-/// Light of the lamps on a surface; both in the axes of the left camera. They cast no shadows.
-double headLight(const HeadLamps& lamps,
-                 const Eigen::Vector3d& position,
-                 const Eigen::Vector3d& normal);
+/// Light of the dipped beams of the own car on a surface in the axes of its left camera: 1 on a
+/// white wall 10 m ahead. They cast no shadows.
+double headLight(const Eigen::Vector3d& position, const Eigen::Vector3d& normal);
 
 /// Light of street lamps at these places on a surface, all in the axes of the world: 1 on level
 /// ground right below a lamp of 6.5 m. It passes through everything.

@@ -33,31 +33,21 @@ class Material {
   virtual bool isTangle() const { return false; }
 };
 
-/// Uniform.
+/// Uniform, and perhaps a lamp at night.
 class PlainMaterial : public Material {
  public:
-  explicit PlainMaterial(double reflectance) : reflectance_(reflectance) {}
+  explicit PlainMaterial(double reflectance, double glow = 0.0)
+      : reflectance_(reflectance), glow_(glow) {}
   double reflectance(const SurfacePoint& /*point*/) const override { return reflectance_; }
+  double glow(const SurfacePoint& /*point*/) const override { return glow_; }
 
  private:
   double reflectance_;
+  double glow_;
 };
 
 /// Coordinates on the face of a body: along it level, and up (or forward, on top of it).
 TexturePoint faceCoordinates(const SurfacePoint& point);
-
-/// The same of a place with this normal.
-Eigen::Vector2d faceCoordinates(const Eigen::Vector3d& position, const Eigen::Vector3d& normal);
-
-/// Uniform, and a lamp at night.
-class LampMaterial : public PlainMaterial {
- public:
-  LampMaterial(double reflectance, double glow) : PlainMaterial(reflectance), glow_(glow) {}
-  double glow(const SurfacePoint& /*point*/) const override { return glow_; }
-
- private:
-  double glow_;
-};
 
 /// A texture on the faces of a body: `mean` plus and minus up to half of `contrast`.
 class TexturedMaterial : public Material {

@@ -16,10 +16,9 @@ constexpr double kCell_m = 0.2;
 /// Share of the sun that reaches a place among bodies: 0 or 1.
 double sunAt(const SceneGeometry& scene, const Eigen::Vector3d& position) {
   constexpr double kPixel_m = 0.002;  // leaves let some of the light through
-  SceneHit hit;
   const Ray ray = {position, directionToSun()};
   const RayRange range = {0.02, std::numeric_limits<double>::infinity()};
-  return scene.trace(ray, range, kPixel_m, hit) ? 0.0 : 1.0;
+  return scene.isBlocked(ray, range, kPixel_m) ? 0.0 : 1.0;
 }
 
 }  // namespace

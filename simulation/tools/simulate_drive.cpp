@@ -59,12 +59,11 @@ po::options_description describe(Options& options) {
   const auto number = [](double& value) {
     return po::value(&value)->default_value(value, toText(value));
   };
-  const auto text = [](std::string& value) { return po::value(&value)->default_value(value); };
   po::options_description what("Contents");
   auto add = what.add_options();
   add("help,h", "show this help");
   add("layout",
-      text(options.layout),
+      withDefault(options.layout),
       "of the directory: kitti, rectified images as in KITTI's odometry benchmark, or asl, raw "
       "images as in EuRoC's recordings");
   add("poses",
@@ -73,7 +72,7 @@ po::options_description describe(Options& options) {
   add("times", po::value(&options.times), "times.txt of poses in KITTI format (default: 10 Hz)");
   add("frames", po::value(&simulation.frames), "largest number of pairs");
   add("rate", number(simulation.rate_hz), "[Hz] frame rate of a scenario");
-  add("seed", po::value(&simulation.seed)->default_value(simulation.seed), "same seed, same bytes");
+  add("seed", withDefault(simulation.seed), "same seed, same bytes");
   add("noise-seed", po::value(&simulation.noise_seed), "of the image noise (default: seed)");
   add("moving-share", number(simulation.moving_share), "density of moving cars, 0 to 1");
   add("truth", po::bool_switch(&options.truth), "also write depth and flow of each pixel");
@@ -83,15 +82,15 @@ po::options_description describe(Options& options) {
       "or /imu/data in axes of base_link");
   po::options_description camera("Camera");
   add = camera.add_options();
-  add("size", text(options.size), "image size WxH [px]");
+  add("size", withDefault(options.size), "image size WxH [px]");
   add("focal", number(options.focal_px), "focal length [px]");
   add("baseline", number(options.baseline_m), "baseline [m]");
   add("rig",
-      text(options.rig),
+      withDefault(options.rig),
       "perfect, or worn: with what calibration leaves, a sensor's noise, wind and reflections as "
       "in the real world, by the seed");
   add("lens",
-      text(options.lens),
+      withDefault(options.lens),
       "distortion of the images of the layout asl: radtan or equidistant");
   po::options_description wrong("Faults, not in calib.txt, and stresses");
   add = wrong.add_options();
@@ -168,11 +167,8 @@ void setLayout(const po::variables_map& variables, Options& options) {
 /// Returns false after printing the help; throws po::error on bad usage.
 bool parse(int argc, char** argv, Options& options) {
   const po::options_description visible = describe(options);
-  PositionalArguments names;
-  names.options.add_options()("names", po::value(&options.names));
-  names.order.add("names", -1);
   po::variables_map variables;
-  if (!parseCommandLine(argc, argv, kUsage, visible, names, variables)) return false;
+  if (!parseCommandLine(argc, argv, kUsage, visible, options.names, variables)) return false;
   if (variables.count("noise-seed") == 0) options.simulation.noise_seed = options.simulation.seed;
   const std::size_t expected = options.poses.empty() ? 2 : 1;
   if (options.names.size() != expected) {

@@ -1,7 +1,4 @@
 #include <filesystem>
-#include <iomanip>
-#include <iostream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -32,48 +29,38 @@ struct Options {
 };
 
 po::options_description describe(ImageStress& stress) {
-  const auto number = [](double& value) { return po::value(&value)->default_value(value); };
   po::options_description visible("Options");
   auto add = visible.add_options();
   add("help,h", "show this help");
   add("plain",
-      number(stress.plain_share),
+      withDefault(stress.plain_share),
       "share of the image, from its left border on, that has no texture");
   add("drops",
-      number(stress.drop_share),
+      withDefault(stress.drop_share),
       "share of the image that drops on the lenses cover, others in left and right");
   add("gain-step",
-      number(stress.gain_step),
+      withDefault(stress.gain_step),
       "factor by which the gain of both cameras changes, up and down, every 5 pairs");
-  add("contrast", number(stress.contrast), "share of the contrast that is left, as in fog");
-  add("right-gain", number(stress.right_gain), "factor of all grey levels of the right images");
+  add("contrast", withDefault(stress.contrast), "share of the contrast that is left, as in fog");
+  add("right-gain",
+      withDefault(stress.right_gain),
+      "factor of all grey levels of the right images");
   add("right-offset",
-      number(stress.right_offset),
+      withDefault(stress.right_offset),
       "[grey levels] added to the right images after that");
-  add("noise", number(stress.noise_sigma), "[grey levels] standard deviation of the noise");
-  add("jpeg",
-      po::value(&stress.jpeg_quality)->default_value(stress.jpeg_quality),
-      "quality of a JPEG compression, 1 to 100; 0: none");
-  add("seed", po::value(&stress.seed)->default_value(stress.seed), "same seed, same bytes");
+  add("noise", withDefault(stress.noise_sigma), "[grey levels] standard deviation of the noise");
+  add("jpeg", withDefault(stress.jpeg_quality), "quality of a JPEG compression, 1 to 100; 0: none");
+  add("seed", withDefault(stress.seed), "same seed, same bytes");
   return visible;
 }
 
 /// Returns false after printing the help; throws po::error on bad usage.
 bool parse(int argc, char** argv, Options& options) {
   const po::options_description visible = describe(options.stress);
-  PositionalArguments names;
-  names.options.add_options()("names", po::value(&options.names));
-  names.order.add("names", -1);
   po::variables_map variables;
-  if (!parseCommandLine(argc, argv, kUsage, visible, names, variables)) return false;
+  if (!parseCommandLine(argc, argv, kUsage, visible, options.names, variables)) return false;
   if (options.names.size() != 2) throw po::error("expected an input and an output");
   return true;
-}
-
-void writeImage(const fs::path& folder, int index, const cv::Mat& image) {
-  std::ostringstream name;
-  name << std::setw(6) << std::setfill('0') << index << ".png";
-  rotrocc::writeImage((folder / name.str()).string(), image);
 }
 
 void run(const Options& options) {
@@ -87,8 +74,9 @@ void run(const Options& options) {
     if (fs::exists(from)) fs::copy_file(from, out / file);
   }
   for (int i = 0; i < sequence.size(); ++i) {
-    writeImage(out / "image_0", i, stressed(sequence.readLeft(i), options.stress, i, false));
-    writeImage(out / "image_1", i, stressed(sequence.readRight(i), options.stress, i, true));
+    const std::string name = cv::format("%06d.png", i);
+    writeImage(out / "image_0" / name, stressed(sequence.readLeft(i), options.stress, i, false));
+    writeImage(out / "image_1" / name, stressed(sequence.readRight(i), options.stress, i, true));
   }
 }
 

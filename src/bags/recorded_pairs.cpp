@@ -34,11 +34,7 @@ RecordedPairs::RecordedPairs(Recording& recording,
     throw std::invalid_argument("--rectify is '" + rectify + "', not auto, yes or no");
   }
   recording.select(recording.begin(), recording.end(), false);
-  RecordedMessage first;
-  first.time = recording.begin();
-  first.left_info = recording.firstLeftInfo();
-  first.right_info = recording.firstRightInfo();
-  add(first);
+  add(recording.firstInfos());
 }
 
 bool RecordedPairs::next(StereoPair& pair, StereoCamera& camera) {

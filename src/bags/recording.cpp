@@ -121,11 +121,12 @@ class BagRecording : public Recording {
 
   ros::Time begin() const override { return begin_; }
   ros::Time end() const override { return end_; }
-  sensor_msgs::CameraInfo::ConstPtr firstLeftInfo() const override {
-    return boost::make_shared<sensor_msgs::CameraInfo>(left_info_);
-  }
-  sensor_msgs::CameraInfo::ConstPtr firstRightInfo() const override {
-    return boost::make_shared<sensor_msgs::CameraInfo>(right_info_);
+  RecordedMessage firstInfos() const override {
+    RecordedMessage infos;
+    infos.time = begin_;
+    infos.left_info = boost::make_shared<sensor_msgs::CameraInfo>(left_info_);
+    infos.right_info = boost::make_shared<sensor_msgs::CameraInfo>(right_info_);
+    return infos;
   }
   tf2_msgs::TFMessage staticTransforms() const override { return tf().static_transforms; }
   Eigen::Isometry3d T_base_camera() const override { return tf().T_base_camera; }

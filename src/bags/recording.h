@@ -17,8 +17,8 @@
 
 namespace rotrocc {
 
-/// A message of a recording, and when it was recorded. One of the pointers is set, or those of an
-/// image and its camera_info.
+/// What was recorded at a time: one message, an image with its camera_info, or all of a pair. The
+/// other pointers are null.
 struct RecordedMessage {
   ros::Time time;
   sensor_msgs::Image::ConstPtr left_image;
@@ -52,8 +52,8 @@ class Recording {
   /// From the stamps of the recording to those of the messages: ROS does not accept stamp 0.
   virtual std::int64_t offset_ns() const { return 0; }
 
-  virtual sensor_msgs::CameraInfo::ConstPtr firstLeftInfo() const = 0;
-  virtual sensor_msgs::CameraInfo::ConstPtr firstRightInfo() const = 0;
+  /// The first camera_info of both cameras, with the time begin().
+  virtual RecordedMessage firstInfos() const = 0;
   virtual tf2_msgs::TFMessage staticTransforms() const = 0;
 
   /// True path of the base in the frame odom; empty if it is not known.

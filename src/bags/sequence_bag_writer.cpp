@@ -33,14 +33,12 @@ class Writer {
     std::filesystem::remove(unfinishedPath(), ignored);
   }
 
-  void write(const RecordedMessage& message) {
-    if (message.left_info) {
-      beginPair(message.time);
-      write("/stereo/left/camera_info", *message.left_info);
-    }
-    if (message.left_image) write("/stereo/left" + image_topic_, *message.left_image);
-    if (message.right_info) write("/stereo/right/camera_info", *message.right_info);
-    if (message.right_image) write("/stereo/right" + image_topic_, *message.right_image);
+  void write(const RecordedMessage& pair) {
+    beginPair(pair.time);
+    write("/stereo/left/camera_info", *pair.left_info);
+    write("/stereo/left" + image_topic_, *pair.left_image);
+    write("/stereo/right/camera_info", *pair.right_info);
+    write("/stereo/right" + image_topic_, *pair.right_image);
   }
 
   /// Renames the complete file to its final name.
@@ -104,10 +102,10 @@ void writeSequenceBag(const std::string& path,
                       const std::function<void()>& on_pair) {
   Writer writer(path, recording);
   recording.select(recording.begin(), recording.end(), false);
-  RecordedMessage message;
-  while (recording.next(message)) {
-    writer.write(message);
-    if (message.right_image && on_pair) on_pair();
+  RecordedMessage pair;
+  while (recording.next(pair)) {
+    writer.write(pair);
+    if (on_pair) on_pair();
   }
   writer.finish();
 }

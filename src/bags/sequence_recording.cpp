@@ -54,13 +54,6 @@ sensor_msgs::Image::Ptr toGreyImage(const std_msgs::Header& header, const cv::Ma
   return toImage(header, pixels.depth() == CV_16U ? enc::MONO16 : enc::MONO8, pixels);
 }
 
-/// The message of one camera at a stamp.
-sensor_msgs::CameraInfo::Ptr stamped(sensor_msgs::CameraInfo info, const ros::Time& stamp) {
-  info.header.frame_id = kCameraFrame;
-  info.header.stamp = stamp;
-  return boost::make_shared<sensor_msgs::CameraInfo>(std::move(info));
-}
-
 }  // namespace
 
 SequenceRecording::SequenceRecording(const std::string& directory, const Options& options)
@@ -115,20 +108,19 @@ void SequenceRecording::select(const ros::Time& from, const ros::Time& to, bool 
   next_pair_ = 0;
   while (next_pair_ < size() && stamp(next_pair_) < from) ++next_pair_;
   last_ = to;
-  of_pair_.clear();
 }
 
 bool SequenceRecording::hasNext() const {
-  return !of_pair_.empty() || atEnd() || sequence_.pairs.hasFiles(next_pair_);
+  return atEnd() || sequence_.pairs.hasFiles(next_pair_);
 }
 
 bool SequenceRecording::next(RecordedMessage& message) {
-  if (of_pair_.empty()) {
-    if (atEnd()) return false;
-    readPair();
-  }
-  message = of_pair_.front();
-  of_pair_.pop_front();
+  if (atEnd()) return false;
+  const int index = next_pair_++;
+  const StereoPair pair = readPair(index);
+  message = infosOf(index);
+  message.left_image = toGreyImage(message.left_info->header, pair.left);
+  message.right_image = toGreyImage(message.right_info->header, pair.right);
   return true;
 }
 
@@ -136,40 +128,34 @@ ros::Time SequenceRecording::stamp(int pair) const {
   return toRosTime(offset_ns_ + sequence_.stamp_ns(pair));
 }
 
-sensor_msgs::CameraInfo::Ptr SequenceRecording::leftInfo(int pair) const {
-  return stamped(toCameraInfos(calibration_).first, stamp(pair));
-}
-
-sensor_msgs::CameraInfo::Ptr SequenceRecording::rightInfo(int pair) const {
-  return stamped(toCameraInfos(calibration_).second, stamp(pair));
+RecordedMessage SequenceRecording::infosOf(int pair) const {
+  auto [left, right] = toCameraInfos(calibration_);
+  left.header.frame_id = right.header.frame_id = kCameraFrame;
+  left.header.stamp = right.header.stamp = stamp(pair);
+  RecordedMessage message;
+  message.time = stamp(pair);
+  message.left_info = boost::make_shared<sensor_msgs::CameraInfo>(std::move(left));
+  message.right_info = boost::make_shared<sensor_msgs::CameraInfo>(std::move(right));
+  return message;
 }
 
 bool SequenceRecording::atEnd() const {
   return next_pair_ == size() || stamp(next_pair_) > last_;
 }
 
-void SequenceRecording::readPair() {
-  const int index = next_pair_++;
+/// Rectified, if that is asked for.
+StereoPair SequenceRecording::readPair(int index) {
   StereoPair pair;
   try {
     pair = sequence_.read(index);
   } catch (const std::runtime_error& error) {
     throw InputError(DropReason::kImageData, error.what());
   }
-  const sensor_msgs::CameraInfo::Ptr left_info = leftInfo(index);
-  sensor_msgs::Image::Ptr left = toGreyImage(left_info->header, pair.left);
-  sensor_msgs::Image::Ptr right = toGreyImage(left_info->header, pair.right);
-  if (rectifier_) {
-    pair = rectifier_->rectify(converter_.convert(*left, *right), raw_calibration_);
-    left = toGreyImage(left_info->header, pair.left);
-    right = toGreyImage(left_info->header, pair.right);
-  }
-  of_pair_.resize(4);
-  of_pair_[0].left_info = left_info;
-  of_pair_[1].left_image = left;
-  of_pair_[2].right_info = rightInfo(index);
-  of_pair_[3].right_image = right;
-  for (RecordedMessage& message : of_pair_) message.time = stamp(index);
+  if (!rectifier_) return pair;
+  const std_msgs::Header no_header;
+  const auto left = toGreyImage(no_header, pair.left);
+  const auto right = toGreyImage(no_header, pair.right);
+  return rectifier_->rectify(converter_.convert(*left, *right), raw_calibration_);
 }
 
 }  // namespace rotrocc

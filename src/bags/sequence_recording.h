@@ -1,6 +1,6 @@
 #pragma once
 
-#include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,8 +37,7 @@ class SequenceRecording : public Recording {
   ros::Time begin() const override { return stamp(0); }
   ros::Time end() const override { return stamp(size() - 1); }
   std::int64_t offset_ns() const override { return offset_ns_; }
-  sensor_msgs::CameraInfo::ConstPtr firstLeftInfo() const override { return leftInfo(0); }
-  sensor_msgs::CameraInfo::ConstPtr firstRightInfo() const override { return rightInfo(0); }
+  RecordedMessage firstInfos() const override { return infosOf(0); }
 
   /// base_link -> stereo_left_optical: the rectified left camera; and the gyroscope, if there is
   /// one, with the axes of base_link.
@@ -52,8 +51,7 @@ class SequenceRecording : public Recording {
   /// The gyroscope in imu_link: the angular velocity only. Empty if there is none.
   std::vector<sensor_msgs::Imu> gyroscopeMessages() const;
 
-  /// For each pair four messages with its time: left info, left image (mono8 or mono16), right
-  /// info, right image.
+  /// A message for each pair, with its images (mono8 or mono16) and infos.
   void select(const ros::Time& from, const ros::Time& to, bool with_tf) override;
   bool hasNext() const override;
   bool next(RecordedMessage& message) override;
@@ -61,10 +59,9 @@ class SequenceRecording : public Recording {
 
  private:
   ros::Time stamp(int pair) const;
-  sensor_msgs::CameraInfo::Ptr leftInfo(int pair) const;
-  sensor_msgs::CameraInfo::Ptr rightInfo(int pair) const;
+  RecordedMessage infosOf(int pair) const;
   bool atEnd() const;
-  void readPair();
+  StereoPair readPair(int pair);
 
   std::string directory_;
   StereoSequence sequence_;
@@ -75,7 +72,6 @@ class SequenceRecording : public Recording {
   StereoPairConverter converter_;  // of images that are rectified
   int next_pair_ = 0;
   ros::Time last_;
-  std::deque<RecordedMessage> of_pair_;  // read, but not yet returned
 };
 
 }  // namespace rotrocc

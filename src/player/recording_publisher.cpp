@@ -38,8 +38,7 @@ std::vector<std::string> RecordingPublisher::topicsWithoutSubscriber() const {
 void RecordingPublisher::publishBeginning() {
   static_tf_.publish(recording_.staticTransforms());
   if (!truth_.poses.empty()) truth_path_.publish(truth_);
-  left_info_.publish(recording_.firstLeftInfo());
-  right_info_.publish(recording_.firstRightInfo());
+  publish(recording_.firstInfos());
   next_truth_ = 0;
 }
 

@@ -49,9 +49,7 @@ bool parse(int argc, char** argv, Options& options) {
   add("lengths",
       po::value(&options.segments.lengths_m)->multitoken(),
       "lengths of the segments [m] (default: 100 200 300 400 500 600 700 800)");
-  add("step",
-      po::value(&options.segments.step)->default_value(options.segments.step),
-      "segments start at every N-th pose");
+  add("step", withDefault(options.segments.step), "segments start at every N-th pose");
 
   po::options_description output("Output");
   add = output.add_options();
@@ -78,11 +76,8 @@ bool parse(int argc, char** argv, Options& options) {
   visible.add_options()("help,h", "show this help");
   visible.add(segments).add(output).add(stamps);
   std::vector<std::string> files;
-  PositionalArguments trajectories;
-  trajectories.options.add_options()("files", po::value(&files));
-  trajectories.order.add("files", -1);
   po::variables_map variables;
-  if (!parseCommandLine(argc, argv, kUsage, visible, trajectories, variables)) return false;
+  if (!parseCommandLine(argc, argv, kUsage, visible, files, variables)) return false;
   if (files.empty() || files.size() > 2 || (files.size() == 1 && options.report.empty())) {
     throw po::error("expected two trajectories GT and EST, or EST and --report DIR");
   }

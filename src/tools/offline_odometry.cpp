@@ -17,6 +17,7 @@
 #include <opencv2/core.hpp>
 
 #include "bags/recorded_pairs.h"
+#include "common/stage_timer.h"
 #include "inertial/gyro_file.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/visual_odometry.h"
@@ -58,9 +59,7 @@ bool parse(int argc, char** argv, Options& options) {
   po::options_description output("Output");
   auto add = output.add_options();
   add("trajectory", po::value(&options.output.trajectory)->required(), "file for the poses");
-  add("format",
-      po::value(&options.output.format)->default_value(options.output.format),
-      "kitti or tum");
+  add("format", withDefault(options.output.format), "kitti or tum");
   add("stats", po::value(&options.output.statistics), "CSV file with a row of statistics per pair");
   add("bag",
       po::value(&options.output.bag),
@@ -80,7 +79,7 @@ bool parse(int argc, char** argv, Options& options) {
       "[rad/s], ...), a topic of sensor_msgs/Imu in a bag, or a folder of an ASL sequence, as "
       "imu0");
   add("imu-rotation",
-      po::value(&options.imu_rotation)->default_value(options.imu_rotation),
+      withDefault(options.imu_rotation),
       "\"QX QY QZ QW\": rotation from axes of a CSV file to those of the left camera; that of a "
       "topic is from tf, that of a folder from sensor.yaml");
 
@@ -91,7 +90,7 @@ bool parse(int argc, char** argv, Options& options) {
       "topic of the left images, if a bag has several stereo pairs");
   add("right-image", po::value(&options.recording.right_image), "topic of the right images");
   add("rectify",
-      po::value(&options.rectify)->default_value(options.rectify),
+      withDefault(options.rectify),
       "by K, D, R and P of camera_info: yes, no, or auto: if the topic is not named image_rect or "
       "alike, and camera_info describes raw images");
   add("calibration",
@@ -100,34 +99,27 @@ bool parse(int argc, char** argv, Options& options) {
       "Kalibr");
   add("preload", po::bool_switch(&options.preload), "read all images first; prints the memory use");
 
-  PositionalArguments input;
-  input.options.add_options()("input", po::value(&options.input)->required());
-  input.order.add("input", -1);
   po::variables_map variables;
   po::options_description visible("Options");
   visible.add_options()("help,h", "show this help");
   visible.add(output).add(parameters).add(gyroscope).add(images);
-  return parseCommandLine(argc, argv, kUsage, visible, input, variables);
-}
-
-/// Time of a POSIX clock [ms].
-double now(clockid_t clock) {
-  timespec time;
-  clock_gettime(clock, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+  if (!parseCommandLine(argc, argv, kUsage, visible, options.input, variables)) return false;
+  if (options.input.empty()) throw po::error("expected a recording");
+  return true;
 }
 
 PairRecord process(VisualOdometry& odometry,
                    const StereoPair& pair,
                    const StereoCamera& camera,
                    const RotationSource& rotation) {
-  const double wall_ms = now(CLOCK_MONOTONIC);
-  const double cpu_ms = now(CLOCK_PROCESS_CPUTIME_ID);
   PairRecord record;
-  odometry.prepare();  // as in the node, where it is done before the pair arrives
-  record.result = odometry.process(pair, camera, std::nullopt, rotation);
-  record.cpu_ms = now(CLOCK_PROCESS_CPUTIME_ID) - cpu_ms;
-  record.wall_ms = now(CLOCK_MONOTONIC) - wall_ms;
+  const std::clock_t cpu = std::clock();  // of all threads
+  {
+    const StageTimer timer(record.wall_ms);
+    odometry.prepare();  // as in the node, where it is done before the pair arrives
+    record.result = odometry.process(pair, camera, std::nullopt, rotation);
+  }
+  record.cpu_ms = 1e3 * static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
   return record;
 }
 

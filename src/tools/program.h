@@ -2,32 +2,38 @@
 
 #include <exception>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include <boost/program_options.hpp>
 
 namespace rotrocc {
 
-/// Arguments that are given without a name.
-struct PositionalArguments {
-  boost::program_options::options_description options;  ///< where their values go
-  boost::program_options::positional_options_description order;
-};
+/// An option whose default is the present value of its variable.
+template <class Value>
+auto withDefault(Value& value) {
+  return boost::program_options::value(&value)->default_value(value);
+}
 
-/// Stores the command line in `variables`, and in the variables of the options. Returns false after
-/// printing `usage` and the options, if --help is given. Throws po::error on bad usage.
+/// Stores the command line in `variables` and in the variables of the options, and what is given
+/// without the name of an option in `arguments`. Returns false after printing `usage` and the
+/// options, if --help is given. Throws po::error on bad usage.
 inline bool parseCommandLine(int argc,
                              char** argv,
                              const char* usage,
                              const boost::program_options::options_description& visible,
-                             const PositionalArguments& positional,
+                             std::vector<std::string>& arguments,
                              boost::program_options::variables_map& variables) {
   namespace po = boost::program_options;
+  const char* const kArguments = "arguments";
   po::options_description all;
-  all.add(visible).add(positional.options);
+  all.add(visible).add_options()(kArguments, po::value(&arguments));
+  po::positional_options_description order;
+  order.add(kArguments, -1);
   // Not by the beginning of their names: another option may get the same one.
   const int style = po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
   po::command_line_parser parser(argc, argv);
-  po::store(parser.options(all).positional(positional.order).style(style).run(), variables);
+  po::store(parser.options(all).positional(order).style(style).run(), variables);
   if (variables.count("help") > 0) {
     std::cout << usage << visible;
     return false;

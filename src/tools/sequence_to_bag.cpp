@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <iostream>
 #include <string>
+#include <vector>
 
 #include <boost/program_options.hpp>
 
@@ -24,8 +25,7 @@ const char* const kUsage =
     "camera_calibration.\n\n";
 
 struct Options {
-  std::string sequence;
-  std::string bag;
+  std::vector<std::string> names;  // of the sequence and of the bag
   SequenceRecording::Options recording;
 };
 
@@ -42,28 +42,25 @@ bool parse(int argc, char** argv, Options& options) {
       po::value(&start_time_s),
       "time of the first pair [s since 1970, integer]; default: that of the sequence, or "
       "1317600000 if its times start at 0, as ROS does not accept stamp 0");
-  double& max_stamp_difference_s = options.recording.sequence.max_stamp_difference_s;
   add("max-stamp-difference",
-      po::value(&max_stamp_difference_s)->default_value(max_stamp_difference_s),
+      withDefault(options.recording.sequence.max_stamp_difference_s),
       "[s] between the images of a pair");
-  PositionalArguments names;
-  names.options.add_options()("sequence", po::value(&options.sequence)->required())(
-      "bag", po::value(&options.bag)->required());
-  names.order.add("sequence", 1).add("bag", 1);
   po::variables_map variables;
-  if (!parseCommandLine(argc, argv, kUsage, visible, names, variables)) return false;
+  if (!parseCommandLine(argc, argv, kUsage, visible, options.names, variables)) return false;
+  if (options.names.size() != 2) throw po::error("expected a sequence and a bag");
   if (variables.count("start-time") > 0) options.recording.start_time_s = start_time_s;
   return true;
 }
 
 void run(const Options& options) {
-  SequenceRecording recording(options.sequence, options.recording);
+  const std::string& sequence = options.names[0];
+  SequenceRecording recording(sequence, options.recording);
   if (recording.truth().poses.empty()) {
-    std::cerr << "sequence_to_bag: " << options.sequence
+    std::cerr << "sequence_to_bag: " << sequence
               << " has no true poses: the bag will have no ground truth\n";
   }
   ProgressBar progress("sequence_to_bag", recording.size());
-  writeSequenceBag(options.bag, recording, [&] { progress.advance(); });
+  writeSequenceBag(options.names[1], recording, [&] { progress.advance(); });
   progress.finish();
   if (!recording.leftOut().empty()) {
     std::cerr << "sequence_to_bag: " << recording.leftOut() << '\n';

@@ -20,6 +20,10 @@ bool isTum(const std::string& path) {
   return detectTrajectoryFormat(path) == TrajectoryFormat::kTum;
 }
 
+bool hasStamps(const TrajectoryFiles& files) {
+  return isTum(files.estimate) || !files.times.empty();
+}
+
 std::string timeRange(const std::string& path, const Trajectory& trajectory) {
   return path + cv::format(" covers %.2f to %.2f s",
                            toSeconds(trajectory.front().stamp_ns),
@@ -49,14 +53,19 @@ std::vector<std::int64_t> readStamps(const std::string& statistics) {
   return stamps_ns;
 }
 
-void setStamps(const TrajectoryFiles& files, Trajectory& estimate) {
-  const std::vector<std::int64_t> stamps_ns = readStamps(files.statistics);
-  if (stamps_ns.size() != estimate.size()) {
-    throw std::runtime_error(files.estimate + cv::format(" has %zu poses, but ", estimate.size()) +
-                             files.statistics + cv::format(" has %zu pairs", stamps_ns.size()) +
-                             ": both must be from the same run");
+/// The poses of an estimate without stamps get those of the pairs in `source`.
+Trajectory readWithStamps(const std::string& estimate,
+                          const std::vector<std::int64_t>& stamps_ns,
+                          const std::string& source,
+                          const char* remedy) {
+  Trajectory poses = readTrajectory(estimate);
+  if (poses.size() != stamps_ns.size()) {
+    throw std::runtime_error(estimate +
+                             cv::format(" has %zu poses without stamps, but ", poses.size()) +
+                             source + cv::format(" has %zu pairs: ", stamps_ns.size()) + remedy);
   }
-  for (std::size_t i = 0; i < estimate.size(); ++i) estimate[i].stamp_ns = stamps_ns[i];
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i].stamp_ns = stamps_ns[i];
+  return poses;
 }
 
 /// Each pose must have its pair.
@@ -78,18 +87,11 @@ void requireStatisticsOf(const Trajectory& estimate, const TrajectoryFiles& file
 MatchedTrajectories readWithSequence(const TrajectoryFiles& files) {
   const StereoSequence sequence = openStereoSequence(files.truth, {});
   if (sequence.ground_truth.empty()) throw std::runtime_error(files.truth + " has no true poses");
-  Trajectory estimate = readTrajectory(files.estimate, files.times);
-  if (!isTum(files.estimate) && files.times.empty()) {
-    const auto pairs = static_cast<std::size_t>(sequence.size());
-    if (estimate.size() != pairs) {
-      throw std::runtime_error(
-          files.estimate + cv::format(" has %zu poses without stamps, but ", estimate.size()) +
-          files.truth + cv::format(" has %zu pairs: write it with --format tum", pairs));
-    }
-    for (std::size_t i = 0; i < pairs; ++i) {
-      estimate[i].stamp_ns = sequence.stamp_ns(static_cast<int>(i));
-    }
-  }
+  const Trajectory estimate = hasStamps(files) ? readTrajectory(files.estimate, files.times)
+                                               : readWithStamps(files.estimate,
+                                                                sequence.pairs.stamps_ns(),
+                                                                files.truth,
+                                                                "write it with --format tum");
   return matchStamps(sequence.ground_truth, estimate, files);
 }
 
@@ -111,10 +113,13 @@ MatchedTrajectories matchLines(const Trajectory& truth,
 
 /// As readEstimate(), before its stamps are compared with those of the statistics.
 Trajectory readStamped(const TrajectoryFiles& files) {
-  Trajectory estimate = readTrajectory(files.estimate, files.times);
-  const bool has_stamps = isTum(files.estimate) || !files.times.empty();
-  if (!has_stamps && !files.statistics.empty()) setStamps(files, estimate);
-  return estimate;
+  if (hasStamps(files) || files.statistics.empty()) {
+    return readTrajectory(files.estimate, files.times);
+  }
+  return readWithStamps(files.estimate,
+                        readStamps(files.statistics),
+                        files.statistics,
+                        "both must be from the same run");
 }
 
 MatchedTrajectories match(const TrajectoryFiles& files) {

@@ -19,19 +19,17 @@ const char* const kUsage =
     "usage: stress_odometry BAG [options]\n";
 
 bool parse(int argc, char** argv, StressOptions& options) {
-  const auto number = [](auto& value) { return po::value(&value)->default_value(value); };
   po::options_description visible("Options");
   visible.add_options()("help,h", "show this text")(
-      "rate", number(options.rate_hz), "[Hz] of the pairs")(
-      "duration", number(options.duration_s), "[s] of the run")(
-      "faults", number(options.fault_share), "share of the pairs that get a fault; 0: none")(
-      "seed", number(options.seed), "same seed, same faults");
-  PositionalArguments bag;
-  bag.options.add_options()("bag", po::value(&options.recording));
-  bag.order.add("bag", 1);
+      "rate", withDefault(options.rate_hz), "[Hz] of the pairs")(
+      "duration", withDefault(options.duration_s), "[s] of the run")(
+      "faults", withDefault(options.fault_share), "share of the pairs that get a fault; 0: none")(
+      "seed", withDefault(options.seed), "same seed, same faults");
+  std::vector<std::string> bags;
   po::variables_map variables;
-  if (!parseCommandLine(argc, argv, kUsage, visible, bag, variables)) return false;
-  if (options.recording.empty()) throw po::error("no bag is given");
+  if (!parseCommandLine(argc, argv, kUsage, visible, bags, variables)) return false;
+  if (bags.size() != 1) throw po::error("expected one bag");
+  options.recording = bags.front();
   if (!(options.rate_hz > 0.0)) throw po::error("the rate must be positive");
   return true;
 }

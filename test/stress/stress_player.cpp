@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -78,16 +79,16 @@ void StressPlayer::read() {
   RecordedMessage message;
   while (recording_.size() < kPairs && recording->next(message)) {
     using Side = StereoSynchronizer::Side;
-    const Side side = message.left_image ? Side::kLeft : Side::kRight;
-    const auto& image = message.left_image ? message.left_image : message.right_image;
-    if (!image) continue;
-    const auto pair = synchronizer.add(side, image);
+    std::optional<StereoImages> pair;
+    if (message.left_image) pair = synchronizer.add(Side::kLeft, message.left_image);
+    if (message.right_image) pair = synchronizer.add(Side::kRight, message.right_image);
     if (!pair) continue;
+    const RecordedMessage infos = recording->firstInfos();
     recording_.emplace_back();
     recording_.back().left = *pair->left;
     recording_.back().right = *pair->right;
-    recording_.back().left_info = *recording->firstLeftInfo();
-    recording_.back().right_info = *recording->firstRightInfo();
+    recording_.back().left_info = *infos.left_info;
+    recording_.back().right_info = *infos.right_info;
     recording_.back().left.header.frame_id = kCameraFrame;
   }
   if (recording_.size() < 2) {
