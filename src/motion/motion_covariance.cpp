@@ -30,6 +30,18 @@ double shareOfVariance(double left_px2, double limit_px) {
   return g(low);
 }
 
+/// The parts of the covariance, in the order translation [m], rotation [rad].
+struct Information {
+  /// Sum of w^2 J^T J: the derivative of the sum of w J^T r, which is zero at the solution, by the
+  /// motion. (The derivative of w r, averaged over directions, is w^2.)
+  Matrix6d matrix = Matrix6d::Zero();
+  /// Sum of g g^T over the cells of a grid [px^2], where g is the sum of w J^T r of the features in
+  /// the cell. Its expectation is the variance times `matrix` if residuals are uncorrelated, and
+  /// larger if neighbours are correlated.
+  Matrix6d scatter = Matrix6d::Zero();
+  double residual_variance = 0.0;  ///< from WeightedVariance [px^2]
+};
+
 /// Ratio of the covariance to that of independent errors: the variance per degree of freedom from
 /// the scatter of the cells, divided by that of a residual. Neighbouring features share texture,
 /// the motion of an object and the remaining lens distortion.
@@ -37,51 +49,16 @@ double inflation(double scatter_px2, double residual_px2) {
   return residual_px2 > 0.0 ? std::max(1.0, scatter_px2 / residual_px2) : 1.0;
 }
 
-}  // namespace
-
-bool MotionCovariance::estimate(const Measurements& measured,
-                                const Fit& fit,
-                                MotionEstimate& motion) {
-  const Information one = collect(measured, fit, motion.rotation_inliers, 6);
-  const Eigen::LDLT<Matrix6d> full(one.matrix);
-  if (full.info() != Eigen::Success || !full.isPositive()) return false;
-  const double share = is_truncated_ ? shareOfVariance(one.residual_variance, limit_px_) : 1.0;
-  const double variance = one.residual_variance / share;
-  const double alike = inflation(full.solve(one.scatter).trace() / 6.0, one.residual_variance);
-  const Matrix6d both = alike * variance / share * full.solve(Matrix6d::Identity());
-  if (!both.allFinite()) return false;
-  motion.covariance = both;
-  motion.flow_noise_px = std::sqrt(variance);
-  if (!motion.has_translation_stage) return true;
-
-  const Information two = collect(measured, fit, motion.translation_inliers, 3);
-  const Eigen::LDLT<Eigen::Matrix3d> translation(two.matrix.topLeftCorner<3, 3>());
-  if (translation.info() != Eigen::Success || !translation.isPositive()) return false;
-  const Eigen::Matrix3d by_rotation = -translation.solve(two.matrix.topRightCorner<3, 3>());
-  const Eigen::Matrix3d rotation = both.bottomRightCorner<3, 3>();
-  const Eigen::Matrix3d scatter = two.scatter.topLeftCorner<3, 3>();
-  const double alike_two =
-      inflation(translation.solve(scatter).trace() / 3.0, two.residual_variance);
-  motion.covariance.topLeftCorner<3, 3>() = alike_two * std::max(two.residual_variance, variance) *
-                                                translation.solve(Eigen::Matrix3d::Identity()) +
-                                            by_rotation * rotation * by_rotation.transpose();
-  motion.covariance.topRightCorner<3, 3>() = by_rotation * rotation;
-  motion.covariance.bottomLeftCorner<3, 3>() = rotation * by_rotation.transpose();
-  return motion.covariance.allFinite();
-}
-
-MotionCovariance::Information MotionCovariance::collect(const Measurements& measured,
-                                                        const Fit& fit,
-                                                        const FeatureSet& set,
-                                                        int estimated_parameters) {
-  problem_.assign(measured.camera, fit, set);
-  problem_.weigh(problem_.start(), robust_factor_);
+/// Takes the terms of the problem, whose motion has so many parameters.
+Information collect(const ReprojectionProblem<6>& problem,
+                    const Measurements& measured,
+                    int estimated_parameters) {
   Information information;
   WeightedVariance variance;
   const ImageGrid grid(measured.camera, kScatterColumns, kScatterRows);
   std::array<Vector6d, kScatterColumns * kScatterRows> gradients;
   gradients.fill(Vector6d::Zero());
-  problem_.linearise(problem_.start(), [&](const ReprojectionProblem<6>::Term& term) {
+  problem.linearise(problem.start(), [&](const ReprojectionProblem<6>::Term& term) {
     Eigen::Matrix<double, 2, 6> J;
     J << term.weight * term.jacobian.rightCols<3>(), term.weight * term.jacobian.leftCols<3>();
     information.matrix += J.transpose() * J;
@@ -99,6 +76,48 @@ MotionCovariance::Information MotionCovariance::collect(const Measurements& meas
   // The motion was fitted to these features, so they scatter less than the errors.
   information.scatter = information.scatter * cells / std::max(1, cells - 6);
   return information;
+}
+
+}  // namespace
+
+bool estimateCovariance(const MotionEstimatorConfig& config,
+                        const Measurements& measured,
+                        const Fit& fit,
+                        ReprojectionProblem<6>& problem,
+                        MotionEstimate& motion) {
+  const auto informationOf = [&](const FeatureSet& set, int estimated_parameters) {
+    problem.assign(measured.camera, fit, set);
+    problem.weigh(problem.start(), config.robust_factor);
+    return collect(problem, measured, estimated_parameters);
+  };
+  const Information one = informationOf(motion.rotation_inliers, 6);
+  const Eigen::LDLT<Matrix6d> full(one.matrix);
+  if (full.info() != Eigen::Success || !full.isPositive()) return false;
+  const double share = hasFixedLimit(criterionOf(config.criterion))
+                           ? shareOfVariance(one.residual_variance, config.rotation_limit_px)
+                           : 1.0;
+  const double variance = one.residual_variance / share;
+  const double alike = inflation(full.solve(one.scatter).trace() / 6.0, one.residual_variance);
+  const Matrix6d both = alike * variance / share * full.solve(Matrix6d::Identity());
+  if (!both.allFinite()) return false;
+  motion.covariance = both;
+  motion.flow_noise_px = std::sqrt(variance);
+  if (!motion.has_translation_stage) return true;
+
+  const Information two = informationOf(motion.translation_inliers, 3);
+  const Eigen::LDLT<Eigen::Matrix3d> translation(two.matrix.topLeftCorner<3, 3>());
+  if (translation.info() != Eigen::Success || !translation.isPositive()) return false;
+  const Eigen::Matrix3d by_rotation = -translation.solve(two.matrix.topRightCorner<3, 3>());
+  const Eigen::Matrix3d rotation = both.bottomRightCorner<3, 3>();
+  const Eigen::Matrix3d scatter = two.scatter.topLeftCorner<3, 3>();
+  const double alike_two =
+      inflation(translation.solve(scatter).trace() / 3.0, two.residual_variance);
+  motion.covariance.topLeftCorner<3, 3>() = alike_two * std::max(two.residual_variance, variance) *
+                                                translation.solve(Eigen::Matrix3d::Identity()) +
+                                            by_rotation * rotation * by_rotation.transpose();
+  motion.covariance.topRightCorner<3, 3>() = by_rotation * rotation;
+  motion.covariance.bottomLeftCorner<3, 3>() = rotation * by_rotation.transpose();
+  return motion.covariance.allFinite();
 }
 
 }  // namespace rotrocc

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 
 #include "motion/consensus_motion.h"
+#include "motion/motion_covariance.h"
 #include "motion/outlier_rejection.h"
 #include "motion/reprojection_error.h"
 
@@ -40,7 +41,7 @@ Matrix6d covarianceOfPrediction(double dt_s) {
 }  // namespace
 
 MotionEstimator::MotionEstimator(const Config& config, int min_inliers)
-    : config_(config), two_stages_(config, min_inliers), covariance_(config) {}
+    : config_(config), two_stages_(config, min_inliers) {}
 
 const MotionEstimator::Estimate& MotionEstimator::estimate(
     const StereoCamera& camera,
@@ -113,7 +114,8 @@ void MotionEstimator::estimateFrom(const FeatureSet& set,
   two_stages_.estimate(measured, set, initial, dt_s, fit_, estimate);
   estimate.covariance.setZero();
   estimate.flow_noise_px = 0.0;
-  estimate.valid = estimate.valid && covariance_.estimate(measured, fit_, estimate);
+  estimate.valid =
+      estimate.valid && estimateCovariance(config_, measured, fit_, problem_, estimate);
 }
 
 }  // namespace rotrocc

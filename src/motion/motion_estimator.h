@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "motion/fitted_feature.h"
-#include "motion/motion_covariance.h"
+#include "motion/reprojection_problem.h"
 #include "motion/two_stage_estimator.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/odometry_config.h"
@@ -65,11 +65,11 @@ class MotionEstimator {
 
   Config config_;
   TwoStageEstimator two_stages_;
-  MotionCovariance covariance_;
 
   // Buffers, reused.
   Estimate found_, retry_;
   Fit fit_;
+  ReprojectionProblem<6> problem_;
   FeatureSet all_, near_;
   std::vector<double> errors_px_;
 };
