@@ -29,43 +29,46 @@ DescriptorMatcher::DescriptorMatcher(const StereoMatcherConfig& config)
       nearest_(cv::NORM_HAMMING, kEachOthersNearest),
       workers_(1) {}
 
-void DescriptorMatcher::describe(const cv::Mat& image,
-                                 const FeatureMask& mask,
-                                 Described& described) {
-  const double sigma = std::sqrt(noiseVariance(image, noise_));
+DescriptorMatcher::Described DescriptorMatcher::describe(const cv::Mat& image,
+                                                         const FeatureMask& mask) {
+  std::vector<int> responses;
+  const double sigma = std::sqrt(noiseVariance(image, responses));
   orb_->setFastThreshold(std::max(1, cvRound(kFastOverNoise * sigma)));
-  described.keypoints.clear();
+  Described described;
   orb_->detectAndCompute(image, mask.usable(), described.keypoints, described.descriptors);
+  return described;
 }
 
-void DescriptorMatcher::match(const StereoCamera& camera,
-                              const StereoFrame& earlier,
-                              const StereoFrame& current,
-                              double row_offset_px,
-                              Correspondences& features) {
-  features.clear();
+Correspondences DescriptorMatcher::match(const StereoCamera& camera,
+                                         const StereoFrame& earlier,
+                                         const StereoFrame& current,
+                                         double row_offset_px) {
   const cv::Mat& left = current.left.front();
-  describe(left, current.left_mask, current_);
-  if (current_.keypoints.empty()) return;
-  describe(earlier.left.front(), earlier.left_mask, earlier_);
-  if (earlier_.keypoints.empty()) return;
-  nearest_.match(earlier_.descriptors, current_.descriptors, matches_);
-  pixels_.clear();
-  for (const cv::DMatch& match : matches_) {
-    const cv::Point2f& px = current_.keypoints[static_cast<std::size_t>(match.trainIdx)].pt;
-    pixels_.emplace_back(std::round(px.x), std::round(px.y));  // depths are found at whole pixels
+  const Described in_current = describe(left, current.left_mask);
+  if (in_current.keypoints.empty()) return {};
+  const Described in_earlier = describe(earlier.left.front(), earlier.left_mask);
+  if (in_earlier.keypoints.empty()) return {};
+  std::vector<cv::DMatch> matches;
+  nearest_.match(in_earlier.descriptors, in_current.descriptors, matches);
+  std::vector<cv::Point2f> pixels;
+  for (const cv::DMatch& match : matches) {
+    const cv::Point2f& px = in_current.keypoints[static_cast<std::size_t>(match.trainIdx)].pt;
+    pixels.emplace_back(std::round(px.x), std::round(px.y));  // depths are found at whole pixels
   }
   const RectifiedImages images = {
       left, current.right.front(), camera.disparityAtInfinity(), row_offset_px};
-  matcher_.match(workers_, images, pixels_, disparities_px_);
-  for (std::size_t i = 0; i < matches_.size(); ++i) {
-    if (disparities_px_[i] == StereoMatcher::kNoDisparity) continue;
-    const auto& in_earlier = earlier_.keypoints[static_cast<std::size_t>(matches_[i].queryIdx)].pt;
-    const auto& in_current = current_.keypoints[static_cast<std::size_t>(matches_[i].trainIdx)].pt;
-    features.push_back(
-        {{in_earlier.x, in_earlier.y}, {in_current.x, in_current.y}, disparities_px_[i]});
+  std::vector<float> disparities_px;
+  matcher_.match(workers_, images, pixels, disparities_px);
+  Correspondences features;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (disparities_px[i] == StereoMatcher::kNoDisparity) continue;
+    const auto& keyframe_px =
+        in_earlier.keypoints[static_cast<std::size_t>(matches[i].queryIdx)].pt;
+    const auto& cur_px = in_current.keypoints[static_cast<std::size_t>(matches[i].trainIdx)].pt;
+    features.push_back({{keyframe_px.x, keyframe_px.y}, {cur_px.x, cur_px.y}, disparities_px[i]});
   }
   triangulate(camera, features);
+  return features;
 }
 
 }  // namespace rotrocc

@@ -21,32 +21,24 @@ class DescriptorMatcher {
  public:
   explicit DescriptorMatcher(const StereoMatcherConfig& config);
 
-  /// Stores in `features` what is seen in the left images of both frames and has a depth in the
-  /// current one. Points of the current frame are `row_offset_px` lower in the right image.
-  void match(const StereoCamera& camera,
-             const StereoFrame& earlier,
-             const StereoFrame& current,
-             double row_offset_px,
-             Correspondences& features);
+  /// What is seen in the left images of both frames and has a depth in the current one. Points of
+  /// the current frame are `row_offset_px` lower in the right image.
+  Correspondences match(const StereoCamera& camera,
+                        const StereoFrame& earlier,
+                        const StereoFrame& current,
+                        double row_offset_px);
 
  private:
   struct Described {
     std::vector<cv::KeyPoint> keypoints;
     cv::Mat descriptors;
   };
-  void describe(const cv::Mat& image, const FeatureMask& mask, Described& described);
+  Described describe(const cv::Mat& image, const FeatureMask& mask);
 
   StereoMatcher matcher_;
   cv::Ptr<cv::ORB> orb_;
   cv::BFMatcher nearest_;
   Workers workers_;  // the calling thread only
-
-  // Buffers, reused.
-  Described earlier_, current_;
-  std::vector<int> noise_;
-  std::vector<cv::DMatch> matches_;
-  std::vector<cv::Point2f> pixels_;
-  std::vector<float> disparities_px_;
 };
 
 }  // namespace rotrocc

@@ -1,7 +1,9 @@
 #include "features/row_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace rotrocc {
 namespace {
@@ -13,41 +15,64 @@ constexpr std::size_t kFeatureSample = 16;
 constexpr std::size_t kCorners = 64;
 constexpr int kMaxRows = 3;
 
+/// Where a corner was found when several rows were searched. If these are not the same place, its
+/// row is unknown.
+struct Found {
+  static constexpr float kSamePlace_px = 1.0F;
+
+  float lowest_px = std::numeric_limits<float>::max();
+  float highest_px = std::numeric_limits<float>::lowest();
+  float nearest_px = 0.0F;  ///< of the position nearest to where it was searched
+  float nearest_distance_px = std::numeric_limits<float>::max();
+
+  /// Adds a position at the offset `offset_px`, found by a search at `searched_px`.
+  void add(float offset_px, float searched_px) {
+    const float distance_px = std::abs(offset_px - searched_px);
+    if (distance_px > kSamePlace_px) return;
+    lowest_px = std::min(lowest_px, offset_px);
+    highest_px = std::max(highest_px, offset_px);
+    if (distance_px >= nearest_distance_px) return;
+    nearest_distance_px = distance_px;
+    nearest_px = offset_px;
+  }
+
+  bool isUnique() const {
+    return highest_px >= lowest_px && highest_px - lowest_px <= kSamePlace_px;
+  }
+};
+
 }  // namespace
 
 RowSearch::RowSearch(const CorrespondenceFinderConfig& config)
     : matcher_(config.stereo_matcher), tracker_(config.feature_tracker), workers_(1) {}
 
-void RowSearch::search(const StereoCamera& camera,
-                       const Keyframe& keyframe,
-                       std::vector<float>& offsets_px) {
-  sample_px_.clear();
+std::vector<float> RowSearch::search(const StereoCamera& camera, const Keyframe& keyframe) {
+  std::vector<cv::Point2f> sample_px;
   const std::size_t step = std::max<std::size_t>(1, keyframe.corners.size() / kCorners);
   for (std::size_t i = 0; i < keyframe.corners.size(); i += step) {
-    sample_px_.push_back(keyframe.corners[i]);
+    sample_px.push_back(keyframe.corners[i]);
   }
-  found_.assign(sample_px_.size(), {});
-  for (int rows = -kMaxRows; rows <= kMaxRows; ++rows) searchRow(camera, *keyframe.frame, rows);
-  offsets_px.clear();
-  for (const Found& found : found_) {
-    if (found.isUnique()) offsets_px.push_back(found.nearest_px);
+  const cv::Mat& left = keyframe.frame->left.front();
+  const cv::Mat& right = keyframe.frame->right.front();
+  std::vector<Found> found(sample_px.size());
+  std::vector<float> disparities_px;
+  for (int rows = -kMaxRows; rows <= kMaxRows; ++rows) {
+    // Matches that leave their row were found in a wrong one.
+    const auto lower_px = static_cast<float>(rows);
+    const RectifiedImages images = {left, right, camera.disparityAtInfinity(), lower_px};
+    matcher_.match(workers_, images, sample_px, disparities_px);
+    for (std::size_t i = 0; i < sample_px.size(); ++i) {
+      if (disparities_px[i] == StereoMatcher::kNoDisparity) continue;
+      cv::Point2f point = sample_px[i] + cv::Point2f(-disparities_px[i], lower_px);
+      if (!tracker_.locate(left, right, sample_px[i], point)) continue;
+      found[i].add(point.y - sample_px[i].y, lower_px);
+    }
   }
-}
-
-/// Matches the sample as if the right image were lower by `rows`, and locates the matches. Those
-/// that leave their row were found in a wrong one.
-void RowSearch::searchRow(const StereoCamera& camera, const StereoFrame& frame, int rows) {
-  const cv::Mat& left = frame.left.front();
-  const cv::Mat& right = frame.right.front();
-  const auto lower_px = static_cast<float>(rows);
-  const RectifiedImages images = {left, right, camera.disparityAtInfinity(), lower_px};
-  matcher_.match(workers_, images, sample_px_, disparities_px_);
-  for (std::size_t i = 0; i < sample_px_.size(); ++i) {
-    if (disparities_px_[i] == StereoMatcher::kNoDisparity) continue;
-    cv::Point2f point = sample_px_[i] + cv::Point2f(-disparities_px_[i], lower_px);
-    if (!tracker_.locate(left, right, sample_px_[i], point)) continue;
-    found_[i].add(point.y - sample_px_[i].y, lower_px);
+  std::vector<float> offsets_px;
+  for (const Found& of_corner : found) {
+    if (of_corner.isUnique()) offsets_px.push_back(of_corner.nearest_px);
   }
+  return offsets_px;
 }
 
 void RowSearch::measure(const StereoFrame& current,

@@ -41,20 +41,20 @@ bool isConvincing(const Hypothesis& found) {
 MotionSearch::MotionSearch(const OdometryConfig& config)
     : window_radius_px_(config.correspondence_finder.feature_tracker.window_radius_px),
       min_features_(config.motion_check.min_inliers),
+      max_tries_(config.max_tries),
       estimator_(config.motion_estimator, config.motion_check.min_inliers),
       check_(config.motion_check, config.motion_estimator.noise_ratio),
       descriptors_(config.correspondence_finder.stereo_matcher) {}
 
-bool MotionSearch::find(
-    const Frames& frames, const Start& start, int max_tries, Hypothesis& found, StageTimes& times) {
+bool MotionSearch::find(const Frames& frames, const Start& start, Hypothesis& found) {
   // A window finds what is as far away as it reaches in the smallest image.
   const double reach_px = window_radius_px_ * (1 << (FeatureTracker::kLevels - 1));
   std::optional<MotionEstimator::Prediction> prediction;
   if (start.is_prediction) prediction = {start.T_keyframe_cur, frames.dt_s};
   Start next = start;
-  for (int step = 1;; ++step) {
+  for (int step = 0; step < kMaxSteps && found.counts.tries < max_tries_; ++step) {
     const int tries = found.counts.tries + 1;
-    tryMotion(frames, next, prediction, tried_, times);
+    tryMotion(frames, next, prediction, tried_);
     const Eigen::Isometry3d T_found = tried_.estimate.T_keyframe_cur;
     const bool is_usable = tried_.estimate.valid && tried_.counts.consistent >= min_features_;
     if (isBetter(tried_, found)) std::swap(tried_, found);
@@ -63,20 +63,16 @@ bool MotionSearch::find(
     const double shift_px =
         frames.finder.medianShift(frames.camera, frames.keyframe, next.T_keyframe_cur, T_found);
     if (shift_px < reach_px) return isConvincing(found);
-    if (tries >= max_tries || step == kMaxSteps) return false;
     next.T_keyframe_cur = T_found;
   }
+  return false;
 }
 
-std::optional<MotionSearch::Start> MotionSearch::recognize(const Frames& frames,
-                                                           StageTimes& times) {
-  const StageTimer timer(times.tracking_ms);
-  descriptors_.match(frames.camera,
-                     *frames.keyframe.frame,
-                     frames.current,
-                     frames.keyframe.row_offset_px,
-                     recognized_);
-  const auto T_keyframe_cur = consensusMotion(frames.camera, recognized_, kRecognitionTolerance_px);
+std::optional<MotionSearch::Start> MotionSearch::recognize(const Frames& frames) {
+  const StageTimer timer(frames.times.tracking_ms);
+  const Correspondences seen = descriptors_.match(
+      frames.camera, *frames.keyframe.frame, frames.current, frames.keyframe.row_offset_px);
+  const auto T_keyframe_cur = consensusMotion(frames.camera, seen, kRecognitionTolerance_px);
   if (!T_keyframe_cur) return std::nullopt;
   return Start{*T_keyframe_cur, false};
 }
@@ -84,14 +80,13 @@ std::optional<MotionSearch::Start> MotionSearch::recognize(const Frames& frames,
 void MotionSearch::tryMotion(const Frames& frames,
                              const Start& start,
                              const std::optional<MotionEstimator::Prediction>& prediction,
-                             Hypothesis& hypothesis,
-                             StageTimes& times) {
+                             Hypothesis& hypothesis) {
   hypothesis.camera = frames.camera;
   hypothesis.has_prediction = start.is_prediction;
   hypothesis.shared_ratio = frames.shared_ratio;
   StageCounts& counts = hypothesis.counts;
   {
-    const StageTimer timer(times.tracking_ms);
+    const StageTimer timer(frames.times.tracking_ms);
     counts.tracked = frames.finder.find(
         frames.camera, frames.keyframe, frames.current, start.T_keyframe_cur, hypothesis.features);
     hypothesis.exposure_gain = frames.finder.stereoGain();
@@ -99,7 +94,7 @@ void MotionSearch::tryMotion(const Frames& frames,
   counts.corners = static_cast<int>(frames.keyframe.corners.size());
   counts.with_depth = static_cast<int>(frames.keyframe.points.size());
   counts.consistent = static_cast<int>(hypothesis.features.size());
-  const StageTimer timer(times.estimation_ms);
+  const StageTimer timer(frames.times.estimation_ms);
   estimate(frames, start.T_keyframe_cur, prediction, hypothesis);
 }
 
@@ -127,11 +122,8 @@ void MotionSearch::estimate(const Frames& frames,
       check_.checkNotLost(estimate, frames.keyframe.T_keyframe_last.T, frames.dt_s);
 }
 
-void MotionSearch::calibrate(const Frames& frames,
-                             RigEstimate& rig,
-                             Hypothesis& found,
-                             StageTimes& times) {
-  const StageTimer timer(times.estimation_ms);
+void MotionSearch::calibrate(const Frames& frames, RigEstimate& rig, Hypothesis& found) {
+  const StageTimer timer(frames.times.estimation_ms);
   rig.observeBias(found);
   const StereoCamera corrected = rig.correctedCamera();
   if (std::abs(corrected.cx_right - found.camera.cx_right) < kCalibrationSettled_px) return;

@@ -28,6 +28,7 @@ class MotionSearch {
     const StereoFrame& current;
     double dt_s;          ///< since the frame whose pose in the keyframe is T_keyframe_last
     double shared_ratio;  ///< see Measurements
+    StageTimes& times;    ///< to which all that is done is added
   };
 
   /// Where the features are searched first.
@@ -45,28 +46,23 @@ class MotionSearch {
   /// whether it settled at a motion that is accepted and that a quarter of the keyframe's features
   /// agree on.
   ///
-  /// `found` becomes the hypothesis, unless it holds an accepted one with more inliers. There is at
-  /// least one try, and none after `max_tries`; they are added to those of `found`.
-  bool find(const Frames& frames,
-            const Start& start,
-            int max_tries,
-            Hypothesis& found,
-            StageTimes& times);
+  /// `found` becomes the hypothesis, unless it holds an accepted one with more inliers. The tries
+  /// are added to those of `found`; there are none after max_tries.
+  bool find(const Frames& frames, const Start& start, Hypothesis& found);
 
   /// A start at which the scene of the keyframe is recognized, see DescriptorMatcher. None if it is
   /// not.
-  std::optional<Start> recognize(const Frames& frames, StageTimes& times);
+  std::optional<Start> recognize(const Frames& frames);
 
   /// Measures the disparity bias at the found motion. If this changes the applied bias, estimates
   /// the motion once more, and keeps it unless it is lost.
-  void calibrate(const Frames& frames, RigEstimate& rig, Hypothesis& found, StageTimes& times);
+  void calibrate(const Frames& frames, RigEstimate& rig, Hypothesis& found);
 
  private:
   void tryMotion(const Frames& frames,
                  const Start& start,
                  const std::optional<MotionEstimator::Prediction>& prediction,
-                 Hypothesis& hypothesis,
-                 StageTimes& times);
+                 Hypothesis& hypothesis);
   void estimate(const Frames& frames,
                 const Eigen::Isometry3d& initial,
                 const std::optional<MotionEstimator::Prediction>& prediction,
@@ -74,13 +70,13 @@ class MotionSearch {
 
   int window_radius_px_;
   int min_features_;
+  int max_tries_;
   MotionEstimator estimator_;
   MotionCheck check_;
   DescriptorMatcher descriptors_;
 
   Hypothesis tried_;         // the latest, reused
   Hypothesis recalibrated_;  // buffer of calibrate(), reused
-  Correspondences recognized_;
 };
 
 }  // namespace rotrocc

@@ -69,10 +69,7 @@ double RigEstimate::correctedRows() const {
 void RigEstimate::startKeyframe(Keyframe& keyframe) {
   past_ = filter_;
   shared_errors_.advance();
-  if (!rows_.isKnown()) {
-    row_search_.search(correctedCamera(), keyframe, searched_rows_px_);
-    rows_.observe(searched_rows_px_);
-  }
+  if (!rows_.isKnown()) rows_.observe(row_search_.search(correctedCamera(), keyframe));
   keyframe.row_offset_px = correctedRows();
 }
 

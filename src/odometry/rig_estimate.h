@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "features/row_search.h"
 #include "features/stereo_frame.h"
 #include "motion/shared_error_estimator.h"
@@ -77,8 +75,7 @@ class RigEstimate {
   RowSearch row_search_;
   RowComparison rows_;
   TimeSkewEstimator time_skew_;
-  std::vector<float> searched_rows_px_;  // buffer, reused
-  RowOffsets row_offsets_;               // buffer, reused
+  RowOffsets row_offsets_;  // buffer, reused
 };
 
 }  // namespace rotrocc

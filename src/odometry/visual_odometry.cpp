@@ -257,11 +257,9 @@ bool VisualOdometry::Pipeline::findMotionFrom(const FramePtr& earlier,
   if (keyframe_.frame != earlier) makeKeyframe(earlier, times);
   const StereoCamera corrected = rig_.correctedCamera();
   const MotionSearch::Frames frames = {
-      finder_, corrected, keyframe_, current, expected.dt_s, rig_.sharedRatio()};
-  const int max_tries = config_.max_tries;
+      finder_, corrected, keyframe_, current, expected.dt_s, rig_.sharedRatio(), times};
   const auto settles = [&](const std::optional<Start>& start) {
-    return start && found_.counts.tries < max_tries &&
-           search_.find(frames, *start, max_tries, found_, times);
+    return start && search_.find(frames, *start, found_);
   };
   const Eigen::Isometry3d& T_keyframe_last = keyframe_.T_keyframe_last.T;
   std::optional<Start> predicted;
@@ -273,11 +271,12 @@ bool VisualOdometry::Pipeline::findMotionFrom(const FramePtr& earlier,
   const int tries = found_.counts.tries;
   found_.clear();
   found_.counts.tries = tries;
-  if (!settles(predicted) && !settles(at_rest) && is_newest && found_.counts.tries < max_tries) {
-    settles(search_.recognize(frames, times));
+  if (!settles(predicted) && !settles(at_rest) && is_newest &&
+      found_.counts.tries < config_.max_tries) {
+    settles(search_.recognize(frames));
   }
   if (!found_.isAccepted()) return false;
-  search_.calibrate(frames, rig_, found_, times);
+  search_.calibrate(frames, rig_, found_);
   return true;
 }
 
