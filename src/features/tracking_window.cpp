@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "features/image_noise.h"
 #include "features/patch.h"
@@ -49,31 +48,22 @@ Patch TrackingWindow::patchAround(const cv::Mat& image, const cv::Point2f& cente
   const int x = cvFloor(center.x);
   const int y = cvFloor(center.y);
   const cv::Rect area(x - radius, y - radius, columnsOf(2 * radius + 1) + 1, 2 * radius + 2);
-  Patch patch = {border_.data(),
-                 area.width,
-                 fractionOf(center.x - static_cast<float>(x)),
-                 fractionOf(center.y - static_cast<float>(y))};
-  if (area.x >= 0 && area.y >= 0 && area.x + area.width <= image.cols &&
-      area.y + area.height <= image.rows) {
-    patch.pixels = image.ptr<uchar>(area.y) + area.x;
-    patch.step = static_cast<std::ptrdiff_t>(image.step);
-  } else {
-    copyWithEdge(image, area);
+  const std::int16_t fx = fractionOf(center.x - static_cast<float>(x));
+  const std::int16_t fy = fractionOf(center.y - static_cast<float>(y));
+  const cv::Rect inside = area & cv::Rect({}, image.size());
+  if (inside == area) {
+    const uchar* pixels = image.ptr<uchar>(area.y) + area.x;
+    return {pixels, static_cast<std::ptrdiff_t>(image.step), fx, fy};
   }
-  return patch;
-}
-
-/// Copies `area` into border_. It must contain at least one pixel of the image.
-void TrackingWindow::copyWithEdge(const cv::Mat& image, const cv::Rect& area) {
-  const int left = std::clamp(-area.x, 0, area.width);
-  const int right = std::clamp(image.cols - area.x, 0, area.width);
-  uchar* out = border_.data();
-  for (int y = area.y; y < area.y + area.height; ++y, out += area.width) {
-    const auto* row = image.ptr<uchar>(std::clamp(y, 0, image.rows - 1));
-    std::memcpy(out + left, row + area.x + left, static_cast<std::size_t>(right - left));
-    for (int x = 0; x < left; ++x) out[x] = row[0];
-    for (int x = right; x < area.width; ++x) out[x] = row[image.cols - 1];
-  }
+  cv::Mat repeated(area.size(), CV_8UC1, border_.data());
+  cv::copyMakeBorder(image(inside),
+                     repeated,
+                     inside.y - area.y,
+                     area.br().y - inside.br().y,
+                     inside.x - area.x,
+                     area.br().x - inside.br().x,
+                     cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
+  return {border_.data(), area.width, fx, fy};
 }
 
 bool TrackingWindow::take(const cv::Mat& image, const cv::Point2f& center, float scale) {

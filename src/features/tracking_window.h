@@ -37,7 +37,6 @@ class TrackingWindow {
 
  private:
   Patch patchAround(const cv::Mat& image, const cv::Point2f& center, int radius);
-  void copyWithEdge(const cv::Mat& image, const cv::Rect& area);
   void spread(float scale);
   bool describeContrast(const GradientSums& sums);
   bool invertNormalMatrix(const GradientSums& sums);
