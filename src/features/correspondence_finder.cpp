@@ -40,8 +40,15 @@ CorrespondenceFinder::CorrespondenceFinder(const Config& config, int threads)
       matcher_(config.stereo_matcher),
       tracker_(config.feature_tracker) {}
 
+std::shared_ptr<StereoFrame> CorrespondenceFinder::unusedFrame() {
+  for (const auto& frame : frames_) {
+    if (frame.use_count() == 1) return frame;
+  }
+  return frames_.emplace_back(std::make_shared<StereoFrame>());
+}
+
 FramePtr CorrespondenceFinder::makeFrame(const StereoPair& pair) {
-  const auto frame = frames_.acquire();
+  const auto frame = unusedFrame();
   frame->stamp_ns = pair.stamp_ns;
   left_mask_.assign(pair.left_mask, FeatureDetector::kBorder_px);
   right_mask_.assign(pair.right_mask, FeatureDetector::kBorder_px);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -58,6 +59,7 @@ class CorrespondenceFinder {
                      const Eigen::Isometry3d& T_keyframe_cur_b);
 
  private:
+  std::shared_ptr<StereoFrame> unusedFrame();
   void matchBatch(const StereoCamera& camera, const Keyframe& keyframe);
   std::size_t addPoints(const StereoCamera& camera, std::size_t wanted, Keyframe& keyframe) const;
   void predict(const StereoCamera& camera,
@@ -74,7 +76,7 @@ class CorrespondenceFinder {
   FeatureDetector detector_;
   StereoMatcher matcher_;
   FeatureTracker tracker_;
-  FramePool frames_;
+  std::vector<std::shared_ptr<StereoFrame>> frames_;
   FeatureMask left_mask_, right_mask_;  // of the latest frame
 
   // Buffers for the keyframe's points, reused.

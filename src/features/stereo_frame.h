@@ -28,20 +28,6 @@ inline double secondsBetween(const StereoFrame& earlier, const StereoFrame& late
   return toSeconds(later.stamp_ns - earlier.stamp_ns);
 }
 
-/// A pool of frames. Frames that are no longer referenced are reused.
-class FramePool {
- public:
-  std::shared_ptr<StereoFrame> acquire() {
-    for (const auto& frame : frames_) {
-      if (frame.use_count() == 1) return frame;
-    }
-    return frames_.emplace_back(std::make_shared<StereoFrame>());
-  }
-
- private:
-  std::vector<std::shared_ptr<StereoFrame>> frames_;
-};
-
 /// The frame that motions are measured against (t-1 in the paper), and its features.
 struct Keyframe {
   FramePtr frame;                    ///< null: there is no keyframe
