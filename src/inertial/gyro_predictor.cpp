@@ -34,12 +34,9 @@ void GyroPredictor::miss(const std::string& why) {
   if (!why_refused_.empty()) why_not_ += "; the last sample was refused: " + why_refused_;
 }
 
-std::string GyroPredictor::whyUnknown(std::int64_t from_ns, std::int64_t to_ns) const {
-  return trust_.whyNot().empty() ? history_.whyUnknown(from_ns, to_ns) : trust_.whyNot();
-}
-
 std::optional<Eigen::Matrix3d> GyroPredictor::rotation(std::int64_t from_ns, std::int64_t to_ns) {
-  const std::string why_unknown = whyUnknown(from_ns, to_ns);
+  const std::string why_unknown =
+      trust_.whyNot().empty() ? history_.whyUnknown(from_ns, to_ns) : trust_.whyNot();
   if (!why_unknown.empty()) {
     miss(why_unknown);
     return std::nullopt;

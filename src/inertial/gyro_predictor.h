@@ -60,8 +60,6 @@ class GyroPredictor {
   const Counts& counts() const { return counts_; }
 
  private:
-  std::string whyUnknown(std::int64_t from_ns, std::int64_t to_ns) const;
-
   Eigen::Matrix3d R_camera_gyro_from_, R_camera_gyro_to_;
   GyroHistory history_;
   GyroBias bias_;

@@ -20,8 +20,7 @@ void addNode(NodeParameters& n, ParameterTable& table) {
       "x y z roll pitch yaw of base_frame in odom_frame at the first pair, also after a reset";
   table.add("mount_timeout_s", n.mount_timeout_s, {0.0, 10.0, "s"}).description =
       "how long a pair waits for the transform of a camera that moves on the robot, and how far "
-      "that "
-      "is extrapolated if it does not come";
+      "that is extrapolated if it does not come";
   table.add("guess_frame", n.guess_frame).description =
       "odom frame of another odometry in tf, used as motion prediction; odom_frame -> guess_frame "
       "is then broadcast; none if empty";
@@ -29,8 +28,7 @@ void addNode(NodeParameters& n, ParameterTable& table) {
       "how long a pair waits for the transform from guess_frame";
   table.add("use_imu", n.use_imu).description =
       "predict rotations by the gyroscope of the topic imu, whose frame must be in tf; if the "
-      "robot "
-      "rests, its accelerations level the first pose, unless initial_pose has roll or pitch";
+      "robot rests, its accelerations level the first pose, unless initial_pose has roll or pitch";
   table.add("imu_timeout_s", n.imu_timeout_s, {0.0, 1.0, "s"}).description =
       "how long a pair waits for the samples of the gyroscope";
   table.add("rectify", n.rectify).description =
