@@ -48,13 +48,17 @@ Patch TrackingWindow::patchAround(const cv::Mat& image, const cv::Point2f& cente
   const int x = cvFloor(center.x);
   const int y = cvFloor(center.y);
   const cv::Rect area(x - radius, y - radius, columnsOf(2 * radius + 1) + 1, 2 * radius + 2);
-  const std::int16_t fx = fractionOf(center.x - static_cast<float>(x));
-  const std::int16_t fy = fractionOf(center.y - static_cast<float>(y));
-  const cv::Rect inside = area & cv::Rect({}, image.size());
-  if (inside == area) {
-    const uchar* pixels = image.ptr<uchar>(area.y) + area.x;
-    return {pixels, static_cast<std::ptrdiff_t>(image.step), fx, fy};
+  Patch patch = {border_.data(),
+                 area.width,
+                 fractionOf(center.x - static_cast<float>(x)),
+                 fractionOf(center.y - static_cast<float>(y))};
+  if (area.x >= 0 && area.y >= 0 && area.x + area.width <= image.cols &&
+      area.y + area.height <= image.rows) {
+    patch.pixels = image.ptr<uchar>(area.y) + area.x;
+    patch.step = static_cast<std::ptrdiff_t>(image.step);
+    return patch;
   }
+  const cv::Rect inside = area & cv::Rect({}, image.size());
   cv::Mat repeated(area.size(), CV_8UC1, border_.data());
   cv::copyMakeBorder(image(inside),
                      repeated,
@@ -63,7 +67,7 @@ Patch TrackingWindow::patchAround(const cv::Mat& image, const cv::Point2f& cente
                      inside.x - area.x,
                      area.br().x - inside.br().x,
                      cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
-  return {border_.data(), area.width, fx, fy};
+  return patch;
 }
 
 bool TrackingWindow::take(const cv::Mat& image, const cv::Point2f& center, float scale) {
