@@ -1,4 +1,4 @@
-// Runs scripts/soak --summarize on samples of an hour.
+// Runs scripts/soak: for a short time, and --summarize on samples of an hour.
 
 #include <cmath>
 #include <functional>
@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "support/run_command.h"
+#include "support/slow_build.h"
 #include "support/temporary_directory.h"
 
 namespace rotrocc {
@@ -54,7 +55,15 @@ const std::vector<Case> kCases = {
      0,
      "at most 17"}};
 
-TEST(SoakSummaryTest, JudgesMemoryAndThreads) {
+TEST(SoakTest, TheOdometryStandsTwentySecondsOfFaults) {
+  if (isSlowBuild()) GTEST_SKIP() << "it starts a manager without the sanitizer";
+  const CommandResult soak =
+      runCommand("env ROTROCC_PREBUILT=1 ROTROCC_BUILD_DIR=" BUILD " " SOAK " --duration 20");
+  EXPECT_EQ(soak.status, 0) << soak.output;
+  EXPECT_NE(soak.output.find("the counts add up"), std::string::npos) << soak.output;
+}
+
+TEST(SoakTest, JudgesMemoryAndThreads) {
   const TemporaryDirectory directory;
   for (const Case& row : kCases) {
     std::ostringstream samples;
