@@ -38,7 +38,7 @@ constexpr std::chrono::seconds kTfLimit(20);
 constexpr std::chrono::seconds kSettleLimit(180);
 const char* const kCameraFrame = "stress_camera";
 const char* const kHeadFrame = "stress_head";
-constexpr unsigned kPairsPerHead = 3;
+constexpr unsigned kPairsPerHead = 3;  // for each tf of the head
 
 /// Subscribes to all that the odometry publishes, and mostly stands still: then it does not read
 /// its sockets, as a computer behind a bad network. First it has the time to connect.

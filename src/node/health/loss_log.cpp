@@ -29,7 +29,7 @@ void LossLog::observe(const OdometryStatus& status,
   if (tell("lost: ", now)) told_ = true;
 }
 
-/// Returns whether it was not told before.
+/// Unless the cause was told just before; returns whether it is told now.
 bool LossLog::tell(const std::string& what, Throttle::Time now) {
   if (!throttle_.pass(camera_fault_.empty() ? reason_ : camera_fault_, now)) return false;
   log_.warn(what + reason_ + (camera_fault_.empty() ? "" : "; " + camera_fault_));
