@@ -55,7 +55,7 @@ const std::vector<Case> kCases = {
      0,
      "at most 17"}};
 
-TEST(SoakTest, TheOdometryStandsTwentySecondsOfFaults) {
+TEST(SoakTest, RunsTwentySecondsWithFaults) {
   if (isSlowBuild()) GTEST_SKIP() << "it starts a manager without the sanitizer";
   const CommandResult soak =
       runCommand("env ROTROCC_PREBUILT=1 ROTROCC_BUILD_DIR=" BUILD " " SOAK " --duration 20");
