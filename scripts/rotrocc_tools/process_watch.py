@@ -1,8 +1,9 @@
 """Watches memory and threads of a process until SIGINT, and prints a summary, or that of stored samples:
 process_watch.py PID SAMPLES.csv, or process_watch.py SAMPLES.csv, for scripts/soak.
 
-Memory is that of the process alone, without the files it has mapped. What is freed may go back to the system
-at once, later or never, so its growth is the slope of its maxima over two minutes.
+Memory is that of the process alone, without the files it has mapped. What leaks raises both its maxima and its
+minima over two minutes: its growth is the smaller of their slopes. Maxima alone rise with the load of the machine,
+minima alone if less of what is freed goes back to the system.
 
 The exit status is 1 if there are more threads in the second half than in the first or, in runs longer than
 ten minutes, if memory grows by 1 MB per hour or more after the first five.
@@ -38,15 +39,17 @@ def watch(pid):
         return samples
 
 
-def slope_of_maxima(samples, window_s):
+def growth_of(samples, window_s):
     """Growth of the memory [MB/h]."""
     windows = {}
     for sample in samples:
         windows.setdefault(int((sample[0] - samples[0][0]) // window_s), []).append(sample[:2])
     windows.popitem()  # the last one is not complete
-    highest = [max(window, key=lambda sample: sample[1]) for window in windows.values()]
-    times_s, memory_mb = zip(*highest)
-    return 3600.0 * numpy.polyfit(times_s, memory_mb, 1)[0]
+    slopes = []
+    for extreme in (min, max):
+        times_s, memory_mb = zip(*(extreme(window, key=lambda sample: sample[1]) for window in windows.values()))
+        slopes.append(3600.0 * numpy.polyfit(times_s, memory_mb, 1)[0])
+    return min(slopes)
 
 
 def main(*arguments):
@@ -62,7 +65,7 @@ def main(*arguments):
     length_s = samples[-1][0]
     is_long = length_s >= LEAST_LENGTH_S
     settled = [s for s in samples if s[0] >= (SETTLE_S if is_long else length_s / 3)]
-    slope = slope_of_maxima(settled, WINDOW_S if is_long else length_s / 10)
+    slope = growth_of(settled, WINDOW_S if is_long else length_s / 10)
     middle = len(settled) // 2
     # A thread that is there for a moment does not count.
     threads_before = statistics.median_high(s[2] for s in settled[:middle])

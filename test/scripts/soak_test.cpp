@@ -39,6 +39,13 @@ const std::vector<Case> kCases = {
      constant,
      0,
      "0.00 MB an hour"},
+    {"peaks of a machine that gets busier are none",
+     [](double time_s) {
+       return 30.0 + (10.0 + time_s / 400.0) * (std::fmod(time_s, 20.0) / 19.0);
+     },
+     constant,
+     0,
+     "0.00 MB an hour"},
     {"allocated memory that grows by twice the limit is",
      [](double time_s) { return inWaves(time_s, 30.0) + time_s * 2.0 / 3600.0; },
      constant,
