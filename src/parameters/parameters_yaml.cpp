@@ -7,6 +7,8 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "common/read_yaml.h"
+
 namespace rotrocc {
 namespace {
 
@@ -73,7 +75,7 @@ std::string whyIgnored(const std::string& name) {
 std::vector<std::string> loadYaml(const std::string& path, ParameterTable& table) {
   std::vector<std::string> warnings;
   try {
-    const YAML::Node root = YAML::LoadFile(path);
+    const YAML::Node root = readYaml(path);
     if (!root.IsNull()) setAll(root, "", table, warnings);
   } catch (const std::exception& error) {
     throw std::invalid_argument(path + ": " + error.what());

@@ -2,27 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include <opencv2/core.hpp>
 
+#include "common/read_yaml.h"
+
 namespace rotrocc {
 namespace {
 
-std::string readWithoutOpenCvHeader(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf())) throw std::runtime_error("cannot read " + path);
-  std::string content = text.str();
-  if (content.compare(0, 6, "%YAML:") == 0) content.erase(0, content.find('\n'));
-  return content;
-}
-
 YAML::Node parse(const std::string& path) {
   try {
-    YAML::Node root = YAML::Load(readWithoutOpenCvHeader(path));
+    YAML::Node root = readYaml(path);
     if (root.IsMap()) return root;
   } catch (const YAML::Exception& error) {
     throw std::runtime_error(path + " is not YAML: " + error.what());

@@ -181,6 +181,7 @@ TEST(ParametersTest, AFileNamesItselfWhenItIsRefused) {
   expect_refused("odom_frame: \"no UTF-8: \xc0\xb5\"\n", "\"odom_frame\" is not UTF-8");
   expect_refused("motion_check\n", "");
   expect_refused("a: b: c\n", "");
+  expect_refused("motion_check: {min_inliers:", "end of map flow not found");
   Settings settings;
   expectError<std::invalid_argument>([&] { loadYaml(directory / "none.yaml", settings.table); },
                                      "none.yaml");
