@@ -40,10 +40,14 @@ class BackgroundCommand {
   }
 
   /// Sends a signal to the command with the processes that it has started, and waits for its end.
+  /// Sends it again, as a user does: a Python program that is still starting may not take it.
   void interrupt(int signal = SIGINT) {
     if (process_ <= 0) return;
-    kill(-process_, signal);
-    waitpid(process_, nullptr, 0);
+    constexpr int kAgain = 100;  // periods of waiting
+    for (int periods = 0; waitpid(process_, nullptr, WNOHANG) == 0; ++periods) {
+      if (periods % kAgain == 0) kill(-process_, signal);
+      usleep(100'000);
+    }
     process_ = 0;
   }
 
