@@ -2,8 +2,9 @@
 process_watch.py PID SAMPLES.csv, or process_watch.py SAMPLES.csv, for scripts/soak.
 
 Memory is that of the process alone, without the files it has mapped. What leaks raises both its maxima and its
-minima over two minutes: its growth is the smaller of their slopes. Maxima alone rise with the load of the machine,
-minima alone if less of what is freed goes back to the system.
+minima: its growth is the smaller of their slopes over the quarters of a run. Maxima alone rise with the load of the
+machine, minima alone if less of what is freed goes back to the system. Memory mostly stands still, and changes by
+some megabytes when a fault needs another buffer or frees one, every few minutes: shorter parts may have only one of both.
 
 The exit status is 1 if there are more threads in the second half than in the first or, in runs longer than
 ten minutes, if memory grows by 1 MB per hour or more after the first five.
@@ -19,7 +20,7 @@ import psutil
 PERIOD_S = 1.0
 SETTLE_S = 300.0
 LEAST_LENGTH_S = 600.0
-WINDOW_S = 120.0
+PARTS = 4
 MAX_SLOPE_MB_PER_H = 1.0
 
 
@@ -39,17 +40,12 @@ def watch(pid):
         return samples
 
 
-def growth_of(samples, window_s):
+def growth_of(samples):
     """Growth of the memory [MB/h]."""
-    windows = {}
-    for sample in samples:
-        windows.setdefault(int((sample[0] - samples[0][0]) // window_s), []).append(sample[:2])
-    windows.popitem()  # the last one is not complete
-    slopes = []
-    for extreme in (min, max):
-        times_s, memory_mb = zip(*(extreme(window, key=lambda sample: sample[1]) for window in windows.values()))
-        slopes.append(3600.0 * numpy.polyfit(times_s, memory_mb, 1)[0])
-    return min(slopes)
+    parts = [part[:, :2] for part in numpy.array_split(numpy.array(samples), PARTS)]
+    middles_s = [part[:, 0].mean() for part in parts]
+    return min(3600.0 * numpy.polyfit(middles_s, [extreme(part[:, 1]) for part in parts], 1)[0]
+               for extreme in (numpy.min, numpy.max))
 
 
 def main(*arguments):
@@ -65,7 +61,7 @@ def main(*arguments):
     length_s = samples[-1][0]
     is_long = length_s >= LEAST_LENGTH_S
     settled = [s for s in samples if s[0] >= (SETTLE_S if is_long else length_s / 3)]
-    slope = growth_of(settled, WINDOW_S if is_long else length_s / 10)
+    slope = growth_of(settled)
     middle = len(settled) // 2
     # A thread that is there for a moment does not count.
     threads_before = statistics.median_high(s[2] for s in settled[:middle])
