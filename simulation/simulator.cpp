@@ -52,6 +52,7 @@ void CameraFaults::check() const {
   requireRange("disparity bias [px]", disparity_bias_px, -20.0, 20.0);
   requireRange("rotation of the right camera [rad]", right_rotation_rad.norm(), 0.0, 0.2);
   requireRange("row offset [px]", row_offset_px, -20.0, 20.0);
+  requireRange("focal length of the right camera", right_focal_ratio, 0.5, 2.0);
   requireRange("time skew [s]", time_skew_s, -0.1, 0.1);
   requireRange("noise [grey levels]", sensor.noise_sigma, 0.0, 50.0);
   requireRange("vignetting", sensor.vignetting, 0.0, 1.0);
@@ -107,6 +108,8 @@ PixelRays Simulator::rays(bool right) const {
   const double scale = rays.pinhole.fx / options_.camera.fx;
   rays.pinhole.cx -= scale * options_.faults.disparity_bias_px;
   rays.pinhole.cy += scale * options_.faults.row_offset_px;
+  rays.pinhole.fx *= options_.faults.right_focal_ratio;
+  rays.pinhole.fy *= options_.faults.right_focal_ratio;
   return rays;
 }
 

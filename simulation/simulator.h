@@ -28,9 +28,10 @@ struct CameraFaults {
   double disparity_bias_px = 0.0;                                ///< added to all disparities
   Eigen::Vector3d right_rotation_rad = Eigen::Vector3d::Zero();  ///< of the right camera: about its
                                                                  ///< z (roll), x (pitch), y (yaw)
-  double row_offset_px = 0.0;  ///< of the right image: what it shows is this much lower
-  double time_skew_s = 0.0;    ///< delay of the right camera
-  double motion_blur_s = 0.0;  ///< exposure time, around the stamp
+  double row_offset_px = 0.0;      ///< of the right image: what it shows is this much lower
+  double right_focal_ratio = 1.0;  ///< focal length of the right camera, over the nominal one
+  double time_skew_s = 0.0;        ///< delay of the right camera
+  double motion_blur_s = 0.0;      ///< exposure time, around the stamp
   Sensor sensor;
 
   /// Throws std::invalid_argument, naming the first value out of range.

@@ -98,6 +98,9 @@ po::options_description describe(Options& options) {
   add("right-rotation",
       po::value(&options.right_rotation_deg)->multitoken(),
       "ROLL PITCH YAW [deg]: rotation of the right camera");
+  add("right-focal",
+      number(faults.right_focal_ratio),
+      "focal length of the right camera, over that in calib.txt");
   add("rows", number(faults.row_offset_px), "[px] by which the right image is lower");
   add("time-skew", number(faults.time_skew_s), "[s] delay of the right camera");
   add("noise",
