@@ -64,13 +64,6 @@ struct RowOffset {
   double applied_px = 0.0;
 };
 
-/// How much later the right images are taken than the left ones. Moving features have wrong
-/// disparities then.
-struct TimeSkew {
-  double estimated_s = 0.0;
-  double sigma_s = 0.0;  ///< standard deviation; 0: not known, e.g. at standstill from the start
-};
-
 /// The result for one stereo pair.
 struct OdometryResult {
   State state = State::kLost;
@@ -97,7 +90,6 @@ struct OdometryResult {
   UncertainTransform T_keyframe_cur;
   DisparityBias disparity_bias;  ///< of the rig
   RowOffset row_offset;          ///< of the rig, before the correction
-  TimeSkew time_skew;            ///< of the rig
   /// Contrast of the right image relative to the left one, the median over the matched windows. It
   /// is only reported. 0: no motion.
   double exposure_gain = 0.0;

@@ -38,18 +38,6 @@ std::vector<Step> drive(const std::string& name, const SimulationOptions& option
   return drive(simulator, simulator.size() / 4, pairs);
 }
 
-TEST(SkewedRigTest, ShowsInTheRowsOfMovingFeatures) {
-  for (const double skew_s : {0.0, 0.005}) {
-    SimulationOptions options;
-    options.faults.time_skew_s = skew_s;
-    const TimeSkew skew = drive("shake", options, 16).back().estimate.time_skew;
-    // Most of sigma is the floor that lenses ask for, which these do not have.
-    ASSERT_GT(skew.sigma_s, 0.0);
-    EXPECT_LT(skew.sigma_s, 0.001);
-    EXPECT_NEAR(skew.estimated_s, skew_s, 0.2 * skew_s + 0.0002);
-  }
-}
-
 /// Noise of the images over that of a fine day, 2 grey levels: 500 electrons for white and 8 of
 /// read noise make 7 of them at a brightness of 0.15.
 double noiseOf(const std::string& name) {

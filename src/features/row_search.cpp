@@ -79,9 +79,8 @@ void RowSearch::measure(const StereoFrame& current,
                         const Correspondences& features,
                         const FeatureSet& set,
                         double row_offset_px,
-                        RowOffsets& offsets) {
-  offsets.features.clear();
-  offsets.offsets_px.clear();
+                        std::vector<float>& offsets_px) {
+  offsets_px.clear();
   for (std::size_t i = 0; i < features.size(); i += kFeatureSample) {
     if (set[i] == 0) continue;
     const cv::Point2f left(static_cast<float>(features[i].cur_px.x()),
@@ -89,8 +88,7 @@ void RowSearch::measure(const StereoFrame& current,
     cv::Point2f right = left + cv::Point2f(-static_cast<float>(features[i].disparity_px),
                                            static_cast<float>(row_offset_px));
     if (tracker_.locate(current.left.front(), current.right.front(), left, right)) {
-      offsets.features.push_back(i);
-      offsets.offsets_px.push_back(right.y - left.y);
+      offsets_px.push_back(right.y - left.y);
     }
   }
 }

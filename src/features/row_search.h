@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "common/workers.h"
@@ -13,12 +12,6 @@
 
 namespace rotrocc {
 
-/// Row offsets of single features, positive if a feature is lower in the right image.
-struct RowOffsets {
-  std::vector<std::size_t> features;  ///< indices
-  std::vector<float> offsets_px;      ///< in the same order
-};
-
 /// Measures the row offset between the left and the right image at a sample of points. Offsets are
 /// positive if a point is lower in the right image. Has no state except reused buffers.
 class RowSearch {
@@ -29,12 +22,13 @@ class RowSearch {
   /// known before: several rows are searched.
   std::vector<float> search(const StereoCamera& camera, const Keyframe& keyframe);
 
-  /// Offsets of a sample of the flagged features of `current`, near `row_offset_px`.
+  /// Sets `offsets_px` to those of a sample of the flagged features of `current`, near
+  /// `row_offset_px`.
   void measure(const StereoFrame& current,
                const Correspondences& features,
                const FeatureSet& set,
                double row_offset_px,
-               RowOffsets& offsets);
+               std::vector<float>& offsets_px);
 
  private:
   StereoMatcher matcher_;

@@ -139,8 +139,6 @@ OdometryStatus toStatus(const OdometryResult& result, const std::string& camera_
   message.row_offset_sigma = static_cast<float>(result.row_offset.sigma_px);
   message.row_offset_applied = static_cast<float>(result.row_offset.applied_px);
   message.row_difference = static_cast<float>(result.row_offset.typical_px);
-  message.time_skew = static_cast<float>(result.time_skew.estimated_s);
-  message.time_skew_sigma = static_cast<float>(result.time_skew.sigma_s);
   message.exposure_gain = static_cast<float>(result.exposure_gain);
   message.flow_noise = static_cast<float>(result.flow_noise_px);
 

@@ -32,7 +32,6 @@ bool RigEstimate::setCamera(const StereoCamera& camera) {
   resetBias();
   shared_errors_.reset();
   rows_.reset();
-  time_skew_.reset();
   return false;
 }
 
@@ -93,17 +92,14 @@ void RigEstimate::observe(const Hypothesis& found,
   const FeatureSet& inliers = found.estimate.rotation_inliers;
   shared_errors_.observe(found.camera, found.features, inliers, found.estimate.T_keyframe_cur);
   if (!rows_.isKnown() && !rows_.isNear(keyframe.row_offset_px)) return;
-  row_search_.measure(current, found.features, inliers, keyframe.row_offset_px, row_offsets_);
-  rows_.observe(row_offsets_.offsets_px);
-  time_skew_.observe(
-      found.camera, found.features, row_offsets_, secondsBetween(*keyframe.frame, current));
+  row_search_.measure(current, found.features, inliers, keyframe.row_offset_px, row_offsets_px_);
+  rows_.observe(row_offsets_px_);
 }
 
 void RigEstimate::report(OdometryResult& result) const {
   result.disparity_bias = bias();
   result.row_offset = rows_.offset();
   result.row_offset.applied_px = correctedRows();
-  result.time_skew = time_skew_.skew();
 }
 
 }  // namespace rotrocc

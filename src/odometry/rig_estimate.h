@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "features/row_search.h"
 #include "features/stereo_frame.h"
 #include "motion/shared_error_estimator.h"
@@ -7,7 +9,6 @@
 #include "rig/bias_filter.h"
 #include "rig/bias_meter.h"
 #include "rig/row_comparison.h"
-#include "rig/time_skew_estimator.h"
 #include "rotrocc/odometry_config.h"
 #include "rotrocc/odometry_result.h"
 #include "rotrocc/rigid_motion.h"
@@ -15,7 +16,7 @@
 
 namespace rotrocc {
 
-/// What the features of all pairs so far show of the rig: row offset, time skew, the errors that
+/// What the features of all pairs so far show of the rig: row offset, the errors that
 /// neighbouring features share, and the disparity bias, a constant error of all disparities caused
 /// by an inexact stereo calibration, or by a rig that moves.
 class RigEstimate {
@@ -74,8 +75,7 @@ class RigEstimate {
   SharedErrorEstimator shared_errors_;
   RowSearch row_search_;
   RowComparison rows_;
-  TimeSkewEstimator time_skew_;
-  RowOffsets row_offsets_;  // buffer, reused
+  std::vector<float> row_offsets_px_;  // buffer, reused
 };
 
 }  // namespace rotrocc

@@ -70,7 +70,7 @@ StatisticsFile::StatisticsFile(const std::string& path) : path_(path), file_(pat
            "translation_inliers,pyramids_ms,corners_ms,disparity_ms,tracking_ms,estimation_ms,"
            "prepared_ms,wall_ms,cpu_ms,keyframe_stamp_ns,bias_estimated_px,bias_sigma_px,"
            "bias_applied_px,row_offset_px,row_offset_sigma_px,row_difference_px,"
-           "row_offset_applied_px,time_skew_s,time_skew_sigma_s,exposure_gain,shared_error_ratio,"
+           "row_offset_applied_px,exposure_gain,shared_error_ratio,"
            "flow_noise_px,x_m,y_m,z_m,rx_rad,ry_rad,rz_rad";
   for (int i = 0; i < 6; ++i) {
     for (int j = i; j < 6; ++j) file_ << ",covariance_" << kAxes[i] << '_' << kAxes[j];
@@ -95,7 +95,6 @@ void StatisticsFile::write(const PairRecord& record) {
         << result.disparity_bias.sigma_px << ',' << result.disparity_bias.applied_px << ','
         << result.row_offset.median_px << ',' << result.row_offset.sigma_px << ','
         << result.row_offset.typical_px << ',' << result.row_offset.applied_px << ','
-        << result.time_skew.estimated_s << ',' << result.time_skew.sigma_s << ','
         << result.exposure_gain << ',' << result.shared_error_ratio << ',' << result.flow_noise_px;
   for (const Eigen::Vector3d& part : {translation, rotation}) {
     for (const double value : {part.x(), part.y(), part.z()}) file_ << ',' << value;

@@ -66,7 +66,6 @@ TEST(OdometryMessagesTest, StatusHasTheResultOfThePair) {
   result.disparity_bias = {0.75, 0.125, 0.5};
   result.row_offset = {-0.25, 0.0625, 0.375};
   result.row_offset.applied_px = -0.5;
-  result.time_skew = {-0.0078125, 0.001953125};
   result.exposure_gain = 0.625;
   result.flow_noise_px = 0.125;
   const OdometryStatus message = toStatus(result, "camera");
@@ -89,8 +88,6 @@ TEST(OdometryMessagesTest, StatusHasTheResultOfThePair) {
   EXPECT_EQ(message.row_offset_sigma, 0.0625f);
   EXPECT_EQ(message.row_offset_applied, -0.5f);
   EXPECT_EQ(message.row_difference, 0.375f);
-  EXPECT_EQ(message.time_skew, -0.0078125f);
-  EXPECT_EQ(message.time_skew_sigma, 0.001953125f);
   EXPECT_EQ(message.exposure_gain, 0.625f);
   EXPECT_EQ(message.flow_noise, 0.125f);
 }

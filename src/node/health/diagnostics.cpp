@@ -70,10 +70,6 @@ void describeOdometry(const HealthReport& report, StatusWrapper& status) {
               last.row_offset,
               last.row_offset_sigma,
               last.row_difference);
-  status.addf("delay of the right image",
-              "%.1f +- %.1f ms",
-              1e3 * last.time_skew,
-              1e3 * last.time_skew_sigma);
   status.addf("contrast of the right image relative to the left one", "%.2f", last.exposure_gain);
   status.addf("flow noise", "%.2f px", last.flow_noise);
   status.add("pairs processed", last.pairs_processed);

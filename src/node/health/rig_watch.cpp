@@ -13,8 +13,6 @@ namespace {
 constexpr double kLargeBias_px = 0.5;
 /// More than a good rectification leaves, and more than the matching of small windows tolerates.
 constexpr double kRowsApart_px = 0.5;
-/// At 10 m/s, or at half a radian per second, a pixel or so of disparity error.
-constexpr double kNotableSkew_s = 0.002;
 /// Standard deviations of a fault that is beyond doubt.
 constexpr double kSigmas = 4.0;
 
@@ -45,15 +43,6 @@ std::string RigWatch::observe(const OdometryStatus& status) {
             (status.row_offset_applied != 0.0f ? ", which is corrected" : "");
   }
   if (!what.empty()) what += ": recalibrate the stereo rig";
-  const bool is_skewed = status.time_skew_sigma > 0.0f &&
-                         isBeyond(kNotableSkew_s, status.time_skew, status.time_skew_sigma);
-  if (lasts(is_skewed, skew_)) {
-    what += (what.empty() ? "" : "; ") + std::string("the right images are taken ") +
-            hundredths(1e3 * std::abs(status.time_skew)) + " ms (+- " +
-            hundredths(1e3 * status.time_skew_sigma) + ") " +
-            (status.time_skew > 0.0f ? "after" : "before") +
-            " the left ones: trigger both cameras by one signal";
-  }
   return what;
 }
 

@@ -6,7 +6,7 @@
 
 namespace rotrocc {
 
-/// Warns of a disparity bias, a row offset or a time skew of the rig. What single pairs show may be
+/// Warns of a disparity bias or a row offset of the rig. What single pairs show may be
 /// wrong, so it must last.
 class RigWatch {
  public:
@@ -18,7 +18,7 @@ class RigWatch {
   std::string observe(const OdometryStatus& status);
 
  private:
-  int bias_ = 0, rows_ = 0, skew_ = 0;  // pairs in a row
+  int bias_ = 0, rows_ = 0;  // pairs in a row
 };
 
 }  // namespace rotrocc
