@@ -8,6 +8,7 @@
 # Options of each program. Those with a value end in =.
 declare -gA _rotrocc_options=(
   [benchmark]='--repeat= --programs= --config= --set= --against-programs= --against-config= --against-set='
+  [check_rig]='--report= --write-camera-info= --imu= --left-image= --right-image= --rectify= --calibration= --config= --set='
   [draw_report]='--title='
   [evaluate_trajectory]='--lengths= --step= --fit --times= --segments= --report= --stats= --title='
   [kitti_benchmark]='--output= --jobs= --sshlogin= --config= --set= --compare= --title= --programs='
@@ -18,13 +19,14 @@ declare -gA _rotrocc_options=(
   [rig_view]=''
   [sequence_to_bag]='--start-time= --rectify --max-stamp-difference='
   [simulate_drive]='--layout= --poses= --times= --frames= --rate= --seed= --noise-seed= --moving-share= --truth --imu
-    --size= --focal= --baseline= --rig= --lens= --disparity-bias= --right-rotation= --rows= --time-skew= --noise=
+    --size= --focal= --baseline= --rig= --lens= --disparity-bias= --right-rotation= --right-focal= --rows= --time-skew= --noise=
     --motion-blur= --lorry= --lorry-across= --tiles='
   [stress_sequence]='--plain= --drops= --gain-step= --contrast= --right-gain= --right-offset= --noise= --jpeg= --seed='
 )
 
 # What an option or the first argument of a program takes, if it is neither a file nor a number.
 declare -gA _rotrocc_values=(
+  ['check_rig --rectify']='auto yes no'
   ['offline_odometry --format']='kitti tum'
   ['offline_odometry --rectify']='auto yes no'
   ['simulate_drive']='city motorway slip_road parking shake handheld night hall'

@@ -78,6 +78,7 @@ bool RecordedPairs::readMessage() {
   RecordedMessage message;
   try {
     if (!recording_.next(message)) return false;
+    observe_(message);
     add(message);
   } catch (const InputError& error) {
     drops_.add(error);

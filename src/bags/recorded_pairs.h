@@ -1,7 +1,9 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "bags/recording.h"
 #include "input/drop_log.h"
@@ -29,6 +31,11 @@ class RecordedPairs {
   RecordedPairs(const RecordedPairs&) = delete;
   RecordedPairs& operator=(const RecordedPairs&) = delete;
 
+  /// Passes each message that is read from now on, before it is used.
+  void onMessage(std::function<void(const RecordedMessage&)> observe) {
+    observe_ = std::move(observe);
+  }
+
   /// Whether it rectifies the images.
   bool rectifies() const { return rectifies_; }
 
@@ -47,6 +54,7 @@ class RecordedPairs {
   StereoPair convert(const ReceivedPair& received);
 
   Recording& recording_;
+  std::function<void(const RecordedMessage&)> observe_ = [](const RecordedMessage&) {};
   bool rectifies_;
   DropLog drops_;
   StereoIntake intake_;

@@ -11,6 +11,7 @@
 #include <boost/program_options.hpp>
 
 #include "rotrocc/trajectory_error.h"
+#include "tools/draw_report.h"
 #include "tools/program.h"
 #include "tools/trajectory_files.h"
 #include "tools/trajectory_report.h"
@@ -167,7 +168,9 @@ void run(const Options& options) {
     if (!options.report.empty()) writeReportTables(evaluation, options.report);
     print(evaluation);
   }
-  if (!options.report.empty()) drawReport(options.report, options.files.statistics, options.title);
+  if (options.report.empty()) return;
+  copyStatistics(options.files.statistics, options.report);
+  drawReport(options.report, options.title);
 }
 
 }  // namespace

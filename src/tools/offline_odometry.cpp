@@ -21,6 +21,7 @@
 #include "inertial/gyro_file.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/visual_odometry.h"
+#include "tools/input_options.h"
 #include "tools/odometry_outputs.h"
 #include "tools/program.h"
 #include "tools/progress_bar.h"
@@ -32,25 +33,21 @@ namespace {
 namespace po = boost::program_options;
 using namespace rotrocc;
 
-const char* const kUsage =
-    "Runs the odometry on all pairs of a recording, and writes the pose of the left "
-    "camera for each.\n\n"
-    "example: offline_odometry dataset/sequences/06 --trajectory 06.txt --stats 06.csv\n"
-    "usage:   offline_odometry INPUT... --trajectory OUT.txt [options]\n\n"
-    "INPUT is a bag, the bags or the directory of bags into which a recording is split, or a\n"
-    "directory in the layout of KITTI's odometry benchmark, in ASL format (EuRoC), or with\n"
-    "folders left and right and files left.yaml and right.yaml of camera_calibration.\n"
+const std::string kUsage =
+    std::string(
+        "Runs the odometry on all pairs of a recording, and writes the pose of the left "
+        "camera for each.\n\n"
+        "example: offline_odometry dataset/sequences/06 --trajectory 06.txt --stats 06.csv\n"
+        "usage:   offline_odometry INPUT... --trajectory OUT.txt [options]\n\n"
+        "INPUT ") +
+    kRecordingHelp +
     "Images that are not rectified are. What cannot be used is dropped and counted.\n\n";
 
 struct Options {
-  std::vector<std::string> input;
-  RecordingOptions recording;
-  std::string rectify = "auto";
+  InputOptions input;
   bool preload = false;
   std::string imu;
   std::string imu_rotation = "0 0 0 1";
-  std::string config;
-  std::vector<std::string> assignments;
   OutputFiles output;
 };
 
@@ -66,11 +63,6 @@ bool parse(int argc, char** argv, Options& options) {
       "bag with /stereo/odom and /tf, as the node publishes them");
   add("pictures", po::value(&options.output.pictures), "folder for the flow picture of each pair");
 
-  po::options_description parameters("Parameters");
-  add = parameters.add_options();
-  add("config", po::value(&options.config), "YAML file with parameters");
-  add("set", po::value(&options.assignments), "name=value: set a parameter; may be repeated");
-
   po::options_description gyroscope("Gyroscope");
   add = gyroscope.add_options();
   add("imu",
@@ -83,28 +75,17 @@ bool parse(int argc, char** argv, Options& options) {
       "\"QX QY QZ QW\": rotation from axes of a CSV file to those of the left camera; that of a "
       "topic is from tf, that of a folder from sensor.yaml");
 
-  po::options_description images("Images");
+  po::options_description images = imageOptions(options.input);
   add = images.add_options();
-  add("left-image",
-      po::value(&options.recording.left_image),
-      "topic of the left images, if a bag has several stereo pairs");
-  add("right-image", po::value(&options.recording.right_image), "topic of the right images");
-  add("rectify",
-      withDefault(options.rectify),
-      "by K, D, R and P of camera_info: yes, no, or auto: if the topic is not named image_rect or "
-      "alike, and camera_info describes raw images");
-  add("calibration",
-      po::value(&options.recording.calibration)->multitoken(),
-      "files in place of camera_info: left.yaml right.yaml of camera_calibration, or a camchain of "
-      "Kalibr");
   add("preload", po::bool_switch(&options.preload), "read all images first; prints the memory use");
 
   po::variables_map variables;
   po::options_description visible("Options");
   visible.add_options()("help,h", "show this help");
-  visible.add(output).add(parameters).add(gyroscope).add(images);
-  if (!parseCommandLine(argc, argv, kUsage, visible, options.input, variables)) return false;
-  if (options.input.empty()) throw po::error("expected a recording");
+  visible.add(output).add(parameterOptions(options.input)).add(gyroscope).add(images);
+  if (!parseCommandLine(argc, argv, kUsage.c_str(), visible, options.input.paths, variables))
+    return false;
+  if (options.input.paths.empty()) throw po::error("expected a recording");
   return true;
 }
 
@@ -121,27 +102,6 @@ PairRecord process(VisualOdometry& odometry,
   }
   record.cpu_ms = 1e3 * static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
   return record;
-}
-
-Parameters readParameters(const Options& options) {
-  Parameters parameters;
-  ParameterTable table = makeParameterTable(parameters);
-  if (!options.config.empty()) {
-    for (const std::string& warning : loadYaml(options.config, table)) {
-      std::cerr << "offline_odometry: " << warning << '\n';
-    }
-  }
-  for (const std::string& assignment : options.assignments) table.setAssignment(assignment);
-  return parameters;
-}
-
-std::unique_ptr<Recording> openInput(const Options& options, const NodeParameters& node) {
-  RecordingOptions recording = options.recording;
-  recording.base_frame = node.base_frame;
-  recording.raw_sequence = true;
-  recording.sequence.max_stamp_difference_s = node.max_stamp_difference_s;
-  recording.sequence.baseline_m = node.baseline_m;
-  return openRecording(options.input, recording);
 }
 
 std::optional<RecordedGyro> openGyro(const Options& options, const Recording& recording) {
@@ -207,9 +167,9 @@ class PreloadedPairs {
 };
 
 void run(const Options& options) {
-  const Parameters parameters = readParameters(options);
-  const std::unique_ptr<Recording> recording = openInput(options, parameters.node);
-  RecordedPairs pairs(*recording, parameters.node, options.rectify);
+  const Parameters parameters = readParameters("offline_odometry", options.input);
+  const std::unique_ptr<Recording> recording = openInput(options.input, parameters.node);
+  RecordedPairs pairs(*recording, parameters.node, options.input.rectify);
   std::cerr << "offline_odometry: reading " << recording->description()
             << (pairs.rectifies() ? ", rectified by camera_info" : "") << '\n';
   std::optional<RecordedGyro> gyro = openGyro(options, *recording);

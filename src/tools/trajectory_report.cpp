@@ -1,10 +1,5 @@
 #include "tools/trajectory_report.h"
 
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
@@ -187,27 +182,15 @@ void writeReportTables(const Trajectory& estimate, const std::string& directory)
   poses.close();
 }
 
-void drawReport(const std::string& directory,
-                const std::string& statistics,
-                const std::string& title) {
+void copyStatistics(const std::string& statistics, const std::string& directory) {
   const std::string pairs = directory + "/pairs.csv";
   std::error_code error;
   if (statistics.empty()) {
-    fs::remove(pairs, error);  // from an earlier report
+    fs::remove(pairs, error);
   } else if (!fs::equivalent(statistics, pairs, error)) {
     fs::copy_file(statistics, pairs, fs::copy_options::overwrite_existing, error);
     if (error) throw std::runtime_error("cannot copy " + statistics + ": " + error.message());
   }
-  const std::string script = fs::read_symlink("/proc/self/exe").replace_filename("draw_report");
-  std::fflush(stdout);
-  execl(script.c_str(),
-        script.c_str(),
-        "--title",
-        title.c_str(),
-        "--",
-        directory.c_str(),
-        static_cast<char*>(nullptr));
-  throw std::runtime_error("cannot run " + script + ": " + std::strerror(errno));
 }
 
 }  // namespace rotrocc

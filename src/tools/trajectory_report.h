@@ -38,11 +38,8 @@ void writeReportTables(const Evaluation& evaluation, const std::string& director
 /// The same without ground truth: summary.csv and poses.csv without errors.
 void writeReportTables(const Trajectory& estimate, const std::string& directory);
 
-/// Copies the file of `offline_odometry --stats` to pairs.csv, if its name is not empty, and
-/// replaces this process by the program draw_report, which draws the tables and writes the page.
-/// Returns only by std::runtime_error.
-[[noreturn]] void drawReport(const std::string& directory,
-                             const std::string& statistics,
-                             const std::string& title);
+/// Copies the file of `offline_odometry --stats` to pairs.csv, if its name is not empty; otherwise
+/// removes that of an earlier report. Throws std::runtime_error if it cannot be copied.
+void copyStatistics(const std::string& statistics, const std::string& directory);
 
 }  // namespace rotrocc

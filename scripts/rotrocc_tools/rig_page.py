@@ -1,0 +1,214 @@
+"""The page of a rig check, from what check_rig has written into a folder."""
+import re
+
+import numpy
+import yaml
+
+from rotrocc_tools import report_page as page
+from rotrocc_tools import rig_figures as figures
+from rotrocc_tools.plot_style import BLUE, ORANGE
+from rotrocc_tools.tables import read_columns
+
+FINDINGS = 'findings.yaml'
+# For a person who has to do something.
+WORDS = {'fix': 'fix this', 'acceptable': 'acceptable', 'unknown': 'unknown', 'good': 'good'}
+STYLE = '''<style>
+.badge { padding: 2px 10px; border-radius: 9px; color: #fff; font-size: 13px; font-weight: 600; white-space: nowrap; }
+.fix { background: #B34700; } .acceptable { background: #8A6500; } .unknown { background: #777; } .good { background: #00755A; }
+.finding { margin: 14px 0; padding-left: 14px; border-left: 4px solid #ddd; }
+.finding.fix, .finding.acceptable, .finding.unknown { background: none; }
+.finding.fix { border-color: #B34700; } .finding.acceptable { border-color: #C99700; }
+.finding b { margin-left: 8px; } .finding p { margin: 3px 0; }
+code { padding: 1px 5px; background: #f0f2f4; border-radius: 4px; font-size: 14px; overflow-wrap: anywhere; }
+td.words { white-space: normal; } th, td { text-align: left; }
+</style>
+'''
+
+
+def badge(verdict):
+    return '<span class="badge %s">%s</span>' % (verdict, WORDS[verdict])
+
+
+def words_of(text):
+    return page.text(text).replace('+-', '&plusmn;')
+
+
+def with_code(words):
+    return re.sub('`([^`]*)`', r'<code>\1</code>', page.text(words))
+
+
+def card(finding):
+    parts = [badge(finding['verdict']), '<b>%s: %s</b>' % (page.text(finding['section']), page.text(finding['subject'])),
+             '<p>%s</p>' % words_of(finding['measured'])]
+    if finding['cost']:
+        parts.append('<p>Cost: %s</p>' % page.text(finding['cost']))
+    if finding['remedy']:
+        parts.append('<p>To do: %s</p>' % with_code(finding['remedy']))
+    return '<div class="finding %s">%s</div>\n' % (finding['verdict'], ''.join(parts))
+
+
+def cells_of(finding):
+    return '</td><td class="words">'.join([page.text(finding['section']), page.text(finding['subject']),
+                                           words_of(finding['measured'])])
+
+
+class RigPage:
+    def __init__(self, folder):
+        self.folder = folder
+        with open(str(folder / FINDINGS), encoding='utf-8') as file:
+            self.content = yaml.safe_load(file)
+        self.tables = {path.stem: read_columns(path) for path in folder.glob('*.csv')}
+
+    def has(self, name):
+        table = self.tables.get(name)
+        return table is not None and all(len(column) for column in table.values())
+
+    def picture(self, name, description, draw, *arguments):
+        path = self.folder / (name + '_figure.png')
+        draw(*arguments, path)
+        return page.picture(path, description)
+
+    def course(self, table, value, name=None, colour=BLUE, factor=1.0, sigma=None):
+        """A line of figures.courses()."""
+        columns = self.tables[table]
+        deviation = factor * columns[sigma] if sigma else None
+        return columns['time_s'], factor * columns[value], deviation, name, colour
+
+    def maps(self, name, description, parts, colour_map, limits, label):
+        camera = self.tables['image']
+        size = camera['width'][0], camera['height'][0]
+        return self.picture(name, description, lambda path: figures.maps(
+            parts, size, self.folder / 'left.png', path, colour_map, limits, label))
+
+    def tiles(self):
+        verdicts = [finding['verdict'] for finding in self.content['findings']]
+        return page.tiles([(verdicts.count(verdict), '', words) for verdict, words in (
+            ('fix', 'to fix'), ('acceptable', 'acceptable'), ('unknown', 'not measured'), ('good', 'good'))])
+
+    def findings(self):
+        listed = self.content['findings']
+        bad = [card(finding) for finding in listed if finding['verdict'] != 'good']
+        good = [[cells_of(finding)] for finding in listed if finding['verdict'] == 'good']
+        note = 'The most severe first.' if bad else 'Nothing is to be done.'
+        table = page.table(['section', 'property', 'measured'], good)
+        return page.section('Findings', note, *bad, page.details('%d properties are good' % len(good), table))
+
+    def corrected(self):
+        if 'corrected' not in self.content:
+            return ''
+        after = {(finding['section'], finding['subject']): finding for finding in self.content['corrected']}
+        rows = []
+        for before in self.content['findings']:
+            finding = after.get((before['section'], before['subject']))
+            if before['section'] not in ('rows', 'disparities', 'odometry') or not finding:
+                continue
+            rows.append(['%s</td><td class="words">%s<br>%s</td><td class="words">%s<br>%s' % (
+                page.text(before['subject']), badge(before['verdict']), words_of(before['measured']),
+                badge(finding['verdict']), words_of(finding['measured']))])
+        return page.section('With the corrected calibration', 'The same recording, checked by the files that were written. '
+                            'What both cameras have in common, as a wrong baseline, is not seen.',
+                            page.table(['', 'before', 'after'], rows))
+
+    def inputs(self):
+        if not self.has('stamps'):
+            return ''
+        panels = [('interval [ms]', [self.course('stamps', 'interval_ms')]),
+                  ('left - right [ms]', [self.course('stamps', 'left_minus_right_ms')]),
+                  ('arrival [ms]', [self.course('stamps', 'age_ms')])]
+        return page.section('Inputs', 'Time from each left image to the next, its stamp minus that of the nearest right image, '
+                            'and how long after its stamp it arrived. All should be flat.',
+                            self.picture('stamps', 'stamps over time', figures.courses, panels))
+
+    def photometry(self):
+        if not self.has('photometry'):
+            return ''
+        def both(name, factor=1.0):
+            return [self.course('photometry', name + '_left', 'left', BLUE, factor),
+                    self.course('photometry', name + '_right', 'right', ORANGE, factor)]
+        panels = [('mean grey', both('mean')), ('white [%]', both('saturated', 100.0)), ('black [%]', both('dark', 100.0)),
+                  ('gain', [self.course('photometry', 'gain')]), ('offset [grey]', [self.course('photometry', 'offset_grey')])]
+        if self.has('sharpness'):
+            panels.append(('blur [px]', [self.course('sharpness', 'blur_px')]))
+        return page.section('Photometry', 'Grey levels of both images, and the right one compared with the left one where both '
+                            'show the same: gain 1, offset 0 and blur 0 are equal. Positive blur: the right image is blurred.',
+                            self.picture('photometry', 'grey levels over time', figures.courses, panels))
+
+    def rows(self):
+        if not self.has('rows_map'):
+            return ''
+        table = self.tables['rows_map']
+        limit = figures.largest(table['row_px'], table['model_px'])
+        parts = [('measured', table, table['row_px'], True), ('explained by rotation, focal length and row of the right '
+                 'camera', table, table['model_px'], True),
+                 ('left over', table, table['row_px'] - table['model_px'], True)]
+        if self.has('rows_map_corrected'):
+            after = self.tables['rows_map_corrected']
+            parts.append(('measured with the corrected calibration', after, after['row_px'], True))
+        shown = [self.maps('rows', 'row differences over the image', parts, figures.SIGNED, (-limit, limit),
+                           'lower in the right image [px]')]
+        if self.has('rows_time'):
+            shown.append(self.picture('rows_time', 'row differences over time', figures.courses, [
+                ('left over [px]', [self.course('rows_time', 'row_px', sigma='sigma_px')])]))
+        return page.section('Rows', 'How much lower points are in the right image: zero everywhere for a rectified pair. The '
+                            'arrows point where they are displaced to, in the scale of the colours. Over time, what moves is '
+                            'a rig that bends.', *shown)
+
+    def disparities(self):
+        shown = []
+        if self.has('disparity_map'):
+            table = self.tables['disparity_map']
+            limit = figures.largest(numpy.percentile(numpy.abs(table['bias_px']), [95]))
+            parts = [('measured', table, table['bias_px'], False)]
+            if self.has('disparity_map_corrected'):
+                after = self.tables['disparity_map_corrected']
+                parts.append(('with the corrected calibration', after, after['bias_px'], False))
+            shown.append(self.maps('disparities', 'errors of disparities over the image', parts, figures.SIGNED,
+                                   (-limit, limit), 'missing disparity [px]'))
+        if self.has('bias_time'):
+            shown.append(self.picture('bias_time', 'bias over time', figures.courses, [
+                ('bias [px]', [self.course('bias_time', 'bias_px', sigma='sigma_px')])]))
+        return page.section('Disparities', 'What has to be added to disparities so that they agree with the motion, where the '
+                            'motion shows it; and the same for the whole image, as it gets known, with one standard '
+                            'deviation.', *shown) if shown else ''
+
+    def time(self):
+        if not self.has('gyro'):
+            return ''
+        lines = [self.course('gyro', 'camera_dps', 'cameras', BLUE), self.course('gyro', 'gyro_dps', 'gyroscope', ORANGE)]
+        return page.section('Time', 'Turn rates of cameras and gyroscope, shifted by the difference of their clocks: both lines '
+                            'are the same if they measure the same.',
+                            self.picture('gyro', 'turn rates over time', figures.courses, [('turn rate [deg/s]', lines)]))
+
+    def view(self):
+        if not self.has('view_map'):
+            return ''
+        table = self.tables['view_map']
+        with numpy.errstate(divide='ignore', invalid='ignore'):
+            with_depth = 100.0 * table['with_depth'] / table['corners']
+            agreeing = 100.0 * table['inliers'] / table['features']
+        parts = [('corners with a disparity', table, with_depth, False),
+                 ('features that agree with the motion', table, agreeing, False)]
+        shown = [self.maps('view', 'what is seen', parts, figures.SHARE, (0, 100), 'share [%]')]
+        if (self.folder / 'mask.png').is_file():
+            shown.append('<p>Proposed mask, the file <code>mask.png</code>:</p>')
+            shown.append(self.picture('mask', 'proposed mask', figures.mask, self.folder / 'left.png',
+                                      self.folder / 'mask.png'))
+        if self.has('depths'):
+            shown.append(self.picture('depths', 'depths of the features', figures.depths, self.tables['depths']))
+        return page.section('What is seen', 'Where corners have a disparity, and where features agree with the motion of the '
+                            'rest: red is what no other part of the image has, as the robot itself. Near features decide how '
+                            'well the way is known.', *shown)
+
+    def odometry(self):
+        if not self.has('halves'):
+            return ''
+        return page.section('Odometry', 'Stretches that were repeated backward in time, and mirrored with left and right '
+                            'exchanged. A rig without errors gives the same motion; the grey bars are what the covariance '
+                            'says of one of them.',
+                            self.picture('stretches', 'differences of repeated stretches', figures.stretches,
+                                         self.tables['halves']))
+
+    def write(self):
+        page.write_page(self.folder / 'index.html', self.content['title'], page.text(self.content['summary']), STYLE,
+                        self.tiles(), self.findings(), self.corrected(), self.inputs(), self.photometry(), self.rows(),
+                        self.disparities(), self.time(), self.view(), self.odometry())

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "bags/recording.h"
+#include "check/rig_check.h"
+#include "rectification/stereo_calibration.h"
+
+namespace rotrocc {
+
+/// The calibration that makes rows equal and disparities right, by what was measured with another
+/// one. The right camera takes all of it: what both cameras have in common, such as an error of the
+/// baseline or of both focal lengths, is not seen.
+StereoCalibration correct(const RigMeasures& measures);
+
+/// Checks a recording by corrected calibrations, until one is found: rows first, then the
+/// disparities that they leave. None, with the reason in `why_not`, if nothing is significant, rows
+/// move, or the result is worse: by the rows, or by the difference of mirrored and straight
+/// motions.
+struct Correction {
+  StereoCalibration calibration;
+  CheckedRig checked;
+};
+std::optional<Correction> findCorrection(Recording& recording,
+                                         const RigCheckOptions& options,
+                                         const RigMeasures& before,
+                                         std::string& why_not);
+
+/// Writes left.yaml and right.yaml, in the format of camera_calibration, which camera_info_manager
+/// and `offline_odometry --calibration` read. Throws std::runtime_error if they cannot be written.
+void writeCalibration(const StereoCalibration& calibration, const std::string& directory);
+
+}  // namespace rotrocc

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "check/checked_pair.h"
+#include "check/rig_report.h"
+#include "check/windows.h"
+
+namespace rotrocc {
+
+/// Disparities against the motion: their bias as the odometry estimates it, and where in the image
+/// they disagree with the motion of the other features.
+class DisparityCheck {
+ public:
+  void observe(const CheckedPair& pair);
+
+  /// Adds the section disparities, the map of errors and the course of the bias.
+  void report(const Windows& windows, RigReport& report) const;
+
+  /// Of the last pair.
+  const DisparityBias& bias() const { return bias_; }
+
+ private:
+  /// The error of a single disparity: the correction that makes it agree with the motion.
+  struct Error {
+    float x_px, y_px;
+    float correction_px;
+    float sigma_px;
+  };
+
+  void measure(const CheckedPair& pair, std::size_t feature);
+  std::pair<double, double> motionOfBias() const;
+  void addMap(RigReport& report) const;
+
+  StereoCamera camera_;
+  DisparityBias bias_;
+  std::vector<TimedValue> biases_px_;
+  std::vector<double> bias_sigmas_px_;
+  std::vector<Error> errors_;
+  std::vector<double> disparities_px_;  // above infinity
+};
+
+}  // namespace rotrocc

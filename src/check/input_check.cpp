@@ -1,0 +1,208 @@
+#include "check/input_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "common/median.h"
+#include "common/to_seconds.h"
+#include "input/camera_calibration.h"
+#include "input/input_error.h"
+#include "input/message_conversion.h"
+#include "input/to_text.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kGapPeriods = 1.5;
+
+/// Limits: shares of the images, of the period, and seconds.
+constexpr double kAcceptableMissing = 0.01;
+constexpr double kFixMissing = 0.1;
+constexpr double kAcceptableApart = 0.05;
+constexpr double kFixApart = 0.25;
+constexpr double kAcceptableAge_s = 0.3;
+constexpr double kFixAge_s = 1.0;
+
+double periodOf(const std::vector<std::int64_t>& stamps_ns) {
+  std::vector<double> intervals_s;
+  for (std::size_t i = 1; i < stamps_ns.size(); ++i) {
+    intervals_s.push_back(toSeconds(stamps_ns[i] - stamps_ns[i - 1]));
+  }
+  return intervals_s.empty() ? 0.0 : median(intervals_s);
+}
+
+template <class Key, class ToText>
+std::string listOf(const std::map<Key, int>& counts, const ToText& to_text) {
+  std::string text;
+  for (const auto& [key, count] : counts) {
+    text += (text.empty() ? "" : ", ") + to_text(key) +
+            (counts.size() > 1 ? " (" + std::to_string(count) + ")" : "");
+  }
+  return text;
+}
+
+}  // namespace
+
+void InputCheck::observe(const RecordedMessage& message) {
+  if (message.left_image) add(*message.left_image, message.time, left_);
+  if (message.right_image) add(*message.right_image, message.time, right_);
+  if (message.left_info) {
+    ++left_.infos;
+    left_info_ = message.left_info;
+  }
+  if (message.right_info) {
+    ++right_.infos;
+    right_info_ = message.right_info;
+  }
+}
+
+void InputCheck::add(const sensor_msgs::Image& image, const ros::Time& time, Stream& stream) {
+  stream.stamps_ns.push_back(toNanoseconds(image.header.stamp));
+  stream.ages_s.push_back(toSeconds(toNanoseconds(time) - stream.stamps_ns.back()));
+  ++stream.encodings[image.encoding];
+  ++stream.sizes[{static_cast<int>(image.width), static_cast<int>(image.height)}];
+}
+
+void InputCheck::report(const StereoCamera& camera,
+                        const std::string& left_out,
+                        bool rectifies,
+                        RigReport& report) const {
+  addCamera(camera, rectifies, report);
+  addFormats(report);
+  addRates(report);
+  addStamps(report);
+  if (!left_out.empty()) {
+    report.findings.push_back({"inputs",
+                               "left out",
+                               left_out,
+                               "each is a pair without a motion",
+                               Verdict::kAcceptable,
+                               "look at the reasons: what they name is dropped by the node as well",
+                               0.5});
+  }
+}
+
+void InputCheck::addCamera(const StereoCamera& camera, bool rectifies, RigReport& report) const {
+  const std::string values = "fx " + fixedText(camera.fx, 2) + " px, baseline " +
+                             fixedText(camera.baseline_m, 4) + " m, " +
+                             sizeText(camera.width, camera.height) +
+                             (rectifies ? ", raw images, rectified here" : ", rectified images");
+  const std::string warning = baselineWarning(camera);
+  report.findings.push_back({"inputs",
+                             "camera_info",
+                             values,
+                             "",
+                             warning.empty() ? Verdict::kGood : Verdict::kFix,
+                             warning,
+                             1.0});
+}
+
+void InputCheck::addFormats(RigReport& report) const {
+  const auto size_text = [](const std::pair<int, int>& size) {
+    return sizeText(size.first, size.second);
+  };
+  const auto name = [](const std::string& encoding) { return encoding; };
+  const bool differs =
+      left_.encodings != right_.encodings || left_.sizes.size() > 1 || left_.encodings.size() > 1;
+  report.findings.push_back(
+      {"inputs",
+       "images",
+       listOf(left_.encodings, name) + " left, " + listOf(right_.encodings, name) + " right; " +
+           listOf(left_.sizes, size_text),
+       "images of different formats are of different cameras or settings",
+       differs && !left_.encodings.empty() && !right_.encodings.empty() ? Verdict::kAcceptable
+                                                                        : Verdict::kGood,
+       differs ? "give both cameras the same settings" : "",
+       0.3});
+}
+
+void InputCheck::addRates(RigReport& report) const {
+  for (const bool right : {false, true}) {
+    const std::vector<std::int64_t>& stamps_ns = (right ? right_ : left_).stamps_ns;
+    const double period_s = periodOf(stamps_ns);
+    if (!(period_s > 0.0)) continue;
+    double missing = 0.0;
+    int gaps = 0;
+    int duplicates = 0;
+    double longest_s = 0.0;
+    for (std::size_t i = 1; i < stamps_ns.size(); ++i) {
+      const double interval_s = toSeconds(stamps_ns[i] - stamps_ns[i - 1]);
+      duplicates += interval_s <= 0.0 ? 1 : 0;
+      longest_s = std::max(longest_s, interval_s);
+      if (interval_s < kGapPeriods * period_s) continue;
+      ++gaps;
+      missing += std::round(interval_s / period_s) - 1.0;
+    }
+    std::string measured = fixedText(1.0 / period_s, 2) + " Hz";
+    if (gaps > 0)
+      measured += ", " + toText(gaps) + " gaps, the longest of " + fixedText(longest_s, 2) + " s";
+    if (duplicates > 0) measured += ", " + toText(duplicates) + " stamps that do not increase";
+    report.add({"inputs",
+                right ? "right images" : "left images",
+                measured,
+                "motions over gaps are longer: more is lost, most of all in turns",
+                Verdict::kGood,
+                "look for lost frames of the driver, the USB or network link, and the recorder",
+                0.0},
+               {(missing + duplicates) / static_cast<double>(stamps_ns.size()),
+                0.0,
+                kAcceptableMissing,
+                kFixMissing});
+  }
+}
+
+/// By each left image and the nearest right one.
+void InputCheck::addStamps(RigReport& report) const {
+  const double period_s = periodOf(left_.stamps_ns);
+  if (!(period_s > 0.0) || right_.stamps_ns.empty()) return;
+  std::vector<std::int64_t> right_ns = right_.stamps_ns;
+  std::sort(right_ns.begin(), right_ns.end());
+  ReportTable table = {"stamps", {"time_s", "left_minus_right_ms", "age_ms", "interval_ms"}, {}};
+  std::vector<double> apart_s;
+  std::vector<double> ages_s = left_.ages_s;
+  for (std::size_t i = 0; i < left_.stamps_ns.size(); ++i) {
+    const std::int64_t left_ns = left_.stamps_ns[i];
+    const auto next = std::lower_bound(right_ns.begin(), right_ns.end(), left_ns);
+    std::int64_t nearest_ns = next == right_ns.end() ? right_ns.back() : *next;
+    if (next != right_ns.begin() && left_ns - *(next - 1) < std::abs(nearest_ns - left_ns)) {
+      nearest_ns = *(next - 1);
+    }
+    apart_s.push_back(toSeconds(left_ns - nearest_ns));
+    table.rows.push_back({toSeconds(left_ns - left_.stamps_ns.front()),
+                          1e3 * apart_s.back(),
+                          1e3 * left_.ages_s[i],
+                          i > 0 ? 1e3 * toSeconds(left_ns - left_.stamps_ns[i - 1])
+                                : std::numeric_limits<double>::quiet_NaN()});
+  }
+  report.tables.push_back(std::move(table));
+  double largest_s = 0.0;
+  for (const double value_s : apart_s) largest_s = std::max(largest_s, std::abs(value_s));
+  const double typical_s = median(apart_s);
+  report.add(
+      {"inputs",
+       "stamps of left minus right",
+       fixedText(1e3 * typical_s, 2) + " ms, at most " + fixedText(1e3 * largest_s, 2) + " ms",
+       "images of different times are no pair: what moves has wrong depths",
+       Verdict::kGood,
+       "trigger both cameras by one signal, and take its time for both stamps",
+       0.0},
+      {typical_s / period_s, 0.0, kAcceptableApart, kFixApart});
+  const double age_s = median(ages_s);
+  constexpr double kOtherClock_s = 3600.0;
+  if (std::abs(age_s) > kOtherClock_s || age_s == 0.0) return;  // recorded without arrival times
+  report.add(
+      {"inputs",
+       "arrival after the stamp",
+       fixedText(1e3 * age_s, 0) + " ms",
+       "odometry comes so much later, and tf with it",
+       Verdict::kGood,
+       age_s > 0.0 ? "synchronise the clocks of camera and computer, and look for what delays "
+                     "the images"
+                   : "stamps are of the future: synchronise the clocks of camera and computer",
+       0.0},
+      {age_s, 0.0, kAcceptableAge_s, kFixAge_s});
+}
+
+}  // namespace rotrocc

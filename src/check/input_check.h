@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bags/recording.h"
+#include "check/rig_report.h"
+#include "rotrocc/stereo_camera.h"
+
+namespace rotrocc {
+
+/// What the messages of a recording say before a pixel is looked at: rates, gaps, stamps, encodings
+/// and camera_info.
+class InputCheck {
+ public:
+  void observe(const RecordedMessage& message);
+
+  /// Adds the section inputs and the table of stamps. `left_out`: see RecordedPairs::leftOut();
+  /// `rectifies`: whether the images are rectified here.
+  void report(const StereoCamera& camera,
+              const std::string& left_out,
+              bool rectifies,
+              RigReport& report) const;
+
+ private:
+  /// Messages of one side.
+  struct Stream {
+    std::vector<std::int64_t> stamps_ns;
+    std::vector<double> ages_s;
+    std::map<std::string, int> encodings;
+    std::map<std::pair<int, int>, int> sizes;
+    int infos = 0;
+  };
+
+  static void add(const sensor_msgs::Image& image, const ros::Time& time, Stream& stream);
+  void addRates(RigReport& report) const;
+  void addStamps(RigReport& report) const;
+  void addFormats(RigReport& report) const;
+  void addCamera(const StereoCamera& camera, bool rectifies, RigReport& report) const;
+
+  Stream left_, right_;
+  sensor_msgs::CameraInfo::ConstPtr left_info_, right_info_;
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,366 @@
+#include "check/photometry_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <opencv2/imgproc.hpp>
+
+#include "common/median.h"
+#include "features/image_noise.h"
+#include "input/to_text.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+constexpr std::size_t kPerPair = 150;
+constexpr std::size_t kLeast = 30;
+constexpr int kPatch = 4;  // radius of the patches whose means are compared [px]
+
+/// Pairs between those whose sharpness is compared, which takes longer.
+constexpr std::size_t kSharpnessStep = 5;
+constexpr int kSharpnessPatch = 24;
+
+/// Limits. Matching by correlation takes any gain, but one of a quarter is another exposure time,
+/// and another motion blur.
+constexpr double kAcceptableGain = 0.1;
+constexpr double kFixGain = 0.25;
+constexpr double kAcceptableOffset = 0.02 * 255;
+constexpr double kFixOffset = 0.06 * 255;
+constexpr double kAcceptableVignetting = 0.15;
+constexpr double kFixVignetting = 0.4;
+constexpr double kAcceptableBlur_px = 0.4;
+constexpr double kFixBlur_px = 0.8;
+constexpr double kAcceptableShare = 0.1;
+constexpr double kFixShare = 0.3;
+
+constexpr int kWhite = 255;
+constexpr int kBlack = 5;
+
+/// Energy of the gradients of an image after a Gaussian of `blur_px`, without that of the noise,
+/// relative to that of its large structures: falls with the blur.
+class Sharpness {
+ public:
+  Sharpness(const cv::Mat& image, double noise_grey, const std::vector<cv::Rect>& patches)
+      : noise2_(noise_grey * noise_grey), patches_(patches) {
+    image.convertTo(image_, CV_32F);
+  }
+
+  double after(double blur_px) const {
+    const cv::Mat kernel = gaussian(blur_px);
+    double fine = 0.0;
+    double coarse = 0.0;
+    for (const cv::Rect& patch : patches_) {
+      cv::Mat blurred, x, y, large, large_x, large_y;
+      cv::sepFilter2D(image_(patch), blurred, CV_32F, kernel, kernel);
+      cv::Sobel(blurred, x, CV_32F, 1, 0, 1, 0.5);
+      cv::Sobel(blurred, y, CV_32F, 0, 1, 1, 0.5);
+      cv::GaussianBlur(blurred, large, {}, kCoarse_px);
+      cv::Sobel(large, large_x, CV_32F, 1, 0, 1, 0.5);
+      cv::Sobel(large, large_y, CV_32F, 0, 1, 1, 0.5);
+      fine += x.dot(x) + y.dot(y);
+      coarse += large_x.dot(large_x) + large_y.dot(large_y);
+    }
+    const double pixels = static_cast<double>(patches_.size()) * patches_.front().area();
+    fine -= 2.0 * pixels * noise2_ * noiseLeft(kernel);
+    return fine / std::max(coarse, 1e-9);
+  }
+
+ private:
+  static constexpr double kCoarse_px = 3.0;
+
+  static cv::Mat gaussian(double sigma_px) {
+    const int radius = std::max(1, cvCeil(4.0 * sigma_px));
+    return cv::getGaussianKernel(2 * radius + 1, std::max(sigma_px, 1e-3), CV_32F);
+  }
+
+  /// Variance of the central difference of white noise of variance 1 after the kernel.
+  static double noiseLeft(const cv::Mat& kernel) {
+    cv::Mat padded, slope;
+    cv::copyMakeBorder(kernel, padded, 2, 2, 0, 0, cv::BORDER_CONSTANT);
+    cv::Sobel(padded, slope, CV_32F, 0, 1, 1, 0.5);
+    return slope.dot(slope) * kernel.dot(kernel);
+  }
+
+  cv::Mat image_;
+  double noise2_;
+  const std::vector<cv::Rect>& patches_;
+};
+
+/// The Gaussian that makes `sharp` as blurred as `blurred` is.
+double blurBetween(const Sharpness& sharp, const Sharpness& blurred) {
+  constexpr double kMost_px = 4.0;
+  const double target = blurred.after(0.0);
+  double low = 0.0;
+  double high = kMost_px;
+  for (int i = 0; i < 8; ++i) {
+    const double middle = 0.5 * (low + high);
+    (sharp.after(middle) > target ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+cv::Rect around(const Eigen::Vector2d& pixel, double disparity_px, int radius) {
+  return {cvRound(pixel.x() - disparity_px) - radius,
+          cvRound(pixel.y()) - radius,
+          2 * radius + 1,
+          2 * radius + 1};
+}
+
+bool isInside(const cv::Rect& area, const cv::Mat& image) {
+  return (area & cv::Rect(0, 0, image.cols, image.rows)) == area;
+}
+
+bool isSaturated(const cv::Mat& patch) {
+  double brightest = 0.0;
+  cv::minMaxLoc(patch, nullptr, &brightest);
+  return brightest >= kWhite;
+}
+
+/// What both images show of a feature.
+struct PatchMeans {
+  double left, right;  ///< grey levels
+  double r2;           ///< square of the distance from the middle, 1 in the corners
+};
+
+std::vector<PatchMeans> patchMeans(const CheckedPair& pair) {
+  const Eigen::Vector2d corner(0.5 * pair.camera.width, 0.5 * pair.camera.height);
+  std::vector<PatchMeans> means;
+  const std::size_t step = std::max<std::size_t>(1, pair.features.size() / kPerPair);
+  for (std::size_t i = 0; i < pair.features.size(); i += step) {
+    if (pair.inliers[i] == 0) continue;
+    const Correspondence& feature = pair.features[i];
+    const cv::Rect left_area = around(feature.cur_px, 0.0, kPatch);
+    const cv::Rect right_area = around(feature.cur_px, feature.disparity_px, kPatch);
+    if (!isInside(left_area, pair.images.left) || !isInside(right_area, pair.images.right)) {
+      continue;
+    }
+    const cv::Mat left = pair.images.left(left_area);
+    const cv::Mat right = pair.images.right(right_area);
+    if (isSaturated(left) || isSaturated(right)) continue;
+    means.push_back({cv::mean(left)[0],
+                     cv::mean(right)[0],
+                     (feature.cur_px - corner).squaredNorm() / corner.squaredNorm()});
+  }
+  return means;
+}
+
+/// to = c0 from + c1 + c2 from r^2, iteratively reweighted.
+Eigen::Vector3d fitLevels(const std::vector<PatchMeans>& means,
+                          double PatchMeans::*from,
+                          double PatchMeans::*to) {
+  constexpr double kUsual_grey = 3.0;  // difference of patches that show the same
+  Eigen::Vector3d fit(1.0, 0.0, 0.0);
+  for (int iteration = 0; iteration < 8; ++iteration) {
+    Eigen::Matrix3d information = Eigen::Matrix3d::Identity() * 1e-6;
+    Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
+    for (const PatchMeans& mean : means) {
+      const Eigen::Vector3d row(mean.*from, 1.0, mean.*from * mean.r2);
+      const double error = (mean.*to - row.dot(fit)) / kUsual_grey;
+      const double weight = iteration == 0 ? 1.0 : 1.0 / (1.0 + error * error);
+      information += weight * row * row.transpose();
+      weighted += weight * mean.*to * row;
+    }
+    fit = information.ldlt().solve(weighted);
+  }
+  return fit;
+}
+
+}  // namespace
+
+void PhotometryCheck::observe(const CheckedPair& pair) {
+  Row row = {pair.time_s, kUnknown, kUnknown, kUnknown, kUnknown, {}, {}, 0.0, 0.0};
+  row.left = levelsOf(pair.images.left);
+  row.right = levelsOf(pair.images.right);
+  std::vector<int> buffer;
+  row.left_noise_grey = std::sqrt(noiseVariance(pair.images.left, buffer));
+  row.right_noise_grey = std::sqrt(noiseVariance(pair.images.right, buffer));
+  if (pair.result.hasMotion()) {
+    compare(pair, row);
+    if (rows_.size() % kSharpnessStep == 0) compareSharpness(pair, row);
+  }
+  rows_.push_back(row);
+}
+
+PhotometryCheck::Levels PhotometryCheck::levelsOf(const cv::Mat& image) {
+  const auto pixels = static_cast<double>(image.total());
+  return {cv::mean(image)[0],
+          cv::countNonZero(image >= kWhite) / pixels,
+          cv::countNonZero(image <= kBlack) / pixels};
+}
+
+/// Robust means of patches: right = gain left (1 + vignetting r^2) + offset, r = 1 in the corners.
+/// Both sides have errors, so that each is fitted to the other.
+void PhotometryCheck::compare(const CheckedPair& pair, Row& row) {
+  const std::vector<PatchMeans> means = patchMeans(pair);
+  if (means.size() < kLeast) return;
+  const Eigen::Vector3d of_right = fitLevels(means, &PatchMeans::left, &PatchMeans::right);
+  const Eigen::Vector3d of_left = fitLevels(means, &PatchMeans::right, &PatchMeans::left);
+  row.gain = std::sqrt(of_right[0] / of_left[0]);
+  row.vignetting = 0.5 * (of_right[2] / of_right[0] - of_left[2] / of_left[0]);
+  std::vector<double> offsets;
+  for (const PatchMeans& mean : means) {
+    offsets.push_back(mean.right - row.gain * mean.left * (1.0 + row.vignetting * mean.r2));
+  }
+  row.offset_grey = median(offsets);
+}
+
+void PhotometryCheck::compareSharpness(const CheckedPair& pair, Row& row) {
+  std::vector<cv::Rect> left_areas;
+  std::vector<cv::Rect> right_areas;
+  constexpr std::size_t kPatches = 40;
+  const std::size_t step = std::max<std::size_t>(1, pair.features.size() / kPatches);
+  for (std::size_t i = 0; i < pair.features.size(); i += step) {
+    if (pair.inliers[i] == 0) continue;
+    const Correspondence& feature = pair.features[i];
+    const cv::Rect left = around(feature.cur_px, 0.0, kSharpnessPatch);
+    const cv::Rect right = around(feature.cur_px, feature.disparity_px, kSharpnessPatch);
+    if (!isInside(left, pair.images.left) || !isInside(right, pair.images.right)) continue;
+    left_areas.push_back(left);
+    right_areas.push_back(right);
+  }
+  constexpr std::size_t kLeastPatches = 5;
+  if (left_areas.size() < kLeastPatches) return;
+  const Sharpness left(pair.images.left, row.left_noise_grey, left_areas);
+  const Sharpness right(pair.images.right, row.right_noise_grey, right_areas);
+  const bool right_is_blurred = left.after(0.0) > right.after(0.0);
+  row.blur_px = right_is_blurred ? blurBetween(left, right) : -blurBetween(right, left);
+}
+
+std::vector<TimedValue> PhotometryCheck::course(double Row::*member) const {
+  std::vector<TimedValue> values;
+  for (const Row& row : rows_) values.push_back({row.time_s, row.*member});
+  return values;
+}
+
+void PhotometryCheck::report(const Windows& windows, RigReport& report) const {
+  if (rows_.empty()) return;
+  addExposure(windows, report);
+  addLevels(windows, report);
+  ReportTable table = {"photometry",
+                       {"time_s",
+                        "gain",
+                        "offset_grey",
+                        "mean_left",
+                        "mean_right",
+                        "saturated_left",
+                        "saturated_right",
+                        "dark_left",
+                        "dark_right"},
+                       {}};
+  ReportTable sharpness = {"sharpness", {"time_s", "blur_px"}, {}};
+  for (const Row& row : rows_) {
+    table.rows.push_back({row.time_s,
+                          row.gain,
+                          row.offset_grey,
+                          row.left.mean,
+                          row.right.mean,
+                          row.left.saturated,
+                          row.right.saturated,
+                          row.left.dark,
+                          row.right.dark});
+    if (std::isfinite(row.blur_px)) sharpness.rows.push_back({row.time_s, row.blur_px});
+  }
+  report.tables.push_back(std::move(table));
+  report.tables.push_back(std::move(sharpness));
+}
+
+void PhotometryCheck::addExposure(const Windows& windows, RigReport& report) const {
+  const Estimate gain = overWindows(course(&Row::gain), windows);
+  const Estimate offset = overWindows(course(&Row::offset_grey), windows);
+  const Estimate vignetting = overWindows(course(&Row::vignetting), windows);
+  const Estimate blur = overWindows(course(&Row::blur_px), windows);
+  report.add({"photometry",
+              "gain right to left",
+              toText(gain, ""),
+              "nothing by itself: matches are found by correlation; but the darker image has less "
+              "contrast above its noise, and a longer exposure more motion blur",
+              Verdict::kGood,
+              "give both cameras the same exposure time and gain, or couple them",
+              0.0},
+             {std::log(gain.value), gain.sigma / gain.value, kAcceptableGain, kFixGain});
+  const double changes = gain.sigma * std::sqrt(static_cast<double>(windows.count()));
+  report.add({"photometry",
+              "gain over time",
+              "moves by " + fixedText(100.0 * changes, 1) + " %",
+              "exposures that follow each other late differ most where light changes",
+              Verdict::kGood,
+              "couple the exposures of the cameras",
+              0.0},
+             {changes, 0.0, kAcceptableGain, kFixGain});
+  report.add({"photometry",
+              "grey levels right minus left",
+              toText(offset, "of 255 at black"),
+              "the range of the brighter image is smaller by it",
+              Verdict::kGood,
+              "set the same black level in both cameras, and look for stray light",
+              0.0},
+             {offset.value, offset.sigma, kAcceptableOffset, kFixOffset});
+  report.add(
+      {"photometry",
+       "vignetting right to left",
+       toText({100.0 * vignetting.value, 100.0 * vignetting.sigma}, "% in the corners"),
+       "the darker corners lose features",
+       Verdict::kGood,
+       "use the same lens and aperture on both cameras, and look for something in front of one",
+       0.0},
+      {vignetting.value, vignetting.sigma, kAcceptableVignetting, kFixVignetting});
+  const std::string side = blur.value > 0.0 ? "right" : "left";
+  report.add({"photometry",
+              "sharpness right against left",
+              toText(Estimate{std::abs(blur.value), blur.sigma}, "px") +
+                  " of blur (Gaussian sigma) more on the " + side,
+              "features of fine texture are lost, and disparities get noisier",
+              Verdict::kGood,
+              "focus and clean the " + side + " lens",
+              0.0},
+             {blur.value, blur.sigma, kAcceptableBlur_px, kFixBlur_px});
+}
+
+void PhotometryCheck::addLevels(const Windows& windows, RigReport& report) const {
+  for (const bool right : {false, true}) {
+    std::vector<TimedValue> saturated;
+    std::vector<TimedValue> dark;
+    std::vector<TimedValue> noise;
+    for (const Row& row : rows_) {
+      const Levels& levels = right ? row.right : row.left;
+      saturated.push_back({row.time_s, levels.saturated});
+      dark.push_back({row.time_s, levels.dark});
+      noise.push_back({row.time_s, right ? row.right_noise_grey : row.left_noise_grey});
+    }
+    const std::string side = right ? "right" : "left";
+    const Estimate white = overWindows(saturated, windows);
+    const Estimate black = overWindows(dark, windows);
+    report.add({"photometry",
+                "saturated pixels, " + side,
+                toText({100.0 * white.value, 100.0 * white.sigma}, "%"),
+                "no features there",
+                Verdict::kGood,
+                "reduce exposure, or meter on the lower part of the image",
+                0.0},
+               {white.value, white.sigma, kAcceptableShare, kFixShare});
+    report.add({"photometry",
+                "black pixels, " + side,
+                toText({100.0 * black.value, 100.0 * black.sigma}, "%"),
+                "no features there",
+                Verdict::kGood,
+                "increase exposure or gain, or light the scene",
+                0.0},
+               {black.value, black.sigma, kAcceptableShare, kFixShare});
+    report.add({"photometry",
+                "noise, " + side,
+                toText(overWindows(noise, windows), "of 255"),
+                "positions get noisier",
+                Verdict::kGood,
+                "more light, or less gain",
+                0.0},
+               {overWindows(noise, windows).value, overWindows(noise, windows).sigma, 8.0, 16.0});
+  }
+}
+
+}  // namespace rotrocc

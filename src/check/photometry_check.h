@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "check/checked_pair.h"
+#include "check/rig_report.h"
+#include "check/windows.h"
+
+namespace rotrocc {
+
+/// Compares the grey levels and the sharpness of the images where both show the same.
+class PhotometryCheck {
+ public:
+  void observe(const CheckedPair& pair);
+
+  /// Adds the section photometry, and gains, grey levels and sharpness over time.
+  void report(const Windows& windows, RigReport& report) const;
+
+ private:
+  struct Levels {
+    double mean = 0.0;
+    double saturated = 0.0;  ///< share of the pixels
+    double dark = 0.0;
+  };
+  /// Of one pair; nan if not measured.
+  struct Row {
+    double time_s;
+    double gain, offset_grey, vignetting, blur_px;
+    Levels left, right;
+    double left_noise_grey, right_noise_grey;
+  };
+
+  static Levels levelsOf(const cv::Mat& image);
+  static void compare(const CheckedPair& pair, Row& row);
+  static void compareSharpness(const CheckedPair& pair, Row& row);
+  void addExposure(const Windows& windows, RigReport& report) const;
+  void addLevels(const Windows& windows, RigReport& report) const;
+  std::vector<TimedValue> course(double Row::*member) const;
+
+  std::vector<Row> rows_;
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <future>
+#include <optional>
+#include <vector>
+
+#include "check/checked_pair.h"
+#include "check/rig_report.h"
+#include "check/windows.h"
+#include "rotrocc/odometry_config.h"
+#include "rotrocc/uncertain_transform.h"
+
+namespace rotrocc {
+
+/// How well the odometry agrees with itself when it sees the same pairs in another way: backward in
+/// time, and mirrored, with left and right exchanged. A rig without errors gives the same motion.
+/// Some stretches of a recording are repeated, in a thread beside the caller's.
+class ReplayCheck {
+ public:
+  /// `pairs`: how many the recording has at most.
+  ReplayCheck(const OdometryConfig& config, int pairs);
+
+  /// Copies the images of pairs that are repeated.
+  void observe(const CheckedPair& pair);
+
+  /// Waits for the last stretch. Adds the section odometry and its table.
+  void report(RigReport& report);
+
+  /// Of the last report: the median differences of both ways over the path, in one number; 0 if
+  /// there are none.
+  double share() const { return share_; }
+
+ private:
+  struct Step {
+    StereoPair images;
+    StereoCamera camera;
+    OdometryResult result;
+  };
+  using Stretch = std::vector<Step>;
+
+  /// Differences of the motion over a stretch.
+  struct Difference {
+    double time_s = 0.0;
+    double path_m = 0.0;
+    double backward_m = 0.0, backward_rad = 0.0;
+    double mirrored_m = 0.0, mirrored_rad = 0.0;
+    double sigma_m = 0.0, sigma_rad = 0.0;  ///< as the covariances promise
+  };
+
+  static std::optional<Difference> compare(const Stretch& stretch, OdometryConfig config);
+  void startCompare();
+  void finishCompare();
+
+  OdometryConfig config_;
+  int skipped_for_each_;  // stretches between two that are repeated
+  int stretches_ = 0;
+  double first_s_ = 0.0;
+  Stretch stretch_;
+  std::future<std::optional<Difference>> comparison_;
+  double comparison_s_ = 0.0;
+  std::vector<Difference> differences_;
+  int lost_ = 0, pairs_ = 0;
+  double share_ = 0.0;
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,255 @@
+#include "check/rig_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "bags/recorded_pairs.h"
+#include "check/disparity_check.h"
+#include "check/gyro_check.h"
+#include "check/input_check.h"
+#include "check/photometry_check.h"
+#include "check/replay_check.h"
+#include "check/row_check.h"
+#include "check/view_check.h"
+#include "common/to_seconds.h"
+#include "input/camera_calibration.h"
+#include "input/input_error.h"
+#include "input/to_text.h"
+#include "node/health/pair_inspector.h"
+#include "rotrocc/visual_odometry.h"
+
+namespace rotrocc {
+namespace {
+
+/// All checks of the pairs of one recording.
+class PairChecks {
+ public:
+  PairChecks(const RigCheckOptions& options, const Recording& recording, bool rectifies)
+      : odometry_(options.parameters.odometry),
+        inspector_(options.parameters.odometry.correspondence_finder, rectifies),
+        rows_(options.parameters.odometry),
+        view_(options.parameters.odometry),
+        replay_(options.parameters.odometry, recording.size()) {
+    if (options.gyroscope) gyro_.emplace(*options.gyroscope);
+  }
+
+  void observe(const StereoPair& pair, const StereoCamera& camera) {
+    if (pairs_ == 0) first_ns_ = pair.stamp_ns;
+    if (pairs_ > 0 && pair.stamp_ns <= last_ns_) odometry_.reset();
+    last_ns_ = pair.stamp_ns;
+    ++pairs_;
+    const OdometryResult result = odometry_.process(pair, camera);
+    camera_ = camera;
+    with_motion_ += result.hasMotion() ? 1 : 0;
+    path_m_ += result.T_prev_cur.translation().norm();
+    const CheckedPair checked = {toSeconds(pair.stamp_ns - first_ns_),
+                                 pair,
+                                 camera,
+                                 result,
+                                 odometry_.correspondences(),
+                                 odometry_.rotationInliers()};
+    inspector_.isRepeated(pair);
+    if (const std::string fault = inspector_.inspect(pair, camera, result); !fault.empty()) {
+      fault_ = fault;
+    }
+    photometry_.observe(checked);
+    rows_.observe(checked);
+    disparities_.observe(checked);
+    view_.observe(checked);
+    if (gyro_) gyro_->observe(checked);
+    replay_.observe(checked);
+    keepSample(pair, result);
+  }
+
+  void report(CheckedRig& rig) {
+    RigReport& report = rig.report;
+    const double length_s = toSeconds(last_ns_ - first_ns_);
+    const Windows windows(0.0, length_s, static_cast<std::size_t>(pairs_));
+    report.summary = toText(pairs_) + " pairs in " + fixedText(length_s, 1) + " s, " +
+                     fixedText(path_m_, 1) + " m; " + sizeText(camera_.width, camera_.height) +
+                     ", focal length " + fixedText(camera_.fx, 1) + " px, baseline " +
+                     fixedText(camera_.baseline_m, 3) + " m";
+    addFault(report);
+    if (!isMostlyLost()) {
+      photometry_.report(windows, report);
+      rows_.report(windows, report);
+      disparities_.report(windows, report);
+      if (gyro_) gyro_->report(windows, report);
+      view_.report(report);
+      replay_.report(report);
+      addRectification(report);
+    }
+    report.tables.push_back({"image",
+                             {"width", "height", "fx", "cx", "cy"},
+                             {{static_cast<double>(camera_.width),
+                               static_cast<double>(camera_.height),
+                               camera_.fx,
+                               camera_.cx,
+                               camera_.cy}}});
+    report.left = left_;
+    report.right = right_;
+    rig.measures.rows = rows_.model();
+    rig.measures.rows_rms_px = rows_.rms_px();
+    rig.measures.rows_are_constant = rows_.isConstant();
+    rig.measures.bias = disparities_.bias();
+    rig.measures.replay_share = replay_.share();
+    rig.measures.pairs_with_motion = with_motion_;
+  }
+
+  const StereoCamera& camera() const { return camera_; }
+  int pairs() const { return pairs_; }
+
+ private:
+  bool isMostlyLost() const { return 2 * with_motion_ < pairs_; }
+
+  /// One pair with a motion, of about the middle: later ones replace it ever more seldom.
+  void keepSample(const StereoPair& pair, const OdometryResult& result) {
+    const bool is_better = left_.empty() || (result.hasMotion() && with_motion_ >= next_sample_);
+    if (!is_better) return;
+    left_ = pair.left.clone();
+    right_ = pair.right.clone();
+    next_sample_ = 2 * std::max(with_motion_, 1);
+  }
+
+  /// Errors so large that they are not those of a calibration. What follows from them is not told.
+  void addRectification(RigReport& report) const {
+    constexpr double kMostRemainder_px = 0.35;
+    constexpr double kMostBias_px = 4.0;
+    const double bias_px = std::abs(disparities_.bias().estimated_px);
+    if (rows_.remainder_px() < kMostRemainder_px && bias_px < kMostBias_px) return;
+    for (Finding& finding : report.findings) {
+      if (finding.section == "inputs" || finding.section == "photometry") continue;
+      if (finding.verdict != Verdict::kGood) finding.verdict = Verdict::kUnknown;
+    }
+    report.findings.push_back({"inputs",
+                               "rectification",
+                               "rows differ by " + fixedText(rows_.rms_px(), 2) +
+                                   " px (rms), of which " + fixedText(rows_.remainder_px(), 2) +
+                                   " px are of no shape that a pair of rectified cameras has; "
+                                   "disparities have a bias of " +
+                                   fixedText(bias_px, 1) + " px",
+                               "depths and motions are wrong, however many features agree",
+                               Verdict::kFix,
+                               "the images are not rectified, or by another calibration: take the "
+                               "topics `image_rect`, or "
+                               "set `rectify` for raw ones; otherwise calibrate the pair",
+                               100.0});
+  }
+
+  void addFault(RigReport& report) {
+    inspector_.finish();
+    if (with_motion_ == 0 && !left_.empty()) {
+      // The search was for the pairs before; what it found comes with the next one.
+      const OdometryResult lost;
+      const std::string found = inspector_.inspect({last_ns_, left_, right_}, camera_, lost);
+      if (!found.empty()) fault_ = found;
+    }
+    const bool matters = isMostlyLost();
+    if (fault_.empty() && matters) fault_ = "no motion, for a reason that the images do not show";
+    if (fault_.empty()) return;
+    const std::size_t colon = fault_.find(": ");
+    report.findings.push_back({"inputs",
+                               "images of left and right",
+                               fault_.substr(0, colon),
+                               toText(pairs_ - with_motion_) + " of " + toText(pairs_) +
+                                   " pairs have no motion" +
+                                   (matters ? ", so that nothing else can be measured" : ""),
+                               matters ? Verdict::kFix : Verdict::kAcceptable,
+                               colon == std::string::npos ? "" : fault_.substr(colon + 2),
+                               matters ? 100.0 : 0.9});
+  }
+
+  VisualOdometry odometry_;
+  PairInspector inspector_;
+  PhotometryCheck photometry_;
+  RowCheck rows_;
+  DisparityCheck disparities_;
+  std::optional<GyroCheck> gyro_;
+  ViewCheck view_;
+  ReplayCheck replay_;
+  StereoCamera camera_;
+  std::int64_t first_ns_ = 0, last_ns_ = 0;
+  int pairs_ = 0, with_motion_ = 0, next_sample_ = 1;
+  double path_m_ = 0.0;
+  std::string fault_;
+  cv::Mat left_, right_;
+};
+
+/// The baseline that P of the first camera_info has, whatever its sign; 0 if it has none.
+double sizeOfBaseline(const Recording& recording) {
+  const RecordedMessage infos = recording.firstInfos();
+  const auto& left = infos.left_info->P;
+  const auto& right = infos.right_info->P;
+  return left[0] > 0.0 ? std::abs(left[3] - right[3]) / left[0] : 0.0;
+}
+
+StereoCalibration calibrationOf(const Recording& recording,
+                                const StereoCamera& camera,
+                                bool rectifies) {
+  if (!rectifies) return rectifiedCalibration(camera);
+  const RecordedMessage infos = recording.firstInfos();
+  return toStereoCalibration(*infos.left_info, *infos.right_info, camera.baseline_m);
+}
+
+void addUnusable(const std::string& why, RigReport& report) {
+  const std::size_t end = why.rfind(": ");
+  report.findings.push_back({"inputs",
+                             "pairs",
+                             why.substr(0, end),
+                             "no pair can be used",
+                             Verdict::kFix,
+                             end == std::string::npos ? "" : why.substr(end + 2),
+                             1000.0});
+}
+
+/// Returns false, with a finding, if there is no pair that can be used.
+bool checkPairs(Recording& recording, const RigCheckOptions& options, CheckedRig& rig) {
+  RecordedPairs pairs(recording, options.parameters.node, options.rectify);
+  InputCheck input;
+  pairs.onMessage([&](const RecordedMessage& message) { input.observe(message); });
+  PairChecks checks(options, recording, pairs.rectifies());
+  StereoPair pair;
+  StereoCamera camera;
+  try {
+    while (pairs.next(pair, camera)) {
+      checks.observe(pair, camera);
+      options.on_pair();
+    }
+  } catch (const std::runtime_error& error) {
+    if (checks.pairs() == 0) {
+      addUnusable(error.what(), rig.report);
+      return false;
+    }
+    rig.report.findings.push_back({"inputs",
+                                   "recording",
+                                   error.what(),
+                                   "the rest was not read",
+                                   Verdict::kAcceptable,
+                                   "repair it, e.g. with `rosbag reindex`",
+                                   0.9});
+  }
+  input.report(checks.camera(), pairs.leftOut(), pairs.rectifies(), rig.report);
+  checks.report(rig);
+  rig.measures.calibration = calibrationOf(recording, checks.camera(), pairs.rectifies());
+  return true;
+}
+
+}  // namespace
+
+CheckedRig checkRig(Recording& recording, const RigCheckOptions& options) {
+  CheckedRig rig;
+  if (!checkPairs(recording, options, rig)) {
+    RigCheckOptions with_baseline = options;
+    with_baseline.parameters.node.baseline_m = sizeOfBaseline(recording);
+    if (with_baseline.parameters.node.baseline_m > 0.0) checkPairs(recording, with_baseline, rig);
+  }
+  rig.report.title = "Rig check of " + recording.description();
+  rig.report.sort();
+  return rig;
+}
+
+}  // namespace rotrocc

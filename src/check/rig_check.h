@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "bags/recording.h"
+#include "check/rig_report.h"
+#include "check/row_model.h"
+#include "rectification/stereo_calibration.h"
+#include "rotrocc/odometry_result.h"
+#include "rotrocc/parameters.h"
+
+namespace rotrocc {
+
+struct RigCheckOptions {
+  Parameters parameters;
+  std::string rectify = "auto";            ///< see RecordedPairs
+  std::optional<GyroRecording> gyroscope;  ///< to compare with
+  std::function<void()> on_pair = [] {};   ///< after each pair
+};
+
+/// What a calibration can correct.
+struct RigMeasures {
+  StereoCalibration calibration;  ///< that the pairs were taken by
+  RowModel rows;
+  double rows_rms_px = 0.0;
+  bool rows_are_constant = true;
+  DisparityBias bias;
+  double replay_share = 0.0;  ///< see ReplayCheck::share()
+  int pairs_with_motion = 0;
+};
+
+struct CheckedRig {
+  RigReport report;
+  RigMeasures measures;
+};
+
+/// Checks a recording, of which it reads all pairs once, and a second time if its camera_info has
+/// no baseline that can be used. Throws std::runtime_error if the recording is unreadable; one
+/// without a pair that can be used gives a report that says why.
+CheckedRig checkRig(Recording& recording, const RigCheckOptions& options);
+
+}  // namespace rotrocc

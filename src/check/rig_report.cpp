@@ -1,0 +1,206 @@
+#include "check/rig_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include <yaml-cpp/yaml.h>
+
+#include "evaluation/image_file.h"
+
+namespace rotrocc {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSigmas = 3.0;
+constexpr std::size_t kLineLength = 100;
+
+int rank(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kFix:
+      return 0;
+    case Verdict::kAcceptable:
+      return 1;
+    case Verdict::kUnknown:
+      return 2;
+    case Verdict::kGood:
+      return 3;
+  }
+  return 3;
+}
+
+/// The text in lines, each after `indent` blanks.
+std::string wrapped(const std::string& text, std::size_t indent) {
+  std::istringstream words(text);
+  std::string lines;
+  std::string line(indent, ' ');
+  std::string word;
+  while (words >> word) {
+    if (line.size() > indent && line.size() + 1 + word.size() > kLineLength) {
+      lines += line + '\n';
+      line = std::string(indent, ' ');
+    }
+    line += (line.size() > indent ? " " : "") + word;
+  }
+  return lines + line + '\n';
+}
+
+std::string label(Verdict verdict) {
+  std::string label = toString(verdict);
+  std::transform(label.begin(), label.end(), label.begin(), [](unsigned char letter) {
+    return static_cast<char>(std::toupper(letter));
+  });
+  return label + std::string(11 - std::min<std::size_t>(label.size(), 11), ' ');
+}
+
+std::string toText(const std::vector<Finding>& findings) {
+  std::string text;
+  for (const Finding& finding : findings) {
+    text += label(finding.verdict) + ' ' + finding.section + ": " + finding.subject + ": " +
+            finding.measured + '\n';
+    if (finding.verdict == Verdict::kGood) continue;
+    if (!finding.cost.empty()) text += wrapped(finding.cost, 12);
+    if (!finding.remedy.empty()) text += wrapped("-> " + finding.remedy, 12);
+  }
+  return text;
+}
+
+void requireWritten(std::ofstream& file, const fs::path& path) {
+  if (!file.flush()) throw std::runtime_error(path.string() + " cannot be written");
+}
+
+YAML::Node toYaml(const std::vector<Finding>& findings) {
+  YAML::Node list(YAML::NodeType::Sequence);
+  for (const Finding& finding : findings) {
+    YAML::Node entry;
+    entry["section"] = finding.section;
+    entry["subject"] = finding.subject;
+    entry["measured"] = finding.measured;
+    entry["cost"] = finding.cost;
+    entry["verdict"] = toString(finding.verdict);
+    entry["remedy"] = finding.remedy;
+    list.push_back(entry);
+  }
+  return list;
+}
+
+void writeTable(const ReportTable& table, const fs::path& path) {
+  std::ofstream file(path);
+  file << std::setprecision(8);
+  const char* separator = "";
+  for (const std::string& column : table.columns) {
+    file << separator << column;
+    separator = ",";
+  }
+  for (const std::vector<double>& row : table.rows) {
+    separator = "\n";
+    for (const double cell : row) {
+      file << separator << cell;
+      separator = ",";
+    }
+  }
+  file << '\n';
+  requireWritten(file, path);
+}
+
+}  // namespace
+
+const char* toString(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kGood:
+      return "good";
+    case Verdict::kAcceptable:
+      return "acceptable";
+    case Verdict::kFix:
+      return "fix";
+    case Verdict::kUnknown:
+      return "unknown";
+  }
+  return "unknown";
+}
+
+const std::vector<std::string>& sectionNames() {
+  static const std::vector<std::string> names = {
+      "inputs", "photometry", "rows", "disparities", "time", "view", "odometry"};
+  return names;
+}
+
+Verdict judge(const Graded& graded) {
+  const double certain = std::abs(graded.value) - kSigmas * graded.sigma;
+  if (!std::isfinite(certain)) return Verdict::kUnknown;
+  if (certain > graded.fix) return Verdict::kFix;
+  if (certain > graded.acceptable) return Verdict::kAcceptable;
+  return graded.sigma > graded.fix ? Verdict::kUnknown : Verdict::kGood;
+}
+
+void RigReport::add(Finding finding, const Graded& graded) {
+  finding.verdict = judge(graded);
+  finding.severity = std::abs(graded.value) / graded.fix;
+  if (finding.verdict == Verdict::kGood || finding.verdict == Verdict::kUnknown) {
+    finding.remedy.clear();
+    finding.cost.clear();
+  }
+  findings.push_back(std::move(finding));
+}
+
+void RigReport::sort() {
+  std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
+    if (rank(a.verdict) != rank(b.verdict)) return rank(a.verdict) < rank(b.verdict);
+    return a.verdict != Verdict::kGood && a.severity > b.severity;
+  });
+}
+
+std::string toText(const RigReport& report) {
+  std::array<int, 4> counts = {};
+  for (const Finding& finding : report.findings)
+    ++counts[static_cast<std::size_t>(finding.verdict)];
+  std::ostringstream text;
+  text << report.title << '\n' << report.summary << "\n\n" << toText(report.findings) << '\n';
+  text << counts[static_cast<std::size_t>(Verdict::kFix)] << " to fix, "
+       << counts[static_cast<std::size_t>(Verdict::kAcceptable)] << " acceptable, "
+       << counts[static_cast<std::size_t>(Verdict::kGood)] << " good, "
+       << counts[static_cast<std::size_t>(Verdict::kUnknown)] << " unknown\n";
+  if (report.corrected) {
+    text << "\nWith the corrected calibration:\n\n" << toText(*report.corrected);
+  }
+  return text.str();
+}
+
+void writeReport(const RigReport& report, const std::string& directory) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (!fs::is_directory(directory)) {
+    throw std::runtime_error(directory + " cannot be created: " + error.message());
+  }
+  YAML::Node page;
+  page["title"] = report.title;
+  page["summary"] = report.summary;
+  page["findings"] = toYaml(report.findings);
+  if (report.corrected) page["corrected"] = toYaml(*report.corrected);
+  const fs::path path = fs::path(directory) / "findings.yaml";
+  std::ofstream file(path);
+  file << page << '\n';
+  requireWritten(file, path);
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension == ".csv" || extension == ".png")
+      fs::remove(entry.path(), error);  // earlier ones
+  }
+  for (const ReportTable& table : report.tables) {
+    writeTable(table, fs::path(directory) / (table.name + ".csv"));
+  }
+  const std::pair<const char*, const cv::Mat&> pictures[] = {
+      {"left.png", report.left}, {"right.png", report.right}, {"mask.png", report.mask}};
+  for (const auto& [name, picture] : pictures) {
+    if (!picture.empty()) writeImage((fs::path(directory) / name).string(), picture);
+  }
+}
+
+}  // namespace rotrocc

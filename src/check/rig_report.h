@@ -1,0 +1,82 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+namespace rotrocc {
+
+enum class Verdict {
+  kGood,
+  kAcceptable,
+  kFix,
+  kUnknown  ///< could not be measured
+};
+
+/// "good", "acceptable", "fix" or "unknown".
+const char* toString(Verdict verdict);
+
+/// What is known of one property of a rig, for a person who has to decide what to do about it.
+struct Finding {
+  std::string section;   ///< one of sectionNames()
+  std::string subject;   ///< the property, e.g. "roll of the right camera"
+  std::string measured;  ///< with its uncertainty, e.g. "0.102 +- 0.003 deg"
+  std::string cost;      ///< what it costs; empty if nothing
+  Verdict verdict = Verdict::kGood;
+  std::string remedy;  ///< what to do; commands and lines of files in `backticks`; empty if nothing
+  /// How many times its limit of acceptable the value is: orders findings of the same verdict.
+  double severity = 0.0;
+};
+
+/// Sections in the order of the data flow: "inputs", "photometry", "rows", "disparities", "time",
+/// "view" and "odometry".
+const std::vector<std::string>& sectionNames();
+
+/// Numbers for the pictures of a report.
+struct ReportTable {
+  std::string name;                       ///< of the file, without ".csv"
+  std::vector<std::string> columns;       ///< with their units, e.g. "time_s"
+  std::vector<std::vector<double>> rows;  ///< as long as columns
+};
+
+/// Value, uncertainty and the two limits of a finding.
+struct Graded {
+  double value = 0.0;
+  double sigma = 0.0;
+  double acceptable = 0.0;  ///< above: acceptable
+  double fix = 0.0;         ///< above: to be fixed
+};
+
+/// The verdict on the size of a value. A limit is passed by three standard deviations, because a
+/// report has some twenty findings. A value that is known no better than the limit of fix is
+/// unknown.
+Verdict judge(const Graded& graded);
+
+struct RigReport {
+  std::string title;    ///< what was checked
+  std::string summary;  ///< its size, in one line
+  std::vector<Finding> findings;
+  /// The same with a corrected calibration, if one was found.
+  std::optional<std::vector<Finding>> corrected;
+  std::vector<ReportTable> tables;
+  cv::Mat left, right;  ///< a pair, CV_8UC1; empty if there is none
+  cv::Mat mask;         ///< CV_8UC1, 255 where it is proposed not to look; empty: none is proposed
+
+  /// Adds a finding with the verdict and the severity of a graded value.
+  void add(Finding finding, const Graded& graded);
+
+  /// Puts what is to be fixed first, and of that the most severe.
+  void sort();
+};
+
+/// The report as a page of text.
+std::string toText(const RigReport& report);
+
+/// Writes findings.yaml, the tables as CSV files and the pictures as PNG files, which draw_report
+/// draws the page from. Creates the directory if needed, and overwrites files of an earlier report.
+/// Throws std::runtime_error if one cannot be written.
+void writeReport(const RigReport& report, const std::string& directory);
+
+}  // namespace rotrocc

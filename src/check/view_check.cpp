@@ -1,0 +1,329 @@
+#include "check/view_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include <opencv2/imgproc.hpp>
+
+#include "common/median.h"
+#include "input/to_text.h"
+
+namespace rotrocc {
+namespace {
+
+/// Pairs between those whose corners are looked at.
+constexpr int kCornersStep = 5;
+constexpr int kFineColumns = 2 * ImageGrid::kColumns;
+
+/// A cell of a map without features that agree: at least so many features, and at most this share.
+constexpr int kLeastFeatures = 20;
+constexpr double kMostAgreeing = 0.15;
+
+/// Limits of shares.
+constexpr double kAcceptableMissing = 0.5;
+constexpr double kFixMissing = 0.8;
+constexpr double kAcceptableEmpty = 0.5;
+constexpr double kFixEmpty = 0.8;
+constexpr double kAcceptableMasked = 0.02;
+constexpr double kFixMasked = 0.05;
+
+std::string percent(double share) {
+  return toText(std::lround(100.0 * share)) + " %";
+}
+
+double share(int part, int whole) {
+  return whole > 0 ? static_cast<double>(part) / whole : 0.0;
+}
+
+/// Whether the motion is none: that of features which stand still in the image.
+bool rests(const CheckedPair& pair) {
+  constexpr double kStill_px = 0.5;
+  std::vector<double> flows_px;
+  for (std::size_t i = 0; i < pair.features.size(); ++i) {
+    if (pair.inliers[i] == 0) continue;
+    flows_px.push_back((pair.features[i].cur_px - pair.features[i].keyframe_px).norm());
+  }
+  return !flows_px.empty() && median(flows_px) < kStill_px;
+}
+
+/// The mean of each cell.
+std::vector<float> meansOf(const cv::Mat& image, const ImageGrid& grid) {
+  cv::Mat means;
+  image.convertTo(means, CV_32F);
+  cv::resize(means, means, {grid.columns(), grid.rows()}, 0, 0, cv::INTER_AREA);
+  return {means.begin<float>(), means.end<float>()};
+}
+
+}  // namespace
+
+ViewCheck::ViewCheck(const OdometryConfig& config)
+    : config_(config.correspondence_finder.stereo_matcher),
+      workers_(1),
+      detector_(config.correspondence_finder.feature_detector) {}
+
+void ViewCheck::observe(const CheckedPair& pair) {
+  camera_ = pair.camera;
+  const ImageGrid grid(camera_.width, camera_.height);
+  const ImageGrid fine(camera_.width, camera_.height, kFineColumns);
+  map_.resize(grid.count());
+  fine_map_.resize(fine.count());
+  if (pairs_++ % kCornersStep == 0) countCorners(pair);
+  compareWithLast(pair, fine);
+  if (!pair.result.hasMotion()) return;
+  for (std::size_t i = 0; i < pair.features.size(); ++i) {
+    const Correspondence& feature = pair.features[i];
+    const bool agrees = pair.inliers[i] != 0;
+    for (Cell* cell : {&map_[grid.of(feature.cur_px.x(), feature.cur_px.y())],
+                       &fine_map_[fine.of(feature.cur_px.x(), feature.cur_px.y())]}) {
+      ++cell->features;
+      cell->inliers += agrees ? 1 : 0;
+    }
+    if (agrees && i % 4 == 0) depths_m_.push_back(feature.point_cur.z());
+  }
+}
+
+/// Counts the cells with texture that stay as they are while others change.
+void ViewCheck::compareWithLast(const CheckedPair& pair, const ImageGrid& fine) {
+  constexpr double kOverNoise = 2.0;  // a change
+  constexpr double kTexture = 4.0;    // over noise
+  constexpr double kChanging = 0.3;   // of the cells with texture
+  const cv::Mat& image = pair.images.left;
+  if (last_.size() != image.size()) {
+    last_ = image.clone();
+    return;
+  }
+  cv::Mat difference;
+  cv::Mat coarse;
+  cv::absdiff(image, last_, difference);
+  const std::vector<float> changes = meansOf(difference, fine);
+  cv::blur(image, coarse, {9, 9});
+  cv::absdiff(image, coarse, difference);
+  const std::vector<float> textures = meansOf(difference, fine);
+  image.copyTo(last_);
+  std::vector<float> sorted = changes;
+  const auto tenth = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 10);
+  std::nth_element(sorted.begin(), tenth, sorted.end());
+  const double noise = std::max(*tenth, 0.5F);
+  std::vector<std::size_t> still;
+  int changing = 0;
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    if (textures[i] < kTexture * noise) continue;
+    if (changes[i] < kOverNoise * noise) {
+      still.push_back(i);
+    } else {
+      ++changing;
+    }
+  }
+  if (changing < kChanging * static_cast<double>(changing + static_cast<int>(still.size()))) return;
+  if (changing == 0) return;
+  ++changing_pairs_;
+  if (pair.result.hasMotion() && rests(pair)) ++resting_pairs_;
+  for (const std::size_t cell : still) ++fine_map_[cell].still;
+}
+
+void ViewCheck::countCorners(const CheckedPair& pair) {
+  const ImageGrid grid(camera_.width, camera_.height);
+  std::vector<cv::Point2f> corners;
+  std::vector<float> disparities_px;
+  detector_.detect(workers_, pair.images.left, corners);
+  const RectifiedImages images = {pair.images.left,
+                                  pair.images.right,
+                                  camera_.disparityAtInfinity(),
+                                  pair.result.row_offset.applied_px};
+  StereoMatcher(config_).match(workers_, images, corners, disparities_px);
+  std::vector<cv::Point2f> without;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    Cell& cell = map_[grid.of(corners[i].x, corners[i].y)];
+    ++cell.corners;
+    ++corners_;
+    if (disparities_px[i] == StereoMatcher::kNoDisparity) {
+      without.push_back(corners[i]);
+    } else {
+      ++cell.with_depth;
+      ++with_depth_;
+    }
+  }
+  explain(pair, without);
+}
+
+/// Searches where the odometry does not: nearer, beyond infinity, and in other rows.
+void ViewCheck::explain(const CheckedPair& pair, const std::vector<cv::Point2f>& corners) {
+  const double infinity_px = camera_.disparityAtInfinity();
+  const double row_px = pair.result.row_offset.applied_px;
+  constexpr int kBeyond_px = 8;
+  constexpr double kRows = 2.0;
+  std::vector<char> is_explained(corners.size(), 0);
+  std::vector<float> disparities_px;
+  const auto search =
+      [&](const StereoMatcherConfig& config, double infinity, double rows, int& count) {
+        const RectifiedImages images = {pair.images.left, pair.images.right, infinity, rows};
+        StereoMatcher(config).match(workers_, images, corners, disparities_px);
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+          if (disparities_px[i] == StereoMatcher::kNoDisparity || is_explained[i] != 0) continue;
+          is_explained[i] = 1;
+          ++count;
+        }
+      };
+  for (const double rows : {row_px - kRows, row_px + kRows}) {
+    search(config_, infinity_px, rows, missing_.other_row);
+  }
+  StereoMatcherConfig beyond = config_;
+  beyond.min_disparity_px = 0.0;
+  beyond.max_disparity_px = kBeyond_px + 1;
+  search(beyond, infinity_px - kBeyond_px, row_px, missing_.beyond_infinity);
+  StereoMatcherConfig near = config_;
+  near.max_disparity_px = 2 * config_.max_disparity_px;
+  near.min_disparity_px = config_.max_disparity_px;
+  search(near, infinity_px, row_px, missing_.too_near);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (is_explained[i] != 0) continue;
+    const bool may_be_outside = corners[i].x - infinity_px < config_.max_disparity_px;
+    ++(may_be_outside ? missing_.outside : missing_.ambiguous);
+  }
+}
+
+void ViewCheck::report(RigReport& report) const {
+  if (pairs_ == 0) return;
+  addDisparities(report);
+  addCoverage(report);
+  addDepths(report);
+  addMask(report);
+}
+
+void ViewCheck::addDisparities(RigReport& report) const {
+  const double with_depth = share(with_depth_, corners_);
+  Finding finding = {"view",
+                     "corners with a disparity",
+                     percent(with_depth),
+                     "corners without one are no features",
+                     Verdict::kGood,
+                     "",
+                     0.0};
+  const std::pair<int, const char*> reasons[] = {
+      {missing_.too_near, "nearer than max_disparity_px reaches"},
+      {missing_.beyond_infinity, "as far as the horizon or beyond"},
+      {missing_.other_row, "two rows higher or lower"},
+      {missing_.outside, "perhaps outside of the right image"},
+      {missing_.ambiguous, "ambiguous, hidden or different"}};
+  for (const auto& [count, text] : reasons) {
+    if (share(count, corners_) >= 0.005) {
+      finding.measured += ", " + percent(share(count, corners_)) + " " + text;
+    }
+  }
+  finding.remedy =
+      2 * missing_.too_near > corners_ - with_depth_
+          ? "set `max_disparity_px` to " + toText(2 * config_.max_disparity_px)
+          : "look at rows, sharpness and exposure above; the scene may have too little texture";
+  report.add(finding, {1.0 - with_depth, 0.0, kAcceptableMissing, kFixMissing});
+  ReportTable table = {
+      "view_map", {"x_px", "y_px", "corners", "with_depth", "features", "inliers"}, {}};
+  const ImageGrid grid(camera_.width, camera_.height);
+  for (std::size_t i = 0; i < map_.size(); ++i) {
+    const cv::Point2d centre = grid.centre(i);
+    table.rows.push_back({centre.x,
+                          centre.y,
+                          static_cast<double>(map_[i].corners),
+                          static_cast<double>(map_[i].with_depth),
+                          static_cast<double>(map_[i].features),
+                          static_cast<double>(map_[i].inliers)});
+  }
+  report.tables.push_back(std::move(table));
+}
+
+void ViewCheck::addCoverage(RigReport& report) const {
+  const auto seen = std::count_if(map_.begin(), map_.end(), [&](const Cell& cell) {
+    return cell.inliers * 20 > pairs_;  // in each 20th pair
+  });
+  const double empty = 1.0 - static_cast<double>(seen) / static_cast<double>(map_.size());
+  report.add({"view",
+              "coverage",
+              "features in " + percent(1.0 - empty) + " of the image",
+              "rotation and translation look alike in a part of the image",
+              Verdict::kGood,
+              "turn the cameras to where there is texture, or use wider lenses",
+              0.0},
+             {empty, 0.0, kAcceptableEmpty, kFixEmpty});
+}
+
+void ViewCheck::addDepths(RigReport& report) const {
+  std::vector<double> depths_m = depths_m_;
+  if (depths_m.empty()) return;
+  std::sort(depths_m.begin(), depths_m.end());
+  const auto quantile = [&](double q) {
+    return depths_m[static_cast<std::size_t>(q * static_cast<double>(depths_m.size() - 1))];
+  };
+  const double typical_px = camera_.fx * camera_.baseline_m / quantile(0.5);
+  constexpr double kFewPixels = 0.4;  // 1 / 2.5 px
+  constexpr double kHardlyAny = 1.0;  // 1 / 1 px
+  report.add({"view",
+              "depths",
+              fixedText(quantile(0.5), 1) + " m in the middle, 80 % between " +
+                  fixedText(quantile(0.1), 1) + " and " + fixedText(quantile(0.9), 1) +
+                  " m; a disparity of " + fixedText(typical_px, 1) + " px",
+              "the way is known as well as the near depths are",
+              Verdict::kGood,
+              "a longer baseline, a longer focal length, or look lower",
+              0.0},
+             {1.0 / typical_px, 0.0, kFewPixels, kHardlyAny});
+  ReportTable table = {"depths", {"depth_m", "features"}, {}};
+  constexpr double kStep = 1.25892541179;  // ten bins for a power of ten
+  auto from = depths_m.begin();
+  for (double limit_m = 0.1; from != depths_m.end() && limit_m < 1e4; limit_m *= kStep) {
+    const auto to = std::lower_bound(from, depths_m.end(), limit_m);
+    if (to != depths_m.begin()) table.rows.push_back({limit_m, static_cast<double>(to - from)});
+    from = to;
+  }
+  report.tables.push_back(std::move(table));
+}
+
+/// Cells of the fine map whose features do not agree, one pixel each. Single ones are not the
+/// robot.
+cv::Mat ViewCheck::disagreeing() const {
+  const ImageGrid fine(camera_.width, camera_.height, kFineColumns);
+  cv::Mat cells = cv::Mat::zeros(fine.rows(), fine.columns(), CV_8UC1);
+  const bool follows_robot = 2 * resting_pairs_ > changing_pairs_;
+  for (std::size_t i = 0; i < fine_map_.size(); ++i) {
+    const Cell& cell = fine_map_[i];
+    const bool disagrees =
+        cell.features >= kLeastFeatures && share(cell.inliers, cell.features) < kMostAgreeing;
+    const bool is_robot = follows_robot && share(cell.still, changing_pairs_) > 0.5;
+    if (follows_robot ? is_robot : disagrees) cells.data[i] = 255;
+  }
+  const cv::Mat plus = cv::getStructuringElement(cv::MORPH_RECT, {3, 3});
+  cv::Mat closed;
+  cv::morphologyEx(cells, closed, cv::MORPH_CLOSE, plus, {-1, -1}, 1, cv::BORDER_REPLICATE);
+  cv::Mat labels, statistics, centroids;
+  const int parts = cv::connectedComponentsWithStats(closed, labels, statistics, centroids, 4);
+  constexpr int kLeastCells = 4;
+  for (int part = 1; part < parts; ++part) {
+    if (statistics.at<int>(part, cv::CC_STAT_AREA) < kLeastCells) closed.setTo(0, labels == part);
+  }
+  return closed;
+}
+
+void ViewCheck::addMask(RigReport& report) const {
+  const ImageGrid fine(camera_.width, camera_.height, kFineColumns);
+  const cv::Mat cells = disagreeing();
+  const double masked = share(cv::countNonZero(cells), static_cast<int>(cells.total()));
+  report.add(
+      {"view",
+       "parts that never agree with the motion",
+       percent(masked) + " of the image",
+       "what moves with the cameras looks like standstill: its features are rejected, or pull "
+       "the motion towards it",
+       Verdict::kGood,
+       "look at `mask.png` of the report, and if it is the robot itself or a reflection, set "
+       "the parameter `mask` to it",
+       0.0},
+      {masked, 0.0, kAcceptableMasked, kFixMasked});
+  if (masked <= kAcceptableMasked) return;
+  report.mask = cv::Mat::zeros(camera_.height, camera_.width, CV_8UC1);
+  for (std::size_t i = 0; i < fine.count(); ++i) {
+    if (cells.data[i] != 0) report.mask(fine.area(i)).setTo(255);
+  }
+}
+
+}  // namespace rotrocc

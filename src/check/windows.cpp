@@ -1,0 +1,79 @@
+#include "check/windows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/median.h"
+#include "input/to_text.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr std::size_t kMostWindows = 10;
+constexpr std::size_t kLeastWindows = 2;
+constexpr std::size_t kPairsPerWindow = 5;
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+std::string toText(const Estimate& estimate, const std::string& unit) {
+  int digits = 2;
+  if (estimate.sigma > 0.0 && std::isfinite(estimate.sigma)) {
+    digits = std::clamp(static_cast<int>(std::ceil(-std::log10(estimate.sigma))) + 1, 0, 6);
+  }
+  return fixedText(estimate.value, digits) + " +- " + fixedText(estimate.sigma, digits) +
+         (unit.empty() ? "" : " " + unit);
+}
+
+Windows::Windows(double first_s, double last_s, std::size_t pairs)
+    : first_s_(first_s), count_(std::clamp(pairs / kPairsPerWindow, kLeastWindows, kMostWindows)) {
+  length_s_ = std::max(last_s - first_s, 1e-9) / static_cast<double>(count_);
+}
+
+std::size_t Windows::of(double time_s) const {
+  const double window = std::floor((time_s - first_s_) / length_s_);
+  return static_cast<std::size_t>(std::clamp(window, 0.0, static_cast<double>(count_ - 1)));
+}
+
+double Windows::middle_s(std::size_t window) const {
+  return first_s_ + (static_cast<double>(window) + 0.5) * length_s_;
+}
+
+Estimate overWindows(const std::vector<TimedValue>& values, const Windows& windows) {
+  std::vector<std::vector<double>> parts(windows.count());
+  for (const TimedValue& timed : values) {
+    if (std::isfinite(timed.value)) parts[windows.of(timed.time_s)].push_back(timed.value);
+  }
+  double sum = 0.0;
+  double squares = 0.0;
+  double count = 0.0;
+  for (std::vector<double>& part : parts) {
+    if (part.empty()) continue;
+    const double middle = median(part);
+    sum += middle;
+    squares += middle * middle;
+    count += 1.0;
+  }
+  if (count < 1.0) return {kUnknown, kUnknown};
+  const double mean = sum / count;
+  if (count < 2.0) return {mean, kUnknown};
+  const double variance = std::max(squares / count - mean * mean, 0.0) * count / (count - 1.0);
+  return {mean, std::sqrt(variance / count)};
+}
+
+std::vector<double> jackknifeSigmas(const std::vector<std::vector<double>>& without) {
+  if (without.empty()) return {};
+  const auto count = static_cast<double>(without.size());
+  std::vector<double> sigmas(without.front().size());
+  for (std::size_t k = 0; k < sigmas.size(); ++k) {
+    double mean = 0.0;
+    for (const auto& values : without) mean += values[k] / count;
+    double squares = 0.0;
+    for (const auto& values : without) squares += (values[k] - mean) * (values[k] - mean);
+    sigmas[k] = std::sqrt((count - 1.0) / count * squares);
+  }
+  return sigmas;
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace rotrocc {
+
+/// A value and its standard deviation.
+struct Estimate {
+  double value = 0.0;
+  double sigma = 0.0;
+};
+
+/// "0.702 +- 0.008 px", with as many digits as the uncertainty has a meaning.
+std::string toText(const Estimate& estimate, const std::string& unit);
+
+struct TimedValue {
+  double time_s = 0.0;
+  double value = 0.0;
+};
+
+/// The time from `first_s` to `last_s` in equal windows: ten, or fewer if there are less than five
+/// pairs for each, but at least two.
+class Windows {
+ public:
+  Windows(double first_s, double last_s, std::size_t pairs);
+
+  std::size_t count() const { return count_; }
+  std::size_t of(double time_s) const;
+  double middle_s(std::size_t window) const;
+
+ private:
+  double first_s_;
+  double length_s_;
+  std::size_t count_;
+};
+
+/// The mean of the medians of the windows, with the standard deviation that their scatter shows:
+/// errors that last for a while count as they should, which the formula of independent ones hides.
+/// Both are nan without values; the deviation is that if there are values of one window only.
+Estimate overWindows(const std::vector<TimedValue>& values, const Windows& windows);
+
+/// Standard deviations of several values from estimates that each leave out one window (jackknife,
+/// Quenouille 1956, Tukey 1958). `without[w]` has the values without window w.
+std::vector<double> jackknifeSigmas(const std::vector<std::vector<double>>& without);
+
+}  // namespace rotrocc

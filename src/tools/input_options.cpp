@@ -1,0 +1,63 @@
+#include "tools/input_options.h"
+
+#include <iostream>
+
+#include "tools/program.h"
+
+namespace rotrocc {
+
+namespace po = boost::program_options;
+
+const char* const kRecordingHelp =
+    "is a bag, the bags or the directory of bags into which a recording is split, or a\n"
+    "directory in the layout of KITTI's odometry benchmark, in ASL format (EuRoC), or with\n"
+    "folders left and right and files left.yaml and right.yaml of camera_calibration.\n";
+
+po::options_description parameterOptions(InputOptions& options) {
+  po::options_description parameters("Parameters");
+  auto add = parameters.add_options();
+  add("config", po::value(&options.config), "YAML file with parameters");
+  add("set", po::value(&options.assignments), "name=value: set a parameter; may be repeated");
+  return parameters;
+}
+
+po::options_description imageOptions(InputOptions& options) {
+  po::options_description images("Images");
+  auto add = images.add_options();
+  add("left-image",
+      po::value(&options.recording.left_image),
+      "topic of the left images, if a bag has several stereo pairs");
+  add("right-image", po::value(&options.recording.right_image), "topic of the right images");
+  add("rectify",
+      withDefault(options.rectify),
+      "by K, D, R and P of camera_info: yes, no, or auto: if the topic is not named image_rect or "
+      "alike, and camera_info describes raw images");
+  add("calibration",
+      po::value(&options.recording.calibration)->multitoken(),
+      "files in place of camera_info: left.yaml right.yaml of camera_calibration, or a camchain of "
+      "Kalibr");
+  return images;
+}
+
+Parameters readParameters(const char* program, const InputOptions& options) {
+  Parameters parameters;
+  ParameterTable table = makeParameterTable(parameters);
+  if (!options.config.empty()) {
+    for (const std::string& warning : loadYaml(options.config, table)) {
+      std::cerr << program << ": " << warning << '\n';
+    }
+  }
+  for (const std::string& assignment : options.assignments) table.setAssignment(assignment);
+  return parameters;
+}
+
+std::unique_ptr<Recording> openInput(const InputOptions& options, const NodeParameters& node) {
+  RecordingOptions recording = options.recording;
+  recording.base_frame = node.base_frame;
+  recording.raw_sequence = true;
+  recording.sequence.max_stamp_difference_s = node.max_stamp_difference_s;
+  recording.sequence.baseline_m = node.baseline_m;
+  return openRecording(options.paths, recording);
+}
+
+}  // namespace rotrocc

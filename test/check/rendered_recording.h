@@ -1,0 +1,52 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bags/recording.h"
+#include "simulation/simulator.h"
+
+namespace rotrocc {
+
+/// A rendered drive as a recording, with faults of images and of camera_info.
+class RenderedRecording : public Recording {
+ public:
+  struct Faults {
+    std::function<void(cv::Mat& left, cv::Mat& right)> images = [](cv::Mat&, cv::Mat&) {};
+    std::function<void(sensor_msgs::CameraInfo& right)> info = [](sensor_msgs::CameraInfo&) {};
+  };
+
+  /// Renders the frames of `options`, or takes those of an earlier one with the same `key`.
+  RenderedRecording(const std::string& key,
+                    const std::string& scenario,
+                    const SimulationOptions& options,
+                    Faults faults);
+
+  std::string description() const override { return "a rendered drive"; }
+  int size() const override { return static_cast<int>(pairs_->size()); }
+  bool isRaw() const override { return false; }
+  ros::Time begin() const override;
+  ros::Time end() const override;
+  RecordedMessage firstInfos() const override;
+  tf2_msgs::TFMessage staticTransforms() const override { return {}; }
+  nav_msgs::Path truth() const override { return {}; }
+  Eigen::Isometry3d T_base_camera() const override { return Eigen::Isometry3d::Identity(); }
+  GyroRecording gyroscope(const std::string& name) const override;
+  void select(const ros::Time& from, const ros::Time& to, bool with_tf) override;
+  bool next(RecordedMessage& message) override;
+
+  /// T_first_left of each pair.
+  const std::vector<Eigen::Isometry3d>& poses() const { return *poses_; }
+
+ private:
+  RecordedMessage infos(const ros::Time& stamp) const;
+
+  StereoCamera camera_;
+  Faults faults_;
+  std::shared_ptr<const std::vector<StereoPair>> pairs_;
+  std::shared_ptr<const std::vector<Eigen::Isometry3d>> poses_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace rotrocc

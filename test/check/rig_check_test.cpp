@@ -1,0 +1,285 @@
+#include "check/rig_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iostream>
+#include <regex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "bags/recorded_pairs.h"
+#include "check/calibration_correction.h"
+#include "check/recalibrated_recording.h"
+#include "check/rendered_recording.h"
+#include "check/windows.h"
+#include "rotrocc/visual_odometry.h"
+#include "sequences/calibration_file.h"
+#include "support/temporary_directory.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kRadians = M_PI / 180.0;
+
+/// A quarter of the pixels of KITTI's images.
+SimulationOptions perfectRig() {
+  SimulationOptions options;
+  StereoCamera& camera = options.camera;
+  camera.width = 620;
+  camera.height = 188;
+  camera.fx = camera.fy = 359.0;
+  camera.cx = camera.cx_right = 0.5 * (camera.width - 1);
+  camera.cy = 0.5 * (camera.height - 1);
+  options.frames = 100;
+  return options;
+}
+
+struct Fault {
+  std::string name;
+  std::function<void(SimulationOptions&)> rig = [](SimulationOptions&) {
+  };  ///< renders another drive
+  RenderedRecording::Faults faults = {};
+  std::vector<std::string> subjects = {};  ///< of the findings that name it
+  std::vector<double> values = {};         ///< that they have; nan if it is none
+};
+
+void changeGrey(cv::Mat& image, double gain, double offset) {
+  image.convertTo(image, CV_8U, gain, offset);
+}
+
+/// A hood with scratches, 20 px of disparity away.
+void addBumper(cv::Mat& left, cv::Mat& right) {
+  cv::RNG random(7);
+  cv::Mat texture(left.rows / 5, left.cols + 40, CV_8UC1);
+  random.fill(texture, cv::RNG::UNIFORM, 0, 255);
+  cv::GaussianBlur(texture, texture, {}, 1.5);
+  const int top = left.rows - texture.rows;
+  texture.colRange(0, left.cols).copyTo(left.rowRange(top, left.rows));
+  texture.colRange(20, left.cols + 20).copyTo(right.rowRange(top, right.rows));
+}
+
+RenderedRecording::Faults ofImages(std::function<void(cv::Mat&, cv::Mat&)> change) {
+  RenderedRecording::Faults faults;
+  faults.images = std::move(change);
+  return faults;
+}
+
+std::vector<Fault> faults() {
+  std::vector<Fault> all;
+  const auto rig = [&](const char* name,
+                       std::function<void(CameraFaults&)> change,
+                       const char* subject,
+                       double value) {
+    all.push_back({name,
+                   [change](SimulationOptions& options) { change(options.faults); },
+                   {},
+                   {subject},
+                   {value}});
+  };
+  const auto images = [&](const char* name,
+                          std::function<void(cv::Mat&, cv::Mat&)> change,
+                          const char* subject,
+                          double value) {
+    all.push_back(
+        {name, [](SimulationOptions&) {}, ofImages(std::move(change)), {subject}, {value}});
+  };
+  rig(
+      "roll",
+      [](CameraFaults& f) { f.right_rotation_rad[0] = 0.1 * kRadians; },
+      "roll of the right camera",
+      0.1);
+  rig(
+      "pitch",
+      [](CameraFaults& f) { f.right_rotation_rad[1] = 0.1 * kRadians; },
+      "pitch of the right camera",
+      0.1);
+  rig(
+      "rows",
+      [](CameraFaults& f) { f.row_offset_px = 0.7; },
+      "row of the right principal point",
+      0.7);
+  rig(
+      "bias", [](CameraFaults& f) { f.disparity_bias_px = -0.5; }, "bias of the disparities", 0.5);
+  rig(
+      "late",
+      [](CameraFaults& f) { f.time_skew_s = 0.008; },
+      "right images against left ones",
+      8.0);
+  rig(
+      "focal",
+      [](CameraFaults& f) { f.right_focal_ratio = 1.003; },
+      "focal length right to left",
+      0.3);
+  images(
+      "gain",
+      [](cv::Mat&, cv::Mat& right) { changeGrey(right, 0.7, 0.0); },
+      "gain right to left",
+      0.7);
+  images(
+      "offset",
+      [](cv::Mat&, cv::Mat& right) { changeGrey(right, 1.0, 20.0); },
+      "grey levels right minus left",
+      20.0);
+  images(
+      "blur",
+      [](cv::Mat&, cv::Mat& right) { cv::GaussianBlur(right, right, {}, 1.0); },
+      "sharpness right against left",
+      1.0);
+  images("bumper", addBumper, "parts that never agree with the motion", NAN);
+  images(
+      "swapped",
+      [](cv::Mat& left, cv::Mat& right) { std::swap(left, right); },
+      "images of left and right",
+      NAN);
+  all.push_back({"raw",
+                 [](SimulationOptions& options) { options.lens = "radtan"; },
+                 {},
+                 {"rectification"},
+                 {NAN}});
+  Fault sign = {"sign", [](SimulationOptions&) {}, {}, {"pairs"}, {NAN}};
+  sign.faults.info = [](sensor_msgs::CameraInfo& right) { right.P[3] = -right.P[3]; };
+  all.push_back(sign);
+  all.push_back(
+      {"three",
+       [](SimulationOptions& options) { options.faults.right_rotation_rad[0] = 0.1 * kRadians; },
+       ofImages([](cv::Mat&, cv::Mat& right) {
+         changeGrey(right, 0.7, 0.0);
+         cv::GaussianBlur(right, right, {}, 1.0);
+       }),
+       {"roll of the right camera", "gain right to left", "sharpness right against left"},
+       {0.1, 0.7, 1.0}});
+  return all;
+}
+
+CheckedRig check(const Fault& fault) {
+  SimulationOptions options = perfectRig();
+  fault.rig(options);
+  const CameraFaults& f = options.faults;
+  std::ostringstream key;
+  key << f.right_rotation_rad.transpose() << ' ' << f.row_offset_px << ' ' << f.disparity_bias_px
+      << ' ' << f.time_skew_s << ' ' << f.right_focal_ratio << options.lens;
+  RenderedRecording recording(key.str(), "city", options, fault.faults);
+  return checkRig(recording, {});
+}
+
+/// The first number of a finding, and its standard deviation.
+Estimate estimateOf(const Finding& finding) {
+  static const std::regex kEstimate(R"(([-+.\de]+) \+- ([-+.\de]+))");
+  std::smatch parts;
+  if (!std::regex_search(finding.measured, parts, kEstimate)) return {NAN, NAN};
+  return {std::stod(parts[1]), std::stod(parts[2])};
+}
+
+class RigFaultTest : public testing::TestWithParam<Fault> {};
+
+/// The fault is the first of all findings, and its value within two standard deviations, which are
+/// those of a report: one of twenty values is outside, with the seeds of the test none of ten.
+TEST_P(RigFaultTest, IsNamedFirst) {
+  const Fault& fault = GetParam();
+  const CheckedRig rig = check(fault);
+  const std::vector<Finding>& findings = rig.report.findings;
+  SCOPED_TRACE(toText(rig.report));
+  ASSERT_GE(findings.size(), fault.subjects.size());
+  for (std::size_t i = 0; i < fault.subjects.size(); ++i) {
+    const auto named = std::find_if(findings.begin(), findings.end(), [&](const Finding& finding) {
+      return finding.subject == fault.subjects[i];
+    });
+    ASSERT_NE(named, findings.end()) << fault.subjects[i];
+    EXPECT_LT(named - findings.begin(), static_cast<std::ptrdiff_t>(fault.subjects.size()));
+    EXPECT_TRUE(named->verdict == Verdict::kFix || named->verdict == Verdict::kAcceptable);
+    EXPECT_NE(named->remedy, "");
+    if (std::isnan(fault.values[i])) continue;
+    const Estimate estimate = estimateOf(*named);
+    EXPECT_LE(std::abs(estimate.value - fault.values[i]), 2.0 * estimate.sigma) << named->measured;
+    EXPECT_LT(estimate.sigma, 0.1 * std::abs(fault.values[i])) << "it is hardly known";
+  }
+  for (std::size_t i = fault.subjects.size(); i < findings.size(); ++i) {
+    EXPECT_NE(findings[i].verdict, Verdict::kFix) << findings[i].subject;
+  }
+  // For the table of the documentation.
+  if (!findings.empty()) std::cout << fault.name << ": " << findings[0].measured << '\n';
+}
+
+INSTANTIATE_TEST_SUITE_P(Rendered, RigFaultTest, testing::ValuesIn(faults()), [](const auto& info) {
+  return info.param.name;
+});
+
+TEST(RigCheckTest, APerfectRigIsGood) {
+  const CheckedRig rig = check({"perfect"});
+  for (const Finding& finding : rig.report.findings) {
+    EXPECT_EQ(finding.verdict, Verdict::kGood) << finding.subject << ": " << finding.measured;
+    EXPECT_EQ(finding.remedy, "");
+  }
+  EXPECT_GT(rig.report.findings.size(), 25u);
+  EXPECT_TRUE(rig.report.mask.empty());
+}
+
+/// The proposed mask covers the bumper, and little else.
+TEST(RigCheckTest, ProposesAMaskOfTheBumper) {
+  const CheckedRig rig = check({"bumper", [](SimulationOptions&) {}, ofImages(addBumper)});
+  const cv::Mat& mask = rig.report.mask;
+  ASSERT_FALSE(mask.empty());
+  const cv::Mat bumper = mask.rowRange(mask.rows * 4 / 5 + 1, mask.rows);
+  EXPECT_GT(cv::countNonZero(bumper), 0.9 * static_cast<double>(bumper.total()));
+  EXPECT_LT(cv::countNonZero(mask) - cv::countNonZero(bumper),
+            0.1 * static_cast<double>(mask.total()));
+}
+
+/// Error of the motions of a recording, by a calibration.
+double errorOf(RenderedRecording& recording, const StereoCalibration& calibration) {
+  RecalibratedRecording recalibrated(recording, calibration);
+  RecordedPairs pairs(recalibrated, {}, "yes");
+  VisualOdometry odometry({});
+  StereoPair pair;
+  StereoCamera camera;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  while (pairs.next(pair, camera)) pose = pose * odometry.process(pair, camera).T_prev_cur;
+  return (pose.inverse() * recording.poses().back()).translation().norm();
+}
+
+/// With the corrected files the odometry is as good as with the calibration of a perfect rig, but
+/// for a tenth of what the fault costs.
+TEST(RigCheckTest, CorrectsTheCalibration) {
+  SimulationOptions options = perfectRig();
+  options.faults.right_rotation_rad = Eigen::Vector3d(0.15, 0.1, 0.1) * kRadians;
+  options.faults.right_focal_ratio = 1.003;
+  RenderedRecording recording("worn", "city", options, {});
+  const CheckedRig before = checkRig(recording, {});
+  std::string why_not;
+  const auto correction = findCorrection(recording, {}, before.measures, why_not);
+  ASSERT_TRUE(correction) << why_not;
+  EXPECT_GT(before.measures.rows_rms_px, 0.5);
+  EXPECT_LT(correction->checked.measures.rows_rms_px, 0.05);
+  for (const Finding& finding : correction->checked.report.findings) {
+    EXPECT_NE(finding.verdict, Verdict::kFix) << finding.subject << ": " << finding.measured;
+  }
+  RenderedRecording perfect("perfect", "city", perfectRig(), {});
+  const StereoCalibration nominal = rectifiedCalibration(perfectRig().camera);
+  const double error_perfect_m = errorOf(perfect, nominal);
+  const double error_before_m = errorOf(recording, nominal);
+  const TemporaryDirectory directory;
+  writeCalibration(correction->calibration, directory / "info");
+  const StereoCalibration written =
+      readStereoCalibration({directory / "info/left.yaml", directory / "info/right.yaml"});
+  const double error_after_m = errorOf(recording, written);
+  std::cout << "error at the end of 53 m: " << error_perfect_m << " m perfect, " << error_before_m
+            << " m with the fault, " << error_after_m << " m corrected\n";
+  EXPECT_LT(error_after_m - error_perfect_m, 0.1 * (error_before_m - error_perfect_m));
+}
+
+TEST(RigCheckTest, CorrectsNoRigThatMoves) {
+  RenderedRecording recording("perfect", "city", perfectRig(), {});
+  RigMeasures measures = check({"perfect"}).measures;
+  measures.rows_are_constant = false;
+  std::string why_not;
+  EXPECT_FALSE(findCorrection(recording, {}, measures, why_not));
+  EXPECT_NE(why_not.find("move"), std::string::npos) << why_not;
+}
+
+}  // namespace
+}  // namespace rotrocc
