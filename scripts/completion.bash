@@ -8,7 +8,7 @@
 # Options of each program. Those with a value end in =.
 declare -gA _rotrocc_options=(
   [benchmark]='--repeat= --programs= --config= --set= --against-programs= --against-config= --against-set='
-  [check_rig]='--report= --write-camera-info= --imu= --left-image= --right-image= --rectify= --calibration= --config= --set='
+  [check_rig]='--live --duration= --report= --write-camera-info= --imu= --left-image= --right-image= --rectify= --calibration= --config= --set='
   [draw_report]='--title='
   [evaluate_trajectory]='--lengths= --step= --fit --times= --segments= --report= --stats= --title='
   [kitti_benchmark]='--output= --jobs= --sshlogin= --config= --set= --compare= --title= --programs='

@@ -17,7 +17,6 @@
 #include "bags/sequence_recording.h"
 #include "bags/stereo_topics.h"
 #include "input/camera_calibration.h"
-#include "input/input_error.h"
 #include "input/message_conversion.h"
 #include "sequences/calibration_file.h"
 
@@ -96,13 +95,7 @@ class BagRecording : public Recording {
   bool isRaw() const override {
     const bool is_camchain = options_.calibration.size() == 1;
     if (isRectifiedByName(topics_.left_image) && !is_camchain) return false;
-    if (left_info_.K[0] == 0.0) return false;  // it says nothing about them
-    try {
-      const double baseline_m = options_.sequence.baseline_m;
-      return !toStereoCalibration(left_info_, right_info_, baseline_m).isRectified();
-    } catch (const InputError&) {
-      return true;  // who rectifies says what is wrong
-    }
+    return describesRawImages(left_info_, right_info_, options_.sequence.baseline_m);
   }
 
   std::vector<std::string> notes() const override {

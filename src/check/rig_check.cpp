@@ -196,6 +196,7 @@ StereoCalibration calibrationOf(const Recording& recording,
 }
 
 void addUnusable(const std::string& why, RigReport& report) {
+  if (!report.findings.empty()) return;  // it is known
   const std::size_t end = why.rfind(": ");
   report.findings.push_back({"inputs",
                              "pairs",

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <image_transport/image_transport.h>
 #include <image_transport/subscriber.h>
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>

@@ -17,6 +17,7 @@
 #include "node/health/diagnostics.h"
 #include "node/health/loss_log.h"
 #include "node/health/odometry_health.h"
+#include "node/live_check.h"
 #include "node/live_parameters.h"
 #include "node/odometry_publisher.h"
 #include "node/odometry_services.h"
@@ -54,6 +55,7 @@ class StereoOdometry {
   // In the thread of the nodelet.
   void onPair(ReceivedPair pair);
   void onTick(const ros::WallTimerEvent& event);
+  std::string checkRig();
 
   // In the worker thread.
   void work();
@@ -74,6 +76,7 @@ class StereoOdometry {
   std::optional<GyroInput> gyro_;
   OdometryPublisher publisher_;
   TrajectoryStore trajectory_;
+  LiveCheck live_check_;
 
   LossLog loss_log_;  // of the worker
   // Of the callbacks.

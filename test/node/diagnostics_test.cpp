@@ -1,6 +1,5 @@
 #include "node/health/diagnostics.h"
 
-
 #include <gtest/gtest.h>
 
 namespace rotrocc {
