@@ -56,7 +56,14 @@ class TrajectoryStore {
     std::uint64_t trajectory = 0;  // number
   };
 
-  Trajectory latest() const;
+  /// Poses by the count of those before them, of one trajectory.
+  struct Range {
+    std::uint64_t first, end;
+    std::uint64_t trajectory;
+  };
+
+  Range present() const;
+  Trajectory take(Range& range) const;
   void work();
   std::vector<Item> takeAll();
   void untilDone(const std::function<void()>& action);
