@@ -193,7 +193,7 @@ TEST(LiveRecordingTest, IsCheckedByTheProgram) {
   const Stream stream(cameras);
   const CommandResult result = runCommand(checkRig("camera", "--duration 2"));
   EXPECT_TRUE(result.status == 0 || result.status == 3) << result.status;
-  EXPECT_NE(result.output.find("rig check of /camera/left/image_rect and"), std::string::npos)
+  EXPECT_NE(result.output.find("Rig check of /camera/left/image_rect and"), std::string::npos)
       << result.output;
   EXPECT_NE(result.output.find(" pairs in "), std::string::npos) << result.output;
 }
