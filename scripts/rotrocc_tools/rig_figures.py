@@ -2,8 +2,8 @@
 from matplotlib import colors, image
 import numpy
 
-from rotrocc_tools.plot_style import (BLUE, FAINT, GREEN, ORANGE, SKY, TEXT, VERMILLION, dress, legend, place_ticks,
-                                      pyplot, save)
+from rotrocc_tools.plot_style import (BLUE, ORANGE, SKY, TEXT, VERMILLION, dress, legend, place_ticks, pyplot,
+                                      save)
 
 WIDTH_IN = 8.4
 SIGNED = colors.LinearSegmentedColormap.from_list('signed', [BLUE, SKY, '#F4F4F4', ORANGE, VERMILLION])
@@ -63,8 +63,8 @@ def maps(parts, size, left_png, path, colour_map, limits, label):
     """Maps one above the other, with one colour bar: (title, table, values, arrows or None)."""
     picture = image.imread(str(left_png)) * 255.0 if left_png.is_file() else None
     height_in = WIDTH_IN * 0.84 * size[1] / size[0]
-    figure, axes = pyplot.subplots(len(parts), 1, figsize=(WIDTH_IN, (height_in + 0.35) * len(parts) + 0.2), squeeze=False,
-                                   constrained_layout=True)
+    figure, axes = pyplot.subplots(len(parts), 1, figsize=(WIDTH_IN, (height_in + 0.35) * len(parts) + 0.2),
+                                   squeeze=False, constrained_layout=True)
     for panel, (title, table, values, arrows) in zip(axes.flat, parts):
         drawn = draw_map(panel, table, values, size, picture, colour_map, limits)
         panel.set_title(title, fontsize=10, color=TEXT, loc='left')
@@ -82,7 +82,8 @@ def depths(table, path):
     figure, panel = pyplot.subplots(figsize=(WIDTH_IN, 2.3))
     dress(panel)
     limits = table['depth_m']
-    panel.bar(limits / 1.122, 100.0 * table['features'] / max(table['features'].sum(), 1.0), width=0.2 * limits, color=BLUE)
+    shares = table['features'] / max(table['features'].sum(), 1.0)
+    panel.bar(limits / 1.122, 100.0 * shares, width=0.2 * limits, color=BLUE)
     panel.set_xscale('log')
     panel.set_xlabel('depth [m]')
     panel.set_ylabel('features [%]')
@@ -118,5 +119,3 @@ def stretches(table, path):
     legend(panel, loc='lower left', bbox_to_anchor=(0.0, 1.0), ncol=3)
     figure.tight_layout()
     save(figure, path)
-
-

@@ -13,8 +13,9 @@ FINDINGS = 'findings.yaml'
 # For a person who has to do something.
 WORDS = {'fix': 'fix this', 'acceptable': 'acceptable', 'unknown': 'unknown', 'good': 'good'}
 STYLE = '''<style>
-.badge { padding: 2px 10px; border-radius: 9px; color: #fff; font-size: 13px; font-weight: 600; white-space: nowrap; }
-.fix { background: #B34700; } .acceptable { background: #8A6500; } .unknown { background: #777; } .good { background: #00755A; }
+.badge { padding: 2px 10px; border-radius: 9px; color: #fff; font-size: 13px; font-weight: 600; }
+.badge { white-space: nowrap; } .fix { background: #B34700; } .acceptable { background: #8A6500; }
+.unknown { background: #777; } .good { background: #00755A; }
 .finding { margin: 14px 0; padding-left: 14px; border-left: 4px solid #ddd; }
 .finding.fix, .finding.acceptable, .finding.unknown { background: none; }
 .finding.fix { border-color: #B34700; } .finding.acceptable { border-color: #C99700; }
@@ -38,7 +39,8 @@ def with_code(words):
 
 
 def card(finding):
-    parts = [badge(finding['verdict']), '<b>%s: %s</b>' % (page.text(finding['section']), page.text(finding['subject'])),
+    title = '%s: %s' % (page.text(finding['section']), page.text(finding['subject']))
+    parts = [badge(finding['verdict']), '<b>%s</b>' % title,
              '<p>%s</p>' % words_of(finding['measured'])]
     if finding['cost']:
         parts.append('<p>Cost: %s</p>' % page.text(finding['cost']))
@@ -105,8 +107,8 @@ class RigPage:
             rows.append(['%s</td><td class="words">%s<br>%s</td><td class="words">%s<br>%s' % (
                 page.text(before['subject']), badge(before['verdict']), words_of(before['measured']),
                 badge(finding['verdict']), words_of(finding['measured']))])
-        return page.section('With the corrected calibration', 'The same recording, checked by the files that were written. '
-                            'What both cameras have in common, as a wrong baseline, is not seen.',
+        return page.section('With the corrected calibration', 'The same recording, checked by the files that were '
+                            'written. What both cameras have in common, as a wrong baseline, is not seen.',
                             page.table(['', 'before', 'after'], rows))
 
     def inputs(self):
@@ -115,22 +117,26 @@ class RigPage:
         panels = [('interval [ms]', [self.course('stamps', 'interval_ms')]),
                   ('left - right [ms]', [self.course('stamps', 'left_minus_right_ms')]),
                   ('arrival [ms]', [self.course('stamps', 'age_ms')])]
-        return page.section('Inputs', 'Time from each left image to the next, its stamp minus that of the nearest right image, '
-                            'and how long after its stamp it arrived. All should be flat.',
+        return page.section('Inputs', 'Time from each left image to the next, its stamp minus that of the nearest '
+                            'right image, and how long after its stamp it arrived. All should be flat.',
                             self.picture('stamps', 'stamps over time', figures.courses, panels))
 
     def photometry(self):
         if not self.has('photometry'):
             return ''
+
         def both(name, factor=1.0):
             return [self.course('photometry', name + '_left', 'left', BLUE, factor),
                     self.course('photometry', name + '_right', 'right', ORANGE, factor)]
-        panels = [('mean grey', both('mean')), ('white [%]', both('saturated', 100.0)), ('black [%]', both('dark', 100.0)),
-                  ('gain', [self.course('photometry', 'gain')]), ('offset [grey]', [self.course('photometry', 'offset_grey')])]
+        panels = [('mean grey', both('mean')), ('white [%]', both('saturated', 100.0)),
+                  ('black [%]', both('dark', 100.0)),
+                  ('gain', [self.course('photometry', 'gain')]),
+                  ('offset [grey]', [self.course('photometry', 'offset_grey')])]
         if self.has('sharpness'):
             panels.append(('blur [px]', [self.course('sharpness', 'blur_px')]))
-        return page.section('Photometry', 'Grey levels of both images, and the right one compared with the left one where both '
-                            'show the same: gain 1, offset 0 and blur 0 are equal. Positive blur: the right image is blurred.',
+        return page.section('Photometry', 'Grey levels of both images, and the right one compared with the left one '
+                            'where both show the same: gain 1, offset 0 and blur 0 are equal. '
+                            'Positive blur: the right image is blurred.',
                             self.picture('photometry', 'grey levels over time', figures.courses, panels))
 
     def rows(self):
@@ -138,8 +144,8 @@ class RigPage:
             return ''
         table = self.tables['rows_map']
         limit = figures.largest(table['row_px'], table['model_px'])
-        parts = [('measured', table, table['row_px'], True), ('explained by rotation, focal length and row of the right '
-                 'camera', table, table['model_px'], True),
+        parts = [('measured', table, table['row_px'], True), ('explained by rotation, focal length and row of the '
+                 'right camera', table, table['model_px'], True),
                  ('left over', table, table['row_px'] - table['model_px'], True)]
         if self.has('rows_map_corrected'):
             after = self.tables['rows_map_corrected']
@@ -149,9 +155,9 @@ class RigPage:
         if self.has('rows_time'):
             shown.append(self.picture('rows_time', 'row differences over time', figures.courses, [
                 ('left over [px]', [self.course('rows_time', 'row_px', sigma='sigma_px')])]))
-        return page.section('Rows', 'How much lower points are in the right image: zero everywhere for a rectified pair. The '
-                            'arrows point where they are displaced to, in the scale of the colours. Over time, what moves is '
-                            'a rig that bends.', *shown)
+        return page.section('Rows', 'How much lower points are in the right image: zero everywhere for a rectified '
+                            'pair. The arrows point where they are displaced to, in the scale of the colours. Over '
+                            'time, what moves is a rig that bends.', *shown)
 
     def disparities(self):
         shown = []
@@ -167,17 +173,19 @@ class RigPage:
         if self.has('bias_time'):
             shown.append(self.picture('bias_time', 'bias over time', figures.courses, [
                 ('bias [px]', [self.course('bias_time', 'bias_px', sigma='sigma_px')])]))
-        return page.section('Disparities', 'What has to be added to disparities so that they agree with the motion, where the '
-                            'motion shows it; and the same for the whole image, as it gets known, with one standard '
-                            'deviation.', *shown) if shown else ''
+        return page.section('Disparities', 'What has to be added to disparities so that they agree with the motion, '
+                            'where the motion shows it; and the same for the whole image, as it gets known, with one '
+                            'standard deviation.', *shown) if shown else ''
 
     def time(self):
         if not self.has('gyro'):
             return ''
-        lines = [self.course('gyro', 'camera_dps', 'cameras', BLUE), self.course('gyro', 'gyro_dps', 'gyroscope', ORANGE)]
-        return page.section('Time', 'Turn rates of cameras and gyroscope, shifted by the difference of their clocks: both lines '
-                            'are the same if they measure the same.',
-                            self.picture('gyro', 'turn rates over time', figures.courses, [('turn rate [deg/s]', lines)]))
+        lines = [self.course('gyro', 'camera_dps', 'cameras', BLUE),
+                 self.course('gyro', 'gyro_dps', 'gyroscope', ORANGE)]
+        return page.section('Time', 'Turn rates of cameras and gyroscope, shifted by the difference of their clocks: '
+                            'both lines are the same if they measure the same.',
+                            self.picture('gyro', 'turn rates over time', figures.courses,
+                                         [('turn rate [deg/s]', lines)]))
 
     def view(self):
         if not self.has('view_map'):
@@ -195,16 +203,16 @@ class RigPage:
                                       self.folder / 'mask.png'))
         if self.has('depths'):
             shown.append(self.picture('depths', 'depths of the features', figures.depths, self.tables['depths']))
-        return page.section('What is seen', 'Where corners have a disparity, and where features agree with the motion of the '
-                            'rest: red is what no other part of the image has, as the robot itself. Near features decide how '
-                            'well the way is known.', *shown)
+        return page.section('What is seen', 'Where corners have a disparity, and where features agree with the motion '
+                            'of the rest: red is what no other part of the image has, as the robot itself. Near '
+                            'features decide how well the way is known.', *shown)
 
     def odometry(self):
         if not self.has('halves'):
             return ''
-        return page.section('Odometry', 'Stretches that were repeated backward in time, and mirrored with left and right '
-                            'exchanged. A rig without errors gives the same motion; the grey bars are what the covariance '
-                            'says of one of them.',
+        return page.section('Odometry', 'Stretches that were repeated backward in time, and mirrored with left and '
+                            'right exchanged. A rig without errors gives the same motion; the grey bars are what the '
+                            'covariance says of one of them.',
                             self.picture('stretches', 'differences of repeated stretches', figures.stretches,
                                          self.tables['halves']))
 
