@@ -1,6 +1,5 @@
 #include "node/health/rig_watch.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "input/to_text.h"
@@ -16,10 +15,6 @@ constexpr double kRowsApart_px = 0.5;
 /// Standard deviations of a fault that is beyond doubt.
 constexpr double kSigmas = 4.0;
 
-bool isBeyond(double limit, double value, double sigma) {
-  return std::abs(value) >= std::max(limit, kSigmas * sigma);
-}
-
 }  // namespace
 
 std::string RigWatch::observe(const OdometryStatus& status) {
@@ -31,7 +26,7 @@ std::string RigWatch::observe(const OdometryStatus& status) {
   };
   std::string what;
   const bool is_biased = std::abs(status.disparity_bias_applied) >= kLargeBias_px &&
-                         isBeyond(0.0, status.disparity_bias, status.disparity_bias_sigma);
+                         std::abs(status.disparity_bias) >= kSigmas * status.disparity_bias_sigma;
   if (lasts(is_biased, bias_)) {
     what = "disparities have a bias of " + hundredths(-status.disparity_bias) + " px (+- " +
            hundredths(status.disparity_bias_sigma) + "), which is corrected";

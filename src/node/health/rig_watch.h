@@ -6,8 +6,8 @@
 
 namespace rotrocc {
 
-/// Warns of a disparity bias or a row offset of the rig. What single pairs show may be
-/// wrong, so it must last.
+/// Warns of a disparity bias or a row offset of the rig. What single pairs show may be wrong, so it
+/// must last.
 class RigWatch {
  public:
   /// Pairs with a motion, in a row, after which a fault is told.
