@@ -115,8 +115,9 @@ class RigPage:
         if not self.has('stamps'):
             return ''
         panels = [('interval [ms]', [self.course('stamps', 'interval_ms')]),
-                  ('left - right [ms]', [self.course('stamps', 'left_minus_right_ms')]),
-                  ('arrival [ms]', [self.course('stamps', 'age_ms')])]
+                  ('left - right [ms]', [self.course('stamps', 'left_minus_right_ms')])]
+        if numpy.isfinite(self.tables['stamps']['age_ms']).any():  # not in folders of images
+            panels.append(('arrival [ms]', [self.course('stamps', 'age_ms')]))
         return page.section('Inputs', 'Time from each left image to the next, its stamp minus that of the nearest '
                             'right image, and how long after its stamp it arrived. All should be flat.',
                             self.picture('stamps', 'stamps over time', figures.courses, panels))
@@ -208,13 +209,13 @@ class RigPage:
                             'features decide how well the way is known.', *shown)
 
     def odometry(self):
-        if not self.has('halves'):
+        if not self.has('stretches'):
             return ''
         return page.section('Odometry', 'Stretches that were repeated backward in time, and mirrored with left and '
                             'right exchanged. A rig without errors gives the same motion; the grey bars are what the '
                             'covariance says of one of them.',
                             self.picture('stretches', 'differences of repeated stretches', figures.stretches,
-                                         self.tables['halves']))
+                                         self.tables['stretches']))
 
     def write(self):
         page.write_page(self.folder / 'index.html', self.content['title'], page.text(self.content['summary']), STYLE,

@@ -54,20 +54,31 @@ void writeInfo(const sensor_msgs::CameraInfo& info,
   if (!out.flush()) throw std::runtime_error(path + " cannot be written");
 }
 
-/// Rows first, then the disparities that they leave.
-Correction correctedBy(Recording& recording, const RigCheckOptions& options, RigMeasures measures) {
+/// Whether a calibration can make something better: fitRows() sets what is not significant to zero.
+bool hasErrors(const RigMeasures& measures) {
+  const RowCauses& causes = measures.rows.causes;
+  const auto isCause = [](double value) { return value != 0.0; };
+  return std::any_of(causes.begin(), causes.begin() + kTimeSkew, isCause) ||
+         isSignificant(measures.bias.estimated_px, measures.bias.sigma_px);
+}
+
+/// Again by what is left over: rows first, then the disparities that they leave.
+Correction correctedBy(Recording& recording,
+                       const RigCheckOptions& options,
+                       RigMeasures measures,
+                       bool with_yaw) {
   RigCheckOptions rectified = options;
   rectified.rectify = "yes";
-  const bool has_yaw = measures.rows.causes[kYaw] != 0.0;
-  constexpr int kPasses = 2;
+  constexpr int kMostPasses = 4;
   Correction correction;
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    if (!with_yaw) measures.rows.causes[kYaw] = 0.0;
+    if (pass > 0 && !hasErrors(measures)) break;
     correction.calibration = correct(measures);
     RecalibratedRecording recalibrated(recording, correction.calibration);
     correction.checked = checkRig(recalibrated, rectified);
     measures = correction.checked.measures;
     measures.calibration = correction.calibration;
-    if (!has_yaw) measures.rows.causes[kYaw] = 0.0;
   }
   return correction;
 }
@@ -126,13 +137,15 @@ std::optional<Correction> findCorrection(Recording& recording,
     why_not = "rows move against each other: no calibration describes a rig that bends";
     return std::nullopt;
   }
-  std::optional<Correction> correction = correctedBy(recording, options, before);
+  if (!hasErrors(before)) {
+    why_not = "rows and disparities have no error beyond their uncertainty";
+    return std::nullopt;
+  }
+  std::optional<Correction> correction = correctedBy(recording, options, before, true);
   why_not = whyWorse(before, correction->checked.measures);
   if (!why_not.empty() && before.rows.causes[kYaw] != 0.0) {
     // Lenses make rows of the same shape, without the disparities of a camera that is turned.
-    RigMeasures without_yaw = before;
-    without_yaw.rows.causes[kYaw] = 0.0;
-    correction = correctedBy(recording, options, without_yaw);
+    correction = correctedBy(recording, options, before, false);
     why_not = whyWorse(before, correction->checked.measures);
   }
   if (!why_not.empty()) return std::nullopt;

@@ -14,10 +14,9 @@ namespace rotrocc {
 /// baseline or of both focal lengths, is not seen.
 StereoCalibration correct(const RigMeasures& measures);
 
-/// Checks a recording by corrected calibrations, until one is found: rows first, then the
-/// disparities that they leave. None, with the reason in `why_not`, if nothing is significant, rows
-/// move, or the result is worse: by the rows, or by the difference of mirrored and straight
-/// motions.
+/// Checks a recording by corrected calibrations, until no significant error is left, at most four
+/// times. None, with the reason in `why_not`, if nothing is significant, rows move, or the result
+/// is worse: by the rows, or by the differences of repeated motions.
 struct Correction {
   StereoCalibration calibration;
   CheckedRig checked;

@@ -82,10 +82,8 @@ void DisparityCheck::report(const Windows& windows, RigReport& report) const {
        "without a correction " + fixedText(std::abs(100.0 * bias_px / typical_px), 1) +
            " m in 100 m, at the typical disparity of " + fixedText(typical_px, 1) +
            " px; the odometry corrects " + fixedText(bias_.applied_px, 2) + " px of it",
-       Verdict::kGood,
        "`rosrun rotrocc check_rig RECORDING --write-camera-info DIR` writes the corrected "
-       "calibration; obstacle maps of the same cameras need it, too",
-       0.0},
+       "calibration; obstacle maps of the same cameras need it, too"},
       {bias_px / typical_px, bias_.sigma_px / typical_px, kAcceptableScale, kFixScale});
 
   const auto [motion_px, known_px] = motionOfBias();
@@ -93,9 +91,7 @@ void DisparityCheck::report(const Windows& windows, RigReport& report) const {
               "bias over time",
               "moves by " + fixedText(motion_px, 2) + " px (rms)",
               "a rig that bends has another scale at each time",
-              Verdict::kGood,
-              "mount both cameras on one stiff bar",
-              0.0},
+              "mount both cameras on one stiff bar"},
              {motion_px / typical_px,
               known_px / std::sqrt(static_cast<double>(windows.count())) / typical_px,
               kAcceptableScale,

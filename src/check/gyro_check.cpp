@@ -140,9 +140,8 @@ void GyroCheck::report(const Windows& windows, RigReport& report) const {
                                "cameras against the gyroscope",
                                "too few motions while the gyroscope was recorded",
                                "",
-                               Verdict::kUnknown,
                                "turn the rig about all its axes while recording",
-                               0.0});
+                               Verdict::kUnknown});
     return;
   }
   std::vector<std::vector<double>> without;
@@ -163,9 +162,7 @@ void GyroCheck::report(const Windows& windows, RigReport& report) const {
                   " to be added to those of images",
               "a turn of 50 deg/s is predicted " + fixedText(50.0 * std::abs(all.delay_s), 2) +
                   " deg wrong",
-              Verdict::kGood,
-              "correct the stamps of the driver, or trigger both by one clock",
-              0.0},
+              "correct the stamps of the driver, or trigger both by one clock"},
              {all.delay_s, sigmas[0], kAcceptableDelay_s, kFixDelay_s});
   const double angle = Eigen::AngleAxisd(R_camera_gyro_ * all.R_camera_gyro.transpose()).angle();
   const double angle_sigma =
@@ -178,9 +175,7 @@ void GyroCheck::report(const Windows& windows, RigReport& report) const {
                   fixedText(q.x(), 5) + " " + fixedText(q.y(), 5) + " " + fixedText(q.z(), 5) +
                   " " + fixedText(q.w(), 5),
               "predicted turns are about a wrong axis",
-              Verdict::kGood,
-              "correct the transform from the base to the gyroscope, or to the camera",
-              0.0},
+              "correct the transform from the base to the gyroscope, or to the camera"},
              {angle, angle_sigma, kAcceptableAngle, kFixAngle});
   addTable(all, report);
 }

@@ -15,6 +15,8 @@
 namespace rotrocc {
 namespace {
 
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
 constexpr double kGapPeriods = 1.5;
 
 /// Limits: shares of the images, of the period, and seconds.
@@ -48,14 +50,6 @@ std::string listOf(const std::map<Key, int>& counts, const ToText& to_text) {
 void InputCheck::observe(const RecordedMessage& message) {
   if (message.left_image) add(*message.left_image, message.time, left_);
   if (message.right_image) add(*message.right_image, message.time, right_);
-  if (message.left_info) {
-    ++left_.infos;
-    left_info_ = message.left_info;
-  }
-  if (message.right_info) {
-    ++right_.infos;
-    right_info_ = message.right_info;
-  }
 }
 
 void InputCheck::add(const sensor_msgs::Image& image, const ros::Time& time, Stream& stream) {
@@ -78,8 +72,8 @@ void InputCheck::report(const StereoCamera& camera,
                                "left out",
                                left_out,
                                "each is a pair without a motion",
-                               Verdict::kAcceptable,
                                "look at the reasons: what they name is dropped by the node as well",
+                               Verdict::kAcceptable,
                                0.5});
   }
 }
@@ -94,8 +88,8 @@ void InputCheck::addCamera(const StereoCamera& camera, bool rectifies, RigReport
                              "camera_info",
                              values,
                              "",
-                             warning.empty() ? Verdict::kGood : Verdict::kFix,
                              warning,
+                             warning.empty() ? Verdict::kGood : Verdict::kFix,
                              1.0});
 }
 
@@ -104,18 +98,18 @@ void InputCheck::addFormats(RigReport& report) const {
     return sizeText(size.first, size.second);
   };
   const auto name = [](const std::string& encoding) { return encoding; };
+  if (left_.sizes.empty() || right_.sizes.empty()) return;
   const bool differs =
       left_.encodings != right_.encodings || left_.sizes.size() > 1 || left_.encodings.size() > 1;
-  report.findings.push_back(
-      {"inputs",
-       "images",
-       listOf(left_.encodings, name) + " left, " + listOf(right_.encodings, name) + " right; " +
-           listOf(left_.sizes, size_text),
-       "images of different formats are of different cameras or settings",
-       differs && !left_.encodings.empty() && !right_.encodings.empty() ? Verdict::kAcceptable
-                                                                        : Verdict::kGood,
-       differs ? "give both cameras the same settings" : "",
-       0.3});
+  report.findings.push_back({"inputs",
+                             "images",
+                             listOf(left_.encodings, name) + " left, " +
+                                 listOf(right_.encodings, name) + " right; " +
+                                 listOf(left_.sizes, size_text),
+                             "images of different formats are of different cameras or settings",
+                             differs ? "give both cameras the same settings" : "",
+                             differs ? Verdict::kAcceptable : Verdict::kGood,
+                             0.3});
 }
 
 void InputCheck::addRates(RigReport& report) const {
@@ -143,9 +137,7 @@ void InputCheck::addRates(RigReport& report) const {
                 right ? "right images" : "left images",
                 measured,
                 "motions over gaps are longer: more is lost, most of all in turns",
-                Verdict::kGood,
-                "look for lost frames of the driver, the USB or network link, and the recorder",
-                0.0},
+                "look for lost frames of the driver, the USB or network link, and the recorder"},
                {(missing + duplicates) / static_cast<double>(stamps_ns.size()),
                 0.0,
                 kAcceptableMissing,
@@ -162,6 +154,10 @@ void InputCheck::addStamps(RigReport& report) const {
   ReportTable table = {"stamps", {"time_s", "left_minus_right_ms", "age_ms", "interval_ms"}, {}};
   std::vector<double> apart_s;
   std::vector<double> ages_s = left_.ages_s;
+  const double age_s = median(ages_s);
+  constexpr double kOtherClock_s = 3600.0;
+  // Not in folders of images, nor with another clock than that of the recorder.
+  const bool has_ages = age_s != 0.0 && std::abs(age_s) < kOtherClock_s;
   for (std::size_t i = 0; i < left_.stamps_ns.size(); ++i) {
     const std::int64_t left_ns = left_.stamps_ns[i];
     const auto next = std::lower_bound(right_ns.begin(), right_ns.end(), left_ns);
@@ -172,9 +168,8 @@ void InputCheck::addStamps(RigReport& report) const {
     apart_s.push_back(toSeconds(left_ns - nearest_ns));
     table.rows.push_back({toSeconds(left_ns - left_.stamps_ns.front()),
                           1e3 * apart_s.back(),
-                          1e3 * left_.ages_s[i],
-                          i > 0 ? 1e3 * toSeconds(left_ns - left_.stamps_ns[i - 1])
-                                : std::numeric_limits<double>::quiet_NaN()});
+                          has_ages ? 1e3 * left_.ages_s[i] : kUnknown,
+                          i > 0 ? 1e3 * toSeconds(left_ns - left_.stamps_ns[i - 1]) : kUnknown});
   }
   report.tables.push_back(std::move(table));
   double largest_s = 0.0;
@@ -185,23 +180,17 @@ void InputCheck::addStamps(RigReport& report) const {
        "stamps of left minus right",
        fixedText(1e3 * typical_s, 2) + " ms, at most " + fixedText(1e3 * largest_s, 2) + " ms",
        "images of different times are no pair: what moves has wrong depths",
-       Verdict::kGood,
-       "trigger both cameras by one signal, and take its time for both stamps",
-       0.0},
+       "trigger both cameras by one signal, and take its time for both stamps"},
       {typical_s / period_s, 0.0, kAcceptableApart, kFixApart});
-  const double age_s = median(ages_s);
-  constexpr double kOtherClock_s = 3600.0;
-  if (std::abs(age_s) > kOtherClock_s || age_s == 0.0) return;  // recorded without arrival times
+  if (!has_ages) return;
   report.add(
       {"inputs",
        "arrival after the stamp",
        fixedText(1e3 * age_s, 0) + " ms",
        "odometry comes so much later, and tf with it",
-       Verdict::kGood,
        age_s > 0.0 ? "synchronise the clocks of camera and computer, and look for what delays "
                      "the images"
-                   : "stamps are of the future: synchronise the clocks of camera and computer",
-       0.0},
+                   : "stamps are of the future: synchronise the clocks of camera and computer"},
       {age_s, 0.0, kAcceptableAge_s, kFixAge_s});
 }
 

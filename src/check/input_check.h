@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,7 +31,6 @@ class InputCheck {
     std::vector<double> ages_s;
     std::map<std::string, int> encodings;
     std::map<std::pair<int, int>, int> sizes;
-    int infos = 0;
   };
 
   static void add(const sensor_msgs::Image& image, const ros::Time& time, Stream& stream);
@@ -42,7 +40,6 @@ class InputCheck {
   void addCamera(const StereoCamera& camera, bool rectifies, RigReport& report) const;
 
   Stream left_, right_;
-  sensor_msgs::CameraInfo::ConstPtr left_info_, right_info_;
 };
 
 }  // namespace rotrocc

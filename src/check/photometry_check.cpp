@@ -12,6 +12,7 @@
 #include "common/median.h"
 #include "features/image_noise.h"
 #include "input/to_text.h"
+#include "motion/cauchy_weights.h"
 
 namespace rotrocc {
 namespace {
@@ -30,17 +31,19 @@ constexpr int kSharpnessPatch = 24;
 /// and another motion blur.
 constexpr double kAcceptableGain = 0.1;
 constexpr double kFixGain = 0.25;
-constexpr double kAcceptableOffset = 0.02 * 255;
-constexpr double kFixOffset = 0.06 * 255;
+constexpr double kAcceptableOffset = 0.02;  // of the range
+constexpr double kFixOffset = 0.06;
 constexpr double kAcceptableVignetting = 0.15;
 constexpr double kFixVignetting = 0.4;
 constexpr double kAcceptableBlur_px = 0.4;
 constexpr double kFixBlur_px = 0.8;
+constexpr double kAcceptableNoise = 0.15;  // of the contrast of the image
+constexpr double kFixNoise = 0.3;
 constexpr double kAcceptableShare = 0.1;
 constexpr double kFixShare = 0.3;
 
 constexpr int kWhite = 255;
-constexpr int kBlack = 5;
+constexpr int kBlack = kWhite / 50;
 
 /// Energy of the gradients of an image after a Gaussian of `blur_px`, without that of the noise,
 /// relative to that of its large structures: falls with the blur.
@@ -122,30 +125,44 @@ bool isSaturated(const cv::Mat& patch) {
   return brightest >= kWhite;
 }
 
-/// What both images show of a feature.
-struct PatchMeans {
-  double left, right;  ///< grey levels
-  double r2;           ///< square of the distance from the middle, 1 in the corners
+/// The same part of the world in both images.
+struct Patch {
+  cv::Rect left, right;
 };
 
-std::vector<PatchMeans> patchMeans(const CheckedPair& pair) {
-  const Eigen::Vector2d corner(0.5 * pair.camera.width, 0.5 * pair.camera.height);
-  std::vector<PatchMeans> means;
-  const std::size_t step = std::max<std::size_t>(1, pair.features.size() / kPerPair);
+/// Around features that agree with the motion, about `most` of them, where both images show them.
+std::vector<Patch> patchesOf(const CheckedPair& pair, int radius, std::size_t most) {
+  std::vector<Patch> patches;
+  const std::size_t step = std::max<std::size_t>(1, pair.features.size() / most);
   for (std::size_t i = 0; i < pair.features.size(); i += step) {
     if (pair.inliers[i] == 0) continue;
     const Correspondence& feature = pair.features[i];
-    const cv::Rect left_area = around(feature.cur_px, 0.0, kPatch);
-    const cv::Rect right_area = around(feature.cur_px, feature.disparity_px, kPatch);
-    if (!isInside(left_area, pair.images.left) || !isInside(right_area, pair.images.right)) {
-      continue;
+    const Patch patch = {around(feature.cur_px, 0.0, radius),
+                         around(feature.cur_px, feature.disparity_px, radius)};
+    if (isInside(patch.left, pair.images.left) && isInside(patch.right, pair.images.right)) {
+      patches.push_back(patch);
     }
-    const cv::Mat left = pair.images.left(left_area);
-    const cv::Mat right = pair.images.right(right_area);
+  }
+  return patches;
+}
+
+/// Grey levels of a patch.
+struct PatchMeans {
+  double left, right;
+  double r2;  ///< square of the distance from the middle, 1 in the corners
+};
+
+std::vector<PatchMeans> patchMeans(const CheckedPair& pair) {
+  const cv::Point2d corner(0.5 * pair.camera.width, 0.5 * pair.camera.height);
+  std::vector<PatchMeans> means;
+  for (const Patch& patch : patchesOf(pair, kPatch, kPerPair)) {
+    const cv::Mat left = pair.images.left(patch.left);
+    const cv::Mat right = pair.images.right(patch.right);
     if (isSaturated(left) || isSaturated(right)) continue;
-    means.push_back({cv::mean(left)[0],
-                     cv::mean(right)[0],
-                     (feature.cur_px - corner).squaredNorm() / corner.squaredNorm()});
+    const cv::Point2d middle = 0.5 * cv::Point2d(patch.left.tl() + patch.left.br());
+    const cv::Point2d from_corner = middle - corner;
+    means.push_back(
+        {cv::mean(left)[0], cv::mean(right)[0], from_corner.dot(from_corner) / corner.dot(corner)});
   }
   return means;
 }
@@ -154,19 +171,28 @@ std::vector<PatchMeans> patchMeans(const CheckedPair& pair) {
 Eigen::Vector3d fitLevels(const std::vector<PatchMeans>& means,
                           double PatchMeans::*from,
                           double PatchMeans::*to) {
-  constexpr double kUsual_grey = 3.0;  // difference of patches that show the same
+  // Some patches are at edges of depth, so that the images show different things.
+  constexpr double kRobust = 4.0;
+  std::vector<double> errors_grey;
+  std::vector<double> weights(means.size(), 1.0);
   Eigen::Vector3d fit(1.0, 0.0, 0.0);
   for (int iteration = 0; iteration < 8; ++iteration) {
     Eigen::Matrix3d information = Eigen::Matrix3d::Identity() * 1e-6;
     Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
-    for (const PatchMeans& mean : means) {
-      const Eigen::Vector3d row(mean.*from, 1.0, mean.*from * mean.r2);
-      const double error = (mean.*to - row.dot(fit)) / kUsual_grey;
-      const double weight = iteration == 0 ? 1.0 : 1.0 / (1.0 + error * error);
-      information += weight * row * row.transpose();
-      weighted += weight * mean.*to * row;
+    const auto rowOf = [&](const PatchMeans& mean) {
+      return Eigen::Vector3d(mean.*from, 1.0, mean.*from * mean.r2);
+    };
+    for (std::size_t i = 0; i < means.size(); ++i) {
+      const Eigen::Vector3d row = rowOf(means[i]);
+      information += weights[i] * row * row.transpose();
+      weighted += weights[i] * means[i].*to * row;
     }
     fit = information.ldlt().solve(weighted);
+    errors_grey.clear();
+    for (const PatchMeans& mean : means) {
+      errors_grey.push_back(std::abs(mean.*to - rowOf(mean).dot(fit)));
+    }
+    cauchyWeights(kRobust, errors_grey, weights);
   }
   return fit;
 }
@@ -174,12 +200,13 @@ Eigen::Vector3d fitLevels(const std::vector<PatchMeans>& means,
 }  // namespace
 
 void PhotometryCheck::observe(const CheckedPair& pair) {
-  Row row = {pair.time_s, kUnknown, kUnknown, kUnknown, kUnknown, {}, {}, 0.0, 0.0};
-  row.left = levelsOf(pair.images.left);
-  row.right = levelsOf(pair.images.right);
-  std::vector<int> buffer;
-  row.left_noise_grey = std::sqrt(noiseVariance(pair.images.left, buffer));
-  row.right_noise_grey = std::sqrt(noiseVariance(pair.images.right, buffer));
+  Row row = {pair.time_s,
+             kUnknown,
+             kUnknown,
+             kUnknown,
+             kUnknown,
+             levelsOf(pair.images.left),
+             levelsOf(pair.images.right)};
   if (pair.result.hasMotion()) {
     compare(pair, row);
     if (rows_.size() % kSharpnessStep == 0) compareSharpness(pair, row);
@@ -189,7 +216,12 @@ void PhotometryCheck::observe(const CheckedPair& pair) {
 
 PhotometryCheck::Levels PhotometryCheck::levelsOf(const cv::Mat& image) {
   const auto pixels = static_cast<double>(image.total());
-  return {cv::mean(image)[0],
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(image, mean, deviation);
+  std::vector<int> buffer;
+  return {mean[0],
+          deviation[0],
+          std::sqrt(noiseVariance(image, buffer)),
           cv::countNonZero(image >= kWhite) / pixels,
           cv::countNonZero(image <= kBlack) / pixels};
 }
@@ -211,23 +243,17 @@ void PhotometryCheck::compare(const CheckedPair& pair, Row& row) {
 }
 
 void PhotometryCheck::compareSharpness(const CheckedPair& pair, Row& row) {
+  constexpr std::size_t kPatches = 40;
   std::vector<cv::Rect> left_areas;
   std::vector<cv::Rect> right_areas;
-  constexpr std::size_t kPatches = 40;
-  const std::size_t step = std::max<std::size_t>(1, pair.features.size() / kPatches);
-  for (std::size_t i = 0; i < pair.features.size(); i += step) {
-    if (pair.inliers[i] == 0) continue;
-    const Correspondence& feature = pair.features[i];
-    const cv::Rect left = around(feature.cur_px, 0.0, kSharpnessPatch);
-    const cv::Rect right = around(feature.cur_px, feature.disparity_px, kSharpnessPatch);
-    if (!isInside(left, pair.images.left) || !isInside(right, pair.images.right)) continue;
-    left_areas.push_back(left);
-    right_areas.push_back(right);
+  for (const Patch& patch : patchesOf(pair, kSharpnessPatch, kPatches)) {
+    left_areas.push_back(patch.left);
+    right_areas.push_back(patch.right);
   }
   constexpr std::size_t kLeastPatches = 5;
   if (left_areas.size() < kLeastPatches) return;
-  const Sharpness left(pair.images.left, row.left_noise_grey, left_areas);
-  const Sharpness right(pair.images.right, row.right_noise_grey, right_areas);
+  const Sharpness left(pair.images.left, row.left.noise, left_areas);
+  const Sharpness right(pair.images.right, row.right.noise, right_areas);
   const bool right_is_blurred = left.after(0.0) > right.after(0.0);
   row.blur_px = right_is_blurred ? blurBetween(left, right) : -blurBetween(right, left);
 }
@@ -280,35 +306,27 @@ void PhotometryCheck::addExposure(const Windows& windows, RigReport& report) con
               toText(gain, ""),
               "nothing by itself: matches are found by correlation; but the darker image has less "
               "contrast above its noise, and a longer exposure more motion blur",
-              Verdict::kGood,
-              "give both cameras the same exposure time and gain, or couple them",
-              0.0},
+              "give both cameras the same exposure time and gain, or couple them"},
              {std::log(gain.value), gain.sigma / gain.value, kAcceptableGain, kFixGain});
   const double changes = gain.sigma * std::sqrt(static_cast<double>(windows.count()));
   report.add({"photometry",
               "gain over time",
               "moves by " + fixedText(100.0 * changes, 1) + " %",
               "exposures that follow each other late differ most where light changes",
-              Verdict::kGood,
-              "couple the exposures of the cameras",
-              0.0},
+              "couple the exposures of the cameras"},
              {changes, 0.0, kAcceptableGain, kFixGain});
   report.add({"photometry",
               "grey levels right minus left",
               toText(offset, "of 255 at black"),
               "the range of the brighter image is smaller by it",
-              Verdict::kGood,
-              "set the same black level in both cameras, and look for stray light",
-              0.0},
-             {offset.value, offset.sigma, kAcceptableOffset, kFixOffset});
+              "set the same black level in both cameras, and look for stray light"},
+             {offset.value / kWhite, offset.sigma / kWhite, kAcceptableOffset, kFixOffset});
   report.add(
       {"photometry",
        "vignetting right to left",
        toText({100.0 * vignetting.value, 100.0 * vignetting.sigma}, "% in the corners"),
        "the darker corners lose features",
-       Verdict::kGood,
-       "use the same lens and aperture on both cameras, and look for something in front of one",
-       0.0},
+       "use the same lens and aperture on both cameras, and look for something in front of one"},
       {vignetting.value, vignetting.sigma, kAcceptableVignetting, kFixVignetting});
   const std::string side = blur.value > 0.0 ? "right" : "left";
   report.add({"photometry",
@@ -316,9 +334,7 @@ void PhotometryCheck::addExposure(const Windows& windows, RigReport& report) con
               toText(Estimate{std::abs(blur.value), blur.sigma}, "px") +
                   " of blur (Gaussian sigma) more on the " + side,
               "features of fine texture are lost, and disparities get noisier",
-              Verdict::kGood,
-              "focus and clean the " + side + " lens",
-              0.0},
+              "focus and clean the " + side + " lens"},
              {blur.value, blur.sigma, kAcceptableBlur_px, kFixBlur_px});
 }
 
@@ -331,35 +347,30 @@ void PhotometryCheck::addLevels(const Windows& windows, RigReport& report) const
       const Levels& levels = right ? row.right : row.left;
       saturated.push_back({row.time_s, levels.saturated});
       dark.push_back({row.time_s, levels.dark});
-      noise.push_back({row.time_s, right ? row.right_noise_grey : row.left_noise_grey});
+      noise.push_back({row.time_s, levels.noise / std::max(levels.contrast, 1e-9)});
     }
     const std::string side = right ? "right" : "left";
     const Estimate white = overWindows(saturated, windows);
     const Estimate black = overWindows(dark, windows);
+    const Estimate noisy = overWindows(noise, windows);
     report.add({"photometry",
                 "saturated pixels, " + side,
                 toText({100.0 * white.value, 100.0 * white.sigma}, "%"),
                 "no features there",
-                Verdict::kGood,
-                "reduce exposure, or meter on the lower part of the image",
-                0.0},
+                "reduce exposure, or meter on the lower part of the image"},
                {white.value, white.sigma, kAcceptableShare, kFixShare});
     report.add({"photometry",
                 "black pixels, " + side,
                 toText({100.0 * black.value, 100.0 * black.sigma}, "%"),
                 "no features there",
-                Verdict::kGood,
-                "increase exposure or gain, or light the scene",
-                0.0},
+                "increase exposure or gain, or light the scene"},
                {black.value, black.sigma, kAcceptableShare, kFixShare});
     report.add({"photometry",
                 "noise, " + side,
-                toText(overWindows(noise, windows), "of 255"),
+                toText({100.0 * noisy.value, 100.0 * noisy.sigma}, "% of the contrast"),
                 "positions get noisier",
-                Verdict::kGood,
-                "more light, or less gain",
-                0.0},
-               {overWindows(noise, windows).value, overWindows(noise, windows).sigma, 8.0, 16.0});
+                "more light, or less gain"},
+               {noisy.value, noisy.sigma, kAcceptableNoise, kFixNoise});
   }
 }
 

@@ -18,16 +18,14 @@ class PhotometryCheck {
 
  private:
   struct Levels {
-    double mean = 0.0;
-    double saturated = 0.0;  ///< share of the pixels
-    double dark = 0.0;
+    double mean, contrast, noise;  ///< grey levels; contrast and noise are standard deviations
+    double saturated, dark;        ///< share of the pixels
   };
   /// Of one pair; nan if not measured.
   struct Row {
     double time_s;
     double gain, offset_grey, vignetting, blur_px;
     Levels left, right;
-    double left_noise_grey, right_noise_grey;
   };
 
   static Levels levelsOf(const cv::Mat& image);

@@ -61,8 +61,7 @@ double angleOf(const Eigen::Isometry3d& T) {
 }  // namespace
 
 ReplayCheck::ReplayCheck(const OdometryConfig& config, int pairs)
-    : config_(config),
-      skipped_for_each_(std::max(0, pairs / static_cast<int>(kPairs) / kStretches - 1)) {
+    : config_(config), repeated_of_(std::max(1, pairs / static_cast<int>(kPairs) / kStretches)) {
   config_.threads = 1;  // beside the odometry of the caller
 }
 
@@ -73,15 +72,15 @@ void ReplayCheck::observe(const CheckedPair& pair) {
     stretch_.clear();
     if (pair.result.state == State::kLost) return;
   }
-  const bool is_repeated = stretches_ % (skipped_for_each_ + 1) == 0;
-  Step step = {{pair.images.stamp_ns, {}, {}, pair.images.left_mask, pair.images.right_mask},
+  const bool is_repeated = stretches_ % repeated_of_ == 0;
+  Step step = {pair.time_s,
+               {pair.images.stamp_ns, {}, {}, pair.images.left_mask, pair.images.right_mask},
                pair.camera,
                pair.result};
   if (is_repeated) {
     step.images.left = pair.images.left.clone();
     step.images.right = pair.images.right.clone();
   }
-  if (stretch_.empty()) first_s_ = pair.time_s;
   stretch_.push_back(std::move(step));
   if (stretch_.size() <= kPairs) return;
   if (is_repeated) startCompare();
@@ -91,7 +90,6 @@ void ReplayCheck::observe(const CheckedPair& pair) {
 
 void ReplayCheck::startCompare() {
   finishCompare();
-  comparison_s_ = first_s_;
   comparison_ = std::async(std::launch::async, [stretch = std::move(stretch_), config = config_] {
     return compare(stretch, config);
   });
@@ -100,16 +98,15 @@ void ReplayCheck::startCompare() {
 
 void ReplayCheck::finishCompare() {
   if (!comparison_.valid()) return;
-  std::optional<Difference> difference = comparison_.get();
-  if (!difference) return;
-  difference->time_s = comparison_s_;
-  differences_.push_back(*difference);
+  const std::optional<Difference> difference = comparison_.get();
+  if (difference) differences_.push_back(*difference);
 }
 
 /// None if a motion is lost on another way.
 std::optional<ReplayCheck::Difference> ReplayCheck::compare(const Stretch& stretch,
                                                             OdometryConfig config) {
   Difference difference;
+  difference.time_s = stretch.front().time_s;
   UncertainTransform forward;
   for (std::size_t i = 1; i < stretch.size(); ++i) {
     const OdometryResult& result = stretch[i].result;
@@ -156,11 +153,9 @@ void ReplayCheck::report(RigReport& report) {
               "lost pairs",
               toText(lost_) + " of " + toText(pairs_),
               "the way between them is missing",
-              Verdict::kGood,
-              "see the findings above; light, texture and speed of turns decide most",
-              0.0},
+              "see the findings above; light, texture and speed of turns decide most"},
              {lost, 0.0, kAcceptableLost, kFixLost});
-  ReportTable table = {"halves",
+  ReportTable table = {"stretches",
                        {"time_s",
                         "path_m",
                         "backward_m",
@@ -198,9 +193,8 @@ void ReplayCheck::report(RigReport& report) {
                                  subject,
                                  "no stretch is long enough, without a loss",
                                  "",
-                                 Verdict::kUnknown,
                                  "record a minute of motion",
-                                 0.0});
+                                 Verdict::kUnknown});
       return;
     }
     const double share = median(shares);
@@ -210,9 +204,7 @@ void ReplayCheck::report(RigReport& report) {
                     " of a standard deviation of the covariance, over " + toText(shares.size()) +
                     " stretches",
                 "trajectories of this rig are no better than that",
-                Verdict::kGood,
-                cause,
-                0.0},
+                cause},
                {share, median(promised), kAcceptable, kFix});
   };
   add("backward against forward",

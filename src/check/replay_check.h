@@ -32,6 +32,7 @@ class ReplayCheck {
 
  private:
   struct Step {
+    double time_s;
     StereoPair images;
     StereoCamera camera;
     OdometryResult result;
@@ -52,12 +53,10 @@ class ReplayCheck {
   void finishCompare();
 
   OdometryConfig config_;
-  int skipped_for_each_;  // stretches between two that are repeated
+  int repeated_of_;  // one of so many stretches is repeated
   int stretches_ = 0;
-  double first_s_ = 0.0;
   Stretch stretch_;
   std::future<std::optional<Difference>> comparison_;
-  double comparison_s_ = 0.0;
   std::vector<Difference> differences_;
   int lost_ = 0, pairs_ = 0;
   double share_ = 0.0;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -133,10 +131,10 @@ class PairChecks {
                                    "disparities have a bias of " +
                                    fixedText(bias_px, 1) + " px",
                                "depths and motions are wrong, however many features agree",
-                               Verdict::kFix,
                                "the images are not rectified, or by another calibration: take the "
-                               "topics `image_rect`, or "
-                               "set `rectify` for raw ones; otherwise calibrate the pair",
+                               "topics `image_rect`, or set `rectify` for raw ones; otherwise "
+                               "calibrate the pair",
+                               Verdict::kFix,
                                100.0});
   }
 
@@ -158,8 +156,8 @@ class PairChecks {
                                toText(pairs_ - with_motion_) + " of " + toText(pairs_) +
                                    " pairs have no motion" +
                                    (matters ? ", so that nothing else can be measured" : ""),
-                               matters ? Verdict::kFix : Verdict::kAcceptable,
                                colon == std::string::npos ? "" : fault_.substr(colon + 2),
+                               matters ? Verdict::kFix : Verdict::kAcceptable,
                                matters ? 100.0 : 0.9});
   }
 
@@ -202,8 +200,8 @@ void addUnusable(const std::string& why, RigReport& report) {
                              "pairs",
                              why.substr(0, end),
                              "no pair can be used",
-                             Verdict::kFix,
                              end == std::string::npos ? "" : why.substr(end + 2),
+                             Verdict::kFix,
                              1000.0});
 }
 
@@ -229,8 +227,8 @@ bool checkPairs(Recording& recording, const RigCheckOptions& options, CheckedRig
                                    "recording",
                                    error.what(),
                                    "the rest was not read",
-                                   Verdict::kAcceptable,
                                    "repair it, e.g. with `rosbag reindex`",
+                                   Verdict::kAcceptable,
                                    0.9});
   }
   input.report(checks.camera(), pairs.leftOut(), pairs.rectifies(), rig.report);

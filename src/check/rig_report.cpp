@@ -126,12 +126,6 @@ const char* toString(Verdict verdict) {
   return "unknown";
 }
 
-const std::vector<std::string>& sectionNames() {
-  static const std::vector<std::string> names = {
-      "inputs", "photometry", "rows", "disparities", "time", "view", "odometry"};
-  return names;
-}
-
 Verdict judge(const Graded& graded) {
   const double certain = std::abs(graded.value) - kSigmas * graded.sigma;
   if (!std::isfinite(certain)) return Verdict::kUnknown;

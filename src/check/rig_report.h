@@ -20,19 +20,16 @@ const char* toString(Verdict verdict);
 
 /// What is known of one property of a rig, for a person who has to decide what to do about it.
 struct Finding {
-  std::string section;   ///< one of sectionNames()
+  /// "inputs", "photometry", "rows", "disparities", "time", "view" or "odometry".
+  std::string section;
   std::string subject;   ///< the property, e.g. "roll of the right camera"
   std::string measured;  ///< with its uncertainty, e.g. "0.102 +- 0.003 deg"
   std::string cost;      ///< what it costs; empty if nothing
-  Verdict verdict = Verdict::kGood;
   std::string remedy;  ///< what to do; commands and lines of files in `backticks`; empty if nothing
+  Verdict verdict = Verdict::kGood;
   /// How many times its limit of acceptable the value is: orders findings of the same verdict.
   double severity = 0.0;
 };
-
-/// Sections in the order of the data flow: "inputs", "photometry", "rows", "disparities", "time",
-/// "view" and "odometry".
-const std::vector<std::string>& sectionNames();
 
 /// Numbers for the pictures of a report.
 struct ReportTable {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -25,8 +24,7 @@ constexpr std::size_t kFitted = 8000;
 constexpr double kAcceptable_px = 0.1;
 constexpr double kFix_px = 0.4;
 
-/// Of the time skew: the share of the period by which images of different times have different
-/// disparities.
+/// Of the time skew: what moves by 100 px/s has disparities that are wrong by the same limits.
 constexpr double kAcceptableSkew_s = 0.001;
 constexpr double kFixSkew_s = 0.004;
 
@@ -34,8 +32,7 @@ constexpr double kDegrees = 180.0 / M_PI;
 
 const char* const kCalibrate =
     "`rosrun rotrocc check_rig RECORDING --write-camera-info DIR` writes a corrected calibration; "
-    "or "
-    "calibrate the pair anew with camera_calibration";
+    "or recalibrate the pair with camera_calibration";
 
 struct CauseText {
   RowCause cause;
@@ -86,9 +83,8 @@ double velocityOf(const Correspondence& feature, const StereoCamera& camera, con
 Estimate medianOf(std::vector<double> values) {
   const double middle = median(values);
   for (double& value : values) value = std::abs(value - middle);
-  return {
-      middle,
-      1.25 * kDeviationOverMedian * median(values) / std::sqrt(static_cast<double>(values.size()))};
+  const double scatter = kDeviationOverMedian * median(values);
+  return {middle, kMedianOverMean * scatter / std::sqrt(static_cast<double>(values.size()))};
 }
 
 }  // namespace
@@ -109,12 +105,12 @@ void RowCheck::observe(const CheckedPair& pair) {
     if (!locate(pair.images, left, right)) continue;
     RowSample sample;
     sample.time_s = pair.time_s;
+    sample.left_px = left;
     sample.x_right = (right.x - camera_.cx_right) / camera_.fx;
     sample.y = (left.y - camera_.cy) / camera_.fy;
     sample.row_px = right.y - left.y;
     sample.velocity_pxps = velocityOf(feature, camera_, twist);
     samples_.push_back(sample);
-    left_px_.push_back(left);
   }
 }
 
@@ -134,9 +130,8 @@ void RowCheck::report(const Windows& windows, RigReport& report) {
                                "row differences",
                                "too few features with a motion",
                                "",
-                               Verdict::kUnknown,
                                "drive or carry the cameras through a scene with texture",
-                               0.0});
+                               Verdict::kUnknown});
     return;
   }
   addCauses(report);
@@ -176,9 +171,7 @@ void RowCheck::addCauses(RigReport& report) const {
                 measured,
                 "matches are searched in rows: features get lost from half a row on, and "
                 "disparities at slanted edges are wrong by a share of it",
-                Verdict::kGood,
-                kCalibrate,
-                0.0},
+                kCalibrate},
                {effect_px, model_.effect_sigmas_px[text.cause], kAcceptable_px, kFix_px});
   }
   const double skew_s = model_.causes[kTimeSkew];
@@ -188,9 +181,7 @@ void RowCheck::addCauses(RigReport& report) const {
               toText(Estimate{1e3 * skew_s, 1e3 * sigma_s}, "ms") + " later",
               "what moves by 100 px/s has disparities that are wrong by " +
                   fixedText(100.0 * std::abs(skew_s), 2) + " px, and so has all when the rig turns",
-              Verdict::kGood,
-              "trigger both cameras by the same signal, and give both the same exposure time",
-              0.0},
+              "trigger both cameras by the same signal, and give both the same exposure time"},
              {skew_s, sigma_s, kAcceptableSkew_s, kFixSkew_s});
 }
 
@@ -198,13 +189,11 @@ void RowCheck::addMap(RigReport& report) {
   const ImageGrid grid(camera_.width, camera_.height);
   std::vector<std::vector<double>> rows_px(grid.count());
   std::vector<double> models_px(grid.count(), 0.0);
-  std::vector<double> remainders_px;
   double squares = 0.0;
-  for (std::size_t i = 0; i < samples_.size(); ++i) {
-    const std::size_t cell = grid.of(left_px_[i].x, left_px_[i].y);
-    const double model_px = rowOf(camera_, model_.causes, samples_[i]);
-    rows_px[cell].push_back(samples_[i].row_px);
-    models_px[cell] += model_px;
+  for (const RowSample& sample : samples_) {
+    const std::size_t cell = grid.of(sample.left_px.x, sample.left_px.y);
+    rows_px[cell].push_back(sample.row_px);
+    models_px[cell] += rowOf(camera_, model_.causes, sample);
   }
   ReportTable table = {"rows_map", {"x_px", "y_px", "count", "row_px", "sigma_px", "model_px"}, {}};
   double cells = 0.0;
@@ -229,10 +218,8 @@ void RowCheck::addMap(RigReport& report) {
        "row differences that none of these explains",
        fixedText(remainder_px_, 2) + " px of " + fixedText(rms_px_, 2) + " px (rms over the image)",
        "smooth errors of the lenses",
-       Verdict::kGood,
        "calibrate with more views in the corners, or with another distortion model: "
-       "rational_polynomial or fisheye",
-       0.0},
+       "rational_polynomial or fisheye"},
       {remainder_px_, 0.0, 2.0 * kAcceptable_px, kFix_px});
 }
 
@@ -274,9 +261,7 @@ void RowCheck::addCourse(RigReport& report) {
       "row differences over time",
       "move by " + fixedText(motion_px, 2) + " px (rms), within " + fixedText(range_px, 2) + " px",
       "no calibration fits a rig that moves: turn rates and depths change with it",
-      Verdict::kGood,
-      "mount both cameras on one stiff bar, and fix lenses and connectors",
-      0.0};
+      "mount both cameras on one stiff bar, and fix lenses and connectors"};
   if (jumps) finding.measured += ", most of it in one step at " + fixedText(step_s, 0) + " s";
   report.add(finding, {motion_px, std::sqrt(variances) / count, kAcceptable_px, kFix_px});
   is_constant_ = motion_px < std::max(kAcceptable_px, 0.5 * rms_px_);

@@ -43,7 +43,6 @@ class RowCheck {
   FeatureTracker tracker_;
   StereoCamera camera_;
   std::vector<RowSample> samples_;
-  std::vector<cv::Point2f> left_px_;  // of the samples
   RowModel model_;
   double rms_px_ = 0.0;
   double remainder_px_ = 0.0;

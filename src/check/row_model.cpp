@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <utility>
 
 #include <ceres/ceres.h>
@@ -29,9 +28,6 @@ constexpr double kRobust = 0.7;
 
 /// What matching leaves in a part of the image, where windows are alike.
 constexpr double kMatching_px = 0.02;
-
-/// For a normal distribution: the standard deviation of the median over that of the mean.
-constexpr double kOfMedian = 1.2533;
 
 /// sin and cos of small angles would do; these hold for any.
 template <class T>
@@ -190,15 +186,15 @@ double sharedErrorFactor(const StereoCamera& camera,
   const ImageGrid grid(camera.width, camera.height);
   std::vector<std::vector<double>> remainders_px(grid.count());
   for (const RowSample& sample : samples) {
-    const std::size_t cell =
-        grid.of(camera.fx * sample.x_right + camera.cx_right, camera.fy * sample.y + camera.cy);
-    remainders_px[cell].push_back(sample.row_px - rowOf(camera, causes, sample));
+    remainders_px[grid.of(sample.left_px.x, sample.left_px.y)].push_back(
+        sample.row_px - rowOf(camera, causes, sample));
   }
   double squares = 0.0;
   double cells = 0.0;
   for (std::vector<double>& remainders : remainders_px) {
     if (remainders.size() < ImageGrid::kLeast) continue;
-    const double variance = kOfMedian * kOfMedian * noise_px * noise_px / remainders.size();
+    const double variance =
+        kMedianOverMean * kMedianOverMean * noise_px * noise_px / remainders.size();
     squares += std::pow(median(remainders), 2) - variance;
     cells += 1.0;
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <opencv2/core.hpp>
 
 #include "rotrocc/stereo_camera.h"
 
@@ -13,6 +14,7 @@ namespace rotrocc {
 /// Where a feature is in the right image, relative to where a rectified pair has it.
 struct RowSample {
   double time_s = 0.0;
+  cv::Point2f left_px;
   double x_right = 0.0;        ///< normalized coordinate in the right image
   double y = 0.0;              ///< normalized coordinate in the left image
   double row_px = 0.0;         ///< how much lower the feature is in the right image

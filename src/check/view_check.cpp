@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -199,9 +198,7 @@ void ViewCheck::addDisparities(RigReport& report) const {
                      "corners with a disparity",
                      percent(with_depth),
                      "corners without one are no features",
-                     Verdict::kGood,
-                     "",
-                     0.0};
+                     ""};
   const std::pair<int, const char*> reasons[] = {
       {missing_.too_near, "nearer than max_disparity_px reaches"},
       {missing_.beyond_infinity, "as far as the horizon or beyond"},
@@ -242,9 +239,7 @@ void ViewCheck::addCoverage(RigReport& report) const {
               "coverage",
               "features in " + percent(1.0 - empty) + " of the image",
               "rotation and translation look alike in a part of the image",
-              Verdict::kGood,
-              "turn the cameras to where there is texture, or use wider lenses",
-              0.0},
+              "turn the cameras to where there is texture, or use wider lenses"},
              {empty, 0.0, kAcceptableEmpty, kFixEmpty});
 }
 
@@ -264,9 +259,7 @@ void ViewCheck::addDepths(RigReport& report) const {
                   fixedText(quantile(0.1), 1) + " and " + fixedText(quantile(0.9), 1) +
                   " m; a disparity of " + fixedText(typical_px, 1) + " px",
               "the way is known as well as the near depths are",
-              Verdict::kGood,
-              "a longer baseline, a longer focal length, or look lower",
-              0.0},
+              "a longer baseline, a longer focal length, or look lower"},
              {1.0 / typical_px, 0.0, kFewPixels, kHardlyAny});
   ReportTable table = {"depths", {"depth_m", "features"}, {}};
   constexpr double kStep = 1.25892541179;  // ten bins for a power of ten
@@ -314,10 +307,8 @@ void ViewCheck::addMask(RigReport& report) const {
        percent(masked) + " of the image",
        "what moves with the cameras looks like standstill: its features are rejected, or pull "
        "the motion towards it",
-       Verdict::kGood,
        "look at `mask.png` of the report, and if it is the robot itself or a reflection, set "
-       "the parameter `mask` to it",
-       0.0},
+       "the parameter `mask` to it"},
       {masked, 0.0, kAcceptableMasked, kFixMasked});
   if (masked <= kAcceptableMasked) return;
   report.mask = cv::Mat::zeros(camera_.height, camera_.width, CV_8UC1);

@@ -36,10 +36,6 @@ std::size_t Windows::of(double time_s) const {
   return static_cast<std::size_t>(std::clamp(window, 0.0, static_cast<double>(count_ - 1)));
 }
 
-double Windows::middle_s(std::size_t window) const {
-  return first_s_ + (static_cast<double>(window) + 0.5) * length_s_;
-}
-
 Estimate overWindows(const std::vector<TimedValue>& values, const Windows& windows) {
   std::vector<std::vector<double>> parts(windows.count());
   for (const TimedValue& timed : values) {

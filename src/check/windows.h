@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,7 +28,6 @@ class Windows {
 
   std::size_t count() const { return count_; }
   std::size_t of(double time_s) const;
-  double middle_s(std::size_t window) const;
 
  private:
   double first_s_;

@@ -9,6 +9,9 @@ namespace rotrocc {
 /// Standard deviation of normal errors, over the median of their absolute values.
 constexpr double kDeviationOverMedian = 1.4826;
 
+/// Standard deviation of the median of normal errors, over that of their mean.
+constexpr double kMedianOverMean = 1.2533;
+
 /// The median of at least one value; the upper one of an even number. Reorders `values`.
 template <class Number>
 Number median(std::vector<Number>& values) {

@@ -40,7 +40,7 @@ std::string newDirectory() {
 
 LiveCheck::~LiveCheck() {
   if (process_ <= 0) return;
-  kill(process_, SIGTERM);
+  kill(-process_, SIGKILL);  // and draw_report; its minute may not be over when the node ends
   waitpid(process_, nullptr, 0);
 }
 

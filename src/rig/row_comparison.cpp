@@ -19,9 +19,6 @@ constexpr int kLeastObservations = 3;
 /// accurate.
 constexpr double kNotable_px = 0.5;
 
-/// For a normal distribution: the standard deviation of the median over that of the mean.
-constexpr double kOfMedian = 1.2533;
-
 }  // namespace
 
 RowComparison::RowComparison() {
@@ -53,7 +50,7 @@ void RowComparison::estimate() {
   sorted_px_ = last_px_;
   offset_.median_px = median(sorted_px_);
   const double scatter_px = kDeviationOverMedian * medianDistanceFrom(offset_.median_px);
-  offset_.sigma_px = kOfMedian * scatter_px / std::sqrt(static_cast<double>(last_px_.size()));
+  offset_.sigma_px = kMedianOverMean * scatter_px / std::sqrt(static_cast<double>(last_px_.size()));
   offset_.typical_px = medianDistanceFrom(0.0);
   if (!isKnown()) return;
   // An offset above the scatter is above 8 sigma, because there are at least kLeastFeatures.
