@@ -7,6 +7,7 @@ namespace rotrocc {
 void DropLog::add(const InputError& error) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++countOf(error.reason());
+  ++refused_;
   log(error);
   last_ = error;
   last_time_ = std::chrono::steady_clock::now();
@@ -31,7 +32,13 @@ void DropLog::count(DropReason reason, std::uint64_t count) {
 
 void DropLog::set(DropReason reason, std::uint64_t count) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  refused_ += count - countOf(reason);
   countOf(reason) = count;
+}
+
+std::uint64_t DropLog::refused() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return refused_;
 }
 
 DropLog::Counts DropLog::counts() const {

@@ -30,6 +30,9 @@ class DropLog {
   void count(DropReason reason, std::uint64_t count = 1);
   void set(DropReason reason, std::uint64_t count);
 
+  /// Images and infos that add() and set() have counted.
+  std::uint64_t refused() const;
+
   /// The reasons that have occurred, in the order of DropReason.
   Counts counts() const;
 
@@ -46,6 +49,7 @@ class DropLog {
   Log log_;
   mutable std::mutex mutex_;
   std::array<std::uint64_t, static_cast<std::size_t>(DropReason::kCount)> counts_{};
+  std::uint64_t refused_ = 0;
   std::map<DropReason, Throttle> throttles_;
   Throttle camera_throttle_{std::chrono::seconds(1)};
   std::string camera_error_;

@@ -43,31 +43,36 @@ std::string situationOf(const InputReport& input) {
 SilenceWatch::SilenceWatch(double silence_s, Time now, Log log)
     : log_(std::move(log)), silence_limit_(silence_s), last_pair_(now), last_warning_(now) {}
 
-void SilenceWatch::onPair(const Pair& pair, bool explains, Time now) {
+void SilenceWatch::onPair(const Pair& pair, std::uint64_t dropped, Time now) {
   const Duration gap = silence(now);
-  const std::string again = "stereo pairs arrive again, after " + seconds(gap);
-  const bool may_warn = now - last_warning_ >= kLeastDistance;
+  const auto again = [&] { return "stereo pairs arrive again, after " + seconds(gap); };
   if (std::exchange(told_, false)) {
-    log_.info(again);
-  } else if (may_warn && ((isGap(gap) && !explains) || isJump(pair, gap))) {
-    last_warning_ = now;
-    log_.warn(isGap(gap)
-                  ? again
-                  : "time jumped forward from " + stampText(last_->stamp_ns) + " to " +
-                        stampText(pair.stamp_ns) + " s: the odometry goes on at the last pose");
+    log_.info(again());
+  } else if (now - last_warning_ >= kLeastDistance) {
+    const bool is_gap = isGap(gap, dropped - dropped_);
+    if (is_gap || isJump(pair, gap)) {
+      last_warning_ = now;
+      log_.warn(is_gap
+                    ? again()
+                    : "time jumped forward from " + stampText(last_->stamp_ns) + " to " +
+                          stampText(pair.stamp_ns) + " s: the odometry goes on at the last pose");
+    }
   }
   last_ = pair;
+  dropped_ = dropped;
   last_pair_ = now;
   intervals_.push_back(gap);
   if (intervals_.size() > kIntervals) intervals_.pop_front();
 }
 
-bool SilenceWatch::isGap(Duration silence) const {
+/// One that drops do not explain.
+bool SilenceWatch::isGap(Duration silence, std::uint64_t dropped) const {
   if (intervals_.size() < kIntervals || silence < kLeastGap) return false;
   std::deque<Duration> sorted = intervals_;
   const auto median = sorted.begin() + sorted.size() / 2;
   std::nth_element(sorted.begin(), median, sorted.end());
-  return silence >= kUsualIntervals * *median;
+  const double missing = silence / *median - 1.0;
+  return silence >= kUsualIntervals * *median && 2.0 * static_cast<double>(dropped) < missing;
 }
 
 /// Whether stamps and clock jumped forward by more than the time that passed.

@@ -26,13 +26,11 @@ class SilenceWatch {
   /// Warns after `silence_s` without a pair, counted from `now` at first.
   SilenceWatch(double silence_s, Time now, Log log);
 
-  /// Without a pair until `now`.
-  std::chrono::duration<double> silence(Time now) const { return now - last_pair_; }
-
-  /// Call for every pair. Logs the end of a silence that was logged. Warns, at most every 5 s, of
-  /// one that was far longer than usual, unless the log `explains` it, or much shorter than the
-  /// stamps say, unless that is by clocks that differ: then their age tells it.
-  void onPair(const Pair& pair, bool explains, Time now);
+  /// Call for every pair, with the number of images that were `dropped` so far. Logs the end of a
+  /// silence that was logged. Warns, at most every 5 s, of one that was far longer than usual,
+  /// unless half of its pairs were dropped, which the log has said, or much shorter than the stamps
+  /// say, unless that is by clocks that differ: then their age tells it.
+  void onPair(const Pair& pair, std::uint64_t dropped, Time now);
 
   /// Call about once a second. Warns of a silence with its duration, the received messages and a
   /// remedy: at its start, when topics or their messages appear or disappear (at most every 5 s),
@@ -43,13 +41,15 @@ class SilenceWatch {
  private:
   using Duration = std::chrono::duration<double>;
 
-  bool isGap(Duration silence) const;
+  Duration silence(Time now) const { return now - last_pair_; }
+  bool isGap(Duration silence, std::uint64_t dropped) const;
   bool isJump(const Pair& pair, Duration passed) const;
 
   Log log_;
   Duration silence_limit_;
   Time last_pair_;
   std::optional<Pair> last_;
+  std::uint64_t dropped_ = 0;       // until then
   std::deque<Duration> intervals_;  // the latest, between pairs
   bool told_ = false;               // this silence was reported
   Time last_told_;

@@ -93,10 +93,8 @@ StereoOdometry::~StereoOdometry() {
 }
 
 void StereoOdometry::onPair(ReceivedPair pair) {
-  const SteadyClock::time_point now = SteadyClock::now();
   const std::int64_t stamp_ns = toNanoseconds(pair.images.left->header.stamp);
-  const bool drops_explain_it = drops_.lastWithin(silence_.silence(now)).has_value();
-  silence_.onPair({stamp_ns, pair.stamp_age_s}, drops_explain_it, now);
+  silence_.onPair({stamp_ns, pair.stamp_age_s}, drops_.refused(), SteadyClock::now());
   if (health_.paused()) return drops_.count(DropReason::kPaused);
   if (mailbox_.put(std::move(pair))) drops_.count(DropReason::kSuperseded);
 }

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
@@ -154,6 +156,30 @@ std::unique_ptr<Recording> openTopics(const Options& options, const NodeParamete
   return std::make_unique<LiveRecording>(live);
 }
 
+/// With the pairs as progress.
+CheckedRig checkAll(Recording& recording, RigCheckOptions check) {
+  ProgressBar progress("check", recording.size());
+  check.on_pair = [&] { progress.advance(); };
+  CheckedRig rig = checkRig(recording, check);
+  progress.finish();
+  return rig;
+}
+
+/// With the seconds since the first pair as progress: how many come is not known.
+CheckedRig checkLive(Recording& recording, double duration_s, RigCheckOptions check) {
+  using Clock = std::chrono::steady_clock;
+  ProgressBar progress("check [s]", static_cast<std::size_t>(std::ceil(duration_s)));
+  std::optional<Clock::time_point> begin;
+  check.on_pair = [&] {
+    if (!begin) begin = Clock::now();
+    const std::chrono::duration<double> passed = Clock::now() - *begin;
+    progress.advanceTo(static_cast<std::size_t>(std::ceil(std::min(passed.count(), duration_s))));
+  };
+  CheckedRig rig = checkRig(recording, check);
+  progress.finish();
+  return rig;
+}
+
 /// The recording is closed after it: ROS must not run any more when the program exits.
 CheckedRig checkInput(const Options& options) {
   RigCheckOptions check;
@@ -163,13 +189,8 @@ CheckedRig checkInput(const Options& options) {
   const std::unique_ptr<Recording> recording =
       options.live ? openTopics(options, node) : openInput(options.input, node);
   if (!options.imu.empty()) check.gyroscope = recording->gyroscope(options.imu);
-  std::optional<ProgressBar> progress(std::in_place, "check", recording->size());
-  check.on_pair = [&] {
-    if (progress) progress->advance();
-  };
-  CheckedRig rig = checkRig(*recording, check);
-  progress->finish();
-  progress.reset();
+  CheckedRig rig =
+      options.live ? checkLive(*recording, options.duration_s, check) : checkAll(*recording, check);
   if (!options.camera_info.empty()) addCorrection(options, *recording, check, rig);
   return rig;
 }

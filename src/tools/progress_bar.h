@@ -13,7 +13,9 @@ class ProgressBar {
   ProgressBar(std::string label, std::size_t total);
 
   /// Counts one more item.
-  void advance();
+  void advance() { advanceTo(done_ + 1); }
+  /// Items, or seconds, so far.
+  void advanceTo(std::size_t done);
 
   /// Shows the final count and ends the line. Call once, at the end.
   void finish();

@@ -36,8 +36,14 @@ TEST(TfConflictTest, AdviceIsAccepted) {
   const PublishedTf own = publishedTf("/odometry", parameters);
   EXPECT_EQ(own.parent, "visual_odom");
   EXPECT_EQ(own.child, "odom");
-  EXPECT_EQ(describe(own, "/amcl", "map"),
-            "/amcl publishes tf map -> odom, and /odometry publishes visual_odom -> odom, but a "
+  EXPECT_EQ(
+      describe(own, "/amcl", "map"),
+      "/amcl publishes tf map -> odom, and /odometry publishes visual_odom -> odom, but a "
+      "frame has only one parent: if that is a localization, set its odom frame to "
+      "visual_odom (odom_frame_id of amcl); otherwise set publish_tf to false in one of them");
+  // The other way round, base_link is the parent.
+  EXPECT_EQ(describe({"/odometry", "base_link", "odom"}, "/amcl", "map"),
+            "/amcl publishes tf map -> odom, and /odometry publishes base_link -> odom, but a "
             "frame has only one parent: set publish_tf to false in one of them");
 }
 

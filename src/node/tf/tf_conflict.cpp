@@ -60,7 +60,11 @@ std::string describeConflict(const PublishedTf& own,
                                     : rival.node + " publishes tf " + edge(rival) + ", and " +
                                           own.node + " publishes " + edge(own) +
                                           ", but a frame has only one parent";
-  if (own.child != base_frame) return conflict + ": set publish_tf to false in one of them";
+  if (own.parent == base_frame) return conflict + ": set publish_tf to false in one of them";
+  if (own.child != base_frame) {
+    return conflict + ": if that is a localization, set its odom frame to " + own.parent +
+           " (odom_frame_id of amcl); otherwise set publish_tf to false in one of them";
+  }
   return conflict + ": set publish_tf to false if that is a filter that uses this odometry, or " +
          (same ? "odom_frame to visual_" + own.parent + " and " : "") + "guess_frame to " +
          rival.parent + " if it is another odometry";
