@@ -19,12 +19,6 @@
 namespace rotrocc {
 namespace {
 
-constexpr double kSigmas = 3.0;
-
-bool isSignificant(double value, double sigma) {
-  return std::isfinite(sigma) && std::abs(value) > kSigmas * sigma;
-}
-
 template <class Numbers>
 YAML::Node matrixOf(int rows, const Numbers& numbers) {
   YAML::Node matrix;
@@ -54,25 +48,26 @@ void writeInfo(const sensor_msgs::CameraInfo& info,
   if (!out.flush()) throw std::runtime_error(path + " cannot be written");
 }
 
-/// Whether a calibration can make something better: fitRows() sets what is not significant to zero.
+/// Whether disparities have a bias rather than none: the odometry applies the share that is likely.
+bool isBiased(const DisparityBias& bias) {
+  return bias.applied_px / bias.estimated_px > 0.5;
+}
+
+/// Whether a calibration can make something better: rows that are not significant are zero.
 bool hasErrors(const RigMeasures& measures) {
   const RowCauses& causes = measures.rows.causes;
   const auto isCause = [](double value) { return value != 0.0; };
   return std::any_of(causes.begin(), causes.begin() + kTimeSkew, isCause) ||
-         isSignificant(measures.bias.estimated_px, measures.bias.sigma_px);
+         isBiased(measures.bias);
 }
 
 /// Again by what is left over: rows first, then the disparities that they leave.
-Correction correctedBy(Recording& recording,
-                       const RigCheckOptions& options,
-                       RigMeasures measures,
-                       bool with_yaw) {
+Correction correctedBy(Recording& recording, const RigCheckOptions& options, RigMeasures measures) {
   RigCheckOptions rectified = options;
   rectified.rectify = "yes";
   constexpr int kMostPasses = 4;
   Correction correction;
   for (int pass = 0; pass < kMostPasses; ++pass) {
-    if (!with_yaw) measures.rows.causes[kYaw] = 0.0;
     if (pass > 0 && !hasErrors(measures)) break;
     correction.calibration = correct(measures);
     RecalibratedRecording recalibrated(recording, correction.calibration);
@@ -118,10 +113,7 @@ StereoCalibration correct(const RigMeasures& measures) {
     coefficients.front() += causes[kLens];
     right.distortion = {right.distortion.name(), coefficients};
   }
-  const DisparityBias& bias = measures.bias;
-  if (isSignificant(bias.estimated_px, bias.sigma_px)) {
-    right.cx += bias.estimated_px * raw_over_rectified;
-  }
+  if (isBiased(measures.bias)) right.cx += measures.bias.estimated_px * raw_over_rectified;
   return corrected;
 }
 
@@ -141,13 +133,8 @@ std::optional<Correction> findCorrection(Recording& recording,
     why_not = "rows and disparities have no error beyond their uncertainty";
     return std::nullopt;
   }
-  std::optional<Correction> correction = correctedBy(recording, options, before, true);
-  why_not = whyWorse(before, correction->checked.measures);
-  if (!why_not.empty() && before.rows.causes[kYaw] != 0.0) {
-    // Lenses make rows of the same shape, without the disparities of a camera that is turned.
-    correction = correctedBy(recording, options, before, false);
-    why_not = whyWorse(before, correction->checked.measures);
-  }
+  Correction correction = correctedBy(recording, options, before);
+  why_not = whyWorse(before, correction.checked.measures);
   if (!why_not.empty()) return std::nullopt;
   return correction;
 }

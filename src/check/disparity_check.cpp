@@ -5,9 +5,12 @@
 #include <string>
 #include <utility>
 
+#include <Eigen/Cholesky>
+
 #include "check/image_grid.h"
 #include "common/median.h"
 #include "input/to_text.h"
+#include "motion/cauchy_weights.h"
 
 namespace rotrocc {
 namespace {
@@ -60,10 +63,13 @@ void DisparityCheck::measure(const CheckedPair& pair, std::size_t index) {
   const double information = slope.squaredNorm();
   const double sigma_px = pair.result.flow_noise_px / std::sqrt(information);
   if (!(sigma_px < kMostSigma_px)) return;
-  errors_.push_back({static_cast<float>(feature.cur_px.x()),
-                     static_cast<float>(feature.cur_px.y()),
-                     static_cast<float>(slope.dot(residual) / information + corrected_px),
-                     static_cast<float>(sigma_px)});
+  errors_.push_back(
+      {static_cast<float>(feature.cur_px.x()),
+       static_cast<float>(feature.cur_px.y()),
+       static_cast<float>((feature.cur_px.x() - feature.disparity_px - camera_.cx_right) /
+                          camera_.fx),
+       static_cast<float>(slope.dot(residual) / information + corrected_px),
+       static_cast<float>(sigma_px)});
 }
 
 void DisparityCheck::report(const Windows& windows, RigReport& report) const {
@@ -102,6 +108,38 @@ void DisparityCheck::report(const Windows& windows, RigReport& report) const {
     course.rows.push_back({biases_px_[i].time_s, biases_px_[i].value, bias_sigmas_px_[i]});
   }
   report.tables.push_back(std::move(course));
+}
+
+/// A right camera that is turned by a small yaw sees x at x - yaw (1 + x^2), in normalized
+/// coordinates. The constant part is one with the bias, and a slope with the focal length.
+double DisparityCheck::keystone_rad() const {
+  constexpr std::size_t kLeastErrors = 100;
+  constexpr double kRobust = 4.0;
+  constexpr int kIterations = 10;
+  if (errors_.size() < kLeastErrors) return 0.0;
+  std::vector<double> weights(errors_.size(), 1.0);
+  std::vector<double> residuals(errors_.size());
+  Eigen::Vector3d fit = Eigen::Vector3d::Zero();
+  const auto rowOf = [&](const Error& error) {
+    const double x = error.x_right;
+    return Eigen::Vector3d(1.0, x, -camera_.fx * x * x);
+  };
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < errors_.size(); ++i) {
+      const Eigen::Vector3d row = rowOf(errors_[i]) / errors_[i].sigma_px;
+      information += weights[i] * row * row.transpose();
+      weighted += weights[i] * errors_[i].correction_px / errors_[i].sigma_px * row;
+    }
+    fit = information.ldlt().solve(weighted);
+    for (std::size_t i = 0; i < errors_.size(); ++i) {
+      residuals[i] =
+          std::abs(errors_[i].correction_px - rowOf(errors_[i]).dot(fit)) / errors_[i].sigma_px;
+    }
+    cauchyWeights(kRobust, residuals, weights);
+  }
+  return fit.z();
 }
 
 /// How far the bias moves around its mean, and how well it is known: both mean squares over the

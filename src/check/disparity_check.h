@@ -21,10 +21,15 @@ class DisparityCheck {
   /// Of the last pair.
   const DisparityBias& bias() const { return bias_; }
 
+  /// The yaw of the right camera [rad] that errors of the disparities have the shape of; 0 if there
+  /// are few.
+  double keystone_rad() const;
+
  private:
   /// The error of a single disparity: the correction that makes it agree with the motion.
   struct Error {
     float x_px, y_px;
+    float x_right;  ///< normalized coordinate in the right image
     float correction_px;
     float sigma_px;
   };

@@ -74,7 +74,7 @@ class PairChecks {
     addFault(report);
     if (!isMostlyLost()) {
       photometry_.report(windows, report);
-      rows_.report(windows, report);
+      rows_.report(windows, disparities_.keystone_rad(), report);
       disparities_.report(windows, report);
       if (gyro_) gyro_->report(windows, report);
       view_.report(report);
@@ -90,7 +90,7 @@ class PairChecks {
                                camera_.cy}}});
     report.left = left_;
     report.right = right_;
-    rig.measures.rows = rows_.model();
+    rig.measures.rows = rows_.correctable();
     rig.measures.rows_rms_px = rows_.rms_px();
     rig.measures.rows_are_constant = rows_.isConstant();
     rig.measures.bias = disparities_.bias();

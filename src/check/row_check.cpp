@@ -34,6 +34,10 @@ const char* const kCalibrate =
     "`rosrun rotrocc check_rig RECORDING --write-camera-info DIR` writes a corrected calibration; "
     "or recalibrate the pair with camera_calibration";
 
+const char* const kOtherLens =
+    "calibrate with more views in the corners, or with another distortion model: "
+    "rational_polynomial or fisheye";
+
 struct CauseText {
   RowCause cause;
   const char* subject;
@@ -123,8 +127,21 @@ bool RowCheck::locate(const StereoPair& images, const cv::Point2f& left, cv::Poi
   return true;
 }
 
-void RowCheck::report(const Windows& windows, RigReport& report) {
+RowModel RowCheck::correctable() const {
+  RowModel model = model_;
+  if (!isYaw()) model.causes[kYaw] = 0.0;
+  return model;
+}
+
+/// Some lenses, or rectifications, make rows of the same shape. The errors of disparities by a yaw
+/// are so much larger than those of rows that they are either there or not.
+bool RowCheck::isYaw() const {
+  return keystone_rad_ / model_.causes[kYaw] > 0.5;
+}
+
+void RowCheck::report(const Windows& windows, double keystone_rad, RigReport& report) {
   fit(windows);
+  keystone_rad_ = keystone_rad;
   if (samples_.size() < kLeastSamples) {
     report.findings.push_back({"rows",
                                "row differences",
@@ -166,12 +183,17 @@ void RowCheck::addCauses(RigReport& report) const {
     } else {
       measured += ", " + fixedText(effect_px, 2) + " px of rows";
     }
+    const bool is_of_lens = text.cause == kYaw && value != 0.0 && !isYaw();
+    if (is_of_lens) {
+      measured += "; of a lens, as disparities show a yaw of " +
+                  fixedText(kDegrees * keystone_rad_, 2) + " deg";
+    }
     report.add({"rows",
                 text.subject,
                 measured,
                 "matches are searched in rows: features get lost from half a row on, and "
                 "disparities at slanted edges are wrong by a share of it",
-                kCalibrate},
+                is_of_lens ? kOtherLens : kCalibrate},
                {effect_px, model_.effect_sigmas_px[text.cause], kAcceptable_px, kFix_px});
   }
   const double skew_s = model_.causes[kTimeSkew];
@@ -218,8 +240,7 @@ void RowCheck::addMap(RigReport& report) {
        "row differences that none of these explains",
        fixedText(remainder_px_, 2) + " px of " + fixedText(rms_px_, 2) + " px (rms over the image)",
        "smooth errors of the lenses",
-       "calibrate with more views in the corners, or with another distortion model: "
-       "rational_polynomial or fisheye"},
+       kOtherLens},
       {remainder_px_, 0.0, 2.0 * kAcceptable_px, kFix_px});
 }
 

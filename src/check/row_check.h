@@ -21,11 +21,15 @@ class RowCheck {
   /// Samples the inliers of a pair with a motion.
   void observe(const CheckedPair& pair);
 
-  /// Adds the sections rows and time, the maps of the rows and their course.
-  void report(const Windows& windows, RigReport& report);
+  /// Adds the sections rows and time, the maps of the rows and their course. `keystone_rad` is the
+  /// yaw of the right camera that the disparities show.
+  void report(const Windows& windows, double keystone_rad, RigReport& report);
 
-  /// Of the last report.
-  const RowModel& model() const { return model_; }
+  // Of the last report:
+
+  /// What a calibration can correct. Rows of the shape of a yaw are not, if the disparities do not
+  /// have the errors of one.
+  RowModel correctable() const;
   /// Mean square of the rows, square root [px]: what a calibration is to make small.
   double rms_px() const { return rms_px_; }
   /// What the model does not explain of it: lenses leave some hundredths of a pixel.
@@ -36,6 +40,7 @@ class RowCheck {
  private:
   bool locate(const StereoPair& images, const cv::Point2f& left, cv::Point2f& right);
   void fit(const Windows& windows);
+  bool isYaw() const;
   void addCauses(RigReport& report) const;
   void addMap(RigReport& report);
   void addCourse(RigReport& report);
@@ -44,6 +49,7 @@ class RowCheck {
   StereoCamera camera_;
   std::vector<RowSample> samples_;
   RowModel model_;
+  double keystone_rad_ = 0.0;
   double rms_px_ = 0.0;
   double remainder_px_ = 0.0;
   bool is_constant_ = true;

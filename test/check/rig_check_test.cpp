@@ -260,6 +260,12 @@ TEST(RigCheckTest, CorrectsTheCalibration) {
   ASSERT_TRUE(correction) << why_not;
   EXPECT_GT(before.measures.rows_rms_px, 0.5);
   EXPECT_LT(correction->checked.measures.rows_rms_px, 0.05);
+  // The yaw is seen by rows once the larger faults are corrected. A pitch may be an offset of rows.
+  const Eigen::AngleAxisd left(options.faults.rightCamera(options.camera).linear().transpose() *
+                               correction->calibration.right.R_rectified_raw);
+  const Eigen::Vector3d left_rad = left.angle() * left.axis();
+  EXPECT_LT(std::abs(left_rad.y()), 0.1 * 0.1 * kRadians);
+  EXPECT_LT(std::abs(left_rad.z()), 0.1 * 0.15 * kRadians);
   for (const Finding& finding : correction->checked.report.findings) {
     EXPECT_NE(finding.verdict, Verdict::kFix) << finding.subject << ": " << finding.measured;
   }
@@ -275,6 +281,33 @@ TEST(RigCheckTest, CorrectsTheCalibration) {
   std::cout << "error at the end of 53 m: " << error_perfect_m << " m perfect, " << error_before_m
             << " m with the fault, " << error_after_m << " m corrected\n";
   EXPECT_LT(error_after_m - error_perfect_m, 0.1 * (error_before_m - error_perfect_m));
+}
+
+/// Moves rows of the right image as a yaw of half a degree does, but leaves the disparities.
+void bendRows(cv::Mat&, cv::Mat& right) {
+  const StereoCamera camera = perfectRig().camera;
+  cv::Mat places(right.size(), CV_32FC2);
+  places.forEach<cv::Point2f>([&](cv::Point2f& place, const int* pixel) {
+    const double x = (pixel[1] - camera.cx_right) / camera.fx;
+    const double y = (pixel[0] - camera.cy) / camera.fy;
+    place.x = static_cast<float>(pixel[1]);
+    place.y = static_cast<float>(pixel[0] + camera.fy * 0.5 * kRadians * x * y);
+  });
+  cv::remap(right, right, places, {}, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
+}
+
+/// As KITTI's rectified images are: a calibration with that yaw would have wrong depths.
+TEST(RigCheckTest, RowsOfALensAreNoYaw) {
+  const CheckedRig rig = check({"bent", [](SimulationOptions&) {}, ofImages(bendRows)});
+  const std::vector<Finding>& findings = rig.report.findings;
+  const auto yaw = std::find_if(findings.begin(), findings.end(), [](const Finding& finding) {
+    return finding.subject == "keystone (yaw) of the right camera";
+  });
+  ASSERT_NE(yaw, findings.end());
+  const Estimate rows_deg = estimateOf(*yaw);
+  EXPECT_GT(std::abs(rows_deg.value), 10.0 * rows_deg.sigma) << yaw->measured;
+  EXPECT_NE(yaw->measured.find("of a lens"), std::string::npos) << yaw->measured;
+  EXPECT_EQ(rig.measures.rows.causes[kYaw], 0.0);
 }
 
 TEST(RigCheckTest, CorrectsNeitherAPerfectRigNorOneThatMoves) {
