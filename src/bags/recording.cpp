@@ -234,11 +234,11 @@ std::unique_ptr<Recording> openRecording(const std::vector<std::string>& paths,
   if (const auto bags = bagsIn(directory); !bags.empty()) {
     return std::make_unique<BagRecording>(bags, options);
   }
-  if (!options.calibration.empty()) {
-    throw std::invalid_argument(directory + " is no bag, and a sequence has its own calibration");
-  }
-  return std::make_unique<SequenceRecording>(
-      directory, SequenceRecording::Options{std::nullopt, !options.raw_sequence, options.sequence});
+  SequenceRecording::Options of_sequence;
+  of_sequence.rectify = !options.raw_sequence;
+  of_sequence.sequence = options.sequence;
+  of_sequence.calibration = options.calibration;
+  return std::make_unique<SequenceRecording>(directory, of_sequence);
 }
 
 nav_msgs::Path pathOfBase(const Trajectory& recorded, const Eigen::Isometry3d& T_base_body) {

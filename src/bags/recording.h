@@ -86,7 +86,8 @@ struct RecordingOptions {
   std::string left_image;  ///< topics of the pair in a bag; empty: findStereoTopics()
   std::string right_image;
   std::string base_frame = "base_link";  ///< of a bag: its recorded poses are the true path
-  /// Files of readStereoCalibration(), in place of the camera_info of a bag; empty: none.
+  /// Files of readStereoCalibration(), in place of camera_info and of a sequence's own calibration;
+  /// empty: none.
   std::vector<std::string> calibration;
   bool raw_sequence = false;  ///< images of a sequence as they were recorded; otherwise rectified
   SequenceOptions sequence;

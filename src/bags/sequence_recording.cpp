@@ -12,6 +12,7 @@
 #include "input/camera_calibration.h"
 #include "input/input_error.h"
 #include "input/message_conversion.h"
+#include "sequences/calibration_file.h"
 
 namespace rotrocc {
 namespace {
@@ -62,6 +63,9 @@ SequenceRecording::SequenceRecording(const std::string& directory, const Options
       offset_ns_(offsetOf(sequence_, options.start_time_s)),
       calibration_(sequence_.calibration) {
   requireRosStamps(sequence_, offset_ns_);
+  if (!options.calibration.empty()) {
+    calibration_ = readStereoCalibration(options.calibration, options.sequence.baseline_m);
+  }
   if (options.rectify && !calibration_.isRectified()) {
     rectifier_.emplace();
     raw_calibration_ = std::make_shared<const StereoCalibration>(calibration_);

@@ -26,9 +26,11 @@ class SequenceRecording : public Recording {
     std::optional<std::int64_t> start_time_s;
     bool rectify = false;  ///< images that are not rectified
     SequenceOptions sequence = {};
+    std::vector<std::string> calibration = {};  ///< files in place of that of the sequence
   };
 
-  /// Throws like openStereoSequence(), and std::invalid_argument if the stamps are out of range.
+  /// Throws like openStereoSequence() and readStereoCalibration(), and std::invalid_argument if the
+  /// stamps are out of range.
   SequenceRecording(const std::string& directory, const Options& options);
 
   std::string description() const override;

@@ -34,8 +34,8 @@ po::options_description imageOptions(InputOptions& options) {
       "alike, and camera_info describes raw images");
   add("calibration",
       po::value(&options.recording.calibration)->multitoken(),
-      "files in place of camera_info: left.yaml right.yaml of camera_calibration, or a camchain of "
-      "Kalibr");
+      "files in place of the recorded calibration: left.yaml right.yaml of camera_calibration, or "
+      "a camchain of Kalibr");
   return images;
 }
 
