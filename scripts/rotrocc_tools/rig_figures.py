@@ -31,10 +31,10 @@ def courses(panels, path):
     save(figure, path)
 
 
-def largest(*values):
-    """Of finite values, for a symmetric scale; never 0."""
+def largest_px(*values):
+    """Of finite values, for a symmetric scale: at least a quarter of a pixel, below which nothing matters."""
     finite = numpy.concatenate([numpy.abs(value[numpy.isfinite(value)]) for value in values])
-    return max(finite.max() if finite.size else 0.0, 1e-3)
+    return max(finite.max() if finite.size else 0.0, 0.25)
 
 
 def draw_map(panel, table, values, size, picture, colour_map, limits):

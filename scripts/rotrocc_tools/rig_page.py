@@ -38,14 +38,18 @@ def with_code(words):
     return re.sub('`([^`]*)`', r'<code>\1</code>', page.text(words))
 
 
-def card(finding):
+def card(finding, said):
+    """With cost and remedy, unless a card before has said the same."""
     title = '%s: %s' % (page.text(finding['section']), page.text(finding['subject']))
     parts = [badge(finding['verdict']), '<b>%s</b>' % title,
              '<p>%s</p>' % words_of(finding['measured'])]
-    if finding['cost']:
-        parts.append('<p>Cost: %s</p>' % page.text(finding['cost']))
-    if finding['remedy']:
-        parts.append('<p>To do: %s</p>' % with_code(finding['remedy']))
+    advice = finding['cost'], finding['remedy']
+    if all(advice) and advice in said:
+        parts.append('<p>Cost, and what to do: as above.</p>')
+    else:
+        parts += ['<p>%s: %s</p>' % (name, with_code(words))
+                  for name, words in zip(('Cost', 'To do'), advice) if words]
+    said.add(advice)
     return '<div class="finding %s">%s</div>\n' % (finding['verdict'], ''.join(parts))
 
 
@@ -89,7 +93,8 @@ class RigPage:
 
     def findings(self):
         listed = self.content['findings']
-        bad = [card(finding) for finding in listed if finding['verdict'] != 'good']
+        said = set()
+        bad = [card(finding, said) for finding in listed if finding['verdict'] != 'good']
         good = [[cells_of(finding)] for finding in listed if finding['verdict'] == 'good']
         note = 'The most severe first.' if bad else 'Nothing is to be done.'
         table = page.table(['section', 'property', 'measured'], good)
@@ -144,7 +149,7 @@ class RigPage:
         if not self.has('rows_map'):
             return ''
         table = self.tables['rows_map']
-        limit = figures.largest(table['row_px'], table['model_px'])
+        limit = figures.largest_px(table['row_px'], table['model_px'])
         parts = [('measured', table, table['row_px'], True), ('explained by rotation, focal length and row of the '
                  'right camera', table, table['model_px'], True),
                  ('left over', table, table['row_px'] - table['model_px'], True)]
@@ -164,7 +169,7 @@ class RigPage:
         shown = []
         if self.has('disparity_map'):
             table = self.tables['disparity_map']
-            limit = figures.largest(numpy.percentile(numpy.abs(table['bias_px']), [95]))
+            limit = figures.largest_px(numpy.percentile(numpy.abs(table['bias_px']), [95]))
             parts = [('measured', table, table['bias_px'], False)]
             if self.has('disparity_map_corrected'):
                 after = self.tables['disparity_map_corrected']

@@ -202,7 +202,7 @@ void ReplayCheck::report(RigReport& report) {
                 subject,
                 fixedText(100.0 * share, 2) + " m in 100 m, " + fixedText(median(sigmas), 2) +
                     " of a standard deviation of the covariance, over " + toText(shares.size()) +
-                    " stretches",
+                    (shares.size() == 1 ? " stretch" : " stretches"),
                 "trajectories of this rig are no better than that",
                 cause},
                {share, median(promised), kAcceptable, kFix});

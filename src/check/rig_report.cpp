@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -62,12 +63,17 @@ std::string label(Verdict verdict) {
 
 std::string toText(const std::vector<Finding>& findings) {
   std::string text;
+  std::set<std::string> said;
   for (const Finding& finding : findings) {
     text += label(finding.verdict) + ' ' + finding.section + ": " + finding.subject + ": " +
             finding.measured + '\n';
-    if (finding.verdict == Verdict::kGood) continue;
+    if (finding.verdict == Verdict::kGood || finding.remedy.empty()) continue;
+    if (!said.insert(finding.cost + finding.remedy).second) {
+      text += wrapped("-> as above", 12);
+      continue;
+    }
     if (!finding.cost.empty()) text += wrapped(finding.cost, 12);
-    if (!finding.remedy.empty()) text += wrapped("-> " + finding.remedy, 12);
+    text += wrapped("-> " + finding.remedy, 12);
   }
   return text;
 }
