@@ -121,8 +121,8 @@ std::optional<Correction> findCorrection(Recording& recording,
                                          const RigCheckOptions& options,
                                          const RigMeasures& before,
                                          std::string& why_not) {
-  if (before.pairs_with_motion == 0) {
-    why_not = "there is no motion to measure it by";
+  if (before.pairs_with_motion < kLeastMotions) {
+    why_not = "fewer than " + toText(kLeastMotions) + " pairs have a motion: record a minute";
     return std::nullopt;
   }
   if (!before.rows_are_constant) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -112,11 +113,12 @@ void DisparityCheck::report(const Windows& windows, RigReport& report) const {
 
 /// A right camera that is turned by a small yaw sees x at x - yaw (1 + x^2), in normalized
 /// coordinates. The constant part is one with the bias, and a slope with the focal length.
-double DisparityCheck::keystone_rad() const {
+Estimate DisparityCheck::keystone_rad() const {
   constexpr std::size_t kLeastErrors = 100;
   constexpr double kRobust = 4.0;
   constexpr int kIterations = 10;
-  if (errors_.size() < kLeastErrors) return 0.0;
+  const Estimate unknown = {0.0, std::numeric_limits<double>::infinity()};
+  if (errors_.size() < kLeastErrors) return unknown;
   std::vector<double> weights(errors_.size(), 1.0);
   std::vector<double> residuals(errors_.size());
   Eigen::Vector3d fit = Eigen::Vector3d::Zero();
@@ -124,8 +126,9 @@ double DisparityCheck::keystone_rad() const {
     const double x = error.x_right;
     return Eigen::Vector3d(1.0, x, -camera_.fx * x * x);
   };
+  Eigen::Matrix3d information;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+    information.setZero();
     Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < errors_.size(); ++i) {
       const Eigen::Vector3d row = rowOf(errors_[i]) / errors_[i].sigma_px;
@@ -139,7 +142,9 @@ double DisparityCheck::keystone_rad() const {
     }
     cauchyWeights(kRobust, residuals, weights);
   }
-  return fit.z();
+  const double noise = kDeviationOverMedian * median(residuals);
+  const double sigma_rad = noise * std::sqrt(information.inverse()(2, 2));
+  return std::isfinite(sigma_rad) ? Estimate{fit.z(), sigma_rad} : unknown;
 }
 
 /// How far the bias moves around its mean, and how well it is known: both mean squares over the

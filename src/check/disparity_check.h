@@ -21,9 +21,9 @@ class DisparityCheck {
   /// Of the last pair.
   const DisparityBias& bias() const { return bias_; }
 
-  /// The yaw of the right camera [rad] that errors of the disparities have the shape of; 0 if there
-  /// are few.
-  double keystone_rad() const;
+  /// The yaw of the right camera [rad] that errors of the disparities have the shape of. Its
+  /// deviation is infinite if motions show few.
+  Estimate keystone_rad() const;
 
  private:
   /// The error of a single disparity: the correction that makes it agree with the motion.

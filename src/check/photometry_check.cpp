@@ -309,12 +309,13 @@ void PhotometryCheck::addExposure(const Windows& windows, RigReport& report) con
               "give both cameras the same exposure time and gain, or couple them"},
              {std::log(gain.value), gain.sigma / gain.value, kAcceptableGain, kFixGain});
   const double changes = gain.sigma * std::sqrt(static_cast<double>(windows.count()));
-  report.add({"photometry",
-              "gain over time",
-              "moves by " + fixedText(100.0 * changes, 1) + " %",
-              "exposures that follow each other late differ most where light changes",
-              "couple the exposures of the cameras"},
-             {changes, 0.0, kAcceptableGain, kFixGain});
+  report.add(
+      {"photometry",
+       "gain over time",
+       std::isfinite(changes) ? "moves by " + fixedText(100.0 * changes, 1) + " %" : "unknown",
+       "exposures that follow each other late differ most where light changes",
+       "couple the exposures of the cameras"},
+      {changes, 0.0, kAcceptableGain, kFixGain});
   report.add({"photometry",
               "grey levels right minus left",
               toText(offset, "of 255 at black"),

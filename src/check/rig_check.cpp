@@ -81,6 +81,7 @@ class PairChecks {
       replay_.report(report);
       addRectification(report);
     }
+    if (with_motion_ < kLeastMotions) addTooShort(report);
     report.tables.push_back({"image",
                              {"width", "height", "fx", "cx", "cy"},
                              {{static_cast<double>(camera_.width),
@@ -113,16 +114,33 @@ class PairChecks {
     next_sample_ = 2 * std::max(with_motion_, 1);
   }
 
+  /// What is not good in the sections of measurements is unknown.
+  static void doubt(RigReport& report) {
+    for (Finding& finding : report.findings) {
+      if (finding.section == "inputs" || finding.section == "photometry") continue;
+      if (finding.verdict != Verdict::kGood) finding.verdict = Verdict::kUnknown;
+    }
+  }
+
+  void addTooShort(RigReport& report) const {
+    doubt(report);
+    report.findings.push_back(
+        {"inputs",
+         "length of the recording",
+         "motion in " + toText(with_motion_) + " of " + toText(pairs_) + " pairs",
+         "each has errors of its own, so that a rig is not known by a few",
+         "record a minute of motion, with turns",
+         Verdict::kUnknown,
+         100.0});
+  }
+
   /// Errors so large that they are not those of a calibration. What follows from them is not told.
   void addRectification(RigReport& report) const {
     constexpr double kMostRemainder_px = 0.35;
     constexpr double kMostBias_px = 4.0;
     const double bias_px = std::abs(disparities_.bias().estimated_px);
     if (rows_.remainder_px() < kMostRemainder_px && bias_px < kMostBias_px) return;
-    for (Finding& finding : report.findings) {
-      if (finding.section == "inputs" || finding.section == "photometry") continue;
-      if (finding.verdict != Verdict::kGood) finding.verdict = Verdict::kUnknown;
-    }
+    doubt(report);
     report.findings.push_back({"inputs",
                                "rectification",
                                "rows differ by " + fixedText(rows_.rms_px(), 2) +
@@ -147,7 +165,8 @@ class PairChecks {
       if (!found.empty()) fault_ = found;
     }
     const bool matters = isMostlyLost();
-    if (fault_.empty() && matters) fault_ = "no motion, for a reason that the images do not show";
+    if (fault_.empty() && matters && pairs_ > 1)
+      fault_ = "no motion, for a reason that the images do not show";
     if (fault_.empty()) return;
     const std::size_t colon = fault_.find(": ");
     report.findings.push_back({"inputs",

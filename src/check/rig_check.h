@@ -20,6 +20,10 @@ struct RigCheckOptions {
   std::function<void()> on_pair = [] {};   ///< after each pair
 };
 
+/// Two windows of five pairs, by which uncertainties are found, see Windows. With fewer motions, a
+/// report says what it has measured, but not what to do.
+constexpr int kLeastMotions = 10;
+
 /// What a calibration can correct.
 struct RigMeasures {
   StereoCalibration calibration;  ///< that the pairs were taken by

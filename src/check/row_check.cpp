@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -28,6 +29,7 @@ constexpr double kFix_px = 0.4;
 constexpr double kAcceptableSkew_s = 0.001;
 constexpr double kFixSkew_s = 0.004;
 
+constexpr double kSigmas = 3.0;
 constexpr double kDegrees = 180.0 / M_PI;
 
 const char* const kCalibrate =
@@ -129,17 +131,20 @@ bool RowCheck::locate(const StereoPair& images, const cv::Point2f& left, cv::Poi
 
 RowModel RowCheck::correctable() const {
   RowModel model = model_;
-  if (!isYaw()) model.causes[kYaw] = 0.0;
+  if (!(yawShare() > 0.5)) model.causes[kYaw] = 0.0;
   return model;
 }
 
-/// Some lenses, or rectifications, make rows of the same shape. The errors of disparities by a yaw
-/// are so much larger than those of rows that they are either there or not.
-bool RowCheck::isYaw() const {
-  return keystone_rad_ / model_.causes[kYaw] > 0.5;
+/// The share of the yaw of the rows that disparities have; nan if that is not known. Some lenses,
+/// or rectifications, make rows of the same shape. The errors of disparities by a yaw are so much
+/// larger than those of rows that they are either there or not.
+double RowCheck::yawShare() const {
+  const double yaw_rad = model_.causes[kYaw];
+  const bool is_known = kSigmas * keystone_rad_.sigma < 0.5 * std::abs(yaw_rad);
+  return is_known ? keystone_rad_.value / yaw_rad : std::numeric_limits<double>::quiet_NaN();
 }
 
-void RowCheck::report(const Windows& windows, double keystone_rad, RigReport& report) {
+void RowCheck::report(const Windows& windows, const Estimate& keystone_rad, RigReport& report) {
   fit(windows);
   keystone_rad_ = keystone_rad;
   if (samples_.size() < kLeastSamples) {
@@ -183,10 +188,11 @@ void RowCheck::addCauses(RigReport& report) const {
     } else {
       measured += ", " + fixedText(effect_px, 2) + " px of rows";
     }
-    const bool is_of_lens = text.cause == kYaw && value != 0.0 && !isYaw();
+    const bool is_of_lens = text.cause == kYaw && yawShare() <= 0.5;
     if (is_of_lens) {
-      measured += "; of a lens, as disparities show a yaw of " +
-                  fixedText(kDegrees * keystone_rad_, 2) + " deg";
+      measured +=
+          "; of a lens, as disparities show a yaw of " +
+          toText(Estimate{kDegrees * keystone_rad_.value, kDegrees * keystone_rad_.sigma}, "deg");
     }
     report.add({"rows",
                 text.subject,

@@ -23,7 +23,7 @@ class RowCheck {
 
   /// Adds the sections rows and time, the maps of the rows and their course. `keystone_rad` is the
   /// yaw of the right camera that the disparities show.
-  void report(const Windows& windows, double keystone_rad, RigReport& report);
+  void report(const Windows& windows, const Estimate& keystone_rad, RigReport& report);
 
   // Of the last report:
 
@@ -40,7 +40,7 @@ class RowCheck {
  private:
   bool locate(const StereoPair& images, const cv::Point2f& left, cv::Point2f& right);
   void fit(const Windows& windows);
-  bool isYaw() const;
+  double yawShare() const;
   void addCauses(RigReport& report) const;
   void addMap(RigReport& report);
   void addCourse(RigReport& report);
@@ -49,7 +49,7 @@ class RowCheck {
   StereoCamera camera_;
   std::vector<RowSample> samples_;
   RowModel model_;
-  double keystone_rad_ = 0.0;
+  Estimate keystone_rad_;
   double rms_px_ = 0.0;
   double remainder_px_ = 0.0;
   bool is_constant_ = true;

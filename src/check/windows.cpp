@@ -18,11 +18,14 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 }  // namespace
 
 std::string toText(const Estimate& estimate, const std::string& unit) {
+  const auto text = [&](double value, int digits) {
+    return std::isfinite(value) ? fixedText(value, digits) : std::string("unknown");
+  };
   int digits = 2;
   if (estimate.sigma > 0.0 && std::isfinite(estimate.sigma)) {
     digits = std::clamp(static_cast<int>(std::ceil(-std::log10(estimate.sigma))) + 1, 0, 6);
   }
-  return fixedText(estimate.value, digits) + " +- " + fixedText(estimate.sigma, digits) +
+  return text(estimate.value, digits) + " +- " + text(estimate.sigma, digits) +
          (unit.empty() ? "" : " " + unit);
 }
 

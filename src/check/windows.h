@@ -12,7 +12,7 @@ struct Estimate {
   double sigma = 0.0;
 };
 
-/// "0.702 +- 0.008 px", with as many digits as the uncertainty has a meaning.
+/// "0.702 +- 0.008 px", with as many digits as the uncertainty has a meaning; "unknown" for nan.
 std::string toText(const Estimate& estimate, const std::string& unit);
 
 struct TimedValue {

@@ -310,6 +310,24 @@ TEST(RigCheckTest, RowsOfALensAreNoYaw) {
   EXPECT_EQ(rig.measures.rows.causes[kYaw], 0.0);
 }
 
+TEST(RigCheckTest, AFewPairsSayNothing) {
+  SimulationOptions options = perfectRig();
+  options.faults.disparity_bias_px = -2.0;
+  for (const int frames : {1, 2, 10}) {
+    options.frames = frames;
+    RenderedRecording recording("short " + std::to_string(frames), "city", options, {});
+    const CheckedRig rig = checkRig(recording, {});
+    const std::string text = toText(rig.report);
+    SCOPED_TRACE(text);
+    EXPECT_NE(text.find("motion in " + std::to_string(frames - 1) + " of "), std::string::npos);
+    EXPECT_NE(text.find("\n0 to fix, 0 acceptable, "), std::string::npos);
+    EXPECT_EQ(text.find("nan"), std::string::npos);
+    std::string why_not;
+    EXPECT_FALSE(findCorrection(recording, {}, rig.measures, why_not));
+    EXPECT_NE(why_not.find("fewer than 10"), std::string::npos) << why_not;
+  }
+}
+
 TEST(RigCheckTest, CorrectsNeitherAPerfectRigNorOneThatMoves) {
   RenderedRecording recording("perfect", "city", perfectRig(), {});
   RigMeasures measures = check({"perfect"}).measures;
