@@ -108,11 +108,8 @@ double blurBetween(const Sharpness& sharp, const Sharpness& blurred) {
   return 0.5 * (low + high);
 }
 
-cv::Rect around(const Eigen::Vector2d& pixel, double disparity_px, int radius) {
-  return {cvRound(pixel.x() - disparity_px) - radius,
-          cvRound(pixel.y()) - radius,
-          2 * radius + 1,
-          2 * radius + 1};
+cv::Rect around(double x_px, double y_px, int radius) {
+  return {cvRound(x_px) - radius, cvRound(y_px) - radius, 2 * radius + 1, 2 * radius + 1};
 }
 
 bool isInside(const cv::Rect& area, const cv::Mat& image) {
@@ -133,12 +130,15 @@ struct Patch {
 /// Around features that agree with the motion, about `most` of them, where both images show them.
 std::vector<Patch> patchesOf(const CheckedPair& pair, int radius, std::size_t most) {
   std::vector<Patch> patches;
+  const double rows_px = pair.result.row_offset.median_px;
   const std::size_t step = std::max<std::size_t>(1, pair.features.size() / most);
   for (std::size_t i = 0; i < pair.features.size(); i += step) {
     if (pair.inliers[i] == 0) continue;
     const Correspondence& feature = pair.features[i];
-    const Patch patch = {around(feature.cur_px, 0.0, radius),
-                         around(feature.cur_px, feature.disparity_px, radius)};
+    const double x_px = feature.cur_px.x();
+    const double y_px = feature.cur_px.y();
+    const Patch patch = {around(x_px, y_px, radius),
+                         around(x_px - feature.disparity_px, y_px + rows_px, radius)};
     if (isInside(patch.left, pair.images.left) && isInside(patch.right, pair.images.right)) {
       patches.push_back(patch);
     }
