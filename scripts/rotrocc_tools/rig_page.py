@@ -139,10 +139,10 @@ class RigPage:
                   ('gain', [self.course('photometry', 'gain')]),
                   ('offset [grey]', [self.course('photometry', 'offset_grey')])]
         if self.has('sharpness'):
-            panels.append(('blur [px]', [self.course('sharpness', 'blur_px')]))
+            panels.append(('blur [px²]', [self.course('sharpness', 'blur_px2')]))
         return page.section('Photometry', 'Grey levels of both images, and the right one compared with the left one '
                             'where both show the same: gain 1, offset 0 and blur 0 are equal. '
-                            'Positive blur: the right image is blurred.',
+                            'Positive blur, the variance of a Gaussian: the right image is blurred.',
                             self.picture('photometry', 'grey levels over time', figures.courses, panels))
 
     def rows(self):

@@ -35,8 +35,8 @@ constexpr double kAcceptableOffset = 0.02;  // of the range
 constexpr double kFixOffset = 0.06;
 constexpr double kAcceptableVignetting = 0.15;
 constexpr double kFixVignetting = 0.4;
-constexpr double kAcceptableBlur_px = 0.4;
-constexpr double kFixBlur_px = 0.8;
+constexpr double kAcceptableBlur_px2 = 0.4 * 0.4;
+constexpr double kFixBlur_px2 = 0.8 * 0.8;
 constexpr double kAcceptableNoise = 0.15;  // of the contrast of the image
 constexpr double kFixNoise = 0.3;
 constexpr double kAcceptableShare = 0.1;
@@ -45,8 +45,8 @@ constexpr double kFixShare = 0.3;
 constexpr int kWhite = 255;
 constexpr int kBlack = kWhite / 50;
 
-/// Energy of the gradients of an image after a Gaussian of `blur_px`, without that of the noise,
-/// relative to that of its large structures: falls with the blur.
+/// Energy of the gradients of an image after a Gaussian of a variance, without that of the noise,
+/// relative to that of its large structures: falls with the variance.
 class Sharpness {
  public:
   Sharpness(const cv::Mat& image, double noise_grey, const std::vector<cv::Rect>& patches)
@@ -54,8 +54,8 @@ class Sharpness {
     image.convertTo(image_, CV_32F);
   }
 
-  double after(double blur_px) const {
-    const cv::Mat kernel = gaussian(blur_px);
+  double after(double variance_px2) const {
+    const cv::Mat kernel = gaussian(variance_px2);
     double fine = 0.0;
     double coarse = 0.0;
     for (const cv::Rect& patch : patches_) {
@@ -77,9 +77,20 @@ class Sharpness {
  private:
   static constexpr double kCoarse_px = 3.0;
 
-  static cv::Mat gaussian(double sigma_px) {
-    const int radius = std::max(1, cvCeil(4.0 * sigma_px));
-    return cv::getGaussianKernel(2 * radius + 1, std::max(sigma_px, 1e-3), CV_32F);
+  /// That of a lens, by its transfer function exp(-v w^2 / 2) up to the Nyquist frequency: a
+  /// sampled Gaussian of less than half a pixel hardly blurs.
+  static cv::Mat gaussian(double variance_px2) {
+    constexpr int kFrequencies = 64;
+    const int radius = std::max(8, cvCeil(4.0 * std::sqrt(variance_px2)));
+    cv::Mat kernel = cv::Mat::zeros(2 * radius + 1, 1, CV_32F);
+    for (int k = 0; k < kFrequencies; ++k) {
+      const double frequency = M_PI * (k + 0.5) / kFrequencies;
+      const double share = std::exp(-0.5 * variance_px2 * frequency * frequency) / kFrequencies;
+      for (int i = -radius; i <= radius; ++i) {
+        kernel.at<float>(radius + i) += static_cast<float>(share * std::cos(frequency * i));
+      }
+    }
+    return kernel;
   }
 
   /// Variance of the central difference of white noise of variance 1 after the kernel.
@@ -95,13 +106,13 @@ class Sharpness {
   const std::vector<cv::Rect>& patches_;
 };
 
-/// The Gaussian that makes `sharp` as blurred as `blurred` is.
+/// Variance of the Gaussian that makes `sharp` as blurred as `blurred` is [px^2].
 double blurBetween(const Sharpness& sharp, const Sharpness& blurred) {
-  constexpr double kMost_px = 4.0;
+  constexpr double kMost_px2 = 16.0;
   const double target = blurred.after(0.0);
   double low = 0.0;
-  double high = kMost_px;
-  for (int i = 0; i < 8; ++i) {
+  double high = kMost_px2;
+  for (int i = 0; i < 12; ++i) {
     const double middle = 0.5 * (low + high);
     (sharp.after(middle) > target ? low : high) = middle;
   }
@@ -255,7 +266,7 @@ void PhotometryCheck::compareSharpness(const CheckedPair& pair, Row& row) {
   const Sharpness left(pair.images.left, row.left.noise, left_areas);
   const Sharpness right(pair.images.right, row.right.noise, right_areas);
   const bool right_is_blurred = left.after(0.0) > right.after(0.0);
-  row.blur_px = right_is_blurred ? blurBetween(left, right) : -blurBetween(right, left);
+  row.blur_px2 = right_is_blurred ? blurBetween(left, right) : -blurBetween(right, left);
 }
 
 std::vector<TimedValue> PhotometryCheck::course(double Row::*member) const {
@@ -279,7 +290,7 @@ void PhotometryCheck::report(const Windows& windows, RigReport& report) const {
                         "dark_left",
                         "dark_right"},
                        {}};
-  ReportTable sharpness = {"sharpness", {"time_s", "blur_px"}, {}};
+  ReportTable sharpness = {"sharpness", {"time_s", "blur_px2"}, {}};
   for (const Row& row : rows_) {
     table.rows.push_back({row.time_s,
                           row.gain,
@@ -290,7 +301,7 @@ void PhotometryCheck::report(const Windows& windows, RigReport& report) const {
                           row.right.saturated,
                           row.left.dark,
                           row.right.dark});
-    if (std::isfinite(row.blur_px)) sharpness.rows.push_back({row.time_s, row.blur_px});
+    if (std::isfinite(row.blur_px2)) sharpness.rows.push_back({row.time_s, row.blur_px2});
   }
   report.tables.push_back(std::move(table));
   report.tables.push_back(std::move(sharpness));
@@ -300,7 +311,8 @@ void PhotometryCheck::addExposure(const Windows& windows, RigReport& report) con
   const Estimate gain = overWindows(course(&Row::gain), windows);
   const Estimate offset = overWindows(course(&Row::offset_grey), windows);
   const Estimate vignetting = overWindows(course(&Row::vignetting), windows);
-  const Estimate blur = overWindows(course(&Row::blur_px), windows);
+  // Variances of Gaussians add; the blur itself would change its sign by chance.
+  const Estimate blur_px2 = overWindows(course(&Row::blur_px2), windows);
   report.add({"photometry",
               "gain right to left",
               toText(gain, ""),
@@ -329,14 +341,16 @@ void PhotometryCheck::addExposure(const Windows& windows, RigReport& report) con
        "the darker corners lose features",
        "use the same lens and aperture on both cameras, and look for something in front of one"},
       {vignetting.value, vignetting.sigma, kAcceptableVignetting, kFixVignetting});
-  const std::string side = blur.value > 0.0 ? "right" : "left";
-  report.add({"photometry",
-              "sharpness right against left",
-              toText(Estimate{std::abs(blur.value), blur.sigma}, "px") +
-                  " of blur (Gaussian sigma) more on the " + side,
-              "features of fine texture are lost, and disparities get noisier",
-              "focus and clean the " + side + " lens"},
-             {blur.value, blur.sigma, kAcceptableBlur_px, kFixBlur_px});
+  const std::string side = blur_px2.value > 0.0 ? "right" : "left";
+  const double blur_px = std::sqrt(std::abs(blur_px2.value));
+  const double sigma_px = blur_px2.sigma / std::max(2.0 * blur_px, std::sqrt(blur_px2.sigma));
+  report.add(
+      {"photometry",
+       "sharpness right against left",
+       toText(Estimate{blur_px, sigma_px}, "px") + " of blur (Gaussian sigma) more on the " + side,
+       "features of fine texture are lost, and disparities get noisier",
+       "focus and clean the " + side + " lens"},
+      {blur_px2.value, blur_px2.sigma, kAcceptableBlur_px2, kFixBlur_px2});
 }
 
 void PhotometryCheck::addLevels(const Windows& windows, RigReport& report) const {

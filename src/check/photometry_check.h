@@ -24,7 +24,8 @@ class PhotometryCheck {
   /// Of one pair; nan if not measured.
   struct Row {
     double time_s;
-    double gain, offset_grey, vignetting, blur_px;
+    double gain, offset_grey, vignetting;
+    double blur_px2;  ///< variance of the Gaussian; negative if the left image is blurred
     Levels left, right;
   };
 
