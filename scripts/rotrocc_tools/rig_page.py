@@ -150,8 +150,7 @@ class RigPage:
             return ''
         table = self.tables['rows_map']
         limit = figures.largest_px(table['row_px'], table['model_px'])
-        parts = [('measured', table, table['row_px'], True), ('explained by rotation, focal length and row of the '
-                 'right camera', table, table['model_px'], True),
+        parts = [('measured', table, table['row_px'], True), ('explained by the findings', table, table['model_px'], True),
                  ('left over', table, table['row_px'] - table['model_px'], True)]
         if self.has('rows_map_corrected'):
             after = self.tables['rows_map_corrected']
