@@ -146,7 +146,7 @@ TEST_F(SensorMountTest, AMovingMountWhoseTfIsSlowIsExtrapolatedWithABound) {
   sendPan(100.36, 0.36);
   EXPECT_NEAR(panAt(100'360), 0.36, 1e-9);
   const auto begin = std::chrono::steady_clock::now();
-  for (const int ms : {10, 20, 30}) {
+  for (const int ms : {5, 10, 15, 20, 25, 30}) {
     EXPECT_EQ(mount.trouble(), "");
     EXPECT_NEAR(panAt(100'360 + ms), 0.36 + 1e-3 * ms, 1e-6);
   }
@@ -164,6 +164,19 @@ TEST_F(SensorMountTest, AMovingMountWhoseTfIsSlowIsExtrapolatedWithABound) {
     panAt(101'000 + 100 * i);
   }
   EXPECT_EQ(mount.trouble(), "");
+}
+
+/// On a busy machine, with few pairs and late tf, most calls see a new transform.
+TEST_F(SensorMountTest, SlowTfIsNotTakenForLate) {
+  SensorMount mount("base_link", 0.02, tf_.feed());
+  int sent = 0;
+  for (int i = 0; i < 30; ++i) {
+    const double stamp_s = 100.0 + 0.03 * i;
+    for (; 0.037 * sent < 0.03 * i; ++sent) sendPan(100.0 + 0.037 * sent, 0.037 * sent);
+    mount.find("camera", std::llround(1e9 * stamp_s));
+  }
+  EXPECT_NE(mount.trouble().find("comes at 27.0 Hz, too seldom"), std::string::npos)
+      << mount.trouble();
 }
 
 /// As at a start, when images come before tf.

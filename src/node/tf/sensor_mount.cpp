@@ -1,5 +1,6 @@
 #include "node/tf/sensor_mount.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -22,8 +23,12 @@ constexpr double kRest_m = 1e-4;
 constexpr double kRest_rad = 1e-4;
 
 /// Stamps without a transform after which that is told, and with one in a row until it is over.
-constexpr int kInexact = 3;
+constexpr int kInexact = 6;
 constexpr int kExact = 50;
+
+/// Calls in a row with a new transform, after which tf may be faster than the calls; fewer than
+/// kInexact.
+constexpr int kNew = 5;
 
 /// The axis of the base closest to a direction.
 std::string nameDirection(const Eigen::Vector3d& direction) {
@@ -111,6 +116,7 @@ void SensorMount::lookFor(const std::string& frame) {
   fixed_ = moves_ = false;
   waits_ = true;
   latest_ = {};
+  new_in_a_row_ = kNew;
   endTrouble();
   if (!listener_) listener_ = feed_(*buffer_);
 }
@@ -122,7 +128,8 @@ Eigen::Isometry3d SensorMount::lookUp(const ros::Time& stamp) {
   geometry_msgs::TransformStamped newest = latest();
   if (newest.header.stamp.isZero()) return fix(toEigen(newest.transform));
   watchMovement(toEigen(newest.transform));
-  const bool comes_in_time = comesInTime(stamp, newest.header.stamp == known);
+  new_in_a_row_ = newest.header.stamp == known ? 0 : new_in_a_row_ + 1;
+  const bool comes_in_time = comesInTime(stamp);
   if (stamp > newest.header.stamp && (moves_ ? comes_in_time : waits_)) {
     waits_ = waitForTransform(*buffer_, base_frame_, frame_, stamp, timeout_s_);
     newest = latest();
@@ -133,7 +140,7 @@ Eigen::Isometry3d SensorMount::lookUp(const ros::Time& stamp) {
   }
   if (!moves_) return toEigen(newest.transform);
   const double ahead_s = (stamp - latest_).toSec();
-  if (ahead_s > 0.0 && (!comes_in_time || ahead_s <= timeout_s_)) onInexact(stamp, !comes_in_time);
+  if (ahead_s > 0.0 && (!comes_in_time || ahead_s <= timeout_s_)) onInexact(stamp);
   return extrapolate(stamp);
 }
 
@@ -143,16 +150,22 @@ geometry_msgs::TransformStamped SensorMount::latest() {
   toEigen(latest.transform);  // throws if it is none
   const ros::Time stamp = latest.header.stamp;
   if (stamp == latest_) return latest;
-  step_s_.reset();
+  const std::optional<double> last_s = std::exchange(step_s_, std::nullopt);
   if (!latest_.isZero() && stamp > latest_) step_s_ = (stamp - latest_).toSec();
+  period_s_ = last_s && step_s_ ? std::min(*last_s, *step_s_) : step_s_;
   latest_ = stamp;
   return latest;
 }
 
+/// Not if there is a new transform at each call: others may come between them.
+bool SensorMount::knowsPeriod() const {
+  return new_in_a_row_ < kNew && period_s_;
+}
+
 /// Whether the transform of a stamp may come before the timeout. Not if tf is so slow that the next
-/// one is due later. If there is a new one at each call, its period is not known.
-bool SensorMount::comesInTime(const ros::Time& stamp, bool is_known) const {
-  return !is_known || !step_s_ || (latest_ - stamp).toSec() + *step_s_ <= timeout_s_;
+/// one is due later.
+bool SensorMount::comesInTime(const ros::Time& stamp) const {
+  return !knowsPeriod() || (latest_ - stamp).toSec() + *period_s_ <= timeout_s_;
 }
 
 /// Repeats the motion before the latest transform: that of as much time as there is since then.
@@ -205,16 +218,16 @@ void SensorMount::onMissing(const std::string& why) {
 }
 
 /// tf has no transform at a stamp yet: it comes too seldom, or too late.
-void SensorMount::onInexact(const ros::Time& stamp, bool is_slow) {
+void SensorMount::onInexact(const ros::Time& stamp) {
   exact_ = 0;
   if (std::exchange(last_inexact_, stamp) != stamp) ++inexact_;
   if (!trouble_.empty() || inexact_ < kInexact) return;
   const std::string timeout = "mount_timeout_s = " + toText(timeout_s_);
   trouble_ = "tf from " + base_frame_ + " to " + frame_ + ", which moves, comes ";
-  if (is_slow) {
+  if (knowsPeriod() && *period_s_ > timeout_s_) {
     // Up to half of a period after a transform, pairs are extrapolated; later ones wait.
-    const double enough_s = std::ceil(50.0 * *step_s_) / 100.0;
-    trouble_ += "at " + fixedText(1.0 / *step_s_, 1) +
+    const double enough_s = std::ceil(50.0 * *period_s_) / 100.0;
+    trouble_ += "at " + fixedText(1.0 / *period_s_, 1) +
                 " Hz, too seldom for the images: publish it at their rate" +
                 (enough_s > timeout_s_ ? ", or raise " + timeout + " to " + toText(enough_s) : "");
   } else {

@@ -52,13 +52,14 @@ class SensorMount {
   void lookFor(const std::string& frame);
   Eigen::Isometry3d lookUp(const ros::Time& stamp);
   geometry_msgs::TransformStamped latest();
-  bool comesInTime(const ros::Time& stamp, bool is_known) const;
+  bool knowsPeriod() const;
+  bool comesInTime(const ros::Time& stamp) const;
   Eigen::Isometry3d extrapolate(const ros::Time& stamp) const;
   Eigen::Isometry3d fix(const Eigen::Isometry3d& T_base_sensor);
   void watchMovement(const Eigen::Isometry3d& T_base_sensor);
   void tellMount(const Eigen::Isometry3d& T_base_sensor);
   void onMissing(const std::string& why);
-  void onInexact(const ros::Time& stamp, bool is_slow);
+  void onInexact(const ros::Time& stamp);
   void endTrouble();
   geometry_msgs::TransformStamped transformAt(const ros::Time& stamp) const;
 
@@ -75,10 +76,12 @@ class SensorMount {
   bool waits_ = true;  // unless it moves
   ros::Time last_stamp_;
 
-  ros::Time latest_;              // of tf, when it was looked up last; zero: not yet
-  std::optional<double> step_s_;  // from the one before
-  int exact_ = 0;                 // stamps in a row
-  int inexact_ = 0;               // stamps, until there were enough exact ones
+  ros::Time latest_;                // of tf, when it was looked up last; zero: not yet
+  std::optional<double> step_s_;    // from the one before
+  std::optional<double> period_s_;  // the shorter of the last two steps
+  int new_in_a_row_ = 0;            // calls with a new one
+  int exact_ = 0;                   // stamps in a row
+  int inexact_ = 0;                 // stamps, until there were enough exact ones
   ros::Time last_inexact_;
   std::string trouble_;
 

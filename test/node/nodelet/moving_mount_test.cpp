@@ -66,7 +66,7 @@ TEST(MovingMountTest, SlowTfOfAMovingMountCostsNoPairAndIsTold) {
   robot.publishInfos();
   tf2_ros::TransformBroadcaster joints;
   double x_m = 1.0;
-  for (int pair = 0; pair < 16; ++pair, x_m += SimulatedRobot::kStep_m) {
+  for (int pair = 0; pair < 28; ++pair, x_m += SimulatedRobot::kStep_m) {
     const auto [left, right] = robot.see();
     robot.publish(left, right);
     std::vector<geometry_msgs::TransformStamped> mounts;
