@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
-#include <Eigen/Cholesky>
-
 #include "check/image_grid.h"
+#include "check/robust_fit.h"
 #include "common/median.h"
 #include "input/to_text.h"
-#include "motion/cauchy_weights.h"
 
 namespace rotrocc {
 namespace {
@@ -114,37 +111,15 @@ void DisparityCheck::report(const Windows& windows, RigReport& report) const {
 /// A right camera that is turned by a small yaw sees x at x - yaw (1 + x^2), in normalized
 /// coordinates. The constant part is one with the bias, and a slope with the focal length.
 Estimate DisparityCheck::keystone_rad() const {
-  constexpr std::size_t kLeastErrors = 100;
-  constexpr double kRobust = 4.0;
-  constexpr int kIterations = 10;
-  const Estimate unknown = {0.0, std::numeric_limits<double>::infinity()};
-  if (errors_.size() < kLeastErrors) return unknown;
-  std::vector<double> weights(errors_.size(), 1.0);
-  std::vector<double> residuals(errors_.size());
-  Eigen::Vector3d fit = Eigen::Vector3d::Zero();
-  const auto rowOf = [&](const Error& error) {
+  std::vector<Eigen::Vector3d> rows;
+  std::vector<double> values;
+  for (const Error& error : errors_) {
     const double x = error.x_right;
-    return Eigen::Vector3d(1.0, x, -camera_.fx * x * x);
-  };
-  Eigen::Matrix3d information;
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
-    information.setZero();
-    Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < errors_.size(); ++i) {
-      const Eigen::Vector3d row = rowOf(errors_[i]) / errors_[i].sigma_px;
-      information += weights[i] * row * row.transpose();
-      weighted += weights[i] * errors_[i].correction_px / errors_[i].sigma_px * row;
-    }
-    fit = information.ldlt().solve(weighted);
-    for (std::size_t i = 0; i < errors_.size(); ++i) {
-      residuals[i] =
-          std::abs(errors_[i].correction_px - rowOf(errors_[i]).dot(fit)) / errors_[i].sigma_px;
-    }
-    cauchyWeights(kRobust, residuals, weights);
+    rows.push_back(Eigen::Vector3d(1.0, x, -camera_.fx * x * x) / error.sigma_px);
+    values.push_back(error.correction_px / error.sigma_px);
   }
-  const double noise = kDeviationOverMedian * median(residuals);
-  const double sigma_rad = noise * std::sqrt(information.inverse()(2, 2));
-  return std::isfinite(sigma_rad) ? Estimate{fit.z(), sigma_rad} : unknown;
+  const RobustFit fit = fitRobustly(rows, values);
+  return {fit.parameters.z(), fit.sigmas.z()};
 }
 
 /// How far the bias moves around its mean, and how well it is known: both mean squares over the

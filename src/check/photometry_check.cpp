@@ -6,13 +6,13 @@
 #include <string>
 #include <utility>
 
-#include <Eigen/Cholesky>
-#include <opencv2/imgproc.hpp>
+#include <Eigen/Core>
 
+#include "check/robust_fit.h"
+#include "check/sharpness.h"
 #include "common/median.h"
 #include "features/image_noise.h"
 #include "input/to_text.h"
-#include "motion/cauchy_weights.h"
 
 namespace rotrocc {
 namespace {
@@ -44,80 +44,6 @@ constexpr double kFixShare = 0.3;
 
 constexpr int kWhite = 255;
 constexpr int kBlack = kWhite / 50;
-
-/// Energy of the gradients of an image after a Gaussian of a variance, without that of the noise,
-/// relative to that of its large structures: falls with the variance.
-class Sharpness {
- public:
-  Sharpness(const cv::Mat& image, double noise_grey, const std::vector<cv::Rect>& patches)
-      : noise2_(noise_grey * noise_grey), patches_(patches) {
-    image.convertTo(image_, CV_32F);
-  }
-
-  double after(double variance_px2) const {
-    const cv::Mat kernel = gaussian(variance_px2);
-    double fine = 0.0;
-    double coarse = 0.0;
-    for (const cv::Rect& patch : patches_) {
-      cv::Mat blurred, x, y, large, large_x, large_y;
-      cv::sepFilter2D(image_(patch), blurred, CV_32F, kernel, kernel);
-      cv::Sobel(blurred, x, CV_32F, 1, 0, 1, 0.5);
-      cv::Sobel(blurred, y, CV_32F, 0, 1, 1, 0.5);
-      cv::GaussianBlur(blurred, large, {}, kCoarse_px);
-      cv::Sobel(large, large_x, CV_32F, 1, 0, 1, 0.5);
-      cv::Sobel(large, large_y, CV_32F, 0, 1, 1, 0.5);
-      fine += x.dot(x) + y.dot(y);
-      coarse += large_x.dot(large_x) + large_y.dot(large_y);
-    }
-    const double pixels = static_cast<double>(patches_.size()) * patches_.front().area();
-    fine -= 2.0 * pixels * noise2_ * noiseLeft(kernel);
-    return fine / std::max(coarse, 1e-9);
-  }
-
- private:
-  static constexpr double kCoarse_px = 3.0;
-
-  /// That of a lens, by its transfer function exp(-v w^2 / 2) up to the Nyquist frequency: a
-  /// sampled Gaussian of less than half a pixel hardly blurs.
-  static cv::Mat gaussian(double variance_px2) {
-    constexpr int kFrequencies = 64;
-    const int radius = std::max(8, cvCeil(4.0 * std::sqrt(variance_px2)));
-    cv::Mat kernel = cv::Mat::zeros(2 * radius + 1, 1, CV_32F);
-    for (int k = 0; k < kFrequencies; ++k) {
-      const double frequency = M_PI * (k + 0.5) / kFrequencies;
-      const double share = std::exp(-0.5 * variance_px2 * frequency * frequency) / kFrequencies;
-      for (int i = -radius; i <= radius; ++i) {
-        kernel.at<float>(radius + i) += static_cast<float>(share * std::cos(frequency * i));
-      }
-    }
-    return kernel;
-  }
-
-  /// Variance of the central difference of white noise of variance 1 after the kernel.
-  static double noiseLeft(const cv::Mat& kernel) {
-    cv::Mat padded, slope;
-    cv::copyMakeBorder(kernel, padded, 2, 2, 0, 0, cv::BORDER_CONSTANT);
-    cv::Sobel(padded, slope, CV_32F, 0, 1, 1, 0.5);
-    return slope.dot(slope) * kernel.dot(kernel);
-  }
-
-  cv::Mat image_;
-  double noise2_;
-  const std::vector<cv::Rect>& patches_;
-};
-
-/// Variance of the Gaussian that makes `sharp` as blurred as `blurred` is [px^2].
-double blurBetween(const Sharpness& sharp, const Sharpness& blurred) {
-  constexpr double kMost_px2 = 16.0;
-  const double target = blurred.after(0.0);
-  double low = 0.0;
-  double high = kMost_px2;
-  for (int i = 0; i < 12; ++i) {
-    const double middle = 0.5 * (low + high);
-    (sharp.after(middle) > target ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
 
 cv::Rect around(double x_px, double y_px, int radius) {
   return {cvRound(x_px) - radius, cvRound(y_px) - radius, 2 * radius + 1, 2 * radius + 1};
@@ -178,34 +104,17 @@ std::vector<PatchMeans> patchMeans(const CheckedPair& pair) {
   return means;
 }
 
-/// to = c0 from + c1 + c2 from r^2, iteratively reweighted.
+/// to = c0 from + c1 + c2 from r^2. At edges of depth, the images show different things.
 Eigen::Vector3d fitLevels(const std::vector<PatchMeans>& means,
                           double PatchMeans::*from,
                           double PatchMeans::*to) {
-  // Some patches are at edges of depth, so that the images show different things.
-  constexpr double kRobust = 4.0;
-  std::vector<double> errors_grey;
-  std::vector<double> weights(means.size(), 1.0);
-  Eigen::Vector3d fit(1.0, 0.0, 0.0);
-  for (int iteration = 0; iteration < 8; ++iteration) {
-    Eigen::Matrix3d information = Eigen::Matrix3d::Identity() * 1e-6;
-    Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
-    const auto rowOf = [&](const PatchMeans& mean) {
-      return Eigen::Vector3d(mean.*from, 1.0, mean.*from * mean.r2);
-    };
-    for (std::size_t i = 0; i < means.size(); ++i) {
-      const Eigen::Vector3d row = rowOf(means[i]);
-      information += weights[i] * row * row.transpose();
-      weighted += weights[i] * means[i].*to * row;
-    }
-    fit = information.ldlt().solve(weighted);
-    errors_grey.clear();
-    for (const PatchMeans& mean : means) {
-      errors_grey.push_back(std::abs(mean.*to - rowOf(mean).dot(fit)));
-    }
-    cauchyWeights(kRobust, errors_grey, weights);
+  std::vector<Eigen::Vector3d> rows;
+  std::vector<double> values;
+  for (const PatchMeans& mean : means) {
+    rows.emplace_back(mean.*from, 1.0, mean.*from * mean.r2);
+    values.push_back(mean.*to);
   }
-  return fit;
+  return fitRobustly(rows, values).parameters;
 }
 
 }  // namespace
@@ -255,18 +164,14 @@ void PhotometryCheck::compare(const CheckedPair& pair, Row& row) {
 
 void PhotometryCheck::compareSharpness(const CheckedPair& pair, Row& row) {
   constexpr std::size_t kPatches = 40;
-  std::vector<cv::Rect> left_areas;
-  std::vector<cv::Rect> right_areas;
+  ImagePatches left = {pair.images.left, row.left.noise, {}};
+  ImagePatches right = {pair.images.right, row.right.noise, {}};
   for (const Patch& patch : patchesOf(pair, kSharpnessPatch, kPatches)) {
-    left_areas.push_back(patch.left);
-    right_areas.push_back(patch.right);
+    left.areas.push_back(patch.left);
+    right.areas.push_back(patch.right);
   }
   constexpr std::size_t kLeastPatches = 5;
-  if (left_areas.size() < kLeastPatches) return;
-  const Sharpness left(pair.images.left, row.left.noise, left_areas);
-  const Sharpness right(pair.images.right, row.right.noise, right_areas);
-  const bool right_is_blurred = left.after(0.0) > right.after(0.0);
-  row.blur_px2 = right_is_blurred ? blurBetween(left, right) : -blurBetween(right, left);
+  if (left.areas.size() >= kLeastPatches) row.blur_px2 = blurOfRight_px2(left, right);
 }
 
 std::vector<TimedValue> PhotometryCheck::course(double Row::*member) const {
