@@ -1,5 +1,7 @@
 #include "input/drop_log.h"
 
+#include <numeric>
+
 #include "input/to_text.h"
 
 namespace rotrocc {
@@ -7,7 +9,6 @@ namespace rotrocc {
 void DropLog::add(const InputError& error) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++countOf(error.reason());
-  ++refused_;
   log(error);
   last_ = error;
   last_time_ = std::chrono::steady_clock::now();
@@ -32,13 +33,12 @@ void DropLog::count(DropReason reason, std::uint64_t count) {
 
 void DropLog::set(DropReason reason, std::uint64_t count) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  refused_ += count - countOf(reason);
   countOf(reason) = count;
 }
 
-std::uint64_t DropLog::refused() const {
+std::uint64_t DropLog::total() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return refused_;
+  return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0});
 }
 
 DropLog::Counts DropLog::counts() const {

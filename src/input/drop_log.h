@@ -30,8 +30,8 @@ class DropLog {
   void count(DropReason reason, std::uint64_t count = 1);
   void set(DropReason reason, std::uint64_t count);
 
-  /// Images and infos that add() and set() have counted.
-  std::uint64_t refused() const;
+  /// All drops.
+  std::uint64_t total() const;
 
   /// The reasons that have occurred, in the order of DropReason.
   Counts counts() const;
@@ -49,7 +49,6 @@ class DropLog {
   Log log_;
   mutable std::mutex mutex_;
   std::array<std::uint64_t, static_cast<std::size_t>(DropReason::kCount)> counts_{};
-  std::uint64_t refused_ = 0;
   std::map<DropReason, Throttle> throttles_;
   Throttle camera_throttle_{std::chrono::seconds(1)};
   std::string camera_error_;

@@ -94,7 +94,7 @@ StereoOdometry::~StereoOdometry() {
 
 void StereoOdometry::onPair(ReceivedPair pair) {
   const std::int64_t stamp_ns = toNanoseconds(pair.images.left->header.stamp);
-  silence_.onPair({stamp_ns, pair.stamp_age_s}, drops_.refused(), SteadyClock::now());
+  silence_.onPair({stamp_ns, pair.stamp_age_s}, drops_.total(), SteadyClock::now());
   if (health_.paused()) return drops_.count(DropReason::kPaused);
   if (mailbox_.put(std::move(pair))) drops_.count(DropReason::kSuperseded);
 }

@@ -26,9 +26,9 @@ constexpr double kRest_rad = 1e-4;
 constexpr int kInexact = 6;
 constexpr int kExact = 50;
 
-/// Calls in a row with a new transform, after which tf may be faster than the calls; fewer than
-/// kInexact.
+/// Calls in a row with a new transform, after which tf may be faster than the calls.
 constexpr int kNew = 5;
+static_assert(kNew < kInexact, "what is told must know which it is");
 
 /// The axis of the base closest to a direction.
 std::string nameDirection(const Eigen::Vector3d& direction) {
