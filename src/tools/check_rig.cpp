@@ -156,24 +156,18 @@ std::unique_ptr<Recording> openTopics(const Options& options, const NodeParamete
   return std::make_unique<LiveRecording>(live);
 }
 
-/// With the pairs as progress.
-CheckedRig checkAll(Recording& recording, RigCheckOptions check) {
-  ProgressBar progress("check", recording.size());
-  check.on_pair = [&] { progress.advance(); };
-  CheckedRig rig = checkRig(recording, check);
-  progress.finish();
-  return rig;
-}
-
-/// With the seconds since the first pair as progress: how many come is not known.
-CheckedRig checkLive(Recording& recording, double duration_s, RigCheckOptions check) {
+/// Progress is in pairs; with --live, whose number is not known, in seconds since the first one.
+CheckedRig checkWithProgress(const Options& options, Recording& recording, RigCheckOptions check) {
   using Clock = std::chrono::steady_clock;
-  ProgressBar progress("check [s]", static_cast<std::size_t>(std::ceil(duration_s)));
+  const auto length_s = static_cast<std::size_t>(std::ceil(options.duration_s));
+  ProgressBar progress(options.live ? "check [s]" : "check",
+                       options.live ? length_s : static_cast<std::size_t>(recording.size()));
   std::optional<Clock::time_point> begin;
   check.on_pair = [&] {
+    if (!options.live) return progress.advance();
     if (!begin) begin = Clock::now();
     const std::chrono::duration<double> passed = Clock::now() - *begin;
-    progress.advanceTo(static_cast<std::size_t>(std::ceil(std::min(passed.count(), duration_s))));
+    progress.advanceTo(std::min(length_s, static_cast<std::size_t>(std::ceil(passed.count()))));
   };
   CheckedRig rig = checkRig(recording, check);
   progress.finish();
@@ -189,8 +183,7 @@ CheckedRig checkInput(const Options& options) {
   const std::unique_ptr<Recording> recording =
       options.live ? openTopics(options, node) : openInput(options.input, node);
   if (!options.imu.empty()) check.gyroscope = recording->gyroscope(options.imu);
-  CheckedRig rig =
-      options.live ? checkLive(*recording, options.duration_s, check) : checkAll(*recording, check);
+  CheckedRig rig = checkWithProgress(options, *recording, check);
   if (!options.camera_info.empty()) addCorrection(options, *recording, check, rig);
   return rig;
 }
