@@ -1,6 +1,7 @@
 #include "node/tf/sensor_mount.h"
 
 #include <cmath>
+#include <future>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -155,8 +156,9 @@ TEST_F(SensorMountTest, AMovingMountWhoseTfIsSlowIsExtrapolatedWithABound) {
   EXPECT_TRUE(std::isnan(panAt(100'600)));
   const std::string said =
       "tf from base_link to camera, which moves, comes at 2.8 Hz, too seldom for the images: "
-      "publish it at their rate. Until then, its motion is extrapolated for 0.2 s; later pairs are "
-      "dropped";
+      "publish it at their rate. Until then, pairs wait for it or are extrapolated, for up to 0.2 "
+      "s "
+      "each; others are dropped";
   EXPECT_EQ(mount.trouble(), said);
   EXPECT_EQ(log_.with(said).size(), 1u);
   for (int i = 1; i <= 50; ++i) {
@@ -176,6 +178,25 @@ TEST_F(SensorMountTest, SlowTfIsNotTakenForLate) {
     mount.find("camera", std::llround(1e9 * stamp_s));
   }
   EXPECT_NE(mount.trouble().find("comes at 27.0 Hz, too seldom"), std::string::npos)
+      << mount.trouble();
+}
+
+/// Each pair gets its transform, but those that come while it waits replace each other.
+TEST_F(SensorMountTest, LongWaitsAreTold) {
+  SensorMount mount("base_link", 1000.0, tf_.feed());
+  constexpr std::int64_t kInterval = 1'000'000;
+  const auto findAt = [&](std::int64_t stamp_ns) { return mount.find("camera", stamp_ns); };
+  sendPan(100.0, 0.0);
+  EXPECT_TRUE(findAt(100 * kSecond));
+  for (int i = 1; i <= 1000 && mount.trouble().empty(); ++i) {
+    const std::int64_t stamp_ns = 100 * kSecond + 4 * i * kInterval;
+    auto waiting = std::async(std::launch::async, findAt, stamp_ns - 3 * kInterval);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    sendPan(1e-9 * static_cast<double>(stamp_ns), 0.1 * i);
+    EXPECT_TRUE(waiting.get());
+    EXPECT_TRUE(findAt(stamp_ns));
+  }
+  EXPECT_NE(mount.trouble().find("comes at 250.0 Hz, too seldom"), std::string::npos)
       << mount.trouble();
 }
 

@@ -22,13 +22,17 @@ constexpr std::chrono::seconds kPatience(1);
 constexpr double kRest_m = 1e-4;
 constexpr double kRest_rad = 1e-4;
 
-/// Stamps without a transform after which that is told, and with one in a row until it is over.
-constexpr int kInexact = 6;
+/// Stamps whose transform was slow after which that is told, and others in a row until it is over.
+constexpr int kSlow = 6;
 constexpr int kExact = 50;
+
+/// Intervals of the stamps, after which a transform is slow: newer pairs have then replaced each
+/// other.
+constexpr double kLongWait = 1.5;
 
 /// Calls in a row with a new transform, after which tf may be faster than the calls.
 constexpr int kNew = 5;
-static_assert(kNew < kInexact, "what is told must know which it is");
+static_assert(kNew < kSlow, "what is told must know which it is");
 
 /// The axis of the base closest to a direction.
 std::string nameDirection(const Eigen::Vector3d& direction) {
@@ -85,6 +89,7 @@ std::optional<Eigen::Isometry3d> SensorMount::find(const std::string& frame,
     buffer_->clear();
     latest_ = {};
   }
+  if (stamp != last_stamp_) interval_s_ = (stamp - last_stamp_).toSec();
   last_stamp_ = stamp;
   try {
     const Eigen::Isometry3d T = lookUp(stamp);
@@ -130,17 +135,24 @@ Eigen::Isometry3d SensorMount::lookUp(const ros::Time& stamp) {
   watchMovement(toEigen(newest.transform));
   new_in_a_row_ = newest.header.stamp == known ? 0 : new_in_a_row_ + 1;
   const bool comes_in_time = comesInTime(stamp);
+  const auto begin = std::chrono::steady_clock::now();
   if (stamp > newest.header.stamp && (moves_ ? comes_in_time : waits_)) {
     waits_ = waitForTransform(*buffer_, base_frame_, frame_, stamp, timeout_s_);
     newest = latest();
   }
   if (buffer_->canTransform(base_frame_, frame_, stamp)) {
-    if (++exact_ >= kExact) endTrouble();
+    const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - begin;
+    const double long_s = kLongWait * interval_s_;
+    if (moves_ && interval_s_ > 0.0 && waited.count() > long_s) {
+      onSlow(stamp, long_s);
+    } else if (++exact_ >= kExact) {
+      endTrouble();
+    }
     return toEigen(transformAt(stamp).transform);
   }
   if (!moves_) return toEigen(newest.transform);
   const double ahead_s = (stamp - latest_).toSec();
-  if (ahead_s > 0.0 && (!comes_in_time || ahead_s <= timeout_s_)) onInexact(stamp);
+  if (ahead_s > 0.0 && (!comes_in_time || ahead_s <= timeout_s_)) onSlow(stamp, timeout_s_);
   return extrapolate(stamp);
 }
 
@@ -217,29 +229,30 @@ void SensorMount::onMissing(const std::string& why) {
   }
 }
 
-/// tf has no transform at a stamp yet: it comes too seldom, or too late.
-void SensorMount::onInexact(const ros::Time& stamp) {
+/// tf did not have a transform at a stamp within the limit: it comes too seldom, or too late.
+void SensorMount::onSlow(const ros::Time& stamp, double limit_s) {
   exact_ = 0;
-  if (std::exchange(last_inexact_, stamp) != stamp) ++inexact_;
-  if (!trouble_.empty() || inexact_ < kInexact) return;
+  if (std::exchange(last_slow_, stamp) != stamp) ++slow_;
+  if (!trouble_.empty() || slow_ < kSlow) return;
   const std::string timeout = "mount_timeout_s = " + toText(timeout_s_);
   trouble_ = "tf from " + base_frame_ + " to " + frame_ + ", which moves, comes ";
-  if (knowsPeriod() && *period_s_ > timeout_s_) {
+  if (knowsPeriod() && *period_s_ > limit_s) {
     // Up to half of a period after a transform, pairs are extrapolated; later ones wait.
     const double enough_s = std::ceil(50.0 * *period_s_) / 100.0;
     trouble_ += "at " + fixedText(1.0 / *period_s_, 1) +
                 " Hz, too seldom for the images: publish it at their rate" +
                 (enough_s > timeout_s_ ? ", or raise " + timeout + " to " + toText(enough_s) : "");
   } else {
-    trouble_ += "too late: publish it earlier, or raise " + timeout;
+    trouble_ += "too late: publish it earlier";
+    if (limit_s >= timeout_s_) trouble_ += ", or raise " + timeout;
   }
-  trouble_ += ". Until then, its motion is extrapolated for " + toText(timeout_s_) +
-              " s; later pairs are dropped";
+  trouble_ += ". Until then, pairs wait for it or are extrapolated, for up to " +
+              toText(timeout_s_) + " s each; others are dropped";
   if (log_) log_->warn(trouble_);
 }
 
 void SensorMount::endTrouble() {
-  exact_ = inexact_ = 0;
+  exact_ = slow_ = 0;
   trouble_.clear();
 }
 

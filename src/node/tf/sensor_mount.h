@@ -44,8 +44,8 @@ class SensorMount {
   /// The transform that find() is missing, in one sentence; empty if found.
   const std::string& missing() const { return missing_; }
 
-  /// Why a mount was recently extrapolated or missing while it moves, in one sentence with a
-  /// remedy; empty if it was not.
+  /// Why a mount that moves was recently extrapolated, missing, or waited for while newer pairs
+  /// came, in one sentence with a remedy; empty if it was not.
   const std::string& trouble() const { return trouble_; }
 
  private:
@@ -59,7 +59,7 @@ class SensorMount {
   void watchMovement(const Eigen::Isometry3d& T_base_sensor);
   void tellMount(const Eigen::Isometry3d& T_base_sensor);
   void onMissing(const std::string& why);
-  void onInexact(const ros::Time& stamp);
+  void onSlow(const ros::Time& stamp, double limit_s);
   void endTrouble();
   geometry_msgs::TransformStamped transformAt(const ros::Time& stamp) const;
 
@@ -75,14 +75,15 @@ class SensorMount {
   bool moves_ = false;
   bool waits_ = true;  // unless it moves
   ros::Time last_stamp_;
+  double interval_s_ = 0.0;  // from the stamp before
 
   ros::Time latest_;                // of tf, when it was looked up last; zero: not yet
   std::optional<double> step_s_;    // from the one before
   std::optional<double> period_s_;  // the shorter of the last two steps
   int new_in_a_row_ = 0;            // calls with a new one
-  int exact_ = 0;                   // stamps in a row
-  int inexact_ = 0;                 // stamps, until there were enough exact ones
-  ros::Time last_inexact_;
+  int exact_ = 0;                   // stamps in a row that had a transform in time
+  int slow_ = 0;                    // stamps, until there were enough exact ones
+  ros::Time last_slow_;
   std::string trouble_;
 
   std::string missing_;
