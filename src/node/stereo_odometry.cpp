@@ -170,7 +170,7 @@ std::optional<DropReason> StereoOdometry::tryPair(const ReceivedPair& received) 
       health_.setWaitsForTf(mount_.missing());
       return DropReason::kTfMissing;
     }
-    if (gyro_) gyro_->follow(stamp_ns, *T_base_camera);
+    if (gyro_) gyro_->follow(stamp_ns, T_base_camera->T);
     if (gyro_ && processor_.startsLevel() && gyro_->waitsForVertical(stamp_ns)) {
       return DropReason::kSuperseded;
     }
@@ -185,7 +185,7 @@ std::optional<DropReason> StereoOdometry::tryPair(const ReceivedPair& received) 
 
 void StereoOdometry::process(const ReceivedPair& received,
                              const std::string& frame,
-                             const Eigen::Isometry3d& T_base_camera) {
+                             const UncertainTransform& T_base_camera) {
   const SteadyClock::time_point begin = SteadyClock::now();
   const StereoPair pair = processor_.convert(received);
   const SteadyClock::time_point converted = SteadyClock::now();

@@ -62,7 +62,7 @@ class StereoOdometry {
   std::optional<DropReason> tryPair(const ReceivedPair& received);
   void process(const ReceivedPair& received,
                const std::string& frame,
-               const Eigen::Isometry3d& T_base_camera);
+               const UncertainTransform& T_base_camera);
   std::chrono::steady_clock::time_point publishMotion(const PairAnswer& answer);
   void followUp(const PairAnswer& answer, OdometryStatus& status);
 

@@ -32,7 +32,7 @@ class OdometryOutputs::OdometryBag {
   }
 
   void write(const OdometryResult& result) {
-    BaseState state = odometry_.add(result, T_base_camera_);
+    BaseState state = odometry_.add(result, {T_base_camera_});
     state.stamp_ns += offset_ns_;
     const ros::Time stamp = toRosTime(state.stamp_ns);
     const std::string& odom = parameters_.odom_frame;

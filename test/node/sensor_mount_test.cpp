@@ -39,9 +39,9 @@ Eigen::Isometry3d panned(double left_rad) {
   return T_base_camera;
 }
 
-double panOf(const std::optional<Eigen::Isometry3d>& T_base_camera) {
+double panOf(const std::optional<UncertainTransform>& T_base_camera) {
   if (!T_base_camera) return NAN;
-  return std::atan2(T_base_camera->linear()(1, 0), T_base_camera->linear()(0, 0));
+  return std::atan2(T_base_camera->T.linear()(1, 0), T_base_camera->T.linear()(0, 0));
 }
 
 class SensorMountTest : public testing::Test {
@@ -95,7 +95,7 @@ TEST_F(SensorMountTest, WaitsForAValidTransform) {
 
 TEST_F(SensorMountTest, TheBaseItselfNeedsNoTf) {
   SensorMount mount("camera", 0.0, tf_.feed());
-  EXPECT_TRUE(mount.find("camera", 5 * kSecond)->isApprox(Eigen::Isometry3d::Identity()));
+  EXPECT_TRUE(mount.find("camera", 5 * kSecond)->T.isApprox(Eigen::Isometry3d::Identity()));
   EXPECT_FALSE(tf_.hasListener());
 }
 
@@ -145,7 +145,9 @@ TEST_F(SensorMountTest, AMovingMountWhoseTfIsSlowIsExtrapolatedWithABound) {
   sendPan(100.0, 0.0);
   EXPECT_NEAR(panAt(100'000), 0.0, 1e-9);
   sendPan(100.36, 0.36);
-  EXPECT_NEAR(panAt(100'360), 0.36, 1e-9);
+  const auto exact = mount.find("camera", 100'360'000'000);
+  EXPECT_NEAR(panOf(exact), 0.36, 1e-9);
+  EXPECT_TRUE(exact && exact->covariance.isZero());
   const auto begin = std::chrono::steady_clock::now();
   for (const int ms : {5, 10, 15, 20, 25, 30}) {
     EXPECT_EQ(mount.trouble(), "");
@@ -153,6 +155,9 @@ TEST_F(SensorMountTest, AMovingMountWhoseTfIsSlowIsExtrapolatedWithABound) {
   }
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(500))
       << "the next one is due later";
+  const auto extrapolated = mount.find("camera", 100'400'000'000);
+  ASSERT_TRUE(extrapolated);
+  EXPECT_NEAR(std::sqrt(extrapolated->covariance(5, 5)), 0.04, 1e-6) << "the motion since 100.36 s";
   EXPECT_TRUE(std::isnan(panAt(100'600)));
   const std::string said =
       "tf from base_link to camera, which moves, comes at 2.8 Hz, too seldom for the images: "

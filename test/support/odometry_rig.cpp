@@ -163,7 +163,7 @@ void OdometryRig::process(const ReceivedPair& pair) {
     }
     last_stamp_ns_ = converted.stamp_ns;
     processor_.takeRequests();
-    PairContext context = {pair.camera, T_base_camera, T_last_base};
+    PairContext context = {pair.camera, {T_base_camera}, T_last_base};
     context.is_simulated = is_simulated;
     answer_ = processor_.process(converted, context);
     hint_ = processor_.inspect(*answer_);

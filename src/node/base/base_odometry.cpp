@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/to_seconds.h"
 #include "odometry/systematic_error.h"
@@ -69,16 +70,9 @@ Matrix6d planar(const Matrix6d& covariance) {
 }  // namespace
 
 UncertainTransform motionOfBase(const UncertainTransform& camera_motion,
-                                const Eigen::Isometry3d& T_base_camera_prev,
-                                const Eigen::Isometry3d& T_base_camera_cur) {
-  const Eigen::Isometry3d T = T_base_camera_prev * camera_motion.T * T_base_camera_cur.inverse();
-  const Eigen::Matrix3d R = T_base_camera_prev.linear();
-  // t_base = R t_camera + lever_prev - R_base lever_cur: a rotation error displaces the lever.
-  Matrix6d J = Matrix6d::Zero();
-  J.topLeftCorner<3, 3>() = R;
-  J.topRightCorner<3, 3>() = skew(T.linear() * T_base_camera_cur.translation()) * R;
-  J.bottomRightCorner<3, 3>() = R;
-  return {T, J * camera_motion.covariance * J.transpose()};
+                                const UncertainTransform& T_base_camera_prev,
+                                const UncertainTransform& T_base_camera_cur) {
+  return compose(compose(T_base_camera_prev, camera_motion), inverse(T_base_camera_cur));
 }
 
 UncertainTwist twistOf(const UncertainTransform& T_prev_cur, double dt_s) {
@@ -118,13 +112,14 @@ void BaseOdometry::continueFrom(const BaseState& state) {
 }
 
 BaseState BaseOdometry::add(const OdometryResult& result,
-                            const Eigen::Isometry3d& T_base_camera,
+                            const UncertainTransform& T_base_camera,
                             const std::optional<Eigen::Isometry3d>& T_last_cur) {
   BaseState state;
   state.stamp_ns = result.stamp_ns;
   const bool first = !T_start_camera_;
   if (first) {
-    T_start_camera_ = last_.T_base_camera = T_base_camera;
+    last_.T_base_camera = T_base_camera;
+    T_start_camera_ = T_base_camera.T;
     if (!last_.stamp_ns) last_.stamp_ns = result.stamp_ns;
     known_ = last_;
   }
@@ -142,48 +137,53 @@ BaseState BaseOdometry::add(const OdometryResult& result,
   if (parameters_.planar) last_.T_odom_base.covariance = planar(last_.T_odom_base.covariance);
   if (result.state != State::kLost) known_ = last_;
   state.T_first_camera = last_.T_first_start * camera_.T_first_cur();
-  state.T_odom_base = withSystematicError(last_.T_odom_base);
+  state.T_odom_base = withOtherErrors(last_);
   return state;
 }
 
 UncertainTransform BaseOdometry::motionOfBase(const UncertainTransform& camera_motion,
-                                              const Pose& from,
-                                              const Eigen::Isometry3d& T_base_camera) const {
+                                              const UncertainTransform& T_base_camera_prev,
+                                              const UncertainTransform& T_base_camera_cur) const {
   const UncertainTransform motion =
-      rotrocc::motionOfBase(camera_motion, from.T_base_camera, T_base_camera);
+      rotrocc::motionOfBase(camera_motion, T_base_camera_prev, T_base_camera_cur);
   return parameters_.planar ? UncertainTransform{planar(motion.T), planar(motion.covariance)}
                             : motion;
 }
 
-/// Returns the motion of the base since the previous pair.
+/// Returns the motion of the base since the previous pair. The pose has no errors of mounts: those
+/// of the pairs between cancel out.
 UncertainTransform BaseOdometry::addMotion(const OdometryResult& result,
-                                           const Eigen::Isometry3d& T_base_camera) {
+                                           const UncertainTransform& T_base_camera) {
   // Compared with a lost pair, that one is the keyframe.
   const Pose prev = result.keyframe_stamp_ns > *known_.stamp_ns ? last_ : known_;
   if (result.keyframe_stamp_ns != keyframe_stamp_ns_) {
     keyframe_stamp_ns_ = result.keyframe_stamp_ns;
     keyframe_ = prev;
   }
-  const UncertainTransform step =
-      motionOfBase({result.T_prev_cur, result.covariance}, prev, T_base_camera);
-  camera_.add(parameters_.planar ? prev.T_base_camera.inverse() * step.T * T_base_camera
+  const UncertainTransform camera_step = {result.T_prev_cur, result.covariance};
+  const UncertainTransform exact = {T_base_camera.T};
+  const UncertainTransform step = motionOfBase(camera_step, {prev.T_base_camera.T}, exact);
+  camera_.add(parameters_.planar ? prev.T_base_camera.T.inverse() * step.T * exact.T
                                  : result.T_prev_cur);
   last_ = prev;
   last_.stamp_ns = result.stamp_ns;
   last_.T_base_camera = T_base_camera;
-  last_.T_odom_base = keyframe_
-                          ? compose(keyframe_->T_odom_base,
-                                    motionOfBase(result.T_keyframe_cur, *keyframe_, T_base_camera))
-                          : compose(prev.T_odom_base, step);
+  if (keyframe_) {
+    last_.T_odom_base =
+        compose(keyframe_->T_odom_base,
+                motionOfBase(result.T_keyframe_cur, {keyframe_->T_base_camera.T}, exact));
+  } else {
+    last_.T_odom_base = compose(prev.T_odom_base, step);
+  }
   // Not by compose(), which would accumulate rounding errors.
   last_.T_odom_base.T = last_.T_odom_start * T_start_base();
   without_motion_s_ = guessed_m_ = guessed_rad_ = 0.0;
-  return step;
+  return motionOfBase(camera_step, prev.T_base_camera, T_base_camera);
 }
 
 /// The base moves by `T_last_cur`, or rests; a mount that moves moves the camera.
 void BaseOdometry::addUnseen(const OdometryResult& result,
-                             const Eigen::Isometry3d& T_base_camera,
+                             const UncertainTransform& T_base_camera,
                              const std::optional<Eigen::Isometry3d>& T_last_cur) {
   UncertainTransform step;
   if (T_last_cur) step.T = parameters_.planar ? planar(*T_last_cur) : *T_last_cur;
@@ -191,11 +191,11 @@ void BaseOdometry::addUnseen(const OdometryResult& result,
   last_.T_odom_base.covariance +=
       T_last_cur ? growthWithDistance(step.T) : growthWithTime(result.stamp_ns);
   camera_.add(Eigen::Isometry3d::Identity());
-  if (T_last_cur || T_base_camera.matrix() != last_.T_base_camera.matrix()) {
-    const Eigen::Isometry3d T_camera_step = last_.T_base_camera.inverse() * step.T * T_base_camera;
+  const Eigen::Isometry3d before = std::exchange(last_.T_base_camera, T_base_camera).T;
+  if (T_last_cur || T_base_camera.T.matrix() != before.matrix()) {
+    const Eigen::Isometry3d T_camera_step = before.inverse() * step.T * T_base_camera.T;
     const Eigen::Isometry3d& T_visual = camera_.T_first_cur();
     last_.T_first_start = last_.T_first_start * T_visual * T_camera_step * T_visual.inverse();
-    last_.T_base_camera = T_base_camera;
     last_.T_odom_start = last_.T_odom_base.T * T_start_base().inverse();
   }
   last_.T_odom_base.T = last_.T_odom_start * T_start_base();
@@ -212,16 +212,20 @@ void BaseOdometry::setPose(const UncertainTransform& T_odom_base) {
   without_motion_s_ = guessed_m_ = guessed_rad_ = 0.0;
 }
 
-UncertainTransform BaseOdometry::withSystematicError(const UncertainTransform& T_odom_base) const {
-  const Matrix6d systematic =
-      systematicCovariance(systematic_error_, T_odom_first_.inverse() * T_odom_base.T);
-  return {T_odom_base.T,
-          T_odom_base.covariance + (parameters_.planar ? planar(systematic) : systematic)};
+/// The pose of the base with its systematic error, and the error of the mount there.
+UncertainTransform BaseOdometry::withOtherErrors(const Pose& pose) const {
+  const Eigen::Isometry3d& T_odom_base = pose.T_odom_base.T;
+  const UncertainTransform T_odom_camera = {T_odom_base * pose.T_base_camera.T};
+  const Matrix6d others =
+      systematicCovariance(systematic_error_, T_odom_first_.inverse() * T_odom_base) +
+      compose(T_odom_camera, inverse(pose.T_base_camera)).covariance;
+  return {T_odom_base,
+          pose.T_odom_base.covariance + (parameters_.planar ? planar(others) : others)};
 }
 
 /// The visual pose of the base at the last pair, in its frame at the first one.
 Eigen::Isometry3d BaseOdometry::T_start_base() const {
-  return *T_start_camera_ * camera_.T_first_cur() * last_.T_base_camera.inverse();
+  return *T_start_camera_ * camera_.T_first_cur() * last_.T_base_camera.T.inverse();
 }
 
 void BaseOdometry::Speed::set(double speed) {

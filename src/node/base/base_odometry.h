@@ -17,10 +17,10 @@ namespace rotrocc {
 constexpr double kUnknownVariance = 9999.0;
 
 /// Motion of the base on which a camera is mounted, where `camera_motion` is T_prev_cur of the
-/// camera: T_base_camera_prev * T_prev_cur * T_base_camera_cur^-1. The mounts have no errors.
+/// camera: T_base_camera_prev * T_prev_cur * T_base_camera_cur^-1, with independent errors.
 UncertainTransform motionOfBase(const UncertainTransform& camera_motion,
-                                const Eigen::Isometry3d& T_base_camera_prev,
-                                const Eigen::Isometry3d& T_base_camera_cur);
+                                const UncertainTransform& T_base_camera_prev,
+                                const UncertainTransform& T_base_camera_cur);
 
 /// Velocities [m/s, rad/s] of a body in its own frame, with covariance.
 struct UncertainTwist {
@@ -72,10 +72,11 @@ class BaseOdometry {
   /// called before the first pair.
   void continueFrom(const BaseState& state);
 
-  /// `T_base_camera`: the mount of the camera at the pair. `T_last_cur`: motion of the base since
-  /// the last pair by another odometry, if any.
+  /// `T_base_camera`: the mount of the camera at the pair; its error is in pose and twists, but not
+  /// in later poses. `T_last_cur`: motion of the base since the last pair by another odometry, if
+  /// any.
   BaseState add(const OdometryResult& result,
-                const Eigen::Isometry3d& T_base_camera,
+                const UncertainTransform& T_base_camera,
                 const std::optional<Eigen::Isometry3d>& T_last_cur = std::nullopt);
 
   void setSystematicError(const SystematicErrorConfig& config) { systematic_error_ = config; }
@@ -87,8 +88,8 @@ class BaseOdometry {
   /// What later pairs are measured against.
   struct Pose {
     std::optional<std::int64_t> stamp_ns;
-    Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
-    UncertainTransform T_odom_base;  // without systematic errors
+    UncertainTransform T_base_camera;
+    UncertainTransform T_odom_base;  // without systematic errors and those of the mount
     // What is added to the visual poses of base and camera: by setPose(), and by motions of the
     // base or the mount that were not seen.
     Eigen::Isometry3d T_odom_start = Eigen::Isometry3d::Identity();
@@ -107,16 +108,16 @@ class BaseOdometry {
   };
 
   UncertainTransform motionOfBase(const UncertainTransform& camera_motion,
-                                  const Pose& from,
-                                  const Eigen::Isometry3d& T_base_camera) const;
+                                  const UncertainTransform& T_base_camera_prev,
+                                  const UncertainTransform& T_base_camera_cur) const;
   UncertainTransform addMotion(const OdometryResult& result,
-                               const Eigen::Isometry3d& T_base_camera);
+                               const UncertainTransform& T_base_camera);
   void addUnseen(const OdometryResult& result,
-                 const Eigen::Isometry3d& T_base_camera,
+                 const UncertainTransform& T_base_camera,
                  const std::optional<Eigen::Isometry3d>& T_last_cur);
   Matrix6d growthWithTime(std::int64_t stamp_ns);
   Matrix6d growthWithDistance(const Eigen::Isometry3d& T_last_cur);
-  UncertainTransform withSystematicError(const UncertainTransform& T_odom_base) const;
+  UncertainTransform withOtherErrors(const Pose& pose) const;
   Eigen::Isometry3d T_start_base() const;
 
   NodeParameters parameters_;

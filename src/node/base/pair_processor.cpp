@@ -86,7 +86,7 @@ void PairProcessor::begin(const PairContext& context, std::int64_t stamp_ns) {
   std::optional<Eigen::Vector3d> up;
   if (context.up && isLevelled()) up = context.up();
   if (up) {
-    up = context.T_base_camera.linear() * *up;
+    up = context.T_base_camera.T.linear() * *up;
     log_.info("the first pose is level: up is " + toText(up->x()) + " " + toText(up->y()) + " " +
               toText(up->z()) + " in " + parameters_.base_frame);
   }
@@ -167,7 +167,7 @@ void PairProcessor::move(const PairContext& context, PairAnswer& answer) {
   std::optional<Eigen::Isometry3d> T_known_base, T_known_camera;
   if (context.T_last_base && T_known_last_) {
     T_known_base = *T_known_last_ * *context.T_last_base;
-    T_known_camera = T_base_camera_known_.inverse() * *T_known_base * context.T_base_camera;
+    T_known_camera = T_base_camera_known_.inverse() * *T_known_base * context.T_base_camera.T;
   }
   if (isFrozen(answer.pair, context)) {  // no measurement: the next one is compared with an earlier
     answer.result.stamp_ns = answer.pair.stamp_ns;
@@ -185,7 +185,7 @@ void PairProcessor::move(const PairContext& context, PairAnswer& answer) {
   } else {
     lost_since_ns_.reset();
     T_known_last_ = Eigen::Isometry3d::Identity();
-    T_base_camera_known_ = context.T_base_camera;
+    T_base_camera_known_ = context.T_base_camera.T;
   }
 }
 

@@ -22,7 +22,7 @@ namespace rotrocc {
 struct PairContext {
   StereoCamera camera;
   /// The mount at the stamp of the pair.
-  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
+  UncertainTransform T_base_camera;
   /// The motion of the base since the pair before by another odometry, if any. It predicts the
   /// motion of the pair, and moves the pose while the motion is lost.
   std::optional<Eigen::Isometry3d> T_last_base = std::nullopt;

@@ -64,7 +64,7 @@ void GyroInput::follow(std::int64_t stamp_ns, const Eigen::Isometry3d& T_base_ca
   mounts.erase(mounts.lower_bound(stamp_ns), mounts.end());
   mounts.erase(mounts.begin(), mounts.lower_bound(stamp_ns - kMemory_ns));
   const auto T_base_gyro = frame.empty() ? std::nullopt : mount_.find(frame, stamp_ns);
-  if (T_base_gyro) mounts[stamp_ns] = T_base_camera.linear().transpose() * T_base_gyro->linear();
+  if (T_base_gyro) mounts[stamp_ns] = T_base_camera.linear().transpose() * T_base_gyro->T.linear();
 }
 
 std::optional<Eigen::Matrix3d> GyroInput::rotation(std::int64_t from_ns, std::int64_t to_ns) {

@@ -80,8 +80,8 @@ SensorMount::SensorMount(const std::string& base_frame,
       buffer_(std::make_unique<tf2::BufferCore>()),
       listener_(feed_(*buffer_)) {}
 
-std::optional<Eigen::Isometry3d> SensorMount::find(const std::string& frame,
-                                                   std::int64_t stamp_ns) {
+std::optional<UncertainTransform> SensorMount::find(const std::string& frame,
+                                                    std::int64_t stamp_ns) {
   if (frame != frame_) lookFor(frame);
   if (fixed_) return T_base_sensor_;
   const ros::Time stamp = toRosTime(stamp_ns);
@@ -92,10 +92,10 @@ std::optional<Eigen::Isometry3d> SensorMount::find(const std::string& frame,
   if (stamp != last_stamp_) interval_s_ = (stamp - last_stamp_).toSec();
   last_stamp_ = stamp;
   try {
-    const Eigen::Isometry3d T = lookUp(stamp);
-    if (!T_base_sensor_) tellMount(T);
-    watchMovement(T);
-    T_base_sensor_ = T;
+    const UncertainTransform T_base_sensor = lookUp(stamp);
+    if (!T_base_sensor_) tellMount(T_base_sensor.T);
+    watchMovement(T_base_sensor.T);
+    T_base_sensor_ = T_base_sensor;
   } catch (const std::exception& error) {
     if (!T_base_sensor_ || moves_) {
       onMissing(error.what());
@@ -127,11 +127,11 @@ void SensorMount::lookFor(const std::string& frame) {
 }
 
 /// Throws std::exception if tf does not have the mount.
-Eigen::Isometry3d SensorMount::lookUp(const ros::Time& stamp) {
-  if (frame_ == base_frame_) return fix(Eigen::Isometry3d::Identity());
+UncertainTransform SensorMount::lookUp(const ros::Time& stamp) {
+  if (frame_ == base_frame_) return {fix(Eigen::Isometry3d::Identity())};
   const ros::Time known = latest_;
   geometry_msgs::TransformStamped newest = latest();
-  if (newest.header.stamp.isZero()) return fix(toEigen(newest.transform));
+  if (newest.header.stamp.isZero()) return {fix(toEigen(newest.transform))};
   watchMovement(toEigen(newest.transform));
   new_in_a_row_ = newest.header.stamp == known ? 0 : new_in_a_row_ + 1;
   const bool comes_in_time = comesInTime(stamp);
@@ -148,9 +148,9 @@ Eigen::Isometry3d SensorMount::lookUp(const ros::Time& stamp) {
     } else if (++exact_ >= kExact) {
       endTrouble();
     }
-    return toEigen(transformAt(stamp).transform);
+    return {toEigen(transformAt(stamp).transform)};
   }
-  if (!moves_) return toEigen(newest.transform);
+  if (!moves_) return {toEigen(newest.transform)};
   const double ahead_s = (stamp - latest_).toSec();
   if (ahead_s > 0.0 && (!comes_in_time || ahead_s <= timeout_s_)) onSlow(stamp, timeout_s_);
   return extrapolate(stamp);
@@ -182,11 +182,16 @@ bool SensorMount::comesInTime(const ros::Time& stamp) const {
 
 /// Repeats the motion before the latest transform: that of as much time as there is since then.
 /// Throws std::exception if that is more than the timeout, or more than tf has.
-Eigen::Isometry3d SensorMount::extrapolate(const ros::Time& stamp) const {
+UncertainTransform SensorMount::extrapolate(const ros::Time& stamp) const {
   const ros::Duration ahead = stamp - latest_;
-  if (ahead.toSec() > timeout_s_ || stamp < latest_) return toEigen(transformAt(stamp).transform);
+  if (ahead.toSec() > timeout_s_ || stamp < latest_) return {toEigen(transformAt(stamp).transform)};
   const Eigen::Isometry3d T_latest = toEigen(transformAt(latest_).transform);
-  return T_latest * toEigen(transformAt(latest_ - ahead).transform).inverse() * T_latest;
+  const Eigen::Isometry3d T_before = toEigen(transformAt(latest_ - ahead).transform);
+  const Eigen::Isometry3d T = T_latest * T_before.inverse() * T_latest;
+  Vector6d motion;
+  motion << T.translation() - T_latest.translation(),
+      logRotation(T.linear() * T_latest.linear().transpose());
+  return {T, motion * motion.transpose()};
 }
 
 Eigen::Isometry3d SensorMount::fix(const Eigen::Isometry3d& T_base_sensor) {

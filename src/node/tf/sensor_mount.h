@@ -13,6 +13,7 @@
 
 #include "input/log.h"
 #include "node/tf/tf_feed.h"
+#include "rotrocc/uncertain_transform.h"
 
 namespace rotrocc {
 
@@ -22,7 +23,8 @@ namespace rotrocc {
 /// lookAgain(): a mount that changes without it would look like a motion of the sensor. Other
 /// mounts are looked up at each stamp, and late transforms are waited for. If one does not come in
 /// time, a mount that has not moved so far is assumed at rest, and no longer waited for until it
-/// moves. One that moves is extrapolated, as its motion was just before.
+/// moves. One that moves is extrapolated, as its motion was just before, with an error as large as
+/// that motion.
 class SensorMount {
  public:
   /// Waits at most `timeout_s` for a transform at a stamp, and extrapolates by no more than that.
@@ -36,7 +38,7 @@ class SensorMount {
 
   /// T_base_sensor at a stamp; nothing if tf does not have it. Logs the pose of the camera, that it
   /// moves, a new frame, transforms that are slow or late and, after repeated calls, missing ones.
-  std::optional<Eigen::Isometry3d> find(const std::string& frame, std::int64_t stamp_ns);
+  std::optional<UncertainTransform> find(const std::string& frame, std::int64_t stamp_ns);
 
   /// The next find() looks the mount up again, also a fixed one, as it is after a new calibration.
   void lookAgain();
@@ -50,11 +52,11 @@ class SensorMount {
 
  private:
   void lookFor(const std::string& frame);
-  Eigen::Isometry3d lookUp(const ros::Time& stamp);
+  UncertainTransform lookUp(const ros::Time& stamp);
   geometry_msgs::TransformStamped latest();
   bool knowsPeriod() const;
   bool comesInTime(const ros::Time& stamp) const;
-  Eigen::Isometry3d extrapolate(const ros::Time& stamp) const;
+  UncertainTransform extrapolate(const ros::Time& stamp) const;
   Eigen::Isometry3d fix(const Eigen::Isometry3d& T_base_sensor);
   void watchMovement(const Eigen::Isometry3d& T_base_sensor);
   void tellMount(const Eigen::Isometry3d& T_base_sensor);
@@ -69,7 +71,7 @@ class SensorMount {
   TfFeed feed_;
   std::string frame_;
   std::string previous_frame_;  // empty until it changes
-  std::optional<Eigen::Isometry3d> T_base_sensor_;
+  std::optional<UncertainTransform> T_base_sensor_;
   Eigen::Isometry3d T_base_sensor_first_ = Eigen::Isometry3d::Identity();
   bool fixed_ = false;  // by /tf_static
   bool moves_ = false;
