@@ -90,11 +90,10 @@ class BagRecording : public Recording {
     return static_cast<int>(BagView(bags_, {topics_.left_image}).size());
   }
 
-  /// Whether the topic is not one of rectified images, and camera_info describes raw ones. A
-  /// camchain does not know rectified images.
+  /// Whether the images have to be rectified by camera_info. That of a topic of rectified images
+  /// is of the raw ones, see isRectifiedByName().
   bool isRaw() const override {
-    const bool is_camchain = options_.calibration.size() == 1;
-    if (isRectifiedByName(topics_.left_image) && !is_camchain) return false;
+    if (isRectifiedByName(topics_.left_image) && !hasFilesOfItsImages()) return false;
     return describesRawImages(left_info_, right_info_, options_.sequence.baseline_m);
   }
 
@@ -169,6 +168,15 @@ class BagRecording : public Recording {
 
  private:
   bool usesInfos() const { return options_.calibration.empty(); }
+
+  /// Whether files describe the images of the topic, be they rectified or not: a camchain, or the
+  /// files by which check_rig corrects rectified images, whose left one changes nothing.
+  bool hasFilesOfItsImages() const {
+    if (usesInfos()) return false;
+    return options_.calibration.size() == 1 ||
+           toStereoCalibration(left_info_, right_info_, options_.sequence.baseline_m)
+               .isLeftRectified();
+  }
 
   const RecordedTf& tf() const {
     if (!tf_) tf_ = readTf(bags_, options_.base_frame, camera_frame_);

@@ -159,8 +159,11 @@ Eigen::Vector3d RawCamera::ray(const Eigen::Vector2d& pixel) const {
 }
 
 bool StereoCalibration::isRectified() const {
-  return isRectifiedBy(left, rectified, rectified.cx) &&
-         isRectifiedBy(right, rectified, rectified.cx_right);
+  return isLeftRectified() && isRectifiedBy(right, rectified, rectified.cx_right);
+}
+
+bool StereoCalibration::isLeftRectified() const {
+  return isRectifiedBy(left, rectified, rectified.cx);
 }
 
 StereoCalibration rectifiedCalibration(const StereoCamera& camera) {

@@ -38,6 +38,7 @@ struct StereoCalibration {
 
   /// Whether the images of the cameras are rectified as they are taken.
   bool isRectified() const;
+  bool isLeftRectified() const;
 };
 
 /// Of images that are rectified already.

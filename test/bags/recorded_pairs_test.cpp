@@ -13,6 +13,7 @@
 
 #include "bags/bag_reading.h"
 #include "bags/sequence_bag_writer.h"
+#include "check/calibration_correction.h"
 #include "rotrocc/kitti.h"
 #include "sequences/calibration_file.h"
 #include "support/asl_folder.h"
@@ -313,6 +314,18 @@ class RawBagTest : public ::testing::Test {
     EXPECT_NEAR(reader.camera.baseline_m, sequence_.calibration.rectified.baseline_m, 1e-4);
   }
 
+  /// A bag of its images alone, on topics of that name.
+  std::string withoutInfos(const std::string& topic) {
+    const Bags bags = openBags({path()});
+    rosbag::Bag without(directory_ / "images.bag", rosbag::bagmode::Write);
+    for (const rosbag::MessageInstance& message : BagView(bags)) {
+      if (message.getDataType() != "sensor_msgs/Image") continue;
+      const bool is_left = message.getTopic().find("left") != std::string::npos;
+      without.write((is_left ? "/cam0/" : "/cam1/") + topic, message.getTime(), message);
+    }
+    return without.getFileName();
+  }
+
   AslFolder folder_;
   TemporaryDirectory directory_;
   StereoSequence sequence_;
@@ -367,16 +380,7 @@ std::string kalibrChain(const AslFolder& folder) {
 }
 
 TEST_F(RawBagTest, IsRectifiedByFilesInPlaceOfItsCalibration) {
-  {
-    const Bags bags = openBags({path()});
-    rosbag::Bag without(directory_ / "images.bag", rosbag::bagmode::Write);
-    for (const rosbag::MessageInstance& message : BagView(bags)) {
-      if (message.getDataType() != "sensor_msgs/Image") continue;
-      const bool is_left = message.getTopic().find("left") != std::string::npos;
-      without.write(is_left ? "/cam0/image_raw" : "/cam1/image_raw", message.getTime(), message);
-    }
-  }
-  const std::string bag = directory_ / "images.bag";
+  const std::string bag = withoutInfos("image_raw");
   expectError<std::runtime_error>([&] { Reader{bag}; }, "name the files of a calibration");
   directory_.write("camchain.yaml", kalibrChain(folder_));
   const std::string cameras = std::string(CAMERAS) + "/euroc_";
@@ -386,6 +390,23 @@ TEST_F(RawBagTest, IsRectifiedByFilesInPlaceOfItsCalibration) {
     expectRectified(bag, files);
     expectRectified(folder_.path(), files);
   }
+}
+
+/// A calibration of raw images says nothing of those that were rectified by it. One of the
+/// rectified images, as check_rig corrects them, does.
+TEST_F(RawBagTest, RectifiedImagesAreRectifiedByFilesOfTheirOwn) {
+  const std::string bag = withoutInfos("image_rect");
+  StereoCalibration corrected = rectifiedCalibration(sequence_.calibration.rectified);
+  const auto rectifies = [&](const StereoCalibration& calibration) {
+    writeCalibration(calibration, directory_ / "files");
+    RecordingOptions options;
+    options.calibration = {directory_ / "files/left.yaml", directory_ / "files/right.yaml"};
+    return Reader(bag, {}, options).pairs.rectifies();
+  };
+  EXPECT_FALSE(rectifies(sequence_.calibration));
+  EXPECT_FALSE(rectifies(corrected));
+  corrected.right.cx += 0.5;
+  EXPECT_TRUE(rectifies(corrected));
 }
 
 TEST_F(RawBagTest, MasksAreThoseOfTheRawImages) {
