@@ -48,7 +48,7 @@ std::unique_ptr<Recording> openPlayable(const PlayerOptions& options) {
   how.sequence.being_written = options.image_timeout_s > 0.0;
   std::unique_ptr<Recording> recording = openRecording({options.bag}, how);
   if (!options.rectify && recording->isRaw()) {
-    throw std::invalid_argument("the images of " + recording->description() +
+    throw std::invalid_argument("by their calibration, the images of " + recording->description() +
                                 " are not rectified: start with rectify:=true");
   }
   return recording;
