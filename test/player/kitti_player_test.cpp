@@ -25,7 +25,9 @@
 #include <sensor_msgs/Image.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include "bags/bag_reading.h"
 #include "bags/sequence_bag_writer.h"
+#include "check/calibration_correction.h"
 #include "input/stereo_synchronizer.h"
 #include "rotrocc/OdometryStatus.h"
 #include "rotrocc/kitti.h"
@@ -201,6 +203,36 @@ TEST_F(KittiPlayerTest, PlaysAllOfOwnBagsAndSequences) {
     EXPECT_GE(listener.count("/clock"), kPairs);
     player_.reset();  // with its latched topics
   }
+}
+
+TEST_F(KittiPlayerTest, PlaysSplitBagsOfImagesAloneByFilesOfTheirCalibration) {
+  writeOwnBag();
+  std::filesystem::create_directory(directory_ / "parts");
+  for (const int part : {0, 1}) {
+    const ros::Time middle(1000.05 + 0.1 * (kPairs / 2 - 1));
+    const Bags bags = openBags({bag()});
+    rosbag::Bag images(directory_ / "parts/" + std::to_string(part) + ".bag",
+                       rosbag::bagmode::Write);
+    for (const rosbag::MessageInstance& message : BagView(bags)) {
+      const bool is_image = message.getDataType() == "sensor_msgs/Image";
+      if (!is_image || (message.getTime() > middle) != (part == 1)) continue;
+      images.write(message.getTopic(), message.getTime(), message);
+    }
+  }
+  StereoCalibration calibration = rectifiedCalibration(sequence().camera());
+  writeCalibration(calibration, directory_ / "files");
+  private_nh_.setParam("bag", directory_ / "parts");
+  private_nh_.setParam("calibration",
+                       directory_ / "files/left.yaml" + " " + directory_ / "files/right.yaml");
+  Listener listener(nh_);
+  playToTheEnd(listener);
+  EXPECT_EQ(listener.leftStamps().size(), static_cast<std::size_t>(kPairs));
+  EXPECT_GT(listener.count("right/camera_info"), 0);
+
+  // As check_rig corrects it.
+  calibration.right.cx += 0.5;
+  writeCalibration(calibration, directory_ / "files");
+  expectError([this] { startPlayer(); }, "are not rectified: start with rectify:=true");
 }
 
 /// A sequence of which only the first pair is there; the others are in another directory.
