@@ -38,7 +38,6 @@ template <class Subscriber>
 }  // namespace
 
 LiveRecording::LiveRecording(const LiveOptions& options) : options_(options) {
-  nh_.setCallbackQueue(&callbacks_);
   subscribe(
       "left", options.left_image, left_, &RecordedMessage::left_image, &RecordedMessage::left_info);
   subscribe("right",
@@ -46,11 +45,11 @@ LiveRecording::LiveRecording(const LiveOptions& options) : options_(options) {
             right_,
             &RecordedMessage::right_image,
             &RecordedMessage::right_info);
-  spinner_.start();
+  callbacks_.start();
 }
 
 LiveRecording::~LiveRecording() {
-  spinner_.stop();
+  callbacks_.stop();
 }
 
 void LiveRecording::subscribe(const std::string& side,

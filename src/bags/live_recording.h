@@ -9,12 +9,11 @@
 #include <string>
 
 #include <image_transport/subscriber.h>
-#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
-#include <ros/spinner.h>
 #include <ros/subscriber.h>
 
 #include "bags/recording.h"
+#include "input/callback_thread.h"
 
 namespace rotrocc {
 
@@ -100,8 +99,8 @@ class LiveRecording : public Recording {
   void removeFirst(RecordedMessage& message);
 
   LiveOptions options_;
-  ros::NodeHandle nh_;
-  ros::CallbackQueue callbacks_;
+  CallbackThread callbacks_;
+  ros::NodeHandle nh_ = callbacks_.attach(ros::NodeHandle());
 
   mutable std::mutex mutex_;  // of what follows, up to the subscribers
   mutable std::condition_variable arrival_;
@@ -112,7 +111,6 @@ class LiveRecording : public Recording {
   bool ended_ = false;
 
   Camera left_, right_;
-  ros::AsyncSpinner spinner_{1, &callbacks_};  // last: callbacks use the other members
 };
 
 }  // namespace rotrocc

@@ -59,13 +59,12 @@ OdometryServices::OdometryServices(ros::NodeHandle& private_nh,
   }));
   servers_.push_back(serve<std_srvs::Trigger>(
       private_nh, "check_rig", log, [check_rig](const auto&) { return check_rig(); }));
-  ros::NodeHandle save_nh(private_nh);
-  save_nh.setCallbackQueue(&save_queue_);
+  ros::NodeHandle save_nh = save_callbacks_.attach(private_nh);
   servers_.push_back(
       serve<SaveTrajectory>(save_nh, "save_trajectory", log, [save](const auto& request) {
         return save(request.path, request.format);
       }));
-  save_spinner_.start();
+  save_callbacks_.start();
 }
 
 }  // namespace rotrocc

@@ -4,11 +4,10 @@
 #include <string>
 #include <vector>
 
-#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
-#include <ros/spinner.h>
 
+#include "input/callback_thread.h"
 #include "input/log.h"
 #include "node/base/pair_processor.h"
 #include "node/health/odometry_health.h"
@@ -34,11 +33,11 @@ class OdometryServices {
                    const Check& check_rig,
                    const std::string& odom_frame,
                    const Log& log = Log());
+  ~OdometryServices() { save_callbacks_.stop(); }
 
  private:
-  ros::CallbackQueue save_queue_;
+  CallbackThread save_callbacks_;
   std::vector<ros::ServiceServer> servers_;
-  ros::AsyncSpinner save_spinner_{1, &save_queue_};
 };
 
 }  // namespace rotrocc

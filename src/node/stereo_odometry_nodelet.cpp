@@ -5,6 +5,7 @@
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "input/callback_thread.h"
 #include "input/log.h"
 #include "node/node_parameters.h"
 #include "node/stereo_odometry.h"
@@ -13,25 +14,28 @@ namespace rotrocc {
 
 /// StereoOdometry as a nodelet.
 class StereoOdometryNodelet : public nodelet::Nodelet {
+ public:
+  ~StereoOdometryNodelet() override { callbacks_.stop(); }
+
  private:
   void onInit() override;
 
+  CallbackThread callbacks_;
   std::unique_ptr<StereoOdometry> odometry_;
 };
 
 /// Throws std::exception, after a fatal log, if the odometry cannot start.
 void StereoOdometryNodelet::onInit() {
-  // The loader destroys the callback queues of a nodelet that fails before the nodelet itself, so
-  // that a publisher, subscriber or timer left in it would be removed from a queue that is gone.
-  // It catches std::exception only.
   try {
-    const Parameters parameters = readParameters(getPrivateNodeHandle(), Log(getName()));
-    odometry_ = std::make_unique<StereoOdometry>(
-        getNodeHandle(), getPrivateNodeHandle(), getName(), parameters);
+    ros::NodeHandle nh = callbacks_.attach(getNodeHandle());
+    ros::NodeHandle private_nh = callbacks_.attach(getPrivateNodeHandle());
+    const Parameters parameters = readParameters(private_nh, Log(getName()));
+    odometry_ = std::make_unique<StereoOdometry>(nh, private_nh, getName(), parameters);
+    callbacks_.start();
   } catch (const std::exception& error) {
     Log(getName()).fatal(error.what());
     throw;
-  } catch (...) {
+  } catch (...) {  // the loader catches std::exception only
     Log(getName()).fatal("unknown error");
     throw std::runtime_error("unknown error");
   }

@@ -5,6 +5,7 @@
 #include <ros/init.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "input/callback_thread.h"
 #include "player/kitti_player.h"
 
 namespace rotrocc {
@@ -14,6 +15,9 @@ namespace rotrocc {
 /// recording.
 /// Throws std::exception, after a fatal log, on an unusable recording.
 class KittiPlayerNodelet : public nodelet::Nodelet {
+ public:
+  ~KittiPlayerNodelet() override { callbacks_.stop(); }
+
  private:
   void onInit() override {
     const bool shutdown_at_end = getPrivateNodeHandle().param("shutdown_at_end", false);
@@ -21,13 +25,17 @@ class KittiPlayerNodelet : public nodelet::Nodelet {
       if (shutdown_at_end) ros::requestShutdown();
     };
     try {
-      player_ = std::make_unique<KittiPlayer>(getNodeHandle(), getPrivateNodeHandle(), on_end);
+      ros::NodeHandle nh = callbacks_.attach(getNodeHandle());
+      ros::NodeHandle private_nh = callbacks_.attach(getPrivateNodeHandle());
+      player_ = std::make_unique<KittiPlayer>(nh, private_nh, on_end);
+      callbacks_.start();
     } catch (const std::exception& error) {
       NODELET_FATAL("%s", error.what());
       throw;  // the loader reports the failure, so the launch ends
     }
   }
 
+  CallbackThread callbacks_;
   std::unique_ptr<KittiPlayer> player_;
 };
 

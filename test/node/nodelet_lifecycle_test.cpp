@@ -14,9 +14,12 @@
 #include <gtest/gtest.h>
 #include <nodelet/NodeletLoad.h>
 #include <nodelet/NodeletUnload.h>
+#include <nodelet/nodelet.h>
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/image_encodings.h>
+#include <pluginlib/class_loader.hpp>
 
 #include "support/background_command.h"
 #include "support/read_file.h"
@@ -132,6 +135,16 @@ TEST_F(NodeletLifecycleTest, LoadsAndUnloadsWhileImagesCome) {
   ASSERT_TRUE(load());
   EXPECT_TRUE(answers(robot));
   EXPECT_TRUE(unload());
+}
+
+/// Those of a manager do not come for messages that arrive while the nodelet starts.
+TEST_F(NodeletLifecycleTest, NeedsNoCallbacksOfItsManager) {
+  ros::CallbackQueue disabled(false);
+  pluginlib::ClassLoader<nodelet::Nodelet> plugins("nodelet", "nodelet::Nodelet");
+  const auto odometry = plugins.createUniqueInstance("rotrocc/StereoOdometry");
+  odometry->init("/stereo_odometry", {}, {}, &disabled, &disabled);
+  SimulatedRobot robot;
+  EXPECT_TRUE(answers(robot));
 }
 
 /// What makes the nodelet fail while it starts.

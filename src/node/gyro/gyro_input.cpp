@@ -21,20 +21,18 @@ GyroInput::GyroInput(const ros::NodeHandle& nh, const NodeParameters& parameters
       base_frame_(parameters.base_frame),
       timeout_(parameters.imu_timeout_s),
       mount_(base_frame_, parameters.mount_timeout_s, listenToTf, std::nullopt) {
-  ros::NodeHandle own(nh);
-  own.setCallbackQueue(&queue_);
-  subscriber_ = own.subscribe<sensor_msgs::Imu>(
+  subscriber_ = callbacks_.attach(nh).subscribe<sensor_msgs::Imu>(
       "imu",
       kSampleQueueSize,
       [this](const sensor_msgs::Imu::ConstPtr& message) { receive(*message); },
       ros::VoidConstPtr(),
       ros::TransportHints().tcpNoDelay());
-  spinner_.start();
+  callbacks_.start();
 }
 
 GyroInput::~GyroInput() {
   subscriber_.shutdown();
-  spinner_.stop();
+  callbacks_.stop();
 }
 
 void GyroInput::receive(const sensor_msgs::Imu& message) {

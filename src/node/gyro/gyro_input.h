@@ -8,15 +8,14 @@
 #include <optional>
 #include <string>
 
-#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
-#include <ros/spinner.h>
 #include <ros/subscriber.h>
 #include <sensor_msgs/Imu.h>
 #include <Eigen/Geometry>
 
 #include "inertial/gyro_predictor.h"
 #include "inertial/vertical.h"
+#include "input/callback_thread.h"
 #include "input/log.h"
 #include "node/health/diagnostics.h"
 #include "node/miss_backoff.h"
@@ -90,9 +89,8 @@ class GyroInput {
   std::string gyro_frame_;         // of the last message
   bool was_asked_ = false;         // for the rotation of this pair
 
-  ros::CallbackQueue queue_;
+  CallbackThread callbacks_;
   ros::Subscriber subscriber_;
-  ros::AsyncSpinner spinner_{1, &queue_};
 };
 
 }  // namespace rotrocc
