@@ -36,7 +36,7 @@ struct StereoCalibration {
   RawCamera right;
   StereoCamera rectified;
 
-  /// Whether the images of the cameras are rectified as they are taken.
+  /// Whether the images of both cameras, or the left ones, are rectified as they are taken.
   bool isRectified() const;
   bool isLeftRectified() const;
 };

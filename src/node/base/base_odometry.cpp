@@ -161,24 +161,21 @@ UncertainTransform BaseOdometry::addMotion(const OdometryResult& result,
     keyframe_ = prev;
   }
   const UncertainTransform camera_step = {result.T_prev_cur, result.covariance};
-  const UncertainTransform exact = {T_base_camera.T};
-  const UncertainTransform step = motionOfBase(camera_step, {prev.T_base_camera.T}, exact);
-  camera_.add(parameters_.planar ? prev.T_base_camera.T.inverse() * step.T * exact.T
+  const UncertainTransform step = motionOfBase(camera_step, prev.T_base_camera, T_base_camera);
+  camera_.add(parameters_.planar ? prev.T_base_camera.T.inverse() * step.T * T_base_camera.T
                                  : result.T_prev_cur);
   last_ = prev;
   last_.stamp_ns = result.stamp_ns;
   last_.T_base_camera = T_base_camera;
-  if (keyframe_) {
-    last_.T_odom_base =
-        compose(keyframe_->T_odom_base,
-                motionOfBase(result.T_keyframe_cur, {keyframe_->T_base_camera.T}, exact));
-  } else {
-    last_.T_odom_base = compose(prev.T_odom_base, step);
-  }
+  const Pose& from = keyframe_ ? *keyframe_ : prev;
+  last_.T_odom_base = compose(from.T_odom_base,
+                              motionOfBase(keyframe_ ? result.T_keyframe_cur : camera_step,
+                                           {from.T_base_camera.T},
+                                           {T_base_camera.T}));
   // Not by compose(), which would accumulate rounding errors.
   last_.T_odom_base.T = last_.T_odom_start * T_start_base();
   without_motion_s_ = guessed_m_ = guessed_rad_ = 0.0;
-  return motionOfBase(camera_step, prev.T_base_camera, T_base_camera);
+  return step;
 }
 
 /// The base moves by `T_last_cur`, or rests; a mount that moves moves the camera.

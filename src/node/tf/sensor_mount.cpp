@@ -26,8 +26,8 @@ constexpr double kRest_rad = 1e-4;
 constexpr int kSlow = 6;
 constexpr int kExact = 50;
 
-/// Intervals of the stamps, after which a transform is slow: newer pairs have then replaced each
-/// other.
+/// Intervals of the stamps, after which a transform is slow. A wait of two always costs a pair;
+/// one interval is that of transforms which are late, but all come.
 constexpr double kLongWait = 1.5;
 
 /// Calls in a row with a new transform, after which tf may be faster than the calls.
@@ -89,7 +89,7 @@ std::optional<UncertainTransform> SensorMount::find(const std::string& frame,
     buffer_->clear();
     latest_ = {};
   }
-  if (stamp != last_stamp_) interval_s_ = (stamp - last_stamp_).toSec();
+  if (stamp > last_stamp_) interval_s_ = (stamp - last_stamp_).toSec();
   last_stamp_ = stamp;
   try {
     const UncertainTransform T_base_sensor = lookUp(stamp);
@@ -143,7 +143,7 @@ UncertainTransform SensorMount::lookUp(const ros::Time& stamp) {
   if (buffer_->canTransform(base_frame_, frame_, stamp)) {
     const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - begin;
     const double long_s = kLongWait * interval_s_;
-    if (moves_ && interval_s_ > 0.0 && waited.count() > long_s) {
+    if (moves_ && waited.count() > long_s) {
       onSlow(stamp, long_s);
     } else if (++exact_ >= kExact) {
       endTrouble();
