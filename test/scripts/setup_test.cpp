@@ -186,6 +186,19 @@ TEST(DependenciesTest, ThoseOfDebianAndOfPackageXmlAreTheSame) {
   EXPECT_EQ(debian, ros);
 }
 
+TEST(DependenciesTest, HasTheLibrariesOfTheDesign) {
+  const std::set<std::string> ros = find(readFile(kPackageXml), "<depend>([^<]+)</");
+  for (const char* key : {"roscpp",
+                          "tf2",
+                          "libopencv-dev",
+                          "eigen",
+                          "libceres-dev",
+                          "cv_bridge",
+                          "image_transport"}) {
+    EXPECT_EQ(ros.count(key), 1u) << key;
+  }
+}
+
 TEST(DependenciesTest, ARobotWithoutAScreenNeedsNoneOfRvizAndPlots) {
   for (const std::string& key : find(readFile(kPackageXml), "<(?:exec_)?depend[^>]*>([^<]+)</")) {
     EXPECT_TRUE(key != "rviz" && key != "python3-matplotlib") << key;
