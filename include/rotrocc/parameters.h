@@ -2,7 +2,6 @@
 
 #include <array>
 #include <string>
-#include <vector>
 
 #include "rotrocc/odometry_config.h"
 #include "rotrocc/parameter_table.h"
@@ -56,14 +55,10 @@ struct Parameters {
 /// The table of all members of `parameters`, which must outlive it.
 ParameterTable makeParameterTable(Parameters& parameters);
 
-/// A warning if `name` was a parameter in an earlier release; empty for all other names. Files may
-/// still contain it.
-std::string whyIgnored(const std::string& name);
-
-/// Sets the parameters that the YAML file at `path` contains. Returns a warning for each that
-/// exists no more. Throws std::invalid_argument with the path if the file cannot be read, is not
-/// valid YAML, names an unknown parameter or has a value out of range.
-std::vector<std::string> loadYaml(const std::string& path, ParameterTable& table);
+/// Sets the parameters that the YAML file at `path` contains. Throws std::invalid_argument with the
+/// path if the file cannot be read, is not valid YAML, names an unknown parameter or has a value
+/// out of range.
+void loadYaml(const std::string& path, ParameterTable& table);
 
 /// The table as a YAML file, with unit, range and description of each parameter as a comment.
 std::string toYaml(const ParameterTable& table);

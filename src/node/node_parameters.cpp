@@ -42,18 +42,14 @@ void setOne(const std::string& name, XmlRpc::XmlRpcValue value, ParameterTable& 
   }
 }
 
-void setBelow(const std::string& name,
-              XmlRpc::XmlRpcValue value,
-              ParameterTable& table,
-              std::vector<std::string>& warnings) {
+void setBelow(const std::string& name, XmlRpc::XmlRpcValue value, ParameterTable& table) {
   if (name == "diagnostic_period") return;  // of diagnostic_updater
-  if (const std::string why = whyIgnored(name); !why.empty()) return warnings.push_back(why);
   if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
     setOne(name, value, table);
     return;
   }
   for (auto& [key, child] : value) {
-    setBelow(name.empty() ? key : name + "/" + key, child, table, warnings);
+    setBelow(name.empty() ? key : name + "/" + key, child, table);
   }
 }
 
@@ -76,15 +72,13 @@ void requireDifferent(const std::string& name,
 
 }  // namespace
 
-Parameters readParameters(const ros::NodeHandle& private_nh, const Log& log) {
+Parameters readParameters(const ros::NodeHandle& private_nh) {
   const std::string& ns = private_nh.getNamespace();
   Parameters parameters;
   ParameterTable table = makeParameterTable(parameters);
   try {
     XmlRpc::XmlRpcValue tree;
-    if (private_nh.getParam(ns, tree)) {
-      for (const std::string& warning : setParameters(tree, table)) log.warn(warning);
-    }
+    if (private_nh.getParam(ns, tree)) setParameters(tree, table);
     requireFrames(parameters.node);
   } catch (const RefusedParameter& error) {
     // Parameters stay on the server when a node ends, so the user may not know of this one.
@@ -111,10 +105,8 @@ void requireFrames(const NodeParameters& node) {
   }
 }
 
-std::vector<std::string> setParameters(const XmlRpc::XmlRpcValue& tree, ParameterTable& table) {
-  std::vector<std::string> warnings;
-  setBelow("", tree, table, warnings);
-  return warnings;
+void setParameters(const XmlRpc::XmlRpcValue& tree, ParameterTable& table) {
+  setBelow("", tree, table);
 }
 
 }  // namespace rotrocc

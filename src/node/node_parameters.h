@@ -2,12 +2,10 @@
 
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
-#include "input/log.h"
 #include "rotrocc/parameters.h"
 
 namespace rotrocc {
@@ -24,17 +22,17 @@ class RefusedParameter : public std::invalid_argument {
   std::string name_;
 };
 
-/// The parameters in the namespace of `private_nh`, with defaults for missing ones. Logs
-/// the warnings of setParameters(). Throws std::invalid_argument as setParameters() and
-/// requireFrames() do, with the command that deletes the parameter from the server.
-Parameters readParameters(const ros::NodeHandle& private_nh, const Log& log);
+/// The parameters in the namespace of `private_nh`, with defaults for missing ones. Throws
+/// std::invalid_argument as setParameters() and requireFrames() do, with the command that deletes
+/// the parameter from the server.
+Parameters readParameters(const ros::NodeHandle& private_nh);
 
 /// Throws RefusedParameter with the name on invalid or conflicting frames.
 void requireFrames(const NodeParameters& node);
 
 /// Sets every parameter of `tree`, whose structs are the sections of the table, but for those that
-/// libraries read. Returns a warning for each that exists no more. Throws RefusedParameter with
-/// name and range on an unknown parameter, a wrong type or a value out of range.
-std::vector<std::string> setParameters(const XmlRpc::XmlRpcValue& tree, ParameterTable& table);
+/// libraries read. Throws RefusedParameter with name and range on an unknown parameter, a wrong
+/// type or a value out of range.
+void setParameters(const XmlRpc::XmlRpcValue& tree, ParameterTable& table);
 
 }  // namespace rotrocc

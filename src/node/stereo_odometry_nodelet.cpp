@@ -29,7 +29,7 @@ void StereoOdometryNodelet::onInit() {
   try {
     ros::NodeHandle nh = callbacks_.attach(getNodeHandle());
     ros::NodeHandle private_nh = callbacks_.attach(getPrivateNodeHandle());
-    const Parameters parameters = readParameters(private_nh, Log(getName()));
+    const Parameters parameters = readParameters(private_nh);
     odometry_ = std::make_unique<StereoOdometry>(nh, private_nh, getName(), parameters);
     callbacks_.start();
   } catch (const std::exception& error) {

@@ -1,6 +1,5 @@
 #include "rotrocc/parameters.h"
 
-#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -12,31 +11,8 @@
 namespace rotrocc {
 namespace {
 
-/// Parameters of earlier releases, by section.
-constexpr const char* kRemoved = R"(
-"": [lost_speed_sigma_mps, lost_turn_rate_sigma_rps]
-feature_detector: [block_radius_px, border_px, cell_size_px, min_response, nms_radius_px]
-feature_tracker: [levels, max_disparity_difference_px, max_iterations, max_vertical_px,
-  min_step_px, startup_levels]
-keyframe_selector: [max_parallax_px, min_seen_share]
-motion_check: [degraded_depth_share, degraded_information_share, degraded_relative_sigma,
-  degraded_rival_share, degraded_rotation_share, degraded_start_share, degraded_survivor_share,
-  degraded_translation_share]
-motion_estimator: [comparison_iterations, deviation_factor, mean_factor, retry_share,
-  rotation_drop_share, rotation_max_iterations, translation_drop_share, translation_max_iterations]
-motion_model: [max_age_s]
-stereo_calibrator: [flex_px, noise_ratio, prior_sigma_px, robust_factor, shared_error_ratio,
-  significance, steady_pairs]
-stereo_matcher: [max_mean_difference, uniqueness]
-visual_odometry: [settled_px]
-)";
-
 /// Sets every scalar and list below `node`; `prefix` is the name of `node`.
-void setAll(const YAML::Node& node,
-            const std::string& prefix,
-            ParameterTable& table,
-            std::vector<std::string>& warnings) {
-  if (const std::string why = whyIgnored(prefix); !why.empty()) return warnings.push_back(why);
+void setAll(const YAML::Node& node, const std::string& prefix, ParameterTable& table) {
   if (node.IsScalar()) {
     // Could not be written: yaml-cpp replaces what is not UTF-8.
     if (YAML::Load(YAML::Dump(YAML::Node(node.Scalar()))).Scalar() != node.Scalar()) {
@@ -54,34 +30,19 @@ void setAll(const YAML::Node& node,
   }
   for (const auto& entry : node) {
     const auto name = entry.first.as<std::string>();
-    setAll(entry.second, prefix.empty() ? name : prefix + "/" + name, table, warnings);
+    setAll(entry.second, prefix.empty() ? name : prefix + "/" + name, table);
   }
 }
 
 }  // namespace
 
-std::string whyIgnored(const std::string& name) {
-  using Sections = std::map<std::string, std::vector<std::string>>;
-  static const auto kSections = YAML::Load(kRemoved).as<Sections>();
-  for (const auto& [section, leaves] : kSections) {
-    for (const std::string& leaf : leaves) {
-      if (name != (section.empty() ? leaf : section + "/" + leaf)) continue;
-      return "parameter " + name + " no longer exists and is ignored: delete it";
-    }
-  }
-  return "";
-}
-
-std::vector<std::string> loadYaml(const std::string& path, ParameterTable& table) {
-  std::vector<std::string> warnings;
+void loadYaml(const std::string& path, ParameterTable& table) {
   try {
     const YAML::Node root = readYaml(path);
-    if (!root.IsNull()) setAll(root, "", table, warnings);
+    if (!root.IsNull()) setAll(root, "", table);
   } catch (const std::exception& error) {
     throw std::invalid_argument(path + ": " + error.what());
   }
-  for (std::string& warning : warnings) warning = path + ": " + warning;
-  return warnings;
 }
 
 std::string toYaml(const ParameterTable& table) {

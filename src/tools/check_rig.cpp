@@ -177,7 +177,7 @@ CheckedRig checkWithProgress(const Options& options, Recording& recording, RigCh
 /// The recording is closed after it: ROS must not run any more when the program exits.
 CheckedRig checkInput(const Options& options) {
   RigCheckOptions check;
-  check.parameters = readParameters("check_rig", options.input);
+  check.parameters = readParameters(options.input);
   check.rectify = options.input.rectify;
   const NodeParameters& node = check.parameters.node;
   const std::unique_ptr<Recording> recording =

@@ -1,7 +1,5 @@
 #include "tools/input_options.h"
 
-#include <iostream>
-
 #include "tools/program.h"
 
 namespace rotrocc {
@@ -39,14 +37,10 @@ po::options_description imageOptions(InputOptions& options) {
   return images;
 }
 
-Parameters readParameters(const char* program, const InputOptions& options) {
+Parameters readParameters(const InputOptions& options) {
   Parameters parameters;
   ParameterTable table = makeParameterTable(parameters);
-  if (!options.config.empty()) {
-    for (const std::string& warning : loadYaml(options.config, table)) {
-      std::cerr << program << ": " << warning << '\n';
-    }
-  }
+  if (!options.config.empty()) loadYaml(options.config, table);
   for (const std::string& assignment : options.assignments) table.setAssignment(assignment);
   return parameters;
 }

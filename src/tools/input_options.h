@@ -29,9 +29,8 @@ boost::program_options::options_description parameterOptions(InputOptions& optio
 /// The options left-image, right-image, rectify and calibration.
 boost::program_options::options_description imageOptions(InputOptions& options);
 
-/// The parameters of the options. Prints warnings to stderr, after the name of the program. Throws
-/// as loadYaml() and ParameterTable::setAssignment().
-Parameters readParameters(const char* program, const InputOptions& options);
+/// The parameters of the options. Throws as loadYaml() and ParameterTable::setAssignment().
+Parameters readParameters(const InputOptions& options);
 
 /// Throws as openRecording().
 std::unique_ptr<Recording> openInput(const InputOptions& options, const NodeParameters& node);

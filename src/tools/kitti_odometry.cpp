@@ -27,11 +27,7 @@ const char* const kHelp =
 void run(const std::string& directory, const std::string& output, const char* config) {
   Parameters parameters;
   ParameterTable table = makeParameterTable(parameters);
-  if (config != nullptr) {
-    for (const std::string& warning : loadYaml(config, table)) {
-      std::cerr << "kitti_odometry: " << warning << '\n';
-    }
-  }
+  if (config != nullptr) loadYaml(config, table);
 
   const KittiSequence sequence(directory);
   TrajectoryWriter trajectory(output, TrajectoryFormat::kKitti);

@@ -167,7 +167,7 @@ class PreloadedPairs {
 };
 
 void run(const Options& options) {
-  const Parameters parameters = readParameters("offline_odometry", options.input);
+  const Parameters parameters = readParameters(options.input);
   const std::unique_ptr<Recording> recording = openInput(options.input, parameters.node);
   RecordedPairs pairs(*recording, parameters.node, options.input.rectify);
   std::cerr << "offline_odometry: reading " << recording->description()

@@ -65,17 +65,6 @@ TEST_F(NodeParametersTest, TheInitialPoseIsAListOrText) {
   expectRefused(nested, "initial_pose is neither a value nor a section", "initial_pose");
 }
 
-TEST_F(NodeParametersTest, WarnsOfWhatNoLongerExists) {
-  XmlRpcValue tree;
-  tree["feature_tracker"]["levels"] = 2;
-  tree["queue_size"] = 9;
-  const std::vector<std::string> warnings = setParameters(tree, table_);
-  ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_EQ(warnings[0],
-            "parameter feature_tracker/levels no longer exists and is ignored: delete it");
-  EXPECT_EQ(parameters_.node.queue_size, 9);
-}
-
 TEST_F(NodeParametersTest, RefusesWhatIsUnknownOrInvalidByName) {
   XmlRpcValue unknown;
   unknown["feature_detector"]["max_featurs"] = 5;

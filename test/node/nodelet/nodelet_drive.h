@@ -31,7 +31,7 @@ class RunningNodelet {
     for (const auto& [key, value] : parameters) private_nh_.setParam(key, value);
     nh_.setCallbackQueue(&queue_);
     private_nh_.setCallbackQueue(&queue_);
-    odometry_.emplace(nh_, private_nh_, name, readParameters(private_nh_, Log(name)));
+    odometry_.emplace(nh_, private_nh_, name, readParameters(private_nh_));
     spinner_.start();
   }
 
