@@ -39,7 +39,6 @@ OdometryServices::OdometryServices(ros::NodeHandle& private_nh,
                                    PairProcessor& processor,
                                    OdometryHealth& health,
                                    const Save& save,
-                                   const Check& check_rig,
                                    const std::string& odom_frame,
                                    const Log& log) {
   servers_.push_back(serve<std_srvs::Trigger>(private_nh, "reset", log, [&](const auto&) {
@@ -57,8 +56,6 @@ OdometryServices::OdometryServices(ros::NodeHandle& private_nh,
     return request.data ? "paused: pairs are dropped, the pose is held"
                         : "resumed at the last pose, moved by guess_frame if there is one";
   }));
-  servers_.push_back(serve<std_srvs::Trigger>(
-      private_nh, "check_rig", log, [check_rig](const auto&) { return check_rig(); }));
   ros::NodeHandle save_nh = save_callbacks_.attach(private_nh);
   servers_.push_back(
       serve<SaveTrajectory>(save_nh, "save_trajectory", log, [save](const auto& request) {

@@ -14,7 +14,7 @@
 
 namespace rotrocc {
 
-/// The services ~reset, ~set_pose, ~pause, ~check_rig and ~save_trajectory. What fails gives a
+/// The services ~reset, ~set_pose, ~pause and ~save_trajectory. What fails gives a
 /// response without success; no exception leaves the callback. Saving takes its time in a thread of
 /// its own; the others run in the queue of the handle.
 class OdometryServices {
@@ -22,15 +22,11 @@ class OdometryServices {
   /// Returns a description of what was written.
   using Save = std::function<std::string(const std::string& path, const std::string& format)>;
 
-  /// Returns where the report will be.
-  using Check = std::function<std::string()>;
-
   /// `processor` and `health` must outlive this. Poses that are set must be in `odom_frame`.
   OdometryServices(ros::NodeHandle& private_nh,
                    PairProcessor& processor,
                    OdometryHealth& health,
                    const Save& save,
-                   const Check& check_rig,
                    const std::string& odom_frame,
                    const Log& log = Log());
   ~OdometryServices() { save_callbacks_.stop(); }

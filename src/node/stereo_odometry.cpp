@@ -10,7 +10,6 @@
 
 #include "input/message_conversion.h"
 #include "input/stereo_pair_converter.h"
-#include "input/to_text.h"
 #include "node/odometry_messages.h"
 
 namespace rotrocc {
@@ -75,8 +74,7 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
   const auto save = [this](const std::string& path, const std::string& format) {
     return trajectory_.save(path, format);
   };
-  const auto check_rig = [this] { return checkRig(); };
-  services_.emplace(private_nh, processor_, health_, save, check_rig, parameters_.odom_frame, log_);
+  services_.emplace(private_nh, processor_, health_, save, parameters_.odom_frame, log_);
   live_parameters_.emplace(
       private_nh,
       parameters,
@@ -112,31 +110,9 @@ void StereoOdometry::onTick(const ros::WallTimerEvent&) {
       if (!fault.empty() && warning_.pass(fault)) log_.warn(fault);
     }
     silence_.onTick(report.input, SteadyClock::now());
-    if (const std::string checked = live_check_.poll(); !checked.empty()) log_.info(checked);
   } catch (const std::exception& error) {
     log_.error(std::string("diagnostics: ") + error.what());
   }
-}
-
-/// Of the topics that the node takes, as it takes them.
-std::string StereoOdometry::checkRig() {
-  const InputReport input = input_->report();
-  const auto withoutTransport = [this](std::string topic) {
-    const std::string end = "/" + parameters_.image_transport;
-    const bool has_end =
-        topic.size() > end.size() && topic.compare(topic.size() - end.size(), end.size(), end) == 0;
-    if (parameters_.image_transport != "raw" && has_end) topic.resize(topic.size() - end.size());
-    return topic;
-  };
-  return live_check_.start({"left:=" + withoutTransport(input.left_image.topic),
-                            "right:=" + withoutTransport(input.right_image.topic),
-                            "left/camera_info:=" + input.left_info.topic,
-                            "right/camera_info:=" + input.right_info.topic,
-                            std::string("--rectify=") + (parameters_.rectify ? "yes" : "no"),
-                            "--set=image_transport=" + parameters_.image_transport,
-                            "--set=baseline_m=" + exactText(parameters_.baseline_m),
-                            "--set=significant_bits=" + toText(parameters_.significant_bits),
-                            "--set=mask=" + parameters_.mask});
 }
 
 void StereoOdometry::work() {

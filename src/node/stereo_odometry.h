@@ -17,7 +17,6 @@
 #include "node/health/diagnostics.h"
 #include "node/health/loss_log.h"
 #include "node/health/odometry_health.h"
-#include "node/live_check.h"
 #include "node/live_parameters.h"
 #include "node/odometry_publisher.h"
 #include "node/odometry_services.h"
@@ -55,7 +54,6 @@ class StereoOdometry {
   // In the thread of the nodelet.
   void onPair(ReceivedPair pair);
   void onTick(const ros::WallTimerEvent& event);
-  std::string checkRig();
 
   // In the worker thread.
   void work();
@@ -76,7 +74,6 @@ class StereoOdometry {
   std::optional<GyroInput> gyro_;
   OdometryPublisher publisher_;
   TrajectoryStore trajectory_;
-  LiveCheck live_check_;
 
   LossLog loss_log_;  // of the worker
   // Of the callbacks.

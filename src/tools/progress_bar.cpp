@@ -20,8 +20,8 @@ ProgressBar::ProgressBar(std::string label, std::size_t total)
       on_terminal_(isatty(STDERR_FILENO) == 1),
       start_(Clock::now()) {}
 
-void ProgressBar::advanceTo(std::size_t done) {
-  done_ = done;
+void ProgressBar::advance() {
+  ++done_;
   const auto now = Clock::now();
   const std::size_t tenths = total_ > 0 ? 10 * done_ / total_ : 0;
   if (on_terminal_ ? now - last_drawn_ < kRedrawPeriod : tenths == tenths_drawn_) return;

@@ -13,9 +13,7 @@ class ProgressBar {
   ProgressBar(std::string label, std::size_t total);
 
   /// Counts one more item.
-  void advance() { advanceTo(done_ + 1); }
-  /// Items, or seconds, so far.
-  void advanceTo(std::size_t done);
+  void advance();
 
   /// Shows the final count and ends the line. Call once, at the end.
   void finish();

@@ -85,7 +85,6 @@ const Omission kOmissions[] = {
     {"--sshlogin", "needs other machines"},
     {"realsense.launch", "needs a camera with its driver"},
     {"/camera/stereo_module", "needs a camera with its driver"},
-    {"check_rig --live", "needs a camera with its driver"},
     {"cameracalibrator.py", "needs a camera with its driver"},
     {"experiments/", "takes minutes to hours; experiments_test runs short forms"},
     {"06_000_050", "a clip of KITTI; benchmark_test runs the script"},

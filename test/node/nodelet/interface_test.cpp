@@ -2,11 +2,9 @@
 
 #include <atomic>
 #include <chrono>
-#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <numeric>
-#include <regex>
 #include <string>
 #include <thread>
 #include <vector>
@@ -24,7 +22,6 @@
 #include "rotrocc/SaveTrajectory.h"
 #include "rotrocc/SetPose.h"
 #include "rotrocc/rigid_motion.h"
-#include "support/run_command.h"
 
 namespace rotrocc {
 namespace {
@@ -310,31 +307,6 @@ TEST_F(InterfaceTest, ServicesMayBeCalledAllTheTime) {
   }
   caller.join();
   recover();
-}
-
-/// It ends early, as with Ctrl-C: a minute is long for a test.
-/// The brackets keep pgrep from the shell that runs it.
-TEST_F(InterfaceTest, TheRigIsCheckedInAProcessOfItsOwn) {
-  std_srvs::Trigger check;
-  ASSERT_TRUE(call("check_rig", check));
-  ASSERT_TRUE(check.response.success) << check.response.message;
-  std::smatch page;
-  ASSERT_TRUE(std::regex_search(
-      check.response.message, page, std::regex("(/[^ ]*rotrocc_check_[^/]*)/index.html")));
-  const std::string process = "[c]heck_rig --live --report " + page[1].str();
-  std_srvs::Trigger again;
-  ASSERT_TRUE(call("check_rig", again));
-  EXPECT_FALSE(again.response.success);
-  EXPECT_NE(again.response.message.find("is running"), std::string::npos) << again.response.message;
-  // It subscribes after a moment. Of its first pairs it takes what it gets.
-  for (int pair = 0; pair < 80; ++pair) {
-    robot().publishInfos();
-    robot().drive();
-    std::this_thread::sleep_for(milliseconds(50));
-  }
-  runCommand("pkill -INT -f '" + process + "'");
-  EXPECT_TRUE(waitUntil([&] { return std::filesystem::exists(page[0].str()); }));
-  EXPECT_TRUE(waitUntil([&] { return runCommand("pgrep -f '" + process + "'").status != 0; }));
 }
 
 TEST_F(InterfaceTest, ParametersChangeLive) {
