@@ -75,7 +75,7 @@ KittiPlayer::TimeRange KittiPlayer::rangeToPlay(const Recording& recording,
   const double length_s = (recording.end() - recording.begin()).toSec();
   if (options.start > length_s) {
     throw std::invalid_argument("parameter start is " + toText(options.start) +
-                                " s, but the recording is only " + toText(length_s) + " s long");
+                                " s, but the recording is only " + fixedText(length_s, 1) + " s long");
   }
   TimeRange range = {recording.begin() + ros::Duration(options.start), recording.end()};
   if (options.duration > 0.0) {
@@ -158,7 +158,7 @@ bool KittiPlayer::stopped() const {
 void KittiPlayer::waitForSubscribers() {
   for (int polls = 0; !stopped(); ++polls) {
     const std::vector<std::string> missing = publisher_.topicsWithoutSubscriber();
-    const bool odometry_missing = options_.lockstep && !monitor_.connected();
+    const bool odometry_missing = options_.lockstep_timeout_s > 0.0 && !monitor_.connected();
     if (missing.empty() && !odometry_missing) return;
     if (polls % kPollsPerWarning == kPollsPerWarning - 1) {
       ROS_WARN("waiting for subscribers of %s%s",
@@ -218,7 +218,7 @@ void KittiPlayer::play(const RecordedMessage& message) {
   if (message.right_image) pair = synchronizer_.add(Side::kRight, message.right_image);
   if (pair) monitor_.expect(pair->left->header.stamp);
   publisher_.publish(message);
-  if (pair && options_.lockstep) waitForOdometry(pair->left->header.stamp);
+  if (pair && options_.lockstep_timeout_s > 0.0) waitForOdometry(pair->left->header.stamp);
 }
 
 void KittiPlayer::waitForOdometry(const ros::Time& stamp) {
@@ -227,7 +227,7 @@ void KittiPlayer::waitForOdometry(const ros::Time& stamp) {
   while (!monitor_.wait(stamp, kPollPeriod)) {
     if (stopped()) return;
     if (WallClock::now() < deadline) continue;
-    ROS_WARN("no odometry for the pair of %.6f s within %g s; continuing",
+    ROS_WARN("no odometry for the pair of %.3f s within %g s; continuing",
              stamp.toSec(),
              options_.lockstep_timeout_s);
     return;

@@ -35,7 +35,6 @@ class KittiPlayer {
   KittiPlayer(const KittiPlayer&) = delete;
   KittiPlayer& operator=(const KittiPlayer&) = delete;
 
-  bool paused() const { return clock_.paused(); }
   void setPaused(bool paused);
 
  private:

@@ -59,11 +59,6 @@ void PlaybackClock::setPaused(bool paused) {
   changed_.notify_all();
 }
 
-bool PlaybackClock::paused() const {
-  std::lock_guard<std::mutex> lock(mutex_);
-  return paused_;
-}
-
 void PlaybackClock::stop() {
   {
     std::lock_guard<std::mutex> lock(mutex_);

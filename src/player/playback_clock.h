@@ -27,7 +27,6 @@ class PlaybackClock {
   bool waitUntil(const ros::Time& time);
 
   void setPaused(bool paused);
-  bool paused() const;
 
   /// Ends all current and future waits.
   void stop();

@@ -96,16 +96,6 @@ class ConfiguredLaunchTest : public LaunchFilesTest {
     expect("stereo_odometry.launch", "stereo:=/camera " + config_ + options, entries);
   }
 
-  /// Gives each parameter as an argument, and expects its value; and the entries.
-  void expectArguments(const Launched& arguments, Launched entries) const {
-    std::string options;
-    for (const auto& [name, value] : arguments) {
-      options += " " + name + ":=" + value;
-      entries[kNode + "/" + name] = value;
-    }
-    expectCamera(options, entries);
-  }
-
   const std::string config_ = "config:=" + directory_ / "robot.yaml";
 };
 
@@ -115,7 +105,7 @@ TEST_F(ConfiguredLaunchTest, TheFileHolds) {
                       {"warnings", "0"},
                       {kNode + " odom", "odom"}};
   Launched of_kitti = {{"/stereo/kitti_player/base_frame", "body"},
-                       {"/stereo/kitti_player/lockstep", "true"},
+                       {"/stereo/kitti_player/lockstep_timeout_s", "10.0"},
                        {"/stereo/kitti_player/max_stamp_difference_s", "0.02"},
                        {"/stereo/kitti_player/rectify", "true"},
                        {"cleared", "/stereo/stereo_odometry/ /stereo/kitti_player/"},
@@ -129,11 +119,12 @@ TEST_F(ConfiguredLaunchTest, TheFileHolds) {
 }
 
 TEST_F(ConfiguredLaunchTest, ArgumentsOverrideIt) {
-  expectArguments({{"odom_frame", "odom"},
-                   {"base_frame", "base_link"},
-                   {"publish_tf", "true"},
-                   {"rectify", "false"}},
-                  {{"warnings", "0"}});
+  expectCamera(" odom_frame:=odom base_frame:=base_link publish_tf:=true rectify:=false",
+               {{kNode + "/odom_frame", "odom"},
+                {kNode + "/base_frame", "base_link"},
+                {kNode + "/publish_tf", "true"},
+                {kNode + "/rectify", "false"},
+                {"warnings", "0"}});
   expect("kitti.launch",
          "bag:=any.bag rectify:=true base_frame:=body lockstep_timeout:=0 trajectory_file:=/new "
          "calibration:=/camchain.yaml",
@@ -144,28 +135,8 @@ TEST_F(ConfiguredLaunchTest, ArgumentsOverrideIt) {
           {"/stereo/stereo_odometry/trajectory_file", "/new"},
           {"/stereo/kitti_player/rectify", "true"},
           {"/stereo/kitti_player/calibration", "/camchain.yaml"},
-          {"/stereo/kitti_player/lockstep", "false"},
+          {"/stereo/kitti_player/lockstep_timeout_s", "0.0"},
           {"warnings", "0"}});
-}
-
-TEST_F(ConfiguredLaunchTest, ArgumentsOfTheLastReleaseWorkAndAreReported) {
-  expectArguments({{"planar", "false"},
-                   {"guess_frame", "odom_2"},
-                   {"max_stamp_difference_s", "0.005"},
-                   {"image_transport", "raw"},
-                   {"trajectory_file", "/new"},
-                   {"trajectory_format", "tum"}},
-                  {{"warnings", "1"}});
-  expectArguments({{"planar", "false"}}, {{"warnings", "1"}});
-  expectCamera(" imu:=/imu/data",
-               {{kNode + " imu", "/imu/data"}, {kNode + "/use_imu", "true"}, {"warnings", "1"}});
-  expect("kitti.launch",
-         "bag:=any.bag rviz:=false lockstep:=false",
-         {{"/stereo/kitti_player/lockstep", "false"}, {"warnings", "1"}});
-  expect("cameras/realsense.launch",
-         "driver:=false mount:='1 2 3 0.4 0.5 0.6'",
-         {{"/camera/camera_pose", kPublisher + "1 2 3 0.4 0.5 0.6 base_link camera_link"},
-          {"warnings", "1"}});
 }
 
 TEST_F(ConfiguredLaunchTest, TopicsAreWhereTheUserWants) {
@@ -226,6 +197,10 @@ TEST_F(ConfiguredLaunchTest, TheFilterBroadcastsTf) {
   expect("ekf.launch",
          config_ + " filter_config:=" + directory_.write("filter.yaml", "odom_frame: filtered"),
          entries);
+  const std::string quoted = "{odom_frame: 'world',\n base_frame:   \"body\"}  # of the robot\n";
+  expect("ekf.launch",
+         "config:='" + directory_.write("a file.yaml", quoted) + "'",
+         {{"/ekf/base_link_frame", "body"}, {"/ekf/odom_frame", "world"}});
   expect("ekf.launch", "", {{"/ekf/base_link_frame", "base_link"}, {"/ekf/odom_frame", "odom"}});
 }
 
@@ -305,9 +280,6 @@ TEST_F(LaunchFilesTest, Zed) {
           {odometry + "/base_frame", "body"},
           {"warnings", "0"}});
   expect("cameras/zed.launch", "model:=zed2i", {{"/driver/publish_urdf", "false"}});
-  expect("cameras/zed.launch",
-         "model:=zed2i mount:='1 2 3 0.4 0.5 0.6'",
-         {{"/driver/cam_yaw", "0.4"}, {"/driver/cam_roll", "0.6"}, {"warnings", "1"}});
 }
 
 TEST_F(LaunchFilesTest, UsbPair) {

@@ -93,6 +93,8 @@ class KittiLaunchTest : public ::testing::Test {
     const std::string played = std::to_string(pairs) + " pairs played, " + std::to_string(pairs) +
                                " answered, 0 lost, 0 dropped";
     EXPECT_NE(launch.output.find(played), std::string::npos) << launch.output;
+    EXPECT_EQ(launch.output.find("unload_nodelet"), std::string::npos)
+        << "a clean end warns of nothing: " << launch.output;
   }
 
   TemporaryDirectory directory_;
