@@ -1,5 +1,4 @@
 #include <cstdint>
-#include <filesystem>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -70,8 +69,5 @@ void run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (std::filesystem::path(argv[0]).filename() == "kitti_to_bag") {
-    std::cerr << "kitti_to_bag: its name is sequence_to_bag now\n";
-  }
   return runProgram("sequence_to_bag", argc, argv, parse, run);
 }

@@ -1,8 +1,6 @@
-// --help of all programs and scripts, their answer to an unknown option, and the completion of
-// bash, which knows the options.
+// --help of all programs and scripts, and their answer to an unknown option.
 
 #include <filesystem>
-#include <map>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -11,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "support/run_command.h"
-#include "support/temporary_directory.h"
 
 namespace rotrocc {
 namespace {
@@ -52,10 +49,6 @@ CommandResult run(const std::string& path, const std::string& arguments) {
                     " </dev/null");
 }
 
-std::string helpOf(const std::string& program) {
-  return run(std::string(PROGRAMS_DIR) + "/" + program, "--help").output;
-}
-
 TEST(CommandHelpTest, SaysWhatItIsForWithAnExample) {
   std::vector<std::string> paths = scripts();
   for (const std::string& name : programs())
@@ -77,71 +70,6 @@ TEST(CommandHelpTest, UnknownOptionsAreRefused) {
     EXPECT_EQ(result.status, 2) << name;
     EXPECT_NE(result.output.find("--help"), std::string::npos) << name << ": " << result.output;
   }
-}
-
-/// The options of a help, and whether each takes a value.
-std::map<std::string, bool> optionsOf(const std::string& help) {
-  static const std::regex option(R"(^  (?:-h \[ |-h, )?(--[a-z-]+)(?: \])?( [^ ]+)?)");
-  std::map<std::string, bool> options;
-  std::istringstream lines(help);
-  for (std::string line; std::getline(lines, line);) {
-    std::smatch match;
-    if (std::regex_search(line, match, option)) options[match[1]] = match[2].matched;
-  }
-  options.erase("--help");
-  return options;
-}
-
-/// What bash prints with the completion at hand.
-std::string withCompletion(const std::string& commands) {
-  return runCommand("bash -c '. " ROOT "/scripts/completion.bash; " + commands + "'").output;
-}
-
-TEST(CompletionTest, KnowsEveryOptionOfEveryProgram) {
-  for (const std::string& name : programs()) {
-    if (isNode(name)) continue;
-    std::map<std::string, bool> completed;
-    const std::string options = "echo ${_rotrocc_options[" + name + "]-unknown}";
-    for (std::string word : wordsOf(withCompletion(options))) {
-      const bool has_value = word.back() == '=';
-      if (has_value) word.pop_back();
-      completed[word] = has_value;
-    }
-    EXPECT_EQ(completed, optionsOf(helpOf(name))) << name;
-  }
-}
-
-class CompletedTest : public ::testing::Test {
- protected:
-  CompletedTest() {
-    fs::create_directories(directory_ / "drives/06/image_0");
-    directory_.write("drives/06.bag", "");
-    directory_.write("drives/readme.txt", "");
-  }
-
-  /// What the tab key offers after the words, of which the last one is begun.
-  std::string offered(const std::string& words) const {
-    return withCompletion(
-        "cd " + directory_ / "" + "; COMP_WORDS=(" + words +
-        "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); "
-        "function=$(complete -p ${COMP_WORDS[0]} | sed \"s/.*-F \\([^ ]*\\).*/\\1/\"); "
-        "$function 2>/dev/null; printf \"<%s>\" \"${COMPREPLY[@]}\"");
-  }
-
-  TemporaryDirectory directory_;
-};
-
-TEST_F(CompletedTest, OptionsAndTheirValues) {
-  EXPECT_EQ(offered("offline_odometry --tra"), "<--trajectory>");
-  EXPECT_EQ(offered("rosrun rotrocc offline_odometry 06 --format k"), "<kitti>");
-  EXPECT_EQ(offered("rosrun rotrocc simulate_drive mo"), "<motorway>");
-  EXPECT_EQ(offered("rosrun rotrocc offl"), "<offline_odometry>");
-}
-
-TEST_F(CompletedTest, RecordingsAndFoldersThatLeadToThem) {
-  EXPECT_EQ(offered("rosrun rotrocc offline_odometry dri"), "<drives/>");
-  EXPECT_EQ(offered("rosrun rotrocc offline_odometry drives/"), "<drives/06 ><drives/06.bag >");
-  EXPECT_EQ(offered("offline_odometry drives/06 --stats drives/re"), "<drives/readme.txt>");
 }
 
 }  // namespace

@@ -78,10 +78,13 @@ TEST_F(InstallationTest, PythonCommandsFindTheirModules) {
   EXPECT_EQ(one.status, 0) << one.output;
 }
 
-TEST_F(InstallationTest, CompletionIsWhereBashLooksForIt) {
-  const std::string file = prefix() + "/share/bash-completion/completions/rotrocc";
-  const CommandResult result = run("bash -c '. " + file + "; complete -p rosrun'");
-  EXPECT_EQ(result.output, "complete -F _rotrocc_rosrun rosrun\n");
+TEST_F(InstallationTest, SetupBashMakesItKnown) {
+  const CommandResult result = runCommand(
+      "unset ROS_PACKAGE_PATH CMAKE_PREFIX_PATH LD_LIBRARY_PATH PYTHONPATH; bash -c '. " +
+      prefix() + "/setup.bash && rosrun rotrocc check_rig --help >/dev/null && " +
+      "rosmsg show rotrocc/DropCount && rospack find rotrocc'");
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_NE(result.output.find(prefix() + "/share/rotrocc\n"), std::string::npos) << result.output;
 }
 
 TEST_F(InstallationTest, LaunchFilesNameInstalledNodes) {
