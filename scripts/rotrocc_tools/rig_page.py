@@ -63,7 +63,8 @@ class RigPage:
         self.folder = folder
         with open(str(folder / FINDINGS), encoding='utf-8') as file:
             self.content = yaml.safe_load(file)
-        self.tables = {path.stem: read_columns(path) for path in folder.glob('*.csv')}
+        written = (folder / '.rotrocc_report').read_text().splitlines()  # not what others have there
+        self.tables = {name[:-4]: read_columns(folder / name) for name in written if name.endswith('.csv')}
 
     def has(self, name):
         table = self.tables.get(name)

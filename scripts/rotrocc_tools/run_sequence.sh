@@ -12,6 +12,7 @@ shift 4
 part=$result.part.$(uname -n).$$
 trap 'rm -rf "$part"' EXIT
 mkdir -p "$part"
+touch "$part/.rotrocc_report"  # evaluate_trajectory may write its report there
 rm -f "$result.log"
 
 # Poses in KITTI format have no stamps.

@@ -1,4 +1,4 @@
-// Draws `data` of trajectory_map.py on the element #map with Leaflet.
+// Draws `data` of trajectory_page.py on the element #map with Leaflet.
 'use strict';
 (() => {
   const colours = data.colours;

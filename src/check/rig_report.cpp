@@ -3,39 +3,24 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
-#include <iomanip>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include <yaml-cpp/yaml.h>
+#include <boost/algorithm/string/join.hpp>
 
+#include "common/csv_file.h"
 #include "evaluation/image_file.h"
+#include "evaluation/report_directory.h"
 
 namespace rotrocc {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr double kSigmas = 3.0;
 constexpr std::size_t kLineLength = 100;
-
-int rank(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kFix:
-      return 0;
-    case Verdict::kAcceptable:
-      return 1;
-    case Verdict::kUnknown:
-      return 2;
-    case Verdict::kGood:
-      return 3;
-  }
-  return 3;
-}
 
 /// The text in lines, each after `indent` blanks.
 std::string wrapped(const std::string& text, std::size_t indent) {
@@ -78,10 +63,6 @@ std::string toText(const std::vector<Finding>& findings) {
   return text;
 }
 
-void requireWritten(std::ofstream& file, const fs::path& path) {
-  if (!file.flush()) throw std::runtime_error(path.string() + " cannot be written");
-}
-
 YAML::Node toYaml(const std::vector<Finding>& findings) {
   YAML::Node list(YAML::NodeType::Sequence);
   for (const Finding& finding : findings) {
@@ -97,39 +78,11 @@ YAML::Node toYaml(const std::vector<Finding>& findings) {
   return list;
 }
 
-void writeTable(const ReportTable& table, const fs::path& path) {
-  std::ofstream file(path);
-  file << std::setprecision(8);
-  const char* separator = "";
-  for (const std::string& column : table.columns) {
-    file << separator << column;
-    separator = ",";
-  }
-  for (const std::vector<double>& row : table.rows) {
-    separator = "\n";
-    for (const double cell : row) {
-      file << separator << cell;
-      separator = ",";
-    }
-  }
-  file << '\n';
-  requireWritten(file, path);
-}
-
 }  // namespace
 
 const char* toString(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kGood:
-      return "good";
-    case Verdict::kAcceptable:
-      return "acceptable";
-    case Verdict::kFix:
-      return "fix";
-    case Verdict::kUnknown:
-      return "unknown";
-  }
-  return "unknown";
+  constexpr const char* kNames[] = {"fix", "acceptable", "unknown", "good"};
+  return kNames[static_cast<std::size_t>(verdict)];
 }
 
 Verdict judge(const Graded& graded) {
@@ -152,7 +105,7 @@ void RigReport::add(Finding finding, const Graded& graded) {
 
 void RigReport::sort() {
   std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
-    if (rank(a.verdict) != rank(b.verdict)) return rank(a.verdict) < rank(b.verdict);
+    if (a.verdict != b.verdict) return a.verdict < b.verdict;
     return a.verdict != Verdict::kGood && a.severity > b.severity;
   });
 }
@@ -174,32 +127,25 @@ std::string toText(const RigReport& report) {
 }
 
 void writeReport(const RigReport& report, const std::string& directory) {
-  std::error_code error;
-  fs::create_directories(directory, error);
-  if (!fs::is_directory(directory)) {
-    throw std::runtime_error(directory + " cannot be created: " + error.message());
-  }
+  ReportDirectory files(directory);
   YAML::Node page;
   page["title"] = report.title;
   page["summary"] = report.summary;
   page["findings"] = toYaml(report.findings);
   if (report.corrected) page["corrected"] = toYaml(*report.corrected);
-  const fs::path path = fs::path(directory) / "findings.yaml";
+  const std::string path = files.path("findings.yaml");
   std::ofstream file(path);
   file << page << '\n';
-  requireWritten(file, path);
-  for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
-    const std::string extension = entry.path().extension().string();
-    if (extension == ".csv" || extension == ".png")
-      fs::remove(entry.path(), error);  // earlier ones
-  }
+  if (!file.flush()) throw std::runtime_error(path + " cannot be written");
   for (const ReportTable& table : report.tables) {
-    writeTable(table, fs::path(directory) / (table.name + ".csv"));
+    CsvFile csv(files.path(table.name + ".csv"), boost::algorithm::join(table.columns, ","));
+    for (const std::vector<double>& row : table.rows) csv.row(row);
+    csv.close();
   }
   const std::pair<const char*, const cv::Mat&> pictures[] = {
       {"left.png", report.left}, {"right.png", report.right}, {"mask.png", report.mask}};
   for (const auto& [name, picture] : pictures) {
-    if (!picture.empty()) writeImage((fs::path(directory) / name).string(), picture);
+    if (!picture.empty()) writeImage(files.path(name), picture);
   }
 }
 

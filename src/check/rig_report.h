@@ -8,12 +8,8 @@
 
 namespace rotrocc {
 
-enum class Verdict {
-  kGood,
-  kAcceptable,
-  kFix,
-  kUnknown  ///< could not be measured
-};
+/// The worst first. kUnknown: could not be measured.
+enum class Verdict { kFix, kAcceptable, kUnknown, kGood };
 
 /// "good", "acceptable", "fix" or "unknown".
 const char* toString(Verdict verdict);
@@ -72,8 +68,7 @@ struct RigReport {
 std::string toText(const RigReport& report);
 
 /// Writes findings.yaml, the tables as CSV files and the pictures as PNG files, which draw_report
-/// draws the page from. Creates the directory if needed, and overwrites files of an earlier report.
-/// Throws std::runtime_error if one cannot be written.
+/// draws the page from. Throws std::runtime_error if one cannot be written, and as ReportDirectory.
 void writeReport(const RigReport& report, const std::string& directory);
 
 }  // namespace rotrocc

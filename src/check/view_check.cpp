@@ -103,9 +103,7 @@ void ViewCheck::compareWithLast(const CheckedPair& pair, const ImageGrid& fine) 
   const std::vector<float> textures = meansOf(difference, fine);
   image.copyTo(last_);
   std::vector<float> sorted = changes;
-  const auto tenth = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 10);
-  std::nth_element(sorted.begin(), tenth, sorted.end());
-  const double noise = std::max(*tenth, 0.5F);
+  const double noise = std::max(quantile(sorted, 0.1), 0.5F);
   std::vector<std::size_t> still;
   int changing = 0;
   for (std::size_t i = 0; i < changes.size(); ++i) {
@@ -246,23 +244,23 @@ void ViewCheck::addCoverage(RigReport& report) const {
 void ViewCheck::addDepths(RigReport& report) const {
   std::vector<double> depths_m = depths_m_;
   if (depths_m.empty()) return;
-  std::sort(depths_m.begin(), depths_m.end());
-  const auto quantile = [&](double q) {
-    return depths_m[static_cast<std::size_t>(q * static_cast<double>(depths_m.size() - 1))];
-  };
-  const double typical_px = camera_.fx * camera_.baseline_m / quantile(0.5);
+  const double near_m = quantile(depths_m, 0.1);
+  const double middle_m = quantile(depths_m, 0.5);
+  const double far_m = quantile(depths_m, 0.9);
+  const double typical_px = camera_.fx * camera_.baseline_m / middle_m;
   constexpr double kFewPixels = 0.4;  // 1 / 2.5 px
   constexpr double kHardlyAny = 1.0;  // 1 / 1 px
-  report.add({"view",
-              "depths",
-              fixedText(quantile(0.5), 1) + " m in the middle, 80 % between " +
-                  fixedText(quantile(0.1), 1) + " and " + fixedText(quantile(0.9), 1) +
-                  " m; a disparity of " + fixedText(typical_px, 1) + " px",
-              "the way is known as well as the near depths are",
-              "a longer baseline, a longer focal length, or look lower"},
-             {1.0 / typical_px, 0.0, kFewPixels, kHardlyAny});
+  report.add(
+      {"view",
+       "depths",
+       fixedText(middle_m, 1) + " m in the middle, 80 % between " + fixedText(near_m, 1) + " and " +
+           fixedText(far_m, 1) + " m; a disparity of " + fixedText(typical_px, 1) + " px",
+       "the way is known as well as the near depths are",
+       "a longer baseline, a longer focal length, or look lower"},
+      {1.0 / typical_px, 0.0, kFewPixels, kHardlyAny});
   ReportTable table = {"depths", {"depth_m", "features"}, {}};
   constexpr double kStep = 1.25892541179;  // ten bins for a power of ten
+  std::sort(depths_m.begin(), depths_m.end());
   auto from = depths_m.begin();
   for (double limit_m = 0.1; from != depths_m.end() && limit_m < 1e4; limit_m *= kStep) {
     const auto to = std::lower_bound(from, depths_m.end(), limit_m);

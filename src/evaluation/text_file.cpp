@@ -62,7 +62,7 @@ Eigen::Isometry3d TextLine::quaternionPose(bool w_first) const {
   const Eigen::Quaterniond quaternion(
       number(w_first ? 4 : 7), number(x), number(x + 1), number(x + 2));
   if (!(std::abs(quaternion.norm() - 1.0) < 10.0 * kMaxRoundingError)) {
-    fail(cv::format("the quaternion has the length %f instead of 1", quaternion.norm()));
+    fail(cv::format("the quaternion has the length %.3f instead of 1", quaternion.norm()));
   }
   Eigen::Isometry3d pose(quaternion.normalized());
   pose.translation() = Eigen::Vector3d(number(1), number(2), number(3));
@@ -98,11 +98,12 @@ std::vector<TextLine> readTextLines(const std::string& path, char separator) {
   return lines;
 }
 
-std::string whyNoRotation(const Eigen::Matrix3d& matrix) {
+std::optional<std::string> whyNoRotation(const Eigen::Matrix3d& matrix) {
   const Eigen::Matrix3d deviation = matrix * matrix.transpose() - Eigen::Matrix3d::Identity();
   const double error = deviation.cwiseAbs().maxCoeff();
-  if (!(error <= kMaxRoundingError)) return cv::format("off orthonormality by %g", error);
-  return matrix.determinant() < 0.0 ? "a reflection" : "";
+  if (!(error <= kMaxRoundingError)) return cv::format("off orthonormality by %.2g", error);
+  if (matrix.determinant() < 0.0) return "a reflection";
+  return std::nullopt;
 }
 
 }  // namespace rotrocc

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,7 @@ struct TextLine {
 /// file cannot be read or no line is left.
 std::vector<TextLine> readTextLines(const std::string& path, char separator = ' ');
 
-/// Why a matrix, printed with four digits or more, is no rotation; empty if it is one.
-std::string whyNoRotation(const Eigen::Matrix3d& matrix);
+/// Why a matrix, printed with four digits or more, is no rotation; none if it is one.
+std::optional<std::string> whyNoRotation(const Eigen::Matrix3d& matrix);
 
 }  // namespace rotrocc

@@ -29,8 +29,8 @@ Eigen::Isometry3d kittiPose(const TextLine& line) {
   Eigen::Matrix<double, 3, 4> matrix;
   for (int i = 0; i < matrix.size(); ++i) matrix(i / 4, i % 4) = line.number(i);
   const Eigen::Matrix3d rotation = matrix.leftCols<3>();
-  if (const std::string why = whyNoRotation(rotation); !why.empty()) {
-    line.fail("the left 3x3 part is not a rotation: it is " + why);
+  if (const auto why = whyNoRotation(rotation)) {
+    line.fail("the left 3x3 part is not a rotation: it is " + *why);
   }
   Eigen::Isometry3d pose(Eigen::Quaterniond(rotation).normalized());
   pose.translation() = matrix.col(3);

@@ -49,7 +49,7 @@ double duration_s(const StampedPose& first, const StampedPose& last) {
 void check(const SegmentConfig& config) {
   for (const double length_m : config.lengths_m) {
     if (std::isfinite(length_m) && length_m > 0.0) continue;
-    throw std::invalid_argument(cv::format("segment length %f m must be positive", length_m));
+    throw std::invalid_argument(cv::format("segment length %g m must be positive", length_m));
   }
   if (config.step >= 1) return;
   throw std::invalid_argument(cv::format("segment step %d must be at least 1", config.step));

@@ -18,10 +18,10 @@ Eigen::Isometry3d poseOf(const YamlFile& file, const char* key) {
   const std::vector<double> values = file.numbers(key, 16);
   const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(values.data());
   const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
-  if (const std::string why = whyNoRotation(rotation); !why.empty()) {
+  if (const auto why = whyNoRotation(rotation)) {
     file.fail(
         key,
-        "is not rigid: its left 3x3 part is " + why + "; the rows of a 4x4 matrix are expected");
+        "is not rigid: its left 3x3 part is " + *why + "; the rows of a 4x4 matrix are expected");
   }
   if (matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)) {
     file.fail(key, "is not rigid: its last row is not 0 0 0 1");

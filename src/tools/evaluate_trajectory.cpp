@@ -10,6 +10,7 @@
 
 #include <boost/program_options.hpp>
 
+#include "input/to_text.h"
 #include "rotrocc/trajectory_error.h"
 #include "tools/draw_report.h"
 #include "tools/program.h"
@@ -94,15 +95,23 @@ bool parse(int argc, char** argv, Options& options) {
   return true;
 }
 
+/// Lengths of segments that a short path has: about an eighth, a quarter and half of it.
+std::string shortLengths(double path_m) {
+  const double power = std::pow(10.0, std::floor(std::log10(path_m / 8.0)));
+  const double shortest_m = power * std::floor(path_m / 8.0 / power);  // of one digit
+  std::ostringstream lengths;
+  lengths << shortest_m << ' ' << 2.0 * shortest_m << ' ' << 4.0 * shortest_m;
+  return lengths.str();
+}
+
 void requireSegments(const std::vector<SegmentError>& errors,
                      const SegmentConfig& config,
                      double path_m) {
   if (!errors.empty()) return;
   std::ostringstream message;
-  message.precision(3);
-  message << "no segment fits: the path is " << path_m << " m long, the shortest segment "
-          << *std::min_element(config.lengths_m.begin(), config.lengths_m.end())
-          << " m; use shorter segments, e.g. --lengths 5 10 20 30 40 --step 1, or --fit";
+  message << "no segment fits: the path is " << fixedText(path_m, 2) << " m long, the shortest segment "
+          << *std::min_element(config.lengths_m.begin(), config.lengths_m.end()) << " m";
+  if (path_m > 0.0) message << "; use --lengths " << shortLengths(path_m) << " --step 1";
   throw std::runtime_error(message.str());
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <fstream>
 #include <ostream>
 #include <string>
 #include <vector>
 
+#include "common/csv_file.h"
 #include "rotrocc/visual_odometry.h"
 
 namespace rotrocc {
@@ -27,8 +27,7 @@ class StatisticsFile {
   void write(const PairRecord& record);
 
  private:
-  std::string path_;
-  std::ofstream file_;
+  CsvFile file_;
 };
 
 /// Summary of a run: pairs by state, and mean, median, 95th and 99th percentile of the times.

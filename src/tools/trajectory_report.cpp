@@ -1,57 +1,18 @@
 #include "tools/trajectory_report.h"
 
 #include <filesystem>
-#include <fstream>
-#include <initializer_list>
-#include <iomanip>
 #include <limits>
 #include <stdexcept>
 #include <utility>
 
+#include "common/csv_file.h"
 #include "common/to_seconds.h"
+#include "evaluation/report_directory.h"
 
 namespace rotrocc {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// CSV file; throws if it cannot be written completely.
-class Table {
- public:
-  Table(const std::string& path, const char* columns) : path_(path), file_(path) {
-    file_ << columns << '\n' << std::setprecision(10);
-  }
-
-  void row(std::initializer_list<double> cells) {
-    const char* separator = "";
-    for (const double cell : cells) {
-      file_ << separator << cell;
-      separator = ",";
-    }
-    file_ << '\n';
-  }
-
-  std::ofstream& stream() { return file_; }
-
-  void close() {
-    if (!file_.flush()) throw std::runtime_error(path_ + " cannot be written");
-  }
-
- private:
-  std::string path_;
-  std::ofstream file_;
-};
-
-void makeDirectory(const fs::path& directory) {
-  std::error_code error;
-  fs::create_directories(directory, error);
-  if (!fs::is_directory(directory)) {
-    throw std::runtime_error(directory.string() + " cannot be created: " + error.message());
-  }
-  for (const char* name : {"segments.csv", "by_length.csv", "by_speed.csv"}) {
-    fs::remove(directory / name, error);  // from an earlier report with ground truth
-  }
-}
 
 /// Positions [m] in the frame of the first pose.
 std::vector<Eigen::Vector3d> positions(const Trajectory& trajectory) {
@@ -68,8 +29,7 @@ double duration_s(const Trajectory& trajectory) {
 }
 
 void writeMeans(const std::vector<MeanError>& means, const char* bin, const std::string& path) {
-  Table table(path,
-              (std::string(bin) + ",segments,translation_percent,rotation_deg_per_m").c_str());
+  CsvFile table(path, std::string(bin) + ",segments,translation_percent,rotation_deg_per_m");
   for (const MeanError& mean : means) {
     table.row({mean.bin,
                static_cast<double>(mean.segments),
@@ -82,11 +42,11 @@ void writeMeans(const std::vector<MeanError>& means, const char* bin, const std:
 void writeSummary(const Evaluation& evaluation, const std::string& path) {
   const StepSummary steps = summarize(evaluation.steps);
   const double path_m = evaluation.path_m.back();
-  Table table(path,
-              "poses,path_m,duration_s,segments,translation_percent,rotation_deg_per_m,"
-              "step_translation_mean_m,step_translation_rms_m,step_translation_p95_m,"
-              "step_translation_max_m,step_rotation_mean_deg,step_rotation_rms_deg,"
-              "step_rotation_p95_deg,step_rotation_max_deg,drift_m,drift_percent,drift_deg");
+  CsvFile table(path,
+                "poses,path_m,duration_s,segments,translation_percent,rotation_deg_per_m,"
+                "step_translation_mean_m,step_translation_rms_m,step_translation_p95_m,"
+                "step_translation_max_m,step_rotation_mean_deg,step_rotation_rms_deg,"
+                "step_rotation_p95_deg,step_rotation_max_deg,drift_m,drift_percent,drift_deg");
   table.row({static_cast<double>(evaluation.path_m.size()),
              path_m,
              duration_s(evaluation.matched.truth),
@@ -111,12 +71,12 @@ void writePoses(const Evaluation& evaluation, const std::string& path) {
   const std::vector<Eigen::Vector3d> truth = positions(evaluation.matched.truth);
   const std::vector<Eigen::Vector3d> estimate = positions(evaluation.matched.estimate);
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  Table table(path,
-              "stamp_ns,path_m,true_x_m,true_y_m,true_z_m,x_m,y_m,z_m,step_translation_error_m,"
-              "step_rotation_error_deg");
+  CsvFile table(path,
+                "stamp_ns,path_m,true_x_m,true_y_m,true_z_m,x_m,y_m,z_m,step_translation_error_m,"
+                "step_rotation_error_deg");
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const StepError step = i > 0 ? evaluation.steps[i - 1] : StepError{kNone, kNone};
-    table.stream() << evaluation.matched.estimate[i].stamp_ns << ',';
+    table << evaluation.matched.estimate[i].stamp_ns;
     table.row({evaluation.path_m[i],
                truth[i].x(),
                truth[i].y(),
@@ -146,7 +106,7 @@ Evaluation evaluate(MatchedTrajectories matched, const SegmentConfig& segments) 
 }
 
 void writeSegments(const std::vector<SegmentError>& segments, const std::string& path) {
-  Table table(path, "first_pose,length_m,speed_mps,translation_percent,rotation_deg_per_m");
+  CsvFile table(path, "first_pose,length_m,speed_mps,translation_percent,rotation_deg_per_m");
   for (const SegmentError& segment : segments) {
     table.row({static_cast<double>(segment.first_pose),
                segment.length_m,
@@ -158,25 +118,25 @@ void writeSegments(const std::vector<SegmentError>& segments, const std::string&
 }
 
 void writeReportTables(const Evaluation& evaluation, const std::string& directory) {
-  makeDirectory(directory);
-  writeSummary(evaluation, directory + "/summary.csv");
-  writePoses(evaluation, directory + "/poses.csv");
-  writeSegments(evaluation.segments, directory + "/segments.csv");
-  writeMeans(evaluation.by_length, "length_m", directory + "/by_length.csv");
-  writeMeans(evaluation.by_speed, "speed_mps", directory + "/by_speed.csv");
+  ReportDirectory files(directory);
+  writeSummary(evaluation, files.path("summary.csv"));
+  writePoses(evaluation, files.path("poses.csv"));
+  writeSegments(evaluation.segments, files.path("segments.csv"));
+  writeMeans(evaluation.by_length, "length_m", files.path("by_length.csv"));
+  writeMeans(evaluation.by_speed, "speed_mps", files.path("by_speed.csv"));
 }
 
 void writeReportTables(const Trajectory& estimate, const std::string& directory) {
-  makeDirectory(directory);
+  ReportDirectory files(directory);
   const std::vector<double> path_m = pathLengths(estimate);
-  Table summary(directory + "/summary.csv", "poses,path_m,duration_s");
+  CsvFile summary(files.path("summary.csv"), "poses,path_m,duration_s");
   summary.row({static_cast<double>(estimate.size()), path_m.back(), duration_s(estimate)});
   summary.close();
 
   const std::vector<Eigen::Vector3d> points = positions(estimate);
-  Table poses(directory + "/poses.csv", "stamp_ns,path_m,x_m,y_m,z_m");
+  CsvFile poses(files.path("poses.csv"), "stamp_ns,path_m,x_m,y_m,z_m");
   for (std::size_t i = 0; i < points.size(); ++i) {
-    poses.stream() << estimate[i].stamp_ns << ',';
+    poses << estimate[i].stamp_ns;
     poses.row({path_m[i], points[i].x(), points[i].y(), points[i].z()});
   }
   poses.close();

@@ -27,12 +27,12 @@ Evaluation evaluate(MatchedTrajectories matched, const SegmentConfig& segments);
 /// Writes a CSV table with one row per segment. Throws std::runtime_error if that fails.
 void writeSegments(const std::vector<SegmentError>& segments, const std::string& path);
 
-/// Writes the tables of a report. Creates the directory if needed, and overwrites earlier tables:
+/// Writes the tables of a report into a ReportDirectory:
 ///   summary.csv     one row: poses, path, mean errors, errors of steps, drift
 ///   poses.csv       stamp, path, true and estimated position, each in the frame of its first pose,
 ///                   and the error of the step that led there (nan for the first)
 ///   segments.csv, by_length.csv, by_speed.csv    the metric of the KITTI devkit
-/// Throws std::runtime_error if they cannot be written.
+/// Throws std::runtime_error if they cannot be written, and as ReportDirectory.
 void writeReportTables(const Evaluation& evaluation, const std::string& directory);
 
 /// The same without ground truth: summary.csv and poses.csv without errors.

@@ -207,6 +207,9 @@ TEST_F(KittiBenchmarkTest, RefusesToMixResultsAndWhatIsNoDataSet) {
   const CommandResult second = runCommand("flock " + directory_ / "out/lock" + " " + command());
   EXPECT_EQ(second.status, 1);
   EXPECT_NE(second.output.find("another run"), std::string::npos) << second.output;
+  fs::remove(directory_ / "out/settings.json");
+  const CommandResult foreign = run();
+  EXPECT_NE(foreign.output.find("not of a report"), std::string::npos) << foreign.output;
   const CommandResult third = runCommand(commandFor(directory_ / "programs"));
   EXPECT_EQ(third.status, 1);
   EXPECT_NE(third.output.find("has no sequences"), std::string::npos) << third.output;

@@ -250,6 +250,27 @@ TEST_F(EvaluateTrajectoryTest, NothingIsWrittenIfAnInputIsWrong) {
   }
 }
 
+TEST_F(EvaluateTrajectoryTest, ProposesSegmentsThatFit) {
+  std::string poses;
+  for (int i = 0; i < 40; ++i) poses += "1 0 0 0 0 1 0 0 0 0 1 " + std::to_string(0.1 * i) + "\n";
+  directory_.write("short.txt", poses);
+  const CommandResult refused = run("short.txt short.txt --fit");
+  EXPECT_EQ(refused.status, 1);
+  const std::size_t proposal = refused.output.find("--lengths");
+  ASSERT_NE(proposal, std::string::npos) << refused.output;
+  EXPECT_EQ(run("short.txt short.txt " + refused.output.substr(proposal)).status, 0)
+      << refused.output;
+}
+
+TEST_F(EvaluateTrajectoryTest, FilesOfOthersAreKept) {
+  const std::string refused = "has files that are not of a report, e.g. ";
+  EXPECT_NE(run("truth.txt estimate.txt --fit --report .").output.find(refused), std::string::npos);
+  ASSERT_EQ(run("truth.txt estimate.txt --fit --report report").status, 0);
+  directory_.write("report/notes.csv", "mine\n");
+  ASSERT_EQ(run("tum_estimate.txt --report report").status, 0);
+  EXPECT_EQ(readFile(directory_ / "report/notes.csv"), "mine\n");
+}
+
 TEST_F(EvaluateTrajectoryTest, RefusesBadUsage) {
   for (const char* arguments : {"estimate.txt",
                                 "a b c",

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <deque>
 #include <vector>
+
+#include "common/median.h"
 
 namespace rotrocc {
 
@@ -23,10 +23,8 @@ class SlidingQuantiles {
   /// Quantile `share` in [0, 1]; 0 without measurements.
   double quantile(double share) const {
     if (values_.empty()) return 0.0;
-    std::vector<double> sorted(values_.begin(), values_.end());
-    std::sort(sorted.begin(), sorted.end());
-    const double rank = std::ceil(share * static_cast<double>(sorted.size())) - 1.0;
-    return sorted[static_cast<std::size_t>(std::max(rank, 0.0))];
+    std::vector<double> values(values_.begin(), values_.end());
+    return rotrocc::quantile(values, share);
   }
 
  private:
