@@ -9,6 +9,7 @@
 
 #include "bags/recording.h"
 #include "input/message_conversion.h"
+#include "sequences/kitti_mount.h"
 
 namespace rotrocc {
 namespace {
@@ -38,7 +39,7 @@ std::string nameOf(const geometry_msgs::TransformStamped& transform) {
 bool isTrajectory(const geometry_msgs::TransformStamped& transform, const RecordedTf& tf) {
   const std::string child = withoutSlash(transform.child_frame_id);
   if (child == tf.base_frame) return true;
-  return tf.added_kitti_mount && (child == tf.camera_frame || child == kKitti2bagCamera);
+  return tf.assumes_mount && (child == tf.camera_frame || child == kKitti2bagCamera);
 }
 
 /// T_base_camera, if transforms connect them.
@@ -69,7 +70,11 @@ void addStatic(const geometry_msgs::TransformStamped& transform, RecordedTf& tf)
   }
 }
 
-void addKittiMount(RecordedTf& tf) {
+bool isOfKitti2bag(const RecordedTf& tf) {
+  return tf.camera_frame == "camera_gray_left" || tf.camera_frame == "camera_color_left";
+}
+
+void addMount(RecordedTf& tf) {
   geometry_msgs::TransformStamped mount = tf2::eigenToTransform(tf.T_base_camera);
   mount.header.frame_id = tf.base_frame;
   mount.child_frame_id = tf.camera_frame;
@@ -102,6 +107,14 @@ tf2_msgs::TFMessage RecordedTf::transformsToPlay(const tf2_msgs::TFMessage& mess
   return kept;
 }
 
+std::string RecordedTf::note() const {
+  if (!assumes_mount) return "";
+  const std::string place =
+      isOfKitti2bag(*this) ? "on the road below it, as for KITTI's car" : "there";
+  return "no tf connects " + base_frame + " and the left camera, " + camera_frame + ": " +
+         base_frame + " is taken to be " + place + ", with x forward and z up";
+}
+
 RecordedTf readTf(const Bags& bags,
                   const std::string& base_frame,
                   const std::string& camera_frame) {
@@ -111,10 +124,12 @@ RecordedTf readTf(const Bags& bags,
   const Transforms fixed = readTransforms(bags, "tf_static");
   const Transforms moving = readTransforms(bags, "tf");
   const auto T_base_camera = findMount(tf, fixed, moving);
-  tf.added_kitti_mount = !T_base_camera;
-  if (T_base_camera) tf.T_base_camera = *T_base_camera;
+  tf.assumes_mount = !T_base_camera;
+  tf.T_base_camera = T_base_camera       ? *T_base_camera
+                     : isOfKitti2bag(tf) ? kittiMount()
+                                         : mountAtCamera();
   for (const auto& transform : fixed) addStatic(transform, tf);
-  if (tf.added_kitti_mount) addKittiMount(tf);
+  if (tf.assumes_mount) addMount(tf);
   buildTrajectory(moving, tf);
   return tf;
 }

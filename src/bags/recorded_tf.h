@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 
 #include "bags/bag_reading.h"
-#include "sequences/kitti_mount.h"
 
 namespace rotrocc {
 
@@ -17,15 +16,19 @@ namespace rotrocc {
 struct RecordedTf {
   std::string base_frame;
   std::string camera_frame;  ///< of the left image
-  /// If no transform connects base and camera: KITTI's mount is added to the static ones, and
-  /// recorded poses of the camera are a trajectory as well.
-  bool added_kitti_mount = false;
-  Eigen::Isometry3d T_base_camera = kittiMount();
+  /// No transform connects base and camera: one is added to the static ones, that of KITTI's car
+  /// for a camera of kitti2bag, else mountAtCamera(). Recorded poses of the camera are a trajectory
+  /// as well.
+  bool assumes_mount = false;
+  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
   tf2_msgs::TFMessage static_transforms;  ///< the latest of each child frame
   /// Poses of the base for the recorded poses, relative to the first one, i.e. in the frame "odom".
   /// Empty if the bag has no trajectory.
   nav_msgs::Path trajectory;
   std::string trajectory_name;  ///< "world -> base_link", for messages
+
+  /// Says which mount is assumed; empty if none is.
+  std::string note() const;
 
   /// The transforms of a tf message to play.
   tf2_msgs::TFMessage transformsToPlay(const tf2_msgs::TFMessage& message) const;

@@ -97,12 +97,10 @@ class BagRecording : public Recording {
     return describesRawImages(left_info_, right_info_, options_.sequence.baseline_m);
   }
 
+  std::string mountNote() const override { return tf().note(); }
+
   std::vector<std::string> notes() const override {
     std::vector<std::string> notes;
-    if (tf().added_kitti_mount) {
-      notes.push_back(
-          "no transform from the base to the camera in the bag: using that of KITTI's car");
-    }
     if (!tf().trajectory_name.empty()) {
       notes.push_back("the bag's tf " + tf().trajectory_name +
                       " is published as ground truth, not as tf: the odometry publishes the pose "
@@ -141,9 +139,11 @@ class BagRecording : public Recording {
                                " with a gyroscope");
     }
     const RecordedTf tf_of_gyroscope = readTf(bags_, options_.base_frame, frame);
-    if (tf_of_gyroscope.added_kitti_mount) {
-      throw std::runtime_error("the bag has no tf from " + options_.base_frame + " to '" + frame +
-                               "', the frame of " + topic);
+    for (const RecordedTf* sensor : {&tf_of_gyroscope, &tf()}) {
+      if (!sensor->assumes_mount) continue;
+      throw std::runtime_error("the bag has no tf from " + options_.base_frame + " to '" +
+                               sensor->camera_frame +
+                               "': how gyroscope and camera are turned is not known");
     }
     recording.R_camera_gyro =
         T_base_camera().linear().transpose() * tf_of_gyroscope.T_base_camera.linear();

@@ -42,6 +42,9 @@ class Recording {
   /// Whether the images have to be rectified.
   virtual bool isRaw() const = 0;
 
+  /// Which mount of the camera is assumed, as none is recorded; empty if one is.
+  virtual std::string mountNote() const { return ""; }
+
   /// How recorded poses are used; for the log.
   virtual std::vector<std::string> notes() const { return {}; }
 

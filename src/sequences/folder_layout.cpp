@@ -104,9 +104,7 @@ std::optional<StereoSequence> readFolderLayout(const std::string& directory,
   const StereoCalibration calibration = readStereoCalibration(
       {directory + "/left.yaml", directory + "/right.yaml"}, options.baseline_m);
   const Trajectory truth = readGroundTruth(directory + "/groundtruth.txt", pairs.stamps_ns());
-  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
-  T_base_camera.linear() = kittiMount().linear();
-  return StereoSequence{directory, std::move(pairs), calibration, truth, T_base_camera};
+  return StereoSequence{directory, std::move(pairs), calibration, truth, mountAtCamera()};
 }
 
 }  // namespace rotrocc

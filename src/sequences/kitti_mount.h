@@ -6,13 +6,17 @@
 
 namespace rotrocc {
 
-/// T_base_camera of KITTI's left gray camera: 1.65 m above the road, looking along the vehicle's x
-/// axis (cvlibs.net/datasets/kitti/setup.php; axes by REP 103). base_link is on the road below it.
-inline Eigen::Isometry3d kittiMount() {
+/// T_base_camera of a base that is at the camera, with x forward and z up (REP 103).
+inline Eigen::Isometry3d mountAtCamera() {
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
   T_base_camera.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  T_base_camera.translation() << 0, 0, 1.65;
   return T_base_camera;
+}
+
+/// T_base_camera of KITTI's left gray camera: 1.65 m above the road, looking along the vehicle's x
+/// axis (cvlibs.net/datasets/kitti/setup.php). base_link is on the road below it.
+inline Eigen::Isometry3d kittiMount() {
+  return Eigen::Translation3d(0.0, 0.0, 1.65) * mountAtCamera();
 }
 
 /// Start time of a sequence in a bag, as its own times start at 0: 2011-10-03, when KITTI recorded

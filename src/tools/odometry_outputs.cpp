@@ -1,7 +1,7 @@
 #include "tools/odometry_outputs.h"
 
 #include <cstdint>
-#include <filesystem>
+#include <iostream>
 #include <stdexcept>
 
 #include <rosbag/bag.h>
@@ -10,6 +10,7 @@
 #include <opencv2/core.hpp>
 
 #include "evaluation/image_file.h"
+#include "evaluation/report_directory.h"
 #include "input/message_conversion.h"
 #include "node/base/base_odometry.h"
 #include "node/odometry_messages.h"
@@ -23,7 +24,11 @@ class OdometryOutputs::OdometryBag {
       : parameters_(parameters.node),
         offset_ns_(recording.offset_ns()),
         T_base_camera_(recording.T_base_camera()),
-        odometry_(parameters.node, parameters.odometry.systematic_error) {
+        systematic_error_(parameters.odometry.systematic_error) {
+    restart();
+    if (const std::string note = recording.mountNote(); !note.empty()) {
+      std::cerr << "offline_odometry: " << note << '\n';
+    }
     try {
       bag_.open(path, rosbag::bagmode::Write);
     } catch (const rosbag::BagException& error) {
@@ -31,14 +36,19 @@ class OdometryOutputs::OdometryBag {
     }
   }
 
+  void restart() { odometry_.emplace(parameters_, systematic_error_); }
+
   void write(const OdometryResult& result) {
-    BaseState state = odometry_.add(result, {T_base_camera_});
+    BaseState state = odometry_->add(result, {T_base_camera_});
     state.stamp_ns += offset_ns_;
     const ros::Time stamp = toRosTime(state.stamp_ns);
     const std::string& odom = parameters_.odom_frame;
     const std::string& base = parameters_.base_frame;
     tf2_msgs::TFMessage tf;
-    tf.transforms.push_back(toTransform(state.T_odom_base.T, state.stamp_ns, odom, base));
+    const Eigen::Isometry3d& T = state.T_odom_base.T;
+    tf.transforms.push_back(parameters_.invert_tf
+                                ? toTransform(T.inverse(), state.stamp_ns, base, odom)
+                                : toTransform(T, state.stamp_ns, odom, base));
     bag_.write("/tf", stamp, tf);
     bag_.write("/stereo/odom", stamp, toOdometry(state, odom, base));
   }
@@ -47,18 +57,14 @@ class OdometryOutputs::OdometryBag {
   NodeParameters parameters_;
   std::int64_t offset_ns_;
   Eigen::Isometry3d T_base_camera_;
-  BaseOdometry odometry_;
+  SystematicErrorConfig systematic_error_;
+  std::optional<BaseOdometry> odometry_;
   rosbag::Bag bag_;
 };
 
 class OdometryOutputs::FlowPictures {
  public:
-  FlowPictures(const std::string& folder, FlowView view) : folder_(folder), view_(view) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (!error) return;
-    throw std::runtime_error("cannot create the folder " + folder + ": " + error.message());
-  }
+  FlowPictures(const std::string& folder, FlowView view) : folder_(folder), view_(view) {}
 
   void write(const StereoPair& pair,
              const StereoCamera& camera,
@@ -72,11 +78,11 @@ class OdometryOutputs::FlowPictures {
                      result},
                     view_,
                     picture_);
-    writeImage(folder_ + cv::format("/%06d.png", pairs_++), picture_);
+    writeImage(folder_.path(cv::format("%06d.png", pairs_++)), picture_);
   }
 
  private:
-  std::string folder_;
+  ReportDirectory folder_;
   FlowView view_;
   int pairs_ = 0;
   cv::Mat picture_;
@@ -94,6 +100,11 @@ OdometryOutputs::OdometryOutputs(const OutputFiles& files,
 }
 
 OdometryOutputs::~OdometryOutputs() = default;
+
+void OdometryOutputs::restart() {
+  accumulator_ = {};
+  if (bag_) bag_->restart();
+}
 
 void OdometryOutputs::write(const PairRecord& record,
                             const StereoPair& pair,

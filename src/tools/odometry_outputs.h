@@ -35,6 +35,9 @@ class OdometryOutputs {
                   const Parameters& parameters);
   ~OdometryOutputs();
 
+  /// The next pair is at the initial pose.
+  void restart();
+
   /// `record` is of the last call of odometry.process(), with input `pair` and `camera`. Throws
   /// std::runtime_error if writing fails.
   void write(const PairRecord& record,

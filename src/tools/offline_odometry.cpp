@@ -19,6 +19,7 @@
 #include "bags/recorded_pairs.h"
 #include "common/stage_timer.h"
 #include "inertial/gyro_file.h"
+#include "input/to_text.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/visual_odometry.h"
 #include "tools/input_options.h"
@@ -190,10 +191,13 @@ void run(const Options& options) {
   StereoCamera camera;
   std::int64_t last_ns = std::numeric_limits<std::int64_t>::min();
   while (preloaded ? preloaded->next(pair, camera) : pairs.next(pair, camera)) {
-    if (pair.stamp_ns <= last_ns) {  // as in the node, the pose is kept
-      std::cerr << "offline_odometry: time jumps back from " << 1e-9 * last_ns << " to "
-                << 1e-9 * pair.stamp_ns << " s: restarting at the last pose\n";
+    if (pair.stamp_ns <= last_ns) {  // as in the node
+      const bool keep = parameters.node.pose_after_time_jump == "keep";
+      std::cerr << "offline_odometry: time jumps back from " << stampText(last_ns) << " to "
+                << stampText(pair.stamp_ns) << " s: restarting at "
+                << (keep ? "the last pose" : "initial_pose") << " (pose_after_time_jump)\n";
       odometry.reset();
+      if (!keep) outputs.restart();
     }
     last_ns = pair.stamp_ns;
     records.push_back(process(odometry, pair, camera, rotation));

@@ -43,7 +43,7 @@ class RecordedTfTest : public ::testing::Test {
 TEST_F(RecordedTfTest, TurnsPosesOfTheBaseIntoGroundTruth) {
   writeKitti2bagRaw(sequence(), directory_ / "raw.bag");
   const RecordedTf tf = readTf(openBags({directory_ / "raw.bag"}), "base_link", "camera_gray_left");
-  EXPECT_FALSE(tf.added_kitti_mount);
+  EXPECT_FALSE(tf.assumes_mount);
   EXPECT_EQ(tf.static_transforms.transforms.size(), 2u) << "each mount once";
   EXPECT_EQ(tf.trajectory_name, "world -> base_link");
   const Eigen::Isometry3d T_base_camera = Eigen::Translation3d(-0.325, 0.0, 0.0) * kittiMount();
@@ -64,7 +64,7 @@ TEST_F(RecordedTfTest, AddsTheMountWhereThereIsNone) {
   writeKitti2bagOdometry(sequence(), directory_ / "odometry.bag");
   const RecordedTf tf =
       readTf(openBags({directory_ / "odometry.bag"}), "base_link", "camera_gray_left");
-  EXPECT_TRUE(tf.added_kitti_mount);
+  EXPECT_TRUE(tf.assumes_mount);
   ASSERT_EQ(tf.static_transforms.transforms.size(), 1u);
   const geometry_msgs::TransformStamped& mount = tf.static_transforms.transforms.front();
   EXPECT_EQ(mount.header.frame_id, "base_link");
@@ -72,6 +72,18 @@ TEST_F(RecordedTfTest, AddsTheMountWhereThereIsNone) {
   EXPECT_TRUE(tf2::transformToEigen(mount).isApprox(kittiMount(), 1e-12));
   EXPECT_EQ(tf.trajectory_name, "world -> camera_left");
   expectTruth(tf.trajectory, kittiMount());
+  EXPECT_NE(tf.note().find("KITTI's car"), std::string::npos) << tf.note();
+}
+
+TEST_F(RecordedTfTest, TheBaseOfAnotherCameraIsAtTheCamera) {
+  writeKitti2bagOdometry(sequence(), directory_ / "odometry.bag");
+  const RecordedTf tf =
+      readTf(openBags({directory_ / "odometry.bag"}), "base_link", "left_optical");
+  EXPECT_TRUE(tf.assumes_mount);
+  EXPECT_TRUE(tf.T_base_camera.isApprox(mountAtCamera(), 1e-12));
+  EXPECT_EQ(tf.note(),
+            "no tf connects base_link and the left camera, left_optical: base_link is taken to be "
+            "there, with x forward and z up");
 }
 
 }  // namespace

@@ -160,7 +160,7 @@ TEST_F(RawSequenceBagTest, HoldsImagesAndCalibrationAsRecorded) {
   EXPECT_DOUBLE_EQ(binned.rectified.cx, (calibration.rectified.cx - 100.0) / 2.0);
 
   const RecordedTf tf = readTf(bag, "base_link", "stereo_left_optical");
-  EXPECT_FALSE(tf.added_kitti_mount);
+  EXPECT_FALSE(tf.assumes_mount);
   EXPECT_EQ(tf.static_transforms.transforms.size(), 1u);
   EXPECT_TRUE(tf.trajectory.poses.empty());
   EXPECT_TRUE(tf.T_base_camera.isApprox(sequence.T_base_camera, 1e-9));

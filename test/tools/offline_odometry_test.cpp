@@ -66,6 +66,18 @@ TEST_F(OfflineOdometryTest, GivesTheSameBytesEachTime) {
   EXPECT_TRUE(once == trajectoryOf(sequence(), "--set visual_odometry/threads=2"));
 }
 
+TEST_F(OfflineOdometryTest, KittiOdometryGivesTheSameBytes) {
+  const std::string config =
+      directory_.write("few.yaml", "feature_detector: {max_features: 900}\n");
+  const std::string file = directory_ / "kitti.txt";
+  const auto kitti = [&](const std::string& input) {
+    return runCommand(std::string(KITTI_ODOMETRY) + " " + input + " " + file + " " + config);
+  };
+  ASSERT_EQ(kitti(sequence()).status, 0);
+  EXPECT_TRUE(readFile(file) == trajectoryOf(sequence(), "--config " + config));
+  EXPECT_NE(kitti("/no/sequence").output.find("/no/sequence"), std::string::npos);
+}
+
 TEST_F(OfflineOdometryTest, FiguresTellMotionCovarianceAndBias) {
   const Trajectory truth = KittiSequence(sequence()).groundTruth();
   trajectoryOf(sequence(),
@@ -181,6 +193,60 @@ TEST_F(OfflineOdometryTest, ThePoseIsKeptWhenTimeJumpsBack) {
   const Trajectory poses = readTrajectory(directory_ / "loop.txt");
   ASSERT_EQ(poses.size(), 24u);
   EXPECT_TRUE(poses[12].T_world_body.isApprox(poses[11].T_world_body, 1e-9));
+
+  const std::string odometry = directory_ / "odometry.bag";
+  const std::string zero =
+      " --set pose_after_time_jump=zero --set invert_tf=true --bag " + odometry;
+  trajectoryOf(bags, zero);
+  EXPECT_TRUE(readTrajectory(directory_ / "trajectory.txt")[12].T_world_body.isApprox(
+      Eigen::Isometry3d::Identity(), 1e-9));
+  const Bags bag = openBags({odometry});
+  std::vector<geometry_msgs::TransformStamped> transforms;
+  for (const rosbag::MessageInstance& message : BagView(bag, {"/tf"})) {
+    transforms.push_back(readMessage<tf2_msgs::TFMessage>(message)->transforms.at(0));
+  }
+  ASSERT_EQ(transforms.size(), 24u);
+  EXPECT_EQ(transforms[11].header.frame_id, "base_link");
+  EXPECT_EQ(transforms[11].child_frame_id, "odom");
+  EXPECT_LT(transforms[11].transform.translation.x, -4.0) << "odom is behind";
+  EXPECT_EQ(transforms[12].transform.translation.x, 0.0);
+}
+
+TEST_F(OfflineOdometryTest, WithoutTfTheBaseIsAtTheCamera) {
+  writeSequenceBag(directory_ / "once.bag", sequence(), {1000, false});
+  {
+    const Bags once = openBags({directory_ / "once.bag"});
+    rosbag::Bag bare(directory_ / "bare.bag", rosbag::bagmode::Write);
+    for (const rosbag::MessageInstance& message : BagView(once)) {
+      if (message.getTopic() != "/tf_static") {
+        bare.write(message.getTopic(), message.getTime(), message);
+      }
+    }
+  }
+  const std::string file = directory_ / "odometry.bag";
+  const CommandResult result =
+      run(directory_ / "bare.bag" + " --trajectory /dev/null --bag " + file);
+  EXPECT_NE(result.output.find("no tf connects base_link and the left camera"), std::string::npos)
+      << result.output;
+  const Bags bag = openBags({file});
+  BagView view(bag, {"/stereo/odom"});
+  nav_msgs::Odometry::ConstPtr last;
+  for (const rosbag::MessageInstance& message : view)
+    last = readMessage<nav_msgs::Odometry>(message);
+  ASSERT_TRUE(last);
+  const Eigen::Vector3d end =
+      KittiSequence(sequence()).groundTruth().back().T_world_body.translation();
+  constexpr double kError_m = 0.11;  // as in FollowsTheTruth
+  EXPECT_NEAR(last->pose.pose.position.x, end.z(), kError_m);
+  EXPECT_NEAR(last->pose.pose.position.z, -end.y(), kError_m);
+}
+
+TEST_F(OfflineOdometryTest, PicturesOfOthersAreKept) {
+  directory_.write("mine.png", "a picture");
+  const CommandResult result =
+      run(sequence() + " --trajectory /dev/null --pictures " + directory_ / "");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.output.find("name an empty directory"), std::string::npos) << result.output;
 }
 
 /// Of the drive, whose camera looks to and fro, with a bias.

@@ -101,18 +101,5 @@ TEST_F(UnrectifiedInputTest, BagsGiveTheSamePoses) {
   EXPECT_TRUE(rectified.back().T_world_body.isApprox(end, 1e-6));
 }
 
-TEST_F(UnrectifiedInputTest, TellsWhatHasNoPartner) {
-  const std::string copy = directory_ / "copy";
-  fs::copy(drive(), copy, fs::copy_options::recursive);
-  const std::int64_t stamp_ns = openStereoSequence(copy, {}).stamp_ns(4);
-  fs::remove(copy + "/mav0/cam1/data/" + std::to_string(stamp_ns) + ".png");
-  const CommandResult result =
-      runCommand(std::string(OFFLINE_ODOMETRY) + " " + copy + " --trajectory /dev/null");
-  EXPECT_EQ(result.status, 0) << result.output;
-  EXPECT_NE(result.output.find("1 left image and 0 right images without a partner"),
-            std::string::npos)
-      << result.output;
-}
-
 }  // namespace
 }  // namespace rotrocc
