@@ -99,14 +99,10 @@ class BagRecording : public Recording {
 
   std::string mountNote() const override { return tf().note(); }
 
-  std::vector<std::string> notes() const override {
-    std::vector<std::string> notes;
-    if (!tf().trajectory_name.empty()) {
-      notes.push_back("the bag's tf " + tf().trajectory_name +
-                      " is published as ground truth, not as tf: the odometry publishes the pose "
-                      "of the base");
-    }
-    return notes;
+  std::string truthNote() const override {
+    if (tf().trajectory_name.empty()) return "";
+    return "the bag's tf " + tf().trajectory_name +
+           " is published as ground truth, not as tf: the odometry publishes the pose of the base";
   }
 
   ros::Time begin() const override { return begin_; }

@@ -42,11 +42,10 @@ class Recording {
   /// Whether the images have to be rectified.
   virtual bool isRaw() const = 0;
 
-  /// Which mount of the camera is assumed, as none is recorded; empty if one is.
+  /// For the log, empty if there is nothing to say: which mount of the camera is assumed, as none is
+  /// recorded; and how recorded poses are used.
   virtual std::string mountNote() const { return ""; }
-
-  /// How recorded poses are used; for the log.
-  virtual std::vector<std::string> notes() const { return {}; }
+  virtual std::string truthNote() const { return ""; }
 
   /// Times of the first and the last image or camera_info.
   virtual ros::Time begin() const = 0;

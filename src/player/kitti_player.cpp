@@ -13,6 +13,7 @@
 #include <ros/init.h>
 #include <rosgraph_msgs/Clock.h>
 #include <tf2_eigen/tf2_eigen.h>
+#include <boost/algorithm/string/join.hpp>
 
 #include "input/input_error.h"
 #include "input/message_conversion.h"
@@ -28,12 +29,6 @@ constexpr int kPollsPerWarning = 50;
 constexpr std::chrono::seconds kProgressPeriod(5);
 constexpr std::chrono::milliseconds kLastOdometryDelay(500);
 constexpr int kQueueSize = 10;
-
-std::string join(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
 
 /// Throws std::invalid_argument if nobody would rectify the images.
 std::unique_ptr<Recording> openPlayable(const PlayerOptions& options) {
@@ -75,7 +70,8 @@ KittiPlayer::TimeRange KittiPlayer::rangeToPlay(const Recording& recording,
   const double length_s = (recording.end() - recording.begin()).toSec();
   if (options.start > length_s) {
     throw std::invalid_argument("parameter start is " + toText(options.start) +
-                                " s, but the recording is only " + fixedText(length_s, 1) + " s long");
+                                " s, but the recording is only " + fixedText(length_s, 1) +
+                                " s long");
   }
   TimeRange range = {recording.begin() + ros::Duration(options.start), recording.end()};
   if (options.duration > 0.0) {
@@ -162,7 +158,7 @@ void KittiPlayer::waitForSubscribers() {
     if (missing.empty() && !odometry_missing) return;
     if (polls % kPollsPerWarning == kPollsPerWarning - 1) {
       ROS_WARN("waiting for subscribers of %s%s",
-               join(missing).c_str(),
+               boost::algorithm::join(missing, ", ").c_str(),
                odometry_missing ? " and a publisher of odom" : "");
     }
     std::this_thread::sleep_for(kPollPeriod);

@@ -23,8 +23,9 @@ RecordingPublisher::RecordingPublisher(ros::NodeHandle& nh,
       static_tf_(nh.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true)),
       truth_path_(nh.advertise<nav_msgs::Path>("ground_truth/path", 1, true)),
       truth_pose_(nh.advertise<geometry_msgs::PoseStamped>("ground_truth/pose", kTopicQueueSize)) {
-  if (const std::string note = recording.mountNote(); !note.empty()) ROS_INFO("%s", note.c_str());
-  for (const std::string& note : recording.notes()) ROS_INFO("%s", note.c_str());
+  for (const std::string& note : {recording.mountNote(), recording.truthNote()}) {
+    if (!note.empty()) ROS_INFO("%s", note.c_str());
+  }
 }
 
 std::vector<std::string> RecordingPublisher::topicsWithoutSubscriber() const {

@@ -5,11 +5,7 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
-#include "support/background_command.h"
-#include "support/read_file.h"
 #include "support/run_command.h"
-#include "support/temporary_directory.h"
-#include "support/wait_until.h"
 
 namespace rotrocc {
 namespace {
@@ -35,20 +31,6 @@ TEST(EarlierRunTest, TheRefusalHasTheCommandThatDeletesTheParameter) {
       "feature_detector/max_featurs", 5, "unknown parameter \"feature_detector/max_featurs\"");
   expectRefused("queue_size", 0, "queue_size is 0, but must be in [1, 100]");
   expectRefused("guess_frame", "odom", "guess_frame and odom_frame are both \"odom\"");
-}
-
-TEST(EarlierRunTest, ALaunchBeginsWithItsOwnParameters) {
-  ros::param::set(kNode + "max_featurs", 5);
-  ros::param::set(kNode + "planar", true);
-  const TemporaryDirectory directory;
-  BackgroundCommand launch("roslaunch rotrocc stereo_odometry.launch", directory / "log");
-  EXPECT_TRUE(waitUntil([] { return ros::service::exists(kNode + "reset", false); }))
-      << readFile(directory / "log");
-  EXPECT_FALSE(ros::param::has(kNode + "max_featurs"));
-  EXPECT_FALSE(ros::param::param(kNode + "planar", true));
-  EXPECT_TRUE(waitUntil([&] {
-    return readFile(directory / "log").find("Initializing nodelet") != std::string::npos;
-  })) << "the log has a message while the node runs";
 }
 
 }  // namespace

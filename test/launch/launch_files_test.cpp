@@ -204,12 +204,6 @@ TEST_F(ConfiguredLaunchTest, TheFilterBroadcastsTf) {
   expect("ekf.launch", "", {{"/ekf/base_link_frame", "base_link"}, {"/ekf/odom_frame", "odom"}});
 }
 
-TEST_F(LaunchFilesTest, WithoutADriverInstalledTheOdometryStarts) {
-  for (const std::string file : {"realsense", "usb_pair", "zed"}) {
-    EXPECT_NO_THROW(launch("cameras/" + file + ".launch", "driver:=false")) << file;
-  }
-}
-
 TEST_F(LaunchFilesTest, CamerasTakeTheArgumentsOfTheOdometry) {
   const std::map<std::string, std::string> namespaces = {
       {"realsense", "/camera"}, {"usb_pair", "/stereo"}, {"zed", "/zed2"}};
