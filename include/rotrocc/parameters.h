@@ -17,27 +17,20 @@ struct NodeParameters {
   bool invert_tf = false;                   ///< broadcast base_frame -> odom_frame instead
   bool planar = false;                      ///< restrict base_frame to motion in its x-y plane
   std::array<double, 6> initial_pose = {};  ///< x y z [m] roll pitch yaw [rad] at the first pair
-  double mount_timeout_s = 0.2;   ///< how long a pair waits for the tf of a camera that moves
-  std::string guess_frame;        ///< odom frame of another odometry in tf; empty: none
-  double guess_timeout_s = 0.05;  ///< how long a pair waits for that transform
-  bool use_imu = false;           ///< predict rotations by the gyroscope of the topic imu
-  double imu_timeout_s = 0.02;    ///< how long a pair waits for its samples
-  bool rectify = false;           ///< take raw images, and rectify them by camera_info
+  double mount_timeout_s = 0.2;  ///< how long a pair waits for the tf of a camera that moves
+  std::string guess_frame;       ///< odom frame of another odometry in tf; empty: none
+  bool use_imu = false;          ///< predict rotations by the gyroscope of the topic imu
+  bool rectify = false;          ///< take raw images, and rectify them by camera_info
   std::string image_transport = "raw";
   double max_stamp_difference_s = 0.01;  ///< between the left and the right image of a pair
   int queue_size = 4;                    ///< unmatched images kept, for each side
-  int max_image_pixels = 20'000'000;     ///< larger images are rejected
-  double max_future_s = 10.0;            ///< stamps further ahead of the clock are rejected
   int significant_bits = 0;              ///< of 16-bit images; 0: found from them
   std::string mask;         ///< PNG file, not black where images have no features; empty: none
   double baseline_m = 0.0;  ///< 0: that of camera_info
   std::string pose_after_time_jump = "keep";  ///< or "zero": when time jumps back
   double silence_s = 5.0;                 ///< time without a pair before the log reports the reason
-  std::string flow_view = "motion";       ///< one of flowViewNames()
-  int path_length = 10000;                ///< number of poses on the path topic; 0: no path
   double path_rate_hz = 2.0;              ///< at most, of the messages on the path topic
   std::string while_lost = "hold";        ///< or "silent" or "null": what is published then
-  double guess_error_share = 0.1;         ///< error of the motion of guess_frame, while lost
   double reset_after_lost_s = 0.0;        ///< the estimator restarts after a longer loss; 0: never
   std::string pose_after_lost = "keep";   ///< or "zero": after that
   int trajectory_length = 100'000;        ///< number of poses kept for ~save_trajectory

@@ -11,11 +11,11 @@
 namespace rotrocc {
 namespace {
 
-/// The parameters of the node that takes the recording. Its clock is that of the recorder, which
-/// may have been another than that of the cameras.
-NodeParameters withoutClock(NodeParameters node, bool rectify) {
+/// The clock is that of the recorder, which may have been another than that of the cameras.
+constexpr double kMaxFuture_s = std::numeric_limits<double>::infinity();
+
+NodeParameters withRectify(NodeParameters node, bool rectify) {
   node.rectify = rectify;
-  node.max_future_s = std::numeric_limits<double>::infinity();
   return node;
 }
 
@@ -26,10 +26,13 @@ RecordedPairs::RecordedPairs(Recording& recording,
                              const std::string& rectify)
     : recording_(recording),
       rectifies_(rectify == "auto" ? recording.isRaw() : rectify == "yes"),
-      intake_(withoutClock(node, rectifies_),
-              drops_,
-              [this](ReceivedPair pair) { received_.push_back(std::move(pair)); }),
-      converter_(node.max_image_pixels, node.significant_bits, node.mask) {
+      intake_(
+          withRectify(node, rectifies_),
+          drops_,
+          [this](ReceivedPair pair) { received_.push_back(std::move(pair)); },
+          Log(),
+          kMaxFuture_s),
+      converter_(node.significant_bits, node.mask) {
   if (rectify != "auto" && rectify != "yes" && rectify != "no") {
     throw std::invalid_argument("--rectify is '" + rectify + "', not auto, yes or no");
   }

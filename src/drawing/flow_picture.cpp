@@ -22,9 +22,6 @@ const cv::Scalar kRotationOnly(255, 255, 255);
 const cv::Scalar kOutlier(185, 60, 220);
 const cv::Scalar kExpected = okabe_ito::kGreen;
 const cv::Scalar kMasked(0, 30, 90);  // is added
-const cv::Scalar kFeature(230, 230, 230);
-const cv::Scalar kOfRotation = okabe_ito::kSkyBlue;
-const cv::Scalar kOfTranslation = okabe_ito::kOrange;
 
 constexpr double kBrightness = 0.65;
 constexpr int kSubpixelBits = 4;
@@ -182,38 +179,9 @@ void drawMotion(const FlowScene& scene, cv::Mat& image) {
   }
 }
 
-void drawDecoupled(const FlowScene& scene, cv::Mat& image) {
-  if (!scene.result.hasMotion()) return;
-  const Eigen::Matrix3d R = scene.result.T_keyframe_cur.T.linear();
-  for (std::size_t i = 0; i < scene.features.size(); ++i) {
-    if (!contains(scene.rotation_inliers, i)) continue;
-    const Correspondence& feature = scene.features[i];
-    const Eigen::Vector2d turned_px =
-        projectOr(scene.camera, R * feature.point_cur, feature.cur_px);
-    drawLine(feature.cur_px, turned_px, kOfRotation, image);
-    drawLine(turned_px, feature.keyframe_px, kOfTranslation, image);
-    drawDot(feature.cur_px, kFeature, image);
-  }
-}
-
 }  // namespace
 
-const std::vector<std::string>& flowViewNames() {
-  static const std::vector<std::string> names = {"motion", "decoupled"};
-  return names;
-}
-
-FlowView flowView(const std::string& name) {
-  const auto& names = flowViewNames();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    throw std::invalid_argument("the flow view is \"" + name +
-                                "\", but must be motion or decoupled");
-  }
-  return static_cast<FlowView>(found - names.begin());
-}
-
-void drawFlowPicture(const FlowScene& scene, FlowView view, cv::Mat& picture) {
+void drawFlowPicture(const FlowScene& scene, cv::Mat& picture) {
   const cv::Mat& left = scene.pair.left;
   const cv::Mat& mask = scene.pair.left_mask;
   if (left.empty() || left.type() != CV_8UC1) {
@@ -231,17 +199,11 @@ void drawFlowPicture(const FlowScene& scene, FlowView view, cv::Mat& picture) {
 
   Legend legend(picture.rowRange(left.rows, picture.rows));
   describe(scene.result, legend);
-  if (view == FlowView::kDecoupled) {
-    drawDecoupled(scene, image);
-    legend.sample(kOfRotation, "flow of the rotation");
-    legend.sample(kOfTranslation, "flow of the translation");
-  } else {
-    drawMotion(scene, image);
-    legend.depthScale();
-    legend.sample(kRotationOnly, "rotation only");
-    legend.sample(kOutlier, "outlier");
-    legend.sample(kExpected, "as expected");
-  }
+  drawMotion(scene, image);
+  legend.depthScale();
+  legend.sample(kRotationOnly, "rotation only");
+  legend.sample(kOutlier, "outlier");
+  legend.sample(kExpected, "as expected");
   describeCounts(scene, legend);
 }
 

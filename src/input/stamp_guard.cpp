@@ -78,9 +78,7 @@ void StampGuard::checkClock(const Arrival& arrival) const {
   throw InputError(DropReason::kStampFuture,
                    topic_ + " has the stamp " + stampText(arrival.stamp_ns) + " s, " +
                        toText(ahead_s) +
-                       " s ahead of the clock: synchronise the clocks of the machines, or raise "
-                       "max_future_s = " +
-                       toText(max_future_s_));
+                       " s ahead of the clock: synchronise the clocks of the machines");
 }
 
 /// Whether a stamp is credible without another one like it.

@@ -40,13 +40,14 @@ TopicReport reportOf(const TopicStatistics& statistics, TopicStatistics::Time no
 StereoIntake::StereoIntake(const NodeParameters& parameters,
                            DropLog& drops,
                            PairHandler on_pair,
-                           Log log)
+                           Log log,
+                           double max_future_s)
     : parameters_(parameters),
       drops_(drops),
       on_pair_(std::move(on_pair)),
       log_(std::move(log)),
-      left_("the left image", parameters.max_future_s),
-      right_("the right image", parameters.max_future_s),
+      left_("the left image", max_future_s),
+      right_("the right image", max_future_s),
       synchronizer_(parameters.max_stamp_difference_s,
                     static_cast<std::size_t>(parameters.queue_size)),
       current_calibration_(parameters.baseline_m) {}

@@ -49,12 +49,17 @@ class StereoIntake {
 
   using Side = StereoSynchronizer::Side;
 
+  /// Clocks of machines that were synchronized once differ by less.
+  static constexpr double kMaxFuture_s = 10.0;
+
   /// Passes each pair to `on_pair` as soon as it is complete. The latest one waits while there is
-  /// no valid camera_info. `drops` must outlive this.
+  /// no valid camera_info. Stamps more than `max_future_s` ahead of the clock are dropped. `drops`
+  /// must outlive this.
   StereoIntake(const NodeParameters& parameters,
                DropLog& drops,
                PairHandler on_pair,
-               Log log = Log());
+               Log log = Log(),
+               double max_future_s = kMaxFuture_s);
 
   /// These do not throw: invalid input goes to the drop log.
   void addImage(Side side, const sensor_msgs::Image::ConstPtr& image, const Arrival& arrival);

@@ -57,9 +57,7 @@ std::string quote(const std::string& text) {
   return quoted + (text.size() > kMaxLength ? "...\"" : "\"");
 }
 
-void validateSides(const std::string& side,
-                   const sensor_msgs::Image& image,
-                   std::int64_t max_pixels) {
+void validateSides(const std::string& side, const sensor_msgs::Image& image) {
   const auto is = [&] {
     return "the " + side + " image is " + sizeText(image.width, image.height);
   };
@@ -69,10 +67,10 @@ void validateSides(const std::string& side,
                          " px or more: check the camera driver");
   }
   const std::uint64_t pixels = std::uint64_t{image.width} * image.height;
-  if (pixels <= static_cast<std::uint64_t>(max_pixels)) return;
+  if (pixels <= StereoPairConverter::kMaxPixels) return;
   throw InputError(DropReason::kImageSize,
-                   is() + ", more than max_image_pixels = " + toText(max_pixels) +
-                       ": raise that parameter, or bin the images in the driver");
+                   is() + ", more than " + toText(StereoPairConverter::kMaxPixels) +
+                       " pixels: bin the images in the driver");
 }
 
 const ImageEncoding& encodingOf(const char* side, const sensor_msgs::Image& image) {
@@ -88,9 +86,9 @@ const ImageEncoding& encodingOf(const char* side, const sensor_msgs::Image& imag
                        (is_float ? " (is its topic remapped to a depth image?)" : ""));
 }
 
-void validateImage(const char* side, const sensor_msgs::Image& image, std::int64_t max_pixels) {
+void validateImage(const char* side, const sensor_msgs::Image& image) {
   const ImageEncoding& encoding = encodingOf(side, image);
-  validateSides(side, image, max_pixels);
+  validateSides(side, image);
   const std::uint64_t row_bytes = std::uint64_t{image.width} * CV_ELEM_SIZE(encoding.cv_type);
   const auto has = [&] { return std::string("the ") + side + " image has "; };
   if (image.step < row_bytes) {
@@ -108,11 +106,9 @@ void validateImage(const char* side, const sensor_msgs::Image& image, std::int64
   }
 }
 
-void validatePair(const sensor_msgs::Image& left,
-                  const sensor_msgs::Image& right,
-                  std::int64_t max_pixels) {
-  validateImage("left", left, max_pixels);
-  validateImage("right", right, max_pixels);
+void validatePair(const sensor_msgs::Image& left, const sensor_msgs::Image& right) {
+  validateImage("left", left);
+  validateImage("right", right);
   if (left.width == right.width && left.height == right.height) return;
   throw InputError(DropReason::kImageSizesDiffer,
                    "the left image is " + sizeText(left.width, left.height) + ", the right one " +
@@ -185,10 +181,8 @@ cv::Mat toGrey(const sensor_msgs::Image& image,
 
 }  // namespace
 
-StereoPairConverter::StereoPairConverter(std::int64_t max_pixels,
-                                         int significant_bits,
-                                         const std::string& mask)
-    : max_pixels_(max_pixels), known_bits_(significant_bits), mask_(mask) {
+StereoPairConverter::StereoPairConverter(int significant_bits, const std::string& mask)
+    : known_bits_(significant_bits), mask_(mask) {
   if (mask.empty()) return;
   left_mask_ = readMask(pathOfSide(mask, "left"));
   right_mask_ = readMask(pathOfSide(mask, "right"));
@@ -196,7 +190,7 @@ StereoPairConverter::StereoPairConverter(std::int64_t max_pixels,
 
 StereoPair StereoPairConverter::convert(const sensor_msgs::Image& left,
                                         const sensor_msgs::Image& right) {
-  validatePair(left, right, max_pixels_);
+  validatePair(left, right);
   validateMasks(left);
   const ImageEncoding& left_encoding = encodingOf("left", left);
   const ImageEncoding& right_encoding = encodingOf("right", right);

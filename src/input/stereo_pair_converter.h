@@ -24,16 +24,15 @@ namespace rotrocc {
 /// use more, and shrinks when kShrinkPairs use less, so a single bad image does not change it.
 class StereoPairConverter {
  public:
-  static constexpr std::int64_t kMaxPixels = 50'000'000;
+  /// Larger images are no stereo camera's.
+  static constexpr std::uint64_t kMaxPixels = 20'000'000;
   static constexpr std::size_t kShrinkPairs = 10;
 
-  /// `max_pixels`: limit of width times height. `significant_bits`: b if it is known, or 0. `mask`:
+  /// `significant_bits`: b if it is known, or 0. `mask`:
   /// path of a PNG file that is not black where pairs have no features (StereoPair::left_mask);
   /// with "%s" in place of left and right if there are two; empty: none. Throws std::runtime_error
   /// if it cannot be read.
-  explicit StereoPairConverter(std::int64_t max_pixels = kMaxPixels,
-                               int significant_bits = 0,
-                               const std::string& mask = "");
+  explicit StereoPairConverter(int significant_bits = 0, const std::string& mask = "");
 
   /// The resulting images refer to the data of `left` and `right` if these are 8-bit grey,
   /// otherwise to a buffer that the next call overwrites. They must not be modified. The stamp is
@@ -54,7 +53,6 @@ class StereoPairConverter {
   void validateMasks(const sensor_msgs::Image& left) const;
   void findSignificantBits(const sensor_msgs::Image& left, const sensor_msgs::Image& right);
 
-  std::int64_t max_pixels_;
   int known_bits_;
   std::string mask_;
   cv::Mat left_mask_;

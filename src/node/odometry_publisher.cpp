@@ -22,6 +22,8 @@ namespace {
 constexpr int kMotionQueue = 50;
 /// Only the latest of large messages.
 constexpr int kPictureQueue = 1;
+/// Poses in the path: 17 minutes at 10 Hz, and 1.2 MB in each message.
+constexpr std::size_t kPathLength = 10'000;
 
 /// Like that of a broadcaster: tf is not remapped for a nodelet. A broadcaster sends by way of the
 /// network thread even to receivers in this process.
@@ -35,7 +37,6 @@ ros::Publisher advertiseTf() {
 OdometryPublisher::OdometryPublisher(ros::NodeHandle& nh, const NodeParameters& parameters)
     : parameters_(parameters),
       path_throttle_(std::chrono::milliseconds(std::lround(1e3 / parameters.path_rate_hz))),
-      flow_view_(flowView(parameters.flow_view)),
       tf_publisher_(parameters.publish_tf ? advertiseTf() : ros::Publisher()),
       odom_publisher_(advertise<nav_msgs::Odometry>(nh, "odom", kMotionQueue)),
       twist_publisher_(
@@ -94,7 +95,7 @@ void OdometryPublisher::publishPath(const BaseState& state, bool starts) {
   path_.back().header.stamp = toRosTime(state.stamp_ns);
   path_.back().header.frame_id = parameters_.odom_frame;
   path_.back().pose = tf2::toMsg(state.T_odom_base.T);
-  while (path_.size() > static_cast<std::size_t>(parameters_.path_length)) path_.pop_front();
+  while (path_.size() > kPathLength) path_.pop_front();
   if (path_publisher_.getNumSubscribers() == 0 || !path_throttle_.pass()) return;
   const auto path = boost::make_shared<nav_msgs::Path>();
   path->header.stamp = toRosTime(state.stamp_ns);
@@ -121,7 +122,6 @@ void OdometryPublisher::publishPictures(const PairAnswer& answer,
                      odometry.rotationInliers(),
                      odometry.translationInliers(),
                      answer.result},
-                    flow_view_,
                     picture_);
     flow_publisher_.publish(toImage(header, sensor_msgs::image_encodings::BGR8, picture_));
   }

@@ -14,7 +14,6 @@
 #include "node/base/pair_processor.h"
 #include "node/odometry_messages.h"
 #include "rotrocc/OdometryStatus.h"
-#include "rotrocc/flow_picture.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/visual_odometry.h"
 
@@ -50,7 +49,6 @@ class OdometryPublisher {
   NodeParameters parameters_;
   std::deque<geometry_msgs::PoseStamped> path_;
   Throttle path_throttle_;
-  FlowView flow_view_;
   cv::Mat picture_;
 
   // roscpp sends what waits for its network thread in the order of advertising.

@@ -22,6 +22,8 @@ using SteadyClock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kIdlePoll(100);
 /// Period at which a pair is tried again that waits for tf, or for the vertical.
 constexpr std::chrono::milliseconds kRetry(10);
+/// How long a pair waits for the transform from guess_frame: a period of odometry at 20 Hz.
+constexpr double kGuessTimeout_s = 0.05;
 /// Period of diagnostics (REP 107).
 constexpr double kTick_s = 1.0;
 
@@ -48,11 +50,8 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
       loss_log_(log_),
       silence_(parameters_.silence_s, SteadyClock::now(), log_) {
   if (!parameters_.guess_frame.empty()) {
-    guess_.emplace(parameters_.guess_frame,
-                   parameters_.base_frame,
-                   parameters_.guess_timeout_s,
-                   listenToTf,
-                   log_);
+    guess_.emplace(
+        parameters_.guess_frame, parameters_.base_frame, kGuessTimeout_s, listenToTf, log_);
   }
   if (parameters_.use_imu) gyro_.emplace(nh, parameters_, log_);
   input_.emplace(

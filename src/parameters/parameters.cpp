@@ -2,8 +2,6 @@
 
 #include <stdexcept>
 
-#include "rotrocc/flow_picture.h"
-
 namespace rotrocc {
 namespace {
 
@@ -24,13 +22,9 @@ void addNode(NodeParameters& n, ParameterTable& table) {
   table.add("guess_frame", n.guess_frame).description =
       "odom frame of another odometry in tf, used as motion prediction; odom_frame -> guess_frame "
       "is then broadcast; none if empty";
-  table.add("guess_timeout_s", n.guess_timeout_s, {0.0, 1.0, "s"}).description =
-      "how long a pair waits for the transform from guess_frame";
   table.add("use_imu", n.use_imu).description =
       "predict rotations by the gyroscope of the topic imu, whose frame must be in tf; if the "
       "robot rests, its accelerations level the first pose, unless initial_pose has roll or pitch";
-  table.add("imu_timeout_s", n.imu_timeout_s, {0.0, 1.0, "s"}).description =
-      "how long a pair waits for the samples of the gyroscope";
   table.add("rectify", n.rectify).description =
       "subscribe to left/image_raw and right/image_raw instead of image_rect, and rectify by K, "
       "D, R and P of camera_info";
@@ -39,10 +33,6 @@ void addNode(NodeParameters& n, ParameterTable& table) {
   table.add("max_stamp_difference_s", n.max_stamp_difference_s, {0.0, 1.0, "s"}).description =
       "largest stamp difference between the left and the right image of a pair";
   table.add("queue_size", n.queue_size, {1, 100}).description = "unmatched images kept per side";
-  table.add("max_image_pixels", n.max_image_pixels, {256, 1000000000, "px"}).description =
-      "largest number of pixels of an image; larger images are dropped";
-  table.add("max_future_s", n.max_future_s, {0.0, 1e9, "s"}).description =
-      "images with stamps further ahead of the clock are dropped";
   auto& bits = table.add("significant_bits", n.significant_bits, {0, 16});
   bits.description =
       "bits that 16-bit images use, 8 or more, e.g. 10 or 12; 0: found from the images";
@@ -62,17 +52,11 @@ void addNode(NodeParameters& n, ParameterTable& table) {
       "pose after time jumps back, e.g. with a looping bag; zero is initial_pose";
   table.add("silence_s", n.silence_s, {0.5, 3600.0, "s"}).description =
       "time without a stereo pair until the log reports the received input and a remedy";
-  table.add("flow_view", n.flow_view, flowViewNames()).description = "contents of the flow topic";
-  table.add("path_length", n.path_length, {0, 1000000}).description =
-      "number of poses in the path topic";
   table.add("path_rate_hz", n.path_rate_hz, {0.01, 1000.0, "Hz"}).description =
       "rate of the path topic, at most, in real time";
   table.add("while_lost", n.while_lost, {"hold", "silent", "null"}).description =
       "what is published while the motion is lost: the pose held, with growing covariance; neither "
       "tf nor odom; or odom with a zero pose of variance 9999, without tf";
-  table.add("guess_error_share", n.guess_error_share, {0.0, 10.0}).description =
-      "standard deviation of the motion in guess_frame that moves the pose while lost, as a share "
-      "of way and angle";
   table.add("reset_after_lost_s", n.reset_after_lost_s, {0.0, 1e6, "s"}).description =
       "the estimator restarts with the next pair after it was lost for this time; 0: it only goes "
       "on trying";

@@ -64,7 +64,7 @@ class OdometryOutputs::OdometryBag {
 
 class OdometryOutputs::FlowPictures {
  public:
-  FlowPictures(const std::string& folder, FlowView view) : folder_(folder), view_(view) {}
+  explicit FlowPictures(const std::string& folder) : folder_(folder) {}
 
   void write(const StereoPair& pair,
              const StereoCamera& camera,
@@ -76,14 +76,12 @@ class OdometryOutputs::FlowPictures {
                      odometry.rotationInliers(),
                      odometry.translationInliers(),
                      result},
-                    view_,
                     picture_);
     writeImage(folder_.path(cv::format("%06d.png", pairs_++)), picture_);
   }
 
  private:
   ReportDirectory folder_;
-  FlowView view_;
   int pairs_ = 0;
   cv::Mat picture_;
 };
@@ -94,9 +92,7 @@ OdometryOutputs::OdometryOutputs(const OutputFiles& files,
     : trajectory_(files.trajectory, trajectoryFormat(files.format)) {
   if (!files.statistics.empty()) statistics_.emplace(files.statistics);
   if (!files.bag.empty()) bag_ = std::make_unique<OdometryBag>(files.bag, recording, parameters);
-  if (!files.pictures.empty()) {
-    pictures_ = std::make_unique<FlowPictures>(files.pictures, flowView(parameters.node.flow_view));
-  }
+  if (!files.pictures.empty()) pictures_ = std::make_unique<FlowPictures>(files.pictures);
 }
 
 OdometryOutputs::~OdometryOutputs() = default;

@@ -256,17 +256,6 @@ TEST_F(RecordedPairsTest, TakeTheBaselineThatCameraInfoLacks) {
   expectError<std::runtime_error>([&] { rectified.next(); }, "s: the images are 32x32");
 }
 
-TEST_F(RecordedPairsTest, HaveNoMorePixelsThanTheLimit) {
-  const StereoCamera size = sequence().camera();
-  NodeParameters parameters;
-  parameters.max_image_pixels = size.width * size.height - 1;
-  Reader strict(directory_ / "sequence", parameters);
-  expectError<std::runtime_error>([&] { strict.next(); }, "more than max_image_pixels = ");
-  parameters.max_image_pixels = size.width * size.height;
-  Reader reader(directory_ / "sequence", parameters);
-  expectAllPairs(reader);
-}
-
 TEST_F(RecordedPairsTest, ACameraThatIsWrongIsExplained) {
   sensor_msgs::CameraInfo uncalibrated;
   sensor_msgs::Image image;

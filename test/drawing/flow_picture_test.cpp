@@ -33,14 +33,12 @@ class FlowPictureTest : public testing::Test {
 
   void draw() {
     drawFlowPicture({pair_, camera_, features_, rotation_inliers_, translation_inliers_, result_},
-                    view_,
                     picture_);
   }
 
   cv::Vec3b colourAt(int x, int y) const { return picture_.at<cv::Vec3b>(y, x); }
 
   const StereoCamera camera_ = kittiCamera();
-  FlowView view_ = FlowView::kMotion;
   StereoPair pair_ = {0, cv::Mat(200, 640, CV_8UC1, cv::Scalar(100)), {}};
   Correspondences features_;
   FeatureSet rotation_inliers_ = {1, 1, 1, 0};
@@ -123,34 +121,7 @@ TEST_F(FlowPictureTest, AnOutlierShowsWhatFlowTheMotionExpected) {
   EXPECT_EQ(colourAt(320, 150), cv::Vec3b(65, 65, 65)) << "without a motion nothing is expected";
 }
 
-TEST_F(FlowPictureTest, DecoupledViewShowsBothPartsOfTheFlow) {
-  view_ = FlowView::kDecoupled;
-  // A rotation of 0.05 rad about the vertical axis causes 36 px of flow near the middle. The rest
-  // is caused by the translation.
-  const Eigen::Vector2d cur_px(600, 170), keyframe_px(560, 190);
-  result_.T_keyframe_cur.T.linear() =
-      Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY()).toRotationMatrix();
-  features_[0].cur_px = cur_px;
-  features_[0].keyframe_px = keyframe_px;
-  features_[0].point_cur = 20.0 * camera_.ray(cur_px);
-  rotation_inliers_ = translation_inliers_ = {1, 0, 0, 0};
-  draw();
-  const Eigen::Vector2d turned_px =
-      camera_.project(result_.T_keyframe_cur.T.linear() * features_[0].point_cur);
-  const auto middle = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    const Eigen::Vector2d pixel = 0.5 * (a + b);
-    return colourAt(cvRound(pixel.x()), cvRound(pixel.y()));
-  };
-  const cv::Vec3b of_rotation = middle(cur_px, turned_px);
-  EXPECT_GT(of_rotation[0], of_rotation[2]) << "blue";
-  const cv::Vec3b of_translation = middle(turned_px, keyframe_px);
-  EXPECT_GT(of_translation[2], of_translation[0]) << "orange";
-  EXPECT_EQ(colourAt(130, 180), cv::Vec3b(65, 65, 65)) << "no outliers";
-}
-
 TEST_F(FlowPictureTest, RefusesWhatDoesNotFit) {
-  EXPECT_EQ(flowView("decoupled"), FlowView::kDecoupled);
-  expectError<std::invalid_argument>([] { flowView("3d"); }, "must be motion or decoupled");
   rotation_inliers_.pop_back();
   expectError<std::invalid_argument>([&] { draw(); }, "4 features, but 3 inlier flags");
   pair_.left = cv::Mat();

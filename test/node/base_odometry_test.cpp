@@ -257,7 +257,7 @@ TEST_F(BaseOdometryTest, AnotherOdometryMovesThePoseWhileLost) {
     EXPECT_EQ(state.twist.covariance(0, 0), 9999.0);
   }
   EXPECT_TRUE(state.T_first_camera.isApprox(seen(state.T_odom_base.T), 1e-9));
-  // guess_error_share = 0.1 of 10 m, 1 rad and the turn of 0.1 rad/m; at the last speed and turn
+  // A tenth of 10 m, 1 rad and the turn of 0.1 rad/m; at the last speed and turn
   // rate the errors of two seconds would be 20 m and 2 rad.
   EXPECT_NEAR(sigma(state, 5), 0.1 * (1.0 + 0.1 * 10.0), 0.01);
   EXPECT_GT(sigma(state, 2), 0.99);

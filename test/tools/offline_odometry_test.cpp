@@ -109,19 +109,14 @@ TEST_F(OfflineOdometryTest, FiguresTellMotionCovarianceAndBias) {
 }
 
 TEST_F(OfflineOdometryTest, WritesTheFlowPictureOfEachPair) {
-  const std::string motion = directory_ / "motion";
-  const std::string decoupled = directory_ / "decoupled";
-  trajectoryOf(sequence(), "--pictures " + motion);
-  trajectoryOf(sequence(), "--set flow_view=decoupled --pictures " + decoupled);
+  const std::string pictures = directory_ / "pictures";
+  trajectoryOf(sequence(), "--pictures " + pictures);
   const cv::Size image = cv::imread(sequence() + "/image_0/000001.png").size();
   for (int i = 0; i < kPairs; ++i) {
     const std::string name = (i < 10 ? "/00000" : "/0000") + std::to_string(i) + ".png";
-    const cv::Mat one = cv::imread(motion + name);
-    const cv::Mat other = cv::imread(decoupled + name);
-    ASSERT_EQ(one.cols, image.width);
-    ASSERT_GT(one.rows, image.height) << "a line of text below";
-    ASSERT_EQ(one.size(), other.size());
-    EXPECT_GT(cv::norm(one, other, cv::NORM_INF), 50.0);
+    const cv::Mat picture = cv::imread(pictures + name);
+    ASSERT_EQ(picture.cols, image.width);
+    ASSERT_GT(picture.rows, image.height) << "a line of text below";
   }
 }
 

@@ -20,6 +20,9 @@ constexpr double kLevelVariance = 1e-4;
 /// Longer gaps do not increase the uncertainty further: filters need finite numbers.
 constexpr double kMaxWithoutMotion_s = 1000.0;
 
+/// Standard deviation of the motion in guess_frame, as a share of way and angle: that of wheels
+/// on loose ground, with tracks or on carpet.
+constexpr double kGuessErrorShare = 0.1;
 /// Part of a rotation's error that comes with the way: wheels that slip turn a base that drives
 /// straight on.
 constexpr double kTurn_radpm = 0.1;
@@ -253,7 +256,7 @@ Matrix6d BaseOdometry::growthWithDistance(const Eigen::Isometry3d& T_last_cur) {
   const double distance_m = T_last_cur.translation().norm();
   guessed_m_ += distance_m;
   guessed_rad_ += logRotation(T_last_cur.linear()).norm() + kTurn_radpm * distance_m;
-  const double share2 = parameters_.guess_error_share * parameters_.guess_error_share;
+  const double share2 = kGuessErrorShare * kGuessErrorShare;
   return diagonal(share2 * (guessed_m_ * guessed_m_ - before_m * before_m),
                   share2 * (guessed_rad_ * guessed_rad_ - before_rad * before_rad));
 }

@@ -60,8 +60,8 @@ struct BaseState {
 /// that the base may make in the time. The twist is zero with a very large covariance.
 class BaseOdometry {
  public:
-  /// Of `parameters`: initial_pose; planar, which discards other components of a motion;
-  /// guess_error_share, along and about each axis. `systematic_error`: its part of the pose
+  /// Of `parameters`: initial_pose; planar, which discards other components of a motion.
+  /// `systematic_error`: its part of the pose
   /// covariance is in proportion to the distance from the first pose. `up`: the vertical in axes of
   /// the base at the first pair; if it is known, roll and pitch are by it.
   BaseOdometry(const NodeParameters& parameters,

@@ -20,8 +20,7 @@ PairProcessor::PairProcessor(const Parameters& parameters, Log log)
     : log_(std::move(log)),
       parameters_(parameters.node),
       systematic_error_(parameters.odometry.systematic_error),
-      converter_(
-          parameters.node.max_image_pixels, parameters.node.significant_bits, parameters.node.mask),
+      converter_(parameters.node.significant_bits, parameters.node.mask),
       rectifier_(parameters.odometry.threads),
       odometry_(parameters.odometry),
       inspector_(parameters.odometry.correspondence_finder, parameters.node.rectify) {

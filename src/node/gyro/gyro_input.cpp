@@ -11,6 +11,8 @@ namespace rotrocc {
 namespace {
 
 constexpr int kSampleQueueSize = 1000;  // a second of the fastest gyroscopes
+/// How long a pair waits for its samples: those of fast gyroscopes come sooner.
+constexpr std::chrono::milliseconds kSampleWait(20);
 constexpr std::chrono::seconds kVerticalWait(2);
 constexpr std::int64_t kMemory_ns = static_cast<std::int64_t>(1e9 * GyroHistory::kLength_s);
 
@@ -19,7 +21,6 @@ constexpr std::int64_t kMemory_ns = static_cast<std::int64_t>(1e9 * GyroHistory:
 GyroInput::GyroInput(const ros::NodeHandle& nh, const NodeParameters& parameters, Log log)
     : log_(std::move(log)),
       base_frame_(parameters.base_frame),
-      timeout_(parameters.imu_timeout_s),
       mount_(base_frame_, parameters.mount_timeout_s, listenToTf, std::nullopt) {
   subscriber_ = callbacks_.attach(nh).subscribe<sensor_msgs::Imu>(
       "imu",
@@ -69,7 +70,7 @@ std::optional<Eigen::Matrix3d> GyroInput::rotation(std::int64_t from_ns, std::in
   std::unique_lock<std::mutex> lock(mutex_);
   was_asked_ = true;
   if (backoff_.waits() && predictor_.whyDistrusted().empty()) {
-    received_.wait_for(lock, timeout_, [&] {
+    received_.wait_for(lock, kSampleWait, [&] {
       const auto newest_ns = predictor_.history().newest_ns();
       return newest_ns && *newest_ns >= to_ns;
     });

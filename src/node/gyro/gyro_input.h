@@ -36,7 +36,7 @@ class GyroInput {
   /// While it is missing, one of so many pairs waits for it.
   static constexpr int kRetryPairs = 10;
 
-  /// Subscribes. A pair waits for its samples for at most imu_timeout_s, in real time, and for the
+  /// Subscribes. A pair waits for its samples for at most 20 ms of real time, and for the
   /// mount for mount_timeout_s.
   GyroInput(const ros::NodeHandle& nh, const NodeParameters& parameters, Log log);
   ~GyroInput();
@@ -73,7 +73,6 @@ class GyroInput {
 
   Log log_;
   std::string base_frame_;
-  std::chrono::duration<double> timeout_;
   SensorMount mount_;
   std::map<std::int64_t, Eigen::Matrix3d> R_camera_gyro_;  // at the stamps of recent pairs
 

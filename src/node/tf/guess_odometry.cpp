@@ -90,7 +90,7 @@ std::string GuessOdometry::describeMiss(std::int64_t stamp_ns) const {
   return "no tf from guess_frame " + guess_frame_ + " to " + base_frame_ + " at " +
          std::to_string(MissBackoff::kMisses) + " pairs in a row (" + cause +
          "), pairs do not wait for it: " +
-         (late ? "raise guess_timeout_s = " + toText(timeout_s_) + ", or synchronise the clocks"
+         (late ? "send it within " + toText(timeout_s_) + " s, or synchronise the clocks"
                : "correct guess_frame, or start the odometry that publishes it");
 }
 

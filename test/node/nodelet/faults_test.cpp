@@ -21,7 +21,6 @@ bool has(const std::string& text, const std::string& part) {
 
 class FaultsTest : public testing::Test {
  protected:
-  // The stamps run faster than the clock.
   FaultsTest() { drive_.setUp(); }
 
   using Change = std::function<void(sensor_msgs::Image& left, sensor_msgs::Image& right)>;
@@ -38,7 +37,7 @@ class FaultsTest : public testing::Test {
     EXPECT_TRUE(waitUntil([&] { return drive().state == OdometryStatus::OK; }));
   }
 
-  NodeletDrive drive_{{{"max_future_s", 1000.0}}};
+  NodeletDrive drive_;
 };
 
 TEST_F(FaultsTest, AFrozenCameraMeasuresNothing) {

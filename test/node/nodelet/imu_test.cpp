@@ -116,8 +116,8 @@ class ImuTest : public testing::Test {
     return false;
   }
 
-  // It waits longer for a sample than the load of a machine delays one.
-  NodeletDrive drive_{{{"use_imu", true}, {"imu_timeout_s", 1.0}, {"mount_timeout_s", 5.0}}};
+  // It waits longer for tf than the load of a machine delays it.
+  NodeletDrive drive_{{{"use_imu", true}, {"mount_timeout_s", 5.0}}};
   ros::Publisher publisher_;
   tf2_ros::TransformBroadcaster joints_;
   ros::Time last_sample_;

@@ -13,7 +13,7 @@ TEST(WarningsTest, StampsOfAClockThatIsWrongAreTold) {
                 {3.0, "s ahead of the clock, and so are odometry and tf"}};
   for (const auto& [off_s, said] : kCases) {
     SCOPED_TRACE(off_s);
-    NodeletDrive drive({{"max_future_s", 1000.0}});
+    NodeletDrive drive;
     DiagnosticsListener diagnostics;
     drive.setUp();
     drive.robot.setTime(ros::Time::now() + ros::Duration(off_s));
