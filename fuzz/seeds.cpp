@@ -89,7 +89,7 @@ Seeds fileSeeds() {
   seeds["poses"] = "t1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0.1 0 0 -1 0 0 1 0 1e-3\n";
   seeds["tum"] = "t# t x y z\n0.5 0 0 0 0 0 0 1\n1.6e9 1 2 3 0 0.6 0 -0.8\n";
   seeds["times"] = "t0\n0.1\n";
-  seeds["alias"] = "pmotion_check: &a {min_inliers: 20}\nmotion_estimator: *a\n";
+  seeds["alias"] = "pmotion_check: &a {max_speed_mps: 20}\nmotion_estimator: *a\n";
   seeds["kinds"] = "pplanar: true\nqueue_size: 4\nsilence_s: 2.5 # s\nodom_frame: \"a b\"\n";
   seeds["choice"] = "ptrajectory_format: kitti\nvisual_odometry:\n  max_gap_s: 1e-1\n";
   addSections(seeds);

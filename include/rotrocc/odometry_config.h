@@ -3,6 +3,10 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
+
+#include "rotrocc/rigid_motion.h"
+
 namespace rotrocc {
 
 /// Shi-Tomasi corner detection.
@@ -47,36 +51,23 @@ struct MotionEstimatorConfig {
   /// Ratio of the disparity error that the features of an image cell share to flow noise: start of
   /// an estimate of at most three times this. 0: they share none, and none is estimated.
   double shared_ratio = 2.0;
-  /// Of cauchyWeights(), used once the set of a stage is stable. 0: no weights, as in the
-  /// paper.
+  /// Of cauchyWeights(), used once the set of a stage is stable. 0: equal weights.
   double robust_factor = 1.5;
-
-  // Stage 1: rotation.
-  double rotation_limit_px = 0.6;  ///< limit of the reprojection error, Eq. 26
   /// If stage 1 leaves few of the features, it is retried with only those whose error is below this
   /// at the motion that most agree on, and at the prediction. 0: no retry.
   double retry_agreement_px = 2.0;
-
-  // Stage 2: translation.
-  double translation_limit = 0.04;  ///< limit of the DNRE, Eq. 30
-  /// Errors of this many standard deviations of the flow pass even if the flow is small.
+  /// Errors of this many standard deviations of the flow pass stage 2 even if the flow is small.
   double translation_noise_factor = 2.0;
   /// Stage 2 starts at the prediction, not at the result of stage 1.
   bool translation_from_prediction = false;
   /// Features with a smaller error after stage 1 enter stage 2. 0: all features do.
   double translation_initial_px = 1.5;
-  double min_speed_mps = 1.0;  ///< stage 2 is skipped at lower speed
 };
 
-/// Plausibility limits of an estimated motion. None depends on the size of the image.
+/// Plausibility limits of an estimated motion.
 struct MotionCheckConfig {
-  /// Fewer: lost. The covariance comes from the residuals of the inliers: with n of them, the
-  /// variance of the noise is known to sqrt(2 / (2 n - 6)), a fifth for 25.
-  int min_inliers = 25;
-  double min_inlier_share = 0.15;       ///< of the feature set; below: lost
-  double max_speed_mps = 70.0;          ///< faster: lost
-  double max_turn_rate_rps = 6.0;       ///< faster: lost
-  double max_acceleration_mps2 = 30.0;  ///< above, as change of velocity per second: degraded
+  double max_speed_mps = 70.0;     ///< faster: lost
+  double max_turn_rate_rps = 6.0;  ///< faster: lost
 };
 
 /// When a keyframe is replaced.
@@ -95,10 +86,17 @@ struct StereoCalibratorConfig {
 struct SystematicErrorConfig {
   double translation_share = 0.015;  ///< of the length of a motion
   double rotation_share = 0.01;      ///< of the angle of a motion
+
+  /// In the order of OdometryResult::covariance: the same in all directions.
+  Matrix6d covarianceOf(const Eigen::Isometry3d& motion) const;
 };
+
+/// "default", and "paper", the method as published.
+const std::vector<std::string>& methodNames();
 
 /// All parameters of the visual odometry, in the order of the data flow.
 struct OdometryConfig {
+  std::string method = "default";  ///< one of methodNames(); "paper": see useMethodOfPaper()
   CorrespondenceFinderConfig correspondence_finder;
   MotionEstimatorConfig motion_estimator;
   MotionCheckConfig motion_check;
@@ -111,6 +109,14 @@ struct OdometryConfig {
   /// Between two pairs: if longer, the estimator restarts. After half of it, the last motion does
   /// not predict the next one.
   double max_gap_s = 1.0;
+
+  /// Throws std::invalid_argument with the parameter and its value if a name is unknown, or the
+  /// smallest disparity is above the largest.
+  void check() const;
 };
+
+/// Sets what the paper does otherwise. Neither max_tries, which is 1 in the paper, nor the
+/// self-calibration, which it has not.
+void useMethodOfPaper(OdometryConfig& config);
 
 }  // namespace rotrocc

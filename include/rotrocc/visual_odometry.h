@@ -27,7 +27,7 @@ class VisualOdometry {
  public:
   using Config = OdometryConfig;
 
-  /// Throws std::invalid_argument on an unknown criterion.
+  /// Throws as OdometryConfig::check().
   explicit VisualOdometry(const Config& config);
   ~VisualOdometry();
   VisualOdometry(VisualOdometry&&) noexcept;

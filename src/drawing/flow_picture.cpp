@@ -117,13 +117,6 @@ class Legend {
   int x_ = kGap_px;
 };
 
-/// Projects a point; a point behind the camera stays at its previous position.
-Eigen::Vector2d projectOr(const StereoCamera& camera,
-                          const Eigen::Vector3d& point,
-                          const Eigen::Vector2d& otherwise_px) {
-  return point.z() > 0.0 ? camera.project(point) : otherwise_px;
-}
-
 void requireFlags(const FeatureSet& set, const Correspondences& features) {
   if (set.empty() || set.size() == features.size()) return;
   throw std::invalid_argument("there are " + std::to_string(features.size()) + " features, but " +
@@ -166,9 +159,9 @@ void drawMotion(const FlowScene& scene, cv::Mat& image) {
   }
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (contains(scene.translation_inliers, i)) continue;
-    if (scene.result.hasMotion()) {
-      const Eigen::Vector3d moved = scene.result.T_keyframe_cur.T * features[i].point_cur;
-      const Eigen::Vector2d expected_px = projectOr(scene.camera, moved, features[i].keyframe_px);
+    const Eigen::Vector3d moved = scene.result.T_keyframe_cur.T * features[i].point_cur;
+    if (scene.result.hasMotion() && moved.z() > 0.0) {
+      const Eigen::Vector2d expected_px = scene.camera.project(moved);
       if ((expected_px - features[i].keyframe_px).norm() > kVisible_px) {
         drawLine(expected_px, features[i].cur_px, kExpected, image);
       }

@@ -17,7 +17,7 @@ constexpr int kMaxRows = 3;
 
 /// Where a corner was found when several rows were searched. If these are not the same place, its
 /// row is unknown.
-struct Found {
+struct CornerOffset {
   static constexpr float kSamePlace_px = 1.0F;
 
   float lowest_px = std::numeric_limits<float>::max();
@@ -54,7 +54,7 @@ std::vector<float> RowSearch::search(const StereoCamera& camera, const Keyframe&
   }
   const cv::Mat& left = keyframe.frame->left.front();
   const cv::Mat& right = keyframe.frame->right.front();
-  std::vector<Found> found(sample_px.size());
+  std::vector<CornerOffset> found(sample_px.size());
   std::vector<float> disparities_px;
   for (int rows = -kMaxRows; rows <= kMaxRows; ++rows) {
     // Matches that leave their row were found in a wrong one.
@@ -69,7 +69,7 @@ std::vector<float> RowSearch::search(const StereoCamera& camera, const Keyframe&
     }
   }
   std::vector<float> offsets_px;
-  for (const Found& of_corner : found) {
+  for (const CornerOffset& of_corner : found) {
     if (of_corner.isUnique()) offsets_px.push_back(of_corner.nearest_px);
   }
   return offsets_px;

@@ -5,6 +5,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "common/compared_text.h"
 #include "common/to_seconds.h"
 #include "rotrocc/rigid_motion.h"
 
@@ -26,12 +27,12 @@ void append(const Eigen::Vector3d& angle_rad, double dt_s, GyroRotation& rotatio
 
 }  // namespace
 
-std::string GyroHistory::add(const GyroSample& sample) {
+std::optional<std::string> GyroHistory::add(const GyroSample& sample) {
   if (!sample.rate_rps.allFinite()) return "the angular velocity is not a number";
   if (!samples_.empty() && sample.stamp_ns <= samples_.back().stamp_ns) {
     const double back_s = toSeconds(samples_.back().stamp_ns - sample.stamp_ns);
     if (back_s <= kJump_s) {
-      return cv::format("the stamp is %g s before that of the sample before", back_s);
+      return cv::format("the stamp is %.3g s before that of the sample before", back_s);
     }
     samples_.clear();
   }
@@ -39,7 +40,7 @@ std::string GyroHistory::add(const GyroSample& sample) {
   while (toSeconds(sample.stamp_ns - samples_.front().stamp_ns) > kLength_s) {
     samples_.pop_front();
   }
-  return "";
+  return std::nullopt;
 }
 
 std::optional<std::int64_t> GyroHistory::newest_ns() const {
@@ -56,26 +57,27 @@ GyroHistory::Samples::const_iterator GyroHistory::lastUpTo(std::int64_t stamp_ns
   return after == samples_.begin() ? samples_.end() : std::prev(after);
 }
 
-std::string GyroHistory::whyUnknown(std::int64_t from_ns, std::int64_t to_ns) const {
+std::optional<std::string> GyroHistory::whyUnknown(std::int64_t from_ns, std::int64_t to_ns) const {
   if (samples_.empty()) return "there is no sample";
   const double late_s = toSeconds(to_ns - samples_.back().stamp_ns);
   if (late_s > 0.0) {
     return cv::format(
-        "the newest sample is %g s older than the image: it is late, has stopped or has another "
+        "the newest sample is %.3g s older than the image: it is late, has stopped or has another "
         "clock",
         late_s);
   }
   auto sample = lastUpTo(from_ns);
   if (sample == samples_.end()) {
-    return cv::format("the oldest sample is %g s newer than the image before",
+    return cv::format("the oldest sample is %.3g s newer than the image before",
                       toSeconds(samples_.front().stamp_ns - from_ns));
   }
   for (; sample->stamp_ns < to_ns; ++sample) {
     const double gap_s = toSeconds(std::next(sample)->stamp_ns - sample->stamp_ns);
     if (gap_s <= kMaxGap_s) continue;
-    return cv::format("two samples are %g s apart, more than %g s", gap_s, kMaxGap_s);
+    return "two samples are " + comparedText(gap_s, kMaxGap_s) +
+           cv::format(" s apart, more than %g s", kMaxGap_s);
   }
-  return "";
+  return std::nullopt;
 }
 
 GyroRotation GyroHistory::rotation(std::int64_t from_ns,

@@ -30,16 +30,16 @@ class GyroHistory {
   /// bag.
   static constexpr double kJump_s = 1.0;
 
-  /// Why the sample is refused, in one sentence; empty if it is kept.
-  std::string add(const GyroSample& sample);
+  /// Why the sample is refused, in one sentence; none if it is kept.
+  std::optional<std::string> add(const GyroSample& sample);
 
   /// Stamp of the newest sample; none before the first one.
   std::optional<std::int64_t> newest_ns() const;
 
-  /// Why there is no rotation from `from_ns` to `to_ns`, in one sentence; empty if there is one.
-  std::string whyUnknown(std::int64_t from_ns, std::int64_t to_ns) const;
+  /// Why there is no rotation from `from_ns` to `to_ns`, in one sentence; none if there is one.
+  std::optional<std::string> whyUnknown(std::int64_t from_ns, std::int64_t to_ns) const;
 
-  /// The rotation, by the trapezoidal rule. whyUnknown() must be empty.
+  /// The rotation, by the trapezoidal rule. There must be one.
   GyroRotation rotation(std::int64_t from_ns,
                         std::int64_t to_ns,
                         const Eigen::Vector3d& bias_rps) const;

@@ -18,8 +18,7 @@ constexpr double kMoving_rad = 1e-3;
 }  // namespace
 
 void GyroPredictor::add(const GyroSample& sample) {
-  const std::string why_refused = history_.add(sample);
-  if (!why_refused.empty()) return refuse(why_refused);
+  if (const auto why = history_.add(sample)) return refuse(*why);
   ++counts_.samples;
 }
 
@@ -31,18 +30,16 @@ void GyroPredictor::refuse(const std::string& why) {
 void GyroPredictor::miss(const std::string& why) {
   ++counts_.missed;
   why_not_ = why;
-  if (!why_refused_.empty()) why_not_ += "; the last sample was refused: " + why_refused_;
+  if (why_refused_) *why_not_ += "; the last sample was refused: " + *why_refused_;
 }
 
 std::optional<Eigen::Matrix3d> GyroPredictor::rotation(std::int64_t from_ns, std::int64_t to_ns) {
-  const std::string why_unknown =
-      trust_.whyNot().empty() ? history_.whyUnknown(from_ns, to_ns) : trust_.whyNot();
-  if (!why_unknown.empty()) {
-    miss(why_unknown);
+  if (const auto why = trust_.whyNot() ? trust_.whyNot() : history_.whyUnknown(from_ns, to_ns)) {
+    miss(*why);
     return std::nullopt;
   }
-  why_not_.clear();
-  why_refused_.clear();
+  why_not_.reset();
+  why_refused_.reset();
   ++counts_.predicted;
   const GyroRotation rotation = history_.rotation(from_ns, to_ns, bias_.bias_rps());
   return R_camera_gyro_from_ * rotation.R_from_to * R_camera_gyro_to_.transpose();
@@ -51,7 +48,7 @@ std::optional<Eigen::Matrix3d> GyroPredictor::rotation(std::int64_t from_ns, std
 void GyroPredictor::observe(const OdometryResult& result) {
   if (result.state != State::kOk) return;
   const std::int64_t from_ns = result.stamp_ns - std::llround(1e9 * result.dt_s);
-  if (!history_.whyUnknown(from_ns, result.stamp_ns).empty()) return;
+  if (history_.whyUnknown(from_ns, result.stamp_ns)) return;
   const GyroRotation gyro = history_.rotation(from_ns, result.stamp_ns, bias_.bias_rps());
   // All in axes of the gyroscope at the current pair.
   const Eigen::Matrix3d seen =
@@ -71,7 +68,7 @@ void GyroPredictor::observe(const OdometryResult& result) {
   if (agrees && moves) return;
   if (agrees) {
     bias_.observe(difference_rad, gyro.by_bias_s, covariance, result.dt_s);
-  } else if (!trust_.whyNot().empty()) {
+  } else if (trust_.whyNot()) {
     bias_ = GyroBias();  // it may be another one, e.g. after a restart of the device
   }
 }

@@ -50,11 +50,11 @@ class GyroPredictor {
   /// To be called with the result of each pair.
   void observe(const OdometryResult& result);
 
-  /// Why the last rotation was not predicted, in a sentence or two; empty if it was.
-  const std::string& whyNot() const { return why_not_; }
+  /// Why the last rotation was not predicted, in a sentence or two; none if it was.
+  const std::optional<std::string>& whyNot() const { return why_not_; }
 
-  /// Why the gyroscope is not trusted, see GyroTrust; empty if it is.
-  const std::string& whyDistrusted() const { return trust_.whyNot(); }
+  /// Why the gyroscope is not trusted, see GyroTrust; none if it is.
+  const std::optional<std::string>& whyDistrusted() const { return trust_.whyNot(); }
 
   const GyroBias& bias() const { return bias_; }
   const Counts& counts() const { return counts_; }
@@ -65,8 +65,8 @@ class GyroPredictor {
   GyroBias bias_;
   GyroTrust trust_;
   Counts counts_;
-  std::string why_not_;
-  std::string why_refused_;  // the last sample, since the last predicted rotation
+  std::optional<std::string> why_not_;
+  std::optional<std::string> why_refused_;  // the last sample, since the last predicted rotation
 };
 
 }  // namespace rotrocc

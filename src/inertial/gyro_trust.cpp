@@ -22,10 +22,6 @@ constexpr double kExplained = 0.5;
 
 constexpr double kDegreesPerRadian = 180.0 / M_PI;
 
-bool isNear(double value, double expected, double factor) {
-  return value > expected / factor && value < expected * factor;
-}
-
 }  // namespace
 
 bool GyroTrust::compare(const Comparison& c) {
@@ -41,26 +37,26 @@ bool GyroTrust::compare(const Comparison& c) {
   }
   disagreeing_ = 0;
   gyro_rad_ = vision_rad_ = difference_rad_ = 0.0;
-  if (why_not_.empty()) return true;
+  if (!why_not_) return true;
   const bool is_telling = c.vision_rad > kTelling_rad;
   if (is_telling && c.difference_rad < kExplained * c.vision_rad) ++agreeing_;
-  if (agreeing_ >= kEnough) why_not_.clear();
+  if (agreeing_ >= kEnough) why_not_.reset();
   return true;
 }
 
 void GyroTrust::refuse() {
-  if (!why_not_.empty()) return;
+  if (why_not_) return;
   agreeing_ = 0;
   const double ratio = gyro_rad_ / vision_rad_;
-  if (isNear(ratio, kDegreesPerRadian, 1.5)) {
+  if (ratio > kDegreesPerRadian / 1.5 && ratio < kDegreesPerRadian * 1.5) {
     why_not_ = cv::format(
-        "its rotations are %g times those of the images: it seems to be in deg/s, but must "
+        "its rotations are %.3g times those of the images: it seems to be in deg/s, but must "
         "be in rad/s",
         ratio);
     return;
   }
   why_not_ = cv::format(
-      "its rotations differ from those of the images by %g deg per pair: check the tf "
+      "its rotations differ from those of the images by %.2g deg per pair: check the tf "
       "from its frame to the camera's, and its stamps",
       kDegreesPerRadian * difference_rad_ / disagreeing_);
 }

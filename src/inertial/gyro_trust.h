@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace rotrocc {
@@ -18,8 +19,8 @@ class GyroTrust {
   /// Whether the two rotations agree, up to what is usual.
   bool compare(const Comparison& comparison);
 
-  /// Why the gyroscope is not to be used, in one sentence with a remedy; empty if it is.
-  const std::string& whyNot() const { return why_not_; }
+  /// Why the gyroscope is not to be used, in one sentence with a remedy; none if it is.
+  const std::optional<std::string>& whyNot() const { return why_not_; }
 
  private:
   void refuse();
@@ -27,7 +28,7 @@ class GyroTrust {
   int disagreeing_ = 0;  // in a row
   int agreeing_ = 0;     // in a row, since it was refused
   double gyro_rad_ = 0.0, vision_rad_ = 0.0, difference_rad_ = 0.0;  // of the disagreeing ones
-  std::string why_not_;
+  std::optional<std::string> why_not_;
 };
 
 }  // namespace rotrocc

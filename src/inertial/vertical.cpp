@@ -5,6 +5,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "common/compared_text.h"
 #include "common/to_seconds.h"
 
 namespace rotrocc {
@@ -54,7 +55,7 @@ bool Vertical::isComplete() const {
              kMinSpan * kLength_s;
 }
 
-std::string Vertical::whyUnknown(std::int64_t stamp_ns) const {
+std::optional<std::string> Vertical::whyUnknown(std::int64_t stamp_ns) const {
   if (!isComplete()) return cv::format("there are no accelerations of %g s", kLength_s);
   const double apart_s = std::abs(toSeconds(stamp_ns - samples_.back().gyro.stamp_ns));
   if (apart_s > kLength_s) {
@@ -70,14 +71,12 @@ std::string Vertical::whyUnknown(std::int64_t stamp_ns) const {
   }
   const double rate_rps = scatterOf(samples_, kRate);
   const double scatter_mps2 = scatterOf(samples_, kAcceleration);
-  if (rate_rps <= kMaxRate_rps && scatter_mps2 <= kMaxAcceleration_mps2) return "";
-  return cv::format(
-      "the robot is not at rest: angular velocities scatter by %.2g rad/s (at rest up to %g), "
-      "accelerations by %.2g m/s^2 (%g)",
-      rate_rps,
-      kMaxRate_rps,
-      scatter_mps2,
-      kMaxAcceleration_mps2);
+  if (rate_rps <= kMaxRate_rps && scatter_mps2 <= kMaxAcceleration_mps2) return std::nullopt;
+  return "the robot is not at rest: angular velocities scatter by " +
+         comparedText(rate_rps, kMaxRate_rps) +
+         cv::format(" rad/s (at rest up to %g), accelerations by ", kMaxRate_rps) +
+         comparedText(scatter_mps2, kMaxAcceleration_mps2) +
+         cv::format(" m/s^2 (%g)", kMaxAcceleration_mps2);
 }
 
 Eigen::Vector3d Vertical::up() const {

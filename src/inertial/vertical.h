@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 
 #include <Eigen/Core>
@@ -25,10 +26,10 @@ class Vertical {
   /// Whether there are samples of that length.
   bool isComplete() const;
 
-  /// Why it is not known at that time, in one sentence; empty if it is.
-  std::string whyUnknown(std::int64_t stamp_ns) const;
+  /// Why it is not known at that time, in one sentence; none if it is.
+  std::optional<std::string> whyUnknown(std::int64_t stamp_ns) const;
 
-  /// The unit vector up. whyUnknown() must be empty.
+  /// The unit vector up, which must be known.
   Eigen::Vector3d up() const;
 
  private:

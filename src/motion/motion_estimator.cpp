@@ -1,13 +1,16 @@
 #include "motion/motion_estimator.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
 #include <Eigen/Cholesky>
 
 #include "motion/consensus_motion.h"
-#include "motion/motion_covariance.h"
 #include "motion/outlier_rejection.h"
 #include "motion/reprojection_error.h"
+#include "motion/shared_error.h"
 
 namespace rotrocc {
 namespace {
@@ -38,18 +41,138 @@ Matrix6d covarianceOfPrediction(double dt_s) {
   return sigma.cwiseAbs2().asDiagonal();
 }
 
+/// Grid of cells within which the errors of neighbouring features may be correlated.
+constexpr int kScatterColumns = 8;
+constexpr int kScatterRows = 3;
+
+/// The ratio of the variance of truncated errors to the full variance. The errors are Gaussian in x
+/// and y, and only those shorter than `limit_px` are kept; these have the variance `left_px2` in
+/// each direction. The ratio is g = 1 - x / (e^x - 1) with x = limit^2 / (2 variance).
+double shareOfVariance(double left_px2, double limit_px) {
+  const auto g = [](double x) { return 1.0 - x / std::expm1(x); };
+  // If the errors are almost uniform up to the limit, they hardly determine the variance. The lower
+  // bound of x therefore limits the growth of the covariance to a factor of 20.
+  double low = 0.5;
+  double high = 50.0;
+  const double wanted = 2.0 * left_px2 / (limit_px * limit_px);  // g(x) / x, which falls
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    (g(middle) / middle > wanted ? low : high) = middle;
+  }
+  return g(low);
+}
+
+/// The parts of the covariance, in the order translation [m], rotation [rad].
+struct Information {
+  /// Sum of w^2 J^T J: the derivative of the sum of w J^T r, which is zero at the solution, by the
+  /// motion. (The derivative of w r, averaged over directions, is w^2.)
+  Matrix6d matrix = Matrix6d::Zero();
+  /// Sum of g g^T over the cells of a grid [px^2], where g is the sum of w J^T r of the features in
+  /// the cell. Its expectation is the variance times `matrix` if residuals are uncorrelated, and
+  /// larger if neighbours are correlated.
+  Matrix6d scatter = Matrix6d::Zero();
+  double residual_variance = 0.0;  ///< from WeightedVariance [px^2]
+};
+
+/// Ratio of the covariance to that of independent errors: the variance per degree of freedom from
+/// the scatter of the cells, divided by that of a residual. Neighbouring features share texture,
+/// the motion of an object and the remaining lens distortion.
+double inflation(double scatter_px2, double residual_px2) {
+  return residual_px2 > 0.0 ? std::max(1.0, scatter_px2 / residual_px2) : 1.0;
+}
+
+/// Takes the terms of the problem, whose motion has so many parameters.
+Information collect(const ReprojectionProblem<6>& problem,
+                    const Measurements& measured,
+                    int estimated_parameters) {
+  Information information;
+  WeightedVariance variance;
+  const ImageGrid grid(measured.camera, kScatterColumns, kScatterRows);
+  std::array<Vector6d, kScatterColumns * kScatterRows> gradients;
+  gradients.fill(Vector6d::Zero());
+  problem.linearise(problem.start(), [&](const ReprojectionProblem<6>::Term& term) {
+    Eigen::Matrix<double, 2, 6> J;
+    J << term.weight * term.jacobian.rightCols<3>(), term.weight * term.jacobian.leftCols<3>();
+    information.matrix += J.transpose() * J;
+    gradients[grid.cell(measured.features[term.feature].cur_px)] +=
+        J.transpose() * term.residual_px;
+    variance.add(term.weight, term.residual_px.squaredNorm());
+  });
+  information.residual_variance = variance.value(estimated_parameters);
+  int cells = 0;
+  for (const Vector6d& gradient : gradients) {
+    if (gradient.isZero(0.0)) continue;
+    information.scatter += gradient * gradient.transpose();
+    ++cells;
+  }
+  // The motion was fitted to these features, so they scatter less than the errors.
+  information.scatter = information.scatter * cells / std::max(1, cells - 6);
+  return information;
+}
+
+/// Sets the covariance of a valid motion with its fit, in the order of OdometryResult::covariance,
+/// and the noise of the flow, corrected for the dropped features. Returns false if the features do
+/// not determine the motion. `problem` is a buffer.
+///
+/// The covariance of the rotation comes from stage 1, with the translation marginalized. The
+/// covariance of the translation comes from stage 2, plus the effect of the rotation's error dR:
+///   dt = -(Jt^T Jt)^-1 Jt^T Jr dR.
+/// Both follow the sandwich formula for robust weights (Huber's M-estimators). Both are inflated,
+/// because neighbouring features share errors.
+///
+/// Stage 1 also drops features that are merely noisy. The remaining errors have only a share g of
+/// the full variance. The covariance of the fit is that of a fit to untruncated errors, divided by
+/// g (the sandwich formula, with both of its parts scaled by g).
+bool estimateCovariance(const MotionEstimatorConfig& config,
+                        const Measurements& measured,
+                        const Fit& fit,
+                        ReprojectionProblem<6>& problem,
+                        MotionEstimate& motion) {
+  const auto informationOf = [&](const FeatureSet& set, int estimated_parameters) {
+    problem.assign(measured.camera, fit, set);
+    problem.weigh(problem.start(), config.robust_factor);
+    return collect(problem, measured, estimated_parameters);
+  };
+  const Information one = informationOf(motion.rotation_inliers, 6);
+  const Eigen::LDLT<Matrix6d> full(one.matrix);
+  if (full.info() != Eigen::Success || !full.isPositive()) return false;
+  const double share = hasFixedLimit(criterionOf(config.criterion))
+                           ? shareOfVariance(one.residual_variance, kRotationLimit_px)
+                           : 1.0;
+  const double variance = one.residual_variance / share;
+  const double alike = inflation(full.solve(one.scatter).trace() / 6.0, one.residual_variance);
+  const Matrix6d both = alike * variance / share * full.solve(Matrix6d::Identity());
+  if (!both.allFinite()) return false;
+  motion.covariance = both;
+  motion.flow_noise_px = std::sqrt(variance);
+  if (!motion.has_translation_stage) return true;
+
+  const Information two = informationOf(motion.translation_inliers, 3);
+  const Eigen::LDLT<Eigen::Matrix3d> translation(two.matrix.topLeftCorner<3, 3>());
+  if (translation.info() != Eigen::Success || !translation.isPositive()) return false;
+  const Eigen::Matrix3d by_rotation = -translation.solve(two.matrix.topRightCorner<3, 3>());
+  const Eigen::Matrix3d rotation = both.bottomRightCorner<3, 3>();
+  const Eigen::Matrix3d scatter = two.scatter.topLeftCorner<3, 3>();
+  const double alike_two =
+      inflation(translation.solve(scatter).trace() / 3.0, two.residual_variance);
+  motion.covariance.topLeftCorner<3, 3>() = alike_two * std::max(two.residual_variance, variance) *
+                                                translation.solve(Eigen::Matrix3d::Identity()) +
+                                            by_rotation * rotation * by_rotation.transpose();
+  motion.covariance.topRightCorner<3, 3>() = by_rotation * rotation;
+  motion.covariance.bottomLeftCorner<3, 3>() = rotation * by_rotation.transpose();
+  return motion.covariance.allFinite();
+}
+
 }  // namespace
 
-MotionEstimator::MotionEstimator(const Config& config, int min_inliers)
-    : config_(config), two_stages_(config, min_inliers) {}
+MotionEstimator::MotionEstimator(const Config& config) : config_(config), two_stages_(config) {}
 
-const MotionEstimator::Estimate& MotionEstimator::estimate(
-    const StereoCamera& camera,
-    const Correspondences& features,
-    const Eigen::Isometry3d& initial,
-    double dt_s,
-    const std::optional<Prediction>& prediction,
-    double shared_ratio) {
+const MotionEstimate& MotionEstimator::estimate(const StereoCamera& camera,
+                                                const Correspondences& features,
+                                                const Eigen::Isometry3d& initial,
+                                                double dt_s,
+                                                const std::optional<Prediction>& prediction,
+                                                double shared_ratio) {
   const Measurements measured = {camera, features, config_.noise_ratio, shared_ratio};
   all_.assign(features.size(), 1);
   estimateFrom(all_, measured, initial, dt_s, found_);
@@ -86,7 +209,7 @@ void MotionEstimator::retryNear(const Eigen::Isometry3d& motion,
 }
 
 /// Whether the retry is more plausible than the first motion.
-bool MotionEstimator::isLikelier(const Estimate& retry, const Prediction& prediction) const {
+bool MotionEstimator::isLikelier(const MotionEstimate& retry, const Prediction& prediction) const {
   if (!retry.valid || !found_.valid) return retry.valid;
   const int inliers = count(retry.rotation_inliers);
   const int inliers_before = count(found_.rotation_inliers);
@@ -110,7 +233,7 @@ void MotionEstimator::estimateFrom(const FeatureSet& set,
                                    const Measurements& measured,
                                    const Eigen::Isometry3d& initial,
                                    double dt_s,
-                                   Estimate& estimate) {
+                                   MotionEstimate& estimate) {
   two_stages_.estimate(measured, set, initial, dt_s, fit_, estimate);
   estimate.covariance.setZero();
   estimate.flow_noise_px = 0.0;

@@ -19,11 +19,9 @@ namespace rotrocc {
 class MotionEstimator {
  public:
   using Config = MotionEstimatorConfig;
-  using Estimate = MotionEstimate;
 
-  /// Throws std::invalid_argument on an unknown criterion. Stage 2 fails if it has fewer inliers
-  /// than `min_inliers`.
-  explicit MotionEstimator(const Config& config, int min_inliers = 3);
+  /// Throws std::invalid_argument on an unknown criterion.
+  explicit MotionEstimator(const Config& config);
 
   /// A motion that was predicted by constant velocity over `dt_s`.
   struct Prediction {
@@ -46,28 +44,28 @@ class MotionEstimator {
   /// `shared_ratio` is that of Measurements.
   ///
   /// The result is valid until the next call.
-  const Estimate& estimate(const StereoCamera& camera,
-                           const Correspondences& features,
-                           const Eigen::Isometry3d& initial,
-                           double dt_s,
-                           const std::optional<Prediction>& prediction = std::nullopt,
-                           double shared_ratio = 0.0);
+  const MotionEstimate& estimate(const StereoCamera& camera,
+                                 const Correspondences& features,
+                                 const Eigen::Isometry3d& initial,
+                                 double dt_s,
+                                 const std::optional<Prediction>& prediction = std::nullopt,
+                                 double shared_ratio = 0.0);
 
  private:
   void takeConsensus(const Measurements& measured, double dt_s);
   void retryNear(const Eigen::Isometry3d& motion, const Measurements& measured, double dt_s);
-  bool isLikelier(const Estimate& retry, const Prediction& prediction) const;
+  bool isLikelier(const MotionEstimate& retry, const Prediction& prediction) const;
   void estimateFrom(const FeatureSet& set,
                     const Measurements& measured,
                     const Eigen::Isometry3d& initial,
                     double dt_s,
-                    Estimate& estimate);
+                    MotionEstimate& estimate);
 
   Config config_;
   TwoStageEstimator two_stages_;
 
   // Buffers, reused.
-  Estimate found_, retry_;
+  MotionEstimate found_, retry_;
   Fit fit_;
   ReprojectionProblem<6> problem_;
   FeatureSet all_, near_;

@@ -4,48 +4,12 @@
 #include <limits>
 
 #include <ceres/tiny_solver.h>
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include "motion/shared_error.h"
 
 namespace rotrocc {
 namespace {
-
-/// Presents a problem with many residuals to ceres::TinySolver as one with few residuals that has
-/// the same J^T J, J^T r and r^T r. The solver uses nothing else.
-template <int kParameters>
-class CondensedProblem {
- public:
-  using Scalar = double;
-  enum { NUM_RESIDUALS = kParameters + 1, NUM_PARAMETERS = kParameters };
-
-  explicit CondensedProblem(const ReprojectionProblem<kParameters>& problem) : problem_(problem) {}
-
-  bool operator()(const double* parameters, double* residuals, double* jacobian) const {
-    const Eigen::Map<const Eigen::Matrix<double, kParameters, 1>> p(parameters);
-    Eigen::Map<Eigen::Matrix<double, NUM_RESIDUALS, 1>> r(residuals);
-    if (jacobian == nullptr) {
-      r.setZero();
-      r[0] = std::sqrt(problem_.cost(p));
-      return true;
-    }
-    // A square root of the normal matrix, which is positive semidefinite except for rounding
-    // errors.
-    using Matrix = typename ReprojectionProblem<kParameters>::NormalMatrix;
-    const Eigen::LDLT<Matrix> ldlt(problem_.normalMatrix(p));
-    const Matrix root = ldlt.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
-                        Matrix(ldlt.matrixU()) *
-                        Matrix(ldlt.transpositionsP() * Matrix::Identity());
-    r = root.col(kParameters);
-    Eigen::Map<Eigen::Matrix<double, NUM_RESIDUALS, kParameters>> J(jacobian);
-    J = root.template leftCols<kParameters>();
-    return true;
-  }
-
- private:
-  const ReprojectionProblem<kParameters>& problem_;
-};
 
 /// TinySolver of Ceres 1.14 has no function_tolerance: there it goes on to the other limits.
 template <class SolverOptions>
@@ -62,12 +26,12 @@ template <int kParameters>
 bool minimise(const ReprojectionProblem<kParameters>& problem,
               const MotionSolver::Options& options,
               Eigen::Matrix<double, kParameters, 1>& parameters) {
-  ceres::TinySolver<CondensedProblem<kParameters>> solver;
+  ceres::TinySolver<ReprojectionProblem<kParameters>> solver;
   solver.options.max_num_iterations = options.max_steps + 1;  // it counts the start
   solver.options.initial_trust_region_radius = 1.0 / options.damping;
   solver.options.parameter_tolerance = 1e-7;
   setFunctionTolerance(solver.options, 0.5 * options.min_cost_change_px2, 0);
-  const auto& summary = solver.Solve(CondensedProblem<kParameters>(problem), &parameters);
+  const auto& summary = solver.Solve(problem, &parameters);
   return parameters.allFinite() && std::isfinite(summary.final_cost);
 }
 

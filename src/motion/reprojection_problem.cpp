@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <numeric>
+
+#include <Eigen/Cholesky>
 
 #include "motion/shared_error.h"
 
@@ -214,6 +217,28 @@ double ReprojectionProblem<kParameters>::cost(const Parameters& parameters) cons
   });
   if (shares) sum -= shared.explained(inverse_cell_variance_, inverse_parabola_variance_).value();
   return std::max(sum, 0.0);  // it is zero for exact features, except for rounding
+}
+
+template <int kParameters>
+bool ReprojectionProblem<kParameters>::operator()(const double* parameters,
+                                                  double* residuals,
+                                                  double* jacobian) const {
+  const Eigen::Map<const Parameters> p(parameters);
+  Eigen::Map<Eigen::Matrix<double, NUM_RESIDUALS, 1>> r(residuals);
+  if (jacobian == nullptr) {
+    r.setZero();
+    r[0] = std::sqrt(cost(p));
+    return true;
+  }
+  // A square root of the normal matrix, which is positive semidefinite except for rounding errors.
+  const Eigen::LDLT<NormalMatrix> ldlt(normalMatrix(p));
+  const NormalMatrix root = ldlt.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
+                            NormalMatrix(ldlt.matrixU()) *
+                            NormalMatrix(ldlt.transpositionsP() * NormalMatrix::Identity());
+  r = root.col(kParameters);
+  Eigen::Map<Eigen::Matrix<double, NUM_RESIDUALS, kParameters>> J(jacobian);
+  J = root.template leftCols<kParameters>();
+  return true;
 }
 
 template class ReprojectionProblem<3>;

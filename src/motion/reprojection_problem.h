@@ -136,6 +136,12 @@ class ReprojectionProblem {
   /// Sum of w |r|^2, without the part that shared errors explain.
   double cost(const Parameters& parameters) const;
 
+  // For ceres::TinySolver: a problem with few residuals and the same J^T J, J^T r and r^T r. The
+  // solver uses nothing else.
+  using Scalar = double;
+  enum { NUM_RESIDUALS = kParameters + 1, NUM_PARAMETERS = kParameters };
+  bool operator()(const double* parameters, double* residuals, double* jacobian) const;
+
  private:
   static constexpr bool kRotates = kParameters == 6;
   static constexpr std::size_t kSize = ResidualBlock::kSize;

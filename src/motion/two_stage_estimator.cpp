@@ -13,6 +13,12 @@
 namespace rotrocc {
 namespace {
 
+/// Limit of the DNRE in stage 2 (Eq. 30).
+constexpr double kTranslationLimit = 0.04;
+
+/// Stage 2 is skipped below this speed, as in the paper: without parallax, it only adds noise.
+constexpr double kMinSpeed_mps = 1.0;
+
 /// Lower limit of the flow [px], so that normalized errors stay finite without flow.
 constexpr double kMinFlow_px = 1e-6;
 
@@ -31,14 +37,14 @@ constexpr double kDeviationFactor = 1.5;
 /// The error of a feature that must not become an inlier.
 constexpr double kExcludedError = std::numeric_limits<double>::infinity();
 
-double rotationThreshold(Criterion criterion, double limit_px, std::vector<double>& errors_px) {
+double rotationThreshold(Criterion criterion, std::vector<double>& errors_px) {
   switch (criterion) {
     case Criterion::kMeanBased:
       return meanBasedLimit(kMeanFactor, errors_px);
     case Criterion::kStdBased:
       return deviationBasedLimit(kDeviationFactor, errors_px);
     default:
-      return fixedLimit(limit_px, kDropShare, errors_px);
+      return fixedLimit(kRotationLimit_px, kDropShare, errors_px);
   }
 }
 
@@ -61,11 +67,8 @@ Criterion criterionOf(const std::string& name) {
   return static_cast<Criterion>(found - names.begin());
 }
 
-TwoStageEstimator::TwoStageEstimator(const MotionEstimatorConfig& config, int min_inliers)
-    : config_(config),
-      criterion_(criterionOf(config.criterion)),
-      min_inliers_(min_inliers),
-      solver_({}) {
+TwoStageEstimator::TwoStageEstimator(const MotionEstimatorConfig& config)
+    : config_(config), criterion_(criterionOf(config.criterion)), solver_({}) {
   if (config.robust_factor > 0.0 || config.shared_ratio > 0.0) {
     refinement_.emplace(MotionSolver::refinement(config.robust_factor));
   }
@@ -86,7 +89,7 @@ void TwoStageEstimator::estimate(const Measurements& measured,
   motion.T_keyframe_cur = fit.T_keyframe_cur;
 
   const bool has_two_stages = criterion_ == Criterion::kRotrocc || criterion_ == Criterion::kRocc;
-  const bool is_slow = fit.T_keyframe_cur.translation().norm() < config_.min_speed_mps * dt_s;
+  const bool is_slow = fit.T_keyframe_cur.translation().norm() < kMinSpeed_mps * dt_s;
   if (!motion.valid || !has_two_stages || is_slow) return;
   decouple(measured, fit, motion.rotation_inliers);  // 2)
   selectCandidates(measured, fit);
@@ -97,7 +100,7 @@ void TwoStageEstimator::estimate(const Measurements& measured,
   }
   motion.has_translation_stage =
       estimateTranslation(measured, fit, motion.translation_inliers) &&  // 3)
-      count(motion.translation_inliers) >= min_inliers_;
+      count(motion.translation_inliers) >= kMinInliers;
   if (motion.has_translation_stage) {
     motion.T_keyframe_cur = fit.T_keyframe_cur;
     return;
@@ -115,7 +118,7 @@ bool TwoStageEstimator::estimateRotation(const Measurements& measured,
   };
   const auto measure = [&] { fittedErrors(measured.camera, fit, errors_); };
   const auto threshold = [&](std::vector<double>& errors_px) {
-    return rotationThreshold(criterion_, config_.rotation_limit_px, errors_px);
+    return rotationThreshold(criterion_, errors_px);
   };
   const int iterations = hasFixedLimit(criterion_) ? kMaxIterations : kComparisonIterations;
   if (!iterate(iterations, solve, measure, threshold, inliers)) return false;
@@ -140,7 +143,7 @@ void TwoStageEstimator::decouple(const Measurements& measured,
   select(errors_, inliers, set_errors_);
   const double passes_px = config_.translation_noise_factor * deviationOf(set_errors_);
   for (double& flow_px : flow_px_) {
-    flow_px = std::hypot(flow_px, passes_px / config_.translation_limit);
+    flow_px = std::hypot(flow_px, passes_px / kTranslationLimit);
   }
 }
 
@@ -168,7 +171,7 @@ bool TwoStageEstimator::estimateTranslation(const Measurements& measured,
     }
   };
   const auto threshold = [&](std::vector<double>& errors) {
-    return fixedLimit(config_.translation_limit, kDropShare, errors);
+    return fixedLimit(kTranslationLimit, kDropShare, errors);
   };
   inliers = candidates_;
   if (!iterate(kMaxIterations, solve, measure, threshold, inliers)) return false;

@@ -20,6 +20,13 @@ enum class Criterion { kRotrocc, kReprojection, kRocc, kMeanBased, kStdBased };
 /// The criterion of that name. Throws std::invalid_argument on any other name.
 Criterion criterionOf(const std::string& name);
 
+/// Limit of the reprojection error in stage 1 [px] (Eq. 26): six times the noise of flows on KITTI.
+constexpr double kRotationLimit_px = 0.6;
+
+/// Fewer inliers do not determine a motion. The covariance comes from their residuals: with n of
+/// them, the variance of the noise is known to sqrt(2 / (2 n - 6)), a fifth for 25.
+constexpr int kMinInliers = 25;
+
 /// Whether the criterion has a fixed limit of the reprojection error in stage 1.
 constexpr bool hasFixedLimit(Criterion criterion) {
   return criterion != Criterion::kMeanBased && criterion != Criterion::kStdBased;
@@ -42,11 +49,11 @@ struct MotionEstimate {
 class TwoStageEstimator {
  public:
   /// Throws std::invalid_argument on an unknown criterion.
-  TwoStageEstimator(const MotionEstimatorConfig& config, int min_inliers);
+  explicit TwoStageEstimator(const MotionEstimatorConfig& config);
 
   /// Estimates the motion that took `dt_s` > 0 from the features flagged in `set`, starting at
   /// `initial`, without covariance and noise; `fit` becomes that at the motion. The result is
-  /// invalid if stage 1 leaves fewer than 3 features. If stage 2 leaves fewer than `min_inliers`,
+  /// invalid if stage 1 leaves fewer than 3 features. If stage 2 leaves fewer than kMinInliers,
   /// the motion is that of stage 1. Each stage is refined, unless robust weights and shared errors
   /// are disabled.
   void estimate(const Measurements& measured,
@@ -70,7 +77,6 @@ class TwoStageEstimator {
 
   MotionEstimatorConfig config_;
   Criterion criterion_;
-  int min_inliers_;
   MotionSolver solver_;
   std::optional<MotionSolver> refinement_;
 

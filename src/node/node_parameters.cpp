@@ -70,6 +70,15 @@ void requireDifferent(const std::string& name,
       "parameters " + name + " and " + other_name + " are both \"" + frame + "\", but must differ");
 }
 
+/// Of the checks, only that of the disparities can still fail.
+void requireConsistent(const OdometryConfig& odometry) {
+  try {
+    odometry.check();
+  } catch (const std::invalid_argument& error) {
+    throw RefusedParameter("stereo_matcher/min_disparity_px", error.what());
+  }
+}
+
 }  // namespace
 
 Parameters readParameters(const ros::NodeHandle& private_nh) {
@@ -80,6 +89,7 @@ Parameters readParameters(const ros::NodeHandle& private_nh) {
     XmlRpc::XmlRpcValue tree;
     if (private_nh.getParam(ns, tree)) setParameters(tree, table);
     requireFrames(parameters.node);
+    requireConsistent(parameters.odometry);
   } catch (const RefusedParameter& error) {
     // Parameters stay on the server when a node ends, so the user may not know of this one.
     throw std::invalid_argument(std::string(error.what()) +

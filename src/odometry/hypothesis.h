@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "motion/motion_estimator.h"
@@ -19,11 +20,11 @@ struct Hypothesis {
   bool has_prediction = false;  ///< the motion was searched near a prediction
   double shared_ratio = 0.0;    ///< that was used, see Measurements
   double exposure_gain = 1.0;   ///< see OdometryResult
-  MotionEstimator::Estimate estimate;
+  MotionEstimate estimate;
   StageCounts counts;
-  std::string why_lost = kNotTried;  ///< why the motion is rejected; empty if it is accepted
+  std::optional<std::string> why_lost = kNotTried;  ///< none if the motion is accepted
 
-  bool isAccepted() const { return why_lost.empty(); }
+  bool isAccepted() const { return !why_lost; }
 
   void clear() {
     features.clear();

@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 #include <opencv2/core.hpp>
 
+#include "common/compared_text.h"
 #include "common/median.h"
 #include "motion/consensus_motion.h"
 #include "motion/outlier_rejection.h"
@@ -19,7 +20,9 @@ namespace {
 
 /// Changes within this many standard deviations are attributed to noise.
 constexpr double kSigmas = 3.0;
-/// A keyframe serves another pair if it has this many times min_inliers.
+/// A smaller share of inliers of the feature set is no motion of the camera.
+constexpr double kMinShare = 0.15;
+/// A keyframe serves another pair if it has this many times kMinInliers.
 constexpr int kReserve = 2;
 /// The camera rests while the median flow is below this many times its noise.
 constexpr double kRest = 10.0;
@@ -53,6 +56,9 @@ constexpr double kMinInformation = 0.15;
 /// the median depth if that is more.
 constexpr double kMaxSigma = 0.05;
 
+/// Largest usual change of velocity per second [m/s^2]: that of drones.
+constexpr double kMaxAcceleration_mps2 = 30.0;
+
 /// Features with a larger error contradict a motion. Those that are only inexact have a smaller
 /// one.
 constexpr double kContradiction_px = 2.0;
@@ -74,7 +80,7 @@ double leastShare(const Matrix6d& part, const Matrix6d& whole) {
 }
 
 /// The smaller number of inliers of the two stages: both parts of the motion need enough of them.
-int inliers(const MotionEstimator::Estimate& estimate) {
+int inliers(const MotionEstimate& estimate) {
   return std::min(count(estimate.rotation_inliers), count(estimate.translation_inliers));
 }
 
@@ -83,123 +89,113 @@ double shareOf(const FeatureSet& inliers) {
 }
 
 std::string fewAgree(double share, const char* on_what, double limit) {
-  return cv::format(
-      "a share of %g of the features agrees on the %s, less than %g", share, on_what, limit);
+  return "a share of " + comparedText(share, limit) + " of the features agrees on the " + on_what +
+         cv::format(", less than %g", limit);
 }
 
-std::string whyFewHaveDepth(const StageCounts& counts) {
-  if (counts.with_depth >= kMinWithDepth * counts.corners) return "";
+std::optional<std::string> whyFewHaveDepth(const StageCounts& counts) {
+  if (counts.with_depth >= kMinWithDepth * counts.corners) return std::nullopt;
   return cv::format("only %d of %d corners have a disparity", counts.with_depth, counts.corners) +
          cv::format(", a share below %g; are the lenses clean, and left and right rows aligned?",
                     kMinWithDepth);
 }
 
-std::string whyFewAgree(const MotionEstimator::Estimate& estimate, bool has_prediction) {
+std::optional<std::string> whyFewAgree(const MotionEstimate& estimate, bool has_prediction) {
   const double by_rotation = shareOf(estimate.rotation_inliers);
   if (by_rotation < kMinByRotation) return fewAgree(by_rotation, "motion", kMinByRotation);
   if (!has_prediction && by_rotation < kMinAtStart) {
     return "without a prediction, " + fewAgree(by_rotation, "motion", kMinAtStart);
   }
   if (!has_prediction && by_rotation < kUnanimousShare && estimate.flow_noise_px < kMinNoise_px) {
-    return cv::format("without a prediction, a share of %g of the features agrees", by_rotation) +
-           cv::format(" on the motion, more exactly (%g px)", estimate.flow_noise_px) +
+    return cv::format("without a prediction, a share of %.3g of the features agrees", by_rotation) +
+           cv::format(" on the motion, more exactly (%.2g px)", estimate.flow_noise_px) +
            " than features of the scene: something drawn or compressed stands still";
   }
   const double by_translation = shareOf(estimate.translation_inliers);
-  if (by_translation >= kMinByTranslation) return "";
+  if (by_translation >= kMinByTranslation) return std::nullopt;
   return fewAgree(by_translation, "translation", kMinByTranslation);
 }
 
-std::string whyFewSurvive(const Hypothesis& accepted) {
+std::optional<std::string> whyFewSurvive(const Hypothesis& accepted) {
   const int survivors = inliers(accepted.estimate);
   const int features = accepted.counts.with_depth;
-  if (survivors >= kMinSurvivors * features) return "";
+  if (survivors >= kMinSurvivors * features) return std::nullopt;
   return cv::format("the motion rests on %d of %d features", survivors, features) +
          cv::format(", a share below %g", kMinSurvivors);
 }
 
 }  // namespace
 
-std::string MotionCheck::checkNotLost(const MotionEstimator::Estimate& estimate,
-                                      const Eigen::Isometry3d& T_keyframe_last,
-                                      double dt_s) const {
-  const Config& c = config_;
+std::optional<std::string> MotionCheck::whyLost(const MotionEstimate& estimate,
+                                                const Eigen::Isometry3d& T_keyframe_last,
+                                                double dt_s) const {
   const auto features = static_cast<int>(estimate.rotation_inliers.size());
-  if (features < c.min_inliers) {
-    return cv::format(
-        "only %d features were matched, fewer than min_inliers = %d", features, c.min_inliers);
+  if (features < kMinInliers) {
+    return cv::format("only %d features were matched, fewer than %d", features, kMinInliers);
   }
   if (!estimate.valid) return "the features determine no motion";
   const int agreeing = inliers(estimate);
-  if (agreeing < c.min_inliers) {
-    return cv::format(
-        "only %d features agree on a motion, fewer than min_inliers = %d", agreeing, c.min_inliers);
+  if (agreeing < kMinInliers) {
+    return cv::format("only %d features agree on a motion, fewer than %d", agreeing, kMinInliers);
   }
   const double share =
       std::min(shareOf(estimate.rotation_inliers), shareOf(estimate.translation_inliers));
-  if (share < c.min_inlier_share) {
-    return cv::format(
-        "only a share of %g of the features agrees on a motion, less than min_inlier_share = %g",
-        share,
-        c.min_inlier_share);
-  }
+  if (share < kMinShare) return "only " + fewAgree(share, "motion", kMinShare);
   const Eigen::Isometry3d T_last_cur = T_keyframe_last.inverse() * estimate.T_keyframe_cur;
   const double speed_mps = T_last_cur.translation().norm() / dt_s;
-  if (speed_mps > c.max_speed_mps) {
-    return cv::format(
-        "the estimated speed is %g m/s, more than max_speed_mps = %g", speed_mps, c.max_speed_mps);
+  if (speed_mps > config_.max_speed_mps) {
+    return "the estimated speed is " + comparedText(speed_mps, config_.max_speed_mps) +
+           cv::format(" m/s, more than max_speed_mps = %g", config_.max_speed_mps);
   }
   const double turn_rate_rps = logRotation(T_last_cur.linear()).norm() / dt_s;
-  if (turn_rate_rps > c.max_turn_rate_rps) {
-    return cv::format("the estimated turn rate is %g rad/s, more than max_turn_rate_rps = %g",
-                      turn_rate_rps,
-                      c.max_turn_rate_rps);
+  if (turn_rate_rps > config_.max_turn_rate_rps) {
+    return "the estimated turn rate is " + comparedText(turn_rate_rps, config_.max_turn_rate_rps) +
+           cv::format(" rad/s, more than max_turn_rate_rps = %g", config_.max_turn_rate_rps);
   }
-  return "";
+  return std::nullopt;
 }
 
-std::string MotionCheck::whyDegraded(const Hypothesis& accepted, const Matrix6d& covariance) {
-  const MotionEstimator::Estimate& estimate = accepted.estimate;
+std::optional<std::string> MotionCheck::whyDegraded(const Hypothesis& accepted,
+                                                    const Matrix6d& covariance) {
+  const MotionEstimate& estimate = accepted.estimate;
   // Few inliers of a small set may agree and be too few for the translation stage; the motion of
   // the rotation stage is then as good.
   const double half = kMinByTranslation * static_cast<double>(estimate.rotation_inliers.size());
-  if (estimate.translation_failed && config_.min_inliers < half) {
-    return cv::format("the translation stage has fewer than min_inliers = %d inliers: ",
-                      config_.min_inliers) +
+  if (estimate.translation_failed && kMinInliers < half) {
+    return cv::format("the translation stage has fewer than %d inliers: ", kMinInliers) +
            "the motion is that of the rotation stage";
   }
-  std::string why = whyFewHaveDepth(accepted.counts);
-  if (why.empty()) why = whyFewAgree(estimate, accepted.has_prediction);
-  if (why.empty()) why = whyFewSurvive(accepted);
-  if (why.empty()) why = whyAmbiguous(accepted);
-  if (why.empty()) why = whyFewDetermine(accepted);
-  return why.empty() ? whyUndetermined(accepted, covariance) : why;
+  std::optional<std::string> why = whyFewHaveDepth(accepted.counts);
+  if (!why) why = whyFewAgree(estimate, accepted.has_prediction);
+  if (!why) why = whyFewSurvive(accepted);
+  if (!why) why = whyAmbiguous(accepted);
+  if (!why) why = whyFewDetermine(accepted);
+  return why ? why : whyUndetermined(accepted, covariance);
 }
 
 /// Whether many features agree on another motion. Then it may be that of an object that fills the
 /// image. Fewer are enough if they are behind the inliers, as what an object hides.
-std::string MotionCheck::whyAmbiguous(const Hypothesis& accepted) {
+std::optional<std::string> MotionCheck::whyAmbiguous(const Hypothesis& accepted) {
   const Correspondences& features = accepted.features;
-  const MotionEstimator::Estimate& estimate = accepted.estimate;
+  const MotionEstimate& estimate = accepted.estimate;
   reprojectionErrors(accepted.camera, features, estimate.T_keyframe_cur, errors_px_);
   others_.clear();
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (errors_px_[i] > kContradiction_px) others_.push_back(features[i]);
   }
   const double many = kMaxCompetitors * static_cast<double>(features.size());
-  const int min_count =
-      std::max(config_.min_inliers, static_cast<int>(std::ceil(kShareBehind * many)));
-  if (static_cast<int>(others_.size()) < min_count) return "";
+  const int min_count = std::max(kMinInliers, static_cast<int>(std::ceil(kShareBehind * many)));
+  if (static_cast<int>(others_.size()) < min_count) return std::nullopt;
   const auto competitor = consensusMotion(accepted.camera, others_);
-  if (!competitor) return "";
+  if (!competitor) return std::nullopt;
   reprojectionErrors(accepted.camera, others_, *competitor, errors_px_);
   set_.resize(others_.size());
   keepBelow(errors_px_, kContradiction_px, set_);
   const int agree = count(set_);
-  if (agree < min_count) return "";
+  if (agree < min_count) return std::nullopt;
   const bool are_behind =
       medianDepth(others_, set_) > kBehind * medianDepth(features, estimate.rotation_inliers);
-  if (!are_behind && agree < many) return "";
+  if (!are_behind && agree < many) return std::nullopt;
   return cv::format("another motion fits %d of the %zu features", agree, features.size()) +
          (are_behind ? ", which are behind the others, a share above half of" : ", a share above") +
          cv::format(" %g: one of the two is that of a large object", kMaxCompetitors);
@@ -207,11 +203,12 @@ std::string MotionCheck::whyAmbiguous(const Hypothesis& accepted) {
 
 /// Whether few inliers determine the motion, and other features contradict them. It may be that of
 /// a wrong match then.
-std::string MotionCheck::whyFewDetermine(const Hypothesis& accepted) {
+std::optional<std::string> MotionCheck::whyFewDetermine(const Hypothesis& accepted) {
   const double share = informationShare(accepted);
-  if (share >= kMinInformation) return "";
-  return cv::format("the inliers but one have a share of %g of the information", share) +
-         cv::format(" about a part of the motion, less than %g", kMinInformation) +
+  if (share >= kMinInformation) return std::nullopt;
+  return "the inliers but one have a share of " + comparedText(share, kMinInformation) +
+         cv::format(" of the information about a part of the motion, less than %g",
+                    kMinInformation) +
          ": few features determine it";
 }
 
@@ -254,19 +251,21 @@ double MotionCheck::medianDepth(const Correspondences& features, const FeatureSe
   return median(depths_m_);
 }
 
-std::string MotionCheck::whyUndetermined(const Hypothesis& accepted, const Matrix6d& covariance) {
-  const MotionEstimator::Estimate& estimate = accepted.estimate;
+std::optional<std::string> MotionCheck::whyUndetermined(const Hypothesis& accepted,
+                                                        const Matrix6d& covariance) {
+  const MotionEstimate& estimate = accepted.estimate;
   const double depth_m = medianDepth(accepted.features, estimate.rotation_inliers);
   const double step_m =
       std::max(estimate.T_keyframe_cur.translation().norm(), kShortStep * depth_m);
   const double sigma_m = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
-  if (sigma_m <= kMaxSigma * step_m) return "";
-  return cv::format("the translation has a standard deviation of %g m", sigma_m) +
-         cv::format(", more than a share of %g of %g m", kMaxSigma, step_m);
+  if (sigma_m <= kMaxSigma * step_m) return std::nullopt;
+  return "the translation has a standard deviation of " +
+         comparedText(sigma_m, kMaxSigma * step_m) +
+         cv::format(" m, more than a share of %g of %.3g m", kMaxSigma, step_m);
 }
 
-bool MotionCheck::hasReserve(const MotionEstimator::Estimate& accepted) const {
-  return inliers(accepted) >= kReserve * config_.min_inliers;
+bool MotionCheck::hasReserve(const MotionEstimate& accepted) {
+  return inliers(accepted) >= kReserve * kMinInliers;
 }
 
 bool MotionCheck::isAtRest(const Hypothesis& accepted) {
@@ -276,17 +275,16 @@ bool MotionCheck::isAtRest(const Hypothesis& accepted) {
          median(inlier_flow_px_) <= kRest * accepted.estimate.flow_noise_px;
 }
 
-std::string MotionCheck::whyJump(const UncertainTransform& motion,
-                                 const Eigen::Isometry3d& expected,
-                                 double dt_s) const {
+std::optional<std::string> MotionCheck::whyJump(const UncertainTransform& motion,
+                                                const Eigen::Isometry3d& expected,
+                                                double dt_s) {
   const double change_m = (motion.T.translation() - expected.translation()).norm();
   const double variance_m2 = motion.covariance.topLeftCorner<3, 3>().trace();
   const double beyond_noise_m = change_m - kSigmas * std::sqrt(variance_m2);
   const double acceleration_mps2 = beyond_noise_m / (dt_s * dt_s);
-  if (acceleration_mps2 <= config_.max_acceleration_mps2) return "";
-  return cv::format("the velocity changed by %g m/s2, more than max_acceleration_mps2 = %g",
-                    acceleration_mps2,
-                    config_.max_acceleration_mps2);
+  if (acceleration_mps2 <= kMaxAcceleration_mps2) return std::nullopt;
+  return "the velocity changed by " + comparedText(acceleration_mps2, kMaxAcceleration_mps2) +
+         cv::format(" m/s2, more than %g", kMaxAcceleration_mps2);
 }
 
 }  // namespace rotrocc

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,36 +23,37 @@ class MotionCheck {
   MotionCheck(const Config& config, double noise_ratio)
       : config_(config), noise_ratio_(noise_ratio) {}
 
-  /// Why the motion is rejected, in one sentence with the value and the parameter; empty if it is
+  /// Why the motion is rejected, in one sentence with the value and the limit; none if it is
   /// accepted. The limits of speed and turn rate are for the step since the last frame, which took
   /// `dt_s` > 0.
-  std::string checkNotLost(const MotionEstimator::Estimate& estimate,
-                           const Eigen::Isometry3d& T_keyframe_last,
-                           double dt_s) const;
+  std::optional<std::string> whyLost(const MotionEstimate& estimate,
+                                     const Eigen::Isometry3d& T_keyframe_last,
+                                     double dt_s) const;
 
-  /// Why an accepted motion is less reliable; empty if it is not. `covariance` is that of the
+  /// Why an accepted motion is less reliable; none if it is not. `covariance` is that of the
   /// motion since the keyframe, including that of the rig's calibration.
-  std::string whyDegraded(const Hypothesis& accepted, const Matrix6d& covariance);
+  std::optional<std::string> whyDegraded(const Hypothesis& accepted, const Matrix6d& covariance);
 
   /// Whether enough inliers are left for another motion against the same keyframe, which will have
   /// fewer.
-  bool hasReserve(const MotionEstimator::Estimate& accepted) const;
+  static bool hasReserve(const MotionEstimate& accepted);
 
   /// Whether the camera rests: the median inlier has moved by less than 10 times the noise of the
   /// flow. The noise of a motion is then a tenth of it, or more.
   bool isAtRest(const Hypothesis& accepted);
 
-  /// Why a motion during `dt_s` > 0 is an implausible jump; empty if it is not. `expected` is the
+  /// Why a motion during `dt_s` > 0 is an implausible jump; none if it is not. `expected` is the
   /// motion during `dt_s` at the previous velocity. Changes within 3 standard deviations of the
   /// noise are accepted.
-  std::string whyJump(const UncertainTransform& motion,
-                      const Eigen::Isometry3d& expected,
-                      double dt_s) const;
+  static std::optional<std::string> whyJump(const UncertainTransform& motion,
+                                            const Eigen::Isometry3d& expected,
+                                            double dt_s);
 
  private:
-  std::string whyAmbiguous(const Hypothesis& accepted);
-  std::string whyFewDetermine(const Hypothesis& accepted);
-  std::string whyUndetermined(const Hypothesis& accepted, const Matrix6d& covariance);
+  std::optional<std::string> whyAmbiguous(const Hypothesis& accepted);
+  std::optional<std::string> whyFewDetermine(const Hypothesis& accepted);
+  std::optional<std::string> whyUndetermined(const Hypothesis& accepted,
+                                             const Matrix6d& covariance);
   double informationShare(const Hypothesis& accepted);
   double medianDepth(const Correspondences& features, const FeatureSet& set);
 

@@ -40,9 +40,8 @@ bool isConvincing(const Hypothesis& found) {
 
 MotionSearch::MotionSearch(const OdometryConfig& config)
     : window_radius_px_(config.correspondence_finder.feature_tracker.window_radius_px),
-      min_features_(config.motion_check.min_inliers),
       max_tries_(config.max_tries),
-      estimator_(config.motion_estimator, config.motion_check.min_inliers),
+      estimator_(config.motion_estimator),
       check_(config.motion_check, config.motion_estimator.noise_ratio),
       descriptors_(config.correspondence_finder.stereo_matcher) {}
 
@@ -56,7 +55,7 @@ bool MotionSearch::find(const Frames& frames, const Start& start, Hypothesis& fo
     const int tries = found.counts.tries + 1;
     tryMotion(frames, next, prediction, tried_);
     const Eigen::Isometry3d T_found = tried_.estimate.T_keyframe_cur;
-    const bool is_usable = tried_.estimate.valid && tried_.counts.consistent >= min_features_;
+    const bool is_usable = tried_.estimate.valid && tried_.counts.consistent >= kMinInliers;
     if (isBetter(tried_, found)) std::swap(tried_, found);
     found.counts.tries = tries;
     if (!is_usable) return false;
@@ -102,8 +101,8 @@ void MotionSearch::estimate(const Frames& frames,
                             const Eigen::Isometry3d& initial,
                             const std::optional<MotionEstimator::Prediction>& prediction,
                             Hypothesis& hypothesis) {
-  MotionEstimator::Estimate& estimate = hypothesis.estimate;
-  if (hypothesis.counts.consistent < min_features_) {  // it is rejected, and would take long
+  MotionEstimate& estimate = hypothesis.estimate;
+  if (hypothesis.counts.consistent < kMinInliers) {  // it is rejected, and would take long
     estimate.valid = false;
     estimate.rotation_inliers.assign(hypothesis.features.size(), 0);
     estimate.translation_inliers = estimate.rotation_inliers;
@@ -118,8 +117,7 @@ void MotionSearch::estimate(const Frames& frames,
   hypothesis.counts.rotation_inliers = count(estimate.rotation_inliers);
   hypothesis.counts.translation_inliers =
       estimate.has_translation_stage ? count(estimate.translation_inliers) : 0;
-  hypothesis.why_lost =
-      check_.checkNotLost(estimate, frames.keyframe.T_keyframe_last.T, frames.dt_s);
+  hypothesis.why_lost = check_.whyLost(estimate, frames.keyframe.T_keyframe_last.T, frames.dt_s);
 }
 
 void MotionSearch::calibrate(const Frames& frames, RigEstimate& rig, Hypothesis& found) {

@@ -69,7 +69,6 @@ class MotionSearch {
                 Hypothesis& hypothesis);
 
   int window_radius_px_;
-  int min_features_;
   int max_tries_;
   MotionEstimator estimator_;
   MotionCheck check_;

@@ -4,6 +4,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "common/compared_text.h"
 #include "common/to_seconds.h"
 
 namespace rotrocc {
@@ -16,9 +17,9 @@ constexpr double kRefinedCamera = 1e-3;
 
 }  // namespace
 
-std::string whyUnusable(const StereoPair& pair,
-                        const StereoCamera& camera,
-                        const std::optional<std::int64_t>& newest_ns) {
+std::optional<std::string> whyUnusable(const StereoPair& pair,
+                                       const StereoCamera& camera,
+                                       const std::optional<std::int64_t>& newest_ns) {
   try {
     camera.check();
   } catch (const std::invalid_argument& error) {
@@ -43,16 +44,16 @@ std::string whyUnusable(const StereoPair& pair,
     return cv::format("the %s has %dx%d pixels", name, image.cols, image.rows) +
            cv::format(", the camera %dx%d", camera.width, camera.height);
   }
-  if (!newest_ns || pair.stamp_ns > *newest_ns) return "";
+  if (!newest_ns || pair.stamp_ns > *newest_ns) return std::nullopt;
   return "the stamp " + std::to_string(pair.stamp_ns) +
          " ns is not later than that of the pair before, " + std::to_string(*newest_ns) + " ns";
 }
 
-std::string whyRestart(const StereoPair& pair,
-                       const StereoCamera& camera,
-                       const std::optional<std::int64_t>& newest_ns,
-                       const StereoCamera& camera_before,
-                       double max_gap_s) {
+std::optional<std::string> whyRestart(const StereoPair& pair,
+                                      const StereoCamera& camera,
+                                      const std::optional<std::int64_t>& newest_ns,
+                                      const StereoCamera& camera_before,
+                                      double max_gap_s) {
   if (!newest_ns) return "first pair";
   if (camera_before.width != camera.width || camera_before.height != camera.height) {
     return "the size of the images has changed";
@@ -62,8 +63,9 @@ std::string whyRestart(const StereoPair& pair,
                       difference);
   }
   const double gap_s = toSeconds(pair.stamp_ns - *newest_ns);
-  if (gap_s <= max_gap_s) return "";
-  return cv::format("no pair for %g s, more than max_gap_s = %g", gap_s, max_gap_s);
+  if (gap_s <= max_gap_s) return std::nullopt;
+  return "no pair for " + comparedText(gap_s, max_gap_s) +
+         cv::format(" s, more than max_gap_s = %g", max_gap_s);
 }
 
 }  // namespace rotrocc

@@ -10,11 +10,9 @@
 #include "features/correspondence_finder.h"
 #include "odometry/hypothesis.h"
 #include "odometry/motion_check.h"
-#include "odometry/motion_model.h"
 #include "odometry/motion_search.h"
 #include "odometry/pair_check.h"
 #include "odometry/rig_estimate.h"
-#include "odometry/systematic_error.h"
 
 namespace rotrocc {
 namespace {
@@ -26,6 +24,13 @@ constexpr double kNotShared = 0.5;
 /// Share of max_gap_s in which the last motion predicts the next one. Later, the velocity may have
 /// changed so much that rest is as good a start.
 constexpr double kPredictable = 0.5;
+
+/// The config that its method makes of it. Throws as OdometryConfig::check().
+OdometryConfig byMethod(OdometryConfig config) {
+  config.check();
+  if (config.method == "paper") useMethodOfPaper(config);
+  return config;
+}
 
 /// Ends the processing of a pair without a motion. what() is the reason, as a sentence.
 struct Lost : std::runtime_error {
@@ -70,6 +75,8 @@ class VisualOdometry::Pipeline {
     std::optional<Eigen::Isometry3d> T_last_cur;  ///< as predicted
   };
   Expectation expectation(const StereoFrame& current, const OtherSensors& others) const;
+  std::optional<Eigen::Isometry3d> predict(
+      double dt_s, const std::optional<Eigen::Matrix3d>& measured_rotation = std::nullopt) const;
   void findMotion(const FramePtr& current, const OtherSensors& others, OdometryResult& result);
   bool findMotionFrom(const FramePtr& earlier,
                       const StereoFrame& current,
@@ -79,26 +86,25 @@ class VisualOdometry::Pipeline {
 
   Config config_;
   CorrespondenceFinder finder_;
-  MotionModel motion_model_;
   MotionSearch search_;
   MotionCheck check_;
   RigEstimate rig_;
 
-  FramePtr last_;      // last frame with a known pose; null before the first pair
-  FramePtr lost_;      // latest frame without a motion since last_; may be null
-  Keyframe keyframe_;  // no frame if it must be created from the last frame
+  FramePtr last_;                     // last frame with a known pose; null before the first pair
+  FramePtr lost_;                     // latest frame without a motion since last_; may be null
+  std::optional<Vector6d> velocity_;  // [m/s; rad/s] of the last motion
+  Keyframe keyframe_;                 // no frame if it must be created from the last frame
 
   StageTimes prepared_;  // of prepare() since the last pair
   Hypothesis found_;
 };
 
 VisualOdometry::Pipeline::Pipeline(const Config& config)
-    : config_(config),
-      finder_(config.correspondence_finder, config.threads),
-      motion_model_(kPredictable * config.max_gap_s),
-      search_(config),
-      check_(config.motion_check, config.motion_estimator.noise_ratio),
-      rig_(config) {}
+    : config_(byMethod(config)),
+      finder_(config_.correspondence_finder, config_.threads),
+      search_(config_),
+      check_(config_.motion_check, config_.motion_estimator.noise_ratio),
+      rig_(config_) {}
 
 OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
                                                  const StereoCamera& camera,
@@ -150,16 +156,15 @@ void VisualOdometry::Pipeline::forget() {
   last_.reset();
   lost_.reset();
   keyframe_.frame.reset();
-  motion_model_.reset();
+  velocity_.reset();
 }
 
 void VisualOdometry::Pipeline::configure(const Config& config) {
-  search_ = MotionSearch(config);  // first, because it may throw
-  config_ = config;
-  finder_ = CorrespondenceFinder(config.correspondence_finder, config.threads);
-  motion_model_.setMaxAge(kPredictable * config.max_gap_s);
-  check_ = MotionCheck(config.motion_check, config.motion_estimator.noise_ratio);
-  rig_.configure(config);
+  config_ = byMethod(config);  // first, because it may throw
+  finder_ = CorrespondenceFinder(config_.correspondence_finder, config_.threads);
+  search_ = MotionSearch(config_);
+  check_ = MotionCheck(config_.motion_check, config_.motion_estimator.noise_ratio);
+  rig_.configure(config_);
   keyframe_.frame.reset();  // its corners depend on the old parameters
 }
 
@@ -169,16 +174,17 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
                                        OdometryResult& result) {
   std::optional<std::int64_t> newest_ns;
   if (last_) newest_ns = (lost_ ? lost_ : last_)->stamp_ns;
-  if (const std::string why = whyUnusable(pair, camera, newest_ns); !why.empty()) throw Lost(why);
-  result.reason = whyRestart(pair, camera, newest_ns, rig_.camera(), config_.max_gap_s);
+  if (const auto why = whyUnusable(pair, camera, newest_ns)) throw Lost(*why);
+  const auto why_restart = whyRestart(pair, camera, newest_ns, rig_.camera(), config_.max_gap_s);
   FramePtr current;
   {
     const StageTimer timer(result.times.pyramids_ms);
     if (!rig_.setCamera(camera)) keyframe_.frame.reset();  // its depths are of the old calibration
     current = finder_.makeFrame(pair);
   }
-  if (!result.reason.empty()) {
+  if (why_restart) {
     forget();
+    result.reason = *why_restart;
     last_ = current;
     // Now, as nobody waits for a motion.
     makeKeyframe(last_, result.times);
@@ -190,7 +196,7 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
     // Either this pair or the last one may be at fault. The next pair is compared with both.
     lost_ = current;
     rig_.searchRowsAgain();
-    throw Lost(found_.why_lost);
+    throw Lost(*found_.why_lost);
   }
   accept(current, result);
 }
@@ -212,12 +218,23 @@ VisualOdometry::Pipeline::Expectation VisualOdometry::Pipeline::expectation(
   Expectation expected = {secondsBetween(*last_, current), std::nullopt, others.T_last_cur};
   if (others.rotation) expected.R_last_cur = others.rotation(last_->stamp_ns, current.stamp_ns);
   if (!expected.T_last_cur) {
-    expected.T_last_cur = motion_model_.predict(expected.dt_s, expected.R_last_cur);
+    expected.T_last_cur = predict(expected.dt_s, expected.R_last_cur);
   }
   if (expected.T_last_cur && expected.R_last_cur) {
     expected.T_last_cur->linear() = *expected.R_last_cur;
   }
   return expected;
+}
+
+/// The motion by the constant velocity of the last one, unless that is too long ago. A measured
+/// rotation R_last_cur replaces the predicted one. The velocity turns with the camera, as that of a
+/// vehicle does: then it keeps its direction in the camera's axes.
+std::optional<Eigen::Isometry3d> VisualOdometry::Pipeline::predict(
+    double dt_s, const std::optional<Eigen::Matrix3d>& measured_rotation) const {
+  if (!velocity_ || dt_s > kPredictable * config_.max_gap_s) return std::nullopt;
+  Vector6d motion = *velocity_ * dt_s;
+  if (measured_rotation) motion.tail<3>() = logRotation(*measured_rotation);
+  return expMotion(motion);
 }
 
 /// Measures the motion against the keyframe. If that fails, against the last frame, then against
@@ -239,7 +256,7 @@ void VisualOdometry::Pipeline::findMotion(const FramePtr& current,
   if (findMotionFrom(lost_, *current, of_lost, result.times)) {
     result.dt_s = of_lost.dt_s;
     last_ = std::move(lost_);
-    motion_model_.reset();
+    velocity_.reset();
   } else {
     keyframe_.frame.reset();  // the next pair is compared with the last frame again
   }
@@ -281,7 +298,7 @@ bool VisualOdometry::Pipeline::findMotionFrom(const FramePtr& earlier,
 }
 
 void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& result) {
-  const MotionEstimator::Estimate& estimate = found_.estimate;
+  const MotionEstimate& estimate = found_.estimate;
   rig_.observe(found_, keyframe_, *current);
 
   result.exposure_gain = found_.exposure_gain;
@@ -292,13 +309,14 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   UncertainTransform step = compose(inverse(keyframe_.T_keyframe_last), result.T_keyframe_cur);
   if (keyframe_.frame != last_) step.covariance *= kNotShared;
   result.T_prev_cur = step.T;
-  result.covariance = step.covariance + systematicCovariance(config_.systematic_error, step.T);
-  result.reason = check_.whyDegraded(found_, result.T_keyframe_cur.covariance);
-  if (const auto expected = motion_model_.predict(result.dt_s); expected && result.reason.empty()) {
-    result.reason = check_.whyJump(step, *expected, result.dt_s);
+  result.covariance = step.covariance + config_.systematic_error.covarianceOf(step.T);
+  auto why_degraded = check_.whyDegraded(found_, result.T_keyframe_cur.covariance);
+  if (const auto expected = predict(result.dt_s); expected && !why_degraded) {
+    why_degraded = MotionCheck::whyJump(step, *expected, result.dt_s);
   }
-  result.state = result.reason.empty() ? State::kOk : State::kDegraded;
-  motion_model_.update(step.T, result.dt_s);
+  result.reason = why_degraded.value_or("");
+  result.state = why_degraded ? State::kDegraded : State::kOk;
+  velocity_ = logMotion(step.T) / result.dt_s;
 
   last_ = current;
   lost_.reset();
@@ -306,7 +324,7 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   // Noise accumulates with each new keyframe, so one is kept while the camera rests: there is no
   // drift at standstill. In motion each frame is the keyframe of the next one, because the errors
   // of a feature grow with the way that it is tracked.
-  const bool serves = result.state == State::kOk && check_.hasReserve(estimate) &&
+  const bool serves = result.state == State::kOk && MotionCheck::hasReserve(estimate) &&
                       config_.keyframe_selector.adaptive && check_.isAtRest(found_);
   if (!serves) keyframe_.frame.reset();
 }

@@ -91,65 +91,25 @@ void addFrontEnd(CorrespondenceFinderConfig& finder, ParameterTable& table) {
   table.beginSection("feature_tracker");
   table.add("window_radius_px", tracker.window_radius_px, {2, 25, "px"}).description =
       "the Lucas-Kanade window is a square of side 2 radius + 1";
-  table.add("max_round_trip_px", tracker.max_round_trip_px, {0.0, 10.0, "px"}).description =
-      "largest forward-backward tracking error; 0: not checked, as in the paper";
-  table.add("scale_windows", tracker.scale_windows).description =
-      "scale windows by the predicted change of depth; the paper does not";
-  table.add("ignore_brightness", tracker.ignore_brightness).description =
-      "estimate changes of brightness and contrast while tracking; the paper does not";
 }
 
 void addMotion(OdometryConfig& config, ParameterTable& table) {
   MotionEstimatorConfig& c = config.motion_estimator;
   table.beginSection("motion_estimator");
   table.add("criterion", c.criterion, criterionNames()).description =
-      "criterion that selects the inliers; as published only with config/paper.yaml";
-  table.add("noise_ratio", c.noise_ratio, {0.0, 100.0}).description =
-      "ratio of disparity noise to flow noise; 0: disparities are exact, as in the paper";
-  table.add("shared_ratio", c.shared_ratio, {0.0, 100.0}).description =
-      "ratio of the disparity error that neighbours share to flow noise, start of an estimate of "
-      "at most three times this; 0: there is none, as in the paper";
-  table.add("robust_factor", c.robust_factor, {0.0, 1000.0}).description =
-      "residual, in standard deviations, at which the Cauchy weight is 1/2; 0: equal weights, as "
-      "in the paper";
-  table.add("rotation_limit_px", c.rotation_limit_px, {0.01, 100.0, "px"}).description =
-      "stage 1: termination limit of the reprojection error (Eq. 26)";
-  table.add("retry_agreement_px", c.retry_agreement_px, {0.0, 1000.0, "px"}).description =
-      "stage 1: retries start from features with an error below this at the motion that most "
-      "agree on, or at the predicted one; 0: no retry";
-  table.add("translation_limit", c.translation_limit, {0.001, 100.0}).description =
-      "stage 2: termination limit of the DNRE (Eq. 30)";
-  table.add("translation_noise_factor", c.translation_noise_factor, {0.0, 100.0}).description =
-      "stage 2: number of standard deviations of the noise that the limit admits where the flow "
-      "is small; 0: none, as in the paper";
-  table.add("translation_from_prediction", c.translation_from_prediction).description =
-      "stage 2: starts from the predicted translation, as in the paper, not from stage 1's";
-  table.add("translation_initial_px", c.translation_initial_px, {0.0, 1000.0, "px"}).description =
-      "stage 2: starts from features with a stage-1 error below this; 0: from all";
-  table.add("min_speed_mps", c.min_speed_mps, {0.0, 1000.0, "m/s"}).description =
-      "stage 2 is skipped below this speed";
+      "criterion that selects the inliers; as published only with method: paper";
 
   MotionCheckConfig& check = config.motion_check;
   table.beginSection("motion_check");
-  table.add("min_inliers", check.min_inliers, {3, 10000}).description =
-      "number of inliers below which the motion is lost: fewer do not determine its noise";
-  table.add("min_inlier_share", check.min_inlier_share, {0.0, 1.0}).description =
-      "share of inliers below which the motion is lost";
   table.add("max_speed_mps", check.max_speed_mps, {0.1, 1000.0, "m/s"}).description =
       "speed above which the motion is lost";
   table.add("max_turn_rate_rps", check.max_turn_rate_rps, {0.1, 100.0, "rad/s"}).description =
       "turn rate above which the motion is lost";
-  table.add("max_acceleration_mps2", check.max_acceleration_mps2, {0.1, 10000.0, "m/s2"})
-      .description = "acceleration above which the motion is degraded";
 }
 
 void addOdometry(OdometryConfig& c, ParameterTable& table) {
   addFrontEnd(c.correspondence_finder, table);
   addMotion(c, table);
-
-  table.beginSection("keyframe_selector");
-  table.add("adaptive", c.keyframe_selector.adaptive).description =
-      "keep a keyframe while the camera rests; if false, the previous pair is the keyframe";
 
   table.beginSection("stereo_calibrator");
   table.add("enabled", c.stereo_calibrator.enabled).description =
@@ -165,6 +125,8 @@ void addOdometry(OdometryConfig& c, ParameterTable& table) {
       "the same for a rotation, as a share of its angle";
 
   table.beginSection("visual_odometry");
+  table.add("method", c.method, methodNames()).description =
+      "paper: as published, together with the rest of config/paper.yaml";
   table.add("threads", c.threads, {1, 16}).description =
       "threads per pair, including the calling one; results do not depend on it";
   table.add("max_tries", c.max_tries, {1, 20}).description =

@@ -43,8 +43,8 @@ constexpr double kFreedom = 6.0;
 BiasFilter::BiasFilter() {
   const Eigen::Matrix2d covariance = Eigen::Vector2d(kPrior_px * kPrior_px, 1.0).asDiagonal();
   const double moving = 1.0 / kSteadyPairs;
-  hypotheses_[0] = {1.0 - moving, 0.0, Eigen::Vector2d::Zero(), covariance, 0.0, 0.0};
-  hypotheses_[1] = {moving, kFlex_px, Eigen::Vector2d::Zero(), covariance, 0.0, 0.0};
+  modes_[0] = {1.0 - moving, 0.0, Eigen::Vector2d::Zero(), covariance, 0.0, 0.0};
+  modes_[1] = {moving, kFlex_px, Eigen::Vector2d::Zero(), covariance, 0.0, 0.0};
 }
 
 /// A pair that says little about the bias, as one of a slow robot, counts as a small share of a
@@ -60,28 +60,28 @@ void BiasFilter::add(const BiasMeasurement& measurement) {
   learnt_ratio2_ = (1.0 - changes) * learnt_ratio2_ + share * measurement.shared_ratio2;
   learnt_pairs_ = (1.0 - changes) * learnt_pairs_ + share;
 
-  hypotheses_ = interact(changes);
+  modes_ = interact(changes);
   double sum = 0.0;
   std::array<double, 2> log_likelihood;
   for (std::size_t i = 0; i < 2; ++i) {
-    predict(share, hypotheses_[i]);
-    log_likelihood[i] = update(measurement, shared_ratio2_, hypotheses_[i]);
+    predict(share, modes_[i]);
+    log_likelihood[i] = update(measurement, shared_ratio2_, modes_[i]);
   }
   const double most = std::max(log_likelihood[0], log_likelihood[1]);
   for (std::size_t i = 0; i < 2; ++i) {
-    hypotheses_[i].probability *= std::exp(log_likelihood[i] - most);
-    sum += hypotheses_[i].probability;
+    modes_[i].probability *= std::exp(log_likelihood[i] - most);
+    sum += modes_[i].probability;
   }
-  for (Hypothesis& hypothesis : hypotheses_) hypothesis.probability /= sum;
+  for (Mode& mode : modes_) mode.probability /= sum;
 }
 
-/// The hypotheses before the next measurement, if each changes to the other with the given
+/// The modes before the next measurement, if each changes to the other with the given
 /// probability.
-BiasFilter::Hypotheses BiasFilter::interact(double probability) const {
-  Hypotheses mixed = hypotheses_;
+BiasFilter::Modes BiasFilter::interact(double probability) const {
+  Modes mixed = modes_;
   for (std::size_t i = 0; i < 2; ++i) {
-    const Hypothesis& same = hypotheses_[i];
-    const Hypothesis& other = hypotheses_[1 - i];
+    const Mode& same = modes_[i];
+    const Mode& other = modes_[1 - i];
     const double changed = probability * other.probability;
     mixed[i].probability = (1.0 - probability) * same.probability + changed;
     const double share = changed / mixed[i].probability;
@@ -95,51 +95,49 @@ BiasFilter::Hypotheses BiasFilter::interact(double probability) const {
   return mixed;
 }
 
-void BiasFilter::predict(double share, Hypothesis& hypothesis) {
-  hypothesis.mean[kPassing] *= kPassingCorrelation;
-  hypothesis.covariance.row(kPassing) *= kPassingCorrelation;
-  hypothesis.covariance.col(kPassing) *= kPassingCorrelation;
-  hypothesis.covariance(kPassing, kPassing) += 1.0 - kPassingCorrelation * kPassingCorrelation;
-  hypothesis.covariance(kBias, kBias) += share * hypothesis.walk_px * hypothesis.walk_px;
+void BiasFilter::predict(double share, Mode& mode) {
+  mode.mean[kPassing] *= kPassingCorrelation;
+  mode.covariance.row(kPassing) *= kPassingCorrelation;
+  mode.covariance.col(kPassing) *= kPassingCorrelation;
+  mode.covariance(kPassing, kPassing) += 1.0 - kPassingCorrelation * kPassingCorrelation;
+  mode.covariance(kBias, kBias) += share * mode.walk_px * mode.walk_px;
 }
 
 /// Returns the logarithm of the likelihood, without a constant.
-double BiasFilter::update(const BiasMeasurement& measurement,
-                          double ratio2,
-                          Hypothesis& hypothesis) {
+double BiasFilter::update(const BiasMeasurement& measurement, double ratio2, Mode& mode) {
   const double shared_px = std::sqrt(measurement.shared_px2);
   const Eigen::Vector2d by_state(1.0, std::sqrt((1.0 - kLastingShare) * ratio2) * shared_px);
-  const Eigen::Vector2d covariance = hypothesis.covariance * by_state;
+  const Eigen::Vector2d covariance = mode.covariance * by_state;
   double variance_px2 = by_state.dot(covariance) + measurement.noise_px2;
-  const double off_px = measurement.bias_px - by_state.dot(hypothesis.mean);
+  const double off_px = measurement.bias_px - by_state.dot(mode.mean);
   const double off2 = off_px * off_px / variance_px2;
   const double log_likelihood =
       -0.5 * (std::log(variance_px2) + (kFreedom + 1.0) * std::log1p(off2 / kFreedom));
   variance_px2 *= std::max(1.0, (kFreedom + off2) / (kFreedom + 1.0));
   const Eigen::Vector2d gain = covariance / variance_px2;
-  hypothesis.mean += gain * off_px;
-  hypothesis.covariance -= gain * covariance.transpose();
-  hypothesis.shared_px += gain[kBias] * (shared_px - hypothesis.shared_px);
+  mode.mean += gain * off_px;
+  mode.covariance -= gain * covariance.transpose();
+  mode.shared_px += gain[kBias] * (shared_px - mode.shared_px);
   const double smooth_px = std::sqrt(measurement.smooth_px2);
-  hypothesis.smooth_px += gain[kBias] * (smooth_px - hypothesis.smooth_px);
+  mode.smooth_px += gain[kBias] * (smooth_px - mode.smooth_px);
   return log_likelihood;
 }
 
 /// Variance of the bias, with that by lasting errors.
-double BiasFilter::variance(const Hypothesis& hypothesis) const {
-  return hypothesis.covariance(kBias, kBias) +
-         kLastingShare * shared_ratio2_ * hypothesis.shared_px * hypothesis.shared_px +
-         hypothesis.smooth_px * hypothesis.smooth_px;
+double BiasFilter::variance(const Mode& mode) const {
+  return mode.covariance(kBias, kBias) +
+         kLastingShare * shared_ratio2_ * mode.shared_px * mode.shared_px +
+         mode.smooth_px * mode.smooth_px;
 }
 
 DisparityBias BiasFilter::bias() const {
   DisparityBias bias;
   double square_px2 = 0.0;
-  for (const Hypothesis& hypothesis : hypotheses_) {
-    const double mean_px = hypothesis.mean[kBias];
-    bias.estimated_px += hypothesis.probability * mean_px;
-    bias.applied_px += hypothesis.probability * probabilityOff(hypothesis) * mean_px;
-    square_px2 += hypothesis.probability * (variance(hypothesis) + mean_px * mean_px);
+  for (const Mode& mode : modes_) {
+    const double mean_px = mode.mean[kBias];
+    bias.estimated_px += mode.probability * mean_px;
+    bias.applied_px += mode.probability * probabilityOff(mode) * mean_px;
+    square_px2 += mode.probability * (variance(mode) + mean_px * mean_px);
   }
   bias.sigma_px = std::sqrt(square_px2 - bias.estimated_px * bias.estimated_px);
   return bias;
@@ -147,10 +145,10 @@ DisparityBias BiasFilter::bias() const {
 
 /// Probability that the bias differs from the known one: the ratio of the likelihoods of both. It
 /// is one half at kSignificance standard deviations.
-double BiasFilter::probabilityOff(const Hypothesis& hypothesis) const {
-  const double mean_px = hypothesis.mean[kBias];
+double BiasFilter::probabilityOff(const Mode& mode) const {
+  const double mean_px = mode.mean[kBias];
   const double log_odds =
-      0.5 * (mean_px * mean_px / variance(hypothesis) - kSignificance * kSignificance);
+      0.5 * (mean_px * mean_px / variance(mode) - kSignificance * kSignificance);
   return 1.0 / (1.0 + std::exp(-log_odds));
 }
 

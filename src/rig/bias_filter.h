@@ -11,7 +11,7 @@ namespace rotrocc {
 
 /// Follows the disparity bias of a rig over the measurements of single pairs.
 ///
-/// There are two hypotheses: the rig is rigid, or it moves, so its bias is a random walk. Each has
+/// There are two modes: the rig is rigid, or it moves, so its bias is a random walk. Each has
 /// a Kalman filter, and they interact as in the IMM (Blom and Bar-Shalom 1988): a rig changes from
 /// one to the other once in 300 pairs on average.
 ///
@@ -30,14 +30,14 @@ class BiasFilter {
   /// `measurement` is relative to the known bias.
   void add(const BiasMeasurement& measurement);
 
-  /// The estimate over both hypotheses, relative to the known bias. `applied_px` is weighted by
+  /// The estimate over both modes, relative to the known bias. `applied_px` is weighted by
   /// the probability that the rig is off at all.
   DisparityBias bias() const;
 
  private:
-  enum State { kBias, kPassing };
+  static constexpr int kBias = 0, kPassing = 1;  // in the state
 
-  struct Hypothesis {
+  struct Mode {
     double probability;
     double walk_px;        ///< standard deviation of the change of the bias from pair to pair
     Eigen::Vector2d mean;  ///< the bias [px], the passing error in its standard deviation
@@ -45,15 +45,15 @@ class BiasFilter {
     double shared_px;  ///< change of the bias by a lasting error as large as the noise
     double smooth_px;  ///< standard deviation of the bias by smooth errors
   };
-  using Hypotheses = std::array<Hypothesis, 2>;  // rigid, moving
+  using Modes = std::array<Mode, 2>;  // rigid, moving
 
-  Hypotheses interact(double probability) const;
-  static void predict(double share, Hypothesis& hypothesis);
-  static double update(const BiasMeasurement& measurement, double ratio2, Hypothesis& hypothesis);
-  double variance(const Hypothesis& hypothesis) const;
-  double probabilityOff(const Hypothesis& hypothesis) const;
+  Modes interact(double probability) const;
+  static void predict(double share, Mode& mode);
+  static double update(const BiasMeasurement& measurement, double ratio2, Mode& mode);
+  double variance(const Mode& mode) const;
+  double probabilityOff(const Mode& mode) const;
 
-  Hypotheses hypotheses_;
+  Modes modes_;
   double shared_ratio2_ = 0.0;  // variance of the shared errors over that of the noise
   double learnt_pairs_ = 0.0;   // number of pairs that it was estimated from
   double learnt_ratio2_ = 0.0;  // sum over these pairs

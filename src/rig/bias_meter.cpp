@@ -145,7 +145,7 @@ std::optional<BiasMeasurement> BiasMeter::describe() {
   const WeightedVariance variance = linearise();
   const Equations reweighted = sumEquations();
   // The curvature of reweighted least squares never overshoots. That which the robust cost has on
-  // average, from the squared weights (see motion_covariance.h), tells the uncertainty.
+  // average, from the squared weights (see motion_estimator.cpp), tells the uncertainty.
   problem_.squareWeights();
   Equations expected = sumEquations();
   expected.common_residual = reweighted.common_residual;

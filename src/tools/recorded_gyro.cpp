@@ -32,7 +32,7 @@ std::optional<Eigen::Matrix3d> RecordedGyro::rotation(std::int64_t from_ns, std:
     predictor_.add(samples_[next_++]);
   }
   const auto R_from_to = predictor_.rotation(from_ns, to_ns);
-  if (!R_from_to) why_missed_ = predictor_.whyNot();
+  if (!R_from_to) why_missed_ = *predictor_.whyNot();
   return R_from_to;
 }
 

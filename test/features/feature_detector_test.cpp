@@ -138,19 +138,6 @@ TEST(FeatureDetectorTest, HasAboutOneCellForEachFeatureInStrongAndWeakTexture) {
   }
 }
 
-TEST(FeatureDetectorTest, TakesTheStrongestFirst) {
-  cv::Mat image = cv::Mat::zeros(64, 64, CV_8UC1);
-  image(cv::Rect(12, 12, 6, 6)).setTo(60);
-  image(cv::Rect(40, 40, 6, 6)).setTo(250);
-  for (const int cells : {1, 4}) {  // in the same cell, and in separate cells
-    FeatureDetector::Config config;
-    config.max_features = cells;
-    const Corners corners = detect(image, config);
-    ASSERT_FALSE(corners.empty());
-    EXPECT_GT(corners[0].x, 32.0F) << cells;
-  }
-}
-
 TEST(FeatureDetectorTest, GivesNoMoreThanAskedFor) {
   FeatureDetector::Config config;
   config.max_features = 50;

@@ -76,13 +76,10 @@ const Texture& texture() {
 }
 
 /// The texture, shifted to the left, as a camera of another exposure shows it: with half the
-/// contrast, which leaves room for more, times `gain`. `ramp` is how much the right edge is lighter
-/// than the left one.
-cv::Mat exposed(double shift_px, double gain, double offset, double ramp = 0.0) {
+/// contrast, which leaves room for more, times `gain`.
+cv::Mat exposed(double shift_px, double gain, double offset) {
   cv::Mat image;
-  texture().image(shift_px).convertTo(image, CV_32F, 0.5 * gain, 128.0 - 64.0 * gain + offset);
-  for (int x = 0; x < image.cols; ++x) image.col(x) += ramp * ((x + 0.5) / image.cols - 0.5);
-  image.convertTo(image, CV_8U);
+  texture().image(shift_px).convertTo(image, CV_8U, 0.5 * gain, 128.0 - 64.0 * gain + offset);
   return image;
 }
 
@@ -199,41 +196,23 @@ TEST(StereoMatcherTest, FindsTheSameDisparitiesAtAnotherExposure) {
   const Pixels pixels = grid(kMiddle, 6);
   const Disparities expected_px(pixels.size(), 10.0F);
   Workers workers(1);
-  const StereoMatcher matcher({});
-  // Of both searches, one after the other.
-  const auto match = [&](const cv::Mat& left, const cv::Mat& right, double gain) {
-    Disparities both, near;
-    matcher.match(workers, {left, right}, pixels, both);
-    const double found = matcher.matchNear(workers, {left, right}, pixels, expected_px, near);
-    EXPECT_NEAR(found / gain, 1.0, 0.004);  // measured: within 0.2 %
-    both.insert(both.end(), near.begin(), near.end());
-    return both;
-  };
-  const auto expectTheSame = [&](const Disparities& found, const Disparities& alike, bool ramped) {
-    std::vector<double> differences_px;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      if (found[i] == kNone || alike[i] == kNone) continue;
-      differences_px.push_back(std::abs(found[i] - alike[i]));
-    }
-    ASSERT_GE(differences_px.size(), found.size() * 98 / 100);
-    std::sort(differences_px.begin(), differences_px.end());
-    // Grey levels are rounded, and a ramp of 1.5 grey levels over a window looks like texture.
-    // Measured: median 0.006 px and at most 0.025 px, with the ramp 0.031 and 0.13 px.
-    EXPECT_LT(differences_px[differences_px.size() / 2], ramped ? 0.06 : 0.012);
-    EXPECT_LT(differences_px.back(), ramped ? 0.26 : 0.05);
-  };
   const cv::Mat left = exposed(0.0, 1.0, 0.0);
-  const cv::Mat right = exposed(10.25, 1.0, 0.0);
-  const Disparities alike = match(left, right, 1.0);
-  for (const double gain : {0.5, 0.8, 1.3}) {
-    for (const double offset : {-25.0, 15.0, 25.0}) {
-      for (const double ramp : {0.0, 40.0}) {
-        SCOPED_TRACE(::testing::Message() << gain << ' ' << offset << ' ' << ramp);
-        const cv::Mat other_right = exposed(10.25, gain, offset, ramp);
-        const cv::Mat other_left = exposed(0.0, gain, offset, ramp);
-        expectTheSame(match(left, other_right, gain), alike, ramp != 0.0);
-        expectTheSame(match(other_left, right, 1.0 / gain), alike, ramp != 0.0);
+  const Disparities alike = match(left, exposed(10.25, 1.0, 0.0), pixels);
+  for (const double gain : {0.5, 1.3}) {
+    for (const double offset : {-25.0, 25.0}) {
+      SCOPED_TRACE(::testing::Message() << gain << ' ' << offset);
+      const cv::Mat right = exposed(10.25, gain, offset);
+      const Disparities found = match(left, right, pixels);
+      Disparities near;
+      const double found_gain =
+          StereoMatcher({}).matchNear(workers, {left, right}, pixels, expected_px, near);
+      EXPECT_NEAR(found_gain / gain, 1.0, 0.004);  // measured: within 0.2 %
+      std::size_t same = 0;
+      // Grey levels are rounded. Measured: at most 0.025 px.
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        same += std::abs(found[i] - alike[i]) < 0.05F && std::abs(near[i] - found[i]) < 0.25F;
       }
+      EXPECT_GE(same, found.size() * 95 / 100);
     }
   }
 }

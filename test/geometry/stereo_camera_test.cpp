@@ -71,23 +71,5 @@ TEST(StereoCameraTest, CheckNamesTheValueThatIsWrong) {
   expect_refused(&StereoCamera::baseline_m, -0.5, "baseline_m is -0.5");
 }
 
-TEST(StereoCameraTest, CamerasDifferInEveryValue) {
-  const auto expect_different = [](auto member) {
-    StereoCamera camera = kittiCamera();
-    camera.*member += 1;
-    EXPECT_NE(camera, kittiCamera());
-  };
-  for (const auto member : {&StereoCamera::width, &StereoCamera::height}) expect_different(member);
-  for (const auto member : {&StereoCamera::fx,
-                            &StereoCamera::fy,
-                            &StereoCamera::cx,
-                            &StereoCamera::cy,
-                            &StereoCamera::cx_right,
-                            &StereoCamera::baseline_m}) {
-    expect_different(member);
-  }
-  EXPECT_EQ(kittiCamera(), kittiCamera());
-}
-
 }  // namespace
 }  // namespace rotrocc

@@ -1,14 +1,9 @@
 #include "motion/fitted_feature.h"
 
-#include <cmath>
 #include <random>
-#include <vector>
 
 #include <gtest/gtest.h>
-#include <opencv2/core.hpp>
 
-#include "motion/reprojection_error.h"
-#include "rotrocc/rigid_motion.h"
 #include "support/simulated_features.h"
 
 namespace rotrocc {
@@ -102,53 +97,6 @@ TEST(FittedFeatureTest, ARatioOfZeroIsThePapersLeastSquares) {
     EXPECT_EQ(fitted.whitening, Eigen::Matrix2d::Identity());
     EXPECT_EQ(fitted.target_px, feature.keyframe_px);
     EXPECT_EQ(fitted.rotated_point, T.linear() * feature.point_cur);
-  }
-}
-
-TEST(FittedFeatureTest, AFitDependsNeitherOnItsNeighboursNorOnTheProcessor) {
-  const Eigen::Isometry3d T = motion({0.3, 0.0, 1.0}, {0.0, 0.05, 0.0});
-  Correspondences features = someFeatures(T);
-  ASSERT_GT(features.size(), 17U);
-  for (const std::size_t count : {17U, 16U, 15U, 1U}) {
-    features.resize(count);
-    const StereoCamera camera = kittiCamera();
-    const Measurements measured = {camera, features, kNoiseRatio};
-    Fit fit, plain_fit;
-    fitAt(measured, T, fit);
-    cv::setUseOptimized(false);
-    fitAt(measured, T, plain_fit);
-    cv::setUseOptimized(true);
-    const auto& fitted = fit.features;
-    const auto& plain = plain_fit.features;
-    ASSERT_EQ(fitted.size(), count);
-    ASSERT_EQ(plain.size(), count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const FittedFeature alone = fitDisparity(kittiCamera(), features[i], T, kNoiseRatio);
-      for (const FittedFeature& other : {alone, plain[i]}) {
-        EXPECT_EQ(fitted[i].target_px, other.target_px);
-        EXPECT_EQ(fitted[i].rotated_point, other.rotated_point);
-        EXPECT_EQ(fitted[i].whitening, other.whitening);
-        EXPECT_EQ(fitted[i].by_disparity, other.by_disparity);
-      }
-    }
-  }
-}
-
-TEST(FittedFeatureTest, ErrorsAreTheLengthsOfTheResiduals) {
-  const Eigen::Isometry3d T = motion({0.3, 0.0, 1.0}, {0.0, 0.05, 0.0});
-  const Correspondences features = someFeatures(T);
-  const StereoCamera camera = kittiCamera();
-  Fit fit;
-  fitAt({camera, features, kNoiseRatio}, T, fit);
-  std::vector<double> fitted_px, plain_px;
-  fittedErrors(camera, fit, fitted_px);
-  reprojectionErrors(camera, features, T, plain_px);
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    const FittedFeature& fitted = fit.features[i];
-    const Eigen::Vector2d projected = camera.project(fitted.rotated_point + T.translation());
-    EXPECT_NEAR(fitted_px[i], (fitted.whitening * (fitted.target_px - projected)).norm(), 1e-9);
-    const Eigen::Vector2d plain = camera.project(T * features[i].point_cur);
-    EXPECT_NEAR(plain_px[i], (features[i].keyframe_px - plain).norm(), 1e-9);
   }
 }
 

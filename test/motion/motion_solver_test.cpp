@@ -3,7 +3,6 @@
 #include <cmath>
 #include <random>
 #include <utility>
-#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -105,35 +104,6 @@ TEST(MotionSolverTest, NoisyDisparitiesDoNotShortenTheStep) {
   // 3.2^2 = 0.9 %. Second-order effects are some tenths of that.
   EXPECT_NEAR(bias, 0.0, 0.002 + 3.0 * standard_error);
   EXPECT_LT(biasOfStep(0.0).first, -0.005);
-}
-
-/// Mean signed relative error of the step length after fits with weights by this factor. A tenth of
-/// the windows also contain a nearer surface.
-double biasByFattening(double robust_factor) {
-  constexpr int kDraws = 50;
-  const Eigen::Isometry3d truth = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
-  std::mt19937 generator(3);
-  const StereoCamera camera = kittiCamera();
-  MotionSolver solver({robust_factor, false});
-  double sum = 0.0;
-  for (int draw = 0; draw < kDraws; ++draw) {
-    Correspondences features = simulateFeatures(kittiCamera(), truth, 400, {0.15, 0.15}, generator);
-    for (std::size_t i = 0; i < features.size(); i += 10) features[i].disparity_px += 0.8;
-    triangulate(kittiCamera(), features);
-    const Measurements measured = {camera, features, 1.0};
-    Fit fit;
-    fitAt(measured, truth, fit);
-    for (int i = 0; i < 5; ++i) EXPECT_TRUE(solver.solveMotion(measured, all(features), fit));
-    sum += fit.T_keyframe_cur.translation().z() - 1.0;
-  }
-  return sum / kDraws;
-}
-
-TEST(MotionSolverTest, RobustWeightsResistAnUnevenTail) {
-  // An error of about 4 standard deviations of the residual has a fifth of the weight.
-  const double equal = biasByFattening(0.0);
-  EXPECT_LT(equal, -0.001);
-  EXPECT_LT(std::abs(biasByFattening(2.0)), 0.5 * std::abs(equal));
 }
 
 }  // namespace

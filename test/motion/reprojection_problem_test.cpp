@@ -1,13 +1,8 @@
 #include "motion/reprojection_problem.h"
 
-#include <cmath>
-#include <random>
-#include <vector>
-
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/rotation.h>
 #include <gtest/gtest.h>
-#include <opencv2/core.hpp>
 
 #include "geometry/min_depth.h"
 #include "motion/shared_error.h"
@@ -179,65 +174,6 @@ TEST(ReprojectionProblemTest, EliminatesTheErrorsThatNeighboursShare) {
     without.weigh(parameters, 2.0);
     EXPECT_EQ(problem.normalMatrix(parameters), without.normalMatrix(parameters));
   }
-}
-
-template <int kParameters>
-void expectTheSameOnEachProcessor(const Correspondences& features, const Eigen::Isometry3d& T_0) {
-  ReprojectionProblem<kParameters> problem;
-  problem.assign(kittiCamera(), fitOf(features, T_0, kNoiseRatio), all(features));
-  problem.weigh(problem.start(), 2.0);
-  problem.shareErrors(0.5, 0.5);
-  const auto normal = problem.normalMatrix(problem.start());
-  const double cost = problem.cost(problem.start());
-  cv::setUseOptimized(false);
-  EXPECT_EQ(problem.normalMatrix(problem.start()), normal);
-  EXPECT_EQ(problem.cost(problem.start()), cost);
-  cv::setUseOptimized(true);
-}
-
-TEST(ReprojectionProblemTest, IsTheSameOnEachProcessor) {
-  std::mt19937 generator(3);
-  for (const int count : {4, 8, 203}) {  // a part of a block, one, and many with a part
-    const auto features =
-        simulateFeatures(kittiCamera(), turnAhead(), count, {0.3, 0.9}, generator);
-    expectTheSameOnEachProcessor<6>(features, turnAhead());
-    expectTheSameOnEachProcessor<3>(features, turnAhead());
-  }
-}
-
-TEST(ReprojectionProblemTest, TakesOnlyTheFeaturesOfTheSet) {
-  const Eigen::Isometry3d T = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
-  const Correspondences features = someFeatures(T);
-  FeatureSet set(features.size(), 0);
-  set[3] = set[7] = 1;
-  ReprojectionProblem<3> problem;
-  problem.assign(kittiCamera(), fitOf(features, T, 0.0), set);
-  std::vector<std::size_t> taken;
-  problem.linearise(problem.start(), [&](const ReprojectionProblem<3>::Term& term) {
-    taken.push_back(term.feature);
-    const Correspondence& feature = features[term.feature];
-    const Eigen::Vector2d expected =
-        feature.keyframe_px - kittiCamera().project(T * feature.point_cur);  // Eq. 2
-    EXPECT_LT((term.residual_px - expected).norm(), 1e-9);
-    EXPECT_EQ(term.weight, 1.0);
-  });
-  EXPECT_EQ(taken, (std::vector<std::size_t>{3, 7}));
-}
-
-TEST(ReprojectionProblemTest, RobustWeightsFallWithTheResiduals) {
-  const Eigen::Isometry3d T = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
-  const Correspondences features = someFeatures(T);
-  ReprojectionProblem<6> problem;
-  problem.assign(kittiCamera(), fitOf(features, T, 0.0), all(features));
-  problem.weigh(problem.start(), 2.0);
-  double last_px = 0.0;
-  double last_weight = 1.0;
-  problem.linearise(problem.start(), [&](const ReprojectionProblem<6>::Term& term) {
-    const double error_px = term.residual_px.norm();
-    EXPECT_EQ(error_px<last_px, term.weight> last_weight);
-    last_px = error_px;
-    last_weight = term.weight;
-  });
 }
 
 }  // namespace

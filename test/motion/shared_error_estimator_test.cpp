@@ -92,17 +92,6 @@ TEST(SharedErrorEstimatorTest, MotionsOfOneKeyframeCountOnce) {
   EXPECT_NEAR(often.ratio(), once.ratio(), 0.1 * once.ratio());
 }
 
-TEST(SharedErrorEstimatorTest, IsBounded) {
-  SharedErrorEstimator estimator({});
-  for (unsigned pair = 0; pair < kPairs; ++pair) {
-    const Correspondences features = pairWith(30.0, pair);
-    estimator.advance();
-    estimator.observe(kittiCamera(), features, all(features), turnAhead());
-  }
-  EXPECT_LE(estimator.ratio(),
-            SharedErrorEstimator::kMostGrowth * MotionEstimatorConfig().shared_ratio);
-}
-
 TEST(SharedErrorEstimatorTest, IsZeroWhileDisabled) {
   MotionEstimatorConfig disabled;
   disabled.shared_ratio = 0.0;

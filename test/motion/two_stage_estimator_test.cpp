@@ -13,17 +13,10 @@ namespace {
 
 constexpr double kPeriod_s = 0.1;
 
-/// The parameters of config/paper.yaml.
 MotionEstimatorConfig paper() {
-  MotionEstimatorConfig config;
-  config.noise_ratio = 0.0;
-  config.robust_factor = 0.0;
-  config.shared_ratio = 0.0;
-  config.translation_noise_factor = 0.0;
-  config.translation_initial_px = 0.0;
-  config.retry_agreement_px = 0.0;
-  config.translation_from_prediction = true;
-  return config;
+  OdometryConfig config;
+  useMethodOfPaper(config);
+  return config.motion_estimator;
 }
 
 /// Runs only this estimator.
@@ -33,7 +26,7 @@ MotionEstimate estimate(const MotionEstimatorConfig& config,
   const StereoCamera camera = kittiCamera();
   Fit fit;
   MotionEstimate found;
-  TwoStageEstimator(config, 3).estimate(
+  TwoStageEstimator(config).estimate(
       {camera, features, config.noise_ratio}, all(features), initial, kPeriod_s, fit, found);
   EXPECT_EQ(fit.T_keyframe_cur.matrix(), found.T_keyframe_cur.matrix());
   return found;

@@ -46,8 +46,8 @@ TEST(LiveParametersTest, EveryParameterWithASectionIsThereWithItsTableEntry) {
   }
   EXPECT_EQ(described, expected);
   EXPECT_GT(described, 30u);
-  EXPECT_EQ(find(description.dflt.ints, "motion_check/min_inliers")->value,
-            parameters.odometry.motion_check.min_inliers);
+  EXPECT_EQ(find(description.dflt.ints, "visual_odometry/max_tries")->value,
+            parameters.odometry.max_tries);
   EXPECT_EQ(find(description.min.doubles, "motion_check/max_speed_mps")->value, 0.1);
   EXPECT_EQ(find(description.max.doubles, "motion_check/max_speed_mps")->value, 1000.0);
   EXPECT_EQ(description.groups.front().name, "Default");
@@ -87,11 +87,18 @@ TEST(LiveParametersTest, AppliesWhatIsNamed) {
 TEST(LiveParametersTest, RefusesAllIfOneIsBad) {
   Parameters parameters;
   Config config = makeInt("feature_detector/max_features", 500);
-  config.ints.push_back(makeInt("motion_check/min_inliers", -5).ints[0]);
+  config.ints.push_back(makeInt("visual_odometry/max_tries", -5).ints[0]);
   expectError<std::invalid_argument>([&] { applyConfig(config, parameters); },
-                                     "motion_check/min_inliers is -5, but must be in [3, 10000]");
+                                     "visual_odometry/max_tries is -5, but must be in [1, 20]");
   EXPECT_EQ(parameters.odometry.correspondence_finder.feature_detector.max_features,
             FeatureDetectorConfig().max_features);
+  Config disparities = makeInt("stereo_matcher/max_disparity_px", 64);
+  disparities.doubles.resize(1);
+  disparities.doubles[0].name = "stereo_matcher/min_disparity_px";
+  disparities.doubles[0].value = 64.5;
+  expectError<std::invalid_argument>([&] { applyConfig(disparities, parameters); },
+                                     "min_disparity_px is 64.5, but must not be above "
+                                     "stereo_matcher/max_disparity_px = 64");
   expectError<std::invalid_argument>([&] { applyConfig(makeInt("queue_size", 5), parameters); },
                                      "\"queue_size\" cannot be changed while the odometry runs");
   expectError<std::invalid_argument>([&] { applyConfig(makeInt("a/b", 5), parameters); },

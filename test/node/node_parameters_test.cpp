@@ -40,14 +40,14 @@ TEST_F(NodeParametersTest, EveryTypeOfTheServer) {
   tree["queue_size"] = 9;
   tree["max_stamp_difference_s"] = 0.1 + 0.2;  // keeps every bit
   tree["silence_s"] = 2;  // YAML has no point in "2.0 m/s" that people write as 2
-  tree["motion_check"]["min_inliers"] = 321;
+  tree["motion_check"]["max_speed_mps"] = 321;
   setParameters(tree, table_);
   EXPECT_EQ(parameters_.node.base_frame, "robot");
   EXPECT_FALSE(parameters_.node.publish_tf);
   EXPECT_EQ(parameters_.node.queue_size, 9);
   EXPECT_EQ(parameters_.node.max_stamp_difference_s, 0.1 + 0.2);
   EXPECT_EQ(parameters_.node.silence_s, 2.0);
-  EXPECT_EQ(parameters_.odometry.motion_check.min_inliers, 321);
+  EXPECT_EQ(parameters_.odometry.motion_check.max_speed_mps, 321);
   EXPECT_EQ(parameters_.node.odom_frame, "odom");
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <string>
 
@@ -23,8 +24,8 @@ FeatureSet set(int inliers, int features) {
 }
 
 /// 10 m/s straight ahead, with 300 inliers of 400 features.
-MotionEstimator::Estimate goodEstimate() {
-  MotionEstimator::Estimate estimate;
+MotionEstimate goodEstimate() {
+  MotionEstimate estimate;
   estimate.valid = true;
   estimate.flow_noise_px = 0.1;
   estimate.T_keyframe_cur = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
@@ -34,13 +35,11 @@ MotionEstimator::Estimate goodEstimate() {
 }
 
 /// Expects both parts, or nothing if `value` is null.
-void expectSays(const std::string& sentence, const char* value, const char* limit) {
-  if (value == nullptr) {
-    EXPECT_EQ(sentence, "");
-    return;
-  }
-  EXPECT_NE(sentence.find(value), std::string::npos) << sentence;
-  EXPECT_NE(sentence.find(limit), std::string::npos) << sentence;
+void expectSays(const std::optional<std::string>& sentence, const char* value, const char* limit) {
+  ASSERT_EQ(sentence.has_value(), value != nullptr) << sentence.value_or("");
+  if (!sentence) return;
+  EXPECT_NE(sentence->find(value), std::string::npos) << *sentence;
+  EXPECT_NE(sentence->find(limit), std::string::npos) << *sentence;
 }
 
 MotionCheck defaultCheck() {
@@ -67,7 +66,7 @@ Correspondences featuresAt(double depth_m, const Eigen::Isometry3d& T_keyframe_c
 
 /// All features are equally deep and fit the motion, and all of the keyframe's features were
 /// tracked.
-Hypothesis hypothesis(const MotionEstimator::Estimate& estimate) {
+Hypothesis hypothesis(const MotionEstimate& estimate) {
   Hypothesis hypothesis;
   hypothesis.camera = kittiCamera();
   hypothesis.has_prediction = true;
@@ -78,7 +77,7 @@ Hypothesis hypothesis(const MotionEstimator::Estimate& estimate) {
   return hypothesis;
 }
 
-std::string whyDegraded(const Hypothesis& accepted) {
+std::optional<std::string> whyDegraded(const Hypothesis& accepted) {
   return defaultCheck().whyDegraded(accepted, accepted.estimate.covariance);
 }
 
@@ -90,12 +89,12 @@ TEST(MotionCheckTest, TellsWhichMotionsAreLost) {
     const char* limit;
   };
   for (const Case& c : {Case{300, 300, 400, 0.0, 0.0, 0.1, nullptr, ""},
-                        Case{24, 24, 24, 0.0, 0.0, 0.1, "24 features were matched", "= 25"},
+                        Case{24, 24, 24, 0.0, 0.0, 0.1, "24 features were matched", "than 25"},
                         Case{25, 25, 25, 0.0, 0.0, 0.1, nullptr, ""},
-                        Case{0, 0, 0, 0.0, 0.0, 0.1, "only 0 features", "min_inliers = 25"},
-                        Case{300, 24, 400, 0.0, 0.0, 0.1, "24 features agree", "= 25"},
-                        Case{24, 300, 400, 0.0, 0.0, 0.1, "24 features agree", "= 25"},
-                        Case{300, 59, 400, 0.0, 0.0, 0.1, "0.1475", "min_inlier_share = 0.15"},
+                        Case{0, 0, 0, 0.0, 0.0, 0.1, "only 0 features", "than 25"},
+                        Case{300, 24, 400, 0.0, 0.0, 0.1, "24 features agree", "than 25"},
+                        Case{24, 300, 400, 0.0, 0.0, 0.1, "24 features agree", "than 25"},
+                        Case{300, 59, 400, 0.0, 0.0, 0.1, "0.147", "less than 0.15"},
                         Case{300, 60, 400, 0.0, 0.0, 0.1, nullptr, ""},
                         Case{300, 300, 400, 7.1, 0.0, 0.1, "71", "max_speed_mps = 70"},
                         Case{300, 300, 400, 7.1, 0.0, 0.2, nullptr, ""},
@@ -106,9 +105,9 @@ TEST(MotionCheckTest, TellsWhichMotionsAreLost) {
     estimate.translation_inliers = set(c.by_translation, c.features);
     estimate.T_keyframe_cur = motion({0.0, c.down_m, 0.0}, {0.0, c.turn_rad, 0.0});
     const Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
-    expectSays(defaultCheck().checkNotLost(estimate, start, c.dt_s), c.value, c.limit);
+    expectSays(defaultCheck().whyLost(estimate, start, c.dt_s), c.value, c.limit);
     estimate.valid = false;
-    EXPECT_NE(defaultCheck().checkNotLost(estimate, start, c.dt_s), "");
+    EXPECT_NE(defaultCheck().whyLost(estimate, start, c.dt_s), std::nullopt);
   }
 }
 
@@ -121,9 +120,9 @@ TEST(MotionCheckTest, TellsWhichMotionsAreDegraded) {
   };
   const char* const kFewDepths = "400 of 2667 corners";
   for (const Case& c : {Case{300, 300, 0, 400, 1.0, 0.0, nullptr, ""},
-                        Case{300, 199, 0, 400, 1.0, 0.0, "0.4975", "translation, less than 0.5"},
+                        Case{300, 199, 0, 400, 1.0, 0.0, "0.497", "translation, less than 0.5"},
                         Case{300, 200, 0, 400, 1.0, 0.0, nullptr, ""},
-                        Case{279, 300, 0, 400, 1.0, 0.0, "0.6975", "motion, less than 0.7"},
+                        Case{279, 300, 0, 400, 1.0, 0.0, "0.698", "motion, less than 0.7"},
                         Case{280, 300, 0, 400, 1.0, 0.0, nullptr, ""},
                         Case{300, 300, 2667, 400, 1.0, 0.0, kFewDepths, "a share below 0.15"},
                         Case{300, 300, 2666, 400, 1.0, 0.0, nullptr, ""},
@@ -155,7 +154,7 @@ TEST(MotionCheckTest, WantsMoreOfAMotionWithoutAPrediction) {
     const char* limit;
   };
   for (const Case& c : {Case{true, 319, 0.1, nullptr, ""},
-                        Case{false, 319, 0.1, "without a prediction, a share of 0.7975", "0.8"},
+                        Case{false, 319, 0.1, "without a prediction, a share of 0.798", "0.8"},
                         Case{false, 320, 0.1, nullptr, ""},
                         Case{true, 360, 0.004, nullptr, ""},
                         Case{false, 360, 0.004, "0.9", "0.004 px"},  // more exact than images
@@ -171,9 +170,9 @@ TEST(MotionCheckTest, WantsMoreOfAMotionWithoutAPrediction) {
 TEST(MotionCheckTest, AMotionWithoutItsTranslationStageIsDegraded) {
   auto estimate = goodEstimate();
   estimate.translation_failed = true;
-  expectSays(whyDegraded(hypothesis(estimate)), "translation stage", "min_inliers");
+  expectSays(whyDegraded(hypothesis(estimate)), "translation stage", "than 25");
   estimate.translation_inliers = estimate.rotation_inliers = set(35, 49);
-  EXPECT_EQ(whyDegraded(hypothesis(estimate)), "") << "25 of 49 are more than half";
+  EXPECT_EQ(whyDegraded(hypothesis(estimate)), std::nullopt) << "25 of 49 are more than half";
 }
 
 /// 300 features that fit the motion, and 100 others.
@@ -195,10 +194,10 @@ TEST(MotionCheckTest, CallsAMotionBesideAnotherOneDegraded) {
   const Hypothesis mixed = hypothesisAnd(on_lorry);
   expectSays(whyDegraded(mixed), "another motion fits", "of the 400 features, a share above 0.2");
   Correspondences few(on_lorry.begin(), on_lorry.begin() + 70);
-  EXPECT_EQ(whyDegraded(hypothesisAnd(few)), "");
+  EXPECT_EQ(whyDegraded(hypothesisAnd(few)), std::nullopt);
   Correspondences wrong = on_lorry;
   mismatch(wrong, 0, wrong.size(), 40.0, generator);
-  EXPECT_EQ(whyDegraded(hypothesisAnd(wrong)), "") << "they agree on nothing";
+  EXPECT_EQ(whyDegraded(hypothesisAnd(wrong)), std::nullopt) << "they agree on nothing";
 }
 
 TEST(MotionCheckTest, FewerAreEnoughBehindTheOthers) {
@@ -227,14 +226,14 @@ TEST(MotionCheckTest, CallsAMotionThatOneFeatureDeterminesDegraded) {
   bringNear(1);
   expectSays(whyDegraded(far), "information", "less than 0.15");
   bringNear(40);
-  EXPECT_EQ(whyDegraded(far), "");
+  EXPECT_EQ(whyDegraded(far), std::nullopt);
 }
 
 TEST(MotionCheckTest, WantsAReserveOfInliersForTheNextPair) {
   auto estimate = goodEstimate();
-  EXPECT_TRUE(defaultCheck().hasReserve(estimate));
+  EXPECT_TRUE(MotionCheck::hasReserve(estimate));
   estimate.translation_inliers = estimate.rotation_inliers = set(49, 300);
-  EXPECT_FALSE(defaultCheck().hasReserve(estimate));
+  EXPECT_FALSE(MotionCheck::hasReserve(estimate));
 }
 
 /// Whether the camera rests after a motion, if the flow has this noise.
@@ -263,14 +262,14 @@ TEST(MotionCheckTest, CallsAJumpDegraded) {
   const Eigen::Isometry3d expected = motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
   UncertainTransform jump;
   jump.T = motion({0.0, 0.0, 1.31}, {0.0, 0.0, 0.0});
-  const MotionCheck check = defaultCheck();
-  expectSays(check.whyJump(jump, expected, kPeriod_s), "31 m/s2", "max_acceleration_mps2 = 30");
-  EXPECT_EQ(check.whyJump(jump, expected, 2.0 * kPeriod_s), "");  // a quarter of the acceleration
+  expectSays(MotionCheck::whyJump(jump, expected, kPeriod_s), "31 m/s2", "more than 30");
+  EXPECT_EQ(MotionCheck::whyJump(jump, expected, 2.0 * kPeriod_s),
+            std::nullopt);              // a quarter of the acceleration
   jump.covariance(2, 2) = 0.01 * 0.01;  // 3 sigma = 0.03 m, equivalent to 3 m/s2
-  EXPECT_EQ(check.whyJump(jump, expected, kPeriod_s), "");
+  EXPECT_EQ(MotionCheck::whyJump(jump, expected, kPeriod_s), std::nullopt);
   jump.T = motion({0.31, 0.0, 1.0}, {0.0, 0.0, 0.0});
   jump.covariance.setZero();
-  EXPECT_NE(check.whyJump(jump, expected, kPeriod_s), "");
+  EXPECT_NE(MotionCheck::whyJump(jump, expected, kPeriod_s), std::nullopt);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/expect_error.h"
 #include "support/simulated_features.h"
 #include "support/synthetic_scene.h"
 
@@ -114,6 +115,7 @@ TEST(VisualOdometryTest, FollowsADriveAlongTheStreet) {
     EXPECT_NEAR(result.dt_s, 0.1, 1e-12);
     EXPECT_NEAR(result.exposure_gain, 1.0, kGainError);
     expectMotion(result, bendStep());
+    EXPECT_GT(std::sqrt(result.covariance(2, 2)), 0.015 * 0.6) << "with the systematic error";
   }
 }
 
@@ -273,16 +275,6 @@ TEST(VisualOdometryTest, CorrectsTheRowsOfARig) {
   }
 }
 
-TEST(VisualOdometryTest, LeavesTheRowsOfARigThatIsNotToBeCalibrated) {
-  VisualOdometry::Config config;
-  config.stereo_calibrator.enabled = false;
-  VisualOdometry odometry(config);
-  OdometryResult result;
-  for (int i = 0; i < 8; ++i) result = odometry.process(bendWithRightLower(i, 1.5), camera());
-  EXPECT_EQ(result.row_offset.applied_px, 0.0);
-  EXPECT_NEAR(result.row_offset.median_px, 1.5, 0.6) << "few features within the tolerance";
-}
-
 /// The numbers of a result that depend on images, without times.
 std::vector<double> numbers(const OdometryResult& result) {
   const Eigen::Matrix4d& motion = result.T_prev_cur.matrix();
@@ -330,16 +322,6 @@ TEST(VisualOdometryTest, PreparationChangesNoResult) {
   expectTheSame(late);
 }
 
-TEST(VisualOdometryTest, TimesOfPreparationAreThoseOfTheNextPair) {
-  VisualOdometry odometry = started(3);
-  odometry.prepare();
-  odometry.prepare();  // does nothing
-  const StageTimes times = odometry.process(bend(3), camera()).times;
-  EXPECT_GT(times.prepared_ms, 0.0);
-  EXPECT_LE(times.corners_ms + times.disparity_ms, times.prepared_ms);
-  EXPECT_EQ(odometry.process(bend(4), camera()).times.prepared_ms, 0.0);
-}
-
 TEST(VisualOdometryTest, GoesOnWithOtherParameters) {
   VisualOdometry odometry = started(6, wronglyCalibrated());
   const OdometryResult before = odometry.process(bend(6), wronglyCalibrated());
@@ -356,22 +338,19 @@ TEST(VisualOdometryTest, GoesOnWithOtherParameters) {
   EXPECT_NEAR(after.disparity_bias.applied_px, before.disparity_bias.applied_px, 0.05);
 }
 
-TEST(VisualOdometryTest, ForgetsTheRigWhenItIsNoLongerEstimated) {
-  VisualOdometry odometry = started(7, wronglyCalibrated());
-  VisualOdometry::Config config;
-  config.stereo_calibrator.enabled = false;
-  config.stereo_calibrator.bias_px = 0.25;
-  odometry.configure(config);
-  const OdometryResult result = odometry.process(bend(7), wronglyCalibrated());
-  EXPECT_EQ(result.disparity_bias.applied_px, 0.25);
-}
-
 TEST(VisualOdometryTest, KeepsItsParametersWhenOthersAreWrong) {
   VisualOdometry odometry = started(2);
   VisualOdometry::Config wrong;
+  wrong.motion_check.max_speed_mps = 0.1;
+  wrong.correspondence_finder.stereo_matcher.min_disparity_px = 129;
+  expectError<std::invalid_argument>([&] { odometry.configure(wrong); },
+                                     "min_disparity_px is 129, but must not be above "
+                                     "stereo_matcher/max_disparity_px = 128");
   wrong.motion_estimator.criterion = "best";
-  wrong.motion_check.min_inliers = 10000;
-  EXPECT_THROW(odometry.configure(wrong), std::invalid_argument);
+  expectError<std::invalid_argument>([&] { odometry.configure(wrong); }, "criterion is \"best\"");
+  wrong = {};
+  wrong.method = "best";
+  expectError<std::invalid_argument>([&] { odometry.configure(wrong); }, "method is \"best\"");
   expectMotion(odometry.process(bend(2), camera()), bendStep());
 }
 
@@ -470,18 +449,6 @@ TEST(VisualOdometryTest, FollowsThroughAChangeOfTheExposure) {
     const OdometryResult next = odometry.process(exposed(bend(5), gain), camera());
     EXPECT_EQ(next.keyframe_stamp_ns, 4 * kPeriod_ns);
     expectMotion(next, bendStep(), gain > 0.5 ? 0.01 : 0.02);
-  }
-}
-
-TEST(VisualOdometryTest, FollowsWithCamerasThatExposeDifferently) {
-  VisualOdometry odometry({});
-  for (int i = 0; i < 8; ++i) {
-    StereoPair pair = bend(i);
-    pair.right = exposed(pair, 0.6).right;
-    const OdometryResult result = odometry.process(pair, camera());
-    if (i == 0) continue;
-    expectMotion(result, bendStep());
-    EXPECT_NEAR(result.exposure_gain, 0.6, 0.6 * kGainError);
   }
 }
 
@@ -587,10 +554,10 @@ TEST(VisualOdometryTest, StartsWithABlackPairAndGoesOn) {
 }
 
 TEST(VisualOdometryTest, KeepsTheKeyframeAtRestAndDoesNotCreep) {
-  VisualOdometry::Config not_adaptive;
-  not_adaptive.keyframe_selector.adaptive = false;
+  VisualOdometry::Config paper;
+  paper.method = "paper";
   VisualOdometry odometry({});
-  VisualOdometry frame_to_frame(not_adaptive);
+  VisualOdometry frame_to_frame(paper);
   Eigen::Isometry3d T_start_cur = Eigen::Isometry3d::Identity();
   for (int i = 0; i < 40; ++i) {
     const auto pair = view(Eigen::Isometry3d::Identity(), i * kPeriod_ns);
@@ -603,23 +570,6 @@ TEST(VisualOdometryTest, KeepsTheKeyframeAtRestAndDoesNotCreep) {
     const std::int64_t keyframe_ns = frame_to_frame.process(pair, camera()).keyframe_stamp_ns;
     EXPECT_EQ(keyframe_ns, std::max(i - 1, 0) * kPeriod_ns);
   }
-}
-
-/// A crawl of 0.1 m/s, with a keyframe that is kept for several pairs. The distance since then is
-/// soon longer than one step at the limit of the speed.
-TEST(VisualOdometryTest, TheSpeedIsThatSinceTheKeyframe) {
-  VisualOdometry::Config config;
-  config.motion_estimator.min_speed_mps = 0.2;
-  VisualOdometry odometry(config);
-  std::int64_t longest_ns = 0;
-  for (int i = 0; i < 12; ++i) {
-    const Eigen::Isometry3d T_world_camera = motion({0.0, 0.0, 0.01 * i}, {0.0, 0.0, 0.0});
-    const std::int64_t stamp_ns = i * kPeriod_ns;
-    const OdometryResult result = odometry.process(view(T_world_camera, stamp_ns), camera());
-    EXPECT_EQ(result.counts.translation_inliers, 0) << "of a stage 2 that slow motions do not have";
-    if (i > 0) longest_ns = std::max(longest_ns, stamp_ns - result.keyframe_stamp_ns);
-  }
-  EXPECT_GE(longest_ns, 3 * kPeriod_ns);
 }
 
 TEST(VisualOdometryTest, ANewKeyframeIsThePreviousPair) {
@@ -652,7 +602,7 @@ TEST(VisualOdometryTest, FindsNoMotionInNoiseOrWithoutADepth) {
         in_noise.process(noise({camera().width, camera().height}, i * kPeriod_ns), camera());
     const auto same = without_depth.process({i * kPeriod_ns, bend(i).left, bend(i).left}, camera());
     if (i == 0) continue;
-    expectLost(noisy, "min_inliers");
+    expectLost(noisy, "fewer than 25");
     expectLost(same, "features were matched");
   }
 }
@@ -817,20 +767,6 @@ TEST(VisualOdometryTest, DoesNotThrowOnImagesOfAnySize) {
       EXPECT_EQ(result.state, i == 0 ? State::kInitialising : State::kLost) << size;
       EXPECT_EQ(result.reason.find("internal error"), std::string::npos) << result.reason;
       stamp_ns += kPeriod_ns;
-    }
-  }
-}
-
-TEST(VisualOdometryTest, ReportsTheBiasThatTheDepthsWereComputedWith) {
-  VisualOdometry odometry({});
-  for (int i = 0; i < 8; ++i) {
-    const OdometryResult result = odometry.process(bend(i), wronglyCalibrated());
-    StereoCamera corrected = wronglyCalibrated();
-    corrected.cx_right += result.disparity_bias.applied_px;
-    for (const Correspondence& feature : odometry.correspondences()) {
-      EXPECT_NEAR(feature.point_cur.z(),
-                  corrected.depth(feature.disparity_px),
-                  1e-9 * feature.point_cur.z());
     }
   }
 }

@@ -169,9 +169,8 @@ TEST(ParametersTest, AFileNamesItselfWhenItIsRefused) {
     expectError<std::invalid_argument>([&] { loadYaml(path, settings.table); }, path);
     expectError<std::invalid_argument>([&] { loadYaml(path, settings.table); }, part);
   };
-  expect_refused("motion_check:\n  min_inlier: 3\n",
-                 "unknown parameter \"motion_check/min_inlier\"");
-  expect_refused("motion_check:\n  min_inliers: 1\n", "motion_check/min_inliers is 1");
+  expect_refused("motion_check:\n  max_speed: 3\n", "unknown parameter \"motion_check/max_speed\"");
+  expect_refused("motion_check:\n  max_speed_mps: 0\n", "motion_check/max_speed_mps is 0");
   expect_refused("visual_odometry:\n  max_gap_s: .nan\n", "visual_odometry/max_gap_s is \".nan\"");
   expect_refused("motion_check: [1, 2]\n", "unknown parameter \"motion_check\"");
   expect_refused("queue_size: [1]\n", "queue_size is a list, but must be [1, 100]");
@@ -181,7 +180,7 @@ TEST(ParametersTest, AFileNamesItselfWhenItIsRefused) {
   expect_refused("odom_frame: \"no UTF-8: \xc0\xb5\"\n", "\"odom_frame\" is not UTF-8");
   expect_refused("motion_check\n", "");
   expect_refused("a: b: c\n", "");
-  expect_refused("motion_check: {min_inliers:", "end of map flow not found");
+  expect_refused("motion_check: {max_speed_mps:", "end of map flow not found");
   Settings settings;
   expectError<std::invalid_argument>([&] { loadYaml(directory / "none.yaml", settings.table); },
                                      "none.yaml");

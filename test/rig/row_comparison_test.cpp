@@ -33,13 +33,6 @@ TEST(RowComparisonTest, FindsTheOffsetInSpiteOfWrongFeatures) {
   EXPECT_NEAR(offset.sigma_px, 0.008, 0.002);
 }
 
-TEST(RowComparisonTest, RowsThatDifferBothWaysAreApart) {
-  RowComparison comparison;
-  for (int i = 0; i < 100; ++i) comparison.observe({-0.8F, 0.8F, -0.8F, 0.8F, 0.0F});
-  EXPECT_NEAR(comparison.offset().median_px, 0.0, 1e-6);
-  EXPECT_NEAR(comparison.offset().typical_px, 0.8, 1e-6);
-}
-
 TEST(RowComparisonTest, ForgetsWhatIsLongAgo) {
   RowComparison comparison;
   show(4000, 1.0, 0.1, comparison);

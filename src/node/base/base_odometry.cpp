@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "common/to_seconds.h"
-#include "odometry/systematic_error.h"
 
 namespace rotrocc {
 namespace {
@@ -216,9 +215,8 @@ void BaseOdometry::setPose(const UncertainTransform& T_odom_base) {
 UncertainTransform BaseOdometry::withOtherErrors(const Pose& pose) const {
   const Eigen::Isometry3d& T_odom_base = pose.T_odom_base.T;
   const UncertainTransform T_odom_camera = {T_odom_base * pose.T_base_camera.T};
-  const Matrix6d others =
-      systematicCovariance(systematic_error_, T_odom_first_.inverse() * T_odom_base) +
-      compose(T_odom_camera, inverse(pose.T_base_camera)).covariance;
+  const Matrix6d others = systematic_error_.covarianceOf(T_odom_first_.inverse() * T_odom_base) +
+                          compose(T_odom_camera, inverse(pose.T_base_camera)).covariance;
   return {T_odom_base,
           pose.T_odom_base.covariance + (parameters_.planar ? planar(others) : others)};
 }

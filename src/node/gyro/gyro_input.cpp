@@ -69,20 +69,20 @@ void GyroInput::follow(std::int64_t stamp_ns, const Eigen::Isometry3d& T_base_ca
 std::optional<Eigen::Matrix3d> GyroInput::rotation(std::int64_t from_ns, std::int64_t to_ns) {
   std::unique_lock<std::mutex> lock(mutex_);
   was_asked_ = true;
-  if (backoff_.waits() && predictor_.whyDistrusted().empty()) {
+  if (backoff_.waits() && !predictor_.whyDistrusted()) {
     received_.wait_for(lock, kSampleWait, [&] {
       const auto newest_ns = predictor_.history().newest_ns();
       return newest_ns && *newest_ns >= to_ns;
     });
   }
-  const std::string why_no_mount = whyNoMount(from_ns, to_ns);
-  if (why_no_mount.empty()) return predictor_.rotation(from_ns, to_ns);
-  predictor_.miss(why_no_mount);
+  const auto why_no_mount = whyNoMount(from_ns, to_ns);
+  if (!why_no_mount) return predictor_.rotation(from_ns, to_ns);
+  predictor_.miss(*why_no_mount);
   return std::nullopt;
 }
 
 /// Sets the mount at two pairs, if it is known.
-std::string GyroInput::whyNoMount(std::int64_t from_ns, std::int64_t to_ns) {
+std::optional<std::string> GyroInput::whyNoMount(std::int64_t from_ns, std::int64_t to_ns) {
   if (!predictor_.history().newest_ns()) return "no message on " + subscriber_.getTopic();
   const auto from = R_camera_gyro_.find(from_ns);
   const auto to = R_camera_gyro_.find(to_ns);
@@ -91,36 +91,36 @@ std::string GyroInput::whyNoMount(std::int64_t from_ns, std::int64_t to_ns) {
            base_frame_ + " at a pair";
   }
   predictor_.setMount(from->second, to->second);
-  return "";
+  return std::nullopt;
 }
 
 bool GyroInput::waitsForVertical(std::int64_t stamp_ns) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto now = std::chrono::steady_clock::now();
   if (!vertical_wait_) vertical_wait_ = now;
-  const bool is_known = whyNoMount(stamp_ns, stamp_ns).empty() && vertical_.isComplete();
+  const bool is_known = !whyNoMount(stamp_ns, stamp_ns) && vertical_.isComplete();
   return !is_known && now < *vertical_wait_ + kVerticalWait;
 }
 
 std::optional<Eigen::Vector3d> GyroInput::up(std::int64_t stamp_ns) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  std::string why = whyNoMount(stamp_ns, stamp_ns);
-  if (why.empty()) why = vertical_.whyUnknown(stamp_ns);
-  if (why.empty()) return R_camera_gyro_.at(stamp_ns) * vertical_.up();
-  log_.warn("the first pose is not level, but as the robot stands: " + why);
+  auto why = whyNoMount(stamp_ns, stamp_ns);
+  if (!why) why = vertical_.whyUnknown(stamp_ns);
+  if (!why) return R_camera_gyro_.at(stamp_ns) * vertical_.up();
+  log_.warn("the first pose is not level, but as the robot stands: " + *why);
   return std::nullopt;
 }
 
 void GyroInput::observe(const OdometryResult& result, OdometryStatus& status) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const std::int64_t from_ns = result.stamp_ns - std::llround(1e9 * result.dt_s);
-  if (whyNoMount(from_ns, result.stamp_ns).empty()) predictor_.observe(result);
+  if (!whyNoMount(from_ns, result.stamp_ns)) predictor_.observe(result);
   if (std::exchange(was_asked_, false)) {  // not by a first pair
-    const bool used = predictor_.whyNot().empty();
+    const bool used = !predictor_.whyNot();
     used ? backoff_.onHit() : backoff_.onMiss();
     tell(used);
   }
-  status.imu_reason = predictor_.whyNot();
+  status.imu_reason = predictor_.whyNot().value_or("");
   status.rotations_predicted = predictor_.counts().predicted;
   status.rotations_missed = predictor_.counts().missed;
 }
@@ -133,7 +133,7 @@ void GyroInput::tell(bool used) {
   if (used) {
     log_.info("the gyroscope predicts rotations (" + gyro_frame_ + " on " + base_frame_ + ")");
   } else {
-    log_.warn("the gyroscope is not used: " + predictor_.whyNot());
+    log_.warn("the gyroscope is not used: " + *predictor_.whyNot());
   }
 }
 

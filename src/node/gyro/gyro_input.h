@@ -68,7 +68,7 @@ class GyroInput {
 
  private:
   void receive(const sensor_msgs::Imu& message);
-  std::string whyNoMount(std::int64_t from_ns, std::int64_t to_ns);
+  std::optional<std::string> whyNoMount(std::int64_t from_ns, std::int64_t to_ns);
   void tell(bool used);
 
   Log log_;

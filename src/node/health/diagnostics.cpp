@@ -164,10 +164,10 @@ void describeGyro(const GyroPredictor& gyro, const std::string& topic, StatusWra
   const GyroPredictor::Counts& counts = gyro.counts();
   if (counts.predicted + counts.missed == 0) {
     status.summary(DiagnosticStatus::OK, "no pair yet");
-  } else if (gyro.whyNot().empty()) {
+  } else if (!gyro.whyNot()) {
     status.summary(DiagnosticStatus::OK, "predicts rotations");
   } else {
-    status.summary(DiagnosticStatus::WARN, "not used: " + gyro.whyNot());
+    status.summary(DiagnosticStatus::WARN, "not used: " + *gyro.whyNot());
   }
   const Eigen::Vector3d& bias_rps = gyro.bias().bias_rps();
   status.add("topic", topic);
