@@ -1,15 +1,16 @@
 """Stressed drives for experiments/limits: each stress has a ladder of levels, and makes a sequence for each."""
 import collections
+import io
 import threading
 
 import numpy
-from PIL import Image
+from PIL import Image, ImageFilter
 
-from drives import count_pairs, take_every, take_pairs
+from drives import change_images, count_pairs, take_every, take_pairs
 from rotrocc_tools.programs import make_once
 
-CAMERA = ['--size', '640x240', '--focal', 370, '--baseline', 0.54]  # as KITTI's at half the resolution
-FOCAL_PX = 370.0
+FOCAL_PX, BASELINE_M = 370.0, 0.54
+CAMERA = ['--size', '640x240', '--focal', 370, '--baseline', BASELINE_M]  # as KITTI's at half the resolution
 PERIOD_S = 0.1
 STEP_M = 0.5
 START_PAIRS = 5  # speed and turn rate grow from 0 to full during this time
@@ -21,6 +22,7 @@ UNSEEN = ['focal', 'baseline']  # a wrong scale that no image shows
 # All levels are measured: a match that survives a large change may fail at a small one.
 WHOLE = ['right_gain_down', 'right_gain_up', 'right_offset_down', 'right_offset_up']
 LORRIES = ['lorry', 'lorry_across']  # something else fills the image
+LORRY_AHEAD_M = 5.0
 
 
 def ladder(first, last, rungs=17):
@@ -161,14 +163,68 @@ def miscalibrated(places):
     return make
 
 
-def worse(option, convert=lambda level: level, noise=True):
-    """With worse images."""
+def worse(change=lambda level, pair, is_right, grey: grey, noise=lambda level: NOISE, quality=None):
+    """With worse images: change() of the grey levels, then noise, then a JPEG compression, each by the level."""
     def make(drives, name, level, seed):
         clean = drives.render('clean_%d' % seed, seed, noise=0)
-        options = ['--noise', NOISE] if noise else []
-        return drives.once(name, lambda target: drives.programs.run(
-            'stress_sequence', clean, target, '--seed', seed, *options, option, '%.6g' % convert(level)))
+        random = numpy.random.RandomState(seed)
+
+        def worsen(pair, is_right, grey):
+            seen = change(level, pair, is_right, grey)
+            seen = seen + noise(level) * random.normal(size=grey.shape)
+            return through_jpeg(seen, quality(level)) if quality else seen
+        return drives.once(name, lambda target: change_images(clean, target, worsen))
     return make
+
+
+def image_of(grey):
+    return Image.fromarray(numpy.rint(grey).clip(0, 255).astype(numpy.uint8))
+
+
+def through_jpeg(grey, quality):
+    file = io.BytesIO()
+    image_of(grey).save(file, 'JPEG', quality=quality)
+    return numpy.asarray(Image.open(file), dtype=float)
+
+
+def gain_steps(level, pair, is_right, grey):
+    return numpy.minimum(255, grey * numpy.sqrt(level if pair // 5 % 2 else 1 / level))
+
+
+def right_gain(level, pair, is_right, grey):
+    return grey * level if is_right else grey
+
+
+def right_offset(level, pair, is_right, grey):
+    return grey + level if is_right else grey
+
+
+def contrast(level, pair, is_right, grey):
+    return 110 + level / 100 * (grey - 110)
+
+
+def blurred(grey, sigma_px):
+    return numpy.asarray(image_of(grey).filter(ImageFilter.GaussianBlur(sigma_px)), dtype=float)
+
+
+def plain(level, pair, is_right, grey):
+    """Without texture from the left border on."""
+    kept = numpy.clip(0.5 + (numpy.arange(grey.shape[1]) - level / 100 * grey.shape[1]) / 24, 0, 1)
+    return blurred(grey, 12) + kept * (grey - blurred(grey, 12))
+
+
+def lorry(across_mps):
+    """Broadside ahead, from the left border on; it covers `level` % of the left image at pair 12 of 25."""
+    def change(level, pair, is_right, grey):
+        px_per_m = FOCAL_PX / LORRY_AHEAD_M
+        edge = level / 100 * grey.shape[1] + px_per_m * (across_mps * PERIOD_S * (pair - 12) - BASELINE_M * is_right)
+        side = blurred(numpy.random.RandomState(1).uniform(0, 255, (grey.shape[0], 4 * grey.shape[1])), 1.5)
+        columns = numpy.arange(grey.shape[1]) - edge
+        place = numpy.minimum(columns, -1) + 3 * grey.shape[1]
+        whole = place.astype(int)
+        tarpaulin = side[:, whole] + (place - whole) * (side[:, whole + 1] - side[:, whole])
+        return numpy.where(columns < 0, 90 + 2 * (tarpaulin - 127), grey)
+    return change
 
 
 SHARES = list(range(5, 100, 5))
@@ -182,27 +238,24 @@ STRESSES = [
     Stress('each', 'frame rate', 'each n-th pair', [1, 2, 3, 4, 5, 6, 7, 8, 10, 12], each),
     Stress('dropped', 'pairs dropped', '%', [10, 20, 30, 40, 50, 60, 70, 80, 85, 90, 95], dropped),
     Stress('blur', 'motion blur', 'px', ladder(2, 25), blur),
-    Stress('gain_step', 'exposure steps', 'factor', ladder(1.1, 40), worse('--gain-step')),
+    Stress('gain_step', 'exposure steps', 'factor', ladder(1.1, 40), worse(gain_steps)),
     Stress('right_gain_down', 'right images: gain below 1', 'factor',
            [0.9, 0.8, 0.7, 0.6, 0.5, 0.35, 0.25, 0.15, 0.1, 0.05, 0.02],
-           worse('--right-gain')),
+           worse(right_gain)),
     Stress('right_gain_up', 'right images: gain above 1', 'factor',
-           [1.15, 1.25, 1.4, 1.7, 2, 2.5, 3.5, 5, 10, 20], worse('--right-gain')),
+           [1.15, 1.25, 1.4, 1.7, 2, 2.5, 3.5, 5, 10, 20], worse(right_gain)),
     Stress('right_offset_down', 'right images: offset below 0', 'grey levels',
-           [-15, -25, -40, -60, -80, -100, -130, -160, -190], worse('--right-offset')),
+           [-15, -25, -40, -60, -80, -100, -130, -160, -190], worse(right_offset)),
     Stress('right_offset_up', 'right images: offset above 0', 'grey levels',
-           [15, 25, 40, 60, 80, 100, 130, 160, 190, 220], worse('--right-offset')),
-    Stress('contrast', 'contrast', '%', ladder(80, 1), worse('--contrast', lambda level: level / 100)),
-    Stress('noise', 'noise', 'grey levels', ladder(2, 80), worse('--noise', noise=False)),
-    Stress('jpeg', 'JPEG quality', '', ladder(90, 1), worse('--jpeg', round)),
+           [15, 25, 40, 60, 80, 100, 130, 160, 190, 220], worse(right_offset)),
+    Stress('contrast', 'contrast', '%', ladder(80, 1), worse(contrast)),
+    Stress('noise', 'noise', 'grey levels', ladder(2, 80), worse(noise=lambda level: level)),
+    Stress('jpeg', 'JPEG quality', '', ladder(90, 1), worse(quality=round)),
     Stress('lorry', 'a lorry that moves with the camera', '% of the image', SHARES,
-           rendered('--lorry', 0.01)),
+           worse(lorry(0.0))),
     Stress('lorry_across', 'a lorry that changes lanes', '% of the image', SHARES,
-           rendered('--lorry', 0.01, '--lorry-across', 1.0)),
-    Stress('plain', 'no texture', '% of the image', SHARES, worse('--plain', lambda level: level / 100)),
-    Stress('tiles', 'repeated texture', '% of all texture', SHARES, rendered('--tiles', 0.01)),
-    Stress('drops', 'drops on the lenses', '% of the image', SHARES,
-           worse('--drops', lambda level: level / 100)),
+           worse(lorry(1.0))),
+    Stress('plain', 'no texture', '% of the image', SHARES, worse(plain)),
     Stress('rows', 'right rows off', 'px', ladder(0.25, 16), rendered('--rows')),
     Stress('skew', 'right image late', 'ms', ladder(1, 100), rendered('--time-skew', 1e-3)),
     Stress('focal', 'focal length too large', '%', ladder(0.25, 16), miscalibrated(FOCAL)),

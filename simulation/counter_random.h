@@ -4,8 +4,7 @@
 
 namespace rotrocc {
 
-/// A random number that depends only on its arguments, so results are independent of threads and
-/// order. (A chain of the finalizer of SplitMix64, Steele et al. 2014.)
+/// A random number of its arguments alone (a chain of SplitMix64's finalizer, Steele et al. 2014).
 inline std::uint64_t randomBits(std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0) {
   const auto mix = [](std::uint64_t x) {
     x += 0x9E3779B97F4A7C15ULL;
@@ -16,13 +15,12 @@ inline std::uint64_t randomBits(std::uint64_t a, std::uint64_t b = 0, std::uint6
   return mix(mix(mix(a) ^ b) ^ c);
 }
 
-/// The same, in [0, 1).
+/// In [0, 1).
 inline double randomUniform(std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0) {
   return static_cast<double>(randomBits(a, b, c) >> 11) * 0x1.0p-53;
 }
 
-/// Four independent parts of a random number add up to one that is nearly Gaussian, with a standard
-/// deviation of 1.
+/// The sum of four parts of a random number, nearly Gaussian with a standard deviation of 1.
 inline double gaussian(std::uint64_t bits) {
   int sum = 0;
   for (int i = 0; i < 4; ++i) sum += static_cast<int>((bits >> (16 * i)) & 0xFFFF);
@@ -42,7 +40,6 @@ class RandomStream {
     return low + (high - low) * randomUniform(key_, counter_++);
   }
 
-  /// True with this probability.
   bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
 
   /// One of 0 ... count - 1.

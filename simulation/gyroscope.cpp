@@ -21,12 +21,10 @@ enum Kind : std::uint64_t { kStart, kWalk, kWhite };
 
 /// Three Gaussian numbers with a standard deviation of 1.
 Eigen::Vector3d noise(std::uint64_t seed, Kind kind, std::uint64_t index) {
-  Eigen::Vector3d numbers;
-  for (std::uint64_t axis = 0; axis < 3; ++axis) {
-    numbers[static_cast<Eigen::Index>(axis)] =
-        gaussian(randomBits(seed, 0x6790, 16 * index + 4 * axis + kind));
-  }
-  return numbers;
+  const auto of = [&](std::uint64_t axis) {
+    return gaussian(randomBits(seed, 0x6790, 16 * index + 4 * axis + kind));
+  };
+  return {of(0), of(1), of(2)};
 }
 
 Eigen::Vector3d trueRate(const Drive& drive, double time_s) {

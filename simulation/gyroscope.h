@@ -8,8 +8,7 @@
 
 namespace rotrocc {
 
-/// A gyroscope as drones and cameras have it, at 200 Hz: samples in axes of the camera, from before
-/// `first_ns` until after `last_ns`, at stamps that are not those of frames.
+/// A gyroscope of 200 Hz in axes of the camera, from before `first_ns` until after `last_ns`.
 std::vector<GyroSample> simulateGyroscope(const Drive& drive,
                                           std::int64_t first_ns,
                                           std::int64_t last_ns,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <fstream>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -8,53 +8,32 @@
 
 namespace rotrocc {
 
-/// Writes a simulated drive in the layout of KittiSequence, with poses.txt; with truth also
-///   depth/000000.tiff  32-bit float: depth [m] of each pixel of the left image; 0 for the sky
-///   flow/000000.png    flow from that left image to the next in the format of KITTI's flow
-///                      benchmark: 16 bit, red (u) and green (v) are 64 * flow [px] + 2^15, blue is
-///                      1 where there is one. Flow of 512 px or more does not fit and is left out.
-/// A depth is exact to 1e-7 of itself, a flow to 1/128 px. Calibration, times and poses are there
-/// from the start, and an image appears when it is complete, the right one after the left one: so
-/// others can follow while the drive is being rendered.
+/// Writes a simulated drive. If its images are rectified, in the layout of KittiSequence with
+/// poses.txt, else in ASL format, see AslSequence, with the poses of a body whose x axis looks
+/// forward and stamps from 2011-10-03 on. All but the images is there from the start, and an image
+/// appears when it is complete, the right one after the left one: so others can follow while the
+/// drive is being rendered.
 class SequenceWriter {
  public:
+  struct Extras {
+    bool depth = false;  ///< of rectified left images [m], depth/000000.tiff, float; 0: sky
+    bool imu = false;    ///< a gyroscope: imu.csv in axes of the left camera, or imu0 in ASL format
+  };
+
   /// Creates the directory. Throws std::runtime_error if that fails or if it already has images.
-  SequenceWriter(const std::string& directory, const Simulator& simulator, bool with_truth);
+  SequenceWriter(const std::string& directory, const Simulator& simulator, const Extras& extras);
 
   /// Call for each frame, in order. Throws std::runtime_error if the disk is full.
   void write(const SimulatedFrame& frame);
 
  private:
-  std::string path(const char* folder, const char* extension) const;
+  void startKitti(const Simulator& simulator, bool with_imu);
+  void startAsl(const Simulator& simulator, bool with_imu);
 
   std::string directory_;
-  bool with_truth_;
-  int count_ = 0;
-};
-
-/// Writes a simulated drive of unrectified images in ASL format, see AslSequence, with the poses of
-/// a body whose x axis looks forward. The first stamp is that of 2011-10-03.
-class AslWriter {
- public:
-  /// Creates the directory. Throws std::runtime_error if that fails or if it already has images.
-  AslWriter(const std::string& directory, const UnrectifiedRig& rig, double baseline_m);
-
-  /// A gyroscope in axes of the nominal left camera.
-  void writeGyroscope(std::vector<GyroSample> samples);
-
-  /// Call for each frame, in order. Throws std::runtime_error if the disk is full.
-  void write(const SimulatedFrame& frame, const Eigen::Isometry3d& T_first_left);
-
- private:
-  void writeImage(const std::string& camera,
-                  std::ofstream& list,
-                  std::int64_t stamp_ns,
-                  const cv::Mat& image);
-
-  std::string root_;
-  std::ofstream left_list_;
-  std::ofstream right_list_;
-  std::ofstream poses_;
+  bool with_depth_;
+  std::vector<std::array<std::string, 2>> images_;  // paths of the left and right one of each frame
+  std::size_t count_ = 0;
 };
 
 }  // namespace rotrocc

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -12,30 +13,32 @@ namespace rotrocc {
 /// Motion of the left camera. Poses are in the world of the simulation, where y points down.
 class Drive {
  public:
+  explicit Drive(Path path) : path_(std::move(path)) {}
   virtual ~Drive() = default;
 
-  virtual double duration_s() const = 0;
+  double duration_s() const { return duration_s_; }
 
   /// The path of the camera; it stays at its height above the ground.
-  virtual const Path& path() const = 0;
+  const Path& path() const { return path_; }
 
   /// Distance along the path; constant before the start and after the end.
   virtual double station_m(double time_s) const = 0;
 
-  /// T_world_camera.
-  virtual Eigen::Isometry3d pose(double time_s) const = 0;
+  virtual Eigen::Isometry3d pose(double time_s) const = 0;  ///< T_world_camera
+
+ protected:
+  Path path_;
+  double duration_s_ = 0.0;
 };
 
-/// A phase of a drive: the speed changes smoothly, with continuous acceleration, from that of the
-/// previous phase to its own.
+/// A phase of a drive: the speed changes smoothly from that of the previous phase to its own.
 struct SpeedPhase {
   double distance_m;
   double speed_mps;      ///< at its end
   double stand_s = 0.0;  ///< standstill at its end, if that speed is 0
 };
 
-/// Motion of the camera relative to the direction of the drive, as by the body of a car or by a
-/// hand.
+/// Motion of the camera relative to the direction of the drive, as by a car's body or a hand.
 struct Sway {
   double pitch_rad_per_mps2 = 0.004;  ///< its nose dips when it brakes
   double roll_rad_per_mps2 = 0.005;   ///< it leans out of a bend
@@ -46,7 +49,6 @@ struct Sway {
   double look_yaw_rad = 0.0;          ///< amplitude of yaw at 0.6 Hz; a fifth of it at 1.9 Hz
 };
 
-/// A drive along a path with given speed phases.
 class ScriptedDrive : public Drive {
  public:
   /// Starts with `initial_speed_mps` at the start of the path, which must be as long as the phases.
@@ -56,50 +58,40 @@ class ScriptedDrive : public Drive {
                 double initial_speed_mps,
                 const Sway& sway);
 
-  double duration_s() const override { return duration_s_; }
-  const Path& path() const override { return path_; }
-  double station_m(double time_s) const override;
+  double station_m(double time_s) const override { return progress(time_s).station_m; }
   Eigen::Isometry3d pose(double time_s) const override;
 
  private:
-  double speed_mps(double time_s) const;
+  struct Progress {
+    double station_m;
+    double speed_mps;
+  };
+  Progress progress(double time_s) const;
 
-  Path path_;
   std::vector<SpeedPhase> phases_;
   double initial_speed_mps_;
   Sway sway_;
-  double duration_s_ = 0.0;
 };
 
-/// A recorded drive, with smooth interpolation between its poses. Before the first and after the
-/// last one it goes on at the same velocity: an exposure may begin and end there.
+/// A recorded drive. Between its poses, before the first and after the last one the velocities are
+/// constant: an exposure may begin and end there.
 class RecordedDrive : public Drive {
  public:
-  /// The stamps count from the first pose. Throws std::invalid_argument for fewer than two poses,
-  /// or poses without motion.
+  /// The stamps count from the first pose. Throws std::invalid_argument for poses within 1 m.
   explicit RecordedDrive(Trajectory trajectory);
 
-  double duration_s() const override { return times_s_.back(); }
-  const Path& path() const override { return path_; }
   double station_m(double time_s) const override;
   Eigen::Isometry3d pose(double time_s) const override;
 
  private:
-  /// The poses before and after one.
-  struct Difference {
-    const Eigen::Isometry3d& before;
-    const Eigen::Isometry3d& after;
-    double length_s;
+  struct Place {
+    std::size_t index;
+    double t;  // from 0 at pose `index` to 1 at the next; beyond them outside the recording
   };
-  Difference differenceAt(std::size_t pose) const;
-  Eigen::Vector3d velocity(std::size_t pose) const;
-  Eigen::Vector3d rate(std::size_t pose) const;
-  std::size_t intervalAt(double time_s) const;
-  Eigen::Isometry3d between(double time_s) const;
+  Place placeAt(double time_s) const;
 
   Trajectory trajectory_;
   std::vector<double> times_s_;
-  Path path_;
   std::vector<double> stations_m_;
 };
 

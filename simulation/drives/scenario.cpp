@@ -1,19 +1,88 @@
 #include "simulation/drives/scenario.h"
 
 #include <cmath>
-#include <functional>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
-
-#include "simulation/street/street_style.h"
 
 namespace rotrocc {
 namespace {
 
 constexpr double kBeyond_m = 160.0;  // extension of the street before the start and after the end
-constexpr double kSpacing_m = 0.5;   // between the points of a street
 constexpr double kRight_rad = 0.5 * M_PI;
+constexpr double kFar_m = 1000.0;
+
+Marking line(double right_m, double width_m) {
+  return {right_m, width_m, 1.0, 1.0};
+}
+
+/// A street in a town: parked cars, pavements, houses.
+StreetStyle townStyle() {
+  StreetStyle style;
+  style.zones = {{-5.7, 5.7, Pavement::kAsphalt},
+                 {-10.5, -5.7, Pavement::kSlabs},
+                 {5.7, 10.5, Pavement::kSlabs}};
+  style.markings = {{0.0, 0.13, 6.0, 3.0}, {-3.5, 0.12, 2.0, 1.0}, {3.5, 0.12, 2.0, 1.0}};
+  style.kerb_m = 5.8;
+  style.houses_m = 9.0;
+  style.parked_m = 4.65;
+  style.parked_share = 0.6;
+  style.trees_m = 6.7;
+  style.lamps_m = 6.3;
+  return style;
+}
+
+/// One half of a motorway with the other beyond a guard rail, between woods.
+StreetStyle motorwayStyle() {
+  StreetStyle style;
+  style.zones = {{-4.9, 6.8, Pavement::kAsphalt}, {-19.5, -7.8, Pavement::kAsphalt}};
+  style.markings = {{0.0, 0.15, 18.0, 6.0},
+                    line(-3.75, 0.2),
+                    line(3.75, 0.25),
+                    {-12.7, 0.15, 18.0, 6.0},
+                    line(-8.9, 0.2),
+                    line(-16.5, 0.25)};
+  style.asphalt_contrast = 0.35;
+  style.repairs_share = 0.0;
+  style.lane_m = 1.9;
+  style.clear_half_width_m = 5.5;
+  style.guard_rail_m = 7.4;
+  style.forest_m = 24.0;
+  style.gantry_spacing_m = 240.0;
+  return style;
+}
+
+/// A single lane through a meadow.
+StreetStyle rampStyle() {
+  StreetStyle style;
+  style.zones = {{-3.4, 3.4, Pavement::kAsphalt}};
+  style.markings = {line(-2.9, 0.15), line(2.9, 0.15)};
+  style.asphalt_contrast = 0.4;
+  style.repairs_share = 0.0;
+  style.lane_m = 0.0;
+  style.clear_half_width_m = 3.6;
+  style.lamps_m = 4.6;
+  style.lamp_spacing_m = 45.0;
+  style.forest_m = 30.0;
+  return style;
+}
+
+/// Rows of cars parked at right angles, with houses around.
+StreetStyle carParkStyle() {
+  StreetStyle style;
+  style.zones = {{-kFar_m, kFar_m, Pavement::kAsphalt}};
+  style.bays = {{-8.3, -3.4, 2.6}, {3.4, 8.3, 2.6}};
+  style.lane_m = 0.9;
+  style.clear_half_width_m = 3.3;
+  style.kerb_m = 8.6;
+  style.houses_m = 14.0;
+  style.parked_m = 5.8;
+  style.parked_share = 0.65;
+  style.parked_across = true;
+  style.trees_m = 10.0;
+  style.lamps_m = 9.2;
+  style.lamp_spacing_m = 18.0;
+  return style;
+}
 
 std::vector<PathPiece> joined(const std::vector<std::vector<PathPiece>>& groups) {
   std::vector<PathPiece> pieces;
@@ -31,62 +100,20 @@ double hills(double station_m) {
 
 /// The street of a path, with its extensions.
 Scenario alongOneStreet(std::shared_ptr<const Drive> drive, StreetStyle style, std::uint64_t seed) {
-  Scenario scenario;
-  scenario.world.streets = {drive->path().beside(-style.lane_m, kBeyond_m)};
-  scenario.world.drives = {drive->path()};
-  scenario.world.beyond_m = kBeyond_m;
-  scenario.traffic.oncoming_m = -2.0 * style.lane_m;
-  scenario.world.style = std::move(style);
-  scenario.world.seed = seed;
-  scenario.drive = std::move(drive);
-  return scenario;
+  TrafficPlan traffic;
+  traffic.oncoming_m = -2.0 * style.lane_m;
+  const Path street = drive->path().beside(-style.lane_m, kBeyond_m);
+  WorldPlan world = {{street}, drive->path(), kBeyond_m, std::move(style), {}, seed};
+  return {std::move(drive), std::move(world), traffic, {}};
 }
 
-/// A street that branches off the path of a drive at a station, straight ahead or to a side.
-Path sideStreet(const Path& path, double station_m, double angle_rad, double lane_m) {
+/// A street that goes straight on where the path of a drive bends.
+Path sideStreet(const Path& path, double station_m, double lane_m) {
   constexpr double kLength_m = 120.0;
-  const Eigen::AngleAxisd turned(angle_rad, Eigen::Vector3d::UnitY());
-  const Eigen::Vector3d direction = turned * path.direction(station_m);
+  const Eigen::Vector3d direction = path.direction(station_m);
   const Eigen::Vector3d start = path.position(station_m);
   return Path({start, start + kLength_m * Eigen::Vector3d(direction.x(), 0.0, direction.z())})
       .beside(-lane_m);
-}
-
-/// The centre lines of the streets along a path, `right_m` beside it and `beyond_m` longer at both
-/// ends. Where the path comes within `same_street_m` of an earlier street, it reuses that street.
-std::vector<Path> streetsAlong(const Path& path,
-                               double right_m,
-                               double beyond_m,
-                               double same_street_m) {
-  constexpr double kNeighbour_m = 40.0;  // least distance along a path between two passages
-  constexpr double kMinLength_m = 10.0;  // of a street
-  const Path line = path.beside(right_m, beyond_m);
-  std::vector<Path> streets;
-  std::vector<std::pair<Eigen::Vector3d, double>> passed;  // points with their stations
-  std::vector<Eigen::Vector3d> points;                     // of the street that is being built
-  const auto cameBy = [&](const Eigen::Vector3d& point, double station) {
-    for (const auto& [other, other_station] : passed) {
-      if (station - other_station < kNeighbour_m) return false;
-      if (std::hypot(point.x() - other.x(), point.z() - other.z()) < same_street_m) return true;
-    }
-    return false;
-  };
-  const auto finish = [&] {
-    if (static_cast<double>(points.size()) * kSpacing_m >= kMinLength_m)
-      streets.emplace_back(points);
-    points.clear();
-  };
-  for (double station = 0.0; station <= line.length_m(); station += kSpacing_m) {
-    const Eigen::Vector3d point = line.position(station);
-    if (cameBy(point, station)) {
-      finish();
-      continue;
-    }
-    passed.emplace_back(point, station);
-    points.push_back(point);
-  }
-  finish();
-  return streets;
 }
 
 Scenario city(std::uint64_t seed) {
@@ -116,8 +143,8 @@ Scenario city(std::uint64_t seed) {
   const double lane = scenario.world.style.lane_m;
   const double first_turn = 62.0;
   const double second_turn = 170.0;
-  scenario.world.streets.push_back(sideStreet(drive->path(), first_turn, 0.0, lane));
-  scenario.world.streets.push_back(sideStreet(drive->path(), second_turn, 0.0, lane));
+  scenario.world.streets.push_back(sideStreet(drive->path(), first_turn, lane));
+  scenario.world.streets.push_back(sideStreet(drive->path(), second_turn, lane));
   scenario.world.crossings = {
       {0, kBeyond_m + 156.5, true}, {0, kBeyond_m + 155.3, false}, {0, kBeyond_m + 40.0, true}};
   return scenario;
@@ -164,17 +191,6 @@ Scenario parking(std::uint64_t seed) {
   return scenario;
 }
 
-Scenario shake(std::uint64_t seed) {
-  constexpr double kDegree = M_PI / 180.0;
-  const auto pieces = joined({{{80.0, 0.0}}, turn(0.4, 70.0, 15.0), {{90.0, 0.0}}});
-  Sway sway;
-  sway.shake_pitch_rad = 1.5 * kDegree;
-  sway.shake_roll_rad = 2.5 * kDegree;
-  auto drive = std::make_shared<ScriptedDrive>(
-      layPath(pieces, hills), std::vector<SpeedPhase>{{200.0, 8.0}}, 8.0, sway);
-  return alongOneStreet(drive, townStyle(), seed);
-}
-
 Scenario handheld(std::uint64_t seed) {
   constexpr double kDegree = M_PI / 180.0;
   const auto pieces = joined({{{20.0, 0.0}}, turn(0.4, 30.0, 8.0), {{25.0, 0.0}}});
@@ -188,59 +204,33 @@ Scenario handheld(std::uint64_t seed) {
   return alongOneStreet(drive, townStyle(), seed);
 }
 
-Scenario night(std::uint64_t seed) {
-  Scenario scenario = city(seed);
-  scenario.world.lighting = nightLighting();
-  scenario.world.style.lamp_overhang_m = 2.0;  // all lamps
-  scenario.exposure = {0.018, 8.0};
-  return scenario;
-}
-
-using Maker = std::function<Scenario(std::uint64_t)>;
-
-const std::vector<std::pair<std::string, Maker>>& makers() {
-  static const std::vector<std::pair<std::string, Maker>> kMakers = {{"city", city},
-                                                                     {"motorway", motorway},
-                                                                     {"slip_road", slipRoad},
-                                                                     {"parking", parking},
-                                                                     {"shake", shake},
-                                                                     {"handheld", handheld},
-                                                                     {"night", night},
-                                                                     {"hall", hall}};
-  return kMakers;
-}
-
 }  // namespace
 
-const std::vector<std::string>& scenarioNames() {
-  static const std::vector<std::string> kNames = [] {
-    std::vector<std::string> names;
-    for (const auto& maker : makers()) names.push_back(maker.first);
-    return names;
-  }();
-  return kNames;
-}
-
 Scenario scenario(const std::string& name, std::uint64_t seed) {
-  for (const auto& [known, make] : makers()) {
+  const std::pair<const char*, Scenario (*)(std::uint64_t)> makers[] = {{"city", city},
+                                                                        {"motorway", motorway},
+                                                                        {"slip_road", slipRoad},
+                                                                        {"parking", parking},
+                                                                        {"handheld", handheld}};
+  std::string names;
+  for (const auto& [known, make] : makers) {
     if (known == name) return make(seed);
+    names += names.empty() ? known : std::string(", ") + known;
   }
-  const std::vector<std::string>& names = scenarioNames();
-  throw std::invalid_argument(
-      "there is no scenario '" + name + "': choose one of " +
-      std::accumulate(names.begin() + 1,
-                      names.end(),
-                      names.front(),
-                      [](const std::string& a, const std::string& b) { return a + ", " + b; }));
+  throw std::invalid_argument("there is no scenario '" + name + "': choose one of " + names);
 }
 
 Scenario scenarioAlong(const Trajectory& trajectory, std::uint64_t seed) {
-  constexpr double kSameStreet_m = 5.0;
   constexpr double kShortBeyond_m = 60.0;
+  constexpr double kSpacing_m = 0.5;  // between the points of the street
   auto drive = std::make_shared<RecordedDrive>(trajectory);
   Scenario scenario = alongOneStreet(drive, townStyle(), seed);
-  scenario.world.streets =
-      streetsAlong(drive->path(), -scenario.world.style.lane_m, kShortBeyond_m, kSameStreet_m);
+  const Path street = drive->path().beside(-scenario.world.style.lane_m, kShortBeyond_m);
+  std::vector<Eigen::Vector3d> points;
+  for (double station = 0.0; station <= street.length_m(); station += kSpacing_m) {
+    points.push_back(street.position(station));
+  }
+  scenario.world.streets = {Path(std::move(points))};
   for (const StampedPose& pose : trajectory) {
     scenario.stamps_ns.push_back(pose.stamp_ns - trajectory.front().stamp_ns);
   }

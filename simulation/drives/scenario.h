@@ -7,40 +7,26 @@
 
 #include "simulation/drives/drive.h"
 #include "simulation/drives/traffic.h"
-#include "simulation/rendering/sensor.h"
 #include "simulation/scene/world.h"
 
 namespace rotrocc {
 
-/// A drive with its world and traffic.
 struct Scenario {
   std::shared_ptr<const Drive> drive;
   WorldPlan world;
   TrafficPlan traffic;
-  Exposure exposure;
   std::vector<std::int64_t> stamps_ns;  ///< of the frames; empty: at any rate
 };
-
-/// Names for scenario().
-const std::vector<std::string>& scenarioNames();
 
 /// A scenario by name; throws std::invalid_argument, listing all names, if unknown.
 ///   city       300 m through a town with two turns and a stop
 ///   motorway   25 m/s on a nearly straight motorway, little texture near by
 ///   slip_road  a bend of 22 m radius at 10 m/s, 26 deg/s, through a meadow
 ///   parking    0.8 m/s in a car park, with a stop while a car passes close by
-///   shake      a town street with strong pitching and rolling
-///   handheld   1.4 m/s along that street, looking around with up to 120 deg/s
-///   night      city at night: head lamps, a long exposure, noise
-///   hall       a multicopter in a hall of 16 m x 24 m: take-off, a turn of 100 deg/s on the spot,
-///              a wall at half a metre
+///   handheld   1.4 m/s along a town street, looking around with up to 120 deg/s
 Scenario scenario(const std::string& name, std::uint64_t seed);
 
-/// The scenario hall.
-Scenario hall(std::uint64_t seed);
-
-/// A town along a recorded drive, including hills. A street that the drive revisits is built once.
-/// The frames have the stamps of the poses, from 0.
+/// A town along a recorded drive, including hills. The frames have the stamps of the poses, from 0.
 Scenario scenarioAlong(const Trajectory& trajectory, std::uint64_t seed);
 
 }  // namespace rotrocc

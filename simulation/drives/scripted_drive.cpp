@@ -37,7 +37,7 @@ ScriptedDrive::ScriptedDrive(Path path,
                              std::vector<SpeedPhase> phases,
                              double initial_speed_mps,
                              const Sway& sway)
-    : path_(std::move(path)),
+    : Drive(std::move(path)),
       phases_(std::move(phases)),
       initial_speed_mps_(initial_speed_mps),
       sway_(sway) {
@@ -48,45 +48,32 @@ ScriptedDrive::ScriptedDrive(Path path,
   }
 }
 
-double ScriptedDrive::station_m(double time_s) const {
-  if (time_s < 0.0) return initial_speed_mps_ * time_s;
+ScriptedDrive::Progress ScriptedDrive::progress(double time_s) const {
+  if (time_s < 0.0) return {initial_speed_mps_ * time_s, initial_speed_mps_};
   double speed = initial_speed_mps_;
   double station = 0.0;
   for (const SpeedPhase& phase : phases_) {
     const double duration = phaseDuration(phase, speed);
     if (time_s < duration) {
       const double t = time_s / duration;
-      return station + duration * (speed * t + (phase.speed_mps - speed) * easeIntegral(t));
+      return {station + duration * (speed * t + (phase.speed_mps - speed) * easeIntegral(t)),
+              speed + (phase.speed_mps - speed) * ease(t)};
     }
     station += phase.distance_m;
     speed = phase.speed_mps;
     time_s -= duration + phase.stand_s;
-    if (time_s < 0.0) return station;
+    if (time_s < 0.0) return {station, speed};
   }
-  return station + speed * time_s;
-}
-
-double ScriptedDrive::speed_mps(double time_s) const {
-  double speed = initial_speed_mps_;
-  for (const SpeedPhase& phase : phases_) {
-    const double duration = phaseDuration(phase, speed);
-    if (time_s < duration) {
-      return speed + (phase.speed_mps - speed) * ease(std::max(0.0, time_s / duration));
-    }
-    speed = phase.speed_mps;
-    time_s -= duration + phase.stand_s;
-    if (time_s < 0.0) break;
-  }
-  return speed;
+  return {station + speed * time_s, speed};
 }
 
 Eigen::Isometry3d ScriptedDrive::pose(double time_s) const {
   constexpr double kStep_s = 1e-3;
   constexpr double kStep_m = 0.5;
-  const double station = station_m(time_s);
-  const double speed = speed_mps(time_s);
+  const auto [station, speed] = progress(time_s);
   const double forward_mps2 =
-      (speed_mps(time_s + kStep_s) - speed_mps(time_s - kStep_s)) / (2.0 * kStep_s);
+      (progress(time_s + kStep_s).speed_mps - progress(time_s - kStep_s).speed_mps) /
+      (2.0 * kStep_s);
   const double bend = std::remainder(
       path_.heading_rad(station + kStep_m) - path_.heading_rad(station - kStep_m), 2.0 * M_PI);
   const double right_mps2 = speed * speed * bend / (2.0 * kStep_m);

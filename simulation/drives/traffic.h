@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "simulation/drives/drive.h"
@@ -18,51 +17,35 @@ struct TrafficPlan {
   double overtaking_mps = 0.0;     ///< 0: nothing overtakes
   bool leader = true;              ///< a car drives ahead of the camera
   std::vector<double> meetings_s;  ///< at these times an oncoming car is met for certain
-  std::optional<Body> lorry;       ///< straight ahead of the camera, and moving with it
-  double lorry_across_mps = 0.0;   ///< its speed to the right, relative to the camera
-};
-
-/// The cars that move, at one time.
-struct MovingCars {
-  std::vector<int> cars;     ///< which; a car keeps its number
-  std::vector<Body> bodies;  ///< where
 };
 
 /// The moving cars of a drive.
 class Traffic {
  public:
-  /// `share` is that of the places for moving cars that are taken, from 0 (none) to 1. Drive and
-  /// world must outlive it.
+  /// `share`, 0 to 1, of the places for cars is taken. Drive and world must outlive it.
   Traffic(const TrafficPlan& plan,
           const Drive& drive,
           const World& world,
           double share,
           std::uint64_t seed);
 
-  int size() const { return static_cast<int>(cars_.size()); }
-
-  /// Those that can be seen from the camera at a time.
-  MovingCars at(double time_s) const;
-
-  /// T_world_car.
-  Eigen::Isometry3d pose(int car, double time_s) const;
+  /// The cars that can be seen from the camera at a time.
+  std::vector<Body> at(double time_s) const;
 
  private:
   struct Car {
     Body body;
     double right_m;
-    double station_m;          // at time 0; for a leader: how far ahead of where the camera will be
-    double speed_mps;          // along the path; negative: oncoming
-    double lead_s;             // a leader is where the camera will be after that time; 0: no leader
-    bool with_camera = false;  // its places are relative to the camera
+    double station_m;  // at time 0; for a leader: how far ahead of where the camera will be
+    double speed_mps;  // along the path; negative: oncoming
+    double lead_s;     // a leader is where the camera will be after that time; 0: no leader
   };
 
   double stationOf(const Car& car, double time_s) const;
-  Eigen::Isometry3d poseWithCamera(const Car& car, double time_s) const;
+  Eigen::Isometry3d poseAt(const Car& car, double station) const;
 
   const Drive& drive_;
   const World& world_;
-  double lorry_across_mps_;
   std::vector<Car> cars_;
 };
 

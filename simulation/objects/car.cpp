@@ -20,24 +20,16 @@ struct CarSize {
 };
 
 /// Lacquer with the lights, plates and seams of a car's lower body.
-class CarBody : public Material {
+class CarBody {
  public:
-  CarBody(const CarSize& size, double paint, bool lit) : size_(size), paint_(paint), lit_(lit) {}
+  CarBody(const CarSize& size, double paint) : size_(size), paint_(paint) {}
 
-  double reflectance(const SurfacePoint& point) const override {
+  double operator()(const SurfacePoint& point) const {
     const double height = -point.position.y();
     const double sheen = 0.75 + 0.35 * smoothStep(0.3, size_.belt, height);
     if (std::abs(point.normal.x()) > 0.6) return side(point, sheen);
     if (std::abs(point.normal.z()) > 0.6) return end(point, sheen);
     return paint_ * sheen + 0.12 * std::abs(point.normal.y());  // the sky in the bonnet
-  }
-
-  double gloss(const SurfacePoint& /*point*/) const override { return 0.6; }
-
-  double glow(const SurfacePoint& point) const override {
-    if (!lit_ || std::abs(point.normal.z()) <= 0.6) return 0.0;
-    const bool front = point.normal.z() > 0.0;
-    return (front ? 12.0 : 0.8) * lamps(faceCoordinates(point), front);
   }
 
  private:
@@ -93,61 +85,44 @@ class CarBody : public Material {
 
   CarSize size_;
   double paint_;
-  bool lit_;
 };
 
 /// Windows between painted pillars, and the roof.
-class CarCabin : public Material {
- public:
-  CarCabin(const CarSize& size, double paint) : size_(size), paint_(paint) {}
-
-  double reflectance(const SurfacePoint& point) const override {
-    if (point.normal.y() < -0.9) return 0.95 * paint_ + 0.08;
+Material cabinMaterial(const CarSize& size, double paint) {
+  return {[=](const SurfacePoint& point) {
+    if (point.normal.y() < -0.9) return 0.95 * paint + 0.08;
     const TexturePoint at = faceCoordinates(point);
     const double width = at.pixelWidth();
     const double height = at.pixelHeight();
-    double glass = coverageBetween(size_.belt + 0.05, size_.roof - 0.09, at.at.y(), height);
+    double glass = coverageBetween(size.belt + 0.05, size.roof - 0.09, at.at.y(), height);
     if (std::abs(point.normal.x()) > 0.6) {
       for (const double pillar : {-0.85, 0.1}) {
         glass *= 1.0 - coverageBetween(pillar - 0.05, pillar + 0.05, at.at.x(), width);
       }
     } else {
-      const double half = size_.half_width - 0.2;
+      const double half = size.half_width - 0.2;
       glass *= coverageBetween(-half, half, at.at.x(), width);
     }
-    const double sky = 0.05 + 0.3 * smoothStep(size_.belt, size_.roof + 0.2, at.at.y());
-    return mix(paint_, sky, glass);
-  }
+    const double sky = 0.05 + 0.3 * smoothStep(size.belt, size.roof + 0.2, at.at.y());
+    return mix(paint, sky, glass);
+  }};
+}
 
-  double gloss(const SurfacePoint& /*point*/) const override { return 1.0; }
-
- private:
-  CarSize size_;
-  double paint_;
-};
-
-/// A tyre around a rim with five spokes.
-class Wheel : public Material {
- public:
-  Wheel(double z, double radius) : z_(z), radius_(radius) {}
-
-  double reflectance(const SurfacePoint& point) const override {
+/// A tyre around a rim with five spokes, its hub at `hub_z`.
+Material wheelMaterial(double hub_z, double wheel_radius) {
+  return {[=](const SurfacePoint& point) {
     if (std::abs(point.normal.x()) < 0.5) return 0.06;
-    const double y = -point.position.y() - radius_;
-    const double z = point.position.z() - z_;
+    const double y = -point.position.y() - wheel_radius;
+    const double z = point.position.z() - hub_z;
     const double width = std::max(std::hypot(point.per_row.y(), point.per_row.z()), 1e-4);
     const double radius = std::hypot(y, z);
-    const double rim = 1.0 - coverageAbove(0.62 * radius_, radius, width);
-    const double hub = 1.0 - coverageAbove(0.2 * radius_, radius, width);
-    const double fine = 1.0 - smoothStep(0.1, 0.3, width / radius_);
+    const double rim = 1.0 - coverageAbove(0.62 * wheel_radius, radius, width);
+    const double hub = 1.0 - coverageAbove(0.2 * wheel_radius, radius, width);
+    const double fine = 1.0 - smoothStep(0.1, 0.3, width / wheel_radius);
     const double spokes = 0.5 + 0.5 * fine * std::sin(5.0 * std::atan2(y, z));
     return mix(0.06, mix(0.15 + 0.5 * spokes, 0.55, hub), rim);
-  }
-
- private:
-  double z_;
-  double radius_;
-};
+  }};
+}
 
 CarSize randomCar(RandomStream& random) {
   CarSize size;
@@ -214,18 +189,18 @@ std::shared_ptr<Shape> cabinShape(const CarSize& size) {
 
 }  // namespace
 
-Body makeCar(RandomStream& random, bool lit) {
+Body makeCar(RandomStream& random) {
   const bool van = random.chance(0.12);
   const CarSize size = van ? randomVan(random) : randomCar(random);
   const double paint = random.chance(0.35) ? random.uniform(0.55, 0.85) : random.uniform(0.07, 0.4);
-  std::vector<Part> parts = {{bodyShape(size), std::make_shared<CarBody>(size, paint, lit)},
-                             {cabinShape(size), std::make_shared<CarCabin>(size, paint)}};
+  std::vector<Part> parts = {{bodyShape(size), {CarBody(size, paint)}},
+                             {cabinShape(size), cabinMaterial(size, paint)}};
   for (const double end : {-1.0, 1.0}) {
-    const auto wheel = std::make_shared<Wheel>(end * size.axle, size.wheel_radius);
+    const Material wheel = wheelMaterial(end * size.axle, size.wheel_radius);
     for (const double side : {-1.0, 1.0}) {
       const Eigen::Vector3d hub(
           side * (size.half_width - 0.11), -size.wheel_radius, end * size.axle);
-      parts.push_back({std::make_shared<Cylinder>(0, hub, size.wheel_radius, 0.12), wheel});
+      parts.push_back({cylinder(0, hub, size.wheel_radius, 0.12), wheel});
     }
   }
   return Body(std::move(parts));

@@ -13,26 +13,23 @@ constexpr double kFoundation = 4.0;  // [m] below the ground, for houses on slop
 
 /// Lengths in metres, brightnesses as reflectances.
 struct FacadeStyle {
-  double half_width = 6.0;  ///< of the front
-  double half_depth = 5.0;
-  int floors = 3;
-  double floor_height = 3.0;
-  double window_spacing = 2.6;
-  double window_width = 1.2;
-  double window_height = 1.5;
-  double sill_height = 0.9;  ///< height of the windows above their floor
-  double wall = 0.6;
-  double frame = 0.8;
-  double shutters = 0.0;  ///< their brightness; 0: none
-  bool bricks = false;
-  bool shop = false;  ///< large panes on the ground floor
-  int door = 1;       ///< column of windows that it replaces
-  std::uint64_t key = 0;
+  double half_width, half_depth;  // the front is wide
+  int floors;
+  double floor_height;
+  double window_spacing, window_width, window_height;
+  double wall, frame;
+  double shutters;  // their brightness; 0: none
+  bool bricks;
+  bool shop;  // large panes on the ground floor
+  int door;   // column of windows that it replaces
+  std::uint64_t key;
 };
+
+constexpr double kSill_m = 0.9;  // height of the windows above their floor
 
 /// The walls of a house: windows with frames, sills and panes of different brightness, a door or a
 /// shop, a plinth and ledges between the floors.
-class Facade : public Material {
+class Facade {
  public:
   Facade(const FacadeStyle& style, const TextureTiles& tiles)
       : style_(style),
@@ -40,28 +37,12 @@ class Facade : public Material {
         front_half_row_(halfRow(style.half_width)),
         side_half_row_(halfRow(style.half_depth)) {}
 
-  double reflectance(const SurfacePoint& point) const override {
+  double operator()(const SurfacePoint& point) const {
     const Place place = placeOf(point);
     double brightness = wall(place);
     brightness = withLedges(place, brightness);
     brightness = withWindows(place, brightness);
     return withGroundFloor(place, brightness);
-  }
-
-  double gloss(const SurfacePoint& point) const override {
-    return windowCoverage(placeOf(point), 0.0);
-  }
-
-  double glow(const SurfacePoint& point) const override {
-    constexpr double kLitShare = 0.3;
-    const Place place = placeOf(point);
-    if (place.row < 1.0 && (style_.shop || place.column == style_.door)) return 0.0;
-    const double glass = glassCoverage(place);
-    if (glass <= 0.0) return 0.0;
-    const double window = luck(place);  // those with half a curtain
-    const double room = mix(0.25, 0.7, tiles_.blotches.at(scaled(place.point, 0.5)));
-    const double single = window > 0.55 && window < 0.55 + kLitShare ? room : 0.0;
-    return glass * mix(0.45 * kLitShare, single, place.resolved);
   }
 
  private:
@@ -118,7 +99,7 @@ class Facade : public Material {
 
   double windowCoverage(const Place& place, double margin_m) const {
     const double left = 0.5 * (style_.window_spacing - style_.window_width) - margin_m;
-    const double bottom = style_.sill_height - margin_m;
+    const double bottom = kSill_m - margin_m;
     return place.windows *
            coveragePeriodic(style_.window_spacing,
                             style_.window_width + 2.0 * margin_m,
@@ -130,27 +111,11 @@ class Facade : public Material {
                             place.height);
   }
 
-  double glassCoverage(const Place& place) const {
-    const double spacing = style_.window_spacing;
-    const double bar =
-        coveragePeriodic(spacing, 0.07, place.u - 0.5 * spacing + 0.035, place.width);
-    const double crossbar =
-        coveragePeriodic(style_.floor_height,
-                         0.06,
-                         place.v - style_.sill_height - 0.68 * style_.window_height,
-                         place.height);
-    return windowCoverage(place, 0.0) * (1.0 - bar) * (1.0 - crossbar);
-  }
-
-  double luck(const Place& place) const {
+  double pane(const Place& place) const {
     const auto column = static_cast<std::uint64_t>(static_cast<std::int64_t>(place.column));
     const auto row = static_cast<std::uint64_t>(static_cast<std::int64_t>(place.row));
-    return randomUniform(style_.key, column, row);
-  }
-
-  double pane(const Place& place) const {
-    const double luck = this->luck(place);
-    const double v = place.v - place.row * style_.floor_height - style_.sill_height;
+    const double luck = randomUniform(style_.key, column, row);
+    const double v = place.v - place.row * style_.floor_height - kSill_m;
     const double reflection =
         0.22 * tiles_.blotches.at({0.17 * place.point.at + Eigen::Vector2d(0.37 * luck, 0.0),
                                    0.17 * place.point.per_column,
@@ -169,17 +134,20 @@ class Facade : public Material {
       const double shutter_left = 0.5 * spacing - 2.0 * half;
       const double beside =
           coveragePeriodic(spacing, 4.0 * half, place.u - shutter_left, place.width) *
-          coveragePeriodic(style_.floor_height,
-                           style_.window_height,
-                           place.v - style_.sill_height,
-                           place.height);
+          coveragePeriodic(
+              style_.floor_height, style_.window_height, place.v - kSill_m, place.height);
       const double slats = 0.75 + 0.5 * coveragePeriodic(0.12, 0.06, place.v, place.height);
       brightness = mix(brightness, style_.shutters * slats, beside * place.windows);
     }
     const double frame = windowCoverage(place, 0.1);
     if (frame <= 0.0) return brightness;
     brightness = mix(brightness, style_.frame, frame);
-    return mix(brightness, pane(place), glassCoverage(place));
+    const double bar =
+        coveragePeriodic(spacing, 0.07, place.u - 0.5 * spacing + 0.035, place.width);
+    const double crossbar = coveragePeriodic(
+        style_.floor_height, 0.06, place.v - kSill_m - 0.68 * style_.window_height, place.height);
+    const double glass = windowCoverage(place, 0.0) * (1.0 - bar) * (1.0 - crossbar);
+    return mix(brightness, pane(place), glass);
   }
 
   double withGroundFloor(const Place& place, double brightness) const {
@@ -234,7 +202,7 @@ FacadeStyle randomStyle(const HouseSize& size, RandomStream& random) {
   return style;
 }
 
-/// A roof over the walls whose ridge runs along the street.
+/// Its ridge runs along the street.
 Part makeRoof(const FacadeStyle& style,
               double walls,
               const TextureTiles& tiles,
@@ -248,7 +216,7 @@ Part makeRoof(const FacadeStyle& style,
     roof->cut({0.0, -half_depth, side * rise}, {0.0, -walls - rise, 0.0});
   }
   const double mean = random.uniform(0.22, 0.42);
-  return {roof, std::make_shared<TexturedMaterial>(tiles.roof_tiles, mean, mean)};
+  return {roof, textured(tiles.roof_tiles, mean, mean)};
 }
 
 Part makeChimney(const FacadeStyle& style,
@@ -259,37 +227,27 @@ Part makeChimney(const FacadeStyle& style,
   const double z = random.uniform(-0.3, 0.3) * style.half_depth;
   const double top = walls + style.half_depth + random.uniform(0.2, 0.8);
   return {boxBetween({x - 0.4, -top, z - 0.3}, {x + 0.4, -walls, z + 0.3}),
-          std::make_shared<TexturedMaterial>(tiles.bricks, 0.35, 0.5)};
+          textured(tiles.bricks, 0.35, 0.5)};
 }
 
-/// A board over the shop windows with a word or two in bright letters.
-class ShopSign : public Material {
- public:
-  /// Shows line `line` (0 ... 7) of the texture, enlarged to a height of 0.65 m.
-  ShopSign(const Texture& texture, int line, double bottom_m, double board)
-      : texture_(texture), line_(line), bottom_m_(bottom_m), board_(board) {}
-
-  double reflectance(const SurfacePoint& point) const override {
+/// A board over the shop windows with a word or two in bright letters: line `line` (0 ... 7) of the
+/// texture, enlarged to a height of 0.65 m.
+Material shopSign(const Texture& texture, int line, double bottom_m, double board) {
+  return {[=, &texture](const SurfacePoint& point) {
     TexturePoint words = faceCoordinates(point);
-    words.at.y() -= bottom_m_;
+    words.at.y() -= bottom_m;
     words = scaled(words, 0.125 / 0.65);
-    words.at.y() += 0.125 * line_;
-    return mix(board_, 0.9, texture_.at(words));
-  }
-
- private:
-  const Texture& texture_;
-  int line_;
-  double bottom_m_;
-  double board_;
-};
+    words.at.y() += 0.125 * line;
+    return mix(board, 0.9, texture.at(words));
+  }};
+}
 
 Part makeShopSign(const FacadeStyle& style, const TextureTiles& tiles, RandomStream& random) {
   const double half = random.uniform(0.4, 0.9) * style.half_width;
   const double front = -style.half_depth;
   const int line = random.index(8);
   return {boxBetween({-half, -3.2, front - 0.15}, {half, -2.55, front}),
-          std::make_shared<ShopSign>(tiles.writing, line, 2.55, random.uniform(0.08, 0.3))};
+          shopSign(tiles.writing, line, 2.55, random.uniform(0.08, 0.3))};
 }
 
 }  // namespace
@@ -299,7 +257,7 @@ Body makeHouse(const HouseSize& size, const TextureTiles& tiles, RandomStream& r
   const double walls = style.floors * style.floor_height + 0.5;
   std::vector<Part> parts = {{boxBetween({-style.half_width, -walls, -style.half_depth},
                                          {style.half_width, kFoundation, style.half_depth}),
-                              std::make_shared<Facade>(style, tiles)},
+                              {Facade(style, tiles)}},
                              makeRoof(style, walls, tiles, random)};
   if (random.chance(0.7)) parts.push_back(makeChimney(style, walls, tiles, random));
   if (style.shop) parts.push_back(makeShopSign(style, tiles, random));

@@ -2,9 +2,10 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
-#include "simulation/rows.h"
+#include <opencv2/core/utility.hpp>
+
+#include "common/workers.h"
 
 namespace rotrocc {
 namespace {
@@ -13,31 +14,23 @@ namespace {
 constexpr std::array<std::array<double, 2>, 3> kSamples = {
     {{-0.375, -0.125}, {0.125, -0.375}, {0.25, 0.375}}};
 
-/// Without anything in sight.
-Picture emptyPicture(const cv::Size& size) {
-  return {cv::Mat(size, CV_32FC1, cv::Scalar(0.0)),
-          cv::Mat(size, CV_64FC1, cv::Scalar(std::numeric_limits<double>::infinity())),
-          cv::Mat(size, CV_32SC1, cv::Scalar(-1))};
-}
-
 class Rendering {
  public:
   Rendering(const World& world,
-            const MovingCars& cars,
+            const std::vector<Body>& cars,
             const PixelRays& rays,
             const Eigen::Isometry3d& T_world_camera)
       : world_(world),
-        cars_(cars),
         rays_(rays),
-        view_(world.bodies(), cars.bodies, rays.pinhole, T_world_camera, rays.footprint),
-        surfaces_(rays.size(), CV_32SC1, cv::Scalar(0)),
-        picture_(emptyPicture(rays.size())) {}
+        view_(world.bodies(), cars, rays.pinhole, T_world_camera),
+        surfaces_(rays.size(), CV_32SC1),
+        picture_{cv::Mat(rays.size(), CV_32FC1), cv::Mat(rays.size(), CV_64FC1)} {}
 
   Picture run() {
-    forEachRow(surfaces_.rows, [this](int y) { lookAtCentres(y); });
+    Workers(cv::getNumThreads()).run(surfaces_.rows, [this](int y) { lookAtCentres(y); });
     // Edges are detected in the centre samples, not in the smoothed image of other threads.
     centres_ = picture_.brightness.clone();
-    forEachRow(surfaces_.rows, [this](int y) { smoothEdges(y); });
+    Workers(cv::getNumThreads()).run(surfaces_.rows, [this](int y) { smoothEdges(y); });
     return picture_;
   }
 
@@ -45,12 +38,9 @@ class Rendering {
   void lookAtCentres(int y) {
     for (int x = 0; x < surfaces_.cols; ++x) {
       const Eigen::Vector2d place = rays_.place(x, y);
-      if (std::isnan(place.x())) continue;
       const Sighting sighting = world_.look(view_, place.x(), place.y());
       picture_.brightness.at<float>(y, x) = static_cast<float>(sighting.brightness);
       picture_.depth.at<double>(y, x) = sighting.depth;
-      picture_.moving_car.at<int>(y, x) =
-          sighting.moving_body < 0 ? -1 : cars_.cars[sighting.moving_body];
       surfaces_.at<int>(y, x) = static_cast<int>(sighting.surface);
     }
   }
@@ -70,8 +60,8 @@ class Rendering {
 
   void smoothEdges(int y) {
     for (int x = 0; x < surfaces_.cols; ++x) {
+      if (!isAtEdge(x, y)) continue;
       const Eigen::Vector2d place = rays_.place(x, y);
-      if (std::isnan(place.x()) || !isAtEdge(x, y)) continue;
       double sum = centres_.at<float>(y, x);
       for (const auto& [dx, dy] : kSamples) {
         sum += world_.look(view_, place.x() + dx, place.y() + dy).brightness;
@@ -81,7 +71,6 @@ class Rendering {
   }
 
   const World& world_;
-  const MovingCars& cars_;
   const PixelRays& rays_;
   View view_;
   cv::Mat surfaces_;
@@ -92,7 +81,7 @@ class Rendering {
 }  // namespace
 
 Picture render(const World& world,
-               const MovingCars& cars,
+               const std::vector<Body>& cars,
                const PixelRays& rays,
                const Eigen::Isometry3d& T_world_camera) {
   return Rendering(world, cars, rays, T_world_camera).run();

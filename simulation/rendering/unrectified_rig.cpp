@@ -28,13 +28,6 @@ const Individual kRight = {1.0475,
                            {-0.28368365, 0.07451284, -0.00010473, -3.55590700e-05},
                            {0.0034, 0.0018, -0.0027, 0.0003}};
 
-Eigen::Matrix3d rotation(const Eigen::Vector3d& turn_rad) {
-  return (Eigen::AngleAxisd(turn_rad.z(), Eigen::Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(turn_rad.y(), Eigen::Vector3d::UnitY()) *
-          Eigen::AngleAxisd(turn_rad.x(), Eigen::Vector3d::UnitX()))
-      .toRotationMatrix();
-}
-
 RawCamera rawCamera(const StereoCamera& nominal, const std::string& lens, const Individual& own) {
   // The offsets are those of an image 752 px wide.
   const Eigen::Vector2d offset = nominal.width / 752.0 * own.centre_px;
@@ -45,7 +38,10 @@ RawCamera rawCamera(const StereoCamera& nominal, const std::string& lens, const 
   raw.fy = 0.997 * own.focal_ratio * nominal.fy;
   raw.cx = 0.5 * (nominal.width - 1) + offset.x();
   raw.cy = 0.5 * (nominal.height - 1) + offset.y();
-  raw.R_rectified_raw = rotation(own.turn_rad);
+  raw.R_rectified_raw = (Eigen::AngleAxisd(own.turn_rad.z(), Eigen::Vector3d::UnitZ()) *
+                         Eigen::AngleAxisd(own.turn_rad.y(), Eigen::Vector3d::UnitY()) *
+                         Eigen::AngleAxisd(own.turn_rad.x(), Eigen::Vector3d::UnitX()))
+                            .toRotationMatrix();
   raw.distortion = {lens, lens == "radtan" ? own.radtan : own.equidistant};
   return raw;
 }
@@ -54,6 +50,7 @@ RawCamera rawCamera(const StereoCamera& nominal, const std::string& lens, const 
 PixelRays raysOf(const RawCamera& raw) {
   constexpr double kMaxSlope = 4.0;  // 76 degrees
   cv::Mat places(raw.height, raw.width, CV_64FC2);
+  Eigen::AlignedBox2d bounds;
   for (int y = 0; y < raw.height; ++y) {
     for (int x = 0; x < raw.width; ++x) {
       const Eigen::Vector3d ray = raw.R_rectified_raw * raw.ray(Eigen::Vector2d(x, y));
@@ -64,23 +61,29 @@ PixelRays raysOf(const RawCamera& raw) {
             "length or a smaller image",
             std::atan(kMaxSlope) * 180.0 / M_PI));
       }
-      places.at<cv::Vec2d>(y, x) = {raw.fx * slope.x(), raw.fy * slope.y()};
+      const Eigen::Vector2d place(raw.fx * slope.x(), raw.fy * slope.y());
+      places.at<cv::Vec2d>(y, x) = {place.x(), place.y()};
+      bounds.extend(place);
     }
   }
-  return raysThrough(places, raw.fx, raw.fy, Eigen::Vector2d::Zero());
-}
-
-UnrectifiedCamera camera(const StereoCamera& nominal,
-                         const std::string& lens,
-                         const Individual& own) {
-  const RawCamera raw = rawCamera(nominal, lens, own);
-  return {raw, raysOf(raw)};
+  const Eigen::Vector2d first = bounds.min();
+  PixelRays rays;
+  rays.places = places - cv::Scalar(first.x(), first.y());
+  rays.pinhole.fx = raw.fx;
+  rays.pinhole.fy = raw.fy;
+  rays.pinhole.cx = -first.x();
+  rays.pinhole.cy = -first.y();
+  rays.pinhole.width = static_cast<int>(std::ceil(bounds.sizes().x())) + 1;
+  rays.pinhole.height = static_cast<int>(std::ceil(bounds.sizes().y())) + 1;
+  return rays;
 }
 
 }  // namespace
 
 UnrectifiedRig unrectifiedRig(const StereoCamera& nominal, const std::string& lens) {
-  return {camera(nominal, lens, kLeft), camera(nominal, lens, kRight)};
+  const RawCamera left = rawCamera(nominal, lens, kLeft);
+  const RawCamera right = rawCamera(nominal, lens, kRight);
+  return {{{left, raysOf(left)}, {right, raysOf(right)}}};
 }
 
 }  // namespace rotrocc

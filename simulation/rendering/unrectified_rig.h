@@ -1,11 +1,12 @@
 #pragma once
 
+#include <array>
 #include <string>
 
 #include <Eigen/Geometry>
 
 #include "rectification/stereo_calibration.h"
-#include "simulation/rendering/picture.h"
+#include "simulation/rendering/renderer.h"
 
 namespace rotrocc {
 
@@ -15,15 +16,11 @@ struct UnrectifiedCamera {
   PixelRays rays;  ///< as seen from the nominal camera
 };
 
-/// A rig whose images are not rectified. Its calibration is exact.
-struct UnrectifiedRig {
-  UnrectifiedCamera left;
-  UnrectifiedCamera right;
-};
+/// The left and the right camera.
+using UnrectifiedRig = std::array<UnrectifiedCamera, 2>;
 
-/// Cameras like those of EuRoC, with the size and about the field of view of `nominal`. `lens` is
-/// radtan or equidistant. Throws std::invalid_argument on another lens, and if the field of view is
-/// too wide for the renderer.
+/// Cameras like EuRoC's with the size and about the field of view of `nominal`; `lens` is radtan or
+/// equidistant. Throws std::invalid_argument on another lens or a field of view that is too wide.
 UnrectifiedRig unrectifiedRig(const StereoCamera& nominal, const std::string& lens);
 
 }  // namespace rotrocc

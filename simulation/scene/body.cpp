@@ -16,9 +16,10 @@ Eigen::AlignedBox3d transformed(const Eigen::AlignedBox3d& box, const Eigen::Iso
 
 }  // namespace
 
-bool BoxTest::passes(const RayRange& range, const Eigen::AlignedBox3d& box) const {
-  const Eigen::Array3d a = (box.min() - origin_).array() * inverse_direction_.array();
-  const Eigen::Array3d b = (box.max() - origin_).array() * inverse_direction_.array();
+bool passes(const Ray& ray, const RayRange& range, const Eigen::AlignedBox3d& box) {
+  const Eigen::Array3d inverse = ray.direction.cwiseInverse().array();
+  const Eigen::Array3d a = (box.min() - ray.origin).array() * inverse;
+  const Eigen::Array3d b = (box.max() - ray.origin).array() * inverse;
   const Eigen::Array3d low = a.min(b);
   const Eigen::Array3d high = a.max(b);
   const double enter = std::max(std::max(low[0], low[1]), std::max(low[2], range.from));
@@ -39,7 +40,7 @@ void Body::place(const Eigen::Isometry3d& T_world_body) {
 
 bool Body::blocks(const Ray& ray, const RayRange& range, double pixel_m) const {
   const Ray own = toBody(ray);
-  if (!BoxTest(own).passes(range, own_bounds_)) return false;
+  if (!passes(own, range, own_bounds_)) return false;
   BodyHit hit;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     if (intersectPart(static_cast<int>(i), own, range, pixel_m, hit)) return true;
@@ -54,12 +55,12 @@ bool Body::intersectPart(
   ShapeHit crossing;
   while (solid.shape->intersect(own_ray, rest, crossing)) {
     const bool inside = crossing.normal.dot(own_ray.direction) > 0.0;
-    if (!solid.material->isHole(
+    if (!solid.material.is_hole ||
+        !solid.material.is_hole(
             own_ray.at(crossing.distance), crossing.normal, pixel_m * crossing.distance)) {
-      hit = {crossing.distance,
-             inside ? Eigen::Vector3d(-crossing.normal) : crossing.normal,
-             part,
-             2 * crossing.face + (inside ? 1 : 0)};
+      hit = {crossing, part};
+      hit.face = 2 * crossing.face + (inside ? 1 : 0);
+      if (inside) hit.normal = -crossing.normal;
       return true;
     }
     rest.from = crossing.distance + 1e-6;

@@ -1,19 +1,42 @@
-#include "simulation/scene/ground.h"
+#include "simulation/scene/terrain.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "simulation/rows.h"
+#include <opencv2/core/utility.hpp>
+
+#include "common/workers.h"
 #include "simulation/surfaces/coverage.h"
 
 namespace rotrocc {
 namespace {
 
 constexpr double kSampling_m = 2.0;
+constexpr double kCameraHeight_m = 1.65;
+constexpr double kCell_m = 8.0;  // the ground bends at their borders
+constexpr double kMargin_m = 200.0;
 constexpr double kReach_m = 50.0;     // from the path of the camera, where only it counts
 constexpr double kOwn_m = 20.0;       // nearer places have the height of its passage only
 constexpr double kClearance_m = 0.4;  // clearance of the camera over the corners of its cell
+
+GroundGrid gridAround(const std::vector<Path>& paths) {
+  Eigen::AlignedBox2d box;
+  for (const Path& path : paths) {
+    for (double s = 0.0; s < path.length_m() + kSampling_m; s += kSampling_m) {
+      const Eigen::Vector3d point = path.position(s);
+      box.extend(Eigen::Vector2d(point.x(), point.z()));
+    }
+  }
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kMargin_m);
+  const Eigen::Vector2d origin = box.min() - margin;
+  const Eigen::Vector2d size = box.max() + margin - origin;
+  return {kCell_m,
+          1.0 / kCell_m,
+          origin,
+          static_cast<int>(std::ceil(size.x() / kCell_m)),
+          static_cast<int>(std::ceil(size.y() / kCell_m))};
+}
 
 /// A point of a path: (x, z) and the height.
 struct Sample {
@@ -69,23 +92,22 @@ double meanHeight(const Eigen::Vector2d& place,
 
 }  // namespace
 
-std::vector<double> groundBelow(const GroundGrid& grid,
-                                const Path& path,
-                                double beyond_m,
-                                const std::vector<Path>& others,
-                                double below_m) {
+Terrain groundBelow(const Path& path, double beyond_m, const std::vector<Path>& streets) {
+  std::vector<Path> paths = streets;
+  paths.push_back(path.beside(0.0, beyond_m));
+  const GroundGrid grid = gridAround(paths);
   const double neighbour_m = grid.cell_m * std::sqrt(2.0);
   std::vector<Sample> samples;
   append(path, beyond_m, samples);
   const std::size_t own = samples.size();
-  for (const Path& other : others) append(other, 0.0, samples);
+  for (const Path& street : streets) append(street, 0.0, samples);
 
   std::vector<double> heights(static_cast<std::size_t>(grid.columns + 1) * (grid.rows + 1));
-  forEachRow(grid.rows + 1, [&](int row) {
+  Workers(cv::getNumThreads()).run(grid.rows + 1, [&](int row) {
     for (int column = 0; column <= grid.columns; ++column) {
       const Eigen::Vector2d place = grid.origin + grid.cell_m * Eigen::Vector2d(column, row);
       const Passage passage = passageAt(place, samples, own);
-      double height = below_m + meanHeight(place, samples, passage);
+      double height = kCameraHeight_m + meanHeight(place, samples, passage);
       // Keeps the camera above the ground where recorded heights rise faster than any road.
       for (std::size_t i = passage.first; i < passage.end; ++i) {
         if ((samples[i].at - place).squaredNorm() > neighbour_m * neighbour_m) continue;
@@ -94,7 +116,7 @@ std::vector<double> groundBelow(const GroundGrid& grid,
       heights[static_cast<std::size_t>(row) * (grid.columns + 1) + column] = height;
     }
   });
-  return heights;
+  return {grid, heights};
 }
 
 }  // namespace rotrocc

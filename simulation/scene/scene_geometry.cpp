@@ -123,7 +123,6 @@ const std::vector<std::int32_t>& SceneGeometry::bodiesAround(double x, double z)
 }
 
 bool SceneGeometry::isBlocked(const Ray& ray, const RayRange& range, double pixel_m) const {
-  const BoxTest test(ray);
   return anyCell(
       terrain_.grid(),
       ray,
@@ -135,7 +134,7 @@ bool SceneGeometry::isBlocked(const Ray& ray, const RayRange& range, double pixe
         const std::vector<std::int32_t>& bodies = cell(column, row).bodies;
         return std::any_of(bodies.begin(), bodies.end(), [&](std::int32_t index) {
           const Body& body = bodies_[index];
-          return test.passes(in_cell, body.bounds()) && body.blocks(ray, in_cell, pixel_m);
+          return passes(ray, in_cell, body.bounds()) && body.blocks(ray, in_cell, pixel_m);
         });
       });
 }

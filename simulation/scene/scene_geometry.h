@@ -24,7 +24,7 @@ class SceneGeometry {
   /// is `pixel_m` wide at distance 1. The ray must start above the ground.
   bool isBlocked(const Ray& ray, const RayRange& range, double pixel_m) const;
 
-  /// First hit with the ground only; false if there is none.
+  /// First hit with the ground; false if there is none.
   bool traceGround(const Ray& ray, const RayRange& range, double& distance) const;
 
  private:

@@ -23,6 +23,99 @@ bool firstRoot(double a, double b, double c, const RayRange& range, double& root
   return false;
 }
 
+class Cylinder : public Shape {
+ public:
+  Cylinder(int axis, const Eigen::Vector3d& centre, double radius, double half_length)
+      : axis_(axis),
+        u_((axis + 1) % 3),
+        v_((axis + 2) % 3),
+        centre_(centre),
+        radius_(radius),
+        half_length_(half_length) {}
+
+  bool intersect(const Ray& ray, const RayRange& range, ShapeHit& hit) const override {
+    RayRange nearer = range;
+    const bool side = intersectSide(ray, range, hit);
+    if (side) nearer.to = hit.distance;
+    return intersectLids(ray, nearer, hit) || side;
+  }
+
+  Eigen::AlignedBox3d bounds() const override {
+    Eigen::Vector3d reach = Eigen::Vector3d::Constant(radius_);
+    reach[axis_] = half_length_;
+    return {centre_ - reach, centre_ + reach};
+  }
+
+ private:
+  bool intersectSide(const Ray& ray, const RayRange& range, ShapeHit& hit) const {
+    const Eigen::Vector2d d(ray.direction[u_], ray.direction[v_]);
+    const Eigen::Vector2d o(ray.origin[u_] - centre_[u_], ray.origin[v_] - centre_[v_]);
+    RayRange rest = range;
+    double distance = 0.0;
+    while (
+        firstRoot(d.squaredNorm(), d.dot(o), o.squaredNorm() - radius_ * radius_, rest, distance)) {
+      const double height = ray.origin[axis_] + distance * ray.direction[axis_] - centre_[axis_];
+      if (std::abs(height) <= half_length_) {
+        hit.distance = distance;
+        hit.face = 0;
+        hit.normal[axis_] = 0.0;
+        hit.normal[u_] = (o.x() + distance * d.x()) / radius_;
+        hit.normal[v_] = (o.y() + distance * d.y()) / radius_;
+        return true;
+      }
+      rest.from = distance;
+    }
+    return false;
+  }
+
+  bool intersectLids(const Ray& ray, const RayRange& range, ShapeHit& hit) const {
+    RayRange nearer = range;
+    bool found = false;
+    for (const double side : {-1.0, 1.0}) {
+      const double lid = centre_[axis_] + side * half_length_;
+      const double distance = (lid - ray.origin[axis_]) / ray.direction[axis_];
+      if (!isIn(nearer, distance)) continue;
+      const double u = ray.origin[u_] + distance * ray.direction[u_] - centre_[u_];
+      const double v = ray.origin[v_] + distance * ray.direction[v_] - centre_[v_];
+      if (u * u + v * v > radius_ * radius_) continue;
+      hit.distance = nearer.to = distance;
+      hit.face = side < 0.0 ? 1 : 2;
+      hit.normal = side * Eigen::Vector3d::Unit(axis_);
+      found = true;
+    }
+    return found;
+  }
+
+  int axis_, u_, v_;
+  Eigen::Vector3d centre_;
+  double radius_, half_length_;
+};
+
+class Ellipsoid : public Shape {
+ public:
+  Ellipsoid(const Eigen::Vector3d& centre, const Eigen::Vector3d& half_axes)
+      : centre_(centre), half_axes_(half_axes), scale_(half_axes.cwiseInverse()) {}
+
+  bool intersect(const Ray& ray, const RayRange& range, ShapeHit& hit) const override {
+    const Eigen::Vector3d o = (ray.origin - centre_).cwiseProduct(scale_);
+    const Eigen::Vector3d d = ray.direction.cwiseProduct(scale_);
+    if (!firstRoot(d.squaredNorm(), d.dot(o), o.squaredNorm() - 1.0, range, hit.distance))
+      return false;
+    hit.normal = (o + hit.distance * d).cwiseProduct(scale_).normalized();
+    hit.face = 0;
+    return true;
+  }
+
+  Eigen::AlignedBox3d bounds() const override {
+    return {centre_ - half_axes_, centre_ + half_axes_};
+  }
+
+ private:
+  Eigen::Vector3d centre_;
+  Eigen::Vector3d half_axes_;
+  Eigen::Vector3d scale_;  // to the space in which it is a unit sphere
+};
+
 }  // namespace
 
 ConvexSolid& ConvexSolid::cut(const Eigen::Vector3d& outwards, const Eigen::Vector3d& point) {
@@ -98,78 +191,16 @@ std::shared_ptr<ConvexSolid> boxBetween(const Eigen::Vector3d& low, const Eigen:
   return std::make_shared<ConvexSolid>(Eigen::AlignedBox3d(low, high));
 }
 
-Cylinder::Cylinder(int axis, const Eigen::Vector3d& centre, double radius, double half_length)
-    : axis_(axis),
-      u_((axis + 1) % 3),
-      v_((axis + 2) % 3),
-      centre_(centre),
-      radius_(radius),
-      half_length_(half_length) {}
-
-bool Cylinder::intersect(const Ray& ray, const RayRange& range, ShapeHit& hit) const {
-  RayRange nearer = range;
-  const bool side = intersectSide(ray, range, hit);
-  if (side) nearer.to = hit.distance;
-  return intersectLids(ray, nearer, hit) || side;
+std::shared_ptr<const Shape> cylinder(int axis,
+                                      const Eigen::Vector3d& centre,
+                                      double radius,
+                                      double half_length) {
+  return std::make_shared<Cylinder>(axis, centre, radius, half_length);
 }
 
-bool Cylinder::intersectSide(const Ray& ray, const RayRange& range, ShapeHit& hit) const {
-  const Eigen::Vector2d d(ray.direction[u_], ray.direction[v_]);
-  const Eigen::Vector2d o(ray.origin[u_] - centre_[u_], ray.origin[v_] - centre_[v_]);
-  RayRange rest = range;
-  double distance = 0.0;
-  while (
-      firstRoot(d.squaredNorm(), d.dot(o), o.squaredNorm() - radius_ * radius_, rest, distance)) {
-    const double height = ray.origin[axis_] + distance * ray.direction[axis_] - centre_[axis_];
-    if (std::abs(height) <= half_length_) {
-      hit.distance = distance;
-      hit.face = 0;
-      hit.normal[axis_] = 0.0;
-      hit.normal[u_] = (o.x() + distance * d.x()) / radius_;
-      hit.normal[v_] = (o.y() + distance * d.y()) / radius_;
-      return true;
-    }
-    rest.from = distance;
-  }
-  return false;
-}
-
-bool Cylinder::intersectLids(const Ray& ray, const RayRange& range, ShapeHit& hit) const {
-  RayRange nearer = range;
-  bool found = false;
-  for (const double side : {-1.0, 1.0}) {
-    const double lid = centre_[axis_] + side * half_length_;
-    const double distance = (lid - ray.origin[axis_]) / ray.direction[axis_];
-    if (!isIn(nearer, distance)) continue;
-    const double u = ray.origin[u_] + distance * ray.direction[u_] - centre_[u_];
-    const double v = ray.origin[v_] + distance * ray.direction[v_] - centre_[v_];
-    if (u * u + v * v > radius_ * radius_) continue;
-    hit.distance = nearer.to = distance;
-    hit.face = side < 0.0 ? 1 : 2;
-    hit.normal = side * Eigen::Vector3d::Unit(axis_);
-    found = true;
-  }
-  return found;
-}
-
-Eigen::AlignedBox3d Cylinder::bounds() const {
-  Eigen::Vector3d reach = Eigen::Vector3d::Constant(radius_);
-  reach[axis_] = half_length_;
-  return {centre_ - reach, centre_ + reach};
-}
-
-bool Ellipsoid::intersect(const Ray& ray, const RayRange& range, ShapeHit& hit) const {
-  const Eigen::Vector3d o = (ray.origin - centre_).cwiseProduct(scale_);
-  const Eigen::Vector3d d = ray.direction.cwiseProduct(scale_);
-  if (!firstRoot(d.squaredNorm(), d.dot(o), o.squaredNorm() - 1.0, range, hit.distance))
-    return false;
-  hit.normal = (o + hit.distance * d).cwiseProduct(scale_).normalized();
-  hit.face = 0;
-  return true;
-}
-
-Eigen::AlignedBox3d Ellipsoid::bounds() const {
-  return {centre_ - half_axes_, centre_ + half_axes_};
+std::shared_ptr<const Shape> ellipsoid(const Eigen::Vector3d& centre,
+                                       const Eigen::Vector3d& half_axes) {
+  return std::make_shared<Ellipsoid>(centre, half_axes);
 }
 
 }  // namespace rotrocc

@@ -3,14 +3,13 @@
 #include <memory>
 #include <vector>
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include "simulation/surfaces/surface_point.h"
 
 namespace rotrocc {
 
-/// Search interval of a ray: distances above `from` and below `to`.
+/// Distances along a ray, above `from` and below `to`.
 struct RayRange {
   double from;
   double to;
@@ -27,15 +26,12 @@ class Shape {
  public:
   virtual ~Shape() = default;
 
-  /// First intersection with the surface in `range`, from outside or inside; false if there is
-  /// none.
+  /// First intersection with the surface in `range`, from outside or inside; false if none.
   virtual bool intersect(const Ray& ray, const RayRange& range, ShapeHit& hit) const = 0;
 
-  /// Bounding box.
   virtual Eigen::AlignedBox3d bounds() const = 0;
 };
 
-/// A box with planar cuts.
 class ConvexSolid : public Shape {
  public:
   explicit ConvexSolid(const Eigen::AlignedBox3d& box) : box_(box) {}
@@ -61,40 +57,17 @@ class ConvexSolid : public Shape {
   std::vector<Plane> cuts_;
 };
 
-/// The box between two corners.
 std::shared_ptr<ConvexSolid> boxBetween(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
-/// A closed cylinder along one of the axes of its body.
-class Cylinder : public Shape {
- public:
-  /// `axis` 0, 1 or 2 for x, y or z; it extends by `half_length` to both sides of the centre.
-  Cylinder(int axis, const Eigen::Vector3d& centre, double radius, double half_length);
-
-  bool intersect(const Ray& ray, const RayRange& range, ShapeHit& hit) const override;
-  Eigen::AlignedBox3d bounds() const override;
-
- private:
-  bool intersectSide(const Ray& ray, const RayRange& range, ShapeHit& hit) const;
-  bool intersectLids(const Ray& ray, const RayRange& range, ShapeHit& hit) const;
-
-  int axis_, u_, v_;
-  Eigen::Vector3d centre_;
-  double radius_, half_length_;
-};
+/// A closed cylinder along one of the axes of its body, 0, 1 or 2 for x, y or z; it extends by
+/// `half_length` to both sides of the centre.
+std::shared_ptr<const Shape> cylinder(int axis,
+                                      const Eigen::Vector3d& centre,
+                                      double radius,
+                                      double half_length);
 
 /// An ellipsoid with its axes along those of its body.
-class Ellipsoid : public Shape {
- public:
-  Ellipsoid(const Eigen::Vector3d& centre, const Eigen::Vector3d& half_axes)
-      : centre_(centre), half_axes_(half_axes), scale_(half_axes.cwiseInverse()) {}
-
-  bool intersect(const Ray& ray, const RayRange& range, ShapeHit& hit) const override;
-  Eigen::AlignedBox3d bounds() const override;
-
- private:
-  Eigen::Vector3d centre_;
-  Eigen::Vector3d half_axes_;
-  Eigen::Vector3d scale_;  // to the space in which it is a unit sphere
-};
+std::shared_ptr<const Shape> ellipsoid(const Eigen::Vector3d& centre,
+                                       const Eigen::Vector3d& half_axes);
 
 }  // namespace rotrocc

@@ -4,31 +4,6 @@
 #include <cmath>
 
 namespace rotrocc {
-namespace {
-
-constexpr double kPathSampling_m = 2.0;
-
-}  // namespace
-
-GroundGrid GroundGrid::around(const std::vector<Path>& paths, double margin_m, double cell_m) {
-  Eigen::AlignedBox2d box;
-  for (const Path& path : paths) {
-    for (double s = 0.0; s < path.length_m() + kPathSampling_m; s += kPathSampling_m) {
-      const Eigen::Vector3d point = path.position(s);
-      box.extend(Eigen::Vector2d(point.x(), point.z()));
-    }
-  }
-  box.extend(Eigen::Vector2d(box.min() - Eigen::Vector2d::Constant(margin_m)));
-  box.extend(Eigen::Vector2d(box.max() + Eigen::Vector2d::Constant(margin_m)));
-  GroundGrid grid;
-  grid.cell_m = cell_m;
-  grid.cells_per_m = 1.0 / cell_m;
-  grid.origin = box.min();
-  grid.columns = static_cast<int>(std::ceil(box.sizes().x() / cell_m));
-  grid.rows = static_cast<int>(std::ceil(box.sizes().y() / cell_m));
-  return grid;
-}
-
 Terrain::Terrain(const GroundGrid& grid, const std::vector<double>& heights) : grid_(grid) {
   const int corners = grid.columns + 1;  // in a row
   for (int row = 0; row < grid.rows; ++row) {
@@ -44,21 +19,21 @@ Terrain::Terrain(const GroundGrid& grid, const std::vector<double>& heights) : g
   }
 }
 
-double Terrain::height(double x, double z) const {
+Terrain::Place Terrain::placeOf(double x, double z) const {
   const int column = std::clamp(grid_.column(x), 0, grid_.columns - 1);
   const int row = std::clamp(grid_.row(z), 0, grid_.rows - 1);
-  const Patch& p = patch(column, row);
-  const double u = std::clamp((x - grid_.origin.x()) * grid_.cells_per_m - column, 0.0, 1.0);
-  const double v = std::clamp((z - grid_.origin.y()) * grid_.cells_per_m - row, 0.0, 1.0);
+  return {patch(column, row),
+          std::clamp((x - grid_.origin.x()) * grid_.cells_per_m - column, 0.0, 1.0),
+          std::clamp((z - grid_.origin.y()) * grid_.cells_per_m - row, 0.0, 1.0)};
+}
+
+double Terrain::height(double x, double z) const {
+  const auto [p, u, v] = placeOf(x, z);
   return p.a + p.b * u + p.c * v + p.d * u * v;
 }
 
 Eigen::Vector3d Terrain::normal(double x, double z) const {
-  const int column = std::clamp(grid_.column(x), 0, grid_.columns - 1);
-  const int row = std::clamp(grid_.row(z), 0, grid_.rows - 1);
-  const Patch& p = patch(column, row);
-  const double u = (x - grid_.origin.x()) * grid_.cells_per_m - column;
-  const double v = (z - grid_.origin.y()) * grid_.cells_per_m - row;
+  const auto [p, u, v] = placeOf(x, z);
   return Eigen::Vector3d(
              (p.b + p.d * v) * grid_.cells_per_m, -1.0, (p.c + p.d * u) * grid_.cells_per_m)
       .normalized();
@@ -72,10 +47,6 @@ Eigen::Isometry3d Terrain::placed(const Eigen::Vector2d& at,
   pose.linear() << right, down, right.cross(down);
   pose.translation() << at.x(), height(at.x(), at.y()), at.y();
   return pose;
-}
-
-Eigen::Isometry3d Terrain::standing(const Eigen::Vector2d& at, const Eigen::Vector3d& ahead) const {
-  return placed(at, Eigen::Vector3d::UnitY(), ahead);
 }
 
 Eigen::Isometry3d Terrain::lying(const Eigen::Vector2d& at, const Eigen::Vector3d& ahead) const {

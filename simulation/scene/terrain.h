@@ -12,14 +12,11 @@ namespace rotrocc {
 
 /// A grid of square cells over the ground plane (x, z).
 struct GroundGrid {
-  double cell_m = 5.0;
-  double cells_per_m = 0.2;                          ///< 1 / cell_m
-  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< the corner with least x and z
-  int columns = 0;                                   ///< cells along x
-  int rows = 0;                                      ///< cells along z
-
-  /// The grid that covers all paths with a margin of `margin_m`.
-  static GroundGrid around(const std::vector<Path>& paths, double margin_m, double cell_m);
+  double cell_m;
+  double cells_per_m;      ///< 1 / cell_m
+  Eigen::Vector2d origin;  ///< the corner with least x and z
+  int columns;             ///< cells along x
+  int rows;                ///< cells along z
 
   int column(double x) const { return floorToInt((x - origin.x()) * cells_per_m); }
   int row(double z) const { return floorToInt((z - origin.y()) * cells_per_m); }
@@ -36,15 +33,14 @@ class Terrain {
 
   const GroundGrid& grid() const { return grid_; }
 
-  /// Height (y) of the ground, extrapolated level beyond the grid.
+  /// Height (y) of the ground, level beyond the grid, and its normal, upwards.
   double height(double x, double z) const;
-
-  /// Normal of unit length, upwards.
   Eigen::Vector3d normal(double x, double z) const;
 
-  /// The pose of a body that stands upright on the ground at (x, z) with its z axis along `ahead`
-  /// (level, of unit length).
-  Eigen::Isometry3d standing(const Eigen::Vector2d& at, const Eigen::Vector3d& ahead) const;
+  /// The pose of a body upright on the ground at (x, z), its z axis along `ahead`, which is level.
+  Eigen::Isometry3d standing(const Eigen::Vector2d& at, const Eigen::Vector3d& ahead) const {
+    return placed(at, Eigen::Vector3d::UnitY(), ahead);
+  }
 
   /// The same for a body that follows the slope of the ground: cars, kerb stones.
   Eigen::Isometry3d lying(const Eigen::Vector2d& at, const Eigen::Vector3d& ahead) const;
@@ -62,6 +58,11 @@ class Terrain {
     double a, b, c, d;
     double top;
   };
+  struct Place {
+    const Patch& patch;
+    double u, v;
+  };
+  Place placeOf(double x, double z) const;
   const Patch& patch(int column, int row) const {
     return patches_[static_cast<std::size_t>(row) * grid_.columns + column];
   }
@@ -73,5 +74,10 @@ class Terrain {
   GroundGrid grid_;
   std::vector<Patch> patches_;  // of the cells, row by row
 };
+
+/// A ground that lies 1.65 m below the path of the camera, which goes on `beyond_m` before its
+/// start and after its end, and below the streets. Where the camera revisits a place at another
+/// height, as recorded poses drift, it is the mean of both, but always below the camera.
+Terrain groundBelow(const Path& path, double beyond_m, const std::vector<Path>& streets);
 
 }  // namespace rotrocc

@@ -17,14 +17,13 @@ constexpr int kTile_px = 16;
 View::View(const std::vector<Body>& standing,
            const std::vector<Body>& moving,
            const StereoCamera& camera,
-           const Eigen::Isometry3d& T_world_camera,
-           double footprint)
+           const Eigen::Isometry3d& T_world_camera)
     : standing_(standing),
       moving_(moving),
       camera_(camera),
       origin_(T_world_camera.translation()),
       axes_(T_world_camera.linear()),
-      spread_{footprint * axes_.col(0) / camera.fx, footprint * axes_.col(1) / camera.fy} {
+      spread_{axes_.col(0) / camera.fx, axes_.col(1) / camera.fy} {
   const int count = standingCount() + static_cast<int>(moving_.size());
   for (int number = 0; number < count; ++number) addBody(number, T_world_camera);
   std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
@@ -67,20 +66,17 @@ bool View::cover(const Eigen::AlignedBox3d& box,
     candidate.nearest_m = std::min(candidate.nearest_m, point.z());
     pixels.extend(camera_.project(point));
   };
-  // Sections of the twelve edges in front of the camera.
+  // Corners, and where edges pass the nearest visible plane.
   const auto corner = [&](int index) -> Eigen::Vector3d {
     return T_camera_body * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(index));
   };
   for (int from = 0; from < 8; ++from) {
+    const Eigen::Vector3d a = corner(from);
+    if (a.z() < kNearest_m) continue;
+    add(a);
     for (const int axis : {1, 2, 4}) {
-      if ((from & axis) != 0) continue;
-      const Eigen::Vector3d a = corner(from);
-      const Eigen::Vector3d b = corner(from | axis);
-      if (a.z() >= kNearest_m) add(a);
-      if (b.z() >= kNearest_m) add(b);
-      if ((a.z() < kNearest_m) != (b.z() < kNearest_m)) {
-        add(a + (kNearest_m - a.z()) / (b.z() - a.z()) * (b - a));
-      }
+      const Eigen::Vector3d b = corner(from ^ axis);
+      if (b.z() < kNearest_m) add(a + (kNearest_m - a.z()) / (b.z() - a.z()) * (b - a));
     }
   }
   if (pixels.isEmpty() || pixels.sizes().maxCoeff() < kSmallest_px) return false;

@@ -14,14 +14,11 @@ namespace rotrocc {
 /// A camera at one time: its rays, and the bodies in each part of its image.
 class View {
  public:
-  /// Through the left image of `camera`. Surfaces are averaged over `footprint` pixels in either
-  /// direction. Bodies are numbered: static ones first, then moving ones. All must outlive the
-  /// view.
+  /// Bodies are numbered: static ones first, then moving ones. All must outlive the view.
   View(const std::vector<Body>& standing,
        const std::vector<Body>& moving,
        const StereoCamera& camera,
-       const Eigen::Isometry3d& T_world_camera,
-       double footprint);
+       const Eigen::Isometry3d& T_world_camera);
 
   const std::vector<Body>& moving() const { return moving_; }
   int standingCount() const { return static_cast<int>(standing_.size()); }
@@ -31,8 +28,7 @@ class View {
   Ray ray(double x, double y) const { return {origin_, axes_ * camera_.ray({x, y})}; }
   const PixelSpread& spread() const { return spread_; }
 
-  /// First body that the ray through a pixel hits in `range`; false if there is none. The pixel
-  /// must be in the image, up to half a pixel.
+  /// First body that the ray through a pixel of the image hits in `range`; false if there is none.
   bool intersect(double x, double y, const RayRange& range, BodyHit& hit, int& number) const;
 
  private:

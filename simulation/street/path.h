@@ -7,8 +7,8 @@
 
 namespace rotrocc {
 
-/// A smooth curve through points, parametrised by arc length (station). Axes as in the whole
-/// simulation: x right and z forward at the start, y down.
+/// A smooth curve, parametrised by arc length (station): x right and z forward at the start, y
+/// down.
 class Path {
  public:
   /// A Catmull-Rom spline through the points: at least two, of which no neighbours coincide.
@@ -18,15 +18,9 @@ class Path {
 
   /// Position at `station_m`; beyond the ends the path continues straight and level.
   Eigen::Vector3d position(double station_m) const;
-
-  /// Direction, of unit length.
   Eigen::Vector3d direction(double station_m) const;
-
-  /// Direction to the right, level and of unit length.
   Eigen::Vector3d right(double station_m) const;
-
-  /// Heading [rad]: 0 along z, positive to the right.
-  double heading_rad(double station_m) const;
+  double heading_rad(double station_m) const;  ///< 0 along z, positive to the right
 
   /// The path `right_m` beside this one, with a point every 0.5 m of this one's stations, also for
   /// `beyond_m` before its start and after its end.
@@ -44,8 +38,7 @@ class Path {
   std::vector<double> stations_;
 };
 
-/// A section of a road: the curvature changes smoothly from that of the previous section to its
-/// own.
+/// A section of a road: the curvature changes smoothly from that of the previous one to its own.
 struct PathPiece {
   double length_m;
   double curvature_per_m;  ///< at its end; positive to the right
@@ -54,9 +47,8 @@ struct PathPiece {
 /// The path of these pieces from the origin along z, lifted by hills by `rise_m(station)`.
 Path layPath(const std::vector<PathPiece>& pieces, const std::function<double(double)>& rise_m);
 
-/// The pieces of a turn by `angle_rad` (positive to the right): over `transition_m` the curvature
-/// grows to 1 / radius and decreases again at the end. The angle must not be smaller than what the
-/// transitions turn.
+/// A turn by `angle_rad` (positive to the right), at least by what its transitions turn: over
+/// `transition_m` the curvature grows to 1 / radius and decreases again at the end.
 std::vector<PathPiece> turn(double angle_rad, double radius_m, double transition_m);
 
 }  // namespace rotrocc

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "simulation/counter_random.h"
 #include "simulation/surfaces/coverage.h"
@@ -14,22 +13,18 @@ constexpr double kPaint = 0.72;
 constexpr double kRepairSlot_m = 12.0;
 constexpr double kManholeSlot_m = 17.0;
 
-std::uint64_t slotOf(double station_m, double slot_m) {
-  return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(station_m / slot_m)));
+struct Slot {
+  std::uint64_t key;
+  double start_m;
+};
+
+Slot slotOf(const StreetPoint& point, double length_m, std::uint64_t seed) {
+  const double number = std::floor(point.station_m / length_m);
+  const auto bits = static_cast<std::uint64_t>(static_cast<std::int64_t>(number));
+  return {randomBits(seed, bits, point.street), length_m * number};
 }
 
 }  // namespace
-
-RoadSurface::RoadSurface(const StreetMap& streets,
-                         const StreetStyle& style,
-                         const TextureTiles& tiles,
-                         std::vector<Crossing> crossings,
-                         std::uint64_t seed)
-    : streets_(streets),
-      style_(style),
-      tiles_(tiles),
-      crossings_(std::move(crossings)),
-      seed_(seed) {}
 
 double RoadSurface::reflectance(const SurfacePoint& point) const {
   const TexturePoint at = project(point, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitZ());
@@ -71,19 +66,16 @@ double RoadSurface::pavement(Pavement kind, const TexturePoint& at) const {
       return 0.42 * (1.0 + 0.9 * (tiles_.paving.at(at) - 0.5));
     case Pavement::kGrass: {
       const double stain = tiles_.blotches.at(scaled(at, 1.0 / 41.0)) - 0.5;
-      const TexturePoint swayed = shifted(at, tiles_.wind.sway(at.at));
-      return 0.26 * (1.0 + 1.3 * (tiles_.grass.at(swayed) - 0.5) + 0.9 * stain);
+      return 0.26 * (1.0 + 1.3 * (tiles_.grass.at(at) - 0.5) + 0.9 * stain);
     }
   }
   return 0.0;
 }
 
 double RoadSurface::withRepairs(const Place& place, double brightness) const {
-  const std::uint64_t slot = slotOf(place.street.station_m, kRepairSlot_m);
-  const std::uint64_t key = randomBits(seed_, slot, place.street.street);
+  const auto [key, slot_m] = slotOf(place.street, kRepairSlot_m, seed_);
   if (randomUniform(key, 0) > style_.repairs_share) return brightness;
-  const double start = kRepairSlot_m * static_cast<double>(static_cast<std::int64_t>(slot)) + 0.6;
-  const double first = start + 4.0 * randomUniform(key, 1);
+  const double first = slot_m + 0.6 + 4.0 * randomUniform(key, 1);
   const double last = first + 1.0 + 6.0 * randomUniform(key, 2);
   const double left = -5.0 + 8.0 * randomUniform(key, 3);
   const double right = left + 0.8 + 2.0 * randomUniform(key, 4);
@@ -96,11 +88,9 @@ double RoadSurface::withRepairs(const Place& place, double brightness) const {
 }
 
 double RoadSurface::withManholes(const Place& place, double brightness) const {
-  const std::uint64_t slot = slotOf(place.street.station_m, kManholeSlot_m);
-  const std::uint64_t key = randomBits(seed_ + 1, slot, place.street.street);
+  const auto [key, slot_m] = slotOf(place.street, kManholeSlot_m, seed_ + 1);
   if (randomUniform(key, 0) > 2.0 * style_.repairs_share) return brightness;
-  const double start = kManholeSlot_m * static_cast<double>(static_cast<std::int64_t>(slot));
-  const double along = place.street.station_m - start - 1.0 - 15.0 * randomUniform(key, 1);
+  const double along = place.street.station_m - slot_m - 1.0 - 15.0 * randomUniform(key, 1);
   const double across = place.street.right_m + 3.0 - 6.0 * randomUniform(key, 2);
   const double radius = std::hypot(along, across);
   const double pixel = std::max(place.length, place.width);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "simulation/street/street_map.h"
@@ -19,12 +20,17 @@ struct Crossing {
 /// Appearance of the ground: asphalt with markings and repairs, slabs, grass.
 class RoadSurface {
  public:
-  /// The streets, the style and the textures must outlive this object.
+  /// The streets and the textures must outlive this object.
   RoadSurface(const StreetMap& streets,
-              const StreetStyle& style,
+              StreetStyle style,
               const TextureTiles& tiles,
               std::vector<Crossing> crossings,
-              std::uint64_t seed);
+              std::uint64_t seed)
+      : streets_(streets),
+        style_(std::move(style)),
+        tiles_(tiles),
+        crossings_(std::move(crossings)),
+        seed_(seed) {}
 
   /// Reflectance of the ground, averaged over the pixel. `point` is in the world's frame.
   double reflectance(const SurfacePoint& point) const;
@@ -44,7 +50,7 @@ class RoadSurface {
   double crossingCoverage(const Place& place) const;
 
   const StreetMap& streets_;
-  const StreetStyle& style_;
+  StreetStyle style_;
   const TextureTiles& tiles_;
   std::vector<Crossing> crossings_;
   std::uint64_t seed_;

@@ -23,7 +23,6 @@ Eigen::Vector3d level(Eigen::Vector3d direction) {
 /// Orientation of a body beside a street: the direction of its z axis.
 enum class Facing { kAhead, kBack, kOutwards };
 
-/// Placement rules.
 struct PlacementRules {
   double clearance_m;        // from every centre line
   bool may_overlap = false;  // with bodies placed earlier
@@ -91,7 +90,7 @@ class BuildingGround {
  public:
   BuildingGround(const WorldPlan& plan, const StreetMap& streets, const Terrain& terrain)
       : streets_(streets),
-        drives_(plan.wholeDrives(), kDriveClearance_m + 1.0),
+        drive_({plan.drive.beside(0.0, plan.beyond_m)}, kDriveClearance_m + 1.0),
         terrain_(terrain) {}
 
   /// Places a body `right_m` beside a street if the rules allow it. Returns whether they do.
@@ -124,14 +123,13 @@ class BuildingGround {
     bodies_.push_back(std::move(body));
   }
 
-  /// Everything that was placed.
   std::vector<Body> takeBodies() { return std::move(bodies_); }
 
  private:
   bool isFree(const Footprint& footprint, const PlacementRules& rules) const {
     for (const Eigen::Vector2d& point : footprint.border(0.8)) {
       if (streets_.distance(point.x(), point.y()) < rules.clearance_m) return false;
-      if (drives_.distance(point.x(), point.y()) < kDriveClearance_m) return false;
+      if (drive_.distance(point.x(), point.y()) < kDriveClearance_m) return false;
     }
     if (rules.may_overlap) return true;
     return std::none_of(taken_.begin(), taken_.end(), [&](const Footprint& other) {
@@ -140,7 +138,7 @@ class BuildingGround {
   }
 
   const StreetMap& streets_;
-  StreetMap drives_;
+  StreetMap drive_;
   const Terrain& terrain_;
   std::vector<Footprint> taken_;
   std::vector<Body> bodies_;

@@ -9,7 +9,6 @@
 
 namespace rotrocc {
 
-/// A place on the ground relative to the nearest street.
 struct StreetPoint {
   int street = -1;         ///< index of its centre line
   double station_m = 0.0;  ///< along the centre line
@@ -19,10 +18,9 @@ struct StreetPoint {
   Eigen::Vector2d right_gradient = Eigen::Vector2d::Zero();
 };
 
-/// Finds the street of a point on the ground.
 class StreetMap {
  public:
-  /// Points farther than `reach_m` from all centre lines belong to none; there may be none at all.
+  /// Points farther than `reach_m` from all centre lines belong to none.
   StreetMap(const std::vector<Path>& centre_lines, double reach_m);
 
   /// Returns false and leaves `point` unchanged if there is no street.

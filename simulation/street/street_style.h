@@ -4,7 +4,6 @@
 
 namespace rotrocc {
 
-/// Surface of the ground.
 enum class Pavement { kAsphalt, kSlabs, kGrass };
 
 /// A strip along the street; distances are from its centre line, to the right.
@@ -14,7 +13,6 @@ struct Zone {
   Pavement pavement;
 };
 
-/// A painted line along the street.
 struct Marking {
   double right_m;  ///< centre of the line
   double width_m;
@@ -29,8 +27,7 @@ struct Bay {
   double period_m;
 };
 
-/// Appearance of a street and its surroundings. Shares are from 0 to 1; distances from the centre
-/// line to the right, [m].
+/// Appearance of a street and its surroundings; distances are from its centre line to the right.
 struct StreetStyle {
   std::vector<Zone> zones;
   std::vector<Marking> markings;
@@ -53,17 +50,5 @@ struct StreetStyle {
   double forest_m = 0.0;          ///< edge of the woods; 0: none
   double gantry_spacing_m = 0.0;  ///< of signs over the street; 0: none
 };
-
-/// A street in a town: parked cars, pavements, houses.
-StreetStyle townStyle();
-
-/// One half of a motorway with the other beyond a guard rail, between woods.
-StreetStyle motorwayStyle();
-
-/// A single lane through a meadow.
-StreetStyle rampStyle();
-
-/// Rows of cars parked at right angles, with houses around.
-StreetStyle carParkStyle();
 
 }  // namespace rotrocc

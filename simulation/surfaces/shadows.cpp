@@ -2,16 +2,18 @@
 
 #include <limits>
 
+#include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "simulation/rows.h"
+#include "common/workers.h"
 #include "simulation/surfaces/coverage.h"
-#include "simulation/surfaces/lighting.h"
+#include "simulation/surfaces/sky.h"
 
 namespace rotrocc {
 namespace {
 
-constexpr double kCell_m = 0.2;
+constexpr double kShadowCell_m = 0.2;
+constexpr double kShadowReach_m = 14.0;
 
 /// Share of the sun that reaches a place among bodies: 0 or 1.
 double sunAt(const SceneGeometry& scene, const Eigen::Vector3d& position) {
@@ -23,18 +25,17 @@ double sunAt(const SceneGeometry& scene, const Eigen::Vector3d& position) {
 
 }  // namespace
 
-GroundShadows::GroundShadows(const SceneGeometry& scene,
-                             const std::function<bool(double, double)>& covers)
+GroundShadows::GroundShadows(const SceneGeometry& scene, const StreetMap& streets)
     : origin_(scene.terrain().grid().origin) {
   const GroundGrid& grid = scene.terrain().grid();
-  const int columns = static_cast<int>(grid.columns * grid.cell_m / kCell_m);
-  const int rows = static_cast<int>(grid.rows * grid.cell_m / kCell_m);
+  const int columns = static_cast<int>(grid.columns * grid.cell_m / kShadowCell_m);
+  const int rows = static_cast<int>(grid.rows * grid.cell_m / kShadowCell_m);
   lit_ = cv::Mat(rows, columns, CV_8UC1, cv::Scalar(255));
-  forEachRow(rows, [&](int row) {
-    const double z = origin_.y() + kCell_m * (row + 0.5);
+  Workers(cv::getNumThreads()).run(rows, [&](int row) {
+    const double z = origin_.y() + kShadowCell_m * (row + 0.5);
     for (int column = 0; column < columns; ++column) {
-      const double x = origin_.x() + kCell_m * (column + 0.5);
-      if (!covers(x, z)) continue;
+      const double x = origin_.x() + kShadowCell_m * (column + 0.5);
+      if (streets.distance(x, z) >= kShadowReach_m) continue;
       const Eigen::Vector3d ground(x, scene.terrain().height(x, z) - 0.01, z);
       lit_.at<uchar>(row, column) = cv::saturate_cast<uchar>(255.0 * sunAt(scene, ground));
     }
@@ -43,8 +44,8 @@ GroundShadows::GroundShadows(const SceneGeometry& scene,
 }
 
 double GroundShadows::lit(double x, double z) const {
-  const double u = (x - origin_.x()) / kCell_m - 0.5;
-  const double v = (z - origin_.y()) / kCell_m - 0.5;
+  const double u = (x - origin_.x()) / kShadowCell_m - 0.5;
+  const double v = (z - origin_.y()) / kShadowCell_m - 0.5;
   const int column = floorToInt(u);
   const int row = floorToInt(v);
   if (column < 0 || row < 0 || column + 1 >= lit_.cols || row + 1 >= lit_.rows) return 1.0;

@@ -1,21 +1,20 @@
 #pragma once
 
-#include <functional>
-
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
 #include "simulation/scene/scene_geometry.h"
+#include "simulation/street/street_map.h"
 
 namespace rotrocc {
 
 /// Shadows of all static bodies on the ground, in cells of 0.2 m.
 class GroundShadows {
  public:
-  /// Where `covers(x, z)` is true; elsewhere there are none.
-  GroundShadows(const SceneGeometry& scene, const std::function<bool(double, double)>& covers);
+  /// Those within 14 m of the centre line of a street.
+  GroundShadows(const SceneGeometry& scene, const StreetMap& streets);
 
-  /// Visible share of the sun at a place on the ground, from 0 to 1.
+  /// Visible share of the sun at a place on the ground.
   double lit(double x, double z) const;
 
  private:

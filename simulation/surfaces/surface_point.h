@@ -7,8 +7,7 @@
 
 namespace rotrocc {
 
-/// A viewing ray. `direction` is not normalized: camera rays have unit depth, so that the distance
-/// in units of `direction` is the depth [m].
+/// Camera rays have unit depth, so that the distance in units of `direction` is the depth [m].
 struct Ray {
   Eigen::Vector3d origin;
   Eigen::Vector3d direction;
@@ -49,11 +48,6 @@ struct TexturePoint {
 /// The point on a texture scaled by 1 / `factor`.
 inline TexturePoint scaled(const TexturePoint& point, double factor) {
   return {factor * point.at, factor * point.per_column, factor * point.per_row};
-}
-
-/// The point on a texture whose own place is `shift` away.
-inline TexturePoint shifted(const TexturePoint& point, const Eigen::Vector2d& shift) {
-  return {point.at - shift, point.per_column, point.per_row};
 }
 
 /// Projects a surface point on the directions `u` and `v` of unit length.

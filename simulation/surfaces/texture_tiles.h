@@ -3,12 +3,10 @@
 #include <cstdint>
 
 #include "simulation/surfaces/texture.h"
-#include "simulation/surfaces/weather.h"
 
 namespace rotrocc {
 
-/// Textures of a street, generated from the seed, all with a mean of about 0.5; and the wind that
-/// moves some of them.
+/// Textures of a street, generated from the seed, all with a mean of about 0.5.
 struct TextureTiles {
   explicit TextureTiles(std::uint64_t seed);
 
@@ -22,7 +20,6 @@ struct TextureTiles {
   Texture bark;        ///< grooves along the second coordinate
   Texture writing;     ///< eight lines of words, in a tile of 1 m
   Texture blotches;    ///< soft and large: clouds, dirt, reflections
-  Wind wind;           ///< moves leaves and grass
 };
 
 }  // namespace rotrocc

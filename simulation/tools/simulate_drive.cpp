@@ -1,5 +1,4 @@
 #include <cmath>
-#include <cstdint>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -11,7 +10,6 @@
 #include "inertial/gyro_file.h"
 #include "input/to_text.h"
 #include "rotrocc/trajectory.h"
-#include "sequences/stereo_sequence.h"
 #include "simulation/drives/scenario.h"
 #include "simulation/sequence_writer.h"
 #include "simulation/simulator.h"
@@ -29,12 +27,9 @@ const char* const kUsage =
     "example: simulate_drive city drive --frames 100\n"
     "usage:   simulate_drive SCENARIO OUT [options]\n"
     "         simulate_drive --poses FILE OUT [options]\n\n"
-    "SCENARIO  city (a town with a stop), motorway (25 m/s), slip_road (26 deg/s), parking (0.8 "
-    "m/s "
-    "and a\n"
-    "          standstill while a car passes), shake (pitch and roll), handheld (1.4 m/s, looking "
-    "around),\n"
-    "          night (city with head lamps) or hall (a multicopter indoors)\n"
+    "SCENARIO  city (a town with a stop), motorway (25 m/s), slip_road (26 deg/s), parking\n"
+    "          (0.8 m/s and a standstill while a car passes) or handheld (1.4 m/s, looking "
+    "around)\n"
     "OUT       a new directory, a .bag, or a .csv for the gyroscope alone\n\n";
 
 struct Options {
@@ -44,12 +39,10 @@ struct Options {
   std::string size = "1241x376";
   double focal_px = kittiCamera().fx;
   double baseline_m = kittiCamera().baseline_m;
-  std::string rig = "perfect";
   std::string layout = "kitti";
   std::string lens = "radtan";
   std::vector<double> right_rotation_deg;
-  bool truth = false;
-  bool imu = false;
+  SequenceWriter::Extras extras;
   SimulationOptions simulation;
 };
 
@@ -62,22 +55,17 @@ po::options_description describe(Options& options) {
   po::options_description what("Contents");
   auto add = what.add_options();
   add("help,h", "show this help");
-  add("layout",
-      withDefault(options.layout),
-      "of the directory: kitti, rectified images as in KITTI's odometry benchmark, or asl, raw "
-      "images as in EuRoC's recordings");
-  add("poses",
-      po::value(&options.poses),
-      "build the street along these poses (KITTI or TUM format)");
+  add("layout", withDefault(options.layout), "kitti, or asl: raw images as of EuRoC");
+  add("poses", po::value(&options.poses), "a street along these poses (KITTI or TUM format)");
   add("times", po::value(&options.times), "times.txt of poses in KITTI format (default: 10 Hz)");
   add("frames", po::value(&simulation.frames), "largest number of pairs");
   add("rate", number(simulation.rate_hz), "[Hz] frame rate of a scenario");
   add("seed", withDefault(simulation.seed), "same seed, same bytes");
   add("noise-seed", po::value(&simulation.noise_seed), "of the image noise (default: seed)");
   add("moving-share", number(simulation.moving_share), "density of moving cars, 0 to 1");
-  add("truth", po::bool_switch(&options.truth), "also write depth and flow of each pixel");
+  add("truth", po::bool_switch(&options.extras.depth), "also write the depth of each pixel");
   add("imu",
-      po::bool_switch(&options.imu),
+      po::bool_switch(&options.extras.imu),
       "also write a gyroscope of 200 Hz with noise and bias: imu.csv in axes of the left camera, "
       "or /imu/data in axes of base_link");
   po::options_description camera("Camera");
@@ -85,37 +73,18 @@ po::options_description describe(Options& options) {
   add("size", withDefault(options.size), "image size WxH [px]");
   add("focal", number(options.focal_px), "focal length [px]");
   add("baseline", number(options.baseline_m), "baseline [m]");
-  add("rig",
-      withDefault(options.rig),
-      "perfect, or worn: with what calibration leaves, a sensor's noise, wind and reflections as "
-      "in the real world, by the seed");
-  add("lens",
-      withDefault(options.lens),
-      "distortion of the images of the layout asl: radtan or equidistant");
-  po::options_description wrong("Faults, not in calib.txt, and stresses");
+  add("lens", withDefault(options.lens), "of the layout asl: radtan or equidistant");
+  po::options_description wrong("Faults, not in calib.txt");
   add = wrong.add_options();
   add("disparity-bias", number(faults.disparity_bias_px), "[px] added to all disparities");
   add("right-rotation",
       po::value(&options.right_rotation_deg)->multitoken(),
       "ROLL PITCH YAW [deg]: rotation of the right camera");
-  add("right-focal",
-      number(faults.right_focal_ratio),
-      "focal length of the right camera, over that in calib.txt");
+  add("right-focal", number(faults.right_focal_ratio), "right over nominal focal length");
   add("rows", number(faults.row_offset_px), "[px] by which the right image is lower");
   add("time-skew", number(faults.time_skew_s), "[s] delay of the right camera");
-  add("noise",
-      number(faults.sensor.noise_sigma),
-      "[grey levels] standard deviation of the image noise");
+  add("noise", number(faults.noise_sigma), "[grey levels] standard deviation of the noise");
   add("motion-blur", number(faults.motion_blur_s), "[s] exposure time");
-  add("lorry",
-      number(simulation.lorry.share),
-      "share of the image that a lorry ahead of the camera covers, which moves with it");
-  add("lorry-across",
-      number(simulation.lorry.across_mps),
-      "[m/s] speed of the lorry to the right, relative to the camera");
-  add("tiles",
-      number(simulation.tiled_share),
-      "share of all textures that is the same tile everywhere");
   po::options_description all;
   all.add(what).add(camera).add(wrong);
   return all;
@@ -136,35 +105,16 @@ void setCamera(Options& options) {
   camera.cy = (kitti.cy + 0.5) * camera.height / kitti.height - 0.5;
 }
 
-bool isChosen(const char* name,
-              const std::string& value,
-              const std::string& usual,
-              const std::string& other) {
-  if (value != usual && value != other) {
-    throw po::error(std::string("--") + name + " is '" + value + "', not " + usual + " or " +
-                    other);
-  }
-  return value == other;
-}
-
-void setRig(const po::variables_map& variables, Options& options) {
-  options.simulation.worn_rig = isChosen("rig", options.rig, "perfect", "worn");
-  for (const char* name : {"noise", "motion-blur"}) {
-    if (!options.simulation.worn_rig || variables[name].defaulted()) continue;
-    throw po::error(std::string("--") + name + " is for a perfect rig: a worn one has its own");
-  }
-}
-
 void setLayout(const po::variables_map& variables, Options& options) {
-  if (isChosen("layout", options.layout, "kitti", "asl")) {
-    isChosen("lens", options.lens, "radtan", "equidistant");
+  if (options.layout != "kitti" && options.layout != "asl") {
+    throw po::error("--layout is '" + options.layout + "', not kitti or asl");
+  }
+  if (options.layout == "asl") {
     options.simulation.lens = options.lens;
-    if (options.truth) throw po::error("--truth is for the layout kitti");
+    if (options.extras.depth) throw po::error("--truth is for the layout kitti");
   } else if (!variables["lens"].defaulted()) {
     throw po::error("--lens is for the layout asl: rectified images have none");
   }
-  const bool is_worn = options.simulation.worn_rig;
-  if (is_worn && options.layout == "asl") throw po::error("--rig worn is for the layout kitti");
 }
 
 /// Returns false after printing the help; throws po::error on bad usage.
@@ -183,7 +133,6 @@ bool parse(int argc, char** argv, Options& options) {
         Eigen::Vector3d(options.right_rotation_deg.data()) * M_PI / 180.0;
   }
   setCamera(options);
-  setRig(variables, options);
   setLayout(variables, options);
   return true;
 }
@@ -194,42 +143,29 @@ Scenario chosenScenario(const Options& options) {
   return scenarioAlong(readTrajectory(options.poses, options.times), seed);
 }
 
-template <class Write>
-void renderFrames(Simulator& simulator, const Options& options, const Write& write) {
+void renderSequence(const Simulator& simulator,
+                    const std::string& directory,
+                    const Options& options) {
+  SequenceWriter writer(directory, simulator, options.extras);
   ProgressBar progress("simulate_drive", static_cast<std::size_t>(simulator.size()));
   for (int index = 0; index < simulator.size(); ++index) {
-    const SimulatedFrame frame = simulator.render(index, options.truth);
-    write(frame, index);
+    writer.write(simulator.render(index));
     progress.advance();
   }
   progress.finish();
 }
 
-void renderSequence(Simulator& simulator, const std::string& directory, const Options& options) {
-  if (const auto& rig = simulator.unrectifiedRig()) {
-    AslWriter writer(directory, *rig, simulator.camera().baseline_m);
-    if (options.imu) writer.writeGyroscope(simulator.gyroscope());
-    renderFrames(simulator, options, [&](const SimulatedFrame& frame, int index) {
-      writer.write(frame, simulator.pose(index));
-    });
-    return;
+void renderBag(const Simulator& simulator, const std::string& bag, const Options& options) {
+  if (options.extras.depth) {
+    throw std::invalid_argument("--truth needs a directory as output: a bag has no depth");
   }
-  SequenceWriter writer(directory, simulator, options.truth);
-  if (options.imu) writeGyroFile(directory + "/imu.csv", simulator.gyroscope());
-  renderFrames(simulator, options, [&](const SimulatedFrame& frame, int) { writer.write(frame); });
-}
-
-/// A temporary directory, removed with its contents.
-struct ScratchDirectory {
-  ~ScratchDirectory() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  std::string path;
-};
-
-void renderBag(Simulator& simulator, const std::string& bag, const Options& options) {
-  const ScratchDirectory frames{bag + ".frames"};
+  const struct Scratch {
+    ~Scratch() {
+      std::error_code ignored;
+      fs::remove_all(path, ignored);
+    }
+    std::string path;
+  } frames{bag + ".frames"};
   fs::remove_all(frames.path);
   renderSequence(simulator, frames.path, options);
   writeSequenceBag(bag, frames.path);
@@ -237,19 +173,15 @@ void renderBag(Simulator& simulator, const std::string& bag, const Options& opti
 
 void run(const Options& options) {
   const std::string& out = options.names.back();
-  Simulator simulator(chosenScenario(options), options.simulation);
-  if (fs::path(out).extension() == ".csv") {
+  const std::string extension = fs::path(out).extension();
+  const Simulator simulator(chosenScenario(options), options.simulation);
+  if (extension == ".csv") {
     writeGyroFile(out, simulator.gyroscope());
-    return;
-  }
-  if (fs::path(out).extension() != ".bag") {
+  } else if (extension == ".bag") {
+    renderBag(simulator, out, options);
+  } else {
     renderSequence(simulator, out, options);
-    return;
   }
-  if (options.truth) {
-    throw std::invalid_argument("--truth needs a directory as output: a bag has no depth and flow");
-  }
-  renderBag(simulator, out, options);
 }
 
 }  // namespace

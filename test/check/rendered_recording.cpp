@@ -27,7 +27,7 @@ RenderedDrive render(const std::string& name, const SimulationOptions& options) 
   Simulator simulator(scenario(name, options.seed), options);
   RenderedDrive drive;
   for (int i = 0; i < simulator.size(); ++i) {
-    drive.pairs->push_back(simulator.render(i, false).pair);
+    drive.pairs->push_back(simulator.render(i).pair);
     drive.pairs->back().stamp_ns += kStart_ns;
     drive.poses->push_back(simulator.pose(i));
   }

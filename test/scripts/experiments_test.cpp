@@ -125,21 +125,6 @@ TEST_F(ExperimentsTest, SimulatesAGyroscope) {
   EXPECT_EQ(number(row("clip", "gyroscope"), "lost"), 0.0);
 }
 
-TEST_F(ExperimentsTest, ComparesTwinsWithTheirClips) {
-  const CommandResult result = run(
-      RUN,
-      plan("drives: {'{name}_twin': '--poses {sequence}/poses.txt --size 310x94 --focal 180"
-           " --frames 12 --disparity-bias={bias_px}'}\n"
-           "groups: {twins: ['*_twin'], clips: ['!*_twin']}\ncompare: [twins, clips]\n" +
-           (kSettings + std::string("  one stage: {motion_estimator/criterion: reprojection}\n"
-                                    "  no calibration: {stereo_calibrator/enabled: false}\n"))) +
-          clip() + ":5");
-  ASSERT_EQ(result.status, 0) << result.output;
-  EXPECT_GT(number(row("clip_twin"), "translation_percent"), 0.0);
-  EXPECT_NE(result.output.find("of twins and clips: rank correlation"), std::string::npos)
-      << result.output;
-}
-
 TEST(SettingsFilesTest, HaveParametersThatThereAre) {
   static const std::regex parameter(R"((\w+)/(\w+):)");
   const YAML::Node defaults = YAML::LoadFile(CONFIG "/default.yaml");
