@@ -5,8 +5,7 @@ import numpy
 
 from rotrocc_tools import report_figures as figures
 from rotrocc_tools import report_page as page
-from rotrocc_tools import trajectory_plot
-from rotrocc_tools.tables import positions, read_columns, read_table, write_table
+from rotrocc_tools.tables import read_columns, read_table, write_table
 
 DEVKIT_M = 100.0  # shortest segment of the devkit; short sequences use shorter ones
 GROUPS = [('devkit', 'Sequences by the KITTI metric', 'Segments of 100 to 800 m, as on the KITTI leaderboard.'),
@@ -153,43 +152,9 @@ class GroupSection:
         note += ' The mean is over all %d segments%s.' % (
             total_of(self.rows, 'segments'), ' of the sequences in both reports' if self.before else '')
 
-        def errors(rows):
-            return {row['sequence']: [row[name] for name in ERRORS] for row in rows}
-        bars = self.output / ('sequences_%s.png' % self.group)
-        figures.plot_sequences([row['sequence'] for row in self.rows], errors(self.rows), bars,
-                               errors(self.before.values()))
         curves = self.output / ('errors_%s.png' % self.group)
         figures.plot_errors(*self.tables, curves, self.tables_before)
-        return page.section(title, note, table, page.picture(bars, 'errors of each sequence'),
-                            page.picture(curves, 'errors by length and by speed'))
-
-
-def tiles(results):
-    entries = []
-    for group, what in (('devkit', ''), ('short', ', short')):
-        rows = [result.row for result in results if result.group == group]
-        if rows:
-            entries += [('%.3f' % mean_error(rows, ERRORS[0]), '%', 'translation error' + what),
-                        ('%.5f' % mean_error(rows, ERRORS[1]), 'deg/m', 'rotation error' + what)]
-    rows = [result.row for result in results]
-    entries += [('%d' % len(rows), 'sequences', '%d pairs, %.1f km' % (
-                    total_of(rows, 'pairs'), 1e-3 * total_of(rows, 'path_m'))),
-                ('%d' % total_of(rows, 'lost'), 'lost', '%d degraded' % total_of(rows, 'degraded')),
-                ('%.1f' % mean_cpu_ms(rows), 'ms', 'CPU time per pair'),
-                ('%.0f' % total_of(rows, 'duration_s'), 's', 'run time of all jobs')]
-    return page.tiles(entries)
-
-
-def trajectories(output, results):
-    drives = []
-    for result in results:
-        poses = read_columns(result.folder / 'poses.csv')
-        drives.append((result.folder.name, positions(poses),
-                       positions(poses, 'true_') if 'true_x_m' in poses else None))
-    path = output / 'trajectories.png'
-    trajectory_plot.draw_all(drives, path)
-    return page.section('Trajectories', 'Top view, each at its own scale.',
-                        page.picture(path, 'trajectories from above'))
+        return page.section(title, note, table, page.picture(curves, 'errors by length and by speed'))
 
 
 def print_table(results):
@@ -215,7 +180,7 @@ def write(output, names, failed, earlier, title):
         shutil.copyfile(str(result.folder / 'estimate.txt'),
                         str(output / 'trajectories' / (result.folder.name + '.txt')))
 
-    parts = [tiles(results)]
+    parts = []
     if failed:
         parts.append(page.section('Failed', '', page.table(['sequence', 'reason'], [
             (page.text(name), page.text(why)) for name, why in failed.items()])))
@@ -225,7 +190,6 @@ def write(output, names, failed, earlier, title):
             parts.append(page.section(heading, note, results_table([result.row for result in members])))
         elif members:
             parts.append(GroupSection(output, group, members, earlier).write(heading, note))
-    parts.append(trajectories(output, results))
     parts.append(page.section('Tables', 'Files next to this page: %s; estimated poses in KITTI format in trajectories.'
                               % page.links(['sequences.csv', 'by_length.csv', 'by_speed.csv'])))
     page.write_page(output / 'index.html', title, 'Stereo visual odometry, %d sequences%s' % (

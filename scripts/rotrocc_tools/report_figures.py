@@ -7,7 +7,7 @@ import contextlib
 from matplotlib import patches
 import numpy
 
-from rotrocc_tools.plot_style import (BLACK, BLUE, DEGRADED, FAINT, GREEN, LOST, ORANGE, SKY, TEXT, VERMILLION,
+from rotrocc_tools.plot_style import (BLACK, BLUE, DEGRADED, FAINT, GREEN, LOST, ORANGE, SKY, VERMILLION,
                         dress, legend, place_ticks, pyplot, save)
 
 WIDTH_IN = 8.4
@@ -158,30 +158,3 @@ def plot_bias(pairs, time_s, path):
         panel.plot(time_s, bias, color=BLUE, linewidth=1.6, label='estimated')
         panel.plot(time_s, pairs['bias_applied_px'], color=VERMILLION, linewidth=1.2, label='applied')
         panel.set_ylim(low - margin, high + margin)
-
-
-def plot_sequences(names, errors, path, earlier=None):
-    """A bar for each sequence: `errors` and `earlier` are {name of the sequence: (translation [%],
-    rotation [deg/m])}."""
-    height_in = 1.1 + 0.26 * len(names)
-    figure, axes = panels(1, 2, height_in, sharey=True)
-    places = numpy.arange(len(names))
-    for index, (label, colour) in enumerate((('translation error [%]', BLUE),
-                                             ('rotation error [deg/m]', ORANGE))):
-        panel = axes[0, index]
-        panel.barh(places, [errors[name][index] for name in names], height=0.62, color=colour)
-        if earlier:
-            known = [i for i, name in enumerate(names) if name in earlier]
-            panel.plot([earlier[names[i]][index] for i in known], places[known], '|', color=BLACK,
-                       markersize=13, markeredgewidth=2)
-        panel.set_xlabel(label)
-        panel.grid(False, axis='y')
-        place_ticks(panel.xaxis, 5)
-    axes[0, 0].set_yticks(places)
-    axes[0, 0].set_yticklabels(names, color=TEXT)
-    axes[0, 0].invert_yaxis()
-    figure.tight_layout(w_pad=1.6, rect=(0, 0, 1, 1 - 0.2 / height_in))
-    if earlier:
-        legend(figure, axes[0, 0].lines[-1:], ['earlier'], loc='upper right',
-               bbox_to_anchor=(0.985, 1 - 0.04 / height_in))
-    save(figure, path)

@@ -8,15 +8,11 @@ from rotrocc_tools.tables import path_lengths
 PAGE_IN = 8.0
 
 
-def draw_lines(axes, estimate, truth, scale):
-    if truth is not None:
-        axes.plot(truth[:, 0], truth[:, 2], color=TRUTH, linewidth=4.0 * scale, solid_capstyle='round', label='truth')
-    axes.plot(estimate[:, 0], estimate[:, 2], color=ESTIMATE, linewidth=1.6 * scale, label='estimate')
-    axes.plot(0.0, 0.0, 'o', color=TEXT, markersize=9 * scale, markeredgecolor='white', zorder=4, label='start')
-
-
 def draw_from_above(axes, estimate, truth):
-    draw_lines(axes, estimate, truth, 1.0)
+    if truth is not None:
+        axes.plot(truth[:, 0], truth[:, 2], color=TRUTH, linewidth=4.0, solid_capstyle='round', label='truth')
+    axes.plot(estimate[:, 0], estimate[:, 2], color=ESTIMATE, linewidth=1.6, label='estimate')
+    axes.plot(0.0, 0.0, 'o', color=TEXT, markersize=9, markeredgecolor='white', zorder=4, label='start')
     if truth is not None:
         axes.plot(truth[-1, 0], truth[-1, 2], 's', color=TRUTH, markersize=11,
                   markeredgecolor='white', zorder=3)
@@ -86,26 +82,4 @@ def draw(estimate, truth, path, marks):
 
     legend(figure, *above.get_legend_handles_labels(), loc='upper left', ncol=6,
            bbox_to_anchor=(left, 1.0 - (top_in - 0.37) / page_in))
-    save(figure, path)
-
-
-def draw_all(drives, path):
-    """Writes a PNG with a small picture for each of [(name, estimate, truth or None)]."""
-    columns = min(4, len(drives))
-    rows = -(-len(drives) // columns)
-    side_in = PAGE_IN / max(columns, 3)
-    figure = pyplot.figure(figsize=(PAGE_IN, rows * (side_in + 0.25) + 0.3))
-    for index, (name, estimate, truth) in enumerate(drives):
-        axes = figure.add_subplot(rows, columns, index + 1, aspect='equal', adjustable='datalim')
-        dress(axes)
-        axes.tick_params(labelsize=7.5)
-        draw_lines(axes, estimate, truth, 0.7)
-        axes.margins(0.08)
-        axes.set_title(name, fontsize=10, color=TEXT)
-        place_ticks(axes.xaxis, 4)
-        place_ticks(axes.yaxis, 4)
-    figure.tight_layout(rect=(0, 0, 1, 1 - 0.25 / figure.get_figheight()), w_pad=0.6)
-    best = max(figure.axes, key=lambda axes: len(axes.lines))
-    legend(figure, *best.get_legend_handles_labels(), loc='upper left', ncol=3,
-           bbox_to_anchor=(0.02, 0.995))
     save(figure, path)
