@@ -52,8 +52,11 @@ PixelRays raysOf(const RawCamera& raw) {
   cv::Mat places(raw.height, raw.width, CV_64FC2);
   Eigen::AlignedBox2d bounds;
   for (int y = 0; y < raw.height; ++y) {
+    std::vector<cv::Point2d> row;
+    for (int x = 0; x < raw.width; ++x) row.emplace_back(x, y);
+    const std::vector<Eigen::Vector3d> rays = raw.rays(row);
     for (int x = 0; x < raw.width; ++x) {
-      const Eigen::Vector3d ray = raw.R_rectified_raw * raw.ray(Eigen::Vector2d(x, y));
+      const Eigen::Vector3d ray = raw.R_rectified_raw * rays[static_cast<std::size_t>(x)];
       const Eigen::Vector2d slope = ray.hnormalized();
       if (!(ray.z() > 0.0 && slope.norm() < kMaxSlope)) {
         throw std::invalid_argument(cv::format(

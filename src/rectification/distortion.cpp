@@ -5,7 +5,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include <opencv2/core.hpp>
+#include <opencv2/calib3d.hpp>
 
 namespace rotrocc {
 namespace {
@@ -83,71 +83,57 @@ bool Distortion::isNone() const {
              coefficients_.begin(), coefficients_.end(), [](double value) { return value == 0.0; });
 }
 
-/// Distorted radius over radius, without the tangential part.
-double Distortion::radialGain(double radius) const {
-  const std::vector<double>& k = coefficients_;
+/// By OpenCV, wherever the points are.
+Distortion::Points Distortion::apply(const std::vector<double>& coefficients,
+                                     const Points& points) const {
+  Points seen;
+  if (points.empty()) return seen;
+  const cv::Matx33d K = cv::Matx33d::eye();
   if (model_ == Model::kEquidistant) {
-    if (radius < 1e-9) return 1.0;
-    const double angle = std::atan(radius);
-    const double square = angle * angle;
-    return angle / radius *
-           (1.0 + square * (k[0] + square * (k[1] + square * (k[2] + square * k[3]))));
+    cv::fisheye::distortPoints(points, seen, K, coefficients);
+  } else {
+    std::vector<cv::Point3d> rays;
+    cv::convertPointsToHomogeneous(points, rays);
+    cv::projectPoints(rays, cv::Vec3d(), cv::Vec3d(), K, coefficients, seen);
   }
-  const double square = radius * radius;
-  const double gain = 1.0 + square * (k[0] + square * (k[1] + square * k[4]));
-  if (model_ == Model::kPlumbBob) return gain;
-  return gain / (1.0 + square * (k[5] + square * (k[6] + square * k[7])));
-}
-
-Eigen::Vector2d Distortion::tangential(const Eigen::Vector2d& point) const {
-  if (model_ == Model::kEquidistant) return Eigen::Vector2d::Zero();
-  const double p1 = coefficients_[2];
-  const double p2 = coefficients_[3];
-  const double x = point.x();
-  const double y = point.y();
-  const double square = point.squaredNorm();
-  return {2.0 * p1 * x * y + p2 * (square + 2.0 * x * x),
-          p1 * (square + 2.0 * y * y) + 2.0 * p2 * x * y};
+  return seen;
 }
 
 double Distortion::findLimit() const {
   constexpr double kStep = 0.25 * kDegree;
-  double seen_at = 0.0;
+  std::vector<double> radial = coefficients_;
+  if (model_ != Model::kEquidistant) radial[2] = radial[3] = 0.0;
+  Points points;
   for (double angle = kStep; angle < kMaxAngle; angle += kStep) {
-    const double radius = std::tan(angle);
-    const double next = radius * radialGain(radius);
-    if (!(next > seen_at)) return std::tan(angle - kStep);
-    seen_at = next;
+    points.emplace_back(std::tan(angle), 0.0);
+  }
+  const Points seen = apply(radial, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (seen[i].x > (i == 0 ? 0.0 : seen[i - 1].x)) continue;
+    return i == 0 ? 0.0 : points[i - 1].x;
   }
   return std::tan(kMaxAngle);
 }
 
-Eigen::Vector2d Distortion::distort(const Eigen::Vector2d& point) const {
-  const double radius = point.norm();
-  if (radius > limit_) return distort(point * ((1.0 - 1e-9) * limit_ / radius));
-  return radialGain(radius) * point + tangential(point);
+Distortion::Points Distortion::distort(Points points) const {
+  for (cv::Point2d& point : points) {
+    const double radius = cv::norm(point);
+    if (radius > limit_) point *= (1.0 - 1e-9) * limit_ / radius;
+  }
+  return apply(coefficients_, points);
 }
 
-/// Inverse of the radial part, by bisection: it rises up to the limit.
-double Distortion::radiusSeenAt(double distorted_radius) const {
-  double low = 0.0;
-  double high = limit_;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (middle * radialGain(middle) < distorted_radius ? low : high) = middle;
+Distortion::Points Distortion::undistort(const Points& distorted) const {
+  Points points;
+  if (distorted.empty()) return points;
+  const cv::Matx33d K = cv::Matx33d::eye();
+  if (model_ == Model::kEquidistant) {
+    cv::fisheye::undistortPoints(distorted, points, K, coefficients_);
+  } else {
+    const cv::TermCriteria exact(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 200, 1e-15);
+    cv::undistortPoints(distorted, points, K, coefficients_, cv::noArray(), cv::noArray(), exact);
   }
-  return 0.5 * (low + high);
-}
-
-Eigen::Vector2d Distortion::undistort(const Eigen::Vector2d& distorted) const {
-  Eigen::Vector2d point = distorted;
-  for (int i = 0; i < 20; ++i) {  // the tangential part is small
-    const Eigen::Vector2d radial = distorted - tangential(point);
-    const double radius = radial.norm();
-    if (radius == 0.0) return radial;
-    point = radiusSeenAt(radius) / radius * radial;
-  }
-  return point;
+  return points;
 }
 
 }  // namespace rotrocc

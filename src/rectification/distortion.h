@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
+#include <opencv2/core.hpp>
 
 namespace rotrocc {
 
@@ -33,21 +33,21 @@ class Distortion {
   /// Whether it moves nothing.
   bool isNone() const;
 
-  /// Where a point is seen. Beyond limit() it is seen where the limit is.
-  Eigen::Vector2d distort(const Eigen::Vector2d& point) const;
+  using Points = std::vector<cv::Point2d>;
 
-  /// The point that is seen at `distorted`; if there is none, the nearest at limit().
-  Eigen::Vector2d undistort(const Eigen::Vector2d& distorted) const;
+  /// Where points are seen. Beyond limit() they are seen where the limit is.
+  Points distort(Points points) const;
+
+  /// The points that are seen at `distorted`. Where the model shows none, the result is any point.
+  Points undistort(const Points& distorted) const;
 
   /// Radius up to which points that are farther out are seen farther out. The model says nothing
   /// about those beyond it: polynomials fold back there.
   double limit() const { return limit_; }
 
  private:
-  double radialGain(double radius) const;
-  Eigen::Vector2d tangential(const Eigen::Vector2d& point) const;
+  Points apply(const std::vector<double>& coefficients, const Points& points) const;
   double findLimit() const;
-  double radiusSeenAt(double distorted_radius) const;
 
   Model model_ = Model::kPlumbBob;
   std::vector<double> coefficients_ = std::vector<double>(5, 0.0);

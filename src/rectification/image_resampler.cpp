@@ -56,13 +56,13 @@ std::array<ImageResampler::Weights, ImageResampler::kPhases> ImageResampler::wei
   return table;
 }
 
-void ImageResampler::setPlace(int x, int y, const Eigen::Vector2d& place) {
+void ImageResampler::setPlace(int x, int y, const cv::Point2d& place) {
   const auto fixed = [](double position, int count) {
     const double nearest = std::max(0.0, std::min(position, count - 1.0));  // 0 for NaN
     return static_cast<int>(std::lround(nearest * kPhases));
   };
-  const int column = fixed(place.x(), source_.width);
-  const int row = fixed(place.y(), source_.height);
+  const int column = fixed(place.x, source_.width);
+  const int row = fixed(place.y, source_.height);
   Place& stored = places_[static_cast<std::size_t>(y) * size_.width + x];
   stored.column = static_cast<std::int16_t>(column / kPhases);
   stored.row = static_cast<std::int16_t>(row / kPhases);
@@ -92,6 +92,7 @@ std::uint8_t ImageResampler::pixelAt(const Place& place) const {
 }
 
 void ImageResampler::resample(const cv::Mat& image, cv::Mat& result) {
+  CV_Assert(image.type() == CV_8UC1 && image.size() == source_);
   cv::copyMakeBorder(
       image, framed_, 1, kTaps - 2, 1, kTaps - 2, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
   const Place* place = places_.data();

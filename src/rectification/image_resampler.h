@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <Eigen/Core>
 #include <opencv2/core.hpp>
 
 namespace rotrocc {
@@ -25,9 +24,7 @@ class ImageResampler {
 
   /// The place of a pixel of the results, rounded to 1/256 px. Outside of the source image it is
   /// that of the nearest border.
-  void setPlace(int x, int y, const Eigen::Vector2d& place);
-
-  const cv::Size& source() const { return source_; }
+  void setPlace(int x, int y, const cv::Point2d& place);
 
   /// Fills `result`, CV_8UC1 of the size of the results. `image` is CV_8UC1 of the source size.
   void resample(const cv::Mat& image, cv::Mat& result);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include <opencv2/core.hpp>
 
@@ -87,8 +88,8 @@ class CommonImage {
  private:
   /// What the centre of a raw image shows, in normalized coordinates of the rectified one.
   static Eigen::Vector2d centre(const RawCamera& raw) {
-    const Eigen::Vector2d middle(0.5 * (raw.width - 1), 0.5 * (raw.height - 1));
-    return (raw.R_rectified_raw * raw.ray(middle)).hnormalized();
+    const cv::Point2d middle(0.5 * (raw.width - 1), 0.5 * (raw.height - 1));
+    return (raw.R_rectified_raw * raw.rays({middle})[0]).hnormalized();
   }
 
   /// The middle of what both show is in the middle of the rectified images.
@@ -104,24 +105,26 @@ class CommonImage {
   bool isSeen(const StereoCamera& camera) const {
     const double right = camera.width - 1;
     const double bottom = camera.height - 1;
+    std::vector<Eigen::Vector3d> border;
     for (double x = 0; x <= right; ++x) {
-      if (!isSeen(camera, {x, 0}) || !isSeen(camera, {x, bottom})) return false;
+      for (const double y : {0.0, bottom}) border.push_back(camera.ray({x, y}));
     }
     for (double y = 0; y <= bottom; ++y) {
-      if (!isSeen(camera, {0, y}) || !isSeen(camera, {right, y})) return false;
+      for (const double x : {0.0, right}) border.push_back(camera.ray({x, y}));
     }
-    return true;
+    return isSeenBy(left_, border) && isSeenBy(right_, border);
   }
 
-  bool isSeen(const StereoCamera& camera, const Eigen::Vector2d& pixel) const {
-    return isSeenBy(left_, camera.ray(pixel)) && isSeenBy(right_, camera.ray(pixel));
-  }
-
-  static bool isSeenBy(const RawCamera& raw, const Eigen::Vector3d& rectified_ray) {
-    const Eigen::Vector3d ray = raw.R_rectified_raw.transpose() * rectified_ray;
-    if (!(ray.z() > 0.0) || ray.hnormalized().norm() > raw.distortion.limit()) return false;
-    const Eigen::Vector2d pixel = raw.project(ray);
-    return pixel.minCoeff() >= 0.0 && pixel.x() <= raw.width - 1 && pixel.y() <= raw.height - 1;
+  static bool isSeenBy(const RawCamera& raw, std::vector<Eigen::Vector3d> rays) {
+    for (Eigen::Vector3d& ray : rays) {
+      ray = raw.R_rectified_raw.transpose() * ray;
+      if (!(ray.z() > 0.0 && ray.hnormalized().norm() <= raw.distortion.limit())) return false;
+    }
+    const std::vector<cv::Point2d> pixels = raw.project(rays);
+    return std::all_of(pixels.begin(), pixels.end(), [&](const cv::Point2d& pixel) {
+      return pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x <= raw.width - 1 &&
+             pixel.y <= raw.height - 1;
+    });
   }
 
   RawCamera left_;
@@ -149,13 +152,19 @@ void RawCamera::check() const {
   }
 }
 
-Eigen::Vector2d RawCamera::project(const Eigen::Vector3d& point) const {
-  const Eigen::Vector2d seen = distortion.distort(point.hnormalized());
-  return {fx * seen.x() + cx, fy * seen.y() + cy};
+std::vector<cv::Point2d> RawCamera::project(const std::vector<Eigen::Vector3d>& points) const {
+  std::vector<cv::Point2d> pixels;
+  for (const Eigen::Vector3d& p : points) pixels.emplace_back(p.x() / p.z(), p.y() / p.z());
+  pixels = distortion.distort(std::move(pixels));
+  for (cv::Point2d& pixel : pixels) pixel = {fx * pixel.x + cx, fy * pixel.y + cy};
+  return pixels;
 }
 
-Eigen::Vector3d RawCamera::ray(const Eigen::Vector2d& pixel) const {
-  return distortion.undistort({(pixel.x() - cx) / fx, (pixel.y() - cy) / fy}).homogeneous();
+std::vector<Eigen::Vector3d> RawCamera::rays(std::vector<cv::Point2d> pixels) const {
+  for (cv::Point2d& pixel : pixels) pixel = {(pixel.x - cx) / fx, (pixel.y - cy) / fy};
+  std::vector<Eigen::Vector3d> rays;
+  for (const cv::Point2d& p : distortion.undistort(pixels)) rays.emplace_back(p.x, p.y, 1.0);
+  return rays;
 }
 
 bool StereoCalibration::isRectified() const {

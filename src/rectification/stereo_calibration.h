@@ -1,6 +1,9 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Geometry>
+#include <opencv2/core.hpp>
 
 #include "rectification/distortion.h"
 #include "rotrocc/stereo_camera.h"
@@ -23,11 +26,11 @@ struct RawCamera {
   /// side of more than 32000 px, or a matrix that is no rotation.
   void check() const;
 
-  /// Pixel of a point in the frame of the raw camera, whose z must be positive.
-  Eigen::Vector2d project(const Eigen::Vector3d& point) const;
+  /// Pixels of points in the frame of the raw camera, whose z must be positive.
+  std::vector<cv::Point2d> project(const std::vector<Eigen::Vector3d>& points) const;
 
-  /// Viewing ray of a pixel in the frame of the raw camera, of unit depth.
-  Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const;
+  /// Viewing rays of pixels in the frame of the raw camera, of unit depth.
+  std::vector<Eigen::Vector3d> rays(std::vector<cv::Point2d> pixels) const;
 };
 
 /// A stereo camera before and after rectification.

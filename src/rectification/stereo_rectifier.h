@@ -23,12 +23,11 @@ class StereoRectifier {
   /// Keeps the maps. `threads` as above.
   void setThreads(int threads) { workers_ = Workers(std::min(threads, 2)); }
 
-  /// By the calibration of this pair: the maps are rebuilt when it is another object. The rectified
-  /// images are valid until the next call. Masks are rectified, too: a pixel is masked if a masked
-  /// one contributes to it. Pixels that a camera does not see repeat the border of
-  /// its image, which has fewer corners than a black edge. Throws std::invalid_argument if the
-  /// calibration is none, see RawCamera::check(), or if images or masks are not CV_8UC1 of the
-  /// size of the raw cameras.
+  /// By the calibration of this pair, whose cameras are valid: the maps are rebuilt when it is
+  /// another object. The rectified images are valid until the next call. Masks are rectified, too:
+  /// a pixel is masked if a masked one contributes to it. Pixels that a camera does not see repeat
+  /// the border of its image, which has fewer corners than a black edge. Images and masks are
+  /// CV_8UC1 of the size of the raw cameras.
   StereoPair rectify(const StereoPair& raw,
                      const std::shared_ptr<const StereoCalibration>& calibration);
 
@@ -40,12 +39,8 @@ class StereoRectifier {
     cv::Mat mask = {};  // of raw_mask
   };
 
-  static Side makeSide(const char* name,
-                       const RawCamera& raw,
-                       const StereoCamera& camera,
-                       double cx);
-  static const cv::Mat& rectifyMask(const char* name, const cv::Mat& raw_mask, Side& side);
-  void setCalibration(const StereoCalibration& calibration);
+  static Side makeSide(const RawCamera& raw, const StereoCamera& camera, double cx);
+  static const cv::Mat& rectifyMask(const cv::Mat& raw_mask, Side& side);
 
   std::optional<Side> left_, right_;
   std::shared_ptr<const StereoCalibration> calibration_;  // that the maps are made of

@@ -55,17 +55,14 @@ TEST(StereoCalibrationTest, BothCamerasSeeAllOfTheLargestImage) {
     EXPECT_EQ(camera.width, 752);
     EXPECT_EQ(camera.height, 480);
     double margin_px = 1e9;  // from a border of a raw image
-    for (int y = 0; y < camera.height; ++y) {
-      for (int x = 0; x < camera.width; ++x) {
-        for (const RawCamera* raw : {&calibration.left, &calibration.right}) {
-          const Eigen::Vector2d pixel =
-              raw->project(raw->R_rectified_raw.transpose() * camera.ray(Eigen::Vector2d(x, y)));
-          margin_px = std::min({margin_px,
-                                pixel.x(),
-                                pixel.y(),
-                                raw->width - 1 - pixel.x(),
-                                raw->height - 1 - pixel.y()});
-        }
+    for (const RawCamera* raw : {&calibration.left, &calibration.right}) {
+      std::vector<Eigen::Vector3d> rays;
+      for (int i = 0; i < camera.width * camera.height; ++i) {
+        const Eigen::Vector2d pixel(i % camera.width, i / camera.width);
+        rays.push_back(raw->R_rectified_raw.transpose() * camera.ray(pixel));
+      }
+      for (const cv::Point2d& p : raw->project(rays)) {
+        margin_px = std::min({margin_px, p.x, p.y, raw->width - 1 - p.x, raw->height - 1 - p.y});
       }
     }
     EXPECT_GE(margin_px, 0.0) << model;
