@@ -14,8 +14,11 @@ namespace {
 /// The clock is that of the recorder, which may have been another than that of the cameras.
 constexpr double kMaxFuture_s = std::numeric_limits<double>::infinity();
 
-NodeParameters withRectify(NodeParameters node, bool rectify) {
-  node.rectify = rectify;
+NodeParameters withRectify(NodeParameters node,
+                           bool rectify,
+                           const StereoCalibration* calibration) {
+  node.rectify = rectify && !calibration;
+  if (calibration) node.baseline_m = calibration->rectified.baseline_m;
   return node;
 }
 
@@ -23,11 +26,13 @@ NodeParameters withRectify(NodeParameters node, bool rectify) {
 
 RecordedPairs::RecordedPairs(Recording& recording,
                              const NodeParameters& node,
-                             const std::string& rectify)
+                             const std::string& rectify,
+                             std::shared_ptr<const StereoCalibration> calibration)
     : recording_(recording),
-      rectifies_(rectify == "auto" ? recording.isRaw() : rectify == "yes"),
+      calibration_(std::move(calibration)),
+      rectifies_(calibration_ || (rectify == "auto" ? recording.isRaw() : rectify == "yes")),
       intake_(
-          withRectify(node, rectifies_),
+          withRectify(node, rectifies_, calibration_.get()),
           drops_,
           [this](ReceivedPair pair) { received_.push_back(std::move(pair)); },
           Log(),
@@ -45,8 +50,12 @@ bool RecordedPairs::next(StereoPair& pair, StereoCamera& camera) {
     if (received_.empty()) continue;
     current_ = std::move(received_.front());
     received_.pop_front();
+    if (calibration_) {
+      current_.calibration = calibration_;
+      current_.camera = calibration_->rectified;
+    }
     try {
-      pair = convert(current_);
+      pair = converter_.convert(current_);
     } catch (const InputError& error) {
       const std::string stamp = toText(current_.images.left->header.stamp);
       drops_.add(InputError(error.reason(), "pair of " + stamp + " s: " + error.what()));
@@ -98,13 +107,6 @@ void RecordedPairs::add(const RecordedMessage& message) {
   if (message.right_info) intake_.addInfo(Side::kRight, message.right_info, arrival);
   if (message.left_image) intake_.addImage(Side::kLeft, message.left_image, arrival);
   if (message.right_image) intake_.addImage(Side::kRight, message.right_image, arrival);
-}
-
-/// As PairProcessor::convert().
-StereoPair RecordedPairs::convert(const ReceivedPair& received) {
-  const StereoPair pair = converter_.convert(*received.images.left, *received.images.right);
-  validateSize(*received.images.left, received.camera);
-  return received.calibration ? rectifier_.rectify(pair, received.calibration) : pair;
 }
 
 }  // namespace rotrocc

@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -9,7 +10,7 @@
 #include "input/drop_log.h"
 #include "input/stereo_intake.h"
 #include "input/stereo_pair_converter.h"
-#include "rectification/stereo_rectifier.h"
+#include "rectification/stereo_calibration.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
@@ -23,11 +24,13 @@ class RecordedPairs {
  public:
   /// `recording` must outlive this. Of `node` it takes what is about images, and the baseline.
   /// `rectify`: whether images are rectified by K, D, R and P of camera_info: yes, no, or auto:
-  /// those that have to be, see Recording::isRaw(). Throws std::invalid_argument on any other text,
-  /// and std::runtime_error if the mask cannot be read.
+  /// those that have to be, see Recording::isRaw(). `calibration`: they are rectified by it, and
+  /// not by camera_info. Throws std::invalid_argument on any other text, and std::runtime_error if
+  /// the mask cannot be read.
   explicit RecordedPairs(Recording& recording,
                          const NodeParameters& node = {},
-                         const std::string& rectify = "auto");
+                         const std::string& rectify = "auto",
+                         std::shared_ptr<const StereoCalibration> calibration = nullptr);
   RecordedPairs(const RecordedPairs&) = delete;
   RecordedPairs& operator=(const RecordedPairs&) = delete;
 
@@ -51,17 +54,16 @@ class RecordedPairs {
  private:
   bool readMessage();
   void add(const RecordedMessage& message);
-  StereoPair convert(const ReceivedPair& received);
 
   Recording& recording_;
   std::function<void(const RecordedMessage&)> observe_ = [](const RecordedMessage&) {};
+  std::shared_ptr<const StereoCalibration> calibration_;
   bool rectifies_;
   DropLog drops_;
   StereoIntake intake_;
   std::deque<ReceivedPair> received_;
   ReceivedPair current_;  // of the last call of next()
   StereoPairConverter converter_;
-  StereoRectifier rectifier_;
   int pairs_ = 0;
 };
 

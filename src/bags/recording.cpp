@@ -7,16 +7,20 @@
 #include <tuple>
 #include <utility>
 
+#include <cv_bridge/cv_bridge.h>
+#include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Imu.h>
+#include <sensor_msgs/image_encodings.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <boost/make_shared.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "bags/bag_reading.h"
-#include "bags/compressed_image.h"
 #include "bags/recorded_tf.h"
 #include "bags/sequence_recording.h"
 #include "bags/stereo_topics.h"
 #include "input/camera_calibration.h"
+#include "input/input_error.h"
 #include "input/message_conversion.h"
 #include "sequences/calibration_file.h"
 
@@ -31,6 +35,30 @@ namespace fs = std::filesystem;
 
 bool isCompressed(const rosbag::MessageInstance& instance) {
   return instance.getDataType() == "sensor_msgs/CompressedImage";
+}
+
+/// The image that image_transport makes of a compressed one, but colors as bgr or bgra.
+sensor_msgs::Image::ConstPtr decode(const sensor_msgs::CompressedImage& message) {
+  cv::Mat pixels;
+  try {
+    if (!message.data.empty()) pixels = cv::imdecode(message.data, cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception&) {  // too many pixels
+  }
+  if (pixels.empty() || (pixels.depth() != CV_8U && pixels.depth() != CV_16U)) {
+    throw InputError(DropReason::kImageData,
+                     "a compressed image with " + std::to_string(message.data.size()) +
+                         " bytes and the format \"" + message.format +
+                         "\" cannot be decoded as grey or colour image: is it damaged, or a depth "
+                         "image?");
+  }
+  // "ENCODING; jpeg compressed ..."; older drivers omit it.
+  const std::string recorded = message.format.substr(0, message.format.find(';'));
+  const std::string bits = pixels.depth() == CV_8U ? "8" : "16";
+  std::string encoding = (pixels.channels() == 3 ? "bgr" : "bgra") + bits;
+  if (pixels.channels() == 1) {
+    encoding = sensor_msgs::image_encodings::isBayer(recorded) ? recorded : "mono" + bits;
+  }
+  return cv_bridge::CvImage(message.header, encoding, pixels).toImageMsg();
 }
 
 sensor_msgs::Image::ConstPtr readImage(const rosbag::MessageInstance& instance) {

@@ -1,6 +1,5 @@
 #include "bags/sequence_bag_writer.h"
 
-#include <cstddef>
 #include <filesystem>
 #include <stdexcept>
 #include <vector>
@@ -11,103 +10,64 @@
 namespace rotrocc {
 namespace {
 
-/// Writes into `path`.part until finish().
-class Writer {
- public:
-  Writer(const std::string& path, const SequenceRecording& recording)
-      : path_(path),
-        recording_(recording),
-        image_topic_(recording.isRaw() ? "/image_raw" : "/image_rect"),
-        truth_(recording.truth()),
-        gyroscope_(recording.gyroscopeMessages()) {
-    try {
-      bag_.open(unfinishedPath(), rosbag::bagmode::Write);
-    } catch (const rosbag::BagException& error) {
-      throw std::runtime_error(unfinishedPath() + " cannot be written: " + error.what());
-    }
-  }
-
-  /// Removes an unfinished file.
-  ~Writer() {
-    std::error_code ignored;
-    std::filesystem::remove(unfinishedPath(), ignored);
-  }
-
-  void write(const RecordedMessage& pair) {
-    beginPair(pair.time);
-    write("/stereo/left/camera_info", *pair.left_info);
-    write("/stereo/left" + image_topic_, *pair.left_image);
-    write("/stereo/right/camera_info", *pair.right_info);
-    write("/stereo/right" + image_topic_, *pair.right_image);
-  }
-
-  /// Renames the complete file to its final name.
-  void finish() {
-    writeGyroscope(ros::TIME_MAX);
-    bag_.close();
-    std::filesystem::rename(unfinishedPath(), path_);
-  }
-
- private:
-  std::string unfinishedPath() const { return path_ + ".part"; }
-
-  /// Writes what is before the first message of a pair.
-  void beginPair(const ros::Time& time) {
-    writeGyroscope(time);
-    time_ = time;
-    if (time == recording_.begin()) writeStatic();
-    const auto& poses = truth_.poses;
-    if (next_truth_ == poses.size() || poses[next_truth_].header.stamp != time) return;
-    write("/ground_truth/pose", poses[next_truth_]);
-    ++next_truth_;
-  }
-
-  void writeStatic() {
-    write("/tf_static", recording_.staticTransforms());
-    if (!truth_.poses.empty()) write("/ground_truth/path", truth_);
-  }
-
-  /// Writes the samples before `end`.
-  void writeGyroscope(const ros::Time& end) {
-    for (; next_sample_ < gyroscope_.size(); ++next_sample_) {
-      const sensor_msgs::Imu& sample = gyroscope_[next_sample_];
-      if (sample.header.stamp >= end) return;
-      time_ = sample.header.stamp;
-      write("/imu/data", sample);
-    }
-  }
-
-  template <typename Message>
-  void write(const std::string& topic, const Message& message) {
-    bag_.write(topic, time_, message);
+void writeMessages(rosbag::Bag& bag,
+                   SequenceRecording& recording,
+                   const std::function<void()>& on_pair) {
+  const std::string images = recording.isRaw() ? "/image_raw" : "/image_rect";
+  const nav_msgs::Path truth = recording.truth();
+  const std::vector<sensor_msgs::Imu> samples = recording.gyroscopeMessages();
+  auto next_pose = truth.poses.begin();
+  auto next_sample = samples.begin();
+  ros::Time time;  // of the next message
+  const auto write = [&](const std::string& topic, const auto& message) {
+    bag.write(topic, time, message);
     // Players sort by record time; equal times would have an undefined order.
-    time_ += ros::Duration(0, 1);
-  }
+    time += ros::Duration(0, 1);
+  };
+  const auto writeSamplesBefore = [&](const ros::Time& end) {
+    for (; next_sample != samples.end() && next_sample->header.stamp < end; ++next_sample) {
+      time = next_sample->header.stamp;
+      write("/imu/data", *next_sample);
+    }
+  };
 
-  std::string path_;
-  const SequenceRecording& recording_;
-  std::string image_topic_;
-  nav_msgs::Path truth_;
-  std::vector<sensor_msgs::Imu> gyroscope_;
-  std::size_t next_truth_ = 0;
-  std::size_t next_sample_ = 0;
-  rosbag::Bag bag_;
-  ros::Time time_;  // of the next message
-};
+  RecordedMessage pair;
+  while (recording.next(pair)) {
+    writeSamplesBefore(pair.time);
+    time = pair.time;
+    if (pair.time == recording.begin()) {
+      write("/tf_static", recording.staticTransforms());
+      if (!truth.poses.empty()) write("/ground_truth/path", truth);
+    }
+    if (next_pose != truth.poses.end() && next_pose->header.stamp == pair.time) {
+      write("/ground_truth/pose", *next_pose++);
+    }
+    write("/stereo/left/camera_info", *pair.left_info);
+    write("/stereo/left" + images, *pair.left_image);
+    write("/stereo/right/camera_info", *pair.right_info);
+    write("/stereo/right" + images, *pair.right_image);
+    if (on_pair) on_pair();
+  }
+  writeSamplesBefore(ros::TIME_MAX);
+}
 
 }  // namespace
 
 void writeSequenceBag(const std::string& path,
                       SequenceRecording& recording,
                       const std::function<void()>& on_pair) {
-  Writer writer(path, recording);
-  recording.select(recording.begin(), recording.end(), false);
-  RecordedMessage pair;
-  while (recording.next(pair)) {
-    writer.write(pair);
-    if (on_pair) on_pair();
+  const std::string unfinished = path + ".part";
+  try {
+    rosbag::Bag bag(unfinished, rosbag::bagmode::Write);
+    recording.select(recording.begin(), recording.end(), false);
+    writeMessages(bag, recording, on_pair);
+    bag.close();
+  } catch (const std::exception& error) {
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
+    throw std::runtime_error(unfinished + " cannot be written: " + error.what());
   }
-  writer.finish();
+  std::filesystem::rename(unfinished, path);
 }
 
 void writeSequenceBag(const std::string& path,

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include <sensor_msgs/image_encodings.h>
+#include <cv_bridge/cv_bridge.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <boost/make_shared.hpp>
 
@@ -16,8 +16,6 @@
 
 namespace rotrocc {
 namespace {
-
-namespace enc = sensor_msgs::image_encodings;
 
 constexpr std::int64_t kNsPerS = 1000000000;
 const char* const kBaseFrame = "base_link";
@@ -52,7 +50,8 @@ geometry_msgs::TransformStamped mount(const Eigen::Isometry3d& T_base_sensor,
 }
 
 sensor_msgs::Image::Ptr toGreyImage(const std_msgs::Header& header, const cv::Mat& pixels) {
-  return toImage(header, pixels.depth() == CV_16U ? enc::MONO16 : enc::MONO8, pixels);
+  const bool has_16_bits = pixels.depth() == CV_16U;
+  return cv_bridge::CvImage(header, has_16_bits ? "mono16" : "mono8", pixels).toImageMsg();
 }
 
 }  // namespace
@@ -67,7 +66,6 @@ SequenceRecording::SequenceRecording(const std::string& directory, const Options
     calibration_ = readStereoCalibration(options.calibration, options.sequence.baseline_m);
   }
   if (options.rectify && !calibration_.isRectified()) {
-    rectifier_.emplace();
     raw_calibration_ = std::make_shared<const StereoCalibration>(calibration_);
     calibration_ = rectifiedCalibration(calibration_.rectified);
   }
@@ -75,7 +73,7 @@ SequenceRecording::SequenceRecording(const std::string& directory, const Options
 }
 
 std::string SequenceRecording::description() const {
-  return "the pairs of " + directory_ + (rectifier_ ? ", rectified" : "");
+  return "the pairs of " + directory_ + (raw_calibration_ ? ", rectified" : "");
 }
 
 tf2_msgs::TFMessage SequenceRecording::staticTransforms() const {
@@ -155,11 +153,12 @@ StereoPair SequenceRecording::readPair(int index) {
   } catch (const std::runtime_error& error) {
     throw InputError(DropReason::kImageData, error.what());
   }
-  if (!rectifier_) return pair;
-  const std_msgs::Header no_header;
-  const auto left = toGreyImage(no_header, pair.left);
-  const auto right = toGreyImage(no_header, pair.right);
-  return rectifier_->rectify(converter_.convert(*left, *right), raw_calibration_);
+  if (!raw_calibration_) return pair;
+  ReceivedPair raw;
+  raw.images = {toGreyImage({}, pair.left), toGreyImage({}, pair.right)};
+  raw.camera = calibration_.rectified;
+  raw.calibration = raw_calibration_;
+  return converter_.convert(raw);
 }
 
 }  // namespace rotrocc

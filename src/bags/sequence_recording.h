@@ -9,7 +9,6 @@
 
 #include "bags/recording.h"
 #include "input/stereo_pair_converter.h"
-#include "rectification/stereo_rectifier.h"
 #include "sequences/stereo_sequence.h"
 
 namespace rotrocc {
@@ -70,8 +69,7 @@ class SequenceRecording : public Recording {
   std::int64_t offset_ns_;
   StereoCalibration calibration_;                             // of the images of next()
   std::shared_ptr<const StereoCalibration> raw_calibration_;  // of images that are rectified
-  std::optional<StereoRectifier> rectifier_;
-  StereoPairConverter converter_;  // of images that are rectified
+  StereoPairConverter converter_;                             // of images that are rectified
   int next_pair_ = 0;
   ros::Time last_;
 };

@@ -11,6 +11,7 @@
 namespace rotrocc {
 namespace {
 
+using Info = sensor_msgs::CameraInfo;
 using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 constexpr double kMaxMismatch_px = 0.1;   // of fx, fy and cy between rectified cameras
@@ -25,14 +26,7 @@ constexpr double kGreatBaseline_m = 10.0;
   throw InputError(DropReason::kCameraInfoInvalid, sentence);
 }
 
-/// Contents of P of one camera.
-struct Projection {
-  int width, height;
-  double fx, fy, cx, cy;
-  double tx, ty;  // P[3], P[7]: the camera's position, times minus the focal length
-};
-
-void checkProjection(const std::string& side, const sensor_msgs::CameraInfo& info) {
+void checkProjection(const std::string& side, const Info& info) {
   const auto& P = info.P;
   const std::string its = "P of the " + side + " camera_info";
   if (std::all_of(P.begin(), P.end(), [](double value) { return value == 0.0; })) {
@@ -56,22 +50,26 @@ void checkProjection(const std::string& side, const sensor_msgs::CameraInfo& inf
   }
 }
 
-Projection toProjection(const std::string& side, const sensor_msgs::CameraInfo& info) {
-  checkProjection(side, info);
+/// The sizes, K and P of the images as they are sent: without binning and region of interest.
+Info ofSentImages(Info info) {
+  const auto& roi = info.roi;
   const double binning_x = std::max(info.binning_x, 1u);
   const double binning_y = std::max(info.binning_y, 1u);
-  const double width = info.roi.width > 0 ? info.roi.width : info.width;
-  const double height = info.roi.height > 0 ? info.roi.height : info.height;
-  Projection projection;
-  projection.width = static_cast<int>(std::min(width / binning_x, kMaxSize_px));
-  projection.height = static_cast<int>(std::min(height / binning_y, kMaxSize_px));
-  projection.fx = info.P[0] / binning_x;
-  projection.fy = info.P[5] / binning_y;
-  projection.cx = (info.P[2] - info.roi.x_offset) / binning_x;
-  projection.cy = (info.P[6] - info.roi.y_offset) / binning_y;
-  projection.tx = info.P[3] / binning_x;
-  projection.ty = info.P[7] / binning_y;
-  return projection;
+  const auto scale = [&](auto& matrix, std::size_t columns) {
+    matrix[2] -= roi.x_offset;
+    matrix[columns + 2] -= roi.y_offset;
+    for (std::size_t i = 0; i < columns; ++i) {
+      matrix[i] /= binning_x;
+      matrix[columns + i] /= binning_y;
+    }
+  };
+  scale(info.K, 3);
+  scale(info.P, 4);
+  const double width = (roi.width > 0 ? roi.width : info.width) / binning_x;
+  const double height = (roi.height > 0 ? roi.height : info.height) / binning_y;
+  info.width = static_cast<std::uint32_t>(std::min(width, kMaxSize_px));
+  info.height = static_cast<std::uint32_t>(std::min(height, kMaxSize_px));
+  return info;
 }
 
 void requireEqual(const std::string& name, double left, double right) {
@@ -81,64 +79,54 @@ void requireEqual(const std::string& name, double left, double right) {
                    " px in the right one; calibrate them together");
 }
 
-void requireSideBySide(const Projection& left, const Projection& right) {
-  const std::string values =
-      toText(left.tx + 0.0) + " left and " + toText(right.tx + 0.0) + " right";  // no "-0"
-  if (left.tx == right.tx) {
-    refuseCameraInfo(
-        "the baseline is zero: P[3] of camera_info, which is -fx times the camera's position, is " +
-        values + "; calibrate the cameras as a pair, or set the parameter baseline_m");
+void requireSideBySide(const Info& left, const Info& right) {
+  const double left_tx = left.P[3] + 0.0, right_tx = right.P[3] + 0.0;  // no "-0"
+  const std::string values = "P[3] of camera_info, which is -fx times the camera's position, is " +
+                             toText(left_tx) + " left and " + toText(right_tx) + " right";
+  if (left_tx == right_tx) {
+    refuseCameraInfo("the baseline is zero: " + values +
+                     "; calibrate the cameras as a pair, or set the parameter baseline_m");
   }
-  if (left.tx < right.tx) {
-    refuseCameraInfo(
-        "the baseline is negative: P[3] of camera_info, which is -fx times the camera's "
-        "position, is " +
-        values + "; are left and right swapped?");
+  if (left_tx < right_tx) {
+    refuseCameraInfo("the baseline is negative: " + values + "; are left and right swapped?");
   }
-  if (std::abs(left.ty - right.ty) > kMaxOffRowShare * (left.tx - right.tx)) {
-    refuseCameraInfo("the cameras are not side by side: P[7] of camera_info is " + toText(left.ty) +
-                     " left and " + toText(right.ty) + " right, P[3] " + values);
+  if (std::abs(left.P[7] - right.P[7]) > kMaxOffRowShare * (left_tx - right_tx)) {
+    refuseCameraInfo("the cameras are not side by side: P[7] of camera_info is " +
+                     toText(left.P[7]) + " left and " + toText(right.P[7]) + " right, " + values);
   }
 }
 
-RawCamera toRawCamera(const std::string& side,
-                      const sensor_msgs::CameraInfo& info,
-                      const StereoCamera& rectified) {
-  const auto& K = info.K;
-  const double binning_x = std::max(info.binning_x, 1u);
-  const double binning_y = std::max(info.binning_y, 1u);
+RawCamera toRawCamera(const std::string& side, const Info& sent) {
+  const auto& K = sent.K;
   if (!(K[0] > 0.0 && K[4] > 0.0)) {
     refuseCameraInfo("K of the " + side + " camera_info has focal lengths " + toText(K[0]) +
                      " and " + toText(K[4]) +
                      " px, but rectification needs them: calibrate the camera");
   }
-  RawCamera raw;
-  raw.width = rectified.width;
-  raw.height = rectified.height;
-  raw.fx = K[0] / binning_x;
-  raw.fy = K[4] / binning_y;
-  raw.cx = (K[2] - info.roi.x_offset) / binning_x;
-  raw.cy = (K[5] - info.roi.y_offset) / binning_y;
-  raw.R_rectified_raw = Eigen::Map<const Matrix3>(info.R.data());
   std::string what = "D of the ";
   try {
     // Drivers without a calibration leave the name empty.
-    raw.distortion = {info.distortion_model.empty() ? "plumb_bob" : info.distortion_model, info.D};
+    const std::string model = sent.distortion_model.empty() ? "plumb_bob" : sent.distortion_model;
+    RawCamera raw = {static_cast<int>(sent.width),
+                     static_cast<int>(sent.height),
+                     K[0],
+                     K[4],
+                     K[2],
+                     K[5],
+                     {model, sent.D},
+                     Eigen::Map<const Matrix3>(sent.R.data())};
     what = "the ";
     raw.check();
+    return raw;
   } catch (const std::invalid_argument& error) {
     refuseCameraInfo(what + side + " camera_info: " + error.what());
   }
-  return raw;
 }
 
 /// `rectified` has the size and focal lengths of P, `cx` is its principal point and `shift_px` its
 /// P[3].
-sensor_msgs::CameraInfo toCameraInfo(const RawCamera& raw,
-                                     const StereoCamera& rectified,
-                                     double cx,
-                                     double shift_px) {
-  sensor_msgs::CameraInfo info;
+Info toCameraInfo(const RawCamera& raw, const StereoCamera& rectified, double cx, double shift_px) {
+  Info info;
   info.width = static_cast<std::uint32_t>(raw.width);
   info.height = static_cast<std::uint32_t>(raw.height);
   info.distortion_model = raw.distortion.name();
@@ -168,7 +156,7 @@ bool areSame(const Numbers& a, const Numbers& b) {
 }
 
 /// Whether two messages describe the same camera, up to what no pixel shows.
-bool isSameCamera(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo& b) {
+bool isSameCamera(const Info& a, const Info& b) {
   return a.width == b.width && a.height == b.height && a.distortion_model == b.distortion_model &&
          areSame(a.D, b.D) && areSame(a.K, b.K) && areSame(a.R, b.R) && areSame(a.P, b.P) &&
          a.binning_x == b.binning_x && a.binning_y == b.binning_y && a.roi == b.roi;
@@ -176,30 +164,30 @@ bool isSameCamera(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInf
 
 }  // namespace
 
-StereoCamera toStereoCamera(const sensor_msgs::CameraInfo& left_info,
-                            const sensor_msgs::CameraInfo& right_info,
-                            double baseline_m) {
-  const Projection left = toProjection("left", left_info);
-  const Projection right = toProjection("right", right_info);
+StereoCamera toStereoCamera(const Info& left_info, const Info& right_info, double baseline_m) {
+  checkProjection("left", left_info);
+  checkProjection("right", right_info);
+  const Info left = ofSentImages(left_info);
+  const Info right = ofSentImages(right_info);
   if (left.width != right.width || left.height != right.height) {
     refuseCameraInfo("the left camera_info is for images of " + sizeText(left.width, left.height) +
                      ", the right one for " + sizeText(right.width, right.height) +
                      ": set both cameras to the same resolution");
   }
-  requireEqual("fx", left.fx, right.fx);
-  requireEqual("fy", left.fy, right.fy);
-  requireEqual("cy", left.cy, right.cy);
+  requireEqual("fx", left.P[0], right.P[0]);
+  requireEqual("fy", left.P[5], right.P[5]);
+  requireEqual("cy", left.P[6], right.P[6]);
   if (baseline_m == 0.0) requireSideBySide(left, right);
 
   StereoCamera camera;
-  camera.width = left.width;
-  camera.height = left.height;
-  camera.fx = left.fx;
-  camera.fy = left.fy;
-  camera.cx = left.cx;
-  camera.cy = left.cy;
-  camera.cx_right = right.cx;
-  camera.baseline_m = baseline_m > 0.0 ? baseline_m : (left.tx - right.tx) / left.fx;
+  camera.width = static_cast<int>(left.width);
+  camera.height = static_cast<int>(left.height);
+  camera.fx = left.P[0];
+  camera.fy = left.P[5];
+  camera.cx = left.P[2];
+  camera.cy = left.P[6];
+  camera.cx_right = right.P[2];
+  camera.baseline_m = baseline_m > 0.0 ? baseline_m : (left.P[3] - right.P[3]) / left.P[0];
   try {
     camera.check();
   } catch (const std::invalid_argument& error) {
@@ -214,22 +202,21 @@ std::string baselineWarning(const StereoCamera& camera) {
          " m is unusual: is P[3] of camera_info in pixels times metres?";
 }
 
-std::pair<sensor_msgs::CameraInfo, sensor_msgs::CameraInfo> toCameraInfos(
-    const StereoCalibration& calibration) {
+std::pair<Info, Info> toCameraInfos(const StereoCalibration& calibration) {
   const StereoCamera& camera = calibration.rectified;
   return {toCameraInfo(calibration.left, camera, camera.cx, 0.0),
           toCameraInfo(calibration.right, camera, camera.cx_right, shiftOf(camera))};
 }
 
-StereoCalibration toStereoCalibration(const sensor_msgs::CameraInfo& left,
-                                      const sensor_msgs::CameraInfo& right,
-                                      double baseline_m) {
+StereoCalibration toStereoCalibration(const Info& left, const Info& right, double baseline_m) {
   const StereoCamera rectified = toStereoCamera(left, right, baseline_m);
-  return {toRawCamera("left", left, rectified), toRawCamera("right", right, rectified), rectified};
+  return {toRawCamera("left", ofSentImages(left)),
+          toRawCamera("right", ofSentImages(right)),
+          rectified};
 }
 
 const std::shared_ptr<const StereoCalibration>& CurrentCalibration::of(
-    const sensor_msgs::CameraInfo::ConstPtr& left, const sensor_msgs::CameraInfo::ConstPtr& right) {
+    const Info::ConstPtr& left, const Info::ConstPtr& right) {
   const bool is_current =
       calibration_ && isSameCamera(*left, *left_) && isSameCamera(*right, *right_);
   if (is_current) return calibration_;

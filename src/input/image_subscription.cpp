@@ -1,21 +1,12 @@
 #include "input/image_subscription.h"
 
 #include <stdexcept>
-#include <vector>
 
 #include <image_transport/image_transport.h>
+#include <boost/algorithm/string/join.hpp>
 
 namespace rotrocc {
 namespace {
-
-/// "raw theora" for "image_transport/raw" and "image_transport/theora".
-std::string listOf(const std::vector<std::string>& transports) {
-  std::string list;
-  for (const std::string& transport : transports) {
-    list += (list.empty() ? "" : " ") + transport.substr(transport.rfind('/') + 1);
-  }
-  return list;
-}
 
 /// image_transport appends the transport to a name that it does not resolve, so remappings of the
 /// name would not be found. A raw topic is resolved where it is subscribed, and only once: left and
@@ -43,7 +34,7 @@ image_transport::Subscriber subscribeImages(
     return images.subscribe(topic, queue_size, callback, ros::VoidPtr(), hints);
   } catch (const image_transport::TransportLoadException& error) {
     throw std::runtime_error("image_transport is " + transport + ", but this machine only has " +
-                             listOf(images.getLoadableTransports()) +
+                             boost::algorithm::join(images.getLoadableTransports(), " ") +
                              ": install its plugin, or set another one (" + error.what() + ")");
   }
 }

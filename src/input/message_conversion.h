@@ -4,11 +4,7 @@
 #include <string>
 
 #include <ros/time.h>
-#include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
-#include <sensor_msgs/fill_image.h>
-#include <boost/make_shared.hpp>
-#include <opencv2/core.hpp>
 
 #include "inertial/gyro_sample.h"
 
@@ -31,23 +27,6 @@ inline ros::Time toRosTime(std::int64_t stamp_ns) {
 inline GyroSample toGyroSample(const sensor_msgs::Imu& message) {
   const geometry_msgs::Vector3& rate = message.angular_velocity;
   return {toNanoseconds(message.header.stamp), {rate.x, rate.y, rate.z}};
-}
-
-/// The message that cv_bridge makes of pixels of 8 or 16 bits, without its library: that loads 120
-/// others, for image files.
-inline sensor_msgs::Image::Ptr toImage(const std_msgs::Header& header,
-                                       const std::string& encoding,
-                                       const cv::Mat& pixels) {
-  const cv::Mat packed = pixels.isContinuous() ? pixels : pixels.clone();
-  const auto image = boost::make_shared<sensor_msgs::Image>();
-  image->header = header;
-  sensor_msgs::fillImage(*image,
-                         encoding,
-                         static_cast<std::uint32_t>(packed.rows),
-                         static_cast<std::uint32_t>(packed.cols),
-                         static_cast<std::uint32_t>(packed.step),
-                         packed.data);
-  return image;
 }
 
 }  // namespace rotrocc

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <cv_bridge/cv_bridge.h>
 #include <nav_msgs/Path.h>
-#include <sensor_msgs/image_encodings.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
 #include <boost/make_shared.hpp>
@@ -123,7 +123,7 @@ void OdometryPublisher::publishPictures(const PairAnswer& answer,
                      odometry.translationInliers(),
                      answer.result},
                     picture_);
-    flow_publisher_.publish(toImage(header, sensor_msgs::image_encodings::BGR8, picture_));
+    flow_publisher_.publish(cv_bridge::CvImage(header, "bgr8", picture_).toImageMsg());
   }
 }
 

@@ -100,17 +100,15 @@ class RecordedPairsTest : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(RecordedPairsTest, AreThoseOfASequence) {
-  Reader reader(directory_ / "sequence");
-  expectAllPairs(reader);
-  EXPECT_EQ(reader.pair.stamp_ns, sequence().stamp_ns(kPairs - 1));
-}
-
-TEST_F(RecordedPairsTest, AreThoseOfOwnBags) {
+TEST_F(RecordedPairsTest, AreThoseOfASequenceAndOfItsBag) {
   writeSequenceBag(directory_ / "own.bag", directory_ / "sequence", {1000, false});
-  Reader reader(directory_ / "own.bag");
-  expectAllPairs(reader);
-  EXPECT_EQ(reader.pair.stamp_ns, 1000 * 1'000'000'000LL + sequence().stamp_ns(kPairs - 1));
+  const std::int64_t last_ns = sequence().stamp_ns(kPairs - 1);
+  for (const auto& [path, last] :
+       {std::pair{"sequence", last_ns}, {"own.bag", 1'000'000'000'000 + last_ns}}) {
+    Reader reader(directory_ / path);
+    expectAllPairs(reader);
+    EXPECT_EQ(reader.pair.stamp_ns, last);
+  }
 }
 
 TEST_F(RecordedPairsTest, AreThoseOfBagsOfKitti2bag) {
@@ -169,25 +167,20 @@ TEST_F(RecordedPairsTest, BadImagesAreDroppedAndCounted) {
             "3 of 20 pairs (1 image_data, 1 stamp_zero, 1 stamp_glitch, 2 partner_dropped)");
 }
 
-/// 12 bits, but for a row of metadata in one image.
 TEST(RecordedSequenceTest, ImagesOf16BitsAreScaledToTheirRange) {
   const AslFolder folder;
   for (int i = 0; i < 3; ++i) {
-    cv::Mat image(480, 752, CV_16UC1, cv::Scalar(4095 - 1600 * i));
-    if (i == 1) image.row(0).setTo(65535);
     const std::string name = std::to_string(AslFolder::stamp_ns(i)) + ".png";
     for (const char* camera : {"cam0/data/", "cam1/data/"}) {
-      cv::imwrite(folder / (camera + name), image);
+      cv::imwrite(folder / (camera + name), cv::Mat(480, 752, CV_16UC1, cv::Scalar(2495)));
     }
   }
   for (const bool is_raw : {true, false}) {
     RecordingOptions options;
     options.raw_sequence = is_raw;
     Reader reader(folder.path(), {}, options);
-    for (const int level : {255, 2495 >> 4, 895 >> 4}) {
-      ASSERT_TRUE(reader.next());
-      EXPECT_EQ(reader.pair.left.at<uchar>(240, 376), level) << is_raw;
-    }
+    ASSERT_TRUE(reader.next());
+    EXPECT_EQ(reader.pair.left.at<uchar>(240, 376), 2495 >> 4) << is_raw;
   }
 }
 
@@ -248,20 +241,6 @@ TEST_F(RecordedPairsTest, TakeTheBaselineThatCameraInfoLacks) {
   Reader with(bag, parameters);
   ASSERT_TRUE(with.next());
   EXPECT_EQ(with.camera.baseline_m, 0.37);
-
-  info.K = {40, 0, 16, 0, 40, 16, 0, 0, 1};
-  info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  info.width = 16;
-  Reader rectified(writePair(info, image), parameters, {}, "yes");
-  expectError<std::runtime_error>([&] { rectified.next(); }, "s: the images are 32x32");
-}
-
-TEST_F(RecordedPairsTest, ACameraThatIsWrongIsExplained) {
-  sensor_msgs::CameraInfo uncalibrated;
-  sensor_msgs::Image image;
-  image.header.stamp = ros::Time(12.5);
-  Reader reader(writePair(uncalibrated, image));
-  expectError<std::runtime_error>([&] { reader.next(); }, "P of the left camera_info is all zeros");
 }
 
 /// A bag of unrectified images, and what is expected of them.
@@ -344,34 +323,29 @@ TEST_F(RawBagTest, IsRectified) {
   }
 }
 
-/// The files of a calibration of the rig.
-std::string kalibrChain(const AslFolder& folder) {
-  std::ostringstream chain;
-  chain.precision(17);
-  const AslCamera left = readAslCamera(folder / "cam0/sensor.yaml");
-  const AslCamera right = readAslCamera(folder / "cam1/sensor.yaml");
-  const Eigen::Matrix4d T_right_left =
-      (right.T_body_camera.inverse() * left.T_body_camera).matrix();
-  for (const AslCamera* camera : {&left, &right}) {
-    const RawCamera& raw = camera->camera;
-    const std::vector<double>& d = raw.distortion.coefficients();
-    chain << (camera == &left ? "cam0:\n" : "cam1:\n  T_cn_cnm1:\n");
-    for (int i = 0; i < 4 && camera == &right; ++i) {
-      const Eigen::RowVector4d row = T_right_left.row(i);
-      chain << "  - [" << row[0] << ", " << row[1] << ", " << row[2] << ", " << row[3] << "]\n";
-    }
-    chain << "  camera_model: pinhole\n  distortion_model: radtan\n  distortion_coeffs: [" << d[0]
-          << ", " << d[1] << ", " << d[2] << ", " << d[3] << "]\n  intrinsics: [" << raw.fx << ", "
-          << raw.fy << ", " << raw.cx << ", " << raw.cy << "]\n  resolution: [752, 480]\n"
-          << "  rostopic: /cam/image_raw\n";
-  }
-  return chain.str();
-}
+/// Of the rig.
+const char* const kKalibrChain =
+    "cam0:\n"
+    "  distortion_model: radtan\n"
+    "  distortion_coeffs: [-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05]\n"
+    "  intrinsics: [458.654, 457.296, 367.215, 248.375]\n"
+    "  resolution: [752, 480]\n"
+    "cam1:\n"
+    "  T_cn_cnm1:\n"
+    "  - [0.999997256, 0.002312067, 0.000376008, -0.110073808]\n"
+    "  - [-0.002317136, 0.999898049, 0.014089836, 0.000399122]\n"
+    "  - [-0.000343393, -0.014090669, 0.999900663, -0.000853703]\n"
+    "  - [0.0, 0.0, 0.0, 1.0]\n"
+    "  camera_model: pinhole\n"
+    "  distortion_model: radtan\n"
+    "  distortion_coeffs: [-0.28368365, 0.07451284, -0.00010473, -3.55590700e-05]\n"
+    "  intrinsics: [457.587, 456.134, 379.999, 255.238]\n"
+    "  resolution: [752, 480]\n";
 
 TEST_F(RawBagTest, IsRectifiedByFilesInPlaceOfItsCalibration) {
   const std::string bag = withoutInfos("image_raw");
   expectError<std::runtime_error>([&] { Reader{bag}; }, "name the files of a calibration");
-  directory_.write("camchain.yaml", kalibrChain(folder_));
+  directory_.write("camchain.yaml", kKalibrChain);
   const std::string cameras = std::string(CAMERAS) + "/euroc_";
   using Files = std::vector<std::string>;
   for (const Files& files : {Files{directory_ / "camchain.yaml"},

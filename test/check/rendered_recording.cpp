@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include <cv_bridge/cv_bridge.h>
 #include <boost/make_shared.hpp>
 
 #include "input/camera_calibration.h"
@@ -86,8 +87,8 @@ bool RenderedRecording::next(RecordedMessage& message) {
   cv::Mat left = pair.left.clone();
   cv::Mat right = pair.right.clone();
   faults_.images(left, right);
-  message.left_image = toImage(message.left_info->header, "mono8", left);
-  message.right_image = toImage(message.right_info->header, "mono8", right);
+  message.left_image = cv_bridge::CvImage(message.left_info->header, "mono8", left).toImageMsg();
+  message.right_image = cv_bridge::CvImage(message.right_info->header, "mono8", right).toImageMsg();
   return true;
 }
 

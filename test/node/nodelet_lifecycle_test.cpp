@@ -204,7 +204,7 @@ TEST(NodeTest, EndsWithTheReasonIfItCannotStart) {
                                           " __name:=without_transport _image_transport:=no_such");
   EXPECT_EQ(result.status, 1) << result.output;
   EXPECT_NE(result.output.find("/without_transport: image_transport is no_such, but this machine "
-                               "only has raw: install its plugin"),
+                               "only has image_transport/raw: install its plugin"),
             std::string::npos)
       << result.output;
 }

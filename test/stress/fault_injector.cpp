@@ -92,7 +92,7 @@ const std::vector<Fault>& faults() {
        {"has the encoding"},
        [](auto& pair, auto&) { pair.left.encoding = "jpeg"; }},
       {"sizes that overflow",
-       {"more than 20000000 pixels"},
+       {"pixels: bin the images"},
        [](auto& pair, auto&) { pair.left.width = pair.left.height = pair.left.step = ~0u; }},
       {"step too short", {"a step of"}, [](auto& pair, auto&) { pair.left.step /= 2; }},
       {"sizes differ", {"same resolution"}, [](auto& pair, auto&) { pair.right.height -= 2; }},

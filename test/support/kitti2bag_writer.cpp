@@ -1,8 +1,8 @@
 #include "support/kitti2bag_writer.h"
 
+#include <cv_bridge/cv_bridge.h>
 #include <rosbag/bag.h>
 #include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
 #include <opencv2/imgproc.hpp>
@@ -81,9 +81,10 @@ void writeCamera(const KittiSequence& sequence,
     info.header.stamp = stampOf(sequence, index, raw && camera.right ? skew_ms(index) : 0.0);
     cv::Mat pixels = camera.right ? sequence.readRight(index) : sequence.readLeft(index);
     if (camera.colour) cv::cvtColor(pixels, pixels, cv::COLOR_GRAY2BGR);
-    bag.write("/kitti/" + name + "/" + image_topic,
-              info.header.stamp,
-              *toImage(info.header, camera.colour ? "bgr8" : "mono8", pixels));
+    bag.write(
+        "/kitti/" + name + "/" + image_topic,
+        info.header.stamp,
+        *cv_bridge::CvImage(info.header, camera.colour ? "bgr8" : "mono8", pixels).toImageMsg());
     bag.write("/kitti/" + name + "/camera_info", info.header.stamp, info);
   }
 }

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/image_encodings.h>
 #include <boost/make_shared.hpp>
 
@@ -67,7 +68,8 @@ sensor_msgs::Image OdometryRig::nextImage(StereoIntake::Side side) const {
   std_msgs::Header header;
   header.stamp = stamp;
   header.frame_id = "camera_left";
-  return *toImage(header, MONO8, side == StereoIntake::Side::kLeft ? pair.left : pair.right);
+  const bool is_left = side == StereoIntake::Side::kLeft;
+  return *cv_bridge::CvImage(header, MONO8, is_left ? pair.left : pair.right).toImageMsg();
 }
 
 void OdometryRig::sendImage(StereoIntake::Side side, const sensor_msgs::Image& image) {

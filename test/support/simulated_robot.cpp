@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include <cv_bridge/cv_bridge.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/init.h>
 #include <sensor_msgs/image_encodings.h>
@@ -95,7 +96,8 @@ std::pair<sensor_msgs::Image, sensor_msgs::Image> SimulatedRobot::see() {
   header.frame_id = kCameraFrame;
   way_m_ += kStep_m;
   stamp_ += ros::Duration(kPeriod_s);
-  return {*toImage(header, MONO8, pair.left), *toImage(header, MONO8, pair.right)};
+  return {*cv_bridge::CvImage(header, MONO8, pair.left).toImageMsg(),
+          *cv_bridge::CvImage(header, MONO8, pair.right).toImageMsg()};
 }
 
 void SimulatedRobot::publish(const sensor_msgs::Image& left, const sensor_msgs::Image& right) {

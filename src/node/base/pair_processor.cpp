@@ -20,19 +20,13 @@ PairProcessor::PairProcessor(const Parameters& parameters, Log log)
     : log_(std::move(log)),
       parameters_(parameters.node),
       systematic_error_(parameters.odometry.systematic_error),
-      converter_(parameters.node.significant_bits, parameters.node.mask),
-      rectifier_(parameters.odometry.threads),
+      converter_(
+          parameters.node.significant_bits, parameters.node.mask, parameters.odometry.threads),
       odometry_(parameters.odometry),
       inspector_(parameters.odometry.correspondence_finder, parameters.node.rectify) {
   if (parameters_.continue_from.empty()) return;
   saved_ = readPoseFile(parameters_.continue_from, parameters_.odom_frame, log_);
   pose_file_.emplace(parameters_.continue_from, parameters_.odom_frame, log_);
-}
-
-StereoPair PairProcessor::convert(const ReceivedPair& received) {
-  const StereoPair pair = converter_.convert(*received.images.left, *received.images.right);
-  validateSize(*received.images.left, received.camera);
-  return received.calibration ? rectifier_.rectify(pair, received.calibration) : pair;
 }
 
 bool PairProcessor::takeRequests() {
@@ -94,7 +88,7 @@ void PairProcessor::begin(const PairContext& context, std::int64_t stamp_ns) {
 
 void PairProcessor::configure(const VisualOdometry::Config& config) {
   odometry_.configure(config);
-  rectifier_.setThreads(config.threads);
+  converter_.setThreads(config.threads);
   inspector_.configure(config.correspondence_finder);
   systematic_error_ = config.systematic_error;
   if (base_odometry_) base_odometry_->setSystematicError(systematic_error_);

@@ -12,7 +12,6 @@
 #include "node/base/base_odometry.h"
 #include "node/base/pose_file.h"
 #include "node/health/pair_inspector.h"
-#include "rectification/stereo_rectifier.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/visual_odometry.h"
 
@@ -51,9 +50,8 @@ class PairProcessor {
   /// Throws std::exception with one sentence if continue_from cannot be a file.
   explicit PairProcessor(const Parameters& parameters, Log log = Log());
 
-  /// Checks a pair, converts it to grey and rectifies it. It is valid until the next call. Throws
-  /// InputError on images that cannot be used.
-  StereoPair convert(const ReceivedPair& received);
+  /// See StereoPairConverter::convert().
+  StereoPair convert(const ReceivedPair& received) { return converter_.convert(received); }
 
   /// Takes over what was requested so far, for the next call of process(). Returns whether there is
   /// a new request for a reset. To be called before the mount is looked up: after a reset, a new
@@ -111,7 +109,6 @@ class PairProcessor {
   NodeParameters parameters_;
   SystematicErrorConfig systematic_error_;
   StereoPairConverter converter_;
-  StereoRectifier rectifier_;
   VisualOdometry odometry_;
   PairInspector inspector_;
   std::optional<PoseFile> pose_file_;

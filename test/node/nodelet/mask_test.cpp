@@ -74,8 +74,9 @@ TEST(MaskTest, MasksThatCannotBeUsedAreNamed) {
   const TemporaryDirectory directory;
   const auto start = [&](const std::string& mask) { NodeletDrive({{"mask", mask}}); };
   directory.write("text.png", "no image");
-  expectError([&] { start(directory / "none_%s.png"); }, "none_left.png cannot be read as a PNG");
-  expectError([&] { start(directory / "text.png"); }, "cannot be read as a PNG file");
+  expectError([&] { start(directory / "none_%s.png"); },
+              "none_left.png is missing; check the parameter mask");
+  expectError([&] { start(directory / "text.png"); }, "text.png is not a readable image");
 
   NodeletDrive drive({{"mask", writeMask(directory / "small.png", {320, 240})}});
   drive.setUp();
