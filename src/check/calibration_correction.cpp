@@ -4,47 +4,25 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iomanip>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include <camera_calibration_parsers/parse_yml.h>
 #include <sensor_msgs/CameraInfo.h>
-#include <yaml-cpp/yaml.h>
 
-#include "check/recalibrated_recording.h"
 #include "input/camera_calibration.h"
 #include "input/to_text.h"
 
 namespace rotrocc {
 namespace {
 
-template <class Numbers>
-YAML::Node matrixOf(int rows, const Numbers& numbers) {
-  YAML::Node matrix;
-  matrix["rows"] = rows;
-  matrix["cols"] = static_cast<int>(numbers.size()) / rows;
-  YAML::Node data(YAML::NodeType::Sequence);
-  for (const double number : numbers) data.push_back(exactText(number));
-  data.SetStyle(YAML::EmitterStyle::Flow);
-  matrix["data"] = data;
-  return matrix;
-}
-
 void writeInfo(const sensor_msgs::CameraInfo& info,
                const std::string& name,
                const std::string& path) {
-  YAML::Node file;
-  file["image_width"] = info.width;
-  file["image_height"] = info.height;
-  file["camera_name"] = name;
-  file["camera_matrix"] = matrixOf(3, info.K);
-  file["distortion_model"] = info.distortion_model;
-  file["distortion_coefficients"] = matrixOf(1, info.D);
-  file["rectification_matrix"] = matrixOf(3, info.R);
-  file["projection_matrix"] = matrixOf(3, info.P);
   std::ofstream out(path);
-  out << file << '\n';
+  camera_calibration_parsers::writeCalibrationYml(out, name, info);
   if (!out.flush()) throw std::runtime_error(path + " cannot be written");
 }
 
@@ -63,23 +41,20 @@ bool hasErrors(const RigMeasures& measures) {
 
 /// Again by what is left over: rows first, then the disparities that they leave.
 Correction correctedBy(Recording& recording, const RigCheckOptions& options, RigMeasures measures) {
-  RigCheckOptions rectified = options;
-  rectified.rectify = "yes";
+  RigCheckOptions corrected = options;
   constexpr int kMostPasses = 4;
   Correction correction;
   for (int pass = 0; pass < kMostPasses; ++pass) {
     if (pass > 0 && !hasErrors(measures)) break;
     correction.calibration = correct(measures);
-    RecalibratedRecording recalibrated(recording, correction.calibration);
-    correction.checked = checkRig(recalibrated, rectified);
+    corrected.calibration = std::make_shared<const StereoCalibration>(correction.calibration);
+    correction.checked = checkRig(recording, corrected);
     measures = correction.checked.measures;
-    measures.calibration = correction.calibration;
   }
   return correction;
 }
 
-/// Empty if it is not.
-std::string whyWorse(const RigMeasures& before, const RigMeasures& after) {
+std::optional<std::string> whyWorse(const RigMeasures& before, const RigMeasures& after) {
   constexpr double kWorse = 1.05;
   // Over the way: smaller differences are those of a perfect rig.
   constexpr double kLeastDifference = 0.004;
@@ -94,7 +69,7 @@ std::string whyWorse(const RigMeasures& before, const RigMeasures& after) {
     return "repeated motions would differ by " + fixedText(100.0 * after.replay_share, 2) +
            " m in 100 m in place of " + fixedText(100.0 * before.replay_share, 2) + " m";
   }
-  return "";
+  return std::nullopt;
 }
 
 }  // namespace
@@ -134,9 +109,10 @@ std::optional<Correction> findCorrection(Recording& recording,
     return std::nullopt;
   }
   Correction correction = correctedBy(recording, options, before);
-  why_not = whyWorse(before, correction.checked.measures);
-  if (!why_not.empty()) return std::nullopt;
-  return correction;
+  const std::optional<std::string> why_worse = whyWorse(before, correction.checked.measures);
+  if (!why_worse) return correction;
+  why_not = *why_worse;
+  return std::nullopt;
 }
 
 void writeCalibration(const StereoCalibration& calibration, const std::string& directory) {

@@ -206,7 +206,9 @@ double sizeOfBaseline(const Recording& recording) {
 
 StereoCalibration calibrationOf(const Recording& recording,
                                 const StereoCamera& camera,
-                                bool rectifies) {
+                                bool rectifies,
+                                const RigCheckOptions& options) {
+  if (options.calibration) return *options.calibration;
   if (!rectifies) return rectifiedCalibration(camera);
   const RecordedMessage infos = recording.firstInfos();
   return toStereoCalibration(*infos.left_info, *infos.right_info, camera.baseline_m);
@@ -226,7 +228,7 @@ void addUnusable(const std::string& why, RigReport& report) {
 
 /// Returns false, with a finding, if there is no pair that can be used.
 bool checkPairs(Recording& recording, const RigCheckOptions& options, CheckedRig& rig) {
-  RecordedPairs pairs(recording, options.parameters.node, options.rectify);
+  RecordedPairs pairs(recording, options.parameters.node, options.rectify, options.calibration);
   InputCheck input;
   pairs.onMessage([&](const RecordedMessage& message) { input.observe(message); });
   PairChecks checks(options, recording, pairs.rectifies());
@@ -252,7 +254,7 @@ bool checkPairs(Recording& recording, const RigCheckOptions& options, CheckedRig
   }
   input.report(checks.camera(), pairs.leftOut(), pairs.rectifies(), rig.report);
   checks.report(rig);
-  rig.measures.calibration = calibrationOf(recording, checks.camera(), pairs.rectifies());
+  rig.measures.calibration = calibrationOf(recording, checks.camera(), pairs.rectifies(), options);
   return true;
 }
 

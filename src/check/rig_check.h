@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -15,7 +16,9 @@ namespace rotrocc {
 
 struct RigCheckOptions {
   Parameters parameters;
-  std::string rectify = "auto";            ///< see RecordedPairs
+  std::string rectify = "auto";  ///< see RecordedPairs
+  /// In place of that of the recording, see RecordedPairs; null: none.
+  std::shared_ptr<const StereoCalibration> calibration;
   std::optional<GyroRecording> gyroscope;  ///< to compare with
   std::function<void()> on_pair = [] {};   ///< after each pair
 };

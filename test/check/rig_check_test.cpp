@@ -15,7 +15,6 @@
 
 #include "bags/recorded_pairs.h"
 #include "check/calibration_correction.h"
-#include "check/recalibrated_recording.h"
 #include "check/rendered_recording.h"
 #include "check/windows.h"
 #include "rotrocc/visual_odometry.h"
@@ -237,8 +236,7 @@ TEST(RigCheckTest, ProposesAMaskOfTheBumper) {
 
 /// Error of the motions of a recording, by a calibration.
 double errorOf(RenderedRecording& recording, const StereoCalibration& calibration) {
-  RecalibratedRecording recalibrated(recording, calibration);
-  RecordedPairs pairs(recalibrated, {}, "yes");
+  RecordedPairs pairs(recording, {}, "yes", std::make_shared<const StereoCalibration>(calibration));
   VisualOdometry odometry({});
   StereoPair pair;
   StereoCamera camera;

@@ -102,7 +102,7 @@ TEST_F(CalibratedFolderTest, NamesWhatIsWrong) {
   change("right.yaml", "plumb_bob", "mirror");
   expectRefused("the distortion model 'mirror' is not supported");
   change("right.yaml", "image_width: 752", "image_width: -752");
-  expectRefused("right.yaml: image_width is not a number of pixels");
+  expectRefused("right.yaml: image_width is -752, not a number of pixels");
   change("left.yaml", "camera_matrix", "matrix");
   expectRefused("left.yaml: camera_matrix is missing");
   fs::remove(directory_ / "left.yaml");
