@@ -4,81 +4,66 @@
 #include <cmath>
 #include <iterator>
 #include <stdexcept>
+#include <string_view>
 
 #include <opencv2/calib3d.hpp>
 
 namespace rotrocc {
 namespace {
 
-using Model = Distortion::Model;
-
 constexpr double kDegree = M_PI / 180.0;
 constexpr double kMaxAngle = 89.0 * kDegree;  // of a ray that a pinhole camera could show
 
+constexpr std::string_view kEquidistant = "equidistant";
+
 const struct {
-  const char* name;  // that of sensor_msgs/CameraInfo first
-  Model model;
+  const char* name;
+  const char* ros_name;
   std::size_t coefficients;
-} kModels[] = {{"plumb_bob", Model::kPlumbBob, 5},
-               {"radial-tangential", Model::kPlumbBob, 5},
-               {"radtan", Model::kPlumbBob, 5},
-               {"rational_polynomial", Model::kRationalPolynomial, 8},
-               {"equidistant", Model::kEquidistant, 4},
-               {"equi", Model::kEquidistant, 4},
-               {"fisheye", Model::kEquidistant, 4}};
-
-Model modelNamed(const std::string& name) {
-  for (const auto& known : kModels) {
-    if (name == known.name) return known.model;
-  }
-  throw std::invalid_argument("the distortion model '" + name +
-                              "' is not supported: use plumb_bob (radial-tangential), "
-                              "rational_polynomial or equidistant (fisheye)");
-}
-
-const auto& entryOf(Model model) {
-  return *std::find_if(
-      std::begin(kModels), std::end(kModels), [&](const auto& m) { return m.model == model; });
-}
-
-/// As many as the model has, zeros for those that may be left out.
-std::vector<double> complete(Model model, const std::string& name, std::vector<double> values) {
-  const std::size_t count = entryOf(model).coefficients;
-  const bool lacks_k3 = model == Model::kPlumbBob && values.size() == 4;
-  if (!values.empty() && !lacks_k3 && values.size() != count) {
-    throw std::invalid_argument(
-        "the distortion " + name +
-        cv::format(" has %zu coefficients instead of %zu: check the calibration file",
-                   values.size(),
-                   count));
-  }
-  for (const double value : values) {
-    if (std::isfinite(value)) continue;
-    throw std::invalid_argument("a coefficient of the distortion " + name +
-                                cv::format(" is %g: check the calibration file", value));
-  }
-  values.resize(count, 0.0);
-  return values;
-}
+} kModels[] = {{"plumb_bob", "plumb_bob", 5},
+               {"radial-tangential", "plumb_bob", 5},
+               {"radtan", "plumb_bob", 5},
+               {"rational_polynomial", "rational_polynomial", 8},
+               {"equidistant", "equidistant", 4},
+               {"equi", "equidistant", 4},
+               {"fisheye", "equidistant", 4}};
 
 }  // namespace
 
 Distortion::Distortion(const std::string& model, const std::vector<double>& coefficients)
-    : model_(modelNamed(model)),
-      coefficients_(complete(model_, model, coefficients)),
-      limit_(findLimit()) {
+    : coefficients_(coefficients) {
+  const auto known = std::find_if(
+      std::begin(kModels), std::end(kModels), [&](const auto& m) { return model == m.name; });
+  if (known == std::end(kModels)) {
+    throw std::invalid_argument("the distortion model '" + model +
+                                "' is not supported: use plumb_bob (radial-tangential), "
+                                "rational_polynomial or equidistant (fisheye)");
+  }
+  const std::size_t count = known->coefficients;
+  const bool lacks_k3 = count == 5 && coefficients.size() == 4;
+  if (!coefficients.empty() && !lacks_k3 && coefficients.size() != count) {
+    throw std::invalid_argument(
+        "the distortion " + model +
+        cv::format(" has %zu coefficients instead of %zu: check the calibration file",
+                   coefficients.size(),
+                   count));
+  }
+  for (const double value : coefficients) {
+    if (std::isfinite(value)) continue;
+    throw std::invalid_argument("a coefficient of the distortion " + model +
+                                cv::format(" is %g: check the calibration file", value));
+  }
+  name_ = known->ros_name;
+  coefficients_.resize(count, 0.0);
+  limit_ = findLimit();
   if (limit_ > 0.0) return;
   throw std::invalid_argument(
       "the distortion " + model +
       " shows everything in the middle of the image: check its coefficients");
 }
 
-const char* Distortion::name() const {
-  return entryOf(model_).name;
-}
-
 bool Distortion::isNone() const {
-  return model_ != Model::kEquidistant &&
+  return name_ != kEquidistant &&
          std::all_of(
              coefficients_.begin(), coefficients_.end(), [](double value) { return value == 0.0; });
 }
@@ -89,7 +74,7 @@ Distortion::Points Distortion::apply(const std::vector<double>& coefficients,
   Points seen;
   if (points.empty()) return seen;
   const cv::Matx33d K = cv::Matx33d::eye();
-  if (model_ == Model::kEquidistant) {
+  if (name_ == kEquidistant) {
     cv::fisheye::distortPoints(points, seen, K, coefficients);
   } else {
     std::vector<cv::Point3d> rays;
@@ -102,7 +87,7 @@ Distortion::Points Distortion::apply(const std::vector<double>& coefficients,
 double Distortion::findLimit() const {
   constexpr double kStep = 0.25 * kDegree;
   std::vector<double> radial = coefficients_;
-  if (model_ != Model::kEquidistant) radial[2] = radial[3] = 0.0;
+  if (name_ != kEquidistant) radial[2] = radial[3] = 0.0;
   Points points;
   for (double angle = kStep; angle < kMaxAngle; angle += kStep) {
     points.emplace_back(std::tan(angle), 0.0);
@@ -127,7 +112,7 @@ Distortion::Points Distortion::undistort(const Points& distorted) const {
   Points points;
   if (distorted.empty()) return points;
   const cv::Matx33d K = cv::Matx33d::eye();
-  if (model_ == Model::kEquidistant) {
+  if (name_ == kEquidistant) {
     cv::fisheye::undistortPoints(distorted, points, K, coefficients_);
   } else {
     const cv::TermCriteria exact(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 200, 1e-15);

@@ -11,8 +11,6 @@ namespace rotrocc {
 /// it is seen in an image of focal length 1. By default it moves nothing.
 class Distortion {
  public:
-  enum class Model { kPlumbBob, kRationalPolynomial, kEquidistant };
-
   Distortion() = default;
 
   /// `model` is a name of sensor_msgs/CameraInfo, ASL or Kalibr:
@@ -25,7 +23,7 @@ class Distortion {
   Distortion(const std::string& model, const std::vector<double>& coefficients);
 
   /// Name in sensor_msgs/CameraInfo.
-  const char* name() const;
+  const char* name() const { return name_; }
 
   /// As sensor_msgs/CameraInfo has them.
   const std::vector<double>& coefficients() const { return coefficients_; }
@@ -49,7 +47,7 @@ class Distortion {
   Points apply(const std::vector<double>& coefficients, const Points& points) const;
   double findLimit() const;
 
-  Model model_ = Model::kPlumbBob;
+  const char* name_ = "plumb_bob";
   std::vector<double> coefficients_ = std::vector<double>(5, 0.0);
   double limit_ = findLimit();
 };

@@ -63,73 +63,60 @@ void requireSideBySide(const Eigen::Isometry3d& T_left_right) {
   }
 }
 
-/// The largest image of a pair of cameras that both see.
-class CommonImage {
- public:
-  CommonImage(const RawCamera& left, const RawCamera& right) : left_(left), right_(right) {}
-
-  /// `camera` with focal lengths and principal point set.
-  StereoCamera fit(StereoCamera camera) const {
-    const double raw_focal = std::min(std::min(left_.fx, left_.fy), std::min(right_.fx, right_.fy));
-    double small = 0.7 * raw_focal;
-    double large = 4.0 * raw_focal;
-    if (isSeen(withFocal(camera, small))) return withFocal(camera, small);
-    if (!isSeen(withFocal(camera, large))) {
-      throw std::invalid_argument(
-          "the cameras share no view: check their intrinsics and their poses");
-    }
-    for (int i = 0; i < 40; ++i) {
-      const double middle = 0.5 * (small + large);
-      (isSeen(withFocal(camera, middle)) ? large : small) = middle;
-    }
-    return withFocal(camera, large);
+/// Whether a camera sees all of these rays in the rectified frame.
+bool sees(const RawCamera& raw, std::vector<Eigen::Vector3d> rays) {
+  for (Eigen::Vector3d& ray : rays) {
+    ray = raw.R_rectified_raw.transpose() * ray;
+    if (!(ray.z() > 0.0 && ray.hnormalized().norm() <= raw.distortion.limit())) return false;
   }
+  const std::vector<cv::Point2d> pixels = raw.project(rays);
+  return std::all_of(pixels.begin(), pixels.end(), [&](const cv::Point2d& p) {
+    return p.x >= 0.0 && p.y >= 0.0 && p.x <= raw.width - 1 && p.y <= raw.height - 1;
+  });
+}
 
- private:
-  /// What the centre of a raw image shows, in normalized coordinates of the rectified one.
-  static Eigen::Vector2d centre(const RawCamera& raw) {
-    const cv::Point2d middle(0.5 * (raw.width - 1), 0.5 * (raw.height - 1));
-    return (raw.R_rectified_raw * raw.rays({middle})[0]).hnormalized();
-  }
+/// What the center of a raw image shows, in normalized coordinates of the rectified one.
+Eigen::Vector2d centerOf(const RawCamera& raw) {
+  const cv::Point2d center(0.5 * (raw.width - 1), 0.5 * (raw.height - 1));
+  return (raw.R_rectified_raw * raw.rays({center})[0]).hnormalized();
+}
 
-  /// The middle of what both show is in the middle of the rectified images.
-  StereoCamera withFocal(StereoCamera camera, double focal) const {
-    const Eigen::Vector2d middle = 0.5 * (centre(left_) + centre(right_));
+/// Sets focal lengths and principal point of the largest image that both cameras see. The middle of
+/// what both show is in its middle.
+void fitImage(StereoCalibration& calibration) {
+  const RawCamera& left = calibration.left;
+  const RawCamera& right = calibration.right;
+  StereoCamera& camera = calibration.rectified;
+  const Eigen::Vector2d middle = 0.5 * (centerOf(left) + centerOf(right));
+  const auto isSeenWith = [&](double focal) {
+    const double x_end = camera.width - 1;
+    const double y_end = camera.height - 1;
     camera.fx = camera.fy = focal;
-    camera.cx = camera.cx_right = 0.5 * (camera.width - 1) - focal * middle.x();
-    camera.cy = 0.5 * (camera.height - 1) - focal * middle.y();
-    return camera;
-  }
-
-  /// Whether both see the border of the rectified image.
-  bool isSeen(const StereoCamera& camera) const {
-    const double right = camera.width - 1;
-    const double bottom = camera.height - 1;
+    camera.cx = camera.cx_right = 0.5 * x_end - focal * middle.x();
+    camera.cy = 0.5 * y_end - focal * middle.y();
     std::vector<Eigen::Vector3d> border;
-    for (double x = 0; x <= right; ++x) {
-      for (const double y : {0.0, bottom}) border.push_back(camera.ray({x, y}));
+    for (double x = 0; x <= x_end; ++x) {
+      for (const double y : {0.0, y_end}) border.push_back(camera.ray({x, y}));
     }
-    for (double y = 0; y <= bottom; ++y) {
-      for (const double x : {0.0, right}) border.push_back(camera.ray({x, y}));
+    for (double y = 0; y <= y_end; ++y) {
+      for (const double x : {0.0, x_end}) border.push_back(camera.ray({x, y}));
     }
-    return isSeenBy(left_, border) && isSeenBy(right_, border);
+    return sees(left, border) && sees(right, border);
+  };
+  const double raw_focal = std::min({left.fx, left.fy, right.fx, right.fy});
+  double small = 0.7 * raw_focal;
+  double large = 4.0 * raw_focal;
+  if (isSeenWith(small)) return;
+  if (!isSeenWith(large)) {
+    throw std::invalid_argument(
+        "the cameras share no view: check their intrinsics and their poses");
   }
-
-  static bool isSeenBy(const RawCamera& raw, std::vector<Eigen::Vector3d> rays) {
-    for (Eigen::Vector3d& ray : rays) {
-      ray = raw.R_rectified_raw.transpose() * ray;
-      if (!(ray.z() > 0.0 && ray.hnormalized().norm() <= raw.distortion.limit())) return false;
-    }
-    const std::vector<cv::Point2d> pixels = raw.project(rays);
-    return std::all_of(pixels.begin(), pixels.end(), [&](const cv::Point2d& pixel) {
-      return pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x <= raw.width - 1 &&
-             pixel.y <= raw.height - 1;
-    });
+  for (int i = 0; i < 40; ++i) {
+    const double focal = 0.5 * (small + large);
+    (isSeenWith(focal) ? large : small) = focal;
   }
-
-  RawCamera left_;
-  RawCamera right_;
-};
+  isSeenWith(large);
+}
 
 }  // namespace
 
@@ -200,11 +187,10 @@ StereoCalibration chooseRectification(const RawCamera& left,
   StereoCalibration calibration = {left, right, {}};
   calibration.left.R_rectified_raw = (along_x * half.inverse()).toRotationMatrix();
   calibration.right.R_rectified_raw = (along_x * half).toRotationMatrix();
-  StereoCamera camera;
-  camera.width = left.width;
-  camera.height = left.height;
-  camera.baseline_m = baseline.norm();
-  calibration.rectified = CommonImage(calibration.left, calibration.right).fit(camera);
+  calibration.rectified.width = left.width;
+  calibration.rectified.height = left.height;
+  calibration.rectified.baseline_m = baseline.norm();
+  fitImage(calibration);
   return calibration;
 }
 
