@@ -121,16 +121,18 @@ cv_bridge::CvImage read(const std::string& side, const sensor_msgs::Image& image
     return {image.header, kYuy2, view(CV_8UC2, const_cast<unsigned char*>(image.data.data()))};
   }
   try {
-    const int type = cv_bridge::getCvType(image.encoding);
+    cv_bridge::CvImageConstPtr bridged;
     if (image.data.size() > bytes) {  // cv_bridge refuses more
       sensor_msgs::Image shortened = image;
       shortened.data.resize(bytes);
-      return read(side, shortened);
+      bridged = cv_bridge::toCvCopy(shortened);
+    } else {
+      bridged = cv_bridge::toCvShare(image, nullptr);
     }
-    cv_bridge::CvImage bridged = *cv_bridge::toCvShare(image, nullptr);
     // It leaves the type of bytes to those that it has swapped.
-    if (bridged.image.type() != type) bridged.image = view(type, bridged.image.data).clone();
-    return bridged;
+    const int type = cv_bridge::getCvType(image.encoding);
+    if (bridged->image.type() == type) return *bridged;
+    return {image.header, image.encoding, view(type, bridged->image.data).clone()};
   } catch (const std::runtime_error&) {
     refuseEncoding(side, image.encoding);
   }
