@@ -113,12 +113,10 @@ void validate(const ReceivedPair& received) {
 /// The image of a checked message, in the byte order of this machine; without a copy if that is so.
 cv_bridge::CvImage read(const std::string& side, const sensor_msgs::Image& image) {
   const std::size_t bytes = std::size_t{image.step} * image.height;
-  const auto view = [&](int type, unsigned char* data) {
-    const cv::Size size(static_cast<int>(image.width), static_cast<int>(image.height));
-    return cv::Mat(size, type, data, image.step);
-  };
+  const cv::Size size(static_cast<int>(image.width), static_cast<int>(image.height));
   if (image.encoding == kYuy2) {
-    return {image.header, kYuy2, view(CV_8UC2, const_cast<unsigned char*>(image.data.data()))};
+    auto* const data = const_cast<unsigned char*>(image.data.data());
+    return {image.header, kYuy2, cv::Mat(size, CV_8UC2, data, image.step)};
   }
   try {
     cv_bridge::CvImageConstPtr bridged;
@@ -132,7 +130,8 @@ cv_bridge::CvImage read(const std::string& side, const sensor_msgs::Image& image
     // It leaves the type of bytes to those that it has swapped.
     const int type = cv_bridge::getCvType(image.encoding);
     if (bridged->image.type() == type) return *bridged;
-    return {image.header, image.encoding, view(type, bridged->image.data).clone()};
+    const cv::Mat typed(size, type, bridged->image.data, bridged->image.step);
+    return {image.header, image.encoding, typed.clone()};
   } catch (const std::runtime_error&) {
     refuseEncoding(side, image.encoding);
   }
