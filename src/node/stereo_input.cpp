@@ -1,13 +1,15 @@
 #include "node/stereo_input.h"
 
+#include <stdexcept>
 #include <string>
 #include <utility>
 
+#include <image_transport/image_transport.h>
 #include <ros/time.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
+#include <boost/algorithm/string/join.hpp>
 
-#include "input/image_subscription.h"
 #include "input/message_conversion.h"
 
 namespace rotrocc {
@@ -51,14 +53,26 @@ StereoInput::Subscribers StereoInput::subscribe(ros::NodeHandle& nh,
       });
   // Not in the private namespace, where unknown parameters are errors.
   const ros::NodeHandle transport_nh(nh, name);
-  subscribers.image = subscribeImages(nh,
-                                      name + (parameters.rectify ? "/image_raw" : "/image_rect"),
-                                      parameters.image_transport,
-                                      transport_nh,
-                                      kImageQueueSize,
-                                      [this, side](const sensor_msgs::Image::ConstPtr& image) {
-                                        intake_.addImage(side, image, now());
-                                      });
+  const std::string& transport = parameters.image_transport;
+  std::string topic = name + (parameters.rectify ? "/image_raw" : "/image_rect");
+  // image_transport appends the transport to a name that it does not resolve, so remappings would
+  // not be found. A raw topic is resolved only once: left and right may be remapped to each other.
+  if (transport != "raw") topic = nh.resolveName(topic);
+  image_transport::ImageTransport images(nh);
+  try {
+    subscribers.image =
+        images.subscribe(topic,
+                         kImageQueueSize,
+                         [this, side](const sensor_msgs::Image::ConstPtr& image) {
+                           intake_.addImage(side, image, now());
+                         },
+                         ros::VoidPtr(),
+                         {transport, ros::TransportHints().tcpNoDelay(), transport_nh});
+  } catch (const image_transport::TransportLoadException& error) {
+    throw std::runtime_error("image_transport is " + transport + ", but this machine only has " +
+                             boost::algorithm::join(images.getLoadableTransports(), " ") +
+                             ": install its plugin, or set another one (" + error.what() + ")");
+  }
   return subscribers;
 }
 
