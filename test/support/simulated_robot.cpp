@@ -105,10 +105,6 @@ void SimulatedRobot::publish(const sensor_msgs::Image& left, const sensor_msgs::
   right_image_publisher_.publish(boost::make_shared<sensor_msgs::Image>(right));
 }
 
-void SimulatedRobot::turnBackTime() {
-  stamp_ -= ros::Duration(100.0);
-}
-
 std::optional<nav_msgs::Odometry> SimulatedRobot::odometryOf(const ros::Time& stamp,
                                                              std::chrono::milliseconds timeout) {
   return waitFor(stamp, odometry_, timeout);

@@ -52,8 +52,7 @@ class SimulatedRobot {
   std::pair<sensor_msgs::Image, sensor_msgs::Image> see();
   void publish(const sensor_msgs::Image& left, const sensor_msgs::Image& right);
 
-  /// The next pairs have stamps from before the first ones, or from a time on.
-  void turnBackTime();
+  /// The next pairs have stamps from a time on.
   void setTime(const ros::Time& stamp) { stamp_ = stamp; }
 
   /// The camera looks to the left of the way by that angle from the next pair on.
