@@ -6,7 +6,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <random>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,35 +26,18 @@ extern "C" __attribute__((weak)) int LLVMFuzzerInitialize(int* argc, char*** arg
 namespace rotrocc {
 namespace {
 
-/// What readers may stumble over: numbers in text and in messages, and parts of YAML.
-const std::vector<std::string> kTokens = {"nan",
-                                          "-inf",
-                                          "1e999",
-                                          "-1",
-                                          "0",
-                                          "18446744073709551616",
-                                          "1e-320",
-                                          "",
-                                          "\n",
-                                          ": ",
-                                          "[",
-                                          "]",
-                                          "[]",
-                                          "0, 0",
-                                          "{",
-                                          "}",
-                                          "&a ",
-                                          "*a",
-                                          "- ",
-                                          "\"",
-                                          "#",
-                                          std::string(1, '\0'),
-                                          std::string(4, '\0'),
-                                          std::string(4, '\xff'),
-                                          std::string("\xff\xff\xff\x7f"),
-                                          std::string("\1\0\0\0", 4),
-                                          std::string("\0\0\0\0\0\0\xf0\x7f", 8),
-                                          std::string("\0\0\0\0\0\0\xf8\xff", 8)};
+/// What readers may stumble over: parts of YAML and numbers, in text and as in messages.
+std::vector<std::string> tokens() {
+  std::istringstream text(
+      ": [ ] [] 0,0 { } &a *a - \" # nan -inf 1e999 -1 0 1e-320 18446744073709551616");
+  std::vector<std::string> tokens(std::istream_iterator<std::string>(text), {});
+  for (const int byte : {0x00, 0xff}) tokens.emplace_back(4, static_cast<char>(byte));
+  const std::string exponents[] = {"\xff\xff\xff\x7f", "\xf0\x7f", "\xf8\xff"};
+  for (const std::string& end : exponents)
+    tokens.push_back(std::string(8 - end.size(), '\0') + end);
+  tokens.insert(tokens.end(), {"", "\n", std::string("\1\0\0\0", 4)});
+  return tokens;
+}
 
 class Mutator {
  public:
@@ -83,13 +68,13 @@ class Mutator {
         input.erase(at, length);
         break;
       case 1:
-        input.insert(at, pick(kTokens));
+        input.insert(at, pick(tokens_));
         break;
       case 2:
         if (at < input.size()) input[at] ^= static_cast<char>(1 << below(8));
         break;
       case 3: {  // what follows stays where it is, as messages need it
-        const std::string& token = pick(kTokens);
+        const std::string& token = pick(tokens_);
         input.replace(at, token.size(), token);
         break;
       }
@@ -100,7 +85,7 @@ class Mutator {
     }
   }
 
-  std::vector<std::string> seeds_;
+  std::vector<std::string> seeds_, tokens_ = tokens();
   std::mt19937 random_;
 };
 
