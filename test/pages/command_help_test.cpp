@@ -1,6 +1,7 @@
 // --help of all programs and scripts, and their answer to an unknown option.
 
 #include <filesystem>
+#include <iterator>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -15,16 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> wordsOf(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
-}
-
 /// What rosrun finds: programs and installed scripts.
 std::vector<std::string> programs() {
-  return wordsOf(PROGRAMS);
+  std::istringstream stream(PROGRAMS);
+  return {std::istream_iterator<std::string>(stream), {}};
 }
 
 /// The executables of the folders scripts and experiments.

@@ -69,10 +69,11 @@ const Difference kDifferences[] = {
     {"LEFT.yaml", "config/cameras/euroc_left.yaml"},
 };
 
-/// Commands that contain `part` do not run here.
+/// Commands that contain `part` do not run here, or only where a check succeeds.
 struct Omission {
   std::string part;
-  std::string reason;
+  std::string reason;  ///< or the check that fails
+  bool has_check = false;
 };
 const Omission kOmissions[] = {
     {"scripts/demo", "demo_test runs it"},
@@ -87,18 +88,10 @@ const Omission kOmissions[] = {
     {"experiments/", "takes minutes to hours; experiments_test runs short forms"},
     {"06_000_050", "a clip of KITTI"},
     {"devel/setup.bash", "the environment of the tests is set up"},
-};
-
-/// Commands that contain `part` run only where `check` succeeds.
-struct Requirement {
-  std::string part;
-  std::string check;
-};
-const Requirement kRequirements[] = {
-    {"ekf.launch", "rospack find robot_localization"},
-    {"/odometry/filtered", "rospack find robot_localization"},
-    {"kitti_benchmark", "command -v parallel"},
-    {"view_frames.py", "command -v dot"},
+    {"ekf.launch", "rospack find robot_localization", true},
+    {"/odometry/filtered", "rospack find robot_localization", true},
+    {"kitti_benchmark", "command -v parallel", true},
+    {"view_frames.py", "command -v dot", true},
 };
 
 /// Parts of the commands whose numbers are those of the page, whatever the drive.
@@ -167,12 +160,8 @@ std::string withDifferences(std::string command) {
 /// Why a command does not run here; empty if it does.
 std::string reasonToOmit(const Command& command) {
   for (const Omission& omission : kOmissions) {
-    if (contains(command.text, omission.part)) return omission.reason;
-  }
-  for (const Requirement& requirement : kRequirements) {
-    if (contains(command.text, requirement.part) && runCommand(requirement.check).status != 0) {
-      return "this fails: " + requirement.check;
-    }
+    if (!contains(command.text, omission.part)) continue;
+    if (!omission.has_check || runCommand(omission.reason).status != 0) return omission.reason;
   }
   return "";
 }
@@ -180,25 +169,17 @@ std::string reasonToOmit(const Command& command) {
 /// Of the lines that are like one of the page: with any numbers, unless these are exact, with
 /// anything in place of [...], and with other widths of columns.
 std::regex patternOf(const std::string& printed, bool exact) {
-  static const std::string kNumber = R"([-+]?\d+(\.\d*)?(e[-+]?\d+)?)";
-  static const std::regex kNumberPattern(kNumber);
-  static const std::regex kPart(R"(\[\.\.\.\]| +|=+|)" + kNumber + "|.");
-  std::string pattern;
-  for (std::sregex_iterator part(printed.begin(), printed.end(), kPart), end; part != end; ++part) {
-    const std::string text = part->str();
-    if (text == "[...]") {
-      pattern += R"(\[[^\]]*\])";
-    } else if (text[0] == ' ') {
-      pattern += part->position() == 0 ? " *" : " +";
-    } else if (text[0] == '=') {
-      pattern += "=+";
-    } else if (!exact && std::regex_match(text, kNumberPattern)) {
-      pattern += kNumber;
-    } else {
-      pattern += std::regex_replace(text, std::regex(R"([\^$\\.*+?()\[\]{}|])"), R"(\$&)");
-    }
-  }
-  return std::regex(pattern + " *");
+  std::string pattern = printed;
+  const auto replace = [&](const char* part, const char* by) {
+    pattern = std::regex_replace(pattern, std::regex(part), by);
+  };
+  replace(R"([\^$\\.*+?()\[\]{}|])", R"(\$&)");
+  replace(R"(\\\[\\\.\\\.\\\.\\\])", R"(\[[^\]]*\])");
+  if (!exact)
+    replace(R"((\\\+|-)?\d+(\\\.\d*)?(e(\\\+|-)?\d+)?)", R"([-+]?\d+(\.\d*)?(e[-+]?\d+)?)");
+  replace("=+", "=+");
+  replace(" +|$", " *");
+  return std::regex(pattern);
 }
 
 /// Whether the output has lines like those of the page, in their order.

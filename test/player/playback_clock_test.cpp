@@ -51,29 +51,5 @@ TEST_F(PlaybackClockTest, TellsTheTimeWhileItWaits) {
   EXPECT_TRUE(std::is_sorted(published_.begin(), published_.end()));
 }
 
-TEST_F(PlaybackClockTest, DoesNotWaitAtRateZero) {
-  PlaybackClock clock(0.0, false, publish_);
-  clock.start(kBegin);
-  EXPECT_TRUE(clock.waitUntil(kBegin + ros::Duration(1e6)));
-  EXPECT_EQ(published_.back(), kBegin + ros::Duration(1e6));
-}
-
-TEST_F(PlaybackClockTest, StandsStillDuringAPauseUntilItEndsOrIsStopped) {
-  for (const bool stop : {false, true}) {
-    PlaybackClock clock(1.0, true, publish_);
-    clock.start(kBegin);
-    auto waiting = std::async(std::launch::async,
-                              [&] { return clock.waitUntil(kBegin + ros::Duration(0.01)); });
-    EXPECT_EQ(waiting.wait_for(milliseconds(100)), std::future_status::timeout);
-    if (stop) {
-      clock.stop();
-    } else {
-      clock.setPaused(false);
-    }
-    EXPECT_EQ(waiting.get(), !stop);
-    EXPECT_EQ(clock.stopped(), stop);
-  }
-}
-
 }  // namespace
 }  // namespace rotrocc

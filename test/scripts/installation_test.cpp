@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -89,14 +88,11 @@ TEST_F(InstallationTest, LaunchFilesNameInstalledNodes) {
 }
 
 TEST_F(InstallationTest, PluginsAreWhereTheDescriptionSays) {
-  const std::string share = prefix() + "/share/rotrocc/";
   const CommandResult result =
-      runCommand("sed -n 's/.*path=\"\\([^\"]*\\)\".*/\\1/p' " + share + "nodelet_plugins.xml");
-  ASSERT_NE(result.output.find("stereo_odometry"), std::string::npos) << result.output;
-  std::istringstream paths(result.output);
-  for (std::string library; std::getline(paths, library);) {
-    EXPECT_TRUE(std::filesystem::exists(share + library + ".so")) << library;
-  }
+      run("cd " + prefix() + "/share/rotrocc && ls $(sed -n 's/.*path=\"\\([^\"]*\\).*/\\1.so/p' " +
+          "nodelet_plugins.xml)");
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_NE(result.output.find("stereo_odometry"), std::string::npos) << result.output;
 }
 
 TEST_F(InstallationTest, TheNodeletLoadsNoLibrariesOfImageFiles) {

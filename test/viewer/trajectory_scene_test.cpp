@@ -52,19 +52,6 @@ TEST_F(TrajectorySceneTest, SaysStateSpeedAndLength) {
   EXPECT_EQ(marker("state").text, "NO_INPUT,  3.0 m\nthe replay has ended");
 }
 
-TEST_F(TrajectorySceneTest, ColoursTheWayByTheStateEvenAtStandstill) {
-  const std::uint8_t states[] = {
-      OdometryStatus::OK, OdometryStatus::DEGRADED, OdometryStatus::LOST};
-  for (int i = 0; i < 3; ++i) {
-    setState(states[i]);
-    addAt(0.0, i);
-  }
-  const visualization_msgs::Marker way = marker("estimate");
-  ASSERT_GE(way.colors.size(), 3u);
-  ASSERT_EQ(way.colors.size(), way.points.size());
-  for (int i = 1; i < 3; ++i) EXPECT_LT(way.colors[i].g, way.colors[i - 1].g) << "darker";
-}
-
 TEST_F(TrajectorySceneTest, TheStatusOfAPoseMayComeAfterIt) {
   const std::uint8_t states[] = {
       OdometryStatus::OK, OdometryStatus::LOST, OdometryStatus::LOST, OdometryStatus::OK};
@@ -105,24 +92,6 @@ TEST_F(TrajectorySceneTest, KeepsNoMorePointsThanAreSeen) {
   }
   EXPECT_LT(points, 20200u);
   EXPECT_EQ(scene_.markers().markers.back().points.back().x, 999.0);
-}
-
-TEST_F(TrajectorySceneTest, AStepChangesFewPoints) {
-  for (int i = 0; i < 6050; ++i) addAt(10 * (i % 50), i);
-  constexpr int kSteps = 10;
-  std::size_t points = 0, changed = 0;
-  std::vector<visualization_msgs::Marker> before = scene_.markers().markers;
-  for (int step = 1; step <= kSteps; ++step) {
-    addAt(490.0 + step, 6050.0 + step);
-    const std::vector<visualization_msgs::Marker> after = scene_.markers().markers;
-    for (std::size_t i = 0; i < after.size(); ++i) {
-      points += after[i].points.size();
-      if (i >= before.size() || after[i] != before[i]) changed += after[i].points.size();
-    }
-    before = after;
-  }
-  EXPECT_GT(points, kSteps * 6000u);
-  EXPECT_LT(changed, 300u * kSteps + 6200u) << "the sizes may change once";
 }
 
 TEST_F(TrajectorySceneTest, RestartsAfterAJumpBackOrInAnotherFrame) {
