@@ -31,7 +31,7 @@ const struct {
 }  // namespace
 
 Distortion::Distortion(const std::string& model, const std::vector<double>& coefficients)
-    : coefficients_(coefficients) {
+    : coefficients_(coefficients), limit_(0.0) {
   const auto known = std::find_if(
       std::begin(kModels), std::end(kModels), [&](const auto& m) { return model == m.name; });
   if (known == std::end(kModels)) {
