@@ -115,7 +115,8 @@ class WindowKernelsTest : public ::testing::TestWithParam<bool> {
                             products(gx, gy),
                             products(gy, gy)});
     const auto mean = static_cast<std::int16_t>(gradients.value / (kSide * kSide));
-    expectSame(kernels.takeContrast(mean, window),
+    const ContrastSums contrasts = kernels.takeContrast(mean, window);
+    expectSame(contrasts,
                ContrastSums{sumOf(contrast),
                             products(contrast, contrast),
                             products(contrast, gx),

@@ -154,7 +154,7 @@ TEST(MotionCheckTest, WantsMoreOfAMotionWithoutAPrediction) {
     const char* limit;
   };
   for (const Case& c : {Case{true, 319, 0.1, nullptr, ""},
-                        Case{false, 319, 0.1, "without a prediction, a share of 0.798", "0.8"},
+                        Case{false, 319, 0.1, "without a prediction, a share of 0.797", "0.8"},
                         Case{false, 320, 0.1, nullptr, ""},
                         Case{true, 360, 0.004, nullptr, ""},
                         Case{false, 360, 0.004, "0.9", "0.004 px"},  // more exact than images
