@@ -13,7 +13,7 @@ namespace rotrocc {
 /// A candidate motion with all data that it was estimated from. It is accepted or discarded as a
 /// whole.
 struct Hypothesis {
-  static constexpr const char* kNotTried = "there is nothing to compare with";
+  static constexpr const char* kNotTried = "no try is left";  // short, so without an allocation
 
   StereoCamera camera;  ///< corrected by the disparity bias that was used for the features' depths
   Correspondences features;
