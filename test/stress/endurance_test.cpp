@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include <cv_bridge/cv_bridge.h>
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
@@ -75,8 +76,8 @@ class Drive {
                                   Pose(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitY()));
       const StereoPair pair = scene.render(T_world_camera, 0);
       Pair& rendered = rendered_.emplace_back();
-      rendered.images = {*toImage(header, "mono8", pair.left),
-                         *toImage(header, "mono8", pair.right)};
+      rendered.images = {*cv_bridge::CvImage(header, "mono8", pair.left).toImageMsg(),
+                         *cv_bridge::CvImage(header, "mono8", pair.right).toImageMsg()};
       rendered.infos = {left, right};
       rendered.T_wheels_base = kittiMount() * T_world_camera * kittiMount().inverse();
     }
@@ -330,7 +331,7 @@ const std::vector<Fault> kFaults = {
     {"data cut off", {"bytes of data"}, kShort, ofImage(0, [](Image& i) { i.data.resize(9); })},
     {"unknown encoding", {"has the encoding"}, kShort,
      ofImage(0, [](Image& image) { image.encoding = "jpeg"; })},
-    {"sizes that overflow", {"more than 20000000 pixels"}, kShort,
+    {"sizes that overflow", {"more than 50000000 pixels"}, kShort,
      ofImage(0, [](Image& image) { image.width = image.height = image.step = ~0u; })},
     {"step too short", {"a step of"}, kShort, ofImage(0, [](Image& i) { i.step /= 2; })},
     {"sizes differ", {"same resolution"}, kShort, ofImage(1, [](Image& i) { i.height -= 2; })},
