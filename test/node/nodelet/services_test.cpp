@@ -24,8 +24,7 @@ TEST(ServicesTest, NothingWaitsForASave) {
     if (!waitUntil([&] { return was_reset.load(); })) throw std::runtime_error("nothing else ran");
     return "wrote 1 pose";
   };
-  const OdometryServices services(
-      nh, processor, health, save, [] { return ""; }, "odom");
+  const OdometryServices services(nh, processor, health, save, "odom");
   SaveTrajectory saved;
   std::thread saver([&] { ServiceCaller(nh.getNamespace()).call("save_trajectory", saved); });
   ASSERT_TRUE(waitUntil([&] { return saving.load(); }));
