@@ -98,9 +98,9 @@ void drive(const sensor_msgs::CameraInfo& left_info,
   DropLog drops;
   StereoIntake intake(parameters.node, drops, [&](const ReceivedPair& pair) {
     try {
-      const PairAnswer answer =
-          processor.process(processor.convert(pair), {pair.camera, kittiMount()});
-      processor.inspect(answer);
+      const PairInput in = {processor.convert(pair), pair.camera, kittiMount()};
+      const PairAnswer answer = processor.process(in);
+      processor.inspect(in, answer.result);
       require(answer.result.T_prev_cur.matrix().allFinite(), "the motion is finite");
       require(answer.result.covariance.allFinite(), "the covariance is finite");
       require(answer.state.T_odom_base.T.matrix().allFinite(), "the pose is finite");

@@ -30,7 +30,7 @@ struct NodeParameters {
   std::string pose_after_time_jump = "keep";  ///< or "zero": when time jumps back
   double silence_s = 5.0;                 ///< time without a pair before the log reports the reason
   double path_rate_hz = 2.0;              ///< at most, of the messages on the path topic
-  std::string while_lost = "hold";        ///< or "silent" or "null": what is published then
+  std::string while_lost = "hold";        ///< or "silent" or "unknown": what is published then
   double reset_after_lost_s = 0.0;        ///< the estimator restarts after a longer loss; 0: never
   std::string pose_after_lost = "keep";   ///< or "zero": after that
   int trajectory_length = 100'000;        ///< number of poses kept for ~save_trajectory

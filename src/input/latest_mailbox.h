@@ -30,6 +30,11 @@ class LatestMailbox {
     return std::exchange(item_, std::nullopt);
   }
 
+  bool hasItem() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return item_.has_value();
+  }
+
   /// Ends all current and future waits.
   void close() {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -1,6 +1,7 @@
 #include "node/node_parameters.h"
 
 #include <limits>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -42,8 +43,16 @@ void setOne(const std::string& name, XmlRpc::XmlRpcValue value, ParameterTable& 
   }
 }
 
+/// Of image_transport: its plugins write parameters below the topics of images, which may be in the
+/// private namespace, and below the names of transports.
+bool isOfImageTransport(const std::string& name, const XmlRpc::XmlRpcValue& value) {
+  static const std::set<std::string> kSections = {
+      "left", "right", "flow", "compressed", "compressedDepth", "theora"};
+  return value.getType() == XmlRpc::XmlRpcValue::TypeStruct && kSections.count(name) > 0;
+}
+
 void setBelow(const std::string& name, XmlRpc::XmlRpcValue value, ParameterTable& table) {
-  if (name == "diagnostic_period") return;  // of diagnostic_updater
+  if (name == "diagnostic_period" || isOfImageTransport(name, value)) return;
   if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
     setOne(name, value, table);
     return;

@@ -9,7 +9,7 @@
 
 #include "input/message_conversion.h"
 #include "input/to_text.h"
-#include "node/tf/sensor_mount.h"
+#include "node/tf/sensor_pose.h"
 
 namespace rotrocc {
 namespace {
@@ -39,20 +39,6 @@ Matrix6d toCovariance(const boost::array<double, 36>& message) {
   return symmetric;
 }
 
-std::uint8_t toMessage(State state) {
-  switch (state) {
-    case State::kInitialising:
-      return OdometryStatus::INITIALISING;
-    case State::kOk:
-      return OdometryStatus::OK;
-    case State::kDegraded:
-      return OdometryStatus::DEGRADED;
-    case State::kLost:
-      break;
-  }
-  return OdometryStatus::LOST;
-}
-
 }  // namespace
 
 nav_msgs::Odometry toOdometry(const BaseState& state,
@@ -69,9 +55,9 @@ nav_msgs::Odometry toOdometry(const BaseState& state,
   return message;
 }
 
-nav_msgs::Odometry toNullOdometry(std::int64_t stamp_ns,
-                                  const std::string& odom_frame,
-                                  const std::string& base_frame) {
+nav_msgs::Odometry toUnknownOdometry(std::int64_t stamp_ns,
+                                     const std::string& odom_frame,
+                                     const std::string& base_frame) {
   BaseState unknown;
   unknown.stamp_ns = stamp_ns;
   unknown.T_odom_base.covariance = kUnknownVariance * Matrix6d::Identity();
@@ -113,58 +99,6 @@ geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& T_parent_ch
   message.header.stamp = toRosTime(stamp_ns);
   message.header.frame_id = parent;
   message.child_frame_id = child;
-  return message;
-}
-
-OdometryStatus toStatus(const OdometryResult& result, const std::string& camera_frame) {
-  OdometryStatus message;
-  message.header.stamp = toRosTime(result.stamp_ns);
-  message.header.frame_id = camera_frame;
-  message.state = toMessage(result.state);
-  message.reason = result.reason;
-  message.dt = result.dt_s;
-
-  message.tries = static_cast<std::uint32_t>(result.counts.tries);
-  message.corners = static_cast<std::uint32_t>(result.counts.corners);
-  message.with_depth = static_cast<std::uint32_t>(result.counts.with_depth);
-  message.tracked = static_cast<std::uint32_t>(result.counts.tracked);
-  message.consistent = static_cast<std::uint32_t>(result.counts.consistent);
-  message.rotation_inliers = static_cast<std::uint32_t>(result.counts.rotation_inliers);
-  message.translation_inliers = static_cast<std::uint32_t>(result.counts.translation_inliers);
-
-  message.disparity_bias = static_cast<float>(result.disparity_bias.estimated_px);
-  message.disparity_bias_sigma = static_cast<float>(result.disparity_bias.sigma_px);
-  message.disparity_bias_applied = static_cast<float>(result.disparity_bias.applied_px);
-  message.row_offset = static_cast<float>(result.row_offset.median_px);
-  message.row_offset_sigma = static_cast<float>(result.row_offset.sigma_px);
-  message.row_offset_applied = static_cast<float>(result.row_offset.applied_px);
-  message.row_difference = static_cast<float>(result.row_offset.typical_px);
-  message.exposure_gain = static_cast<float>(result.exposure_gain);
-  message.flow_noise = static_cast<float>(result.flow_noise_px);
-
-  message.time_pyramids = static_cast<float>(result.times.pyramids_ms);
-  message.time_corners = static_cast<float>(result.times.corners_ms);
-  message.time_disparity = static_cast<float>(result.times.disparity_ms);
-  message.time_tracking = static_cast<float>(result.times.tracking_ms);
-  message.time_estimation = static_cast<float>(result.times.estimation_ms);
-  message.time_prepared = static_cast<float>(result.times.prepared_ms);
-  message.time_total = static_cast<float>(result.times.total_ms);
-  return message;
-}
-
-OdometryStatus toIdleStatus(const OdometryStatus& now, const ros::Time& stamp) {
-  OdometryStatus message;
-  message.header.stamp = stamp;
-  message.state = now.state;
-  message.reason = now.reason;
-  message.hint = now.hint;
-  message.imu_reason = now.imu_reason;
-  message.rotations_predicted = now.rotations_predicted;
-  message.rotations_missed = now.rotations_missed;
-  message.pairs_processed = now.pairs_processed;
-  message.pairs_lost = now.pairs_lost;
-  message.guess_misses = now.guess_misses;
-  message.drops = now.drops;
   return message;
 }
 

@@ -12,7 +12,6 @@
 #include <opencv2/core.hpp>
 
 #include "node/base/base_odometry.h"
-#include "rotrocc/OdometryStatus.h"
 #include "rotrocc/visual_odometry.h"
 
 namespace rotrocc {
@@ -22,9 +21,9 @@ nav_msgs::Odometry toOdometry(const BaseState& state,
                               const std::string& base_frame);
 
 /// A message that says that nothing is known: pose and twist are zero, with a variance of 9999.
-nav_msgs::Odometry toNullOdometry(std::int64_t stamp_ns,
-                                  const std::string& odom_frame,
-                                  const std::string& base_frame);
+nav_msgs::Odometry toUnknownOdometry(std::int64_t stamp_ns,
+                                     const std::string& odom_frame,
+                                     const std::string& base_frame);
 
 geometry_msgs::TwistWithCovarianceStamped toTwist(const StepVelocity& velocity,
                                                   const std::string& base_frame);
@@ -39,13 +38,6 @@ geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& T_parent_ch
                                             std::int64_t stamp_ns,
                                             const std::string& parent,
                                             const std::string& child);
-
-/// State and numbers of a pair, with the stamp of the result. Lacks the hint, the counters since
-/// the start, and the times outside of the estimator.
-OdometryStatus toStatus(const OdometryResult& result, const std::string& camera_frame);
-
-/// The status without a recent pair: state, hint and counters of `now`.
-OdometryStatus toIdleStatus(const OdometryStatus& now, const ros::Time& stamp);
 
 /// The points of the features in `set`, in the frame of the header, which must be the left
 /// camera's: x, y, z [m] and the intensity of the image there, all FLOAT32.

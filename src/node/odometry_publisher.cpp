@@ -22,7 +22,7 @@ namespace {
 constexpr int kMotionQueue = 50;
 /// Only the latest of large messages.
 constexpr int kPictureQueue = 1;
-/// Poses in the path: 17 minutes at 10 Hz, and 1.2 MB in each message.
+/// Poses of the path: 1000 s at 10 Hz, in 640 kB. Longer ones fill the network, and rviz is slow.
 constexpr std::size_t kPathLength = 10'000;
 
 /// Like that of a broadcaster: tf is not remapped for a nodelet. A broadcaster sends by way of the
@@ -50,9 +50,9 @@ std::chrono::steady_clock::time_point OdometryPublisher::publishMotion(
     const BaseState& state, bool is_lost, const std::optional<Eigen::Isometry3d>& T_guess_base) {
   if (is_lost && parameters_.while_lost != "hold") {
     const auto sent = std::chrono::steady_clock::now();
-    if (parameters_.while_lost == "null") {
+    if (parameters_.while_lost == "unknown") {
       odom_publisher_.publish(boost::make_shared<nav_msgs::Odometry>(
-          toNullOdometry(state.stamp_ns, parameters_.odom_frame, parameters_.base_frame)));
+          toUnknownOdometry(state.stamp_ns, parameters_.odom_frame, parameters_.base_frame)));
     }
     return sent;
   }
@@ -104,24 +104,25 @@ void OdometryPublisher::publishPath(const BaseState& state, bool starts) {
   path_publisher_.publish(path);
 }
 
-void OdometryPublisher::publishPictures(const PairAnswer& answer,
+void OdometryPublisher::publishPictures(const PairInput& in,
+                                        const OdometryResult& result,
                                         const VisualOdometry& odometry,
                                         const std::string& camera_frame) {
-  const cv::Mat& left = answer.pair.left;
+  const cv::Mat& left = in.pair.left;
   std_msgs::Header header;
-  header.stamp = toRosTime(answer.result.stamp_ns);
+  header.stamp = toRosTime(result.stamp_ns);
   header.frame_id = camera_frame;
   if (inliers_publisher_.getNumSubscribers() > 0) {
     inliers_publisher_.publish(boost::make_shared<sensor_msgs::PointCloud2>(
         toPointCloud(odometry.correspondences(), odometry.translationInliers(), left, header)));
   }
   if (flow_publisher_.getNumSubscribers() > 0) {
-    drawFlowPicture({answer.pair,
-                     answer.camera,
+    drawFlowPicture({in.pair,
+                     in.camera,
                      odometry.correspondences(),
                      odometry.rotationInliers(),
                      odometry.translationInliers(),
-                     answer.result},
+                     result},
                     picture_);
     flow_publisher_.publish(cv_bridge::CvImage(header, "bgr8", picture_).toImageMsg());
   }

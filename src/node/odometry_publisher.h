@@ -38,8 +38,9 @@ class OdometryPublisher {
   /// Adds a pose to the path, or to a new one, and publishes it.
   void publishPath(const BaseState& state, bool starts);
 
-  /// Publishes inliers and flow of the last call of odometry.process(), which gave `answer`.
-  void publishPictures(const PairAnswer& answer,
+  /// Publishes inliers and flow of the last call of odometry.process(), which gave `result`.
+  void publishPictures(const PairInput& in,
+                       const OdometryResult& result,
                        const VisualOdometry& odometry,
                        const std::string& camera_frame);
 

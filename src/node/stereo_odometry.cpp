@@ -2,7 +2,9 @@
 
 #include <pthread.h>
 
+#include <algorithm>
 #include <exception>
+#include <limits>
 #include <utility>
 
 #include <ros/init.h>
@@ -20,15 +22,16 @@ using SteadyClock = std::chrono::steady_clock;
 /// Period at which the worker checks for shutdown, which may happen without a call of the
 /// destructor.
 constexpr std::chrono::milliseconds kIdlePoll(100);
-/// Period at which a pair is tried again that waits for tf, or for the vertical.
-constexpr std::chrono::milliseconds kRetry(10);
-/// How long a pair waits for the transform from guess_frame: a period of odometry at 20 Hz.
-constexpr double kGuessTimeout_s = 0.05;
+/// Bounds of the period at which a pair that waits looks whether it still must: a twentieth of the
+/// time so far.
+constexpr std::chrono::duration<double> kShortestPoll(0.0005);
+constexpr std::chrono::duration<double> kLongestPoll(0.01);
+constexpr double kUnlimited_s = std::numeric_limits<double>::infinity();
 /// Period of diagnostics (REP 107).
 constexpr double kTick_s = 1.0;
 
-float milliseconds(SteadyClock::duration duration) {
-  return std::chrono::duration<float, std::milli>(duration).count();
+double milliseconds(SteadyClock::duration duration) {
+  return std::chrono::duration<double, std::milli>(duration).count();
 }
 
 }  // namespace
@@ -41,7 +44,14 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
       parameters_(parameters.node),
       drops_(log_),
       processor_(parameters, log_),
-      mount_(parameters_.base_frame, parameters_.mount_timeout_s, listenToTf, log_),
+      tf_conflict_(parameters_.publish_tf
+                       ? std::make_unique<TfConflict>(
+                             publishedTf(name, parameters_), parameters_.base_frame, log_)
+                       : nullptr),
+      tf_([this](const TfReceiver::Event& event, bool is_static) {
+        if (tf_conflict_) tf_conflict_->onTf(event, is_static);
+      }),
+      camera_pose_(tf_.buffer(), parameters_.base_frame, parameters_.mount_timeout_s, log_),
       publisher_(nh, parameters_),
       trajectory_(static_cast<std::size_t>(parameters_.trajectory_length),
                   parameters_.trajectory_file,
@@ -50,15 +60,11 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
       loss_log_(log_),
       silence_(parameters_.silence_s, SteadyClock::now(), log_) {
   if (!parameters_.guess_frame.empty()) {
-    guess_.emplace(
-        parameters_.guess_frame, parameters_.base_frame, kGuessTimeout_s, listenToTf, log_);
+    guess_.emplace(tf_.buffer(), parameters_.guess_frame, parameters_.base_frame, log_);
   }
-  if (parameters_.use_imu) gyro_.emplace(nh, parameters_, log_);
+  if (parameters_.use_imu) gyro_.emplace(nh, tf_.buffer(), parameters_, log_);
   input_.emplace(
       nh, parameters_, drops_, [this](ReceivedPair pair) { onPair(std::move(pair)); }, log_);
-  if (parameters_.publish_tf) {
-    tf_conflict_.emplace(publishedTf(name, parameters_), parameters_.base_frame, log_);
-  }
   diagnostics_.emplace(nh, private_nh, name);
   if (gyro_) {
     diagnostics_->add("gyroscope", [this](StatusWrapper& status) { gyro_->describe(status); });
@@ -103,7 +109,7 @@ void StereoOdometry::onTick(const ros::WallTimerEvent&) {
     if (tf_conflict_) report.tf_conflict = tf_conflict_->check();
     diagnostics_->publish(report);
     if (!report.answers || report.paused) {
-      publisher_.publishStatus(toIdleStatus(report.status, ros::Time::now()));
+      publisher_.publishStatus(toIdleStatus(report, ros::Time::now()));
     }
     for (const std::string& fault : {report.input_fault, report.rig_fault}) {
       if (!fault.empty() && warning_.pass(fault)) log_.warn(fault);
@@ -116,103 +122,150 @@ void StereoOdometry::onTick(const ros::WallTimerEvent&) {
 
 void StereoOdometry::work() {
   pthread_setname_np(pthread_self(), "odometry");  // for `top -H` and debuggers
-  std::optional<ReceivedPair> pair;
-  std::optional<DropReason> waits_for;
-  while (ros::ok() && !mailbox_.closed()) {
-    if (auto newer = mailbox_.take(pair ? kRetry : kIdlePoll)) {
-      if (pair) drops_.count(*waits_for);
-      pair = std::move(newer);
-      pair->taken = SteadyClock::now();
+  while (isRunning()) {
+    auto pair = mailbox_.take(kIdlePoll);
+    if (!pair) continue;
+    pair->taken = SteadyClock::now();
+    try {
+      process(*pair);
+    } catch (const InputError& error) {
+      drops_.add(error);
+    } catch (const std::exception& error) {
+      drops_.add(InputError(DropReason::kFailed, std::string("internal error: ") + error.what()));
     }
-    if (pair) waits_for = tryPair(*pair);
-    if (!waits_for) pair.reset();
   }
 }
 
-/// Nothing if the pair is done with: processed, or dropped. Otherwise it waits, and a newer one
-/// replaces it for that reason: tf lacks the camera pose, or the vertical is not known yet.
-std::optional<DropReason> StereoOdometry::tryPair(const ReceivedPair& received) {
-  try {
-    if (processor_.takeRequests()) {
-      mount_.lookAgain();
-      if (gyro_) gyro_->lookAgain();
-    }
-    const sensor_msgs::Image& left = *received.images.left;
-    const std::string frame = cameraFrameOf(left, parameters_.camera_frame);
-    const std::int64_t stamp_ns = toNanoseconds(left.header.stamp);
-    const auto T_base_camera = mount_.find(frame, stamp_ns);
-    if (!T_base_camera) {
-      health_.setWaitsForTf(mount_.missing());
-      return DropReason::kTfMissing;
-    }
-    if (gyro_) gyro_->follow(stamp_ns, T_base_camera->T);
-    if (gyro_ && processor_.startsLevel() && gyro_->waitsForVertical(stamp_ns)) {
-      return DropReason::kSuperseded;
-    }
-    process(received, frame, *T_base_camera);
-  } catch (const InputError& error) {
-    drops_.add(error);
-  } catch (const std::exception& error) {
-    drops_.add(InputError(DropReason::kFailed, std::string("internal error: ") + error.what()));
+/// Throws InputError if the pair is dropped, and the log is to say so.
+void StereoOdometry::process(const ReceivedPair& received) {
+  const std::optional<Gathered> pair = gather(received);
+  if (!pair) return;
+  const PairAnswer answer = processor_.process(pair->in);
+  // Before the odometry is sent: who has received it can save its pose.
+  trajectory_.add({answer.state.stamp_ns, answer.state.T_first_camera}, answer.starts_trajectory);
+  const Time ready = SteadyClock::now();
+  const Time sent = publish(answer);
+  PairTimes times;
+  times.pairing_ms = milliseconds(received.arrival - received.images.first_arrival);
+  times.waiting_ms = milliseconds(received.taken - received.arrival);
+  times.conversion_ms = milliseconds(pair->converted - received.taken);
+  times.tf_ms = milliseconds(pair->complete - pair->converted);
+  times.overhead_ms = milliseconds(ready - pair->complete) - answer.result.times.total_ms;
+  times.publishing_ms = milliseconds(sent - ready);
+  times.latency_ms = milliseconds(sent - received.arrival);
+  report(*pair, answer, received.stamp_age_s, times);
+  processor_.prepare();
+  publisher_.publishPictures(pair->in, answer.result, processor_.odometry(), pair->camera_frame);
+}
+
+/// All that is known of a pair; nothing if it is dropped. The only place where a pair waits: for tf
+/// and for the gyroscope. A first pair waits for the vertical, too, or gives way to a newer one.
+std::optional<StereoOdometry::Gathered> StereoOdometry::gather(const ReceivedPair& received) {
+  const WaitFor wait = [this](double limit_s, const std::function<bool()>& condition) {
+    return waitFor(limit_s, condition);
+  };
+  if (processor_.takeRequests()) {
+    camera_pose_.refresh();
+    if (gyro_) gyro_->refresh();
   }
+  Gathered pair;
+  pair.camera_frame = cameraFrameOf(*received.images.left, parameters_.camera_frame);
+  PairInput& in = pair.in;
+  in.pair = processor_.convert(received);
+  pair.converted = SteadyClock::now();
+  in.camera = received.camera;
+  in.is_simulated = ros::Time::isSimTime();
+  const std::int64_t stamp_ns = in.pair.stamp_ns;
+  tf_.follow(stamp_ns);
+  const auto T_base_camera = findCamera(pair.camera_frame, stamp_ns, wait);
+  if (!T_base_camera) return std::nullopt;
+  in.T_base_camera = *T_base_camera;
+  if (gyro_) {
+    bool gives_way = false;
+    wait(kUnlimited_s, [&] {
+      gyro_->gather(stamp_ns, *T_base_camera, wait);
+      gives_way = processor_.startsLevel() && gyro_->waitsForVertical(stamp_ns);
+      return !gives_way || mailbox_.hasItem();
+    });
+    if (gives_way) {
+      drops_.count(DropReason::kSuperseded);
+      return std::nullopt;
+    }
+    in.measured_rotation = [this](std::int64_t from_ns, std::int64_t to_ns) {
+      return gyro_->rotation(from_ns, to_ns);
+    };
+    in.up = [this, stamp_ns] { return gyro_->up(stamp_ns); };
+  }
+  if (guess_) in.T_last_base = guess_->motionTo(stamp_ns, wait);
+  if (!isRunning()) return std::nullopt;
+  pair.complete = SteadyClock::now();
+  return pair;
+}
+
+/// The pose of the camera. A pair waits for one that tf does not have at all until a newer pair
+/// comes; nothing then. Throws InputError if the camera moves, and tf is late.
+std::optional<Eigen::Isometry3d> StereoOdometry::findCamera(const std::string& frame,
+                                                            std::int64_t stamp_ns,
+                                                            const WaitFor& wait) {
+  std::optional<Eigen::Isometry3d> T_base_camera;
+  wait(kUnlimited_s, [&] {
+    T_base_camera = camera_pose_.find(frame, stamp_ns, wait);
+    health_.setWaitsForTf(camera_pose_.missing());
+    return camera_pose_.missing().empty() || mailbox_.hasItem();
+  });
+  if (T_base_camera || !isRunning()) return T_base_camera;
+  if (camera_pose_.missing().empty()) {
+    throw InputError(DropReason::kTfMissing, camera_pose_.problem());
+  }
+  drops_.count(DropReason::kTfMissing);
   return std::nullopt;
 }
 
-void StereoOdometry::process(const ReceivedPair& received,
-                             const std::string& frame,
-                             const UncertainTransform& T_base_camera) {
-  const SteadyClock::time_point begin = SteadyClock::now();
-  const StereoPair pair = processor_.convert(received);
-  const SteadyClock::time_point converted = SteadyClock::now();
-  PairContext context = {received.camera, T_base_camera};
-  context.is_simulated = ros::Time::isSimTime();
-  if (guess_) context.T_last_base = guess_->motionTo(pair.stamp_ns);
-  if (gyro_) {
-    context.measured_rotation = [&](std::int64_t from_ns, std::int64_t to_ns) {
-      return gyro_->rotation(from_ns, to_ns);
-    };
-    context.up = [&] { return gyro_->up(pair.stamp_ns); };
-  }
-  const PairAnswer answer = processor_.process(pair, context);
-  // Before the odometry is sent: who has received it can save its pose.
-  trajectory_.add({answer.state.stamp_ns, answer.state.T_first_camera}, answer.starts_trajectory);
-  const SteadyClock::time_point ready = SteadyClock::now();
-  const SteadyClock::time_point sent = publishMotion(answer);
-  OdometryStatus status = toStatus(answer.result, frame);
-  status.stamp_age = static_cast<float>(received.stamp_age_s);
-  status.time_pairing = milliseconds(received.arrival - received.images.first_arrival);
-  status.time_waiting = milliseconds(received.taken - received.arrival);
-  status.time_tf = milliseconds(begin - received.taken);
-  status.time_conversion = milliseconds(converted - begin);
-  status.time_publishing = milliseconds(sent - ready);
-  status.time_rest = milliseconds(ready - converted) - status.time_total;
-  status.latency = milliseconds(sent - received.arrival);
-  followUp(answer, status);
-  processor_.prepare();
-  publisher_.publishPictures(answer, processor_.odometry(), frame);
-}
-
-/// Returns when the odometry was sent.
-SteadyClock::time_point StereoOdometry::publishMotion(const PairAnswer& answer) {
+/// Sends tf and odometry. Returns when the odometry was sent.
+StereoOdometry::Time StereoOdometry::publish(const PairAnswer& answer) {
   std::optional<Eigen::Isometry3d> T_guess_base;
-  if (guess_) T_guess_base = guess_->moveTo(answer.result.stamp_ns, answer.starts_trajectory);
+  if (guess_) T_guess_base = guess_->moveTo(answer.result.stamp_ns);
   const bool is_lost = answer.result.state == State::kLost;
   return publisher_.publishMotion(answer.state, is_lost, T_guess_base);
 }
 
 /// All that the odometry of the pair need not wait for.
-void StereoOdometry::followUp(const PairAnswer& answer, OdometryStatus& status) {
-  if (guess_) status.guess_misses = guess_->misses();
-  if (gyro_) gyro_->observe(answer.result, status);
-  const std::string camera_fault = processor_.inspect(answer);
-  std::string tf_trouble = mount_.trouble();
-  if (guess_ && !guess_->trouble().empty()) {
-    tf_trouble += (tf_trouble.empty() ? "" : "; ") + guess_->trouble();
+void StereoOdometry::report(const Gathered& pair,
+                            const PairAnswer& answer,
+                            double stamp_age_s,
+                            const PairTimes& times) {
+  PairReport report;
+  report.result = answer.result;
+  report.camera_frame = pair.camera_frame;
+  report.stamp_age_s = stamp_age_s;
+  report.times = times;
+  report.camera_fault = processor_.inspect(pair.in, answer.result);
+  report.tf_problem = camera_pose_.problem();
+  if (guess_) {
+    const std::string& problem = guess_->problem();
+    if (!report.tf_problem.empty() && !problem.empty()) report.tf_problem += "; ";
+    report.tf_problem += problem;
+    report.guess_misses = guess_->misses();
   }
-  status = health_.addAnswer(status, camera_fault, tf_trouble, drops_);
-  publisher_.publishStatus(status);
+  if (gyro_) report.gyro = gyro_->observe(answer.result);
+  publisher_.publishStatus(toStatus(health_.addPair(report, drops_)));
   publisher_.publishPath(answer.state, answer.starts_trajectory);
-  loss_log_.observe(status, camera_fault);
+  loss_log_.observe(answer.result, report.camera_fault);
+}
+
+/// See WaitFor. Ends at once when the odometry does.
+bool StereoOdometry::waitFor(double limit_s, const std::function<bool()>& condition) const {
+  const Time begin = SteadyClock::now();
+  while (!condition()) {
+    const std::chrono::duration<double> passed = SteadyClock::now() - begin;
+    if (!isRunning() || passed.count() >= limit_s) return false;
+    std::this_thread::sleep_for(std::clamp(passed / 20.0, kShortestPoll, kLongestPoll));
+  }
+  return true;
+}
+
+bool StereoOdometry::isRunning() const {
+  return ros::ok() && !ros::isShuttingDown() && !mailbox_.closed();
 }
 
 }  // namespace rotrocc

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
@@ -22,8 +24,9 @@
 #include "node/odometry_services.h"
 #include "node/stereo_input.h"
 #include "node/tf/guess_odometry.h"
-#include "node/tf/sensor_mount.h"
+#include "node/tf/sensor_pose.h"
 #include "node/tf/tf_conflict.h"
+#include "node/tf/tf_receiver.h"
 #include "node/trajectory_store.h"
 #include "rotrocc/parameters.h"
 
@@ -38,8 +41,8 @@ namespace rotrocc {
 /// the private parameters.
 ///
 /// The callbacks only match images to pairs. A worker thread processes them; if it is too slow, it
-/// skips to the newest pair. It sends tf and odometry as soon as they are known, and does all else
-/// after that.
+/// skips to the newest pair. It gathers what is known of a pair, estimates the motion, sends tf and
+/// odometry, and does all else after that.
 class StereoOdometry {
  public:
   /// Throws std::exception if it cannot start; then nothing of it is left. `name` is that of the
@@ -51,25 +54,42 @@ class StereoOdometry {
   ~StereoOdometry();
 
  private:
+  using Time = std::chrono::steady_clock::time_point;
+
+  /// A pair that is ready for the estimator.
+  struct Gathered {
+    PairInput in;
+    std::string camera_frame;
+    Time converted, complete;
+  };
+
   // In the thread of the nodelet.
   void onPair(ReceivedPair pair);
   void onTick(const ros::WallTimerEvent& event);
 
   // In the worker thread.
   void work();
-  std::optional<DropReason> tryPair(const ReceivedPair& received);
-  void process(const ReceivedPair& received,
-               const std::string& frame,
-               const UncertainTransform& T_base_camera);
-  std::chrono::steady_clock::time_point publishMotion(const PairAnswer& answer);
-  void followUp(const PairAnswer& answer, OdometryStatus& status);
+  void process(const ReceivedPair& received);
+  std::optional<Gathered> gather(const ReceivedPair& received);
+  std::optional<Eigen::Isometry3d> findCamera(const std::string& frame,
+                                              std::int64_t stamp_ns,
+                                              const WaitFor& wait);
+  Time publish(const PairAnswer& answer);
+  void report(const Gathered& pair,
+              const PairAnswer& answer,
+              double stamp_age_s,
+              const PairTimes& times);
+  bool waitFor(double limit_s, const std::function<bool()>& condition) const;
+  bool isRunning() const;
 
   Log log_;
   NodeParameters parameters_;
   DropLog drops_;
   OdometryHealth health_;
   PairProcessor processor_;
-  SensorMount mount_;
+  std::unique_ptr<TfConflict> tf_conflict_;  // unless publish_tf is false
+  TfReceiver tf_;
+  SensorPose camera_pose_;
   std::optional<GuessOdometry> guess_;
   std::optional<GyroInput> gyro_;
   OdometryPublisher publisher_;
@@ -83,7 +103,6 @@ class StereoOdometry {
   LatestMailbox<ReceivedPair> mailbox_;
   // Order matters from here on: members are destroyed after those that call them.
   std::optional<StereoInput> input_;
-  std::optional<TfConflict> tf_conflict_;
   std::optional<Diagnostics> diagnostics_;
   std::optional<OdometryServices> services_;
   std::optional<LiveParameters> live_parameters_;

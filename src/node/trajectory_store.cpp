@@ -76,22 +76,12 @@ std::string TrajectoryStore::fault() const {
   return fault_;
 }
 
-TrajectoryStore::Range TrajectoryStore::present() const {
+Trajectory TrajectoryStore::present() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return {added_ - std::min<std::uint64_t>(added_, max_length_), added_, trajectory_};
-}
-
-/// The next poses of a range, which it shrinks by them. In parts, so that neither the odometry
-/// waits for a copy of all of them, nor its memory grows by one.
-Trajectory TrajectoryStore::take(Range& range) const {
-  constexpr std::size_t kPart = 1000;
   Trajectory poses;
-  poses.reserve(kPart);
-  const std::lock_guard<std::mutex> lock(mutex_);
-  range.first = std::max(range.first, added_ - std::min<std::uint64_t>(added_, max_length_));
-  for (; range.first < range.end && poses.size() < kPart; ++range.first) {
-    const Item& item = items_[range.first % items_.size()];
-    if (item.trajectory == range.trajectory) poses.push_back(item.pose);
+  for (auto i = added_ - std::min<std::uint64_t>(added_, max_length_); i < added_; ++i) {
+    const Item& item = items_[i % items_.size()];
+    if (item.trajectory == trajectory_) poses.push_back(item.pose);
   }
   return poses;
 }
@@ -99,18 +89,13 @@ Trajectory TrajectoryStore::take(Range& range) const {
 std::string TrajectoryStore::save(const std::string& path, const std::string& format) const {
   if (path.empty()) throw std::invalid_argument("the path is empty: give an output file");
   const TrajectoryFormat file_format = trajectoryFormat(format);
-  Range range = present();
-  Trajectory poses = take(range);
+  const Trajectory poses = present();
   if (poses.empty()) throw std::runtime_error("there are no poses: no pair has been processed");
   const std::string absolute = std::filesystem::absolute(path).string();
   TrajectoryReplacement file(absolute, file_format);
-  std::size_t saved = 0;
-  for (; !poses.empty(); poses = take(range)) {
-    for (const StampedPose& pose : poses) file.add(pose);
-    saved += poses.size();
-  }
+  for (const StampedPose& pose : poses) file.add(pose);
   file.finish();
-  return "wrote " + std::to_string(saved) + " poses of the left camera to " + absolute;
+  return "wrote " + std::to_string(poses.size()) + " poses of the left camera to " + absolute;
 }
 
 void TrajectoryStore::work() {

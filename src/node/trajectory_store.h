@@ -45,9 +45,10 @@ class TrajectoryStore {
   /// Why poses wait, in one sentence; empty if they are written.
   std::string fault() const;
 
-  /// Replaces a file by the poses of the present trajectory; `format` is "tum" or "kitti". Returns
-  /// a sentence with the count and the path. Throws std::exception with one sentence if there are
-  /// no poses or writing fails; the file is then as it was.
+  /// Replaces a file by the poses of the present trajectory; `format` is "tum" or "kitti". add()
+  /// waits while they are copied: some milliseconds for 100,000. Returns a sentence with the count
+  /// and the path. Throws std::exception with one sentence if there are no poses or writing fails;
+  /// the file is then as it was.
   std::string save(const std::string& path, const std::string& format) const;
 
  private:
@@ -56,14 +57,7 @@ class TrajectoryStore {
     std::uint64_t trajectory = 0;  // number
   };
 
-  /// Poses by the count of those before them, of one trajectory.
-  struct Range {
-    std::uint64_t first, end;
-    std::uint64_t trajectory;
-  };
-
-  Range present() const;
-  Trajectory take(Range& range) const;
+  Trajectory present() const;
   void work();
   std::vector<Item> takeAll();
   void untilDone(const std::function<void()>& action);

@@ -17,8 +17,8 @@ void addNode(NodeParameters& n, ParameterTable& table) {
   table.add("initial_pose", n.initial_pose, "m, rad").description =
       "x y z roll pitch yaw of base_frame in odom_frame at the first pair, also after a reset";
   table.add("mount_timeout_s", n.mount_timeout_s, {0.0, 10.0, "s"}).description =
-      "how long a pair waits for the transform of a camera that moves on the robot, and how far "
-      "that is extrapolated if it does not come";
+      "how long a pair waits for the transform of a camera that moves on the robot; without it, the "
+      "pair is dropped";
   table.add("guess_frame", n.guess_frame).description =
       "odom frame of another odometry in tf, used as motion prediction; odom_frame -> guess_frame "
       "is then broadcast; none if empty";
@@ -54,7 +54,7 @@ void addNode(NodeParameters& n, ParameterTable& table) {
       "time without a stereo pair until the log reports the received input and a remedy";
   table.add("path_rate_hz", n.path_rate_hz, {0.01, 1000.0, "Hz"}).description =
       "rate of the path topic, at most, in real time";
-  table.add("while_lost", n.while_lost, {"hold", "silent", "null"}).description =
+  table.add("while_lost", n.while_lost, {"hold", "silent", "unknown"}).description =
       "what is published while the motion is lost: the pose held, with growing covariance; neither "
       "tf nor odom; or odom with a zero pose of variance 9999, without tf";
   table.add("reset_after_lost_s", n.reset_after_lost_s, {0.0, 1e6, "s"}).description =

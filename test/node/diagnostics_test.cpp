@@ -27,14 +27,13 @@ HealthReport goodReport() {
   report.answer_rate_hz = 10.0;
   report.latency_p50_ms = 12.0;
   report.latency_p95_ms = 15.0;
-  OdometryStatus& status = report.status;
-  status.state = OdometryStatus::OK;
-  status.rotation_inliers = 512;
-  status.disparity_bias = 0.42f;
-  status.disparity_bias_sigma = 0.05f;
-  status.disparity_bias_applied = 0.36f;
-  status.exposure_gain = 1.02f;
-  status.flow_noise = 0.15f;
+  report.state = OdometryStatus::OK;
+  OdometryResult& result = report.pair.result;
+  result.state = State::kOk;
+  result.counts.rotation_inliers = 512;
+  result.disparity_bias = {0.42, 0.05, 0.36};
+  result.exposure_gain = 1.02;
+  result.flow_noise_px = 0.15;
   return report;
 }
 
@@ -52,15 +51,15 @@ void expectPart(const std::string& text, const std::string& part) {
 /// `reason`: a part of it.
 void expectState(HealthReport report, std::uint8_t state, const std::string& reason) {
   updateState(report);
-  EXPECT_STREQ(stateName(report.status.state), stateName(state));
-  expectPart(report.status.reason, reason);
+  EXPECT_STREQ(stateName(report.state), stateName(state));
+  expectPart(report.reason, reason);
 }
 
 TEST(UpdateStateTest, FollowsTheAnswersWhileTheyCome) {
   HealthReport report = goodReport();
   expectState(report, OdometryStatus::OK, "");
-  report.status.state = OdometryStatus::LOST;
-  report.status.reason = "only 3 features";
+  report.state = OdometryStatus::LOST;
+  report.reason = "only 3 features";
   expectState(report, OdometryStatus::LOST, "only 3 features");
   report.paused = true;
   expectState(report, OdometryStatus::PAUSED, "~pause");
@@ -119,11 +118,7 @@ StatusWrapper expectEntry(Describe* describe,
 
 HealthReport withDrops(std::uint64_t zero_stamps, std::uint64_t superseded) {
   HealthReport report = goodReport();
-  report.status.drops.resize(2);
-  report.status.drops[0].reason = "stamp_zero";
-  report.status.drops[0].count = zero_stamps;
-  report.status.drops[1].reason = "newer_pair_came";
-  report.status.drops[1].count = superseded;
+  report.drops = {{DropReason::kStampZero, zero_stamps}, {DropReason::kSuperseded, superseded}};
   return report;
 }
 
@@ -146,61 +141,57 @@ TEST(DiagnosticsTest, AllIsWell) {
   expectEntry(describeNewDrops, withDrops(3, 2), Level::OK, "none since the last report");
 }
 
-/// What is said after so many pairs of that status.
-std::string rigFault(const OdometryStatus& status, int pairs = RigWatch::kPairs) {
-  RigWatch watch;
-  std::string said;
-  for (int pair = 0; pair < pairs; ++pair) said = watch.observe(status);
-  return said;
+/// The fault of the rig after three seconds of pairs of one result, and one of another.
+std::string rigFault(const OdometryResult& result, const OdometryResult& last) {
+  OdometryHealth health;
+  const DropLog drops;
+  PairReport pair;
+  pair.result = result;
+  TopicStatistics::Time now;
+  for (int i = 0; i < 30; ++i) health.addPair(pair, drops, now += std::chrono::milliseconds(100));
+  pair.result = last;
+  return health.addPair(pair, drops, now).rig_fault;
 }
 
-OdometryStatus biased(float bias_px, float sigma_px) {
-  OdometryStatus status = goodReport().status;
-  status.disparity_bias = status.disparity_bias_applied = -bias_px;
-  status.disparity_bias_sigma = sigma_px;
-  return status;
+std::string rigFault(const OdometryResult& result) {
+  return rigFault(result, result);
 }
 
-TEST(RigWatchTest, FaultsThatLastAskForACalibration) {
+OdometryResult biased(double bias_px, double sigma_px) {
+  OdometryResult result = goodReport().pair.result;
+  result.disparity_bias = {-bias_px, sigma_px, -bias_px};
+  return result;
+}
+
+TEST(RigFaultTest, FaultsThatLastAskForACalibration) {
   const std::string advice = ": recalibrate the stereo rig";
   const std::string bias =
       "disparities have a bias of 1.25 px (+- 0.05), which is corrected" + advice;
-  EXPECT_EQ(rigFault(biased(1.25f, 0.05f)), bias);
+  EXPECT_EQ(rigFault(biased(1.25, 0.05)), bias);
+  EXPECT_EQ(rigFault(biased(1.25, 0.05), OdometryResult()), bias) << "while lost";
+  EXPECT_EQ(rigFault(goodReport().pair.result, biased(1.25, 0.05)), "") << "of one pair";
+  EXPECT_EQ(rigFault(biased(1.25, 0.05), biased(0.0, 0.05)), "") << "it is gone";
+  EXPECT_EQ(rigFault(biased(4.07, 1.11)), "") << "3.7 standard deviations";
   HealthReport report = goodReport();
   report.rig_fault = bias;
   expectEntry(describeOdometry, report, Level::WARN, bias);
 
-  OdometryStatus rows = goodReport().status;
-  rows.row_offset = -0.62f;
-  rows.row_offset_sigma = 0.01f;
-  rows.row_difference = 0.75f;
-  EXPECT_EQ(rigFault(rows),
+  report.pair.result.row_offset.median_px = -0.62;
+  report.pair.result.row_offset.sigma_px = 0.01;
+  report.pair.result.row_offset.typical_px = 0.75;
+  EXPECT_EQ(rigFault(report.pair.result),
             "rows of left and right differ by 0.75 px, with a median offset of -0.62 px (+- 0.01)" +
                 advice);
-  report.status = rows;
   const StatusWrapper status = expectEntry(describeOdometry, report, Level::WARN, "");
   EXPECT_EQ(valueOf(status, "row offset of the right image"),
             "-0.62 +- 0.01 px, median difference 0.75 px");
 }
 
-TEST(RigWatchTest, WhatIsInDoubtOrDoesNotLastIsNoFault) {
-  EXPECT_EQ(rigFault(biased(1.25f, 0.05f), RigWatch::kPairs - 1), "");
-  EXPECT_EQ(rigFault(biased(4.07f, 1.11f)), "") << "3.7 standard deviations";
-  RigWatch watch;
-  const OdometryStatus fault = biased(1.25f, 0.05f);
-  OdometryStatus lost = fault;
-  lost.state = OdometryStatus::LOST;
-  for (int pair = 1; pair < RigWatch::kPairs; ++pair) watch.observe(fault);
-  for (int pair = 0; pair < RigWatch::kPairs; ++pair) EXPECT_EQ(watch.observe(lost), "");
-  EXPECT_NE(watch.observe(fault), "");
-  EXPECT_EQ(watch.observe(biased(0.0f, 0.05f)), "") << "it is gone";
-}
-
 TEST(DiagnosticsTest, LossIsAnErrorWithItsReason) {
   HealthReport report = goodReport();
-  report.status.state = OdometryStatus::LOST;
-  report.status.reason = "only 3 features";
-  report.camera_fault = "the lens is covered";
+  report.state = OdometryStatus::LOST;
+  report.reason = "only 3 features";
+  report.pair.camera_fault = "the lens is covered";
   const StatusWrapper status =
       expectEntry(describeOdometry, report, Level::ERROR, "LOST: only 3 features");
   EXPECT_EQ(valueOf(status, "hint"), "the lens is covered");
@@ -239,7 +230,7 @@ TEST(DiagnosticsTest, SlownessDropsAndFaultsOfTfAreWarnings) {
   expectEntry(describeTiming,
               slow,
               Level::WARN,
-              "130.0 ms, but pairs arrive every 100.0 ms; they wait for tf of the camera");
+              "130.0 ms, but pairs arrive every 100.0 ms; they wait for tf");
   slow.latency_without_tf_p50_ms = 120.0;
   expectEntry(describeTiming, slow, Level::WARN, "every 100.0 ms; reduce feature_detector/");
   StatusWrapper status = expectEntry(
@@ -251,9 +242,9 @@ TEST(DiagnosticsTest, SlownessDropsAndFaultsOfTfAreWarnings) {
   conflict.tf_conflict = "node /ekf publishes tf odom -> base_link";
   expectEntry(describeTf, conflict, Level::WARN, conflict.tf_conflict);
   HealthReport guess = goodReport();
-  guess.tf_trouble = "no tf from guess_frame wheel_odom";
-  guess.status.guess_misses = 7;
-  status = expectEntry(describeTf, guess, Level::WARN, guess.tf_trouble);
+  guess.pair.tf_problem = "no tf from guess_frame wheel_odom";
+  guess.pair.guess_misses = 7;
+  status = expectEntry(describeTf, guess, Level::WARN, guess.pair.tf_problem);
   EXPECT_EQ(valueOf(status, "pairs without the motion of guess_frame"), "7");
 }
 
@@ -284,13 +275,16 @@ TEST(OdometryHealthTest, TheHintIsAFaultOfTheCamerasOrElseOfTheInputAndOfTf) {
   const DropLog drops;
   InputReport lossy = goodReport().input;
   lossy.unmatched = {25, 0, 25};
-  const auto hint = [&](const std::string& camera_fault, const std::string& tf_trouble) {
-    return health.addAnswer({}, camera_fault, tf_trouble, drops).hint;
+  const auto hint = [&](const std::string& camera_fault, const std::string& tf_problem) {
+    PairReport pair;
+    pair.camera_fault = camera_fault;
+    pair.tf_problem = tf_problem;
+    return toStatus(health.addPair(pair, drops)).hint;
   };
   EXPECT_EQ(hint("", ""), "");
   EXPECT_EQ(hint("", "no tf from guess_frame"), "no tf from guess_frame");
   const auto now = std::chrono::steady_clock::now();
-  EXPECT_EQ(health.report(lossy, drops, now).camera_fault, "");
+  EXPECT_EQ(health.report(lossy, drops, now).pair.camera_fault, "");
   EXPECT_EQ(hint("", ""), "") << "it may have just begun";
   health.report(lossy, drops, now + TopicStatistics::kWindow + std::chrono::seconds(1));
   EXPECT_EQ(hint("", "").find("50 % of the images have no partner"), 0u);
@@ -302,23 +296,82 @@ TEST(OdometryHealthTest, CountsAnswersTheirLatencyAndDrops) {
   DropLog drops;
   EXPECT_FALSE(health.report({}, drops).answers);
   drops.count(DropReason::kStampZero, 5);
-  OdometryStatus status;
-  status.state = OdometryStatus::LOST;
-  status.guess_misses = 3;
+  PairReport pair;  // lost
   for (int i = 1; i <= 100; ++i) {
-    status.latency = static_cast<float>(i);
-    EXPECT_EQ(health.addAnswer(status, "", "", drops).pairs_lost, static_cast<std::uint64_t>(i));
+    pair.times.latency_ms = i;
+    EXPECT_EQ(health.addPair(pair, drops).pairs_lost, static_cast<std::uint64_t>(i));
   }
   const HealthReport report = health.report({}, drops);
   EXPECT_TRUE(report.answers);
-  EXPECT_EQ(report.status.pairs_processed, 100u);
-  EXPECT_EQ(report.status.guess_misses, 3u);
-  ASSERT_EQ(report.status.drops.size(), 1u);
-  EXPECT_EQ(report.status.drops[0].reason, "stamp_zero");
-  EXPECT_EQ(report.status.drops[0].count, 5u);
+  EXPECT_EQ(report.pairs_processed, 100u);
+  EXPECT_EQ(report.drops, drops.counts());
   EXPECT_EQ(report.latency_p50_ms, 50.0);
   EXPECT_EQ(report.latency_p95_ms, 95.0);
   EXPECT_EQ(report.latency_max_ms, 100.0);
+}
+
+TEST(StatusTest, HasAllOfAPairAndWithoutOneTheStateHintAndCounters) {
+  HealthReport report;
+  report.state = OdometryStatus::DEGRADED;
+  report.reason = "few inliers";
+  report.pairs_processed = 9;
+  report.pairs_lost = 7;
+  report.drops = {{DropReason::kStampZero, 5}};
+  PairReport& pair = report.pair;
+  pair.camera_frame = "camera";
+  pair.camera_fault = "frozen?";
+  pair.guess_misses = 3;
+  pair.gyro = {"no message on /imu", 1, 2};
+  pair.times.latency_ms = 12.0;
+  OdometryResult& result = pair.result;
+  result.stamp_ns = 5'000'000'000;
+  result.dt_s = 0.1;
+  result.counts = {7, 6, 4, 3, 2, 1, 2};
+  result.times.tracking_ms = 1.5;
+  result.times.total_ms = 2.0;
+  result.disparity_bias = {0.75, 0.125, 0.5};
+  result.row_offset = {-0.25, 0.0625, 0.375, -0.5};
+  result.exposure_gain = 0.625;
+  result.flow_noise_px = 0.125;
+  const OdometryStatus idle = toIdleStatus(report, ros::Time(7, 0));
+  OdometryStatus expected = idle;
+  expected.header.stamp = ros::Time(5, 0);
+  expected.header.frame_id = "camera";
+  expected.dt_s = 0.1;
+  expected.corners = 7;
+  expected.with_depth = 6;
+  expected.tracked = 4;
+  expected.consistent = 3;
+  expected.rotation_inliers = 2;
+  expected.translation_inliers = 1;
+  expected.tries = 2;
+  expected.tracking_ms = 1.5f;
+  expected.estimator_ms = 2.0f;
+  expected.latency_ms = 12.0f;
+  expected.disparity_bias_px = 0.75f;
+  expected.disparity_bias_sigma_px = 0.125f;
+  expected.disparity_bias_applied_px = 0.5f;
+  expected.row_offset_px = -0.25f;
+  expected.row_offset_sigma_px = 0.0625f;
+  expected.row_offset_applied_px = -0.5f;
+  expected.row_difference_px = 0.375f;
+  expected.exposure_gain = 0.625f;
+  expected.flow_noise_px = 0.125f;
+  EXPECT_EQ(toStatus(report), expected);
+
+  EXPECT_EQ(idle.header.stamp, ros::Time(7, 0));
+  EXPECT_EQ(idle.state, OdometryStatus::DEGRADED);
+  EXPECT_EQ(idle.reason, "few inliers");
+  EXPECT_EQ(idle.hint, "frozen?");
+  EXPECT_EQ(idle.imu_reason, "no message on /imu");
+  EXPECT_EQ(idle.rotations_predicted, 1u);
+  EXPECT_EQ(idle.rotations_missed, 2u);
+  EXPECT_EQ(idle.pairs_processed, 9u);
+  EXPECT_EQ(idle.pairs_lost, 7u);
+  EXPECT_EQ(idle.guess_misses, 3u);
+  ASSERT_EQ(idle.drops.size(), 1u);
+  EXPECT_EQ(idle.drops[0].reason, "stamp_zero");
+  EXPECT_EQ(idle.drops[0].count, 5u);
 }
 
 }  // namespace

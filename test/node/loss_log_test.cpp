@@ -18,19 +18,19 @@ const std::string kSwapped = "the images match if left and right are swapped: sw
 class LossLogTest : public testing::Test {
  protected:
   /// A pair 100 ms after the one before; what it adds to the log.
-  Lines pair(std::uint8_t state, const std::string& camera_fault = "") {
+  Lines pair(State state, const std::string& camera_fault = "") {
     now_ += std::chrono::milliseconds(100);
-    OdometryStatus status;
-    status.state = state;
-    if (state == OdometryStatus::LOST) status.reason = kFew;
-    log_.observe(status, camera_fault, now_);
+    OdometryResult result;
+    result.state = state;
+    if (state == State::kLost) result.reason = kFew;
+    log_.observe(result, camera_fault, now_);
     const Lines all = recorder_.with("", ros::console::levels::Info);
     const Lines added(all.begin() + static_cast<std::ptrdiff_t>(lines_), all.end());
     lines_ = all.size();
     return added;
   }
 
-  Lines pairs(int count, std::uint8_t state, const std::string& camera_fault = "") {
+  Lines pairs(int count, State state, const std::string& camera_fault = "") {
     Lines added;
     for (int i = 0; i < count; ++i) {
       for (const std::string& line : pair(state, camera_fault)) added.push_back(line);
@@ -44,24 +44,24 @@ class LossLogTest : public testing::Test {
   LossLog log_{Log()};
 };
 
-constexpr auto kOk = OdometryStatus::OK;
-constexpr auto kLost = OdometryStatus::LOST;
+constexpr auto kOk = State::kOk;
+constexpr auto kLost = State::kLost;
 
 TEST_F(LossLogTest, ALossWaitsForItsCause) {
   EXPECT_EQ(pairs(10, kLost), Lines());
   EXPECT_EQ(pair(kLost, kSwapped), Lines{"lost: " + kFew + "; " + kSwapped});
   EXPECT_EQ(pairs(10, kLost, kSwapped), Lines());
-  EXPECT_EQ(pair(OdometryStatus::INITIALISING), Lines()) << "no motion yet";
+  EXPECT_EQ(pair(State::kInitialising), Lines()) << "no motion yet";
   EXPECT_EQ(pair(kLost), Lines());
-  EXPECT_EQ(pairs(10, OdometryStatus::DEGRADED), Lines());
+  EXPECT_EQ(pairs(10, State::kDegraded), Lines());
   EXPECT_EQ(pair(kLost), Lines()) << "the motions were by chance";
-  EXPECT_EQ(pairs(11, OdometryStatus::DEGRADED), Lines{"recovered: DEGRADED"});
+  EXPECT_EQ(pairs(11, State::kDegraded), Lines{"recovered: degraded"});
 }
 
 TEST_F(LossLogTest, ALossOfUnknownCauseIsToldAfterTwoSeconds) {
   EXPECT_EQ(pairs(20, kLost), Lines());
   EXPECT_EQ(pair(kLost), Lines{"lost: " + kFew});
-  EXPECT_EQ(pairs(11, kOk), Lines{"recovered: OK"});
+  EXPECT_EQ(pairs(11, kOk), Lines{"recovered: ok"});
 }
 
 TEST_F(LossLogTest, AShortLossIsToldAtItsEnd) {
@@ -74,9 +74,8 @@ TEST_F(LossLogTest, AShortLossIsToldAtItsEnd) {
 
 TEST_F(LossLogTest, AShortLossIsToldWithItsCause) {
   pair(kLost);
-  EXPECT_EQ(pairs(10, OdometryStatus::DEGRADED, kSwapped), Lines());
-  EXPECT_EQ(pair(OdometryStatus::DEGRADED, kSwapped),
-            Lines{"lost for 0.1 s: " + kFew + "; " + kSwapped});
+  EXPECT_EQ(pairs(10, State::kDegraded, kSwapped), Lines());
+  EXPECT_EQ(pair(State::kDegraded, kSwapped), Lines{"lost for 0.1 s: " + kFew + "; " + kSwapped});
 }
 
 TEST_F(LossLogTest, AFaultIsToldAlsoWithoutALoss) {

@@ -65,6 +65,18 @@ TEST_F(NodeParametersTest, TheInitialPoseIsAListOrText) {
   expectRefused(nested, "initial_pose is neither a value nor a section", "initial_pose");
 }
 
+TEST_F(NodeParametersTest, ParametersOfImageTransportAreNotOurs) {
+  XmlRpcValue tree;
+  tree["image_transport"] = std::string("compressed");
+  tree["compressed"]["mode"] = std::string("color");
+  tree["left"]["compressed"]["mode"] = std::string("color");
+  tree["flow"]["theora"]["quality"] = 31;
+  setParameters(tree, table_);
+  EXPECT_EQ(parameters_.node.image_transport, "compressed");
+  tree["flow"] = 1;
+  expectRefused(tree, "flow", "flow");
+}
+
 TEST_F(NodeParametersTest, RefusesWhatIsUnknownOrInvalidByName) {
   XmlRpcValue unknown;
   unknown["feature_detector"]["max_featurs"] = 5;

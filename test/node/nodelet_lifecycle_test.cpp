@@ -209,16 +209,6 @@ TEST(NodeTest, EndsWithTheReasonIfItCannotStart) {
       << result.output;
 }
 
-TEST(NodeTest, SaysThatThereIsNoClock) {
-  const TemporaryDirectory directory;
-  const std::string log = directory / "log";
-  ros::param::set("/use_sim_time", true);
-  BackgroundCommand node(STEREO_ODOMETRY " __name:=without_clock _silence_s:=0.5", log);
-  const std::string text = "use_sim_time is true, but there is no message on /clock";
-  EXPECT_TRUE(waitUntil([&] { return readFile(log).find(text) != std::string::npos; }));
-  ros::param::set("/use_sim_time", false);
-}
-
 TEST(NodeTest, OneThatIsKilledContinuesWhereItWas) {
   const TemporaryDirectory directory;
   const std::string file = directory / "pose";

@@ -54,44 +54,6 @@ TEST(OdometryMessagesTest, TwistHasVelocityStampAndFrame) {
   EXPECT_EQ(message.twist.covariance[35], 2.0);
 }
 
-TEST(OdometryMessagesTest, StatusHasTheResultOfThePair) {
-  OdometryResult result;
-  result.state = State::kDegraded;
-  result.reason = "few inliers";
-  result.stamp_ns = 5'000'000'000;
-  result.dt_s = 0.1;
-  result.counts = {7, 6, 4, 3, 2, 1, 2};
-  result.times.tracking_ms = 1.5;
-  result.times.total_ms = 2.0;
-  result.disparity_bias = {0.75, 0.125, 0.5};
-  result.row_offset = {-0.25, 0.0625, 0.375};
-  result.row_offset.applied_px = -0.5;
-  result.exposure_gain = 0.625;
-  result.flow_noise_px = 0.125;
-  const OdometryStatus message = toStatus(result, "camera");
-  EXPECT_EQ(message.header.stamp, ros::Time(5, 0));
-  EXPECT_EQ(message.header.frame_id, "camera");
-  EXPECT_EQ(message.state, OdometryStatus::DEGRADED);
-  EXPECT_EQ(message.reason, "few inliers");
-  EXPECT_EQ(message.dt, 0.1);
-  EXPECT_EQ(message.tries, 2u);
-  EXPECT_EQ(message.corners, 7u);
-  EXPECT_EQ(message.with_depth, 6u);
-  EXPECT_EQ(message.tracked, 4u);
-  EXPECT_EQ(message.translation_inliers, 1u);
-  EXPECT_EQ(message.time_tracking, 1.5f);
-  EXPECT_EQ(message.time_total, 2.0f);
-  EXPECT_EQ(message.disparity_bias, 0.75f);
-  EXPECT_EQ(message.disparity_bias_sigma, 0.125f);
-  EXPECT_EQ(message.disparity_bias_applied, 0.5f);
-  EXPECT_EQ(message.row_offset, -0.25f);
-  EXPECT_EQ(message.row_offset_sigma, 0.0625f);
-  EXPECT_EQ(message.row_offset_applied, -0.5f);
-  EXPECT_EQ(message.row_difference, 0.375f);
-  EXPECT_EQ(message.exposure_gain, 0.625f);
-  EXPECT_EQ(message.flow_noise, 0.125f);
-}
-
 TEST(OdometryMessagesTest, TheDefinitionOfDropCountListsEveryReason) {
   const std::string definition = ros::message_traits::Definition<DropCount>::value();
   for (int i = 0; i < static_cast<int>(DropReason::kCount); ++i) {
@@ -139,25 +101,6 @@ TEST(OdometryMessagesTest, RefusesAPoseThatCannotBeSet) {
   refuse([](auto& m) { m.pose.covariance[14] = INFINITY; }, "is not finite");
   refuse([](auto& m) { m.pose.covariance[1] = 0.1; }, "is not symmetric");
   refuse([](auto& m) { m.pose.covariance[0] = -1.0; }, "has the eigenvalue -1.04");
-}
-
-TEST(OdometryMessagesTest, IdleStatusHasStateHintAndCountersOnly) {
-  OdometryStatus now;
-  now.state = OdometryStatus::NO_CALIBRATION;
-  now.reason = "P is all zeros";
-  now.hint = "frozen?";
-  now.imu_reason = "no message on /imu";
-  now.rotations_missed = 2;
-  now.pairs_processed = 9;
-  now.pairs_lost = 7;
-  now.guess_misses = 3;
-  now.drops.resize(1);
-  OdometryStatus expected = now;
-  expected.header.stamp = ros::Time(7, 0);
-  now.dt = 0.1;
-  now.corners = 100;
-  now.latency = 12.0f;
-  EXPECT_EQ(toIdleStatus(now, ros::Time(7, 0)), expected);
 }
 
 TEST(OdometryMessagesTest, CloudHasTheInliersAndTheirGreyLevels) {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -95,26 +94,6 @@ TEST_F(TrajectoryStoreTest, ReplacesWhereALinkPointsAndKeepsPermissions) {
   EXPECT_TRUE(std::filesystem::is_symlink(link));
   expectLength("poses", 1);
   EXPECT_EQ(std::filesystem::status(path).permissions(), std::filesystem::perms(0640));
-}
-
-TEST_F(TrajectoryStoreTest, IsSavedWhileItGrows) {
-  TrajectoryStore store(1000);
-  store.add(poseAt(0));
-  std::thread worker([&] {
-    for (int i = 1; i < 20000; ++i) {
-      store.add(poseAt(i));
-      if (i % 1000 == 0) std::this_thread::yield();
-    }
-  });
-  for (int round = 0; round < 10; ++round) {
-    store.save(directory_ / "poses", "tum");
-    const Trajectory saved = readTrajectory(directory_ / "poses");
-    EXPECT_LE(saved.size(), 1000u);
-    for (std::size_t i = 1; i < saved.size(); ++i) {
-      ASSERT_EQ(saved[i].stamp_ns - saved[i - 1].stamp_ns, 1'000'000'000) << "a pose is missing";
-    }
-  }
-  worker.join();
 }
 
 TEST_F(TrajectoryStoreTest, RefusesWhatIsNoFile) {

@@ -144,7 +144,7 @@ std::string OdometryRig::describeDrops() const {
 }
 
 std::string OdometryRig::stateWithoutAnswers() const {
-  return stateName(OdometryHealth().report(report(), drops_).status.state);
+  return stateName(OdometryHealth().report(report(), drops_).state);
 }
 
 InputReport OdometryRig::report() const {
@@ -158,17 +158,16 @@ InputReport OdometryRig::report() const {
 
 void OdometryRig::process(const ReceivedPair& pair) {
   try {
-    const StereoPair converted = processor_.convert(pair);
-    std::optional<Eigen::Isometry3d> T_last_base;
-    if (expected && last_stamp_ns_ && converted.stamp_ns > *last_stamp_ns_) {
-      T_last_base = expected(*last_stamp_ns_, converted.stamp_ns);
+    PairInput in = {processor_.convert(pair), pair.camera, T_base_camera};
+    if (expected && last_stamp_ns_ && in.pair.stamp_ns > *last_stamp_ns_) {
+      in.T_last_base = expected(*last_stamp_ns_, in.pair.stamp_ns);
     }
-    last_stamp_ns_ = converted.stamp_ns;
+    last_stamp_ns_ = in.pair.stamp_ns;
+    in.is_simulated = is_simulated;
     processor_.takeRequests();
-    PairContext context = {pair.camera, {T_base_camera}, T_last_base};
-    context.is_simulated = is_simulated;
-    answer_ = processor_.process(converted, context);
-    hint_ = processor_.inspect(*answer_);
+    answer_ = processor_.process(in);
+    left_ = in.pair.left;
+    hint_ = processor_.inspect(in, answer_->result);
     processor_.finishInspection();
     ++answers_;
     state_ = answer_->state;

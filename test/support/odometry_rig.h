@@ -8,6 +8,7 @@
 
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
+#include <opencv2/core.hpp>
 
 #include "input/drop_log.h"
 #include "input/stereo_intake.h"
@@ -49,12 +50,14 @@ class OdometryRig {
   std::function<std::optional<Eigen::Isometry3d>(std::int64_t prev_ns, std::int64_t cur_ns)>
       expected;
 
-  /// See PairContext.
+  /// See PairInput.
   bool is_simulated = false;
 
   /// Of the last pair that was processed since the last call of forget().
   const std::optional<PairAnswer>& answer() const { return answer_; }
   const std::string& hint() const { return hint_; }
+  /// The left image of the last pair, as the estimator got it; valid until the next one.
+  const cv::Mat& left() const { return left_; }
   void forget();
 
   /// Of the last pair since the last call of forget(): its state, as "ok", the error of its motion,
@@ -85,7 +88,8 @@ class OdometryRig {
   int next_ = 0;
   std::chrono::steady_clock::time_point now_ = std::chrono::steady_clock::now();
   std::optional<PairAnswer> answer_;
-  std::string hint_;                // with answer_
+  std::string hint_;  // with answer_
+  cv::Mat left_;
   BaseState state_, state_before_;  // of the last answer, and when forget() was called last
   double way_m_ = 0.0;              // between the last two pairs that were processed
   double last_place_m_ = 0.0;       // of the last one

@@ -19,12 +19,11 @@ constexpr double kLevelVariance = 1e-4;
 /// Longer gaps do not increase the uncertainty further: filters need finite numbers.
 constexpr double kMaxWithoutMotion_s = 1000.0;
 
-/// Standard deviation of the motion in guess_frame, as a share of way and angle: that of wheels
-/// on loose ground, with tracks or on carpet.
-constexpr double kGuessErrorShare = 0.1;
 /// Part of a rotation's error that comes with the way: wheels that slip turn a base that drives
 /// straight on.
 constexpr double kTurn_radpm = 0.1;
+/// Standard deviation of another odometry's motion, as a share of way and angle: wheels slip.
+constexpr double kGuessErrorShare = 0.1;
 
 // What a robot may do unseen: speeds up by 1.4 m/s and 0.7 rad/s in a second, as a car that starts
 // and a robot that turns on the spot. One that was never faster than a walk stays so.
@@ -72,9 +71,9 @@ Matrix6d planar(const Matrix6d& covariance) {
 }  // namespace
 
 UncertainTransform motionOfBase(const UncertainTransform& camera_motion,
-                                const UncertainTransform& T_base_camera_prev,
-                                const UncertainTransform& T_base_camera_cur) {
-  return compose(compose(T_base_camera_prev, camera_motion), inverse(T_base_camera_cur));
+                                const Eigen::Isometry3d& T_base_camera_prev,
+                                const Eigen::Isometry3d& T_base_camera_cur) {
+  return compose(compose({T_base_camera_prev}, camera_motion), {T_base_camera_cur.inverse()});
 }
 
 UncertainTwist twistOf(const UncertainTransform& T_prev_cur, double dt_s) {
@@ -114,14 +113,14 @@ void BaseOdometry::continueFrom(const BaseState& state) {
 }
 
 BaseState BaseOdometry::add(const OdometryResult& result,
-                            const UncertainTransform& T_base_camera,
+                            const Eigen::Isometry3d& T_base_camera,
                             const std::optional<Eigen::Isometry3d>& T_last_cur) {
   BaseState state;
   state.stamp_ns = result.stamp_ns;
   const bool first = !T_start_camera_;
   if (first) {
     last_.T_base_camera = T_base_camera;
-    T_start_camera_ = T_base_camera.T;
+    T_start_camera_ = T_base_camera;
     if (!last_.stamp_ns) last_.stamp_ns = result.stamp_ns;
     known_ = last_;
   }
@@ -137,25 +136,43 @@ BaseState BaseOdometry::add(const OdometryResult& result,
     state.twist.covariance = kUnknownVariance * Matrix6d::Identity();
   }
   if (parameters_.planar) last_.T_odom_base.covariance = planar(last_.T_odom_base.covariance);
-  if (result.state != State::kLost) known_ = last_;
+  if (result.state != State::kLost) {
+    known_ = last_;
+    T_known_last_ = Eigen::Isometry3d::Identity();
+    lost_since_ns_.reset();
+  } else {
+    if (T_known_last_ && T_last_cur) {
+      T_known_last_ = *T_known_last_ * *T_last_cur;
+    } else {
+      T_known_last_.reset();
+    }
+    if (!lost_since_ns_) lost_since_ns_ = result.stamp_ns;
+  }
   state.T_first_camera = last_.T_first_start * camera_.T_first_cur();
-  state.T_odom_base = withOtherErrors(last_);
+  state.T_odom_base = withSystematicError(last_.T_odom_base);
   return state;
 }
 
+std::optional<Eigen::Isometry3d> BaseOdometry::expectedMotion(
+    const Eigen::Isometry3d& T_base_camera,
+    const std::optional<Eigen::Isometry3d>& T_last_cur) const {
+  if (!T_known_last_ || !T_last_cur) return std::nullopt;
+  const Eigen::Isometry3d T_known_base = *T_known_last_ * *T_last_cur;
+  return known_.T_base_camera.inverse() * T_known_base * T_base_camera;
+}
+
 UncertainTransform BaseOdometry::motionOfBase(const UncertainTransform& camera_motion,
-                                              const UncertainTransform& T_base_camera_prev,
-                                              const UncertainTransform& T_base_camera_cur) const {
+                                              const Eigen::Isometry3d& T_base_camera_prev,
+                                              const Eigen::Isometry3d& T_base_camera_cur) const {
   const UncertainTransform motion =
       rotrocc::motionOfBase(camera_motion, T_base_camera_prev, T_base_camera_cur);
   return parameters_.planar ? UncertainTransform{planar(motion.T), planar(motion.covariance)}
                             : motion;
 }
 
-/// Returns the motion of the base since the previous pair. The pose has no errors of mounts: those
-/// of the pairs between cancel out.
+/// Returns the motion of the base since the previous pair.
 UncertainTransform BaseOdometry::addMotion(const OdometryResult& result,
-                                           const UncertainTransform& T_base_camera) {
+                                           const Eigen::Isometry3d& T_base_camera) {
   // Compared with a lost pair, that one is the keyframe.
   const Pose prev = result.keyframe_stamp_ns > *known_.stamp_ns ? last_ : known_;
   if (result.keyframe_stamp_ns != keyframe_stamp_ns_) {
@@ -164,25 +181,25 @@ UncertainTransform BaseOdometry::addMotion(const OdometryResult& result,
   }
   const UncertainTransform camera_step = {result.T_prev_cur, result.covariance};
   const UncertainTransform step = motionOfBase(camera_step, prev.T_base_camera, T_base_camera);
-  camera_.add(parameters_.planar ? prev.T_base_camera.T.inverse() * step.T * T_base_camera.T
+  camera_.add(parameters_.planar ? prev.T_base_camera.inverse() * step.T * T_base_camera
                                  : result.T_prev_cur);
   last_ = prev;
   last_.stamp_ns = result.stamp_ns;
   last_.T_base_camera = T_base_camera;
   const Pose& from = keyframe_ ? *keyframe_ : prev;
-  last_.T_odom_base = compose(from.T_odom_base,
-                              motionOfBase(keyframe_ ? result.T_keyframe_cur : camera_step,
-                                           {from.T_base_camera.T},
-                                           {T_base_camera.T}));
+  last_.T_odom_base = compose(
+      from.T_odom_base,
+      motionOfBase(
+          keyframe_ ? result.T_keyframe_cur : camera_step, from.T_base_camera, T_base_camera));
   // Not by compose(), which would accumulate rounding errors.
   last_.T_odom_base.T = last_.T_odom_start * T_start_base();
   without_motion_s_ = guessed_m_ = guessed_rad_ = 0.0;
   return step;
 }
 
-/// The base moves by `T_last_cur`, or rests; a mount that moves moves the camera.
+/// The base moves by `T_last_cur`, or rests; the camera may move on it.
 void BaseOdometry::addUnseen(const OdometryResult& result,
-                             const UncertainTransform& T_base_camera,
+                             const Eigen::Isometry3d& T_base_camera,
                              const std::optional<Eigen::Isometry3d>& T_last_cur) {
   UncertainTransform step;
   if (T_last_cur) step.T = parameters_.planar ? planar(*T_last_cur) : *T_last_cur;
@@ -190,9 +207,9 @@ void BaseOdometry::addUnseen(const OdometryResult& result,
   last_.T_odom_base.covariance +=
       T_last_cur ? growthWithDistance(step.T) : growthWithTime(result.stamp_ns);
   camera_.add(Eigen::Isometry3d::Identity());
-  const Eigen::Isometry3d before = std::exchange(last_.T_base_camera, T_base_camera).T;
-  if (T_last_cur || T_base_camera.T.matrix() != before.matrix()) {
-    const Eigen::Isometry3d T_camera_step = before.inverse() * step.T * T_base_camera.T;
+  const Eigen::Isometry3d before = std::exchange(last_.T_base_camera, T_base_camera);
+  if (T_last_cur || T_base_camera.matrix() != before.matrix()) {
+    const Eigen::Isometry3d T_camera_step = before.inverse() * step.T * T_base_camera;
     const Eigen::Isometry3d& T_visual = camera_.T_first_cur();
     last_.T_first_start = last_.T_first_start * T_visual * T_camera_step * T_visual.inverse();
     last_.T_odom_start = last_.T_odom_base.T * T_start_base().inverse();
@@ -211,19 +228,16 @@ void BaseOdometry::setPose(const UncertainTransform& T_odom_base) {
   without_motion_s_ = guessed_m_ = guessed_rad_ = 0.0;
 }
 
-/// The pose of the base with its systematic error, and the error of the mount there.
-UncertainTransform BaseOdometry::withOtherErrors(const Pose& pose) const {
-  const Eigen::Isometry3d& T_odom_base = pose.T_odom_base.T;
-  const UncertainTransform T_odom_camera = {T_odom_base * pose.T_base_camera.T};
-  const Matrix6d others = systematic_error_.covarianceOf(T_odom_first_.inverse() * T_odom_base) +
-                          compose(T_odom_camera, inverse(pose.T_base_camera)).covariance;
-  return {T_odom_base,
-          pose.T_odom_base.covariance + (parameters_.planar ? planar(others) : others)};
+UncertainTransform BaseOdometry::withSystematicError(const UncertainTransform& T_odom_base) const {
+  const Matrix6d systematic =
+      systematic_error_.covarianceOf(T_odom_first_.inverse() * T_odom_base.T);
+  return {T_odom_base.T,
+          T_odom_base.covariance + (parameters_.planar ? planar(systematic) : systematic)};
 }
 
 /// The visual pose of the base at the last pair, in its frame at the first one.
 Eigen::Isometry3d BaseOdometry::T_start_base() const {
-  return *T_start_camera_ * camera_.T_first_cur() * last_.T_base_camera.T.inverse();
+  return *T_start_camera_ * camera_.T_first_cur() * last_.T_base_camera.inverse();
 }
 
 void BaseOdometry::Speed::set(double speed) {

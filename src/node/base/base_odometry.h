@@ -17,10 +17,10 @@ namespace rotrocc {
 constexpr double kUnknownVariance = 9999.0;
 
 /// Motion of the base on which a camera is mounted, where `camera_motion` is T_prev_cur of the
-/// camera: T_base_camera_prev * T_prev_cur * T_base_camera_cur^-1, with independent errors.
+/// camera: T_base_camera_prev * T_prev_cur * T_base_camera_cur^-1.
 UncertainTransform motionOfBase(const UncertainTransform& camera_motion,
-                                const UncertainTransform& T_base_camera_prev,
-                                const UncertainTransform& T_base_camera_cur);
+                                const Eigen::Isometry3d& T_base_camera_prev,
+                                const Eigen::Isometry3d& T_base_camera_cur);
 
 /// Velocities [m/s, rad/s] of a body in its own frame, with covariance.
 struct UncertainTwist {
@@ -61,9 +61,9 @@ struct BaseState {
 class BaseOdometry {
  public:
   /// Of `parameters`: initial_pose; planar, which discards other components of a motion.
-  /// `systematic_error`: its part of the pose
-  /// covariance is in proportion to the distance from the first pose. `up`: the vertical in axes of
-  /// the base at the first pair; if it is known, roll and pitch are by it.
+  /// `systematic_error`: its part of the pose covariance is in proportion to the distance from the
+  /// first pose. `up`: the vertical in axes of the base at the first pair; if it is known, roll and
+  /// pitch are by it.
   BaseOdometry(const NodeParameters& parameters,
                const SystematicErrorConfig& systematic_error,
                const std::optional<Eigen::Vector3d>& up = std::nullopt);
@@ -72,12 +72,20 @@ class BaseOdometry {
   /// called before the first pair.
   void continueFrom(const BaseState& state);
 
-  /// `T_base_camera`: the mount of the camera at the pair; its error is in pose and twists, but not
-  /// in later poses. `T_last_cur`: motion of the base since the last pair by another odometry, if
-  /// any.
+  /// `T_base_camera`: the pose of the camera on the base at the pair. `T_last_cur`: motion of the
+  /// base since the last pair by another odometry, if any.
   BaseState add(const OdometryResult& result,
-                const UncertainTransform& T_base_camera,
+                const Eigen::Isometry3d& T_base_camera,
                 const std::optional<Eigen::Isometry3d>& T_last_cur = std::nullopt);
+
+  /// The motion of the camera since the last pair that was not lost, for add() of a later pair with
+  /// these arguments; nothing unless the other odometry has told all of it.
+  std::optional<Eigen::Isometry3d> expectedMotion(
+      const Eigen::Isometry3d& T_base_camera,
+      const std::optional<Eigen::Isometry3d>& T_last_cur) const;
+
+  /// The first pair of the present loss; nothing if the last pair was not lost.
+  const std::optional<std::int64_t>& lost_since_ns() const { return lost_since_ns_; }
 
   void setSystematicError(const SystematicErrorConfig& config) { systematic_error_ = config; }
 
@@ -88,10 +96,10 @@ class BaseOdometry {
   /// What later pairs are measured against.
   struct Pose {
     std::optional<std::int64_t> stamp_ns;
-    UncertainTransform T_base_camera;
-    UncertainTransform T_odom_base;  // without systematic errors and those of the mount
+    Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
+    UncertainTransform T_odom_base;  // without systematic errors
     // What is added to the visual poses of base and camera: by setPose(), and by motions of the
-    // base or the mount that were not seen.
+    // base or the camera on it that were not seen.
     Eigen::Isometry3d T_odom_start = Eigen::Isometry3d::Identity();
     Eigen::Isometry3d T_first_start = Eigen::Isometry3d::Identity();
   };
@@ -108,25 +116,27 @@ class BaseOdometry {
   };
 
   UncertainTransform motionOfBase(const UncertainTransform& camera_motion,
-                                  const UncertainTransform& T_base_camera_prev,
-                                  const UncertainTransform& T_base_camera_cur) const;
+                                  const Eigen::Isometry3d& T_base_camera_prev,
+                                  const Eigen::Isometry3d& T_base_camera_cur) const;
   UncertainTransform addMotion(const OdometryResult& result,
-                               const UncertainTransform& T_base_camera);
+                               const Eigen::Isometry3d& T_base_camera);
   void addUnseen(const OdometryResult& result,
-                 const UncertainTransform& T_base_camera,
+                 const Eigen::Isometry3d& T_base_camera,
                  const std::optional<Eigen::Isometry3d>& T_last_cur);
   Matrix6d growthWithTime(std::int64_t stamp_ns);
   Matrix6d growthWithDistance(const Eigen::Isometry3d& T_last_cur);
-  UncertainTransform withOtherErrors(const Pose& pose) const;
+  UncertainTransform withSystematicError(const UncertainTransform& T_odom_base) const;
   Eigen::Isometry3d T_start_base() const;
 
   NodeParameters parameters_;
   SystematicErrorConfig systematic_error_;
 
   PoseAccumulator camera_;                           // visual poses
-  std::optional<Eigen::Isometry3d> T_start_camera_;  // the first mount
+  std::optional<Eigen::Isometry3d> T_start_camera_;  // at the first pair
   Pose last_;                                        // of the last pair
   Pose known_;  // of the last pair that was not lost; equal to last_ if that was not
+  std::optional<Eigen::Isometry3d> T_known_last_;  // by the other odometry, if it told all of it
+  std::optional<std::int64_t> lost_since_ns_;
   Eigen::Isometry3d T_odom_first_ = Eigen::Isometry3d::Identity();  // initial, or set
 
   // Errors accumulate from keyframe to keyframe.

@@ -11,17 +11,18 @@ namespace rotrocc {
 namespace {
 
 constexpr int kSampleQueueSize = 1000;  // a second of the fastest gyroscopes
-/// How long a pair waits for its samples: those of fast gyroscopes come sooner.
-constexpr std::chrono::milliseconds kSampleWait(20);
 constexpr std::chrono::seconds kVerticalWait(2);
 constexpr std::int64_t kMemory_ns = static_cast<std::int64_t>(1e9 * GyroHistory::kLength_s);
 
 }  // namespace
 
-GyroInput::GyroInput(const ros::NodeHandle& nh, const NodeParameters& parameters, Log log)
+GyroInput::GyroInput(const ros::NodeHandle& nh,
+                     const tf2::BufferCore& tf,
+                     const NodeParameters& parameters,
+                     Log log)
     : log_(std::move(log)),
       base_frame_(parameters.base_frame),
-      mount_(base_frame_, parameters.mount_timeout_s, listenToTf, std::nullopt) {
+      pose_(tf, base_frame_, parameters.mount_timeout_s, std::nullopt) {
   subscriber_ = callbacks_.attach(nh).subscribe<sensor_msgs::Imu>(
       "imu",
       kSampleQueueSize,
@@ -50,39 +51,42 @@ void GyroInput::receive(const sensor_msgs::Imu& message) {
     const geometry_msgs::Vector3& acceleration = message.linear_acceleration;
     vertical_.add(toGyroSample(message), {acceleration.x, acceleration.y, acceleration.z});
   }
-  received_.notify_all();
 }
 
-void GyroInput::follow(std::int64_t stamp_ns, const Eigen::Isometry3d& T_base_camera) {
-  const std::string frame = [this] {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return gyro_frame_;
-  }();
+void GyroInput::gather(std::int64_t stamp_ns,
+                       const Eigen::Isometry3d& T_base_camera,
+                       const WaitFor& wait) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  const bool waits = watch_.waits() && !predictor_.whyDistrusted();
+  lock.unlock();
+  const auto has_samples = [&] {
+    const std::lock_guard<std::mutex> guard(mutex_);
+    const auto newest_ns = predictor_.history().newest_ns();
+    return newest_ns && *newest_ns >= stamp_ns;
+  };
+  if (waits) wait(kTimeout_s, has_samples);
+  lock.lock();
+  const std::string frame = gyro_frame_;
+  lock.unlock();
   // Without those from before a time jump, and those that are too old for its samples.
-  auto& mounts = R_camera_gyro_;
-  mounts.erase(mounts.lower_bound(stamp_ns), mounts.end());
-  mounts.erase(mounts.begin(), mounts.lower_bound(stamp_ns - kMemory_ns));
-  const auto T_base_gyro = frame.empty() ? std::nullopt : mount_.find(frame, stamp_ns);
-  if (T_base_gyro) mounts[stamp_ns] = T_base_camera.linear().transpose() * T_base_gyro->T.linear();
+  auto& poses = R_camera_gyro_;
+  poses.erase(poses.lower_bound(stamp_ns), poses.end());
+  poses.erase(poses.begin(), poses.lower_bound(stamp_ns - kMemory_ns));
+  const auto T_base_gyro = frame.empty() ? std::nullopt : pose_.find(frame, stamp_ns, wait);
+  if (T_base_gyro) poses[stamp_ns] = T_base_camera.linear().transpose() * T_base_gyro->linear();
 }
 
 std::optional<Eigen::Matrix3d> GyroInput::rotation(std::int64_t from_ns, std::int64_t to_ns) {
-  std::unique_lock<std::mutex> lock(mutex_);
+  const std::lock_guard<std::mutex> lock(mutex_);
   was_asked_ = true;
-  if (backoff_.waits() && !predictor_.whyDistrusted()) {
-    received_.wait_for(lock, kSampleWait, [&] {
-      const auto newest_ns = predictor_.history().newest_ns();
-      return newest_ns && *newest_ns >= to_ns;
-    });
-  }
-  const auto why_no_mount = whyNoMount(from_ns, to_ns);
-  if (!why_no_mount) return predictor_.rotation(from_ns, to_ns);
-  predictor_.miss(*why_no_mount);
+  const auto why_no_pose = whyNoPose(from_ns, to_ns);
+  if (!why_no_pose) return predictor_.rotation(from_ns, to_ns);
+  predictor_.miss(*why_no_pose);
   return std::nullopt;
 }
 
-/// Sets the mount at two pairs, if it is known.
-std::optional<std::string> GyroInput::whyNoMount(std::int64_t from_ns, std::int64_t to_ns) {
+/// Sets the poses at two pairs, if they are known.
+std::optional<std::string> GyroInput::whyNoPose(std::int64_t from_ns, std::int64_t to_ns) {
   if (!predictor_.history().newest_ns()) return "no message on " + subscriber_.getTopic();
   const auto from = R_camera_gyro_.find(from_ns);
   const auto to = R_camera_gyro_.find(to_ns);
@@ -98,43 +102,33 @@ bool GyroInput::waitsForVertical(std::int64_t stamp_ns) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto now = std::chrono::steady_clock::now();
   if (!vertical_wait_) vertical_wait_ = now;
-  const bool is_known = !whyNoMount(stamp_ns, stamp_ns) && vertical_.isComplete();
+  const bool is_known = !whyNoPose(stamp_ns, stamp_ns) && vertical_.isComplete();
   return !is_known && now < *vertical_wait_ + kVerticalWait;
 }
 
 std::optional<Eigen::Vector3d> GyroInput::up(std::int64_t stamp_ns) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  auto why = whyNoMount(stamp_ns, stamp_ns);
+  auto why = whyNoPose(stamp_ns, stamp_ns);
   if (!why) why = vertical_.whyUnknown(stamp_ns);
   if (!why) return R_camera_gyro_.at(stamp_ns) * vertical_.up();
   log_.warn("the first pose is not level, but as the robot stands: " + *why);
   return std::nullopt;
 }
 
-void GyroInput::observe(const OdometryResult& result, OdometryStatus& status) {
+GyroReport GyroInput::observe(const OdometryResult& result) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const std::int64_t from_ns = result.stamp_ns - std::llround(1e9 * result.dt_s);
-  if (!whyNoMount(from_ns, result.stamp_ns)) predictor_.observe(result);
+  if (!whyNoPose(from_ns, result.stamp_ns)) predictor_.observe(result);
   if (std::exchange(was_asked_, false)) {  // not by a first pair
-    const bool used = !predictor_.whyNot();
-    used ? backoff_.onHit() : backoff_.onMiss();
-    tell(used);
+    const auto& why_not = predictor_.whyNot();
+    if (watch_.observe(!why_not)) {
+      why_not ? log_.warn("the gyroscope is not used: " + *why_not)
+              : log_.info("the gyroscope predicts rotations (" + gyro_frame_ + " on " +
+                          base_frame_ + ")");
+    }
   }
-  status.imu_reason = predictor_.whyNot().value_or("");
-  status.rotations_predicted = predictor_.counts().predicted;
-  status.rotations_missed = predictor_.counts().missed;
-}
-
-void GyroInput::tell(bool used) {
-  in_a_row_ = used == was_used_ ? in_a_row_ + 1 : 1;
-  was_used_ = used;
-  if (in_a_row_ < kPairs || told_used_ == used) return;
-  told_used_ = used;
-  if (used) {
-    log_.info("the gyroscope predicts rotations (" + gyro_frame_ + " on " + base_frame_ + ")");
-  } else {
-    log_.warn("the gyroscope is not used: " + *predictor_.whyNot());
-  }
+  return {
+      predictor_.whyNot().value_or(""), predictor_.counts().predicted, predictor_.counts().missed};
 }
 
 void GyroInput::describe(StatusWrapper& status) const {

@@ -37,43 +37,43 @@ void addTopic(const TopicReport& topic, StatusWrapper& status) {
               topic.publishers);
 }
 
-std::uint64_t countDrops(const OdometryStatus& status) {
+std::uint64_t countDrops(const HealthReport& report) {
   std::uint64_t total = 0;
-  for (const DropCount& drop : status.drops) total += drop.count;
+  for (const auto& [reason, count] : report.drops) total += count;
   return total;
 }
 
 }  // namespace
 
 void describeOdometry(const HealthReport& report, StatusWrapper& status) {
-  const OdometryStatus& last = report.status;
-  const std::string name = stateName(last.state);
-  status.summary(levelOf(last.state), last.reason.empty() ? name : name + ": " + last.reason);
-  for (const std::string& warning : {report.camera_fault, report.rig_fault}) {
+  const OdometryResult& last = report.pair.result;
+  const std::string name = stateName(report.state);
+  status.summary(levelOf(report.state), report.reason.empty() ? name : name + ": " + report.reason);
+  for (const std::string& warning : {report.pair.camera_fault, report.rig_fault}) {
     if (!warning.empty()) status.mergeSummary(DiagnosticStatus::WARN, warning);
   }
   status.add("state", name);
-  status.add("reason", last.reason);
-  status.add("hint", report.camera_fault);
-  status.add("corners", last.corners);
-  status.add("corners with a disparity", last.with_depth);
-  status.add("features tracked and consistent", last.consistent);
-  status.add("inliers of the rotation", last.rotation_inliers);
-  status.add("inliers of the translation", last.translation_inliers);
+  status.add("reason", report.reason);
+  status.add("hint", report.pair.camera_fault);
+  status.add("corners", last.counts.corners);
+  status.add("corners with a disparity", last.counts.with_depth);
+  status.add("features tracked and consistent", last.counts.consistent);
+  status.add("inliers of the rotation", last.counts.rotation_inliers);
+  status.add("inliers of the translation", last.counts.translation_inliers);
   status.addf("disparity bias",
               "%.2f +- %.2f px, %.2f px applied",
-              last.disparity_bias,
-              last.disparity_bias_sigma,
-              last.disparity_bias_applied);
+              last.disparity_bias.estimated_px,
+              last.disparity_bias.sigma_px,
+              last.disparity_bias.applied_px);
   status.addf("row offset of the right image",
               "%.2f +- %.2f px, median difference %.2f px",
-              last.row_offset,
-              last.row_offset_sigma,
-              last.row_difference);
+              last.row_offset.median_px,
+              last.row_offset.sigma_px,
+              last.row_offset.typical_px);
   status.addf("contrast of the right image relative to the left one", "%.2f", last.exposure_gain);
-  status.addf("flow noise", "%.2f px", last.flow_noise);
-  status.add("pairs processed", last.pairs_processed);
-  status.add("pairs lost", last.pairs_lost);
+  status.addf("flow noise", "%.2f px", last.flow_noise_px);
+  status.add("pairs processed", report.pairs_processed);
+  status.add("pairs lost", report.pairs_lost);
 }
 
 void describeInput(const HealthReport& report, StatusWrapper& status) {
@@ -122,7 +122,7 @@ void describeTiming(const HealthReport& report, StatusWrapper& status) {
                     period_ms,
                     report.latency_without_tf_p50_ms > limit_ms
                         ? "reduce feature_detector/max_features, or the rate or size of the images"
-                        : "they wait for tf of the camera: publish it earlier or more often");
+                        : "they wait for tf: publish it earlier or more often");
   } else {
     status.summaryf(DiagnosticStatus::OK, "%.1f results per second", report.answer_rate_hz);
   }
@@ -130,7 +130,7 @@ void describeTiming(const HealthReport& report, StatusWrapper& status) {
   status.addf("latency p50", "%.1f ms", report.latency_p50_ms);
   status.addf("latency p95", "%.1f ms", report.latency_p95_ms);
   status.addf("latency max", "%.1f ms", report.latency_max_ms);
-  status.addf("time of the estimator", "%.1f ms", report.status.time_total);
+  status.addf("time of the estimator", "%.1f ms", report.pair.result.times.total_ms);
 }
 
 void describeTf(const HealthReport& report, StatusWrapper& status) {
@@ -141,14 +141,14 @@ void describeTf(const HealthReport& report, StatusWrapper& status) {
   } else {
     status.summary(DiagnosticStatus::OK, "no conflict");
   }
-  if (!report.tf_trouble.empty()) {
-    status.mergeSummary(DiagnosticStatus::WARN, report.tf_trouble);
+  if (!report.pair.tf_problem.empty()) {
+    status.mergeSummary(DiagnosticStatus::WARN, report.pair.tf_problem);
   }
-  status.add("pairs without the motion of guess_frame", report.status.guess_misses);
+  status.add("pairs without the motion of guess_frame", report.pair.guess_misses);
 }
 
 void describeDrops(const HealthReport& report, std::uint64_t drops_before, StatusWrapper& status) {
-  const std::uint64_t total = countDrops(report.status);
+  const std::uint64_t total = countDrops(report);
   if (total > drops_before) {
     status.summaryf(DiagnosticStatus::WARN,
                     "%llu more dropped since the last report",
@@ -157,7 +157,7 @@ void describeDrops(const HealthReport& report, std::uint64_t drops_before, Statu
     status.summary(DiagnosticStatus::OK, "none since the last report");
   }
   status.add("dropped in total", total);
-  for (const DropCount& drop : report.status.drops) status.add(drop.reason, drop.count);
+  for (const auto& [reason, count] : report.drops) status.add(toString(reason), count);
 }
 
 void describeGyro(const GyroPredictor& gyro, const std::string& topic, StatusWrapper& status) {
@@ -207,7 +207,7 @@ void Diagnostics::publish(const HealthReport& report) {
   published_ = now;
   report_ = report;
   updater_.force_update();
-  drops_before_ = countDrops(report.status);
+  drops_before_ = countDrops(report);
 }
 
 }  // namespace rotrocc

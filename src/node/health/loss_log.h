@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "input/log.h"
-#include "rotrocc/OdometryStatus.h"
+#include "rotrocc/odometry_result.h"
 
 namespace rotrocc {
 
@@ -19,23 +19,23 @@ class LossLog {
   static constexpr std::chrono::seconds kPatience{2};
   static constexpr std::chrono::seconds kRecovery{1};
 
-  explicit LossLog(Log log) : log_(std::move(log)) {}
+  explicit LossLog(Log log) : out_(std::move(log)) {}
 
   /// To be called for each pair. `camera_fault`: see PairInspector; empty if none.
-  void observe(const OdometryStatus& status,
+  void observe(const OdometryResult& result,
                const std::string& camera_fault,
                Throttle::Time now = std::chrono::steady_clock::now());
 
  private:
-  bool tell(const std::string& what, Throttle::Time now);
-  void end(std::uint8_t state, Throttle::Time now);
+  bool log(const std::string& what, Throttle::Time now);
+  void end(State state, Throttle::Time now);
 
-  Log log_;
+  Log out_;
   FaultThrottle throttle_;
   std::optional<Throttle::Time> lost_since_, found_since_;
   std::string reason_;        // of the loss, at its first pair
   std::string camera_fault_;  // that caused it, as far as it is known
-  bool told_ = false;         // the loss
+  bool logged_ = false;       // the loss
 };
 
 }  // namespace rotrocc

@@ -2,8 +2,8 @@
 
 #include <chrono>
 #include <cmath>
-#include <utility>
 
+#include "input/message_conversion.h"
 #include "input/to_text.h"
 
 namespace rotrocc {
@@ -11,6 +11,14 @@ namespace {
 
 /// Without a result for this time, the state is that of the input.
 constexpr std::chrono::seconds kAnswerAge(2);
+
+/// Rigs are rarely better calibrated; the correction is right on average only, and leaves more of a
+/// larger bias.
+constexpr double kLargeBias_px = 0.5;
+/// More than a good rectification leaves, and more than the matching of small windows tolerates.
+constexpr double kRowsApart_px = 0.5;
+/// Standard deviations of a fault that is beyond doubt.
+constexpr double kSigmas = 4.0;
 
 /// If nothing is wrong with the input.
 std::string whyNoAnswer(const HealthReport& report) {
@@ -22,12 +30,71 @@ std::string whyNoAnswer(const HealthReport& report) {
   return "no stereo pair for " + toText(std::round(*silent_s)) + " s";
 }
 
+std::uint8_t toMessage(State state) {
+  switch (state) {
+    case State::kInitialising:
+      return OdometryStatus::INITIALISING;
+    case State::kOk:
+      return OdometryStatus::OK;
+    case State::kDegraded:
+      return OdometryStatus::DEGRADED;
+    case State::kLost:
+      break;
+  }
+  return OdometryStatus::LOST;
+}
+
+/// A fault of the cameras, or else of the input; and of tf.
+std::string hintOf(const HealthReport& report) {
+  const PairReport& pair = report.pair;
+  std::string hint = pair.camera_fault.empty() ? report.input_fault : pair.camera_fault;
+  if (!hint.empty() && !pair.tf_problem.empty()) hint += "; ";
+  return hint + pair.tf_problem;
+}
+
+/// In one sentence with a remedy; empty if there is none.
+std::string faultOfRig(const OdometryResult& result) {
+  const DisparityBias& bias = result.disparity_bias;
+  const RowOffset& rows = result.row_offset;
+  std::string what;
+  if (std::abs(bias.applied_px) >= kLargeBias_px &&
+      std::abs(bias.estimated_px) >= kSigmas * bias.sigma_px) {
+    what = "disparities have a bias of " + hundredths(-bias.estimated_px) + " px (+- " +
+           hundredths(bias.sigma_px) + "), which is corrected";
+  }
+  if (rows.typical_px >= kRowsApart_px) {
+    what += (what.empty() ? "" : "; ") + std::string("rows of left and right differ by ") +
+            hundredths(rows.typical_px) + " px, with a median offset of " +
+            hundredths(rows.median_px) + " px (+- " + hundredths(rows.sigma_px) + ")" +
+            (rows.applied_px != 0.0 ? ", which is corrected" : "");
+  }
+  return what.empty() ? "" : what + ": recalibrate the stereo rig";
+}
+
+void addTimes(const PairReport& pair, OdometryStatus& message) {
+  const StageTimes& stages = pair.result.times;
+  message.pyramids_ms = static_cast<float>(stages.pyramids_ms);
+  message.corners_ms = static_cast<float>(stages.corners_ms);
+  message.disparity_ms = static_cast<float>(stages.disparity_ms);
+  message.tracking_ms = static_cast<float>(stages.tracking_ms);
+  message.estimation_ms = static_cast<float>(stages.estimation_ms);
+  message.prepared_ms = static_cast<float>(stages.prepared_ms);
+  message.pairing_ms = static_cast<float>(pair.times.pairing_ms);
+  message.waiting_ms = static_cast<float>(pair.times.waiting_ms);
+  message.conversion_ms = static_cast<float>(pair.times.conversion_ms);
+  message.tf_ms = static_cast<float>(pair.times.tf_ms);
+  message.estimator_ms = static_cast<float>(stages.total_ms);
+  message.publishing_ms = static_cast<float>(pair.times.publishing_ms);
+  message.overhead_ms = static_cast<float>(pair.times.overhead_ms);
+  message.latency_ms = static_cast<float>(pair.times.latency_ms);
+}
+
 }  // namespace
 
 void updateState(HealthReport& report) {
   const auto set = [&report](std::uint8_t state, const std::string& reason) {
-    report.status.state = state;
-    report.status.reason = reason;
+    report.state = state;
+    report.reason = reason;
   };
   if (report.paused) return set(OdometryStatus::PAUSED, "paused by the service ~pause");
   if (report.answers) return;
@@ -47,38 +114,67 @@ const char* stateName(std::uint8_t state) {
   return state <= OdometryStatus::PAUSED ? kNames[state] : "unknown";
 }
 
-OdometryStatus OdometryHealth::addAnswer(OdometryStatus status,
-                                         const std::string& camera_fault,
-                                         const std::string& tf_trouble,
-                                         const DropLog& drops) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const bool lost = status.state == OdometryStatus::LOST;
-  status.pairs_processed = known_.status.pairs_processed + 1;
-  status.pairs_lost = known_.status.pairs_lost + (lost ? 1 : 0);
-  known_.status = std::move(status);
-  known_.camera_fault = camera_fault;
-  known_.rig_fault = rig_watch_.observe(known_.status);
-  known_.tf_trouble = tf_trouble;
-  known_.waits_for_tf.clear();
-  answers_.add(std::chrono::steady_clock::now());
-  latencies_ms_.add(known_.status.latency);
-  without_tf_ms_.add(known_.status.latency - known_.status.time_tf);
-  updateStatus(drops);
-  return known_.status;
+OdometryStatus toStatus(const HealthReport& report) {
+  const OdometryResult& result = report.pair.result;
+  OdometryStatus message = toIdleStatus(report, toRosTime(result.stamp_ns));
+  message.header.frame_id = report.pair.camera_frame;
+  message.dt_s = result.dt_s;
+  message.stamp_age_s = static_cast<float>(report.pair.stamp_age_s);
+  message.tries = static_cast<std::uint32_t>(result.counts.tries);
+  message.corners = static_cast<std::uint32_t>(result.counts.corners);
+  message.with_depth = static_cast<std::uint32_t>(result.counts.with_depth);
+  message.tracked = static_cast<std::uint32_t>(result.counts.tracked);
+  message.consistent = static_cast<std::uint32_t>(result.counts.consistent);
+  message.rotation_inliers = static_cast<std::uint32_t>(result.counts.rotation_inliers);
+  message.translation_inliers = static_cast<std::uint32_t>(result.counts.translation_inliers);
+  message.disparity_bias_px = static_cast<float>(result.disparity_bias.estimated_px);
+  message.disparity_bias_sigma_px = static_cast<float>(result.disparity_bias.sigma_px);
+  message.disparity_bias_applied_px = static_cast<float>(result.disparity_bias.applied_px);
+  message.row_offset_px = static_cast<float>(result.row_offset.median_px);
+  message.row_offset_sigma_px = static_cast<float>(result.row_offset.sigma_px);
+  message.row_offset_applied_px = static_cast<float>(result.row_offset.applied_px);
+  message.row_difference_px = static_cast<float>(result.row_offset.typical_px);
+  message.exposure_gain = static_cast<float>(result.exposure_gain);
+  message.flow_noise_px = static_cast<float>(result.flow_noise_px);
+  addTimes(report.pair, message);
+  return message;
 }
 
-/// The hint is a fault of the cameras, or else of the input; and of tf.
-void OdometryHealth::updateStatus(const DropLog& drops) {
-  OdometryStatus& status = known_.status;
-  status.hint = known_.camera_fault.empty() ? known_.input_fault : known_.camera_fault;
-  if (!status.hint.empty() && !known_.tf_trouble.empty()) status.hint += "; ";
-  status.hint += known_.tf_trouble;
-  status.drops.clear();
-  for (const auto& [reason, count] : drops.counts()) {
-    status.drops.emplace_back();
-    status.drops.back().reason = toString(reason);
-    status.drops.back().count = count;
+OdometryStatus toIdleStatus(const HealthReport& report, const ros::Time& stamp) {
+  OdometryStatus message;
+  message.header.stamp = stamp;
+  message.state = report.state;
+  message.reason = report.reason;
+  message.hint = hintOf(report);
+  message.imu_reason = report.pair.gyro.why_not;
+  message.rotations_predicted = report.pair.gyro.predicted;
+  message.rotations_missed = report.pair.gyro.missed;
+  message.pairs_processed = report.pairs_processed;
+  message.pairs_lost = report.pairs_lost;
+  message.guess_misses = report.pair.guess_misses;
+  for (const auto& [reason, count] : report.drops) {
+    message.drops.emplace_back();
+    message.drops.back().reason = toString(reason);
+    message.drops.back().count = count;
   }
+  return message;
+}
+
+HealthReport OdometryHealth::addPair(const PairReport& pair,
+                                     const DropLog& drops,
+                                     TopicStatistics::Time now) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  known_.pair = pair;
+  known_.state = toMessage(pair.result.state);
+  known_.reason = pair.result.reason;
+  ++known_.pairs_processed;
+  known_.pairs_lost += pair.result.state == State::kLost ? 1 : 0;
+  if (pair.result.hasMotion()) known_.rig_fault = rig_fault_.observe(faultOfRig(pair.result), now);
+  known_.drops = drops.counts();
+  answers_.add(now);
+  latencies_ms_.add(pair.times.latency_ms);
+  without_tf_ms_.add(pair.times.latency_ms - pair.times.tf_ms);
+  return known_;
 }
 
 void OdometryHealth::setPaused(bool paused) {
@@ -101,7 +197,7 @@ HealthReport OdometryHealth::report(const InputReport& input,
                                     TopicStatistics::Time now) {
   const std::lock_guard<std::mutex> lock(mutex_);
   known_.input_fault = input_fault_.observe(faultOfPairs(input), now);
-  updateStatus(drops);
+  known_.drops = drops.counts();
   HealthReport report = known_;
   report.input = input;
   report.answers = answers_.total() > 0 && now - answers_.lastArrival() < kAnswerAge;

@@ -8,22 +8,48 @@
 #include "input/input_report.h"
 #include "input/log.h"
 #include "input/topic_statistics.h"
-#include "node/health/rig_watch.h"
 #include "node/health/sliding_quantiles.h"
 #include "rotrocc/OdometryStatus.h"
+#include "rotrocc/odometry_result.h"
 
 namespace rotrocc {
 
+/// Wall times of a pair on its way [ms]; OdometryStatus has their meaning.
+struct PairTimes {
+  double pairing_ms = 0.0, waiting_ms = 0.0, conversion_ms = 0.0, tf_ms = 0.0, publishing_ms = 0.0,
+         overhead_ms = 0.0, latency_ms = 0.0;
+};
+
+/// What became of the rotations that the gyroscope was asked for.
+struct GyroReport {
+  std::string why_not;  ///< why it did not predict the last one; empty if it did
+  std::uint64_t predicted = 0, missed = 0;  ///< so far
+};
+
+/// What is known of a pair when its odometry has been sent.
+struct PairReport {
+  OdometryResult result;
+  std::string camera_frame;
+  double stamp_age_s = 0.0;
+  PairTimes times;
+  std::string camera_fault;        ///< see PairInspector; empty if none
+  std::string tf_problem;          ///< of guess_frame or of a camera that moves; empty if none
+  std::uint64_t guess_misses = 0;  ///< so far
+  GyroReport gyro;
+};
+
 /// State of the node, for status and diagnostics.
 struct HealthReport {
-  OdometryStatus status;  ///< of the last pair, with the state, the hint and the counters of now
+  std::uint8_t state = OdometryStatus::NO_INPUT;  ///< of the last pair, or of now without a recent
+  std::string reason;                             ///< why it is not OK
+  PairReport pair;                                ///< the last one
+  std::uint64_t pairs_processed = 0, pairs_lost = 0;
+  DropLog::Counts drops;
   InputReport input;
   bool paused = false;
   bool answers = false;      ///< a pair was processed recently
-  std::string camera_fault;  ///< see PairInspector; empty if none
   std::string input_fault;   ///< of the pairs that arrive, see faultOfPairs(), if it lasts
-  std::string rig_fault;     ///< see RigWatch; empty if none
-  std::string tf_trouble;    ///< of guess_frame or of a mount that moves; empty if none
+  std::string rig_fault;     ///< a disparity bias or row offset that lasts; empty if none
   std::string waits_for_tf;  ///< which transform is missing; empty if none is
   std::string tf_conflict;   ///< other publisher of a parent of the base; empty if none
   double answer_rate_hz = 0.0;
@@ -31,22 +57,25 @@ struct HealthReport {
   double latency_without_tf_p50_ms = 0.0;  ///< without the time for which pairs wait for tf
 };
 
-/// Sets state and reason of the status, which are those of the last pair, if there was none
-/// recently or the odometry is paused.
+/// Sets the state and its reason, which are those of the last pair, if there was none recently or
+/// the odometry is paused.
 void updateState(HealthReport& report);
 
 /// Name of a constant of OdometryStatus, e.g. "NO_INPUT".
 const char* stateName(std::uint8_t state);
 
+/// The message of the last pair.
+OdometryStatus toStatus(const HealthReport& report);
+/// The message without a recent pair: state, hint and counters.
+OdometryStatus toIdleStatus(const HealthReport& report, const ros::Time& stamp);
+
 /// Collects the state of worker and callbacks. Thread-safe.
 class OdometryHealth {
  public:
-  /// The odometry of a pair was published. Returns its status with the hint and the counters that
-  /// it lacks.
-  OdometryStatus addAnswer(OdometryStatus status,
-                           const std::string& camera_fault,
-                           const std::string& tf_trouble,
-                           const DropLog& drops);
+  /// The odometry of a pair was published. Returns the state after it.
+  HealthReport addPair(const PairReport& pair,
+                       const DropLog& drops,
+                       TopicStatistics::Time now = std::chrono::steady_clock::now());
   void setPaused(bool paused);
   bool paused() const;
   void setWaitsForTf(const std::string& transform);
@@ -57,12 +86,10 @@ class OdometryHealth {
                       TopicStatistics::Time now = std::chrono::steady_clock::now());
 
  private:
-  void updateStatus(const DropLog& drops);
-
   mutable std::mutex mutex_;
   HealthReport known_;
   TopicStatistics answers_;
-  RigWatch rig_watch_;
+  LastingFault rig_fault_{std::chrono::seconds(2)};  // single pairs may be wrong
   LastingFault input_fault_{TopicStatistics::kWindow};
   SlidingQuantiles latencies_ms_{300};
   SlidingQuantiles without_tf_ms_{300};

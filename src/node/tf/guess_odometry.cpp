@@ -2,47 +2,41 @@
 
 #include <utility>
 
-#include <tf2/exceptions.h>
-
 #include "input/message_conversion.h"
 #include "input/to_text.h"
-#include "node/tf/sensor_mount.h"
+#include "node/tf/sensor_pose.h"
 
 namespace rotrocc {
 
-GuessOdometry::GuessOdometry(const std::string& guess_frame,
+GuessOdometry::GuessOdometry(const tf2::BufferCore& tf,
+                             const std::string& guess_frame,
                              const std::string& base_frame,
-                             double timeout_s,
-                             const TfFeed& feed,
                              Log log)
-    : log_(std::move(log)),
-      guess_frame_(guess_frame),
-      base_frame_(base_frame),
-      timeout_s_(timeout_s),
-      listener_(feed(buffer_)) {}
+    : tf_(tf), log_(std::move(log)), guess_frame_(guess_frame), base_frame_(base_frame) {}
 
-std::optional<Eigen::Isometry3d> GuessOdometry::motionTo(std::int64_t stamp_ns) {
+std::optional<Eigen::Isometry3d> GuessOdometry::motionTo(std::int64_t stamp_ns,
+                                                         const WaitFor& wait) {
   if (!last_stamp_ns_ || stamp_ns <= *last_stamp_ns_) return std::nullopt;
-  auto current = pose(stamp_ns);
+  const auto is_there = [&] {
+    return tf_.canTransform(guess_frame_, base_frame_, toRosTime(stamp_ns));
+  };
   // After misses, waits only if the last transform did come, and not at each pair: waiting would
   // delay all of them.
-  if (!current && backoff_.waits() &&
-      (!backoff_.hasBegun() || T_guess_last_ || pose(*last_stamp_ns_)) &&
-      waitForTransform(buffer_, guess_frame_, base_frame_, toRosTime(stamp_ns), timeout_s_)) {
-    current = pose(stamp_ns);
+  if (!is_there() && watch_.waits() &&
+      (!watch_.isMissing() || T_guess_last_ || pose(*last_stamp_ns_))) {
+    wait(kTimeout_s, is_there);
   }
+  const auto current = pose(stamp_ns);
   if (!T_guess_last_) T_guess_last_ = pose(*last_stamp_ns_);
   if (!current || !T_guess_last_) {
-    onMiss(current ? *last_stamp_ns_ : stamp_ns);
+    observe(current ? *last_stamp_ns_ : stamp_ns);
     return std::nullopt;
   }
-  onMotion();
+  observe(std::nullopt);
   return T_guess_last_->inverse() * *current;
 }
 
-std::optional<Eigen::Isometry3d> GuessOdometry::moveTo(std::int64_t stamp_ns,
-                                                       bool starts_trajectory) {
-  if (starts_trajectory) buffer_.clear();
+std::optional<Eigen::Isometry3d> GuessOdometry::moveTo(std::int64_t stamp_ns) {
   last_stamp_ns_ = stamp_ns;
   T_guess_last_ = pose(stamp_ns);
   return T_guess_last_;
@@ -51,46 +45,36 @@ std::optional<Eigen::Isometry3d> GuessOdometry::moveTo(std::int64_t stamp_ns,
 /// T_guess_base at a stamp, if tf already has it.
 std::optional<Eigen::Isometry3d> GuessOdometry::pose(std::int64_t stamp_ns) const {
   try {
-    return toEigen(
-        buffer_.lookupTransform(guess_frame_, base_frame_, toRosTime(stamp_ns)).transform);
+    return toEigen(tf_.lookupTransform(guess_frame_, base_frame_, toRosTime(stamp_ns)).transform);
   } catch (const std::exception&) {
     return std::nullopt;  // not available: the previous motion is the prediction
   }
 }
 
-void GuessOdometry::onMiss(std::int64_t stamp_ns) {
-  ++misses_;
-  backoff_.onMiss();
-  if (!backoff_.hasBegun() || !trouble_.empty()) return;
-  trouble_ = describeMiss(stamp_ns);
-  log_.warn(trouble_);
-}
-
-void GuessOdometry::onMotion() {
-  if (!trouble_.empty()) {
-    log_.info("tf from guess_frame " + guess_frame_ + " to " + base_frame_ + " is back, after " +
-              std::to_string(backoff_.misses()) + " pairs without it");
+/// A motion, or a miss as tf lacks the pose at a stamp.
+void GuessOdometry::observe(const std::optional<std::int64_t>& missing_ns) {
+  const bool is_new = watch_.observe(!missing_ns);
+  if (!missing_ns) {
+    problem_.clear();
+    if (is_new) log_.info("motions are predicted by " + guess_frame_);
+    return;
   }
-  trouble_.clear();
-  backoff_.onHit();
+  ++misses_;
+  if (watch_.isMissing() && problem_.empty()) problem_ = describeMiss(*missing_ns);
+  if (is_new) log_.warn(problem_);
 }
 
 std::string GuessOdometry::describeMiss(std::int64_t stamp_ns) const {
-  std::string cause = "it came too late";
-  bool late = true;
-  try {
-    toEigen(buffer_.lookupTransform(guess_frame_, base_frame_, toRosTime(stamp_ns)).transform);
-  } catch (const tf2::ExtrapolationException& error) {
-    cause = error.what();
-  } catch (const std::exception& error) {
-    cause = error.what();
-    late = false;
-  }
+  std::string cause;
+  tf_.canTransform(guess_frame_, base_frame_, toRosTime(stamp_ns), &cause);
   cause.erase(cause.find_last_not_of(". ") + 1);
+  if (cause.empty()) cause = "it came too late";
+  const bool late = tf_.canTransform(guess_frame_, base_frame_, ros::Time());
   return "no tf from guess_frame " + guess_frame_ + " to " + base_frame_ + " at " +
-         std::to_string(MissBackoff::kMisses) + " pairs in a row (" + cause +
+         std::to_string(SourceWatch::kPairs) + " pairs in a row (" + cause +
          "), pairs do not wait for it: " +
-         (late ? "send it within " + toText(timeout_s_) + " s, or synchronise the clocks"
+         (late ? "publish it within " + toText(kTimeout_s) +
+                     " s of its stamp, or synchronise the clocks"
                : "correct guess_frame, or start the odometry that publishes it");
 }
 

@@ -1,7 +1,6 @@
 #include "node/tf/tf_conflict.h"
 
 #include <algorithm>
-#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -12,9 +11,6 @@
 namespace rotrocc {
 namespace {
 
-/// Of a topic, for a check. Looking at them takes a fraction of a millisecond, which may delay an
-/// image; a robot with more transforms has the rival among them sooner or later.
-constexpr std::uint32_t kTfQueueSize = 200;
 constexpr std::chrono::seconds kGone(5);
 
 std::string edge(const PublishedTf& tf) {
@@ -71,11 +67,7 @@ std::string describeConflict(const PublishedTf& own,
 }
 
 TfConflict::TfConflict(PublishedTf own, const std::string& base_frame, Log log)
-    : own_(std::move(own)),
-      base_frame_(base_frame),
-      log_(std::move(log)),
-      tf_subscriber_(subscribe("/tf", false)),
-      static_tf_subscriber_(subscribe("/tf_static", true)) {
+    : own_(std::move(own)), base_frame_(base_frame), log_(std::move(log)) {
   const std::lock_guard<std::mutex> lock(neighbours().mutex);
   neighbours().published.push_back(own_);
 }
@@ -87,18 +79,11 @@ TfConflict::~TfConflict() {
   published.erase(std::remove_if(published.begin(), published.end(), is_own), published.end());
 }
 
-ros::Subscriber TfConflict::subscribe(const std::string& topic, bool is_static) {
-  ros::NodeHandle nh;  // like that of the broadcaster: tf is not remapped for a nodelet
-  nh.setCallbackQueue(&queue_);
-  return nh.subscribe<tf2_msgs::TFMessage const, const Event&>(
-      topic, kTfQueueSize, [this, is_static](const Event& event) { onTf(event, is_static); });
-}
-
 std::string TfConflict::check() {
   for (const PublishedTf& neighbour : neighboursWithChild(own_.child)) {
     if (neighbour.node != own_.node) add(neighbour, false);
   }
-  queue_.callAvailable();
+  const std::lock_guard<std::mutex> lock(mutex_);
   const auto now = Clock::now();
   for (const auto& [conflict, last] : last_seen_) {
     if (now - last <= kGone) return conflict;
@@ -106,7 +91,7 @@ std::string TfConflict::check() {
   return "";
 }
 
-void TfConflict::onTf(const Event& event, bool is_static) {
+void TfConflict::onTf(const TfReceiver::Event& event, bool is_static) {
   for (const auto& transform : event.getConstMessage()->transforms) {
     if (withoutSlash(transform.child_frame_id) != own_.child) continue;
     const std::string parent = withoutSlash(transform.header.frame_id);
@@ -123,6 +108,7 @@ void TfConflict::onTf(const Event& event, bool is_static) {
 
 /// Static transforms stay in the receivers, so their conflicts stay here.
 void TfConflict::add(const PublishedTf& rival, bool is_static) {
+  const std::lock_guard<std::mutex> lock(mutex_);
   const auto now = Clock::now();
   const std::string conflict = describeConflict(own_, rival, base_frame_);
   const auto [found, is_new] = last_seen_.try_emplace(conflict, now);

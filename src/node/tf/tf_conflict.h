@@ -2,15 +2,11 @@
 
 #include <chrono>
 #include <map>
+#include <mutex>
 #include <string>
 
-#include <ros/callback_queue.h>
-#include <ros/message_event.h>
-#include <ros/node_handle.h>
-#include <ros/subscriber.h>
-#include <tf2_msgs/TFMessage.h>
-
 #include "input/log.h"
+#include "node/tf/tf_receiver.h"
 #include "rotrocc/parameters.h"
 
 namespace rotrocc {
@@ -32,7 +28,7 @@ std::string describeConflict(const PublishedTf& own,
                              const std::string& base_frame);
 
 /// Watches for rivals, in tf and in this process, where all have the same node name in tf. Warns of
-/// each once when it appears.
+/// each once when it appears. Thread-safe.
 class TfConflict {
  public:
   TfConflict(PublishedTf own, const std::string& base_frame, Log log);
@@ -40,25 +36,23 @@ class TfConflict {
   TfConflict(const TfConflict&) = delete;
   TfConflict& operator=(const TfConflict&) = delete;
 
-  /// Looks at the tf since the last call: call it about once a second. Returns the conflict with
-  /// the first rival, as from describeConflict(); empty if there is none.
+  /// An observer of a TfReceiver.
+  void onTf(const TfReceiver::Event& event, bool is_static);
+
+  /// The conflict with the first of the present rivals, as from describeConflict(); empty if there
+  /// is none. Call it about once a second.
   std::string check();
 
  private:
-  using Event = ros::MessageEvent<tf2_msgs::TFMessage const>;
   using Clock = std::chrono::steady_clock;
 
-  ros::Subscriber subscribe(const std::string& topic, bool is_static);
-  void onTf(const Event& event, bool is_static);
   void add(const PublishedTf& rival, bool is_static);
 
   PublishedTf own_;
   std::string base_frame_;
   Log log_;
+  std::mutex mutex_;
   std::map<std::string, Clock::time_point> last_seen_;  // conflicts; the maximum if static
-  ros::CallbackQueue queue_;
-  ros::Subscriber tf_subscriber_;
-  ros::Subscriber static_tf_subscriber_;
 };
 
 }  // namespace rotrocc

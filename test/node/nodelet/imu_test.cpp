@@ -137,7 +137,7 @@ TEST_F(ImuTest, IsUsedWhenItIsThereAndToldWhenNot) {
   ASSERT_TRUE(drivesUntil("", biased));
   EXPECT_EQ(last_.state, OdometryStatus::OK);
 
-  for (int pair = 0; pair < GyroInput::kPairs; ++pair) biased();
+  for (int pair = 0; pair < SourceWatch::kPairs; ++pair) biased();
   const auto told = [&] { return drive_.log.with("the gyroscope is not used").size(); };
   const std::size_t told_before = told();
 
@@ -177,26 +177,6 @@ TEST_F(ImuTest, LevelsTheFirstPoseAtRest) {
   EXPECT_TRUE(upOf(again).isApprox(Eigen::Vector3d::UnitZ(), 1e-9));
   EXPECT_EQ(drive_.log.with("not level, but as the robot stands: the robot is not at rest").size(),
             1u);
-}
-
-TEST_F(ImuTest, SaysThatThereIsNothingToLevelItBy) {
-  drive_.robot.publishMount();
-  frame_ = "base_link";
-  EXPECT_TRUE(upOf(begin()).isApprox(Eigen::Vector3d::UnitZ(), 1e-9));
-  EXPECT_EQ(drive_.log.with("there are no accelerations of 1 s").size(), 1u);
-}
-
-/// The robot turns. The mount of the gyroscope is wrong, then calibrated.
-TEST_F(ImuTest, AResetTakesANewMount) {
-  drive_.robot.publishMount();
-  const auto turn = [&] { return drive(swing() / SimulatedRobot::kPeriod_s); };
-  publishImuFrame(Eigen::Isometry3d(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX())));
-  EXPECT_TRUE(drivesUntil("differ from those of the images", turn));
-  publishImuFrame();
-  EXPECT_TRUE(waitUntil([&] {
-    std_srvs::Trigger reset;
-    return drive_.services.call("reset", reset) && drivesUntil("", turn);
-  }));
 }
 
 /// The camera turns, and the base with the gyroscope does not.

@@ -10,15 +10,12 @@ namespace rotrocc {
 namespace {
 
 using std::chrono::milliseconds;
-using Clock = std::chrono::steady_clock;
 
 constexpr double kTfMemory_s = 10.0;
-constexpr std::chrono::seconds kWarningPeriod{5};
 
 TEST(LateTfTest, OdometryWaitsAndStartsByItself) {
   NodeletDrive drive({{"silence_s", 0.5}});
   SimulatedRobot& robot = drive.robot;
-  const Clock::time_point start = Clock::now();
   EXPECT_TRUE(robot.statusWith(OdometryStatus::NO_INPUT));
   const ros::Time first = robot.drive();
   const std::string no_info = "/left/camera_info has a publisher, but no messages arrive";
@@ -33,10 +30,8 @@ TEST(LateTfTest, OdometryWaitsAndStartsByItself) {
   EXPECT_TRUE(waitUntil([&] {
     const ros::Duration length = robot.drive() - first;
     return robot.statusWith(OdometryStatus::NO_TF, no_tf, milliseconds(20)) &&
-           length.toSec() > 2.0 * kTfMemory_s && drive.log.with(no_tf).size() >= 2;
+           length.toSec() > 2.0 * kTfMemory_s && !drive.log.with(no_tf).empty();
   }));
-  EXPECT_LE(drive.log.with(no_tf).size(),
-            static_cast<std::size_t>(1 + (Clock::now() - start) / kWarningPeriod));
   EXPECT_FALSE(robot.odometryOf(first, milliseconds(0)));
 
   // Only the newest pair was kept for tf.
@@ -57,6 +52,21 @@ TEST(LateTfTest, OdometryWaitsAndStartsByItself) {
     const double after_m = drive.odometryOf(robot.drive()).pose.pose.position.x;
     const double step_m = after_m - std::exchange(before_m, after_m);
     return std::abs(step_m - SimulatedRobot::kStep_m) < 0.02;
+  }));
+}
+
+TEST(LateTfTest, TheStateIsNotOfTfOnceItIsThere) {
+  NodeletDrive drive;
+  drive.robot.publishInfos();
+  EXPECT_TRUE(waitUntil([&] {
+    drive.robot.drive();
+    return drive.robot.statusWith(OdometryStatus::NO_TF, "", milliseconds(50)).has_value();
+  }));
+  drive.robot.publishMount();
+  EXPECT_TRUE(waitUntil([&] {
+    drive.robot.drive([](sensor_msgs::Image& image) { image.data.pop_back(); });
+    return drive.robot.statusWith(OdometryStatus::NO_INPUT, "bytes of data", milliseconds(50))
+        .has_value();
   }));
 }
 

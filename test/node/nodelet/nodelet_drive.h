@@ -35,6 +35,12 @@ class RunningNodelet {
     spinner_.start();
   }
 
+  /// As when it is unloaded.
+  void stop() {
+    spinner_.stop();
+    odometry_.reset();
+  }
+
   /// Waits until it is done with what was published.
   void finish() {
     EXPECT_TRUE(waitUntil([this] { return queue_.isEmpty(); }));

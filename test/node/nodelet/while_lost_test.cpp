@@ -38,7 +38,7 @@ class TfStamps {
 };
 
 TEST(WhileLostTest, WhatIsPublishedIsWhatIsAskedFor) {
-  for (const std::string while_lost : {"hold", "silent", "null"}) {
+  for (const std::string while_lost : {"hold", "silent", "unknown"}) {
     SCOPED_TRACE(while_lost);
     NodeletDrive drive({{"while_lost", while_lost}});
     TfStamps tf;
@@ -55,12 +55,12 @@ TEST(WhileLostTest, WhatIsPublishedIsWhatIsAskedFor) {
     const auto odometry = drive.robot.odometryOf(lost, kSoon);
     ASSERT_EQ(odometry.has_value(), while_lost != "silent");
     if (odometry) {
-      const bool is_null = while_lost == "null";
-      EXPECT_EQ(odometry->pose.pose.position.x, is_null ? 0.0 : held_m);
-      EXPECT_EQ(odometry->pose.covariance[0] == 9999.0, is_null);
+      const bool is_unknown = while_lost == "unknown";
+      EXPECT_EQ(odometry->pose.pose.position.x, is_unknown ? 0.0 : held_m);
+      EXPECT_EQ(odometry->pose.covariance[0] == 9999.0, is_unknown);
       EXPECT_EQ(odometry->twist.covariance[0], 9999.0);
       const double way_m = SimulatedRobot::kStep_m;  // at the last speed
-      EXPECT_TRUE(is_null || std::sqrt(odometry->pose.covariance[0]) < 1.2 * way_m);
+      EXPECT_TRUE(is_unknown || std::sqrt(odometry->pose.covariance[0]) < 1.2 * way_m);
       EXPECT_EQ(odometry->header.frame_id, "odom");
     }
     stamp = drive.robot.drive();

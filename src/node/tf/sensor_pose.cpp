@@ -1,0 +1,220 @@
+#include "node/tf/sensor_pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <yaml-cpp/yaml.h>
+
+#include "input/message_conversion.h"
+#include "input/to_text.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kDegree = M_PI / 180.0;
+constexpr double kMaxNormError = 0.01;
+constexpr double kUpright = 45.0 * kDegree;
+/// Before a warning: tf takes a moment after startup.
+constexpr std::chrono::seconds kPatience(1);
+/// A mount that differs less is at rest: joints have noise.
+constexpr double kRest_m = 1e-4;
+constexpr double kRest_rad = 1e-4;
+
+/// Stamps in a row that must have a transform in time until a problem is over.
+constexpr int kInTime = 50;
+
+/// The axis of the base closest to a direction.
+std::string nameDirection(const Eigen::Vector3d& direction) {
+  static const char* const kNames[3][2] = {
+      {"+x (forward)", "-x (backward)"}, {"+y (left)", "-y (right)"}, {"+z (up)", "-z (down)"}};
+  int axis = 0;
+  const double cosine = direction.cwiseAbs().maxCoeff(&axis);
+  std::ostringstream text;
+  text << kNames[axis][direction[axis] < 0.0 ? 1 : 0];
+  const double off_deg = std::acos(std::min(cosine, 1.0)) / kDegree;
+  if (off_deg > 0.5) text << ", " << std::lround(off_deg) << " deg off";
+  return text.str();
+}
+
+}  // namespace
+
+Eigen::Isometry3d toEigen(const geometry_msgs::Transform& transform) {
+  const auto& t = transform.translation;
+  const auto& q = transform.rotation;
+  for (const double value : {t.x, t.y, t.z, q.w, q.x, q.y, q.z}) {
+    if (std::isfinite(value)) continue;
+    throw std::invalid_argument("the transform contains " + toText(value) +
+                                ": correct its publisher");
+  }
+  const Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
+  if (std::abs(rotation.norm() - 1.0) > kMaxNormError) {
+    throw std::invalid_argument("the quaternion of the transform has the length " +
+                                toText(rotation.norm()) +
+                                ", but must have 1: correct its publisher");
+  }
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translation() = Eigen::Vector3d(t.x, t.y, t.z);
+  T.linear() = rotation.normalized().toRotationMatrix();
+  return T;
+}
+
+SensorPose::SensorPose(const tf2::BufferCore& tf,
+                       const std::string& base_frame,
+                       double timeout_s,
+                       const std::optional<Log>& log)
+    : tf_(tf), log_(log), base_frame_(base_frame), timeout_s_(timeout_s) {}
+
+std::optional<Eigen::Isometry3d> SensorPose::find(const std::string& frame,
+                                                  std::int64_t stamp_ns,
+                                                  const WaitFor& wait) {
+  if (frame != frame_) lookFor(frame);
+  if (fixed_) return T_base_sensor_;
+  std::optional<Eigen::Isometry3d> T_base_sensor;
+  try {
+    T_base_sensor = lookUp(toRosTime(stamp_ns), wait);
+  } catch (const std::exception& error) {
+    if (!T_base_sensor_ || moves_) {
+      onMissing(error.what());
+      return std::nullopt;
+    }
+    T_base_sensor = T_base_sensor_;
+  }
+  missing_.clear();
+  missing_since_.reset();
+  if (!T_base_sensor) return std::nullopt;
+  if (!T_base_sensor_) logPose(*T_base_sensor);
+  watchMovement(*T_base_sensor);
+  return T_base_sensor_ = T_base_sensor;
+}
+
+void SensorPose::refresh() {
+  if (!frame_.empty()) lookFor(frame_);
+  previous_frame_.clear();
+}
+
+void SensorPose::lookFor(const std::string& frame) {
+  previous_frame_ = std::exchange(frame_, frame);
+  T_base_sensor_.reset();
+  fixed_ = moves_ = false;
+  waits_ = true;
+  in_time_ = 0;
+  problem_.clear();
+}
+
+/// Nothing if it moves, and the transform does not come in time. Throws std::exception if tf has
+/// none.
+std::optional<Eigen::Isometry3d> SensorPose::lookUp(const ros::Time& stamp, const WaitFor& wait) {
+  if (frame_ == base_frame_) {
+    fixed_ = true;
+    return Eigen::Isometry3d::Identity();
+  }
+  geometry_msgs::TransformStamped newest = transformAt(ros::Time());
+  const Eigen::Isometry3d T_newest = toEigen(newest.transform);
+  fixed_ = newest.header.stamp.isZero();
+  if (fixed_) return T_newest;
+  watchMovement(T_newest);
+  const auto is_there = [&] { return tf_.canTransform(base_frame_, frame_, stamp); };
+  if (stamp > newest.header.stamp && (moves_ || waits_)) {
+    waits_ = wait(timeout_s_, is_there);
+    newest = transformAt(ros::Time());
+    watchMovement(toEigen(newest.transform));
+  }
+  if (is_there()) {
+    if (++in_time_ >= kInTime) problem_.clear();
+    return toEigen(transformAt(stamp).transform);
+  }
+  if (!moves_) return toEigen(newest.transform);
+  if (stamp <= newest.header.stamp) transformAt(stamp);  // throws: it is too old
+  in_time_ = 0;
+  problem_ = describeLate();
+  return std::nullopt;
+}
+
+geometry_msgs::TransformStamped SensorPose::transformAt(const ros::Time& stamp) const {
+  return tf_.lookupTransform(base_frame_, frame_, stamp);
+}
+
+void SensorPose::watchMovement(const Eigen::Isometry3d& T_base_sensor) {
+  if (!T_base_sensor_ || moves_) return;
+  const Eigen::Isometry3d motion = T_base_sensor_first_.inverse() * T_base_sensor;
+  moves_ = motion.translation().norm() > kRest_m ||
+           Eigen::AngleAxisd(motion.linear()).angle() > kRest_rad;
+  if (moves_ && log_) log_->info("camera " + frame_ + " moves on " + base_frame_);
+}
+
+/// The first one in a frame.
+void SensorPose::logPose(const Eigen::Isometry3d& T_base_sensor) {
+  T_base_sensor_first_ = T_base_sensor;
+  if (!log_) return;
+  std::string pose =
+      "camera " + frame_ + " in " + base_frame_ + ": " + describeCameraPose(T_base_sensor);
+  if (!fixed_) pose += "; each pair waits for its tf: if it is fixed, publish it on /tf_static";
+  if (previous_frame_.empty()) {
+    log_->info(pose);
+  } else if (change_warning_.pass()) {
+    log_->warn("the frame_id of the left images changed from " + previous_frame_ + " to " + frame_ +
+               "; if that is a fault of the driver, set camera_frame. Now " + pose);
+  }
+}
+
+void SensorPose::onMissing(const std::string& why) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!missing_since_) missing_since_ = now;
+  missing_ = "no tf from " + base_frame_ + " to " + frame_ + " (camera pose): " + why;
+  if (log_ && now - *missing_since_ > kPatience && warning_.pass()) {
+    log_->warn("waiting: " + missing_);
+  }
+}
+
+std::string SensorPose::describeLate() const {
+  const std::optional<double> rate = rate_hz();
+  const bool seldom = rate && *rate * timeout_s_ < 1.0;
+  return "tf from " + base_frame_ + " to " + frame_ + ", which moves, does not come within " +
+         "mount_timeout_s = " + toText(timeout_s_) + " s after the images" +
+         (rate ? ", but at " + fixedText(*rate, 1) + " Hz" : "") + ": publish it " +
+         (seldom ? "at the rate of the images" : "earlier") + ", or raise mount_timeout_s" +
+         (seldom ? " to " + hundredths(1.1 / *rate) : "");
+}
+
+/// Of the slowest transform on the way from the base to the sensor, while tf has it; none if that
+/// cannot be told.
+std::optional<double> SensorPose::rate_hz() const {
+  std::optional<double> slowest_hz;
+  try {
+    std::vector<std::string> frames;
+    tf_._chainAsVector(base_frame_, ros::Time(), frame_, ros::Time(), base_frame_, frames);
+    const YAML::Node tree = YAML::Load(tf_.allFramesAsYAML());
+    for (const std::string& frame : frames) {
+      if (!tree[frame]) continue;  // the root
+      const auto length_s = tree[frame]["buffer_length"].as<double>();
+      if (length_s <= 0.0) continue;  // static
+      const double hz = tree[frame]["rate"].as<double>() - 1.0 / length_s;
+      slowest_hz = std::min(hz, slowest_hz.value_or(hz));
+    }
+  } catch (const std::exception&) {
+    return std::nullopt;  // a name that YAML does not have
+  }
+  return slowest_hz;
+}
+
+std::string describeCameraPose(const Eigen::Isometry3d& T_base_camera) {
+  const Eigen::Vector3d position = T_base_camera.translation();
+  const Eigen::Vector3d view = T_base_camera.linear().col(2);
+  const Eigen::Vector3d image_up = -T_base_camera.linear().col(1);
+  std::ostringstream text;
+  text << std::setprecision(3) << "at " << position.x() << " " << position.y() << " "
+       << position.z() << " m, looks along " << nameDirection(view);
+  if (std::abs(view.z()) < std::cos(kUpright)) {
+    text << ", its image is " << (image_up.z() > std::cos(kUpright) ? "upright" : "not upright");
+  } else if (view.z() > 0.0) {
+    text << "; is its frame an optical frame, with z forward?";
+  }
+  return text.str();
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <geometry_msgs/TransformStamped.h>
+#include <ros/time.h>
+#include <tf2/buffer_core.h>
+#include <Eigen/Geometry>
+
+#include "input/log.h"
+#include "node/waiting.h"
+
+namespace rotrocc {
+
+/// Pose of a sensor on the robot, from tf.
+///
+/// A pose from /tf_static alone is fixed: it is looked up once, as a change would look like a
+/// motion of the sensor. Others are looked up at each stamp, and late transforms are waited for. If
+/// one does not come in time, a sensor that has not moved so far is assumed at rest, and no longer
+/// waited for until it moves; the pose of one that moves is unknown then.
+class SensorPose {
+ public:
+  /// Waits at most `timeout_s` for a transform at a stamp. Without a log, it is silent.
+  SensorPose(const tf2::BufferCore& tf,
+             const std::string& base_frame,
+             double timeout_s,
+             const std::optional<Log>& log = Log());
+
+  /// T_base_sensor at a stamp; nothing if tf has none, see missing(), or none in time, see
+  /// problem(). Logs the first pose, that it moves, a new frame and, after repeated calls, that tf
+  /// has none.
+  std::optional<Eigen::Isometry3d> find(const std::string& frame,
+                                        std::int64_t stamp_ns,
+                                        const WaitFor& wait);
+
+  /// The next find() looks up a fixed pose again, as after a new calibration.
+  void refresh();
+
+  /// The transform that tf does not have, in one sentence; empty if it does.
+  const std::string& missing() const { return missing_; }
+
+  /// That transforms of a sensor that moves recently did not come in time, in one sentence with the
+  /// rate of tf and a remedy; empty if they did.
+  const std::string& problem() const { return problem_; }
+
+ private:
+  void lookFor(const std::string& frame);
+  std::optional<Eigen::Isometry3d> lookUp(const ros::Time& stamp, const WaitFor& wait);
+  geometry_msgs::TransformStamped transformAt(const ros::Time& stamp) const;
+  void watchMovement(const Eigen::Isometry3d& T_base_sensor);
+  void logPose(const Eigen::Isometry3d& T_base_sensor);
+  void onMissing(const std::string& why);
+  std::string describeLate() const;
+  std::optional<double> rate_hz() const;
+
+  const tf2::BufferCore& tf_;
+  std::optional<Log> log_;
+  std::string base_frame_;
+  double timeout_s_;
+  std::string frame_;
+  std::string previous_frame_;  // empty until it changes
+  std::optional<Eigen::Isometry3d> T_base_sensor_;
+  Eigen::Isometry3d T_base_sensor_first_ = Eigen::Isometry3d::Identity();
+  bool fixed_ = false;
+  bool moves_ = false;
+  bool waits_ = true;  // unless it moves
+  int in_time_ = 0;    // transforms in a row
+  std::string problem_;
+  std::string missing_;
+  std::optional<std::chrono::steady_clock::time_point> missing_since_;
+  Throttle warning_;
+  Throttle change_warning_;
+};
+
+/// Throws std::invalid_argument with the value if a number is not finite, or the length of the
+/// quaternion differs from 1 by more than 1 %.
+Eigen::Isometry3d toEigen(const geometry_msgs::Transform& transform);
+
+/// "at 0 0 1.65 m, looks along +x (forward), its image is upright": for a user to check the pose of
+/// a camera.
+std::string describeCameraPose(const Eigen::Isometry3d& T_base_camera);
+
+}  // namespace rotrocc
