@@ -1,7 +1,6 @@
 #include "bags/recorded_pairs.h"
 
 #include <chrono>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -10,9 +9,6 @@
 
 namespace rotrocc {
 namespace {
-
-/// The clock is that of the recorder, which may have been another than that of the cameras.
-constexpr double kMaxFuture_s = std::numeric_limits<double>::infinity();
 
 NodeParameters withRectify(NodeParameters node,
                            bool rectify,
@@ -31,12 +27,9 @@ RecordedPairs::RecordedPairs(Recording& recording,
     : recording_(recording),
       calibration_(std::move(calibration)),
       rectifies_(calibration_ || (rectify == "auto" ? recording.isRaw() : rectify == "yes")),
-      intake_(
-          withRectify(node, rectifies_, calibration_.get()),
-          drops_,
-          [this](ReceivedPair pair) { received_.push_back(std::move(pair)); },
-          Log(),
-          kMaxFuture_s),
+      intake_(withRectify(node, rectifies_, calibration_.get()),
+              drops_,
+              [this](ReceivedPair pair) { received_.push_back(std::move(pair)); }),
       converter_(node.significant_bits, node.mask) {
   if (rectify != "auto" && rectify != "yes" && rectify != "no") {
     throw std::invalid_argument("--rectify is '" + rectify + "', not auto, yes or no");
@@ -100,9 +93,9 @@ bool RecordedPairs::readMessage() {
 
 void RecordedPairs::add(const RecordedMessage& message) {
   using Side = StereoIntake::Side;
-  const std::int64_t time_ns = toNanoseconds(message.time);
-  const Arrival arrival = {std::chrono::steady_clock::time_point(std::chrono::nanoseconds(time_ns)),
-                           time_ns};
+  // Not ROS time: the clock of the recorder may have been another one than that of the cameras.
+  const std::chrono::nanoseconds time(toNanoseconds(message.time));
+  const Arrival arrival = {std::chrono::steady_clock::time_point(time)};
   if (message.left_info) intake_.addInfo(Side::kLeft, message.left_info, arrival);
   if (message.right_info) intake_.addInfo(Side::kRight, message.right_info, arrival);
   if (message.left_image) intake_.addImage(Side::kLeft, message.left_image, arrival);

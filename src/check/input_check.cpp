@@ -8,6 +8,7 @@
 #include "common/median.h"
 #include "common/to_seconds.h"
 #include "input/camera_calibration.h"
+#include "input/camera_clock.h"
 #include "input/input_error.h"
 #include "input/message_conversion.h"
 #include "input/to_text.h"
@@ -27,19 +28,10 @@ constexpr double kFixApart = 0.25;
 constexpr double kAcceptableAge_s = 0.3;
 constexpr double kFixAge_s = 1.0;
 
-double periodOf(const std::vector<std::int64_t>& stamps_ns) {
-  std::vector<double> intervals_s;
-  for (std::size_t i = 1; i < stamps_ns.size(); ++i) {
-    intervals_s.push_back(toSeconds(stamps_ns[i] - stamps_ns[i - 1]));
-  }
-  return intervals_s.empty() ? 0.0 : median(intervals_s);
-}
-
-template <class Key, class ToText>
-std::string listOf(const std::map<Key, int>& counts, const ToText& to_text) {
+std::string listOf(const std::map<std::string, int>& counts) {
   std::string text;
-  for (const auto& [key, count] : counts) {
-    text += (text.empty() ? "" : ", ") + to_text(key) +
+  for (const auto& [name, count] : counts) {
+    text += (text.empty() ? "" : ", ") + name +
             (counts.size() > 1 ? " (" + std::to_string(count) + ")" : "");
   }
   return text;
@@ -53,10 +45,11 @@ void InputCheck::observe(const RecordedMessage& message) {
 }
 
 void InputCheck::add(const sensor_msgs::Image& image, const ros::Time& time, Stream& stream) {
-  stream.stamps_ns.push_back(toNanoseconds(image.header.stamp));
-  stream.ages_s.push_back(toSeconds(toNanoseconds(time) - stream.stamps_ns.back()));
+  const std::int64_t stamp_ns = toNanoseconds(image.header.stamp);
+  stream.stamps_ns.push_back(stamp_ns);
+  stream.ages_s[stamp_ns] = toSeconds(toNanoseconds(time) - stamp_ns);
   ++stream.encodings[image.encoding];
-  ++stream.sizes[{static_cast<int>(image.width), static_cast<int>(image.height)}];
+  ++stream.sizes[sizeText(image.width, image.height)];
 }
 
 void InputCheck::report(const StereoCamera& camera,
@@ -94,18 +87,13 @@ void InputCheck::addCamera(const StereoCamera& camera, bool rectifies, RigReport
 }
 
 void InputCheck::addFormats(RigReport& report) const {
-  const auto size_text = [](const std::pair<int, int>& size) {
-    return sizeText(size.first, size.second);
-  };
-  const auto name = [](const std::string& encoding) { return encoding; };
   if (left_.sizes.empty() || right_.sizes.empty()) return;
   const bool differs =
       left_.encodings != right_.encodings || left_.sizes.size() > 1 || left_.encodings.size() > 1;
   report.findings.push_back({"inputs",
                              "images",
-                             listOf(left_.encodings, name) + " left, " +
-                                 listOf(right_.encodings, name) + " right; " +
-                                 listOf(left_.sizes, size_text),
+                             listOf(left_.encodings) + " left, " + listOf(right_.encodings) +
+                                 " right; " + listOf(left_.sizes),
                              "images of different formats are of different cameras or settings",
                              differs ? "give both cameras the same settings" : "",
                              differs ? Verdict::kAcceptable : Verdict::kGood,
@@ -114,9 +102,10 @@ void InputCheck::addFormats(RigReport& report) const {
 
 void InputCheck::addRates(RigReport& report) const {
   for (const bool right : {false, true}) {
-    const std::vector<std::int64_t>& stamps_ns = (right ? right_ : left_).stamps_ns;
-    const double period_s = periodOf(stamps_ns);
-    if (!(period_s > 0.0)) continue;
+    const Stamps& stamps_ns = (right ? right_ : left_).stamps_ns;
+    const auto period_ns = periodOf(stamps_ns);
+    if (!period_ns) continue;
+    const double period_s = toSeconds(*period_ns);
     double missing = 0.0;
     int gaps = 0;
     int duplicates = 0;
@@ -145,35 +134,31 @@ void InputCheck::addRates(RigReport& report) const {
   }
 }
 
-/// By each left image and the nearest right one.
 void InputCheck::addStamps(RigReport& report) const {
-  const double period_s = periodOf(left_.stamps_ns);
-  if (!(period_s > 0.0) || right_.stamps_ns.empty()) return;
-  std::vector<std::int64_t> right_ns = right_.stamps_ns;
+  Stamps left_ns = left_.stamps_ns;
+  Stamps right_ns = right_.stamps_ns;
+  std::sort(left_ns.begin(), left_ns.end());
   std::sort(right_ns.begin(), right_ns.end());
-  ReportTable table = {"stamps", {"time_s", "left_minus_right_ms", "age_ms", "interval_ms"}, {}};
-  std::vector<double> apart_s;
-  std::vector<double> ages_s = left_.ages_s;
+  const auto period_ns = periodOf(left_ns);
+  const auto matches = matchStamps(left_ns, right_ns, std::numeric_limits<std::int64_t>::max());
+  if (!period_ns || matches.empty()) return;
+  std::vector<double> ages_s;
+  for (const auto& [stamp_ns, age_s] : left_.ages_s) ages_s.push_back(age_s);
   const double age_s = median(ages_s);
-  constexpr double kOtherClock_s = 3600.0;
   // Not in folders of images, nor with another clock than that of the recorder.
   const bool has_ages = age_s != 0.0 && std::abs(age_s) < kOtherClock_s;
-  for (std::size_t i = 0; i < left_.stamps_ns.size(); ++i) {
-    const std::int64_t left_ns = left_.stamps_ns[i];
-    const auto next = std::lower_bound(right_ns.begin(), right_ns.end(), left_ns);
-    std::int64_t nearest_ns = next == right_ns.end() ? right_ns.back() : *next;
-    if (next != right_ns.begin() && left_ns - *(next - 1) < std::abs(nearest_ns - left_ns)) {
-      nearest_ns = *(next - 1);
-    }
-    apart_s.push_back(toSeconds(left_ns - nearest_ns));
-    table.rows.push_back({toSeconds(left_ns - left_.stamps_ns.front()),
+  ReportTable table = {"stamps", {"time_s", "left_minus_right_ms", "age_ms", "interval_ms"}, {}};
+  std::vector<double> apart_s;
+  for (const auto& [i, j] : matches) {
+    apart_s.push_back(toSeconds(left_ns[i] - right_ns[j]));
+    table.rows.push_back({toSeconds(left_ns[i] - left_ns.front()),
                           1e3 * apart_s.back(),
-                          has_ages ? 1e3 * left_.ages_s[i] : kUnknown,
-                          i > 0 ? 1e3 * toSeconds(left_ns - left_.stamps_ns[i - 1]) : kUnknown});
+                          has_ages ? 1e3 * left_.ages_s.at(left_ns[i]) : kUnknown,
+                          i > 0 ? 1e3 * toSeconds(left_ns[i] - left_ns[i - 1]) : kUnknown});
   }
   report.tables.push_back(std::move(table));
-  double largest_s = 0.0;
-  for (const double value_s : apart_s) largest_s = std::max(largest_s, std::abs(value_s));
+  const auto [least, most] = std::minmax_element(apart_s.begin(), apart_s.end());
+  const double largest_s = std::max(std::abs(*least), std::abs(*most));
   const double typical_s = median(apart_s);
   report.add(
       {"inputs",
@@ -181,16 +166,16 @@ void InputCheck::addStamps(RigReport& report) const {
        fixedText(1e3 * typical_s, 2) + " ms, at most " + fixedText(1e3 * largest_s, 2) + " ms",
        "images of different times are no pair: what moves has wrong depths",
        "trigger both cameras by one signal, and take its time for both stamps"},
-      {typical_s / period_s, 0.0, kAcceptableApart, kFixApart});
+      {typical_s / toSeconds(*period_ns), 0.0, kAcceptableApart, kFixApart});
   if (!has_ages) return;
   report.add(
       {"inputs",
        "arrival after the stamp",
        fixedText(1e3 * age_s, 0) + " ms",
        "odometry comes so much later, and tf with it",
-       age_s > 0.0 ? "synchronise the clocks of camera and computer, and look for what delays "
+       age_s > 0.0 ? "synchronize the clocks of camera and computer, and look for what delays "
                      "the images"
-                   : "stamps are of the future: synchronise the clocks of camera and computer"},
+                   : "stamps are of the future: synchronize the clocks of camera and computer"},
       {age_s, 0.0, kAcceptableAge_s, kFixAge_s});
 }
 

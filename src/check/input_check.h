@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <vector>
 
 #include "bags/recording.h"
 #include "check/rig_report.h"
+#include "input/stamps.h"
 #include "rotrocc/stereo_camera.h"
 
 namespace rotrocc {
@@ -27,10 +27,9 @@ class InputCheck {
  private:
   /// Messages of one side.
   struct Stream {
-    std::vector<std::int64_t> stamps_ns;
-    std::vector<double> ages_s;
-    std::map<std::string, int> encodings;
-    std::map<std::pair<int, int>, int> sizes;
+    Stamps stamps_ns;
+    std::map<std::int64_t, double> ages_s;  // by stamp
+    std::map<std::string, int> encodings, sizes;
   };
 
   static void add(const sensor_msgs::Image& image, const ros::Time& time, Stream& stream);

@@ -1,14 +1,12 @@
 #include "input/drop_log.h"
 
-#include <numeric>
-
 #include "input/to_text.h"
 
 namespace rotrocc {
 
 void DropLog::add(const InputError& error) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  ++countOf(error.reason());
+  ++counts_[error.reason()];
   log(error);
   last_ = error;
   last_time_ = std::chrono::steady_clock::now();
@@ -23,31 +21,28 @@ void DropLog::log(const InputError& error) {
   }
   if (!throttles_[error.reason()].pass()) return;
   log_.warn(std::string("dropped (") + toString(error.reason()) + ", " +
-            toText(countOf(error.reason())) + " so far): " + error.what());
+            toText(counts_[error.reason()]) + " so far): " + error.what());
 }
 
 void DropLog::count(DropReason reason, std::uint64_t count) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  countOf(reason) += count;
+  counts_[reason] += count;
 }
 
 void DropLog::set(DropReason reason, std::uint64_t count) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  countOf(reason) = count;
+  if (count > 0) counts_[reason] = count;
 }
 
 std::uint64_t DropLog::total() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0});
+  std::uint64_t total = 0;
+  for (const auto& [reason, count] : counts()) total += count;
+  return total;
 }
 
 DropLog::Counts DropLog::counts() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  Counts counts;
-  for (std::size_t i = 0; i < counts_.size(); ++i) {
-    if (counts_[i] > 0) counts.emplace_back(static_cast<DropReason>(i), counts_[i]);
-  }
-  return counts;
+  return counts_;
 }
 
 std::optional<InputError> DropLog::lastWithin(std::chrono::duration<double> age) const {

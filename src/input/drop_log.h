@@ -1,15 +1,12 @@
 #pragma once
 
-#include <array>
 #include <chrono>
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "input/input_error.h"
 #include "input/log.h"
@@ -20,7 +17,7 @@ namespace rotrocc {
 /// an invalid camera_info once until there is a valid one. Thread-safe.
 class DropLog {
  public:
-  using Counts = std::vector<std::pair<DropReason, std::uint64_t>>;
+  using Counts = std::map<DropReason, std::uint64_t>;
 
   explicit DropLog(Log log = Log()) : log_(std::move(log)) {}
 
@@ -33,7 +30,7 @@ class DropLog {
   /// All drops.
   std::uint64_t total() const;
 
-  /// The reasons that have occurred, in the order of DropReason.
+  /// Of the reasons that have occurred.
   Counts counts() const;
 
   /// The last drop, if it is not older than `age`.
@@ -43,12 +40,11 @@ class DropLog {
   void forgetCameraError();
 
  private:
-  std::uint64_t& countOf(DropReason reason) { return counts_[static_cast<std::size_t>(reason)]; }
   void log(const InputError& error);
 
   Log log_;
   mutable std::mutex mutex_;
-  std::array<std::uint64_t, static_cast<std::size_t>(DropReason::kCount)> counts_{};
+  Counts counts_;
   std::map<DropReason, Throttle> throttles_;
   Throttle camera_throttle_{std::chrono::seconds(1)};
   std::string camera_error_;

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+
+#include "input/stamps.h"
 
 namespace rotrocc {
 
@@ -14,8 +17,7 @@ struct TopicReport {
   std::size_t recent = 0;  ///< messages within TopicStatistics::kWindow
   std::uint64_t total = 0;
   double rate_hz = 0.0;
-  std::optional<double> silent_s =
-      std::nullopt;  ///< since the last message; none if there was none
+  std::optional<double> silent_s = {};  ///< since the last message; none if there was none
 };
 
 /// Recent input, and what prevents pairs.
@@ -30,33 +32,37 @@ struct InputReport {
     std::size_t left = 0, right = 0, pairs = 0;
   } unmatched;
 
-  std::optional<double> stamp_difference_s;  ///< largest; none while a side is missing
-  double max_stamp_difference_s = 0.0;       ///< the parameter
-  double tolerance_s = 0.0;                  ///< that in force: at most half a period
-  std::optional<double> period_s;            ///< of the images
-  std::optional<double> median_skew_s;       ///< see medianSkew()
-  std::optional<double> skew_of_a_period_s;  ///< see skewOfAPeriod()
-  std::optional<double> stamp_age_s;         ///< of left images, see StampGuard::age_s()
-  bool clock_missing = false;                ///< simulated time without /clock
-  bool clock_stands = false;                 ///< simulated time stands still
-  std::string refused;                       ///< why recent input was dropped; empty if none
-  std::string camera_error;                  ///< why camera_info is invalid or not of the images
-  bool waits_for_info = false;               ///< a pair waits for camera_info
+  std::optional<StampSkew> skew;        ///< none while a side is missing
+  double max_stamp_difference_s = 0.0;  ///< the parameter
+  double tolerance_s = 0.0;             ///< that in force: at most half a period
+  std::optional<double> period_s;       ///< of the images
+  std::optional<double> stamp_age_s;    ///< of left images, see CameraClock::age_s()
+  double stamp_scatter_s = 0.0;         ///< of left images, see CameraClock
+  double arrival_scatter_s = 0.0;       ///< of left images, see CameraClock
+  bool clock_missing = false;           ///< simulated time without /clock
+  bool clock_stands = false;            ///< simulated time stands still
+  std::string refused;                  ///< why recent input was dropped; empty if none
+  std::string camera_error;             ///< why camera_info is invalid or not of the images
+  bool waits_for_info = false;          ///< a pair waits for camera_info
+
+  std::array<const TopicReport*, 4> topics() const {
+    return {&left_image, &right_image, &left_info, &right_info};
+  }
 };
 
 /// "left/image_rect 50 (10.0 Hz), right/image_rect 0, ..."
 std::string describeTopics(const InputReport& report);
 
-/// The most likely reason for missing pairs, and a remedy, in one sentence. Empty if the input is
+/// The most likely reason for missing pairs, and a remedy, in one sentence; none if the input is
 /// fine.
-std::string whyNoPairs(const InputReport& report);
+std::optional<std::string> whyNoPairs(const InputReport& report);
 
-/// Which image topic has gone silent, in one sentence; empty if none.
-std::string whySilent(const InputReport& report);
+/// Which image topic has gone silent, in one sentence; none if both send.
+std::optional<std::string> whySilent(const InputReport& report);
 
 /// What is wrong with pairs that arrive: lost images, a skew that makes pairs of different times,
-/// or stamps that are old or ahead of the clock. One sentence with a remedy; empty if nothing is.
-std::string faultOfPairs(const InputReport& report);
+/// or stamps that are old or ahead of the clock. One sentence with a remedy; none if nothing is.
+std::optional<std::string> faultOfPairs(const InputReport& report);
 
 /// Whether stamps and clock have nothing to do with each other, as in a replay without /clock.
 bool isOfAnotherClock(const InputReport& report);

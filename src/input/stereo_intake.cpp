@@ -5,7 +5,6 @@
 
 #include "common/to_seconds.h"
 #include "input/message_conversion.h"
-#include "input/stamp_series.h"
 #include "input/to_text.h"
 
 namespace rotrocc {
@@ -40,14 +39,11 @@ TopicReport reportOf(const TopicStatistics& statistics, TopicStatistics::Time no
 StereoIntake::StereoIntake(const NodeParameters& parameters,
                            DropLog& drops,
                            PairHandler on_pair,
-                           Log log,
-                           double max_future_s)
+                           Log log)
     : parameters_(parameters),
       drops_(drops),
       on_pair_(std::move(on_pair)),
       log_(std::move(log)),
-      left_("the left image", max_future_s),
-      right_("the right image", max_future_s),
       synchronizer_(parameters.max_stamp_difference_s,
                     static_cast<std::size_t>(parameters.queue_size)),
       current_calibration_(parameters.baseline_m) {}
@@ -55,13 +51,12 @@ StereoIntake::StereoIntake(const NodeParameters& parameters,
 void StereoIntake::addImage(Side side,
                             const sensor_msgs::Image::ConstPtr& image,
                             const Arrival& arrival) {
-  Stream& stream = side == Side::kLeft ? left_ : right_;
-  const std::int64_t stamp_ns = toNanoseconds(image->header.stamp);
-  stream.statistics.add(arrival.time);
+  stream(side).image_statistics.add(arrival.time);
   try {
-    const StampGuard::Verdict verdict = stream.guard.check(stamp_ns, arrival.clock_ns);
+    const std::int64_t stamp_ns = toNanoseconds(image->header.stamp);
+    const CameraClock::Verdict verdict = synchronizer_.clock(side).judge(stamp_ns, arrival);
     if (verdict.glitch) drop(side, *verdict.glitch);
-    const auto held = std::exchange(stream.held, verdict.held ? image : nullptr);
+    const auto held = std::exchange(stream(side).held, verdict.held ? image : nullptr);
     if (verdict.held_is_valid) match(side, held, arrival);
     if (!verdict.held) match(side, image, arrival);
   } catch (const InputError& error) {
@@ -77,13 +72,9 @@ void StereoIntake::drop(Side side, const InputError& error) {
 void StereoIntake::match(Side side,
                          const sensor_msgs::Image::ConstPtr& image,
                          const Arrival& arrival) {
-  const auto images = synchronizer_.add(side, image, arrival.time);
+  const auto images = synchronizer_.add(side, image, arrival);
   drops_.set(DropReason::kNoPartner, synchronizer_.unmatched());
   drops_.set(DropReason::kPartnerDropped, synchronizer_.excused());
-  for (const Side each : {Side::kLeft, Side::kRight}) {
-    TopicStatistics& unmatched = (each == Side::kLeft ? left_ : right_).unmatched;
-    while (unmatched.total() < synchronizer_.unmatched(each)) unmatched.add(arrival.time);
-  }
   if (!images) return;
   pairs_.add(arrival.time);
   if (waiting_) drops_.count(DropReason::kCameraInfoMissing);
@@ -94,9 +85,8 @@ void StereoIntake::match(Side side,
 }
 
 void StereoIntake::addInfo(Side side, const Info& info, const Arrival& arrival) {
-  const bool left = side == Side::kLeft;
-  (left ? left_info_statistics_ : right_info_statistics_).add(arrival.time);
-  Infos& infos = left ? left_infos_ : right_infos_;
+  stream(side).info_statistics.add(arrival.time);
+  std::deque<Info>& infos = stream(side).infos;
   infos.push_back(info);
   if (infos.size() > kInfos) infos.pop_front();
   useNewestInfos();
@@ -104,11 +94,11 @@ void StereoIntake::addInfo(Side side, const Info& info, const Arrival& arrival) 
 }
 
 void StereoIntake::useNewestInfos() {
-  if (left_infos_.empty() || right_infos_.empty()) return;
-  for (auto left = left_infos_.rbegin(); left != left_infos_.rend(); ++left) {
-    if (const Info right = infoAt((*left)->header.stamp, right_infos_)) return use(*left, right);
+  if (left_.infos.empty() || right_.infos.empty()) return;
+  for (auto left = left_.infos.rbegin(); left != left_.infos.rend(); ++left) {
+    if (const Info right = infoAt((*left)->header.stamp, right_.infos)) return use(*left, right);
   }
-  use(left_infos_.back(), right_infos_.back());
+  use(left_.infos.back(), right_.infos.back());
 }
 
 /// Without a camera if they are invalid.
@@ -130,13 +120,9 @@ void StereoIntake::use(const Info& left, const Info& right) {
 
 void StereoIntake::handOver() {
   if (!waiting_) return;
-  const Info left = infoAt(waiting_->images.left->header.stamp, left_infos_);
-  const Info right = infoAt(waiting_->images.right->header.stamp, right_infos_);
-  if (left != nullptr && right != nullptr) {
-    use(left, right);
-  } else {
-    useNewestInfos();
-  }
+  const Info left = infoAt(waiting_->images.left->header.stamp, left_.infos);
+  const Info right = infoAt(waiting_->images.right->header.stamp, right_.infos);
+  left&& right ? use(left, right) : useNewestInfos();
   if (!camera_) return;
   tell(*camera_);
   waiting_->camera = *camera_;
@@ -160,19 +146,20 @@ void StereoIntake::tell(const StereoCamera& camera) {
 
 InputReport StereoIntake::report(std::chrono::steady_clock::time_point now) const {
   InputReport report;
-  report.left_image = reportOf(left_.statistics, now);
-  report.right_image = reportOf(right_.statistics, now);
-  report.left_info = reportOf(left_info_statistics_, now);
-  report.right_info = reportOf(right_info_statistics_, now);
+  report.left_image = reportOf(left_.image_statistics, now);
+  report.right_image = reportOf(right_.image_statistics, now);
+  report.left_info = reportOf(left_.info_statistics, now);
+  report.right_info = reportOf(right_.info_statistics, now);
   report.recent_pairs = pairs_.recent(now);
   report.pairs_silent_s = pairs_.silent_s(now);
   addStamps(report);
-  if (left_.statistics.total() > 0 && right_.statistics.total() > 0) {
+  if (left_.image_statistics.total() > 0 && right_.image_statistics.total() > 0) {
     const auto begin = std::max({now - TopicStatistics::kWindow,
-                                 left_.statistics.startOfRun(),
-                                 right_.statistics.startOfRun()});
-    report.unmatched = {
-        left_.unmatched.since(begin), right_.unmatched.since(begin), pairs_.since(begin)};
+                                 left_.image_statistics.startOfRun(),
+                                 right_.image_statistics.startOfRun()});
+    report.unmatched = {synchronizer_.unmatched(Side::kLeft).since(begin),
+                        synchronizer_.unmatched(Side::kRight).since(begin),
+                        pairs_.since(begin)};
   }
   report.camera_error = camera_error_;
   if (const auto refused = drops_.lastWithin(TopicStatistics::kWindow)) {
@@ -184,17 +171,16 @@ InputReport StereoIntake::report(std::chrono::steady_clock::time_point now) cons
 }
 
 void StereoIntake::addStamps(InputReport& report) const {
-  const StampSeries& left = synchronizer_.leftStamps();
-  const StampSeries& right = synchronizer_.rightStamps();
-  if (const auto period_ns = commonPeriod_ns(left, right)) {
-    report.period_s = toSeconds(*period_ns);
-  }
-  report.stamp_difference_s = greatestStampDifference(left, right);
+  const CameraClock& left = synchronizer_.clock(Side::kLeft);
+  const CameraClock& right = synchronizer_.clock(Side::kRight);
+  const auto period_ns = synchronizer_.period_ns();
+  if (period_ns) report.period_s = toSeconds(*period_ns);
+  report.skew = skewOf(left.stamps_ns(), right.stamps_ns(), period_ns);
   report.max_stamp_difference_s = parameters_.max_stamp_difference_s;
-  report.stamp_age_s = left_.guard.age_s();
-  report.tolerance_s = synchronizer_.tolerance_s();
-  report.median_skew_s = medianSkew(left, right);
-  report.skew_of_a_period_s = skewOfAPeriod(left, right);
+  report.tolerance_s = toSeconds(synchronizer_.tolerance_ns());
+  report.stamp_age_s = left.age_s();
+  report.stamp_scatter_s = left.stampScatter_s();
+  report.arrival_scatter_s = left.arrivalScatter_s();
 }
 
 }  // namespace rotrocc

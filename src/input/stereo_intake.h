@@ -15,7 +15,6 @@
 #include "input/drop_log.h"
 #include "input/input_report.h"
 #include "input/log.h"
-#include "input/stamp_guard.h"
 #include "input/stereo_synchronizer.h"
 #include "input/topic_statistics.h"
 #include "rotrocc/parameters.h"
@@ -33,14 +32,8 @@ struct ReceivedPair {
   std::shared_ptr<const StereoCalibration> calibration;  ///< of raw images; null: rectified ones
 };
 
-/// Arrival of a message: by the steady clock, and in ROS time (0 if unknown).
-struct Arrival {
-  std::chrono::steady_clock::time_point time;
-  std::int64_t clock_ns = 0;
-};
-
 /// Matches the messages of four topics to pairs, and keeps statistics. An image with a doubtful
-/// stamp waits for the next one of its side, see StampGuard. A pair gets the camera of the infos
+/// stamp waits for the next one of its side, see CameraClock. A pair gets the camera of the infos
 /// with its stamps if these are there, or else that of the newest ones: of the newest stamp that
 /// both sides have, if any. Independent of ROS communication; not thread-safe.
 class StereoIntake {
@@ -49,17 +42,12 @@ class StereoIntake {
 
   using Side = StereoSynchronizer::Side;
 
-  /// Clocks of machines that were synchronized once differ by less.
-  static constexpr double kMaxFuture_s = 10.0;
-
   /// Passes each pair to `on_pair` as soon as it is complete. The latest one waits while there is
-  /// no valid camera_info. Stamps more than `max_future_s` ahead of the clock are dropped. `drops`
-  /// must outlive this.
+  /// no valid camera_info. `drops` must outlive this.
   StereoIntake(const NodeParameters& parameters,
                DropLog& drops,
                PairHandler on_pair,
-               Log log = Log(),
-               double max_future_s = kMaxFuture_s);
+               Log log = Log());
 
   /// These do not throw: invalid input goes to the drop log.
   void addImage(Side side, const sensor_msgs::Image::ConstPtr& image, const Arrival& arrival);
@@ -69,19 +57,16 @@ class StereoIntake {
   InputReport report(std::chrono::steady_clock::time_point now) const;
 
  private:
-  /// Images of one side.
-  struct Stream {
-    Stream(const std::string& name, double max_future_s) : guard(name, max_future_s) {}
+  using Info = sensor_msgs::CameraInfo::ConstPtr;
 
-    StampGuard guard;
+  /// Messages of one side.
+  struct Stream {
     sensor_msgs::Image::ConstPtr held;
-    TopicStatistics statistics;
-    TopicStatistics unmatched;  // without a partner, though none was dropped
+    std::deque<Info> infos;  // the last ones
+    TopicStatistics image_statistics, info_statistics;
   };
 
-  using Info = sensor_msgs::CameraInfo::ConstPtr;
-  using Infos = std::deque<Info>;
-
+  Stream& stream(Side side) { return side == Side::kLeft ? left_ : right_; }
   void drop(Side side, const InputError& error);
   void match(Side side, const sensor_msgs::Image::ConstPtr& image, const Arrival& arrival);
   void useNewestInfos();
@@ -99,15 +84,13 @@ class StereoIntake {
   StereoSynchronizer synchronizer_;
   std::optional<ReceivedPair> waiting_;
 
-  Infos left_infos_, right_infos_;  // the last ones
-  Info left_info_, right_info_;     // that camera and calibration are from
+  Info left_info_, right_info_;  // that camera and calibration are from
   std::optional<StereoCamera> camera_;
   StereoCamera told_camera_;  // by the log
   CurrentCalibration current_calibration_;
   std::shared_ptr<const StereoCalibration> calibration_;  // null if the images are rectified
   std::string camera_error_;
-
-  TopicStatistics left_info_statistics_, right_info_statistics_, pairs_;
+  TopicStatistics pairs_;
 };
 
 }  // namespace rotrocc

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "common/to_seconds.h"
 #include "input/message_conversion.h"
 
 namespace rotrocc {
@@ -13,11 +12,6 @@ namespace {
 /// Less than the period of usual cameras.
 constexpr std::int64_t kUnknownTolerance_ns = 10'000'000;
 
-/// Whether `stamp_ns` is nearer to `a_ns` than to `b_ns`.
-bool isNearer(const std::optional<std::int64_t>& stamp_ns, std::int64_t a_ns, std::int64_t b_ns) {
-  return stamp_ns && std::abs(*stamp_ns - a_ns) < std::abs(*stamp_ns - b_ns);
-}
-
 }  // namespace
 
 StereoSynchronizer::StereoSynchronizer(double max_difference_s, std::size_t queue_size)
@@ -25,32 +19,31 @@ StereoSynchronizer::StereoSynchronizer(double max_difference_s, std::size_t queu
 
 std::optional<StereoImages> StereoSynchronizer::add(Side side,
                                                     const sensor_msgs::Image::ConstPtr& image,
-                                                    Time arrival) {
-  Images& own = side == Side::kLeft ? left_ : right_;
-  Images& other = side == Side::kLeft ? right_ : left_;
+                                                    const Arrival& arrival) {
+  Camera& own = camera(side);
+  Camera& other = &own == &left_ ? right_ : left_;
   const std::int64_t stamp_ns = toNanoseconds(image->header.stamp);
-  if (own.last_stamp_ns == stamp_ns) {
+  now_ = arrival.time;
+  const std::int64_t last_ns = own.clock.lastStamp_ns().value_or(-1);
+  if (stamp_ns == last_ns) {
     drop(own);
     return std::nullopt;
   }
-  if (own.last_stamp_ns && stamp_ns < *own.last_stamp_ns) {
+  if (stamp_ns < last_ns) {
     // Time jumped back. Images of the other side from after the jump are kept.
-    if (!isNearer(other.last_stamp_ns, stamp_ns, *own.last_stamp_ns)) {
+    const auto other_ns = other.clock.lastStamp_ns();
+    if (!other_ns || std::abs(*other_ns - stamp_ns) >= std::abs(*other_ns - last_ns)) {
       dropLaterThan(stamp_ns + max_difference_ns_, other);
     }
     dropLaterThan(stamp_ns, own);
   }
-  own.last_stamp_ns = stamp_ns;
-
-  own.series.add(stamp_ns);
-  own.waiting.push_back({stamp_ns, image, arrival});
-  if (const auto match = findMatch(own, other)) {
-    dropEarlierThan(match->own.stamp_ns, own);
-    dropEarlierThan(match->other.stamp_ns, other);
-    own.waiting.pop_front();
-    other.waiting.pop_front();
-    const Waiting& left = side == Side::kLeft ? match->own : match->other;
-    const Waiting& right = side == Side::kLeft ? match->other : match->own;
+  own.clock.add(stamp_ns, arrival);
+  own.waiting.push_back({stamp_ns, image, arrival.time});
+  // Not only the new image may have a partner: it may have told the period.
+  const auto matches = matchStamps(stampsOf(left_), stampsOf(right_), tolerance_ns());
+  if (!matches.empty()) {
+    const Waiting left = take(matches.back().first, left_);
+    const Waiting right = take(matches.back().second, right_);
     return StereoImages{left.image, right.image, std::min(left.arrival, right.arrival)};
   }
   if (own.waiting.size() > queue_size_) {
@@ -60,30 +53,20 @@ std::optional<StereoImages> StereoSynchronizer::add(Side side,
   return std::nullopt;
 }
 
-/// The partner of the new image; without one, that of an earlier image, because the new one may
-/// have told the period.
-std::optional<StereoSynchronizer::Match> StereoSynchronizer::findMatch(const Images& own,
-                                                                       const Images& other) const {
-  const std::int64_t tolerance = tolerance_ns();
-  for (auto image = own.waiting.rbegin(); image != own.waiting.rend(); ++image) {
-    const auto nearest = std::min_element(
-        other.waiting.begin(), other.waiting.end(), [&](const Waiting& a, const Waiting& b) {
-          return std::abs(a.stamp_ns - image->stamp_ns) < std::abs(b.stamp_ns - image->stamp_ns);
-        });
-    if (nearest == other.waiting.end()) return std::nullopt;
-    if (std::abs(nearest->stamp_ns - image->stamp_ns) <= tolerance) return Match{*image, *nearest};
-  }
-  return std::nullopt;
+std::int64_t StereoSynchronizer::tolerance_ns() const {
+  const auto period = period_ns();
+  return std::min(max_difference_ns_, period ? *period / 2 : kUnknownTolerance_ns);
 }
 
-std::int64_t StereoSynchronizer::tolerance_ns() const {
-  const auto period_ns = commonPeriod_ns(left_.series, right_.series);
-  return std::min(max_difference_ns_, period_ns ? *period_ns / 2 : kUnknownTolerance_ns);
+std::optional<std::int64_t> StereoSynchronizer::period_ns() const {
+  const auto left_ns = left_.clock.period_ns();
+  const auto right_ns = right_.clock.period_ns();
+  return left_ns && right_ns ? std::min(left_ns, right_ns) : std::max(left_ns, right_ns);
 }
 
 void StereoSynchronizer::excusePartner(Side side) {
-  Images& own = side == Side::kLeft ? left_ : right_;
-  Images& other = side == Side::kLeft ? right_ : left_;
+  Camera& own = camera(side);
+  Camera& other = &own == &left_ ? right_ : left_;
   if (own.excused > 0) {  // both are dropped
     --own.excused;
   } else {
@@ -91,26 +74,33 @@ void StereoSynchronizer::excusePartner(Side side) {
   }
 }
 
-void StereoSynchronizer::drop(Images& images) {
-  if (images.excused > 0) {
-    --images.excused;
-    ++excused_;
-  } else {
-    ++unmatched_[&images == &right_];
-  }
+Stamps StereoSynchronizer::stampsOf(const Camera& camera) {
+  Stamps stamps_ns;
+  for (const Waiting& image : camera.waiting) stamps_ns.push_back(image.stamp_ns);
+  return stamps_ns;
 }
 
-void StereoSynchronizer::dropEarlierThan(std::int64_t stamp_ns, Images& images) {
-  while (!images.waiting.empty() && images.waiting.front().stamp_ns < stamp_ns) {
-    images.waiting.pop_front();
-    drop(images);
+/// Removes a waiting image. Those before it have no partner.
+StereoSynchronizer::Waiting StereoSynchronizer::take(std::size_t index, Camera& camera) {
+  for (; index > 0; --index) {
+    camera.waiting.pop_front();
+    drop(camera);
   }
+  const Waiting taken = camera.waiting.front();
+  camera.waiting.pop_front();
+  return taken;
 }
 
-void StereoSynchronizer::dropLaterThan(std::int64_t stamp_ns, Images& images) {
-  while (!images.waiting.empty() && images.waiting.back().stamp_ns > stamp_ns) {
-    images.waiting.pop_back();
-    drop(images);
+void StereoSynchronizer::drop(Camera& camera) {
+  if (camera.excused == 0) return camera.unmatched.add(now_);
+  --camera.excused;
+  ++excused_;
+}
+
+void StereoSynchronizer::dropLaterThan(std::int64_t stamp_ns, Camera& camera) {
+  while (!camera.waiting.empty() && camera.waiting.back().stamp_ns > stamp_ns) {
+    camera.waiting.pop_back();
+    drop(camera);
   }
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -9,8 +8,8 @@
 
 #include <sensor_msgs/Image.h>
 
-#include "common/to_seconds.h"
-#include "input/stamp_series.h"
+#include "input/camera_clock.h"
+#include "input/topic_statistics.h"
 
 namespace rotrocc {
 
@@ -25,7 +24,7 @@ struct StereoImages {
 /// image.
 ///
 /// Images whose stamps differ by more than half the period of the images are never a pair: after a
-/// lost image, each would get the partner of its neighbour. While no period is known, and their
+/// lost image, each would get the partner of its neighbor. While no period is known, and their
 /// stamps are apart, the first two images wait for the next one.
 ///
 /// Either side may be late, and stamps may jump back, e.g. with a looping bag: images from before
@@ -36,8 +35,6 @@ class StereoSynchronizer {
   /// the nearest is used. Each side keeps the latest `queue_size` > 0 unmatched images.
   StereoSynchronizer(double max_difference_s, std::size_t queue_size);
 
-  using Time = std::chrono::steady_clock::time_point;
-
   /// One of the two cameras.
   enum class Side { kLeft, kRight };
 
@@ -45,55 +42,51 @@ class StereoSynchronizer {
   /// its side is ignored.
   std::optional<StereoImages> add(Side side,
                                   const sensor_msgs::Image::ConstPtr& image,
-                                  Time arrival = {});
+                                  const Arrival& arrival = {});
 
   /// An image of `side` was dropped before it came here: the one that would be its partner counts
   /// as excused, not as unmatched.
   void excusePartner(Side side);
 
-  /// Number of images dropped without a partner or with a repeated stamp.
-  std::uint64_t unmatched() const { return unmatched(Side::kLeft) + unmatched(Side::kRight); }
-  std::uint64_t unmatched(Side side) const { return unmatched_[side == Side::kRight]; }
+  /// Images dropped without a partner or with a repeated stamp.
+  std::uint64_t unmatched() const { return left_.unmatched.total() + right_.unmatched.total(); }
+  const TopicStatistics& unmatched(Side side) const { return camera(side).unmatched; }
   std::uint64_t excused() const { return excused_; }
 
+  /// Judges images before they are added, and knows those that were.
+  CameraClock& clock(Side side) { return camera(side).clock; }
+  const CameraClock& clock(Side side) const { return camera(side).clock; }
+
+  /// The shorter period of the two cameras, as far as it is known.
+  std::optional<std::int64_t> period_ns() const;
   /// The largest difference that is accepted now.
-  double tolerance_s() const { return toSeconds(tolerance_ns()); }
-
-  /// Stamps that have arrived.
-  const StampSeries& leftStamps() const { return left_.series; }
-  const StampSeries& rightStamps() const { return right_.series; }
-
-  /// Discards all waiting images; they do not count as unmatched.
-  void reset() { left_ = right_ = {}; }
+  std::int64_t tolerance_ns() const;
 
  private:
   struct Waiting {
     std::int64_t stamp_ns;
     sensor_msgs::Image::ConstPtr image;
-    Time arrival;
+    std::chrono::steady_clock::time_point arrival;
   };
-  struct Images {
-    std::deque<Waiting> waiting;  // in the order of their stamps
-    std::optional<std::int64_t> last_stamp_ns;
-    StampSeries series;
-    std::size_t excused = 0;  // of those that are dropped next
-  };
-  /// Two of one time.
-  struct Match {
-    Waiting own, other;
+  struct Camera {
+    CameraClock clock;
+    std::deque<Waiting> waiting = {};  // in the order of their stamps
+    std::size_t excused = 0;           // of those that are dropped next
+    TopicStatistics unmatched = {};
   };
 
-  std::optional<Match> findMatch(const Images& own, const Images& other) const;
-  std::int64_t tolerance_ns() const;
-  void drop(Images& images);
-  void dropEarlierThan(std::int64_t stamp_ns, Images& images);
-  void dropLaterThan(std::int64_t stamp_ns, Images& images);
+  const Camera& camera(Side side) const { return side == Side::kLeft ? left_ : right_; }
+  Camera& camera(Side side) { return side == Side::kLeft ? left_ : right_; }
+  static Stamps stampsOf(const Camera& camera);
+  Waiting take(std::size_t index, Camera& camera);
+  void drop(Camera& camera);
+  void dropLaterThan(std::int64_t stamp_ns, Camera& camera);
 
   std::int64_t max_difference_ns_;
   std::size_t queue_size_;
-  Images left_, right_;
-  std::array<std::uint64_t, 2> unmatched_{};  // of left and right
+  Camera left_{CameraClock("the left image")}, right_{CameraClock("the right image")};
   std::uint64_t excused_ = 0;
+  TopicStatistics::Time now_;
 };
 
 }  // namespace rotrocc

@@ -35,8 +35,17 @@ StereoInput::StereoInput(ros::NodeHandle& nh,
                          const NodeParameters& parameters,
                          DropLog& drops,
                          StereoIntake::PairHandler on_pair,
-                         Log log)
-    : intake_(parameters, drops, std::move(on_pair), std::move(log)),
+                         const Log& log)
+    : silence_(parameters.silence_s, std::chrono::steady_clock::now(), log),
+      intake_(
+          parameters,
+          drops,
+          [this, &drops, on_pair = std::move(on_pair)](ReceivedPair pair) {
+            const std::int64_t stamp_ns = toNanoseconds(pair.images.left->header.stamp);
+            silence_.onPair(stamp_ns, pair.stamp_age_s, drops.total(), now().time);
+            on_pair(std::move(pair));
+          },
+          log),
       left_(subscribe(nh, parameters, Side::kLeft)),
       right_(subscribe(nh, parameters, Side::kRight)) {}
 
@@ -84,7 +93,7 @@ InputReport StereoInput::report() {
   addTopic(left_.info, report.left_info);
   addTopic(right_.info, report.right_info);
   report.clock_missing = ros::Time::isSimTime() && asked.clock_ns == 0;
-  report.clock_stands = clock_.standsStill(asked.clock_ns, asked.time);
+  silence_.onTick(report, asked);
   return report;
 }
 

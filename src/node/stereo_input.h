@@ -4,7 +4,7 @@
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 
-#include "input/clock_watch.h"
+#include "input/silence_watch.h"
 #include "input/stereo_intake.h"
 #include "rotrocc/parameters.h"
 
@@ -19,9 +19,10 @@ class StereoInput {
               const NodeParameters& parameters,
               DropLog& drops,
               StereoIntake::PairHandler on_pair,
-              Log log);
+              const Log& log);
 
-  /// Call in the thread of the callbacks.
+  /// Recent input. Logs missing pairs, see SilenceWatch: call about once a second, in the thread of
+  /// the callbacks.
   InputReport report();
 
  private:
@@ -35,8 +36,8 @@ class StereoInput {
                         const NodeParameters& parameters,
                         StereoIntake::Side side);
 
+  SilenceWatch silence_;
   StereoIntake intake_;
-  ClockWatch clock_;
   Subscribers left_, right_;  // last, so that callbacks end before the other members are destroyed
 };
 

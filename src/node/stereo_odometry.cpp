@@ -57,8 +57,7 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
                   parameters_.trajectory_file,
                   parameters_.trajectory_format,
                   log_),
-      loss_log_(log_),
-      silence_(parameters_.silence_s, SteadyClock::now(), log_) {
+      loss_log_(log_) {
   if (!parameters_.guess_frame.empty()) {
     guess_.emplace(tf_.buffer(), parameters_.guess_frame, parameters_.base_frame, log_);
   }
@@ -96,8 +95,6 @@ StereoOdometry::~StereoOdometry() {
 }
 
 void StereoOdometry::onPair(ReceivedPair pair) {
-  const std::int64_t stamp_ns = toNanoseconds(pair.images.left->header.stamp);
-  silence_.onPair({stamp_ns, pair.stamp_age_s}, drops_.total(), SteadyClock::now());
   if (health_.paused()) return drops_.count(DropReason::kPaused);
   if (mailbox_.put(std::move(pair))) drops_.count(DropReason::kSuperseded);
 }
@@ -114,7 +111,6 @@ void StereoOdometry::onTick(const ros::WallTimerEvent&) {
     for (const std::string& fault : {report.input_fault, report.rig_fault}) {
       if (!fault.empty() && warning_.pass(fault)) log_.warn(fault);
     }
-    silence_.onTick(report.input, SteadyClock::now());
   } catch (const std::exception& error) {
     log_.error(std::string("diagnostics: ") + error.what());
   }

@@ -13,7 +13,6 @@
 #include "input/drop_log.h"
 #include "input/latest_mailbox.h"
 #include "input/log.h"
-#include "input/silence_watch.h"
 #include "node/base/pair_processor.h"
 #include "node/gyro/gyro_input.h"
 #include "node/health/diagnostics.h"
@@ -98,7 +97,6 @@ class StereoOdometry {
   LossLog loss_log_;  // of the worker
   // Of the callbacks.
   FaultThrottle warning_;
-  SilenceWatch silence_;
 
   LatestMailbox<ReceivedPair> mailbox_;
   // Order matters from here on: members are destroyed after those that call them.

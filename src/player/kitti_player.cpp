@@ -169,7 +169,6 @@ void KittiPlayer::playOnce() {
   recording_->select(range_.begin, range_.end, true);
   publisher_.publishBeginning();
   monitor_.restart();
-  synchronizer_.reset();
   clock_.start(range_.begin);
   last_progress_ = WallClock::now();
   RecordedMessage message;

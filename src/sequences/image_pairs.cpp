@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 
 #include "common/to_seconds.h"
 #include "evaluation/image_file.h"
+#include "input/stamps.h"
 
 namespace rotrocc {
 namespace {
@@ -22,16 +22,10 @@ std::size_t removeMissing(std::vector<StampedImage>& images) {
   return count;
 }
 
-/// The lower quartile of the steps, as most images may be lost.
-std::int64_t period_ns(const std::vector<StampedImage>& images) {
-  std::vector<std::int64_t> steps;
-  for (std::size_t i = 1; i < images.size(); ++i) {
-    steps.push_back(images[i].stamp_ns - images[i - 1].stamp_ns);
-  }
-  if (steps.empty()) return INT64_MAX;
-  const auto quartile = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 4);
-  std::nth_element(steps.begin(), quartile, steps.end());
-  return *quartile;
+Stamps stampsOf(const std::vector<StampedImage>& images) {
+  Stamps stamps_ns;
+  for (const StampedImage& image : images) stamps_ns.push_back(image.stamp_ns);
+  return stamps_ns;
 }
 
 std::string counted(std::size_t count, const std::string& what) {
@@ -45,9 +39,16 @@ ImagePairs::ImagePairs(std::vector<StampedImage> left,
                        double max_stamp_difference_s) {
   const std::string first_left = left.empty() ? "" : left.front().path;
   missing_files_ = removeMissing(left) + removeMissing(right);
-  const std::int64_t tolerance_ns =
-      std::min<std::int64_t>(std::llround(1e9 * max_stamp_difference_s), (period_ns(left) - 1) / 2);
-  match(left, right, tolerance_ns);
+  const Stamps left_ns = stampsOf(left);
+  std::int64_t tolerance_ns = std::llround(1e9 * max_stamp_difference_s);
+  if (const auto period_ns = periodOf(left_ns)) {
+    tolerance_ns = std::min(tolerance_ns, (*period_ns - 1) / 2);
+  }
+  for (const auto& [i, j] : matchStamps(left_ns, stampsOf(right), tolerance_ns)) {
+    pairs_.push_back({left[i], right[j]});
+  }
+  left_alone_ = left.size() - pairs_.size();
+  right_alone_ = right.size() - pairs_.size();
   if (!pairs_.empty()) return;
   throw std::runtime_error("there is no pair: of " + counted(left.size(), "left image") + " and " +
                            counted(right.size(), "right image") +
@@ -56,25 +57,6 @@ ImagePairs::ImagePairs(std::vector<StampedImage> left,
                            counted(missing_files_, "listed file") +
                            " missing, the first left image is " +
                            (first_left.empty() ? "none" : first_left));
-}
-
-/// Each left image with the nearest right one, unless that is nearer to another left one.
-void ImagePairs::match(const std::vector<StampedImage>& left,
-                       const std::vector<StampedImage>& right,
-                       std::int64_t tolerance_ns) {
-  const auto difference = [&](std::size_t i, std::size_t j) {
-    return std::llabs(left[i].stamp_ns - right[j].stamp_ns);
-  };
-  std::size_t j = 0;
-  for (std::size_t i = 0; i < left.size() && j < right.size(); ++i) {
-    while (j + 1 < right.size() && difference(i, j + 1) < difference(i, j)) ++j;
-    const bool next_is_nearer = i + 1 < left.size() && difference(i + 1, j) < difference(i, j);
-    if (next_is_nearer || difference(i, j) > tolerance_ns) continue;
-    pairs_.push_back({left[i], right[j]});
-    ++j;
-  }
-  left_alone_ = left.size() - pairs_.size();
-  right_alone_ = right.size() - pairs_.size();
 }
 
 std::vector<std::int64_t> ImagePairs::stamps_ns() const {

@@ -50,10 +50,6 @@ class ImagePairs {
   std::string leftOut() const;
 
  private:
-  void match(const std::vector<StampedImage>& left,
-             const std::vector<StampedImage>& right,
-             std::int64_t tolerance_ns);
-
   std::vector<Pair> pairs_;
   std::size_t left_alone_ = 0;
   std::size_t right_alone_ = 0;

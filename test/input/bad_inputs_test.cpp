@@ -286,7 +286,7 @@ std::string skewed() {
   for (int i = 0; i < 55; ++i) {  // until the valid pairs are no longer recent
     rig->drive([](Image&, Image& right) { right.header.stamp += ros::Duration(0.03); });
   }
-  const std::string observed = rig->observed() + "; " + whyNoPairs(rig->report());
+  const std::string observed = rig->observed() + "; " + whyNoPairs(rig->report()).value_or("");
   return observed + recovery(*rig);
 }
 
@@ -301,7 +301,7 @@ std::string slowCamera() {
   HealthReport report;
   report.input = rig.report();
   StatusWrapper status;
-  report.input_fault = faultOfPairs(report.input);
+  report.input_fault = faultOfPairs(report.input).value_or("");
   describeInput(report, status);
   return "20 left and 10 right images: " + toText(rig.answers()) + " pairs processed, the last " +
          rig.observed() + "; diagnostics: " + status.message;

@@ -22,7 +22,7 @@ HealthReport goodReport() {
   report.input.pairs_silent_s = 0.05;
   report.input.unmatched = {0, 0, 50};
   report.input.max_stamp_difference_s = report.input.tolerance_s = 0.01;
-  report.input.stamp_difference_s = 0.002;
+  report.input.skew = StampSkew{0.002, {}, {}};
   report.answers = true;
   report.answer_rate_hz = 10.0;
   report.latency_p50_ms = 12.0;
@@ -201,7 +201,7 @@ TEST(DiagnosticsTest, FaultsOfTheInputAreTold) {
   HealthReport lossy = goodReport();
   lossy.input.right_image.rate_hz = 5.0;
   lossy.input.unmatched = {25, 0, 25};
-  lossy.input_fault = faultOfPairs(lossy.input);
+  lossy.input_fault = faultOfPairs(lossy.input).value_or("");
   const std::string rates = "/l/image arrives at 10.0 Hz, /r/image at 5.0 Hz";
   expectEntry(describeInput, lossy, Level::WARN, rates);
   HealthReport first = goodReport();

@@ -32,34 +32,20 @@ class ImagePairsTest : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(ImagePairsTest, MatchesTheNearest) {
+TEST_F(ImagePairsTest, PairsAreLessThanHalfAPeriodApart) {
   const struct {
-    const char* why;
     std::vector<double> left_ms, right_ms;
     std::vector<std::int64_t> pairs_ms;
     const char* left_out;
   } rows[] = {
-      {"the nearest", {0, 50, 100, 150}, {1, 49, 98, 152}, {0, 50, 100, 150}, ""},
-      {"lost images do not shift the others",
-       {0, 50, 150, 200},
-       {0, 100, 150, 200, 250},
-       {0, 150, 200},
-       "1 left image and 2 right images without a partner"},
-      {"half a period apart",
-       {0, 10, 20, 30},
+      {{0, 10, 20, 30}, {4, 14, 24, 34}, {0, 10, 20, 30}, ""},
+      {{0, 10, 20, 30},  // half a period apart
        {0, 10, 15, 30},
        {0, 10, 30},
        "1 left image and 1 right image without a partner"},
-      {"a bit nearer", {0, 10, 20, 30}, {0, 10, 16, 30}, {0, 10, 20, 30}, ""},
-      {"all late", {0, 10, 20, 30}, {4, 14, 24, 34}, {0, 10, 20, 30}, ""},
-      {"an image has one partner, the nearer one",
-       {0, 4, 100, 200},
-       {3},
-       {4},
-       "3 left images and 0 right images without a partner"},
+      {{0, 10, 20, 30}, {0, 10, 16, 30}, {0, 10, 20, 30}, ""},
   };
   for (const auto& row : rows) {
-    SCOPED_TRACE(row.why);
     const ImagePairs pairs = match(row.left_ms, row.right_ms);
     std::vector<std::int64_t> stamps_ms = pairs.stamps_ns();
     for (std::int64_t& stamp : stamps_ms) stamp /= 1'000'000;

@@ -78,15 +78,15 @@ void describeOdometry(const HealthReport& report, StatusWrapper& status) {
 
 void describeInput(const HealthReport& report, StatusWrapper& status) {
   const InputReport& input = report.input;
-  const std::string why = whyNoPairs(input);
+  const auto why = whyNoPairs(input);
   if (input.recent_pairs == 0) {
-    status.summary(DiagnosticStatus::ERROR, why.empty() ? "no stereo pairs" : why);
-  } else if (const std::string silent = whySilent(input); !silent.empty()) {
-    status.summary(DiagnosticStatus::WARN, silent);
+    status.summary(DiagnosticStatus::ERROR, why.value_or("no stereo pairs"));
+  } else if (const auto silent = whySilent(input)) {
+    status.summary(DiagnosticStatus::WARN, *silent);
   } else if (!report.input_fault.empty()) {
     status.summary(DiagnosticStatus::WARN, report.input_fault);
-  } else if (!why.empty()) {
-    status.summary(DiagnosticStatus::WARN, "dropped in the last 5 s: " + why);
+  } else if (why) {
+    status.summary(DiagnosticStatus::WARN, "dropped in the last 5 s: " + *why);
   } else if (isOfAnotherClock(input)) {
     status.summary(DiagnosticStatus::OK,
                    "stereo pairs arrive, whose stamps are not of this clock: a replay without "
@@ -94,18 +94,17 @@ void describeInput(const HealthReport& report, StatusWrapper& status) {
   } else {
     status.summary(DiagnosticStatus::OK, "stereo pairs arrive");
   }
-  for (const TopicReport* topic :
-       {&input.left_image, &input.right_image, &input.left_info, &input.right_info}) {
-    addTopic(*topic, status);
-  }
+  for (const TopicReport* topic : input.topics()) addTopic(*topic, status);
   status.addf("pairs", "%zu in 5 s", input.recent_pairs);
-  if (input.stamp_difference_s) {
+  if (input.skew) {
     status.addf(
-        "largest stamp difference of left and right", "%.3f ms", 1e3 * *input.stamp_difference_s);
+        "largest stamp difference of left and right", "%.3f ms", 1e3 * input.skew->largest_s);
   }
   if (input.stamp_age_s) {
     status.addf("age of the stamps of left images", "%.3f s", *input.stamp_age_s);
   }
+  status.addf("jitter of the stamps of left images", "%.3f ms", 1e3 * input.stamp_scatter_s);
+  status.addf("jitter of their arrival", "%.3f ms", 1e3 * input.arrival_scatter_s);
   status.addf("max_stamp_difference_s", "%.3f ms", 1e3 * input.max_stamp_difference_s);
   status.addf("accepted stamp difference", "%.3f ms", 1e3 * input.tolerance_s);
 }

@@ -99,13 +99,13 @@ void updateState(HealthReport& report) {
   if (report.paused) return set(OdometryStatus::PAUSED, "paused by the service ~pause");
   if (report.answers) return;
   const InputReport& input = report.input;
-  const std::string why = whyNoPairs(input);
+  const auto why = whyNoPairs(input);
   if (!input.camera_error.empty()) return set(OdometryStatus::NO_CALIBRATION, input.camera_error);
-  if (input.waits_for_info) return set(OdometryStatus::NO_CALIBRATION, why);
+  if (input.waits_for_info) return set(OdometryStatus::NO_CALIBRATION, *why);
   if (input.recent_pairs > 0 && !report.waits_for_tf.empty()) {
     return set(OdometryStatus::NO_TF, report.waits_for_tf);
   }
-  set(OdometryStatus::NO_INPUT, why.empty() ? whyNoAnswer(report) : why);
+  set(OdometryStatus::NO_INPUT, why ? *why : whyNoAnswer(report));
 }
 
 const char* stateName(std::uint8_t state) {
@@ -196,7 +196,7 @@ HealthReport OdometryHealth::report(const InputReport& input,
                                     const DropLog& drops,
                                     TopicStatistics::Time now) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  known_.input_fault = input_fault_.observe(faultOfPairs(input), now);
+  known_.input_fault = input_fault_.observe(faultOfPairs(input).value_or(""), now);
   known_.drops = drops.counts();
   HealthReport report = known_;
   report.input = input;

@@ -9,7 +9,7 @@ TEST(WarningsTest, StampsOfAClockThatIsWrongAreTold) {
   const struct {
     double off_s;
     const char* said;
-  } kCases[] = {{-100.0, "s behind the clock when the images arrive: synchronise the clocks"},
+  } kCases[] = {{-100.0, "s behind the clock when the images arrive: synchronize the clocks"},
                 {3.0, "s ahead of the clock, and so are odometry and tf"}};
   for (const auto& [off_s, said] : kCases) {
     SCOPED_TRACE(off_s);
