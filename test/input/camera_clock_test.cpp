@@ -84,7 +84,7 @@ TEST_F(CameraClockTest, JudgesEachStamp) {
       {"stamp 0", 3, {{-kStart_s}, {}}, "zv", "has the stamp 0: set header.stamp in the driver"},
       {"repeated", 3, {{-0.1}, {}}, "rv", "has the same stamp as the previous one, 1600000000.300"},
       {"repeated and held", 3, {{5.0}, {4.9}, {}}, "hrg"},
-      {"overtaken", 3, {{-0.15}, {}, {-0.15}, {}}, "bvbv", "1600000000.550 s, 0.05 s before the"},
+      {"overtaken", 3, {{-0.15}, {}, {-0.15}, {}}, "bvbv", "1600000000.450 s, 0.05 s before the"},
       {"ahead of any clock", 3, {{10.1}, {}}, "fv", "10.1 s ahead of the clock: synchronize the"},
       {"a glitch ahead", 80, {{5.0}, {}, {}}, "hgv", "5.1 s after the previous one, but the next"},
       {"a glitch behind", 80, {{-5.0}, {}, {}}, "hgv", "4.9 s before the previous one"},

@@ -117,7 +117,7 @@ TEST_F(SilenceWatchTest, TellsThatTheStampsJumpedForwardIfNoGapDoes) {
   EXPECT_EQ(pairs(10.0, 1.0), "") << "the clock did not jump";
 }
 
-TEST_F(SilenceWatchTest, ManyGapsAreNoStreamAndSlowOrLossyCamerasHaveNone) {
+TEST_F(SilenceWatchTest, ManyGapsAreNoStream) {
   EXPECT_EQ(pairs(10.0, 3.0), "");
   int said = 0;
   for (int i = 0; i < 20; ++i) {
@@ -125,7 +125,10 @@ TEST_F(SilenceWatchTest, ManyGapsAreNoStreamAndSlowOrLossyCamerasHaveNone) {
     said += pairs(10.0, 1.0).empty() ? 0 : 1;
   }
   EXPECT_EQ(said, 10);  // 50 s, at most each 5 s
-  EXPECT_EQ(pairs(0.5, 3.0), "");
+}
+
+TEST_F(SilenceWatchTest, SlowOrLossyCamerasHaveNoGaps) {
+  EXPECT_EQ(pairs(0.5, 20.0), "");
   for (int i = 0; i < 20; ++i) {
     EXPECT_EQ(pairs(2.0, 2.0), "") << i;
     now_s_ += 1.0;

@@ -76,7 +76,8 @@ TEST(UpdateStateTest, SaysWhatIsMissingWhileNoneCome) {
   expectState(report, OdometryStatus::NO_CALIBRATION, "P is all zeros");
   report = silent;
   report.input.waits_for_info = true;
-  report.input.left_info.total = report.input.left_info.publishers = 0;
+  report.input.left_info.total = report.input.left_info.recent = 0;
+  report.input.left_info.publishers = 0;
   expectState(report, OdometryStatus::NO_CALIBRATION, "nobody publishes /l/info");
   report = silent;
   report.input.left_image.recent = report.input.recent_pairs = 0;

@@ -101,7 +101,9 @@ void updateState(HealthReport& report) {
   const InputReport& input = report.input;
   const auto why = whyNoPairs(input);
   if (!input.camera_error.empty()) return set(OdometryStatus::NO_CALIBRATION, input.camera_error);
-  if (input.waits_for_info) return set(OdometryStatus::NO_CALIBRATION, *why);
+  if (input.waits_for_info) {
+    return set(OdometryStatus::NO_CALIBRATION, why.value_or("the pairs wait for camera_info"));
+  }
   if (input.recent_pairs > 0 && !report.waits_for_tf.empty()) {
     return set(OdometryStatus::NO_TF, report.waits_for_tf);
   }
