@@ -42,8 +42,8 @@ class Recording {
   /// Whether the images have to be rectified.
   virtual bool isRaw() const = 0;
 
-  /// For the log, empty if there is nothing to say: which mount of the camera is assumed, as none is
-  /// recorded; and how recorded poses are used.
+  /// For the log, empty if there is nothing to say: which mount of the camera is assumed, as none
+  /// is recorded; and how recorded poses are used.
   virtual std::string mountNote() const { return ""; }
   virtual std::string truthNote() const { return ""; }
 

@@ -62,8 +62,9 @@ StereoCamera readCalibration(const std::string& path, const cv::Size& size) {
                             (left.col(2) - right.col(2)).tail<2>().cwiseAbs().maxCoeff();
   if (difference > 1e-6 * std::abs(left(0, 0))) {
     throw std::runtime_error(
-        path + cv::format(": P0 and P1 are not a rectified pair: they differ by %.2g in fx, fy or cy",
-                          difference));
+        path +
+        cv::format(": P0 and P1 are not a rectified pair: they differ by %.2g in fx, fy or cy",
+                   difference));
   }
   StereoCamera camera;
   camera.width = size.width;

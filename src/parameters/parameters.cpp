@@ -17,7 +17,8 @@ void addNode(NodeParameters& n, ParameterTable& table) {
   table.add("initial_pose", n.initial_pose, "m, rad").description =
       "x y z roll pitch yaw of base_frame in odom_frame at the first pair, also after a reset";
   table.add("mount_timeout_s", n.mount_timeout_s, {0.0, 10.0, "s"}).description =
-      "how long a pair waits for the transform of a camera that moves on the robot; without it, the "
+      "how long a pair waits for the transform of a camera that moves on the robot; without it, "
+      "the "
       "pair is dropped";
   table.add("guess_frame", n.guess_frame).description =
       "odom frame of another odometry in tf, used as motion prediction; odom_frame -> guess_frame "

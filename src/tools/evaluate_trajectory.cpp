@@ -109,7 +109,8 @@ void requireSegments(const std::vector<SegmentError>& errors,
                      double path_m) {
   if (!errors.empty()) return;
   std::ostringstream message;
-  message << "no segment fits: the path is " << fixedText(path_m, 2) << " m long, the shortest segment "
+  message << "no segment fits: the path is " << fixedText(path_m, 2)
+          << " m long, the shortest segment "
           << *std::min_element(config.lengths_m.begin(), config.lengths_m.end()) << " m";
   if (path_m > 0.0) message << "; use --lengths " << shortLengths(path_m) << " --step 1";
   throw std::runtime_error(message.str());

@@ -13,11 +13,11 @@ namespace {
 namespace po = boost::program_options;
 
 const char* const kUsage =
-    "Publishes a camera_info for each image, for drivers and bags without one. Remap the topics "
-    "image and\ncamera_info to those of the camera.\n\n"
+    "Publishes a camera_info for each image, for drivers and bags without one.\n\n"
     "example: publish_camera_info left.yaml image:=/cam0/image_raw camera_info:=/cam0/camera_info\n"
     "usage:   publish_camera_info CALIBRATION.yaml [remappings]\n\n"
-    "CALIBRATION.yaml is a file of camera_calibration.\n\n";
+    "CALIBRATION.yaml is a file of camera_calibration. Remap the topics image and camera_info to\n"
+    "those of the camera.\n\n";
 
 using Files = std::vector<std::string>;
 

@@ -95,14 +95,6 @@ TEST_F(InstallationTest, PluginsAreWhereTheDescriptionSays) {
   EXPECT_NE(result.output.find("stereo_odometry"), std::string::npos) << result.output;
 }
 
-TEST_F(InstallationTest, TheNodeletLoadsNoLibrariesOfImageFiles) {
-  const CommandResult result =
-      run("find " + prefix() + " -name librotrocc_stereo_odometry.so -exec ldd {} +");
-  ASSERT_NE(result.output.find("opencv_core"), std::string::npos) << result.output;
-  EXPECT_EQ(result.output.find("opencv_imgcodecs"), std::string::npos)
-      << "with it come GDAL and 100 more, 40 % of the memory";
-}
-
 TEST_F(InstallationTest, ProgramsAreBuiltAgainstIt) {
   std::filesystem::create_directory(path("user"));
   writeSyntheticSequence(path("input"), 3);

@@ -63,7 +63,7 @@ class PatientTest : public MovingCameraTest {
 
 TEST_F(PatientTest, TheBaseRestsWhileItsCameraMovesAlsoAfterATimeJump) {
   for (int pair = 0; pair < 6; ++pair) move();
-  drive_.robot.turnBackTime();
+  drive_.robot.setTime(ros::Time(900.0));
   for (int pair = 0; pair < 3; ++pair) move();
 
   // Now the base drives: its new camera is fixed, and where the other one was.
