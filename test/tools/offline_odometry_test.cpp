@@ -305,7 +305,7 @@ TEST_F(OfflineOdometryTest, TellsBadUsageFromBadInput) {
               {good + " --rectify maybe", 1},
               {good + " --imu /nowhere", 1},
               {good + " --calibration a b c", 1, "calibration"},
-              {good + " --set mask=/nowhere.png", 1, "/nowhere.png cannot be read as a PNG"},
+              {good + " --set mask=/nowhere.png", 1, "the mask /nowhere.png is missing"},
               {good + " --bag /nowhere/out.bag", 1},
               {good + " --set feature_detector/max_features=5", 1, "[50, 20000]"}};
   for (const auto& row : rows) {
