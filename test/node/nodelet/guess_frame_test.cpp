@@ -1,5 +1,8 @@
 // Beside another odometry, which owns the base in tf: guess_frame.
 
+#include <chrono>
+#include <thread>
+
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
@@ -45,8 +48,7 @@ TEST(GuessFrameTest, IfItIsMissingThatIsToldCountedAndTriedAgain) {
 
 /// The images are away for longer than tf2 remembers, while the wheels go on.
 TEST(GuessFrameTest, TheBaseMovesByItThroughALongGap) {
-  // The stamps run faster than the clock.
-  NodeletDrive drive({{"guess_frame", "wheel_odom"}, {"max_future_s", 1000.0}});
+  NodeletDrive drive({{"guess_frame", "wheel_odom"}});
   drive.setUp();
   tf2_ros::TransformBroadcaster wheels;
   double way_m = 0.0;
@@ -70,6 +72,8 @@ TEST(GuessFrameTest, TheBaseMovesByItThroughALongGap) {
   for (int i = 0; i < 2; ++i) {  // a stamp far ahead is used when the next one follows it
     const auto [left, right] = see();
     stamp = left.header.stamp;
+    // On a busy machine tf takes longer than the node waits for it.
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
     drive.robot.publish(left, right);
   }
   const double after_m = drive.odometryOf(stamp).pose.pose.position.x;
