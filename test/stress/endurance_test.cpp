@@ -347,7 +347,7 @@ const std::vector<Fault> kFaults = {
     {"black images", {"is it dark"}, kLoss,
      ofBoth([](Image& image) { image.data.assign(image.data.size(), 0); })},
     {"frozen images", {"frozen"}, kLoss, freeze},
-    {"burst", {"arrive again"}, kGap, ofPair([](Pair& pair) { pair.burst = true; })},
+    {"burst", {}, kGap, ofPair([](Pair& pair) { pair.burst = true; })},
     {"a gap of 3 s", {"arrive again"}, kGap, ofPair([](Pair& pair) { pair.pause_s = 3.0; })},
     {"a mount that moves with 3 Hz of tf", {"publish it at the rate of the images", kFrame}, kLasting,
      putOnHead},
