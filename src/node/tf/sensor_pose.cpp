@@ -131,7 +131,8 @@ std::optional<Eigen::Isometry3d> SensorPose::lookUp(const ros::Time& stamp, cons
   if (!moves_) return toEigen(newest.transform);
   if (stamp <= newest.header.stamp) transformAt(stamp);  // throws: it is too old
   in_time_ = 0;
-  problem_ = describeLate();
+  // At most once a second: it reads the whole tree of tf.
+  if (problem_.empty() || description_.pass()) problem_ = describeLate();
   return std::nullopt;
 }
 

@@ -71,6 +71,7 @@ class SensorPose {
   std::string problem_;
   std::string missing_;
   std::optional<std::chrono::steady_clock::time_point> missing_since_;
+  Throttle description_{std::chrono::seconds(1)};
   Throttle warning_;
   Throttle change_warning_;
 };
