@@ -1,9 +1,34 @@
 #include "features/feature_tracker.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "features/image_noise.h"
+#include "features/patch.h"
 
 namespace rotrocc {
 namespace {
+
+/// Sum of squares [grey levels^2] below which a window is plain: keeps steps finite.
+constexpr double kMinVariance = 1e-3;
+
+/// If a step reverses the previous one to within this distance [px], the iteration oscillates and
+/// is stopped.
+constexpr float kSameStep_px = 0.01F;
+
+/// Grey levels, and grey levels times gradients, in the units of the kernels.
+constexpr double kOfGradient = 1.0 / (1 << Window::kGradientBits);
+constexpr double kOfContrast = 1.0 / (1 << Window::kContrastBits);
+constexpr double kOfDifference = 1.0 / (1 << MismatchSums::kDifferenceBits);
+
+/// Columns that are read for so many columns of a window: whole registers.
+constexpr int columnsOf(int count) {
+  return (count + kMaxShorts - 1) / kMaxShorts * kMaxShorts;
+}
+
+bool contains(const cv::Mat& image, const cv::Point2f& point) {
+  return cv::Rect2f({}, cv::Size2f(image.size())).contains(point);
+}
 
 /// A point within this fraction of the window's radius counts as close to its prediction.
 constexpr float kNear = 0.5F;
@@ -70,6 +95,143 @@ struct Tracking {
 };
 
 }  // namespace
+
+TrackingWindow::TrackingWindow(int radius_px, bool ignores_brightness)
+    : kernels_(&chooseKernels()),
+      radius_(radius_px),
+      side_(2 * radius_px + 1),
+      ignores_brightness_(ignores_brightness),
+      border_(static_cast<std::size_t>((side_ + 3) * (columnsOf(side_ + 2) + 1))) {
+  CV_Assert(side_ <= Window::kMaxSide);
+  window_.side = side_;
+  std::fill_n(window_.mask, side_, std::int16_t{-1});
+}
+
+/// The patch for a window of the given radius. Pixels outside the image repeat its border.
+Patch TrackingWindow::patchAround(const cv::Mat& image, const cv::Point2f& center, int radius) {
+  const int x = cvFloor(center.x);
+  const int y = cvFloor(center.y);
+  const cv::Rect area(x - radius, y - radius, columnsOf(2 * radius + 1) + 1, 2 * radius + 2);
+  Patch patch = {border_.data(),
+                 area.width,
+                 fractionOf(center.x - static_cast<float>(x)),
+                 fractionOf(center.y - static_cast<float>(y))};
+  if (area.x >= 0 && area.y >= 0 && area.x + area.width <= image.cols &&
+      area.y + area.height <= image.rows) {
+    patch.pixels = image.ptr<uchar>(area.y) + area.x;
+    patch.step = static_cast<std::ptrdiff_t>(image.step);
+    return patch;
+  }
+  const cv::Rect inside = area & cv::Rect({}, image.size());
+  cv::Mat repeated(area.size(), CV_8UC1, border_.data());
+  cv::copyMakeBorder(image(inside),
+                     repeated,
+                     inside.y - area.y,
+                     area.br().y - inside.br().y,
+                     inside.x - area.x,
+                     area.br().x - inside.br().x,
+                     cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
+  return patch;
+}
+
+bool TrackingWindow::take(const cv::Mat& image, const cv::Point2f& center, float scale) {
+  if (!contains(image, center)) return false;
+  spread(scale);
+  const Patch patch = patchAround(image, center, radius_ + 1);
+  return invertNormalMatrix(kernels_->takeWindow(patch, window_));
+}
+
+/// Sets the sampling offsets from the pixel grid. They must be less than one pixel.
+void TrackingWindow::spread(float scale) {
+  const float most = 0.9F / static_cast<float>(std::max(radius_, 1));
+  const float per_px = std::clamp(1.0F / scale - 1.0F, -most, most);
+  for (int i = 0; i < side_; ++i) {
+    window_.spread[i] = fractionOf(per_px * static_cast<float>(i - radius_));
+  }
+}
+
+/// Sets what a change of brightness and contrast does to the least squares for a shift.
+bool TrackingWindow::describeContrast(const GradientSums& sums) {
+  const double pixels = side_ * side_;
+  const auto mean = static_cast<std::int16_t>(sums.value / (side_ * side_));
+  const ContrastSums contrast = kernels_->takeContrast(mean, window_);
+  const cv::Point2d gradients(static_cast<double>(sums.x), static_cast<double>(sums.y));
+  const cv::Point2d products(static_cast<double>(contrast.x), static_cast<double>(contrast.y));
+  mean_gradient_ = kOfGradient / pixels * gradients;
+  mean_contrast_ = kOfContrast / pixels * static_cast<double>(contrast.one);
+  contrast_square_ = kOfContrast * kOfContrast * static_cast<double>(contrast.square) -
+                     pixels * mean_contrast_ * mean_contrast_;
+  if (!(contrast_square_ > kMinVariance)) return false;
+  gradient_by_contrast_ =
+      1.0 / contrast_square_ *
+      (kOfContrast * kOfGradient * products - pixels * mean_contrast_ * mean_gradient_);
+  return true;
+}
+
+/// Inverts the normal matrix of the least squares for a shift and for a change of brightness and
+/// contrast. The latter two are eliminated: what they explain of the gradients is subtracted.
+bool TrackingWindow::invertNormalMatrix(const GradientSums& sums) {
+  if (ignores_brightness_ && !describeContrast(sums)) return false;
+  const double pixels = side_ * side_;
+  const cv::Point2d& mean = mean_gradient_;
+  const cv::Point2d& slope = gradient_by_contrast_;
+  const auto left = [&](std::int64_t products, double by_brightness, double by_contrast) {
+    return static_cast<float>(kOfGradient * kOfGradient * static_cast<double>(products) -
+                              pixels * by_brightness - contrast_square_ * by_contrast);
+  };
+  const float xx = left(sums.xx, mean.x * mean.x, slope.x * slope.x);
+  const float xy = left(sums.xy, mean.x * mean.y, slope.x * slope.y);
+  const float yy = left(sums.yy, mean.y * mean.y, slope.y * slope.y);
+  const float difference = xx - yy;
+  const float smaller = 0.5F * (xx + yy - std::sqrt(difference * difference + 4.0F * xy * xy));
+  if (!(smaller >= kMinTexture * static_cast<float>(side_ * side_))) return false;
+  const float scale = 1.0F / (xx * yy - xy * xy);
+  inverse_xx_ = scale * yy;
+  inverse_xy_ = -scale * xy;
+  inverse_yy_ = scale * xx;
+  return true;
+}
+
+/// The shift towards the position that matches the window. The contrast there, relative to that of
+/// the window, multiplies the gradients.
+cv::Point2f TrackingWindow::stepFrom(const Patch& patch) const {
+  const MismatchSums sums = kernels_->compareWindow(patch, window_);
+  const double brighter = kOfDifference * static_cast<double>(sums.one);
+  const double with_contrast =
+      kOfDifference * kOfContrast * static_cast<double>(sums.contrast) - brighter * mean_contrast_;
+  const cv::Point2d products(static_cast<double>(sums.x), static_cast<double>(sums.y));
+  cv::Point2d mismatch = kOfDifference * kOfGradient * products - brighter * mean_gradient_ -
+                         with_contrast * gradient_by_contrast_;
+  if (ignores_brightness_) {
+    const double square = kOfDifference * kOfDifference * static_cast<double>(sums.square) -
+                          brighter * brighter / (side_ * side_);
+    const double variance = contrast_square_ + 2.0 * with_contrast + square;
+    mismatch *= std::sqrt(contrast_square_ / std::max(variance, kMinVariance));
+  }
+  const cv::Point2f b(static_cast<float>(mismatch.x), static_cast<float>(mismatch.y));
+  return {-inverse_xx_ * b.x - inverse_xy_ * b.y, -inverse_xy_ * b.x - inverse_yy_ * b.y};
+}
+
+bool TrackingWindow::find(const cv::Mat& image, const Stop& stop, cv::Point2f& center) {
+  const auto min_px2 = static_cast<float>(stop.min_step_px * stop.min_step_px);
+  cv::Point2f found = center;
+  cv::Point2f last_step;
+  for (int i = 0; i < stop.max_iterations; ++i) {
+    if (!contains(image, found)) return false;
+    const cv::Point2f step = stepFrom(patchAround(image, found, radius_));
+    found += step;
+    if (step.dot(step) <= min_px2) break;
+    const cv::Point2f both = step + last_step;
+    if (i > 0 && std::abs(both.x) < kSameStep_px && std::abs(both.y) < kSameStep_px) {
+      found -= 0.5F * step;
+      break;
+    }
+    last_step = step;
+  }
+  if (!contains(image, found)) return false;
+  center = found;
+  return true;
+}
 
 FeatureTracker::FeatureTracker(const Config& config)
     : config_(config),

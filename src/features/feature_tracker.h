@@ -1,15 +1,62 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
 #include "common/workers.h"
 #include "features/image_pyramid.h"
-#include "features/tracking_window.h"
+#include "kernels/kernels.h"
 #include "rotrocc/odometry_config.h"
 
 namespace rotrocc {
+
+/// The window around a feature, to be located in another image: one level of Lucas-Kanade (Bouguet
+/// 2001). A difference in brightness and one in contrast are estimated together with the shift, as
+/// in Baker, Gross, Ishikawa and Matthews, "Lucas-Kanade 20 Years On: Part 2" (2003), so changes of
+/// exposure have no effect.
+/// Grey levels are interpolated in steps of 1/64, gradients in steps of 1/32, and sums are exact,
+/// so results are the same with and without SIMD.
+class TrackingWindow {
+ public:
+  struct Stop {
+    int max_iterations;
+    double min_step_px;  ///< iterations stop at a shorter step
+  };
+
+  /// The window is a square of side 2 radius + 1; the radius is at most 25 px. Without
+  /// `ignores_brightness`, grey levels are compared as they are.
+  explicit TrackingWindow(int radius_px, bool ignores_brightness = true);
+
+  /// Stores the window around `center` of `image` (CV_8UC1), with its content enlarged by `scale` >
+  /// 0 (a first-order approximation, accurate enough for changes of a tenth). Returns false if the
+  /// centre is outside the image or the texture is too weak to locate the window.
+  bool take(const cv::Mat& image, const cv::Point2f& center, float scale);
+
+  /// Moves `center` to the position in `image` that matches the stored window. Returns false, with
+  /// `center` unchanged, if the search leaves the image.
+  bool find(const cv::Mat& image, const Stop& stop, cv::Point2f& center);
+
+ private:
+  Patch patchAround(const cv::Mat& image, const cv::Point2f& center, int radius);
+  void spread(float scale);
+  bool describeContrast(const GradientSums& sums);
+  bool invertNormalMatrix(const GradientSums& sums);
+  cv::Point2f stepFrom(const Patch& patch) const;
+
+  const Kernels* kernels_;
+  int radius_, side_;
+  bool ignores_brightness_;
+  Window window_ = {};
+  std::vector<uchar> border_;  // copy of a patch that extends beyond the image border
+  // With ignores_brightness_; otherwise zero.
+  cv::Point2d mean_gradient_;         // [grey levels / px]
+  double mean_contrast_ = 0.0;        // [grey levels]
+  double contrast_square_ = 0.0;      // sum of squares about the mean
+  cv::Point2d gradient_by_contrast_;  // slope of the regression [1 / px]
+  float inverse_xx_ = 0.0F, inverse_xy_ = 0.0F, inverse_yy_ = 0.0F;
+};
 
 /// Pyramidal Lucas-Kanade (Bouguet 2001), starting at a predicted position and verified by tracking
 /// back.

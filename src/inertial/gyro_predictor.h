@@ -6,12 +6,60 @@
 
 #include <Eigen/Core>
 
-#include "inertial/gyro_bias.h"
 #include "inertial/gyro_history.h"
-#include "inertial/gyro_trust.h"
 #include "rotrocc/odometry_result.h"
 
 namespace rotrocc {
+
+/// Kalman filter of the bias of a gyroscope, in its axes. The bias walks randomly.
+class GyroBias {
+ public:
+  /// Standard deviation before the first observation [rad/s]. Cheap gyroscopes start with biases of
+  /// up to 5 deg/s.
+  static constexpr double kPriorSigma_rps = 0.1;
+
+  const Eigen::Vector3d& bias_rps() const { return bias_rps_; }
+  const Eigen::Matrix3d& covariance() const { return covariance_; }
+
+  /// The measured rotation was R_gyro * Exp(difference_rad), where R_gyro was integrated with
+  /// bias_rps(), and by_bias_s is that of GyroRotation. `covariance` is that of the difference,
+  /// without the uncertainty of the bias. Differences beyond three standard deviations count as if
+  /// they were that uncertain, so that wrong rotations have little influence.
+  void observe(const Eigen::Vector3d& difference_rad,
+               const Eigen::Matrix3d& by_bias_s,
+               const Eigen::Matrix3d& covariance,
+               double dt_s);
+
+ private:
+  Eigen::Vector3d bias_rps_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_ = kPriorSigma_rps * kPriorSigma_rps * Eigen::Matrix3d::Identity();
+};
+
+/// Whether the rotations of a gyroscope agree with those of the images.
+class GyroTrust {
+ public:
+  /// Angles of one motion [rad].
+  struct Comparison {
+    double difference_rad;   ///< between the two rotations
+    double uncertainty_rad;  ///< standard deviation of this difference
+    double gyro_rad;         ///< all angles of the gyroscope added up
+    double vision_rad;
+  };
+
+  /// Whether the two rotations agree, up to what is usual.
+  bool compare(const Comparison& comparison);
+
+  /// Why the gyroscope is not to be used, in one sentence with a remedy; none if it is.
+  const std::optional<std::string>& whyNot() const { return why_not_; }
+
+ private:
+  void refuse();
+
+  int disagreeing_ = 0;  // in a row
+  int agreeing_ = 0;     // in a row, since it was refused
+  double gyro_rad_ = 0.0, vision_rad_ = 0.0, difference_rad_ = 0.0;  // of the disagreeing ones
+  std::optional<std::string> why_not_;
+};
 
 /// Predicts rotations of a camera from a gyroscope on the same robot. Learns the bias of the
 /// gyroscope from the motions of the odometry, while it does not move relative to the camera.

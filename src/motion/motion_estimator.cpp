@@ -8,8 +8,7 @@
 #include <Eigen/Cholesky>
 
 #include "motion/consensus_motion.h"
-#include "motion/outlier_rejection.h"
-#include "motion/reprojection_error.h"
+#include "motion/feature_errors.h"
 #include "motion/shared_error.h"
 
 namespace rotrocc {

@@ -7,8 +7,7 @@
 #include <stdexcept>
 
 #include "motion/cauchy_weights.h"
-#include "motion/outlier_rejection.h"
-#include "motion/reprojection_error.h"
+#include "motion/feature_errors.h"
 
 namespace rotrocc {
 namespace {

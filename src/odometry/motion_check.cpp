@@ -11,8 +11,7 @@
 #include "common/compared_text.h"
 #include "common/median.h"
 #include "motion/consensus_motion.h"
-#include "motion/outlier_rejection.h"
-#include "motion/reprojection_error.h"
+#include "motion/feature_errors.h"
 #include "rotrocc/rigid_motion.h"
 
 namespace rotrocc {

@@ -6,7 +6,7 @@
 #include "common/stage_timer.h"
 #include "features/feature_tracker.h"
 #include "motion/consensus_motion.h"
-#include "motion/outlier_rejection.h"
+#include "motion/feature_errors.h"
 
 namespace rotrocc {
 namespace {

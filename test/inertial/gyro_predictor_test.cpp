@@ -133,7 +133,9 @@ TEST(GyroPredictorTest, RefusesDegreesPerSecondUntilTheyAreRadians) {
   GyroPredictor predictor(body.R_camera_gyro);
   drive(body, 0, 10, predictor, 180.0 / M_PI);
   ASSERT_TRUE(predictor.whyDistrusted());
-  EXPECT_NE(predictor.whyDistrusted()->find("deg/s"), std::string::npos);
+  EXPECT_NE(
+      predictor.whyDistrusted()->find("57.3 times those of the images: it seems to be in deg/s"),
+      std::string::npos);
   body.addSamples(10, predictor, 180.0 / M_PI);
   EXPECT_FALSE(predictor.rotation(9 * kPair_ns, 10 * kPair_ns));
   EXPECT_EQ(predictor.whyNot(), predictor.whyDistrusted());
@@ -151,6 +153,39 @@ TEST(GyroPredictorTest, FollowsABiasThatHasJumped) {
   drive(body, 50, 100, predictor);
   EXPECT_EQ(predictor.whyDistrusted(), std::nullopt);
   EXPECT_LT((predictor.bias().bias_rps() - body.bias_rps).norm(), 5e-3);
+}
+
+constexpr GyroTrust::Comparison kGood = {0.001, 0.001, 0.05, 0.05};
+constexpr GyroTrust::Comparison kWrong = {0.06, 0.001, 0.05, 0.05};
+
+void compare(GyroTrust& trust, const GyroTrust::Comparison& comparison, int times) {
+  for (int i = 0; i < times; ++i) trust.compare(comparison);
+}
+
+TEST(GyroTrustTest, OneWrongMotionIsNoReason) {
+  GyroTrust trust;
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_FALSE(trust.compare(kWrong));
+    EXPECT_TRUE(trust.compare(kGood));
+  }
+  compare(trust, {0.06, 0.03, 0.05, 0.05}, 20);  // within the uncertainty
+  EXPECT_EQ(trust.whyNot(), std::nullopt);
+}
+
+TEST(GyroTrustTest, SeveralInARowAreUntilRotationsAgree) {
+  GyroTrust trust;
+  compare(trust, kWrong, 5);
+  EXPECT_EQ(trust.whyNot(),
+            "its rotations differ from those of the images by 3.4 deg per pair: check the tf "
+            "from its frame to the camera's, and its stamps");
+  compare(trust, {0.0005, 0.001, 0.0005, 0.0}, 1000);  // a standstill tells nothing
+  EXPECT_NE(trust.whyNot(), std::nullopt);
+  compare(trust, kGood, 4);
+  compare(trust, kWrong, 1);
+  compare(trust, kGood, 4);
+  EXPECT_NE(trust.whyNot(), std::nullopt);
+  compare(trust, kGood, 1);
+  EXPECT_EQ(trust.whyNot(), std::nullopt);
 }
 
 }  // namespace

@@ -19,16 +19,6 @@ TEST(LatestMailboxTest, LatestItemWins) {
   EXPECT_FALSE(mailbox.take(milliseconds(0)).has_value());
 }
 
-TEST(LatestMailboxTest, TakeWaitsForAnItem) {
-  LatestMailbox<int> mailbox;
-  std::thread producer([&] {
-    std::this_thread::sleep_for(milliseconds(20));
-    mailbox.put(5);
-  });
-  EXPECT_EQ(mailbox.take(hours(1)), 5);
-  producer.join();
-}
-
 TEST(LatestMailboxTest, ClosingEndsTheWait) {
   LatestMailbox<int> mailbox;
   std::thread closer([&] {

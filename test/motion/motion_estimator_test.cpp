@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "motion/outlier_rejection.h"
+#include "motion/feature_errors.h"
 #include "support/expect_error.h"
 #include "support/simulated_features.h"
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "motion/outlier_rejection.h"
+#include "motion/feature_errors.h"
 #include "support/simulated_features.h"
 
 namespace rotrocc {

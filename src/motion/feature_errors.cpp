@@ -1,11 +1,20 @@
-#include "motion/reprojection_error.h"
+#include "motion/feature_errors.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
 
 #include "geometry/min_depth.h"
 
 namespace rotrocc {
 namespace {
+
+double meanOf(const std::vector<double>& errors) {
+  if (errors.empty()) return std::numeric_limits<double>::infinity();
+  return std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
+}
 
 Eigen::Vector2d finiteProjection(const StereoCamera& camera, Eigen::Vector3d point) {
   point.z() = std::max(point.z(), kMinDepth_m);
@@ -20,6 +29,40 @@ void measureEach(const Features& features, std::vector<double>& lengths_px, cons
 }
 
 }  // namespace
+
+double fixedLimit(double limit, double drop_share, std::vector<double>& errors) {
+  if (errors.empty()) return std::numeric_limits<double>::infinity();
+  const double dropped = std::ceil(drop_share * static_cast<double>(errors.size()));
+  const auto highest = errors.begin() + static_cast<std::ptrdiff_t>(std::max(dropped, 1.0)) - 1;
+  std::nth_element(errors.begin(), highest, errors.end(), std::greater<double>());
+  return std::max(*highest, limit);
+}
+
+double meanBasedLimit(double factor, const std::vector<double>& errors) {
+  return factor * meanOf(errors);
+}
+
+double deviationBasedLimit(double factor, const std::vector<double>& errors) {
+  const double mean = meanOf(errors);
+  double squares = 0.0;
+  for (const double error : errors) squares += (error - mean) * (error - mean);
+  return mean +
+         factor * std::sqrt(squares / std::max(static_cast<double>(errors.size()) - 1.0, 1.0));
+}
+
+bool keepBelow(const std::vector<double>& errors, double threshold, FeatureSet& set) {
+  bool changed = false;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const char kept = errors[i] < threshold ? 1 : 0;
+    changed = changed || kept != set[i];
+    set[i] = kept;
+  }
+  return changed;
+}
+
+int count(const FeatureSet& set) {
+  return static_cast<int>(std::count(set.begin(), set.end(), static_cast<char>(1)));
+}
 
 void reprojectionErrors(const StereoCamera& camera,
                         const Correspondences& features,
