@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "inertial/gyro_sample.h"
+#include "inertial/gyro_history.h"
 #include "simulation/drives/drive.h"
 
 namespace rotrocc {

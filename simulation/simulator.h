@@ -11,7 +11,7 @@
 
 #include "common/to_seconds.h"
 #include "geometry/kitti_camera.h"
-#include "inertial/gyro_sample.h"
+#include "inertial/gyro_history.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
 #include "simulation/drives/scenario.h"

@@ -46,8 +46,6 @@ class KittiSequence {
   std::string leftPath(int index) const;
   std::string rightPath(int index) const;
 
-  bool hasGroundTruth() const { return !ground_truth_.empty(); }
-
   /// size() poses of the left camera, with the stamps of the pairs. Empty if there is no poses.txt.
   const Trajectory& groundTruth() const { return ground_truth_; }
 

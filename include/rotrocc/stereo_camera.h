@@ -52,9 +52,6 @@ struct StereoCamera {
   /// over both images, or the relative change of the baseline if that is more. Infinite if the
   /// images have another size.
   double differenceTo(const StereoCamera& other) const;
-
-  bool operator==(const StereoCamera& other) const;
-  bool operator!=(const StereoCamera& other) const { return !(*this == other); }
 };
 
 }  // namespace rotrocc

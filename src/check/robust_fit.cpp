@@ -8,7 +8,7 @@
 #include <Eigen/LU>
 
 #include "common/median.h"
-#include "motion/cauchy_weights.h"
+#include "motion/feature_errors.h"
 
 namespace rotrocc {
 namespace {

@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "common/workers.h"
-#include "features/feature_mask.h"
+#include "features/stereo_frame.h"
 #include "kernels/image_kernels.h"
 #include "rotrocc/odometry_config.h"
 

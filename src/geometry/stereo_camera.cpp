@@ -52,10 +52,4 @@ double StereoCamera::differenceTo(const StereoCamera& other) const {
   return difference;
 }
 
-bool StereoCamera::operator==(const StereoCamera& other) const {
-  return width == other.width && height == other.height && fx == other.fx && fy == other.fy &&
-         cx == other.cx && cy == other.cy && cx_right == other.cx_right &&
-         baseline_m == other.baseline_m;
-}
-
 }  // namespace rotrocc

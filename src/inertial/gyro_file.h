@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "inertial/gyro_sample.h"
+#include "inertial/gyro_history.h"
 
 namespace rotrocc {
 

@@ -7,9 +7,13 @@
 
 #include <Eigen/Core>
 
-#include "inertial/gyro_sample.h"
-
 namespace rotrocc {
+
+/// Angular velocity [rad/s] in axes of the gyroscope.
+struct GyroSample {
+  std::int64_t stamp_ns = 0;
+  Eigen::Vector3d rate_rps = Eigen::Vector3d::Zero();
+};
 
 /// Rotation of a gyroscope between two stamps, in its own axes.
 struct GyroRotation {

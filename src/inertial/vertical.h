@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "inertial/gyro_sample.h"
+#include "inertial/gyro_history.h"
 
 namespace rotrocc {
 

@@ -6,7 +6,7 @@
 #include <ros/time.h>
 #include <sensor_msgs/Imu.h>
 
-#include "inertial/gyro_sample.h"
+#include "inertial/gyro_history.h"
 
 namespace rotrocc {
 

@@ -16,7 +16,6 @@
 #include "input/input_report.h"
 #include "input/log.h"
 #include "input/stereo_synchronizer.h"
-#include "input/topic_statistics.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/stereo_camera.h"
 

@@ -9,7 +9,7 @@
 #include <sensor_msgs/Image.h>
 
 #include "input/camera_clock.h"
-#include "input/topic_statistics.h"
+#include "input/input_report.h"
 
 namespace rotrocc {
 

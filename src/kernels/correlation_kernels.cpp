@@ -1,6 +1,6 @@
 #include "kernels/correlation_kernels.h"
 
-#include "kernels/interpolation.h"
+#include "kernels/lanes.h"
 
 namespace rotrocc::ROTROCC_INSTRUCTIONS {
 namespace {

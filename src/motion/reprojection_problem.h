@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "kernels/kernels.h"
-#include "motion/cauchy_weights.h"
+#include "motion/feature_errors.h"
 #include "motion/fitted_feature.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/rigid_motion.h"

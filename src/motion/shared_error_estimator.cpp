@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "motion/cauchy_weights.h"
+#include "motion/feature_errors.h"
 #include "motion/shared_error.h"
 
 namespace rotrocc {

@@ -6,7 +6,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "motion/cauchy_weights.h"
 #include "motion/feature_errors.h"
 
 namespace rotrocc {

@@ -8,7 +8,6 @@
 #include "features/descriptor_matcher.h"
 #include "features/stereo_frame.h"
 #include "motion/motion_estimator.h"
-#include "odometry/hypothesis.h"
 #include "odometry/motion_check.h"
 #include "odometry/rig_estimate.h"
 #include "rotrocc/odometry_config.h"

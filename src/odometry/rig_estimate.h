@@ -5,7 +5,7 @@
 #include "features/row_search.h"
 #include "features/stereo_frame.h"
 #include "motion/shared_error_estimator.h"
-#include "odometry/hypothesis.h"
+#include "odometry/motion_check.h"
 #include "rig/bias_filter.h"
 #include "rig/bias_meter.h"
 #include "rig/row_comparison.h"

@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "inertial/gyro_sample.h"
+#include "inertial/gyro_history.h"
 #include "rectification/stereo_calibration.h"
 #include "rotrocc/stereo_pair.h"
 #include "rotrocc/trajectory.h"

@@ -8,7 +8,7 @@
 #include "rotrocc/kitti.h"
 #include "sequences/kitti_mount.h"
 #include "support/kitti2bag_writer.h"
-#include "support/synthetic_sequence.h"
+#include "support/synthetic_scene.h"
 #include "support/temporary_directory.h"
 
 namespace rotrocc {

@@ -20,7 +20,7 @@
 #include "sequences/kitti_mount.h"
 #include "support/asl_folder.h"
 #include "support/expect_error.h"
-#include "support/synthetic_sequence.h"
+#include "support/synthetic_scene.h"
 #include "support/temporary_directory.h"
 
 namespace rotrocc {

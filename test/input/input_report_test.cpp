@@ -7,8 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "input/topic_statistics.h"
-
 namespace rotrocc {
 namespace {
 

@@ -204,20 +204,6 @@ StereoCamera wronglyCalibrated() {
   return wrong;
 }
 
-TEST(VisualOdometryTest, CorrectsTheBiasOfARig) {
-  VisualOdometry::Config uncorrected;
-  uncorrected.stereo_calibrator.enabled = false;
-  const auto last = [](const VisualOdometry::Config& config) {
-    return started(7, wronglyCalibrated(), config).process(bend(7), wronglyCalibrated());
-  };
-  const OdometryResult corrected = last({});
-  const OdometryResult biased = last(uncorrected);
-  EXPECT_NEAR(corrected.disparity_bias.estimated_px, 1.0, 0.15);
-  EXPECT_EQ(biased.disparity_bias.applied_px, 0.0);
-  const double error_m = motionError(corrected.T_prev_cur, bendStep()).head<3>().norm();
-  EXPECT_LT(2.0 * error_m, motionError(biased.T_prev_cur, bendStep()).head<3>().norm());
-}
-
 TEST(VisualOdometryTest, KeepsTheBiasOverAResetButNotForAnotherCamera) {
   VisualOdometry odometry = started(7, wronglyCalibrated());
   const double applied_px =

@@ -14,7 +14,7 @@
 #include "support/kitti2bag_writer.h"
 #include "support/read_file.h"
 #include "support/run_command.h"
-#include "support/synthetic_sequence.h"
+#include "support/synthetic_scene.h"
 #include "support/temporary_directory.h"
 #include "support/wait_until.h"
 

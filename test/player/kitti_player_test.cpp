@@ -35,7 +35,7 @@
 #include "support/expect_error.h"
 #include "support/kitti2bag_writer.h"
 #include "support/service_caller.h"
-#include "support/synthetic_sequence.h"
+#include "support/synthetic_scene.h"
 #include "support/temporary_directory.h"
 #include "support/wait_until.h"
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "support/run_command.h"
-#include "support/synthetic_sequence.h"
+#include "support/synthetic_scene.h"
 #include "support/temporary_directory.h"
 
 namespace rotrocc {

@@ -115,7 +115,7 @@ void writeKitti2bagRaw(const KittiSequence& sequence, const std::string& path) {
   for (int index = 0; index < sequence.size(); ++index) {
     const ros::Time stamp = stampOf(sequence, index);
     writeMounts(bag, stamp);
-    if (!sequence.hasGroundTruth()) continue;
+    if (sequence.groundTruth().empty()) continue;
     const Eigen::Isometry3d T_world_base = poseInWorld(sequence.groundTruth()[index]);
     writeTransform(bag, "/tf", stamp, "world", "base_link", T_world_base);
   }

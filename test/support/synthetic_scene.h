@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
@@ -42,5 +43,9 @@ class SyntheticScene {
 
   StereoCamera camera_;
 };
+
+/// Writes `pairs` pairs of a drive along the street of SyntheticScene, 0.5 m and up to 1 degree
+/// from each to the next at 10 Hz, with ground truth, in the layout of KittiSequence.
+void writeSyntheticSequence(const std::string& directory, int pairs);
 
 }  // namespace rotrocc

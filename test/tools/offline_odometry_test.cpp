@@ -19,7 +19,7 @@
 #include "support/read_csv.h"
 #include "support/read_file.h"
 #include "support/run_command.h"
-#include "support/synthetic_sequence.h"
+#include "support/synthetic_scene.h"
 #include "support/temporary_directory.h"
 
 namespace rotrocc {

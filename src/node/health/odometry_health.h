@@ -7,7 +7,6 @@
 #include "input/drop_log.h"
 #include "input/input_report.h"
 #include "input/log.h"
-#include "input/topic_statistics.h"
 #include "node/health/sliding_quantiles.h"
 #include "rotrocc/OdometryStatus.h"
 #include "rotrocc/odometry_result.h"
