@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include <Eigen/Core>
@@ -22,8 +23,16 @@ using Correspondences = std::vector<Correspondence>;
 /// One flag per correspondence, in the same order: 1 if it belongs to the set, else 0.
 using FeatureSet = std::vector<char>;
 
-/// Computes point_cur of all features from their disparities. Removes features whose disparity is
-/// not greater than that of a point at infinity, or whose depth is below 0.1 m.
+/// Points closer to the image plane than this [m] are projected as if they were at this depth. It
+/// keeps the residual of a wrong match finite.
+constexpr double kMinDepth_m = 0.1;
+
+/// Whether a triangulated depth [m] is finite and far enough in front of the camera.
+inline bool isUsableDepth(double depth_m) {
+  return std::isfinite(depth_m) && depth_m >= kMinDepth_m;
+}
+
+/// Computes point_cur of all features from their disparities. Removes those without a usable depth.
 void triangulate(const StereoCamera& camera, Correspondences& features);
 
 }  // namespace rotrocc

@@ -70,11 +70,6 @@ struct MotionCheckConfig {
   double max_turn_rate_rps = 6.0;  ///< faster: lost
 };
 
-/// When a keyframe is replaced.
-struct KeyframeSelectorConfig {
-  bool adaptive = true;  ///< keep it at rest; false: every frame is the keyframe of the next one
-};
-
 /// Online rig calibration: estimation of the disparity bias.
 struct StereoCalibratorConfig {
   bool enabled = true;   ///< false: only bias_px is applied, and no row offset
@@ -100,12 +95,12 @@ struct OdometryConfig {
   CorrespondenceFinderConfig correspondence_finder;
   MotionEstimatorConfig motion_estimator;
   MotionCheckConfig motion_check;
-  KeyframeSelectorConfig keyframe_selector;
   StereoCalibratorConfig stereo_calibrator;
   SystematicErrorConfig systematic_error;
 
-  int threads = 2;    ///< that process a pair, including the calling thread
-  int max_tries = 8;  ///< maximum number of tries (start, track, estimate) per pair
+  int threads = 2;            ///< that process a pair, including the calling thread
+  bool keep_keyframe = true;  ///< at rest; false: every frame is the keyframe of the next one
+  int max_tries = 8;          ///< maximum number of tries (start, track, estimate) per pair
   /// Between two pairs: if longer, the estimator restarts. After half of it, the last motion does
   /// not predict the next one.
   double max_gap_s = 1.0;

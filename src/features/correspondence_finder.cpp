@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "common/median.h"
-#include "geometry/min_depth.h"
 
 namespace rotrocc {
 namespace {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "geometry/min_depth.h"
-
 namespace rotrocc {
 
 void triangulate(const StereoCamera& camera, Correspondences& features) {

@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "common/median.h"
-#include "geometry/min_depth.h"
 
 namespace rotrocc {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "geometry/min_depth.h"
 #include "kernels/kernels.h"
 
 namespace rotrocc {

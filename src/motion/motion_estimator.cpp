@@ -9,7 +9,7 @@
 
 #include "motion/consensus_motion.h"
 #include "motion/feature_errors.h"
-#include "motion/shared_error.h"
+#include "motion/reprojection_problem.h"
 
 namespace rotrocc {
 namespace {
@@ -207,7 +207,8 @@ void MotionEstimator::retryNear(const Eigen::Isometry3d& motion,
   estimateFrom(near_, measured, motion, dt_s, retry_);
 }
 
-/// Whether the retry is more plausible than the first motion.
+/// Whether the retry has more than twice as many inliers as the first motion; or at least half as
+/// many, differs significantly, and is less than half as far from the prediction.
 bool MotionEstimator::isLikelier(const MotionEstimate& retry, const Prediction& prediction) const {
   if (!retry.valid || !found_.valid) return retry.valid;
   const int inliers = count(retry.rotation_inliers);

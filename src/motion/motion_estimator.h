@@ -33,17 +33,11 @@ class MotionEstimator {
   /// The result is invalid if fewer than 3 features are left, or if the equations have no unique
   /// solution.
   ///
-  /// If much of the image moves independently, the full set may give a wrong motion. If less than
-  /// half of the features are inliers, it is replaced by the consensus of the full set, if that has
-  /// more. If few are and there is a prediction, a retry starts from the features close to it. The
-  /// retry replaces the motion if it has more than twice as many inliers, or if all of this holds:
-  /// it has at least half as many inliers, the two motions differ significantly, and it is less
-  /// than half as far from the prediction. Distances are relative to the uncertainty of both
-  /// motions and of the prediction.
+  /// If much of the image moves independently, the full set may give a wrong motion. With few
+  /// inliers, the consensus of the full set or a retry near the prediction replaces it, if that is
+  /// more plausible.
   ///
-  /// `shared_ratio` is that of Measurements.
-  ///
-  /// The result is valid until the next call.
+  /// `shared_ratio` is that of Measurements. The result is valid until the next call.
   const MotionEstimate& estimate(const StereoCamera& camera,
                                  const Correspondences& features,
                                  const Eigen::Isometry3d& initial,

@@ -6,7 +6,7 @@
 #include <ceres/tiny_solver.h>
 #include <Eigen/Core>
 
-#include "motion/shared_error.h"
+#include "motion/reprojection_problem.h"
 
 namespace rotrocc {
 namespace {

@@ -8,8 +8,6 @@
 
 #include <Eigen/Cholesky>
 
-#include "motion/shared_error.h"
-
 namespace rotrocc {
 namespace {
 

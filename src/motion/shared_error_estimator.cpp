@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "motion/feature_errors.h"
-#include "motion/shared_error.h"
+#include "motion/reprojection_problem.h"
 
 namespace rotrocc {
 namespace {

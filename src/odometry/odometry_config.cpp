@@ -52,7 +52,7 @@ void useMethodOfPaper(OdometryConfig& config) {
   estimator.translation_initial_px = 0.0;
   estimator.translation_from_prediction = true;
   // Motions are from pair to pair.
-  config.keyframe_selector.adaptive = false;
+  config.keep_keyframe = false;
 }
 
 }  // namespace rotrocc

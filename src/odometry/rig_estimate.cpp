@@ -1,6 +1,6 @@
 #include "odometry/rig_estimate.h"
 
-#include "motion/shared_error.h"
+#include "motion/reprojection_problem.h"
 
 namespace rotrocc {
 namespace {

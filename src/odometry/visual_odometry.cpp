@@ -389,7 +389,7 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   // drift at standstill. In motion each frame is the keyframe of the next one, because the errors
   // of a feature grow with the way that it is tracked.
   const bool serves = result.state == State::kOk && MotionCheck::hasReserve(estimate) &&
-                      config_.keyframe_selector.adaptive && check_.isAtRest(found_);
+                      config_.keep_keyframe && check_.isAtRest(found_);
   if (!serves) keyframe_.frame.reset();
 }
 

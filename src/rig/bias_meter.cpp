@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "motion/shared_error.h"
+#include "motion/reprojection_problem.h"
 
 namespace rotrocc {
 namespace {

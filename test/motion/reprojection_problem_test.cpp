@@ -4,8 +4,6 @@
 #include <ceres/rotation.h>
 #include <gtest/gtest.h>
 
-#include "geometry/min_depth.h"
-#include "motion/shared_error.h"
 #include "support/simulated_features.h"
 
 namespace rotrocc {

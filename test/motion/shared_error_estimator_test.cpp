@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "motion/motion_estimator.h"
-#include "motion/shared_error.h"
+#include "motion/reprojection_problem.h"
 #include "support/simulated_features.h"
 
 namespace rotrocc {
