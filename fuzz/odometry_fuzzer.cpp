@@ -14,7 +14,7 @@
 #include <boost/make_shared.hpp>
 #include <opencv2/core/utility.hpp>
 
-#include "input/drop_log.h"
+#include "input/input_error.h"
 #include "input/message_conversion.h"
 #include "input/stereo_intake.h"
 #include "node/base/pair_processor.h"

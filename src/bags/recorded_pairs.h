@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "bags/recording.h"
-#include "input/drop_log.h"
+#include "input/input_error.h"
 #include "input/stereo_intake.h"
 #include "input/stereo_pair_converter.h"
 #include "rectification/stereo_calibration.h"

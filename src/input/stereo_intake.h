@@ -12,7 +12,7 @@
 #include <sensor_msgs/Image.h>
 
 #include "input/camera_calibration.h"
-#include "input/drop_log.h"
+#include "input/input_error.h"
 #include "input/input_report.h"
 #include "input/log.h"
 #include "input/stereo_synchronizer.h"

@@ -10,7 +10,7 @@
 #include <ros/node_handle.h>
 #include <ros/wall_timer.h>
 
-#include "input/drop_log.h"
+#include "input/input_error.h"
 #include "input/latest_mailbox.h"
 #include "input/log.h"
 #include "node/base/pair_processor.h"

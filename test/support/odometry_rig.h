@@ -10,7 +10,7 @@
 #include <sensor_msgs/Image.h>
 #include <opencv2/core.hpp>
 
-#include "input/drop_log.h"
+#include "input/input_error.h"
 #include "input/stereo_intake.h"
 #include "node/base/pair_processor.h"
 #include "rotrocc/parameters.h"

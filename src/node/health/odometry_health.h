@@ -4,7 +4,7 @@
 #include <mutex>
 #include <string>
 
-#include "input/drop_log.h"
+#include "input/input_error.h"
 #include "input/input_report.h"
 #include "input/log.h"
 #include "node/health/sliding_quantiles.h"
