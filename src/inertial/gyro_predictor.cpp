@@ -15,8 +15,6 @@ namespace {
 /// a smaller value would not follow them, and a larger one costs little.
 constexpr double kWalk = 1e-4;
 
-constexpr double kUsualSigmas = 3.0;
-
 /// Number of motions in a row after which the opinion changes. One may be wrong in the images.
 constexpr int kEnough = 5;
 
@@ -50,7 +48,7 @@ void GyroBias::observe(const Eigen::Vector3d& difference_rad,
   const Eigen::Matrix3d of_bias = by_bias_s * covariance_ * by_bias_s.transpose();
   const double squared_sigmas =
       difference_rad.dot((of_bias + covariance).llt().solve(difference_rad));
-  const double scale = std::max(1.0, squared_sigmas / (kUsualSigmas * kUsualSigmas));
+  const double scale = std::max(1.0, squared_sigmas / (kSigmas * kSigmas));
   const Eigen::Matrix3d innovation_covariance = of_bias + scale * covariance;
   // H = -by_bias_s
   const Eigen::Matrix3d gain =
