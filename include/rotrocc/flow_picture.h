@@ -24,10 +24,9 @@ struct FlowScene {
 /// counts and disparity bias, and explains the colours. They are safe for colour-blind readers.
 /// What is masked is tinted red.
 ///
-/// Inliers of both stages are coloured by depth, from orange (near) to blue
-/// (far). Inliers of the rotation stage only are white, all other features magenta. For these two,
-/// the flow that the estimated motion predicts is drawn in green where it differs from the measured
-/// flow.
+/// Inliers of both stages are coloured by depth, from orange (near) to blue (far). Inliers of the
+/// rotation stage only are white, all other features magenta. For these two, the flow that the
+/// estimated motion predicts is drawn in green where it differs from the measured flow.
 ///
 /// `picture` becomes CV_8UC3 in BGR order, as wide as the image and one text line higher. Its
 /// buffer is reused. Throws std::invalid_argument if the image is empty or not CV_8UC1, or if a

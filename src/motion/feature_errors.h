@@ -20,8 +20,7 @@ double deviationOf(std::vector<double>& lengths_px);
 ///
 /// The tails of disparity and flow errors are longer than Gaussian tails and not symmetric: a
 /// window at the edge of a near object also contains that object, so its disparity is too large.
-/// Such errors bias the mean, but hardly the median. These weights are a compromise between the
-/// two.
+/// Such errors bias the mean, but hardly the median: these weights are a compromise.
 ///
 /// `errors_px` are the lengths e of two-dimensional residuals. s is their standard deviation in
 /// each direction, estimated from the median of e for Gaussian residuals. f is `factor`. All

@@ -64,14 +64,11 @@ inline double parabolaOverRows(const StereoCamera& camera, const Eigen::Vector2d
 }
 
 /// Least squares over a set of fitted features: residuals W (target - pi(R X + T)) [px], Jacobian
-/// and weights. The solver, the covariance and the rig calibration all use the terms of
-/// linearise().
+/// and weights.
 ///
 /// With kParameters = 6 the parameters are a rotation vector relative to R_0, the rotation of the
 /// fit, and the translation (Eq. 25): R = Exp(p[0..2]) R_0, T = p[3..5]. With kParameters = 3 they
 /// are the translation alone, and the rotation is R_0 (Eq. 29).
-///
-/// The features are kept in blocks, for the kernels.
 template <int kParameters>
 class ReprojectionProblem {
  public:
