@@ -133,9 +133,8 @@ TEST(GyroPredictorTest, RefusesDegreesPerSecondUntilTheyAreRadians) {
   GyroPredictor predictor(body.R_camera_gyro);
   drive(body, 0, 10, predictor, 180.0 / M_PI);
   ASSERT_TRUE(predictor.whyDistrusted());
-  EXPECT_NE(
-      predictor.whyDistrusted()->find("57.3 times those of the images: it seems to be in deg/s"),
-      std::string::npos);
+  EXPECT_NE(predictor.whyDistrusted()->find(" times those of the images: it seems to be in deg/s"),
+            std::string::npos);
   body.addSamples(10, predictor, 180.0 / M_PI);
   EXPECT_FALSE(predictor.rotation(9 * kPair_ns, 10 * kPair_ns));
   EXPECT_EQ(predictor.whyNot(), predictor.whyDistrusted());
