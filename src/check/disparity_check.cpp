@@ -22,10 +22,6 @@ constexpr double kFixScale = 0.03;
 /// Disparities that a motion determines worse say nothing.
 constexpr double kMostSigma_px = 2.0;
 
-double medianOf(std::vector<double> values) {
-  return values.empty() ? 0.0 : median(values);
-}
-
 }  // namespace
 
 void DisparityCheck::observe(const CheckedPair& pair) {
@@ -72,7 +68,8 @@ void DisparityCheck::measure(const CheckedPair& pair, std::size_t index) {
 
 void DisparityCheck::report(const Windows& windows, RigReport& report) const {
   if (biases_px_.empty()) return;
-  const double typical_px = medianOf(disparities_px_);
+  std::vector<double> disparities_px = disparities_px_;
+  const double typical_px = disparities_px.empty() ? 0.0 : median(disparities_px);
   const double fB = camera_.fx * camera_.baseline_m;
   const double bias_px = bias_.estimated_px;
   const auto scaleAt = [&](double depth_m) {
@@ -101,7 +98,7 @@ void DisparityCheck::report(const Windows& windows, RigReport& report) const {
               kAcceptableScale,
               kFixScale});
   addMap(report);
-  ReportTable course = {"bias_time", {"time_s", "bias_px", "sigma_px"}, {}};
+  ReportTable course = {"bias_time", "time_s,bias_px,sigma_px", {}};
   for (std::size_t i = 0; i < biases_px_.size(); ++i) {
     course.rows.push_back({biases_px_[i].time_s, biases_px_[i].value, bias_sigmas_px_[i]});
   }
@@ -151,7 +148,7 @@ void DisparityCheck::addMap(RigReport& report) const {
     cell.weighted_px += weight * error.correction_px;
     cell.squares += weight * weight * error.correction_px * error.correction_px;
   }
-  ReportTable table = {"disparity_map", {"x_px", "y_px", "count", "bias_px", "sigma_px"}, {}};
+  ReportTable table = {"disparity_map", "x_px,y_px,count,bias_px,sigma_px", {}};
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Cell& cell = cells[i];
     if (cell.count < ImageGrid::kLeast) continue;

@@ -21,11 +21,6 @@ constexpr double kStep_s = 0.005;
 
 constexpr std::size_t kLeastTurns = 20;
 
-constexpr double kAcceptableDelay_s = 0.005;
-constexpr double kFixDelay_s = 0.02;
-constexpr double kAcceptableAngle = 1.0 / kDegrees;
-constexpr double kFixAngle = 3.0 / kDegrees;
-
 double secondsFrom(std::int64_t from_ns, std::int64_t to_ns) {
   return 1e-9 * static_cast<double>(to_ns - from_ns);
 }
@@ -163,7 +158,7 @@ void GyroCheck::report(const Windows& windows, RigReport& report) const {
               "a turn of 50 deg/s is predicted " + fixedText(50.0 * std::abs(all.delay_s), 2) +
                   " deg wrong",
               "correct the stamps of the driver, or trigger both by one clock"},
-             {all.delay_s, sigmas[0], kAcceptableDelay_s, kFixDelay_s});
+             {all.delay_s, sigmas[0], 0.005, 0.02});
   const double angle = Eigen::AngleAxisd(R_camera_gyro_ * all.R_camera_gyro.transpose()).angle();
   const double angle_sigma =
       std::sqrt(sigmas[1] * sigmas[1] + sigmas[2] * sigmas[2] + sigmas[3] * sigmas[3]);
@@ -176,12 +171,12 @@ void GyroCheck::report(const Windows& windows, RigReport& report) const {
                   " " + fixedText(q.w(), 5),
               "predicted turns are about a wrong axis",
               "correct the transform from the base to the gyroscope, or to the camera"},
-             {angle, angle_sigma, kAcceptableAngle, kFixAngle});
+             {angle, angle_sigma, 1.0 / kDegrees, 3.0 / kDegrees});
   addTable(all, report);
 }
 
 void GyroCheck::addTable(const Fit& fit, RigReport& report) const {
-  ReportTable table = {"gyro", {"time_s", "camera_dps", "gyro_dps"}, {}};
+  ReportTable table = {"gyro", "time_s,camera_dps,gyro_dps", {}};
   for (const Turn& turn : turns_) {
     const auto gyro = turned(turn, fit.delay_s);
     if (!gyro) continue;

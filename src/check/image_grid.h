@@ -36,15 +36,6 @@ class ImageGrid {
             (index / columns_ + 0.5) * height_ / rows_ - 0.5};
   }
 
-  cv::Rect area(std::size_t cell) const {
-    const auto index = static_cast<int>(cell);
-    const int column = index % columns_;
-    const int row = index / columns_;
-    const cv::Point first(width_ * column / columns_, height_ * row / rows_);
-    const cv::Point last(width_ * (column + 1) / columns_, height_ * (row + 1) / rows_);
-    return {first, last};
-  }
-
  private:
   int width_;
   int height_;

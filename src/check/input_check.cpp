@@ -20,14 +20,6 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double kGapPeriods = 1.5;
 
-/// Limits: shares of the images, of the period, and seconds.
-constexpr double kAcceptableMissing = 0.01;
-constexpr double kFixMissing = 0.1;
-constexpr double kAcceptableApart = 0.05;
-constexpr double kFixApart = 0.25;
-constexpr double kAcceptableAge_s = 0.3;
-constexpr double kFixAge_s = 1.0;
-
 std::string listOf(const std::map<std::string, int>& counts) {
   std::string text;
   for (const auto& [name, count] : counts) {
@@ -127,10 +119,7 @@ void InputCheck::addRates(RigReport& report) const {
                 measured,
                 "motions over gaps are longer: more is lost, most of all in turns",
                 "look for lost frames of the driver, the USB or network link, and the recorder"},
-               {(missing + duplicates) / static_cast<double>(stamps_ns.size()),
-                0.0,
-                kAcceptableMissing,
-                kFixMissing});
+               {(missing + duplicates) / static_cast<double>(stamps_ns.size()), 0.0, 0.01, 0.1});
   }
 }
 
@@ -147,7 +136,7 @@ void InputCheck::addStamps(RigReport& report) const {
   const double age_s = median(ages_s);
   // Not in folders of images, nor with another clock than that of the recorder.
   const bool has_ages = age_s != 0.0 && std::abs(age_s) < kOtherClock_s;
-  ReportTable table = {"stamps", {"time_s", "left_minus_right_ms", "age_ms", "interval_ms"}, {}};
+  ReportTable table = {"stamps", "time_s,left_minus_right_ms,age_ms,interval_ms", {}};
   std::vector<double> apart_s;
   for (const auto& [i, j] : matches) {
     apart_s.push_back(toSeconds(left_ns[i] - right_ns[j]));
@@ -166,7 +155,7 @@ void InputCheck::addStamps(RigReport& report) const {
        fixedText(1e3 * typical_s, 2) + " ms, at most " + fixedText(1e3 * largest_s, 2) + " ms",
        "images of different times are no pair: what moves has wrong depths",
        "trigger both cameras by one signal, and take its time for both stamps"},
-      {typical_s / toSeconds(*period_ns), 0.0, kAcceptableApart, kFixApart});
+      {typical_s / toSeconds(*period_ns), 0.0, 0.05, 0.25});
   if (!has_ages) return;
   report.add(
       {"inputs",
@@ -176,7 +165,7 @@ void InputCheck::addStamps(RigReport& report) const {
        age_s > 0.0 ? "synchronize the clocks of camera and computer, and look for what delays "
                      "the images"
                    : "stamps are of the future: synchronize the clocks of camera and computer"},
-      {age_s, 0.0, kAcceptableAge_s, kFixAge_s});
+      {age_s, 0.0, 0.3, 1.0});
 }
 
 }  // namespace rotrocc

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -17,8 +16,6 @@
 namespace rotrocc {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
 constexpr std::size_t kPerPair = 150;
 constexpr std::size_t kLeast = 30;
 constexpr int kPatch = 4;  // radius of the patches whose means are compared [px]
@@ -27,18 +24,10 @@ constexpr int kPatch = 4;  // radius of the patches whose means are compared [px
 constexpr std::size_t kSharpnessStep = 5;
 constexpr int kSharpnessPatch = 24;
 
-/// Limits. Matching by correlation takes any gain, but one of a quarter is another exposure time,
-/// and another motion blur.
+/// Matching by correlation takes any gain, but one of a quarter is another exposure time, and
+/// another motion blur.
 constexpr double kAcceptableGain = 0.1;
 constexpr double kFixGain = 0.25;
-constexpr double kAcceptableOffset = 0.02;  // of the range
-constexpr double kFixOffset = 0.06;
-constexpr double kAcceptableVignetting = 0.15;
-constexpr double kFixVignetting = 0.4;
-constexpr double kAcceptableBlur_px2 = 0.4 * 0.4;
-constexpr double kFixBlur_px2 = 0.8 * 0.8;
-constexpr double kAcceptableNoise = 0.15;  // of the contrast of the image
-constexpr double kFixNoise = 0.3;
 constexpr double kAcceptableShare = 0.1;
 constexpr double kFixShare = 0.3;
 
@@ -120,13 +109,10 @@ Eigen::Vector3d fitLevels(const std::vector<PatchMeans>& means,
 }  // namespace
 
 void PhotometryCheck::observe(const CheckedPair& pair) {
-  Row row = {pair.time_s,
-             kUnknown,
-             kUnknown,
-             kUnknown,
-             kUnknown,
-             levelsOf(pair.images.left),
-             levelsOf(pair.images.right)};
+  Row row;
+  row.time_s = pair.time_s;
+  row.left = levelsOf(pair.images.left);
+  row.right = levelsOf(pair.images.right);
   if (pair.result.hasMotion()) {
     compare(pair, row);
     if (rows_.size() % kSharpnessStep == 0) compareSharpness(pair, row);
@@ -185,17 +171,10 @@ void PhotometryCheck::report(const Windows& windows, RigReport& report) const {
   addExposure(windows, report);
   addLevels(windows, report);
   ReportTable table = {"photometry",
-                       {"time_s",
-                        "gain",
-                        "offset_grey",
-                        "mean_left",
-                        "mean_right",
-                        "saturated_left",
-                        "saturated_right",
-                        "dark_left",
-                        "dark_right"},
+                       "time_s,gain,offset_grey,mean_left,mean_right,saturated_left,"
+                       "saturated_right,dark_left,dark_right",
                        {}};
-  ReportTable sharpness = {"sharpness", {"time_s", "blur_px2"}, {}};
+  ReportTable sharpness = {"sharpness", "time_s,blur_px2", {}};
   for (const Row& row : rows_) {
     table.rows.push_back({row.time_s,
                           row.gain,
@@ -238,14 +217,14 @@ void PhotometryCheck::addExposure(const Windows& windows, RigReport& report) con
               toText(offset, "of 255 at black"),
               "the range of the brighter image is smaller by it",
               "set the same black level in both cameras, and look for stray light"},
-             {offset.value / kWhite, offset.sigma / kWhite, kAcceptableOffset, kFixOffset});
+             {offset.value / kWhite, offset.sigma / kWhite, 0.02, 0.06});
   report.add(
       {"photometry",
        "vignetting right to left",
        toText({100.0 * vignetting.value, 100.0 * vignetting.sigma}, "% in the corners"),
        "the darker corners lose features",
        "use the same lens and aperture on both cameras, and look for something in front of one"},
-      {vignetting.value, vignetting.sigma, kAcceptableVignetting, kFixVignetting});
+      {vignetting.value, vignetting.sigma, 0.15, 0.4});
   const std::string side = blur_px2.value > 0.0 ? "right" : "left";
   const double blur_px = std::sqrt(std::abs(blur_px2.value));
   const double sigma_px = blur_px2.sigma / std::max(2.0 * blur_px, std::sqrt(blur_px2.sigma));
@@ -255,7 +234,7 @@ void PhotometryCheck::addExposure(const Windows& windows, RigReport& report) con
        toText(Estimate{blur_px, sigma_px}, "px") + " of blur (Gaussian sigma) more on the " + side,
        "features of fine texture are lost, and disparities get noisier",
        "focus and clean the " + side + " lens"},
-      {blur_px2.value, blur_px2.sigma, kAcceptableBlur_px2, kFixBlur_px2});
+      {blur_px2.value, blur_px2.sigma, 0.4 * 0.4, 0.8 * 0.8});
 }
 
 void PhotometryCheck::addLevels(const Windows& windows, RigReport& report) const {
@@ -290,7 +269,7 @@ void PhotometryCheck::addLevels(const Windows& windows, RigReport& report) const
                 toText({100.0 * noisy.value, 100.0 * noisy.sigma}, "% of the contrast"),
                 "positions get noisier",
                 "more light, or less gain"},
-               {noisy.value, noisy.sigma, kAcceptableNoise, kFixNoise});
+               {noisy.value, noisy.sigma, 0.15, 0.3});
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "check/checked_pair.h"
@@ -23,10 +24,10 @@ class PhotometryCheck {
   };
   /// Of one pair; nan if not measured.
   struct Row {
-    double time_s;
-    double gain, offset_grey, vignetting;
-    double blur_px2;  ///< variance of the Gaussian; negative if the left image is blurred
-    Levels left, right;
+    double time_s = NAN;
+    double gain = NAN, offset_grey = NAN, vignetting = NAN;
+    double blur_px2 = NAN;  ///< variance of the Gaussian; negative if the left image is blurred
+    Levels left = {}, right = {};
   };
 
   static Levels levelsOf(const cv::Mat& image);

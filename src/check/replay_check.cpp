@@ -20,12 +20,6 @@ constexpr double kDegrees = 180.0 / M_PI;
 /// Over a shorter way, differences are compared with what is promised only.
 constexpr double kLeastPath_m = 1.0;
 
-/// Limits of the difference over the way, and of lost pairs.
-constexpr double kAcceptable = 0.01;
-constexpr double kFix = 0.03;
-constexpr double kAcceptableLost = 0.001;
-constexpr double kFixLost = 0.03;
-
 StereoPair mirrored(const StereoPair& pair) {
   StereoPair result;
   result.stamp_ns = pair.stamp_ns;
@@ -154,17 +148,11 @@ void ReplayCheck::report(RigReport& report) {
               toText(lost_) + " of " + toText(pairs_),
               "the way between them is missing",
               "see the findings above; light, texture and speed of turns decide most"},
-             {lost, 0.0, kAcceptableLost, kFixLost});
-  ReportTable table = {"stretches",
-                       {"time_s",
-                        "path_m",
-                        "backward_m",
-                        "backward_deg",
-                        "mirrored_m",
-                        "mirrored_deg",
-                        "sigma_m",
-                        "sigma_deg"},
-                       {}};
+             {lost, 0.0, 0.001, 0.03});
+  ReportTable table = {
+      "stretches",
+      "time_s,path_m,backward_m,backward_deg,mirrored_m,mirrored_deg,sigma_m,sigma_deg",
+      {}};
   std::vector<double> backward, mirror, backward_sigmas, mirror_sigmas, promised;
   for (const Difference& d : differences_) {
     table.rows.push_back({d.time_s,
@@ -205,7 +193,7 @@ void ReplayCheck::report(RigReport& report) {
                     (shares.size() == 1 ? " stretch" : " stretches"),
                 "trajectories of this rig are no better than that",
                 cause},
-               {share, median(promised), kAcceptable, kFix});
+               {share, median(promised), 0.01, 0.03});
   };
   add("backward against forward",
       backward,

@@ -83,7 +83,7 @@ class PairChecks {
     }
     if (with_motion_ < kLeastMotions) addTooShort(report);
     report.tables.push_back({"image",
-                             {"width", "height", "fx", "cx", "cy"},
+                             "width,height,fx,cx,cy",
                              {{static_cast<double>(camera_.width),
                                static_cast<double>(camera_.height),
                                camera_.fx,

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include <yaml-cpp/yaml.h>
-#include <boost/algorithm/string/join.hpp>
 
 #include "common/csv_file.h"
 #include "evaluation/image_file.h"
@@ -36,6 +35,19 @@ std::string wrapped(const std::string& text, std::size_t indent) {
     line += (line.size() > indent ? " " : "") + word;
   }
   return lines + line + '\n';
+}
+
+const char* toString(Verdict verdict) {
+  constexpr const char* kNames[] = {"fix", "acceptable", "unknown", "good"};
+  return kNames[static_cast<std::size_t>(verdict)];
+}
+
+Verdict judge(const Graded& graded) {
+  const double certain = std::abs(graded.value) - kSigmas * graded.sigma;
+  if (!std::isfinite(certain)) return Verdict::kUnknown;
+  if (certain > graded.fix) return Verdict::kFix;
+  if (certain > graded.acceptable) return Verdict::kAcceptable;
+  return graded.sigma > graded.fix ? Verdict::kUnknown : Verdict::kGood;
 }
 
 std::string label(Verdict verdict) {
@@ -79,19 +91,6 @@ YAML::Node toYaml(const std::vector<Finding>& findings) {
 }
 
 }  // namespace
-
-const char* toString(Verdict verdict) {
-  constexpr const char* kNames[] = {"fix", "acceptable", "unknown", "good"};
-  return kNames[static_cast<std::size_t>(verdict)];
-}
-
-Verdict judge(const Graded& graded) {
-  const double certain = std::abs(graded.value) - kSigmas * graded.sigma;
-  if (!std::isfinite(certain)) return Verdict::kUnknown;
-  if (certain > graded.fix) return Verdict::kFix;
-  if (certain > graded.acceptable) return Verdict::kAcceptable;
-  return graded.sigma > graded.fix ? Verdict::kUnknown : Verdict::kGood;
-}
 
 void RigReport::add(Finding finding, const Graded& graded) {
   finding.verdict = judge(graded);
@@ -138,7 +137,7 @@ void writeReport(const RigReport& report, const std::string& directory) {
   file << page << '\n';
   if (!file.flush()) throw std::runtime_error(path + " cannot be written");
   for (const ReportTable& table : report.tables) {
-    CsvFile csv(files.path(table.name + ".csv"), boost::algorithm::join(table.columns, ","));
+    CsvFile csv(files.path(table.name + ".csv"), table.columns);
     for (const std::vector<double>& row : table.rows) csv.row(row);
     csv.close();
   }

@@ -11,10 +11,7 @@ namespace rotrocc {
 /// The worst first. kUnknown: could not be measured.
 enum class Verdict { kFix, kAcceptable, kUnknown, kGood };
 
-/// "good", "acceptable", "fix" or "unknown".
-const char* toString(Verdict verdict);
-
-/// What is known of one property of a rig, for a person who has to decide what to do about it.
+/// What is known of one property of a rig.
 struct Finding {
   /// "inputs", "photometry", "rows", "disparities", "time", "view" or "odometry".
   std::string section;
@@ -30,22 +27,15 @@ struct Finding {
 /// Numbers for the pictures of a report.
 struct ReportTable {
   std::string name;                       ///< of the file, without ".csv"
-  std::vector<std::string> columns;       ///< with their units, e.g. "time_s"
+  std::string columns;                    ///< separated by commas, with their units, e.g. "time_s"
   std::vector<std::vector<double>> rows;  ///< as long as columns
 };
 
-/// Value, uncertainty and the two limits of a finding.
+/// A value with its standard deviation, and the limits above which it is acceptable or to be fixed.
 struct Graded {
-  double value = 0.0;
-  double sigma = 0.0;
-  double acceptable = 0.0;  ///< above: acceptable
-  double fix = 0.0;         ///< above: to be fixed
+  double value, sigma;
+  double acceptable, fix;
 };
-
-/// The verdict on the size of a value. A limit is passed by three standard deviations, because a
-/// report has some twenty findings. A value that is known no better than the limit of fix is
-/// unknown.
-Verdict judge(const Graded& graded);
 
 struct RigReport {
   std::string title;    ///< what was checked
@@ -57,7 +47,9 @@ struct RigReport {
   cv::Mat left, right;  ///< a pair, CV_8UC1; empty if there is none
   cv::Mat mask;         ///< CV_8UC1, 255 where it is proposed not to look; empty: none is proposed
 
-  /// Adds a finding with the verdict and the severity of a graded value.
+  /// Adds a finding with the verdict and the severity of a graded value. A limit is passed by three
+  /// standard deviations, because a report has some twenty findings. A value that is known no
+  /// better than the limit of fix is unknown.
   void add(Finding finding, const Graded& graded);
 
   /// Puts what is to be fixed first, and of that the most severe.

@@ -25,10 +25,6 @@ constexpr std::size_t kFitted = 8000;
 constexpr double kAcceptable_px = 0.1;
 constexpr double kFix_px = 0.4;
 
-/// Of the time skew: what moves by 100 px/s has disparities that are wrong by the same limits.
-constexpr double kAcceptableSkew_s = 0.001;
-constexpr double kFixSkew_s = 0.004;
-
 constexpr double kSigmas = 3.0;
 constexpr double kDegrees = 180.0 / M_PI;
 
@@ -210,7 +206,7 @@ void RowCheck::addCauses(RigReport& report) const {
               "what moves by 100 px/s has disparities that are wrong by " +
                   fixedText(100.0 * std::abs(skew_s), 2) + " px, and so has all when the rig turns",
               "trigger both cameras by the same signal, and give both the same exposure time"},
-             {skew_s, sigma_s, kAcceptableSkew_s, kFixSkew_s});
+             {skew_s, sigma_s, 0.01 * kAcceptable_px, 0.01 * kFix_px});
 }
 
 void RowCheck::addMap(RigReport& report) {
@@ -223,7 +219,7 @@ void RowCheck::addMap(RigReport& report) {
     rows_px[cell].push_back(sample.row_px);
     models_px[cell] += rowOf(camera_, model_.causes, sample);
   }
-  ReportTable table = {"rows_map", {"x_px", "y_px", "count", "row_px", "sigma_px", "model_px"}, {}};
+  ReportTable table = {"rows_map", "x_px,y_px,count,row_px,sigma_px,model_px", {}};
   double cells = 0.0;
   double left_over = 0.0;
   for (std::size_t cell = 0; cell < grid.count(); ++cell) {
@@ -257,7 +253,7 @@ void RowCheck::addCourse(RigReport& report) {
     seconds[static_cast<int>(sample.time_s)].push_back(sample.row_px -
                                                        rowOf(camera_, model_.causes, sample));
   }
-  ReportTable table = {"rows_time", {"time_s", "row_px", "sigma_px"}, {}};
+  ReportTable table = {"rows_time", "time_s,row_px,sigma_px", {}};
   std::vector<double> medians;
   double squares = 0.0;
   double variances = 0.0;

@@ -21,14 +21,6 @@ constexpr int kFineColumns = 2 * ImageGrid::kColumns;
 constexpr int kLeastFeatures = 20;
 constexpr double kMostAgreeing = 0.15;
 
-/// Limits of shares.
-constexpr double kAcceptableMissing = 0.5;
-constexpr double kFixMissing = 0.8;
-constexpr double kAcceptableEmpty = 0.5;
-constexpr double kFixEmpty = 0.8;
-constexpr double kAcceptableMasked = 0.02;
-constexpr double kFixMasked = 0.05;
-
 std::string percent(double share) {
   return toText(std::lround(100.0 * share)) + " %";
 }
@@ -212,9 +204,8 @@ void ViewCheck::addDisparities(RigReport& report) const {
       2 * missing_.too_near > corners_ - with_depth_
           ? "set `max_disparity_px` to " + toText(2 * config_.max_disparity_px)
           : "look at rows, sharpness and exposure above; the scene may have too little texture";
-  report.add(finding, {1.0 - with_depth, 0.0, kAcceptableMissing, kFixMissing});
-  ReportTable table = {
-      "view_map", {"x_px", "y_px", "corners", "with_depth", "features", "inliers"}, {}};
+  report.add(finding, {1.0 - with_depth, 0.0, 0.5, 0.8});
+  ReportTable table = {"view_map", "x_px,y_px,corners,with_depth,features,inliers", {}};
   const ImageGrid grid(camera_.width, camera_.height);
   for (std::size_t i = 0; i < map_.size(); ++i) {
     const cv::Point2d centre = grid.centre(i);
@@ -238,7 +229,7 @@ void ViewCheck::addCoverage(RigReport& report) const {
               "features in " + percent(1.0 - empty) + " of the image",
               "rotation and translation look alike in a part of the image",
               "turn the cameras to where there is texture, or use wider lenses"},
-             {empty, 0.0, kAcceptableEmpty, kFixEmpty});
+             {empty, 0.0, 0.5, 0.8});
 }
 
 void ViewCheck::addDepths(RigReport& report) const {
@@ -248,8 +239,6 @@ void ViewCheck::addDepths(RigReport& report) const {
   const double middle_m = quantile(depths_m, 0.5);
   const double far_m = quantile(depths_m, 0.9);
   const double typical_px = camera_.fx * camera_.baseline_m / middle_m;
-  constexpr double kFewPixels = 0.4;  // 1 / 2.5 px
-  constexpr double kHardlyAny = 1.0;  // 1 / 1 px
   report.add(
       {"view",
        "depths",
@@ -257,8 +246,8 @@ void ViewCheck::addDepths(RigReport& report) const {
            fixedText(far_m, 1) + " m; a disparity of " + fixedText(typical_px, 1) + " px",
        "the way is known as well as the near depths are",
        "a longer baseline, a longer focal length, or look lower"},
-      {1.0 / typical_px, 0.0, kFewPixels, kHardlyAny});
-  ReportTable table = {"depths", {"depth_m", "features"}, {}};
+      {1.0 / typical_px, 0.0, 0.4, 1.0});
+  ReportTable table = {"depths", "depth_m,features", {}};
   constexpr double kStep = 1.25892541179;  // ten bins for a power of ten
   std::sort(depths_m.begin(), depths_m.end());
   auto from = depths_m.begin();
@@ -296,7 +285,7 @@ cv::Mat ViewCheck::disagreeing() const {
 }
 
 void ViewCheck::addMask(RigReport& report) const {
-  const ImageGrid fine(camera_.width, camera_.height, kFineColumns);
+  constexpr double kAcceptable = 0.02;
   const cv::Mat cells = disagreeing();
   const double masked = share(cv::countNonZero(cells), static_cast<int>(cells.total()));
   report.add(
@@ -307,12 +296,9 @@ void ViewCheck::addMask(RigReport& report) const {
        "the motion towards it",
        "look at `mask.png` of the report, and if it is the robot itself or a reflection, set "
        "the parameter `mask` to it"},
-      {masked, 0.0, kAcceptableMasked, kFixMasked});
-  if (masked <= kAcceptableMasked) return;
-  report.mask = cv::Mat::zeros(camera_.height, camera_.width, CV_8UC1);
-  for (std::size_t i = 0; i < fine.count(); ++i) {
-    if (cells.data[i] != 0) report.mask(fine.area(i)).setTo(255);
-  }
+      {masked, 0.0, kAcceptable, 0.05});
+  if (masked <= kAcceptable) return;
+  cv::resize(cells, report.mask, {camera_.width, camera_.height}, 0, 0, cv::INTER_NEAREST);
 }
 
 }  // namespace rotrocc
