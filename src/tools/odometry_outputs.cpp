@@ -1,7 +1,12 @@
 #include "tools/odometry_outputs.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdio>
+#include <functional>
 #include <iostream>
+#include <numeric>
+#include <optional>
 #include <stdexcept>
 
 #include <rosbag/bag.h>
@@ -9,14 +14,90 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
+#include "common/csv_file.h"
+#include "common/median.h"
 #include "evaluation/image_file.h"
 #include "evaluation/report_directory.h"
 #include "input/message_conversion.h"
 #include "node/base/base_odometry.h"
 #include "node/odometry_messages.h"
 #include "rotrocc/flow_picture.h"
+#include "rotrocc/rigid_motion.h"
 
 namespace rotrocc {
+namespace {
+
+std::size_t countState(const std::vector<PairRecord>& records, State state) {
+  return std::count_if(records.begin(), records.end(), [state](const PairRecord& record) {
+    return record.result.state == state;
+  });
+}
+
+void printTimes(std::ostream& out,
+                const char* name,
+                const std::vector<PairRecord>& records,
+                const std::function<double(const PairRecord&)>& time_ms) {
+  std::vector<double> values;
+  for (const PairRecord& record : records) values.push_back(time_ms(record));
+  const double mean =
+      std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  out << cv::format("%-16s %8.2f %8.2f %8.2f %8.2f\n",
+                    name,
+                    mean,
+                    quantile(values, 0.5),
+                    quantile(values, 0.95),
+                    quantile(values, 0.99));
+}
+
+}  // namespace
+
+/// The motion has its rotation as axis times angle, and the upper triangle of its covariance, row
+/// by row.
+class OdometryOutputs::StatisticsFile {
+ public:
+  explicit StatisticsFile(const std::string& path) : file_(path, columns()) {}
+
+  void write(const PairRecord& record) {
+    const OdometryResult& result = record.result;
+    const StageCounts& counts = result.counts;
+    const StageTimes& times = result.times;
+    file_ << result.stamp_ns << toString(result.state) << result.dt_s << counts.tries
+          << counts.corners << counts.with_depth << counts.tracked << counts.consistent
+          << counts.rotation_inliers << counts.translation_inliers << times.pyramids_ms
+          << times.corners_ms << times.disparity_ms << times.tracking_ms << times.estimation_ms
+          << times.prepared_ms << record.wall_ms << record.cpu_ms << result.keyframe_stamp_ns
+          << result.disparity_bias.estimated_px << result.disparity_bias.sigma_px
+          << result.disparity_bias.applied_px << result.row_offset.median_px
+          << result.row_offset.sigma_px << result.row_offset.typical_px
+          << result.row_offset.applied_px << result.exposure_gain << result.shared_error_ratio
+          << result.flow_noise_px;
+    const Eigen::Vector3d rotation = logRotation(result.T_prev_cur.linear());
+    for (const double value : result.T_prev_cur.translation()) file_ << value;
+    for (const double value : rotation) file_ << value;
+    for (int i = 0; i < 6; ++i) {
+      for (int j = i; j < 6; ++j) file_ << result.covariance(i, j);
+    }
+    file_.endRow();
+  }
+
+ private:
+  static std::string columns() {
+    std::string names =
+        "stamp_ns,state,dt_s,tries,corners,with_depth,tracked,consistent,rotation_inliers,"
+        "translation_inliers,pyramids_ms,corners_ms,disparity_ms,tracking_ms,estimation_ms,"
+        "prepared_ms,wall_ms,cpu_ms,keyframe_stamp_ns,bias_estimated_px,bias_sigma_px,"
+        "bias_applied_px,row_offset_px,row_offset_sigma_px,row_difference_px,"
+        "row_offset_applied_px,exposure_gain,shared_error_ratio,"
+        "flow_noise_px,x_m,y_m,z_m,rx_rad,ry_rad,rz_rad";
+    constexpr const char* kAxes[] = {"x", "y", "z", "rx", "ry", "rz"};
+    for (int i = 0; i < 6; ++i) {
+      for (int j = i; j < 6; ++j) names += std::string(",covariance_") + kAxes[i] + '_' + kAxes[j];
+    }
+    return names;
+  }
+
+  CsvFile file_;
+};
 
 class OdometryOutputs::OdometryBag {
  public:
@@ -90,7 +171,7 @@ OdometryOutputs::OdometryOutputs(const OutputFiles& files,
                                  const Recording& recording,
                                  const Parameters& parameters)
     : trajectory_(files.trajectory, trajectoryFormat(files.format)) {
-  if (!files.statistics.empty()) statistics_.emplace(files.statistics);
+  if (!files.statistics.empty()) statistics_ = std::make_unique<StatisticsFile>(files.statistics);
   if (!files.bag.empty()) bag_ = std::make_unique<OdometryBag>(files.bag, recording, parameters);
   if (!files.pictures.empty()) pictures_ = std::make_unique<FlowPictures>(files.pictures);
 }
@@ -106,10 +187,32 @@ void OdometryOutputs::write(const PairRecord& record,
                             const StereoPair& pair,
                             const StereoCamera& camera,
                             const VisualOdometry& odometry) {
+  records_.push_back(record);
   trajectory_.write({pair.stamp_ns, accumulator_.add(record.result.T_prev_cur)});
   if (statistics_) statistics_->write(record);
   if (bag_) bag_->write(record.result);
   if (pictures_) pictures_->write(pair, camera, odometry, record.result);
+}
+
+void OdometryOutputs::printSummary(std::ostream& out) const {
+  out << records_.size() << " pairs: " << countState(records_, State::kOk) << " ok, "
+      << countState(records_, State::kDegraded) << " degraded, "
+      << countState(records_, State::kLost) << " lost, "
+      << countState(records_, State::kInitialising) << " initialising\n";
+  if (records_.empty()) return;
+  out << "ms per pair          mean   median      p95      p99\n";
+  printTimes(out, "wall", records_, [](const PairRecord& record) { return record.wall_ms; });
+  printTimes(out, "cpu", records_, [](const PairRecord& record) { return record.cpu_ms; });
+  for (const auto& [name, time_ms] : {std::pair{"latency", &StageTimes::total_ms},
+                                      {"  pyramids", &StageTimes::pyramids_ms},
+                                      {"  corners", &StageTimes::corners_ms},
+                                      {"  disparity", &StageTimes::disparity_ms},
+                                      {"  tracking", &StageTimes::tracking_ms},
+                                      {"  estimation", &StageTimes::estimation_ms}}) {
+    printTimes(out, name, records_, [stage = time_ms](const PairRecord& record) {
+      return record.result.times.*stage;
+    });
+  }
 }
 
 }  // namespace rotrocc

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <iosfwd>
 #include <memory>
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "bags/recording.h"
 #include "rotrocc/parameters.h"
@@ -11,15 +12,21 @@
 #include "rotrocc/stereo_pair.h"
 #include "rotrocc/trajectory.h"
 #include "rotrocc/visual_odometry.h"
-#include "tools/run_statistics.h"
 
 namespace rotrocc {
+
+/// Result and times of one pair, without reading its images.
+struct PairRecord {
+  OdometryResult result;
+  double wall_ms = 0.0;  ///< of VisualOdometry::prepare() and process()
+  double cpu_ms = 0.0;   ///< all threads of the process
+};
 
 /// What a run writes. Those that are empty are not written, but for the trajectory.
 struct OutputFiles {
   std::string trajectory;        ///< poses of the left camera
   std::string format = "kitti";  ///< of the trajectory: kitti or tum
-  std::string statistics;        ///< CSV table, see StatisticsFile
+  std::string statistics;        ///< CSV table with one row per pair
   std::string bag;       ///< with the messages that the node would publish for each pair, by
                          ///< stamp: /stereo/odom, /tf odom_frame -> base_frame
   std::string pictures;  ///< folder for flow pictures: 000000.png, 000001.png and so on
@@ -45,13 +52,18 @@ class OdometryOutputs {
              const StereoCamera& camera,
              const VisualOdometry& odometry);
 
+  /// Pairs by state, and mean, median, 95th and 99th percentile of the times.
+  void printSummary(std::ostream& out) const;
+
  private:
+  class StatisticsFile;
   class OdometryBag;
   class FlowPictures;
 
   PoseAccumulator accumulator_;
   TrajectoryWriter trajectory_;
-  std::optional<StatisticsFile> statistics_;
+  std::vector<PairRecord> records_;
+  std::unique_ptr<StatisticsFile> statistics_;
   std::unique_ptr<OdometryBag> bag_;
   std::unique_ptr<FlowPictures> pictures_;
 };

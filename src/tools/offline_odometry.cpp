@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <ctime>
@@ -7,18 +8,22 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include <ros/console.h>
+#include <Eigen/Geometry>
 #include <boost/program_options.hpp>
 #include <opencv2/core.hpp>
 
 #include "bags/recorded_pairs.h"
 #include "common/stage_timer.h"
 #include "inertial/gyro_file.h"
+#include "inertial/gyro_predictor.h"
 #include "input/to_text.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/visual_odometry.h"
@@ -26,8 +31,6 @@
 #include "tools/odometry_outputs.h"
 #include "tools/program.h"
 #include "tools/progress_bar.h"
-#include "tools/recorded_gyro.h"
-#include "tools/run_statistics.h"
 
 namespace {
 
@@ -104,6 +107,59 @@ PairRecord process(VisualOdometry& odometry,
   record.cpu_ms = 1e3 * static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
   return record;
 }
+
+/// The rotation of a quaternion "QX QY QZ QW".
+Eigen::Matrix3d parseRotation(const std::string& quaternion) {
+  std::istringstream text(quaternion);
+  Eigen::Quaterniond q;
+  std::string rest;
+  const bool is_complete = (text >> q.x() >> q.y() >> q.z() >> q.w()) && !(text >> rest);
+  if (!is_complete || !(std::abs(q.norm() - 1.0) < 0.01)) {
+    throw std::invalid_argument("the rotation '" + quaternion +
+                                "' is not a quaternion QX QY QZ QW of length 1");
+  }
+  return q.normalized().toRotationMatrix();
+}
+
+/// Predicts rotations from a recording, as GyroPredictor does while the samples arrive.
+class RecordedGyro {
+ public:
+  explicit RecordedGyro(GyroRecording recording)
+      : samples_(std::move(recording.samples)), predictor_(recording.R_camera_gyro) {}
+
+  std::optional<Eigen::Matrix3d> rotation(std::int64_t from_ns, std::int64_t to_ns) {
+    // Up to the first sample that is not earlier than the image.
+    while (next_ < samples_.size() &&
+           predictor_.history().newest_ns().value_or(to_ns - 1) < to_ns) {
+      predictor_.add(samples_[next_++]);
+    }
+    const auto R_from_to = predictor_.rotation(from_ns, to_ns);
+    if (!R_from_to) why_missed_ = *predictor_.whyNot();
+    return R_from_to;
+  }
+
+  void observe(const OdometryResult& result) { predictor_.observe(result); }
+
+  /// How many rotations were predicted, and the bias.
+  void printSummary(std::ostream& out) const {
+    const GyroPredictor::Counts& counts = predictor_.counts();
+    const Eigen::Vector3d& bias = predictor_.bias().bias_rps();
+    out << "gyroscope: " << counts.predicted << " of " << counts.predicted + counts.missed
+        << cv::format(" rotations predicted, bias %.4f %.4f %.4f (+- %.4f) rad/s\n",
+                      bias.x(),
+                      bias.y(),
+                      bias.z(),
+                      std::sqrt(predictor_.bias().covariance().trace()));
+    if (counts.missed > 0) out << "  last one missed: " << why_missed_ << '\n';
+    if (counts.refused > 0) out << "  " << counts.refused << " samples refused\n";
+  }
+
+ private:
+  std::vector<GyroSample> samples_;
+  std::size_t next_ = 0;
+  GyroPredictor predictor_;
+  std::string why_missed_;  // the last one that was
+};
 
 std::optional<RecordedGyro> openGyro(const Options& options, const Recording& recording) {
   if (options.imu.empty()) return std::nullopt;
@@ -186,7 +242,6 @@ void run(const Options& options) {
   }
   VisualOdometry odometry(parameters.odometry);
   ProgressBar progress("odometry", recording->size());
-  std::vector<PairRecord> records;
   StereoPair pair;
   StereoCamera camera;
   std::int64_t last_ns = std::numeric_limits<std::int64_t>::min();
@@ -200,13 +255,13 @@ void run(const Options& options) {
       if (!keep) outputs.restart();
     }
     last_ns = pair.stamp_ns;
-    records.push_back(process(odometry, pair, camera, rotation));
-    if (gyro) gyro->observe(records.back().result);
-    outputs.write(records.back(), pair, camera, odometry);
+    const PairRecord record = process(odometry, pair, camera, rotation);
+    if (gyro) gyro->observe(record.result);
+    outputs.write(record, pair, camera, odometry);
     progress.advance();
   }
   progress.finish();
-  printSummary(std::cout, records);
+  outputs.printSummary(std::cout);
   if (gyro) gyro->printSummary(std::cout);
   if (preloaded) preloaded->printMemory();
   if (const std::string left_out = pairs.leftOut(); !left_out.empty()) {
