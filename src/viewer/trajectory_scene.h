@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,13 +10,31 @@
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
 #include <visualization_msgs/MarkerArray.h>
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
 #include "rotrocc/OdometryStatus.h"
-#include "viewer/whole_view.h"
 
 namespace rotrocc {
+
+/// Where a camera must be to have all points in its picture. It always looks in the same direction,
+/// down at an angle, so its picture is that of a map which grows.
+class WholeView {
+ public:
+  /// A new point, [m].
+  void add(const Eigen::Vector3d& point);
+
+  /// The nearest place from which all points are seen, with a margin. Needs a point.
+  Eigen::Vector3d position() const;
+
+  /// x is the direction of view, y left and z up in the picture.
+  static Eigen::Quaterniond orientation();
+
+ private:
+  /// The largest distance of a point beyond a side of the picture, if the camera were at 0.
+  double left_ = std::numeric_limits<double>::lowest();
+  double right_ = left_, top_ = left_, bottom_ = left_;
+};
 
 /// What rviz shows of a trajectory as a whole: the way so far, coloured by the state, with widths
 /// that stay visible from afar; the truth, if there is one; state and speed in words; and the frame

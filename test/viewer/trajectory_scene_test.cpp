@@ -1,9 +1,12 @@
 #include "viewer/trajectory_scene.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <tf2_eigen/tf2_eigen.h>
 #include <visualization_msgs/Marker.h>
 
 namespace rotrocc {
@@ -102,6 +105,43 @@ TEST_F(TrajectorySceneTest, RestartsAfterAJumpBackOrInAnotherFrame) {
   addAt(501.0, 1.0);
   addAt(7.0, 2.0, "map");
   EXPECT_EQ(marker("start").pose.position.x, 7.0);
+}
+
+/// rviz sees 22.5 deg up and down; a picture that is as high as wide is its narrowest.
+TEST(TrajectorySceneViewTest, WaysOfAnySizeFillThePicture) {
+  const double edge = std::tan(M_PI / 8.0);
+  for (const double size_m : {0.5, 50.0, 5000.0}) {
+    std::vector<Eigen::Vector3d> ahead, aside, around;
+    for (int i = 0; i <= 60; ++i) {
+      const double angle = i * M_PI / 30.0;
+      ahead.emplace_back(i * size_m / 60.0, 0.0, 0.0);
+      aside.emplace_back(0.0, size_m * (1.0 + i / 60.0), 0.0);
+      around.emplace_back(
+          size_m * std::sin(angle), size_m * (1.0 - std::cos(angle)), 0.02 * i * size_m);
+    }
+    for (const auto& points : {ahead, aside, around}) {
+      TrajectoryScene scene(0.0, "view");
+      nav_msgs::Odometry odometry;
+      for (const Eigen::Vector3d& point : points) {
+        odometry.pose.pose.position = tf2::toMsg(point);
+        scene.add(odometry);
+      }
+      const Eigen::Isometry3d T_view_odom = tf2::transformToEigen(scene.view()).inverse();
+      double side = 0.0, top = -1.0, bottom = 1.0;  // of the picture, as tangents
+      for (const Eigen::Vector3d& point : points) {
+        const Eigen::Vector3d p = T_view_odom * point;
+        EXPECT_GT(p.x(), 0.0) << "behind the camera";
+        side = std::max(side, std::abs(p.y() / p.x()));
+        top = std::max(top, p.z() / p.x());
+        bottom = std::min(bottom, p.z() / p.x());
+      }
+      EXPECT_LE(side, 0.42 + 1e-9);
+      EXPECT_LE(top, edge);
+      EXPECT_GE(bottom, -edge);
+      // The nearest such place: the points reach both sides, or top and bottom.
+      EXPECT_TRUE(side > 0.41 || top - bottom > 0.60) << side << ", " << top - bottom;
+    }
+  }
 }
 
 TEST_F(TrajectorySceneTest, ShowsTheTruthIfThereIsOne) {
