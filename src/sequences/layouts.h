@@ -10,11 +10,6 @@ namespace rotrocc {
 /// These read a directory, see openStereoSequence(), and throw like it; nothing if it has another
 /// layout.
 
-/// KittiSequence with KITTI's mount, and the gyroscope of imu.csv in axes of the left camera, as
-/// simulate_drive --imu writes it.
-std::optional<StereoSequence> readKittiLayout(const std::string& directory,
-                                              const SequenceOptions& options);
-
 /// A recording in ASL format, as those of EuRoC; mav0 may be the directory itself:
 ///   mav0/cam0/data.csv, sensor.yaml, data/*.png    left camera: stamps [ns] and file names,
 ///                                                  intrinsics, distortion and pose on the body
