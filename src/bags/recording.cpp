@@ -266,11 +266,7 @@ std::unique_ptr<Recording> openRecording(const std::vector<std::string>& paths,
   if (const auto bags = bagsIn(directory); !bags.empty()) {
     return std::make_unique<BagRecording>(bags, options);
   }
-  SequenceRecording::Options of_sequence;
-  of_sequence.rectify = !options.raw_sequence;
-  of_sequence.sequence = options.sequence;
-  of_sequence.calibration = options.calibration;
-  return std::make_unique<SequenceRecording>(directory, of_sequence);
+  return std::make_unique<SequenceRecording>(directory, options);
 }
 
 nav_msgs::Path pathOfBase(const Trajectory& recorded, const Eigen::Isometry3d& T_base_body) {

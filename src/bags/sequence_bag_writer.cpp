@@ -70,9 +70,9 @@ void writeSequenceBag(const std::string& path,
   std::filesystem::rename(unfinished, path);
 }
 
-void writeSequenceBag(const std::string& path,
-                      const std::string& directory,
-                      const SequenceRecording::Options& options) {
+void writeSequenceBag(const std::string& path, const std::string& directory, bool rectify) {
+  RecordingOptions options;
+  options.raw_sequence = !rectify;
   SequenceRecording recording(directory, options);
   writeSequenceBag(path, recording);
 }

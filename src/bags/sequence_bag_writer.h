@@ -22,9 +22,7 @@ void writeSequenceBag(const std::string& path,
                       SequenceRecording& recording,
                       const std::function<void()>& on_pair = {});
 
-/// The sequence in `directory`, see openStereoSequence().
-void writeSequenceBag(const std::string& path,
-                      const std::string& directory,
-                      const SequenceRecording::Options& options = {});
+/// The images of the sequence in `directory`, as they were recorded or rectified.
+void writeSequenceBag(const std::string& path, const std::string& directory, bool rectify = false);
 
 }  // namespace rotrocc

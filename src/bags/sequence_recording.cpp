@@ -1,6 +1,5 @@
 #include "bags/sequence_recording.h"
 
-#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -22,21 +21,13 @@ const char* const kBaseFrame = "base_link";
 const char* const kCameraFrame = "stereo_left_optical";
 const char* const kImuFrame = "imu_link";
 
-std::int64_t offsetOf(const StereoSequence& sequence, std::optional<std::int64_t> start_time_s) {
-  const std::int64_t usual_ns = rosTimeOffset_ns(sequence);
-  if (!start_time_s) return usual_ns;
-  constexpr std::int64_t kMaxStart_s = std::numeric_limits<std::uint32_t>::max();
-  const std::int64_t start_s = std::clamp<std::int64_t>(*start_time_s, -1, kMaxStart_s);
-  return start_s * kNsPerS - (usual_ns == 0 ? sequence.stamp_ns(0) : 0);
-}
-
 void requireRosStamps(const StereoSequence& sequence, std::int64_t offset_ns) {
   const std::int64_t first_s = (sequence.stamp_ns(0) + offset_ns) / kNsPerS;
   const std::int64_t last_s = (sequence.stamp_ns(sequence.size() - 1) + offset_ns) / kNsPerS;
   if (first_s >= 1 && last_s < std::numeric_limits<std::uint32_t>::max()) return;
   throw std::invalid_argument("the stamps from " + std::to_string(first_s) + " to " +
                               std::to_string(last_s) +
-                              " s are out of the range of ROS: choose a start time from 1 to 4e9");
+                              " s are out of the range of ROS, which is from 1 to 4e9 s");
 }
 
 geometry_msgs::TransformStamped mount(const Eigen::Isometry3d& T_base_sensor,
@@ -56,16 +47,16 @@ sensor_msgs::Image::Ptr toGreyImage(const std_msgs::Header& header, const cv::Ma
 
 }  // namespace
 
-SequenceRecording::SequenceRecording(const std::string& directory, const Options& options)
+SequenceRecording::SequenceRecording(const std::string& directory, const RecordingOptions& options)
     : directory_(directory),
       sequence_(openStereoSequence(directory, options.sequence)),
-      offset_ns_(offsetOf(sequence_, options.start_time_s)),
+      offset_ns_(rosTimeOffset_ns(sequence_)),
       calibration_(sequence_.calibration) {
   requireRosStamps(sequence_, offset_ns_);
   if (!options.calibration.empty()) {
     calibration_ = readStereoCalibration(options.calibration, options.sequence.baseline_m);
   }
-  if (options.rectify && !calibration_.isRectified()) {
+  if (!options.raw_sequence && !calibration_.isRectified()) {
     raw_calibration_ = std::make_shared<const StereoCalibration>(calibration_);
     calibration_ = rectifiedCalibration(calibration_.rectified);
   }

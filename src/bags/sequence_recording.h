@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,18 +18,9 @@ namespace rotrocc {
 /// simulate_drive.
 class SequenceRecording : public Recording {
  public:
-  struct Options {
-    /// Time of the first pair of a sequence whose stamps are since 1970, otherwise of its time 0;
-    /// by default as it is, or kKittiStart_s.
-    std::optional<std::int64_t> start_time_s;
-    bool rectify = false;  ///< images that are not rectified
-    SequenceOptions sequence = {};
-    std::vector<std::string> calibration = {};  ///< files in place of that of the sequence
-  };
-
   /// Throws like openStereoSequence() and readStereoCalibration(), and std::invalid_argument if the
   /// stamps are out of range.
-  SequenceRecording(const std::string& directory, const Options& options);
+  SequenceRecording(const std::string& directory, const RecordingOptions& options);
 
   std::string description() const override;
   int size() const override { return sequence_.size(); }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include <Eigen/Geometry>
 
 namespace rotrocc {
@@ -18,9 +16,5 @@ inline Eigen::Isometry3d mountAtCamera() {
 inline Eigen::Isometry3d kittiMount() {
   return Eigen::Translation3d(0.0, 0.0, 1.65) * mountAtCamera();
 }
-
-/// Start time of a sequence in a bag, as its own times start at 0: 2011-10-03, when KITTI recorded
-/// the first sequences.
-constexpr std::int64_t kKittiStart_s = 1317600000;
 
 }  // namespace rotrocc

@@ -56,7 +56,8 @@ GyroRecording StereoSequence::gyroscope(const std::string& name) const {
 
 std::int64_t rosTimeOffset_ns(const StereoSequence& sequence) {
   constexpr std::int64_t kDay_ns = 86'400'000'000'000;
-  return sequence.stamp_ns(0) < kDay_ns ? kKittiStart_s * 1'000'000'000 : 0;
+  constexpr std::int64_t kKittiStart_ns = 1'317'600'000'000'000'000;
+  return sequence.stamp_ns(0) < kDay_ns ? kKittiStart_ns : 0;
 }
 
 StereoSequence openStereoSequence(const std::string& directory, const SequenceOptions& options) {

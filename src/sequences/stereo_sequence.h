@@ -56,8 +56,8 @@ struct SequenceOptions {
   bool being_written = false;            ///< images may be missing yet, in KITTI's layout
 };
 
-/// Offset from the stamps of a sequence to ROS time: 0 if they are since 1970, and kKittiStart_s if
-/// they begin with the sequence.
+/// Offset from the stamps of a sequence to ROS time: 0 if they are since 1970. If they begin with
+/// the sequence, 2011-10-03, when KITTI recorded the first ones.
 std::int64_t rosTimeOffset_ns(const StereoSequence& sequence);
 
 /// Opens a directory with

@@ -1,4 +1,3 @@
-#include <cstdint>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -21,11 +20,12 @@ const char* const kUsage =
     "usage:   sequence_to_bag SEQUENCE_DIR OUT.bag [options]\n\n"
     "SEQUENCE_DIR is in the layout of KITTI's odometry benchmark, in ASL format (EuRoC), or "
     "has folders left\nand right and files left.yaml and right.yaml of "
-    "camera_calibration.\n\n";
+    "camera_calibration.\nTimes from 0 on are moved to 1317600000 s: ROS does not accept stamp "
+    "0.\n\n";
 
 struct Options {
   std::vector<std::string> names;  // of the sequence and of the bag
-  SequenceRecording::Options recording;
+  RecordingOptions recording;
 };
 
 /// Returns false after printing the help; throws po::error on bad usage.
@@ -34,20 +34,14 @@ bool parse(int argc, char** argv, Options& options) {
   auto add = visible.add_options();
   add("help,h", "show this help");
   add("rectify",
-      po::bool_switch(&options.recording.rectify),
       "write rectified images, if those of the sequence are not: image_rect instead of image_raw");
-  std::int64_t start_time_s = 0;
-  add("start-time",
-      po::value(&start_time_s),
-      "time of the first pair [s since 1970, integer]; default: that of the sequence, or "
-      "1317600000 if its times start at 0, as ROS does not accept stamp 0");
   add("max-stamp-difference",
       withDefault(options.recording.sequence.max_stamp_difference_s),
       "[s] between the images of a pair");
   po::variables_map variables;
   if (!parseCommandLine(argc, argv, kUsage, visible, options.names, variables)) return false;
   if (options.names.size() != 2) throw po::error("expected a sequence and a bag");
-  if (variables.count("start-time") > 0) options.recording.start_time_s = start_time_s;
+  options.recording.raw_sequence = variables.count("rectify") == 0;
   return true;
 }
 

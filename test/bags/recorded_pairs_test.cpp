@@ -76,7 +76,7 @@ class RecordedPairsTest : public ::testing::Test {
 
   /// A bag of the sequence, after a change.
   std::string writeChanged(const std::string& name, const Change& change) const {
-    writeSequenceBag(directory_ / "own.bag", directory_ / "sequence", {1000, false});
+    writeSequenceBag(directory_ / "own.bag", directory_ / "sequence");
     const Bags own = openBags({directory_ / "own.bag"});
     rosbag::Bag changed(directory_ / name, rosbag::bagmode::Write);
     for (const rosbag::MessageInstance& message : BagView(own)) {
@@ -101,10 +101,10 @@ class RecordedPairsTest : public ::testing::Test {
 };
 
 TEST_F(RecordedPairsTest, AreThoseOfASequenceAndOfItsBag) {
-  writeSequenceBag(directory_ / "own.bag", directory_ / "sequence", {1000, false});
+  writeSequenceBag(directory_ / "own.bag", directory_ / "sequence");
   const std::int64_t last_ns = sequence().stamp_ns(kPairs - 1);
   for (const auto& [path, last] :
-       {std::pair{"sequence", last_ns}, {"own.bag", 1'000'000'000'000 + last_ns}}) {
+       {std::pair{"sequence", last_ns}, {"own.bag", 1'317'600'000'000'000'000 + last_ns}}) {
     Reader reader(directory_ / path);
     expectAllPairs(reader);
     EXPECT_EQ(reader.pair.stamp_ns, last);
@@ -159,7 +159,7 @@ TEST_F(RecordedPairsTest, BadImagesAreDroppedAndCounted) {
   std::vector<std::int64_t> expected, stamps;
   for (int i = 0; i < kPairs; ++i) {
     const bool is_bad = i == 2 || i == 5 || i == 8;
-    if (!is_bad) expected.push_back(1'000'000'000'000 + sequence().stamp_ns(i));
+    if (!is_bad) expected.push_back(1'317'600'000'000'000'000 + sequence().stamp_ns(i));
   }
   while (reader.next()) stamps.push_back(reader.pair.stamp_ns);
   EXPECT_EQ(stamps, expected);
@@ -215,7 +215,7 @@ TEST_F(RecordedPairsTest, BagsOfADirectoryAreOneRecording) {
   std::filesystem::create_directory(directory_ / "split");
   for (const bool is_first : {true, false}) {
     const auto keepHalf = [&](const rosbag::MessageInstance& message, rosbag::Bag&) {
-      return (message.getTime() < ros::Time(1001.0)) != is_first;
+      return (message.getTime() < ros::Time(1317600001.0)) != is_first;
     };
     writeChanged(is_first ? "split/drive_0.bag" : "split/drive_1.bag", keepHalf);
   }

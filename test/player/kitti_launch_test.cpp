@@ -33,7 +33,7 @@ class KittiLaunchTest : public ::testing::Test {
   std::string bag() const { return directory_ / "test.bag"; }
 
   void writeOwnBag(const KittiSequence& sequence) const {
-    writeSequenceBag(bag(), sequence.directory(), {1000, false});
+    writeSequenceBag(bag(), sequence.directory());
   }
 
   /// Replays bag() to its end.

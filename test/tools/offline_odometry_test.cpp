@@ -171,7 +171,7 @@ TEST_F(OfflineOdometryTest, ABadImageIsNotTheEndOfTheRun) {
 }
 
 TEST_F(OfflineOdometryTest, ThePoseIsKeptWhenTimeJumpsBack) {
-  writeSequenceBag(directory_ / "once.bag", sequence(), {1000, false});
+  writeSequenceBag(directory_ / "once.bag", sequence());
   {
     const Bags once = openBags({directory_ / "once.bag"});
     rosbag::Bag again(directory_ / "again.bag", rosbag::bagmode::Write);
@@ -208,7 +208,7 @@ TEST_F(OfflineOdometryTest, ThePoseIsKeptWhenTimeJumpsBack) {
 }
 
 TEST_F(OfflineOdometryTest, WithoutTfTheBaseIsAtTheCamera) {
-  writeSequenceBag(directory_ / "once.bag", sequence(), {1000, false});
+  writeSequenceBag(directory_ / "once.bag", sequence());
   {
     const Bags once = openBags({directory_ / "once.bag"});
     rosbag::Bag bare(directory_ / "bare.bag", rosbag::bagmode::Write);
@@ -278,7 +278,7 @@ TEST_F(OfflineOdometryTest, PredictsByAGyroscope) {
 
 TEST_F(OfflineOdometryTest, PredictsByAGyroscopeOfABag) {
   writeGyroFile(sequence() + "/imu.csv", gyroscope());
-  writeSequenceBag(directory_ / "sequence.bag", sequence(), {1000, false});
+  writeSequenceBag(directory_ / "sequence.bag", sequence());
   const std::string bag = directory_ / "sequence.bag";
   const CommandResult result = run(bag + " --trajectory /dev/null --imu /imu/data");
   EXPECT_NE(result.output.find("gyroscope: 11 of 11 rotations predicted"), std::string::npos)
