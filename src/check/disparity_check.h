@@ -3,9 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "check/checked_pair.h"
-#include "check/rig_report.h"
-#include "check/windows.h"
+#include "check/pair_check.h"
 
 namespace rotrocc {
 

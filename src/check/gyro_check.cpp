@@ -1,9 +1,11 @@
-#include "check/gyro_check.h"
+#include "check/pair_check.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
@@ -25,167 +27,200 @@ double secondsFrom(std::int64_t from_ns, std::int64_t to_ns) {
   return 1e-9 * static_cast<double>(to_ns - from_ns);
 }
 
+class GyroCheck : public PairCheck {
+ public:
+  explicit GyroCheck(GyroRecording gyroscope)
+      : samples_(std::move(gyroscope.samples)), R_camera_gyro_(gyroscope.R_camera_gyro) {
+    std::stable_sort(
+        samples_.begin(), samples_.end(), [](const GyroSample& a, const GyroSample& b) {
+          return a.stamp_ns < b.stamp_ns;
+        });
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      if (i > 0) {
+        sum += 0.5 * secondsFrom(samples_[i - 1].stamp_ns, samples_[i].stamp_ns) *
+               (samples_[i - 1].rate_rps + samples_[i].rate_rps);
+      }
+      sums_rad_.push_back(sum);
+    }
+  }
+
+  void observe(const CheckedPair& pair) override {
+    if (!pair.result.hasMotion()) return;
+    const Eigen::AngleAxisd turn(pair.result.T_prev_cur.linear());
+    const auto interval_ns = static_cast<std::int64_t>(std::llround(1e9 * pair.result.dt_s));
+    turns_.push_back({pair.time_s,
+                      pair.result.stamp_ns - interval_ns,
+                      pair.result.stamp_ns,
+                      turn.angle() * turn.axis()});
+  }
+
+  void report(const Windows& windows, RigReport& report) const override {
+    const Fit all = samples_.size() < 2 || turns_.size() < kLeastTurns ? Fit() : fit(turns_);
+    if (all.rms_rad <= 0.0 || all.rms_rad > 1e6) {
+      report.findings.push_back({"time",
+                                 "cameras against the gyroscope",
+                                 "too few motions while the gyroscope was recorded",
+                                 "",
+                                 "turn the rig about all its axes while recording",
+                                 Verdict::kUnknown});
+      return;
+    }
+    std::vector<std::vector<double>> without;
+    for (std::size_t w = 0; w < windows.count(); ++w) {
+      std::vector<Turn> others;
+      for (const Turn& turn : turns_) {
+        if (windows.of(turn.time_s) != w) others.push_back(turn);
+      }
+      const Fit fit = this->fit(others);
+      const Eigen::AngleAxisd change(fit.R_camera_gyro * all.R_camera_gyro.transpose());
+      const Eigen::Vector3d vector = change.angle() * change.axis();
+      without.push_back({fit.delay_s, vector.x(), vector.y(), vector.z()});
+    }
+    const std::vector<double> sigmas = jackknifeSigmas(without);
+    report.add({"time",
+                "stamps of the images against the gyroscope",
+                toText(Estimate{1e3 * all.delay_s, 1e3 * sigmas[0]}, "ms") +
+                    " to be added to those of images",
+                "a turn of 50 deg/s is predicted " + fixedText(50.0 * std::abs(all.delay_s), 2) +
+                    " deg wrong",
+                "correct the stamps of the driver, or trigger both by one clock"},
+               {all.delay_s, sigmas[0], 0.005, 0.02});
+    const double angle = Eigen::AngleAxisd(R_camera_gyro_ * all.R_camera_gyro.transpose()).angle();
+    const double angle_sigma =
+        std::sqrt(sigmas[1] * sigmas[1] + sigmas[2] * sigmas[2] + sigmas[3] * sigmas[3]);
+    const Eigen::Quaterniond q(all.R_camera_gyro);
+    report.add({"time",
+                "axes of the gyroscope against tf",
+                toText(Estimate{angle * kDegrees, angle_sigma * kDegrees}, "deg") +
+                    " apart; from gyroscope to left camera by the images: qx qy qz qw " +
+                    fixedText(q.x(), 5) + " " + fixedText(q.y(), 5) + " " + fixedText(q.z(), 5) +
+                    " " + fixedText(q.w(), 5),
+                "predicted turns are about a wrong axis",
+                "correct the transform from the base to the gyroscope, or to the camera"},
+               {angle, angle_sigma, 1.0 / kDegrees, 3.0 / kDegrees});
+    addTable(all, report);
+  }
+
+ private:
+  /// A motion of the camera.
+  struct Turn {
+    double time_s;
+    std::int64_t from_ns, to_ns;
+    Eigen::Vector3d camera_rad;  ///< rotation vector, in axes of the camera
+  };
+
+  struct Fit {
+    double delay_s = 0.0;  ///< to be added to stamps of images to get those of the gyroscope
+    Eigen::Matrix3d R_camera_gyro = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d bias_rps = Eigen::Vector3d::Zero();  ///< in axes of the gyroscope
+    double rms_rad = 0.0;
+  };
+
+  /// The rotation vector of the gyroscope during a turn, for one so small that its parts commute.
+  std::optional<Eigen::Vector3d> turned(const Turn& turn, double delay_s) const {
+    const auto delay_ns = static_cast<std::int64_t>(std::llround(1e9 * delay_s));
+    const std::int64_t from_ns = turn.from_ns + delay_ns;
+    const std::int64_t to_ns = turn.to_ns + delay_ns;
+    if (from_ns < samples_.front().stamp_ns || to_ns >= samples_.back().stamp_ns)
+      return std::nullopt;
+    return turnedUpTo(to_ns) - turnedUpTo(from_ns);
+  }
+
+  /// Linear between the samples.
+  Eigen::Vector3d turnedUpTo(std::int64_t stamp_ns) const {
+    const auto next = std::upper_bound(
+        samples_.begin(),
+        samples_.end(),
+        stamp_ns,
+        [](std::int64_t stamp, const GyroSample& sample) { return stamp < sample.stamp_ns; });
+    const auto i = static_cast<std::size_t>(next - samples_.begin());
+    const double share =
+        secondsFrom(samples_[i - 1].stamp_ns, stamp_ns) /
+        std::max(secondsFrom(samples_[i - 1].stamp_ns, samples_[i].stamp_ns), 1e-9);
+    return sums_rad_[i - 1] + share * (sums_rad_[i] - sums_rad_[i - 1]);
+  }
+
+  /// By singular values (Arun, Huang and Blostein 1987), with the turn rates of the bias as the
+  /// mean.
+  Fit fitRotation(double delay_s, const std::vector<Turn>& turns) const {
+    std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> rates;  // camera, gyroscope
+    Eigen::Vector3d mean_camera = Eigen::Vector3d::Zero();
+    Eigen::Vector3d mean_gyro = Eigen::Vector3d::Zero();
+    for (const Turn& turn : turns) {
+      const auto gyro = turned(turn, delay_s);
+      if (!gyro) continue;
+      const double interval_s = secondsFrom(turn.from_ns, turn.to_ns);
+      rates.emplace_back(turn.camera_rad / interval_s, *gyro / interval_s);
+      mean_camera += rates.back().first;
+      mean_gyro += rates.back().second;
+    }
+    Fit fit;
+    fit.delay_s = delay_s;
+    fit.rms_rad = 1e9;
+    if (rates.size() < kLeastTurns) return fit;
+    const auto count = static_cast<double>(rates.size());
+    mean_camera /= count;
+    mean_gyro /= count;
+    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+    for (const auto& [camera, gyro] : rates) {
+      products += (camera - mean_camera) * (gyro - mean_gyro).transpose();
+    }
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(products,
+                                                Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Eigen::Vector3d signs(1.0, 1.0, (svd.matrixU() * svd.matrixV().transpose()).determinant());
+    fit.R_camera_gyro = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+    fit.bias_rps = mean_gyro - fit.R_camera_gyro.transpose() * mean_camera;
+    double squares = 0.0;
+    for (const auto& [camera, gyro] : rates) {
+      squares += (camera - fit.R_camera_gyro * (gyro - fit.bias_rps)).squaredNorm();
+    }
+    fit.rms_rad = std::sqrt(squares / count);
+    return fit;
+  }
+
+  /// The delay with the smallest difference: on a grid, then by a parabola.
+  Fit fit(const std::vector<Turn>& turns) const {
+    Fit best = fitRotation(0.0, turns);
+    for (double delay_s = -kMostDelay_s; delay_s <= kMostDelay_s; delay_s += kStep_s) {
+      const Fit fit = fitRotation(delay_s, turns);
+      if (fit.rms_rad < best.rms_rad) best = fit;
+    }
+    const auto square = [&](double delay_s) {
+      return std::pow(fitRotation(delay_s, turns).rms_rad, 2);
+    };
+    const double before = square(best.delay_s - kStep_s);
+    const double at = square(best.delay_s);
+    const double after = square(best.delay_s + kStep_s);
+    const double curvature = before - 2.0 * at + after;
+    if (!(curvature > 0.0)) return best;
+    const double step = std::clamp(0.5 * (before - after) / curvature, -1.0, 1.0);
+    return fitRotation(best.delay_s + step * kStep_s, turns);
+  }
+
+  void addTable(const Fit& fit, RigReport& report) const {
+    ReportTable table = {"gyro", "time_s,camera_dps,gyro_dps", {}};
+    for (const Turn& turn : turns_) {
+      const auto gyro = turned(turn, fit.delay_s);
+      if (!gyro) continue;
+      const double interval_s = secondsFrom(turn.from_ns, turn.to_ns);
+      table.rows.push_back({turn.time_s,
+                            kDegrees * turn.camera_rad.norm() / interval_s,
+                            kDegrees * (*gyro / interval_s - fit.bias_rps).norm()});
+    }
+    report.tables.push_back(std::move(table));
+  }
+
+  std::vector<GyroSample> samples_;
+  std::vector<Eigen::Vector3d> sums_rad_;  // integral of the rate up to each sample
+  Eigen::Matrix3d R_camera_gyro_;          // as configured
+  std::vector<Turn> turns_;
+};
+
 }  // namespace
 
-GyroCheck::GyroCheck(GyroRecording gyroscope)
-    : samples_(std::move(gyroscope.samples)), R_camera_gyro_(gyroscope.R_camera_gyro) {
-  std::stable_sort(samples_.begin(), samples_.end(), [](const GyroSample& a, const GyroSample& b) {
-    return a.stamp_ns < b.stamp_ns;
-  });
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < samples_.size(); ++i) {
-    if (i > 0) {
-      sum += 0.5 * secondsFrom(samples_[i - 1].stamp_ns, samples_[i].stamp_ns) *
-             (samples_[i - 1].rate_rps + samples_[i].rate_rps);
-    }
-    sums_rad_.push_back(sum);
-  }
-}
-
-void GyroCheck::observe(const CheckedPair& pair) {
-  if (!pair.result.hasMotion()) return;
-  const Eigen::AngleAxisd turn(pair.result.T_prev_cur.linear());
-  const auto interval_ns = static_cast<std::int64_t>(std::llround(1e9 * pair.result.dt_s));
-  turns_.push_back({pair.time_s,
-                    pair.result.stamp_ns - interval_ns,
-                    pair.result.stamp_ns,
-                    turn.angle() * turn.axis()});
-}
-
-/// Linear between the samples.
-Eigen::Vector3d GyroCheck::turnedUpTo(std::int64_t stamp_ns) const {
-  const auto next = std::upper_bound(
-      samples_.begin(), samples_.end(), stamp_ns, [](std::int64_t stamp, const GyroSample& sample) {
-        return stamp < sample.stamp_ns;
-      });
-  const auto i = static_cast<std::size_t>(next - samples_.begin());
-  const double share = secondsFrom(samples_[i - 1].stamp_ns, stamp_ns) /
-                       std::max(secondsFrom(samples_[i - 1].stamp_ns, samples_[i].stamp_ns), 1e-9);
-  return sums_rad_[i - 1] + share * (sums_rad_[i] - sums_rad_[i - 1]);
-}
-
-/// The rotation vector of the gyroscope during a turn, for one so small that its parts commute.
-std::optional<Eigen::Vector3d> GyroCheck::turned(const Turn& turn, double delay_s) const {
-  const auto delay_ns = static_cast<std::int64_t>(std::llround(1e9 * delay_s));
-  const std::int64_t from_ns = turn.from_ns + delay_ns;
-  const std::int64_t to_ns = turn.to_ns + delay_ns;
-  if (from_ns < samples_.front().stamp_ns || to_ns >= samples_.back().stamp_ns) return std::nullopt;
-  return turnedUpTo(to_ns) - turnedUpTo(from_ns);
-}
-
-/// By singular values (Arun, Huang and Blostein 1987), with the turn rates of the bias as the mean.
-GyroCheck::Fit GyroCheck::fitRotation(double delay_s, const std::vector<Turn>& turns) const {
-  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> rates;  // camera, gyroscope
-  Eigen::Vector3d mean_camera = Eigen::Vector3d::Zero();
-  Eigen::Vector3d mean_gyro = Eigen::Vector3d::Zero();
-  for (const Turn& turn : turns) {
-    const auto gyro = turned(turn, delay_s);
-    if (!gyro) continue;
-    const double interval_s = secondsFrom(turn.from_ns, turn.to_ns);
-    rates.emplace_back(turn.camera_rad / interval_s, *gyro / interval_s);
-    mean_camera += rates.back().first;
-    mean_gyro += rates.back().second;
-  }
-  Fit fit;
-  fit.delay_s = delay_s;
-  fit.rms_rad = 1e9;
-  if (rates.size() < kLeastTurns) return fit;
-  const auto count = static_cast<double>(rates.size());
-  mean_camera /= count;
-  mean_gyro /= count;
-  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-  for (const auto& [camera, gyro] : rates) {
-    products += (camera - mean_camera) * (gyro - mean_gyro).transpose();
-  }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d signs(1.0, 1.0, (svd.matrixU() * svd.matrixV().transpose()).determinant());
-  fit.R_camera_gyro = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  fit.bias_rps = mean_gyro - fit.R_camera_gyro.transpose() * mean_camera;
-  double squares = 0.0;
-  for (const auto& [camera, gyro] : rates) {
-    squares += (camera - fit.R_camera_gyro * (gyro - fit.bias_rps)).squaredNorm();
-  }
-  fit.rms_rad = std::sqrt(squares / count);
-  return fit;
-}
-
-/// The delay with the smallest difference: on a grid, then by a parabola.
-GyroCheck::Fit GyroCheck::fit(const std::vector<Turn>& turns) const {
-  Fit best = fitRotation(0.0, turns);
-  for (double delay_s = -kMostDelay_s; delay_s <= kMostDelay_s; delay_s += kStep_s) {
-    const Fit fit = fitRotation(delay_s, turns);
-    if (fit.rms_rad < best.rms_rad) best = fit;
-  }
-  const auto square = [&](double delay_s) {
-    return std::pow(fitRotation(delay_s, turns).rms_rad, 2);
-  };
-  const double before = square(best.delay_s - kStep_s);
-  const double at = square(best.delay_s);
-  const double after = square(best.delay_s + kStep_s);
-  const double curvature = before - 2.0 * at + after;
-  if (!(curvature > 0.0)) return best;
-  const double step = std::clamp(0.5 * (before - after) / curvature, -1.0, 1.0);
-  return fitRotation(best.delay_s + step * kStep_s, turns);
-}
-
-void GyroCheck::report(const Windows& windows, RigReport& report) const {
-  const Fit all = samples_.size() < 2 || turns_.size() < kLeastTurns ? Fit() : fit(turns_);
-  if (all.rms_rad <= 0.0 || all.rms_rad > 1e6) {
-    report.findings.push_back({"time",
-                               "cameras against the gyroscope",
-                               "too few motions while the gyroscope was recorded",
-                               "",
-                               "turn the rig about all its axes while recording",
-                               Verdict::kUnknown});
-    return;
-  }
-  std::vector<std::vector<double>> without;
-  for (std::size_t w = 0; w < windows.count(); ++w) {
-    std::vector<Turn> others;
-    for (const Turn& turn : turns_) {
-      if (windows.of(turn.time_s) != w) others.push_back(turn);
-    }
-    const Fit fit = this->fit(others);
-    const Eigen::AngleAxisd change(fit.R_camera_gyro * all.R_camera_gyro.transpose());
-    const Eigen::Vector3d vector = change.angle() * change.axis();
-    without.push_back({fit.delay_s, vector.x(), vector.y(), vector.z()});
-  }
-  const std::vector<double> sigmas = jackknifeSigmas(without);
-  report.add({"time",
-              "stamps of the images against the gyroscope",
-              toText(Estimate{1e3 * all.delay_s, 1e3 * sigmas[0]}, "ms") +
-                  " to be added to those of images",
-              "a turn of 50 deg/s is predicted " + fixedText(50.0 * std::abs(all.delay_s), 2) +
-                  " deg wrong",
-              "correct the stamps of the driver, or trigger both by one clock"},
-             {all.delay_s, sigmas[0], 0.005, 0.02});
-  const double angle = Eigen::AngleAxisd(R_camera_gyro_ * all.R_camera_gyro.transpose()).angle();
-  const double angle_sigma =
-      std::sqrt(sigmas[1] * sigmas[1] + sigmas[2] * sigmas[2] + sigmas[3] * sigmas[3]);
-  const Eigen::Quaterniond q(all.R_camera_gyro);
-  report.add({"time",
-              "axes of the gyroscope against tf",
-              toText(Estimate{angle * kDegrees, angle_sigma * kDegrees}, "deg") +
-                  " apart; from gyroscope to left camera by the images: qx qy qz qw " +
-                  fixedText(q.x(), 5) + " " + fixedText(q.y(), 5) + " " + fixedText(q.z(), 5) +
-                  " " + fixedText(q.w(), 5),
-              "predicted turns are about a wrong axis",
-              "correct the transform from the base to the gyroscope, or to the camera"},
-             {angle, angle_sigma, 1.0 / kDegrees, 3.0 / kDegrees});
-  addTable(all, report);
-}
-
-void GyroCheck::addTable(const Fit& fit, RigReport& report) const {
-  ReportTable table = {"gyro", "time_s,camera_dps,gyro_dps", {}};
-  for (const Turn& turn : turns_) {
-    const auto gyro = turned(turn, fit.delay_s);
-    if (!gyro) continue;
-    const double interval_s = secondsFrom(turn.from_ns, turn.to_ns);
-    table.rows.push_back({turn.time_s,
-                          kDegrees * turn.camera_rad.norm() / interval_s,
-                          kDegrees * (*gyro / interval_s - fit.bias_rps).norm()});
-  }
-  report.tables.push_back(std::move(table));
+std::unique_ptr<PairCheck> makeGyroCheck(const GyroRecording& gyroscope) {
+  return std::make_unique<GyroCheck>(gyroscope);
 }
 
 }  // namespace rotrocc

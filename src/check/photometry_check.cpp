@@ -1,9 +1,10 @@
-#include "check/photometry_check.h"
+#include "check/pair_check.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -106,171 +107,194 @@ Eigen::Vector3d fitLevels(const std::vector<PatchMeans>& means,
   return fitRobustly(rows, values).parameters;
 }
 
+class PhotometryCheck : public PairCheck {
+ public:
+  void observe(const CheckedPair& pair) override {
+    Row row;
+    row.time_s = pair.time_s;
+    row.left = levelsOf(pair.images.left);
+    row.right = levelsOf(pair.images.right);
+    if (pair.result.hasMotion()) {
+      compare(pair, row);
+      if (rows_.size() % kSharpnessStep == 0) compareSharpness(pair, row);
+    }
+    rows_.push_back(row);
+  }
+
+  void report(const Windows& windows, RigReport& report) const override {
+    if (rows_.empty()) return;
+    addExposure(windows, report);
+    addLevels(windows, report);
+    ReportTable table = {"photometry",
+                         "time_s,gain,offset_grey,mean_left,mean_right,saturated_left,"
+                         "saturated_right,dark_left,dark_right",
+                         {}};
+    ReportTable sharpness = {"sharpness", "time_s,blur_px2", {}};
+    for (const Row& row : rows_) {
+      table.rows.push_back({row.time_s,
+                            row.gain,
+                            row.offset_grey,
+                            row.left.mean,
+                            row.right.mean,
+                            row.left.saturated,
+                            row.right.saturated,
+                            row.left.dark,
+                            row.right.dark});
+      if (std::isfinite(row.blur_px2)) sharpness.rows.push_back({row.time_s, row.blur_px2});
+    }
+    report.tables.push_back(std::move(table));
+    report.tables.push_back(std::move(sharpness));
+  }
+
+ private:
+  struct Levels {
+    double mean, contrast, noise;  ///< grey levels; contrast and noise are standard deviations
+    double saturated, dark;        ///< share of the pixels
+  };
+  /// Of one pair; nan if not measured.
+  struct Row {
+    double time_s = NAN;
+    double gain = NAN, offset_grey = NAN, vignetting = NAN;
+    double blur_px2 = NAN;  ///< variance of the Gaussian; negative if the left image is blurred
+    Levels left = {}, right = {};
+  };
+
+  static Levels levelsOf(const cv::Mat& image) {
+    const auto pixels = static_cast<double>(image.total());
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(image, mean, deviation);
+    std::vector<int> buffer;
+    return {mean[0],
+            deviation[0],
+            std::sqrt(noiseVariance(image, buffer)),
+            cv::countNonZero(image >= kWhite) / pixels,
+            cv::countNonZero(image <= kBlack) / pixels};
+  }
+
+  /// Robust means of patches: right = gain left (1 + vignetting r^2) + offset, r = 1 in the
+  /// corners. Both sides have errors, so that each is fitted to the other.
+  static void compare(const CheckedPair& pair, Row& row) {
+    const std::vector<PatchMeans> means = patchMeans(pair);
+    if (means.size() < kLeast) return;
+    const Eigen::Vector3d of_right = fitLevels(means, &PatchMeans::left, &PatchMeans::right);
+    const Eigen::Vector3d of_left = fitLevels(means, &PatchMeans::right, &PatchMeans::left);
+    row.gain = std::sqrt(of_right[0] / of_left[0]);
+    row.vignetting = 0.5 * (of_right[2] / of_right[0] - of_left[2] / of_left[0]);
+    std::vector<double> offsets;
+    for (const PatchMeans& mean : means) {
+      offsets.push_back(mean.right - row.gain * mean.left * (1.0 + row.vignetting * mean.r2));
+    }
+    row.offset_grey = median(offsets);
+  }
+
+  static void compareSharpness(const CheckedPair& pair, Row& row) {
+    constexpr std::size_t kPatches = 40;
+    ImagePatches left = {pair.images.left, row.left.noise, {}};
+    ImagePatches right = {pair.images.right, row.right.noise, {}};
+    for (const Patch& patch : patchesOf(pair, kSharpnessPatch, kPatches)) {
+      left.areas.push_back(patch.left);
+      right.areas.push_back(patch.right);
+    }
+    constexpr std::size_t kLeastPatches = 5;
+    if (left.areas.size() >= kLeastPatches) row.blur_px2 = blurOfRight_px2(left, right);
+  }
+
+  void addExposure(const Windows& windows, RigReport& report) const {
+    const Estimate gain = overWindows(course(&Row::gain), windows);
+    const Estimate offset = overWindows(course(&Row::offset_grey), windows);
+    const Estimate vignetting = overWindows(course(&Row::vignetting), windows);
+    // Variances of Gaussians add; the blur itself would change its sign by chance.
+    const Estimate blur_px2 = overWindows(course(&Row::blur_px2), windows);
+    report.add(
+        {"photometry",
+         "gain right to left",
+         toText(gain, ""),
+         "nothing by itself: matches are found by correlation; but the darker image has less "
+         "contrast above its noise, and a longer exposure more motion blur",
+         "give both cameras the same exposure time and gain, or couple them"},
+        {std::log(gain.value), gain.sigma / gain.value, kAcceptableGain, kFixGain});
+    const double changes = gain.sigma * std::sqrt(static_cast<double>(windows.count()));
+    report.add(
+        {"photometry",
+         "gain over time",
+         std::isfinite(changes) ? "moves by " + fixedText(100.0 * changes, 1) + " %" : "unknown",
+         "exposures that follow each other late differ most where light changes",
+         "couple the exposures of the cameras"},
+        {changes, 0.0, kAcceptableGain, kFixGain});
+    report.add({"photometry",
+                "grey levels right minus left",
+                toText(offset, "of 255 at black"),
+                "the range of the brighter image is smaller by it",
+                "set the same black level in both cameras, and look for stray light"},
+               {offset.value / kWhite, offset.sigma / kWhite, 0.02, 0.06});
+    report.add(
+        {"photometry",
+         "vignetting right to left",
+         toText({100.0 * vignetting.value, 100.0 * vignetting.sigma}, "% in the corners"),
+         "the darker corners lose features",
+         "use the same lens and aperture on both cameras, and look for something in front of one"},
+        {vignetting.value, vignetting.sigma, 0.15, 0.4});
+    const std::string side = blur_px2.value > 0.0 ? "right" : "left";
+    const double blur_px = std::sqrt(std::abs(blur_px2.value));
+    const double sigma_px = blur_px2.sigma / std::max(2.0 * blur_px, std::sqrt(blur_px2.sigma));
+    report.add({"photometry",
+                "sharpness right against left",
+                toText(Estimate{blur_px, sigma_px}, "px") +
+                    " of blur (Gaussian sigma) more on the " + side,
+                "features of fine texture are lost, and disparities get noisier",
+                "focus and clean the " + side + " lens"},
+               {blur_px2.value, blur_px2.sigma, 0.4 * 0.4, 0.8 * 0.8});
+  }
+
+  void addLevels(const Windows& windows, RigReport& report) const {
+    for (const bool right : {false, true}) {
+      std::vector<TimedValue> saturated;
+      std::vector<TimedValue> dark;
+      std::vector<TimedValue> noise;
+      for (const Row& row : rows_) {
+        const Levels& levels = right ? row.right : row.left;
+        saturated.push_back({row.time_s, levels.saturated});
+        dark.push_back({row.time_s, levels.dark});
+        noise.push_back({row.time_s, levels.noise / std::max(levels.contrast, 1e-9)});
+      }
+      const std::string side = right ? "right" : "left";
+      const Estimate white = overWindows(saturated, windows);
+      const Estimate black = overWindows(dark, windows);
+      const Estimate noisy = overWindows(noise, windows);
+      report.add({"photometry",
+                  "saturated pixels, " + side,
+                  toText({100.0 * white.value, 100.0 * white.sigma}, "%"),
+                  "no features there",
+                  "reduce exposure, or meter on the lower part of the image"},
+                 {white.value, white.sigma, kAcceptableShare, kFixShare});
+      report.add({"photometry",
+                  "black pixels, " + side,
+                  toText({100.0 * black.value, 100.0 * black.sigma}, "%"),
+                  "no features there",
+                  "increase exposure or gain, or light the scene"},
+                 {black.value, black.sigma, kAcceptableShare, kFixShare});
+      report.add({"photometry",
+                  "noise, " + side,
+                  toText({100.0 * noisy.value, 100.0 * noisy.sigma}, "% of the contrast"),
+                  "positions get noisier",
+                  "more light, or less gain"},
+                 {noisy.value, noisy.sigma, 0.15, 0.3});
+    }
+  }
+
+  std::vector<TimedValue> course(double Row::*member) const {
+    std::vector<TimedValue> values;
+    for (const Row& row : rows_) values.push_back({row.time_s, row.*member});
+    return values;
+  }
+
+  std::vector<Row> rows_;
+};
+
 }  // namespace
 
-void PhotometryCheck::observe(const CheckedPair& pair) {
-  Row row;
-  row.time_s = pair.time_s;
-  row.left = levelsOf(pair.images.left);
-  row.right = levelsOf(pair.images.right);
-  if (pair.result.hasMotion()) {
-    compare(pair, row);
-    if (rows_.size() % kSharpnessStep == 0) compareSharpness(pair, row);
-  }
-  rows_.push_back(row);
-}
-
-PhotometryCheck::Levels PhotometryCheck::levelsOf(const cv::Mat& image) {
-  const auto pixels = static_cast<double>(image.total());
-  cv::Scalar mean, deviation;
-  cv::meanStdDev(image, mean, deviation);
-  std::vector<int> buffer;
-  return {mean[0],
-          deviation[0],
-          std::sqrt(noiseVariance(image, buffer)),
-          cv::countNonZero(image >= kWhite) / pixels,
-          cv::countNonZero(image <= kBlack) / pixels};
-}
-
-/// Robust means of patches: right = gain left (1 + vignetting r^2) + offset, r = 1 in the corners.
-/// Both sides have errors, so that each is fitted to the other.
-void PhotometryCheck::compare(const CheckedPair& pair, Row& row) {
-  const std::vector<PatchMeans> means = patchMeans(pair);
-  if (means.size() < kLeast) return;
-  const Eigen::Vector3d of_right = fitLevels(means, &PatchMeans::left, &PatchMeans::right);
-  const Eigen::Vector3d of_left = fitLevels(means, &PatchMeans::right, &PatchMeans::left);
-  row.gain = std::sqrt(of_right[0] / of_left[0]);
-  row.vignetting = 0.5 * (of_right[2] / of_right[0] - of_left[2] / of_left[0]);
-  std::vector<double> offsets;
-  for (const PatchMeans& mean : means) {
-    offsets.push_back(mean.right - row.gain * mean.left * (1.0 + row.vignetting * mean.r2));
-  }
-  row.offset_grey = median(offsets);
-}
-
-void PhotometryCheck::compareSharpness(const CheckedPair& pair, Row& row) {
-  constexpr std::size_t kPatches = 40;
-  ImagePatches left = {pair.images.left, row.left.noise, {}};
-  ImagePatches right = {pair.images.right, row.right.noise, {}};
-  for (const Patch& patch : patchesOf(pair, kSharpnessPatch, kPatches)) {
-    left.areas.push_back(patch.left);
-    right.areas.push_back(patch.right);
-  }
-  constexpr std::size_t kLeastPatches = 5;
-  if (left.areas.size() >= kLeastPatches) row.blur_px2 = blurOfRight_px2(left, right);
-}
-
-std::vector<TimedValue> PhotometryCheck::course(double Row::*member) const {
-  std::vector<TimedValue> values;
-  for (const Row& row : rows_) values.push_back({row.time_s, row.*member});
-  return values;
-}
-
-void PhotometryCheck::report(const Windows& windows, RigReport& report) const {
-  if (rows_.empty()) return;
-  addExposure(windows, report);
-  addLevels(windows, report);
-  ReportTable table = {"photometry",
-                       "time_s,gain,offset_grey,mean_left,mean_right,saturated_left,"
-                       "saturated_right,dark_left,dark_right",
-                       {}};
-  ReportTable sharpness = {"sharpness", "time_s,blur_px2", {}};
-  for (const Row& row : rows_) {
-    table.rows.push_back({row.time_s,
-                          row.gain,
-                          row.offset_grey,
-                          row.left.mean,
-                          row.right.mean,
-                          row.left.saturated,
-                          row.right.saturated,
-                          row.left.dark,
-                          row.right.dark});
-    if (std::isfinite(row.blur_px2)) sharpness.rows.push_back({row.time_s, row.blur_px2});
-  }
-  report.tables.push_back(std::move(table));
-  report.tables.push_back(std::move(sharpness));
-}
-
-void PhotometryCheck::addExposure(const Windows& windows, RigReport& report) const {
-  const Estimate gain = overWindows(course(&Row::gain), windows);
-  const Estimate offset = overWindows(course(&Row::offset_grey), windows);
-  const Estimate vignetting = overWindows(course(&Row::vignetting), windows);
-  // Variances of Gaussians add; the blur itself would change its sign by chance.
-  const Estimate blur_px2 = overWindows(course(&Row::blur_px2), windows);
-  report.add({"photometry",
-              "gain right to left",
-              toText(gain, ""),
-              "nothing by itself: matches are found by correlation; but the darker image has less "
-              "contrast above its noise, and a longer exposure more motion blur",
-              "give both cameras the same exposure time and gain, or couple them"},
-             {std::log(gain.value), gain.sigma / gain.value, kAcceptableGain, kFixGain});
-  const double changes = gain.sigma * std::sqrt(static_cast<double>(windows.count()));
-  report.add(
-      {"photometry",
-       "gain over time",
-       std::isfinite(changes) ? "moves by " + fixedText(100.0 * changes, 1) + " %" : "unknown",
-       "exposures that follow each other late differ most where light changes",
-       "couple the exposures of the cameras"},
-      {changes, 0.0, kAcceptableGain, kFixGain});
-  report.add({"photometry",
-              "grey levels right minus left",
-              toText(offset, "of 255 at black"),
-              "the range of the brighter image is smaller by it",
-              "set the same black level in both cameras, and look for stray light"},
-             {offset.value / kWhite, offset.sigma / kWhite, 0.02, 0.06});
-  report.add(
-      {"photometry",
-       "vignetting right to left",
-       toText({100.0 * vignetting.value, 100.0 * vignetting.sigma}, "% in the corners"),
-       "the darker corners lose features",
-       "use the same lens and aperture on both cameras, and look for something in front of one"},
-      {vignetting.value, vignetting.sigma, 0.15, 0.4});
-  const std::string side = blur_px2.value > 0.0 ? "right" : "left";
-  const double blur_px = std::sqrt(std::abs(blur_px2.value));
-  const double sigma_px = blur_px2.sigma / std::max(2.0 * blur_px, std::sqrt(blur_px2.sigma));
-  report.add(
-      {"photometry",
-       "sharpness right against left",
-       toText(Estimate{blur_px, sigma_px}, "px") + " of blur (Gaussian sigma) more on the " + side,
-       "features of fine texture are lost, and disparities get noisier",
-       "focus and clean the " + side + " lens"},
-      {blur_px2.value, blur_px2.sigma, 0.4 * 0.4, 0.8 * 0.8});
-}
-
-void PhotometryCheck::addLevels(const Windows& windows, RigReport& report) const {
-  for (const bool right : {false, true}) {
-    std::vector<TimedValue> saturated;
-    std::vector<TimedValue> dark;
-    std::vector<TimedValue> noise;
-    for (const Row& row : rows_) {
-      const Levels& levels = right ? row.right : row.left;
-      saturated.push_back({row.time_s, levels.saturated});
-      dark.push_back({row.time_s, levels.dark});
-      noise.push_back({row.time_s, levels.noise / std::max(levels.contrast, 1e-9)});
-    }
-    const std::string side = right ? "right" : "left";
-    const Estimate white = overWindows(saturated, windows);
-    const Estimate black = overWindows(dark, windows);
-    const Estimate noisy = overWindows(noise, windows);
-    report.add({"photometry",
-                "saturated pixels, " + side,
-                toText({100.0 * white.value, 100.0 * white.sigma}, "%"),
-                "no features there",
-                "reduce exposure, or meter on the lower part of the image"},
-               {white.value, white.sigma, kAcceptableShare, kFixShare});
-    report.add({"photometry",
-                "black pixels, " + side,
-                toText({100.0 * black.value, 100.0 * black.sigma}, "%"),
-                "no features there",
-                "increase exposure or gain, or light the scene"},
-               {black.value, black.sigma, kAcceptableShare, kFixShare});
-    report.add({"photometry",
-                "noise, " + side,
-                toText({100.0 * noisy.value, 100.0 * noisy.sigma}, "% of the contrast"),
-                "positions get noisier",
-                "more light, or less gain"},
-               {noisy.value, noisy.sigma, 0.15, 0.3});
-  }
+std::unique_ptr<PairCheck> makePhotometryCheck() {
+  return std::make_unique<PhotometryCheck>();
 }
 
 }  // namespace rotrocc

@@ -4,9 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "check/checked_pair.h"
-#include "check/rig_report.h"
-#include "check/windows.h"
+#include "check/pair_check.h"
 #include "rotrocc/odometry_config.h"
 #include "rotrocc/uncertain_transform.h"
 

@@ -7,12 +7,9 @@
 
 #include "bags/recorded_pairs.h"
 #include "check/disparity_check.h"
-#include "check/gyro_check.h"
 #include "check/input_check.h"
-#include "check/photometry_check.h"
 #include "check/replay_check.h"
 #include "check/row_check.h"
-#include "check/view_check.h"
 #include "common/to_seconds.h"
 #include "input/camera_calibration.h"
 #include "input/input_error.h"
@@ -30,9 +27,9 @@ class PairChecks {
       : odometry_(options.parameters.odometry),
         inspector_(options.parameters.odometry.correspondence_finder, rectifies),
         rows_(options.parameters.odometry),
-        view_(options.parameters.odometry),
+        view_(makeViewCheck(options.parameters.odometry)),
         replay_(options.parameters.odometry, recording.size()) {
-    if (options.gyroscope) gyro_.emplace(*options.gyroscope);
+    if (options.gyroscope) gyro_ = makeGyroCheck(*options.gyroscope);
   }
 
   void observe(const StereoPair& pair, const StereoCamera& camera) {
@@ -54,10 +51,10 @@ class PairChecks {
     if (const std::string fault = inspector_.inspect(pair, camera, result); !fault.empty()) {
       fault_ = fault;
     }
-    photometry_.observe(checked);
+    photometry_->observe(checked);
     rows_.observe(checked);
     disparities_.observe(checked);
-    view_.observe(checked);
+    view_->observe(checked);
     if (gyro_) gyro_->observe(checked);
     replay_.observe(checked);
     keepSample(pair, result);
@@ -73,11 +70,11 @@ class PairChecks {
                      fixedText(camera_.baseline_m, 3) + " m";
     addFault(report);
     if (!isMostlyLost()) {
-      photometry_.report(windows, report);
+      photometry_->report(windows, report);
       rows_.report(windows, disparities_.keystone_rad(), report);
       disparities_.report(windows, report);
       if (gyro_) gyro_->report(windows, report);
-      view_.report(report);
+      view_->report(windows, report);
       replay_.report(report);
       addRectification(report);
     }
@@ -182,11 +179,11 @@ class PairChecks {
 
   VisualOdometry odometry_;
   PairInspector inspector_;
-  PhotometryCheck photometry_;
+  std::unique_ptr<PairCheck> photometry_ = makePhotometryCheck();
   RowCheck rows_;
   DisparityCheck disparities_;
-  std::optional<GyroCheck> gyro_;
-  ViewCheck view_;
+  std::unique_ptr<PairCheck> gyro_;  // null: without a gyroscope
+  std::unique_ptr<PairCheck> view_;
   ReplayCheck replay_;
   StereoCamera camera_;
   std::int64_t first_ns_ = 0, last_ns_ = 0;

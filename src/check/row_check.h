@@ -3,10 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "check/checked_pair.h"
-#include "check/rig_report.h"
+#include "check/pair_check.h"
 #include "check/row_model.h"
-#include "check/windows.h"
 #include "features/feature_tracker.h"
 #include "rotrocc/odometry_config.h"
 

@@ -1,13 +1,18 @@
-#include "check/view_check.h"
+#include "check/pair_check.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <opencv2/imgproc.hpp>
 
+#include "check/image_grid.h"
 #include "common/median.h"
+#include "features/feature_detector.h"
+#include "features/stereo_matcher.h"
 #include "input/to_text.h"
 
 namespace rotrocc {
@@ -48,257 +53,289 @@ std::vector<float> meansOf(const cv::Mat& image, const ImageGrid& grid) {
   return {means.begin<float>(), means.end<float>()};
 }
 
+class ViewCheck : public PairCheck {
+ public:
+  explicit ViewCheck(const OdometryConfig& config)
+      : config_(config.correspondence_finder.stereo_matcher),
+        workers_(1),
+        detector_(config.correspondence_finder.feature_detector) {}
+
+  void observe(const CheckedPair& pair) override {
+    camera_ = pair.camera;
+    const ImageGrid grid(camera_.width, camera_.height);
+    const ImageGrid fine(camera_.width, camera_.height, kFineColumns);
+    map_.resize(grid.count());
+    fine_map_.resize(fine.count());
+    if (pairs_++ % kCornersStep == 0) countCorners(pair);
+    compareWithLast(pair, fine);
+    if (!pair.result.hasMotion()) return;
+    for (std::size_t i = 0; i < pair.features.size(); ++i) {
+      const Correspondence& feature = pair.features[i];
+      const bool agrees = pair.inliers[i] != 0;
+      for (Cell* cell : {&map_[grid.of(feature.cur_px.x(), feature.cur_px.y())],
+                         &fine_map_[fine.of(feature.cur_px.x(), feature.cur_px.y())]}) {
+        ++cell->features;
+        cell->inliers += agrees ? 1 : 0;
+      }
+      if (agrees && i % 4 == 0) depths_m_.push_back(feature.point_cur.z());
+    }
+  }
+
+  void report(const Windows& /*windows*/, RigReport& report) const override {
+    if (pairs_ == 0) return;
+    addDisparities(report);
+    addCoverage(report);
+    addDepths(report);
+    addMask(report);
+  }
+
+ private:
+  struct Cell {
+    int corners = 0, with_depth = 0;
+    int features = 0, inliers = 0;
+    int still = 0;  ///< pairs in which it stays as it is, while others change
+  };
+
+  /// Why corners have no disparity.
+  struct Missing {
+    int too_near = 0, beyond_infinity = 0, other_row = 0, outside = 0, ambiguous = 0;
+  };
+
+  /// Counts the cells with texture that stay as they are while others change.
+  void compareWithLast(const CheckedPair& pair, const ImageGrid& fine) {
+    constexpr double kOverNoise = 2.0;  // a change
+    constexpr double kTexture = 4.0;    // over noise
+    constexpr double kChanging = 0.3;   // of the cells with texture
+    const cv::Mat& image = pair.images.left;
+    if (last_.size() != image.size()) {
+      last_ = image.clone();
+      return;
+    }
+    cv::Mat difference;
+    cv::Mat coarse;
+    cv::absdiff(image, last_, difference);
+    const std::vector<float> changes = meansOf(difference, fine);
+    cv::blur(image, coarse, {9, 9});
+    cv::absdiff(image, coarse, difference);
+    const std::vector<float> textures = meansOf(difference, fine);
+    image.copyTo(last_);
+    std::vector<float> sorted = changes;
+    const double noise = std::max(quantile(sorted, 0.1), 0.5F);
+    std::vector<std::size_t> still;
+    int changing = 0;
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      if (textures[i] < kTexture * noise) continue;
+      if (changes[i] < kOverNoise * noise) {
+        still.push_back(i);
+      } else {
+        ++changing;
+      }
+    }
+    if (changing < kChanging * static_cast<double>(changing + static_cast<int>(still.size())))
+      return;
+    if (changing == 0) return;
+    ++changing_pairs_;
+    if (pair.result.hasMotion() && rests(pair)) ++resting_pairs_;
+    for (const std::size_t cell : still) ++fine_map_[cell].still;
+  }
+
+  void countCorners(const CheckedPair& pair) {
+    const ImageGrid grid(camera_.width, camera_.height);
+    std::vector<cv::Point2f> corners;
+    std::vector<float> disparities_px;
+    detector_.detect(workers_, pair.images.left, corners);
+    const RectifiedImages images = {pair.images.left,
+                                    pair.images.right,
+                                    camera_.disparityAtInfinity(),
+                                    pair.result.row_offset.applied_px};
+    StereoMatcher(config_).match(workers_, images, corners, disparities_px);
+    std::vector<cv::Point2f> without;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      Cell& cell = map_[grid.of(corners[i].x, corners[i].y)];
+      ++cell.corners;
+      ++corners_;
+      if (disparities_px[i] == StereoMatcher::kNoDisparity) {
+        without.push_back(corners[i]);
+      } else {
+        ++cell.with_depth;
+        ++with_depth_;
+      }
+    }
+    explain(pair, without);
+  }
+
+  /// Searches where the odometry does not: nearer, beyond infinity, and in other rows.
+  void explain(const CheckedPair& pair, const std::vector<cv::Point2f>& corners) {
+    const double infinity_px = camera_.disparityAtInfinity();
+    const double row_px = pair.result.row_offset.applied_px;
+    constexpr int kBeyond_px = 8;
+    constexpr double kRows = 2.0;
+    std::vector<char> is_explained(corners.size(), 0);
+    std::vector<float> disparities_px;
+    const auto search =
+        [&](const StereoMatcherConfig& config, double infinity, double rows, int& count) {
+          const RectifiedImages images = {pair.images.left, pair.images.right, infinity, rows};
+          StereoMatcher(config).match(workers_, images, corners, disparities_px);
+          for (std::size_t i = 0; i < corners.size(); ++i) {
+            if (disparities_px[i] == StereoMatcher::kNoDisparity || is_explained[i] != 0) continue;
+            is_explained[i] = 1;
+            ++count;
+          }
+        };
+    for (const double rows : {row_px - kRows, row_px + kRows}) {
+      search(config_, infinity_px, rows, missing_.other_row);
+    }
+    StereoMatcherConfig beyond = config_;
+    beyond.min_disparity_px = 0.0;
+    beyond.max_disparity_px = kBeyond_px + 1;
+    search(beyond, infinity_px - kBeyond_px, row_px, missing_.beyond_infinity);
+    StereoMatcherConfig near = config_;
+    near.max_disparity_px = 2 * config_.max_disparity_px;
+    near.min_disparity_px = config_.max_disparity_px;
+    search(near, infinity_px, row_px, missing_.too_near);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (is_explained[i] != 0) continue;
+      const bool may_be_outside = corners[i].x - infinity_px < config_.max_disparity_px;
+      ++(may_be_outside ? missing_.outside : missing_.ambiguous);
+    }
+  }
+
+  void addDisparities(RigReport& report) const {
+    const double with_depth = share(with_depth_, corners_);
+    Finding finding = {"view",
+                       "corners with a disparity",
+                       percent(with_depth),
+                       "corners without one are no features",
+                       ""};
+    const std::pair<int, const char*> reasons[] = {
+        {missing_.too_near, "nearer than max_disparity_px reaches"},
+        {missing_.beyond_infinity, "as far as the horizon or beyond"},
+        {missing_.other_row, "two rows higher or lower"},
+        {missing_.outside, "perhaps outside of the right image"},
+        {missing_.ambiguous, "ambiguous, hidden or different"}};
+    for (const auto& [count, text] : reasons) {
+      if (share(count, corners_) >= 0.005) {
+        finding.measured += ", " + percent(share(count, corners_)) + " " + text;
+      }
+    }
+    finding.remedy =
+        2 * missing_.too_near > corners_ - with_depth_
+            ? "set `max_disparity_px` to " + toText(2 * config_.max_disparity_px)
+            : "look at rows, sharpness and exposure above; the scene may have too little texture";
+    report.add(finding, {1.0 - with_depth, 0.0, 0.5, 0.8});
+    ReportTable table = {"view_map", "x_px,y_px,corners,with_depth,features,inliers", {}};
+    const ImageGrid grid(camera_.width, camera_.height);
+    for (std::size_t i = 0; i < map_.size(); ++i) {
+      const cv::Point2d centre = grid.centre(i);
+      table.rows.push_back({centre.x,
+                            centre.y,
+                            static_cast<double>(map_[i].corners),
+                            static_cast<double>(map_[i].with_depth),
+                            static_cast<double>(map_[i].features),
+                            static_cast<double>(map_[i].inliers)});
+    }
+    report.tables.push_back(std::move(table));
+  }
+
+  void addCoverage(RigReport& report) const {
+    const auto seen = std::count_if(map_.begin(), map_.end(), [&](const Cell& cell) {
+      return cell.inliers * 20 > pairs_;  // in each 20th pair
+    });
+    const double empty = 1.0 - static_cast<double>(seen) / static_cast<double>(map_.size());
+    report.add({"view",
+                "coverage",
+                "features in " + percent(1.0 - empty) + " of the image",
+                "rotation and translation look alike in a part of the image",
+                "turn the cameras to where there is texture, or use wider lenses"},
+               {empty, 0.0, 0.5, 0.8});
+  }
+
+  void addDepths(RigReport& report) const {
+    std::vector<double> depths_m = depths_m_;
+    if (depths_m.empty()) return;
+    const double near_m = quantile(depths_m, 0.1);
+    const double middle_m = quantile(depths_m, 0.5);
+    const double far_m = quantile(depths_m, 0.9);
+    const double typical_px = camera_.fx * camera_.baseline_m / middle_m;
+    report.add({"view",
+                "depths",
+                fixedText(middle_m, 1) + " m in the middle, 80 % between " + fixedText(near_m, 1) +
+                    " and " + fixedText(far_m, 1) + " m; a disparity of " +
+                    fixedText(typical_px, 1) + " px",
+                "the way is known as well as the near depths are",
+                "a longer baseline, a longer focal length, or look lower"},
+               {1.0 / typical_px, 0.0, 0.4, 1.0});
+    ReportTable table = {"depths", "depth_m,features", {}};
+    constexpr double kStep = 1.25892541179;  // ten bins for a power of ten
+    std::sort(depths_m.begin(), depths_m.end());
+    auto from = depths_m.begin();
+    for (double limit_m = 0.1; from != depths_m.end() && limit_m < 1e4; limit_m *= kStep) {
+      const auto to = std::lower_bound(from, depths_m.end(), limit_m);
+      if (to != depths_m.begin()) table.rows.push_back({limit_m, static_cast<double>(to - from)});
+      from = to;
+    }
+    report.tables.push_back(std::move(table));
+  }
+
+  void addMask(RigReport& report) const {
+    constexpr double kAcceptable = 0.02;
+    const cv::Mat cells = disagreeing();
+    const double masked = share(cv::countNonZero(cells), static_cast<int>(cells.total()));
+    report.add(
+        {"view",
+         "parts that never agree with the motion",
+         percent(masked) + " of the image",
+         "what moves with the cameras looks like standstill: its features are rejected, or pull "
+         "the motion towards it",
+         "look at `mask.png` of the report, and if it is the robot itself or a reflection, set "
+         "the parameter `mask` to it"},
+        {masked, 0.0, kAcceptable, 0.05});
+    if (masked <= kAcceptable) return;
+    cv::resize(cells, report.mask, {camera_.width, camera_.height}, 0, 0, cv::INTER_NEAREST);
+  }
+
+  /// Cells of the fine map whose features do not agree, one pixel each. Single ones are not the
+  /// robot.
+  cv::Mat disagreeing() const {
+    const ImageGrid fine(camera_.width, camera_.height, kFineColumns);
+    cv::Mat cells = cv::Mat::zeros(fine.rows(), fine.columns(), CV_8UC1);
+    const bool follows_robot = 2 * resting_pairs_ > changing_pairs_;
+    for (std::size_t i = 0; i < fine_map_.size(); ++i) {
+      const Cell& cell = fine_map_[i];
+      const bool disagrees =
+          cell.features >= kLeastFeatures && share(cell.inliers, cell.features) < kMostAgreeing;
+      const bool is_robot = follows_robot && share(cell.still, changing_pairs_) > 0.5;
+      if (follows_robot ? is_robot : disagrees) cells.data[i] = 255;
+    }
+    const cv::Mat plus = cv::getStructuringElement(cv::MORPH_RECT, {3, 3});
+    cv::Mat closed;
+    cv::morphologyEx(cells, closed, cv::MORPH_CLOSE, plus, {-1, -1}, 1, cv::BORDER_REPLICATE);
+    cv::Mat labels, statistics, centroids;
+    const int parts = cv::connectedComponentsWithStats(closed, labels, statistics, centroids, 4);
+    constexpr int kLeastCells = 4;
+    for (int part = 1; part < parts; ++part) {
+      if (statistics.at<int>(part, cv::CC_STAT_AREA) < kLeastCells) closed.setTo(0, labels == part);
+    }
+    return closed;
+  }
+
+  StereoMatcherConfig config_;
+  Workers workers_;
+  FeatureDetector detector_;
+  StereoCamera camera_;
+  std::vector<Cell> map_, fine_map_;  // of ImageGrid and of twice as many columns
+  Missing missing_;
+  cv::Mat last_;                                // left image
+  int changing_pairs_ = 0, resting_pairs_ = 0;  // whose images change; of these, without a motion
+  int pairs_ = 0;
+  int corners_ = 0, with_depth_ = 0;
+  std::vector<double> depths_m_;
+};
+
 }  // namespace
 
-ViewCheck::ViewCheck(const OdometryConfig& config)
-    : config_(config.correspondence_finder.stereo_matcher),
-      workers_(1),
-      detector_(config.correspondence_finder.feature_detector) {}
-
-void ViewCheck::observe(const CheckedPair& pair) {
-  camera_ = pair.camera;
-  const ImageGrid grid(camera_.width, camera_.height);
-  const ImageGrid fine(camera_.width, camera_.height, kFineColumns);
-  map_.resize(grid.count());
-  fine_map_.resize(fine.count());
-  if (pairs_++ % kCornersStep == 0) countCorners(pair);
-  compareWithLast(pair, fine);
-  if (!pair.result.hasMotion()) return;
-  for (std::size_t i = 0; i < pair.features.size(); ++i) {
-    const Correspondence& feature = pair.features[i];
-    const bool agrees = pair.inliers[i] != 0;
-    for (Cell* cell : {&map_[grid.of(feature.cur_px.x(), feature.cur_px.y())],
-                       &fine_map_[fine.of(feature.cur_px.x(), feature.cur_px.y())]}) {
-      ++cell->features;
-      cell->inliers += agrees ? 1 : 0;
-    }
-    if (agrees && i % 4 == 0) depths_m_.push_back(feature.point_cur.z());
-  }
-}
-
-/// Counts the cells with texture that stay as they are while others change.
-void ViewCheck::compareWithLast(const CheckedPair& pair, const ImageGrid& fine) {
-  constexpr double kOverNoise = 2.0;  // a change
-  constexpr double kTexture = 4.0;    // over noise
-  constexpr double kChanging = 0.3;   // of the cells with texture
-  const cv::Mat& image = pair.images.left;
-  if (last_.size() != image.size()) {
-    last_ = image.clone();
-    return;
-  }
-  cv::Mat difference;
-  cv::Mat coarse;
-  cv::absdiff(image, last_, difference);
-  const std::vector<float> changes = meansOf(difference, fine);
-  cv::blur(image, coarse, {9, 9});
-  cv::absdiff(image, coarse, difference);
-  const std::vector<float> textures = meansOf(difference, fine);
-  image.copyTo(last_);
-  std::vector<float> sorted = changes;
-  const double noise = std::max(quantile(sorted, 0.1), 0.5F);
-  std::vector<std::size_t> still;
-  int changing = 0;
-  for (std::size_t i = 0; i < changes.size(); ++i) {
-    if (textures[i] < kTexture * noise) continue;
-    if (changes[i] < kOverNoise * noise) {
-      still.push_back(i);
-    } else {
-      ++changing;
-    }
-  }
-  if (changing < kChanging * static_cast<double>(changing + static_cast<int>(still.size()))) return;
-  if (changing == 0) return;
-  ++changing_pairs_;
-  if (pair.result.hasMotion() && rests(pair)) ++resting_pairs_;
-  for (const std::size_t cell : still) ++fine_map_[cell].still;
-}
-
-void ViewCheck::countCorners(const CheckedPair& pair) {
-  const ImageGrid grid(camera_.width, camera_.height);
-  std::vector<cv::Point2f> corners;
-  std::vector<float> disparities_px;
-  detector_.detect(workers_, pair.images.left, corners);
-  const RectifiedImages images = {pair.images.left,
-                                  pair.images.right,
-                                  camera_.disparityAtInfinity(),
-                                  pair.result.row_offset.applied_px};
-  StereoMatcher(config_).match(workers_, images, corners, disparities_px);
-  std::vector<cv::Point2f> without;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    Cell& cell = map_[grid.of(corners[i].x, corners[i].y)];
-    ++cell.corners;
-    ++corners_;
-    if (disparities_px[i] == StereoMatcher::kNoDisparity) {
-      without.push_back(corners[i]);
-    } else {
-      ++cell.with_depth;
-      ++with_depth_;
-    }
-  }
-  explain(pair, without);
-}
-
-/// Searches where the odometry does not: nearer, beyond infinity, and in other rows.
-void ViewCheck::explain(const CheckedPair& pair, const std::vector<cv::Point2f>& corners) {
-  const double infinity_px = camera_.disparityAtInfinity();
-  const double row_px = pair.result.row_offset.applied_px;
-  constexpr int kBeyond_px = 8;
-  constexpr double kRows = 2.0;
-  std::vector<char> is_explained(corners.size(), 0);
-  std::vector<float> disparities_px;
-  const auto search =
-      [&](const StereoMatcherConfig& config, double infinity, double rows, int& count) {
-        const RectifiedImages images = {pair.images.left, pair.images.right, infinity, rows};
-        StereoMatcher(config).match(workers_, images, corners, disparities_px);
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-          if (disparities_px[i] == StereoMatcher::kNoDisparity || is_explained[i] != 0) continue;
-          is_explained[i] = 1;
-          ++count;
-        }
-      };
-  for (const double rows : {row_px - kRows, row_px + kRows}) {
-    search(config_, infinity_px, rows, missing_.other_row);
-  }
-  StereoMatcherConfig beyond = config_;
-  beyond.min_disparity_px = 0.0;
-  beyond.max_disparity_px = kBeyond_px + 1;
-  search(beyond, infinity_px - kBeyond_px, row_px, missing_.beyond_infinity);
-  StereoMatcherConfig near = config_;
-  near.max_disparity_px = 2 * config_.max_disparity_px;
-  near.min_disparity_px = config_.max_disparity_px;
-  search(near, infinity_px, row_px, missing_.too_near);
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (is_explained[i] != 0) continue;
-    const bool may_be_outside = corners[i].x - infinity_px < config_.max_disparity_px;
-    ++(may_be_outside ? missing_.outside : missing_.ambiguous);
-  }
-}
-
-void ViewCheck::report(RigReport& report) const {
-  if (pairs_ == 0) return;
-  addDisparities(report);
-  addCoverage(report);
-  addDepths(report);
-  addMask(report);
-}
-
-void ViewCheck::addDisparities(RigReport& report) const {
-  const double with_depth = share(with_depth_, corners_);
-  Finding finding = {"view",
-                     "corners with a disparity",
-                     percent(with_depth),
-                     "corners without one are no features",
-                     ""};
-  const std::pair<int, const char*> reasons[] = {
-      {missing_.too_near, "nearer than max_disparity_px reaches"},
-      {missing_.beyond_infinity, "as far as the horizon or beyond"},
-      {missing_.other_row, "two rows higher or lower"},
-      {missing_.outside, "perhaps outside of the right image"},
-      {missing_.ambiguous, "ambiguous, hidden or different"}};
-  for (const auto& [count, text] : reasons) {
-    if (share(count, corners_) >= 0.005) {
-      finding.measured += ", " + percent(share(count, corners_)) + " " + text;
-    }
-  }
-  finding.remedy =
-      2 * missing_.too_near > corners_ - with_depth_
-          ? "set `max_disparity_px` to " + toText(2 * config_.max_disparity_px)
-          : "look at rows, sharpness and exposure above; the scene may have too little texture";
-  report.add(finding, {1.0 - with_depth, 0.0, 0.5, 0.8});
-  ReportTable table = {"view_map", "x_px,y_px,corners,with_depth,features,inliers", {}};
-  const ImageGrid grid(camera_.width, camera_.height);
-  for (std::size_t i = 0; i < map_.size(); ++i) {
-    const cv::Point2d centre = grid.centre(i);
-    table.rows.push_back({centre.x,
-                          centre.y,
-                          static_cast<double>(map_[i].corners),
-                          static_cast<double>(map_[i].with_depth),
-                          static_cast<double>(map_[i].features),
-                          static_cast<double>(map_[i].inliers)});
-  }
-  report.tables.push_back(std::move(table));
-}
-
-void ViewCheck::addCoverage(RigReport& report) const {
-  const auto seen = std::count_if(map_.begin(), map_.end(), [&](const Cell& cell) {
-    return cell.inliers * 20 > pairs_;  // in each 20th pair
-  });
-  const double empty = 1.0 - static_cast<double>(seen) / static_cast<double>(map_.size());
-  report.add({"view",
-              "coverage",
-              "features in " + percent(1.0 - empty) + " of the image",
-              "rotation and translation look alike in a part of the image",
-              "turn the cameras to where there is texture, or use wider lenses"},
-             {empty, 0.0, 0.5, 0.8});
-}
-
-void ViewCheck::addDepths(RigReport& report) const {
-  std::vector<double> depths_m = depths_m_;
-  if (depths_m.empty()) return;
-  const double near_m = quantile(depths_m, 0.1);
-  const double middle_m = quantile(depths_m, 0.5);
-  const double far_m = quantile(depths_m, 0.9);
-  const double typical_px = camera_.fx * camera_.baseline_m / middle_m;
-  report.add(
-      {"view",
-       "depths",
-       fixedText(middle_m, 1) + " m in the middle, 80 % between " + fixedText(near_m, 1) + " and " +
-           fixedText(far_m, 1) + " m; a disparity of " + fixedText(typical_px, 1) + " px",
-       "the way is known as well as the near depths are",
-       "a longer baseline, a longer focal length, or look lower"},
-      {1.0 / typical_px, 0.0, 0.4, 1.0});
-  ReportTable table = {"depths", "depth_m,features", {}};
-  constexpr double kStep = 1.25892541179;  // ten bins for a power of ten
-  std::sort(depths_m.begin(), depths_m.end());
-  auto from = depths_m.begin();
-  for (double limit_m = 0.1; from != depths_m.end() && limit_m < 1e4; limit_m *= kStep) {
-    const auto to = std::lower_bound(from, depths_m.end(), limit_m);
-    if (to != depths_m.begin()) table.rows.push_back({limit_m, static_cast<double>(to - from)});
-    from = to;
-  }
-  report.tables.push_back(std::move(table));
-}
-
-/// Cells of the fine map whose features do not agree, one pixel each. Single ones are not the
-/// robot.
-cv::Mat ViewCheck::disagreeing() const {
-  const ImageGrid fine(camera_.width, camera_.height, kFineColumns);
-  cv::Mat cells = cv::Mat::zeros(fine.rows(), fine.columns(), CV_8UC1);
-  const bool follows_robot = 2 * resting_pairs_ > changing_pairs_;
-  for (std::size_t i = 0; i < fine_map_.size(); ++i) {
-    const Cell& cell = fine_map_[i];
-    const bool disagrees =
-        cell.features >= kLeastFeatures && share(cell.inliers, cell.features) < kMostAgreeing;
-    const bool is_robot = follows_robot && share(cell.still, changing_pairs_) > 0.5;
-    if (follows_robot ? is_robot : disagrees) cells.data[i] = 255;
-  }
-  const cv::Mat plus = cv::getStructuringElement(cv::MORPH_RECT, {3, 3});
-  cv::Mat closed;
-  cv::morphologyEx(cells, closed, cv::MORPH_CLOSE, plus, {-1, -1}, 1, cv::BORDER_REPLICATE);
-  cv::Mat labels, statistics, centroids;
-  const int parts = cv::connectedComponentsWithStats(closed, labels, statistics, centroids, 4);
-  constexpr int kLeastCells = 4;
-  for (int part = 1; part < parts; ++part) {
-    if (statistics.at<int>(part, cv::CC_STAT_AREA) < kLeastCells) closed.setTo(0, labels == part);
-  }
-  return closed;
-}
-
-void ViewCheck::addMask(RigReport& report) const {
-  constexpr double kAcceptable = 0.02;
-  const cv::Mat cells = disagreeing();
-  const double masked = share(cv::countNonZero(cells), static_cast<int>(cells.total()));
-  report.add(
-      {"view",
-       "parts that never agree with the motion",
-       percent(masked) + " of the image",
-       "what moves with the cameras looks like standstill: its features are rejected, or pull "
-       "the motion towards it",
-       "look at `mask.png` of the report, and if it is the robot itself or a reflection, set "
-       "the parameter `mask` to it"},
-      {masked, 0.0, kAcceptable, 0.05});
-  if (masked <= kAcceptable) return;
-  cv::resize(cells, report.mask, {camera_.width, camera_.height}, 0, 0, cv::INTER_NEAREST);
+std::unique_ptr<PairCheck> makeViewCheck(const OdometryConfig& config) {
+  return std::make_unique<ViewCheck>(config);
 }
 
 }  // namespace rotrocc
