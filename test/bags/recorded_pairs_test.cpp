@@ -261,23 +261,26 @@ class RawBagTest : public ::testing::Test {
 
   std::string path() const { return directory_ / "raw.bag"; }
 
-  /// Whether its pairs are those of the sequence, rectified by the files.
-  void expectRectified(const std::string& recording, const std::vector<std::string>& files) {
-    SCOPED_TRACE(recording + " by " + files[0]);
-    RecordingOptions options;
-    options.calibration = files;
+  /// Whether its pairs are those of the sequence, rectified by its calibration, or by the files of
+  /// the options.
+  void expectRectified(const std::string& recording, const RecordingOptions& options = {}) {
+    const bool is_rectified_as_read = recording == folder_.path() && !options.raw_sequence;
+    SCOPED_TRACE(recording + (is_rectified_as_read ? ", rectified" : ", raw"));
     Reader reader(recording, {}, options);
-    EXPECT_EQ(reader.pairs.rectifies(), recording != folder_.path());  // a sequence as it is read
-    const auto calibration =
-        std::make_shared<const StereoCalibration>(readStereoCalibration(files));
+    EXPECT_EQ(reader.pairs.rectifies(), !is_rectified_as_read);
+    const auto calibration = std::make_shared<const StereoCalibration>(
+        options.calibration.empty() ? sequence_.calibration
+                                    : readStereoCalibration(options.calibration));
     StereoRectifier rectifier;
     for (int i = 0; i < 3; ++i) {
       ASSERT_TRUE(reader.next());
       const StereoPair expected = rectifier.rectify(sequence_.read(i), calibration);
+      EXPECT_EQ(reader.pair.stamp_ns, AslFolder::stamp_ns(i));
       EXPECT_EQ(cv::norm(reader.pair.left, expected.left, cv::NORM_INF), 0.0);
       EXPECT_EQ(cv::norm(reader.pair.right, expected.right, cv::NORM_INF), 0.0);
       expectCamera(reader.camera, calibration->rectified);
     }
+    EXPECT_FALSE(reader.next());
     EXPECT_EQ(reader.pairs.leftOut(), "");
     EXPECT_NEAR(reader.camera.baseline_m, sequence_.calibration.rectified.baseline_m, 1e-4);
   }
@@ -300,27 +303,11 @@ class RawBagTest : public ::testing::Test {
 };
 
 TEST_F(RawBagTest, IsRectified) {
-  StereoRectifier rectifier;
-  const auto calibration = std::make_shared<const StereoCalibration>(sequence_.calibration);
+  expectRectified(path());
+  expectRectified(folder_.path());
   RecordingOptions raw;
   raw.raw_sequence = true;
-  for (const auto& [recording, options] : {std::pair<std::string, RecordingOptions>{path(), {}},
-                                           {folder_.path(), {}},
-                                           {folder_.path(), raw}}) {
-    Reader reader(recording, {}, options);
-    const bool is_rectified_as_read = recording == folder_.path() && !options.raw_sequence;
-    SCOPED_TRACE(recording + (is_rectified_as_read ? ", rectified" : ", raw"));
-    EXPECT_EQ(reader.pairs.rectifies(), !is_rectified_as_read);
-    for (int i = 0; i < 3; ++i) {
-      ASSERT_TRUE(reader.next());
-      const StereoPair expected = rectifier.rectify(sequence_.read(i), calibration);
-      EXPECT_EQ(reader.pair.stamp_ns, AslFolder::stamp_ns(i));
-      EXPECT_EQ(cv::norm(reader.pair.left, expected.left, cv::NORM_INF), 0.0);
-      EXPECT_EQ(cv::norm(reader.pair.right, expected.right, cv::NORM_INF), 0.0);
-      expectCamera(reader.camera, sequence_.calibration.rectified);
-    }
-    EXPECT_FALSE(reader.next());
-  }
+  expectRectified(folder_.path(), raw);
 }
 
 /// Of the rig.
@@ -350,8 +337,10 @@ TEST_F(RawBagTest, IsRectifiedByFilesInPlaceOfItsCalibration) {
   using Files = std::vector<std::string>;
   for (const Files& files : {Files{directory_ / "camchain.yaml"},
                              Files{cameras + "left.yaml", cameras + "right.yaml"}}) {
-    expectRectified(bag, files);
-    expectRectified(folder_.path(), files);
+    RecordingOptions options;
+    options.calibration = files;
+    expectRectified(bag, options);
+    expectRectified(folder_.path(), options);
   }
 }
 

@@ -141,18 +141,6 @@ TEST_F(RawSequenceBagTest, HoldsImagesAndCalibrationAsRecorded) {
   EXPECT_EQ(calibration.right.R_rectified_raw, sequence.calibration.right.R_rectified_raw);
   EXPECT_DOUBLE_EQ(calibration.rectified.baseline_m, sequence.calibration.rectified.baseline_m);
   EXPECT_FALSE(calibration.isRectified());
-  for (const auto& info : {left, right}) {
-    info->binning_x = info->binning_y = 2;
-    info->roi.x_offset = 100;
-    info->roi.width = 600;
-    info->roi.height = 480;
-  }
-  const StereoCalibration binned = toStereoCalibration(*left, *right);
-  EXPECT_EQ(binned.left.width, 300);
-  EXPECT_EQ(binned.left.height, 240);
-  EXPECT_DOUBLE_EQ(binned.left.fx, calibration.left.fx / 2.0);
-  EXPECT_DOUBLE_EQ(binned.left.cx, (calibration.left.cx - 100.0) / 2.0);
-  EXPECT_DOUBLE_EQ(binned.rectified.cx, (calibration.rectified.cx - 100.0) / 2.0);
 
   const RecordedTf tf = readTf(bag, "base_link", "stereo_left_optical");
   EXPECT_FALSE(tf.assumes_mount);

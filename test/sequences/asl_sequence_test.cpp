@@ -134,14 +134,6 @@ TEST_F(AslSequenceTest, ReadsTheGyroscope) {
   EXPECT_TRUE(gyro.R_camera_gyro.isApprox(open().T_base_camera.linear().transpose(), 1e-9));
 }
 
-TEST_F(AslSequenceTest, KeepsThe16BitsOfImages) {
-  const std::string name = "cam0/data/" + std::to_string(AslFolder::stamp_ns(1)) + ".png";
-  cv::imwrite(folder_ / name, cv::Mat(480, 752, CV_16UC1, cv::Scalar(4095)));
-  const StereoPair pair = open().read(1);
-  EXPECT_EQ(pair.left.at<ushort>(7, 7), 4095);
-  EXPECT_EQ(pair.right.type(), CV_8UC1);
-}
-
 TEST_F(AslSequenceTest, NamesWhatIsWrong) {
   const struct {
     const char *file, *text, *changed_text, *message;
