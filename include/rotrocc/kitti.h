@@ -20,10 +20,10 @@ namespace rotrocc {
 ///                           with stamps around all times; optional
 class KittiSequence {
  public:
-  /// Reads everything except the images. Throws std::runtime_error that names the file and the
-  /// problem if a file is missing or unreadable, if the numbers of images, times and poses differ,
-  /// if times do not increase, or if P0 and P1 are not those of a rectified stereo pair. Of a
-  /// sequence that is being written, only the first left image needs to be there.
+  /// Reads everything except the images. Throws std::runtime_error that names file and problem if a
+  /// file is missing or unreadable, numbers of images, times and poses differ, times do not
+  /// increase, or P0 and P1 are not rectified. Of a sequence that is being written, only the first
+  /// left image needs to be there.
   explicit KittiSequence(const std::string& directory, bool being_written = false);
 
   const std::string& directory() const { return directory_; }

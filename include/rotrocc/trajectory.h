@@ -32,23 +32,20 @@ TrajectoryFormat detectTrajectoryFormat(const std::string& path);
 
 /// Reads either format. Blank lines and lines that begin with '#' are skipped.
 ///
-/// KITTI poses have no stamps. They get those of the file `times_path`, which must have at least
-/// one time per pose (see readTimes()). If it is empty, the stamps are 0, 0.1, 0.2 ... s, the rate
-/// of KITTI.
+/// KITTI poses have no stamps: they get those of readTimes(times_path), at least one per pose, or
+/// 0, 0.1, 0.2 ... s if that is empty.
 ///
-/// The files contain rounded rotations: an orthonormality error of up to 1e-3 is removed, so the
-/// returned poses are rigid. Throws std::runtime_error with file and line on any pose that is not
-/// finite and rigid, on stamps that do not increase, on a file without poses, and on a times file
-/// for poses that already have stamps.
+/// An orthonormality error of up to 1e-3, from rounding, is removed. Throws std::runtime_error with
+/// file and line on any pose that is not finite and rigid, on stamps that do not increase, on a
+/// file without poses, and on a times file for poses that already have stamps.
 Trajectory readTrajectory(const std::string& path, const std::string& times_path = "");
 
 /// Reads a file with one time [s] per line (KITTI's times.txt), rounded to nanoseconds. Throws
 /// std::runtime_error with file and line on any other content and on times that do not increase.
 std::vector<std::int64_t> readTimes(const std::string& path);
 
-/// Writes poses one by one. Each line is flushed to the file before write() returns, so nothing is
-/// lost when the program is stopped. KITTI lines have 10 significant digits, like KITTI's own
-/// files. TUM lines have 9 decimals (exact stamps, positions to the nanometre) and qw >= 0.
+/// Writes poses one by one. Each line is in the file before write() returns. KITTI lines have 10
+/// significant digits, like KITTI's own files, TUM lines 9 decimals and qw >= 0.
 class TrajectoryWriter {
  public:
   /// Replaces the file. Throws std::runtime_error if `path` cannot be written.

@@ -6,9 +6,8 @@
 
 namespace rotrocc {
 
-/// Two trajectories with poses at the same times: truth[i] and estimate[i] correspond. They may
-/// start at different poses, because only relative motions are compared, but must use the same body
-/// frame.
+/// Poses of the same body at the same times: truth[i] and estimate[i] correspond. They may start at
+/// different poses, because only relative motions are compared.
 struct MatchedTrajectories {
   Trajectory truth;
   Trajectory estimate;
@@ -36,7 +35,6 @@ struct SegmentConfig {
 /// segments of 5 to 40 m from every pose.
 SegmentConfig fittingSegments(double path_m);
 
-/// The motion error over one segment of the path.
 struct SegmentError {
   int first_pose = 0;
   double length_m = 0.0;     ///< as configured
@@ -45,16 +43,12 @@ struct SegmentError {
   double rotation_rad_per_m = 0.0;
 };
 
-/// The errors of all segments, ordered by first pose, then length.
-///
-/// The definition is that of the devkit: a segment ends at the first pose whose path length from
-/// the start of the segment exceeds the given length. The error is inv(motion of the estimate) *
-/// (motion of the truth), divided by the length. (The devkit has no stamps: it computes the speed
-/// from the number of poses at 10 Hz, including the last one.)
+/// The errors of all segments, ordered by first pose, then length, as in the devkit: a segment ends
+/// at the first pose whose path length from its start exceeds the given length. The error is
+/// inv(motion of the estimate) * (motion of the truth), divided by the length.
 ///
 /// Throws std::invalid_argument on a length that is not positive, a step below 1, stamps that do
-/// not increase, and trajectories of different sizes. The functions below that take
-/// MatchedTrajectories also throw on different sizes.
+/// not increase, and, as the functions below, trajectories of different sizes.
 std::vector<SegmentError> segmentErrors(const MatchedTrajectories& matched,
                                         const SegmentConfig& config = {});
 
@@ -72,9 +66,8 @@ MeanError meanError(const std::vector<SegmentError>& errors);
 /// One entry per length that occurs, shortest first.
 std::vector<MeanError> meanErrorByLength(const std::vector<SegmentError>& errors);
 
-/// One entry for each of the devkit's speeds, 2, 4, 6 ... m/s, that has segments less than 2 m/s
-/// away. A segment counts for both neighbouring speeds. Unlike the devkit's list, this one does not
-/// stop at 24 m/s.
+/// One entry for each speed, 2, 4, 6 ... m/s, that has segments less than 2 m/s away. A segment
+/// counts for both neighboring speeds. Unlike the devkit's list, this one does not stop at 24 m/s.
 std::vector<MeanError> meanErrorBySpeed(const std::vector<SegmentError>& errors);
 
 /// Statistics of a non-negative quantity; all 0 if there are no values.
@@ -94,7 +87,6 @@ struct StepError {
 /// One error per pair of successive poses.
 std::vector<StepError> stepErrors(const MatchedTrajectories& matched);
 
-/// Statistics of the step errors.
 struct StepSummary {
   Distribution translation_m;
   Distribution rotation_rad;

@@ -10,9 +10,8 @@
 
 namespace rotrocc {
 
-/// The transforms of a recording: those to play, apart from those that conflict with the odometry.
-/// A parent of the base is a trajectory, not a mount. kitti2bag records world -> base_link for raw
-/// drives; for odometry sequences it records world -> camera_left and no mount.
+/// The transforms of a recording. A parent of the base is a trajectory, not a mount. kitti2bag
+/// records world -> base_link for raw drives; world -> camera_left and no mount for sequences.
 struct RecordedTf {
   std::string base_frame;
   std::string camera_frame;  ///< of the left image
@@ -22,8 +21,7 @@ struct RecordedTf {
   bool assumes_mount = false;
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
   tf2_msgs::TFMessage static_transforms;  ///< the latest of each child frame
-  /// Poses of the base for the recorded poses, relative to the first one, i.e. in the frame "odom".
-  /// Empty if the bag has no trajectory.
+  /// Recorded poses as those of the base, relative to the first one. Empty if there are none.
   nav_msgs::Path trajectory;
   std::string trajectory_name;  ///< "world -> base_link", for messages
 

@@ -16,8 +16,8 @@ namespace rotrocc {
 ///   /ground_truth/pose                 geometry_msgs/PoseStamped, one per pair that has one
 ///   /imu/data                          sensor_msgs/Imu in imu_link, whose axes are those of
 ///                                      base_link; the angular velocity only, if there is one
-/// Calls `on_pair` after each pair. Until it is complete, the bag is `path`.part, which is removed
-/// if anything fails. Throws std::runtime_error if the file cannot be written or an image not read.
+/// Until it is complete, the bag is `path`.part, which is removed if anything fails. Throws
+/// std::runtime_error if the file cannot be written or an image not read.
 void writeSequenceBag(const std::string& path,
                       SequenceRecording& recording,
                       const std::function<void()>& on_pair = {});

@@ -38,8 +38,8 @@ StereoTopics findStereoTopics(const TopicTypes& types,
 /// The camera_info topic in the namespace of an image topic.
 std::string infoTopicOf(std::string image_topic);
 
-/// Whether a name tells that its images are rectified: image_rect and the like, and all topics of
-/// kitti2bag, whose image_raw has KITTI's rectified images beside a camera_info of the raw ones.
+/// Whether a name tells that its images are rectified: image_rect and the like, and the topics of
+/// kitti2bag, whose image_raw is rectified.
 bool isRectifiedByName(const std::string& image_topic);
 
 /// Whether camera_info describes images that have to be rectified; `baseline_m` is that of

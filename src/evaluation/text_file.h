@@ -17,12 +17,9 @@ struct TextLine {
   /// The word at `index` as a number. Throws std::runtime_error if it is not a finite number.
   double number(std::size_t index) const;
 
-  /// The word at `index`, a time [s], in nanoseconds, rounded. Throws like number(), and on times
-  /// beyond the range of 64 bit.
+  /// The word at `index`, a time [s], in nanoseconds; or as an integer. Both are rounded, and throw
+  /// like number(), and on values beyond the range of 64 bit.
   std::int64_t nanoseconds(std::size_t index) const;
-
-  /// The word at `index` as an integer, rounded. Throws like number(), and on values beyond the
-  /// range of 64 bit.
   std::int64_t integer(std::size_t index) const;
 
   /// The pose of a position [m] in the words 1 to 3 and a quaternion in the words 4 to 7, w last or
@@ -32,7 +29,6 @@ struct TextLine {
   /// Throws std::runtime_error unless `stamp_ns`, of the first word, is later than the one before.
   void requireLater(std::int64_t stamp_ns, std::int64_t previous_ns) const;
 
-  /// Throws std::runtime_error with `where` and what is wrong there.
   [[noreturn]] void fail(const std::string& what) const;
 };
 

@@ -10,7 +10,6 @@
 
 namespace rotrocc {
 
-/// An image file and its time.
 struct StampedImage {
   std::int64_t stamp_ns = 0;
   std::string path;

@@ -25,19 +25,15 @@ struct StereoSequence {
   std::string root;
   ImagePairs pairs;
 
-  /// Of the images as they were recorded, and how to rectify them.
-  StereoCalibration calibration;
+  StereoCalibration calibration;  ///< of the images as they were recorded
 
   /// Poses of the left camera with the stamps of pairs; not of all pairs, if the truth is shorter.
-  /// Empty if there is none.
   Trajectory ground_truth;
-
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
 
-  /// Number of pairs.
   int size() const { return pairs.size(); }
 
-  /// Time of a pair; they increase.
+  /// They increase.
   std::int64_t stamp_ns(int index) const { return pairs.stamp_ns(index); }
 
   /// The images of a pair as they were recorded, CV_8UC1 or CV_16UC1. Throws std::runtime_error if

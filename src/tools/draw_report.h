@@ -4,9 +4,8 @@
 
 namespace rotrocc {
 
-/// Runs the program draw_report, which draws the tables in a directory and writes the page. Without
-/// a title the page has that of its tables. Throws std::runtime_error if it cannot be run, or
-/// fails.
+/// Runs draw_report, which draws the tables in a directory and writes the page. Without a title the
+/// page has that of its tables. Throws std::runtime_error if it fails.
 void drawReport(const std::string& directory, const std::string& title = "");
 
 }  // namespace rotrocc

@@ -9,7 +9,6 @@ namespace rotrocc {
 
 constexpr double kDegreesPerRadian = 57.295779513082321;
 
-/// Evaluation of an estimate.
 struct Evaluation {
   MatchedTrajectories matched;
   std::vector<double> path_m;  ///< along the ground truth, to each pose

@@ -21,7 +21,7 @@ namespace rotrocc {
 /// down at an angle, so its picture is that of a map which grows.
 class WholeView {
  public:
-  /// A new point, [m].
+  /// [m]
   void add(const Eigen::Vector3d& point);
 
   /// The nearest place from which all points are seen, with a margin. Needs a point.
