@@ -39,17 +39,18 @@ class KittiSequence {
 
   /// The images of pair `index` as CV_8UC1. Both throw std::runtime_error with the file's path if
   /// it is missing, unreadable or not of the camera's size.
-  cv::Mat readLeft(int index) const;
-  cv::Mat readRight(int index) const;
+  cv::Mat readLeft(int index) const { return read(leftPath(index)); }
+  cv::Mat readRight(int index) const { return read(rightPath(index)); }
 
   /// The files of pair `index`. The right one is written after the left one.
-  std::string leftPath(int index) const;
-  std::string rightPath(int index) const;
+  std::string leftPath(int index) const { return imagePath("image_0", index); }
+  std::string rightPath(int index) const { return imagePath("image_1", index); }
 
   /// size() poses of the left camera, with the stamps of the pairs. Empty if there is no poses.txt.
   const Trajectory& groundTruth() const { return ground_truth_; }
 
  private:
+  std::string imagePath(const char* folder, int index) const;
   cv::Mat read(const std::string& path) const;
 
   std::string directory_;

@@ -1,6 +1,6 @@
 #include "bags/recorded_tf.h"
 
-#include <algorithm>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -55,19 +55,6 @@ std::optional<Eigen::Isometry3d> findMount(const RecordedTf& tf,
   }
   if (!buffer.canTransform(tf.base_frame, tf.camera_frame, ros::Time())) return std::nullopt;
   return tf2::transformToEigen(buffer.lookupTransform(tf.base_frame, tf.camera_frame, ros::Time()));
-}
-
-void addStatic(const geometry_msgs::TransformStamped& transform, RecordedTf& tf) {
-  if (isTrajectory(transform, tf)) return;
-  auto& transforms = tf.static_transforms.transforms;
-  const auto known = std::find_if(transforms.begin(), transforms.end(), [&](const auto& other) {
-    return other.child_frame_id == transform.child_frame_id;
-  });
-  if (known == transforms.end()) {
-    transforms.push_back(transform);
-  } else {
-    *known = transform;
-  }
 }
 
 bool isOfKitti2bag(const RecordedTf& tf) {
@@ -128,7 +115,12 @@ RecordedTf readTf(const Bags& bags,
   tf.T_base_camera = T_base_camera       ? *T_base_camera
                      : isOfKitti2bag(tf) ? kittiMount()
                                          : mountAtCamera();
-  for (const auto& transform : fixed) addStatic(transform, tf);
+  std::map<std::string, geometry_msgs::TransformStamped> latest;
+  for (const auto& transform : fixed) {
+    if (!isTrajectory(transform, tf)) latest[transform.child_frame_id] = transform;
+  }
+  for (const auto& [child, transform] : latest)
+    tf.static_transforms.transforms.push_back(transform);
   if (tf.assumes_mount) addMount(tf);
   buildTrajectory(moving, tf);
   return tf;

@@ -17,13 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using Projection = Eigen::Matrix<double, 3, 4>;
 
-constexpr const char* kLeftFolder = "image_0";
-constexpr const char* kRightFolder = "image_1";
-
-std::string imagePath(const std::string& directory, const char* folder, int index) {
-  return (fs::path(directory) / folder / cv::format("%06d.png", index)).string();
-}
-
 std::size_t countImages(const fs::path& folder) {
   if (!fs::is_directory(folder)) {
     throw std::runtime_error(folder.string() + " is missing: is this a KITTI odometry sequence?");
@@ -109,32 +102,20 @@ KittiSequence::KittiSequence(const std::string& directory, bool being_written)
   if (!fs::is_directory(root)) throw std::runtime_error(directory + " is not a directory");
   const std::string times_path = (root / "times.txt").string();
   stamps_ns_ = readTimes(times_path);
-  for (const char* folder : {kLeftFolder, kRightFolder}) {
+  for (const char* folder : {"image_0", "image_1"}) {
     const std::size_t count = countImages(root / folder);
     if (being_written && count < stamps_ns_.size()) continue;
     requireSameCount((root / folder).string(), count, stamps_ns_.size());
   }
-  const cv::Mat first = readGreyImage(imagePath(directory, kLeftFolder, 0));
+  const cv::Mat first = readGreyImage(leftPath(0));
   camera_ = readCalibration((root / "calib.txt").string(), first.size());
   const std::string poses_path = (root / "poses.txt").string();
   if (!fs::exists(poses_path)) return;
   ground_truth_ = readGroundTruth(poses_path, times_path, stamps_ns_);
 }
 
-std::string KittiSequence::leftPath(int index) const {
-  return imagePath(directory_, kLeftFolder, index);
-}
-
-std::string KittiSequence::rightPath(int index) const {
-  return imagePath(directory_, kRightFolder, index);
-}
-
-cv::Mat KittiSequence::readLeft(int index) const {
-  return read(leftPath(index));
-}
-
-cv::Mat KittiSequence::readRight(int index) const {
-  return read(rightPath(index));
+std::string KittiSequence::imagePath(const char* folder, int index) const {
+  return (fs::path(directory_) / folder / cv::format("%06d.png", index)).string();
 }
 
 cv::Mat KittiSequence::read(const std::string& path) const {
