@@ -68,18 +68,12 @@ Matrix6d planar(const Matrix6d& covariance) {
   return flat;
 }
 
-}  // namespace
-
-UncertainTransform motionOfBase(const UncertainTransform& camera_motion,
-                                const Eigen::Isometry3d& T_base_camera_prev,
-                                const Eigen::Isometry3d& T_base_camera_cur) {
-  return compose(compose({T_base_camera_prev}, camera_motion), {T_base_camera_cur.inverse()});
-}
-
+/// The constant twist of a motion. The covariance is valid for small rotations within that time.
 UncertainTwist twistOf(const UncertainTransform& T_prev_cur, double dt_s) {
   return {logMotion(T_prev_cur.T) / dt_s, T_prev_cur.covariance / (dt_s * dt_s)};
 }
 
+/// Translation and rotation of a motion over time, in the frame before it.
 UncertainTwist meanVelocityOf(const UncertainTransform& T_prev_cur, double dt_s) {
   UncertainTwist velocity;
   velocity.twist << T_prev_cur.T.translation(), logRotation(T_prev_cur.T.linear());
@@ -87,6 +81,8 @@ UncertainTwist meanVelocityOf(const UncertainTransform& T_prev_cur, double dt_s)
   velocity.covariance = T_prev_cur.covariance / (dt_s * dt_s);
   return velocity;
 }
+
+}  // namespace
 
 BaseOdometry::BaseOdometry(const NodeParameters& parameters,
                            const SystematicErrorConfig& systematic_error,
@@ -161,11 +157,12 @@ std::optional<Eigen::Isometry3d> BaseOdometry::expectedMotion(
   return known_.T_base_camera.inverse() * T_known_base * T_base_camera;
 }
 
+/// Where `camera_motion` is T_prev_cur of the camera.
 UncertainTransform BaseOdometry::motionOfBase(const UncertainTransform& camera_motion,
                                               const Eigen::Isometry3d& T_base_camera_prev,
                                               const Eigen::Isometry3d& T_base_camera_cur) const {
   const UncertainTransform motion =
-      rotrocc::motionOfBase(camera_motion, T_base_camera_prev, T_base_camera_cur);
+      compose(compose({T_base_camera_prev}, camera_motion), {T_base_camera_cur.inverse()});
   return parameters_.planar ? UncertainTransform{planar(motion.T), planar(motion.covariance)}
                             : motion;
 }

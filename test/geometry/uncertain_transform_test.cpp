@@ -1,8 +1,10 @@
-#include "node/base/base_odometry.h"
+#include "rotrocc/uncertain_transform.h"
 
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "rotrocc/rigid_motion.h"
 
 namespace rotrocc {
 namespace {
@@ -86,29 +88,6 @@ TEST(UncertainTransformTest, ErrorsAreThoseOfSamples) {
   expectCovariance(compose(a, b), [&] { return noise.sample(a) * noise.sample(b); });
   EXPECT_TRUE(inverse(b).T.isApprox(b.T.inverse()));
   expectCovariance(inverse(b), [&] { return noise.sample(b).inverse(); });
-}
-
-TEST(BaseMotionTest, ForwardInTheImageIsForwardForTheBase) {
-  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
-  T_base_camera.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  UncertainTransform camera;
-  camera.T.translation().z() = 1.0;
-  const UncertainTransform base = motionOfBase(camera, T_base_camera, T_base_camera);
-  EXPECT_TRUE(base.T.isApprox(makeTransform({1.0, 0.0, 0.0}, {0.0, 0.0, 0.0})));
-}
-
-TEST(BaseMotionTest, TwistAndMeanVelocityMakeTheMotion) {
-  const double dt_s = 0.1;
-  const UncertainTransform motion{makeTransform({1.2, 0.05, 0.0}, {0.0, 0.01, 0.15}),
-                                  makeCovariance(0.01, 0.001)};
-  const UncertainTwist twist = twistOf(motion, dt_s);
-  EXPECT_TRUE(expMotion(twist.twist * dt_s).isApprox(motion.T, 1e-12));
-  EXPECT_NEAR(twist.twist[5], 1.5, 0.01);
-  EXPECT_TRUE((twist.covariance * dt_s * dt_s).isApprox(motion.covariance, 1e-12));
-  const UncertainTwist velocity = meanVelocityOf(motion, dt_s);
-  EXPECT_TRUE((velocity.twist.head<3>() * dt_s).isApprox(motion.T.translation(), 1e-12));
-  EXPECT_TRUE(expRotation(velocity.twist.tail<3>() * dt_s).isApprox(motion.T.linear(), 1e-12));
-  EXPECT_TRUE((velocity.covariance * dt_s * dt_s).isApprox(motion.covariance, 1e-12));
 }
 
 }  // namespace
