@@ -1,25 +1,22 @@
 #include "node/node_parameters.h"
 
-#include <limits>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "input/to_text.h"
 
 namespace rotrocc {
 namespace {
 
 /// A value as text for the table, with all digits. XmlRpcValue has non-const conversions only.
 std::string textOf(const std::string& name, XmlRpc::XmlRpcValue value) {
-  std::ostringstream text;
-  text.precision(std::numeric_limits<double>::max_digits10);
   switch (value.getType()) {
     case XmlRpc::XmlRpcValue::TypeBoolean:
       return static_cast<bool>(value) ? "true" : "false";
     case XmlRpc::XmlRpcValue::TypeDouble:
-      text << static_cast<double>(value);
-      return text.str();
+      return exactText(static_cast<double>(value));
     case XmlRpc::XmlRpcValue::TypeInt:
       return std::to_string(static_cast<int>(value));
     case XmlRpc::XmlRpcValue::TypeString:
@@ -49,17 +46,6 @@ bool isOfImageTransport(const std::string& name, const XmlRpc::XmlRpcValue& valu
   static const std::set<std::string> kSections = {
       "left", "right", "flow", "compressed", "compressedDepth", "theora"};
   return value.getType() == XmlRpc::XmlRpcValue::TypeStruct && kSections.count(name) > 0;
-}
-
-void setBelow(const std::string& name, XmlRpc::XmlRpcValue value, ParameterTable& table) {
-  if (name == "diagnostic_period" || isOfImageTransport(name, value)) return;
-  if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
-    setOne(name, value, table);
-    return;
-  }
-  for (auto& [key, child] : value) {
-    setBelow(name.empty() ? key : name + "/" + key, child, table);
-  }
 }
 
 void requireFrame(const std::string& name, const std::string& frame, bool may_be_empty = false) {
@@ -124,8 +110,12 @@ void requireFrames(const NodeParameters& node) {
   }
 }
 
-void setParameters(const XmlRpc::XmlRpcValue& tree, ParameterTable& table) {
-  setBelow("", tree, table);
+void setParameters(XmlRpc::XmlRpcValue tree, ParameterTable& table, const std::string& name) {
+  if (name == "diagnostic_period" || isOfImageTransport(name, tree)) return;
+  if (tree.getType() != XmlRpc::XmlRpcValue::TypeStruct) return setOne(name, tree, table);
+  for (auto& [key, child] : tree) {
+    setParameters(child, table, name.empty() ? key : name + "/" + key);
+  }
 }
 
 }  // namespace rotrocc

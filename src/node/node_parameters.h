@@ -31,8 +31,8 @@ Parameters readParameters(const ros::NodeHandle& private_nh);
 void requireFrames(const NodeParameters& node);
 
 /// Sets every parameter of `tree`, whose structs are the sections of the table, but for those that
-/// libraries read. Throws RefusedParameter with name and range on an unknown parameter, a wrong
-/// type or a value out of range.
-void setParameters(const XmlRpc::XmlRpcValue& tree, ParameterTable& table);
+/// libraries read; or those below the section or parameter `name`. Throws RefusedParameter with
+/// name and range on an unknown parameter, a wrong type or a value out of range.
+void setParameters(XmlRpc::XmlRpcValue tree, ParameterTable& table, const std::string& name = "");
 
 }  // namespace rotrocc

@@ -1,6 +1,8 @@
 #include "node/node_parameters.h"
 
+#include <cctype>
 #include <functional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -98,6 +100,18 @@ TEST_F(NodeParametersTest, RefusesWhatIsUnknownOrInvalidByName) {
   XmlRpcValue tree;
   tree["queue_size"] = section;
   expectRefused(tree, "queue_size/left", "queue_size/left");
+}
+
+/// YAML has some words for values of other types.
+TEST_F(NodeParametersTest, ChoicesNeedNoQuotes) {
+  const std::set<std::string> kOtherTypes = {
+      "true", "false", "yes", "no", "y", "n", "on", "off", "null", "nan", "inf"};
+  for (const auto& parameter : table_.parameters()) {
+    for (const std::string& choice : parameter.choices) {
+      EXPECT_EQ(kOtherTypes.count(choice), 0u) << parameter.name << ": " << choice;
+      EXPECT_TRUE(std::islower(choice.front())) << parameter.name << ": " << choice;
+    }
+  }
 }
 
 TEST(RequireFramesTest, FramesAreThoseOfTf) {
