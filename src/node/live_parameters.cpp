@@ -19,8 +19,8 @@ using dynamic_reconfigure::ConfigTools;
 using dynamic_reconfigure::Group;
 using Parameter = ParameterTable::Parameter;
 
-bool isLive(const Parameter& parameter) {
-  return parameter.name.find('/') != std::string::npos;
+bool isLive(const std::string& parameter) {
+  return parameter.find('/') != std::string::npos;
 }
 
 void append(const Parameter& parameter, const std::string& value, Config& config) {
@@ -37,29 +37,26 @@ void append(const Parameter& parameter, const std::string& value, Config& config
   }
 }
 
-/// The drop-down list of rqt_reconfigure: a Python dictionary.
-std::string choiceMenu(const Parameter& parameter) {
-  if (parameter.choices.empty()) return "";
-  std::string entries;
-  for (const std::string& choice : parameter.choices) {
-    entries += (entries.empty() ? "" : ", ") + std::string("{'name': '") + choice +
-               "', 'value': '" + choice + "', 'type': 'str', 'description': ''}";
-  }
-  return "{'enum_description': '', 'enum': [" + entries + "]}";
-}
-
 dynamic_reconfigure::ParamDescription describe(const Parameter& parameter) {
   static const std::map<Parameter::Type, std::string> kTypes = {
       {Parameter::Type::kInt, "int"},
       {Parameter::Type::kDouble, "double"},
       {Parameter::Type::kBool, "bool"},
       {Parameter::Type::kText, "str"}};
+  std::string choices;
+  for (const std::string& choice : parameter.choices) {
+    choices += (choices.empty() ? "" : ", ") + std::string("{'name': '") + choice +
+               "', 'value': '" + choice + "', 'type': 'str', 'description': ''}";
+  }
   dynamic_reconfigure::ParamDescription description;
   description.name = parameter.name;
   description.type = kTypes.at(parameter.type);
   description.description =
       (parameter.unit.empty() ? "" : "[" + parameter.unit + "] ") + parameter.description;
-  description.edit_method = choiceMenu(parameter);
+  // The drop-down list of rqt_reconfigure: a Python dictionary.
+  if (!choices.empty()) {
+    description.edit_method = "{'enum_description': '', 'enum': [" + choices + "]}";
+  }
   return description;
 }
 
@@ -68,7 +65,7 @@ std::vector<Group> makeGroups(const ParameterTable& table) {
   std::vector<Group> groups(1);
   groups.front().name = "Default";
   for (const Parameter& parameter : table.parameters()) {
-    if (!isLive(parameter)) continue;
+    if (!isLive(parameter.name)) continue;
     const std::string section = parameter.name.substr(0, parameter.name.find('/'));
     if (groups.back().name != section) {
       groups.emplace_back();
@@ -91,7 +88,7 @@ Config makeConfig(const ParameterTable& table,
     ConfigTools::appendGroup(config, group.name, group.id, group.parent, open);
   }
   for (const Parameter& parameter : table.parameters()) {
-    if (isLive(parameter)) append(parameter, value(parameter), config);
+    if (isLive(parameter.name)) append(parameter, value(parameter), config);
   }
   return config;
 }
@@ -131,7 +128,7 @@ void applyConfig(const Config& config, Parameters& parameters) {
   Parameters changed = parameters;
   ParameterTable table = makeParameterTable(changed);
   const auto set = [&](const std::string& name, const std::string& value) {
-    if (name.find('/') == std::string::npos) {
+    if (!isLive(name)) {
       throw std::invalid_argument("\"" + name + "\" cannot be changed while the odometry runs");
     }
     table.set(name, value);
@@ -146,7 +143,7 @@ void applyConfig(const Config& config, Parameters& parameters) {
 
 LiveParameters::LiveParameters(ros::NodeHandle& private_nh,
                                const Parameters& parameters,
-                               Handler on_change,
+                               std::function<void(const OdometryConfig&)> on_change,
                                Log log)
     : private_nh_(private_nh),
       parameters_(parameters),
@@ -170,7 +167,11 @@ Config LiveParameters::set(const Config& config) {
   try {
     const Parameters before = parameters_;
     applyConfig(config, parameters_);
-    store(config);
+    // For the next start and for other nodes.
+    for (const auto& entry : config.ints) private_nh_.setParam(entry.name, entry.value);
+    for (const auto& entry : config.doubles) private_nh_.setParam(entry.name, entry.value);
+    for (const auto& entry : config.bools) private_nh_.setParam(entry.name, entry.value != 0);
+    for (const auto& entry : config.strs) private_nh_.setParam(entry.name, entry.value);
     on_change_(parameters_.odometry);
     const std::string changed = changes(before, parameters_);
     if (!changed.empty()) log_.info("parameters changed: " + changed);
@@ -180,14 +181,6 @@ Config LiveParameters::set(const Config& config) {
   const Config all = toConfig(parameters_);
   updates_.publish(all);
   return all;
-}
-
-/// Stores changes on the parameter server, for the next start and for other nodes.
-void LiveParameters::store(const Config& config) {
-  for (const auto& entry : config.ints) private_nh_.setParam(entry.name, entry.value);
-  for (const auto& entry : config.doubles) private_nh_.setParam(entry.name, entry.value);
-  for (const auto& entry : config.bools) private_nh_.setParam(entry.name, entry.value != 0);
-  for (const auto& entry : config.strs) private_nh_.setParam(entry.name, entry.value);
 }
 
 }  // namespace rotrocc

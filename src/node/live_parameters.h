@@ -28,21 +28,18 @@ void applyConfig(const dynamic_reconfigure::Config& config, Parameters& paramete
 /// keeps the parameter server up to date.
 class LiveParameters {
  public:
-  using Handler = std::function<void(const OdometryConfig&)>;
-
   /// `on_change` gets the whole configuration after each change.
   LiveParameters(ros::NodeHandle& private_nh,
                  const Parameters& parameters,
-                 Handler on_change,
+                 std::function<void(const OdometryConfig&)> on_change,
                  Log log);
 
  private:
   dynamic_reconfigure::Config set(const dynamic_reconfigure::Config& config);
-  void store(const dynamic_reconfigure::Config& config);
 
   ros::NodeHandle private_nh_;
   Parameters parameters_;
-  Handler on_change_;
+  std::function<void(const OdometryConfig&)> on_change_;
   Log log_;
   ros::Publisher descriptions_;
   ros::Publisher updates_;

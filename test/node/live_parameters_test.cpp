@@ -3,6 +3,7 @@
 #include <set>
 #include <stdexcept>
 
+#include <dynamic_reconfigure/config_tools.h>
 #include <gtest/gtest.h>
 
 #include "support/expect_error.h"
@@ -11,6 +12,7 @@ namespace rotrocc {
 namespace {
 
 using dynamic_reconfigure::Config;
+using dynamic_reconfigure::ConfigTools;
 
 template <class Entry>
 const Entry* find(const std::vector<Entry>& entries, const std::string& name) {
@@ -22,9 +24,7 @@ const Entry* find(const std::vector<Entry>& entries, const std::string& name) {
 
 Config makeInt(const std::string& name, int value) {
   Config config;
-  config.ints.resize(1);
-  config.ints[0].name = name;
-  config.ints[0].value = value;
+  ConfigTools::appendParameter(config, name, value);
   return config;
 }
 
@@ -71,12 +71,8 @@ TEST(LiveParametersTest, GroupsHaveStatesAndDistinctIds) {
 TEST(LiveParametersTest, AppliesWhatIsNamed) {
   Parameters parameters;
   Config config = makeInt("feature_detector/max_features", 500);
-  config.doubles.resize(1);
-  config.doubles[0].name = "motion_check/max_speed_mps";
-  config.doubles[0].value = 0.1 + 0.2;
-  config.strs.resize(1);
-  config.strs[0].name = "motion_estimator/criterion";
-  config.strs[0].value = "reprojection";
+  ConfigTools::appendParameter(config, "motion_check/max_speed_mps", 0.1 + 0.2);
+  ConfigTools::appendParameter(config, "motion_estimator/criterion", std::string("reprojection"));
   applyConfig(config, parameters);
   EXPECT_EQ(parameters.odometry.correspondence_finder.feature_detector.max_features, 500);
   EXPECT_EQ(parameters.odometry.motion_check.max_speed_mps, 0.1 + 0.2);
@@ -87,15 +83,13 @@ TEST(LiveParametersTest, AppliesWhatIsNamed) {
 TEST(LiveParametersTest, RefusesAllIfOneIsBad) {
   Parameters parameters;
   Config config = makeInt("feature_detector/max_features", 500);
-  config.ints.push_back(makeInt("visual_odometry/max_tries", -5).ints[0]);
+  ConfigTools::appendParameter(config, "visual_odometry/max_tries", -5);
   expectError<std::invalid_argument>([&] { applyConfig(config, parameters); },
                                      "visual_odometry/max_tries is -5, but must be in [1, 20]");
   EXPECT_EQ(parameters.odometry.correspondence_finder.feature_detector.max_features,
             FeatureDetectorConfig().max_features);
   Config disparities = makeInt("stereo_matcher/max_disparity_px", 64);
-  disparities.doubles.resize(1);
-  disparities.doubles[0].name = "stereo_matcher/min_disparity_px";
-  disparities.doubles[0].value = 64.5;
+  ConfigTools::appendParameter(disparities, "stereo_matcher/min_disparity_px", 64.5);
   expectError<std::invalid_argument>([&] { applyConfig(disparities, parameters); },
                                      "min_disparity_px is 64.5, but must not be above "
                                      "stereo_matcher/max_disparity_px = 64");
