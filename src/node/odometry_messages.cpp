@@ -55,16 +55,6 @@ nav_msgs::Odometry toOdometry(const BaseState& state,
   return message;
 }
 
-nav_msgs::Odometry toUnknownOdometry(std::int64_t stamp_ns,
-                                     const std::string& odom_frame,
-                                     const std::string& base_frame) {
-  BaseState unknown;
-  unknown.stamp_ns = stamp_ns;
-  unknown.T_odom_base.covariance = kUnknownVariance * Matrix6d::Identity();
-  unknown.twist.covariance = kUnknownVariance * Matrix6d::Identity();
-  return toOdometry(unknown, odom_frame, base_frame);
-}
-
 geometry_msgs::TwistWithCovarianceStamped toTwist(const StepVelocity& velocity,
                                                   const std::string& base_frame) {
   geometry_msgs::TwistWithCovarianceStamped message;

@@ -20,11 +20,6 @@ nav_msgs::Odometry toOdometry(const BaseState& state,
                               const std::string& odom_frame,
                               const std::string& base_frame);
 
-/// A message that says that nothing is known: pose and twist are zero, with a variance of 9999.
-nav_msgs::Odometry toUnknownOdometry(std::int64_t stamp_ns,
-                                     const std::string& odom_frame,
-                                     const std::string& base_frame);
-
 geometry_msgs::TwistWithCovarianceStamped toTwist(const StepVelocity& velocity,
                                                   const std::string& base_frame);
 

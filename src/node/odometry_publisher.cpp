@@ -32,6 +32,15 @@ ros::Publisher advertiseTf() {
   return advertise<tf2_msgs::TFMessage>(nh, "/tf", kMotionQueue);
 }
 
+/// Pose and twist are zero, with a variance that says that nothing is known.
+BaseState unknownAt(std::int64_t stamp_ns) {
+  BaseState unknown;
+  unknown.stamp_ns = stamp_ns;
+  unknown.T_odom_base.covariance = kUnknownVariance * Matrix6d::Identity();
+  unknown.twist.covariance = kUnknownVariance * Matrix6d::Identity();
+  return unknown;
+}
+
 }  // namespace
 
 OdometryPublisher::OdometryPublisher(ros::NodeHandle& nh, const NodeParameters& parameters)
@@ -48,18 +57,14 @@ OdometryPublisher::OdometryPublisher(ros::NodeHandle& nh, const NodeParameters& 
 
 std::chrono::steady_clock::time_point OdometryPublisher::publishMotion(
     const BaseState& state, bool is_lost, const std::optional<Eigen::Isometry3d>& T_guess_base) {
-  if (is_lost && parameters_.while_lost != "hold") {
-    const auto sent = std::chrono::steady_clock::now();
-    if (parameters_.while_lost == "unknown") {
-      odom_publisher_.publish(boost::make_shared<nav_msgs::Odometry>(
-          toUnknownOdometry(state.stamp_ns, parameters_.odom_frame, parameters_.base_frame)));
-    }
-    return sent;
-  }
+  const bool is_unknown = is_lost && parameters_.while_lost != "hold";
   const auto odometry = boost::make_shared<nav_msgs::Odometry>(
-      toOdometry(state, parameters_.odom_frame, parameters_.base_frame));
-  if (tf_publisher_) publishTf(state, T_guess_base);
+      toOdometry(is_unknown ? unknownAt(state.stamp_ns) : state,
+                 parameters_.odom_frame,
+                 parameters_.base_frame));
+  if (tf_publisher_ && !is_unknown) publishTf(state, T_guess_base);
   const auto sent = std::chrono::steady_clock::now();
+  if (is_lost && parameters_.while_lost == "silent") return sent;
   odom_publisher_.publish(odometry);
   if (state.step_velocity) {
     twist_publisher_.publish(toTwist(*state.step_velocity, parameters_.base_frame));

@@ -141,7 +141,11 @@ void StereoOdometry::process(const ReceivedPair& received) {
   trajectory_.add({answer.state.stamp_ns, answer.state.T_first_camera}, answer.starts_trajectory);
   const Time ready = SteadyClock::now();
   const Time sent = publish(answer);
-  PairTimes times;
+  PairReport known;
+  known.result = answer.result;
+  known.camera_frame = pair->camera_frame;
+  known.stamp_age_s = received.stamp_age_s;
+  PairTimes& times = known.times;
   times.pairing_ms = milliseconds(received.arrival - received.images.first_arrival);
   times.waiting_ms = milliseconds(received.taken - received.arrival);
   times.conversion_ms = milliseconds(pair->converted - received.taken);
@@ -149,7 +153,7 @@ void StereoOdometry::process(const ReceivedPair& received) {
   times.overhead_ms = milliseconds(ready - pair->complete) - answer.result.times.total_ms;
   times.publishing_ms = milliseconds(sent - ready);
   times.latency_ms = milliseconds(sent - received.arrival);
-  report(*pair, answer, received.stamp_age_s, times);
+  report(pair->in, answer, std::move(known));
   processor_.prepare();
   publisher_.publishPictures(pair->in, answer.result, processor_.odometry(), pair->camera_frame);
 }
@@ -226,16 +230,8 @@ StereoOdometry::Time StereoOdometry::publish(const PairAnswer& answer) {
 }
 
 /// All that the odometry of the pair need not wait for.
-void StereoOdometry::report(const Gathered& pair,
-                            const PairAnswer& answer,
-                            double stamp_age_s,
-                            const PairTimes& times) {
-  PairReport report;
-  report.result = answer.result;
-  report.camera_frame = pair.camera_frame;
-  report.stamp_age_s = stamp_age_s;
-  report.times = times;
-  report.camera_fault = processor_.inspect(pair.in, answer.result);
+void StereoOdometry::report(const PairInput& in, const PairAnswer& answer, PairReport report) {
+  report.camera_fault = processor_.inspect(in, answer.result);
   report.tf_problem = camera_pose_.problem();
   if (guess_) {
     const std::string& problem = guess_->problem();

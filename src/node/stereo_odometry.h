@@ -33,11 +33,7 @@ namespace rotrocc {
 
 /// Live stereo odometry: stereo images in, nav_msgs/Odometry and tf out.
 ///
-/// Subscribes to left/image_rect, right/image_rect (through image_transport), left/camera_info and
-/// right/camera_info, or with the parameter rectify to image_raw instead of image_rect; tf must
-/// connect base_frame and the frame of the left images. Publishes odom, path, inliers, flow,
-/// status, tf and /diagnostics, and has the services of OdometryServices. config/default.yaml lists
-/// the private parameters.
+/// docs/node.md lists topics and services, config/default.yaml the private parameters.
 ///
 /// The callbacks only match images to pairs. A worker thread processes them; if it is too slow, it
 /// skips to the newest pair. It gathers what is known of a pair, estimates the motion, sends tf and
@@ -74,10 +70,7 @@ class StereoOdometry {
                                               std::int64_t stamp_ns,
                                               const WaitFor& wait);
   Time publish(const PairAnswer& answer);
-  void report(const Gathered& pair,
-              const PairAnswer& answer,
-              double stamp_age_s,
-              const PairTimes& times);
+  void report(const PairInput& in, const PairAnswer& answer, PairReport report);
   bool waitFor(double limit_s, const std::function<bool()>& condition) const;
   bool isRunning() const;
 

@@ -4,6 +4,7 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <exception>
 #include <filesystem>
@@ -29,22 +30,19 @@ constexpr const char* kComment =
 constexpr const char* kEnd = "end";
 constexpr std::size_t kWords = 2 + 7 + 36 + 6 + 1;
 
+std::array<double*, 7> numbersOf(geometry_msgs::Pose& pose) {
+  geometry_msgs::Point& p = pose.position;
+  geometry_msgs::Quaternion& q = pose.orientation;
+  return {&p.x, &p.y, &p.z, &q.x, &q.y, &q.z, &q.w};
+}
+
 std::string textOf(const BaseState& state, const std::string& odom_frame) {
-  const nav_msgs::Odometry message = toOdometry(state, odom_frame, "");
-  const geometry_msgs::Pose& pose = message.pose.pose;
+  nav_msgs::Odometry message = toOdometry(state, odom_frame, "");
   const geometry_msgs::Twist& twist = message.twist.twist;
   std::ostringstream text;
   text << std::setprecision(std::numeric_limits<double>::max_digits10) << kComment << odom_frame
        << ' ' << state.stamp_ns;
-  for (const double value : {pose.position.x,
-                             pose.position.y,
-                             pose.position.z,
-                             pose.orientation.x,
-                             pose.orientation.y,
-                             pose.orientation.z,
-                             pose.orientation.w}) {
-    text << ' ' << value;
-  }
+  for (const double* value : numbersOf(message.pose.pose)) text << ' ' << *value;
   for (const double value : message.pose.covariance) text << ' ' << value;
   for (const geometry_msgs::Vector3& part : {twist.linear, twist.angular}) {
     text << ' ' << part.x << ' ' << part.y << ' ' << part.z;
@@ -61,16 +59,7 @@ BaseState parse(const TextLine& line, const std::string& odom_frame) {
   state.stamp_ns = line.integer(next++);
   geometry_msgs::PoseWithCovarianceStamped message;
   message.header.frame_id = line.words.front();
-  geometry_msgs::Pose& pose = message.pose.pose;
-  for (double* value : {&pose.position.x,
-                        &pose.position.y,
-                        &pose.position.z,
-                        &pose.orientation.x,
-                        &pose.orientation.y,
-                        &pose.orientation.z,
-                        &pose.orientation.w}) {
-    *value = line.number(next++);
-  }
+  for (double* value : numbersOf(message.pose.pose)) *value = line.number(next++);
   for (double& value : message.pose.covariance) value = line.number(next++);
   for (int i = 0; i < 6; ++i) state.twist.twist[i] = line.number(next++);
   state.T_odom_base = toPose(message, odom_frame);

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <exception>
+#include <functional>
+#include <string_view>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
@@ -28,19 +29,12 @@ constexpr double kApart = 2.0;
 /// Share of the gains that is dropped at either end: single pairs may be wrong.
 constexpr double kDropped = 0.1;
 
-/// A hash of some rows of an image (FNV-1a over 8 bytes at a time).
-std::uint64_t fingerprint(const cv::Mat& image) {
-  constexpr std::uint64_t kPrime = 1099511628211u;
-  std::uint64_t print = 14695981039346656037u;
+/// A hash of some rows of an image.
+std::size_t fingerprint(const cv::Mat& image) {
+  std::size_t print = 0;
   for (int y = 0; y < image.rows; y += kRowStep) {
-    const unsigned char* row = image.ptr(y);
-    int x = 0;
-    for (; x + 8 <= image.cols; x += 8) {
-      std::uint64_t bytes = 0;
-      std::memcpy(&bytes, row + x, 8);
-      print = (print ^ bytes) * kPrime;
-    }
-    for (; x < image.cols; ++x) print = (print ^ row[x]) * kPrime;
+    const std::string_view row(image.ptr<char>(y), static_cast<std::size_t>(image.cols));
+    print = 31 * print + std::hash<std::string_view>()(row);
   }
   return print;
 }
@@ -143,8 +137,8 @@ void PairInspector::configure(const CorrespondenceFinder::Config& config) {
 }
 
 bool PairInspector::isRepeated(const StereoPair& pair) {
-  const std::uint64_t left_print = fingerprint(pair.left);
-  const std::uint64_t right_print = fingerprint(pair.right);
+  const std::size_t left_print = fingerprint(pair.left);
+  const std::size_t right_print = fingerprint(pair.right);
   left_frozen_ = left_print == left_print_ ? left_frozen_ + 1 : 0;
   right_frozen_ = right_print == right_print_ ? right_frozen_ + 1 : 0;
   left_print_ = left_print;

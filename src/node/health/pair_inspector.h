@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <future>
 #include <string>
 
@@ -53,8 +53,8 @@ class PairInspector {
   bool rectifies_;
   CorrespondenceFinder::Config config_;
 
-  std::uint64_t left_print_ = 0, right_print_ = 0;  // of the last pair
-  int left_frozen_ = 0, right_frozen_ = 0;          // pairs in a row
+  std::size_t left_print_ = 0, right_print_ = 0;  // of the last pair
+  int left_frozen_ = 0, right_frozen_ = 0;        // pairs in a row
   SlidingQuantiles gains_{kExposures};
 
   // Of a loss: the pairs in a row without a good motion, and at how many the next explanation is

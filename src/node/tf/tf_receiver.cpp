@@ -7,12 +7,6 @@
 #include <ros/transport_hints.h>
 
 namespace rotrocc {
-namespace {
-
-constexpr std::uint32_t kQueueSize = 100;  // that of tf2_ros::TransformListener
-
-}  // namespace
-
 TfReceiver::TfReceiver(Observer observer)
     : observer_(std::move(observer)),
       subscriber_(subscribe("/tf", false)),
@@ -25,7 +19,7 @@ ros::Subscriber TfReceiver::subscribe(const std::string& topic, bool is_static) 
   ros::NodeHandle nh = callbacks_.attach(ros::NodeHandle());
   return nh.subscribe<tf2_msgs::TFMessage const, const Event&>(
       topic,
-      kQueueSize,
+      100,  // as tf2_ros::TransformListener
       [this, is_static](const Event& event) {
         for (const auto& transform : event.getConstMessage()->transforms) {
           buffer_.setTransform(transform, "", is_static);
