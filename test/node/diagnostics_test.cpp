@@ -49,53 +49,46 @@ void expectPart(const std::string& text, const std::string& part) {
 }
 
 /// `reason`: a part of it.
-void expectState(HealthReport report, std::uint8_t state, const std::string& reason) {
+void expectState(HealthReport report, const char* state, const std::string& reason) {
   updateState(report);
-  EXPECT_STREQ(stateName(report.state), stateName(state));
+  EXPECT_STREQ(stateName(report.state), state);
   expectPart(report.reason, reason);
 }
 
 TEST(UpdateStateTest, FollowsTheAnswersWhileTheyCome) {
   HealthReport report = goodReport();
-  expectState(report, OdometryStatus::OK, "");
+  expectState(report, "OK", "");
   report.state = OdometryStatus::LOST;
   report.reason = "only 3 features";
-  expectState(report, OdometryStatus::LOST, "only 3 features");
+  expectState(report, "LOST", "only 3 features");
   report.paused = true;
-  expectState(report, OdometryStatus::PAUSED, "~pause");
+  expectState(report, "PAUSED", "~pause");
 }
 
 TEST(UpdateStateTest, SaysWhatIsMissingWhileNoneCome) {
   HealthReport silent = goodReport();
   silent.answers = false;
-  expectState(silent, OdometryStatus::NO_INPUT, "none has been processed in the last 2 s");
+  expectState(silent, "NO_INPUT", "none has been processed in the last 2 s");
   HealthReport report = silent;
   report.waits_for_tf = "no tf from base_link to camera";
-  expectState(report, OdometryStatus::NO_TF, "no tf from base_link to camera");
+  expectState(report, "NO_TF", "no tf from base_link to camera");
   report.input.camera_error = "P is all zeros";
-  expectState(report, OdometryStatus::NO_CALIBRATION, "P is all zeros");
+  expectState(report, "NO_CALIBRATION", "P is all zeros");
   report = silent;
   report.input.waits_for_info = true;
   report.input.left_info.total = report.input.left_info.recent = 0;
   report.input.left_info.publishers = 0;
-  expectState(report, OdometryStatus::NO_CALIBRATION, "nobody publishes /l/info");
+  expectState(report, "NO_CALIBRATION", "nobody publishes /l/info");
   report = silent;
   report.input.left_image.recent = report.input.recent_pairs = 0;
-  expectState(report, OdometryStatus::NO_INPUT, "/l/image has a publisher");
+  expectState(report, "NO_INPUT", "/l/image has a publisher");
   report = silent;
   report.input.pairs_silent_s.reset();
-  expectState(report, OdometryStatus::NO_INPUT, "no stereo pair has arrived yet");
+  expectState(report, "NO_INPUT", "no stereo pair has arrived yet");
   report.input.pairs_silent_s = 3.1;
-  expectState(report, OdometryStatus::NO_INPUT, "no stereo pair for 3 s");
+  expectState(report, "NO_INPUT", "no stereo pair for 3 s");
   report.input.left_image.silent_s = report.input.right_image.silent_s = 3.1;
-  expectState(report, OdometryStatus::NO_INPUT, "/l/image has been silent for 3.1 s");
-}
-
-TEST(StateNameTest, EveryStateHasAName) {
-  EXPECT_STREQ(stateName(OdometryStatus::INITIALISING), "INITIALISING");
-  EXPECT_STREQ(stateName(OdometryStatus::NO_TF), "NO_TF");
-  EXPECT_STREQ(stateName(OdometryStatus::PAUSED), "PAUSED");
-  EXPECT_STREQ(stateName(99), "unknown");
+  expectState(report, "NO_INPUT", "/l/image has been silent for 3.1 s");
 }
 
 using Describe = void(const HealthReport&, StatusWrapper&);

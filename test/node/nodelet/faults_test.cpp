@@ -11,14 +11,7 @@ namespace rotrocc {
 namespace {
 
 TEST(DiagnosticsPeriodTest, IsThatOfTheStandardParameter) {
-  ros::CallbackQueue queue;
-  ros::NodeHandle nh;
-  nh.setCallbackQueue(&queue);
-  int published = 0;
-  const boost::function<void(const diagnostic_msgs::DiagnosticArray::ConstPtr&)> count =
-      [&](const auto& message) { published += message->status.size() > 1 ? 1 : 0; };
-  const ros::Subscriber subscriber =
-      nh.subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 100, count);
+  Received<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
   NodeletDrive drive({{"diagnostic_period", 1000.0}});
   int ticks = 0;
   ros::Time last;
@@ -29,7 +22,8 @@ TEST(DiagnosticsPeriodTest, IsThatOfTheStandardParameter) {
     });
     return ticks > 3;
   }));
-  queue.callAvailable();
+  int published = 0;
+  for (const auto& message : diagnostics.all()) published += message->status.size() > 1 ? 1 : 0;
   EXPECT_LE(published, 1);
 }
 

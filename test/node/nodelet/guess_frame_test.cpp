@@ -85,13 +85,8 @@ TEST(GuessFrameTest, BaseHasOneParentOnly) {
                                 "/inverted",
                                 {{"odom", "inverted_odom"}, {"status", "inverted_status"}});
   NodeletDrive drive({{"odom_frame", "visual_odom"}, {"guess_frame", "wheel_odom"}});
-  std::mutex mutex;
-  std::map<ros::Time, double> inverted_x_m;
-  const ros::Subscriber subscriber = ros::NodeHandle().subscribe<nav_msgs::Odometry>(
-      "inverted_odom", 100, [&](const nav_msgs::Odometry::ConstPtr& message) {
-        const std::lock_guard<std::mutex> lock(mutex);
-        inverted_x_m[message->header.stamp] = message->pose.pose.position.x;
-      });
+  Received<nav_msgs::Odometry> inverted_odometry("inverted_odom");
+  double inverted_way_m = 0.0;
   tf2_ros::Buffer buffer;
   const tf2_ros::TransformListener listener(buffer);
   tf2_ros::TransformBroadcaster wheels;
@@ -113,8 +108,9 @@ TEST(GuessFrameTest, BaseHasOneParentOnly) {
       return buffer.canTransform(target, source, stamp, ros::Duration(0.2));
     };
     const bool complete = has_tf("visual_odom", "base_link") && has_tf("base_link", "odom");
-    const std::lock_guard<std::mutex> lock(mutex);
-    return complete && inverted_x_m.count(stamp) > 0 && way_m > 1.9;
+    const auto last = inverted_odometry.last();
+    if (last) inverted_way_m = last->pose.pose.position.x;
+    return complete && last && last->header.stamp == stamp && way_m > 1.9;
   }));
   EXPECT_NEAR(odometry.pose.pose.position.x, way_m, 0.02 + 0.02 * way_m);
   EXPECT_EQ(odometry.header.frame_id, "visual_odom");
@@ -132,8 +128,6 @@ TEST(GuessFrameTest, BaseHasOneParentOnly) {
     EXPECT_EQ(parent, expected);
   }
   const auto inverse = buffer.lookupTransform("base_link", "odom", stamp);
-  const std::lock_guard<std::mutex> lock(mutex);
-  const double inverted_way_m = inverted_x_m.at(stamp);
   EXPECT_GT(inverted_way_m, SimulatedRobot::kStep_m);
   EXPECT_NEAR(inverse.transform.translation.x, -inverted_way_m, 0.01 * inverted_way_m);
 }

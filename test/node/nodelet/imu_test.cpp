@@ -33,33 +33,27 @@ class ImuTest : public testing::Test {
     drive_.robot.publishStatic(toTransform(T_base_imu, 0, "base_link", "imu_link"));
   }
 
-  /// Turns the camera by a step of alternating direction.
-  double swing() {
-    const double step_rad = pairs_++ / 8 % 2 == 0 ? kSwing_rad : -kSwing_rad;
-    drive_.robot.look(left_rad_ += step_rad);
-    return step_rad;
-  }
-
-  /// Drives a step. The samples up to the pair are published before it, plus a bias in yaw.
-  OdometryStatus drive(double yaw_rate_rps) {
+  /// Drives a step. The samples up to the pair are published before it. Returns its stamp.
+  ros::Time see(double yaw_rate_rps) {
     const auto [left, right] = drive_.robot.see();
     publishSamples(left.header.stamp, yaw_rate_rps);
     drive_.robot.publish(left, right);
-    return drive_.statusOf(left.header.stamp);
+    return left.header.stamp;
   }
 
-  /// The same with a camera on a head, whose tf comes after the images.
-  OdometryStatus driveWithHead(double yaw_rate_rps) {
-    const auto [left, right] = drive_.robot.see();
-    publishSamples(left.header.stamp, yaw_rate_rps);
-    drive_.robot.publish(left, right);
+  OdometryStatus drive(double yaw_rate_rps) { return drive_.statusOf(see(yaw_rate_rps)); }
+
+  /// Drives a step while the camera turns on a head, to and fro, whose tf comes after the images.
+  OdometryStatus driveWithHead() {
+    drive_.robot.look(left_rad_ += pairs_++ / 8 % 2 == 0 ? kSwing_rad : -kSwing_rad);
+    const ros::Time stamp = see(0.0);
     Eigen::Isometry3d T_base_camera(Eigen::AngleAxisd(left_rad_, Eigen::Vector3d::UnitZ()));
     T_base_camera.rotate(kittiMount().linear());
     std::optional<OdometryStatus> status;
     EXPECT_TRUE(waitUntil([&] {  // the first transforms may be lost
       joints_.sendTransform(
-          toTransform(T_base_camera, toNanoseconds(left.header.stamp), "base_link", "camera_left"));
-      status = drive_.robot.statusOf(left.header.stamp, std::chrono::milliseconds(100));
+          toTransform(T_base_camera, toNanoseconds(stamp), "base_link", "camera_left"));
+      status = drive_.robot.statusOf(stamp, std::chrono::milliseconds(100));
       return status.has_value();
     }));
     return status.value_or(OdometryStatus());
@@ -182,10 +176,7 @@ TEST_F(ImuTest, LevelsTheFirstPoseAtRest) {
 /// The camera turns, and the base with the gyroscope does not.
 TEST_F(ImuTest, TheTurnsOfAHeadAreNoBias) {
   publishImuFrame();
-  const auto turn = [&] {
-    swing();
-    return driveWithHead(0.0);
-  };
+  const auto turn = [&] { return driveWithHead(); };
   ASSERT_TRUE(drivesUntil("", turn));
   for (int pair = 0; pair < 24; ++pair) {
     const OdometryStatus status = turn();

@@ -3,7 +3,6 @@
 #include <atomic>
 #include <chrono>
 #include <memory>
-#include <mutex>
 #include <numeric>
 #include <string>
 #include <thread>
@@ -76,25 +75,15 @@ class InterfaceTest : public testing::Test {
   }
   std::uint64_t drops(const std::string& reason) const { return drops(reason, status_); }
 
-  /// The first message on a topic while the robot drives.
+  /// A message on a topic while the robot drives.
   template <class Message>
   boost::shared_ptr<const Message> receive(const std::string& topic) {
-    boost::shared_ptr<const Message> received;
-    std::mutex mutex;
-    ros::NodeHandle nh;
-    const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
-        [&](const boost::shared_ptr<const Message>& message) {
-          const std::lock_guard<std::mutex> lock(mutex);
-          received = message;
-        };
-    const ros::Subscriber subscriber = nh.subscribe<Message>(topic, 1, callback);
+    Received<Message> received(topic);
     waitUntil([&] {
       drive();
-      const std::lock_guard<std::mutex> lock(mutex);
-      return received != nullptr;
+      return received.last() != nullptr;
     });
-    const std::lock_guard<std::mutex> lock(mutex);
-    return received;
+    return received.last();
   }
 
   static std::unique_ptr<NodeletDrive> drive_;
@@ -208,19 +197,16 @@ TEST_F(InterfaceTest, PicturesComeForSubscribers) {
 
 TEST_F(InterfaceTest, PathDoesNotComeForEachPair) {
   constexpr double kRate_hz = 2.0;  // path_rate_hz
-  std::atomic<int> paths{0};
-  ros::NodeHandle nh;
-  const boost::function<void(const nav_msgs::Path::ConstPtr&)> callback =
-      [&](const nav_msgs::Path::ConstPtr&) { ++paths; };
   const auto start = std::chrono::steady_clock::now();
-  const ros::Subscriber subscriber = nh.subscribe<nav_msgs::Path>("path", 100, callback);
+  Received<nav_msgs::Path> paths("path");
   ASSERT_TRUE(waitUntil([&] {
     drive();
-    return paths > 0;
+    return paths.last() != nullptr;
   }));
   for (int i = 0; i < 20; ++i) drive();
+  const std::size_t count = paths.all().size();
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  EXPECT_LE(paths, 1.0 + kRate_hz * elapsed.count());
+  EXPECT_LE(count, 1.0 + kRate_hz * elapsed.count());
 }
 
 TEST_F(InterfaceTest, BadCameraInfoStopsItUntilAGoodOneComes) {

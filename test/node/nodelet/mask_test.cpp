@@ -22,44 +22,20 @@ std::string writeMask(const std::string& path, const cv::Size& size) {
   return path;
 }
 
-/// The latest message of a topic.
-template <class Message>
-class Latest {
- public:
-  explicit Latest(const std::string& topic) {
-    ros::NodeHandle nh;
-    nh.setCallbackQueue(&queue_);
-    const boost::function<void(const typename Message::ConstPtr&)> keep =
-        [this](const typename Message::ConstPtr& message) { message_ = message; };
-    subscriber_ = nh.subscribe<Message>(topic, 1, keep);
-  }
-
-  /// Null if none has come yet.
-  typename Message::ConstPtr get() {
-    queue_.callAvailable();
-    return message_;
-  }
-
- private:
-  ros::CallbackQueue queue_;
-  typename Message::ConstPtr message_;
-  ros::Subscriber subscriber_;
-};
-
 TEST(MaskTest, MaskedPartsOfTheImagesHaveNoFeatures) {
   const TemporaryDirectory directory;
   writeMask(directory / "left.png", {camera.width, camera.height});
   writeMask(directory / "right.png", {camera.width, camera.height});
   NodeletDrive drive({{"mask", directory / "%s.png"}});
-  Latest<sensor_msgs::PointCloud2> inliers("inliers");
-  Latest<sensor_msgs::Image> flow("flow");
+  Received<sensor_msgs::PointCloud2> inliers("inliers");
+  Received<sensor_msgs::Image> flow("flow");
   drive.setUp();
   EXPECT_TRUE(waitUntil([&] {
     drive.statusOf(drive.robot.drive());
-    return inliers.get() && inliers.get()->width > 20 && flow.get();
+    return inliers.last() && inliers.last()->width > 20 && flow.last();
   }));
-  const auto cloud = inliers.get();
-  const auto picture = flow.get();
+  const auto cloud = inliers.last();
+  const auto picture = flow.last();
   ASSERT_TRUE(cloud && picture);
   for (sensor_msgs::PointCloud2ConstIterator<float> point(*cloud, "x"); point != point.end();
        ++point) {

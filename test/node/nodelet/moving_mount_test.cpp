@@ -29,92 +29,85 @@ geometry_msgs::TransformStamped mountAt(double x_m,
 /// A robot at rest whose camera moves on it.
 class MovingCameraTest : public testing::Test {
  protected:
-  explicit MovingCameraTest(const RunningNodelet::Parameters& parameters = {})
-      : drive_(parameters) {
-    drive_.robot.publishInfos();
+  /// It waits for tf for long, or hardly.
+  void start(double mount_timeout_s) {
+    drive_.emplace(RunningNodelet::Parameters{{"mount_timeout_s", mount_timeout_s}});
+    drive_->robot.publishInfos();
   }
 
-  /// A pair whose tf comes after the images; its first messages may be lost. Returns its stamp.
-  ros::Time move() {
-    const auto [left, right] = drive_.robot.see();
-    drive_.robot.publish(left, right);
+  /// A pair whose tf comes after the images; its first messages may be lost.
+  void move() {
+    const auto [left, right] = drive_->robot.see();
+    drive_->robot.publish(left, right);
     const auto mount = mountAt(x_m_, left.header.stamp, "camera_left");
     x_m_ += SimulatedRobot::kStep_m;
     std::optional<nav_msgs::Odometry> at_rest;
     EXPECT_TRUE(waitUntil([&] {
       joints_.sendTransform(mount);
-      at_rest = drive_.robot.odometryOf(mount.header.stamp, std::chrono::milliseconds(100));
+      at_rest = drive_->robot.odometryOf(mount.header.stamp, std::chrono::milliseconds(100));
       return at_rest.has_value();
     }));
     EXPECT_NEAR(at_rest->pose.pose.position.x, 0.0, 0.05);
     EXPECT_NEAR(at_rest->twist.twist.linear.x, 0.0, 0.2);
-    return left.header.stamp;
   }
 
-  NodeletDrive drive_;
+  std::optional<NodeletDrive> drive_;
   tf2_ros::TransformBroadcaster joints_;
   double x_m_ = 1.0;
 };
 
-class PatientTest : public MovingCameraTest {
- protected:
-  PatientTest() : MovingCameraTest({{"mount_timeout_s", 10.0}}) {}
-};
-
-TEST_F(PatientTest, TheBaseRestsWhileItsCameraMovesAlsoAfterATimeJump) {
+TEST_F(MovingCameraTest, TheBaseRestsWhileItsCameraMovesAlsoAfterATimeJump) {
+  start(10.0);
   for (int pair = 0; pair < 6; ++pair) move();
-  drive_.robot.setTime(ros::Time(900.0));
+  drive_->robot.setTime(ros::Time(900.0));
   for (int pair = 0; pair < 3; ++pair) move();
 
   // Now the base drives: its new camera is fixed, and where the other one was.
   tf2_ros::StaticTransformBroadcaster fixed;
   fixed.sendTransform(mountAt(x_m_, ros::Time(), "other_camera"));
   const auto driveWithOther = [&] {
-    return drive_.odometryOf(drive_.robot.drive(
+    return drive_->odometryOf(drive_->robot.drive(
         [](sensor_msgs::Image& image) { image.header.frame_id = "other_camera"; }));
   };
   const double before_m = driveWithOther().pose.pose.position.x;
   nav_msgs::Odometry odometry;
   for (int pair = 0; pair < 3; ++pair) odometry = driveWithOther();
   EXPECT_NEAR(odometry.pose.pose.position.x - before_m, 3 * SimulatedRobot::kStep_m, 0.05);
-  EXPECT_EQ(drive_.statusOf(odometry.header.stamp).header.frame_id, "other_camera");
+  EXPECT_EQ(drive_->statusOf(odometry.header.stamp).header.frame_id, "other_camera");
 }
 
-TEST_F(PatientTest, EndsWithoutWaitingForTf) {
+TEST_F(MovingCameraTest, EndsWithoutWaitingForTf) {
+  start(10.0);
   for (int pair = 0; pair < 3; ++pair) move();
-  drive_.robot.drive();  // waits for its tf
-  drive_.nodelet.finish();
+  drive_->robot.drive();  // waits for its tf
+  drive_->nodelet.finish();
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   const auto begin = std::chrono::steady_clock::now();
-  drive_.nodelet.stop();
+  drive_->nodelet.stop();
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
 }
 
-class ImpatientTest : public MovingCameraTest {
- protected:
-  ImpatientTest() : MovingCameraTest({{"mount_timeout_s", 0.02}}) {}
-};
-
-TEST_F(ImpatientTest, APairWithoutTfIsDroppedWithTheRateAndARemedy) {
+TEST_F(MovingCameraTest, APairWithoutTfIsDroppedWithTheRateAndARemedy) {
+  start(0.02);
   DiagnosticsListener diagnostics;
   const auto see = [&](bool has_tf) {
-    const auto [left, right] = drive_.robot.see();
+    const auto [left, right] = drive_->robot.see();
     if (has_tf) {
       joints_.sendTransform(mountAt(x_m_, left.header.stamp, "camera_left"));
       x_m_ += SimulatedRobot::kStep_m;
     }
-    drive_.robot.publish(left, right);
+    drive_->robot.publish(left, right);
     return left.header.stamp;
   };
-  EXPECT_TRUE(waitUntil([&] { return drive_.robot.odometryOf(see(true), kSoon).has_value(); }));
+  EXPECT_TRUE(waitUntil([&] { return drive_->robot.odometryOf(see(true), kSoon).has_value(); }));
   for (int pair = 0; pair < 6; ++pair) see(true);
-  EXPECT_FALSE(drive_.robot.odometryOf(see(false), 5 * kSoon));
+  EXPECT_FALSE(drive_->robot.odometryOf(see(false), 5 * kSoon));
   const std::string said =
       "tf from base_link to camera_left, which moves, does not come within mount_timeout_s = 0.02 "
       "s after the images, but at 10.0 Hz: publish it at the rate of the images";
-  EXPECT_TRUE(waitUntil([&] { return !drive_.log.with(said).empty(); }));
+  EXPECT_TRUE(waitUntil([&] { return !drive_->log.with(said).empty(); }));
   EXPECT_TRUE(waitUntil([&] {
-    const auto status = drive_.robot.statusOf(see(true), kSoon);
+    const auto status = drive_->robot.statusOf(see(true), kSoon);
     return status && status->hint.find(said) == 0;
   }));
   EXPECT_TRUE(diagnostics.says("stereo_odometry: tf", said));

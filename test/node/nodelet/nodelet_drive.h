@@ -4,6 +4,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
@@ -80,6 +81,33 @@ class RunningNodelet {
   ros::CallbackQueue queue_;
   std::optional<StereoOdometry> odometry_;
   ros::AsyncSpinner spinner_{1, &queue_};
+};
+
+/// The messages of a topic, received when they are asked for.
+template <class Message>
+class Received {
+ public:
+  explicit Received(const std::string& topic) {
+    ros::NodeHandle nh;
+    nh.setCallbackQueue(&queue_);
+    const boost::function<void(const boost::shared_ptr<const Message>&)> keep =
+        [this](const auto& message) { messages_.push_back(message); };
+    subscriber_ = nh.subscribe<Message>(topic, 100, keep);
+  }
+
+  /// So far.
+  const std::vector<boost::shared_ptr<const Message>>& all() {
+    queue_.callAvailable();
+    return messages_;
+  }
+
+  /// Null if none has come yet.
+  boost::shared_ptr<const Message> last() { return all().empty() ? nullptr : messages_.back(); }
+
+ private:
+  ros::CallbackQueue queue_;
+  std::vector<boost::shared_ptr<const Message>> messages_;
+  ros::Subscriber subscriber_;
 };
 
 /// A nodelet on its robot.
