@@ -22,11 +22,9 @@ namespace rotrocc {
 /// node, and logged.
 class RecordedPairs {
  public:
-  /// `recording` must outlive this. Of `node` it takes what is about images, and the baseline.
-  /// `rectify`: whether images are rectified by K, D, R and P of camera_info: yes, no, or auto:
-  /// those that have to be, see Recording::isRaw(). `calibration`: they are rectified by it, and
-  /// not by camera_info. Throws std::invalid_argument on any other text, and std::runtime_error if
-  /// the mask cannot be read.
+  /// `recording` must outlive this. `rectify`: whether images are rectified by camera_info: yes,
+  /// no, or auto, see Recording::isRaw(). `calibration`: they are rectified by it instead. Throws
+  /// std::invalid_argument on any other text, and std::runtime_error if the mask cannot be read.
   explicit RecordedPairs(Recording& recording,
                          const NodeParameters& node = {},
                          const std::string& rectify = "auto",
@@ -39,13 +37,12 @@ class RecordedPairs {
     observe_ = std::move(observe);
   }
 
-  /// Whether it rectifies the images.
   bool rectifies() const { return rectifies_; }
 
-  /// Reads the next pair, with a stamp of the recording, and its camera. The images are valid until
-  /// the next call. Stamps go back where time jumps back. Returns false and leaves the arguments
-  /// unchanged at the end. Throws std::runtime_error if the recording is unreadable, or has no pair
-  /// that can be used.
+  /// Reads the next pair, with a stamp of the recording. The images are valid until the next call.
+  /// Stamps go back where time jumps back. Returns false and leaves the arguments unchanged at the
+  /// end. Throws std::runtime_error if the recording is unreadable, or has no pair that can be
+  /// used.
   bool next(StereoPair& pair, StereoCamera& camera);
 
   /// After the last pair: how many there could have been but are not, and why; empty if none.

@@ -42,8 +42,7 @@ class Recording {
   /// Whether the images have to be rectified.
   virtual bool isRaw() const = 0;
 
-  /// For the log, empty if there is nothing to say: which mount of the camera is assumed, as none
-  /// is recorded; and how recorded poses are used.
+  /// For the log: which mount of the camera is assumed, and how recorded poses are used; or empty.
   virtual std::string mountNote() const { return ""; }
   virtual std::string truthNote() const { return ""; }
 
@@ -83,7 +82,6 @@ class Recording {
   virtual std::string leftOut() const { return ""; }
 };
 
-/// How a recording is opened.
 struct RecordingOptions {
   std::string left_image;  ///< topics of the pair in a bag; empty: findStereoTopics()
   std::string right_image;

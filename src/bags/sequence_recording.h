@@ -30,8 +30,7 @@ class SequenceRecording : public Recording {
   std::int64_t offset_ns() const override { return offset_ns_; }
   RecordedMessage firstInfos() const override { return infosOf(0); }
 
-  /// base_link -> stereo_left_optical: the rectified left camera; and the gyroscope, if there is
-  /// one, with the axes of base_link.
+  /// Of the left camera and the gyroscope, which has the axes of base_link.
   tf2_msgs::TFMessage staticTransforms() const override;
   nav_msgs::Path truth() const override;
   Eigen::Isometry3d T_base_camera() const override { return sequence_.T_base_camera; }

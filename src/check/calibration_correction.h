@@ -9,25 +9,25 @@
 
 namespace rotrocc {
 
-/// The calibration that makes rows equal and disparities right, by what was measured with another
-/// one. The right camera takes all of it: what both cameras have in common, such as an error of the
-/// baseline or of both focal lengths, is not seen.
+/// The calibration that makes rows equal and disparities right. The right camera takes all of it:
+/// what both cameras have in common, as an error of the baseline, is not seen.
 StereoCalibration correct(const RigMeasures& measures);
 
-/// Checks a recording by corrected calibrations, until no significant error is left, at most four
-/// times. None, with the reason in `why_not`, if nothing is significant, rows move, or the result
-/// is worse: by the rows, or by the differences of repeated motions.
 struct Correction {
   StereoCalibration calibration;
   CheckedRig checked;
 };
+
+/// Checks a recording by corrected calibrations, until no significant error is left, at most four
+/// times. None, with the reason in `why_not`, if nothing is significant, rows move, or the result
+/// is worse.
 std::optional<Correction> findCorrection(Recording& recording,
                                          const RigCheckOptions& options,
                                          const RigMeasures& before,
                                          std::string& why_not);
 
-/// Writes left.yaml and right.yaml, in the format of camera_calibration, which camera_info_manager
-/// and `offline_odometry --calibration` read. Throws std::runtime_error if they cannot be written.
+/// Writes left.yaml and right.yaml, in the format of camera_calibration. Throws std::runtime_error
+/// if they cannot be written.
 void writeCalibration(const StereoCalibration& calibration, const std::string& directory);
 
 }  // namespace rotrocc

@@ -7,8 +7,7 @@
 
 namespace rotrocc {
 
-/// Disparities against the motion: their bias as the odometry estimates it, and where in the image
-/// they disagree with the motion of the other features.
+/// Disparities against the motion: their bias, and where in the image they disagree.
 class DisparityCheck {
  public:
   void observe(const CheckedPair& pair);
@@ -19,16 +18,15 @@ class DisparityCheck {
   /// Of the last pair.
   const DisparityBias& bias() const { return bias_; }
 
-  /// The yaw of the right camera [rad] that errors of the disparities have the shape of. Its
-  /// deviation is infinite if motions show few.
+  /// The yaw of the right camera [rad] whose shape the errors of disparities have; of infinite
+  /// deviation if that is not known.
   Estimate keystone_rad() const;
 
  private:
-  /// The error of a single disparity: the correction that makes it agree with the motion.
   struct Error {
     float x_px, y_px;
-    float x_right;  ///< normalized coordinate in the right image
-    float correction_px;
+    float x_right;        ///< normalized coordinate in the right image
+    float correction_px;  ///< makes the disparity agree with the motion
     float sigma_px;
   };
 

@@ -11,21 +11,18 @@
 
 namespace rotrocc {
 
-/// What the messages of a recording say before a pixel is looked at: rates, gaps, stamps, encodings
-/// and camera_info.
+/// Rates, gaps, stamps, encodings and camera_info of the messages of a recording.
 class InputCheck {
  public:
   void observe(const RecordedMessage& message);
 
-  /// Adds the section inputs and the table of stamps. `left_out`: see RecordedPairs::leftOut();
-  /// `rectifies`: whether the images are rectified here.
+  /// `left_out`: see RecordedPairs::leftOut(). `rectifies`: whether the images are rectified here.
   void report(const StereoCamera& camera,
               const std::string& left_out,
               bool rectifies,
               RigReport& report) const;
 
  private:
-  /// Messages of one side.
   struct Stream {
     Stamps stamps_ns;
     std::map<std::int64_t, double> ages_s;  // by stamp

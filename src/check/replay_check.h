@@ -10,22 +10,19 @@
 
 namespace rotrocc {
 
-/// How well the odometry agrees with itself when it sees the same pairs in another way: backward in
-/// time, and mirrored, with left and right exchanged. A rig without errors gives the same motion.
-/// Some stretches of a recording are repeated, in a thread beside the caller's.
+/// How well the odometry agrees with itself when stretches of the recording are repeated backward
+/// in time, and mirrored, with left and right exchanged: a rig without errors gives the same
+/// motion. It does so in a thread beside the caller's.
 class ReplayCheck {
  public:
   /// `pairs`: how many the recording has at most.
   ReplayCheck(const OdometryConfig& config, int pairs);
 
-  /// Copies the images of pairs that are repeated.
   void observe(const CheckedPair& pair);
 
-  /// Waits for the last stretch. Adds the section odometry and its table.
   void report(RigReport& report);
 
-  /// Of the last report: the median differences of both ways over the path, in one number; 0 if
-  /// there are none.
+  /// The median differences of both ways over the path in the last report; 0 if there are none.
   double share() const { return share_; }
 
  private:

@@ -23,8 +23,8 @@ struct RigCheckOptions {
   std::function<void()> on_pair = [] {};   ///< after each pair
 };
 
-/// Two windows of five pairs, by which uncertainties are found, see Windows. With fewer motions, a
-/// report says what it has measured, but not what to do.
+/// Two of the Windows of five pairs. With fewer motions, a report says what it has measured, but
+/// not what to do.
 constexpr int kLeastMotions = 10;
 
 /// What a calibration can correct.
@@ -43,9 +43,8 @@ struct CheckedRig {
   RigMeasures measures;
 };
 
-/// Checks a recording, of which it reads all pairs once, and a second time if its camera_info has
-/// no baseline that can be used. Throws std::runtime_error if the recording is unreadable; one
-/// without a pair that can be used gives a report that says why.
+/// Reads all pairs of a recording, twice if camera_info has no baseline that can be used. Throws
+/// std::runtime_error if it is unreadable. Without a pair that can be used the report says why.
 CheckedRig checkRig(Recording& recording, const RigCheckOptions& options);
 
 }  // namespace rotrocc

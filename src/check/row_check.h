@@ -16,23 +16,18 @@ class RowCheck {
   explicit RowCheck(const OdometryConfig& config)
       : tracker_(config.correspondence_finder.feature_tracker) {}
 
-  /// Samples the inliers of a pair with a motion.
   void observe(const CheckedPair& pair);
 
-  /// Adds the sections rows and time, the maps of the rows and their course. `keystone_rad` is the
-  /// yaw of the right camera that the disparities show.
+  /// `keystone_rad`: yaw of the right camera that the disparities show.
   void report(const Windows& windows, const Estimate& keystone_rad, RigReport& report);
 
   // Of the last report:
 
-  /// What a calibration can correct. Rows of the shape of a yaw are not, if the disparities do not
-  /// have the errors of one.
+  /// What a calibration can correct: not a yaw whose errors the disparities do not have.
   RowModel correctable() const;
-  /// Mean square of the rows, square root [px]: what a calibration is to make small.
   double rms_px() const { return rms_px_; }
-  /// What the model does not explain of it: lenses leave some hundredths of a pixel.
+  /// Rms that the model does not explain: lenses leave some hundredths of a pixel.
   double remainder_px() const { return remainder_px_; }
-  /// Whether the rows stay as they are: a calibration can describe them.
   bool isConstant() const { return is_constant_; }
 
  private:

@@ -41,8 +41,6 @@ Eigen::Matrix3d rotationOf(const RowCauses& causes);
 /// How much lower a feature is in the right image by the causes [px].
 double rowOf(const StereoCamera& camera, const RowCauses& causes, const RowSample& sample);
 
-/// The causes that the rows of a recording show, with their uncertainty by the scatter between
-/// windows of time.
 struct RowModel {
   RowCauses causes = {};
   RowCauses sigmas = {};
@@ -53,11 +51,11 @@ struct RowModel {
   bool may_be_pitch = false;
 };
 
-/// Finds the causes by least squares with a robust loss (Ceres). Those that are not significant are
-/// left out, least significant first, and are zero then: pitch and offset, or roll and yaw, look
-/// alike in a part of an image. Their sigmas are those before they were left out. `windows[i]`,
-/// below `window_count`, is the window of sample i. Needs kLeastSamples; with fewer all is zero,
-/// and sigmas are infinite.
+/// Finds the causes by least squares with a robust loss, their uncertainty by the scatter between
+/// windows. Those that are not significant are left out, least significant first, and are zero
+/// then: pitch and offset, or roll and yaw, look alike in a part of an image. Their sigmas are
+/// those before. `windows[i]`, below `window_count`, is the window of sample i. With fewer samples
+/// than kLeastSamples all is zero, and sigmas are infinite.
 RowModel fitRows(const StereoCamera& camera,
                  const std::vector<RowSample>& samples,
                  const std::vector<std::size_t>& windows,

@@ -35,9 +35,8 @@ class Windows {
   std::size_t count_;
 };
 
-/// The mean of the medians of the windows, with the standard deviation that their scatter shows:
-/// errors that last for a while count as they should, which the formula of independent ones hides.
-/// Both are nan without values; the deviation is that if there are values of one window only.
+/// The mean of the medians of the windows, with the standard deviation by their scatter, so that
+/// errors that last for a while count. Both are nan without values, the deviation with one window.
 Estimate overWindows(const std::vector<TimedValue>& values, const Windows& windows);
 
 /// Standard deviations of several values from estimates that each leave out one window (jackknife,

@@ -10,10 +10,8 @@
 
 namespace rotrocc {
 
-/// KittiPlayer as a nodelet: passes images to nodelets of the same manager without a copy. With the
-/// private parameter shutdown_at_end the manager shuts down at the end of the
-/// recording.
-/// Throws std::exception, after a fatal log, on an unusable recording.
+/// Passes images to nodelets of the same manager without a copy. With the private parameter
+/// shutdown_at_end the manager shuts down at the end of the recording.
 class KittiPlayerNodelet : public nodelet::Nodelet {
  public:
   ~KittiPlayerNodelet() override { callbacks_.stop(); }

@@ -6,15 +6,10 @@
 #include <sstream>
 
 namespace rotrocc {
-namespace {
-
-constexpr std::uint32_t kAnswerQueueSize = 100;
-
-}  // namespace
 
 OdometryMonitor::OdometryMonitor(ros::NodeHandle& nh)
-    : odom_(nh.subscribe("odom", kAnswerQueueSize, &OdometryMonitor::onOdometry, this)),
-      status_(nh.subscribe("status", kAnswerQueueSize, &OdometryMonitor::onStatus, this)) {}
+    : odom_(nh.subscribe("odom", 100, &OdometryMonitor::onOdometry, this)),
+      status_(nh.subscribe("status", 100, &OdometryMonitor::onStatus, this)) {}
 
 void OdometryMonitor::expect(const ros::Time& stamp) {
   std::lock_guard<std::mutex> lock(mutex_);

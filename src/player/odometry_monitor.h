@@ -20,7 +20,6 @@ class OdometryMonitor {
  public:
   explicit OdometryMonitor(ros::NodeHandle& nh);
 
-  /// Whether an odometry is running.
   bool connected() const { return odom_.getNumPublishers() > 0; }
 
   /// Call just before publishing the last image of a pair; `stamp` is that of the left one.

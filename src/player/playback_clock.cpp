@@ -8,10 +8,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kTick(10);
 
-double seconds(std::chrono::steady_clock::duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
 }  // namespace
 
 PlaybackClock::PlaybackClock(double rate,
@@ -43,7 +39,7 @@ bool PlaybackClock::waitUntil(const ros::Time& time) {
 
 bool PlaybackClock::advance(const ros::Time& end) {
   const WallClock::time_point tick = WallClock::now();
-  const double passed_s = rate_ * seconds(tick - last_tick_);
+  const double passed_s = rate_ * std::chrono::duration<double>(tick - last_tick_).count();
   last_tick_ = tick;
   const bool arrived = rate_ == 0.0 || now_ + ros::Duration(passed_s) >= end;
   now_ = arrived ? std::max(now_, end) : now_ + ros::Duration(passed_s);

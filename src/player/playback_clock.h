@@ -18,7 +18,6 @@ class PlaybackClock {
   /// recording whenever it advances, at least every 10 ms.
   PlaybackClock(double rate, bool paused, std::function<void(const ros::Time&)> publish);
 
-  /// Sets the time without waiting.
   void start(const ros::Time& time);
 
   /// Waits for the time, and for the end of a pause. Returns immediately if late, and sets the

@@ -4,25 +4,20 @@
 #include <ros/console.h>
 
 namespace rotrocc {
-namespace {
-
-constexpr std::uint32_t kTopicQueueSize = 10;
-
-}  // namespace
 
 RecordingPublisher::RecordingPublisher(ros::NodeHandle& nh,
                                        const Recording& recording,
                                        const std::string& image_topic)
     : recording_(recording),
       truth_(recording.truth()),
-      left_image_(nh.advertise<sensor_msgs::Image>("left/" + image_topic, kTopicQueueSize)),
-      right_image_(nh.advertise<sensor_msgs::Image>("right/" + image_topic, kTopicQueueSize)),
-      left_info_(nh.advertise<sensor_msgs::CameraInfo>("left/camera_info", kTopicQueueSize)),
-      right_info_(nh.advertise<sensor_msgs::CameraInfo>("right/camera_info", kTopicQueueSize)),
-      moving_tf_(nh.advertise<tf2_msgs::TFMessage>("/tf", kTopicQueueSize)),
+      left_image_(nh.advertise<sensor_msgs::Image>("left/" + image_topic, 10)),
+      right_image_(nh.advertise<sensor_msgs::Image>("right/" + image_topic, 10)),
+      left_info_(nh.advertise<sensor_msgs::CameraInfo>("left/camera_info", 10)),
+      right_info_(nh.advertise<sensor_msgs::CameraInfo>("right/camera_info", 10)),
+      moving_tf_(nh.advertise<tf2_msgs::TFMessage>("/tf", 10)),
       static_tf_(nh.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true)),
       truth_path_(nh.advertise<nav_msgs::Path>("ground_truth/path", 1, true)),
-      truth_pose_(nh.advertise<geometry_msgs::PoseStamped>("ground_truth/pose", kTopicQueueSize)) {
+      truth_pose_(nh.advertise<geometry_msgs::PoseStamped>("ground_truth/pose", 10)) {
   for (const std::string& note : {recording.mountNote(), recording.truthNote()}) {
     if (!note.empty()) ROS_INFO("%s", note.c_str());
   }

@@ -16,20 +16,18 @@ namespace rotrocc {
 /// /tf_static, ground_truth/path and ground_truth/pose.
 class RecordingPublisher {
  public:
-  /// Advertises the topics. `image_topic`: image_rect, or image_raw if the odometry rectifies.
-  /// `recording` must outlive this object. Logs its notes.
+  /// `image_topic`: image_rect, or image_raw if the odometry rectifies. `recording` must outlive
+  /// this object. Logs its notes.
   RecordingPublisher(ros::NodeHandle& nh,
                      const Recording& recording,
                      const std::string& image_topic);
 
-  /// True path of the base in the frame odom; empty if it is not known.
   const nav_msgs::Path& truth() const { return truth_; }
 
   /// Topics that an odometry needs but that have no subscriber.
   std::vector<std::string> topicsWithoutSubscriber() const;
 
-  /// Publishes what is needed before the first image: static transforms, the true path (both
-  /// latched) and the first camera_infos.
+  /// Static transforms and the true path, both latched, and the first camera_infos.
   void publishBeginning();
 
   void publish(const RecordedMessage& message);

@@ -23,10 +23,10 @@ struct InputOptions {
 /// What `paths` may be, for the help.
 extern const char* const kRecordingHelp;
 
-/// The options config and set, which store into `options`.
+/// config and set.
 boost::program_options::options_description parameterOptions(InputOptions& options);
 
-/// The options left-image, right-image, rectify and calibration.
+/// left-image, right-image, rectify and calibration.
 boost::program_options::options_description imageOptions(InputOptions& options);
 
 /// The parameters of the options. Throws as loadYaml() and ParameterTable::setAssignment().

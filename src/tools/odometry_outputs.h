@@ -15,14 +15,13 @@
 
 namespace rotrocc {
 
-/// Result and times of one pair, without reading its images.
 struct PairRecord {
   OdometryResult result;
   double wall_ms = 0.0;  ///< of VisualOdometry::prepare() and process()
   double cpu_ms = 0.0;   ///< all threads of the process
 };
 
-/// What a run writes. Those that are empty are not written, but for the trajectory.
+/// Those that are empty are not written, but for the trajectory.
 struct OutputFiles {
   std::string trajectory;        ///< poses of the left camera
   std::string format = "kitti";  ///< of the trajectory: kitti or tum
