@@ -36,7 +36,6 @@ struct NodeParameters {
   int trajectory_length = 100'000;        ///< number of poses kept for ~save_trajectory
   std::string trajectory_file;            ///< first of the files of all poses; empty: none
   std::string trajectory_format = "tum";  ///< or "kitti"
-  std::string continue_from;  ///< file of the latest pose, where the next run begins; empty: none
 };
 
 /// All parameters of the package.

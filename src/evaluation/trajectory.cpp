@@ -1,6 +1,9 @@
 #include "rotrocc/trajectory.h"
 
 #include <cstdint>
+#include <cstdlib>
+#include <locale>
+#include <sstream>
 #include <stdexcept>
 
 #include <opencv2/core.hpp>
@@ -53,6 +56,29 @@ void setStamps(Trajectory& trajectory, const std::string& path, const std::strin
   for (std::size_t i = 0; i < trajectory.size(); ++i) trajectory[i].stamp_ns = stamps_ns[i];
 }
 
+/// The line of a pose, with its end.
+std::string poseLine(const StampedPose& pose, TrajectoryFormat format) {
+  static const Eigen::IOFormat kInOneLine(Eigen::StreamPrecision, Eigen::DontAlignCols, " ", " ");
+  std::ostringstream line;
+  line.imbue(std::locale::classic());  // no decimal comma
+  line.precision(9);
+  if (format == TrajectoryFormat::kKitti) {
+    line << std::scientific << pose.T_world_body.affine().format(kInOneLine) << '\n';
+    return line.str();
+  }
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  Eigen::Quaterniond quaternion(pose.T_world_body.linear());
+  quaternion.normalize();
+  if (quaternion.w() < 0.0) quaternion.coeffs() *= -1.0;
+  line << cv::format("%s%lld.%09lld ",
+                     pose.stamp_ns < 0 ? "-" : "",
+                     std::llabs(pose.stamp_ns / kSecond_ns),
+                     std::llabs(pose.stamp_ns % kSecond_ns))
+       << std::fixed << pose.T_world_body.translation().transpose().format(kInOneLine) << ' '
+       << quaternion.coeffs().transpose().format(kInOneLine) << '\n';  // x y z w
+  return line.str();
+}
+
 }  // namespace
 
 TrajectoryFormat trajectoryFormat(const std::string& name) {
@@ -91,6 +117,16 @@ std::vector<std::int64_t> readTimes(const std::string& path) {
     stamps_ns.push_back(timeAfter(stamps_ns.empty() ? INT64_MIN : stamps_ns.back(), line));
   }
   return stamps_ns;
+}
+
+TrajectoryWriter::TrajectoryWriter(const std::string& path, TrajectoryFormat format)
+    : path_(path), format_(format), file_(path) {
+  if (!file_) throw std::runtime_error("cannot write " + path_);
+}
+
+void TrajectoryWriter::write(const StampedPose& pose) {
+  file_ << poseLine(pose, format_) << std::flush;
+  if (!file_) throw std::runtime_error("cannot write to " + path_ + ": is the disk full?");
 }
 
 }  // namespace rotrocc

@@ -203,7 +203,7 @@ std::optional<StereoOdometry::Gathered> StereoOdometry::gather(const ReceivedPai
 }
 
 /// The pose of the camera. A pair waits for one that tf does not have at all until a newer pair
-/// comes; nothing then. Throws InputError if the camera moves, and tf is late.
+/// comes; nothing then, or if the camera moves and tf is late.
 std::optional<Eigen::Isometry3d> StereoOdometry::findCamera(const std::string& frame,
                                                             std::int64_t stamp_ns,
                                                             const WaitFor& wait) {
@@ -213,12 +213,8 @@ std::optional<Eigen::Isometry3d> StereoOdometry::findCamera(const std::string& f
     health_.setWaitsForTf(camera_pose_.missing());
     return camera_pose_.missing().empty() || mailbox_.hasItem();
   });
-  if (T_base_camera || !isRunning()) return T_base_camera;
-  if (camera_pose_.missing().empty()) {
-    throw InputError(DropReason::kTfMissing, camera_pose_.problem());
-  }
-  drops_.count(DropReason::kTfMissing);
-  return std::nullopt;
+  if (!T_base_camera && isRunning()) drops_.count(DropReason::kTfMissing);
+  return T_base_camera;
 }
 
 /// Sends tf and odometry. Returns when the odometry was sent.

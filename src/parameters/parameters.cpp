@@ -76,9 +76,6 @@ void addNode(NodeParameters& n, ParameterTable& table) {
       "trajectory goes to NAME_2, NAME_3, ...";
   table.add("trajectory_format", n.trajectory_format, {"tum", "kitti"}).description =
       "format of trajectory_file";
-  table.add("continue_from", n.continue_from).description =
-      "file in which the latest pose is kept, and from which the odometry continues when it is "
-      "started again; none if empty";
 }
 
 void addFrontEnd(CorrespondenceFinderConfig& finder, ParameterTable& table) {

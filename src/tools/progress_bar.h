@@ -1,13 +1,12 @@
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <string>
 
 namespace rotrocc {
 
-/// Shows the progress of a long run on stderr: on a terminal one line with count, rate and time
-/// left, redrawn at most ten times a second; otherwise (file, pipe) a line for every 10 %.
+/// Shows the progress of a long run on stderr: on a terminal in one line, for each percent;
+/// otherwise (file, pipe) by a line for every 10 %.
 class ProgressBar {
  public:
   ProgressBar(std::string label, std::size_t total);
@@ -19,17 +18,13 @@ class ProgressBar {
   void finish();
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  void draw() const;
+  void draw();
 
   std::string label_;
   std::size_t total_;
-  std::size_t done_ = 0;
-  std::size_t tenths_drawn_ = 0;
   bool on_terminal_;
-  Clock::time_point start_;
-  Clock::time_point last_drawn_;
+  std::size_t done_ = 0;
+  std::size_t parts_drawn_ = 0;
 };
 
 }  // namespace rotrocc

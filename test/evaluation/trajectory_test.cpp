@@ -9,9 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "evaluation/trajectory_file.h"
 #include "support/expect_error.h"
-#include "support/file_size_limit.h"
 #include "support/read_file.h"
 #include "support/temporary_directory.h"
 
@@ -160,24 +158,6 @@ TEST_F(TrajectoryTest, RefusesWhatIsNoTrajectory) {
   expectError<std::runtime_error>([&] { readTrajectory(directory_ / ""); }, "cannot read");
   const std::string times = directory_.write("times.txt", "0.1\n0.0\n");
   expectError<std::runtime_error>([&] { readTimes(times); }, "times.txt:2: the time 0.0");
-}
-
-TEST_F(TrajectoryTest, FileGoesOnAfterAFullDiskWithoutALoss) {
-  const std::string path = directory_ / "out.txt";
-  TrajectoryFile file(path, TrajectoryFormat::kTum, "out.txt");
-  {
-    const FileSizeLimit limit(1000);
-    for (int i = 0; i < 50; ++i) file.add(somePose(i));
-    expectError<std::system_error>([&] { file.flush(); }, "cannot write to out.txt");
-  }
-  const std::size_t before = readTrajectory(path).size();
-  EXPECT_GT(before, 5u);
-  EXPECT_LT(before, 20u);
-  file.add(somePose(100));
-  file.flush();
-  const Trajectory written = readTrajectory(path);
-  ASSERT_EQ(written.size(), 51u);
-  EXPECT_EQ(written.back().stamp_ns, 100);
 }
 
 TEST_F(TrajectoryTest, WriterSaysWhenItCannotWrite) {

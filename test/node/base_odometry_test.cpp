@@ -182,22 +182,6 @@ TEST_F(BaseOdometryTest, GrowsByWhatTheRobotMayDo) {
   EXPECT_NEAR(sigmaAfter(15.0, 15.0, 3.0), 45.0, 1.0) << "a car drives on";
 }
 
-TEST_F(BaseOdometryTest, ContinuesFromAnEarlierRunAsIfLostSinceThen) {
-  move(makeMotion(1.0, 0.3));
-  const BaseState saved = move(makeMotion(1.0, 0.3));
-  BaseOdometry next(NodeParameters(), {0.0, 0.0});
-  next.continueFrom(saved);
-  const std::int64_t stamp_ns = saved.stamp_ns + 2'000'000'000;
-  const BaseState state = next.add(withoutMotion(stamp_ns, State::kInitialising), cameraMount());
-  const BaseState lost = lose(2'000'000'000);
-  EXPECT_TRUE(state.T_odom_base.T.isApprox(saved.T_odom_base.T, 1e-12));
-  EXPECT_NEAR(sigma(state, 0), sigma(lost, 0), 0.01 * sigma(lost, 0));
-  EXPECT_NEAR(sigma(state, 5), sigma(lost, 5), 0.01 * sigma(lost, 5));
-  const Eigen::Isometry3d step = makeMotion(1.0, 0.0);
-  EXPECT_TRUE(next.add(found(stamp_ns + kPeriod_ns, seen(step)), cameraMount())
-                  .T_odom_base.T.isApprox(saved.T_odom_base.T * step, 1e-12));
-}
-
 TEST_F(BaseOdometryTest, BeginsLevel) {
   NodeParameters node;
   node.initial_pose = {1.0, 2.0, 3.0, 0.0, 0.0, 1.5};

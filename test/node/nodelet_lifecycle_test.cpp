@@ -209,34 +209,6 @@ TEST(NodeTest, EndsWithTheReasonIfItCannotStart) {
       << result.output;
 }
 
-TEST(NodeTest, OneThatIsKilledContinuesWhereItWas) {
-  const TemporaryDirectory directory;
-  const std::string file = directory / "pose";
-  const std::string command = STEREO_ODOMETRY " __name:=stereo_odometry _continue_from:=" + file;
-  BackgroundCommand node(command, directory / "log");
-  SimulatedRobot robot;
-  ASSERT_TRUE(answers(robot));
-  ros::Time stamp;
-  std::optional<nav_msgs::Odometry> before;
-  ASSERT_TRUE(waitUntil([&] {
-    stamp = robot.drive();
-    before = robot.odometryOf(stamp);
-    return before && before->pose.pose.position.x > 1.0;
-  }));
-  ASSERT_TRUE(waitUntil(
-      [&] { return readFile(file).find(std::to_string(stamp.toNSec())) != std::string::npos; }));
-  node.interrupt(SIGKILL);
-
-  const BackgroundCommand respawned(command, directory / "log_2");
-  ASSERT_TRUE(answers(robot));
-  const auto after = robot.odometryFrom(stamp + ros::Duration(0.01));
-  ASSERT_TRUE(after);
-  EXPECT_NEAR(after->pose.pose.position.x, before->pose.pose.position.x, 1e-9);
-  const double way_m = SimulatedRobot::kStep_m / SimulatedRobot::kPeriod_s *
-                       (after->header.stamp - before->header.stamp).toSec();
-  EXPECT_NEAR(std::sqrt(after->pose.covariance[0]), way_m, 0.3 * way_m);
-}
-
 TEST(NodeTest, EndsCleanlyAtAnyMoment) {
   for (int i = 0; i < 12; ++i) {
     const std::string delay_s = std::to_string(0.05 + 0.1 * i);

@@ -101,13 +101,6 @@ BaseOdometry::BaseOdometry(const NodeParameters& parameters,
   setPose({poseOf(pose), covariance});
 }
 
-void BaseOdometry::continueFrom(const BaseState& state) {
-  setPose(state.T_odom_base);
-  last_.stamp_ns = state.stamp_ns;
-  speed_.set(state.twist.twist.head<3>().norm());
-  turn_rate_.set(state.twist.twist.tail<3>().norm());
-}
-
 BaseState BaseOdometry::add(const OdometryResult& result,
                             const Eigen::Isometry3d& T_base_camera,
                             const std::optional<Eigen::Isometry3d>& T_last_cur) {

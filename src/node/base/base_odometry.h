@@ -55,10 +55,6 @@ class BaseOdometry {
                const SystematicErrorConfig& systematic_error,
                const std::optional<Eigen::Vector3d>& up = std::nullopt);
 
-  /// Continues from stamp, pose and twist of an earlier run, as if it was lost since then. To be
-  /// called before the first pair.
-  void continueFrom(const BaseState& state);
-
   /// `T_base_camera`: the pose of the camera on the base at the pair. `T_last_cur`: motion of the
   /// base since the last pair by another odometry, if any.
   BaseState add(const OdometryResult& result,

@@ -30,11 +30,7 @@ PairProcessor::PairProcessor(const Parameters& parameters, Log log)
       converter_(
           parameters.node.significant_bits, parameters.node.mask, parameters.odometry.threads),
       odometry_(parameters.odometry),
-      inspector_(parameters.odometry.correspondence_finder, parameters.node.rectify) {
-  if (parameters_.continue_from.empty()) return;
-  saved_ = readPoseFile(parameters_.continue_from, parameters_.odom_frame, log_);
-  pose_file_.emplace(parameters_.continue_from, parameters_.odom_frame, log_);
-}
+      inspector_(parameters.odometry.correspondence_finder, parameters.node.rectify) {}
 
 void PairProcessor::Requests::add(const Requests& later) {
   reset |= later.reset;
@@ -60,14 +56,11 @@ PairAnswer PairProcessor::process(const PairInput& in) {
   if (requests.config) configure(*requests.config);
   PairAnswer answer;
   answer.starts_trajectory = restartIfNeeded(requests, in.pair.stamp_ns);
-  if (requests.reset || requests.T_odom_base) saved_.reset();
   if (!base_odometry_) begin(in);
   if (requests.T_odom_base) setPose(*requests.T_odom_base);
   answer.result = measure(in);
   answer.state = base_odometry_->add(answer.result, in.T_base_camera, in.T_last_base);
   last_stamp_ns_ = in.pair.stamp_ns;
-  // While lost, the one before is kept: its uncertainty will grow over all of the time.
-  if (pose_file_ && answer.result.hasMotion()) pose_file_->put(answer.state);
   return answer;
 }
 
@@ -93,21 +86,8 @@ bool PairProcessor::isLevelled() const {
          parameters_.initial_pose[4] == 0.0;
 }
 
-/// At the pose that an earlier run has saved, or at the initial one.
+/// At the initial pose.
 void PairProcessor::begin(const PairInput& in) {
-  const std::int64_t stamp_ns = in.pair.stamp_ns;
-  const std::optional<BaseState> saved = std::exchange(saved_, std::nullopt);
-  if (saved && saved->stamp_ns <= stamp_ns) {
-    base_odometry_.emplace(parameters_, systematic_error_);
-    base_odometry_->continueFrom(*saved);
-    log_.info("continues from the pose of " + parameters_.continue_from + ", " +
-              toText(toSeconds(stamp_ns - saved->stamp_ns)) + " s before the first pair");
-    return;
-  }
-  if (saved) {
-    log_.warn("the pose of " + parameters_.continue_from + " is of " + stampText(saved->stamp_ns) +
-              " s, but the first pair of " + stampText(stamp_ns) + " s: starting at initial_pose");
-  }
   std::optional<Eigen::Vector3d> up;
   if (in.up && isLevelled()) up = in.up();
   if (up) {

@@ -10,7 +10,6 @@
 #include "input/stereo_intake.h"
 #include "input/stereo_pair_converter.h"
 #include "node/base/base_odometry.h"
-#include "node/base/pose_file.h"
 #include "node/health/pair_inspector.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/visual_odometry.h"
@@ -41,11 +40,10 @@ struct PairAnswer {
 };
 
 /// Converts pairs to odometry of the base, in one thread, and rectifies those that are raw. Begins
-/// at the pose of the file continue_from, or else at initial_pose. Other threads may request
-/// changes, which takeRequests() takes over for the next pair; requests do not block.
+/// at initial_pose. Other threads may request changes, which takeRequests() takes over for the next
+/// pair; requests do not block.
 class PairProcessor {
  public:
-  /// Throws std::exception with one sentence if continue_from cannot be a file.
   explicit PairProcessor(const Parameters& parameters, Log log = Log());
 
   /// See StereoPairConverter::convert().
@@ -56,7 +54,7 @@ class PairProcessor {
   bool takeRequests();
 
   /// Whether the next pair is the first one, and roll and pitch of its pose are by the vertical.
-  bool startsLevel() const { return !base_odometry_ && !saved_ && isLevelled(); }
+  bool startsLevel() const { return !base_odometry_ && isLevelled(); }
 
   PairAnswer process(const PairInput& in);
 
@@ -116,8 +114,6 @@ class PairProcessor {
   StereoPairConverter converter_;
   VisualOdometry odometry_;
   PairInspector inspector_;
-  std::optional<PoseFile> pose_file_;
-  std::optional<BaseState> saved_;             // of an earlier run, to continue from
   std::optional<BaseOdometry> base_odometry_;  // from the first pair on
   std::optional<std::int64_t> last_stamp_ns_;
 

@@ -27,6 +27,8 @@ constexpr double kRest_rad = 1e-4;
 
 /// Stamps in a row that must have a transform in time until a problem is over.
 constexpr int kInTime = 50;
+/// Transforms for each pair of images: a rate that is equal may be measured as less.
+constexpr double kSeldom = 0.9;
 
 /// The axis of the base closest to a direction.
 std::string nameDirection(const Eigen::Vector3d& direction) {
@@ -119,21 +121,26 @@ std::optional<Eigen::Isometry3d> SensorPose::lookUp(const ros::Time& stamp, cons
   if (fixed_) return T_newest;
   watchMovement(T_newest);
   const auto is_there = [&] { return tf_.canTransform(base_frame_, frame_, stamp); };
+  const ros::Time before = std::exchange(last_stamp_, stamp);
+  if (stamp != before) period_s_ = std::abs(stamp.toSec() - before.toSec());
+  std::chrono::duration<double> waited{0.0};
   if (stamp > newest.header.stamp && (moves_ || waits_)) {
+    const auto begin = std::chrono::steady_clock::now();
     waits_ = wait(timeout_s_, is_there);
+    waited = std::chrono::steady_clock::now() - begin;
     newest = transformAt(ros::Time());
     watchMovement(toEigen(newest.transform));
   }
-  if (is_there()) {
-    if (++in_time_ >= kInTime) problem_.clear();
-    return toEigen(transformAt(stamp).transform);
+  const bool comes = is_there();
+  if (!comes && !moves_) return toEigen(newest.transform);
+  if (!comes && stamp <= newest.header.stamp) transformAt(stamp);  // throws: it is too old
+  if (moves_ && (!comes || waited.count() > period_s_)) {
+    onLate(comes);
+  } else if (++in_time_ >= kInTime) {
+    problem_.clear();
   }
-  if (!moves_) return toEigen(newest.transform);
-  if (stamp <= newest.header.stamp) transformAt(stamp);  // throws: it is too old
-  in_time_ = 0;
-  // At most once a second: it reads the whole tree of tf.
-  if (problem_.empty() || description_.pass()) problem_ = describeLate();
-  return std::nullopt;
+  if (!comes) return std::nullopt;
+  return toEigen(transformAt(stamp).transform);
 }
 
 geometry_msgs::TransformStamped SensorPose::transformAt(const ros::Time& stamp) const {
@@ -172,14 +179,26 @@ void SensorPose::onMissing(const std::string& why) {
   }
 }
 
-std::string SensorPose::describeLate() const {
+/// A wait that is longer than the period of the images loses pairs, too.
+void SensorPose::onLate(bool comes) {
+  in_time_ = 0;
+  // At most once a second: it reads the whole tree of tf.
+  if (description_.pass()) problem_ = describeLate(comes);
+  if (log_ && late_warning_.pass()) log_->warn(problem_);
+}
+
+std::string SensorPose::describeLate(bool comes) const {
   const std::optional<double> rate = rate_hz();
-  const bool seldom = rate && *rate * timeout_s_ < 1.0;
-  return "tf from " + base_frame_ + " to " + frame_ + ", which moves, does not come within " +
-         "mount_timeout_s = " + toText(timeout_s_) + " s after the images" +
-         (rate ? ", but at " + fixedText(*rate, 1) + " Hz" : "") + ": publish it " +
-         (seldom ? "at the rate of the images" : "earlier") + ", or raise mount_timeout_s" +
-         (seldom ? " to " + hundredths(1.1 / *rate) : "");
+  std::string text =
+      "tf from " + base_frame_ + " to " + frame_ + ", which moves, comes" +
+      (rate ? " at " + fixedText(*rate, 1) + " Hz, and" : "") +
+      (comes ? " later than the next images, so that pairs are dropped"
+             : " later than mount_timeout_s = " + toText(timeout_s_) + " s after the images") +
+      ": publish it " +
+      (rate && *rate * period_s_ < kSeldom ? "at the rate of the images" : "earlier");
+  if (comes) return text;
+  return text + ", or raise mount_timeout_s" +
+         (rate && *rate * timeout_s_ < 1.0 ? " to " + hundredths(1.1 / *rate) : "");
 }
 
 /// Of the slowest transform on the way from the base to the sensor, while tf has it; none if that

@@ -30,8 +30,8 @@ class SensorPose {
              const std::optional<Log>& log = Log());
 
   /// T_base_sensor at a stamp; nothing if tf has none, see missing(), or none in time, see
-  /// problem(). Logs the first pose, that it moves, a new frame and, after repeated calls, that tf
-  /// has none.
+  /// problem(). Logs the first pose, that it moves, a new frame, a problem and, after repeated
+  /// calls, that tf has none.
   std::optional<Eigen::Isometry3d> find(const std::string& frame,
                                         std::int64_t stamp_ns,
                                         const WaitFor& wait);
@@ -42,8 +42,8 @@ class SensorPose {
   /// The transform that tf does not have, in one sentence; empty if it does.
   const std::string& missing() const { return missing_; }
 
-  /// That transforms of a sensor that moves recently did not come in time, in one sentence with the
-  /// rate of tf and a remedy; empty if they did.
+  /// That transforms of a sensor that moves recently did not come in time, or so late that newer
+  /// images came, in one sentence with the rate of tf and a remedy; empty if they did.
   const std::string& problem() const { return problem_; }
 
  private:
@@ -53,7 +53,8 @@ class SensorPose {
   void watchMovement(const Eigen::Isometry3d& T_base_sensor);
   void logPose(const Eigen::Isometry3d& T_base_sensor);
   void onMissing(const std::string& why);
-  std::string describeLate() const;
+  void onLate(bool comes);
+  std::string describeLate(bool comes) const;
   std::optional<double> rate_hz() const;
 
   const tf2::BufferCore& tf_;
@@ -67,12 +68,15 @@ class SensorPose {
   bool fixed_ = false;
   bool moves_ = false;
   bool waits_ = true;  // unless it moves
-  int in_time_ = 0;    // transforms in a row
+  ros::Time last_stamp_;
+  double period_s_ = 0.0;  // from the stamp before
+  int in_time_ = 0;        // transforms in a row
   std::string problem_;
   std::string missing_;
   std::optional<std::chrono::steady_clock::time_point> missing_since_;
   Throttle description_{std::chrono::seconds(1)};
   Throttle warning_;
+  Throttle late_warning_;
   Throttle change_warning_;
 };
 

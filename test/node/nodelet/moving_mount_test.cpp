@@ -103,8 +103,8 @@ TEST_F(MovingCameraTest, APairWithoutTfIsDroppedWithTheRateAndARemedy) {
   for (int pair = 0; pair < 6; ++pair) see(true);
   EXPECT_FALSE(drive_->robot.odometryOf(see(false), 5 * kSoon));
   const std::string said =
-      "tf from base_link to camera_left, which moves, does not come within mount_timeout_s = 0.02 "
-      "s after the images, but at 10.0 Hz: publish it at the rate of the images";
+      "tf from base_link to camera_left, which moves, comes at 10.0 Hz, and later than "
+      "mount_timeout_s = 0.02 s after the images: publish it earlier, or raise mount_timeout_s";
   EXPECT_TRUE(waitUntil([&] { return !drive_->log.with(said).empty(); }));
   EXPECT_TRUE(waitUntil([&] {
     const auto status = drive_->robot.statusOf(see(true), kSoon);
