@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <std_srvs/Trigger.h>
 
 #include "nodelet_drive.h"
 #include "support/temporary_directory.h"
@@ -27,7 +28,7 @@ TEST(DiagnosticsPeriodTest, IsThatOfTheStandardParameter) {
   EXPECT_LE(published, 1);
 }
 
-TEST(TrajectoryFaultTest, IsToldUntilTheFileIsWrittenAgain) {
+TEST(TrajectoryFaultTest, IsToldUntilAnotherTrajectoryIsWritten) {
   const TemporaryDirectory directory;
   const std::filesystem::path folder = directory / "drive";
   std::filesystem::create_directory(folder);
@@ -38,6 +39,8 @@ TEST(TrajectoryFaultTest, IsToldUntilTheFileIsWrittenAgain) {
   drive.odometryOf(drive.robot.drive());
   EXPECT_TRUE(diagnostics.says("stereo_odometry: trajectory file", "cannot write"));
   std::filesystem::create_directory(folder);
+  std_srvs::Trigger reset;
+  ASSERT_TRUE(drive.services.call("reset", reset));
   drive.odometryOf(drive.robot.drive());
   EXPECT_TRUE(diagnostics.says("stereo_odometry: trajectory file", "written"));
   EXPECT_EQ(drive.log.with("trajectory file: ").size(), 1u);
