@@ -61,13 +61,6 @@ bool isOfKitti2bag(const RecordedTf& tf) {
   return tf.camera_frame == "camera_gray_left" || tf.camera_frame == "camera_color_left";
 }
 
-void addMount(RecordedTf& tf) {
-  geometry_msgs::TransformStamped mount = tf2::eigenToTransform(tf.T_base_camera);
-  mount.header.frame_id = tf.base_frame;
-  mount.child_frame_id = tf.camera_frame;
-  tf.static_transforms.transforms.push_back(mount);
-}
-
 void buildTrajectory(const Transforms& moving, RecordedTf& tf) {
   Trajectory recorded;
   bool of_base = false;
@@ -121,7 +114,10 @@ RecordedTf readTf(const Bags& bags,
   }
   for (const auto& [child, transform] : latest)
     tf.static_transforms.transforms.push_back(transform);
-  if (tf.assumes_mount) addMount(tf);
+  if (tf.assumes_mount) {
+    tf.static_transforms.transforms.push_back(
+        toTransform(tf.T_base_camera, 0, tf.base_frame, tf.camera_frame));
+  }
   buildTrajectory(moving, tf);
   return tf;
 }

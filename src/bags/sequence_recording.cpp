@@ -30,16 +30,6 @@ void requireRosStamps(const StereoSequence& sequence, std::int64_t offset_ns) {
                               " s are out of the range of ROS, which is from 1 to 4e9 s");
 }
 
-geometry_msgs::TransformStamped mount(const Eigen::Isometry3d& T_base_sensor,
-                                      const ros::Time& stamp,
-                                      const std::string& frame) {
-  geometry_msgs::TransformStamped transform = tf2::eigenToTransform(T_base_sensor);
-  transform.header.frame_id = kBaseFrame;
-  transform.header.stamp = stamp;
-  transform.child_frame_id = frame;
-  return transform;
-}
-
 sensor_msgs::Image::Ptr toGreyImage(const std_msgs::Header& header, const cv::Mat& pixels) {
   const bool has_16_bits = pixels.depth() == CV_16U;
   return cv_bridge::CvImage(header, has_16_bits ? "mono16" : "mono8", pixels).toImageMsg();
@@ -68,10 +58,12 @@ std::string SequenceRecording::description() const {
 }
 
 tf2_msgs::TFMessage SequenceRecording::staticTransforms() const {
+  const std::int64_t stamp_ns = toNanoseconds(begin());
   tf2_msgs::TFMessage mounts;
-  mounts.transforms.push_back(mount(T_base_camera(), begin(), kCameraFrame));
+  mounts.transforms.push_back(toTransform(T_base_camera(), stamp_ns, kBaseFrame, kCameraFrame));
   if (!gyroscope("").samples.empty()) {
-    mounts.transforms.push_back(mount(Eigen::Isometry3d::Identity(), begin(), kImuFrame));
+    mounts.transforms.push_back(
+        toTransform(Eigen::Isometry3d::Identity(), stamp_ns, kBaseFrame, kImuFrame));
   }
   return mounts;
 }
@@ -110,7 +102,19 @@ bool SequenceRecording::hasNext() const {
 bool SequenceRecording::next(RecordedMessage& message) {
   if (atEnd()) return false;
   const int index = next_pair_++;
-  const StereoPair pair = readPair(index);
+  StereoPair pair;
+  try {
+    pair = sequence_.read(index);
+  } catch (const std::runtime_error& error) {
+    throw InputError(DropReason::kImageData, error.what());
+  }
+  if (raw_calibration_) {
+    ReceivedPair raw;
+    raw.images = {toGreyImage({}, pair.left), toGreyImage({}, pair.right)};
+    raw.camera = calibration_.rectified;
+    raw.calibration = raw_calibration_;
+    pair = converter_.convert(raw);
+  }
   message = infosOf(index);
   message.left_image = toGreyImage(message.left_info->header, pair.left);
   message.right_image = toGreyImage(message.right_info->header, pair.right);
@@ -134,22 +138,6 @@ RecordedMessage SequenceRecording::infosOf(int pair) const {
 
 bool SequenceRecording::atEnd() const {
   return next_pair_ == size() || stamp(next_pair_) > last_;
-}
-
-/// Rectified, if that is asked for.
-StereoPair SequenceRecording::readPair(int index) {
-  StereoPair pair;
-  try {
-    pair = sequence_.read(index);
-  } catch (const std::runtime_error& error) {
-    throw InputError(DropReason::kImageData, error.what());
-  }
-  if (!raw_calibration_) return pair;
-  ReceivedPair raw;
-  raw.images = {toGreyImage({}, pair.left), toGreyImage({}, pair.right)};
-  raw.camera = calibration_.rectified;
-  raw.calibration = raw_calibration_;
-  return converter_.convert(raw);
 }
 
 }  // namespace rotrocc

@@ -51,7 +51,6 @@ class SequenceRecording : public Recording {
   ros::Time stamp(int pair) const;
   RecordedMessage infosOf(int pair) const;
   bool atEnd() const;
-  StereoPair readPair(int pair);
 
   std::string directory_;
   StereoSequence sequence_;

@@ -4,10 +4,8 @@
 #include <stdexcept>
 
 #include <sensor_msgs/point_cloud2_iterator.h>
-#include <tf2_eigen/tf2_eigen.h>
 #include <Eigen/Eigenvalues>
 
-#include "input/message_conversion.h"
 #include "input/to_text.h"
 #include "node/tf/sensor_pose.h"
 
@@ -79,17 +77,6 @@ UncertainTransform toPose(const geometry_msgs::PoseWithCovarianceStamped& messag
   transform.translation.z = pose.position.z;
   transform.rotation = pose.orientation;
   return {toEigen(transform), toCovariance(message.pose.covariance)};
-}
-
-geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& T_parent_child,
-                                            std::int64_t stamp_ns,
-                                            const std::string& parent,
-                                            const std::string& child) {
-  geometry_msgs::TransformStamped message = tf2::eigenToTransform(T_parent_child);
-  message.header.stamp = toRosTime(stamp_ns);
-  message.header.frame_id = parent;
-  message.child_frame_id = child;
-  return message;
 }
 
 sensor_msgs::PointCloud2 toPointCloud(const Correspondences& features,

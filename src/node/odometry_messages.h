@@ -1,16 +1,15 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
-#include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/Header.h>
 #include <opencv2/core.hpp>
 
+#include "input/message_conversion.h"
 #include "node/base/base_odometry.h"
 #include "rotrocc/visual_odometry.h"
 
@@ -27,12 +26,6 @@ geometry_msgs::TwistWithCovarianceStamped toTwist(const StepVelocity& velocity,
 /// odom_frame or empty, or it is not a pose with a covariance.
 UncertainTransform toPose(const geometry_msgs::PoseWithCovarianceStamped& message,
                           const std::string& odom_frame);
-
-/// T_parent_child as tf message.
-geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& T_parent_child,
-                                            std::int64_t stamp_ns,
-                                            const std::string& parent,
-                                            const std::string& child);
 
 /// The points of the features in `set`, in the frame of the header, which must be the left
 /// camera's: x, y, z [m] and the intensity of the image there, all FLOAT32.
