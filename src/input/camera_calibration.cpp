@@ -155,13 +155,6 @@ bool areSame(const Numbers& a, const Numbers& b) {
   });
 }
 
-/// Whether two messages describe the same camera, up to what no pixel shows.
-bool isSameCamera(const Info& a, const Info& b) {
-  return a.width == b.width && a.height == b.height && a.distortion_model == b.distortion_model &&
-         areSame(a.D, b.D) && areSame(a.K, b.K) && areSame(a.R, b.R) && areSame(a.P, b.P) &&
-         a.binning_x == b.binning_x && a.binning_y == b.binning_y && a.roi == b.roi;
-}
-
 }  // namespace
 
 StereoCamera toStereoCamera(const Info& left_info, const Info& right_info, double baseline_m) {
@@ -215,16 +208,10 @@ StereoCalibration toStereoCalibration(const Info& left, const Info& right, doubl
           rectified};
 }
 
-const std::shared_ptr<const StereoCalibration>& CurrentCalibration::of(
-    const Info::ConstPtr& left, const Info::ConstPtr& right) {
-  const bool is_current =
-      calibration_ && isSameCamera(*left, *left_) && isSameCamera(*right, *right_);
-  if (is_current) return calibration_;
-  calibration_ =
-      std::make_shared<const StereoCalibration>(toStereoCalibration(*left, *right, baseline_m_));
-  left_ = left;
-  right_ = right;
-  return calibration_;
+bool isSameCamera(const Info& a, const Info& b) {
+  return a.width == b.width && a.height == b.height && a.distortion_model == b.distortion_model &&
+         areSame(a.D, b.D) && areSame(a.K, b.K) && areSame(a.R, b.R) && areSame(a.P, b.P) &&
+         a.binning_x == b.binning_x && a.binning_y == b.binning_y && a.roi == b.roi;
 }
 
 }  // namespace rotrocc

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <string>
 #include <utility>
 
@@ -37,24 +36,7 @@ StereoCalibration toStereoCalibration(const sensor_msgs::CameraInfo& left,
 std::pair<sensor_msgs::CameraInfo, sensor_msgs::CameraInfo> toCameraInfos(
     const StereoCalibration& calibration);
 
-/// The calibration of the latest messages. Cameras send them with each image, but hardly ever
-/// change.
-class CurrentCalibration {
- public:
-  explicit CurrentCalibration(double baseline_m) : baseline_m_(baseline_m) {}
-
-  /// The same object as long as the messages describe the same cameras. Throws as
-  /// toStereoCalibration().
-  const std::shared_ptr<const StereoCalibration>& of(
-      const sensor_msgs::CameraInfo::ConstPtr& left,
-      const sensor_msgs::CameraInfo::ConstPtr& right);
-
- private:
-  double baseline_m_;
-  std::shared_ptr<const StereoCalibration> calibration_;
-  // The messages that it is made of.
-  sensor_msgs::CameraInfo::ConstPtr left_;
-  sensor_msgs::CameraInfo::ConstPtr right_;
-};
+/// Whether two messages describe the same camera, up to what no pixel shows.
+bool isSameCamera(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo& b);
 
 }  // namespace rotrocc

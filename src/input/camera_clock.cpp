@@ -65,7 +65,16 @@ CameraClock::Verdict CameraClock::judge(std::int64_t stamp_ns, const Arrival& ar
   verdict.held_is_valid = !continued && held_ && stamp_ns > held_->stamp_ns &&
                           image.ahead_ns() - held_->ahead_ns() <= periods_ns(kTolerance);
   verdict.held = !continued && !verdict.held_is_valid;
-  if (held_ && !verdict.held_is_valid) verdict.glitch = glitch();
+  if (held_ && !verdict.held_is_valid) {
+    const std::int64_t off_ns = held_->stamp_ns - *lastStamp_ns();
+    verdict.glitch = InputError(
+        DropReason::kStampGlitch,
+        images_ + " had the stamp " + stampText(held_->stamp_ns) + " s, " +
+            toText(1e-3 * static_cast<double>(std::abs(off_ns) / 1'000'000)) +
+            (off_ns > 0 ? " s after" : " s before") +
+            " the previous one, but the next one did not follow it: a glitch; check where the "
+            "driver takes header.stamp from");
+  }
   if (continued) held_.reset();
   if (verdict.held) held_ = image;
   return verdict;
@@ -102,16 +111,6 @@ std::int64_t CameraClock::usualAhead_ns() const {
 
 double CameraClock::periods_ns(double count) const {
   return count * static_cast<double>(period_ns_.value_or(kUnknownPeriod_ns));
-}
-
-InputError CameraClock::glitch() const {
-  const std::int64_t off_ns = held_->stamp_ns - *lastStamp_ns();
-  return InputError(DropReason::kStampGlitch,
-                    images_ + " had the stamp " + stampText(held_->stamp_ns) + " s, " +
-                        toText(1e-3 * static_cast<double>(std::abs(off_ns) / 1'000'000)) +
-                        (off_ns > 0 ? " s after" : " s before") +
-                        " the previous one, but the next one did not follow it: a glitch; check "
-                        "where the driver takes header.stamp from");
 }
 
 void CameraClock::add(std::int64_t stamp_ns, const Arrival& arrival) {

@@ -81,7 +81,6 @@ class CameraClock {
   bool goesBack(const Image& image);
   std::int64_t usualAhead_ns() const;
   double periods_ns(double count) const;
-  InputError glitch() const;
 
   std::string images_;
   std::deque<Image> latest_;

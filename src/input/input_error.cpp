@@ -36,6 +36,12 @@ const char* toString(DropReason reason) {
   return kNames[static_cast<std::size_t>(reason)];
 }
 
+std::uint64_t totalOf(const DropCounts& counts) {
+  std::uint64_t total = 0;
+  for (const auto& [reason, count] : counts) total += count;
+  return total;
+}
+
 void DropLog::add(const InputError& error) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++counts_[error.reason()];
@@ -66,13 +72,7 @@ void DropLog::set(DropReason reason, std::uint64_t count) {
   if (count > 0) counts_[reason] = count;
 }
 
-std::uint64_t DropLog::total() const {
-  std::uint64_t total = 0;
-  for (const auto& [reason, count] : counts()) total += count;
-  return total;
-}
-
-DropLog::Counts DropLog::counts() const {
+DropCounts DropLog::counts() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return counts_;
 }

@@ -52,12 +52,15 @@ class InputError : public std::invalid_argument {
   DropReason reason_;
 };
 
+using DropCounts = std::map<DropReason, std::uint64_t>;
+
+/// The number of drops of all reasons.
+std::uint64_t totalOf(const DropCounts& counts);
+
 /// Counts dropped input by reason and logs it: each reason at once, then more and more seldom,
 /// an invalid camera_info once until there is a valid one. Thread-safe.
 class DropLog {
  public:
-  using Counts = std::map<DropReason, std::uint64_t>;
-
   explicit DropLog(Log log = Log()) : log_(std::move(log)) {}
 
   void add(const InputError& error);
@@ -66,11 +69,8 @@ class DropLog {
   void count(DropReason reason, std::uint64_t count = 1);
   void set(DropReason reason, std::uint64_t count);
 
-  /// All drops.
-  std::uint64_t total() const;
-
   /// Of the reasons that have occurred.
-  Counts counts() const;
+  DropCounts counts() const;
 
   /// The last drop, if it is not older than `age`.
   std::optional<InputError> lastWithin(std::chrono::duration<double> age) const;
@@ -83,7 +83,7 @@ class DropLog {
 
   Log log_;
   mutable std::mutex mutex_;
-  Counts counts_;
+  DropCounts counts_;
   std::map<DropReason, Throttle> throttles_;
   Throttle camera_throttle_{std::chrono::seconds(1)};
   std::string camera_error_;

@@ -34,8 +34,7 @@ class TopicStatistics {
   }
 
   std::uint64_t total() const { return total_; }
-  /// Arrival of the last message, and of the first one of its run; there must be one.
-  Time lastArrival() const { return arrivals_.back(); }
+  /// Arrival of the first message of the present run; there must be one.
   Time startOfRun() const { return start_of_run_; }
   /// Seconds since the last message; none if there was none.
   std::optional<double> silent_s(Time now) const {

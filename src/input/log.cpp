@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <mutex>
+
+#include <boost/algorithm/string/classification.hpp>
+#include <boost/range/algorithm_ext/erase.hpp>
 
 namespace rotrocc {
 namespace {
@@ -25,12 +27,8 @@ LogLocation& locationOf(const std::string& name, Log::Level level) {
 }
 
 /// A fault without its numbers.
-std::string causeOf(const std::string& fault) {
-  std::string cause;
-  for (const char c : fault) {
-    if (std::isdigit(static_cast<unsigned char>(c)) == 0) cause += c;
-  }
-  return cause;
+std::string causeOf(std::string fault) {
+  return boost::range::remove_erase_if(fault, boost::algorithm::is_digit());
 }
 
 }  // namespace

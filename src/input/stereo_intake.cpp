@@ -26,12 +26,12 @@ sensor_msgs::CameraInfo::ConstPtr infoAt(
 }
 
 TopicReport reportOf(const TopicStatistics& statistics, TopicStatistics::Time now) {
-  TopicReport report;
-  report.recent = statistics.recent(now);
-  report.total = statistics.total();
-  report.rate_hz = statistics.rate_hz(now);
-  report.silent_s = statistics.silent_s(now);
-  return report;
+  return {"",
+          0,
+          statistics.recent(now),
+          statistics.total(),
+          statistics.rate_hz(now),
+          statistics.silent_s(now)};
 }
 
 }  // namespace
@@ -45,8 +45,7 @@ StereoIntake::StereoIntake(const NodeParameters& parameters,
       on_pair_(std::move(on_pair)),
       log_(std::move(log)),
       synchronizer_(parameters.max_stamp_difference_s,
-                    static_cast<std::size_t>(parameters.queue_size)),
-      current_calibration_(parameters.baseline_m) {}
+                    static_cast<std::size_t>(parameters.queue_size)) {}
 
 void StereoIntake::addImage(Side side,
                             const sensor_msgs::Image::ConstPtr& image,
@@ -107,7 +106,14 @@ void StereoIntake::use(const Info& left, const Info& right) {
   left_info_ = left;
   right_info_ = right;
   try {
-    if (parameters_.rectify) calibration_ = current_calibration_.of(left, right);
+    const bool is_new = !calibration_ || !isSameCamera(*left, *calibrated_left_) ||
+                        !isSameCamera(*right, *calibrated_right_);
+    if (parameters_.rectify && is_new) {
+      calibration_ = std::make_shared<const StereoCalibration>(
+          toStereoCalibration(*left, *right, parameters_.baseline_m));
+      calibrated_left_ = left;
+      calibrated_right_ = right;
+    }
     camera_ = toStereoCamera(*left, *right, parameters_.baseline_m);
     camera_error_.clear();
     drops_.forgetCameraError();
@@ -152,7 +158,16 @@ InputReport StereoIntake::report(std::chrono::steady_clock::time_point now) cons
   report.right_info = reportOf(right_.info_statistics, now);
   report.recent_pairs = pairs_.recent(now);
   report.pairs_silent_s = pairs_.silent_s(now);
-  addStamps(report);
+  const CameraClock& left = synchronizer_.clock(Side::kLeft);
+  const CameraClock& right = synchronizer_.clock(Side::kRight);
+  const auto period_ns = synchronizer_.period_ns();
+  if (period_ns) report.period_s = toSeconds(*period_ns);
+  report.skew = skewOf(left.stamps_ns(), right.stamps_ns(), period_ns);
+  report.max_stamp_difference_s = parameters_.max_stamp_difference_s;
+  report.tolerance_s = toSeconds(synchronizer_.tolerance_ns());
+  report.stamp_age_s = left.age_s();
+  report.stamp_scatter_s = left.stampScatter_s();
+  report.arrival_scatter_s = left.arrivalScatter_s();
   if (left_.image_statistics.total() > 0 && right_.image_statistics.total() > 0) {
     const auto begin = std::max({now - TopicStatistics::kWindow,
                                  left_.image_statistics.startOfRun(),
@@ -168,19 +183,6 @@ InputReport StereoIntake::report(std::chrono::steady_clock::time_point now) cons
   }
   report.waits_for_info = waiting_.has_value();
   return report;
-}
-
-void StereoIntake::addStamps(InputReport& report) const {
-  const CameraClock& left = synchronizer_.clock(Side::kLeft);
-  const CameraClock& right = synchronizer_.clock(Side::kRight);
-  const auto period_ns = synchronizer_.period_ns();
-  if (period_ns) report.period_s = toSeconds(*period_ns);
-  report.skew = skewOf(left.stamps_ns(), right.stamps_ns(), period_ns);
-  report.max_stamp_difference_s = parameters_.max_stamp_difference_s;
-  report.tolerance_s = toSeconds(synchronizer_.tolerance_ns());
-  report.stamp_age_s = left.age_s();
-  report.stamp_scatter_s = left.stampScatter_s();
-  report.arrival_scatter_s = left.arrivalScatter_s();
 }
 
 }  // namespace rotrocc

@@ -72,7 +72,6 @@ class StereoIntake {
   void use(const Info& left, const Info& right);
   void handOver();
   void tell(const StereoCamera& camera);
-  void addStamps(InputReport& report) const;
 
   NodeParameters parameters_;
   DropLog& drops_;
@@ -83,11 +82,11 @@ class StereoIntake {
   StereoSynchronizer synchronizer_;
   std::optional<ReceivedPair> waiting_;
 
-  Info left_info_, right_info_;  // that camera and calibration are from
+  Info left_info_, right_info_;  // that the camera is from
   std::optional<StereoCamera> camera_;
-  StereoCamera told_camera_;  // by the log
-  CurrentCalibration current_calibration_;
+  StereoCamera told_camera_;                              // by the log
   std::shared_ptr<const StereoCalibration> calibration_;  // null if the images are rectified
+  Info calibrated_left_, calibrated_right_;               // that it is from
   std::string camera_error_;
   TopicStatistics pairs_;
 };

@@ -9,6 +9,7 @@
 
 #include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/image_encodings.h>
+#include <boost/algorithm/string/replace.hpp>
 #include <boost/make_shared.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -182,9 +183,8 @@ cv::Mat toGrey(const std::string& side, const cv_bridge::CvImage& image, int sig
   }
 }
 
-std::string pathOfSide(std::string path, const std::string& side) {
-  const std::size_t place = path.find("%s");
-  return place == std::string::npos ? path : path.replace(place, 2, side);
+std::string pathOfSide(const std::string& path, const std::string& side) {
+  return boost::algorithm::replace_first_copy(path, "%s", side);
 }
 
 /// 255 where the image is not black, 0 elsewhere.

@@ -13,9 +13,9 @@ namespace rotrocc {
 
 /// A number as a stream prints it: 0.54, not 0.540000.
 template <class Number>
-std::string toText(Number value) {
+std::string toText(Number value, int digits = 6) {
   std::ostringstream text;
-  text << value;
+  text << std::setprecision(digits) << value;
   return text.str();
 }
 
@@ -26,9 +26,7 @@ inline std::string hundredths(double value) {
 
 /// A number with all its digits, so that it can be read back.
 inline std::string exactText(double value) {
-  std::ostringstream text;
-  text << std::setprecision(std::numeric_limits<double>::max_digits10) << value;
-  return text.str();
+  return toText(value, std::numeric_limits<double>::max_digits10);
 }
 
 /// A number with so many digits behind the point.

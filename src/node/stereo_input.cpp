@@ -42,7 +42,7 @@ StereoInput::StereoInput(ros::NodeHandle& nh,
           drops,
           [this, &drops, on_pair = std::move(on_pair)](ReceivedPair pair) {
             const std::int64_t stamp_ns = toNanoseconds(pair.images.left->header.stamp);
-            silence_.onPair(stamp_ns, pair.stamp_age_s, drops.total(), now().time);
+            silence_.onPair(stamp_ns, pair.stamp_age_s, totalOf(drops.counts()), now().time);
             on_pair(std::move(pair));
           },
           log),

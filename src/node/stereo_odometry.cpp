@@ -30,8 +30,8 @@ constexpr double kUnlimited_s = std::numeric_limits<double>::infinity();
 /// Period of diagnostics (REP 107).
 constexpr double kTick_s = 1.0;
 
-double milliseconds(SteadyClock::duration duration) {
-  return std::chrono::duration<double, std::milli>(duration).count();
+float milliseconds(SteadyClock::duration duration) {
+  return std::chrono::duration<float, std::milli>(duration).count();
 }
 
 }  // namespace
@@ -140,26 +140,31 @@ void StereoOdometry::process(const ReceivedPair& received) {
   // Before the odometry is sent: who has received it can save its pose.
   trajectory_.add({answer.state.stamp_ns, answer.state.T_first_camera}, answer.starts_trajectory);
   const Time ready = SteadyClock::now();
-  const Time sent = publish(answer);
+  std::optional<Eigen::Isometry3d> T_guess_base;
+  if (guess_) T_guess_base = guess_->moveTo(answer.result.stamp_ns);
+  const bool is_lost = answer.result.state == State::kLost;
+  const Time sent = publisher_.publishMotion(answer.state, is_lost, T_guess_base);
   PairReport known;
   known.result = answer.result;
-  known.camera_frame = pair->camera_frame;
-  known.stamp_age_s = received.stamp_age_s;
-  PairTimes& times = known.times;
-  times.pairing_ms = milliseconds(received.arrival - received.images.first_arrival);
-  times.waiting_ms = milliseconds(received.taken - received.arrival);
-  times.conversion_ms = milliseconds(pair->converted - received.taken);
-  times.tf_ms = milliseconds(pair->complete - pair->converted);
-  times.overhead_ms = milliseconds(ready - pair->complete) - answer.result.times.total_ms;
-  times.publishing_ms = milliseconds(sent - ready);
-  times.latency_ms = milliseconds(sent - received.arrival);
+  OdometryStatus& status = known.status;
+  status.header.frame_id = pair->camera_frame;
+  status.stamp_age_s = static_cast<float>(received.stamp_age_s);
+  status.pairing_ms = milliseconds(received.arrival - received.images.first_arrival);
+  status.waiting_ms = milliseconds(received.taken - received.arrival);
+  status.conversion_ms = milliseconds(pair->converted - received.taken);
+  status.tf_ms = milliseconds(pair->complete - pair->converted);
+  status.overhead_ms =
+      milliseconds(ready - pair->complete) - static_cast<float>(answer.result.times.total_ms);
+  status.publishing_ms = milliseconds(sent - ready);
+  status.latency_ms = milliseconds(sent - received.arrival);
   report(pair->in, answer, std::move(known));
   processor_.prepare();
   publisher_.publishPictures(pair->in, answer.result, processor_.odometry(), pair->camera_frame);
 }
 
 /// All that is known of a pair; nothing if it is dropped. The only place where a pair waits: for tf
-/// and for the gyroscope. A first pair waits for the vertical, too, or gives way to a newer one.
+/// and for the gyroscope. One without any pose of the camera in tf, and a first one without the
+/// vertical, give way to a newer one.
 std::optional<StereoOdometry::Gathered> StereoOdometry::gather(const ReceivedPair& received) {
   const WaitFor wait = [this](double limit_s, const std::function<bool()>& condition) {
     return waitFor(limit_s, condition);
@@ -177,8 +182,16 @@ std::optional<StereoOdometry::Gathered> StereoOdometry::gather(const ReceivedPai
   in.is_simulated = ros::Time::isSimTime();
   const std::int64_t stamp_ns = in.pair.stamp_ns;
   tf_.follow(stamp_ns);
-  const auto T_base_camera = findCamera(pair.camera_frame, stamp_ns, wait);
-  if (!T_base_camera) return std::nullopt;
+  std::optional<Eigen::Isometry3d> T_base_camera;  // nothing if the camera moves and tf is late
+  wait(kUnlimited_s, [&] {
+    T_base_camera = camera_pose_.find(pair.camera_frame, stamp_ns, wait);
+    health_.setWaitsForTf(camera_pose_.missing());
+    return camera_pose_.missing().empty() || mailbox_.hasItem();
+  });
+  if (!T_base_camera) {
+    if (isRunning()) drops_.count(DropReason::kTfMissing);
+    return std::nullopt;
+  }
   in.T_base_camera = *T_base_camera;
   if (gyro_) {
     bool gives_way = false;
@@ -202,29 +215,6 @@ std::optional<StereoOdometry::Gathered> StereoOdometry::gather(const ReceivedPai
   return pair;
 }
 
-/// The pose of the camera. A pair waits for one that tf does not have at all until a newer pair
-/// comes; nothing then, or if the camera moves and tf is late.
-std::optional<Eigen::Isometry3d> StereoOdometry::findCamera(const std::string& frame,
-                                                            std::int64_t stamp_ns,
-                                                            const WaitFor& wait) {
-  std::optional<Eigen::Isometry3d> T_base_camera;
-  wait(kUnlimited_s, [&] {
-    T_base_camera = camera_pose_.find(frame, stamp_ns, wait);
-    health_.setWaitsForTf(camera_pose_.missing());
-    return camera_pose_.missing().empty() || mailbox_.hasItem();
-  });
-  if (!T_base_camera && isRunning()) drops_.count(DropReason::kTfMissing);
-  return T_base_camera;
-}
-
-/// Sends tf and odometry. Returns when the odometry was sent.
-StereoOdometry::Time StereoOdometry::publish(const PairAnswer& answer) {
-  std::optional<Eigen::Isometry3d> T_guess_base;
-  if (guess_) T_guess_base = guess_->moveTo(answer.result.stamp_ns);
-  const bool is_lost = answer.result.state == State::kLost;
-  return publisher_.publishMotion(answer.state, is_lost, T_guess_base);
-}
-
 /// All that the odometry of the pair need not wait for.
 void StereoOdometry::report(const PairInput& in, const PairAnswer& answer, PairReport report) {
   report.camera_fault = processor_.inspect(in, answer.result);
@@ -233,9 +223,9 @@ void StereoOdometry::report(const PairInput& in, const PairAnswer& answer, PairR
     const std::string& problem = guess_->problem();
     if (!report.tf_problem.empty() && !problem.empty()) report.tf_problem += "; ";
     report.tf_problem += problem;
-    report.guess_misses = guess_->misses();
+    report.status.guess_misses = guess_->misses();
   }
-  if (gyro_) report.gyro = gyro_->observe(answer.result);
+  if (gyro_) gyro_->observe(answer.result, report.status);
   publisher_.publishStatus(toStatus(health_.addPair(report, drops_)));
   publisher_.publishPath(answer.state, answer.starts_trajectory);
   loss_log_.observe(answer.result, report.camera_fault);

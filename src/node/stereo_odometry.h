@@ -66,10 +66,6 @@ class StereoOdometry {
   void work();
   void process(const ReceivedPair& received);
   std::optional<Gathered> gather(const ReceivedPair& received);
-  std::optional<Eigen::Isometry3d> findCamera(const std::string& frame,
-                                              std::int64_t stamp_ns,
-                                              const WaitFor& wait);
-  Time publish(const PairAnswer& answer);
   void report(const PairInput& in, const PairAnswer& answer, PairReport report);
   bool waitFor(double limit_s, const std::function<bool()>& condition) const;
   bool isRunning() const;

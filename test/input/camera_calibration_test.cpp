@@ -4,7 +4,6 @@
 #include <limits>
 
 #include <gtest/gtest.h>
-#include <boost/make_shared.hpp>
 
 #include "input/input_error.h"
 #include "support/expect_error.h"
@@ -101,55 +100,48 @@ TEST(StereoCameraConversionTest, RefusesWhatIsNoRectifiedCamera) {
 }
 
 /// Of a camera that is not rectified, at a time of its own.
-boost::shared_ptr<Info> makeInfo(double stamp_s, double baseline_m) {
-  const auto info = boost::make_shared<Info>();
-  info->header.stamp = ros::Time(stamp_s);
-  info->width = 620;
-  info->height = 188;
-  info->distortion_model = "plumb_bob";
-  info->D = {-0.3, 0.1, 0.0, 0.0, 0.0};
-  info->K = {350, 0, 300, 0, 350, 90, 0, 0, 1};
-  info->R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  info->P = {360, 0, 310, -360 * baseline_m, 0, 360, 94, 0, 0, 0, 1, 0};
+Info makeInfo(double stamp_s, double baseline_m) {
+  Info info;
+  info.header.stamp = ros::Time(stamp_s);
+  info.width = 620;
+  info.height = 188;
+  info.distortion_model = "plumb_bob";
+  info.D = {-0.3, 0.1, 0.0, 0.0, 0.0};
+  info.K = {350, 0, 300, 0, 350, 90, 0, 0, 1};
+  info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  info.P = {360, 0, 310, -360 * baseline_m, 0, 360, 94, 0, 0, 0, 1, 0};
   return info;
 }
 
-TEST(CurrentCalibrationTest, IsTheSameUntilACameraChanges) {
-  CurrentCalibration current(0.0);
-  const auto right = makeInfo(1.0, 0.5);
-  const auto first = current.of(makeInfo(1.0, 0.0), right);
-  EXPECT_EQ(first->left.fx, 350.0);
-  EXPECT_EQ(first->rectified.baseline_m, 0.5);
-  EXPECT_EQ(current.of(makeInfo(2.0, 0.0), makeInfo(2.0, 0.5)), first);
-  const auto refined = makeInfo(2.5, 0.5);
-  refined->K[0] *= 1.0 + 1e-9;
-  EXPECT_EQ(current.of(makeInfo(2.5, 0.0), refined), first) << "the same for each pixel";
-  const auto changed = makeInfo(3.0, 0.5);
-  changed->D[0] = -0.2;
-  const auto second = current.of(makeInfo(3.0, 0.0), changed);
-  EXPECT_NE(second, first);
-  EXPECT_EQ(second->right.distortion.coefficients()[0], -0.2);
-  EXPECT_EQ(first->right.distortion.coefficients()[0], -0.3);
+TEST(SameCameraTest, DiffersByMoreThanTheStampAndWhatNoPixelShows) {
+  const Info info = makeInfo(1.0, 0.5);
+  Info other = makeInfo(2.0, 0.5);
+  EXPECT_TRUE(isSameCamera(info, other));
+  other.K[0] *= 1.0 + 1e-9;
+  EXPECT_TRUE(isSameCamera(info, other));
+  other.D[0] = -0.2;
+  EXPECT_FALSE(isSameCamera(info, other));
 }
 
-TEST(CurrentCalibrationTest, ALensWithoutAModelDistortsNothing) {
-  CurrentCalibration current(0.0);
-  const auto left = makeInfo(1.0, 0.0);
-  left->distortion_model.clear();
-  left->D.clear();
-  EXPECT_TRUE(current.of(left, makeInfo(1.0, 0.5))->left.distortion.isNone());
+TEST(StereoCalibrationTest, HasTheLensesAndTheRectifiedCamera) {
+  const StereoCalibration calibration = toStereoCalibration(makeInfo(1.0, 0.0), makeInfo(1.0, 0.5));
+  EXPECT_EQ(calibration.left.fx, 350.0);
+  EXPECT_EQ(calibration.right.distortion.coefficients()[0], -0.3);
+  EXPECT_EQ(calibration.rectified.baseline_m, 0.5);
 }
 
-TEST(CurrentCalibrationTest, OutlivesAnInvalidMessage) {
-  CurrentCalibration current(0.2);
-  const auto left = makeInfo(1.0, 0.0);
-  const auto invalid = makeInfo(1.0, 0.5);
-  invalid->K[4] = std::numeric_limits<double>::quiet_NaN();
-  for (int i = 0; i < 2; ++i) {
-    expectError<InputError>([&] { current.of(left, invalid); },
-                            "K of the right camera_info has focal lengths 350 and nan px");
-  }
-  EXPECT_EQ(current.of(left, makeInfo(1.0, 0.5))->rectified.baseline_m, 0.2);
+TEST(StereoCalibrationTest, ALensWithoutAModelDistortsNothing) {
+  Info left = makeInfo(1.0, 0.0);
+  left.distortion_model.clear();
+  left.D.clear();
+  EXPECT_TRUE(toStereoCalibration(left, makeInfo(1.0, 0.5)).left.distortion.isNone());
+}
+
+TEST(StereoCalibrationTest, NeedsFocalLengths) {
+  Info invalid = makeInfo(1.0, 0.5);
+  invalid.K[4] = std::numeric_limits<double>::quiet_NaN();
+  expectError<InputError>([&] { toStereoCalibration(makeInfo(1.0, 0.0), invalid, 0.2); },
+                          "K of the right camera_info has focal lengths 350 and nan px");
 }
 
 }  // namespace

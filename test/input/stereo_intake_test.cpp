@@ -13,7 +13,7 @@ namespace rotrocc {
 namespace {
 
 using Side = StereoIntake::Side;
-using Counts = DropLog::Counts;
+using Counts = DropCounts;
 using PairStamps = std::vector<int>;
 
 constexpr double kPeriod_s = 0.1;
@@ -22,13 +22,22 @@ constexpr double kNow_s = 1000.0;
 /// A rig at 10 Hz whose messages arrive as soon as they are taken, unless a test says otherwise.
 class StereoIntakeTest : public testing::Test {
  protected:
-  StereoIntakeTest() { infos(0.0); }
+  explicit StereoIntakeTest(const NodeParameters& parameters = {})
+      : intake_(parameters, drops_, [this](const ReceivedPair& pair) {
+          const double stamp_s = pair.images.left->header.stamp.toSec() - kNow_s;
+          stamps_ms_.push_back(static_cast<int>(std::lround(1e3 * stamp_s)));
+          last_pair_ = pair;
+        }) {
+    infos(0.0);
+  }
 
   void info(Side side, double off_s, double baseline_m) {
     const auto info = boost::make_shared<sensor_msgs::CameraInfo>();
     info->header.stamp = ros::Time(kNow_s + time_s_ + off_s);
     info->width = 620;
     info->height = 188;
+    info->K = {350, 0, 310, 0, 350, 94, 0, 0, 1};
+    info->R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     info->P = {360, 0, 310, -360 * baseline_m, 0, 360, 94, 0, 0, 0, 1, 0};
     intake_.addInfo(side, info, arrival());
   }
@@ -64,11 +73,7 @@ class StereoIntakeTest : public testing::Test {
   PairStamps stamps_ms_;  // of the pairs, since the start
   ReceivedPair last_pair_;
   DropLog drops_;
-  StereoIntake intake_{NodeParameters(), drops_, [this](const ReceivedPair& pair) {
-                         const double stamp_s = pair.images.left->header.stamp.toSec() - kNow_s;
-                         stamps_ms_.push_back(static_cast<int>(std::lround(1e3 * stamp_s)));
-                         last_pair_ = pair;
-                       }};
+  StereoIntake intake_;
 };
 
 TEST_F(StereoIntakeTest, APairGoesOutWithItsSecondImage) {
@@ -84,7 +89,7 @@ TEST_F(StereoIntakeTest, APairGoesOutWithItsSecondImage) {
     EXPECT_EQ(last_pair_.arrival, arrival().time);
     time_s_ += kPeriod_s;
   }
-  EXPECT_EQ(drops_.total(), 0u);
+  EXPECT_TRUE(drops_.counts().empty());
 }
 
 /// What was dropped for its stamp had a partner.
@@ -147,7 +152,32 @@ TEST_F(StereoIntakeTest, APairGetsTheInfosOfItsStamp) {
   infos(-5.0);
   pair();
   EXPECT_EQ(stamps_ms_.size(), 6u);
-  EXPECT_EQ(drops_.total(), 0u);
+  EXPECT_TRUE(drops_.counts().empty());
+}
+
+NodeParameters withRectify() {
+  NodeParameters parameters;
+  parameters.rectify = true;
+  return parameters;
+}
+
+class RawStereoIntakeTest : public StereoIntakeTest {
+ protected:
+  RawStereoIntakeTest() : StereoIntakeTest(withRectify()) {}
+};
+
+TEST_F(RawStereoIntakeTest, PairsHaveTheSameCalibrationUntilACameraChanges) {
+  pair();
+  const auto first = last_pair_.calibration;
+  ASSERT_TRUE(first);
+  infos(0.0);
+  pair();
+  EXPECT_EQ(last_pair_.calibration, first);
+  infos(0.0, 0.4);
+  pair();
+  EXPECT_NE(last_pair_.calibration, first);
+  EXPECT_NEAR(last_pair_.calibration->rectified.baseline_m, 0.4, 1e-12);
+  EXPECT_NEAR(first->rectified.baseline_m, 0.5, 1e-12);
 }
 
 }  // namespace

@@ -237,7 +237,7 @@ TEST(DiagnosticsTest, SlownessDropsAndFaultsOfTfAreWarnings) {
   expectEntry(describeTf, conflict, Level::WARN, conflict.tf_conflict);
   HealthReport guess = goodReport();
   guess.pair.tf_problem = "no tf from guess_frame wheel_odom";
-  guess.pair.guess_misses = 7;
+  guess.pair.status.guess_misses = 7;
   status = expectEntry(describeTf, guess, Level::WARN, guess.pair.tf_problem);
   EXPECT_EQ(valueOf(status, "pairs without the motion of guess_frame"), "7");
 }
@@ -292,7 +292,7 @@ TEST(OdometryHealthTest, CountsAnswersTheirLatencyAndDrops) {
   drops.count(DropReason::kStampZero, 5);
   PairReport pair;  // lost
   for (int i = 1; i <= 100; ++i) {
-    pair.times.latency_ms = i;
+    pair.status.latency_ms = static_cast<float>(i);
     EXPECT_EQ(health.addPair(pair, drops).pairs_lost, static_cast<std::uint64_t>(i));
   }
   const HealthReport report = health.report({}, drops);
@@ -312,11 +312,13 @@ TEST(StatusTest, HasAllOfAPairAndWithoutOneTheStateHintAndCounters) {
   report.pairs_lost = 7;
   report.drops = {{DropReason::kStampZero, 5}};
   PairReport& pair = report.pair;
-  pair.camera_frame = "camera";
+  pair.status.header.frame_id = "camera";
   pair.camera_fault = "frozen?";
-  pair.guess_misses = 3;
-  pair.gyro = {"no message on /imu", 1, 2};
-  pair.times.latency_ms = 12.0;
+  pair.status.guess_misses = 3;
+  pair.status.imu_reason = "no message on /imu";
+  pair.status.rotations_predicted = 1;
+  pair.status.rotations_missed = 2;
+  pair.status.latency_ms = 12.0f;
   OdometryResult& result = pair.result;
   result.stamp_ns = 5'000'000'000;
   result.dt_s = 0.1;

@@ -32,11 +32,6 @@ GyroInput::GyroInput(const ros::NodeHandle& nh,
   callbacks_.start();
 }
 
-GyroInput::~GyroInput() {
-  subscriber_.shutdown();
-  callbacks_.stop();
-}
-
 void GyroInput::receive(const sensor_msgs::Imu& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (message.header.stamp.isZero()) {
@@ -115,7 +110,7 @@ std::optional<Eigen::Vector3d> GyroInput::up(std::int64_t stamp_ns) {
   return std::nullopt;
 }
 
-GyroReport GyroInput::observe(const OdometryResult& result) {
+void GyroInput::observe(const OdometryResult& result, OdometryStatus& status) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const std::int64_t from_ns = result.stamp_ns - std::llround(1e9 * result.dt_s);
   if (!whyNoPose(from_ns, result.stamp_ns)) predictor_.observe(result);
@@ -127,8 +122,9 @@ GyroReport GyroInput::observe(const OdometryResult& result) {
                           base_frame_ + ")");
     }
   }
-  return {
-      predictor_.whyNot().value_or(""), predictor_.counts().predicted, predictor_.counts().missed};
+  status.imu_reason = predictor_.whyNot().value_or("");
+  status.rotations_predicted = predictor_.counts().predicted;
+  status.rotations_missed = predictor_.counts().missed;
 }
 
 void GyroInput::describe(StatusWrapper& status) const {

@@ -42,9 +42,6 @@ class GyroInput {
             const tf2::BufferCore& tf,
             const NodeParameters& parameters,
             Log log);
-  ~GyroInput();
-  GyroInput(const GyroInput&) = delete;
-  GyroInput& operator=(const GyroInput&) = delete;
 
   // For one thread:
 
@@ -65,8 +62,8 @@ class GyroInput {
   /// The vertical in axes of the camera at a pair, if it is known. Logs why not.
   std::optional<Eigen::Vector3d> up(std::int64_t stamp_ns);
 
-  /// To be called with the result of each pair.
-  GyroReport observe(const OdometryResult& result);
+  /// To be called with the result of each pair. Sets what the status says of rotations.
+  void observe(const OdometryResult& result, OdometryStatus& status);
   /// The entry of /diagnostics.
   void describe(StatusWrapper& status) const;
 
@@ -88,7 +85,7 @@ class GyroInput {
   bool was_asked_ = false;  // for the rotation of this pair
 
   CallbackThread callbacks_;
-  ros::Subscriber subscriber_;
+  ros::Subscriber subscriber_;  // last, so that callbacks end before the others are destroyed
 };
 
 }  // namespace rotrocc

@@ -26,12 +26,6 @@ unsigned char levelOf(std::uint8_t state) {
   }
 }
 
-std::uint64_t countDrops(const HealthReport& report) {
-  std::uint64_t total = 0;
-  for (const auto& [reason, count] : report.drops) total += count;
-  return total;
-}
-
 }  // namespace
 
 void describeOdometry(const HealthReport& report, StatusWrapper& status) {
@@ -139,11 +133,11 @@ void describeTf(const HealthReport& report, StatusWrapper& status) {
   if (!report.pair.tf_problem.empty()) {
     status.mergeSummary(DiagnosticStatus::WARN, report.pair.tf_problem);
   }
-  status.add("pairs without the motion of guess_frame", report.pair.guess_misses);
+  status.add("pairs without the motion of guess_frame", report.pair.status.guess_misses);
 }
 
 void describeDrops(const HealthReport& report, std::uint64_t drops_before, StatusWrapper& status) {
-  const std::uint64_t total = countDrops(report);
+  const std::uint64_t total = totalOf(report.drops);
   if (total > drops_before) {
     status.summaryf(DiagnosticStatus::WARN,
                     "%llu more dropped since the last report",
@@ -202,7 +196,7 @@ void Diagnostics::publish(const HealthReport& report) {
   published_ = now;
   report_ = report;
   updater_.force_update();
-  drops_before_ = countDrops(report);
+  drops_before_ = totalOf(report.drops);
 }
 
 }  // namespace rotrocc

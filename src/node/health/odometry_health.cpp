@@ -1,6 +1,5 @@
 #include "node/health/odometry_health.h"
 
-#include <chrono>
 #include <cmath>
 
 #include "input/message_conversion.h"
@@ -10,7 +9,7 @@ namespace rotrocc {
 namespace {
 
 /// Without a result for this time, the state is that of the input.
-constexpr std::chrono::seconds kAnswerAge(2);
+constexpr double kAnswerAge_s = 2.0;
 
 /// Rigs are rarely better calibrated; the correction is right on average only, and leaves more of a
 /// larger bias.
@@ -24,7 +23,7 @@ constexpr double kSigmas = 4.0;
 std::string whyNoAnswer(const HealthReport& report) {
   const auto& silent_s = report.input.pairs_silent_s;
   if (!silent_s) return "no stereo pair has arrived yet";
-  if (*silent_s < std::chrono::duration<double>(kAnswerAge).count()) {
+  if (*silent_s < kAnswerAge_s) {
     return "stereo pairs arrive, but none has been processed in the last 2 s";
   }
   return "no stereo pair for " + toText(std::round(*silent_s)) + " s";
@@ -71,22 +70,18 @@ std::string faultOfRig(const OdometryResult& result) {
   return what.empty() ? "" : what + ": recalibrate the stereo rig";
 }
 
-void addTimes(const PairReport& pair, OdometryStatus& message) {
-  const StageTimes& stages = pair.result.times;
-  message.pyramids_ms = static_cast<float>(stages.pyramids_ms);
-  message.corners_ms = static_cast<float>(stages.corners_ms);
-  message.disparity_ms = static_cast<float>(stages.disparity_ms);
-  message.tracking_ms = static_cast<float>(stages.tracking_ms);
-  message.estimation_ms = static_cast<float>(stages.estimation_ms);
-  message.prepared_ms = static_cast<float>(stages.prepared_ms);
-  message.pairing_ms = static_cast<float>(pair.times.pairing_ms);
-  message.waiting_ms = static_cast<float>(pair.times.waiting_ms);
-  message.conversion_ms = static_cast<float>(pair.times.conversion_ms);
-  message.tf_ms = static_cast<float>(pair.times.tf_ms);
-  message.estimator_ms = static_cast<float>(stages.total_ms);
-  message.publishing_ms = static_cast<float>(pair.times.publishing_ms);
-  message.overhead_ms = static_cast<float>(pair.times.overhead_ms);
-  message.latency_ms = static_cast<float>(pair.times.latency_ms);
+/// Sets state, hint and counters of the node.
+void addState(const HealthReport& report, OdometryStatus& message) {
+  message.state = report.state;
+  message.reason = report.reason;
+  message.hint = hintOf(report);
+  message.pairs_processed = report.pairs_processed;
+  message.pairs_lost = report.pairs_lost;
+  for (const auto& [reason, count] : report.drops) {
+    message.drops.emplace_back();
+    message.drops.back().reason = toString(reason);
+    message.drops.back().count = count;
+  }
 }
 
 }  // namespace
@@ -118,10 +113,10 @@ const char* stateName(std::uint8_t state) {
 
 OdometryStatus toStatus(const HealthReport& report) {
   const OdometryResult& result = report.pair.result;
-  OdometryStatus message = toIdleStatus(report, toRosTime(result.stamp_ns));
-  message.header.frame_id = report.pair.camera_frame;
+  OdometryStatus message = report.pair.status;
+  addState(report, message);
+  message.header.stamp = toRosTime(result.stamp_ns);
   message.dt_s = result.dt_s;
-  message.stamp_age_s = static_cast<float>(report.pair.stamp_age_s);
   message.tries = static_cast<std::uint32_t>(result.counts.tries);
   message.corners = static_cast<std::uint32_t>(result.counts.corners);
   message.with_depth = static_cast<std::uint32_t>(result.counts.with_depth);
@@ -138,27 +133,24 @@ OdometryStatus toStatus(const HealthReport& report) {
   message.row_difference_px = static_cast<float>(result.row_offset.typical_px);
   message.exposure_gain = static_cast<float>(result.exposure_gain);
   message.flow_noise_px = static_cast<float>(result.flow_noise_px);
-  addTimes(report.pair, message);
+  message.pyramids_ms = static_cast<float>(result.times.pyramids_ms);
+  message.corners_ms = static_cast<float>(result.times.corners_ms);
+  message.disparity_ms = static_cast<float>(result.times.disparity_ms);
+  message.tracking_ms = static_cast<float>(result.times.tracking_ms);
+  message.estimation_ms = static_cast<float>(result.times.estimation_ms);
+  message.prepared_ms = static_cast<float>(result.times.prepared_ms);
+  message.estimator_ms = static_cast<float>(result.times.total_ms);
   return message;
 }
 
 OdometryStatus toIdleStatus(const HealthReport& report, const ros::Time& stamp) {
   OdometryStatus message;
   message.header.stamp = stamp;
-  message.state = report.state;
-  message.reason = report.reason;
-  message.hint = hintOf(report);
-  message.imu_reason = report.pair.gyro.why_not;
-  message.rotations_predicted = report.pair.gyro.predicted;
-  message.rotations_missed = report.pair.gyro.missed;
-  message.pairs_processed = report.pairs_processed;
-  message.pairs_lost = report.pairs_lost;
-  message.guess_misses = report.pair.guess_misses;
-  for (const auto& [reason, count] : report.drops) {
-    message.drops.emplace_back();
-    message.drops.back().reason = toString(reason);
-    message.drops.back().count = count;
-  }
+  message.imu_reason = report.pair.status.imu_reason;
+  message.rotations_predicted = report.pair.status.rotations_predicted;
+  message.rotations_missed = report.pair.status.rotations_missed;
+  message.guess_misses = report.pair.status.guess_misses;
+  addState(report, message);
   return message;
 }
 
@@ -174,8 +166,8 @@ HealthReport OdometryHealth::addPair(const PairReport& pair,
   if (pair.result.hasMotion()) known_.rig_fault = rig_fault_.observe(faultOfRig(pair.result), now);
   known_.drops = drops.counts();
   answers_.add(now);
-  latencies_ms_.add(pair.times.latency_ms);
-  without_tf_ms_.add(pair.times.latency_ms - pair.times.tf_ms);
+  latencies_ms_.push_back(pair.status.latency_ms);
+  without_tf_ms_.push_back(pair.status.latency_ms - pair.status.tf_ms);
   return known_;
 }
 
@@ -202,13 +194,13 @@ HealthReport OdometryHealth::report(const InputReport& input,
   known_.drops = drops.counts();
   HealthReport report = known_;
   report.input = input;
-  report.answers = answers_.total() > 0 && now - answers_.lastArrival() < kAnswerAge;
+  report.answers = answers_.silent_s(now).value_or(kAnswerAge_s) < kAnswerAge_s;
   if (!report.answers) report.rig_fault.clear();
   report.answer_rate_hz = answers_.rate_hz(now);
-  report.latency_p50_ms = latencies_ms_.quantile(0.5);
-  report.latency_p95_ms = latencies_ms_.quantile(0.95);
-  report.latency_max_ms = latencies_ms_.quantile(1.0);
-  report.latency_without_tf_p50_ms = without_tf_ms_.quantile(0.5);
+  report.latency_p50_ms = quantileOf(latencies_ms_, 0.5);
+  report.latency_p95_ms = quantileOf(latencies_ms_, 0.95);
+  report.latency_max_ms = quantileOf(latencies_ms_, 1.0);
+  report.latency_without_tf_p50_ms = quantileOf(without_tf_ms_, 0.5);
   updateState(report);
   return report;
 }

@@ -13,28 +13,12 @@
 
 namespace rotrocc {
 
-/// Wall times of a pair on its way [ms]; OdometryStatus has their meaning.
-struct PairTimes {
-  double pairing_ms = 0.0, waiting_ms = 0.0, conversion_ms = 0.0, tf_ms = 0.0, publishing_ms = 0.0,
-         overhead_ms = 0.0, latency_ms = 0.0;
-};
-
-/// What became of the rotations that the gyroscope was asked for.
-struct GyroReport {
-  std::string why_not;  ///< why it did not predict the last one; empty if it did
-  std::uint64_t predicted = 0, missed = 0;  ///< so far
-};
-
 /// What is known of a pair when its odometry has been sent.
 struct PairReport {
   OdometryResult result;
-  std::string camera_frame;
-  double stamp_age_s = 0.0;
-  PairTimes times;
-  std::string camera_fault;        ///< see PairInspector; empty if none
-  std::string tf_problem;          ///< of guess_frame or of a camera that moves; empty if none
-  std::uint64_t guess_misses = 0;  ///< so far
-  GyroReport gyro;
+  OdometryStatus status;     ///< frame, age, times on its way, guess_misses, and of the gyroscope
+  std::string camera_fault;  ///< see PairInspector; empty if none
+  std::string tf_problem;    ///< of guess_frame or of a camera that moves; empty if none
 };
 
 /// State of the node, for status and diagnostics.
@@ -43,7 +27,7 @@ struct HealthReport {
   std::string reason;                             ///< why it is not OK
   PairReport pair;                                ///< the last one
   std::uint64_t pairs_processed = 0, pairs_lost = 0;
-  DropLog::Counts drops;
+  DropCounts drops;
   InputReport input;
   bool paused = false;
   bool answers = false;      ///< a pair was processed recently
@@ -90,8 +74,8 @@ class OdometryHealth {
   TopicStatistics answers_;
   LastingFault rig_fault_{std::chrono::seconds(2)};  // single pairs may be wrong
   LastingFault input_fault_{TopicStatistics::kWindow};
-  SlidingQuantiles latencies_ms_{300};
-  SlidingQuantiles without_tf_ms_{300};
+  Latest latencies_ms_{300};
+  Latest without_tf_ms_{300};
 };
 
 }  // namespace rotrocc

@@ -213,15 +213,15 @@ void PairInspector::finish() const {
 
 std::string PairInspector::compareExposures(const OdometryResult& result) {
   constexpr const char* kRemedy = ": couple the exposures of the cameras";
-  if (result.hasMotion()) gains_.add(result.exposure_gain);
+  if (result.hasMotion()) gains_.push_back(result.exposure_gain);
   if (gains_.size() < kMinExposures) return "";
-  const double least = gains_.quantile(kDropped);
-  const double most = gains_.quantile(1.0 - kDropped);
+  const double least = quantileOf(gains_, kDropped);
+  const double most = quantileOf(gains_, 1.0 - kDropped);
   if (most > kApart * least) {
     return "the right camera's contrast moves between " + hundredths(least) + " and " +
            hundredths(most) + " times the left one's" + kRemedy;
   }
-  const double typical = gains_.quantile(0.5);
+  const double typical = quantileOf(gains_, 0.5);
   if (std::max(typical, 1.0 / typical) <= kApart) return "";
   return "the right camera's contrast is " + hundredths(typical) + " times the left one's" +
          kRemedy;

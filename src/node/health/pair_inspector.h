@@ -55,7 +55,7 @@ class PairInspector {
 
   std::size_t left_print_ = 0, right_print_ = 0;  // of the last pair
   int left_frozen_ = 0, right_frozen_ = 0;        // pairs in a row
-  SlidingQuantiles gains_{kExposures};
+  Latest gains_{kExposures};
 
   // Of a loss: the pairs in a row without a good motion, and at how many the next explanation is
   // looked for; the last one, kept until the motion is found again.

@@ -1,35 +1,20 @@
 #pragma once
 
-#include <cstddef>
-#include <deque>
 #include <vector>
+
+#include <boost/circular_buffer.hpp>
 
 #include "common/median.h"
 
 namespace rotrocc {
 
-/// Quantiles of the last `size` measurements of something.
-class SlidingQuantiles {
- public:
-  explicit SlidingQuantiles(std::size_t size) : size_(size) {}
+/// The latest measurements of something.
+using Latest = boost::circular_buffer<double>;
 
-  void add(double value) {
-    values_.push_back(value);
-    if (values_.size() > size_) values_.pop_front();
-  }
-
-  std::size_t size() const { return values_.size(); }
-
-  /// Quantile `share` in [0, 1]; 0 without measurements.
-  double quantile(double share) const {
-    if (values_.empty()) return 0.0;
-    std::vector<double> values(values_.begin(), values_.end());
-    return rotrocc::quantile(values, share);
-  }
-
- private:
-  std::size_t size_;
-  std::deque<double> values_;
-};
+/// Quantile `share` in [0, 1]; 0 without measurements.
+inline double quantileOf(const Latest& latest, double share) {
+  std::vector<double> values(latest.begin(), latest.end());
+  return values.empty() ? 0.0 : quantile(values, share);
+}
 
 }  // namespace rotrocc
