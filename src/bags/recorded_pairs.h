@@ -29,8 +29,6 @@ class RecordedPairs {
                          const NodeParameters& node = {},
                          const std::string& rectify = "auto",
                          std::shared_ptr<const StereoCalibration> calibration = nullptr);
-  RecordedPairs(const RecordedPairs&) = delete;
-  RecordedPairs& operator=(const RecordedPairs&) = delete;
 
   /// Passes each message that is read from now on, before it is used.
   void onMessage(std::function<void(const RecordedMessage&)> observe) {

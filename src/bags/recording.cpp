@@ -122,7 +122,13 @@ class BagRecording : public Recording {
   /// is of the raw ones, see isRectifiedByName().
   bool isRaw() const override {
     if (isRectifiedByName(topics_.left_image) && !hasFilesOfItsImages()) return false;
-    return describesRawImages(left_info_, right_info_, options_.sequence.baseline_m);
+    if (left_info_.K[0] == 0.0) return false;  // it says nothing about them
+    try {
+      return !toStereoCalibration(left_info_, right_info_, options_.sequence.baseline_m)
+                  .isRectified();
+    } catch (const InputError&) {
+      return true;  // who rectifies says what is wrong
+    }
   }
 
   std::string mountNote() const override { return tf().note(); }
@@ -185,7 +191,26 @@ class BagRecording : public Recording {
     while (next_ != selected_->end()) {
       const rosbag::MessageInstance instance = *next_;
       ++next_;
-      if (read(instance, message)) return true;
+      message = {};
+      message.time = instance.getTime();
+      const std::string& topic = instance.getTopic();
+      if (topic == topics_.left_image) {
+        message.left_image = readImage(instance);
+        if (!usesInfos()) message.left_info = withHeader(left_info_, message.left_image->header);
+      } else if (topic == topics_.right_image) {
+        message.right_image = readImage(instance);
+        if (!usesInfos()) message.right_info = withHeader(right_info_, message.right_image->header);
+      } else if (topic == topics_.left_info) {
+        message.left_info = readMessage<sensor_msgs::CameraInfo>(instance);
+      } else if (topic == topics_.right_info) {
+        message.right_info = readMessage<sensor_msgs::CameraInfo>(instance);
+      } else {
+        const auto recorded = readMessage<tf2_msgs::TFMessage>(instance);
+        const auto kept = boost::make_shared<tf2_msgs::TFMessage>(tf().transformsToPlay(*recorded));
+        if (kept->transforms.empty()) continue;
+        message.tf = kept;
+      }
+      return true;
     }
     return false;
   }
@@ -205,30 +230,6 @@ class BagRecording : public Recording {
   const RecordedTf& tf() const {
     if (!tf_) tf_ = readTf(bags_, options_.base_frame, camera_frame_);
     return *tf_;
-  }
-
-  /// Returns false if nothing is left of it.
-  bool read(const rosbag::MessageInstance& instance, RecordedMessage& message) const {
-    message = {};
-    message.time = instance.getTime();
-    const std::string& topic = instance.getTopic();
-    if (topic == topics_.left_image) {
-      message.left_image = readImage(instance);
-      if (!usesInfos()) message.left_info = withHeader(left_info_, message.left_image->header);
-    } else if (topic == topics_.right_image) {
-      message.right_image = readImage(instance);
-      if (!usesInfos()) message.right_info = withHeader(right_info_, message.right_image->header);
-    } else if (topic == topics_.left_info) {
-      message.left_info = readMessage<sensor_msgs::CameraInfo>(instance);
-    } else if (topic == topics_.right_info) {
-      message.right_info = readMessage<sensor_msgs::CameraInfo>(instance);
-    } else {
-      const auto recorded = readMessage<tf2_msgs::TFMessage>(instance);
-      const auto kept = boost::make_shared<tf2_msgs::TFMessage>(tf().transformsToPlay(*recorded));
-      if (kept->transforms.empty()) return false;
-      message.tf = kept;
-    }
-    return true;
   }
 
   std::string name_;

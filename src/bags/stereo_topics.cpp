@@ -4,9 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "input/camera_calibration.h"
-#include "input/input_error.h"
-
 namespace rotrocc {
 namespace {
 
@@ -28,6 +25,14 @@ bool isImage(const TopicTypes& types, const std::string& topic) {
 bool isInfo(const TopicTypes& types, const std::string& topic) {
   const auto found = types.find(topic);
   return found != types.end() && found->second == kInfoType;
+}
+
+/// The camera_info topic in the namespace of an image topic.
+std::string infoTopicOf(std::string image_topic) {
+  if (const auto end = image_topic.rfind(kCompressed); end != std::string::npos) {
+    image_topic.resize(end);
+  }
+  return image_topic.substr(0, image_topic.rfind('/') + 1) + "camera_info";
 }
 
 StereoTopics withInfos(const std::string& left_image, const std::string& right_image) {
@@ -130,26 +135,8 @@ StereoTopics findStereoTopics(const TopicTypes& types,
       (", image topics:" + imageTopics(types)));
 }
 
-std::string infoTopicOf(std::string image_topic) {
-  if (const auto end = image_topic.rfind(kCompressed); end != std::string::npos) {
-    image_topic.resize(end);
-  }
-  return image_topic.substr(0, image_topic.rfind('/') + 1) + "camera_info";
-}
-
 bool isRectifiedByName(const std::string& image_topic) {
   return contains(image_topic, "rect") || contains(image_topic, "kitti/camera_");
-}
-
-bool describesRawImages(const sensor_msgs::CameraInfo& left,
-                        const sensor_msgs::CameraInfo& right,
-                        double baseline_m) {
-  if (left.K[0] == 0.0) return false;  // it says nothing about them
-  try {
-    return !toStereoCalibration(left, right, baseline_m).isRectified();
-  } catch (const InputError&) {
-    return true;  // who rectifies says what is wrong
-  }
 }
 
 }  // namespace rotrocc

@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <sensor_msgs/CameraInfo.h>
-
 #include "bags/bag_reading.h"
 
 namespace rotrocc {
@@ -35,17 +33,8 @@ StereoTopics findStereoTopics(const TopicTypes& types,
                               const std::string& right_image = "",
                               bool with_infos = true);
 
-/// The camera_info topic in the namespace of an image topic.
-std::string infoTopicOf(std::string image_topic);
-
 /// Whether a name tells that its images are rectified: image_rect and the like, and the topics of
 /// kitti2bag, whose image_raw is rectified.
 bool isRectifiedByName(const std::string& image_topic);
-
-/// Whether camera_info describes images that have to be rectified; `baseline_m` is that of
-/// toStereoCalibration(), 0: that of P.
-bool describesRawImages(const sensor_msgs::CameraInfo& left,
-                        const sensor_msgs::CameraInfo& right,
-                        double baseline_m);
 
 }  // namespace rotrocc

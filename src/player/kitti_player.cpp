@@ -65,27 +65,11 @@ void writeGroundTruth(const std::string& file,
 
 }  // namespace
 
-KittiPlayer::TimeRange KittiPlayer::rangeToPlay(const Recording& recording,
-                                                const PlayerOptions& options) {
-  const double length_s = (recording.end() - recording.begin()).toSec();
-  if (options.start > length_s) {
-    throw std::invalid_argument("parameter start is " + toText(options.start) +
-                                " s, but the recording is only " + fixedText(length_s, 1) +
-                                " s long");
-  }
-  TimeRange range = {recording.begin() + ros::Duration(options.start), recording.end()};
-  if (options.duration > 0.0) {
-    range.end = std::min(range.end, range.begin + ros::Duration(options.duration));
-  }
-  return range;
-}
-
 KittiPlayer::KittiPlayer(ros::NodeHandle& nh,
                          ros::NodeHandle& private_nh,
                          std::function<void()> on_end)
     : options_(readPlayerOptions(private_nh)),
       recording_(openPlayable(options_)),
-      range_(rangeToPlay(*recording_, options_)),
       publisher_(nh, *recording_, options_.rectify ? "image_raw" : "image_rect"),
       clock_publisher_(nh.advertise<rosgraph_msgs::Clock>("/clock", kQueueSize)),
       clock_(options_.rate,
@@ -99,6 +83,15 @@ KittiPlayer::KittiPlayer(ros::NodeHandle& nh,
       monitor_(nh),
       pause_service_(private_nh.advertiseService("pause", &KittiPlayer::onPause, this)),
       on_end_(std::move(on_end)) {
+  const double length_s = (recording_->end() - recording_->begin()).toSec();
+  if (options_.start > length_s) {
+    throw std::invalid_argument("parameter start is " + toText(options_.start) +
+                                " s, but the recording is only " + fixedText(length_s, 1) +
+                                " s long");
+  }
+  begin_ = recording_->begin() + ros::Duration(options_.start);
+  end_ = recording_->end();
+  if (options_.duration > 0.0) end_ = std::min(end_, begin_ + ros::Duration(options_.duration));
   if (!options_.ground_truth_file.empty()) {
     writeGroundTruth(options_.ground_truth_file, publisher_.truth(), recording_->T_base_camera());
   }
@@ -166,10 +159,10 @@ void KittiPlayer::waitForSubscribers() {
 }
 
 void KittiPlayer::playOnce() {
-  recording_->select(range_.begin, range_.end, true);
+  recording_->select(begin_, end_, true);
   publisher_.publishBeginning();
   monitor_.restart();
-  clock_.start(range_.begin);
+  clock_.start(begin_);
   last_progress_ = WallClock::now();
   RecordedMessage message;
   while (waitForRecording() && readMessage(message)) {
@@ -233,8 +226,8 @@ void KittiPlayer::showProgress(const ros::Time& time) {
   if (WallClock::now() - last_progress_ < kProgressPeriod) return;
   last_progress_ = WallClock::now();
   ROS_INFO("%.1f of %.1f s: %s",
-           (time - range_.begin).toSec(),
-           (range_.end - range_.begin).toSec(),
+           (time - begin_).toSec(),
+           (end_ - begin_).toSec(),
            monitor_.summary().c_str());
 }
 

@@ -32,21 +32,12 @@ class KittiPlayer {
 
   /// Stops playing.
   ~KittiPlayer();
-  KittiPlayer(const KittiPlayer&) = delete;
-  KittiPlayer& operator=(const KittiPlayer&) = delete;
 
   void setPaused(bool paused);
 
  private:
   using WallClock = std::chrono::steady_clock;
 
-  /// Time range to play, in record time.
-  struct TimeRange {
-    ros::Time begin;
-    ros::Time end;
-  };
-
-  static TimeRange rangeToPlay(const Recording& recording, const PlayerOptions& options);
   void run();
   bool stopped() const;
   void waitForSubscribers();
@@ -60,7 +51,7 @@ class KittiPlayer {
 
   const PlayerOptions options_;
   const std::unique_ptr<Recording> recording_;
-  const TimeRange range_;
+  ros::Time begin_, end_;  // of what is played
 
   RecordingPublisher publisher_;
   ros::Publisher clock_publisher_;

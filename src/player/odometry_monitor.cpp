@@ -38,14 +38,12 @@ std::string OdometryMonitor::summary() const {
 }
 
 void OdometryMonitor::onAnswer(const ros::Time& stamp) {
-  {
-    std::lock_guard<std::mutex> lock(mutex_);
-    const auto sent = pending_.find(stamp);
-    if (sent == pending_.end()) return;
-    latency_sum_ += WallClock::now() - sent->second;
-    ++pairs_answered_;
-    pending_.erase(pending_.begin(), std::next(sent));  // earlier ones will not arrive any more
-  }
+  std::lock_guard<std::mutex> lock(mutex_);
+  const auto sent = pending_.find(stamp);
+  if (sent == pending_.end()) return;
+  latency_sum_ += WallClock::now() - sent->second;
+  ++pairs_answered_;
+  pending_.erase(pending_.begin(), std::next(sent));  // earlier ones will not arrive any more
   received_.notify_all();
 }
 

@@ -48,18 +48,14 @@ bool PlaybackClock::advance(const ros::Time& end) {
 }
 
 void PlaybackClock::setPaused(bool paused) {
-  {
-    std::lock_guard<std::mutex> lock(mutex_);
-    paused_ = paused;
-  }
+  std::lock_guard<std::mutex> lock(mutex_);
+  paused_ = paused;
   changed_.notify_all();
 }
 
 void PlaybackClock::stop() {
-  {
-    std::lock_guard<std::mutex> lock(mutex_);
-    stopped_ = true;
-  }
+  std::lock_guard<std::mutex> lock(mutex_);
+  stopped_ = true;
   changed_.notify_all();
 }
 
