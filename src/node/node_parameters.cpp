@@ -65,31 +65,26 @@ void requireDifferent(const std::string& name,
       "parameters " + name + " and " + other_name + " are both \"" + frame + "\", but must differ");
 }
 
-/// Of the checks, only that of the disparities can still fail.
-void requireConsistent(const OdometryConfig& odometry) {
-  try {
-    odometry.check();
-  } catch (const std::invalid_argument& error) {
-    throw RefusedParameter("stereo_matcher/min_disparity_px", error.what());
-  }
-}
-
 }  // namespace
 
 Parameters readParameters(const ros::NodeHandle& private_nh) {
   const std::string& ns = private_nh.getNamespace();
   Parameters parameters;
   ParameterTable table = makeParameterTable(parameters);
+  const auto refuse = [&ns](const std::string& name, const std::string& why) {
+    // Parameters stay on the server when a node ends, so the user may not know of this one.
+    throw std::invalid_argument(why + ". If it is left from an earlier run: rosparam delete " + ns +
+                                "/" + name);
+  };
   try {
     XmlRpc::XmlRpcValue tree;
     if (private_nh.getParam(ns, tree)) setParameters(tree, table);
     requireFrames(parameters.node);
-    requireConsistent(parameters.odometry);
+    parameters.odometry.check();
   } catch (const RefusedParameter& error) {
-    // Parameters stay on the server when a node ends, so the user may not know of this one.
-    throw std::invalid_argument(std::string(error.what()) +
-                                ". If it is left from an earlier run: rosparam delete " + ns + "/" +
-                                error.name());
+    refuse(error.name(), error.what());
+  } catch (const std::invalid_argument& error) {  // the disparities are in conflict
+    refuse("stereo_matcher/min_disparity_px", error.what());
   }
   return parameters;
 }

@@ -58,7 +58,21 @@ void TrajectoryStore::add(const StampedPose& pose, bool starts) {
     file_.reset();
     fault_.clear();
   }
-  if (fault_.empty()) write(pose);
+  if (!fault_.empty()) return;
+  try {
+    if (!file_) {
+      std::string path;
+      do path = numberedPath(path_, ++number_);
+      while (std::filesystem::exists(path));
+      file_.emplace(path, format_);
+      log_.info("trajectory file: " + path);
+    }
+    file_->write(pose);
+  } catch (const std::exception& error) {
+    fault_ = error.what();
+    log_.error("trajectory file: " + fault_ +
+               "; the rest of this trajectory is not in it: make space, and call ~save_trajectory");
+  }
 }
 
 std::string TrajectoryStore::fault() const {
@@ -86,26 +100,6 @@ std::string TrajectoryStore::save(const std::string& path, const std::string& fo
     throw;
   }
   return "wrote " + std::to_string(poses.size()) + " poses of the left camera to " + absolute;
-}
-
-void TrajectoryStore::write(const StampedPose& pose) {
-  try {
-    if (!file_) file_ = openNext();
-    file_->write(pose);
-  } catch (const std::exception& error) {
-    fault_ = error.what();
-    log_.error("trajectory file: " + fault_ +
-               "; the rest of this trajectory is not in it: make space, and call ~save_trajectory");
-  }
-}
-
-TrajectoryWriter TrajectoryStore::openNext() {
-  std::string path;
-  do path = numberedPath(path_, ++number_);
-  while (std::filesystem::exists(path));
-  TrajectoryWriter file(path, format_);
-  log_.info("trajectory file: " + path);
-  return file;
 }
 
 }  // namespace rotrocc

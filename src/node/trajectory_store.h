@@ -42,9 +42,6 @@ class TrajectoryStore {
   std::string save(const std::string& path, const std::string& format) const;
 
  private:
-  void write(const StampedPose& pose);
-  TrajectoryWriter openNext();
-
   Log log_;
   std::string path_;
   TrajectoryFormat format_;

@@ -53,11 +53,21 @@ bool PairProcessor::takeRequests() {
 
 PairAnswer PairProcessor::process(const PairInput& in) {
   const Requests requests = std::exchange(taken_, {});
-  if (requests.config) configure(*requests.config);
+  if (const auto& config = requests.config) {
+    odometry_.configure(*config);
+    converter_.setThreads(config->threads);
+    inspector_.configure(config->correspondence_finder);
+    systematic_error_ = config->systematic_error;
+    if (base_odometry_) base_odometry_->setSystematicError(systematic_error_);
+  }
   PairAnswer answer;
   answer.starts_trajectory = restartIfNeeded(requests, in.pair.stamp_ns);
   if (!base_odometry_) begin(in);
-  if (requests.T_odom_base) setPose(*requests.T_odom_base);
+  if (requests.T_odom_base) {
+    base_odometry_->setPose(*requests.T_odom_base);
+    // Compared with a pair from before a loss, this one would be lost again.
+    if (base_odometry_->lost_since_ns()) odometry_.reset();
+  }
   answer.result = measure(in);
   answer.state = base_odometry_->add(answer.result, in.T_base_camera, in.T_last_base);
   last_stamp_ns_ = in.pair.stamp_ns;
@@ -98,14 +108,6 @@ void PairProcessor::begin(const PairInput& in) {
   base_odometry_.emplace(parameters_, systematic_error_, up);
 }
 
-void PairProcessor::configure(const VisualOdometry::Config& config) {
-  odometry_.configure(config);
-  converter_.setThreads(config.threads);
-  inspector_.configure(config.correspondence_finder);
-  systematic_error_ = config.systematic_error;
-  if (base_odometry_) base_odometry_->setSystematicError(systematic_error_);
-}
-
 /// Returns whether a new trajectory starts.
 bool PairProcessor::restartIfNeeded(const Requests& requests, std::int64_t stamp_ns) {
   bool starts_trajectory = requests.reset;
@@ -140,13 +142,6 @@ bool PairProcessor::restart(const std::string& why,
   odometry_.reset();
   if (!keep) base_odometry_.reset();
   return keep;
-}
-
-/// A pose that is set while lost would be lost again if the next pair were compared with one from
-/// before the loss.
-void PairProcessor::setPose(const UncertainTransform& T_odom_base) {
-  base_odometry_->setPose(T_odom_base);
-  if (base_odometry_->lost_since_ns()) odometry_.reset();
 }
 
 /// Whether the pair is that before, though the base may have moved since. At rest in a simulator

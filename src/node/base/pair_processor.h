@@ -103,8 +103,6 @@ class PairProcessor {
   void begin(const PairInput& in);
   bool restartIfNeeded(const Requests& requests, std::int64_t stamp_ns);
   bool restart(const std::string& why, const std::string& parameter, const std::string& pose);
-  void configure(const VisualOdometry::Config& config);
-  void setPose(const UncertainTransform& T_odom_base);
   bool isFrozen(const PairInput& in);
   OdometryResult measure(const PairInput& in);
 

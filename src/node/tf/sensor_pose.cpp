@@ -81,7 +81,12 @@ std::optional<Eigen::Isometry3d> SensorPose::find(const std::string& frame,
     T_base_sensor = lookUp(toRosTime(stamp_ns), wait);
   } catch (const std::exception& error) {
     if (!T_base_sensor_ || moves_) {
-      onMissing(error.what());
+      const auto now = std::chrono::steady_clock::now();
+      if (!missing_since_) missing_since_ = now;
+      missing_ = "no tf from " + base_frame_ + " to " + frame_ + " (camera pose): " + error.what();
+      if (log_ && now - *missing_since_ > kPatience && warning_.pass()) {
+        log_->warn("waiting: " + missing_);
+      }
       return std::nullopt;
     }
     T_base_sensor = T_base_sensor_;
@@ -135,7 +140,11 @@ std::optional<Eigen::Isometry3d> SensorPose::lookUp(const ros::Time& stamp, cons
   if (!comes && !moves_) return toEigen(newest.transform);
   if (!comes && stamp <= newest.header.stamp) transformAt(stamp);  // throws: it is too old
   if (moves_ && (!comes || waited.count() > period_s_)) {
-    onLate(comes);
+    // A wait that is longer than the period of the images loses pairs, too.
+    in_time_ = 0;
+    // At most once a second: it reads the whole tree of tf.
+    if (description_.pass()) problem_ = describeLate(comes);
+    if (log_ && late_warning_.pass()) log_->warn(problem_);
   } else if (++in_time_ >= kInTime) {
     problem_.clear();
   }
@@ -168,23 +177,6 @@ void SensorPose::logPose(const Eigen::Isometry3d& T_base_sensor) {
     log_->warn("the frame_id of the left images changed from " + previous_frame_ + " to " + frame_ +
                "; if that is a fault of the driver, set camera_frame. Now " + pose);
   }
-}
-
-void SensorPose::onMissing(const std::string& why) {
-  const auto now = std::chrono::steady_clock::now();
-  if (!missing_since_) missing_since_ = now;
-  missing_ = "no tf from " + base_frame_ + " to " + frame_ + " (camera pose): " + why;
-  if (log_ && now - *missing_since_ > kPatience && warning_.pass()) {
-    log_->warn("waiting: " + missing_);
-  }
-}
-
-/// A wait that is longer than the period of the images loses pairs, too.
-void SensorPose::onLate(bool comes) {
-  in_time_ = 0;
-  // At most once a second: it reads the whole tree of tf.
-  if (description_.pass()) problem_ = describeLate(comes);
-  if (log_ && late_warning_.pass()) log_->warn(problem_);
 }
 
 std::string SensorPose::describeLate(bool comes) const {

@@ -52,8 +52,6 @@ class SensorPose {
   geometry_msgs::TransformStamped transformAt(const ros::Time& stamp) const;
   void watchMovement(const Eigen::Isometry3d& T_base_sensor);
   void logPose(const Eigen::Isometry3d& T_base_sensor);
-  void onMissing(const std::string& why);
-  void onLate(bool comes);
   std::string describeLate(bool comes) const;
   std::optional<double> rate_hz() const;
 

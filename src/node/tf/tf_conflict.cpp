@@ -17,22 +17,15 @@ std::string edge(const PublishedTf& tf) {
   return tf.parent + " -> " + tf.child;
 }
 
-/// The odometries of this process that publish tf.
-struct Neighbours {
-  std::mutex mutex;
-  std::vector<PublishedTf> published;
-};
-
-Neighbours& neighbours() {
-  static Neighbours neighbours;
-  return neighbours;
-}
+// The odometries of this process that publish tf.
+std::mutex neighbors_mutex;
+std::vector<PublishedTf> neighbors;
 
 /// Those that publish a parent of a frame.
-std::vector<PublishedTf> neighboursWithChild(const std::string& child) {
-  const std::lock_guard<std::mutex> lock(neighbours().mutex);
+std::vector<PublishedTf> neighborsWithChild(const std::string& child) {
+  const std::lock_guard<std::mutex> lock(neighbors_mutex);
   std::vector<PublishedTf> found;
-  for (const PublishedTf& tf : neighbours().published) {
+  for (const PublishedTf& tf : neighbors) {
     if (tf.child == child) found.push_back(tf);
   }
   return found;
@@ -68,20 +61,19 @@ std::string describeConflict(const PublishedTf& own,
 
 TfConflict::TfConflict(PublishedTf own, const std::string& base_frame, Log log)
     : own_(std::move(own)), base_frame_(base_frame), log_(std::move(log)) {
-  const std::lock_guard<std::mutex> lock(neighbours().mutex);
-  neighbours().published.push_back(own_);
+  const std::lock_guard<std::mutex> lock(neighbors_mutex);
+  neighbors.push_back(own_);
 }
 
 TfConflict::~TfConflict() {
-  const std::lock_guard<std::mutex> lock(neighbours().mutex);
-  auto& published = neighbours().published;
+  const std::lock_guard<std::mutex> lock(neighbors_mutex);
   const auto is_own = [this](const PublishedTf& other) { return other.node == own_.node; };
-  published.erase(std::remove_if(published.begin(), published.end(), is_own), published.end());
+  neighbors.erase(std::remove_if(neighbors.begin(), neighbors.end(), is_own), neighbors.end());
 }
 
 std::string TfConflict::check() {
-  for (const PublishedTf& neighbour : neighboursWithChild(own_.child)) {
-    if (neighbour.node != own_.node) add(neighbour, false);
+  for (const PublishedTf& neighbor : neighborsWithChild(own_.child)) {
+    if (neighbor.node != own_.node) add(neighbor, false);
   }
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto now = Clock::now();
@@ -97,9 +89,9 @@ void TfConflict::onTf(const TfReceiver::Event& event, bool is_static) {
     const std::string parent = withoutSlash(transform.header.frame_id);
     std::string node = event.getPublisherName();
     if (node == ros::this_node::getName()) {
-      const auto is_its = [&](const PublishedTf& neighbour) { return neighbour.parent == parent; };
-      const auto neighbours = neighboursWithChild(own_.child);
-      if (std::any_of(neighbours.begin(), neighbours.end(), is_its)) continue;
+      const auto is_its = [&](const PublishedTf& neighbor) { return neighbor.parent == parent; };
+      const auto published = neighborsWithChild(own_.child);
+      if (std::any_of(published.begin(), published.end(), is_its)) continue;
       node = "another nodelet in " + node;
     }
     add({node, parent, own_.child}, is_static);

@@ -33,8 +33,6 @@ class TfConflict {
  public:
   TfConflict(PublishedTf own, const std::string& base_frame, Log log);
   ~TfConflict();
-  TfConflict(const TfConflict&) = delete;
-  TfConflict& operator=(const TfConflict&) = delete;
 
   /// An observer of a TfReceiver.
   void onTf(const TfReceiver::Event& event, bool is_static);

@@ -21,7 +21,6 @@ class TfReceiver {
 
   /// `observer` gets each message, in that thread.
   explicit TfReceiver(Observer observer = {});
-  ~TfReceiver() { callbacks_.stop(); }
 
   const tf2::BufferCore& buffer() const { return buffer_; }
 
@@ -36,7 +35,7 @@ class TfReceiver {
   tf2::BufferCore buffer_;
   std::int64_t last_stamp_ns_ = 0;
   CallbackThread callbacks_;
-  ros::Subscriber subscriber_, static_subscriber_;
+  ros::Subscriber subscriber_, static_subscriber_;  // last, so that callbacks end before
 };
 
 }  // namespace rotrocc
