@@ -10,9 +10,7 @@ namespace ROTROCC_INSTRUCTIONS {
 static_assert(kShorts <= kMaxShorts);
 
 extern const Kernels kernels;
-const Kernels kernels = {smoothDown,
-                         smoothAlong,
-                         differentiateRow,
+const Kernels kernels = {differentiateRow,
                          replaceGradients,
                          respondRow,
                          highestOfColumns,

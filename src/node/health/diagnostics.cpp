@@ -29,7 +29,6 @@ unsigned char levelOf(std::uint8_t state) {
 }  // namespace
 
 void describeOdometry(const HealthReport& report, StatusWrapper& status) {
-  const OdometryResult& last = report.pair.result;
   const std::string name = stateName(report.state);
   status.summary(levelOf(report.state), report.reason.empty() ? name : name + ": " + report.reason);
   for (const std::string& warning : {report.pair.camera_fault, report.rig_fault}) {
@@ -38,23 +37,6 @@ void describeOdometry(const HealthReport& report, StatusWrapper& status) {
   status.add("state", name);
   status.add("reason", report.reason);
   status.add("hint", report.pair.camera_fault);
-  status.add("corners", last.counts.corners);
-  status.add("corners with a disparity", last.counts.with_depth);
-  status.add("features tracked and consistent", last.counts.consistent);
-  status.add("inliers of the rotation", last.counts.rotation_inliers);
-  status.add("inliers of the translation", last.counts.translation_inliers);
-  status.addf("disparity bias",
-              "%.2f +- %.2f px, %.2f px applied",
-              last.disparity_bias.estimated_px,
-              last.disparity_bias.sigma_px,
-              last.disparity_bias.applied_px);
-  status.addf("row offset of the right image",
-              "%.2f +- %.2f px, median difference %.2f px",
-              last.row_offset.median_px,
-              last.row_offset.sigma_px,
-              last.row_offset.typical_px);
-  status.addf("contrast of the right image relative to the left one", "%.2f", last.exposure_gain);
-  status.addf("flow noise", "%.2f px", last.flow_noise_px);
   status.add("pairs processed", report.pairs_processed);
   status.add("pairs lost", report.pairs_lost);
 }
