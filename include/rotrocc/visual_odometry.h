@@ -35,9 +35,11 @@ class VisualOdometry {
 
   /// Estimates the motion since the previous pair. Never throws. The state is lost, with a reason,
   /// on: images that are empty, not CV_8UC1, of different sizes or not of the camera's size, or
-  /// masks that are not; an invalid camera; a stamp that does not increase; errors inside OpenCV or
-  /// Ceres. The state is initialising on the first pair, on images of another size, a calibration
-  /// that changes by more than a thousandth, and after a gap of more than max_gap_s.
+  /// masks that are not; an invalid camera; a stamp that is not later; an image that shows
+  /// something and is byte for byte that of the pair before, which no camera sends twice; errors
+  /// inside OpenCV or Ceres. The state is initialising on the first pair, on images of another
+  /// size, a calibration that changes by more than a thousandth, and after a gap of more than
+  /// max_gap_s, or if stamps went back by more than that.
   ///
   /// `expected` is the motion T_prev_cur measured by another sensor, if any. It replaces the motion
   /// model's prediction as the start of tracking.
@@ -45,10 +47,14 @@ class VisualOdometry {
   /// `measured_rotation` replaces the rotation of that start, of `expected` as well as of the
   /// motion model, whose velocity turns with the camera. It is asked for at most two intervals,
   /// which begin at earlier pairs.
+  ///
+  /// `may_repeat` is asked if both images are those of the pair before: a simulated camera at rest
+  /// sends the same ones again.
   OdometryResult process(const StereoPair& pair,
                          const StereoCamera& camera,
                          const std::optional<Eigen::Isometry3d>& expected = std::nullopt,
-                         const RotationSource& measured_rotation = {});
+                         const RotationSource& measured_rotation = {},
+                         const std::function<bool()>& may_repeat = {});
 
   /// Finds the corners of the last pair and their disparities, that the next pair is compared with.
   /// To be called when the result of process() has been passed on: the next one is ready sooner.

@@ -39,22 +39,8 @@ bool hasErrors(const RigMeasures& measures) {
          isBiased(measures.bias);
 }
 
-/// Again by what is left over: rows first, then the disparities that they leave.
-Correction correctedBy(Recording& recording, const RigCheckOptions& options, RigMeasures measures) {
-  RigCheckOptions corrected = options;
-  constexpr int kMostPasses = 4;
-  Correction correction;
-  for (int pass = 0; pass < kMostPasses; ++pass) {
-    if (pass > 0 && !hasErrors(measures)) break;
-    correction.calibration = correct(measures);
-    corrected.calibration = std::make_shared<const StereoCalibration>(correction.calibration);
-    correction.checked = checkRig(recording, corrected);
-    measures = correction.checked.measures;
-  }
-  return correction;
-}
-
-std::optional<std::string> whyWorse(const RigMeasures& before, const RigMeasures& after) {
+/// Empty if it is not worse.
+std::string whyWorse(const RigMeasures& before, const RigMeasures& after) {
   constexpr double kWorse = 1.05;
   // Over the way: smaller differences are those of a perfect rig.
   constexpr double kLeastDifference = 0.004;
@@ -63,13 +49,12 @@ std::optional<std::string> whyWorse(const RigMeasures& before, const RigMeasures
     return "rows would differ by " + fixedText(after.rows_rms_px, 2) + " px in place of " +
            fixedText(before.rows_rms_px, 2) + " px";
   }
-  const bool is_comparable = before.replay_share > 0.0;
-  if (is_comparable &&
+  if (before.replay_share > 0.0 &&
       after.replay_share > std::max(kWorse * before.replay_share, kLeastDifference)) {
     return "repeated motions would differ by " + fixedText(100.0 * after.replay_share, 2) +
            " m in 100 m in place of " + fixedText(100.0 * before.replay_share, 2) + " m";
   }
-  return std::nullopt;
+  return "";
 }
 
 }  // namespace
@@ -92,7 +77,7 @@ StereoCalibration correct(const RigMeasures& measures) {
   return corrected;
 }
 
-std::optional<Correction> findCorrection(Recording& recording,
+std::optional<CheckedRig> findCorrection(Recording& recording,
                                          const RigCheckOptions& options,
                                          const RigMeasures& before,
                                          std::string& why_not) {
@@ -108,11 +93,17 @@ std::optional<Correction> findCorrection(Recording& recording,
     why_not = "rows and disparities have no error beyond their uncertainty";
     return std::nullopt;
   }
-  Correction correction = correctedBy(recording, options, before);
-  const std::optional<std::string> why_worse = whyWorse(before, correction.checked.measures);
-  if (!why_worse) return correction;
-  why_not = *why_worse;
-  return std::nullopt;
+  // Again by what is left over: rows first, then the disparities that they leave.
+  constexpr int kMostPasses = 4;
+  RigCheckOptions corrected = options;
+  CheckedRig checked = {{}, before};
+  for (int pass = 0; pass < kMostPasses && hasErrors(checked.measures); ++pass) {
+    corrected.calibration = std::make_shared<const StereoCalibration>(correct(checked.measures));
+    checked = checkRig(recording, corrected);
+  }
+  why_not = whyWorse(before, checked.measures);
+  if (!why_not.empty()) return std::nullopt;
+  return checked;
 }
 
 void writeCalibration(const StereoCalibration& calibration, const std::string& directory) {

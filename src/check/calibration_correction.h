@@ -13,15 +13,10 @@ namespace rotrocc {
 /// what both cameras have in common, as an error of the baseline, is not seen.
 StereoCalibration correct(const RigMeasures& measures);
 
-struct Correction {
-  StereoCalibration calibration;
-  CheckedRig checked;
-};
-
 /// Checks a recording by corrected calibrations, until no significant error is left, at most four
-/// times. None, with the reason in `why_not`, if nothing is significant, rows move, or the result
-/// is worse.
-std::optional<Correction> findCorrection(Recording& recording,
+/// times. The result has the last one in its measures. None, with the reason in `why_not`, if
+/// nothing is significant, rows move, or the result is worse.
+std::optional<CheckedRig> findCorrection(Recording& recording,
                                          const RigCheckOptions& options,
                                          const RigMeasures& before,
                                          std::string& why_not);

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
+#include "common/to_seconds.h"
 #include "input/to_text.h"
 
 namespace rotrocc {
@@ -23,10 +24,6 @@ constexpr double kStep_s = 0.005;
 
 constexpr std::size_t kLeastTurns = 20;
 
-double secondsFrom(std::int64_t from_ns, std::int64_t to_ns) {
-  return 1e-9 * static_cast<double>(to_ns - from_ns);
-}
-
 class GyroCheck : public PairCheck {
  public:
   explicit GyroCheck(GyroRecording gyroscope)
@@ -38,7 +35,7 @@ class GyroCheck : public PairCheck {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       if (i > 0) {
-        sum += 0.5 * secondsFrom(samples_[i - 1].stamp_ns, samples_[i].stamp_ns) *
+        sum += 0.5 * toSeconds(samples_[i].stamp_ns - samples_[i - 1].stamp_ns) *
                (samples_[i - 1].rate_rps + samples_[i].rate_rps);
       }
       sums_rad_.push_back(sum);
@@ -135,9 +132,8 @@ class GyroCheck : public PairCheck {
         stamp_ns,
         [](std::int64_t stamp, const GyroSample& sample) { return stamp < sample.stamp_ns; });
     const auto i = static_cast<std::size_t>(next - samples_.begin());
-    const double share =
-        secondsFrom(samples_[i - 1].stamp_ns, stamp_ns) /
-        std::max(secondsFrom(samples_[i - 1].stamp_ns, samples_[i].stamp_ns), 1e-9);
+    const double share = toSeconds(stamp_ns - samples_[i - 1].stamp_ns) /
+                         std::max(toSeconds(samples_[i].stamp_ns - samples_[i - 1].stamp_ns), 1e-9);
     return sums_rad_[i - 1] + share * (sums_rad_[i] - sums_rad_[i - 1]);
   }
 
@@ -150,7 +146,7 @@ class GyroCheck : public PairCheck {
     for (const Turn& turn : turns) {
       const auto gyro = turned(turn, delay_s);
       if (!gyro) continue;
-      const double interval_s = secondsFrom(turn.from_ns, turn.to_ns);
+      const double interval_s = toSeconds(turn.to_ns - turn.from_ns);
       rates.emplace_back(turn.camera_rad / interval_s, *gyro / interval_s);
       mean_camera += rates.back().first;
       mean_gyro += rates.back().second;
@@ -203,7 +199,7 @@ class GyroCheck : public PairCheck {
     for (const Turn& turn : turns_) {
       const auto gyro = turned(turn, fit.delay_s);
       if (!gyro) continue;
-      const double interval_s = secondsFrom(turn.from_ns, turn.to_ns);
+      const double interval_s = toSeconds(turn.to_ns - turn.from_ns);
       table.rows.push_back({turn.time_s,
                             kDegrees * turn.camera_rad.norm() / interval_s,
                             kDegrees * (*gyro / interval_s - fit.bias_rps).norm()});

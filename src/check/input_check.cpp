@@ -32,16 +32,15 @@ std::string listOf(const std::map<std::string, int>& counts) {
 }  // namespace
 
 void InputCheck::observe(const RecordedMessage& message) {
-  if (message.left_image) add(*message.left_image, message.time, left_);
-  if (message.right_image) add(*message.right_image, message.time, right_);
-}
-
-void InputCheck::add(const sensor_msgs::Image& image, const ros::Time& time, Stream& stream) {
-  const std::int64_t stamp_ns = toNanoseconds(image.header.stamp);
-  stream.stamps_ns.push_back(stamp_ns);
-  stream.ages_s[stamp_ns] = toSeconds(toNanoseconds(time) - stamp_ns);
-  ++stream.encodings[image.encoding];
-  ++stream.sizes[sizeText(image.width, image.height)];
+  for (const auto& [image, stream] :
+       {std::pair(message.left_image, &left_), {message.right_image, &right_}}) {
+    if (!image) continue;
+    const std::int64_t stamp_ns = toNanoseconds(image->header.stamp);
+    stream->stamps_ns.push_back(stamp_ns);
+    stream->ages_s[stamp_ns] = toSeconds(toNanoseconds(message.time) - stamp_ns);
+    ++stream->encodings[image->encoding];
+    ++stream->sizes[sizeText(image->width, image->height)];
+  }
 }
 
 void InputCheck::report(const StereoCamera& camera,

@@ -29,7 +29,6 @@ class InputCheck {
     std::map<std::string, int> encodings, sizes;
   };
 
-  static void add(const sensor_msgs::Image& image, const ros::Time& time, Stream& stream);
   void addRates(RigReport& report) const;
   void addStamps(RigReport& report) const;
   void addFormats(RigReport& report) const;

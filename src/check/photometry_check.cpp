@@ -29,24 +29,12 @@ constexpr int kSharpnessPatch = 24;
 /// another motion blur.
 constexpr double kAcceptableGain = 0.1;
 constexpr double kFixGain = 0.25;
-constexpr double kAcceptableShare = 0.1;
-constexpr double kFixShare = 0.3;
 
 constexpr int kWhite = 255;
 constexpr int kBlack = kWhite / 50;
 
 cv::Rect around(double x_px, double y_px, int radius) {
   return {cvRound(x_px) - radius, cvRound(y_px) - radius, 2 * radius + 1, 2 * radius + 1};
-}
-
-bool isInside(const cv::Rect& area, const cv::Mat& image) {
-  return (area & cv::Rect(0, 0, image.cols, image.rows)) == area;
-}
-
-bool isSaturated(const cv::Mat& patch) {
-  double brightest = 0.0;
-  cv::minMaxLoc(patch, nullptr, &brightest);
-  return brightest >= kWhite;
 }
 
 /// The same part of the world in both images.
@@ -57,6 +45,7 @@ struct Patch {
 /// Around features that agree with the motion, about `most` of them, where both images show them.
 std::vector<Patch> patchesOf(const CheckedPair& pair, int radius, std::size_t most) {
   std::vector<Patch> patches;
+  const cv::Rect image({}, pair.images.left.size());
   const double rows_px = pair.result.row_offset.median_px;
   const std::size_t step = std::max<std::size_t>(1, pair.features.size() / most);
   for (std::size_t i = 0; i < pair.features.size(); i += step) {
@@ -66,7 +55,7 @@ std::vector<Patch> patchesOf(const CheckedPair& pair, int radius, std::size_t mo
     const double y_px = feature.cur_px.y();
     const Patch patch = {around(x_px, y_px, radius),
                          around(x_px - feature.disparity_px, y_px + rows_px, radius)};
-    if (isInside(patch.left, pair.images.left) && isInside(patch.right, pair.images.right)) {
+    if (((patch.left | patch.right) & image) == (patch.left | patch.right)) {
       patches.push_back(patch);
     }
   }
@@ -85,7 +74,7 @@ std::vector<PatchMeans> patchMeans(const CheckedPair& pair) {
   for (const Patch& patch : patchesOf(pair, kPatch, kPerPair)) {
     const cv::Mat left = pair.images.left(patch.left);
     const cv::Mat right = pair.images.right(patch.right);
-    if (isSaturated(left) || isSaturated(right)) continue;
+    if (std::max(cv::norm(left, cv::NORM_INF), cv::norm(right, cv::NORM_INF)) >= kWhite) continue;
     const cv::Point2d middle = 0.5 * cv::Point2d(patch.left.tl() + patch.left.br());
     const cv::Point2d from_corner = middle - corner;
     means.push_back(
@@ -248,37 +237,42 @@ class PhotometryCheck : public PairCheck {
 
   void addLevels(const Windows& windows, RigReport& report) const {
     for (const bool right : {false, true}) {
-      std::vector<TimedValue> saturated;
-      std::vector<TimedValue> dark;
-      std::vector<TimedValue> noise;
-      for (const Row& row : rows_) {
-        const Levels& levels = right ? row.right : row.left;
-        saturated.push_back({row.time_s, levels.saturated});
-        dark.push_back({row.time_s, levels.dark});
-        noise.push_back({row.time_s, levels.noise / std::max(levels.contrast, 1e-9)});
-      }
-      const std::string side = right ? "right" : "left";
-      const Estimate white = overWindows(saturated, windows);
-      const Estimate black = overWindows(dark, windows);
-      const Estimate noisy = overWindows(noise, windows);
-      report.add({"photometry",
-                  "saturated pixels, " + side,
-                  toText({100.0 * white.value, 100.0 * white.sigma}, "%"),
-                  "no features there",
-                  "reduce exposure, or meter on the lower part of the image"},
-                 {white.value, white.sigma, kAcceptableShare, kFixShare});
-      report.add({"photometry",
-                  "black pixels, " + side,
-                  toText({100.0 * black.value, 100.0 * black.sigma}, "%"),
-                  "no features there",
-                  "increase exposure or gain, or light the scene"},
-                 {black.value, black.sigma, kAcceptableShare, kFixShare});
-      report.add({"photometry",
-                  "noise, " + side,
-                  toText({100.0 * noisy.value, 100.0 * noisy.sigma}, "% of the contrast"),
-                  "positions get noisier",
-                  "more light, or less gain"},
-                 {noisy.value, noisy.sigma, 0.15, 0.3});
+      const auto add = [&](const std::string& subject,
+                           const char* unit,
+                           const char* cost,
+                           const char* remedy,
+                           double acceptable,
+                           double (*share_of)(const Levels&)) {
+        std::vector<TimedValue> shares;
+        for (const Row& row : rows_) {
+          shares.push_back({row.time_s, share_of(right ? row.right : row.left)});
+        }
+        const Estimate share = overWindows(shares, windows);
+        report.add({"photometry",
+                    subject + (right ? ", right" : ", left"),
+                    toText({100.0 * share.value, 100.0 * share.sigma}, unit),
+                    cost,
+                    remedy},
+                   {share.value, share.sigma, acceptable, 0.3});
+      };
+      add("saturated pixels",
+          "%",
+          "no features there",
+          "reduce exposure, or meter on the lower part of the image",
+          0.1,
+          [](const Levels& levels) { return levels.saturated; });
+      add("black pixels",
+          "%",
+          "no features there",
+          "increase exposure or gain, or light the scene",
+          0.1,
+          [](const Levels& levels) { return levels.dark; });
+      add("noise",
+          "% of the contrast",
+          "positions get noisier",
+          "more light, or less gain",
+          0.15,
+          [](const Levels& levels) { return levels.noise / std::max(levels.contrast, 1e-9); });
     }
   }
 

@@ -47,7 +47,7 @@ class PairChecks {
                                  result,
                                  odometry_.correspondences(),
                                  odometry_.rotationInliers()};
-    inspector_.isRepeated(pair);
+    if (result.state == State::kLost) why_lost_ = result.reason;
     if (const std::string fault = inspector_.inspect(pair, camera, result); !fault.empty()) {
       fault_ = fault;
     }
@@ -157,13 +157,13 @@ class PairChecks {
     inspector_.finish();
     if (with_motion_ == 0 && !left_.empty()) {
       // The search was for the pairs before; what it found comes with the next one.
-      const OdometryResult lost;
+      OdometryResult lost;
+      lost.counts.tries = 1;
       const std::string found = inspector_.inspect({last_ns_, left_, right_}, camera_, lost);
       if (!found.empty()) fault_ = found;
     }
     const bool matters = isMostlyLost();
-    if (fault_.empty() && matters && pairs_ > 1)
-      fault_ = "no motion, for a reason that the images do not show";
+    if (fault_.empty() && matters) fault_ = why_lost_;
     if (fault_.empty()) return;
     const std::size_t colon = fault_.find(": ");
     report.findings.push_back({"inputs",
@@ -189,7 +189,7 @@ class PairChecks {
   std::int64_t first_ns_ = 0, last_ns_ = 0;
   int pairs_ = 0, with_motion_ = 0, next_sample_ = 1;
   double path_m_ = 0.0;
-  std::string fault_;
+  std::string fault_, why_lost_;
   cv::Mat left_, right_;
 };
 

@@ -139,7 +139,6 @@ void writeReport(const RigReport& report, const std::string& directory) {
   for (const ReportTable& table : report.tables) {
     CsvFile csv(files.path(table.name + ".csv"), table.columns);
     for (const std::vector<double>& row : table.rows) csv.row(row);
-    csv.close();
   }
   const std::pair<const char*, const cv::Mat&> pictures[] = {
       {"left.png", report.left}, {"right.png", report.right}, {"mask.png", report.mask}};

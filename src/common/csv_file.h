@@ -8,15 +8,14 @@
 
 namespace rotrocc {
 
-/// A table of comma-separated values, with ten digits of numbers. Members throw std::runtime_error
-/// with the path if the file cannot be written.
+/// A table of comma-separated values, with ten digits of numbers. Each row is in the file when it
+/// ends. Members throw std::runtime_error with the path if the file cannot be written.
 class CsvFile {
  public:
   /// `columns` are separated by commas.
   CsvFile(const std::string& path, const std::string& columns) : path_(path), file_(path) {
     file_ << std::setprecision(10) << columns;
     endRow();
-    close();
   }
 
   /// Adds a cell to the current row.
@@ -29,17 +28,12 @@ class CsvFile {
 
   void endRow() {
     separator_ = "";
-    if (!(file_ << '\n')) throw std::runtime_error(path_ + " cannot be written");
+    if (!(file_ << std::endl)) throw std::runtime_error(path_ + " cannot be written");
   }
 
   void row(const std::vector<double>& cells) {
     for (const double cell : cells) *this << cell;
     endRow();
-  }
-
-  /// Writes what is buffered; without it, an error may pass unseen.
-  void close() {
-    if (!file_.flush()) throw std::runtime_error(path_ + " cannot be written");
   }
 
  private:

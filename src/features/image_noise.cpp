@@ -32,4 +32,13 @@ double noiseVariance(const cv::Mat& image, std::vector<int>& responses) {
   return std::max(kRounding, deviation * deviation / kMaskSquares);
 }
 
+bool isNoise(const cv::Mat& image) {
+  constexpr double kOverNoise = 2.0;
+  cv::Scalar mean;
+  cv::Scalar deviation;
+  cv::meanStdDev(image, mean, deviation);
+  std::vector<int> buffer;
+  return deviation[0] * deviation[0] < kOverNoise * kOverNoise * noiseVariance(image, buffer);
+}
+
 }  // namespace rotrocc

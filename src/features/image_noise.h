@@ -16,4 +16,8 @@ constexpr float kMinTexture = 0.1F;
 /// Estimation", 1996), which is zero where the image is a plane. `responses` is a buffer.
 double noiseVariance(const cv::Mat& image, std::vector<int>& responses);
 
+/// Whether the grey levels of an image (CV_8UC1) hardly vary more than their noise, as behind a
+/// covered lens.
+bool isNoise(const cv::Mat& image);
+
 }  // namespace rotrocc

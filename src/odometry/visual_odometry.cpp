@@ -1,6 +1,9 @@
 #include "rotrocc/visual_odometry.h"
 
+#include <cmath>
 #include <cstdint>
+#include <cstring>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -12,6 +15,7 @@
 #include "common/stage_timer.h"
 #include "common/to_seconds.h"
 #include "features/correspondence_finder.h"
+#include "features/image_noise.h"
 #include "odometry/motion_check.h"
 #include "odometry/motion_search.h"
 #include "odometry/rig_estimate.h"
@@ -45,11 +49,8 @@ struct Lost : std::runtime_error {
 constexpr double kRefinedCamera = 1e-3;
 
 /// Why a pair cannot be used, in one sentence with the value. None if it can: the camera is valid,
-/// images and masks are CV_8UC1 and of its size, and the stamp is later than `newest_ns`, that of
-/// the pair before, if there was one.
-std::optional<std::string> whyUnusable(const StereoPair& pair,
-                                       const StereoCamera& camera,
-                                       const std::optional<std::int64_t>& newest_ns) {
+/// images and masks are CV_8UC1 and of its size.
+std::optional<std::string> whyUnusable(const StereoPair& pair, const StereoCamera& camera) {
   try {
     camera.check();
   } catch (const std::invalid_argument& error) {
@@ -74,20 +75,26 @@ std::optional<std::string> whyUnusable(const StereoPair& pair,
     return cv::format("the %s has %dx%d pixels", name, image.cols, image.rows) +
            cv::format(", the camera %dx%d", camera.width, camera.height);
   }
-  if (!newest_ns || pair.stamp_ns > *newest_ns) return std::nullopt;
-  return "the stamp " + std::to_string(pair.stamp_ns) +
-         " ns is not later than that of the pair before, " + std::to_string(*newest_ns) + " ns";
+  return std::nullopt;
 }
 
-/// Why a usable pair cannot be compared with the one before, in one sentence; none if it can:
-/// there is one, not more than `max_gap_s` ago, of a camera that differs by no more than a refined
-/// calibration.
+bool isSame(const cv::Mat& a, const cv::Mat& b) {
+  if (a.size() != b.size()) return false;
+  for (int y = 0; y < a.rows; ++y) {
+    if (std::memcmp(a.ptr(y), b.ptr(y), static_cast<std::size_t>(a.cols)) != 0) return false;
+  }
+  return true;
+}
+
+/// Why a usable pair cannot be compared with the newest frame, in one sentence; none if it can:
+/// there is one, not more than `max_gap_s` before or after, of a camera that differs by no more
+/// than a refined calibration.
 std::optional<std::string> whyRestart(const StereoPair& pair,
                                       const StereoCamera& camera,
-                                      const std::optional<std::int64_t>& newest_ns,
+                                      const StereoFrame* newest,
                                       const StereoCamera& camera_before,
                                       double max_gap_s) {
-  if (!newest_ns) return "first pair";
+  if (newest == nullptr) return "first pair";
   if (camera_before.width != camera.width || camera_before.height != camera.height) {
     return "the size of the images has changed";
   }
@@ -95,10 +102,26 @@ std::optional<std::string> whyRestart(const StereoPair& pair,
     return cv::format("the calibration has changed by %.2g of the focal length or baseline",
                       difference);
   }
-  const double gap_s = toSeconds(pair.stamp_ns - *newest_ns);
-  if (gap_s <= max_gap_s) return std::nullopt;
-  return "no pair for " + comparedText(gap_s, max_gap_s) +
+  const double gap_s = toSeconds(pair.stamp_ns - newest->stamp_ns);
+  if (std::abs(gap_s) <= max_gap_s) return std::nullopt;
+  return (gap_s > 0.0 ? "no pair for " : "stamps went back by ") +
+         comparedText(std::abs(gap_s), max_gap_s) +
          cv::format(" s, more than max_gap_s = %g", max_gap_s);
+}
+
+/// Why a later pair is no measurement, in one sentence: an image shows something, and is that of
+/// the newest frame. Noise makes those of a camera differ even at rest.
+std::optional<std::string> whyRepeated(const StereoPair& pair,
+                                       const StereoFrame& newest,
+                                       const std::function<bool()>& may_repeat) {
+  const bool left = isSame(pair.left, newest.left.front()) && !isNoise(pair.left);
+  const bool right = isSame(pair.right, newest.right.front()) && !isNoise(pair.right);
+  if (!left && !right) return std::nullopt;
+  if (left && right && may_repeat && may_repeat()) return std::nullopt;
+  const std::string which = left && right ? "both images are those"
+                            : left        ? "the left image is that"
+                                          : "the right image is that";
+  return which + " of the pair before: is the camera frozen, or does its driver repeat images?";
 }
 
 }  // namespace
@@ -112,6 +135,7 @@ class VisualOdometry::Pipeline {
   struct OtherSensors {
     const std::optional<Eigen::Isometry3d>& T_last_cur;
     const RotationSource& rotation;
+    const std::function<bool()>& may_repeat;
   };
 
   OdometryResult process(const StereoPair& pair,
@@ -224,9 +248,13 @@ void VisualOdometry::Pipeline::forget() {
 }
 
 void VisualOdometry::Pipeline::configure(const Config& config) {
-  config_ = byMethod(config);  // first, because it may throw
-  finder_ = CorrespondenceFinder(config_.correspondence_finder, config_.threads);
-  search_ = MotionSearch(config_);
+  const Config by_method = byMethod(config);
+  // First, because they may throw.
+  CorrespondenceFinder finder(by_method.correspondence_finder, by_method.threads);
+  MotionSearch search(by_method);
+  config_ = by_method;
+  finder_ = std::move(finder);
+  search_ = std::move(search);
   check_ = MotionCheck(config_.motion_check, config_.motion_estimator.noise_ratio);
   rig_.configure(config_);
   keyframe_.frame.reset();  // its corners depend on the old parameters
@@ -236,10 +264,18 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
                                        const StereoCamera& camera,
                                        const OtherSensors& others,
                                        OdometryResult& result) {
-  std::optional<std::int64_t> newest_ns;
-  if (last_) newest_ns = (lost_ ? lost_ : last_)->stamp_ns;
-  if (const auto why = whyUnusable(pair, camera, newest_ns)) throw Lost(*why);
-  const auto why_restart = whyRestart(pair, camera, newest_ns, rig_.camera(), config_.max_gap_s);
+  if (const auto why = whyUnusable(pair, camera)) throw Lost(*why);
+  const StereoFrame* newest = lost_ ? lost_.get() : last_.get();
+  const bool is_later = newest == nullptr || pair.stamp_ns > newest->stamp_ns;
+  if (newest != nullptr && is_later) {
+    if (const auto why = whyRepeated(pair, *newest, others.may_repeat)) throw Lost(*why);
+  }
+  const auto why_restart = whyRestart(pair, camera, newest, rig_.camera(), config_.max_gap_s);
+  if (!why_restart && !is_later) {
+    throw Lost("the stamp " + std::to_string(pair.stamp_ns) +
+               " ns is not later than that of the pair before, " +
+               std::to_string(newest->stamp_ns) + " ns");
+  }
   FramePtr current;
   {
     const StageTimer timer(result.times.pyramids_ms);
@@ -329,7 +365,7 @@ void VisualOdometry::Pipeline::findMotion(const FramePtr& current,
 /// Makes `earlier` the keyframe, unless it is, and tries one start after the other until a motion
 /// is accepted: the predicted motion; rest, or the measured rotation; where the scene is
 /// recognized. An older keyframe gets no recognition, because more is seen of the last frame. The
-/// number of tries is limited, so that no pair takes much longer than others.
+/// number of tries from each frame is limited, so that no pair takes much longer than others.
 bool VisualOdometry::Pipeline::findMotionFrom(const FramePtr& earlier,
                                               const StereoFrame& current,
                                               const Expectation& expected,
@@ -349,13 +385,13 @@ bool VisualOdometry::Pipeline::findMotionFrom(const FramePtr& earlier,
   if (expected.R_last_cur) at_rest.T_keyframe_cur.rotate(*expected.R_last_cur);
   const bool is_newest = earlier == last_ || earlier == lost_;
 
-  const int tries = found_.counts.tries;
+  const int tries = found_.counts.tries;  // from other frames
   found_.clear();
-  found_.counts.tries = tries;
   if (!settles(predicted) && !settles(at_rest) && is_newest &&
       found_.counts.tries < config_.max_tries) {
     settles(search_.recognize(frames));
   }
+  found_.counts.tries += tries;
   if (!found_.isAccepted()) return false;
   search_.calibrate(frames, rig_, found_);
   return true;
@@ -416,8 +452,9 @@ VisualOdometry& VisualOdometry::operator=(VisualOdometry&&) noexcept = default;
 OdometryResult VisualOdometry::process(const StereoPair& pair,
                                        const StereoCamera& camera,
                                        const std::optional<Eigen::Isometry3d>& expected,
-                                       const RotationSource& measured_rotation) {
-  return pipeline_->process(pair, camera, {expected, measured_rotation});
+                                       const RotationSource& measured_rotation,
+                                       const std::function<bool()>& may_repeat) {
+  return pipeline_->process(pair, camera, {expected, measured_rotation, may_repeat});
 }
 
 void VisualOdometry::prepare() {

@@ -61,12 +61,6 @@ bool parse(int argc, char** argv, Options& options) {
   return true;
 }
 
-constexpr int kToFix = 3;  // exit status
-
-bool isToFix(const RigReport& report) {
-  return !report.findings.empty() && report.findings.front().verdict == Verdict::kFix;
-}
-
 /// Adds the corrected calibration to the report, and writes it.
 void addCorrection(const Options& options,
                    Recording& recording,
@@ -78,9 +72,9 @@ void addCorrection(const Options& options,
     std::cout << "no corrected calibration: " << why_not << "\n\n";
     return;
   }
-  writeCalibration(correction->calibration, options.camera_info);
-  rig.report.corrected = correction->checked.report.findings;
-  for (ReportTable table : correction->checked.report.tables) {
+  writeCalibration(correction->measures.calibration, options.camera_info);
+  rig.report.corrected = correction->report.findings;
+  for (ReportTable table : correction->report.tables) {
     if (table.name != "rows_map" && table.name != "disparity_map") continue;
     table.name += "_corrected";
     rig.report.tables.push_back(std::move(table));
@@ -108,11 +102,13 @@ void run(const Options& options) {
     std::cout << "\nwritten: " << options.camera_info << "/left.yaml and right.yaml\n";
   }
   std::cout.flush();
+  constexpr int kToFix = 3;  // exit status
   if (!options.report.empty()) {
     writeReport(rig.report, options.report);
     drawReport(options.report);
   }
-  if (isToFix(rig.report)) std::exit(kToFix);
+  const std::vector<Finding>& findings = rig.report.findings;
+  if (!findings.empty() && findings.front().verdict == Verdict::kFix) std::exit(kToFix);
 }
 
 }  // namespace

@@ -36,7 +36,6 @@ void writeMeans(const std::vector<MeanError>& means, const char* bin, const std:
                100.0 * mean.translation,
                kDegreesPerRadian * mean.rotation_rad_per_m});
   }
-  table.close();
 }
 
 void writeSummary(const Evaluation& evaluation, const std::string& path) {
@@ -64,7 +63,6 @@ void writeSummary(const Evaluation& evaluation, const std::string& path) {
              evaluation.drift.translation_m,
              100.0 * evaluation.drift.translation_m / path_m,
              kDegreesPerRadian * evaluation.drift.rotation_rad});
-  table.close();
 }
 
 void writePoses(const Evaluation& evaluation, const std::string& path) {
@@ -87,7 +85,6 @@ void writePoses(const Evaluation& evaluation, const std::string& path) {
                step.translation_m,
                kDegreesPerRadian * step.rotation_rad});
   }
-  table.close();
 }
 
 }  // namespace
@@ -114,7 +111,6 @@ void writeSegments(const std::vector<SegmentError>& segments, const std::string&
                100.0 * segment.translation,
                kDegreesPerRadian * segment.rotation_rad_per_m});
   }
-  table.close();
 }
 
 void writeReportTables(const Evaluation& evaluation, const std::string& directory) {
@@ -131,7 +127,6 @@ void writeReportTables(const Trajectory& estimate, const std::string& directory)
   const std::vector<double> path_m = pathLengths(estimate);
   CsvFile summary(files.path("summary.csv"), "poses,path_m,duration_s");
   summary.row({static_cast<double>(estimate.size()), path_m.back(), duration_s(estimate)});
-  summary.close();
 
   const std::vector<Eigen::Vector3d> points = positions(estimate);
   CsvFile poses(files.path("poses.csv"), "stamp_ns,path_m,x_m,y_m,z_m");
@@ -139,7 +134,6 @@ void writeReportTables(const Trajectory& estimate, const std::string& directory)
     poses << estimate[i].stamp_ns;
     poses.row({path_m[i], points[i].x(), points[i].y(), points[i].z()});
   }
-  poses.close();
 }
 
 void copyStatistics(const std::string& statistics, const std::string& directory) {

@@ -257,14 +257,14 @@ TEST(RigCheckTest, CorrectsTheCalibration) {
   const auto correction = findCorrection(recording, {}, before.measures, why_not);
   ASSERT_TRUE(correction) << why_not;
   EXPECT_GT(before.measures.rows_rms_px, 0.5);
-  EXPECT_LT(correction->checked.measures.rows_rms_px, 0.05);
+  EXPECT_LT(correction->measures.rows_rms_px, 0.05);
   // The yaw is seen by rows once the larger faults are corrected. A pitch may be an offset of rows.
   const Eigen::AngleAxisd left(options.faults.rightCamera(options.camera).linear().transpose() *
-                               correction->calibration.right.R_rectified_raw);
+                               correction->measures.calibration.right.R_rectified_raw);
   const Eigen::Vector3d left_rad = left.angle() * left.axis();
   EXPECT_LT(std::abs(left_rad.y()), 0.1 * 0.1 * kRadians);
   EXPECT_LT(std::abs(left_rad.z()), 0.1 * 0.15 * kRadians);
-  for (const Finding& finding : correction->checked.report.findings) {
+  for (const Finding& finding : correction->report.findings) {
     EXPECT_NE(finding.verdict, Verdict::kFix) << finding.subject << ": " << finding.measured;
   }
   RenderedRecording perfect("perfect", "city", perfectRig(), {});
@@ -272,7 +272,7 @@ TEST(RigCheckTest, CorrectsTheCalibration) {
   const double error_perfect_m = errorOf(perfect, nominal);
   const double error_before_m = errorOf(recording, nominal);
   const TemporaryDirectory directory;
-  writeCalibration(correction->calibration, directory / "info");
+  writeCalibration(correction->measures.calibration, directory / "info");
   const StereoCalibration written =
       readStereoCalibration({directory / "info/left.yaml", directory / "info/right.yaml"});
   const double error_after_m = errorOf(recording, written);

@@ -337,6 +337,10 @@ TEST(VisualOdometryTest, KeepsItsParametersWhenOthersAreWrong) {
   wrong = {};
   wrong.method = "best";
   expectError<std::invalid_argument>([&] { odometry.configure(wrong); }, "method is \"best\"");
+  wrong = {};
+  wrong.max_tries = 1;
+  wrong.correspondence_finder.feature_tracker.window_radius_px = 30;
+  expectError<std::invalid_argument>([&] { odometry.configure(wrong); }, "window_radius_px");
   expectMotion(odometry.process(bend(2), camera()), bendStep());
 }
 
@@ -688,6 +692,59 @@ TEST(VisualOdometryTest, StartsAnewAfterAGapOrWithAnotherCamera) {
   }
 }
 
+/// As of a clock that was set: it does not lock the odometry until the stamps get there again.
+TEST(VisualOdometryTest, AStampFarAheadRestartsTwice) {
+  VisualOdometry odometry = started(3);
+  StereoPair ahead = bend(3);
+  ahead.stamp_ns += 3'600'000'000'000;
+  EXPECT_EQ(odometry.process(ahead, camera()).state, State::kInitialising);
+  const OdometryResult back = odometry.process(bend(4), camera());
+  EXPECT_EQ(back.state, State::kInitialising);
+  EXPECT_EQ(back.reason.find("stamps went back by 3600 s, more than max_gap_s"), 0u) << back.reason;
+  expectMotion(odometry.process(bend(5), camera()), bendStep());
+}
+
+TEST(VisualOdometryTest, ARepeatedImageIsNoMeasurement) {
+  const char* const kReasons[] = {"the left image is that of the pair before",
+                                  "the right image is that of the pair before",
+                                  "both images are those of the pair before"};
+  for (int which = 0; which < 3; ++which) {
+    VisualOdometry odometry = started(3);
+    for (const int i : {3, 4}) {
+      StereoPair pair = bend(i);
+      if (which != 1) pair.left = bend(2).left.clone();
+      if (which != 0) pair.right = bend(2).right.clone();
+      expectLost(odometry.process(pair, camera()), kReasons[which]);
+    }
+    const OdometryResult next = odometry.process(bend(5), camera());
+    expectMotion(next, bendStep() * bendStep() * bendStep(), 0.02);
+    EXPECT_EQ(next.keyframe_stamp_ns, bend(2).stamp_ns);
+  }
+}
+
+/// Without noise, as in a simulator.
+TEST(VisualOdometryTest, ASimulatedCameraAtRestMayRepeatItsImages) {
+  for (const bool rests : {true, false}) {
+    VisualOdometry odometry = started(3);
+    StereoPair again = bend(2);
+    again.stamp_ns += kPeriod_ns;
+    const OdometryResult result = odometry.process(again, camera(), {}, {}, [&] { return rests; });
+    EXPECT_EQ(result.hasMotion(), rests) << result.reason;
+  }
+}
+
+/// A cut to another place and back: the frame before the cut and the lost one have their tries.
+TEST(VisualOdometryTest, OneTrySufficesForEachEarlierFrame) {
+  VisualOdometry::Config config;
+  config.max_tries = 1;
+  VisualOdometry odometry = started(4, camera(), config);
+  const cv::Size size(camera().width, camera().height);
+  expectLost(odometry.process(noise(size, 4 * kPeriod_ns), camera()), "");
+  const OdometryResult next = odometry.process(bend(5), camera());
+  EXPECT_TRUE(next.hasMotion()) << next.reason;
+  EXPECT_EQ(next.keyframe_stamp_ns, bend(3).stamp_ns);
+}
+
 /// A camera whose calibration is refined while it drives: by rounding, by half a pixel, by a zoom.
 TEST(VisualOdometryTest, FollowsARefinedCalibration) {
   const auto scaled = [](double factor) {
@@ -767,7 +824,8 @@ TEST(VisualOdometryTest, TriesAPairSoManyTimesAtMost) {
     StereoPair pair = i % 6 < 3 ? bend(i % 3) : noise(size, stamp_ns);
     pair.stamp_ns = stamp_ns;
     const OdometryResult result = odometry.process(pair, camera());
-    EXPECT_LE(result.counts.tries, config.max_tries) << i;
+    EXPECT_LE(result.counts.tries, 3 * config.max_tries)
+        << i << ", of keyframe, last and lost frame";
     EXPECT_EQ(result.counts.tries > 0, i > 0);
   }
 }

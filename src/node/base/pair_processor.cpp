@@ -68,26 +68,15 @@ PairAnswer PairProcessor::process(const PairInput& in) {
     // Compared with a pair from before a loss, this one would be lost again.
     if (base_odometry_->lost_since_ns()) odometry_.reset();
   }
-  answer.result = measure(in);
+  answer.result =
+      odometry_.process(in.pair,
+                        in.camera,
+                        base_odometry_->expectedMotion(in.T_base_camera, in.T_last_base),
+                        in.measured_rotation,
+                        [&] { return in.is_simulated && !moves(in); });
   answer.state = base_odometry_->add(answer.result, in.T_base_camera, in.T_last_base);
   last_stamp_ns_ = in.pair.stamp_ns;
   return answer;
-}
-
-/// The motion of the camera, unless the pair is no measurement.
-OdometryResult PairProcessor::measure(const PairInput& in) {
-  if (!isFrozen(in)) {
-    return odometry_.process(in.pair,
-                             in.camera,
-                             base_odometry_->expectedMotion(in.T_base_camera, in.T_last_base),
-                             in.measured_rotation);
-  }
-  OdometryResult result;
-  result.stamp_ns = in.pair.stamp_ns;
-  result.reason =
-      "both images are those of the pair before: is the camera frozen, or does its driver repeat "
-      "images?";
-  return result;
 }
 
 /// Whether initial_pose leaves roll and pitch to gravity.
@@ -144,22 +133,18 @@ bool PairProcessor::restart(const std::string& why,
   return keep;
 }
 
-/// Whether the pair is that before, though the base may have moved since. At rest in a simulator
-/// the images may be the same, unless another sensor sees a motion.
-bool PairProcessor::isFrozen(const PairInput& in) {
-  if (!inspector_.isRepeated(in.pair)) return false;
-  if (!in.is_simulated) return true;
-  if (!last_stamp_ns_ || in.pair.stamp_ns <= *last_stamp_ns_) return false;
+/// Whether another sensor sees that the base has moved since the last pair.
+bool PairProcessor::moves(const PairInput& in) const {
   const double passed_s = toSeconds(in.pair.stamp_ns - *last_stamp_ns_);
-  const auto moves = [&](const Eigen::Matrix3d& R) {
+  const auto turns = [&](const Eigen::Matrix3d& R) {
     return logRotation(R).norm() > kRest_rps * passed_s;
   };
   if (const auto& T = in.T_last_base) {
-    return T->translation().norm() > kRest_mps * passed_s || moves(T->linear());
+    return T->translation().norm() > kRest_mps * passed_s || turns(T->linear());
   }
   const auto R =
       in.measured_rotation ? in.measured_rotation(*last_stamp_ns_, in.pair.stamp_ns) : std::nullopt;
-  return R && moves(*R);
+  return R && turns(*R);
 }
 
 }  // namespace rotrocc

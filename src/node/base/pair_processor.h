@@ -103,8 +103,7 @@ class PairProcessor {
   void begin(const PairInput& in);
   bool restartIfNeeded(const Requests& requests, std::int64_t stamp_ns);
   bool restart(const std::string& why, const std::string& parameter, const std::string& pose);
-  bool isFrozen(const PairInput& in);
-  OdometryResult measure(const PairInput& in);
+  bool moves(const PairInput& in) const;
 
   Log log_;
   NodeParameters parameters_;

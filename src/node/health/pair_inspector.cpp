@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <functional>
-#include <string_view>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
@@ -19,7 +17,6 @@ namespace {
 
 constexpr int kFewCorners = 50;
 constexpr double kFewShare = 0.2;  // of the corners that have a disparity
-constexpr int kRowStep = 8;        // sampling of rows
 /// Row offsets tried on images that do not match; matches must exceed chance.
 constexpr int kOffsets_px[] = {2, 4, 7, 12, 20};
 constexpr double kClearlyMore = 2.0;
@@ -29,16 +26,6 @@ constexpr double kApart = 2.0;
 /// Share of the gains that is dropped at either end: single pairs may be wrong.
 constexpr double kDropped = 0.1;
 
-/// A hash of some rows of an image.
-std::size_t fingerprint(const cv::Mat& image) {
-  std::size_t print = 0;
-  for (int y = 0; y < image.rows; y += kRowStep) {
-    const std::string_view row(image.ptr<char>(y), static_cast<std::size_t>(image.cols));
-    print = 31 * print + std::hash<std::string_view>()(row);
-  }
-  return print;
-}
-
 /// The image shifted down by `rows`, or up if negative.
 cv::Mat shifted(const cv::Mat& image, int rows) {
   cv::Mat result = cv::Mat::zeros(image.size(), image.type());
@@ -46,16 +33,6 @@ cv::Mat shifted(const cv::Mat& image, int rows) {
   image.rowRange(std::max(-rows, 0), std::max(-rows, 0) + kept)
       .copyTo(result.rowRange(std::max(rows, 0), std::max(rows, 0) + kept));
   return result;
-}
-
-/// Whether the grey levels hardly vary more than their noise, as behind a covered lens.
-bool isNoise(const cv::Mat& image) {
-  constexpr double kOverNoise = 2.0;
-  cv::Scalar mean;
-  cv::Scalar deviation;
-  cv::meanStdDev(image, mean, deviation);
-  std::vector<int> buffer;
-  return deviation[0] * deviation[0] < kOverNoise * kOverNoise * noiseVariance(image, buffer);
 }
 
 /// Counts the corners of an image that have a disparity.
@@ -136,24 +113,13 @@ void PairInspector::configure(const CorrespondenceFinder::Config& config) {
   forgetLoss();
 }
 
-bool PairInspector::isRepeated(const StereoPair& pair) {
-  const std::size_t left_print = fingerprint(pair.left);
-  const std::size_t right_print = fingerprint(pair.right);
-  left_frozen_ = left_print == left_print_ ? left_frozen_ + 1 : 0;
-  right_frozen_ = right_print == right_print_ ? right_frozen_ + 1 : 0;
-  left_print_ = left_print;
-  right_print_ = right_print;
-  return left_frozen_ > 0 && right_frozen_ > 0 && !isNoise(pair.left);
-}
-
 std::string PairInspector::inspect(const StereoPair& pair,
                                    const StereoCamera& camera,
                                    const OdometryResult& result,
                                    int significant_bits) {
-  const std::string exposures = compareExposures(result);
-  std::string fault = findFrozen();
-  if (fault.empty()) fault = exposures;
-  if (result.state == State::kInitialising) return fault;
+  const std::string fault = compareExposures(result);
+  // Of a pair that was not tried the odometry knows why.
+  if (result.state == State::kInitialising || result.counts.tries == 0) return fault;
   // Chance matches may occasionally look like a motion.
   if (result.state == State::kOk) {
     forgetLoss();
@@ -166,14 +132,6 @@ std::string PairInspector::inspect(const StereoPair& pair,
     return fault;  // no memory, or no thread
   }
   return explanation_.empty() ? fault : explanation_;
-}
-
-std::string PairInspector::findFrozen() const {
-  const bool left = left_frozen_ >= kPatience;
-  const bool right = right_frozen_ >= kPatience;
-  if (left == right) return "";  // if both are, the pairs are no measurements
-  return std::string(left ? "the left" : "the right") + " image has been unchanged for " +
-         toText(std::max(left_frozen_, right_frozen_)) + " pairs: is the camera frozen?";
 }
 
 /// Takes over the explanation if there is a new one, and looks for the next one if it is time.

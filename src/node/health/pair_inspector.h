@@ -12,7 +12,7 @@
 
 namespace rotrocc {
 
-/// Detects camera faults: a frozen or dark camera, swapped cameras, images that are not rectified,
+/// Detects camera faults: a dark camera, swapped cameras, images that are not rectified,
 /// or exposures that differ or move against each other so much that one of the images is likely to
 /// be dark or saturated. What may cause a loss is looked for in a thread of its own.
 class PairInspector {
@@ -30,10 +30,6 @@ class PairInspector {
   /// Uses another configuration from the next pair on, and forgets what was found with this one.
   void configure(const CorrespondenceFinder::Config& config);
 
-  /// Whether both images show something, and are those of the pair before, byte for byte: noise
-  /// makes those of a camera differ even at rest. To be called for each pair, before inspect().
-  bool isRepeated(const StereoPair& pair);
-
   /// The suspected fault and a remedy, in one sentence; empty if none. `significant_bits`: those of
   /// 16-bit images that grey levels were taken from, or 8.
   std::string inspect(const StereoPair& pair,
@@ -45,7 +41,6 @@ class PairInspector {
   void finish() const;
 
  private:
-  std::string findFrozen() const;
   std::string compareExposures(const OdometryResult& result);
   void explain(const StereoPair& pair, const StereoCamera& camera, int significant_bits);
   void forgetLoss();
@@ -53,8 +48,6 @@ class PairInspector {
   bool rectifies_;
   CorrespondenceFinder::Config config_;
 
-  std::size_t left_print_ = 0, right_print_ = 0;  // of the last pair
-  int left_frozen_ = 0, right_frozen_ = 0;        // pairs in a row
   Latest gains_{kExposures};
 
   // Of a loss: the pairs in a row without a good motion, and at how many the next explanation is
