@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <locale>
-#include <sstream>
 #include <stdexcept>
 
 #include <opencv2/core.hpp>
@@ -47,38 +46,6 @@ std::int64_t timeAfter(std::int64_t previous_ns, const TextLine& line) {
   return stamp_ns;
 }
 
-void setStamps(Trajectory& trajectory, const std::string& path, const std::string& times_path) {
-  const std::vector<std::int64_t> stamps_ns = readTimes(times_path);
-  if (stamps_ns.size() < trajectory.size()) {
-    throw std::runtime_error(times_path + cv::format(" has %zu times, but ", stamps_ns.size()) +
-                             path + cv::format(" has %zu poses", trajectory.size()));
-  }
-  for (std::size_t i = 0; i < trajectory.size(); ++i) trajectory[i].stamp_ns = stamps_ns[i];
-}
-
-/// The line of a pose, with its end.
-std::string poseLine(const StampedPose& pose, TrajectoryFormat format) {
-  static const Eigen::IOFormat kInOneLine(Eigen::StreamPrecision, Eigen::DontAlignCols, " ", " ");
-  std::ostringstream line;
-  line.imbue(std::locale::classic());  // no decimal comma
-  line.precision(9);
-  if (format == TrajectoryFormat::kKitti) {
-    line << std::scientific << pose.T_world_body.affine().format(kInOneLine) << '\n';
-    return line.str();
-  }
-  constexpr std::int64_t kSecond_ns = 1'000'000'000;
-  Eigen::Quaterniond quaternion(pose.T_world_body.linear());
-  quaternion.normalize();
-  if (quaternion.w() < 0.0) quaternion.coeffs() *= -1.0;
-  line << cv::format("%s%lld.%09lld ",
-                     pose.stamp_ns < 0 ? "-" : "",
-                     std::llabs(pose.stamp_ns / kSecond_ns),
-                     std::llabs(pose.stamp_ns % kSecond_ns))
-       << std::fixed << pose.T_world_body.translation().transpose().format(kInOneLine) << ' '
-       << quaternion.coeffs().transpose().format(kInOneLine) << '\n';  // x y z w
-  return line.str();
-}
-
 }  // namespace
 
 TrajectoryFormat trajectoryFormat(const std::string& name) {
@@ -106,7 +73,13 @@ Trajectory readTrajectory(const std::string& path, const std::string& times_path
     stamp_ns = is_tum ? timeAfter(stamp_ns, line) : stamp_ns + kKittiPeriod_ns;
     trajectory.push_back({stamp_ns, is_tum ? line.quaternionPose(false) : kittiPose(line)});
   }
-  if (!times_path.empty()) setStamps(trajectory, path, times_path);
+  if (times_path.empty()) return trajectory;
+  const std::vector<std::int64_t> stamps_ns = readTimes(times_path);
+  if (stamps_ns.size() < trajectory.size()) {
+    throw std::runtime_error(times_path + cv::format(" has %zu times, but ", stamps_ns.size()) +
+                             path + cv::format(" has %zu poses", trajectory.size()));
+  }
+  for (std::size_t i = 0; i < trajectory.size(); ++i) trajectory[i].stamp_ns = stamps_ns[i];
   return trajectory;
 }
 
@@ -122,10 +95,26 @@ std::vector<std::int64_t> readTimes(const std::string& path) {
 TrajectoryWriter::TrajectoryWriter(const std::string& path, TrajectoryFormat format)
     : path_(path), format_(format), file_(path) {
   if (!file_) throw std::runtime_error("cannot write " + path_);
+  file_.imbue(std::locale::classic());  // no decimal comma
+  file_.precision(9);
 }
 
 void TrajectoryWriter::write(const StampedPose& pose) {
-  file_ << poseLine(pose, format_) << std::flush;
+  static const Eigen::IOFormat kInOneLine(Eigen::StreamPrecision, Eigen::DontAlignCols, " ", " ");
+  if (format_ == TrajectoryFormat::kKitti) {
+    file_ << std::scientific << pose.T_world_body.affine().format(kInOneLine) << std::endl;
+  } else {
+    constexpr std::int64_t kSecond_ns = 1'000'000'000;
+    Eigen::Quaterniond quaternion(pose.T_world_body.linear());
+    quaternion.normalize();
+    if (quaternion.w() < 0.0) quaternion.coeffs() *= -1.0;
+    file_ << cv::format("%s%lld.%09lld ",
+                        pose.stamp_ns < 0 ? "-" : "",
+                        std::llabs(pose.stamp_ns / kSecond_ns),
+                        std::llabs(pose.stamp_ns % kSecond_ns))
+          << std::fixed << pose.T_world_body.translation().transpose().format(kInOneLine) << ' '
+          << quaternion.coeffs().transpose().format(kInOneLine) << std::endl;  // x y z w
+  }
   if (!file_) throw std::runtime_error("cannot write to " + path_ + ": is the disk full?");
 }
 

@@ -13,11 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string rootOf(const std::string& directory) {
-  const fs::path nested = fs::path(directory) / "mav0";
-  return fs::is_directory(nested) ? nested.string() : directory;
-}
-
 void requireColumns(const TextLine& line, std::size_t columns, const std::string& what) {
   if (line.words.size() >= columns) return;
   throw std::runtime_error(line.where + " has " + std::to_string(line.words.size()) +
@@ -33,17 +28,6 @@ std::vector<StampedImage> readImageList(const std::string& camera) {
     images.push_back({stamp_ns, camera + "/data/" + line.words[1]});
   }
   return images;
-}
-
-StereoCalibration readCalibration(const AslCamera& left,
-                                  const AslCamera& right,
-                                  const std::string& root) {
-  try {
-    return chooseRectification(
-        left.camera, right.camera, left.T_body_camera.inverse() * right.T_body_camera);
-  } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(root + "/cam0/sensor.yaml and cam1/sensor.yaml: " + error.what());
-  }
 }
 
 /// Poses of the left camera at the stamps of the pairs.
@@ -68,13 +52,20 @@ Trajectory readGroundTruth(const std::string& folder,
 
 std::optional<StereoSequence> readAslLayout(const std::string& directory,
                                             const SequenceOptions& options) {
-  const std::string root = rootOf(directory);
+  const std::string nested = (fs::path(directory) / "mav0").string();
+  const std::string root = fs::is_directory(nested) ? nested : directory;
   if (!fs::is_directory(root + "/cam0")) return std::nullopt;
   ImagePairs pairs(
       readImageList(root + "/cam0"), readImageList(root + "/cam1"), options.max_stamp_difference_s);
   const AslCamera left = readAslCamera(root + "/cam0/sensor.yaml");
   const AslCamera right = readAslCamera(root + "/cam1/sensor.yaml");
-  const StereoCalibration calibration = readCalibration(left, right, root);
+  StereoCalibration calibration;
+  try {
+    calibration = chooseRectification(
+        left.camera, right.camera, left.T_body_camera.inverse() * right.T_body_camera);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(root + "/cam0/sensor.yaml and cam1/sensor.yaml: " + error.what());
+  }
   // Of the rectified camera.
   const Eigen::Isometry3d T_body_camera =
       left.T_body_camera * Eigen::Quaterniond(calibration.left.R_rectified_raw).inverse();

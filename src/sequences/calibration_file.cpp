@@ -151,15 +151,6 @@ RawCamera readCamera(const YamlMap& file, const char* distortion_key) {
   }
 }
 
-StereoCalibration readKalibrChain(const std::string& path) {
-  const YamlMap file(path);
-  const YamlMap left = file.section("cam0");
-  const YamlMap right = file.section("cam1");
-  return chooseRectification(readCamera(left, "distortion_coeffs"),
-                             readCamera(right, "distortion_coeffs"),
-                             poseOf(right, "T_cn_cnm1").inverse());
-}
-
 }  // namespace
 
 StereoCalibration readStereoCalibration(const std::vector<std::string>& paths, double baseline_m) {
@@ -170,9 +161,16 @@ StereoCalibration readStereoCalibration(const std::vector<std::string>& paths, d
         std::to_string(paths.size()) + " files");
   }
   try {
-    if (paths.size() == 1) return readKalibrChain(paths[0]);
-    const sensor_msgs::CameraInfo left = readCameraInfo(paths[0]);
-    return toStereoCalibration(left, readCameraInfo(paths[1]), baseline_m);
+    if (paths.size() == 2) {
+      const sensor_msgs::CameraInfo left = readCameraInfo(paths[0]);
+      return toStereoCalibration(left, readCameraInfo(paths[1]), baseline_m);
+    }
+    const YamlMap chain(paths[0]);
+    const YamlMap left = chain.section("cam0");
+    const YamlMap right = chain.section("cam1");
+    return chooseRectification(readCamera(left, "distortion_coeffs"),
+                               readCamera(right, "distortion_coeffs"),
+                               poseOf(right, "T_cn_cnm1").inverse());
   } catch (const std::invalid_argument& error) {
     const std::string names = paths.size() == 1 ? paths[0] : paths[0] + " and " + paths[1];
     throw std::runtime_error(names + ": " + error.what());

@@ -1,8 +1,9 @@
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <filesystem>
+#include <iterator>
+#include <set>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,17 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool isImage(const fs::path& path) {
-  static const std::array<const char*, 8> extensions = {
-      ".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".ppm"};
-  return std::find(extensions.begin(), extensions.end(), path.extension()) != extensions.end();
-}
-
 std::vector<fs::path> listImages(const fs::path& folder) {
+  static const std::set<std::string> kExtensions = {
+      ".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".ppm"};
   if (!fs::is_directory(folder)) throw std::runtime_error(folder.string() + " is missing");
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (isImage(entry.path())) files.push_back(entry.path());
+    if (kExtensions.count(entry.path().extension()) > 0) files.push_back(entry.path());
   }
   if (files.empty()) throw std::runtime_error(folder.string() + " has no images");
   std::sort(files.begin(), files.end());
@@ -39,8 +36,7 @@ std::int64_t stampOf(const fs::path& file) {
   const std::string name = file.stem().string();
   const TextLine line = {file.string(), {name}};
   constexpr std::size_t kDigitsOfNanoseconds = 16;  // since 1970, after three months
-  const bool is_number = std::all_of(
-      name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c) != 0 || c == '.'; });
+  const bool is_number = name.find_first_not_of("0123456789.") == std::string::npos;
   const bool has_dot = name.find('.') != std::string::npos;
   if (!is_number || (!has_dot && name.size() < kDigitsOfNanoseconds)) {
     throw std::runtime_error(file.string() +
@@ -51,34 +47,28 @@ std::int64_t stampOf(const fs::path& file) {
   return has_dot ? line.nanoseconds(0) : line.integer(0);
 }
 
-std::vector<StampedImage> stampedByName(const std::vector<fs::path>& files) {
-  std::vector<StampedImage> images;
-  for (const fs::path& file : files) images.push_back({stampOf(file), file.string()});
-  std::sort(images.begin(), images.end(), [](const StampedImage& a, const StampedImage& b) {
-    return a.stamp_ns < b.stamp_ns;
-  });
-  return images;
-}
-
-std::vector<StampedImage> stampedByTimes(const std::vector<fs::path>& files,
-                                         const std::string& times_path) {
-  const std::vector<std::int64_t> stamps_ns = readTimes(times_path);
+std::vector<StampedImage> readImageList(const fs::path& root, const char* side) {
+  const std::vector<fs::path> files = listImages(root / side);
+  const std::string times_path = (root / "times.txt").string();
+  std::vector<std::int64_t> stamps_ns;
+  if (fs::exists(times_path)) {
+    stamps_ns = readTimes(times_path);
+  } else {
+    std::transform(files.begin(), files.end(), std::back_inserter(stamps_ns), stampOf);
+  }
   if (stamps_ns.size() != files.size()) {
     throw std::runtime_error(times_path + " has " + std::to_string(stamps_ns.size()) +
-                             " times, but " + files.front().parent_path().string() + " has " +
+                             " times, but " + (root / side).string() + " has " +
                              std::to_string(files.size()) + " images");
   }
   std::vector<StampedImage> images;
   for (std::size_t i = 0; i < files.size(); ++i) {
     images.push_back({stamps_ns[i], files[i].string()});
   }
+  std::sort(images.begin(), images.end(), [](const StampedImage& a, const StampedImage& b) {
+    return a.stamp_ns < b.stamp_ns;
+  });
   return images;
-}
-
-std::vector<StampedImage> readImageList(const fs::path& root, const char* side) {
-  const std::vector<fs::path> files = listImages(root / side);
-  const fs::path times = root / "times.txt";
-  return fs::exists(times) ? stampedByTimes(files, times.string()) : stampedByName(files);
 }
 
 Trajectory readGroundTruth(const std::string& path, const std::vector<std::int64_t>& stamps_ns) {

@@ -12,19 +12,17 @@
 namespace rotrocc {
 namespace {
 
-/// Removes images without a file; returns their number.
-std::size_t removeMissing(std::vector<StampedImage>& images) {
-  const auto present = std::remove_if(images.begin(), images.end(), [](const StampedImage& image) {
-    return !std::filesystem::is_regular_file(image.path);
-  });
-  const auto count = static_cast<std::size_t>(images.end() - present);
-  images.erase(present, images.end());
-  return count;
-}
-
-Stamps stampsOf(const std::vector<StampedImage>& images) {
+/// Removes images without a file, and counts them; returns the stamps of the others.
+Stamps removeMissing(std::vector<StampedImage>& images, std::size_t& missing) {
+  std::vector<StampedImage> present;
   Stamps stamps_ns;
-  for (const StampedImage& image : images) stamps_ns.push_back(image.stamp_ns);
+  for (const StampedImage& image : images) {
+    if (!std::filesystem::is_regular_file(image.path)) continue;
+    present.push_back(image);
+    stamps_ns.push_back(image.stamp_ns);
+  }
+  missing += images.size() - present.size();
+  images = std::move(present);
   return stamps_ns;
 }
 
@@ -38,13 +36,13 @@ ImagePairs::ImagePairs(std::vector<StampedImage> left,
                        std::vector<StampedImage> right,
                        double max_stamp_difference_s) {
   const std::string first_left = left.empty() ? "" : left.front().path;
-  missing_files_ = removeMissing(left) + removeMissing(right);
-  const Stamps left_ns = stampsOf(left);
+  const Stamps left_ns = removeMissing(left, missing_files_);
+  const Stamps right_ns = removeMissing(right, missing_files_);
   std::int64_t tolerance_ns = std::llround(1e9 * max_stamp_difference_s);
   if (const auto period_ns = periodOf(left_ns)) {
     tolerance_ns = std::min(tolerance_ns, (*period_ns - 1) / 2);
   }
-  for (const auto& [i, j] : matchStamps(left_ns, stampsOf(right), tolerance_ns)) {
+  for (const auto& [i, j] : matchStamps(left_ns, right_ns, tolerance_ns)) {
     pairs_.push_back({left[i], right[j]});
   }
   left_alone_ = left.size() - pairs_.size();
