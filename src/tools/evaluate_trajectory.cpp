@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <boost/program_options.hpp>
@@ -203,7 +204,6 @@ MatchedTrajectories matchLines(const Trajectory& truth,
   return matched;
 }
 
-/// As readEstimate(), before its stamps are compared with those of the statistics.
 Trajectory readStamped(const TrajectoryFiles& files) {
   if (hasStamps(files) || files.statistics.empty()) {
     return readTrajectory(files.estimate, files.times);
@@ -230,18 +230,6 @@ MatchedTrajectories match(const TrajectoryFiles& files) {
   const Trajectory estimate = estimate_tum ? readTrajectory(files.estimate) : readStamped(files);
   return truth_tum || estimate_tum ? matchStamps(truth, estimate, files)
                                    : matchLines(truth, estimate, files);
-}
-
-Trajectory readEstimate(const TrajectoryFiles& files) {
-  Trajectory estimate = readStamped(files);
-  requireStatisticsOf(estimate, files);
-  return estimate;
-}
-
-MatchedTrajectories readMatched(const TrajectoryFiles& files) {
-  MatchedTrajectories matched = match(files);
-  requireStatisticsOf(matched.estimate, files);
-  return matched;
 }
 
 /// Lengths of segments that a short path has: about an eighth, a quarter and half of it.
@@ -288,10 +276,11 @@ void printDistribution(const char* name, const Distribution& values, double scal
 
 /// Evaluates the matched poses; throws if no segment fits and no report is requested.
 Evaluation evaluateTruth(const Options& options) {
-  MatchedTrajectories matched = readMatched(options.files);
+  const MatchedTrajectories matched = match(options.files);
+  requireStatisticsOf(matched.estimate, options.files);
   const double path_m = pathLengths(matched.truth).back();
   const SegmentConfig segments = options.fit ? fittingSegments(path_m) : options.segments;
-  Evaluation evaluation = evaluate(std::move(matched), segments);
+  const Evaluation evaluation = {matched, segmentErrors(matched, segments)};
   if (options.report.empty()) requireSegments(evaluation.segments, segments, path_m);
   return evaluation;
 }
@@ -307,7 +296,7 @@ void print(const Evaluation& evaluation) {
   printTable("length [m]", evaluation.by_length);
   printTable("speed [m/s]", evaluation.by_speed);
 
-  const StepSummary steps = summarize(evaluation.steps);
+  const StepSummary& steps = evaluation.step_summary;
   std::printf("\n%-18s  %9s  %9s  %9s  %9s\n", "pose to pose", "mean", "rms", "p95", "max");
   printDistribution("translation [m]", steps.translation_m, 1.0);
   printDistribution("rotation [deg]", steps.rotation_rad, kDegreesPerRadian);
@@ -320,7 +309,9 @@ void print(const Evaluation& evaluation) {
 
 void run(const Options& options) {
   if (options.files.truth.empty()) {
-    writeReportTables(readEstimate(options.files), options.report);
+    const Trajectory estimate = readStamped(options.files);
+    requireStatisticsOf(estimate, options.files);
+    writeReportTables(estimate, options.report);
   } else {
     const Evaluation evaluation = evaluateTruth(options);
     if (!options.segments_file.empty()) writeSegments(evaluation.segments, options.segments_file);
@@ -328,7 +319,16 @@ void run(const Options& options) {
     print(evaluation);
   }
   if (options.report.empty()) return;
-  copyStatistics(options.files.statistics, options.report);
+  namespace fs = std::filesystem;
+  const std::string& statistics = options.files.statistics;
+  const std::string pairs = options.report + "/pairs.csv";
+  std::error_code error;
+  if (statistics.empty()) {
+    fs::remove(pairs, error);  // of an earlier report
+  } else if (!fs::equivalent(statistics, pairs, error)) {
+    fs::copy_file(statistics, pairs, fs::copy_options::overwrite_existing, error);
+    if (error) throw std::runtime_error("cannot copy " + statistics + ": " + error.message());
+  }
   drawReport(options.report, options.title);
 }
 

@@ -6,7 +6,6 @@
 #include <functional>
 #include <iostream>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 
 #include <rosbag/bag.h>
@@ -14,10 +13,8 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
-#include "common/csv_file.h"
 #include "common/median.h"
 #include "evaluation/image_file.h"
-#include "evaluation/report_directory.h"
 #include "input/message_conversion.h"
 #include "node/base/base_odometry.h"
 #include "node/odometry_messages.h"
@@ -49,55 +46,46 @@ void printTimes(std::ostream& out,
                     quantile(values, 0.99));
 }
 
-}  // namespace
+std::string statisticsColumns() {
+  std::string names =
+      "stamp_ns,state,dt_s,tries,corners,with_depth,tracked,consistent,rotation_inliers,"
+      "translation_inliers,pyramids_ms,corners_ms,disparity_ms,tracking_ms,estimation_ms,"
+      "prepared_ms,wall_ms,cpu_ms,keyframe_stamp_ns,bias_estimated_px,bias_sigma_px,"
+      "bias_applied_px,row_offset_px,row_offset_sigma_px,row_difference_px,"
+      "row_offset_applied_px,exposure_gain,shared_error_ratio,"
+      "flow_noise_px,x_m,y_m,z_m,rx_rad,ry_rad,rz_rad";
+  constexpr const char* kAxes[] = {"x", "y", "z", "rx", "ry", "rz"};
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i; j < 6; ++j) names += std::string(",covariance_") + kAxes[i] + '_' + kAxes[j];
+  }
+  return names;
+}
 
 /// The motion has its rotation as axis times angle, and the upper triangle of its covariance, row
 /// by row.
-class OdometryOutputs::StatisticsFile {
- public:
-  explicit StatisticsFile(const std::string& path) : file_(path, columns()) {}
-
-  void write(const PairRecord& record) {
-    const OdometryResult& result = record.result;
-    const StageCounts& counts = result.counts;
-    const StageTimes& times = result.times;
-    file_ << result.stamp_ns << toString(result.state) << result.dt_s << counts.tries
-          << counts.corners << counts.with_depth << counts.tracked << counts.consistent
-          << counts.rotation_inliers << counts.translation_inliers << times.pyramids_ms
-          << times.corners_ms << times.disparity_ms << times.tracking_ms << times.estimation_ms
-          << times.prepared_ms << record.wall_ms << record.cpu_ms << result.keyframe_stamp_ns
-          << result.disparity_bias.estimated_px << result.disparity_bias.sigma_px
-          << result.disparity_bias.applied_px << result.row_offset.median_px
-          << result.row_offset.sigma_px << result.row_offset.typical_px
-          << result.row_offset.applied_px << result.exposure_gain << result.shared_error_ratio
-          << result.flow_noise_px;
-    const Eigen::Vector3d rotation = logRotation(result.T_prev_cur.linear());
-    for (const double value : result.T_prev_cur.translation()) file_ << value;
-    for (const double value : rotation) file_ << value;
-    for (int i = 0; i < 6; ++i) {
-      for (int j = i; j < 6; ++j) file_ << result.covariance(i, j);
-    }
-    file_.endRow();
+void writeStatistics(const PairRecord& record, CsvFile& file) {
+  const OdometryResult& result = record.result;
+  const StageCounts& counts = result.counts;
+  const StageTimes& times = result.times;
+  file << result.stamp_ns << toString(result.state) << result.dt_s << counts.tries << counts.corners
+       << counts.with_depth << counts.tracked << counts.consistent << counts.rotation_inliers
+       << counts.translation_inliers << times.pyramids_ms << times.corners_ms << times.disparity_ms
+       << times.tracking_ms << times.estimation_ms << times.prepared_ms << record.wall_ms
+       << record.cpu_ms << result.keyframe_stamp_ns << result.disparity_bias.estimated_px
+       << result.disparity_bias.sigma_px << result.disparity_bias.applied_px
+       << result.row_offset.median_px << result.row_offset.sigma_px << result.row_offset.typical_px
+       << result.row_offset.applied_px << result.exposure_gain << result.shared_error_ratio
+       << result.flow_noise_px;
+  const Eigen::Vector3d rotation = logRotation(result.T_prev_cur.linear());
+  for (const double value : result.T_prev_cur.translation()) file << value;
+  for (const double value : rotation) file << value;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i; j < 6; ++j) file << result.covariance(i, j);
   }
+  file.endRow();
+}
 
- private:
-  static std::string columns() {
-    std::string names =
-        "stamp_ns,state,dt_s,tries,corners,with_depth,tracked,consistent,rotation_inliers,"
-        "translation_inliers,pyramids_ms,corners_ms,disparity_ms,tracking_ms,estimation_ms,"
-        "prepared_ms,wall_ms,cpu_ms,keyframe_stamp_ns,bias_estimated_px,bias_sigma_px,"
-        "bias_applied_px,row_offset_px,row_offset_sigma_px,row_difference_px,"
-        "row_offset_applied_px,exposure_gain,shared_error_ratio,"
-        "flow_noise_px,x_m,y_m,z_m,rx_rad,ry_rad,rz_rad";
-    constexpr const char* kAxes[] = {"x", "y", "z", "rx", "ry", "rz"};
-    for (int i = 0; i < 6; ++i) {
-      for (int j = i; j < 6; ++j) names += std::string(",covariance_") + kAxes[i] + '_' + kAxes[j];
-    }
-    return names;
-  }
-
-  CsvFile file_;
-};
+}  // namespace
 
 class OdometryOutputs::OdometryBag {
  public:
@@ -143,37 +131,13 @@ class OdometryOutputs::OdometryBag {
   rosbag::Bag bag_;
 };
 
-class OdometryOutputs::FlowPictures {
- public:
-  explicit FlowPictures(const std::string& folder) : folder_(folder) {}
-
-  void write(const StereoPair& pair,
-             const StereoCamera& camera,
-             const VisualOdometry& odometry,
-             const OdometryResult& result) {
-    drawFlowPicture({pair,
-                     camera,
-                     odometry.correspondences(),
-                     odometry.rotationInliers(),
-                     odometry.translationInliers(),
-                     result},
-                    picture_);
-    writeImage(folder_.path(cv::format("%06d.png", pairs_++)), picture_);
-  }
-
- private:
-  ReportDirectory folder_;
-  int pairs_ = 0;
-  cv::Mat picture_;
-};
-
 OdometryOutputs::OdometryOutputs(const OutputFiles& files,
                                  const Recording& recording,
                                  const Parameters& parameters)
     : trajectory_(files.trajectory, trajectoryFormat(files.format)) {
-  if (!files.statistics.empty()) statistics_ = std::make_unique<StatisticsFile>(files.statistics);
+  if (!files.statistics.empty()) statistics_.emplace(files.statistics, statisticsColumns());
   if (!files.bag.empty()) bag_ = std::make_unique<OdometryBag>(files.bag, recording, parameters);
-  if (!files.pictures.empty()) pictures_ = std::make_unique<FlowPictures>(files.pictures);
+  if (!files.pictures.empty()) pictures_.emplace(files.pictures);
 }
 
 OdometryOutputs::~OdometryOutputs() = default;
@@ -187,11 +151,20 @@ void OdometryOutputs::write(const PairRecord& record,
                             const StereoPair& pair,
                             const StereoCamera& camera,
                             const VisualOdometry& odometry) {
-  records_.push_back(record);
   trajectory_.write({pair.stamp_ns, accumulator_.add(record.result.T_prev_cur)});
-  if (statistics_) statistics_->write(record);
+  if (statistics_) writeStatistics(record, *statistics_);
   if (bag_) bag_->write(record.result);
-  if (pictures_) pictures_->write(pair, camera, odometry, record.result);
+  if (pictures_) {
+    drawFlowPicture({pair,
+                     camera,
+                     odometry.correspondences(),
+                     odometry.rotationInliers(),
+                     odometry.translationInliers(),
+                     record.result},
+                    picture_);
+    writeImage(pictures_->path(cv::format("%06zu.png", records_.size())), picture_);
+  }
+  records_.push_back(record);
 }
 
 void OdometryOutputs::printSummary(std::ostream& out) const {

@@ -2,10 +2,15 @@
 
 #include <iosfwd>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <opencv2/core.hpp>
+
 #include "bags/recording.h"
+#include "common/csv_file.h"
+#include "evaluation/report_directory.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/pose_accumulator.h"
 #include "rotrocc/stereo_camera.h"
@@ -55,16 +60,15 @@ class OdometryOutputs {
   void printSummary(std::ostream& out) const;
 
  private:
-  class StatisticsFile;
   class OdometryBag;
-  class FlowPictures;
 
   PoseAccumulator accumulator_;
   TrajectoryWriter trajectory_;
   std::vector<PairRecord> records_;
-  std::unique_ptr<StatisticsFile> statistics_;
+  std::optional<CsvFile> statistics_;
   std::unique_ptr<OdometryBag> bag_;
-  std::unique_ptr<FlowPictures> pictures_;
+  std::optional<ReportDirectory> pictures_;
+  cv::Mat picture_;
 };
 
 }  // namespace rotrocc

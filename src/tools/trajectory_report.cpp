@@ -1,9 +1,6 @@
 #include "tools/trajectory_report.h"
 
-#include <filesystem>
 #include <limits>
-#include <stdexcept>
-#include <utility>
 
 #include "common/csv_file.h"
 #include "common/to_seconds.h"
@@ -11,8 +8,6 @@
 
 namespace rotrocc {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Positions [m] in the frame of the first pose.
 std::vector<Eigen::Vector3d> positions(const Trajectory& trajectory) {
@@ -39,7 +34,7 @@ void writeMeans(const std::vector<MeanError>& means, const char* bin, const std:
 }
 
 void writeSummary(const Evaluation& evaluation, const std::string& path) {
-  const StepSummary steps = summarize(evaluation.steps);
+  const StepSummary& steps = evaluation.step_summary;
   const double path_m = evaluation.path_m.back();
   CsvFile table(path,
                 "poses,path_m,duration_s,segments,translation_percent,rotation_deg_per_m,"
@@ -89,19 +84,6 @@ void writePoses(const Evaluation& evaluation, const std::string& path) {
 
 }  // namespace
 
-Evaluation evaluate(MatchedTrajectories matched, const SegmentConfig& segments) {
-  Evaluation evaluation;
-  evaluation.path_m = pathLengths(matched.truth);
-  evaluation.segments = segmentErrors(matched, segments);
-  evaluation.mean = meanError(evaluation.segments);
-  evaluation.by_length = meanErrorByLength(evaluation.segments);
-  evaluation.by_speed = meanErrorBySpeed(evaluation.segments);
-  evaluation.steps = stepErrors(matched);
-  evaluation.drift = finalDrift(matched);
-  evaluation.matched = std::move(matched);
-  return evaluation;
-}
-
 void writeSegments(const std::vector<SegmentError>& segments, const std::string& path) {
   CsvFile table(path, "first_pose,length_m,speed_mps,translation_percent,rotation_deg_per_m");
   for (const SegmentError& segment : segments) {
@@ -133,17 +115,6 @@ void writeReportTables(const Trajectory& estimate, const std::string& directory)
   for (std::size_t i = 0; i < points.size(); ++i) {
     poses << estimate[i].stamp_ns;
     poses.row({path_m[i], points[i].x(), points[i].y(), points[i].z()});
-  }
-}
-
-void copyStatistics(const std::string& statistics, const std::string& directory) {
-  const std::string pairs = directory + "/pairs.csv";
-  std::error_code error;
-  if (statistics.empty()) {
-    fs::remove(pairs, error);
-  } else if (!fs::equivalent(statistics, pairs, error)) {
-    fs::copy_file(statistics, pairs, fs::copy_options::overwrite_existing, error);
-    if (error) throw std::runtime_error("cannot copy " + statistics + ": " + error.message());
   }
 }
 

@@ -11,17 +11,15 @@ constexpr double kDegreesPerRadian = 57.295779513082321;
 
 struct Evaluation {
   MatchedTrajectories matched;
-  std::vector<double> path_m;  ///< along the ground truth, to each pose
   std::vector<SegmentError> segments;
-  MeanError mean;
-  std::vector<MeanError> by_length;
-  std::vector<MeanError> by_speed;
-  std::vector<StepError> steps;
-  Drift drift;
+  std::vector<double> path_m = pathLengths(matched.truth);
+  MeanError mean = meanError(segments);
+  std::vector<MeanError> by_length = meanErrorByLength(segments);
+  std::vector<MeanError> by_speed = meanErrorBySpeed(segments);
+  std::vector<StepError> steps = stepErrors(matched);
+  StepSummary step_summary = summarize(steps);
+  Drift drift = finalDrift(matched);
 };
-
-/// Throws std::invalid_argument like segmentErrors().
-Evaluation evaluate(MatchedTrajectories matched, const SegmentConfig& segments);
 
 /// Writes a CSV table with one row per segment. Throws std::runtime_error if that fails.
 void writeSegments(const std::vector<SegmentError>& segments, const std::string& path);
@@ -36,9 +34,5 @@ void writeReportTables(const Evaluation& evaluation, const std::string& director
 
 /// The same without ground truth: summary.csv and poses.csv without errors.
 void writeReportTables(const Trajectory& estimate, const std::string& directory);
-
-/// Copies the file of `offline_odometry --stats` to pairs.csv, if its name is not empty; otherwise
-/// removes that of an earlier report. Throws std::runtime_error if it cannot be copied.
-void copyStatistics(const std::string& statistics, const std::string& directory);
 
 }  // namespace rotrocc
