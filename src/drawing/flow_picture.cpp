@@ -44,9 +44,12 @@ void drawLine(const Eigen::Vector2d& from_px,
   cv::line(image, toSubpixel(from_px), toSubpixel(to_px), colour, 1, cv::LINE_AA, kSubpixelBits);
 }
 
-void drawDot(const Eigen::Vector2d& pixel, const cv::Scalar& colour, cv::Mat& image) {
+/// A line to the present pixel of a feature, with a dot there.
+void drawFlow(const Correspondence& feature, const cv::Scalar& colour, cv::Mat& image) {
   const int radius = 1 << (kSubpixelBits + 1);
-  cv::circle(image, toSubpixel(pixel), radius, colour, cv::FILLED, cv::LINE_AA, kSubpixelBits);
+  drawLine(feature.keyframe_px, feature.cur_px, colour, image);
+  cv::circle(
+      image, toSubpixel(feature.cur_px), radius, colour, cv::FILLED, cv::LINE_AA, kSubpixelBits);
 }
 
 /// Colour (BGR) by the logarithm of the depth, from near (orange) to far (blue).
@@ -127,16 +130,17 @@ bool contains(const FeatureSet& set, std::size_t i) {
   return !set.empty() && set[i] != 0;
 }
 
-void describe(const OdometryResult& result, Legend& legend) {
-  legend.text(toString(result.state));
-  if (result.hasMotion()) {
-    const double speed_mps = result.T_prev_cur.translation().norm() / result.dt_s;
+void drawLegend(const FlowScene& scene, Legend legend) {
+  legend.text(toString(scene.result.state));
+  if (scene.result.hasMotion()) {
+    const double speed_mps = scene.result.T_prev_cur.translation().norm() / scene.result.dt_s;
     legend.text(cv::format("%.1f m/s", speed_mps));
   }
   legend.space();
-}
-
-void describeCounts(const FlowScene& scene, Legend& legend) {
+  legend.depthScale();
+  legend.sample(kRotationOnly, "rotation only");
+  legend.sample(kOutlier, "outlier");
+  legend.sample(kExpected, "as expected");
   const StageCounts& counts = scene.result.counts;
   const std::string features = cv::format("%zu features, ", scene.features.size());
   const bool had_stage_2 = counts.translation_inliers > 0;
@@ -153,9 +157,7 @@ void drawMotion(const FlowScene& scene, cv::Mat& image) {
   // Outliers are few; draw them last, on top of the inliers.
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (!contains(scene.translation_inliers, i)) continue;
-    const cv::Scalar colour = colourOfDepth(features[i].point_cur.z());
-    drawLine(features[i].keyframe_px, features[i].cur_px, colour, image);
-    drawDot(features[i].cur_px, colour, image);
+    drawFlow(features[i], colourOfDepth(features[i].point_cur.z()), image);
   }
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (contains(scene.translation_inliers, i)) continue;
@@ -166,9 +168,8 @@ void drawMotion(const FlowScene& scene, cv::Mat& image) {
         drawLine(expected_px, features[i].cur_px, kExpected, image);
       }
     }
-    const cv::Scalar colour = contains(scene.rotation_inliers, i) ? kRotationOnly : kOutlier;
-    drawLine(features[i].keyframe_px, features[i].cur_px, colour, image);
-    drawDot(features[i].cur_px, colour, image);
+    const bool fits_rotation = contains(scene.rotation_inliers, i);
+    drawFlow(features[i], fits_rotation ? kRotationOnly : kOutlier, image);
   }
 }
 
@@ -189,15 +190,8 @@ void drawFlowPicture(const FlowScene& scene, cv::Mat& picture) {
   cv::cvtColor(left, image, cv::COLOR_GRAY2BGR);
   image *= kBrightness;
   if (!mask.empty()) cv::add(image, kMasked, image, mask);
-
-  Legend legend(picture.rowRange(left.rows, picture.rows));
-  describe(scene.result, legend);
   drawMotion(scene, image);
-  legend.depthScale();
-  legend.sample(kRotationOnly, "rotation only");
-  legend.sample(kOutlier, "outlier");
-  legend.sample(kExpected, "as expected");
-  describeCounts(scene, legend);
+  drawLegend(scene, Legend(picture.rowRange(left.rows, picture.rows)));
 }
 
 }  // namespace rotrocc

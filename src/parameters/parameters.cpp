@@ -78,10 +78,10 @@ void addNode(NodeParameters& n, ParameterTable& table) {
       "format of trajectory_file";
 }
 
-void addFrontEnd(CorrespondenceFinderConfig& finder, ParameterTable& table) {
-  FeatureDetectorConfig& detector = finder.feature_detector;
+void addOdometry(OdometryConfig& c, ParameterTable& table) {
+  CorrespondenceFinderConfig& finder = c.correspondence_finder;
   table.beginSection("feature_detector");
-  table.add("max_features", detector.max_features, {50, 20000}).description =
+  table.add("max_features", finder.feature_detector.max_features, {50, 20000}).description =
       "number of features: a corner without a disparity is replaced by the next one";
 
   StereoMatcherConfig& matcher = finder.stereo_matcher;
@@ -91,29 +91,20 @@ void addFrontEnd(CorrespondenceFinderConfig& finder, ParameterTable& table) {
   table.add("min_disparity_px", matcher.min_disparity_px, {0.1, 100.0, "px"}).description =
       "smallest disparity; points farther away are dropped";
 
-  FeatureTrackerConfig& tracker = finder.feature_tracker;
   table.beginSection("feature_tracker");
-  table.add("window_radius_px", tracker.window_radius_px, {2, 25, "px"}).description =
-      "the Lucas-Kanade window is a square of side 2 radius + 1";
-}
+  table.add("window_radius_px", finder.feature_tracker.window_radius_px, {2, 25, "px"})
+      .description = "the Lucas-Kanade window is a square of side 2 radius + 1";
 
-void addMotion(OdometryConfig& config, ParameterTable& table) {
-  MotionEstimatorConfig& c = config.motion_estimator;
   table.beginSection("motion_estimator");
-  table.add("criterion", c.criterion, criterionNames()).description =
+  table.add("criterion", c.motion_estimator.criterion, criterionNames()).description =
       "criterion that selects the inliers; as published only with method: paper";
 
-  MotionCheckConfig& check = config.motion_check;
+  MotionCheckConfig& check = c.motion_check;
   table.beginSection("motion_check");
   table.add("max_speed_mps", check.max_speed_mps, {0.1, 1000.0, "m/s"}).description =
       "speed above which the motion is lost";
   table.add("max_turn_rate_rps", check.max_turn_rate_rps, {0.1, 100.0, "rad/s"}).description =
       "turn rate above which the motion is lost";
-}
-
-void addOdometry(OdometryConfig& c, ParameterTable& table) {
-  addFrontEnd(c.correspondence_finder, table);
-  addMotion(c, table);
 
   table.beginSection("stereo_calibrator");
   table.add("enabled", c.stereo_calibrator.enabled).description =

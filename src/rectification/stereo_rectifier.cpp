@@ -26,26 +26,6 @@ std::uint32_t fourPixels(const std::uint8_t* pixels) {
   return value;
 }
 
-std::uint8_t toGrey(int sum) {
-  const int grey = (sum + (1 << (2 * kBits - 1))) >> (2 * kBits);
-  return static_cast<std::uint8_t>(std::clamp(grey, 0, 255));
-}
-
-/// Where a raw camera sees a row of a rectified image with the principal point (cx, camera.cy).
-std::vector<cv::Point2d> rawPixels(const RawCamera& raw,
-                                   const StereoCamera& camera,
-                                   double cx,
-                                   int y) {
-  std::vector<Eigen::Vector3d> rays;
-  for (int x = 0; x < camera.width; ++x) {
-    const Eigen::Vector3d rectified((x - cx) / camera.fx, (y - camera.cy) / camera.fy, 1.0);
-    Eigen::Vector3d& ray = rays.emplace_back(raw.R_rectified_raw.transpose() * rectified);
-    // A camera that is turned far sees no ray from behind; the nearest is at its horizon.
-    ray.z() = std::max(ray.z(), 1e-6 * ray.norm());
-  }
-  return raw.project(rays);
-}
-
 }  // namespace
 
 ImageResampler::ImageResampler(const cv::Size& source, const cv::Size& size)
@@ -104,7 +84,8 @@ std::uint8_t ImageResampler::pixelAt(const Place& place) const {
       cv::v_dotprod(cv::v_reinterpret_as_s16(rows_0_2), cv::v_load(down.down_0_2.data())) +
       cv::v_dotprod(cv::v_reinterpret_as_s16(rows_1_3), cv::v_load(down.down_1_3.data()));
   const cv::v_int32x4 across = cv::v_load(weights_[place.column_phase].across.data());
-  return toGrey(cv::v_reduce_sum(columns * across));
+  const int sum = cv::v_reduce_sum(columns * across);
+  return cv::saturate_cast<std::uint8_t>((sum + (1 << (2 * kBits - 1))) >> (2 * kBits));
 }
 
 void ImageResampler::resample(const cv::Mat& image, cv::Mat& result) {
@@ -118,13 +99,21 @@ void ImageResampler::resample(const cv::Mat& image, cv::Mat& result) {
   }
 }
 
+/// For a rectified image with the principal point (cx, camera.cy).
 StereoRectifier::Side StereoRectifier::makeSide(const RawCamera& raw,
                                                 const StereoCamera& camera,
                                                 double cx) {
   Side side = {ImageResampler({raw.width, raw.height}, {camera.width, camera.height}),
                cv::Mat(camera.height, camera.width, CV_8UC1)};
   for (int y = 0; y < camera.height; ++y) {
-    const std::vector<cv::Point2d> pixels = rawPixels(raw, camera, cx, y);
+    std::vector<Eigen::Vector3d> rays;
+    for (int x = 0; x < camera.width; ++x) {
+      const Eigen::Vector3d rectified((x - cx) / camera.fx, (y - camera.cy) / camera.fy, 1.0);
+      Eigen::Vector3d& ray = rays.emplace_back(raw.R_rectified_raw.transpose() * rectified);
+      // A camera that is turned far sees no ray from behind; the nearest is at its horizon.
+      ray.z() = std::max(ray.z(), 1e-6 * ray.norm());
+    }
+    const std::vector<cv::Point2d> pixels = raw.project(rays);
     for (int x = 0; x < camera.width; ++x) side.resampler.setPlace(x, y, pixels[x]);
   }
   return side;

@@ -22,16 +22,13 @@ const char* const kHelp =
     "Parameters:\n"
     "  least_size_m  what is seen around the start [m], default 4\n";
 
-std::string viewFrame(const std::string& ns) {
-  return "trajectory_view" + (ns == "/" ? "" : ns);
-}
-
 class RvizScene {
  public:
   RvizScene(ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
-      : scene_(private_nh.param("least_size_m", 4.0), viewFrame(nh.getNamespace())),
+      : scene_(private_nh.param("least_size_m", 4.0),
+               "trajectory_view" + (nh.getNamespace() == "/" ? "" : nh.getNamespace())),
         publisher_(nh.advertise<visualization_msgs::MarkerArray>(
-            "scene", kQueueSize, [this](const ros::SingleSubscriberPublisher&) { forgetSent(); })),
+            "scene", 100, [this](const ros::SingleSubscriberPublisher&) { forgetSent(); })),
         odometry_(nh.subscribe("odom", 10, &TrajectoryScene::add, &scene_)),
         status_(nh.subscribe("status", 10, &TrajectoryScene::setState, &scene_)),
         truth_(nh.subscribe("ground_truth/path", 1, &TrajectoryScene::setTruth, &scene_)),
@@ -40,8 +37,6 @@ class RvizScene {
         refresh_(nh.createWallTimer(ros::WallDuration(5.0), &RvizScene::forgetSent, this)) {}
 
  private:
-  static constexpr int kQueueSize = 100;
-
   void forgetSent(const ros::WallTimerEvent& = {}) { sent_.clear(); }
 
   void sendChanges(const ros::WallTimerEvent&) {

@@ -99,30 +99,22 @@ void TrajectoryScene::setState(const OdometryStatus& status) {
   keepLast();
 }
 
-void TrajectoryScene::setTruth(const nav_msgs::Path& truth) {
-  truth_ = truth;
-}
-
-void TrajectoryScene::begin(const nav_msgs::Odometry& odometry) {
-  way_.clear();
-  view_ = WholeView();
-  length_m_ = 0.0;
-  const Eigen::Vector3d start = toEigen(odometry.pose.pose.position);
-  for (const int side : {-1, 1}) {
-    view_.add(start + side * 0.5 * least_size_m_ * Eigen::Vector3d::UnitX());
-    view_.add(start + side * 0.5 * least_size_m_ * Eigen::Vector3d::UnitY());
-  }
-}
-
 void TrajectoryScene::add(const nav_msgs::Odometry& odometry) {
+  const Eigen::Vector3d position = toEigen(odometry.pose.pose.position);
   if (empty() || odometry.header.stamp < last_.header.stamp ||
       odometry.header.frame_id != last_.header.frame_id) {
-    begin(odometry);
+    way_.clear();
+    view_ = WholeView();
+    length_m_ = 0.0;
+    for (const int side : {-1, 1}) {
+      view_.add(position + side * 0.5 * least_size_m_ * Eigen::Vector3d::UnitX());
+      view_.add(position + side * 0.5 * least_size_m_ * Eigen::Vector3d::UnitY());
+    }
   } else {
-    length_m_ += (toEigen(odometry.pose.pose.position) - toEigen(last_.pose.pose.position)).norm();
+    length_m_ += (position - toEigen(last_.pose.pose.position)).norm();
   }
   last_ = odometry;
-  view_.add(toEigen(odometry.pose.pose.position));
+  view_.add(position);
   keepLast();
 }
 

@@ -47,7 +47,7 @@ class TrajectoryScene {
 
   /// A pose has the state of the status with its stamp, whichever comes first.
   void setState(const OdometryStatus& status);
-  void setTruth(const nav_msgs::Path& truth);
+  void setTruth(const nav_msgs::Path& truth) { truth_ = truth; }
 
   /// The next pose. Restarts if time went back, or the frame is another one.
   void add(const nav_msgs::Odometry& odometry);
@@ -67,7 +67,6 @@ class TrajectoryScene {
     std::uint8_t state;
   };
 
-  void begin(const nav_msgs::Odometry& odometry);
   void keepLast();
   double distance_m() const;
   std::string words() const;
