@@ -16,31 +16,30 @@ class ImageGrid {
   ImageGrid(int width, int height, int columns = kColumns)
       : width_(width),
         height_(height),
-        columns_(columns),
-        rows_(std::max(1, cvRound(static_cast<double>(columns) * height / width))) {}
+        cells_(columns, std::max(1, cvRound(static_cast<double>(columns) * height / width))) {}
 
-  std::size_t count() const { return static_cast<std::size_t>(columns_ * rows_); }
-  int columns() const { return columns_; }
-  int rows() const { return rows_; }
+  std::size_t count() const { return static_cast<std::size_t>(cells_.area()); }
+
+  /// Columns and rows.
+  cv::Size size() const { return cells_; }
 
   /// The cell of a pixel; the nearest one outside of the image.
   std::size_t of(double x, double y) const {
-    const int column = std::clamp(cvFloor((x + 0.5) * columns_ / width_), 0, columns_ - 1);
-    const int row = std::clamp(cvFloor((y + 0.5) * rows_ / height_), 0, rows_ - 1);
-    return static_cast<std::size_t>(row * columns_ + column);
+    const int column = std::clamp(cvFloor((x + 0.5) * cells_.width / width_), 0, cells_.width - 1);
+    const int row = std::clamp(cvFloor((y + 0.5) * cells_.height / height_), 0, cells_.height - 1);
+    return static_cast<std::size_t>(row * cells_.width + column);
   }
 
   cv::Point2d centre(std::size_t cell) const {
     const auto index = static_cast<int>(cell);
-    return {(index % columns_ + 0.5) * width_ / columns_ - 0.5,
-            (index / columns_ + 0.5) * height_ / rows_ - 0.5};
+    return {(index % cells_.width + 0.5) * width_ / cells_.width - 0.5,
+            (index / cells_.width + 0.5) * height_ / cells_.height - 0.5};
   }
 
  private:
   int width_;
   int height_;
-  int columns_;
-  int rows_;
+  cv::Size cells_;
 };
 
 }  // namespace rotrocc

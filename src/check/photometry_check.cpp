@@ -189,11 +189,16 @@ class PhotometryCheck : public PairCheck {
   }
 
   void addExposure(const Windows& windows, RigReport& report) const {
-    const Estimate gain = overWindows(course(&Row::gain), windows);
-    const Estimate offset = overWindows(course(&Row::offset_grey), windows);
-    const Estimate vignetting = overWindows(course(&Row::vignetting), windows);
+    const auto estimate = [&](double Row::*member) {
+      std::vector<TimedValue> values;
+      for (const Row& row : rows_) values.push_back({row.time_s, row.*member});
+      return overWindows(values, windows);
+    };
+    const Estimate gain = estimate(&Row::gain);
+    const Estimate offset = estimate(&Row::offset_grey);
+    const Estimate vignetting = estimate(&Row::vignetting);
     // Variances of Gaussians add; the blur itself would change its sign by chance.
-    const Estimate blur_px2 = overWindows(course(&Row::blur_px2), windows);
+    const Estimate blur_px2 = estimate(&Row::blur_px2);
     report.add(
         {"photometry",
          "gain right to left",
@@ -274,12 +279,6 @@ class PhotometryCheck : public PairCheck {
           0.15,
           [](const Levels& levels) { return levels.noise / std::max(levels.contrast, 1e-9); });
     }
-  }
-
-  std::vector<TimedValue> course(double Row::*member) const {
-    std::vector<TimedValue> values;
-    for (const Row& row : rows_) values.push_back({row.time_s, row.*member});
-    return values;
   }
 
   std::vector<Row> rows_;

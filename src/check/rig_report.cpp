@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <yaml-cpp/yaml.h>
+#include <boost/algorithm/string/case_conv.hpp>
 
 #include "common/csv_file.h"
 #include "evaluation/image_file.h"
@@ -50,20 +51,13 @@ Verdict judge(const Graded& graded) {
   return graded.sigma > graded.fix ? Verdict::kUnknown : Verdict::kGood;
 }
 
-std::string label(Verdict verdict) {
-  std::string label = toString(verdict);
-  std::transform(label.begin(), label.end(), label.begin(), [](unsigned char letter) {
-    return static_cast<char>(std::toupper(letter));
-  });
-  return label + std::string(11 - std::min<std::size_t>(label.size(), 11), ' ');
-}
-
 std::string toText(const std::vector<Finding>& findings) {
   std::string text;
   std::set<std::string> said;
   for (const Finding& finding : findings) {
-    text += label(finding.verdict) + ' ' + finding.section + ": " + finding.subject + ": " +
-            finding.measured + '\n';
+    const std::string verdict = boost::to_upper_copy<std::string>(toString(finding.verdict));
+    text += cv::format("%-11s ", verdict.c_str()) + finding.section + ": " + finding.subject +
+            ": " + finding.measured + '\n';
     if (finding.verdict == Verdict::kGood || finding.remedy.empty()) continue;
     if (!said.insert(finding.cost + finding.remedy).second) {
       text += wrapped("-> as above", 12);

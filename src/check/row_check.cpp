@@ -104,25 +104,20 @@ void RowCheck::observe(const CheckedPair& pair) {
                              shiftOf(samples_.size());
     cv::Point2f right = left + cv::Point2f(-static_cast<float>(feature.disparity_px),
                                            static_cast<float>(pair.result.row_offset.applied_px));
-    if (!locate(pair.images, left, right)) continue;
-    RowSample sample;
-    sample.time_s = pair.time_s;
-    sample.left_px = left;
-    sample.x_right = (right.x - camera_.cx_right) / camera_.fx;
-    sample.y = (left.y - camera_.cy) / camera_.fy;
-    sample.row_px = right.y - left.y;
-    sample.velocity_pxps = velocityOf(feature, camera_, twist);
-    samples_.push_back(sample);
+    // Again from where it stops, up to 0.04 px before the end.
+    constexpr int kSearches = 3;
+    int found = 0;
+    while (found < kSearches && tracker_.locate(pair.images.left, pair.images.right, left, right)) {
+      ++found;
+    }
+    if (found < kSearches) continue;
+    samples_.push_back({pair.time_s,
+                        left,
+                        (right.x - camera_.cx_right) / camera_.fx,
+                        (left.y - camera_.cy) / camera_.fy,
+                        right.y - left.y,
+                        velocityOf(feature, camera_, twist)});
   }
-}
-
-/// As FeatureTracker::locate(), again from where it stops, up to 0.04 px before the end.
-bool RowCheck::locate(const StereoPair& images, const cv::Point2f& left, cv::Point2f& right) {
-  constexpr int kSearches = 3;
-  for (int i = 0; i < kSearches; ++i) {
-    if (!tracker_.locate(images.left, images.right, left, right)) return false;
-  }
-  return true;
 }
 
 RowModel RowCheck::correctable() const {
@@ -141,7 +136,14 @@ double RowCheck::yawShare() const {
 }
 
 void RowCheck::report(const Windows& windows, const Estimate& keystone_rad, RigReport& report) {
-  fit(windows);
+  std::vector<RowSample> fitted;
+  std::vector<std::size_t> of_window;
+  const std::size_t step = std::max<std::size_t>(1, samples_.size() / kFitted);
+  for (std::size_t i = 0; i < samples_.size(); i += step) {
+    fitted.push_back(samples_[i]);
+    of_window.push_back(windows.of(samples_[i].time_s));
+  }
+  model_ = fitRows(camera_, fitted, of_window, windows.count());
   keystone_rad_ = keystone_rad;
   if (samples_.size() < kLeastSamples) {
     report.findings.push_back({"rows",
@@ -155,17 +157,6 @@ void RowCheck::report(const Windows& windows, const Estimate& keystone_rad, RigR
   addCauses(report);
   addMap(report);
   addCourse(report);
-}
-
-void RowCheck::fit(const Windows& windows) {
-  std::vector<RowSample> fitted;
-  std::vector<std::size_t> of_window;
-  const std::size_t step = std::max<std::size_t>(1, samples_.size() / kFitted);
-  for (std::size_t i = 0; i < samples_.size(); i += step) {
-    fitted.push_back(samples_[i]);
-    of_window.push_back(windows.of(samples_[i].time_s));
-  }
-  model_ = fitRows(camera_, fitted, of_window, windows.count());
 }
 
 void RowCheck::addCauses(RigReport& report) const {

@@ -31,8 +31,6 @@ class RowCheck {
   bool isConstant() const { return is_constant_; }
 
  private:
-  bool locate(const StereoPair& images, const cv::Point2f& left, cv::Point2f& right);
-  void fit(const Windows& windows);
   double yawShare() const;
   void addCauses(RigReport& report) const;
   void addMap(RigReport& report);

@@ -80,35 +80,25 @@ struct PriorResidual {
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-class RowProblem {
- public:
-  RowProblem(const StereoCamera& camera,
-             const std::vector<RowSample>& samples,
-             const std::vector<std::size_t>& windows)
-      : camera_(camera), samples_(samples), windows_(windows) {
-    is_free_.fill(true);
-  }
+struct RowProblem {
+  const StereoCamera& camera;
+  const std::vector<RowSample>& samples;
+  const std::vector<std::size_t>& windows;
+  RowCauses start = {};
+  std::array<bool, kRowCauses> is_left_out = {};  ///< these stay as they start
+  double noise_px = 1.0;  ///< of the samples, that estimates weight them with
 
-  void leaveOut(std::size_t cause) {
-    is_free_[cause] = false;
-    start_[cause] = 0.0;
-  }
-  double noise_px() const { return noise_px_; }
-  bool isFree(std::size_t cause) const { return is_free_[cause]; }
-  void setStart(const RowCauses& causes) { start_ = causes; }
-
-  /// Noise of the samples that the next estimates weight them with.
   void setNoise(const RowCauses& causes) {
     std::vector<double> errors_px;
-    for (const RowSample& sample : samples_) {
-      errors_px.push_back(std::abs(rowOf(camera_, causes, sample) - sample.row_px));
+    for (const RowSample& sample : samples) {
+      errors_px.push_back(std::abs(rowOf(camera, causes, sample) - sample.row_px));
     }
-    noise_px_ = std::max(kDeviationOverMedian * median(errors_px), kLeastNoise_px);
+    noise_px = std::max(kDeviationOverMedian * median(errors_px), kLeastNoise_px);
   }
 
   /// The causes by the samples of all windows but one.
   RowCauses estimate(std::size_t left_out = kNone) const {
-    RowCauses causes = start_;
+    RowCauses causes = start;
     ceres::Problem problem;
     fill(problem, causes, left_out);
     ceres::Solver::Options options;
@@ -139,53 +129,32 @@ class RowProblem {
     return sigmas;
   }
 
- private:
   void fill(ceres::Problem& problem, RowCauses& causes, std::size_t left_out) const {
     using Cost = ceres::AutoDiffCostFunction<RowResidual, 1, 1, 1, 1, 1, 1, 1, 1>;
     using Prior = ceres::AutoDiffCostFunction<PriorResidual, 1, 1>;
     std::vector<double*> blocks;
     for (double& cause : causes) blocks.push_back(&cause);
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      if (windows_[i] == left_out) continue;
-      problem.AddResidualBlock(new Cost(new RowResidual{camera_, samples_[i], noise_px_}),
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (windows[i] == left_out) continue;
+      problem.AddResidualBlock(new Cost(new RowResidual{camera, samples[i], noise_px}),
                                new ceres::CauchyLoss(kRobust),
                                blocks);
     }
     for (std::size_t k = 0; k < kRowCauses; ++k) {
       problem.AddResidualBlock(new Prior(new PriorResidual{kPrior[k]}), nullptr, blocks[k]);
-      if (!is_free_[k]) problem.SetParameterBlockConstant(blocks[k]);
+      if (is_left_out[k]) problem.SetParameterBlockConstant(blocks[k]);
     }
   }
-
-  const StereoCamera& camera_;
-  const std::vector<RowSample>& samples_;
-  const std::vector<std::size_t>& windows_;
-  std::array<bool, kRowCauses> is_free_;
-  RowCauses start_ = {};
-  double noise_px_ = 1.0;
 };
-
-RowCauses jackknife(const RowProblem& problem, std::size_t window_count) {
-  std::vector<std::vector<double>> without;
-  for (std::size_t w = 0; w < window_count; ++w) {
-    const RowCauses causes = problem.estimate(w);
-    without.emplace_back(causes.begin(), causes.end());
-  }
-  RowCauses sigmas;
-  const std::vector<double> values = jackknifeSigmas(without);
-  std::copy(values.begin(), values.end(), sigmas.begin());
-  return sigmas;
-}
 
 /// By which errors that the samples of a part of the image share, e.g. of a lens, increase standard
 /// deviations of independent errors.
-double sharedErrorFactor(const StereoCamera& camera,
-                         const std::vector<RowSample>& samples,
-                         const RowCauses& causes,
-                         double noise_px) {
+double sharedErrorFactor(const RowProblem& problem, const RowCauses& causes) {
+  const StereoCamera& camera = problem.camera;
+  const double noise_px = problem.noise_px;
   const ImageGrid grid(camera.width, camera.height);
   std::vector<std::vector<double>> remainders_px(grid.count());
-  for (const RowSample& sample : samples) {
+  for (const RowSample& sample : problem.samples) {
     remainders_px[grid.of(sample.left_px.x, sample.left_px.y)].push_back(
         sample.row_px - rowOf(camera, causes, sample));
   }
@@ -200,18 +169,18 @@ double sharedErrorFactor(const StereoCamera& camera,
   }
   if (cells == 0.0) return 1.0;
   const double shared2 = std::max(squares / cells, kMatching_px * kMatching_px);
-  const double per_cell = static_cast<double>(samples.size()) / cells;
+  const double per_cell = static_cast<double>(problem.samples.size()) / cells;
   return std::sqrt(1.0 + per_cell * shared2 / (noise_px * noise_px));
 }
 
 /// The cause to be left out next; kRowCauses if all are significant. Pitch goes before the row of
 /// the principal point, which looks the same but for some hundredths of a pixel.
 std::size_t weakestOf(const RowProblem& problem, const RowCauses& significances) {
-  if (problem.isFree(kPitch) && significances[kPitch] < kSigmas) return kPitch;
+  if (!problem.is_left_out[kPitch] && significances[kPitch] < kSigmas) return kPitch;
   std::size_t weakest = kRowCauses;
   double least = kSigmas;
   for (std::size_t k = 0; k < kRowCauses; ++k) {
-    if (!problem.isFree(k) || significances[k] >= least) continue;
+    if (problem.is_left_out[k] || significances[k] >= least) continue;
     least = significances[k];
     weakest = k;
   }
@@ -257,25 +226,31 @@ RowModel fitRows(const StereoCamera& camera,
     model.effect_sigmas_px = model.sigmas;
     return model;
   }
-  RowProblem problem(camera, samples, windows);
+  RowProblem problem = {camera, samples, windows};
   problem.setNoise(problem.estimate());
   for (;;) {
     model.causes = problem.estimate();
-    problem.setStart(model.causes);
+    problem.start = model.causes;
     problem.setNoise(model.causes);
     const RowCauses formal = problem.formalSigmas(model.causes);
-    const RowCauses scatter = jackknife(problem, window_count);
-    const double shared = sharedErrorFactor(camera, samples, model.causes, problem.noise_px());
+    std::vector<std::vector<double>> without;
+    for (std::size_t w = 0; w < window_count; ++w) {
+      const RowCauses causes = problem.estimate(w);
+      without.emplace_back(causes.begin(), causes.end());
+    }
+    const std::vector<double> scatter = jackknifeSigmas(without);
+    const double shared = sharedErrorFactor(problem, model.causes);
     RowCauses significances = {};
     for (std::size_t k = 0; k < kRowCauses; ++k) {
-      if (!problem.isFree(k)) continue;
+      if (problem.is_left_out[k]) continue;
       model.sigmas[k] = std::max(shared * formal[k], scatter[k]);
       significances[k] = std::abs(model.causes[k]) / model.sigmas[k];
     }
     const std::size_t weakest = weakestOf(problem, significances);
     if (weakest == kRowCauses) break;
     if (weakest == kPitch) model.may_be_pitch = significances[kOffset] < kSigmas;
-    problem.leaveOut(weakest);
+    problem.is_left_out[weakest] = true;
+    problem.start[weakest] = 0.0;
   }
   addEffects(camera, samples, model);
   return model;

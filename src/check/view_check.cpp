@@ -49,7 +49,7 @@ bool rests(const CheckedPair& pair) {
 std::vector<float> meansOf(const cv::Mat& image, const ImageGrid& grid) {
   cv::Mat means;
   image.convertTo(means, CV_32F);
-  cv::resize(means, means, {grid.columns(), grid.rows()}, 0, 0, cv::INTER_AREA);
+  cv::resize(means, means, grid.size(), 0, 0, cv::INTER_AREA);
   return {means.begin<float>(), means.end<float>()};
 }
 
@@ -298,7 +298,7 @@ class ViewCheck : public PairCheck {
   /// robot.
   cv::Mat disagreeing() const {
     const ImageGrid fine(camera_.width, camera_.height, kFineColumns);
-    cv::Mat cells = cv::Mat::zeros(fine.rows(), fine.columns(), CV_8UC1);
+    cv::Mat cells = cv::Mat::zeros(fine.size(), CV_8UC1);
     const bool follows_robot = 2 * resting_pairs_ > changing_pairs_;
     for (std::size_t i = 0; i < fine_map_.size(); ++i) {
       const Cell& cell = fine_map_[i];
