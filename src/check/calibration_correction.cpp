@@ -39,8 +39,7 @@ bool hasErrors(const RigMeasures& measures) {
          isBiased(measures.bias);
 }
 
-/// Empty if it is not worse.
-std::string whyWorse(const RigMeasures& before, const RigMeasures& after) {
+std::optional<std::string> whyWorse(const RigMeasures& before, const RigMeasures& after) {
   constexpr double kWorse = 1.05;
   // Over the way: smaller differences are those of a perfect rig.
   constexpr double kLeastDifference = 0.004;
@@ -54,7 +53,7 @@ std::string whyWorse(const RigMeasures& before, const RigMeasures& after) {
     return "repeated motions would differ by " + fixedText(100.0 * after.replay_share, 2) +
            " m in 100 m in place of " + fixedText(100.0 * before.replay_share, 2) + " m";
   }
-  return "";
+  return std::nullopt;
 }
 
 }  // namespace
@@ -101,9 +100,10 @@ std::optional<CheckedRig> findCorrection(Recording& recording,
     corrected.calibration = std::make_shared<const StereoCalibration>(correct(checked.measures));
     checked = checkRig(recording, corrected);
   }
-  why_not = whyWorse(before, checked.measures);
-  if (!why_not.empty()) return std::nullopt;
-  return checked;
+  const auto why_worse = whyWorse(before, checked.measures);
+  if (!why_worse) return checked;
+  why_not = *why_worse;
+  return std::nullopt;
 }
 
 void writeCalibration(const StereoCalibration& calibration, const std::string& directory) {
