@@ -1,10 +1,8 @@
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
 #include <vector>
 
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core.hpp>
 
 namespace rotrocc {
 
@@ -13,12 +11,12 @@ using ImagePyramid = std::vector<cv::Mat>;
 
 /// Builds a pyramid of at most `levels` levels including the image. The smaller copies are larger
 /// than `min_side_px` in both directions. Reuses the memory of `pyramid`.
-inline void buildPyramid(const cv::Mat& image, int levels, int min_side_px, ImagePyramid& pyramid) {
-  int count = 1;
-  while (count < levels && std::min(image.cols, image.rows) >> count > min_side_px) ++count;
-  pyramid.resize(static_cast<std::size_t>(count));
-  image.copyTo(pyramid[0]);
-  for (std::size_t i = 1; i < pyramid.size(); ++i) cv::pyrDown(pyramid[i - 1], pyramid[i]);
-}
+void buildPyramid(const cv::Mat& image, int levels, int min_side_px, ImagePyramid& pyramid);
+
+/// Smooths `image` (CV_8UC1) by (1 4 6 4 1) / 16 in both directions and keeps every other pixel of
+/// every other row, starting with the first: the reduction of Burt and Adelson (1983). The image is
+/// reflected at its borders. `half` has half the width and height, rounded up; its memory is
+/// reused.
+void halve(const cv::Mat& image, cv::Mat& half);
 
 }  // namespace rotrocc

@@ -18,6 +18,15 @@ struct ColumnSums {
 
 namespace ROTROCC_INSTRUCTIONS {
 
+// For the smaller images of a pyramid.
+
+/// Smooths five rows vertically by (1 4 6 4 1).
+void smoothDown(const std::uint8_t* const* rows, int columns, std::int16_t* sums);
+
+/// Smooths every other value of the result of smoothDown() along the row, by (1 4 6 4 1) / 256 in
+/// total, and rounds. Reads up to two values before the first and after the last one.
+void smoothAlong(const std::int16_t* sums, int columns, std::uint8_t* out);
+
 // For the corner response and its peaks.
 
 /// Smooths a row vertically by (1 2 1), and differentiates it vertically, using the rows above and

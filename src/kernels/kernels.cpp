@@ -10,7 +10,9 @@ namespace ROTROCC_INSTRUCTIONS {
 static_assert(kShorts <= kMaxShorts);
 
 extern const Kernels kernels;
-const Kernels kernels = {differentiateRow,
+const Kernels kernels = {smoothDown,
+                         smoothAlong,
+                         differentiateRow,
                          replaceGradients,
                          respondRow,
                          highestOfColumns,

@@ -1,0 +1,53 @@
+#include "features/image_pyramid.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "kernels/kernels.h"
+
+namespace rotrocc {
+namespace {
+
+/// Radius of the kernel.
+constexpr int kReach = 2;
+
+/// Smooths the image vertically at row `y`, times 16, into `sums`, and reflects it on both sides.
+void smoothDown(const Kernels& kernels, const cv::Mat& image, int y, std::int16_t* sums) {
+  const uchar* rows[2 * kReach + 1];
+  for (int i = -kReach; i <= kReach; ++i) {
+    rows[i + kReach] =
+        image.ptr<uchar>(cv::borderInterpolate(y + i, image.rows, cv::BORDER_REFLECT_101));
+  }
+  kernels.smoothDown(rows, image.cols, sums);
+  for (int i = 1; i <= kReach; ++i) {
+    sums[-i] = sums[cv::borderInterpolate(-i, image.cols, cv::BORDER_REFLECT_101)];
+    const int right = image.cols - 1 + i;
+    sums[right] = sums[cv::borderInterpolate(right, image.cols, cv::BORDER_REFLECT_101)];
+  }
+}
+
+}  // namespace
+
+void buildPyramid(const cv::Mat& image, int levels, int min_side_px, ImagePyramid& pyramid) {
+  int count = 1;
+  while (count < levels && std::min(image.cols, image.rows) >> count > min_side_px) ++count;
+  pyramid.resize(static_cast<std::size_t>(count));
+  image.copyTo(pyramid[0]);
+  for (std::size_t i = 1; i < pyramid.size(); ++i) halve(pyramid[i - 1], pyramid[i]);
+}
+
+void halve(const cv::Mat& image, cv::Mat& half) {
+  half.create((image.rows + 1) / 2, (image.cols + 1) / 2, CV_8UC1);
+  const Kernels& kernels = chooseKernels();
+  thread_local std::vector<std::int16_t> buffer;  // buffer for one row
+  buffer.resize(static_cast<std::size_t>(image.cols + 2 * kReach + kMaxShorts));
+  std::int16_t* sums = buffer.data() + kReach;
+  for (int y = 0; y < half.rows; ++y) {
+    smoothDown(kernels, image, 2 * y, sums);
+    kernels.smoothAlong(sums, half.cols, half.ptr<uchar>(y));
+  }
+}
+
+}  // namespace rotrocc
