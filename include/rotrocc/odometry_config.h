@@ -100,7 +100,7 @@ struct OdometryConfig {
 
   int threads = 2;            ///< that process a pair, including the calling thread
   bool keep_keyframe = true;  ///< at rest; false: every frame is the keyframe of the next one
-  int max_tries = 8;          ///< maximum number of tries (start, track, estimate) per pair
+  int max_tries = 8;          ///< most tries (start, track, estimate) from each earlier frame
   /// Between two pairs: if longer, the estimator restarts. After half of it, the last motion does
   /// not predict the next one.
   double max_gap_s = 1.0;

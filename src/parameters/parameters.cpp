@@ -125,7 +125,8 @@ void addOdometry(OdometryConfig& c, ParameterTable& table) {
   table.add("threads", c.threads, {1, 16}).description =
       "threads per pair, including the calling one; results do not depend on it";
   table.add("max_tries", c.max_tries, {1, 20}).description =
-      "largest number of tries of a pair: each tracks the features and estimates the motion";
+      "largest number of tries from each earlier frame: each tracks the features and estimates the "
+      "motion";
   table.add("max_gap_s", c.max_gap_s, {0.01, 1000.0, "s"}).description =
       "the estimator restarts after a longer gap between pairs, and does not predict after half "
       "of it";

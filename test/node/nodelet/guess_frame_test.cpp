@@ -146,7 +146,9 @@ TEST(GuessFrameTest, OfABurstTheNewestPairIsProcessedAndDropsAreCounted) {
   for (std::uint64_t i = 0; i < kPairs; ++i) {
     left.header.stamp += ros::Duration(0.01);
     right.header.stamp = left.header.stamp;
-    left.data.front() = static_cast<unsigned char>(i);  // noise: no pair is that of one before
+    for (auto* image : {&left, &right}) {  // noise: no pair is that of one before
+      image->data.front() = static_cast<unsigned char>(i);
+    }
     drive.robot.publish(left, right);
     drive.nodelet.finish();
     if (i % 10 == 0) wheels.sendTransform(wheelOdometry(left.header.stamp, 0.0));
