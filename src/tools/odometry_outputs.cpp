@@ -76,9 +76,9 @@ void writeStatistics(const PairRecord& record, CsvFile& file) {
        << result.row_offset.median_px << result.row_offset.sigma_px << result.row_offset.typical_px
        << result.row_offset.applied_px << result.exposure_gain << result.shared_error_ratio
        << result.flow_noise_px;
-  const Eigen::Vector3d rotation = logRotation(result.T_prev_cur.linear());
-  for (const double value : result.T_prev_cur.translation()) file << value;
-  for (const double value : rotation) file << value;
+  Vector6d motion;
+  motion << result.T_prev_cur.translation(), logRotation(result.T_prev_cur.linear());
+  for (int i = 0; i < 6; ++i) file << motion[i];
   for (int i = 0; i < 6; ++i) {
     for (int j = i; j < 6; ++j) file << result.covariance(i, j);
   }
