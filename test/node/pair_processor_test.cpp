@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
+#include "support/log_recorder.h"
 #include "support/odometry_rig.h"
 #include "support/wait_until.h"
 
@@ -114,6 +115,17 @@ TEST_F(PairProcessorTest, HintsComeFromTheConfigInEffect) {
   const std::string swapped = "swap their topics";
   EXPECT_EQ(hintOf(config).find(swapped), std::string::npos) << rig_.hint();
   EXPECT_NE(hintOf({}).find(swapped), std::string::npos) << rig_.hint();
+}
+
+TEST(TimeJumpTest, ItsStampsAreToldInFull) {
+  const LogRecorder log;
+  OdometryRig rig;
+  rig.stamp = ros::Time(1317600010.0);
+  rig.sendInfos();
+  rig.drivePairs(3);
+  rig.stamp = ros::Time(1317600000.0);
+  rig.drivePairs(2);
+  EXPECT_EQ(log.with("time jumped back from 1317600010.200 to 1317600000.000 s").size(), 1u);
 }
 
 /// The images are always the same, and the wheels may turn.
