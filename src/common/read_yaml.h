@@ -6,6 +6,7 @@
 #include <string>
 
 #include <yaml-cpp/yaml.h>
+#include <boost/algorithm/string/replace.hpp>
 
 namespace rotrocc {
 
@@ -16,7 +17,8 @@ inline YAML::Node readYaml(const std::string& path) {
   std::string text(std::istreambuf_iterator<char>(file), {});
   if (!file.is_open() || file.bad()) throw std::runtime_error("cannot read " + path);
   if (text.compare(0, 6, "%YAML:") == 0) text.erase(0, text.find('\n'));
-  // yaml-cpp 0.6 does not return from a map in braces that ends with the file, at its colon.
+  // In brackets and braces, yaml-cpp 0.6 does not return from a colon before "]" or the end.
+  boost::algorithm::replace_all(text, ":]", ": ]");
   return YAML::Load(text + '\n');
 }
 

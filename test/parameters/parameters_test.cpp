@@ -181,6 +181,7 @@ TEST(ParametersTest, AFileNamesItselfWhenItIsRefused) {
   expect_refused("motion_check\n", "");
   expect_refused("a: b: c\n", "");
   expect_refused("motion_check: {max_speed_mps:", "end of map flow not found");
+  expect_refused("motion_check: {max_speed_mps:]20}\n", "illegal flow end");
   Settings settings;
   expectError<std::invalid_argument>([&] { loadYaml(directory / "none.yaml", settings.table); },
                                      "none.yaml");
