@@ -185,8 +185,9 @@ std::optional<StereoOdometry::Gathered> StereoOdometry::gather(const ReceivedPai
   std::optional<Eigen::Isometry3d> T_base_camera;  // nothing if the camera moves and tf is late
   wait(kUnlimited_s, [&] {
     T_base_camera = camera_pose_.find(pair.camera_frame, stamp_ns, wait);
-    health_.setWaitsForTf(camera_pose_.missing());
-    return camera_pose_.missing().empty() || mailbox_.hasItem();
+    const std::string& missing = camera_pose_.missing();
+    health_.setWaitsForTf(missing.empty() && !T_base_camera ? camera_pose_.problem() : missing);
+    return missing.empty() || mailbox_.hasItem();
   });
   if (!T_base_camera) {
     if (isRunning()) drops_.count(DropReason::kTfMissing);

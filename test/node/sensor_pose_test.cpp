@@ -133,7 +133,7 @@ TEST_F(SensorPoseTest, OfOneThatMovesLateTfIsAProblemWithItsRateAndARemedy) {
   EXPECT_TRUE(std::isnan(panAt(103.1)));
   EXPECT_EQ(camera_.missing(), "");
   EXPECT_EQ(camera_.problem(),
-            "tf from base_link to camera, which moves, comes at 3.3 Hz, and later than "
+            "tf from base_link to camera, which moves, arrives at 3.3 Hz and more than "
             "mount_timeout_s = 0.2 s after the images: publish it at the rate of the images, or "
             "raise mount_timeout_s to 0.33");
   EXPECT_TRUE(std::isnan(panAt(90.0))) << "tf was not there yet";
@@ -149,10 +149,10 @@ TEST_F(SensorPoseTest, OfOneThatMovesLateTfIsAProblemWithItsRateAndARemedy) {
   std::this_thread::sleep_for(std::chrono::seconds(1));  // the rate is read once a second
   EXPECT_TRUE(std::isnan(panAt(130.1)));
   EXPECT_EQ(camera_.problem(),
-            "tf from base_link to camera, which moves, comes at 10.0 Hz, and later than "
+            "tf from base_link to camera, which moves, arrives at 10.0 Hz and more than "
             "mount_timeout_s = 0.2 s after the images: publish it earlier, or raise "
             "mount_timeout_s");
-  EXPECT_EQ(log_.with("which moves, comes").size(), 1u) << "a lasting fault is told seldom";
+  EXPECT_EQ(log_.with("which moves, arrives").size(), 1u) << "a lasting fault is told seldom";
 }
 
 /// Each transform comes in time, but while a pair waits for it, newer ones replace each other.
@@ -166,9 +166,9 @@ TEST_F(SensorPoseTest, WaitsThatAreLongerThanThePeriodOfTheImagesAreAProblem) {
   };
   EXPECT_NEAR(panAt(100.62), 1.1 - 0.2 / 3.0, 1e-9);
   EXPECT_EQ(camera_.problem(),
-            "tf from base_link to camera, which moves, comes at 16.7 Hz, and later than the next "
-            "images, so that pairs are dropped: publish it at the rate of the images");
-  EXPECT_EQ(log_.with("so that pairs are dropped").size(), 1u);
+            "tf from base_link to camera, which moves, arrives at 16.7 Hz and later than the next "
+            "images, so pairs are dropped: publish it at the rate of the images");
+  EXPECT_EQ(log_.with("so pairs are dropped").size(), 1u);
 }
 
 /// As at a start, when images come before tf.

@@ -349,7 +349,7 @@ const std::vector<Fault> kFaults = {
     {"frozen images", {"frozen"}, kLoss, freeze},
     {"burst", {}, kGap, ofPair([](Pair& pair) { pair.burst = true; })},
     {"a gap of 3 s", {"arrive again"}, kGap, ofPair([](Pair& pair) { pair.pause_s = 3.0; })},
-    {"a mount that moves with 3 Hz of tf", {"which moves, comes at", kFrame}, kLasting, putOnHead},
+    {"a mount that moves with 3 Hz of tf", {"which moves, arrives at", kFrame}, kLasting, putOnHead},
     {"another mount on /tf_static, and a reset", {}, kOnce, changeMount},
     {"no tf of guess_frame", {"no tf from guess_frame"}, kShort,
      ofPair([](Pair& pair) { pair.send_guess = false; })},

@@ -33,7 +33,7 @@ struct HealthReport {
   bool answers = false;      ///< a pair was processed recently
   std::string input_fault;   ///< of the pairs that arrive, see faultOfPairs(), if it lasts
   std::string rig_fault;     ///< a disparity bias or row offset that lasts; empty if none
-  std::string waits_for_tf;  ///< which transform is missing; empty if none is
+  std::string waits_for_tf;  ///< which transform is missing or late; empty if none is
   std::string tf_conflict;   ///< other publisher of a parent of the base; empty if none
   double answer_rate_hz = 0.0;
   double latency_p50_ms = 0.0, latency_p95_ms = 0.0, latency_max_ms = 0.0;

@@ -182,10 +182,10 @@ void SensorPose::logPose(const Eigen::Isometry3d& T_base_sensor) {
 std::string SensorPose::describeLate(bool comes) const {
   const std::optional<double> rate = rate_hz();
   std::string text =
-      "tf from " + base_frame_ + " to " + frame_ + ", which moves, comes" +
-      (rate ? " at " + fixedText(*rate, 1) + " Hz, and" : "") +
-      (comes ? " later than the next images, so that pairs are dropped"
-             : " later than mount_timeout_s = " + toText(timeout_s_) + " s after the images") +
+      "tf from " + base_frame_ + " to " + frame_ + ", which moves, arrives" +
+      (rate ? " at " + fixedText(*rate, 1) + " Hz and" : "") +
+      (comes ? " later than the next images, so pairs are dropped"
+             : " more than mount_timeout_s = " + toText(timeout_s_) + " s after the images") +
       ": publish it " +
       (rate && *rate * period_s_ < kSeldom ? "at the rate of the images" : "earlier");
   if (comes) return text;

@@ -103,9 +103,10 @@ TEST_F(MovingCameraTest, APairWithoutTfIsDroppedWithTheRateAndARemedy) {
   for (int pair = 0; pair < 6; ++pair) see(true);
   EXPECT_FALSE(drive_->robot.odometryOf(see(false), 5 * kSoon));
   const std::string said =
-      "tf from base_link to camera_left, which moves, comes at 10.0 Hz, and later than "
+      "tf from base_link to camera_left, which moves, arrives at 10.0 Hz and more than "
       "mount_timeout_s = 0.02 s after the images: publish it earlier, or raise mount_timeout_s";
   EXPECT_TRUE(waitUntil([&] { return !drive_->log.with(said).empty(); }));
+  EXPECT_TRUE(drive_->robot.statusWith(OdometryStatus::NO_TF, said)) << "while no pair has a pose";
   EXPECT_TRUE(waitUntil([&] {
     const auto status = drive_->robot.statusOf(see(true), kSoon);
     return status && status->hint.find(said) == 0;
