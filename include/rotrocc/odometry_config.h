@@ -99,7 +99,7 @@ struct OdometryConfig {
   SystematicErrorConfig systematic_error;
 
   int threads = 2;            ///< that process a pair, including the calling thread
-  bool keep_keyframe = true;  ///< at rest; false: every frame is the keyframe of the next one
+  bool keep_keyframe = true;  ///< while stationary; false: each frame is the next one's keyframe
   int max_tries = 8;          ///< most tries (start, track, estimate) from each earlier frame
   /// Between two pairs: if longer, the estimator restarts. After half of it, the last motion does
   /// not predict the next one.

@@ -36,8 +36,8 @@ class VisualOdometry {
   /// Estimates the motion since the previous pair. Never throws. The state is lost, with a reason,
   /// on: images that are empty, not CV_8UC1, of different sizes or not of the camera's size, or
   /// masks that are not; an invalid camera; a stamp that is not later; an image that shows
-  /// something and is byte for byte that of the pair before, which no camera sends twice; errors
-  /// inside OpenCV or Ceres. The state is initialising on the first pair, on images of another
+  /// something and is identical to the previous one, which no camera sends twice; errors inside
+  /// OpenCV or Ceres. The state is initialising on the first pair, on images of another
   /// size, a calibration that changes by more than a thousandth, and after a gap of more than
   /// max_gap_s, or if stamps went back by more than that.
   ///
@@ -48,8 +48,8 @@ class VisualOdometry {
   /// motion model, whose velocity turns with the camera. It is asked for at most two intervals,
   /// which begin at earlier pairs.
   ///
-  /// `may_repeat` is asked if both images are those of the pair before: a simulated camera at rest
-  /// sends the same ones again.
+  /// `may_repeat` is asked if both images are identical to the previous ones: a simulated camera
+  /// repeats its images while it is stationary.
   OdometryResult process(const StereoPair& pair,
                          const StereoCamera& camera,
                          const std::optional<Eigen::Isometry3d>& expected = std::nullopt,

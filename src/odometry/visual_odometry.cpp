@@ -109,8 +109,9 @@ std::optional<std::string> whyRestart(const StereoPair& pair,
          cv::format(" s, more than max_gap_s = %g", max_gap_s);
 }
 
-/// Why a later pair is no measurement, in one sentence: an image shows something, and is that of
-/// the newest frame. Noise makes those of a camera differ even at rest.
+/// Why a later pair is not a measurement, in one sentence: an image shows something, and is
+/// identical to that of the newest frame. Noise makes a camera's images differ even while it is
+/// stationary.
 std::optional<std::string> whyRepeated(const StereoPair& pair,
                                        const StereoFrame& newest,
                                        const std::function<bool()>& may_repeat) {
@@ -118,10 +119,10 @@ std::optional<std::string> whyRepeated(const StereoPair& pair,
   const bool right = isSame(pair.right, newest.right.front()) && !isNoise(pair.right);
   if (!left && !right) return std::nullopt;
   if (left && right && may_repeat && may_repeat()) return std::nullopt;
-  const std::string which = left && right ? "both images are those"
-                            : left        ? "the left image is that"
-                                          : "the right image is that";
-  return which + " of the pair before: is the camera frozen, or does its driver repeat images?";
+  const std::string which = left && right ? "both images are identical to the previous ones"
+                            : left        ? "the left image is identical to the previous one"
+                                          : "the right image is identical to the previous one";
+  return which + ": is the camera frozen, or does its driver repeat images?";
 }
 
 }  // namespace

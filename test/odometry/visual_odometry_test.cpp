@@ -706,9 +706,9 @@ TEST(VisualOdometryTest, AStampFarAheadRestartsTwice) {
 }
 
 TEST(VisualOdometryTest, ARepeatedImageIsNoMeasurement) {
-  const char* const kReasons[] = {"the left image is that of the pair before",
-                                  "the right image is that of the pair before",
-                                  "both images are those of the pair before"};
+  const char* const kReasons[] = {"the left image is identical to the previous one",
+                                  "the right image is identical to the previous one",
+                                  "both images are identical to the previous ones"};
   for (int which = 0; which < 3; ++which) {
     VisualOdometry odometry = started(3);
     for (const int i : {3, 4}) {
