@@ -54,25 +54,44 @@ TEST_F(ExposuresTest, IgnoresSinglePairsAndThoseWithoutAMotion) {
   EXPECT_EQ(inspect(4.0, kPairs, State::kInitialising), "");
 }
 
-TEST(DarkImagesTest, TheHintNamesTheRangeOf16BitImages) {
-  PairInspector inspector{CorrespondenceFinder::Config()};
-  cv::Mat image = cv::Mat::zeros(48, 64, CV_8UC1);
-  OdometryResult lost;
-  lost.state = State::kLost;
-  lost.counts.tries = 1;
-  const auto inspect = [&] {
-    return inspector.inspect({0, image, image}, StereoCamera(), lost, 10);
-  };
-  for (int pair = 0; pair < PairInspector::kPatience; ++pair) {
-    image += 1;
-    inspect();
+/// Of dark images whose motion is lost.
+class DarkImagesTest : public testing::Test {
+ protected:
+  std::string inspect(State state = State::kLost) {
+    image_ += 1;
+    OdometryResult result;
+    result.state = state;
+    result.exposure_gain = 1.0;
+    result.counts.tries = 1;
+    return inspector_.inspect({0, image_, image_}, StereoCamera(), result, 10);
   }
-  inspector.finish();
+  std::string inspectAll(int count, State state = State::kLost) {
+    for (int i = 1; i < count; ++i) inspect(state);
+    return inspect(state);
+  }
+
+  PairInspector inspector_{CorrespondenceFinder::Config()};
+  cv::Mat image_ = cv::Mat::zeros(48, 64, CV_8UC1);
+};
+
+TEST_F(DarkImagesTest, TheHintNamesTheRangeOf16BitImages) {
+  inspectAll(PairInspector::kPatience);
+  inspector_.finish();
   const std::string hint = inspect();
   EXPECT_NE(hint.find("mean grey level is 10 of 255, where 255 is 1023 of the 16-bit image: set "
                       "significant_bits"),
             std::string::npos)
       << hint;
+}
+
+TEST_F(DarkImagesTest, AChanceMatchEndsNoHint) {
+  inspectAll(PairInspector::kPatience - 1);
+  EXPECT_EQ(inspect(State::kOk), "");
+  inspect();
+  inspector_.finish();
+  EXPECT_NE(inspect(), "");
+  inspectAll(PairInspector::kPatience, State::kOk);
+  EXPECT_EQ(inspect(), "");
 }
 
 }  // namespace

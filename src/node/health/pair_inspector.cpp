@@ -120,11 +120,12 @@ std::string PairInspector::inspect(const StereoPair& pair,
   const std::string fault = compareExposures(result);
   // Of a pair that was not tried the odometry knows why.
   if (result.state == State::kInitialising || result.counts.tries == 0) return fault;
-  // Chance matches may occasionally look like a motion.
   if (result.state == State::kOk) {
-    forgetLoss();
+    // Chance matches may look like a motion.
+    if (++good_ >= kPatience) forgetLoss();
     return fault;
   }
+  good_ = 0;
   ++doubtful_;
   try {
     explain(pair, camera, significant_bits);
@@ -159,7 +160,7 @@ void PairInspector::explain(const StereoPair& pair,
 }
 
 void PairInspector::forgetLoss() {
-  doubtful_ = 0;
+  doubtful_ = good_ = 0;
   explain_at_ = kPatience;
   explanation_.clear();
   search_is_of_this_loss_ = false;
