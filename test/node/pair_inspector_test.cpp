@@ -87,11 +87,27 @@ TEST_F(DarkImagesTest, TheHintNamesTheRangeOf16BitImages) {
 TEST_F(DarkImagesTest, AChanceMatchEndsNoHint) {
   inspectAll(PairInspector::kPatience - 1);
   EXPECT_EQ(inspect(State::kOk), "");
-  inspect();
+  inspectAll(2);
   inspector_.finish();
   EXPECT_NE(inspect(), "");
   inspectAll(PairInspector::kPatience, State::kOk);
   EXPECT_EQ(inspect(), "");
+}
+
+TEST_F(DarkImagesTest, AHintOfALongLossEndsSoon) {
+  inspectAll(30 * PairInspector::kPatience);
+  inspector_.finish();
+  EXPECT_NE(inspect(), "");
+  inspectAll(4 * PairInspector::kPatience, State::kOk);
+  EXPECT_EQ(inspect(), "");
+}
+
+TEST_F(DarkImagesTest, SingleDoubtfulPairsCauseNoHint) {
+  for (int i = 0; i < 3 * PairInspector::kPatience; ++i) {
+    EXPECT_EQ(inspect(State::kDegraded), "");
+    inspect(State::kOk);
+    inspector_.finish();
+  }
 }
 
 }  // namespace

@@ -121,11 +121,12 @@ std::string PairInspector::inspect(const StereoPair& pair,
   // Of a pair that was not tried the odometry knows why.
   if (result.state == State::kInitialising || result.counts.tries == 0) return fault;
   if (result.state == State::kOk) {
-    // Chance matches may look like a motion.
-    if (++good_ >= kPatience) forgetLoss();
+    // Chance matches may look like a motion: one of them takes back few of the doubts.
+    doubtful_ -= 1 + doubtful_ / kPatience;
+    explain_at_ = std::min(explain_at_, std::max(kPatience, 2 * doubtful_));
+    if (doubtful_ <= 0) forgetLoss();
     return fault;
   }
-  good_ = 0;
   ++doubtful_;
   try {
     explain(pair, camera, significant_bits);
@@ -160,7 +161,7 @@ void PairInspector::explain(const StereoPair& pair,
 }
 
 void PairInspector::forgetLoss() {
-  doubtful_ = good_ = 0;
+  doubtful_ = 0;
   explain_at_ = kPatience;
   explanation_.clear();
   search_is_of_this_loss_ = false;

@@ -17,8 +17,8 @@ namespace rotrocc {
 /// be dark or saturated. What may cause a loss is looked for in a thread of its own.
 class PairInspector {
  public:
-  /// Number of suspicious pairs before a hint, and of good ones in a row that end it. While they
-  /// last, their cause is looked for again after twice as many.
+  /// How many more suspicious pairs than good ones cause a hint. While they last, their cause is
+  /// looked for again after twice as many. A tenth of them is taken back with each good pair.
   static constexpr int kPatience = 10;
   /// Number of pairs with a motion whose exposures are watched, and that suffice for a hint.
   static constexpr std::size_t kExposures = 50;
@@ -50,10 +50,9 @@ class PairInspector {
 
   Latest gains_{kExposures};
 
-  // Of a loss: the pairs without a good motion, the good ones in a row, and at how many doubtful
-  // ones the next explanation is looked for; the last one, kept until the motion is found again.
+  // Of a loss: the pairs without a good motion that no good one took back, and at how many the next
+  // explanation is looked for; the last one, kept until none is left.
   int doubtful_ = 0;
-  int good_ = 0;
   int explain_at_ = kPatience;
   std::string explanation_;
   std::future<std::string> search_;
