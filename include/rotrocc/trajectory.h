@@ -32,8 +32,8 @@ TrajectoryFormat detectTrajectoryFormat(const std::string& path);
 
 /// Reads either format. Blank lines and lines that begin with '#' are skipped.
 ///
-/// KITTI poses have no stamps. They get those of the file `times_path`, which must have at least
-/// one per pose, or 0, 0.1, 0.2 ... s if the path is empty.
+/// KITTI poses have no stamps. They get the stamps in the file `times_path`, at least one per pose,
+/// or 0, 0.1, 0.2 ... s if the path is empty.
 ///
 /// An orthonormality error of up to 1e-3, from rounding, is removed. Throws std::runtime_error with
 /// file and line on any pose that is not finite and rigid, on stamps that do not increase, on a

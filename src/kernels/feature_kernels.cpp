@@ -136,7 +136,7 @@ void fitDisparities(const MotionTerms terms,
   describe(ratio2, block);
 }
 
-void linearise(const MotionTerms terms,
+void linearize(const MotionTerms terms,
                const int first,
                const ResidualBlock& block,
                LinearBlock& linear) {

@@ -33,7 +33,7 @@ struct FitBlock {
   Numbers seen_x, seen_y;
 };
 
-/// A block of features whose residuals are linearised, see ReprojectionProblem.
+/// A block of features whose residuals are linearized, see ReprojectionProblem.
 struct ResidualBlock {
   static constexpr int kSize = 8;
   using Numbers = double[kSize];
@@ -69,7 +69,7 @@ namespace ROTROCC_INSTRUCTIONS {
 void fitDisparities(MotionTerms terms, double ratio2, int steps, FitBlock& block);
 
 /// Columns from `first` on: all, those from kTranslation, or kResidual alone.
-void linearise(MotionTerms terms, int first, const ResidualBlock& block, LinearBlock& linear);
+void linearize(MotionTerms terms, int first, const ResidualBlock& block, LinearBlock& linear);
 
 /// Adds the weighted products of column `first` and the following ones, each with itself and those
 /// after it.

@@ -25,7 +25,7 @@ const Kernels kernels = {smoothDown,
                          takeContrast,
                          compareWindow,
                          fitDisparities,
-                         linearise,
+                         linearize,
                          addColumnProducts,
                          multiplyByDisparity};
 

@@ -26,7 +26,7 @@ struct Kernels {
   decltype(&ROTROCC_INSTRUCTIONS::takeContrast) takeContrast;
   decltype(&ROTROCC_INSTRUCTIONS::compareWindow) compareWindow;
   decltype(&ROTROCC_INSTRUCTIONS::fitDisparities) fitDisparities;
-  decltype(&ROTROCC_INSTRUCTIONS::linearise) linearise;
+  decltype(&ROTROCC_INSTRUCTIONS::linearize) linearize;
   decltype(&ROTROCC_INSTRUCTIONS::addColumnProducts) addColumnProducts;
   decltype(&ROTROCC_INSTRUCTIONS::multiplyByDisparity) multiplyByDisparity;
 };

@@ -89,7 +89,7 @@ Information collect(const ReprojectionProblem<6>& problem,
   const ImageGrid grid(measured.camera, kScatterColumns, kScatterRows);
   std::array<Vector6d, kScatterColumns * kScatterRows> gradients;
   gradients.fill(Vector6d::Zero());
-  problem.linearise(problem.start(), [&](const ReprojectionProblem<6>::Term& term) {
+  problem.linearize(problem.start(), [&](const ReprojectionProblem<6>::Term& term) {
     Eigen::Matrix<double, 2, 6> J;
     J << term.weight * term.jacobian.rightCols<3>(), term.weight * term.jacobian.leftCols<3>();
     information.matrix += J.transpose() * J;

@@ -120,12 +120,12 @@ class ReprojectionProblem {
 
   /// Calls visit(const Term&) for each feature, in order.
   template <class Visit>
-  void linearise(const Parameters& parameters, Visit&& visit) const {
+  void linearize(const Parameters& parameters, Visit&& visit) const {
     const MotionTerms terms = termsAt(parameters);
     LinearBlock linear;
     for (std::size_t i = 0; i < indices_.size(); ++i) {
       const std::size_t lane = i % kSize;
-      if (lane == 0) chooseKernels().linearise(terms, kFirst, blocks_[i / kSize], linear);
+      if (lane == 0) chooseKernels().linearize(terms, kFirst, blocks_[i / kSize], linear);
       Term term;
       static_cast<Residual&>(term) = residualOf(i, linear);
       for (int column = 0; column < kParameters; ++column) {
@@ -143,7 +143,7 @@ class ReprojectionProblem {
     LinearBlock linear;
     for (std::size_t i = 0; i < indices_.size(); ++i) {
       if (i % kSize == 0) {
-        chooseKernels().linearise(terms, LinearBlock::kResidual, blocks_[i / kSize], linear);
+        chooseKernels().linearize(terms, LinearBlock::kResidual, blocks_[i / kSize], linear);
       }
       visit(residualOf(i, linear));
     }
@@ -167,7 +167,7 @@ class ReprojectionProblem {
     ColumnProducts sums = {};
     for (std::size_t first = 0; first < size(); first += kSize) {
       const ResidualBlock& block = blocks_[first / kSize];
-      kernels.linearise(terms, kFirst, block, linear);
+      kernels.linearize(terms, kFirst, block, linear);
       kernels.addColumnProducts(kFirst, block, linear, sums);
       if constexpr (!std::is_null_pointer_v<Visit>) visitByDisparity(first, block, linear, visit);
     }

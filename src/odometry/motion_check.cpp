@@ -232,7 +232,7 @@ double MotionCheck::informationShare(const Hypothesis& accepted) {
   const Matrix6d covariance = determined.solve(Matrix6d::Identity());
   double max_leverage = 0.0;
   Eigen::Matrix<double, 2, 6> of_most = Eigen::Matrix<double, 2, 6>::Zero();
-  problem_.linearise(problem_.start(), [&](const ReprojectionProblem<6>::Term& term) {
+  problem_.linearize(problem_.start(), [&](const ReprojectionProblem<6>::Term& term) {
     const double leverage = (term.jacobian * covariance).cwiseProduct(term.jacobian).sum();
     if (leverage <= max_leverage) return;
     max_leverage = leverage;

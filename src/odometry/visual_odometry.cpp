@@ -110,8 +110,8 @@ std::optional<std::string> whyRestart(const StereoPair& pair,
 }
 
 /// Why a later pair is not a measurement, in one sentence: an image shows something, and is
-/// identical to that of the newest frame. Noise makes a camera's images differ even while it is
-/// stationary.
+/// identical to the same side's image of the newest frame. A stationary camera's images differ by
+/// their noise.
 std::optional<std::string> whyRepeated(const StereoPair& pair,
                                        const StereoFrame& newest,
                                        const std::function<bool()>& may_repeat) {

@@ -42,7 +42,7 @@ std::optional<BiasMeasurement> BiasMeter::measure(const StereoCamera& camera,
   smooth_ratio_ = smooth_ratio;
   features_ = features;
   for (int step = 0; step < kMostSteps && features_.size() >= kLeastFeatures; ++step) {
-    const WeightedVariance variance = linearise();
+    const WeightedVariance variance = linearize();
     const Cells cells = eliminateCommon(sumEquations());
     const double variance_px2 = variance.value(kParameters) / cells.bias_information;
     if (!(variance_px2 < kMostSigma_px * kMostSigma_px)) return std::nullopt;
@@ -69,7 +69,7 @@ void BiasMeter::change(const Common& common, double bias_px) {
 }
 
 /// Sets the problem of the current step.
-WeightedVariance BiasMeter::linearise() {
+WeightedVariance BiasMeter::linearize() {
   fitAt({camera_, features_, kNoiseRatio}, T_keyframe_cur_, fit_);
   all_.assign(features_.size(), 1);
   problem_.assign(camera_, fit_, all_);
@@ -142,7 +142,7 @@ double BiasMeter::effectOfSmoothErrors(const Cells& cells) {
 /// expectation of the squared disagreement is the trace of M A for the noise, and that of its
 /// square for shared errors.
 std::optional<BiasMeasurement> BiasMeter::describe() {
-  const WeightedVariance variance = linearise();
+  const WeightedVariance variance = linearize();
   const Equations reweighted = sumEquations();
   // The curvature of reweighted least squares never overshoots. That which the robust cost has on
   // average, from the squared weights (see motion_estimator.cpp), tells the uncertainty.

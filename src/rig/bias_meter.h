@@ -83,7 +83,7 @@ class BiasMeter {
   };
 
   void change(const Common& common, double bias_px);
-  WeightedVariance linearise();
+  WeightedVariance linearize();
   Equations sumEquations() const;
   static Cells eliminateCommon(const Equations& equations);
   static double effectOfSmoothErrors(const Cells& cells);

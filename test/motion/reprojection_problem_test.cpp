@@ -80,7 +80,7 @@ void expectAutomaticJacobian(const Eigen::Isometry3d& T_0,
   const Eigen::Matrix3d by_rotation = leftJacobian(parameters.head<3>());
   std::size_t next = 0;
   typename Problem::NormalMatrix normal = Problem::NormalMatrix::Zero();
-  problem.linearise(own, [&](const typename Problem::Term& term) {
+  problem.linearize(own, [&](const typename Problem::Term& term) {
     ASSERT_EQ(term.feature, next++);
     const Automatic automatic(features[term.feature], T_0, noise_ratio, parameters);
     // Both are exact up to the rounding of some dozen operations.
@@ -130,7 +130,7 @@ Eigen::MatrixXd schurComplement(const ReprojectionProblem<6>& problem,
   constexpr Eigen::Index kErrors = kCells + 1;
   const Eigen::Matrix3d by_rotation = leftJacobian(parameters.head<3>());
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(7 + kErrors, 7 + kErrors);
-  problem.linearise(parameters, [&](const ReprojectionProblem<6>::Term& term) {
+  problem.linearize(parameters, [&](const ReprojectionProblem<6>::Term& term) {
     Eigen::MatrixXd row = Eigen::MatrixXd::Zero(2, 7 + kErrors);
     row.leftCols<6>() = term.jacobian;
     row.leftCols<3>() = term.jacobian.leftCols<3>() * by_rotation;

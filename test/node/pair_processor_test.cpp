@@ -100,7 +100,7 @@ TEST_F(PairProcessorTest, APoseMayBeSetBeforeTheFirstPair) {
   EXPECT_NEAR(xOf(rig), 7.0, 1e-12);
 }
 
-/// 60 corners are too few to recognise swapped images.
+/// 60 corners are too few to recognize swapped images.
 TEST_F(PairProcessorTest, HintsComeFromTheConfigInEffect) {
   VisualOdometry::Config config;
   config.correspondence_finder.feature_detector.max_features = 60;
@@ -184,7 +184,7 @@ TEST_F(PairProcessorTest, ExpectedMotionsOfLostPairsAddUp) {
 }
 
 TEST_F(PairProcessorTest, APoseThatIsSetWhileLostIsNotLost) {
-  // Short enough that the pair before the loss would be recognised.
+  // Short enough that the pair before the loss would be recognized.
   rig_.drive(darken);
   EXPECT_EQ(state(), State::kLost);
   rig_.processor().requestPose({forward(30.0), Matrix6d::Zero()});

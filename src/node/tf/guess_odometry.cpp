@@ -74,7 +74,7 @@ std::string GuessOdometry::describeMiss(std::int64_t stamp_ns) const {
          std::to_string(SourceWatch::kPairs) + " pairs in a row (" + cause +
          "), pairs do not wait for it: " +
          (late ? "publish it within " + toText(kTimeout_s) +
-                     " s of its stamp, or synchronise the clocks"
+                     " s of its stamp, or synchronize the clocks"
                : "correct guess_frame, or start the odometry that publishes it");
 }
 
