@@ -16,8 +16,8 @@ struct FeatureDetectorConfig {
 
 /// Sparse matching along the row, by normalized correlation.
 struct StereoMatcherConfig {
-  int max_disparity_px = 128;     ///< above the disparity at infinity; nearer points are not found
-  double min_disparity_px = 1.0;  ///< above the disparity at infinity; farther points are dropped
+  double nearest_baselines = 4.0;  ///< depth of the nearest points that are found, in baselines
+  double min_disparity_px = 1.0;   ///< above the disparity at infinity; farther points are dropped
 };
 
 /// Pyramidal Lucas-Kanade.
@@ -105,8 +105,7 @@ struct OdometryConfig {
   /// not predict the next one.
   double max_gap_s = 1.0;
 
-  /// Throws std::invalid_argument with the parameter and its value if a name is unknown, or the
-  /// smallest disparity is above the largest.
+  /// Throws std::invalid_argument with the parameter and its value if a name is unknown.
   void check() const;
 };
 

@@ -144,10 +144,8 @@ class ViewCheck : public PairCheck {
     std::vector<cv::Point2f> corners;
     std::vector<float> disparities_px;
     detector_.detect(workers_, pair.images.left, corners);
-    const RectifiedImages images = {pair.images.left,
-                                    pair.images.right,
-                                    camera_.disparityAtInfinity(),
-                                    pair.result.row_offset.applied_px};
+    const RectifiedImages images = {
+        pair.images.left, pair.images.right, camera_, pair.result.row_offset.applied_px};
     StereoMatcher(config_).match(workers_, images, corners, disparities_px);
     std::vector<cv::Point2f> without;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -166,36 +164,40 @@ class ViewCheck : public PairCheck {
 
   /// Searches where the odometry does not: nearer, beyond infinity, and in other rows.
   void explain(const CheckedPair& pair, const std::vector<cv::Point2f>& corners) {
-    const double infinity_px = camera_.disparityAtInfinity();
     const double row_px = pair.result.row_offset.applied_px;
     constexpr int kBeyond_px = 8;
     constexpr double kRows = 2.0;
     std::vector<char> is_explained(corners.size(), 0);
     std::vector<float> disparities_px;
-    const auto search =
-        [&](const StereoMatcherConfig& config, double infinity, double rows, int& count) {
-          const RectifiedImages images = {pair.images.left, pair.images.right, infinity, rows};
-          StereoMatcher(config).match(workers_, images, corners, disparities_px);
-          for (std::size_t i = 0; i < corners.size(); ++i) {
-            if (disparities_px[i] == StereoMatcher::kNoDisparity || is_explained[i] != 0) continue;
-            is_explained[i] = 1;
-            ++count;
-          }
-        };
+    const double nearest_px = camera_.fx / config_.nearest_baselines;
+    const auto search = [&](const StereoMatcherConfig& config,
+                            const StereoCamera& camera,
+                            double rows,
+                            int& count) {
+      const RectifiedImages images = {pair.images.left, pair.images.right, camera, rows};
+      StereoMatcher(config).match(workers_, images, corners, disparities_px);
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        if (disparities_px[i] == StereoMatcher::kNoDisparity || is_explained[i] != 0) continue;
+        is_explained[i] = 1;
+        ++count;
+      }
+    };
     for (const double rows : {row_px - kRows, row_px + kRows}) {
-      search(config_, infinity_px, rows, missing_.other_row);
+      search(config_, camera_, rows, missing_.other_row);
     }
     StereoMatcherConfig beyond = config_;
     beyond.min_disparity_px = 0.0;
-    beyond.max_disparity_px = kBeyond_px + 1;
-    search(beyond, infinity_px - kBeyond_px, row_px, missing_.beyond_infinity);
+    beyond.nearest_baselines = camera_.fx / (kBeyond_px + 1);
+    StereoCamera converging = camera_;
+    converging.cx_right += kBeyond_px;
+    search(beyond, converging, row_px, missing_.beyond_infinity);
     StereoMatcherConfig near = config_;
-    near.max_disparity_px = 2 * config_.max_disparity_px;
-    near.min_disparity_px = config_.max_disparity_px;
-    search(near, infinity_px, row_px, missing_.too_near);
+    near.nearest_baselines = 0.5 * config_.nearest_baselines;
+    near.min_disparity_px = nearest_px;
+    search(near, camera_, row_px, missing_.too_near);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       if (is_explained[i] != 0) continue;
-      const bool may_be_outside = corners[i].x - infinity_px < config_.max_disparity_px;
+      const bool may_be_outside = corners[i].x - camera_.disparityAtInfinity() < nearest_px;
       ++(may_be_outside ? missing_.outside : missing_.ambiguous);
     }
   }
@@ -208,7 +210,7 @@ class ViewCheck : public PairCheck {
                        "corners without one are no features",
                        ""};
     const std::pair<int, const char*> reasons[] = {
-        {missing_.too_near, "nearer than max_disparity_px reaches"},
+        {missing_.too_near, "nearer than nearest_baselines reaches"},
         {missing_.beyond_infinity, "as far as the horizon or beyond"},
         {missing_.other_row, "two rows higher or lower"},
         {missing_.outside, "perhaps outside of the right image"},
@@ -220,7 +222,7 @@ class ViewCheck : public PairCheck {
     }
     finding.remedy =
         2 * missing_.too_near > corners_ - with_depth_
-            ? "set `max_disparity_px` to " + toText(2 * config_.max_disparity_px)
+            ? "set `nearest_baselines` to " + toText(0.5 * config_.nearest_baselines)
             : "look at rows, sharpness and exposure above; the scene may have too little texture";
     report.add(finding, {1.0 - with_depth, 0.0, 0.5, 0.8});
     ReportTable table = {"view_map", "x_px,y_px,corners,with_depth,features,inliers", {}};

@@ -24,10 +24,7 @@ constexpr double kMaxDisparityDifference_px = 1.0;
 RectifiedImages imagesOf(const StereoFrame& frame,
                          const StereoCamera& camera,
                          const Keyframe& keyframe) {
-  return {frame.left.front(),
-          frame.right.front(),
-          camera.disparityAtInfinity(),
-          keyframe.row_offset_px};
+  return {frame.left.front(), frame.right.front(), camera, keyframe.row_offset_px};
 }
 
 }  // namespace

@@ -55,8 +55,7 @@ Correspondences DescriptorMatcher::match(const StereoCamera& camera,
     const cv::Point2f& px = in_current.keypoints[static_cast<std::size_t>(match.trainIdx)].pt;
     pixels.emplace_back(std::round(px.x), std::round(px.y));  // depths are found at whole pixels
   }
-  const RectifiedImages images = {
-      left, current.right.front(), camera.disparityAtInfinity(), row_offset_px};
+  const RectifiedImages images = {left, current.right.front(), camera, row_offset_px};
   std::vector<float> disparities_px;
   matcher_.match(workers_, images, pixels, disparities_px);
   Correspondences features;

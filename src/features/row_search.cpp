@@ -59,7 +59,7 @@ std::vector<float> RowSearch::search(const StereoCamera& camera, const Keyframe&
   for (int rows = -kMaxRows; rows <= kMaxRows; ++rows) {
     // Matches that leave their row were found in a wrong one.
     const auto lower_px = static_cast<float>(rows);
-    const RectifiedImages images = {left, right, camera.disparityAtInfinity(), lower_px};
+    const RectifiedImages images = {left, right, camera, lower_px};
     matcher_.match(workers_, images, sample_px, disparities_px);
     for (std::size_t i = 0; i < sample_px.size(); ++i) {
       if (disparities_px[i] == StereoMatcher::kNoDisparity) continue;

@@ -246,8 +246,9 @@ void StereoMatcher::match(Workers& workers,
                           std::vector<float>& disparities_px) const {
   const cv::Mat& right = images.right;
   const int rows_lower = cvRound(images.row_offset_px);
-  const int nearest = config_.max_disparity_px + cvCeil(images.infinity_px);
-  const double min_px = config_.min_disparity_px + images.infinity_px;
+  const double infinity_px = images.camera.disparityAtInfinity();
+  const int nearest = cvCeil(images.camera.fx / config_.nearest_baselines + infinity_px);
+  const double min_px = config_.min_disparity_px + infinity_px;
   const int farthest = cvFloor(min_px);
   const Kernels& kernels = chooseKernels();
   const auto matchOf = [&](std::size_t i, int& first) -> RowMatch {
@@ -279,7 +280,7 @@ double StereoMatcher::matchNear(Workers& workers,
                                 const std::vector<cv::Point2f>& pixels,
                                 const std::vector<float>& expected_px,
                                 std::vector<float>& disparities_px) const {
-  const double min_px = config_.min_disparity_px + images.infinity_px;
+  const double min_px = config_.min_disparity_px + images.camera.disparityAtInfinity();
   const Kernels& kernels = chooseKernels();
   const auto matchOf = [&](std::size_t i, int& first) -> RowMatch {
     if (expected_px[i] == kNoDisparity) return {};

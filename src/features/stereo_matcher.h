@@ -7,14 +7,15 @@
 
 #include "common/workers.h"
 #include "rotrocc/odometry_config.h"
+#include "rotrocc/stereo_camera.h"
 
 namespace rotrocc {
 
-/// Two rectified images (CV_8UC1) of the same size.
+/// Two rectified images (CV_8UC1) of the size of the camera.
 struct RectifiedImages {
   const cv::Mat& left;
   const cv::Mat& right;
-  double infinity_px = 0.0;    ///< StereoCamera::disparityAtInfinity()
+  const StereoCamera& camera;
   double row_offset_px = 0.0;  ///< how much lower points are in the right image
 };
 

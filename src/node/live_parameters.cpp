@@ -137,7 +137,6 @@ void applyConfig(const Config& config, Parameters& parameters) {
   for (const auto& entry : config.doubles) set(entry.name, exactText(entry.value));
   for (const auto& entry : config.bools) set(entry.name, entry.value ? "true" : "false");
   for (const auto& entry : config.strs) set(entry.name, entry.value);
-  changed.odometry.check();
   parameters = changed;
 }
 

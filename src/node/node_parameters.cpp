@@ -80,11 +80,8 @@ Parameters readParameters(const ros::NodeHandle& private_nh) {
     XmlRpc::XmlRpcValue tree;
     if (private_nh.getParam(ns, tree)) setParameters(tree, table);
     requireFrames(parameters.node);
-    parameters.odometry.check();
   } catch (const RefusedParameter& error) {
     refuse(error.name(), error.what());
-  } catch (const std::invalid_argument& error) {  // the disparities are in conflict
-    refuse("stereo_matcher/min_disparity_px", error.what());
   }
   return parameters;
 }

@@ -2,8 +2,6 @@
 
 #include <stdexcept>
 
-#include <opencv2/core.hpp>
-
 #include "motion/two_stage_estimator.h"
 
 namespace rotrocc {
@@ -26,13 +24,6 @@ void OdometryConfig::check() const {
   if (method != "default" && method != "paper") {
     throw std::invalid_argument("method is \"" + method + "\", but must be default or paper");
   }
-  const StereoMatcherConfig& matcher = correspondence_finder.stereo_matcher;
-  if (matcher.min_disparity_px <= matcher.max_disparity_px) return;
-  throw std::invalid_argument(
-      cv::format("stereo_matcher/min_disparity_px is %g, but must not be above "
-                 "stereo_matcher/max_disparity_px = %d",
-                 matcher.min_disparity_px,
-                 matcher.max_disparity_px));
 }
 
 void useMethodOfPaper(OdometryConfig& config) {

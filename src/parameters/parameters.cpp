@@ -86,10 +86,8 @@ void addOdometry(OdometryConfig& c, ParameterTable& table) {
 
   StereoMatcherConfig& matcher = finder.stereo_matcher;
   table.beginSection("stereo_matcher");
-  table.add("max_disparity_px", matcher.max_disparity_px, {8, 2000, "px"}).description =
-      "largest disparity; closer points are not matched";
-  table.add("min_disparity_px", matcher.min_disparity_px, {0.1, 100.0, "px"}).description =
-      "smallest disparity; points farther away are dropped";
+  table.add("nearest_baselines", matcher.nearest_baselines, {0.1, 100.0}).description =
+      "depth of the nearest points that are matched, in baselines of the cameras";
 
   table.beginSection("feature_tracker");
   table.add("window_radius_px", finder.feature_tracker.window_radius_px, {2, 25, "px"})

@@ -18,6 +18,16 @@ using Disparities = std::vector<float>;
 
 constexpr float kNone = StereoMatcher::kNoDisparity;
 
+/// Points at `nearest_baselines` have a disparity of `kFocal_px` / nearest_baselines.
+constexpr double kFocal_px = 512.0;
+
+StereoCamera cameraOf(double infinity_px) {
+  StereoCamera camera;
+  camera.fx = kFocal_px;
+  camera.cx_right = -infinity_px;
+  return camera;
+}
+
 Disparities match(const cv::Mat& left,
                   const cv::Mat& right,
                   const Pixels& pixels,
@@ -25,7 +35,8 @@ Disparities match(const cv::Mat& left,
                   double infinity_px = 0.0) {
   Disparities disparities;
   Workers workers(1);
-  StereoMatcher(config).match(workers, {left, right, infinity_px}, pixels, disparities);
+  const StereoCamera camera = cameraOf(infinity_px);
+  StereoMatcher(config).match(workers, {left, right, camera}, pixels, disparities);
   return disparities;
 }
 
@@ -35,7 +46,8 @@ float matchNear(const cv::Mat& left,
                 float expected_px) {
   Disparities disparities;
   Workers workers(1);
-  StereoMatcher({}).matchNear(workers, {left, right}, {pixel}, {expected_px}, disparities);
+  StereoMatcher({}).matchNear(
+      workers, {left, right, cameraOf(0.0)}, {pixel}, {expected_px}, disparities);
   return disparities.at(0);
 }
 
@@ -182,7 +194,8 @@ TEST(StereoMatcherTest, RefusesWhatLooksDifferent) {
     Disparities near_px;
     Workers workers(1);
     const Disparities expected_px(pixels.size(), 10.0F);
-    StereoMatcher({}).matchNear(workers, {left, right}, pixels, expected_px, near_px);
+    StereoMatcher({}).matchNear(
+        workers, {left, right, cameraOf(0.0)}, pixels, expected_px, near_px);
     EXPECT_EQ(countFound(near_px), countFound(match(left, right, pixels)));
     return countFound(near_px);
   };
@@ -204,8 +217,8 @@ TEST(StereoMatcherTest, FindsTheSameDisparitiesAtAnotherExposure) {
       const cv::Mat right = exposed(10.25, gain, offset);
       const Disparities found = match(left, right, pixels);
       Disparities near;
-      const double found_gain =
-          StereoMatcher({}).matchNear(workers, {left, right}, pixels, expected_px, near);
+      const double found_gain = StereoMatcher({}).matchNear(
+          workers, {left, right, cameraOf(0.0)}, pixels, expected_px, near);
       EXPECT_NEAR(found_gain / gain, 1.0, 0.004);  // measured: within 0.2 %
       std::size_t same = 0;
       // Grey levels are rounded. Measured: at most 0.025 px.
@@ -219,7 +232,7 @@ TEST(StereoMatcherTest, FindsTheSameDisparitiesAtAnotherExposure) {
 
 TEST(StereoMatcherTest, RefusesTheTooNearAndTheTooFar) {
   StereoMatcher::Config config;
-  config.max_disparity_px = 40;
+  config.nearest_baselines = kFocal_px / 40.0;
   config.min_disparity_px = 5.0;
   const Pixels pixels = grid(kMiddle, 10);
   // If the optical axes are not parallel, points at infinity have a disparity.

@@ -30,13 +30,6 @@ TEST(EarlierRunTest, TheRefusalHasTheCommandThatDeletesTheParameter) {
   expectRefused(
       "feature_detector/max_featurs", 5, "unknown parameter \"feature_detector/max_featurs\"");
   expectRefused("queue_size", 0, "queue_size is 0, but must be in [1, 100]");
-  const std::string largest = kNode + "stereo_matcher/max_disparity_px";
-  ros::param::set(largest, 64);
-  expectRefused(
-      "stereo_matcher/min_disparity_px",
-      100.0,
-      "min_disparity_px is 100, but must not be above stereo_matcher/max_disparity_px = 64");
-  ros::param::del(largest);
   expectRefused("guess_frame", "odom", "guess_frame and odom_frame are both \"odom\"");
 }
 

@@ -88,11 +88,6 @@ TEST(LiveParametersTest, RefusesAllIfOneIsBad) {
                                      "visual_odometry/max_tries is -5, but must be in [1, 20]");
   EXPECT_EQ(parameters.odometry.correspondence_finder.feature_detector.max_features,
             FeatureDetectorConfig().max_features);
-  Config disparities = makeInt("stereo_matcher/max_disparity_px", 64);
-  ConfigTools::appendParameter(disparities, "stereo_matcher/min_disparity_px", 64.5);
-  expectError<std::invalid_argument>([&] { applyConfig(disparities, parameters); },
-                                     "min_disparity_px is 64.5, but must not be above "
-                                     "stereo_matcher/max_disparity_px = 64");
   expectError<std::invalid_argument>([&] { applyConfig(makeInt("queue_size", 5), parameters); },
                                      "\"queue_size\" cannot be changed while the odometry runs");
   expectError<std::invalid_argument>([&] { applyConfig(makeInt("a/b", 5), parameters); },

@@ -328,10 +328,6 @@ TEST(VisualOdometryTest, KeepsItsParametersWhenOthersAreWrong) {
   VisualOdometry odometry = started(2);
   VisualOdometry::Config wrong;
   wrong.motion_check.max_speed_mps = 0.1;
-  wrong.correspondence_finder.stereo_matcher.min_disparity_px = 129;
-  expectError<std::invalid_argument>([&] { odometry.configure(wrong); },
-                                     "min_disparity_px is 129, but must not be above "
-                                     "stereo_matcher/max_disparity_px = 128");
   wrong.motion_estimator.criterion = "best";
   expectError<std::invalid_argument>([&] { odometry.configure(wrong); }, "criterion is \"best\"");
   wrong = {};

@@ -58,7 +58,6 @@ const Difference kDifferences[] = {
     {"kitti.launch bag:=", "kitti.launch rviz:=false bag:="},
     // A quarter of the pixels, which are rendered in 10 s.
     {"--size 620x188 --focal 359", "--size 310x94 --focal 180"},
-    {"max_disparity_px: 200", "max_disparity_px: 100"},
     // Short drives of small images.
     {"simulate_drive city ", "simulate_drive --frames 3 city "},
     {"--poses 03.txt ", "--frames 3 --poses dataset/poses/06.txt "},

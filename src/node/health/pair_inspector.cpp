@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <utility>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
@@ -38,15 +39,14 @@ cv::Mat shifted(const cv::Mat& image, int rows) {
 /// Counts the corners of an image that have a disparity.
 class MatchCounter {
  public:
-  MatchCounter(const CorrespondenceFinder::Config& config, double infinity_px)
-      : detector_(config.feature_detector),
-        matcher_(config.stereo_matcher),
-        infinity_px_(infinity_px) {}
+  MatchCounter(const CorrespondenceFinder::Config& config, const StereoCamera& camera)
+      : detector_(config.feature_detector), matcher_(config.stereo_matcher), camera_(camera) {}
 
   int count(const cv::Mat& left, const cv::Mat& right, bool swapped = false) {
     detector_.detect(alone_, left, corners_);
-    matcher_.match(
-        alone_, {left, right, swapped ? -infinity_px_ : infinity_px_}, corners_, disparities_);
+    StereoCamera camera = camera_;
+    if (swapped) std::swap(camera.cx, camera.cx_right);
+    matcher_.match(alone_, {left, right, camera}, corners_, disparities_);
     return static_cast<int>(
         std::count_if(disparities_.begin(), disparities_.end(), [](float disparity_px) {
           return disparity_px != StereoMatcher::kNoDisparity;
@@ -60,7 +60,7 @@ class MatchCounter {
   Workers alone_{1};
   FeatureDetector detector_;
   StereoMatcher matcher_;
-  double infinity_px_;
+  StereoCamera camera_;
   std::vector<cv::Point2f> corners_;
   std::vector<float> disparities_;
 };
@@ -100,7 +100,7 @@ std::string explainLoss(const cv::Mat& left,
   }
   if (!few) return "";
   return "hardly any corner matches in the right image: are the images rectified and synchronized, "
-         "and is max_disparity_px large enough for near objects?";
+         "and is nearest_baselines small enough for near objects?";
 }
 
 }  // namespace
@@ -152,7 +152,7 @@ void PairInspector::explain(const StereoPair& pair,
   search_ = std::async(std::launch::async,
                        [left = pair.left.clone(),
                         right = pair.right.clone(),
-                        matches = MatchCounter(config_, camera.disparityAtInfinity()),
+                        matches = MatchCounter(config_, camera),
                         rectifies = rectifies_,
                         significant_bits]() mutable {
                          pthread_setname_np(pthread_self(), "odometry_hint");
