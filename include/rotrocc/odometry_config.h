@@ -16,7 +16,7 @@ struct FeatureDetectorConfig {
 
 /// Sparse matching along the row, by normalized correlation.
 struct StereoMatcherConfig {
-  double nearest_baselines = 4.0;  ///< depth of the nearest points that are found, in baselines
+  double nearest_baselines = 3.0;  ///< depth of the nearest points that are found, in baselines
   double min_disparity_px = 1.0;   ///< above the disparity at infinity; farther points are dropped
 };
 

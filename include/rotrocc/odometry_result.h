@@ -96,6 +96,9 @@ struct OdometryResult {
   /// Ratio of the disparity error that neighbouring features share to flow noise, as assumed for
   /// this motion; 0: no motion.
   double shared_error_ratio = 0.0;
+  /// How often the images were halved before they were used: pixels of soft images show too little.
+  /// Figures in px are of whole images.
+  int halvings = 0;
   double flow_noise_px = 0.0;  ///< standard deviation in x and y, of inliers; 0: no motion
   StageCounts counts;
   StageTimes times;

@@ -18,6 +18,8 @@ struct StereoCamera {
   /// Principal point of the right image [px]; differs from cx if the cameras converge.
   double cx_right = 0.0;
   double baseline_m = 0.0;  ///< distance from the left to the right camera, positive
+  /// Side of the smallest detail of its images [px]: windows and limits are multiples of it.
+  double detail_px = 1.0;
 
   /// Throws std::invalid_argument that names the first invalid value. Sizes, focal lengths and
   /// baseline must be positive, all values finite, and the disparity at infinity less than the
@@ -47,6 +49,9 @@ struct StereoCamera {
   Eigen::Vector2d project(const Eigen::Vector3d& point) const {
     return {fx * point.x() / point.z() + cx, fy * point.y() / point.z() + cy};
   }
+
+  /// The camera of images that are halved so many times, keeping every other pixel.
+  StereoCamera halved(int times) const;
 
   /// How far another calibration differs: the largest change of the tangent of a viewing direction,
   /// over both images, or the relative change of the baseline if that is more. Infinite if the

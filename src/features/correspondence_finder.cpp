@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/median.h"
+#include "features/base_level.h"
 
 namespace rotrocc {
 namespace {
@@ -12,6 +13,8 @@ namespace {
 /// Corners found for each feature that is wanted. More than half have a disparity, and at least a
 /// quarter where left and right differ much.
 constexpr int kCandidates = 4;
+
+// In details of the images:
 
 /// Tolerance of the row of left and right. Rectified rows agree to a fraction of a pixel, and a
 /// constant offset is corrected.
@@ -43,17 +46,20 @@ std::shared_ptr<StereoFrame> CorrespondenceFinder::unusedFrame() {
   return frames_.emplace_back(std::make_shared<StereoFrame>());
 }
 
-FramePtr CorrespondenceFinder::makeFrame(const StereoPair& pair) {
+FramePtr CorrespondenceFinder::makeFrame(const StereoPair& pair, int level) {
   const auto frame = unusedFrame();
   frame->stamp_ns = pair.stamp_ns;
-  left_mask_.assign(pair.left_mask, FeatureDetector::kBorder_px);
-  right_mask_.assign(pair.right_mask, FeatureDetector::kBorder_px);
+  left_mask_.assign(pair.left_mask, FeatureDetector::kBorder_px << level);
+  right_mask_.assign(pair.right_mask, FeatureDetector::kBorder_px << level);
   frame->left_mask = left_mask_;
   frame->right_mask = right_mask_;
   workers_.run(2, [&](int side) {
     tracker_.makePyramid(side == 0 ? pair.left : pair.right,
-                         side == 0 ? frame->left : frame->right);
+                         BaseLevel::kLevels,
+                         side == 0 ? frame->whole_left : frame->whole_right);
   });
+  const int levels = static_cast<int>(frame->whole_left.size());
+  frame->setLevel(std::min(level, levels - 1));
   return frame;
 }
 
@@ -121,6 +127,7 @@ int CorrespondenceFinder::find(const StereoCamera& camera,
                                const StereoFrame& current,
                                const Eigen::Isometry3d& T_keyframe_cur,
                                Correspondences& features) {
+  tracker_.setDetail(camera.detail_px);
   predict(camera, keyframe, T_keyframe_cur);
   track(keyframe, current);
   checkCircularConsistency(camera, keyframe, current, features);
@@ -188,7 +195,7 @@ void CorrespondenceFinder::checkCircularConsistency(const StereoCamera& camera,
     if (current.right_mask.excludes(cur_right_px_[i])) continue;
     const cv::Point2f offset = cur_left_px_[i] - cur_right_px_[i];
     const double wrong_row_px = std::abs(offset.y + keyframe.row_offset_px);
-    if (tracked_[i] != 0 && wrong_row_px <= kMaxVertical_px) {
+    if (tracked_[i] != 0 && wrong_row_px <= camera.detail_px * kMaxVertical_px) {
       tracked_disparities_px_[i] = offset.x;
     }
   }
@@ -201,7 +208,7 @@ void CorrespondenceFinder::checkCircularConsistency(const StereoCamera& camera,
     const float disparity_px = disparities_px_[i];
     if (disparity_px == StereoMatcher::kNoDisparity) continue;
     const double difference_px = std::abs(disparity_px - tracked_disparities_px_[i]);
-    if (difference_px > kMaxDisparityDifference_px) continue;
+    if (difference_px > camera.detail_px * kMaxDisparityDifference_px) continue;
     features.push_back({{keyframe.left_px[i].x, keyframe.left_px[i].y},
                         {cur_left_px_[i].x, cur_left_px_[i].y},
                         disparity_px});

@@ -30,8 +30,9 @@ class CorrespondenceFinder {
   /// Uses `threads` threads, including the calling one.
   explicit CorrespondenceFinder(const Config& config, int threads = 1);
 
-  /// Copies the images of the pair into a frame. Frames that are no longer referenced are reused.
-  FramePtr makeFrame(const StereoPair& pair);
+  /// Copies the images of the pair into a frame, to be used at a level of its pyramids. Frames that
+  /// are no longer referenced are reused.
+  FramePtr makeFrame(const StereoPair& pair, int level = 0);
 
   /// Finds the corners of the keyframe's left image, more than are wanted: some have no match.
   void findCorners(Keyframe& keyframe);

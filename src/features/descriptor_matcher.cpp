@@ -35,7 +35,8 @@ DescriptorMatcher::Described DescriptorMatcher::describe(const cv::Mat& image,
   const double sigma = std::sqrt(noiseVariance(image, responses));
   orb_->setFastThreshold(std::max(1, cvRound(kFastOverNoise * sigma)));
   Described described;
-  orb_->detectAndCompute(image, mask.usable(), described.keypoints, described.descriptors);
+  orb_->detectAndCompute(
+      image, mask.usable(image.size()), described.keypoints, described.descriptors);
   return described;
 }
 

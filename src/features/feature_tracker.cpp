@@ -30,6 +30,8 @@ bool contains(const cv::Mat& image, const cv::Point2f& point) {
   return cv::Rect2f({}, cv::Size2f(image.size())).contains(point);
 }
 
+constexpr int kMaxRadius_px = Window::kMaxSide / 2;
+
 /// A point within this fraction of the window's radius counts as close to its prediction.
 constexpr float kNear = 0.5F;
 
@@ -53,6 +55,7 @@ float scaleOf(std::size_t level) {
 /// The tracking of single points from one image to another.
 struct Tracking {
   const FeatureTrackerConfig& config;
+  double detail_px;
   const ImagePyramid& from;
   const ImagePyramid& to;
   bool round_trip;
@@ -62,7 +65,7 @@ struct Tracking {
               TrackingWindow& window,
               cv::Point2f& end) const {
     cv::Point2f found = end;
-    const float near_px = kNear * static_cast<float>(config.window_radius_px);
+    const float near_px = kNear * static_cast<float>(detail_px * config.window_radius_px);
     const bool is_near = window.take(from[0], start, scale) && window.find(to[0], kStop, found) &&
                          distance2(found, end) < near_px * near_px;
     if (!is_near) {
@@ -87,7 +90,7 @@ struct Tracking {
                float scale,
                TrackingWindow& window,
                const cv::Point2f& end) const {
-    const auto max_px = static_cast<float>(config.max_round_trip_px);
+    const auto max_px = static_cast<float>(detail_px * config.max_round_trip_px);
     cv::Point2f back = start;
     return window.take(to[0], end, 1.0F / scale) && window.find(from[0], kStop, back) &&
            distance2(back, start) <= max_px * max_px;
@@ -238,9 +241,15 @@ FeatureTracker::FeatureTracker(const Config& config)
       windows_(Workers::kListParts,
                TrackingWindow(config.window_radius_px, config.ignore_brightness)) {}
 
-void FeatureTracker::makePyramid(const cv::Mat& image, ImagePyramid& pyramid) const {
-  const int side = 2 * config_.window_radius_px + 1;
-  buildPyramid(image, kLevels, side, pyramid);
+void FeatureTracker::setDetail(double detail_px) {
+  if (detail_px == detail_px_) return;
+  detail_px_ = detail_px;
+  const int radius_px = std::min(cvRound(detail_px * config_.window_radius_px), kMaxRadius_px);
+  windows_.assign(windows_.size(), TrackingWindow(radius_px, config_.ignore_brightness));
+}
+
+void FeatureTracker::makePyramid(const cv::Mat& image, int levels, ImagePyramid& pyramid) const {
+  buildPyramid(image, levels, 2 * config_.window_radius_px + 1, pyramid);
 }
 
 void FeatureTracker::track(Workers& workers,
@@ -251,7 +260,7 @@ void FeatureTracker::track(Workers& workers,
                            bool round_trip,
                            std::vector<cv::Point2f>& cur,
                            std::vector<char>& tracked) {
-  const Tracking tracking = {config_, keyframe_pyramid, cur_pyramid, round_trip};
+  const Tracking tracking = {config_, detail_px_, keyframe_pyramid, cur_pyramid, round_trip};
   workers.forEach(tracked.size(), [&](std::size_t i, std::size_t part) {
     if (tracked[i] == 0) return;
     tracked[i] = tracking.follow(keyframe_px[i], scales[i], windows_[part], cur[i]) ? 1 : 0;

@@ -64,14 +64,14 @@ class FeatureTracker {
  public:
   using Config = FeatureTrackerConfig;
 
-  /// Images of a pyramid. In the smallest one, a window reaches four times as far, for features
-  /// whose prediction is far off. What is farther is left to the search for the motion.
-  static constexpr int kLevels = 3;
-
   explicit FeatureTracker(const Config& config);
 
-  /// Builds a pyramid of kLevels, or fewer for a small image. Reuses the memory of `pyramid`.
-  void makePyramid(const cv::Mat& image, ImagePyramid& pyramid) const;
+  /// Sets StereoCamera::detail_px of the images that are tracked, of which windows and limits are
+  /// multiples.
+  void setDetail(double detail_px);
+
+  /// Builds a pyramid of `levels`, or fewer for a small image. Reuses the memory of `pyramid`.
+  void makePyramid(const cv::Mat& image, int levels, ImagePyramid& pyramid) const;
 
   /// Tracks the points `keyframe_px` from one image to another. `scales` are the expected scale
   /// changes of the points' windows, above 1 if a point comes nearer. `cur` contains the
@@ -95,6 +95,7 @@ class FeatureTracker {
 
  private:
   Config config_;
+  double detail_px_ = 1.0;
   std::vector<TrackingWindow> windows_;  // one per part of a list
 };
 

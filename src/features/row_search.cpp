@@ -52,6 +52,7 @@ std::vector<float> RowSearch::search(const StereoCamera& camera, const Keyframe&
   for (std::size_t i = 0; i < keyframe.corners.size(); i += step) {
     sample_px.push_back(keyframe.corners[i]);
   }
+  tracker_.setDetail(camera.detail_px);
   const cv::Mat& left = keyframe.frame->left.front();
   const cv::Mat& right = keyframe.frame->right.front();
   std::vector<CornerOffset> found(sample_px.size());

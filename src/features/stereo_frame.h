@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -28,29 +30,58 @@ class FeatureMask {
     cv::dilate(mask, grown_, cv::getStructuringElement(cv::MORPH_RECT, window));
   }
 
+  /// Pixels are those of an image that is halved so many times.
+  void setLevel(int level) { px_ = static_cast<float>(1 << level); }
+
   /// Whether a pixel may not be used. Those outside the image may.
   bool excludes(const cv::Point2f& pixel) const {
-    const cv::Point nearest(cvRound(pixel.x), cvRound(pixel.y));
+    const cv::Point nearest(cvRound(px_ * pixel.x), cvRound(px_ * pixel.y));
     return cv::Rect({}, grown_.size()).contains(nearest) && grown_.at<uchar>(nearest) != 0;
   }
 
-  /// Non-zero where features may be, as OpenCV's detectors expect it. Empty if that is everywhere.
-  cv::Mat usable() const { return grown_.empty() ? cv::Mat() : cv::Mat(grown_ == 0); }
+  /// Non-zero where features may be, as OpenCV's detectors expect it for an image of that size.
+  /// Empty if that is everywhere.
+  cv::Mat usable(const cv::Size& size) const {
+    cv::Mat usable;
+    if (!grown_.empty()) cv::resize(grown_ == 0, usable, size, 0.0, 0.0, cv::INTER_NEAREST);
+    return usable;
+  }
 
  private:
   cv::Mat mask_;  // as passed: while it is kept, no other has the same address
   cv::Mat grown_;
+  float px_ = 1.0F;  // of the mask for one of the image
 };
 
-/// The images of one stereo pair, as pyramids for the tracker. Level 0 is a copy of the image.
+/// The images of one stereo pair.
 struct StereoFrame {
   std::int64_t stamp_ns = 0;
+  ImagePyramid whole_left, whole_right;  ///< level 0 is a copy of the image
+  /// Pyramids for the tracker: those parts of the whole ones that begin with the image of the
+  /// odometry, see BaseLevel.
   ImagePyramid left, right;
   FeatureMask left_mask, right_mask;
+
+  /// Levels of left and right. In the smallest one, a window of the tracker reaches four times as
+  /// far, for features whose prediction is far off. What is farther is left to the search for the
+  /// motion.
+  static constexpr int kLevels = 3;
+
+  /// Sets the first level of left and right.
+  void setLevel(int first) {
+    const auto part = [&](const ImagePyramid& whole, ImagePyramid& pyramid) {
+      const auto end = std::min(whole.size(), static_cast<std::size_t>(first + kLevels));
+      pyramid.assign(whole.begin() + first, whole.begin() + static_cast<std::ptrdiff_t>(end));
+    };
+    part(whole_left, left);
+    part(whole_right, right);
+    left_mask.setLevel(first);
+    right_mask.setLevel(first);
+  }
 };
 
 /// A frame may be used as the last frame, the lost frame and the keyframe at the same time.
-using FramePtr = std::shared_ptr<const StereoFrame>;
+using FramePtr = std::shared_ptr<StereoFrame>;
 
 inline double secondsBetween(const StereoFrame& earlier, const StereoFrame& later) {
   return toSeconds(later.stamp_ns - earlier.stamp_ns);

@@ -36,6 +36,17 @@ void StereoCamera::check() const {
           "positive (are left and right exchanged?)");
 }
 
+StereoCamera StereoCamera::halved(int times) const {
+  StereoCamera camera = *this;
+  for (int i = 0; i < times; ++i) {
+    camera.width = (camera.width + 1) / 2;
+    camera.height = (camera.height + 1) / 2;
+    for (double* px : {&camera.fx, &camera.fy, &camera.cx, &camera.cy, &camera.cx_right})
+      *px *= 0.5;
+  }
+  return camera;
+}
+
 double StereoCamera::differenceTo(const StereoCamera& other) const {
   if (width != other.width || height != other.height)
     return std::numeric_limits<double>::infinity();

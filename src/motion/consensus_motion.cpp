@@ -14,17 +14,14 @@ constexpr std::size_t kMinFeatures = 4;
 /// As many tell the motion that most agree on; all of them take several times as long.
 constexpr std::size_t kMaxFeatures = 200;
 
-/// Samples of three features. With half of the features wrong, one of 35 is expected to be the
-/// first without an outlier in 99 % of all cases; depths of far features are too inexact for most.
-constexpr int kSamples = 200;
-
 constexpr double kConfidence = 0.999;
 
 }  // namespace
 
 std::optional<Eigen::Isometry3d> consensusMotion(const StereoCamera& camera,
                                                  const Correspondences& features,
-                                                 double tolerance_px) {
+                                                 double tolerance,
+                                                 int samples) {
   if (features.size() < kMinFeatures) return std::nullopt;
   std::vector<cv::Point3d> points;
   std::vector<cv::Point2d> pixels;
@@ -44,8 +41,8 @@ std::optional<Eigen::Isometry3d> consensusMotion(const StereoCamera& camera,
                                         rotation,
                                         translation,
                                         false,
-                                        kSamples,
-                                        static_cast<float>(tolerance_px),
+                                        samples,
+                                        static_cast<float>(camera.detail_px * tolerance),
                                         kConfidence,
                                         cv::noArray(),
                                         cv::SOLVEPNP_P3P);

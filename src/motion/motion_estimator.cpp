@@ -135,9 +135,10 @@ bool estimateCovariance(const MotionEstimatorConfig& config,
   const Information one = informationOf(motion.rotation_inliers, 6);
   const Eigen::LDLT<Matrix6d> full(one.matrix);
   if (full.info() != Eigen::Success || !full.isPositive()) return false;
-  const double share = hasFixedLimit(criterionOf(config.criterion))
-                           ? shareOfVariance(one.residual_variance, kRotationLimit_px)
-                           : 1.0;
+  const double share =
+      hasFixedLimit(criterionOf(config.criterion))
+          ? shareOfVariance(one.residual_variance, measured.camera.detail_px * kRotationLimit)
+          : 1.0;
   const double variance = one.residual_variance / share;
   const double alike = inflation(full.solve(one.scatter).trace() / 6.0, one.residual_variance);
   const Matrix6d both = alike * variance / share * full.solve(Matrix6d::Identity());
@@ -203,7 +204,7 @@ void MotionEstimator::retryNear(const Eigen::Isometry3d& motion,
   // Without whitening, because the motion of an object along the road looks like a wrong disparity.
   reprojectionErrors(measured.camera, measured.features, motion, errors_px_);
   near_ = all_;
-  keepBelow(errors_px_, config_.retry_agreement_px, near_);
+  keepBelow(errors_px_, measured.camera.detail_px * config_.retry_agreement_px, near_);
   estimateFrom(near_, measured, motion, dt_s, retry_);
 }
 

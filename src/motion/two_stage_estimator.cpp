@@ -35,14 +35,14 @@ constexpr double kDeviationFactor = 1.5;
 /// The error of a feature that must not become an inlier.
 constexpr double kExcludedError = std::numeric_limits<double>::infinity();
 
-double rotationThreshold(Criterion criterion, std::vector<double>& errors_px) {
+double rotationThreshold(Criterion criterion, double detail_px, std::vector<double>& errors_px) {
   switch (criterion) {
     case Criterion::kMeanBased:
       return meanBasedLimit(kMeanFactor, errors_px);
     case Criterion::kStdBased:
       return deviationBasedLimit(kDeviationFactor, errors_px);
     default:
-      return fixedLimit(kRotationLimit_px, kDropShare, errors_px);
+      return fixedLimit(detail_px * kRotationLimit, kDropShare, errors_px);
   }
 }
 
@@ -116,7 +116,7 @@ bool TwoStageEstimator::estimateRotation(const Measurements& measured,
   };
   const auto measure = [&] { fittedErrors(measured.camera, fit, errors_); };
   const auto threshold = [&](std::vector<double>& errors_px) {
-    return rotationThreshold(criterion_, errors_px);
+    return rotationThreshold(criterion_, measured.camera.detail_px, errors_px);
   };
   const int iterations = hasFixedLimit(criterion_) ? kMaxIterations : kComparisonIterations;
   if (!iterate(iterations, solve, measure, threshold, inliers)) return false;
@@ -150,7 +150,7 @@ void TwoStageEstimator::selectCandidates(const Measurements& measured, const Fit
   candidates_.assign(measured.features.size(), 1);
   if (config_.translation_initial_px == 0.0) return;
   fittedErrors(measured.camera, fit, errors_);
-  keepBelow(errors_, config_.translation_initial_px, candidates_);
+  keepBelow(errors_, measured.camera.detail_px * config_.translation_initial_px, candidates_);
 }
 
 bool TwoStageEstimator::estimateTranslation(const Measurements& measured,

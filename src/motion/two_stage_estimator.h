@@ -20,8 +20,9 @@ enum class Criterion { kRotrocc, kReprojection, kRocc, kMeanBased, kStdBased };
 /// The criterion of that name. Throws std::invalid_argument on any other name.
 Criterion criterionOf(const std::string& name);
 
-/// Limit of the reprojection error in stage 1 [px] (Eq. 26): six times the noise of flows on KITTI.
-constexpr double kRotationLimit_px = 0.6;
+/// Limit of the reprojection error in stage 1 (Eq. 26), in details of the images: six times the
+/// noise of flows on KITTI.
+constexpr double kRotationLimit = 0.6;
 
 /// Fewer inliers do not determine a motion. The covariance comes from their residuals: with n of
 /// them, the variance of the noise is known to sqrt(2 / (2 n - 6)), a fifth for 25.

@@ -58,9 +58,11 @@ constexpr double kMaxSigma = 0.05;
 /// Largest usual change of velocity per second [m/s^2]: that of drones.
 constexpr double kMaxAcceleration_mps2 = 30.0;
 
-/// Features with a larger error contradict a motion. Those that are only inexact have a smaller
-/// one.
-constexpr double kContradiction_px = 2.0;
+/// Features with a larger error, in details of the images, contradict a motion. Those that are only
+/// inexact have a smaller one.
+constexpr double kContradiction = 2.0;
+/// Samples for a competitor: it has a large share of those that contradict.
+constexpr int kSamples = 200;
 /// What is this many times as deep is behind.
 constexpr double kBehind = 2.0;
 /// The share of kMaxCompetitors that is enough for features behind the others.
@@ -178,18 +180,19 @@ std::optional<std::string> MotionCheck::whyAmbiguous(const Hypothesis& accepted)
   const Correspondences& features = accepted.features;
   const MotionEstimate& estimate = accepted.estimate;
   reprojectionErrors(accepted.camera, features, estimate.T_keyframe_cur, errors_px_);
+  const double limit_px = kContradiction * accepted.camera.detail_px;
   others_.clear();
   for (std::size_t i = 0; i < features.size(); ++i) {
-    if (errors_px_[i] > kContradiction_px) others_.push_back(features[i]);
+    if (errors_px_[i] > limit_px) others_.push_back(features[i]);
   }
   const double many = kMaxCompetitors * static_cast<double>(features.size());
   const int min_count = std::max(kMinInliers, static_cast<int>(std::ceil(kShareBehind * many)));
   if (static_cast<int>(others_.size()) < min_count) return std::nullopt;
-  const auto competitor = consensusMotion(accepted.camera, others_);
+  const auto competitor = consensusMotion(accepted.camera, others_, kTrackedTolerance, kSamples);
   if (!competitor) return std::nullopt;
   reprojectionErrors(accepted.camera, others_, *competitor, errors_px_);
   set_.resize(others_.size());
-  keepBelow(errors_px_, kContradiction_px, set_);
+  keepBelow(errors_px_, limit_px, set_);
   const int agree = count(set_);
   if (agree < min_count) return std::nullopt;
   const bool are_behind =

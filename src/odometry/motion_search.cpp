@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "common/stage_timer.h"
-#include "features/feature_tracker.h"
 #include "motion/consensus_motion.h"
 #include "motion/feature_errors.h"
 
@@ -18,8 +17,8 @@ constexpr double kCalibrationSettled_px = 0.02;
 /// starts none.
 constexpr int kMaxSteps = 3;
 
-/// Errors of descriptors, which are taken from images of up to half the size.
-constexpr double kRecognitionTolerance_px = 3.0;
+/// Errors of descriptors, which are taken from images of up to half the size, in details.
+constexpr double kRecognitionTolerance = 3.0;
 
 /// A smaller share of the keyframe's features may agree by chance, or be those of an object: there
 /// may be a better start.
@@ -47,7 +46,8 @@ MotionSearch::MotionSearch(const OdometryConfig& config)
 
 bool MotionSearch::find(const Frames& frames, const Start& start, Hypothesis& found) {
   // A window finds what is as far away as it reaches in the smallest image.
-  const double reach_px = window_radius_px_ * (1 << (FeatureTracker::kLevels - 1));
+  const double reach_px =
+      frames.camera.detail_px * window_radius_px_ * (1 << (StereoFrame::kLevels - 1));
   std::optional<MotionEstimator::Prediction> prediction;
   if (start.is_prediction) prediction = {start.T_keyframe_cur, frames.dt_s};
   Start next = start;
@@ -71,7 +71,7 @@ std::optional<MotionSearch::Start> MotionSearch::recognize(const Frames& frames)
   const StageTimer timer(frames.times.tracking_ms);
   const Correspondences seen = descriptors_.match(
       frames.camera, *frames.keyframe.frame, frames.current, frames.keyframe.row_offset_px);
-  const auto T_keyframe_cur = consensusMotion(frames.camera, seen, kRecognitionTolerance_px);
+  const auto T_keyframe_cur = consensusMotion(frames.camera, seen, kRecognitionTolerance);
   if (!T_keyframe_cur) return std::nullopt;
   return Start{*T_keyframe_cur, false};
 }

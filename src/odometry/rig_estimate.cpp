@@ -1,5 +1,7 @@
 #include "odometry/rig_estimate.h"
 
+#include <cmath>
+
 #include "motion/reprojection_problem.h"
 
 namespace rotrocc {
@@ -35,21 +37,33 @@ bool RigEstimate::setCamera(const StereoCamera& camera) {
   return false;
 }
 
+void RigEstimate::setLevel(int level, double detail_px) {
+  detail_px_ = detail_px;
+  if (level == level_) return;
+  const double factor = std::ldexp(1.0, level_ - level);
+  level_ = level;
+  past_.scale(factor);
+  filter_.scale(factor);
+  motion_by_bias_ /= factor;
+  rows_.scale(factor);
+}
+
 void RigEstimate::resetBias() {
   past_ = filter_ = BiasFilter();
   motion_by_bias_.setZero();
 }
 
 StereoCamera RigEstimate::correctedCamera() const {
-  StereoCamera corrected = camera_;
+  StereoCamera corrected = camera_.halved(level_);
   corrected.cx_right += bias().applied_px;
+  corrected.detail_px = detail_px_;
   return corrected;
 }
 
 DisparityBias RigEstimate::bias() const {
   DisparityBias bias = filter_.bias();
-  bias.estimated_px += config_.bias_px;
-  bias.applied_px += config_.bias_px;
+  bias.estimated_px += knownBias();
+  bias.applied_px += knownBias();
   return bias;
 }
 
@@ -81,7 +95,7 @@ void RigEstimate::observeBias(const Hypothesis& found) {
                                     kSmoothShare * found.shared_ratio);
   if (!measurement) return;
   motion_by_bias_ = measurement->motion_by_bias;
-  measurement->bias_px += bias().applied_px - config_.bias_px;
+  measurement->bias_px += bias().applied_px - knownBias();
   filter_ = past_;
   filter_.add(*measurement);
 }
@@ -100,6 +114,15 @@ void RigEstimate::report(OdometryResult& result) const {
   result.disparity_bias = bias();
   result.row_offset = rows_.offset();
   result.row_offset.applied_px = correctedRows();
+  for (double* px : {&result.disparity_bias.estimated_px,
+                     &result.disparity_bias.sigma_px,
+                     &result.disparity_bias.applied_px,
+                     &result.row_offset.median_px,
+                     &result.row_offset.sigma_px,
+                     &result.row_offset.typical_px,
+                     &result.row_offset.applied_px}) {
+    *px *= 1 << level_;
+  }
 }
 
 }  // namespace rotrocc

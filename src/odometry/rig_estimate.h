@@ -30,11 +30,14 @@ class RigEstimate {
   /// began with. Returns whether they are kept.
   bool setCamera(const StereoCamera& camera);
 
+  /// From now on pixels are those of images that are halved `level` times, and show details of
+  /// `detail_px`. The estimates are kept.
+  void setLevel(int level, double detail_px);
+
   /// The camera as it was passed.
   const StereoCamera& camera() const { return camera_; }
-  /// The camera corrected by the disparity bias.
+  /// The camera of the halved images, corrected by the disparity bias.
   StereoCamera correctedCamera() const;
-  DisparityBias bias() const;
 
   /// See Measurements.
   double sharedRatio() const { return shared_errors_.ratio(); }
@@ -58,16 +61,20 @@ class RigEstimate {
   /// Adds an accepted motion from the keyframe to the current frame.
   void observe(const Hypothesis& found, const Keyframe& keyframe, const StereoFrame& current);
 
-  /// Stores the estimates, with the corrections of the next pair.
+  /// Stores the estimates, with the corrections of the next pair, in pixels of whole images.
   void report(OdometryResult& result) const;
 
  private:
+  DisparityBias bias() const;
+  double knownBias() const { return config_.bias_px / (1 << level_); }
   double correctedRows() const;
   void resetBias();
 
   StereoCalibratorConfig config_;
   StereoCamera camera_;
   StereoCamera first_camera_;  // of the estimates
+  int level_ = 0;
+  double detail_px_ = 1.0;
   BiasMeter meter_;
   BiasFilter past_;                             // without the observations of the current keyframe
   BiasFilter filter_;                           // with the last of them

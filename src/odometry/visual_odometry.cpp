@@ -14,6 +14,7 @@
 #include "common/compared_text.h"
 #include "common/stage_timer.h"
 #include "common/to_seconds.h"
+#include "features/base_level.h"
 #include "features/correspondence_finder.h"
 #include "features/image_noise.h"
 #include "odometry/motion_check.h"
@@ -115,8 +116,8 @@ std::optional<std::string> whyRestart(const StereoPair& pair,
 std::optional<std::string> whyRepeated(const StereoPair& pair,
                                        const StereoFrame& newest,
                                        const std::function<bool()>& may_repeat) {
-  const bool left = isSame(pair.left, newest.left.front()) && !isNoise(pair.left);
-  const bool right = isSame(pair.right, newest.right.front()) && !isNoise(pair.right);
+  const bool left = isSame(pair.left, newest.whole_left.front()) && !isNoise(pair.left);
+  const bool right = isSame(pair.right, newest.whole_right.front()) && !isNoise(pair.right);
   if (!left && !right) return std::nullopt;
   if (left && right && may_repeat && may_repeat()) return std::nullopt;
   const std::string which = left && right ? "both images are identical to the previous ones"
@@ -155,6 +156,9 @@ class VisualOdometry::Pipeline {
                const OtherSensors& others,
                OdometryResult& result);
   void forget();
+  FramePtr makeFrame(const StereoPair& pair);
+  void useLevel();
+  void report(const StereoCamera& camera, OdometryResult& result);
   void makeKeyframe(const FramePtr& frame, StageTimes& times);
 
   /// What is known of the motion from the last frame, or the lost one, to the current frame.
@@ -178,6 +182,8 @@ class VisualOdometry::Pipeline {
   MotionSearch search_;
   MotionCheck check_;
   RigEstimate rig_;
+  BaseLevel base_;
+  int level_ = 0;  // of the stored frames, and of what is measured
 
   FramePtr last_;                     // last frame with a known pose; null before the first pair
   FramePtr lost_;                     // latest frame without a motion since last_; may be null
@@ -193,7 +199,8 @@ VisualOdometry::Pipeline::Pipeline(const Config& config)
       finder_(config_.correspondence_finder, config_.threads),
       search_(config_),
       check_(config_.motion_check, config_.motion_estimator.noise_ratio),
-      rig_(config_) {}
+      rig_(config_),
+      base_(config_.correspondence_finder.feature_detector.max_features) {}
 
 OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
                                                  const StereoCamera& camera,
@@ -214,13 +221,27 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
     result.stamp_ns = pair.stamp_ns;
     result.reason = std::string("internal error: ") + error.what();
   }
+  report(camera, result);
+  return result;
+}
+
+/// Stores what was found, in pixels of whole images.
+void VisualOdometry::Pipeline::report(const StereoCamera& camera, OdometryResult& result) {
+  const double px = 1 << level_;
+  result.halvings = level_;
   result.counts = found_.counts;
   rig_.report(result);
   if (result.hasMotion()) {
-    result.disparity_bias.applied_px = found_.camera.cx_right - camera.cx_right;
-    result.row_offset.applied_px = keyframe_.row_offset_px;
+    result.disparity_bias.applied_px = px * found_.camera.cx_right - camera.cx_right;
+    result.row_offset.applied_px = px * keyframe_.row_offset_px;
   }
-  return result;
+  result.flow_noise_px *= px;
+  if (level_ == 0) return;
+  for (Correspondence& feature : found_.features) {
+    feature.keyframe_px *= px;
+    feature.cur_px *= px;
+    feature.disparity_px *= px;
+  }
 }
 
 void VisualOdometry::Pipeline::prepare() {
@@ -254,6 +275,7 @@ void VisualOdometry::Pipeline::configure(const Config& config) {
   CorrespondenceFinder finder(by_method.correspondence_finder, by_method.threads);
   MotionSearch search(by_method);
   config_ = by_method;
+  base_.setMaxFeatures(config_.correspondence_finder.feature_detector.max_features);
   finder_ = std::move(finder);
   search_ = std::move(search);
   check_ = MotionCheck(config_.motion_check, config_.motion_estimator.noise_ratio);
@@ -280,11 +302,14 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
   FramePtr current;
   {
     const StageTimer timer(result.times.pyramids_ms);
-    if (!rig_.setCamera(camera)) keyframe_.frame.reset();  // its depths are of the old calibration
-    current = finder_.makeFrame(pair);
+    if (why_restart) forget();
+    if (!rig_.setCamera(camera)) {
+      keyframe_.frame.reset();  // its depths are of the old calibration
+      base_.reset();
+    }
+    current = makeFrame(pair);
   }
   if (why_restart) {
-    forget();
     result.reason = *why_restart;
     last_ = current;
     // Now, as nobody waits for a motion.
@@ -300,6 +325,24 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
     throw Lost(*found_.why_lost);
   }
   accept(current, result);
+}
+
+FramePtr VisualOdometry::Pipeline::makeFrame(const StereoPair& pair) {
+  const FramePtr frame = finder_.makeFrame(pair, level_);
+  base_.observe(frame->whole_left);
+  if (base_.level() != level_) useLevel();
+  rig_.setLevel(level_, base_.detail_px());
+  frame->setLevel(level_);
+  return frame;
+}
+
+/// Goes on with what is stored at the base level.
+void VisualOdometry::Pipeline::useLevel() {
+  level_ = base_.level();
+  keyframe_.frame.reset();
+  for (const FramePtr& frame : {last_, lost_}) {
+    if (frame) frame->setLevel(level_);
+  }
 }
 
 void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& times) {

@@ -123,6 +123,16 @@ double BiasFilter::update(const BiasMeasurement& measurement, double ratio2, Mod
   return log_likelihood;
 }
 
+void BiasFilter::scale(double factor) {
+  for (Mode& mode : modes_) {
+    mode.mean[kBias] *= factor;
+    mode.covariance.row(kBias) *= factor;
+    mode.covariance.col(kBias) *= factor;
+    mode.shared_px *= factor;
+    mode.smooth_px *= factor;
+  }
+}
+
 /// Variance of the bias, with that by lasting errors.
 double BiasFilter::variance(const Mode& mode) const {
   return mode.covariance(kBias, kBias) +

@@ -30,6 +30,9 @@ class BiasFilter {
   /// `measurement` is relative to the known bias.
   void add(const BiasMeasurement& measurement);
 
+  /// Pixels become so many times as small, as in an enlarged image.
+  void scale(double factor);
+
   /// The estimate over both modes, relative to the known bias. `applied_px` is weighted by
   /// the probability that the rig is off at all.
   DisparityBias bias() const;

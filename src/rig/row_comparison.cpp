@@ -73,6 +73,14 @@ void RowComparison::searchAgain() {
   observations_ = 0;
 }
 
+void RowComparison::scale(double factor) {
+  for (float& difference_px : last_px_) difference_px *= static_cast<float>(factor);
+  for (double* px :
+       {&offset_.median_px, &offset_.sigma_px, &offset_.typical_px, &offset_.applied_px}) {
+    *px *= factor;
+  }
+}
+
 void RowComparison::reset() {
   offset_ = {};
   searchAgain();

@@ -32,6 +32,8 @@ class RowComparison {
 
   /// Discards all data, for use with another camera.
   void reset();
+  /// Pixels become so many times as small, as in an enlarged image.
+  void scale(double factor);
 
  private:
   void estimate();

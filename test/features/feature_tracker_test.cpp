@@ -1,4 +1,5 @@
 #include "features/feature_tracker.h"
+#include "features/stereo_frame.h"
 
 #include <algorithm>
 #include <tuple>
@@ -143,8 +144,8 @@ TEST(FeatureTrackerTest, UsesSmallImagesWhereAPointIsNotNear) {
 TEST(FeatureTrackerTest, LeavesPointsAloneThatAreNotAskedFor) {
   FeatureTracker tracker({});
   ImagePyramid a, b;
-  tracker.makePyramid(drive().first, a);
-  tracker.makePyramid(drive().second, b);
+  tracker.makePyramid(drive().first, StereoFrame::kLevels, a);
+  tracker.makePyramid(drive().second, StereoFrame::kLevels, b);
   const Points before = perturbed(drive().truth, 2.0);
   Points cur = before;
   std::vector<char> tracked(cur.size());
@@ -153,7 +154,7 @@ TEST(FeatureTrackerTest, LeavesPointsAloneThatAreNotAskedFor) {
   tracker.track(
       workers, a, b, drive().corners, std::vector<float>(cur.size(), 1.0F), true, cur, tracked);
   const Tracked all =
-      track(drive().first, drive().second, drive().corners, before, FeatureTracker::kLevels);
+      track(drive().first, drive().second, drive().corners, before, StereoFrame::kLevels);
   for (std::size_t i = 0; i < cur.size(); ++i) {
     EXPECT_EQ(cur[i], i % 2 == 0 ? before[i] : all.cur[i]);
     EXPECT_EQ(tracked[i], i % 2 == 0 ? 0 : all.tracked[i]);

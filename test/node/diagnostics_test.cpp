@@ -321,6 +321,7 @@ TEST(StatusTest, HasAllOfAPairAndWithoutOneTheStateHintAndCounters) {
   result.disparity_bias = {0.75, 0.125, 0.5};
   result.row_offset = {-0.25, 0.0625, 0.375, -0.5};
   result.exposure_gain = 0.625;
+  result.halvings = 1;
   result.flow_noise_px = 0.125;
   const OdometryStatus idle = toIdleStatus(report, ros::Time(7, 0));
   OdometryStatus expected = idle;
@@ -345,6 +346,7 @@ TEST(StatusTest, HasAllOfAPairAndWithoutOneTheStateHintAndCounters) {
   expected.row_offset_applied_px = -0.5f;
   expected.row_difference_px = 0.375f;
   expected.exposure_gain = 0.625f;
+  expected.halvings = 1;
   expected.flow_noise_px = 0.125f;
   EXPECT_EQ(toStatus(report), expected);
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "support/expect_error.h"
 #include "support/simulated_features.h"
@@ -322,6 +323,43 @@ TEST(VisualOdometryTest, GoesOnWithOtherParameters) {
   EXPECT_LE(after.counts.with_depth, 300);
   EXPECT_EQ(after.keyframe_stamp_ns, before.stamp_ns) << "not that with the corners of before";
   EXPECT_NEAR(after.disparity_bias.applied_px, before.disparity_bias.applied_px, 0.05);
+}
+
+/// Each pixel of a pair becomes four.
+StereoPair enlarged(StereoPair pair) {
+  for (cv::Mat* image : {&pair.left, &pair.right}) {
+    cv::resize(*image, *image, {}, 2.0, 2.0, cv::INTER_CUBIC);
+  }
+  return pair;
+}
+
+StereoCamera enlarged(StereoCamera camera) {
+  camera.width *= 2;
+  camera.height *= 2;
+  for (double* px : {&camera.fx, &camera.fy, &camera.cx, &camera.cy, &camera.cx_right}) *px *= 2.0;
+  camera.cx += 0.5;
+  camera.cy += 0.5;
+  camera.cx_right += 0.5;
+  return camera;
+}
+
+TEST(VisualOdometryTest, EnlargedImagesAreUsedAtTheirOwnSize) {
+  VisualOdometry::Config config;
+  config.correspondence_finder.feature_detector.max_features = 300;  // the halved ones have room
+  VisualOdometry odometry(config);
+  for (int i = 0; i < 4; ++i) {
+    const OdometryResult result = odometry.process(enlarged(bend(i)), enlarged(camera()));
+    EXPECT_EQ(result.halvings, 1);
+    if (i == 0) continue;
+    ASSERT_EQ(result.state, State::kOk) << result.reason;
+    // As of the images before, see FollowsADriveAlongTheStreet.
+    EXPECT_LT((result.T_prev_cur.translation() - bendStep().translation()).norm(), 0.02);
+    double most_px = 0.0;
+    for (const Correspondence& feature : odometry.correspondences()) {
+      most_px = std::max(most_px, feature.cur_px.x());
+    }
+    EXPECT_GT(most_px, camera().width) << "in pixels of the whole image";
+  }
 }
 
 TEST(VisualOdometryTest, KeepsItsParametersWhenOthersAreWrong) {

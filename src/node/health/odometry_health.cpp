@@ -132,6 +132,7 @@ OdometryStatus toStatus(const HealthReport& report) {
   message.row_offset_applied_px = static_cast<float>(result.row_offset.applied_px);
   message.row_difference_px = static_cast<float>(result.row_offset.typical_px);
   message.exposure_gain = static_cast<float>(result.exposure_gain);
+  message.halvings = static_cast<std::uint8_t>(result.halvings);
   message.flow_noise_px = static_cast<float>(result.flow_noise_px);
   message.pyramids_ms = static_cast<float>(result.times.pyramids_ms);
   message.corners_ms = static_cast<float>(result.times.corners_ms);

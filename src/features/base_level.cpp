@@ -1,0 +1,86 @@
+#include "features/base_level.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "features/image_noise.h"
+
+namespace rotrocc {
+namespace {
+
+/// Images that an average is over: the sharpness of single ones moves by a factor of 3.
+constexpr int kImages = 20;
+
+/// A level is soft below this sharpness. Of sharp cameras it is 0.7 to 1.3 (KITTI, Karlsruhe), of
+/// soft ones 0.35 to 0.54 (EuRoC, a rover, hand-held), of images at twice their size 0.2 to 0.33.
+constexpr double kSoft = 0.6;
+/// The next level has all of the details of one below this sharpness.
+constexpr double kEmpty = 0.25;
+constexpr double kHysteresis = 1.2;
+
+/// Room of a feature: a square of two windows of the tracker.
+constexpr double kRoom_px2 = 18.0 * 18.0;
+
+/// Pixels of an image that are compared, about.
+constexpr double kSample = 10000.0;
+
+/// What is left of the variance of white noise after halving, (70 / 256)^2, and of its difference
+/// to the pixels that are kept, 1 - 2 * 36 / 256 + (70 / 256)^2.
+constexpr double kNoiseOfHalf = 0.0748;
+constexpr double kNoiseOfLoss = 0.794;
+
+/// Mean square of what the half image has lost [grey levels^2].
+double lossOf(const cv::Mat& image, const cv::Mat& half) {
+  const int step = std::max(1, cvFloor(std::sqrt(static_cast<double>(half.total()) / kSample)));
+  double sum = 0.0;
+  int count = 0;
+  for (int y = 0; 2 * y < image.rows; y += step) {
+    const auto* fine = image.ptr<uchar>(2 * y);
+    const auto* coarse = half.ptr<uchar>(y);
+    for (int x = 0; 2 * x < image.cols; x += step) {
+      const int difference = fine[2 * x] - coarse[x];
+      sum += difference * difference;
+      ++count;
+    }
+  }
+  return sum / count;
+}
+
+/// Of the first of three images, each half of the one before; none if they show nothing.
+std::optional<double> sharpnessOf(const cv::Mat* images, std::vector<int>& buffer) {
+  constexpr double kLeast = 0.01;
+  const double noise = kNoiseOfLoss * noiseVariance(images[0], buffer);
+  const double lost = lossOf(images[0], images[1]) - noise;
+  const double next = lossOf(images[1], images[2]) - kNoiseOfHalf * noise;
+  if (!(next > kNoiseOfHalf * noise)) return std::nullopt;
+  return std::max(lost / next, kLeast);
+}
+
+}  // namespace
+
+void BaseLevel::observe(const ImagePyramid& image) {
+  images_ = std::min(images_ + 1, kImages);
+  const int levels = std::min<int>(kMaxLevel + 1, static_cast<int>(image.size()) - 2);
+  for (int level = 0; level < levels; ++level) {
+    const auto sharpness = sharpnessOf(&image[level], noise_);
+    if (!sharpness) continue;
+    log_sharpness_[level] += (std::log(*sharpness) - log_sharpness_[level]) / images_;
+    const auto compare = [&](double limit, bool& is_below) {
+      is_below = log_sharpness_[level] < std::log(is_below ? kHysteresis * limit : limit);
+    };
+    compare(kSoft, is_soft_[level]);
+    compare(kEmpty, is_empty_[level]);
+  }
+  level_ = 0;
+  while (level_ + 1 < levels &&
+         (is_empty_[level_] || (is_soft_[level_] && hasRoom(image[level_ + 1])))) {
+    ++level_;
+  }
+}
+
+bool BaseLevel::hasRoom(const cv::Mat& image) const {
+  return static_cast<double>(image.total()) >= kRoom_px2 * max_features_;
+}
+
+}  // namespace rotrocc

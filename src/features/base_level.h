@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "features/image_pyramid.h"
+
+namespace rotrocc {
+
+/// Chooses the level of the pyramids that is the image of the odometry: pixels that show no more
+/// detail than fewer would, as those of a soft lens, a demosaiced sensor or an enlarged image, cost
+/// time, and make windows and limits in pixels too small.
+///
+/// The sharpness of a level is the mean square of what halving it loses, over that of halving once
+/// more, both without the noise. It is 1 for a scene alike at all scales, and does not depend on
+/// gain. It is averaged over pairs.
+class BaseLevel {
+ public:
+  /// No more levels are skipped.
+  static constexpr int kMaxLevel = 2;
+  /// Levels that observe() needs.
+  static constexpr int kLevels = kMaxLevel + 3;
+
+  /// A soft level is skipped if the next one has room for so many features, or all of its details.
+  explicit BaseLevel(int max_features) : max_features_(max_features) {}
+
+  void setMaxFeatures(int max_features) { max_features_ = max_features; }
+
+  /// Adds an image, CV_8UC1, with its smaller copies.
+  void observe(const ImagePyramid& image);
+
+  /// Forgets the images, as of another camera.
+  void reset() { *this = BaseLevel(max_features_); }
+
+  int level() const { return level_; }
+
+  /// Side of the smallest detail of the images at the level [px], which windows and limits are
+  /// multiples of: 1, or more if the level is soft and the next one has no room.
+  double detail_px() const { return is_soft_[level_] ? kSoftDetail_px : 1.0; }
+
+ private:
+  static constexpr double kSoftDetail_px = 1.5;
+
+  bool hasRoom(const cv::Mat& image) const;
+
+  int max_features_;
+  int level_ = 0;
+  int images_ = 0;
+  std::array<double, kMaxLevel + 1> log_sharpness_ = {};  // averages
+  std::array<bool, kMaxLevel + 1> is_soft_ = {}, is_empty_ = {};
+  std::vector<int> noise_;  // buffer of noiseVariance()
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,86 @@
+#include "features/base_level.h"
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+namespace rotrocc {
+namespace {
+
+constexpr int kFewFeatures = 100;
+constexpr int kManyFeatures = 10000;
+
+/// Rectangles over rectangles of all sizes, as seen by a sharp camera.
+cv::Mat sharpImage(const cv::Size& size) {
+  cv::Mat fine(2 * size, CV_8UC1, cv::Scalar(128));
+  cv::RNG random(1);
+  for (int i = 0; i < 4000; ++i) {
+    const int side = 160 / random.uniform(1, 20);
+    const cv::Rect place(random.uniform(-side, fine.cols),
+                         random.uniform(-side, fine.rows),
+                         side,
+                         side / 2 + random.uniform(0, side));
+    cv::rectangle(fine, place, cv::Scalar(random.uniform(40, 216)), cv::FILLED);
+  }
+  cv::Mat image;
+  cv::resize(fine, image, size, 0.0, 0.0, cv::INTER_AREA);
+  return image;
+}
+
+/// With `sigma` of noise.
+void observe(const cv::Mat& image, double sigma, BaseLevel& base) {
+  cv::Mat noise(image.size(), CV_16S);
+  cv::RNG(2).fill(noise, cv::RNG::NORMAL, 0.0, sigma);
+  cv::Mat noisy;
+  cv::add(image, noise, noisy, cv::noArray(), CV_8U);
+  ImagePyramid pyramid;
+  buildPyramid(noisy, BaseLevel::kLevels, 9, pyramid);
+  base.observe(pyramid);
+}
+
+cv::Mat enlarged(const cv::Mat& image, double factor) {
+  cv::Mat result;
+  cv::resize(image, result, {}, factor, factor, cv::INTER_CUBIC);
+  return result;
+}
+
+TEST(BaseLevelTest, IsThatOfTheSmallestImageWithAllDetails) {
+  const cv::Mat image = sharpImage({320, 256});
+  for (const double sigma : {0.5, 2.0}) {
+    for (int level = 0; level <= BaseLevel::kMaxLevel; ++level) {
+      BaseLevel base(kFewFeatures);
+      observe(enlarged(image, 1 << level), sigma, base);
+      EXPECT_EQ(base.level(), level) << sigma;
+      EXPECT_EQ(base.detail_px(), 1.0);
+    }
+  }
+}
+
+TEST(BaseLevelTest, WithoutRoomWindowsAreLarger) {
+  BaseLevel base(kManyFeatures);
+  observe(enlarged(sharpImage({320, 256}), 2.0), 1.0, base);
+  EXPECT_EQ(base.level(), 0);
+  EXPECT_GT(base.detail_px(), 1.0);
+}
+
+TEST(BaseLevelTest, OneBlurredImageAmongSharpOnesChangesNothing) {
+  const cv::Mat image = sharpImage({640, 512});
+  cv::Mat blurred;
+  cv::GaussianBlur(image, blurred, {}, 2.0);
+  BaseLevel base(kFewFeatures);
+  for (int i = 0; i < 20; ++i) observe(image, 1.0, base);
+  observe(blurred, 1.0, base);
+  EXPECT_EQ(base.level(), 0);
+  for (int i = 0; i < 40; ++i) observe(blurred, 1.0, base);
+  EXPECT_GT(base.level(), 0);
+}
+
+TEST(BaseLevelTest, BlackAndTinyImagesAreUsedAsTheyAre) {
+  BaseLevel base(kFewFeatures);
+  observe(cv::Mat::zeros(200, 300, CV_8UC1), 0.0, base);
+  EXPECT_EQ(base.level(), 0);
+  observe(cv::Mat::zeros(8, 8, CV_8UC1), 0.0, base);
+  EXPECT_EQ(base.level(), 0);
+}
+
+}  // namespace
+}  // namespace rotrocc
