@@ -38,6 +38,8 @@ class RigEstimate {
   const StereoCamera& camera() const { return camera_; }
   /// The camera of the halved images, corrected by the disparity bias.
   StereoCamera correctedCamera() const;
+  /// In pixels of the halved images.
+  DisparityBias bias() const;
 
   /// See Measurements.
   double sharedRatio() const { return shared_errors_.ratio(); }
@@ -65,7 +67,6 @@ class RigEstimate {
   void report(OdometryResult& result) const;
 
  private:
-  DisparityBias bias() const;
   double knownBias() const { return config_.bias_px / (1 << level_); }
   double correctedRows() const;
   void resetBias();
