@@ -16,7 +16,7 @@ constexpr int kImages = 20;
 /// soft ones 0.35 to 0.54 (EuRoC, a rover, hand-held), of images at twice their size 0.2 to 0.33.
 constexpr double kSoft = 0.6;
 /// The next level has all of the details of one below this sharpness.
-constexpr double kEmpty = 0.25;
+constexpr double kEmpty = 0.22;
 constexpr double kHysteresis = 1.2;
 
 /// Room of a feature: a square of two windows of the tracker.
