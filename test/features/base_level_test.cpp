@@ -50,7 +50,9 @@ TEST(BaseLevelTest, IsThatOfTheSmallestImageWithAllDetails) {
       BaseLevel base(kFewFeatures);
       observe(enlarged(image, 1 << level), sigma, base);
       EXPECT_EQ(base.level(), level) << sigma;
-      if (level == 0) EXPECT_EQ(base.detail_px(), 1.0);
+      if (level == 0) {
+        EXPECT_EQ(base.detail_px(), 1.0);
+      }
     }
   }
 }
