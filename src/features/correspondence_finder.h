@@ -29,25 +29,26 @@ class CorrespondenceFinder {
 
   /// Uses `threads` threads, including the calling one.
   explicit CorrespondenceFinder(const Config& config, int threads = 1);
+  virtual ~CorrespondenceFinder() = default;
 
   /// Copies the images of the pair into a frame, to be used at a level of its pyramids. Frames that
   /// are no longer referenced are reused.
   FramePtr makeFrame(const StereoPair& pair, int level = 0);
 
   /// Finds the corners of the keyframe's left image, more than are wanted: some have no match.
-  void findCorners(Keyframe& keyframe);
+  virtual void findCorners(Keyframe& keyframe);
   /// Matches the corners in the keyframe's right image, in their order, until max_features have a
   /// depth, and triangulates these. Removes the corners that were not needed.
-  void findDepths(const StereoCamera& camera, Keyframe& keyframe);
+  virtual void findDepths(const StereoCamera& camera, Keyframe& keyframe);
 
   /// Tracks the keyframe's points, starting at the positions given by the motion. Stores in
   /// `features` those that pass the circular consistency check: their current left and right
   /// positions match each other. Returns the number of points tracked in both images.
-  int find(const StereoCamera& camera,
-           const Keyframe& keyframe,
-           const StereoFrame& current,
-           const Eigen::Isometry3d& T_keyframe_cur,
-           Correspondences& features);
+  virtual int find(const StereoCamera& camera,
+                   const Keyframe& keyframe,
+                   const StereoFrame& current,
+                   const Eigen::Isometry3d& T_keyframe_cur,
+                   Correspondences& features);
 
   /// Contrast of the right image relative to the left one, at the features found last; 1 before.
   double stereoGain() const { return stereo_gain_; }
@@ -58,6 +59,9 @@ class CorrespondenceFinder {
                      const Keyframe& keyframe,
                      const Eigen::Isometry3d& T_keyframe_cur_a,
                      const Eigen::Isometry3d& T_keyframe_cur_b);
+
+ protected:
+  const Config& config() const { return config_; }
 
  private:
   std::shared_ptr<StereoFrame> unusedFrame();

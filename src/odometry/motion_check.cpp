@@ -139,8 +139,9 @@ std::optional<std::string> MotionCheck::whyLost(const MotionEstimate& estimate,
   if (agreeing < kMinInliers) {
     return cv::format("only %d features agree on a motion, fewer than %d", agreeing, kMinInliers);
   }
-  const double share =
-      std::min(shareOf(estimate.rotation_inliers), shareOf(estimate.translation_inliers));
+  double share = shareOf(estimate.rotation_inliers);
+  // Without the noise model, stage 2 has few inliers where disparities are biased.
+  if (noise_ratio_ > 0.0) share = std::min(share, shareOf(estimate.translation_inliers));
   if (share < kMinShare) return "only " + fewAgree(share, "motion", kMinShare);
   const Eigen::Isometry3d T_last_cur = T_keyframe_last.inverse() * estimate.T_keyframe_cur;
   const double speed_mps = T_last_cur.translation().norm() / dt_s;

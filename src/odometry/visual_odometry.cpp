@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -20,6 +21,7 @@
 #include "odometry/motion_check.h"
 #include "odometry/motion_search.h"
 #include "odometry/rig_estimate.h"
+#include "paper/paper_finder.h"
 
 namespace rotrocc {
 namespace {
@@ -37,6 +39,11 @@ OdometryConfig byMethod(OdometryConfig config) {
   config.check();
   if (config.method == "paper") useMethodOfPaper(config);
   return config;
+}
+
+std::unique_ptr<CorrespondenceFinder> makeFinder(const OdometryConfig& config) {
+  if (config.method == "paper") return std::make_unique<PaperFinder>(config.correspondence_finder);
+  return std::make_unique<CorrespondenceFinder>(config.correspondence_finder, config.threads);
 }
 
 /// Ends the processing of a pair without a motion. what() is the reason, as a sentence.
@@ -178,7 +185,7 @@ class VisualOdometry::Pipeline {
   void accept(const FramePtr& current, OdometryResult& result);
 
   Config config_;
-  CorrespondenceFinder finder_;
+  std::unique_ptr<CorrespondenceFinder> finder_;
   MotionSearch search_;
   MotionCheck check_;
   RigEstimate rig_;
@@ -196,7 +203,7 @@ class VisualOdometry::Pipeline {
 
 VisualOdometry::Pipeline::Pipeline(const Config& config)
     : config_(byMethod(config)),
-      finder_(config_.correspondence_finder, config_.threads),
+      finder_(makeFinder(config_)),
       search_(config_),
       check_(config_.motion_check, config_.motion_estimator.noise_ratio),
       rig_(config_),
@@ -272,10 +279,11 @@ void VisualOdometry::Pipeline::forget() {
 void VisualOdometry::Pipeline::configure(const Config& config) {
   const Config by_method = byMethod(config);
   // First, because they may throw.
-  CorrespondenceFinder finder(by_method.correspondence_finder, by_method.threads);
+  auto finder = makeFinder(by_method);
   MotionSearch search(by_method);
   config_ = by_method;
   base_.setMaxFeatures(config_.correspondence_finder.feature_detector.max_features);
+  if (config_.method == "paper") base_.reset();
   finder_ = std::move(finder);
   search_ = std::move(search);
   check_ = MotionCheck(config_.motion_check, config_.motion_estimator.noise_ratio);
@@ -328,8 +336,8 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
 }
 
 FramePtr VisualOdometry::Pipeline::makeFrame(const StereoPair& pair) {
-  const FramePtr frame = finder_.makeFrame(pair, level_);
-  base_.observe(frame->whole_left);
+  const FramePtr frame = finder_->makeFrame(pair, level_);
+  if (config_.method != "paper") base_.observe(frame->whole_left);
   if (base_.level() != level_) useLevel();
   rig_.setLevel(level_, base_.detail_px());
   frame->setLevel(level_);
@@ -350,11 +358,11 @@ void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& t
   keyframe_.T_keyframe_last = {};
   {
     const StageTimer timer(times.corners_ms);
-    finder_.findCorners(keyframe_);
+    finder_->findCorners(keyframe_);
   }
   const StageTimer timer(times.disparity_ms);
   rig_.startKeyframe(keyframe_);
-  finder_.findDepths(rig_.correctedCamera(), keyframe_);
+  finder_->findDepths(rig_.correctedCamera(), keyframe_);
 }
 
 VisualOdometry::Pipeline::Expectation VisualOdometry::Pipeline::expectation(
@@ -418,7 +426,7 @@ bool VisualOdometry::Pipeline::findMotionFrom(const FramePtr& earlier,
   if (keyframe_.frame != earlier) makeKeyframe(earlier, times);
   const StereoCamera corrected = rig_.correctedCamera();
   const MotionSearch::Frames frames = {
-      finder_, corrected, keyframe_, current, expected.dt_s, rig_.sharedRatio(), times};
+      *finder_, corrected, keyframe_, current, expected.dt_s, rig_.sharedRatio(), times};
   const auto settles = [&](const std::optional<Start>& start) {
     return start && search_.find(frames, *start, found_);
   };
