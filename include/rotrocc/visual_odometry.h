@@ -22,7 +22,7 @@ using RotationSource =
 
 /// Stereo visual odometry after section V of Buczko and Willert, "Flow-Decoupled Normalized
 /// Reprojection Error for Visual Odometry", 2017. Motions are measured against a keyframe: the
-/// previous pair, as in the paper, or an earlier pair, see OdometryConfig::keep_keyframe.
+/// previous pair, as in the paper, or while stationary an earlier one.
 class VisualOdometry {
  public:
   using Config = OdometryConfig;

@@ -152,9 +152,7 @@ void CorrespondenceFinder::predict(const StereoCamera& camera,
     const Eigen::Vector2d left = camera.project(point);
     cur_left_px_[i] = {static_cast<float>(left.x()), static_cast<float>(left.y())};
     predicted_disparities_px_[i] = static_cast<float>(camera.disparity(point.z()));
-    if (config_.feature_tracker.scale_windows) {
-      scale_changes_[i] = static_cast<float>(keyframe.points[i].z() / point.z());
-    }
+    scale_changes_[i] = static_cast<float>(keyframe.points[i].z() / point.z());
     tracked_[i] = 1;
   }
 }

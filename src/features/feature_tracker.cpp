@@ -35,6 +35,9 @@ constexpr int kMaxRadius_px = Window::kMaxSide / 2;
 /// A point within this fraction of the window's radius counts as close to its prediction.
 constexpr float kNear = 0.5F;
 
+/// Tolerance of forward-backward tracking, in details of the images.
+constexpr float kMaxRoundTrip_px = 1.0F;
+
 /// When iterations of a level stop. Gauss-Newton converges within a few; steps below a fraction of
 /// the flow's noise, about 0.1 px, gain nothing.
 constexpr TrackingWindow::Stop kStop = {6, 0.04};
@@ -82,7 +85,7 @@ struct Tracking {
       if (!window.take(from[0], start, scale) || !window.find(to[0], kStop, found)) return false;
     }
     end = found;
-    return !round_trip || config.max_round_trip_px == 0.0 || returns(start, scale, window, end);
+    return !round_trip || returns(start, scale, window, end);
   }
 
   /// Tracking back starts at the expected result, so one level is enough.
@@ -90,7 +93,7 @@ struct Tracking {
                float scale,
                TrackingWindow& window,
                const cv::Point2f& end) const {
-    const auto max_px = static_cast<float>(detail_px * config.max_round_trip_px);
+    const float max_px = static_cast<float>(detail_px) * kMaxRoundTrip_px;
     cv::Point2f back = start;
     return window.take(to[0], end, 1.0F / scale) && window.find(from[0], kStop, back) &&
            distance2(back, start) <= max_px * max_px;
@@ -99,11 +102,10 @@ struct Tracking {
 
 }  // namespace
 
-TrackingWindow::TrackingWindow(int radius_px, bool ignores_brightness)
+TrackingWindow::TrackingWindow(int radius_px)
     : kernels_(&chooseKernels()),
       radius_(radius_px),
       side_(2 * radius_px + 1),
-      ignores_brightness_(ignores_brightness),
       border_(static_cast<std::size_t>((side_ + 3) * (columnsOf(side_ + 2) + 1))) {
   CV_Assert(side_ <= Window::kMaxSide);
   window_.side = side_;
@@ -174,7 +176,7 @@ bool TrackingWindow::describeContrast(const GradientSums& sums) {
 /// Inverts the normal matrix of the least squares for a shift and for a change of brightness and
 /// contrast. The latter two are eliminated: what they explain of the gradients is subtracted.
 bool TrackingWindow::invertNormalMatrix(const GradientSums& sums) {
-  if (ignores_brightness_ && !describeContrast(sums)) return false;
+  if (!describeContrast(sums)) return false;
   const double pixels = side_ * side_;
   const cv::Point2d& mean = mean_gradient_;
   const cv::Point2d& slope = gradient_by_contrast_;
@@ -205,12 +207,10 @@ cv::Point2f TrackingWindow::stepFrom(const Patch& patch) const {
   const cv::Point2d products(static_cast<double>(sums.x), static_cast<double>(sums.y));
   cv::Point2d mismatch = kOfDifference * kOfGradient * products - brighter * mean_gradient_ -
                          with_contrast * gradient_by_contrast_;
-  if (ignores_brightness_) {
-    const double square = kOfDifference * kOfDifference * static_cast<double>(sums.square) -
-                          brighter * brighter / (side_ * side_);
-    const double variance = contrast_square_ + 2.0 * with_contrast + square;
-    mismatch *= std::sqrt(contrast_square_ / std::max(variance, kMinVariance));
-  }
+  const double square = kOfDifference * kOfDifference * static_cast<double>(sums.square) -
+                        brighter * brighter / (side_ * side_);
+  const double variance = contrast_square_ + 2.0 * with_contrast + square;
+  mismatch *= std::sqrt(contrast_square_ / std::max(variance, kMinVariance));
   const cv::Point2f b(static_cast<float>(mismatch.x), static_cast<float>(mismatch.y));
   return {-inverse_xx_ * b.x - inverse_xy_ * b.y, -inverse_xy_ * b.x - inverse_yy_ * b.y};
 }
@@ -237,15 +237,13 @@ bool TrackingWindow::find(const cv::Mat& image, const Stop& stop, cv::Point2f& c
 }
 
 FeatureTracker::FeatureTracker(const Config& config)
-    : config_(config),
-      windows_(Workers::kListParts,
-               TrackingWindow(config.window_radius_px, config.ignore_brightness)) {}
+    : config_(config), windows_(Workers::kListParts, TrackingWindow(config.window_radius_px)) {}
 
 void FeatureTracker::setDetail(double detail_px) {
   if (detail_px == detail_px_) return;
   detail_px_ = detail_px;
   const int radius_px = std::min(cvRound(detail_px * config_.window_radius_px), kMaxRadius_px);
-  windows_.assign(windows_.size(), TrackingWindow(radius_px, config_.ignore_brightness));
+  windows_.assign(windows_.size(), TrackingWindow(radius_px));
 }
 
 void FeatureTracker::makePyramid(const cv::Mat& image, int levels, ImagePyramid& pyramid) const {

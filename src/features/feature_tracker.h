@@ -25,9 +25,8 @@ class TrackingWindow {
     double min_step_px;  ///< iterations stop at a shorter step
   };
 
-  /// The window is a square of side 2 radius + 1; the radius is at most 25 px. Without
-  /// `ignores_brightness`, grey levels are compared as they are.
-  explicit TrackingWindow(int radius_px, bool ignores_brightness = true);
+  /// The window is a square of side 2 radius + 1; the radius is at most 25 px.
+  explicit TrackingWindow(int radius_px);
 
   /// Stores the window around `center` of `image` (CV_8UC1), with its content enlarged by `scale` >
   /// 0 (a first-order approximation, accurate enough for changes of a tenth). Returns false if the
@@ -47,10 +46,8 @@ class TrackingWindow {
 
   const Kernels* kernels_;
   int radius_, side_;
-  bool ignores_brightness_;
   Window window_ = {};
-  std::vector<uchar> border_;  // copy of a patch that extends beyond the image border
-  // With ignores_brightness_; otherwise zero.
+  std::vector<uchar> border_;         // copy of a patch that extends beyond the image border
   cv::Point2d mean_gradient_;         // [grey levels / px]
   double mean_contrast_ = 0.0;        // [grey levels]
   double contrast_square_ = 0.0;      // sum of squares about the mean
@@ -78,7 +75,7 @@ class FeatureTracker {
   /// predictions and receives the results. `tracked` becomes 1 for points that are found, otherwise
   /// 0. Points with `tracked` = 0 on input are skipped. The smaller images of the pyramids are used
   /// only for points that are not close to their predictions. With `round_trip`, only points that
-  /// return to within max_round_trip_px when tracked back count as tracked.
+  /// return to within 1 px when tracked back count as tracked.
   void track(Workers& workers,
              const ImagePyramid& keyframe_pyramid,
              const ImagePyramid& cur_pyramid,

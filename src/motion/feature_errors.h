@@ -11,6 +11,9 @@
 
 namespace rotrocc {
 
+/// Of cauchyWeights(), for motions and the disparity bias.
+constexpr double kCauchyFactor = 1.5;
+
 /// Standard deviation, in each direction, of two-dimensional Gaussian residuals from the median of
 /// their lengths; there must be one. Reorders `lengths_px`.
 double deviationOf(std::vector<double>& lengths_px);

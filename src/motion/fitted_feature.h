@@ -11,6 +11,9 @@
 
 namespace rotrocc {
 
+/// Standard deviation of a disparity over that of a flow.
+constexpr double kDisparityNoiseRatio = 4.0;
+
 /// The measurements of one pair and their noise.
 struct Measurements {
   const StereoCamera& camera;

@@ -20,6 +20,9 @@ constexpr double kSignificant2 = 16.8;
 /// If stage 1 leaves a smaller share of the features, the motion may be that of an object.
 constexpr double kRetryShare = 0.7;
 
+/// A retry uses the features whose error is below this, in details of the images.
+constexpr double kRetryAgreement_px = 2.0;
+
 /// A smaller share of the features is not what most agree on.
 constexpr double kMajority = 0.5;
 
@@ -129,7 +132,7 @@ bool estimateCovariance(const MotionEstimatorConfig& config,
                         MotionEstimate& motion) {
   const auto informationOf = [&](const FeatureSet& set, int estimated_parameters) {
     problem.assign(measured.camera, fit, set);
-    problem.weigh(problem.start(), config.robust_factor);
+    problem.weigh(problem.start(), config.as_published ? 0.0 : kCauchyFactor);
     return collect(problem, measured, estimated_parameters);
   };
   const Information one = informationOf(motion.rotation_inliers, 6);
@@ -173,12 +176,13 @@ const MotionEstimate& MotionEstimator::estimate(const StereoCamera& camera,
                                                 double dt_s,
                                                 const std::optional<Prediction>& prediction,
                                                 double shared_ratio) {
-  const Measurements measured = {camera, features, config_.noise_ratio, shared_ratio};
+  const double noise_ratio = config_.as_published ? 0.0 : kDisparityNoiseRatio;
+  const Measurements measured = {camera, features, noise_ratio, shared_ratio};
   all_.assign(features.size(), 1);
   estimateFrom(all_, measured, initial, dt_s, found_);
   const int agree = found_.valid ? count(found_.rotation_inliers) : 0;
   const bool few = agree < kRetryShare * static_cast<double>(features.size());
-  if (!few || config_.retry_agreement_px == 0.0) return found_;
+  if (!few || config_.as_published) return found_;
 
   if (agree < kMajority * static_cast<double>(features.size())) takeConsensus(measured, dt_s);
   if (!prediction) return found_;
@@ -204,7 +208,7 @@ void MotionEstimator::retryNear(const Eigen::Isometry3d& motion,
   // Without whitening, because the motion of an object along the road looks like a wrong disparity.
   reprojectionErrors(measured.camera, measured.features, motion, errors_px_);
   near_ = all_;
-  keepBelow(errors_px_, measured.camera.detail_px * config_.retry_agreement_px, near_);
+  keepBelow(errors_px_, measured.camera.detail_px * kRetryAgreement_px, near_);
   estimateFrom(near_, measured, motion, dt_s, retry_);
 }
 

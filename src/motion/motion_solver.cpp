@@ -6,6 +6,7 @@
 #include <ceres/tiny_solver.h>
 #include <Eigen/Core>
 
+#include "motion/feature_errors.h"
 #include "motion/reprojection_problem.h"
 
 namespace rotrocc {
@@ -37,9 +38,9 @@ bool minimise(const ReprojectionProblem<kParameters>& problem,
 
 }  // namespace
 
-MotionSolver::Options MotionSolver::refinement(double robust_factor) {
+MotionSolver::Options MotionSolver::refinement() {
   // Gauss-Newton steps with negligible damping, because the start is close to the minimum.
-  return {robust_factor, true, 4, 1e-12, std::numeric_limits<double>::infinity(), 1};
+  return {kCauchyFactor, true, 4, 1e-12, std::numeric_limits<double>::infinity(), 1};
 }
 
 template <int kParameters>

@@ -23,7 +23,7 @@ class MotionSolver {
   /// least squares with the errors that neighbouring features share. Not part of the paper. The
   /// stages do not account for these errors when they select the features: far from the solution,
   /// they explain wrong motions too.
-  static Options refinement(double robust_factor);
+  static Options refinement();
 
   explicit MotionSolver(const Options& options) : options_(options) {}
 

@@ -10,7 +10,7 @@
 namespace rotrocc {
 namespace {
 
-/// The configured ratio counts as much as this many pairs without noise. A usual one has a weight
+/// The start counts as much as this many pairs without noise. A usual one has a weight
 /// of a third.
 constexpr double kPriorPairs = 1.0;
 
@@ -26,16 +26,10 @@ constexpr int kParameters = 6;
 
 }  // namespace
 
-void SharedErrorEstimator::configure(const MotionEstimatorConfig& config) {
-  if (config.shared_ratio == 0.0) reset();
-  config_ = config;
-}
-
 double SharedErrorEstimator::ratio() const {
-  const double start = config_.shared_ratio;
-  const double scatter = kPriorPairs * start * start + past_.scatter + last_.scatter;
+  const double scatter = kPriorPairs * kStart * kStart + past_.scatter + last_.scatter;
   const double mean = scatter / (kPriorPairs + past_.weight + last_.weight);
-  return std::clamp(std::sqrt(std::max(0.0, mean)), 0.0, kMostGrowth * start);
+  return std::clamp(std::sqrt(std::max(0.0, mean)), 0.0, kMostGrowth * kStart);
 }
 
 void SharedErrorEstimator::advance() {
@@ -49,10 +43,9 @@ void SharedErrorEstimator::observe(const StereoCamera& camera,
                                    const Correspondences& features,
                                    const FeatureSet& set,
                                    const Eigen::Isometry3d& T_keyframe_cur) {
-  if (config_.shared_ratio == 0.0) return;
-  fitAt({camera, features, config_.noise_ratio}, T_keyframe_cur, fit_);
+  fitAt({camera, features, kDisparityNoiseRatio}, T_keyframe_cur, fit_);
   problem_.assign(camera, fit_, set);
-  problem_.weigh(problem_.start(), config_.robust_factor);
+  problem_.weigh(problem_.start(), kCauchyFactor);
   struct Cell {
     double information = 0.0;
     double weighted_px = 0.0;

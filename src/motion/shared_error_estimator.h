@@ -5,7 +5,6 @@
 #include "motion/fitted_feature.h"
 #include "motion/reprojection_problem.h"
 #include "rotrocc/correspondence.h"
-#include "rotrocc/odometry_config.h"
 
 namespace rotrocc {
 
@@ -19,15 +18,10 @@ namespace rotrocc {
 /// rest says nothing.
 class SharedErrorEstimator {
  public:
-  explicit SharedErrorEstimator(const MotionEstimatorConfig& config) : config_(config) {}
-
-  /// Changes the parameters. The estimate is kept unless it is disabled.
-  void configure(const MotionEstimatorConfig& config);
-
-  /// The estimate, at most kMostGrowth times shared_ratio of the configuration, which it is before
-  /// the first pair. 0: disabled.
+  /// The estimate, at most kMostGrowth times kStart, which it is before the first pair.
   double ratio() const;
 
+  static constexpr double kStart = 2.0;
   static constexpr double kMostGrowth = 3.0;
 
   /// Starts a new keyframe: the last observation becomes final.
@@ -50,7 +44,6 @@ class SharedErrorEstimator {
     double weight = 0.0;
   };
 
-  MotionEstimatorConfig config_;
   Moments past_;                    // of earlier keyframes
   Moments last_;                    // of the last motion from this keyframe
   Fit fit_;                         // buffer, reused

@@ -14,6 +14,12 @@ namespace {
 /// Limit of the DNRE in stage 2 (Eq. 30).
 constexpr double kTranslationLimit = 0.04;
 
+/// Errors of this many standard deviations of the flow pass stage 2 even if the flow is small.
+constexpr double kPassingSigmas = 2.0;
+
+/// Features with a smaller error after stage 1, in details of the images, enter stage 2.
+constexpr double kCandidate_px = 1.5;
+
 /// Stage 2 is skipped below this speed, as in the paper: without parallax, it only adds noise.
 constexpr double kMinSpeed_mps = 1.0;
 
@@ -67,9 +73,7 @@ Criterion criterionOf(const std::string& name) {
 
 TwoStageEstimator::TwoStageEstimator(const MotionEstimatorConfig& config)
     : config_(config), criterion_(criterionOf(config.criterion)), solver_({}) {
-  if (config.robust_factor > 0.0 || config.shared_ratio > 0.0) {
-    refinement_.emplace(MotionSolver::refinement(config.robust_factor));
-  }
+  if (!config.as_published) refinement_.emplace(MotionSolver::refinement());
 }
 
 void TwoStageEstimator::estimate(const Measurements& measured,
@@ -91,7 +95,7 @@ void TwoStageEstimator::estimate(const Measurements& measured,
   if (!motion.valid || !has_two_stages || is_slow) return;
   decouple(measured, fit, motion.rotation_inliers);  // 2)
   selectCandidates(measured, fit);
-  if (config_.translation_from_prediction) {
+  if (config_.as_published) {
     Eigen::Isometry3d T_start = motion.T_keyframe_cur;
     T_start.translation() = initial.translation();
     fitAt(measured, T_start, fit);
@@ -136,10 +140,10 @@ void TwoStageEstimator::decouple(const Measurements& measured,
   } else {
     coupledFlow(measured.features, flow_px_);
   }
-  if (config_.translation_noise_factor == 0.0) return;
+  if (config_.as_published) return;
   fittedErrors(measured.camera, fit, errors_);
   select(errors_, inliers, set_errors_);
-  const double passes_px = config_.translation_noise_factor * deviationOf(set_errors_);
+  const double passes_px = kPassingSigmas * deviationOf(set_errors_);
   for (double& flow_px : flow_px_) {
     flow_px = std::hypot(flow_px, passes_px / kTranslationLimit);
   }
@@ -148,9 +152,9 @@ void TwoStageEstimator::decouple(const Measurements& measured,
 /// Selects the features that may enter stage 2.
 void TwoStageEstimator::selectCandidates(const Measurements& measured, const Fit& fit) {
   candidates_.assign(measured.features.size(), 1);
-  if (config_.translation_initial_px == 0.0) return;
+  if (config_.as_published) return;
   fittedErrors(measured.camera, fit, errors_);
-  keepBelow(errors_, measured.camera.detail_px * config_.translation_initial_px, candidates_);
+  keepBelow(errors_, measured.camera.detail_px * kCandidate_px, candidates_);
 }
 
 bool TwoStageEstimator::estimateTranslation(const Measurements& measured,

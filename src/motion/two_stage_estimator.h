@@ -55,8 +55,7 @@ class TwoStageEstimator {
   /// Estimates the motion that took `dt_s` > 0 from the features flagged in `set`, starting at
   /// `initial`, without covariance and noise; `fit` becomes that at the motion. The result is
   /// invalid if stage 1 leaves fewer than 3 features. If stage 2 leaves fewer than kMinInliers,
-  /// the motion is that of stage 1. Each stage is refined, unless robust weights and shared errors
-  /// are disabled.
+  /// the motion is that of stage 1. Each stage is refined, but not as published.
   void estimate(const Measurements& measured,
                 const FeatureSet& set,
                 const Eigen::Isometry3d& initial,

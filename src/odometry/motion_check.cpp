@@ -140,8 +140,8 @@ std::optional<std::string> MotionCheck::whyLost(const MotionEstimate& estimate,
     return cv::format("only %d features agree on a motion, fewer than %d", agreeing, kMinInliers);
   }
   double share = shareOf(estimate.rotation_inliers);
-  // Without the noise model, stage 2 has few inliers where disparities are biased.
-  if (noise_ratio_ > 0.0) share = std::min(share, shareOf(estimate.translation_inliers));
+  // As published, stage 2 has few inliers where disparities are biased.
+  if (!as_published_) share = std::min(share, shareOf(estimate.translation_inliers));
   if (share < kMinShare) return "only " + fewAgree(share, "motion", kMinShare);
   const Eigen::Isometry3d T_last_cur = T_keyframe_last.inverse() * estimate.T_keyframe_cur;
   const double speed_mps = T_last_cur.translation().norm() / dt_s;
@@ -222,7 +222,8 @@ std::optional<std::string> MotionCheck::whyFewDetermine(const Hypothesis& accept
 /// If it is small, the motion depends on one feature, or other features contradict those that
 /// determine it. The inliers fit it nevertheless, and their residuals are as small as usual.
 double MotionCheck::informationShare(const Hypothesis& accepted) {
-  fitAt({accepted.camera, accepted.features, noise_ratio_}, accepted.estimate.T_keyframe_cur, fit_);
+  const double noise_ratio = as_published_ ? 0.0 : kDisparityNoiseRatio;
+  fitAt({accepted.camera, accepted.features, noise_ratio}, accepted.estimate.T_keyframe_cur, fit_);
   const auto informationOf = [&](const FeatureSet& set) -> Matrix6d {
     problem_.assign(accepted.camera, fit_, set);
     return problem_.normalMatrix(problem_.start()).topLeftCorner<6, 6>();

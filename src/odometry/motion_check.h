@@ -45,9 +45,9 @@ class MotionCheck {
  public:
   using Config = MotionCheckConfig;
 
-  /// `noise_ratio` is that of Measurements.
-  MotionCheck(const Config& config, double noise_ratio)
-      : config_(config), noise_ratio_(noise_ratio) {}
+  /// `as_published` is that of MotionEstimatorConfig.
+  explicit MotionCheck(const Config& config, bool as_published = false)
+      : config_(config), as_published_(as_published) {}
 
   /// Why the motion is rejected, in one sentence with the value and the limit; none if it is
   /// accepted. The limits of speed and turn rate are for the step since the last frame, which took
@@ -84,7 +84,7 @@ class MotionCheck {
   double medianDepth(const Correspondences& features, const FeatureSet& set);
 
   Config config_;
-  double noise_ratio_;
+  bool as_published_;
 
   // Buffers, reused.
   Correspondences others_;

@@ -41,7 +41,7 @@ MotionSearch::MotionSearch(const OdometryConfig& config)
     : window_radius_px_(config.correspondence_finder.feature_tracker.window_radius_px),
       max_tries_(config.max_tries),
       estimator_(config.motion_estimator),
-      check_(config.motion_check, config.motion_estimator.noise_ratio),
+      check_(config.motion_check, config.motion_estimator.as_published),
       descriptors_(config.correspondence_finder.stereo_matcher) {}
 
 bool MotionSearch::find(const Frames& frames, const Start& start, Hypothesis& found) {

@@ -26,24 +26,4 @@ void OdometryConfig::check() const {
   }
 }
 
-void useMethodOfPaper(OdometryConfig& config) {
-  // Section V-A: plain Lucas-Kanade, without tracking back.
-  FeatureTrackerConfig& tracker = config.correspondence_finder.feature_tracker;
-  tracker.max_round_trip_px = 0.0;
-  tracker.scale_windows = false;
-  tracker.ignore_brightness = false;
-  // Eq. 25 and 29: equal weights for all residuals.
-  MotionEstimatorConfig& estimator = config.motion_estimator;
-  estimator.noise_ratio = 0.0;
-  estimator.shared_ratio = 0.0;
-  estimator.robust_factor = 0.0;
-  // Section V-B: both stages start from the full feature set and the prediction, without a retry.
-  estimator.retry_agreement_px = 0.0;
-  estimator.translation_noise_factor = 0.0;
-  estimator.translation_initial_px = 0.0;
-  estimator.translation_from_prediction = true;
-  // Motions are from pair to pair.
-  config.keep_keyframe = false;
-}
-
 }  // namespace rotrocc

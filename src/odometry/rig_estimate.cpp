@@ -14,16 +14,11 @@ constexpr double kSameCamera = 1e-5;
 }  // namespace
 
 RigEstimate::RigEstimate(const OdometryConfig& config)
-    : config_(config.stereo_calibrator),
-      meter_(config.motion_estimator.robust_factor),
-      shared_errors_(config.motion_estimator),
-      row_search_(config.correspondence_finder) {}
+    : config_(config.stereo_calibrator), row_search_(config.correspondence_finder) {}
 
 void RigEstimate::configure(const OdometryConfig& config) {
   config_ = config.stereo_calibrator;
   if (!config_.enabled) resetBias();
-  meter_ = BiasMeter(config.motion_estimator.robust_factor);
-  shared_errors_.configure(config.motion_estimator);
   row_search_ = RowSearch(config.correspondence_finder);
 }
 

@@ -37,7 +37,7 @@ constexpr double kPredictable = 0.5;
 /// The config that its method makes of it. Throws as OdometryConfig::check().
 OdometryConfig byMethod(OdometryConfig config) {
   config.check();
-  if (config.method == "paper") useMethodOfPaper(config);
+  config.motion_estimator.as_published = config.method == "paper";
   return config;
 }
 
@@ -205,7 +205,7 @@ VisualOdometry::Pipeline::Pipeline(const Config& config)
     : config_(byMethod(config)),
       finder_(makeFinder(config_)),
       search_(config_),
-      check_(config_.motion_check, config_.motion_estimator.noise_ratio),
+      check_(config_.motion_check, config_.motion_estimator.as_published),
       rig_(config_),
       base_(config_.correspondence_finder.feature_detector.max_features) {}
 
@@ -286,7 +286,7 @@ void VisualOdometry::Pipeline::configure(const Config& config) {
   if (config_.method == "paper") base_.reset();
   finder_ = std::move(finder);
   search_ = std::move(search);
-  check_ = MotionCheck(config_.motion_check, config_.motion_estimator.noise_ratio);
+  check_ = MotionCheck(config_.motion_check, config_.motion_estimator.as_published);
   rig_.configure(config_);
   keyframe_.frame.reset();  // its corners depend on the old parameters
 }
@@ -425,8 +425,9 @@ bool VisualOdometry::Pipeline::findMotionFrom(const FramePtr& earlier,
   using Start = MotionSearch::Start;
   if (keyframe_.frame != earlier) makeKeyframe(earlier, times);
   const StereoCamera corrected = rig_.correctedCamera();
+  const double shared_ratio = config_.method == "paper" ? 0.0 : rig_.sharedRatio();
   const MotionSearch::Frames frames = {
-      *finder_, corrected, keyframe_, current, expected.dt_s, rig_.sharedRatio(), times};
+      *finder_, corrected, keyframe_, current, expected.dt_s, shared_ratio, times};
   const auto settles = [&](const std::optional<Start>& start) {
     return start && search_.find(frames, *start, found_);
   };
@@ -477,7 +478,7 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   // drift at standstill. In motion each frame is the keyframe of the next one, because the errors
   // of a feature grow with the way that it is tracked.
   const bool serves = result.state == State::kOk && MotionCheck::hasReserve(estimate) &&
-                      config_.keep_keyframe && check_.isAtRest(found_);
+                      config_.method != "paper" && check_.isAtRest(found_);
   if (!serves) keyframe_.frame.reset();
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "motion/feature_errors.h"
 #include "motion/reprojection_problem.h"
 
 namespace rotrocc {
@@ -73,7 +74,7 @@ WeightedVariance BiasMeter::linearize() {
   fitAt({camera_, features_, kNoiseRatio}, T_keyframe_cur_, fit_);
   all_.assign(features_.size(), 1);
   problem_.assign(camera_, fit_, all_);
-  problem_.weigh(problem_.start(), robust_factor_);
+  problem_.weigh(problem_.start(), kCauchyFactor);
   WeightedVariance variance;
   problem_.visitResiduals(problem_.start(), [&](const ReprojectionProblem<6>::Residual& residual) {
     variance.add(residual.weight, residual.residual_px.squaredNorm());

@@ -38,9 +38,6 @@ struct BiasMeasurement {
 /// together with the bias. Those by the columns add to the uncertainty.
 class BiasMeter {
  public:
-  /// `robust_factor`: of cauchyWeights().
-  explicit BiasMeter(double robust_factor) : robust_factor_(robust_factor) {}
-
   /// Starts at the given motion, with depths as triangulated for `camera`. At the borders of the
   /// image, smooth errors have a standard deviation of `smooth_ratio` times that of a flow; 0:
   /// there are none. None if the features do not determine a bias, as at standstill.
@@ -88,8 +85,6 @@ class BiasMeter {
   static Cells eliminateCommon(const Equations& equations);
   static double effectOfSmoothErrors(const Cells& cells);
   std::optional<BiasMeasurement> describe();
-
-  double robust_factor_;
 
   // The current step of one measurement, reused.
   double smooth_ratio_ = 0.0;

@@ -192,16 +192,11 @@ TEST(CorrespondenceFinderTest, ShiftIsHowFarTheFeaturesMoveInTheImage) {
   EXPECT_LT(shift(keyframe, 0.0, 0.01), 6.2);
 }
 
-TEST(CorrespondenceFinderTest, ScalesWindowsUnlessToldNotTo) {
+TEST(CorrespondenceFinderTest, ScalesWindows) {
   const Eigen::Isometry3d far_step = motion({0.0, 0.0, 1.5}, {0.0, 0.0, 0.0});
   const StereoPair cur = view(scene(), far_step);
-  const auto medianError = [&](bool scale_windows) {
-    CorrespondenceFinder::Config config;
-    config.feature_tracker.scale_windows = scale_windows;
-    const auto features = find(before(), cur, scene().camera(), far_step, config);
-    return medianFlowError(scene(), features, far_step);
-  };
-  EXPECT_LT(1.2 * medianError(true), medianError(false));
+  const auto features = find(before(), cur, scene().camera(), far_step);
+  EXPECT_LT(medianFlowError(scene(), features, far_step), 0.26);  // without, above 0.28
 }
 
 }  // namespace

@@ -25,9 +25,8 @@ const MotionEstimator::Prediction kPrediction = {turnAhead(), kPeriod_s};
 Correspondences pairWith(double ratio, unsigned seed) {
   const StereoCamera camera = kittiCamera();
   std::mt19937 generator(seed);
-  const double noise_ratio = MotionEstimatorConfig().noise_ratio;
-  Correspondences features =
-      simulateFeatures(camera, turnAhead(), 600, {kFlow_px, noise_ratio * kFlow_px}, generator);
+  Correspondences features = simulateFeatures(
+      camera, turnAhead(), 600, {kFlow_px, kDisparityNoiseRatio * kFlow_px}, generator);
   std::normal_distribution<double> error_px(0.0, ratio * kFlow_px);
   std::vector<double> of_cell(SharedErrorGrid::kCells);
   for (double& error : of_cell) error = error_px(generator);
@@ -42,7 +41,7 @@ Correspondences pairWith(double ratio, unsigned seed) {
 }
 
 double estimatedRatio(double ratio) {
-  SharedErrorEstimator estimator({});
+  SharedErrorEstimator estimator;
   for (unsigned pair = 0; pair < kPairs; ++pair) {
     const Correspondences features = pairWith(ratio, pair);
     MotionEstimator motion_estimator({});
@@ -65,7 +64,7 @@ TEST(SharedErrorEstimatorTest, FindsTheErrorThatNeighboursShare) {
 /// 100 s at rest, with new keyframes or with one.
 TEST(SharedErrorEstimatorTest, RestSaysNothing) {
   for (const bool one_keyframe : {false, true}) {
-    SharedErrorEstimator estimator({});
+    SharedErrorEstimator estimator;
     const Correspondences moving = pairWith(2.0, 1);
     estimator.observe(kittiCamera(), moving, all(moving), turnAhead());
     const double before = estimator.ratio();
@@ -83,28 +82,13 @@ TEST(SharedErrorEstimatorTest, RestSaysNothing) {
 }
 
 TEST(SharedErrorEstimatorTest, MotionsOfOneKeyframeCountOnce) {
-  SharedErrorEstimator once({});
-  SharedErrorEstimator often({});
+  SharedErrorEstimator once;
+  SharedErrorEstimator often;
   const Correspondences features = pairWith(4.0, 1);
   once.observe(kittiCamera(), features, all(features), turnAhead());
   for (int i = 0; i < 50; ++i) often.observe(kittiCamera(), features, all(features), turnAhead());
   // The weights of the cells depend on the estimate, which the first observation changes.
   EXPECT_NEAR(often.ratio(), once.ratio(), 0.1 * once.ratio());
-}
-
-TEST(SharedErrorEstimatorTest, IsZeroWhileDisabled) {
-  MotionEstimatorConfig disabled;
-  disabled.shared_ratio = 0.0;
-  SharedErrorEstimator estimator({});
-  const Correspondences features = pairWith(5.0, 1);
-  estimator.observe(kittiCamera(), features, all(features), turnAhead());
-  EXPECT_GT(estimator.ratio(), MotionEstimatorConfig().shared_ratio);
-  estimator.configure(disabled);
-  EXPECT_EQ(estimator.ratio(), 0.0);
-  estimator.observe(kittiCamera(), features, all(features), turnAhead());
-  EXPECT_EQ(estimator.ratio(), 0.0);
-  estimator.configure({});
-  EXPECT_EQ(estimator.ratio(), MotionEstimatorConfig().shared_ratio);
 }
 
 /// Errors of cells with many features pull the translation. Knowing of them reduces its variance:

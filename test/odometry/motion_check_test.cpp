@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kPeriod_s = 0.1;
 constexpr double kDepth_m = 15.0;
-constexpr double kNoiseRatio = 4.0;
 
 FeatureSet set(int inliers, int features) {
   FeatureSet flags(static_cast<std::size_t>(features), 0);
@@ -43,7 +42,7 @@ void expectSays(const std::optional<std::string>& sentence, const char* value, c
 }
 
 MotionCheck defaultCheck() {
-  return {{}, kNoiseRatio};
+  return MotionCheck({});
 }
 
 /// Exact features all over the image (the R2 sequence of Roberts, 2018), so that the first ones are

@@ -578,11 +578,60 @@ TEST(VisualOdometryTest, StartsWithABlackPairAndGoesOn) {
   expectMotion(odometry.process(bend(2), camera()), bendStep());
 }
 
+/// With one try, and without the self-calibration, as in the paper.
+VisualOdometry::Config paper() {
+  VisualOdometry::Config config;
+  config.method = "paper";
+  config.max_tries = 1;
+  config.stereo_calibrator.enabled = false;
+  return config;
+}
+
+TEST(VisualOdometryTest, FollowsADriveByThePapersMethod) {
+  for (const std::string& criterion : criterionNames()) {
+    VisualOdometry::Config config = paper();
+    config.motion_estimator.criterion = criterion;
+    VisualOdometry odometry(config);
+    odometry.process(bend(0), camera());
+    for (int i = 1; i < 8; ++i) {
+      const OdometryResult result = odometry.process(bend(i), camera());
+      SCOPED_TRACE(criterion);
+      expectMotion(result, bendStep());
+      EXPECT_EQ(result.counts.tries, 1);
+      EXPECT_EQ(result.keyframe_stamp_ns, (i - 1) * kPeriod_ns);
+      EXPECT_EQ(result.shared_error_ratio, 0.0);
+      EXPECT_GT(result.covariance.diagonal().minCoeff(), 0.0);
+      EXPECT_EQ(odometry.rotationInliers().size(), odometry.correspondences().size());
+    }
+  }
+}
+
+TEST(VisualOdometryTest, ThePapersMethodComparesWithTheLatestLostPair) {
+  VisualOdometry odometry = started(3, camera(), paper());
+  EXPECT_EQ(odometry.process(black(3 * kPeriod_ns), camera()).state, State::kLost);
+  const OdometryResult result = odometry.process(bend(4), camera());
+  EXPECT_NEAR(result.dt_s, 0.2, 1e-12);
+  expectMotion(result, bendStep() * bendStep(), 0.02);
+}
+
+TEST(VisualOdometryTest, ThePapersMethodHasNoFeaturesInTinyOrMaskedImages) {
+  StereoCamera tiny = camera();
+  tiny.width = tiny.height = 8;
+  VisualOdometry small(paper()), masked(paper());
+  for (int i = 0; i < 3; ++i) {
+    const OdometryResult of_small = small.process(noise({8, 8}, i * kPeriod_ns), tiny);
+    StereoPair pair = bend(i);
+    pair.right_mask = cv::Mat(pair.right.size(), CV_8UC1, cv::Scalar(1));
+    const OdometryResult of_masked = masked.process(pair, camera());
+    if (i == 0) continue;
+    expectLost(of_small, "fewer than 25");
+    expectLost(of_masked, "fewer than 25");
+  }
+}
+
 TEST(VisualOdometryTest, KeepsTheKeyframeAtRestAndDoesNotCreep) {
-  VisualOdometry::Config paper;
-  paper.method = "paper";
   VisualOdometry odometry({});
-  VisualOdometry frame_to_frame(paper);
+  VisualOdometry frame_to_frame(paper());
   Eigen::Isometry3d T_start_cur = Eigen::Isometry3d::Identity();
   for (int i = 0; i < 40; ++i) {
     const auto pair = view(Eigen::Isometry3d::Identity(), i * kPeriod_ns);

@@ -12,8 +12,6 @@
 namespace rotrocc {
 namespace {
 
-constexpr double kRobustFactor = 2.0;
-
 Eigen::Isometry3d ahead() {
   return motion({0.0, 0.0, 1.2}, {0.0, 0.01, 0.0});
 }
@@ -36,8 +34,7 @@ Correspondences features(const Eigen::Isometry3d& T, unsigned seed, const Error&
 BiasMeasurement measure(const Correspondences& found,
                         const Eigen::Isometry3d& start,
                         double parabola_ratio = 0.0) {
-  const auto measurement =
-      BiasMeter(kRobustFactor).measure(kittiCamera(), found, start, parabola_ratio);
+  const auto measurement = BiasMeter().measure(kittiCamera(), found, start, parabola_ratio);
   EXPECT_TRUE(measurement);
   return measurement.value_or(BiasMeasurement());
 }
@@ -116,7 +113,7 @@ TEST(BiasMeterTest, AParabolaOverTheRowsIsNoBias) {
 TEST(BiasMeterTest, StandstillAndFewFeaturesSayNothing) {
   const Eigen::Isometry3d rest = Eigen::Isometry3d::Identity();
   const auto at_rest = features(rest, 5, onePixel);
-  BiasMeter meter(kRobustFactor);
+  BiasMeter meter;
   EXPECT_FALSE(meter.measure(kittiCamera(), at_rest, rest, 0.0));
   Correspondences few = features(ahead(), 4, none);
   few.resize(20);

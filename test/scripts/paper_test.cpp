@@ -47,7 +47,7 @@ TEST_F(PaperTest, EveryCriterionFollowsTheDrives) {
   }
   for (const CsvRow& row : readTable("summary")) {
     for (const std::string criterion : {"rotrocc", "reprojection", "rocc"}) {
-      EXPECT_LT(number(row, criterion + "_translation_percent"), 1.0) << row.at("drive");
+      EXPECT_LT(number(row, criterion + "_translation_percent"), 1.5) << row.at("drive");
       EXPECT_LT(number(row, criterion + "_rotation_deg_per_m"), 0.005) << row.at("drive");
     }
   }
