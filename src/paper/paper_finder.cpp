@@ -47,7 +47,7 @@ void PaperFinder::findCorners(Keyframe& keyframe) {
                           config().feature_detector.max_features,
                           kMinQuality,
                           kMinDistance_px,
-                          keyframe.frame->left_mask.usable());
+                          keyframe.frame->left_mask.usable(image.size()));
 }
 
 void PaperFinder::findDepths(const StereoCamera& camera, Keyframe& keyframe) {
