@@ -45,6 +45,7 @@ TEST_F(PaperTest, EveryCriterionFollowsTheDrives) {
     }
     EXPECT_LT(std::sqrt(squares), 0.015) << drive;  // [m]; the steps are 1 and 2.5 m
   }
+  // Measured: at most 1.0 %, by one stage. Versions of OpenCV find other corners.
   for (const CsvRow& row : readTable("summary")) {
     for (const std::string criterion : {"rotrocc", "reprojection", "rocc"}) {
       EXPECT_LT(number(row, criterion + "_translation_percent"), 1.5) << row.at("drive");
