@@ -11,13 +11,15 @@ namespace {
 /// With this many features, the scatter of tracking allows a median accurate to 0.01 px.
 constexpr std::size_t kFeatures = 1000;
 
-/// Data that a correction needs: with a few features of one image, chance matches would do.
-constexpr std::size_t kLeastFeatures = 100;
-constexpr int kLeastObservations = 3;
+/// With fewer features, chance matches may agree.
+constexpr std::size_t kLeastFeatures = 25;
 
 /// Half a row. With a smaller offset, matches are searched in the same row, and real clips are as
 /// accurate.
 constexpr double kNotable_px = 0.5;
+
+/// Standard deviations of the median between a notable offset and none.
+constexpr double kCertain = 3.0;
 
 }  // namespace
 
@@ -35,9 +37,7 @@ void RowComparison::observe(const std::vector<float>& differences_px) {
       oldest_ = (oldest_ + 1) % kFeatures;
     }
   }
-  if (differences_px.empty()) return;
-  ++observations_;
-  estimate();
+  if (!differences_px.empty()) estimate();
 }
 
 void RowComparison::estimate() {
@@ -53,14 +53,13 @@ void RowComparison::estimate() {
   offset_.sigma_px = kMedianOverMean * scatter_px / std::sqrt(static_cast<double>(last_px_.size()));
   offset_.typical_px = medianDistanceFrom(0.0);
   if (!isKnown()) return;
-  // An offset above the scatter is above 8 sigma, because there are at least kLeastFeatures.
   const double notable_px = std::max(kNotable_px, scatter_px);
   const double least_px = offset_.applied_px != 0.0 ? 0.5 * notable_px : notable_px;
   offset_.applied_px = std::abs(offset_.median_px) > least_px ? offset_.median_px : 0.0;
 }
 
 bool RowComparison::isKnown() const {
-  return observations_ >= kLeastObservations && last_px_.size() >= kLeastFeatures;
+  return last_px_.size() >= kLeastFeatures && kCertain * offset_.sigma_px <= kNotable_px;
 }
 
 bool RowComparison::isNear(double offset_px) const {
@@ -68,9 +67,12 @@ bool RowComparison::isNear(double offset_px) const {
 }
 
 void RowComparison::searchAgain() {
+  if (isKnown()) discard();
+}
+
+void RowComparison::discard() {
   last_px_.clear();
   oldest_ = 0;
-  observations_ = 0;
 }
 
 void RowComparison::scale(double factor) {
@@ -83,7 +85,7 @@ void RowComparison::scale(double factor) {
 
 void RowComparison::reset() {
   offset_ = {};
-  searchAgain();
+  discard();
 }
 
 }  // namespace rotrocc

@@ -19,7 +19,7 @@ class RowComparison {
   /// Adds the vertical offsets of single features [px], positive if lower in the right image.
   void observe(const std::vector<float>& differences_px);
 
-  /// Whether there are enough features to correct an offset. Before, or after searchAgain(),
+  /// Whether the features are enough to tell a notable offset from none. Before, or after searchAgain(),
   /// features must have been searched in several rows, or near an offset to which isNear() applies.
   /// Near a wrong one, only those are found that seem to agree with it.
   bool isKnown() const;
@@ -27,7 +27,8 @@ class RowComparison {
   /// Whether the median is within half a row of `offset_px`.
   bool isNear(double offset_px) const;
 
-  /// The rig may have been moved: the correction stays until the offset is known again.
+  /// The rig may have been moved: a known offset is measured anew, and its correction stays until
+  /// then.
   void searchAgain();
 
   /// Discards all data, for use with another camera.
@@ -37,11 +38,11 @@ class RowComparison {
 
  private:
   void estimate();
+  void discard();
 
   RowOffset offset_;
   std::vector<float> last_px_;  // the last offsets, a ring buffer once it is full
   std::size_t oldest_ = 0;      // the entry that is overwritten next
-  int observations_ = 0;        // number of times that features were added
   std::vector<float> sorted_px_;
 };
 

@@ -44,16 +44,18 @@ TEST(RowComparisonTest, ForgetsWhatIsLongAgo) {
   EXPECT_NEAR(comparison.offset().median_px, 0.25, 0.1);
 }
 
-TEST(RowComparisonTest, CorrectsAnOffsetOfSeveralPairs) {
+TEST(RowComparisonTest, CorrectsAnOffsetThatIsCertain) {
   RowComparison comparison;
   comparison.observe({});
   EXPECT_FALSE(comparison.isNear(0.0)) << "nothing is known";
-  show(100, -1.5, 0.2, comparison);
-  EXPECT_FALSE(comparison.isKnown()) << "after two observations";
+  comparison.observe({-1.5F, -1.5F, -1.5F});
+  EXPECT_FALSE(comparison.isKnown()) << "few may agree by chance";
+  show(50, -1.5, 1.5, comparison);
+  EXPECT_FALSE(comparison.isKnown()) << "3 * 1.25 * 1.5 / sqrt(50) px are more than half a row";
   EXPECT_FALSE(comparison.isNear(0.0));
   EXPECT_TRUE(comparison.isNear(-1.2));
   EXPECT_EQ(comparison.offset().applied_px, 0.0);
-  show(100, -1.5, 0.2, comparison);
+  show(200, -1.5, 0.2, comparison);
   EXPECT_TRUE(comparison.isKnown());
   EXPECT_EQ(comparison.offset().applied_px, comparison.offset().median_px);
   comparison.reset();
@@ -88,9 +90,11 @@ TEST(RowComparisonTest, KeepsTheCorrectionUntilTheOffsetIsKnownAgain) {
   comparison.searchAgain();
   EXPECT_FALSE(comparison.isKnown());
   EXPECT_NEAR(comparison.offset().applied_px, 1.5, 0.1);
-  show(50, -2.0, 0.2, comparison);
+  comparison.observe({-2.0F, -2.0F, -2.0F});
+  comparison.searchAgain();  // what is not known yet is not forgotten
+  EXPECT_NEAR(comparison.offset().median_px, -2.0, 0.1);
   EXPECT_NEAR(comparison.offset().applied_px, 1.5, 0.1);
-  show(150, -2.0, 0.2, comparison);
+  show(50, -2.0, 0.2, comparison);
   EXPECT_NEAR(comparison.offset().applied_px, -2.0, 0.1);
 }
 
