@@ -91,7 +91,7 @@ Seeds fileSeeds() {
   seeds["times"] = "t0\n0.1\n";
   seeds["alias"] = "pmotion_check: &a {max_speed_mps: 20}\nmotion_estimator: *a\n";
   seeds["kinds"] = "pplanar: true\nqueue_size: 4\nsilence_s: 2.5 # s\nodom_frame: \"a b\"\n";
-  seeds["choice"] = "ptrajectory_format: kitti\nvisual_odometry:\n  max_gap_s: 1e-1\n";
+  seeds["choice"] = "ptrajectory_format: kitti\nmotion_check:\n  max_speed_mps: 1e-1\n";
   addSections(seeds);
   return seeds;
 }

@@ -86,9 +86,6 @@ struct OdometryConfig {
 
   int threads = 2;    ///< that process a pair, including the calling thread
   int max_tries = 8;  ///< most tries (start, track, estimate) from each earlier frame
-  /// Between two pairs: if longer, the estimator restarts. After half of it, the last motion does
-  /// not predict the next one.
-  double max_gap_s = 1.0;
 
   /// Throws std::invalid_argument with the parameter and its value if a name is unknown.
   void check() const;

@@ -38,8 +38,8 @@ class VisualOdometry {
   /// masks that are not; an invalid camera; a stamp that is not later; an image that shows
   /// something and is identical to the previous one, which no camera sends twice; errors inside
   /// OpenCV or Ceres. The state is initialising on the first pair, on images of another
-  /// size, a calibration that changes by more than a thousandth, and after a gap of more than
-  /// max_gap_s, or if stamps went back by more than that.
+  /// size, a calibration that changes by more than a thousandth, and after a gap of more than 30
+  /// periods of the pairs, or if stamps went back by more than that.
   ///
   /// `expected` is the motion T_prev_cur measured by another sensor, if any. It replaces the motion
   /// model's prediction as the start of tracking.

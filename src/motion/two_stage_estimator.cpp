@@ -20,7 +20,7 @@ constexpr double kPassingSigmas = 2.0;
 /// Features with a smaller error after stage 1, in details of the images, enter stage 2.
 constexpr double kCandidate_px = 1.5;
 
-/// Stage 2 is skipped below this speed, as in the paper: without parallax, it only adds noise.
+/// Stage 2 as published is skipped below this speed: without parallax, it only adds noise.
 constexpr double kMinSpeed_mps = 1.0;
 
 /// Lower limit of the flow [px], so that normalized errors stay finite without flow.
@@ -91,7 +91,8 @@ void TwoStageEstimator::estimate(const Measurements& measured,
   motion.T_keyframe_cur = fit.T_keyframe_cur;
 
   const bool has_two_stages = criterion_ == Criterion::kRotrocc || criterion_ == Criterion::kRocc;
-  const bool is_slow = fit.T_keyframe_cur.translation().norm() < kMinSpeed_mps * dt_s;
+  const bool is_slow =
+      config_.as_published && fit.T_keyframe_cur.translation().norm() < kMinSpeed_mps * dt_s;
   if (!motion.valid || !has_two_stages || is_slow) return;
   decouple(measured, fit, motion.rotation_inliers);  // 2)
   selectCandidates(measured, fit);

@@ -30,9 +30,14 @@ namespace {
 /// keyframe's corners is common to both, and is half of the flow's noise.
 constexpr double kNotShared = 0.5;
 
-/// Share of max_gap_s in which the last motion predicts the next one. Later, the velocity may have
-/// changed so much that rest is as good a start.
-constexpr double kPredictable = 0.5;
+/// After so many periods of the pairs, the velocity may have changed so much that rest is as good a
+/// start as what the last motion predicts.
+constexpr double kPredictable = 5.0;
+/// After so many, another drive may have begun: the estimator restarts.
+constexpr double kSameDrive = 30.0;
+
+/// Weight of the last interval in the period of the pairs.
+constexpr double kNewInterval = 0.1;
 
 /// The config that its method makes of it. Throws as OdometryConfig::check().
 OdometryConfig byMethod(OdometryConfig config) {
@@ -95,13 +100,13 @@ bool isSame(const cv::Mat& a, const cv::Mat& b) {
 }
 
 /// Why a usable pair cannot be compared with the newest frame, in one sentence; none if it can:
-/// there is one, not more than `max_gap_s` before or after, of a camera that differs by no more
-/// than a refined calibration.
+/// there is one, not many periods before or after, of a camera that differs by no more than a
+/// refined calibration. `period_s` is 0 before the second pair.
 std::optional<std::string> whyRestart(const StereoPair& pair,
                                       const StereoCamera& camera,
                                       const StereoFrame* newest,
                                       const StereoCamera& camera_before,
-                                      double max_gap_s) {
+                                      double period_s) {
   if (newest == nullptr) return "first pair";
   if (camera_before.width != camera.width || camera_before.height != camera.height) {
     return "the size of the images has changed";
@@ -111,10 +116,11 @@ std::optional<std::string> whyRestart(const StereoPair& pair,
                       difference);
   }
   const double gap_s = toSeconds(pair.stamp_ns - newest->stamp_ns);
-  if (std::abs(gap_s) <= max_gap_s) return std::nullopt;
+  const double limit_s = kSameDrive * period_s;
+  if (period_s == 0.0 ? gap_s >= 0.0 : std::abs(gap_s) <= limit_s) return std::nullopt;
   return (gap_s > 0.0 ? "no pair for " : "stamps went back by ") +
-         comparedText(std::abs(gap_s), max_gap_s) +
-         cv::format(" s, more than max_gap_s = %g", max_gap_s);
+         comparedText(std::abs(gap_s), limit_s) +
+         cv::format(" s, more than %g periods of %.3g s", kSameDrive, period_s);
 }
 
 /// Why a later pair is not a measurement, in one sentence: an image shows something, and is
@@ -195,6 +201,7 @@ class VisualOdometry::Pipeline {
   FramePtr last_;                     // last frame with a known pose; null before the first pair
   FramePtr lost_;                     // latest frame without a motion since last_; may be null
   std::optional<Vector6d> velocity_;  // [m/s; rad/s] of the last motion
+  double period_s_ = 0.0;             // mean interval of the last pairs; 0 before the second one
   Keyframe keyframe_;                 // no frame if it must be created from the last frame
 
   StageTimes prepared_;  // of prepare() since the last pair
@@ -274,6 +281,7 @@ void VisualOdometry::Pipeline::forget() {
   lost_.reset();
   keyframe_.frame.reset();
   velocity_.reset();
+  period_s_ = 0.0;
 }
 
 void VisualOdometry::Pipeline::configure(const Config& config) {
@@ -301,7 +309,7 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
   if (newest != nullptr && is_later) {
     if (const auto why = whyRepeated(pair, *newest, others.may_repeat)) throw Lost(*why);
   }
-  const auto why_restart = whyRestart(pair, camera, newest, rig_.camera(), config_.max_gap_s);
+  const auto why_restart = whyRestart(pair, camera, newest, rig_.camera(), period_s_);
   if (!why_restart && !is_later) {
     throw Lost("the stamp " + std::to_string(pair.stamp_ns) +
                " ns is not later than that of the pair before, " +
@@ -310,7 +318,12 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
   FramePtr current;
   {
     const StageTimer timer(result.times.pyramids_ms);
-    if (why_restart) forget();
+    if (why_restart) {
+      forget();
+    } else {
+      const double interval_s = toSeconds(pair.stamp_ns - newest->stamp_ns);
+      period_s_ += (period_s_ == 0.0 ? 1.0 : kNewInterval) * (interval_s - period_s_);
+    }
     if (!rig_.setCamera(camera)) {
       keyframe_.frame.reset();  // its depths are of the old calibration
       base_.reset();
@@ -383,7 +396,7 @@ VisualOdometry::Pipeline::Expectation VisualOdometry::Pipeline::expectation(
 /// vehicle does: then it keeps its direction in the camera's axes.
 std::optional<Eigen::Isometry3d> VisualOdometry::Pipeline::predict(
     double dt_s, const std::optional<Eigen::Matrix3d>& measured_rotation) const {
-  if (!velocity_ || dt_s > kPredictable * config_.max_gap_s) return std::nullopt;
+  if (!velocity_ || dt_s > kPredictable * period_s_) return std::nullopt;
   Vector6d motion = *velocity_ * dt_s;
   if (measured_rotation) motion.tail<3>() = logRotation(*measured_rotation);
   return expMotion(motion);

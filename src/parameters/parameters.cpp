@@ -125,9 +125,6 @@ void addOdometry(OdometryConfig& c, ParameterTable& table) {
   table.add("max_tries", c.max_tries, {1, 20}).description =
       "largest number of tries from each earlier frame: each tracks the features and estimates the "
       "motion";
-  table.add("max_gap_s", c.max_gap_s, {0.01, 1000.0, "s"}).description =
-      "the estimator restarts after a longer gap between pairs, and does not predict after half "
-      "of it";
 }
 
 /// Sets every scalar and list below `node`; `prefix` is the name of `node`.

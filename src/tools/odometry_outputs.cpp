@@ -173,6 +173,14 @@ void OdometryOutputs::printSummary(std::ostream& out) const {
       << countState(records_, State::kLost) << " lost, "
       << countState(records_, State::kInitialising) << " initialising\n";
   if (records_.empty()) return;
+  for (const State state : {State::kLost, State::kDegraded, State::kInitialising}) {
+    const auto first = std::find_if(records_.begin() + 1, records_.end(), [&](const auto& record) {
+      return record.result.state == state;
+    });
+    if (first == records_.end()) continue;
+    out << "first " << toString(state) << ", pair " << first - records_.begin() << ": "
+        << first->result.reason << '\n';
+  }
   out << "ms per pair          mean   median      p95      p99\n";
   printTimes(out, "wall", records_, [](const PairRecord& record) { return record.wall_ms; });
   printTimes(out, "cpu", records_, [](const PairRecord& record) { return record.cpu_ms; });

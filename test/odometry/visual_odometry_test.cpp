@@ -638,7 +638,6 @@ TEST(VisualOdometryTest, KeepsTheKeyframeAtRestAndDoesNotCreep) {
     const OdometryResult result = odometry.process(pair, camera());
     T_start_cur = T_start_cur * result.T_prev_cur;
     EXPECT_LT(T_start_cur.translation().norm(), 0.002);  // measured: 0.6 mm, as of a single pair
-    EXPECT_EQ(result.counts.translation_inliers, 0);
     EXPECT_EQ(result.keyframe_stamp_ns, 0);
     if (i > 4) continue;
     const std::int64_t keyframe_ns = frame_to_frame.process(pair, camera()).keyframe_stamp_ns;
@@ -759,8 +758,9 @@ TEST(VisualOdometryTest, StartsAnewAfterAGapOrWithAnotherCamera) {
     const char* reason;
     double translation_m, rotation_rad;  // errors
   };
-  for (const Case& c : {Case{620, 1'000'000'000, "no pair for 1.1 s", 0.01, 4e-4},
-                        Case{300, 0, "the size of the images has changed", 0.04, 0.0012}}) {
+  for (const Case& c :
+       {Case{620, 3'000'000'000, "no pair for 3.1 s, more than 30 periods", 0.01, 4e-4},
+        Case{300, 0, "the size of the images has changed", 0.04, 0.0012}}) {
     StereoCamera other = camera();
     other.width = c.width;
     const auto changed = [&](int i) {
@@ -776,6 +776,20 @@ TEST(VisualOdometryTest, StartsAnewAfterAGapOrWithAnotherCamera) {
   }
 }
 
+TEST(VisualOdometryTest, TheRateOfThePairsChangesNoMotion) {
+  const auto motionsAt = [](std::int64_t slower) {
+    VisualOdometry odometry({});
+    std::vector<Eigen::Matrix4d> motions;
+    for (int i = 0; i < 6; ++i) {
+      StereoPair pair = bend(i);
+      pair.stamp_ns *= slower;
+      motions.push_back(odometry.process(pair, camera()).T_prev_cur.matrix());
+    }
+    return motions;
+  };
+  EXPECT_EQ(motionsAt(64), motionsAt(1));  // of 10 Hz
+}
+
 /// As of a clock that was set: it does not lock the odometry until the stamps get there again.
 TEST(VisualOdometryTest, AStampFarAheadRestartsTwice) {
   VisualOdometry odometry = started(3);
@@ -784,7 +798,7 @@ TEST(VisualOdometryTest, AStampFarAheadRestartsTwice) {
   EXPECT_EQ(odometry.process(ahead, camera()).state, State::kInitialising);
   const OdometryResult back = odometry.process(bend(4), camera());
   EXPECT_EQ(back.state, State::kInitialising);
-  EXPECT_EQ(back.reason.find("stamps went back by 3600 s, more than max_gap_s"), 0u) << back.reason;
+  EXPECT_EQ(back.reason.find("stamps went back by 3600 s"), 0u) << back.reason;
   expectMotion(odometry.process(bend(5), camera()), bendStep());
 }
 

@@ -101,12 +101,12 @@ TEST(ParametersTest, TheTableSetsWhatTheEstimatorReads) {
   Settings settings;
   settings.table.setAssignment("feature_detector/max_features=777");
   settings.table.setAssignment("motion_estimator/criterion=std_based");
-  settings.table.setAssignment("visual_odometry/max_gap_s=2.5");
+  settings.table.setAssignment("motion_check/max_speed_mps=2.5");
   settings.table.setAssignment("publish_tf=false");
   const OdometryConfig& odometry = settings.parameters.odometry;
   EXPECT_EQ(odometry.correspondence_finder.feature_detector.max_features, 777);
   EXPECT_EQ(odometry.motion_estimator.criterion, "std_based");
-  EXPECT_EQ(odometry.max_gap_s, 2.5);
+  EXPECT_EQ(odometry.motion_check.max_speed_mps, 2.5);
   EXPECT_FALSE(settings.parameters.node.publish_tf);
   expectError<std::invalid_argument>([&] { settings.table.setAssignment("queue_size 4"); },
                                      "\"queue_size 4\" is not an assignment: write name=value");
@@ -129,11 +129,11 @@ TEST(ParametersTest, RefusesWithNameValueAndRange) {
   expectRefused("queue_size", "2.5", "is \"2.5\", but must be an integer in [1, 100]");
   expectRefused("queue_size", "99999999999", "is \"99999999999\", but must be");
   expectRefused("queue_size", "", "is \"\", but must be");
-  expectRefused("visual_odometry/max_gap_s",
+  expectRefused("motion_check/max_speed_mps",
                 "1001",
-                "parameter visual_odometry/max_gap_s is 1001, but must be in [0.01, 1000]");
+                "parameter motion_check/max_speed_mps is 1001, but must be in [0.1, 1000]");
   for (const char* value : {"nan", ".nan", "inf", "-inf", "1 2", "1e999", "one"}) {
-    expectRefused("visual_odometry/max_gap_s", value, "but must be a number in [0.01, 1000]");
+    expectRefused("motion_check/max_speed_mps", value, "but must be a number in [0.1, 1000]");
   }
   expectRefused("publish_tf", "1", "parameter publish_tf is \"1\", but must be true or false");
   expectRefused("motion_estimator/criterion",
@@ -171,7 +171,8 @@ TEST(ParametersTest, AFileNamesItselfWhenItIsRefused) {
   };
   expect_refused("motion_check:\n  max_speed: 3\n", "unknown parameter \"motion_check/max_speed\"");
   expect_refused("motion_check:\n  max_speed_mps: 0\n", "motion_check/max_speed_mps is 0");
-  expect_refused("visual_odometry:\n  max_gap_s: .nan\n", "visual_odometry/max_gap_s is \".nan\"");
+  expect_refused("motion_check:\n  max_speed_mps: .nan\n",
+                 "motion_check/max_speed_mps is \".nan\"");
   expect_refused("motion_check: [1, 2]\n", "unknown parameter \"motion_check\"");
   expect_refused("queue_size: [1]\n", "queue_size is a list, but must be [1, 100]");
   expect_refused("initial_pose: [1, 2]\n", "initial_pose is \"1 2\", but must be 6 numbers");
