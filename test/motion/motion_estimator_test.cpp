@@ -148,17 +148,19 @@ TEST(MotionEstimatorTest, IsNotMovedByATruckThatFillsMostOfThePicture) {
   EXPECT_LT(3.0 * error_with, error_without);  // the benefit of the retry
 }
 
-TEST(MotionEstimatorTest, SkipsTheTranslationStageAtLowSpeed) {
-  const auto has_stage = [](double step_m) {
+TEST(MotionEstimatorTest, OnlyAsPublishedLowSpeedSkipsTheTranslationStage) {
+  const auto has_stage = [](double step_m, bool as_published) {
+    MotionEstimator::Config config;
+    config.as_published = as_published;
     const Eigen::Isometry3d truth = motion({0.0, 0.0, step_m}, {0.0, 0.01, 0.0});
-    const MotionEstimate found = estimate(goodFeatures(1, truth), {}, truth);
+    const MotionEstimate found = estimate(goodFeatures(1, truth), config, truth);
     EXPECT_TRUE(found.valid);
     return found.has_translation_stage;
   };
+  EXPECT_TRUE(has_stage(0.0, false));
   // At 10 Hz, 1 m/s is a step of 10 cm.
-  EXPECT_FALSE(has_stage(0.0));
-  EXPECT_FALSE(has_stage(0.09));
-  EXPECT_TRUE(has_stage(0.11));
+  EXPECT_FALSE(has_stage(0.09, true));
+  EXPECT_TRUE(has_stage(0.5, true));
 }
 
 TEST(MotionEstimatorTest, FeaturesThatDetermineNoMotionGiveNone) {
