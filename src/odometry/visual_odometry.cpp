@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -12,14 +11,13 @@
 
 #include <opencv2/core.hpp>
 
-#include "common/compared_text.h"
 #include "common/stage_timer.h"
 #include "common/to_seconds.h"
 #include "features/base_level.h"
 #include "features/correspondence_finder.h"
-#include "features/image_noise.h"
 #include "odometry/motion_check.h"
 #include "odometry/motion_search.h"
+#include "odometry/pair_checks.h"
 #include "odometry/rig_estimate.h"
 #include "paper/paper_finder.h"
 
@@ -33,8 +31,6 @@ constexpr double kNotShared = 0.5;
 /// After so many periods of the pairs, the velocity may have changed so much that rest is as good a
 /// start as what the last motion predicts.
 constexpr double kPredictable = 5.0;
-/// After so many, another drive may have begun: the estimator restarts.
-constexpr double kSameDrive = 30.0;
 
 /// Weight of the last interval in the period of the pairs.
 constexpr double kNewInterval = 0.1;
@@ -55,89 +51,6 @@ std::unique_ptr<CorrespondenceFinder> makeFinder(const OdometryConfig& config) {
 struct Lost : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-
-/// A calibration that changes by less, as one that is refined while driving, describes the same
-/// images. The pairs before and after are compared: the error is no more than this, in radians and
-/// as a share of the way, where a restart would lose all of the way between them.
-constexpr double kRefinedCamera = 1e-3;
-
-/// Why a pair cannot be used, in one sentence with the value. None if it can: the camera is valid,
-/// images and masks are CV_8UC1 and of its size.
-std::optional<std::string> whyUnusable(const StereoPair& pair, const StereoCamera& camera) {
-  try {
-    camera.check();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  struct Part {
-    const char* name;
-    const cv::Mat& image;
-    bool is_required;
-  };
-  for (const Part& part : {Part{"left image", pair.left, true},
-                           Part{"right image", pair.right, true},
-                           Part{"left mask", pair.left_mask, false},
-                           Part{"right mask", pair.right_mask, false}}) {
-    const auto& [name, image, is_required] = part;
-    if (image.empty() && is_required) return cv::format("the %s is empty", name);
-    if (image.empty()) continue;
-    if (image.type() != CV_8UC1) {
-      return cv::format("the %s is of OpenCV type %d, not CV_8UC1", name, image.type());
-    }
-    if (image.cols == camera.width && image.rows == camera.height) continue;
-    return cv::format("the %s has %dx%d pixels", name, image.cols, image.rows) +
-           cv::format(", the camera %dx%d", camera.width, camera.height);
-  }
-  return std::nullopt;
-}
-
-bool isSame(const cv::Mat& a, const cv::Mat& b) {
-  if (a.size() != b.size()) return false;
-  for (int y = 0; y < a.rows; ++y) {
-    if (std::memcmp(a.ptr(y), b.ptr(y), static_cast<std::size_t>(a.cols)) != 0) return false;
-  }
-  return true;
-}
-
-/// Why a usable pair cannot be compared with the newest frame, in one sentence; none if it can:
-/// there is one, not many periods before or after, of a camera that differs by no more than a
-/// refined calibration. `period_s` is 0 before the second pair.
-std::optional<std::string> whyRestart(const StereoPair& pair,
-                                      const StereoCamera& camera,
-                                      const StereoFrame* newest,
-                                      const StereoCamera& camera_before,
-                                      double period_s) {
-  if (newest == nullptr) return "first pair";
-  if (camera_before.width != camera.width || camera_before.height != camera.height) {
-    return "the size of the images has changed";
-  }
-  if (const double difference = camera_before.differenceTo(camera); difference > kRefinedCamera) {
-    return cv::format("the calibration has changed by %.2g of the focal length or baseline",
-                      difference);
-  }
-  const double gap_s = toSeconds(pair.stamp_ns - newest->stamp_ns);
-  const double limit_s = kSameDrive * period_s;
-  if (period_s == 0.0 ? gap_s >= 0.0 : std::abs(gap_s) <= limit_s) return std::nullopt;
-  return (gap_s > 0.0 ? "no pair for " : "stamps went back by ") +
-         comparedText(std::abs(gap_s), limit_s) +
-         cv::format(" s, more than %g periods of %.3g s", kSameDrive, period_s);
-}
-
-/// Why a later pair is not a measurement, in one sentence: an image shows something, and is
-/// identical to the same side's image of the newest frame. A stationary camera's images differ by
-/// their noise.
-std::optional<std::string> whyRepeated(const StereoPair& pair,
-                                       const StereoFrame& newest,
-                                       const std::function<bool()>& may_repeat) {
-  const bool left = isSame(pair.left, newest.whole_left.front()) && !isNoise(pair.left);
-  const bool right = isSame(pair.right, newest.whole_right.front()) && !isNoise(pair.right);
-  if (!left && !right) return std::nullopt;
-  if (left && right && may_repeat && may_repeat()) return std::nullopt;
-  const std::string which = left && right ? "both images are identical to the previous ones"
-                            : left        ? "the left image is identical to the previous one"
-                                          : "the right image is identical to the previous one";
-  return which + ": is the camera frozen, or does its driver repeat images?";
-}
 
 }  // namespace
 
