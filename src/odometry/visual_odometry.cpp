@@ -231,12 +231,7 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
   FramePtr current;
   {
     const StageTimer timer(result.times.pyramids_ms);
-    if (why_restart) {
-      forget();
-    } else {
-      const double interval_s = toSeconds(pair.stamp_ns - newest->stamp_ns);
-      period_s_ += (period_s_ == 0.0 ? 1.0 : kNewInterval) * (interval_s - period_s_);
-    }
+    if (why_restart) forget();
     if (!rig_.setCamera(camera)) {
       keyframe_.frame.reset();  // its depths are of the old calibration
       base_.reset();
@@ -251,14 +246,15 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
     result.state = State::kInitialising;
     return;
   }
+  const double interval_s = toSeconds(pair.stamp_ns - newest->stamp_ns);
   findMotion(current, others, result);
-  if (!found_.isAccepted()) {
-    // Either this pair or the last one may be at fault. The next pair is compared with both.
-    lost_ = current;
-    rig_.searchRowsAgain();
-    throw Lost(*found_.why_lost);
-  }
-  accept(current, result);
+  if (found_.isAccepted()) accept(current, result);
+  period_s_ += (period_s_ == 0.0 ? 1.0 : kNewInterval) * (interval_s - period_s_);
+  if (found_.isAccepted()) return;
+  // Either this pair or the last one may be at fault. The next pair is compared with both.
+  lost_ = current;
+  rig_.searchRowsAgain();
+  throw Lost(*found_.why_lost);
 }
 
 FramePtr VisualOdometry::Pipeline::makeFrame(const StereoPair& pair) {
