@@ -13,8 +13,8 @@ namespace rotrocc {
 /// detail than fewer would, as those of a soft lens, a demosaiced sensor or an enlarged image, cost
 /// time, and make windows and limits in pixels too small.
 ///
-/// The sharpness of a level is the mean square of what halving it loses, over that of halving once
-/// more, both without the noise. It is 1 for a scene alike at all scales, and does not depend on
+/// The sharpness of a level is the mean square of the detail that halving it loses, relative to the
+/// loss of the next halving; both exclude noise. It is 1 for a scene alike at all scales, and does not depend on
 /// gain. It is averaged over pairs.
 class BaseLevel {
  public:

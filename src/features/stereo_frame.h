@@ -30,7 +30,7 @@ class FeatureMask {
     cv::dilate(mask, grown_, cv::getStructuringElement(cv::MORPH_RECT, window));
   }
 
-  /// Pixels are those of an image that is halved so many times.
+  /// Pixels are those of an image that is halved `level` times.
   void setLevel(int level) { px_ = static_cast<float>(1 << level); }
 
   /// Whether a pixel may not be used. Those outside the image may.
