@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,17 +33,29 @@ TrajectoryFormat detectTrajectoryFormat(const std::string& path);
 
 /// Reads either format. Blank lines and lines that begin with '#' are skipped.
 ///
-/// KITTI poses have no stamps. They get the stamps in the file `times_path`, at least one per pose,
-/// or 0, 0.1, 0.2 ... s if the path is empty.
+/// KITTI poses have no stamps. They get 0, 0.1, 0.2 ... s.
 ///
 /// An orthonormality error of up to 1e-3, from rounding, is removed. Throws std::runtime_error with
-/// file and line on any pose that is not finite and rigid, on stamps that do not increase, on a
-/// file without poses, and on a times file for poses that already have stamps.
-Trajectory readTrajectory(const std::string& path, const std::string& times_path = "");
+/// file and line on any pose that is not finite and rigid, on stamps that do not increase, and on a
+/// file without poses.
+Trajectory readTrajectory(const std::string& path);
 
 /// Reads a file with one time [s] per line (KITTI's times.txt), rounded to nanoseconds. Throws
 /// std::runtime_error with file and line on any other content and on times that do not increase.
 std::vector<std::int64_t> readTimes(const std::string& path);
+
+/// The first pose that is not before a stamp. Stamps must increase.
+Trajectory::const_iterator firstFrom(const Trajectory& trajectory, std::int64_t stamp_ns);
+
+/// The pose at a stamp, between the poses before and after it if these are at most `max_gap_ns`
+/// apart; none outside of the trajectory and in longer gaps. Stamps must increase.
+std::optional<Eigen::Isometry3d> poseAt(const Trajectory& trajectory,
+                                        std::int64_t stamp_ns,
+                                        std::int64_t max_gap_ns);
+
+/// The poses at those stamps at which there are some, with gaps of up to 0.1 s: recorded truths
+/// have 10 Hz (KITTI) to 200 Hz (EuRoC).
+Trajectory samplePoses(const Trajectory& trajectory, const std::vector<std::int64_t>& stamps_ns);
 
 /// Writes poses one by one. Each line is in the file before write() returns. KITTI lines have 10
 /// significant digits, like KITTI's own files, TUM lines 9 decimals and qw >= 0.

@@ -51,8 +51,8 @@ class Programs:
         """The errors of all segments of the trajectory in `folder`, also written to segments.csv there: arrays of
         first_pose, length_m, speed_mps, translation_percent, rotation_deg_per_m."""
         table = folder / 'segments.csv'
-        self.run('evaluate_trajectory', sequence / 'poses.txt', folder / 'trajectory.txt', '--times',
-                 sequence / 'times.txt', '--step', step, '--segments', table, '--lengths', *lengths_m)
+        self.run('evaluate_trajectory', sequence, folder / 'trajectory.txt', '--step', step,
+                 '--segments', table, '--lengths', *lengths_m)
         return read_columns(table)
 
 

@@ -15,20 +15,15 @@ mkdir -p "$part"
 touch "$part/.rotrocc_report"  # evaluate_trajectory may write its report there
 rm -f "$result.log"
 
-# Poses in KITTI format have no stamps.
-format=(--format tum)
-times=()
-if [ -d "$sequence/image_0" ]; then
-  format=(--format kitti)
-  times=(--times "$sequence/times.txt")
-fi
+format=tum
+if [ -d "$sequence/image_0" ]; then format=kitti; fi  # as the poses of its truth
 
 run() {
-  "$programs/offline_odometry" "$sequence" --trajectory "$part/estimate.txt" "${format[@]}" \
+  "$programs/offline_odometry" "$sequence" --trajectory "$part/estimate.txt" --format "$format" \
     --stats "$part/pairs.csv" "$@" --set visual_odometry/threads=1 || return
   local trajectories=("$truth" "$part/estimate.txt" --fit)
   if [ "$truth" = none ]; then trajectories=("$part/estimate.txt"); fi
-  "$programs/evaluate_trajectory" "${trajectories[@]}" "${times[@]}" --report "$part" \
+  "$programs/evaluate_trajectory" "${trajectories[@]}" --report "$part" \
     --stats "$part/pairs.csv" --title "$(basename "$result")"
 }
 # In the background, so that bash handles signals while waiting, and in its own process group.

@@ -1,6 +1,8 @@
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -137,10 +139,22 @@ bool parse(int argc, char** argv, Options& options) {
   return true;
 }
 
+Trajectory readPoses(const Options& options) {
+  Trajectory poses = readTrajectory(options.poses);
+  if (options.times.empty()) return poses;
+  const std::vector<std::int64_t> stamps_ns = readTimes(options.times);
+  if (stamps_ns.size() < poses.size()) {
+    throw std::runtime_error(options.times + " has fewer times than " + options.poses +
+                             " has poses");
+  }
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i].stamp_ns = stamps_ns[i];
+  return poses;
+}
+
 Scenario chosenScenario(const Options& options) {
   const std::uint64_t seed = options.simulation.seed;
   if (options.poses.empty()) return scenario(options.names.front(), seed);
-  return scenarioAlong(readTrajectory(options.poses, options.times), seed);
+  return scenarioAlong(readPoses(options), seed);
 }
 
 void renderSequence(const Simulator& simulator,

@@ -9,7 +9,6 @@
 
 #include "evaluation/image_file.h"
 #include "evaluation/text_file.h"
-#include "evaluation/trajectory_sampling.h"
 
 namespace rotrocc {
 namespace {
@@ -77,20 +76,12 @@ StereoCamera readCalibration(const std::string& path, const cv::Size& size) {
 }
 
 /// One pose for each stamp.
-Trajectory readGroundTruth(const std::string& path,
-                           const std::string& times_path,
-                           const std::vector<std::int64_t>& stamps_ns) {
-  if (detectTrajectoryFormat(path) == TrajectoryFormat::kKitti) {
-    Trajectory poses = readTrajectory(path, times_path);
-    requireSameCount(path, poses.size(), stamps_ns.size());
-    return poses;
-  }
-  Trajectory poses = samplePoses(readTrajectory(path), stamps_ns);
-  if (poses.size() != stamps_ns.size()) {
-    throw std::runtime_error(path + cv::format(" has poses for %zu of the %zu times of times.txt",
-                                               poses.size(),
-                                               stamps_ns.size()));
-  }
+Trajectory readGroundTruth(const std::string& path, const std::vector<std::int64_t>& stamps_ns) {
+  const bool has_stamps = detectTrajectoryFormat(path) == TrajectoryFormat::kTum;
+  Trajectory poses = readTrajectory(path);
+  if (has_stamps) poses = samplePoses(poses, stamps_ns);
+  requireSameCount(path + (has_stamps ? ", interpolated," : ""), poses.size(), stamps_ns.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i].stamp_ns = stamps_ns[i];
   return poses;
 }
 
@@ -100,8 +91,7 @@ KittiSequence::KittiSequence(const std::string& directory, bool being_written)
     : directory_(directory) {
   const fs::path root(directory);
   if (!fs::is_directory(root)) throw std::runtime_error(directory + " is not a directory");
-  const std::string times_path = (root / "times.txt").string();
-  stamps_ns_ = readTimes(times_path);
+  stamps_ns_ = readTimes((root / "times.txt").string());
   for (const char* folder : {"image_0", "image_1"}) {
     const std::size_t count = countImages(root / folder);
     if (being_written && count < stamps_ns_.size()) continue;
@@ -111,7 +101,7 @@ KittiSequence::KittiSequence(const std::string& directory, bool being_written)
   camera_ = readCalibration((root / "calib.txt").string(), first.size());
   const std::string poses_path = (root / "poses.txt").string();
   if (!fs::exists(poses_path)) return;
-  ground_truth_ = readGroundTruth(poses_path, times_path, stamps_ns_);
+  ground_truth_ = readGroundTruth(poses_path, stamps_ns_);
 }
 
 std::string KittiSequence::imagePath(const char* folder, int index) const {

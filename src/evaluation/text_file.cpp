@@ -69,6 +69,11 @@ Eigen::Isometry3d TextLine::quaternionPose(bool w_first) const {
   return pose;
 }
 
+void TextLine::requireColumns(std::size_t columns, const char* what) const {
+  if (words.size() >= columns) return;
+  fail(cv::format("%zu columns: %s are expected, separated by commas", words.size(), what));
+}
+
 void TextLine::requireLater(std::int64_t stamp_ns, std::int64_t previous_ns) const {
   if (stamp_ns > previous_ns) return;
   fail("the time " + words.front() + " is not later than the one before it: sort the file by time");

@@ -26,6 +26,9 @@ struct TextLine {
   /// first. Throws like number(), and if the quaternion has not the length 1.
   Eigen::Isometry3d quaternionPose(bool w_first) const;
 
+  /// Throws std::runtime_error if there are fewer words than the columns of `what`.
+  void requireColumns(std::size_t columns, const char* what) const;
+
   /// Throws std::runtime_error unless `stamp_ns`, of the first word, is later than the one before.
   void requireLater(std::int64_t stamp_ns, std::int64_t previous_ns) const;
 

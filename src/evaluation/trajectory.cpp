@@ -1,5 +1,6 @@
 #include "rotrocc/trajectory.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <locale>
@@ -58,13 +59,9 @@ TrajectoryFormat detectTrajectoryFormat(const std::string& path) {
   return formatOf(readTextLines(path).front());
 }
 
-Trajectory readTrajectory(const std::string& path, const std::string& times_path) {
+Trajectory readTrajectory(const std::string& path) {
   const std::vector<TextLine> lines = readTextLines(path);
   const bool is_tum = formatOf(lines.front()) == TrajectoryFormat::kTum;
-  if (is_tum && !times_path.empty()) {
-    throw std::runtime_error(path + " has stamps (TUM format): the times of " + times_path +
-                             " cannot be used with it");
-  }
   Trajectory trajectory;
   trajectory.reserve(lines.size());
   std::int64_t stamp_ns = is_tum ? INT64_MIN : -kKittiPeriod_ns;
@@ -73,13 +70,6 @@ Trajectory readTrajectory(const std::string& path, const std::string& times_path
     stamp_ns = is_tum ? timeAfter(stamp_ns, line) : stamp_ns + kKittiPeriod_ns;
     trajectory.push_back({stamp_ns, is_tum ? line.quaternionPose(false) : kittiPose(line)});
   }
-  if (times_path.empty()) return trajectory;
-  const std::vector<std::int64_t> stamps_ns = readTimes(times_path);
-  if (stamps_ns.size() < trajectory.size()) {
-    throw std::runtime_error(times_path + cv::format(" has %zu times, but ", stamps_ns.size()) +
-                             path + cv::format(" has %zu poses", trajectory.size()));
-  }
-  for (std::size_t i = 0; i < trajectory.size(); ++i) trajectory[i].stamp_ns = stamps_ns[i];
   return trajectory;
 }
 
@@ -90,6 +80,44 @@ std::vector<std::int64_t> readTimes(const std::string& path) {
     stamps_ns.push_back(timeAfter(stamps_ns.empty() ? INT64_MIN : stamps_ns.back(), line));
   }
   return stamps_ns;
+}
+
+Trajectory::const_iterator firstFrom(const Trajectory& trajectory, std::int64_t stamp_ns) {
+  const auto is_before = [](const StampedPose& pose, std::int64_t ns) {
+    return pose.stamp_ns < ns;
+  };
+  return std::lower_bound(trajectory.begin(), trajectory.end(), stamp_ns, is_before);
+}
+
+std::optional<Eigen::Isometry3d> poseAt(const Trajectory& trajectory,
+                                        std::int64_t stamp_ns,
+                                        std::int64_t max_gap_ns) {
+  const auto after = firstFrom(trajectory, stamp_ns);
+  if (after == trajectory.end()) return std::nullopt;
+  if (after->stamp_ns == stamp_ns) return after->T_world_body;
+  if (after == trajectory.begin()) return std::nullopt;
+  const StampedPose& before = *(after - 1);
+  if (after->stamp_ns - before.stamp_ns > max_gap_ns) return std::nullopt;
+
+  const double share = static_cast<double>(stamp_ns - before.stamp_ns) /
+                       static_cast<double>(after->stamp_ns - before.stamp_ns);
+  const Eigen::Quaterniond from(before.T_world_body.linear());
+  const Eigen::Quaterniond to(after->T_world_body.linear());
+  Eigen::Isometry3d pose(from.slerp(share, to));
+  pose.translation() =
+      (1.0 - share) * before.T_world_body.translation() + share * after->T_world_body.translation();
+  return pose;
+}
+
+Trajectory samplePoses(const Trajectory& trajectory, const std::vector<std::int64_t>& stamps_ns) {
+  constexpr std::int64_t kMaxGap_ns = 100'000'000;
+  Trajectory samples;
+  for (const std::int64_t stamp_ns : stamps_ns) {
+    if (const auto pose = poseAt(trajectory, stamp_ns, kMaxGap_ns)) {
+      samples.push_back({stamp_ns, *pose});
+    }
+  }
+  return samples;
 }
 
 TrajectoryWriter::TrajectoryWriter(const std::string& path, TrajectoryFormat format)

@@ -10,7 +10,6 @@
 #include <opencv2/core.hpp>
 
 #include "common/to_seconds.h"
-#include "evaluation/trajectory_sampling.h"
 
 namespace rotrocc {
 namespace {

@@ -1,9 +1,6 @@
 #include "inertial/gyro_file.h"
 
-#include <fstream>
-#include <iomanip>
-#include <stdexcept>
-
+#include "common/csv_file.h"
 #include "evaluation/text_file.h"
 
 namespace rotrocc {
@@ -11,11 +8,7 @@ namespace rotrocc {
 std::vector<GyroSample> readGyroFile(const std::string& path) {
   std::vector<GyroSample> samples;
   for (const TextLine& line : readTextLines(path, ',')) {
-    if (line.words.size() < 4) {
-      throw std::runtime_error(line.where + " has " + std::to_string(line.words.size()) +
-                               " columns: timestamp [ns] and three angular velocities [rad/s] are "
-                               "expected, separated by commas");
-    }
+    line.requireColumns(4, "timestamp [ns] and three angular velocities [rad/s]");
     samples.push_back(
         {line.integer(0), Eigen::Vector3d(line.number(1), line.number(2), line.number(3))});
   }
@@ -23,16 +16,14 @@ std::vector<GyroSample> readGyroFile(const std::string& path) {
 }
 
 void writeGyroFile(const std::string& path, const std::vector<GyroSample>& samples) {
-  std::ofstream file(path);
-  file << "#timestamp [ns],w_x [rad s^-1],w_y [rad s^-1],w_z [rad s^-1],a_x [m s^-2],a_y [m s^-2],"
-          "a_z [m s^-2]\n"
-       << std::setprecision(10);
+  CsvFile file(path,
+               "#timestamp [ns],w_x [rad s^-1],w_y [rad s^-1],w_z [rad s^-1],a_x [m s^-2],"
+               "a_y [m s^-2],a_z [m s^-2]");
   for (const GyroSample& sample : samples) {
     const Eigen::Vector3d& rate = sample.rate_rps;
-    file << sample.stamp_ns << ',' << rate.x() << ',' << rate.y() << ',' << rate.z() << ",0,0,0\n";
+    file << sample.stamp_ns;
+    file.row({rate.x(), rate.y(), rate.z(), 0.0, 0.0, 0.0});
   }
-  file.flush();
-  if (!file) throw std::runtime_error("cannot write " + path);
 }
 
 }  // namespace rotrocc

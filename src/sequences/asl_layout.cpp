@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "evaluation/text_file.h"
-#include "evaluation/trajectory_sampling.h"
 #include "sequences/calibration_file.h"
 #include "sequences/layouts.h"
 
@@ -13,16 +12,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void requireColumns(const TextLine& line, std::size_t columns, const std::string& what) {
-  if (line.words.size() >= columns) return;
-  throw std::runtime_error(line.where + " has " + std::to_string(line.words.size()) +
-                           " columns: " + what + " are expected, separated by commas");
-}
-
 std::vector<StampedImage> readImageList(const std::string& camera) {
   std::vector<StampedImage> images;
   for (const TextLine& line : readTextLines(camera + "/data.csv", ',')) {
-    requireColumns(line, 2, "timestamp [ns] and file name");
+    line.requireColumns(2, "timestamp [ns] and file name");
     const std::int64_t stamp_ns = line.integer(0);
     if (!images.empty()) line.requireLater(stamp_ns, images.back().stamp_ns);
     images.push_back({stamp_ns, camera + "/data/" + line.words[1]});
@@ -39,7 +32,7 @@ Trajectory readGroundTruth(const std::string& folder,
       readAslPose(folder + "/sensor.yaml").inverse() * T_body_camera;
   Trajectory poses;
   for (const TextLine& line : readTextLines(folder + "/data.csv", ',')) {
-    requireColumns(line, 8, "timestamp [ns], position [m] and quaternion w x y z");
+    line.requireColumns(8, "timestamp [ns], position [m] and quaternion w x y z");
     const Eigen::Isometry3d T_world_sensor = line.quaternionPose(true);
     const std::int64_t stamp_ns = line.integer(0);
     if (!poses.empty()) line.requireLater(stamp_ns, poses.back().stamp_ns);

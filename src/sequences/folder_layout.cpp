@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "evaluation/text_file.h"
-#include "evaluation/trajectory_sampling.h"
 #include "sequences/calibration_file.h"
 #include "sequences/kitti_mount.h"
 #include "sequences/layouts.h"

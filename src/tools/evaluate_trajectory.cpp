@@ -37,14 +37,14 @@ const char* const kUsage =
     "Both are in KITTI or TUM format; two KITTI files are matched line by line, others by "
     "stamp, up to 10 ms\napart. GT may also be the sequence that EST is of, with its true "
     "poses: a directory in the layout of\nKITTI or ASL (EuRoC), or with files of "
-    "camera_calibration. Each row of the table by speed has the\nsegments up to 2 m/s "
+    "camera_calibration. Poses of EST in KITTI format get the\nstamps of that sequence or of "
+    "--stats, otherwise 10 Hz. Each row of the table by speed has the\nsegments up to 2 m/s "
     "slower or faster, so each segment counts twice.\n\n";
 
 /// What evaluate_trajectory compares. Those that are not given are empty.
 struct TrajectoryFiles {
   std::string truth;       ///< KITTI or TUM format, or a sequence with true poses
   std::string estimate;    ///< KITTI or TUM format
-  std::string times;       ///< the stamps of poses in KITTI format
   std::string statistics;  ///< of offline_odometry from the same run as the estimate
 };
 
@@ -82,15 +82,9 @@ bool parse(int argc, char** argv, Options& options) {
       po::value(&options.segments_file),
       "CSV file with one row per segment: first pose, length, speed and errors");
 
-  po::options_description stamps("Stamps");
-  stamps.add_options()(
-      "times",
-      po::value(&options.files.times),
-      "times.txt with the stamps of poses in KITTI format (default: those of --stats, or 10 Hz)");
-
   po::options_description visible("Options");
   visible.add_options()("help,h", "show this help");
-  visible.add(segments).add(output).add(stamps);
+  visible.add(segments).add(output);
   std::vector<std::string> files;
   po::variables_map variables;
   if (!parseCommandLine(argc, argv, kUsage, visible, files, variables)) return false;
@@ -111,10 +105,6 @@ bool parse(int argc, char** argv, Options& options) {
 
 bool isTum(const std::string& path) {
   return detectTrajectoryFormat(path) == TrajectoryFormat::kTum;
-}
-
-bool hasStamps(const TrajectoryFiles& files) {
-  return isTum(files.estimate) || !files.times.empty();
 }
 
 std::string timeRange(const std::string& path, const Trajectory& trajectory) {
@@ -171,8 +161,7 @@ void requireStatisticsOf(const Trajectory& estimate, const TrajectoryFiles& file
     throw std::runtime_error(files.statistics + " has no pair at " +
                              cv::format("%.6f s", toSeconds(pose.stamp_ns)) +
                              ", where there is a pose: the stamps of poses and statistics differ, "
-                             "both must be from the same run, and poses in KITTI format need "
-                             "--times");
+                             "both must be from the same run");
   }
 }
 
@@ -180,11 +169,11 @@ void requireStatisticsOf(const Trajectory& estimate, const TrajectoryFiles& file
 MatchedTrajectories readWithSequence(const TrajectoryFiles& files) {
   const StereoSequence sequence = openStereoSequence(files.truth, {});
   if (sequence.ground_truth.empty()) throw std::runtime_error(files.truth + " has no true poses");
-  const Trajectory estimate = hasStamps(files) ? readTrajectory(files.estimate, files.times)
-                                               : readWithStamps(files.estimate,
-                                                                sequence.pairs.stamps_ns(),
-                                                                files.truth,
-                                                                "write it with --format tum");
+  const Trajectory estimate = isTum(files.estimate) ? readTrajectory(files.estimate)
+                                                    : readWithStamps(files.estimate,
+                                                                     sequence.pairs.stamps_ns(),
+                                                                     files.truth,
+                                                                     "write it with --format tum");
   return matchStamps(sequence.ground_truth, estimate, files);
 }
 
@@ -205,9 +194,7 @@ MatchedTrajectories matchLines(const Trajectory& truth,
 }
 
 Trajectory readStamped(const TrajectoryFiles& files) {
-  if (hasStamps(files) || files.statistics.empty()) {
-    return readTrajectory(files.estimate, files.times);
-  }
+  if (isTum(files.estimate) || files.statistics.empty()) return readTrajectory(files.estimate);
   return readWithStamps(files.estimate,
                         readStamps(files.statistics),
                         files.statistics,
@@ -218,18 +205,14 @@ MatchedTrajectories match(const TrajectoryFiles& files) {
   if (std::filesystem::is_directory(files.truth)) return readWithSequence(files);
   const bool truth_tum = isTum(files.truth);
   const bool estimate_tum = isTum(files.estimate);
-  const bool finds_stamps = !files.times.empty() || (truth_tum && !files.statistics.empty());
-  if (truth_tum != estimate_tum && !finds_stamps) {
+  if (truth_tum != estimate_tum && (estimate_tum || files.statistics.empty())) {
     throw std::runtime_error((truth_tum ? files.estimate : files.truth) +
-                             " has no stamps, but the other file has: give --times FILE");
+                             " has no stamps, but the other file has: give the directory of the "
+                             "sequence as GT");
   }
-  if (truth_tum && estimate_tum && !files.times.empty()) {
-    throw std::runtime_error("both files have stamps: leave out --times " + files.times);
-  }
-  const Trajectory truth = readTrajectory(files.truth, truth_tum ? "" : files.times);
-  const Trajectory estimate = estimate_tum ? readTrajectory(files.estimate) : readStamped(files);
-  return truth_tum || estimate_tum ? matchStamps(truth, estimate, files)
-                                   : matchLines(truth, estimate, files);
+  const Trajectory truth = readTrajectory(files.truth);
+  const Trajectory estimate = readStamped(files);
+  return truth_tum ? matchStamps(truth, estimate, files) : matchLines(truth, estimate, files);
 }
 
 /// Lengths of segments that a short path has: about an eighth, a quarter and half of it.

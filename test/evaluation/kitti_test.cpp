@@ -86,7 +86,7 @@ TEST_F(KittiSequenceTest, TruthMayBeInTumFormatOrMissing) {
   EXPECT_EQ(truth[1].stamp_ns, 103'759'500);
   EXPECT_NEAR(truth[1].T_world_body.translation().z(), 1.037595, 1e-9);
   directory_.write("poses.txt", "0 0 0 0 0 0 0 1\n0.1 0 0 1 0 0 0 1\n");
-  expectRefused("poses.txt has poses for 1 of the 2 times");
+  expectRefused("poses.txt, interpolated, has 1 entries, but times.txt has 2 times");
   std::filesystem::remove(directory_ / "poses.txt");
   EXPECT_TRUE(open().groundTruth().empty());
 }

@@ -140,6 +140,20 @@ TEST(MatchByStampTest, UsesEachPoseOnce) {
   EXPECT_EQ(matched.estimate[0].stamp_ns, 4'000'000);
 }
 
+TEST(MatchByStampTest, InterpolatesATruthOf50HzOrMore) {
+  Trajectory truth = drive(10, 0.02);
+  for (StampedPose& pose : truth) pose.stamp_ns /= 10;
+  Trajectory estimate(2);
+  estimate[0].stamp_ns = 4'000'000;
+  estimate[1].stamp_ns = 56'000'000;
+  const MatchedTrajectories fast = matchByStamp(truth, estimate);
+  ASSERT_EQ(fast.truth.size(), 2u);
+  EXPECT_EQ(fast.truth[1].stamp_ns, 56'000'000);
+  EXPECT_NEAR(fast.truth[1].T_world_body.translation().z(), 0.112, 1e-12);
+  for (StampedPose& pose : truth) pose.stamp_ns *= 5;
+  EXPECT_EQ(matchByStamp(truth, estimate).truth[1].stamp_ns, 50'000'000) << "the nearest pose";
+}
+
 /// The errors of two published estimates of KITTI 00, as computed by the devkit.
 TEST(TrajectoryErrorOnKittiTest, AgreesWithTheDevkit) {
   const char* kitti = std::getenv("ROTROCC_KITTI_DIR");

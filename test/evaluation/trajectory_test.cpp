@@ -102,19 +102,6 @@ TEST_F(TrajectoryTest, ReadsWhatItWrites) {
   }
 }
 
-TEST_F(TrajectoryTest, TakesStampsFromTheTimesFile) {
-  const std::string poses = directory_.write("poses.txt", kIdentity + kIdentity);
-  const std::string times = directory_.write("times.txt", "0.0\n1.037359e-01\n2.073381e-01\n");
-  const Trajectory trajectory = readTrajectory(poses, times);
-  ASSERT_EQ(trajectory.size(), 2u);
-  EXPECT_EQ(trajectory[1].stamp_ns, 103'735'900);
-
-  const std::string few = directory_.write("few.txt", "0.0\n");
-  expectError<std::runtime_error>([&] { readTrajectory(poses, few); }, "has 1 times");
-  const std::string tum = directory_.write("tum.txt", "0 0 0 0 0 0 0 1\n");
-  expectError<std::runtime_error>([&] { readTrajectory(tum, times); }, "has stamps");
-}
-
 TEST_F(TrajectoryTest, AcceptsCommentsBlankLinesCrlfAndAMissingLastNewline) {
   const std::string path = directory_.write(
       "tum.txt", "# stamp tx ty tz qx qy qz qw\r\n\r\n 1.5  1 2 3  0 0 0 1 \r\n2.5\t1 2 4 0 0 0 1");
@@ -158,6 +145,36 @@ TEST_F(TrajectoryTest, RefusesWhatIsNoTrajectory) {
   expectError<std::runtime_error>([&] { readTrajectory(directory_ / ""); }, "cannot read");
   const std::string times = directory_.write("times.txt", "0.1\n0.0\n");
   expectError<std::runtime_error>([&] { readTimes(times); }, "times.txt:2: the time 0.0");
+}
+
+/// Turns by 1 rad/s and moves by 2 m/s, with a pose every 10 ms from 0 to 90 ms.
+Trajectory turn() {
+  Trajectory poses;
+  for (int i = 0; i < 10; ++i) {
+    const double t = 0.01 * i;
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.linear() = Eigen::AngleAxisd(t, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    pose.translation() << 0.0, 0.0, 2.0 * t;
+    poses.push_back({i * 10'000'000, pose});
+  }
+  return poses;
+}
+
+TEST(TrajectorySamplingTest, InterpolatesPoses) {
+  const auto pose = poseAt(turn(), 33'000'000, 10'000'000);
+  ASSERT_TRUE(pose);
+  EXPECT_NEAR(pose->translation().z(), 0.066, 1e-12);
+  EXPECT_NEAR(Eigen::AngleAxisd(pose->linear()).angle(), 0.033, 1e-12);
+  EXPECT_EQ(poseAt(turn(), 30'000'000, 0)->matrix(), turn()[3].T_world_body.matrix())
+      << "to the last digit, at a stamp";
+}
+
+TEST(TrajectorySamplingTest, HasNoPosesOutsideAndInGaps) {
+  EXPECT_FALSE(poseAt(turn(), -1, 10'000'000));
+  EXPECT_FALSE(poseAt(turn(), 90'000'001, 10'000'000));
+  EXPECT_FALSE(poseAt(turn(), 33'000'000, 9'999'999));
+  EXPECT_FALSE(poseAt({}, 0, 10'000'000));
+  EXPECT_EQ(samplePoses(turn(), {-5, 5, 95'000'000}).size(), 1u);
 }
 
 TEST_F(TrajectoryTest, WriterSaysWhenItCannotWrite) {

@@ -43,7 +43,7 @@ TEST_F(GyroFileTest, ReadsWhatItWrites) {
 
 TEST_F(GyroFileTest, NamesTheLineThatIsWrong) {
   expectError<std::runtime_error>([&] { readGyroFile(write("1,0,0,0\n2,0,0\n")); },
-                                  "imu.csv:2 has 3 columns");
+                                  "imu.csv:2: 3 columns");
   expectError<std::runtime_error>([&] { readGyroFile(write("1,0,0,nan\n")); },
                                   "imu.csv:1: 'nan' is not a finite number");
   expectError<std::runtime_error>([&] { readGyroFile(write("1e19,0,0,0\n")); },

@@ -158,7 +158,7 @@ TEST_F(AslSequenceTest, NamesWhatIsWrong) {
       {"cam0/data.csv",
        "#timestamp [ns],filename\r\n",
        "1403636579763555584\n",
-       "cam0/data.csv:1 has 1 columns: timestamp [ns] and file name are expected"},
+       "cam0/data.csv:1: 1 columns: timestamp [ns] and file name are expected"},
       {"cam0/data.csv",
        "#timestamp [ns],filename\r\n",
        "5,a.png\n5,b.png\n",

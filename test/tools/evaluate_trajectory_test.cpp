@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,8 +28,6 @@ class EvaluateTrajectoryTest : public ::testing::Test {
   EvaluateTrajectoryTest() {
     write("truth.txt", 1.0, 0.0);
     write("estimate.txt", 1.01, 0.02);
-    std::ofstream times(directory_ / "times.txt");
-    for (int i = 0; i < kPoses; ++i) times << 0.2 * i << '\n';
   }
 
   void write(const std::string& name, double step_m, double roll_deg) const {
@@ -236,11 +233,12 @@ TEST_F(EvaluateTrajectoryTest, NothingIsWrittenIfAnInputIsWrong) {
   directory_.write("other.csv", "stamp_ns,state\n0,ok\n");
   const std::string with_report = " --fit --report report --segments segments.csv --stats ";
   for (const auto& [arguments, message] : std::vector<std::pair<std::string, std::string>>{
-           {"truth.txt estimate.txt --times times.txt" + with_report + "stats.csv", "need --times"},
+           {"truth.txt tum_estimate.txt" + with_report + "stats.csv", "truth.txt has no stamps"},
+           {"tum_truth.txt estimate.txt --fit", "estimate.txt has no stamps"},
            {"tum_truth.txt tum_estimate.txt" + with_report + "other.csv", "no pair at 0.100000 s"},
            {"truth.txt estimate.txt" + with_report + "other.csv", "other.csv has 1 pairs"},
            {"tum_estimate.txt --report report --stats other.csv", "no pair at 0.100000 s"},
-           {"truth.txt estimate.txt" + with_report + "times.txt", "no column stamp_ns"},
+           {"truth.txt estimate.txt" + with_report + "truth.txt", "no column stamp_ns"},
            {"truth.txt estimate.txt" + with_report + "none.csv", "cannot read none.csv"}}) {
     const CommandResult result = run(arguments);
     EXPECT_EQ(result.status, 1) << arguments;
@@ -278,7 +276,7 @@ TEST_F(EvaluateTrajectoryTest, RefusesBadUsage) {
                                 "truth.txt estimate.txt --stats stats.csv"}) {
     EXPECT_EQ(run(arguments).status, 2) << arguments;
   }
-  EXPECT_EQ(run("truth.txt estimate.txt --fit --report times.txt").status, 1) << "that is a file";
+  EXPECT_EQ(run("truth.txt estimate.txt --fit --report truth.txt").status, 1) << "that is a file";
 }
 
 }  // namespace
