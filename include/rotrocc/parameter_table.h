@@ -41,8 +41,8 @@ class ParameterTable {
 
   /// `value` holds the default and is changed by set(); it must outlive the table. The result,
   /// whose description the caller sets, is valid until the next call.
-  [[nodiscard]] Parameter& add(const std::string& leaf, int& value, const Range<int>& range);
-  [[nodiscard]] Parameter& add(const std::string& leaf, double& value, const Range<double>& range);
+  template <class Number>
+  [[nodiscard]] Parameter& add(const std::string& leaf, Number& value, const Range<Number>& range);
   [[nodiscard]] Parameter& add(const std::string& leaf, bool& value);
   /// Text: one of `choices`, or any text if there are none.
   [[nodiscard]] Parameter& add(const std::string& leaf,

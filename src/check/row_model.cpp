@@ -48,32 +48,10 @@ T rightRow(const StereoCamera& camera, const T* causes, const RowSample& sample)
          causes[kTimeSkew] * sample.velocity_pxps;
 }
 
-struct RowResidual {
-  const StereoCamera& camera;
-  const RowSample& sample;
-  double noise_px;
-
-  template <class T>
-  bool operator()(const T* roll,
-                  const T* pitch,
-                  const T* yaw,
-                  const T* focal,
-                  const T* offset,
-                  const T* lens,
-                  const T* time_skew,
-                  T* residual) const {
-    const T causes[kRowCauses] = {*roll, *pitch, *yaw, *focal, *offset, *lens, *time_skew};
-    *residual = (rightRow(camera, causes, sample) - sample.row_px) / noise_px;
-    return true;
-  }
-};
-
 struct PriorResidual {
-  double sigma;
-
   template <class T>
-  bool operator()(const T* cause, T* residual) const {
-    *residual = *cause / sigma;
+  bool operator()(const T* causes, T* residuals) const {
+    for (std::size_t k = 0; k < kRowCauses; ++k) residuals[k] = causes[k] / kPrior[k];
     return true;
   }
 };
@@ -85,8 +63,24 @@ struct RowProblem {
   const std::vector<RowSample>& samples;
   const std::vector<std::size_t>& windows;
   RowCauses start = {};
-  std::array<bool, kRowCauses> is_left_out = {};  ///< these stay as they start
+  std::array<bool, kRowCauses> is_left_out = {};  ///< these count as zero
   double noise_px = 1.0;  ///< of the samples, that estimates weight them with
+
+  struct RowResidual {
+    const RowProblem& problem;
+    const RowSample& sample;
+
+    template <class T>
+    bool operator()(const T* causes, T* residual) const {
+      std::array<T, kRowCauses> used;
+      for (std::size_t k = 0; k < kRowCauses; ++k) {
+        used[k] = problem.is_left_out[k] ? T(0.0) : causes[k];
+      }
+      *residual =
+          (rightRow(problem.camera, used.data(), sample) - sample.row_px) / problem.noise_px;
+      return true;
+    }
+  };
 
   void setNoise(const RowCauses& causes) {
     std::vector<double> errors_px;
@@ -114,36 +108,29 @@ struct RowProblem {
   RowCauses formalSigmas(RowCauses causes) const {
     ceres::Problem problem;
     fill(problem, causes, kNone);
-    std::vector<std::pair<const double*, const double*>> blocks;
-    for (double& cause : causes) blocks.emplace_back(&cause, &cause);
     ceres::Covariance::Options options;
     options.algorithm_type = ceres::DENSE_SVD;
     ceres::Covariance covariance(options);
-    const bool is_known = covariance.Compute(blocks, &problem);
     RowCauses sigmas;
-    for (std::size_t k = 0; k < kRowCauses; ++k) {
-      double variance = std::numeric_limits<double>::infinity();
-      if (is_known) covariance.GetCovarianceBlock(&causes[k], &causes[k], &variance);
-      sigmas[k] = std::sqrt(variance);
-    }
+    sigmas.fill(std::numeric_limits<double>::infinity());
+    const std::vector<const double*> blocks = {causes.data()};
+    if (!covariance.Compute(blocks, &problem)) return sigmas;
+    std::array<double, kRowCauses * kRowCauses> values;
+    covariance.GetCovarianceMatrix(blocks, values.data());
+    for (std::size_t k = 0; k < kRowCauses; ++k) sigmas[k] = std::sqrt(values[k * kRowCauses + k]);
     return sigmas;
   }
 
   void fill(ceres::Problem& problem, RowCauses& causes, std::size_t left_out) const {
-    using Cost = ceres::AutoDiffCostFunction<RowResidual, 1, 1, 1, 1, 1, 1, 1, 1>;
-    using Prior = ceres::AutoDiffCostFunction<PriorResidual, 1, 1>;
-    std::vector<double*> blocks;
-    for (double& cause : causes) blocks.push_back(&cause);
+    using Cost = ceres::AutoDiffCostFunction<RowResidual, 1, kRowCauses>;
+    using Prior = ceres::AutoDiffCostFunction<PriorResidual, kRowCauses, kRowCauses>;
     for (std::size_t i = 0; i < samples.size(); ++i) {
       if (windows[i] == left_out) continue;
-      problem.AddResidualBlock(new Cost(new RowResidual{camera, samples[i], noise_px}),
+      problem.AddResidualBlock(new Cost(new RowResidual{*this, samples[i]}),
                                new ceres::CauchyLoss(kRobust),
-                               blocks);
+                               causes.data());
     }
-    for (std::size_t k = 0; k < kRowCauses; ++k) {
-      problem.AddResidualBlock(new Prior(new PriorResidual{kPrior[k]}), nullptr, blocks[k]);
-      if (is_left_out[k]) problem.SetParameterBlockConstant(blocks[k]);
-    }
+    problem.AddResidualBlock(new Prior(new PriorResidual), nullptr, causes.data());
   }
 };
 

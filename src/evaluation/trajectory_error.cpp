@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <numeric>
 #include <set>
 #include <stdexcept>
 
 #include <opencv2/core.hpp>
 
+#include "common/median.h"
 #include "common/to_seconds.h"
 
 namespace rotrocc {
@@ -33,8 +33,9 @@ std::size_t nearest(const Trajectory& trajectory, std::int64_t stamp_ns) {
 void requireMatched(const MatchedTrajectories& matched) {
   if (matched.truth.size() == matched.estimate.size()) return;
   throw std::invalid_argument(
-      cv::format("trajectories are not matched: the truth has %zu poses", matched.truth.size()) +
-      cv::format(", the estimate %zu", matched.estimate.size()));
+      cv::format("trajectories are not matched: the truth has %zu poses, the estimate %zu",
+                 matched.truth.size(),
+                 matched.estimate.size()));
 }
 
 double duration_s(const StampedPose& first, const StampedPose& last) {
@@ -81,14 +82,8 @@ Distribution distributionOf(const std::vector<StepError>& steps, double StepErro
   if (steps.empty()) return {};
   std::vector<double> values;
   for (const StepError& step : steps) values.push_back(step.*part);
-  std::sort(values.begin(), values.end());
-  const auto count = static_cast<double>(values.size());
-  const auto sum = std::accumulate(values.begin(), values.end(), 0.0);
-  const auto squares = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
-  return {sum / count,
-          std::sqrt(squares / count),
-          values[(values.size() * 95 + 99) / 100 - 1],
-          values.back()};
+  const Eigen::Map<const Eigen::ArrayXd> all(values.data(), static_cast<long>(values.size()));
+  return {all.mean(), std::sqrt(all.square().mean()), quantile(values, 0.95), all.maxCoeff()};
 }
 
 }  // namespace

@@ -11,9 +11,7 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& a) {
 }
 
 Eigen::Matrix3d expRotation(const Eigen::Vector3d& v) {
-  const double angle = v.norm();
-  if (angle == 0.0) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, v / angle).toRotationMatrix();
+  return Eigen::AngleAxisd(v.norm(), v.normalized()).toRotationMatrix();
 }
 
 Eigen::Vector3d logRotation(const Eigen::Matrix3d& R) {

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "inertial/gyro_history.h"
+#include "rotrocc/rigid_motion.h"
 
 namespace rotrocc {
 
@@ -34,9 +35,10 @@ class Vertical {
 
  private:
   struct Sample {
-    GyroSample gyro;
-    Eigen::Vector3d acceleration_mps2;
+    std::int64_t stamp_ns;
+    Vector6d measured;  ///< angular velocity [rad/s] and acceleration [m/s^2]
   };
+  Eigen::Matrix<double, 6, Eigen::Dynamic> columns() const;
 
   std::deque<Sample> samples_;
 };

@@ -19,7 +19,7 @@ std::string toText(const T& value) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text.precision(std::numeric_limits<double>::digits10);
-  text << value;
+  text << std::boolalpha << value;
   return text.str();
 }
 
@@ -27,51 +27,14 @@ std::string toText(const T& value) {
   throw std::invalid_argument("is \"" + text + "\", but must be " + wanted);
 }
 
-/// Parses the whole of `text`; throws if anything is left over.
-template <class T>
-T parseNumber(const std::string& text, const std::string& wanted) {
+/// Parses values up to the end of `text`; throws if anything is left over.
+template <class... T>
+void parse(const std::string& text, const std::string& wanted, T&... values) {
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
-  T value{};
-  if (!(stream >> value) || !(stream >> std::ws).eof()) refuse(text, wanted);
-  return value;
-}
-
-template <class T>
-ParameterTable::Parameter& setNumber(T& value,
-                                     const ParameterTable::Range<T>& range,
-                                     ParameterTable::Parameter& p) {
-  constexpr bool kIsInteger = std::is_integral_v<T>;
-  p.type =
-      kIsInteger ? ParameterTable::Parameter::Type::kInt : ParameterTable::Parameter::Type::kDouble;
-  p.unit = range.unit;
-  p.min = toText(range.min);
-  p.max = toText(range.max);
-  p.range = "[" + p.min + ", " + p.max + "]";
-  p.set = [&value, range, in_range = "in " + p.range](const std::string& text) {
-    const T parsed = parseNumber<T>(text, (kIsInteger ? "an integer " : "a number ") + in_range);
-    if (!(parsed >= range.min && parsed <= range.max)) {
-      throw std::invalid_argument("is " + text + ", but must be " + in_range);
-    }
-    value = parsed;
-  };
-  p.get = [&value] { return toText(value); };
-  return p;
-}
-
-/// As "1 2 3 4 5 6" or "[1, 2, 3, 4, 5, 6]".
-std::array<double, 6> parseSix(const std::string& text) {
-  std::string spaced = text;
-  std::replace_if(spaced.begin(), spaced.end(), boost::is_any_of("[],"), ' ');
-  std::istringstream words(spaced);
-  std::vector<double> numbers;
-  for (std::string word; words >> word;) {
-    numbers.push_back(parseNumber<double>(word, "6 numbers"));
+  if (!((stream >> std::boolalpha) >> ... >> values) || !(stream >> std::ws).eof()) {
+    refuse(text, wanted);
   }
-  std::array<double, 6> six{};
-  if (numbers.size() != six.size()) refuse(text, "6 numbers");
-  std::copy(numbers.begin(), numbers.end(), six.begin());
-  return six;
 }
 
 }  // namespace
@@ -82,30 +45,49 @@ ParameterTable::Parameter& ParameterTable::append(const std::string& leaf) {
   return parameter;
 }
 
+template <class Number>
 ParameterTable::Parameter& ParameterTable::add(const std::string& leaf,
-                                               int& value,
-                                               const Range<int>& range) {
-  return setNumber(value, range, append(leaf));
+                                               Number& value,
+                                               const Range<Number>& range) {
+  constexpr bool kIsInteger = std::is_integral_v<Number>;
+  Parameter& p = append(leaf);
+  p.type = kIsInteger ? Parameter::Type::kInt : Parameter::Type::kDouble;
+  p.unit = range.unit;
+  p.min = toText(range.min);
+  p.max = toText(range.max);
+  p.range = "[" + p.min + ", " + p.max + "]";
+  p.set = [&value, range, in_range = "in " + p.range](const std::string& text) {
+    Number parsed{};
+    parse(text, (kIsInteger ? "an integer " : "a number ") + in_range, parsed);
+    if (!(parsed >= range.min && parsed <= range.max)) {
+      throw std::invalid_argument("is " + text + ", but must be " + in_range);
+    }
+    value = parsed;
+  };
+  p.get = [&value] { return toText(value); };
+  return p;
 }
 
-ParameterTable::Parameter& ParameterTable::add(const std::string& leaf,
-                                               double& value,
-                                               const Range<double>& range) {
-  return setNumber(value, range, append(leaf));
-}
+template ParameterTable::Parameter& ParameterTable::add(const std::string&,
+                                                        int&,
+                                                        const Range<int>&);
+template ParameterTable::Parameter& ParameterTable::add(const std::string&,
+                                                        double&,
+                                                        const Range<double>&);
 
 ParameterTable::Parameter& ParameterTable::add(const std::string& leaf, bool& value) {
-  Parameter& parameter = append(leaf);
-  parameter.type = Parameter::Type::kBool;
-  parameter.min = "false";
-  parameter.max = "true";
-  parameter.range = "true or false";
-  parameter.set = [&value](const std::string& text) {
-    if (text != "true" && text != "false") refuse(text, "true or false");
-    value = text == "true";
+  Parameter& p = append(leaf);
+  p.type = Parameter::Type::kBool;
+  p.min = "false";
+  p.max = "true";
+  p.range = "true or false";
+  p.set = [&value, range = p.range](const std::string& text) {
+    bool parsed = false;
+    parse(text, range, parsed);
+    value = parsed;
   };
-  parameter.get = [&value] { return value ? "true" : "false"; };
-  return parameter;
+  p.get = [&value] { return toText(value); };
+  return p;
 }
 
 ParameterTable::Parameter& ParameterTable::add(const std::string& leaf,
@@ -131,7 +113,13 @@ ParameterTable::Parameter& ParameterTable::add(const std::string& leaf,
   parameter.unit = unit;
   parameter.range = "6 numbers";
   parameter.is_list = true;
-  parameter.set = [&value](const std::string& text) { value = parseSix(text); };
+  parameter.set = [&value](const std::string& text) {
+    std::string spaced = text;  // "1 2 3 4 5 6" or "[1, 2, 3, 4, 5, 6]"
+    std::replace_if(spaced.begin(), spaced.end(), boost::is_any_of("[],"), ' ');
+    std::array<double, 6> parsed{};
+    std::apply([&](auto&... numbers) { parse(spaced, "6 numbers", numbers...); }, parsed);
+    value = parsed;
+  };
   parameter.get = [&value] {
     std::string text;
     for (const double number : value) text += (text.empty() ? "" : " ") + toText(number);

@@ -1,11 +1,9 @@
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -16,7 +14,6 @@
 
 #include "common/to_seconds.h"
 #include "evaluation/text_file.h"
-#include "input/to_text.h"
 #include "rotrocc/trajectory_error.h"
 #include "sequences/stereo_sequence.h"
 #include "tools/draw_report.h"
@@ -215,25 +212,17 @@ MatchedTrajectories match(const TrajectoryFiles& files) {
   return truth_tum ? matchStamps(truth, estimate, files) : matchLines(truth, estimate, files);
 }
 
-/// Lengths of segments that a short path has: about an eighth, a quarter and half of it.
-std::string shortLengths(double path_m) {
-  const double power = std::pow(10.0, std::floor(std::log10(path_m / 8.0)));
-  const double shortest_m = power * std::floor(path_m / 8.0 / power);  // of one digit
-  std::ostringstream lengths;
-  lengths << shortest_m << ' ' << 2.0 * shortest_m << ' ' << 4.0 * shortest_m;
-  return lengths.str();
-}
-
 void requireSegments(const std::vector<SegmentError>& errors,
                      const SegmentConfig& config,
                      double path_m) {
   if (!errors.empty()) return;
-  std::ostringstream message;
-  message << "no segment fits: the path is " << fixedText(path_m, 2)
-          << " m long, the shortest segment "
-          << *std::min_element(config.lengths_m.begin(), config.lengths_m.end()) << " m";
-  if (path_m > 0.0) message << "; use --lengths " << shortLengths(path_m) << " --step 1";
-  throw std::runtime_error(message.str());
+  const double shortest_m = *std::min_element(config.lengths_m.begin(), config.lengths_m.end());
+  throw std::runtime_error(
+      cv::format("no segment fits: the path is %.2f m long, the shortest segment %g m",
+                 path_m,
+                 shortest_m) +
+      (path_m > 0.0 ? cv::format("; use --lengths %.2g %.2g --step 1", 0.25 * path_m, 0.5 * path_m)
+                    : ""));
 }
 
 void printTable(const char* bin_name, const std::vector<MeanError>& means) {

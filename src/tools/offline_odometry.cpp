@@ -8,8 +8,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <sstream>
-#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -51,7 +49,6 @@ struct Options {
   InputOptions input;
   bool preload = false;
   std::string imu;
-  std::string imu_rotation = "0 0 0 1";
   OutputFiles output;
 };
 
@@ -72,12 +69,9 @@ bool parse(int argc, char** argv, Options& options) {
   add("imu",
       po::value(&options.imu),
       "gyroscope that predicts rotations: a CSV file (timestamp [ns], three angular velocities "
-      "[rad/s], ...), a topic of sensor_msgs/Imu in a bag, or a folder of an ASL sequence, as "
-      "imu0");
-  add("imu-rotation",
-      withDefault(options.imu_rotation),
-      "\"QX QY QZ QW\": rotation from axes of a CSV file to those of the left camera; that of a "
-      "topic is from tf, that of a folder from sensor.yaml");
+      "[rad/s] in axes of the left camera, ...), a topic of sensor_msgs/Imu in a bag, with its "
+      "axes "
+      "from tf, or a folder of an ASL sequence, as imu0, with its axes from sensor.yaml");
 
   po::options_description images = imageOptions(options.input);
   add = images.add_options();
@@ -106,19 +100,6 @@ PairRecord process(VisualOdometry& odometry,
   }
   record.cpu_ms = 1e3 * static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
   return record;
-}
-
-/// The rotation of a quaternion "QX QY QZ QW".
-Eigen::Matrix3d parseRotation(const std::string& quaternion) {
-  std::istringstream text(quaternion);
-  Eigen::Quaterniond q;
-  std::string rest;
-  const bool is_complete = (text >> q.x() >> q.y() >> q.z() >> q.w()) && !(text >> rest);
-  if (!is_complete || !(std::abs(q.norm() - 1.0) < 0.01)) {
-    throw std::invalid_argument("the rotation '" + quaternion +
-                                "' is not a quaternion QX QY QZ QW of length 1");
-  }
-  return q.normalized().toRotationMatrix();
 }
 
 /// Predicts rotations from a recording, as GyroPredictor does while the samples arrive.
@@ -164,7 +145,7 @@ class RecordedGyro {
 std::optional<RecordedGyro> openGyro(const Options& options, const Recording& recording) {
   if (options.imu.empty()) return std::nullopt;
   if (std::filesystem::is_regular_file(options.imu)) {
-    return RecordedGyro({readGyroFile(options.imu), parseRotation(options.imu_rotation)});
+    return RecordedGyro({readGyroFile(options.imu)});
   }
   return RecordedGyro(recording.gyroscope(options.imu));
 }
