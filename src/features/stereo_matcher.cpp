@@ -18,9 +18,6 @@ using W = CorrelationWindow;
 constexpr int kHalf = W::kSide / 2;
 constexpr int kPixels = W::kSide * W::kSide;
 
-/// Columns of a strip for which memory is reserved.
-constexpr int kUsualColumns = 256;
-
 /// Largest cost of a match: either window explains half of the variance of the other, rho^2 = 1/2.
 constexpr double kMaxCost = 0.29;
 
@@ -44,6 +41,14 @@ float subPixelOffset(double before, double at, double after) {
   const double curvature = before - 2.0 * at + after;
   if (!(curvature > 0.0)) return 0.0F;
   return static_cast<float>(std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5));
+}
+
+/// Makes a buffer that is used again and again large enough.
+template <class T>
+T* holding(int count, std::vector<T>& buffer) {
+  const auto size = static_cast<std::size_t>(count);
+  if (buffer.size() < size) buffer.resize(size);
+  return buffer.data();
 }
 
 /// A match and the contrast of its window relative to that of the left one.
@@ -86,8 +91,11 @@ class LeftWindow {
     describe();
   }
 
-  /// Searches the strip of a right row for the best of `count` windows.
-  RowMatch searchRow(const std::int16_t* strip, int stride, int count, RowBuffers& buffers) const;
+  /// Searches a right row for the best of `count` windows, the first of which begins at `pixels`.
+  RowMatch searchRow(const uchar* pixels,
+                     std::ptrdiff_t step,
+                     int count,
+                     RowBuffers& buffers) const;
 
   /// As searchRow(), for a few windows and without a test for competitors.
   RowMatch searchNear(const std::int16_t* strip, int stride, int count) const;
@@ -136,51 +144,57 @@ class LeftWindow {
   std::int16_t values_[W::kSide * W::kStride];
 };
 
-RowMatch LeftWindow::searchRow(const std::int16_t* strip,
-                               int stride,
+RowMatch LeftWindow::searchRow(const uchar* pixels,
+                               std::ptrdiff_t step,
                                int count,
                                RowBuffers& buffers) const {
-  buffers.scratch.resize(static_cast<std::size_t>(W::scratchOf(count)));
-  buffers.correlations.resize(static_cast<std::size_t>(count + kMaxShorts));
-  float* const correlations = buffers.correlations.data();
+  const int stride = count + W::kStride + kMaxShorts;
+  std::int16_t* const strip = holding(W::kSide * stride + kMaxShorts, buffers.strip);
+  kernels_.widenPartRows(pixels, step, count + W::kSide - 1, strip, stride);
+  std::int32_t* const scratch = holding(W::scratchOf(count), buffers.scratch);
+  float* const correlations = holding(count + kMaxShorts, buffers.correlations);
   constexpr auto kNoise = static_cast<float>(W::kPartPixels * W::kPartPixels * kRounding);
-  const float highest = kernels_.correlateParts(
-      values_, strip, stride, count, kNoise, buffers.scratch.data(), correlations);
+  const float highest =
+      kernels_.correlateParts(values_, strip, stride, count, kNoise, scratch, correlations);
   if (!(highest > 0.0F)) return {};
   const float max_cost = partLimit(1.0F - std::sqrt(highest));
   const float min_correlation = max_cost < 1.0F ? (1.0F - max_cost) * (1.0F - max_cost) : 0.0F;
-  buffers.peaks.resize(static_cast<std::size_t>(count));
-  const int peaks =
-      kernels_.findPeaks(correlations, 0, count - 2, 1, min_correlation, buffers.peaks.data());
-  buffers.costs.resize(static_cast<std::size_t>(peaks));
+  int* const columns = holding(count, buffers.peaks);
+  const int peaks = kernels_.findPeaks(correlations, 0, count - 2, 1, min_correlation, columns);
+  double* const costs = holding(peaks, buffers.costs);
+  const auto compareAt = [&](int column) {
+    std::int16_t window[W::kSide * W::kStride];
+    kernels_.widenRows(pixels + column, step, W::kStride, window, W::kStride);
+    return compare(window, W::kStride);
+  };
   int best = -1;
   Compared of_best = {2.0, 0.0};
   for (int i = 0; i < peaks; ++i) {
-    const int column = ++buffers.peaks[i];  // it was that of the first neighbour
-    const Compared compared = compare(strip + column, stride);
-    buffers.costs[i] = compared.cost;
+    const int column = ++columns[i];  // it was that of the first neighbour
+    const Compared compared = compareAt(column);
+    costs[i] = compared.cost;
     if (compared.cost >= of_best.cost) continue;
     of_best = compared;
     best = column;
   }
   if (best < 0) return {};
-  Compared before = compare(strip + best - 1, stride);
-  Compared after = compare(strip + best + 1, stride);
+  Compared before = compareAt(best - 1);
+  Compared after = compareAt(best + 1);
   if (before.cost < of_best.cost && before.cost <= after.cost && best >= 2) {
     --best;
     after = of_best;
     of_best = before;
-    before = compare(strip + best - 1, stride);
+    before = compareAt(best - 1);
   } else if (after.cost < of_best.cost && best + 2 < count) {
     ++best;
     before = of_best;
     of_best = after;
-    after = compare(strip + best + 1, stride);
+    after = compareAt(best + 1);
   }
   if (of_best.cost > kMaxCost) return {};
   for (int i = 0; i < peaks; ++i) {
-    const bool competes = std::abs(buffers.peaks[i] - best) > kSlope;
-    if (competes && of_best.cost >= kUniqueness * buffers.costs[i]) return {};
+    const bool competes = std::abs(columns[i] - best) > kSlope;
+    if (competes && of_best.cost >= kUniqueness * costs[i]) return {};
   }
   return refined(best, before, of_best, after);
 }
@@ -260,17 +274,10 @@ void StereoMatcher::match(Workers& workers,
     first = columns.start;
     thread_local RowBuffers buffers_of_thread;
     RowBuffers& buffers = buffers_of_thread;  // one look-up
-    std::vector<std::int16_t>& strip = buffers.strip;
-    const int stride = columns.size() + W::kStride + kMaxShorts;
-    strip.reserve(W::kSide * kUsualColumns);
-    strip.resize(static_cast<std::size_t>(W::kSide * stride + kMaxShorts));
-    kernels.widenRows(right.ptr<uchar>(right_row - kHalf) + first - kHalf,
-                      static_cast<std::ptrdiff_t>(right.step),
-                      columns.size() + W::kSide - 1,
-                      strip.data(),
-                      stride);
     const LeftWindow window(kernels, images.left, pixel);
-    return window.searchRow(strip.data(), stride, columns.size(), buffers);
+    const uchar* pixels = right.ptr<uchar>(right_row - kHalf) + first - kHalf;
+    return window.searchRow(
+        pixels, static_cast<std::ptrdiff_t>(right.step), columns.size(), buffers);
   };
   eachPixel(workers, images, corners, min_px, disparities_px, nullptr, matchOf);
 }
