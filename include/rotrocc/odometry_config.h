@@ -11,7 +11,8 @@ namespace rotrocc {
 
 /// Shi-Tomasi corner detection.
 struct FeatureDetectorConfig {
-  int max_features = 600;  ///< that are tracked: a corner without a disparity is replaced
+  int max_features = 400;  ///< that are tracked: a corner without a disparity is replaced
+  int min_halvings = 0;    ///< of the images, as far as they leave room for the features
 };
 
 /// Sparse matching along the row, by normalized correlation.

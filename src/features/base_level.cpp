@@ -19,11 +19,13 @@ constexpr double kSoft = 0.6;
 constexpr double kEmpty = 0.22;
 constexpr double kHysteresis = 1.2;
 
-/// Room of a feature: a square of two windows of the tracker.
-constexpr double kRoom_px2 = 18.0 * 18.0;
+/// The window of the tracker.
+constexpr double kWindow_px2 = 9.0 * 9.0;
+/// Room of a feature: a square of two windows.
+constexpr double kRoom = 4.0;
 
 /// Pixels of an image that are compared, about.
-constexpr double kSample = 10000.0;
+constexpr double kSample = 2500.0;
 
 /// What is left of the variance of white noise after halving, (70 / 256)^2, and of its difference
 /// to the pixels that are kept, 1 - 2 * 36 / 256 + (70 / 256)^2.
@@ -60,27 +62,29 @@ std::optional<double> sharpnessOf(const cv::Mat* images, std::vector<int>& buffe
 }  // namespace
 
 void BaseLevel::observe(const ImagePyramid& image) {
-  images_ = std::min(images_ + 1, kImages);
   const int levels = std::min<int>(kMaxLevel + 1, static_cast<int>(image.size()) - 2);
-  for (int level = 0; level < levels; ++level) {
-    const auto sharpness = sharpnessOf(&image[level], noise_);
-    if (!sharpness) continue;
-    log_sharpness_[level] += (std::log(*sharpness) - log_sharpness_[level]) / images_;
-    const auto compare = [&](double limit, bool& is_below) {
-      is_below = log_sharpness_[level] < std::log(is_below ? kHysteresis * limit : limit);
-    };
-    compare(kSoft, is_soft_[level]);
-    compare(kEmpty, is_empty_[level]);
-  }
-  level_ = 0;
-  while (level_ + 1 < levels &&
-         (is_empty_[level_] || (is_soft_[level_] && hasRoom(image[level_ + 1])))) {
-    ++level_;
+  for (level_ = 0; level_ < levels; ++level_) {
+    observeLevel(&image[level_]);
+    if (level_ + 1 == levels || !isSkipped(image[level_ + 1])) break;
   }
 }
 
-bool BaseLevel::hasRoom(const cv::Mat& image) const {
-  return static_cast<double>(image.total()) >= kRoom_px2 * max_features_;
+void BaseLevel::observeLevel(const cv::Mat* images) {
+  const auto sharpness = sharpnessOf(images, noise_);
+  if (!sharpness) return;
+  images_[level_] = std::min(images_[level_] + 1, kImages);
+  log_sharpness_[level_] += (std::log(*sharpness) - log_sharpness_[level_]) / images_[level_];
+  const auto compare = [&](double limit, bool& is_below) {
+    is_below = log_sharpness_[level_] < std::log(is_below ? kHysteresis * limit : limit);
+  };
+  compare(kSoft, is_soft_[level_]);
+  compare(kEmpty, is_empty_[level_]);
+}
+
+bool BaseLevel::isSkipped(const cv::Mat& next) const {
+  const double windows = static_cast<double>(next.total()) / kWindow_px2 / config_.max_features;
+  return is_empty_[level_] || (is_soft_[level_] && windows >= kRoom) ||
+         (level_ < config_.min_halvings && windows >= 1.0);
 }
 
 }  // namespace rotrocc

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "features/image_pyramid.h"
+#include "rotrocc/odometry_config.h"
 
 namespace rotrocc {
 
@@ -14,8 +15,8 @@ namespace rotrocc {
 /// time, and make windows and limits in pixels too small.
 ///
 /// The sharpness of a level is the mean square of the detail that halving it loses, relative to the
-/// loss of the next halving; both exclude noise. It is 1 for a scene alike at all scales, and does not depend on
-/// gain. It is averaged over pairs.
+/// loss of the next halving; both exclude noise. It is 1 for a scene alike at all scales, and does
+/// not depend on gain. It is averaged over pairs.
 class BaseLevel {
  public:
   /// No more levels are skipped.
@@ -23,16 +24,16 @@ class BaseLevel {
   /// Levels that observe() needs.
   static constexpr int kLevels = kMaxLevel + 3;
 
-  /// A soft level is skipped if the next one has room for so many features, or all of its details.
-  explicit BaseLevel(int max_features) : max_features_(max_features) {}
+  /// A soft level is skipped if the next one has room for the features, or all of its details.
+  explicit BaseLevel(const FeatureDetectorConfig& config) : config_(config) {}
 
-  void setMaxFeatures(int max_features) { max_features_ = max_features; }
+  void configure(const FeatureDetectorConfig& config) { config_ = config; }
 
   /// Adds an image, CV_8UC1, with its smaller copies.
   void observe(const ImagePyramid& image);
 
   /// Forgets the images, as of another camera.
-  void reset() { *this = BaseLevel(max_features_); }
+  void reset() { *this = BaseLevel(config_); }
 
   int level() const { return level_; }
 
@@ -43,12 +44,13 @@ class BaseLevel {
  private:
   static constexpr double kSoftDetail_px = 1.5;
 
-  bool hasRoom(const cv::Mat& image) const;
+  void observeLevel(const cv::Mat* images);
+  bool isSkipped(const cv::Mat& next) const;
 
-  int max_features_;
+  FeatureDetectorConfig config_;
   int level_ = 0;
-  int images_ = 0;
-  std::array<double, kMaxLevel + 1> log_sharpness_ = {};  // averages
+  std::array<int, kMaxLevel + 1> images_ = {};
+  std::array<double, kMaxLevel + 1> log_sharpness_ = {};  // averages over the images
   std::array<bool, kMaxLevel + 1> is_soft_ = {}, is_empty_ = {};
   std::vector<int> noise_;  // buffer of noiseVariance()
 };

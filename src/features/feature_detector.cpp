@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "features/image_noise.h"
 #include "kernels/kernels.h"
@@ -24,6 +26,15 @@ float minResponse(double noise_variance) {
   constexpr double kSobelSquares = 12.0 / 64.0;  // of a gradient in grey levels per pixel
   const double variance = std::min(noise_variance, kMaxDeviation * kMaxDeviation);
   return std::max(kMinTexture, static_cast<float>(kOverNoise * kSobelSquares * variance));
+}
+
+/// Strengths that are told apart, in steps of 2^(1/32), that is 2 %, from that of the weakest
+/// texture on.
+constexpr int kStrengths = 1024;
+
+int strengthOf(float response) {
+  const float steps = 32.0F * std::log2(response / kMinTexture);
+  return std::clamp(static_cast<int>(steps), 0, kStrengths - 1);
 }
 
 /// Whether no pixel within `radius_px` of (x, row) has a larger response, and none above or to the
@@ -183,24 +194,34 @@ void FeatureDetector::searchBand(int width, const cv::Range& rows, int top, Stri
 void FeatureDetector::selectByCells(const cv::Size& size,
                                     std::size_t max_count,
                                     std::vector<cv::Point2f>& corners) {
-  rankByCells(size);
-  std::size_t left = std::min(max_count, candidates_.size());
-  for (int rank = 0; left > 0; ++rank) {
-    for (const Candidate& c : candidates_) {
-      if (c.rank != rank) continue;
-      corners.emplace_back(static_cast<float>(c.x), static_cast<float>(c.y));
-      if (--left == 0) break;
-    }
+  for (Candidate& c : candidates_) c.rank = kStrengths - 1 - strengthOf(c.response);
+  sortByRank();
+  rankInCells(size);
+  sortByRank();
+  candidates_.resize(std::min(max_count, candidates_.size()));
+  for (const Candidate& c : candidates_) {
+    corners.emplace_back(static_cast<float>(c.x), static_cast<float>(c.y));
   }
 }
 
-/// Sorts the candidates by decreasing response, and ranks those of each cell. Ties are broken by
-/// position, so that the order is deterministic.
-void FeatureDetector::rankByCells(const cv::Size& size) {
-  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-    if (a.response != b.response) return a.response > b.response;
-    return a.y != b.y ? a.y < b.y : a.x < b.x;
-  });
+/// By counting: in linear time, and equal ones keep their order.
+void FeatureDetector::sortByRank() {
+  starts_.assign(1, 0);
+  for (const Candidate& c : candidates_) {
+    const auto next = static_cast<std::size_t>(c.rank) + 1;
+    if (next >= starts_.size()) starts_.resize(next + 1, 0);
+    ++starts_[next];
+  }
+  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  sorted_.resize(candidates_.size());
+  for (const Candidate& c : candidates_) {
+    sorted_[static_cast<std::size_t>(starts_[static_cast<std::size_t>(c.rank)]++)] = c;
+  }
+  std::swap(candidates_, sorted_);
+}
+
+/// Counts for each of the candidates, which begin with the strongest, those before it in its cell.
+void FeatureDetector::rankInCells(const cv::Size& size) {
   const double area_px2 = static_cast<double>(size.area()) / config_.max_features;
   const int side_px = std::max(1, cvRound(std::sqrt(area_px2)));
   const int columns = (size.width + side_px - 1) / side_px;

@@ -66,7 +66,7 @@ class FeatureDetector {
   struct Candidate {
     float response;
     int x, y;
-    int rank;  ///< number of stronger ones in its cell
+    int rank;  ///< by strength, then number of stronger ones in its cell
   };
   /// Rows that are searched by one thread.
   struct Strip {
@@ -83,11 +83,13 @@ class FeatureDetector {
                      std::size_t max_count,
                      std::vector<cv::Point2f>& corners);
   void collectCandidates(const FeatureMask& mask);
-  void rankByCells(const cv::Size& size);
+  void sortByRank();
+  void rankInCells(const cv::Size& size);
 
   Config config_;
   std::vector<Strip> strips_;
-  std::vector<Candidate> candidates_;
+  std::vector<Candidate> candidates_, sorted_;
+  std::vector<int> starts_;  // of candidates of equal ranks
   std::vector<int> cell_counts_;
   std::vector<int> noise_;  // responses to a mask
   float min_response_ = 0.0F;

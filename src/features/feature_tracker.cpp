@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "features/image_noise.h"
 #include "features/patch.h"
@@ -33,22 +34,21 @@ bool contains(const cv::Mat& image, const cv::Point2f& point) {
 constexpr int kMaxRadius_px = Window::kMaxSide / 2;
 
 /// A point within this fraction of the window's radius counts as close to its prediction.
-constexpr float kNear = 0.5F;
+constexpr double kNear = 0.5;
 
-/// Tolerance of forward-backward tracking, in details of the images.
-constexpr float kMaxRoundTrip_px = 1.0F;
+/// Tolerance of forward-backward tracking, in details of the images, and the step that is small
+/// enough to tell.
+constexpr double kMaxRoundTrip_px = 1.0;
+constexpr double kRoundTripStep_px = 0.3;
+
+constexpr double kAnywhere_px = std::numeric_limits<double>::infinity();
 
 /// When iterations of a level stop. Gauss-Newton converges within a few; steps below a fraction of
 /// the flow's noise, about 0.1 px, gain nothing.
-constexpr TrackingWindow::Stop kStop = {6, 0.04};
+constexpr TrackingWindow::Stop kStop = {6, 0.04, kAnywhere_px};
 
 /// The small images only provide a start for the large one.
-constexpr TrackingWindow::Stop kRoughly = {6, 0.12};
-
-float distance2(const cv::Point2f& a, const cv::Point2f& b) {
-  const cv::Point2f difference = a - b;
-  return difference.dot(difference);
-}
+constexpr TrackingWindow::Stop kRoughly = {6, 0.12, kAnywhere_px};
 
 /// Scale of pixel coordinates in a level of the pyramid.
 float scaleOf(std::size_t level) {
@@ -68,11 +68,9 @@ struct Tracking {
               TrackingWindow& window,
               cv::Point2f& end) const {
     cv::Point2f found = end;
-    const float near_px = kNear * static_cast<float>(detail_px * config.window_radius_px);
-    const bool is_near = window.take(from[0], start, scale) && window.find(to[0], kStop, found) &&
-                         distance2(found, end) < near_px * near_px;
-    if (!is_near) {
-      found = end;
+    TrackingWindow::Stop near = kStop;
+    near.max_shift_px = kNear * detail_px * config.window_radius_px;
+    if (!window.take(from[0], start, scale) || !window.find(to[0], near, found)) {
       for (std::size_t level = std::min(from.size(), to.size()) - 1; level > 0; --level) {
         const float at_level = scaleOf(level);
         cv::Point2f scaled = at_level * found;
@@ -89,14 +87,13 @@ struct Tracking {
   }
 
   /// Tracking back starts at the expected result, so one level is enough.
-  bool returns(const cv::Point2f& start,
+  bool returns(cv::Point2f start,
                float scale,
                TrackingWindow& window,
                const cv::Point2f& end) const {
-    const float max_px = static_cast<float>(detail_px) * kMaxRoundTrip_px;
-    cv::Point2f back = start;
-    return window.take(to[0], end, 1.0F / scale) && window.find(from[0], kStop, back) &&
-           distance2(back, start) <= max_px * max_px;
+    const TrackingWindow::Stop near = {
+        kStop.max_iterations, detail_px * kRoundTripStep_px, detail_px * kMaxRoundTrip_px};
+    return window.take(to[0], end, 1.0F / scale) && window.find(from[0], near, start);
   }
 };
 
@@ -223,6 +220,7 @@ bool TrackingWindow::find(const cv::Mat& image, const Stop& stop, cv::Point2f& c
     if (!contains(image, found)) return false;
     const cv::Point2f step = stepFrom(patchAround(image, found, radius_));
     found += step;
+    if (cv::norm(found - center) > stop.max_shift_px) return false;
     if (step.dot(step) <= min_px2) break;
     const cv::Point2f both = step + last_step;
     if (i > 0 && std::abs(both.x) < kSameStep_px && std::abs(both.y) < kSameStep_px) {

@@ -22,7 +22,8 @@ class TrackingWindow {
  public:
   struct Stop {
     int max_iterations;
-    double min_step_px;  ///< iterations stop at a shorter step
+    double min_step_px;   ///< iterations stop at a shorter step
+    double max_shift_px;  ///< the search fails farther from its start
   };
 
   /// The window is a square of side 2 radius + 1; the radius is at most 25 px.
@@ -34,7 +35,7 @@ class TrackingWindow {
   bool take(const cv::Mat& image, const cv::Point2f& center, float scale);
 
   /// Moves `center` to the position in `image` that matches the stored window. Returns false, with
-  /// `center` unchanged, if the search leaves the image.
+  /// `center` unchanged, if the search leaves the image or goes too far.
   bool find(const cv::Mat& image, const Stop& stop, cv::Point2f& center);
 
  private:

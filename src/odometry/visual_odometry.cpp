@@ -127,7 +127,7 @@ VisualOdometry::Pipeline::Pipeline(const Config& config)
       search_(config_),
       check_(config_.motion_check, config_.motion_estimator.as_published),
       rig_(config_),
-      base_(config_.correspondence_finder.feature_detector.max_features) {}
+      base_(config_.correspondence_finder.feature_detector) {}
 
 OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
                                                  const StereoCamera& camera,
@@ -203,7 +203,7 @@ void VisualOdometry::Pipeline::configure(const Config& config) {
   auto finder = makeFinder(by_method);
   MotionSearch search(by_method);
   config_ = by_method;
-  base_.setMaxFeatures(config_.correspondence_finder.feature_detector.max_features);
+  base_.configure(config_.correspondence_finder.feature_detector);
   if (config_.method == "paper") base_.reset();
   finder_ = std::move(finder);
   search_ = std::move(search);

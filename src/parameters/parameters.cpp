@@ -83,6 +83,9 @@ void addOdometry(OdometryConfig& c, ParameterTable& table) {
   table.beginSection("feature_detector");
   table.add("max_features", finder.feature_detector.max_features, {50, 20000}).description =
       "number of features: a corner without a disparity is replaced by the next one";
+  table.add("min_halvings", finder.feature_detector.min_halvings, {0, 2}).description =
+      "the images are halved as often, if windows of max_features fit into them side by side: less "
+      "time, larger errors; not with method: paper";
 
   StereoMatcherConfig& matcher = finder.stereo_matcher;
   table.beginSection("stereo_matcher");

@@ -47,7 +47,7 @@ TEST(BaseLevelTest, IsThatOfTheSmallestImageWithAllDetails) {
   const cv::Mat image = sharpImage({320, 256});
   for (const double sigma : {0.5, 2.0}) {
     for (int level = 0; level <= BaseLevel::kMaxLevel; ++level) {
-      BaseLevel base(kFewFeatures);
+      BaseLevel base({kFewFeatures});
       observe(enlarged(image, 1 << level), sigma, base);
       EXPECT_EQ(base.level(), level) << sigma;
       if (level == 0) {
@@ -57,8 +57,16 @@ TEST(BaseLevelTest, IsThatOfTheSmallestImageWithAllDetails) {
   }
 }
 
+TEST(BaseLevelTest, HalvesSharpImagesOnRequestWhereWindowsFit) {
+  for (const int width : {640, 160}) {
+    BaseLevel base({kFewFeatures, 1});
+    observe(sharpImage({width, width}), 1.0, base);
+    EXPECT_EQ(base.level(), width == 640 ? 1 : 0);
+  }
+}
+
 TEST(BaseLevelTest, WithoutRoomWindowsAreLarger) {
-  BaseLevel base(kManyFeatures);
+  BaseLevel base({kManyFeatures});
   observe(enlarged(sharpImage({320, 256}), 2.0), 1.0, base);
   EXPECT_EQ(base.level(), 0);
   EXPECT_GT(base.detail_px(), 1.0);
@@ -68,7 +76,7 @@ TEST(BaseLevelTest, OneBlurredImageAmongSharpOnesChangesNothing) {
   const cv::Mat image = sharpImage({640, 512});
   cv::Mat blurred;
   cv::GaussianBlur(image, blurred, {}, 2.0);
-  BaseLevel base(kFewFeatures);
+  BaseLevel base({kFewFeatures});
   for (int i = 0; i < 20; ++i) observe(image, 1.0, base);
   observe(blurred, 1.0, base);
   EXPECT_EQ(base.level(), 0);
@@ -77,7 +85,7 @@ TEST(BaseLevelTest, OneBlurredImageAmongSharpOnesChangesNothing) {
 }
 
 TEST(BaseLevelTest, BlackAndTinyImagesAreUsedAsTheyAre) {
-  BaseLevel base(kFewFeatures);
+  BaseLevel base({kFewFeatures});
   observe(cv::Mat::zeros(200, 300, CV_8UC1), 0.0, base);
   EXPECT_EQ(base.level(), 0);
   observe(cv::Mat::zeros(8, 8, CV_8UC1), 0.0, base);

@@ -195,7 +195,7 @@ TEST(VisualOdometryTest, GoesOnFromALostPairByTheRotationSinceThen) {
   EXPECT_EQ(asked_from_ns, (std::vector<std::int64_t>{kPeriod_ns, 2 * kPeriod_ns}));
   EXPECT_NEAR(result.dt_s, 0.1, 1e-12);
   EXPECT_EQ(result.keyframe_stamp_ns, 2 * kPeriod_ns) << "the lost pair";
-  expectMotion(result, sharpTurn(), 0.05, 2e-3);  // less to see: walls close by
+  expectMotion(result, sharpTurn(), 0.05, 5e-3);  // walls close by: few features determine it
 }
 
 /// The camera according to a calibration with a disparity error of one pixel.
@@ -319,7 +319,7 @@ TEST(VisualOdometryTest, GoesOnWithOtherParameters) {
   odometry.configure(config);
   const OdometryResult after = odometry.process(bend(7), wronglyCalibrated());
   expectMotion(after, bendStep());
-  EXPECT_GT(before.counts.with_depth, 400);
+  EXPECT_GT(before.counts.with_depth, 300);
   EXPECT_LE(after.counts.with_depth, 300);
   EXPECT_EQ(after.keyframe_stamp_ns, before.stamp_ns) << "not that with the corners of before";
   EXPECT_NEAR(after.disparity_bias.applied_px, before.disparity_bias.applied_px, 0.05);

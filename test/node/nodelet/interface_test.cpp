@@ -309,7 +309,7 @@ TEST_F(InterfaceTest, ParametersChangeLive) {
   EXPECT_TRUE(ros::param::get("/stereo_odometry/feature_detector/max_features", stored));
   EXPECT_EQ(stored, 60);
   EXPECT_EQ(drive_->log
-                .with("parameters changed: feature_detector/max_features from 600 to 60",
+                .with("parameters changed: feature_detector/max_features from 400 to 60",
                       ros::console::levels::Info)
                 .size(),
             1u);
