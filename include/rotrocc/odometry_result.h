@@ -69,14 +69,14 @@ struct OdometryResult {
   State state = State::kLost;
   std::string reason;         ///< why the state is not ok, in one sentence; empty if it is ok
   std::int64_t stamp_ns = 0;  ///< of the current pair
-  double dt_s = 0.0;          ///< time since the previous pair; 0 if there is none
+  /// Of the previous pair, the one that T_prev_cur is measured against: the last one that was not
+  /// lost. If the current pair matches neither it nor the keyframe, but matches the latest lost
+  /// pair, that becomes the previous one. The way before it is missing then, so the state is
+  /// degraded.
+  std::int64_t prev_stamp_ns = 0;  ///< 0 if there is none
+  double dt_s = 0.0;               ///< time since the previous pair; 0 if there is none
   /// The motion of the left camera since the previous pair: maps points from its current frame to
   /// its previous frame. Identity unless the state is ok or degraded.
-  ///
-  /// The previous pair is the last one with a pose. That is the last pair with state ok, degraded
-  /// or initialising. If the current pair matches neither it nor the keyframe, but matches the
-  /// latest lost pair, the lost pair becomes the previous one and is assigned the pose of the pair
-  /// before it.
   Eigen::Isometry3d T_prev_cur = Eigen::Isometry3d::Identity();
   /// Covariance of T_prev_cur, expressed in the previous camera frame, in the order of REP 103:
   /// translation [m] x y z, then rotation [rad] about x y z. The errors are defined by

@@ -126,7 +126,7 @@ std::optional<Eigen::Matrix3d> GyroPredictor::rotation(std::int64_t from_ns, std
 
 void GyroPredictor::observe(const OdometryResult& result) {
   if (result.state != State::kOk) return;
-  const std::int64_t from_ns = result.stamp_ns - std::llround(1e9 * result.dt_s);
+  const std::int64_t from_ns = result.prev_stamp_ns;
   if (history_.whyUnknown(from_ns, result.stamp_ns)) return;
   const GyroRotation gyro = history_.rotation(from_ns, result.stamp_ns, bias_.bias_rps());
   // All in axes of the gyroscope at the current pair.

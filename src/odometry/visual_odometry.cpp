@@ -81,6 +81,7 @@ class VisualOdometry::Pipeline {
                const StereoCamera& camera,
                const OtherSensors& others,
                OdometryResult& result);
+  void fail();
   void forget();
   FramePtr makeFrame(const StereoPair& pair);
   void useLevel();
@@ -116,6 +117,7 @@ class VisualOdometry::Pipeline {
   std::optional<Vector6d> velocity_;  // [m/s; rad/s] of the last motion
   double period_s_ = 0.0;             // mean interval of the last pairs; 0 before the second one
   Keyframe keyframe_;                 // no frame if it must be created from the last frame
+  bool has_failed_ = false;           // an error of a library has ended the last pair
 
   StageTimes prepared_;  // of prepare() since the last pair
   Hypothesis found_;
@@ -140,10 +142,12 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
   const StageTimer timer(result.times.total_ms);
   try {
     advance(pair, camera, others, result);
+    has_failed_ = false;
   } catch (const Lost& lost) {
+    has_failed_ = false;
     result.reason = lost.what();
   } catch (const std::exception& error) {
-    forget();  // the stored state may be the cause
+    fail();
     result = {};
     result.stamp_ns = pair.stamp_ns;
     result.reason = std::string("internal error: ") + error.what();
@@ -186,6 +190,14 @@ void VisualOdometry::Pipeline::prepare() {
 void VisualOdometry::Pipeline::reset() {
   forget();
   found_.clear();
+}
+
+/// After an error of a library, the next pair is compared with the last one again. After another
+/// error, what is stored may be the cause.
+void VisualOdometry::Pipeline::fail() {
+  if (std::exchange(has_failed_, true)) forget();
+  lost_.reset();
+  keyframe_.frame.reset();
 }
 
 /// Restarts with the next pair.
@@ -313,11 +325,12 @@ std::optional<Eigen::Isometry3d> VisualOdometry::Pipeline::predict(
 
 /// Measures the motion against the keyframe. If that fails, against the last frame, then against
 /// the latest lost frame: if that fits, it is assigned the pose of the last frame, which it
-/// replaces.
+/// replaces, and the way between both is missing.
 void VisualOdometry::Pipeline::findMotion(const FramePtr& current,
                                           const OtherSensors& others,
                                           OdometryResult& result) {
   const Expectation expected = expectation(*current, others);
+  result.prev_stamp_ns = last_->stamp_ns;
   result.dt_s = expected.dt_s;
   const FramePtr keyframe = keyframe_.frame;
   if (keyframe && keyframe != last_ && findMotionFrom(keyframe, *current, expected, result.times)) {
@@ -328,6 +341,10 @@ void VisualOdometry::Pipeline::findMotion(const FramePtr& current,
   Expectation of_lost = {secondsBetween(*lost_, *current), std::nullopt, std::nullopt};
   if (others.rotation) of_lost.R_last_cur = others.rotation(lost_->stamp_ns, current->stamp_ns);
   if (findMotionFrom(lost_, *current, of_lost, result.times)) {
+    result.reason =
+        cv::format("only the lost pair of %.3g s before matches: ", of_lost.dt_s) +
+        cv::format("the way of the %.3g s before that is missing", secondsBetween(*last_, *lost_));
+    result.prev_stamp_ns = lost_->stamp_ns;
     result.dt_s = of_lost.dt_s;
     last_ = std::move(lost_);
     velocity_.reset();
@@ -374,8 +391,6 @@ bool VisualOdometry::Pipeline::findMotionFrom(const FramePtr& earlier,
 
 void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& result) {
   const MotionEstimate& estimate = found_.estimate;
-  rig_.observe(found_, keyframe_, *current);
-
   result.exposure_gain = found_.exposure_gain;
   result.shared_error_ratio = found_.shared_ratio;
   result.flow_noise_px = estimate.flow_noise_px;
@@ -389,8 +404,9 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   if (const auto expected = predict(result.dt_s); expected && !why_degraded) {
     why_degraded = MotionCheck::whyJump(step, *expected, result.dt_s);
   }
-  result.reason = why_degraded.value_or("");
-  result.state = why_degraded ? State::kDegraded : State::kOk;
+  if (!why_degraded) rig_.observe(found_, keyframe_, *current);
+  if (why_degraded && result.reason.empty()) result.reason = *why_degraded;
+  result.state = result.reason.empty() ? State::kOk : State::kDegraded;
   velocity_ = logMotion(step.T) / result.dt_s;
 
   last_ = current;

@@ -33,6 +33,7 @@ OdometryResult found(std::int64_t stamp_ns,
   OdometryResult result;
   result.state = State::kOk;
   result.stamp_ns = stamp_ns;
+  result.prev_stamp_ns = stamp_ns - kPeriod_ns;
   result.dt_s = 0.1;
   result.T_prev_cur = T_prev_cur;
   result.covariance = covariance;
@@ -64,7 +65,7 @@ class BaseOdometryTest : public testing::Test {
   BaseState rest(std::int64_t keyframe_stamp_ns) {
     OdometryResult result = found(stamp_ns_ += kPeriod_ns, Eigen::Isometry3d::Identity());
     result.covariance *= 2.0;
-    result.keyframe_stamp_ns = keyframe_stamp_ns;
+    result.prev_stamp_ns = result.keyframe_stamp_ns = keyframe_stamp_ns;
     return odometry_.add(result, cameraMount());
   }
 
@@ -296,6 +297,7 @@ class MovingMountTest : public testing::Test {
   BaseState see(int pair, int prev, int keyframe) {
     OdometryResult result =
         found(pair * kPeriod_ns, cameraAt(prev).inverse() * cameraAt(pair), covariance_);
+    result.prev_stamp_ns = prev * kPeriod_ns;
     result.dt_s = 0.1 * (pair - prev);
     result.keyframe_stamp_ns = keyframe * kPeriod_ns;
     result.T_keyframe_cur.T = cameraAt(keyframe).inverse() * cameraAt(pair);

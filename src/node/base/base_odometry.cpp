@@ -118,8 +118,7 @@ BaseState BaseOdometry::add(const OdometryResult& result,
     state.twist = twistOf(step, result.dt_s);
     speed_.set(state.twist.twist.head<3>().norm());
     turn_rate_.set(state.twist.twist.tail<3>().norm());
-    state.step_velocity = {result.stamp_ns - std::llround(1e9 * result.dt_s),
-                           meanVelocityOf(step, result.dt_s)};
+    state.step_velocity = {result.prev_stamp_ns, meanVelocityOf(step, result.dt_s)};
   } else {
     addUnseen(result, T_base_camera, first ? std::nullopt : T_last_cur);
     state.twist.covariance = kUnknownVariance * Matrix6d::Identity();
@@ -163,8 +162,7 @@ UncertainTransform BaseOdometry::motionOfBase(const UncertainTransform& camera_m
 /// Returns the motion of the base since the previous pair.
 UncertainTransform BaseOdometry::addMotion(const OdometryResult& result,
                                            const Eigen::Isometry3d& T_base_camera) {
-  // Compared with a lost pair, that one is the keyframe.
-  const Pose prev = result.keyframe_stamp_ns > *known_.stamp_ns ? last_ : known_;
+  const Pose prev = result.prev_stamp_ns > *known_.stamp_ns ? last_ : known_;  // a lost pair
   if (result.keyframe_stamp_ns != keyframe_stamp_ns_) {
     keyframe_stamp_ns_ = result.keyframe_stamp_ns;
     keyframe_ = prev;

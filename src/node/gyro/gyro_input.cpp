@@ -1,6 +1,5 @@
 #include "node/gyro/gyro_input.h"
 
-#include <cmath>
 #include <utility>
 
 #include <ros/transport_hints.h>
@@ -112,8 +111,7 @@ std::optional<Eigen::Vector3d> GyroInput::up(std::int64_t stamp_ns) {
 
 void GyroInput::observe(const OdometryResult& result, OdometryStatus& status) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const std::int64_t from_ns = result.stamp_ns - std::llround(1e9 * result.dt_s);
-  if (!whyNoPose(from_ns, result.stamp_ns)) predictor_.observe(result);
+  if (!whyNoPose(result.prev_stamp_ns, result.stamp_ns)) predictor_.observe(result);
   if (std::exchange(was_asked_, false)) {  // not by a first pair
     const auto& why_not = predictor_.whyNot();
     if (watch_.observe(!why_not)) {
