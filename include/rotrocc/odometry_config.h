@@ -61,13 +61,13 @@ struct StereoCalibratorConfig {
   double bias_px = 0.0;  ///< known bias, added to every disparity; start of the estimate
 };
 
-/// Errors that all features share, so that their scatter does not show them: standard deviations in
-/// proportion to the motion. The defaults are those of a drone with ground truth (EuRoC).
+/// Errors that all features share, so that their scatter does not show them: standard deviations.
+/// The defaults are those of KITTI's cars, whose ground truth is exact enough over several pairs.
 struct SystematicErrorConfig {
-  double translation_share = 0.015;  ///< of the length of a motion
-  double rotation_share = 0.01;      ///< of the angle of a motion
+  double scale_share = 0.005;  ///< of a translation along it, and of the angle of a rotation
+  double axes_rad = 0.006;     ///< of the camera's orientation, which turns the motion
 
-  /// In the order of OdometryResult::covariance: the same in all directions.
+  /// In the order of OdometryResult::covariance.
   Matrix6d covarianceOf(const Eigen::Isometry3d& motion) const;
 };
 

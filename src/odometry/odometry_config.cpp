@@ -12,11 +12,14 @@ const std::vector<std::string>& methodNames() {
 }
 
 Matrix6d SystematicErrorConfig::covarianceOf(const Eigen::Isometry3d& motion) const {
-  const double translation_m = translation_share * motion.translation().norm();
-  const double rotation_rad = rotation_share * logRotation(motion.linear()).norm();
-  Vector6d sigma;
-  sigma << Eigen::Vector3d::Constant(translation_m), Eigen::Vector3d::Constant(rotation_rad);
-  return sigma.cwiseAbs2().asDiagonal();
+  // Axes turned by e see the translation t + e x t and the rotation Exp(e) R Exp(-e).
+  Eigen::Matrix<double, 6, 3> by_axes;
+  by_axes << -skew(motion.translation()), Eigen::Matrix3d::Identity() - motion.linear();
+  Eigen::Matrix<double, 6, 2> by_scale = Eigen::Matrix<double, 6, 2>::Zero();
+  by_scale.topLeftCorner<3, 1>() = motion.translation();
+  by_scale.bottomRightCorner<3, 1>() = logRotation(motion.linear());
+  return axes_rad * axes_rad * by_axes * by_axes.transpose() +
+         scale_share * scale_share * by_scale * by_scale.transpose();
 }
 
 void OdometryConfig::check() const {

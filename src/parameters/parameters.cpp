@@ -114,11 +114,10 @@ void addOdometry(OdometryConfig& c, ParameterTable& table) {
       "known correction, added to all disparities; initial value of the estimate";
 
   table.beginSection("systematic_error");
-  table.add("translation_share", c.systematic_error.translation_share, {0.0, 1.0}).description =
-      "standard deviation that calibration and time stamps add to a translation, as a share of "
-      "its length";
-  table.add("rotation_share", c.systematic_error.rotation_share, {0.0, 1.0}).description =
-      "the same for a rotation, as a share of its angle";
+  table.add("scale_share", c.systematic_error.scale_share, {0.0, 1.0}).description =
+      "standard deviation of the scale of translations and rotations, by baseline and focal length";
+  table.add("axes_rad", c.systematic_error.axes_rad, {0.0, 1.0, "rad"}).description =
+      "the same of the camera's orientation, by its mount and rectification: it turns each motion";
 
   table.beginSection("visual_odometry");
   table.add("method", c.method, methodNames()).description =

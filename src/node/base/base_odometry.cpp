@@ -217,8 +217,10 @@ void BaseOdometry::setPose(const UncertainTransform& T_odom_base) {
 }
 
 UncertainTransform BaseOdometry::withSystematicError(const UncertainTransform& T_odom_base) const {
+  const Eigen::Isometry3d T_first_base = T_odom_first_.inverse() * T_odom_base.T;
   const Matrix6d systematic =
-      systematic_error_.covarianceOf(T_odom_first_.inverse() * T_odom_base.T);
+      compose({T_odom_first_}, {T_first_base, systematic_error_.covarianceOf(T_first_base)})
+          .covariance;
   return {T_odom_base.T,
           T_odom_base.covariance + (parameters_.planar ? planar(systematic) : systematic)};
 }
