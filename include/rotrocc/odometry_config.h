@@ -65,7 +65,7 @@ struct StereoCalibratorConfig {
 /// The defaults are those of KITTI's cars, whose ground truth is exact enough over several pairs.
 struct SystematicErrorConfig {
   double scale_share = 0.005;  ///< of a translation along it, and of the angle of a rotation
-  double axes_rad = 0.006;     ///< of the camera's orientation, which turns the motion
+  double axes_rad = 0.0055;    ///< of the camera's orientation, which turns the motion
 
   /// In the order of OdometryResult::covariance.
   Matrix6d covarianceOf(const Eigen::Isometry3d& motion) const;
