@@ -12,14 +12,17 @@ const std::vector<std::string>& methodNames() {
 }
 
 Matrix6d SystematicErrorConfig::covarianceOf(const Eigen::Isometry3d& motion) const {
-  // Axes turned by e see the translation t + e x t and the rotation Exp(e) R Exp(-e).
-  Eigen::Matrix<double, 6, 3> by_axes;
-  by_axes << -skew(motion.translation()), Eigen::Matrix3d::Identity() - motion.linear();
-  Eigen::Matrix<double, 6, 2> by_scale = Eigen::Matrix<double, 6, 2>::Zero();
-  by_scale.topLeftCorner<3, 1>() = motion.translation();
-  by_scale.bottomRightCorner<3, 1>() = logRotation(motion.linear());
-  return axes_rad * axes_rad * by_axes * by_axes.transpose() +
-         scale_share * scale_share * by_scale * by_scale.transpose();
+  // Axes turned by e see the translation t + e x t and the rotation Exp(e) R Exp(-e). Real errors
+  // of the two are not correlated as by the same e.
+  const auto covariance = [&](const Eigen::Matrix3d& by_axes, const Eigen::Vector3d& by_scale) {
+    return Eigen::Matrix3d(axes_rad * axes_rad * by_axes * by_axes.transpose() +
+                           scale_share * scale_share * by_scale * by_scale.transpose());
+  };
+  const Eigen::Matrix3d R = motion.linear();
+  Matrix6d both = Matrix6d::Zero();
+  both.topLeftCorner<3, 3>() = covariance(skew(motion.translation()), motion.translation());
+  both.bottomRightCorner<3, 3>() = covariance(Eigen::Matrix3d::Identity() - R, logRotation(R));
+  return both;
 }
 
 void OdometryConfig::check() const {

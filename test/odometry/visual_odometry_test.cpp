@@ -116,7 +116,8 @@ TEST(VisualOdometryTest, FollowsADriveAlongTheStreet) {
     EXPECT_NEAR(result.dt_s, 0.1, 1e-12);
     EXPECT_NEAR(result.exposure_gain, 1.0, kGainError);
     expectMotion(result, bendStep());
-    EXPECT_GT(std::sqrt(result.covariance(2, 2)), SystematicErrorConfig().scale_share * 0.6) << "with the systematic error";
+    EXPECT_GT(std::sqrt(result.covariance(2, 2)), SystematicErrorConfig().scale_share * 0.6)
+        << "with the systematic error";
   }
 }
 
