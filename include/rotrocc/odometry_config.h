@@ -61,11 +61,13 @@ struct StereoCalibratorConfig {
   double bias_px = 0.0;  ///< known bias, added to every disparity; start of the estimate
 };
 
-/// Errors that all features share, so that their scatter does not show them: standard deviations.
-/// The defaults are those of KITTI's cars, whose ground truth is exact enough over several pairs.
+/// Errors that all features share, so that their scatter does not show them. The defaults are those
+/// of KITTI's cars, whose ground truth is exact enough over several pairs.
 struct SystematicErrorConfig {
-  double scale_share = 0.005;  ///< of a translation along it, and of the angle of a rotation
-  double axes_rad = 0.0055;    ///< of the camera's orientation, which turns the motion
+  /// Standard deviation of a translation along it, and of the angle of a rotation.
+  double scale_share = 0.005;
+  double axes_rad = 0.005;     ///< that of the camera's orientation, which turns the motion
+  double common_share = 0.02;  ///< of the variance of the flow's noise
 
   /// In the order of OdometryResult::covariance.
   Matrix6d covarianceOf(const Eigen::Isometry3d& motion) const;

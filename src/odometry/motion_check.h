@@ -75,6 +75,12 @@ class MotionCheck {
                                             const Eigen::Isometry3d& expected,
                                             double dt_s);
 
+  /// The factor >= 1 for the covariance of an accepted motion, which assumes independent features:
+  /// each that contradicts takes the word of one that agrees, as a set without a majority
+  /// determines nothing; and those that agree have a share of the variance of their errors in
+  /// common.
+  static double inflation(const MotionEstimate& accepted, double common_share);
+
  private:
   std::optional<std::string> whyAmbiguous(const Hypothesis& accepted);
   std::optional<std::string> whyFewDetermine(const Hypothesis& accepted);
@@ -85,6 +91,7 @@ class MotionCheck {
 
   Config config_;
   bool as_published_;
+  bool few_agree_ = false;  // on the last motion
 
   // Buffers, reused.
   Correspondences others_;

@@ -395,12 +395,14 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   result.shared_error_ratio = found_.shared_ratio;
   result.flow_noise_px = estimate.flow_noise_px;
   result.keyframe_stamp_ns = keyframe_.frame->stamp_ns;
-  result.T_keyframe_cur = {estimate.T_keyframe_cur, estimate.covariance + rig_.motionCovariance()};
+  const Matrix6d of_rig = rig_.motionCovariance();
+  const double inflation = MotionCheck::inflation(estimate, config_.systematic_error.common_share);
+  result.T_keyframe_cur = {estimate.T_keyframe_cur, inflation * estimate.covariance + of_rig};
   UncertainTransform step = compose(inverse(keyframe_.T_keyframe_last), result.T_keyframe_cur);
   if (keyframe_.frame != last_) step.covariance *= kNotShared;
   result.T_prev_cur = step.T;
   result.covariance = step.covariance + config_.systematic_error.covarianceOf(step.T);
-  auto why_degraded = check_.whyDegraded(found_, result.T_keyframe_cur.covariance);
+  auto why_degraded = check_.whyDegraded(found_, estimate.covariance + of_rig);
   if (const auto expected = predict(result.dt_s); expected && !why_degraded) {
     why_degraded = MotionCheck::whyJump(step, *expected, result.dt_s);
   }

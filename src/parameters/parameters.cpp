@@ -118,6 +118,9 @@ void addOdometry(OdometryConfig& c, ParameterTable& table) {
       "standard deviation of the scale of translations and rotations, by baseline and focal length";
   table.add("axes_rad", c.systematic_error.axes_rad, {0.0, 1.0, "rad"}).description =
       "the same of the camera's orientation, by its mount and rectification: it turns each motion";
+  table.add("common_share", c.systematic_error.common_share, {0.0, 1.0}).description =
+      "share of the variance of a flow's noise that all features have in common, by lenses and "
+      "compression: errors of more features than its inverse do not average out";
 
   table.beginSection("visual_odometry");
   table.add("method", c.method, methodNames()).description =

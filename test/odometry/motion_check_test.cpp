@@ -228,6 +228,31 @@ TEST(MotionCheckTest, CallsAMotionThatOneFeatureDeterminesDegraded) {
   EXPECT_EQ(whyDegraded(far), std::nullopt);
 }
 
+TEST(MotionCheckTest, DegradedMotionsDoNotComeAndGoWithSingleFeatures) {
+  MotionCheck check = defaultCheck();
+  auto estimate = goodEstimate();
+  const auto isDegraded = [&](int agreeing) {
+    estimate.rotation_inliers = set(agreeing, 400);
+    return check.whyDegraded(hypothesis(estimate), estimate.covariance).has_value();
+  };
+  EXPECT_FALSE(isDegraded(282));
+  EXPECT_TRUE(isDegraded(278));
+  EXPECT_TRUE(isDegraded(282));
+  EXPECT_FALSE(isDegraded(300));
+  EXPECT_FALSE(isDegraded(282));
+}
+
+TEST(MotionCheckTest, FeaturesThatContradictMakeTheMotionUncertain) {
+  auto estimate = goodEstimate();
+  estimate.translation_inliers = set(50, 400);
+  EXPECT_DOUBLE_EQ(MotionCheck::inflation(estimate, 0.02), 2.0 * 2.0) << "100 of 400 contradict";
+  estimate.rotation_inliers = set(400, 400);
+  EXPECT_DOUBLE_EQ(MotionCheck::inflation(estimate, 0.02), 2.0) << "50 features count as 25";
+  estimate.rotation_inliers = set(100, 400);
+  EXPECT_DOUBLE_EQ(MotionCheck::inflation(estimate, 0.02), 16.0 * 2.0)
+      << "25 are the least majority";
+}
+
 TEST(MotionCheckTest, WantsAReserveOfInliersForTheNextPair) {
   auto estimate = goodEstimate();
   EXPECT_TRUE(MotionCheck::hasReserve(estimate));

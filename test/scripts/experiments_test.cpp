@@ -24,7 +24,7 @@ class ExperimentsTest : public ScriptTest {
   /// Simulated rigs have no systematic error.
   static constexpr const char* kSettings =
       "settings:\n"
-      "  default: {systematic_error/scale_share: 0, systematic_error/axes_rad: 0}\n";
+      "  default: {systematic_error/scale_share: 0, systematic_error/axes_rad: 0, systematic_error/common_share: 0}\n";
 
   static void SetUpTestSuite() {
     const CommandResult rendered =
