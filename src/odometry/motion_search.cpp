@@ -45,9 +45,10 @@ MotionSearch::MotionSearch(const OdometryConfig& config)
       descriptors_(config.correspondence_finder.stereo_matcher) {}
 
 bool MotionSearch::find(const Frames& frames, const Start& start, Hypothesis& found) {
-  // A window finds what is as far away as it reaches in the smallest image.
-  const double reach_px =
-      frames.camera.detail_px * window_radius_px_ * (1 << (StereoFrame::kLevels - 1));
+  // A window finds what is as far away as it reaches in the smallest image. Without a prediction,
+  // many find something else so far away: they are tracked again from where they belong.
+  const int halvings = start.is_prediction ? StereoFrame::kLevels - 1 : 0;
+  const double reach_px = frames.camera.detail_px * window_radius_px_ * (1 << halvings);
   std::optional<MotionEstimator::Prediction> prediction;
   if (start.is_prediction) prediction = {start.T_keyframe_cur, frames.dt_s};
   Start next = start;
