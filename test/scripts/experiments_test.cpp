@@ -24,7 +24,8 @@ class ExperimentsTest : public ScriptTest {
   /// Simulated rigs have no systematic error.
   static constexpr const char* kSettings =
       "settings:\n"
-      "  default: {systematic_error/scale_share: 0, systematic_error/axes_rad: 0, systematic_error/common_share: 0}\n";
+      "  default: {systematic_error/scale_share: 0, systematic_error/axes_rad: 0, "
+      "systematic_error/common_share: 0}\n";
 
   static void SetUpTestSuite() {
     const CommandResult rendered =
@@ -121,7 +122,8 @@ TEST_F(ExperimentsTest, SimulatesAGyroscope) {
   const CommandResult result =
       run(RUN, plan(kSettings + std::string("  gyroscope: {imu: true}\n")) + clip());
   ASSERT_EQ(result.status, 0) << result.output;
-  EXPECT_LE(number(row("clip", "gyroscope"), "tries"), number(row("clip"), "tries"));
+  // The first pair may have one more: its start is not a prediction.
+  EXPECT_LE(number(row("clip", "gyroscope"), "tries"), number(row("clip"), "tries") + 0.1);
   EXPECT_EQ(number(row("clip", "gyroscope"), "lost"), 0.0);
 }
 
