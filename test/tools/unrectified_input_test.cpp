@@ -70,8 +70,8 @@ TEST_F(UnrectifiedInputTest, OdometryFollowsTheTruth) {
     const Eigen::Isometry3d error = expected.inverse() * estimate.back().T_world_body;
     const double way_m = expected.translation().norm();
     ASSERT_GT(way_m, 5.0);
-    // An error of the rectification by 0.1 degrees is one of 0.2 % in direction. Measured: 1.1 %, as
-    // all steps are 1 % short in these small images.
+    // An error of the rectification by 0.1 degrees is one of 0.2 % in direction. Measured: 1.1 %,
+    // as all steps are 1 % short in these small images.
     EXPECT_LT(error.translation().norm(), 0.015 * way_m) << lens;
   }
 }
