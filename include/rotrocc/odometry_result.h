@@ -69,12 +69,11 @@ struct OdometryResult {
   State state = State::kLost;
   std::string reason;         ///< why the state is not ok, in one sentence; empty if it is ok
   std::int64_t stamp_ns = 0;  ///< of the current pair
-  /// Of the previous pair, the one that T_prev_cur is measured against: the last one that was not
-  /// lost. If the current pair matches neither it nor the keyframe, but matches the latest lost
-  /// pair, that becomes the previous one. The way before it is missing then, so the state is
-  /// degraded.
-  std::int64_t prev_stamp_ns = 0;  ///< 0 if there is none
-  double dt_s = 0.0;               ///< time since the previous pair; 0 if there is none
+  /// Stamp of the previous pair, against which T_prev_cur is measured: the last pair that was not
+  /// lost; stamp_ns if there is none. A pair that matches neither it nor the keyframe may match the
+  /// latest lost pair, which is then the previous one. The motion before that pair is missing, so
+  /// the state is degraded.
+  std::int64_t prev_stamp_ns = 0;
   /// The motion of the left camera since the previous pair: maps points from its current frame to
   /// its previous frame. Identity unless the state is ok or degraded.
   Eigen::Isometry3d T_prev_cur = Eigen::Isometry3d::Identity();
@@ -84,8 +83,9 @@ struct OdometryResult {
   /// SystematicErrorConfig. Zero unless the state is ok or degraded.
   Matrix6d covariance = Matrix6d::Zero();
   /// The stamp of the keyframe and the motion since then. The keyframe is the previous pair or an
-  /// earlier one. Errors accumulate with each new keyframe, not with each pair. This covariance has
-  /// no systematic errors, because they do not accumulate like independent ones.
+  /// earlier one. Errors accumulate with each new keyframe, not with each pair. This covariance
+  /// contains SystematicErrorConfig's common_share but no errors of scale and axes, because those
+  /// do not accumulate like independent ones.
   std::int64_t keyframe_stamp_ns = 0;
   UncertainTransform T_keyframe_cur;
   DisparityBias disparity_bias;  ///< of the rig
@@ -103,6 +103,8 @@ struct OdometryResult {
   StageCounts counts;
   StageTimes times;
 
+  /// Time since the previous pair [s]; 0 if there is none.
+  double dt_s() const { return 1e-9 * static_cast<double>(stamp_ns - prev_stamp_ns); }
   bool hasMotion() const { return state == State::kOk || state == State::kDegraded; }
 };
 

@@ -45,11 +45,8 @@ class GyroCheck : public PairCheck {
   void observe(const CheckedPair& pair) override {
     if (!pair.result.hasMotion()) return;
     const Eigen::AngleAxisd turn(pair.result.T_prev_cur.linear());
-    const auto interval_ns = static_cast<std::int64_t>(std::llround(1e9 * pair.result.dt_s));
-    turns_.push_back({pair.time_s,
-                      pair.result.stamp_ns - interval_ns,
-                      pair.result.stamp_ns,
-                      turn.angle() * turn.axis()});
+    turns_.push_back(
+        {pair.time_s, pair.result.prev_stamp_ns, pair.result.stamp_ns, turn.angle() * turn.axis()});
   }
 
   void report(const Windows& windows, RigReport& report) const override {

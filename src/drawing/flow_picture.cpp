@@ -133,7 +133,7 @@ bool contains(const FeatureSet& set, std::size_t i) {
 void drawLegend(const FlowScene& scene, Legend legend) {
   legend.text(toString(scene.result.state));
   if (scene.result.hasMotion()) {
-    const double speed_mps = scene.result.T_prev_cur.translation().norm() / scene.result.dt_s;
+    const double speed_mps = scene.result.T_prev_cur.translation().norm() / scene.result.dt_s();
     legend.text(cv::format("%.1f m/s", speed_mps));
   }
   legend.space();

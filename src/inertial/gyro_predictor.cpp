@@ -136,7 +136,7 @@ void GyroPredictor::observe(const OdometryResult& result) {
   const Eigen::Matrix3d to_gyro = (R_camera_gyro_from_ * seen).transpose();
   const Eigen::Matrix3d covariance =
       to_gyro * result.covariance.bottomRightCorner<3, 3>() * to_gyro.transpose() +
-      kAngleWalk * kAngleWalk * result.dt_s * Eigen::Matrix3d::Identity();
+      kAngleWalk * kAngleWalk * result.dt_s() * Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d of_bias = gyro.by_bias_s * bias_.covariance() * gyro.by_bias_s.transpose();
   const bool agrees = trust_.compare({difference_rad.norm(),
                                       std::sqrt((of_bias + covariance).trace()),
@@ -146,7 +146,7 @@ void GyroPredictor::observe(const OdometryResult& result) {
       logRotation(R_camera_gyro_from_.transpose() * R_camera_gyro_to_).norm() > kMoving_rad;
   if (agrees && moves) return;
   if (agrees) {
-    bias_.observe(difference_rad, gyro.by_bias_s, covariance, result.dt_s);
+    bias_.observe(difference_rad, gyro.by_bias_s, covariance, result.dt_s());
   } else if (trust_.whyNot()) {
     bias_ = GyroBias();  // it may be another one, e.g. after a restart of the device
   }

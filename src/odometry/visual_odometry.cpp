@@ -135,7 +135,7 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
                                                  const StereoCamera& camera,
                                                  const OtherSensors& others) {
   OdometryResult result;
-  result.stamp_ns = pair.stamp_ns;
+  result.stamp_ns = result.prev_stamp_ns = pair.stamp_ns;
   result.times = std::exchange(prepared_, {});
   result.times.prepared_ms = std::exchange(result.times.total_ms, 0.0);
   found_.clear();
@@ -149,7 +149,7 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
   } catch (const std::exception& error) {
     fail();
     result = {};
-    result.stamp_ns = pair.stamp_ns;
+    result.stamp_ns = result.prev_stamp_ns = pair.stamp_ns;
     result.reason = std::string("internal error: ") + error.what();
   }
   report(camera, result);
@@ -192,8 +192,8 @@ void VisualOdometry::Pipeline::reset() {
   found_.clear();
 }
 
-/// After an error of a library, the next pair is compared with the last one again. After another
-/// error, what is stored may be the cause.
+/// After a library's error, the next pair is compared with the last one again. After a second error
+/// in a row, the stored state may be the cause.
 void VisualOdometry::Pipeline::fail() {
   if (std::exchange(has_failed_, true)) forget();
   lost_.reset();
@@ -331,7 +331,6 @@ void VisualOdometry::Pipeline::findMotion(const FramePtr& current,
                                           OdometryResult& result) {
   const Expectation expected = expectation(*current, others);
   result.prev_stamp_ns = last_->stamp_ns;
-  result.dt_s = expected.dt_s;
   const FramePtr keyframe = keyframe_.frame;
   if (keyframe && keyframe != last_ && findMotionFrom(keyframe, *current, expected, result.times)) {
     return;
@@ -345,7 +344,6 @@ void VisualOdometry::Pipeline::findMotion(const FramePtr& current,
         cv::format("only the lost pair of %.3g s before matches: ", of_lost.dt_s) +
         cv::format("the way of the %.3g s before that is missing", secondsBetween(*last_, *lost_));
     result.prev_stamp_ns = lost_->stamp_ns;
-    result.dt_s = of_lost.dt_s;
     last_ = std::move(lost_);
     velocity_.reset();
   } else {
@@ -403,13 +401,13 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   result.T_prev_cur = step.T;
   result.covariance = step.covariance + config_.systematic_error.covarianceOf(step.T);
   auto why_degraded = check_.whyDegraded(found_, estimate.covariance + of_rig);
-  if (const auto expected = predict(result.dt_s); expected && !why_degraded) {
-    why_degraded = MotionCheck::whyJump(step, *expected, result.dt_s);
+  if (const auto expected = predict(result.dt_s()); expected && !why_degraded) {
+    why_degraded = MotionCheck::whyJump(step, *expected, result.dt_s());
   }
   if (!why_degraded) rig_.observe(found_, keyframe_, *current);
   if (why_degraded && result.reason.empty()) result.reason = *why_degraded;
   result.state = result.reason.empty() ? State::kOk : State::kDegraded;
-  velocity_ = logMotion(step.T) / result.dt_s;
+  velocity_ = logMotion(step.T) / result.dt_s();
 
   last_ = current;
   lost_.reset();

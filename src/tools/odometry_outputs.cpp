@@ -67,15 +67,15 @@ void writeStatistics(const PairRecord& record, CsvFile& file) {
   const OdometryResult& result = record.result;
   const StageCounts& counts = result.counts;
   const StageTimes& times = result.times;
-  file << result.stamp_ns << toString(result.state) << result.dt_s << counts.tries << counts.corners
-       << counts.with_depth << counts.tracked << counts.consistent << counts.rotation_inliers
-       << counts.translation_inliers << times.pyramids_ms << times.corners_ms << times.disparity_ms
-       << times.tracking_ms << times.estimation_ms << times.prepared_ms << record.wall_ms
-       << record.cpu_ms << result.keyframe_stamp_ns << result.disparity_bias.estimated_px
-       << result.disparity_bias.sigma_px << result.disparity_bias.applied_px
-       << result.row_offset.median_px << result.row_offset.sigma_px << result.row_offset.typical_px
-       << result.row_offset.applied_px << result.exposure_gain << result.shared_error_ratio
-       << result.flow_noise_px;
+  file << result.stamp_ns << toString(result.state) << result.dt_s() << counts.tries
+       << counts.corners << counts.with_depth << counts.tracked << counts.consistent
+       << counts.rotation_inliers << counts.translation_inliers << times.pyramids_ms
+       << times.corners_ms << times.disparity_ms << times.tracking_ms << times.estimation_ms
+       << times.prepared_ms << record.wall_ms << record.cpu_ms << result.keyframe_stamp_ns
+       << result.disparity_bias.estimated_px << result.disparity_bias.sigma_px
+       << result.disparity_bias.applied_px << result.row_offset.median_px
+       << result.row_offset.sigma_px << result.row_offset.typical_px << result.row_offset.applied_px
+       << result.exposure_gain << result.shared_error_ratio << result.flow_noise_px;
   Vector6d motion;
   motion << result.T_prev_cur.translation(), logRotation(result.T_prev_cur.linear());
   for (int i = 0; i < 6; ++i) file << motion[i];

@@ -18,7 +18,7 @@ class FlowPictureTest : public testing::Test {
     addFeature({100, 150}, {130, 150}, 20.0);
     addFeature({100, 180}, {130, 180}, 20.0);
     result_.state = State::kOk;
-    result_.dt_s = 0.1;
+    result_.stamp_ns = 100'000'000;
   }
 
   void addFeature(const Eigen::Vector2d& keyframe_px,

@@ -43,7 +43,6 @@ class Body {
     result.state = State::kOk;
     result.stamp_ns = pair * kPair_ns;
     result.prev_stamp_ns = (pair - 1) * kPair_ns;
-    result.dt_s = 1e-9 * kPair_ns;
     const Eigen::Vector3d noise(normal_(generator_), normal_(generator_), normal_(generator_));
     result.T_prev_cur.linear() = expRotation(kVisionSigma_rad * noise) * step(pair);
     result.covariance.bottomRightCorner<3, 3>() =

@@ -34,7 +34,6 @@ OdometryResult found(std::int64_t stamp_ns,
   result.state = State::kOk;
   result.stamp_ns = stamp_ns;
   result.prev_stamp_ns = stamp_ns - kPeriod_ns;
-  result.dt_s = 0.1;
   result.T_prev_cur = T_prev_cur;
   result.covariance = covariance;
   result.keyframe_stamp_ns = stamp_ns - kPeriod_ns;
@@ -298,7 +297,6 @@ class MovingMountTest : public testing::Test {
     OdometryResult result =
         found(pair * kPeriod_ns, cameraAt(prev).inverse() * cameraAt(pair), covariance_);
     result.prev_stamp_ns = prev * kPeriod_ns;
-    result.dt_s = 0.1 * (pair - prev);
     result.keyframe_stamp_ns = keyframe * kPeriod_ns;
     result.T_keyframe_cur.T = cameraAt(keyframe).inverse() * cameraAt(pair);
     return odometry_.add(result, mountAt(pair));

@@ -314,7 +314,7 @@ TEST(StatusTest, HasAllOfAPairAndWithoutOneTheStateHintAndCounters) {
   pair.status.latency_ms = 12.0f;
   OdometryResult& result = pair.result;
   result.stamp_ns = 5'000'000'000;
-  result.dt_s = 0.1;
+  result.prev_stamp_ns = 4'900'000'000;
   result.counts = {7, 6, 4, 3, 2, 1, 2};
   result.times.tracking_ms = 1.5;
   result.times.total_ms = 2.0;

@@ -105,7 +105,7 @@ TEST(VisualOdometryTest, FollowsADriveAlongTheStreet) {
   const OdometryResult first = odometry.process(bend(0), camera());
   EXPECT_EQ(first.state, State::kInitialising);
   EXPECT_EQ(first.reason, "first pair");
-  EXPECT_EQ(first.dt_s, 0.0);
+  EXPECT_EQ(first.dt_s(), 0.0);
   EXPECT_FALSE(first.hasMotion());
   EXPECT_EQ(first.exposure_gain, 0.0);
   for (int i = 1; i < 8; ++i) {
@@ -113,7 +113,7 @@ TEST(VisualOdometryTest, FollowsADriveAlongTheStreet) {
     EXPECT_EQ(result.state, State::kOk) << result.reason;
     EXPECT_EQ(result.reason, "");
     EXPECT_EQ(result.stamp_ns, i * kPeriod_ns);
-    EXPECT_NEAR(result.dt_s, 0.1, 1e-12);
+    EXPECT_NEAR(result.dt_s(), 0.1, 1e-12);
     EXPECT_NEAR(result.exposure_gain, 1.0, kGainError);
     expectMotion(result, bendStep());
     EXPECT_GT(std::sqrt(result.covariance(2, 2)), SystematicErrorConfig().scale_share * 0.6)
@@ -194,7 +194,7 @@ TEST(VisualOdometryTest, GoesOnFromALostPairByTheRotationSinceThen) {
   const OdometryResult result =
       odometry.process(view(elsewhere * sharpTurn(), 3 * kPeriod_ns), camera(), std::nullopt, gyro);
   EXPECT_EQ(asked_from_ns, (std::vector<std::int64_t>{kPeriod_ns, 2 * kPeriod_ns}));
-  EXPECT_NEAR(result.dt_s, 0.1, 1e-12);
+  EXPECT_NEAR(result.dt_s(), 0.1, 1e-12);
   EXPECT_EQ(result.prev_stamp_ns, 2 * kPeriod_ns) << "the lost pair";
   EXPECT_EQ(result.state, State::kDegraded);
   EXPECT_EQ(
@@ -619,7 +619,7 @@ TEST(VisualOdometryTest, ThePapersMethodComparesWithTheLatestLostPair) {
   VisualOdometry odometry = started(3, camera(), paper());
   EXPECT_EQ(odometry.process(black(3 * kPeriod_ns), camera()).state, State::kLost);
   const OdometryResult result = odometry.process(bend(4), camera());
-  EXPECT_NEAR(result.dt_s, 0.2, 1e-12);
+  EXPECT_NEAR(result.dt_s(), 0.2, 1e-12);
   expectMotion(result, bendStep() * bendStep(), 0.02);
 }
 
@@ -739,7 +739,7 @@ std::vector<BadPair> badPairs() {
 TEST(VisualOdometryTest, ComparesWithTheLastGoodPair) {
   const auto expectTheNext = [](VisualOdometry& odometry, int index) {
     const OdometryResult next = odometry.process(bend(index), camera());
-    EXPECT_NEAR(next.dt_s, 0.1 * (index - 2), 1e-12);
+    EXPECT_NEAR(next.dt_s(), 0.1 * (index - 2), 1e-12);
     Eigen::Isometry3d T_last_next = Eigen::Isometry3d::Identity();
     for (int i = 2; i < index; ++i) T_last_next = T_last_next * bendStep();
     expectMotion(next, T_last_next, index == 4 ? 0.01 : 0.02);

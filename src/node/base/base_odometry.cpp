@@ -115,10 +115,10 @@ BaseState BaseOdometry::add(const OdometryResult& result,
   }
   if (result.hasMotion()) {
     const UncertainTransform step = addMotion(result, T_base_camera);
-    state.twist = twistOf(step, result.dt_s);
+    state.twist = twistOf(step, result.dt_s());
     speed_.set(state.twist.twist.head<3>().norm());
     turn_rate_.set(state.twist.twist.tail<3>().norm());
-    state.step_velocity = {result.prev_stamp_ns, meanVelocityOf(step, result.dt_s)};
+    state.step_velocity = {result.prev_stamp_ns, meanVelocityOf(step, result.dt_s())};
   } else {
     addUnseen(result, T_base_camera, first ? std::nullopt : T_last_cur);
     state.twist.covariance = kUnknownVariance * Matrix6d::Identity();

@@ -116,7 +116,7 @@ OdometryStatus toStatus(const HealthReport& report) {
   OdometryStatus message = report.pair.status;
   addState(report, message);
   message.header.stamp = toRosTime(result.stamp_ns);
-  message.dt_s = result.dt_s;
+  message.dt_s = result.dt_s();
   message.tries = static_cast<std::uint32_t>(result.counts.tries);
   message.corners = static_cast<std::uint32_t>(result.counts.corners);
   message.with_depth = static_cast<std::uint32_t>(result.counts.with_depth);
