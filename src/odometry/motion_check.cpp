@@ -37,8 +37,6 @@ constexpr double kMinWithDepth = 0.15;
 /// Share of the feature set that are inliers of the rotation stage. In a short step, features at
 /// rest on the image (of dirt, or of its compression) agree on a standstill.
 constexpr double kMinByRotation = 0.7;
-/// ... and what ends that state, so that it does not come and go with single features.
-constexpr double kEnoughAgain = 0.75;
 /// The same for a motion without a prediction, which nothing else confirms.
 constexpr double kMinAtStart = 0.8;
 /// Share of the feature set that are inliers of the translation stage. Those of far points with
@@ -103,11 +101,9 @@ std::optional<std::string> whyFewHaveDepth(const StageCounts& counts) {
                     kMinWithDepth);
 }
 
-std::optional<std::string> whyFewAgree(const MotionEstimate& estimate,
-                                       bool has_prediction,
-                                       double min_by_rotation) {
+std::optional<std::string> whyFewAgree(const MotionEstimate& estimate, bool has_prediction) {
   const double by_rotation = shareOf(estimate.rotation_inliers);
-  if (by_rotation < min_by_rotation) return fewAgree(by_rotation, "motion", min_by_rotation);
+  if (by_rotation < kMinByRotation) return fewAgree(by_rotation, "motion", kMinByRotation);
   if (!has_prediction && by_rotation < kMinAtStart) {
     return "without a prediction, " + fewAgree(by_rotation, "motion", kMinAtStart);
   }
@@ -172,9 +168,7 @@ std::optional<std::string> MotionCheck::whyDegraded(const Hypothesis& accepted,
            "the motion is that of the rotation stage";
   }
   std::optional<std::string> why = whyFewHaveDepth(accepted.counts);
-  const double min_by_rotation = few_agree_ ? kEnoughAgain : kMinByRotation;
-  few_agree_ = shareOf(estimate.rotation_inliers) < min_by_rotation;
-  if (!why) why = whyFewAgree(estimate, accepted.has_prediction, min_by_rotation);
+  if (!why) why = whyFewAgree(estimate, accepted.has_prediction);
   if (!why) why = whyFewSurvive(accepted);
   if (!why) why = whyAmbiguous(accepted);
   if (!why) why = whyFewDetermine(accepted);

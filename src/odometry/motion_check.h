@@ -57,7 +57,7 @@ class MotionCheck {
                                      double dt_s) const;
 
   /// Why an accepted motion is less reliable; none if it is not. `covariance` is that of the
-  /// motion since the keyframe, including that of the rig's calibration.
+  /// motion since the keyframe, including that of the rig's calibration, before inflation().
   std::optional<std::string> whyDegraded(const Hypothesis& accepted, const Matrix6d& covariance);
 
   /// Whether enough inliers are left for another motion against the same keyframe, which will have
@@ -91,7 +91,6 @@ class MotionCheck {
 
   Config config_;
   bool as_published_;
-  bool few_agree_ = false;  // on the last motion
 
   // Buffers, reused.
   Correspondences others_;

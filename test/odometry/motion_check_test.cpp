@@ -228,20 +228,6 @@ TEST(MotionCheckTest, CallsAMotionThatOneFeatureDeterminesDegraded) {
   EXPECT_EQ(whyDegraded(far), std::nullopt);
 }
 
-TEST(MotionCheckTest, DegradedMotionsDoNotComeAndGoWithSingleFeatures) {
-  MotionCheck check = defaultCheck();
-  auto estimate = goodEstimate();
-  const auto isDegraded = [&](int agreeing) {
-    estimate.rotation_inliers = set(agreeing, 400);
-    return check.whyDegraded(hypothesis(estimate), estimate.covariance).has_value();
-  };
-  EXPECT_FALSE(isDegraded(282));
-  EXPECT_TRUE(isDegraded(278));
-  EXPECT_TRUE(isDegraded(282));
-  EXPECT_FALSE(isDegraded(300));
-  EXPECT_FALSE(isDegraded(282));
-}
-
 TEST(MotionCheckTest, FeaturesThatContradictMakeTheMotionUncertain) {
   auto estimate = goodEstimate();
   estimate.translation_inliers = set(50, 400);
