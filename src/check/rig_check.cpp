@@ -20,16 +20,27 @@
 namespace rotrocc {
 namespace {
 
+/// With half as many features again: a check may take longer than the odometry.
+OdometryConfig configOf(const RigCheckOptions& options) {
+  OdometryConfig config = options.parameters.odometry;
+  int& features = config.correspondence_finder.feature_detector.max_features;
+  features += features / 2;
+  return config;
+}
+
 /// All checks of the pairs of one recording.
 class PairChecks {
  public:
-  PairChecks(const RigCheckOptions& options, const Recording& recording, bool rectifies)
-      : odometry_(options.parameters.odometry),
-        inspector_(options.parameters.odometry.correspondence_finder, rectifies),
-        rows_(options.parameters.odometry),
-        view_(makeViewCheck(options.parameters.odometry)),
-        replay_(options.parameters.odometry, recording.size()) {
-    if (options.gyroscope) gyro_ = makeGyroCheck(*options.gyroscope);
+  PairChecks(const OdometryConfig& config,
+             const std::optional<GyroRecording>& gyroscope,
+             int pairs,
+             bool rectifies)
+      : odometry_(config),
+        inspector_(config.correspondence_finder, rectifies),
+        rows_(config),
+        view_(makeViewCheck(config)),
+        replay_(config, pairs) {
+    if (gyroscope) gyro_ = makeGyroCheck(*gyroscope);
   }
 
   void observe(const StereoPair& pair, const StereoCamera& camera) {
@@ -228,7 +239,7 @@ bool checkPairs(Recording& recording, const RigCheckOptions& options, CheckedRig
   RecordedPairs pairs(recording, options.parameters.node, options.rectify, options.calibration);
   InputCheck input;
   pairs.onMessage([&](const RecordedMessage& message) { input.observe(message); });
-  PairChecks checks(options, recording, pairs.rectifies());
+  PairChecks checks(configOf(options), options.gyroscope, recording.size(), pairs.rectifies());
   StereoPair pair;
   StereoCamera camera;
   try {

@@ -15,11 +15,6 @@
 namespace rotrocc {
 
 struct RigCheckOptions {
-  /// A check may take its time: it has half as many features again.
-  RigCheckOptions() {
-    parameters.odometry.correspondence_finder.feature_detector.max_features = 600;
-  }
-
   Parameters parameters;
   std::string rectify = "auto";  ///< see RecordedPairs
   /// In place of that of the recording, see RecordedPairs; null: none.
