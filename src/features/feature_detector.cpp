@@ -28,13 +28,12 @@ float minResponse(double noise_variance) {
   return std::max(kMinTexture, static_cast<float>(kOverNoise * kSobelSquares * variance));
 }
 
-/// Strengths that are told apart, in steps of 2^(1/32), that is 2 %, from that of the weakest
-/// texture on.
-constexpr int kStrengths = 1024;
-
+/// Steps of strength, 32 in each octave. All compilers and processors compute the same.
 int strengthOf(float response) {
-  const float steps = 32.0F * std::log2(response / kMinTexture);
-  return std::clamp(static_cast<int>(steps), 0, kStrengths - 1);
+  constexpr int kSteps = 32;
+  int octave = 0;
+  const float mantissa = std::frexp(response, &octave);  // from 1/2 to 1
+  return kSteps * octave + static_cast<int>(2 * kSteps * mantissa);
 }
 
 /// Whether no pixel within `radius_px` of (x, row) has a larger response, and none above or to the
@@ -194,7 +193,10 @@ void FeatureDetector::searchBand(int width, const cv::Range& rows, int top, Stri
 void FeatureDetector::selectByCells(const cv::Size& size,
                                     std::size_t max_count,
                                     std::vector<cv::Point2f>& corners) {
-  for (Candidate& c : candidates_) c.rank = kStrengths - 1 - strengthOf(c.response);
+  float strongest = 0.0F;
+  for (const Candidate& c : candidates_) strongest = std::max(strongest, c.response);
+  const int most = strengthOf(strongest);
+  for (Candidate& c : candidates_) c.rank = most - strengthOf(c.response);
   sortByRank();
   rankInCells(size);
   sortByRank();

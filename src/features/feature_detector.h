@@ -66,7 +66,7 @@ class FeatureDetector {
   struct Candidate {
     float response;
     int x, y;
-    int rank;  ///< by strength, then number of stronger ones in its cell
+    int rank;  ///< key of the order: steps from the strongest, then stronger ones in its cell
   };
   /// Rows that are searched by one thread.
   struct Strip {

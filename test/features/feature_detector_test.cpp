@@ -106,9 +106,9 @@ TEST(FeatureDetectorTest, FindsThePeaksOfTheResponse) {
     EXPECT_GT(corners.size(), peaks.size() * 9 / 10) << side;
     peaks.resize(corners.size());
     EXPECT_TRUE(std::is_permutation(corners.begin(), corners.end(), peaks.begin())) << side;
-    // Strengths are told apart by steps of 2 %.
+    // Strengths are told apart in steps of at most 1/32.
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      EXPECT_NEAR(strength(image, corners[i]) / strength(image, peaks[i]), 1.0, 0.025) << side;
+      EXPECT_NEAR(strength(image, corners[i]) / strength(image, peaks[i]), 1.0, 1.0 / 32.0) << side;
     }
   }
 }
