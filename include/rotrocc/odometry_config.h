@@ -64,12 +64,14 @@ struct StereoCalibratorConfig {
 /// Errors that all features share, so that their scatter does not show them. The defaults are those
 /// of KITTI's cars, whose ground truth is exact enough over several pairs.
 struct SystematicErrorConfig {
-  /// Standard deviation of a translation along it, and of the angle of a rotation.
+  /// Standard deviation along a translation and of a rotation's angle, relative to their size.
   double scale_share = 0.005;
-  double axes_rad = 0.005;     ///< that of the camera's orientation, which turns the motion
-  double common_share = 0.02;  ///< of the variance of the flow's noise
+  double axes_rad = 0.005;  ///< standard deviation of the camera's axes, which turn the motion
+  /// Share of the flow noise's variance that is common to all features: adds to the covariance of
+  /// the features, see MotionCheck::inflation().
+  double common_share = 0.02;
 
-  /// In the order of OdometryResult::covariance.
+  /// Covariance of errors of scale and axes, in the order of OdometryResult::covariance.
   Matrix6d covarianceOf(const Eigen::Isometry3d& motion) const;
 };
 

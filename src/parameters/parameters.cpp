@@ -84,8 +84,8 @@ void addOdometry(OdometryConfig& c, ParameterTable& table) {
   table.add("max_features", finder.feature_detector.max_features, {50, 20000}).description =
       "number of features: a corner without a disparity is replaced by the next one";
   table.add("min_halvings", finder.feature_detector.min_halvings, {0, 2}).description =
-      "the images are halved as often, if windows of max_features fit into them side by side: less "
-      "time, larger errors; not with method: paper";
+      "least number of times that images are halved, as long as the windows of max_features fit "
+      "side by side: less time, larger errors; not with method: paper";
 
   StereoMatcherConfig& matcher = finder.stereo_matcher;
   table.beginSection("stereo_matcher");
@@ -115,12 +115,13 @@ void addOdometry(OdometryConfig& c, ParameterTable& table) {
 
   table.beginSection("systematic_error");
   table.add("scale_share", c.systematic_error.scale_share, {0.0, 1.0}).description =
-      "standard deviation of the scale of translations and rotations, by baseline and focal length";
+      "relative standard deviation of the scale of motions, from baseline and focal length";
   table.add("axes_rad", c.systematic_error.axes_rad, {0.0, 1.0, "rad"}).description =
-      "the same of the camera's orientation, by its mount and rectification: it turns each motion";
+      "standard deviation of the camera's axes, from mount and rectification: they turn each "
+      "motion";
   table.add("common_share", c.systematic_error.common_share, {0.0, 1.0}).description =
-      "share of the variance of a flow's noise that all features have in common, by lenses and "
-      "compression: errors of more features than its inverse do not average out";
+      "share of the flow noise's variance that is common to all features, from lenses and "
+      "compression: it limits how many features average out";
 
   table.beginSection("visual_odometry");
   table.add("method", c.method, methodNames()).description =
