@@ -61,7 +61,7 @@ std::string faultOfRig(const OdometryResult& result) {
     what = "disparities have a bias of " + hundredths(-bias.estimated_px) + " px (+- " +
            hundredths(bias.sigma_px) + "), which is corrected";
   }
-  if (rows.typical_px >= kRowsApart_px) {
+  if (rows.typical_px >= kRowsApart_px && kSigmas * rows.sigma_px <= kRowsApart_px) {
     what += (what.empty() ? "" : "; ") + std::string("rows of left and right differ by ") +
             hundredths(rows.typical_px) + " px, with a median offset of " +
             hundredths(rows.median_px) + " px (+- " + hundredths(rows.sigma_px) + ")" +
