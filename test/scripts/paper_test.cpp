@@ -24,7 +24,7 @@ class PaperTest : public ScriptTest {
     if (isSlowBuild()) return {"motorway"};
     return {"motorway", "slip_road"};
   }
-  static int steps() { return isSlowBuild() ? 11 : 39; }
+  static int steps() { return isSlowBuild() ? 11 : 24; }
 };
 
 TEST_F(PaperTest, DrawsAllFigures) {
