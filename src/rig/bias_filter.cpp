@@ -30,10 +30,9 @@ constexpr double kTypicalRatio = 1.3;
 /// has few cells that matter.
 constexpr double kTypicalPairs = 5.0;
 
-/// Share of the variance of the shared errors that stays with the rig, and the correlation of the
-/// rest from pair to pair. Measured on KITTI and EuRoC.
-constexpr double kLastingShare = 0.4;
-constexpr double kPassingCorrelation = 0.7;
+/// Share of the variance of the shared errors that stays with the rig: 0.4 on KITTI and EuRoC,
+/// where the rest has a correlation of 0.7 from pair to pair, so that some of it stays for long.
+constexpr double kLastingShare = 0.5;
 
 /// Degrees of freedom of Student's t: about as many as the cells that decide on the bias of a pair.
 constexpr double kFreedom = 6.0;
@@ -41,10 +40,9 @@ constexpr double kFreedom = 6.0;
 }  // namespace
 
 BiasFilter::BiasFilter() {
-  const Eigen::Matrix2d covariance = Eigen::Vector2d(kPrior_px * kPrior_px, 1.0).asDiagonal();
   const double moving = 1.0 / kSteadyPairs;
-  modes_[0] = {1.0 - moving, 0.0, Eigen::Vector2d::Zero(), covariance, 0.0, 0.0};
-  modes_[1] = {moving, kFlex_px, Eigen::Vector2d::Zero(), covariance, 0.0, 0.0};
+  modes_[0] = {1.0 - moving, 0.0, 0.0, kPrior_px * kPrior_px, 0.0, 0.0};
+  modes_[1] = {moving, kFlex_px, 0.0, kPrior_px * kPrior_px, 0.0, 0.0};
 }
 
 /// A pair that says little about the bias, as one of a slow robot, counts as a small share of a
@@ -64,7 +62,7 @@ void BiasFilter::add(const BiasMeasurement& measurement) {
   double sum = 0.0;
   std::array<double, 2> log_likelihood;
   for (std::size_t i = 0; i < 2; ++i) {
-    predict(share, modes_[i]);
+    modes_[i].variance_px2 += share * modes_[i].walk_px * modes_[i].walk_px;
     log_likelihood[i] = update(measurement, shared_ratio2_, modes_[i]);
   }
   const double most = std::max(log_likelihood[0], log_likelihood[1]);
@@ -85,49 +83,37 @@ BiasFilter::Modes BiasFilter::interact(double probability) const {
     const double changed = probability * other.probability;
     mixed[i].probability = (1.0 - probability) * same.probability + changed;
     const double share = changed / mixed[i].probability;
-    const Eigen::Vector2d apart = other.mean - same.mean;
-    mixed[i].mean += share * apart;
+    const double apart_px = other.mean_px - same.mean_px;
+    mixed[i].mean_px += share * apart_px;
     mixed[i].shared_px += share * (other.shared_px - same.shared_px);
     mixed[i].smooth_px += share * (other.smooth_px - same.smooth_px);
-    mixed[i].covariance = (1.0 - share) * same.covariance + share * other.covariance +
-                          share * (1.0 - share) * apart * apart.transpose();
+    mixed[i].variance_px2 = (1.0 - share) * same.variance_px2 + share * other.variance_px2 +
+                            share * (1.0 - share) * apart_px * apart_px;
   }
   return mixed;
 }
 
-void BiasFilter::predict(double share, Mode& mode) {
-  mode.mean[kPassing] *= kPassingCorrelation;
-  mode.covariance.row(kPassing) *= kPassingCorrelation;
-  mode.covariance.col(kPassing) *= kPassingCorrelation;
-  mode.covariance(kPassing, kPassing) += 1.0 - kPassingCorrelation * kPassingCorrelation;
-  mode.covariance(kBias, kBias) += share * mode.walk_px * mode.walk_px;
-}
-
 /// Returns the logarithm of the likelihood, without a constant.
 double BiasFilter::update(const BiasMeasurement& measurement, double ratio2, Mode& mode) {
-  const double shared_px = std::sqrt(measurement.shared_px2);
-  const Eigen::Vector2d by_state(1.0, std::sqrt((1.0 - kLastingShare) * ratio2) * shared_px);
-  const Eigen::Vector2d covariance = mode.covariance * by_state;
-  double variance_px2 = by_state.dot(covariance) + measurement.noise_px2;
-  const double off_px = measurement.bias_px - by_state.dot(mode.mean);
+  const double passing_px2 = (1.0 - kLastingShare) * ratio2 * measurement.shared_px2;
+  double variance_px2 = mode.variance_px2 + passing_px2 + measurement.noise_px2;
+  const double off_px = measurement.bias_px - mode.mean_px;
   const double off2 = off_px * off_px / variance_px2;
   const double log_likelihood =
       -0.5 * (std::log(variance_px2) + (kFreedom + 1.0) * std::log1p(off2 / kFreedom));
   variance_px2 *= std::max(1.0, (kFreedom + off2) / (kFreedom + 1.0));
-  const Eigen::Vector2d gain = covariance / variance_px2;
-  mode.mean += gain * off_px;
-  mode.covariance -= gain * covariance.transpose();
-  mode.shared_px += gain[kBias] * (shared_px - mode.shared_px);
-  const double smooth_px = std::sqrt(measurement.smooth_px2);
-  mode.smooth_px += gain[kBias] * (smooth_px - mode.smooth_px);
+  const double gain = mode.variance_px2 / variance_px2;
+  mode.mean_px += gain * off_px;
+  mode.variance_px2 -= gain * mode.variance_px2;
+  mode.shared_px += gain * (std::sqrt(measurement.shared_px2) - mode.shared_px);
+  mode.smooth_px += gain * (std::sqrt(measurement.smooth_px2) - mode.smooth_px);
   return log_likelihood;
 }
 
 void BiasFilter::scale(double factor) {
   for (Mode& mode : modes_) {
-    mode.mean[kBias] *= factor;
-    mode.covariance.row(kBias) *= factor;
-    mode.covariance.col(kBias) *= factor;
+    mode.mean_px *= factor;
+    mode.variance_px2 *= factor * factor;
     mode.shared_px *= factor;
     mode.smooth_px *= factor;
   }
@@ -135,8 +121,7 @@ void BiasFilter::scale(double factor) {
 
 /// Variance of the bias, with that by lasting errors.
 double BiasFilter::variance(const Mode& mode) const {
-  return mode.covariance(kBias, kBias) +
-         kLastingShare * shared_ratio2_ * mode.shared_px * mode.shared_px +
+  return mode.variance_px2 + kLastingShare * shared_ratio2_ * mode.shared_px * mode.shared_px +
          mode.smooth_px * mode.smooth_px;
 }
 
@@ -144,10 +129,9 @@ DisparityBias BiasFilter::bias() const {
   DisparityBias bias;
   double square_px2 = 0.0;
   for (const Mode& mode : modes_) {
-    const double mean_px = mode.mean[kBias];
-    bias.estimated_px += mode.probability * mean_px;
-    bias.applied_px += mode.probability * probabilityOff(mode) * mean_px;
-    square_px2 += mode.probability * (variance(mode) + mean_px * mean_px);
+    bias.estimated_px += mode.probability * mode.mean_px;
+    bias.applied_px += mode.probability * probabilityOff(mode) * mode.mean_px;
+    square_px2 += mode.probability * (variance(mode) + mode.mean_px * mode.mean_px);
   }
   bias.sigma_px = std::sqrt(square_px2 - bias.estimated_px * bias.estimated_px);
   return bias;
@@ -156,9 +140,8 @@ DisparityBias BiasFilter::bias() const {
 /// Probability that the bias differs from the known one: the ratio of the likelihoods of both. It
 /// is one half at kSignificance standard deviations.
 double BiasFilter::probabilityOff(const Mode& mode) const {
-  const double mean_px = mode.mean[kBias];
-  const double log_odds =
-      0.5 * (mean_px * mean_px / variance(mode) - kSignificance * kSignificance);
+  const double sigmas2 = mode.mean_px * mode.mean_px / variance(mode);
+  const double log_odds = 0.5 * (sigmas2 - kSignificance * kSignificance);
   return 1.0 / (1.0 + std::exp(-log_odds));
 }
 

@@ -2,8 +2,6 @@
 
 #include <array>
 
-#include <Eigen/Core>
-
 #include "rig/bias_meter.h"
 #include "rotrocc/odometry_result.h"
 
@@ -16,10 +14,9 @@ namespace rotrocc {
 /// one to the other once in 300 pairs on average.
 ///
 /// Errors that neighbouring features share do not average out over a drive as noise does. Some
-/// stay with the rig, as those of a lens; others pass with the part of the scene that causes them.
-/// The state of a filter is the bias and the passing error; the lasting one cannot be told from a
-/// bias, so its variance is added. Their size is estimated from the disagreement of the parts of
-/// the image; it starts from a typical one of real rigs.
+/// stay with the rig, as those of a lens, and cannot be told from a bias, so their variance is
+/// added to that of the estimate; others pass with the scene, as noise. Their size is estimated
+/// from the disagreement of the parts of the image; it starts from a typical one of real rigs.
 ///
 /// A measurement that is off by more than its variance admits has little weight (Student's t),
 /// unless the next ones confirm it.
@@ -38,20 +35,16 @@ class BiasFilter {
   DisparityBias bias() const;
 
  private:
-  static constexpr int kBias = 0, kPassing = 1;  // in the state
-
   struct Mode {
     double probability;
-    double walk_px;        ///< standard deviation of the change of the bias from pair to pair
-    Eigen::Vector2d mean;  ///< the bias [px], the passing error in its standard deviation
-    Eigen::Matrix2d covariance;
-    double shared_px;  ///< change of the bias by a lasting error as large as the noise
-    double smooth_px;  ///< standard deviation of the bias by smooth errors
+    double walk_px;  ///< standard deviation of the change of the bias from pair to pair
+    double mean_px, variance_px2;  ///< of the bias, the latter without lasting errors
+    double shared_px;              ///< change of the bias by a lasting error as large as the noise
+    double smooth_px;              ///< standard deviation of the bias by smooth errors
   };
   using Modes = std::array<Mode, 2>;  // rigid, moving
 
   Modes interact(double probability) const;
-  static void predict(double share, Mode& mode);
   static double update(const BiasMeasurement& measurement, double ratio2, Mode& mode);
   double variance(const Mode& mode) const;
   double probabilityOff(const Mode& mode) const;
