@@ -48,10 +48,11 @@ std::optional<std::string> whyWorse(const RigMeasures& before, const RigMeasures
     return "rows would differ by " + fixedText(after.rows_rms_px, 2) + " px in place of " +
            fixedText(before.rows_rms_px, 2) + " px";
   }
-  if (before.replay_share > 0.0 &&
-      after.replay_share > std::max(kWorse * before.replay_share, kLeastDifference)) {
-    return "repeated motions would differ by " + fixedText(100.0 * after.replay_share, 2) +
-           " m in 100 m in place of " + fixedText(100.0 * before.replay_share, 2) + " m";
+  const auto& [before_share, before_sigma] = before.replay_share;
+  const double after_share = after.replay_share.value;
+  if (before_share > 0.0 && after_share > std::max(before_share + before_sigma, kLeastDifference)) {
+    return "repeated motions would differ by " + fixedText(100.0 * after_share, 2) +
+           " m in 100 m in place of " + fixedText(100.0 * before_share, 2) + " m";
   }
   return std::nullopt;
 }

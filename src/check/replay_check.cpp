@@ -171,7 +171,10 @@ void ReplayCheck::report(RigReport& report) {
     mirror.push_back(d.mirrored_m / d.path_m);
   }
   report.tables.push_back(std::move(table));
-  if (!mirror.empty()) share_ = std::hypot(median(mirror), median(backward));
+  if (!mirror.empty()) {
+    share_.value = std::hypot(median(mirror), median(backward));
+    share_.sigma = share_.value / std::sqrt(static_cast<double>(mirror.size()));
+  }
   const auto add = [&](const char* subject,
                        std::vector<double>& shares,
                        std::vector<double>& sigmas,

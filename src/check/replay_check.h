@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "check/pair_check.h"
+#include "check/windows.h"
 #include "rotrocc/odometry_config.h"
 #include "rotrocc/uncertain_transform.h"
 
@@ -22,8 +23,9 @@ class ReplayCheck {
 
   void report(RigReport& report);
 
-  /// The median differences of both ways over the path in the last report; 0 if there are none.
-  double share() const { return share_; }
+  /// The median differences of both ways over the path in the last report; 0 if there are none. Its
+  /// deviation assumes that stretches scatter by as much.
+  Estimate share() const { return share_; }
 
  private:
   struct Step {
@@ -54,7 +56,7 @@ class ReplayCheck {
   std::future<std::optional<Difference>> comparison_;
   std::vector<Difference> differences_;
   int lost_ = 0, pairs_ = 0;
-  double share_ = 0.0;
+  Estimate share_;
 };
 
 }  // namespace rotrocc

@@ -8,6 +8,7 @@
 #include "bags/recording.h"
 #include "check/rig_report.h"
 #include "check/row_model.h"
+#include "check/windows.h"
 #include "rectification/stereo_calibration.h"
 #include "rotrocc/odometry_result.h"
 #include "rotrocc/parameters.h"
@@ -34,7 +35,7 @@ struct RigMeasures {
   double rows_rms_px = 0.0;
   bool rows_are_constant = true;
   DisparityBias bias;
-  double replay_share = 0.0;  ///< see ReplayCheck::share()
+  Estimate replay_share;  ///< see ReplayCheck::share()
   int pairs_with_motion = 0;
 };
 
