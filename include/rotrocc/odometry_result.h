@@ -93,9 +93,6 @@ struct OdometryResult {
   /// Contrast of the right image relative to the left one, the median over the matched windows. It
   /// is only reported. 0: no motion.
   double exposure_gain = 0.0;
-  /// Ratio of the disparity error that neighbouring features share to flow noise, as assumed for
-  /// this motion; 0: no motion.
-  double shared_error_ratio = 0.0;
   /// How often the images were halved before they were used: pixels of soft images show too little.
   /// Figures in px are of whole images.
   int halvings = 0;

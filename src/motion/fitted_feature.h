@@ -19,9 +19,6 @@ struct Measurements {
   const StereoCamera& camera;
   const Correspondences& features;
   double noise_ratio;  ///< standard deviation of a disparity over that of a flow
-  /// Standard deviation of the disparity error that the features of a cell of SharedErrorGrid share
-  /// over that of a flow. Only refinements account for it.
-  double shared_ratio = 0.0;
 };
 
 /// A feature with its disparity fitted, so that least squares over the motion alone also account

@@ -14,9 +14,6 @@
 namespace rotrocc {
 namespace {
 
-/// 99 % quantile of the chi-squared distribution with 6 degrees of freedom.
-constexpr double kSignificant2 = 16.8;
-
 /// If stage 1 leaves a smaller share of the features, the motion may be that of an object.
 constexpr double kRetryShare = 0.7;
 
@@ -26,22 +23,11 @@ constexpr double kRetryAgreement_px = 2.0;
 /// A smaller share of the features is not what most agree on.
 constexpr double kMajority = 0.5;
 
+/// The motion near the prediction is the likelier one with this share of the other's inliers.
+constexpr double kLikelierShare = 0.5;
+
 /// Two sets of inliers that differ by less are of the same motion.
 constexpr double kMinCountRatio = 1.1;
-
-/// The square of a factor of 2 between distances.
-constexpr double kHalf2 = 4.0;
-
-/// Usual accelerations, which make a prediction by constant velocity wrong.
-constexpr double kAcceleration_mps2 = 3.0;
-constexpr double kAngularAcceleration_rps2 = 0.5;
-
-Matrix6d covarianceOfPrediction(double dt_s) {
-  Vector6d sigma;
-  sigma << Eigen::Vector3d::Constant(kAcceleration_mps2 * dt_s * dt_s),
-      Eigen::Vector3d::Constant(kAngularAcceleration_rps2 * dt_s * dt_s);
-  return sigma.cwiseAbs2().asDiagonal();
-}
 
 /// Grid of cells within which the errors of neighbouring features may be correlated.
 constexpr int kScatterColumns = 8;
@@ -170,14 +156,14 @@ bool estimateCovariance(const MotionEstimatorConfig& config,
 
 MotionEstimator::MotionEstimator(const Config& config) : config_(config), two_stages_(config) {}
 
-const MotionEstimate& MotionEstimator::estimate(const StereoCamera& camera,
-                                                const Correspondences& features,
-                                                const Eigen::Isometry3d& initial,
-                                                double dt_s,
-                                                const std::optional<Prediction>& prediction,
-                                                double shared_ratio) {
+const MotionEstimate& MotionEstimator::estimate(
+    const StereoCamera& camera,
+    const Correspondences& features,
+    const Eigen::Isometry3d& initial,
+    double dt_s,
+    const std::optional<Eigen::Isometry3d>& prediction) {
   const double noise_ratio = config_.as_published ? 0.0 : kDisparityNoiseRatio;
-  const Measurements measured = {camera, features, noise_ratio, shared_ratio};
+  const Measurements measured = {camera, features, noise_ratio};
   all_.assign(features.size(), 1);
   estimateFrom(all_, measured, initial, dt_s, found_);
   const int agree = found_.valid ? count(found_.rotation_inliers) : 0;
@@ -186,8 +172,11 @@ const MotionEstimate& MotionEstimator::estimate(const StereoCamera& camera,
 
   if (agree < kMajority * static_cast<double>(features.size())) takeConsensus(measured, dt_s);
   if (!prediction) return found_;
-  retryNear(prediction->T_keyframe_cur, measured, dt_s);
-  return isLikelier(retry_, *prediction) ? retry_ : found_;
+  retryNear(*prediction, measured, dt_s);
+  const double enough = kLikelierShare * count(found_.rotation_inliers);
+  const bool is_likelier =
+      retry_.valid && (!found_.valid || count(retry_.rotation_inliers) > enough);
+  return is_likelier ? retry_ : found_;
 }
 
 /// The full set is a mixture of motions: its least squares fit may end at none of them, or at one
@@ -210,28 +199,6 @@ void MotionEstimator::retryNear(const Eigen::Isometry3d& motion,
   near_ = all_;
   keepBelow(errors_px_, measured.camera.detail_px * kRetryAgreement_px, near_);
   estimateFrom(near_, measured, motion, dt_s, retry_);
-}
-
-/// Whether the retry has more than twice as many inliers as the first motion; or at least half as
-/// many, differs significantly, and is less than half as far from the prediction.
-bool MotionEstimator::isLikelier(const MotionEstimate& retry, const Prediction& prediction) const {
-  if (!retry.valid || !found_.valid) return retry.valid;
-  const int inliers = count(retry.rotation_inliers);
-  const int inliers_before = count(found_.rotation_inliers);
-  if (2 * inliers < inliers_before) return false;
-  if (inliers > 2 * inliers_before) return true;
-  const Matrix6d of_both = found_.covariance + retry.covariance;
-  const Matrix6d of_all = of_both + covarianceOfPrediction(prediction.dt_s);
-  const auto distance2 =
-      [](const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b, const Matrix6d& covariance) {
-        Vector6d difference;
-        difference << T_a.translation() - T_b.translation(),
-            logRotation(T_a.linear() * T_b.linear().transpose());
-        return difference.dot(covariance.ldlt().solve(difference));
-      };
-  return distance2(retry.T_keyframe_cur, found_.T_keyframe_cur, of_both) > kSignificant2 &&
-         kHalf2 * distance2(retry.T_keyframe_cur, prediction.T_keyframe_cur, of_all) <
-             distance2(found_.T_keyframe_cur, prediction.T_keyframe_cur, of_all);
 }
 
 void MotionEstimator::estimateFrom(const FeatureSet& set,

@@ -23,32 +23,24 @@ class MotionEstimator {
   /// Throws std::invalid_argument on an unknown criterion.
   explicit MotionEstimator(const Config& config);
 
-  /// A motion that was predicted by constant velocity over `dt_s`.
-  struct Prediction {
-    Eigen::Isometry3d T_keyframe_cur;
-    double dt_s;
-  };
-
   /// Estimates the motion that took `dt_s` > 0 from the full feature set, starting at `initial`.
   /// The result is invalid if fewer than 3 features are left, or if the equations have no unique
   /// solution.
   ///
   /// If much of the image moves independently, the full set may give a wrong motion. With few
-  /// inliers, the consensus of the full set or a retry near the prediction replaces it, if that is
-  /// more plausible.
+  /// inliers, it is replaced by the consensus of the full set, if that has more inliers, or by the
+  /// motion of the features near `prediction`, if that has half as many.
   ///
-  /// `shared_ratio` is that of Measurements. The result is valid until the next call.
+  /// The result is valid until the next call.
   const MotionEstimate& estimate(const StereoCamera& camera,
                                  const Correspondences& features,
                                  const Eigen::Isometry3d& initial,
                                  double dt_s,
-                                 const std::optional<Prediction>& prediction = std::nullopt,
-                                 double shared_ratio = 0.0);
+                                 const std::optional<Eigen::Isometry3d>& prediction = std::nullopt);
 
  private:
   void takeConsensus(const Measurements& measured, double dt_s);
   void retryNear(const Eigen::Isometry3d& motion, const Measurements& measured, double dt_s);
-  bool isLikelier(const MotionEstimate& retry, const Prediction& prediction) const;
   void estimateFrom(const FeatureSet& set,
                     const Measurements& measured,
                     const Eigen::Isometry3d& initial,

@@ -54,7 +54,7 @@ bool MotionSolver::solve(const Measurements& measured,
     if (2 * problem.size() < kParameters) return false;  // a feature gives two equations
     auto parameters = problem.start();
     problem.weigh(parameters, options_.robust_factor);
-    if (options_.shares_errors) problem.shareErrors(measured.shared_ratio, parabola_ratio);
+    if (options_.shares_errors) problem.shareErrors(kSharedRatio, parabola_ratio);
     if (!minimise(problem, options_, parameters)) return false;
     fitAt(measured, problem.motionAt(parameters), fit);
   }
@@ -67,7 +67,7 @@ bool MotionSolver::solveMotion(const Measurements& measured, const FeatureSet& s
 }
 
 bool MotionSolver::solveTranslation(const Measurements& measured, const FeatureSet& set, Fit& fit) {
-  return solve(measured, set, kSmoothShare * measured.shared_ratio, translation_problem_, fit);
+  return solve(measured, set, kSmoothRatio, translation_problem_, fit);
 }
 
 }  // namespace rotrocc

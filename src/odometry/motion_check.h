@@ -23,7 +23,6 @@ struct Hypothesis {
   StereoCamera camera;  ///< corrected by the disparity bias that was used for the features' depths
   Correspondences features;
   bool has_prediction = false;  ///< the motion was searched near a prediction
-  double shared_ratio = 0.0;    ///< that was used, see Measurements
   double exposure_gain = 1.0;   ///< see OdometryResult
   MotionEstimate estimate;
   StageCounts counts;

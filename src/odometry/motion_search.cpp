@@ -49,8 +49,8 @@ bool MotionSearch::find(const Frames& frames, const Start& start, Hypothesis& fo
   // many find something else so far away: they are tracked again from where they belong.
   const int halvings = start.is_prediction ? StereoFrame::kLevels - 1 : 0;
   const double reach_px = frames.camera.detail_px * window_radius_px_ * (1 << halvings);
-  std::optional<MotionEstimator::Prediction> prediction;
-  if (start.is_prediction) prediction = {start.T_keyframe_cur, frames.dt_s};
+  std::optional<Eigen::Isometry3d> prediction;
+  if (start.is_prediction) prediction = start.T_keyframe_cur;
   Start next = start;
   for (int step = 0; step < kMaxSteps && found.counts.tries < max_tries_; ++step) {
     const int tries = found.counts.tries + 1;
@@ -79,11 +79,10 @@ std::optional<MotionSearch::Start> MotionSearch::recognize(const Frames& frames)
 
 void MotionSearch::tryMotion(const Frames& frames,
                              const Start& start,
-                             const std::optional<MotionEstimator::Prediction>& prediction,
+                             const std::optional<Eigen::Isometry3d>& prediction,
                              Hypothesis& hypothesis) {
   hypothesis.camera = frames.camera;
   hypothesis.has_prediction = start.is_prediction;
-  hypothesis.shared_ratio = frames.shared_ratio;
   StageCounts& counts = hypothesis.counts;
   {
     const StageTimer timer(frames.times.tracking_ms);
@@ -100,7 +99,7 @@ void MotionSearch::tryMotion(const Frames& frames,
 
 void MotionSearch::estimate(const Frames& frames,
                             const Eigen::Isometry3d& initial,
-                            const std::optional<MotionEstimator::Prediction>& prediction,
+                            const std::optional<Eigen::Isometry3d>& prediction,
                             Hypothesis& hypothesis) {
   MotionEstimate& estimate = hypothesis.estimate;
   if (hypothesis.counts.consistent < kMinInliers) {  // it is rejected, and would take long
@@ -112,8 +111,7 @@ void MotionSearch::estimate(const Frames& frames,
                                    hypothesis.features,
                                    initial,
                                    secondsBetween(*frames.keyframe.frame, frames.current),
-                                   prediction,
-                                   hypothesis.shared_ratio);
+                                   prediction);
   }
   hypothesis.counts.rotation_inliers = count(estimate.rotation_inliers);
   hypothesis.counts.translation_inliers =
@@ -130,7 +128,7 @@ void MotionSearch::calibrate(const Frames& frames, RigEstimate& rig, Hypothesis&
   recalibrated_.camera = corrected;
   triangulate(corrected, recalibrated_.features);
   const Eigen::Isometry3d T_found = found.estimate.T_keyframe_cur;
-  estimate(frames, T_found, MotionEstimator::Prediction{T_found, frames.dt_s}, recalibrated_);
+  estimate(frames, T_found, T_found, recalibrated_);
   if (recalibrated_.isAccepted()) std::swap(found, recalibrated_);
 }
 

@@ -25,9 +25,8 @@ class MotionSearch {
     const StereoCamera& camera;
     const Keyframe& keyframe;
     const StereoFrame& current;
-    double dt_s;          ///< since the frame whose pose in the keyframe is T_keyframe_last
-    double shared_ratio;  ///< see Measurements
-    StageTimes& times;    ///< to which all that is done is added
+    double dt_s;        ///< since the frame whose pose in the keyframe is T_keyframe_last
+    StageTimes& times;  ///< to which all that is done is added
   };
 
   /// Where the features are searched first.
@@ -60,11 +59,11 @@ class MotionSearch {
  private:
   void tryMotion(const Frames& frames,
                  const Start& start,
-                 const std::optional<MotionEstimator::Prediction>& prediction,
+                 const std::optional<Eigen::Isometry3d>& prediction,
                  Hypothesis& hypothesis);
   void estimate(const Frames& frames,
                 const Eigen::Isometry3d& initial,
-                const std::optional<MotionEstimator::Prediction>& prediction,
+                const std::optional<Eigen::Isometry3d>& prediction,
                 Hypothesis& hypothesis);
 
   int window_radius_px_;

@@ -27,7 +27,6 @@ bool RigEstimate::setCamera(const StereoCamera& camera) {
   if (first_camera_.differenceTo(camera) < kSameCamera) return true;
   first_camera_ = camera;
   resetBias();
-  shared_errors_.reset();
   rows_.reset();
   return false;
 }
@@ -76,7 +75,6 @@ double RigEstimate::correctedRows() const {
 
 void RigEstimate::startKeyframe(Keyframe& keyframe) {
   past_ = filter_;
-  shared_errors_.advance();
   if (!rows_.isKnown()) rows_.observe(row_search_.search(correctedCamera(), keyframe));
   keyframe.row_offset_px = correctedRows();
 }
@@ -84,10 +82,7 @@ void RigEstimate::startKeyframe(Keyframe& keyframe) {
 void RigEstimate::observeBias(const Hypothesis& found) {
   if (!config_.enabled) return;
   motion_by_bias_.setZero();
-  auto measurement = meter_.measure(found.camera,
-                                    found.features,
-                                    found.estimate.T_keyframe_cur,
-                                    kSmoothShare * found.shared_ratio);
+  auto measurement = meter_.measure(found.camera, found.features, found.estimate.T_keyframe_cur);
   if (!measurement) return;
   motion_by_bias_ = measurement->motion_by_bias;
   measurement->bias_px += bias().applied_px - knownBias();
@@ -99,7 +94,6 @@ void RigEstimate::observe(const Hypothesis& found,
                           const Keyframe& keyframe,
                           const StereoFrame& current) {
   const FeatureSet& inliers = found.estimate.rotation_inliers;
-  shared_errors_.observe(found.camera, found.features, inliers, found.estimate.T_keyframe_cur);
   if (!rows_.isKnown() && !rows_.isNear(keyframe.row_offset_px)) return;
   row_search_.measure(current, found.features, inliers, keyframe.row_offset_px, row_offsets_px_);
   rows_.observe(row_offsets_px_);

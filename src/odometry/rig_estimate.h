@@ -4,7 +4,6 @@
 
 #include "features/row_search.h"
 #include "features/stereo_frame.h"
-#include "motion/shared_error_estimator.h"
 #include "odometry/motion_check.h"
 #include "rig/bias_filter.h"
 #include "rig/bias_meter.h"
@@ -41,8 +40,6 @@ class RigEstimate {
   /// In pixels of the halved images.
   DisparityBias bias() const;
 
-  /// See Measurements.
-  double sharedRatio() const { return shared_errors_.ratio(); }
   /// Covariance that the uncertainty of the bias adds to that of the last motion, in the order of
   /// OdometryResult::covariance.
   Matrix6d motionCovariance() const;
@@ -80,7 +77,6 @@ class RigEstimate {
   BiasFilter past_;                             // without the observations of the current keyframe
   BiasFilter filter_;                           // with the last of them
   Vector6d motion_by_bias_ = Vector6d::Zero();  // translation, then rotation
-  SharedErrorEstimator shared_errors_;
   RowSearch row_search_;
   RowComparison rows_;
   std::vector<float> row_offsets_px_;  // buffer, reused

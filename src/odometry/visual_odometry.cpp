@@ -362,9 +362,8 @@ bool VisualOdometry::Pipeline::findMotionFrom(const FramePtr& earlier,
   using Start = MotionSearch::Start;
   if (keyframe_.frame != earlier) makeKeyframe(earlier, times);
   const StereoCamera corrected = rig_.correctedCamera();
-  const double shared_ratio = config_.method == "paper" ? 0.0 : rig_.sharedRatio();
   const MotionSearch::Frames frames = {
-      *finder_, corrected, keyframe_, current, expected.dt_s, shared_ratio, times};
+      *finder_, corrected, keyframe_, current, expected.dt_s, times};
   const auto settles = [&](const std::optional<Start>& start) {
     return start && search_.find(frames, *start, found_);
   };
@@ -390,7 +389,6 @@ bool VisualOdometry::Pipeline::findMotionFrom(const FramePtr& earlier,
 void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& result) {
   const MotionEstimate& estimate = found_.estimate;
   result.exposure_gain = found_.exposure_gain;
-  result.shared_error_ratio = found_.shared_ratio;
   result.flow_noise_px = estimate.flow_noise_px;
   result.keyframe_stamp_ns = keyframe_.frame->stamp_ns;
   const Matrix6d of_rig = rig_.motionCovariance();

@@ -35,12 +35,10 @@ constexpr double kMostSigma_px = 5.0;
 
 std::optional<BiasMeasurement> BiasMeter::measure(const StereoCamera& camera,
                                                   const Correspondences& features,
-                                                  const Eigen::Isometry3d& T_keyframe_cur,
-                                                  double smooth_ratio) {
+                                                  const Eigen::Isometry3d& T_keyframe_cur) {
   camera_ = camera;
   T_keyframe_cur_ = T_keyframe_cur;
   parabola_px_ = 0.0;
-  smooth_ratio_ = smooth_ratio;
   features_ = features;
   for (int step = 0; step < kMostSteps && features_.size() >= kLeastFeatures; ++step) {
     const WeightedVariance variance = linearize();
@@ -94,7 +92,6 @@ BiasMeter::Equations BiasMeter::sumEquations() const {
         sums.common_by_cell.col(cell).head<6>() -= feature.product.head<6>();
         sums.cells[cell] += feature.information;
         sums.cell_residual[cell] -= feature.product[6];
-        if (smooth_ratio_ == 0.0) return;
         const double height = parabolaOverRows(camera_, pixel);
         sums.common.row(kParabola).head<6>() -= height * feature.product.head<6>();
         sums.common.col(kParabola).head<6>() -= height * feature.product.head<6>();
@@ -104,10 +101,9 @@ BiasMeter::Equations BiasMeter::sumEquations() const {
       });
   sums.common.topLeftCorner<6, 6>() = normal.topLeftCorner<6, 6>();
   sums.common_residual.head<6>() = normal.topRightCorner<6, 1>();
-  // Without smooth errors, what is left is the equation 1 * parabola = 0.
-  const double known = smooth_ratio_ == 0.0 ? 1.0 : 1.0 / (smooth_ratio_ * smooth_ratio_);
-  sums.common(kParabola, kParabola) += known;
-  sums.common_residual[kParabola] += known * parabola_px_;
+  constexpr double kKnown = 1.0 / (kSmoothRatio * kSmoothRatio);
+  sums.common(kParabola, kParabola) += kKnown;
+  sums.common_residual[kParabola] += kKnown * parabola_px_;
   return sums;
 }
 
@@ -168,8 +164,7 @@ std::optional<BiasMeasurement> BiasMeter::describe() {
   measurement.shared_px2 =
       variance_px2 / slope2 * cells.of_bias.squaredNorm() / (information * information);
   measurement.shared_ratio2 = excess_px2 * slope2 / variance_px2;
-  measurement.smooth_px2 =
-      variance_px2 * smooth_ratio_ * smooth_ratio_ * effectOfSmoothErrors(cells);
+  measurement.smooth_px2 = variance_px2 * kSmoothRatio * kSmoothRatio * effectOfSmoothErrors(cells);
   const Common& by_bias = cells.common_by_bias;
   measurement.motion_by_bias << by_bias.segment<3>(3), by_bias.head<3>();
   const bool is_finite =

@@ -38,13 +38,11 @@ struct BiasMeasurement {
 /// together with the bias. Those by the columns add to the uncertainty.
 class BiasMeter {
  public:
-  /// Starts at the given motion, with depths as triangulated for `camera`. At the borders of the
-  /// image, smooth errors have a standard deviation of `smooth_ratio` times that of a flow; 0:
-  /// there are none. None if the features do not determine a bias, as at standstill.
+  /// Starts at the given motion, with depths as triangulated for `camera`. None if the features do
+  /// not determine a bias, as at standstill.
   std::optional<BiasMeasurement> measure(const StereoCamera& camera,
                                          const Correspondences& features,
-                                         const Eigen::Isometry3d& T_keyframe_cur,
-                                         double smooth_ratio);
+                                         const Eigen::Isometry3d& T_keyframe_cur);
 
  private:
   static constexpr int kColumns = 6;
@@ -87,7 +85,6 @@ class BiasMeter {
   std::optional<BiasMeasurement> describe();
 
   // The current step of one measurement, reused.
-  double smooth_ratio_ = 0.0;
   double parabola_px_ = 0.0;
   StereoCamera camera_;
   Correspondences features_;

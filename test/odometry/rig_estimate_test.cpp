@@ -13,7 +13,6 @@ namespace rotrocc {
 namespace {
 
 constexpr double kPeriod_s = 0.1;
-constexpr double kSharedRatio = 1.0;
 
 /// As measured on KITTI, without outliers.
 const FeatureNoise kNoise = {0.12, 0.36};
@@ -51,7 +50,6 @@ Hypothesis hypothesis(const StereoCamera& camera,
   found.camera = camera;
   found.features = features;
   found.estimate.T_keyframe_cur = T_keyframe_cur;
-  found.shared_ratio = kSharedRatio;
   return found;
 }
 
