@@ -173,7 +173,7 @@ void ReplayCheck::report(RigReport& report) {
   report.tables.push_back(std::move(table));
   if (!mirror.empty()) {
     share_.value = std::hypot(median(mirror), median(backward));
-    share_.sigma = share_.value / std::sqrt(static_cast<double>(mirror.size()));
+    share_.sigma = median(promised) / std::sqrt(static_cast<double>(mirror.size()));
   }
   const auto add = [&](const char* subject,
                        std::vector<double>& shares,

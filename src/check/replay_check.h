@@ -24,7 +24,7 @@ class ReplayCheck {
   void report(RigReport& report);
 
   /// The median differences of both ways over the path in the last report; 0 if there are none. Its
-  /// deviation assumes that stretches scatter by as much.
+  /// deviation is by the covariances of the motions.
   Estimate share() const { return share_; }
 
  private:

@@ -23,8 +23,10 @@ constexpr double kRetryAgreement_px = 2.0;
 /// A smaller share of the features is not what most agree on.
 constexpr double kMajority = 0.5;
 
-/// The motion near the prediction is the likelier one with this share of the other's inliers.
+/// The motion near the prediction wins with more than this fraction of the other's inliers, and of
+/// all features: fewer are no motion.
 constexpr double kLikelierShare = 0.5;
+constexpr double kLeastShare = 0.2;
 
 /// Two sets of inliers that differ by less are of the same motion.
 constexpr double kMinCountRatio = 1.1;
@@ -173,9 +175,9 @@ const MotionEstimate& MotionEstimator::estimate(
   if (agree < kMajority * static_cast<double>(features.size())) takeConsensus(measured, dt_s);
   if (!prediction) return found_;
   retryNear(*prediction, measured, dt_s);
-  const double enough = kLikelierShare * count(found_.rotation_inliers);
-  const bool is_likelier =
-      retry_.valid && (!found_.valid || count(retry_.rotation_inliers) > enough);
+  const int near = retry_.valid ? count(retry_.rotation_inliers) : 0;
+  const bool is_likelier = near > kLeastShare * static_cast<double>(features.size()) &&
+                           near > kLikelierShare * count(found_.rotation_inliers);
   return is_likelier ? retry_ : found_;
 }
 

@@ -29,7 +29,7 @@ class MotionEstimator {
   ///
   /// If much of the image moves independently, the full set may give a wrong motion. With few
   /// inliers, it is replaced by the consensus of the full set, if that has more inliers, or by the
-  /// motion of the features near `prediction`, if that has half as many.
+  /// motion near `prediction`, if that has more than half as many as the other.
   ///
   /// The result is valid until the next call.
   const MotionEstimate& estimate(const StereoCamera& camera,

@@ -15,9 +15,9 @@
 
 namespace rotrocc {
 
-/// What the features of all pairs so far show of the rig: row offset, the errors that neighbouring
-/// features share, and the disparity bias, a constant error of all disparities caused by an inexact
-/// stereo calibration, or by a rig that moves.
+/// What the features of all pairs so far show of the rig: the row offset, and the disparity bias, a
+/// constant error of all disparities caused by an inexact stereo calibration, or by a rig that
+/// moves.
 class RigEstimate {
  public:
   explicit RigEstimate(const OdometryConfig& config);

@@ -147,6 +147,12 @@ TEST(MotionEstimatorTest, IsNotMovedByATruckThatFillsMostOfThePicture) {
   EXPECT_LT(3.0 * error_with, error_without);  // the benefit of the retry
 }
 
+TEST(MotionEstimatorTest, ThePredictionWinsWithMoreThanHalfOfTheInliersOfTheTruck) {
+  // A third of the features is the limit. The truck moves by 0.3.
+  EXPECT_LT(translationError(estimate(withMovingObject(0.62, 1))), 0.03);
+  EXPECT_GT(translationError(estimate(withMovingObject(0.71, 1))), 0.2);
+}
+
 TEST(MotionEstimatorTest, OnlyAsPublishedLowSpeedSkipsTheTranslationStage) {
   const auto has_stage = [](double step_m, bool as_published) {
     MotionEstimator::Config config;

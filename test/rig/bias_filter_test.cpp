@@ -36,8 +36,8 @@ TEST(BiasFilterTest, IsAsUncertainAsItsFirstMeasurement) {
 TEST(BiasFilterTest, SharedErrorsDoNotAverageOut) {
   BiasFilter filter;
   for (int pair = 0; pair < 1000; ++pair) filter.add(measured(0.1));
-  // Noise alone would be 0.0016 px. The share of 0.4 of the variance stays with the rig.
-  EXPECT_GT(filter.bias().sigma_px, 0.9 * std::sqrt(0.4) * kSharedRatio * kShared_px);
+  // Noise alone would be 0.0016 px. The share of 0.5 of the variance stays with the rig.
+  EXPECT_GT(filter.bias().sigma_px, 0.9 * std::sqrt(0.5) * kSharedRatio * kShared_px);
 }
 
 TEST(BiasFilterTest, SmoothErrorsStay) {

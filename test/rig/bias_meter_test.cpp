@@ -100,7 +100,7 @@ TEST(BiasMeterTest, AParabolaOverTheRowsIsNoBias) {
   const auto biased = onARoad(1, onePixel);
   const BiasMeasurement bias = measure(biased, ahead());
   EXPECT_NEAR(bias.bias_px, 1.0, 3.0 * std::sqrt(bias.noise_px2));
-  // Errors by the columns are not estimated: they are uncertainty, which is a fifth of that by noise.
+  // Errors by the columns only add uncertainty: a fifth of that by noise.
   EXPECT_GT(bias.smooth_px2, 0.1 * bias.noise_px2);
 }
 

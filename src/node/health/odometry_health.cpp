@@ -61,6 +61,7 @@ std::string faultOfRig(const OdometryResult& result) {
     what = "disparities have a bias of " + hundredths(-bias.estimated_px) + " px (+- " +
            hundredths(bias.sigma_px) + "), which is corrected";
   }
+  // Chance matches of exchanged images are few before the next loss discards them.
   if (rows.typical_px >= kRowsApart_px && kSigmas * rows.sigma_px <= kRowsApart_px) {
     what += (what.empty() ? "" : "; ") + std::string("rows of left and right differ by ") +
             hundredths(rows.typical_px) + " px, with a median offset of " +
