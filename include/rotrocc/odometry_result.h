@@ -70,9 +70,9 @@ struct OdometryResult {
   std::string reason;         ///< why the state is not ok, in one sentence; empty if it is ok
   std::int64_t stamp_ns = 0;  ///< of the current pair
   /// Stamp of the previous pair, against which T_prev_cur is measured: the last pair that was not
-  /// lost; stamp_ns if there is none. A pair that matches neither it nor the keyframe may match the
-  /// latest lost pair, which is then the previous one. The motion before that pair is missing, so
-  /// the state is degraded.
+  /// lost; stamp_ns if there is none, or if this pair was rejected before a comparison. A pair that
+  /// matches neither it nor the keyframe may match the latest lost pair, which is then the previous
+  /// one. The motion before that pair is missing, so the state is degraded.
   std::int64_t prev_stamp_ns = 0;
   /// The motion of the left camera since the previous pair: maps points from its current frame to
   /// its previous frame. Identity unless the state is ok or degraded.
@@ -100,7 +100,7 @@ struct OdometryResult {
   StageCounts counts;
   StageTimes times;
 
-  /// Time since the previous pair [s]; 0 if there is none.
+  /// Time since the previous pair [s]; 0 if nothing was compared.
   double dt_s() const { return 1e-9 * static_cast<double>(stamp_ns - prev_stamp_ns); }
   bool hasMotion() const { return state == State::kOk || state == State::kDegraded; }
 };
