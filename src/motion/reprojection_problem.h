@@ -53,11 +53,11 @@ struct SharedErrorGrid : ImageGrid {
   explicit SharedErrorGrid(const StereoCamera& camera) : ImageGrid(camera, kColumns, kRows) {}
 };
 
-/// Standard deviation of the error of a cell over that of a flow: 2.4 to 6 on the rigs of KITTI,
-/// Karlsruhe and EuRoC.
+/// Ratio of the standard deviation of a cell's error to the flow noise: 2.4 to 6 on the rigs of
+/// KITTI, Karlsruhe and EuRoC.
 constexpr double kSharedRatio = 3.0;
 
-/// That of a smooth error at the borders of the image: 0.6 times as large.
+/// The same ratio for a smooth error at the borders of the image: 0.6 times kSharedRatio.
 constexpr double kSmoothRatio = 1.8;
 
 /// y^2 of a pixel, where y is -1 at the top and 1 at the bottom of the image.

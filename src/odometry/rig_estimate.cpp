@@ -90,9 +90,9 @@ void RigEstimate::observeBias(const Hypothesis& found) {
   filter_.add(*measurement);
 }
 
-void RigEstimate::observe(const Hypothesis& found,
-                          const Keyframe& keyframe,
-                          const StereoFrame& current) {
+void RigEstimate::observeRows(const Hypothesis& found,
+                              const Keyframe& keyframe,
+                              const StereoFrame& current) {
   const FeatureSet& inliers = found.estimate.rotation_inliers;
   if (!rows_.isKnown() && !rows_.isNear(keyframe.row_offset_px)) return;
   row_search_.measure(current, found.features, inliers, keyframe.row_offset_px, row_offsets_px_);

@@ -402,7 +402,7 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   if (const auto expected = predict(result.dt_s()); expected && !why_degraded) {
     why_degraded = MotionCheck::whyJump(step, *expected, result.dt_s());
   }
-  if (!why_degraded) rig_.observe(found_, keyframe_, *current);
+  if (!why_degraded) rig_.observeRows(found_, keyframe_, *current);
   if (why_degraded && result.reason.empty()) result.reason = *why_degraded;
   result.state = result.reason.empty() ? State::kOk : State::kDegraded;
   velocity_ = logMotion(step.T) / result.dt_s();
