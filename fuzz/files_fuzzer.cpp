@@ -8,10 +8,10 @@
 #include <string_view>
 
 #include "require.h"
-#include "rotrocc/kitti.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/trajectory.h"
 #include "sequences/calibration_file.h"
+#include "sequences/stereo_sequence.h"
 #include "support/temporary_directory.h"
 
 namespace rotrocc {
@@ -110,7 +110,8 @@ void readKitti(std::string_view text) {
     return directory() / "";
   }();
   write("calib.txt", text);
-  accepts<std::runtime_error>([] { KittiSequence(sequence).camera().check(); });
+  accepts<std::runtime_error>(
+      [] { openStereoSequence(sequence, {}).calibration.rectified.check(); });
 }
 
 const std::map<char, std::function<void(std::string_view)>> kReaders = {

@@ -8,7 +8,7 @@
 
 namespace rotrocc {
 
-/// Writes a simulated drive. If its images are rectified, in the layout of KittiSequence with
+/// Writes a simulated drive. If its images are rectified, in the layout of KITTI with
 /// poses.txt, else in ASL format, see AslSequence, with the poses of a body whose x axis looks
 /// forward and stamps from 2011-10-03 on. All but the images is there from the start, and an image
 /// appears when it is complete, the right one after the left one: so others can follow while the

@@ -40,8 +40,10 @@ TrajectoryFormat detectTrajectoryFormat(const std::string& path);
 /// file without poses.
 Trajectory readTrajectory(const std::string& path);
 
-/// Reads a file with one time [s] per line (KITTI's times.txt), rounded to nanoseconds. Throws
-/// std::runtime_error with file and line on any other content and on times that do not increase.
+/// Reads a file with one time of an image per line, rounded to nanoseconds: seconds (KITTI's
+/// times.txt), seconds or their thousandth parts since 1970, or date and time (KITTI's
+/// timestamps.txt). Throws std::runtime_error with file and line on any other content, on times
+/// that do not increase, and on steps that no camera has, with the unit that would fit.
 std::vector<std::int64_t> readTimes(const std::string& path);
 
 /// The first pose that is not before a stamp. Stamps must increase.

@@ -11,9 +11,9 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "rotrocc/kitti.h"
 #include "rotrocc/rigid_motion.h"
 #include "rotrocc/visual_odometry.h"
+#include "sequences/stereo_sequence.h"
 #include "simulation/sequence_writer.h"
 #include "simulation/simulator.h"
 #include "support/expect_error.h"
@@ -178,17 +178,18 @@ TEST(Simulation, WritesSequencesThatCanBeReadMeanwhile) {
   SequenceWriter writer(directory / "drive", simulator, {true, false});
   const SimulatedFrame frame = simulator.render(0);
   writer.write(frame);
-  expectError<std::runtime_error>([&] { KittiSequence(directory / "drive"); },
-                                  "has 1 entries, but times.txt has 2 times");
-  const KittiSequence sequence(directory / "drive", true);
-  EXPECT_FALSE(std::filesystem::exists(sequence.rightPath(1)));
+  EXPECT_EQ(openStereoSequence(directory / "drive", {}).size(), 1);
+  SequenceOptions options_of_reader;
+  options_of_reader.being_written = true;
+  const StereoSequence sequence = openStereoSequence(directory / "drive", options_of_reader);
+  EXPECT_FALSE(sequence.pairs.hasFiles(1));
   writer.write(simulator.render(1));
-  EXPECT_TRUE(std::filesystem::exists(sequence.rightPath(1)));
+  EXPECT_TRUE(sequence.pairs.hasFiles(1));
   EXPECT_EQ(sequence.size(), 2);
-  EXPECT_EQ(sequence.camera().differenceTo(simulator.camera()), 0.0);
+  EXPECT_EQ(sequence.calibration.rectified.differenceTo(simulator.camera()), 0.0);
   EXPECT_EQ(sequence.stamp_ns(1), simulator.stamp_ns(1));
-  EXPECT_TRUE(sequence.groundTruth()[1].T_world_body.isApprox(simulator.pose(1), 1e-6));
-  EXPECT_EQ(differingPixels(sequence.readRight(0), frame.pair.right), 0);
+  EXPECT_TRUE(sequence.ground_truth[1].T_world_body.isApprox(simulator.pose(1), 1e-6));
+  EXPECT_EQ(differingPixels(sequence.read(0).right, frame.pair.right), 0);
 
   const cv::Mat depth = cv::imread(directory / "drive/depth/000000.tiff", cv::IMREAD_UNCHANGED);
   ASSERT_EQ(depth.type(), CV_32FC1);

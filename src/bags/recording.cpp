@@ -100,8 +100,8 @@ class BagRecording : public Recording {
       left_info_ = firstInfo(bags_, topics_.left_info);
       right_info_ = firstInfo(bags_, topics_.right_info);
     } else {
-      std::tie(left_info_, right_info_) =
-          toCameraInfos(readStereoCalibration(options.calibration, options.sequence.baseline_m));
+      std::tie(left_info_, right_info_) = toCameraInfos(
+          readStereoCalibration(options.sequence.calibration, options.sequence.baseline_m));
       left_info_.header.frame_id = right_info_.header.frame_id = camera_frame_;
       topics_.left_info = topics_.right_info = "";
     }
@@ -118,17 +118,13 @@ class BagRecording : public Recording {
     return static_cast<int>(BagView(bags_, {topics_.left_image}).size());
   }
 
-  /// Whether the images have to be rectified by camera_info. That of a topic of rectified images
-  /// is of the raw ones, see isRectifiedByName().
   bool isRaw() const override {
     if (isRectifiedByName(topics_.left_image) && !hasFilesOfItsImages()) return false;
-    if (left_info_.K[0] == 0.0) return false;  // it says nothing about them
-    try {
-      return !toStereoCalibration(left_info_, right_info_, options_.sequence.baseline_m)
-                  .isRectified();
-    } catch (const InputError&) {
-      return true;  // who rectifies says what is wrong
-    }
+    return hasRawCalibration();
+  }
+
+  bool hasRawCalibration() const override {
+    return describeRawImages(left_info_, right_info_, options_.sequence.baseline_m);
   }
 
   std::string mountNote() const override { return tf().note(); }
@@ -216,13 +212,13 @@ class BagRecording : public Recording {
   }
 
  private:
-  bool usesInfos() const { return options_.calibration.empty(); }
+  bool usesInfos() const { return options_.sequence.calibration.empty(); }
 
   /// Whether files describe the images of the topic, be they rectified or not: a camchain, or the
   /// files by which check_rig corrects rectified images, whose left one changes nothing.
   bool hasFilesOfItsImages() const {
     if (usesInfos()) return false;
-    return options_.calibration.size() == 1 ||
+    return options_.sequence.calibration.size() == 1 ||
            toStereoCalibration(left_info_, right_info_, options_.sequence.baseline_m)
                .isLeftRectified();
   }

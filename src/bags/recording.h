@@ -42,6 +42,10 @@ class Recording {
   /// Whether the images have to be rectified.
   virtual bool isRaw() const = 0;
 
+  /// Whether the calibration is of raw images. Those of a topic of rectified images may have one,
+  /// see isRectifiedByName().
+  virtual bool hasRawCalibration() const { return isRaw(); }
+
   /// For the log: which mount of the camera is assumed, and how recorded poses are used; or empty.
   virtual std::string mountNote() const { return ""; }
   virtual std::string truthNote() const { return ""; }
@@ -86,11 +90,8 @@ struct RecordingOptions {
   std::string left_image;  ///< topics of the pair in a bag; empty: findStereoTopics()
   std::string right_image;
   std::string base_frame = "base_link";  ///< of a bag: its recorded poses are the true path
-  /// Files of readStereoCalibration(), in place of camera_info and of a sequence's own calibration;
-  /// empty: none.
-  std::vector<std::string> calibration;
   bool raw_sequence = false;  ///< images of a sequence as they were recorded; otherwise rectified
-  SequenceOptions sequence;
+  SequenceOptions sequence;   ///< its calibration also in place of camera_info
 };
 
 /// Opens a stereo bag, whatever its topics are, several bags or a directory of bags as one, or the

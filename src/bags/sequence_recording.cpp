@@ -11,7 +11,6 @@
 #include "input/camera_calibration.h"
 #include "input/input_error.h"
 #include "input/message_conversion.h"
-#include "sequences/calibration_file.h"
 
 namespace rotrocc {
 namespace {
@@ -30,6 +29,16 @@ void requireRosStamps(const StereoSequence& sequence, std::int64_t offset_ns) {
                               " s are out of the range of ROS, which is from 1 to 4e9 s");
 }
 
+/// By what the node requires of camera_info.
+void requireValid(const StereoCalibration& calibration, const std::string& directory) {
+  try {
+    const auto [left, right] = toCameraInfos(calibration);
+    toStereoCalibration(left, right);
+  } catch (const InputError& error) {
+    throw std::runtime_error("the calibration of " + directory + ": " + error.what());
+  }
+}
+
 sensor_msgs::Image::Ptr toGreyImage(const std_msgs::Header& header, const cv::Mat& pixels) {
   const bool has_16_bits = pixels.depth() == CV_16U;
   return cv_bridge::CvImage(header, has_16_bits ? "mono16" : "mono8", pixels).toImageMsg();
@@ -43,9 +52,7 @@ SequenceRecording::SequenceRecording(const std::string& directory, const Recordi
       offset_ns_(rosTimeOffset_ns(sequence_)),
       calibration_(sequence_.calibration) {
   requireRosStamps(sequence_, offset_ns_);
-  if (!options.calibration.empty()) {
-    calibration_ = readStereoCalibration(options.calibration, options.sequence.baseline_m);
-  }
+  requireValid(calibration_, directory);
   if (!options.raw_sequence && !calibration_.isRectified()) {
     raw_calibration_ = std::make_shared<const StereoCalibration>(calibration_);
     calibration_ = rectifiedCalibration(calibration_.rectified);

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "input/camera_calibration.h"
+
 namespace rotrocc {
 namespace {
 
@@ -54,7 +56,7 @@ std::string rightOf(const std::string& left_image) {
 
 /// Lower is better.
 int rank(const StereoTopics& topics) {
-  const bool rectified = contains(topics.left_image, "rect");
+  const bool rectified = isRectifiedByName(topics.left_image);
   const bool colour = contains(topics.left_image, "color");
   const bool compressed = contains(topics.left_image, kCompressed);
   return (rectified ? 0 : 4) + (colour ? 2 : 0) + (compressed ? 1 : 0);
@@ -133,10 +135,6 @@ StereoTopics findStereoTopics(const TopicTypes& types,
                        : "no stereo pair (.../left/image..., .../right/image..., each with "
                          "camera_info); specify the left and right image topics") +
       (", image topics:" + imageTopics(types)));
-}
-
-bool isRectifiedByName(const std::string& image_topic) {
-  return contains(image_topic, "rect") || contains(image_topic, "kitti/camera_");
 }
 
 }  // namespace rotrocc

@@ -33,8 +33,4 @@ StereoTopics findStereoTopics(const TopicTypes& types,
                               const std::string& right_image = "",
                               bool with_infos = true);
 
-/// Whether a name tells that its images are rectified: image_rect and the like, and the topics of
-/// kitti2bag, whose image_raw is rectified.
-bool isRectifiedByName(const std::string& image_topic);
-
 }  // namespace rotrocc

@@ -7,10 +7,10 @@
 
 #include "common/median.h"
 #include "common/to_seconds.h"
-#include "input/camera_calibration.h"
 #include "input/camera_clock.h"
 #include "input/input_error.h"
 #include "input/message_conversion.h"
+#include "input/sent_calibration.h"
 #include "input/to_text.h"
 
 namespace rotrocc {
@@ -32,6 +32,7 @@ std::string listOf(const std::map<std::string, int>& counts) {
 }  // namespace
 
 void InputCheck::observe(const RecordedMessage& message) {
+  if (message.left_info) left_info_ = message.left_info;
   for (const auto& [image, stream] :
        {std::pair(message.left_image, &left_), {message.right_image, &right_}}) {
     if (!image) continue;
@@ -67,7 +68,7 @@ void InputCheck::addCamera(const StereoCamera& camera, bool rectifies, RigReport
                              fixedText(camera.baseline_m, 4) + " m, " +
                              sizeText(camera.width, camera.height) +
                              (rectifies ? ", raw images, rectified here" : ", rectified images");
-  const std::string warning = baselineWarning(camera);
+  const std::string warning = left_info_ ? calibrationWarning(*left_info_, camera) : "";
   report.findings.push_back({"inputs",
                              "camera_info",
                              values,

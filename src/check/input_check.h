@@ -4,6 +4,8 @@
 #include <map>
 #include <string>
 
+#include <sensor_msgs/CameraInfo.h>
+
 #include "bags/recording.h"
 #include "check/rig_report.h"
 #include "input/stamps.h"
@@ -35,6 +37,7 @@ class InputCheck {
   void addCamera(const StereoCamera& camera, bool rectifies, RigReport& report) const;
 
   Stream left_, right_;
+  sensor_msgs::CameraInfo::ConstPtr left_info_;  // the last one
 };
 
 }  // namespace rotrocc

@@ -45,16 +45,14 @@ double TextLine::number(std::size_t index) const {
   return value;
 }
 
-std::int64_t TextLine::nanoseconds(std::size_t index) const {
-  const long double seconds = parse(*this, index);
-  if (!(std::abs(seconds) < 9.2e9L)) refuse(*this, index, "not a time in seconds below 9.2e9");
-  return std::llround(seconds * 1e9L);
-}
-
-std::int64_t TextLine::integer(std::size_t index) const {
-  const long double value = parse(*this, index);
-  if (!(std::abs(value) < 9.2e18L)) refuse(*this, index, "not an integer below 9.2e18");
-  return std::llround(value);
+std::int64_t TextLine::nanoseconds(std::size_t index, std::int64_t unit_ns) const {
+  const long double time_ns = parse(*this, index) * static_cast<long double>(unit_ns);
+  if (!(std::abs(time_ns) < 9.2e18L)) {
+    refuse(*this,
+           index,
+           unit_ns == 1 ? "not an integer below 9.2e18" : "not a time in seconds below 9.2e9");
+  }
+  return std::llround(time_ns);
 }
 
 Eigen::Isometry3d TextLine::quaternionPose(bool w_first) const {

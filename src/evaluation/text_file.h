@@ -17,10 +17,9 @@ struct TextLine {
   /// The word at `index` as a number. Throws std::runtime_error if it is not a finite number.
   double number(std::size_t index) const;
 
-  /// The word at `index`, a time [s], in nanoseconds; or as an integer. Both are rounded, and throw
-  /// like number(), and on values beyond the range of 64 bit.
-  std::int64_t nanoseconds(std::size_t index) const;
-  std::int64_t integer(std::size_t index) const;
+  /// The word at `index`, a time in units of `unit_ns`, in nanoseconds. Rounded; throws like
+  /// number(), and on values beyond the range of 64 bit.
+  std::int64_t nanoseconds(std::size_t index, std::int64_t unit_ns) const;
 
   /// The pose of a position [m] in the words 1 to 3 and a quaternion in the words 4 to 7, w last or
   /// first. Throws like number(), and if the quaternion has not the length 1.

@@ -8,6 +8,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "evaluation/image_times.h"
 #include "evaluation/text_file.h"
 
 namespace rotrocc {
@@ -42,7 +43,7 @@ Eigen::Isometry3d kittiPose(const TextLine& line) {
 
 /// The first number of a line [s].
 std::int64_t timeAfter(std::int64_t previous_ns, const TextLine& line) {
-  const std::int64_t stamp_ns = line.nanoseconds(0);
+  const std::int64_t stamp_ns = line.nanoseconds(0, kSecond_ns);
   line.requireLater(stamp_ns, previous_ns);
   return stamp_ns;
 }
@@ -71,15 +72,6 @@ Trajectory readTrajectory(const std::string& path) {
     trajectory.push_back({stamp_ns, is_tum ? line.quaternionPose(false) : kittiPose(line)});
   }
   return trajectory;
-}
-
-std::vector<std::int64_t> readTimes(const std::string& path) {
-  std::vector<std::int64_t> stamps_ns;
-  for (const TextLine& line : readTextLines(path)) {
-    requireCount(line, 1);
-    stamps_ns.push_back(timeAfter(stamps_ns.empty() ? INT64_MIN : stamps_ns.back(), line));
-  }
-  return stamps_ns;
 }
 
 Trajectory::const_iterator firstFrom(const Trajectory& trajectory, std::int64_t stamp_ns) {
@@ -132,7 +124,6 @@ void TrajectoryWriter::write(const StampedPose& pose) {
   if (format_ == TrajectoryFormat::kKitti) {
     file_ << std::scientific << pose.T_world_body.affine().format(kInOneLine) << std::endl;
   } else {
-    constexpr std::int64_t kSecond_ns = 1'000'000'000;
     Eigen::Quaterniond quaternion(pose.T_world_body.linear());
     quaternion.normalize();
     if (quaternion.w() < 0.0) quaternion.coeffs() *= -1.0;

@@ -10,7 +10,7 @@ std::vector<GyroSample> readGyroFile(const std::string& path) {
   for (const TextLine& line : readTextLines(path, ',')) {
     line.requireColumns(4, "timestamp [ns] and three angular velocities [rad/s]");
     samples.push_back(
-        {line.integer(0), Eigen::Vector3d(line.number(1), line.number(2), line.number(3))});
+        {line.nanoseconds(0, 1), Eigen::Vector3d(line.number(1), line.number(2), line.number(3))});
   }
   return samples;
 }

@@ -1,11 +1,13 @@
 #include "input/camera_calibration.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "input/input_error.h"
+#include "input/sent_calibration.h"
 #include "input/to_text.h"
 
 namespace rotrocc {
@@ -18,18 +20,26 @@ constexpr double kMaxMismatch_px = 0.1;   // of fx, fy and cy between rectified 
 constexpr double kMaxOffRowShare = 0.05;  // of the baseline that may be along y
 /// Relative difference of a number in camera_info: thousandths of a pixel for a focal length.
 constexpr double kSameNumber = 1e-6;
-constexpr double kMaxSize_px = 1e6;  // keeps sizes in the range of int
-constexpr double kSmallBaseline_m = 0.005;
-constexpr double kGreatBaseline_m = 10.0;
 
 [[noreturn]] void refuseCameraInfo(const std::string& sentence) {
   throw InputError(DropReason::kCameraInfoInvalid, sentence);
 }
 
+template <class Numbers>
+bool areSame(const Numbers& a, const Numbers& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) {
+    return std::abs(x - y) <= kSameNumber * std::abs(x);
+  });
+}
+
+bool isZero(double value) {
+  return value == 0.0;
+}
+
 void checkProjection(const std::string& side, const Info& info) {
   const auto& P = info.P;
   const std::string its = "P of the " + side + " camera_info";
-  if (std::all_of(P.begin(), P.end(), [](double value) { return value == 0.0; })) {
+  if (std::all_of(P.begin(), P.end(), isZero)) {
     refuseCameraInfo(its +
                      " is all zeros: the camera is not calibrated; calibrate it as a stereo pair");
   }
@@ -48,28 +58,6 @@ void checkProjection(const std::string& side, const Info& info) {
         toText(P[1]) + ", P[4] = " + toText(P[4]) + ", P[8] = " + toText(P[8]) + ", P[9] = " +
         toText(P[9]) + ", P[10] = " + toText(P[10]) + "; calibrate the cameras as a pair");
   }
-}
-
-/// The sizes, K and P of the images as they are sent: without binning and region of interest.
-Info ofSentImages(Info info) {
-  const auto& roi = info.roi;
-  const double binning_x = std::max(info.binning_x, 1u);
-  const double binning_y = std::max(info.binning_y, 1u);
-  const auto scale = [&](auto& matrix, std::size_t columns) {
-    matrix[2] -= roi.x_offset;
-    matrix[columns + 2] -= roi.y_offset;
-    for (std::size_t i = 0; i < columns; ++i) {
-      matrix[i] /= binning_x;
-      matrix[columns + i] /= binning_y;
-    }
-  };
-  scale(info.K, 3);
-  scale(info.P, 4);
-  const double width = (roi.width > 0 ? roi.width : info.width) / binning_x;
-  const double height = (roi.height > 0 ? roi.height : info.height) / binning_y;
-  info.width = static_cast<std::uint32_t>(std::min(width, kMaxSize_px));
-  info.height = static_cast<std::uint32_t>(std::min(height, kMaxSize_px));
-  return info;
 }
 
 void requireEqual(const std::string& name, double left, double right) {
@@ -96,31 +84,41 @@ void requireSideBySide(const Info& left, const Info& right) {
   }
 }
 
-RawCamera toRawCamera(const std::string& side, const Info& sent) {
+/// Whether neither K nor D leaves anything to rectify: some drivers leave R at zero then.
+bool isOfRectifiedImages(const Info& info) {
+  const std::array<double, 4> by_K = {info.K[0], info.K[2], info.K[4], info.K[5]};
+  const std::array<double, 4> by_P = {info.P[0], info.P[2], info.P[5], info.P[6]};
+  return areSame(by_K, by_P) && std::all_of(info.D.begin(), info.D.end(), isZero);
+}
+
+RawCamera toRawCamera(const std::string& side, const Info& info, const CalibratedImage& of) {
+  const Info sent = ofSentImages(info, of);
   const auto& K = sent.K;
   if (!(K[0] > 0.0 && K[4] > 0.0)) {
     refuseCameraInfo("K of the " + side + " camera_info has focal lengths " + toText(K[0]) +
                      " and " + toText(K[4]) +
                      " px, but rectification needs them: calibrate the camera");
   }
+  Matrix3 R = Eigen::Map<const Matrix3>(sent.R.data());
+  if (R.isZero(0.0) && isOfRectifiedImages(sent)) R.setIdentity();
+  RawCamera raw;
   std::string what = "D of the ";
   try {
-    // Drivers without a calibration leave the name empty.
-    const std::string model = sent.distortion_model.empty() ? "plumb_bob" : sent.distortion_model;
-    RawCamera raw = {static_cast<int>(sent.width),
-                     static_cast<int>(sent.height),
-                     K[0],
-                     K[4],
-                     K[2],
-                     K[5],
-                     {model, sent.D},
-                     Eigen::Map<const Matrix3>(sent.R.data())};
+    raw = {static_cast<int>(sent.width),
+           static_cast<int>(sent.height),
+           K[0],
+           K[4],
+           K[2],
+           K[5],
+           {sent.distortion_model, sent.D},
+           R};
     what = "the ";
     raw.check();
-    return raw;
   } catch (const std::invalid_argument& error) {
     refuseCameraInfo(what + side + " camera_info: " + error.what());
   }
+  if (!isCropped(info)) requireOfItsImage("K of the " + side + " camera_info", K[2], K[5], sent);
+  return raw;
 }
 
 /// `rectified` has the size and focal lengths of P, `cx` is its principal point and `shift_px` its
@@ -148,20 +146,14 @@ double shiftOf(const StereoCamera& camera) {
   return product;
 }
 
-template <class Numbers>
-bool areSame(const Numbers& a, const Numbers& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) {
-    return std::abs(x - y) <= kSameNumber * std::abs(x);
-  });
-}
-
 }  // namespace
 
 StereoCamera toStereoCamera(const Info& left_info, const Info& right_info, double baseline_m) {
   checkProjection("left", left_info);
   checkProjection("right", right_info);
-  const Info left = ofSentImages(left_info);
-  const Info right = ofSentImages(right_info);
+  const CalibratedImage image = calibratedImageOf(left_info);
+  const Info left = ofSentImages(left_info, image);
+  const Info right = ofSentImages(right_info, image);
   if (left.width != right.width || left.height != right.height) {
     refuseCameraInfo("the left camera_info is for images of " + sizeText(left.width, left.height) +
                      ", the right one for " + sizeText(right.width, right.height) +
@@ -186,13 +178,11 @@ StereoCamera toStereoCamera(const Info& left_info, const Info& right_info, doubl
   } catch (const std::invalid_argument& error) {
     refuseCameraInfo(std::string("camera_info is not a valid camera: ") + error.what());
   }
+  if (!isCropped(left_info)) {
+    requireOfItsImage("P of the left camera_info", left.P[2], left.P[6], left);
+    requireOfItsImage("P of the right camera_info", right.P[2], right.P[6], right);
+  }
   return camera;
-}
-
-std::string baselineWarning(const StereoCamera& camera) {
-  if (camera.baseline_m >= kSmallBaseline_m && camera.baseline_m <= kGreatBaseline_m) return "";
-  return "a baseline of " + toText(camera.baseline_m) +
-         " m is unusual: is P[3] of camera_info in pixels times metres?";
 }
 
 std::pair<Info, Info> toCameraInfos(const StereoCalibration& calibration) {
@@ -203,9 +193,25 @@ std::pair<Info, Info> toCameraInfos(const StereoCalibration& calibration) {
 
 StereoCalibration toStereoCalibration(const Info& left, const Info& right, double baseline_m) {
   const StereoCamera rectified = toStereoCamera(left, right, baseline_m);
-  return {toRawCamera("left", ofSentImages(left)),
-          toRawCamera("right", ofSentImages(right)),
-          rectified};
+  const CalibratedImage image = calibratedImageOf(left);
+  return {toRawCamera("left", left, image), toRawCamera("right", right, image), rectified};
+}
+
+bool describeRawImages(const Info& left, const Info& right, double baseline_m) {
+  if (left.K[0] == 0.0) return false;
+  try {
+    return !toStereoCalibration(left, right, baseline_m).isRectified();
+  } catch (const InputError&) {
+    return true;
+  }
+}
+
+bool isRectifiedByName(std::string image_topic) {
+  if (image_topic.find("kitti/camera_") != std::string::npos) return true;
+  if (const auto end = image_topic.rfind("/compressed"); end != std::string::npos) {
+    image_topic.resize(end);
+  }
+  return image_topic.find("/image_rect", image_topic.rfind('/')) != std::string::npos;
 }
 
 bool isSameCamera(const Info& a, const Info& b) {

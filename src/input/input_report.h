@@ -97,6 +97,7 @@ struct InputReport {
   bool clock_stands = false;            ///< simulated time stands still
   std::string refused;                  ///< why recent input was dropped; empty if none
   std::string camera_error;             ///< why camera_info is invalid or not of the images
+  bool has_raw_infos = false;           ///< camera_info of raw images, which are not rectified
   bool waits_for_info = false;          ///< a pair waits for camera_info
 
   std::array<const TopicReport*, 4> topics() const {

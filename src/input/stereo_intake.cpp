@@ -5,6 +5,7 @@
 
 #include "common/to_seconds.h"
 #include "input/message_conversion.h"
+#include "input/sent_calibration.h"
 #include "input/to_text.h"
 
 namespace rotrocc {
@@ -140,13 +141,15 @@ void StereoIntake::handOver() {
 void StereoIntake::tell(const StereoCamera& camera) {
   if (told_camera_.differenceTo(camera) <= kToldAgain) return;
   told_camera_ = camera;
+  has_raw_infos_ =
+      !calibration_ && describeRawImages(*left_info_, *right_info_, parameters_.baseline_m);
   const std::string rectified = calibration_
                                     ? std::string("; raw images are rectified by K, R and D (") +
                                           calibration_->left.distortion.name() + ")"
                                     : "";
   log_.info("stereo camera from P: " + sizeText(camera.width, camera.height) + ", fx " +
             toText(camera.fx) + " px, baseline " + toText(camera.baseline_m) + " m" + rectified);
-  const std::string warning = baselineWarning(camera);
+  const std::string warning = calibrationWarning(*left_info_, camera);
   if (!warning.empty()) log_.warn(warning);
 }
 
@@ -177,6 +180,7 @@ InputReport StereoIntake::report(std::chrono::steady_clock::time_point now) cons
                         pairs_.since(begin)};
   }
   report.camera_error = camera_error_;
+  report.has_raw_infos = has_raw_infos_;
   if (const auto refused = drops_.lastWithin(TopicStatistics::kWindow)) {
     report.refused = refused->what();
     if (refused->reason() == DropReason::kImageNotOfCamera) report.camera_error = refused->what();

@@ -85,6 +85,7 @@ class StereoIntake {
   Info left_info_, right_info_;  // that the camera is from
   std::optional<StereoCamera> camera_;
   StereoCamera told_camera_;                              // by the log
+  bool has_raw_infos_ = false;                            // that are not used to rectify
   std::shared_ptr<const StereoCalibration> calibration_;  // null if the images are rectified
   Info calibrated_left_, calibrated_right_;               // that it is from
   std::string camera_error_;

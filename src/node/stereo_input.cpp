@@ -10,6 +10,7 @@
 #include <sensor_msgs/Image.h>
 #include <boost/algorithm/string/join.hpp>
 
+#include "input/camera_calibration.h"
 #include "input/message_conversion.h"
 
 namespace rotrocc {
@@ -36,7 +37,8 @@ StereoInput::StereoInput(ros::NodeHandle& nh,
                          DropLog& drops,
                          StereoIntake::PairHandler on_pair,
                          const Log& log)
-    : silence_(parameters.silence_s, std::chrono::steady_clock::now(), log),
+    : log_(log),
+      silence_(parameters.silence_s, std::chrono::steady_clock::now(), log),
       intake_(
           parameters,
           drops,
@@ -94,7 +96,15 @@ InputReport StereoInput::report() {
   addTopic(right_.info, report.right_info);
   report.clock_missing = ros::Time::isSimTime() && asked.clock_ns == 0;
   silence_.onTick(report, asked);
+  tellRawInfos(report);
   return report;
+}
+
+void StereoInput::tellRawInfos(const InputReport& report) {
+  if (!report.has_raw_infos || isRectifiedByName(report.left_image.topic)) return;
+  if (std::exchange(told_raw_infos_, true)) return;
+  log_.warn(report.left_image.topic + " is taken as rectified, but is not named image_rect, and " +
+            report.left_info.topic + " is of raw images: set rectify if they are raw");
 }
 
 }  // namespace rotrocc

@@ -36,6 +36,10 @@ class StereoInput {
                         const NodeParameters& parameters,
                         StereoIntake::Side side);
 
+  void tellRawInfos(const InputReport& report);
+
+  Log log_;
+  bool told_raw_infos_ = false;
   SilenceWatch silence_;
   StereoIntake intake_;
   Subscribers left_, right_;  // last, so that callbacks end before the other members are destroyed

@@ -36,7 +36,7 @@ std::unique_ptr<Recording> openPlayable(const PlayerOptions& options) {
   how.left_image = options.left_image;
   how.right_image = options.right_image;
   std::istringstream files(options.calibration);
-  how.calibration.assign(std::istream_iterator<std::string>(files), {});
+  how.sequence.calibration.assign(std::istream_iterator<std::string>(files), {});
   how.base_frame = options.base_frame;
   how.raw_sequence = options.rectify;
   how.sequence.max_stamp_difference_s = options.max_stamp_difference_s;
@@ -117,6 +117,7 @@ bool KittiPlayer::onPause(std_srvs::SetBool::Request& request,
 
 void KittiPlayer::run() {
   ROS_INFO("playing %s", recording_->description().c_str());
+  if (!recording_->leftOut().empty()) ROS_WARN("%s", recording_->leftOut().c_str());
   if (!ros::Time::isSimTime()) {
     ROS_WARN(
         "use_sim_time is not set: nodes use the clock of this machine instead of the recording's");

@@ -26,7 +26,10 @@ const struct {
                {"rational_polynomial", "rational_polynomial", 8},
                {"equidistant", "equidistant", 4},
                {"equi", "equidistant", 4},
-               {"fisheye", "equidistant", 4}};
+               {"fisheye", "equidistant", 4},
+               // Of drivers without a calibration, or of rectified images.
+               {"", "plumb_bob", 5},
+               {"none", "plumb_bob", 0}};
 
 }  // namespace
 
@@ -39,9 +42,13 @@ Distortion::Distortion(const std::string& model, const std::vector<double>& coef
                                 "' is not supported: use plumb_bob (radial-tangential), "
                                 "rational_polynomial or equidistant (fisheye)");
   }
+  // More that are zero are of a model with more terms that this lens does not need.
+  while (coefficients_.size() > known->coefficients && coefficients_.back() == 0.0) {
+    coefficients_.pop_back();
+  }
   const std::size_t count = known->coefficients;
-  const bool lacks_k3 = count == 5 && coefficients.size() == 4;
-  if (!coefficients.empty() && !lacks_k3 && coefficients.size() != count) {
+  const bool lacks_k3 = count == 5 && coefficients_.size() == 4;
+  if (!coefficients_.empty() && !lacks_k3 && coefficients_.size() != count) {
     throw std::invalid_argument(
         "the distortion " + model +
         cv::format(" has %zu coefficients instead of %zu: check the calibration file",
@@ -54,7 +61,7 @@ Distortion::Distortion(const std::string& model, const std::vector<double>& coef
                                 cv::format(" is %g: check the calibration file", value));
   }
   name_ = known->ros_name;
-  coefficients_.resize(count, 0.0);
+  coefficients_.resize(name_ == kEquidistant ? 4 : std::max<std::size_t>(count, 5), 0.0);
   limit_ = findLimit();
   if (limit_ > 0.0) return;
   throw std::invalid_argument(

@@ -17,9 +17,10 @@ class Distortion {
   ///   plumb_bob, radial-tangential, radtan   k1 k2 p1 p2 and optionally k3
   ///   rational_polynomial                    k1 k2 p1 p2 k3 k4 k5 k6
   ///   equidistant, equi, fisheye             k1 k2 k3 k4
-  /// No coefficients: no distortion, or that of an equidistant lens without any. Throws
-  /// std::invalid_argument with the value on an unknown name, a wrong number of coefficients, and
-  /// values that are not finite.
+  ///   none                                   nothing
+  /// An empty name is plumb_bob. No coefficients: no distortion, or that of an equidistant lens
+  /// without any; more of them must be zero. Throws std::invalid_argument with the value on an
+  /// unknown name, a wrong number of coefficients, and values that are not finite.
   Distortion(const std::string& model, const std::vector<double>& coefficients);
 
   /// Name in sensor_msgs/CameraInfo.

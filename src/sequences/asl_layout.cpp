@@ -3,8 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include "evaluation/image_times.h"
 #include "evaluation/text_file.h"
-#include "sequences/calibration_file.h"
 #include "sequences/layouts.h"
 
 namespace rotrocc {
@@ -13,12 +13,13 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<StampedImage> readImageList(const std::string& camera) {
+  const std::vector<TextLine> lines = readTextLines(camera + "/data.csv", ',');
+  for (const TextLine& line : lines) line.requireColumns(2, "timestamp [ns] and file name");
+  const std::vector<std::int64_t> stamps_ns = imageStamps(lines, 1);
   std::vector<StampedImage> images;
-  for (const TextLine& line : readTextLines(camera + "/data.csv", ',')) {
-    line.requireColumns(2, "timestamp [ns] and file name");
-    const std::int64_t stamp_ns = line.integer(0);
-    if (!images.empty()) line.requireLater(stamp_ns, images.back().stamp_ns);
-    images.push_back({stamp_ns, camera + "/data/" + line.words[1]});
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (i > 0) lines[i].requireLater(stamps_ns[i], stamps_ns[i - 1]);
+    images.push_back({stamps_ns[i], camera + "/data/" + lines[i].words[1]});
   }
   return images;
 }
@@ -34,7 +35,7 @@ Trajectory readGroundTruth(const std::string& folder,
   for (const TextLine& line : readTextLines(folder + "/data.csv", ',')) {
     line.requireColumns(8, "timestamp [ns], position [m] and quaternion w x y z");
     const Eigen::Isometry3d T_world_sensor = line.quaternionPose(true);
-    const std::int64_t stamp_ns = line.integer(0);
+    const std::int64_t stamp_ns = line.nanoseconds(0, 1);
     if (!poses.empty()) line.requireLater(stamp_ns, poses.back().stamp_ns);
     poses.push_back({stamp_ns, T_world_sensor * T_sensor_camera});
   }
@@ -54,8 +55,10 @@ std::optional<StereoSequence> readAslLayout(const std::string& directory,
   const AslCamera right = readAslCamera(root + "/cam1/sensor.yaml");
   StereoCalibration calibration;
   try {
-    calibration = chooseRectification(
-        left.camera, right.camera, left.T_body_camera.inverse() * right.T_body_camera);
+    calibration = calibrationOf(options, [&] {
+      return chooseRectification(
+          left.camera, right.camera, left.T_body_camera.inverse() * right.T_body_camera);
+    });
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(root + "/cam0/sensor.yaml and cam1/sensor.yaml: " + error.what());
   }

@@ -31,12 +31,20 @@ class ImagePairs {
     StampedImage right;
   };
 
-  /// Pairs whose files may be missing yet.
-  explicit ImagePairs(std::vector<Pair> pairs) : pairs_(std::move(pairs)) {}
+  /// Pairs of so many images, whose files may be missing yet; `missing_files` others are listed.
+  ImagePairs(std::vector<Pair> pairs,
+             std::size_t left_images,
+             std::size_t right_images,
+             std::size_t missing_files = 0)
+      : pairs_(std::move(pairs)),
+        left_alone_(left_images - pairs_.size()),
+        right_alone_(right_images - pairs_.size()),
+        missing_files_(missing_files) {}
 
   int size() const { return static_cast<int>(pairs_.size()); }
   std::int64_t stamp_ns(int index) const { return pairs_.at(index).left.stamp_ns; }
   std::vector<std::int64_t> stamps_ns() const;
+  const Pair& pair(int index) const { return pairs_.at(static_cast<std::size_t>(index)); }
 
   /// Whether the files of a pair are there; the right one is written last.
   bool hasFiles(int index) const;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "sequences/calibration_file.h"
 #include "sequences/stereo_sequence.h"
 
 namespace rotrocc {
@@ -23,13 +24,40 @@ std::optional<StereoSequence> readAslLayout(const std::string& directory,
                                             const SequenceOptions& options);
 
 /// Images with the calibration of ROS:
-///   left.yaml, right.yaml    files of camera_calibration
-///   left/*, right/*          images (png, jpg, bmp, tif, pgm), in the order of their names
-///   times.txt                one time [s] per pair; without it, the names of the images are their
-///                            times: [ns] without a dot, [s] with one
+///   left.yaml, right.yaml    files of camera_calibration; not with SequenceOptions::calibration
+///   left/*, right/*          images (png, jpg, bmp, tif, pgm, webp)
+///   times.txt                their times, see pairFolders(); without it, they are their names
 ///   groundtruth.txt          poses of the left camera in TUM format; optional
 /// The base is at the left camera, with x forward.
 std::optional<StereoSequence> readFolderLayout(const std::string& directory,
                                                const SequenceOptions& options);
+
+/// A sequence of the KITTI odometry benchmark; if it has no gray images, the color ones:
+///   image_0/*, image_1/*     rectified left and right images; image_2 and image_3 of the color
+///   ones calib.txt                the 3x4 projection matrices `P0:` (left) and `P1:` (right), or
+///   `P2:`
+///                            and `P3:`, row by row
+///   times.txt                their times [s], see pairFolders()
+///   poses.txt                ground truth, one pose of the left camera per pair, or in TUM format
+///                            with stamps around all times; optional
+/// The base is KITTI's car.
+std::optional<StereoSequence> readKittiLayout(const std::string& directory,
+                                              const SequenceOptions& options);
+
+/// A rectified raw drive of KITTI:
+///   image_00/data/*, image_01/data/*    left and right images; or image_02 and image_03
+///   image_00/timestamps.txt             date and time of each left image
+///   calib_cam_to_cam.txt                `P_rect_00:` and `P_rect_01:`; may be beside the drive
+/// The base is KITTI's car.
+std::optional<StereoSequence> readKittiRawLayout(const std::string& directory,
+                                                 const SequenceOptions& options);
+
+/// Of the files of the options, or else what `readOwn` reads of the sequence.
+template <class ReadOwn>
+StereoCalibration calibrationOf(const SequenceOptions& options, const ReadOwn& readOwn) {
+  return options.calibration.empty()
+             ? readOwn()
+             : readStereoCalibration(options.calibration, options.baseline_m);
+}
 
 }  // namespace rotrocc

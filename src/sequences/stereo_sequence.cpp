@@ -5,37 +5,10 @@
 #include <utility>
 
 #include "inertial/gyro_file.h"
-#include "rotrocc/kitti.h"
 #include "sequences/calibration_file.h"
-#include "sequences/kitti_mount.h"
 #include "sequences/layouts.h"
 
 namespace rotrocc {
-namespace {
-
-/// KittiSequence with KITTI's mount, and the gyroscope of imu.csv in axes of the left camera, as
-/// simulate_drive --imu writes it.
-std::optional<StereoSequence> readKittiLayout(const std::string& directory,
-                                              const SequenceOptions& options) {
-  const auto has = [&](const char* part) { return std::filesystem::exists(directory + part); };
-  if (!(has("/image_0") || has("/image_1") || has("/calib.txt") || has("/times.txt"))) {
-    return std::nullopt;
-  }
-  const KittiSequence sequence(directory, options.being_written);
-  std::vector<ImagePairs::Pair> pairs;
-  for (int i = 0; i < sequence.size(); ++i) {
-    const std::int64_t stamp_ns = sequence.stamp_ns(i);
-    pairs.push_back({{stamp_ns, sequence.leftPath(i)}, {stamp_ns, sequence.rightPath(i)}});
-  }
-  return StereoSequence{directory,
-                        ImagePairs(std::move(pairs)),
-                        rectifiedCalibration(sequence.camera()),
-                        sequence.groundTruth(),
-                        kittiMount()};
-}
-
-}  // namespace
-
 StereoPair StereoSequence::read(int index) const {
   return pairs.read(index, {calibration.left.width, calibration.left.height});
 }
@@ -64,12 +37,14 @@ StereoSequence openStereoSequence(const std::string& directory, const SequenceOp
   if (!std::filesystem::is_directory(directory)) {
     throw std::runtime_error(directory + " is not a directory");
   }
-  for (const auto& readLayout : {readAslLayout, readFolderLayout, readKittiLayout}) {
+  for (const auto& readLayout :
+       {readAslLayout, readFolderLayout, readKittiRawLayout, readKittiLayout}) {
     if (auto sequence = readLayout(directory, options)) return *std::move(sequence);
   }
   throw std::runtime_error(directory +
-                           " is no stereo sequence: it has neither image_0 (KITTI), nor mav0/cam0 "
-                           "(ASL, EuRoC), nor left and left.yaml (camera_calibration)");
+                           " is no stereo sequence: it has neither image_0 or image_2 (KITTI), nor "
+                           "image_00 or image_02 (KITTI raw), nor mav0/cam0 (ASL, EuRoC), nor left "
+                           "and left.yaml (camera_calibration)");
 }
 
 }  // namespace rotrocc

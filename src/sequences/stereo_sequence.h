@@ -49,19 +49,17 @@ struct StereoSequence {
 struct SequenceOptions {
   double max_stamp_difference_s = 0.01;  ///< between the images of a pair
   double baseline_m = 0.0;               ///< 0: that of camera_calibration
-  bool being_written = false;            ///< images may be missing yet, in KITTI's layout
+  /// Files of readStereoCalibration(), in place of the sequence's own calibration; empty: none.
+  std::vector<std::string> calibration = {};
+  bool being_written = false;  ///< images may be missing yet, in KITTI's layout
 };
 
 /// Offset from the stamps of a sequence to ROS time: 0 if they are since 1970. If they begin with
 /// the sequence, 2011-10-03, when KITTI recorded the first ones.
 std::int64_t rosTimeOffset_ns(const StereoSequence& sequence);
 
-/// Opens a directory with
-///   image_0, image_1, calib.txt, times.txt    a sequence of the KITTI odometry benchmark
-///   mav0/cam0, mav0/cam1                      a recording in ASL format, as those of EuRoC
-///   left, right, left.yaml, right.yaml        images with files of camera_calibration
-/// Throws std::runtime_error that names the file, the problem and a remedy if it is none of them,
-/// or incomplete.
+/// Opens a directory in one of the layouts in layouts.h. Throws std::runtime_error that names the
+/// file, the problem and a remedy if it is in none of them, or incomplete.
 StereoSequence openStereoSequence(const std::string& directory, const SequenceOptions& options);
 
 }  // namespace rotrocc

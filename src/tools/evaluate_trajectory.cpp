@@ -129,7 +129,7 @@ std::vector<std::int64_t> readStamps(const std::string& statistics) {
     lines.front().fail("there is no column stamp_ns: give a file of offline_odometry --stats");
   }
   std::vector<std::int64_t> stamps_ns;
-  for (std::size_t i = 1; i < lines.size(); ++i) stamps_ns.push_back(lines[i].integer(0));
+  for (std::size_t i = 1; i < lines.size(); ++i) stamps_ns.push_back(lines[i].nanoseconds(0, 1));
   return stamps_ns;
 }
 

@@ -31,7 +31,7 @@ po::options_description imageOptions(InputOptions& options) {
       "by K, D, R and P of camera_info: yes, no, or auto: if the topic is not named image_rect or "
       "alike, and camera_info describes raw images");
   add("calibration",
-      po::value(&options.recording.calibration)->multitoken(),
+      po::value(&options.recording.sequence.calibration)->multitoken(),
       "files in place of the recorded calibration: left.yaml right.yaml of camera_calibration, or "
       "a camchain of Kalibr");
   return images;

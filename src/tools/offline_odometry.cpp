@@ -209,7 +209,11 @@ void run(const Options& options) {
   const std::unique_ptr<Recording> recording = openInput(options.input, parameters.node);
   RecordedPairs pairs(*recording, parameters.node, options.input.rectify);
   std::cerr << "offline_odometry: reading " << recording->description()
-            << (pairs.rectifies() ? ", rectified by camera_info" : "") << '\n';
+            << (pairs.rectifies()                ? ", rectified by camera_info"
+                : recording->hasRawCalibration() ? ", taken as rectified: camera_info is of raw "
+                                                   "images (see --rectify)"
+                                                 : "")
+            << '\n';
   std::optional<RecordedGyro> gyro = openGyro(options, *recording);
   std::optional<PreloadedPairs> preloaded;
   if (options.preload) preloaded.emplace(pairs);

@@ -14,7 +14,6 @@
 #include "bags/bag_reading.h"
 #include "bags/sequence_bag_writer.h"
 #include "check/calibration_correction.h"
-#include "rotrocc/kitti.h"
 #include "sequences/calibration_file.h"
 #include "support/asl_folder.h"
 #include "support/expect_error.h"
@@ -55,17 +54,17 @@ class RecordedPairsTest : public ::testing::Test {
  protected:
   RecordedPairsTest() { writeSyntheticSequence(directory_ / "sequence", kPairs); }
 
-  KittiSequence sequence() const { return KittiSequence(directory_ / "sequence"); }
+  StereoSequence sequence() const { return openStereoSequence(directory_ / "sequence", {}); }
 
   /// Expects every pair of the sequence, to the last one, with the camera that P describes.
   void expectAllPairs(Reader& reader) const {
-    const KittiSequence expected = sequence();
+    const StereoSequence expected = sequence();
     EXPECT_EQ(reader.recording->size(), kPairs);
     for (int i = 0; i < kPairs; ++i) {
       ASSERT_TRUE(reader.next()) << "pair " << i;
-      EXPECT_EQ(cv::norm(reader.pair.left, expected.readLeft(i), cv::NORM_INF), 0.0) << i;
-      EXPECT_EQ(cv::norm(reader.pair.right, expected.readRight(i), cv::NORM_INF), 0.0) << i;
-      expectCamera(reader.camera, expected.camera());
+      EXPECT_EQ(cv::norm(reader.pair.left, expected.read(i).left, cv::NORM_INF), 0.0) << i;
+      EXPECT_EQ(cv::norm(reader.pair.right, expected.read(i).right, cv::NORM_INF), 0.0) << i;
+      expectCamera(reader.camera, expected.calibration.rectified);
     }
     EXPECT_FALSE(reader.next());
     EXPECT_EQ(reader.pairs.leftOut(), "");
@@ -269,8 +268,8 @@ class RawBagTest : public ::testing::Test {
     Reader reader(recording, {}, options);
     EXPECT_EQ(reader.pairs.rectifies(), !is_rectified_as_read);
     const auto calibration = std::make_shared<const StereoCalibration>(
-        options.calibration.empty() ? sequence_.calibration
-                                    : readStereoCalibration(options.calibration));
+        options.sequence.calibration.empty() ? sequence_.calibration
+                                             : readStereoCalibration(options.sequence.calibration));
     StereoRectifier rectifier;
     for (int i = 0; i < 3; ++i) {
       ASSERT_TRUE(reader.next());
@@ -338,7 +337,7 @@ TEST_F(RawBagTest, IsRectifiedByFilesInPlaceOfItsCalibration) {
   for (const Files& files : {Files{directory_ / "camchain.yaml"},
                              Files{cameras + "left.yaml", cameras + "right.yaml"}}) {
     RecordingOptions options;
-    options.calibration = files;
+    options.sequence.calibration = files;
     expectRectified(bag, options);
     expectRectified(folder_.path(), options);
   }
@@ -352,7 +351,8 @@ TEST_F(RawBagTest, RectifiedImagesAreRectifiedByFilesOfTheirOwn) {
   const auto rectifies = [&](const StereoCalibration& calibration) {
     writeCalibration(calibration, directory_ / "files");
     RecordingOptions options;
-    options.calibration = {directory_ / "files/left.yaml", directory_ / "files/right.yaml"};
+    options.sequence.calibration = {directory_ / "files/left.yaml",
+                                    directory_ / "files/right.yaml"};
     return Reader(bag, {}, options).pairs.rectifies();
   };
   EXPECT_FALSE(rectifies(sequence_.calibration));

@@ -5,8 +5,8 @@
 #include <tf2_eigen/tf2_eigen.h>
 
 #include "bags/bag_reading.h"
-#include "rotrocc/kitti.h"
 #include "sequences/kitti_mount.h"
+#include "sequences/stereo_sequence.h"
 #include "support/kitti2bag_writer.h"
 #include "support/synthetic_scene.h"
 #include "support/temporary_directory.h"
@@ -20,11 +20,11 @@ class RecordedTfTest : public ::testing::Test {
  protected:
   RecordedTfTest() { writeSyntheticSequence(directory_ / "sequence", kPairs); }
 
-  KittiSequence sequence() const { return KittiSequence(directory_ / "sequence"); }
+  StereoSequence sequence() const { return openStereoSequence(directory_ / "sequence", {}); }
 
   /// Expects the camera's true poses, seen from the base that `T_base_camera` mounts it on.
   void expectTruth(const nav_msgs::Path& path, const Eigen::Isometry3d& T_base_camera) const {
-    const Trajectory truth = sequence().groundTruth();
+    const Trajectory truth = sequence().ground_truth;
     EXPECT_EQ(path.header.frame_id, "odom");
     ASSERT_EQ(path.poses.size(), truth.size());
     for (std::size_t i = 0; i < truth.size(); ++i) {

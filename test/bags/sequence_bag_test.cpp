@@ -16,7 +16,6 @@
 #include "bags/sequence_bag_writer.h"
 #include "input/camera_calibration.h"
 #include "input/message_conversion.h"
-#include "rotrocc/kitti.h"
 #include "sequences/kitti_mount.h"
 #include "support/asl_folder.h"
 #include "support/expect_error.h"
@@ -45,7 +44,7 @@ TEST_F(SequenceBagTest, FillsTheCameraInfo) {
   const auto left = firstMessage<sensor_msgs::CameraInfo>(bag, "/stereo/left/camera_info");
   const auto right = firstMessage<sensor_msgs::CameraInfo>(bag, "/stereo/right/camera_info");
   ASSERT_TRUE(left && right);
-  const StereoCamera camera = KittiSequence(directory_ / "sequence").camera();
+  const StereoCamera camera = openStereoSequence(directory_ / "sequence", {}).calibration.rectified;
   EXPECT_EQ(left->header.frame_id, "stereo_left_optical");
   EXPECT_EQ(right->header.frame_id, "stereo_left_optical");
   EXPECT_EQ(left->P[3], 0.0);
@@ -63,7 +62,7 @@ TEST_F(SequenceBagTest, FillsTheCameraInfo) {
 TEST_F(SequenceBagTest, HoldsTheTruePathOfTheBase) {
   const Bags bag = openBags({bagPath()});
   const auto path = firstMessage<nav_msgs::Path>(bag, "/ground_truth/path");
-  const Trajectory truth = KittiSequence(directory_ / "sequence").groundTruth();
+  const Trajectory truth = openStereoSequence(directory_ / "sequence", {}).ground_truth;
   ASSERT_TRUE(path);
   ASSERT_EQ(path->poses.size(), truth.size());
   Eigen::Isometry3d T_odom_base;

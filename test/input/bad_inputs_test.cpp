@@ -331,6 +331,11 @@ Parameters withBaseline() {
 }
 
 /// What readers expect of a kind of bad input, and what is observed in one or several cases.
+/// P of images that are larger by a factor.
+void scaleP(double factor, Info& info) {
+  for (const std::size_t i : {0, 2, 3, 5, 6}) info.P[i] *= factor;
+}
+
 struct Row {
   const char* input;
   const char* expected;
@@ -384,7 +389,19 @@ std::vector<Row> rows() {
      {badInfos(noBaseline), "with baseline_m " + oddDrive({}, noBaseline, withBaseline())}},
     {"baseline negative", "no calibration with a hint",
      {badInfos([](Info& left, Info& right) { std::swap(left, right); })}},
-    {"baseline beyond 10 m or below 5 mm",
+    {"P of images of another size, or a principal point outside", "no calibration",
+     {badInfos([](Info& left, Info& right) {
+        for (Info* info : {&left, &right}) scaleP(2.0, *info);
+      }),
+      badInfos([](Info& left, Info& right) { left.P[6] = right.P[6] = 400.0; })}},
+    {"P of the binned image beside binning", "accepted, with a warning",
+     {oddDrive([](Image&, Image&) {}, [](Info& left, Info& right) {
+        for (Info* info : {&left, &right}) {
+          info->binning_x = info->binning_y = 2;
+          info->width *= 2, info->height *= 2;
+        }
+      })}},
+    {"baseline beyond 2 m or below 5 mm",
      "accepted with one warning; lost, as the images have another baseline",
      {unusualBaseline(1000.0), unusualBaseline(0.001)}},
     {"fx, fy or cy of left and right differ", "no calibration",
@@ -413,7 +430,7 @@ std::vector<Row> rows() {
      {badRawInfos([](Info& info) { info.distortion_model = "tilted"; }),
       badRawInfos([](Info& info) { info.D.resize(3); }),
       badRawInfos([](Info& info) { info.K.fill(0.0); }),
-      badRawInfos([](Info& info) { info.R.fill(0.0); })}},
+      badRawInfos([](Info& info) { info.R.fill(0.0), info.K[0] += 10.0; })}},
     {"with rectify: images not of the size in camera_info", "no calibration",
      {badRawInfos([](Info& info) { info.height += 10; })}},
     {"with rectify: R of another rig", "lost or degraded with a hint",

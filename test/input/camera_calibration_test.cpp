@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "input/input_error.h"
+#include "input/sent_calibration.h"
 #include "support/expect_error.h"
 
 namespace rotrocc {
@@ -23,6 +24,20 @@ Info makeRectifiedInfo(double baseline_m) {
   info.K = {984.2, 0, 690, 0, 980.8, 233.2, 0, 0, 1};  // of the raw images
   info.D = {-0.37, 0.2, 0.001, 0.002, -0.07};
   info.P = {kFocal, 0, 601.5, -kFocal * baseline_m, 0, kFocal, 183.25, 0, 0, 0, 1, 0};
+  return info;
+}
+
+/// Of a camera that is not rectified, at a time of its own.
+Info makeInfo(double stamp_s, double baseline_m) {
+  Info info;
+  info.header.stamp = ros::Time(stamp_s);
+  info.width = 620;
+  info.height = 188;
+  info.distortion_model = "plumb_bob";
+  info.D = {-0.3, 0.1, 0.0, 0.0, 0.0};
+  info.K = {350, 0, 300, 0, 350, 90, 0, 0, 1};
+  info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  info.P = {360, 0, 310, -360 * baseline_m, 0, 360, 94, 0, 0, 0, 1, 0};
   return info;
 }
 
@@ -73,6 +88,106 @@ TEST(StereoCameraConversionTest, BinningAndRegionOfInterest) {
   EXPECT_NEAR(camera.baseline_m, kBaseline, 1e-12);
 }
 
+/// The numbers of `sent` in an info of an image that is larger by binning and region of interest.
+Info asSent(double baseline_m, unsigned binning, unsigned x_offset, unsigned y_offset) {
+  Info info = makeRectifiedInfo(baseline_m);
+  info.binning_x = info.binning_y = binning;
+  info.roi.x_offset = x_offset;
+  info.roi.y_offset = y_offset;
+  if (x_offset + y_offset > 0) {
+    info.roi.width = info.width * binning;
+    info.roi.height = info.height * binning;
+  }
+  info.width = info.width * binning + 2 * x_offset;
+  info.height = info.height * binning + 2 * y_offset;
+  return info;
+}
+
+TEST(StereoCameraConversionTest, SomeDriversGiveTheMatricesOfTheImagesThatTheySend) {
+  const StereoCamera expected =
+      toStereoCamera(makeRectifiedInfo(0.0), makeRectifiedInfo(kBaseline));
+  const struct {
+    unsigned binning, x_offset, y_offset;
+    const char* warning;
+  } kCases[] = {{2, 0, 0, "that of the binned image,"},
+                {4, 0, 0, "that of the binned image,"},
+                {1, 400, 100, "that of the image in roi,"},
+                {2, 800, 200, "that of the binned image in roi,"}};
+  for (const auto& row : kCases) {
+    const Info left = asSent(0.0, row.binning, row.x_offset, row.y_offset);
+    const Info right = asSent(kBaseline, row.binning, row.x_offset, row.y_offset);
+    const StereoCamera camera = toStereoCamera(left, right);
+    EXPECT_EQ(camera.differenceTo(expected), 0.0) << row.warning;
+    EXPECT_NE(calibrationWarning(left, camera).find(row.warning), std::string::npos)
+        << calibrationWarning(left, camera);
+  }
+}
+
+TEST(StereoCameraConversionTest, RefusesTheCalibrationOfAnotherSize) {
+  const struct {
+    double width, height;
+    const char* part;
+  } kCases[] = {{0.5, 0.5, "at (601.5, 183.2) px of images of 613x185 px, as that of images 1.97"},
+                {0.4, 0.4, "outside of images of 490x148 px, as that of images 2.47 times"},
+                {0.75, 0.75, "as that of images 1.32 times as large"},
+                {2.0, 2.0, "as that of images 0.493 times as large"},
+                {0.45, 1.0, "outside of images of 551x370 px: give the calibration"}};
+  for (const auto& row : kCases) {
+    Info left = makeRectifiedInfo(0.0), right = makeRectifiedInfo(kBaseline);
+    for (Info* info : {&left, &right}) {
+      info->width = static_cast<unsigned>(row.width * info->width);
+      info->height = static_cast<unsigned>(row.height * info->height);
+    }
+    expectError<InputError>([&] { toStereoCamera(left, right); }, row.part);
+    for (Info* info : {&left, &right}) {  // a part of a larger image is what it is
+      info->roi.width = info->width;
+      info->roi.height = info->height;
+      info->width = 1226;
+      info->height = 370;
+    }
+    if (row.width > 1.0) continue;
+    EXPECT_NO_THROW(toStereoCamera(left, right));
+  }
+  Info left = makeInfo(1.0, 0.0);
+  left.K[2] = 600.0, left.K[5] = 180.0;
+  expectError<InputError>([&] { toStereoCalibration(left, makeInfo(1.0, 0.5)); },
+                          "K of the left camera_info has its principal point at (600.0, 180.0)");
+}
+
+TEST(CalibrationWarningTest, NamesWhatIsUnlikely) {
+  const Info info = makeRectifiedInfo(0.0);
+  const StereoCamera camera = toStereoCamera(info, makeRectifiedInfo(kBaseline));
+  EXPECT_EQ(calibrationWarning(info, camera), "");
+  const auto expectWarning = [&](double StereoCamera::*value, double number, const char* part) {
+    StereoCamera other = camera;
+    other.*value = number;
+    EXPECT_NE(calibrationWarning(info, other).find(part), std::string::npos)
+        << calibrationWarning(info, other);
+  };
+  expectWarning(
+      &StereoCamera::cy, 290.0, "(601.5, 290.0) px is far from the middle of 1226x370 px");
+  expectWarning(&StereoCamera::fx, 7070.0, "with fx 7070 px, the images show 9.91 degrees");
+  expectWarning(&StereoCamera::fx, 100.0, "show 161 degrees");
+  expectWarning(&StereoCamera::fy, 350.0, "the focal lengths 700 and 350 px differ");
+  expectWarning(&StereoCamera::baseline_m, 7.5, "a baseline of 7.5 m is unusual");
+  expectWarning(&StereoCamera::baseline_m, 0.0001, "a baseline of 0.0001 m is unusual");
+}
+
+TEST(RectifiedImagesTest, AreToldByTheLastPartOfTheirTopic) {
+  for (const char* topic : {"/stereo/left/image_rect",
+                            "/left/image_rect_color/compressed",
+                            "/camera/infra1/image_rect_raw",
+                            "/kitti/camera_gray_left/image_raw"}) {
+    EXPECT_TRUE(isRectifiedByName(topic)) << topic;
+  }
+  for (const char* topic : {"/left/image_raw",
+                            "/left/image_unrect",
+                            "/direct_drive/left/image_raw",
+                            "/image_rect/left"}) {
+    EXPECT_FALSE(isRectifiedByName(topic)) << topic;
+  }
+}
+
 /// Other refusals are rows of BadInputsTest.
 TEST(StereoCameraConversionTest, RefusesWhatIsNoRectifiedCamera) {
   const struct {
@@ -99,20 +214,6 @@ TEST(StereoCameraConversionTest, RefusesWhatIsNoRectifiedCamera) {
   expectError<InputError>([&] { toStereoCamera(left, right); }, "width is 0");
 }
 
-/// Of a camera that is not rectified, at a time of its own.
-Info makeInfo(double stamp_s, double baseline_m) {
-  Info info;
-  info.header.stamp = ros::Time(stamp_s);
-  info.width = 620;
-  info.height = 188;
-  info.distortion_model = "plumb_bob";
-  info.D = {-0.3, 0.1, 0.0, 0.0, 0.0};
-  info.K = {350, 0, 300, 0, 350, 90, 0, 0, 1};
-  info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  info.P = {360, 0, 310, -360 * baseline_m, 0, 360, 94, 0, 0, 0, 1, 0};
-  return info;
-}
-
 TEST(SameCameraTest, DiffersByMoreThanTheStampAndWhatNoPixelShows) {
   const Info info = makeInfo(1.0, 0.5);
   Info other = makeInfo(2.0, 0.5);
@@ -135,6 +236,20 @@ TEST(StereoCalibrationTest, ALensWithoutAModelDistortsNothing) {
   left.distortion_model.clear();
   left.D.clear();
   EXPECT_TRUE(toStereoCalibration(left, makeInfo(1.0, 0.5)).left.distortion.isNone());
+}
+
+TEST(StereoCalibrationTest, RectifiedImagesNeedNoR) {
+  Info left = makeRectifiedInfo(0.0), right = makeRectifiedInfo(kBaseline);
+  for (Info* info : {&left, &right}) {
+    info->K = {kFocal, 0, 601.5, 0, kFocal, 183.25, 0, 0, 1};
+    info->D.assign(12, 0.0);
+    info->distortion_model = "none";
+  }
+  EXPECT_FALSE(describeRawImages(left, right)) << "R is all zeros";
+  left.D[0] = 0.1;
+  left.distortion_model = "plumb_bob";
+  expectError<InputError>([&] { toStereoCalibration(left, right); }, "R is not a rotation");
+  EXPECT_TRUE(describeRawImages(left, right));
 }
 
 TEST(StereoCalibrationTest, NeedsFocalLengths) {

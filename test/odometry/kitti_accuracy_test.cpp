@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "rotrocc/kitti.h"
 #include "rotrocc/trajectory_error.h"
 #include "rotrocc/visual_odometry.h"
+#include "support/kitti_sequence.h"
 
 namespace rotrocc {
 namespace {
@@ -50,8 +50,8 @@ TEST_P(KittiAccuracyTest, LosesNoPairAndStaysWithinTheError) {
   Trajectory estimate;
   Eigen::Isometry3d T_start_cur = Eigen::Isometry3d::Identity();
   for (int i = 0; i < sequence.size(); ++i) {
-    const StereoPair pair = {sequence.stamp_ns(i), sequence.readLeft(i), sequence.readRight(i)};
-    const OdometryResult result = odometry.process(pair, sequence.camera());
+    const StereoPair pair = sequence.pair(i);
+    const OdometryResult result = odometry.process(pair, sequence.camera);
     EXPECT_TRUE(i == 0 || result.hasMotion()) << "pair " << i << ": " << result.reason;
     T_start_cur = T_start_cur * result.T_prev_cur;
     estimate.push_back({pair.stamp_ns, T_start_cur});
@@ -59,8 +59,8 @@ TEST_P(KittiAccuracyTest, LosesNoPairAndStaysWithinTheError) {
   SegmentConfig segments;
   segments.lengths_m = {5.0, 10.0, 20.0, 30.0, 40.0};
   segments.step = 1;
-  const MeanError error =
-      meanError(segmentErrors(matchByIndex(sequence.groundTruth(), estimate), segments));
+  const MeanError error = meanError(segmentErrors(
+      matchByIndex(readTrajectory(sequence.directory + "/poses.txt"), estimate), segments));
   ASSERT_GT(error.segments, 0);
   EXPECT_LE(100.0 * error.translation, kScatter * GetParam().translation_percent);
   EXPECT_LE(error.rotation_rad_per_m * 180.0 / M_PI, kScatter * GetParam().rotation_deg_per_m);

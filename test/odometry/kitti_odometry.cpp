@@ -5,11 +5,11 @@
 #include <string>
 
 #include "common/print_help.h"
-#include "rotrocc/kitti.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/pose_accumulator.h"
 #include "rotrocc/trajectory.h"
 #include "rotrocc/visual_odometry.h"
+#include "support/kitti_sequence.h"
 
 namespace {
 
@@ -34,8 +34,8 @@ void run(const std::string& directory, const std::string& output, const char* co
   VisualOdometry odometry(parameters.odometry);
   PoseAccumulator accumulator;
   for (int i = 0; i < sequence.size(); ++i) {
-    const StereoPair pair = {sequence.stamp_ns(i), sequence.readLeft(i), sequence.readRight(i)};
-    const OdometryResult result = odometry.process(pair, sequence.camera());
+    const StereoPair pair = sequence.pair(i);
+    const OdometryResult result = odometry.process(pair, sequence.camera);
     trajectory.write({pair.stamp_ns, accumulator.add(result.T_prev_cur)});
   }
 }

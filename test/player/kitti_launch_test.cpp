@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "bags/sequence_bag_writer.h"
-#include "rotrocc/kitti.h"
+#include "sequences/stereo_sequence.h"
 #include "support/background_command.h"
 #include "support/kitti2bag_writer.h"
 #include "support/read_file.h"
@@ -25,16 +25,14 @@ constexpr int kPairs = 15;
 
 class KittiLaunchTest : public ::testing::Test {
  protected:
-  KittiSequence syntheticSequence() const {
+  StereoSequence syntheticSequence() const {
     writeSyntheticSequence(directory_ / "sequence", kPairs);
-    return KittiSequence(directory_ / "sequence");
+    return openStereoSequence(directory_ / "sequence", {});
   }
 
   std::string bag() const { return directory_ / "test.bag"; }
 
-  void writeOwnBag(const KittiSequence& sequence) const {
-    writeSequenceBag(bag(), sequence.directory());
-  }
+  void writeOwnBag(const StereoSequence& sequence) const { writeSequenceBag(bag(), sequence.root); }
 
   /// Replays bag() to its end.
   static CommandResult replay(const std::string& bag,
@@ -101,7 +99,7 @@ class KittiLaunchTest : public ::testing::Test {
 };
 
 TEST_F(KittiLaunchTest, ReplaysSequences) {
-  expectReplayAsOffline(kPairs, syntheticSequence().directory());
+  expectReplayAsOffline(kPairs, syntheticSequence().root);
 }
 
 TEST_F(KittiLaunchTest, ReplaysBagsOfKitti2bag) {

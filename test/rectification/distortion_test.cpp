@@ -63,6 +63,15 @@ TEST(DistortionTest, DoesNotFoldBack) {
   EXPECT_GT(Distortion("equidistant", {}).limit(), std::tan(80.0 * M_PI / 180.0));
 }
 
+TEST(DistortionTest, MoreCoefficientsThatAreZeroDoNotMatter) {
+  const Points points = {{0.3, -0.2}, {0.0, 0.5}};
+  EXPECT_EQ(Distortion("plumb_bob", {-0.3, 0.1, 0, 0, 0, 0, 0, 0}).distort(points),
+            Distortion("plumb_bob", {-0.3, 0.1, 0, 0, 0}).distort(points));
+  EXPECT_EQ(Distortion("equidistant", {0.1, 0, 0, 0, 0}).coefficients().size(), 4u);
+  EXPECT_TRUE(Distortion("none", {0, 0, 0, 0, 0}).isNone());
+  EXPECT_TRUE(Distortion("", {}).isNone());
+}
+
 TEST(DistortionTest, RefusesWhatIsNone) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const struct {
@@ -71,6 +80,7 @@ TEST(DistortionTest, RefusesWhatIsNone) {
     const char* part;
   } kCases[] = {{"omni", {1, 2, 3, 4}, "'omni' is not supported: use plumb_bob"},
                 {"plumb_bob", {1, 2, 3}, "3 coefficients instead of 5"},
+                {"none", {0.1}, "1 coefficients instead of 0"},
                 {"equidistant", {1, 2, 3, 4, 5}, "5 coefficients instead of 4"},
                 {"plumb_bob", {0, nan, 0, 0}, "nan"},
                 {"plumb_bob", {-1e6, 0, 0, 0}, "in the middle of the image"}};

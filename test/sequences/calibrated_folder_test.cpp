@@ -71,7 +71,10 @@ TEST_F(CalibratedFolderTest, CalibrationIsThatOfTheFiles) {
 }
 
 TEST_F(CalibratedFolderTest, TakesTheTimesOfAFile) {
-  fs::rename(directory_ / "left/1403636579763555584.png", directory_ / "left/a.png");
+  for (const std::string side : {"left", "right"}) {
+    fs::rename(directory_ / (side + "/1403636579763555584.png"), directory_ / (side + "/z.png"));
+    fs::rename(directory_ / (side + "/1403636579813555456.png"), directory_ / (side + "/a.png"));
+  }
   expectRefused("a.png is not named by its time, e.g. 1403636579763555584.png [ns]");
   directory_.write("times.txt", "0.5\n0.6\n");
   StereoSequence sequence = open();
@@ -79,7 +82,7 @@ TEST_F(CalibratedFolderTest, TakesTheTimesOfAFile) {
   EXPECT_EQ(sequence.read(0).left.at<uchar>(0, 0), 20) << "in the order of their names";
   EXPECT_EQ(rosTimeOffset_ns(sequence), 1'317'600'000'000'000'000);
   directory_.write("times.txt", "0.5\n");
-  expectRefused("times.txt has 1 times, but");
+  expectRefused("times.txt has 1 times, but there are 2 left and 2 right images");
 }
 
 TEST_F(CalibratedFolderTest, ReadsTruthInTumFormat) {

@@ -21,7 +21,7 @@ struct Camera {
   bool colour;
 };
 
-ros::Time stampOf(const KittiSequence& sequence, int index, double delay_ms = 0.0) {
+ros::Time stampOf(const StereoSequence& sequence, int index, double delay_ms = 0.0) {
   const auto delay_ns = static_cast<std::int64_t>(1e6 * delay_ms);
   return toRosTime(kStart_ns + sequence.stamp_ns(index) + delay_ns);
 }
@@ -45,8 +45,8 @@ void writeTransform(rosbag::Bag& bag,
   bag.write(topic, stamp, message);
 }
 
-sensor_msgs::CameraInfo projectionOnly(const KittiSequence& sequence, bool right) {
-  const StereoCamera& camera = sequence.camera();
+sensor_msgs::CameraInfo projectionOnly(const StereoSequence& sequence, bool right) {
+  const StereoCamera& camera = sequence.calibration.rectified;
   const double cx = right ? camera.cx_right : camera.cx;
   const double tx = right ? -camera.fx * camera.baseline_m : 0.0;
   sensor_msgs::CameraInfo info;
@@ -67,7 +67,7 @@ sensor_msgs::CameraInfo withUnrectifiedCalibration(sensor_msgs::CameraInfo info)
 
 /// Writes the images and infos of a camera; those of raw drives have the calibration and the delays
 /// of unsynchronized cameras.
-void writeCamera(const KittiSequence& sequence,
+void writeCamera(const StereoSequence& sequence,
                  const Camera& camera,
                  const std::string& image_topic,
                  bool raw,
@@ -79,7 +79,7 @@ void writeCamera(const KittiSequence& sequence,
   info.header.frame_id = name;
   for (int index = 0; index < sequence.size(); ++index) {
     info.header.stamp = stampOf(sequence, index, raw && camera.right ? skew_ms(index) : 0.0);
-    cv::Mat pixels = camera.right ? sequence.readRight(index) : sequence.readLeft(index);
+    cv::Mat pixels = camera.right ? sequence.read(index).right : sequence.read(index).left;
     if (camera.colour) cv::cvtColor(pixels, pixels, cv::COLOR_GRAY2BGR);
     bag.write(
         "/kitti/" + name + "/" + image_topic,
@@ -110,13 +110,13 @@ Eigen::Isometry3d poseInWorld(const StampedPose& pose) {
 
 }  // namespace
 
-void writeKitti2bagRaw(const KittiSequence& sequence, const std::string& path) {
+void writeKitti2bagRaw(const StereoSequence& sequence, const std::string& path) {
   rosbag::Bag bag(path, rosbag::bagmode::Write);
   for (int index = 0; index < sequence.size(); ++index) {
     const ros::Time stamp = stampOf(sequence, index);
     writeMounts(bag, stamp);
-    if (sequence.groundTruth().empty()) continue;
-    const Eigen::Isometry3d T_world_base = poseInWorld(sequence.groundTruth()[index]);
+    if (sequence.ground_truth.empty()) continue;
+    const Eigen::Isometry3d T_world_base = poseInWorld(sequence.ground_truth[index]);
     writeTransform(bag, "/tf", stamp, "world", "base_link", T_world_base);
   }
   for (const bool colour : {false, true}) {
@@ -126,11 +126,11 @@ void writeKitti2bagRaw(const KittiSequence& sequence, const std::string& path) {
   }
 }
 
-void writeKitti2bagOdometry(const KittiSequence& sequence, const std::string& path) {
+void writeKitti2bagOdometry(const StereoSequence& sequence, const std::string& path) {
   rosbag::Bag bag(path, rosbag::bagmode::Write);
-  for (std::size_t index = 0; index < sequence.groundTruth().size(); ++index) {
+  for (std::size_t index = 0; index < sequence.ground_truth.size(); ++index) {
     const ros::Time stamp = stampOf(sequence, static_cast<int>(index));
-    const Eigen::Isometry3d& T_world_camera = sequence.groundTruth()[index].T_world_body;
+    const Eigen::Isometry3d& T_world_camera = sequence.ground_truth[index].T_world_body;
     writeTransform(bag, "/tf", stamp, "world", "camera_left", T_world_camera);
   }
   for (const bool right : {false, true}) {

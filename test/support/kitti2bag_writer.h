@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "rotrocc/kitti.h"
+#include "sequences/stereo_sequence.h"
 
 namespace rotrocc {
 
@@ -11,11 +11,11 @@ namespace rotrocc {
 /// stamps differ by up to 7 ms between left and right; camera_info with K, D and R of the
 /// unrectified images, so that only P is valid for those in the bag; mounts in /tf_static, again at
 /// every stamp; world -> base_link in /tf.
-void writeKitti2bagRaw(const KittiSequence& sequence, const std::string& path);
+void writeKitti2bagRaw(const StereoSequence& sequence, const std::string& path);
 
 /// Writes a bag of the shape kitti2bag gives to gray odometry sequences:
 /// /kitti/camera_gray_{left,right}/image_rect; camera_info with nothing but size and P; world ->
 /// camera_left in /tf, where camera_left is not the frame of the images; no mounts.
-void writeKitti2bagOdometry(const KittiSequence& sequence, const std::string& path);
+void writeKitti2bagOdometry(const StereoSequence& sequence, const std::string& path);
 
 }  // namespace rotrocc

@@ -14,8 +14,8 @@
 #include "bags/bag_reading.h"
 #include "bags/sequence_bag_writer.h"
 #include "inertial/gyro_file.h"
-#include "rotrocc/kitti.h"
 #include "sequences/kitti_mount.h"
+#include "sequences/stereo_sequence.h"
 #include "support/read_csv.h"
 #include "support/read_file.h"
 #include "support/run_command.h"
@@ -51,7 +51,7 @@ class OfflineOdometryTest : public ::testing::Test {
 TEST_F(OfflineOdometryTest, FollowsTheTruth) {
   trajectoryOf(sequence());
   const Trajectory estimate = readTrajectory(directory_ / "trajectory.txt");
-  const Trajectory truth = KittiSequence(sequence()).groundTruth();
+  const Trajectory truth = openStereoSequence(sequence(), {}).ground_truth;
   ASSERT_EQ(estimate.size(), truth.size());
   const Eigen::Isometry3d error =
       truth.back().T_world_body.inverse() * estimate.back().T_world_body;
@@ -79,7 +79,7 @@ TEST_F(OfflineOdometryTest, KittiOdometryGivesTheSameBytes) {
 }
 
 TEST_F(OfflineOdometryTest, FiguresTellMotionCovarianceAndBias) {
-  const Trajectory truth = KittiSequence(sequence()).groundTruth();
+  const Trajectory truth = openStereoSequence(sequence(), {}).ground_truth;
   trajectoryOf(sequence(),
                "--stats " + directory_ / "stats.csv" + " --set stereo_calibrator/bias_px=0.05");
   const std::vector<CsvRow> rows = readCsv(directory_ / "stats.csv");
