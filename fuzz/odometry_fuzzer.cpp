@@ -98,7 +98,7 @@ void drive(const sensor_msgs::CameraInfo& left_info,
   DropLog drops;
   StereoIntake intake(parameters.node, drops, [&](const ReceivedPair& pair) {
     try {
-      const PairInput in = {processor.convert(pair), pair.camera, kittiMount()};
+      const PairInput in = {processor.convert(pair), pair.arrival, pair.camera, kittiMount()};
       const PairAnswer answer = processor.process(in);
       processor.inspect(in, answer.result);
       require(answer.result.T_prev_cur.matrix().allFinite(), "the motion is finite");

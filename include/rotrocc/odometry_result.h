@@ -74,6 +74,10 @@ struct OdometryResult {
   /// matches neither it nor the keyframe may match the latest lost pair, which is then the previous
   /// one. The motion before that pair is missing, so the state is degraded.
   std::int64_t prev_stamp_ns = 0;
+  /// StereoPair::clock_set_ns of both, and the standard deviation of the current stamp's error.
+  std::int64_t clock_set_ns = 0;
+  std::int64_t prev_clock_set_ns = 0;
+  double stamp_sigma_s = 0.0;
   /// The motion of the left camera since the previous pair: maps points from its current frame to
   /// its previous frame. Identity unless the state is ok or degraded.
   Eigen::Isometry3d T_prev_cur = Eigen::Isometry3d::Identity();
@@ -101,7 +105,10 @@ struct OdometryResult {
   StageTimes times;
 
   /// Time since the previous pair [s]; 0 if nothing was compared.
-  double dt_s() const { return 1e-9 * static_cast<double>(stamp_ns - prev_stamp_ns); }
+  double dt_s() const { return 1e-9 * static_cast<double>(time_ns() - prev_time_ns()); }
+  /// Times of the current and the previous pair, apart from steps of their clock.
+  std::int64_t time_ns() const { return stamp_ns - clock_set_ns; }
+  std::int64_t prev_time_ns() const { return prev_stamp_ns - prev_clock_set_ns; }
   bool hasMotion() const { return state == State::kOk || state == State::kDegraded; }
 };
 

@@ -36,6 +36,7 @@ struct NodeParameters {
   int trajectory_length = 100'000;        ///< number of poses kept for ~save_trajectory
   std::string trajectory_file;            ///< first of the files of all poses; empty: none
   std::string trajectory_format = "tum";  ///< or "kitti"
+  std::string trajectory_frame = "camera";  ///< or "base": whose poses these are
 };
 
 /// All parameters of the package.

@@ -31,9 +31,14 @@ TrajectoryFormat trajectoryFormat(const std::string& name);
 /// Throws std::runtime_error if the file does not exist, has no data or is in neither format.
 TrajectoryFormat detectTrajectoryFormat(const std::string& path);
 
-/// Reads either format. Blank lines and lines that begin with '#' are skipped.
-///
-/// KITTI poses have no stamps. They get 0, 0.1, 0.2 ... s.
+/// Reads either format and its relatives. Blank lines, lines that begin with '#', and a header are
+/// skipped; numbers may be separated by commas.
+///   12 or 16 numbers    a matrix, 3x4 (KITTI) or 4x4, row by row; they get 0, 0.1, 0.2 ... s
+///   13                  a time and a 3x4 matrix
+///   8                   TUM: a time, position, quaternion x y z w; with commas and times in ns as
+///                       in ASL's (mocap0/data.csv), w x y z
+///   17                  ASL (state_groundtruth_estimate0/data.csv)
+/// Times are seconds, or what their digits tell if they count from 1970.
 ///
 /// An orthonormality error of up to 1e-3, from rounding, is removed. Throws std::runtime_error with
 /// file and line on any pose that is not finite and rigid, on stamps that do not increase, and on a
@@ -63,8 +68,9 @@ Trajectory samplePoses(const Trajectory& trajectory, const std::vector<std::int6
 /// significant digits, like KITTI's own files, TUM lines 9 decimals and qw >= 0.
 class TrajectoryWriter {
  public:
-  /// Replaces the file. Throws std::runtime_error if `path` cannot be written.
-  TrajectoryWriter(const std::string& path, TrajectoryFormat format);
+  /// Replaces the file. `body`, e.g. "base_link", is named in a comment where the format has
+  /// comments. Throws std::runtime_error if `path` cannot be written.
+  TrajectoryWriter(const std::string& path, TrajectoryFormat format, const std::string& body = "");
 
   /// Throws std::runtime_error if writing fails, e.g. when the disk is full.
   void write(const StampedPose& pose);

@@ -43,8 +43,12 @@ class Programs:
     def estimate(self, sequence, folder, *options):
         """Runs the odometry on one thread. `folder` gets trajectory.txt and pairs.csv, whose rows are returned."""
         folder.mkdir(parents=True, exist_ok=True)
-        self.run('offline_odometry', sequence, '--trajectory', folder / 'trajectory.txt', '--stats',
-                 folder / 'pairs.csv', '--set', 'visual_odometry/threads=1', *options)
+        try:
+            self.run('offline_odometry', sequence, '--trajectory', folder / 'trajectory.txt', '--stats',
+                     folder / 'pairs.csv', '--set', 'visual_odometry/threads=1', *options)
+        except RuntimeError as error:
+            if 'no pair has a motion' not in str(error):  # a result as any other: all are lost
+                raise
         return read_table(folder / 'pairs.csv')
 
     def segments(self, sequence, folder, lengths_m, step):

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <stdexcept>
 #include <tuple>
@@ -101,7 +102,8 @@ class BagRecording : public Recording {
       right_info_ = firstInfo(bags_, topics_.right_info);
     } else {
       std::tie(left_info_, right_info_) = toCameraInfos(
-          readStereoCalibration(options.sequence.calibration, options.sequence.baseline_m));
+          readStereoCalibration(options.sequence.calibration,
+                                {options.sequence.baseline_m, [this] { return sizeOfImages(); }}));
       left_info_.header.frame_id = right_info_.header.frame_id = camera_frame_;
       topics_.left_info = topics_.right_info = "";
     }
@@ -212,6 +214,12 @@ class BagRecording : public Recording {
   }
 
  private:
+  cv::Size sizeOfImages() const {
+    BagView view(bags_, {topics_.left_image});
+    const auto first = readImage(*view.begin());
+    return {static_cast<int>(first->width), static_cast<int>(first->height)};
+  }
+
   bool usesInfos() const { return options_.sequence.calibration.empty(); }
 
   /// Whether files describe the images of the topic, be they rectified or not: a camchain, or the
@@ -241,6 +249,28 @@ class BagRecording : public Recording {
   rosbag::View::iterator next_;
 };
 
+/// What is easily taken for a recording of ROS 1.
+void refuseOtherThings(const std::string& path) {
+  if (!fs::exists(path)) {
+    // Programs of a launch file have their own working directory.
+    throw std::runtime_error(fs::absolute(path).string() + " does not exist");
+  }
+  const std::string extension = fs::path(path).extension().string();
+  std::string metadata;
+  std::ifstream file(fs::path(path) / "metadata.yaml");
+  std::getline(file, metadata);
+  if (extension == ".db3" || extension == ".mcap" || metadata.rfind("rosbag2", 0) == 0) {
+    throw std::runtime_error(path +
+                             " is a bag of ROS 2: convert it with rosbags-convert (pip install "
+                             "rosbags), or play it through ros1_bridge");
+  }
+  if (extension == ".active") {
+    throw std::runtime_error(path +
+                             " is still being recorded, or its recorder has died: end the "
+                             "recorder, or run 'rosbag reindex' on it");
+  }
+}
+
 /// Of a directory with nothing but files.
 std::vector<std::string> bagsIn(const std::string& directory) {
   std::vector<std::string> bags;
@@ -256,6 +286,7 @@ std::vector<std::string> bagsIn(const std::string& directory) {
 
 std::unique_ptr<Recording> openRecording(const std::vector<std::string>& paths,
                                          const RecordingOptions& options) {
+  for (const std::string& path : paths) refuseOtherThings(path);
   if (paths.size() != 1 || !fs::is_directory(paths[0])) {
     return std::make_unique<BagRecording>(paths, options);
   }

@@ -4,6 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include <boost/algorithm/string/erase.hpp>
+#include <boost/algorithm/string/predicate.hpp>
+
 #include "input/camera_calibration.h"
 
 namespace rotrocc {
@@ -34,6 +37,10 @@ std::string infoTopicOf(std::string image_topic) {
   if (const auto end = image_topic.rfind(kCompressed); end != std::string::npos) {
     image_topic.resize(end);
   }
+  const std::string data = "/image/data";  // of realsense-viewer
+  if (boost::algorithm::ends_with(image_topic, data)) {
+    return boost::algorithm::erase_last_copy(image_topic, data) + "/info/camera_info";
+  }
   return image_topic.substr(0, image_topic.rfind('/') + 1) + "camera_info";
 }
 
@@ -46,7 +53,8 @@ StereoTopics withInfos(const std::string& left_image, const std::string& right_i
 std::string rightOf(const std::string& left_image) {
   for (const auto& [left, right] : {std::pair<std::string, const char*>{"left", "right"},
                                     {"cam0", "cam1"},
-                                    {"infra1", "infra2"}}) {
+                                    {"infra1", "infra2"},
+                                    {"Infrared_1", "Infrared_2"}}) {
     const std::size_t position = left_image.rfind(left);
     if (position == std::string::npos) continue;
     return std::string(left_image).replace(position, left.size(), right);

@@ -36,7 +36,7 @@ class PairChecks {
              int pairs,
              bool rectifies)
       : odometry_(config),
-        inspector_(config.correspondence_finder, rectifies),
+        inspector_(config, rectifies),
         rows_(config),
         view_(makeViewCheck(config)),
         replay_(config, pairs) {
@@ -45,12 +45,13 @@ class PairChecks {
 
   void observe(const StereoPair& pair, const StereoCamera& camera) {
     if (pairs_ == 0) first_ns_ = pair.stamp_ns;
-    if (pairs_ > 0 && pair.stamp_ns <= last_ns_) odometry_.reset();
-    last_ns_ = pair.stamp_ns;
+    if (pairs_ > 0 && pair.time_ns() <= last_ns_) odometry_.reset();
+    last_ns_ = pair.time_ns();
     ++pairs_;
     const OdometryResult result = odometry_.process(pair, camera);
     camera_ = camera;
     with_motion_ += result.hasMotion() ? 1 : 0;
+    ok_ += result.state == State::kOk ? 1 : 0;
     path_m_ += result.T_prev_cur.translation().norm();
     const CheckedPair checked = {toSeconds(pair.stamp_ns - first_ns_),
                                  pair,
@@ -59,9 +60,14 @@ class PairChecks {
                                  odometry_.correspondences(),
                                  odometry_.rotationInliers()};
     if (result.state == State::kLost) why_lost_ = result.reason;
-    if (const std::string fault = inspector_.inspect(pair, camera, result); !fault.empty()) {
+    if (const std::string fault =
+            inspector_.inspect(pair, camera, result, {}, [&] { return before_; });
+        !fault.empty()) {
       fault_ = fault;
+      is_of_no_pair_ = inspector_.isOfNoPair();
     }
+    before_.push_back(copyOf(pair));
+    if (before_.size() > 2) before_.erase(before_.begin());
     photometry_->observe(checked);
     rows_.observe(checked);
     disparities_.observe(checked);
@@ -87,7 +93,7 @@ class PairChecks {
       if (gyro_) gyro_->report(windows, report);
       view_->report(windows, report);
       replay_.report(report);
-      addRectification(report);
+      isExplained() ? doubt(report) : addRectification(report);
     }
     if (with_motion_ < kLeastMotions) addTooShort(report);
     report.tables.push_back({"image",
@@ -112,6 +118,9 @@ class PairChecks {
 
  private:
   bool isMostlyLost() const { return 2 * with_motion_ < pairs_; }
+
+  /// Whether most motions are in doubt because the images are no pairs.
+  bool isExplained() const { return is_of_no_pair_ && 2 * ok_ < pairs_; }
 
   /// One pair with a motion, of about the middle: later ones replace it ever more seldom.
   void keepSample(const StereoPair& pair, const OdometryResult& result) {
@@ -173,16 +182,16 @@ class PairChecks {
       const std::string found = inspector_.inspect({last_ns_, left_, right_}, camera_, lost);
       if (!found.empty()) fault_ = found;
     }
-    const bool matters = isMostlyLost();
-    if (fault_.empty() && matters) fault_ = why_lost_;
+    if (fault_.empty() && isMostlyLost()) fault_ = why_lost_;
     if (fault_.empty()) return;
+    const bool matters = isMostlyLost() || isExplained();
     const std::size_t colon = fault_.find(": ");
     report.findings.push_back({"inputs",
                                "images of left and right",
                                fault_.substr(0, colon),
-                               toText(pairs_ - with_motion_) + " of " + toText(pairs_) +
-                                   " pairs have no motion" +
-                                   (matters ? ", so that nothing else can be measured" : ""),
+                               toText(pairs_ - ok_) + " of " + toText(pairs_) +
+                                   " pairs have no motion, or one in doubt" +
+                                   (isMostlyLost() ? ", so that nothing else can be measured" : ""),
                                colon == std::string::npos ? "" : fault_.substr(colon + 2),
                                matters ? Verdict::kFix : Verdict::kAcceptable,
                                matters ? 100.0 : 0.9});
@@ -190,6 +199,7 @@ class PairChecks {
 
   VisualOdometry odometry_;
   PairInspector inspector_;
+  std::vector<StereoPair> before_;  // the last two
   std::unique_ptr<PairCheck> photometry_ = makePhotometryCheck();
   RowCheck rows_;
   DisparityCheck disparities_;
@@ -198,9 +208,10 @@ class PairChecks {
   ReplayCheck replay_;
   StereoCamera camera_;
   std::int64_t first_ns_ = 0, last_ns_ = 0;
-  int pairs_ = 0, with_motion_ = 0, next_sample_ = 1;
+  int pairs_ = 0, with_motion_ = 0, ok_ = 0, next_sample_ = 1;
   double path_m_ = 0.0;
   std::string fault_, why_lost_;
+  bool is_of_no_pair_ = false;
   cv::Mat left_, right_;
 };
 

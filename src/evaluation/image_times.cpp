@@ -46,7 +46,7 @@ bool isOfCamera(double period_s) {
 [[noreturn]] void refuse(const TextLine& line, double period_s, std::int64_t unit_ns) {
   const auto* const read = std::find_if(
       std::begin(kUnits), std::end(kUnits), [&](const auto& unit) { return unit.ns == unit_ns; });
-  std::string remedy = "check the times";
+  std::string remedy = "check them, or give the times in times.txt";
   for (const auto& unit : kUnits) {
     const double other_s = period_s * static_cast<double>(unit.ns) / static_cast<double>(unit_ns);
     if (!isOfCamera(other_s)) continue;
@@ -57,7 +57,8 @@ bool isOfCamera(double period_s) {
         " to " + read->name;
   }
   line.fail("by their times in " + std::string(read->name) +
-            cv::format(", images are %.3g s apart, which no camera is: ", period_s) + remedy);
+            cv::format(", images are %.3g s apart, which is not the rate of a camera: ", period_s) +
+            remedy);
 }
 
 /// Of "2011-09-26 13:02:25.594360375", as in KITTI's raw drives.
@@ -67,7 +68,7 @@ std::string secondsOfDate(const TextLine& line) {
   const std::size_t dot = std::min(time.find('.'), time.size());
   std::istringstream text(line.words[0] + " " + time.substr(0, dot));
   if (dot < 8 || !(text >> std::get_time(&date, "%Y-%m-%d %H:%M:%S"))) {
-    line.fail("is no time: a number or YYYY-MM-DD HH:MM:SS is expected");
+    line.fail("is not a time: a number or YYYY-MM-DD HH:MM:SS is expected");
   }
   return std::to_string(timegm(&date)) + time.substr(dot);
 }
@@ -82,16 +83,24 @@ std::int64_t timeUnit_ns(double time, std::int64_t otherwise) {
   return otherwise;
 }
 
+std::int64_t timeUnit_ns(const std::vector<TextLine>& lines, std::int64_t otherwise) {
+  const std::int64_t first = timeUnit_ns(lines.front().number(0), otherwise);
+  return first == timeUnit_ns(lines.back().number(0), otherwise) ? first : otherwise;
+}
+
 std::vector<std::int64_t> imageStamps(const std::vector<TextLine>& lines, std::int64_t unit_ns) {
-  std::vector<std::int64_t> by_digits, by_unit;
-  for (const TextLine& line : lines) {
-    by_digits.push_back(line.nanoseconds(0, timeUnit_ns(line.number(0), unit_ns)));
-  }
-  if (isOfCamera(periodOf(by_digits))) return by_digits;
+  const auto stampsIn = [&](std::int64_t unit) {
+    std::vector<std::int64_t> stamps_ns;
+    for (const TextLine& line : lines) stamps_ns.push_back(line.nanoseconds(0, unit));
+    return stamps_ns;
+  };
+  const std::int64_t by_digits_ns = timeUnit_ns(lines, unit_ns);
   // As nanoseconds since a start some days ago, which may have the digits of microseconds.
-  for (const TextLine& line : lines) by_unit.push_back(line.nanoseconds(0, unit_ns));
-  if (isOfCamera(periodOf(by_unit))) return by_unit;
-  refuse(lines.front(), periodOf(by_digits), timeUnit_ns(lines.front().number(0), unit_ns));
+  for (const std::int64_t unit : {by_digits_ns, unit_ns}) {
+    const std::vector<std::int64_t> stamps_ns = stampsIn(unit);
+    if (isOfCamera(periodOf(stamps_ns))) return stamps_ns;
+  }
+  refuse(lines.front(), periodOf(stampsIn(by_digits_ns)), by_digits_ns);
 }
 
 std::vector<std::int64_t> readTimes(const std::string& path) {

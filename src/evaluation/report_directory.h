@@ -1,5 +1,9 @@
 #pragma once
 
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -14,24 +18,39 @@ class ReportDirectory {
   /// Creates the directory, or removes the earlier report in it. Throws std::runtime_error if it
   /// cannot be created, or has files but no report.
   explicit ReportDirectory(const std::string& directory) : directory_(directory) {
+    require(directory);
     namespace fs = std::filesystem;
     std::error_code error;
     fs::create_directories(directory_, error);
     if (!fs::is_directory(directory_)) {
       throw std::runtime_error(directory + " cannot be created: " + error.message());
     }
-    const fs::path list = directory_ / ".rotrocc_report";
+    const fs::path list = directory_ / kList;
     std::ifstream earlier(list);
-    if (!earlier && !fs::is_empty(directory_)) {
-      throw std::runtime_error(directory + " has files that are not of a report, e.g. " +
-                               fs::directory_iterator(directory_)->path().filename().string() +
-                               ": name an empty directory, or one that does not exist");
-    }
     for (std::string name; std::getline(earlier, name);) {
       fs::remove(directory_ / fs::path(name).filename(), error);
     }
+    earlier.close();
     list_.open(list);
     if (!list_) throw std::runtime_error(list.string() + " cannot be written");
+  }
+
+  /// Throws what the constructor would, before there is a report to write; changes nothing.
+  static void require(const std::string& directory) {
+    namespace fs = std::filesystem;
+    if (fs::exists(directory) && !fs::is_directory(directory)) {
+      throw std::runtime_error(directory + " cannot be created: there is a file of that name");
+    }
+    fs::path existing = fs::absolute(directory).lexically_normal();
+    while (!fs::exists(existing)) existing = existing.parent_path();
+    if (::access(existing.c_str(), W_OK | X_OK) != 0) {
+      throw std::runtime_error(directory + " cannot be written: " + std::strerror(errno));
+    }
+    if (!fs::exists(directory) || fs::is_empty(directory)) return;
+    if (fs::exists(fs::path(directory) / kList)) return;
+    throw std::runtime_error(directory + " has files that are not of a report, e.g. " +
+                             fs::directory_iterator(directory)->path().filename().string() +
+                             ": name an empty directory, or one that does not exist");
   }
 
   /// The path of a file of the report.
@@ -41,6 +60,8 @@ class ReportDirectory {
   }
 
  private:
+  static constexpr const char* kList = ".rotrocc_report";
+
   std::filesystem::path directory_;
   std::ofstream list_;
 };

@@ -81,18 +81,20 @@ void TextLine::fail(const std::string& what) const {
   throw std::runtime_error(where + ": " + what);
 }
 
-std::vector<TextLine> readTextLines(const std::string& path, char separator) {
+std::vector<TextLine> readTextLines(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error("cannot read " + path);
   std::vector<TextLine> lines;
   std::istringstream stream = makeStream();
   std::string text;
   for (int number = 1; std::getline(file, text); ++number) {
-    std::replace(text.begin(), text.end(), separator, ' ');
+    if (number == 1 && text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
+    const bool has_commas = text.find(',') != std::string::npos;
+    std::replace(text.begin(), text.end(), ',', ' ');
     stream.clear();
     stream.str(text);
     using Words = std::istream_iterator<std::string>;  // CR counts as white space
-    TextLine line = {path + ":" + std::to_string(number), {Words(stream), Words()}};
+    TextLine line = {path + ":" + std::to_string(number), {Words(stream), Words()}, has_commas};
     if (line.words.empty() || line.words.front().front() == '#') continue;
     lines.push_back(std::move(line));
   }

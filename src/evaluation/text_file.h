@@ -13,6 +13,7 @@ namespace rotrocc {
 struct TextLine {
   std::string where;  ///< "path:12", for messages
   std::vector<std::string> words;
+  bool has_commas = false;
 
   /// The word at `index` as a number. Throws std::runtime_error if it is not a finite number.
   double number(std::size_t index) const;
@@ -35,9 +36,9 @@ struct TextLine {
 };
 
 /// The lines of a file except blank lines and comments that start with '#'; line ends are LF or
-/// CRLF. Words are separated by white space, and by `separator`. Throws std::runtime_error if the
-/// file cannot be read or no line is left.
-std::vector<TextLine> readTextLines(const std::string& path, char separator = ' ');
+/// CRLF, and a byte order mark is skipped. Words are separated by white space and commas. Throws
+/// std::runtime_error if the file cannot be read or no line is left.
+std::vector<TextLine> readTextLines(const std::string& path);
 
 /// Why a matrix, printed with four digits or more, is no rotation; none if it is one.
 std::optional<std::string> whyNoRotation(const Eigen::Matrix3d& matrix);

@@ -14,14 +14,30 @@
 namespace rotrocc {
 namespace {
 
-constexpr std::size_t kKittiNumbers = 12;
-constexpr std::size_t kTumNumbers = 8;
 constexpr std::int64_t kKittiPeriod_ns = 100'000'000;
 
-TrajectoryFormat formatOf(const TextLine& line) {
-  if (line.words.size() == kKittiNumbers) return TrajectoryFormat::kKitti;
-  if (line.words.size() == kTumNumbers) return TrajectoryFormat::kTum;
-  line.fail(cv::format("%zu numbers, but a pose has 12 (KITTI) or 8 (TUM)", line.words.size()));
+/// Columns of a file of poses.
+struct Columns {
+  std::size_t count;
+  bool has_time;
+  std::size_t matrix;       ///< of the first number of a matrix, row by row; 0 with a quaternion
+  const char* description;  ///< for messages
+};
+
+constexpr Columns kColumns[] = {{12, false, 0, "KITTI"},
+                                {16, false, 0, "a 4x4 matrix"},
+                                {13, true, 1, "a time and 12"},
+                                {17, true, 0, "ASL"},
+                                {8, true, 0, "TUM"}};
+
+const Columns& columnsOf(const TextLine& line) {
+  for (const Columns& columns : kColumns) {
+    if (line.words.size() == columns.count) return columns;
+  }
+  line.fail(
+      cv::format("%zu numbers, but a pose has 12 or 16 (KITTI), 13 (with a time), 8 (TUM) or "
+                 "17 (ASL)",
+                 line.words.size()));
 }
 
 void requireCount(const TextLine& line, std::size_t count) {
@@ -29,9 +45,21 @@ void requireCount(const TextLine& line, std::size_t count) {
   line.fail(cv::format("%zu numbers, but %zu were expected", line.words.size(), count));
 }
 
-Eigen::Isometry3d kittiPose(const TextLine& line) {
+/// The lines without a header.
+std::vector<TextLine> readPoseLines(const std::string& path) {
+  std::vector<TextLine> lines = readTextLines(path);
+  const std::string& first = lines.front().words.front();
+  const bool is_header = first.find_first_of("0123456789") == std::string::npos;
+  if (is_header) lines.erase(lines.begin());
+  if (lines.empty()) throw std::runtime_error(path + " has no poses");
+  return lines;
+}
+
+Eigen::Isometry3d matrixPose(const TextLine& line, std::size_t first) {
   Eigen::Matrix<double, 3, 4> matrix;
-  for (int i = 0; i < matrix.size(); ++i) matrix(i / 4, i % 4) = line.number(i);
+  for (int i = 0; i < matrix.size(); ++i) {
+    matrix(i / 4, i % 4) = line.number(first + static_cast<std::size_t>(i));
+  }
   const Eigen::Matrix3d rotation = matrix.leftCols<3>();
   if (const auto why = whyNoRotation(rotation)) {
     line.fail("the left 3x3 part is not a rotation: it is " + *why);
@@ -41,11 +69,12 @@ Eigen::Isometry3d kittiPose(const TextLine& line) {
   return pose;
 }
 
-/// The first number of a line [s].
-std::int64_t timeAfter(std::int64_t previous_ns, const TextLine& line) {
-  const std::int64_t stamp_ns = line.nanoseconds(0, kSecond_ns);
-  line.requireLater(stamp_ns, previous_ns);
-  return stamp_ns;
+/// Files of ASL have commas and times in nanoseconds, and quaternions begin with w.
+Eigen::Isometry3d poseOf(const TextLine& line, const Columns& columns, std::int64_t unit_ns) {
+  if (columns.count == 8 || columns.count == 17) {
+    return line.quaternionPose(columns.count == 17 || (line.has_commas && unit_ns == 1));
+  }
+  return matrixPose(line, columns.matrix);
 }
 
 }  // namespace
@@ -57,19 +86,24 @@ TrajectoryFormat trajectoryFormat(const std::string& name) {
 }
 
 TrajectoryFormat detectTrajectoryFormat(const std::string& path) {
-  return formatOf(readTextLines(path).front());
+  return columnsOf(readPoseLines(path).front()).has_time ? TrajectoryFormat::kTum
+                                                         : TrajectoryFormat::kKitti;
 }
 
 Trajectory readTrajectory(const std::string& path) {
-  const std::vector<TextLine> lines = readTextLines(path);
-  const bool is_tum = formatOf(lines.front()) == TrajectoryFormat::kTum;
+  const std::vector<TextLine> lines = readPoseLines(path);
+  const Columns& columns = columnsOf(lines.front());
   Trajectory trajectory;
   trajectory.reserve(lines.size());
-  std::int64_t stamp_ns = is_tum ? INT64_MIN : -kKittiPeriod_ns;
+  const std::int64_t unit_ns = timeUnit_ns(lines, columns.count == 17 ? 1 : kSecond_ns);
   for (const TextLine& line : lines) {
-    requireCount(line, is_tum ? kTumNumbers : kKittiNumbers);
-    stamp_ns = is_tum ? timeAfter(stamp_ns, line) : stamp_ns + kKittiPeriod_ns;
-    trajectory.push_back({stamp_ns, is_tum ? line.quaternionPose(false) : kittiPose(line)});
+    requireCount(line, columns.count);
+    auto stamp_ns = static_cast<std::int64_t>(trajectory.size()) * kKittiPeriod_ns;
+    if (columns.has_time) {
+      stamp_ns = line.nanoseconds(0, unit_ns);
+      if (!trajectory.empty()) line.requireLater(stamp_ns, trajectory.back().stamp_ns);
+    }
+    trajectory.push_back({stamp_ns, poseOf(line, columns, unit_ns)});
   }
   return trajectory;
 }
@@ -112,11 +146,15 @@ Trajectory samplePoses(const Trajectory& trajectory, const std::vector<std::int6
   return samples;
 }
 
-TrajectoryWriter::TrajectoryWriter(const std::string& path, TrajectoryFormat format)
+TrajectoryWriter::TrajectoryWriter(const std::string& path,
+                                   TrajectoryFormat format,
+                                   const std::string& body)
     : path_(path), format_(format), file_(path) {
   if (!file_) throw std::runtime_error("cannot write " + path_);
   file_.imbue(std::locale::classic());  // no decimal comma
   file_.precision(9);
+  if (body.empty() || format_ == TrajectoryFormat::kKitti) return;
+  file_ << "# poses of " << body << ": time [s], position [m], quaternion x y z w" << std::endl;
 }
 
 void TrajectoryWriter::write(const StampedPose& pose) {

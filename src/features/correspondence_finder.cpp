@@ -49,6 +49,7 @@ std::shared_ptr<StereoFrame> CorrespondenceFinder::unusedFrame() {
 FramePtr CorrespondenceFinder::makeFrame(const StereoPair& pair, int level) {
   const auto frame = unusedFrame();
   frame->stamp_ns = pair.stamp_ns;
+  frame->clock_set_ns = pair.clock_set_ns;
   left_mask_.assign(pair.left_mask, FeatureDetector::kBorder_px << level);
   right_mask_.assign(pair.right_mask, FeatureDetector::kBorder_px << level);
   frame->left_mask = left_mask_;

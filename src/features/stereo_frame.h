@@ -56,6 +56,8 @@ class FeatureMask {
 /// The images of one stereo pair.
 struct StereoFrame {
   std::int64_t stamp_ns = 0;
+  std::int64_t clock_set_ns = 0;  ///< see StereoPair
+  std::int64_t time_ns() const { return stamp_ns - clock_set_ns; }
   ImagePyramid whole_left, whole_right;  ///< level 0 is a copy of the image
   /// Pyramids for the tracker: those parts of the whole ones that begin with the image of the
   /// odometry, see BaseLevel.
@@ -84,7 +86,7 @@ struct StereoFrame {
 using FramePtr = std::shared_ptr<StereoFrame>;
 
 inline double secondsBetween(const StereoFrame& earlier, const StereoFrame& later) {
-  return toSeconds(later.stamp_ns - earlier.stamp_ns);
+  return toSeconds(later.time_ns() - earlier.time_ns());
 }
 
 /// The frame that motions are measured against (t-1 in the paper), and its features.

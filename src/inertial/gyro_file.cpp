@@ -1,16 +1,19 @@
 #include "inertial/gyro_file.h"
 
 #include "common/csv_file.h"
+#include "evaluation/image_times.h"
 #include "evaluation/text_file.h"
 
 namespace rotrocc {
 
 std::vector<GyroSample> readGyroFile(const std::string& path) {
   std::vector<GyroSample> samples;
-  for (const TextLine& line : readTextLines(path, ',')) {
+  const std::vector<TextLine> lines = readTextLines(path);
+  const std::int64_t unit_ns = timeUnit_ns(lines, 1);
+  for (const TextLine& line : lines) {
     line.requireColumns(4, "timestamp [ns] and three angular velocities [rad/s]");
-    samples.push_back(
-        {line.nanoseconds(0, 1), Eigen::Vector3d(line.number(1), line.number(2), line.number(3))});
+    samples.push_back({line.nanoseconds(0, unit_ns),
+                       Eigen::Vector3d(line.number(1), line.number(2), line.number(3))});
   }
   return samples;
 }

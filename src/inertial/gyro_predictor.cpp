@@ -125,6 +125,8 @@ std::optional<Eigen::Matrix3d> GyroPredictor::rotation(std::int64_t from_ns, std
 }
 
 void GyroPredictor::observe(const OdometryResult& result) {
+  // Its clock was not set with that of the images.
+  if (result.clock_set_ns != result.prev_clock_set_ns) return;
   if (result.state != State::kOk) return;
   const std::int64_t from_ns = result.prev_stamp_ns;
   if (history_.whyUnknown(from_ns, result.stamp_ns)) return;

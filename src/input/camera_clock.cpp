@@ -27,6 +27,8 @@ constexpr double kStartOfLoop = 10.0;
 constexpr std::size_t kArrivals = 16;
 /// In periods. After a glitch of less, the following images are not late enough for a jump back.
 constexpr double kTolerance = 3.0;
+/// In periods: a fast replay that loses images looks like a smaller step.
+constexpr double kLeastStep = 10.0;
 /// While it is unknown: that of a slow camera.
 constexpr std::int64_t kUnknownPeriod_ns = 300'000'000;
 
@@ -92,13 +94,27 @@ bool CameraClock::goesBack(const Image& image) {
   const std::int64_t back_ns = *lastStamp_ns() - image.stamp_ns;
   if (arrival_went_back_) return true;
   if (back_ns >= periods_ns(kMaxReordering)) {
-    return image.stamp_ns - *first_stamp_ns_ <= periods_ns(kStartOfLoop);
+    return isStartOfLoop(image.stamp_ns);
   }
   if (++backward_in_a_row_ >= kBackwardInARow) return true;
   throw InputError(DropReason::kStampBackward,
                    images_ + " has the stamp " + stampText(image.stamp_ns) + " s, " +
                        toText(toSeconds(back_ns)) +
                        " s before the previous one: send images in the order of their stamps");
+}
+
+bool CameraClock::isStartOfLoop(std::int64_t stamp_ns) const {
+  return stamp_ns - *first_stamp_ns_ <= periods_ns(kStartOfLoop);
+}
+
+/// By how much the clock was set before the image.
+std::int64_t CameraClock::stepTo(const Image& image) const {
+  const std::int64_t ahead_ns = image.ahead_ns() - usualAhead_ns();
+  const std::int64_t waited_ns = image.arrival.ns() - latest_.back().arrival.ns();
+  if (static_cast<double>(waited_ns) > periods_ns(kLeastStep)) return 0;  // a pause: another drive
+  const bool goes_back = image.stamp_ns < *lastStamp_ns();
+  if (goes_back) return arrival_went_back_ || isStartOfLoop(image.stamp_ns) ? 0 : ahead_ns;
+  return ahead_ns > periods_ns(kLeastStep) ? ahead_ns : 0;
 }
 
 std::int64_t CameraClock::usualAhead_ns() const {
@@ -116,17 +132,25 @@ double CameraClock::periods_ns(double count) const {
 void CameraClock::add(std::int64_t stamp_ns, const Arrival& arrival) {
   Image image = {stamp_ns, arrival};
   if (held_ && held_->stamp_ns == stamp_ns) image = *std::exchange(held_, std::nullopt);
+  const auto knows_clock = [](const Image& one) { return one.arrival.clock_ns != 0; };
+  const bool is_comparable = !latest_.empty() && knows_clock(latest_.back()) == knows_clock(image);
+  if (is_comparable) set_ns_ += stepTo(image);
   const bool goes_back = lastStamp_ns() && stamp_ns < *lastStamp_ns();
   if (goes_back || !first_stamp_ns_) first_stamp_ns_ = stamp_ns;
-  const auto knows_clock = [](const Image& one) { return one.arrival.clock_ns != 0; };
-  if (goes_back || (!latest_.empty() && knows_clock(latest_.back()) != knows_clock(image))) {
-    latest_.clear();
-  }
+  if (goes_back || !is_comparable) latest_.clear();
+  image.set_ns = set_ns_;
   latest_.push_back(image);
   if (latest_.size() > kLatest) latest_.pop_front();
   if (const auto period_ns = periodOf(stamps_ns())) period_ns_ = period_ns;
   arrival_went_back_ = false;
   backward_in_a_row_ = 0;
+}
+
+std::int64_t CameraClock::setAt_ns(std::int64_t stamp_ns) const {
+  const auto found = std::find_if(latest_.begin(), latest_.end(), [&](const Image& image) {
+    return image.stamp_ns == stamp_ns;
+  });
+  return found == latest_.end() ? set_ns_ : found->set_ns;
 }
 
 std::optional<std::int64_t> CameraClock::lastStamp_ns() const {

@@ -56,6 +56,12 @@ class CameraClock {
   /// Adds a valid image.
   void add(std::int64_t stamp_ns, const Arrival& arrival);
 
+  /// By how much the clock was set forward since the first image, in steps while images kept
+  /// arriving; a loop is none.
+  std::int64_t set_ns() const { return set_ns_; }
+  /// The same at one of the latest images.
+  std::int64_t setAt_ns(std::int64_t stamp_ns) const;
+
   std::optional<std::int64_t> lastStamp_ns() const;
   /// The latest ones since time jumped back.
   Stamps stamps_ns() const;
@@ -73,12 +79,15 @@ class CameraClock {
   struct Image {
     std::int64_t stamp_ns;
     Arrival arrival;
+    std::int64_t set_ns = 0;
 
     std::int64_t ahead_ns() const { return stamp_ns - arrival.ns(); }
   };
 
   bool continues(const Image& image);
   bool goesBack(const Image& image);
+  bool isStartOfLoop(std::int64_t stamp_ns) const;
+  std::int64_t stepTo(const Image& image) const;
   std::int64_t usualAhead_ns() const;
   double periods_ns(double count) const;
 
@@ -86,6 +95,7 @@ class CameraClock {
   std::deque<Image> latest_;
   std::optional<std::int64_t> period_ns_;
   std::optional<std::int64_t> first_stamp_ns_;  // since time jumped back
+  std::int64_t set_ns_ = 0;
   std::optional<Image> held_;
   std::int64_t last_arrival_ns_ = 0;
   bool arrival_went_back_ = false;  // since the last valid image

@@ -89,6 +89,9 @@ std::string whyUnmatched(const InputReport& report) {
                 "synchronized?");
 }
 
+/// Share of the period by which stamps may scatter.
+constexpr double kLargeScatter = 0.1;
+
 std::optional<std::string> whyLost(const InputReport& report) {
   const auto& [left, right, pairs] = report.unmatched;
   const std::size_t lost = std::max(left, right);
@@ -167,8 +170,14 @@ std::optional<std::string> faultOfPairs(const InputReport& report) {
            ofPeriod(skew_s, *report.period_s) +
            ", so it is not sure which images are of one time: trigger the cameras synchronously";
   }
-  const auto lost = whyLost(report);
-  return lost ? lost : whyAge(report);
+  if (const auto lost = whyLost(report)) return lost;
+  if (report.period_s && report.stamp_scatter_s > kLargeScatter * *report.period_s) {
+    return "the stamps of " + report.left_image.topic + " scatter by " +
+           milliseconds(report.stamp_scatter_s) + ", " +
+           ofPeriod(report.stamp_scatter_s, *report.period_s) +
+           ", and velocities with them: stamp images when they are exposed, not when they arrive";
+  }
+  return whyAge(report);
 }
 
 bool isOfAnotherClock(const InputReport& report) {

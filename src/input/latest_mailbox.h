@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
+#include <deque>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -12,11 +14,13 @@ namespace rotrocc {
 template <class Item>
 class LatestMailbox {
  public:
-  /// Replaces an item that was not taken yet. Returns whether there was one.
-  bool put(Item item) {
+  /// Replaces items that were not taken yet, unless it came together with the one before. Returns
+  /// how many it replaced.
+  std::size_t put(Item item, bool is_together = false) {
     std::unique_lock<std::mutex> lock(mutex_);
-    const bool replaced = item_.has_value();
-    item_ = std::move(item);
+    const std::size_t replaced = is_together ? 0 : items_.size();
+    if (!is_together) items_.clear();
+    items_.push_back(std::move(item));
     lock.unlock();  // or the consumer would wake only to wait for it
     changed_.notify_one();
     return replaced;
@@ -25,14 +29,16 @@ class LatestMailbox {
   /// Waits for an item. Returns nothing on timeout or if the mailbox is closed.
   std::optional<Item> take(std::chrono::milliseconds timeout) {
     std::unique_lock<std::mutex> lock(mutex_);
-    changed_.wait_for(lock, timeout, [this] { return item_ || closed_; });
-    if (closed_) return std::nullopt;
-    return std::exchange(item_, std::nullopt);
+    changed_.wait_for(lock, timeout, [this] { return !items_.empty() || closed_; });
+    if (closed_ || items_.empty()) return std::nullopt;
+    std::optional<Item> item = std::move(items_.front());
+    items_.pop_front();
+    return item;
   }
 
   bool hasItem() const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return item_.has_value();
+    return !items_.empty();
   }
 
   /// Ends all current and future waits.
@@ -50,7 +56,7 @@ class LatestMailbox {
  private:
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::optional<Item> item_;
+  std::deque<Item> items_;  // the latest one, or those that came together
   bool closed_ = false;
 };
 

@@ -58,7 +58,9 @@ void StereoIntake::addImage(Side side,
     if (verdict.glitch) drop(side, *verdict.glitch);
     const auto held = std::exchange(stream(side).held, verdict.held ? image : nullptr);
     if (verdict.held_is_valid) match(side, held, arrival);
+    follows_held_ = verdict.held_is_valid;
     if (!verdict.held) match(side, image, arrival);
+    follows_held_ = false;
   } catch (const InputError& error) {
     drop(side, error);
   }
@@ -80,7 +82,17 @@ void StereoIntake::match(Side side,
   if (waiting_) drops_.count(DropReason::kCameraInfoMissing);
   const std::int64_t age_ns = arrival.clock_ns - toNanoseconds(images->left->header.stamp);
   const double age_s = arrival.clock_ns == 0 ? 0.0 : toSeconds(age_ns);
-  waiting_ = ReceivedPair{*images, {}, arrival.time, {}, age_s, nullptr};
+  const CameraClock& clock = synchronizer_.clock(Side::kLeft);
+  waiting_ = ReceivedPair{*images,
+                          {},
+                          arrival.time,
+                          {},
+                          age_s,
+                          clock.setAt_ns(toNanoseconds(images->left->header.stamp)),
+                          clock.stampScatter_s(),
+                          follows_held_,
+                          nullptr};
+  tellClock();
   handOver();
 }
 
@@ -134,8 +146,22 @@ void StereoIntake::handOver() {
   tell(*camera_);
   waiting_->camera = *camera_;
   waiting_->calibration = calibration_;
-  on_pair_(std::move(*waiting_));
+  ReceivedPair pair = std::move(*waiting_);
   waiting_.reset();
+  const auto kept = std::make_shared<const ReceivedPair>(pair);
+  pair.before = before_;
+  before_.push_back(kept);
+  if (before_.size() > 2) before_.erase(before_.begin());
+  on_pair_(std::move(pair));
+}
+
+void StereoIntake::tellClock() {
+  const std::int64_t set_ns = synchronizer_.clock(Side::kLeft).set_ns();
+  const double step_s = toSeconds(set_ns - std::exchange(told_set_ns_, set_ns));
+  if (step_s == 0.0) return;
+  log_.warn("the stamps of the left images stepped by " + fixedText(step_s, 3) +
+            " s while images kept coming: the odometry goes on; synchronize the camera's clock "
+            "before the drive");
 }
 
 void StereoIntake::tell(const StereoCamera& camera) {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
@@ -28,7 +29,11 @@ struct ReceivedPair {
   std::chrono::steady_clock::time_point arrival;         ///< of the second image
   std::chrono::steady_clock::time_point taken;           ///< by who processes it
   double stamp_age_s = 0.0;                              ///< then; 0 if ROS time is not known
+  std::int64_t clock_set_ns = 0;                         ///< see CameraClock::set_ns()
+  double stamp_sigma_s = 0.0;                            ///< see CameraClock::stampScatter_s()
+  bool follows_held = false;                             ///< at once, see CameraClock::Verdict
   std::shared_ptr<const StereoCalibration> calibration;  ///< of raw images; null: rectified ones
+  std::vector<std::shared_ptr<const ReceivedPair>> before = {};  ///< the last two, without theirs
 };
 
 /// Matches the messages of four topics to pairs, and keeps statistics. An image with a doubtful
@@ -72,6 +77,7 @@ class StereoIntake {
   void use(const Info& left, const Info& right);
   void handOver();
   void tell(const StereoCamera& camera);
+  void tellClock();
 
   NodeParameters parameters_;
   DropLog& drops_;
@@ -81,9 +87,12 @@ class StereoIntake {
   Stream left_, right_;
   StereoSynchronizer synchronizer_;
   std::optional<ReceivedPair> waiting_;
+  std::vector<std::shared_ptr<const ReceivedPair>> before_;  // see ReceivedPair
+  bool follows_held_ = false;                                // the image that is matched now
 
   Info left_info_, right_info_;  // that the camera is from
   std::optional<StereoCamera> camera_;
+  std::int64_t told_set_ns_ = 0;                          // of the left clock, by the log
   StereoCamera told_camera_;                              // by the log
   bool has_raw_infos_ = false;                            // that are not used to rectify
   std::shared_ptr<const StereoCalibration> calibration_;  // null if the images are rectified

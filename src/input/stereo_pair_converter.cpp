@@ -138,33 +138,48 @@ cv_bridge::CvImage read(const std::string& side, const sensor_msgs::Image& image
   }
 }
 
-/// Number of bits that all but the brightest pixels of a 16-bit image use; at least 8, and 8 of
-/// others.
-int countSignificantBits(const cv::Mat& image) {
-  if (image.depth() != CV_16U) return 8;  // left and right may differ
-  constexpr double kBrighterShare = 0.01;
-  constexpr int kBins = 256;  // by the upper byte
+/// The values of a 16-bit image without the darkest and the brightest hundredth of its pixels;
+/// those of 8 bits for others.
+cv::Vec2i usedValues(const cv::Mat& image) {
+  if (image.depth() != CV_16U) return {0, 255};  // left and right may differ
+  constexpr double kLeftOut = 0.01;
+  constexpr int kBins = 65536;
   const std::vector<cv::Mat> values = {image.reshape(1)};
   cv::Mat counts;
   cv::calcHist(values, {0}, cv::noArray(), counts, {kBins}, {0.0f, 65536.0f});
-  const double admitted = kBrighterShare * static_cast<double>(values[0].total());
-  double brighter = 0.0;
-  int upper = kBins;
-  while (upper > 1 && brighter + counts.at<float>(upper - 1) <= admitted) {
-    brighter += counts.at<float>(--upper);
-  }
+  const double admitted = kLeftOut * static_cast<double>(values[0].total());
+  double brighter = 0.0, darker = 0.0;
+  int upper = kBins - 1, lower = 0;
+  while (upper > 0 && (brighter += counts.at<float>(upper)) <= admitted) --upper;
+  while (lower < upper && (darker += counts.at<float>(lower)) <= admitted) ++lower;
+  return {lower, upper};
+}
+
+/// At least 8.
+int bitsOf(int value) {
   int bits = 8;
-  for (int rest = upper - 1; rest != 0; rest >>= 1) ++bits;
+  while (value >> bits != 0) ++bits;
   return bits;
 }
 
-cv::Mat toGrey(const std::string& side, const cv_bridge::CvImage& image, int significant_bits) {
+/// With a margin for what comes, if there is a black level.
+GreyRange rangeOf(const cv::Vec2i& used) {
+  constexpr int kUnusedBits = 2;
+  const GreyRange from_zero = {0, bitsOf(used[1])};
+  if (used[0] == used[1]) return from_zero;  // a shutter, or no light
+  const int margin = (used[1] - used[0]) / 4;
+  const int black = std::max(used[0] - margin, 0);
+  const GreyRange from_black = {black, bitsOf(used[1] - black)};
+  return from_black.bits + kUnusedBits <= from_zero.bits ? from_black : from_zero;
+}
+
+cv::Mat toGrey(const std::string& side, const cv_bridge::CvImage& image, const GreyRange& range) {
   cv::Mat pixels = image.image;
   std::string encoding = image.encoding;
   if (pixels.depth() == CV_16U) {
-    const double scale = std::ldexp(1.0, 8 - significant_bits);
-    image.image.convertTo(
-        pixels, CV_8U, scale, 0.5 * (scale - 1.0));  // rounded down, as a shift is
+    const double scale = std::ldexp(1.0, 8 - range.bits);
+    // Rounded down, as a shift is.
+    image.image.convertTo(pixels, CV_8U, scale, 0.5 * (scale - 1.0) - scale * range.black);
     encoding.replace(encoding.find("16"), 2, "8");
   }
   if (encoding == enc::MONO8 || encoding == enc::TYPE_8UC1) return pixels;
@@ -211,13 +226,16 @@ StereoPair StereoPairConverter::convert(const ReceivedPair& received) {
   const cv_bridge::CvImage left = read("left", *received.images.left);
   const cv_bridge::CvImage right = read("right", *received.images.right);
   validateMasks(left.image.size());
-  findSignificantBits(left.image, right.image);
-  const StereoPair pair = {toNanoseconds(left.header.stamp),
-                           toGrey("left", left, significant_bits_),
-                           toGrey("right", right, significant_bits_),
-                           left_mask_,
-                           right_mask_};
-  return received.calibration ? rectifier_.rectify(pair, received.calibration) : pair;
+  findRange(left.image, right.image);
+  StereoPair pair = {toNanoseconds(left.header.stamp),
+                     toGrey("left", left, range_),
+                     toGrey("right", right, range_),
+                     left_mask_,
+                     right_mask_};
+  if (received.calibration) pair = rectifier_.rectify(pair, received.calibration);
+  pair.clock_set_ns = received.clock_set_ns;
+  pair.stamp_sigma_s = received.stamp_sigma_s;
+  return pair;
 }
 
 void StereoPairConverter::validateMasks(const cv::Size& size) const {
@@ -233,25 +251,30 @@ void StereoPairConverter::validateMasks(const cv::Size& size) const {
   }
 }
 
-void StereoPairConverter::findSignificantBits(const cv::Mat& left, const cv::Mat& right) {
+void StereoPairConverter::findRange(const cv::Mat& left, const cv::Mat& right) {
   if (known_bits_ > 0) {
-    significant_bits_ = known_bits_;
+    range_ = {known_black_, known_bits_};
     return;
   }
   if (left.depth() != CV_16U && right.depth() != CV_16U) {
-    recent_bits_.clear();  // another mode of the camera says nothing of this one
-    significant_bits_ = 8;
+    recent_.clear();  // another mode of the camera says nothing of this one
+    range_ = {};
     return;
   }
-  recent_bits_.push_back(std::max(countSignificantBits(left), countSignificantBits(right)));
-  if (recent_bits_.size() > kShrinkPairs) recent_bits_.pop_front();
-  if (recent_bits_.size() == 1) significant_bits_ = recent_bits_.back();
-  if (recent_bits_.size() < 2) return;
-  const int in_two = std::min(recent_bits_.back(), *(recent_bits_.rbegin() + 1));
-  significant_bits_ = std::max(significant_bits_, in_two);
-  if (recent_bits_.size() < kShrinkPairs) return;
-  const int in_all = *std::max_element(recent_bits_.begin(), recent_bits_.end());
-  significant_bits_ = std::min(significant_bits_, in_all);
+  const cv::Vec2i of_left = usedValues(left), of_right = usedValues(right);
+  recent_.emplace_back(std::min(of_left[0], of_right[0]), std::max(of_left[1], of_right[1]));
+  if (recent_.size() > kShrinkPairs) recent_.pop_front();
+  const cv::Vec2i &last = recent_.back(),
+                  &before = recent_[std::max<std::size_t>(recent_.size(), 2) - 2];
+  if (recent_.size() == 1) used_ = last;
+  used_ = {std::min(used_[0], std::max(last[0], before[0])),
+           std::max(used_[1], std::min(last[1], before[1]))};
+  if (recent_.size() == kShrinkPairs) {
+    cv::Vec2i all = last;
+    for (const cv::Vec2i& one : recent_) all = {std::min(all[0], one[0]), std::max(all[1], one[1])};
+    used_ = {std::max(used_[0], all[0]), std::min(used_[1], all[1])};
+  }
+  range_ = rangeOf(used_);
 }
 
 std::string cameraFrameOf(const sensor_msgs::Image& left, const std::string& camera_frame) {

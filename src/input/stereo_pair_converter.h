@@ -13,6 +13,14 @@
 
 namespace rotrocc {
 
+/// The values of a 16-bit image that become the grey levels from 0 to 255.
+struct GreyRange {
+  int black = 0;
+  int bits = 8;  ///< so many values, to the power of two, from black on
+
+  int white() const { return black + (1 << bits) - 1; }
+};
+
 /// Converts the images of a pair to grey images for the estimator, and rectifies raw ones. Supports
 /// the encodings that cv_bridge converts to grey, yuv422_yuy2, and 8UC3 and 8UC4 as bgr8 and bgra8.
 ///
@@ -21,17 +29,27 @@ namespace rotrocc {
 /// same. Brighter pixels are white. A pair uses the bits of all but the brightest hundredth of its
 /// pixels, so lamps, hot pixels and rows of metadata do not count. b grows when two pairs in a row
 /// use more, and shrinks when kShrinkPairs use less, so a single bad image does not change it.
+///
+/// Thermal cameras use a small range far above zero. If that leaves at least two bits of b unused,
+/// a black level below the darkest hundredth of the pixels is found in the same way, and subtracted
+/// first.
 class StereoPairConverter {
  public:
   static constexpr std::size_t kShrinkPairs = 10;
 
-  /// `significant_bits`: b if it is known, or 0. `mask`: path of an image that is not black where
-  /// pairs have no features (StereoPair::left_mask); with "%s" in place of left and right if there
-  /// are two; empty: none. `threads`: see StereoRectifier. Throws std::runtime_error if the mask
-  /// cannot be read.
+  /// `significant_bits`: b if it is known, without a black level, or 0. `mask`: path of an image
+  /// that is not black where pairs have no features (StereoPair::left_mask); with "%s" in place of
+  /// left and right if there are two; empty: none. `threads`: see StereoRectifier. Throws
+  /// std::runtime_error if the mask cannot be read.
   explicit StereoPairConverter(int significant_bits = 0,
                                const std::string& mask = "",
                                int threads = 2);
+
+  /// Without a search for the range, in one thread.
+  StereoPairConverter(const GreyRange& range, const std::string& mask)
+      : StereoPairConverter(range.bits, mask, 1) {
+    known_black_ = range.black;
+  }
 
   /// Converts a pair, and rectifies it if it has a calibration. The resulting images refer to the
   /// data of the messages if these are rectified 8-bit grey images; rectified ones are valid until
@@ -41,21 +59,23 @@ class StereoPairConverter {
   /// more data is ignored.
   StereoPair convert(const ReceivedPair& received);
 
-  /// b of the last pair; 8 if it had no 16-bit image.
-  int significantBits() const { return significant_bits_; }
+  /// Of the last pair.
+  const GreyRange& greyRange() const { return range_; }
 
   void setThreads(int threads) { rectifier_.setThreads(threads); }
 
  private:
   void validateMasks(const cv::Size& size) const;
-  void findSignificantBits(const cv::Mat& left, const cv::Mat& right);
+  void findRange(const cv::Mat& left, const cv::Mat& right);
 
   int known_bits_;
+  int known_black_ = 0;
   std::string mask_;
   cv::Mat left_mask_;
   cv::Mat right_mask_;
-  int significant_bits_ = 8;
-  std::deque<int> recent_bits_;  // of the last pairs
+  GreyRange range_;
+  cv::Vec2i used_;                // from the darkest to the brightest value that counts
+  std::deque<cv::Vec2i> recent_;  // of the last pairs
   StereoRectifier rectifier_;
 };
 

@@ -12,6 +12,7 @@
 
 #include "input/camera_calibration.h"
 #include "input/message_conversion.h"
+#include "input/to_text.h"
 
 namespace rotrocc {
 namespace {
@@ -96,15 +97,23 @@ InputReport StereoInput::report() {
   addTopic(right_.info, report.right_info);
   report.clock_missing = ros::Time::isSimTime() && asked.clock_ns == 0;
   silence_.onTick(report, asked);
-  tellRawInfos(report);
+  tellOnce(report);
   return report;
 }
 
-void StereoInput::tellRawInfos(const InputReport& report) {
-  if (!report.has_raw_infos || isRectifiedByName(report.left_image.topic)) return;
-  if (std::exchange(told_raw_infos_, true)) return;
-  log_.warn(report.left_image.topic + " is taken as rectified, but is not named image_rect, and " +
-            report.left_info.topic + " is of raw images: set rectify if they are raw");
+/// What only the user knows to be right.
+void StereoInput::tellOnce(const InputReport& report) {
+  const std::string& topic = report.left_image.topic;
+  if (report.has_raw_infos && !isRectifiedByName(topic) && !std::exchange(told_raw_infos_, true)) {
+    log_.warn(topic + " is taken as rectified, but is not named image_rect, and " +
+              report.left_info.topic + " is of raw images: set rectify if they are raw");
+  }
+  if (isOfAnotherClock(report) && !std::exchange(told_clock_, true)) {
+    log_.warn("the stamps of " + topic + " are of another clock, " +
+              fixedText(*report.stamp_age_s, 0) +
+              " s behind that of this machine, and so are odometry and tf: synchronize the clocks, "
+              "or play bags with --clock and use_sim_time");
+  }
 }
 
 }  // namespace rotrocc

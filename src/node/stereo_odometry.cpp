@@ -53,10 +53,12 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
       }),
       camera_pose_(tf_.buffer(), parameters_.base_frame, parameters_.mount_timeout_s, log_),
       publisher_(nh, parameters_),
-      trajectory_(static_cast<std::size_t>(parameters_.trajectory_length),
-                  parameters_.trajectory_file,
-                  parameters_.trajectory_format,
-                  log_),
+      trajectory_(
+          static_cast<std::size_t>(parameters_.trajectory_length),
+          parameters_.trajectory_file,
+          parameters_.trajectory_format,
+          parameters_.trajectory_frame == "base" ? parameters_.base_frame : "the left camera",
+          log_),
       loss_log_(log_) {
   if (!parameters_.guess_frame.empty()) {
     guess_.emplace(tf_.buffer(), parameters_.guess_frame, parameters_.base_frame, log_);
@@ -96,7 +98,10 @@ StereoOdometry::~StereoOdometry() {
 
 void StereoOdometry::onPair(ReceivedPair pair) {
   if (health_.paused()) return drops_.count(DropReason::kPaused);
-  if (mailbox_.put(std::move(pair))) drops_.count(DropReason::kSuperseded);
+  const bool is_together = pair.follows_held;
+  if (const std::size_t replaced = mailbox_.put(std::move(pair), is_together)) {
+    drops_.count(DropReason::kSuperseded, replaced);
+  }
 }
 
 /// Once a second: diagnostics, a status if there was no pair, and a report of missing input.
@@ -138,7 +143,10 @@ void StereoOdometry::process(const ReceivedPair& received) {
   if (!pair) return;
   const PairAnswer answer = processor_.process(pair->in);
   // Before the odometry is sent: who has received it can save its pose.
-  trajectory_.add({answer.state.stamp_ns, answer.state.T_first_camera}, answer.starts_trajectory);
+  const bool is_of_base = parameters_.trajectory_frame == "base";
+  trajectory_.add({answer.state.stamp_ns,
+                   is_of_base ? answer.state.T_odom_base.T : answer.state.T_first_camera},
+                  answer.starts_trajectory);
   const Time ready = SteadyClock::now();
   std::optional<Eigen::Isometry3d> T_guess_base;
   if (guess_) T_guess_base = guess_->moveTo(answer.result.stamp_ns);
@@ -179,6 +187,8 @@ std::optional<StereoOdometry::Gathered> StereoOdometry::gather(const ReceivedPai
   in.pair = processor_.convert(received);
   pair.converted = SteadyClock::now();
   in.camera = received.camera;
+  in.arrival = received.arrival;
+  in.before = received.before;
   in.is_simulated = ros::Time::isSimTime();
   const std::int64_t stamp_ns = in.pair.stamp_ns;
   tf_.follow(stamp_ns);
@@ -220,6 +230,7 @@ std::optional<StereoOdometry::Gathered> StereoOdometry::gather(const ReceivedPai
 void StereoOdometry::report(const PairInput& in, const PairAnswer& answer, PairReport report) {
   report.camera_fault = processor_.inspect(in, answer.result);
   report.tf_problem = camera_pose_.problem();
+  if (report.tf_problem.empty()) report.tf_problem = answer.mount_problem;
   if (guess_) {
     const std::string& problem = guess_->problem();
     if (!report.tf_problem.empty() && !problem.empty()) report.tf_problem += "; ";

@@ -38,10 +38,12 @@ std::string numberedPath(const std::string& path, int number) {
 TrajectoryStore::TrajectoryStore(std::size_t max_length,
                                  const std::string& path,
                                  const std::string& format,
+                                 const std::string& body,
                                  Log log)
     : log_(std::move(log)),
       path_(path.empty() ? "" : std::filesystem::absolute(path).string()),
       format_(trajectoryFormat(format)),
+      body_(body),
       poses_(max_length) {
   // A wrong path is refused at the start; the file comes with the first pose, as one without is
   // invalid.
@@ -64,7 +66,7 @@ void TrajectoryStore::add(const StampedPose& pose, bool starts) {
       std::string path;
       do path = numberedPath(path_, ++number_);
       while (std::filesystem::exists(path));
-      file_.emplace(path, format_);
+      file_.emplace(path, format_, body_);
       log_.info("trajectory file: " + path);
     }
     file_->write(pose);
@@ -92,14 +94,14 @@ std::string TrajectoryStore::save(const std::string& path, const std::string& fo
   requireFile(absolute);
   const std::string temporary = absolute + ".tmp";
   try {
-    TrajectoryWriter file(temporary, file_format);
+    TrajectoryWriter file(temporary, file_format, body_);
     for (const StampedPose& pose : poses) file.write(pose);
     std::filesystem::rename(temporary, absolute);
   } catch (const std::exception&) {
     std::filesystem::remove(temporary);
     throw;
   }
-  return "wrote " + std::to_string(poses.size()) + " poses of the left camera to " + absolute;
+  return "wrote " + std::to_string(poses.size()) + " poses of " + body_ + " to " + absolute;
 }
 
 }  // namespace rotrocc

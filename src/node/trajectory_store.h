@@ -12,8 +12,8 @@
 
 namespace rotrocc {
 
-/// The poses of the left camera: the latest in memory, to be saved, and with a path each one in a
-/// file.
+/// The poses of the left camera, or of the base: the latest in memory, to be saved, and with a path
+/// each one in a file.
 ///
 /// No file is replaced by those of the path: a trajectory goes to the next number that is free, as
 /// in poses.txt, poses_2.txt, poses_3.txt. Its stamps increase; a pose that is not later than the
@@ -26,6 +26,7 @@ class TrajectoryStore {
   explicit TrajectoryStore(std::size_t max_length,
                            const std::string& path = "",
                            const std::string& format = "tum",
+                           const std::string& body = "the left camera",
                            Log log = Log());
 
   /// `starts`: it is the first pose of a trajectory. Does not throw: after an error of writing,
@@ -45,6 +46,7 @@ class TrajectoryStore {
   Log log_;
   std::string path_;
   TrajectoryFormat format_;
+  std::string body_;
 
   mutable std::mutex mutex_;  // of what follows
   boost::circular_buffer<StampedPose> poses_;

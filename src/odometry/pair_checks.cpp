@@ -73,7 +73,7 @@ std::optional<std::string> whyRestart(const StereoPair& pair,
     return cv::format("the calibration has changed by %.2g of the focal length or baseline",
                       difference);
   }
-  const double gap_s = toSeconds(pair.stamp_ns - newest->stamp_ns);
+  const double gap_s = toSeconds(pair.time_ns() - newest->time_ns());
   const double limit_s = kSameDrive * period_s;
   if (period_s == 0.0 ? gap_s >= 0.0 : std::abs(gap_s) <= limit_s) return std::nullopt;
   return (gap_s > 0.0 ? "no pair for " : "stamps went back by ") +

@@ -47,6 +47,28 @@ std::unique_ptr<CorrespondenceFinder> makeFinder(const OdometryConfig& config) {
   return std::make_unique<CorrespondenceFinder>(config.correspondence_finder, config.threads);
 }
 
+/// Without a motion.
+OdometryResult resultOf(const StereoPair& pair) {
+  OdometryResult result;
+  result.stamp_ns = result.prev_stamp_ns = pair.stamp_ns;
+  result.clock_set_ns = result.prev_clock_set_ns = pair.clock_set_ns;
+  result.stamp_sigma_s = pair.stamp_sigma_s;
+  return result;
+}
+
+void setPrevious(const StereoFrame& frame, OdometryResult& result) {
+  result.prev_stamp_ns = frame.stamp_ns;
+  result.prev_clock_set_ns = frame.clock_set_ns;
+}
+
+/// Not if the clock of the images was set in between: that of the other sensor was not.
+std::optional<Eigen::Matrix3d> measuredRotation(const StereoFrame& from,
+                                                const StereoFrame& to,
+                                                const RotationSource& source) {
+  if (!source || from.clock_set_ns != to.clock_set_ns) return std::nullopt;
+  return source(from.stamp_ns, to.stamp_ns);
+}
+
 /// Ends the processing of a pair without a motion. what() is the reason, as a sentence.
 struct Lost : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -117,6 +139,7 @@ class VisualOdometry::Pipeline {
   std::optional<Vector6d> velocity_;  // [m/s; rad/s] of the last motion
   double period_s_ = 0.0;             // mean interval of the last pairs; 0 before the second one
   Keyframe keyframe_;                 // no frame if it must be created from the last frame
+  bool is_after_loss_ = false;        // the last pair had no motion
   bool has_failed_ = false;           // an error of a library has ended the last pair
 
   StageTimes prepared_;  // of prepare() since the last pair
@@ -134,8 +157,7 @@ VisualOdometry::Pipeline::Pipeline(const Config& config)
 OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
                                                  const StereoCamera& camera,
                                                  const OtherSensors& others) {
-  OdometryResult result;
-  result.stamp_ns = result.prev_stamp_ns = pair.stamp_ns;
+  OdometryResult result = resultOf(pair);
   result.times = std::exchange(prepared_, {});
   result.times.prepared_ms = std::exchange(result.times.total_ms, 0.0);
   found_.clear();
@@ -145,11 +167,11 @@ OdometryResult VisualOdometry::Pipeline::process(const StereoPair& pair,
     has_failed_ = false;
   } catch (const Lost& lost) {
     has_failed_ = false;
+    is_after_loss_ = last_ != nullptr;
     result.reason = lost.what();
   } catch (const std::exception& error) {
     fail();
-    result = {};
-    result.stamp_ns = result.prev_stamp_ns = pair.stamp_ns;
+    result = resultOf(pair);
     result.reason = std::string("internal error: ") + error.what();
   }
   report(camera, result);
@@ -204,6 +226,7 @@ void VisualOdometry::Pipeline::fail() {
 void VisualOdometry::Pipeline::forget() {
   last_.reset();
   lost_.reset();
+  is_after_loss_ = false;
   keyframe_.frame.reset();
   velocity_.reset();
   period_s_ = 0.0;
@@ -230,7 +253,7 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
                                        OdometryResult& result) {
   if (const auto why = whyUnusable(pair, camera)) throw Lost(*why);
   const StereoFrame* newest = lost_ ? lost_.get() : last_.get();
-  const bool is_later = newest == nullptr || pair.stamp_ns > newest->stamp_ns;
+  const bool is_later = newest == nullptr || pair.time_ns() > newest->time_ns();
   if (newest != nullptr && is_later) {
     if (const auto why = whyRepeated(pair, *newest, others.may_repeat)) throw Lost(*why);
   }
@@ -258,7 +281,7 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
     result.state = State::kInitialising;
     return;
   }
-  const double interval_s = toSeconds(pair.stamp_ns - newest->stamp_ns);
+  const double interval_s = toSeconds(pair.time_ns() - newest->time_ns());
   findMotion(current, others, result);
   if (found_.isAccepted()) accept(current, result);
   period_s_ += (period_s_ == 0.0 ? 1.0 : kNewInterval) * (interval_s - period_s_);
@@ -302,7 +325,7 @@ void VisualOdometry::Pipeline::makeKeyframe(const FramePtr& frame, StageTimes& t
 VisualOdometry::Pipeline::Expectation VisualOdometry::Pipeline::expectation(
     const StereoFrame& current, const OtherSensors& others) const {
   Expectation expected = {secondsBetween(*last_, current), std::nullopt, others.T_last_cur};
-  if (others.rotation) expected.R_last_cur = others.rotation(last_->stamp_ns, current.stamp_ns);
+  expected.R_last_cur = measuredRotation(*last_, current, others.rotation);
   if (!expected.T_last_cur) {
     expected.T_last_cur = predict(expected.dt_s, expected.R_last_cur);
   }
@@ -330,7 +353,7 @@ void VisualOdometry::Pipeline::findMotion(const FramePtr& current,
                                           const OtherSensors& others,
                                           OdometryResult& result) {
   const Expectation expected = expectation(*current, others);
-  result.prev_stamp_ns = last_->stamp_ns;
+  setPrevious(*last_, result);
   const FramePtr keyframe = keyframe_.frame;
   if (keyframe && keyframe != last_ && findMotionFrom(keyframe, *current, expected, result.times)) {
     return;
@@ -338,12 +361,12 @@ void VisualOdometry::Pipeline::findMotion(const FramePtr& current,
   if (findMotionFrom(last_, *current, expected, result.times) || !lost_) return;
   // It has no pose of its own, so nothing predicts the motion from there.
   Expectation of_lost = {secondsBetween(*lost_, *current), std::nullopt, std::nullopt};
-  if (others.rotation) of_lost.R_last_cur = others.rotation(lost_->stamp_ns, current->stamp_ns);
+  of_lost.R_last_cur = measuredRotation(*lost_, *current, others.rotation);
   if (findMotionFrom(lost_, *current, of_lost, result.times)) {
     result.reason =
         cv::format("only the lost pair of %.3g s before matches: ", of_lost.dt_s) +
         cv::format("the way of the %.3g s before that is missing", secondsBetween(*last_, *lost_));
-    result.prev_stamp_ns = lost_->stamp_ns;
+    setPrevious(*lost_, result);
     last_ = std::move(lost_);
     velocity_.reset();
   } else {
@@ -404,6 +427,12 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   }
   if (!why_degraded) rig_.observeRows(found_, keyframe_, *current);
   if (why_degraded && result.reason.empty()) result.reason = *why_degraded;
+  // A driver that repeats images loses single pairs.
+  const bool is_long = result.dt_s() > kPredictable * period_s_;
+  if (std::exchange(is_after_loss_, false) && is_long && result.reason.empty()) {
+    result.reason =
+        cv::format("measured from the pair of %.3g s before, over lost ones", result.dt_s());
+  }
   result.state = result.reason.empty() ? State::kOk : State::kDegraded;
   velocity_ = logMotion(step.T) / result.dt_s();
 

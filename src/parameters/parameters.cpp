@@ -76,6 +76,8 @@ void addNode(NodeParameters& n, ParameterTable& table) {
       "trajectory goes to NAME_2, NAME_3, ...";
   table.add("trajectory_format", n.trajectory_format, {"tum", "kitti"}).description =
       "format of trajectory_file";
+  table.add("trajectory_frame", n.trajectory_frame, {"camera", "base"}).description =
+      "whose poses trajectory_file and save_trajectory have: the left camera's, or base_frame's";
 }
 
 void addOdometry(OdometryConfig& c, ParameterTable& table) {

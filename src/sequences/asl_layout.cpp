@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<StampedImage> readImageList(const std::string& camera) {
-  const std::vector<TextLine> lines = readTextLines(camera + "/data.csv", ',');
+  const std::vector<TextLine> lines = readTextLines(camera + "/data.csv");
   for (const TextLine& line : lines) line.requireColumns(2, "timestamp [ns] and file name");
   const std::vector<std::int64_t> stamps_ns = imageStamps(lines, 1);
   std::vector<StampedImage> images;
@@ -32,10 +32,12 @@ Trajectory readGroundTruth(const std::string& folder,
   const Eigen::Isometry3d T_sensor_camera =
       readAslPose(folder + "/sensor.yaml").inverse() * T_body_camera;
   Trajectory poses;
-  for (const TextLine& line : readTextLines(folder + "/data.csv", ',')) {
+  const std::vector<TextLine> lines = readTextLines(folder + "/data.csv");
+  const std::int64_t unit_ns = timeUnit_ns(lines, 1);
+  for (const TextLine& line : lines) {
     line.requireColumns(8, "timestamp [ns], position [m] and quaternion w x y z");
     const Eigen::Isometry3d T_world_sensor = line.quaternionPose(true);
-    const std::int64_t stamp_ns = line.nanoseconds(0, 1);
+    const std::int64_t stamp_ns = line.nanoseconds(0, unit_ns);
     if (!poses.empty()) line.requireLater(stamp_ns, poses.back().stamp_ns);
     poses.push_back({stamp_ns, T_world_sensor * T_sensor_camera});
   }
@@ -55,7 +57,7 @@ std::optional<StereoSequence> readAslLayout(const std::string& directory,
   const AslCamera right = readAslCamera(root + "/cam1/sensor.yaml");
   StereoCalibration calibration;
   try {
-    calibration = calibrationOf(options, [&] {
+    calibration = calibrationOf(options, pairs, [&] {
       return chooseRectification(
           left.camera, right.camera, left.T_body_camera.inverse() * right.T_body_camera);
     });

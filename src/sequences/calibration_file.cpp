@@ -1,108 +1,20 @@
 #include "sequences/calibration_file.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
-#include <yaml-cpp/yaml.h>
+#include <boost/algorithm/string/join.hpp>
 #include <opencv2/core.hpp>
 
-#include "common/read_yaml.h"
 #include "evaluation/text_file.h"
 #include "input/camera_calibration.h"
+#include "sequences/yaml_map.h"
 
 namespace rotrocc {
 namespace {
-
-/// A map in a YAML file. Its functions throw std::runtime_error "PATH: KEY WHAT" if a value is
-/// missing or of another kind.
-///
-/// camera_calibration_parsers reads such files, too, but does not say what is wrong, and ends the
-/// program if a matrix has another size.
-class YamlMap {
- public:
-  explicit YamlMap(const std::string& path) : path_(path) {
-    try {
-      map_ = readYaml(path);
-    } catch (const YAML::Exception& error) {
-      throw std::runtime_error(path + " is not YAML: " + error.what());
-    }
-    if (!map_.IsMap()) throw std::runtime_error(path + " has no keys: is it the right file?");
-  }
-
-  YamlMap section(const std::string& key) const {
-    const YAML::Node node = find(key);
-    if (!node.IsMap()) fail(key, "is not a map");
-    return {path_ + ": " + key, node};
-  }
-
-  /// Of the file, and the keys of sections.
-  const std::string& path() const { return path_; }
-
-  std::string text(const std::string& key) const {
-    const YAML::Node node = find(key);
-    if (!node.IsScalar()) fail(key, "is not a value");
-    return node.Scalar();
-  }
-
-  /// `otherwise` if there is no such key.
-  std::string text(const std::string& key, const std::string& otherwise) const {
-    return map_[key].IsDefined() ? text(key) : otherwise;
-  }
-
-  /// Finite numbers, `count` of them unless that is 0: one, a list, a list of rows, or the list
-  /// `data` of a matrix.
-  std::vector<double> numbers(const std::string& key, std::size_t count = 0) const {
-    const YAML::Node node = find(key);
-    std::vector<double> numbers;
-    append(key, node.IsMap() ? node["data"] : node, numbers);
-    if (count == 0 || numbers.size() == count) return numbers;
-    fail(key, cv::format("has %zu numbers instead of %zu", numbers.size(), count));
-  }
-
-  /// Image sizes: integers from 1 to 1e5.
-  std::vector<int> pixels(const std::string& key, std::size_t count = 1) const {
-    std::vector<int> pixels;
-    for (const double value : numbers(key, count)) {
-      if (!(value >= 1.0 && value <= 1e5 && value == std::floor(value))) {
-        fail(key, cv::format("is %g, not a number of pixels", value));
-      }
-      pixels.push_back(static_cast<int>(value));
-    }
-    return pixels;
-  }
-
-  [[noreturn]] void fail(const std::string& key, const std::string& what) const {
-    throw std::runtime_error(path_ + ": " + key + " " + what);
-  }
-
- private:
-  YamlMap(const std::string& path, const YAML::Node& map) : path_(path), map_(map) {}
-
-  YAML::Node find(const std::string& key) const {
-    const YAML::Node node = map_[key];
-    if (!node.IsDefined()) fail(key, "is missing");
-    return node;
-  }
-
-  void append(const std::string& key, const YAML::Node& node, std::vector<double>& numbers) const {
-    if (node.IsDefined() && node.IsSequence()) {
-      for (const YAML::Node& entry : node) append(key, entry, numbers);
-      return;
-    }
-    double number = 0.0;
-    const bool is_number = node.IsDefined() && YAML::convert<double>::decode(node, number);
-    if (!is_number || !std::isfinite(number)) {
-      fail(key, cv::format("has a value that is not a finite number, after %zu", numbers.size()));
-    }
-    numbers.push_back(number);
-  }
-
-  std::string path_;
-  YAML::Node map_;
-};
 
 /// The pose that a 4x4 matrix is.
 Eigen::Isometry3d poseOf(const YamlMap& file, const char* key) {
@@ -151,47 +63,212 @@ RawCamera readCamera(const YamlMap& file, const char* distortion_key) {
   }
 }
 
+template <class Matrix>
+void copyNumbers(const YamlMap& file, const std::string& key, Matrix& matrix) {
+  const std::vector<double> values = file.numbers(key, matrix.size());
+  std::copy(values.begin(), values.end(), matrix.begin());
+}
+
+/// Of a file of camera_calibration, or of a message that rostopic has printed.
+sensor_msgs::CameraInfo infoOf(const YamlMap& file) {
+  const bool is_dump = !file.has("image_width") && file.has("K");
+  const auto key = [&](const char* name, const char* in_message) {
+    return is_dump ? in_message : name;
+  };
+  sensor_msgs::CameraInfo info;
+  info.width = static_cast<std::uint32_t>(file.pixels(key("image_width", "width"))[0]);
+  info.height = static_cast<std::uint32_t>(file.pixels(key("image_height", "height"))[0]);
+  info.distortion_model = file.text("distortion_model", "plumb_bob");  // old files have none
+  info.D = file.numbers(key("distortion_coefficients", "D"));
+  copyNumbers(file, key("camera_matrix", "K"), info.K);
+  copyNumbers(file, key("rectification_matrix", "R"), info.R);
+  copyNumbers(file, key("projection_matrix", "P"), info.P);
+  if (!is_dump) return info;
+  const auto count = [](const YamlMap& map, const char* name) {
+    return static_cast<std::uint32_t>(map.numbers(name, 1)[0]);
+  };
+  info.binning_x = count(file, "binning_x");
+  info.binning_y = count(file, "binning_y");
+  const YamlMap roi = file.section("roi");
+  info.roi.x_offset = count(roi, "x_offset");
+  info.roi.y_offset = count(roi, "y_offset");
+  info.roi.width = count(roi, "width");
+  info.roi.height = count(roi, "height");
+  return info;
+}
+
+/// Of keys that begin with the name of a side.
+sensor_msgs::CameraInfo sideOf(const YamlMap& file, const std::string& side) {
+  sensor_msgs::CameraInfo info;
+  info.width = static_cast<std::uint32_t>(file.pixels(side + "width")[0]);
+  info.height = static_cast<std::uint32_t>(file.pixels(side + "height")[0]);
+  info.distortion_model = "plumb_bob";
+  info.D = file.numbers(side + "D");
+  copyNumbers(file, side + "K", info.K);
+  copyNumbers(file, side + "R", info.R);
+  copyNumbers(file, side + "P", info.P);
+  return info;
+}
+
+/// The files of a calibration, each of another kind, in the order of kReaders.
+using Files = std::vector<YamlMap>;
+
+/// Of a chain of Kalibr or OpenVINS: the poses of the cameras on each other, or on the IMU.
+Eigen::Isometry3d poseOfRight(const YamlMap& left, const YamlMap& right) {
+  if (right.has("T_cn_cnm1")) return poseOf(right, "T_cn_cnm1").inverse();
+  if (right.has("T_imu_cam"))
+    return poseOf(left, "T_imu_cam").inverse() * poseOf(right, "T_imu_cam");
+  if (right.has("T_cam_imu"))
+    return poseOf(left, "T_cam_imu") * poseOf(right, "T_cam_imu").inverse();
+  right.fail("T_cn_cnm1", "is missing, and so are T_imu_cam and T_cam_imu");
+}
+
+StereoCalibration readChain(const Files& files, const StereoFileOptions&) {
+  const YamlMap left = files[0].section("cam0");
+  const YamlMap right = files[0].section("cam1");
+  const char* const key =
+      left.has("distortion_coeffs") ? "distortion_coeffs" : "distortion_coefficients";
+  return chooseRectification(
+      readCamera(left, key), readCamera(right, key), poseOfRight(left, right));
+}
+
+/// Of ASL (EuRoC) and Kimera.
+StereoCalibration readSensors(const Files& files, const StereoFileOptions&) {
+  return chooseRectification(readCamera(files[0], "distortion_coefficients"),
+                             readCamera(files[1], "distortion_coefficients"),
+                             poseOf(files[0], "T_BS").inverse() * poseOf(files[1], "T_BS"));
+}
+
+StereoCalibration readInfos(const Files& files, const StereoFileOptions& options) {
+  const sensor_msgs::CameraInfo left = infoOf(files[0]);  // its faults are told first
+  return toStereoCalibration(left, infoOf(files[1]), options.baseline_m);
+}
+
+/// LEFT.K and the like, of ORB-SLAM2 for EuRoC.
+StereoCalibration readSides(const Files& files, const StereoFileOptions& options) {
+  return toStereoCalibration(
+      sideOf(files[0], "LEFT."), sideOf(files[0], "RIGHT."), options.baseline_m);
+}
+
+RawCamera orbCamera(const YamlMap& file, const std::string& camera) {
+  const auto number = [&](const std::string& key) { return file.numbers(camera + key, 1)[0]; };
+  std::vector<double> distortion;
+  const bool is_fisheye = file.text("Camera.type", "PinHole") == "KannalaBrandt8";
+  for (const char* key : {"k1", "k2", is_fisheye ? "k3" : "p1", is_fisheye ? "k4" : "p2", "k3"}) {
+    if (distortion.size() == 4 && is_fisheye) break;
+    distortion.push_back(file.has(camera + key) ? number(key) : 0.0);
+  }
+  return {file.pixels("Camera.width")[0],
+          file.pixels("Camera.height")[0],
+          number("fx"),
+          number("fy"),
+          number("cx"),
+          number("cy"),
+          {is_fisheye ? "equidistant" : "plumb_bob", distortion}};
+}
+
+/// Of ORB-SLAM: rectified cameras with bf or b, or with a pose of the right one.
+StereoCalibration readOrb(const Files& files, const StereoFileOptions& options) {
+  const YamlMap& file = files[0];
+  const std::string camera = file.has("Camera1.fx") ? "Camera1." : "Camera.";
+  const RawCamera left = orbCamera(file, camera);
+  if (file.has("Stereo.T_c1_c2")) {
+    return chooseRectification(left, orbCamera(file, "Camera2."), poseOf(file, "Stereo.T_c1_c2"));
+  }
+  if (!left.distortion.isNone())
+    file.fail(camera + "k1", "is of a lens, but there is no Stereo.T_c1_c2");
+  StereoCamera rectified;
+  rectified.width = left.width;
+  rectified.height = left.height;
+  rectified.fx = left.fx;
+  rectified.fy = left.fy;
+  rectified.cx = rectified.cx_right = left.cx;
+  rectified.cy = left.cy;
+  rectified.baseline_m = options.baseline_m > 0.0 ? options.baseline_m
+                         : file.has("Stereo.b")   ? file.numbers("Stereo.b", 1)[0]
+                                                  : file.numbers("Camera.bf", 1)[0] / left.fx;
+  rectified.check();
+  return rectifiedCalibration(rectified);
+}
+
+/// intrinsics.yml and extrinsics.yml of OpenCV's sample stereo_calib, which do not have the size of
+/// the images.
+StereoCalibration readOpenCv(const Files& files, const StereoFileOptions& options) {
+  if (!options.sizeOfImages)
+    files[0].fail(
+        "M1", "is of OpenCV, whose files lack the size of the images: use them with a recording");
+  const cv::Size size = options.sizeOfImages();
+  const auto info = [&](const std::string& side) {
+    sensor_msgs::CameraInfo info;
+    info.width = static_cast<std::uint32_t>(size.width);
+    info.height = static_cast<std::uint32_t>(size.height);
+    info.D = files[0].numbers("D" + side);
+    info.distortion_model = info.D.size() > 5 ? "rational_polynomial" : "plumb_bob";
+    copyNumbers(files[0], "M" + side, info.K);
+    copyNumbers(files[1], "R" + side, info.R);
+    copyNumbers(files[1], "P" + side, info.P);
+    return info;
+  };
+  return toStereoCalibration(info("1"), info("2"), options.baseline_m);
+}
+
+/// What can be read, by keys that each of the files has.
+const struct {
+  std::vector<const char*> keys;
+  StereoCalibration (*read)(const Files&, const StereoFileOptions&);
+  const char* name;
+} kReaders[] = {
+    {{"image_width", "image_width"}, readInfos, "two files of camera_calibration"},
+    {{"distortion_model,K,P", "distortion_model,K,P"}, readInfos, "two dumps of camera_info"},
+    {{"cam0"}, readChain, "a camchain of Kalibr or OpenVINS"},
+    {{"T_BS,intrinsics", "T_BS,intrinsics"}, readSensors, "two files of ASL (EuRoC) or Kimera"},
+    {{"LEFT.K"}, readSides, "a file of ORB-SLAM"},
+    {{"Camera.fx"}, readOrb, "a file of ORB-SLAM"},
+    {{"Camera1.fx"}, readOrb, "a file of ORB-SLAM"},
+    {{"M1", "P1"}, readOpenCv, "intrinsics.yml and extrinsics.yml of OpenCV"}};
+
+bool hasAll(const YamlMap& file, const std::string& keys) {
+  std::istringstream list(keys);
+  for (std::string key; std::getline(list, key, ',');) {
+    if (!file.has(key)) return false;
+  }
+  return true;
+}
+
+[[noreturn]] void refuseFiles(const std::vector<std::string>& paths) {
+  std::string known;
+  for (const auto& reader : kReaders) {
+    if (known.find(reader.name) != std::string::npos) continue;
+    known += std::string(known.empty() ? "" : ", ") + reader.name;
+  }
+  throw std::runtime_error(
+      boost::algorithm::join(paths, " and ") + (paths.size() == 1 ? " is" : " are") +
+      " not a stereo calibration in a format that is read, which are: " + known +
+      "; the left camera's file is first");
+}
+
 }  // namespace
 
-StereoCalibration readStereoCalibration(const std::vector<std::string>& paths, double baseline_m) {
-  if (paths.empty() || paths.size() > 2) {
-    throw std::runtime_error(
-        "a calibration is two files of camera_calibration, of the left and of the right camera, or "
-        "one camchain of Kalibr, not " +
-        std::to_string(paths.size()) + " files");
-  }
+StereoCalibration readStereoCalibration(const std::vector<std::string>& paths,
+                                        const StereoFileOptions& options) {
+  if (paths.empty() || paths.size() > 2) refuseFiles(paths);
+  Files files;
+  for (const std::string& path : paths) files.emplace_back(path);
   try {
-    if (paths.size() == 2) {
-      const sensor_msgs::CameraInfo left = readCameraInfo(paths[0]);
-      return toStereoCalibration(left, readCameraInfo(paths[1]), baseline_m);
+    for (const auto& reader : kReaders) {
+      bool fits = reader.keys.size() == files.size();
+      for (std::size_t i = 0; fits && i < files.size(); ++i)
+        fits = hasAll(files[i], reader.keys[i]);
+      if (fits) return reader.read(files, options);
     }
-    const YamlMap chain(paths[0]);
-    const YamlMap left = chain.section("cam0");
-    const YamlMap right = chain.section("cam1");
-    return chooseRectification(readCamera(left, "distortion_coeffs"),
-                               readCamera(right, "distortion_coeffs"),
-                               poseOf(right, "T_cn_cnm1").inverse());
   } catch (const std::invalid_argument& error) {
-    const std::string names = paths.size() == 1 ? paths[0] : paths[0] + " and " + paths[1];
-    throw std::runtime_error(names + ": " + error.what());
+    throw std::runtime_error(boost::algorithm::join(paths, " and ") + ": " + error.what());
   }
+  refuseFiles(paths);
 }
 
 sensor_msgs::CameraInfo readCameraInfo(const std::string& path) {
-  const YamlMap file(path);
-  sensor_msgs::CameraInfo info;
-  info.width = static_cast<std::uint32_t>(file.pixels("image_width")[0]);
-  info.height = static_cast<std::uint32_t>(file.pixels("image_height")[0]);
-  info.distortion_model = file.text("distortion_model", "plumb_bob");  // old files have none
-  info.D = file.numbers("distortion_coefficients");
-  const auto read = [&](const char* key, auto& matrix) {
-    const std::vector<double> values = file.numbers(key, matrix.size());
-    std::copy(values.begin(), values.end(), matrix.begin());
-  };
-  read("camera_matrix", info.K);
-  read("rectification_matrix", info.R);
-  read("projection_matrix", info.P);
-  return info;
+  return infoOf(YamlMap(path));
 }
 
 AslCamera readAslCamera(const std::string& path) {

@@ -1,25 +1,36 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include <sensor_msgs/CameraInfo.h>
 #include <Eigen/Geometry>
+#include <opencv2/core.hpp>
 
 #include "rectification/stereo_calibration.h"
 
 namespace rotrocc {
 
-/// Reads the calibration of a stereo camera:
-///   left.yaml, right.yaml    files of camera_calibration, which have the rectification
-///   camchain.yaml            a file of Kalibr: cam0 is the left camera, cam1 the right one; they
-///                            are rectified as chooseRectification() says
-/// `baseline_m` > 0 replaces that of camera_calibration. Throws std::runtime_error with path, key,
-/// value and problem.
-StereoCalibration readStereoCalibration(const std::vector<std::string>& paths,
-                                        double baseline_m = 0.0);
+struct StereoFileOptions {
+  double baseline_m = 0.0;  ///< > 0: replaces that of files with projection matrices
+  std::function<cv::Size()> sizeOfImages = {};  ///< for files that lack it
+};
 
-/// A file of camera_calibration. Throws std::runtime_error with path, key and problem.
+/// Reads the calibration of a stereo camera, the left camera's file first:
+///   left.yaml right.yaml              of camera_calibration, or printed by rostopic echo
+///   camchain.yaml                     of Kalibr or OpenVINS: cam0 is the left camera
+///   left.yaml right.yaml              of ASL (sensor.yaml) or Kimera
+///   settings.yaml                     of ORB-SLAM: LEFT.K ...; Camera.fx and Camera.bf;
+///                                     Camera1.fx and Stereo.b or Stereo.T_c1_c2
+///   intrinsics.yml extrinsics.yml     of OpenCV's sample stereo_calib
+/// Those without a rectification are rectified as chooseRectification() says. Throws
+/// std::runtime_error with path, key, value and problem, or with what can be read.
+StereoCalibration readStereoCalibration(const std::vector<std::string>& paths,
+                                        const StereoFileOptions& options = {});
+
+/// A file of camera_calibration, or camera_info as rostopic prints it. Throws std::runtime_error
+/// with path, key and problem.
 sensor_msgs::CameraInfo readCameraInfo(const std::string& path);
 
 /// A file sensor.yaml of a camera in the ASL format. Throws std::runtime_error with path, key,

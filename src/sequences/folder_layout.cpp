@@ -34,9 +34,9 @@ std::optional<StereoSequence> readFolderLayout(const std::string& directory,
                                  directory + "/right",
                                  directory + "/times.txt",
                                  options.max_stamp_difference_s);
-  const StereoCalibration calibration = calibrationOf(options, [&] {
+  const StereoCalibration calibration = calibrationOf(options, pairs, [&] {
     return readStereoCalibration({directory + "/left.yaml", directory + "/right.yaml"},
-                                 options.baseline_m);
+                                 {options.baseline_m});
   });
   const Trajectory truth = readGroundTruth(directory + "/groundtruth.txt", pairs.stamps_ns());
   return StereoSequence{directory, std::move(pairs), calibration, truth, mountAtCamera()};

@@ -116,7 +116,10 @@ std::map<std::string, std::int64_t> timesOf(const NamedPairs& images,
     return times;
   }
   const std::string& last = *images.names.rbegin();
-  const bool are_numbers = last.find_first_not_of("0123456789") == std::string::npos;
+  const bool are_numbers =
+      std::all_of(images.names.begin(), images.names.end(), [](const auto& name) {
+        return !name.empty() && name.find_first_not_of("0123456789") == std::string::npos;
+      });
   if (are_numbers && last < sortKey(std::to_string(stamps_ns.size()))) {
     for (const std::string& name : images.names) times[name] = stamps_ns[std::stoul(name)];
     return times;
@@ -178,10 +181,18 @@ std::vector<StampedImage> stampedImages(const std::vector<std::string>& files) {
                              "1403636579.763556.png [s]: "
                              "rename the images, or add times.txt with the time [s] of each pair");
   }
-  const bool in_seconds = names.front().words[0].find('.') != std::string::npos;
-  const std::vector<std::int64_t> stamps_ns = imageStamps(names, in_seconds ? kSecond_ns : 1);
+  const auto has_dot = [](const TextLine& name) {
+    return name.words[0].find('.') != std::string::npos;
+  };
+  const auto dotted = std::stable_partition(names.begin(), names.end(), has_dot);
   std::vector<StampedImage> images;
-  for (std::size_t i = 0; i < files.size(); ++i) images.push_back({stamps_ns[i], files[i]});
+  for (const auto& [group, unit_ns] :
+       {std::pair(std::vector(names.begin(), dotted), kSecond_ns),
+        std::pair(std::vector(dotted, names.end()), std::int64_t{1})}) {
+    if (group.empty()) continue;
+    const std::vector<std::int64_t> stamps_ns = imageStamps(group, unit_ns);
+    for (std::size_t i = 0; i < group.size(); ++i) images.push_back({stamps_ns[i], group[i].where});
+  }
   std::sort(images.begin(), images.end(), [](const StampedImage& a, const StampedImage& b) {
     return a.stamp_ns < b.stamp_ns;
   });

@@ -8,7 +8,6 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
-#include "evaluation/image_file.h"
 #include "evaluation/text_file.h"
 #include "sequences/image_folders.h"
 #include "sequences/kitti_mount.h"
@@ -92,10 +91,24 @@ StereoCalibration calibrationFrom(const std::string& path,
                                   const Cameras& names,
                                   const ImagePairs& pairs,
                                   const SequenceOptions& options) {
-  return calibrationOf(options, [&] {
-    const cv::Size size = readGreyImage(pairs.pair(0).left.path).size();
-    return rectifiedCalibration(readCalibration(path, names, size));
+  return calibrationOf(options, pairs, [&] {
+    return rectifiedCalibration(readCalibration(path, names, sizeOf(pairs)));
   });
+}
+
+/// Raw drives that are not rectified have larger images.
+void requireRectified(const std::string& path, const cv::Size& size) {
+  for (const TextLine& line : readTextLines(path)) {
+    if (line.words.front().rfind("S_rect_", 0) != 0 || line.words.size() != 3) continue;
+    if (line.number(1) == size.width && line.number(2) == size.height) return;
+    line.fail(
+        cv::format("rectified images are %g x %g px, but these are %d x %d px: take the drive "
+                   "that is synced and rectified",
+                   line.number(1),
+                   line.number(2),
+                   size.width,
+                   size.height));
+  }
 }
 
 /// With stamps around those of the pairs, or one pose for each time.
@@ -168,8 +181,9 @@ std::optional<StereoSequence> readKittiRawLayout(const std::string& directory,
                                  directory + "/" + names.right,
                                  times,
                                  options.max_stamp_difference_s);
-  const StereoCalibration calibration =
-      calibrationFrom(fs::exists(beside) ? beside : above, names, pairs, options);
+  const std::string calibration_path = fs::exists(beside) ? beside : above;
+  if (options.calibration.empty()) requireRectified(calibration_path, sizeOf(pairs));
+  const StereoCalibration calibration = calibrationFrom(calibration_path, names, pairs, options);
   return StereoSequence{directory, std::move(pairs), calibration, {}, kittiMount()};
 }
 

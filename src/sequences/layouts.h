@@ -33,10 +33,9 @@ std::optional<StereoSequence> readFolderLayout(const std::string& directory,
                                                const SequenceOptions& options);
 
 /// A sequence of the KITTI odometry benchmark; if it has no gray images, the color ones:
-///   image_0/*, image_1/*     rectified left and right images; image_2 and image_3 of the color
-///   ones calib.txt                the 3x4 projection matrices `P0:` (left) and `P1:` (right), or
-///   `P2:`
-///                            and `P3:`, row by row
+///   image_0/*, image_1/*     rectified left and right images; image_2 and image_3 in color
+///   calib.txt                3x4 projection matrices, row by row: `P0:` and `P1:`; in color
+///                            `P2:` and `P3:`
 ///   times.txt                their times [s], see pairFolders()
 ///   poses.txt                ground truth, one pose of the left camera per pair, or in TUM format
 ///                            with stamps around all times; optional
@@ -52,12 +51,18 @@ std::optional<StereoSequence> readKittiLayout(const std::string& directory,
 std::optional<StereoSequence> readKittiRawLayout(const std::string& directory,
                                                  const SequenceOptions& options);
 
+/// Of the first left image.
+cv::Size sizeOf(const ImagePairs& pairs);
+
 /// Of the files of the options, or else what `readOwn` reads of the sequence.
 template <class ReadOwn>
-StereoCalibration calibrationOf(const SequenceOptions& options, const ReadOwn& readOwn) {
+StereoCalibration calibrationOf(const SequenceOptions& options,
+                                const ImagePairs& pairs,
+                                const ReadOwn& readOwn) {
   return options.calibration.empty()
              ? readOwn()
-             : readStereoCalibration(options.calibration, options.baseline_m);
+             : readStereoCalibration(options.calibration,
+                                     {options.baseline_m, [&] { return sizeOf(pairs); }});
 }
 
 }  // namespace rotrocc

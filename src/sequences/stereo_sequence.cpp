@@ -4,11 +4,16 @@
 #include <stdexcept>
 #include <utility>
 
+#include "evaluation/image_file.h"
 #include "inertial/gyro_file.h"
 #include "sequences/calibration_file.h"
 #include "sequences/layouts.h"
 
 namespace rotrocc {
+cv::Size sizeOf(const ImagePairs& pairs) {
+  return readGreyImage(pairs.pair(0).left.path).size();
+}
+
 StereoPair StereoSequence::read(int index) const {
   return pairs.read(index, {calibration.left.width, calibration.left.height});
 }

@@ -9,6 +9,7 @@
 
 #include "check/calibration_correction.h"
 #include "check/rig_check.h"
+#include "evaluation/report_directory.h"
 #include "tools/draw_report.h"
 #include "tools/input_options.h"
 #include "tools/program.h"
@@ -96,6 +97,7 @@ CheckedRig checkInput(const Options& options) {
 }
 
 void run(const Options& options) {
+  if (!options.report.empty()) ReportDirectory::require(options.report);
   const CheckedRig rig = checkInput(options);
   std::cout << toText(rig.report);
   if (rig.report.corrected) {

@@ -12,7 +12,10 @@
 #include <boost/program_options.hpp>
 #include <opencv2/core.hpp>
 
+#include "bags/recorded_trajectory.h"
 #include "common/to_seconds.h"
+#include "evaluation/frame_alignment.h"
+#include "evaluation/report_directory.h"
 #include "evaluation/text_file.h"
 #include "rotrocc/trajectory_error.h"
 #include "sequences/stereo_sequence.h"
@@ -31,8 +34,9 @@ const char* const kUsage =
     "example: evaluate_trajectory dataset/poses/06.txt 06.txt --fit --report 06_report\n"
     "usage:   evaluate_trajectory GT EST [options]\n"
     "         evaluate_trajectory EST --report DIR [options]    without ground truth\n\n"
-    "Both are in KITTI or TUM format; two KITTI files are matched line by line, others by "
-    "stamp, up to 10 ms\napart. GT may also be the sequence that EST is of, with its true "
+    "Both are in KITTI or TUM format, or BAG:TOPIC, or BAG:PARENT:CHILD of tf; ASL's data.csv is "
+    "read as well.\nTwo KITTI files are matched line by line, others by stamp, up to 10 ms apart.\n"
+    "GT may also be the sequence that EST is of, with its true "
     "poses: a directory in the layout of\nKITTI or ASL (EuRoC), or with files of "
     "camera_calibration. Poses of EST in KITTI format get the\nstamps of that sequence or of "
     "--stats, otherwise 10 Hz. Each row of the table by speed has the\nsegments up to 2 m/s "
@@ -51,6 +55,7 @@ struct Options {
   std::string report;
   std::string title;
   bool fit = false;
+  bool align_frames = false;
   SegmentConfig segments;
 };
 
@@ -63,6 +68,11 @@ bool parse(int argc, char** argv, Options& options) {
       po::value(&options.segments.lengths_m)->multitoken(),
       "lengths of the segments [m] (default: 100 200 300 400 500 600 700 800)");
   add("step", withDefault(options.segments.step), "segments start at every N-th pose");
+
+  add("align-frames",
+      po::bool_switch(&options.align_frames),
+      "take out a constant rotation and lever arm between the bodies of GT and EST, e.g. base and "
+      "camera");
 
   po::options_description output("Output");
   add = output.add_options();
@@ -101,7 +111,11 @@ bool parse(int argc, char** argv, Options& options) {
 }
 
 bool isTum(const std::string& path) {
-  return detectTrajectoryFormat(path) == TrajectoryFormat::kTum;
+  return isInBag(path) || detectTrajectoryFormat(path) == TrajectoryFormat::kTum;
+}
+
+Trajectory readPoses(const std::string& path) {
+  return isInBag(path) ? readRecordedTrajectory(path) : readTrajectory(path);
 }
 
 std::string timeRange(const std::string& path, const Trajectory& trajectory) {
@@ -124,7 +138,7 @@ MatchedTrajectories matchStamps(const Trajectory& truth,
 
 /// The stamps of the pairs in a file of statistics.
 std::vector<std::int64_t> readStamps(const std::string& statistics) {
-  const std::vector<TextLine> lines = readTextLines(statistics, ',');
+  const std::vector<TextLine> lines = readTextLines(statistics);
   if (lines.front().words.front() != "stamp_ns") {
     lines.front().fail("there is no column stamp_ns: give a file of offline_odometry --stats");
   }
@@ -138,7 +152,7 @@ Trajectory readWithStamps(const std::string& estimate,
                           const std::vector<std::int64_t>& stamps_ns,
                           const std::string& source,
                           const char* remedy) {
-  Trajectory poses = readTrajectory(estimate);
+  Trajectory poses = readPoses(estimate);
   if (poses.size() != stamps_ns.size()) {
     throw std::runtime_error(estimate +
                              cv::format(" has %zu poses without stamps, but ", poses.size()) +
@@ -166,7 +180,7 @@ void requireStatisticsOf(const Trajectory& estimate, const TrajectoryFiles& file
 MatchedTrajectories readWithSequence(const TrajectoryFiles& files) {
   const StereoSequence sequence = openStereoSequence(files.truth, {});
   if (sequence.ground_truth.empty()) throw std::runtime_error(files.truth + " has no true poses");
-  const Trajectory estimate = isTum(files.estimate) ? readTrajectory(files.estimate)
+  const Trajectory estimate = isTum(files.estimate) ? readPoses(files.estimate)
                                                     : readWithStamps(files.estimate,
                                                                      sequence.pairs.stamps_ns(),
                                                                      files.truth,
@@ -179,9 +193,12 @@ MatchedTrajectories matchLines(const Trajectory& truth,
                                const Trajectory& estimate,
                                const TrajectoryFiles& files) {
   if (truth.size() != estimate.size()) {
-    std::cerr << "evaluate_trajectory: only the first poses of the longer file are used: "
-              << files.truth << " has " << truth.size() << ", " << files.estimate << " has "
-              << estimate.size() << '\n';
+    throw std::runtime_error(
+        files.truth + cv::format(" has %zu poses, ", truth.size()) + files.estimate +
+        cv::format(
+            " %zu, and they have no stamps to match them by: write the estimate with --format "
+            "tum, and give the directory of the sequence as GT",
+            estimate.size()));
   }
   MatchedTrajectories matched = matchByIndex(truth, estimate);
   for (std::size_t i = 0; i < matched.truth.size(); ++i) {
@@ -191,7 +208,7 @@ MatchedTrajectories matchLines(const Trajectory& truth,
 }
 
 Trajectory readStamped(const TrajectoryFiles& files) {
-  if (isTum(files.estimate) || files.statistics.empty()) return readTrajectory(files.estimate);
+  if (isTum(files.estimate) || files.statistics.empty()) return readPoses(files.estimate);
   return readWithStamps(files.estimate,
                         readStamps(files.statistics),
                         files.statistics,
@@ -207,7 +224,7 @@ MatchedTrajectories match(const TrajectoryFiles& files) {
                              " has no stamps, but the other file has: give the directory of the "
                              "sequence as GT");
   }
-  const Trajectory truth = readTrajectory(files.truth);
+  const Trajectory truth = readPoses(files.truth);
   const Trajectory estimate = readStamped(files);
   return truth_tum ? matchStamps(truth, estimate, files) : matchLines(truth, estimate, files);
 }
@@ -246,10 +263,29 @@ void printDistribution(const char* name, const Distribution& values, double scal
               scale * values.max);
 }
 
+/// Takes out what differs between the bodies of both if that is wanted, or else says it.
+void alignFrames(const Options& options, MatchedTrajectories& matched) {
+  const FrameAlignment alignment = rotrocc::alignFrames(matched);
+  if (options.align_frames) {
+    matched.estimate = withFrame(matched.estimate, alignment);
+    std::cerr << "evaluate_trajectory: the body of GT is " << alignment.describe()
+              << " in the frame of EST, which is taken out\n";
+  } else if (alignment.isNeeded()) {
+    std::cerr << "evaluate_trajectory: EST is of another body than GT, which is "
+              << alignment.describe()
+              << cv::format(
+                     " in its frame: motions differ by %.1f %% of their way, and by %.1f %% "
+                     "with --align-frames\n",
+                     100.0 * alignment.error_before,
+                     100.0 * alignment.error_after);
+  }
+}
+
 /// Evaluates the matched poses; throws if no segment fits and no report is requested.
 Evaluation evaluateTruth(const Options& options) {
-  const MatchedTrajectories matched = match(options.files);
+  MatchedTrajectories matched = match(options.files);
   requireStatisticsOf(matched.estimate, options.files);
+  alignFrames(options, matched);
   const double path_m = pathLengths(matched.truth).back();
   const SegmentConfig segments = options.fit ? fittingSegments(path_m) : options.segments;
   const Evaluation evaluation = {matched, segmentErrors(matched, segments)};
@@ -280,6 +316,7 @@ void print(const Evaluation& evaluation) {
 }
 
 void run(const Options& options) {
+  if (!options.report.empty()) ReportDirectory::require(options.report);
   if (options.files.truth.empty()) {
     const Trajectory estimate = readStamped(options.files);
     requireStatisticsOf(estimate, options.files);

@@ -8,8 +8,9 @@ namespace po = boost::program_options;
 
 const char* const kRecordingHelp =
     "is a bag, the bags or the directory of bags into which a recording is split, or a\n"
-    "directory in the layout of KITTI's odometry benchmark, in ASL format (EuRoC), or with\n"
-    "folders left and right and files left.yaml and right.yaml of camera_calibration.\n";
+    "directory in the layout of KITTI's odometry benchmark or raw drives, in ASL format\n"
+    "(EuRoC), or with folders left and right and files left.yaml and right.yaml of\n"
+    "camera_calibration, or others by --calibration.\n";
 
 po::options_description parameterOptions(InputOptions& options) {
   po::options_description parameters("Parameters");
@@ -32,8 +33,8 @@ po::options_description imageOptions(InputOptions& options) {
       "alike, and camera_info describes raw images");
   add("calibration",
       po::value(&options.recording.sequence.calibration)->multitoken(),
-      "files in place of the recorded calibration: left.yaml right.yaml of camera_calibration, or "
-      "a camchain of Kalibr");
+      "files in place of the recorded calibration, the left camera's first: of camera_calibration, "
+      "camera_info as rostopic prints it, Kalibr, OpenVINS, ASL, Kimera, ORB-SLAM or OpenCV");
   return images;
 }
 

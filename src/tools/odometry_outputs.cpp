@@ -1,11 +1,15 @@
 #include "tools/odometry_outputs.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <cstdio>
 #include <functional>
 #include <iostream>
+#include <iterator>
+#include <map>
 #include <numeric>
+#include <sstream>
 #include <stdexcept>
 
 #include <rosbag/bag.h>
@@ -87,21 +91,55 @@ void writeStatistics(const PairRecord& record, CsvFile& file) {
 
 }  // namespace
 
-class OdometryOutputs::OdometryBag {
- public:
-  OdometryBag(const std::string& path, const Recording& recording, const Parameters& parameters)
-      : parameters_(parameters.node),
-        offset_ns_(recording.offset_ns()),
-        T_base_camera_(recording.T_base_camera()),
-        systematic_error_(parameters.odometry.systematic_error) {
-    restart();
+namespace {
+
+/// The camera on the base.
+Eigen::Isometry3d mountOf(const OutputFiles& files, const Recording& recording) {
+  if (files.mount.empty()) {
     if (const std::string note = recording.mountNote(); !note.empty()) {
       std::cerr << "offline_odometry: " << note << '\n';
     }
+    return recording.T_base_camera();
+  }
+  std::istringstream text(files.mount);
+  using Numbers = std::istream_iterator<double>;
+  const std::vector<double> m{Numbers(text), Numbers()};
+  const Eigen::Quaterniond rotation = m.size() == 7 && text.eof()
+                                          ? Eigen::Quaterniond(m[6], m[3], m[4], m[5])
+                                          : Eigen::Quaterniond(0, 0, 0, 0);
+  if (!(std::abs(rotation.norm() - 1.0) < 0.01)) {
+    throw std::invalid_argument(
+        "--mount is not \"x y z qx qy qz qw\" with a quaternion of length 1");
+  }
+  return Eigen::Translation3d(m[0], m[1], m[2]) * rotation.normalized();
+}
+
+/// The camera on the base whose poses are written; nothing if these are its own.
+std::optional<Eigen::Isometry3d> bodyOf(const OutputFiles& files, const Recording& recording) {
+  if (files.frame == "base") return mountOf(files, recording);
+  if (files.frame != "camera") {
+    throw std::invalid_argument("--frame is '" + files.frame + "', not camera or base");
+  }
+  if (!files.mount.empty() && files.bag.empty()) {
+    throw std::invalid_argument("--mount is for --frame base or --bag");
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+class OdometryOutputs::OdometryBag {
+ public:
+  OdometryBag(const OutputFiles& files, const Recording& recording, const Parameters& parameters)
+      : parameters_(parameters.node),
+        offset_ns_(recording.offset_ns()),
+        T_base_camera_(mountOf(files, recording)),
+        systematic_error_(parameters.odometry.systematic_error) {
+    restart();
     try {
-      bag_.open(path, rosbag::bagmode::Write);
+      bag_.open(files.bag, rosbag::bagmode::Write);
     } catch (const rosbag::BagException& error) {
-      throw std::runtime_error(path + " cannot be written: " + error.what());
+      throw std::runtime_error(files.bag + " cannot be written: " + error.what());
     }
   }
 
@@ -134,9 +172,12 @@ class OdometryOutputs::OdometryBag {
 OdometryOutputs::OdometryOutputs(const OutputFiles& files,
                                  const Recording& recording,
                                  const Parameters& parameters)
-    : trajectory_(files.trajectory, trajectoryFormat(files.format)) {
+    : T_body_camera_(bodyOf(files, recording)),
+      trajectory_(files.trajectory,
+                  trajectoryFormat(files.format),
+                  files.frame == "base" ? parameters.node.base_frame : "the left camera") {
   if (!files.statistics.empty()) statistics_.emplace(files.statistics, statisticsColumns());
-  if (!files.bag.empty()) bag_ = std::make_unique<OdometryBag>(files.bag, recording, parameters);
+  if (!files.bag.empty()) bag_ = std::make_unique<OdometryBag>(files, recording, parameters);
   if (!files.pictures.empty()) pictures_.emplace(files.pictures);
 }
 
@@ -151,7 +192,10 @@ void OdometryOutputs::write(const PairRecord& record,
                             const StereoPair& pair,
                             const StereoCamera& camera,
                             const VisualOdometry& odometry) {
-  trajectory_.write({pair.stamp_ns, accumulator_.add(record.result.T_prev_cur)});
+  const Eigen::Isometry3d& T_first_cur = accumulator_.add(record.result.T_prev_cur);
+  trajectory_.write(
+      {pair.stamp_ns,
+       T_body_camera_ ? *T_body_camera_ * T_first_cur * T_body_camera_->inverse() : T_first_cur});
   if (statistics_) writeStatistics(record, *statistics_);
   if (bag_) bag_->write(record.result);
   if (pictures_) {
@@ -194,6 +238,28 @@ void OdometryOutputs::printSummary(std::ostream& out) const {
       return record.result.times.*stage;
     });
   }
+}
+
+void OdometryOutputs::requireMotion() const {
+  // Reasons that differ in numbers only are one; the first of each is told.
+  std::map<std::string, std::pair<std::size_t, std::string>> reasons;
+  const std::pair<std::size_t, std::string>* commonest = nullptr;
+  for (std::size_t i = 0; i < records_.size(); ++i) {
+    const OdometryResult& result = records_[i].result;
+    if (result.hasMotion()) return;
+    if (i == 0 && records_.size() > 1) continue;  // there is none from the first pair
+    std::string kind = result.reason;
+    kind.erase(
+        std::remove_if(kind.begin(),
+                       kind.end(),
+                       [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }),
+        kind.end());
+    auto& [count, reason] = reasons.try_emplace(kind, 0, result.reason).first->second;
+    if (++count; commonest == nullptr || count > commonest->first) commonest = &reasons[kind];
+  }
+  if (commonest == nullptr) return;
+  throw std::runtime_error("no pair has a motion: " + commonest->second +
+                           cv::format(" (%zu of %zu pairs)", commonest->first, records_.size()));
 }
 
 }  // namespace rotrocc

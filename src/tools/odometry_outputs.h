@@ -28,8 +28,10 @@ struct PairRecord {
 
 /// Those that are empty are not written, but for the trajectory.
 struct OutputFiles {
-  std::string trajectory;        ///< poses of the left camera
+  std::string trajectory;        ///< poses of the left camera, or of the base
   std::string format = "kitti";  ///< of the trajectory: kitti or tum
+  std::string frame = "camera";  ///< or base: whose poses these are, relative to the first one
+  std::string mount;             ///< of the camera on the base: x y z qx qy qz qw; empty: recorded
   std::string statistics;        ///< CSV table with one row per pair
   std::string bag;       ///< with the messages that the node would publish for each pair, by
                          ///< stamp: /stereo/odom, /tf odom_frame -> base_frame
@@ -59,10 +61,14 @@ class OdometryOutputs {
   /// Pairs by state, and mean, median, 95th and 99th percentile of the times.
   void printSummary(std::ostream& out) const;
 
+  /// Throws std::runtime_error with the commonest reason if no pair has a motion.
+  void requireMotion() const;
+
  private:
   class OdometryBag;
 
   PoseAccumulator accumulator_;
+  std::optional<Eigen::Isometry3d> T_body_camera_;  // unless the trajectory is of the camera
   TrajectoryWriter trajectory_;
   std::vector<PairRecord> records_;
   std::optional<CsvFile> statistics_;

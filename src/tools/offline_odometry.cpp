@@ -38,7 +38,7 @@ using namespace rotrocc;
 const std::string kUsage =
     std::string(
         "Runs the odometry on all pairs of a recording, and writes the pose of the left "
-        "camera for each.\n\n"
+        "camera, or of the base, for each.\n\n"
         "example: offline_odometry dataset/sequences/06 --trajectory 06.txt --stats 06.csv\n"
         "usage:   offline_odometry INPUT... --trajectory OUT.txt [options]\n\n"
         "INPUT ") +
@@ -58,6 +58,14 @@ bool parse(int argc, char** argv, Options& options) {
   auto add = output.add_options();
   add("trajectory", po::value(&options.output.trajectory)->required(), "file for the poses");
   add("format", withDefault(options.output.format), "kitti or tum");
+  add("frame",
+      withDefault(options.output.frame),
+      "whose poses the trajectory has, relative to the first one: camera (the left one), or base");
+  add("mount",
+      po::value(&options.output.mount),
+      "\"x y z qx qy qz qw\" of the left camera's optical frame on the base, in place of that of "
+      "tf or "
+      "of the sequence");
   add("stats", po::value(&options.output.statistics), "CSV file with a row of statistics per pair");
   add("bag",
       po::value(&options.output.bag),
@@ -230,8 +238,9 @@ void run(const Options& options) {
   StereoPair pair;
   StereoCamera camera;
   std::int64_t last_ns = std::numeric_limits<std::int64_t>::min();
+  std::int64_t last_time_ns = last_ns;
   while (preloaded ? preloaded->next(pair, camera) : pairs.next(pair, camera)) {
-    if (pair.stamp_ns <= last_ns) {  // as in the node
+    if (pair.time_ns() <= last_time_ns) {  // as in the node
       const bool keep = parameters.node.pose_after_time_jump == "keep";
       std::cerr << "offline_odometry: time jumps back from " << stampText(last_ns) << " to "
                 << stampText(pair.stamp_ns) << " s: restarting at "
@@ -240,6 +249,7 @@ void run(const Options& options) {
       if (!keep) outputs.restart();
     }
     last_ns = pair.stamp_ns;
+    last_time_ns = pair.time_ns();
     const PairRecord record = process(odometry, pair, camera, rotation);
     if (gyro) gyro->observe(record.result);
     outputs.write(record, pair, camera, odometry);
@@ -256,6 +266,7 @@ void run(const Options& options) {
                       ? "; lines of the trajectory are not those of the images: use --format tum\n"
                       : "\n");
   }
+  outputs.requireMotion();
 }
 
 }  // namespace

@@ -40,6 +40,18 @@ std::vector<std::string> pairs(const std::vector<std::string>& names) {
   return images;
 }
 
+TEST(FindStereoTopics, FindsThePairOfRealsenseViewer) {
+  const std::string device = "/device_0/sensor_0/Infrared_";
+  TopicTypes types;
+  for (const std::string side : {"1", "2"}) {
+    types[device + side + "/image/data"] = "sensor_msgs/Image";
+    types[device + side + "/info/camera_info"] = "sensor_msgs/CameraInfo";
+  }
+  const StereoTopics topics = findStereoTopics(types);
+  EXPECT_EQ(topics.left_image, device + "1/image/data");
+  EXPECT_EQ(topics.right_info, device + "2/info/camera_info");
+}
+
 TEST(FindStereoTopics, FindsThePair) {
   const struct {
     const char* why;

@@ -127,9 +127,9 @@ TEST_F(TrajectoryTest, RefusesWhatIsNoTrajectory) {
       {"1 0 0 inf 0 1 0 0 0 0 1 0\n", "'inf'"},
       {"1 0 0 1e999 0 1 0 0 0 0 1 0\n", "1e999"},
       {"1 0 0 0x 0 1 0 0 0 0 1 0\n", "'0x' is not a finite number"},
-      {"1 0 0 0,5 0 1 0 0 0 0 1 0\n", "'0,5' is not a finite number"},
+      {"1 0 0 0,5 0 1 0 0 0 0 1 0\n", "the left 3x3 part is not a rotation"},
       {"0 0 0 0 0 0 0 0\n", "the quaternion has the length 0.0"},
-      {"1e12 0 0 0 0 0 0 1\n", "'1e12' is not a time"},
+      {"1e11 0 0 0 0 0 0 1\n", "'1e11' is not a time"},
       {"1.5 0 0 0 0 0 0 1\n1.5 0 0 0 0 0 0 1\n", "bad.txt:2: the time 1.5"},
       {"1 0 0 0 0 1 0 0 0 0 1\n", "11 numbers"},
       {kIdentity + "1 0 0 0 0 1 0 0 0 0 1 0 garbage\n", "bad.txt:2: 13 numbers"},
@@ -145,6 +145,34 @@ TEST_F(TrajectoryTest, RefusesWhatIsNoTrajectory) {
   expectError<std::runtime_error>([&] { readTrajectory(directory_ / ""); }, "cannot read");
   const std::string times = directory_.write("times.txt", "0.1\n0.0\n");
   expectError<std::runtime_error>([&] { readTimes(times); }, "times.txt:2: the time 0.0");
+}
+
+TEST_F(TrajectoryTest, ReadsWhatPeopleHave) {
+  const std::string bom = "\xEF\xBB\xBF";
+  const struct {
+    std::string text;
+    std::int64_t stamp_ns;
+  } rows[] = {
+      // A quarter turn about z, at 1 2 3 m.
+      {"0 -1 0 1 1 0 0 2 0 0 1 3\n", 0},
+      {"0 -1 0 1 1 0 0 2 0 0 1 3 0 0 0 1\n", 0},
+      {"1.5 0 -1 0 1 1 0 0 2 0 0 1 3\n", 1'500'000'000},
+      {"1.5 1 2 3 0 0 0.70710678 0.70710678\n", 1'500'000'000},
+      {bom + "timestamp,tx,ty,tz,qx,qy,qz,qw\n1.5,1,2,3,0,0,0.70710678,0.70710678\n",
+       1'500'000'000},
+      {"1403636579763 1 2 3 0 0 0.70710678 0.70710678\n", 1403636579763'000'000},
+      {"#timestamp [ns],p_RS_R_x [m],...\n1403636579763555584,1,2,3,0.70710678,0,0,0.70710678\n",
+       1403636579763555584},
+      {"1403636579763555584,1,2,3,0.70710678,0,0,0.70710678,1,2,3,4,5,6,7,8,9\r\n",
+       1403636579763555584}};
+  for (const auto& [text, stamp_ns] : rows) {
+    SCOPED_TRACE(text);
+    const Trajectory poses = readTrajectory(directory_.write("poses.txt", text));
+    ASSERT_EQ(poses.size(), 1u);
+    EXPECT_EQ(poses[0].stamp_ns, stamp_ns);
+    EXPECT_TRUE(poses[0].T_world_body.translation().isApprox(Eigen::Vector3d(1, 2, 3)));
+    EXPECT_NEAR(poses[0].T_world_body.linear()(1, 0), 1.0, 1e-6);
+  }
 }
 
 /// Turns by 1 rad/s and moves by 2 m/s, with a pose every 10 ms from 0 to 90 ms.

@@ -80,6 +80,7 @@ TEST_F(CameraClockTest, JudgesEachStamp) {
     std::vector<Image> images;
     std::string verdicts;
     const char* said = "";
+    double set_s = 0.0;  ///< see CameraClock::set_ns()
   } rows[] = {
       {"stamp 0", 3, {{-kStart_s}, {}}, "zv", "has the stamp 0: set header.stamp in the driver"},
       {"repeated", 3, {{-0.1}, {}}, "rv", "has the same stamp as the previous one, 1600000000.300"},
@@ -92,8 +93,9 @@ TEST_F(CameraClockTest, JudgesEachStamp) {
       {"two glitches", 3, {{2.0}, {7.0}, {}}, "hxg"},
       {"a glitch before a gap", 3, {{2.0}, {0.0, 6.0}}, "hg"},
       {"a gap", 3, {{0.0, 3.0}, {}}, "vv"},
-      {"the stamps alone jump ahead", 80, {{5.0}, {5.0}, {5.0}}, "hjv"},
-      {"the stamps alone jump back", 80, {{-5.0}, {-5.0}, {-5.0}}, "hjv"},
+      {"the stamps alone jump ahead", 80, {{5.0}, {5.0}, {5.0}}, "hjv", "", 5.0},
+      {"the stamps alone jump back", 80, {{-5.0}, {-5.0}, {-5.0}}, "hjv", "", -5.0},
+      {"a step after a few images", 3, {{3.0}, {3.0}, {3.0}}, "hjv", "", 3.0},
       {"a loop, while the clock goes on", 80, {{-8.0}, {-8.0}}, "vv"},
       {"an earlier run", 80, {{-100.0}, {-100.0}}, "vv"},
       {"stamps and clock go back", 80, {{0.0, -4.0}, {}}, "vv"},
@@ -108,13 +110,14 @@ TEST_F(CameraClockTest, JudgesEachStamp) {
        {{0.09, 0.01}, {0.18, 0.01}, {0.67, 0.01}, {0.76, 0.01}, {0.85, 0.01}},
        "vvhjv"},
   };
-  for (const auto& [what, before, images, verdicts, said] : rows) {
+  for (const auto& [what, before, images, verdicts, said, set_s] : rows) {
     SCOPED_TRACE(what);
     restart();
     EXPECT_EQ(takeAll(std::vector<Image>(static_cast<std::size_t>(before))),
               std::string(static_cast<std::size_t>(before), 'v'));
     EXPECT_EQ(takeAll(images), verdicts);
     EXPECT_NE(said_.find(said), std::string::npos) << said_;
+    EXPECT_NEAR(toSeconds(clock_.set_ns()), set_s, 1e-6);
   }
 }
 

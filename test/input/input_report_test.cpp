@@ -147,6 +147,11 @@ TEST(InputReportTest, SaysWhatIsWrongWithPairs) {
         "30 % of the images have no partner: /l/image arrives at 10.0 Hz, /r/image at 10.0 Hz: "
         "both lose images, or stamps are more than 10 ms apart"},
        {received(10.0, {50, 0, 950}), ""},
+       {[](R r) { r.stamp_scatter_s = 0.009; }, ""},
+       {[](R r) { r.stamp_scatter_s = 0.016; },
+        "the stamps of /l/image scatter by 16 ms, 16 % of the period of 100 ms, and velocities "
+        "with "
+        "them: stamp images when they are exposed, not when they arrive"},
        {received(10.0, {3, 0, 1}), ""},  // at a start
        {aged(0.9), ""},
        {aged(-0.1), ""},

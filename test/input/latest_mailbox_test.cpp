@@ -12,11 +12,24 @@ using std::chrono::milliseconds;
 
 TEST(LatestMailboxTest, LatestItemWins) {
   LatestMailbox<int> mailbox;
-  EXPECT_FALSE(mailbox.put(1));
-  EXPECT_TRUE(mailbox.put(2));
-  EXPECT_TRUE(mailbox.put(3));
+  EXPECT_EQ(mailbox.put(1), 0u);
+  EXPECT_EQ(mailbox.put(2), 1u);
+  EXPECT_EQ(mailbox.put(3), 1u);
   EXPECT_EQ(mailbox.take(milliseconds(0)), 3);
   EXPECT_FALSE(mailbox.take(milliseconds(0)).has_value());
+}
+
+TEST(LatestMailboxTest, WhatComesTogetherStaysTogether) {
+  LatestMailbox<int> mailbox;
+  mailbox.put(1);
+  EXPECT_EQ(mailbox.put(2), 1u);
+  EXPECT_EQ(mailbox.put(3, true), 0u);
+  EXPECT_EQ(mailbox.take(milliseconds(0)), 2);
+  EXPECT_EQ(mailbox.take(milliseconds(0)), 3);
+  mailbox.put(4);
+  mailbox.put(5, true);
+  EXPECT_EQ(mailbox.put(6), 2u);
+  EXPECT_EQ(mailbox.take(milliseconds(0)), 6);
 }
 
 TEST(LatestMailboxTest, ClosingEndsTheWait) {
@@ -47,7 +60,7 @@ TEST(LatestMailboxTest, EveryItemIsTakenOrReplaced) {
     }
   });
   int replaced = 0;
-  for (int i = 0; i < kItems; ++i) replaced += mailbox.put(i) ? 1 : 0;
+  for (int i = 0; i < kItems; ++i) replaced += static_cast<int>(mailbox.put(i));
   consumer.join();
   EXPECT_EQ(taken + replaced, kItems);
 }

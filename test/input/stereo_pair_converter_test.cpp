@@ -188,12 +188,37 @@ TEST(StereoPairConverterTest, TwelveBitsKeepTheirContrast) {
   }
   // ... and then has all levels for the dark image.
   EXPECT_EQ(convert(converter, dark, dark).left.at<uchar>(0, 1), 255);
-  EXPECT_EQ(converter.significantBits(), 10);
+  EXPECT_EQ(converter.greyRange().bits, 10);
   // The range of the brighter image is back after two pairs; before, it is white.
   EXPECT_EQ(convert(converter, bright, bright).left.at<uchar>(0, 2), 255);
   EXPECT_EQ(convert(converter, bright, bright).left.at<uchar>(0, 1), 63);
   StereoPairConverter known(12);
   EXPECT_EQ(convert(known, dark, dark).left.at<uchar>(0, 1), 63);
+}
+
+TEST(StereoPairConverterTest, AThermalImageKeepsItsContrast) {
+  const Image cold = makeImage16({7000, 7100, 7200});
+  const Image warm = makeImage16({7040, 7140, 7240});
+  StereoPairConverter converter;
+  const StereoPair pair = convert(converter, cold, warm);
+  EXPECT_EQ(pair.left.at<uchar>(0, 1) - pair.left.at<uchar>(0, 0), 50);
+  EXPECT_EQ(pair.right.at<uchar>(0, 0) - pair.left.at<uchar>(0, 0), 20) << "both have one scale";
+  EXPECT_EQ(converter.greyRange().black, 6940);
+  EXPECT_EQ(converter.greyRange().bits, 9);
+  // A shutter before the sensor does not change it, nor does a slow drift.
+  convert(converter, makeImage16({9000}), makeImage16({9000}));
+  EXPECT_EQ(converter.greyRange().black, 6940);
+  for (int i = 0; i < 40; ++i) {
+    const int drift = 10 * i;
+    const StereoPair later = convert(converter,
+                                     makeImage16({7000 + drift, 7100 + drift, 7200 + drift}),
+                                     makeImage16({7040 + drift, 7140 + drift, 7240 + drift}));
+    EXPECT_GE(later.left.at<uchar>(0, 1) - later.left.at<uchar>(0, 0), 50);
+    EXPECT_LT(later.right.at<uchar>(0, 2), 255);
+  }
+  StereoPairConverter known(16);
+  convert(known, cold, cold);
+  EXPECT_EQ(known.greyRange().black, 0);
 }
 
 TEST(StereoPairConverterTest, ABadImageOrAFewBadPixelsDoNotBlindIt) {
@@ -204,10 +229,10 @@ TEST(StereoPairConverterTest, ABadImageOrAFewBadPixelsDoNotBlindIt) {
   convert(converter, makeGreyImage(), makeGreyImage());  // says nothing of 16 bits
   for (const Image& image : {good, hot, makeImage16({65535}), good, hot}) {
     EXPECT_EQ(convert(converter, image, good).right.at<uchar>(0, 1), 75);
-    EXPECT_EQ(converter.significantBits(), 10);
+    EXPECT_EQ(converter.greyRange().bits, 10);
   }
   convert(converter, makeGreyImage(), makeGreyImage());
-  EXPECT_EQ(converter.significantBits(), 8);
+  EXPECT_EQ(converter.greyRange().bits, 8);
 }
 
 /// Other malformed images are rows of BadInputsTest.

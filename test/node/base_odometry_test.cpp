@@ -82,6 +82,53 @@ class BaseOdometryTest : public testing::Test {
   std::int64_t stamp_ns_ = 5'000'000'000;
 };
 
+TEST(PlanarBaseTest, SaysIfItRemovesTheMotion) {
+  NodeParameters parameters;
+  parameters.planar = true;
+  for (const bool up : {false, true}) {
+    BaseOdometry odometry(parameters, SystematicErrorConfig());
+    Eigen::Isometry3d mount = cameraMount();
+    if (up) mount.linear().setIdentity();  // an optical frame that is named as that of the base
+    for (int i = 1; i <= 20; ++i) {
+      Eigen::Isometry3d ahead = Eigen::Isometry3d::Identity();
+      ahead.translation().z() = 0.2;
+      odometry.add(found(i * kPeriod_ns, ahead), mount);
+    }
+    const std::string problem = odometry.planarProblem();
+    EXPECT_EQ(problem.find("planar has removed most of the motion, 4 of 4 m:"),
+              up ? 0u : std::string::npos)
+        << problem;
+  }
+}
+
+TEST_F(BaseOdometryTest, VelocitiesAreAsUncertainAsTheStamps) {
+  move(makeMotion(0.0, 0.0));
+  OdometryResult result = found(stamp_ns_ += kPeriod_ns, seen(makeMotion(1.0, 0.0)));
+  result.stamp_sigma_s = 0.008;
+  const BaseState state = odometry_.add(result, cameraMount());
+  EXPECT_NEAR(state.twist.twist.x(), 10.0, 1e-9);
+  // The time between two such stamps errs by 11 %.
+  EXPECT_NEAR(std::sqrt(state.twist.covariance(0, 0)), 10.0 * std::sqrt(2.0) * 0.08, 1e-3);
+  EXPECT_LT(state.twist.covariance(1, 1), 1e-3 * state.twist.covariance(0, 0));
+  EXPECT_EQ(state.step_velocity->twist.covariance(0, 0), state.twist.covariance(0, 0));
+}
+
+TEST_F(BaseOdometryTest, AStepOfTheClockIsNoTimeThatPasses) {
+  move(makeMotion(0.0, 0.0));
+  OdometryResult result = found(stamp_ns_ += kPeriod_ns, seen(makeMotion(1.0, 0.0)));
+  result.clock_set_ns = -9'000'000'000;
+  result.stamp_ns += result.clock_set_ns;
+  EXPECT_NEAR(odometry_.add(result, cameraMount()).twist.twist.x(), 10.0, 1e-9);
+  OdometryResult lost = withoutMotion(result.stamp_ns + kPeriod_ns);
+  lost.clock_set_ns = result.clock_set_ns;
+  const double sigma_m = std::sqrt(odometry_.add(lost, cameraMount()).T_odom_base.covariance(0, 0));
+  EXPECT_GT(sigma_m, 0.9) << "the way of a period at 10 m/s";
+  EXPECT_LT(sigma_m, 1.1);
+  odometry_.addTimeUnseen(0.1);
+  const BaseState later = odometry_.add(withoutMotion(0), cameraMount());
+  EXPECT_NEAR(std::sqrt(later.T_odom_base.covariance(0, 0)), 2.0, 0.1);
+}
+
 TEST_F(BaseOdometryTest, FirstPairDefinesTheOdomFrame) {
   const BaseState state = lose(kPeriod_ns, State::kInitialising);
   EXPECT_EQ(state.stamp_ns, stamp_ns_);

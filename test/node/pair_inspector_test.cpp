@@ -23,7 +23,7 @@ class ExposuresTest : public testing::Test {
     return hint;
   }
 
-  PairInspector inspector_{CorrespondenceFinder::Config()};
+  PairInspector inspector_{OdometryConfig()};
   const cv::Mat image_ = cv::Mat::zeros(8, 8, CV_8UC1);
 };
 
@@ -63,14 +63,14 @@ class DarkImagesTest : public testing::Test {
     result.state = state;
     result.exposure_gain = 1.0;
     result.counts.tries = 1;
-    return inspector_.inspect({0, image_, image_}, StereoCamera(), result, 10);
+    return inspector_.inspect({0, image_, image_}, StereoCamera(), result, {0, 10});
   }
   std::string inspectAll(int count, State state = State::kLost) {
     for (int i = 1; i < count; ++i) inspect(state);
     return inspect(state);
   }
 
-  PairInspector inspector_{CorrespondenceFinder::Config()};
+  PairInspector inspector_{OdometryConfig()};
   cv::Mat image_ = cv::Mat::zeros(48, 64, CV_8UC1);
 };
 
@@ -78,8 +78,8 @@ TEST_F(DarkImagesTest, TheHintNamesTheRangeOf16BitImages) {
   inspectAll(PairInspector::kPatience);
   inspector_.finish();
   const std::string hint = inspect();
-  EXPECT_NE(hint.find("mean grey level is 10 of 255, where 255 is 1023 of the 16-bit image: set "
-                      "significant_bits"),
+  EXPECT_NE(hint.find("mean grey level is 10 of 255, where 0 is 0 and 255 is 1023 of the 16-bit "
+                      "image: set significant_bits"),
             std::string::npos)
       << hint;
 }

@@ -20,8 +20,19 @@ TEST(DescribeCameraPoseTest, SaysPlaceViewAndImage) {
   Eigen::Isometry3d tilted = kittiMount();
   tilted.rotate(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ()));
   tilted.rotate(Eigen::AngleAxisd(M_PI / 9.0, Eigen::Vector3d::UnitY()));
-  EXPECT_EQ(describeCameraPose(tilted),
-            "at 0 0 1.65 m, looks along +x (forward), 20 deg off, its image is not upright");
+  EXPECT_EQ(
+      describeCameraPose(tilted),
+      "at 0 0 1.65 m, looks along +x (forward), 20 deg to the left, its image is not upright, "
+      "the camera rolled by 180 deg");
+  for (const double down : {-1.0, 1.0}) {
+    Eigen::Isometry3d mast = kittiMount();
+    mast.rotate(Eigen::AngleAxisd(-down * M_PI / 9.0, Eigen::Vector3d::UnitX()));
+    mast.rotate(Eigen::AngleAxisd(M_PI / 36.0, Eigen::Vector3d::UnitZ()));
+    EXPECT_EQ(describeCameraPose(mast),
+              std::string("at 0 0 1.65 m, looks along +x (forward), 20 deg ") +
+                  (down > 0.0 ? "down" : "up") +
+                  ", its image is upright, the camera rolled by 5 deg clockwise");
+  }
   EXPECT_EQ(describeCameraPose(Eigen::Isometry3d::Identity()),
             "at 0 0 0 m, looks along +z (up); is its frame an optical frame, with z forward?");
   Eigen::Isometry3d down(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
@@ -73,15 +84,20 @@ class SensorPoseTest : public testing::Test {
   };
 };
 
-TEST_F(SensorPoseTest, AFixedPoseIsLookedUpOnceUntilItIsRefreshed) {
+TEST_F(SensorPoseTest, AFixedPoseIsKeptUntilItIsRefreshed) {
   EXPECT_TRUE(std::isnan(panAt(5.0)));
   EXPECT_EQ(camera_.missing().find("no tf from base_link to camera"), 0u) << camera_.missing();
   sendPan(0.0, 0.2);
   EXPECT_NEAR(panAt(6.0), 0.2, 1e-12);
   EXPECT_EQ(camera_.missing(), "");
+  EXPECT_EQ(camera_.problem(), "");
   sendPan(0.0, 0.3);
   EXPECT_NEAR(panAt(7.0), 0.2, 1e-12);
+  EXPECT_EQ(
+      camera_.problem().find("another static tf of camera camera has come, which is not used"), 0u)
+      << camera_.problem();
   camera_.refresh();
+  EXPECT_EQ(camera_.problem(), "");
   EXPECT_NEAR(panAt(8.0), 0.3, 1e-12);
   EXPECT_EQ(waits_, 0);
 }

@@ -39,7 +39,7 @@ TEST_F(TrajectoryStoreTest, BothFilesAreThoseOfTheWriter) {
     const std::string path = directory_ / format;
     {
       TrajectoryStore store(3000, path, format);
-      TrajectoryWriter writer(path + "_expected", trajectoryFormat(format));
+      TrajectoryWriter writer(path + "_expected", trajectoryFormat(format), "the left camera");
       for (int i = 0; i < 3000; ++i) {
         store.add(poseAt(0.1 * i));
         writer.write(poseAt(0.1 * i));

@@ -335,7 +335,7 @@ TEST_F(KittiPlayerTest, RefusesWhatItCannotPlay) {
   } rows[] = {
       {"rate", -1.0, "rate is -1"},
       {"start", 60.0, "start is 60 s, but the recording is only 0.5"},
-      {"bag", directory_ / "missing.bag", "missing.bag is not readable as a bag"},
+      {"bag", directory_ / "missing.bag", "missing.bag does not exist"},
       {"bag", directory_ / "empty.bag", "no stereo pair ("},
       {"bag", directory_ / "raw.bag", "raw.bag are not rectified: start with rectify:=true"},
       {"bag", directory_ / "", "is no stereo sequence"},

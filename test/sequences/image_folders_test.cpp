@@ -109,9 +109,10 @@ TEST_F(ImageFoldersTest, DigitsOfANameTellTheUnitOfItsTime) {
 TEST_F(ImageFoldersTest, RefusesNamesThatAreNoTimesOfACamera) {
   write("left", {"12000000000.png", "12000000050.png"});
   write("right", {"12000000000.png", "12000000050.png"});
-  expectError<std::runtime_error>([this] { pairs(); },
-                                  "by their times in ns, images are 5e-08 s apart, which no camera "
-                                  "is: they look like times in ms, with 0.05 s");
+  expectError<std::runtime_error>(
+      [this] { pairs(); },
+      "by their times in ns, images are 5e-08 s apart, which is not the "
+      "rate of a camera: they look like times in ms, with 0.05 s");
   write("left", {"1.png"});
   expectError<std::runtime_error>([this] { pairs(); }, "1.png is not named by its time");
 }

@@ -108,7 +108,7 @@ TEST_F(KittiLayoutTest, RefusesWrongFiles) {
       {"times.txt", "0.1\n0.1\n", "times.txt:2: the time 0.1"},
       {"times.txt",
        "0\n103\n",
-       "images are 103 s apart, which no camera is: they look like times in "
+       "images are 103 s apart, which is not the rate of a camera: they look like times in "
        "ms, with 0.103 s from one to the next: convert them to s"},
       {"times.txt", "0\n0.1\n0.2\n0.3\n0.4x\n", "times.txt:5: '0.4x' is not"}};
   for (const auto& row : rows) {
@@ -148,6 +148,7 @@ TEST_F(KittiLayoutTest, ReadsRawDrives) {
                    "2011-09-26 13:02:25.594360375\n2011-09-26 13:02:25.697959960\n");
   directory_.write("calib_cam_to_cam.txt",
                    "calib_time: 09-Jan-2012 13:57:47\n"
+                   "S_rect_00: 8.000000e+00 6.000000e+00\n"
                    "P_rect_00: 700 0 4 0 0 700 3 0 0 0 1 0\n"
                    "P_rect_01: 700 0 4 -350 0 700 3 0 0 0 1 0\n");
   const StereoSequence sequence = openStereoSequence(directory_ / "drive", {});
@@ -158,7 +159,7 @@ TEST_F(KittiLayoutTest, ReadsRawDrives) {
   EXPECT_EQ(sequence.read(1).right.at<uchar>(0, 0), 20);
   directory_.write("drive/image_00/timestamps.txt", "2011-09-26 13.02\n2011-09-26 14.02\n");
   expectError<std::runtime_error>([&] { openStereoSequence(directory_ / "drive", {}); },
-                                  "timestamps.txt:1: is no time");
+                                  "timestamps.txt:1: is not a time");
 }
 
 TEST_F(KittiLayoutTest, APairWithoutAFileIsLeftOut) {

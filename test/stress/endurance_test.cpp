@@ -308,6 +308,7 @@ struct Fault {
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 const char* const kSync = "trigger the cameras synchronously";
 const char* const kBack = "time jumped back";
+const char* const kStep = "the stamps of the left images stepped by";
 const char* const kFrame = "frame_id of the left images changed";
 
 // clang-format off
@@ -324,9 +325,9 @@ const std::vector<Fault> kFaults = {
      ofBoth([](Image& image) { image.header.stamp += ros::Duration(5.0); })},
     {"stamps apart", {kSync}, kSilence,
      ofImage(1, [](Image& image) { image.header.stamp += ros::Duration(0.04); })},
-    {"the sensors' clock 20 s behind", {"behind the clock", kBack}, kLasting,
+    {"the sensors' clock 20 s behind", {"behind the clock", kBack, kStep}, kLasting,
      ofPair([](Pair& pair) { pair.ahead_s = -20.0; })},
-    {"the sensors' clock 3 s ahead", {"ahead of the clock", kBack}, kLasting,
+    {"the sensors' clock 3 s ahead", {"ahead of the clock", kBack, kStep}, kLasting,
      ofPair([](Pair& pair) { pair.ahead_s = 3.0; })},
     {"data cut off", {"bytes of data"}, kShort, ofImage(0, [](Image& i) { i.data.resize(9); })},
     {"unknown encoding", {"has the encoding"}, kShort,

@@ -158,7 +158,8 @@ InputReport OdometryRig::report() const {
 
 void OdometryRig::process(const ReceivedPair& pair) {
   try {
-    PairInput in = {processor_.convert(pair), pair.camera, T_base_camera};
+    PairInput in = {processor_.convert(pair), pair.arrival, pair.camera, T_base_camera};
+    in.before = pair.before;
     if (expected && last_stamp_ns_ && in.pair.stamp_ns > *last_stamp_ns_) {
       in.T_last_base = expected(*last_stamp_ns_, in.pair.stamp_ns);
     }

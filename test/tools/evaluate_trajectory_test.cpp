@@ -7,6 +7,10 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <rosbag/bag.h>
+#include <tf2_eigen/tf2_eigen.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include "rotrocc/trajectory.h"
 #include "support/read_csv.h"
@@ -226,6 +230,57 @@ TEST_F(EvaluateTrajectoryTest, PosesWithoutStampsGetThoseOfTheStatistics) {
   const auto poses = readCsv(directory_ / "report/poses.csv");
   ASSERT_EQ(poses.size(), static_cast<std::size_t>(kPoses));
   EXPECT_EQ(poses.back().at("stamp_ns"), std::to_string(kStart_ns + 2 * (kPoses - 1) * kPeriod_ns));
+}
+
+TEST_F(EvaluateTrajectoryTest, ReadsPosesOfBagsAndAlignsTheirFrames) {
+  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
+  T_base_camera.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  {
+    rosbag::Bag bag(directory_ / "run.bag", rosbag::bagmode::Write);
+    for (const StampedPose& pose : readTrajectory(directory_ / "tum_estimate.txt")) {
+      const Eigen::Isometry3d T = T_base_camera * pose.T_world_body * T_base_camera.inverse();
+      nav_msgs::Odometry odometry;
+      odometry.header.stamp.fromNSec(static_cast<std::uint64_t>(pose.stamp_ns + 1'000'000'000));
+      odometry.pose.pose = tf2::toMsg(T);
+      bag.write("/odom", odometry.header.stamp, odometry);
+      tf2_msgs::TFMessage tf;
+      tf.transforms.push_back(tf2::eigenToTransform(T));
+      tf.transforms[0].header.stamp = odometry.header.stamp;
+      tf.transforms[0].header.frame_id = "odom";
+      tf.transforms[0].child_frame_id = "base_link";
+      bag.write("/tf", odometry.header.stamp, tf);
+    }
+  }
+  Trajectory truth = readTrajectory(directory_ / "tum_truth.txt");
+  {
+    TrajectoryWriter writer(directory_ / "later.txt", TrajectoryFormat::kTum);
+    for (StampedPose& pose : truth) {
+      pose.stamp_ns += 1'000'000'000;
+      writer.write(pose);
+    }
+  }
+  for (const char* estimate : {"run.bag", "run.bag:/odom", "run.bag:odom:base_link"}) {
+    const CommandResult other = run(std::string("later.txt ") + estimate + " --fit");
+    EXPECT_EQ(other.status, 0) << other.output;
+    EXPECT_NE(other.output.find("EST is of another body than GT, which is turned by 90.0 deg"),
+              std::string::npos)
+        << other.output;
+    const CommandResult aligned =
+        run(std::string("later.txt ") + estimate + " --fit --align-frames");
+    EXPECT_NE(aligned.output.find("translation 1.0"), std::string::npos) << aligned.output;
+  }
+  EXPECT_NE(run("later.txt run.bag:/nothing --fit").output.find("run.bag:/odom"),
+            std::string::npos);
+}
+
+TEST_F(EvaluateTrajectoryTest, PosesWithoutStampsMustBeAsMany) {
+  const std::string text = readFile(directory_ / "estimate.txt");
+  directory_.write("short.txt", text.substr(text.find('\n') + 1));
+  const CommandResult result = run("truth.txt short.txt --fit");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.output.find("has 301 poses, short.txt 300, and they have no stamps"),
+            std::string::npos)
+      << result.output;
 }
 
 TEST_F(EvaluateTrajectoryTest, NothingIsWrittenIfAnInputIsWrong) {

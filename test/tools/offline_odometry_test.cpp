@@ -148,6 +148,53 @@ TEST_F(OfflineOdometryTest, WritesOdometryOfTheBaseToABag) {
   EXPECT_EQ(tf->transforms.at(0).child_frame_id, "base_link");
 }
 
+/// With x forward; KITTI's camera is above the base.
+TEST_F(OfflineOdometryTest, WritesPosesOfTheBase) {
+  const std::string camera = trajectoryOf(sequence(), "--format tum");
+  EXPECT_EQ(camera.find("# poses of the left camera: time [s]"), 0u);
+  const Trajectory of_camera = readTrajectory(directory_ / "trajectory.txt");
+  const std::string base = trajectoryOf(sequence(), "--format tum --frame base");
+  EXPECT_EQ(base.find("# poses of base_link: time [s]"), 0u);
+  const Trajectory of_base = readTrajectory(directory_ / "trajectory.txt");
+  const Eigen::Isometry3d expected =
+      kittiMount() * of_camera.back().T_world_body * kittiMount().inverse();
+  EXPECT_TRUE(of_base.back().T_world_body.isApprox(expected, 1e-6));
+  trajectoryOf(sequence(), "--format tum --frame base --mount '0 0 0 0 0 0 1'");
+  EXPECT_TRUE(readTrajectory(directory_ / "trajectory.txt")
+                  .back()
+                  .T_world_body.isApprox(of_camera.back().T_world_body, 1e-6));
+}
+
+TEST_F(OfflineOdometryTest, NoMotionIsNoSuccess) {
+  for (int i = 0; i < kPairs; ++i) {
+    for (const char* side : {"/image_0", "/image_1"}) {
+      cv::imwrite(sequence() + side + cv::format("/%06d.png", i),
+                  cv::Mat(188, 620, CV_8UC1, cv::Scalar(128 + i)));
+    }
+  }
+  const CommandResult result = run(sequence() + " --trajectory " + directory_ / "out.txt");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.output.find("no pair has a motion: only 0 features were matched, fewer than 25 "
+                               "(11 of 12 pairs)"),
+            std::string::npos)
+      << result.output;
+}
+
+TEST_F(OfflineOdometryTest, NamesWhatIsNoRecording) {
+  std::filesystem::create_directory(directory_ / "ros2");
+  directory_.write("ros2/metadata.yaml", "rosbag2_bagfile_information:\n  version: 5\n");
+  directory_.write("drive.db3", "");
+  const std::pair<std::string, const char*> rows[] = {
+      {directory_ / "ros2", "ros2 is a bag of ROS 2: convert it"},
+      {directory_ / "drive.db3", "drive.db3 is a bag of ROS 2: convert it"},
+      {directory_ / "typo", "typo does not exist"}};
+  for (const auto& [path, message] : rows) {
+    const CommandResult result = run(path + " --trajectory " + directory_ / "out.txt");
+    EXPECT_EQ(result.status, 1);
+    EXPECT_NE(result.output.find(message), std::string::npos) << result.output;
+  }
+}
+
 TEST_F(OfflineOdometryTest, PreloadedImagesGiveTheSamePoses) {
   const std::string preloaded = trajectoryOf(sequence(), "--preload");
   EXPECT_FALSE(preloaded.empty());
@@ -274,6 +321,8 @@ TEST_F(OfflineOdometryTest, TellsBadUsageFromBadInput) {
               {"/nowhere --trajectory /dev/null", 1},
               {sequence() + " --trajectory /nowhere/out.txt", 1},
               {good + " --format xyz", 1},
+              {good + " --frame wheel", 1, "not camera or base"},
+              {good + " --frame base --mount '1 2 3'", 1, "x y z qx qy qz qw"},
               {good + " --rectify maybe", 1},
               {good + " --imu /nowhere", 1},
               {good + " --calibration a b c", 1, "calibration"},

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/to_seconds.h"
+#include "input/to_text.h"
 
 namespace rotrocc {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 constexpr double kFirstVariance = 1e-9;
 /// Variance [m^2, rad^2] of the components that planar motion excludes.
 constexpr double kPlanarVariance = 1e-9;
+constexpr double kPlanarShare = 0.5;
 /// Variance [rad^2] of roll and pitch by gravity: 0.1 m/s^2 of bias are usual.
 constexpr double kLevelVariance = 1e-4;
 /// Longer gaps do not increase the uncertainty further: filters need finite numbers.
@@ -68,18 +70,26 @@ Matrix6d planar(const Matrix6d& covariance) {
   return flat;
 }
 
+/// Of velocities whose motion took `dt_s`, between two stamps that err by `sigma_s` each.
+UncertainTwist velocityOf(const Vector6d& motion,
+                          const Matrix6d& covariance,
+                          double dt_s,
+                          double sigma_s) {
+  const Vector6d velocity = motion / dt_s;
+  const double variance_s2 = 2.0 * sigma_s * sigma_s;
+  return {velocity, (covariance + variance_s2 * velocity * velocity.transpose()) / (dt_s * dt_s)};
+}
+
 /// The constant twist of a motion. The covariance is valid for small rotations within that time.
-UncertainTwist twistOf(const UncertainTransform& T_prev_cur, double dt_s) {
-  return {logMotion(T_prev_cur.T) / dt_s, T_prev_cur.covariance / (dt_s * dt_s)};
+UncertainTwist twistOf(const UncertainTransform& T_prev_cur, double dt_s, double sigma_s) {
+  return velocityOf(logMotion(T_prev_cur.T), T_prev_cur.covariance, dt_s, sigma_s);
 }
 
 /// Translation and rotation of a motion over time, in the frame before it.
-UncertainTwist meanVelocityOf(const UncertainTransform& T_prev_cur, double dt_s) {
-  UncertainTwist velocity;
-  velocity.twist << T_prev_cur.T.translation(), logRotation(T_prev_cur.T.linear());
-  velocity.twist /= dt_s;
-  velocity.covariance = T_prev_cur.covariance / (dt_s * dt_s);
-  return velocity;
+UncertainTwist meanVelocityOf(const UncertainTransform& T_prev_cur, double dt_s, double sigma_s) {
+  Vector6d motion;
+  motion << T_prev_cur.T.translation(), logRotation(T_prev_cur.T.linear());
+  return velocityOf(motion, T_prev_cur.covariance, dt_s, sigma_s);
 }
 
 }  // namespace
@@ -110,15 +120,16 @@ BaseState BaseOdometry::add(const OdometryResult& result,
   if (first) {
     last_.T_base_camera = T_base_camera;
     T_start_camera_ = T_base_camera;
-    if (!last_.stamp_ns) last_.stamp_ns = result.stamp_ns;
+    if (!last_.time_ns) last_.time_ns = result.time_ns();
     known_ = last_;
   }
   if (result.hasMotion()) {
     const UncertainTransform step = addMotion(result, T_base_camera);
-    state.twist = twistOf(step, result.dt_s());
+    state.twist = twistOf(step, result.dt_s(), result.stamp_sigma_s);
     speed_.set(state.twist.twist.head<3>().norm());
     turn_rate_.set(state.twist.twist.tail<3>().norm());
-    state.step_velocity = {result.prev_stamp_ns, meanVelocityOf(step, result.dt_s())};
+    state.step_velocity = {result.prev_stamp_ns,
+                           meanVelocityOf(step, result.dt_s(), result.stamp_sigma_s)};
   } else {
     addUnseen(result, T_base_camera, first ? std::nullopt : T_last_cur);
     state.twist.covariance = kUnknownVariance * Matrix6d::Identity();
@@ -134,7 +145,7 @@ BaseState BaseOdometry::add(const OdometryResult& result,
     } else {
       T_known_last_.reset();
     }
-    if (!lost_since_ns_) lost_since_ns_ = result.stamp_ns;
+    if (!lost_since_ns_) lost_since_ns_ = result.time_ns();
   }
   state.T_first_camera = last_.T_first_start * camera_.T_first_cur();
   state.T_odom_base = withSystematicError(last_.T_odom_base);
@@ -162,17 +173,20 @@ UncertainTransform BaseOdometry::motionOfBase(const UncertainTransform& camera_m
 /// Returns the motion of the base since the previous pair.
 UncertainTransform BaseOdometry::addMotion(const OdometryResult& result,
                                            const Eigen::Isometry3d& T_base_camera) {
-  const Pose prev = result.prev_stamp_ns > *known_.stamp_ns ? last_ : known_;  // a lost pair
+  const Pose prev = result.prev_time_ns() > *known_.time_ns ? last_ : known_;  // a lost pair
   if (result.keyframe_stamp_ns != keyframe_stamp_ns_) {
     keyframe_stamp_ns_ = result.keyframe_stamp_ns;
     keyframe_ = prev;
   }
   const UncertainTransform camera_step = {result.T_prev_cur, result.covariance};
   const UncertainTransform step = motionOfBase(camera_step, prev.T_base_camera, T_base_camera);
+  moved_m_ +=
+      (prev.T_base_camera * result.T_prev_cur * T_base_camera.inverse()).translation().norm();
+  planar_m_ += step.T.translation().norm();
   camera_.add(parameters_.planar ? prev.T_base_camera.inverse() * step.T * T_base_camera
                                  : result.T_prev_cur);
   last_ = prev;
-  last_.stamp_ns = result.stamp_ns;
+  last_.time_ns = result.time_ns();
   last_.T_base_camera = T_base_camera;
   const Pose& from = keyframe_ ? *keyframe_ : prev;
   last_.T_odom_base = compose(
@@ -193,7 +207,8 @@ void BaseOdometry::addUnseen(const OdometryResult& result,
   if (T_last_cur) step.T = parameters_.planar ? planar(*T_last_cur) : *T_last_cur;
   last_.T_odom_base = compose(last_.T_odom_base, step);
   last_.T_odom_base.covariance +=
-      T_last_cur ? growthWithDistance(step.T) : growthWithTime(result.stamp_ns);
+      T_last_cur ? growthWithDistance(step.T)
+                 : growthWithTime(toSeconds(result.time_ns() - *last_.time_ns));
   camera_.add(Eigen::Isometry3d::Identity());
   const Eigen::Isometry3d before = std::exchange(last_.T_base_camera, T_base_camera);
   if (T_last_cur || T_base_camera.matrix() != before.matrix()) {
@@ -203,7 +218,19 @@ void BaseOdometry::addUnseen(const OdometryResult& result,
     last_.T_odom_start = last_.T_odom_base.T * T_start_base().inverse();
   }
   last_.T_odom_base.T = last_.T_odom_start * T_start_base();
-  last_.stamp_ns = result.stamp_ns;
+  last_.time_ns = result.time_ns();
+}
+
+std::string BaseOdometry::planarProblem() const {
+  // Of noise at rest, two of three directions are left.
+  if (planar_m_ > kPlanarShare * moved_m_ || moved_m_ < kWalk_mps) return "";
+  return "planar has removed most of the motion, " + toText(moved_m_ - planar_m_, 3) + " of " +
+         toText(moved_m_, 3) +
+         " m: does the base move in its plane, and is the tf of the camera right?";
+}
+
+void BaseOdometry::addTimeUnseen(double time_s) {
+  last_.T_odom_base.covariance += growthWithTime(time_s);
 }
 
 void BaseOdometry::setPose(const UncertainTransform& T_odom_base) {
@@ -242,10 +269,9 @@ double BaseOdometry::Speed::wayVariance(double time_s) const {
 }
 
 /// Increment of the covariance, so that its growth does not depend on the rate of calls.
-Matrix6d BaseOdometry::growthWithTime(std::int64_t stamp_ns) {
-  const std::int64_t passed_ns = stamp_ns - *last_.stamp_ns;
+Matrix6d BaseOdometry::growthWithTime(double time_s) {
   const double before_s = without_motion_s_;
-  without_motion_s_ += toSeconds(std::max<std::int64_t>(passed_ns, 0));
+  without_motion_s_ += std::max(time_s, 0.0);
   without_motion_s_ = std::min(without_motion_s_, kMaxWithoutMotion_s);
   return diagonal(speed_.wayVariance(without_motion_s_) - speed_.wayVariance(before_s),
                   turn_rate_.wayVariance(without_motion_s_) - turn_rate_.wayVariance(before_s));

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include <Eigen/Geometry>
 
@@ -67,8 +68,15 @@ class BaseOdometry {
       const Eigen::Isometry3d& T_base_camera,
       const std::optional<Eigen::Isometry3d>& T_last_cur) const;
 
-  /// The first pair of the present loss; nothing if the last pair was not lost.
+  /// The first pair of the present loss, see OdometryResult::time_ns(); nothing if the last pair
+  /// was not lost.
   const std::optional<std::int64_t>& lost_since_ns() const { return lost_since_ns_; }
+
+  /// Time that passed since the last pair, apart from what the stamps say.
+  void addTimeUnseen(double time_s);
+
+  /// That planar removes most of the motion, in one sentence with a remedy; empty if it does not.
+  std::string planarProblem() const;
 
   void setSystematicError(const SystematicErrorConfig& config) { systematic_error_ = config; }
 
@@ -78,7 +86,7 @@ class BaseOdometry {
  private:
   /// What later pairs are measured against.
   struct Pose {
-    std::optional<std::int64_t> stamp_ns;
+    std::optional<std::int64_t> time_ns;  // see OdometryResult
     Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
     UncertainTransform T_odom_base;  // without systematic errors
     // What is added to the visual poses of base and camera: by setPose(), and by motions of the
@@ -106,7 +114,7 @@ class BaseOdometry {
   void addUnseen(const OdometryResult& result,
                  const Eigen::Isometry3d& T_base_camera,
                  const std::optional<Eigen::Isometry3d>& T_last_cur);
-  Matrix6d growthWithTime(std::int64_t stamp_ns);
+  Matrix6d growthWithTime(double time_s);
   Matrix6d growthWithDistance(const Eigen::Isometry3d& T_last_cur);
   UncertainTransform withSystematicError(const UncertainTransform& T_odom_base) const;
   Eigen::Isometry3d T_start_base() const;
@@ -127,6 +135,9 @@ class BaseOdometry {
   std::optional<Pose> keyframe_;  // none after setPose(), until the next keyframe
   Speed speed_;
   Speed turn_rate_;
+  // By all motions: of them, and what planar leaves.
+  double moved_m_ = 0.0;
+  double planar_m_ = 0.0;
   // Since the last motion.
   double without_motion_s_ = 0.0;
   double guessed_m_ = 0.0;

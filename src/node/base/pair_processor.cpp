@@ -1,5 +1,6 @@
 #include "node/base/pair_processor.h"
 
+#include <cmath>
 #include <utility>
 
 #include "common/to_seconds.h"
@@ -30,7 +31,7 @@ PairProcessor::PairProcessor(const Parameters& parameters, Log log)
       converter_(
           parameters.node.significant_bits, parameters.node.mask, parameters.odometry.threads),
       odometry_(parameters.odometry),
-      inspector_(parameters.odometry.correspondence_finder, parameters.node.rectify) {}
+      inspector_(parameters.odometry, parameters.node.rectify) {}
 
 void PairProcessor::Requests::add(const Requests& later) {
   reset |= later.reset;
@@ -56,27 +57,45 @@ PairAnswer PairProcessor::process(const PairInput& in) {
   if (const auto& config = requests.config) {
     odometry_.configure(*config);
     converter_.setThreads(config->threads);
-    inspector_.configure(config->correspondence_finder);
+    inspector_.configure(*config);
     systematic_error_ = config->systematic_error;
     if (base_odometry_) base_odometry_->setSystematicError(systematic_error_);
   }
   PairAnswer answer;
-  answer.starts_trajectory = restartIfNeeded(requests, in.pair.stamp_ns);
+  answer.starts_trajectory = restartIfNeeded(requests, in);
   if (!base_odometry_) begin(in);
   if (requests.T_odom_base) {
     base_odometry_->setPose(*requests.T_odom_base);
     // Compared with a pair from before a loss, this one would be lost again.
     if (base_odometry_->lost_since_ns()) odometry_.reset();
   }
-  answer.result =
-      odometry_.process(in.pair,
-                        in.camera,
-                        base_odometry_->expectedMotion(in.T_base_camera, in.T_last_base),
-                        in.measured_rotation,
-                        [&] { return in.is_simulated && !moves(in); });
-  answer.state = base_odometry_->add(answer.result, in.T_base_camera, in.T_last_base);
-  last_stamp_ns_ = in.pair.stamp_ns;
+  // By stamps that are set back, the other odometry tells of an earlier way.
+  const bool is_set_back = last_ && in.pair.clock_set_ns < last_->clock_set_ns;
+  const std::optional<Eigen::Isometry3d> T_last_base = is_set_back ? std::nullopt : in.T_last_base;
+  answer.result = odometry_.process(in.pair,
+                                    in.camera,
+                                    base_odometry_->expectedMotion(in.T_base_camera, T_last_base),
+                                    in.measured_rotation,
+                                    [&] { return in.is_simulated && !moves(in); });
+  answer.state = base_odometry_->add(answer.result, in.T_base_camera, T_last_base);
+  answer.mount_problem = base_odometry_->planarProblem();
+  if (!answer.mount_problem.empty() && !std::exchange(told_mount_, true)) {
+    log_.warn(answer.mount_problem);
+  }
+  last_arrival_ = in.arrival;
+  last_ = StereoPair{in.pair.stamp_ns, {}, {}, {}, {}, in.pair.clock_set_ns};
   return answer;
+}
+
+std::string PairProcessor::inspect(const PairInput& in, const OdometryResult& result) {
+  const GreyRange range = converter_.greyRange();
+  const auto before = [&] {
+    StereoPairConverter converter(range, parameters_.mask);  // the pixels of `in` stay
+    std::vector<StereoPair> pairs;
+    for (const auto& received : in.before) pairs.push_back(copyOf(converter.convert(*received)));
+    return pairs;
+  };
+  return inspector_.inspect(in.pair, in.camera, result, range, before);
 }
 
 /// Whether initial_pose leaves roll and pitch to gravity.
@@ -91,25 +110,32 @@ void PairProcessor::begin(const PairInput& in) {
   if (in.up && isLevelled()) up = in.up();
   if (up) {
     up = in.T_base_camera.linear() * *up;
-    log_.info("the first pose is level: up is " + toText(up->x()) + " " + toText(up->y()) + " " +
-              toText(up->z()) + " in " + parameters_.base_frame);
+    constexpr double kDegree = M_PI / 180.0;
+    const double roll_deg = std::atan2(up->y(), up->z()) / kDegree;
+    const double pitch_deg = std::atan2(-up->x(), std::hypot(up->y(), up->z())) / kDegree;
+    log_.info("the first pose is level by gravity: " + parameters_.base_frame + " has a roll of " +
+              fixedText(roll_deg, 1) + " deg and a pitch of " + fixedText(pitch_deg, 1) + " deg");
   }
   base_odometry_.emplace(parameters_, systematic_error_, up);
 }
 
 /// Returns whether a new trajectory starts.
-bool PairProcessor::restartIfNeeded(const Requests& requests, std::int64_t stamp_ns) {
+bool PairProcessor::restartIfNeeded(const Requests& requests, const PairInput& in) {
+  const StereoPair& pair = in.pair;
   bool starts_trajectory = requests.reset;
   if (requests.reset || requests.restart) odometry_.reset();
   if (requests.reset) base_odometry_.reset();
-  if (last_stamp_ns_ && stamp_ns < *last_stamp_ns_) {  // a looping bag, or a restarted simulation
-    restart(describeJump(*last_stamp_ns_, stamp_ns),
+  if (last_ && pair.time_ns() < last_->time_ns()) {  // a looping bag, or a restarted simulation
+    restart(describeJump(last_->stamp_ns, pair.stamp_ns),
             "pose_after_time_jump",
             parameters_.pose_after_time_jump);
+    // The stamps do not say how long the base moved unseen.
+    const std::chrono::duration<double> passed = in.arrival - last_arrival_;
+    if (base_odometry_) base_odometry_->addTimeUnseen(passed.count());
     starts_trajectory = true;
   }
   const auto lost_since_ns = base_odometry_ ? base_odometry_->lost_since_ns() : std::nullopt;
-  const double lost_s = lost_since_ns ? toSeconds(stamp_ns - *lost_since_ns) : 0.0;
+  const double lost_s = lost_since_ns ? toSeconds(pair.time_ns() - *lost_since_ns) : 0.0;
   const double limit_s = parameters_.reset_after_lost_s;
   if (lost_since_ns && limit_s > 0.0 && lost_s >= limit_s) {
     const bool keep =
@@ -135,7 +161,7 @@ bool PairProcessor::restart(const std::string& why,
 
 /// Whether another sensor sees that the base has moved since the last pair.
 bool PairProcessor::moves(const PairInput& in) const {
-  const double passed_s = toSeconds(in.pair.stamp_ns - *last_stamp_ns_);
+  const double passed_s = toSeconds(in.pair.time_ns() - last_->time_ns());
   const auto turns = [&](const Eigen::Matrix3d& R) {
     return logRotation(R).norm() > kRest_rps * passed_s;
   };
@@ -143,7 +169,7 @@ bool PairProcessor::moves(const PairInput& in) const {
     return T->translation().norm() > kRest_mps * passed_s || turns(T->linear());
   }
   const auto R =
-      in.measured_rotation ? in.measured_rotation(*last_stamp_ns_, in.pair.stamp_ns) : std::nullopt;
+      in.measured_rotation ? in.measured_rotation(last_->stamp_ns, in.pair.stamp_ns) : std::nullopt;
   return R && turns(*R);
 }
 

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "input/log.h"
 #include "input/stereo_intake.h"
@@ -18,7 +21,8 @@ namespace rotrocc {
 
 /// A pair with all that is known of it.
 struct PairInput {
-  StereoPair pair;  ///< grey and rectified
+  StereoPair pair;                                ///< grey and rectified
+  std::chrono::steady_clock::time_point arrival;  ///< of the pair
   StereoCamera camera;
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();  ///< at the stamp of the pair
   /// The motion of the base since the pair before by another odometry, if any. It predicts the
@@ -30,12 +34,14 @@ struct PairInput {
   std::function<std::optional<Eigen::Vector3d>()> up = {};
   /// Whether the time is simulated: only cameras without noise have the same image twice at rest.
   bool is_simulated = false;
+  std::vector<std::shared_ptr<const ReceivedPair>> before = {};  ///< see ReceivedPair
 };
 
 /// Result of a pair.
 struct PairAnswer {
   OdometryResult result;
   BaseState state;
+  std::string mount_problem;       ///< see BaseOdometry::planarProblem()
   bool starts_trajectory = false;  ///< a new trajectory: after a reset, a time jump or a long loss
 };
 
@@ -60,9 +66,7 @@ class PairProcessor {
 
   /// The suspected camera fault after each pair, in one sentence; empty if none. Apart from
   /// process(), so that the odometry need not wait for it.
-  std::string inspect(const PairInput& in, const OdometryResult& result) {
-    return inspector_.inspect(in.pair, in.camera, result, converter_.significantBits());
-  }
+  std::string inspect(const PairInput& in, const OdometryResult& result);
   /// Waits until the next call of inspect() knows all that the last one has begun to look for.
   void finishInspection() const { inspector_.finish(); }
 
@@ -101,7 +105,7 @@ class PairProcessor {
   void request(const Requests& requests);
   bool isLevelled() const;
   void begin(const PairInput& in);
-  bool restartIfNeeded(const Requests& requests, std::int64_t stamp_ns);
+  bool restartIfNeeded(const Requests& requests, const PairInput& in);
   bool restart(const std::string& why, const std::string& parameter, const std::string& pose);
   bool moves(const PairInput& in) const;
 
@@ -112,7 +116,9 @@ class PairProcessor {
   VisualOdometry odometry_;
   PairInspector inspector_;
   std::optional<BaseOdometry> base_odometry_;  // from the first pair on
-  std::optional<std::int64_t> last_stamp_ns_;
+  bool told_mount_ = false;
+  std::optional<StereoPair> last_;  // without its images
+  std::chrono::steady_clock::time_point last_arrival_;
 
   Requests taken_;  // for the next pair
 

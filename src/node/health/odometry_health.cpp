@@ -165,7 +165,11 @@ HealthReport OdometryHealth::addPair(const PairReport& pair,
   known_.reason = pair.result.reason;
   ++known_.pairs_processed;
   known_.pairs_lost += pair.result.state == State::kLost ? 1 : 0;
-  if (pair.result.hasMotion()) known_.rig_fault = rig_fault_.observe(faultOfRig(pair.result), now);
+  if (pair.result.hasMotion()) {
+    // What a camera fault does to disparities and rows is none of the rig.
+    const std::string fault = pair.camera_fault.empty() ? faultOfRig(pair.result) : "";
+    known_.rig_fault = rig_fault_.observe(fault, now);
+  }
   known_.drops = drops.counts();
   answers_.add(now);
   latencies_ms_.push_back(pair.status.latency_ms);

@@ -10,6 +10,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "features/correspondence_finder.h"
 #include "features/image_noise.h"
 #include "input/to_text.h"
 
@@ -21,6 +22,9 @@ constexpr double kFewShare = 0.2;  // of the corners that have a disparity
 /// Row offsets tried on images that do not match; matches must exceed chance.
 constexpr int kOffsets_px[] = {2, 4, 7, 12, 20};
 constexpr double kClearlyMore = 2.0;
+/// Pairs that show whether one side is late, and how many more features agree if it is.
+constexpr std::size_t kForLateness = 3;
+constexpr double kClearlyMoreAgree = 1.5;
 /// Ratio of contrasts that causes a hint: one stop. On real clips, right images with half of their
 /// contrast cost nothing.
 constexpr double kApart = 2.0;
@@ -65,50 +69,101 @@ class MatchCounter {
   std::vector<float> disparities_;
 };
 
-/// Why a pair has no motion, as far as its images tell; empty if they do not.
-std::string explainLoss(const cv::Mat& left,
-                        const cv::Mat& right,
-                        MatchCounter& matches,
+/// How many features agree on the motion from a pair to the next; none if it is to be without doubt
+/// and is not.
+std::size_t agreeing(OdometryConfig config,
+                     const StereoCamera& camera,
+                     const StereoPair& earlier,
+                     const StereoPair& later,
+                     bool without_doubt) {
+  config.threads = 1;
+  VisualOdometry odometry(config);
+  odometry.process(earlier, camera);
+  const OdometryResult result = odometry.process(later, camera);
+  if (without_doubt && result.state != State::kOk) return 0;
+  const FeatureSet& inliers = odometry.translationInliers();
+  return static_cast<std::size_t>(std::count(inliers.begin(), inliers.end(), 1));
+}
+
+/// Which side shows what the other one has shown in the pair before; empty if none.
+std::string whichIsLate(const std::vector<StereoPair>& pairs,
+                        const OdometryConfig& config,
+                        const StereoCamera& camera) {
+  if (pairs.size() < kForLateness) return "";
+  const StereoPair &first = pairs[0], &second = pairs[1], &third = pairs[2];
+  const auto direct = static_cast<double>(agreeing(config, camera, second, third, false));
+  const auto fits = [&](const StereoPair& earlier, const StereoPair& later) {
+    return static_cast<double>(agreeing(config, camera, earlier, later, true)) >
+           kClearlyMoreAgree * direct;
+  };
+  const auto paired = [](const StereoPair& left, const StereoPair& right) {
+    return StereoPair{left.stamp_ns, left.left, right.right, left.left_mask, right.right_mask};
+  };
+  if (fits(paired(first, second), paired(second, third))) return "right";
+  return fits(paired(second, first), paired(third, second)) ? "left" : "";
+}
+
+/// Why the last of some pairs has no motion, as far as the images tell; empty if they do not.
+Explanation explainLoss(const std::vector<StereoPair>& pairs,
+                        const OdometryConfig& config,
+                        const StereoCamera& camera,
                         bool rectifies,
-                        int significant_bits) {
+                        const GreyRange& range) {
+  const cv::Mat &left = pairs.back().left, &right = pairs.back().right;
+  MatchCounter matches(config.correspondence_finder, camera);
   const int direct = matches.count(left, right);
   if (matches.corners() < kFewCorners || isNoise(left)) {
-    return "the left image has hardly any corners, its mean grey level is " +
-           toText(cvRound(cv::mean(left)[0])) + " of 255" +
-           (significant_bits == 8
-                ? ""
-                : ", where 255 is " + toText((1 << significant_bits) - 1) +
-                      " of the 16-bit image: set significant_bits if it should be another value") +
-           ": is it dark, overexposed or out of focus, or the lens covered?";
+    return {"the left image has hardly any corners, its mean grey level is " +
+            toText(cvRound(cv::mean(left)[0])) + " of 255" +
+            (range.white() == 255
+                 ? ""
+                 : ", where 0 is " + toText(range.black) + " and 255 is " + toText(range.white()) +
+                       " of the 16-bit image: set significant_bits if that is wrong") +
+            ": is it dark, overexposed or out of focus, or the lens covered?"};
   }
   if (cv::norm(left, right, cv::NORM_INF) == 0.0) {
-    return "left and right image are identical: are both topics from the same camera?";
+    return {"left and right image are identical: are both topics from the same camera?", true};
+  }
+  if (const std::string side = whichIsLate(pairs, config, camera); !side.empty()) {
+    return {
+        "the " + side + " images are one frame late: they match the " +
+            (side == "right" ? "left" : "right") +
+            " ones of the pair before; look for a queue in the driver, or for a trigger that one "
+            "camera misses",
+        true};
   }
   const bool few = direct < kFewShare * matches.corners();
   const double clearly_more = kClearlyMore * std::max(direct, kFewCorners);
   if (matches.count(right, left, true) > clearly_more) {
-    return "the images match if left and right are swapped: swap their topics";
+    return {"the images match if left and right are swapped: swap their topics", true};
   }
   for (const int offset : kOffsets_px) {
     for (const int rows : {offset, -offset}) {
       if (matches.count(left, shifted(right, rows)) < clearly_more) continue;
-      return "the images match if the right one is shifted by about " + toText(rows) + " rows: " +
-             (rectifies ? "K, D, R or P of camera_info are wrong; recalibrate"
-                        : "they are not rectified; remap to rectified images, set the parameter "
-                          "rectify for raw ones, or recalibrate");
+      return {"the images match if the right one is shifted by about " + toText(rows) + " rows: " +
+              (rectifies ? "K, D, R or P of camera_info are wrong; recalibrate"
+                         : "they are not rectified; remap to rectified images, set the parameter "
+                           "rectify for raw ones, or recalibrate")};
     }
   }
-  if (!few) return "";
-  return "hardly any corner matches in the right image: are the images rectified and synchronized, "
-         "and is nearest_baselines small enough for near objects?";
+  if (!few) return {};
+  return {
+      "hardly any corner matches in the right image: are the images rectified and synchronized, "
+      "and is nearest_baselines small enough for near objects?"};
 }
 
 }  // namespace
 
-PairInspector::PairInspector(const CorrespondenceFinder::Config& config, bool rectifies)
+StereoPair copyOf(StereoPair pair) {
+  pair.left = pair.left.clone();
+  pair.right = pair.right.clone();
+  return pair;
+}
+
+PairInspector::PairInspector(const OdometryConfig& config, bool rectifies)
     : rectifies_(rectifies), config_(config) {}
 
-void PairInspector::configure(const CorrespondenceFinder::Config& config) {
+void PairInspector::configure(const OdometryConfig& config) {
   config_ = config;
   forgetLoss();
 }
@@ -116,7 +171,8 @@ void PairInspector::configure(const CorrespondenceFinder::Config& config) {
 std::string PairInspector::inspect(const StereoPair& pair,
                                    const StereoCamera& camera,
                                    const OdometryResult& result,
-                                   int significant_bits) {
+                                   const GreyRange& range,
+                                   const PairsBefore& before) {
   const std::string fault = compareExposures(result);
   // Of a pair that was not tried the odometry knows why.
   if (result.state == State::kInitialising || result.counts.tries == 0) return fault;
@@ -129,41 +185,45 @@ std::string PairInspector::inspect(const StereoPair& pair,
   }
   ++doubtful_;
   try {
-    explain(pair, camera, significant_bits);
+    explain(pair, camera, range, before);
   } catch (const std::exception&) {
     return fault;  // no memory, or no thread
   }
-  return explanation_.empty() ? fault : explanation_;
+  return explanation_.text.empty() ? fault : explanation_.text;
 }
 
 /// Takes over the explanation if there is a new one, and looks for the next one if it is time.
 /// Throws std::exception if it cannot be looked for.
 void PairInspector::explain(const StereoPair& pair,
                             const StereoCamera& camera,
-                            int significant_bits) {
+                            const GreyRange& range,
+                            const PairsBefore& before) {
   if (search_.valid()) {
     if (search_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-    const std::string found = search_.get();
+    const Explanation found = search_.get();
     if (search_is_of_this_loss_) explanation_ = found;
   }
   if (doubtful_ < explain_at_) return;
   explain_at_ = 2 * doubtful_;
   search_is_of_this_loss_ = true;
-  search_ = std::async(std::launch::async,
-                       [left = pair.left.clone(),
-                        right = pair.right.clone(),
-                        matches = MatchCounter(config_, camera),
-                        rectifies = rectifies_,
-                        significant_bits]() mutable {
-                         pthread_setname_np(pthread_self(), "odometry_hint");
-                         return explainLoss(left, right, matches, rectifies, significant_bits);
-                       });
+  std::vector<StereoPair> pairs;
+  try {
+    if (before) pairs = before();
+  } catch (const std::exception&) {  // one of them is damaged: lateness is not told
+  }
+  pairs.push_back(copyOf(pair));
+  search_ = std::async(
+      std::launch::async,
+      [pairs = std::move(pairs), config = config_, camera, rectifies = rectifies_, range] {
+        pthread_setname_np(pthread_self(), "odometry_hint");
+        return explainLoss(pairs, config, camera, rectifies, range);
+      });
 }
 
 void PairInspector::forgetLoss() {
   doubtful_ = 0;
   explain_at_ = kPatience;
-  explanation_.clear();
+  explanation_ = {};
   search_is_of_this_loss_ = false;
 }
 

@@ -1,20 +1,32 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <future>
 #include <string>
+#include <vector>
 
 #include <opencv2/core.hpp>
 
-#include "features/correspondence_finder.h"
+#include "input/stereo_pair_converter.h"
 #include "node/health/sliding_quantiles.h"
 #include "rotrocc/visual_odometry.h"
 
 namespace rotrocc {
 
-/// Detects camera faults: a dark camera, swapped cameras, images that are not rectified,
-/// or exposures that differ or move against each other so much that one of the images is likely to
-/// be dark or saturated. What may cause a loss is looked for in a thread of its own.
+/// A pair with pixels of its own.
+StereoPair copyOf(StereoPair pair);
+
+/// Why a motion is lost or in doubt, in one sentence with a remedy; empty if it is not known.
+struct Explanation {
+  std::string text;
+  bool is_of_no_pair = false;
+};
+
+/// Detects camera faults: a dark camera, swapped cameras, images that are not rectified, one side
+/// that is a frame late, or exposures that differ or move against each other so much that one of
+/// the images is likely to be dark or saturated. What may cause a loss is looked for in a thread of
+/// its own.
 class PairInspector {
  public:
   /// How many more suspicious pairs than good ones cause a hint. While they last, their cause is
@@ -25,28 +37,39 @@ class PairInspector {
   static constexpr std::size_t kMinExposures = 10;
 
   /// `rectifies`: whether the images are rectified here, so that their calibration is to blame.
-  explicit PairInspector(const CorrespondenceFinder::Config& config, bool rectifies = false);
+  explicit PairInspector(const OdometryConfig& config, bool rectifies = false);
 
   /// Uses another configuration from the next pair on, and forgets what was found with this one.
-  void configure(const CorrespondenceFinder::Config& config);
+  void configure(const OdometryConfig& config);
 
-  /// The suspected fault and a remedy, in one sentence; empty if none. `significant_bits`: those of
-  /// 16-bit images that grey levels were taken from, or 8.
+  /// Copies of the last two pairs that were received before, the earlier one first.
+  using PairsBefore = std::function<std::vector<StereoPair>()>;
+
+  /// The suspected fault and a remedy, in one sentence; empty if none. `range`: that of 16-bit
+  /// images. `before` is called if it is needed.
   std::string inspect(const StereoPair& pair,
                       const StereoCamera& camera,
                       const OdometryResult& result,
-                      int significant_bits = 8);
+                      const GreyRange& range = {},
+                      const PairsBefore& before = {});
+
+  /// Whether the last explanation of a loss is that left and right images are not a pair:
+  /// exchanged, of one camera, or of different times. Then they tell nothing about the rig.
+  bool isOfNoPair() const { return explanation_.is_of_no_pair; }
 
   /// Waits until what was looked for is known to the next inspect().
   void finish() const;
 
  private:
   std::string compareExposures(const OdometryResult& result);
-  void explain(const StereoPair& pair, const StereoCamera& camera, int significant_bits);
+  void explain(const StereoPair& pair,
+               const StereoCamera& camera,
+               const GreyRange& range,
+               const PairsBefore& before);
   void forgetLoss();
 
   bool rectifies_;
-  CorrespondenceFinder::Config config_;
+  OdometryConfig config_;
 
   Latest gains_{kExposures};
 
@@ -54,8 +77,8 @@ class PairInspector {
   // explanation is looked for; the last one, kept until none is left.
   int doubtful_ = 0;
   int explain_at_ = kPatience;
-  std::string explanation_;
-  std::future<std::string> search_;
+  Explanation explanation_;
+  std::future<Explanation> search_;
   bool search_is_of_this_loss_ = false;
 };
 

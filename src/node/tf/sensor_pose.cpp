@@ -30,6 +30,25 @@ constexpr int kInTime = 50;
 /// Transforms for each pair of images: a rate that is equal may be measured as less.
 constexpr double kSeldom = 0.9;
 
+bool differs(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+  const Eigen::Isometry3d motion = a.inverse() * b;
+  return motion.translation().norm() > kRest_m ||
+         Eigen::AngleAxisd(motion.linear()).angle() > kRest_rad;
+}
+
+/// "20 deg down", where `positive` and `negative` name the sides; empty for less than half a
+/// degree.
+std::string nameAngle(double angle_rad, const char* positive, const char* negative) {
+  const long angle_deg = std::lround(angle_rad / kDegree);
+  if (angle_deg == 0) return "";
+  if (std::abs(angle_deg) == 180) return "180 deg";
+  return toText(std::abs(angle_deg)) + " deg " + (angle_deg > 0 ? positive : negative);
+}
+
+std::string listed(const std::string& a, const std::string& b) {
+  return a + (a.empty() || b.empty() ? "" : " and ") + b;
+}
+
 /// The axis of the base closest to a direction.
 std::string nameDirection(const Eigen::Vector3d& direction) {
   static const char* const kNames[3][2] = {
@@ -38,8 +57,16 @@ std::string nameDirection(const Eigen::Vector3d& direction) {
   const double cosine = direction.cwiseAbs().maxCoeff(&axis);
   std::ostringstream text;
   text << kNames[axis][direction[axis] < 0.0 ? 1 : 0];
-  const double off_deg = std::acos(std::min(cosine, 1.0)) / kDegree;
-  if (off_deg > 0.5) text << ", " << std::lround(off_deg) << " deg off";
+  const double off_rad = std::acos(std::min(cosine, 1.0));
+  std::string off = nameAngle(off_rad, "off", "");
+  if (axis < 2) {
+    const double side =
+        direction[1 - axis] * (axis == 0 ? 1.0 : -1.0) * (direction[axis] < 0.0 ? -1.0 : 1.0);
+    off = listed(
+        nameAngle(std::asin(std::clamp(direction.z(), -1.0, 1.0)), "up", "down"),
+        nameAngle(std::atan2(side, std::abs(direction[axis])), "to the left", "to the right"));
+  }
+  if (!off.empty()) text << ", " << off;
   return text.str();
 }
 
@@ -75,7 +102,10 @@ std::optional<Eigen::Isometry3d> SensorPose::find(const std::string& frame,
                                                   std::int64_t stamp_ns,
                                                   const WaitFor& wait) {
   if (frame != frame_) lookFor(frame);
-  if (fixed_) return T_base_sensor_;
+  if (fixed_) {
+    watchFixed();
+    return T_base_sensor_;
+  }
   std::optional<Eigen::Isometry3d> T_base_sensor;
   try {
     T_base_sensor = lookUp(toRosTime(stamp_ns), wait);
@@ -158,10 +188,23 @@ geometry_msgs::TransformStamped SensorPose::transformAt(const ros::Time& stamp) 
 
 void SensorPose::watchMovement(const Eigen::Isometry3d& T_base_sensor) {
   if (!T_base_sensor_ || moves_) return;
-  const Eigen::Isometry3d motion = T_base_sensor_first_.inverse() * T_base_sensor;
-  moves_ = motion.translation().norm() > kRest_m ||
-           Eigen::AngleAxisd(motion.linear()).angle() > kRest_rad;
+  moves_ = differs(T_base_sensor_first_, T_base_sensor);
   if (moves_ && log_) log_->info("camera " + frame_ + " moves on " + base_frame_);
+}
+
+/// Whether /tf_static still says what it said.
+void SensorPose::watchFixed() {
+  if (frame_ == base_frame_) return;
+  try {
+    const Eigen::Isometry3d T_newest = toEigen(transformAt(ros::Time()).transform);
+    if (!differs(*T_base_sensor_, T_newest)) return problem_.clear();
+    if (!problem_.empty()) return;
+    problem_ = "another static tf of camera " + frame_ + " has come, which is not used yet (" +
+               describeCameraPose(T_newest) + "): call reset to use it";
+    if (log_) log_->warn(problem_);
+  } catch (const std::exception&) {
+    return;  // it stays what it was
+  }
 }
 
 /// The first one in a frame.
@@ -223,6 +266,10 @@ std::string describeCameraPose(const Eigen::Isometry3d& T_base_camera) {
        << position.z() << " m, looks along " << nameDirection(view);
   if (std::abs(view.z()) < std::cos(kUpright)) {
     text << ", its image is " << (image_up.z() > std::cos(kUpright) ? "upright" : "not upright");
+    const Eigen::Vector3d image_right = T_base_camera.linear().col(0);
+    const std::string roll =
+        nameAngle(std::atan2(image_right.z(), image_up.z()), "counterclockwise", "clockwise");
+    if (!roll.empty()) text << ", the camera rolled by " << roll;
   } else if (view.z() > 0.0) {
     text << "; is its frame an optical frame, with z forward?";
   }

@@ -17,10 +17,11 @@ namespace rotrocc {
 
 /// Pose of a sensor on the robot, from tf.
 ///
-/// A pose from /tf_static alone is fixed: it is looked up once, as a change would look like a
-/// motion of the sensor. Others are looked up at each stamp, and late transforms are waited for. If
-/// one does not come in time, a sensor that has not moved so far is assumed at rest, and no longer
-/// waited for until it moves; the pose of one that moves is unknown then.
+/// A pose from /tf_static alone is fixed: the first one is kept, as a change would look like a
+/// motion of the sensor; another one is a problem until refresh(). Others are looked up at each
+/// stamp, and late transforms are waited for. If one does not come in time, a sensor that has not
+/// moved so far is assumed at rest, and no longer waited for until it moves; the pose of one that
+/// moves is unknown then.
 class SensorPose {
  public:
   /// Waits at most `timeout_s` for a transform at a stamp. Without a log, it is silent.
@@ -42,8 +43,9 @@ class SensorPose {
   /// The transform that tf does not have, in one sentence; empty if it does.
   const std::string& missing() const { return missing_; }
 
-  /// That transforms of a sensor that moves recently did not come in time, or so late that newer
-  /// images came, in one sentence with the rate of tf and a remedy; empty if they did.
+  /// In one sentence with a remedy; empty if there is none: that transforms of a sensor that moves
+  /// recently did not come in time, or so late that newer images came, with the rate of tf; or that
+  /// /tf_static has another pose than the first one.
   const std::string& problem() const { return problem_; }
 
  private:
@@ -51,6 +53,7 @@ class SensorPose {
   std::optional<Eigen::Isometry3d> lookUp(const ros::Time& stamp, const WaitFor& wait);
   geometry_msgs::TransformStamped transformAt(const ros::Time& stamp) const;
   void watchMovement(const Eigen::Isometry3d& T_base_sensor);
+  void watchFixed();
   void logPose(const Eigen::Isometry3d& T_base_sensor);
   std::string describeLate(bool comes) const;
   std::optional<double> rate_hz() const;
