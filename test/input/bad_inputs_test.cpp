@@ -206,6 +206,18 @@ std::string frozenCamera() {
       12);
 }
 
+/// Each right image is that of the pair before.
+std::string lateImages() {
+  std::optional<Image> previous;
+  return badImages(
+      [&](Image&, Image& right) {
+        const Image current = right;
+        if (previous) right.data = previous->data;
+        previous = current;
+      },
+      12);
+}
+
 std::string halfImage() {
   const std::string observed = badLeft([](Image& image) {
     std::fill(image.data.begin() + image.data.size() / 2, image.data.end(), 128);
@@ -375,6 +387,7 @@ std::vector<Row> rows() {
      {withoutChance(badImages(
          [](Image& left, Image& right) { std::swap(left.data, right.data); }, 12))}},
     {"frozen camera", "lost", {frozenCamera()}},
+    {"right images one frame late", "lost or degraded with a hint", {withoutChance(lateImages())}},
     {"the lower half of an image is missing, as after a corrupted JPEG", "continues",
      {halfImage()}},
     {"images that are not rectified", "lost or degraded with a hint",

@@ -10,6 +10,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "common/median.h"
 #include "features/correspondence_finder.h"
 #include "features/image_noise.h"
 #include "input/to_text.h"
@@ -69,8 +70,21 @@ class MatchCounter {
   std::vector<float> disparities_;
 };
 
+/// Whether the features that agree with the last motion stand still in the image.
+bool standsStill(const VisualOdometry& odometry, double flow_noise_px) {
+  constexpr double kOverNoise = 3.0;
+  const Correspondences& features = odometry.correspondences();
+  const FeatureSet& inliers = odometry.translationInliers();
+  std::vector<double> flows_px;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (inliers[i] == 0) continue;
+    flows_px.push_back((features[i].cur_px - features[i].keyframe_px).norm());
+  }
+  return flows_px.empty() || median(flows_px) < kOverNoise * flow_noise_px;
+}
+
 /// How many features agree on the motion from a pair to the next; none if it is to be without doubt
-/// and is not.
+/// and is not, or none: what stands still, as a part of the robot, is of any moment.
 std::size_t agreeing(OdometryConfig config,
                      const StereoCamera& camera,
                      const StereoPair& earlier,
@@ -80,8 +94,9 @@ std::size_t agreeing(OdometryConfig config,
   VisualOdometry odometry(config);
   odometry.process(earlier, camera);
   const OdometryResult result = odometry.process(later, camera);
-  if (without_doubt && result.state != State::kOk) return 0;
   const FeatureSet& inliers = odometry.translationInliers();
+  if (without_doubt && (result.state != State::kOk || standsStill(odometry, result.flow_noise_px)))
+    return 0;
   return static_cast<std::size_t>(std::count(inliers.begin(), inliers.end(), 1));
 }
 
@@ -91,10 +106,11 @@ std::string whichIsLate(const std::vector<StereoPair>& pairs,
                         const StereoCamera& camera) {
   if (pairs.size() < kForLateness) return "";
   const StereoPair &first = pairs[0], &second = pairs[1], &third = pairs[2];
-  const auto direct = static_cast<double>(agreeing(config, camera, second, third, false));
   const auto fits = [&](const StereoPair& earlier, const StereoPair& later) {
-    return static_cast<double>(agreeing(config, camera, earlier, later, true)) >
-           kClearlyMoreAgree * direct;
+    const auto late = static_cast<double>(agreeing(config, camera, earlier, later, true));
+    if (late == 0.0) return false;
+    return late >
+           kClearlyMoreAgree * static_cast<double>(agreeing(config, camera, second, third, false));
   };
   const auto paired = [](const StereoPair& left, const StereoPair& right) {
     return StereoPair{left.stamp_ns, left.left, right.right, left.left_mask, right.right_mask};
@@ -124,6 +140,11 @@ Explanation explainLoss(const std::vector<StereoPair>& pairs,
   if (cv::norm(left, right, cv::NORM_INF) == 0.0) {
     return {"left and right image are identical: are both topics from the same camera?", true};
   }
+  const bool few = direct < kFewShare * matches.corners();
+  const double clearly_more = kClearlyMore * std::max(direct, kFewCorners);
+  if (matches.count(right, left, true) > clearly_more) {
+    return {"the images match if left and right are swapped: swap their topics", true};
+  }
   if (const std::string side = whichIsLate(pairs, config, camera); !side.empty()) {
     return {
         "the " + side + " images are one frame late: they match the " +
@@ -131,11 +152,6 @@ Explanation explainLoss(const std::vector<StereoPair>& pairs,
             " ones of the pair before; look for a queue in the driver, or for a trigger that one "
             "camera misses",
         true};
-  }
-  const bool few = direct < kFewShare * matches.corners();
-  const double clearly_more = kClearlyMore * std::max(direct, kFewCorners);
-  if (matches.count(right, left, true) > clearly_more) {
-    return {"the images match if left and right are swapped: swap their topics", true};
   }
   for (const int offset : kOffsets_px) {
     for (const int rows : {offset, -offset}) {
