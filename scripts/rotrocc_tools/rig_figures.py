@@ -102,20 +102,3 @@ def mask(left_png, mask_png, path):
     panel.axis('off')
     figure.subplots_adjust(0, 0, 1, 1)
     save(figure, path)
-
-
-def stretches(table, path):
-    """Differences of each stretch, and what the covariance promises."""
-    figure, panel = pyplot.subplots(figsize=(WIDTH_IN, 2.6))
-    dress(panel)
-    at = numpy.arange(len(table['time_s']))
-    panel.bar(at, table['sigma_m'], width=0.86, color='#E4E7EA', label='one standard deviation of the covariance')
-    panel.bar(at - 0.17, table['backward_m'], width=0.3, color=BLUE, label='backward against forward')
-    panel.bar(at + 0.17, table['mirrored_m'], width=0.3, color=ORANGE, label='mirrored against straight')
-    panel.set_xticks(at)
-    panel.set_xticklabels(['%.0f s\n%.0f m' % cells for cells in zip(table['time_s'], table['path_m'])])
-    panel.set_ylabel('difference [m]')
-    panel.grid(axis='x', visible=False)
-    legend(panel, loc='lower left', bbox_to_anchor=(0.0, 1.0), ncol=3)
-    figure.tight_layout()
-    save(figure, path)

@@ -99,7 +99,8 @@ class RigPage:
         good = [[cells_of(finding)] for finding in listed if finding['verdict'] == 'good']
         note = 'The most severe first.' if bad else 'Nothing is to be done.'
         table = page.table(['section', 'property', 'measured'], good)
-        return page.section('Findings', note, *bad, page.details('%d properties are good' % len(good), table))
+        return page.section('Findings', note, *bad, page.details('%d properties are good' % len(good), table),
+                            '<p>%s</p>' % page.text(self.content['not_seen']))
 
     def corrected(self):
         if 'corrected' not in self.content:
@@ -113,9 +114,21 @@ class RigPage:
             rows.append(['%s</td><td class="words">%s<br>%s</td><td class="words">%s<br>%s' % (
                 page.text(before['subject']), badge(before['verdict']), words_of(before['measured']),
                 badge(finding['verdict']), words_of(finding['measured']))])
-        return page.section('With the corrected calibration', 'The same recording, checked by the files that were '
-                            'written. What both cameras have in common, as a wrong baseline, is not seen.',
-                            page.table(['', 'before', 'after'], rows))
+        return page.section('With the corrected calibration', 'The same recording, checked with the files that were '
+                            'written. ' + self.worse_rows(), page.table(['', 'before', 'after'], rows))
+
+    def worse_rows(self):
+        """Where the corrected calibration leaves larger row differences, as text; empty if nowhere."""
+        if not self.has('rows_map') or not self.has('rows_map_corrected'):
+            return ''
+        columns = 'x_px', 'y_px', 'row_px', 'sigma_px'
+        before, after = ({cell[:2]: cell[2:] for cell in zip(*(self.tables[name][column] for column in columns))}
+                         for name in ('rows_map', 'rows_map_corrected'))
+        common = before.keys() & after.keys()
+        worse = [cell for cell in common
+                 if abs(after[cell][0]) - abs(before[cell][0]) > 3.0 * numpy.hypot(before[cell][1], after[cell][1])]
+        return ('In %d of %d parts of the image, rows differ more with it: see the map of rows.'
+                % (len(worse), len(common)) if worse else '')
 
     def inputs(self):
         if not self.has('stamps'):
@@ -213,16 +226,7 @@ class RigPage:
                             'of the rest: red is what no other part of the image has, as the robot itself. Near '
                             'features decide how well the way is known.', *shown)
 
-    def odometry(self):
-        if not self.has('stretches'):
-            return ''
-        return page.section('Odometry', 'Stretches that were repeated backward in time, and mirrored with left and '
-                            'right exchanged. A rig without errors gives the same motion; the grey bars are what the '
-                            'covariance says of one of them.',
-                            self.picture('stretches', 'differences of repeated stretches', figures.stretches,
-                                         self.tables['stretches']))
-
     def write(self):
         page.write_page(self.folder / 'index.html', self.content['title'], page.text(self.content['summary']), STYLE,
-                        self.tiles(), self.findings(), self.corrected(), self.inputs(), self.photometry(), self.rows(),
-                        self.disparities(), self.time(), self.view(), self.odometry())
+                        '<p><b>%s</b></p>' % with_code(self.content['advice']), self.tiles(), self.findings(), self.corrected(), self.inputs(), self.photometry(), self.rows(),
+                        self.disparities(), self.time(), self.view())

@@ -26,35 +26,23 @@ void writeInfo(const sensor_msgs::CameraInfo& info,
   if (!out.flush()) throw std::runtime_error(path + " cannot be written");
 }
 
-/// Whether disparities have a bias rather than none: the odometry applies the share that is likely.
-bool isBiased(const DisparityBias& bias) {
-  return bias.applied_px / bias.estimated_px > 0.5;
+/// Whether something is to be fixed that a calibration corrects. Smaller errors are not worth it:
+/// lenses have others of that size.
+bool hasErrors(const RigModel& model) {
+  const RigCause causes[] = {kRoll, kPitch, kYaw, kFocal, kOffset, kLens, kBias};
+  return std::any_of(std::begin(causes), std::end(causes), [&](RigCause cause) {
+    return model.correctable[cause] != 0.0 && model.exceeds(1.0, cause);
+  });
 }
 
-/// Whether a calibration can make something better: rows that are not significant are zero.
-bool hasErrors(const RigMeasures& measures) {
-  const RowCauses& causes = measures.rows.causes;
-  const auto isCause = [](double value) { return value != 0.0; };
-  return std::any_of(causes.begin(), causes.begin() + kTimeSkew, isCause) ||
-         isBiased(measures.bias);
-}
-
-std::optional<std::string> whyWorse(const RigMeasures& before, const RigMeasures& after) {
-  constexpr double kWorse = 1.05;
-  // Over the way: smaller differences are those of a perfect rig.
-  constexpr double kLeastDifference = 0.004;
-  if (after.pairs_with_motion < before.pairs_with_motion) return "more pairs would be lost";
-  if (after.rows_rms_px > kWorse * before.rows_rms_px) {
-    return "rows would differ by " + fixedText(after.rows_rms_px, 2) + " px in place of " +
-           fixedText(before.rows_rms_px, 2) + " px";
-  }
-  const auto& [before_share, before_sigma] = before.replay_share;
-  const double after_share = after.replay_share.value;
-  if (before_share > 0.0 && after_share > std::max(before_share + before_sigma, kLeastDifference)) {
-    return "repeated motions would differ by " + fixedText(100.0 * after_share, 2) +
-           " m in 100 m in place of " + fixedText(100.0 * before_share, 2) + " m";
-  }
-  return std::nullopt;
+/// Whether windows that a calibration is not from say that it is better, beyond their scatter.
+/// Flows, of which motions are made, must not get worse.
+bool isBetter(const RigModel& model) {
+  constexpr double kSigmas = 3.0;
+  const Estimate &rows = model.rows_gain, &flow = model.flow_gain;
+  const double sum = rows.value + flow.value;
+  const double sigma = std::hypot(rows.sigma, flow.sigma);
+  return sum > kSigmas * sigma && flow.value >= -flow.sigma;
 }
 
 }  // namespace
@@ -62,18 +50,18 @@ std::optional<std::string> whyWorse(const RigMeasures& before, const RigMeasures
 StereoCalibration correct(const RigMeasures& measures) {
   StereoCalibration corrected = measures.calibration;
   RawCamera& right = corrected.right;
-  const RowCauses& causes = measures.rows.causes;
+  const RigCauses causes = measures.model.correctable;
   const double raw_over_rectified = right.fx / corrected.rectified.fx;
   right.R_rectified_raw = rotationOf(causes) * right.R_rectified_raw;
   right.fx *= 1.0 + causes[kFocal];
   right.fy *= 1.0 + causes[kFocal];
+  right.cx += causes[kBias] * raw_over_rectified;
   right.cy += causes[kOffset] * raw_over_rectified;
   std::vector<double> coefficients = right.distortion.coefficients();
   if (!coefficients.empty()) {
     coefficients.front() += causes[kLens];
     right.distortion = {right.distortion.name(), coefficients};
   }
-  if (isBiased(measures.bias)) right.cx += measures.bias.estimated_px * raw_over_rectified;
   return corrected;
 }
 
@@ -81,30 +69,40 @@ std::optional<CheckedRig> findCorrection(Recording& recording,
                                          const RigCheckOptions& options,
                                          const RigMeasures& before,
                                          std::string& why_not) {
-  if (before.pairs_with_motion < kLeastMotions) {
-    why_not = "fewer than " + toText(kLeastMotions) + " pairs have a motion: record a minute";
+  if (before.moving_pairs < kLeastMotions) {
+    why_not = "features have moved in fewer than " + toText(kLeastMotions) +
+              " pairs: record a minute of motion";
     return std::nullopt;
   }
-  if (!before.rows_are_constant) {
-    why_not = "rows move against each other: no calibration describes a rig that bends";
+  if (!before.is_constant) {
+    why_not = "rows or disparities move: no calibration describes a rig that bends";
     return std::nullopt;
   }
-  if (!hasErrors(before)) {
-    why_not = "rows and disparities have no error beyond their uncertainty";
+  if (!hasErrors(before.model)) {
+    why_not =
+        before.model.exceeds(1.0, kBias)
+            ? "the images do not show which of two causes it is, and a correction of the wrong "
+              "one would be no better: drive where features fill the image"
+            : "rows and disparities have no error to be fixed";
+    return std::nullopt;
+  }
+  if (!isBetter(before.model)) {
+    why_not = "it does not fit parts of the recording better that it is not from";
     return std::nullopt;
   }
   // Again by what is left over: rows first, then the disparities that they leave.
   constexpr int kMostPasses = 4;
   RigCheckOptions corrected = options;
   CheckedRig checked = {{}, before};
-  for (int pass = 0; pass < kMostPasses && hasErrors(checked.measures); ++pass) {
+  for (int pass = 0; pass < kMostPasses && hasErrors(checked.measures.model); ++pass) {
     corrected.calibration = std::make_shared<const StereoCalibration>(correct(checked.measures));
     checked = checkRig(recording, corrected);
   }
-  const auto why_worse = whyWorse(before, checked.measures);
-  if (!why_worse) return checked;
-  why_not = *why_worse;
-  return std::nullopt;
+  if (checked.measures.pairs_with_motion < before.pairs_with_motion) {
+    why_not = "more pairs would be lost";
+    return std::nullopt;
+  }
+  return checked;
 }
 
 void writeCalibration(const StereoCalibration& calibration, const std::string& directory) {

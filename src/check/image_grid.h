@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 namespace rotrocc {
 
@@ -41,5 +42,25 @@ class ImageGrid {
   int height_;
   cv::Size cells_;
 };
+
+/// The mean of each cell of an image, CV_8UC1.
+inline cv::Mat cellMeans(const cv::Mat& image, const ImageGrid& grid) {
+  cv::Mat sums, means(grid.size(), CV_32FC1);
+  cv::integral(image, sums, CV_32S);
+  const auto edge = [](int index, int cells, int pixels) { return index * pixels / cells; };
+  for (int row = 0; row < means.rows; ++row) {
+    const int top = edge(row, means.rows, image.rows);
+    const int bottom = std::max(edge(row + 1, means.rows, image.rows), top + 1);
+    for (int column = 0; column < means.cols; ++column) {
+      const int left = edge(column, means.cols, image.cols);
+      const int right = std::max(edge(column + 1, means.cols, image.cols), left + 1);
+      const int sum = sums.at<int>(bottom, right) - sums.at<int>(top, right) -
+                      sums.at<int>(bottom, left) + sums.at<int>(top, left);
+      means.at<float>(row, column) =
+          static_cast<float>(sum) / static_cast<float>((bottom - top) * (right - left));
+    }
+  }
+  return means;
+}
 
 }  // namespace rotrocc

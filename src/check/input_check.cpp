@@ -20,11 +20,15 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double kGapPeriods = 1.5;
 
-std::string listOf(const std::map<std::string, int>& counts) {
+/// Limits of the time between left and right, in periods.
+constexpr double kAcceptablePeriods = 0.05;
+constexpr double kFixPeriods = 0.25;
+
+std::string listOf(const std::map<std::string, int>& counts, bool with_counts = true) {
   std::string text;
   for (const auto& [name, count] : counts) {
     text += (text.empty() ? "" : ", ") + name +
-            (counts.size() > 1 ? " (" + std::to_string(count) + ")" : "");
+            (with_counts && counts.size() > 1 ? " (" + std::to_string(count) + ")" : "");
   }
   return text;
 }
@@ -49,9 +53,6 @@ void InputCheck::report(const StereoCamera& camera,
                         bool rectifies,
                         RigReport& report) const {
   addCamera(camera, rectifies, report);
-  addFormats(report);
-  addRates(report);
-  addStamps(report);
   if (!left_out.empty()) {
     report.findings.push_back({"inputs",
                                "left out",
@@ -61,6 +62,12 @@ void InputCheck::report(const StereoCamera& camera,
                                Verdict::kAcceptable,
                                0.5});
   }
+}
+
+void InputCheck::reportStreams(double max_apart_s, RigReport& report) const {
+  addFormats(report);
+  addRates(report);
+  addStamps(max_apart_s, report);
 }
 
 void InputCheck::addCamera(const StereoCamera& camera, bool rectifies, RigReport& report) const {
@@ -80,8 +87,8 @@ void InputCheck::addCamera(const StereoCamera& camera, bool rectifies, RigReport
 
 void InputCheck::addFormats(RigReport& report) const {
   if (left_.sizes.empty() || right_.sizes.empty()) return;
-  const bool differs =
-      left_.encodings != right_.encodings || left_.sizes.size() > 1 || left_.encodings.size() > 1;
+  const bool differs = listOf(left_.encodings, false) != listOf(right_.encodings, false) ||
+                       left_.sizes.size() > 1 || left_.encodings.size() > 1;
   report.findings.push_back({"inputs",
                              "images",
                              listOf(left_.encodings) + " left, " + listOf(right_.encodings) +
@@ -123,7 +130,7 @@ void InputCheck::addRates(RigReport& report) const {
   }
 }
 
-void InputCheck::addStamps(RigReport& report) const {
+void InputCheck::addStamps(double max_apart_s, RigReport& report) const {
   Stamps left_ns = left_.stamps_ns;
   Stamps right_ns = right_.stamps_ns;
   std::sort(left_ns.begin(), left_ns.end());
@@ -149,13 +156,27 @@ void InputCheck::addStamps(RigReport& report) const {
   const auto [least, most] = std::minmax_element(apart_s.begin(), apart_s.end());
   const double largest_s = std::max(std::abs(*least), std::abs(*most));
   const double typical_s = median(apart_s);
+  if (largest_s == 0.0 && !has_ages) {
+    report.findings.push_back({"inputs",
+                               "stamps of left minus right",
+                               "not recorded: both have one stamp",
+                               "",
+                               "",
+                               Verdict::kUnknown});
+    return;
+  }
   report.add(
       {"inputs",
        "stamps of left minus right",
        fixedText(1e3 * typical_s, 2) + " ms, at most " + fixedText(1e3 * largest_s, 2) + " ms",
        "images of different times are no pair: what moves has wrong depths",
-       "trigger both cameras by one signal, and take its time for both stamps"},
-      {typical_s / toSeconds(*period_ns), 0.0, 0.05, 0.25});
+       "trigger both cameras by one signal, and take its time for both stamps; if the images are "
+       "of "
+       "the same time, correct the stamps, or set `max_stamp_difference_s`"},
+      {typical_s,
+       0.0,
+       kAcceptablePeriods * toSeconds(*period_ns),
+       std::min(kFixPeriods * toSeconds(*period_ns), max_apart_s)});
   if (!has_ages) return;
   report.add(
       {"inputs",

@@ -24,6 +24,9 @@ class InputCheck {
               bool rectifies,
               RigReport& report) const;
 
+  /// What is known without a pair that can be used. `max_apart_s`: see max_stamp_difference_s.
+  void reportStreams(double max_apart_s, RigReport& report) const;
+
  private:
   struct Stream {
     Stamps stamps_ns;
@@ -32,7 +35,7 @@ class InputCheck {
   };
 
   void addRates(RigReport& report) const;
-  void addStamps(RigReport& report) const;
+  void addStamps(double max_apart_s, RigReport& report) const;
   void addFormats(RigReport& report) const;
   void addCamera(const StereoCamera& camera, bool rectifies, RigReport& report) const;
 

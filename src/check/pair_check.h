@@ -21,6 +21,10 @@ struct CheckedPair {
   const OdometryResult& result;
   const Correspondences& features;  ///< between the keyframe and this pair
   const FeatureSet& inliers;        ///< of these, those that agree with the motion
+  double flow_px;                   ///< median length of theirs; 0 if there are none
+  /// Whether features have moved since the last pair for which this was true: what stands still
+  /// shows the same again, wrong matches included.
+  bool has_moved;
 };
 
 /// A check of the pairs of a recording.
@@ -38,9 +42,18 @@ class PairCheck {
 /// photometry.
 std::unique_ptr<PairCheck> makePhotometryCheck();
 
+/// With the side, the subject of the finding that one image lacks detail.
+constexpr char kLessDetail[] = "parts with less than half of the detail, ";
+
+/// What compression or dirt take away from one image: section photometry.
+std::unique_ptr<PairCheck> makeDetailCheck();
+
 /// Compares the rotations of the cameras with those of a gyroscope: the offset between their
 /// clocks, the rotation between their axes, and the bias. Section time.
 std::unique_ptr<PairCheck> makeGyroCheck(const GyroRecording& gyroscope);
+
+/// The subject of the finding that a mask is proposed.
+constexpr char kMasked[] = "parts that stand still while the rest moves";
 
 /// What the cameras see: where there are corners, which of them have a disparity and why others do
 /// not, how far away they are, and where features never agree with the motion. Section view, and a

@@ -21,8 +21,10 @@ constexpr std::size_t kPerPair = 150;
 constexpr std::size_t kLeast = 30;
 constexpr int kPatch = 4;  // radius of the patches whose means are compared [px]
 
-/// Pairs between those whose sharpness is compared, which takes longer.
-constexpr std::size_t kSharpnessStep = 5;
+/// Of pairs: grey levels hardly differ between two that follow each other, and sharpness, which
+/// takes longer, changes slowly.
+constexpr int kStep = 2;
+constexpr std::size_t kSharpnessStep = 2;  // of these
 constexpr int kSharpnessPatch = 24;
 
 /// Matching by correlation takes any gain, but one of a quarter is another exposure time, and
@@ -99,6 +101,7 @@ Eigen::Vector3d fitLevels(const std::vector<PatchMeans>& means,
 class PhotometryCheck : public PairCheck {
  public:
   void observe(const CheckedPair& pair) override {
+    if (pairs_++ % kStep != 0) return;
     Row row;
     row.time_s = pair.time_s;
     row.left = levelsOf(pair.images.left);
@@ -207,7 +210,7 @@ class PhotometryCheck : public PairCheck {
          "contrast above its noise, and a longer exposure more motion blur",
          "give both cameras the same exposure time and gain, or couple them"},
         {std::log(gain.value), gain.sigma / gain.value, kAcceptableGain, kFixGain});
-    const double changes = gain.sigma * std::sqrt(static_cast<double>(windows.count()));
+    const double changes = gainScatter();
     report.add(
         {"photometry",
          "gain over time",
@@ -238,6 +241,19 @@ class PhotometryCheck : public PairCheck {
                 "features of fine texture are lost, and disparities get noisier",
                 "focus and clean the " + side + " lens"},
                {blur_px2.value, blur_px2.sigma, 0.4 * 0.4, 0.8 * 0.8});
+  }
+
+  /// The standard deviation of the gain over the pairs, relative, as eight of ten of them have it;
+  /// nan if unknown.
+  double gainScatter() const {
+    constexpr double kOverDeviation = 2.563;  // of normal values
+    std::vector<double> gains;
+    for (const Row& row : rows_) {
+      if (std::isfinite(row.gain)) gains.push_back(row.gain);
+    }
+    if (gains.empty()) return NAN;
+    const double range = quantile(gains, 0.9) - quantile(gains, 0.1);
+    return range / kOverDeviation / median(gains);
   }
 
   void addLevels(const Windows& windows, RigReport& report) const {
@@ -282,6 +298,7 @@ class PhotometryCheck : public PairCheck {
   }
 
   std::vector<Row> rows_;
+  int pairs_ = 0;
 };
 
 }  // namespace

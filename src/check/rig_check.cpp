@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
 #include "bags/recorded_pairs.h"
 #include "check/disparity_check.h"
 #include "check/input_check.h"
-#include "check/replay_check.h"
+#include "check/rig_sampler.h"
 #include "check/row_check.h"
+#include "common/median.h"
 #include "common/to_seconds.h"
 #include "input/camera_calibration.h"
 #include "input/input_error.h"
@@ -20,6 +22,14 @@
 namespace rotrocc {
 namespace {
 
+const char* const kCalibrateAgain =
+    "calibrate the pair again: K, D, R or P of camera_info are of another lens, or of another "
+    "model "
+    "of distortion than the lens has";
+const char* const kRectify =
+    "the images are not rectified, or by another calibration: take the topics `image_rect`, or set "
+    "`rectify` for raw ones; otherwise calibrate the pair";
+
 /// With half as many features again: a check may take longer than the odometry.
 OdometryConfig configOf(const RigCheckOptions& options) {
   OdometryConfig config = options.parameters.odometry;
@@ -28,18 +38,42 @@ OdometryConfig configOf(const RigCheckOptions& options) {
   return config;
 }
 
+/// Tells pairs whose features have moved.
+class Movement {
+ public:
+  /// `flow_px`: median of the features between the keyframe and this pair, which has a motion. A
+  /// keyframe is kept while features rest, so that noise does not add up to a way.
+  bool isNew(const OdometryResult& result, double flow_px) {
+    // In pixels of detail: matches of the same texture in the same part of a pixel have the same
+    // errors.
+    constexpr double kMoved = 2.0;
+    if (result.keyframe_stamp_ns != keyframe_stamp_ns_) {
+      keyframe_stamp_ns_ = result.keyframe_stamp_ns;
+      keyframe_at_px_ = at_px_;
+    }
+    at_px_ = keyframe_at_px_ + flow_px;
+    if (std::abs(at_px_ - taken_at_px_) < std::ldexp(kMoved, result.halvings)) return false;
+    taken_at_px_ = at_px_;
+    return true;
+  }
+
+ private:
+  // How far the features have come, also at the keyframe and at the last pair that was new.
+  double at_px_ = 0.0, keyframe_at_px_ = 0.0, taken_at_px_ = 0.0;
+  std::int64_t keyframe_stamp_ns_ = 0;
+};
+
 /// All checks of the pairs of one recording.
 class PairChecks {
  public:
   PairChecks(const OdometryConfig& config,
              const std::optional<GyroRecording>& gyroscope,
-             int pairs,
              bool rectifies)
       : odometry_(config),
+        rectifies_(rectifies),
         inspector_(config, rectifies),
-        rows_(config),
-        view_(makeViewCheck(config)),
-        replay_(config, pairs) {
+        sampler_(config),
+        view_(makeViewCheck(config)) {
     if (gyroscope) gyro_ = makeGyroCheck(*gyroscope);
   }
 
@@ -52,28 +86,32 @@ class PairChecks {
     camera_ = camera;
     with_motion_ += result.hasMotion() ? 1 : 0;
     ok_ += result.state == State::kOk ? 1 : 0;
+    if (result.hasMotion()) applied_px_ = result.disparity_bias.applied_px;
     path_m_ += result.T_prev_cur.translation().norm();
+    const double flow_px = medianFlow_px();
     const CheckedPair checked = {toSeconds(pair.stamp_ns - first_ns_),
                                  pair,
                                  camera,
                                  result,
                                  odometry_.correspondences(),
-                                 odometry_.rotationInliers()};
-    if (result.state == State::kLost) why_lost_ = result.reason;
+                                 odometry_.rotationInliers(),
+                                 flow_px,
+                                 result.hasMotion() && movement_.isNew(result, flow_px)};
+    if (result.state == State::kLost) ++lost_[result.reason];
     if (const std::string fault =
             inspector_.inspect(pair, camera, result, {}, [&] { return before_; });
         !fault.empty()) {
       fault_ = fault;
       is_of_no_pair_ = inspector_.isOfNoPair();
     }
+    countRepeated(pair);
     before_.push_back(copyOf(pair));
     if (before_.size() > 2) before_.erase(before_.begin());
     photometry_->observe(checked);
-    rows_.observe(checked);
-    disparities_.observe(checked);
+    detail_->observe(checked);
+    sampler_.observe(checked);
     view_->observe(checked);
     if (gyro_) gyro_->observe(checked);
-    replay_.observe(checked);
     keepSample(pair, result);
   }
 
@@ -86,16 +124,25 @@ class PairChecks {
                      ", focal length " + fixedText(camera_.fx, 1) + " px, baseline " +
                      fixedText(camera_.baseline_m, 3) + " m";
     addFault(report);
+    addRepeated(report);
+    addLost(report);
+    const std::vector<PairSamples>& samples = sampler_.pairs();
     if (!isMostlyLost()) {
+      rig.measures.model = fitRig(camera_, samples, windows);
+      const RigModel& model = rig.measures.model;
       photometry_->report(windows, report);
-      rows_.report(windows, disparities_.keystone_rad(), report);
-      disparities_.report(windows, report);
+      detail_->report(windows, report);
+      const RowDifferences rows = checkRows(camera_, samples, model, windows, report);
+      const bool bias_is_constant =
+          checkDisparities(camera_, samples, model, windows, applied_px_, report);
       if (gyro_) gyro_->report(windows, report);
       view_->report(windows, report);
-      replay_.report(report);
-      isExplained() ? doubt(report) : addRectification(report);
+      if (!report.mask.empty()) doubtDetail(report);
+      rig.measures.rows_rms_px = rows.rms_px;
+      rig.measures.is_constant = rows.are_constant && bias_is_constant;
+      isExplained() ? doubt(report) : addRectification(rows, model, report);
     }
-    if (with_motion_ < kLeastMotions) addTooShort(report);
+    if (samples.size() < kLeastMotions) addTooShort(report);
     report.tables.push_back({"image",
                              "width,height,fx,cx,cy",
                              {{static_cast<double>(camera_.width),
@@ -105,18 +152,25 @@ class PairChecks {
                                camera_.cy}}});
     report.left = left_;
     report.right = right_;
-    rig.measures.rows = rows_.correctable();
-    rig.measures.rows_rms_px = rows_.rms_px();
-    rig.measures.rows_are_constant = rows_.isConstant();
-    rig.measures.bias = disparities_.bias();
-    rig.measures.replay_share = replay_.share();
     rig.measures.pairs_with_motion = with_motion_;
+    rig.measures.moving_pairs = static_cast<int>(samples.size());
   }
 
   const StereoCamera& camera() const { return camera_; }
   int pairs() const { return pairs_; }
 
  private:
+  double medianFlow_px() const {
+    const Correspondences& features = odometry_.correspondences();
+    const FeatureSet& inliers = odometry_.rotationInliers();
+    std::vector<double> flows_px;
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      if (inliers[i] == 0) continue;
+      flows_px.push_back((features[i].cur_px - features[i].keyframe_px).norm());
+    }
+    return flows_px.empty() ? 0.0 : median(flows_px);
+  }
+
   bool isMostlyLost() const { return 2 * with_motion_ < pairs_; }
 
   /// Whether most motions are in doubt because the images are no pairs.
@@ -135,42 +189,105 @@ class PairChecks {
   static void doubt(RigReport& report) {
     for (Finding& finding : report.findings) {
       if (finding.section == "inputs" || finding.section == "photometry") continue;
+      if (finding.subject == kMasked) continue;
       if (finding.verdict != Verdict::kGood) finding.verdict = Verdict::kUnknown;
+    }
+  }
+
+  /// What is near and stands still is elsewhere in the other image.
+  static void doubtDetail(RigReport& report) {
+    for (Finding& finding : report.findings) {
+      const bool is_of_detail = finding.subject.find(kLessDetail) == 0;
+      if (is_of_detail && finding.verdict != Verdict::kGood) finding.verdict = Verdict::kUnknown;
     }
   }
 
   void addTooShort(RigReport& report) const {
     doubt(report);
-    report.findings.push_back(
-        {"inputs",
-         "length of the recording",
-         "motion in " + toText(with_motion_) + " of " + toText(pairs_) + " pairs",
-         "each has errors of its own, so that a rig is not known by a few",
-         "record a minute of motion, with turns",
-         Verdict::kUnknown,
-         100.0});
+    report.findings.push_back({"inputs",
+                               "length of the recording",
+                               "features have moved in " + toText(sampler_.pairs().size()) +
+                                   " of " + toText(pairs_) + " pairs",
+                               "each has errors of its own, so that a rig is not known by a few",
+                               "record a minute of motion, with turns",
+                               Verdict::kUnknown,
+                               100.0});
   }
 
-  /// Errors so large that they are not those of a calibration. What follows from them is not told.
-  void addRectification(RigReport& report) const {
-    constexpr double kMostRemainder_px = 0.35;
-    constexpr double kMostBias_px = 4.0;
-    const double bias_px = std::abs(disparities_.bias().estimated_px);
-    if (rows_.remainder_px() < kMostRemainder_px && bias_px < kMostBias_px) return;
+  /// What is left when nothing else explains the rows, or lenses that are not corrected. What
+  /// follows from them is not told.
+  void addRectification(const RowDifferences& rows,
+                        const RigModel& model,
+                        RigReport& report) const {
+    constexpr double kSigmas = 3.0;
+    const Estimate& unexplained_px = rows.unexplained_px;
+    const Estimate lenses = model.severity(kBothLenses);
+    const bool is_raw = lenses.value - kSigmas * lenses.sigma > 1.0;
+    const bool is_unexplained =
+        unexplained_px.value - kSigmas * unexplained_px.sigma > kFixRows_px &&
+        std::none_of(report.findings.begin(), report.findings.end(), [](const Finding& finding) {
+          if (finding.verdict > Verdict::kAcceptable) return false;
+          return finding.subject == kRowsOverTime || finding.subject == kMasked ||
+                 (finding.verdict == Verdict::kFix && finding.section == "photometry");
+        });
+    if (!is_raw && !is_unexplained) return;
     doubt(report);
+    const std::string measured =
+        is_raw ? "both images have radial distortion, k1 = " +
+                     toText(Estimate{model.values[kBothLenses], model.sigmas[kBothLenses]}, "")
+               : "rows differ by " + fixedText(rows.rms_px, 2) + " px (rms), of which " +
+                     toText(unexplained_px, "px") +
+                     " are of no shape that a pair of rectified cameras has";
     report.findings.push_back({"inputs",
                                "rectification",
-                               "rows differ by " + fixedText(rows_.rms_px(), 2) +
-                                   " px (rms), of which " + fixedText(rows_.remainder_px(), 2) +
-                                   " px are of no shape that a pair of rectified cameras has; "
-                                   "disparities have a bias of " +
-                                   fixedText(bias_px, 1) + " px",
+                               measured,
                                "depths and motions are wrong, however many features agree",
-                               "the images are not rectified, or by another calibration: take the "
-                               "topics `image_rect`, or set `rectify` for raw ones; otherwise "
-                               "calibrate the pair",
+                               rectifies_ ? kCalibrateAgain : kRectify,
                                Verdict::kFix,
                                100.0});
+  }
+
+  std::string commonestLoss() const {
+    const auto most =
+        std::max_element(lost_.begin(), lost_.end(), [](const auto& a, const auto& b) {
+          return a.second < b.second;
+        });
+    return most == lost_.end() ? "" : most->first;
+  }
+
+  void addLost(RigReport& report) const {
+    int lost = 0;
+    for (const auto& [reason, count] : lost_) lost += count;
+    report.add({"odometry",
+                "lost pairs",
+                toText(lost) + " of " + toText(pairs_) +
+                    (lost > 0 ? ", most often because " + commonestLoss() : ""),
+                "the way between them is missing",
+                "see the findings above; light, texture and speed of turns decide most"},
+               {static_cast<double>(lost) / pairs_, 0.0, 0.001, 0.03});
+  }
+
+  /// Whether a driver sends what it has sent before. Noise alone makes images differ.
+  void countRepeated(const StereoPair& pair) {
+    if (before_.empty()) return;
+    const auto repeats = [](const cv::Mat& image, const cv::Mat& before) {
+      return image.size() == before.size() && cv::norm(image, before, cv::NORM_INF) == 0.0;
+    };
+    repeated_left_ += repeats(pair.left, before_.back().left) ? 1 : 0;
+    repeated_right_ += repeats(pair.right, before_.back().right) ? 1 : 0;
+  }
+
+  void addRepeated(RigReport& report) const {
+    if (pairs_ < 2) return;
+    const double most = static_cast<double>(std::max(repeated_left_, repeated_right_)) / pairs_;
+    const bool both = repeated_left_ == repeated_right_;
+    report.add({"inputs",
+                "repeated images",
+                toText(repeated_left_) + " left and " + toText(repeated_right_) + " right of " +
+                    toText(pairs_) + " repeat the one before",
+                both ? "the motion stops and then jumps" : "the images are of different times",
+                "look for a driver that sends its last buffer again, or a camera that hangs"},
+               {most, 0.0, 0.0, 0.02});
   }
 
   void addFault(RigReport& report) {
@@ -182,7 +299,7 @@ class PairChecks {
       const std::string found = inspector_.inspect({last_ns_, left_, right_}, camera_, lost);
       if (!found.empty()) fault_ = found;
     }
-    if (fault_.empty() && isMostlyLost()) fault_ = why_lost_;
+    if (fault_.empty() && isMostlyLost()) fault_ = commonestLoss();
     if (fault_.empty()) return;
     const bool matters = isMostlyLost() || isExplained();
     const std::size_t colon = fault_.find(": ");
@@ -198,19 +315,22 @@ class PairChecks {
   }
 
   VisualOdometry odometry_;
+  bool rectifies_;
   PairInspector inspector_;
   std::vector<StereoPair> before_;  // the last two
   std::unique_ptr<PairCheck> photometry_ = makePhotometryCheck();
-  RowCheck rows_;
-  DisparityCheck disparities_;
+  std::unique_ptr<PairCheck> detail_ = makeDetailCheck();
+  Movement movement_;
+  RigSampler sampler_;
   std::unique_ptr<PairCheck> gyro_;  // null: without a gyroscope
   std::unique_ptr<PairCheck> view_;
-  ReplayCheck replay_;
   StereoCamera camera_;
   std::int64_t first_ns_ = 0, last_ns_ = 0;
   int pairs_ = 0, with_motion_ = 0, ok_ = 0, next_sample_ = 1;
-  double path_m_ = 0.0;
-  std::string fault_, why_lost_;
+  int repeated_left_ = 0, repeated_right_ = 0;
+  double path_m_ = 0.0, applied_px_ = 0.0;
+  std::string fault_;
+  std::map<std::string, int> lost_;  // by reason
   bool is_of_no_pair_ = false;
   cv::Mat left_, right_;
 };
@@ -234,7 +354,7 @@ StereoCalibration calibrationOf(const Recording& recording,
 }
 
 void addUnusable(const std::string& why, RigReport& report) {
-  if (!report.findings.empty()) return;  // it is known
+  if (report.needsFix()) return;  // it is known
   const std::size_t end = why.rfind(": ");
   report.findings.push_back({"inputs",
                              "pairs",
@@ -248,9 +368,10 @@ void addUnusable(const std::string& why, RigReport& report) {
 /// Returns false, with a finding, if there is no pair that can be used.
 bool checkPairs(Recording& recording, const RigCheckOptions& options, CheckedRig& rig) {
   RecordedPairs pairs(recording, options.parameters.node, options.rectify, options.calibration);
+  const double max_apart_s = options.parameters.node.max_stamp_difference_s;
   InputCheck input;
   pairs.onMessage([&](const RecordedMessage& message) { input.observe(message); });
-  PairChecks checks(configOf(options), options.gyroscope, recording.size(), pairs.rectifies());
+  PairChecks checks(configOf(options), options.gyroscope, pairs.rectifies());
   StereoPair pair;
   StereoCamera camera;
   try {
@@ -260,6 +381,7 @@ bool checkPairs(Recording& recording, const RigCheckOptions& options, CheckedRig
     }
   } catch (const std::runtime_error& error) {
     if (checks.pairs() == 0) {
+      if (rig.report.findings.empty()) input.reportStreams(max_apart_s, rig.report);
       addUnusable(error.what(), rig.report);
       return false;
     }
@@ -272,6 +394,7 @@ bool checkPairs(Recording& recording, const RigCheckOptions& options, CheckedRig
                                    0.9});
   }
   input.report(checks.camera(), pairs.leftOut(), pairs.rectifies(), rig.report);
+  input.reportStreams(max_apart_s, rig.report);
   checks.report(rig);
   rig.measures.calibration = calibrationOf(recording, checks.camera(), pairs.rectifies(), options);
   return true;

@@ -6,9 +6,8 @@
 #include <string>
 
 #include "bags/recording.h"
+#include "check/rig_model.h"
 #include "check/rig_report.h"
-#include "check/row_model.h"
-#include "check/windows.h"
 #include "rectification/stereo_calibration.h"
 #include "rotrocc/odometry_result.h"
 #include "rotrocc/parameters.h"
@@ -24,19 +23,18 @@ struct RigCheckOptions {
   std::function<void()> on_pair = [] {};   ///< after each pair
 };
 
-/// Two of the Windows of five pairs. With fewer motions, a report says what it has measured, but
-/// not what to do.
+/// Two of the Windows of five pairs. With fewer motions that move features, a report says what it
+/// has measured, but not what to do.
 constexpr int kLeastMotions = 10;
 
 /// What a calibration can correct.
 struct RigMeasures {
   StereoCalibration calibration;  ///< that the pairs were taken by
-  RowModel rows;
+  RigModel model;
   double rows_rms_px = 0.0;
-  bool rows_are_constant = true;
-  DisparityBias bias;
-  Estimate replay_share;  ///< see ReplayCheck::share()
+  bool is_constant = true;  ///< rows and bias
   int pairs_with_motion = 0;
+  int moving_pairs = 0;  ///< in which the features had moved
 };
 
 struct CheckedRig {

@@ -22,6 +22,9 @@ namespace {
 constexpr double kSigmas = 3.0;
 constexpr std::size_t kLineLength = 100;
 
+const char* const kNotSeen =
+    "Not visible to this check: a wrong baseline, and an error that both focal lengths share.";
+
 /// The text in lines, each after `indent` blanks.
 std::string wrapped(const std::string& text, std::size_t indent) {
   std::istringstream words(text);
@@ -84,6 +87,15 @@ YAML::Node toYaml(const std::vector<Finding>& findings) {
   return list;
 }
 
+/// Where a finding stands among those of its verdict: causes, then what the cameras see, which may
+/// follow from them, then symptoms. A cause that can be accepted explains a symptom, too.
+int rankOf(const Finding& finding) {
+  const auto verdict = static_cast<int>(finding.verdict);
+  if (finding.verdict >= Verdict::kUnknown) return 10 + verdict;
+  if (finding.section == "odometry") return 6 + verdict;
+  return 2 * verdict + (finding.section == "view" ? 1 : 0);
+}
+
 }  // namespace
 
 void RigReport::add(Finding finding, const Graded& graded) {
@@ -96,9 +108,30 @@ void RigReport::add(Finding finding, const Graded& graded) {
   findings.push_back(std::move(finding));
 }
 
+bool RigReport::needsFix() const {
+  return std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
+    return finding.verdict == Verdict::kFix;
+  });
+}
+
+std::string RigReport::advice() const {
+  const auto first = std::find_if(findings.begin(), findings.end(), [](const Finding& finding) {
+    return finding.verdict <= Verdict::kAcceptable && !finding.remedy.empty();
+  });
+  if (first == findings.end()) {
+    return findings.empty() || findings.front().verdict == Verdict::kGood
+               ? "Nothing to do."
+               : "Nothing to fix; some properties could not be measured.";
+  }
+  const std::string prefix = first->verdict == Verdict::kFix
+                                 ? "To fix first: "
+                                 : "Nothing must be fixed. What costs most: ";
+  return prefix + first->subject + ": " + first->measured + ". To do: " + first->remedy + ".";
+}
+
 void RigReport::sort() {
   std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
-    if (a.verdict != b.verdict) return a.verdict < b.verdict;
+    if (rankOf(a) != rankOf(b)) return rankOf(a) < rankOf(b);
     return a.verdict != Verdict::kGood && a.severity > b.severity;
   });
 }
@@ -108,7 +141,9 @@ std::string toText(const RigReport& report) {
   for (const Finding& finding : report.findings)
     ++counts[static_cast<std::size_t>(finding.verdict)];
   std::ostringstream text;
-  text << report.title << '\n' << report.summary << "\n\n" << toText(report.findings) << '\n';
+  text << report.title << '\n' << report.summary << "\n\n";
+  text << wrapped(report.advice(), 0) << '\n' << toText(report.findings) << '\n';
+  text << kNotSeen << '\n';
   text << counts[static_cast<std::size_t>(Verdict::kFix)] << " to fix, "
        << counts[static_cast<std::size_t>(Verdict::kAcceptable)] << " acceptable, "
        << counts[static_cast<std::size_t>(Verdict::kGood)] << " good, "
@@ -124,6 +159,8 @@ void writeReport(const RigReport& report, const std::string& directory) {
   YAML::Node page;
   page["title"] = report.title;
   page["summary"] = report.summary;
+  page["advice"] = report.advice();
+  page["not_seen"] = kNotSeen;
   page["findings"] = toYaml(report.findings);
   if (report.corrected) page["corrected"] = toYaml(*report.corrected);
   const std::string path = files.path("findings.yaml");

@@ -52,8 +52,15 @@ struct RigReport {
   /// better than the limit of fix is unknown.
   void add(Finding finding, const Graded& graded);
 
-  /// Puts what is to be fixed first, and of that the most severe.
+  /// Puts what is to be fixed first, causes before symptoms, and of those the most severe.
   void sort();
+
+  // Of sorted findings:
+
+  bool needsFix() const;
+
+  /// What is to be fixed first, and how, as one line of text.
+  std::string advice() const;
 };
 
 /// The report as a page of text.

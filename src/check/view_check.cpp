@@ -22,8 +22,10 @@ namespace {
 constexpr int kCornersStep = 5;
 constexpr int kFineColumns = 2 * ImageGrid::kColumns;
 
-/// A cell of a map without features that agree: at least so many features, and at most this share.
-constexpr int kLeastFeatures = 20;
+/// Fewer pairs whose images change do not show what stands still in them.
+constexpr int kLeastPairs = 10;
+
+/// Most features that agree, as a share, in a cell of a map that does not agree.
 constexpr double kMostAgreeing = 0.15;
 
 std::string percent(double share) {
@@ -32,25 +34,6 @@ std::string percent(double share) {
 
 double share(int part, int whole) {
   return whole > 0 ? static_cast<double>(part) / whole : 0.0;
-}
-
-/// Whether the motion is none: that of features which stand still in the image.
-bool rests(const CheckedPair& pair) {
-  constexpr double kStill_px = 0.5;
-  std::vector<double> flows_px;
-  for (std::size_t i = 0; i < pair.features.size(); ++i) {
-    if (pair.inliers[i] == 0) continue;
-    flows_px.push_back((pair.features[i].cur_px - pair.features[i].keyframe_px).norm());
-  }
-  return !flows_px.empty() && median(flows_px) < kStill_px;
-}
-
-/// The mean of each cell.
-std::vector<float> meansOf(const cv::Mat& image, const ImageGrid& grid) {
-  cv::Mat means;
-  image.convertTo(means, CV_32F);
-  cv::resize(means, means, grid.size(), 0, 0, cv::INTER_AREA);
-  return {means.begin<float>(), means.end<float>()};
 }
 
 class ViewCheck : public PairCheck {
@@ -103,9 +86,10 @@ class ViewCheck : public PairCheck {
 
   /// Counts the cells with texture that stay as they are while others change.
   void compareWithLast(const CheckedPair& pair, const ImageGrid& fine) {
-    constexpr double kOverNoise = 2.0;  // a change
-    constexpr double kTexture = 4.0;    // over noise
+    constexpr float kOverNoise = 2.0F;  // a change
+    constexpr float kTexture = 4.0F;    // over noise
     constexpr double kChanging = 0.3;   // of the cells with texture
+    constexpr double kStill_px = 0.5;
     const cv::Mat& image = pair.images.left;
     if (last_.size() != image.size()) {
       last_ = image.clone();
@@ -114,18 +98,18 @@ class ViewCheck : public PairCheck {
     cv::Mat difference;
     cv::Mat coarse;
     cv::absdiff(image, last_, difference);
-    const std::vector<float> changes = meansOf(difference, fine);
+    const cv::Mat_<float> changes = cellMeans(difference, fine);
     cv::blur(image, coarse, {9, 9});
     cv::absdiff(image, coarse, difference);
-    const std::vector<float> textures = meansOf(difference, fine);
+    const cv::Mat_<float> textures = cellMeans(difference, fine);
     image.copyTo(last_);
-    std::vector<float> sorted = changes;
-    const double noise = std::max(quantile(sorted, 0.1), 0.5F);
+    const float noise = noiseOf(changes, cellMeans(image, fine));
     std::vector<std::size_t> still;
     int changing = 0;
-    for (std::size_t i = 0; i < changes.size(); ++i) {
-      if (textures[i] < kTexture * noise) continue;
-      if (changes[i] < kOverNoise * noise) {
+    for (std::size_t i = 0; i < changes.total(); ++i) {
+      const auto cell = static_cast<int>(i);
+      if (textures(cell) < kTexture * noise) continue;
+      if (changes(cell) < kOverNoise * noise) {
         still.push_back(i);
       } else {
         ++changing;
@@ -135,8 +119,24 @@ class ViewCheck : public PairCheck {
       return;
     if (changing == 0) return;
     ++changing_pairs_;
-    if (pair.result.hasMotion() && rests(pair)) ++resting_pairs_;
+    if (pair.result.hasMotion() && pair.flow_px < kStill_px) ++resting_pairs_;
     for (const std::size_t cell : still) ++fine_map_[cell].still;
+  }
+
+  /// Change of what stands still: of the cells that change least, but for clipped ones, which have
+  /// none.
+  static float noiseOf(const cv::Mat_<float>& changes, const cv::Mat_<float>& greys) {
+    constexpr float kDark = 8.0F;
+    constexpr float kBright = 247.0F;
+    constexpr float kLeast = 0.5F;  // of rounding
+    std::vector<float> exposed;
+    for (int row = 0; row < changes.rows; ++row) {
+      for (int column = 0; column < changes.cols; ++column) {
+        const float grey = greys(row, column);
+        if (grey > kDark && grey < kBright) exposed.push_back(changes(row, column));
+      }
+    }
+    return exposed.empty() ? kLeast : std::max(quantile(exposed, 0.1), kLeast);
   }
 
   void countCorners(const CheckedPair& pair) {
@@ -281,11 +281,11 @@ class ViewCheck : public PairCheck {
 
   void addMask(RigReport& report) const {
     constexpr double kAcceptable = 0.02;
-    const cv::Mat cells = disagreeing();
+    const cv::Mat cells = standingStill();
     const double masked = share(cv::countNonZero(cells), static_cast<int>(cells.total()));
     report.add(
         {"view",
-         "parts that never agree with the motion",
+         kMasked,
          percent(masked) + " of the image",
          "what moves with the cameras looks like standstill: its features are rejected, or pull "
          "the motion towards it",
@@ -296,18 +296,19 @@ class ViewCheck : public PairCheck {
     cv::resize(cells, report.mask, {camera_.width, camera_.height}, 0, 0, cv::INTER_NEAREST);
   }
 
-  /// Cells of the fine map whose features do not agree, one pixel each. Single ones are not the
-  /// robot.
-  cv::Mat disagreeing() const {
+  /// Cells of the fine map that stand still while the rest changes, one pixel each, and whose
+  /// features do not agree with the motion, unless that is theirs. Single ones are not the robot.
+  cv::Mat standingStill() const {
     const ImageGrid fine(camera_.width, camera_.height, kFineColumns);
     cv::Mat cells = cv::Mat::zeros(fine.size(), CV_8UC1);
-    const bool follows_robot = 2 * resting_pairs_ > changing_pairs_;
+    if (changing_pairs_ < kLeastPairs) return cells;
+    const bool follows_robot =
+        2 * resting_pairs_ > changing_pairs_ && resting_pairs_ >= kLeastPairs;
     for (std::size_t i = 0; i < fine_map_.size(); ++i) {
       const Cell& cell = fine_map_[i];
-      const bool disagrees =
-          cell.features >= kLeastFeatures && share(cell.inliers, cell.features) < kMostAgreeing;
-      const bool is_robot = follows_robot && share(cell.still, changing_pairs_) > 0.5;
-      if (follows_robot ? is_robot : disagrees) cells.data[i] = 255;
+      const bool disagrees = share(cell.inliers, cell.features) < kMostAgreeing;
+      const bool stands_still = share(cell.still, changing_pairs_) > 0.5;
+      if (stands_still && (follows_robot || disagrees)) cells.data[i] = 255;
     }
     const cv::Mat plus = cv::getStructuringElement(cv::MORPH_RECT, {3, 3});
     cv::Mat closed;

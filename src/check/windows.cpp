@@ -61,6 +61,27 @@ Estimate overWindows(const std::vector<TimedValue>& values, const Windows& windo
   return {mean, std::sqrt(variance / count)};
 }
 
+Estimate scatterBeyondNoise(const std::vector<Estimate>& values) {
+  double count = 0.0, mean = 0.0, squares = 0.0, variance = 0.0;
+  for (const Estimate& estimate : values) {
+    if (!std::isfinite(estimate.sigma)) continue;
+    count += 1.0;
+    mean += estimate.value;
+    variance += estimate.sigma * estimate.sigma;
+  }
+  if (count < 2.0) return {0.0, std::numeric_limits<double>::infinity()};
+  mean /= count;
+  variance /= count;
+  for (const Estimate& estimate : values) {
+    if (std::isfinite(estimate.sigma))
+      squares += std::pow(estimate.value - mean, 2) / (count - 1.0);
+  }
+  const double scatter = std::sqrt(std::max(squares - variance, 0.0));
+  // That of a variance of normal values.
+  const double sigma2 = variance * std::sqrt(2.0 / (count - 1.0));
+  return {scatter, sigma2 / (2.0 * std::max({scatter, std::sqrt(variance), 1e-12}))};
+}
+
 std::vector<double> jackknifeSigmas(const std::vector<std::vector<double>>& without) {
   if (without.empty()) return {};
   const auto count = static_cast<double>(without.size());

@@ -28,6 +28,9 @@ class Windows {
 
   std::size_t count() const { return count_; }
   std::size_t of(double time_s) const;
+  double middle_s(std::size_t window) const {
+    return first_s_ + (static_cast<double>(window) + 0.5) * length_s_;
+  }
 
  private:
   double first_s_;
@@ -38,6 +41,10 @@ class Windows {
 /// The mean of the medians of the windows, with the standard deviation by their scatter, so that
 /// errors that last for a while count. Both are nan without values, the deviation with one window.
 Estimate overWindows(const std::vector<TimedValue>& values, const Windows& windows);
+
+/// The standard deviation of values beyond their own, and its standard deviation; {0, infinity} for
+/// less than two finite ones.
+Estimate scatterBeyondNoise(const std::vector<Estimate>& values);
 
 /// Standard deviations of several values from estimates that each leave out one window (jackknife,
 /// Quenouille 1956, Tukey 1958). `without[w]` has the values without window w.

@@ -109,8 +109,7 @@ void run(const Options& options) {
     writeReport(rig.report, options.report);
     drawReport(options.report);
   }
-  const std::vector<Finding>& findings = rig.report.findings;
-  if (!findings.empty() && findings.front().verdict == Verdict::kFix) std::exit(kToFix);
+  if (rig.report.needsFix()) std::exit(kToFix);
 }
 
 }  // namespace

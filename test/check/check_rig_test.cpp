@@ -35,7 +35,7 @@ TEST(CheckRigTest, AGoodRigHasAPageAndStatus0) {
   EXPECT_TRUE(contains(result.output, "0 to fix, ")) << result.output;
   const std::string page = readFile(report + "/index.html");
   for (const char* section :
-       {"Findings", "Inputs", "Photometry", "Rows", "Disparities", "What is seen", "Odometry"}) {
+       {"Findings", "Inputs", "Photometry", "Rows", "Disparities", "What is seen"}) {
     EXPECT_TRUE(contains(page, std::string("<h2>") + section + "</h2>")) << section;
   }
   EXPECT_FALSE(contains(page, "src=\"http")) << "it opens alone";

@@ -1,5 +1,6 @@
 #include "check/rendered_recording.h"
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -82,11 +83,15 @@ void RenderedRecording::select(const ros::Time&, const ros::Time&, bool) {
 
 bool RenderedRecording::next(RecordedMessage& message) {
   if (next_ == pairs_->size()) return false;
-  const StereoPair& pair = (*pairs_)[next_++];
-  message = infos(toRosTime(pair.stamp_ns));
-  cv::Mat left = pair.left.clone();
-  cv::Mat right = pair.right.clone();
-  faults_.images(left, right);
+  const auto index = static_cast<int>(next_++);
+  message = infos(toRosTime((*pairs_)[static_cast<std::size_t>(index)].stamp_ns));
+  const auto frame = [&](int shown) -> const StereoPair& {
+    return (*pairs_)[static_cast<std::size_t>(std::clamp(shown, 0, size() - 1))];
+  };
+  const auto [left_frame, right_frame] = faults_.frames(index);
+  cv::Mat left = frame(left_frame).left.clone();
+  cv::Mat right = frame(right_frame).right.clone();
+  faults_.images(left, right, index);
   message.left_image = cv_bridge::CvImage(message.left_info->header, "mono8", left).toImageMsg();
   message.right_image = cv_bridge::CvImage(message.right_info->header, "mono8", right).toImageMsg();
   return true;

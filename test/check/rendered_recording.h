@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bags/recording.h"
@@ -13,7 +14,12 @@ namespace rotrocc {
 class RenderedRecording : public Recording {
  public:
   struct Faults {
-    std::function<void(cv::Mat& left, cv::Mat& right)> images = [](cv::Mat&, cv::Mat&) {};
+    /// Which frames are shown at an index, left and right; clamped to those there are.
+    std::function<std::pair<int, int>(int index)> frames = [](int index) {
+      return std::pair(index, index);
+    };
+    std::function<void(cv::Mat& left, cv::Mat& right, int index)> images =
+        [](cv::Mat&, cv::Mat&, int) {};
     std::function<void(sensor_msgs::CameraInfo& right)> info = [](sensor_msgs::CameraInfo&) {};
   };
 

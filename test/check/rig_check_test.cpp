@@ -11,11 +11,15 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "bags/recorded_pairs.h"
 #include "check/calibration_correction.h"
+#include "check/pair_check.h"
 #include "check/rendered_recording.h"
+#include "check/rig_causes.h"
+#include "check/row_check.h"
 #include "check/windows.h"
 #include "rotrocc/visual_odometry.h"
 #include "sequences/calibration_file.h"
@@ -52,10 +56,10 @@ void changeGrey(cv::Mat& image, double gain, double offset) {
   image.convertTo(image, CV_8U, gain, offset);
 }
 
-/// A hood with scratches, 20 px of disparity away.
-void addBumper(cv::Mat& left, cv::Mat& right) {
+/// A hood with scratches, 20 px of disparity away, in the lowest part of the image.
+void addBumper(cv::Mat& left, cv::Mat& right, int parts = 5) {
   cv::RNG random(7);
-  cv::Mat texture(left.rows / 5, left.cols + 40, CV_8UC1);
+  cv::Mat texture(left.rows / parts, left.cols + 40, CV_8UC1);
   random.fill(texture, cv::RNG::UNIFORM, 0, 255);
   cv::GaussianBlur(texture, texture, {}, 1.5);
   const int top = left.rows - texture.rows;
@@ -65,8 +69,34 @@ void addBumper(cv::Mat& left, cv::Mat& right) {
 
 RenderedRecording::Faults ofImages(std::function<void(cv::Mat&, cv::Mat&)> change) {
   RenderedRecording::Faults faults;
-  faults.images = std::move(change);
+  faults.images = [change](cv::Mat& left, cv::Mat& right, int) { change(left, right); };
   return faults;
+}
+
+/// Noise of the camera, which is another one in each image of what stands still.
+void addNoise(cv::Mat& image, int seed) {
+  cv::Mat noise(image.size(), CV_16SC1);
+  cv::RNG random(0x9E3779B97F4A7C15ULL * static_cast<std::uint64_t>(seed + 1));
+  random.fill(noise, cv::RNG::NORMAL, 0.0, 2.0);
+  cv::add(image, noise, image, {}, CV_8U);
+}
+
+/// Warps the right image as a rotation of its camera does.
+void turnRight(cv::Mat& right, const Eigen::Vector3d& rotation_rad) {
+  const StereoCamera camera = perfectRig().camera;
+  RigCauses causes = {};
+  for (const std::size_t k : {kRoll, kPitch, kYaw}) causes[k] = -rotation_rad[Eigen::Index(k)];
+  const RigDisplacement displacement(camera, causes);
+  cv::Mat places(right.size(), CV_32FC2);
+  places.forEach<cv::Point2f>([&](cv::Point2f& place, const int* pixel) {
+    RigSample sample;
+    sample.x_right = (pixel[1] - camera.cx_right) / camera.fx;
+    sample.y = (pixel[0] - camera.cy) / camera.fy;
+    const Eigen::Vector2d moved_px = displacement.of(sample);
+    place.x = static_cast<float>(pixel[1] + moved_px.x());
+    place.y = static_cast<float>(pixel[0] + moved_px.y());
+  });
+  cv::remap(right, right, places, {}, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
 }
 
 std::vector<Fault> faults() {
@@ -133,7 +163,8 @@ std::vector<Fault> faults() {
       [](cv::Mat&, cv::Mat& right) { cv::GaussianBlur(right, right, {}, 1.0); },
       "sharpness right against left",
       1.0);
-  images("bumper", addBumper, "parts that never agree with the motion", NAN);
+  images(
+      "bumper", [](cv::Mat& left, cv::Mat& right) { addBumper(left, right); }, kMasked, NAN);
   images(
       "swapped",
       [](cv::Mat& left, cv::Mat& right) { std::swap(left, right); },
@@ -143,6 +174,69 @@ std::vector<Fault> faults() {
                  [](SimulationOptions& options) { options.lens = "radtan"; },
                  {},
                  {"rectification"},
+                 {NAN}});
+  const auto frames =
+      [&](const char* name, std::function<std::pair<int, int>(int)> shown, const char* subject) {
+        Fault fault = {name, [](SimulationOptions&) {}, {}, {subject}, {NAN}};
+        fault.faults.frames = std::move(shown);
+        all.push_back(fault);
+      };
+  const auto seventh = [](int index) { return index % 7 == 6 ? index - 1 : index; };
+  frames(
+      "frame_late",
+      [](int index) { return std::pair(index, index - 1); },
+      "images of left and right");
+  frames(
+      "pairs_repeated",
+      [=](int index) { return std::pair(seventh(index), seventh(index)); },
+      "repeated images");
+  frames(
+      "right_repeated",
+      [=](int index) { return std::pair(index, seventh(index)); },
+      "repeated images");
+  frames(
+      "frozen", [](int index) { return std::pair(index, std::min(index, 30)); }, "repeated images");
+  images(
+      "smudge",
+      [](cv::Mat&, cv::Mat& right) {
+        cv::Mat part = right(cv::Rect(300, 60, 130, 80));
+        cv::GaussianBlur(part, part, {}, 8.0);
+      },
+      "parts with less than half of the detail, right",
+      NAN);
+  images(
+      "compressed",
+      [](cv::Mat&, cv::Mat& right) {
+        std::vector<uchar> bytes;
+        cv::imencode(".jpg", right, bytes, {cv::IMWRITE_JPEG_QUALITY, 10});
+        right = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+      },
+      "compression, right",
+      NAN);
+  Fault flicker = {"flicker", [](SimulationOptions&) {}, {}, {"gain over time"}, {NAN}};
+  flicker.faults.images = [](cv::Mat&, cv::Mat& right, int index) {
+    changeGrey(right, 1.0 + 0.25 * std::sin(0.7 * index), 0.0);
+  };
+  all.push_back(flicker);
+  Fault flex = {"flex", [](SimulationOptions&) {}, {}, {kRowsOverTime}, {NAN}};
+  flex.faults.images = [](cv::Mat&, cv::Mat& right, int index) {
+    turnRight(right, {0.2 * kRadians * std::sin(0.2 * index), 0.0, 0.0});
+  };
+  all.push_back(flex);
+  images(
+      "yaw",
+      [](cv::Mat&, cv::Mat& right) {
+        turnRight(right, {0.0, 0.0, 0.5 * kRadians});
+      },
+      "yaw of the right camera",
+      0.5);
+  all.push_back({"bumper_and_roll",
+                 [](SimulationOptions&) {},
+                 ofImages([](cv::Mat& left, cv::Mat& right) {
+                   addBumper(left, right, 8);
+                   turnRight(right, {0.3 * kRadians, 0.0, 0.0});
+                 }),
+                 {kMasked},
                  {NAN}});
   Fault sign = {"sign", [](SimulationOptions&) {}, {}, {"pairs"}, {NAN}};
   sign.faults.info = [](sensor_msgs::CameraInfo& right) { right.P[3] = -right.P[3]; };
@@ -204,6 +298,7 @@ TEST_P(RigFaultTest, IsNamedFirst) {
     EXPECT_LT(estimate.sigma, 0.1 * std::abs(fault.values[i])) << "it is hardly known";
   }
   for (std::size_t i = fault.subjects.size(); i < findings.size(); ++i) {
+    if (findings[i].section == "odometry") continue;  // a symptom
     EXPECT_NE(findings[i].verdict, Verdict::kFix) << findings[i].subject;
   }
   // For the table of the documentation.
@@ -214,11 +309,34 @@ INSTANTIATE_TEST_SUITE_P(Rendered, RigFaultTest, testing::ValuesIn(faults()), []
   return info.param.name;
 });
 
+/// A good rig that stands still, for a while or for ever: a wrong match at rest agrees with the
+/// motion for as long as it lasts.
+TEST(RigCheckTest, ARigAtRestIsNotCondemned) {
+  for (const int resting : {10, 40, 1000}) {
+    Fault rest = {"rest"};
+    rest.faults.frames = [=](int index) {
+      const int frame = std::max(index - resting, 0);
+      return std::pair(frame, frame);
+    };
+    rest.faults.images = [=](cv::Mat& left, cv::Mat& right, int index) {
+      if (index > resting) return;
+      addNoise(left, 2 * index);
+      addNoise(right, 2 * index + 1);
+    };
+    const CheckedRig rig = check(rest);
+    EXPECT_FALSE(rig.report.needsFix()) << toText(rig.report);
+    EXPECT_TRUE(rig.report.mask.empty());
+  }
+}
+
 TEST(RigCheckTest, APerfectRigIsGood) {
   const CheckedRig rig = check({"perfect"});
   std::set<std::string> sections;
   for (const Finding& finding : rig.report.findings) {
-    EXPECT_EQ(finding.verdict, Verdict::kGood) << finding.subject << ": " << finding.measured;
+    // A rendered recording has one stamp for both images.
+    const Verdict expected =
+        finding.subject == "stamps of left minus right" ? Verdict::kUnknown : Verdict::kGood;
+    EXPECT_EQ(finding.verdict, expected) << finding.subject << ": " << finding.measured;
     EXPECT_EQ(finding.remedy, "");
     sections.insert(finding.section);
   }
@@ -230,7 +348,10 @@ TEST(RigCheckTest, APerfectRigIsGood) {
 
 /// The proposed mask covers the bumper, and little else.
 TEST(RigCheckTest, ProposesAMaskOfTheBumper) {
-  const CheckedRig rig = check({"bumper", [](SimulationOptions&) {}, ofImages(addBumper)});
+  const CheckedRig rig =
+      check({"bumper", [](SimulationOptions&) {}, ofImages([](cv::Mat& left, cv::Mat& right) {
+               addBumper(left, right);
+             })});
   const cv::Mat& mask = rig.report.mask;
   ASSERT_FALSE(mask.empty());
   const cv::Mat bumper = mask.rowRange(mask.rows * 4 / 5 + 1, mask.rows);
@@ -308,13 +429,12 @@ TEST(RigCheckTest, RowsOfALensAreNoYaw) {
   const CheckedRig rig = check({"bent", [](SimulationOptions&) {}, ofImages(bendRows)});
   const std::vector<Finding>& findings = rig.report.findings;
   const auto yaw = std::find_if(findings.begin(), findings.end(), [](const Finding& finding) {
-    return finding.subject == "keystone (yaw) of the right camera";
+    return finding.subject == "rows alone like those of a yaw";
   });
   ASSERT_NE(yaw, findings.end());
   const Estimate rows_deg = estimateOf(*yaw);
   EXPECT_GT(std::abs(rows_deg.value), 10.0 * rows_deg.sigma) << yaw->measured;
-  EXPECT_NE(yaw->measured.find("of a lens"), std::string::npos) << yaw->measured;
-  EXPECT_EQ(rig.measures.rows.causes[kYaw], 0.0);
+  EXPECT_EQ(rig.measures.model.correctable[kYaw], 0.0);
 }
 
 TEST(RigCheckTest, AFewPairsSayNothing) {
@@ -326,7 +446,7 @@ TEST(RigCheckTest, AFewPairsSayNothing) {
     const CheckedRig rig = checkRig(recording, {});
     const std::string text = toText(rig.report);
     SCOPED_TRACE(text);
-    EXPECT_NE(text.find("motion in " + std::to_string(frames - 1) + " of "), std::string::npos);
+    EXPECT_NE(text.find("features have moved in "), std::string::npos);
     EXPECT_NE(text.find("\n0 to fix, 0 acceptable, "), std::string::npos);
     EXPECT_EQ(text.find("nan"), std::string::npos);
     std::string why_not;
@@ -340,8 +460,8 @@ TEST(RigCheckTest, CorrectsNeitherAPerfectRigNorOneThatMoves) {
   RigMeasures measures = check({"perfect"}).measures;
   std::string why_not;
   EXPECT_FALSE(findCorrection(recording, {}, measures, why_not));
-  EXPECT_NE(why_not.find("no error beyond"), std::string::npos) << why_not;
-  measures.rows_are_constant = false;
+  EXPECT_NE(why_not.find("no error to be fixed"), std::string::npos) << why_not;
+  measures.is_constant = false;
   EXPECT_FALSE(findCorrection(recording, {}, measures, why_not));
   EXPECT_NE(why_not.find("move"), std::string::npos) << why_not;
 }

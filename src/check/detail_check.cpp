@@ -1,0 +1,133 @@
+#include "check/pair_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <opencv2/imgproc.hpp>
+
+#include "check/image_grid.h"
+#include "common/median.h"
+#include "input/to_text.h"
+
+namespace rotrocc {
+namespace {
+
+/// Pairs between those that are compared.
+constexpr int kStep = 5;
+
+/// Fewer show what one camera sees past an edge, and the other one does not.
+constexpr int kLeastPairs = 5 * kStep;
+
+/// What an image shows in each cell of the grid, as mean differences to its blurred self.
+cv::Mat detailOf(const cv::Mat& image, const ImageGrid& grid) {
+  cv::Mat coarse, fine;
+  cv::blur(image, coarse, {9, 9});
+  cv::absdiff(image, coarse, fine);
+  return cellMeans(fine, grid);
+}
+
+/// 255 where a cell is not saturated.
+cv::Mat exposedOf(const cv::Mat& image, const ImageGrid& grid) {
+  constexpr double kMost = 0.1;
+  return cellMeans(image == 255, grid) < 255.0 * kMost;
+}
+
+/// How much stronger edges between blocks of eight columns are than those elsewhere, as a share.
+double blockEdges(const cv::Mat& image) {
+  constexpr int kBlock = 8;
+  cv::Mat edges, sums;
+  cv::absdiff(image.colRange(1, image.cols), image.colRange(0, image.cols - 1), edges);
+  cv::reduce(edges, sums, 0, cv::REDUCE_SUM, CV_64F);
+  std::vector<double> phases(kBlock, 0.0);
+  for (int x = 0; x + kBlock <= sums.cols; x += kBlock) {
+    for (int phase = 0; phase < kBlock; ++phase) {
+      phases[static_cast<std::size_t>(phase)] += sums.at<double>(x + phase);
+    }
+  }
+  const double most = *std::max_element(phases.begin(), phases.end());
+  const double typical = median(phases);
+  return typical > 0.0 ? most / typical - 1.0 : 0.0;
+}
+
+class DetailCheck : public PairCheck {
+ public:
+  void observe(const CheckedPair& pair) override {
+    if (!pair.has_moved || pairs_++ % kStep != 0) return;
+    width_ = pair.images.left.cols;
+    const ImageGrid grid(width_, pair.images.left.rows);
+    const cv::Mat* images[] = {&pair.images.left, &pair.images.right};
+    const cv::Mat exposed = exposedOf(*images[0], grid) & exposedOf(*images[1], grid);
+    for (int side = 0; side < 2; ++side) {
+      if (images[side]->cols < 16) return;
+      blocks_[side].push_back({pair.time_s, blockEdges(*images[side])});
+      cv::Mat& sum = detail_[side];
+      cv::Mat detail = detailOf(*images[side], grid);
+      detail.setTo(0.0, ~exposed);
+      sum = sum.empty() ? detail : cv::Mat(sum + detail);
+    }
+  }
+
+  void report(const Windows& windows, RigReport& report) const override {
+    if (detail_[1].empty()) return;
+    constexpr double kStrong = 0.3;  // takes detail away
+    for (int side = 0; side < 2; ++side) {
+      const Estimate blocks = overWindows(blocks_[side], windows);
+      report.add({"photometry",
+                  side == 0 ? "compression, left" : "compression, right",
+                  "edges of blocks are " +
+                      toText({100.0 * blocks.value, 100.0 * blocks.sigma}, "%") + " stronger",
+                  "corners of blocks are found in place of those of the scene",
+                  "raise the quality of the compression, or record raw images"},
+                 {blocks.value, blocks.sigma, kStrong, 1.0});
+      if (blocks.value < kStrong && pairs_ >= kLeastPairs) addSmudge(side, report);
+    }
+  }
+
+ private:
+  /// Where an image shows less than half of the detail of the other one, over the whole recording.
+  void addSmudge(int side, RigReport& report) const {
+    constexpr double kLess = 0.5;
+    cv::Mat ratios;
+    cv::divide(detail_[side], detail_[1 - side], ratios);
+    ratios.setTo(1.0, detail_[1 - side] == 0.0);
+    std::vector<float> sorted(ratios.begin<float>(), ratios.end<float>());
+    const cv::Mat blurred = ratios < kLess * median(sorted);
+    cv::Mat labels, statistics, centroids;
+    const int parts = cv::connectedComponentsWithStats(blurred, labels, statistics, centroids, 4);
+    int largest = 0;
+    for (int part = 1; part < parts; ++part) {
+      const auto area = [&](int of) { return statistics.at<int>(of, cv::CC_STAT_AREA); };
+      if (area(part) > 1 && (largest == 0 || area(part) > area(largest))) largest = part;
+    }
+    const int cells = largest == 0 ? 0 : statistics.at<int>(largest, cv::CC_STAT_AREA);
+    const double share = cells / static_cast<double>(ratios.total());
+    const std::string name = side == 0 ? "left" : "right";
+    std::string measured = toText(std::lround(100.0 * share)) + " % of the " + name + " image";
+    if (cells > 0) {
+      const double cell_px = static_cast<double>(width_) / ratios.cols;
+      const double x = (centroids.at<double>(largest, 0) + 0.5) * cell_px;
+      const double y = (centroids.at<double>(largest, 1) + 0.5) * cell_px;
+      measured += ", around x " + toText(std::lround(x)) + ", y " + toText(std::lround(y));
+    }
+    report.add({"photometry",
+                kLessDetail + name,
+                measured,
+                "features there have no disparity, or a wrong one",
+                "clean the " + name + " lens, and look for what is in front of it"},
+               {share, 0.0, 0.01, 0.025});
+  }
+
+  int pairs_ = 0, width_ = 0;
+  std::vector<TimedValue> blocks_[2];  // left, right
+  cv::Mat detail_[2];                  // sums of detailOf()
+};
+
+}  // namespace
+
+std::unique_ptr<PairCheck> makeDetailCheck() {
+  return std::make_unique<DetailCheck>();
+}
+
+}  // namespace rotrocc

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+#include "rotrocc/stereo_camera.h"
+
+namespace rotrocc {
+
+/// What makes the right image differ from that of a rectified pair.
+enum RigCause {
+  kRoll,       ///< [rad] rotation of the right camera about its optical axis: clockwise
+  kPitch,      ///< [rad] about x: looks up
+  kYaw,        ///< [rad] about y: looks right
+  kFocal,      ///< focal length of the right image over that of the left one, minus 1
+  kOffset,     ///< [px] principal point of the right image, how much lower
+  kLens,       ///< k1 that the right image has too much, in normalized coordinates
+  kTimeSkew,   ///< [s] how much later the right image is taken
+  kBias,       ///< [px] principal point of the right image, how much further right
+  kTwist,      ///< [rad] rows like those of a yaw, without its errors of disparities: of a lens
+  kBothLenses  ///< k1 that both images have too much: only flows have its errors
+};
+constexpr std::size_t kRigCauses = 10;
+
+using RigCauses = std::array<double, kRigCauses>;
+
+/// Rotation R_left_right of the right camera that the causes are.
+Eigen::Matrix3d rotationOf(const RigCauses& causes);
+
+/// A feature that agrees with the motion of its pair.
+struct RigSample {
+  cv::Point2f left_px;
+  double x_right = 0.0;  ///< normalized coordinate in the right image
+  double y = 0.0;        ///< normalized coordinate in the left image
+  double row_px = 0.0;   ///< how much lower the feature is in the right image; nan: not measured
+  Eigen::Vector2d velocity_pxps = Eigen::Vector2d::Zero();  ///< in the left image
+
+  // The errors of its flow, linear in those of its disparity and of the motion:
+  Eigen::Vector2d flow_px = Eigen::Vector2d::Zero();  ///< measured, minus that of the motion
+  Eigen::Vector2d flow_by_disparity = Eigen::Vector2d::Zero();  ///< zero: says nothing
+  Eigen::Vector2d flow_by_lenses = Eigen::Vector2d::Zero();     ///< by k1 of both
+  Eigen::Matrix<double, 2, 6> flow_by_motion = Eigen::Matrix<double, 2, 6>::Zero();
+};
+
+/// The samples of a pair, which share the error of its motion.
+struct PairSamples {
+  double time_s = 0.0;
+  double flow_noise_px = 1.0;
+  std::vector<RigSample> samples;
+};
+
+/// What the causes do to the right image.
+class RigDisplacement {
+ public:
+  RigDisplacement(const StereoCamera& camera, const RigCauses& causes)
+      : camera_(camera), causes_(causes), R_right_left_(rotationOf(causes).transpose()) {}
+
+  /// How much further right, and lower, a feature is [px].
+  Eigen::Vector2d of(const RigSample& sample) const;
+
+ private:
+  const StereoCamera& camera_;
+  RigCauses causes_;
+  Eigen::Matrix3d R_right_left_;
+};
+
+}  // namespace rotrocc

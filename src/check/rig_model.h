@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "check/rig_causes.h"
+#include "check/windows.h"
+
+namespace rotrocc {
+
+/// A turn of the right camera about x or y, and a shift of its principal point, are the same in the
+/// middle of the image; only the shape of their errors elsewhere differs, and lenses have such
+/// shapes, too.
+enum class TurnOrShift { kEither, kTurn, kShift };
+
+struct RigModel {
+  RigCauses causes = {};
+  /// The same, but kOffset and kBias are in the middle of the image, with what pitch and yaw do
+  /// there, unless these are all of it.
+  RigCauses values = {};
+  RigCauses sigmas = {};  ///< of values
+  /// The causes that a calibration of the right camera can correct, and that cost something; not
+  /// shapes that may be those of lenses, unless they must be fixed.
+  RigCauses correctable = {};
+  /// Effects of each value on rows, root mean square, and on the scale by disparities, as one of
+  /// all that would do the same [px].
+  RigCauses rows_px = {}, disparities_px = {};
+  TurnOrShift vertical = TurnOrShift::kEither;    ///< pitch or offset
+  TurnOrShift horizontal = TurnOrShift::kEither;  ///< yaw or bias
+  double typical_disparity_px = 0.0;              ///< corrected one of the mean depth
+  std::vector<Estimate> biases_px;                ///< kBias in each window, at the other values
+  /// By how much rows and flows fit better in windows that the calibration by the other windows
+  /// corrects: sums of squares over noise. What does not repeat itself is worth nothing.
+  Estimate rows_gain, flow_gain;
+
+  /// How many times its limit of what is to be fixed an effect on disparities and rows is.
+  double severityOf(const Eigen::Vector2d& effect_px) const;
+
+  /// That of a value, and its standard deviation.
+  Estimate severity(RigCause cause) const;
+
+  /// Whether it is more than a limit, by three standard deviations.
+  bool exceeds(double limit, RigCause cause) const;
+};
+
+/// Limits of effects. Matches are searched in rounded rows, so a quarter of a row costs nothing;
+/// from half a row on, windows contain another row. Of disparities: the error of the scale at the
+/// typical one, when nobody corrects it. Below kAcceptable, of these, they cost nothing.
+constexpr double kFixRows_px = 0.4;
+constexpr double kFixScale = 0.03;
+constexpr double kAcceptable = 0.3;
+
+/// Finds the causes by rows and disparities together: least squares with Cauchy weights, for each
+/// pair with the error of its motion, which takes a part of most errors of disparities. Standard
+/// deviations are the largest ones of independent errors, with what those in a part of the image
+/// have in common, and of the scatter without each window, and without each part of the image.
+/// Values that are not significant are left out, least significant first, and are zero then. Their
+/// sigmas are those before. With fewer samples than kLeastSamples all is zero, and sigmas are
+/// infinite.
+RigModel fitRig(const StereoCamera& camera,
+                const std::vector<PairSamples>& pairs,
+                const Windows& windows);
+
+constexpr std::size_t kLeastSamples = 100;
+
+}  // namespace rotrocc

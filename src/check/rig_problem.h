@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "check/rig_causes.h"
+#include "check/windows.h"
+
+namespace rotrocc {
+
+using CauseVector = Eigen::Matrix<double, kRigCauses, 1>;
+using CauseMatrix = Eigen::Matrix<double, kRigCauses, kRigCauses>;
+
+/// Standard deviations of the values before anything is measured: those of a bad calibration. They
+/// decide only what the images do not.
+constexpr RigCauses kPriorSigmas = {0.02, 0.02, 0.02, 0.03, 10.0, 0.1, 0.03, 10.0, 0.02, 0.1};
+
+/// A sum of squares after a change of the values: c - 2 g^T change + change^T H change.
+struct Normal {
+  CauseMatrix H = CauseMatrix::Zero();
+  CauseVector g = CauseVector::Zero();
+
+  Normal& operator+=(const Normal& other);
+  Normal& operator-=(const Normal& other);
+  /// How much less the sum is after a change.
+  double gainBy(const CauseVector& change) const;
+};
+
+/// The least squares of a rig: rows, and flows with the error of each pair's motion eliminated,
+/// with Cauchy weights, by Gauss and Newton.
+class RigProblem {
+ public:
+  RigProblem(const StereoCamera& camera,
+             const std::vector<PairSamples>& pairs,
+             const Windows& windows);
+
+  /// Solves for the values that are not left out.
+  void solve();
+
+  /// Of values, at the solution: the largest ones of independent errors, of the scatter without
+  /// each window of time, and without each part of the image, which has errors that the causes do
+  /// not describe.
+  RigCauses sigmas() const;
+
+  /// The bias in each window, at the other values; of infinite deviation if it does not show it.
+  std::vector<Estimate> biases();
+
+  /// See RigModel: of rows and flows. Values that are zero in `corrected` are not corrected.
+  std::pair<Estimate, Estimate> gains(const RigCauses& corrected) const;
+
+  /// See RigModel.
+  RigCauses causesOf(const RigCauses& some_values) const;
+
+  void leaveOut(std::size_t cause);
+  bool isLeftOut(std::size_t cause) const { return is_left_out_[cause]; }
+
+  RigCauses values = {};
+  std::array<bool, kRigCauses> is_of_turn = {};  ///< kOffset and kBias that a turn makes alone
+  /// Whether flows do not count for the time skew: features with disparities that are wrong by it
+  /// do not agree with the motion, so that those which do show too little of it.
+  bool skew_is_of_rows = false;
+
+ private:
+  /// Parts of the image, columns and rows, each of which is left out once.
+  static constexpr int kRegionColumns = 4;
+  static constexpr int kRegionRows = 2;
+  static constexpr std::size_t kRegions = kRegionColumns * kRegionRows;
+
+  using Jacobian = Eigen::Matrix<double, 2, kRigCauses>;
+  struct FlowResidual;
+  struct FlowSums;
+
+  void linearize();
+  void addRow(std::size_t pair,
+              const RigSample& sample,
+              double error_px,
+              const CauseVector& by_values);
+  FlowResidual residualOf(const PairSamples& pair,
+                          const RigSample& sample,
+                          double displaced_px,
+                          const Eigen::Matrix<double, 1, kRigCauses>& by_values) const;
+  void addFlows(std::size_t pair, const std::vector<FlowResidual>& residuals);
+  std::size_t regionOf(const RigSample& sample) const;
+  double sharedFactor() const;
+  Normal prior() const;
+  Normal total() const;
+  Normal totalWithout(std::size_t window) const;
+  CauseMatrix restricted(CauseMatrix H) const;
+  CauseVector changeBy(Normal sum) const;
+
+  const StereoCamera& camera_;
+  const std::vector<PairSamples>& pairs_;
+  std::array<bool, kRigCauses> is_left_out_ = {};              // these are zero
+  std::vector<std::size_t> window_of_;                         // of a pair
+  std::vector<Eigen::Matrix<double, 6, 1>> motions_;           // errors, for each pair
+  std::vector<Normal> rows_, flows_;                           // for each window
+  std::array<Normal, kRegions> rows_without_, flows_without_;  // each part of the image
+  double row_noise_px_ = 1.0;
+  double flow_noise_ = 1.0;  // over that of the odometry
+};
+
+}  // namespace rotrocc

@@ -1,0 +1,100 @@
+#include "check/rig_sampler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/to_seconds.h"
+
+namespace rotrocc {
+namespace {
+
+/// Features of a pair that are measured: more would not change a result by a tenth of its
+/// uncertainty.
+constexpr std::size_t kPerPair = 80;
+
+/// Moves a window by a part of a pixel, for each sample by another one. Interpolation blurs the
+/// noise of windows between pixels, so that these match a little better. Where images hardly move,
+/// all features are at similar parts of pixels, and rows would be wrong by some hundredths.
+cv::Point2f shiftOf(std::size_t sample) {
+  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+  const double part = golden * static_cast<double>(sample);
+  return {0.0F, static_cast<float>(part - std::floor(part) - 0.5)};
+}
+
+}  // namespace
+
+void measureFlow(const StereoCamera& camera,
+                 const OdometryResult& result,
+                 const Correspondence& feature,
+                 RigSample& sample) {
+  constexpr double kLeast_px = 1.0;  // of a disparity, of which errors are parts
+  const UncertainTransform& motion = result.T_keyframe_cur;
+  const double applied_px = result.disparity_bias.applied_px;
+  const double from_infinity_px = feature.disparity_px + applied_px - camera.disparityAtInfinity();
+  if (from_infinity_px < kLeast_px) return;
+  const double depth_m = camera.fx * camera.baseline_m / from_infinity_px;
+  const Eigen::Vector3d ray = camera.ray(feature.cur_px);
+  const Eigen::Vector3d point = motion.T * (depth_m * ray);
+  if (!isUsableDepth(point.z())) return;
+  Eigen::Matrix<double, 2, 3> by_point;
+  by_point << camera.fx, 0.0, -camera.fx * point.x() / point.z(), 0.0, camera.fy,
+      -camera.fy * point.y() / point.z();
+  by_point /= point.z();
+  Eigen::Matrix3d cross;
+  cross << 0.0, point.z(), -point.y(), -point.z(), 0.0, point.x(), point.y(), -point.x(), 0.0;
+  sample.flow_by_motion << by_point, by_point * cross;
+  sample.flow_by_disparity = by_point * (motion.T.linear() * ray) * (-depth_m / from_infinity_px);
+  // Both lenses move the feature in the keyframe, its ray, and its disparity.
+  const auto moved = [](const Eigen::Vector2d& at) -> Eigen::Vector2d {
+    return at.squaredNorm() * at;
+  };
+  const Eigen::Vector2d at = ray.head<2>();
+  const double disparity = moved(at).x() - moved({sample.x_right, sample.y}).x();
+  sample.flow_by_lenses =
+      camera.fx * (moved(point.hnormalized()) - disparity * sample.flow_by_disparity) -
+      depth_m * by_point * (motion.T.linear().leftCols<2>() * moved(at));
+  sample.flow_px =
+      feature.keyframe_px - camera.project(point) + applied_px * sample.flow_by_disparity;
+  const double interval_s = toSeconds(result.stamp_ns - result.keyframe_stamp_ns);
+  sample.velocity_pxps = point.z() / depth_m / interval_s * (feature.cur_px - feature.keyframe_px);
+}
+
+void RigSampler::observe(const CheckedPair& pair) {
+  // The interval is not known over a step of the clock.
+  if (!pair.has_moved || pair.result.clock_set_ns != pair.result.prev_clock_set_ns) return;
+  PairSamples samples = {pair.time_s, pair.result.flow_noise_px, {}};
+  const std::size_t step = std::max<std::size_t>(1, pair.features.size() / kPerPair);
+  for (std::size_t i = 0; i < pair.features.size(); i += step) {
+    if (pair.inliers[i] == 0) continue;
+    const Correspondence& feature = pair.features[i];
+    RigSample sample;
+    sample.left_px =
+        cv::Point2f(static_cast<float>(feature.cur_px.x()), static_cast<float>(feature.cur_px.y()));
+    sample.x_right =
+        (feature.cur_px.x() - feature.disparity_px - pair.camera.cx_right) / pair.camera.fx;
+    sample.y = (feature.cur_px.y() - pair.camera.cy) / pair.camera.fy;
+    measureFlow(pair.camera, pair.result, feature, sample);
+    measureRow(pair, feature, sample);
+    samples.samples.push_back(sample);
+  }
+  pairs_.push_back(std::move(samples));
+}
+
+void RigSampler::measureRow(const CheckedPair& pair,
+                            const Correspondence& feature,
+                            RigSample& sample) {
+  const cv::Point2f left = sample.left_px + shiftOf(samples_++);
+  cv::Point2f right = left + cv::Point2f(-static_cast<float>(feature.disparity_px),
+                                         static_cast<float>(pair.result.row_offset.applied_px));
+  sample.row_px = std::numeric_limits<double>::quiet_NaN();
+  // Again from where it stops, up to 0.04 px before the end.
+  constexpr int kSearches = 3;
+  for (int i = 0; i < kSearches; ++i) {
+    if (!tracker_.locate(pair.images.left, pair.images.right, left, right)) return;
+  }
+  sample.left_px = left;
+  sample.row_px = right.y - left.y;
+}
+
+}  // namespace rotrocc

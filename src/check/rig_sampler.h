@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "check/pair_check.h"
+#include "check/rig_model.h"
+#include "features/feature_tracker.h"
+#include "rotrocc/odometry_config.h"
+
+namespace rotrocc {
+
+/// Measures the flow of a feature, its derivatives, and its velocity: that of its flow, but for how
+/// much nearer it is now than on the way. x_right and y of the sample are set; the flow stays zero
+/// if its disparity is too small to have errors that are parts of it.
+void measureFlow(const StereoCamera& camera,
+                 const OdometryResult& result,
+                 const Correspondence& feature,
+                 RigSample& sample);
+
+/// Measures features that agree with the motion in both images, of pairs that have moved.
+class RigSampler {
+ public:
+  explicit RigSampler(const OdometryConfig& config)
+      : tracker_(config.correspondence_finder.feature_tracker) {}
+
+  void observe(const CheckedPair& pair);
+
+  const std::vector<PairSamples>& pairs() const { return pairs_; }
+
+ private:
+  void measureRow(const CheckedPair& pair, const Correspondence& feature, RigSample& sample);
+
+  FeatureTracker tracker_;
+  std::vector<PairSamples> pairs_;
+  std::size_t samples_ = 0;
+};
+
+}  // namespace rotrocc

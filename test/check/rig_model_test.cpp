@@ -1,0 +1,192 @@
+#include "check/rig_model.h"
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "check/rig_sampler.h"
+#include "check/windows.h"
+
+namespace rotrocc {
+namespace {
+
+constexpr double kNoise_px = 0.1;
+constexpr double kPeriod_s = 0.05;
+StereoCamera camera() {
+  StereoCamera camera;
+  camera.width = 752;
+  camera.height = 480;
+  camera.fx = camera.fy = 450.0;
+  camera.cx = camera.cx_right = 375.5;
+  camera.cy = 239.5;
+  camera.baseline_m = 0.11;
+  return camera;
+}
+
+/// Features of a scene from 1 to 10 m, between two pairs of cameras that advance and turn, by a rig
+/// with these causes, with noise, and one of twenty of a wrong match. The motion that the odometry
+/// has found is a little wrong.
+PairSamples pairBy(const StereoCamera& camera, const RigCauses& causes, std::mt19937& generator) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> x(0.0, camera.width), y(0.0, camera.height),
+      inverse(0.1, 1.0), wrong(-3.0, 3.0);
+  const auto small = [&](double size) -> Eigen::Vector3d {
+    return size * Eigen::Vector3d(normal(generator), normal(generator), normal(generator));
+  };
+  OdometryResult result;
+  result.stamp_ns = static_cast<std::int64_t>(1e9 * kPeriod_s);
+  const auto poseOf = [](const Eigen::Vector3d& turn, const Eigen::Vector3d& move) {
+    const Eigen::Quaterniond q(1.0, 0.5 * turn.x(), 0.5 * turn.y(), 0.5 * turn.z());
+    return Eigen::Isometry3d(Eigen::Translation3d(move) * q.normalized());
+  };
+  const Eigen::Vector3d turn = small(0.02), move = Eigen::Vector3d(0.0, 0.0, 0.05) + small(0.02);
+  const Eigen::Isometry3d T = poseOf(turn, move);
+  result.T_keyframe_cur.T = poseOf(turn + small(1e-4), move + small(2e-4));
+  PairSamples pair = {0.0, kNoise_px, {}};
+  const RigDisplacement displacement(camera, causes);
+  for (int i = 0; i < 60; ++i) {
+    Correspondence feature;
+    feature.cur_px = {x(generator), y(generator)};
+    const Eigen::Vector3d point = camera.ray(feature.cur_px) / inverse(generator);
+    RigSample sample;
+    const double disparity_px = camera.disparity(point.z());
+    sample.x_right = (feature.cur_px.x() - disparity_px - camera.cx_right) / camera.fx;
+    sample.y = (feature.cur_px.y() - camera.cy) / camera.fy;
+    feature.keyframe_px = camera.project(T * point);
+    sample.velocity_pxps =
+        (feature.cur_px - feature.keyframe_px) * (T * point).z() / point.z() / kPeriod_s;
+    const Eigen::Vector2d displaced_px = displacement.of(sample);
+    feature.keyframe_px += kNoise_px * Eigen::Vector2d(normal(generator), normal(generator));
+    feature.disparity_px = disparity_px - displaced_px.x() + kNoise_px * normal(generator);
+    sample.left_px =
+        cv::Point2f(static_cast<float>(feature.cur_px.x()), static_cast<float>(feature.cur_px.y()));
+    sample.x_right = (feature.cur_px.x() - feature.disparity_px - camera.cx_right) / camera.fx;
+    measureFlow(camera, result, feature, sample);
+    sample.row_px = displaced_px.y() + kNoise_px * normal(generator);
+    if (i % 20 == 0) sample.row_px += wrong(generator);
+    pair.samples.push_back(sample);
+  }
+  return pair;
+}
+
+constexpr int kPairs = 100;
+
+RigModel modelOf(const StereoCamera& camera, const RigCauses& causes, int pairs = kPairs) {
+  std::mt19937 generator(1);
+  std::vector<PairSamples> samples;
+  for (int i = 0; i < pairs; ++i) {
+    samples.push_back(pairBy(camera, causes, generator));
+    samples.back().time_s = i;
+  }
+  return fitRig(camera, samples, Windows(0.0, pairs, static_cast<std::size_t>(pairs)));
+}
+
+/// A bad calibration, in the order of RigCause.
+constexpr RigCauses kBad = {0.004, 0.004, -0.006, 0.004, 2.0, 0.01, 0.003, 1.0, 0.004, 0.0};
+
+/// Deviations are of eight parts of the image, with which a hundred values of five are one or none.
+constexpr double kSigmas = 5.0;
+
+TEST(RigModelTest, FindsEachCauseAlone) {
+  for (std::size_t k = 0; k < kBothLenses; ++k) {
+    RigCauses truth = {};
+    truth[k] = kBad[k];
+    const RigModel model = modelOf(camera(), truth);
+    SCOPED_TRACE(k);
+    EXPECT_GT(std::abs(model.causes[k]), 3.0 * model.sigmas[k]);
+    EXPECT_NEAR(model.causes[k], truth[k], kSigmas * model.sigmas[k]);
+    for (std::size_t other = 0; other < kRigCauses; ++other) {
+      if (other == k) continue;
+      EXPECT_NEAR(model.causes[other], 0.0, kSigmas * model.sigmas[other]) << other;
+    }
+  }
+}
+
+TEST(RigModelTest, FindsSeveralCausesAtOnce) {
+  RigCauses truth = kBad;
+  truth[kOffset] = truth[kBias] = truth[kTwist] = 0.0;
+  const RigModel model = modelOf(camera(), truth);
+  EXPECT_EQ(model.vertical, TurnOrShift::kTurn);
+  EXPECT_EQ(model.horizontal, TurnOrShift::kTurn);
+  // Derivatives by one cause are those without the others: a hundredth for angles like these.
+  constexpr double kSecondOrder = 0.05;
+  for (std::size_t k = 0; k < kRigCauses; ++k) {
+    EXPECT_NEAR(
+        model.causes[k], truth[k], kSigmas * model.sigmas[k] + kSecondOrder * std::abs(truth[k]))
+        << k;
+  }
+}
+
+/// In a narrow image a pitch and an offset look alike.
+TEST(RigModelTest, SaysThatAnOffsetMayBeAPitch) {
+  StereoCamera narrow = camera();
+  narrow.fx = narrow.fy = 2000.0;
+  RigCauses truth = {};
+  truth[kOffset] = 0.7;
+  const RigModel model = modelOf(narrow, truth);
+  EXPECT_EQ(model.vertical, TurnOrShift::kEither);
+  EXPECT_NEAR(model.causes[kOffset], 0.7, kSigmas * model.sigmas[kOffset]);
+  EXPECT_EQ(model.causes[kPitch], 0.0);
+}
+
+/// What a calibration corrects fits windows better that it is not from; noise does not.
+TEST(RigModelTest, KnowsWhetherACorrectionRepeatsItself) {
+  RigCauses rolled = {};
+  rolled[kRoll] = kBad[kRoll];
+  const RigModel bad = modelOf(camera(), rolled);
+  EXPECT_GT(bad.rows_gain.value, 10.0 * bad.rows_gain.sigma);
+  EXPECT_NE(bad.correctable[kRoll], 0.0);
+  const RigModel good = modelOf(camera(), {});
+  EXPECT_EQ(good.correctable, RigCauses{});
+  EXPECT_EQ(good.rows_gain.value, 0.0);
+}
+
+TEST(RigModelTest, AFewSamplesSayNothing) {
+  const RigModel model = modelOf(camera(), {0.004}, 1);
+  for (std::size_t k = 0; k < kRigCauses; ++k) {
+    EXPECT_EQ(model.causes[k], 0.0);
+    EXPECT_TRUE(std::isinf(model.sigmas[k]));
+  }
+}
+
+TEST(RigModelTest, TheRotationIsThatOfTheRightCamera) {
+  // A camera that looks to the right and higher: what is ahead is on its left, and lower.
+  const Eigen::Vector3d ahead = rotationOf({0.0, 0.1, 0.1}).transpose() * Eigen::Vector3d::UnitZ();
+  EXPECT_LT(ahead.x(), -0.09);
+  EXPECT_GT(ahead.y(), 0.09);
+}
+
+/// What changes slowly has a larger uncertainty than its values show one by one.
+TEST(WindowsTest, CountWhatLasts) {
+  const Windows windows(0.0, 100.0, 1000);
+  ASSERT_EQ(windows.count(), 10u);
+  std::vector<TimedValue> values;
+  for (int i = 0; i < 1000; ++i) {
+    const double time_s = 0.1 * i;
+    values.push_back({time_s, std::fmod(std::floor(time_s / 10.0), 2.0)});
+  }
+  const Estimate estimate = overWindows(values, windows);
+  EXPECT_NEAR(estimate.value, 0.5, 1e-9);
+  EXPECT_NEAR(estimate.sigma, std::sqrt(0.25 / 9.0), 1e-9);
+  EXPECT_TRUE(std::isnan(overWindows({}, windows).value));
+  EXPECT_TRUE(std::isnan(overWindows({{1.0, 2.0}}, windows).sigma));
+}
+
+/// For a mean, the jackknife is the usual formula.
+TEST(WindowsTest, TheJackknifeOfAMeanIsItsStandardError) {
+  const std::vector<double> values = {1.0, 2.0, 4.0, 7.0};
+  std::vector<std::vector<double>> without;
+  for (const double left_out : values) without.push_back({(14.0 - left_out) / 3.0});
+  EXPECT_NEAR(jackknifeSigmas(without)[0], std::sqrt(21.0 / 3.0 / 4.0), 1e-12);
+}
+
+TEST(WindowsTest, DigitsFollowTheUncertainty) {
+  EXPECT_EQ(toText(Estimate{0.70234, 0.0081}, "px"), "0.7023 +- 0.0081 px");
+  EXPECT_EQ(toText(Estimate{12.3, 4.2}, ""), "12.3 +- 4.2");
+}
+
+}  // namespace
+}  // namespace rotrocc
