@@ -31,13 +31,13 @@ def take_every(sequence, every, target):
 
 
 def change_images(sequence, target, change):
-    """A folder with a sequence whose images are change(pair, is_right, grey), of grey levels (n x m)."""
+    """A folder with a sequence whose images are change(pair, is_right, gray), of gray levels (n x m)."""
     take_pairs(sequence, range(count_pairs(sequence)), target)
     for is_right, side in enumerate(('image_0', 'image_1')):
         for pair, path in enumerate(sorted((target / side).iterdir())):
-            grey = numpy.rint(change(pair, is_right, numpy.asarray(Image.open(str(path)), dtype=float)))
+            gray = numpy.rint(change(pair, is_right, numpy.asarray(Image.open(str(path)), dtype=float)))
             path.unlink()  # the link
-            Image.fromarray(grey.clip(0, 255).astype(numpy.uint8)).save(str(path))
+            Image.fromarray(gray.clip(0, 255).astype(numpy.uint8)).save(str(path))
     return target
 
 

@@ -16,7 +16,7 @@ AXES = ['x', 'y', 'z', 'rx', 'ry', 'rz']
 # Of trajectories.
 
 def step_errors_percent(estimate, truth, pairs, least_m):
-    """The errors of the length of the way over each window of `pairs` pairs in which `least_m` is travelled.
+    """The errors of the length of the way over each window of `pairs` pairs in which `least_m` is traveled.
 
     A disparity bias makes all steps too long or too short; that of a rig that flexes scatters them. Single steps of
     a reference have the jitter of its stamps.
@@ -29,14 +29,14 @@ def step_errors_percent(estimate, truth, pairs, least_m):
 
 def position_error_percent(poses, positions):
     """RMSE of the positions of an antenna (n x 3), after the best rigid alignment and for the best place of the
-    antenna on the vehicle, relative to the distance travelled."""
+    antenna on the vehicle, relative to the distance traveled."""
     antenna = numpy.zeros(3)
-    centred = positions - positions.mean(axis=0)
+    centered = positions - positions.mean(axis=0)
     for _ in range(50):
         estimated = poses[:, :, 3] + poses[:, :, :3] @ antenna
-        u, _, v = numpy.linalg.svd(centred.T @ (estimated - estimated.mean(axis=0)))
+        u, _, v = numpy.linalg.svd(centered.T @ (estimated - estimated.mean(axis=0)))
         rotation = u @ numpy.diag([1, 1, numpy.linalg.det(u @ v)]) @ v
-        aligned = centred @ rotation + estimated.mean(axis=0)
+        aligned = centered @ rotation + estimated.mean(axis=0)
         beside = numpy.einsum('nji,nj->i', poses[:, :, :3], aligned - poses[:, :, 3])
         antenna = numpy.linalg.solve(len(poses) * numpy.eye(3) + ANTENNA_PRIOR, beside)
     rmse_m = numpy.sqrt(numpy.mean(numpy.sum((aligned - estimated) ** 2, axis=1)))

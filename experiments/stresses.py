@@ -14,7 +14,7 @@ CAMERA = ['--size', '640x240', '--focal', 370, '--baseline', BASELINE_M]  # as K
 PERIOD_S = 0.1
 STEP_M = 0.5
 START_PAIRS = 5  # speed and turn rate grow from 0 to full during this time
-NOISE = 2.0  # [grey levels] of all drives but those of the stress noise
+NOISE = 2.0  # [gray levels] of all drives but those of the stress noise
 BLUR_TURN_DEG = 4.0  # of a drive with motion blur, per pair
 
 Stress = collections.namedtuple('Stress', 'name title unit levels make')
@@ -163,67 +163,67 @@ def miscalibrated(places):
     return make
 
 
-def worse(change=lambda level, pair, is_right, grey: grey, noise=lambda level: NOISE, quality=None):
-    """With worse images: change() of the grey levels, then noise, then a JPEG compression, each by the level."""
+def worse(change=lambda level, pair, is_right, gray: gray, noise=lambda level: NOISE, quality=None):
+    """With worse images: change() of the gray levels, then noise, then a JPEG compression, each by the level."""
     def make(drives, name, level, seed):
         clean = drives.render('clean_%d' % seed, seed, noise=0)
         random = numpy.random.RandomState(seed)
 
-        def worsen(pair, is_right, grey):
-            seen = change(level, pair, is_right, grey)
-            seen = seen + noise(level) * random.normal(size=grey.shape)
+        def worsen(pair, is_right, gray):
+            seen = change(level, pair, is_right, gray)
+            seen = seen + noise(level) * random.normal(size=gray.shape)
             return through_jpeg(seen, quality(level)) if quality else seen
         return drives.once(name, lambda target: change_images(clean, target, worsen))
     return make
 
 
-def image_of(grey):
-    return Image.fromarray(numpy.rint(grey).clip(0, 255).astype(numpy.uint8))
+def image_of(gray):
+    return Image.fromarray(numpy.rint(gray).clip(0, 255).astype(numpy.uint8))
 
 
-def through_jpeg(grey, quality):
+def through_jpeg(gray, quality):
     file = io.BytesIO()
-    image_of(grey).save(file, 'JPEG', quality=quality)
+    image_of(gray).save(file, 'JPEG', quality=quality)
     return numpy.asarray(Image.open(file), dtype=float)
 
 
-def gain_steps(level, pair, is_right, grey):
-    return numpy.minimum(255, grey * numpy.sqrt(level if pair // 5 % 2 else 1 / level))
+def gain_steps(level, pair, is_right, gray):
+    return numpy.minimum(255, gray * numpy.sqrt(level if pair // 5 % 2 else 1 / level))
 
 
-def right_gain(level, pair, is_right, grey):
-    return grey * level if is_right else grey
+def right_gain(level, pair, is_right, gray):
+    return gray * level if is_right else gray
 
 
-def right_offset(level, pair, is_right, grey):
-    return grey + level if is_right else grey
+def right_offset(level, pair, is_right, gray):
+    return gray + level if is_right else gray
 
 
-def contrast(level, pair, is_right, grey):
-    return 110 + level / 100 * (grey - 110)
+def contrast(level, pair, is_right, gray):
+    return 110 + level / 100 * (gray - 110)
 
 
-def blurred(grey, sigma_px):
-    return numpy.asarray(image_of(grey).filter(ImageFilter.GaussianBlur(sigma_px)), dtype=float)
+def blurred(gray, sigma_px):
+    return numpy.asarray(image_of(gray).filter(ImageFilter.GaussianBlur(sigma_px)), dtype=float)
 
 
-def plain(level, pair, is_right, grey):
+def plain(level, pair, is_right, gray):
     """Without texture from the left border on."""
-    kept = numpy.clip(0.5 + (numpy.arange(grey.shape[1]) - level / 100 * grey.shape[1]) / 24, 0, 1)
-    return blurred(grey, 12) + kept * (grey - blurred(grey, 12))
+    kept = numpy.clip(0.5 + (numpy.arange(gray.shape[1]) - level / 100 * gray.shape[1]) / 24, 0, 1)
+    return blurred(gray, 12) + kept * (gray - blurred(gray, 12))
 
 
 def lorry(across_mps):
     """Broadside ahead, from the left border on; it covers `level` % of the left image at pair 12 of 25."""
-    def change(level, pair, is_right, grey):
+    def change(level, pair, is_right, gray):
         px_per_m = FOCAL_PX / LORRY_AHEAD_M
-        edge = level / 100 * grey.shape[1] + px_per_m * (across_mps * PERIOD_S * (pair - 12) - BASELINE_M * is_right)
-        side = blurred(numpy.random.RandomState(1).uniform(0, 255, (grey.shape[0], 4 * grey.shape[1])), 1.5)
-        columns = numpy.arange(grey.shape[1]) - edge
-        place = numpy.minimum(columns, -1) + 3 * grey.shape[1]
+        edge = level / 100 * gray.shape[1] + px_per_m * (across_mps * PERIOD_S * (pair - 12) - BASELINE_M * is_right)
+        side = blurred(numpy.random.RandomState(1).uniform(0, 255, (gray.shape[0], 4 * gray.shape[1])), 1.5)
+        columns = numpy.arange(gray.shape[1]) - edge
+        place = numpy.minimum(columns, -1) + 3 * gray.shape[1]
         whole = place.astype(int)
         tarpaulin = side[:, whole] + (place - whole) * (side[:, whole + 1] - side[:, whole])
-        return numpy.where(columns < 0, 90 + 2 * (tarpaulin - 127), grey)
+        return numpy.where(columns < 0, 90 + 2 * (tarpaulin - 127), gray)
     return change
 
 
@@ -244,12 +244,12 @@ STRESSES = [
            worse(right_gain)),
     Stress('right_gain_up', 'right images: gain above 1', 'factor',
            [1.15, 1.25, 1.4, 1.7, 2, 2.5, 3.5, 5, 10, 20], worse(right_gain)),
-    Stress('right_offset_down', 'right images: offset below 0', 'grey levels',
+    Stress('right_offset_down', 'right images: offset below 0', 'gray levels',
            [-15, -25, -40, -60, -80, -100, -130, -160, -190], worse(right_offset)),
-    Stress('right_offset_up', 'right images: offset above 0', 'grey levels',
+    Stress('right_offset_up', 'right images: offset above 0', 'gray levels',
            [15, 25, 40, 60, 80, 100, 130, 160, 190, 220], worse(right_offset)),
     Stress('contrast', 'contrast', '%', ladder(80, 1), worse(contrast)),
-    Stress('noise', 'noise', 'grey levels', ladder(2, 80), worse(noise=lambda level: level)),
+    Stress('noise', 'noise', 'gray levels', ladder(2, 80), worse(noise=lambda level: level)),
     Stress('jpeg', 'JPEG quality', '', ladder(90, 1), worse(quality=round)),
     Stress('lorry', 'a lorry that moves with the camera', '% of the image', SHARES,
            worse(lorry(0.0))),

@@ -27,7 +27,7 @@ SimulationOptions checked(const SimulationOptions& options) {
   requireRange("row offset [px]", faults.row_offset_px, -20.0, 20.0);
   requireRange("focal length of the right camera", faults.right_focal_ratio, 0.5, 2.0);
   requireRange("time skew [s]", faults.time_skew_s, -0.1, 0.1);
-  requireRange("noise [grey levels]", faults.noise_sigma, 0.0, 50.0);
+  requireRange("noise [gray levels]", faults.noise_sigma, 0.0, 50.0);
   requireRange("motion blur [s]", faults.motion_blur_s, 0.0, 0.1);
   requireRange("share of moving cars", options.moving_share, 0.0, 1.0);
   requireRange("rate [Hz]", options.rate_hz, 1e-3, 1000.0);
@@ -55,7 +55,7 @@ constexpr double kVignetting = 0.15;  // relative loss of light in the corners
 constexpr double kResponse = 0.8;     // exponent of the camera response
 constexpr int kResponseSteps = 4096;
 
-/// Grey levels for brightness 0 ... 1 in equal steps.
+/// Gray levels for brightness 0 ... 1 in equal steps.
 std::vector<float> responseTable() {
   std::vector<float> table;
   for (int i = 0; i <= kResponseSteps; ++i) {
@@ -69,12 +69,12 @@ std::vector<float> responseTable() {
 /// noise, independent for each pixel. The same key gives the same bytes for any number of threads.
 cv::Mat develop(const cv::Mat& brightness, double noise_sigma, std::uint64_t noise_key) {
   cv::Mat image(brightness.size(), CV_8UC1);
-  const cv::Point2d centre(0.5 * (image.cols - 1), 0.5 * (image.rows - 1));
-  const double corner_squared = centre.ddot(centre);
+  const cv::Point2d center(0.5 * (image.cols - 1), 0.5 * (image.rows - 1));
+  const double corner_squared = center.ddot(center);
   const std::vector<float> response = responseTable();
   Workers(cv::getNumThreads()).run(image.rows, [&](int y) {
     for (int x = 0; x < image.cols; ++x) {
-      const cv::Point2d off = cv::Point2d(x, y) - centre;
+      const cv::Point2d off = cv::Point2d(x, y) - center;
       const double lost = kVignetting * off.ddot(off) / corner_squared;
       const double light = std::clamp((1.0 - lost) * brightness.at<float>(y, x), 0.0, 1.0);
       const auto pixel = static_cast<std::uint64_t>(y) * image.cols + x;

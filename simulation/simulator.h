@@ -29,7 +29,7 @@ struct CameraFaults {
   double right_focal_ratio = 1.0;  ///< focal length of the right camera, over the nominal one
   double time_skew_s = 0.0;        ///< delay of the right camera
   double motion_blur_s = 0.0;      ///< exposure time, around the stamp
-  double noise_sigma = 2.0;        ///< [grey levels], Gaussian, the same at any brightness
+  double noise_sigma = 2.0;        ///< [gray levels], Gaussian, the same at any brightness
 
   /// True T_left_right of the rig.
   Eigen::Isometry3d rightCamera(const StereoCamera& camera) const;
@@ -49,7 +49,7 @@ struct SimulationOptions {
 /// A stereo pair with ground truth for the left image.
 struct SimulatedFrame {
   StereoPair pair;
-  cv::Mat depth;  ///< CV_64FC1 [m] at the centres of the pixels; infinite for the sky; empty for
+  cv::Mat depth;  ///< CV_64FC1 [m] at the centers of the pixels; infinite for the sky; empty for
                   ///< images that are not rectified
 };
 

@@ -21,10 +21,10 @@ struct FlowScene {
 
 /// Draws the flow of each feature on the darkened left image, as a line from its position in the
 /// keyframe to its current position. A line of text below the image gives the state, speed, feature
-/// counts and disparity bias, and explains the colours. They are safe for colour-blind readers.
+/// counts and disparity bias, and explains the colors. They are safe for color-blind readers.
 /// What is masked is tinted red.
 ///
-/// Inliers of both stages are coloured by depth, from orange (near) to blue (far). Inliers of the
+/// Inliers of both stages are colored by depth, from orange (near) to blue (far). Inliers of the
 /// rotation stage only are white, all other features magenta. For these two, the flow that the
 /// estimated motion predicts is drawn in green where it differs from the measured flow.
 ///

@@ -12,13 +12,13 @@ namespace rotrocc {
 
 /// State of the odometry after a pair.
 enum class State {
-  kInitialising,  ///< no earlier pair to compare with
+  kInitializing,  ///< no earlier pair to compare with
   kOk,
   kDegraded,  ///< a motion was estimated, but is less reliable: see OdometryResult::reason
   kLost       ///< no motion was found, or the pair cannot be used
 };
 
-/// "initialising", "ok", "degraded" or "lost".
+/// "initializing", "ok", "degraded" or "lost".
 const char* toString(State state);
 
 /// Number of features left after each stage.

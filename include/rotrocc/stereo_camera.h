@@ -6,7 +6,7 @@ namespace rotrocc {
 
 /// A rectified pinhole stereo camera, as described by the projection matrices P of the two
 /// sensor_msgs/CameraInfo (or P0 and P1 of KITTI). Points are in the left camera's optical frame
-/// (REP 103: x right, y down, z forward), in metres. The origin of pixel coordinates is the centre
+/// (REP 103: x right, y down, z forward), in meters. The origin of pixel coordinates is the center
 /// of the top left pixel.
 struct StereoCamera {
   int width = 0;    ///< [px]

@@ -37,7 +37,7 @@ class VisualOdometry {
   /// on: images that are empty, not CV_8UC1, of different sizes or not of the camera's size, or
   /// masks that are not; an invalid camera; a stamp that is not later; an image that shows
   /// something and is identical to the previous one, which no camera sends twice; errors inside
-  /// OpenCV or Ceres. The state is initialising on the first pair, on images of another
+  /// OpenCV or Ceres. The state is initializing on the first pair, on images of another
   /// size, a calibration that changes by more than a thousandth, and after a gap of more than 30
   /// periods of the pairs, or if stamps went back by more than that.
   ///

@@ -96,7 +96,7 @@ def write_tables(output, results):
 
 
 def change(now, before):
-    """Relative change, with sign and colour."""
+    """Relative change, with sign and color."""
     if not before > 0.0:
         return '–'
     percent = 100.0 * (now / before - 1.0)

@@ -3,11 +3,11 @@ import matplotlib
 matplotlib.use('Agg')
 from matplotlib import pyplot, ticker
 
-# Okabe and Ito's colours, distinguishable with colour blindness.
+# Okabe and Ito's colors, distinguishable with color blindness.
 ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILLION, PURPLE, BLACK = (
     '#E69F00', '#56B4E9', '#009E73', '#F0E442', '#0072B2', '#D55E00', '#CC79A7', '#000000')
 TRUTH, ESTIMATE = BLUE, ORANGE
-DEGRADED, LOST = VERMILLION, BLACK  # the worse, the darker, for those who see no colours
+DEGRADED, LOST = VERMILLION, BLACK  # the worse, the darker, for those who see no colors
 TEXT, FAINT, GRID = '#333333', '#777777', '#DDDDDD'
 
 

@@ -41,11 +41,11 @@ def plot_errors(by_length, by_speed, path, other=None, of_other='earlier'):
               ('rotation_deg_per_m', 'rotation error [deg/m]', ORANGE, 's')]
     for column, (bin_name, scale, bin_label) in enumerate(bins):
         table = (by_length, by_speed)[column]
-        for row, (name, label, colour, marker) in enumerate(errors):
+        for row, (name, label, color, marker) in enumerate(errors):
             panel = axes[row, column]
             if other and len(other[column][bin_name]):
                 panel.plot(scale * other[column][bin_name], other[column][name], **OTHER)
-            panel.plot(scale * table[bin_name], table[name], marker=marker, color=colour,
+            panel.plot(scale * table[bin_name], table[name], marker=marker, color=color,
                        markersize=5, linewidth=1.8, clip_on=False, zorder=3)
             panel.set_xlabel(bin_label)
             place_ticks(panel.xaxis, 9)
@@ -64,12 +64,12 @@ def plot_errors(by_length, by_speed, path, other=None, of_other='earlier'):
 def shade(panel, time_s, states):
     """Shades degraded and lost pairs."""
     edges = numpy.concatenate([time_s[:1], 0.5 * (time_s[1:] + time_s[:-1]), time_s[-1:]])
-    for state, colour, opacity in (('degraded', DEGRADED, 0.22), ('lost', LOST, 0.32)):
+    for state, color, opacity in (('degraded', DEGRADED, 0.22), ('lost', LOST, 0.32)):
         inside = numpy.concatenate([[False], states == state, [False]])
         begins = numpy.flatnonzero(inside[1:] & ~inside[:-1])
         ends = numpy.flatnonzero(~inside[1:] & inside[:-1])
         for begin, end in zip(begins, ends):
-            panel.axvspan(edges[begin], edges[end], color=colour, alpha=opacity, linewidth=0)
+            panel.axvspan(edges[begin], edges[end], color=color, alpha=opacity, linewidth=0)
 
 
 def time_axis(panel, time_s):
@@ -95,16 +95,16 @@ def plot_steps(poses, states, path):
         rows = [(1e3 * poses['step_translation_error_m'], 'translation [mm]', BLUE),
                 (1e3 * poses['step_rotation_error_deg'], 'rotation [mdeg]', ORANGE)] + rows
     figure, axes = panels(len(rows), 1, 0.6 + 1.35 * len(rows), sharex=True)
-    for panel, (values, label, colour) in zip(axes[:, 0], rows):
+    for panel, (values, label, color) in zip(axes[:, 0], rows):
         shade(panel, time_s, states)
-        panel.plot(time_s, values, color=colour, linewidth=1.0)
+        panel.plot(time_s, values, color=color, linewidth=1.0)
         panel.set_ylabel(label)
         panel.set_ylim(0, robust_top(values))
         place_ticks(panel.yaxis, 4)
     time_axis(axes[-1, 0], time_s)
     figure.align_ylabels(axes[:, 0])
     figure.tight_layout(h_pad=0.8, rect=(0, 0, 1, 1 - 0.22 / figure.get_figheight()))
-    handles = [patches.Patch(color=colour, alpha=0.35, linewidth=0) for colour in (DEGRADED, LOST)]
+    handles = [patches.Patch(color=color, alpha=0.35, linewidth=0) for color in (DEGRADED, LOST)]
     counts = ['%s: %d of %d pairs' % (state, numpy.count_nonzero(states == state), len(states))
               for state in ('degraded', 'lost')]
     legend(figure, handles, counts, loc='upper right', ncol=2, bbox_to_anchor=(0.985, 0.995))
@@ -129,16 +129,16 @@ def timeline(label, time_s, path):
 def plot_counts(pairs, time_s, path):
     """Features left after each stage."""
     with timeline('features', time_s, path) as panel:
-        for name, colour, label in COUNTS:
-            panel.fill_between(time_s, pairs[name], color=colour, linewidth=0, label=label)
+        for name, color, label in COUNTS:
+            panel.fill_between(time_s, pairs[name], color=color, linewidth=0, label=label)
         panel.set_ylim(0, 1.05 * max(1, pairs['corners'].max()))
 
 
 def plot_times(pairs, time_s, path):
     """Stacked times of the stages."""
-    names, colours, labels = zip(*TIMES)
+    names, colors, labels = zip(*TIMES)
     with timeline('wall time [ms]', time_s, path) as panel:
-        panel.stackplot(time_s, [pairs[name] for name in names], linewidth=0, colors=colours, labels=labels)
+        panel.stackplot(time_s, [pairs[name] for name in names], linewidth=0, colors=colors, labels=labels)
         panel.plot(time_s, pairs['wall_ms'], color=BLACK, linewidth=0.6, label='whole pair')
         panel.set_ylim(0, robust_top(pairs['wall_ms']))
 

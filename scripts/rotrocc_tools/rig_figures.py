@@ -11,18 +11,18 @@ SHARE = colors.LinearSegmentedColormap.from_list('share', [VERMILLION, '#F4F4F4'
 
 
 def courses(panels, path):
-    """Panels above each other with a common time axis: (label of y, [(time, value, sigma or None, name, colour)])."""
+    """Panels above each other with a common time axis: (label of y, [(time, value, sigma or None, name, color)])."""
     figure, axes = pyplot.subplots(len(panels), 1, figsize=(WIDTH_IN, 0.5 + 1.55 * len(panels)), sharex=True,
                                    squeeze=False)
     for panel, (label, lines) in zip(axes.flat, panels):
         dress(panel)
         place_ticks(panel.yaxis, 4)
         panel.set_ylabel(label)
-        for time_s, value, sigma, name, colour in lines:
+        for time_s, value, sigma, name, color in lines:
             style = {'marker': 'o', 'markersize': 4} if len(time_s) < 40 else {'linewidth': 1.2}
-            panel.plot(time_s, value, color=colour, label=name, **style)
+            panel.plot(time_s, value, color=color, label=name, **style)
             if sigma is not None:
-                panel.fill_between(time_s, value - sigma, value + sigma, color=colour, alpha=0.2, linewidth=0)
+                panel.fill_between(time_s, value - sigma, value + sigma, color=color, alpha=0.2, linewidth=0)
         if len(lines) > 1:
             legend(panel, loc='lower left', bbox_to_anchor=(0.0, 1.0), ncol=len(lines))
     axes[-1, 0].set_xlabel('time [s]')
@@ -37,7 +37,7 @@ def largest_px(*values):
     return max(finite.max() if finite.size else 0.0, 0.25)
 
 
-def draw_map(panel, table, values, size, picture, colour_map, limits):
+def draw_map(panel, table, values, size, picture, color_map, limits):
     """Cells of a table over a faint picture of the camera."""
     if picture is not None:
         panel.imshow(picture, cmap='gray', vmin=0, vmax=255, extent=(0, size[0], size[1], 0), alpha=0.45)
@@ -48,7 +48,7 @@ def draw_map(panel, table, values, size, picture, colour_map, limits):
     rows = numpy.clip((table['y_px'] / height).astype(int), 0, cells.shape[0] - 1)
     columns = numpy.clip((table['x_px'] / width).astype(int), 0, cells.shape[1] - 1)
     cells[rows, columns] = values
-    drawn = panel.imshow(cells, cmap=colour_map, vmin=limits[0], vmax=limits[1], alpha=0.75,
+    drawn = panel.imshow(cells, cmap=color_map, vmin=limits[0], vmax=limits[1], alpha=0.75,
                          extent=(0, size[0], size[1], 0), interpolation='nearest')
     panel.set_xlim(0, size[0])
     panel.set_ylim(size[1], 0)
@@ -59,14 +59,14 @@ def draw_map(panel, table, values, size, picture, colour_map, limits):
     return drawn
 
 
-def maps(parts, size, left_png, path, colour_map, limits, label):
-    """Maps one above the other, with one colour bar: (title, table, values, arrows or None)."""
+def maps(parts, size, left_png, path, color_map, limits, label):
+    """Maps one above the other, with one color bar: (title, table, values, arrows or None)."""
     picture = image.imread(str(left_png)) * 255.0 if left_png.is_file() else None
     height_in = WIDTH_IN * 0.84 * size[1] / size[0]
     figure, axes = pyplot.subplots(len(parts), 1, figsize=(WIDTH_IN, (height_in + 0.35) * len(parts) + 0.2),
                                    squeeze=False, constrained_layout=True)
     for panel, (title, table, values, arrows) in zip(axes.flat, parts):
-        drawn = draw_map(panel, table, values, size, picture, colour_map, limits)
+        drawn = draw_map(panel, table, values, size, picture, color_map, limits)
         panel.set_title(title, fontsize=10, color=TEXT, loc='left')
         if arrows:
             longest_px = 0.09 * size[1]

@@ -75,17 +75,17 @@ class RigPage:
         draw(*arguments, path)
         return page.picture(path, description)
 
-    def course(self, table, value, name=None, colour=BLUE, factor=1.0, sigma=None):
+    def course(self, table, value, name=None, color=BLUE, factor=1.0, sigma=None):
         """A line of figures.courses()."""
         columns = self.tables[table]
         deviation = factor * columns[sigma] if sigma else None
-        return columns['time_s'], factor * columns[value], deviation, name, colour
+        return columns['time_s'], factor * columns[value], deviation, name, color
 
-    def maps(self, name, description, parts, colour_map, limits, label):
+    def maps(self, name, description, parts, color_map, limits, label):
         camera = self.tables['image']
         size = camera['width'][0], camera['height'][0]
         return self.picture(name, description, lambda path: figures.maps(
-            parts, size, self.folder / 'left.png', path, colour_map, limits, label))
+            parts, size, self.folder / 'left.png', path, color_map, limits, label))
 
     def tiles(self):
         verdicts = [finding['verdict'] for finding in self.content['findings']]
@@ -148,16 +148,16 @@ class RigPage:
         def both(name, factor=1.0):
             return [self.course('photometry', name + '_left', 'left', BLUE, factor),
                     self.course('photometry', name + '_right', 'right', ORANGE, factor)]
-        panels = [('mean grey', both('mean')), ('white [%]', both('saturated', 100.0)),
+        panels = [('mean gray', both('mean')), ('white [%]', both('saturated', 100.0)),
                   ('black [%]', both('dark', 100.0)),
                   ('gain', [self.course('photometry', 'gain')]),
-                  ('offset [grey]', [self.course('photometry', 'offset_grey')])]
+                  ('offset [gray]', [self.course('photometry', 'offset_gray')])]
         if self.has('sharpness'):
             panels.append(('blur [px²]', [self.course('sharpness', 'blur_px2')]))
-        return page.section('Photometry', 'Grey levels of both images, and the right one compared with the left one '
+        return page.section('Photometry', 'Gray levels of both images, and the right one compared with the left one '
                             'where both show the same: gain 1, offset 0 and blur 0 are equal. '
                             'Positive blur, the variance of a Gaussian: the right image is blurred.',
-                            self.picture('photometry', 'grey levels over time', figures.courses, panels))
+                            self.picture('photometry', 'gray levels over time', figures.courses, panels))
 
     def rows(self):
         if not self.has('rows_map'):
@@ -175,7 +175,7 @@ class RigPage:
             shown.append(self.picture('rows_time', 'row differences over time', figures.courses, [
                 ('left over [px]', [self.course('rows_time', 'row_px', sigma='sigma_px')])]))
         return page.section('Rows', 'How much lower points are in the right image: zero everywhere for a rectified '
-                            'pair. The arrows point where they are displaced to, in the scale of the colours. Over '
+                            'pair. The arrows point where they are displaced to, in the scale of the colors. Over '
                             'time, what moves is a rig that bends.', *shown)
 
     def disparities(self):

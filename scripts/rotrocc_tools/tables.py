@@ -51,6 +51,6 @@ def positions(poses, prefix=''):
 
 
 def path_lengths(positions_m):
-    """The distance travelled up to each position, n x 3 [m]."""
+    """The distance traveled up to each position, n x 3 [m]."""
     steps = numpy.linalg.norm(numpy.diff(positions_m, axis=0), axis=1)
     return numpy.concatenate([[0.0], numpy.cumsum(steps)])

@@ -1,7 +1,7 @@
 // Draws `data` of trajectory_page.py on the element #map with Leaflet.
 'use strict';
 (() => {
-  const colours = data.colours;
+  const colors = data.colors;
   const count = data.time_s.length;
   const pointsOf = ([forward, right]) => forward.map((z, i) => [z, right[i]]);
   const estimate = pointsOf(data.estimate);
@@ -15,39 +15,39 @@
   });
   const layers = {};
   if (truth) {
-    layers.truth = L.polyline(truth, {color: colours.truth, weight: 7, opacity: 0.55, smoothFactor: 0.8});
+    layers.truth = L.polyline(truth, {color: colors.truth, weight: 7, opacity: 0.55, smoothFactor: 0.8});
   }
-  layers.estimate = L.polyline(estimate, {color: colours.estimate, weight: 3, smoothFactor: 0.8});
+  layers.estimate = L.polyline(estimate, {color: colors.estimate, weight: 3, smoothFactor: 0.8});
   for (const state of ['degraded', 'lost']) {
     const marks = estimate.filter((_, i) => data.state[i] === state).map(point => L.circleMarker(
-      point, {radius: state === 'lost' ? 5 : 4, stroke: false, fillColor: colours[state], fillOpacity: 1}));
+      point, {radius: state === 'lost' ? 5 : 4, stroke: false, fillColor: colors[state], fillOpacity: 1}));
     if (marks.length) layers[state] = L.layerGroup(marks);
   }
   for (const layer of Object.values(layers)) layer.addTo(map);
-  L.circleMarker(estimate[0], {radius: 7, weight: 2, color: '#fff', fillColor: colours.text, fillOpacity: 1})
+  L.circleMarker(estimate[0], {radius: 7, weight: 2, color: '#fff', fillColor: colors.text, fillOpacity: 1})
     .bindTooltip('start', {permanent: true, direction: 'left', offset: [-6, 0]}).addTo(map);
   L.control.layers(null, Object.fromEntries(Object.entries(layers).map(
-    ([name, layer]) => [`<span style="color:${colours[name]}">&#9632;</span> ${name}`, layer])),
+    ([name, layer]) => [`<span style="color:${colors[name]}">&#9632;</span> ${name}`, layer])),
     {collapsed: false}).addTo(map);
   L.control.scale({imperial: false, maxWidth: 160}).addTo(map);
   map.fitBounds(L.latLngBounds(truth ? estimate.concat(truth) : estimate), {padding: [30, 30]});
 
-  const metres = (value, digits) => value.toFixed(digits) + ' m';
+  const meters = (value, digits) => value.toFixed(digits) + ' m';
   function textOf(i) {
     const lines = [`<b>pair ${i} of ${count - 1}</b>`, `time ${data.time_s[i].toFixed(2)} s`,
-      `path ${metres(data.path_m[i], 1)}, height ${metres(data.height_m[i], 2)}`];
+      `path ${meters(data.path_m[i], 1)}, height ${meters(data.height_m[i], 2)}`];
     if (data.state[i]) lines.push('state ' + data.state[i]);
     if (truth) {
       const share = data.path_m[i] > 0 ? ` (${(100 * data.error_m[i] / data.path_m[i]).toFixed(2)} %)` : '';
-      lines.push(`position error ${metres(data.error_m[i], 2)}${share}`,
+      lines.push(`position error ${meters(data.error_m[i], 2)}${share}`,
         `error of the step ${(1000 * data.step_error_m[i]).toFixed(1)} mm`);
     }
     return lines.join('<br>');
   }
 
   // The pose next to the pointer, with its true place.
-  const place = L.circleMarker(estimate[0], {radius: 6, weight: 2, color: colours.text, fill: false});
-  const link = L.polyline([], {color: colours.text, weight: 1.5});
+  const place = L.circleMarker(estimate[0], {radius: 6, weight: 2, color: colors.text, fill: false});
+  const link = L.polyline([], {color: colors.text, weight: 1.5});
   const note = L.tooltip({direction: 'auto', offset: [12, 0]});
   function nearest(pointer) {
     let best = -1, bestDistance = 40;  // pixels

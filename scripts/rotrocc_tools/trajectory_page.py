@@ -16,7 +16,7 @@ from rotrocc_tools.tables import positions, read_columns
 
 LEAFLET = pathlib.Path('/usr/share/javascript/leaflet')
 MAP_SCRIPT = pathlib.Path(os.path.realpath(__file__)).with_name('trajectory_map.js')
-COLOURS = {'truth': TRUTH, 'estimate': ESTIMATE, 'degraded': DEGRADED, 'lost': LOST, 'text': TEXT}
+COLORS = {'truth': TRUTH, 'estimate': ESTIMATE, 'degraded': DEGRADED, 'lost': LOST, 'text': TEXT}
 
 
 def has_leaflet():
@@ -31,7 +31,7 @@ def rounded(values, digits):
 def map_data(poses, states):
     """What the map shows: positions from above, and what it says of each pose. x is to the right, z forward."""
     time_s = 1e-9 * (poses['stamp_ns'] - poses['stamp_ns'][0])
-    data = {'colours': COLOURS, 'state': list(states), 'time_s': rounded(time_s, 3),
+    data = {'colors': COLORS, 'state': list(states), 'time_s': rounded(time_s, 3),
             'path_m': rounded(poses['path_m'], 1), 'height_m': rounded(-poses['y_m'], 2),
             'estimate': [rounded(poses[axis], 2) for axis in ('z_m', 'x_m')]}
     if 'true_x_m' in poses:

@@ -23,10 +23,10 @@ def draw_from_above(axes, estimate, truth):
 
 
 def draw_marks(axes, estimate, marks):
-    for name, colour, size in (('degraded', DEGRADED, 5), ('lost', LOST, 7)):
+    for name, color, size in (('degraded', DEGRADED, 5), ('lost', LOST, 7)):
         marked = estimate[marks[name]]
         if len(marked):
-            axes.plot(marked[:, 0], marked[:, 2], 'X', color=colour, markersize=size,
+            axes.plot(marked[:, 0], marked[:, 2], 'X', color=color, markersize=size,
                       markeredgewidth=0, linestyle='none', label=name, zorder=3.5)
 
 

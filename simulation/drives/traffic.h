@@ -11,7 +11,7 @@ namespace rotrocc {
 
 /// Other moving cars. Distances are to the right of the camera's path.
 struct TrafficPlan {
-  double oncoming_m = -3.5;        ///< centre of the oncoming lane
+  double oncoming_m = -3.5;        ///< center of the oncoming lane
   double oncoming_mps = 9.0;       ///< 0: no oncoming traffic
   double overtaking_m = 0.0;       ///< middle of the lane of overtaking cars
   double overtaking_mps = 0.0;     ///< 0: nothing overtakes

@@ -9,7 +9,7 @@
 namespace rotrocc {
 namespace {
 
-/// Lengths in metres; heights above the ground.
+/// Lengths in meters; heights above the ground.
 struct CarSize {
   double half_length, half_width;
   double belt, roof;                 // heights of the lower edge of the windows and of the roof

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kFoundation = 4.0;  // [m] below the ground, for houses on slopes
 
-/// Lengths in metres, brightnesses as reflectances.
+/// Lengths in meters, brightnesses as reflectances.
 struct FacadeStyle {
   double half_width, half_depth;  // the front is wide
   int floors;
@@ -165,9 +165,9 @@ class Facade {
     }
     constexpr double kDoor_m = 2.75;  // the highest of what follows
     if (place.v - 0.5 * place.height >= kDoor_m) return brightness;
-    const double centre = (style_.door + 0.5) * spacing;
+    const double center = (style_.door + 0.5) * spacing;
     const auto area = [&](double half, double top) {
-      return coverageBetween(centre - half, centre + half, place.u, place.width) *
+      return coverageBetween(center - half, center + half, place.u, place.width) *
              coverageBetween(0.0, top, place.v, place.height);
     };
     brightness = mix(brightness, style_.wall * 0.9, area(0.5 * spacing - 0.1, kDoor_m));

@@ -108,8 +108,8 @@ Body makeGantry(double half_width_m, const TextureTiles& tiles, RandomStream& ra
     const double x = side * half_width_m;
     parts.push_back({boxBetween({x - 0.25, -7.2, -0.25}, {x + 0.25, 0.5, 0.25}), plain(0.42)});
   }
-  for (const double centre : {-0.45, 0.15}) {
-    const double x = half_width_m * (centre + random.uniform(0.0, 0.2));
+  for (const double center : {-0.45, 0.15}) {
+    const double x = half_width_m * (center + random.uniform(0.0, 0.2));
     const double half = random.uniform(1.6, 2.3);
     parts.push_back({boxBetween({x - half, -8.4, -0.45}, {x + half, -5.7, -0.32}),
                      writing(tiles.writing, 0.16, 0.95, 0.6)});

@@ -27,15 +27,15 @@ class Rendering {
         picture_{cv::Mat(rays.size(), CV_32FC1), cv::Mat(rays.size(), CV_64FC1)} {}
 
   Picture run() {
-    Workers(cv::getNumThreads()).run(surfaces_.rows, [this](int y) { lookAtCentres(y); });
-    // Edges are detected in the centre samples, not in the smoothed image of other threads.
-    centres_ = picture_.brightness.clone();
+    Workers(cv::getNumThreads()).run(surfaces_.rows, [this](int y) { lookAtCenters(y); });
+    // Edges are detected in the center samples, not in the smoothed image of other threads.
+    centers_ = picture_.brightness.clone();
     Workers(cv::getNumThreads()).run(surfaces_.rows, [this](int y) { smoothEdges(y); });
     return picture_;
   }
 
  private:
-  void lookAtCentres(int y) {
+  void lookAtCenters(int y) {
     for (int x = 0; x < surfaces_.cols; ++x) {
       const Eigen::Vector2d place = rays_.place(x, y);
       const Sighting sighting = world_.look(view_, place.x(), place.y());
@@ -45,14 +45,14 @@ class Rendering {
     }
   }
 
-  /// Whether a neighbour belongs to another surface of another brightness.
+  /// Whether a neighbor belongs to another surface of another brightness.
   bool isAtEdge(int x, int y) const {
     constexpr float kContrast = 0.04F;
     const int surface = surfaces_.at<int>(y, x);
-    const float brightness = centres_.at<float>(y, x);
+    const float brightness = centers_.at<float>(y, x);
     const auto differs = [&](int column, int row) {
       return surfaces_.at<int>(row, column) != surface &&
-             std::abs(centres_.at<float>(row, column) - brightness) > kContrast;
+             std::abs(centers_.at<float>(row, column) - brightness) > kContrast;
     };
     return (x > 0 && differs(x - 1, y)) || (x + 1 < surfaces_.cols && differs(x + 1, y)) ||
            (y > 0 && differs(x, y - 1)) || (y + 1 < surfaces_.rows && differs(x, y + 1));
@@ -62,7 +62,7 @@ class Rendering {
     for (int x = 0; x < surfaces_.cols; ++x) {
       if (!isAtEdge(x, y)) continue;
       const Eigen::Vector2d place = rays_.place(x, y);
-      double sum = centres_.at<float>(y, x);
+      double sum = centers_.at<float>(y, x);
       for (const auto& [dx, dy] : kSamples) {
         sum += world_.look(view_, place.x() + dx, place.y() + dy).brightness;
       }
@@ -74,7 +74,7 @@ class Rendering {
   const PixelRays& rays_;
   View view_;
   cv::Mat surfaces_;
-  cv::Mat centres_;
+  cv::Mat centers_;
   Picture picture_;
 };
 

@@ -28,7 +28,7 @@ struct PixelRays {
 
 struct Picture {
   cv::Mat brightness;  ///< CV_32FC1, 1 is white, the mean over each pixel
-  cv::Mat depth;       ///< CV_64FC1 [m], at the centre of each pixel; infinite for the sky
+  cv::Mat depth;       ///< CV_64FC1 [m], at the center of each pixel; infinite for the sky
 };
 
 /// Uses all threads of OpenCV; the result is independent of their number.

@@ -11,7 +11,7 @@ namespace {
 /// What differs between the cameras.
 struct Individual {
   double focal_ratio;          // of that of the nominal camera
-  Eigen::Vector2d centre_px;   // of the principal point from the middle of the image
+  Eigen::Vector2d center_px;   // of the principal point from the middle of the image
   Eigen::Vector3d turn_rad;    // about x, y, z
   std::vector<double> radtan;  // as of EuRoC
   std::vector<double> equidistant;
@@ -30,7 +30,7 @@ const Individual kRight = {1.0475,
 
 RawCamera rawCamera(const StereoCamera& nominal, const std::string& lens, const Individual& own) {
   // The offsets are those of an image 752 px wide.
-  const Eigen::Vector2d offset = nominal.width / 752.0 * own.centre_px;
+  const Eigen::Vector2d offset = nominal.width / 752.0 * own.center_px;
   RawCamera raw;
   raw.width = nominal.width;
   raw.height = nominal.height;

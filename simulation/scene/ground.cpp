@@ -96,7 +96,7 @@ Terrain groundBelow(const Path& path, double beyond_m, const std::vector<Path>& 
   std::vector<Path> paths = streets;
   paths.push_back(path.beside(0.0, beyond_m));
   const GroundGrid grid = gridAround(paths);
-  const double neighbour_m = grid.cell_m * std::sqrt(2.0);
+  const double neighbor_m = grid.cell_m * std::sqrt(2.0);
   std::vector<Sample> samples;
   append(path, beyond_m, samples);
   const std::size_t own = samples.size();
@@ -110,7 +110,7 @@ Terrain groundBelow(const Path& path, double beyond_m, const std::vector<Path>& 
       double height = kCameraHeight_m + meanHeight(place, samples, passage);
       // Keeps the camera above the ground where recorded heights rise faster than any road.
       for (std::size_t i = passage.first; i < passage.end; ++i) {
-        if ((samples[i].at - place).squaredNorm() > neighbour_m * neighbour_m) continue;
+        if ((samples[i].at - place).squaredNorm() > neighbor_m * neighbor_m) continue;
         height = std::max(height, samples[i].height + kClearance_m);
       }
       heights[static_cast<std::size_t>(row) * (grid.columns + 1) + column] = height;

@@ -25,11 +25,11 @@ bool firstRoot(double a, double b, double c, const RayRange& range, double& root
 
 class Cylinder : public Shape {
  public:
-  Cylinder(int axis, const Eigen::Vector3d& centre, double radius, double half_length)
+  Cylinder(int axis, const Eigen::Vector3d& center, double radius, double half_length)
       : axis_(axis),
         u_((axis + 1) % 3),
         v_((axis + 2) % 3),
-        centre_(centre),
+        center_(center),
         radius_(radius),
         half_length_(half_length) {}
 
@@ -43,18 +43,18 @@ class Cylinder : public Shape {
   Eigen::AlignedBox3d bounds() const override {
     Eigen::Vector3d reach = Eigen::Vector3d::Constant(radius_);
     reach[axis_] = half_length_;
-    return {centre_ - reach, centre_ + reach};
+    return {center_ - reach, center_ + reach};
   }
 
  private:
   bool intersectSide(const Ray& ray, const RayRange& range, ShapeHit& hit) const {
     const Eigen::Vector2d d(ray.direction[u_], ray.direction[v_]);
-    const Eigen::Vector2d o(ray.origin[u_] - centre_[u_], ray.origin[v_] - centre_[v_]);
+    const Eigen::Vector2d o(ray.origin[u_] - center_[u_], ray.origin[v_] - center_[v_]);
     RayRange rest = range;
     double distance = 0.0;
     while (
         firstRoot(d.squaredNorm(), d.dot(o), o.squaredNorm() - radius_ * radius_, rest, distance)) {
-      const double height = ray.origin[axis_] + distance * ray.direction[axis_] - centre_[axis_];
+      const double height = ray.origin[axis_] + distance * ray.direction[axis_] - center_[axis_];
       if (std::abs(height) <= half_length_) {
         hit.distance = distance;
         hit.face = 0;
@@ -72,11 +72,11 @@ class Cylinder : public Shape {
     RayRange nearer = range;
     bool found = false;
     for (const double side : {-1.0, 1.0}) {
-      const double lid = centre_[axis_] + side * half_length_;
+      const double lid = center_[axis_] + side * half_length_;
       const double distance = (lid - ray.origin[axis_]) / ray.direction[axis_];
       if (!isIn(nearer, distance)) continue;
-      const double u = ray.origin[u_] + distance * ray.direction[u_] - centre_[u_];
-      const double v = ray.origin[v_] + distance * ray.direction[v_] - centre_[v_];
+      const double u = ray.origin[u_] + distance * ray.direction[u_] - center_[u_];
+      const double v = ray.origin[v_] + distance * ray.direction[v_] - center_[v_];
       if (u * u + v * v > radius_ * radius_) continue;
       hit.distance = nearer.to = distance;
       hit.face = side < 0.0 ? 1 : 2;
@@ -87,17 +87,17 @@ class Cylinder : public Shape {
   }
 
   int axis_, u_, v_;
-  Eigen::Vector3d centre_;
+  Eigen::Vector3d center_;
   double radius_, half_length_;
 };
 
 class Ellipsoid : public Shape {
  public:
-  Ellipsoid(const Eigen::Vector3d& centre, const Eigen::Vector3d& half_axes)
-      : centre_(centre), half_axes_(half_axes), scale_(half_axes.cwiseInverse()) {}
+  Ellipsoid(const Eigen::Vector3d& center, const Eigen::Vector3d& half_axes)
+      : center_(center), half_axes_(half_axes), scale_(half_axes.cwiseInverse()) {}
 
   bool intersect(const Ray& ray, const RayRange& range, ShapeHit& hit) const override {
-    const Eigen::Vector3d o = (ray.origin - centre_).cwiseProduct(scale_);
+    const Eigen::Vector3d o = (ray.origin - center_).cwiseProduct(scale_);
     const Eigen::Vector3d d = ray.direction.cwiseProduct(scale_);
     if (!firstRoot(d.squaredNorm(), d.dot(o), o.squaredNorm() - 1.0, range, hit.distance))
       return false;
@@ -107,11 +107,11 @@ class Ellipsoid : public Shape {
   }
 
   Eigen::AlignedBox3d bounds() const override {
-    return {centre_ - half_axes_, centre_ + half_axes_};
+    return {center_ - half_axes_, center_ + half_axes_};
   }
 
  private:
-  Eigen::Vector3d centre_;
+  Eigen::Vector3d center_;
   Eigen::Vector3d half_axes_;
   Eigen::Vector3d scale_;  // to the space in which it is a unit sphere
 };
@@ -192,15 +192,15 @@ std::shared_ptr<ConvexSolid> boxBetween(const Eigen::Vector3d& low, const Eigen:
 }
 
 std::shared_ptr<const Shape> cylinder(int axis,
-                                      const Eigen::Vector3d& centre,
+                                      const Eigen::Vector3d& center,
                                       double radius,
                                       double half_length) {
-  return std::make_shared<Cylinder>(axis, centre, radius, half_length);
+  return std::make_shared<Cylinder>(axis, center, radius, half_length);
 }
 
-std::shared_ptr<const Shape> ellipsoid(const Eigen::Vector3d& centre,
+std::shared_ptr<const Shape> ellipsoid(const Eigen::Vector3d& center,
                                        const Eigen::Vector3d& half_axes) {
-  return std::make_shared<Ellipsoid>(centre, half_axes);
+  return std::make_shared<Ellipsoid>(center, half_axes);
 }
 
 }  // namespace rotrocc

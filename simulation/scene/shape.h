@@ -60,14 +60,14 @@ class ConvexSolid : public Shape {
 std::shared_ptr<ConvexSolid> boxBetween(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
 /// A closed cylinder along one of the axes of its body, 0, 1 or 2 for x, y or z; it extends by
-/// `half_length` to both sides of the centre.
+/// `half_length` to both sides of the center.
 std::shared_ptr<const Shape> cylinder(int axis,
-                                      const Eigen::Vector3d& centre,
+                                      const Eigen::Vector3d& center,
                                       double radius,
                                       double half_length);
 
 /// An ellipsoid with its axes along those of its body.
-std::shared_ptr<const Shape> ellipsoid(const Eigen::Vector3d& centre,
+std::shared_ptr<const Shape> ellipsoid(const Eigen::Vector3d& center,
                                        const Eigen::Vector3d& half_axes);
 
 }  // namespace rotrocc

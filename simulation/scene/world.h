@@ -16,7 +16,7 @@
 namespace rotrocc {
 
 struct WorldPlan {
-  std::vector<Path> streets;  ///< centre lines, at the height of the camera
+  std::vector<Path> streets;  ///< center lines, at the height of the camera
   Path drive;                 ///< the path of the camera, kept free
   double beyond_m;            ///< extension before its start and after its end
   StreetStyle style;

@@ -7,11 +7,11 @@
 
 namespace rotrocc {
 
-/// A smooth curve, parametrised by arc length (station): x right and z forward at the start, y
+/// A smooth curve, parametrized by arc length (station): x right and z forward at the start, y
 /// down.
 class Path {
  public:
-  /// A Catmull-Rom spline through the points: at least two, of which no neighbours coincide.
+  /// A Catmull-Rom spline through the points: at least two, of which no neighbors coincide.
   explicit Path(std::vector<Eigen::Vector3d> points);
 
   double length_m() const { return stations_.back(); }

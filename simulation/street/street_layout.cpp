@@ -24,7 +24,7 @@ Eigen::Vector3d level(Eigen::Vector3d direction) {
 enum class Facing { kAhead, kBack, kOutwards };
 
 struct PlacementRules {
-  double clearance_m;        // from every centre line
+  double clearance_m;        // from every center line
   bool may_overlap = false;  // with bodies placed earlier
   bool upright = true;       // otherwise it follows the slope
   bool contact_shadow = false;
@@ -35,10 +35,10 @@ struct Footprint {
   /// Of a placed body.
   static Footprint of(const Body& body) {
     const Eigen::Isometry3d& pose = body.T_world_body();
-    const Eigen::Vector3d centre = pose * body.ownBounds().center();
+    const Eigen::Vector3d center = pose * body.ownBounds().center();
     const Eigen::Vector3d half = 0.5 * body.ownBounds().sizes();
     Footprint footprint;
-    footprint.centre = {centre.x(), centre.z()};
+    footprint.center = {center.x(), center.z()};
     footprint.ahead = Eigen::Vector2d(pose.linear()(0, 2), pose.linear()(2, 2)).normalized();
     footprint.right = Eigen::Vector2d(pose.linear()(0, 0), pose.linear()(2, 0)).normalized();
     footprint.half_length = half.z();
@@ -55,7 +55,7 @@ struct Footprint {
   bool overlaps(const Footprint& other, double margin_m) const {
     for (const Eigen::Vector2d& axis : {ahead, right, other.ahead, other.right}) {
       const double gap =
-          std::abs(axis.dot(other.centre - centre)) - halfExtent(axis) - other.halfExtent(axis);
+          std::abs(axis.dot(other.center - center)) - halfExtent(axis) - other.halfExtent(axis);
       if (gap > -margin_m) return false;  // separating axis
     }
     return true;
@@ -69,8 +69,8 @@ struct Footprint {
           const int steps = std::max(1, static_cast<int>(std::ceil(2.0 * half / spacing_m)));
           for (int i = 0; i <= steps; ++i) {
             const double offset = half * (2.0 * i / steps - 1.0);
-            points.push_back(centre + offset * along + out);
-            points.push_back(centre + offset * along - out);
+            points.push_back(center + offset * along + out);
+            points.push_back(center + offset * along - out);
           }
         };
     addSides(ahead, half_length, half_width * right);
@@ -78,7 +78,7 @@ struct Footprint {
     return points;
   }
 
-  Eigen::Vector2d centre;
+  Eigen::Vector2d center;
   Eigen::Vector2d ahead;  // of unit length
   Eigen::Vector2d right;
   double half_length;  // along `ahead`

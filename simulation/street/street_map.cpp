@@ -11,7 +11,7 @@
 namespace rotrocc {
 namespace {
 
-constexpr double kSampling_m = 0.5;  // sampling of the centre lines
+constexpr double kSampling_m = 0.5;  // sampling of the center lines
 constexpr double kCell_m = 0.5;      // cell size of the raster
 
 Eigen::Vector2d level(const Eigen::Vector3d& v) {
@@ -20,9 +20,9 @@ Eigen::Vector2d level(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-StreetMap::StreetMap(const std::vector<Path>& centre_lines, double reach_m) : reach_m_(reach_m) {
-  for (std::size_t i = 0; i < centre_lines.size(); ++i) {
-    addSamples(centre_lines[i], static_cast<int>(i));
+StreetMap::StreetMap(const std::vector<Path>& center_lines, double reach_m) : reach_m_(reach_m) {
+  for (std::size_t i = 0; i < center_lines.size(); ++i) {
+    addSamples(center_lines[i], static_cast<int>(i));
   }
   makeRaster();
 }
@@ -55,16 +55,16 @@ void StreetMap::makeRaster() {
 }
 
 void StreetMap::markAround(std::int32_t sample, std::vector<float>& squared_distances) {
-  const Eigen::Vector2d centre = (samples_[sample].at - origin_) / kCell_m;
+  const Eigen::Vector2d center = (samples_[sample].at - origin_) / kCell_m;
   const double reach = reach_m_ / kCell_m;
-  const int first_row = std::max(0, static_cast<int>(centre.y() - reach));
-  const int last_row = std::min(rows_ - 1, static_cast<int>(centre.y() + reach));
-  const int first_column = std::max(0, static_cast<int>(centre.x() - reach));
-  const int last_column = std::min(columns_ - 1, static_cast<int>(centre.x() + reach));
+  const int first_row = std::max(0, static_cast<int>(center.y() - reach));
+  const int last_row = std::min(rows_ - 1, static_cast<int>(center.y() + reach));
+  const int first_column = std::max(0, static_cast<int>(center.x() - reach));
+  const int last_column = std::min(columns_ - 1, static_cast<int>(center.x() + reach));
   for (int row = first_row; row <= last_row; ++row) {
     for (int column = first_column; column <= last_column; ++column) {
       const auto squared =
-          static_cast<float>((Eigen::Vector2d(column + 0.5, row + 0.5) - centre).squaredNorm());
+          static_cast<float>((Eigen::Vector2d(column + 0.5, row + 0.5) - center).squaredNorm());
       const std::size_t cell = static_cast<std::size_t>(row) * columns_ + column;
       if (squared > reach * reach || squared >= squared_distances[cell]) continue;
       squared_distances[cell] = squared;
@@ -88,7 +88,7 @@ bool StreetMap::locate(double x, double z, StreetPoint& point) const {
   const Eigen::Vector2d offset = Eigen::Vector2d(x, z) - sample.at;
   const double along = offset.dot(sample.ahead);
   const double across = offset.dot(sample.right);
-  // The line continues as an arc with its centre 1 / curvature to the right.
+  // The line continues as an arc with its center 1 / curvature to the right.
   const double stretch = std::max(0.2, 1.0 - sample.curvature_per_m * across);
   point.street = sample.street;
   point.station_m = sample.station_m + along / stretch;

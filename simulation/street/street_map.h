@@ -10,8 +10,8 @@
 namespace rotrocc {
 
 struct StreetPoint {
-  int street = -1;         ///< index of its centre line
-  double station_m = 0.0;  ///< along the centre line
+  int street = -1;         ///< index of its center line
+  double station_m = 0.0;  ///< along the center line
   double right_m = 0.0;    ///< to the right of it
   /// Gradients of station_m and right_m along x and z.
   Eigen::Vector2d station_gradient = Eigen::Vector2d::Zero();
@@ -20,13 +20,13 @@ struct StreetPoint {
 
 class StreetMap {
  public:
-  /// Points farther than `reach_m` from all centre lines belong to none.
-  StreetMap(const std::vector<Path>& centre_lines, double reach_m);
+  /// Points farther than `reach_m` from all center lines belong to none.
+  StreetMap(const std::vector<Path>& center_lines, double reach_m);
 
   /// Returns false and leaves `point` unchanged if there is no street.
   bool locate(double x, double z, StreetPoint& point) const;
 
-  /// Distance of (x, z) from the nearest centre line, at most reach_m [m].
+  /// Distance of (x, z) from the nearest center line, at most reach_m [m].
   double distance(double x, double z) const;
 
  private:

@@ -59,12 +59,12 @@ double GroundShadows::lit(double x, double z) const {
 
 double sunlitTop(const SceneGeometry& scene, const Body& body) {
   const Eigen::AlignedBox3d& box = body.bounds();
-  const Eigen::Vector3d centre = box.center();
+  const Eigen::Vector3d center = box.center();
   double reached = 0.0;
   for (const double x : {-0.5, 0.5}) {
     for (const double z : {-0.5, 0.5}) {
       const Eigen::Vector3d point(
-          centre.x() + x * box.sizes().x(), box.min().y() - 0.05, centre.z() + z * box.sizes().z());
+          center.x() + x * box.sizes().x(), box.min().y() - 0.05, center.z() + z * box.sizes().z());
       reached += sunAt(scene, point);
     }
   }

@@ -11,7 +11,7 @@ namespace rotrocc {
 /// Shadows of all static bodies on the ground, in cells of 0.2 m.
 class GroundShadows {
  public:
-  /// Those within 14 m of the centre line of a street.
+  /// Those within 14 m of the center line of a street.
   GroundShadows(const SceneGeometry& scene, const StreetMap& streets);
 
   /// Visible share of the sun at a place on the ground.

@@ -21,7 +21,7 @@ struct PixelSpread {
   Eigen::Vector3d per_row;
 };
 
-/// Intersection of a ray with a surface, and the offsets of the neighbouring pixels on it [m].
+/// Intersection of a ray with a surface, and the offsets of the neighboring pixels on it [m].
 struct SurfacePoint {
   Eigen::Vector3d position;
   Eigen::Vector3d normal;  ///< of unit length, towards the viewer
@@ -64,7 +64,7 @@ inline SurfacePoint surfacePoint(const Ray& ray,
                                  const PixelSpread& spread,
                                  double distance,
                                  const Eigen::Vector3d& normal) {
-  // A neighbouring ray hits the tangent plane at another distance.
+  // A neighboring ray hits the tangent plane at another distance.
   const double slant = distance / normal.dot(ray.direction);
   const auto shift = [&](const Eigen::Vector3d& change) -> Eigen::Vector3d {
     return distance * change - slant * normal.dot(change) * ray.direction;

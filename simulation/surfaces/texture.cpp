@@ -33,9 +33,9 @@ int sizeBits(const cv::Mat& tile) {
 std::vector<std::uint8_t> quantize(const cv::Mat& tile) {
   cv::Mat repeated;
   cv::copyMakeBorder(tile, repeated, 0, 1, 0, 1, cv::BORDER_WRAP);
-  cv::Mat grey;
-  repeated.convertTo(grey, CV_8U, 255.0);
-  return {grey.begin<std::uint8_t>(), grey.end<std::uint8_t>()};
+  cv::Mat gray;
+  repeated.convertTo(gray, CV_8U, 255.0);
+  return {gray.begin<std::uint8_t>(), gray.end<std::uint8_t>()};
 }
 
 }  // namespace

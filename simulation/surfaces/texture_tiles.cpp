@@ -51,11 +51,11 @@ cv::Mat fractalNoise(int coarsest, int finest, double gain, std::uint64_t key) {
 
 /// Draws an ellipse, wrapped around the borders of the tile.
 void drawWrapped(
-    cv::Mat& tile, cv::Point2d centre, cv::Size2d half_axes, double angle_deg, double value) {
+    cv::Mat& tile, cv::Point2d center, cv::Size2d half_axes, double angle_deg, double value) {
   const double reach = std::max(half_axes.width, half_axes.height);
   for (const double dx : {-kSize, 0, kSize}) {
     for (const double dy : {-kSize, 0, kSize}) {
-      const cv::Point2d at(centre.x + dx, centre.y + dy);
+      const cv::Point2d at(center.x + dx, center.y + dy);
       if (at.x < -reach || at.y < -reach || at.x > kSize + reach || at.y > kSize + reach) continue;
       const cv::RotatedRect box(cv::Point2f(at),
                                 cv::Size2f(2.0 * half_axes.width, 2.0 * half_axes.height),
@@ -76,11 +76,11 @@ struct Scatter {
 void scatter(cv::Mat& tile, const Scatter& pieces, RandomStream random) {
   for (int i = 0; i < pieces.count; ++i) {
     const double length = random.uniform(pieces.low, pieces.high);
-    const cv::Point2d centre{random.uniform(0, kSize), random.uniform(0, kSize)};
+    const cv::Point2d center{random.uniform(0, kSize), random.uniform(0, kSize)};
     const double value = random.uniform(pieces.darkest, pieces.lightest) *
                          (0.55 + 0.45 * i / std::max(1, pieces.count - 1));
     const double angle_deg = random.uniform(0.0, 180.0);
-    drawWrapped(tile, centre, {length, length / pieces.slimness}, angle_deg, value);
+    drawWrapped(tile, center, {length, length / pieces.slimness}, angle_deg, value);
   }
 }
 

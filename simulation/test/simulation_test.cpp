@@ -116,7 +116,7 @@ TEST_P(ScenarioTest, SameSeedSameBytesWhateverTheThreadCount) {
   EXPECT_GT(differingPixels(one.depth, other.depth), 1000);
   EXPECT_EQ(differingPixels(one.depth, noise.depth), 0);
   const auto pixels = static_cast<double>(one.pair.left.total());
-  // The mean size of the difference of two noises of 2 grey levels.
+  // The mean size of the difference of two noises of 2 gray levels.
   EXPECT_NEAR(
       cv::norm(one.pair.left, noise.pair.left, cv::NORM_L1) / pixels, 4.0 / std::sqrt(M_PI), 1.0);
 }

@@ -85,7 +85,7 @@ po::options_description describe(Options& options) {
   add("right-focal", number(faults.right_focal_ratio), "right over nominal focal length");
   add("rows", number(faults.row_offset_px), "[px] by which the right image is lower");
   add("time-skew", number(faults.time_skew_s), "[s] delay of the right camera");
-  add("noise", number(faults.noise_sigma), "[grey levels] standard deviation of the noise");
+  add("noise", number(faults.noise_sigma), "[gray levels] standard deviation of the noise");
   add("motion-blur", number(faults.motion_blur_s), "[s] exposure time");
   po::options_description all;
   all.add(what).add(camera).add(wrong);

@@ -49,7 +49,7 @@ sensor_msgs::Image::ConstPtr decode(const sensor_msgs::CompressedImage& message)
     throw InputError(DropReason::kImageData,
                      "a compressed image with " + std::to_string(message.data.size()) +
                          " bytes and the format \"" + message.format +
-                         "\" cannot be decoded as grey or colour image: is it damaged, or a depth "
+                         "\" cannot be decoded as gray or color image: is it damaged, or a depth "
                          "image?");
   }
   // "ENCODING; jpeg compressed ..."; older drivers omit it.

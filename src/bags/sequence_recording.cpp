@@ -39,7 +39,7 @@ void requireValid(const StereoCalibration& calibration, const std::string& direc
   }
 }
 
-sensor_msgs::Image::Ptr toGreyImage(const std_msgs::Header& header, const cv::Mat& pixels) {
+sensor_msgs::Image::Ptr toGrayImage(const std_msgs::Header& header, const cv::Mat& pixels) {
   const bool has_16_bits = pixels.depth() == CV_16U;
   return cv_bridge::CvImage(header, has_16_bits ? "mono16" : "mono8", pixels).toImageMsg();
 }
@@ -117,14 +117,14 @@ bool SequenceRecording::next(RecordedMessage& message) {
   }
   if (raw_calibration_) {
     ReceivedPair raw;
-    raw.images = {toGreyImage({}, pair.left), toGreyImage({}, pair.right)};
+    raw.images = {toGrayImage({}, pair.left), toGrayImage({}, pair.right)};
     raw.camera = calibration_.rectified;
     raw.calibration = raw_calibration_;
     pair = converter_.convert(raw);
   }
   message = infosOf(index);
-  message.left_image = toGreyImage(message.left_info->header, pair.left);
-  message.right_image = toGreyImage(message.right_info->header, pair.right);
+  message.left_image = toGrayImage(message.left_info->header, pair.left);
+  message.right_image = toGrayImage(message.right_info->header, pair.right);
   return true;
 }
 

@@ -65,9 +65,9 @@ std::string rightOf(const std::string& left_image) {
 /// Lower is better.
 int rank(const StereoTopics& topics) {
   const bool rectified = isRectifiedByName(topics.left_image);
-  const bool colour = contains(topics.left_image, "color");
+  const bool color = contains(topics.left_image, "color");
   const bool compressed = contains(topics.left_image, kCompressed);
-  return (rectified ? 0 : 4) + (colour ? 2 : 0) + (compressed ? 1 : 0);
+  return (rectified ? 0 : 4) + (color ? 2 : 0) + (compressed ? 1 : 0);
 }
 
 std::string imageTopics(const TopicTypes& types) {

@@ -25,7 +25,7 @@ TopicTypes topicTypes(const Bags& bags);
 
 /// Finds a stereo pair: two image topics whose names differ in left and right, cam0 and cam1,
 /// infra1 and infra2, or Infrared_1 and Infrared_2, each with a camera_info in the same namespace
-/// if `with_infos`. Prefers rectified to other images, grey to colour, and raw to compressed ones.
+/// if `with_infos`. Prefers rectified to other images, gray to color, and raw to compressed ones.
 /// `left_image` and `right_image` name the pair explicitly; empty: search. Throws
 /// std::runtime_error with a list of the topics if there is no pair, or more than one.
 StereoTopics findStereoTopics(const TopicTypes& types,

@@ -49,10 +49,10 @@ void addMap(const StereoCamera& camera, const std::vector<PairSamples>& pairs, R
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Cell& cell = cells[i];
     if (cell.count < ImageGrid::kLeast) continue;
-    const cv::Point2d centre = grid.centre(i);
+    const cv::Point2d center = grid.center(i);
     const double mean_px = cell.weighted_px / cell.weights;
     table.rows.push_back(
-        {centre.x, centre.y, cell.count, mean_px, std::sqrt(cell.squares) / cell.weights});
+        {center.x, center.y, cell.count, mean_px, std::sqrt(cell.squares) / cell.weights});
   }
   report.tables.push_back(std::move(table));
 }

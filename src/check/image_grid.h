@@ -31,7 +31,7 @@ class ImageGrid {
     return static_cast<std::size_t>(row * cells_.width + column);
   }
 
-  cv::Point2d centre(std::size_t cell) const {
+  cv::Point2d center(std::size_t cell) const {
     const auto index = static_cast<int>(cell);
     return {(index % cells_.width + 0.5) * width_ / cells_.width - 0.5,
             (index / cells_.width + 0.5) * height_ / cells_.height - 0.5};

@@ -38,7 +38,7 @@ class PairCheck {
   virtual void report(const Windows& windows, RigReport& report) const = 0;
 };
 
-/// Compares the grey levels and the sharpness of the images where both show the same: section
+/// Compares the gray levels and the sharpness of the images where both show the same: section
 /// photometry.
 std::unique_ptr<PairCheck> makePhotometryCheck();
 

@@ -21,7 +21,7 @@ constexpr std::size_t kPerPair = 150;
 constexpr std::size_t kLeast = 30;
 constexpr int kPatch = 4;  // radius of the patches whose means are compared [px]
 
-/// Of pairs: grey levels hardly differ between two that follow each other, and sharpness, which
+/// Of pairs: gray levels hardly differ between two that follow each other, and sharpness, which
 /// takes longer, changes slowly.
 constexpr int kStep = 2;
 constexpr std::size_t kSharpnessStep = 2;  // of these
@@ -64,7 +64,7 @@ std::vector<Patch> patchesOf(const CheckedPair& pair, int radius, std::size_t mo
   return patches;
 }
 
-/// Grey levels of a patch.
+/// Gray levels of a patch.
 struct PatchMeans {
   double left, right;
   double r2;  ///< square of the distance from the middle, 1 in the corners
@@ -118,14 +118,14 @@ class PhotometryCheck : public PairCheck {
     addExposure(windows, report);
     addLevels(windows, report);
     ReportTable table = {"photometry",
-                         "time_s,gain,offset_grey,mean_left,mean_right,saturated_left,"
+                         "time_s,gain,offset_gray,mean_left,mean_right,saturated_left,"
                          "saturated_right,dark_left,dark_right",
                          {}};
     ReportTable sharpness = {"sharpness", "time_s,blur_px2", {}};
     for (const Row& row : rows_) {
       table.rows.push_back({row.time_s,
                             row.gain,
-                            row.offset_grey,
+                            row.offset_gray,
                             row.left.mean,
                             row.right.mean,
                             row.left.saturated,
@@ -140,13 +140,13 @@ class PhotometryCheck : public PairCheck {
 
  private:
   struct Levels {
-    double mean, contrast, noise;  ///< grey levels; contrast and noise are standard deviations
+    double mean, contrast, noise;  ///< gray levels; contrast and noise are standard deviations
     double saturated, dark;        ///< share of the pixels
   };
   /// Of one pair; nan if not measured.
   struct Row {
     double time_s = NAN;
-    double gain = NAN, offset_grey = NAN, vignetting = NAN;
+    double gain = NAN, offset_gray = NAN, vignetting = NAN;
     double blur_px2 = NAN;  ///< variance of the Gaussian; negative if the left image is blurred
     Levels left = {}, right = {};
   };
@@ -176,7 +176,7 @@ class PhotometryCheck : public PairCheck {
     for (const PatchMeans& mean : means) {
       offsets.push_back(mean.right - row.gain * mean.left * (1.0 + row.vignetting * mean.r2));
     }
-    row.offset_grey = median(offsets);
+    row.offset_gray = median(offsets);
   }
 
   static void compareSharpness(const CheckedPair& pair, Row& row) {
@@ -198,7 +198,7 @@ class PhotometryCheck : public PairCheck {
       return overWindows(values, windows);
     };
     const Estimate gain = estimate(&Row::gain);
-    const Estimate offset = estimate(&Row::offset_grey);
+    const Estimate offset = estimate(&Row::offset_gray);
     const Estimate vignetting = estimate(&Row::vignetting);
     // Variances of Gaussians add; the blur itself would change its sign by chance.
     const Estimate blur_px2 = estimate(&Row::blur_px2);
@@ -219,7 +219,7 @@ class PhotometryCheck : public PairCheck {
          "couple the exposures of the cameras"},
         {changes, 0.0, kAcceptableGain, kFixGain});
     report.add({"photometry",
-                "grey levels right minus left",
+                "gray levels right minus left",
                 toText(offset, "of 255 at black"),
                 "the range of the brighter image is smaller by it",
                 "set the same black level in both cameras, and look for stray light"},

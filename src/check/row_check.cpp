@@ -182,10 +182,10 @@ void addMap(const StereoCamera& camera,
   for (std::size_t i = 0; i < grid.count(); ++i) {
     const auto samples = static_cast<double>(cells[i].rows_px.size());
     if (samples < ImageGrid::kLeast) continue;
-    const cv::Point2d centre = grid.centre(i);
+    const cv::Point2d center = grid.center(i);
     const Estimate row = medianOf(cells[i].rows_px);
     table.rows.push_back(
-        {centre.x, centre.y, samples, row.value, row.sigma, cells[i].model_px / samples});
+        {center.x, center.y, samples, row.value, row.sigma, cells[i].model_px / samples});
     squares += row.value * row.value;
     count += 1.0;
   }

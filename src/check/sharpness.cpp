@@ -13,7 +13,7 @@ namespace {
 class Sharpness {
  public:
   explicit Sharpness(const ImagePatches& patches)
-      : noise2_(patches.noise_grey * patches.noise_grey), patches_(patches.areas) {
+      : noise2_(patches.noise_gray * patches.noise_gray), patches_(patches.areas) {
     patches.image.convertTo(image_, CV_32F);
   }
 

@@ -9,7 +9,7 @@ namespace rotrocc {
 /// Parts of an image (CV_8UC1) of one size, inside of it; at least one.
 struct ImagePatches {
   const cv::Mat& image;
-  double noise_grey;  ///< standard deviation of the noise of the image
+  double noise_gray;  ///< standard deviation of the noise of the image
   std::vector<cv::Rect> areas;
 };
 

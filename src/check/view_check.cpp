@@ -125,15 +125,15 @@ class ViewCheck : public PairCheck {
 
   /// Change of what stands still: of the cells that change least, but for clipped ones, which have
   /// none.
-  static float noiseOf(const cv::Mat_<float>& changes, const cv::Mat_<float>& greys) {
+  static float noiseOf(const cv::Mat_<float>& changes, const cv::Mat_<float>& grays) {
     constexpr float kDark = 8.0F;
     constexpr float kBright = 247.0F;
     constexpr float kLeast = 0.5F;  // of rounding
     std::vector<float> exposed;
     for (int row = 0; row < changes.rows; ++row) {
       for (int column = 0; column < changes.cols; ++column) {
-        const float grey = greys(row, column);
-        if (grey > kDark && grey < kBright) exposed.push_back(changes(row, column));
+        const float gray = grays(row, column);
+        if (gray > kDark && gray < kBright) exposed.push_back(changes(row, column));
       }
     }
     return exposed.empty() ? kLeast : std::max(quantile(exposed, 0.1), kLeast);
@@ -228,9 +228,9 @@ class ViewCheck : public PairCheck {
     ReportTable table = {"view_map", "x_px,y_px,corners,with_depth,features,inliers", {}};
     const ImageGrid grid(camera_.width, camera_.height);
     for (std::size_t i = 0; i < map_.size(); ++i) {
-      const cv::Point2d centre = grid.centre(i);
-      table.rows.push_back({centre.x,
-                            centre.y,
+      const cv::Point2d center = grid.center(i);
+      table.rows.push_back({center.x,
+                            center.y,
                             static_cast<double>(map_[i].corners),
                             static_cast<double>(map_[i].with_depth),
                             static_cast<double>(map_[i].features),

@@ -13,8 +13,8 @@
 namespace rotrocc {
 namespace {
 
-const cv::Scalar kNearColour = okabe_ito::kOrange;
-const cv::Scalar kFarColour = okabe_ito::kSkyBlue;
+const cv::Scalar kNearColor = okabe_ito::kOrange;
+const cv::Scalar kFarColor = okabe_ito::kSkyBlue;
 constexpr double kNear_m = 5.0;
 constexpr double kFar_m = 50.0;
 
@@ -39,27 +39,27 @@ cv::Point toSubpixel(const Eigen::Vector2d& pixel) {
 
 void drawLine(const Eigen::Vector2d& from_px,
               const Eigen::Vector2d& to_px,
-              const cv::Scalar& colour,
+              const cv::Scalar& color,
               cv::Mat& image) {
-  cv::line(image, toSubpixel(from_px), toSubpixel(to_px), colour, 1, cv::LINE_AA, kSubpixelBits);
+  cv::line(image, toSubpixel(from_px), toSubpixel(to_px), color, 1, cv::LINE_AA, kSubpixelBits);
 }
 
 /// A line to the present pixel of a feature, with a dot there.
-void drawFlow(const Correspondence& feature, const cv::Scalar& colour, cv::Mat& image) {
+void drawFlow(const Correspondence& feature, const cv::Scalar& color, cv::Mat& image) {
   const int radius = 1 << (kSubpixelBits + 1);
-  drawLine(feature.keyframe_px, feature.cur_px, colour, image);
+  drawLine(feature.keyframe_px, feature.cur_px, color, image);
   cv::circle(
-      image, toSubpixel(feature.cur_px), radius, colour, cv::FILLED, cv::LINE_AA, kSubpixelBits);
+      image, toSubpixel(feature.cur_px), radius, color, cv::FILLED, cv::LINE_AA, kSubpixelBits);
 }
 
-/// Colour (BGR) by the logarithm of the depth, from near (orange) to far (blue).
-cv::Scalar colourOfDepth(double depth_m) {
+/// Color (BGR) by the logarithm of the depth, from near (orange) to far (blue).
+cv::Scalar colorOfDepth(double depth_m) {
   const double share = std::log(depth_m / kNear_m) / std::log(kFar_m / kNear_m);
   const double far = std::clamp(share, 0.0, 1.0);
-  return kNearColour * (1.0 - far) + kFarColour * far;
+  return kNearColor * (1.0 - far) + kFarColor * far;
 }
 
-/// The text line below a flow picture: labels and colours from left to right, as far as they fit.
+/// The text line below a flow picture: labels and colors from left to right, as far as they fit.
 class Legend {
  public:
   static constexpr int kHeight_px = 24;
@@ -70,34 +70,34 @@ class Legend {
   void text(const std::string& words) {
     constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
     constexpr double kFontScale = 0.42;
-    const cv::Scalar colour(230, 230, 230);
+    const cv::Scalar color(230, 230, 230);
     int baseline = 0;
     const int width = cv::getTextSize(words, kFont, kFontScale, 1, &baseline).width;
     if (!reserve(width)) return;
-    cv::putText(band_, words, {x_, kHeight_px - 8}, kFont, kFontScale, colour, 1, cv::LINE_AA);
+    cv::putText(band_, words, {x_, kHeight_px - 8}, kFont, kFontScale, color, 1, cv::LINE_AA);
     x_ += width + kGap_px;
   }
 
   /// A sample of a flow line with its dot and label.
-  void sample(const cv::Scalar& colour, const std::string& words) {
+  void sample(const cv::Scalar& color, const std::string& words) {
     constexpr int kSample_px = 18;
     if (!reserve(kSample_px)) return;
     const int y = kHeight_px / 2;
-    cv::line(band_, {x_, y}, {x_ + kSample_px, y}, colour, 2, cv::LINE_AA);
-    cv::circle(band_, {x_ + kSample_px, y}, 3, colour, cv::FILLED, cv::LINE_AA);
+    cv::line(band_, {x_, y}, {x_ + kSample_px, y}, color, 2, cv::LINE_AA);
+    cv::circle(band_, {x_ + kSample_px, y}, 3, color, cv::FILLED, cv::LINE_AA);
     x_ += kSample_px + kGap_px;
     text(words);
     space();
   }
 
-  /// The colour scale of depths.
+  /// The color scale of depths.
   void depthScale() {
     constexpr int kScale_px = 80;
     text(cv::format("%.0f m", kNear_m));
     if (!reserve(kScale_px)) return;
     for (int i = 0; i < kScale_px; ++i) {
       const double depth_m = kNear_m * std::pow(kFar_m / kNear_m, i / (kScale_px - 1.0));
-      cv::line(band_, {x_ + i, 8}, {x_ + i, kHeight_px - 9}, colourOfDepth(depth_m));
+      cv::line(band_, {x_ + i, 8}, {x_ + i, kHeight_px - 9}, colorOfDepth(depth_m));
     }
     x_ += kScale_px + kGap_px;
     text(cv::format("%.0f m", kFar_m));
@@ -157,7 +157,7 @@ void drawMotion(const FlowScene& scene, cv::Mat& image) {
   // Outliers are few; draw them last, on top of the inliers.
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (!contains(scene.translation_inliers, i)) continue;
-    drawFlow(features[i], colourOfDepth(features[i].point_cur.z()), image);
+    drawFlow(features[i], colorOfDepth(features[i].point_cur.z()), image);
   }
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (contains(scene.translation_inliers, i)) continue;
@@ -180,7 +180,7 @@ void drawFlowPicture(const FlowScene& scene, cv::Mat& picture) {
   const cv::Mat& mask = scene.pair.left_mask;
   if (left.empty() || left.type() != CV_8UC1) {
     throw std::invalid_argument(
-        "a flow picture needs an 8-bit grey image, not one of OpenCV type " +
+        "a flow picture needs an 8-bit gray image, not one of OpenCV type " +
         std::to_string(left.type()));
   }
   requireFlags(scene.rotation_inliers, scene.features);

@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-/// Colours (BGR) distinguishable with colour blindness: Okabe and Ito, "Color universal design"
+/// Colors (BGR) distinguishable with color blindness: Okabe and Ito, "Color universal design"
 /// (2002).
 namespace rotrocc::okabe_ito {
 

@@ -8,7 +8,7 @@
 
 namespace rotrocc {
 
-cv::Mat readGreyImageOfAnyDepth(const std::string& path) {
+cv::Mat readGrayImageOfAnyDepth(const std::string& path) {
   if (!std::filesystem::exists(path)) throw std::runtime_error(path + " is missing");
   cv::Mat image;
   try {
@@ -23,8 +23,8 @@ cv::Mat readGreyImageOfAnyDepth(const std::string& path) {
                            " is not a readable image: is it damaged, or no image? Copy it again");
 }
 
-cv::Mat readGreyImage(const std::string& path) {
-  cv::Mat image = readGreyImageOfAnyDepth(path);
+cv::Mat readGrayImage(const std::string& path) {
+  cv::Mat image = readGrayImageOfAnyDepth(path);
   if (image.depth() == CV_8U) return image;
   const double scale = std::ldexp(1.0, -8);
   image.convertTo(image, CV_8U, scale, 0.5 * (scale - 1.0));  // rounded down, as a shift is

@@ -6,13 +6,13 @@
 
 namespace rotrocc {
 
-/// Reads an image file of any format of OpenCV as CV_8UC1. Colours are converted to grey, and those
+/// Reads an image file of any format of OpenCV as CV_8UC1. Colors are converted to gray, and those
 /// with 16 bits are divided by 256. Throws std::runtime_error with the path if it is missing or
 /// unreadable.
-cv::Mat readGreyImage(const std::string& path);
+cv::Mat readGrayImage(const std::string& path);
 
 /// The same, but CV_16UC1 if the file has 16 bits.
-cv::Mat readGreyImageOfAnyDepth(const std::string& path);
+cv::Mat readGrayImageOfAnyDepth(const std::string& path);
 
 /// The extension of the path is the format. Throws std::runtime_error with the path if it cannot.
 void writeImage(const std::string& path, const cv::Mat& image);

@@ -32,7 +32,7 @@ constexpr double kSample = 2500.0;
 constexpr double kNoiseOfHalf = 0.0748;
 constexpr double kNoiseOfLoss = 0.794;
 
-/// Mean square of what the half image has lost [grey levels^2].
+/// Mean square of what the half image has lost [gray levels^2].
 double lossOf(const cv::Mat& image, const cv::Mat& half) {
   const int step = std::max(1, cvFloor(std::sqrt(static_cast<double>(half.total()) / kSample)));
   double sum = 0.0;

@@ -15,7 +15,7 @@
 namespace rotrocc {
 
 /// Finds correspondences without a prediction, anywhere in the image: oriented binary descriptors
-/// (ORB, Rublee et al. 2011) that are each other's nearest neighbour. They are exact to a pixel or
+/// (ORB, Rublee et al. 2011) that are each other's nearest neighbor. They are exact to a pixel or
 /// two, and many are wrong. It takes about 10 ms.
 class DescriptorMatcher {
  public:

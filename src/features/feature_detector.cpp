@@ -18,12 +18,12 @@ constexpr int kRowStep = CornerResponse::kRowStep;
 constexpr int kStripRows = 32;
 
 /// The response that a corner needs: four times that to the noise of the image. Fine texture looks
-/// like noise, as that of gravel, so no more noise is assumed than cameras have in the dark: 4 grey
+/// like noise, as that of gravel, so no more noise is assumed than cameras have in the dark: 4 gray
 /// levels.
 float minResponse(double noise_variance) {
   constexpr double kOverNoise = 4.0;
   constexpr double kMaxDeviation = 4.0;
-  constexpr double kSobelSquares = 12.0 / 64.0;  // of a gradient in grey levels per pixel
+  constexpr double kSobelSquares = 12.0 / 64.0;  // of a gradient in gray levels per pixel
   const double variance = std::min(noise_variance, kMaxDeviation * kMaxDeviation);
   return std::max(kMinTexture, static_cast<float>(kOverNoise * kSobelSquares * variance));
 }
@@ -164,8 +164,8 @@ void FeatureDetector::findCandidates(const cv::Mat& image,
 }
 
 /// Searches rows that are all within kRadius_px of each other. A corner must be the maximum of
-/// its column in these rows, and no neighbouring column may have a larger one. Only these few
-/// pixels are then compared with all their neighbours. The strip's response begins with row `top`.
+/// its column in these rows, and no neighboring column may have a larger one. Only these few
+/// pixels are then compared with all their neighbors. The strip's response begins with row `top`.
 void FeatureDetector::searchBand(int width, const cv::Range& rows, int top, Strip& strip) const {
   const int radius = kRadius_px;
   const cv::Range band(rows.start - top, rows.end - top);

@@ -14,7 +14,7 @@
 namespace rotrocc {
 
 /// The corner response of the pixels of each second row: the smaller eigenvalue of the second
-/// moments of the gradients (Shi and Tomasi, CVPR 1994), averaged over a square, in (grey levels /
+/// moments of the gradients (Shi and Tomasi, CVPR 1994), averaged over a square, in (gray levels /
 /// px)^2. Row r of the response is that of row kRowStep r of the image; between two rows, it hardly
 /// changes. Sums are exact, so the response of a pixel does not depend on which rows are requested.
 class CornerResponse {

@@ -10,14 +10,14 @@
 namespace rotrocc {
 namespace {
 
-/// Sum of squares [grey levels^2] below which a window is plain: keeps steps finite.
+/// Sum of squares [gray levels^2] below which a window is plain: keeps steps finite.
 constexpr double kMinVariance = 1e-3;
 
 /// If a step reverses the previous one to within this distance [px], the iteration oscillates and
 /// is stopped.
 constexpr float kSameStep_px = 0.01F;
 
-/// Grey levels, and grey levels times gradients, in the units of the kernels.
+/// Gray levels, and gray levels times gradients, in the units of the kernels.
 constexpr double kOfGradient = 1.0 / (1 << Window::kGradientBits);
 constexpr double kOfContrast = 1.0 / (1 << Window::kContrastBits);
 constexpr double kOfDifference = 1.0 / (1 << MismatchSums::kDifferenceBits);

@@ -16,7 +16,7 @@ namespace rotrocc {
 /// 2001). A difference in brightness and one in contrast are estimated together with the shift, as
 /// in Baker, Gross, Ishikawa and Matthews, "Lucas-Kanade 20 Years On: Part 2" (2003), so changes of
 /// exposure have no effect.
-/// Grey levels are interpolated in steps of 1/64, gradients in steps of 1/32, and sums are exact,
+/// Gray levels are interpolated in steps of 1/64, gradients in steps of 1/32, and sums are exact,
 /// so results are the same with and without SIMD.
 class TrackingWindow {
  public:
@@ -31,7 +31,7 @@ class TrackingWindow {
 
   /// Stores the window around `center` of `image` (CV_8UC1), with its content enlarged by `scale` >
   /// 0 (a first-order approximation, accurate enough for changes of a tenth). Returns false if the
-  /// centre is outside the image or the texture is too weak to locate the window.
+  /// center is outside the image or the texture is too weak to locate the window.
   bool take(const cv::Mat& image, const cv::Point2f& center, float scale);
 
   /// Moves `center` to the position in `image` that matches the stored window. Returns false, with
@@ -49,8 +49,8 @@ class TrackingWindow {
   int radius_, side_;
   Window window_ = {};
   std::vector<uchar> border_;         // copy of a patch that extends beyond the image border
-  cv::Point2d mean_gradient_;         // [grey levels / px]
-  double mean_contrast_ = 0.0;        // [grey levels]
+  cv::Point2d mean_gradient_;         // [gray levels / px]
+  double mean_contrast_ = 0.0;        // [gray levels]
   double contrast_square_ = 0.0;      // sum of squares about the mean
   cv::Point2d gradient_by_contrast_;  // slope of the regression [1 / px]
   float inverse_xx_ = 0.0F, inverse_xy_ = 0.0F, inverse_yy_ = 0.0F;

@@ -10,9 +10,9 @@ namespace rotrocc {
 
 double noiseVariance(const cv::Mat& image, std::vector<int>& responses) {
   constexpr double kRounding = 1.0 / 12.0;
-  constexpr double kPixels = 2000.0;  // known to a few per cent
+  constexpr double kPixels = 2000.0;  // known to a few percent
   constexpr double kMaskSquares = 36.0;
-  constexpr int kApart = 2;  // neighbours share noise if the image was interpolated to rectify it
+  constexpr int kApart = 2;  // neighbors share noise if the image was interpolated to rectify it
   const int step = std::max(1, cvFloor(std::sqrt(static_cast<double>(image.total()) / kPixels)));
   responses.clear();
   for (int y = kApart; y + kApart < image.rows; y += step) {

@@ -33,7 +33,7 @@ float partLimit(float min_cost) {
   return 1.25F * min_cost + 0.05F;
 }
 
-/// Variance of rounding to whole grey levels. It limits the correlation of windows without texture.
+/// Variance of rounding to whole gray levels. It limits the correlation of windows without texture.
 constexpr double kRounding = 1.0 / 12.0;
 
 /// Offset of the minimum of the parabola through the costs at -1, 0 and 1.
@@ -170,7 +170,7 @@ RowMatch LeftWindow::searchRow(const uchar* pixels,
   int best = -1;
   Compared of_best = {2.0, 0.0};
   for (int i = 0; i < peaks; ++i) {
-    const int column = ++columns[i];  // it was that of the first neighbour
+    const int column = ++columns[i];  // it was that of the first neighbor
     const Compared compared = compareAt(column);
     costs[i] = compared.cost;
     if (compared.cost >= of_best.cost) continue;

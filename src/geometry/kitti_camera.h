@@ -4,7 +4,7 @@
 
 namespace rotrocc {
 
-/// The grey cameras of KITTI's odometry benchmark: 1241 x 376 px, 0.537 m apart.
+/// The gray cameras of KITTI's odometry benchmark: 1241 x 376 px, 0.537 m apart.
 inline StereoCamera kittiCamera() {
   StereoCamera camera;
   camera.width = 1241;

@@ -12,7 +12,7 @@ namespace rotrocc {
 
 /// The stereo camera that the projection matrices P of two rectified cameras describe. K, D and R
 /// are ignored: they belong to the images before rectification. A non-zero P[3] of the left camera,
-/// as for KITTI's colour cameras, is subtracted from the baseline. As in
+/// as for KITTI's color cameras, is subtracted from the baseline. As in
 /// image_geometry, the offset of roi is subtracted from the principal point before dividing by the
 /// binning, unless calibratedImageOf() finds another convention. `baseline_m` > 0 replaces the
 /// baseline from P[3]. Throws InputError with the value and a remedy if P is not a rectified

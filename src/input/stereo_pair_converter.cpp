@@ -50,10 +50,10 @@ std::string quote(const std::string& text) {
 
 std::uint64_t bytesPerPixel(const std::string& side, const std::string& encoding) {
   if (encoding == kYuy2) return 2;
-  const bool has_grey_levels = enc::isMono(encoding) || enc::isColor(encoding) ||
+  const bool has_gray_levels = enc::isMono(encoding) || enc::isColor(encoding) ||
                                enc::isBayer(encoding) || encoding == enc::YUV422 ||
                                encoding.find("UC") != std::string::npos;
-  if (!has_grey_levels) refuseEncoding(side, encoding);
+  if (!has_gray_levels) refuseEncoding(side, encoding);
   try {
     return static_cast<std::uint64_t>(enc::numChannels(encoding) * enc::bitDepth(encoding) / 8);
   } catch (const std::runtime_error&) {
@@ -163,17 +163,17 @@ int bitsOf(int value) {
 }
 
 /// With a margin for what comes, if there is a black level.
-GreyRange rangeOf(const cv::Vec2i& used) {
+GrayRange rangeOf(const cv::Vec2i& used) {
   constexpr int kUnusedBits = 2;
-  const GreyRange from_zero = {0, bitsOf(used[1])};
+  const GrayRange from_zero = {0, bitsOf(used[1])};
   if (used[0] == used[1]) return from_zero;  // a shutter, or no light
   const int margin = (used[1] - used[0]) / 4;
   const int black = std::max(used[0] - margin, 0);
-  const GreyRange from_black = {black, bitsOf(used[1] - black)};
+  const GrayRange from_black = {black, bitsOf(used[1] - black)};
   return from_black.bits + kUnusedBits <= from_zero.bits ? from_black : from_zero;
 }
 
-cv::Mat toGrey(const std::string& side, const cv_bridge::CvImage& image, const GreyRange& range) {
+cv::Mat toGray(const std::string& side, const cv_bridge::CvImage& image, const GrayRange& range) {
   cv::Mat pixels = image.image;
   std::string encoding = image.encoding;
   if (pixels.depth() == CV_16U) {
@@ -205,7 +205,7 @@ std::string pathOfSide(const std::string& path, const std::string& side) {
 /// 255 where the image is not black, 0 elsewhere.
 cv::Mat readMask(const std::string& path) {
   try {
-    return readGreyImageOfAnyDepth(std::filesystem::absolute(path).string()) > 0;
+    return readGrayImageOfAnyDepth(std::filesystem::absolute(path).string()) > 0;
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(std::string("the mask ") + error.what() +
                              "; check the parameter mask");
@@ -228,8 +228,8 @@ StereoPair StereoPairConverter::convert(const ReceivedPair& received) {
   validateMasks(left.image.size());
   findRange(left.image, right.image);
   StereoPair pair = {toNanoseconds(left.header.stamp),
-                     toGrey("left", left, range_),
-                     toGrey("right", right, range_),
+                     toGray("left", left, range_),
+                     toGray("right", right, range_),
                      left_mask_,
                      right_mask_};
   if (received.calibration) pair = rectifier_.rectify(pair, received.calibration);

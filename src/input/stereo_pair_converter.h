@@ -13,16 +13,16 @@
 
 namespace rotrocc {
 
-/// The values of a 16-bit image that become the grey levels from 0 to 255.
-struct GreyRange {
+/// The values of a 16-bit image that become the gray levels from 0 to 255.
+struct GrayRange {
   int black = 0;
   int bits = 8;  ///< so many values, to the power of two, from black on
 
   int white() const { return black + (1 << bits) - 1; }
 };
 
-/// Converts the images of a pair to grey images for the estimator, and rectifies raw ones. Supports
-/// the encodings that cv_bridge converts to grey, yuv422_yuy2, and 8UC3 and 8UC4 as bgr8 and bgra8.
+/// Converts the images of a pair to gray images for the estimator, and rectifies raw ones. Supports
+/// the encodings that cv_bridge converts to gray, yuv422_yuy2, and 8UC3 and 8UC4 as bgr8 and bgra8.
 ///
 /// 16-bit images of 10 or 12-bit cameras use only a part of their range. They are shifted right by
 /// b - 8 bits, where b is the number of bits in use, at least 8, and both images of a pair have the
@@ -46,13 +46,13 @@ class StereoPairConverter {
                                int threads = 2);
 
   /// Without a search for the range, in one thread.
-  StereoPairConverter(const GreyRange& range, const std::string& mask)
+  StereoPairConverter(const GrayRange& range, const std::string& mask)
       : StereoPairConverter(range.bits, mask, 1) {
     known_black_ = range.black;
   }
 
   /// Converts a pair, and rectifies it if it has a calibration. The resulting images refer to the
-  /// data of the messages if these are rectified 8-bit grey images; rectified ones are valid until
+  /// data of the messages if these are rectified 8-bit gray images; rectified ones are valid until
   /// the next call. They must not be modified. The stamp is the left one. Throws InputError with
   /// the value and a remedy on an encoding that is not supported, sizes out of range or that
   /// differ, also from those of the camera or of the masks, and a step or data that are too short;
@@ -60,7 +60,7 @@ class StereoPairConverter {
   StereoPair convert(const ReceivedPair& received);
 
   /// Of the last pair.
-  const GreyRange& greyRange() const { return range_; }
+  const GrayRange& grayRange() const { return range_; }
 
   void setThreads(int threads) { rectifier_.setThreads(threads); }
 
@@ -73,7 +73,7 @@ class StereoPairConverter {
   std::string mask_;
   cv::Mat left_mask_;
   cv::Mat right_mask_;
-  GreyRange range_;
+  GrayRange range_;
   cv::Vec2i used_;                // from the darkest to the brightest value that counts
   std::deque<cv::Vec2i> recent_;  // of the last pairs
   StereoRectifier rectifier_;

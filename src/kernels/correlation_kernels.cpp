@@ -60,8 +60,8 @@ void sumPartColumns(
   }
 }
 
-/// Replaces the values by sums over kPartWidth neighbours.
-void sumNeighbours(std::int32_t* values, int count) {
+/// Replaces the values by sums over kPartWidth neighbors.
+void sumNeighbors(std::int32_t* values, int count) {
   static_assert(W::kPartWidth == 8);
   for (int x = 0; x < count + 6; ++x) values[x] += values[x + 1];
   for (int x = 0; x < count + 4; ++x) values[x] += values[x + 2];
@@ -102,8 +102,8 @@ float correlateParts(const std::int16_t* window,
   std::int32_t* const squares = sums + count + W::kScratchMargin;
   multiplyParts(window, strip, stride, count, products);
   sumPartColumns(strip + W::kPartFirst, stride, count + W::kPartWidth, sums, squares);
-  sumNeighbours(sums, count);
-  sumNeighbours(squares, count);
+  sumNeighbors(sums, count);
+  sumNeighbors(squares, count);
   std::int32_t own = 0;
   std::int32_t own_square = 0;
   for (const int y : W::kPartRows) {

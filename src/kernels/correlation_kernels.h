@@ -12,7 +12,7 @@ namespace rotrocc {
 struct CorrelationWindow {
   static constexpr int kSide = 11;  ///< [px]
   static constexpr int kStride = 16;
-  /// Unit of sub-pixel samples: 1 / 2^kSampleBits grey levels.
+  /// Unit of sub-pixel samples: 1 / 2^kSampleBits gray levels.
   static constexpr int kSampleBits = 3;
   /// The part of a window that is compared first: eight pixels of four rows.
   static constexpr int kParts = 4;

@@ -127,7 +127,7 @@ void replaceGradients(const std::int16_t* smooth,
 
 void respondRow(ColumnSums sums, int columns, float* response) {
   constexpr int kSide = ColumnSums::kSide;
-  // A slope of one grey level per pixel gives a Sobel gradient of 8.
+  // A slope of one gray level per pixel gives a Sobel gradient of 8.
   const Floats scale = vx_setall_f32(1.0F / (64.0F * static_cast<float>(kSide * kSide)));
   for (int x = 0; x < columns; x += kInts) {
     Ints xx = vx_load(sums.xx + x);

@@ -49,7 +49,7 @@ void replaceGradients(const std::int16_t* smooth,
                       ColumnSums sums);
 
 /// Smaller eigenvalues of the sums over kSide columns each, divided by the number of pixels, in
-/// (grey levels / px)^2.
+/// (gray levels / px)^2.
 void respondRow(ColumnSums sums, int columns, float* response);
 
 /// The maximum of each column over some rows, which are `step` values apart.

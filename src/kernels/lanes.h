@@ -62,9 +62,9 @@ inline std::int64_t sum(const Ints& a) {
   return sum;
 }
 
-// Values between pixels, in units of 1 / 2^kBits grey levels.
+// Values between pixels, in units of 1 / 2^kBits gray levels.
 
-/// Between each pixel and its right neighbour at fx / 2^15.
+/// Between each pixel and its right neighbor at fx / 2^15.
 template <int kBits>
 Shorts betweenColumns(const std::uint8_t* pixels, const Shorts& fx) {
   const Shorts left = loadBytes(pixels);

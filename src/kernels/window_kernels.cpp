@@ -6,7 +6,7 @@ namespace rotrocc::ROTROCC_INSTRUCTIONS {
 namespace {
 
 /// Number of rows whose products fit into 32 bits, two per lane. With spreading, values are up to
-/// 485 grey levels, and differences as many; squares of the latter are the largest products.
+/// 485 gray levels, and differences as many; squares of the latter are the largest products.
 constexpr int kBlockRows = 16;
 
 constexpr int kStride = Window::kStride;

@@ -14,7 +14,7 @@ struct Patch {
   std::int16_t fx, fy;
 };
 
-/// The grey levels of a window, in units of 1 / 2^kValueBits, and its gradients. A row has kStride
+/// The gray levels of a window, in units of 1 / 2^kValueBits, and its gradients. A row has kStride
 /// values, of which `side` are used. Gradients beyond are zero.
 struct Window {
   static constexpr int kMaxSide = 51;

@@ -31,7 +31,7 @@ constexpr double kLeastShare = 0.2;
 /// Two sets of inliers that differ by less are of the same motion.
 constexpr double kMinCountRatio = 1.1;
 
-/// Grid of cells within which the errors of neighbouring features may be correlated.
+/// Grid of cells within which the errors of neighboring features may be correlated.
 constexpr int kScatterColumns = 8;
 constexpr int kScatterRows = 3;
 
@@ -59,13 +59,13 @@ struct Information {
   Matrix6d matrix = Matrix6d::Zero();
   /// Sum of g g^T over the cells of a grid [px^2], where g is the sum of w J^T r of the features in
   /// the cell. Its expectation is the variance times `matrix` if residuals are uncorrelated, and
-  /// larger if neighbours are correlated.
+  /// larger if neighbors are correlated.
   Matrix6d scatter = Matrix6d::Zero();
   double residual_variance = 0.0;  ///< from WeightedVariance [px^2]
 };
 
 /// Ratio of the covariance to that of independent errors: the variance per degree of freedom from
-/// the scatter of the cells, divided by that of a residual. Neighbouring features share texture,
+/// the scatter of the cells, divided by that of a residual. Neighboring features share texture,
 /// the motion of an object and the remaining lens distortion.
 double inflation(double scatter_px2, double residual_px2) {
   return residual_px2 > 0.0 ? std::max(1.0, scatter_px2 / residual_px2) : 1.0;
@@ -108,7 +108,7 @@ Information collect(const ReprojectionProblem<6>& problem,
 /// covariance of the translation comes from stage 2, plus the effect of the rotation's error dR:
 ///   dt = -(Jt^T Jt)^-1 Jt^T Jr dR.
 /// Both follow the sandwich formula for robust weights (Huber's M-estimators). Both are inflated,
-/// because neighbouring features share errors.
+/// because neighboring features share errors.
 ///
 /// Stage 1 also drops features that are merely noisy. The remaining errors have only a share g of
 /// the full variance. The covariance of the fit is that of a fit to untruncated errors, divided by

@@ -21,10 +21,10 @@ auto setFunctionTolerance(SolverOptions& options, double tolerance, int)
 template <class SolverOptions>
 void setFunctionTolerance(SolverOptions&, double, long) {}
 
-/// Minimises the cost: no step increases it. Also stops when a step changes the parameters by less
+/// Minimizes the cost: no step increases it. Also stops when a step changes the parameters by less
 /// than 1e-7 of their length. Returns false, with undefined parameters, if these are not finite.
 template <int kParameters>
-bool minimise(const ReprojectionProblem<kParameters>& problem,
+bool minimize(const ReprojectionProblem<kParameters>& problem,
               const MotionSolver::Options& options,
               Eigen::Matrix<double, kParameters, 1>& parameters) {
   ceres::TinySolver<ReprojectionProblem<kParameters>> solver;
@@ -49,13 +49,13 @@ bool MotionSolver::solve(const Measurements& measured,
                          double parabola_ratio,
                          ReprojectionProblem<kParameters>& problem,
                          Fit& fit) const {
-  for (int i = 0; i < options_.minimisations; ++i) {
+  for (int i = 0; i < options_.minimizations; ++i) {
     problem.assign(measured.camera, fit, set);
     if (2 * problem.size() < kParameters) return false;  // a feature gives two equations
     auto parameters = problem.start();
     problem.weigh(parameters, options_.robust_factor);
     if (options_.shares_errors) problem.shareErrors(kSharedRatio, parabola_ratio);
-    if (!minimise(problem, options_, parameters)) return false;
+    if (!minimize(problem, options_, parameters)) return false;
     fitAt(measured, problem.motionAt(parameters), fit);
   }
   return true;

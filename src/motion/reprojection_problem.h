@@ -39,7 +39,7 @@ class ImageGrid {
   double rows_per_px_;
 };
 
-/// Neighbouring features share an error of their disparities: what calibration and rectification
+/// Neighboring features share an error of their disparities: what calibration and rectification
 /// leave of the lenses, and texture that their windows have in common. The image is divided into
 /// cells, and the features of a cell share one unknown error.
 ///

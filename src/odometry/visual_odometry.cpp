@@ -278,7 +278,7 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
     last_ = current;
     // Now, as nobody waits for a motion.
     makeKeyframe(last_, result.times);
-    result.state = State::kInitialising;
+    result.state = State::kInitializing;
     return;
   }
   const double interval_s = toSeconds(pair.time_ns() - newest->time_ns());
@@ -449,8 +449,8 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
 
 const char* toString(State state) {
   switch (state) {
-    case State::kInitialising:
-      return "initialising";
+    case State::kInitializing:
+      return "initializing";
     case State::kOk:
       return "ok";
     case State::kDegraded:

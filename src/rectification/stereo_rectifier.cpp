@@ -31,7 +31,7 @@ std::uint32_t fourPixels(const std::uint8_t* pixels) {
 ImageResampler::ImageResampler(const cv::Size& source, const cv::Size& size)
     : source_(source), size_(size), places_(static_cast<std::size_t>(size.area())) {}
 
-/// The weights of each phase sum up to one, so that areas of one grey level keep it.
+/// The weights of each phase sum up to one, so that areas of one gray level keep it.
 std::array<ImageResampler::Weights, ImageResampler::kPhases> ImageResampler::weightTable() {
   std::array<Weights, kPhases> table;
   for (int phase = 0; phase < kPhases; ++phase) {

@@ -17,7 +17,7 @@ constexpr int kParameters = 8;
 constexpr std::size_t kLeastFeatures = 30;
 
 /// Ratio of disparity noise to flow noise, see fitted_feature.h: that of single matches. With a
-/// larger one, the fitted disparities would also absorb errors that neighbours share, and with them
+/// larger one, the fitted disparities would also absorb errors that neighbors share, and with them
 /// a part of the bias.
 constexpr double kNoiseRatio = 1.0;
 

@@ -16,7 +16,7 @@ namespace rotrocc {
 struct BiasMeasurement {
   double bias_px = 0.0;    ///< relative to the camera that was passed
   double noise_px2 = 0.0;  ///< variance by the noise of single features
-  /// Variance by errors that neighbouring features share, if these are as large as the noise.
+  /// Variance by errors that neighboring features share, if these are as large as the noise.
   double shared_px2 = 0.0;
   /// Estimated variance of the shared errors, divided by that of the noise. Its expectation is
   /// right, but a single value may be negative.
@@ -28,7 +28,7 @@ struct BiasMeasurement {
 /// Measures the disparity bias of single pairs: with biased disparities, no motion explains both
 /// near and far points. The bias is one more unknown of Eq. 25, estimated together with the motion.
 ///
-/// Neighbouring features share errors: of lenses and rectification, of matching at edges. In the
+/// Neighboring features share errors: of lenses and rectification, of matching at edges. In the
 /// model, all features in a cell of the image have a common disparity error. Its variance is
 /// estimated by the method of moments (DerSimonian and Laird 1986) from the amount by which the
 /// cells disagree about the bias beyond their noise.

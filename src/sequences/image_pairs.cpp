@@ -70,8 +70,8 @@ bool ImagePairs::hasFiles(int index) const {
 StereoPair ImagePairs::read(int index, const cv::Size& size) const {
   const Pair& pair = pairs_.at(static_cast<std::size_t>(index));
   StereoPair images = {pair.left.stamp_ns,
-                       readGreyImageOfAnyDepth(pair.left.path),
-                       readGreyImageOfAnyDepth(pair.right.path)};
+                       readGrayImageOfAnyDepth(pair.left.path),
+                       readGrayImageOfAnyDepth(pair.right.path)};
   requireImageSize(pair.left.path, images.left, size, "the calibrated image");
   requireImageSize(pair.right.path, images.right, size, "the calibrated image");
   return images;

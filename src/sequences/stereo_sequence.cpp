@@ -11,7 +11,7 @@
 
 namespace rotrocc {
 cv::Size sizeOf(const ImagePairs& pairs) {
-  return readGreyImage(pairs.pair(0).left.path).size();
+  return readGrayImage(pairs.pair(0).left.path).size();
 }
 
 StereoPair StereoSequence::read(int index) const {

@@ -215,9 +215,9 @@ void OdometryOutputs::printSummary(std::ostream& out) const {
   out << records_.size() << " pairs: " << countState(records_, State::kOk) << " ok, "
       << countState(records_, State::kDegraded) << " degraded, "
       << countState(records_, State::kLost) << " lost, "
-      << countState(records_, State::kInitialising) << " initialising\n";
+      << countState(records_, State::kInitializing) << " initializing\n";
   if (records_.empty()) return;
-  for (const State state : {State::kLost, State::kDegraded, State::kInitialising}) {
+  for (const State state : {State::kLost, State::kDegraded, State::kInitializing}) {
     const auto first = std::find_if(records_.begin() + 1, records_.end(), [&](const auto& record) {
       return record.result.state == state;
     });

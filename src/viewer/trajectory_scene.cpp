@@ -42,7 +42,7 @@ const Eigen::Vector3d kUp = kAxes.col(2);
 /// Sizes change by this factor at once, so that markers of things that rest stay as they are.
 constexpr double kSizeStep = 1.1;
 
-std_msgs::ColorRGBA colour(const cv::Scalar& bgr) {
+std_msgs::ColorRGBA color(const cv::Scalar& bgr) {
   std_msgs::ColorRGBA rgba;
   rgba.r = static_cast<float>(bgr[2] / 255.0);
   rgba.g = static_cast<float>(bgr[1] / 255.0);
@@ -51,8 +51,8 @@ std_msgs::ColorRGBA colour(const cv::Scalar& bgr) {
   return rgba;
 }
 
-/// The worse, the darker, for those who see no colours.
-cv::Scalar colourOf(std::uint8_t state) {
+/// The worse, the darker, for those who see no colors.
+cv::Scalar colorOf(std::uint8_t state) {
   if (state == OdometryStatus::LOST) return okabe_ito::kBlack;
   if (state == OdometryStatus::DEGRADED) return okabe_ito::kVermillion;
   return okabe_ito::kOrange;
@@ -153,7 +153,7 @@ Marker TrajectoryScene::marker(const char* name,
   marker.type = type;
   marker.pose.orientation.w = 1.0;
   marker.scale.x = marker.scale.y = marker.scale.z = size;
-  marker.color = colour(bgr);
+  marker.color = color(bgr);
   marker.frame_locked = 1;  // with the time 0: drawn where the frame is now
   return marker;
 }
@@ -197,7 +197,7 @@ visualization_msgs::MarkerArray TrajectoryScene::markers() const {
     way.pose.position.z = kWayHeight * distance;
     const auto add = [&way](const Eigen::Vector3d& position, std::uint8_t state) {
       way.points.push_back(tf2::toMsg(position));
-      way.colors.push_back(colour(colourOf(state)));
+      way.colors.push_back(color(colorOf(state)));
     };
     const std::size_t end = std::min(begin + kPointsPerMarker + 1, way_.size());
     for (std::size_t i = begin; i < end; ++i) add(way_[i].position, way_[i].state);

@@ -36,7 +36,7 @@ class WholeView {
   double right_ = left_, top_ = left_, bottom_ = left_;
 };
 
-/// What rviz shows of a trajectory as a whole: the way so far, coloured by the state, with widths
+/// What rviz shows of a trajectory as a whole: the way so far, colored by the state, with widths
 /// that stay visible from afar; the truth, if there is one; state and speed in words; and the frame
 /// of a camera that sees all of it.
 class TrajectoryScene {

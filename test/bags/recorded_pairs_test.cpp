@@ -116,10 +116,10 @@ TEST_F(RecordedPairsTest, AreThoseOfBagsOfKitti2bag) {
   EXPECT_EQ(raw.recording->description().find("/kitti/camera_gray_left/image_raw and "), 0u);
   expectAllPairs(raw);
 
-  RecordingOptions colour;
-  colour.left_image = "/kitti/camera_color_left/image_raw";
-  colour.right_image = "/kitti/camera_color_right/image_raw";
-  Reader converted(directory_ / "raw.bag", {}, colour);
+  RecordingOptions color;
+  color.left_image = "/kitti/camera_color_left/image_raw";
+  color.right_image = "/kitti/camera_color_right/image_raw";
+  Reader converted(directory_ / "raw.bag", {}, color);
   expectAllPairs(converted);  // shades of gray, which the conversion keeps
 
   writeKitti2bagOdometry(sequence(), directory_ / "odometry.bag");

@@ -59,11 +59,11 @@ TEST(FindStereoTopics, FindsThePair) {
     std::string folder, image;
   } rows[] = {
       {"own bags", {"/stereo/*/image_rect"}, "/stereo/*", "/image_rect"},
-      {"gray rather than colour",
+      {"gray rather than color",
        {"/kitti/camera_color_*/image_raw", "/kitti/camera_gray_*/image_raw"},
        "/kitti/camera_gray_*",
        "/image_raw"},
-      {"colour if there is no gray",
+      {"color if there is no gray",
        {"/kitti/camera_color_*/image_rect"},
        "/kitti/camera_color_*",
        "/image_rect"},

@@ -52,7 +52,7 @@ struct Fault {
   std::vector<double> values = {};         ///< that they have; nan if it is none
 };
 
-void changeGrey(cv::Mat& image, double gain, double offset) {
+void changeGray(cv::Mat& image, double gain, double offset) {
   image.convertTo(image, CV_8U, gain, offset);
 }
 
@@ -150,13 +150,13 @@ std::vector<Fault> faults() {
       0.3);
   images(
       "gain",
-      [](cv::Mat&, cv::Mat& right) { changeGrey(right, 0.7, 0.0); },
+      [](cv::Mat&, cv::Mat& right) { changeGray(right, 0.7, 0.0); },
       "gain right to left",
       0.7);
   images(
       "offset",
-      [](cv::Mat&, cv::Mat& right) { changeGrey(right, 1.0, 20.0); },
-      "grey levels right minus left",
+      [](cv::Mat&, cv::Mat& right) { changeGray(right, 1.0, 20.0); },
+      "gray levels right minus left",
       20.0);
   images(
       "blur",
@@ -215,7 +215,7 @@ std::vector<Fault> faults() {
       NAN);
   Fault flicker = {"flicker", [](SimulationOptions&) {}, {}, {"gain over time"}, {NAN}};
   flicker.faults.images = [](cv::Mat&, cv::Mat& right, int index) {
-    changeGrey(right, 1.0 + 0.25 * std::sin(0.7 * index), 0.0);
+    changeGray(right, 1.0 + 0.25 * std::sin(0.7 * index), 0.0);
   };
   all.push_back(flicker);
   Fault flex = {"flex", [](SimulationOptions&) {}, {}, {kRowsOverTime}, {NAN}};
@@ -247,7 +247,7 @@ std::vector<Fault> faults() {
                    options.frames = 100;
                  },
                  ofImages([](cv::Mat&, cv::Mat& right) {
-                   changeGrey(right, 0.7, 0.0);
+                   changeGray(right, 0.7, 0.0);
                    cv::GaussianBlur(right, right, {}, 1.0);
                  }),
                  {"roll of the right camera", "gain right to left", "sharpness right against left"},

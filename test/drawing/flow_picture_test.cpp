@@ -36,7 +36,7 @@ class FlowPictureTest : public testing::Test {
                     picture_);
   }
 
-  cv::Vec3b colourAt(int x, int y) const { return picture_.at<cv::Vec3b>(y, x); }
+  cv::Vec3b colorAt(int x, int y) const { return picture_.at<cv::Vec3b>(y, x); }
 
   const StereoCamera camera_ = kittiCamera();
   StereoPair pair_ = {0, cv::Mat(200, 640, CV_8UC1, cv::Scalar(100)), {}};
@@ -53,7 +53,7 @@ TEST_F(FlowPictureTest, IsTheDarkenedImageWithALineBelow) {
   EXPECT_EQ(picture_.cols, 640);
   EXPECT_GT(picture_.rows, 200);
   EXPECT_LT(picture_.rows, 240);
-  EXPECT_EQ(colourAt(300, 100), cv::Vec3b(65, 65, 65));
+  EXPECT_EQ(colorAt(300, 100), cv::Vec3b(65, 65, 65));
   const unsigned char* memory = picture_.data;
   draw();
   EXPECT_EQ(picture_.data, memory) << "memory is used again";
@@ -63,17 +63,17 @@ TEST_F(FlowPictureTest, TintsWhatIsMasked) {
   pair_.left_mask = cv::Mat(pair_.left.size(), CV_8UC1, cv::Scalar(0));
   pair_.left_mask.colRange(300, 640).setTo(1);
   draw();
-  EXPECT_EQ(colourAt(299, 100), cv::Vec3b(65, 65, 65));
-  EXPECT_EQ(colourAt(300, 100), cv::Vec3b(65, 95, 155));
+  EXPECT_EQ(colorAt(299, 100), cv::Vec3b(65, 65, 65));
+  EXPECT_EQ(colorAt(300, 100), cv::Vec3b(65, 95, 155));
 }
 
-TEST_F(FlowPictureTest, ColoursTellDepthAndStage) {
+TEST_F(FlowPictureTest, ColorsTellDepthAndStage) {
   draw();
   // The dot at the current position.
-  EXPECT_EQ(colourAt(130, 50), cv::Vec3b(0, 159, 230)) << "near: orange";
-  EXPECT_EQ(colourAt(130, 100), cv::Vec3b(233, 180, 86)) << "far: blue";
-  EXPECT_EQ(colourAt(130, 150), cv::Vec3b(255, 255, 255)) << "rotation alone: white";
-  const cv::Vec3b outlier = colourAt(130, 180);
+  EXPECT_EQ(colorAt(130, 50), cv::Vec3b(0, 159, 230)) << "near: orange";
+  EXPECT_EQ(colorAt(130, 100), cv::Vec3b(233, 180, 86)) << "far: blue";
+  EXPECT_EQ(colorAt(130, 150), cv::Vec3b(255, 255, 255)) << "rotation alone: white";
+  const cv::Vec3b outlier = colorAt(130, 180);
   EXPECT_GT(outlier[2], outlier[1]) << "magenta";
   EXPECT_GT(outlier[0], outlier[1]) << "magenta";
 }
@@ -93,7 +93,7 @@ TEST_F(FlowPictureTest, WithoutEstimateAllAreOutliers) {
   rotation_inliers_.clear();
   translation_inliers_.clear();
   draw();
-  EXPECT_EQ(colourAt(130, 50), colourAt(130, 180));
+  EXPECT_EQ(colorAt(130, 50), colorAt(130, 180));
 }
 
 TEST_F(FlowPictureTest, AnyFlowAndSmallImagesAreDrawn) {
@@ -113,19 +113,19 @@ TEST_F(FlowPictureTest, AnOutlierShowsWhatFlowTheMotionExpected) {
   features_[3].keyframe_px = {260, 150};
   features_[3].point_cur = 20.0 * camera_.ray({340, 150});
   draw();
-  const cv::Vec3b expected = colourAt(320, 150);
+  const cv::Vec3b expected = colorAt(320, 150);
   EXPECT_GT(expected[1], expected[0]) << "green";
   EXPECT_GT(expected[1], expected[2]) << "green";
   result_.state = State::kLost;
   draw();
-  EXPECT_EQ(colourAt(320, 150), cv::Vec3b(65, 65, 65)) << "without a motion nothing is expected";
+  EXPECT_EQ(colorAt(320, 150), cv::Vec3b(65, 65, 65)) << "without a motion nothing is expected";
 }
 
 TEST_F(FlowPictureTest, RefusesWhatDoesNotFit) {
   rotation_inliers_.pop_back();
   expectError<std::invalid_argument>([&] { draw(); }, "4 features, but 3 inlier flags");
   pair_.left = cv::Mat();
-  expectError<std::invalid_argument>([&] { draw(); }, "8-bit grey image");
+  expectError<std::invalid_argument>([&] { draw(); }, "8-bit gray image");
 }
 
 }  // namespace

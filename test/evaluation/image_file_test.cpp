@@ -31,17 +31,17 @@ class ImageFileTest : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(ImageFileTest, ConvertsColoursToGrey) {
+TEST_F(ImageFileTest, ConvertsColorsToGray) {
   const std::string path = write("image.png", makeImage(CV_8UC3));
-  const cv::Mat grey = readGreyImage(path);
-  ASSERT_EQ(grey.type(), CV_8UC1);
-  EXPECT_EQ(cv::norm(grey, cv::imread(path, cv::IMREAD_GRAYSCALE), cv::NORM_INF), 0.0);
+  const cv::Mat gray = readGrayImage(path);
+  ASSERT_EQ(gray.type(), CV_8UC1);
+  EXPECT_EQ(cv::norm(gray, cv::imread(path, cv::IMREAD_GRAYSCALE), cv::NORM_INF), 0.0);
 }
 
 TEST_F(ImageFileTest, TakesTheUpperBitsOf16) {
   const cv::Mat image = makeImage(CV_16UC1);
   for (const std::string name : {"a.png", "a.tiff", "a.pgm"}) {
-    const cv::Mat read = readGreyImage(write(name, image));
+    const cv::Mat read = readGrayImage(write(name, image));
     ASSERT_EQ(read.size(), image.size()) << name;
     for (int y = 0; y < image.rows; ++y) {
       for (int x = 0; x < image.cols; ++x) {
@@ -59,7 +59,7 @@ TEST_F(ImageFileTest, NamesWhatIsNoImage) {
       "\0\0\0\1IDAT",
       41);
   const auto expectRefused = [&](const std::string& name, const std::string& part) {
-    expectError<std::runtime_error>([&] { readGreyImage(directory_ / name); }, name + part);
+    expectError<std::runtime_error>([&] { readGrayImage(directory_ / name); }, name + part);
   };
   for (const std::string& bytes : {std::string(),
                                    std::string("no image"),

@@ -81,8 +81,8 @@ TEST(SegmentErrorsTest, RefuseBadInput) {
       "7 ns comes after 7 ns");
 }
 
-TEST(MeanErrorTest, SpeedsCountForBothNeighbours) {
-  // 4 m/s is exactly 2 m/s away from the neighbours 2 and 6, so it counts only for 4.
+TEST(MeanErrorTest, SpeedsCountForBothNeighbors) {
+  // 4 m/s is exactly 2 m/s away from the neighbors 2 and 6, so it counts only for 4.
   const auto by_speed = meanErrorBySpeed({{0, 1.0, 0.5, 0.1, 0.0},
                                           {0, 1.0, 4.0, 0.2, 0.0},
                                           {0, 1.0, 4.5, 0.4, 0.0},

@@ -35,7 +35,7 @@ float distance(const cv::Point2f& a, const cv::Point2f& b) {
   return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y));
 }
 
-/// Blurred noise with the given standard deviation [grey levels]: corners everywhere, and hardly
+/// Blurred noise with the given standard deviation [gray levels]: corners everywhere, and hardly
 /// any noise from pixel to pixel.
 cv::Mat textureImage(const cv::Size& size, double contrast) {
   constexpr double kBlur_px = 2.0;
@@ -56,7 +56,7 @@ cv::Mat noiseImage(const cv::Size& size, double sigma) {
   return noise;
 }
 
-/// By definition: responses that no neighbour exceeds, and none above or to the left equals, in
+/// By definition: responses that no neighbor exceeds, and none above or to the left equals, in
 /// decreasing order.
 Corners peaksOfTheResponse(const cv::Mat& image) {
   constexpr int kRowStep = CornerResponse::kRowStep;

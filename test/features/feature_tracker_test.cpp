@@ -112,7 +112,7 @@ Points perturbed(const Points& points, double sigma_px) {
 
 TEST(FeatureTrackerTest, FindsTheFlowFromAPoorPrediction) {
   // Measured: 0.18 and 0.52 px, by the scale change of the street within the window. Without it
-  // 0.11 and 0.33 px, by noise of 2 grey levels, and by far predictions when the iterations end.
+  // 0.11 and 0.33 px, by noise of 2 gray levels, and by far predictions when the iterations end.
   for (const auto& [views, share, median_px, most_px] :
        {std::tuple(&drive(), 0.8, 0.25, 0.7), std::tuple(&turn(), 0.9, 0.13, 0.5)}) {
     ASSERT_GT(views->truth.size(), 300u);

@@ -26,7 +26,7 @@ TEST(KernelsTest, AreThoseOfTheProcessorUnlessToldOtherwise) {
 
 #ifdef AVX2_OBJECTS
 /// If they defined other functions, the linker might use them for all processors. OpenCV's
-/// intrinsics remain functions if nothing is optimised.
+/// intrinsics remain functions if nothing is optimized.
 TEST(KernelsTest, OfAvx2DefineNoFunctionThatOthersMightCall) {
   const CommandResult names = runCommand("nm --defined-only --extern-only " AVX2_OBJECTS);
   ASSERT_EQ(names.status, 0) << names.output;

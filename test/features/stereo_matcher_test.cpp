@@ -221,7 +221,7 @@ TEST(StereoMatcherTest, FindsTheSameDisparitiesAtAnotherExposure) {
           workers, {left, right, cameraOf(0.0)}, pixels, expected_px, near);
       EXPECT_NEAR(found_gain / gain, 1.0, 0.004);  // measured: within 0.2 %
       std::size_t same = 0;
-      // Grey levels are rounded. Measured: at most 0.025 px.
+      // Gray levels are rounded. Measured: at most 0.025 px.
       for (std::size_t i = 0; i < found.size(); ++i) {
         same += std::abs(found[i] - alike[i]) < 0.05F && std::abs(near[i] - found[i]) < 0.25F;
       }

@@ -102,7 +102,7 @@ TEST(GyroPredictorTest, LearnsTheBiasWhileMovingAndAtStandstill) {
 TEST(GyroPredictorTest, LearnsNothingFromPairsWithoutAReliableMotion) {
   Body body(kFastSwing_rad);
   GyroPredictor predictor(body.R_camera_gyro);
-  for (const State state : {State::kInitialising, State::kDegraded, State::kLost}) {
+  for (const State state : {State::kInitializing, State::kDegraded, State::kLost}) {
     for (int pair = 0; pair < 3; ++pair) {
       OdometryResult result = body.drive(pair, predictor);
       result.state = state;

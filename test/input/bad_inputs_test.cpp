@@ -140,7 +140,7 @@ void setPixels(const cv::Mat& pixels, Image& image) {
   image.data.assign(copy.datastart, copy.dataend);
 }
 
-/// 12 pairs of one grey level.
+/// 12 pairs of one gray level.
 std::string plainImages(unsigned char level) {
   return badImages(both([&](Image& image) { image.data.assign(image.data.size(), level); }), 12);
 }
@@ -378,7 +378,7 @@ std::vector<Row> rows() {
     {"images not of the size in camera_info", "no calibration", {otherSize()}},
     {"new resolution with its camera_info", "restarts with one pair, pose kept", {newResolution()}},
 
-    {"black, white or grey images", "lost, pose held, covariance grows",
+    {"black, white or gray images", "lost, pose held, covariance grows",
      {plainImages(0), plainImages(255), plainImages(128)}},
     {"noise", "lost, no jump", {badImages(both(fillWithNoise), 3)}},
     {"left and right identical", "lost, no depth",

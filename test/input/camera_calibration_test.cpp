@@ -57,8 +57,8 @@ TEST(StereoCameraConversionTest, TakesTheNumbersOfP) {
 }
 
 TEST(StereoCameraConversionTest, BaselineIsBetweenTheCameras) {
-  // KITTI's colour cameras are 0.06 m to the left and 0.47 m to the right of the origin of P, and
-  // differ by millimetres in height.
+  // KITTI's color cameras are 0.06 m to the left and 0.47 m to the right of the origin of P, and
+  // differ by millimeters in height.
   Info left = makeRectifiedInfo(-0.06);
   Info right = makeRectifiedInfo(0.47);
   left.P[7] = 0.2;

@@ -42,7 +42,7 @@ Image makeImage(const std::string& encoding, int bytes_per_pixel, const std::vec
   return image;
 }
 
-Image makeGreyImage(const std::vector<int>& levels = {7, 100, 200, 33, 255}) {
+Image makeGrayImage(const std::vector<int>& levels = {7, 100, 200, 33, 255}) {
   return makeImage("mono8", 1, levels);
 }
 
@@ -57,12 +57,12 @@ Image makeImage16(const std::vector<int>& values, bool big_endian = false) {
   return image;
 }
 
-/// A scene of one colour through a Bayer filter, named by the colours of the first two rows.
+/// A scene of one color through a Bayer filter, named by the colors of the first two rows.
 Image makeBayerImage(const std::string& filter, int red, int green, int blue) {
   std::vector<int> bytes;
   for (int i = 0; i < 2 * kWidth; ++i) {
-    const char colour = filter[static_cast<std::size_t>(2 * (i / kWidth) + i % 2)];
-    bytes.push_back(colour == 'r' ? red : colour == 'g' ? green : blue);
+    const char color = filter[static_cast<std::size_t>(2 * (i / kWidth) + i % 2)];
+    bytes.push_back(color == 'r' ? red : color == 'g' ? green : blue);
   }
   return makeImage("bayer_" + filter + "8", 1, bytes);
 }
@@ -87,13 +87,13 @@ double difference(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() ? cv::norm(a, b, cv::NORM_INF) : 1e9;
 }
 
-TEST(StereoPairConverterTest, GreyImagesAreNotCopied) {
+TEST(StereoPairConverterTest, GrayImagesAreNotCopied) {
   ReceivedPair received;
   received.camera.width = kWidth;
   received.camera.height = kHeight;
-  Image right = makeGreyImage();
+  Image right = makeGrayImage();
   right.encoding = "8UC1";
-  received.images = {boost::make_shared<Image>(makeGreyImage()), boost::make_shared<Image>(right)};
+  received.images = {boost::make_shared<Image>(makeGrayImage()), boost::make_shared<Image>(right)};
   const StereoPair pair = StereoPairConverter().convert(received);
   EXPECT_EQ(pair.left.data, received.images.left->data.data());
   EXPECT_EQ(pair.right.data, received.images.right->data.data());
@@ -105,29 +105,29 @@ TEST(StereoPairConverterTest, GreyImagesAreNotCopied) {
 
 TEST(StereoPairConverterTest, PairsHaveTheMasksOfTheirSides) {
   const TemporaryDirectory directory;
-  cv::Mat grey(kHeight, kWidth, CV_8UC1, cv::Scalar(0));
-  grey.at<uchar>(3, 5) = 1;
-  cv::Mat colour(kHeight, kWidth, CV_16UC4, cv::Scalar(0, 0, 0, 65535));
-  colour.at<cv::Vec4w>(2, 1)[0] = 65535;
-  cv::imwrite(directory / "left.png", grey);
-  cv::imwrite(directory / "right.png", colour);
+  cv::Mat gray(kHeight, kWidth, CV_8UC1, cv::Scalar(0));
+  gray.at<uchar>(3, 5) = 1;
+  cv::Mat color(kHeight, kWidth, CV_16UC4, cv::Scalar(0, 0, 0, 65535));
+  color.at<cv::Vec4w>(2, 1)[0] = 65535;
+  cv::imwrite(directory / "left.png", gray);
+  cv::imwrite(directory / "right.png", color);
   const auto convertWith = [&](const std::string& mask) {
     StereoPairConverter converter(0, directory / mask);
-    return convert(converter, makeGreyImage(), makeGreyImage());
+    return convert(converter, makeGrayImage(), makeGrayImage());
   };
   const StereoPair pair = convertWith("%s.png");
-  EXPECT_EQ(difference(pair.left_mask, grey > 0), 0.0);
+  EXPECT_EQ(difference(pair.left_mask, gray > 0), 0.0);
   EXPECT_EQ(cv::countNonZero(pair.right_mask), 1);
   EXPECT_EQ(pair.right_mask.at<uchar>(2, 1), 255);
-  EXPECT_EQ(difference(convertWith("left.png").right_mask, grey > 0), 0.0) << "one for both";
+  EXPECT_EQ(difference(convertWith("left.png").right_mask, gray > 0), 0.0) << "one for both";
 
-  cv::imwrite(directory / "right.png", grey.colRange(0, kWidth - 1));
+  cv::imwrite(directory / "right.png", gray.colRange(0, kWidth - 1));
   expectError<InputError>([&] { convertWith("%s.png"); }, "right.png is 23x18 px");
   expectError<std::runtime_error>([&] { convertWith("other_%s.png"); },
                                   "other_left.png is missing; check the parameter mask");
 }
 
-TEST(StereoPairConverterTest, ColoursBecomeLuma) {
+TEST(StereoPairConverterTest, ColorsBecomeLuma) {
   // ITU-R BT.601: 0.299 * 200 + 0.587 * 100 + 0.114 * 50 = 124.2
   constexpr int kRed = 200, kGreen = 100, kBlue = 50, kLuma = 124;
   const Image images[] = {makeImage("rgb8", 3, {kRed, kGreen, kBlue}),
@@ -139,7 +139,7 @@ TEST(StereoPairConverterTest, ColoursBecomeLuma) {
                           makeBayerImage("rggb", kRed, kGreen, kBlue),
                           makeBayerImage("gbrg", kRed, kGreen, kBlue)};
   for (const Image& image : images) {
-    const StereoPair pair = convert(image, makeGreyImage({kLuma}));
+    const StereoPair pair = convert(image, makeGrayImage({kLuma}));
     EXPECT_LE(difference(pair.left, pair.right), 1.0) << image.encoding << ": rounded twice";
   }
 }
@@ -157,7 +157,7 @@ TEST(StereoPairConverterTest, BayerPatternsOfSixteenBitsAreThoseOfEight) {
 }
 
 TEST(StereoPairConverterTest, DataAfterTheLastRowAreIgnored) {
-  for (Image image : {makeGreyImage(), makeImage("bgr8", 3, {1, 2, 3, 50}), makeImage16({700})}) {
+  for (Image image : {makeGrayImage(), makeImage("bgr8", 3, {1, 2, 3, 50}), makeImage16({700})}) {
     const Image plain = image;
     image.data.resize(image.data.size() + 99);
     const StereoPair pair = convert(image, plain);
@@ -188,7 +188,7 @@ TEST(StereoPairConverterTest, TwelveBitsKeepTheirContrast) {
   }
   // ... and then has all levels for the dark image.
   EXPECT_EQ(convert(converter, dark, dark).left.at<uchar>(0, 1), 255);
-  EXPECT_EQ(converter.greyRange().bits, 10);
+  EXPECT_EQ(converter.grayRange().bits, 10);
   // The range of the brighter image is back after two pairs; before, it is white.
   EXPECT_EQ(convert(converter, bright, bright).left.at<uchar>(0, 2), 255);
   EXPECT_EQ(convert(converter, bright, bright).left.at<uchar>(0, 1), 63);
@@ -203,11 +203,11 @@ TEST(StereoPairConverterTest, AThermalImageKeepsItsContrast) {
   const StereoPair pair = convert(converter, cold, warm);
   EXPECT_EQ(pair.left.at<uchar>(0, 1) - pair.left.at<uchar>(0, 0), 50);
   EXPECT_EQ(pair.right.at<uchar>(0, 0) - pair.left.at<uchar>(0, 0), 20) << "both have one scale";
-  EXPECT_EQ(converter.greyRange().black, 6940);
-  EXPECT_EQ(converter.greyRange().bits, 9);
+  EXPECT_EQ(converter.grayRange().black, 6940);
+  EXPECT_EQ(converter.grayRange().bits, 9);
   // A shutter before the sensor does not change it, nor does a slow drift.
   convert(converter, makeImage16({9000}), makeImage16({9000}));
-  EXPECT_EQ(converter.greyRange().black, 6940);
+  EXPECT_EQ(converter.grayRange().black, 6940);
   for (int i = 0; i < 40; ++i) {
     const int drift = 10 * i;
     const StereoPair later = convert(converter,
@@ -218,7 +218,7 @@ TEST(StereoPairConverterTest, AThermalImageKeepsItsContrast) {
   }
   StereoPairConverter known(16);
   convert(known, cold, cold);
-  EXPECT_EQ(known.greyRange().black, 0);
+  EXPECT_EQ(known.grayRange().black, 0);
 }
 
 TEST(StereoPairConverterTest, ABadImageOrAFewBadPixelsDoNotBlindIt) {
@@ -226,13 +226,13 @@ TEST(StereoPairConverterTest, ABadImageOrAFewBadPixelsDoNotBlindIt) {
   Image hot = good;
   for (std::size_t x = 0; x < kWidth * kHeight / 100; ++x) hot.data[2 * x + 1] = 255;
   StereoPairConverter converter;
-  convert(converter, makeGreyImage(), makeGreyImage());  // says nothing of 16 bits
+  convert(converter, makeGrayImage(), makeGrayImage());  // says nothing of 16 bits
   for (const Image& image : {good, hot, makeImage16({65535}), good, hot}) {
     EXPECT_EQ(convert(converter, image, good).right.at<uchar>(0, 1), 75);
-    EXPECT_EQ(converter.greyRange().bits, 10);
+    EXPECT_EQ(converter.grayRange().bits, 10);
   }
-  convert(converter, makeGreyImage(), makeGreyImage());
-  EXPECT_EQ(converter.greyRange().bits, 8);
+  convert(converter, makeGrayImage(), makeGrayImage());
+  EXPECT_EQ(converter.grayRange().bits, 8);
 }
 
 /// Other malformed images are rows of BadInputsTest.
@@ -249,7 +249,7 @@ TEST(StereoPairConverterTest, RefusesImagesOfEitherSide) {
       {[](Image& i) { i.encoding = "8UC0"; }, "\"8UC0\", but must be one of"},
       {[](Image& i) { i.encoding = "8SC1"; }, "\"8SC1\", but must be one of"},
       {[](Image& i) { i.encoding = "\x1b[2J\n" + std::string(1000, 'x'); }, "\"?[2J?xxx"}};
-  const Image good = makeGreyImage();
+  const Image good = makeGrayImage();
   for (const auto& row : kCases) {
     Image bad = good;
     row.change(bad);

@@ -64,7 +64,7 @@ TEST(FittedFeatureTest, TheFittedDisparityIsTheLikeliest) {
       const double fitted_px =
           feature.disparity_px * feature.point_cur.norm() / fitted.rotated_point.norm();
       const double least = distanceToMeasurements(feature, T, fitted_px);
-      // After two steps, the fit is accurate to some hundredths of a pixel: neither neighbour may
+      // After two steps, the fit is accurate to some hundredths of a pixel: neither neighbor may
       // be clearly better.
       EXPECT_LT(least, distanceToMeasurements(feature, T, fitted_px - 0.1) + 0.02);
       EXPECT_LT(least, distanceToMeasurements(feature, T, fitted_px + 0.1) + 0.02);

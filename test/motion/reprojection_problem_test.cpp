@@ -148,7 +148,7 @@ Eigen::MatrixXd schurComplement(const ReprojectionProblem<6>& problem,
   return normal.topLeftCorner(7, 7) - mixed * errors.ldlt().solve(mixed.transpose());
 }
 
-TEST(ReprojectionProblemTest, EliminatesTheErrorsThatNeighboursShare) {
+TEST(ReprojectionProblemTest, EliminatesTheErrorsThatNeighborsShare) {
   for (const Eigen::Isometry3d& T_0 : someMotions()) {
     const Correspondences features = someFeatures(T_0);
     const Vector6d parameters = parametersNear(T_0, {0.006, -0.0064, 0.0048});

@@ -130,7 +130,7 @@ TEST_F(BaseOdometryTest, AStepOfTheClockIsNoTimeThatPasses) {
 }
 
 TEST_F(BaseOdometryTest, FirstPairDefinesTheOdomFrame) {
-  const BaseState state = lose(kPeriod_ns, State::kInitialising);
+  const BaseState state = lose(kPeriod_ns, State::kInitializing);
   EXPECT_EQ(state.stamp_ns, stamp_ns_);
   EXPECT_TRUE(state.T_odom_base.T.isApprox(Eigen::Isometry3d::Identity()));
   EXPECT_LT(sigma(state, 0), 1e-4);
@@ -234,7 +234,7 @@ TEST_F(BaseOdometryTest, BeginsLevel) {
   node.initial_pose = {1.0, 2.0, 3.0, 0.0, 0.0, 1.5};
   const Eigen::Vector3d up = Eigen::Vector3d(0.1, -0.2, 0.9).normalized();
   BaseOdometry odometry(node, {0.0, 0.0}, up);
-  const BaseState state = odometry.add(withoutMotion(0, State::kInitialising), cameraMount());
+  const BaseState state = odometry.add(withoutMotion(0, State::kInitializing), cameraMount());
   const Eigen::Isometry3d& T = state.T_odom_base.T;
   EXPECT_TRUE((T.linear() * up).isApprox(Eigen::Vector3d::UnitZ(), 1e-12));
   EXPECT_NEAR(std::atan2(T(1, 0), T(0, 0)), 1.5, 1e-12);
@@ -246,13 +246,13 @@ TEST_F(BaseOdometryTest, BeginsLevel) {
 TEST_F(BaseOdometryTest, TimeThatStepsBackAddsNothing) {
   move(makeMotion(1.0, 0.0));
   const BaseState before = lose(kPeriod_ns);
-  const BaseState after = lose(-20 * kPeriod_ns, State::kInitialising);
+  const BaseState after = lose(-20 * kPeriod_ns, State::kInitializing);
   EXPECT_EQ(sigma(after, 0), sigma(before, 0));
 }
 
 TEST_F(BaseOdometryTest, GapsOfYearsLeaveNumbersThatFiltersCanUse) {
-  lose(0, State::kInitialising);
-  const BaseState state = lose(50'000'000LL * 1'000'000'000, State::kInitialising);
+  lose(0, State::kInitializing);
+  const BaseState state = lose(50'000'000LL * 1'000'000'000, State::kInitializing);
   EXPECT_NEAR(sigma(state, 0), 1000.0, 1.0) << "a walk of 1000 s";
 }
 
@@ -309,7 +309,7 @@ TEST_F(BaseOdometryTest, BeginsAtTheInitialPose) {
   node.initial_pose = {1.0, 2.0, 3.0, 0.1, -0.2, 1.5};
   BaseOdometry odometry(node, {0.0, 0.0});
   const Eigen::Isometry3d T =
-      odometry.add(withoutMotion(0, State::kInitialising), cameraMount()).T_odom_base.T;
+      odometry.add(withoutMotion(0, State::kInitializing), cameraMount()).T_odom_base.T;
   EXPECT_TRUE(T.translation().isApprox(Eigen::Vector3d(1.0, 2.0, 3.0), 1e-12));
   // Roll about x first, then pitch about y, then yaw about z of odom, as tf has it.
   const Eigen::Vector3d forward = T.linear().col(0);
@@ -337,7 +337,7 @@ class MovingMountTest : public testing::Test {
 
   static Eigen::Isometry3d cameraAt(int pair) { return baseAt(pair) * mountAt(pair); }
 
-  BaseState begin() { return odometry_.add(withoutMotion(0, State::kInitialising), mountAt(0)); }
+  BaseState begin() { return odometry_.add(withoutMotion(0, State::kInitializing), mountAt(0)); }
 
   /// Measured against two earlier pairs.
   BaseState see(int pair, int prev, int keyframe) {

@@ -51,7 +51,7 @@ TEST_F(LossLogTest, ALossWaitsForItsCause) {
   EXPECT_EQ(pairs(10, kLost), Lines());
   EXPECT_EQ(pair(kLost, kSwapped), Lines{"lost: " + kFew + "; " + kSwapped});
   EXPECT_EQ(pairs(10, kLost, kSwapped), Lines());
-  EXPECT_EQ(pair(State::kInitialising), Lines()) << "no motion yet";
+  EXPECT_EQ(pair(State::kInitializing), Lines()) << "no motion yet";
   EXPECT_EQ(pair(kLost), Lines());
   EXPECT_EQ(pairs(10, State::kDegraded), Lines());
   EXPECT_EQ(pair(kLost), Lines()) << "the motions were by chance";

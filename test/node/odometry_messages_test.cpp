@@ -103,7 +103,7 @@ TEST(OdometryMessagesTest, RefusesAPoseThatCannotBeSet) {
   refuse([](auto& m) { m.pose.covariance[0] = -1.0; }, "has the eigenvalue -1.04");
 }
 
-TEST(OdometryMessagesTest, CloudHasTheInliersAndTheirGreyLevels) {
+TEST(OdometryMessagesTest, CloudHasTheInliersAndTheirGrayLevels) {
   cv::Mat image(10, 20, CV_8UC1, cv::Scalar(0));
   image.at<unsigned char>(4, 7) = 99;
   Correspondences features(3);

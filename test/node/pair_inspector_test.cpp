@@ -51,7 +51,7 @@ TEST_F(ExposuresTest, SeesARatioThatMoves) {
 TEST_F(ExposuresTest, IgnoresSinglePairsAndThoseWithoutAMotion) {
   inspect(1.0, kPairs);
   EXPECT_EQ(inspect(4.0, 3), "");
-  EXPECT_EQ(inspect(4.0, kPairs, State::kInitialising), "");
+  EXPECT_EQ(inspect(4.0, kPairs, State::kInitializing), "");
 }
 
 /// Of dark images whose motion is lost.
@@ -78,7 +78,7 @@ TEST_F(DarkImagesTest, TheHintNamesTheRangeOf16BitImages) {
   inspectAll(PairInspector::kPatience);
   inspector_.finish();
   const std::string hint = inspect();
-  EXPECT_NE(hint.find("mean grey level is 10 of 255, where 0 is 0 and 255 is 1023 of the 16-bit "
+  EXPECT_NE(hint.find("mean gray level is 10 of 255, where 0 is 0 and 255 is 1023 of the 16-bit "
                       "image: set significant_bits"),
             std::string::npos)
       << hint;

@@ -74,7 +74,7 @@ TEST_F(PairProcessorTest, ResetBeginsAtTheInitialPose) {
   rig.processor().requestReset();
   rig.drive();
   EXPECT_NEAR(xOf(rig), 5.0, 1e-12);
-  EXPECT_EQ(rig.answer()->result.state, State::kInitialising);
+  EXPECT_EQ(rig.answer()->result.state, State::kInitializing);
   EXPECT_TRUE(rig.answer()->starts_trajectory);
   EXPECT_TRUE(rig.answer()->state.T_first_camera.isApprox(Eigen::Isometry3d::Identity()));
   rig.drive();
@@ -87,7 +87,7 @@ TEST_F(PairProcessorTest, RestartKeepsThePose) {
   const double before_m = x();
   rig_.processor().requestRestart();
   rig_.drive();
-  EXPECT_EQ(state(), State::kInitialising);
+  EXPECT_EQ(state(), State::kInitializing);
   EXPECT_EQ(x(), before_m);
   EXPECT_FALSE(rig_.answer()->starts_trajectory);
 }
@@ -189,7 +189,7 @@ TEST_F(PairProcessorTest, APoseThatIsSetWhileLostIsNotLost) {
   EXPECT_EQ(state(), State::kLost);
   rig_.processor().requestPose({forward(30.0), Matrix6d::Zero()});
   rig_.drive();
-  EXPECT_EQ(state(), State::kInitialising);
+  EXPECT_EQ(state(), State::kInitializing);
   EXPECT_NEAR(x(), 30.0, 1e-9);
   rig_.drive();
   EXPECT_EQ(state(), State::kOk);

@@ -103,7 +103,7 @@ VisualOdometry started(int pairs,
 TEST(VisualOdometryTest, FollowsADriveAlongTheStreet) {
   VisualOdometry odometry({});
   const OdometryResult first = odometry.process(bend(0), camera());
-  EXPECT_EQ(first.state, State::kInitialising);
+  EXPECT_EQ(first.state, State::kInitializing);
   EXPECT_EQ(first.reason, "first pair");
   EXPECT_EQ(first.dt_s(), 0.0);
   EXPECT_FALSE(first.hasMotion());
@@ -462,7 +462,7 @@ TEST(VisualOdometryTest, AnErrorInsideLosesOnePair) {
   // What is stored may be the cause of two in a row.
   odometry.process(bend(5), camera(), std::nullopt, broken);
   odometry.process(bend(6), camera(), std::nullopt, broken);
-  EXPECT_EQ(odometry.process(bend(7), camera()).state, State::kInitialising);
+  EXPECT_EQ(odometry.process(bend(7), camera()).state, State::kInitializing);
 }
 
 /// The pair with a gain applied to both images.
@@ -710,21 +710,21 @@ std::vector<BadPair> badPairs() {
   const auto stampedAt = [](std::int64_t stamp_ns) {
     return StereoPair{stamp_ns, bend(3).left, bend(3).right};
   };
-  const cv::Mat colour(camera().height, camera().width, CV_8UC3, cv::Scalar(0, 0, 0));
-  const cv::Mat grey(camera().height, camera().width, CV_8UC1, cv::Scalar(128));
-  StereoPair noisy_grey = {3 * kPeriod_ns, grey, grey.clone()};
-  SyntheticScene::addNoise(noisy_grey, 1.5, 3);
+  const cv::Mat color(camera().height, camera().width, CV_8UC3, cv::Scalar(0, 0, 0));
+  const cv::Mat gray(camera().height, camera().width, CV_8UC1, cv::Scalar(128));
+  StereoPair noisy_gray = {3 * kPeriod_ns, gray, gray.clone()};
+  SyntheticScene::addNoise(noisy_gray, 1.5, 3);
   StereoCamera reversed = camera();
   reversed.baseline_m = -0.54;
   StereoCamera undefined = camera();
   undefined.fx = std::numeric_limits<double>::quiet_NaN();
   return {{black(3 * kPeriod_ns), "only 0 features were matched"},
-          {noisy_grey, "features were matched"},
+          {noisy_gray, "features were matched"},
           {withLeft({}), "the left image is empty"},
           {withRight({}), "the right image is empty"},
-          {withRight(colour), "the right image is of OpenCV type 16, not CV_8UC1"},
+          {withRight(color), "the right image is of OpenCV type 16, not CV_8UC1"},
           {withMask(bend(3).left.rowRange(0, 100)), "the right mask has 620x100 pixels"},
-          {withMask(colour), "the right mask is of OpenCV type 16"},
+          {withMask(color), "the right mask is of OpenCV type 16"},
           {withLeft(bend(3).left.rowRange(0, 100)),
            "the left image has 620x100 pixels, the camera 620x188"},
           {withRight(bend(3).right.colRange(0, 300)), "the right image has 300x188 pixels"},
@@ -778,7 +778,7 @@ TEST(VisualOdometryTest, StartsAnewAfterAGapOrWithAnotherCamera) {
     };
     VisualOdometry odometry = started(3);
     const OdometryResult result = odometry.process(changed(3), other);
-    EXPECT_EQ(result.state, State::kInitialising);
+    EXPECT_EQ(result.state, State::kInitializing);
     EXPECT_EQ(result.reason.find(c.reason), 0U) << result.reason;
     expectMotion(odometry.process(changed(4), other), bendStep(), c.translation_m, c.rotation_rad);
   }
@@ -803,9 +803,9 @@ TEST(VisualOdometryTest, AStampFarAheadRestartsTwice) {
   VisualOdometry odometry = started(3);
   StereoPair ahead = bend(3);
   ahead.stamp_ns += 3'600'000'000'000;
-  EXPECT_EQ(odometry.process(ahead, camera()).state, State::kInitialising);
+  EXPECT_EQ(odometry.process(ahead, camera()).state, State::kInitializing);
   const OdometryResult back = odometry.process(bend(4), camera());
-  EXPECT_EQ(back.state, State::kInitialising);
+  EXPECT_EQ(back.state, State::kInitializing);
   EXPECT_EQ(back.reason.find("stamps went back by 3600 s"), 0u) << back.reason;
   expectMotion(odometry.process(bend(5), camera()), bendStep());
 }
@@ -862,7 +862,7 @@ TEST(VisualOdometryTest, FollowsARefinedCalibration) {
   expectMotion(started(3).process(bend(3), scaled(1.000'001)), bendStep());
   expectMotion(started(3).process(bend(3), scaled(1.001)), bendStep());
   const OdometryResult zoomed = started(3).process(bend(3), scaled(1.1));
-  EXPECT_EQ(zoomed.state, State::kInitialising);
+  EXPECT_EQ(zoomed.state, State::kInitializing);
   EXPECT_NE(zoomed.reason.find("the calibration has changed by 0.0"), std::string::npos)
       << zoomed.reason;
 }
@@ -873,7 +873,7 @@ TEST(VisualOdometryTest, StartsAnewWhenReset) {
   EXPECT_TRUE(odometry.correspondences().empty());
   StereoPair earlier = bend(3);
   earlier.stamp_ns = -7;
-  EXPECT_EQ(odometry.process(earlier, camera()).state, State::kInitialising);
+  EXPECT_EQ(odometry.process(earlier, camera()).state, State::kInitializing);
 }
 
 TEST(VisualOdometryTest, GivesTheSameBytesWithAnyNumberOfThreadsOnAnyProcessor) {
@@ -913,7 +913,7 @@ TEST(VisualOdometryTest, DoesNotThrowOnImagesOfAnySize) {
       const StereoPair pair = {stamp_ns, images.left, i % 2 == 0 ? images.left : images.right};
       OdometryResult result;
       EXPECT_NO_THROW(result = odometry.process(pair, small)) << size;
-      EXPECT_EQ(result.state, i == 0 ? State::kInitialising : State::kLost) << size;
+      EXPECT_EQ(result.state, i == 0 ? State::kInitializing : State::kLost) << size;
       EXPECT_EQ(result.reason.find("internal error"), std::string::npos) << result.reason;
       stamp_ns += kPeriod_ns;
     }

@@ -246,11 +246,11 @@ class PageCommandsTest : public ::testing::TestWithParam<fs::path> {
     }
   }
 
-  /// Of the last command, in whole lines and without colours.
+  /// Of the last command, in whole lines and without colors.
   std::string output() const {
-    static const std::regex kColour("\x1b\\[[0-9;]*m");
+    static const std::regex kColor("\x1b\\[[0-9;]*m");
     const std::string text = readFile(log());
-    return std::regex_replace(text.substr(0, text.rfind('\n') + 1), kColour, "");
+    return std::regex_replace(text.substr(0, text.rfind('\n') + 1), kColor, "");
   }
 
   TemporaryDirectory directory_;

@@ -44,12 +44,12 @@ StereoPair rectify(const StereoPair& raw, const StereoCalibration& calibration) 
   return StereoRectifier().rectify(raw, std::make_shared<const StereoCalibration>(calibration));
 }
 
-StereoPair greyPair(int grey, const cv::Size& size = {752, 480}) {
-  return {7, cv::Mat(size, CV_8UC1, cv::Scalar(grey)), cv::Mat(size, CV_8UC1, cv::Scalar(grey))};
+StereoPair grayPair(int gray, const cv::Size& size = {752, 480}) {
+  return {7, cv::Mat(size, CV_8UC1, cv::Scalar(gray)), cv::Mat(size, CV_8UC1, cv::Scalar(gray))};
 }
 
 StereoPair noise() {
-  StereoPair pair = greyPair(0);
+  StereoPair pair = grayPair(0);
   cv::randu(pair.left, 0, 255);
   cv::randu(pair.right, 0, 255);
   return pair;
@@ -105,7 +105,7 @@ TEST(StereoRectifierTest, FollowsTheCalibrationOfThePairAndUsesItsMemoryAgain) {
 }
 
 TEST(StereoRectifierTest, MasksCoverWhatTheyCoverInTheRawImages) {
-  StereoPair raw = greyPair(0);
+  StereoPair raw = grayPair(0);
   const cv::Rect left_body(0, 400, 752, 80), right_body(500, 100, 60, 40);
   raw.left(left_body).setTo(255);
   raw.right(right_body).setTo(255);
@@ -130,13 +130,13 @@ TEST(StereoRectifierTest, MasksCoverWhatTheyCoverInTheRawImages) {
 TEST(StereoRectifierTest, BordersAreNotBlack) {
   StereoCalibration wide = calibrationOf(rawRig());
   wide.rectified.fx = wide.rectified.fy = 200.0;  // shows more than the cameras see
-  const StereoPair pair = rectify(greyPair(77), wide);
+  const StereoPair pair = rectify(grayPair(77), wide);
   EXPECT_EQ(cv::countNonZero(pair.left != 77), 0);
   EXPECT_EQ(cv::countNonZero(pair.right != 77), 0);
 }
 
 TEST(StereoRectifierTest, CubicsStayAsTheyAre) {
-  // A sinusoid of 8 px, shifted by fractions: bilinear interpolation is off by 8 grey levels.
+  // A sinusoid of 8 px, shifted by fractions: bilinear interpolation is off by 8 gray levels.
   StereoCamera camera;
   camera.width = 120;
   camera.height = 20;

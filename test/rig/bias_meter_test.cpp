@@ -53,7 +53,7 @@ TEST(BiasMeterTest, DependsLittleOnTheStart) {
   EXPECT_NEAR(near.bias_px, far.bias_px, 0.02);
 }
 
-TEST(BiasMeterTest, FindsErrorsThatNeighboursShare) {
+TEST(BiasMeterTest, FindsErrorsThatNeighborsShare) {
   double without = 0.0;
   double with = 0.0;
   constexpr unsigned kPairs = 20;

@@ -33,7 +33,7 @@ class ExperimentsTest : public ScriptTest {
     ASSERT_EQ(rendered.status, 0) << rendered.output;
     runScript(RUN,
               plan("every: [1, 2]\n" + (kSettings + std::string("  brighter: {right: [0.8, 20]}\n"
-                                                                "  grey: {right: [0, 50]}\n"))) +
+                                                                "  gray: {right: [0, 50]}\n"))) +
                   clip() + ":5,10");
   }
 
@@ -84,7 +84,7 @@ TEST_F(ExperimentsTest, ChangesTheRightImages) {
   EXPECT_LT(number(row("clip", "brighter"), "translation_percent"), 1.0);
   EXPECT_NE(row("clip", "brighter").at("translation_percent"),
             row("clip").at("translation_percent"));
-  EXPECT_EQ(number(row("clip", "grey"), "lost"), kPairs - 1.0) << "nothing is seen in grey";
+  EXPECT_EQ(number(row("clip", "gray"), "lost"), kPairs - 1.0) << "nothing is seen in gray";
 }
 
 /// Of one clip, the geometric means are its errors.
@@ -93,7 +93,7 @@ TEST_F(ExperimentsTest, PrintsTheMeansOfEachSetting) {
   std::snprintf(
       mean, sizeof(mean), "| default | %.3f ", number(row("clip"), "translation_percent"));
   EXPECT_NE(printed().find(mean), std::string::npos) << mean << printed();
-  EXPECT_NE(printed().find("| 23 11 |"), std::string::npos) << "lost in grey: " << printed();
+  EXPECT_NE(printed().find("| 23 11 |"), std::string::npos) << "lost in gray: " << printed();
 }
 
 TEST_F(ExperimentsTest, TakesPositionsOfAnAntennaForTruth) {

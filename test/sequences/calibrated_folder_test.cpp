@@ -27,8 +27,8 @@ class CalibratedFolderTest : public ::testing::Test {
     }
   }
 
-  void writeImage(const std::string& name, int grey) const {
-    cv::imwrite(directory_ / name, cv::Mat(480, 752, CV_8UC1, cv::Scalar(grey)));
+  void writeImage(const std::string& name, int gray) const {
+    cv::imwrite(directory_ / name, cv::Mat(480, 752, CV_8UC1, cv::Scalar(gray)));
   }
 
   StereoSequence open(const SequenceOptions& options = {}) const {

@@ -32,8 +32,8 @@ class KittiLayoutTest : public ::testing::Test {
     directory_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 1.5\n");
   }
 
-  void writeImage(const std::string& name, int grey, const cv::Size& size = {8, 6}) {
-    ASSERT_TRUE(cv::imwrite(directory_ / name, cv::Mat(size, CV_8UC1, cv::Scalar(grey))));
+  void writeImage(const std::string& name, int gray, const cv::Size& size = {8, 6}) {
+    ASSERT_TRUE(cv::imwrite(directory_ / name, cv::Mat(size, CV_8UC1, cv::Scalar(gray))));
   }
 
   StereoSequence open() const { return openStereoSequence(directory_ / "", {}); }
@@ -72,7 +72,7 @@ TEST_F(KittiLayoutTest, ReadsCalibrationTimesPosesAndImages) {
 }
 
 TEST_F(KittiLayoutTest, BaselineIsTheDistanceBetweenTheTwoCameras) {
-  // KITTI's colour pair: neither camera is the reference camera of the calibration.
+  // KITTI's color pair: neither camera is the reference camera of the calibration.
   directory_.write("calib.txt",
                    "P0: 700 0 4 70 0 700 3 1 0 0 1 0\n"
                    "P1: 700 0 4 -280 0 700 3 2 0 0 1 0\n");

@@ -54,10 +54,10 @@ class AslFolder {
 
   void writeImage(const std::string& camera,
                   std::int64_t stamp_ns,
-                  int grey,
+                  int gray,
                   const cv::Size& size = {752, 480}) const {
     const std::string name = camera + "/data/" + std::to_string(stamp_ns) + ".png";
-    cv::imwrite(*this / name, cv::Mat(size, CV_8UC1, cv::Scalar(grey)));
+    cv::imwrite(*this / name, cv::Mat(size, CV_8UC1, cv::Scalar(gray)));
   }
 
   static std::string sensor(const std::string& pose,

@@ -18,7 +18,7 @@ constexpr std::int64_t kStart_ns = 1317042145000000000;  // 2011-09-26
 /// Which of a pair's images a camera took.
 struct Camera {
   bool right;
-  bool colour;
+  bool color;
 };
 
 ros::Time stampOf(const StereoSequence& sequence, int index, double delay_ms = 0.0) {
@@ -72,7 +72,7 @@ void writeCamera(const StereoSequence& sequence,
                  const std::string& image_topic,
                  bool raw,
                  rosbag::Bag& bag) {
-  const std::string name = std::string(camera.colour ? "camera_color" : "camera_gray") +
+  const std::string name = std::string(camera.color ? "camera_color" : "camera_gray") +
                            (camera.right ? "_right" : "_left");
   sensor_msgs::CameraInfo info = projectionOnly(sequence, camera.right);
   if (raw) info = withUnrectifiedCalibration(info);
@@ -80,11 +80,11 @@ void writeCamera(const StereoSequence& sequence,
   for (int index = 0; index < sequence.size(); ++index) {
     info.header.stamp = stampOf(sequence, index, raw && camera.right ? skew_ms(index) : 0.0);
     cv::Mat pixels = camera.right ? sequence.read(index).right : sequence.read(index).left;
-    if (camera.colour) cv::cvtColor(pixels, pixels, cv::COLOR_GRAY2BGR);
+    if (camera.color) cv::cvtColor(pixels, pixels, cv::COLOR_GRAY2BGR);
     bag.write(
         "/kitti/" + name + "/" + image_topic,
         info.header.stamp,
-        *cv_bridge::CvImage(info.header, camera.colour ? "bgr8" : "mono8", pixels).toImageMsg());
+        *cv_bridge::CvImage(info.header, camera.color ? "bgr8" : "mono8", pixels).toImageMsg());
     bag.write("/kitti/" + name + "/camera_info", info.header.stamp, info);
   }
 }
@@ -119,9 +119,9 @@ void writeKitti2bagRaw(const StereoSequence& sequence, const std::string& path) 
     const Eigen::Isometry3d T_world_base = poseInWorld(sequence.ground_truth[index]);
     writeTransform(bag, "/tf", stamp, "world", "base_link", T_world_base);
   }
-  for (const bool colour : {false, true}) {
+  for (const bool color : {false, true}) {
     for (const bool right : {false, true}) {
-      writeCamera(sequence, {right, colour}, "image_raw", true, bag);
+      writeCamera(sequence, {right, color}, "image_raw", true, bag);
     }
   }
 }

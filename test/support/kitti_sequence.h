@@ -38,8 +38,8 @@ struct KittiSequence {
   StereoPair pair(int index) const {
     const std::string name = cv::format("/%06d.png", index);
     return {stamps_ns.at(static_cast<std::size_t>(index)),
-            readGreyImage(directory + "/image_0" + name),
-            readGreyImage(directory + "/image_1" + name)};
+            readGrayImage(directory + "/image_0" + name),
+            readGrayImage(directory + "/image_1" + name)};
   }
 };
 

@@ -74,7 +74,7 @@ Eigen::Isometry3d motion(const Eigen::Vector3d& translation_m, const Eigen::Vect
 /// 13 m/s in a bend, during 0.1 s.
 Eigen::Isometry3d turnAhead();
 
-/// A prediction of a motion, with an error of some centimetres and a tenth of a degree.
+/// A prediction of a motion, with an error of some centimeters and a tenth of a degree.
 Eigen::Isometry3d roughly(const Eigen::Isometry3d& T_keyframe_cur);
 
 /// The error of an estimated motion in the order of OdometryResult::covariance.

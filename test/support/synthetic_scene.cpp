@@ -141,8 +141,8 @@ cv::Mat SyntheticScene::renderImage(const Eigen::Isometry3d& T_world_camera, dou
       // A plane seen at a flat angle spreads a pixel along the view, but not across it: the mean.
       const double tilt = std::sqrt(std::max(std::abs(ray[axis]) / ray.norm(), 0.02));
       const double footprint_m = hit.distance / camera_.fx / tilt;
-      const double grey = 128.0 + 110.0 * texture(u, v, hit.plane, footprint_m);
-      image.at<uchar>(y, x) = cv::saturate_cast<uchar>(grey);
+      const double gray = 128.0 + 110.0 * texture(u, v, hit.plane, footprint_m);
+      image.at<uchar>(y, x) = cv::saturate_cast<uchar>(gray);
     }
   }
   return image;

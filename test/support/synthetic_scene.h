@@ -32,7 +32,7 @@ class SyntheticScene {
   Eigen::Vector3d pointAt(const Eigen::Isometry3d& T_world_camera,
                           const Eigen::Vector2d& pixel) const;
 
-  /// Adds Gaussian noise of `sigma` grey levels, the same for the same seed.
+  /// Adds Gaussian noise of `sigma` gray levels, the same for the same seed.
   static void addNoise(StereoPair& pair, double sigma, std::uint64_t seed);
 
   /// Moves the right image down, as that of a pitched camera.

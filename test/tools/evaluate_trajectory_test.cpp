@@ -94,7 +94,7 @@ class EvaluateTrajectoryTest : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
-/// Each figure in its unit: metres, percent, degrees. A segment of 100 m ends after 101 steps, one
+/// Each figure in its unit: meters, percent, degrees. A segment of 100 m ends after 101 steps, one
 /// of 200 m after 201; 20 and 10 of them begin at each tenth pose.
 TEST_F(EvaluateTrajectoryTest, ReportHasTheFigures) {
   const CommandResult result = run("truth.txt estimate.txt --fit --report report");

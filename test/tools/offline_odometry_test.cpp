@@ -85,7 +85,7 @@ TEST_F(OfflineOdometryTest, FiguresTellMotionCovarianceAndBias) {
   const std::vector<CsvRow> rows = readCsv(directory_ / "stats.csv");
   ASSERT_EQ(rows.size(), truth.size()) << "one per pair";
   EXPECT_EQ(readFile(directory_ / "stats.csv").compare(0, 15, "stamp_ns,state,"), 0);
-  EXPECT_EQ(rows.front().at("state"), "initialising");
+  EXPECT_EQ(rows.front().at("state"), "initializing");
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const auto number = [&](const std::string& column) { return std::stod(rows[i].at(column)); };
     const Eigen::Isometry3d T_prev_cur =
@@ -201,7 +201,7 @@ TEST_F(OfflineOdometryTest, PreloadedImagesGiveTheSamePoses) {
   EXPECT_TRUE(preloaded == trajectoryOf(sequence()));
   const CommandResult result = run(sequence() + " --trajectory /dev/null --preload");
   for (const char* part :
-       {"12 pairs: 11 ok, 0 degraded, 0 lost, 1 initialising", "peak memory: "}) {
+       {"12 pairs: 11 ok, 0 degraded, 0 lost, 1 initializing", "peak memory: "}) {
     EXPECT_NE(result.output.find(part), std::string::npos) << result.output;
   }
 }
@@ -231,7 +231,7 @@ TEST_F(OfflineOdometryTest, ThePoseIsKeptWhenTimeJumpsBack) {
   EXPECT_EQ(result.status, 0) << result.output;
   EXPECT_NE(result.output.find("24 pairs: 22 ok, 0 degraded, 0 lost, 2 init"), std::string::npos)
       << result.output;
-  EXPECT_NE(result.output.find("first initialising, pair 12: "), std::string::npos)
+  EXPECT_NE(result.output.find("first initializing, pair 12: "), std::string::npos)
       << result.output;
   EXPECT_NE(result.output.find("time jumps back"), std::string::npos) << result.output;
   const Trajectory poses = readTrajectory(directory_ / "loop.txt");

@@ -66,7 +66,7 @@ TEST_F(TrajectorySceneTest, TheStatusOfAPoseMayComeAfterIt) {
     }
     const visualization_msgs::Marker way = marker("estimate");
     std::vector<bool> lost;
-    for (const auto& colour : way.colors) lost.push_back(colour.r == 0.0f);
+    for (const auto& color : way.colors) lost.push_back(color.r == 0.0f);
     if (step_m > 0.0) {
       EXPECT_EQ(lost, (std::vector<bool>{false, true, true, false, false}));
     } else {

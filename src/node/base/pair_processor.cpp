@@ -88,7 +88,7 @@ PairAnswer PairProcessor::process(const PairInput& in) {
 }
 
 std::string PairProcessor::inspect(const PairInput& in, const OdometryResult& result) {
-  const GreyRange range = converter_.greyRange();
+  const GrayRange range = converter_.grayRange();
   const auto before = [&] {
     StereoPairConverter converter(range, parameters_.mask);  // the pixels of `in` stay
     std::vector<StereoPair> pairs;

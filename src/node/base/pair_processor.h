@@ -21,7 +21,7 @@ namespace rotrocc {
 
 /// A pair with all that is known of it.
 struct PairInput {
-  StereoPair pair;                                ///< grey and rectified
+  StereoPair pair;                                ///< gray and rectified
   std::chrono::steady_clock::time_point arrival;  ///< of the pair
   StereoCamera camera;
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();  ///< at the stamp of the pair

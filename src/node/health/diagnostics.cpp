@@ -16,7 +16,7 @@ using diagnostic_msgs::DiagnosticStatus;
 unsigned char levelOf(std::uint8_t state) {
   switch (state) {
     case OdometryStatus::OK:
-    case OdometryStatus::INITIALISING:
+    case OdometryStatus::INITIALIZING:
       return DiagnosticStatus::OK;
     case OdometryStatus::DEGRADED:
     case OdometryStatus::PAUSED:

@@ -31,8 +31,8 @@ std::string whyNoAnswer(const HealthReport& report) {
 
 std::uint8_t toMessage(State state) {
   switch (state) {
-    case State::kInitialising:
-      return OdometryStatus::INITIALISING;
+    case State::kInitializing:
+      return OdometryStatus::INITIALIZING;
     case State::kOk:
       return OdometryStatus::OK;
     case State::kDegraded:
@@ -108,7 +108,7 @@ void updateState(HealthReport& report) {
 
 const char* stateName(std::uint8_t state) {
   static const char* const kNames[] = {
-      "INITIALISING", "OK", "DEGRADED", "LOST", "NO_INPUT", "NO_CALIBRATION", "NO_TF", "PAUSED"};
+      "INITIALIZING", "OK", "DEGRADED", "LOST", "NO_INPUT", "NO_CALIBRATION", "NO_TF", "PAUSED"};
   return state <= OdometryStatus::PAUSED ? kNames[state] : "unknown";
 }
 

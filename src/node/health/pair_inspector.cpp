@@ -124,12 +124,12 @@ Explanation explainLoss(const std::vector<StereoPair>& pairs,
                         const OdometryConfig& config,
                         const StereoCamera& camera,
                         bool rectifies,
-                        const GreyRange& range) {
+                        const GrayRange& range) {
   const cv::Mat &left = pairs.back().left, &right = pairs.back().right;
   MatchCounter matches(config.correspondence_finder, camera);
   const int direct = matches.count(left, right);
   if (matches.corners() < kFewCorners || isNoise(left)) {
-    return {"the left image has hardly any corners, its mean grey level is " +
+    return {"the left image has hardly any corners, its mean gray level is " +
             toText(cvRound(cv::mean(left)[0])) + " of 255" +
             (range.white() == 255
                  ? ""
@@ -187,11 +187,11 @@ void PairInspector::configure(const OdometryConfig& config) {
 std::string PairInspector::inspect(const StereoPair& pair,
                                    const StereoCamera& camera,
                                    const OdometryResult& result,
-                                   const GreyRange& range,
+                                   const GrayRange& range,
                                    const PairsBefore& before) {
   const std::string fault = compareExposures(result);
   // Of a pair that was not tried the odometry knows why.
-  if (result.state == State::kInitialising || result.counts.tries == 0) return fault;
+  if (result.state == State::kInitializing || result.counts.tries == 0) return fault;
   if (result.state == State::kOk) {
     // Chance matches may look like a motion: one of them takes back few of the doubts.
     doubtful_ -= 1 + doubtful_ / kPatience;
@@ -212,7 +212,7 @@ std::string PairInspector::inspect(const StereoPair& pair,
 /// Throws std::exception if it cannot be looked for.
 void PairInspector::explain(const StereoPair& pair,
                             const StereoCamera& camera,
-                            const GreyRange& range,
+                            const GrayRange& range,
                             const PairsBefore& before) {
   if (search_.valid()) {
     if (search_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;

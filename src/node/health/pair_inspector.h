@@ -50,7 +50,7 @@ class PairInspector {
   std::string inspect(const StereoPair& pair,
                       const StereoCamera& camera,
                       const OdometryResult& result,
-                      const GreyRange& range = {},
+                      const GrayRange& range = {},
                       const PairsBefore& before = {});
 
   /// Whether the last explanation of a loss is that left and right images are not a pair:
@@ -64,7 +64,7 @@ class PairInspector {
   std::string compareExposures(const OdometryResult& result);
   void explain(const StereoPair& pair,
                const StereoCamera& camera,
-               const GreyRange& range,
+               const GrayRange& range,
                const PairsBefore& before);
   void forgetLoss();
 

@@ -40,7 +40,7 @@ class InterfaceTest : public testing::Test {
     ASSERT_TRUE(call("pause", resume));
     ASSERT_TRUE(call("reset", reset));
     first_ = drive();
-    ASSERT_EQ(status_.state, OdometryStatus::INITIALISING);
+    ASSERT_EQ(status_.state, OdometryStatus::INITIALIZING);
     recover();
   }
 
@@ -258,7 +258,7 @@ TEST_F(InterfaceTest, PauseDropsPairsAndKeepsThePose) {
   pause.request.data = false;
   ASSERT_TRUE(call("pause", pause));
   const nav_msgs::Odometry after = drive();
-  EXPECT_EQ(status_.state, OdometryStatus::INITIALISING);
+  EXPECT_EQ(status_.state, OdometryStatus::INITIALIZING);
   EXPECT_EQ(after.pose.pose.position.x, before.pose.pose.position.x);
   recover();
 }

@@ -44,7 +44,7 @@ TEST(LateTfTest, OdometryWaitsAndStartsByItself) {
   EXPECT_EQ(odometry->pose.pose.position.x, 0.0);
   EXPECT_EQ(odometry->pose.pose.orientation.w, 1.0);
   EXPECT_EQ(odometry->twist.covariance[0], 9999.0);
-  EXPECT_EQ(drive.statusOf(odometry->header.stamp).state, OdometryStatus::INITIALISING);
+  EXPECT_EQ(drive.statusOf(odometry->header.stamp).state, OdometryStatus::INITIALIZING);
 
   // Other pairs may be pending, and be left out: then the next one is too far away.
   double before_m = 0.0;

@@ -41,9 +41,9 @@ TEST(MaskTest, MaskedPartsOfTheImagesHaveNoFeatures) {
        ++point) {
     EXPECT_LT(camera.fy * point[1] / point[2] + camera.cy, kMaskedRow);
   }
-  const auto colourAt = [&](int row) { return &picture->data.at(row * picture->step); };
-  EXPECT_EQ(colourAt(kMaskedRow - 1)[2], colourAt(kMaskedRow - 1)[0]) << "grey";
-  EXPECT_GT(colourAt(kMaskedRow)[2], colourAt(kMaskedRow)[0]) << "tinted red";
+  const auto colorAt = [&](int row) { return &picture->data.at(row * picture->step); };
+  EXPECT_EQ(colorAt(kMaskedRow - 1)[2], colorAt(kMaskedRow - 1)[0]) << "gray";
+  EXPECT_GT(colorAt(kMaskedRow)[2], colorAt(kMaskedRow)[0]) << "tinted red";
 }
 
 TEST(MaskTest, MasksThatCannotBeUsedAreNamed) {
