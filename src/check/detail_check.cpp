@@ -65,7 +65,7 @@ class DetailCheck : public PairCheck {
       cv::Mat& sum = detail_[side];
       cv::Mat detail = detailOf(*images[side], grid);
       detail.setTo(0.0, ~exposed);
-      sum = sum.empty() ? detail : cv::Mat(sum + detail);
+      sum = sum.size() == detail.size() ? cv::Mat(sum + detail) : detail;  // a new resolution
     }
   }
 
