@@ -74,6 +74,10 @@ std::optional<CheckedRig> findCorrection(Recording& recording,
               " pairs: record a minute of motion";
     return std::nullopt;
   }
+  if (!before.is_known) {
+    why_not = "the pairs or their rectification are wrong: fix that first";
+    return std::nullopt;
+  }
   if (!before.is_constant) {
     why_not = "rows or disparities move: no calibration describes a rig that bends";
     return std::nullopt;

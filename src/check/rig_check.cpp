@@ -140,7 +140,11 @@ class PairChecks {
       if (!report.mask.empty()) doubtDetail(report);
       rig.measures.rows_rms_px = rows.rms_px;
       rig.measures.is_constant = rows.are_constant && bias_is_constant;
-      isExplained() ? doubt(report) : addRectification(rows, model, report);
+      if (isExplained()) {
+        doubt(report);
+      } else {
+        rig.measures.is_known = !addRectification(rows, model, report);
+      }
     }
     if (samples.size() < kLeastMotions) addTooShort(report);
     report.tables.push_back({"image",
@@ -190,7 +194,10 @@ class PairChecks {
     for (Finding& finding : report.findings) {
       if (finding.section == "inputs" || finding.section == "photometry") continue;
       if (finding.subject == kMasked) continue;
-      if (finding.verdict != Verdict::kGood) finding.verdict = Verdict::kUnknown;
+      if (finding.verdict == Verdict::kGood) continue;
+      finding.verdict = Verdict::kUnknown;
+      finding.cost.clear();
+      finding.remedy.clear();
     }
   }
 
@@ -214,9 +221,9 @@ class PairChecks {
                                100.0});
   }
 
-  /// What is left when nothing else explains the rows, or lenses that are not corrected. What
-  /// follows from them is not told.
-  void addRectification(const RowDifferences& rows,
+  /// Returns whether it is wrong: what is left when nothing else explains the rows, or lenses that
+  /// are not corrected. What follows from them is not told.
+  bool addRectification(const RowDifferences& rows,
                         const RigModel& model,
                         RigReport& report) const {
     constexpr double kSigmas = 3.0;
@@ -230,7 +237,7 @@ class PairChecks {
           return finding.subject == kRowsOverTime || finding.subject == kMasked ||
                  (finding.verdict == Verdict::kFix && finding.section == "photometry");
         });
-    if (!is_raw && !is_unexplained) return;
+    if (!is_raw && !is_unexplained) return false;
     doubt(report);
     const std::string measured =
         is_raw ? "both images have radial distortion, k1 = " +
@@ -245,6 +252,7 @@ class PairChecks {
                                rectifies_ ? kCalibrateAgain : kRectify,
                                Verdict::kFix,
                                100.0});
+    return true;
   }
 
   std::string commonestLoss() const {
@@ -369,6 +377,7 @@ void addUnusable(const std::string& why, RigReport& report) {
 bool checkPairs(Recording& recording, const RigCheckOptions& options, CheckedRig& rig) {
   RecordedPairs pairs(recording, options.parameters.node, options.rectify, options.calibration);
   const double max_apart_s = options.parameters.node.max_stamp_difference_s;
+  const bool is_first = rig.report.findings.empty();
   InputCheck input;
   pairs.onMessage([&](const RecordedMessage& message) { input.observe(message); });
   PairChecks checks(configOf(options), options.gyroscope, pairs.rectifies());
@@ -381,7 +390,7 @@ bool checkPairs(Recording& recording, const RigCheckOptions& options, CheckedRig
     }
   } catch (const std::runtime_error& error) {
     if (checks.pairs() == 0) {
-      if (rig.report.findings.empty()) input.reportStreams(max_apart_s, rig.report);
+      if (is_first) input.reportStreams(max_apart_s, rig.report);
       addUnusable(error.what(), rig.report);
       return false;
     }
@@ -394,7 +403,7 @@ bool checkPairs(Recording& recording, const RigCheckOptions& options, CheckedRig
                                    0.9});
   }
   input.report(checks.camera(), pairs.leftOut(), pairs.rectifies(), rig.report);
-  input.reportStreams(max_apart_s, rig.report);
+  if (is_first) input.reportStreams(max_apart_s, rig.report);
   checks.report(rig);
   rig.measures.calibration = calibrationOf(recording, checks.camera(), pairs.rectifies(), options);
   return true;

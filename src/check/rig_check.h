@@ -33,6 +33,7 @@ struct RigMeasures {
   RigModel model;
   double rows_rms_px = 0.0;
   bool is_constant = true;  ///< rows and bias
+  bool is_known = false;    ///< whether pairs and rectification are right, so that the model counts
   int pairs_with_motion = 0;
   int moving_pairs = 0;  ///< in which the features had moved
 };

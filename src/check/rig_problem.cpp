@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Cholesky>
 
@@ -97,11 +98,13 @@ struct RigProblem::FlowSums {
     constexpr int kLeast = 12;  // of twice as many residuals, a fourth for the motion
     if (count < kLeast) return false;
     const Eigen::LDLT<Matrix6d> inverse(A);
-    motion = inverse.solve(a);
+    const Vector6d solved = inverse.solve(a);
+    if (!solved.allFinite()) return false;
+    motion = solved;
     eliminated = normal;
     eliminated.H -= B.transpose() * inverse.solve(B);
     eliminated.g -= B.transpose() * motion;
-    return motion.allFinite();
+    return true;
   }
 };
 
@@ -165,7 +168,10 @@ std::vector<Estimate> RigProblem::biases() {
   std::vector<Estimate> biases;
   for (const Normal& window : flows_) {
     const double information = window.H(kBias, kBias);
-    biases.push_back({values[kBias] + window.g[kBias] / information, 1.0 / std::sqrt(information)});
+    // Less than a pixel is said by some motion of the features.
+    const double sigma_px =
+        information > 1.0 ? 1.0 / std::sqrt(information) : std::numeric_limits<double>::infinity();
+    biases.push_back({values[kBias] + window.g[kBias] / information, sigma_px});
   }
   return biases;
 }
@@ -236,7 +242,10 @@ void RigProblem::linearize() {
   if (!row_errors_px.empty()) {
     row_noise_px_ = std::max(kDeviationOverMedian * median(row_errors_px), kLeastNoise_px);
   }
-  if (!flow_errors.empty()) flow_noise_ *= kDeviationOverMedian * median(flow_errors);
+  if (!flow_errors.empty()) {
+    flow_noise_ =
+        std::max(flow_noise_ * kDeviationOverMedian * median(flow_errors), kLeastNoise_px);
+  }
 }
 
 void RigProblem::addRow(std::size_t pair,

@@ -100,7 +100,8 @@ int rankOf(const Finding& finding) {
 
 void RigReport::add(Finding finding, const Graded& graded) {
   finding.verdict = judge(graded);
-  finding.severity = std::abs(graded.value) / graded.fix;
+  const double limit = std::isfinite(graded.fix) ? graded.fix : graded.acceptable;
+  finding.severity = std::isfinite(graded.value) ? std::abs(graded.value) / limit : 0.0;
   if (finding.verdict == Verdict::kGood || finding.verdict == Verdict::kUnknown) {
     finding.remedy.clear();
     finding.cost.clear();

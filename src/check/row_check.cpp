@@ -142,6 +142,7 @@ std::vector<Cell> cellsOf(const StereoCamera& camera,
 Estimate commonOf(const std::vector<Cell>& cells, std::size_t windows) {
   std::vector<std::vector<double>> without;
   double all2 = 0.0;
+  bool has_cells = false;
   for (std::size_t left_out = 0; left_out <= windows; ++left_out) {
     double products = 0.0;
     double count = 0.0;
@@ -164,9 +165,12 @@ Estimate commonOf(const std::vector<Cell>& cells, std::size_t windows) {
       without.push_back({mean});
     } else {
       all2 = mean;
+      has_cells = count > 0.0;
     }
   }
   const double rms = std::sqrt(std::max(all2, 0.0));
+  // Of two windows, none has a partner without one of them.
+  if (!has_cells || windows < 3) return {rms, std::numeric_limits<double>::infinity()};
   const double sigma2 = jackknifeSigmas(without)[0];
   return {rms, sigma2 / std::max(2.0 * rms, std::sqrt(std::max(sigma2, 1e-12)))};
 }
