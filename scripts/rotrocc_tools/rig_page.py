@@ -193,7 +193,7 @@ class RigPage:
             shown.append(self.picture('bias_time', 'bias over time', figures.courses, [
                 ('bias [px]', [self.course('bias_time', 'bias_px', sigma='sigma_px')])]))
         return page.section('Disparities', 'What has to be added to disparities so that they agree with the motion, '
-                            'where the motion shows it; and the same for the whole image, as it gets known, with one '
+                            'where the motion shows it; and the same for the whole image, in each window of time, with one '
                             'standard deviation.', *shown) if shown else ''
 
     def time(self):

@@ -94,7 +94,7 @@ std::optional<CheckedRig> findCorrection(Recording& recording,
     why_not = "it does not fit parts of the recording better that it is not from";
     return std::nullopt;
   }
-  // Again by what is left over: rows first, then the disparities that they leave.
+  // Again by what is left over, because the fit is linear and pairs that were lost come back.
   constexpr int kMostPasses = 4;
   RigCheckOptions corrected = options;
   CheckedRig checked = {{}, before};

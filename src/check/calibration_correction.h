@@ -13,9 +13,11 @@ namespace rotrocc {
 /// what both cameras have in common, as an error of the baseline, is not seen.
 StereoCalibration correct(const RigMeasures& measures);
 
-/// Checks a recording by corrected calibrations, until no significant error is left, at most four
-/// times. The result has the last one in its measures. None, with the reason in `why_not`, if
-/// nothing is significant, rows move, or the result is worse.
+/// Checks a recording by corrected calibrations, until nothing that they correct must be fixed, at
+/// most four times. The result has the last one in its measures. None, with the reason in
+/// `why_not`, if nothing must be fixed, the images do not show what to correct, pairs or
+/// rectification are wrong, the rig moves, windows that it is not from do not fit better, or more
+/// pairs would be lost.
 std::optional<CheckedRig> findCorrection(Recording& recording,
                                          const RigCheckOptions& options,
                                          const RigMeasures& before,

@@ -54,9 +54,9 @@ constexpr double kAcceptable = 0.3;
 /// pair with the error of its motion, which takes a part of most errors of disparities. Standard
 /// deviations are the largest ones of independent errors, with what those in a part of the image
 /// have in common, and of the scatter without each window, and without each part of the image.
-/// Values that are not significant are left out, least significant first, and are zero then. Their
-/// sigmas are those before. With fewer samples than kLeastSamples all is zero, and sigmas are
-/// infinite.
+/// Values that are not significant are left out, least significant first, and are zero then. All
+/// sigmas are at least those with all values. With fewer samples than kLeastSamples all is zero,
+/// and sigmas are infinite.
 RigModel fitRig(const StereoCamera& camera,
                 const std::vector<PairSamples>& pairs,
                 const Windows& windows);

@@ -20,7 +20,8 @@ struct Finding {
   std::string cost;      ///< what it costs; empty if nothing
   std::string remedy;  ///< what to do; commands and lines of files in `backticks`; empty if nothing
   Verdict verdict = Verdict::kGood;
-  /// How many times its limit of acceptable the value is: orders findings of the same verdict.
+  /// How many times its limit of what must be fixed the value is: orders findings of the same
+  /// verdict.
   double severity = 0.0;
 };
 
