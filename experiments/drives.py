@@ -37,7 +37,29 @@ def change_images(sequence, target, change):
         for pair, path in enumerate(sorted((target / side).iterdir())):
             gray = numpy.rint(change(pair, is_right, numpy.asarray(Image.open(str(path)), dtype=float)))
             path.unlink()  # the link
-            Image.fromarray(gray.clip(0, 255).astype(numpy.uint8)).save(str(path))
+            Image.fromarray(gray.clip(0, 255).astype(numpy.uint8)).save(str(path), compress_level=1)
+    return target
+
+
+def resize(sequence, target, factor, noise):
+    """A folder with a sequence of `factor` times the size, its calibration as well, and fresh noise [gray levels]."""
+    random = numpy.random.RandomState(0)
+
+    def resized(pair, is_right, gray):
+        size = [round(factor * side) for side in reversed(gray.shape)]
+        image = Image.fromarray(gray.astype(numpy.uint8)).resize(size, Image.BICUBIC)
+        return numpy.asarray(image, dtype=float) + noise * random.normal(size=(size[1], size[0]))
+    change_images(sequence, target, resized)
+    before, after = [Image.open(str(sorted((folder / 'image_0').iterdir())[0])).size for folder in (sequence, target)]
+    scale = [to / size for size, to in zip(before, after)]
+    lines = [line.split() for line in (target / 'calib.txt').read_text().splitlines()]
+    for words in [words for words in lines if words and words[0].startswith('P')]:
+        projection = numpy.array(words[1:], dtype=float).reshape(3, 4)
+        for row, factor_of_row in enumerate(scale):  # the corner of the image stays, not the middle of its first pixel
+            projection[row] *= factor_of_row
+            projection[row, 2] += 0.5 * (factor_of_row - 1)
+        words[1:] = ['%.12g' % value for value in projection.ravel()]
+    (target / 'calib.txt').write_text(''.join(' '.join(words) + '\n' for words in lines))
     return target
 
 
