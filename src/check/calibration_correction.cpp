@@ -38,11 +38,9 @@ bool hasErrors(const RigModel& model) {
 /// Whether windows that a calibration is not from say that it is better, beyond their scatter.
 /// Flows, of which motions are made, must not get worse.
 bool isBetter(const RigModel& model) {
-  constexpr double kSigmas = 3.0;
   const Estimate &rows = model.rows_gain, &flow = model.flow_gain;
-  const double sum = rows.value + flow.value;
-  const double sigma = std::hypot(rows.sigma, flow.sigma);
-  return sum > kSigmas * sigma && flow.value >= -flow.sigma;
+  const Estimate sum = {rows.value + flow.value, std::hypot(rows.sigma, flow.sigma)};
+  return sum.value > 0.0 && sum.certain() > 0.0 && flow.value >= -flow.sigma;
 }
 
 }  // namespace
@@ -51,12 +49,11 @@ StereoCalibration correct(const RigMeasures& measures) {
   StereoCalibration corrected = measures.calibration;
   RawCamera& right = corrected.right;
   const RigCauses causes = measures.model.correctable;
-  const double raw_over_rectified = right.fx / corrected.rectified.fx;
+  right.cx += causes[kBias] * right.fx / corrected.rectified.fx;
+  right.cy += causes[kOffset] * right.fy / corrected.rectified.fy;
   right.R_rectified_raw = rotationOf(causes) * right.R_rectified_raw;
   right.fx *= 1.0 + causes[kFocal];
   right.fy *= 1.0 + causes[kFocal];
-  right.cx += causes[kBias] * raw_over_rectified;
-  right.cy += causes[kOffset] * raw_over_rectified;
   std::vector<double> coefficients = right.distortion.coefficients();
   if (!coefficients.empty()) {
     coefficients.front() += causes[kLens];
@@ -97,6 +94,7 @@ std::optional<CheckedRig> findCorrection(Recording& recording,
   // Again by what is left over, because the fit is linear and pairs that were lost come back.
   constexpr int kMostPasses = 4;
   RigCheckOptions corrected = options;
+  corrected.on_pair = [] {};
   CheckedRig checked = {{}, before};
   for (int pass = 0; pass < kMostPasses && hasErrors(checked.measures.model); ++pass) {
     corrected.calibration = std::make_shared<const StereoCalibration>(correct(checked.measures));

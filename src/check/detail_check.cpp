@@ -60,12 +60,11 @@ class DetailCheck : public PairCheck {
     const cv::Mat* images[] = {&pair.images.left, &pair.images.right};
     const cv::Mat exposed = exposedOf(*images[0], grid) & exposedOf(*images[1], grid);
     for (int side = 0; side < 2; ++side) {
-      if (images[side]->cols < 16) return;
       blocks_[side].push_back({pair.time_s, blockEdges(*images[side])});
       cv::Mat& sum = detail_[side];
       cv::Mat detail = detailOf(*images[side], grid);
       detail.setTo(0.0, ~exposed);
-      sum = sum.size() == detail.size() ? cv::Mat(sum + detail) : detail;  // a new resolution
+      sum = sum.empty() ? detail : cv::Mat(sum + detail);
     }
   }
 
@@ -76,11 +75,10 @@ class DetailCheck : public PairCheck {
       const Estimate blocks = overWindows(blocks_[side], windows);
       report.add({"photometry",
                   side == 0 ? "compression, left" : "compression, right",
-                  "edges of blocks are " +
-                      toText({100.0 * blocks.value, 100.0 * blocks.sigma}, "%") + " stronger",
+                  "edges of blocks are " + toText(blocks * 100.0, "%") + " stronger",
                   "corners of blocks are found in place of those of the scene",
                   "raise the quality of the compression, or record raw images"},
-                 {blocks.value, blocks.sigma, kStrong, 1.0});
+                 {blocks, kStrong, 1.0});
       if (blocks.value < kStrong && pairs_ >= kLeastPairs) addSmudge(side, report);
     }
   }
@@ -116,7 +114,7 @@ class DetailCheck : public PairCheck {
                 measured,
                 "features there have no disparity, or a wrong one",
                 "clean the " + name + " lens, and look for what is in front of it"},
-               {share, 0.0, 0.01, 0.025});
+               {{share}, 0.01, 0.025});
   }
 
   int pairs_ = 0, width_ = 0;

@@ -43,10 +43,12 @@ class GyroCheck : public PairCheck {
   }
 
   void observe(const CheckedPair& pair) override {
-    if (!pair.result.hasMotion()) return;
-    const Eigen::AngleAxisd turn(pair.result.T_prev_cur.linear());
+    const OdometryResult& result = pair.result;
+    // Over a step of the clock, its turn is not that of the gyroscope.
+    if (!result.hasMotion() || result.clock_set_ns != result.prev_clock_set_ns) return;
+    const Eigen::AngleAxisd turn(result.T_prev_cur.linear());
     turns_.push_back(
-        {pair.time_s, pair.result.prev_stamp_ns, pair.result.stamp_ns, turn.angle() * turn.axis()});
+        {pair.time_s, result.prev_stamp_ns, result.stamp_ns, turn.angle() * turn.axis()});
   }
 
   void report(const Windows& windows, RigReport& report) const override {
@@ -79,7 +81,7 @@ class GyroCheck : public PairCheck {
                 "a turn of 50 deg/s is predicted " + fixedText(50.0 * std::abs(all.delay_s), 2) +
                     " deg wrong",
                 "correct the stamps of the driver, or trigger both by one clock"},
-               {all.delay_s, sigmas[0], 0.005, 0.02});
+               {{all.delay_s, sigmas[0]}, 0.005, 0.02});
     const double angle = Eigen::AngleAxisd(R_camera_gyro_ * all.R_camera_gyro.transpose()).angle();
     const double angle_sigma =
         std::sqrt(sigmas[1] * sigmas[1] + sigmas[2] * sigmas[2] + sigmas[3] * sigmas[3]);
@@ -92,7 +94,7 @@ class GyroCheck : public PairCheck {
                     " " + fixedText(q.w(), 5),
                 "predicted turns are about a wrong axis",
                 "correct the transform from the base to the gyroscope, or to the camera"},
-               {angle, angle_sigma, 1.0 / kDegrees, 3.0 / kDegrees});
+               {{angle, angle_sigma}, 1.0 / kDegrees, 3.0 / kDegrees});
     addTable(all, report);
   }
 

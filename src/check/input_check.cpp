@@ -8,7 +8,6 @@
 #include "common/median.h"
 #include "common/to_seconds.h"
 #include "input/camera_clock.h"
-#include "input/input_error.h"
 #include "input/message_conversion.h"
 #include "input/sent_calibration.h"
 #include "input/to_text.h"
@@ -126,7 +125,7 @@ void InputCheck::addRates(RigReport& report) const {
                 measured,
                 "motions over gaps are longer: more is lost, most of all in turns",
                 "look for lost frames of the driver, the USB or network link, and the recorder"},
-               {(missing + duplicates) / static_cast<double>(stamps_ns.size()), 0.0, 0.01, 0.1});
+               {{(missing + duplicates) / static_cast<double>(stamps_ns.size())}, 0.01, 0.1});
   }
 }
 
@@ -171,10 +170,8 @@ void InputCheck::addStamps(double max_apart_s, RigReport& report) const {
        fixedText(1e3 * typical_s, 2) + " ms, at most " + fixedText(1e3 * largest_s, 2) + " ms",
        "images of different times are no pair: what moves has wrong depths",
        "trigger both cameras by one signal, and take its time for both stamps; if the images are "
-       "of "
-       "the same time, correct the stamps, or set `max_stamp_difference_s`"},
-      {typical_s,
-       0.0,
+       "of the same time, correct the stamps, or set `max_stamp_difference_s`"},
+      {{typical_s},
        kAcceptablePeriods * toSeconds(*period_ns),
        std::min(kFixPeriods * toSeconds(*period_ns), max_apart_s)});
   if (!has_ages) return;
@@ -186,7 +183,7 @@ void InputCheck::addStamps(double max_apart_s, RigReport& report) const {
        age_s > 0.0 ? "synchronize the clocks of camera and computer, and look for what delays "
                      "the images"
                    : "stamps are of the future: synchronize the clocks of camera and computer"},
-      {age_s, 0.0, 0.3, 1.0});
+      {{age_s}, 0.3, 1.0});
 }
 
 }  // namespace rotrocc

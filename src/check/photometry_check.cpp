@@ -209,7 +209,7 @@ class PhotometryCheck : public PairCheck {
          "nothing by itself: matches are found by correlation; but the darker image has less "
          "contrast above its noise, and a longer exposure more motion blur",
          "give both cameras the same exposure time and gain, or couple them"},
-        {std::log(gain.value), gain.sigma / gain.value, kAcceptableGain, kFixGain});
+        {{std::log(gain.value), gain.sigma / gain.value}, kAcceptableGain, kFixGain});
     const double changes = gainScatter();
     report.add(
         {"photometry",
@@ -217,20 +217,20 @@ class PhotometryCheck : public PairCheck {
          std::isfinite(changes) ? "moves by " + fixedText(100.0 * changes, 1) + " %" : "unknown",
          "exposures that follow each other late differ most where light changes",
          "couple the exposures of the cameras"},
-        {changes, 0.0, kAcceptableGain, kFixGain});
+        {{changes}, kAcceptableGain, kFixGain});
     report.add({"photometry",
                 "gray levels right minus left",
                 toText(offset, "of 255 at black"),
                 "the range of the brighter image is smaller by it",
                 "set the same black level in both cameras, and look for stray light"},
-               {offset.value / kWhite, offset.sigma / kWhite, 0.02, 0.06});
+               {offset * (1.0 / kWhite), 0.02, 0.06});
     report.add(
         {"photometry",
          "vignetting right to left",
-         toText({100.0 * vignetting.value, 100.0 * vignetting.sigma}, "% in the corners"),
+         toText(vignetting * 100.0, "% in the corners"),
          "the darker corners lose features",
          "use the same lens and aperture on both cameras, and look for something in front of one"},
-        {vignetting.value, vignetting.sigma, 0.15, 0.4});
+        {vignetting, 0.15, 0.4});
     const std::string side = blur_px2.value > 0.0 ? "right" : "left";
     const double blur_px = std::sqrt(std::abs(blur_px2.value));
     const double sigma_px = blur_px2.sigma / std::max(2.0 * blur_px, std::sqrt(blur_px2.sigma));
@@ -240,7 +240,7 @@ class PhotometryCheck : public PairCheck {
                     " of blur (Gaussian sigma) more on the " + side,
                 "features of fine texture are lost, and disparities get noisier",
                 "focus and clean the " + side + " lens"},
-               {blur_px2.value, blur_px2.sigma, 0.4 * 0.4, 0.8 * 0.8});
+               {blur_px2, 0.4 * 0.4, 0.8 * 0.8});
   }
 
   /// The standard deviation of the gain over the pairs, relative, as eight of ten of them have it;
@@ -271,10 +271,10 @@ class PhotometryCheck : public PairCheck {
         const Estimate share = overWindows(shares, windows);
         report.add({"photometry",
                     subject + (right ? ", right" : ", left"),
-                    toText({100.0 * share.value, 100.0 * share.sigma}, unit),
+                    toText(share * 100.0, unit),
                     cost,
                     remedy},
-                   {share.value, share.sigma, acceptable, 0.3});
+                   {share, acceptable, 0.3});
       };
       add("saturated pixels",
           "%",

@@ -7,14 +7,12 @@
 #include <utility>
 
 #include "bags/recorded_pairs.h"
-#include "check/disparity_check.h"
 #include "check/input_check.h"
+#include "check/model_check.h"
 #include "check/rig_sampler.h"
-#include "check/row_check.h"
 #include "common/median.h"
 #include "common/to_seconds.h"
 #include "input/camera_calibration.h"
-#include "input/input_error.h"
 #include "input/to_text.h"
 #include "node/health/pair_inspector.h"
 #include "rotrocc/visual_odometry.h"
@@ -24,8 +22,7 @@ namespace {
 
 const char* const kCalibrateAgain =
     "calibrate the pair again: K, D, R or P of camera_info are of another lens, or of another "
-    "model "
-    "of distortion than the lens has";
+    "model of distortion than the lens has";
 const char* const kRectify =
     "the images are not rectified, or by another calibration: take the topics `image_rect`, or set "
     "`rectify` for raw ones; otherwise calibrate the pair";
@@ -78,18 +75,25 @@ class PairChecks {
   }
 
   void observe(const StereoPair& pair, const StereoCamera& camera) {
-    if (pairs_ == 0) first_ns_ = pair.stamp_ns;
+    constexpr double kSameCamera = 1e-3;  // see StereoCamera::differenceTo()
+    if (pairs_ == 0) {
+      first_ns_ = pair.time_ns();
+      camera_ = camera;
+    }
+    if (camera_.differenceTo(camera) > kSameCamera) {
+      ++of_other_camera_;
+      return;
+    }
     if (pairs_ > 0 && pair.time_ns() <= last_ns_) odometry_.reset();
     last_ns_ = pair.time_ns();
     ++pairs_;
     const OdometryResult result = odometry_.process(pair, camera);
-    camera_ = camera;
     with_motion_ += result.hasMotion() ? 1 : 0;
     ok_ += result.state == State::kOk ? 1 : 0;
     if (result.hasMotion()) applied_px_ = result.disparity_bias.applied_px;
     path_m_ += result.T_prev_cur.translation().norm();
-    const double flow_px = medianFlow_px();
-    const CheckedPair checked = {toSeconds(pair.stamp_ns - first_ns_),
+    const double flow_px = result.hasMotion() ? medianFlow_px() : 0.0;
+    const CheckedPair checked = {toSeconds(last_ns_ - first_ns_),
                                  pair,
                                  camera,
                                  result,
@@ -98,12 +102,7 @@ class PairChecks {
                                  flow_px,
                                  result.hasMotion() && movement_.isNew(result, flow_px)};
     if (result.state == State::kLost) ++lost_[result.reason];
-    if (const std::string fault =
-            inspector_.inspect(pair, camera, result, {}, [&] { return before_; });
-        !fault.empty()) {
-      fault_ = fault;
-      is_of_no_pair_ = inspector_.isOfNoPair();
-    }
+    inspect(pair, camera, result);
     countRepeated(pair);
     before_.push_back(copyOf(pair));
     if (before_.size() > 2) before_.erase(before_.begin());
@@ -124,6 +123,7 @@ class PairChecks {
                      ", focal length " + fixedText(camera_.fx, 1) + " px, baseline " +
                      fixedText(camera_.baseline_m, 3) + " m";
     addFault(report);
+    addOtherCamera(report);
     addRepeated(report);
     addLost(report);
     const std::vector<PairSamples>& samples = sampler_.pairs();
@@ -132,18 +132,16 @@ class PairChecks {
       const RigModel& model = rig.measures.model;
       photometry_->report(windows, report);
       detail_->report(windows, report);
-      const RowDifferences rows = checkRows(camera_, samples, model, windows, report);
-      const bool bias_is_constant =
-          checkDisparities(camera_, samples, model, windows, applied_px_, report);
+      const ModelRest rest = checkModel(camera_, samples, model, windows, applied_px_, report);
       if (gyro_) gyro_->report(windows, report);
       view_->report(windows, report);
       if (!report.mask.empty()) doubtDetail(report);
-      rig.measures.rows_rms_px = rows.rms_px;
-      rig.measures.is_constant = rows.are_constant && bias_is_constant;
+      rig.measures.rows_px = rest.rows_px;
+      rig.measures.is_constant = rest.rows_are_constant && rest.bias_is_constant;
       if (isExplained()) {
         doubt(report);
       } else {
-        rig.measures.is_known = !addRectification(rows, model, report);
+        rig.measures.is_known = !addRectification(rest, model, report);
       }
     }
     if (samples.size() < kLeastMotions) addTooShort(report);
@@ -223,15 +221,10 @@ class PairChecks {
 
   /// Returns whether it is wrong: what is left when nothing else explains the rows, or lenses that
   /// are not corrected. What follows from them is not told.
-  bool addRectification(const RowDifferences& rows,
-                        const RigModel& model,
-                        RigReport& report) const {
-    constexpr double kSigmas = 3.0;
-    const Estimate& unexplained_px = rows.unexplained_px;
-    const Estimate lenses = model.severity(kBothLenses);
-    const bool is_raw = lenses.value - kSigmas * lenses.sigma > 1.0;
+  bool addRectification(const ModelRest& rest, const RigModel& model, RigReport& report) const {
+    const bool is_raw = model.exceeds(1.0, kBothLenses);
     const bool is_unexplained =
-        unexplained_px.value - kSigmas * unexplained_px.sigma > kFixRows_px &&
+        rest.unexplained_px.certain() > kFixRows_px &&
         std::none_of(report.findings.begin(), report.findings.end(), [](const Finding& finding) {
           if (finding.verdict > Verdict::kAcceptable) return false;
           return finding.subject == kRowsOverTime || finding.subject == kMasked ||
@@ -240,10 +233,9 @@ class PairChecks {
     if (!is_raw && !is_unexplained) return false;
     doubt(report);
     const std::string measured =
-        is_raw ? "both images have radial distortion, k1 = " +
-                     toText(Estimate{model.values[kBothLenses], model.sigmas[kBothLenses]}, "")
-               : "rows differ by " + fixedText(rows.rms_px, 2) + " px (rms), of which " +
-                     toText(unexplained_px, "px") +
+        is_raw ? "both images have radial distortion, k1 = " + toText(model.value(kBothLenses), "")
+               : "rows differ by " + fixedText(rest.rows_px, 2) + " px (rms), of which " +
+                     toText(rest.unexplained_px, "px") +
                      " are of no shape that a pair of rectified cameras has";
     report.findings.push_back({"inputs",
                                "rectification",
@@ -272,7 +264,7 @@ class PairChecks {
                     (lost > 0 ? ", most often because " + commonestLoss() : ""),
                 "the way between them is missing",
                 "see the findings above; light, texture and speed of turns decide most"},
-               {static_cast<double>(lost) / pairs_, 0.0, 0.001, 0.03});
+               {{static_cast<double>(lost) / pairs_}, 0.001, 0.03});
   }
 
   /// Whether a driver sends what it has sent before. Noise alone makes images differ.
@@ -295,18 +287,35 @@ class PairChecks {
                     toText(pairs_) + " repeat the one before",
                 both ? "the motion stops and then jumps" : "the images are of different times",
                 "look for a driver that sends its last buffer again, or a camera that hangs"},
-               {most, 0.0, 0.0, 0.02});
+               {{most}, 0.0, 0.02});
+  }
+
+  void inspect(const StereoPair& pair, const StereoCamera& camera, const OdometryResult& result) {
+    std::string fault = inspector_.inspect(pair, camera, result, {}, [&] { return before_; });
+    bool is_of_no_pair = inspector_.isOfNoPair();
+    if (const std::string found = inspector_.finish(); !found.empty()) {
+      fault = found;
+      is_of_no_pair = inspector_.isOfNoPair();
+    }
+    if (fault.empty()) return;
+    fault_ = fault;
+    is_of_no_pair_ = is_of_no_pair;
+  }
+
+  void addOtherCamera(RigReport& report) const {
+    if (of_other_camera_ == 0) return;
+    report.findings.push_back({"inputs",
+                               "calibration",
+                               toText(of_other_camera_) + " of " +
+                                   toText(of_other_camera_ + pairs_) +
+                                   " pairs have another calibration or size than the first",
+                               "they were not checked",
+                               "check each part of the recording by itself",
+                               Verdict::kAcceptable,
+                               0.9});
   }
 
   void addFault(RigReport& report) {
-    inspector_.finish();
-    if (with_motion_ == 0 && !left_.empty()) {
-      // The search was for the pairs before; what it found comes with the next one.
-      OdometryResult lost;
-      lost.counts.tries = 1;
-      const std::string found = inspector_.inspect({last_ns_, left_, right_}, camera_, lost);
-      if (!found.empty()) fault_ = found;
-    }
     if (fault_.empty() && isMostlyLost()) fault_ = commonestLoss();
     if (fault_.empty()) return;
     const bool matters = isMostlyLost() || isExplained();
@@ -334,7 +343,7 @@ class PairChecks {
   std::unique_ptr<PairCheck> view_;
   StereoCamera camera_;
   std::int64_t first_ns_ = 0, last_ns_ = 0;
-  int pairs_ = 0, with_motion_ = 0, ok_ = 0, next_sample_ = 1;
+  int pairs_ = 0, of_other_camera_ = 0, with_motion_ = 0, ok_ = 0, next_sample_ = 1;
   int repeated_left_ = 0, repeated_right_ = 0;
   double path_m_ = 0.0, applied_px_ = 0.0;
   std::string fault_;

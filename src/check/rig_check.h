@@ -9,7 +9,6 @@
 #include "check/rig_model.h"
 #include "check/rig_report.h"
 #include "rectification/stereo_calibration.h"
-#include "rotrocc/odometry_result.h"
 #include "rotrocc/parameters.h"
 
 namespace rotrocc {
@@ -31,7 +30,7 @@ constexpr int kLeastMotions = 10;
 struct RigMeasures {
   StereoCalibration calibration;  ///< that the pairs were taken by
   RigModel model;
-  double rows_rms_px = 0.0;
+  double rows_px = 0.0;     ///< see ModelRest
   bool is_constant = true;  ///< rows and bias
   bool is_known = false;    ///< whether pairs and rectification are right, so that the model counts
   int pairs_with_motion = 0;

@@ -12,70 +12,31 @@
 namespace rotrocc {
 namespace {
 
-/// Significance below which a value is left out.
-constexpr double kSigmas = 3.0;
-
-/// The root mean square of rows, and of disparities the mean and a part of the scatter: what
-/// changes over the image averages out but for about a fourth, on real clips.
-Eigen::Vector2d effectOf(const std::vector<PairSamples>& pairs,
-                         const RigDisplacement& displacement) {
-  constexpr double kOfScatter = 0.25;
-  double count = 0.0, sum = 0.0, squares = 0.0, rows = 0.0;
+/// The mean over the samples of what `of` returns, an Eigen::Array3d.
+template <typename Of>
+Eigen::Array3d meanOf(const std::vector<PairSamples>& pairs, const Of& of) {
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
+  double count = 0.0;
   for (const PairSamples& pair : pairs) {
     for (const RigSample& sample : pair.samples) {
-      const Eigen::Vector2d moved_px = displacement.of(sample);
-      sum += moved_px.x();
-      squares += moved_px.x() * moved_px.x();
-      rows += moved_px.y() * moved_px.y();
-      count += 1.0;
-    }
-  }
-  const double mean = sum / count;
-  const double scatter = std::sqrt(std::max(squares / count - mean * mean, 0.0));
-  return {std::abs(mean) + kOfScatter * scatter, std::sqrt(rows / count)};
-}
-
-/// Mean square distance from the middle of the image, in normalized coordinates.
-double meanRadius2(const std::vector<PairSamples>& pairs) {
-  double sum = 0.0, count = 0.0;
-  for (const PairSamples& pair : pairs) {
-    for (const RigSample& sample : pair.samples) {
-      sum += sample.x_right * sample.x_right + sample.y * sample.y;
+      sum += of(sample);
       count += 1.0;
     }
   }
   return sum / count;
 }
 
-void addEffects(const StereoCamera& camera,
-                const std::vector<PairSamples>& pairs,
-                const RigProblem& problem,
-                RigModel& model) {
-  for (std::size_t k = 0; k < kRigCauses; ++k) {
-    RigCauses alone = {};
-    alone[k] = 0.1 * kPriorSigmas[k];
-    const Eigen::Vector2d effect_px =
-        effectOf(pairs, RigDisplacement(camera, problem.causesOf(alone)));
-    model.disparities_px[k] = effect_px.x() / alone[k] * std::abs(model.values[k]);
-    model.rows_px[k] = effect_px.y() / alone[k] * std::abs(model.values[k]);
-  }
-  // Radial distortion k1 r^2 changes the scale of the image by three times as much.
-  model.disparities_px[kBothLenses] =
-      model.typical_disparity_px * 3.0 * meanRadius2(pairs) * std::abs(model.values[kBothLenses]);
-}
-
-double typicalOf(const StereoCamera& camera, const std::vector<PairSamples>& pairs) {
-  constexpr double kLeast_px = 1.0;
-  double inverses = 0.0;
-  double count = 0.0;
-  for (const PairSamples& pair : pairs) {
-    for (const RigSample& sample : pair.samples) {
-      const double disparity_px = sample.left_px.x - camera.cx - camera.fx * sample.x_right;
-      inverses += 1.0 / std::max(disparity_px, kLeast_px);
-      count += 1.0;
-    }
-  }
-  return count / inverses;
+/// The root mean square of rows, and of disparities the mean and a part of the scatter: what
+/// changes over the image averages out but for about a fourth, on real clips.
+Eigen::Vector2d effectOf(const std::vector<PairSamples>& pairs,
+                         const RigDisplacement& displacement) {
+  constexpr double kOfScatter = 0.25;
+  const Eigen::Array3d means = meanOf(pairs, [&](const RigSample& sample) {
+    const Eigen::Vector2d moved_px = displacement.of(sample);
+    return Eigen::Array3d(moved_px.x(), moved_px.x() * moved_px.x(), moved_px.y() * moved_px.y());
+  });
+  const double scatter = std::sqrt(std::max(means[1] - means[0] * means[0], 0.0));
+  return {std::abs(means[0]) + kOfScatter * scatter, std::sqrt(means[2])};
 }
 
 /// A turn and the value in the middle of the image of which it may be the cause.
@@ -106,7 +67,12 @@ class RigFit {
          const Windows& windows,
          RigModel& model)
       : camera_(camera), pairs_(pairs), problem_(camera, pairs, windows), model_(model) {
-    typical_px_ = typicalOf(camera, pairs);
+    constexpr double kLeast_px = 1.0;
+    means_ = meanOf(pairs, [&](const RigSample& sample) {
+      const double disparity_px = sample.left_px.x - camera.cx - camera.fx * sample.x_right;
+      const double radius2 = sample.x_right * sample.x_right + sample.y * sample.y;
+      return Eigen::Array3d(1.0 / std::max(disparity_px, kLeast_px), radius2, 0.0);
+    });
     turns_[0] = {{kPitch, kOffset, 1.0 / camera.fy}, &model.vertical};
     turns_[1] = {{kYaw, kBias, -1.0 / camera.fx}, &model.horizontal};
   }
@@ -114,8 +80,7 @@ class RigFit {
   void decideTurns() {
     fit();
     first_sigmas_ = model_.sigmas;
-    first_sigmas_[kBothLenses] =
-        0.0;  // images that are not rectified look like several small errors
+    first_sigmas_[kBothLenses] = 0.0;  // raw images look like several small errors
     for (const auto& [turn, result] : turns_) *result = decide(turn, model_.values, model_.sigmas);
     for (const auto& [turn, result] : turns_) {
       if (*result != TurnOrShift::kTurn) continue;
@@ -127,6 +92,7 @@ class RigFit {
   }
 
   void leaveOutInsignificant() {
+    constexpr double kSigmas = 3.0;
     for (std::size_t weakest = 0; weakest < kRigCauses;) {
       fit();
       weakest = kRigCauses;
@@ -148,6 +114,7 @@ class RigFit {
     for (std::size_t k = 0; k < kRigCauses; ++k) {
       model_.sigmas[k] = std::max(model_.sigmas[k], first_sigmas_[k]);
     }
+    addEffects();
   }
 
   void addCorrectable() {
@@ -178,8 +145,18 @@ class RigFit {
       if (!problem_.isLeftOut(k)) model_.sigmas[k] = sigmas[k];
     }
     model_.values = problem_.values;
-    model_.typical_disparity_px = std::max(typical_px_ + model_.values[kBias], 1.0);
-    addEffects(camera_, pairs_, problem_, model_);
+  }
+
+  void addEffects() {
+    model_.typical_disparity_px = std::max(1.0 / means_[0] + model_.values[kBias], 1.0);
+    for (std::size_t k = 0; k < kRigCauses; ++k) {
+      RigCauses alone = {};
+      alone[k] = 0.1 * kPriorSigmas[k];
+      const RigDisplacement displacement(camera_, problem_.causesOf(alone));
+      model_.effects_px[k] = effectOf(pairs_, displacement) / alone[k];
+    }
+    // Radial distortion k1 r^2 changes the scale of the image by three times as much.
+    model_.effects_px[kBothLenses].x() = model_.typical_disparity_px * 3.0 * means_[1];
   }
 
   /// The severity of what a turn in place of a shift would change.
@@ -195,7 +172,7 @@ class RigFit {
   RigModel& model_;
   std::array<std::pair<Turn, TurnOrShift*>, 2> turns_;
   RigCauses first_sigmas_ = {};  // with all values
-  double typical_px_;
+  Eigen::Array3d means_;         // of 1 / disparity, and squared distances from the middle
 };
 
 }  // namespace
@@ -205,14 +182,7 @@ double RigModel::severityOf(const Eigen::Vector2d& effect_px) const {
 }
 
 Estimate RigModel::severity(RigCause cause) const {
-  if (values[cause] == 0.0) return {0.0, std::isfinite(sigmas[cause]) ? 0.0 : sigmas[cause]};
-  const double severity = severityOf({disparities_px[cause], rows_px[cause]});
-  return {severity, severity / std::abs(values[cause]) * sigmas[cause]};
-}
-
-bool RigModel::exceeds(double limit, RigCause cause) const {
-  const Estimate severity = this->severity(cause);
-  return severity.value - kSigmas * severity.sigma > limit;
+  return Estimate{std::abs(values[cause]), sigmas[cause]} * severityOf(effects_px[cause]);
 }
 
 RigModel fitRig(const StereoCamera& camera,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -22,9 +23,9 @@ struct RigModel {
   /// The causes that a calibration of the right camera can correct, and that cost something; not
   /// shapes that may be those of lenses, unless they must be fixed.
   RigCauses correctable = {};
-  /// Effects of each value on rows, root mean square, and on the scale by disparities, as one of
-  /// all that would do the same [px].
-  RigCauses rows_px = {}, disparities_px = {};
+  /// What one unit of each value does to the scale, as the error of all disparities that would do
+  /// the same, and to rows, root mean square [px].
+  std::array<Eigen::Vector2d, kRigCauses> effects_px = {};
   TurnOrShift vertical = TurnOrShift::kEither;    ///< pitch or offset
   TurnOrShift horizontal = TurnOrShift::kEither;  ///< yaw or bias
   double typical_disparity_px = 0.0;              ///< corrected one of the mean depth
@@ -33,14 +34,16 @@ struct RigModel {
   /// corrects: sums of squares over noise. What does not repeat itself is worth nothing.
   Estimate rows_gain, flow_gain;
 
+  Estimate value(RigCause cause) const { return {values[cause], sigmas[cause]}; }
+
   /// How many times its limit of what is to be fixed an effect on disparities and rows is.
   double severityOf(const Eigen::Vector2d& effect_px) const;
 
-  /// That of a value, and its standard deviation.
+  /// That of a value; with its uncertainty, also if it was left out.
   Estimate severity(RigCause cause) const;
 
-  /// Whether it is more than a limit, by three standard deviations.
-  bool exceeds(double limit, RigCause cause) const;
+  /// Whether it is more than a limit for certain.
+  bool exceeds(double limit, RigCause cause) const { return severity(cause).certain() > limit; }
 };
 
 /// Limits of effects. Matches are searched in rounded rows, so a quarter of a row costs nothing;

@@ -136,7 +136,8 @@ RigCauses RigProblem::sigmas() const {
   for (std::size_t w = 0; w < rows_.size(); ++w) addTo(windows, changeBy(totalWithout(w)));
   for (std::size_t r = 0; r < kRegions; ++r) {
     Normal sum = prior();
-    sum += rows_without_[r];
+    for (const Normal& window : rows_) sum += window;
+    sum -= rows_of_[r];
     sum += flows_without_[r];
     addTo(regions, changeBy(sum));
   }
@@ -214,7 +215,7 @@ void RigProblem::linearize() {
   }
   std::fill(rows_.begin(), rows_.end(), Normal());
   std::fill(flows_.begin(), flows_.end(), Normal());
-  rows_without_.fill({});
+  rows_of_.fill({});
   flows_without_.fill({});
   std::vector<double> row_errors_px, flow_errors;
   std::vector<FlowResidual> residuals;
@@ -255,9 +256,7 @@ void RigProblem::addRow(std::size_t pair,
   const double weight = weightOf(error_px / row_noise_px_) / square(row_noise_px_);
   const Normal normal = {weight * by_values * by_values.transpose(), weight * error_px * by_values};
   rows_[window_of_[pair]] += normal;
-  for (std::size_t r = 0; r < kRegions; ++r) {
-    if (r != regionOf(sample)) rows_without_[r] += normal;
-  }
+  rows_of_[regionOf(sample)] += normal;
 }
 
 /// Disparities have the noise of a match, as flows have.

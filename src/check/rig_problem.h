@@ -94,11 +94,11 @@ class RigProblem {
 
   const StereoCamera& camera_;
   const std::vector<PairSamples>& pairs_;
-  std::array<bool, kRigCauses> is_left_out_ = {};              // these are zero
-  std::vector<std::size_t> window_of_;                         // of a pair
-  std::vector<Eigen::Matrix<double, 6, 1>> motions_;           // errors, for each pair
-  std::vector<Normal> rows_, flows_;                           // for each window
-  std::array<Normal, kRegions> rows_without_, flows_without_;  // each part of the image
+  std::array<bool, kRigCauses> is_left_out_ = {};         // these are zero
+  std::vector<std::size_t> window_of_;                    // of a pair
+  std::vector<Eigen::Matrix<double, 6, 1>> motions_;      // errors, for each pair
+  std::vector<Normal> rows_, flows_;                      // for each window
+  std::array<Normal, kRegions> rows_of_, flows_without_;  // each part of the image
   double row_noise_px_ = 1.0;
   double flow_noise_ = 1.0;  // over that of the odometry
 };

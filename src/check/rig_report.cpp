@@ -19,7 +19,6 @@
 namespace rotrocc {
 namespace {
 
-constexpr double kSigmas = 3.0;
 constexpr std::size_t kLineLength = 100;
 
 const char* const kNotSeen =
@@ -47,11 +46,11 @@ const char* toString(Verdict verdict) {
 }
 
 Verdict judge(const Graded& graded) {
-  const double certain = std::abs(graded.value) - kSigmas * graded.sigma;
+  const double certain = graded.value.certain();
   if (!std::isfinite(certain)) return Verdict::kUnknown;
   if (certain > graded.fix) return Verdict::kFix;
   if (certain > graded.acceptable) return Verdict::kAcceptable;
-  return graded.sigma > graded.fix ? Verdict::kUnknown : Verdict::kGood;
+  return graded.value.sigma > graded.fix ? Verdict::kUnknown : Verdict::kGood;
 }
 
 std::string toText(const std::vector<Finding>& findings) {
@@ -101,7 +100,7 @@ int rankOf(const Finding& finding) {
 void RigReport::add(Finding finding, const Graded& graded) {
   finding.verdict = judge(graded);
   const double limit = std::isfinite(graded.fix) ? graded.fix : graded.acceptable;
-  finding.severity = std::isfinite(graded.value) ? std::abs(graded.value) / limit : 0.0;
+  finding.severity = std::isfinite(graded.value.value) ? std::abs(graded.value.value) / limit : 0.0;
   if (finding.verdict == Verdict::kGood || finding.verdict == Verdict::kUnknown) {
     finding.remedy.clear();
     finding.cost.clear();

@@ -6,6 +6,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "check/windows.h"
+
 namespace rotrocc {
 
 /// The worst first. kUnknown: could not be measured.
@@ -32,9 +34,9 @@ struct ReportTable {
   std::vector<std::vector<double>> rows;  ///< as long as columns
 };
 
-/// A value with its standard deviation, and the limits above which it is acceptable or to be fixed.
+/// A value, and the limits above which it is acceptable or to be fixed.
 struct Graded {
-  double value, sigma;
+  Estimate value;
   double acceptable, fix;
 };
 
@@ -48,9 +50,8 @@ struct RigReport {
   cv::Mat left, right;  ///< a pair, CV_8UC1; empty if there is none
   cv::Mat mask;         ///< CV_8UC1, 255 where it is proposed not to look; empty: none is proposed
 
-  /// Adds a finding with the verdict and the severity of a graded value. A limit is passed by three
-  /// standard deviations, because a report has some twenty findings. A value that is known no
-  /// better than the limit of fix is unknown.
+  /// Adds a finding with the verdict and the severity of a graded value, whose certain size counts.
+  /// A value that is known no better than the limit of fix is unknown.
   void add(Finding finding, const Graded& graded);
 
   /// Puts what is to be fixed first, causes before symptoms, and of those the most severe.

@@ -28,6 +28,8 @@ void measureFlow(const StereoCamera& camera,
                  const OdometryResult& result,
                  const Correspondence& feature,
                  RigSample& sample) {
+  const double interval_s = toSeconds(result.stamp_ns - result.keyframe_stamp_ns);
+  sample.velocity_pxps = (feature.cur_px - feature.keyframe_px) / interval_s;  // if it is far
   constexpr double kLeast_px = 1.0;  // of a disparity, of which errors are parts
   const UncertainTransform& motion = result.T_keyframe_cur;
   const double applied_px = result.disparity_bias.applied_px;
@@ -56,14 +58,15 @@ void measureFlow(const StereoCamera& camera,
       depth_m * by_point * (motion.T.linear().leftCols<2>() * moved(at));
   sample.flow_px =
       feature.keyframe_px - camera.project(point) + applied_px * sample.flow_by_disparity;
-  const double interval_s = toSeconds(result.stamp_ns - result.keyframe_stamp_ns);
-  sample.velocity_pxps = point.z() / depth_m / interval_s * (feature.cur_px - feature.keyframe_px);
+  sample.velocity_pxps *= point.z() / depth_m;
 }
 
 void RigSampler::observe(const CheckedPair& pair) {
-  // The interval is not known over a step of the clock.
-  if (!pair.has_moved || pair.result.clock_set_ns != pair.result.prev_clock_set_ns) return;
-  PairSamples samples = {pair.time_s, pair.result.flow_noise_px, {}};
+  // Over a step of the clock, the interval from the keyframe is not that of the stamps.
+  const OdometryResult& result = pair.result;
+  if (result.clock_set_ns != result.prev_clock_set_ns) stepped_ns_ = result.keyframe_stamp_ns;
+  if (!pair.has_moved || result.keyframe_stamp_ns == stepped_ns_) return;
+  PairSamples samples = {pair.time_s, result.flow_noise_px, {}};
   const std::size_t step = std::max<std::size_t>(1, pair.features.size() / kPerPair);
   for (std::size_t i = 0; i < pair.features.size(); i += step) {
     if (pair.inliers[i] == 0) continue;
@@ -74,7 +77,7 @@ void RigSampler::observe(const CheckedPair& pair) {
     sample.x_right =
         (feature.cur_px.x() - feature.disparity_px - pair.camera.cx_right) / pair.camera.fx;
     sample.y = (feature.cur_px.y() - pair.camera.cy) / pair.camera.fy;
-    measureFlow(pair.camera, pair.result, feature, sample);
+    measureFlow(pair.camera, result, feature, sample);
     measureRow(pair, feature, sample);
     samples.samples.push_back(sample);
   }

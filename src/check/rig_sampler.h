@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "check/pair_check.h"
@@ -34,6 +35,7 @@ class RigSampler {
   FeatureTracker tracker_;
   std::vector<PairSamples> pairs_;
   std::size_t samples_ = 0;
+  std::int64_t stepped_ns_ = -1;  // keyframe before the last step of the clock
 };
 
 }  // namespace rotrocc

@@ -224,7 +224,7 @@ class ViewCheck : public PairCheck {
         2 * missing_.too_near > corners_ - with_depth_
             ? "set `nearest_baselines` to " + toText(0.5 * config_.nearest_baselines)
             : "look at rows, sharpness and exposure above; the scene may have too little texture";
-    report.add(finding, {1.0 - with_depth, 0.0, 0.5, 0.8});
+    report.add(finding, {{1.0 - with_depth}, 0.5, 0.8});
     ReportTable table = {"view_map", "x_px,y_px,corners,with_depth,features,inliers", {}};
     const ImageGrid grid(camera_.width, camera_.height);
     for (std::size_t i = 0; i < map_.size(); ++i) {
@@ -249,7 +249,7 @@ class ViewCheck : public PairCheck {
                 "features in " + percent(1.0 - empty) + " of the image",
                 "rotation and translation look alike in a part of the image",
                 "turn the cameras to where there is texture, or use wider lenses"},
-               {empty, 0.0, 0.5, 0.8});
+               {{empty}, 0.5, 0.8});
   }
 
   void addDepths(RigReport& report) const {
@@ -266,7 +266,7 @@ class ViewCheck : public PairCheck {
                     fixedText(typical_px, 1) + " px",
                 "the way is known as well as the near depths are",
                 "a longer baseline, a longer focal length, or look lower"},
-               {1.0 / typical_px, 0.0, 0.4, 1.0});
+               {{1.0 / typical_px}, 0.4, 1.0});
     ReportTable table = {"depths", "depth_m,features", {}};
     constexpr double kStep = 1.25892541179;  // ten bins for a power of ten
     std::sort(depths_m.begin(), depths_m.end());
@@ -291,7 +291,7 @@ class ViewCheck : public PairCheck {
          "the motion towards it",
          "look at `mask.png` of the report, and if it is the robot itself or a reflection, set "
          "the parameter `mask` to it"},
-        {masked, 0.0, kAcceptable, 0.05});
+        {{masked}, kAcceptable, 0.05});
     if (masked <= kAcceptable) return;
     cv::resize(cells, report.mask, {camera_.width, camera_.height}, 0, 0, cv::INTER_NEAREST);
   }

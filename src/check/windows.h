@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -10,6 +11,12 @@ namespace rotrocc {
 struct Estimate {
   double value = 0.0;
   double sigma = 0.0;
+
+  /// The least size that it has for certain: by three standard deviations, because a report has
+  /// some twenty findings. Below zero if its sign is not certain; not finite if it is not known.
+  double certain() const { return std::abs(value) - 3.0 * sigma; }
+
+  Estimate operator*(double factor) const { return {factor * value, std::abs(factor) * sigma}; }
 };
 
 /// "0.702 +- 0.008 px", with as many digits as the uncertainty has a meaning; "unknown" for nan.

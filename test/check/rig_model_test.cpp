@@ -144,6 +144,19 @@ TEST(RigModelTest, KnowsWhetherACorrectionRepeatsItself) {
   EXPECT_EQ(good.rows_gain.value, 0.0);
 }
 
+/// A value that is not significant is zero, but not more certain than a smaller one would be.
+TEST(RigModelTest, WhatIsLeftOutIsUncertain) {
+  constexpr int kFew = 5;  // pairs
+  const RigModel few = modelOf(camera(), {}, kFew), many = modelOf(camera(), {});
+  for (std::size_t k = 0; k < kRigCauses; ++k) {
+    const auto cause = static_cast<RigCause>(k);
+    SCOPED_TRACE(k);
+    EXPECT_EQ(few.severity(cause).value, 0.0);
+    EXPECT_GT(few.severity(cause).sigma, many.severity(cause).sigma);
+    EXPECT_GT(many.severity(cause).sigma, 0.0);
+  }
+}
+
 TEST(RigModelTest, AFewSamplesSayNothing) {
   const RigModel model = modelOf(camera(), {0.004}, 1);
   for (std::size_t k = 0; k < kRigCauses; ++k) {

@@ -68,7 +68,7 @@ class PairProcessor {
   /// process(), so that the odometry need not wait for it.
   std::string inspect(const PairInput& in, const OdometryResult& result);
   /// Waits until the next call of inspect() knows all that the last one has begun to look for.
-  void finishInspection() const { inspector_.finish(); }
+  void finishInspection() { inspector_.finish(); }
 
   /// Prepares for the next pair, see VisualOdometry::prepare().
   void prepare() { odometry_.prepare(); }

@@ -216,8 +216,7 @@ void PairInspector::explain(const StereoPair& pair,
                             const PairsBefore& before) {
   if (search_.valid()) {
     if (search_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-    const Explanation found = search_.get();
-    if (search_is_of_this_loss_) explanation_ = found;
+    finish();
   }
   if (doubtful_ < explain_at_) return;
   explain_at_ = 2 * doubtful_;
@@ -243,8 +242,12 @@ void PairInspector::forgetLoss() {
   search_is_of_this_loss_ = false;
 }
 
-void PairInspector::finish() const {
-  if (search_.valid()) search_.wait();
+std::string PairInspector::finish() {
+  if (search_.valid()) {
+    const Explanation found = search_.get();
+    if (search_is_of_this_loss_) explanation_ = found;
+  }
+  return explanation_.text;
 }
 
 std::string PairInspector::compareExposures(const OdometryResult& result) {

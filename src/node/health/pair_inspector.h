@@ -57,8 +57,8 @@ class PairInspector {
   /// exchanged, of one camera, or of different times. Then they tell nothing about the rig.
   bool isOfNoPair() const { return explanation_.is_of_no_pair; }
 
-  /// Waits until what was looked for is known to the next inspect().
-  void finish() const;
+  /// Waits for what is being looked for. Returns the explanation of a loss; empty if none.
+  std::string finish();
 
  private:
   std::string compareExposures(const OdometryResult& result);

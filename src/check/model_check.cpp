@@ -1,4 +1,4 @@
-#include "check/row_check.h"
+#include "check/model_check.h"
 
 #include <algorithm>
 #include <array>
@@ -50,33 +50,32 @@ Estimate medianOf(std::vector<double> values) {
   return {middle, kMedianOverMean * scatter / std::sqrt(static_cast<double>(values.size()))};
 }
 
-/// What a value in the middle of the image may be instead; empty if it is not.
-std::string orTurn(RigCause cause, const StereoCamera& camera, const RigModel& model) {
-  if (cause != kOffset || model.vertical != TurnOrShift::kEither || model.values[cause] == 0.0) {
-    return "";
-  }
-  const double per_px = kDegrees / camera.fy;
-  return ", or a pitch of " +
-         toText(Estimate{per_px * model.values[cause], per_px * model.sigmas[cause]}, "deg") +
-         ": the images do not show which";
+/// What a shift in the middle of the image may be instead; empty if it is not.
+std::string orTurn(const StereoCamera& camera, const RigModel& model, RigCause cause) {
+  const bool is_row = cause == kOffset;
+  const TurnOrShift which = is_row ? model.vertical : model.horizontal;
+  if (which != TurnOrShift::kEither || model.values[cause] == 0.0) return "";
+  const double per_px = is_row ? kDegrees / camera.fy : -kDegrees / camera.fx;
+  return std::string(", or a ") + (is_row ? "pitch" : "yaw") + " of " +
+         toText(model.value(cause) * per_px, "deg") + ": the images do not show which";
 }
 
 void addCauses(const StereoCamera& camera, const RigModel& model, RigReport& report) {
   for (const CauseText& text : kCauseTexts) {
-    const Estimate value = {text.factor * model.values[text.cause],
-                            text.factor * model.sigmas[text.cause]};
+    const Estimate value = model.value(text.cause);
     // Stands for both.
     if (value.value == 0.0 && (text.cause == kPitch || text.cause == kYaw)) continue;
     const bool is_shape = (text.cause == kPitch && model.vertical != TurnOrShift::kTurn) ||
                           (text.cause == kYaw && model.horizontal != TurnOrShift::kTurn);
     const bool is_of_lens = text.cause == kTwist || is_shape;
+    const Eigen::Vector2d effect_px = std::abs(value.value) * model.effects_px[text.cause];
     std::string measured =
-        toText(value, text.unit) + ", " + fixedText(model.rows_px[text.cause], 2) + " px of rows";
-    if (text.cause != kTwist && text.cause != kOffset) {
-      measured += " and " + fixedText(model.disparities_px[text.cause], 2) + " px of disparities";
+        toText(value * text.factor, text.unit) + ", " + fixedText(effect_px.y(), 2) + " px of rows";
+    if (text.cause == kOffset) {
+      measured += orTurn(camera, model, kOffset);
+    } else if (text.cause != kTwist) {
+      measured += " and " + fixedText(effect_px.x(), 2) + " px of disparities";
     }
-    measured += orTurn(text.cause, camera, model);
-    const Estimate severity = model.severity(text.cause);
     // What nobody can say the cause of is not to be fixed.
     const double fix = is_shape ? std::numeric_limits<double>::infinity() : 1.0;
     report.add({"rows",
@@ -88,25 +87,25 @@ void addCauses(const StereoCamera& camera, const RigModel& model, RigReport& rep
                 "disparities, of " +
                     fixedText(model.typical_disparity_px, 0) + " px in the middle",
                 is_of_lens ? kOtherLens : kCalibrate},
-               {severity.value, severity.sigma, kAcceptable, fix});
+               {model.severity(text.cause), kAcceptable, fix});
   }
   const Estimate both = model.severity(kBothLenses);
   report.add({"rows",
               "radial distortion left over in both images",
-              toText(Estimate{model.values[kBothLenses], model.sigmas[kBothLenses]}, "(k1)") +
-                  ", " + fixedText(100.0 * kFixScale * both.value, 1) + " % of depths and angles",
+              toText(model.value(kBothLenses), "(k1)") + ", " +
+                  fixedText(100.0 * kFixScale * both.value, 1) + " % of depths and angles",
               "scale and turns depend on where in the image features are",
               kOtherLens},
-             {both.value, both.sigma, kAcceptable, 1.0});
-  const double skew_s = model.values[kTimeSkew];
-  const double sigma_s = model.sigmas[kTimeSkew];
-  report.add({"time",
-              "right images against left ones",
-              toText(Estimate{1e3 * skew_s, 1e3 * sigma_s}, "ms") + " later",
-              "what moves by 100 px/s has disparities that are wrong by " +
-                  fixedText(100.0 * std::abs(skew_s), 2) + " px, and so has all when the rig turns",
-              "trigger both cameras by the same signal, and give both the same exposure time"},
-             {100.0 * skew_s, 100.0 * sigma_s, kAcceptable * kFixRows_px, kFixRows_px});
+             {both, kAcceptable, 1.0});
+  const Estimate skew_s = model.value(kTimeSkew);
+  report.add(
+      {"time",
+       "right images against left ones",
+       toText(skew_s * 1e3, "ms") + " later",
+       "what moves by 100 px/s has disparities that are wrong by " +
+           fixedText(100.0 * std::abs(skew_s.value), 2) + " px, and so has all when the rig turns",
+       "trigger both cameras by the same signal, and give both the same exposure time"},
+      {skew_s * 100.0, kAcceptable * kFixRows_px, kFixRows_px});
 }
 
 /// What the samples of a cell have in common.
@@ -175,10 +174,10 @@ Estimate commonOf(const std::vector<Cell>& cells, std::size_t windows) {
   return {rms, sigma2 / std::max(2.0 * rms, std::sqrt(std::max(sigma2, 1e-12)))};
 }
 
-void addMap(const StereoCamera& camera,
-            const std::vector<Cell>& cells,
-            RowDifferences& differences,
-            RigReport& report) {
+void addRows(const StereoCamera& camera,
+             const std::vector<Cell>& cells,
+             ModelRest& rest,
+             RigReport& report) {
   const ImageGrid grid(camera.width, camera.height);
   double squares = 0.0;
   double count = 0.0;
@@ -195,15 +194,15 @@ void addMap(const StereoCamera& camera,
   }
   report.tables.push_back(std::move(table));
   if (count == 0.0) return;
-  differences.rms_px = std::sqrt(squares / count);
-  const Estimate& unexplained = differences.unexplained_px;
-  report.add({"rows",
-              "row differences that none of these explains",
-              toText(unexplained, "px") + " of " + fixedText(differences.rms_px, 2) +
-                  " px (rms over the image)",
-              "smooth errors of the lenses",
-              kOtherLens},
-             {unexplained.value, unexplained.sigma, 2.0 * kAcceptable * kFixRows_px, kFixRows_px});
+  rest.rows_px = std::sqrt(squares / count);
+  const Estimate& unexplained = rest.unexplained_px;
+  report.add(
+      {"rows",
+       "row differences that none of these explains",
+       toText(unexplained, "px") + " of " + fixedText(rest.rows_px, 2) + " px (rms over the image)",
+       "smooth errors of the lenses",
+       kOtherLens},
+      {unexplained, 2.0 * kAcceptable * kFixRows_px, kFixRows_px});
 }
 
 /// What the model leaves in some time: a plane over the image, as a rotation makes it.
@@ -233,7 +232,8 @@ std::vector<Course> courseOf(const StereoCamera& camera,
       left_px.push_back(sample.row_px - displacement.of(sample).y());
     }
     if (taken < kPairsAtATime || left_px.size() < kLeast) continue;
-    course.push_back({0.5 * (time_s + pair.time_s), fitRobustly(places, left_px)});
+    const RobustFit plane = fitRobustly(places, left_px);
+    if (plane.sigmas.allFinite()) course.push_back({0.5 * (time_s + pair.time_s), plane});
     places.clear();
     left_px.clear();
     taken = 0;
@@ -245,7 +245,7 @@ std::vector<Course> courseOf(const StereoCamera& camera,
 void addCourse(const StereoCamera& camera,
                const std::vector<PairSamples>& pairs,
                const RigModel& model,
-               RowDifferences& differences,
+               ModelRest& rest,
                RigReport& report) {
   const std::vector<Course> course = courseOf(camera, pairs, model);
   // Mean square over the image, of which x and y over their halves are between -1 and 1.
@@ -292,34 +292,111 @@ void addCourse(const StereoCamera& camera,
   if (largest_step_px > kJumpShare * range_px) {
     finding.measured += ", most of it in one step at " + fixedText(step_s, 0) + " s";
   }
-  report.add(finding, {motion_px, lengthOf(sigmas), kAcceptable * kFixRows_px, kFixRows_px});
-  differences.are_constant =
-      motion_px < std::max(kAcceptable * kFixRows_px, 0.5 * differences.rms_px);
+  report.add(finding, {{motion_px, lengthOf(sigmas)}, kAcceptable * kFixRows_px, kFixRows_px});
+  rest.rows_are_constant = motion_px < std::max(kAcceptable * kFixRows_px, 0.5 * rest.rows_px);
+}
+
+/// Returns whether a calibration can describe the bias: not if it moves.
+bool addBias(const StereoCamera& camera,
+             const RigModel& model,
+             const Windows& windows,
+             double applied_px,
+             RigReport& report) {
+  const double typical_px = model.typical_disparity_px;
+  const Estimate bias_px = model.value(kBias);
+  const double fB = camera.fx * camera.baseline_m;
+  const auto scaleAt = [&](double depth_m) {
+    return fixedText(100.0 * bias_px.value * depth_m / fB, 1) + " % at " + toText(depth_m) + " m";
+  };
+  report.add(
+      {"disparities",
+       "bias of the disparities",
+       toText(bias_px, "px") + " are missing" + orTurn(camera, model, kBias) +
+           "; depths are wrong by " + scaleAt(5.0) + ", " + scaleAt(10.0) + ", " + scaleAt(20.0),
+       "without a correction " + fixedText(std::abs(100.0 * bias_px.value / typical_px), 1) +
+           " m in 100 m, at the disparity of the mean depth, " + fixedText(typical_px, 1) +
+           " px; the odometry corrects " + fixedText(applied_px, 2) + " px of it",
+       "`rosrun rotrocc check_rig RECORDING --write-camera-info DIR` writes the corrected "
+       "calibration; obstacle maps of the same cameras need it, too"},
+      {bias_px * (1.0 / typical_px), kAcceptable * kFixScale, kFixScale});
+  const Estimate motion_px = scatterBeyondNoise(model.biases_px);
+  report.add({"disparities",
+              "bias over time",
+              "moves by " + fixedText(motion_px.value, 2) + " px (rms)",
+              "a rig that bends has another scale at each time",
+              "mount both cameras on one stiff bar"},
+             {motion_px * (1.0 / typical_px), kAcceptable * kFixScale, kFixScale});
+  ReportTable course = {"bias_time", "time_s,bias_px,sigma_px", {}};
+  for (std::size_t w = 0; w < model.biases_px.size(); ++w) {
+    const auto& [value, sigma] = model.biases_px[w];
+    if (std::isfinite(sigma)) course.rows.push_back({windows.middle_s(w), value, sigma});
+  }
+  report.tables.push_back(std::move(course));
+  return motion_px.value < std::max(kFixScale * typical_px, 0.5 * std::abs(bias_px.value));
+}
+
+/// By the motion as the odometry has it.
+void addDisparityMap(const StereoCamera& camera,
+                     const std::vector<PairSamples>& pairs,
+                     RigReport& report) {
+  constexpr double kMostSigma_px = 2.0;  // disparities that a motion determines worse say nothing
+  const ImageGrid grid(camera.width, camera.height);
+  struct Sums {
+    double count = 0.0, weights = 0.0, weighted_px = 0.0, squares = 0.0;
+  };
+  std::vector<Sums> cells(grid.count());
+  for (const PairSamples& pair : pairs) {
+    for (const RigSample& sample : pair.samples) {
+      const double information = sample.flow_by_disparity.squaredNorm();
+      const double sigma_px = pair.flow_noise_px / std::sqrt(information);
+      if (!(sigma_px < kMostSigma_px)) continue;
+      const double error_px = sample.flow_by_disparity.dot(sample.flow_px) / information;
+      Sums& cell = cells[grid.of(sample.left_px.x, sample.left_px.y)];
+      const double weight = 1.0 / (sigma_px * sigma_px);
+      cell.count += 1.0;
+      cell.weights += weight;
+      cell.weighted_px += weight * error_px;
+      cell.squares += weight * weight * error_px * error_px;
+    }
+  }
+  ReportTable table = {"disparity_map", "x_px,y_px,count,bias_px,sigma_px", {}};
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Sums& cell = cells[i];
+    if (cell.count < ImageGrid::kLeast) continue;
+    const cv::Point2d center = grid.center(i);
+    const double mean_px = cell.weighted_px / cell.weights;
+    table.rows.push_back(
+        {center.x, center.y, cell.count, mean_px, std::sqrt(cell.squares) / cell.weights});
+  }
+  report.tables.push_back(std::move(table));
 }
 
 }  // namespace
 
-RowDifferences checkRows(const StereoCamera& camera,
-                         const std::vector<PairSamples>& pairs,
-                         const RigModel& model,
-                         const Windows& windows,
-                         RigReport& report) {
-  RowDifferences differences;
+ModelRest checkModel(const StereoCamera& camera,
+                     const std::vector<PairSamples>& pairs,
+                     const RigModel& model,
+                     const Windows& windows,
+                     double applied_px,
+                     RigReport& report) {
+  ModelRest rest;
   if (!std::isfinite(model.sigmas[kRoll])) {
     report.findings.push_back({"rows",
-                               "row differences",
+                               "rows, disparities and time",
                                "too few features with a motion",
                                "",
                                "drive or carry the cameras through a scene with texture",
                                Verdict::kUnknown});
-    return differences;
+    return rest;
   }
   addCauses(camera, model, report);
   const std::vector<Cell> cells = cellsOf(camera, pairs, model, windows);
-  differences.unexplained_px = commonOf(cells, windows.count());
-  addMap(camera, cells, differences, report);
-  addCourse(camera, pairs, model, differences, report);
-  return differences;
+  rest.unexplained_px = commonOf(cells, windows.count());
+  addRows(camera, cells, rest, report);
+  addCourse(camera, pairs, model, rest, report);
+  rest.bias_is_constant = addBias(camera, model, windows, applied_px, report);
+  addDisparityMap(camera, pairs, report);
+  return rest;
 }
 
 }  // namespace rotrocc
