@@ -1,7 +1,7 @@
 """Errors of trajectories and of single motions, and whether covariances have their size.
 
 Poses are n x 3 x 4, from the camera to the frame of the first pose [m]; errors of motions are n x 6: translation [m]
-and rotation vector [rad] in the camera at the pair before, with covariances n x 6 x 6, as those of OdometryResult.
+and rotation vector [rad] in the camera at the previous pair, with covariances n x 6 x 6, as in OdometryResult.
 """
 import numpy
 

@@ -95,7 +95,7 @@ void limitTime(int seconds) {
   setitimer(ITIMER_PROF, &limit, nullptr);
 }
 
-TEST(Mutations, AreReadOrRefused) {
+TEST(Mutations, AreReadOrRejected) {
   if (LLVMFuzzerInitialize != nullptr) LLVMFuzzerInitialize(nullptr, nullptr);
   std::vector<std::string> inputs;
   for (const auto& [name, seed] : seedsOf(FUZZER)) inputs.push_back(seed);
@@ -115,7 +115,7 @@ TEST(Mutations, AreReadOrRefused) {
     [&]() noexcept { read += LLVMFuzzerTestOneInput(data, input.size()) == 0; }();
   }
   limitTime(0);
-  EXPECT_GT(read, RUNS / 5) << "too many inputs were refused before they were read";
+  EXPECT_GT(read, RUNS / 5) << "too many inputs were rejected before they were read";
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   EXPECT_LT(usage.ru_maxrss, 2'000'000) << "[kB]";

@@ -60,7 +60,7 @@ struct RowOffset {
   double sigma_px = 0.0;    ///< standard deviation of the median, assuming independent features
   double typical_px = 0.0;  ///< median of the absolute offsets
   /// The offset that was corrected: the right image was read this much lower. Zero if median_px is
-  /// not beyond doubt.
+  /// not significant.
   double applied_px = 0.0;
 };
 
@@ -96,7 +96,7 @@ struct OdometryResult {
   RowOffset row_offset;          ///< of the rig, before the correction
   /// Contrast of the right image relative to the left one, the median over the matched windows. It
   /// is only reported. 0: no motion.
-  double exposure_gain = 0.0;
+  double contrast_gain = 0.0;
   /// How often the images were halved before they were used: pixels of soft images show too little.
   /// Figures in px are of whole images.
   int halvings = 0;

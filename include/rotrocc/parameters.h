@@ -17,22 +17,22 @@ struct NodeParameters {
   bool invert_tf = false;                   ///< broadcast base_frame -> odom_frame instead
   bool planar = false;                      ///< restrict base_frame to motion in its x-y plane
   std::array<double, 6> initial_pose = {};  ///< x y z [m] roll pitch yaw [rad] at the first pair
-  double mount_timeout_s = 0.2;  ///< how long a pair waits for the tf of a camera that moves
-  std::string guess_frame;       ///< odom frame of another odometry in tf; empty: none
-  bool use_imu = false;          ///< predict rotations by the gyroscope of the topic imu
-  bool rectify = false;          ///< take raw images, and rectify them by camera_info
+  double transform_timeout_s = 0.2;  ///< how long a pair waits for the tf of a camera that moves
+  std::string guess_frame;           ///< odom frame of another odometry in tf; empty: none
+  bool use_imu = false;              ///< predict rotations by the gyroscope of the topic imu
+  bool rectify = false;              ///< take raw images, and rectify them by camera_info
   std::string image_transport = "raw";
   double max_stamp_difference_s = 0.01;  ///< between the left and the right image of a pair
   int queue_size = 4;                    ///< unmatched images kept, for each side
   int significant_bits = 0;              ///< of 16-bit images; 0: found from them
   std::string mask;         ///< PNG file, not black where images have no features; empty: none
   double baseline_m = 0.0;  ///< 0: that of camera_info
-  std::string pose_after_time_jump = "keep";  ///< or "zero": when time jumps back
-  double silence_s = 5.0;                 ///< time without a pair before the log reports the reason
+  std::string pose_after_time_jump = "keep";  ///< or "initial": when time jumps back
+  double no_input_warning_s = 5.0;        ///< time without a pair before the log reports the reason
   double path_rate_hz = 2.0;              ///< at most, of the messages on the path topic
   std::string while_lost = "hold";        ///< or "silent" or "unknown": what is published then
   double reset_after_lost_s = 0.0;        ///< the estimator restarts after a longer loss; 0: never
-  std::string pose_after_lost = "keep";   ///< or "zero": after that
+  std::string pose_after_lost = "keep";   ///< or "initial": after that
   int trajectory_length = 100'000;        ///< number of poses kept for ~save_trajectory
   std::string trajectory_file;            ///< first of the files of all poses; empty: none
   std::string trajectory_format = "tum";  ///< or "kitti"

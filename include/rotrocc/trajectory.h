@@ -38,7 +38,7 @@ TrajectoryFormat detectTrajectoryFormat(const std::string& path);
 ///   8                   TUM: a time, position, quaternion x y z w; with commas and times in ns as
 ///                       in ASL's (mocap0/data.csv), w x y z
 ///   17                  ASL (state_groundtruth_estimate0/data.csv)
-/// Times are seconds, or what their digits tell if they count from 1970.
+/// Times are seconds, or what their digits imply if they count from 1970.
 ///
 /// An orthonormality error of up to 1e-3, from rounding, is removed. Throws std::runtime_error with
 /// file and line on any pose that is not finite and rigid, on stamps that do not increase, and on a

@@ -97,7 +97,7 @@ class RigPage:
         said = set()
         bad = [card(finding, said) for finding in listed if finding['verdict'] != 'good']
         good = [[cells_of(finding)] for finding in listed if finding['verdict'] == 'good']
-        note = 'The most severe first.' if bad else 'Nothing is to be done.'
+        note = 'The most severe first.' if bad else 'Nothing needs fixing.'
         table = page.table(['section', 'property', 'measured'], good)
         return page.section('Findings', note, *bad, page.details('%d properties are good' % len(good), table),
                             '<p>%s</p>' % page.text(self.content['not_seen']))

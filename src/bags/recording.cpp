@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuseEmpty(const std::string& topic) {
+[[noreturn]] void rejectEmpty(const std::string& topic) {
   throw std::runtime_error("the bag has no messages of " + topic);
 }
 
@@ -70,7 +70,7 @@ sensor_msgs::Image::ConstPtr readImage(const rosbag::MessageInstance& instance) 
 /// The frame of the first image.
 std::string frameOf(const Bags& bags, const std::string& topic) {
   BagView view(bags, {topic});
-  if (view.size() == 0) refuseEmpty(topic);
+  if (view.size() == 0) rejectEmpty(topic);
   const rosbag::MessageInstance first = *view.begin();
   return isCompressed(first) ? readMessage<sensor_msgs::CompressedImage>(first)->header.frame_id
                              : readMessage<sensor_msgs::Image>(first)->header.frame_id;
@@ -78,7 +78,7 @@ std::string frameOf(const Bags& bags, const std::string& topic) {
 
 sensor_msgs::CameraInfo firstInfo(const Bags& bags, const std::string& topic) {
   const auto message = firstMessage<sensor_msgs::CameraInfo>(bags, topic);
-  if (!message) refuseEmpty(topic);
+  if (!message) rejectEmpty(topic);
   return *message;
 }
 
@@ -250,7 +250,7 @@ class BagRecording : public Recording {
 };
 
 /// What is easily taken for a recording of ROS 1.
-void refuseOtherThings(const std::string& path) {
+void rejectOtherThings(const std::string& path) {
   if (!fs::exists(path)) {
     // Programs of a launch file have their own working directory.
     throw std::runtime_error(fs::absolute(path).string() + " does not exist");
@@ -286,7 +286,7 @@ std::vector<std::string> bagsIn(const std::string& directory) {
 
 std::unique_ptr<Recording> openRecording(const std::vector<std::string>& paths,
                                          const RecordingOptions& options) {
-  for (const std::string& path : paths) refuseOtherThings(path);
+  for (const std::string& path : paths) rejectOtherThings(path);
   if (paths.size() != 1 || !fs::is_directory(paths[0])) {
     return std::make_unique<BagRecording>(paths, options);
   }

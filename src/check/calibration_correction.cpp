@@ -26,7 +26,7 @@ void writeInfo(const sensor_msgs::CameraInfo& info,
   if (!out.flush()) throw std::runtime_error(path + " cannot be written");
 }
 
-/// Whether something is to be fixed that a calibration corrects. Smaller errors are not worth it:
+/// Whether something needs fixing that a calibration corrects. Smaller errors are not worth it:
 /// lenses have others of that size.
 bool hasErrors(const RigModel& model) {
   const RigCause causes[] = {kRoll, kPitch, kYaw, kFocal, kOffset, kLens, kBias};
@@ -88,7 +88,8 @@ std::optional<CheckedRig> findCorrection(Recording& recording,
     return std::nullopt;
   }
   if (!isBetter(before.model)) {
-    why_not = "it does not fit parts of the recording better that it is not from";
+    why_not =
+        "it does not improve the fit in parts of the recording that it was not estimated from";
     return std::nullopt;
   }
   // Again by what is left over, because the fit is linear and pairs that were lost come back.

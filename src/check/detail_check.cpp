@@ -76,7 +76,7 @@ class DetailCheck : public PairCheck {
       report.add({"photometry",
                   side == 0 ? "compression, left" : "compression, right",
                   "edges of blocks are " + toText(blocks * 100.0, "%") + " stronger",
-                  "corners of blocks are found in place of those of the scene",
+                  "block corners are detected instead of scene corners",
                   "raise the quality of the compression, or record raw images"},
                  {blocks, kStrong, 1.0});
       if (blocks.value < kStrong && pairs_ >= kLeastPairs) addSmudge(side, report);

@@ -80,7 +80,7 @@ class GyroCheck : public PairCheck {
                     " to be added to those of images",
                 "a turn of 50 deg/s is predicted " + fixedText(50.0 * std::abs(all.delay_s), 2) +
                     " deg wrong",
-                "correct the stamps of the driver, or trigger both by one clock"},
+                "correct the driver's timestamps, or trigger both from one clock"},
                {{all.delay_s, sigmas[0]}, 0.005, 0.02});
     const double angle = Eigen::AngleAxisd(R_camera_gyro_ * all.R_camera_gyro.transpose()).angle();
     const double angle_sigma =
@@ -92,7 +92,7 @@ class GyroCheck : public PairCheck {
                     " apart; from gyroscope to left camera by the images: qx qy qz qw " +
                     fixedText(q.x(), 5) + " " + fixedText(q.y(), 5) + " " + fixedText(q.z(), 5) +
                     " " + fixedText(q.w(), 5),
-                "predicted turns are about a wrong axis",
+                "rotations are predicted about the wrong axis",
                 "correct the transform from the base to the gyroscope, or to the camera"},
                {{angle, angle_sigma}, 1.0 / kDegrees, 3.0 / kDegrees});
     addTable(all, report);

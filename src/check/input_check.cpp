@@ -56,8 +56,8 @@ void InputCheck::report(const StereoCamera& camera,
     report.findings.push_back({"inputs",
                                "left out",
                                left_out,
-                               "each is a pair without a motion",
-                               "look at the reasons: what they name is dropped by the node as well",
+                               "each is a pair without a motion estimate",
+                               "look at the reasons: the node drops the same pairs",
                                Verdict::kAcceptable,
                                0.5});
   }
@@ -123,8 +123,8 @@ void InputCheck::addRates(RigReport& report) const {
     report.add({"inputs",
                 right ? "right images" : "left images",
                 measured,
-                "motions over gaps are longer: more is lost, most of all in turns",
-                "look for lost frames of the driver, the USB or network link, and the recorder"},
+                "motions across gaps are longer, so more of them are lost, most of all in turns",
+                "look for frames lost by the driver, the USB or network link, or the recorder"},
                {{(missing + duplicates) / static_cast<double>(stamps_ns.size())}, 0.01, 0.1});
   }
 }
@@ -168,7 +168,7 @@ void InputCheck::addStamps(double max_apart_s, RigReport& report) const {
       {"inputs",
        "stamps of left minus right",
        fixedText(1e3 * typical_s, 2) + " ms, at most " + fixedText(1e3 * largest_s, 2) + " ms",
-       "images of different times are no pair: what moves has wrong depths",
+       "images of different times are not a pair: moving objects get wrong depths",
        "trigger both cameras by one signal, and take its time for both stamps; if the images are "
        "of the same time, correct the stamps, or set `max_stamp_difference_s`"},
       {{typical_s},
@@ -179,10 +179,10 @@ void InputCheck::addStamps(double max_apart_s, RigReport& report) const {
       {"inputs",
        "arrival after the stamp",
        fixedText(1e3 * age_s, 0) + " ms",
-       "odometry comes so much later, and tf with it",
+       "odometry and tf arrive that much later",
        age_s > 0.0 ? "synchronize the clocks of camera and computer, and look for what delays "
                      "the images"
-                   : "stamps are of the future: synchronize the clocks of camera and computer"},
+                   : "timestamps are in the future: synchronize the clocks of camera and computer"},
       {{age_s}, 0.3, 1.0});
 }
 

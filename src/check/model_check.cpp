@@ -83,9 +83,9 @@ void addCauses(const StereoCamera& camera, const RigModel& model, RigReport& rep
                                std::string(text.subject, text.cause == kYaw ? 3 : 5)
                          : text.subject,
                 measured,
-                "features get lost from half a row on; depths are wrong by the errors of "
-                "disparities, of " +
-                    fixedText(model.typical_disparity_px, 0) + " px in the middle",
+                "features are lost beyond half a row, and disparity errors change depths: the "
+                "typical disparity is " +
+                    fixedText(model.typical_disparity_px, 0) + " px",
                 is_of_lens ? kOtherLens : kCalibrate},
                {model.severity(text.cause), kAcceptable, fix});
   }
@@ -98,21 +98,20 @@ void addCauses(const StereoCamera& camera, const RigModel& model, RigReport& rep
               kOtherLens},
              {both, kAcceptable, 1.0});
   const Estimate skew_s = model.value(kTimeSkew);
-  report.add(
-      {"time",
-       "right images against left ones",
-       toText(skew_s * 1e3, "ms") + " later",
-       "what moves by 100 px/s has disparities that are wrong by " +
-           fixedText(100.0 * std::abs(skew_s.value), 2) + " px, and so has all when the rig turns",
-       "trigger both cameras by the same signal, and give both the same exposure time"},
-      {skew_s * 100.0, kAcceptable * kFixRows_px, kFixRows_px});
+  report.add({"time",
+              "right images against left ones",
+              toText(skew_s * 1e3, "ms") + " later",
+              "disparities are wrong by " + fixedText(100.0 * std::abs(skew_s.value), 2) +
+                  " px for motion at 100 px/s, and everywhere when the rig turns",
+              "trigger both cameras by the same signal, and give both the same exposure time"},
+             {skew_s * 100.0, kAcceptable * kFixRows_px, kFixRows_px});
 }
 
 /// What the samples of a cell have in common.
 struct Cell {
   std::vector<double> rows_px;
-  std::vector<std::vector<double>> left_px;  // of each window, without the model
-  double model_px = 0.0;                     // sum
+  std::vector<std::vector<double>> residuals_px;  // of each window
+  double model_px = 0.0;                          // sum
 };
 
 std::vector<Cell> cellsOf(const StereoCamera& camera,
@@ -128,7 +127,7 @@ std::vector<Cell> cellsOf(const StereoCamera& camera,
       Cell& cell = cells[grid.of(sample.left_px.x, sample.left_px.y)];
       const double model_px = displacement.of(sample).y();
       cell.rows_px.push_back(sample.row_px);
-      cell.left_px[windows.of(pair.time_s)].push_back(sample.row_px - model_px);
+      cell.residuals_px[windows.of(pair.time_s)].push_back(sample.row_px - model_px);
       cell.model_px += model_px;
     }
   }
@@ -148,9 +147,9 @@ Estimate commonOf(const std::vector<Cell>& cells, std::size_t windows) {
     for (const Cell& cell : cells) {
       double sum = 0.0, squares = 0.0, parts = 0.0;
       for (std::size_t w = 0; w < windows; ++w) {
-        if (w == left_out || cell.left_px[w].size() < ImageGrid::kLeast) continue;
-        std::vector<double> left_px = cell.left_px[w];
-        const double middle_px = median(left_px);
+        if (w == left_out || cell.residuals_px[w].size() < ImageGrid::kLeast) continue;
+        std::vector<double> residuals_px = cell.residuals_px[w];
+        const double middle_px = median(residuals_px);
         sum += middle_px;
         squares += middle_px * middle_px;
         parts += 1.0;
@@ -219,7 +218,7 @@ std::vector<Course> courseOf(const StereoCamera& camera,
   constexpr std::size_t kLeast = 60;
   std::vector<Course> course;
   std::vector<Eigen::Vector3d> places;
-  std::vector<double> left_px;
+  std::vector<double> residuals_px;
   double time_s = 0.0;
   std::size_t taken = 0;
   for (const PairSamples& pair : pairs) {
@@ -229,13 +228,13 @@ std::vector<Course> courseOf(const StereoCamera& camera,
       places.emplace_back(1.0,
                           sample.x_right * camera.fx / (0.5 * camera.width),
                           sample.y * camera.fy / (0.5 * camera.height));
-      left_px.push_back(sample.row_px - displacement.of(sample).y());
+      residuals_px.push_back(sample.row_px - displacement.of(sample).y());
     }
-    if (taken < kPairsAtATime || left_px.size() < kLeast) continue;
-    const RobustFit plane = fitRobustly(places, left_px);
+    if (taken < kPairsAtATime || residuals_px.size() < kLeast) continue;
+    const RobustFit plane = fitRobustly(places, residuals_px);
     if (plane.sigmas.allFinite()) course.push_back({0.5 * (time_s + pair.time_s), plane});
     places.clear();
-    left_px.clear();
+    residuals_px.clear();
     taken = 0;
   }
   return course;
@@ -287,7 +286,7 @@ void addCourse(const StereoCamera& camera,
       "rows",
       kRowsOverTime,
       "move by " + fixedText(motion_px, 2) + " px (rms), within " + fixedText(range_px, 2) + " px",
-      "no calibration fits a rig that moves: turn rates and depths change with it",
+      "no calibration fits a rig that moves",
       "mount both cameras on one stiff bar, and fix lenses and connectors"};
   if (largest_step_px > kJumpShare * range_px) {
     finding.measured += ", most of it in one step at " + fixedText(step_s, 0) + " s";
@@ -323,7 +322,7 @@ bool addBias(const StereoCamera& camera,
   report.add({"disparities",
               "bias over time",
               "moves by " + fixedText(motion_px.value, 2) + " px (rms)",
-              "a rig that bends has another scale at each time",
+              "the scale changes while the rig bends",
               "mount both cameras on one stiff bar"},
              {motion_px * (1.0 / typical_px), kAcceptable * kFixScale, kFixScale});
   ReportTable course = {"bias_time", "time_s,bias_px,sigma_px", {}};

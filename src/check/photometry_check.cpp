@@ -202,26 +202,25 @@ class PhotometryCheck : public PairCheck {
     const Estimate vignetting = estimate(&Row::vignetting);
     // Variances of Gaussians add; the blur itself would change its sign by chance.
     const Estimate blur_px2 = estimate(&Row::blur_px2);
-    report.add(
-        {"photometry",
-         "gain right to left",
-         toText(gain, ""),
-         "nothing by itself: matches are found by correlation; but the darker image has less "
-         "contrast above its noise, and a longer exposure more motion blur",
-         "give both cameras the same exposure time and gain, or couple them"},
-        {{std::log(gain.value), gain.sigma / gain.value}, kAcceptableGain, kFixGain});
+    report.add({"photometry",
+                "gain right to left",
+                toText(gain, ""),
+                "nothing by itself, because matching uses correlation; but the darker image has "
+                "less contrast above its noise, and a longer exposure more motion blur",
+                "give both cameras the same exposure time and gain, or couple them"},
+               {{std::log(gain.value), gain.sigma / gain.value}, kAcceptableGain, kFixGain});
     const double changes = gainScatter();
     report.add(
         {"photometry",
          "gain over time",
          std::isfinite(changes) ? "moves by " + fixedText(100.0 * changes, 1) + " %" : "unknown",
-         "exposures that follow each other late differ most where light changes",
+         "exposures that adapt separately differ most where the light changes",
          "couple the exposures of the cameras"},
         {{changes}, kAcceptableGain, kFixGain});
     report.add({"photometry",
                 "gray levels right minus left",
                 toText(offset, "of 255 at black"),
-                "the range of the brighter image is smaller by it",
+                "the brighter image loses that part of its range",
                 "set the same black level in both cameras, and look for stray light"},
                {offset * (1.0 / kWhite), 0.02, 0.06});
     report.add(

@@ -21,11 +21,11 @@ namespace rotrocc {
 namespace {
 
 const char* const kCalibrateAgain =
-    "calibrate the pair again: K, D, R or P of camera_info are of another lens, or of another "
-    "model of distortion than the lens has";
+    "recalibrate the pair: K, D, R or P of camera_info belong to another lens, or the distortion "
+    "model does not suit the lens";
 const char* const kRectify =
-    "the images are not rectified, or by another calibration: take the topics `image_rect`, or set "
-    "`rectify` for raw ones; otherwise calibrate the pair";
+    "the images are not rectified, or with another calibration: use the topics `image_rect`, or "
+    "set `rectify` for raw images; otherwise recalibrate the pair";
 
 /// With half as many features again: a check may take longer than the odometry.
 OdometryConfig configOf(const RigCheckOptions& options) {
@@ -35,7 +35,7 @@ OdometryConfig configOf(const RigCheckOptions& options) {
   return config;
 }
 
-/// Tells pairs whose features have moved.
+/// Selects pairs whose features have moved.
 class Movement {
  public:
   /// `flow_px`: median of the features between the keyframe and this pair, which has a motion. A
@@ -178,7 +178,7 @@ class PairChecks {
   /// Whether most motions are in doubt because the images are no pairs.
   bool isExplained() const { return is_of_no_pair_ && 2 * ok_ < pairs_; }
 
-  /// One pair with a motion, of about the middle: later ones replace it ever more seldom.
+  /// One pair with a motion, of about the middle: later ones replace it ever more rarely.
   void keepSample(const StereoPair& pair, const OdometryResult& result) {
     const bool is_better = left_.empty() || (result.hasMotion() && with_motion_ >= next_sample_);
     if (!is_better) return;
@@ -213,14 +213,14 @@ class PairChecks {
                                "length of the recording",
                                "features have moved in " + toText(sampler_.pairs().size()) +
                                    " of " + toText(pairs_) + " pairs",
-                               "each has errors of its own, so that a rig is not known by a few",
+                               "each pair has errors of its own, so a few do not determine the rig",
                                "record a minute of motion, with turns",
                                Verdict::kUnknown,
                                100.0});
   }
 
   /// Returns whether it is wrong: what is left when nothing else explains the rows, or lenses that
-  /// are not corrected. What follows from them is not told.
+  /// are not corrected. What follows from them is not reported.
   bool addRectification(const ModelRest& rest, const RigModel& model, RigReport& report) const {
     const bool is_raw = model.exceeds(1.0, kBothLenses);
     const bool is_unexplained =
@@ -262,8 +262,8 @@ class PairChecks {
                 "lost pairs",
                 toText(lost) + " of " + toText(pairs_) +
                     (lost > 0 ? ", most often because " + commonestLoss() : ""),
-                "the way between them is missing",
-                "see the findings above; light, texture and speed of turns decide most"},
+                "the distance between them is missing",
+                "see the findings above; light, texture and turning speed matter most"},
                {{static_cast<double>(lost) / pairs_}, 0.001, 0.03});
   }
 
@@ -284,7 +284,7 @@ class PairChecks {
     report.add({"inputs",
                 "repeated images",
                 toText(repeated_left_) + " left and " + toText(repeated_right_) + " right of " +
-                    toText(pairs_) + " repeat the one before",
+                    toText(pairs_) + " repeat the previous one",
                 both ? "the motion stops and then jumps" : "the images are of different times",
                 "look for a driver that sends its last buffer again, or a camera that hangs"},
                {{most}, 0.0, 0.02});
@@ -324,7 +324,7 @@ class PairChecks {
                                "images of left and right",
                                fault_.substr(0, colon),
                                toText(pairs_ - ok_) + " of " + toText(pairs_) +
-                                   " pairs have no motion, or one in doubt" +
+                                   " pairs have no motion, or a doubtful one" +
                                    (isMostlyLost() ? ", so that nothing else can be measured" : ""),
                                colon == std::string::npos ? "" : fault_.substr(colon + 2),
                                matters ? Verdict::kFix : Verdict::kAcceptable,

@@ -36,7 +36,7 @@ struct RigModel {
 
   Estimate value(RigCause cause) const { return {values[cause], sigmas[cause]}; }
 
-  /// How many times its limit of what is to be fixed an effect on disparities and rows is.
+  /// How many times its limit of what needs fixing an effect on disparities and rows is.
   double severityOf(const Eigen::Vector2d& effect_px) const;
 
   /// That of a value; with its uncertainty, also if it was left out.

@@ -54,14 +54,14 @@ struct RigReport {
   /// A value that is known no better than the limit of fix is unknown.
   void add(Finding finding, const Graded& graded);
 
-  /// Puts what is to be fixed first, causes before symptoms, and of those the most severe.
+  /// Puts what needs fixing first, causes before symptoms, and of those the most severe.
   void sort();
 
   // Of sorted findings:
 
   bool needsFix() const;
 
-  /// What is to be fixed first, and how, as one line of text.
+  /// What needs fixing first, and how, as one line of text.
   std::string advice() const;
 };
 

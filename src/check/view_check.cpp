@@ -207,7 +207,7 @@ class ViewCheck : public PairCheck {
     Finding finding = {"view",
                        "corners with a disparity",
                        percent(with_depth),
-                       "corners without one are no features",
+                       "corners without a disparity cannot be features",
                        ""};
     const std::pair<int, const char*> reasons[] = {
         {missing_.too_near, "nearer than nearest_baselines reaches"},
@@ -247,7 +247,7 @@ class ViewCheck : public PairCheck {
     report.add({"view",
                 "coverage",
                 "features in " + percent(1.0 - empty) + " of the image",
-                "rotation and translation look alike in a part of the image",
+                "in part of an image, rotation and translation look the same",
                 "turn the cameras to where there is texture, or use wider lenses"},
                {{empty}, 0.5, 0.8});
   }
@@ -264,7 +264,7 @@ class ViewCheck : public PairCheck {
                 fixedText(middle_m, 1) + " m in the middle, 80 % between " + fixedText(near_m, 1) +
                     " and " + fixedText(far_m, 1) + " m; a disparity of " +
                     fixedText(typical_px, 1) + " px",
-                "the way is known as well as the near depths are",
+                "distances are as accurate as the near depths",
                 "a longer baseline, a longer focal length, or look lower"},
                {{1.0 / typical_px}, 0.4, 1.0});
     ReportTable table = {"depths", "depth_m,features", {}};
@@ -287,8 +287,8 @@ class ViewCheck : public PairCheck {
         {"view",
          kMasked,
          percent(masked) + " of the image",
-         "what moves with the cameras looks like standstill: its features are rejected, or pull "
-         "the motion towards it",
+         "whatever moves with the cameras looks stationary: its features are rejected, or pull the "
+         "motion towards zero",
          "look at `mask.png` of the report, and if it is the robot itself or a reflection, set "
          "the parameter `mask` to it"},
         {{masked}, kAcceptable, 0.05});

@@ -8,8 +8,8 @@
 
 namespace rotrocc {
 
-/// A value that is beyond a limit, in three digits, or as many more as tell it from the limit, or
-/// stand before the point.
+/// A value that is beyond a limit, in three digits, or as many more as separate it from the limit,
+/// or stand before the point.
 inline std::string comparedText(double value, double limit) {
   std::string text;
   const int whole_digits = 1 + static_cast<int>(std::log10(std::max(std::abs(value), 1.0)));

@@ -43,7 +43,7 @@ bool isOfCamera(double period_s) {
   return period_s == 0.0 || (period_s >= kShortestPeriod_s && period_s <= kLongestPeriod_s);
 }
 
-[[noreturn]] void refuse(const TextLine& line, double period_s, std::int64_t unit_ns) {
+[[noreturn]] void reject(const TextLine& line, double period_s, std::int64_t unit_ns) {
   const auto* const read = std::find_if(
       std::begin(kUnits), std::end(kUnits), [&](const auto& unit) { return unit.ns == unit_ns; });
   std::string remedy = "check them, or give the times in times.txt";
@@ -100,7 +100,7 @@ std::vector<std::int64_t> imageStamps(const std::vector<TextLine>& lines, std::i
     const std::vector<std::int64_t> stamps_ns = stampsIn(unit);
     if (isOfCamera(periodOf(stamps_ns))) return stamps_ns;
   }
-  refuse(lines.front(), periodOf(stampsIn(by_digits_ns)), by_digits_ns);
+  reject(lines.front(), periodOf(stampsIn(by_digits_ns)), by_digits_ns);
 }
 
 std::vector<std::int64_t> readTimes(const std::string& path) {

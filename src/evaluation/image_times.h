@@ -10,7 +10,7 @@ namespace rotrocc {
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 /// The unit [ns] of a time since 1970, which is seconds, or one of their thousandth parts as the
-/// number of digits tells; `otherwise` if it does not count from 1970.
+/// number of digits says; `otherwise` if it does not count from 1970.
 std::int64_t timeUnit_ns(double time, std::int64_t otherwise);
 
 /// The same for the first words of lines; `otherwise` unless the first and the last one agree.

@@ -21,7 +21,7 @@ std::istringstream makeStream() {
   return stream;
 }
 
-[[noreturn]] void refuse(const TextLine& line, std::size_t index, const char* why) {
+[[noreturn]] void reject(const TextLine& line, std::size_t index, const char* why) {
   line.fail("'" + line.words[index] + "' is " + why);
 }
 
@@ -32,7 +32,7 @@ long double parse(const TextLine& line, std::size_t index) {
   stream.str(line.words.at(index));
   long double value = 0.0L;
   if (!(stream >> value) || stream.peek() != std::istringstream::traits_type::eof()) {
-    refuse(line, index, "not a finite number");
+    reject(line, index, "not a finite number");
   }
   return value;
 }
@@ -41,14 +41,14 @@ long double parse(const TextLine& line, std::size_t index) {
 
 double TextLine::number(std::size_t index) const {
   const double value = static_cast<double>(parse(*this, index));
-  if (!std::isfinite(value)) refuse(*this, index, "too large for a number");
+  if (!std::isfinite(value)) reject(*this, index, "too large for a number");
   return value;
 }
 
 std::int64_t TextLine::nanoseconds(std::size_t index, std::int64_t unit_ns) const {
   const long double time_ns = parse(*this, index) * static_cast<long double>(unit_ns);
   if (!(std::abs(time_ns) < 9.2e18L)) {
-    refuse(*this,
+    reject(*this,
            index,
            unit_ns == 1 ? "not an integer below 9.2e18" : "not a time in seconds below 9.2e9");
   }
@@ -74,7 +74,7 @@ void TextLine::requireColumns(std::size_t columns, const char* what) const {
 
 void TextLine::requireLater(std::int64_t stamp_ns, std::int64_t previous_ns) const {
   if (stamp_ns > previous_ns) return;
-  fail("the time " + words.front() + " is not later than the one before it: sort the file by time");
+  fail("the time " + words.front() + " is not later than the previous one: sort the file by time");
 }
 
 void TextLine::fail(const std::string& what) const {

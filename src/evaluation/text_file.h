@@ -29,7 +29,8 @@ struct TextLine {
   /// Throws std::runtime_error if there are fewer words than the columns of `what`.
   void requireColumns(std::size_t columns, const char* what) const;
 
-  /// Throws std::runtime_error unless `stamp_ns`, of the first word, is later than the one before.
+  /// Throws std::runtime_error unless `stamp_ns`, of the first word, is later than the previous
+  /// one.
   void requireLater(std::int64_t stamp_ns, std::int64_t previous_ns) const;
 
   [[noreturn]] void fail(const std::string& what) const;

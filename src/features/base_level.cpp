@@ -49,7 +49,7 @@ double lossOf(const cv::Mat& image, const cv::Mat& half) {
   return sum / count;
 }
 
-/// Of the first of three images, each half of the one before; none if they show nothing.
+/// Of the first of three images, each half of the previous one; none if they show nothing.
 std::optional<double> sharpnessOf(const cv::Mat* images, std::vector<int>& buffer) {
   constexpr double kLeast = 0.01;
   const double noise = kNoiseOfLoss * noiseVariance(images[0], buffer);

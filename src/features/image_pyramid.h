@@ -6,7 +6,7 @@
 
 namespace rotrocc {
 
-/// An image and its smaller copies (CV_8UC1), each half the width and height of the one before.
+/// An image and its smaller copies (CV_8UC1), each half the width and height of the previous one.
 using ImagePyramid = std::vector<cv::Mat>;
 
 /// Builds a pyramid of at most `levels` levels including the image. The smaller copies are larger

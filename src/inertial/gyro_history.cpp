@@ -32,7 +32,7 @@ std::optional<std::string> GyroHistory::add(const GyroSample& sample) {
   if (!samples_.empty() && sample.stamp_ns <= samples_.back().stamp_ns) {
     const double back_s = toSeconds(samples_.back().stamp_ns - sample.stamp_ns);
     if (back_s <= kJump_s) {
-      return cv::format("the stamp is %.3g s before that of the sample before", back_s);
+      return cv::format("the timestamp is %.3g s before that of the previous sample", back_s);
     }
     samples_.clear();
   }

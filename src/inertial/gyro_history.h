@@ -30,11 +30,11 @@ class GyroHistory {
   /// Fast motions of a hand or a drone have periods of a third of a second: samples further apart
   /// do not follow them.
   static constexpr double kMaxGap_s = 0.05;
-  /// A sample that is earlier than the one before by more than this restarts it, as with a looping
-  /// bag.
+  /// A sample that is earlier than the previous one by more than this restarts it, as with a
+  /// looping bag.
   static constexpr double kJump_s = 1.0;
 
-  /// Why the sample is refused, in one sentence; none if it is kept.
+  /// Why the sample is rejected, in one sentence; none if it is kept.
   std::optional<std::string> add(const GyroSample& sample);
 
   /// Stamp of the newest sample; none before the first one.

@@ -25,7 +25,7 @@ constexpr double kUsualShare = 0.1;
 constexpr double kSigmas = 3.0;
 
 /// A rotation of this angle shows that the gyroscope is right, if it explains most of it.
-constexpr double kTelling_rad = 0.01;
+constexpr double kInformative_rad = 0.01;
 constexpr double kExplained = 0.5;
 
 constexpr double kDegreesPerRadian = 180.0 / M_PI;
@@ -67,19 +67,19 @@ bool GyroTrust::compare(const Comparison& c) {
     gyro_rad_ += c.gyro_rad;
     vision_rad_ += c.vision_rad;
     difference_rad_ += c.difference_rad;
-    if (disagreeing_ >= kEnough) refuse();
+    if (disagreeing_ >= kEnough) reject();
     return false;
   }
   disagreeing_ = 0;
   gyro_rad_ = vision_rad_ = difference_rad_ = 0.0;
   if (!why_not_) return true;
-  const bool is_telling = c.vision_rad > kTelling_rad;
-  if (is_telling && c.difference_rad < kExplained * c.vision_rad) ++agreeing_;
+  const bool is_informative = c.vision_rad > kInformative_rad;
+  if (is_informative && c.difference_rad < kExplained * c.vision_rad) ++agreeing_;
   if (agreeing_ >= kEnough) why_not_.reset();
   return true;
 }
 
-void GyroTrust::refuse() {
+void GyroTrust::reject() {
   if (why_not_) return;
   agreeing_ = 0;
   const double ratio = gyro_rad_ / vision_rad_;
@@ -97,19 +97,19 @@ void GyroTrust::refuse() {
 }
 
 void GyroPredictor::add(const GyroSample& sample) {
-  if (const auto why = history_.add(sample)) return refuse(*why);
+  if (const auto why = history_.add(sample)) return reject(*why);
   ++counts_.samples;
 }
 
-void GyroPredictor::refuse(const std::string& why) {
-  ++counts_.refused;
-  why_refused_ = why;
+void GyroPredictor::reject(const std::string& why) {
+  ++counts_.rejected;
+  why_rejected_ = why;
 }
 
 void GyroPredictor::miss(const std::string& why) {
   ++counts_.missed;
   why_not_ = why;
-  if (why_refused_) *why_not_ += "; the last sample was refused: " + *why_refused_;
+  if (why_rejected_) *why_not_ += "; the last sample was rejected: " + *why_rejected_;
 }
 
 std::optional<Eigen::Matrix3d> GyroPredictor::rotation(std::int64_t from_ns, std::int64_t to_ns) {
@@ -118,7 +118,7 @@ std::optional<Eigen::Matrix3d> GyroPredictor::rotation(std::int64_t from_ns, std
     return std::nullopt;
   }
   why_not_.reset();
-  why_refused_.reset();
+  why_rejected_.reset();
   ++counts_.predicted;
   const GyroRotation rotation = history_.rotation(from_ns, to_ns, bias_.bias_rps());
   return R_camera_gyro_from_ * rotation.R_from_to * R_camera_gyro_to_.transpose();

@@ -53,10 +53,10 @@ class GyroTrust {
   const std::optional<std::string>& whyNot() const { return why_not_; }
 
  private:
-  void refuse();
+  void reject();
 
   int disagreeing_ = 0;  // in a row
-  int agreeing_ = 0;     // in a row, since it was refused
+  int agreeing_ = 0;     // in a row, since it was rejected
   double gyro_rad_ = 0.0, vision_rad_ = 0.0, difference_rad_ = 0.0;  // of the disagreeing ones
   std::optional<std::string> why_not_;
 };
@@ -66,8 +66,8 @@ class GyroTrust {
 class GyroPredictor {
  public:
   struct Counts {
-    std::uint64_t samples = 0;    ///< without the refused ones
-    std::uint64_t refused = 0;    ///< samples
+    std::uint64_t samples = 0;    ///< without the rejected ones
+    std::uint64_t rejected = 0;   ///< samples
     std::uint64_t predicted = 0;  ///< rotations
     std::uint64_t missed = 0;     ///< rotations that were not predicted
   };
@@ -82,10 +82,10 @@ class GyroPredictor {
     R_camera_gyro_to_ = R_camera_gyro_to;
   }
 
-  /// Samples that are no numbers or out of order are refused.
+  /// Samples that are no numbers or out of order are rejected.
   void add(const GyroSample& sample);
-  /// Counts a sample that was refused before, for the reason of a sentence.
-  void refuse(const std::string& why);
+  /// Counts a sample that was rejected before, for the reason of a sentence.
+  void reject(const std::string& why);
 
   const GyroHistory& history() const { return history_; }
 
@@ -114,7 +114,7 @@ class GyroPredictor {
   GyroTrust trust_;
   Counts counts_;
   std::optional<std::string> why_not_;
-  std::optional<std::string> why_refused_;  // the last sample, since the last predicted rotation
+  std::optional<std::string> why_rejected_;  // the last sample, since the last predicted rotation
 };
 
 }  // namespace rotrocc

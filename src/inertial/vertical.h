@@ -20,7 +20,7 @@ class Vertical {
   static constexpr double kMaxRate_rps = 0.05;
   static constexpr double kMaxAcceleration_mps2 = 0.5;
 
-  /// Samples that are no numbers are ignored; one that is not later than the one before begins
+  /// Samples that are no numbers are ignored; one that is not later than the previous one begins
   /// again.
   void add(const GyroSample& gyro, const Eigen::Vector3d& acceleration_mps2);
 

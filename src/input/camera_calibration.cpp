@@ -21,7 +21,7 @@ constexpr double kMaxOffRowShare = 0.05;  // of the baseline that may be along y
 /// Relative difference of a number in camera_info: thousandths of a pixel for a focal length.
 constexpr double kSameNumber = 1e-6;
 
-[[noreturn]] void refuseCameraInfo(const std::string& sentence) {
+[[noreturn]] void rejectCameraInfo(const std::string& sentence) {
   throw InputError(DropReason::kCameraInfoInvalid, sentence);
 }
 
@@ -40,20 +40,20 @@ void checkProjection(const std::string& side, const Info& info) {
   const auto& P = info.P;
   const std::string its = "P of the " + side + " camera_info";
   if (std::all_of(P.begin(), P.end(), isZero)) {
-    refuseCameraInfo(its +
+    rejectCameraInfo(its +
                      " is all zeros: the camera is not calibrated; calibrate it as a stereo pair");
   }
   for (std::size_t i = 0; i < P.size(); ++i) {
     if (std::isfinite(P[i])) continue;
-    refuseCameraInfo("P[" + toText(i) + "] of the " + side + " camera_info is " + toText(P[i]) +
+    rejectCameraInfo("P[" + toText(i) + "] of the " + side + " camera_info is " + toText(P[i]) +
                      ": check the calibration file of the driver");
   }
   if (!(P[0] > 0.0 && P[5] > 0.0)) {
-    refuseCameraInfo(its + " has focal lengths P[0] = " + toText(P[0]) + " and P[5] = " +
+    rejectCameraInfo(its + " has focal lengths P[0] = " + toText(P[0]) + " and P[5] = " +
                      toText(P[5]) + " px, but both must be positive: is the camera calibrated?");
   }
   if (P[1] != 0.0 || P[4] != 0.0 || P[8] != 0.0 || P[9] != 0.0 || P[10] != 1.0) {
-    refuseCameraInfo(
+    rejectCameraInfo(
         its + " is not [fx 0 cx tx; 0 fy cy ty; 0 0 1 0], as for a rectified camera: P[1] = " +
         toText(P[1]) + ", P[4] = " + toText(P[4]) + ", P[8] = " + toText(P[8]) + ", P[9] = " +
         toText(P[9]) + ", P[10] = " + toText(P[10]) + "; calibrate the cameras as a pair");
@@ -62,7 +62,7 @@ void checkProjection(const std::string& side, const Info& info) {
 
 void requireEqual(const std::string& name, double left, double right) {
   if (std::abs(left - right) <= kMaxMismatch_px) return;
-  refuseCameraInfo("the cameras are not rectified as a pair: " + name + " is " + toText(left) +
+  rejectCameraInfo("the cameras are not rectified as a pair: " + name + " is " + toText(left) +
                    " px in the left camera_info and " + toText(right) +
                    " px in the right one; calibrate them together");
 }
@@ -72,14 +72,14 @@ void requireSideBySide(const Info& left, const Info& right) {
   const std::string values = "P[3] of camera_info, which is -fx times the camera's position, is " +
                              toText(left_tx) + " left and " + toText(right_tx) + " right";
   if (left_tx == right_tx) {
-    refuseCameraInfo("the baseline is zero: " + values +
+    rejectCameraInfo("the baseline is zero: " + values +
                      "; calibrate the cameras as a pair, or set the parameter baseline_m");
   }
   if (left_tx < right_tx) {
-    refuseCameraInfo("the baseline is negative: " + values + "; are left and right swapped?");
+    rejectCameraInfo("the baseline is negative: " + values + "; are left and right swapped?");
   }
   if (std::abs(left.P[7] - right.P[7]) > kMaxOffRowShare * (left_tx - right_tx)) {
-    refuseCameraInfo("the cameras are not side by side: P[7] of camera_info is " +
+    rejectCameraInfo("the cameras are not side by side: P[7] of camera_info is " +
                      toText(left.P[7]) + " left and " + toText(right.P[7]) + " right, " + values);
   }
 }
@@ -95,7 +95,7 @@ RawCamera toRawCamera(const std::string& side, const Info& info, const Calibrate
   const Info sent = ofSentImages(info, of);
   const auto& K = sent.K;
   if (!(K[0] > 0.0 && K[4] > 0.0)) {
-    refuseCameraInfo("K of the " + side + " camera_info has focal lengths " + toText(K[0]) +
+    rejectCameraInfo("K of the " + side + " camera_info has focal lengths " + toText(K[0]) +
                      " and " + toText(K[4]) +
                      " px, but rectification needs them: calibrate the camera");
   }
@@ -115,7 +115,7 @@ RawCamera toRawCamera(const std::string& side, const Info& info, const Calibrate
     what = "the ";
     raw.check();
   } catch (const std::invalid_argument& error) {
-    refuseCameraInfo(what + side + " camera_info: " + error.what());
+    rejectCameraInfo(what + side + " camera_info: " + error.what());
   }
   if (!isCropped(info)) requireOfItsImage("K of the " + side + " camera_info", K[2], K[5], sent);
   return raw;
@@ -155,7 +155,7 @@ StereoCamera toStereoCamera(const Info& left_info, const Info& right_info, doubl
   const Info left = ofSentImages(left_info, image);
   const Info right = ofSentImages(right_info, image);
   if (left.width != right.width || left.height != right.height) {
-    refuseCameraInfo("the left camera_info is for images of " + sizeText(left.width, left.height) +
+    rejectCameraInfo("the left camera_info is for images of " + sizeText(left.width, left.height) +
                      ", the right one for " + sizeText(right.width, right.height) +
                      ": set both cameras to the same resolution");
   }
@@ -176,7 +176,7 @@ StereoCamera toStereoCamera(const Info& left_info, const Info& right_info, doubl
   try {
     camera.check();
   } catch (const std::invalid_argument& error) {
-    refuseCameraInfo(std::string("camera_info is not a valid camera: ") + error.what());
+    rejectCameraInfo(std::string("camera_info is not a valid camera: ") + error.what());
   }
   if (!isCropped(left_info)) {
     requireOfItsImage("P of the left camera_info", left.P[2], left.P[6], left);

@@ -27,24 +27,24 @@ struct Arrival {
 constexpr double kOtherClock_s = 3600.0;
 
 /// The clock that stamps the images of a camera, as seen by their arrival: its period, offset and
-/// scatter over the latest images. Tells valid stamps from those of a faulty driver and from time
-/// jumps, e.g. of a looping bag.
+/// scatter over the latest images. Separates valid stamps from those of a faulty driver and from
+/// time jumps, e.g. of a looping bag.
 ///
 /// A stamp that is further ahead of the arrival than those before it, or far behind them, is a
-/// glitch or the first one after a jump. The next image tells: until then this one is held.
+/// glitch or the first one after a jump. The next image decides: until then this one is held.
 class CameraClock {
  public:
   /// What to do with an image, and with the previous one if that was held.
   struct Verdict {
     bool held = false;                 ///< keep the image until the next call
     bool held_is_valid = false;        ///< the previous one is the first after a jump: use it first
-    std::optional<InputError> glitch;  ///< the previous one is to be dropped
+    std::optional<InputError> glitch;  ///< the previous one must be dropped
   };
 
   /// `images`: name in messages, as "the left image".
   explicit CameraClock(std::string images) : images_(std::move(images)) {}
 
-  /// Judges the next image that arrives. Whichever image is valid is to be added. Throws InputError
+  /// Judges the next image that arrives. Whichever image is valid must be added. Throws InputError
   /// on a stamp that is zero, repeated, slightly earlier than the previous one, or further ahead of
   /// ROS time than any skew of synchronized clocks; an image that is held stays so.
   ///

@@ -57,7 +57,7 @@ using DropCounts = std::map<DropReason, std::uint64_t>;
 /// The number of drops of all reasons.
 std::uint64_t totalOf(const DropCounts& counts);
 
-/// Counts dropped input by reason and logs it: each reason at once, then more and more seldom,
+/// Counts dropped input by reason and logs it: each reason at once, then at growing intervals,
 /// an invalid camera_info once until there is a valid one. Thread-safe.
 class DropLog {
  public:

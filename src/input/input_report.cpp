@@ -114,12 +114,12 @@ std::optional<std::string> whyAge(const InputReport& report) {
   if (isOfAnotherClock(report) || (age_s < kOld_s && age_s > -kAhead_s)) return {};
   const std::string stamps =
       "the stamps of " + report.left_image.topic + " are " + fixedText(std::abs(age_s), 1) + " s ";
-  return stamps +
-         (age_s < 0.0 ? "ahead of the clock, and so are odometry and tf, which others cannot use "
-                        "yet: synchronize the clocks of camera and computer"
-                      : "behind the clock when the images arrive: synchronize the clocks of camera "
-                        "and computer, or if the images are late, find out what delays them; play "
-                        "bags with --clock and use_sim_time");
+  return stamps + (age_s < 0.0
+                       ? "ahead of the clock, so other nodes cannot use odometry and tf yet: "
+                         "synchronize the clocks of camera and computer"
+                       : "behind the clock on arrival: synchronize the clocks of camera and "
+                         "computer, or if the images are late, find out what delays them; play "
+                         "bags with --clock and use_sim_time");
 }
 
 }  // namespace
@@ -150,8 +150,8 @@ std::optional<std::string> whyNoPairs(const InputReport& report) {
     if (report.skew->of_a_period_s) return skewOfAPeriodText(*report.skew->of_a_period_s);
     if (report.skew->largest_s > report.tolerance_s) return whyUnmatched(report);
   }
-  if (report.refused.empty()) return {};
-  return report.refused;
+  if (report.rejected.empty()) return {};
+  return report.rejected;
 }
 
 std::optional<std::string> whySilent(const InputReport& report) {
@@ -168,7 +168,7 @@ std::optional<std::string> faultOfPairs(const InputReport& report) {
   if (isLarge(skew_s, report)) {
     return "left and right stamps are " + milliseconds(std::abs(skew_s)) + " apart, " +
            ofPeriod(skew_s, *report.period_s) +
-           ", so it is not sure which images are of one time: trigger the cameras synchronously";
+           ", so images may be paired wrongly: trigger the cameras synchronously";
   }
   if (const auto lost = whyLost(report)) return lost;
   if (report.period_s && report.stamp_scatter_s > kLargeScatter * *report.period_s) {

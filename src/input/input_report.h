@@ -21,7 +21,7 @@ class TopicStatistics {
   /// Time window of rates and counts.
   static constexpr std::chrono::seconds kWindow{5};
 
-  /// A message that arrives later than this after the one before starts a new run.
+  /// A message that arrives later than this after the previous one starts a new run.
   static constexpr std::chrono::seconds kLongestStep{1};
 
   void add(Time now) {
@@ -95,7 +95,7 @@ struct InputReport {
   double arrival_scatter_s = 0.0;       ///< of left images, see CameraClock
   bool clock_missing = false;           ///< simulated time without /clock
   bool clock_stands = false;            ///< simulated time stands still
-  std::string refused;                  ///< why recent input was dropped; empty if none
+  std::string rejected;                 ///< why recent input was dropped; empty if none
   std::string camera_error;             ///< why camera_info is invalid or not of the images
   bool has_raw_infos = false;           ///< camera_info of raw images, which are not rectified
   bool waits_for_info = false;          ///< a pair waits for camera_info

@@ -14,7 +14,7 @@ namespace rotrocc {
 template <class Item>
 class LatestMailbox {
  public:
-  /// Replaces items that were not taken yet, unless it came together with the one before. Returns
+  /// Replaces items that were not taken yet, unless it came together with the previous one. Returns
   /// how many it replaced.
   std::size_t put(Item item, bool is_together = false) {
     std::unique_lock<std::mutex> lock(mutex_);

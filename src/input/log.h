@@ -53,7 +53,7 @@ class Throttle {
  public:
   using Duration = std::chrono::milliseconds;
 
-  /// Of a fault: after 30 s, and while it lasts, more and more seldom up to each 5 minutes.
+  /// Of a fault: after 30 s, and while it lasts, at growing intervals up to each 5 minutes.
   Throttle() : first_(std::chrono::seconds(30)), longest_(std::chrono::minutes(5)) {}
   explicit Throttle(Duration period) : first_(period), longest_(period) {}
 

@@ -35,14 +35,17 @@ std::string situationOf(const InputReport& input) {
   }
   situation += input.clock_missing ? 'c' : '-';
   situation += input.waits_for_info ? 'w' : '-';
-  situation += input.refused.empty() ? '-' : 'r';
+  situation += input.rejected.empty() ? '-' : 'r';
   return situation + input.camera_error;
 }
 
 }  // namespace
 
-SilenceWatch::SilenceWatch(double silence_s, Time now, Log log)
-    : log_(std::move(log)), silence_limit_(silence_s), last_pair_(now), last_warning_(now) {}
+SilenceWatch::SilenceWatch(double no_input_warning_s, Time now, Log log)
+    : log_(std::move(log)),
+      silence_limit_(no_input_warning_s),
+      last_pair_(now),
+      last_warning_(now) {}
 
 void SilenceWatch::onPair(std::int64_t stamp_ns,
                           double stamp_age_s,
@@ -50,7 +53,7 @@ void SilenceWatch::onPair(std::int64_t stamp_ns,
                           Time now) {
   const Duration silence = now - last_pair_;
   const std::string again = "stereo pairs arrive again, after " + seconds(silence);
-  if (std::exchange(told_, false)) {
+  if (std::exchange(logged_, false)) {
     log_.info(again);
   } else if (now - last_warning_ >= kLeastDistance) {
     const bool is_gap = isGap(silence, dropped - dropped_);
@@ -58,7 +61,7 @@ void SilenceWatch::onPair(std::int64_t stamp_ns,
       last_warning_ = now;
       log_.warn(is_gap ? again
                        : "time jumped forward from " + stampText(*last_stamp_ns_) + " to " +
-                             stampText(stamp_ns) + " s: the odometry goes on at the last pose");
+                             stampText(stamp_ns) + " s: the odometry continues from the last pose");
     }
   }
   last_stamp_ns_ = stamp_ns;
@@ -92,12 +95,12 @@ void SilenceWatch::onTick(InputReport& input, const Arrival& now) {
   const Duration silence = now.time - last_pair_;
   if (input.clock_stands || silence < silence_limit_) return;
   const std::string situation = situationOf(input);
-  const bool is_news = !told_ || situation != situation_;
-  if (told_ && is_news && now.time - last_told_ < kLeastDistance) return;
+  const bool is_news = !logged_ || situation != situation_;
+  if (logged_ && is_news && now.time - last_logged_ < kLeastDistance) return;
   if (is_news) reminder_ = Throttle();
   if (!reminder_.pass(now.time)) return;
-  told_ = true;
-  last_told_ = now.time;
+  logged_ = true;
+  last_logged_ = now.time;
   situation_ = situation;
   const auto why = whyNoPairs(input);
   log_.warn("no stereo pair for " + seconds(silence) + ". Messages in the last 5 s: " +

@@ -18,8 +18,8 @@ class SilenceWatch {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Warns after `silence_s` without a pair, counted from `now` at first.
-  SilenceWatch(double silence_s, Time now, Log log);
+  /// Warns after `no_input_warning_s` without a pair, counted from `now` at first.
+  SilenceWatch(double no_input_warning_s, Time now, Log log);
 
   /// Call for every pair, with the age of its stamp in ROS time (0 if unknown) and the number of
   /// images that were `dropped` so far. Logs the end of a silence that was logged. Warns, at most
@@ -30,7 +30,7 @@ class SilenceWatch {
   /// Call about once a second. Sets whether ROS time stands still, as simulated time does while a
   /// replay is paused and after its end. Warns of a silence with its duration, the received
   /// messages and a remedy: at its start, when topics or their messages appear or disappear (at
-  /// most every 5 s), and as a reminder more and more seldom, see Throttle; but not while the clock
+  /// most every 5 s), and as a reminder at growing intervals, see Throttle; but not while the clock
   /// stands still, as nobody expects pairs then.
   void onTick(InputReport& input, const Arrival& now);
 
@@ -48,8 +48,8 @@ class SilenceWatch {
   std::uint64_t dropped_ = 0;       // until then
   std::deque<Duration> intervals_;  // the latest, between pairs
   Arrival clock_moved_;             // when ROS time last moved, as far as known
-  bool told_ = false;               // this silence was reported
-  Time last_told_;
+  bool logged_ = false;             // this silence was reported
+  Time last_logged_;
   Time last_warning_;      // of a gap or a jump
   std::string situation_;  // at the last report
   Throttle reminder_;

@@ -16,7 +16,7 @@ constexpr std::size_t kInfos = 8;
 
 /// A camera is logged again if it has changed by more, see StereoCamera::differenceTo(), but not
 /// one whose calibration is refined while it drives.
-constexpr double kToldAgain = 1e-3;
+constexpr double kLogAgain = 1e-3;
 
 /// The newest info of a stamp; null if there is none.
 sensor_msgs::CameraInfo::ConstPtr infoAt(
@@ -68,7 +68,7 @@ void StereoIntake::addImage(Side side,
 
 void StereoIntake::drop(Side side, const InputError& error) {
   drops_.add(error);
-  if (error.reason() != DropReason::kStampRepeated) synchronizer_.excusePartner(side);
+  if (error.reason() != DropReason::kStampRepeated) synchronizer_.ignoreMissingPartner(side);
 }
 
 void StereoIntake::match(Side side,
@@ -92,7 +92,7 @@ void StereoIntake::match(Side side,
                           clock.stampScatter_s(),
                           follows_held_,
                           nullptr};
-  tellClock();
+  logClock();
   handOver();
 }
 
@@ -143,7 +143,7 @@ void StereoIntake::handOver() {
   const Info right = infoAt(waiting_->images.right->header.stamp, right_.infos);
   left&& right ? use(left, right) : useNewestInfos();
   if (!camera_) return;
-  tell(*camera_);
+  logCamera(*camera_);
   waiting_->camera = *camera_;
   waiting_->calibration = calibration_;
   ReceivedPair pair = std::move(*waiting_);
@@ -155,18 +155,18 @@ void StereoIntake::handOver() {
   on_pair_(std::move(pair));
 }
 
-void StereoIntake::tellClock() {
+void StereoIntake::logClock() {
   const std::int64_t set_ns = synchronizer_.clock(Side::kLeft).set_ns();
-  const double step_s = toSeconds(set_ns - std::exchange(told_set_ns_, set_ns));
+  const double step_s = toSeconds(set_ns - std::exchange(logged_set_ns_, set_ns));
   if (step_s == 0.0) return;
   log_.warn("the stamps of the left images stepped by " + fixedText(step_s, 3) +
-            " s while images kept coming: the odometry goes on; synchronize the camera's clock "
+            " s while images kept coming: the odometry continues; synchronize the camera's clock "
             "before the drive");
 }
 
-void StereoIntake::tell(const StereoCamera& camera) {
-  if (told_camera_.differenceTo(camera) <= kToldAgain) return;
-  told_camera_ = camera;
+void StereoIntake::logCamera(const StereoCamera& camera) {
+  if (logged_camera_.differenceTo(camera) <= kLogAgain) return;
+  logged_camera_ = camera;
   has_raw_infos_ =
       !calibration_ && describeRawImages(*left_info_, *right_info_, parameters_.baseline_m);
   const std::string rectified = calibration_
@@ -207,9 +207,9 @@ InputReport StereoIntake::report(std::chrono::steady_clock::time_point now) cons
   }
   report.camera_error = camera_error_;
   report.has_raw_infos = has_raw_infos_;
-  if (const auto refused = drops_.lastWithin(TopicStatistics::kWindow)) {
-    report.refused = refused->what();
-    if (refused->reason() == DropReason::kImageNotOfCamera) report.camera_error = refused->what();
+  if (const auto rejected = drops_.lastWithin(TopicStatistics::kWindow)) {
+    report.rejected = rejected->what();
+    if (rejected->reason() == DropReason::kImageNotOfCamera) report.camera_error = rejected->what();
   }
   report.waits_for_info = waiting_.has_value();
   return report;

@@ -76,8 +76,8 @@ class StereoIntake {
   void useNewestInfos();
   void use(const Info& left, const Info& right);
   void handOver();
-  void tell(const StereoCamera& camera);
-  void tellClock();
+  void logCamera(const StereoCamera& camera);
+  void logClock();
 
   NodeParameters parameters_;
   DropLog& drops_;
@@ -92,8 +92,8 @@ class StereoIntake {
 
   Info left_info_, right_info_;  // that the camera is from
   std::optional<StereoCamera> camera_;
-  std::int64_t told_set_ns_ = 0;                          // of the left clock, by the log
-  StereoCamera told_camera_;                              // by the log
+  std::int64_t logged_set_ns_ = 0;                        // of the left clock, by the log
+  StereoCamera logged_camera_;                            // by the log
   bool has_raw_infos_ = false;                            // that are not used to rectify
   std::shared_ptr<const StereoCalibration> calibration_;  // null if the images are rectified
   Info calibrated_left_, calibrated_right_;               // that it is from

@@ -38,7 +38,7 @@ std::string quote(const std::string& text) {
   return quoted + (text.size() > kMaxLength ? "...\"" : "\"");
 }
 
-[[noreturn]] void refuseEncoding(const std::string& side, const std::string& encoding) {
+[[noreturn]] void rejectEncoding(const std::string& side, const std::string& encoding) {
   const bool is_float = encoding.find("FC") != std::string::npos;
   throw InputError(DropReason::kImageEncoding,
                    "the " + side + " image has the encoding " + quote(encoding) +
@@ -53,11 +53,11 @@ std::uint64_t bytesPerPixel(const std::string& side, const std::string& encoding
   const bool has_gray_levels = enc::isMono(encoding) || enc::isColor(encoding) ||
                                enc::isBayer(encoding) || encoding == enc::YUV422 ||
                                encoding.find("UC") != std::string::npos;
-  if (!has_gray_levels) refuseEncoding(side, encoding);
+  if (!has_gray_levels) rejectEncoding(side, encoding);
   try {
     return static_cast<std::uint64_t>(enc::numChannels(encoding) * enc::bitDepth(encoding) / 8);
   } catch (const std::runtime_error&) {
-    refuseEncoding(side, encoding);
+    rejectEncoding(side, encoding);
   }
 }
 
@@ -121,7 +121,7 @@ cv_bridge::CvImage read(const std::string& side, const sensor_msgs::Image& image
   }
   try {
     cv_bridge::CvImageConstPtr bridged;
-    if (image.data.size() > bytes) {  // cv_bridge refuses more
+    if (image.data.size() > bytes) {  // cv_bridge rejects more
       sensor_msgs::Image shortened = image;
       shortened.data.resize(bytes);
       bridged = cv_bridge::toCvCopy(shortened);
@@ -134,7 +134,7 @@ cv_bridge::CvImage read(const std::string& side, const sensor_msgs::Image& image
     const cv::Mat typed(size, type, bridged->image.data, bridged->image.step);
     return {image.header, image.encoding, typed.clone()};
   } catch (const std::runtime_error&) {
-    refuseEncoding(side, image.encoding);
+    rejectEncoding(side, image.encoding);
   }
 }
 
@@ -194,7 +194,7 @@ cv::Mat toGray(const std::string& side, const cv_bridge::CvImage& image, const G
     const auto bridged = boost::make_shared<cv_bridge::CvImage>(image.header, encoding, pixels);
     return cv_bridge::cvtColor(bridged, enc::MONO8)->image;
   } catch (const cv_bridge::Exception&) {
-    refuseEncoding(side, image.encoding);
+    rejectEncoding(side, image.encoding);
   }
 }
 

@@ -39,7 +39,7 @@ std::optional<StereoImages> StereoSynchronizer::add(Side side,
   }
   own.clock.add(stamp_ns, arrival);
   own.waiting.push_back({stamp_ns, image, arrival.time});
-  // Not only the new image may have a partner: it may have told the period.
+  // Not only the new image may have a partner: it may have shown the period.
   const auto matches = matchStamps(stampsOf(left_), stampsOf(right_), tolerance_ns());
   if (!matches.empty()) {
     const Waiting left = take(matches.back().first, left_);
@@ -64,7 +64,7 @@ std::optional<std::int64_t> StereoSynchronizer::period_ns() const {
   return left_ns && right_ns ? std::min(left_ns, right_ns) : std::max(left_ns, right_ns);
 }
 
-void StereoSynchronizer::excusePartner(Side side) {
+void StereoSynchronizer::ignoreMissingPartner(Side side) {
   Camera& own = camera(side);
   Camera& other = &own == &left_ ? right_ : left_;
   if (own.excused > 0) {  // both are dropped

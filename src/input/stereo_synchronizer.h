@@ -46,7 +46,7 @@ class StereoSynchronizer {
 
   /// An image of `side` was dropped before it came here: the one that would be its partner counts
   /// as excused, not as unmatched.
-  void excusePartner(Side side);
+  void ignoreMissingPartner(Side side);
 
   /// Images dropped without a partner or with a repeated stamp.
   std::uint64_t unmatched() const { return left_.unmatched.total() + right_.unmatched.total(); }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMinFeatures = 4;
 
-/// As many tell the motion that most agree on; all of them take several times as long.
+/// As many determine the motion that most agree on; all of them take several times as long.
 constexpr std::size_t kMaxFeatures = 200;
 
 constexpr double kConfidence = 0.999;

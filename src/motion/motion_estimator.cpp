@@ -36,15 +36,15 @@ constexpr int kScatterColumns = 8;
 constexpr int kScatterRows = 3;
 
 /// The ratio of the variance of truncated errors to the full variance. The errors are Gaussian in x
-/// and y, and only those shorter than `limit_px` are kept; these have the variance `left_px2` in
-/// each direction. The ratio is g = 1 - x / (e^x - 1) with x = limit^2 / (2 variance).
-double shareOfVariance(double left_px2, double limit_px) {
+/// and y, and only those shorter than `limit_px` are kept; these have the variance `residual_px2`
+/// in each direction. The ratio is g = 1 - x / (e^x - 1) with x = limit^2 / (2 variance).
+double shareOfVariance(double residual_px2, double limit_px) {
   const auto g = [](double x) { return 1.0 - x / std::expm1(x); };
   // If the errors are almost uniform up to the limit, they hardly determine the variance. The lower
   // bound of x therefore limits the growth of the covariance to a factor of 20.
   double low = 0.5;
   double high = 50.0;
-  const double wanted = 2.0 * left_px2 / (limit_px * limit_px);  // g(x) / x, which falls
+  const double wanted = 2.0 * residual_px2 / (limit_px * limit_px);  // g(x) / x, which falls
   for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (low + high);
     (g(middle) / middle > wanted ? low : high) = middle;
@@ -131,8 +131,9 @@ bool estimateCovariance(const MotionEstimatorConfig& config,
           ? shareOfVariance(one.residual_variance, measured.camera.detail_px * kRotationLimit)
           : 1.0;
   const double variance = one.residual_variance / share;
-  const double alike = inflation(full.solve(one.scatter).trace() / 6.0, one.residual_variance);
-  const Matrix6d both = alike * variance / share * full.solve(Matrix6d::Identity());
+  const double correlation_inflation =
+      inflation(full.solve(one.scatter).trace() / 6.0, one.residual_variance);
+  const Matrix6d both = correlation_inflation * variance / share * full.solve(Matrix6d::Identity());
   if (!both.allFinite()) return false;
   motion.covariance = both;
   motion.flow_noise_px = std::sqrt(variance);
@@ -144,9 +145,10 @@ bool estimateCovariance(const MotionEstimatorConfig& config,
   const Eigen::Matrix3d by_rotation = -translation.solve(two.matrix.topRightCorner<3, 3>());
   const Eigen::Matrix3d rotation = both.bottomRightCorner<3, 3>();
   const Eigen::Matrix3d scatter = two.scatter.topLeftCorner<3, 3>();
-  const double alike_two =
+  const double correlation_inflation_of_two =
       inflation(translation.solve(scatter).trace() / 3.0, two.residual_variance);
-  motion.covariance.topLeftCorner<3, 3>() = alike_two * std::max(two.residual_variance, variance) *
+  motion.covariance.topLeftCorner<3, 3>() = correlation_inflation_of_two *
+                                                std::max(two.residual_variance, variance) *
                                                 translation.solve(Eigen::Matrix3d::Identity()) +
                                             by_rotation * rotation * by_rotation.transpose();
   motion.covariance.topRightCorner<3, 3>() = by_rotation * rotation;

@@ -12,7 +12,7 @@
 namespace rotrocc {
 namespace {
 
-/// TinySolver of Ceres 1.14 has no function_tolerance: there it goes on to the other limits.
+/// TinySolver of Ceres 1.14 has no function_tolerance: there it continues to the other limits.
 template <class SolverOptions>
 auto setFunctionTolerance(SolverOptions& options, double tolerance, int)
     -> decltype(options.function_tolerance, void()) {

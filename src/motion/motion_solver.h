@@ -13,8 +13,8 @@ class MotionSolver {
   struct Options {
     double robust_factor = 0.0;  ///< of cauchyWeights() at the start; 0: equal weights
     bool shares_errors = false;  ///< whether to account for errors that features share
-    int minimizations = 1;       ///< each starts, and has weights, at the result of the one before
-    double damping = 1e-4;       ///< at the start, relative to the diagonal of J^T J
+    int minimizations = 1;  ///< each starts, and has weights, at the result of the previous one
+    double damping = 1e-4;  ///< at the start, relative to the diagonal of J^T J
     double min_cost_change_px2 = 2e-6;  ///< stop when a step changes the cost by less
     int max_steps = 19;
   };

@@ -36,7 +36,7 @@ void setOne(const std::string& name, XmlRpc::XmlRpcValue value, ParameterTable& 
     for (int i = 0; i < value.size(); ++i) elements.push_back(textOf(name, value[i]));
     table.setList(name, elements);
   } catch (const std::invalid_argument& error) {
-    throw RefusedParameter(name, error.what());
+    throw RejectedParameter(name, error.what());
   }
 }
 
@@ -50,7 +50,7 @@ bool isOfImageTransport(const std::string& name, const XmlRpc::XmlRpcValue& valu
 
 void requireFrame(const std::string& name, const std::string& frame, bool may_be_empty = false) {
   if (frame.empty() ? may_be_empty : frame.front() != '/') return;
-  throw RefusedParameter(
+  throw RejectedParameter(
       name,
       "parameter " + name + " is \"" + frame + "\", but must be a tf frame without leading slash");
 }
@@ -60,7 +60,7 @@ void requireDifferent(const std::string& name,
                       const std::string& other_name,
                       const std::string& other_frame) {
   if (frame != other_frame) return;
-  throw RefusedParameter(
+  throw RejectedParameter(
       name,
       "parameters " + name + " and " + other_name + " are both \"" + frame + "\", but must differ");
 }
@@ -71,7 +71,7 @@ Parameters readParameters(const ros::NodeHandle& private_nh) {
   const std::string& ns = private_nh.getNamespace();
   Parameters parameters;
   ParameterTable table = makeParameterTable(parameters);
-  const auto refuse = [&ns](const std::string& name, const std::string& why) {
+  const auto reject = [&ns](const std::string& name, const std::string& why) {
     // Parameters stay on the server when a node ends, so the user may not know of this one.
     throw std::invalid_argument(why + ". If it is left from an earlier run: rosparam delete " + ns +
                                 "/" + name);
@@ -80,8 +80,8 @@ Parameters readParameters(const ros::NodeHandle& private_nh) {
     XmlRpc::XmlRpcValue tree;
     if (private_nh.getParam(ns, tree)) setParameters(tree, table);
     requireFrames(parameters.node);
-  } catch (const RefusedParameter& error) {
-    refuse(error.name(), error.what());
+  } catch (const RejectedParameter& error) {
+    reject(error.name(), error.what());
   }
   return parameters;
 }
@@ -95,7 +95,7 @@ void requireFrames(const NodeParameters& node) {
   requireDifferent("guess_frame", node.guess_frame, "odom_frame", node.odom_frame);
   requireDifferent("guess_frame", node.guess_frame, "base_frame", node.base_frame);
   if (!node.guess_frame.empty() && node.invert_tf) {
-    throw RefusedParameter(
+    throw RejectedParameter(
         "invert_tf",
         "parameter invert_tf cannot be combined with guess_frame: the published transform is then "
         "odom_frame to guess_frame");

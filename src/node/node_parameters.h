@@ -11,9 +11,9 @@
 namespace rotrocc {
 
 /// A parameter that is unknown, invalid or in conflict with another one.
-class RefusedParameter : public std::invalid_argument {
+class RejectedParameter : public std::invalid_argument {
  public:
-  RefusedParameter(const std::string& name, const std::string& why)
+  RejectedParameter(const std::string& name, const std::string& why)
       : std::invalid_argument(why), name_(name) {}
 
   const std::string& name() const { return name_; }
@@ -27,11 +27,11 @@ class RefusedParameter : public std::invalid_argument {
 /// the parameter from the server.
 Parameters readParameters(const ros::NodeHandle& private_nh);
 
-/// Throws RefusedParameter with the name on invalid or conflicting frames.
+/// Throws RejectedParameter with the name on invalid or conflicting frames.
 void requireFrames(const NodeParameters& node);
 
 /// Sets every parameter of `tree`, whose structs are the sections of the table, but for those that
-/// libraries read; or those below the section or parameter `name`. Throws RefusedParameter with
+/// libraries read; or those below the section or parameter `name`. Throws RejectedParameter with
 /// name and range on an unknown parameter, a wrong type or a value out of range.
 void setParameters(XmlRpc::XmlRpcValue tree, ParameterTable& table, const std::string& name = "");
 

@@ -27,7 +27,7 @@ ros::ServiceServer serve(ros::NodeHandle& nh,
     } catch (const std::exception& error) {
       response.message = error.what();
       response.success = false;
-      log.warn(name + " refused: " + response.message);
+      log.warn(name + " rejected: " + response.message);
     }
     return true;
   });

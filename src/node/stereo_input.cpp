@@ -39,7 +39,7 @@ StereoInput::StereoInput(ros::NodeHandle& nh,
                          StereoIntake::PairHandler on_pair,
                          const Log& log)
     : log_(log),
-      silence_(parameters.silence_s, std::chrono::steady_clock::now(), log),
+      silence_(parameters.no_input_warning_s, std::chrono::steady_clock::now(), log),
       intake_(
           parameters,
           drops,
@@ -97,19 +97,20 @@ InputReport StereoInput::report() {
   addTopic(right_.info, report.right_info);
   report.clock_missing = ros::Time::isSimTime() && asked.clock_ns == 0;
   silence_.onTick(report, asked);
-  tellOnce(report);
+  logOnce(report);
   return report;
 }
 
 /// What only the user knows to be right.
-void StereoInput::tellOnce(const InputReport& report) {
+void StereoInput::logOnce(const InputReport& report) {
   const std::string& topic = report.left_image.topic;
-  if (report.has_raw_infos && !isRectifiedByName(topic) && !std::exchange(told_raw_infos_, true)) {
+  if (report.has_raw_infos && !isRectifiedByName(topic) &&
+      !std::exchange(logged_raw_infos_, true)) {
     log_.warn(topic + " is taken as rectified, but is not named image_rect, and " +
               report.left_info.topic + " is of raw images: set rectify if they are raw");
   }
-  if (isOfAnotherClock(report) && !std::exchange(told_clock_, true)) {
-    log_.warn("the stamps of " + topic + " are of another clock, " +
+  if (isOfAnotherClock(report) && !std::exchange(logged_clock_, true)) {
+    log_.warn("the stamps of " + topic + " are from another clock, " +
               fixedText(*report.stamp_age_s, 0) +
               " s behind that of this machine, and so are odometry and tf: synchronize the clocks, "
               "or play bags with --clock and use_sim_time");

@@ -36,11 +36,11 @@ class StereoInput {
                         const NodeParameters& parameters,
                         StereoIntake::Side side);
 
-  void tellOnce(const InputReport& report);
+  void logOnce(const InputReport& report);
 
   Log log_;
-  bool told_raw_infos_ = false;
-  bool told_clock_ = false;
+  bool logged_raw_infos_ = false;
+  bool logged_clock_ = false;
   SilenceWatch silence_;
   StereoIntake intake_;
   Subscribers left_, right_;  // last, so that callbacks end before the other members are destroyed

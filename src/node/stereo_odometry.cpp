@@ -51,7 +51,7 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
       tf_([this](const TfReceiver::Event& event, bool is_static) {
         if (tf_conflict_) tf_conflict_->onTf(event, is_static);
       }),
-      camera_pose_(tf_.buffer(), parameters_.base_frame, parameters_.mount_timeout_s, log_),
+      camera_pose_(tf_.buffer(), parameters_.base_frame, parameters_.transform_timeout_s, log_),
       publisher_(nh, parameters_),
       trajectory_(
           static_cast<std::size_t>(parameters_.trajectory_length),

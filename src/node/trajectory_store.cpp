@@ -45,7 +45,7 @@ TrajectoryStore::TrajectoryStore(std::size_t max_length,
       format_(trajectoryFormat(format)),
       body_(body),
       poses_(max_length) {
-  // A wrong path is refused at the start; the file comes with the first pose, as one without is
+  // A wrong path is rejected at the start; the file comes with the first pose, as one without is
   // invalid.
   if (!path_.empty()) requireFile(path_);
 }

@@ -23,7 +23,7 @@ std::string toText(const T& value) {
   return text.str();
 }
 
-[[noreturn]] void refuse(const std::string& text, const std::string& wanted) {
+[[noreturn]] void reject(const std::string& text, const std::string& wanted) {
   throw std::invalid_argument("is \"" + text + "\", but must be " + wanted);
 }
 
@@ -33,7 +33,7 @@ void parse(const std::string& text, const std::string& wanted, T&... values) {
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
   if (!((stream >> std::boolalpha) >> ... >> values) || !(stream >> std::ws).eof()) {
-    refuse(text, wanted);
+    reject(text, wanted);
   }
 }
 
@@ -98,7 +98,7 @@ ParameterTable::Parameter& ParameterTable::add(const std::string& leaf,
   parameter.range = choices.empty() ? "any text" : "one of " + boost::join(choices, ", ");
   parameter.set = [&value, choices, range = parameter.range](const std::string& text) {
     if (!choices.empty() && std::find(choices.begin(), choices.end(), text) == choices.end()) {
-      refuse(text, range);
+      reject(text, range);
     }
     value = text;
   };

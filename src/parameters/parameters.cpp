@@ -22,16 +22,16 @@ void addNode(NodeParameters& n, ParameterTable& table) {
   table.add("planar", n.planar).description = "restrict the motion of base_frame to x, y and yaw";
   table.add("initial_pose", n.initial_pose, "m, rad").description =
       "x y z roll pitch yaw of base_frame in odom_frame at the first pair, also after a reset";
-  table.add("mount_timeout_s", n.mount_timeout_s, {0.0, 10.0, "s"}).description =
-      "how long a pair waits for the transform of a camera that moves on the robot; without it, "
-      "the "
+  table.add("transform_timeout_s", n.transform_timeout_s, {0.0, 10.0, "s"}).description =
+      "longest wait of a pair for the transform of a moving camera mount; without a transform the "
       "pair is dropped";
   table.add("guess_frame", n.guess_frame).description =
       "odom frame of another odometry in tf, used as motion prediction; odom_frame -> guess_frame "
       "is then broadcast; none if empty";
   table.add("use_imu", n.use_imu).description =
-      "predict rotations by the gyroscope of the topic imu, whose frame must be in tf; if the "
-      "robot rests, its accelerations level the first pose, unless initial_pose has roll or pitch";
+      "predict rotations with the gyroscope on the topic imu, whose frame must be in tf; while the "
+      "robot is stationary, its accelerations level the first pose, unless initial_pose has roll "
+      "or pitch";
   table.add("rectify", n.rectify).description =
       "subscribe to left/image_raw and right/image_raw instead of image_rect, and rectify by K, "
       "D, R and P of camera_info";
@@ -42,7 +42,7 @@ void addNode(NodeParameters& n, ParameterTable& table) {
   table.add("queue_size", n.queue_size, {1, 100}).description = "unmatched images kept per side";
   auto& bits = table.add("significant_bits", n.significant_bits, {0, 16});
   bits.description =
-      "bits that 16-bit images use, 8 or more, e.g. 10 or 12; 0: found from the images";
+      "bits used by 16-bit images, 8 or more, e.g. 10 or 12; 0: detect from the images";
   bits.set = [&value = n.significant_bits, set = bits.set](const std::string& text) {
     const int before = value;
     set(text);
@@ -51,24 +51,23 @@ void addNode(NodeParameters& n, ParameterTable& table) {
     throw std::invalid_argument("is " + text + ", but must be 0 or in [8, 16]");
   };
   table.add("mask", n.mask).description =
-      "PNG file of the size of the images, not black where they have no features, e.g. on the "
-      "robot itself; %s in its name is replaced by left and right; none if empty";
+      "image-sized PNG file, not black where features are not allowed, e.g. on the robot itself; "
+      "%s in its name is replaced by left and right; none if empty";
   table.add("baseline_m", n.baseline_m, {0.0, 100.0, "m"}).description =
       "baseline, if camera_info has none in P[3]; 0: use P[3]";
-  table.add("pose_after_time_jump", n.pose_after_time_jump, {"keep", "zero"}).description =
-      "pose after time jumps back, e.g. with a looping bag; zero is initial_pose";
-  table.add("silence_s", n.silence_s, {0.5, 3600.0, "s"}).description =
-      "time without a stereo pair until the log reports the received input and a remedy";
+  table.add("pose_after_time_jump", n.pose_after_time_jump, {"keep", "initial"}).description =
+      "pose after time jumps back, e.g. with a looping bag; initial: initial_pose";
+  table.add("no_input_warning_s", n.no_input_warning_s, {0.5, 3600.0, "s"}).description =
+      "time without a stereo pair before the log reports the received input and a remedy";
   table.add("path_rate_hz", n.path_rate_hz, {0.01, 1000.0, "Hz"}).description =
-      "rate of the path topic, at most, in real time";
+      "maximum rate of the path topic, in real time";
   table.add("while_lost", n.while_lost, {"hold", "silent", "unknown"}).description =
-      "what is published while the motion is lost: the pose held, with growing covariance; neither "
-      "tf nor odom; or odom with a zero pose of variance 9999, without tf";
+      "output while tracking is lost: hold: the last pose with growing covariance; silent: neither "
+      "tf nor odom; unknown: odom with a zero pose of variance 9999, no tf";
   table.add("reset_after_lost_s", n.reset_after_lost_s, {0.0, 1e6, "s"}).description =
-      "the estimator restarts with the next pair after it was lost for this time; 0: it only goes "
-      "on trying";
-  table.add("pose_after_lost", n.pose_after_lost, {"keep", "zero"}).description =
-      "pose after reset_after_lost_s; zero is initial_pose";
+      "restart the estimator with the next pair after being lost this long; 0: keep trying instead";
+  table.add("pose_after_lost", n.pose_after_lost, {"keep", "initial"}).description =
+      "pose after reset_after_lost_s; initial: initial_pose";
   table.add("trajectory_length", n.trajectory_length, {1, 10000000}).description =
       "number of poses kept for the service save_trajectory";
   table.add("trajectory_file", n.trajectory_file).description =
@@ -77,7 +76,7 @@ void addNode(NodeParameters& n, ParameterTable& table) {
   table.add("trajectory_format", n.trajectory_format, {"tum", "kitti"}).description =
       "format of trajectory_file";
   table.add("trajectory_frame", n.trajectory_frame, {"camera", "base"}).description =
-      "whose poses trajectory_file and save_trajectory have: the left camera's, or base_frame's";
+      "body whose poses trajectory_file and save_trajectory contain: the left camera or base_frame";
 }
 
 void addOdometry(OdometryConfig& c, ParameterTable& table) {
@@ -86,13 +85,13 @@ void addOdometry(OdometryConfig& c, ParameterTable& table) {
   table.add("max_features", finder.feature_detector.max_features, {50, 20000}).description =
       "number of features: a corner without a disparity is replaced by the next one";
   table.add("min_halvings", finder.feature_detector.min_halvings, {0, 2}).description =
-      "least number of times that images are halved, as long as the windows of max_features fit "
+      "minimum number of times that images are halved, as long as the windows of max_features fit "
       "side by side: less time, larger errors; not with method: paper";
 
   StereoMatcherConfig& matcher = finder.stereo_matcher;
   table.beginSection("stereo_matcher");
   table.add("nearest_baselines", matcher.nearest_baselines, {0.1, 100.0}).description =
-      "depth of the nearest points that are matched, in baselines of the cameras";
+      "depth of the nearest matched points, as a multiple of the baseline";
 
   table.beginSection("feature_tracker");
   table.add("window_radius_px", finder.feature_tracker.window_radius_px, {2, 25, "px"})
@@ -119,11 +118,11 @@ void addOdometry(OdometryConfig& c, ParameterTable& table) {
   table.add("scale_share", c.systematic_error.scale_share, {0.0, 1.0}).description =
       "relative standard deviation of the scale of motions, from baseline and focal length";
   table.add("axes_rad", c.systematic_error.axes_rad, {0.0, 1.0, "rad"}).description =
-      "standard deviation of the camera's axes, from mount and rectification: they turn each "
+      "standard deviation of the camera's axes, from mount and rectification: they rotate each "
       "motion";
   table.add("common_share", c.systematic_error.common_share, {0.0, 1.0}).description =
-      "share of the flow noise's variance that is common to all features, from lenses and "
-      "compression: it limits how many features average out";
+      "fraction of the flow noise variance that all features share, from lenses and compression: "
+      "it limits how well features average out";
 
   table.beginSection("visual_odometry");
   table.add("method", c.method, methodNames()).description =
@@ -131,8 +130,8 @@ void addOdometry(OdometryConfig& c, ParameterTable& table) {
   table.add("threads", c.threads, {1, 16}).description =
       "threads per pair, including the calling one; results do not depend on it";
   table.add("max_tries", c.max_tries, {1, 20}).description =
-      "largest number of tries from each earlier frame: each tracks the features and estimates the "
-      "motion";
+      "maximum number of attempts from each earlier frame: each tracks the features and estimates "
+      "the motion";
 }
 
 /// Sets every scalar and list below `node`; `prefix` is the name of `node`.

@@ -180,7 +180,7 @@ bool KittiPlayer::readMessage(RecordedMessage& message) const {
     try {
       return recording_->next(message);
     } catch (const InputError& error) {
-      ROS_WARN("an image is left out: %s", error.what());
+      ROS_WARN("skipped an image: %s", error.what());
     }
   }
 }
@@ -191,7 +191,7 @@ bool KittiPlayer::waitForRecording() const {
   while (!recording_->hasNext()) {
     if (stopped()) return false;
     if (WallClock::now() > deadline) {
-      throw std::runtime_error("no further pair was written within " +
+      throw std::runtime_error("no further pair was written for " +
                                toText(options_.image_timeout_s) +
                                " s (image_timeout_s): is the program that writes them running?");
     }

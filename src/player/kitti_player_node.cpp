@@ -14,7 +14,7 @@ const char* const kUsage =
     "Replays a stereo recording for an odometry, with /clock.\n\n"
     "example: rosrun rotrocc kitti_player _bag:=06.bag _rate:=2\n"
     "usage:   kitti_player _bag:=RECORDING [_PARAMETER:=VALUE...]\n\n"
-    "It needs a ROS master with use_sim_time; kitti.launch starts all of it, with odometry and "
+    "It needs a ROS master with use_sim_time; replay.launch starts all of it, with odometry and "
     "rviz.\n";
 
 }  // namespace

@@ -33,7 +33,7 @@ std::string OdometryMonitor::summary() const {
   text << pairs_expected_ << " pairs played, " << pairs_answered_ << " answered, " << pairs_lost_
        << " lost, " << pairs_expected_ - pairs_answered_ << " dropped, " << std::fixed
        << std::setprecision(1) << latency_sum_.count() / std::max(pairs_answered_, 1)
-       << " ms from pair to answer";
+       << " ms from pair to result";
   return text.str();
 }
 

@@ -31,7 +31,7 @@ class OdometryMonitor {
   /// Discards pairs without an answer, e.g. when time jumps back.
   void restart();
 
-  /// "51 pairs played, 51 answered, 0 lost, 0 dropped, 9.8 ms from pair to answer". The answer is
+  /// "51 pairs played, 51 answered, 0 lost, 0 dropped, 9.8 ms from pair to result". The answer is
   /// the odometry, or for a lost pair the status: there may be no odometry then. Dropped pairs have
   /// none.
   std::string summary() const;

@@ -19,11 +19,11 @@ void visitOptions(PlayerOptions& options, const Visitor& visit) {
   visit("rate", options.rate, "times as fast as recorded; 0: as fast as possible");
   visit("start", options.start, "offset from the start of the recording [s]");
   visit("duration", options.duration, "duration to play [s]; 0: to the end");
-  visit("loop", options.loop, "true: repeats the recording");
+  visit("loop", options.loop, "true: repeat the recording");
   visit("paused", options.paused, "true: starts paused");
   visit("lockstep_timeout_s",
         options.lockstep_timeout_s,
-        "longest wait for the odometry of each pair [s]; 0: does not wait");
+        "longest wait for the odometry of each pair [s]; 0: do not wait");
   visit("rectify", options.rectify, "true: raw images, for an odometry that rectifies them");
   visit("left_image",
         options.left_image,

@@ -14,7 +14,7 @@ namespace rotrocc {
 /// one to the other once in 300 pairs on average.
 ///
 /// Errors that neighboring features share do not average out over a drive as noise does. Some
-/// stay with the rig, as those of a lens, and cannot be told from a bias, so their variance is
+/// stay with the rig, as those of a lens, and cannot be separated from a bias, so their variance is
 /// added to that of the estimate; others pass with the scene, as noise. Their size is estimated
 /// from the disagreement of the parts of the image; it starts from a typical one of real rigs.
 ///

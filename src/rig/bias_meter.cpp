@@ -142,7 +142,7 @@ std::optional<BiasMeasurement> BiasMeter::describe() {
   const WeightedVariance variance = linearize();
   const Equations reweighted = sumEquations();
   // The curvature of reweighted least squares never overshoots. That which the robust cost has on
-  // average, from the squared weights (see motion_estimator.cpp), tells the uncertainty.
+  // average, from the squared weights (see motion_estimator.cpp), gives the uncertainty.
   problem_.squareWeights();
   Equations expected = sumEquations();
   expected.common_residual = reweighted.common_residual;

@@ -19,9 +19,9 @@ class RowComparison {
   /// Adds the vertical offsets of single features [px], positive if lower in the right image.
   void observe(const std::vector<float>& differences_px);
 
-  /// Whether the features are enough to tell a notable offset from none. Until they are, features
-  /// must have been searched in several rows, or near an offset to which isNear() applies. Near a
-  /// wrong one, only those are found that seem to agree with it.
+  /// Whether the features are enough to separate a notable offset from none. Until they are,
+  /// features must have been searched in several rows, or near an offset to which isNear() applies.
+  /// Near a wrong one, only those are found that seem to agree with it.
   bool isKnown() const;
 
   /// Whether the median is within half a row of `offset_px`.

@@ -140,7 +140,7 @@ StereoCalibration readSensors(const Files& files, const StereoFileOptions&) {
 }
 
 StereoCalibration readInfos(const Files& files, const StereoFileOptions& options) {
-  const sensor_msgs::CameraInfo left = infoOf(files[0]);  // its faults are told first
+  const sensor_msgs::CameraInfo left = infoOf(files[0]);  // its faults are reported first
   return toStereoCalibration(left, infoOf(files[1]), options.baseline_m);
 }
 
@@ -235,7 +235,7 @@ bool hasAll(const YamlMap& file, const std::string& keys) {
   return true;
 }
 
-[[noreturn]] void refuseFiles(const std::vector<std::string>& paths) {
+[[noreturn]] void rejectFiles(const std::vector<std::string>& paths) {
   std::string known;
   for (const auto& reader : kReaders) {
     if (known.find(reader.name) != std::string::npos) continue;
@@ -251,7 +251,7 @@ bool hasAll(const YamlMap& file, const std::string& keys) {
 
 StereoCalibration readStereoCalibration(const std::vector<std::string>& paths,
                                         const StereoFileOptions& options) {
-  if (paths.empty() || paths.size() > 2) refuseFiles(paths);
+  if (paths.empty() || paths.size() > 2) rejectFiles(paths);
   Files files;
   for (const std::string& path : paths) files.emplace_back(path);
   try {
@@ -264,7 +264,7 @@ StereoCalibration readStereoCalibration(const std::vector<std::string>& paths,
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(boost::algorithm::join(paths, " and ") + ": " + error.what());
   }
-  refuseFiles(paths);
+  rejectFiles(paths);
 }
 
 sensor_msgs::CameraInfo readCameraInfo(const std::string& path) {

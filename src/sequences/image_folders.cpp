@@ -148,8 +148,8 @@ ImagePairs pairsByName(const std::vector<std::string>& left,
     if (left.size() != right.size()) {
       throw std::runtime_error(
           left.front() + " and " + right.front() +
-          cv::format(" begin %zu left and %zu right images that share no names: which of them are "
-                     "pairs is not known; name both images of a pair alike",
+          cv::format(" begin %zu left and %zu right images that share no names, so it is unknown "
+                     "which are pairs; give both images of a pair the same name",
                      left.size(),
                      right.size()));
     }

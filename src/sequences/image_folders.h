@@ -16,7 +16,7 @@ std::vector<std::string> listImages(const std::string& folder);
 ///   image, or for each pair, see readTimes(). Images of the same number or name are a pair, or
 ///   where no names are shared, those at the same place in folders of as many images.
 ///   Without `times`, the names are the times of the images: seconds with a dot, else nanoseconds
-///   or what their digits tell, see imageStamps(). Images of the same time are a pair, as in
+///   or what their digits imply, see imageStamps(). Images of the same time are a pair, as in
 ///   ImagePairs.
 /// Throws std::runtime_error with names, counts and a remedy if that leaves more than one choice.
 ImagePairs pairFolders(const std::string& left,

@@ -22,14 +22,14 @@ using namespace rotrocc;
 
 const std::string kUsage =
     std::string(
-        "Checks calibration, exposure, focus and stamps of a stereo rig, by a minute of motion.\n\n"
+        "Checks stereo calibration, exposure, focus and timestamps from a minute of motion.\n\n"
         "example: check_rig drive.bag --report check\n"
         "usage:   check_rig RECORDING... [options]\n"
         "\n"
         "RECORDING ") +
     kRecordingHelp +
     "\n"
-    "The exit status is 0 if nothing is to be fixed, and 3 otherwise.\n\n";
+    "Exits with 0 if nothing needs fixing, with 3 otherwise.\n\n";
 
 struct Options {
   InputOptions input;

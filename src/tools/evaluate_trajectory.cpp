@@ -71,7 +71,7 @@ bool parse(int argc, char** argv, Options& options) {
 
   add("align-frames",
       po::bool_switch(&options.align_frames),
-      "take out a constant rotation and lever arm between the bodies of GT and EST, e.g. base and "
+      "remove a constant rotation and lever arm between the bodies of GT and EST, e.g. base and "
       "camera");
 
   po::options_description output("Output");
@@ -269,7 +269,7 @@ void alignFrames(const Options& options, MatchedTrajectories& matched) {
   if (options.align_frames) {
     matched.estimate = withFrame(matched.estimate, alignment);
     std::cerr << "evaluate_trajectory: the body of GT is " << alignment.describe()
-              << " in the frame of EST, which is taken out\n";
+              << " in the frame of EST, which is removed\n";
   } else if (alignment.isNeeded()) {
     std::cerr << "evaluate_trajectory: EST is of another body than GT, which is "
               << alignment.describe()

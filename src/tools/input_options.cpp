@@ -29,8 +29,8 @@ po::options_description imageOptions(InputOptions& options) {
   add("right-image", po::value(&options.recording.right_image), "topic of the right images");
   add("rectify",
       withDefault(options.rectify),
-      "by K, D, R and P of camera_info: yes, no, or auto: if the topic is not named image_rect or "
-      "alike, and camera_info describes raw images");
+      "with K, D, R and P of camera_info: yes, no, or auto (if the topic is not named "
+      "image_rect..., and camera_info describes raw images)");
   add("calibration",
       po::value(&options.recording.sequence.calibration)->multitoken(),
       "files in place of the recorded calibration, the left camera's first: of camera_calibration, "

@@ -42,8 +42,7 @@ const std::string kUsage =
         "example: offline_odometry dataset/sequences/06 --trajectory 06.txt --stats 06.csv\n"
         "usage:   offline_odometry INPUT... --trajectory OUT.txt [options]\n\n"
         "INPUT ") +
-    kRecordingHelp +
-    "Images that are not rectified are. What cannot be used is dropped and counted.\n\n";
+    kRecordingHelp + "Unrectified images are rectified, unusable ones dropped and counted.\n\n";
 
 struct Options {
   InputOptions input;
@@ -60,7 +59,7 @@ bool parse(int argc, char** argv, Options& options) {
   add("format", withDefault(options.output.format), "kitti or tum");
   add("frame",
       withDefault(options.output.frame),
-      "whose poses the trajectory has, relative to the first one: camera (the left one), or base");
+      "body whose poses are written, relative to the first pose: camera (the left one) or base");
   add("mount",
       po::value(&options.output.mount),
       "\"x y z qx qy qz qw\" of the left camera's optical frame on the base, in place of that of "
@@ -76,7 +75,7 @@ bool parse(int argc, char** argv, Options& options) {
   add = gyroscope.add_options();
   add("imu",
       po::value(&options.imu),
-      "gyroscope that predicts rotations: a CSV file (timestamp [ns], three angular velocities "
+      "gyroscope to predict rotations: a CSV file (timestamp [ns], three angular velocities "
       "[rad/s] in axes of the left camera, ...), a topic of sensor_msgs/Imu in a bag, with its "
       "axes "
       "from tf, or a folder of an ASL sequence, as imu0, with its axes from sensor.yaml");
@@ -140,7 +139,7 @@ class RecordedGyro {
                       bias.z(),
                       std::sqrt(predictor_.bias().covariance().trace()));
     if (counts.missed > 0) out << "  last one missed: " << why_missed_ << '\n';
-    if (counts.refused > 0) out << "  " << counts.refused << " samples refused\n";
+    if (counts.rejected > 0) out << "  " << counts.rejected << " samples rejected\n";
   }
 
  private:
@@ -263,7 +262,7 @@ void run(const Options& options) {
     std::cout << "left out: " << left_out << "; pairs are within "
               << parameters.node.max_stamp_difference_s << " s (max_stamp_difference_s)"
               << (options.output.format == "kitti"
-                      ? "; lines of the trajectory are not those of the images: use --format tum\n"
+                      ? "; trajectory lines do not match image numbers: use --format tum\n"
                       : "\n");
   }
   outputs.requireMotion();

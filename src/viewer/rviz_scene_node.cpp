@@ -13,10 +13,11 @@ namespace {
 using namespace rotrocc;
 
 const char* const kHelp =
-    "Makes what rviz shows of the trajectory as a whole: its lines, state and speed in words.\n\n"
+    "Publishes the rviz overview of a trajectory: its lines, state and speed in words.\n\n"
     "example: ROS_NAMESPACE=camera rosrun rotrocc rviz_scene\n"
     "usage:   rviz_scene [_least_size_m:=METERS] [TOPIC:=TOPIC...]\n\n"
-    "From odom, status and ground_truth/path it makes the markers `scene`, and in tf the frame\n"
+    "From odom, status and ground_truth/path it publishes the markers `scene`, and in tf the "
+    "frame\n"
     "trajectory_view/NAMESPACE, which moves back as the path grows. The launch files start it with "
     "rviz.\n\n"
     "Parameters:\n"

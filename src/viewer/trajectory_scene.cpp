@@ -118,7 +118,7 @@ void TrajectoryScene::add(const nav_msgs::Odometry& odometry) {
   keepLast();
 }
 
-/// Adds the last pose to the way if it tells something new.
+/// Adds the last pose to the way if it shows something new.
 void TrajectoryScene::keepLast() {
   const WayPoint point = {toEigen(last_.pose.pose.position), status_.state};
   keeps_last_ = way_.empty() || way_.back().state != point.state ||

@@ -105,7 +105,7 @@ TEST_F(SequenceBagTest, LeavesNothingUnfinished) {
   EXPECT_FALSE(std::filesystem::exists(directory_ / "cut.bag.part"));
 }
 
-TEST_F(SequenceBagTest, RefusesStampsThatRosHasNot) {
+TEST_F(SequenceBagTest, RejectsStampsThatRosHasNot) {
   directory_.write("sequence/times.txt", "5000000000\n5000000001\n5000000002\n5000000003\n");
   expectError<std::invalid_argument>([&] { SequenceRecording(directory_ / "sequence", {}); },
                                      "out of the range of ROS");

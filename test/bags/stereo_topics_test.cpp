@@ -95,18 +95,18 @@ TEST(FindStereoTopics, FindsThePair) {
 }
 
 TEST(FindStereoTopics, ListsTopicsWhenItCannotChoose) {
-  const auto expectRefused = [](const TopicTypes& types, const std::vector<std::string>& parts) {
+  const auto expectRejected = [](const TopicTypes& types, const std::vector<std::string>& parts) {
     for (const std::string& part : parts) {
       expectError<std::runtime_error>([&] { findStereoTopics(types); }, part);
     }
   };
-  expectRefused(withInfos(pairs({"/front/*/image_rect", "/rear/*/image_rect"})),
-                {"more than one stereo pair", "/rear/left/image_rect"});
-  expectRefused(withInfos({"/cam0/image_rect"}), {"no stereo pair", "/cam0/image_rect"});
-  expectRefused({}, {"image topics: none"});
+  expectRejected(withInfos(pairs({"/front/*/image_rect", "/rear/*/image_rect"})),
+                 {"more than one stereo pair", "/rear/left/image_rect"});
+  expectRejected(withInfos({"/cam0/image_rect"}), {"no stereo pair", "/cam0/image_rect"});
+  expectRejected({}, {"image topics: none"});
   TopicTypes without_info = withInfos(pairs({"/stereo/*/image_rect"}));
   without_info.erase("/stereo/right/camera_info");
-  expectRefused(without_info, {"no stereo pair"});
+  expectRejected(without_info, {"no stereo pair"});
 }
 
 TEST(FindStereoTopics, KnowsOtherNamesOfTheCameras) {

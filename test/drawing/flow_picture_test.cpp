@@ -121,7 +121,7 @@ TEST_F(FlowPictureTest, AnOutlierShowsWhatFlowTheMotionExpected) {
   EXPECT_EQ(colorAt(320, 150), cv::Vec3b(65, 65, 65)) << "without a motion nothing is expected";
 }
 
-TEST_F(FlowPictureTest, RefusesWhatDoesNotFit) {
+TEST_F(FlowPictureTest, RejectsWhatDoesNotFit) {
   rotation_inliers_.pop_back();
   expectError<std::invalid_argument>([&] { draw(); }, "4 features, but 3 inlier flags");
   pair_.left = cv::Mat();

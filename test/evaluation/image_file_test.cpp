@@ -58,7 +58,7 @@ TEST_F(ImageFileTest, NamesWhatIsNoImage) {
       "\0\0\0\rIHDR\0\1\0\0\0\1\0\0\1\0\0\0\0\x44\xff\x0d\x4e"
       "\0\0\0\1IDAT",
       41);
-  const auto expectRefused = [&](const std::string& name, const std::string& part) {
+  const auto expectRejected = [&](const std::string& name, const std::string& part) {
     expectError<std::runtime_error>([&] { readGrayImage(directory_ / name); }, name + part);
   };
   for (const std::string& bytes : {std::string(),
@@ -67,11 +67,11 @@ TEST_F(ImageFileTest, NamesWhatIsNoImage) {
                                    image.substr(0, image.size() / 2),
                                    header_of_too_many_pixels}) {
     directory_.write("a.png", bytes);
-    expectRefused("a.png", " is not a readable image: is it damaged, or no image? Copy it again");
+    expectRejected("a.png", " is not a readable image: is it damaged, or no image? Copy it again");
   }
   std::filesystem::create_directory(directory_ / "folder.png");
-  expectRefused("folder.png", " is not a readable image");
-  expectRefused("none.png", " is missing");
+  expectRejected("folder.png", " is not a readable image");
+  expectRejected("none.png", " is missing");
 }
 
 TEST_F(ImageFileTest, ReportsWhatItCannotWrite) {

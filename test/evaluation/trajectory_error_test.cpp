@@ -62,7 +62,7 @@ TEST(SegmentErrorsTest, ShortPathsGetShortSegments) {
   EXPECT_EQ(clip.step, 1);
 }
 
-TEST(SegmentErrorsTest, RefuseBadInput) {
+TEST(SegmentErrorsTest, RejectBadInput) {
   const Trajectory trajectory = drive(3, 1.0);
   const MatchedTrajectories matched{trajectory, trajectory};
   expectError<std::invalid_argument>([&] { segmentErrors(matched, {{0.0}, 1}); }, "length 0 m");

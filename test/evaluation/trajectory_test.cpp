@@ -119,7 +119,7 @@ TEST_F(TrajectoryTest, RemovesTheRoundingOfPrintedRotations) {
   EXPECT_NEAR(std::atan2(rotation(0, 2), rotation(0, 0)), 20.0 * M_PI / 180.0, 1e-4);
 }
 
-TEST_F(TrajectoryTest, RefusesWhatIsNoTrajectory) {
+TEST_F(TrajectoryTest, RejectsWhatIsNoTrajectory) {
   const std::pair<std::string, const char*> rows[] = {
       {"1.1 0 0 0 0 1 0 0 0 0 1 0\n", "bad.txt:1: the left 3x3 part is not a rotation"},
       {"-1 0 0 0 0 1 0 0 0 0 1 0\n", "a reflection"},

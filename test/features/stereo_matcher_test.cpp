@@ -165,7 +165,7 @@ TEST(StereoMatcherTest, MatchNearLooksNoFurtherThanTold) {
   EXPECT_EQ(matchNear(left, right, {150.0F, 40.0F}, kNone), kNone);
 }
 
-TEST(StereoMatcherTest, RefusesWhatIsAmbiguous) {
+TEST(StereoMatcherTest, RejectsWhatIsAmbiguous) {
   // Stripes with a spacing of 12 px match at disparities 12 px apart.
   cv::Mat left(80, 300, CV_8UC1);
   for (int x = 0; x < left.cols; ++x) left.col(x).setTo(x % 12 < 6 ? 60 : 200);
@@ -180,7 +180,7 @@ TEST(StereoMatcherTest, RefusesWhatIsAmbiguous) {
   EXPECT_NEAR(matchNear(left, left, {150.0F, 40.0F}, 11.0F), 12.0F, kPeakLocking_px);
 }
 
-TEST(StereoMatcherTest, RefusesWhatLooksDifferent) {
+TEST(StereoMatcherTest, RejectsWhatLooksDifferent) {
   const Pixels pixels = grid(kMiddle, 10);
   const cv::Mat left = exposed(0.0, 1.0, 0.0);
   cv::Scalar mean, deviation;
@@ -230,7 +230,7 @@ TEST(StereoMatcherTest, FindsTheSameDisparitiesAtAnotherExposure) {
   }
 }
 
-TEST(StereoMatcherTest, RefusesTheTooNearAndTheTooFar) {
+TEST(StereoMatcherTest, RejectsTheTooNearAndTheTooFar) {
   StereoMatcher::Config config;
   config.nearest_baselines = kFocal_px / 40.0;
   config.min_disparity_px = 5.0;
@@ -250,7 +250,7 @@ TEST(StereoMatcherTest, RefusesTheTooNearAndTheTooFar) {
   }
 }
 
-TEST(StereoMatcherTest, RefusesPixelsWhoseWindowLeavesTheImage) {
+TEST(StereoMatcherTest, RejectsPixelsWhoseWindowLeavesTheImage) {
   const cv::Mat left = texture().image(0.0);
   const cv::Mat right = texture().image(10.0);
   for (const cv::Point2f pixel : {cv::Point2f(2, 40),

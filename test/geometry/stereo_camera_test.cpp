@@ -54,21 +54,21 @@ TEST(StereoCameraTest, APointAtInfinityHasTheDifferenceOfThePrincipalPoints) {
 
 TEST(StereoCameraTest, CheckNamesTheValueThatIsWrong) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto expect_refused = [](auto member, auto value, const std::string& part) {
+  const auto expect_rejected = [](auto member, auto value, const std::string& part) {
     StereoCamera camera = kittiCamera();
     camera.*member = value;
     expectError<std::invalid_argument>([&] { camera.check(); }, part);
   };
   EXPECT_NO_THROW(kittiCamera().check());
-  expect_refused(&StereoCamera::width, 0, "width is 0");
-  expect_refused(&StereoCamera::height, -3, "height is -3");
-  expect_refused(&StereoCamera::fx, 0.0, "fx is 0");
-  expect_refused(&StereoCamera::fy, nan, "fy is nan");
-  expect_refused(&StereoCamera::cx, nan, "cx is nan");
-  expect_refused(&StereoCamera::cy, nan, "cy is nan");
-  expect_refused(&StereoCamera::cx_right, nan, "cx_right is nan");
-  expect_refused(&StereoCamera::cx_right, 1e300, "cx - cx_right is -1e+300");
-  expect_refused(&StereoCamera::baseline_m, -0.5, "baseline_m is -0.5");
+  expect_rejected(&StereoCamera::width, 0, "width is 0");
+  expect_rejected(&StereoCamera::height, -3, "height is -3");
+  expect_rejected(&StereoCamera::fx, 0.0, "fx is 0");
+  expect_rejected(&StereoCamera::fy, nan, "fy is nan");
+  expect_rejected(&StereoCamera::cx, nan, "cx is nan");
+  expect_rejected(&StereoCamera::cy, nan, "cy is nan");
+  expect_rejected(&StereoCamera::cx_right, nan, "cx_right is nan");
+  expect_rejected(&StereoCamera::cx_right, 1e300, "cx - cx_right is -1e+300");
+  expect_rejected(&StereoCamera::baseline_m, -0.5, "baseline_m is -0.5");
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ TEST(GyroHistoryTest, AddsUpAnglesWhateverTheirAxes) {
   EXPECT_LT(angleBetween(rotation.R_from_to, Eigen::Matrix3d::Identity()), 0.01);
 }
 
-TEST(GyroHistoryTest, TellsWhatIsMissing) {
+TEST(GyroHistoryTest, ReportsWhatIsMissing) {
   EXPECT_EQ(GyroHistory().whyUnknown(0, kMs), "there is no sample");
   GyroHistory history = measured();
   EXPECT_EQ(history.whyUnknown(980 * kMs, 1020 * kMs),
@@ -90,7 +90,7 @@ TEST(GyroHistoryTest, TellsWhatIsMissing) {
   EXPECT_EQ(history.whyUnknown(900 * kMs, 1000 * kMs), std::nullopt);
 }
 
-TEST(GyroHistoryTest, RefusesSamplesThatAreNoNumbersOrOutOfOrder) {
+TEST(GyroHistoryTest, RejectsSamplesThatAreNoNumbersOrOutOfOrder) {
   GyroHistory history = measured();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(history.add({1005 * kMs, {0.0, nan, 0.0}}), "the angular velocity is not a number");

@@ -24,7 +24,7 @@ class Body {
   /// The exact rotation of the camera between two pairs.
   Eigen::Matrix3d step(int pair) const { return camera(pair - 1).transpose() * camera(pair); }
 
-  /// The samples since the pair before, scaled, and the result of the odometry.
+  /// The samples since the previous pair, scaled, and the result of the odometry.
   OdometryResult drive(int pair, GyroPredictor& predictor, double scale = 1.0) {
     addSamples(pair, predictor, scale);
     return see(pair);
@@ -118,17 +118,17 @@ TEST(GyroPredictorTest, SaysWhatIsMissing) {
   EXPECT_EQ(predictor.whyNot(), "there is no sample");
   EXPECT_EQ(predictor.counts().missed, 1u);
   predictor.add({0, Eigen::Vector3d::Constant(NAN)});
-  EXPECT_EQ(predictor.counts().refused, 1u);
+  EXPECT_EQ(predictor.counts().rejected, 1u);
   EXPECT_FALSE(predictor.rotation(0, kPair_ns));
   EXPECT_EQ(
       predictor.whyNot(),
-      "there is no sample; the last sample was refused: the angular velocity is not a number");
+      "there is no sample; the last sample was rejected: the angular velocity is not a number");
   predictor.miss("there is no tf");
   EXPECT_EQ(predictor.whyNot()->compare(0, 14, "there is no tf"), 0);
   EXPECT_EQ(predictor.counts().missed, 3u);
 }
 
-TEST(GyroPredictorTest, RefusesDegreesPerSecondUntilTheyAreRadians) {
+TEST(GyroPredictorTest, RejectsDegreesPerSecondUntilTheyAreRadians) {
   Body body(kFastSwing_rad);
   GyroPredictor predictor(body.R_camera_gyro);
   drive(body, 0, 10, predictor, 180.0 / M_PI);

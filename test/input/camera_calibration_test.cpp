@@ -123,7 +123,7 @@ TEST(StereoCameraConversionTest, SomeDriversGiveTheMatricesOfTheImagesThatTheySe
   }
 }
 
-TEST(StereoCameraConversionTest, RefusesTheCalibrationOfAnotherSize) {
+TEST(StereoCameraConversionTest, RejectsTheCalibrationOfAnotherSize) {
   const struct {
     double width, height;
     const char* part;
@@ -189,7 +189,7 @@ TEST(RectifiedImagesTest, AreToldByTheLastPartOfTheirTopic) {
 }
 
 /// Other refusals are rows of BadInputsTest.
-TEST(StereoCameraConversionTest, RefusesWhatIsNoRectifiedCamera) {
+TEST(StereoCameraConversionTest, RejectsWhatIsNoRectifiedCamera) {
   const struct {
     std::function<void(Info&)> change;
     const char* part;

@@ -106,7 +106,7 @@ TEST(InputReportTest, SaysWhyThereAreNoPairs) {
         },
         "nobody publishes /r/info"},
        {[](R r) { r.camera_error = "the baseline is zero"; }, "the baseline is zero"},
-       {[](R r) { r.refused = "the left image has the stamp 0"; },
+       {[](R r) { r.rejected = "the left image has the stamp 0"; },
         "the left image has the stamp 0"},
        {skewed(0, {0.02, {}, {}}),
         "left and right stamps are up to 20 ms apart, more than max_stamp_difference_s = 10 ms: "
@@ -135,8 +135,8 @@ TEST(InputReportTest, SaysWhatIsWrongWithPairs) {
       {{[](R) {}, ""},
        {skewed(50, {0.03, 0.02, {}}), ""},
        {skewed(50, {0.03, -0.03, {}}),
-        "left and right stamps are 30 ms apart, 30 % of the period of 100 ms, so it is not sure "
-        "which images are of one time: trigger the cameras synchronously"},
+        "left and right stamps are 30 ms apart, 30 % of the period of 100 ms, so images may be "
+        "paired wrongly: trigger the cameras synchronously"},
        {skewed(50, {0.03, -0.03, 0.1}),
         "right stamps are 100 ms after the left ones with the same jitter, about a period, so "
         "images of different times have the nearest stamps: correct the stamps of the drivers"},
@@ -160,7 +160,7 @@ TEST(InputReportTest, SaysWhatIsWrongWithPairs) {
        {aged(1e8), ""}});  // a replay without /clock
 }
 
-TEST(InputReportTest, TopicsAreToldInOneLine) {
+TEST(InputReportTest, TopicsAreLoggedInOneLine) {
   InputReport report = soundReport();
   report.right_image.recent = 0;
   report.right_image.rate_hz = 0.0;

@@ -22,15 +22,15 @@ Seconds passes(Throttle& throttle, int begin_s, int end_s) {
   return passed_s;
 }
 
-TEST(ThrottleTest, WhatLastsIsToldMoreAndMoreSeldom) {
+TEST(ThrottleTest, WhatLastsIsReportedMoreAndMoreSeldom) {
   Throttle even(seconds(5));
   EXPECT_EQ(passes(even, 100, 120), (Seconds{100, 105, 110, 115}));
-  Throttle seldom;
-  EXPECT_EQ(passes(seldom, 100, 1300), (Seconds{100, 130, 190, 310, 550, 850, 1150}));
-  EXPECT_EQ(passes(seldom, 1330, 1370), (Seconds{1330, 1360})) << "it was away";
+  Throttle rarely;
+  EXPECT_EQ(passes(rarely, 100, 1300), (Seconds{100, 130, 190, 310, 550, 850, 1150}));
+  EXPECT_EQ(passes(rarely, 1330, 1370), (Seconds{1330, 1360})) << "it was away";
 }
 
-TEST(FaultThrottleTest, EachFaultIsToldAtOnce) {
+TEST(FaultThrottleTest, EachFaultIsReportedAtOnce) {
   FaultThrottle throttle;
   const Throttle::Time now(seconds(100));
   EXPECT_TRUE(throttle.pass("frozen for 10 pairs", now));

@@ -45,8 +45,8 @@ class SilenceWatchTest : public testing::Test {
     }
     return logged();
   }
-  std::string pairsAfter(double silence_s) {
-    now_s_ += silence_s;
+  std::string pairsAfter(double no_input_warning_s) {
+    now_s_ += no_input_warning_s;
     return pairs(10.0, 10.0);
   }
 
@@ -75,7 +75,7 @@ class SilenceWatchTest : public testing::Test {
   std::string said_;
 };
 
-TEST_F(SilenceWatchTest, TellsOnceRemindsMoreAndMoreSeldomAndTellsTheEnd) {
+TEST_F(SilenceWatchTest, ReportsOnceRemindsMoreAndMoreSeldomAndReportsTheEnd) {
   EXPECT_EQ(wait(240), (Times{5, 35, 95, 215}));
   EXPECT_EQ(said_.substr(0, said_.find(", /l/info")),
             "no stereo pair for 215 s. Messages in the last 5 s: /l/image 0, /r/image 0");
@@ -93,7 +93,7 @@ TEST_F(SilenceWatchTest, SaysNothingWhileTheReplayStands) {
   EXPECT_EQ(wait(2), Times{107});
 }
 
-TEST_F(SilenceWatchTest, TellsAGapAtItsEnd) {
+TEST_F(SilenceWatchTest, ReportsAGapAtItsEnd) {
   const std::string told = "stereo pairs arrive again, after 3.1 s";
   EXPECT_EQ(pairs(10.0, 10.0), "");
   EXPECT_EQ(pairsAfter(3.0), told);
@@ -103,11 +103,12 @@ TEST_F(SilenceWatchTest, TellsAGapAtItsEnd) {
   EXPECT_EQ(pairsAfter(3.0), told) << "one drop is not the cause";
 }
 
-TEST_F(SilenceWatchTest, TellsThatTheStampsJumpedForwardIfNoGapDoes) {
+TEST_F(SilenceWatchTest, ReportsThatTheStampsJumpedForwardIfNoGapDoes) {
   pairs(10.0, 10.0);
   stamp_ns_ += 7'000'000'000;
-  EXPECT_EQ(pairs(10.0, 1.0),
-            "time jumped forward from 10.000 to 17.100 s: the odometry goes on at the last pose");
+  EXPECT_EQ(
+      pairs(10.0, 1.0),
+      "time jumped forward from 10.000 to 17.100 s: the odometry continues from the last pose");
   stamp_ns_ += 7'000'000'000;
   EXPECT_EQ(pairs(10.0, 10.0), "") << "at most every 5 s";
   stamp_ns_ += 7'000'000'000;
@@ -135,7 +136,7 @@ TEST_F(SilenceWatchTest, SlowOrLossyCamerasHaveNoGaps) {
   }
 }
 
-TEST_F(SilenceWatchTest, TellsWhatChangesEvery5SecondsAtMost) {
+TEST_F(SilenceWatchTest, ReportsWhatChangesEvery5SecondsAtMost) {
   EXPECT_EQ(wait(60), (Times{5, 35}));
   input_.right_image.recent = 3;
   EXPECT_EQ(wait(4), Times{61});

@@ -98,7 +98,7 @@ StampSkew jittering(double skew_s, double trigger_jitter_s, double stamp_jitter_
   return *skewOf(fromMs(left_ms), fromMs(right_ms), kPeriod_ns);
 }
 
-TEST(StampsTest, SkewOfAPeriodIsToldByCommonJitter) {
+TEST(StampsTest, SkewOfAPeriodIsReportedByCommonJitter) {
   for (const double skew_s : {kPeriod_s, -kPeriod_s, 0.9 * kPeriod_s, 0.7 * kPeriod_s}) {
     for (const double loss : {0.0, 0.1}) {
       const auto found_s = jittering(skew_s, 1e-3, 1e-4, loss).of_a_period_s;

@@ -236,7 +236,7 @@ TEST(StereoPairConverterTest, ABadImageOrAFewBadPixelsDoNotBlindIt) {
 }
 
 /// Other malformed images are rows of BadInputsTest.
-TEST(StereoPairConverterTest, RefusesImagesOfEitherSide) {
+TEST(StereoPairConverterTest, RejectsImagesOfEitherSide) {
   const struct {
     std::function<void(Image&)> change;
     const char* part;

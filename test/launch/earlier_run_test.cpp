@@ -12,10 +12,10 @@ namespace {
 
 const std::string kNode = "/stereo/stereo_odometry/";
 
-/// Sets a parameter and expects that the node refuses to start, names `cause` and has the command
+/// Sets a parameter and expects that the node rejects to start, names `cause` and has the command
 /// that deletes the parameter, and that this command does so.
 template <class T>
-void expectRefused(const std::string& parameter, const T& value, const std::string& cause) {
+void expectRejected(const std::string& parameter, const T& value, const std::string& cause) {
   ros::param::set(kNode + parameter, value);
   const CommandResult node = runCommand(STEREO_ODOMETRY " __ns:=stereo");
   EXPECT_NE(node.status, 0);
@@ -27,10 +27,10 @@ void expectRefused(const std::string& parameter, const T& value, const std::stri
 }
 
 TEST(EarlierRunTest, TheRefusalHasTheCommandThatDeletesTheParameter) {
-  expectRefused(
+  expectRejected(
       "feature_detector/max_featurs", 5, "unknown parameter \"feature_detector/max_featurs\"");
-  expectRefused("queue_size", 0, "queue_size is 0, but must be in [1, 100]");
-  expectRefused("guess_frame", "odom", "guess_frame and odom_frame are both \"odom\"");
+  expectRejected("queue_size", 0, "queue_size is 0, but must be in [1, 100]");
+  expectRejected("guess_frame", "odom", "guess_frame and odom_frame are both \"odom\"");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ using Launched = std::map<std::string, std::string>;
 
 class LaunchFilesTest : public ::testing::Test {
  protected:
-  /// Throws std::runtime_error if roslaunch refuses the file. `options` in the syntax of the shell.
+  /// Throws std::runtime_error if roslaunch rejects the file. `options` in the syntax of the shell.
   Launched launch(const std::string& file, const std::string& options = "") const {
     const std::string environment = "ROS_PACKAGE_PATH=" + directory_ / "" + ":$ROS_PACKAGE_PATH ";
     const CommandResult result =
@@ -84,7 +84,7 @@ const std::string kNode = "/camera/stereo_odometry";
 const std::string kPose = " camera_pose:='1 2 3 0.4 0.5 0.6'";
 const std::string kPublisher = "tf2_ros/static_transform_publisher ";
 
-/// stereo_odometry.launch and kitti.launch with that file.
+/// stereo_odometry.launch and replay.launch with that file; kitti.launch is the latter.
 class ConfiguredLaunchTest : public LaunchFilesTest {
  protected:
   ConfiguredLaunchTest() {
@@ -125,7 +125,7 @@ TEST_F(ConfiguredLaunchTest, ArgumentsOverrideIt) {
                 {kNode + "/publish_tf", "true"},
                 {kNode + "/rectify", "false"},
                 {"warnings", "0"}});
-  expect("kitti.launch",
+  expect("replay.launch",
          "bag:=any.bag rectify:=true base_frame:=body lockstep_timeout:=0 trajectory_file:=/new "
          "calibration:=/camchain.yaml",
          {{"/stereo/rviz", "rotrocc/rig_view " ROOT "/rviz/kitti.rviz"},

@@ -118,7 +118,7 @@ TEST(MotionEstimatorTest, IsNotMovedByOutliers) {
   }
 }
 
-TEST(MotionEstimatorTest, TheDecoupledFlowTellsAMovingObjectFromTheStreet) {
+TEST(MotionEstimatorTest, TheDecoupledFlowSeparatesAMovingObjectFromTheStreet) {
   const auto error = [](const std::string& criterion) {
     double sum = 0.0;
     for (unsigned seed = 0; seed < 10; ++seed) {

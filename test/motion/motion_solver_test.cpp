@@ -56,7 +56,7 @@ TEST(MotionSolverTest, RecoversAnExactTranslationAndLeavesTheRotation) {
   EXPECT_EQ(T.linear(), turnAhead().linear());
 }
 
-TEST(MotionSolverTest, RefusesTooFewFeatures) {
+TEST(MotionSolverTest, RejectsTooFewFeatures) {
   const Eigen::Isometry3d before = motion({1.0, 2.0, 3.0}, {0.1, 0.2, 0.3});
   Eigen::Isometry3d T = before;
   EXPECT_FALSE(solve(kMotion, kNoiseRatio, exactFeatures(2), T));

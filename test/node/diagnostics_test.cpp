@@ -32,7 +32,7 @@ HealthReport goodReport() {
   result.state = State::kOk;
   result.counts.rotation_inliers = 512;
   result.disparity_bias = {0.42, 0.05, 0.36};
-  result.exposure_gain = 1.02;
+  result.contrast_gain = 1.02;
   result.flow_noise_px = 0.15;
   return report;
 }
@@ -186,7 +186,7 @@ TEST(DiagnosticsTest, LossIsAnErrorWithItsReason) {
   EXPECT_EQ(valueOf(status, "hint"), "the lens is covered");
 }
 
-TEST(DiagnosticsTest, FaultsOfTheInputAreTold) {
+TEST(DiagnosticsTest, FaultsOfTheInputAreReported) {
   HealthReport lossy = goodReport();
   lossy.input.right_image.rate_hz = 5.0;
   lossy.input.unmatched = {25, 0, 25};
@@ -201,10 +201,10 @@ TEST(DiagnosticsTest, FaultsOfTheInputAreTold) {
   HealthReport gap = goodReport();
   gap.input.right_image.silent_s = gap.input.pairs_silent_s = 2.5;
   expectEntry(describeInput, gap, Level::WARN, "/r/image has been silent for 2.5 s");
-  HealthReport refused = goodReport();
-  refused.input.refused = "the left image has the stamp 0";
+  HealthReport rejected = goodReport();
+  rejected.input.rejected = "the left image has the stamp 0";
   const std::string dropped = "dropped in the last 5 s: the left image has the stamp 0";
-  expectEntry(describeInput, refused, Level::WARN, dropped);
+  expectEntry(describeInput, rejected, Level::WARN, dropped);
   HealthReport replay = goodReport();
   replay.input.stamp_age_s = 1e8;
   expectEntry(describeInput, replay, Level::OK, "a replay without --clock");
@@ -237,7 +237,7 @@ TEST(DiagnosticsTest, SlownessDropsAndFaultsOfTfAreWarnings) {
   EXPECT_EQ(valueOf(status, "pairs without the motion of guess_frame"), "7");
 }
 
-TEST(DiagnosticsTest, TellsWhyTheGyroscopeIsNotUsed) {
+TEST(DiagnosticsTest, ReportsWhyTheGyroscopeIsNotUsed) {
   GyroPredictor gyro;
   const auto describe = [&gyro] {
     StatusWrapper status;
@@ -247,13 +247,13 @@ TEST(DiagnosticsTest, TellsWhyTheGyroscopeIsNotUsed) {
   EXPECT_EQ(describe().level, Level::OK) << "no pair yet";
   gyro.add({0, {0.0, 0.0, 0.0}});
   gyro.add({10'000'000, {0.0, 0.0, 0.0}});
-  gyro.refuse("no stamp");
+  gyro.reject("no stamp");
   ASSERT_TRUE(gyro.rotation(0, 10'000'000));
   EXPECT_EQ(describe().level, Level::OK);
   EXPECT_EQ(describe().message, "predicts rotations");
   EXPECT_EQ(valueOf(describe(), "bias").find("0.0000 0.0000 0.0000 rad/s, +- "), 0u);
   EXPECT_EQ(valueOf(describe(), "rotations predicted"), "1");
-  EXPECT_EQ(valueOf(describe(), "samples refused"), "1");
+  EXPECT_EQ(valueOf(describe(), "samples rejected"), "1");
   gyro.miss("no message on /imu");
   EXPECT_EQ(describe().level, Level::WARN);
   EXPECT_EQ(describe().message, "not used: no message on /imu");
@@ -322,7 +322,7 @@ TEST(StatusTest, HasAllOfAPairAndWithoutOneTheStateHintAndCounters) {
   result.times.total_ms = 2.0;
   result.disparity_bias = {0.75, 0.125, 0.5};
   result.row_offset = {-0.25, 0.0625, 0.375, -0.5};
-  result.exposure_gain = 0.625;
+  result.contrast_gain = 0.625;
   result.halvings = 1;
   result.flow_noise_px = 0.125;
   const OdometryStatus idle = toIdleStatus(report, ros::Time(7, 0));
@@ -347,7 +347,7 @@ TEST(StatusTest, HasAllOfAPairAndWithoutOneTheStateHintAndCounters) {
   expected.row_offset_sigma_px = 0.0625f;
   expected.row_offset_applied_px = -0.5f;
   expected.row_difference_px = 0.375f;
-  expected.exposure_gain = 0.625f;
+  expected.contrast_gain = 0.625f;
   expected.halvings = 1;
   expected.flow_noise_px = 0.125f;
   EXPECT_EQ(toStatus(report), expected);

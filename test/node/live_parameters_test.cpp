@@ -80,7 +80,7 @@ TEST(LiveParametersTest, AppliesWhatIsNamed) {
   EXPECT_EQ(find(toConfig(parameters).ints, "feature_detector/max_features")->value, 500);
 }
 
-TEST(LiveParametersTest, RefusesAllIfOneIsBad) {
+TEST(LiveParametersTest, RejectsAllIfOneIsBad) {
   Parameters parameters;
   Config config = makeInt("feature_detector/max_features", 500);
   ConfigTools::appendParameter(config, "visual_odometry/max_tries", -5);

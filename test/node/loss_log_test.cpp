@@ -58,13 +58,13 @@ TEST_F(LossLogTest, ALossWaitsForItsCause) {
   EXPECT_EQ(pairs(11, State::kDegraded), Lines{"recovered: degraded"});
 }
 
-TEST_F(LossLogTest, ALossOfUnknownCauseIsToldAfterTwoSeconds) {
+TEST_F(LossLogTest, ALossOfUnknownCauseIsReportedAfterTwoSeconds) {
   EXPECT_EQ(pairs(20, kLost), Lines());
   EXPECT_EQ(pair(kLost), Lines{"lost: " + kFew});
   EXPECT_EQ(pairs(11, kOk), Lines{"recovered: ok"});
 }
 
-TEST_F(LossLogTest, AShortLossIsToldAtItsEnd) {
+TEST_F(LossLogTest, AShortLossIsReportedAtItsEnd) {
   EXPECT_EQ(pairs(3, kLost), Lines());
   EXPECT_EQ(pairs(11, kOk), Lines{"lost for 0.3 s: " + kFew});
   EXPECT_EQ(pairs(200, kOk), Lines());
@@ -72,13 +72,13 @@ TEST_F(LossLogTest, AShortLossIsToldAtItsEnd) {
   EXPECT_EQ(pairs(11, kOk), Lines()) << "the same again";
 }
 
-TEST_F(LossLogTest, AShortLossIsToldWithItsCause) {
+TEST_F(LossLogTest, AShortLossIsReportedWithItsCause) {
   pair(kLost);
   EXPECT_EQ(pairs(10, State::kDegraded, kSwapped), Lines());
   EXPECT_EQ(pair(State::kDegraded, kSwapped), Lines{"lost for 0.1 s: " + kFew + "; " + kSwapped});
 }
 
-TEST_F(LossLogTest, AFaultIsToldAlsoWithoutALoss) {
+TEST_F(LossLogTest, AFaultIsReportedAlsoWithoutALoss) {
   EXPECT_EQ(pair(kOk, kSwapped), Lines{kSwapped});
   EXPECT_EQ(pairs(100, kOk, kSwapped), Lines());
 }

@@ -20,11 +20,11 @@ using XmlRpc::XmlRpcValue;
 class NodeParametersTest : public testing::Test {
  protected:
   /// For the parameter `name`, with a sentence that has `part`.
-  void expectRefused(const XmlRpcValue& tree, const std::string& part, const std::string& name) {
+  void expectRejected(const XmlRpcValue& tree, const std::string& part, const std::string& name) {
     try {
       setParameters(tree, table_);
       ADD_FAILURE() << name << " is accepted";
-    } catch (const RefusedParameter& error) {
+    } catch (const RejectedParameter& error) {
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
       EXPECT_EQ(error.name(), name);
     }
@@ -41,14 +41,14 @@ TEST_F(NodeParametersTest, EveryTypeOfTheServer) {
   tree["publish_tf"] = false;
   tree["queue_size"] = 9;
   tree["max_stamp_difference_s"] = 0.1 + 0.2;  // keeps every bit
-  tree["silence_s"] = 2;  // YAML has no point in "2.0 m/s" that people write as 2
+  tree["no_input_warning_s"] = 2;  // YAML has no point in "2.0 m/s" that people write as 2
   tree["motion_check"]["max_speed_mps"] = 321;
   setParameters(tree, table_);
   EXPECT_EQ(parameters_.node.base_frame, "robot");
   EXPECT_FALSE(parameters_.node.publish_tf);
   EXPECT_EQ(parameters_.node.queue_size, 9);
   EXPECT_EQ(parameters_.node.max_stamp_difference_s, 0.1 + 0.2);
-  EXPECT_EQ(parameters_.node.silence_s, 2.0);
+  EXPECT_EQ(parameters_.node.no_input_warning_s, 2.0);
   EXPECT_EQ(parameters_.odometry.motion_check.max_speed_mps, 321);
   EXPECT_EQ(parameters_.node.odom_frame, "odom");
 }
@@ -64,7 +64,7 @@ TEST_F(NodeParametersTest, TheInitialPoseIsAListOrText) {
   EXPECT_EQ(parameters_.node.initial_pose, (std::array<double, 6>{6, 5, 4, 3, 2, 1.5}));
   XmlRpcValue nested;
   for (int i = 0; i < 6; ++i) nested["initial_pose"][i][0] = i;
-  expectRefused(nested, "initial_pose is neither a value nor a section", "initial_pose");
+  expectRejected(nested, "initial_pose is neither a value nor a section", "initial_pose");
 }
 
 TEST_F(NodeParametersTest, ParametersOfImageTransportAreNotOurs) {
@@ -76,13 +76,13 @@ TEST_F(NodeParametersTest, ParametersOfImageTransportAreNotOurs) {
   setParameters(tree, table_);
   EXPECT_EQ(parameters_.node.image_transport, "compressed");
   tree["flow"] = 1;
-  expectRefused(tree, "flow", "flow");
+  expectRejected(tree, "flow", "flow");
 }
 
-TEST_F(NodeParametersTest, RefusesWhatIsUnknownOrInvalidByName) {
+TEST_F(NodeParametersTest, RejectsWhatIsUnknownOrInvalidByName) {
   XmlRpcValue unknown;
   unknown["feature_detector"]["max_featurs"] = 5;
-  expectRefused(unknown, "feature_detector/max_featurs", "feature_detector/max_featurs");
+  expectRejected(unknown, "feature_detector/max_featurs", "feature_detector/max_featurs");
   XmlRpcValue list;
   list[0] = 4;
   XmlRpcValue section;
@@ -95,11 +95,11 @@ TEST_F(NodeParametersTest, RefusesWhatIsUnknownOrInvalidByName) {
   for (const auto& [value, sentence] : rows) {
     XmlRpcValue tree;
     tree["queue_size"] = value;
-    expectRefused(tree, sentence, "queue_size");
+    expectRejected(tree, sentence, "queue_size");
   }
   XmlRpcValue tree;
   tree["queue_size"] = section;
-  expectRefused(tree, "queue_size/left", "queue_size/left");
+  expectRejected(tree, "queue_size/left", "queue_size/left");
 }
 
 /// YAML has some words for values of other types.
@@ -115,21 +115,21 @@ TEST_F(NodeParametersTest, ChoicesNeedNoQuotes) {
 }
 
 TEST(RequireFramesTest, FramesAreThoseOfTf) {
-  const auto refuse = [](const std::function<void(NodeParameters&)>& change,
+  const auto reject = [](const std::function<void(NodeParameters&)>& change,
                          const std::string& part) {
     NodeParameters node;
     change(node);
     expectError<std::invalid_argument>([&] { requireFrames(node); }, part);
   };
   EXPECT_NO_THROW(requireFrames({}));
-  refuse([](NodeParameters& node) { node.odom_frame = "/odom"; }, "odom_frame is \"/odom\"");
-  refuse([](NodeParameters& node) { node.base_frame.clear(); }, "base_frame is \"\"");
-  refuse([](NodeParameters& node) { node.camera_frame = "/camera"; }, "camera_frame");
-  refuse([](NodeParameters& node) { node.odom_frame = "base_link"; },
+  reject([](NodeParameters& node) { node.odom_frame = "/odom"; }, "odom_frame is \"/odom\"");
+  reject([](NodeParameters& node) { node.base_frame.clear(); }, "base_frame is \"\"");
+  reject([](NodeParameters& node) { node.camera_frame = "/camera"; }, "camera_frame");
+  reject([](NodeParameters& node) { node.odom_frame = "base_link"; },
          "odom_frame and base_frame are both \"base_link\"");
-  refuse([](NodeParameters& node) { node.guess_frame = "odom"; },
+  reject([](NodeParameters& node) { node.guess_frame = "odom"; },
          "guess_frame and odom_frame are both \"odom\"");
-  refuse(
+  reject(
       [](NodeParameters& node) {
         node.guess_frame = "wheel_odom";
         node.invert_tf = true;

@@ -87,20 +87,20 @@ TEST(OdometryMessagesTest, APoseThatIsSetHasFrameAndCovariance) {
   EXPECT_EQ(toPose(message, "odom").covariance.norm(), 0.0);
 }
 
-TEST(OdometryMessagesTest, RefusesAPoseThatCannotBeSet) {
-  const auto refuse =
+TEST(OdometryMessagesTest, RejectsAPoseThatCannotBeSet) {
+  const auto reject =
       [](const std::function<void(geometry_msgs::PoseWithCovarianceStamped&)>& spoil,
          const std::string& part) {
         geometry_msgs::PoseWithCovarianceStamped message = makePose();
         spoil(message);
         expectError<std::invalid_argument>([&] { toPose(message, "odom"); }, part);
       };
-  refuse([](auto& m) { m.header.frame_id = "map"; }, "in the frame map, but must be in odom");
-  refuse([](auto& m) { m.pose.pose.orientation.w = 0.0; }, "has the length 0.707");
-  refuse([](auto& m) { m.pose.pose.position.y = NAN; }, "contains nan");
-  refuse([](auto& m) { m.pose.covariance[14] = INFINITY; }, "is not finite");
-  refuse([](auto& m) { m.pose.covariance[1] = 0.1; }, "is not symmetric");
-  refuse([](auto& m) { m.pose.covariance[0] = -1.0; }, "has the eigenvalue -1.04");
+  reject([](auto& m) { m.header.frame_id = "map"; }, "in the frame map, but must be in odom");
+  reject([](auto& m) { m.pose.pose.orientation.w = 0.0; }, "has the length 0.707");
+  reject([](auto& m) { m.pose.pose.position.y = NAN; }, "contains nan");
+  reject([](auto& m) { m.pose.covariance[14] = INFINITY; }, "is not finite");
+  reject([](auto& m) { m.pose.covariance[1] = 0.1; }, "is not symmetric");
+  reject([](auto& m) { m.pose.covariance[0] = -1.0; }, "has the eigenvalue -1.04");
 }
 
 TEST(OdometryMessagesTest, CloudHasTheInliersAndTheirGrayLevels) {

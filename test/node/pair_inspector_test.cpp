@@ -16,7 +16,7 @@ class ExposuresTest : public testing::Test {
     for (int i = 0; i < count; ++i) {
       OdometryResult result;
       result.state = state;
-      result.exposure_gain = gain;
+      result.contrast_gain = gain;
       result.counts.corners = 1000;
       hint = inspector_.inspect({0, image_, image_}, StereoCamera(), result);
     }
@@ -61,7 +61,7 @@ class DarkImagesTest : public testing::Test {
     image_ += 1;
     OdometryResult result;
     result.state = state;
-    result.exposure_gain = 1.0;
+    result.contrast_gain = 1.0;
     result.counts.tries = 1;
     return inspector_.inspect({0, image_, image_}, StereoCamera(), result, {0, 10});
   }

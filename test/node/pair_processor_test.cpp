@@ -117,7 +117,7 @@ TEST_F(PairProcessorTest, HintsComeFromTheConfigInEffect) {
   EXPECT_NE(hintOf({}).find(swapped), std::string::npos) << rig_.hint();
 }
 
-TEST(TimeJumpTest, ItsStampsAreToldInFull) {
+TEST(TimeJumpTest, ItsStampsAreLoggedInFull) {
   const LogRecorder log;
   OdometryRig rig;
   rig.stamp = ros::Time(1317600010.0);
@@ -211,7 +211,7 @@ TEST_F(PairProcessorTest, RestartsAfterALongLossIfAsked) {
   Parameters parameters;
   parameters.node.reset_after_lost_s = 0.5;
   for (const bool keep : {true, false}) {
-    parameters.node.pose_after_lost = keep ? "keep" : "zero";
+    parameters.node.pose_after_lost = keep ? "keep" : "initial";
     OdometryRig rig(parameters);
     rig.sendInfos();
     rig.drivePairs(3);

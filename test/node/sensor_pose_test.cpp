@@ -94,7 +94,8 @@ TEST_F(SensorPoseTest, AFixedPoseIsKeptUntilItIsRefreshed) {
   sendPan(0.0, 0.3);
   EXPECT_NEAR(panAt(7.0), 0.2, 1e-12);
   EXPECT_EQ(
-      camera_.problem().find("another static tf of camera camera has come, which is not used"), 0u)
+      camera_.problem().find("another static tf of the camera camera has come, which is not used"),
+      0u)
       << camera_.problem();
   camera_.refresh();
   EXPECT_EQ(camera_.problem(), "");
@@ -148,10 +149,11 @@ TEST_F(SensorPoseTest, OfOneThatMovesLateTfIsAProblemWithItsRateAndARemedy) {
   EXPECT_EQ(camera_.problem(), "");
   EXPECT_TRUE(std::isnan(panAt(103.1)));
   EXPECT_EQ(camera_.missing(), "");
-  EXPECT_EQ(camera_.problem(),
-            "tf from base_link to camera, which moves, arrives at 3.3 Hz and more than "
-            "mount_timeout_s = 0.2 s after the images: publish it at the rate of the images, or "
-            "raise mount_timeout_s to 0.33");
+  EXPECT_EQ(
+      camera_.problem(),
+      "tf from base_link to camera, which moves, arrives at 3.3 Hz and more than "
+      "transform_timeout_s = 0.2 s after the images: publish it at the rate of the images, or "
+      "raise transform_timeout_s to 0.33");
   EXPECT_TRUE(std::isnan(panAt(90.0))) << "tf was not there yet";
   EXPECT_NE(camera_.missing(), "");
   for (int i = 1; i <= 50; ++i) {
@@ -166,9 +168,9 @@ TEST_F(SensorPoseTest, OfOneThatMovesLateTfIsAProblemWithItsRateAndARemedy) {
   EXPECT_TRUE(std::isnan(panAt(130.1)));
   EXPECT_EQ(camera_.problem(),
             "tf from base_link to camera, which moves, arrives at 10.0 Hz and more than "
-            "mount_timeout_s = 0.2 s after the images: publish it earlier, or raise "
-            "mount_timeout_s");
-  EXPECT_EQ(log_.with("which moves, arrives").size(), 1u) << "a lasting fault is told seldom";
+            "transform_timeout_s = 0.2 s after the images: publish it earlier, or raise "
+            "transform_timeout_s");
+  EXPECT_EQ(log_.with("which moves, arrives").size(), 1u) << "a lasting fault is logged rarely";
 }
 
 /// Each transform comes in time, but while a pair waits for it, newer ones replace each other.
@@ -218,7 +220,7 @@ TEST(ToEigenTest, TakesWhatIsATransform) {
   EXPECT_NEAR(toEigen(makeTransform(0.0, 0.707, 0.707)).linear().determinant(), 1.0, 1e-12);
 }
 
-TEST(ToEigenTest, RefusesWhatIsNone) {
+TEST(ToEigenTest, RejectsWhatIsNone) {
   expectError([] { toEigen(makeTransform(NAN, 1.0, 0.0)); }, "the transform contains nan");
   expectError([] { toEigen(makeTransform(0.0, INFINITY, 0.0)); }, "the transform contains inf");
   expectError([] { toEigen(makeTransform(0.0, 0.0, 0.0)); }, "has the length 0, but must have 1");

@@ -81,7 +81,7 @@ TEST_F(TrajectoryStoreTest, WhatWasThereStaysIfSavingFails) {
   expectLength("poses", 20000);
 }
 
-TEST_F(TrajectoryStoreTest, RefusesWhatIsNoFile) {
+TEST_F(TrajectoryStoreTest, RejectsWhatIsNoFile) {
   const std::string fifo = directory_ / "fifo";
   ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
   TrajectoryStore store(4);

@@ -80,7 +80,7 @@ std::optional<std::string> whyDegraded(const Hypothesis& accepted) {
   return defaultCheck().whyDegraded(accepted, accepted.estimate.covariance);
 }
 
-TEST(MotionCheckTest, TellsWhichMotionsAreLost) {
+TEST(MotionCheckTest, ReportsWhichMotionsAreLost) {
   struct Case {
     int by_rotation, by_translation, features;
     double down_m, turn_rad, dt_s;
@@ -110,7 +110,7 @@ TEST(MotionCheckTest, TellsWhichMotionsAreLost) {
   }
 }
 
-TEST(MotionCheckTest, TellsWhichMotionsAreDegraded) {
+TEST(MotionCheckTest, ReportsWhichMotionsAreDegraded) {
   struct Case {
     int by_rotation, by_translation, corners, with_depth;
     double ahead_m, sigma_m;
@@ -259,7 +259,7 @@ bool isAtRest(const Eigen::Isometry3d& T_keyframe_cur, double noise_px = 0.2, in
   return defaultCheck().isAtRest(accepted);
 }
 
-TEST(MotionCheckTest, TellsRestFromMotion) {
+TEST(MotionCheckTest, DistinguishesRestFromMotion) {
   EXPECT_TRUE(isAtRest(Eigen::Isometry3d::Identity()));
   EXPECT_FALSE(isAtRest(Eigen::Isometry3d::Identity(), 0.2, 0)) << "without a feature";
   EXPECT_FALSE(isAtRest(motion({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0})));

@@ -107,14 +107,14 @@ TEST(VisualOdometryTest, FollowsADriveAlongTheStreet) {
   EXPECT_EQ(first.reason, "first pair");
   EXPECT_EQ(first.dt_s(), 0.0);
   EXPECT_FALSE(first.hasMotion());
-  EXPECT_EQ(first.exposure_gain, 0.0);
+  EXPECT_EQ(first.contrast_gain, 0.0);
   for (int i = 1; i < 8; ++i) {
     const OdometryResult result = odometry.process(bend(i), camera());
     EXPECT_EQ(result.state, State::kOk) << result.reason;
     EXPECT_EQ(result.reason, "");
     EXPECT_EQ(result.stamp_ns, i * kPeriod_ns);
     EXPECT_NEAR(result.dt_s(), 0.1, 1e-12);
-    EXPECT_NEAR(result.exposure_gain, 1.0, kGainError);
+    EXPECT_NEAR(result.contrast_gain, 1.0, kGainError);
     expectMotion(result, bendStep());
     EXPECT_GT(std::sqrt(result.covariance(2, 2)), SystematicErrorConfig().scale_share * 0.6)
         << "with the systematic error";
@@ -384,7 +384,7 @@ TEST(VisualOdometryTest, KeepsItsParametersWhenOthersAreWrong) {
   expectMotion(odometry.process(bend(2), camera()), bendStep());
 }
 
-TEST(VisualOdometryTest, TellsWhatIsLeftAfterEachStage) {
+TEST(VisualOdometryTest, ReportsWhatIsLeftAfterEachStage) {
   VisualOdometry odometry = started(2);
   const OdometryResult result = odometry.process(bend(2), camera());
   const StageCounts& counts = result.counts;

@@ -58,7 +58,7 @@ TEST(CommandHelpTest, SaysWhatItIsForWithAnExample) {
   }
 }
 
-TEST(CommandHelpTest, UnknownOptionsAreRefused) {
+TEST(CommandHelpTest, UnknownOptionsAreRejected) {
   for (const std::string& name : programs()) {
     if (isNode(name)) continue;
     const CommandResult result = run(std::string(PROGRAMS_DIR) + "/" + name, "--no-such-option");

@@ -56,6 +56,7 @@ const Difference kDifferences[] = {
     {"rosrun rotrocc ", PROGRAMS "/"},
     // There is no display.
     {"kitti.launch bag:=", "kitti.launch rviz:=false bag:="},
+    {"replay.launch bag:=", "replay.launch rviz:=false bag:="},
     // A quarter of the pixels, which are rendered in 10 s.
     {"--size 620x188 --focal 359", "--size 310x94 --focal 180"},
     // Short drives of small images.

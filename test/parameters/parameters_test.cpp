@@ -112,33 +112,33 @@ TEST(ParametersTest, TheTableSetsWhatTheEstimatorReads) {
                                      "\"queue_size 4\" is not an assignment: write name=value");
 }
 
-void expectRefused(const std::string& name, const std::string& value, const std::string& part) {
+void expectRejected(const std::string& name, const std::string& value, const std::string& part) {
   Settings settings;
   const std::vector<std::string> before = values(settings.table);
   expectError<std::invalid_argument>([&] { settings.table.set(name, value); }, part);
   EXPECT_EQ(values(settings.table), before);
 }
 
-TEST(ParametersTest, RefusesWithNameValueAndRange) {
-  expectRefused(
+TEST(ParametersTest, RejectsWithNameValueAndRange) {
+  expectRejected(
       "feature_detector/max_feature", "100", "unknown parameter \"feature_detector/max_feature\"");
-  expectRefused("queue_size", "101", "parameter queue_size is 101, but must be in [1, 100]");
-  expectRefused("queue_size", "0", "is 0, but must be in [1, 100]");
-  expectRefused("significant_bits", "7", "is 7, but must be 0 or in [8, 16]");
-  expectRefused("queue_size", "many", "is \"many\", but must be an integer in [1, 100]");
-  expectRefused("queue_size", "2.5", "is \"2.5\", but must be an integer in [1, 100]");
-  expectRefused("queue_size", "99999999999", "is \"99999999999\", but must be");
-  expectRefused("queue_size", "", "is \"\", but must be");
-  expectRefused("motion_check/max_speed_mps",
-                "1001",
-                "parameter motion_check/max_speed_mps is 1001, but must be in [0.1, 1000]");
+  expectRejected("queue_size", "101", "parameter queue_size is 101, but must be in [1, 100]");
+  expectRejected("queue_size", "0", "is 0, but must be in [1, 100]");
+  expectRejected("significant_bits", "7", "is 7, but must be 0 or in [8, 16]");
+  expectRejected("queue_size", "many", "is \"many\", but must be an integer in [1, 100]");
+  expectRejected("queue_size", "2.5", "is \"2.5\", but must be an integer in [1, 100]");
+  expectRejected("queue_size", "99999999999", "is \"99999999999\", but must be");
+  expectRejected("queue_size", "", "is \"\", but must be");
+  expectRejected("motion_check/max_speed_mps",
+                 "1001",
+                 "parameter motion_check/max_speed_mps is 1001, but must be in [0.1, 1000]");
   for (const char* value : {"nan", ".nan", "inf", "-inf", "1 2", "1e999", "one"}) {
-    expectRefused("motion_check/max_speed_mps", value, "but must be a number in [0.1, 1000]");
+    expectRejected("motion_check/max_speed_mps", value, "but must be a number in [0.1, 1000]");
   }
-  expectRefused("publish_tf", "1", "parameter publish_tf is \"1\", but must be true or false");
-  expectRefused("motion_estimator/criterion",
-                "best",
-                "is \"best\", but must be one of rotrocc, reprojection, rocc");
+  expectRejected("publish_tf", "1", "parameter publish_tf is \"1\", but must be true or false");
+  expectRejected("motion_estimator/criterion",
+                 "best",
+                 "is \"best\", but must be one of rotrocc, reprojection, rocc");
 }
 
 TEST(ParametersTest, SixNumbersAreAListOrText) {
@@ -157,32 +157,33 @@ TEST(ParametersTest, SixNumbersAreAListOrText) {
                            "1 2 3 4 5 nan",
                            "1 2 3 4 5 1e999",
                            "1 2 3 4 5 6m"}) {
-    expectRefused("initial_pose", text, "but must be 6 numbers");
+    expectRejected("initial_pose", text, "but must be 6 numbers");
   }
 }
 
-TEST(ParametersTest, AFileNamesItselfWhenItIsRefused) {
+TEST(ParametersTest, AFileNamesItselfWhenItIsRejected) {
   const TemporaryDirectory directory;
-  const auto expect_refused = [&](const std::string& text, const std::string& part) {
+  const auto expect_rejected = [&](const std::string& text, const std::string& part) {
     const std::string path = directory.write("bad.yaml", text);
     Settings settings;
     expectError<std::invalid_argument>([&] { loadYaml(path, settings.table); }, path);
     expectError<std::invalid_argument>([&] { loadYaml(path, settings.table); }, part);
   };
-  expect_refused("motion_check:\n  max_speed: 3\n", "unknown parameter \"motion_check/max_speed\"");
-  expect_refused("motion_check:\n  max_speed_mps: 0\n", "motion_check/max_speed_mps is 0");
-  expect_refused("motion_check:\n  max_speed_mps: .nan\n",
-                 "motion_check/max_speed_mps is \".nan\"");
-  expect_refused("motion_check: [1, 2]\n", "unknown parameter \"motion_check\"");
-  expect_refused("queue_size: [1]\n", "queue_size is a list, but must be [1, 100]");
-  expect_refused("initial_pose: [1, 2]\n", "initial_pose is \"1 2\", but must be 6 numbers");
-  expect_refused("initial_pose: &loop [*loop]\n", "");
-  expect_refused("motion_check: &loop {of: *loop}\n", "\"motion_check/of\" must be a value");
-  expect_refused("odom_frame: \"no UTF-8: \xc0\xb5\"\n", "\"odom_frame\" is not UTF-8");
-  expect_refused("motion_check\n", "");
-  expect_refused("a: b: c\n", "");
-  expect_refused("motion_check: {max_speed_mps:", "end of map flow not found");
-  expect_refused("motion_check: {max_speed_mps:]20}\n", "illegal flow end");
+  expect_rejected("motion_check:\n  max_speed: 3\n",
+                  "unknown parameter \"motion_check/max_speed\"");
+  expect_rejected("motion_check:\n  max_speed_mps: 0\n", "motion_check/max_speed_mps is 0");
+  expect_rejected("motion_check:\n  max_speed_mps: .nan\n",
+                  "motion_check/max_speed_mps is \".nan\"");
+  expect_rejected("motion_check: [1, 2]\n", "unknown parameter \"motion_check\"");
+  expect_rejected("queue_size: [1]\n", "queue_size is a list, but must be [1, 100]");
+  expect_rejected("initial_pose: [1, 2]\n", "initial_pose is \"1 2\", but must be 6 numbers");
+  expect_rejected("initial_pose: &loop [*loop]\n", "");
+  expect_rejected("motion_check: &loop {of: *loop}\n", "\"motion_check/of\" must be a value");
+  expect_rejected("odom_frame: \"no UTF-8: \xc0\xb5\"\n", "\"odom_frame\" is not UTF-8");
+  expect_rejected("motion_check\n", "");
+  expect_rejected("a: b: c\n", "");
+  expect_rejected("motion_check: {max_speed_mps:", "end of map flow not found");
+  expect_rejected("motion_check: {max_speed_mps:]20}\n", "illegal flow end");
   Settings settings;
   expectError<std::invalid_argument>([&] { loadYaml(directory / "none.yaml", settings.table); },
                                      "none.yaml");

@@ -257,7 +257,7 @@ TEST_F(KittiPlayerTest, ShowsRecordedPosesInsteadOfTheirTf) {
   expectCount(listener, "ground_truth/path", 1);
 }
 
-TEST_F(KittiPlayerTest, BeginsAndEndsWhereItIsTold) {
+TEST_F(KittiPlayerTest, BeginsAndEndsWhereItIsReported) {
   writeOwnBag();
   private_nh_.setParam("start", 0.15);
   private_nh_.setParam("duration", 0.2);
@@ -323,7 +323,7 @@ TEST_F(KittiPlayerTest, RestartsInALoop) {
   player_.reset();
 }
 
-TEST_F(KittiPlayerTest, RefusesWhatItCannotPlay) {
+TEST_F(KittiPlayerTest, RejectsWhatItCannotPlay) {
   writeOwnBag();
   const AslFolder raw;
   writeSequenceBag(directory_ / "raw.bag", raw.path());

@@ -40,7 +40,7 @@ TEST_F(PlaybackClockTest, IsNeitherEarlyNorHurriesAfterADelay) {
   EXPECT_EQ(published_.back(), kBegin + ros::Duration(0.11));
 }
 
-TEST_F(PlaybackClockTest, TellsTheTimeWhileItWaits) {
+TEST_F(PlaybackClockTest, ReportsTheTimeWhileItWaits) {
   PlaybackClock clock(1.0, false, publish_);
   clock.start(kBegin);
   auto waiting = std::async(std::launch::async,

@@ -72,7 +72,7 @@ TEST(DistortionTest, MoreCoefficientsThatAreZeroDoNotMatter) {
   EXPECT_TRUE(Distortion("", {}).isNone());
 }
 
-TEST(DistortionTest, RefusesWhatIsNone) {
+TEST(DistortionTest, RejectsWhatIsNone) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const struct {
     const char* model;

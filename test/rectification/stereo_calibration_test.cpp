@@ -91,7 +91,7 @@ TEST(StereoCalibrationTest, KnowsWhatIsRectified) {
   EXPECT_FALSE(zoomed.isRectified());
 }
 
-TEST(StereoCalibrationTest, RefusesCamerasThatAreNoPair) {
+TEST(StereoCalibrationTest, RejectsCamerasThatAreNoPair) {
   const struct {
     std::function<void(RawRig&)> change;
     const char* part;

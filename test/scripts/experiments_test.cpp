@@ -143,7 +143,7 @@ TEST(SettingsFilesTest, HaveParametersThatThereAre) {
   EXPECT_GT(count, 5);
 }
 
-TEST_F(ExperimentsTest, RefusesAFileWithoutSettings) {
+TEST_F(ExperimentsTest, RejectsAFileWithoutSettings) {
   const CommandResult result = run(RUN, plan("drives: {}") + clip());
   EXPECT_EQ(result.status, 1);
   EXPECT_NE(result.output.find("plan.yaml has no settings"), std::string::npos) << result.output;

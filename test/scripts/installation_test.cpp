@@ -1,12 +1,15 @@
 // Installs the build into a prefix of its own, and uses it as one who has no sources.
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <regex>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "support/read_file.h"
 #include "support/run_command.h"
 #include "support/synthetic_scene.h"
 #include "support/temporary_directory.h"
@@ -82,7 +85,7 @@ TEST_F(InstallationTest, SetupBashMakesItKnown) {
 }
 
 TEST_F(InstallationTest, LaunchFilesNameInstalledNodes) {
-  const CommandResult result = run("roslaunch --nodes rotrocc kitti.launch bag:=any.bag");
+  const CommandResult result = run("roslaunch --nodes rotrocc replay.launch bag:=any.bag");
   EXPECT_EQ(result.status, 0) << result.output;
   EXPECT_NE(result.output.find("/stereo/stereo_odometry"), std::string::npos) << result.output;
 }
@@ -95,43 +98,43 @@ TEST_F(InstallationTest, PluginsAreWhereTheDescriptionSays) {
   EXPECT_NE(result.output.find("stereo_odometry"), std::string::npos) << result.output;
 }
 
-TEST_F(InstallationTest, ProgramsAreBuiltAgainstIt) {
+/// The code of a page, by its language.
+std::string exampleOf(const std::string& language) {
+  const std::string page = readFile(SOURCE "/docs/library.md");
+  const std::string mark = "```" + language + "\n";
+  const std::size_t begin = page.find(mark) + mark.size();
+  return page.substr(begin, page.find("```", begin) - begin);
+}
+
+TEST_F(InstallationTest, TheExampleOfTheLibraryIsBuiltAgainstIt) {
   std::filesystem::create_directory(path("user"));
   writeSyntheticSequence(path("input"), 3);
-  std::ofstream(path("user/CMakeLists.txt"))
-      << "cmake_minimum_required(VERSION 3.16)\n"
-         "project(user CXX)\n"
-         "set(CMAKE_CXX_STANDARD 17)\n"
-         "find_package(rotrocc REQUIRED)\n"
-         "include_directories(${rotrocc_INCLUDE_DIRS})\n"
-         "add_executable(user user.cpp)\n"
-         "target_link_libraries(user ${rotrocc_LIBRARIES} opencv_imgcodecs)\n";
-  std::ofstream(path("user/user.cpp"))
-      << "#include <iostream>\n"
-         "#include <opencv2/imgcodecs.hpp>\n"
-         "#include <rotrocc/visual_odometry.h>\n"
-         "int main(int, char** argv) {\n"
-         "  rotrocc::StereoCamera camera;\n"
-         "  camera.width = 620, camera.height = 188, camera.fx = camera.fy = 360.0;\n"
-         "  camera.cx = camera.cx_right = 305.0, camera.cy = 92.0, camera.baseline_m = 0.54;\n"
-         "  rotrocc::VisualOdometry odometry({});\n"
-         "  int found = 0;\n"
-         "  for (int i = 0; i < 3; ++i) {\n"
-         "    const auto read = [&](const char* side) {\n"
-         "      const std::string name = cv::format(\"/image_%s/%06d.png\", side, i);\n"
-         "      return cv::imread(argv[1] + name, cv::IMREAD_GRAYSCALE);\n"
-         "    };\n"
-         "    const rotrocc::StereoPair pair = {100000000LL * i, read(\"0\"), read(\"1\")};\n"
-         "    found += odometry.process(pair, camera).hasMotion();\n"
-         "  }\n"
-         "  std::cout << \"motions: \" << found;\n"
-         "}\n";
+  std::ofstream(path("user/CMakeLists.txt")) << exampleOf("cmake");
+  std::ofstream(path("user/example.cpp")) << exampleOf("cpp");
   const CommandResult built =
       run("cmake -S " + path("user") + " -B " + path("user/build") +
           " -DPYTHON_EXECUTABLE=/usr/bin/python3 && cmake --build " + path("user/build"));
   ASSERT_EQ(built.status, 0) << built.output;
-  const CommandResult result = run(path("user/build/user") + " " + path("input"));
-  EXPECT_EQ(result.output, "motions: 2");
+  const CommandResult result = run(path("user/build/example") + " " + path("input"));
+  EXPECT_EQ(result.output.find("initializing 0 0 0\nok "), 0u) << result.output;
+  EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 3) << result.output;
+}
+
+TEST_F(InstallationTest, TheExampleInPythonListensToTheNode) {
+  writeSyntheticSequence(path("drive"), 20);
+  std::ofstream(path("listener.py")) << exampleOf("python");
+  const CommandResult result = run(
+      "port=$(python3 -c 'import socket; s = socket.socket(); s.bind((\"\", 0)); "
+      "print(s.getsockname()[1])'); export ROS_MASTER_URI=http://localhost:$port; "
+      "roscore -p $port >/dev/null 2>&1 & master=$!; "
+      "until rosparam list >/dev/null 2>&1; do sleep 0.2; done; python3 " +
+      path("listener.py") + " odom:=/stereo/odom status:=/stereo/status > " + path("heard.txt") +
+      " & listener=$!; roslaunch rotrocc replay.launch rviz:=false bag:=" + path("drive") +
+      "; kill $listener $master; wait");
+  const std::string heard = readFile(path("heard.txt"));
+  EXPECT_TRUE(
+      std::regex_search(heard, std::regex(R"(\d s: -?\d+\.\d\d -?\d+\.\d\d -?\d+\.\d\d m\n)")))
+      << heard << result.output;
 }
 
 TEST(ConfigurationTest, APythonWithoutRosIsNotUsed) {

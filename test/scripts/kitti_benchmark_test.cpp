@@ -189,7 +189,7 @@ TEST_F(KittiBenchmarkTest, UsesOtherMachines) {
   }
 }
 
-TEST_F(KittiBenchmarkTest, RefusesToMixResultsAndWhatIsNoDataSet) {
+TEST_F(KittiBenchmarkTest, RejectsToMixResultsAndWhatIsNoDataSet) {
   fs::create_directory(directory_ / "out");
   directory_.write("out/settings.json", "{\"odometry options\": [\"--set\", \"a=b\"]}");
   const std::pair<std::string, const char*> kRows[] = {

@@ -33,7 +33,7 @@ TEST_F(LimitsTest, FindsTheLimitsOfEachStress) {
 }
 
 /// What the zones are made of.
-TEST_F(LimitsTest, TellsEachRun) {
+TEST_F(LimitsTest, ReportsEachRun) {
   for (const CsvRow& row : readTable("runs")) {
     const double with_state = number(row, "ok") + number(row, "degraded") + number(row, "lost");
     EXPECT_EQ(number(row, "pairs"), 8.0);

@@ -107,8 +107,8 @@ TEST_F(SetupTest, AsksOnATerminal) {
     GTEST_SKIP() << "needs a pseudo-terminal: mount /dev/pts";
   }
   setMissing("g++\n");
-  const CommandResult refused = setupOnTerminal("n");
-  EXPECT_NE(refused.status, 0) << refused.output;
+  const CommandResult rejected = setupOnTerminal("n");
+  EXPECT_NE(rejected.status, 0) << rejected.output;
   EXPECT_EQ(aptCalls().find("-y -qq"), std::string::npos) << aptCalls();
   const CommandResult agreed = setupOnTerminal("y");
   EXPECT_EQ(agreed.status, 0) << agreed.output;

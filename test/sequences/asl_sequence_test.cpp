@@ -17,7 +17,7 @@ class AslSequenceTest : public ::testing::Test {
  protected:
   StereoSequence open() const { return openStereoSequence(folder_.path(), {}); }
 
-  void expectRefused(const std::string& part) const {
+  void expectRejected(const std::string& part) const {
     expectError<std::runtime_error>([this] { open(); }, part);
   }
 
@@ -162,20 +162,20 @@ TEST_F(AslSequenceTest, NamesWhatIsWrong) {
       {"cam0/data.csv",
        "#timestamp [ns],filename\r\n",
        "5,a.png\n5,b.png\n",
-       "data.csv:2: the time 5 is not later than the one before it: sort the file by time"},
+       "data.csv:2: the time 5 is not later than the previous one: sort the file by time"},
   };
   for (const auto& row : rows) {
     const std::string text = readFile(folder_ / row.file);
     change(row.file, row.text, row.changed_text);
-    expectRefused(row.message);
+    expectRejected(row.message);
     folder_.write(row.file, text);
   }
   folder_.write("cam1/sensor.yaml", readFile(folder_ / "cam0/sensor.yaml"));
-  expectRefused("the baseline is zero");
+  expectRejected("the baseline is zero");
   std::filesystem::remove_all(folder_ / "cam1/data");
-  expectRefused("there is no pair: of 3 left images and 0 right images");
+  expectRejected("there is no pair: of 3 left images and 0 right images");
   std::filesystem::remove(folder_ / "cam1/data.csv");
-  expectRefused("cannot read");
+  expectRejected("cannot read");
 }
 
 TEST_F(AslSequenceTest, NamesImagesThatCannotBeRead) {

@@ -35,7 +35,7 @@ class CalibratedFolderTest : public ::testing::Test {
     return openStereoSequence(directory_ / "", options);
   }
 
-  void expectRefused(const std::string& part) const {
+  void expectRejected(const std::string& part) const {
     expectError<std::runtime_error>([this] { open(); }, part);
   }
 
@@ -75,14 +75,14 @@ TEST_F(CalibratedFolderTest, TakesTheTimesOfAFile) {
     fs::rename(directory_ / (side + "/1403636579763555584.png"), directory_ / (side + "/z.png"));
     fs::rename(directory_ / (side + "/1403636579813555456.png"), directory_ / (side + "/a.png"));
   }
-  expectRefused("a.png is not named by its time, e.g. 1403636579763555584.png [ns]");
+  expectRejected("a.png is not named by its time, e.g. 1403636579763555584.png [ns]");
   directory_.write("times.txt", "0.5\n0.6\n");
   StereoSequence sequence = open();
   EXPECT_EQ(sequence.stamp_ns(1), 600'000'000);
   EXPECT_EQ(sequence.read(0).left.at<uchar>(0, 0), 20) << "in the order of their names";
   EXPECT_EQ(rosTimeOffset_ns(sequence), 1'317'600'000'000'000'000);
   directory_.write("times.txt", "0.5\n");
-  expectRefused("times.txt has 1 times, but there are 2 left and 2 right images");
+  expectRejected("times.txt has 1 times, but there are 2 left and 2 right images");
 }
 
 TEST_F(CalibratedFolderTest, ReadsTruthInTumFormat) {
@@ -94,24 +94,24 @@ TEST_F(CalibratedFolderTest, ReadsTruthInTumFormat) {
   EXPECT_EQ(truth[0].stamp_ns, 1403636579763555584);
   EXPECT_NEAR(truth[0].T_world_body.translation().z(), 0.63555584, 1e-6);
   directory_.write("groundtruth.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
-  expectRefused("groundtruth.txt has no stamps: TUM format is expected");
+  expectRejected("groundtruth.txt has no stamps: TUM format is expected");
 }
 
 TEST_F(CalibratedFolderTest, NamesWhatIsWrong) {
   change("right.yaml", "-48.01976196062409", "0");
-  expectRefused("the baseline is zero: P[3] of camera_info");
+  expectRejected("the baseline is zero: P[3] of camera_info");
   EXPECT_EQ(open({0.01, 0.2}).calibration.rectified.baseline_m, 0.2);
   change("right.yaml", "364.441234588623, 0,", "364.441234588623, -48.0,");
   change("right.yaml", "plumb_bob", "mirror");
-  expectRefused("the distortion model 'mirror' is not supported");
+  expectRejected("the distortion model 'mirror' is not supported");
   change("right.yaml", "image_width: 752", "image_width: -752");
-  expectRefused("right.yaml: image_width is -752, not a number of pixels");
+  expectRejected("right.yaml: image_width is -752, not a number of pixels");
   change("left.yaml", "camera_matrix", "matrix");
-  expectRefused("left.yaml: camera_matrix is missing");
+  expectRejected("left.yaml: camera_matrix is missing");
   fs::remove(directory_ / "left.yaml");
-  expectRefused("cannot read");
+  expectRejected("cannot read");
   fs::remove_all(directory_ / "right");
-  expectRefused("right is missing");
+  expectRejected("right is missing");
 }
 
 }  // namespace

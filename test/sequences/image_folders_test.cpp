@@ -106,7 +106,7 @@ TEST_F(ImageFoldersTest, DigitsOfANameTellTheUnitOfItsTime) {
   }
 }
 
-TEST_F(ImageFoldersTest, RefusesNamesThatAreNoTimesOfACamera) {
+TEST_F(ImageFoldersTest, RejectsNamesThatAreNoTimesOfACamera) {
   write("left", {"12000000000.png", "12000000050.png"});
   write("right", {"12000000000.png", "12000000050.png"});
   expectError<std::runtime_error>(

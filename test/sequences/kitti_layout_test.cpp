@@ -38,7 +38,7 @@ class KittiLayoutTest : public ::testing::Test {
 
   StereoSequence open() const { return openStereoSequence(directory_ / "", {}); }
 
-  void expectRefused(const std::string& part) const {
+  void expectRejected(const std::string& part) const {
     expectError<std::runtime_error>([this] { open(); }, part);
   }
 
@@ -91,7 +91,7 @@ TEST_F(KittiLayoutTest, TruthMayBeInTumFormatOrMissing) {
   EXPECT_TRUE(open().ground_truth.empty());
 }
 
-TEST_F(KittiLayoutTest, RefusesWrongFiles) {
+TEST_F(KittiLayoutTest, RejectsWrongFiles) {
   const std::string left = "P0: 700 0 4 0 0 700 3 0 0 0 1 0\n";
   const struct {
     std::string file, text, message;
@@ -115,7 +115,7 @@ TEST_F(KittiLayoutTest, RefusesWrongFiles) {
     const bool existed = std::filesystem::exists(directory_ / row.file);
     const std::string text = existed ? readFile(directory_ / row.file) : "";
     directory_.write(row.file, row.text);
-    expectRefused(row.message);
+    expectRejected(row.message);
     directory_.write(row.file, text);
   }
 }
@@ -131,7 +131,7 @@ TEST_F(KittiLayoutTest, ReadsColorImagesIfThereAreNoOthers) {
   }
   std::filesystem::remove_all(directory_ / "image_0");
   std::filesystem::remove_all(directory_ / "image_1");
-  expectRefused("calib.txt has no line 'P2: ...'");
+  expectRejected("calib.txt has no line 'P2: ...'");
   directory_.write("calib.txt",
                    "P2: 700 0 4 70 0 700 3 1 0 0 1 0\nP3: 700 0 4 -280 0 700 3 2 0 0 1 0\n");
   EXPECT_DOUBLE_EQ(open().calibration.rectified.baseline_m, 0.5);
@@ -176,9 +176,9 @@ TEST_F(KittiLayoutTest, NamesTheFileThatIsMissing) {
   expectError<std::runtime_error>([this] { openStereoSequence(directory_ / "none", {}); },
                                   "none is not a directory");
   std::filesystem::remove_all(directory_ / "image_1");
-  expectRefused("image_1 is missing");
+  expectRejected("image_1 is missing");
   std::filesystem::remove(directory_ / "times.txt");
-  expectRefused("times.txt");
+  expectRejected("times.txt");
 }
 
 TEST_F(KittiLayoutTest, NamesTheImageThatIsMissingUnreadableOrOfAnotherSize) {

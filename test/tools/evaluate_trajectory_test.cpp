@@ -185,7 +185,7 @@ TEST_F(EvaluateTrajectoryTest, PageOpensAloneAndIsTheSameEachTime) {
   EXPECT_TRUE(page() == html);
 }
 
-TEST_F(EvaluateTrajectoryTest, PageHasAMapThatTellsOfEachPair) {
+TEST_F(EvaluateTrajectoryTest, PageHasAMapWithEachPair) {
   if (!std::filesystem::exists("/usr/share/javascript/leaflet/leaflet.min.js")) {
     GTEST_SKIP() << "libjs-leaflet is not installed: pages have a picture instead";
   }
@@ -307,24 +307,25 @@ TEST_F(EvaluateTrajectoryTest, ProposesSegmentsThatFit) {
   std::string poses;
   for (int i = 0; i < 40; ++i) poses += "1 0 0 0 0 1 0 0 0 0 1 " + std::to_string(0.1 * i) + "\n";
   directory_.write("short.txt", poses);
-  const CommandResult refused = run("short.txt short.txt --fit");
-  EXPECT_EQ(refused.status, 1);
-  const std::size_t proposal = refused.output.find("--lengths");
-  ASSERT_NE(proposal, std::string::npos) << refused.output;
-  EXPECT_EQ(run("short.txt short.txt " + refused.output.substr(proposal)).status, 0)
-      << refused.output;
+  const CommandResult rejected = run("short.txt short.txt --fit");
+  EXPECT_EQ(rejected.status, 1);
+  const std::size_t proposal = rejected.output.find("--lengths");
+  ASSERT_NE(proposal, std::string::npos) << rejected.output;
+  EXPECT_EQ(run("short.txt short.txt " + rejected.output.substr(proposal)).status, 0)
+      << rejected.output;
 }
 
 TEST_F(EvaluateTrajectoryTest, FilesOfOthersAreKept) {
-  const std::string refused = "has files that are not of a report, e.g. ";
-  EXPECT_NE(run("truth.txt estimate.txt --fit --report .").output.find(refused), std::string::npos);
+  const std::string rejected = "has files that are not of a report, e.g. ";
+  EXPECT_NE(run("truth.txt estimate.txt --fit --report .").output.find(rejected),
+            std::string::npos);
   ASSERT_EQ(run("truth.txt estimate.txt --fit --report report").status, 0);
   directory_.write("report/notes.csv", "mine\n");
   ASSERT_EQ(run("tum_estimate.txt --report report").status, 0);
   EXPECT_EQ(readFile(directory_ / "report/notes.csv"), "mine\n");
 }
 
-TEST_F(EvaluateTrajectoryTest, RefusesBadUsage) {
+TEST_F(EvaluateTrajectoryTest, RejectsBadUsage) {
   for (const char* arguments : {"estimate.txt",
                                 "a b c",
                                 "truth.txt estimate.txt --fit --step 1",

@@ -240,7 +240,7 @@ TEST_F(OfflineOdometryTest, ThePoseIsKeptWhenTimeJumpsBack) {
 
   const std::string odometry = directory_ / "odometry.bag";
   const std::string zero =
-      " --set pose_after_time_jump=zero --set invert_tf=true --bag " + odometry;
+      " --set pose_after_time_jump=initial --set invert_tf=true --bag " + odometry;
   trajectoryOf(bags, zero);
   EXPECT_TRUE(readTrajectory(directory_ / "trajectory.txt")[12].T_world_body.isApprox(
       Eigen::Isometry3d::Identity(), 1e-9));
@@ -308,7 +308,7 @@ TEST_F(OfflineOdometryTest, PredictsByAGyroscopeOfABag) {
       << missing.output;
 }
 
-TEST_F(OfflineOdometryTest, TellsBadUsageFromBadInput) {
+TEST_F(OfflineOdometryTest, DistinguishesBadUsageFromBadInput) {
   const std::string good = sequence() + " --trajectory /dev/null";
   const struct {
     std::string arguments;

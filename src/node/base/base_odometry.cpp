@@ -121,7 +121,7 @@ BaseState BaseOdometry::add(const OdometryResult& result,
     last_.T_base_camera = T_base_camera;
     T_start_camera_ = T_base_camera;
     if (!last_.time_ns) last_.time_ns = result.time_ns();
-    known_ = last_;
+    last_measured_ = last_;
   }
   if (result.hasMotion()) {
     const UncertainTransform step = addMotion(result, T_base_camera);
@@ -136,14 +136,14 @@ BaseState BaseOdometry::add(const OdometryResult& result,
   }
   if (parameters_.planar) last_.T_odom_base.covariance = planar(last_.T_odom_base.covariance);
   if (result.state != State::kLost) {
-    known_ = last_;
-    T_known_last_ = Eigen::Isometry3d::Identity();
+    last_measured_ = last_;
+    T_measured_last_ = Eigen::Isometry3d::Identity();
     lost_since_ns_.reset();
   } else {
-    if (T_known_last_ && T_last_cur) {
-      T_known_last_ = *T_known_last_ * *T_last_cur;
+    if (T_measured_last_ && T_last_cur) {
+      T_measured_last_ = *T_measured_last_ * *T_last_cur;
     } else {
-      T_known_last_.reset();
+      T_measured_last_.reset();
     }
     if (!lost_since_ns_) lost_since_ns_ = result.time_ns();
   }
@@ -155,9 +155,9 @@ BaseState BaseOdometry::add(const OdometryResult& result,
 std::optional<Eigen::Isometry3d> BaseOdometry::expectedMotion(
     const Eigen::Isometry3d& T_base_camera,
     const std::optional<Eigen::Isometry3d>& T_last_cur) const {
-  if (!T_known_last_ || !T_last_cur) return std::nullopt;
-  const Eigen::Isometry3d T_known_base = *T_known_last_ * *T_last_cur;
-  return known_.T_base_camera.inverse() * T_known_base * T_base_camera;
+  if (!T_measured_last_ || !T_last_cur) return std::nullopt;
+  const Eigen::Isometry3d T_measured_base = *T_measured_last_ * *T_last_cur;
+  return last_measured_.T_base_camera.inverse() * T_measured_base * T_base_camera;
 }
 
 /// Where `camera_motion` is T_prev_cur of the camera.
@@ -173,7 +173,8 @@ UncertainTransform BaseOdometry::motionOfBase(const UncertainTransform& camera_m
 /// Returns the motion of the base since the previous pair.
 UncertainTransform BaseOdometry::addMotion(const OdometryResult& result,
                                            const Eigen::Isometry3d& T_base_camera) {
-  const Pose prev = result.prev_time_ns() > *known_.time_ns ? last_ : known_;  // a lost pair
+  const Pose prev =
+      result.prev_time_ns() > *last_measured_.time_ns ? last_ : last_measured_;  // a lost pair
   if (result.keyframe_stamp_ns != keyframe_stamp_ns_) {
     keyframe_stamp_ns_ = result.keyframe_stamp_ns;
     keyframe_ = prev;
@@ -238,7 +239,7 @@ void BaseOdometry::setPose(const UncertainTransform& T_odom_base) {
   T_odom_first_ = T_odom_base.T;
   last_.T_odom_base = T_odom_base;
   last_.T_odom_base.covariance += kFirstVariance * Matrix6d::Identity();
-  known_ = last_;
+  last_measured_ = last_;
   keyframe_.reset();
   without_motion_s_ = guessed_m_ = guessed_rad_ = 0.0;
 }
@@ -277,7 +278,7 @@ Matrix6d BaseOdometry::growthWithTime(double time_s) {
                   turn_rate_.wayVariance(without_motion_s_) - turn_rate_.wayVariance(before_s));
 }
 
-/// The same for the way that another odometry tells.
+/// The same for the distance that another odometry reports.
 Matrix6d BaseOdometry::growthWithDistance(const Eigen::Isometry3d& T_last_cur) {
   const double before_m = guessed_m_;
   const double before_rad = guessed_rad_;

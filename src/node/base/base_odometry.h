@@ -43,7 +43,7 @@ struct BaseState {
 /// Accumulates camera motions to the odometry of the base, from the initial pose at the first pair.
 /// The camera may move on the base.
 ///
-/// Without a motion, the base moves as another odometry tells, and the standard deviation of the
+/// Without a motion, the base moves as another odometry reports, and the standard deviation of the
 /// pose grows with its way; if there is none, the base is assumed at rest, and it grows by the way
 /// that the base may make in the time. The twist is zero with a very large covariance.
 class BaseOdometry {
@@ -63,7 +63,7 @@ class BaseOdometry {
                 const std::optional<Eigen::Isometry3d>& T_last_cur = std::nullopt);
 
   /// The motion of the camera since the last pair that was not lost, for add() of a later pair with
-  /// these arguments; nothing unless the other odometry has told all of it.
+  /// these arguments; nothing unless the other odometry has reported all of it.
   std::optional<Eigen::Isometry3d> expectedMotion(
       const Eigen::Isometry3d& T_base_camera,
       const std::optional<Eigen::Isometry3d>& T_last_cur) const;
@@ -125,8 +125,9 @@ class BaseOdometry {
   PoseAccumulator camera_;                           // visual poses
   std::optional<Eigen::Isometry3d> T_start_camera_;  // at the first pair
   Pose last_;                                        // of the last pair
-  Pose known_;  // of the last pair that was not lost; equal to last_ if that was not
-  std::optional<Eigen::Isometry3d> T_known_last_;  // by the other odometry, if it told all of it
+  Pose last_measured_;  // of the last pair that was not lost; equal to last_ if that was not
+  std::optional<Eigen::Isometry3d>
+      T_measured_last_;  // by the other odometry, if it reported all of it
   std::optional<std::int64_t> lost_since_ns_;
   Eigen::Isometry3d T_odom_first_ = Eigen::Isometry3d::Identity();  // initial, or set
 

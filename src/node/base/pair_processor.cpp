@@ -69,7 +69,7 @@ PairAnswer PairProcessor::process(const PairInput& in) {
     // Compared with a pair from before a loss, this one would be lost again.
     if (base_odometry_->lost_since_ns()) odometry_.reset();
   }
-  // By stamps that are set back, the other odometry tells of an earlier way.
+  // By stamps that are set back, the other odometry reports an earlier part of the path.
   const bool is_set_back = last_ && in.pair.clock_set_ns < last_->clock_set_ns;
   const std::optional<Eigen::Isometry3d> T_last_base = is_set_back ? std::nullopt : in.T_last_base;
   answer.result = odometry_.process(in.pair,
@@ -79,7 +79,7 @@ PairAnswer PairProcessor::process(const PairInput& in) {
                                     [&] { return in.is_simulated && !moves(in); });
   answer.state = base_odometry_->add(answer.result, in.T_base_camera, T_last_base);
   answer.mount_problem = base_odometry_->planarProblem();
-  if (!answer.mount_problem.empty() && !std::exchange(told_mount_, true)) {
+  if (!answer.mount_problem.empty() && !std::exchange(logged_mount_, true)) {
     log_.warn(answer.mount_problem);
   }
   last_arrival_ = in.arrival;

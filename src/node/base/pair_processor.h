@@ -25,7 +25,7 @@ struct PairInput {
   std::chrono::steady_clock::time_point arrival;  ///< of the pair
   StereoCamera camera;
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();  ///< at the stamp of the pair
-  /// The motion of the base since the pair before by another odometry, if any. It predicts the
+  /// The motion of the base since the previous pair by another odometry, if any. It predicts the
   /// motion of the pair, and moves the pose while the motion is lost.
   std::optional<Eigen::Isometry3d> T_last_base = std::nullopt;
   /// Of the camera, see VisualOdometry::process().
@@ -116,7 +116,7 @@ class PairProcessor {
   VisualOdometry odometry_;
   PairInspector inspector_;
   std::optional<BaseOdometry> base_odometry_;  // from the first pair on
-  bool told_mount_ = false;
+  bool logged_mount_ = false;
   std::optional<StereoPair> last_;  // without its images
   std::chrono::steady_clock::time_point last_arrival_;
 

@@ -54,8 +54,8 @@ void describeInput(const HealthReport& report, StatusWrapper& status) {
     status.summary(DiagnosticStatus::WARN, "dropped in the last 5 s: " + *why);
   } else if (isOfAnotherClock(input)) {
     status.summary(DiagnosticStatus::OK,
-                   "stereo pairs arrive, whose stamps are not of this clock: a replay without "
-                   "--clock, or a driver that does not stamp by ROS time");
+                   "stereo pairs arrive with timestamps from another clock: a replay without "
+                   "--clock, or a driver that does not stamp in ROS time");
   } else {
     status.summary(DiagnosticStatus::OK, "stereo pairs arrive");
   }
@@ -151,7 +151,7 @@ void describeGyro(const GyroPredictor& gyro, const std::string& topic, StatusWra
   status.add("rotations predicted", counts.predicted);
   status.add("rotations missed", counts.missed);
   status.add("samples", counts.samples);
-  status.add("samples refused", counts.refused);
+  status.add("samples rejected", counts.rejected);
 }
 
 Diagnostics::Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const std::string& name)

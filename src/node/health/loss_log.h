@@ -12,8 +12,8 @@ namespace rotrocc {
 
 /// Warns of lost motions and of faults of the cameras, in one line for each: of a loss as soon as
 /// its cause is found, after kPatience at the latest, or at its end. A cause that lasts or returns
-/// is told more and more seldom. Chance matches may look like a motion: a loss has ended when there
-/// were motions for kRecovery.
+/// is logged at growing intervals. Chance matches may look like a motion: a loss has ended when
+/// there were motions for kRecovery.
 class LossLog {
  public:
   static constexpr std::chrono::seconds kPatience{2};

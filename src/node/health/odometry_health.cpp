@@ -16,7 +16,7 @@ constexpr double kAnswerAge_s = 2.0;
 constexpr double kLargeBias_px = 0.5;
 /// More than a good rectification leaves, and more than the matching of small windows tolerates.
 constexpr double kRowsApart_px = 0.5;
-/// Standard deviations of a fault that is beyond doubt.
+/// Standard deviations of a significant fault.
 constexpr double kSigmas = 4.0;
 
 /// If nothing is wrong with the input.
@@ -98,7 +98,7 @@ void updateState(HealthReport& report) {
   const auto why = whyNoPairs(input);
   if (!input.camera_error.empty()) return set(OdometryStatus::NO_CALIBRATION, input.camera_error);
   if (input.waits_for_info) {
-    return set(OdometryStatus::NO_CALIBRATION, why.value_or("the pairs wait for camera_info"));
+    return set(OdometryStatus::NO_CALIBRATION, why.value_or("pairs are waiting for camera_info"));
   }
   if (input.recent_pairs > 0 && !report.waits_for_tf.empty()) {
     return set(OdometryStatus::NO_TF, report.waits_for_tf);
@@ -132,7 +132,7 @@ OdometryStatus toStatus(const HealthReport& report) {
   message.row_offset_sigma_px = static_cast<float>(result.row_offset.sigma_px);
   message.row_offset_applied_px = static_cast<float>(result.row_offset.applied_px);
   message.row_difference_px = static_cast<float>(result.row_offset.typical_px);
-  message.exposure_gain = static_cast<float>(result.exposure_gain);
+  message.contrast_gain = static_cast<float>(result.contrast_gain);
   message.halvings = static_cast<std::uint8_t>(result.halvings);
   message.flow_noise_px = static_cast<float>(result.flow_noise_px);
   message.pyramids_ms = static_cast<float>(result.times.pyramids_ms);
@@ -160,45 +160,45 @@ HealthReport OdometryHealth::addPair(const PairReport& pair,
                                      const DropLog& drops,
                                      TopicStatistics::Time now) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  known_.pair = pair;
-  known_.state = toMessage(pair.result.state);
-  known_.reason = pair.result.reason;
-  ++known_.pairs_processed;
-  known_.pairs_lost += pair.result.state == State::kLost ? 1 : 0;
+  status_.pair = pair;
+  status_.state = toMessage(pair.result.state);
+  status_.reason = pair.result.reason;
+  ++status_.pairs_processed;
+  status_.pairs_lost += pair.result.state == State::kLost ? 1 : 0;
   if (pair.result.hasMotion()) {
     // What a camera fault does to disparities and rows is none of the rig.
     const std::string fault = pair.camera_fault.empty() ? faultOfRig(pair.result) : "";
-    known_.rig_fault = rig_fault_.observe(fault, now);
+    status_.rig_fault = rig_fault_.observe(fault, now);
   }
-  known_.drops = drops.counts();
+  status_.drops = drops.counts();
   answers_.add(now);
   latencies_ms_.push_back(pair.status.latency_ms);
   without_tf_ms_.push_back(pair.status.latency_ms - pair.status.tf_ms);
-  return known_;
+  return status_;
 }
 
 void OdometryHealth::setPaused(bool paused) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  known_.paused = paused;
+  status_.paused = paused;
 }
 
 bool OdometryHealth::paused() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return known_.paused;
+  return status_.paused;
 }
 
 void OdometryHealth::setWaitsForTf(const std::string& transform) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  known_.waits_for_tf = transform;
+  status_.waits_for_tf = transform;
 }
 
 HealthReport OdometryHealth::report(const InputReport& input,
                                     const DropLog& drops,
                                     TopicStatistics::Time now) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  known_.input_fault = input_fault_.observe(faultOfPairs(input).value_or(""), now);
-  known_.drops = drops.counts();
-  HealthReport report = known_;
+  status_.input_fault = input_fault_.observe(faultOfPairs(input).value_or(""), now);
+  status_.drops = drops.counts();
+  HealthReport report = status_;
   report.input = input;
   report.answers = answers_.silent_s(now).value_or(kAnswerAge_s) < kAnswerAge_s;
   if (!report.answers) report.rig_fault.clear();

@@ -70,7 +70,7 @@ class OdometryHealth {
 
  private:
   mutable std::mutex mutex_;
-  HealthReport known_;
+  HealthReport status_;
   TopicStatistics answers_;
   LastingFault rig_fault_{std::chrono::seconds(2)};  // single pairs may be wrong
   LastingFault input_fault_{TopicStatistics::kWindow};

@@ -100,7 +100,7 @@ std::size_t agreeing(OdometryConfig config,
   return static_cast<std::size_t>(std::count(inliers.begin(), inliers.end(), 1));
 }
 
-/// Which side shows what the other one has shown in the pair before; empty if none.
+/// Which side shows what the other one has shown in the previous pair; empty if none.
 std::string whichIsLate(const std::vector<StereoPair>& pairs,
                         const OdometryConfig& config,
                         const StereoCamera& camera) {
@@ -119,7 +119,7 @@ std::string whichIsLate(const std::vector<StereoPair>& pairs,
   return fits(paired(second, first), paired(third, second)) ? "left" : "";
 }
 
-/// Why the last of some pairs has no motion, as far as the images tell; empty if they do not.
+/// Why the last of some pairs has no motion, as far as the images show; empty if they do not.
 Explanation explainLoss(const std::vector<StereoPair>& pairs,
                         const OdometryConfig& config,
                         const StereoCamera& camera,
@@ -146,12 +146,11 @@ Explanation explainLoss(const std::vector<StereoPair>& pairs,
     return {"the images match if left and right are swapped: swap their topics", true};
   }
   if (const std::string side = whichIsLate(pairs, config, camera); !side.empty()) {
-    return {
-        "the " + side + " images are one frame late: they match the " +
-            (side == "right" ? "left" : "right") +
-            " ones of the pair before; look for a queue in the driver, or for a trigger that one "
-            "camera misses",
-        true};
+    return {"the " + side + " images are one frame late: they match the " +
+                (side == "right" ? "left" : "right") +
+                " images of the previous pair; look for a queue in the driver, or for a trigger "
+                "that one camera misses",
+            true};
   }
   for (const int offset : kOffsets_px) {
     for (const int rows : {offset, -offset}) {
@@ -224,7 +223,7 @@ void PairInspector::explain(const StereoPair& pair,
   std::vector<StereoPair> pairs;
   try {
     if (before) pairs = before();
-  } catch (const std::exception&) {  // one of them is damaged: lateness is not told
+  } catch (const std::exception&) {  // one of them is damaged: lateness is not reported
   }
   pairs.push_back(copyOf(pair));
   search_ = std::async(
@@ -252,7 +251,7 @@ std::string PairInspector::finish() {
 
 std::string PairInspector::compareExposures(const OdometryResult& result) {
   constexpr const char* kRemedy = ": couple the exposures of the cameras";
-  if (result.hasMotion()) gains_.push_back(result.exposure_gain);
+  if (result.hasMotion()) gains_.push_back(result.contrast_gain);
   if (gains_.size() < kMinExposures) return "";
   const double least = quantileOf(gains_, kDropped);
   const double most = quantileOf(gains_, 1.0 - kDropped);

@@ -54,7 +54,7 @@ class PairInspector {
                       const PairsBefore& before = {});
 
   /// Whether the last explanation of a loss is that left and right images are not a pair:
-  /// exchanged, of one camera, or of different times. Then they tell nothing about the rig.
+  /// exchanged, of one camera, or of different times. Then they say nothing about the rig.
   bool isOfNoPair() const { return explanation_.is_of_no_pair; }
 
   /// Waits for what is being looked for. Returns the explanation of a loss; empty if none.

@@ -72,7 +72,7 @@ std::string GuessOdometry::describeMiss(std::int64_t stamp_ns) const {
   const bool late = tf_.canTransform(guess_frame_, base_frame_, ros::Time());
   return "no tf from guess_frame " + guess_frame_ + " to " + base_frame_ + " at " +
          std::to_string(SourceWatch::kPairs) + " pairs in a row (" + cause +
-         "), pairs do not wait for it: " +
+         "), pairs no longer wait for it: " +
          (late ? "publish it within " + toText(kTimeout_s) +
                      " s of its stamp, or synchronize the clocks"
                : "correct guess_frame, or start the odometry that publishes it");

@@ -199,7 +199,7 @@ void SensorPose::watchFixed() {
     const Eigen::Isometry3d T_newest = toEigen(transformAt(ros::Time()).transform);
     if (!differs(*T_base_sensor_, T_newest)) return problem_.clear();
     if (!problem_.empty()) return;
-    problem_ = "another static tf of camera " + frame_ + " has come, which is not used yet (" +
+    problem_ = "another static tf of the camera " + frame_ + " arrived, which is not used yet (" +
                describeCameraPose(T_newest) + "): call reset to use it";
     if (log_) log_->warn(problem_);
   } catch (const std::exception&) {
@@ -213,12 +213,13 @@ void SensorPose::logPose(const Eigen::Isometry3d& T_base_sensor) {
   if (!log_) return;
   std::string pose =
       "camera " + frame_ + " in " + base_frame_ + ": " + describeCameraPose(T_base_sensor);
-  if (!fixed_) pose += "; each pair waits for its tf: if it is fixed, publish it on /tf_static";
+  if (!fixed_)
+    pose += "; each pair waits for its tf: if the mount is fixed, publish it on /tf_static";
   if (previous_frame_.empty()) {
     log_->info(pose);
   } else if (change_warning_.pass()) {
-    log_->warn("the frame_id of the left images changed from " + previous_frame_ + " to " + frame_ +
-               "; if that is a fault of the driver, set camera_frame. Now " + pose);
+    log_->warn("the left images' frame_id changed from " + previous_frame_ + " to " + frame_ +
+               "; if this is a driver bug, set camera_frame. Now " + pose);
   }
 }
 
@@ -228,11 +229,11 @@ std::string SensorPose::describeLate(bool comes) const {
       "tf from " + base_frame_ + " to " + frame_ + ", which moves, arrives" +
       (rate ? " at " + fixedText(*rate, 1) + " Hz and" : "") +
       (comes ? " later than the next images, so pairs are dropped"
-             : " more than mount_timeout_s = " + toText(timeout_s_) + " s after the images") +
+             : " more than transform_timeout_s = " + toText(timeout_s_) + " s after the images") +
       ": publish it " +
       (rate && *rate * period_s_ < kSeldom ? "at the rate of the images" : "earlier");
   if (comes) return text;
-  return text + ", or raise mount_timeout_s" +
+  return text + ", or raise transform_timeout_s" +
          (rate && *rate * timeout_s_ < 1.0 ? " to " + hundredths(1.1 / *rate) : "");
 }
 

@@ -28,7 +28,7 @@ TEST(DiagnosticsPeriodTest, IsThatOfTheStandardParameter) {
   EXPECT_LE(published, 1);
 }
 
-TEST(TrajectoryFaultTest, IsToldUntilAnotherTrajectoryIsWritten) {
+TEST(TrajectoryFaultTest, IsReportedUntilAnotherTrajectoryIsWritten) {
   const TemporaryDirectory directory;
   const std::filesystem::path folder = directory / "drive";
   std::filesystem::create_directory(folder);

@@ -111,7 +111,7 @@ class ImuTest : public testing::Test {
   }
 
   // It waits longer for tf than the load of a machine delays it.
-  NodeletDrive drive_{{{"use_imu", true}, {"mount_timeout_s", 5.0}}};
+  NodeletDrive drive_{{{"use_imu", true}, {"transform_timeout_s", 5.0}}};
   ros::Publisher publisher_;
   tf2_ros::TransformBroadcaster joints_;
   ros::Time last_sample_;
@@ -133,15 +133,15 @@ TEST_F(ImuTest, IsUsedWhenItIsThereAndToldWhenNot) {
 
   for (int pair = 0; pair < SourceWatch::kPairs; ++pair) biased();
   const auto told = [&] { return drive_.log.with("the gyroscope is not used").size(); };
-  const std::size_t told_before = told();
+  const std::size_t logged_before = told();
 
-  // Without samples, the odometry goes on, and is told why.
+  // Without samples, the odometry continues, and is told why.
   EXPECT_TRUE(drivesUntil("older than the image", [&] { return driveWithout(); }));
   for (int pair = 0; pair < 10; ++pair) {
     const OdometryStatus status = driveWithout();
     EXPECT_EQ(status.state, OdometryStatus::OK) << status.reason;
   }
-  EXPECT_EQ(told(), told_before + 1) << "once for all of them";
+  EXPECT_EQ(told(), logged_before + 1) << "once for all of them";
   ASSERT_TRUE(drivesUntil("", biased));
 
   EXPECT_TRUE(drivesUntil("the angular velocity is not a number",

@@ -131,7 +131,7 @@ TEST_F(InterfaceTest, DrivesForwardInAxesOfTheBase) {
   EXPECT_EQ(status_.drops.size(), drops_before);
 }
 
-TEST_F(InterfaceTest, StatusTellsThePartsOfTheLatency) {
+TEST_F(InterfaceTest, StatusReportsThePartsOfTheLatency) {
   const auto begin = std::chrono::steady_clock::now();
   drive();
   const std::chrono::duration<double, std::milli> elapsed =
@@ -315,7 +315,7 @@ TEST_F(InterfaceTest, ParametersChangeLive) {
             1u);
   parameter.value = -1;
   ASSERT_TRUE(call("set_parameters", reconfigure));
-  EXPECT_EQ(reconfigure.response.config.ints[0].value, 60) << "refused";
+  EXPECT_EQ(reconfigure.response.config.ints[0].value, 60) << "rejected";
   parameter.value = 2000;
   ASSERT_TRUE(call("set_parameters", reconfigure));
   recover();

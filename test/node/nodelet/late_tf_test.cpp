@@ -14,7 +14,7 @@ using std::chrono::milliseconds;
 constexpr double kTfMemory_s = 10.0;
 
 TEST(LateTfTest, OdometryWaitsAndStartsByItself) {
-  NodeletDrive drive({{"silence_s", 0.5}});
+  NodeletDrive drive({{"no_input_warning_s", 0.5}});
   SimulatedRobot& robot = drive.robot;
   EXPECT_TRUE(robot.statusWith(OdometryStatus::NO_INPUT));
   const ros::Time first = robot.drive();

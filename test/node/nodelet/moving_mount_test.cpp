@@ -30,8 +30,8 @@ geometry_msgs::TransformStamped mountAt(double x_m,
 class MovingCameraTest : public testing::Test {
  protected:
   /// It waits for tf for long, or hardly.
-  void start(double mount_timeout_s) {
-    drive_.emplace(RunningNodelet::Parameters{{"mount_timeout_s", mount_timeout_s}});
+  void start(double transform_timeout_s) {
+    drive_.emplace(RunningNodelet::Parameters{{"transform_timeout_s", transform_timeout_s}});
     drive_->robot.publishInfos();
   }
 
@@ -104,7 +104,8 @@ TEST_F(MovingCameraTest, APairWithoutTfIsDroppedWithTheRateAndARemedy) {
   EXPECT_FALSE(drive_->robot.odometryOf(see(false), 5 * kSoon));
   const std::string said =
       "tf from base_link to camera_left, which moves, arrives at 10.0 Hz and more than "
-      "mount_timeout_s = 0.02 s after the images: publish it earlier, or raise mount_timeout_s";
+      "transform_timeout_s = 0.02 s after the images: publish it earlier, or raise "
+      "transform_timeout_s";
   EXPECT_TRUE(waitUntil([&] { return !drive_->log.with(said).empty(); }));
   EXPECT_TRUE(drive_->robot.statusWith(OdometryStatus::NO_TF, said)) << "while no pair has a pose";
   EXPECT_TRUE(waitUntil([&] {

@@ -19,9 +19,9 @@ TEST(TfRivalsTest, NameEachOtherAndOthersUntilTheyAreGone) {
   DiagnosticsListener diagnostics;
   const LogRecorder log;
   const auto isLogged = [&](const std::string& text) { return !log.with(text).empty(); };
-  const RunningNodelet front({{"silence_s", 1.0}}, "/front");
+  const RunningNodelet front({{"no_input_warning_s", 1.0}}, "/front");
   std::optional<RunningNodelet> rear;
-  rear.emplace(RunningNodelet::Parameters{{"silence_s", 1.0}},
+  rear.emplace(RunningNodelet::Parameters{{"no_input_warning_s", 1.0}},
                "/rear",
                ros::M_string{{"odom", "rear/odom"}, {"status", "rear/status"}});
   EXPECT_TRUE(diagnostics.says("front: tf", "/rear publishes tf odom -> base_link as well"));
