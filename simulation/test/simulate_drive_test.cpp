@@ -39,18 +39,18 @@ TEST_F(SimulateDriveTest, WritesAGyroscope) {
   EXPECT_GE(std::count(table.begin(), table.end(), '\n'), 20) << "0.1 s at 200 Hz";
 }
 
-TEST_F(SimulateDriveTest, RefusesWhatDoesNotFit) {
-  const auto expectRefused = [&](const std::string& options, const std::string& part) {
-    const CommandResult result = simulate("refused", options);
+TEST_F(SimulateDriveTest, RejectsWhatDoesNotFit) {
+  const auto expectRejected = [&](const std::string& options, const std::string& part) {
+    const CommandResult result = simulate("rejected", options);
     EXPECT_NE(result.status, 0) << options;
     EXPECT_NE(result.output.find(part), std::string::npos) << result.output;
   };
-  expectRefused("--rows 21", "row offset [px] is 21");
-  expectRefused("--moving-share 1.5", "share of moving cars is 1.5");
-  expectRefused("--layout tum", "--layout is 'tum', not kitti or asl");
-  expectRefused("--layout asl --lens omni", "'omni'");
-  expectRefused("--lens radtan", "--lens is for the layout asl");
-  expectRefused("--layout asl --truth", "--truth is for the layout kitti");
+  expectRejected("--rows 21", "row offset [px] is 21");
+  expectRejected("--moving-share 1.5", "share of moving cars is 1.5");
+  expectRejected("--layout tum", "--layout is 'tum', not kitti or asl");
+  expectRejected("--layout asl --lens omni", "'omni'");
+  expectRejected("--lens radtan", "--lens is for the layout asl");
+  expectRejected("--layout asl --truth", "--truth is for the layout kitti");
 }
 
 }  // namespace

@@ -126,6 +126,31 @@ INSTANTIATE_TEST_SUITE_P(Scenarios,
                          ::testing::Values("city", "motorway"),
                          [](const auto& name) { return name.param; });
 
+/// In fast turns, a third of the features may agree on a motion that others contradict.
+TEST(HandheldTest, AnAgreementOfFewIsNotTheMotion) {
+  SimulationOptions options;
+  options.rate_hz = 20.0;
+  const StereoCamera kitti = kittiCamera();
+  StereoCamera& camera = options.camera;
+  camera.width = 752;
+  camera.height = 480;
+  camera.fx = camera.fy = 458.0;
+  camera.cx = camera.cx_right = (kitti.cx + 0.5) * camera.width / kitti.width - 0.5;
+  camera.cy = (kitti.cy + 0.5) * camera.height / kitti.height - 0.5;
+  camera.baseline_m = 0.12;
+  const Simulator simulator(scenario("handheld", 1), options);
+  VisualOdometry odometry{VisualOdometry::Config{}};
+  constexpr int kFirst = 80, kLast = 88, kStep = 2;  // 10 Hz: 100 deg/s
+  for (int i = kFirst; i <= kLast; i += kStep) {
+    const OdometryResult result = odometry.process(simulator.render(i).pair, camera);
+    if (i == kFirst) continue;
+    const Eigen::Isometry3d T_prev_cur = simulator.pose(i - kStep).inverse() * simulator.pose(i);
+    const double step_m = T_prev_cur.translation().norm();
+    EXPECT_LT((result.T_prev_cur.translation() - T_prev_cur.translation()).norm(), 0.05 * step_m)
+        << i << ": " << result.reason;
+  }
+}
+
 class ScenarioAccuracyTest : public ::testing::TestWithParam<std::string> {};
 
 /// In the middle of a scenario, where the car drives.

@@ -15,8 +15,8 @@ struct FrameAlignment {
   double error_before = 0.0;  ///< mean difference of the motions of both, as a share of their way
   double error_after = 0.0;   ///< that which is left with T_estimate_truth
 
-  /// Whether the frames differ significantly: the error is less than half, and was more than that of
-  /// an odometry.
+  /// Whether the frames differ significantly: the error is less than half, and was more than that
+  /// of an odometry.
   bool isNeeded() const;
 
   /// "turned by 90.0 deg and 1.02 m away (0.00 0.10 1.01 m)"

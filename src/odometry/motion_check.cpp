@@ -90,31 +90,15 @@ double shareOf(const FeatureSet& inliers) {
 }
 
 std::string fewAgree(double share, const char* on_what, double limit) {
-  return "a share of " + comparedText(share, limit) + " of the features agrees on the " + on_what +
-         cv::format(", less than %g", limit);
+  return "a fraction of " + comparedText(share, limit) + " of the features agrees on the " +
+         on_what + cv::format(", less than %g", limit);
 }
 
 std::optional<std::string> whyFewHaveDepth(const StageCounts& counts) {
   if (counts.with_depth >= kMinWithDepth * counts.corners) return std::nullopt;
   return cv::format("only %d of %d corners have a disparity", counts.with_depth, counts.corners) +
-         cv::format(", a share below %g; are the lenses clean, and left and right rows aligned?",
+         cv::format(", a fraction below %g: are the lenses clean, and left and right rows aligned?",
                     kMinWithDepth);
-}
-
-std::optional<std::string> whyFewAgree(const MotionEstimate& estimate, bool has_prediction) {
-  const double by_rotation = shareOf(estimate.rotation_inliers);
-  if (by_rotation < kMinByRotation) return fewAgree(by_rotation, "motion", kMinByRotation);
-  if (!has_prediction && by_rotation < kMinAtStart) {
-    return "without a prediction, " + fewAgree(by_rotation, "motion", kMinAtStart);
-  }
-  if (!has_prediction && by_rotation < kUnanimousShare && estimate.flow_noise_px < kMinNoise_px) {
-    return cv::format("without a prediction, a share of %.3g of the features agrees", by_rotation) +
-           cv::format(" on the motion, more exactly (%.2g px)", estimate.flow_noise_px) +
-           " than features of the scene: something drawn or compressed stands still";
-  }
-  const double by_translation = shareOf(estimate.translation_inliers);
-  if (by_translation >= kMinByTranslation) return std::nullopt;
-  return fewAgree(by_translation, "translation", kMinByTranslation);
 }
 
 std::optional<std::string> whyFewSurvive(const Hypothesis& accepted) {
@@ -122,7 +106,7 @@ std::optional<std::string> whyFewSurvive(const Hypothesis& accepted) {
   const int features = accepted.counts.with_depth;
   if (survivors >= kMinSurvivors * features) return std::nullopt;
   return cv::format("the motion rests on %d of %d features", survivors, features) +
-         cv::format(", a share below %g", kMinSurvivors);
+         cv::format(", a fraction below %g", kMinSurvivors);
 }
 
 }  // namespace
@@ -157,6 +141,25 @@ std::optional<std::string> MotionCheck::whyLost(const MotionEstimate& estimate,
   return std::nullopt;
 }
 
+std::optional<std::string> MotionCheck::whyFewAgree(const Hypothesis& accepted) const {
+  const MotionEstimate& estimate = accepted.estimate;
+  const bool has_prediction = accepted.has_prediction;
+  const double by_rotation = shareOf(estimate.rotation_inliers);
+  if (by_rotation < kMinByRotation) return fewAgree(by_rotation, "motion", kMinByRotation);
+  if (!has_prediction && by_rotation < kMinAtStart) {
+    return "without a prediction, " + fewAgree(by_rotation, "motion", kMinAtStart);
+  }
+  if (!has_prediction && by_rotation < kUnanimousShare && estimate.flow_noise_px < kMinNoise_px) {
+    return cv::format("without a prediction, a fraction of %.3g of the features agrees",
+                      by_rotation) +
+           cv::format(" on the motion, too exactly (%.2g px)", estimate.flow_noise_px) +
+           " for scene features: something drawn or compressed is static";
+  }
+  const double by_translation = shareOf(estimate.translation_inliers);
+  if (by_translation >= kMinByTranslation) return std::nullopt;
+  return fewAgree(by_translation, "translation", kMinByTranslation);
+}
+
 std::optional<std::string> MotionCheck::whyDegraded(const Hypothesis& accepted,
                                                     const Matrix6d& covariance) {
   const MotionEstimate& estimate = accepted.estimate;
@@ -165,10 +168,10 @@ std::optional<std::string> MotionCheck::whyDegraded(const Hypothesis& accepted,
   const double half = kMinByTranslation * static_cast<double>(estimate.rotation_inliers.size());
   if (estimate.translation_failed && kMinInliers < half) {
     return cv::format("the translation stage has fewer than %d inliers: ", kMinInliers) +
-           "the motion is that of the rotation stage";
+           "the motion of the rotation stage is used";
   }
   std::optional<std::string> why = whyFewHaveDepth(accepted.counts);
-  if (!why) why = whyFewAgree(estimate, accepted.has_prediction);
+  if (!why) why = whyFewAgree(accepted);
   if (!why) why = whyFewSurvive(accepted);
   if (!why) why = whyAmbiguous(accepted);
   if (!why) why = whyFewDetermine(accepted);
@@ -199,9 +202,10 @@ std::optional<std::string> MotionCheck::whyAmbiguous(const Hypothesis& accepted)
   const bool are_behind =
       medianDepth(others_, set_) > kBehind * medianDepth(features, estimate.rotation_inliers);
   if (!are_behind && agree < many) return std::nullopt;
-  return cv::format("another motion fits %d of the %zu features", agree, features.size()) +
-         (are_behind ? ", which are behind the others, a share above half of" : ", a share above") +
-         cv::format(" %g: one of the two is that of a large object", kMaxCompetitors);
+  return cv::format("another motion fits %d of %zu features", agree, features.size()) +
+         (are_behind ? ", which are behind the others, a fraction above half of"
+                     : ", a fraction above") +
+         cv::format(" %g: one of the two motions belongs to a large object", kMaxCompetitors);
 }
 
 /// Whether few inliers determine the motion, and other features contradict them. It may be that of
@@ -209,9 +213,9 @@ std::optional<std::string> MotionCheck::whyAmbiguous(const Hypothesis& accepted)
 std::optional<std::string> MotionCheck::whyFewDetermine(const Hypothesis& accepted) {
   const double share = informationShare(accepted);
   if (share >= kMinInformation) return std::nullopt;
-  return "the inliers but one have a share of " + comparedText(share, kMinInformation) +
-         cv::format(" of the information about a part of the motion, less than %g",
-                    kMinInformation) +
+  return "without one of them, the inliers hold a fraction of " +
+         comparedText(share, kMinInformation) +
+         cv::format(" of the information on part of the motion, below %g", kMinInformation) +
          ": few features determine it";
 }
 
@@ -265,7 +269,7 @@ std::optional<std::string> MotionCheck::whyUndetermined(const Hypothesis& accept
   if (sigma_m <= kMaxSigma * step_m) return std::nullopt;
   return "the translation has a standard deviation of " +
          comparedText(sigma_m, kMaxSigma * step_m) +
-         cv::format(" m, more than a share of %g of %.3g m", kMaxSigma, step_m);
+         cv::format(" m, more than %g times %.3g m", kMaxSigma, step_m);
 }
 
 double MotionCheck::inflation(const MotionEstimate& accepted, double common_share) {

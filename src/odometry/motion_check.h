@@ -23,7 +23,7 @@ struct Hypothesis {
   StereoCamera camera;  ///< corrected by the disparity bias that was used for the features' depths
   Correspondences features;
   bool has_prediction = false;  ///< the motion was searched near a prediction
-  double exposure_gain = 1.0;   ///< see OdometryResult
+  double contrast_gain = 1.0;   ///< see OdometryResult
   MotionEstimate estimate;
   StageCounts counts;
   std::optional<std::string> why_lost = kNotTried;  ///< none if the motion is accepted
@@ -58,6 +58,10 @@ class MotionCheck {
   /// Why an accepted motion is less reliable; none if it is not. `covariance` is that of the
   /// motion since the keyframe, including that of the rig's calibration, before inflation().
   std::optional<std::string> whyDegraded(const Hypothesis& accepted, const Matrix6d& covariance);
+
+  /// Of these reasons the one that too few of the tracked features agree: there may be a better
+  /// start.
+  std::optional<std::string> whyFewAgree(const Hypothesis& accepted) const;
 
   /// Whether enough inliers are left for another motion against the same keyframe, which will have
   /// fewer.

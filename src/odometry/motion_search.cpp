@@ -13,8 +13,8 @@ namespace {
 /// The motion is estimated once more if the applied bias changes by more than this.
 constexpr double kCalibrationSettled_px = 0.02;
 
-/// Tries from one start. A motion that does not settle in these wanders about, and leaves the other
-/// starts none.
+/// Tries from one start. A motion that does not converge in these wanders about, and leaves the
+/// other starts none.
 constexpr int kMaxSteps = 3;
 
 /// Errors of descriptors, which are taken from images of up to half the size, in details.
@@ -24,15 +24,21 @@ constexpr double kRecognitionTolerance = 3.0;
 /// may be a better start.
 constexpr double kConvincingShare = 0.25;
 
+/// Features on a large object that moves with the camera agree on a start at rest: they must be
+/// more than this many times those that agree on the prediction.
+constexpr double kOverPrediction = 2.0;
+
+bool hasQuarter(const Hypothesis& found) {
+  return found.isAccepted() &&
+         found.counts.rotation_inliers >= kConvincingShare * found.counts.with_depth;
+}
+
 /// Whether to prefer hypothesis `a`.
 bool isBetter(const Hypothesis& a, const Hypothesis& b) {
   if (!b.isAccepted()) return true;
-  return a.isAccepted() && a.counts.rotation_inliers > b.counts.rotation_inliers;
-}
-
-bool isConvincing(const Hypothesis& found) {
-  return found.isAccepted() &&
-         found.counts.rotation_inliers >= kConvincingShare * found.counts.with_depth;
+  const bool b_is_likelier = b.has_prediction && !a.has_prediction && hasQuarter(b);
+  const double factor = b_is_likelier ? kOverPrediction : 1.0;
+  return a.isAccepted() && a.counts.rotation_inliers > factor * b.counts.rotation_inliers;
 }
 
 }  // namespace
@@ -62,10 +68,14 @@ bool MotionSearch::find(const Frames& frames, const Start& start, Hypothesis& fo
     if (!is_usable) return false;
     const double shift_px =
         frames.finder.medianShift(frames.camera, frames.keyframe, next.T_keyframe_cur, T_found);
-    if (shift_px < reach_px) return isConvincing(found);
+    if (shift_px < reach_px) return hasEnoughSupport(found);
     next.T_keyframe_cur = T_found;
   }
   return false;
+}
+
+bool MotionSearch::hasEnoughSupport(const Hypothesis& found) const {
+  return hasQuarter(found) && !check_.whyFewAgree(found);
 }
 
 std::optional<MotionSearch::Start> MotionSearch::recognize(const Frames& frames) {
@@ -88,7 +98,7 @@ void MotionSearch::tryMotion(const Frames& frames,
     const StageTimer timer(frames.times.tracking_ms);
     counts.tracked = frames.finder.find(
         frames.camera, frames.keyframe, frames.current, start.T_keyframe_cur, hypothesis.features);
-    hypothesis.exposure_gain = frames.finder.stereoGain();
+    hypothesis.contrast_gain = frames.finder.stereoGain();
   }
   counts.corners = static_cast<int>(frames.keyframe.corners.size());
   counts.with_depth = static_cast<int>(frames.keyframe.points.size());

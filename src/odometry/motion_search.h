@@ -40,9 +40,8 @@ class MotionSearch {
 
   /// Tracks the features from the positions that the start predicts, and estimates the motion. If
   /// the result is far from the start, most features were searched at the wrong place: then they
-  /// are tracked again from the result, until it settles, at most three times in all. Returns
-  /// whether it settled at a motion that is accepted and that a quarter of the keyframe's features
-  /// agree on.
+  /// are tracked again from the result, until it converges, at most three times in all. Returns
+  /// whether it converged at a motion that enough features agree on: then no other start is needed.
   ///
   /// `found` becomes the hypothesis, unless it holds an accepted one with more inliers. The tries
   /// are added to those of `found`; there are none after max_tries.
@@ -57,6 +56,9 @@ class MotionSearch {
   void calibrate(const Frames& frames, RigEstimate& rig, Hypothesis& found);
 
  private:
+  /// Whether a quarter of the keyframe's features agree on a motion, and as many of the tracked
+  /// ones as keep it from being degraded.
+  bool hasEnoughSupport(const Hypothesis& found) const;
   void tryMotion(const Frames& frames,
                  const Start& start,
                  const std::optional<Eigen::Isometry3d>& prediction,

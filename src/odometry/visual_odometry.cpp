@@ -260,7 +260,7 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
   const auto why_restart = whyRestart(pair, camera, newest, rig_.camera(), period_s_);
   if (!why_restart && !is_later) {
     throw Lost("the stamp " + std::to_string(pair.stamp_ns) +
-               " ns is not later than that of the pair before, " +
+               " ns is not later than that of the previous pair, " +
                std::to_string(newest->stamp_ns) + " ns");
   }
   FramePtr current;
@@ -363,9 +363,9 @@ void VisualOdometry::Pipeline::findMotion(const FramePtr& current,
   Expectation of_lost = {secondsBetween(*lost_, *current), std::nullopt, std::nullopt};
   of_lost.R_last_cur = measuredRotation(*lost_, *current, others.rotation);
   if (findMotionFrom(lost_, *current, of_lost, result.times)) {
-    result.reason =
-        cv::format("only the lost pair of %.3g s before matches: ", of_lost.dt_s) +
-        cv::format("the way of the %.3g s before that is missing", secondsBetween(*last_, *lost_));
+    result.reason = cv::format("only the lost pair %.3g s earlier matches: ", of_lost.dt_s) +
+                    cv::format("the distance of the %.3g s before that is missing",
+                               secondsBetween(*last_, *lost_));
     setPrevious(*lost_, result);
     last_ = std::move(lost_);
     velocity_.reset();
@@ -387,7 +387,7 @@ bool VisualOdometry::Pipeline::findMotionFrom(const FramePtr& earlier,
   const StereoCamera corrected = rig_.correctedCamera();
   const MotionSearch::Frames frames = {
       *finder_, corrected, keyframe_, current, expected.dt_s, times};
-  const auto settles = [&](const std::optional<Start>& start) {
+  const auto converges = [&](const std::optional<Start>& start) {
     return start && search_.find(frames, *start, found_);
   };
   const Eigen::Isometry3d& T_keyframe_last = keyframe_.T_keyframe_last.T;
@@ -399,9 +399,9 @@ bool VisualOdometry::Pipeline::findMotionFrom(const FramePtr& earlier,
 
   const int tries = found_.counts.tries;  // from other frames
   found_.clear();
-  if (!settles(predicted) && !settles(at_rest) && is_newest &&
+  if (!converges(predicted) && !converges(at_rest) && is_newest &&
       found_.counts.tries < config_.max_tries) {
-    settles(search_.recognize(frames));
+    converges(search_.recognize(frames));
   }
   found_.counts.tries += tries;
   if (!found_.isAccepted()) return false;
@@ -411,7 +411,7 @@ bool VisualOdometry::Pipeline::findMotionFrom(const FramePtr& earlier,
 
 void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& result) {
   const MotionEstimate& estimate = found_.estimate;
-  result.exposure_gain = found_.exposure_gain;
+  result.contrast_gain = found_.contrast_gain;
   result.flow_noise_px = estimate.flow_noise_px;
   result.keyframe_stamp_ns = keyframe_.frame->stamp_ns;
   const Matrix6d of_rig = rig_.motionCovariance();
@@ -431,7 +431,7 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   const bool is_long = result.dt_s() > kPredictable * period_s_;
   if (std::exchange(is_after_loss_, false) && is_long && result.reason.empty()) {
     result.reason =
-        cv::format("measured from the pair of %.3g s before, over lost ones", result.dt_s());
+        cv::format("measured from the pair %.3g s earlier, across lost pairs", result.dt_s());
   }
   result.state = result.reason.empty() ? State::kOk : State::kDegraded;
   velocity_ = logMotion(step.T) / result.dt_s();

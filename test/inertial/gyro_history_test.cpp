@@ -95,9 +95,9 @@ TEST(GyroHistoryTest, RejectsSamplesThatAreNoNumbersOrOutOfOrder) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(history.add({1005 * kMs, {0.0, nan, 0.0}}), "the angular velocity is not a number");
   EXPECT_EQ(history.add({1000 * kMs, {0.0, 0.0, 0.0}}),
-            "the stamp is 0 s before that of the sample before");
+            "the timestamp is 0 s before that of the previous sample");
   EXPECT_EQ(history.add({900 * kMs, {0.0, 0.0, 0.0}}),
-            "the stamp is 0.1 s before that of the sample before");
+            "the timestamp is 0.1 s before that of the previous sample");
   EXPECT_EQ(history.add({1005 * kMs, {0.0, 0.0, 0.0}}), std::nullopt);
 }
 

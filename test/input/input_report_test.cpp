@@ -155,8 +155,8 @@ TEST(InputReportTest, SaysWhatIsWrongWithPairs) {
        {received(10.0, {3, 0, 1}), ""},  // at a start
        {aged(0.9), ""},
        {aged(-0.1), ""},
-       {aged(20.0), "the stamps of /l/image are 20.0 s behind the clock when the images arrive"},
-       {aged(-3.0), "the stamps of /l/image are 3.0 s ahead of the clock, and so are odometry"},
+       {aged(20.0), "the stamps of /l/image are 20.0 s behind the clock on arrival"},
+       {aged(-3.0), "the stamps of /l/image are 3.0 s ahead of the clock, so other nodes"},
        {aged(1e8), ""}});  // a replay without /clock
 }
 

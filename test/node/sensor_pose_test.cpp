@@ -94,7 +94,7 @@ TEST_F(SensorPoseTest, AFixedPoseIsKeptUntilItIsRefreshed) {
   sendPan(0.0, 0.3);
   EXPECT_NEAR(panAt(7.0), 0.2, 1e-12);
   EXPECT_EQ(
-      camera_.problem().find("another static tf of the camera camera has come, which is not used"),
+      camera_.problem().find("another static tf of the camera camera arrived, which is not used"),
       0u)
       << camera_.problem();
   camera_.refresh();

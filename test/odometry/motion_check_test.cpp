@@ -123,11 +123,11 @@ TEST(MotionCheckTest, ReportsWhichMotionsAreDegraded) {
                         Case{300, 200, 0, 400, 1.0, 0.0, nullptr, ""},
                         Case{279, 300, 0, 400, 1.0, 0.0, "0.698", "motion, less than 0.7"},
                         Case{280, 300, 0, 400, 1.0, 0.0, nullptr, ""},
-                        Case{300, 300, 2667, 400, 1.0, 0.0, kFewDepths, "a share below 0.15"},
+                        Case{300, 300, 2667, 400, 1.0, 0.0, kFewDepths, "a fraction below 0.15"},
                         Case{300, 300, 2666, 400, 1.0, 0.0, nullptr, ""},
-                        Case{300, 300, 0, 3001, 1.0, 0.0, "300 of 3001", "a share below 0.1"},
+                        Case{300, 300, 0, 3001, 1.0, 0.0, "300 of 3001", "a fraction below 0.1"},
                         Case{300, 300, 0, 3000, 1.0, 0.0, nullptr, ""},
-                        Case{300, 300, 0, 400, 1.0, 0.051, "0.051", "a share of 0.05 of 1 m"},
+                        Case{300, 300, 0, 400, 1.0, 0.051, "0.051", "more than 0.05 times 1 m"},
                         Case{300, 300, 0, 400, 1.0, 0.049, nullptr, ""},
                         // A short step is compared with the scene.
                         Case{300, 300, 0, 400, 0.0, 0.0151, "0.0151 m", "of 0.3 m"},
@@ -153,7 +153,7 @@ TEST(MotionCheckTest, WantsMoreOfAMotionWithoutAPrediction) {
     const char* limit;
   };
   for (const Case& c : {Case{true, 319, 0.1, nullptr, ""},
-                        Case{false, 319, 0.1, "without a prediction, a share of 0.797", "0.8"},
+                        Case{false, 319, 0.1, "without a prediction, a fraction of 0.797", "0.8"},
                         Case{false, 320, 0.1, nullptr, ""},
                         Case{true, 360, 0.004, nullptr, ""},
                         Case{false, 360, 0.004, "0.9", "0.004 px"},  // more exact than images
@@ -191,7 +191,7 @@ TEST(MotionCheckTest, CallsAMotionBesideAnotherOneDegraded) {
   const Correspondences on_lorry =
       simulateFeatures(kittiCamera(), other, 100, {0.2, 0.2}, generator);
   const Hypothesis mixed = hypothesisAnd(on_lorry);
-  expectSays(whyDegraded(mixed), "another motion fits", "of the 400 features, a share above 0.2");
+  expectSays(whyDegraded(mixed), "another motion fits", "of 400 features, a fraction above 0.2");
   Correspondences few(on_lorry.begin(), on_lorry.begin() + 70);
   EXPECT_EQ(whyDegraded(hypothesisAnd(few)), std::nullopt);
   Correspondences wrong = on_lorry;
@@ -207,7 +207,7 @@ TEST(MotionCheckTest, FewerAreEnoughBehindTheOthers) {
     std::copy(others.begin(), others.end(), mixed.features.end() - count);
     return whyDegraded(mixed);
   };
-  expectSays(whyBeside(2.1 * kDepth_m, 40), "40 of the 400 features, which are behind", "half of");
+  expectSays(whyBeside(2.1 * kDepth_m, 40), "40 of 400 features, which are behind", "half of");
   // Too few for that. They are still degraded: the other features have most of the information.
   expectSays(whyBeside(2.1 * kDepth_m, 39), "few features determine it", "");
   expectSays(whyBeside(kDepth_m, 79), "few features determine it", "");
@@ -223,7 +223,7 @@ TEST(MotionCheckTest, CallsAMotionThatOneFeatureDeterminesDegraded) {
     std::copy(near.begin(), near.end(), far.features.begin());
   };
   bringNear(1);
-  expectSays(whyDegraded(far), "information", "less than 0.15");
+  expectSays(whyDegraded(far), "information", "below 0.15");
   bringNear(40);
   EXPECT_EQ(whyDegraded(far), std::nullopt);
 }

@@ -199,7 +199,7 @@ TEST(VisualOdometryTest, GoesOnFromALostPairByTheRotationSinceThen) {
   EXPECT_EQ(result.state, State::kDegraded);
   EXPECT_EQ(
       result.reason,
-      "only the lost pair of 0.1 s before matches: the way of the 0.1 s before that is missing");
+      "only the lost pair 0.1 s earlier matches: the distance of the 0.1 s before that is missing");
   expectMotion(result, sharpTurn(), 0.05, 5e-3);  // walls close by: few features determine it
 }
 

@@ -117,7 +117,7 @@ TEST_F(InstallationTest, TheExampleOfTheLibraryIsBuiltAgainstIt) {
   ASSERT_EQ(built.status, 0) << built.output;
   const CommandResult result = run(path("user/build/example") + " " + path("input"));
   EXPECT_EQ(result.output.find("initializing 0 0 0\nok "), 0u) << result.output;
-  EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 3) << result.output;
+  EXPECT_TRUE(std::regex_search(result.output, std::regex("\\nok [^\n]*\nok "))) << result.output;
 }
 
 TEST_F(InstallationTest, TheExampleInPythonListensToTheNode) {

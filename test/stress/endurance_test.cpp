@@ -309,7 +309,7 @@ const double kNan = std::numeric_limits<double>::quiet_NaN();
 const char* const kSync = "trigger the cameras synchronously";
 const char* const kBack = "time jumped back";
 const char* const kStep = "the stamps of the left images stepped by";
-const char* const kFrame = "frame_id of the left images changed";
+const char* const kFrame = "the left images' frame_id changed";
 
 // clang-format off
 const std::vector<Fault> kFaults = {
