@@ -8,6 +8,7 @@ from rotrocc_tools.tables import markdown, read_table
 ERRORS = ('translation_percent', 'rotation_deg_per_m')
 NAMES = [('0([0-9])_', r'0\1'), ('raw', 'raw'), ('euroc', 'EuRoC'), ('karlsruhe', 'Karlsruhe'), ('street', 'street'),
          ('handheld', 'handheld'), ('rover', 'rover')]
+UNSCORED = ('street', 'handheld', 'rover')
 FOLDS = {"KITTI's car": ('0', 'raw'), 'Karlsruhe': ('Karlsruhe',), 'EuRoC': ('EuRoC',)}
 STAGES = ('pyramids', 'corners', 'disparity', 'tracking', 'estimation')
 
@@ -115,24 +116,30 @@ def ablation(rows):
                      *['change [%%], 1 of %s' % n for n in every[:3]], 'lost', 'degraded'], table)
 
 
-def covariance(rows, setting, scored=False):
+def by_drive(rows):
+    """Rows by drive; streets along KITTI's poses as one."""
+    groups = {}
+    for row in rows:
+        groups.setdefault('along KITTI' if row['drive'].startswith('along') else name_of(row['drive']), []).append(row)
+    return groups
+
+
+def covariance(rows, setting):
     """Errors of motions and their standard deviations, at N = 1."""
     table = []
-    for row in having(rows, setting=setting, every=1):
-        if numpy.isfinite(float(row['nees'])):
-            numbers = {name: float(row[name]) for name in ('error_mm', 'sigma_mm', 'nees_translation', 'nees_rotation',
-                                                           'nees', 'outside_99_percent')}
-            table.append([name_of(row['drive']), row['pairs'], *['%.2g' % numbers[name] if numbers[name] < 1 else
-                                                                '%.1f' % numbers[name] for name in numbers]])
-    return markdown(['clip' if scored else 'drive', 'pairs', 'RMS error of a translation [mm]', 'reported sigma [mm]',
+    for name, runs in by_drive(having(rows, setting=setting, every=1)).items():
+        numbers = [values(runs, column).mean() for column in ('error_mm', 'sigma_mm', 'nees_translation', 'nees_rotation',
+                                                              'nees', 'outside_99_percent') if len(values(runs, column))]
+        if numbers:
+            table.append([name, total(runs, 'pairs'), *['%.2g' % number if number < 1 else '%.1f' % number
+                                                        for number in numbers]])
+    return markdown(['drive', 'pairs', 'RMS error of a translation [mm]', 'reported sigma [mm]',
                      'NEES of the translation (3)', 'of the rotation (3)', 'of both (6)', 'outside 99 % (1 %)'], table)
 
 
 def simulated(rows):
     """Errors by drive and setting; streets along KITTI's poses as one."""
-    groups = {}
-    for row in rows:
-        groups.setdefault('along KITTI' if row['drive'].startswith('along') else row['drive'], []).append(row)
+    groups = by_drive(rows)
     settings = each_value(rows, 'setting')
     table = [[name] + [('%.3f' % mean(having(runs, setting=setting), ERRORS[0])) for setting in settings] +
              ['%.2f' % (1e3 * mean(having(runs, setting=setting), ERRORS[1])) for setting in settings[:2]]
@@ -185,7 +192,8 @@ def time_of(text, stage, column=0):
 
 def speed(texts):
     """Wall and CPU time by clip, with the default."""
-    default = {clip: text for (clip, preset), text in texts.items() if preset == 'default'}
+    default = {clip: text for (clip, preset), text in texts.items()
+               if preset == 'default' and name_of(clip) not in UNSCORED}
     lines = {'wall': 0, 'wall, p99': 3, 'cpu': 0, 'latency': 0}
     table = [[line, *[time_of(text, line.split(',')[0], column) for text in default.values()]]
              for line, column in lines.items()]
@@ -203,7 +211,7 @@ def presets(rows, texts):
         means = ['%s %s' % tuple(compact(mean(having(runs, every=n), error), digits)
                                  for error, digits in zip(ERRORS, (3, 4))) for n in each_value(rows, 'every')]
         shares = [float(time_of(text, 'cpu')) / float(time_of(texts[clip, 'default'], 'cpu'))
-                  for (clip, preset), text in texts.items() if preset == setting]
+                  for (clip, preset), text in texts.items() if preset == setting and name_of(clip) not in UNSCORED]
         table.append([setting, '%.2f' % numpy.mean(shares), *means, total(runs, 'lost')])
     return markdown(['preset', 'CPU time', *['1 of %s' % n for n in each_value(rows, 'every')], 'lost'], table)
 
@@ -224,5 +232,5 @@ def criteria(folder):
     rows = read_table(folder / 'summary.csv')
     columns = [name for name in rows[0] if name.endswith(ERRORS[0])]
     return markdown(['drive', *[name[:-len(ERRORS[0]) - 1] for name in columns]],
-                    [[row['drive'].replace('along_', 'along ')] + ['%.3f' % float(row[name]) for name in columns]
-                     for row in rows])
+                    [[name] + ['%.3f' % mean(runs, column) for column in columns]
+                     for name, runs in by_drive(rows).items()])

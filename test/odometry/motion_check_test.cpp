@@ -130,7 +130,7 @@ TEST(MotionCheckTest, ReportsWhichMotionsAreDegraded) {
                         Case{300, 300, 0, 400, 1.0, 0.051, "0.051", "more than 0.05 times 1 m"},
                         Case{300, 300, 0, 400, 1.0, 0.049, nullptr, ""},
                         // A short step is compared with the scene.
-                        Case{300, 300, 0, 400, 0.0, 0.0151, "0.0151 m", "of 0.3 m"},
+                        Case{300, 300, 0, 400, 0.0, 0.0151, "0.0151 m", "times 0.3 m"},
                         Case{300, 300, 0, 400, 0.0, 0.0149, nullptr, ""}}) {
     auto estimate = goodEstimate();
     estimate.rotation_inliers = set(c.by_rotation, 400);
