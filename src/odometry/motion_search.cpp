@@ -28,7 +28,7 @@ constexpr double kConvincingShare = 0.25;
 /// more than this many times those that agree on the prediction.
 constexpr double kOverPrediction = 2.0;
 
-bool hasQuarter(const Hypothesis& found) {
+bool hasMinimumSupport(const Hypothesis& found) {
   return found.isAccepted() &&
          found.counts.rotation_inliers >= kConvincingShare * found.counts.with_depth;
 }
@@ -36,7 +36,7 @@ bool hasQuarter(const Hypothesis& found) {
 /// Whether to prefer hypothesis `a`.
 bool isBetter(const Hypothesis& a, const Hypothesis& b) {
   if (!b.isAccepted()) return true;
-  const bool b_is_likelier = b.has_prediction && !a.has_prediction && hasQuarter(b);
+  const bool b_is_likelier = b.has_prediction && !a.has_prediction && hasMinimumSupport(b);
   const double factor = b_is_likelier ? kOverPrediction : 1.0;
   return a.isAccepted() && a.counts.rotation_inliers > factor * b.counts.rotation_inliers;
 }
@@ -68,14 +68,17 @@ bool MotionSearch::find(const Frames& frames, const Start& start, Hypothesis& fo
     if (!is_usable) return false;
     const double shift_px =
         frames.finder.medianShift(frames.camera, frames.keyframe, next.T_keyframe_cur, T_found);
-    if (shift_px < reach_px) return hasEnoughSupport(found);
+    // Features that were searched where they are do not agree better after another search.
+    const bool was_predicted = step == 0 && start.is_prediction;
+    if (shift_px < reach_px)
+      return was_predicted ? hasMinimumSupport(found) : hasEnoughSupport(found);
     next.T_keyframe_cur = T_found;
   }
   return false;
 }
 
 bool MotionSearch::hasEnoughSupport(const Hypothesis& found) const {
-  return hasQuarter(found) && !check_.whyFewAgree(found);
+  return hasMinimumSupport(found) && !check_.whyFewAgree(found);
 }
 
 std::optional<MotionSearch::Start> MotionSearch::recognize(const Frames& frames) {
