@@ -78,20 +78,6 @@ def maps(parts, size, left_png, path, color_map, limits, label):
     save(figure, path)
 
 
-def depths(table, path):
-    figure, panel = pyplot.subplots(figsize=(WIDTH_IN, 2.3))
-    dress(panel)
-    limits = table['depth_m']
-    shares = table['features'] / max(table['features'].sum(), 1.0)
-    panel.bar(limits / 1.122, 100.0 * shares, width=0.2 * limits, color=BLUE)
-    panel.set_xscale('log')
-    panel.set_xlabel('depth [m]')
-    panel.set_ylabel('features [%]')
-    panel.xaxis.set_major_formatter('{x:g}')
-    figure.tight_layout()
-    save(figure, path)
-
-
 def mask(left_png, mask_png, path):
     """The proposed mask, tinted over the picture."""
     picture = numpy.repeat(image.imread(str(left_png))[:, :, None], 3, axis=2)

@@ -137,8 +137,8 @@ class RigPage:
                   ('left - right [ms]', [self.course('stamps', 'left_minus_right_ms')])]
         if numpy.isfinite(self.tables['stamps']['age_ms']).any():  # not in folders of images
             panels.append(('arrival [ms]', [self.course('stamps', 'age_ms')]))
-        return page.section('Inputs', 'Time from each left image to the next, its stamp minus that of the nearest '
-                            'right image, and how long after its stamp it arrived. All should be flat.',
+        return page.section('Inputs', 'Time from each left image to the next, its timestamp minus that of the nearest '
+                            'right image, and its delay on arrival. All should be flat.',
                             self.picture('stamps', 'stamps over time', figures.courses, panels))
 
     def photometry(self):
@@ -175,8 +175,8 @@ class RigPage:
             shown.append(self.picture('rows_time', 'row differences over time', figures.courses, [
                 ('left over [px]', [self.course('rows_time', 'row_px', sigma='sigma_px')])]))
         return page.section('Rows', 'How much lower points are in the right image: zero everywhere for a rectified '
-                            'pair. The arrows point where they are displaced to, in the scale of the colors. Over '
-                            'time, what moves is a rig that bends.', *shown)
+                            'pair. Arrows show the displacement, in the scale of the colors. Changes over time '
+                            'mean that the rig bends.', *shown)
 
     def disparities(self):
         shown = []
@@ -192,19 +192,8 @@ class RigPage:
         if self.has('bias_time'):
             shown.append(self.picture('bias_time', 'bias over time', figures.courses, [
                 ('bias [px]', [self.course('bias_time', 'bias_px', sigma='sigma_px')])]))
-        return page.section('Disparities', 'What has to be added to disparities so that they agree with the motion, '
-                            'where the motion shows it; and the same for the whole image, in each window of time, with one '
-                            'standard deviation.', *shown) if shown else ''
-
-    def time(self):
-        if not self.has('gyro'):
-            return ''
-        lines = [self.course('gyro', 'camera_dps', 'cameras', BLUE),
-                 self.course('gyro', 'gyro_dps', 'gyroscope', ORANGE)]
-        return page.section('Time', 'Turn rates of cameras and gyroscope, shifted by the difference of their clocks: '
-                            'both lines are the same if they measure the same.',
-                            self.picture('gyro', 'turn rates over time', figures.courses,
-                                         [('turn rate [deg/s]', lines)]))
+        return page.section('Disparities', 'What must be added to disparities to agree with the motion, where the motion '
+                            'shows it; and the same for the whole image, in each time window, with one standard deviation.', *shown) if shown else ''
 
     def view(self):
         if not self.has('view_map'):
@@ -220,13 +209,10 @@ class RigPage:
             shown.append('<p>Proposed mask, the file <code>mask.png</code>:</p>')
             shown.append(self.picture('mask', 'proposed mask', figures.mask, self.folder / 'left.png',
                                       self.folder / 'mask.png'))
-        if self.has('depths'):
-            shown.append(self.picture('depths', 'depths of the features', figures.depths, self.tables['depths']))
         return page.section('What is seen', 'Where corners have a disparity, and where features agree with the motion '
-                            'of the rest: red is what no other part of the image has, as the robot itself. Near '
-                            'features decide how well the way is known.', *shown)
+                            'of the rest: red is what no other part of the image has, such as the robot itself.', *shown)
 
     def write(self):
         page.write_page(self.folder / 'index.html', self.content['title'], page.text(self.content['summary']), STYLE,
-                        '<p><b>%s</b></p>' % with_code(self.content['advice']), self.tiles(), self.findings(), self.corrected(), self.inputs(), self.photometry(), self.rows(),
-                        self.disparities(), self.time(), self.view())
+                        '<p><b>%s</b></p>' % with_code(self.content['advice']), self.tiles(), self.findings(),
+                        self.corrected(), self.inputs(), self.photometry(), self.rows(), self.disparities(), self.view())

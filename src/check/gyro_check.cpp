@@ -95,7 +95,6 @@ class GyroCheck : public PairCheck {
                 "rotations are predicted about the wrong axis",
                 "correct the transform from the base to the gyroscope, or to the camera"},
                {{angle, angle_sigma}, 1.0 / kDegrees, 3.0 / kDegrees});
-    addTable(all, report);
   }
 
  private:
@@ -191,19 +190,6 @@ class GyroCheck : public PairCheck {
     if (!(curvature > 0.0)) return best;
     const double step = std::clamp(0.5 * (before - after) / curvature, -1.0, 1.0);
     return fitRotation(best.delay_s + step * kStep_s, turns);
-  }
-
-  void addTable(const Fit& fit, RigReport& report) const {
-    ReportTable table = {"gyro", "time_s,camera_dps,gyro_dps", {}};
-    for (const Turn& turn : turns_) {
-      const auto gyro = turned(turn, fit.delay_s);
-      if (!gyro) continue;
-      const double interval_s = toSeconds(turn.to_ns - turn.from_ns);
-      table.rows.push_back({turn.time_s,
-                            kDegrees * turn.camera_rad.norm() / interval_s,
-                            kDegrees * (*gyro / interval_s - fit.bias_rps).norm()});
-    }
-    report.tables.push_back(std::move(table));
   }
 
   std::vector<GyroSample> samples_;

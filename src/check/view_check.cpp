@@ -267,16 +267,6 @@ class ViewCheck : public PairCheck {
                 "distances are as accurate as the near depths",
                 "a longer baseline, a longer focal length, or look lower"},
                {{1.0 / typical_px}, 0.4, 1.0});
-    ReportTable table = {"depths", "depth_m,features", {}};
-    constexpr double kStep = 1.25892541179;  // ten bins for a power of ten
-    std::sort(depths_m.begin(), depths_m.end());
-    auto from = depths_m.begin();
-    for (double limit_m = 0.1; from != depths_m.end() && limit_m < 1e4; limit_m *= kStep) {
-      const auto to = std::lower_bound(from, depths_m.end(), limit_m);
-      if (to != depths_m.begin()) table.rows.push_back({limit_m, static_cast<double>(to - from)});
-      from = to;
-    }
-    report.tables.push_back(std::move(table));
   }
 
   void addMask(RigReport& report) const {
