@@ -34,13 +34,13 @@ const char* const kUsage =
     "example: evaluate_trajectory dataset/poses/06.txt 06.txt --fit --report 06_report\n"
     "usage:   evaluate_trajectory GT EST [options]\n"
     "         evaluate_trajectory EST --report DIR [options]    without ground truth\n\n"
-    "Both are in KITTI or TUM format, or BAG:TOPIC, or BAG:PARENT:CHILD of tf; ASL's data.csv is "
-    "read as well.\nTwo KITTI files are matched line by line, others by stamp, up to 10 ms apart.\n"
-    "GT may also be the sequence that EST is of, with its true "
-    "poses: a directory in the layout of\nKITTI or ASL (EuRoC), or with files of "
+    "Both are in KITTI or TUM format, ASL's data.csv, BAG:TOPIC, or BAG:PARENT:CHILD of tf.\nTwo "
+    "KITTI files are matched line by line, others by stamp, up to 10 ms apart.\n"
+    "GT may also be the sequence of EST with its true poses: a directory in the layout of\nKITTI "
+    "or ASL (EuRoC), or with files of "
     "camera_calibration. Poses of EST in KITTI format get the\nstamps of that sequence or of "
-    "--stats, otherwise 10 Hz. Each row of the table by speed has the\nsegments up to 2 m/s "
-    "slower or faster, so each segment counts twice.\n\n";
+    "--stats, otherwise 10 Hz. Each row of the table by speed has the\nsegments within 2 m/s, so "
+    "each segment counts twice.\n\n";
 
 /// What evaluate_trajectory compares. Those that are not given are empty.
 struct TrajectoryFiles {

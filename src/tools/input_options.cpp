@@ -7,10 +7,9 @@ namespace rotrocc {
 namespace po = boost::program_options;
 
 const char* const kRecordingHelp =
-    "is a bag, the bags or the directory of bags into which a recording is split, or a\n"
-    "directory in the layout of KITTI's odometry benchmark or raw drives, in ASL format\n"
-    "(EuRoC), or with folders left and right and files left.yaml and right.yaml of\n"
-    "camera_calibration, or others by --calibration.\n";
+    "is a bag, several bags or a directory of bags of one recording, or a directory in\nthe layout "
+    "of KITTI's odometry benchmark or raw drives, in ASL format (EuRoC), or with\nfolders left and "
+    "right and calibrations left.yaml and right.yaml, or other files with\n--calibration.\n";
 
 po::options_description parameterOptions(InputOptions& options) {
   po::options_description parameters("Parameters");

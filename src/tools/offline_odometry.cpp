@@ -62,9 +62,8 @@ bool parse(int argc, char** argv, Options& options) {
       "body whose poses are written, relative to the first pose: camera (the left one) or base");
   add("mount",
       po::value(&options.output.mount),
-      "\"x y z qx qy qz qw\" of the left camera's optical frame on the base, in place of that of "
-      "tf or "
-      "of the sequence");
+      "\"x y z qx qy qz qw\" of the left camera's optical frame on the base, instead of tf's or "
+      "the sequence's");
   add("stats", po::value(&options.output.statistics), "CSV file with a row of statistics per pair");
   add("bag",
       po::value(&options.output.bag),
@@ -76,9 +75,8 @@ bool parse(int argc, char** argv, Options& options) {
   add("imu",
       po::value(&options.imu),
       "gyroscope to predict rotations: a CSV file (timestamp [ns], three angular velocities "
-      "[rad/s] in axes of the left camera, ...), a topic of sensor_msgs/Imu in a bag, with its "
-      "axes "
-      "from tf, or a folder of an ASL sequence, as imu0, with its axes from sensor.yaml");
+      "[rad/s] in axes of the left camera, ...), a topic of sensor_msgs/Imu in a bag (axes from "
+      "tf), or a folder of an ASL sequence such as imu0 (axes from sensor.yaml)");
 
   po::options_description images = imageOptions(options.input);
   add = images.add_options();
