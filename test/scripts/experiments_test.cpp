@@ -127,6 +127,24 @@ TEST_F(ExperimentsTest, SimulatesAGyroscope) {
   EXPECT_EQ(number(row("clip", "gyroscope"), "lost"), 0.0);
 }
 
+TEST_F(ExperimentsTest, AllWritesItsTablesIntoPages) {
+  const std::string page = "# Page\n\n<!-- begin published -->\n\nold\n\n<!-- end -->\n\nrest\n";
+  fs::create_directory(directory() / "pages");
+  std::ofstream(directory() / "pages/page.md") << page;
+  const std::string all = fs::path(RUN).parent_path() / "all";
+  const CommandResult result =
+      run(all, clip() + ":5,10 --poses " + clip() + " --pages " + (directory() / "pages"));
+  ASSERT_EQ(result.status, 0) << result.output;
+  const std::string written = readFile(directory() / "pages/page.md");
+  EXPECT_TRUE(std::regex_search(
+      written,
+      std::regex(R"(^# Page\n\n<!-- begin published -->\n\n\| translation \[%\] \| clip \|)")))
+      << written;
+  EXPECT_TRUE(std::regex_search(written, std::regex(R"(\n\| default \| \d?\.\d\d \| 0 \|)")))
+      << written;
+  EXPECT_NE(written.find("|\n\n<!-- end -->\n\nrest\n"), std::string::npos) << written;
+}
+
 TEST(SettingsFilesTest, HaveParametersThatThereAre) {
   static const std::regex parameter(R"((\w+)/(\w+):)");
   const YAML::Node defaults = YAML::LoadFile(CONFIG "/default.yaml");
