@@ -281,7 +281,18 @@ std::string timeJump(const std::string& pose, double by_s, bool clock_stays = fa
   return observed + recovery(*rig);
 }
 
-/// One pair has stamps of 5 s ahead; the next one tells.
+/// The camera's clock is set, that of ROS is not, and images keep coming.
+std::string clockSet(double by_s) {
+  const auto rig = drivingRig();
+  rig->stamp += ros::Duration(by_s);
+  for (int i = 0; i < 6; ++i) {
+    rig->clock = rig->stamp - ros::Duration(by_s);
+    rig->drive();
+  }
+  return rig->observed();
+}
+
+/// One pair has stamps of 5 s ahead; the next one decides.
 std::string stampGlitch() {
   const auto rig = drivingRig();
   rig->drive(both([](Image& image) { image.header.stamp += ros::Duration(5.0); }));
@@ -436,6 +447,8 @@ std::vector<Row> rows() {
      "dropped as a glitch, without a restart",
      {timeJump("keep", 500.0), "stamps alone: " + timeJump("keep", 500.0, true),
       "one pair: " + stampGlitch()}},
+    {"the camera's clock is set by some seconds", "continues with one warning",
+     {clockSet(8.0), clockSet(-37.0)}},
     {"skew of left and right above the limit", "dropped, the skew is reported", {skewed()}},
     {"one camera slower", "a warning with both rates", {slowCamera()}},
 
