@@ -152,9 +152,9 @@ class TrajectoryPage:
                     *[(name, label) for name, _, label in figures.TIMES],
                     ('wall_ms', 'whole pair'), ('cpu_ms', 'CPU time, all threads')]]]
         return [
-            page.section('Features per stage', 'Corners and depths are those of the keyframe. Stage 2 is skipped at '
-                         'low speed.', self.picture('counts', 'features left by each stage over time',
-                                                    figures.plot_counts, self.pairs, time_s)),
+            page.section('Features per stage', 'Corners and depths are those of the keyframe.',
+                         self.picture('counts', 'features left by each stage over time', figures.plot_counts, self.pairs,
+                                      time_s)),
             page.section('Time per stage', 'Wall time, without image reading.',
                          self.picture('times', 'time of each stage over time', figures.plot_times, self.pairs, time_s),
                          page.table(['[ms]', 'mean', 'median', '95th percentile', 'largest'], rows)),
