@@ -128,12 +128,15 @@ TEST_F(ExperimentsTest, SimulatesAGyroscope) {
 }
 
 TEST_F(ExperimentsTest, AllWritesItsTablesIntoPages) {
-  const std::string page = "# Page\n\n<!-- begin published -->\n\nold\n\n<!-- end -->\n\nrest\n";
+  const std::string page =
+      "# Page\n\n<!-- begin published -->\n\n<!-- end -->\n\n<!-- begin presets -->\nold\n<!-- end "
+      "-->\n\nrest\n";
   fs::create_directory(directory() / "pages");
   std::ofstream(directory() / "pages/page.md") << page;
   const std::string all = fs::path(RUN).parent_path() / "all";
-  const CommandResult result =
-      run(all, clip() + ":5,10 --poses " + clip() + " --pages " + (directory() / "pages"));
+  const CommandResult result = run(
+      all,
+      clip() + ":5,10 --poses " + clip() + " --only published --pages " + (directory() / "pages"));
   ASSERT_EQ(result.status, 0) << result.output;
   const std::string written = readFile(directory() / "pages/page.md");
   EXPECT_TRUE(std::regex_search(
@@ -142,7 +145,10 @@ TEST_F(ExperimentsTest, AllWritesItsTablesIntoPages) {
       << written;
   EXPECT_TRUE(std::regex_search(written, std::regex(R"(\n\| default \| \d?\.\d\d \| 0 \|)")))
       << written;
-  EXPECT_NE(written.find("|\n\n<!-- end -->\n\nrest\n"), std::string::npos) << written;
+  EXPECT_NE(
+      written.find("|\n\n<!-- end -->\n\n<!-- begin presets -->\nold\n<!-- end -->\n\nrest\n"),
+      std::string::npos)
+      << written;
 }
 
 TEST(SettingsFilesTest, HaveParametersThatThereAre) {
