@@ -11,7 +11,7 @@ namespace rotrocc {
 
 /// Shi-Tomasi corner detection.
 struct FeatureDetectorConfig {
-  int max_features = 400;  ///< that are tracked: a corner without a disparity is replaced
+  int max_features = 400;  ///< number of tracked features: corners without a disparity are replaced
   int min_halvings = 0;    ///< of the images, as far as they leave room for the features
 };
 
@@ -76,8 +76,8 @@ struct SystematicErrorConfig {
 };
 
 /// "default", and "paper", the method as published: PaperFinder, MotionEstimatorConfig's
-/// as_published, and motions from pair to pair. Neither max_tries, which is 1 in the paper, nor the
-/// self-calibration, which it has not.
+/// as_published, and motions from pair to pair. It sets neither max_tries, which is 1 in the paper,
+/// nor the self-calibration, which the paper does not have.
 const std::vector<std::string>& methodNames();
 
 /// All parameters of the visual odometry, in the order of the data flow.
@@ -90,7 +90,7 @@ struct OdometryConfig {
   SystematicErrorConfig systematic_error;
 
   int threads = 2;    ///< that process a pair, including the calling thread
-  int max_tries = 8;  ///< most tries (start, track, estimate) from each earlier frame
+  int max_tries = 8;  ///< maximum number of attempts from each earlier frame
 
   /// Throws std::invalid_argument with the parameter and its value if a name is unknown.
   void check() const;

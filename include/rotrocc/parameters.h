@@ -17,10 +17,10 @@ struct NodeParameters {
   bool invert_tf = false;                   ///< broadcast base_frame -> odom_frame instead
   bool planar = false;                      ///< restrict base_frame to motion in its x-y plane
   std::array<double, 6> initial_pose = {};  ///< x y z [m] roll pitch yaw [rad] at the first pair
-  double transform_timeout_s = 0.2;  ///< how long a pair waits for the tf of a camera that moves
+  double transform_timeout_s = 0.2;  ///< longest wait of a pair for the tf of a moving camera
   std::string guess_frame;           ///< odom frame of another odometry in tf; empty: none
-  bool use_imu = false;              ///< predict rotations by the gyroscope of the topic imu
-  bool rectify = false;              ///< take raw images, and rectify them by camera_info
+  bool use_imu = false;              ///< predict rotations with the gyroscope on topic imu
+  bool rectify = false;              ///< take raw images, and rectify them with camera_info
   std::string image_transport = "raw";
   double max_stamp_difference_s = 0.01;  ///< between the left and the right image of a pair
   int queue_size = 4;                    ///< unmatched images kept, for each side
@@ -36,7 +36,7 @@ struct NodeParameters {
   int trajectory_length = 100'000;        ///< number of poses kept for ~save_trajectory
   std::string trajectory_file;            ///< first of the files of all poses; empty: none
   std::string trajectory_format = "tum";  ///< or "kitti"
-  std::string trajectory_frame = "camera";  ///< or "base": whose poses these are
+  std::string trajectory_frame = "camera";  ///< or "base": body of these poses
 };
 
 /// All parameters of the package.

@@ -19,8 +19,8 @@ struct StereoPair {
   cv::Mat left_mask = {};
   cv::Mat right_mask = {};
 
-  /// By how much the clock of the stamps was set forward since the first pair: what passes from one
-  /// pair to the next is the difference of time_ns().
+  /// By how much the clock of the stamps was set forward since the first pair: the time from
+  /// one pair to the next is the difference of time_ns().
   std::int64_t clock_set_ns = 0;
   std::int64_t time_ns() const { return stamp_ns - clock_set_ns; }
   double stamp_sigma_s = 0.0;  ///< standard deviation of the error of the stamp

@@ -46,7 +46,7 @@ TrajectoryFormat detectTrajectoryFormat(const std::string& path);
 Trajectory readTrajectory(const std::string& path);
 
 /// Reads a file with one time of an image per line, rounded to nanoseconds: seconds (KITTI's
-/// times.txt), seconds or their thousandth parts since 1970, or date and time (KITTI's
+/// times.txt), seconds to nanoseconds since 1970, or date and time (KITTI's
 /// timestamps.txt). Throws std::runtime_error with file and line on any other content, on times
 /// that do not increase, and on steps that no camera has, with the unit that would fit.
 std::vector<std::int64_t> readTimes(const std::string& path);
@@ -60,8 +60,8 @@ std::optional<Eigen::Isometry3d> poseAt(const Trajectory& trajectory,
                                         std::int64_t stamp_ns,
                                         std::int64_t max_gap_ns);
 
-/// The poses at those stamps at which there are some, with gaps of up to 0.1 s: recorded truths
-/// have 10 Hz (KITTI) to 200 Hz (EuRoC).
+/// The poses at those stamps that have one, across gaps of up to 0.1 s: recorded ground truth has
+/// 10 Hz (KITTI) to 200 Hz (EuRoC).
 Trajectory samplePoses(const Trajectory& trajectory, const std::vector<std::int64_t>& stamps_ns);
 
 /// Writes poses one by one. Each line is in the file before write() returns. KITTI lines have 10

@@ -45,10 +45,10 @@ class VisualOdometry {
   /// model's prediction as the start of tracking.
   ///
   /// `measured_rotation` replaces the rotation of that start, of `expected` as well as of the
-  /// motion model, whose velocity turns with the camera. It is asked for at most two intervals,
+  /// motion model, whose velocity turns with the camera. It is called for at most two intervals,
   /// which begin at earlier pairs.
   ///
-  /// `may_repeat` is asked if both images are identical to the previous ones: a simulated camera
+  /// `may_repeat` is called if both images are identical to the previous ones: a simulated camera
   /// repeats its images while it is stationary.
   OdometryResult process(const StereoPair& pair,
                          const StereoCamera& camera,
@@ -56,8 +56,8 @@ class VisualOdometry {
                          const RotationSource& measured_rotation = {},
                          const std::function<bool()>& may_repeat = {});
 
-  /// Finds the corners of the last pair and their disparities, that the next pair is compared with.
-  /// To be called when the result of process() has been passed on: the next one is ready sooner.
+  /// Finds corners and disparities of the last pair, with which the next pair is compared. Call it
+  /// after the result of process() has been passed on: the next result is then ready sooner.
   /// Without the call process() does the same, with the same results. Does nothing on the first
   /// pairs, and when the keyframe is kept. Never throws.
   void prepare();

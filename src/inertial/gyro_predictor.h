@@ -95,7 +95,7 @@ class GyroPredictor {
   /// Counts a rotation that cannot be asked for, for the reason of a sentence.
   void miss(const std::string& why);
 
-  /// To be called with the result of each pair.
+  /// Call with the result of each pair.
   void observe(const OdometryResult& result);
 
   /// Why the last rotation was not predicted, in a sentence or two; none if it was.

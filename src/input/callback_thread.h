@@ -8,9 +8,9 @@ namespace rotrocc {
 
 /// Calls callbacks in a thread of its own, one after the other.
 ///
-/// A nodelet has one, as those by its manager may be late for good: with nodelet 1.10.0, that of
-/// Debian 11, a message that arrives during onInit() has no callback, and from then on each
-/// callback of its topic gets the message before the last one (nodelet_core#106).
+/// Nodelets have one because the manager's callbacks may lag for good: with nodelet 1.10.0 (Debian
+/// 11), a message that arrives during onInit() has no callback, and each later callback of its
+/// topic gets the message before the last one (nodelet_core#106).
 class CallbackThread {
  public:
   /// The callbacks of what is created with the returned handle come after start().
@@ -21,7 +21,7 @@ class CallbackThread {
 
   void start() { spinner_.start(); }
 
-  /// To be called before what has the callbacks is destroyed.
+  /// Call before what has the callbacks is destroyed.
   void stop() { spinner_.stop(); }
 
  private:

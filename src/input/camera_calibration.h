@@ -30,8 +30,8 @@ StereoCalibration toStereoCalibration(const sensor_msgs::CameraInfo& left,
                                       const sensor_msgs::CameraInfo& right,
                                       double baseline_m = 0.0);
 
-/// Whether two messages describe images that have to be rectified; if they are invalid, they do:
-/// who rectifies says what is wrong. Without K they say nothing about it.
+/// Whether two messages describe images that must be rectified. Invalid ones do, so that the
+/// rectification reports what is wrong; those without K do not.
 bool describeRawImages(const sensor_msgs::CameraInfo& left,
                        const sensor_msgs::CameraInfo& right,
                        double baseline_m = 0.0);
@@ -41,7 +41,8 @@ bool describeRawImages(const sensor_msgs::CameraInfo& left,
 /// it is a topic of kitti2bag, whose image_raw is rectified.
 bool isRectifiedByName(std::string image_topic);
 
-/// The messages of left and right camera that toStereoCalibration() makes this of, without headers.
+/// The left and right messages from which toStereoCalibration() makes this calibration, without
+/// headers.
 std::pair<sensor_msgs::CameraInfo, sensor_msgs::CameraInfo> toCameraInfos(
     const StereoCalibration& calibration);
 

@@ -78,14 +78,13 @@ class FaultThrottle {
   std::map<std::string, Throttle> throttles_;
 };
 
-/// Holds a fault back until it has been there without a break for longer than the windows of time
-/// that show it, which at first also have what was before.
+/// Suppresses a fault until it has persisted for longer than the time windows that detect it, which
+/// initially contain older data, too.
 class LastingFault {
  public:
   explicit LastingFault(Throttle::Duration window) : window_(window) {}
 
-  /// The fault of now if it lasts; otherwise empty. To be called with what there is, also if that
-  /// is nothing.
+  /// Returns the current fault if it lasts, otherwise empty. Call it also if there is none.
   std::string observe(const std::string& fault,
                       Throttle::Time now = std::chrono::steady_clock::now());
 

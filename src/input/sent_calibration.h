@@ -34,7 +34,7 @@ void requireOfItsImage(const std::string& matrix,
                        double cy,
                        const sensor_msgs::CameraInfo& sent);
 
-/// What is unlikely about a stereo camera that the left `info` belongs to, with a remedy: principal
+/// What is implausible about the stereo camera of the left `info`, with a remedy: principal
 /// point, angle of view, shape of the pixels, baseline, binning and region of interest; empty if
 /// nothing is.
 std::string calibrationWarning(const sensor_msgs::CameraInfo& info, const StereoCamera& camera);

@@ -21,7 +21,7 @@ class ScriptTest : public ::testing::Test {
     return runCommand(std::string("MPLBACKEND=module://none ") + PYTHON + " " + script +
                       " --programs " + PROGRAMS + " --output " + outputPath("") + " " + arguments);
   }
-  /// To be called by SetUpTestSuite().
+  /// Call by SetUpTestSuite().
   static void runScript(const std::string& script, const std::string& arguments) {
     result_ = run(script, arguments);
   }

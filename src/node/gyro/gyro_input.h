@@ -45,7 +45,7 @@ class GyroInput {
 
   // For one thread:
 
-  /// Waits for the samples up to a pair, and for the pose of the gyroscope there. To be called with
+  /// Waits for the samples up to a pair, and for the pose of the gyroscope there. Call it with
   /// each pair; `T_base_camera` is that of the camera.
   void gather(std::int64_t stamp_ns, const Eigen::Isometry3d& T_base_camera, const WaitFor& wait);
   /// A fixed pose is looked up again.
@@ -62,7 +62,7 @@ class GyroInput {
   /// The vertical in axes of the camera at a pair, if it is known. Logs why not.
   std::optional<Eigen::Vector3d> up(std::int64_t stamp_ns);
 
-  /// To be called with the result of each pair. Sets what the status says of rotations.
+  /// Call with the result of each pair. Sets what the status says of rotations.
   void observe(const OdometryResult& result, OdometryStatus& status);
   /// The entry of /diagnostics.
   void describe(StatusWrapper& status) const;

@@ -34,7 +34,7 @@ class Diagnostics {
   /// Adds an entry, which `task` fills.
   void add(const std::string& name, const std::function<void(StatusWrapper&)>& task);
 
-  /// Call once a second. Publishes each ~diagnostic_period, as all of diagnostic_updater do.
+  /// Call once a second. Publishes each ~diagnostic_period, as diagnostic_updater does.
   void publish(const HealthReport& report);
 
  private:

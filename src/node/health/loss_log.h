@@ -10,9 +10,9 @@
 
 namespace rotrocc {
 
-/// Warns of lost motions and of faults of the cameras, in one line for each: of a loss as soon as
-/// its cause is found, after kPatience at the latest, or at its end. A cause that lasts or returns
-/// is logged at growing intervals. Chance matches may look like a motion: a loss has ended when
+/// Logs lost motions and camera faults, one line for each: a loss as soon as its cause is found,
+/// after kPatience at the latest, or at its end. A cause that lasts or returns is logged at growing
+/// intervals. Chance matches may look like a motion: a loss has ended when
 /// there were motions for kRecovery.
 class LossLog {
  public:
@@ -21,7 +21,7 @@ class LossLog {
 
   explicit LossLog(Log log) : out_(std::move(log)) {}
 
-  /// To be called for each pair. `camera_fault`: see PairInspector; empty if none.
+  /// Call for each pair. `camera_fault`: see PairInspector; empty if none.
   void observe(const OdometryResult& result,
                const std::string& camera_fault,
                Throttle::Time now = std::chrono::steady_clock::now());

@@ -23,7 +23,7 @@ struct PairReport {
 
 /// State of the node, for status and diagnostics.
 struct HealthReport {
-  std::uint8_t state = OdometryStatus::NO_INPUT;  ///< of the last pair, or of now without a recent
+  std::uint8_t state = OdometryStatus::NO_INPUT;  ///< of the last pair, or the current one
   std::string reason;                             ///< why it is not OK
   PairReport pair;                                ///< the last one
   std::uint64_t pairs_processed = 0, pairs_lost = 0;

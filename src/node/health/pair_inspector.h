@@ -17,16 +17,15 @@ namespace rotrocc {
 /// A pair with pixels of its own.
 StereoPair copyOf(StereoPair pair);
 
-/// Why a motion is lost or in doubt, in one sentence with a remedy; empty if it is not known.
+/// Why a motion is lost or doubtful, in one sentence with a remedy; empty if it is not known.
 struct Explanation {
   std::string text;
   bool is_of_no_pair = false;
 };
 
 /// Detects camera faults: a dark camera, swapped cameras, images that are not rectified, one side
-/// that is a frame late, or exposures that differ or move against each other so much that one of
-/// the images is likely to be dark or saturated. What may cause a loss is looked for in a thread of
-/// its own.
+/// that is a frame late, or exposures that differ so much that one of the images is likely to
+/// be dark or saturated. A thread of its own looks for the cause of a loss.
 class PairInspector {
  public:
   /// How many more suspicious pairs than good ones cause a hint. While they last, their cause is

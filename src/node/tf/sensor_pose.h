@@ -17,11 +17,11 @@ namespace rotrocc {
 
 /// Pose of a sensor on the robot, from tf.
 ///
-/// A pose from /tf_static alone is fixed: the first one is kept, as a change would look like a
-/// motion of the sensor; another one is a problem until refresh(). Others are looked up at each
-/// stamp, and late transforms are waited for. If one does not come in time, a sensor that has not
-/// moved so far is assumed at rest, and no longer waited for until it moves; the pose of one that
-/// moves is unknown then.
+/// A pose from /tf_static alone is fixed: the first one is kept, because a change would look like a
+/// motion of the sensor; another one is a problem until refresh(). Other poses are looked up at
+/// each stamp, and pairs wait for late transforms. If one does not arrive in time, a sensor that
+/// has not moved so far is assumed fixed, and pairs no longer wait until it moves; the pose of a
+/// sensor that moves is then unknown.
 class SensorPose {
  public:
   /// Waits at most `timeout_s` for a transform at a stamp. Without a log, it is silent.

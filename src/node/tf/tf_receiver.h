@@ -24,7 +24,7 @@ class TfReceiver {
 
   const tf2::BufferCore& buffer() const { return buffer_; }
 
-  /// To be called with the stamp of each pair: after a jump back, the transforms from before it are
+  /// Call with the stamp of each pair: after a jump back, the transforms from before it are
   /// dropped, as the buffer would reject those that are older.
   void follow(std::int64_t stamp_ns);
 
