@@ -141,6 +141,17 @@ std::optional<std::string> MotionCheck::whyLost(const MotionEstimate& estimate,
   return std::nullopt;
 }
 
+std::optional<std::string> MotionCheck::whyByChance(const StageCounts& counts) const {
+  const int agreeing = counts.rotation_inliers;
+  const bool is_majority = 2 * agreeing >= counts.consistent;
+  if (as_published_ || is_majority || agreeing >= kMinSurvivors * counts.with_depth) {
+    return std::nullopt;
+  }
+  return cv::format(
+             "only %d of %d tracked features agree on a motion", agreeing, counts.consistent) +
+         cv::format(", of %d in all: as many may by chance", counts.with_depth);
+}
+
 std::optional<std::string> MotionCheck::whyFewAgree(const Hypothesis& accepted) const {
   const MotionEstimate& estimate = accepted.estimate;
   const bool has_prediction = accepted.has_prediction;

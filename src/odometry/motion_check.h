@@ -59,8 +59,12 @@ class MotionCheck {
   /// motion since the keyframe, including that of the rig's calibration, before inflation().
   std::optional<std::string> whyDegraded(const Hypothesis& accepted, const Matrix6d& covariance);
 
-  /// Of these reasons the one that too few of the tracked features agree: there may be a better
-  /// start.
+  /// Why features may agree on a motion by chance: they are neither half of the tracked ones nor a
+  /// tenth of the keyframe's. None if they are more, or as published.
+  std::optional<std::string> whyByChance(const StageCounts& counts) const;
+
+  /// Of the reasons of whyDegraded() the one that too few of the tracked features agree: there may
+  /// be a better start.
   std::optional<std::string> whyFewAgree(const Hypothesis& accepted) const;
 
   /// Whether enough inliers are left for another motion against the same keyframe, which will have

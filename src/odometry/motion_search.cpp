@@ -130,6 +130,7 @@ void MotionSearch::estimate(const Frames& frames,
   hypothesis.counts.translation_inliers =
       estimate.has_translation_stage ? count(estimate.translation_inliers) : 0;
   hypothesis.why_lost = check_.whyLost(estimate, frames.keyframe.T_keyframe_last.T, frames.dt_s);
+  if (!hypothesis.why_lost) hypothesis.why_lost = check_.whyByChance(hypothesis.counts);
 }
 
 void MotionSearch::calibrate(const Frames& frames, RigEstimate& rig, Hypothesis& found) {

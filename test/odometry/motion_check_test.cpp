@@ -228,6 +228,20 @@ TEST(MotionCheckTest, CallsAMotionThatOneFeatureDeterminesDegraded) {
   EXPECT_EQ(whyDegraded(far), std::nullopt);
 }
 
+/// After a wrong search, a tenth of the features match somewhere.
+TEST(MotionCheckTest, FewThatMayAgreeByChanceAreNoMotion) {
+  const auto why = [](int agreeing, int tracked) {
+    StageCounts counts;
+    counts.rotation_inliers = agreeing;
+    counts.consistent = tracked;
+    counts.with_depth = 400;
+    return defaultCheck().whyByChance(counts);
+  };
+  expectSays(why(25, 76), "25 of 76 tracked features", "400 in all");
+  EXPECT_EQ(why(38, 76), std::nullopt) << "the majority";
+  EXPECT_EQ(why(40, 200), std::nullopt) << "a tenth of all";
+}
+
 TEST(MotionCheckTest, FeaturesThatContradictMakeTheMotionUncertain) {
   auto estimate = goodEstimate();
   estimate.translation_inliers = set(50, 400);
