@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kLatest = 32;
 /// No latency puts a stamp ahead of the clock, and clocks that are synchronized at all differ by
-/// less.
+/// less. One published stamp of the future makes tf listeners ignore all later ones.
 constexpr double kMaxFuture_s = 10.0;
 /// In periods: images of one camera are not reordered by more.
 constexpr double kMaxReordering = 10.0;
@@ -50,12 +50,6 @@ CameraClock::Verdict CameraClock::judge(std::int64_t stamp_ns, const Arrival& ar
     throw InputError(DropReason::kStampZero,
                      images_ + " has the stamp 0: set header.stamp in the driver");
   }
-  const double ahead_s = arrival.clock_ns == 0 ? 0.0 : toSeconds(image.ahead_ns());
-  if (ahead_s > kMaxFuture_s) {
-    throw InputError(DropReason::kStampFuture,
-                     images_ + " has the stamp " + stampText(stamp_ns) + " s, " + toText(ahead_s) +
-                         " s ahead of the clock: synchronize the clocks of the machines");
-  }
   if (lastStamp_ns() == stamp_ns || (held_ && held_->stamp_ns == stamp_ns)) {
     throw InputError(DropReason::kStampRepeated,
                      images_ + " has the same stamp as the previous one, " + stampText(stamp_ns) +
@@ -68,14 +62,16 @@ CameraClock::Verdict CameraClock::judge(std::int64_t stamp_ns, const Arrival& ar
                           image.ahead_ns() - held_->ahead_ns() <= periods_ns(kTolerance);
   verdict.held = !continued && !verdict.held_is_valid;
   if (held_ && !verdict.held_is_valid) {
-    const std::int64_t off_ns = held_->stamp_ns - *lastStamp_ns();
+    const std::int64_t off_ns =
+        latest_.empty() ? held_->ahead_ns() : held_->stamp_ns - *lastStamp_ns();
     verdict.glitch = InputError(
         DropReason::kStampGlitch,
         images_ + " had the stamp " + stampText(held_->stamp_ns) + " s, " +
             toText(1e-3 * static_cast<double>(std::abs(off_ns) / 1'000'000)) +
             (off_ns > 0 ? " s after" : " s before") +
-            " the previous one, but the next one did not follow it: a glitch; check where the "
-            "driver takes header.stamp from");
+            (latest_.empty() ? " the clock" : " the previous one") +
+            ", but the next one did not follow it: a glitch; check where the driver takes "
+            "header.stamp from");
   }
   if (continued) held_.reset();
   if (verdict.held) held_ = image;
@@ -84,7 +80,9 @@ CameraClock::Verdict CameraClock::judge(std::int64_t stamp_ns, const Arrival& ar
 
 /// Whether a stamp is credible without another one like it.
 bool CameraClock::continues(const Image& image) {
-  if (latest_.empty()) return true;
+  if (latest_.empty()) {
+    return image.arrival.clock_ns == 0 || toSeconds(image.ahead_ns()) <= kMaxFuture_s;
+  }
   if (image.stamp_ns < *lastStamp_ns()) return goesBack(image);
   return image.ahead_ns() - usualAhead_ns() <= periods_ns(kTolerance);
 }

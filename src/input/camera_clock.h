@@ -30,8 +30,9 @@ constexpr double kOtherClock_s = 3600.0;
 /// scatter over the latest images. Separates valid stamps from those of a faulty driver and from
 /// time jumps, e.g. of a looping bag.
 ///
-/// A stamp that is further ahead of the arrival than those before it, or far behind them, is a
-/// glitch or the first one after a jump. The next image decides: until then this one is held.
+/// A stamp that is further ahead of the arrival than those before it (the first one: than any skew
+/// of synchronized clocks), or far behind them, is a glitch or the first one after a jump. The next
+/// image decides: until then this one is held.
 class CameraClock {
  public:
   /// What to do with an image, and with the previous one if that was held.
@@ -45,8 +46,8 @@ class CameraClock {
   explicit CameraClock(std::string images) : images_(std::move(images)) {}
 
   /// Judges the next image that arrives. Whichever image is valid must be added. Throws InputError
-  /// on a stamp that is zero, repeated, slightly earlier than the previous one, or further ahead of
-  /// ROS time than any skew of synchronized clocks; an image that is held stays so.
+  /// on a stamp that is zero, repeated, or slightly earlier than the previous one; an image that is
+  /// held stays so.
   ///
   /// An earlier stamp is valid at once if the clock jumped back as well, or if it is that of the
   /// first images or an earlier one, as in a loop. One less than ten periods earlier is valid if it

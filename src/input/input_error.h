@@ -28,7 +28,6 @@ enum class DropReason {
   kStampZero,
   kStampRepeated,   ///< same as the previous image
   kStampBackward,   ///< slightly earlier than the previous image
-  kStampFuture,     ///< too far ahead of the clock
   kStampGlitch,     ///< far from the images before and after
   kNoPartner,       ///< no image of the other side within max_stamp_difference_s
   kPartnerDropped,  ///< the image of the other side was dropped for its stamp

@@ -111,9 +111,10 @@ void StereoInput::logOnce(const InputReport& report) {
   }
   if (isOfAnotherClock(report) && !std::exchange(logged_clock_, true)) {
     log_.warn("the stamps of " + topic + " are from another clock, " +
-              fixedText(*report.stamp_age_s, 0) +
-              " s behind that of this machine, and so are odometry and tf: synchronize the clocks, "
-              "or play bags with --clock and use_sim_time");
+              fixedText(std::abs(*report.stamp_age_s), 0) +
+              (*report.stamp_age_s > 0.0 ? " s behind" : " s ahead of") +
+              " that of this machine, and so are odometry and tf: synchronize the clocks, or play "
+              "bags with --clock and use_sim_time");
   }
 }
 

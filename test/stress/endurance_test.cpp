@@ -319,7 +319,7 @@ const std::vector<Fault> kFaults = {
     {"30 % of the right images lost", {"have no partner"}, kLasting,
      [](Drive& drive, Pair& pair) { pair.send[1] = drive.chance() >= 0.3; }},
     {"stamp 0", {"has the stamp 0"}, kShort, ofImage(0, [](Image& i) { i.header.stamp = {}; })},
-    {"stamp of the future", {"ahead of the clock"}, kShort,
+    {"stamp of the future", {"a glitch", "same stamp as the previous"}, kShort,
      ofImage(0, [](Image& image) { image.header.stamp = ros::TIME_MAX; })},
     {"stamps of a glitch", {"a glitch"}, kGap,
      ofBoth([](Image& image) { image.header.stamp += ros::Duration(5.0); })},
