@@ -100,7 +100,7 @@ void drive(const sensor_msgs::CameraInfo& left_info,
     try {
       const PairInput in = {processor.convert(pair), pair.arrival, pair.camera, kittiMount()};
       const PairAnswer answer = processor.process(in);
-      processor.inspect(in, answer.result);
+      processor.inspect(in);
       require(answer.result.T_prev_cur.matrix().allFinite(), "the motion is finite");
       require(answer.result.covariance.allFinite(), "the covariance is finite");
       require(answer.state.T_odom_base.T.matrix().allFinite(), "the pose is finite");

@@ -19,6 +19,7 @@ struct NodeParameters {
   std::array<double, 6> initial_pose = {};  ///< x y z [m] roll pitch yaw [rad] at the first pair
   double transform_timeout_s = 0.2;  ///< longest wait of a pair for the tf of a moving camera
   std::string guess_frame;           ///< odom frame of another odometry in tf; empty: none
+  std::string guess_topic;           ///< of another odometry without tf; empty: none
   bool use_imu = false;              ///< predict rotations with the gyroscope on topic imu
   bool rectify = false;              ///< take raw images, and rectify them with camera_info
   std::string image_transport = "raw";

@@ -105,7 +105,7 @@ class PairChecks {
     inspect(pair, camera, result);
     countRepeated(pair);
     before_.push_back(copyOf(pair));
-    if (before_.size() > 2) before_.erase(before_.begin());
+    if (before_.size() > kPairsBefore) before_.erase(before_.begin());
     photometry_->observe(checked);
     detail_->observe(checked);
     sampler_.observe(checked);

@@ -17,7 +17,7 @@ constexpr double kMaxSize_px = 1e6;  // keeps sizes in the range of int
 
 /// Share of the image by which a principal point may be off its middle: lenses are mounted better,
 /// and rectification moves it little.
-constexpr double kUsualShare = 0.1;
+constexpr double kUsualShare = 0.08;
 /// The middle half of the image.
 constexpr double kUnlikelyShare = 0.25;
 /// A principal point that is off by the same factor in x and y, up to kSameFactor, is that of
@@ -28,8 +28,8 @@ constexpr double kSameFactor = 0.1;
 constexpr double kNarrowest_deg = 10.0;
 constexpr double kWidest_deg = 160.0;
 constexpr double kMaxPixelAspect = 1.1;
-/// Of rigs on anything that is not a ship.
-constexpr double kSmallBaseline_m = 0.005;
+/// Of rigs on anything that is neither an endoscope nor a ship.
+constexpr double kSmallBaseline_m = 0.01;
 constexpr double kGreatBaseline_m = 2.0;
 
 double binningOf(std::uint32_t binning) {
@@ -155,7 +155,7 @@ std::string calibrationWarning(const Info& info, const StereoCamera& camera) {
   if (camera.baseline_m < kSmallBaseline_m || camera.baseline_m > kGreatBaseline_m) {
     append(text,
            "a baseline of " + toText(camera.baseline_m) +
-               " m is unusual: is P[3] of camera_info in pixels times meters, not mm?");
+               " m is unusual: is P[3] of camera_info in pixels times meters, not mm or cm?");
   }
   return text;
 }

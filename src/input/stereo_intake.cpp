@@ -151,7 +151,7 @@ void StereoIntake::handOver() {
   const auto kept = std::make_shared<const ReceivedPair>(pair);
   pair.before = before_;
   before_.push_back(kept);
-  if (before_.size() > 2) before_.erase(before_.begin());
+  if (before_.size() > kPairsBefore) before_.erase(before_.begin());
   on_pair_(std::move(pair));
 }
 

@@ -22,6 +22,9 @@
 
 namespace rotrocc {
 
+/// Pairs that are kept to find out why a later one has no motion.
+constexpr std::size_t kPairsBefore = 3;
+
 /// A received pair, with the camera known at that time.
 struct ReceivedPair {
   StereoImages images;
@@ -33,7 +36,7 @@ struct ReceivedPair {
   double stamp_sigma_s = 0.0;                            ///< see CameraClock::stampScatter_s()
   bool follows_held = false;                             ///< at once, see CameraClock::Verdict
   std::shared_ptr<const StereoCalibration> calibration;  ///< of raw images; null: rectified ones
-  std::vector<std::shared_ptr<const ReceivedPair>> before = {};  ///< the last two, without theirs
+  std::vector<std::shared_ptr<const ReceivedPair>> before = {};  ///< the last ones, without theirs
 };
 
 /// Matches the messages of four topics to pairs, and keeps statistics. An image with a doubtful

@@ -94,6 +94,11 @@ void requireFrames(const NodeParameters& node) {
   requireDifferent("odom_frame", node.odom_frame, "base_frame", node.base_frame);
   requireDifferent("guess_frame", node.guess_frame, "odom_frame", node.odom_frame);
   requireDifferent("guess_frame", node.guess_frame, "base_frame", node.base_frame);
+  if (!node.guess_frame.empty() && !node.guess_topic.empty()) {
+    throw RejectedParameter("guess_topic",
+                            "parameters guess_frame and guess_topic are both set, but only one "
+                            "odometry is used: set guess_topic only if that sends no tf");
+  }
   if (!node.guess_frame.empty() && node.invert_tf) {
     throw RejectedParameter(
         "invert_tf",

@@ -54,7 +54,7 @@ OdometryServices::OdometryServices(ros::NodeHandle& private_nh,
     if (health.paused() && !request.data) processor.requestRestart();
     health.setPaused(request.data);
     return request.data ? "paused: pairs are dropped, the pose is held"
-                        : "resumed at the last pose, moved by guess_frame if there is one";
+                        : "resumed at the last pose, moved by guess_frame or guess_topic if set";
   }));
   ros::NodeHandle save_nh = save_callbacks_.attach(private_nh);
   servers_.push_back(

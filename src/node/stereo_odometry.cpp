@@ -61,7 +61,14 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
           log_),
       loss_log_(log_) {
   if (!parameters_.guess_frame.empty()) {
-    guess_.emplace(tf_.buffer(), parameters_.guess_frame, parameters_.base_frame, log_);
+    const std::string& frame = parameters_.guess_frame;
+    const GuessSource source = {"guess_frame " + frame, frame, parameters_.base_frame};
+    guess_.emplace(tf_.buffer(), source, log_);
+  } else if (!parameters_.guess_topic.empty()) {
+    guess_topic_.emplace(nh, parameters_, tf_, log_);
+    const GuessSource source = {
+        "guess_topic " + parameters_.guess_topic, GuessTopic::kGuessFrame, GuessTopic::kBaseFrame};
+    guess_.emplace(tf_.buffer(), source, log_);
   }
   if (parameters_.use_imu) gyro_.emplace(nh, tf_.buffer(), parameters_, log_);
   input_.emplace(
@@ -228,7 +235,7 @@ std::optional<StereoOdometry::Gathered> StereoOdometry::gather(const ReceivedPai
 
 /// All that the odometry of the pair need not wait for.
 void StereoOdometry::report(const PairInput& in, const PairAnswer& answer, PairReport report) {
-  report.camera_fault = processor_.inspect(in, answer.result);
+  report.camera_fault = processor_.inspect(in);
   report.tf_problem = camera_pose_.problem();
   if (report.tf_problem.empty()) report.tf_problem = answer.mount_problem;
   if (guess_) {

@@ -23,6 +23,7 @@
 #include "node/odometry_services.h"
 #include "node/stereo_input.h"
 #include "node/tf/guess_odometry.h"
+#include "node/tf/guess_topic.h"
 #include "node/tf/sensor_pose.h"
 #include "node/tf/tf_conflict.h"
 #include "node/tf/tf_receiver.h"
@@ -78,6 +79,7 @@ class StereoOdometry {
   std::unique_ptr<TfConflict> tf_conflict_;  // unless publish_tf is false
   TfReceiver tf_;
   SensorPose camera_pose_;
+  std::optional<GuessTopic> guess_topic_;
   std::optional<GuessOdometry> guess_;
   std::optional<GyroInput> gyro_;
   OdometryPublisher publisher_;

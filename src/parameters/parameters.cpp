@@ -28,6 +28,8 @@ void addNode(NodeParameters& n, ParameterTable& table) {
   table.add("guess_frame", n.guess_frame).description =
       "odom frame of another odometry in tf, used as motion prediction; odom_frame -> guess_frame "
       "is then broadcast; none if empty";
+  table.add("guess_topic", n.guess_topic).description =
+      "nav_msgs/Odometry of another odometry that sends no tf, used in the same way; none if empty";
   table.add("use_imu", n.use_imu).description =
       "predict rotations with the gyroscope on the topic imu, whose frame must be in tf; while the "
       "robot is stationary, its accelerations level the first pose, unless initial_pose has roll "

@@ -12,6 +12,7 @@
 
 #include "drawing/okabe_ito.h"
 #include "input/message_conversion.h"
+#include "node/base/base_odometry.h"
 #include "node/health/odometry_health.h"
 #include "node/odometry_messages.h"
 
@@ -63,6 +64,11 @@ bool isOfPair(std::uint8_t state) {
   return state <= OdometryStatus::LOST;
 }
 
+/// Whether it has a pose: while_lost may be unknown.
+bool isKnown(const nav_msgs::Odometry& odometry) {
+  return odometry.pose.covariance[0] != kUnknownVariance;
+}
+
 template <class Point>
 Eigen::Vector3d toEigen(const Point& point) {
   return {point.x, point.y, point.z};
@@ -93,13 +99,19 @@ Eigen::Vector3d WholeView::position() const {
 
 void TrajectoryScene::setState(const OdometryStatus& status) {
   status_ = status;
-  const bool of_last = isOfPair(status.state) && status.header.stamp == last_.header.stamp;
-  if (empty() || !of_last) return;
-  if (keeps_last_) way_.pop_back();
-  keepLast();
+  if (empty() || !isOfPair(status.state)) return;
+  if (status.header.stamp == last_.header.stamp) {
+    if (keeps_last_) way_.pop_back();
+    keepLast();
+  } else if (status.state == OdometryStatus::LOST && way_.back().state != status.state) {
+    // A pair may have no pose: the way since the last one is that of the loss.
+    way_.push_back({toEigen(last_.pose.pose.position), status.state});
+    keeps_last_ = false;
+  }
 }
 
 void TrajectoryScene::add(const nav_msgs::Odometry& odometry) {
+  if (!isKnown(odometry)) return;
   const Eigen::Vector3d position = toEigen(odometry.pose.pose.position);
   if (empty() || odometry.header.stamp < last_.header.stamp ||
       odometry.header.frame_id != last_.header.frame_id) {
@@ -137,7 +149,8 @@ double TrajectoryScene::distance_m() const {
 std::string TrajectoryScene::words() const {
   std::ostringstream text;
   text << std::fixed << std::setprecision(1) << stateName(status_.state);
-  if (isOfPair(status_.state)) text << ",  " << toEigen(last_.twist.twist.linear).norm() << " m/s";
+  if (status_.state < OdometryStatus::LOST)
+    text << ",  " << toEigen(last_.twist.twist.linear).norm() << " m/s";
   text << ",  " << std::setprecision(length_m_ < 100.0 ? 1 : 0) << length_m_ << " m";
   if (!status_.reason.empty()) text << '\n' << status_.reason;
   return text.str();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -207,15 +208,16 @@ std::string frozenCamera() {
 }
 
 /// Each right image is that of the previous pair.
-std::string lateImages() {
-  std::optional<Image> previous;
+std::string lateImages(std::size_t frames, bool is_right) {
+  std::deque<std::vector<std::uint8_t>> shown;
   return badImages(
-      [&](Image&, Image& right) {
-        const Image current = right;
-        if (previous) right.data = previous->data;
-        previous = current;
+      [&](Image& left, Image& right) {
+        Image& late = is_right ? right : left;
+        shown.push_back(late.data);
+        late.data = shown.front();
+        if (shown.size() > frames) shown.pop_front();
       },
-      12);
+      16);
 }
 
 std::string halfImage() {
@@ -396,7 +398,8 @@ std::vector<Row> rows() {
      {withoutChance(badImages(
          [](Image& left, Image& right) { std::swap(left.data, right.data); }, 12))}},
     {"frozen camera", "lost", {frozenCamera()}},
-    {"right images one frame late", "lost or degraded with a hint", {withoutChance(lateImages())}},
+    {"right images one frame late, left images two frames late", "lost or degraded with a hint",
+     {withoutChance(lateImages(1, true)), withoutChance(lateImages(2, false))}},
     {"the lower half of an image is missing, as after a corrupted JPEG", "continues",
      {halfImage()}},
     {"images that are not rectified", "lost or degraded with a hint",
@@ -423,7 +426,7 @@ std::vector<Row> rows() {
           info->width *= 2, info->height *= 2;
         }
       })}},
-    {"baseline beyond 2 m or below 5 mm",
+    {"baseline beyond 2 m or below 1 cm",
      "accepted with one warning; lost, as the images have another baseline",
      {unusualBaseline(1000.0), unusualBaseline(0.001)}},
     {"fx, fy or cy of left and right differ", "no calibration",

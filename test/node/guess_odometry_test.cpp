@@ -47,7 +47,7 @@ class GuessOdometryTest : public testing::Test {
 
   tf2::BufferCore tf_;
   LogRecorder log_;
-  GuessOdometry guess_{tf_, "wheel_odom", "base_link"};
+  GuessOdometry guess_{tf_, {"guess_frame wheel_odom", "wheel_odom", "base_link"}};
   /// What comes while a pair waits.
   std::function<void()> meanwhile_ = [] {};
   int waits_ = 0;
@@ -90,7 +90,9 @@ TEST_F(GuessOdometryTest, AFrameThatDoesNotExistIsLoggedOnceAndNotWaitedFor) {
   EXPECT_EQ(waits_, SourceWatch::kPairs);
   EXPECT_EQ(guess_.misses(), static_cast<std::uint64_t>(kPairs));
   EXPECT_EQ(log_.with("wheel_odom").size(), 1u);
-  EXPECT_NE(guess_.problem().find("correct guess_frame"), std::string::npos) << guess_.problem();
+  EXPECT_NE(guess_.problem().find("no pose by guess_frame wheel_odom at 5 pairs in a row"),
+            std::string::npos)
+      << guess_.problem();
 
   sendWheels(kPairs);
   sendWheels(kPairs + 1);

@@ -168,7 +168,7 @@ void OdometryRig::process(const ReceivedPair& pair) {
     processor_.takeRequests();
     answer_ = processor_.process(in);
     left_ = in.pair.left;
-    hint_ = processor_.inspect(in, answer_->result);
+    hint_ = processor_.inspect(in);
     processor_.finishInspection();
     ++answers_;
     state_ = answer_->state;

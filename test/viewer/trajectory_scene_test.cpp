@@ -50,7 +50,7 @@ TEST_F(TrajectorySceneTest, SaysStateSpeedAndLength) {
   addAt(3.0, 2.0);
   EXPECT_EQ(marker("state").text, "OK,  2.5 m/s,  3.0 m");
   setState(OdometryStatus::LOST, "12 features");
-  EXPECT_EQ(marker("state").text, "LOST,  2.5 m/s,  3.0 m\n12 features");
+  EXPECT_EQ(marker("state").text, "LOST,  3.0 m\n12 features");
   setState(OdometryStatus::NO_INPUT, "the replay has ended");
   EXPECT_EQ(marker("state").text, "NO_INPUT,  3.0 m\nthe replay has ended");
 }
@@ -73,6 +73,29 @@ TEST_F(TrajectorySceneTest, TheStatusOfAPoseMayComeAfterIt) {
       EXPECT_EQ(lost, (std::vector<bool>{false, true, false, false}));
     }
   }
+}
+
+/// while_lost: silent, or unknown.
+TEST_F(TrajectorySceneTest, AWayWithoutPosesIsThatOfTheLoss) {
+  addAt(0.0, 1.0);
+  setState(OdometryStatus::OK, "", 1.0);
+  for (const double time_s : {2.0, 3.0}) {
+    setState(OdometryStatus::LOST, "", time_s);
+    nav_msgs::Odometry unknown;
+    unknown.header.frame_id = "odom";
+    unknown.header.stamp = ros::Time(time_s);
+    unknown.pose.covariance.fill(9999.0);
+    unknown.pose.pose.position.x = -50.0;
+    scene_.add(unknown);
+  }
+  addAt(5.0, 4.0);
+  setState(OdometryStatus::OK, "", 4.0);
+  const visualization_msgs::Marker way = marker("estimate");
+  ASSERT_EQ(way.points.size(), 4u);
+  EXPECT_EQ(way.points[1].x, 0.0);
+  EXPECT_EQ(way.colors[1].r, 0.0f);
+  EXPECT_EQ(way.points[2].x, 5.0);
+  EXPECT_NE(way.colors[2].r, 0.0f);
 }
 
 TEST_F(TrajectorySceneTest, GrowsWithTheWay) {

@@ -22,6 +22,21 @@ std::string describeJump(std::int64_t from_ns, std::int64_t to_ns) {
          fixedText(toSeconds(to_ns), digits) + " s";
 }
 
+/// While left and right images are no pairs, features agree by chance. One good motion may be that
+/// of the first pair that is one again.
+OdometryResult distrusted(OdometryResult result) {
+  if (!result.hasMotion()) return result;
+  const bool was_ok = result.state == State::kOk;
+  result.state = was_ok ? State::kDegraded : State::kLost;
+  result.reason = was_ok ? "left and right images were no pairs shortly before"
+                         : "left and right images are no pairs";
+  if (was_ok) return result;
+  result.T_prev_cur.setIdentity();
+  result.covariance.setZero();
+  result.contrast_gain = result.flow_noise_px = 0.0;
+  return result;
+}
+
 }  // namespace
 
 PairProcessor::PairProcessor(const Parameters& parameters, Log log)
@@ -72,11 +87,12 @@ PairAnswer PairProcessor::process(const PairInput& in) {
   // By stamps that are set back, the other odometry reports an earlier part of the path.
   const bool is_set_back = last_ && in.pair.clock_set_ns < last_->clock_set_ns;
   const std::optional<Eigen::Isometry3d> T_last_base = is_set_back ? std::nullopt : in.T_last_base;
-  answer.result = odometry_.process(in.pair,
-                                    in.camera,
-                                    base_odometry_->expectedMotion(in.T_base_camera, T_last_base),
-                                    in.measured_rotation,
-                                    [&] { return in.is_simulated && !moves(in); });
+  estimated_ = odometry_.process(in.pair,
+                                 in.camera,
+                                 base_odometry_->expectedMotion(in.T_base_camera, T_last_base),
+                                 in.measured_rotation,
+                                 [&] { return in.is_simulated && !moves(in); });
+  answer.result = inspector_.isOfNoPair() ? distrusted(estimated_) : estimated_;
   answer.state = base_odometry_->add(answer.result, in.T_base_camera, T_last_base);
   answer.mount_problem = base_odometry_->planarProblem();
   if (!answer.mount_problem.empty() && !std::exchange(logged_mount_, true)) {
@@ -87,7 +103,7 @@ PairAnswer PairProcessor::process(const PairInput& in) {
   return answer;
 }
 
-std::string PairProcessor::inspect(const PairInput& in, const OdometryResult& result) {
+std::string PairProcessor::inspect(const PairInput& in) {
   const GrayRange range = converter_.grayRange();
   const auto before = [&] {
     StereoPairConverter converter(range, parameters_.mask);  // the pixels of `in` stay
@@ -95,7 +111,7 @@ std::string PairProcessor::inspect(const PairInput& in, const OdometryResult& re
     for (const auto& received : in.before) pairs.push_back(copyOf(converter.convert(*received)));
     return pairs;
   };
-  return inspector_.inspect(in.pair, in.camera, result, range, before);
+  return inspector_.inspect(in.pair, in.camera, estimated_, range, before);
 }
 
 /// Whether initial_pose leaves roll and pitch to gravity.

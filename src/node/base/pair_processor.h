@@ -62,11 +62,13 @@ class PairProcessor {
   /// Whether the next pair is the first one, and roll and pitch of its pose are by the vertical.
   bool startsLevel() const { return !base_odometry_ && isLevelled(); }
 
+  /// While the inspector knows that left and right are no pairs, degraded motions are lost, and
+  /// good ones degraded.
   PairAnswer process(const PairInput& in);
 
   /// The suspected camera fault after each pair, in one sentence; empty if none. Apart from
   /// process(), so that the odometry need not wait for it.
-  std::string inspect(const PairInput& in, const OdometryResult& result);
+  std::string inspect(const PairInput& in);
   /// Waits until the next call of inspect() knows all that the last one has begun to look for.
   void finishInspection() { inspector_.finish(); }
 
@@ -118,6 +120,7 @@ class PairProcessor {
   std::optional<BaseOdometry> base_odometry_;  // from the first pair on
   bool logged_mount_ = false;
   std::optional<StereoPair> last_;  // without its images
+  OdometryResult estimated_;        // of the last pair, also if it is no pair
   std::chrono::steady_clock::time_point last_arrival_;
 
   Requests taken_;  // for the next pair

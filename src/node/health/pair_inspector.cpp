@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -23,8 +24,7 @@ constexpr double kFewShare = 0.2;  // of the corners that have a disparity
 /// Row offsets tried on images that do not match; matches must exceed chance.
 constexpr int kOffsets_px[] = {2, 4, 7, 12, 20};
 constexpr double kClearlyMore = 2.0;
-/// Pairs that show whether one side is late, and how many more features agree if it is.
-constexpr std::size_t kForLateness = 3;
+/// How many more features agree if one side is late.
 constexpr double kClearlyMoreAgree = 1.5;
 /// Ratio of contrasts that causes a hint: one stop. On real clips, right images with half of their
 /// contrast cost nothing.
@@ -100,23 +100,40 @@ std::size_t agreeing(OdometryConfig config,
   return static_cast<std::size_t>(std::count(inliers.begin(), inliers.end(), 1));
 }
 
-/// Which side shows what the other one has shown in the previous pair; empty if none.
-std::string whichIsLate(const std::vector<StereoPair>& pairs,
-                        const OdometryConfig& config,
-                        const StereoCamera& camera) {
-  if (pairs.size() < kForLateness) return "";
-  const StereoPair &first = pairs[0], &second = pairs[1], &third = pairs[2];
-  const auto fits = [&](const StereoPair& earlier, const StereoPair& later) {
-    const auto late = static_cast<double>(agreeing(config, camera, earlier, later, true));
-    if (late == 0.0) return false;
-    return late >
-           kClearlyMoreAgree * static_cast<double>(agreeing(config, camera, second, third, false));
+/// The side that shows what the other one has shown some pairs before, if most features agree then.
+struct Lateness {
+  std::string side;
+  std::size_t frames = 0;
+};
+std::optional<Lateness> whichIsLate(const std::vector<StereoPair>& pairs,
+                                    const OdometryConfig& config,
+                                    const StereoCamera& camera) {
+  if (pairs.size() < 2) return std::nullopt;
+  const std::size_t last = pairs.size() - 1;
+  const auto paired = [&](std::size_t left, std::size_t right) {
+    const StereoPair &of_left = pairs[left], &of_right = pairs[right];
+    return StereoPair{std::max(of_left.stamp_ns, of_right.stamp_ns),
+                      of_left.left,
+                      of_right.right,
+                      of_left.left_mask,
+                      of_right.right_mask};
   };
-  const auto paired = [](const StereoPair& left, const StereoPair& right) {
-    return StereoPair{left.stamp_ns, left.left, right.right, left.left_mask, right.right_mask};
-  };
-  if (fits(paired(first, second), paired(second, third))) return "right";
-  return fits(paired(second, first), paired(third, second)) ? "left" : "";
+  auto most = static_cast<std::size_t>(
+      kClearlyMoreAgree *
+      static_cast<double>(agreeing(config, camera, pairs[last - 1], pairs[last], false)));
+  std::optional<Lateness> late;
+  for (std::size_t frames = 1; frames < last; ++frames) {
+    for (const bool right : {true, false}) {
+      const std::size_t early = last - frames;
+      const std::size_t count =
+          right ? agreeing(config, camera, paired(early - 1, last - 1), paired(early, last), true)
+                : agreeing(config, camera, paired(last - 1, early - 1), paired(last, early), true);
+      if (count <= most) continue;
+      most = count;
+      late = {right ? "right" : "left", frames};
+    }
+  }
+  return late;
 }
 
 /// Why the last of some pairs has no motion, as far as the images show; empty if they do not.
@@ -145,11 +162,12 @@ Explanation explainLoss(const std::vector<StereoPair>& pairs,
   if (matches.count(right, left, true) > clearly_more) {
     return {"the images match if left and right are swapped: swap their topics", true};
   }
-  if (const std::string side = whichIsLate(pairs, config, camera); !side.empty()) {
-    return {"the " + side + " images are one frame late: they match the " +
-                (side == "right" ? "left" : "right") +
-                " images of the previous pair; look for a queue in the driver, or for a trigger "
-                "that one camera misses",
+  if (const auto late = whichIsLate(pairs, config, camera)) {
+    const bool is_next = late->frames == 1;
+    return {"the " + late->side + " images are " + (is_next ? "one frame" : "two frames") +
+                " late: they match the " + (late->side == "right" ? "left" : "right") +
+                " images of the " + (is_next ? "previous pair" : "pair before the previous one") +
+                "; look for a queue in the driver, or for a trigger that one camera misses",
             true};
   }
   for (const int offset : kOffsets_px) {
@@ -244,7 +262,8 @@ void PairInspector::forgetLoss() {
 std::string PairInspector::finish() {
   if (search_.valid()) {
     const Explanation found = search_.get();
-    if (search_is_of_this_loss_) explanation_ = found;
+    // What was found holds until good pairs take it back: not each pair shows it.
+    if (search_is_of_this_loss_ && !found.text.empty()) explanation_ = found;
   }
   return explanation_.text;
 }

@@ -24,8 +24,8 @@ struct Explanation {
 };
 
 /// Detects camera faults: a dark camera, swapped cameras, images that are not rectified, one side
-/// that is a frame late, or exposures that differ so much that one of the images is likely to
-/// be dark or saturated. A thread of its own looks for the cause of a loss.
+/// that is a frame or two late, or exposures that differ so much that one of the images is likely
+/// to be dark or saturated. A thread of its own looks for the cause of a loss.
 class PairInspector {
  public:
   /// How many more suspicious pairs than good ones cause a hint. While they last, their cause is
@@ -41,7 +41,7 @@ class PairInspector {
   /// Uses another configuration from the next pair on, and forgets what was found with this one.
   void configure(const OdometryConfig& config);
 
-  /// Copies of the last two pairs that were received before, the earlier one first.
+  /// Copies of the last kPairsBefore pairs that were received before, the earliest one first.
   using PairsBefore = std::function<std::vector<StereoPair>()>;
 
   /// The suspected fault and a remedy, in one sentence; empty if none. `range`: that of 16-bit

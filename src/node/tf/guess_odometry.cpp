@@ -8,17 +8,14 @@
 
 namespace rotrocc {
 
-GuessOdometry::GuessOdometry(const tf2::BufferCore& tf,
-                             const std::string& guess_frame,
-                             const std::string& base_frame,
-                             Log log)
-    : tf_(tf), log_(std::move(log)), guess_frame_(guess_frame), base_frame_(base_frame) {}
+GuessOdometry::GuessOdometry(const tf2::BufferCore& tf, GuessSource source, Log log)
+    : tf_(tf), log_(std::move(log)), source_(std::move(source)) {}
 
 std::optional<Eigen::Isometry3d> GuessOdometry::motionTo(std::int64_t stamp_ns,
                                                          const WaitFor& wait) {
   if (!last_stamp_ns_ || stamp_ns <= *last_stamp_ns_) return std::nullopt;
   const auto is_there = [&] {
-    return tf_.canTransform(guess_frame_, base_frame_, toRosTime(stamp_ns));
+    return tf_.canTransform(source_.guess_frame, source_.base_frame, toRosTime(stamp_ns));
   };
   // After misses, waits only if the last transform did come, and not at each pair: waiting would
   // delay all of them.
@@ -45,7 +42,8 @@ std::optional<Eigen::Isometry3d> GuessOdometry::moveTo(std::int64_t stamp_ns) {
 /// T_guess_base at a stamp, if tf already has it.
 std::optional<Eigen::Isometry3d> GuessOdometry::pose(std::int64_t stamp_ns) const {
   try {
-    return toEigen(tf_.lookupTransform(guess_frame_, base_frame_, toRosTime(stamp_ns)).transform);
+    return toEigen(tf_.lookupTransform(source_.guess_frame, source_.base_frame, toRosTime(stamp_ns))
+                       .transform);
   } catch (const std::exception&) {
     return std::nullopt;  // not available: the previous motion is the prediction
   }
@@ -56,7 +54,7 @@ void GuessOdometry::observe(const std::optional<std::int64_t>& missing_ns) {
   const bool is_new = watch_.observe(!missing_ns);
   if (!missing_ns) {
     problem_.clear();
-    if (is_new) log_.info("motions are predicted by " + guess_frame_);
+    if (is_new) log_.info("motions are predicted by " + source_.name);
     return;
   }
   ++misses_;
@@ -66,16 +64,15 @@ void GuessOdometry::observe(const std::optional<std::int64_t>& missing_ns) {
 
 std::string GuessOdometry::describeMiss(std::int64_t stamp_ns) const {
   std::string cause;
-  tf_.canTransform(guess_frame_, base_frame_, toRosTime(stamp_ns), &cause);
+  tf_.canTransform(source_.guess_frame, source_.base_frame, toRosTime(stamp_ns), &cause);
   cause.erase(cause.find_last_not_of(". ") + 1);
   if (cause.empty()) cause = "it came too late";
-  const bool late = tf_.canTransform(guess_frame_, base_frame_, ros::Time());
-  return "no tf from guess_frame " + guess_frame_ + " to " + base_frame_ + " at " +
-         std::to_string(SourceWatch::kPairs) + " pairs in a row (" + cause +
-         "), pairs no longer wait for it: " +
+  const bool late = tf_.canTransform(source_.guess_frame, source_.base_frame, ros::Time());
+  return "no pose by " + source_.name + " at " + std::to_string(SourceWatch::kPairs) +
+         " pairs in a row (" + cause + "), pairs no longer wait for it: " +
          (late ? "publish it within " + toText(kTimeout_s) +
                      " s of its stamp, or synchronize the clocks"
-               : "correct guess_frame, or start the odometry that publishes it");
+               : "correct the parameter, or start that odometry");
 }
 
 }  // namespace rotrocc

@@ -12,6 +12,13 @@
 
 namespace rotrocc {
 
+/// Where the pose of the base by another odometry is in tf.
+struct GuessSource {
+  std::string name;         ///< for messages: the parameter and its value
+  std::string guess_frame;  ///< the odom frame of that odometry
+  std::string base_frame;
+};
+
 /// Another odometry of the robot, e.g. wheel odometry, whose tf is the pose of the base in its own
 /// odom frame, the guess frame.
 ///
@@ -23,10 +30,7 @@ class GuessOdometry {
   /// How long a pair waits: odometries publish at 20 Hz or more.
   static constexpr double kTimeout_s = 0.05;
 
-  GuessOdometry(const tf2::BufferCore& tf,
-                const std::string& guess_frame,
-                const std::string& base_frame,
-                Log log = Log());
+  GuessOdometry(const tf2::BufferCore& tf, GuessSource source, Log log = Log());
 
   /// Motion of the base T_last_cur from the last pair to a later stamp, however long ago that is;
   /// nothing, and a miss, if tf does not have it in time.
@@ -46,8 +50,7 @@ class GuessOdometry {
 
   const tf2::BufferCore& tf_;
   Log log_;
-  std::string guess_frame_;
-  std::string base_frame_;
+  GuessSource source_;
   std::optional<std::int64_t> last_stamp_ns_;
   /// The pose at that stamp, as soon as tf has it: tf forgets it after 10 s.
   std::optional<Eigen::Isometry3d> T_guess_last_;

@@ -22,7 +22,7 @@ ros::Subscriber TfReceiver::subscribe(const std::string& topic, bool is_static) 
       100,  // as tf2_ros::TransformListener
       [this, is_static](const Event& event) {
         for (const auto& transform : event.getConstMessage()->transforms) {
-          buffer_.setTransform(transform, "", is_static);
+          add(transform, is_static);
         }
         if (observer_) observer_(event, is_static);
       },

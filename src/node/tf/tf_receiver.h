@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include <geometry_msgs/TransformStamped.h>
 #include <ros/message_event.h>
 #include <ros/subscriber.h>
 #include <tf2/buffer_core.h>
@@ -23,6 +24,11 @@ class TfReceiver {
   explicit TfReceiver(Observer observer = {});
 
   const tf2::BufferCore& buffer() const { return buffer_; }
+
+  /// Also from other threads. One that is invalid is left out.
+  void add(const geometry_msgs::TransformStamped& transform, bool is_static) {
+    buffer_.setTransform(transform, "", is_static);
+  }
 
   /// Call with the stamp of each pair: after a jump back, the transforms from before it are
   /// dropped, as the buffer would reject those that are older.

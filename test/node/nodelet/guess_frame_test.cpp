@@ -1,8 +1,10 @@
-// Beside another odometry, which owns the base in tf: guess_frame.
+// Beside another odometry: guess_frame, if that owns the base in tf, or guess_topic.
 
 #include <chrono>
+#include <functional>
 #include <thread>
 
+#include <nav_msgs/Odometry.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
@@ -25,7 +27,7 @@ TEST(GuessFrameTest, IfItIsMissingThatIsToldCountedAndTriedAgain) {
   DiagnosticsListener diagnostics;
   NodeletDrive drive({{"guess_frame", "wheel_odom"}});
   drive.setUp();
-  const std::string told = "no tf from guess_frame wheel_odom to base_link";
+  const std::string told = "no pose by guess_frame wheel_odom";
   OdometryStatus status;
   for (int pair = 0; pair < 10; ++pair) status = drive.statusOf(drive.robot.drive());
   EXPECT_EQ(status.state, OdometryStatus::OK) << status.reason;
@@ -46,20 +48,21 @@ TEST(GuessFrameTest, IfItIsMissingThatIsToldCountedAndTriedAgain) {
   EXPECT_TRUE(diagnostics.says("stereo_odometry: tf", "no conflict"));
 }
 
+/// Sends the pose of the base by the wheels.
+using SendWheels = std::function<void(const ros::Time& stamp, double way_m)>;
+
 /// The images are away for longer than tf2 remembers, while the wheels go on.
-TEST(GuessFrameTest, TheBaseMovesByItThroughALongGap) {
-  NodeletDrive drive({{"guess_frame", "wheel_odom"}});
+void expectMovesThroughALongGap(NodeletDrive& drive, const SendWheels& send) {
   drive.setUp();
-  tf2_ros::TransformBroadcaster wheels;
   double way_m = 0.0;
   const auto see = [&] {
     const auto images = drive.robot.see();
     way_m += SimulatedRobot::kStep_m;
-    wheels.sendTransform(wheelOdometry(images.first.header.stamp, way_m));
+    send(images.first.header.stamp, way_m);
     return images;
   };
   double start_m = 0.0, found_m = 0.0;
-  EXPECT_TRUE(waitUntil([&] {  // the tf of the wheels is connected
+  EXPECT_TRUE(waitUntil([&] {  // the wheels are connected
     const auto [left, right] = see();
     drive.robot.publish(left, right);
     const bool misses = drive.statusOf(left.header.stamp).guess_misses > 0;
@@ -78,6 +81,46 @@ TEST(GuessFrameTest, TheBaseMovesByItThroughALongGap) {
   }
   const double after_m = drive.odometryOf(stamp).pose.pose.position.x;
   EXPECT_NEAR(after_m - found_m, way_m - start_m, 0.05) << "one of the pairs was seen";
+}
+
+TEST(GuessFrameTest, TheBaseMovesByItThroughALongGap) {
+  NodeletDrive drive({{"guess_frame", "wheel_odom"}});
+  tf2_ros::TransformBroadcaster wheels;
+  expectMovesThroughALongGap(drive, [&](const ros::Time& stamp, double way_m) {
+    wheels.sendTransform(wheelOdometry(stamp, way_m));
+  });
+}
+
+/// An odometry that sends no tf; tf is that of the camera's odometry alone.
+TEST(GuessTopicTest, TheBaseMovesByItThroughALongGap) {
+  NodeletDrive drive({{"guess_topic", "wheels"}});
+  ros::Publisher wheels = ros::NodeHandle().advertise<nav_msgs::Odometry>("wheels", 200);
+  tf2_ros::Buffer buffer;
+  const tf2_ros::TransformListener listener(buffer);
+  ros::Time last;
+  expectMovesThroughALongGap(drive, [&](const ros::Time& stamp, double way_m) {
+    nav_msgs::Odometry message;
+    message.header.stamp = last = stamp;
+    message.header.frame_id = "odom";
+    message.child_frame_id = "base_link";
+    message.pose.pose.position.x = way_m;
+    message.pose.pose.orientation.w = 1.0;
+    wheels.publish(message);
+  });
+  EXPECT_TRUE(buffer.canTransform("odom", "base_link", last, ros::Duration(5.0)));
+}
+
+TEST(GuessTopicTest, OfAnotherBodyIsNotUsedAndThatIsLogged) {
+  LogRecorder log;
+  NodeletDrive drive({{"guess_topic", "wheels"}});
+  ros::Publisher wheels = ros::NodeHandle().advertise<nav_msgs::Odometry>("wheels", 1, true);
+  nav_msgs::Odometry message;
+  message.child_frame_id = "base_footprint";
+  message.pose.pose.orientation.w = 1.0;
+  wheels.publish(message);
+  EXPECT_TRUE(waitUntil([&] {
+    return !log.with("has the motion of base_footprint, not of base_frame base_link").empty();
+  }));
 }
 
 TEST(GuessFrameTest, BaseHasOneParentOnly) {
