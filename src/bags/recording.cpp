@@ -94,8 +94,7 @@ class BagRecording : public Recording {
       : name_(paths.front() + (paths.size() > 1 ? " to " + paths.back() : "")),
         bags_(openBags(paths)),
         options_(options),
-        topics_(findStereoTopics(
-            topicTypes(bags_), options.left_image, options.right_image, usesInfos())),
+        topics_(findStereoTopics(topicTypes(bags_), options.topics, usesInfos())),
         camera_frame_(frameOf(bags_, topics_.left_image)) {
     if (usesInfos()) {
       left_info_ = firstInfo(bags_, topics_.left_info);

@@ -12,6 +12,7 @@
 #include <tf2_msgs/TFMessage.h>
 #include <Eigen/Geometry>
 
+#include "bags/stereo_topics.h"
 #include "rotrocc/trajectory.h"
 #include "sequences/stereo_sequence.h"
 
@@ -87,8 +88,7 @@ class Recording {
 };
 
 struct RecordingOptions {
-  std::string left_image;  ///< topics of the pair in a bag; empty: findStereoTopics()
-  std::string right_image;
+  StereoTopics topics;                   ///< of a bag; empty: findStereoTopics()
   std::string base_frame = "base_link";  ///< of a bag: its recorded poses are the true path
   bool raw_sequence = false;  ///< images of a sequence as they were recorded; otherwise rectified
   SequenceOptions sequence;   ///< its calibration also in place of camera_info

@@ -78,11 +78,7 @@ std::string imageTopics(const TopicTypes& types) {
   return list.empty() ? " none" : list;
 }
 
-StereoTopics namedTopics(const TopicTypes& types,
-                         const std::string& left_image,
-                         const std::string& right_image,
-                         bool with_infos) {
-  const StereoTopics topics = withInfos(left_image, right_image);
+void requireTopics(const TopicTypes& types, const StereoTopics& topics, bool with_infos) {
   for (const std::string& image : {topics.left_image, topics.right_image}) {
     if (isImage(types, image)) continue;
     throw std::runtime_error(
@@ -92,10 +88,9 @@ StereoTopics namedTopics(const TopicTypes& types,
   for (const std::string& info : {topics.left_info, topics.right_info}) {
     if (!with_infos || isInfo(types, info)) continue;
     throw std::runtime_error("no topic '" + info + "' of type " + kInfoType +
-                             ", which is required with the images: name the files of a calibration "
-                             "if there is none (calibration)");
+                             ", which is required with the images: name another one (left_info, "
+                             "right_info), or the files of a calibration (calibration)");
   }
-  return topics;
 }
 
 /// All pairs of the best rank.
@@ -113,6 +108,19 @@ std::vector<StereoTopics> bestTopics(const TopicTypes& types, bool with_infos) {
   return best;
 }
 
+StereoTopics onlyPair(const TopicTypes& types, bool with_infos) {
+  const std::vector<StereoTopics> best = bestTopics(types, with_infos);
+  if (best.size() == 1) return best.front();
+  const bool lacks_infos = best.empty() && !bestTopics(types, false).empty();
+  throw std::runtime_error(
+      (best.size() > 1 ? "more than one stereo pair; specify the left and right image topics"
+       : lacks_infos ? "no stereo pair with camera_info: name its topics (left_info, right_info), "
+                       "or the files of a calibration (calibration)"
+                     : "no stereo pair (.../left/image..., .../right/image..., each with "
+                       "camera_info); specify the left and right image topics") +
+      (", image topics:" + imageTopics(types)));
+}
+
 }  // namespace
 
 TopicTypes topicTypes(const Bags& bags) {
@@ -124,25 +132,20 @@ TopicTypes topicTypes(const Bags& bags) {
   return types;
 }
 
-StereoTopics findStereoTopics(const TopicTypes& types,
-                              const std::string& left_image,
-                              const std::string& right_image,
-                              bool with_infos) {
-  if (left_image.empty() != right_image.empty()) {
-    throw std::runtime_error("specify both the left and the right image topic, or none");
+StereoTopics findStereoTopics(const TopicTypes& types, const StereoTopics& named, bool with_infos) {
+  if (named.left_image.empty() != named.right_image.empty() ||
+      named.left_info.empty() != named.right_info.empty()) {
+    throw std::runtime_error("specify both the left and the right topic, or none");
   }
-  if (!left_image.empty()) return namedTopics(types, left_image, right_image, with_infos);
-
-  const std::vector<StereoTopics> best = bestTopics(types, with_infos);
-  if (best.size() == 1) return best.front();
-  const bool lacks_infos = best.empty() && !bestTopics(types, false).empty();
-  throw std::runtime_error(
-      (best.size() > 1 ? "more than one stereo pair; specify the left and right image topics"
-       : lacks_infos   ? "no stereo pair with camera_info: name the files of a calibration "
-                         "(calibration)"
-                       : "no stereo pair (.../left/image..., .../right/image..., each with "
-                         "camera_info); specify the left and right image topics") +
-      (", image topics:" + imageTopics(types)));
+  const bool names_infos = !named.left_info.empty();
+  StereoTopics topics = withInfos(named.left_image, named.right_image);
+  if (named.left_image.empty()) topics = onlyPair(types, with_infos && !names_infos);
+  if (names_infos) {
+    topics.left_info = named.left_info;
+    topics.right_info = named.right_info;
+  }
+  requireTopics(types, topics, with_infos);
+  return topics;
 }
 
 }  // namespace rotrocc

@@ -91,8 +91,9 @@ void GyroTrust::reject() {
     return;
   }
   why_not_ = cv::format(
-      "its rotations differ from those of the images by %.2g deg per pair: check the tf "
-      "from its frame to the camera's, and its stamps",
+      "its rotations differ from those of the images by %.2g deg per pair: check its stamps, and "
+      "the tf from its frame to the camera's, on which roll and pitch of the first pose depend, "
+      "too",
       kDegreesPerRadian * difference_rad_ / disagreeing_);
 }
 

@@ -33,8 +33,7 @@ constexpr int kQueueSize = 10;
 /// Throws std::invalid_argument if nobody would rectify the images.
 std::unique_ptr<Recording> openPlayable(const PlayerOptions& options) {
   RecordingOptions how;
-  how.left_image = options.left_image;
-  how.right_image = options.right_image;
+  how.topics = options.topics;
   std::istringstream files(options.calibration);
   how.sequence.calibration.assign(std::istream_iterator<std::string>(files), {});
   how.base_frame = options.base_frame;

@@ -26,9 +26,13 @@ void visitOptions(PlayerOptions& options, const Visitor& visit) {
         "longest wait for the odometry of each pair [s]; 0: do not wait");
   visit("rectify", options.rectify, "true: raw images, for an odometry that rectifies them");
   visit("left_image",
-        options.left_image,
+        options.topics.left_image,
         "topic of the left images, if the bag has several stereo pairs");
-  visit("right_image", options.right_image, "topic of the right images");
+  visit("right_image", options.topics.right_image, "topic of the right images");
+  visit("left_info",
+        options.topics.left_info,
+        "topic of the left camera_info, if it is not beside the images");
+  visit("right_info", options.topics.right_info, "topic of the right camera_info");
   visit("calibration",
         options.calibration,
         "files in place of camera_info of a bag: \"left.yaml right.yaml\" of camera_calibration, "

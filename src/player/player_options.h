@@ -4,13 +4,14 @@
 
 #include <ros/node_handle.h>
 
+#include "bags/stereo_topics.h"
+
 namespace rotrocc {
 
 /// Private parameters of the player, with the same names.
 struct PlayerOptions {
-  std::string bag;         ///< path; or a directory, see openStereoSequence()
-  std::string left_image;  ///< topics of the pair in a bag; empty: findStereoTopics()
-  std::string right_image;
+  std::string bag;                  ///< path; or a directory, see openStereoSequence()
+  StereoTopics topics;              ///< of a bag; empty: findStereoTopics()
   std::string calibration;          ///< files in place of camera_info, separated by spaces
   bool rectify = false;             ///< the odometry rectifies: it takes image_raw
   double rate = 1.0;                ///< times as fast as recorded; 0: as fast as possible

@@ -23,9 +23,15 @@ po::options_description imageOptions(InputOptions& options) {
   po::options_description images("Images");
   auto add = images.add_options();
   add("left-image",
-      po::value(&options.recording.left_image),
+      po::value(&options.recording.topics.left_image),
       "topic of the left images, if a bag has several stereo pairs");
-  add("right-image", po::value(&options.recording.right_image), "topic of the right images");
+  add("right-image", po::value(&options.recording.topics.right_image), "topic of the right images");
+  add("left-info",
+      po::value(&options.recording.topics.left_info),
+      "topic of the left camera_info, if it is not beside the images");
+  add("right-info",
+      po::value(&options.recording.topics.right_info),
+      "topic of the right camera_info");
   add("rectify",
       withDefault(options.rectify),
       "with K, D, R and P of camera_info: yes, no, or auto (if the topic is not named "

@@ -117,8 +117,8 @@ TEST_F(RecordedPairsTest, AreThoseOfBagsOfKitti2bag) {
   expectAllPairs(raw);
 
   RecordingOptions color;
-  color.left_image = "/kitti/camera_color_left/image_raw";
-  color.right_image = "/kitti/camera_color_right/image_raw";
+  color.topics.left_image = "/kitti/camera_color_left/image_raw";
+  color.topics.right_image = "/kitti/camera_color_right/image_raw";
   Reader converted(directory_ / "raw.bag", {}, color);
   expectAllPairs(converted);  // shades of gray, which the conversion keeps
 
@@ -330,7 +330,9 @@ const char* const kKalibrChain =
 
 TEST_F(RawBagTest, IsRectifiedByFilesInPlaceOfItsCalibration) {
   const std::string bag = withoutInfos("image_raw");
-  expectError<std::runtime_error>([&] { Reader{bag}; }, "name the files of a calibration");
+  expectError<std::runtime_error>(
+      [&] { Reader{bag}; },
+      "name its topics (left_info, right_info), or the files of a calibration");
   directory_.write("camchain.yaml", kKalibrChain);
   const std::string cameras = std::string(CAMERAS) + "/euroc_";
   using Files = std::vector<std::string>;

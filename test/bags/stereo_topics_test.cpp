@@ -116,20 +116,37 @@ TEST(FindStereoTopics, KnowsOtherNamesOfTheCameras) {
     EXPECT_EQ(findStereoTopics(types).right_info, right + "/camera_info");
     types.erase(right + "/camera_info");
     expectError<std::runtime_error>([&] { findStereoTopics(types); },
-                                    "no stereo pair with camera_info: name the files");
-    EXPECT_EQ(findStereoTopics(types, "", "", false).right_image, right + "/image_raw");
+                                    "no stereo pair with camera_info: name its topics (left_info,");
+    types["/calibration/left"] = types["/calibration/right"] = "sensor_msgs/CameraInfo";
+    const StereoTopics elsewhere =
+        findStereoTopics(types, {"", "", "/calibration/left", "/calibration/right"});
+    EXPECT_EQ(elsewhere.right_image, right + "/image_raw");
+    EXPECT_EQ(elsewhere.right_info, "/calibration/right");
+    expectError<std::runtime_error>(
+        [&] {
+          findStereoTopics(types, {"", "", "/calibration/left", "/no"});
+        },
+        "no topic '/no'");
+    EXPECT_EQ(findStereoTopics(types, {}, false).right_image, right + "/image_raw");
   }
 }
 
 TEST(FindStereoTopics, TakesTheNamedPair) {
   const TopicTypes types = withInfos({"/cam0/image_rect", "/cam1/image_rect"});
-  const StereoTopics topics = findStereoTopics(types, "/cam1/image_rect", "/cam0/image_rect");
+  const StereoTopics topics =
+      findStereoTopics(types, {"/cam1/image_rect", "/cam0/image_rect", "", ""});
   EXPECT_EQ(topics.left_image, "/cam1/image_rect");
   EXPECT_EQ(topics.right_info, "/cam0/camera_info");
   expectError<std::runtime_error>(
-      [&] { findStereoTopics(types, "/cam0/camera_info", "/cam1/image_rect"); },
+      [&] {
+        findStereoTopics(types, {"/cam0/camera_info", "/cam1/image_rect", "", ""});
+      },
       "no topic '/cam0/camera_info' of type sensor_msgs/Image");
-  expectError<std::runtime_error>([&] { findStereoTopics(types, "/cam0/image_rect"); }, "both");
+  expectError<std::runtime_error>(
+      [&] {
+        findStereoTopics(types, {"/cam0/image_rect", "", "", ""});
+      },
+      "both");
 }
 
 }  // namespace

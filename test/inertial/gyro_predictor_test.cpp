@@ -174,9 +174,11 @@ TEST(GyroTrustTest, OneWrongMotionIsNoReason) {
 TEST(GyroTrustTest, SeveralInARowAreUntilRotationsAgree) {
   GyroTrust trust;
   compare(trust, kWrong, 5);
-  EXPECT_EQ(trust.whyNot(),
-            "its rotations differ from those of the images by 3.4 deg per pair: check the tf "
-            "from its frame to the camera's, and its stamps");
+  EXPECT_EQ(
+      trust.whyNot(),
+      "its rotations differ from those of the images by 3.4 deg per pair: check its "
+      "stamps, and the tf from its frame to the camera's, on which roll and pitch of the first "
+      "pose depend, too");
   compare(trust, {0.0005, 0.001, 0.0005, 0.0}, 1000);  // a standstill tells nothing
   EXPECT_NE(trust.whyNot(), std::nullopt);
   compare(trust, kGood, 4);

@@ -91,8 +91,12 @@ TemporaryDirectory* KittiBenchmarkTest::master_ = nullptr;
 
 TEST_F(KittiBenchmarkTest, ReportsAllSequences) {
   letGo();
+  fs::create_directory(dataset() / "sequences/12");
   const CommandResult result = run("--jobs 2");
   ASSERT_EQ(result.status, 0) << result.output;
+  EXPECT_NE(result.output.find("sequences/12 is left out: it has no folder image_0, image_2"),
+            std::string::npos)
+      << result.output;
   const std::vector<CsvRow> sequences = rows();
   ASSERT_EQ(sequences.size(), 3u);
   for (int i = 0; i < 3; ++i) {

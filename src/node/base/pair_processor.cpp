@@ -15,6 +15,9 @@ namespace {
 constexpr double kRest_mps = 0.05;
 constexpr double kRest_rps = 0.05;
 
+/// Robots seldom start on a steeper one.
+constexpr double kSlope_deg = 10.0;
+
 /// With so many digits that the stamps differ.
 std::string describeJump(std::int64_t from_ns, std::int64_t to_ns) {
   const int digits = from_ns - to_ns < 10'000'000 ? 9 : 3;
@@ -129,8 +132,12 @@ void PairProcessor::begin(const PairInput& in) {
     constexpr double kDegree = M_PI / 180.0;
     const double roll_deg = std::atan2(up->y(), up->z()) / kDegree;
     const double pitch_deg = std::atan2(-up->x(), std::hypot(up->y(), up->z())) / kDegree;
-    log_.info("the first pose is level by gravity: " + parameters_.base_frame + " has a roll of " +
-              fixedText(roll_deg, 1) + " deg and a pitch of " + fixedText(pitch_deg, 1) + " deg");
+    const std::string text = "by gravity, " + parameters_.base_frame + " has a roll of " +
+                             fixedText(roll_deg, 1) + " deg and a pitch of " +
+                             fixedText(pitch_deg, 1) + " deg at first";
+    std::hypot(roll_deg, pitch_deg) > kSlope_deg
+        ? log_.warn(text + ": unless it is on a slope, the tf of the IMU or of the camera is wrong")
+        : log_.info(text);
   }
   base_odometry_.emplace(parameters_, systematic_error_, up);
 }
