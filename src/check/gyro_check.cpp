@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 
 #include "common/to_seconds.h"
 #include "input/to_text.h"
@@ -22,7 +22,7 @@ constexpr double kDegrees = 180.0 / M_PI;
 constexpr double kMostDelay_s = 0.2;
 constexpr double kStep_s = 0.005;
 
-constexpr std::size_t kLeastTurns = 20;
+constexpr Eigen::Index kLeastTurns = 20;
 
 class GyroCheck : public PairCheck {
  public:
@@ -52,8 +52,8 @@ class GyroCheck : public PairCheck {
   }
 
   void report(const Windows& windows, RigReport& report) const override {
-    const Fit all = samples_.size() < 2 || turns_.size() < kLeastTurns ? Fit() : fit(turns_);
-    if (all.rms_rad <= 0.0 || all.rms_rad > 1e6) {
+    const Fit all = samples_.size() < 2 ? Fit() : fit(turns_);
+    if (!std::isfinite(all.rms_rad)) {
       report.findings.push_back({"time",
                                  "cameras against the gyroscope",
                                  "too few motions while the gyroscope was recorded",
@@ -108,8 +108,7 @@ class GyroCheck : public PairCheck {
   struct Fit {
     double delay_s = 0.0;  ///< to be added to stamps of images to get those of the gyroscope
     Eigen::Matrix3d R_camera_gyro = Eigen::Matrix3d::Identity();
-    Eigen::Vector3d bias_rps = Eigen::Vector3d::Zero();  ///< in axes of the gyroscope
-    double rms_rad = 0.0;
+    double rms_rad = std::numeric_limits<double>::infinity();  ///< per second
   };
 
   /// The rotation vector of the gyroscope during a turn, for one so small that its parts commute.
@@ -135,42 +134,25 @@ class GyroCheck : public PairCheck {
     return sums_rad_[i - 1] + share * (sums_rad_[i] - sums_rad_[i - 1]);
   }
 
-  /// By singular values (Arun, Huang and Blostein 1987), with the turn rates of the bias as the
-  /// mean.
+  /// The rotation from turn rates, with the bias as a shift (Umeyama 1991).
   Fit fitRotation(double delay_s, const std::vector<Turn>& turns) const {
-    std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> rates;  // camera, gyroscope
-    Eigen::Vector3d mean_camera = Eigen::Vector3d::Zero();
-    Eigen::Vector3d mean_gyro = Eigen::Vector3d::Zero();
+    const auto most = static_cast<Eigen::Index>(turns.size());
+    Eigen::Matrix3Xd camera(3, most), gyro(3, most);
+    Eigen::Index count = 0;
     for (const Turn& turn : turns) {
-      const auto gyro = turned(turn, delay_s);
-      if (!gyro) continue;
+      const auto turned_rad = turned(turn, delay_s);
+      if (!turned_rad) continue;
       const double interval_s = toSeconds(turn.to_ns - turn.from_ns);
-      rates.emplace_back(turn.camera_rad / interval_s, *gyro / interval_s);
-      mean_camera += rates.back().first;
-      mean_gyro += rates.back().second;
+      camera.col(count) = turn.camera_rad / interval_s;
+      gyro.col(count++) = *turned_rad / interval_s;
     }
-    Fit fit;
-    fit.delay_s = delay_s;
-    fit.rms_rad = 1e9;
-    if (rates.size() < kLeastTurns) return fit;
-    const auto count = static_cast<double>(rates.size());
-    mean_camera /= count;
-    mean_gyro /= count;
-    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-    for (const auto& [camera, gyro] : rates) {
-      products += (camera - mean_camera) * (gyro - mean_gyro).transpose();
-    }
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(products,
-                                                Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Vector3d signs(1.0, 1.0, (svd.matrixU() * svd.matrixV().transpose()).determinant());
-    fit.R_camera_gyro = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-    fit.bias_rps = mean_gyro - fit.R_camera_gyro.transpose() * mean_camera;
-    double squares = 0.0;
-    for (const auto& [camera, gyro] : rates) {
-      squares += (camera - fit.R_camera_gyro * (gyro - fit.bias_rps)).squaredNorm();
-    }
-    fit.rms_rad = std::sqrt(squares / count);
-    return fit;
+    if (count < kLeastTurns) return {delay_s};
+    camera.conservativeResize(3, count);
+    gyro.conservativeResize(3, count);
+    const Eigen::Matrix4d fitted = Eigen::umeyama(gyro, camera, false);
+    const Eigen::Matrix3d R = fitted.topLeftCorner<3, 3>();
+    const Eigen::Matrix3Xd errors = ((R * gyro).colwise() + fitted.topRightCorner<3, 1>()) - camera;
+    return {delay_s, R, std::sqrt(errors.squaredNorm() / static_cast<double>(count))};
   }
 
   /// The delay with the smallest difference: on a grid, then by a parabola.

@@ -22,7 +22,9 @@
 #include "common/stage_timer.h"
 #include "inertial/gyro_file.h"
 #include "inertial/gyro_predictor.h"
+#include "input/stereo_intake.h"
 #include "input/to_text.h"
+#include "node/health/pair_inspector.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/visual_odometry.h"
 #include "tools/input_options.h"
@@ -209,6 +211,38 @@ class PreloadedPairs {
   double loaded_MB_ = 0.0;  // memory of the process after reading all images
 };
 
+/// What the node finds out of pairs without a good motion, at each pair and not beside it: the same
+/// input has the same output.
+class Inspection {
+ public:
+  Inspection(const OdometryConfig& config, bool rectifies) : inspector_(config, rectifies) {}
+
+  /// The result as the node has it.
+  OdometryResult inspect(const StereoPair& pair,
+                         const StereoCamera& camera,
+                         const OdometryResult& estimated) {
+    const OdometryResult result = inspector_.distrusted(estimated);
+    inspector_.inspect(pair, camera, estimated, {}, [&] { return before_; });
+    if (const std::string found = inspector_.finish(); !found.empty()) cause_ = found;
+    if (estimated.state == State::kOk) {
+      before_.clear();
+    } else {
+      before_.push_back(copyOf(pair));
+      if (before_.size() > kPairsBefore) before_.erase(before_.begin());
+    }
+    return result;
+  }
+
+  void printSummary(std::ostream& out) const {
+    if (!cause_.empty()) out << "likely cause of lost or degraded pairs: " << cause_ << '\n';
+  }
+
+ private:
+  PairInspector inspector_;
+  std::vector<StereoPair> before_;
+  std::string cause_;
+};
+
 void run(const Options& options) {
   const Parameters parameters = readParameters(options.input);
   const std::unique_ptr<Recording> recording = openInput(options.input, parameters.node);
@@ -231,6 +265,7 @@ void run(const Options& options) {
     };
   }
   VisualOdometry odometry(parameters.odometry);
+  Inspection inspection(parameters.odometry, pairs.rectifies());
   ProgressBar progress("odometry", recording->size());
   StereoPair pair;
   StereoCamera camera;
@@ -247,13 +282,15 @@ void run(const Options& options) {
     }
     last_ns = pair.stamp_ns;
     last_time_ns = pair.time_ns();
-    const PairRecord record = process(odometry, pair, camera, rotation);
+    PairRecord record = process(odometry, pair, camera, rotation);
+    record.result = inspection.inspect(pair, camera, record.result);
     if (gyro) gyro->observe(record.result);
     outputs.write(record, pair, camera, odometry);
     progress.advance();
   }
   progress.finish();
   outputs.printSummary(std::cout);
+  inspection.printSummary(std::cout);
   if (gyro) gyro->printSummary(std::cout);
   if (preloaded) preloaded->printMemory();
   if (const std::string left_out = pairs.leftOut(); !left_out.empty()) {

@@ -25,21 +25,6 @@ std::string describeJump(std::int64_t from_ns, std::int64_t to_ns) {
          fixedText(toSeconds(to_ns), digits) + " s";
 }
 
-/// While left and right images are no pairs, features agree by chance. One good motion may be that
-/// of the first pair that is one again.
-OdometryResult distrusted(OdometryResult result) {
-  if (!result.hasMotion()) return result;
-  const bool was_ok = result.state == State::kOk;
-  result.state = was_ok ? State::kDegraded : State::kLost;
-  result.reason = was_ok ? "left and right images were no pairs shortly before"
-                         : "left and right images are no pairs";
-  if (was_ok) return result;
-  result.T_prev_cur.setIdentity();
-  result.covariance.setZero();
-  result.contrast_gain = result.flow_noise_px = 0.0;
-  return result;
-}
-
 }  // namespace
 
 PairProcessor::PairProcessor(const Parameters& parameters, Log log)
@@ -95,7 +80,7 @@ PairAnswer PairProcessor::process(const PairInput& in) {
                                  base_odometry_->expectedMotion(in.T_base_camera, T_last_base),
                                  in.measured_rotation,
                                  [&] { return in.is_simulated && !moves(in); });
-  answer.result = inspector_.isOfNoPair() ? distrusted(estimated_) : estimated_;
+  answer.result = inspector_.distrusted(estimated_);
   answer.state = base_odometry_->add(answer.result, in.T_base_camera, T_last_base);
   answer.mount_problem = base_odometry_->planarProblem();
   if (!answer.mount_problem.empty() && !std::exchange(logged_mount_, true)) {

@@ -62,8 +62,7 @@ class PairProcessor {
   /// Whether the next pair is the first one, and roll and pitch of its pose are by the vertical.
   bool startsLevel() const { return !base_odometry_ && isLevelled(); }
 
-  /// While the inspector knows that left and right are no pairs, degraded motions are lost, and
-  /// good ones degraded.
+  /// The result is as PairInspector::distrusted() has it.
   PairAnswer process(const PairInput& in);
 
   /// The suspected camera fault after each pair, in one sentence; empty if none. Apart from

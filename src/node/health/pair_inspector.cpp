@@ -252,6 +252,21 @@ void PairInspector::explain(const StereoPair& pair,
       });
 }
 
+OdometryResult PairInspector::distrusted(OdometryResult result) const {
+  if (!isOfNoPair() || !result.hasMotion()) return result;
+  if (result.state == State::kOk) {
+    result.state = State::kDegraded;
+    result.reason = "left and right images were no pairs shortly before";
+    return result;
+  }
+  result.state = State::kLost;
+  result.reason = "left and right images are no pairs";
+  result.T_prev_cur.setIdentity();
+  result.covariance.setZero();
+  result.contrast_gain = result.flow_noise_px = 0.0;
+  return result;
+}
+
 void PairInspector::forgetLoss() {
   doubtful_ = 0;
   explain_at_ = kPatience;

@@ -56,6 +56,11 @@ class PairInspector {
   /// exchanged, of one camera, or of different times. Then they say nothing about the rig.
   bool isOfNoPair() const { return explanation_.is_of_no_pair; }
 
+  /// The result without what is wrong while isOfNoPair(): features agree by chance. A degraded
+  /// motion is lost, and a good one, which may be that of the first pair that is one again,
+  /// degraded. inspect() needs the result as it was.
+  OdometryResult distrusted(OdometryResult result) const;
+
   /// Waits for what is being looked for. Returns the explanation of a loss; empty if none.
   std::string finish();
 
