@@ -61,8 +61,10 @@ constexpr double kMaxAcceleration_mps2 = 30.0;
 /// Features with a larger error, in details of the images, contradict a motion. Those that are only
 /// inexact have a smaller one.
 constexpr double kContradiction = 2.0;
-/// Samples for a competitor: it has a large share of those that contradict.
+/// Samples for a competitor, at most: fewer if it must have a large share of those that contradict,
+/// so that four of them, as a sample has, belong to it but for kMissed of all cases.
 constexpr int kSamples = 200;
+constexpr double kMissed = 1e-4;
 /// What is this many times as deep is behind.
 constexpr double kBehind = 2.0;
 /// The share of kMaxCompetitors that is enough for features behind the others.
@@ -72,6 +74,13 @@ constexpr double kShareBehind = 0.5;
 constexpr double kMinNoise_px = 0.005;
 /// A smaller share of inliers is not all features but some mismatches.
 constexpr double kUnanimousShare = 0.95;
+
+/// The samples that find what has a share of all features.
+int samplesFor(double share) {
+  const double is_of_it = std::pow(std::min(share, 1.0), 4);
+  return std::clamp(
+      static_cast<int>(std::ceil(std::log(kMissed) / std::log1p(-is_of_it))), 1, kSamples);
+}
 
 /// The smallest eigenvalue of part v = lambda whole v.
 double leastShare(const Matrix6d& part, const Matrix6d& whole) {
@@ -203,7 +212,9 @@ std::optional<std::string> MotionCheck::whyAmbiguous(const Hypothesis& accepted)
   const double many = kMaxCompetitors * static_cast<double>(features.size());
   const int min_count = std::max(kMinInliers, static_cast<int>(std::ceil(kShareBehind * many)));
   if (static_cast<int>(others_.size()) < min_count) return std::nullopt;
-  const auto competitor = consensusMotion(accepted.camera, others_, kTrackedTolerance, kSamples);
+  const double share = static_cast<double>(min_count) / static_cast<double>(others_.size());
+  const auto competitor =
+      consensusMotion(accepted.camera, others_, kTrackedTolerance, samplesFor(share));
   if (!competitor) return std::nullopt;
   reprojectionErrors(accepted.camera, others_, *competitor, errors_px_);
   set_.resize(others_.size());
