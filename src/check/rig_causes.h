@@ -13,18 +13,21 @@ namespace rotrocc {
 
 /// What makes the right image differ from that of a rectified pair.
 enum RigCause {
-  kRoll,       ///< [rad] rotation of the right camera about its optical axis: clockwise
-  kPitch,      ///< [rad] about x: looks up
-  kYaw,        ///< [rad] about y: looks right
-  kFocal,      ///< focal length of the right image over that of the left one, minus 1
-  kOffset,     ///< [px] principal point of the right image, how much lower
-  kLens,       ///< k1 that the right image has too much, in normalized coordinates
-  kTimeSkew,   ///< [s] how much later the right image is taken
-  kBias,       ///< [px] principal point of the right image, how much further right
-  kTwist,      ///< [rad] rows like those of a yaw, without its errors of disparities: of a lens
-  kBothLenses  ///< k1 that both images have too much: only flows have its errors
+  kRoll,      ///< [rad] rotation of the right camera about its optical axis: clockwise
+  kPitch,     ///< [rad] about x: looks up
+  kYaw,       ///< [rad] about y: looks right
+  kFocal,     ///< focal length of the right image over that of the left one, minus 1
+  kOffset,    ///< [px] principal point of the right image, how much lower
+  kLens,      ///< k1 that the right image has too much, in normalized coordinates
+  kTimeSkew,  ///< [s] how much later the right image is taken
+  kBias,      ///< [px] principal point of the right image, how much further right
+  kTwist,     ///< [rad] rows like those of a yaw, without its errors of disparities: of a lens
+  // Of both images, of which only flows have the errors:
+  kBothLenses,  ///< k1 that they have too much
+  kBothX,       ///< [px] principal points, how much further right
+  kBothY        ///< [px] how much lower
 };
-constexpr std::size_t kRigCauses = 10;
+constexpr std::size_t kRigCauses = 12;
 
 using RigCauses = std::array<double, kRigCauses>;
 
@@ -42,7 +45,8 @@ struct RigSample {
   // The errors of its flow, linear in those of its disparity and of the motion:
   Eigen::Vector2d flow_px = Eigen::Vector2d::Zero();  ///< measured, minus that of the motion
   Eigen::Vector2d flow_by_disparity = Eigen::Vector2d::Zero();  ///< zero: says nothing
-  Eigen::Vector2d flow_by_lenses = Eigen::Vector2d::Zero();     ///< by k1 of both
+  /// By kBothLenses, kBothX and kBothY.
+  Eigen::Matrix<double, 2, 3> flow_by_both = Eigen::Matrix<double, 2, 3>::Zero();
   Eigen::Matrix<double, 2, 6> flow_by_motion = Eigen::Matrix<double, 2, 6>::Zero();
 };
 

@@ -141,7 +141,7 @@ class PairChecks {
       if (isExplained()) {
         doubt(report);
       } else {
-        rig.measures.is_known = !addRectification(rest, model, report);
+        rig.measures.is_known = !addCenter(model, report) && !addRectification(rest, model, report);
       }
     }
     if (samples.size() < kLeastMotions) addTooShort(report);
@@ -217,6 +217,24 @@ class PairChecks {
                                "record a minute of motion, with turns",
                                Verdict::kUnknown,
                                100.0});
+  }
+
+  /// Returns whether the principal points of both images are wrong. What follows is not reported.
+  bool addCenter(const RigModel& model, RigReport& report) const {
+    if (!model.exceeds(1.0, kBothX) && !model.exceeds(1.0, kBothY)) return false;
+    doubt(report);
+    const double turned =
+        std::hypot(model.values[kBothX] / camera_.fx, model.values[kBothY] / camera_.fy);
+    report.findings.push_back(
+        {"inputs",
+         "principal points",
+         "those of both cameras are wrong by " + toText(model.value(kBothX), "px") + " in x, " +
+             toText(model.value(kBothY), "px") + " in y",
+         "motions are turned by " + fixedText(turned * 180.0 / M_PI, 1) + " deg",
+         "calibrate the images as they are: were they cropped after the calibration?",
+         Verdict::kFix,
+         100.0});
+    return true;
   }
 
   /// Returns whether it is wrong: what is left when nothing else explains the rows, or lenses that

@@ -77,6 +77,16 @@ class RigFit {
     turns_[1] = {{kYaw, kBias, -1.0 / camera.fx}, &model.horizontal};
   }
 
+  /// Most recordings show no principal point of both cameras, which would only blur the others.
+  void leaveOutCenter() {
+    fit();
+    for (const RigCause cause : {kBothX, kBothY}) {
+      const double size = std::abs(model_.values[cause]);
+      const double costs_px = kAcceptable * kFixScale * camera_.fx;
+      if (size < 3.0 * model_.sigmas[cause] + costs_px) problem_.leaveOut(cause);
+    }
+  }
+
   void decideTurns() {
     fit();
     first_sigmas_ = model_.sigmas;
@@ -120,7 +130,7 @@ class RigFit {
   void addCorrectable() {
     RigCauses values = model_.values;
     for (std::size_t k = 0; k < kRigCauses; ++k) {
-      const bool is_of_calibration = k != kTimeSkew && k != kTwist && k != kBothLenses;
+      const bool is_of_calibration = k != kTimeSkew && k != kTwist && k < kBothLenses;
       const bool matters = model_.exceeds(kAcceptable, static_cast<RigCause>(k));
       if (!is_of_calibration || !matters) values[k] = 0.0;
     }
@@ -157,6 +167,9 @@ class RigFit {
     }
     // Radial distortion k1 r^2 changes the scale of the image by three times as much.
     model_.effects_px[kBothLenses].x() = model_.typical_disparity_px * 3.0 * means_[1];
+    // A principal point turns motions, as a part of their length.
+    model_.effects_px[kBothX].x() = model_.typical_disparity_px / camera_.fx;
+    model_.effects_px[kBothY].x() = model_.typical_disparity_px / camera_.fy;
   }
 
   /// The severity of what a turn in place of a shift would change.
@@ -201,6 +214,7 @@ RigModel fitRig(const StereoCamera& camera,
   const std::size_t step = count / kMostSamples + 1;
   for (std::size_t i = 0; i < pairs.size(); i += step) fitted.push_back(pairs[i]);
   RigFit fit(camera, fitted, windows, model);
+  fit.leaveOutCenter();
   fit.decideTurns();
   fit.leaveOutInsignificant();
   fit.addCorrectable();

@@ -273,13 +273,16 @@ RigProblem::FlowResidual RigProblem::residualOf(
   axes.row(0) /= noise_px * std::sqrt(1.0 + length * length);
   axes.row(1) /= noise_px;
   FlowResidual residual;
-  residual.value = axes * (sample.flow_px - displaced_px * sample.flow_by_disparity -
-                           values[kBothLenses] * sample.flow_by_lenses);
+  residual.value =
+      axes * (sample.flow_px - displaced_px * sample.flow_by_disparity -
+              sample.flow_by_both * Eigen::Map<const Eigen::Vector3d>(&values[kBothLenses]));
   residual.by_motion = axes * sample.flow_by_motion;
   residual.by_values = axes * sample.flow_by_disparity * by_values;
   if (skew_is_of_rows) residual.by_values.col(kTimeSkew).setZero();
-  if (!is_left_out_[kBothLenses]) {
-    residual.by_values.col(kBothLenses) = axes * sample.flow_by_lenses;
+  for (std::size_t k = kBothLenses; k < kRigCauses; ++k) {
+    if (is_left_out_[k]) continue;
+    residual.by_values.col(Eigen::Index(k)) =
+        axes * sample.flow_by_both.col(Eigen::Index(k - kBothLenses));
   }
   residual.region = regionOf(sample);
   return residual;

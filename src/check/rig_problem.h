@@ -17,7 +17,8 @@ using CauseMatrix = Eigen::Matrix<double, kRigCauses, kRigCauses>;
 
 /// Standard deviations of the values before anything is measured: those of a bad calibration. They
 /// decide only what the images do not.
-constexpr RigCauses kPriorSigmas = {0.02, 0.02, 0.02, 0.03, 10.0, 0.1, 0.03, 10.0, 0.02, 0.1};
+constexpr RigCauses kPriorSigmas = {
+    0.02, 0.02, 0.02, 0.03, 10.0, 0.1, 0.03, 10.0, 0.02, 0.1, 100.0, 100.0};
 
 /// A sum of squares after a change of the values: c - 2 g^T change + change^T H change.
 struct Normal {

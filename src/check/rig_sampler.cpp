@@ -53,9 +53,14 @@ void measureFlow(const StereoCamera& camera,
   };
   const Eigen::Vector2d at = ray.head<2>();
   const double disparity = moved(at).x() - moved({sample.x_right, sample.y}).x();
-  sample.flow_by_lenses =
+  const Eigen::Matrix<double, 2, 2> by_ray = depth_m * by_point * motion.T.linear().leftCols<2>();
+  sample.flow_by_both.col(0) =
       camera.fx * (moved(point.hnormalized()) - disparity * sample.flow_by_disparity) -
-      depth_m * by_point * (motion.T.linear().leftCols<2>() * moved(at));
+      by_ray * moved(at);
+  // A principal point moves the ray back, and the projection forth.
+  sample.flow_by_both.rightCols<2>() =
+      Eigen::Matrix2d::Identity() -
+      by_ray * Eigen::Vector2d(1.0 / camera.fx, 1.0 / camera.fy).asDiagonal();
   sample.flow_px =
       feature.keyframe_px - camera.project(point) + applied_px * sample.flow_by_disparity;
   sample.velocity_pxps *= point.z() / depth_m;

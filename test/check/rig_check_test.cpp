@@ -309,6 +309,26 @@ INSTANTIATE_TEST_SUITE_P(Rendered, RigFaultTest, testing::ValuesIn(faults()), []
   return info.param.name;
 });
 
+/// The calibration is that of the whole images. Straight ahead, it would turn the motion only.
+TEST(RigCheckTest, ACropOfBothImagesShowsInTurns) {
+  constexpr int kCrop_px = 30;
+  SimulationOptions options = perfectRig();
+  options.frames = 100;
+  RenderedRecording recording(
+      "cropped", "handheld", options, ofImages([](cv::Mat& left, cv::Mat& right) {
+        for (cv::Mat* image : {&left, &right}) {
+          const cv::Mat whole = image->clone();
+          whole.colRange(kCrop_px, whole.cols).copyTo(image->colRange(0, whole.cols - kCrop_px));
+        }
+      }));
+  const Finding first = checkRig(recording, {}).report.findings.at(0);
+  EXPECT_EQ(first.subject, "principal points") << first.measured;
+  EXPECT_EQ(first.verdict, Verdict::kFix);
+  const Estimate estimate = estimateOf(first);
+  EXPECT_NEAR(estimate.value, -kCrop_px, 3.0 * estimate.sigma) << first.measured;
+  std::cout << "cropped: " << first.measured << '\n';
+}
+
 /// A good rig that stands still, for a while or for ever: a wrong match at rest agrees with the
 /// motion for as long as it lasts.
 TEST(RigCheckTest, ARigAtRestIsNotCondemned) {

@@ -29,7 +29,10 @@ StereoCamera camera() {
 /// Features of a scene from 1 to 10 m, between two pairs of cameras that advance and turn, by a rig
 /// with these causes, with noise, and one of twenty of a wrong match. The motion that the odometry
 /// has found is a little wrong.
-PairSamples pairBy(const StereoCamera& camera, const RigCauses& causes, std::mt19937& generator) {
+PairSamples pairBy(const StereoCamera& camera,
+                   const StereoCamera& assumed,
+                   const RigCauses& causes,
+                   std::mt19937& generator) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> x(0.0, camera.width), y(0.0, camera.height),
       inverse(0.1, 1.0), wrong(-3.0, 3.0);
@@ -63,8 +66,8 @@ PairSamples pairBy(const StereoCamera& camera, const RigCauses& causes, std::mt1
     feature.disparity_px = disparity_px - displaced_px.x() + kNoise_px * normal(generator);
     sample.left_px =
         cv::Point2f(static_cast<float>(feature.cur_px.x()), static_cast<float>(feature.cur_px.y()));
-    sample.x_right = (feature.cur_px.x() - feature.disparity_px - camera.cx_right) / camera.fx;
-    measureFlow(camera, result, feature, sample);
+    sample.x_right = (feature.cur_px.x() - feature.disparity_px - assumed.cx_right) / assumed.fx;
+    measureFlow(assumed, result, feature, sample);
     sample.row_px = displaced_px.y() + kNoise_px * normal(generator);
     if (i % 20 == 0) sample.row_px += wrong(generator);
     pair.samples.push_back(sample);
@@ -74,18 +77,26 @@ PairSamples pairBy(const StereoCamera& camera, const RigCauses& causes, std::mt1
 
 constexpr int kPairs = 100;
 
-RigModel modelOf(const StereoCamera& camera, const RigCauses& causes, int pairs = kPairs) {
+/// Of a rig that is assumed to have principal points `left_px` further left than they are.
+RigModel modelOf(const StereoCamera& camera,
+                 const RigCauses& causes,
+                 int pairs = kPairs,
+                 double left_px = 0.0) {
+  StereoCamera assumed = camera;
+  assumed.cx -= left_px;
+  assumed.cx_right -= left_px;
   std::mt19937 generator(1);
   std::vector<PairSamples> samples;
   for (int i = 0; i < pairs; ++i) {
-    samples.push_back(pairBy(camera, causes, generator));
+    samples.push_back(pairBy(camera, assumed, causes, generator));
     samples.back().time_s = i;
   }
-  return fitRig(camera, samples, Windows(0.0, pairs, static_cast<std::size_t>(pairs)));
+  return fitRig(assumed, samples, Windows(0.0, pairs, static_cast<std::size_t>(pairs)));
 }
 
 /// A bad calibration, in the order of RigCause.
-constexpr RigCauses kBad = {0.004, 0.004, -0.006, 0.004, 2.0, 0.01, 0.003, 1.0, 0.004, 0.0};
+constexpr RigCauses kBad = {
+    0.004, 0.004, -0.006, 0.004, 2.0, 0.01, 0.003, 1.0, 0.004, 0.0, 0.0, 0.0};
 
 /// Deviations are of eight parts of the image, with which a hundred values of five are one or none.
 constexpr double kSigmas = 5.0;
@@ -103,6 +114,15 @@ TEST(RigModelTest, FindsEachCauseAlone) {
       EXPECT_NEAR(model.causes[other], 0.0, kSigmas * model.sigmas[other]) << other;
     }
   }
+}
+
+TEST(RigModelTest, FindsPrincipalPointsThatBothHaveWrong) {
+  constexpr double kShift_px = 30.0;
+  const RigModel model = modelOf(camera(), {}, kPairs, kShift_px);
+  EXPECT_NEAR(model.values[kBothX], kShift_px, kSigmas * model.sigmas[kBothX]);
+  EXPECT_TRUE(model.exceeds(1.0, kBothX));
+  EXPECT_EQ(model.values[kBothY], 0.0);
+  EXPECT_EQ(model.correctable, RigCauses{});
 }
 
 TEST(RigModelTest, FindsSeveralCausesAtOnce) {
