@@ -169,7 +169,7 @@ class GyroCheck : public PairCheck {
     const double at = square(best.delay_s);
     const double after = square(best.delay_s + kStep_s);
     const double curvature = before - 2.0 * at + after;
-    if (!(curvature > 0.0)) return best;
+    if (!std::isfinite(curvature) || curvature <= 0.0) return best;
     const double step = std::clamp(0.5 * (before - after) / curvature, -1.0, 1.0);
     return fitRotation(best.delay_s + step * kStep_s, turns);
   }

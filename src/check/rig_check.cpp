@@ -141,7 +141,9 @@ class PairChecks {
       if (isExplained()) {
         doubt(report);
       } else {
-        rig.measures.is_known = !addCenter(model, report) && !addRectification(rest, model, report);
+        const bool is_raw = model.exceeds(1.0, kBothLenses);
+        rig.measures.is_known =
+            (is_raw || !addCenter(model, report)) && !addRectification(rest, model, report);
       }
     }
     if (samples.size() < kLeastMotions) addTooShort(report);
@@ -219,22 +221,23 @@ class PairChecks {
                                100.0});
   }
 
-  /// Returns whether the principal points of both images are wrong. What follows is not reported.
+  /// Returns whether the principal points of both images are wrong. What follows is not reported
+  /// then.
   bool addCenter(const RigModel& model, RigReport& report) const {
-    if (!model.exceeds(1.0, kBothX) && !model.exceeds(1.0, kBothY)) return false;
-    doubt(report);
-    const double turned =
-        std::hypot(model.values[kBothX] / camera_.fx, model.values[kBothY] / camera_.fy);
-    report.findings.push_back(
-        {"inputs",
-         "principal points",
-         "those of both cameras are wrong by " + toText(model.value(kBothX), "px") + " in x, " +
-             toText(model.value(kBothY), "px") + " in y",
-         "motions are turned by " + fixedText(turned * 180.0 / M_PI, 1) + " deg",
-         "calibrate the images as they are: were they cropped after the calibration?",
-         Verdict::kFix,
-         100.0});
-    return true;
+    const Estimate x = model.value(kBothX), y = model.value(kBothY);
+    if (x.value == 0.0 && y.value == 0.0) return false;
+    const bool is_wrong = model.exceeds(1.0, kBothX) || model.exceeds(1.0, kBothY);
+    if (is_wrong) doubt(report);
+    const double turned = std::hypot(x.value / camera_.fx, y.value / camera_.fy);
+    const Estimate in_x = model.severity(kBothX), in_y = model.severity(kBothY);
+    report.add({"inputs",
+                "principal points",
+                "those of both cameras are wrong by " + toText(x, "px") + " in x, " +
+                    toText(y, "px") + " in y",
+                "motions are turned by " + fixedText(turned * 180.0 / M_PI, 1) + " deg",
+                "calibrate the images as they are: were they cropped after the calibration?"},
+               {in_x.certain() > in_y.certain() ? in_x : in_y, kAcceptable, 1.0});
+    return is_wrong;
   }
 
   /// Returns whether it is wrong: what is left when nothing else explains the rows, or lenses that
@@ -352,7 +355,7 @@ class PairChecks {
   VisualOdometry odometry_;
   bool rectifies_;
   PairInspector inspector_;
-  std::vector<StereoPair> before_;  // the last two
+  std::vector<StereoPair> before_;  // the last kPairsBefore
   std::unique_ptr<PairCheck> photometry_ = makePhotometryCheck();
   std::unique_ptr<PairCheck> detail_ = makeDetailCheck();
   Movement movement_;

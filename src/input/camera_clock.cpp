@@ -110,9 +110,10 @@ std::int64_t CameraClock::stepTo(const Image& image) const {
   const std::int64_t ahead_ns = image.ahead_ns() - usualAhead_ns();
   const std::int64_t waited_ns = image.arrival.ns() - latest_.back().arrival.ns();
   if (static_cast<double>(waited_ns) > periods_ns(kLeastStep)) return 0;  // a pause: another drive
-  const bool goes_back = image.stamp_ns < *lastStamp_ns();
-  if (goes_back) return arrival_went_back_ || isStartOfLoop(image.stamp_ns) ? 0 : ahead_ns;
-  return ahead_ns > periods_ns(kLeastStep) ? ahead_ns : 0;
+  if (arrival_went_back_) return 0;  // ROS time was set, or a bag starts again
+  const std::int64_t stamp_step_ns = image.stamp_ns - *lastStamp_ns();
+  if (stamp_step_ns < 0) return isStartOfLoop(image.stamp_ns) ? 0 : ahead_ns;
+  return std::min(ahead_ns, stamp_step_ns) > periods_ns(kLeastStep) ? ahead_ns : 0;
 }
 
 std::int64_t CameraClock::usualAhead_ns() const {

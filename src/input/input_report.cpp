@@ -108,10 +108,11 @@ std::optional<std::string> whyLost(const InputReport& report) {
                                milliseconds(report.tolerance_s) + " apart");
 }
 
-/// None if the age is usual, or the clock is another one.
+/// None if the age is usual, or that of a replay.
 std::optional<std::string> whyAge(const InputReport& report) {
   const double age_s = report.stamp_age_s.value_or(0.0);
-  if (isOfAnotherClock(report) || (age_s < kOld_s && age_s > -kAhead_s)) return {};
+  const bool is_replay = isOfAnotherClock(report) && age_s > 0.0;
+  if (is_replay || (age_s < kOld_s && age_s > -kAhead_s)) return {};
   const std::string stamps =
       "the stamps of " + report.left_image.topic + " are " + fixedText(std::abs(age_s), 1) + " s ";
   return stamps + (age_s < 0.0

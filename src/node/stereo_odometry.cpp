@@ -65,9 +65,10 @@ StereoOdometry::StereoOdometry(ros::NodeHandle& nh,
     const GuessSource source = {"guess_frame " + frame, frame, parameters_.base_frame};
     guess_.emplace(tf_.buffer(), source, log_);
   } else if (!parameters_.guess_topic.empty()) {
-    guess_topic_.emplace(nh, parameters_, tf_, log_);
-    const GuessSource source = {
+    guess_topic_.emplace(nh, parameters_, tf_);
+    GuessSource source = {
         "guess_topic " + parameters_.guess_topic, GuessTopic::kGuessFrame, GuessTopic::kBaseFrame};
+    source.why_not = [this] { return guess_topic_->whyNot(); };
     guess_.emplace(tf_.buffer(), source, log_);
   }
   if (parameters_.use_imu) gyro_.emplace(nh, tf_.buffer(), parameters_, log_);

@@ -62,8 +62,10 @@ constexpr double kMaxAcceleration_mps2 = 30.0;
 /// inexact have a smaller one.
 constexpr double kContradiction = 2.0;
 /// Samples for a competitor, at most: fewer if it must have a large share of those that contradict,
-/// so that four of them, as a sample has, belong to it but for kMissed of all cases.
+/// so that four of them, as a sample has, belong to it but for kMissed of all cases. Depths of far
+/// features are too inexact for most samples.
 constexpr int kSamples = 200;
+constexpr int kLeastSamples = 40;
 constexpr double kMissed = 1e-4;
 /// What is this many times as deep is behind.
 constexpr double kBehind = 2.0;
@@ -78,8 +80,9 @@ constexpr double kUnanimousShare = 0.95;
 /// The samples that find what has a share of all features.
 int samplesFor(double share) {
   const double is_of_it = std::pow(std::min(share, 1.0), 4);
-  return std::clamp(
-      static_cast<int>(std::ceil(std::log(kMissed) / std::log1p(-is_of_it))), 1, kSamples);
+  return std::clamp(static_cast<int>(std::ceil(std::log(kMissed) / std::log1p(-is_of_it))),
+                    kLeastSamples,
+                    kSamples);
 }
 
 /// The smallest eigenvalue of part v = lambda whole v.

@@ -427,8 +427,9 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   }
   if (!why_degraded) rig_.observeRows(found_, keyframe_, *current);
   if (why_degraded && result.reason.empty()) result.reason = *why_degraded;
-  // The pose was held, so it jumps.
-  if (std::exchange(is_after_loss_, false) && result.reason.empty()) {
+  // A driver that repeats images loses single pairs.
+  const bool is_long = result.dt_s() > kPredictable * period_s_;
+  if (std::exchange(is_after_loss_, false) && is_long && result.reason.empty()) {
     result.reason =
         cv::format("measured from the pair %.3g s earlier, across lost pairs", result.dt_s());
   }

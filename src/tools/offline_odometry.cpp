@@ -224,12 +224,8 @@ class Inspection {
     const OdometryResult result = inspector_.distrusted(estimated);
     inspector_.inspect(pair, camera, estimated, {}, [&] { return before_; });
     if (const std::string found = inspector_.finish(); !found.empty()) cause_ = found;
-    if (estimated.state == State::kOk) {
-      before_.clear();
-    } else {
-      before_.push_back(copyOf(pair));
-      if (before_.size() > kPairsBefore) before_.erase(before_.begin());
-    }
+    before_.push_back(copyOf(pair));
+    if (before_.size() > kPairsBefore) before_.erase(before_.begin());
     return result;
   }
 

@@ -89,6 +89,7 @@ TEST_F(CameraClockTest, JudgesEachStamp) {
       {"a glitch far ahead", 3, {{3e9}, {}}, "hg", "3e+09 s after the previous one, but the next"},
       {"the first stamp far ahead", 0, {{100.0}, {}}, "hg", "100 s after the clock, but the next"},
       {"a clock far ahead", 0, {{100.0}, {100.0}, {100.0}}, "hjv"},
+      {"the computer's clock is set back", 80, {{60.0, -59.9}, {60.0}, {60.0}}, "hjv"},
       {"the clock is set far ahead", 80, {{37.0}, {37.0}, {37.0}}, "hjv", "", 37.0},
       {"a glitch ahead", 80, {{5.0}, {}, {}}, "hgv", "5.1 s after the previous one, but the next"},
       {"a glitch behind", 80, {{-5.0}, {}, {}}, "hgv", "4.9 s before the previous one"},

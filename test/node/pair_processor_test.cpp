@@ -179,7 +179,7 @@ TEST_F(PairProcessorTest, ExpectedMotionsOfLostPairsAddUp) {
   EXPECT_EQ(rig.answer()->result.state, State::kLost);
   skipPairs(rig);
   rig.drive();
-  EXPECT_NE(rig.answer()->result.reason.find("across lost pairs"), std::string::npos);
+  EXPECT_EQ(rig.answer()->result.state, State::kOk) << rig.answer()->result.reason;
   EXPECT_NEAR(xOf(rig), 8 * kStep_m, 0.05);
 }
 

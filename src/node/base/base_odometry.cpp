@@ -136,8 +136,7 @@ BaseState BaseOdometry::add(const OdometryResult& result,
   }
   if (parameters_.planar) last_.T_odom_base.covariance = planar(last_.T_odom_base.covariance);
   if (result.state != State::kLost) {
-    last_measured_ = last_;
-    T_measured_last_ = Eigen::Isometry3d::Identity();
+    startFromLast();
     lost_since_ns_.reset();
   } else {
     if (T_measured_last_ && T_last_cur) {
@@ -150,6 +149,11 @@ BaseState BaseOdometry::add(const OdometryResult& result,
   state.T_first_camera = last_.T_first_start * camera_.T_first_cur();
   state.T_odom_base = withSystematicError(last_.T_odom_base);
   return state;
+}
+
+void BaseOdometry::startFromLast() {
+  last_measured_ = last_;
+  T_measured_last_ = Eigen::Isometry3d::Identity();
 }
 
 std::optional<Eigen::Isometry3d> BaseOdometry::expectedMotion(

@@ -68,6 +68,9 @@ class BaseOdometry {
       const Eigen::Isometry3d& T_base_camera,
       const std::optional<Eigen::Isometry3d>& T_last_cur) const;
 
+  /// The next motion is measured from the last pair, although that was lost.
+  void startFromLast();
+
   /// The first pair of the present loss, see OdometryResult::time_ns(); nothing if the last pair
   /// was not lost.
   const std::optional<std::int64_t>& lost_since_ns() const { return lost_since_ns_; }

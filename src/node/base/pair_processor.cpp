@@ -82,6 +82,7 @@ PairAnswer PairProcessor::process(const PairInput& in) {
                                  [&] { return in.is_simulated && !moves(in); });
   answer.result = inspector_.distrusted(estimated_);
   answer.state = base_odometry_->add(answer.result, in.T_base_camera, T_last_base);
+  if (estimated_.hasMotion() && !answer.result.hasMotion()) base_odometry_->startFromLast();
   answer.mount_problem = base_odometry_->planarProblem();
   if (!answer.mount_problem.empty() && !std::exchange(logged_mount_, true)) {
     log_.warn(answer.mount_problem);
@@ -120,7 +121,9 @@ void PairProcessor::begin(const PairInput& in) {
     const std::string text = "by gravity, " + parameters_.base_frame + " has a roll of " +
                              fixedText(roll_deg, 1) + " deg and a pitch of " +
                              fixedText(pitch_deg, 1) + " deg at first";
-    std::hypot(roll_deg, pitch_deg) > kSlope_deg
+    const bool is_of_camera =
+        in.T_base_camera.linear().isIdentity();  // it may be held at any angle
+    !is_of_camera&& std::hypot(roll_deg, pitch_deg) > kSlope_deg
         ? log_.warn(text + ": unless it is on a slope, the tf of the IMU or of the camera is wrong")
         : log_.info(text);
   }
@@ -131,7 +134,10 @@ void PairProcessor::begin(const PairInput& in) {
 bool PairProcessor::restartIfNeeded(const Requests& requests, const PairInput& in) {
   const StereoPair& pair = in.pair;
   bool starts_trajectory = requests.reset;
-  if (requests.reset || requests.restart) odometry_.reset();
+  if (requests.reset || requests.restart) {
+    odometry_.reset();
+    inspector_.reset();
+  }
   if (requests.reset) base_odometry_.reset();
   if (last_ && pair.time_ns() < last_->time_ns()) {  // a looping bag, or a restarted simulation
     restart(describeJump(last_->stamp_ns, pair.stamp_ns),
@@ -163,6 +169,7 @@ bool PairProcessor::restart(const std::string& why,
   log_.warn(why + ": restarting at " + (keep ? "the last pose" : "initial_pose") + " (" +
             parameter + ")");
   odometry_.reset();
+  inspector_.reset();
   if (!keep) base_odometry_.reset();
   return keep;
 }

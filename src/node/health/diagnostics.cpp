@@ -115,7 +115,8 @@ void describeTf(const HealthReport& report, StatusWrapper& status) {
   if (!report.pair.tf_problem.empty()) {
     status.mergeSummary(DiagnosticStatus::WARN, report.pair.tf_problem);
   }
-  status.add("pairs without the motion of guess_frame", report.pair.status.guess_misses);
+  status.add("pairs without a motion by guess_frame or guess_topic",
+             report.pair.status.guess_misses);
 }
 
 void describeDrops(const HealthReport& report, std::uint64_t drops_before, StatusWrapper& status) {

@@ -26,6 +26,10 @@ constexpr int kOffsets_px[] = {2, 4, 7, 12, 20};
 constexpr double kClearlyMore = 2.0;
 /// How many more features agree if one side is late.
 constexpr double kClearlyMoreAgree = 1.5;
+/// Share of the features that agree on the motion of a pair.
+constexpr double kMostAgree = 0.8;
+/// Searches that find nothing, after which an explanation no longer holds.
+constexpr int kSearches = 2;
 /// Ratio of contrasts that causes a hint: one stop. On real clips, right images with half of their
 /// contrast cost nothing.
 constexpr double kApart = 2.0;
@@ -254,7 +258,7 @@ void PairInspector::explain(const StereoPair& pair,
 
 OdometryResult PairInspector::distrusted(OdometryResult result) const {
   if (!isOfNoPair() || !result.hasMotion()) return result;
-  if (result.state == State::kOk) {
+  if (result.counts.rotation_inliers >= kMostAgree * result.counts.consistent) {
     result.state = State::kDegraded;
     result.reason = "left and right images were no pairs shortly before";
     return result;
@@ -272,13 +276,16 @@ void PairInspector::forgetLoss() {
   explain_at_ = kPatience;
   explanation_ = {};
   search_is_of_this_loss_ = false;
+  found_nothing_ = 0;
 }
 
 std::string PairInspector::finish() {
   if (search_.valid()) {
     const Explanation found = search_.get();
-    // What was found holds until good pairs take it back: not each pair shows it.
-    if (search_is_of_this_loss_ && !found.text.empty()) explanation_ = found;
+    if (!search_is_of_this_loss_) return explanation_.text;
+    // Not each pair shows it.
+    found_nothing_ = found.text.empty() ? found_nothing_ + 1 : 0;
+    if (found_nothing_ == 0 || found_nothing_ >= kSearches) explanation_ = found;
   }
   return explanation_.text;
 }

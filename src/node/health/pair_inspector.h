@@ -41,6 +41,9 @@ class PairInspector {
   /// Uses another configuration from the next pair on, and forgets what was found with this one.
   void configure(const OdometryConfig& config);
 
+  /// Forgets what was found out of a loss.
+  void reset() { forgetLoss(); }
+
   /// Copies of the last kPairsBefore pairs that were received before, the earliest one first.
   using PairsBefore = std::function<std::vector<StereoPair>()>;
 
@@ -56,9 +59,9 @@ class PairInspector {
   /// exchanged, of one camera, or of different times. Then they say nothing about the rig.
   bool isOfNoPair() const { return explanation_.is_of_no_pair; }
 
-  /// The result without what is wrong while isOfNoPair(): features agree by chance. A degraded
-  /// motion is lost, and a good one, which may be that of the first pair that is one again,
-  /// degraded. inspect() needs the result as it was.
+  /// The result without what is wrong while isOfNoPair(): features agree by chance. A motion is
+  /// lost, or degraded if most features agree on it, as on that of the first pair that is one
+  /// again. inspect() needs the result as it was.
   OdometryResult distrusted(OdometryResult result) const;
 
   /// Waits for what is being looked for. Returns the explanation of a loss; empty if none.
@@ -84,6 +87,7 @@ class PairInspector {
   Explanation explanation_;
   std::future<Explanation> search_;
   bool search_is_of_this_loss_ = false;
+  int found_nothing_ = 0;  // searches since the last explanation
 };
 
 }  // namespace rotrocc

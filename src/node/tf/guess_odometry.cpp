@@ -63,7 +63,8 @@ void GuessOdometry::observe(const std::optional<std::int64_t>& missing_ns) {
 }
 
 std::string GuessOdometry::describeMiss(std::int64_t stamp_ns) const {
-  std::string cause;
+  std::string cause = source_.why_not();
+  if (!cause.empty()) return "no pose by " + source_.name + ": " + cause;
   tf_.canTransform(source_.guess_frame, source_.base_frame, toRosTime(stamp_ns), &cause);
   cause.erase(cause.find_last_not_of(". ") + 1);
   if (cause.empty()) cause = "it came too late";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -17,6 +18,8 @@ struct GuessSource {
   std::string name;         ///< for messages: the parameter and its value
   std::string guess_frame;  ///< the odom frame of that odometry
   std::string base_frame;
+  /// Why there is no pose, if that is known better than tf knows it; empty if not.
+  std::function<std::string()> why_not = [] { return std::string(); };
 };
 
 /// Another odometry of the robot, e.g. wheel odometry, whose tf is the pose of the base in its own

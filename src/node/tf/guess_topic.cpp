@@ -1,6 +1,6 @@
 #include "node/tf/guess_topic.h"
 
-#include <utility>
+#include <stdexcept>
 
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/transport_hints.h>
@@ -14,16 +14,15 @@ constexpr int kQueueSize = 100;  // as TfReceiver
 
 }  // namespace
 
-GuessTopic::GuessTopic(const ros::NodeHandle& nh,
-                       const NodeParameters& parameters,
-                       TfReceiver& tf,
-                       Log log)
-    : log_(std::move(log)),
-      topic_(parameters.guess_topic),
-      base_frame_(parameters.base_frame),
-      tf_(tf) {
+GuessTopic::GuessTopic(const ros::NodeHandle& nh, const NodeParameters& parameters, TfReceiver& tf)
+    : base_frame_(parameters.base_frame), tf_(tf) {
+  const std::string& topic = parameters.guess_topic;
+  if (nh.resolveName(topic) == nh.resolveName("odom")) {
+    throw std::invalid_argument("parameter guess_topic is " + topic +
+                                ", the output of this odometry: name the topic of another one");
+  }
   subscriber_ = callbacks_.attach(nh).subscribe<nav_msgs::Odometry>(
-      topic_,
+      topic,
       kQueueSize,
       [this](const nav_msgs::Odometry::ConstPtr& message) { receive(*message); },
       ros::VoidConstPtr(),
@@ -31,15 +30,25 @@ GuessTopic::GuessTopic(const ros::NodeHandle& nh,
   callbacks_.start();
 }
 
+std::string GuessTopic::whyNot() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return why_not_;
+}
+
 void GuessTopic::receive(const nav_msgs::Odometry& message) {
   const std::string body = withoutSlash(message.child_frame_id);
+  std::string why_not;
   if (!body.empty() && body != base_frame_) {
-    if (!std::exchange(logged_, true)) {
-      log_.warn("guess_topic " + topic_ + " has the motion of " + body + ", not of base_frame " +
-                base_frame_ + ", and is not used: set base_frame to " + body);
-    }
-    return;
+    why_not = "it has the motion of " + body + ", not of base_frame " + base_frame_ +
+              ": set base_frame to " + body + ", or guess_frame if that odometry sends tf";
+  } else if (!add(message)) {
+    why_not = "its last pose is invalid: correct that odometry";
   }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  why_not_ = why_not;
+}
+
+bool GuessTopic::add(const nav_msgs::Odometry& message) {
   geometry_msgs::TransformStamped transform;
   transform.header.stamp = message.header.stamp;
   transform.header.frame_id = kGuessFrame;
@@ -49,7 +58,7 @@ void GuessTopic::receive(const nav_msgs::Odometry& message) {
   transform.transform.translation.y = pose.position.y;
   transform.transform.translation.z = pose.position.z;
   transform.transform.rotation = pose.orientation;
-  tf_.add(transform, false);
+  return tf_.add(transform, false);
 }
 
 }  // namespace rotrocc

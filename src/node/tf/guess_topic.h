@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mutex>
 #include <string>
 
 #include <nav_msgs/Odometry.h>
@@ -7,7 +8,6 @@
 #include <ros/subscriber.h>
 
 #include "input/callback_thread.h"
-#include "input/log.h"
 #include "node/tf/tf_receiver.h"
 #include "rotrocc/parameters.h"
 
@@ -20,16 +20,20 @@ class GuessTopic {
   static constexpr char kGuessFrame[] = "guess_topic";
   static constexpr char kBaseFrame[] = "guess_topic_base";
 
-  /// Subscribes.
-  GuessTopic(const ros::NodeHandle& nh, const NodeParameters& parameters, TfReceiver& tf, Log log);
+  /// Subscribes. Throws std::invalid_argument if it is the own output.
+  GuessTopic(const ros::NodeHandle& nh, const NodeParameters& parameters, TfReceiver& tf);
+
+  /// Why the last message was not used, in one sentence with a remedy; empty if it was.
+  std::string whyNot() const;
 
  private:
   void receive(const nav_msgs::Odometry& message);
+  bool add(const nav_msgs::Odometry& message);
 
-  Log log_;
-  std::string topic_, base_frame_;
+  std::string base_frame_;
   TfReceiver& tf_;
-  bool logged_ = false;  // that it is of another frame
+  mutable std::mutex mutex_;
+  std::string why_not_;  // of the last message
   CallbackThread callbacks_;
   ros::Subscriber subscriber_;  // last, so that callbacks end before
 };

@@ -25,9 +25,9 @@ class TfReceiver {
 
   const tf2::BufferCore& buffer() const { return buffer_; }
 
-  /// Also from other threads. One that is invalid is left out.
-  void add(const geometry_msgs::TransformStamped& transform, bool is_static) {
-    buffer_.setTransform(transform, "", is_static);
+  /// Also from other threads. Returns false, and leaves it out, if it is invalid.
+  bool add(const geometry_msgs::TransformStamped& transform, bool is_static) {
+    return buffer_.setTransform(transform, "", is_static);
   }
 
   /// Call with the stamp of each pair: after a jump back, the transforms from before it are

@@ -110,17 +110,24 @@ TEST(GuessTopicTest, TheBaseMovesByItThroughALongGap) {
   EXPECT_TRUE(buffer.canTransform("odom", "base_link", last, ros::Duration(5.0)));
 }
 
-TEST(GuessTopicTest, OfAnotherBodyIsNotUsedAndThatIsLogged) {
-  LogRecorder log;
+TEST(GuessTopicTest, OfAnotherBodyIsNotUsedAndThatIsReported) {
   NodeletDrive drive({{"guess_topic", "wheels"}});
   ros::Publisher wheels = ros::NodeHandle().advertise<nav_msgs::Odometry>("wheels", 1, true);
   nav_msgs::Odometry message;
   message.child_frame_id = "base_footprint";
   message.pose.pose.orientation.w = 1.0;
   wheels.publish(message);
+  drive.setUp();
+  OdometryStatus status;
   EXPECT_TRUE(waitUntil([&] {
-    return !log.with("has the motion of base_footprint, not of base_frame base_link").empty();
-  }));
+    status = drive.statusOf(drive.robot.drive());
+    return status.hint.find("no pose by guess_topic wheels: it has the motion of base_footprint") ==
+           0u;
+  })) << status.hint;
+}
+
+TEST(GuessTopicTest, TheOwnOutputIsRejected) {
+  EXPECT_THROW(NodeletDrive({{"guess_topic", "odom"}}), std::invalid_argument);
 }
 
 TEST(GuessFrameTest, BaseHasOneParentOnly) {
