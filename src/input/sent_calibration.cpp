@@ -17,7 +17,7 @@ constexpr double kMaxSize_px = 1e6;  // keeps sizes in the range of int
 
 /// Share of the image by which a principal point may be off its middle: lenses are mounted better,
 /// and rectification moves it little.
-constexpr double kUsualShare = 0.08;
+constexpr double kUsualShare = 0.1;
 /// The middle half of the image.
 constexpr double kUnlikelyShare = 0.25;
 /// A principal point that is off by the same factor in x and y, up to kSameFactor, is that of

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -104,40 +103,63 @@ std::size_t agreeing(OdometryConfig config,
   return static_cast<std::size_t>(std::count(inliers.begin(), inliers.end(), 1));
 }
 
-/// The side that shows what the other one has shown some pairs before, if most features agree then.
-struct Lateness {
-  std::string side;
-  std::size_t frames = 0;
-};
-std::optional<Lateness> whichIsLate(const std::vector<StereoPair>& pairs,
-                                    const OdometryConfig& config,
-                                    const StereoCamera& camera) {
-  if (pairs.size() < 2) return std::nullopt;
+StereoPair paired(const StereoPair& of_left, const StereoPair& of_right) {
+  return StereoPair{std::max(of_left.stamp_ns, of_right.stamp_ns),
+                    of_left.left,
+                    of_right.right,
+                    of_left.left_mask,
+                    of_right.right_mask};
+}
+
+StereoPair exchanged(const StereoPair& pair) {
+  return StereoPair{pair.stamp_ns, pair.right, pair.left, pair.right_mask, pair.left_mask};
+}
+
+std::string lateText(const std::string& side, const std::string& other, bool is_next) {
+  return "the " + side + " images are " + (is_next ? "one frame" : "two frames") +
+         " late: they match the " + other + " images of the " +
+         (is_next ? "previous pair" : "pair before the previous one") +
+         "; look for a queue in the driver, or for a trigger that one camera misses";
+}
+
+const char* const kSwapped = "the images match if left and right are swapped: swap their topics";
+
+/// Which other images are the pairs, if more features agree on a motion between those; empty if
+/// none are.
+std::string whichArePairs(const std::vector<StereoPair>& pairs,
+                          const OdometryConfig& config,
+                          const StereoCamera& camera) {
+  if (pairs.size() < 2) return "";
   const std::size_t last = pairs.size() - 1;
-  const auto paired = [&](std::size_t left, std::size_t right) {
-    const StereoPair &of_left = pairs[left], &of_right = pairs[right];
-    return StereoPair{std::max(of_left.stamp_ns, of_right.stamp_ns),
-                      of_left.left,
-                      of_right.right,
-                      of_left.left_mask,
-                      of_right.right_mask};
-  };
   auto most = static_cast<std::size_t>(
       kClearlyMoreAgree *
       static_cast<double>(agreeing(config, camera, pairs[last - 1], pairs[last], false)));
-  std::optional<Lateness> late;
+  std::string text;
+  const auto tryPairs = [&](const StereoCamera& of,
+                            const StereoPair& earlier,
+                            const StereoPair& later,
+                            const std::string& explanation) {
+    const std::size_t count = agreeing(config, of, earlier, later, true);
+    if (count <= most) return;
+    most = count;
+    text = explanation;
+  };
   for (std::size_t frames = 1; frames < last; ++frames) {
-    for (const bool right : {true, false}) {
-      const std::size_t early = last - frames;
-      const std::size_t count =
-          right ? agreeing(config, camera, paired(early - 1, last - 1), paired(early, last), true)
-                : agreeing(config, camera, paired(last - 1, early - 1), paired(last, early), true);
-      if (count <= most) continue;
-      most = count;
-      late = {right ? "right" : "left", frames};
-    }
+    const StereoPair &early = pairs[last - frames], &earlier = pairs[last - frames - 1];
+    const bool is_next = frames == 1;
+    tryPairs(camera,
+             paired(earlier, pairs[last - 1]),
+             paired(early, pairs[last]),
+             lateText("right", "left", is_next));
+    tryPairs(camera,
+             paired(pairs[last - 1], earlier),
+             paired(pairs[last], early),
+             lateText("left", "right", is_next));
   }
-  return late;
+  StereoCamera swapped = camera;
+  std::swap(swapped.cx, swapped.cx_right);
+  tryPairs(swapped, exchanged(pairs[last - 1]), exchanged(pairs[last]), kSwapped);
+  return text;
 }
 
 /// Why the last of some pairs has no motion, as far as the images show; empty if they do not.
@@ -163,16 +185,9 @@ Explanation explainLoss(const std::vector<StereoPair>& pairs,
   }
   const bool few = direct < kFewShare * matches.corners();
   const double clearly_more = kClearlyMore * std::max(direct, kFewCorners);
-  if (matches.count(right, left, true) > clearly_more) {
-    return {"the images match if left and right are swapped: swap their topics", true};
-  }
-  if (const auto late = whichIsLate(pairs, config, camera)) {
-    const bool is_next = late->frames == 1;
-    return {"the " + late->side + " images are " + (is_next ? "one frame" : "two frames") +
-                " late: they match the " + (late->side == "right" ? "left" : "right") +
-                " images of the " + (is_next ? "previous pair" : "pair before the previous one") +
-                "; look for a queue in the driver, or for a trigger that one camera misses",
-            true};
+  if (matches.count(right, left, true) > clearly_more) return {kSwapped, true};
+  if (const std::string other = whichArePairs(pairs, config, camera); !other.empty()) {
+    return {other, true};
   }
   for (const int offset : kOffsets_px) {
     for (const int rows : {offset, -offset}) {
