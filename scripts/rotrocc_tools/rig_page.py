@@ -152,11 +152,8 @@ class RigPage:
                   ('black [%]', both('dark', 100.0)),
                   ('gain', [self.course('photometry', 'gain')]),
                   ('offset [gray]', [self.course('photometry', 'offset_gray')])]
-        if self.has('sharpness'):
-            panels.append(('blur [px²]', [self.course('sharpness', 'blur_px2')]))
         return page.section('Photometry', 'Gray levels of both images, and the right one compared with the left one '
-                            'where both show the same: gain 1, offset 0 and blur 0 are equal. '
-                            'Positive blur, the variance of a Gaussian: the right image is blurred.',
+                            'where both show the same: gain 1 and offset 0 are equal.',
                             self.picture('photometry', 'gray levels over time', figures.courses, panels))
 
     def rows(self):
@@ -179,21 +176,12 @@ class RigPage:
                             'mean that the rig bends.', *shown)
 
     def disparities(self):
-        shown = []
-        if self.has('disparity_map'):
-            table = self.tables['disparity_map']
-            limit = figures.largest_px(numpy.percentile(numpy.abs(table['bias_px']), [95]))
-            parts = [('measured', table, table['bias_px'], False)]
-            if self.has('disparity_map_corrected'):
-                after = self.tables['disparity_map_corrected']
-                parts.append(('with the corrected calibration', after, after['bias_px'], False))
-            shown.append(self.maps('disparities', 'errors of disparities over the image', parts, figures.SIGNED,
-                                   (-limit, limit), 'missing disparity [px]'))
-        if self.has('bias_time'):
-            shown.append(self.picture('bias_time', 'bias over time', figures.courses, [
-                ('bias [px]', [self.course('bias_time', 'bias_px', sigma='sigma_px')])]))
-        return page.section('Disparities', 'What must be added to disparities to agree with the motion, where the motion '
-                            'shows it; and the same for the whole image, in each time window, with one standard deviation.', *shown) if shown else ''
+        if not self.has('bias_time'):
+            return ''
+        picture = self.picture('bias_time', 'bias over time', figures.courses, [
+            ('bias [px]', [self.course('bias_time', 'bias_px', sigma='sigma_px')])])
+        return page.section('Disparities', 'What must be added to disparities to agree with the motion, in each time '
+                            'window, with one standard deviation.', picture)
 
     def view(self):
         if not self.has('view_map'):

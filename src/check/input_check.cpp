@@ -82,6 +82,15 @@ void InputCheck::addCamera(const StereoCamera& camera, bool rectifies, RigReport
                              warning,
                              warning.empty() ? Verdict::kGood : Verdict::kFix,
                              1.0});
+  const std::string baseline = baselineWarning(camera.baseline_m);
+  if (baseline.empty()) return;
+  report.findings.push_back({"inputs",
+                             "baseline",
+                             fixedText(camera.baseline_m, 4) + " m",
+                             "all lengths are as wrong as it is",
+                             baseline,
+                             Verdict::kAcceptable,
+                             0.9});
 }
 
 void InputCheck::addFormats(RigReport& report) const {

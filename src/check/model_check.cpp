@@ -334,42 +334,6 @@ bool addBias(const StereoCamera& camera,
   return motion_px.value < std::max(kFixScale * typical_px, 0.5 * std::abs(bias_px.value));
 }
 
-/// By the motion as the odometry has it.
-void addDisparityMap(const StereoCamera& camera,
-                     const std::vector<PairSamples>& pairs,
-                     RigReport& report) {
-  constexpr double kMostSigma_px = 2.0;  // disparities that a motion determines worse say nothing
-  const ImageGrid grid(camera.width, camera.height);
-  struct Sums {
-    double count = 0.0, weights = 0.0, weighted_px = 0.0, squares = 0.0;
-  };
-  std::vector<Sums> cells(grid.count());
-  for (const PairSamples& pair : pairs) {
-    for (const RigSample& sample : pair.samples) {
-      const double information = sample.flow_by_disparity.squaredNorm();
-      const double sigma_px = pair.flow_noise_px / std::sqrt(information);
-      if (!(sigma_px < kMostSigma_px)) continue;
-      const double error_px = sample.flow_by_disparity.dot(sample.flow_px) / information;
-      Sums& cell = cells[grid.of(sample.left_px.x, sample.left_px.y)];
-      const double weight = 1.0 / (sigma_px * sigma_px);
-      cell.count += 1.0;
-      cell.weights += weight;
-      cell.weighted_px += weight * error_px;
-      cell.squares += weight * weight * error_px * error_px;
-    }
-  }
-  ReportTable table = {"disparity_map", "x_px,y_px,count,bias_px,sigma_px", {}};
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Sums& cell = cells[i];
-    if (cell.count < ImageGrid::kLeast) continue;
-    const cv::Point2d center = grid.center(i);
-    const double mean_px = cell.weighted_px / cell.weights;
-    table.rows.push_back(
-        {center.x, center.y, cell.count, mean_px, std::sqrt(cell.squares) / cell.weights});
-  }
-  report.tables.push_back(std::move(table));
-}
-
 }  // namespace
 
 ModelRest checkModel(const StereoCamera& camera,
@@ -394,7 +358,6 @@ ModelRest checkModel(const StereoCamera& camera,
   addRows(camera, cells, rest, report);
   addCourse(camera, pairs, model, rest, report);
   rest.bias_is_constant = addBias(camera, model, windows, applied_px, report);
-  addDisparityMap(camera, pairs, report);
   return rest;
 }
 

@@ -121,7 +121,6 @@ class PhotometryCheck : public PairCheck {
                          "time_s,gain,offset_gray,mean_left,mean_right,saturated_left,"
                          "saturated_right,dark_left,dark_right",
                          {}};
-    ReportTable sharpness = {"sharpness", "time_s,blur_px2", {}};
     for (const Row& row : rows_) {
       table.rows.push_back({row.time_s,
                             row.gain,
@@ -132,10 +131,8 @@ class PhotometryCheck : public PairCheck {
                             row.right.saturated,
                             row.left.dark,
                             row.right.dark});
-      if (std::isfinite(row.blur_px2)) sharpness.rows.push_back({row.time_s, row.blur_px2});
     }
     report.tables.push_back(std::move(table));
-    report.tables.push_back(std::move(sharpness));
   }
 
  private:

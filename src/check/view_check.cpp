@@ -81,7 +81,7 @@ class ViewCheck : public PairCheck {
 
   /// Why corners have no disparity.
   struct Missing {
-    int too_near = 0, beyond_infinity = 0, other_row = 0, outside = 0, ambiguous = 0;
+    int too_near = 0, outside = 0, ambiguous = 0;
   };
 
   /// Counts the cells with texture that stay as they are while others change.
@@ -159,46 +159,22 @@ class ViewCheck : public PairCheck {
         ++with_depth_;
       }
     }
-    explain(pair, without);
+    explain(images, without);
   }
 
-  /// Searches where the odometry does not: nearer, beyond infinity, and in other rows.
-  void explain(const CheckedPair& pair, const std::vector<cv::Point2f>& corners) {
-    const double row_px = pair.result.row_offset.applied_px;
-    constexpr int kBeyond_px = 8;
-    constexpr double kRows = 2.0;
-    std::vector<char> is_explained(corners.size(), 0);
-    std::vector<float> disparities_px;
+  /// Searches nearer than the odometry does; other rows and what is beyond infinity have findings.
+  void explain(const RectifiedImages& images, const std::vector<cv::Point2f>& corners) {
     const double nearest_px = camera_.fx / config_.nearest_baselines;
-    const auto search = [&](const StereoMatcherConfig& config,
-                            const StereoCamera& camera,
-                            double rows,
-                            int& count) {
-      const RectifiedImages images = {pair.images.left, pair.images.right, camera, rows};
-      StereoMatcher(config).match(workers_, images, corners, disparities_px);
-      for (std::size_t i = 0; i < corners.size(); ++i) {
-        if (disparities_px[i] == StereoMatcher::kNoDisparity || is_explained[i] != 0) continue;
-        is_explained[i] = 1;
-        ++count;
-      }
-    };
-    for (const double rows : {row_px - kRows, row_px + kRows}) {
-      search(config_, camera_, rows, missing_.other_row);
-    }
-    StereoMatcherConfig beyond = config_;
-    beyond.min_disparity_px = 0.0;
-    beyond.nearest_baselines = camera_.fx / (kBeyond_px + 1);
-    StereoCamera converging = camera_;
-    converging.cx_right += kBeyond_px;
-    search(beyond, converging, row_px, missing_.beyond_infinity);
     StereoMatcherConfig near = config_;
     near.nearest_baselines = 0.5 * config_.nearest_baselines;
     near.min_disparity_px = nearest_px;
-    search(near, camera_, row_px, missing_.too_near);
+    std::vector<float> disparities_px;
+    StereoMatcher(near).match(workers_, images, corners, disparities_px);
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      if (is_explained[i] != 0) continue;
       const bool may_be_outside = corners[i].x - camera_.disparityAtInfinity() < nearest_px;
-      ++(may_be_outside ? missing_.outside : missing_.ambiguous);
+      ++(disparities_px[i] != StereoMatcher::kNoDisparity ? missing_.too_near
+         : may_be_outside                                 ? missing_.outside
+                                                          : missing_.ambiguous);
     }
   }
 
@@ -211,8 +187,6 @@ class ViewCheck : public PairCheck {
                        ""};
     const std::pair<int, const char*> reasons[] = {
         {missing_.too_near, "nearer than nearest_baselines reaches"},
-        {missing_.beyond_infinity, "as far as the horizon or beyond"},
-        {missing_.other_row, "two rows higher or lower"},
         {missing_.outside, "perhaps outside of the right image"},
         {missing_.ambiguous, "ambiguous, hidden or different"}};
     for (const auto& [count, text] : reasons) {

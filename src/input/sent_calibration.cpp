@@ -152,12 +152,13 @@ std::string calibrationWarning(const Info& info, const StereoCamera& camera) {
            "the focal lengths " + toText(camera.fx) + " and " + toText(camera.fy) +
                " px differ: were the images stretched?");
   }
-  if (camera.baseline_m < kSmallBaseline_m || camera.baseline_m > kGreatBaseline_m) {
-    append(text,
-           "a baseline of " + toText(camera.baseline_m) +
-               " m is unusual: is P[3] of camera_info in pixels times meters, not mm or cm?");
-  }
   return text;
+}
+
+std::string baselineWarning(double baseline_m) {
+  if (baseline_m >= kSmallBaseline_m && baseline_m <= kGreatBaseline_m) return "";
+  return "a baseline of " + toText(baseline_m) +
+         " m is unusual: is P[3] of camera_info in pixels times meters, not mm or cm?";
 }
 
 }  // namespace rotrocc

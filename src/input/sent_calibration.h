@@ -35,8 +35,10 @@ void requireOfItsImage(const std::string& matrix,
                        const sensor_msgs::CameraInfo& sent);
 
 /// What is implausible about the stereo camera of the left `info`, with a remedy: principal
-/// point, angle of view, shape of the pixels, baseline, binning and region of interest; empty if
-/// nothing is.
+/// point, angle of view, shape of the pixels, binning and region of interest; empty if nothing is.
 std::string calibrationWarning(const sensor_msgs::CameraInfo& info, const StereoCamera& camera);
+
+/// Why a baseline may be in another unit; empty if it is usual. That of an endoscope is not.
+std::string baselineWarning(double baseline_m);
 
 }  // namespace rotrocc

@@ -175,8 +175,10 @@ void StereoIntake::logCamera(const StereoCamera& camera) {
                                     : "";
   log_.info("stereo camera from P: " + sizeText(camera.width, camera.height) + ", fx " +
             toText(camera.fx) + " px, baseline " + toText(camera.baseline_m) + " m" + rectified);
-  const std::string warning = calibrationWarning(*left_info_, camera);
-  if (!warning.empty()) log_.warn(warning);
+  for (const std::string& warning :
+       {calibrationWarning(*left_info_, camera), baselineWarning(camera.baseline_m)}) {
+    if (!warning.empty()) log_.warn(warning);
+  }
 }
 
 InputReport StereoIntake::report(std::chrono::steady_clock::time_point now) const {

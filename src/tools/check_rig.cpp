@@ -76,7 +76,7 @@ void addCorrection(const Options& options,
   writeCalibration(correction->measures.calibration, options.camera_info);
   rig.report.corrected = correction->report.findings;
   for (ReportTable table : correction->report.tables) {
-    if (table.name != "rows_map" && table.name != "disparity_map") continue;
+    if (table.name != "rows_map") continue;
     table.name += "_corrected";
     rig.report.tables.push_back(std::move(table));
   }

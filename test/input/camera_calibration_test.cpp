@@ -169,8 +169,10 @@ TEST(CalibrationWarningTest, NamesWhatIsUnlikely) {
   expectWarning(&StereoCamera::fx, 7070.0, "with fx 7070 px, the images show 9.91 degrees");
   expectWarning(&StereoCamera::fx, 100.0, "show 161 degrees");
   expectWarning(&StereoCamera::fy, 350.0, "the focal lengths 700 and 350 px differ");
-  expectWarning(&StereoCamera::baseline_m, 7.5, "a baseline of 7.5 m is unusual");
-  expectWarning(&StereoCamera::baseline_m, 0.0001, "a baseline of 0.0001 m is unusual");
+  for (const double usual_m : {0.018, 0.54}) EXPECT_EQ(baselineWarning(usual_m), "");
+  for (const double unusual_m : {7.5, 0.0054}) {
+    EXPECT_NE(baselineWarning(unusual_m).find(" m is unusual"), std::string::npos);
+  }
 }
 
 TEST(RectifiedImagesTest, AreToldByTheLastPartOfTheirTopic) {
