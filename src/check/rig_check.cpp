@@ -102,10 +102,8 @@ class PairChecks {
                                  flow_px,
                                  result.hasMotion() && movement_.isNew(result, flow_px)};
     if (result.state == State::kLost) ++lost_[result.reason];
-    inspect(pair, camera, result);
     countRepeated(pair);
-    before_.push_back(copyOf(pair));
-    if (before_.size() > kPairsBefore) before_.erase(before_.begin());
+    inspect(pair, camera, result);
     photometry_->observe(checked);
     detail_->observe(checked);
     sampler_.observe(checked);
@@ -230,13 +228,13 @@ class PairChecks {
     if (is_wrong) doubt(report);
     const double turned = std::hypot(x.value / camera_.fx, y.value / camera_.fy);
     const Estimate in_x = model.severity(kBothX), in_y = model.severity(kBothY);
-    report.add({"inputs",
-                "principal points",
-                "those of both cameras are wrong by " + toText(x, "px") + " in x, " +
-                    toText(y, "px") + " in y",
-                "motions are turned by " + fixedText(turned * 180.0 / M_PI, 1) + " deg",
-                "calibrate the images as they are: were they cropped after the calibration?"},
-               {in_x.certain() > in_y.certain() ? in_x : in_y, kAcceptable, 1.0});
+    report.add(
+        {"inputs",
+         "principal points",
+         "wrong in both cameras: by " + toText(x, "px") + " in x, " + toText(y, "px") + " in y",
+         "motions are turned by " + fixedText(turned * 180.0 / M_PI, 1) + " deg",
+         "calibrate the images as they are: were they cropped after the calibration?"},
+        {in_x.certain() > in_y.certain() ? in_x : in_y, kAcceptable, 1.0});
     return is_wrong;
   }
 
@@ -290,12 +288,13 @@ class PairChecks {
 
   /// Whether a driver sends what it has sent before. Noise alone makes images differ.
   void countRepeated(const StereoPair& pair) {
-    if (before_.empty()) return;
-    const auto repeats = [](const cv::Mat& image, const cv::Mat& before) {
-      return image.size() == before.size() && cv::norm(image, before, cv::NORM_INF) == 0.0;
+    if (inspector_.before().empty()) return;
+    const StereoPair& before = inspector_.before().back();
+    const auto repeats = [](const cv::Mat& image, const cv::Mat& earlier) {
+      return image.size() == earlier.size() && cv::norm(image, earlier, cv::NORM_INF) == 0.0;
     };
-    repeated_left_ += repeats(pair.left, before_.back().left) ? 1 : 0;
-    repeated_right_ += repeats(pair.right, before_.back().right) ? 1 : 0;
+    repeated_left_ += repeats(pair.left, before.left) ? 1 : 0;
+    repeated_right_ += repeats(pair.right, before.right) ? 1 : 0;
   }
 
   void addRepeated(RigReport& report) const {
@@ -312,15 +311,10 @@ class PairChecks {
   }
 
   void inspect(const StereoPair& pair, const StereoCamera& camera, const OdometryResult& result) {
-    std::string fault = inspector_.inspect(pair, camera, result, {}, [&] { return before_; });
-    bool is_of_no_pair = inspector_.isOfNoPair();
-    if (const std::string found = inspector_.finish(); !found.empty()) {
-      fault = found;
-      is_of_no_pair = inspector_.isOfNoPair();
-    }
+    const std::string fault = inspector_.inspect(pair, camera, result);
     if (fault.empty()) return;
     fault_ = fault;
-    is_of_no_pair_ = is_of_no_pair;
+    is_of_no_pair_ = inspector_.inspector().isOfNoPair();
   }
 
   void addOtherCamera(RigReport& report) const {
@@ -354,8 +348,7 @@ class PairChecks {
 
   VisualOdometry odometry_;
   bool rectifies_;
-  PairInspector inspector_;
-  std::vector<StereoPair> before_;  // the last kPairsBefore
+  RecordingInspector inspector_;
   std::unique_ptr<PairCheck> photometry_ = makePhotometryCheck();
   std::unique_ptr<PairCheck> detail_ = makeDetailCheck();
   Movement movement_;

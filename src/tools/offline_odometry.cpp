@@ -22,7 +22,6 @@
 #include "common/stage_timer.h"
 #include "inertial/gyro_file.h"
 #include "inertial/gyro_predictor.h"
-#include "input/stereo_intake.h"
 #include "input/to_text.h"
 #include "node/health/pair_inspector.h"
 #include "rotrocc/parameters.h"
@@ -211,34 +210,6 @@ class PreloadedPairs {
   double loaded_MB_ = 0.0;  // memory of the process after reading all images
 };
 
-/// What the node finds out of pairs without a good motion, at each pair and not beside it: the same
-/// input has the same output.
-class Inspection {
- public:
-  Inspection(const OdometryConfig& config, bool rectifies) : inspector_(config, rectifies) {}
-
-  /// The result as the node has it.
-  OdometryResult inspect(const StereoPair& pair,
-                         const StereoCamera& camera,
-                         const OdometryResult& estimated) {
-    const OdometryResult result = inspector_.distrusted(estimated);
-    inspector_.inspect(pair, camera, estimated, {}, [&] { return before_; });
-    if (const std::string found = inspector_.finish(); !found.empty()) cause_ = found;
-    before_.push_back(copyOf(pair));
-    if (before_.size() > kPairsBefore) before_.erase(before_.begin());
-    return result;
-  }
-
-  void printSummary(std::ostream& out) const {
-    if (!cause_.empty()) out << "likely cause of lost or degraded pairs: " << cause_ << '\n';
-  }
-
- private:
-  PairInspector inspector_;
-  std::vector<StereoPair> before_;
-  std::string cause_;
-};
-
 void run(const Options& options) {
   const Parameters parameters = readParameters(options.input);
   const std::unique_ptr<Recording> recording = openInput(options.input, parameters.node);
@@ -261,7 +232,8 @@ void run(const Options& options) {
     };
   }
   VisualOdometry odometry(parameters.odometry);
-  Inspection inspection(parameters.odometry, pairs.rectifies());
+  RecordingInspector inspector(parameters.odometry, pairs.rectifies());
+  std::string cause;  // of pairs without a good motion
   ProgressBar progress("odometry", recording->size());
   StereoPair pair;
   StereoCamera camera;
@@ -274,19 +246,24 @@ void run(const Options& options) {
                 << stampText(pair.stamp_ns) << " s: restarting at "
                 << (keep ? "the last pose" : "initial_pose") << " (pose_after_time_jump)\n";
       odometry.reset();
+      inspector.inspector().reset();
       if (!keep) outputs.restart();
     }
     last_ns = pair.stamp_ns;
     last_time_ns = pair.time_ns();
     PairRecord record = process(odometry, pair, camera, rotation);
-    record.result = inspection.inspect(pair, camera, record.result);
+    const OdometryResult estimated = record.result;
+    record.result = inspector.inspector().distrusted(estimated);  // as the node has it
+    inspector.inspect(pair, camera, estimated);
+    const std::string found = inspector.inspector().finish();
+    if (!found.empty()) cause = found;
     if (gyro) gyro->observe(record.result);
     outputs.write(record, pair, camera, odometry);
     progress.advance();
   }
   progress.finish();
   outputs.printSummary(std::cout);
-  inspection.printSummary(std::cout);
+  if (!cause.empty()) std::cout << "likely cause of lost or degraded pairs: " << cause << '\n';
   if (gyro) gyro->printSummary(std::cout);
   if (preloaded) preloaded->printMemory();
   if (const std::string left_out = pairs.leftOut(); !left_out.empty()) {

@@ -207,7 +207,7 @@ std::string frozenCamera() {
       12);
 }
 
-/// Each right image is that of the previous pair.
+/// Each image of one side is that of some pairs before.
 std::string lateImages(std::size_t frames, bool is_right) {
   std::deque<std::vector<std::uint8_t>> shown;
   return badImages(
@@ -270,7 +270,7 @@ std::string unequalFocalLengths() {
   return std::string(toString(result.state)) + (right ? ", ahead and up" : ", wrong motion");
 }
 
-/// The stamps jump, and the clock with them unless `clock_stays`.
+/// The stamps jump, and the clock with them.
 std::string timeJump(const std::string& pose, double by_s) {
   Parameters parameters;
   parameters.node.pose_after_time_jump = pose;

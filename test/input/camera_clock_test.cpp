@@ -31,7 +31,7 @@ class CameraClockTest : public testing::Test {
   }
 
   /// The verdict: v valid; h held; j valid, and so is the one that was held; g valid, but the one
-  /// that was held is a glitch; x held, another one was held and is a glitch; z, r, b, f: thrown.
+  /// that was held is a glitch; x held, another one was held and is a glitch; z, r, b: thrown.
   char take(const Image& image) {
     time_s_ += image.wait_s;
     const std::int64_t time_ns = toNs(kStart_s + time_s_);

@@ -50,11 +50,9 @@ class MatchCounter {
   MatchCounter(const CorrespondenceFinder::Config& config, const StereoCamera& camera)
       : detector_(config.feature_detector), matcher_(config.stereo_matcher), camera_(camera) {}
 
-  int count(const cv::Mat& left, const cv::Mat& right, bool swapped = false) {
+  int count(const cv::Mat& left, const cv::Mat& right) {
     detector_.detect(alone_, left, corners_);
-    StereoCamera camera = camera_;
-    if (swapped) std::swap(camera.cx, camera.cx_right);
-    matcher_.match(alone_, {left, right, camera}, corners_, disparities_);
+    matcher_.match(alone_, {left, right, camera_}, corners_, disparities_);
     return static_cast<int>(
         std::count_if(disparities_.begin(), disparities_.end(), [](float disparity_px) {
           return disparity_px != StereoMatcher::kNoDisparity;
@@ -86,21 +84,25 @@ bool standsStill(const VisualOdometry& odometry, double flow_noise_px) {
   return flows_px.empty() || median(flows_px) < kOverNoise * flow_noise_px;
 }
 
-/// How many features agree on the motion from a pair to the next; none if it is to be without doubt
-/// and is not, or none: what stands still, as a part of the robot, is of any moment.
-std::size_t agreeing(OdometryConfig config,
-                     const StereoCamera& camera,
-                     const StereoPair& earlier,
-                     const StereoPair& later,
-                     bool without_doubt) {
+/// The features that agree on the motion from a pair to the next.
+struct Agreement {
+  std::size_t count;
+  bool is_ok;  ///< the motion is not in doubt
+  bool stands_still;
+};
+
+Agreement agreementOf(OdometryConfig config,
+                      const StereoCamera& camera,
+                      const StereoPair& earlier,
+                      const StereoPair& later) {
   config.threads = 1;
   VisualOdometry odometry(config);
   odometry.process(earlier, camera);
   const OdometryResult result = odometry.process(later, camera);
   const FeatureSet& inliers = odometry.translationInliers();
-  if (without_doubt && (result.state != State::kOk || standsStill(odometry, result.flow_noise_px)))
-    return 0;
-  return static_cast<std::size_t>(std::count(inliers.begin(), inliers.end(), 1));
+  return {static_cast<std::size_t>(std::count(inliers.begin(), inliers.end(), 1)),
+          result.state == State::kOk,
+          standsStill(odometry, result.flow_noise_px)};
 }
 
 StereoPair paired(const StereoPair& of_left, const StereoPair& of_right) {
@@ -122,8 +124,6 @@ std::string lateText(const std::string& side, const std::string& other, bool is_
          "; look for a queue in the driver, or for a trigger that one camera misses";
 }
 
-const char* const kSwapped = "the images match if left and right are swapped: swap their topics";
-
 /// Which other images are the pairs, if more features agree on a motion between those; empty if
 /// none are.
 std::string whichArePairs(const std::vector<StereoPair>& pairs,
@@ -131,17 +131,19 @@ std::string whichArePairs(const std::vector<StereoPair>& pairs,
                           const StereoCamera& camera) {
   if (pairs.size() < 2) return "";
   const std::size_t last = pairs.size() - 1;
-  auto most = static_cast<std::size_t>(
-      kClearlyMoreAgree *
-      static_cast<double>(agreeing(config, camera, pairs[last - 1], pairs[last], false)));
+  const Agreement direct = agreementOf(config, camera, pairs[last - 1], pairs[last]);
+  auto most = static_cast<std::size_t>(kClearlyMoreAgree * static_cast<double>(direct.count));
   std::string text;
   const auto tryPairs = [&](const StereoCamera& of,
                             const StereoPair& earlier,
                             const StereoPair& later,
+                            bool is_of_one_moment,
                             const std::string& explanation) {
-    const std::size_t count = agreeing(config, of, earlier, later, true);
-    if (count <= most) return;
-    most = count;
+    const Agreement agreement = agreementOf(config, of, earlier, later);
+    // What stands still, as a part of the robot, is of any moment.
+    const bool shows_it = agreement.is_ok && (is_of_one_moment || !agreement.stands_still);
+    if (!shows_it || agreement.count <= most) return;
+    most = agreement.count;
     text = explanation;
   };
   for (std::size_t frames = 1; frames < last; ++frames) {
@@ -150,15 +152,21 @@ std::string whichArePairs(const std::vector<StereoPair>& pairs,
     tryPairs(camera,
              paired(earlier, pairs[last - 1]),
              paired(early, pairs[last]),
+             false,
              lateText("right", "left", is_next));
     tryPairs(camera,
              paired(pairs[last - 1], earlier),
              paired(pairs[last], early),
+             false,
              lateText("left", "right", is_next));
   }
   StereoCamera swapped = camera;
   std::swap(swapped.cx, swapped.cx_right);
-  tryPairs(swapped, exchanged(pairs[last - 1]), exchanged(pairs[last]), kSwapped);
+  tryPairs(swapped,
+           exchanged(pairs[last - 1]),
+           exchanged(pairs[last]),
+           true,
+           "the images match if left and right are swapped: swap their topics");
   return text;
 }
 
@@ -185,7 +193,6 @@ Explanation explainLoss(const std::vector<StereoPair>& pairs,
   }
   const bool few = direct < kFewShare * matches.corners();
   const double clearly_more = kClearlyMore * std::max(direct, kFewCorners);
-  if (matches.count(right, left, true) > clearly_more) return {kSwapped, true};
   if (const std::string other = whichArePairs(pairs, config, camera); !other.empty()) {
     return {other, true};
   }
@@ -217,7 +224,7 @@ PairInspector::PairInspector(const OdometryConfig& config, bool rectifies)
 
 void PairInspector::configure(const OdometryConfig& config) {
   config_ = config;
-  forgetLoss();
+  reset();
 }
 
 std::string PairInspector::inspect(const StereoPair& pair,
@@ -232,7 +239,7 @@ std::string PairInspector::inspect(const StereoPair& pair,
     // Chance matches may look like a motion: one of them takes back few of the doubts.
     doubtful_ -= 1 + doubtful_ / kPatience;
     explain_at_ = std::min(explain_at_, std::max(kPatience, 2 * doubtful_));
-    if (doubtful_ <= 0) forgetLoss();
+    if (doubtful_ <= 0) reset();
     return fault;
   }
   ++doubtful_;
@@ -286,7 +293,7 @@ OdometryResult PairInspector::distrusted(OdometryResult result) const {
   return result;
 }
 
-void PairInspector::forgetLoss() {
+void PairInspector::reset() {
   doubtful_ = 0;
   explain_at_ = kPatience;
   explanation_ = {};
@@ -303,6 +310,16 @@ std::string PairInspector::finish() {
     if (found_nothing_ == 0 || found_nothing_ >= kSearches) explanation_ = found;
   }
   return explanation_.text;
+}
+
+std::string RecordingInspector::inspect(const StereoPair& pair,
+                                        const StereoCamera& camera,
+                                        const OdometryResult& result) {
+  const std::string fault = inspector_.inspect(pair, camera, result, {}, [&] { return before_; });
+  const std::string explanation = inspector_.finish();
+  before_.push_back(copyOf(pair));
+  if (before_.size() > kPairsBefore) before_.erase(before_.begin());
+  return explanation.empty() ? fault : explanation;
 }
 
 std::string PairInspector::compareExposures(const OdometryResult& result) {

@@ -42,7 +42,7 @@ class PairInspector {
   void configure(const OdometryConfig& config);
 
   /// Forgets what was found out of a loss.
-  void reset() { forgetLoss(); }
+  void reset();
 
   /// Copies of the last kPairsBefore pairs that were received before, the earliest one first.
   using PairsBefore = std::function<std::vector<StereoPair>()>;
@@ -73,7 +73,6 @@ class PairInspector {
                const StereoCamera& camera,
                const GrayRange& range,
                const PairsBefore& before);
-  void forgetLoss();
 
   bool rectifies_;
   OdometryConfig config_;
@@ -88,6 +87,27 @@ class PairInspector {
   std::future<Explanation> search_;
   bool search_is_of_this_loss_ = false;
   int found_nothing_ = 0;  // searches since the last explanation
+};
+
+/// Inspects the pairs of a recording. It waits for each search, so that the same input has the same
+/// output.
+class RecordingInspector {
+ public:
+  explicit RecordingInspector(const OdometryConfig& config, bool rectifies)
+      : inspector_(config, rectifies) {}
+
+  /// See PairInspector::inspect().
+  std::string inspect(const StereoPair& pair,
+                      const StereoCamera& camera,
+                      const OdometryResult& result);
+
+  PairInspector& inspector() { return inspector_; }
+  /// Copies of the last kPairsBefore pairs, the earliest one first.
+  const std::vector<StereoPair>& before() const { return before_; }
+
+ private:
+  PairInspector inspector_;
+  std::vector<StereoPair> before_;
 };
 
 }  // namespace rotrocc
