@@ -77,7 +77,6 @@ constexpr int kPairs = 3;  // the first one, one compared with it, and one with 
 
 Parameters makeParameters() {
   Parameters parameters;
-  parameters.odometry.threads = 1;  // the images are too small to use several threads
   return parameters;
 }
 

@@ -6,8 +6,8 @@
 
 #include <opencv2/core/utility.hpp>
 
-#include "common/workers.h"
 #include "simulation/counter_random.h"
+#include "simulation/each_row.h"
 #include "simulation/gyroscope.h"
 
 namespace rotrocc {
@@ -72,7 +72,7 @@ cv::Mat develop(const cv::Mat& brightness, double noise_sigma, std::uint64_t noi
   const cv::Point2d center(0.5 * (image.cols - 1), 0.5 * (image.rows - 1));
   const double corner_squared = center.ddot(center);
   const std::vector<float> response = responseTable();
-  Workers(cv::getNumThreads()).run(image.rows, [&](int y) {
+  eachRow(image.rows, [&](int y) {
     for (int x = 0; x < image.cols; ++x) {
       const cv::Point2d off = cv::Point2d(x, y) - center;
       const double lost = kVignetting * off.ddot(off) / corner_squared;

@@ -89,7 +89,6 @@ struct OdometryConfig {
   StereoCalibratorConfig stereo_calibrator;
   SystematicErrorConfig systematic_error;
 
-  int threads = 2;    ///< that process a pair, including the calling thread
   int max_tries = 8;  ///< maximum number of attempts from each earlier frame
 
   /// Throws std::invalid_argument with the parameter and its value if a name is unknown.

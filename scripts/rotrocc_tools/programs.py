@@ -41,11 +41,11 @@ class Programs:
         return make_once(target, render)
 
     def estimate(self, sequence, folder, *options):
-        """Runs the odometry on one thread. `folder` gets trajectory.txt and pairs.csv, whose rows are returned."""
+        """Runs the odometry. `folder` gets trajectory.txt and pairs.csv, whose rows are returned."""
         folder.mkdir(parents=True, exist_ok=True)
         try:
             self.run('offline_odometry', sequence, '--trajectory', folder / 'trajectory.txt', '--stats',
-                     folder / 'pairs.csv', '--set', 'visual_odometry/threads=1', *options)
+                     folder / 'pairs.csv', *options)
         except RuntimeError as error:
             if 'no pair has a motion' not in str(error):  # a result as any other: all are lost
                 raise

@@ -20,7 +20,7 @@ if [ -d "$sequence/image_0" ]; then format=kitti; fi  # as the poses of its trut
 
 run() {
   "$programs/offline_odometry" "$sequence" --trajectory "$part/estimate.txt" --format "$format" \
-    --stats "$part/pairs.csv" "$@" --set visual_odometry/threads=1 || return
+    --stats "$part/pairs.csv" "$@" || return
   local trajectories=("$truth" "$part/estimate.txt" --fit)
   if [ "$truth" = none ]; then trajectories=("$part/estimate.txt"); fi
   "$programs/evaluate_trajectory" "${trajectories[@]}" --report "$part" \

@@ -3,9 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include <opencv2/core/utility.hpp>
-
-#include "common/workers.h"
+#include "simulation/each_row.h"
 
 namespace rotrocc {
 namespace {
@@ -27,10 +25,10 @@ class Rendering {
         picture_{cv::Mat(rays.size(), CV_32FC1), cv::Mat(rays.size(), CV_64FC1)} {}
 
   Picture run() {
-    Workers(cv::getNumThreads()).run(surfaces_.rows, [this](int y) { lookAtCenters(y); });
+    eachRow(surfaces_.rows, [this](int y) { lookAtCenters(y); });
     // Edges are detected in the center samples, not in the smoothed image of other threads.
     centers_ = picture_.brightness.clone();
-    Workers(cv::getNumThreads()).run(surfaces_.rows, [this](int y) { smoothEdges(y); });
+    eachRow(surfaces_.rows, [this](int y) { smoothEdges(y); });
     return picture_;
   }
 

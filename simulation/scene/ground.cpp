@@ -4,9 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <opencv2/core/utility.hpp>
-
-#include "common/workers.h"
+#include "simulation/each_row.h"
 #include "simulation/surfaces/coverage.h"
 
 namespace rotrocc {
@@ -103,7 +101,7 @@ Terrain groundBelow(const Path& path, double beyond_m, const std::vector<Path>& 
   for (const Path& street : streets) append(street, 0.0, samples);
 
   std::vector<double> heights(static_cast<std::size_t>(grid.columns + 1) * (grid.rows + 1));
-  Workers(cv::getNumThreads()).run(grid.rows + 1, [&](int row) {
+  eachRow(grid.rows + 1, [&](int row) {
     for (int column = 0; column <= grid.columns; ++column) {
       const Eigen::Vector2d place = grid.origin + grid.cell_m * Eigen::Vector2d(column, row);
       const Passage passage = passageAt(place, samples, own);

@@ -5,7 +5,7 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "common/workers.h"
+#include "simulation/each_row.h"
 #include "simulation/surfaces/coverage.h"
 #include "simulation/surfaces/sky.h"
 
@@ -31,7 +31,7 @@ GroundShadows::GroundShadows(const SceneGeometry& scene, const StreetMap& street
   const int columns = static_cast<int>(grid.columns * grid.cell_m / kShadowCell_m);
   const int rows = static_cast<int>(grid.rows * grid.cell_m / kShadowCell_m);
   lit_ = cv::Mat(rows, columns, CV_8UC1, cv::Scalar(255));
-  Workers(cv::getNumThreads()).run(rows, [&](int row) {
+  eachRow(rows, [&](int row) {
     const double z = origin_.y() + kShadowCell_m * (row + 0.5);
     for (int column = 0; column < columns; ++column) {
       const double x = origin_.x() + kShadowCell_m * (column + 0.5);

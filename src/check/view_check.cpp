@@ -40,7 +40,6 @@ class ViewCheck : public PairCheck {
  public:
   explicit ViewCheck(const OdometryConfig& config)
       : config_(config.correspondence_finder.stereo_matcher),
-        workers_(1),
         detector_(config.correspondence_finder.feature_detector) {}
 
   void observe(const CheckedPair& pair) override {
@@ -143,10 +142,10 @@ class ViewCheck : public PairCheck {
     const ImageGrid grid(camera_.width, camera_.height);
     std::vector<cv::Point2f> corners;
     std::vector<float> disparities_px;
-    detector_.detect(workers_, pair.images.left, corners);
+    detector_.detect(pair.images.left, corners);
     const RectifiedImages images = {
         pair.images.left, pair.images.right, camera_, pair.result.row_offset.applied_px};
-    StereoMatcher(config_).match(workers_, images, corners, disparities_px);
+    StereoMatcher(config_).match(images, corners, disparities_px);
     std::vector<cv::Point2f> without;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       Cell& cell = map_[grid.of(corners[i].x, corners[i].y)];
@@ -169,7 +168,7 @@ class ViewCheck : public PairCheck {
     near.nearest_baselines = 0.5 * config_.nearest_baselines;
     near.min_disparity_px = nearest_px;
     std::vector<float> disparities_px;
-    StereoMatcher(near).match(workers_, images, corners, disparities_px);
+    StereoMatcher(near).match(images, corners, disparities_px);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const bool may_be_outside = corners[i].x - camera_.disparityAtInfinity() < nearest_px;
       ++(disparities_px[i] != StereoMatcher::kNoDisparity ? missing_.too_near
@@ -287,7 +286,6 @@ class ViewCheck : public PairCheck {
   }
 
   StereoMatcherConfig config_;
-  Workers workers_;
   FeatureDetector detector_;
   StereoCamera camera_;
   std::vector<Cell> map_, fine_map_;  // of ImageGrid and of twice as many columns

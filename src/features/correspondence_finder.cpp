@@ -32,9 +32,8 @@ RectifiedImages imagesOf(const StereoFrame& frame,
 
 }  // namespace
 
-CorrespondenceFinder::CorrespondenceFinder(const Config& config, int threads)
+CorrespondenceFinder::CorrespondenceFinder(const Config& config)
     : config_(config),
-      workers_(threads),
       detector_(config.feature_detector),
       matcher_(config.stereo_matcher),
       tracker_(config.feature_tracker) {}
@@ -54,11 +53,8 @@ FramePtr CorrespondenceFinder::makeFrame(const StereoPair& pair, int level) {
   right_mask_.assign(pair.right_mask, FeatureDetector::kBorder_px << level);
   frame->left_mask = left_mask_;
   frame->right_mask = right_mask_;
-  workers_.run(2, [&](int side) {
-    tracker_.makePyramid(side == 0 ? pair.left : pair.right,
-                         BaseLevel::kLevels,
-                         side == 0 ? frame->whole_left : frame->whole_right);
-  });
+  tracker_.makePyramid(pair.left, BaseLevel::kLevels, frame->whole_left);
+  tracker_.makePyramid(pair.right, BaseLevel::kLevels, frame->whole_right);
   const int levels = static_cast<int>(frame->whole_left.size());
   frame->setLevel(std::min(level, levels - 1));
   return frame;
@@ -66,7 +62,7 @@ FramePtr CorrespondenceFinder::makeFrame(const StereoPair& pair, int level) {
 
 void CorrespondenceFinder::findCorners(Keyframe& keyframe) {
   const StereoFrame& frame = *keyframe.frame;
-  detector_.detect(workers_, frame.left.front(), keyframe.corners, kCandidates, frame.left_mask);
+  detector_.detect(frame.left.front(), keyframe.corners, kCandidates, frame.left_mask);
 }
 
 void CorrespondenceFinder::findDepths(const StereoCamera& camera, Keyframe& keyframe) {
@@ -117,10 +113,10 @@ std::size_t CorrespondenceFinder::addPoints(const StereoCamera& camera,
 /// Finds the disparities of the batch. Matches are searched in whole rows first.
 void CorrespondenceFinder::matchBatch(const StereoCamera& camera, const Keyframe& keyframe) {
   const RectifiedImages images = imagesOf(*keyframe.frame, camera, keyframe);
-  matcher_.match(workers_, images, batch_, disparities_px_);
+  matcher_.match(images, batch_, disparities_px_);
   if (keyframe.row_offset_px == 0.0) return;
   std::swap(matched_disparities_px_, disparities_px_);
-  matcher_.matchNear(workers_, images, batch_, matched_disparities_px_, disparities_px_);
+  matcher_.matchNear(images, batch_, matched_disparities_px_, disparities_px_);
 }
 
 int CorrespondenceFinder::find(const StereoCamera& camera,
@@ -160,8 +156,7 @@ void CorrespondenceFinder::predict(const StereoCamera& camera,
 
 void CorrespondenceFinder::track(const Keyframe& keyframe, const StereoFrame& current) {
   constexpr bool kRoundTrip = true;
-  tracker_.track(workers_,
-                 keyframe.frame->left,
+  tracker_.track(keyframe.frame->left,
                  current.left,
                  keyframe.left_px,
                  scale_changes_,
@@ -174,8 +169,7 @@ void CorrespondenceFinder::track(const Keyframe& keyframe, const StereoFrame& cu
   for (std::size_t i = 0; i < cur_left_px_.size(); ++i) {
     cur_right_px_[i] = cur_left_px_[i] + cv::Point2f(-predicted_disparities_px_[i], lower_px);
   }
-  tracker_.track(workers_,
-                 keyframe.frame->right,
+  tracker_.track(keyframe.frame->right,
                  current.right,
                  keyframe.right_px,
                  scale_changes_,
@@ -199,8 +193,7 @@ void CorrespondenceFinder::checkCircularConsistency(const StereoCamera& camera,
     }
   }
   const RectifiedImages images = imagesOf(current, camera, keyframe);
-  stereo_gain_ =
-      matcher_.matchNear(workers_, images, cur_left_px_, tracked_disparities_px_, disparities_px_);
+  stereo_gain_ = matcher_.matchNear(images, cur_left_px_, tracked_disparities_px_, disparities_px_);
 
   features.clear();
   for (std::size_t i = 0; i < cur_left_px_.size(); ++i) {

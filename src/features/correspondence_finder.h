@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
-#include "common/workers.h"
 #include "features/feature_detector.h"
 #include "features/feature_tracker.h"
 #include "features/stereo_frame.h"
@@ -27,8 +26,7 @@ class CorrespondenceFinder {
  public:
   using Config = CorrespondenceFinderConfig;
 
-  /// Uses `threads` threads, including the calling one.
-  explicit CorrespondenceFinder(const Config& config, int threads = 1);
+  explicit CorrespondenceFinder(const Config& config);
   virtual ~CorrespondenceFinder() = default;
 
   /// Copies the images of the pair into a frame, to be used at a level of its pyramids. Frames that
@@ -77,7 +75,6 @@ class CorrespondenceFinder {
                                 Correspondences& features);
 
   Config config_;
-  Workers workers_;
   FeatureDetector detector_;
   StereoMatcher matcher_;
   FeatureTracker tracker_;

@@ -26,8 +26,7 @@ constexpr bool kEachOthersNearest = true;
 DescriptorMatcher::DescriptorMatcher(const StereoMatcherConfig& config)
     : matcher_(config),
       orb_(cv::ORB::create(kFeatures, kScaleStep, kScales)),
-      nearest_(cv::NORM_HAMMING, kEachOthersNearest),
-      workers_(1) {}
+      nearest_(cv::NORM_HAMMING, kEachOthersNearest) {}
 
 DescriptorMatcher::Described DescriptorMatcher::describe(const cv::Mat& image,
                                                          const FeatureMask& mask) {
@@ -58,7 +57,7 @@ Correspondences DescriptorMatcher::match(const StereoCamera& camera,
   }
   const RectifiedImages images = {left, current.right.front(), camera, row_offset_px};
   std::vector<float> disparities_px;
-  matcher_.match(workers_, images, pixels, disparities_px);
+  matcher_.match(images, pixels, disparities_px);
   Correspondences features;
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (disparities_px[i] == StereoMatcher::kNoDisparity) continue;

@@ -5,7 +5,6 @@
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
 
-#include "common/workers.h"
 #include "features/stereo_frame.h"
 #include "features/stereo_matcher.h"
 #include "rotrocc/correspondence.h"
@@ -38,7 +37,6 @@ class DescriptorMatcher {
   StereoMatcher matcher_;
   cv::Ptr<cv::ORB> orb_;
   cv::BFMatcher nearest_;
-  Workers workers_;  // the calling thread only
 };
 
 }  // namespace rotrocc

@@ -13,10 +13,6 @@ namespace {
 
 constexpr int kRowStep = CornerResponse::kRowStep;
 
-/// Rows of a strip, in those of the response as all rows below. Constant, so that the strips do not
-/// depend on the number of threads.
-constexpr int kStripRows = 32;
-
 /// The response that a corner needs: four times that to the noise of the image. Fine texture looks
 /// like noise, as that of gravel, so no more noise is assumed than cameras have in the dark: 4 gray
 /// levels.
@@ -116,8 +112,7 @@ void CornerResponse::addGradients(const cv::Mat& image, int y) {
 
 FeatureDetector::FeatureDetector(const Config& config) : config_(config) {}
 
-void FeatureDetector::detect(Workers& workers,
-                             const cv::Mat& image,
+void FeatureDetector::detect(const cv::Mat& image,
                              std::vector<cv::Point2f>& corners,
                              int candidates,
                              const FeatureMask& mask) {
@@ -125,67 +120,51 @@ void FeatureDetector::detect(Workers& workers,
   if (std::min(image.cols, image.rows) <= 2 * (kBorder_px + kRadius_px)) return;
 
   min_response_ = minResponse(noiseVariance(image, noise_));
-  const int first_row = (kBorder_px + kRowStep - 1) / kRowStep;
-  const int last_row = (image.rows - kBorder_px + kRowStep - 1) / kRowStep;
-  const int strip_count = (last_row + kStripRows - 1) / kStripRows;
-  strips_.resize(static_cast<std::size_t>(strip_count));
-  workers.run(strip_count, [&](int i) {
-    const int first = std::max(i * kStripRows, first_row);
-    const int last = std::min((i + 1) * kStripRows, last_row);
-    findCandidates(image, first, last, strips_[static_cast<std::size_t>(i)]);
-  });
-  collectCandidates(mask);
+  candidates_.clear();
+  findCandidates(image, mask);
   selectByCells(image.size(), static_cast<std::size_t>(candidates * config_.max_features), corners);
 }
 
-void FeatureDetector::collectCandidates(const FeatureMask& mask) {
-  candidates_.clear();
-  for (const Strip& strip : strips_) {
-    for (const Candidate& c : strip.candidates) {
-      if (!mask.excludes(cv::Point(c.x, c.y))) candidates_.push_back(c);
-    }
-  }
-}
-
-void FeatureDetector::findCandidates(const cv::Mat& image,
-                                     int first_row,
-                                     int last_row,
-                                     Strip& strip) const {
-  strip.candidates.clear();
-  if (first_row >= last_row) return;
-  const int rows = kRadius_px / kRowStep;
-  strip.corner_response.compute(
-      image, first_row - rows, last_row + rows, kRadius_px, strip.response);
-  strip.highest.resize(static_cast<std::size_t>(strip.response.cols));
-  const int band_rows = rows + 1;
-  for (int first = first_row; first < last_row; first += band_rows) {
-    searchBand(image.cols, {first, std::min(first + band_rows, last_row)}, first_row - rows, strip);
+void FeatureDetector::findCandidates(const cv::Mat& image, const FeatureMask& mask) {
+  constexpr int kMargin = kRadius_px / kRowStep;
+  const int first_row = (kBorder_px + kRowStep - 1) / kRowStep;
+  const int last_row = (image.rows - kBorder_px + kRowStep - 1) / kRowStep;
+  const int top = first_row - kMargin;
+  corner_response_.compute(image, top, last_row + kMargin, kRadius_px, response_);
+  highest_.resize(static_cast<std::size_t>(response_.cols));
+  for (int first = first_row; first < last_row; first += kMargin + 1) {
+    searchBand(image.cols, {first, std::min(first + kMargin + 1, last_row)}, top, mask);
   }
 }
 
 /// Searches rows that are all within kRadius_px of each other. A corner must be the maximum of
 /// its column in these rows, and no neighboring column may have a larger one. Only these few
-/// pixels are then compared with all their neighbors. The strip's response begins with row `top`.
-void FeatureDetector::searchBand(int width, const cv::Range& rows, int top, Strip& strip) const {
+/// pixels are then compared with all their neighbors. The response begins with row `top`.
+void FeatureDetector::searchBand(int width,
+                                 const cv::Range& rows,
+                                 int top,
+                                 const FeatureMask& mask) {
   const int radius = kRadius_px;
   const cv::Range band(rows.start - top, rows.end - top);
-  float* highest = strip.highest.data();
+  float* highest = highest_.data();
   const Kernels& kernels = chooseKernels();
-  kernels.highestOfColumns(strip.response.ptr<float>(band.start),
-                           static_cast<std::ptrdiff_t>(strip.response.step1()),
+  kernels.highestOfColumns(response_.ptr<float>(band.start),
+                           static_cast<std::ptrdiff_t>(response_.step1()),
                            band.size(),
                            width + 2 * radius,
                            highest);
-  strip.peaks.resize(strip.highest.size());
+  peaks_.resize(highest_.size());
   const int count = kernels.findPeaks(
-      highest, kBorder_px, width - kBorder_px, radius, min_response_, strip.peaks.data());
+      highest, kBorder_px, width - kBorder_px, radius, min_response_, peaks_.data());
   for (int i = 0; i < count; ++i) {
-    const int x = strip.peaks[static_cast<std::size_t>(i)];
+    const int x = peaks_[static_cast<std::size_t>(i)];
     const int column = x + radius;
     int row = band.start;
-    while (strip.response.at<float>(row, column) != highest[column]) ++row;
-    if (isFirstOfStrongest(strip.response, column, row, radius, band.end)) {
-      strip.candidates.push_back({highest[column], x, kRowStep * (top + row), 0});
+    while (response_.at<float>(row, column) != highest[column]) ++row;
+    const int y = kRowStep * (top + row);
+    if (isFirstOfStrongest(response_, column, row, radius, band.end) &&
+        !mask.excludes(cv::Point(x, y))) {
+      candidates_.push_back({highest[column], x, y, 0});
     }
   }
 }

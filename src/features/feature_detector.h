@@ -6,7 +6,6 @@
 
 #include <opencv2/core.hpp>
 
-#include "common/workers.h"
 #include "features/stereo_frame.h"
 #include "kernels/image_kernels.h"
 #include "rotrocc/odometry_config.h"
@@ -56,8 +55,7 @@ class FeatureDetector {
   /// that the mask does not exclude. The image has about max_features cells. The strongest corners
   /// of all cells come first, then the second strongest of all cells, and so on. Returns none if
   /// the image is too small.
-  void detect(Workers& workers,
-              const cv::Mat& image,
+  void detect(const cv::Mat& image,
               std::vector<cv::Point2f>& corners,
               int candidates = 1,
               const FeatureMask& mask = {});
@@ -68,26 +66,20 @@ class FeatureDetector {
     int x, y;
     int rank;  ///< key of the order: steps from the strongest, then stronger ones in its cell
   };
-  /// Rows that are searched by one thread.
-  struct Strip {
-    CornerResponse corner_response;
-    cv::Mat response;            // includes a margin around the strip
-    std::vector<float> highest;  // maximum of each column
-    std::vector<int> peaks;      // local maxima of `highest`
-    std::vector<Candidate> candidates;
-  };
 
-  void findCandidates(const cv::Mat& image, int first_row, int last_row, Strip& strip) const;
-  void searchBand(int width, const cv::Range& rows, int top, Strip& strip) const;
+  void findCandidates(const cv::Mat& image, const FeatureMask& mask);
+  void searchBand(int width, const cv::Range& rows, int top, const FeatureMask& mask);
   void selectByCells(const cv::Size& size,
                      std::size_t max_count,
                      std::vector<cv::Point2f>& corners);
-  void collectCandidates(const FeatureMask& mask);
   void sortByRank();
   void rankInCells(const cv::Size& size);
 
   Config config_;
-  std::vector<Strip> strips_;
+  CornerResponse corner_response_;
+  cv::Mat response_;            // with a margin around it
+  std::vector<float> highest_;  // maximum of each column
+  std::vector<int> peaks_;      // local maxima of `highest_`
   std::vector<Candidate> candidates_, sorted_;
   std::vector<int> starts_;  // of candidates of equal ranks
   std::vector<int> cell_counts_;

@@ -235,21 +235,20 @@ bool TrackingWindow::find(const cv::Mat& image, const Stop& stop, cv::Point2f& c
 }
 
 FeatureTracker::FeatureTracker(const Config& config)
-    : config_(config), windows_(Workers::kListParts, TrackingWindow(config.window_radius_px)) {}
+    : config_(config), window_(config.window_radius_px) {}
 
 void FeatureTracker::setDetail(double detail_px) {
   if (detail_px == detail_px_) return;
   detail_px_ = detail_px;
   const int radius_px = std::min(cvRound(detail_px * config_.window_radius_px), kMaxRadius_px);
-  windows_.assign(windows_.size(), TrackingWindow(radius_px));
+  window_ = TrackingWindow(radius_px);
 }
 
 void FeatureTracker::makePyramid(const cv::Mat& image, int levels, ImagePyramid& pyramid) const {
   buildPyramid(image, levels, 2 * config_.window_radius_px + 1, pyramid);
 }
 
-void FeatureTracker::track(Workers& workers,
-                           const ImagePyramid& keyframe_pyramid,
+void FeatureTracker::track(const ImagePyramid& keyframe_pyramid,
                            const ImagePyramid& cur_pyramid,
                            const std::vector<cv::Point2f>& keyframe_px,
                            const std::vector<float>& scales,
@@ -257,18 +256,17 @@ void FeatureTracker::track(Workers& workers,
                            std::vector<cv::Point2f>& cur,
                            std::vector<char>& tracked) {
   const Tracking tracking = {config_, detail_px_, keyframe_pyramid, cur_pyramid, round_trip};
-  workers.forEach(tracked.size(), [&](std::size_t i, std::size_t part) {
-    if (tracked[i] == 0) return;
-    tracked[i] = tracking.follow(keyframe_px[i], scales[i], windows_[part], cur[i]) ? 1 : 0;
-  });
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
+    if (tracked[i] == 0) continue;
+    tracked[i] = tracking.follow(keyframe_px[i], scales[i], window_, cur[i]) ? 1 : 0;
+  }
 }
 
 bool FeatureTracker::locate(const cv::Mat& from,
                             const cv::Mat& to,
                             const cv::Point2f& start,
                             cv::Point2f& point) {
-  TrackingWindow& window = windows_.front();
-  return window.take(from, start, 1.0F) && window.find(to, kStop, point);
+  return window_.take(from, start, 1.0F) && window_.find(to, kStop, point);
 }
 
 }  // namespace rotrocc

@@ -5,7 +5,6 @@
 
 #include <opencv2/core.hpp>
 
-#include "common/workers.h"
 #include "features/image_pyramid.h"
 #include "kernels/kernels.h"
 #include "rotrocc/odometry_config.h"
@@ -77,8 +76,7 @@ class FeatureTracker {
   /// 0. Points with `tracked` = 0 on input are skipped. The smaller images of the pyramids are used
   /// only for points that are not close to their predictions. With `round_trip`, only points that
   /// return to within 1 px when tracked back count as tracked.
-  void track(Workers& workers,
-             const ImagePyramid& keyframe_pyramid,
+  void track(const ImagePyramid& keyframe_pyramid,
              const ImagePyramid& cur_pyramid,
              const std::vector<cv::Point2f>& keyframe_px,
              const std::vector<float>& scales,
@@ -94,7 +92,7 @@ class FeatureTracker {
  private:
   Config config_;
   double detail_px_ = 1.0;
-  std::vector<TrackingWindow> windows_;  // one per part of a list
+  TrackingWindow window_;
 };
 
 }  // namespace rotrocc

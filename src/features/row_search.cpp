@@ -44,7 +44,7 @@ struct CornerOffset {
 }  // namespace
 
 RowSearch::RowSearch(const CorrespondenceFinderConfig& config)
-    : matcher_(config.stereo_matcher), tracker_(config.feature_tracker), workers_(1) {}
+    : matcher_(config.stereo_matcher), tracker_(config.feature_tracker) {}
 
 std::vector<float> RowSearch::search(const StereoCamera& camera, const Keyframe& keyframe) {
   std::vector<cv::Point2f> sample_px;
@@ -61,7 +61,7 @@ std::vector<float> RowSearch::search(const StereoCamera& camera, const Keyframe&
     // Matches that leave their row were found in a wrong one.
     const auto lower_px = static_cast<float>(rows);
     const RectifiedImages images = {left, right, camera, lower_px};
-    matcher_.match(workers_, images, sample_px, disparities_px);
+    matcher_.match(images, sample_px, disparities_px);
     for (std::size_t i = 0; i < sample_px.size(); ++i) {
       if (disparities_px[i] == StereoMatcher::kNoDisparity) continue;
       cv::Point2f point = sample_px[i] + cv::Point2f(-disparities_px[i], lower_px);

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "common/workers.h"
 #include "features/feature_tracker.h"
 #include "features/stereo_frame.h"
 #include "features/stereo_matcher.h"
@@ -33,7 +32,6 @@ class RowSearch {
  private:
   StereoMatcher matcher_;
   FeatureTracker tracker_;
-  Workers workers_;  // the calling thread only: the sample is small
 };
 
 }  // namespace rotrocc

@@ -59,7 +59,7 @@ struct RowMatch {
   double gain = 1.0;
 };
 
-/// Buffers of a search along a row, one for each thread.
+/// Buffers of a search along a row.
 struct RowBuffers {
   std::vector<std::int16_t> strip;
   std::vector<std::int32_t> scratch;
@@ -228,34 +228,32 @@ cv::Range clip(const cv::Mat& image, const cv::Range& columns) {
 }
 
 /// Calls matchOf(i) for each pixel with a window, for its match and the column where its strip
-/// begins, and converts them to disparities of at least `min_px`. `gains`: 0 without a disparity;
+/// begins, and converts them to disparities of at least `min_px`. `gains`: of these,
 /// null if nobody needs them.
 template <class MatchOf>
-void eachPixel(Workers& workers,
-               const RectifiedImages& images,
+void eachPixel(const RectifiedImages& images,
                const std::vector<cv::Point2f>& pixels,
                double min_px,
                std::vector<float>& disparities_px,
                std::vector<float>* gains,
                const MatchOf& matchOf) {
-  if (gains != nullptr) gains->assign(pixels.size(), 0.0F);
+  if (gains != nullptr) gains->clear();
   disparities_px.assign(pixels.size(), StereoMatcher::kNoDisparity);
-  workers.forEach(pixels.size(), [&](std::size_t i, std::size_t) {
-    if (!windowInside(images.left, pixels[i])) return;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    if (!windowInside(images.left, pixels[i])) continue;
     int first = 0;
     const RowMatch match = matchOf(i, first);
-    if (match.column == RowMatch::kNoColumn) return;
+    if (match.column == RowMatch::kNoColumn) continue;
     const float disparity_px = pixels[i].x - (match.column + static_cast<float>(first));
-    if (disparity_px < min_px) return;
+    if (disparity_px < min_px) continue;
     disparities_px[i] = disparity_px;
-    if (gains != nullptr) (*gains)[i] = static_cast<float>(match.gain);
-  });
+    if (gains != nullptr) gains->push_back(static_cast<float>(match.gain));
+  }
 }
 
 }  // namespace
 
-void StereoMatcher::match(Workers& workers,
-                          const RectifiedImages& images,
+void StereoMatcher::match(const RectifiedImages& images,
                           const std::vector<cv::Point2f>& corners,
                           std::vector<float>& disparities_px) const {
   const cv::Mat& right = images.right;
@@ -265,6 +263,8 @@ void StereoMatcher::match(Workers& workers,
   const double min_px = config_.min_disparity_px + infinity_px;
   const int farthest = cvFloor(min_px);
   const Kernels& kernels = chooseKernels();
+  thread_local RowBuffers buffers_of_thread;
+  RowBuffers& buffers = buffers_of_thread;  // one look-up
   const auto matchOf = [&](std::size_t i, int& first) -> RowMatch {
     const cv::Point pixel(cvRound(corners[i].x), cvRound(corners[i].y));
     const int right_row = pixel.y + rows_lower;
@@ -272,18 +272,15 @@ void StereoMatcher::match(Workers& workers,
     const cv::Range columns = clip(right, cv::Range(pixel.x - nearest - 1, pixel.x - farthest + 2));
     if (columns.size() < 3) return {};
     first = columns.start;
-    thread_local RowBuffers buffers_of_thread;
-    RowBuffers& buffers = buffers_of_thread;  // one look-up
     const LeftWindow window(kernels, images.left, pixel);
     const uchar* pixels = right.ptr<uchar>(right_row - kHalf) + first - kHalf;
     return window.searchRow(
         pixels, static_cast<std::ptrdiff_t>(right.step), columns.size(), buffers);
   };
-  eachPixel(workers, images, corners, min_px, disparities_px, nullptr, matchOf);
+  eachPixel(images, corners, min_px, disparities_px, nullptr, matchOf);
 }
 
-double StereoMatcher::matchNear(Workers& workers,
-                                const RectifiedImages& images,
+double StereoMatcher::matchNear(const RectifiedImages& images,
                                 const std::vector<cv::Point2f>& pixels,
                                 const std::vector<float>& expected_px,
                                 std::vector<float>& disparities_px) const {
@@ -308,8 +305,7 @@ double StereoMatcher::matchNear(Workers& workers,
     return window.searchNear(strip, kStride, columns.size());
   };
   thread_local std::vector<float> gains;
-  eachPixel(workers, images, pixels, min_px, disparities_px, &gains, matchOf);
-  gains.erase(std::remove(gains.begin(), gains.end(), 0.0F), gains.end());
+  eachPixel(images, pixels, min_px, disparities_px, &gains, matchOf);
   return gains.empty() ? 1.0 : median(gains);
 }
 

@@ -5,7 +5,6 @@
 
 #include <opencv2/core.hpp>
 
-#include "common/workers.h"
 #include "rotrocc/odometry_config.h"
 #include "rotrocc/stereo_camera.h"
 
@@ -36,8 +35,7 @@ class StereoMatcher {
   /// Computes the disparity x_left - x_right [px] of each corner of the left image. Corners must be
   /// at integer pixels. The result is kNoDisparity for corners too close to the border and for
   /// matches that are too different, ambiguous or out of range. The row offset is rounded.
-  void match(Workers& workers,
-             const RectifiedImages& images,
+  void match(const RectifiedImages& images,
              const std::vector<cv::Point2f>& corners,
              std::vector<float>& disparities_px) const;
 
@@ -46,8 +44,7 @@ class StereoMatcher {
   /// ambiguity. Pixels with an expected disparity of kNoDisparity are skipped. Returns the contrast
   /// of the right image relative to the left one: the median over the matches, or 1 if there are
   /// none.
-  double matchNear(Workers& workers,
-                   const RectifiedImages& images,
+  double matchNear(const RectifiedImages& images,
                    const std::vector<cv::Point2f>& pixels,
                    const std::vector<float>& expected_px,
                    std::vector<float>& disparities_px) const;

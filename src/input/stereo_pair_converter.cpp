@@ -214,8 +214,8 @@ cv::Mat readMask(const std::string& path) {
 
 }  // namespace
 
-StereoPairConverter::StereoPairConverter(int significant_bits, const std::string& mask, int threads)
-    : known_bits_(significant_bits), mask_(mask), rectifier_(threads) {
+StereoPairConverter::StereoPairConverter(int significant_bits, const std::string& mask)
+    : known_bits_(significant_bits), mask_(mask) {
   if (mask.empty()) return;
   left_mask_ = readMask(pathOfSide(mask, "left"));
   right_mask_ = readMask(pathOfSide(mask, "right"));

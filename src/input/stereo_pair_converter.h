@@ -39,15 +39,13 @@ class StereoPairConverter {
 
   /// `significant_bits`: b if it is known, without a black level, or 0. `mask`: path of an image
   /// that is not black where pairs have no features (StereoPair::left_mask); with "%s" in place of
-  /// left and right if there are two; empty: none. `threads`: see StereoRectifier. Throws
-  /// std::runtime_error if the mask cannot be read.
-  explicit StereoPairConverter(int significant_bits = 0,
-                               const std::string& mask = "",
-                               int threads = 2);
+  /// left and right if there are two; empty: none. Throws std::runtime_error if the mask cannot be
+  /// read.
+  explicit StereoPairConverter(int significant_bits = 0, const std::string& mask = "");
 
-  /// Without a search for the range, in one thread.
+  /// Without a search for the range.
   StereoPairConverter(const GrayRange& range, const std::string& mask)
-      : StereoPairConverter(range.bits, mask, 1) {
+      : StereoPairConverter(range.bits, mask) {
     known_black_ = range.black;
   }
 
@@ -61,8 +59,6 @@ class StereoPairConverter {
 
   /// Of the last pair.
   const GrayRange& grayRange() const { return range_; }
-
-  void setThreads(int threads) { rectifier_.setThreads(threads); }
 
  private:
   void validateMasks(const cv::Size& size) const;

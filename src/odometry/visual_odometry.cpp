@@ -44,7 +44,7 @@ OdometryConfig byMethod(OdometryConfig config) {
 
 std::unique_ptr<CorrespondenceFinder> makeFinder(const OdometryConfig& config) {
   if (config.method == "paper") return std::make_unique<PaperFinder>(config.correspondence_finder);
-  return std::make_unique<CorrespondenceFinder>(config.correspondence_finder, config.threads);
+  return std::make_unique<CorrespondenceFinder>(config.correspondence_finder);
 }
 
 /// Without a motion.

@@ -129,8 +129,6 @@ void addOdometry(OdometryConfig& c, ParameterTable& table) {
   table.beginSection("visual_odometry");
   table.add("method", c.method, methodNames()).description =
       "paper: as published, together with the rest of config/paper.yaml";
-  table.add("threads", c.threads, {1, 16}).description =
-      "threads per pair, including the calling one; results do not depend on it";
   table.add("max_tries", c.max_tries, {1, 20}).description =
       "maximum number of attempts from each earlier frame: each tracks the features and estimates "
       "the motion";

@@ -139,9 +139,11 @@ StereoPair StereoRectifier::rectify(const StereoPair& raw,
     right_ = makeSide(calibration->right, camera, camera.cx_right);
     calibration_ = calibration;
   }
-  workers_.run(2, [&](int part) {
-    Side& side = part == 0 ? *left_ : *right_;
-    side.resampler.resample(part == 0 ? raw.left : raw.right, side.rectified);
+  cv::parallel_for_({0, 2}, [&](const cv::Range& sides) {
+    for (int i = sides.start; i < sides.end; ++i) {
+      Side& side = i == 0 ? *left_ : *right_;
+      side.resampler.resample(i == 0 ? raw.left : raw.right, side.rectified);
+    }
   });
   return {raw.stamp_ns,
           left_->rectified,

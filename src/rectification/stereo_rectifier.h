@@ -9,7 +9,6 @@
 
 #include <opencv2/core.hpp>
 
-#include "common/workers.h"
 #include "rectification/stereo_calibration.h"
 #include "rotrocc/stereo_pair.h"
 
@@ -66,13 +65,6 @@ class ImageResampler {
 /// Rectifies the images of a stereo pair, left and right in parallel, without allocating memory.
 class StereoRectifier {
  public:
-  /// With one thread, the left image is rectified before the right one; more than two are of no
-  /// use.
-  explicit StereoRectifier(int threads = 2) : workers_(std::min(threads, 2)) {}
-
-  /// Keeps the maps. `threads` as above.
-  void setThreads(int threads) { workers_ = Workers(std::min(threads, 2)); }
-
   /// By the calibration of this pair, whose cameras are valid: the maps are rebuilt when it is
   /// another object. The rectified images are valid until the next call. Masks are rectified, too:
   /// a pixel is masked if a masked one contributes to it. Pixels that a camera does not see repeat
@@ -94,7 +86,6 @@ class StereoRectifier {
 
   std::optional<Side> left_, right_;
   std::shared_ptr<const StereoCalibration> calibration_;  // that the maps are made of
-  Workers workers_;
 };
 
 }  // namespace rotrocc

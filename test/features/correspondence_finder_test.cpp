@@ -134,9 +134,8 @@ TEST(CorrespondenceFinderTest, TracksNothingBehindTheCamera) {
 std::vector<cv::Point2f> firstWithDisparity(const StereoPair& pair,
                                             const std::vector<cv::Point2f>& all,
                                             std::size_t most) {
-  Workers workers(1);
   std::vector<float> disparities_px;
-  StereoMatcher({}).match(workers, {pair.left, pair.right, scene().camera()}, all, disparities_px);
+  StereoMatcher({}).match({pair.left, pair.right, scene().camera()}, all, disparities_px);
   std::vector<cv::Point2f> found;
   for (std::size_t i = 0; i < all.size() && found.size() < most; ++i) {
     if (disparities_px[i] != StereoMatcher::kNoDisparity) found.push_back(all[i]);

@@ -17,8 +17,7 @@ Corners detect(const cv::Mat& image,
                const FeatureDetector::Config& config = {},
                int candidates = 1) {
   Corners corners;
-  Workers workers(1);
-  FeatureDetector(config).detect(workers, image, corners, candidates);
+  FeatureDetector(config).detect(image, corners, candidates);
   return corners;
 }
 

@@ -33,8 +33,7 @@ struct TwoViews {
     first = prev.left;
     second = cur.left;
     Points found;
-    Workers workers(1);
-    FeatureDetector({}).detect(workers, first, found);
+    FeatureDetector({}).detect(first, found);
     const cv::Rect2f inner(12, 12, scene.camera().width - 24.0F, scene.camera().height - 24.0F);
     for (const cv::Point2f& corner : found) {
       const Eigen::Vector3d point =
@@ -80,9 +79,8 @@ Tracked track(const cv::Mat& first,
   buildPyramid(first, levels, side, a);
   buildPyramid(second, levels, side, b);
   Tracked result = known(predictions);
-  Workers workers(1);
   const std::vector<float> same_size(from.size(), 1.0F);
-  tracker.track(workers, a, b, from, same_size, true, result.cur, result.tracked);
+  tracker.track(a, b, from, same_size, true, result.cur, result.tracked);
   return result;
 }
 
@@ -150,9 +148,7 @@ TEST(FeatureTrackerTest, LeavesPointsAloneThatAreNotAskedFor) {
   Points cur = before;
   std::vector<char> tracked(cur.size());
   for (std::size_t i = 0; i < tracked.size(); ++i) tracked[i] = i % 2;
-  Workers workers(1);
-  tracker.track(
-      workers, a, b, drive().corners, std::vector<float>(cur.size(), 1.0F), true, cur, tracked);
+  tracker.track(a, b, drive().corners, std::vector<float>(cur.size(), 1.0F), true, cur, tracked);
   const Tracked all =
       track(drive().first, drive().second, drive().corners, before, StereoFrame::kLevels);
   for (std::size_t i = 0; i < cur.size(); ++i) {

@@ -34,9 +34,8 @@ Disparities match(const cv::Mat& left,
                   const StereoMatcher::Config& config = {},
                   double infinity_px = 0.0) {
   Disparities disparities;
-  Workers workers(1);
   const StereoCamera camera = cameraOf(infinity_px);
-  StereoMatcher(config).match(workers, {left, right, camera}, pixels, disparities);
+  StereoMatcher(config).match({left, right, camera}, pixels, disparities);
   return disparities;
 }
 
@@ -45,9 +44,7 @@ float matchNear(const cv::Mat& left,
                 const cv::Point2f& pixel,
                 float expected_px) {
   Disparities disparities;
-  Workers workers(1);
-  StereoMatcher({}).matchNear(
-      workers, {left, right, cameraOf(0.0)}, {pixel}, {expected_px}, disparities);
+  StereoMatcher({}).matchNear({left, right, cameraOf(0.0)}, {pixel}, {expected_px}, disparities);
   return disparities.at(0);
 }
 
@@ -192,10 +189,8 @@ TEST(StereoMatcherTest, RejectsWhatLooksDifferent) {
     cv::Mat right;
     cv::add(exposed(10.0, 1.0, 0.0), added, right, cv::noArray(), CV_8U);
     Disparities near_px;
-    Workers workers(1);
     const Disparities expected_px(pixels.size(), 10.0F);
-    StereoMatcher({}).matchNear(
-        workers, {left, right, cameraOf(0.0)}, pixels, expected_px, near_px);
+    StereoMatcher({}).matchNear({left, right, cameraOf(0.0)}, pixels, expected_px, near_px);
     EXPECT_EQ(countFound(near_px), countFound(match(left, right, pixels)));
     return countFound(near_px);
   };
@@ -208,7 +203,6 @@ TEST(StereoMatcherTest, RejectsWhatLooksDifferent) {
 TEST(StereoMatcherTest, FindsTheSameDisparitiesAtAnotherExposure) {
   const Pixels pixels = grid(kMiddle, 6);
   const Disparities expected_px(pixels.size(), 10.0F);
-  Workers workers(1);
   const cv::Mat left = exposed(0.0, 1.0, 0.0);
   const Disparities alike = match(left, exposed(10.25, 1.0, 0.0), pixels);
   for (const double gain : {0.5, 1.3}) {
@@ -217,8 +211,8 @@ TEST(StereoMatcherTest, FindsTheSameDisparitiesAtAnotherExposure) {
       const cv::Mat right = exposed(10.25, gain, offset);
       const Disparities found = match(left, right, pixels);
       Disparities near;
-      const double found_gain = StereoMatcher({}).matchNear(
-          workers, {left, right, cameraOf(0.0)}, pixels, expected_px, near);
+      const double found_gain =
+          StereoMatcher({}).matchNear({left, right, cameraOf(0.0)}, pixels, expected_px, near);
       EXPECT_NEAR(found_gain / gain, 1.0, 0.004);  // measured: within 0.2 %
       std::size_t same = 0;
       // Gray levels are rounded. Measured: at most 0.025 px.

@@ -1,12 +1,8 @@
 #include "node/base/pair_processor.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <optional>
-#include <sstream>
 #include <string>
-#include <thread>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -263,51 +259,6 @@ TEST(RectifyTest, RawImagesAreRectifiedByTheCameraInfoOfTheirTime) {
   }
   EXPECT_EQ(rig.answer()->result.state, State::kOk);
   EXPECT_NEAR(xOf(rig), 3 * kStep_m, 0.05);
-}
-
-/// The threads of this process that share the work on a pair.
-int countHelpers() {
-  int count = 0;
-  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
-    std::string name;
-    std::getline(std::ifstream(task.path() / "comm"), name);
-    count += name == "odometry_help" ? 1 : 0;
-  }
-  return count;
-}
-
-TEST(RectifyTest, TheNumberOfThreadsCanBeChanged) {
-  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one processor, no helpers";
-  Parameters parameters;
-  parameters.node.rectify = true;
-  OdometryRig rig(parameters);
-  rig.sendInfos();
-  for (const int threads : {2, 1, 2}) {
-    parameters.odometry.threads = threads;
-    rig.processor().requestConfig(parameters.odometry);
-    rig.drive();
-    const int helpers = 2 * (threads - 1);  // of the estimator and of the rectification
-    EXPECT_TRUE(waitUntil([&] { return countHelpers() == helpers; })) << threads;
-  }
-}
-
-TEST(RectifyTest, TheResultDoesNotDependOnTheNumberOfThreads) {
-  std::string poses[2];
-  for (const int threads : {1, 2}) {
-    Parameters parameters;
-    parameters.node.rectify = true;
-    parameters.odometry.threads = threads;
-    OdometryRig rig(parameters);
-    const auto bend = [](sensor_msgs::CameraInfo& left, sensor_msgs::CameraInfo& right) {
-      left.D = right.D = {-0.01, 0.0, 0.0, 0.0, 0.0};
-    };
-    rig.sendInfos(bend);
-    rig.drivePairs(3);
-    std::ostringstream text;
-    text << std::hexfloat << rig.answer()->state.T_odom_base.T.matrix();
-    poses[threads - 1] = text.str();
-  }
-  EXPECT_EQ(poses[0], poses[1]);
 }
 
 }  // namespace

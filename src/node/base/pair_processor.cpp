@@ -31,8 +31,7 @@ PairProcessor::PairProcessor(const Parameters& parameters, Log log)
     : log_(std::move(log)),
       parameters_(parameters.node),
       systematic_error_(parameters.odometry.systematic_error),
-      converter_(
-          parameters.node.significant_bits, parameters.node.mask, parameters.odometry.threads),
+      converter_(parameters.node.significant_bits, parameters.node.mask),
       odometry_(parameters.odometry),
       inspector_(parameters.odometry, parameters.node.rectify) {}
 
@@ -59,7 +58,6 @@ PairAnswer PairProcessor::process(const PairInput& in) {
   const Requests requests = std::exchange(taken_, {});
   if (const auto& config = requests.config) {
     odometry_.configure(*config);
-    converter_.setThreads(config->threads);
     inspector_.configure(*config);
     systematic_error_ = config->systematic_error;
     if (base_odometry_) base_odometry_->setSystematicError(systematic_error_);

@@ -51,8 +51,8 @@ class MatchCounter {
       : detector_(config.feature_detector), matcher_(config.stereo_matcher), camera_(camera) {}
 
   int count(const cv::Mat& left, const cv::Mat& right) {
-    detector_.detect(alone_, left, corners_);
-    matcher_.match(alone_, {left, right, camera_}, corners_, disparities_);
+    detector_.detect(left, corners_);
+    matcher_.match({left, right, camera_}, corners_, disparities_);
     return static_cast<int>(
         std::count_if(disparities_.begin(), disparities_.end(), [](float disparity_px) {
           return disparity_px != StereoMatcher::kNoDisparity;
@@ -63,7 +63,6 @@ class MatchCounter {
   int corners() const { return static_cast<int>(corners_.size()); }
 
  private:
-  Workers alone_{1};
   FeatureDetector detector_;
   StereoMatcher matcher_;
   StereoCamera camera_;
@@ -95,7 +94,6 @@ Agreement agreementOf(OdometryConfig config,
                       const StereoCamera& camera,
                       const StereoPair& earlier,
                       const StereoPair& later) {
-  config.threads = 1;
   VisualOdometry odometry(config);
   odometry.process(earlier, camera);
   const OdometryResult result = odometry.process(later, camera);
