@@ -175,8 +175,8 @@ class PairChecks {
 
   bool isMostlyLost() const { return 2 * with_motion_ < pairs_; }
 
-  /// Whether most motions are in doubt because the images are no pairs.
-  bool isExplained() const { return is_of_no_pair_ && 2 * ok_ < pairs_; }
+  /// Whether many motions are in doubt because the images are no pairs.
+  bool isExplained() const { return is_of_no_pair_ && 4 * (pairs_ - ok_) > pairs_; }
 
   /// One pair with a motion, of about the middle: later ones replace it ever more rarely.
   void keepSample(const StereoPair& pair, const OdometryResult& result) {

@@ -24,11 +24,7 @@ const Kernels kernels = {smoothDown,
                          multiplyWindow,
                          takeWindow,
                          takeContrast,
-                         compareWindow,
-                         fitDisparities,
-                         linearize,
-                         addColumnProducts,
-                         multiplyByDisparity};
+                         compareWindow};
 
 }  // namespace ROTROCC_INSTRUCTIONS
 

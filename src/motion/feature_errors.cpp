@@ -27,8 +27,10 @@ Eigen::Vector2d finiteProjection(const StereoCamera& camera, Eigen::Vector3d poi
 }
 
 /// Sets each value to length(feature).
-template <class Features, class Length>
-void measureEach(const Features& features, std::vector<double>& lengths_px, const Length& length) {
+template <class Length>
+void measureEach(const Correspondences& features,
+                 std::vector<double>& lengths_px,
+                 const Length& length) {
   lengths_px.resize(features.size());
   std::transform(features.begin(), features.end(), lengths_px.begin(), length);
 }
@@ -92,13 +94,6 @@ void reprojectionErrors(const StereoCamera& camera,
   measureEach(features, errors_px, [&](const Correspondence& feature) {
     const Eigen::Vector3d point = T_keyframe_cur * feature.point_cur;
     return (feature.keyframe_px - finiteProjection(camera, point)).norm();
-  });
-}
-
-void fittedErrors(const StereoCamera& camera, const Fit& fit, std::vector<double>& errors_px) {
-  measureEach(fit.features, errors_px, [&](const FittedFeature& feature) {
-    const Eigen::Vector3d point = feature.rotated_point + fit.T_keyframe_cur.translation();
-    return (feature.whitening * (feature.target_px - finiteProjection(camera, point))).norm();
   });
 }
 

@@ -5,7 +5,6 @@
 
 #include <Eigen/Geometry>
 
-#include "motion/fitted_feature.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/stereo_camera.h"
 
@@ -93,9 +92,6 @@ void reprojectionErrors(const StereoCamera& camera,
                         const Correspondences& features,
                         const Eigen::Isometry3d& T_keyframe_cur,
                         std::vector<double>& errors_px);
-
-/// Whitened reprojection errors |W (target - pi(R X_cur + T))| [px], at the motion of the fit.
-void fittedErrors(const StereoCamera& camera, const Fit& fit, std::vector<double>& errors_px);
 
 /// Length [px] of each feature's flow after removing the rotation (Eq. 27, 28), which is the flow
 /// caused by the translation alone: |x_keyframe - pi(R x_cur)|.

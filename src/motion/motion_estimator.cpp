@@ -72,7 +72,7 @@ double inflation(double scatter_px2, double residual_px2) {
 }
 
 /// Takes the terms of the problem, whose motion has so many parameters.
-Information collect(const ReprojectionProblem<6>& problem,
+Information collect(const ReprojectionProblem& problem,
                     const Measurements& measured,
                     int estimated_parameters) {
   Information information;
@@ -80,7 +80,7 @@ Information collect(const ReprojectionProblem<6>& problem,
   const ImageGrid grid(measured.camera, kScatterColumns, kScatterRows);
   std::array<Vector6d, kScatterColumns * kScatterRows> gradients;
   gradients.fill(Vector6d::Zero());
-  problem.linearize(problem.start(), [&](const ReprojectionProblem<6>::Term& term) {
+  problem.visit(problem.motion(), [&](const ReprojectionProblem::Term& term) {
     Eigen::Matrix<double, 2, 6> J;
     J << term.weight * term.jacobian.rightCols<3>(), term.weight * term.jacobian.leftCols<3>();
     information.matrix += J.transpose() * J;
@@ -100,9 +100,9 @@ Information collect(const ReprojectionProblem<6>& problem,
   return information;
 }
 
-/// Sets the covariance of a valid motion with its fit, in the order of OdometryResult::covariance,
-/// and the noise of the flow, corrected for the dropped features. Returns false if the features do
-/// not determine the motion. `problem` is a buffer.
+/// Sets the covariance of a valid motion, which is that of `problem`, in the order of
+/// OdometryResult::covariance, and the noise of the flow, corrected for the dropped features.
+/// Returns false if the features do not determine the motion. Changes the weights of the problem.
 ///
 /// The covariance of the rotation comes from stage 1, with the translation marginalized. The
 /// covariance of the translation comes from stage 2, plus the effect of the rotation's error dR:
@@ -115,12 +115,11 @@ Information collect(const ReprojectionProblem<6>& problem,
 /// g (the sandwich formula, with both of its parts scaled by g).
 bool estimateCovariance(const MotionEstimatorConfig& config,
                         const Measurements& measured,
-                        const Fit& fit,
-                        ReprojectionProblem<6>& problem,
+                        ReprojectionProblem& problem,
                         MotionEstimate& motion) {
   const auto informationOf = [&](const FeatureSet& set, int estimated_parameters) {
-    problem.assign(measured.camera, fit, set);
-    problem.weigh(problem.start(), config.as_published ? 0.0 : kCauchyFactor);
+    problem.select(set);
+    if (!config.as_published) problem.weigh(kCauchyFactor);
     return collect(problem, measured, estimated_parameters);
   };
   const Information one = informationOf(motion.rotation_inliers, 6);
@@ -210,11 +209,10 @@ void MotionEstimator::estimateFrom(const FeatureSet& set,
                                    const Eigen::Isometry3d& initial,
                                    double dt_s,
                                    MotionEstimate& estimate) {
-  two_stages_.estimate(measured, set, initial, dt_s, fit_, estimate);
+  two_stages_.estimate(measured, set, initial, dt_s, problem_, estimate);
   estimate.covariance.setZero();
   estimate.flow_noise_px = 0.0;
-  estimate.valid =
-      estimate.valid && estimateCovariance(config_, measured, fit_, problem_, estimate);
+  estimate.valid = estimate.valid && estimateCovariance(config_, measured, problem_, estimate);
 }
 
 }  // namespace rotrocc

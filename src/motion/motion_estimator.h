@@ -5,7 +5,6 @@
 
 #include <Eigen/Geometry>
 
-#include "motion/fitted_feature.h"
 #include "motion/reprojection_problem.h"
 #include "motion/two_stage_estimator.h"
 #include "rotrocc/correspondence.h"
@@ -52,8 +51,7 @@ class MotionEstimator {
 
   // Buffers, reused.
   MotionEstimate found_, retry_;
-  Fit fit_;
-  ReprojectionProblem<6> problem_;
+  ReprojectionProblem problem_;
   FeatureSet all_, near_;
   std::vector<double> errors_px_;
 };

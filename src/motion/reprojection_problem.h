@@ -2,19 +2,25 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <type_traits>
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
-#include "kernels/kernels.h"
-#include "motion/feature_errors.h"
-#include "motion/fitted_feature.h"
 #include "rotrocc/correspondence.h"
-#include "rotrocc/rigid_motion.h"
 #include "rotrocc/stereo_camera.h"
 
 namespace rotrocc {
+
+/// Standard deviation of a disparity over that of a flow.
+constexpr double kDisparityNoiseRatio = 4.0;
+
+/// The measurements of one pair and their noise.
+struct Measurements {
+  const StereoCamera& camera;
+  const Correspondences& features;
+  double noise_ratio;  ///< standard deviation of a disparity over that of a flow
+};
 
 /// Divides an image into cells of equal size, numbered row by row.
 class ImageGrid {
@@ -43,202 +49,142 @@ class ImageGrid {
 /// leave of the lenses, and texture that their windows have in common. The image is divided into
 /// cells, and the features of a cell share one unknown error.
 ///
-/// What the lenses leave is also smooth over the whole image. On KITTI most of it is a parabola
-/// over the rows, see parabolaOverRows().
+/// What the lenses leave is also smooth over the whole image, see smoothErrors().
 struct SharedErrorGrid : ImageGrid {
   static constexpr int kColumns = 12;
   static constexpr int kRows = 4;
   static constexpr std::size_t kCells = kColumns * kRows;
 
   explicit SharedErrorGrid(const StereoCamera& camera) : ImageGrid(camera, kColumns, kRows) {}
+
+  /// y^2, x^2 and x y of a cell, where x and y are -1 and 1 at the borders of the image. On KITTI
+  /// most of the errors are y^2.
+  static Eigen::Vector3d smoothErrors(std::size_t cell) {
+    const double x = (2.0 * static_cast<double>(cell % kColumns) + 1.0) / kColumns - 1.0;
+    const double y = (2.0 * static_cast<double>(cell / kColumns) + 1.0) / kRows - 1.0;
+    return {y * y, x * x, x * y};
+  }
 };
 
-/// Ratio of the standard deviation of a cell's error to the flow noise: 2.4 to 6 on the rigs of
-/// KITTI, Karlsruhe and EuRoC.
-constexpr double kSharedRatio = 3.0;
-
-/// The same ratio for a smooth error at the borders of the image: 0.6 times kSharedRatio.
+/// Ratio of the standard deviation of a smooth error at the borders to that of a flow.
 constexpr double kSmoothRatio = 1.8;
 
-/// y^2 of a pixel, where y is -1 at the top and 1 at the bottom of the image.
-inline double parabolaOverRows(const StereoCamera& camera, const Eigen::Vector2d& pixel) {
-  const double y = 2.0 * pixel.y() / camera.height - 1.0;
-  return y * y;
-}
-
-/// Least squares over a set of fitted features: residuals W (target - pi(R X + T)) [px], Jacobian
-/// and weights.
+/// Least squares over the whitened reprojection errors W (keyframe_px - pi(R X_cur + T)) [px] of
+/// the features of a pair (Eq. 25, and with a fixed rotation Eq. 29).
 ///
-/// With kParameters = 6 the parameters are a rotation vector relative to R_0, the rotation of the
-/// fit, and the translation (Eq. 25): R = Exp(p[0..2]) R_0, T = p[3..5]. With kParameters = 3 they
-/// are the translation alone, and the rotation is R_0 (Eq. 29).
-template <int kParameters>
+/// The noise of the disparities is accounted for: with j = d pi(R X + T) / d disparity and r =
+/// Measurements::noise_ratio, a residual has the covariance S = I + r^2 j j^T in units of the
+/// flow's variance, and W = S^-1/2. Residuals are linearized at the disparity that fits both of its
+/// measurements best: noisy far points would bias the translation towards zero. Their least squares
+/// have the same minimum as least squares over the motion and all true disparities (Deming
+/// regression). A ratio of 0 gives the paper's least squares.
 class ReprojectionProblem {
  public:
-  using Parameters = Eigen::Matrix<double, kParameters, 1>;
+  /// Columns of a linearized residual: its derivatives by a bias of all disparities, by a rotation
+  /// applied after that of the motion and by the translation, and the residual itself.
+  static constexpr int kBias = 0;
+  static constexpr int kMotion = 1;
+  static constexpr int kTranslation = 4;
+  static constexpr int kResidual = 7;
+  static constexpr int kColumns = 8;
+
+  /// sum w [J r]^T [J r]: J^T J, with J^T r in the last column and r^T r in the lower right corner.
+  using NormalMatrix = Eigen::Matrix<double, kColumns, kColumns>;
 
   /// The residual of one feature.
-  struct Residual {
+  struct Term {
     std::size_t feature;  ///< index among all features of the pair
-    std::size_t cell;     ///< of SharedErrorGrid
-    double parabola;      ///< parabolaOverRows()
     double weight;        ///< of both rows
     Eigen::Vector2d residual_px;
+    Eigen::Matrix<double, 2, 6> jacobian;
     Eigen::Vector2d by_disparity;  ///< derivative by an error of the disparity, up to the sign
   };
 
-  /// The same with derivatives by a rotation applied after that of the parameters, and by the
-  /// translation.
-  struct Term : Residual {
-    Eigen::Matrix<double, 2, kParameters> jacobian;
-  };
+  /// Takes all features, with equal weights, and the motion at which disparities are fitted.
+  void assign(const Measurements& measured, const Eigen::Isometry3d& T_keyframe_cur);
 
-  /// sum w [J r]^T [J r]: J^T J, with J^T r in the last column and r^T r in the lower right corner.
-  using NormalMatrix = Eigen::Matrix<double, kParameters + 1, kParameters + 1>;
+  const Eigen::Isometry3d& motion() const { return T_keyframe_cur_; }
+  /// Also fits the disparities there.
+  void setMotion(const Eigen::Isometry3d& T_keyframe_cur);
 
-  /// Takes the features flagged in `set`, with equal weights.
-  void assign(const StereoCamera& camera, const Fit& fit, const FeatureSet& set);
+  /// Equal weights for the features flagged in `set`, 0 for the others. Without shared errors.
+  void select(const FeatureSet& set);
 
-  /// Weights the features by their residuals at `parameters`, using cauchyWeights() with the given
-  /// factor.
-  void weigh(const Parameters& parameters, double robust_factor);
+  /// Multiplies the weights by cauchyWeights() of the residuals at motion(), with the given factor.
+  void weigh(double robust_factor);
 
   /// Replaces the weights by their squares.
   void squareWeights();
 
-  /// Adds an unknown for each cell of SharedErrorGrid, a disparity error that its features share.
-  /// Its standard deviation is `cell_ratio` times that of a flow. One more unknown is a disparity
-  /// error that grows with parabolaOverRows(). At the top and the bottom of the image it has a
-  /// standard deviation of `parabola_ratio` times that of a flow. The unknowns are eliminated
-  /// (Schur complement) from normalMatrix() and cost(). A ratio of 0: there are none, as after
-  /// assign(). The parabola needs the cells.
-  void shareErrors(double cell_ratio, double parabola_ratio);
+  /// Adds an unknown for each cell of SharedErrorGrid, a disparity error that its features share,
+  /// with a standard deviation of `cell_ratio` times that of a flow, and one for each of its
+  /// smoothErrors(), with `smooth_ratio` times that; 0: there are none. The unknowns are eliminated
+  /// (Schur complement) from normalMatrix().
+  void shareErrors(double cell_ratio, double smooth_ratio);
 
-  /// The parameters of the motion of the fit.
-  Parameters start() const;
-
-  Eigen::Isometry3d motionAt(const Parameters& parameters) const;
-
-  std::size_t size() const { return indices_.size(); }
-
-  /// Calls visit(const Term&) for each feature, in order.
-  template <class Visit>
-  void linearize(const Parameters& parameters, Visit&& visit) const {
-    const MotionTerms terms = termsAt(parameters);
-    LinearBlock linear;
-    for (std::size_t i = 0; i < indices_.size(); ++i) {
-      const std::size_t lane = i % kSize;
-      if (lane == 0) chooseKernels().linearize(terms, kFirst, blocks_[i / kSize], linear);
-      Term term;
-      static_cast<Residual&>(term) = residualOf(i, linear);
-      for (int column = 0; column < kParameters; ++column) {
-        term.jacobian(0, column) = linear.x[kFirst + column][lane];
-        term.jacobian(1, column) = linear.y[kFirst + column][lane];
-      }
-      visit(static_cast<const Term&>(term));
-    }
-  }
-
-  /// Calls visit(const Residual&) for each feature, in order.
-  template <class Visit>
-  void visitResiduals(const Parameters& parameters, const Visit& visit) const {
-    const MotionTerms terms = termsAt(parameters);
-    LinearBlock linear;
-    for (std::size_t i = 0; i < indices_.size(); ++i) {
-      if (i % kSize == 0) {
-        chooseKernels().linearize(terms, LinearBlock::kResidual, blocks_[i / kSize], linear);
-      }
-      visit(residualOf(i, linear));
-    }
-  }
-
-  /// The products of a feature with g, its derivative by an error of the disparity.
-  struct ByDisparity {
-    std::size_t feature, cell;                          ///< as those of Residual
-    double parabola;                                    ///< likewise
-    double information;                                 ///< w g^T g
-    Eigen::Matrix<double, kParameters + 1, 1> product;  ///< w [J r]^T g
-  };
-
-  /// The normal matrix with derivatives as those of Term. Calls visit(const ByDisparity&) for each
-  /// feature, in order, unless it is null.
-  template <class Visit>
-  NormalMatrix sumTerms(const Parameters& parameters, const Visit& visit) const {
-    const Kernels& kernels = chooseKernels();
-    const MotionTerms terms = termsAt(parameters);
-    LinearBlock linear;
-    ColumnProducts sums = {};
-    for (std::size_t first = 0; first < size(); first += kSize) {
-      const ResidualBlock& block = blocks_[first / kSize];
-      kernels.linearize(terms, kFirst, block, linear);
-      kernels.addColumnProducts(kFirst, block, linear, sums);
-      if constexpr (!std::is_null_pointer_v<Visit>) visitByDisparity(first, block, linear, visit);
-    }
-    return normalMatrixOf(sums);
-  }
-
-  /// The normal matrix of all terms by the parameters, without shared errors.
-  NormalMatrix normalMatrix(const Parameters& parameters) const;
+  /// The normal matrix at a motion: columns from `first` on, the others are zero.
+  NormalMatrix normalMatrix(const Eigen::Isometry3d& T_keyframe_cur, int first) const;
 
   /// Sum of w |r|^2, without the part that shared errors explain.
-  double cost(const Parameters& parameters) const;
+  double cost(const Eigen::Isometry3d& T_keyframe_cur) const {
+    return normalMatrix(T_keyframe_cur, kResidual)(kResidual, kResidual);
+  }
 
-  // For ceres::TinySolver: a problem with few residuals and the same J^T J, J^T r and r^T r. The
-  // solver uses nothing else.
-  using Scalar = double;
-  enum { NUM_RESIDUALS = kParameters + 1, NUM_PARAMETERS = kParameters };
-  bool operator()(const double* parameters, double* residuals, double* jacobian) const;
+  /// |r| of all features at motion() [px], whatever their weights.
+  void errors(std::vector<double>& errors_px) const;
 
- private:
-  static constexpr bool kRotates = kParameters == 6;
-  static constexpr std::size_t kSize = ResidualBlock::kSize;
-  static constexpr int kFirst = LinearBlock::kResidual - kParameters;  // column of the blocks
-
-  MotionTerms termsAt(const Parameters& parameters) const;
-
-  static NormalMatrix normalMatrixOf(const ColumnProducts& sums);
-
+  /// Calls visit(const Term&) for each feature with a weight, in order, at a motion.
   template <class Visit>
-  void visitByDisparity(std::size_t first,
-                        const ResidualBlock& block,
-                        const LinearBlock& linear,
-                        const Visit& visit) const {
-    ResidualBlock::Numbers information;
-    ResidualBlock::Numbers products[LinearBlock::kColumns];
-    chooseKernels().multiplyByDisparity(kFirst, block, linear, information, products);
-    ByDisparity by_disparity;
-    for (std::size_t i = first; i < std::min(first + kSize, size()); ++i) {
-      const std::size_t lane = i - first;
-      by_disparity.feature = indices_[i];
-      by_disparity.cell = cells_[i];
-      by_disparity.parabola = parabolas_[i];
-      by_disparity.information = information[lane];
-      for (int column = 0; column <= kParameters; ++column) {
-        by_disparity.product[column] = products[kFirst + column][lane];
-      }
-      visit(static_cast<const ByDisparity&>(by_disparity));
+  void visit(const Eigen::Isometry3d& T_keyframe_cur, const Visit& visit) const {
+    Linear linear;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Block& block = blocks_[i / kSize];
+      const auto lane = static_cast<Eigen::Index>(i % kSize);
+      if (lane == 0) linearize(T_keyframe_cur, kBias, block, linear);
+      if (block.weight[lane] > 0.0) visit(termOf(i, block, lane, linear));
     }
   }
 
-  Residual residualOf(std::size_t i, const LinearBlock& linear) const {
-    const ResidualBlock& block = blocks_[i / kSize];
-    const std::size_t lane = i % kSize;
-    return {indices_[i],
-            cells_[i],
-            parabolas_[i],
-            block.weight[lane],
-            {linear.x[LinearBlock::kResidual][lane], linear.y[LinearBlock::kResidual][lane]},
-            {block.by_disparity_x[lane], block.by_disparity_y[lane]}};
-  }
+ private:
+  /// So many features are processed together: the compiler vectorizes Eigen's arrays.
+  static constexpr std::size_t kSize = 8;
+  using Numbers = Eigen::Array<double, kSize, 1>;
+
+  struct Block {
+    Numbers target_x, target_y;  // keyframe_px, from the principal point
+    Numbers x, y, z;             // X_cur at the measured disparity [m]
+    Numbers disparity;           // measured, above that at infinity [px]
+    Numbers moved;               // fitted less measured disparity [px]
+    Numbers nearer;              // fitted depth over measured depth
+    Numbers w_xx, w_xy, w_yy;    // W
+    Numbers by_x, by_y;          // W j
+    Numbers weight;              // 0: not in the set, or no feature
+  };
+  struct Linear {
+    Numbers x[kColumns], y[kColumns];  // both rows of a residual
+  };
+  /// The features of a block at a motion.
+  struct Seen {
+    Numbers turned_x, turned_y, turned_z;  // R X_cur
+    Numbers in_front;                      // 1, or 0 if the depth is limited
+    Numbers per_z, u, v;                   // projection, from the principal point
+  };
+
+  Seen look(const Eigen::Isometry3d& T_keyframe_cur, const Block& block) const;
+  void linearize(const Eigen::Isometry3d& T_keyframe_cur,
+                 int first,
+                 const Block& block,
+                 Linear& linear) const;
+  static Term termOf(std::size_t i, const Block& block, Eigen::Index lane, const Linear& linear);
 
   StereoCamera camera_;
-  Eigen::Isometry3d T_keyframe_cur_;  // of the fit
-  std::vector<std::size_t> indices_;
-  std::vector<ResidualBlock> blocks_;        // what is free in the last one has no weight
+  double noise_ratio_ = 0.0;
+  Eigen::Isometry3d T_keyframe_cur_ = Eigen::Isometry3d::Identity();
+  std::size_t count_ = 0;
+  std::vector<Block> blocks_;
+  double cell_ratio_ = 0.0;                  // 0: no shared errors
+  double smooth_ratio_ = 0.0;                // 0: no smooth ones
   std::vector<std::size_t> cells_;           // of SharedErrorGrid
-  std::vector<double> parabolas_;            // parabolaOverRows()
-  double inverse_cell_variance_ = 0.0;       // 0: no shared errors
-  double inverse_parabola_variance_ = 0.0;   // 0: no parabola
   std::vector<double> errors_px_, weights_;  // reused
 };
 

@@ -72,77 +72,72 @@ Criterion criterionOf(const std::string& name) {
 }
 
 TwoStageEstimator::TwoStageEstimator(const MotionEstimatorConfig& config)
-    : config_(config), criterion_(criterionOf(config.criterion)), solver_({}) {
-  if (!config.as_published) refinement_.emplace(MotionSolver::refinement());
-}
+    : config_(config), criterion_(criterionOf(config.criterion)) {}
 
 void TwoStageEstimator::estimate(const Measurements& measured,
                                  const FeatureSet& set,
                                  const Eigen::Isometry3d& initial,
                                  double dt_s,
-                                 Fit& fit,
+                                 ReprojectionProblem& problem,
                                  MotionEstimate& motion) {
-  fitAt(measured, initial, fit);
+  problem.assign(measured, initial);
   motion.rotation_inliers = set;
   motion.has_translation_stage = false;
   motion.translation_failed = false;
-  motion.valid = estimateRotation(measured, fit, motion.rotation_inliers);  // 1)
+  motion.valid =
+      estimateRotation(measured.camera.detail_px, problem, motion.rotation_inliers);  // 1)
   motion.translation_inliers = motion.rotation_inliers;
-  motion.T_keyframe_cur = fit.T_keyframe_cur;
+  motion.T_keyframe_cur = problem.motion();
 
   const bool has_two_stages = criterion_ == Criterion::kRotrocc || criterion_ == Criterion::kRocc;
   const bool is_slow =
-      config_.as_published && fit.T_keyframe_cur.translation().norm() < kMinSpeed_mps * dt_s;
+      config_.as_published && problem.motion().translation().norm() < kMinSpeed_mps * dt_s;
   if (!motion.valid || !has_two_stages || is_slow) return;
-  decouple(measured, fit, motion.rotation_inliers);  // 2)
-  selectCandidates(measured, fit);
+  decouple(measured, problem, motion.rotation_inliers);  // 2)
+  selectCandidates(measured, problem);
   if (config_.as_published) {
     Eigen::Isometry3d T_start = motion.T_keyframe_cur;
     T_start.translation() = initial.translation();
-    fitAt(measured, T_start, fit);
+    problem.setMotion(T_start);
   }
   motion.has_translation_stage =
-      estimateTranslation(measured, fit, motion.translation_inliers) &&  // 3)
+      estimateTranslation(measured, problem, motion.translation_inliers) &&  // 3)
       count(motion.translation_inliers) >= kMinInliers;
   if (motion.has_translation_stage) {
-    motion.T_keyframe_cur = fit.T_keyframe_cur;
+    motion.T_keyframe_cur = problem.motion();
     return;
   }
   motion.translation_failed = true;
   motion.translation_inliers = motion.rotation_inliers;
-  fitAt(measured, motion.T_keyframe_cur, fit);
+  problem.setMotion(motion.T_keyframe_cur);
 }
 
-bool TwoStageEstimator::estimateRotation(const Measurements& measured,
-                                         Fit& fit,
+bool TwoStageEstimator::estimateRotation(double detail_px,
+                                         ReprojectionProblem& problem,
                                          FeatureSet& inliers) {
-  const auto solve = [&](const FeatureSet& set) {
-    return solver_.solveMotion(measured, set, fit);  // Eq. 25
-  };
-  const auto measure = [&] { fittedErrors(measured.camera, fit, errors_); };
+  const auto measure = [&] { problem.errors(errors_); };
   const auto threshold = [&](std::vector<double>& errors_px) {
-    return rotationThreshold(criterion_, measured.camera.detail_px, errors_px);
+    return rotationThreshold(criterion_, detail_px, errors_px);
   };
   const int iterations = hasFixedLimit(criterion_) ? kMaxIterations : kComparisonIterations;
-  if (!iterate(iterations, solve, measure, threshold, inliers)) return false;
-  return !refinement_ || refinement_->solveMotion(measured, inliers, fit);
+  return iterate(iterations, Unknowns::kMotion, problem, measure, threshold, inliers);  // Eq. 25
 }
 
 /// Computes the flow by which the DNRE (or NRE) is normalized. Where the limit is less than the
 /// noise, it would select by chance: a part for the noise is added.
 void TwoStageEstimator::decouple(const Measurements& measured,
-                                 const Fit& fit,
+                                 const ReprojectionProblem& problem,
                                  const FeatureSet& inliers) {
   if (criterion_ == Criterion::kRotrocc) {
     decoupledFlow(measured.camera,
                   measured.features,
-                  fit.T_keyframe_cur.linear(),
+                  problem.motion().linear(),
                   flow_px_);  // Eq. 27, 28
   } else {
     coupledFlow(measured.features, flow_px_);
   }
   if (config_.as_published) return;
-  fittedErrors(measured.camera, fit, errors_);
+  problem.errors(errors_);
   select(errors_, inliers, set_errors_);
   const double passes_px = kPassingSigmas * deviationOf(set_errors_);
   for (double& flow_px : flow_px_) {
@@ -151,23 +146,21 @@ void TwoStageEstimator::decouple(const Measurements& measured,
 }
 
 /// Selects the features that may enter stage 2.
-void TwoStageEstimator::selectCandidates(const Measurements& measured, const Fit& fit) {
+void TwoStageEstimator::selectCandidates(const Measurements& measured,
+                                         const ReprojectionProblem& problem) {
   candidates_.assign(measured.features.size(), 1);
   if (config_.as_published) return;
-  fittedErrors(measured.camera, fit, errors_);
+  problem.errors(errors_);
   keepBelow(errors_, measured.camera.detail_px * kCandidate_px, candidates_);
 }
 
 bool TwoStageEstimator::estimateTranslation(const Measurements& measured,
-                                            Fit& fit,
+                                            ReprojectionProblem& problem,
                                             FeatureSet& inliers) {
-  const auto solve = [&](const FeatureSet& set) {
-    return solver_.solveTranslation(measured, set, fit);  // Eq. 29
-  };
   // Errors without whitening. Only then does the DNRE equal the relative depth error, which is
   // large for far points with a wrong disparity.
   const auto measure = [&] {
-    reprojectionErrors(measured.camera, measured.features, fit.T_keyframe_cur, errors_);
+    reprojectionErrors(measured.camera, measured.features, problem.motion(), errors_);
     for (std::size_t i = 0; i < errors_.size(); ++i) {
       const double flow_px = std::max(flow_px_[i], kMinFlow_px);
       errors_[i] = candidates_[i] != 0 ? errors_[i] / flow_px : kExcludedError;
@@ -177,27 +170,29 @@ bool TwoStageEstimator::estimateTranslation(const Measurements& measured,
     return fixedLimit(kTranslationLimit, kDropShare, errors);
   };
   inliers = candidates_;
-  if (!iterate(kMaxIterations, solve, measure, threshold, inliers)) return false;
-  return !refinement_ || refinement_->solveTranslation(measured, inliers, fit);
+  return iterate(
+      kMaxIterations, Unknowns::kTranslation, problem, measure, threshold, inliers);  // Eq. 29
 }
 
 /// Alternates between solving for the motion of the set and thresholding the errors of all
-/// features, until the set is stable (Eq. 26, 30, 31, 32). Returns false if `solve` does.
-template <class Solve, class Measure, class Threshold>
+/// features, until the set is stable (Eq. 26, 30, 31, 32); then refines it, but not as published.
+/// Returns false if there is no solution.
+template <class Measure, class Threshold>
 bool TwoStageEstimator::iterate(int max_iterations,
-                                const Solve& solve,
+                                Unknowns unknowns,
+                                ReprojectionProblem& problem,
                                 const Measure& measure,
                                 const Threshold& threshold,
                                 FeatureSet& set) {
   next_ = set;
   for (int i = 0; i < max_iterations; ++i) {
-    if (!solve(set)) return false;
+    if (!solve(unknowns, set, problem)) return false;
     measure();
     select(errors_, set, set_errors_);
     if (!keepBelow(errors_, threshold(set_errors_), next_)) break;
     set = next_;
   }
-  return true;
+  return config_.as_published || refine(unknowns, set, problem);
 }
 
 }  // namespace rotrocc

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
 
-#include "motion/fitted_feature.h"
 #include "motion/motion_solver.h"
+#include "motion/reprojection_problem.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/odometry_config.h"
 #include "rotrocc/rigid_motion.h"
@@ -53,32 +52,35 @@ class TwoStageEstimator {
   explicit TwoStageEstimator(const MotionEstimatorConfig& config);
 
   /// Estimates the motion that took `dt_s` > 0 from the features flagged in `set`, starting at
-  /// `initial`, without covariance and noise; `fit` becomes that at the motion. The result is
+  /// `initial`, without covariance and noise; `problem` becomes that at the motion. The result is
   /// invalid if stage 1 leaves fewer than 3 features. If stage 2 leaves fewer than kMinInliers,
   /// the motion is that of stage 1. Each stage is refined, but not as published.
   void estimate(const Measurements& measured,
                 const FeatureSet& set,
                 const Eigen::Isometry3d& initial,
                 double dt_s,
-                Fit& fit,
+                ReprojectionProblem& problem,
                 MotionEstimate& motion);
 
  private:
-  bool estimateRotation(const Measurements& measured, Fit& fit, FeatureSet& inliers);
-  void decouple(const Measurements& measured, const Fit& fit, const FeatureSet& inliers);
-  void selectCandidates(const Measurements& measured, const Fit& fit);
-  bool estimateTranslation(const Measurements& measured, Fit& fit, FeatureSet& inliers);
-  template <class Solve, class Measure, class Threshold>
+  bool estimateRotation(double detail_px, ReprojectionProblem& problem, FeatureSet& inliers);
+  void decouple(const Measurements& measured,
+                const ReprojectionProblem& problem,
+                const FeatureSet& inliers);
+  void selectCandidates(const Measurements& measured, const ReprojectionProblem& problem);
+  bool estimateTranslation(const Measurements& measured,
+                           ReprojectionProblem& problem,
+                           FeatureSet& inliers);
+  template <class Measure, class Threshold>
   bool iterate(int max_iterations,
-               const Solve& solve,
+               Unknowns unknowns,
+               ReprojectionProblem& problem,
                const Measure& measure,
                const Threshold& threshold,
                FeatureSet& set);
 
   MotionEstimatorConfig config_;
   Criterion criterion_;
-  MotionSolver solver_;
-  std::optional<MotionSolver> refinement_;
 
   // Buffers, reused.
   FeatureSet candidates_, next_;

@@ -252,21 +252,21 @@ std::optional<std::string> MotionCheck::whyFewDetermine(const Hypothesis& accept
 /// determine it. The inliers fit it nevertheless, and their residuals are as small as usual.
 double MotionCheck::informationShare(const Hypothesis& accepted) {
   const double noise_ratio = as_published_ ? 0.0 : kDisparityNoiseRatio;
-  fitAt({accepted.camera, accepted.features, noise_ratio}, accepted.estimate.T_keyframe_cur, fit_);
-  const auto informationOf = [&](const FeatureSet& set) -> Matrix6d {
-    problem_.assign(accepted.camera, fit_, set);
-    return problem_.normalMatrix(problem_.start()).topLeftCorner<6, 6>();
+  const Eigen::Isometry3d& T_keyframe_cur = accepted.estimate.T_keyframe_cur;
+  problem_.assign({accepted.camera, accepted.features, noise_ratio}, T_keyframe_cur);
+  const auto informationAt = [&]() -> Matrix6d {
+    constexpr int kMotion = ReprojectionProblem::kMotion;
+    return problem_.normalMatrix(T_keyframe_cur, kMotion).block<6, 6>(kMotion, kMotion);
   };
-  set_.assign(accepted.features.size(), 1);
-  const Matrix6d of_all = informationOf(set_);
-  // They stay in the problem.
-  const Matrix6d of_inliers = informationOf(accepted.estimate.translation_inliers);
+  const Matrix6d of_all = informationAt();
+  problem_.select(accepted.estimate.translation_inliers);
+  const Matrix6d of_inliers = informationAt();
   const Eigen::LLT<Matrix6d> determined(of_inliers);
   if (determined.info() != Eigen::Success) return 0.0;
   const Matrix6d covariance = determined.solve(Matrix6d::Identity());
   double max_leverage = 0.0;
   Eigen::Matrix<double, 2, 6> of_most = Eigen::Matrix<double, 2, 6>::Zero();
-  problem_.linearize(problem_.start(), [&](const ReprojectionProblem<6>::Term& term) {
+  problem_.visit(T_keyframe_cur, [&](const ReprojectionProblem::Term& term) {
     const double leverage = (term.jacobian * covariance).cwiseProduct(term.jacobian).sum();
     if (leverage <= max_leverage) return;
     max_leverage = leverage;

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "motion/fitted_feature.h"
 #include "motion/motion_estimator.h"
 #include "motion/reprojection_problem.h"
 #include "rotrocc/correspondence.h"
@@ -103,8 +102,7 @@ class MotionCheck {
   Correspondences others_;
   FeatureSet set_;
   std::vector<double> errors_px_, depths_m_, flow_px_, inlier_flow_px_;
-  Fit fit_;
-  ReprojectionProblem<6> problem_;
+  ReprojectionProblem problem_;
 };
 
 }  // namespace rotrocc

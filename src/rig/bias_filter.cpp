@@ -22,18 +22,6 @@ constexpr double kFlex_px = 1.0;
 /// deviations makes motions worse.
 constexpr double kSignificance = 5.0;
 
-/// Typical standard deviation of shared errors over that of the noise of single features. It is 0.7
-/// to 1.3 on KITTI and Karlsruhe.
-constexpr double kTypicalRatio = 1.3;
-
-/// The typical size of shared errors counts as much as that measured in this many pairs: one pair
-/// has few cells that matter.
-constexpr double kTypicalPairs = 5.0;
-
-/// Share of the variance of the shared errors that stays with the rig: 0.4 on KITTI and EuRoC,
-/// where the rest has a correlation of 0.7 from pair to pair, so that some of it stays for long.
-constexpr double kLastingShare = 0.5;
-
 /// Degrees of freedom of Student's t: about as many as the cells that decide on the bias of a pair.
 constexpr double kFreedom = 6.0;
 
@@ -41,29 +29,24 @@ constexpr double kFreedom = 6.0;
 
 BiasFilter::BiasFilter() {
   const double moving = 1.0 / kSteadyPairs;
-  modes_[0] = {1.0 - moving, 0.0, 0.0, kPrior_px * kPrior_px, 0.0, 0.0};
-  modes_[1] = {moving, kFlex_px, 0.0, kPrior_px * kPrior_px, 0.0, 0.0};
+  modes_[0] = {1.0 - moving, 0.0, 0.0, kPrior_px * kPrior_px, 0.0};
+  modes_[1] = {moving, kFlex_px, 0.0, kPrior_px * kPrior_px, 0.0};
 }
 
 /// A pair that says little about the bias, as one of a slow robot, counts as a small share of a
 /// pair.
 void BiasFilter::add(const BiasMeasurement& measurement) {
-  const double typical_sum = kTypicalPairs * (kTypicalRatio * kTypicalRatio);
-  const double ratio2_sum = typical_sum + learnt_ratio2_ + measurement.shared_ratio2;
-  shared_ratio2_ = std::max(ratio2_sum / (kTypicalPairs + learnt_pairs_ + 1.0), 0.0);
   const double prior_px2 = kPrior_px * kPrior_px;
-  const double measured_px2 = measurement.noise_px2 + shared_ratio2_ * measurement.shared_px2;
+  const double measured_px2 = measurement.noise_px2 + measurement.shared_px2;
   const double share = prior_px2 / (prior_px2 + measured_px2);
   const double changes = share / kSteadyPairs;
-  learnt_ratio2_ = (1.0 - changes) * learnt_ratio2_ + share * measurement.shared_ratio2;
-  learnt_pairs_ = (1.0 - changes) * learnt_pairs_ + share;
 
   modes_ = interact(changes);
   double sum = 0.0;
   std::array<double, 2> log_likelihood;
   for (std::size_t i = 0; i < 2; ++i) {
     modes_[i].variance_px2 += share * modes_[i].walk_px * modes_[i].walk_px;
-    log_likelihood[i] = update(measurement, shared_ratio2_, modes_[i]);
+    log_likelihood[i] = update(measurement, modes_[i]);
   }
   const double most = std::max(log_likelihood[0], log_likelihood[1]);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -86,7 +69,6 @@ BiasFilter::Modes BiasFilter::interact(double probability) const {
     const double apart_px = other.mean_px - same.mean_px;
     mixed[i].mean_px += share * apart_px;
     mixed[i].shared_px += share * (other.shared_px - same.shared_px);
-    mixed[i].smooth_px += share * (other.smooth_px - same.smooth_px);
     mixed[i].variance_px2 = (1.0 - share) * same.variance_px2 + share * other.variance_px2 +
                             share * (1.0 - share) * apart_px * apart_px;
   }
@@ -94,9 +76,8 @@ BiasFilter::Modes BiasFilter::interact(double probability) const {
 }
 
 /// Returns the logarithm of the likelihood, without a constant.
-double BiasFilter::update(const BiasMeasurement& measurement, double ratio2, Mode& mode) {
-  const double passing_px2 = (1.0 - kLastingShare) * ratio2 * measurement.shared_px2;
-  double variance_px2 = mode.variance_px2 + passing_px2 + measurement.noise_px2;
+double BiasFilter::update(const BiasMeasurement& measurement, Mode& mode) {
+  double variance_px2 = mode.variance_px2 + measurement.noise_px2;
   const double off_px = measurement.bias_px - mode.mean_px;
   const double off2 = off_px * off_px / variance_px2;
   const double log_likelihood =
@@ -106,7 +87,6 @@ double BiasFilter::update(const BiasMeasurement& measurement, double ratio2, Mod
   mode.mean_px += gain * off_px;
   mode.variance_px2 -= gain * mode.variance_px2;
   mode.shared_px += gain * (std::sqrt(measurement.shared_px2) - mode.shared_px);
-  mode.smooth_px += gain * (std::sqrt(measurement.smooth_px2) - mode.smooth_px);
   return log_likelihood;
 }
 
@@ -115,14 +95,12 @@ void BiasFilter::scale(double factor) {
     mode.mean_px *= factor;
     mode.variance_px2 *= factor * factor;
     mode.shared_px *= factor;
-    mode.smooth_px *= factor;
   }
 }
 
-/// Variance of the bias, with that by lasting errors.
-double BiasFilter::variance(const Mode& mode) const {
-  return mode.variance_px2 + kLastingShare * shared_ratio2_ * mode.shared_px * mode.shared_px +
-         mode.smooth_px * mode.smooth_px;
+/// Variance of the bias, with that by shared errors.
+double BiasFilter::variance(const Mode& mode) {
+  return mode.variance_px2 + mode.shared_px * mode.shared_px;
 }
 
 DisparityBias BiasFilter::bias() const {
@@ -139,7 +117,7 @@ DisparityBias BiasFilter::bias() const {
 
 /// Probability that the bias differs from the known one: the ratio of the likelihoods of both. It
 /// is one half at kSignificance standard deviations.
-double BiasFilter::probabilityOff(const Mode& mode) const {
+double BiasFilter::probabilityOff(const Mode& mode) {
   const double sigmas2 = mode.mean_px * mode.mean_px / variance(mode);
   const double log_odds = 0.5 * (sigmas2 - kSignificance * kSignificance);
   return 1.0 / (1.0 + std::exp(-log_odds));

@@ -13,10 +13,9 @@ namespace rotrocc {
 /// a Kalman filter, and they interact as in the IMM (Blom and Bar-Shalom 1988): a rig changes from
 /// one to the other once in 300 pairs on average.
 ///
-/// Errors that neighboring features share do not average out over a drive as noise does. Some
-/// stay with the rig, as those of a lens, and cannot be separated from a bias, so their variance is
-/// added to that of the estimate; others pass with the scene, as noise. Their size is estimated
-/// from the disagreement of the parts of the image; it starts from a typical one of real rigs.
+/// Errors that neighboring features share do not average out over a drive as noise does: those of a
+/// lens stay with the rig, and cannot be separated from a bias. Their variance is added to that of
+/// the estimate.
 ///
 /// A measurement that is off by more than its variance admits has little weight (Student's t),
 /// unless the next ones confirm it.
@@ -38,21 +37,17 @@ class BiasFilter {
   struct Mode {
     double probability;
     double walk_px;  ///< standard deviation of the change of the bias from pair to pair
-    double mean_px, variance_px2;  ///< of the bias, the latter without lasting errors
-    double shared_px;              ///< change of the bias by a lasting error as large as the noise
-    double smooth_px;              ///< standard deviation of the bias by smooth errors
+    double mean_px, variance_px2;  ///< of the bias, the latter without shared errors
+    double shared_px;              ///< standard deviation of the measurements by shared errors
   };
   using Modes = std::array<Mode, 2>;  // rigid, moving
 
   Modes interact(double probability) const;
-  static double update(const BiasMeasurement& measurement, double ratio2, Mode& mode);
-  double variance(const Mode& mode) const;
-  double probabilityOff(const Mode& mode) const;
+  static double update(const BiasMeasurement& measurement, Mode& mode);
+  static double variance(const Mode& mode);
+  static double probabilityOff(const Mode& mode);
 
   Modes modes_;
-  double shared_ratio2_ = 0.0;  // variance of the shared errors over that of the noise
-  double learnt_pairs_ = 0.0;   // number of pairs that it was estimated from
-  double learnt_ratio2_ = 0.0;  // sum over these pairs
 };
 
 }  // namespace rotrocc

@@ -35,13 +35,13 @@ MotionEstimate estimate(const Correspondences& features,
 
 MotionEstimate withoutRetry(const Correspondences& features) {
   const StereoCamera camera = kittiCamera();
-  Fit fit;
+  ReprojectionProblem problem;
   MotionEstimate found;
   TwoStageEstimator({}).estimate({camera, features, kDisparityNoiseRatio},
                                  all(features),
                                  roughly(turnAhead()),
                                  kPeriod_s,
-                                 fit,
+                                 problem,
                                  found);
   return found;
 }

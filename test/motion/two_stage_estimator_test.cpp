@@ -24,12 +24,12 @@ MotionEstimate estimate(const MotionEstimatorConfig& config,
                         const Correspondences& features,
                         const Eigen::Isometry3d& initial) {
   const StereoCamera camera = kittiCamera();
-  Fit fit;
+  ReprojectionProblem problem;
   MotionEstimate found;
   const double noise_ratio = config.as_published ? 0.0 : kDisparityNoiseRatio;
   TwoStageEstimator(config).estimate(
-      {camera, features, noise_ratio}, all(features), initial, kPeriod_s, fit, found);
-  EXPECT_EQ(fit.T_keyframe_cur.matrix(), found.T_keyframe_cur.matrix());
+      {camera, features, noise_ratio}, all(features), initial, kPeriod_s, problem, found);
+  EXPECT_EQ(problem.motion().matrix(), found.T_keyframe_cur.matrix());
   return found;
 }
 

@@ -112,8 +112,8 @@ TEST(RigEstimateTest, AddsAKnownBiasAndStopsThereIfNotEnabled) {
   config.enabled = true;
   RigEstimate estimating = rigOf(config);
   EXPECT_EQ(estimating.bias().applied_px, 0.7);
-  drive(1.0, 30, estimating);
-  EXPECT_NEAR(estimating.bias().applied_px, 1.0, 0.1);
+  drive(1.5, 30, estimating);
+  EXPECT_NEAR(estimating.bias().applied_px, 1.5, 0.1);
   StereoCamera other = kittiCamera();
   other.baseline_m *= 2.0;
   estimating.setCamera(other);

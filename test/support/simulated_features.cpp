@@ -87,16 +87,6 @@ FeatureSet all(const Correspondences& features) {
   return FeatureSet(features.size(), 1);
 }
 
-FittedFeature fitDisparity(const StereoCamera& camera,
-                           const Correspondence& feature,
-                           const Eigen::Isometry3d& T_keyframe_cur,
-                           double noise_ratio) {
-  const Correspondences features = {feature};
-  Fit fit;
-  fitAt({camera, features, noise_ratio}, T_keyframe_cur, fit);
-  return fit.features.front();
-}
-
 Eigen::Isometry3d motion(const Eigen::Vector3d& translation_m,
                          const Eigen::Vector3d& rotation_rad) {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();

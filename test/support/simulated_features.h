@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 
 #include "geometry/kitti_camera.h"
-#include "motion/fitted_feature.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/rigid_motion.h"
 #include "rotrocc/stereo_camera.h"
@@ -61,12 +60,6 @@ Correspondences biasedFeatures(const Eigen::Isometry3d& T_keyframe_cur,
 
 /// The set of all features.
 FeatureSet all(const Correspondences& features);
-
-/// fitAt() of one feature.
-FittedFeature fitDisparity(const StereoCamera& camera,
-                           const Correspondence& feature,
-                           const Eigen::Isometry3d& T_keyframe_cur,
-                           double noise_ratio);
 
 /// The motion with translation [m] and rotation vector [rad].
 Eigen::Isometry3d motion(const Eigen::Vector3d& translation_m, const Eigen::Vector3d& rotation_rad);
