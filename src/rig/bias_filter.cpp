@@ -18,9 +18,9 @@ constexpr double kSteadyPairs = 300.0;
 constexpr double kFlex_px = 1.0;
 
 /// A bias of this many standard deviations is applied by half, a smaller one hardly, a larger one
-/// as a whole. Errors of lenses pass for a bias: on KITTI 04 and 06, one of 3 to 4 standard
+/// as a whole. Errors of lenses pass for a bias: on KITTI 04 and 06, one of 2 to 3 standard
 /// deviations makes motions worse.
-constexpr double kSignificance = 5.0;
+constexpr double kSignificance = 6.0;
 
 /// Degrees of freedom of Student's t: about as many as the cells that decide on the bias of a pair.
 constexpr double kFreedom = 6.0;
