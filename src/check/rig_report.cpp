@@ -12,9 +12,9 @@
 #include <yaml-cpp/yaml.h>
 #include <boost/algorithm/string/case_conv.hpp>
 
-#include "common/csv_file.h"
-#include "evaluation/image_file.h"
-#include "evaluation/report_directory.h"
+#include "files/csv_file.h"
+#include "files/image_file.h"
+#include "files/report_directory.h"
 
 namespace rotrocc {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "evaluation/image_times.h"
-#include "evaluation/text_file.h"
+#include "files/image_times.h"
+#include "files/text_file.h"
 
 namespace rotrocc {
 namespace {

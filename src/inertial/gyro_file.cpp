@@ -1,8 +1,8 @@
 #include "inertial/gyro_file.h"
 
-#include "common/csv_file.h"
-#include "evaluation/image_times.h"
-#include "evaluation/text_file.h"
+#include "files/csv_file.h"
+#include "files/image_times.h"
+#include "files/text_file.h"
 
 namespace rotrocc {
 

@@ -13,7 +13,7 @@
 #include <boost/make_shared.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "evaluation/image_file.h"
+#include "files/image_file.h"
 #include "input/input_error.h"
 #include "input/message_conversion.h"
 #include "input/to_text.h"

@@ -6,7 +6,7 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include "common/read_yaml.h"
+#include "files/read_yaml.h"
 
 namespace rotrocc {
 namespace {

@@ -3,8 +3,8 @@
 #include <utility>
 #include <vector>
 
-#include "evaluation/image_times.h"
-#include "evaluation/text_file.h"
+#include "files/image_times.h"
+#include "files/text_file.h"
 #include "sequences/layouts.h"
 
 namespace rotrocc {

@@ -9,7 +9,7 @@
 #include <boost/algorithm/string/join.hpp>
 #include <opencv2/core.hpp>
 
-#include "evaluation/text_file.h"
+#include "files/text_file.h"
 #include "input/camera_calibration.h"
 #include "sequences/yaml_map.h"
 

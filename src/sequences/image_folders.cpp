@@ -12,8 +12,8 @@
 #include <boost/algorithm/string/case_conv.hpp>
 #include <opencv2/core.hpp>
 
-#include "evaluation/image_times.h"
-#include "evaluation/text_file.h"
+#include "files/image_times.h"
+#include "files/text_file.h"
 #include "rotrocc/trajectory.h"
 
 namespace rotrocc {

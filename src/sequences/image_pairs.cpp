@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "common/to_seconds.h"
-#include "evaluation/image_file.h"
+#include "files/image_file.h"
 #include "input/stamps.h"
 
 namespace rotrocc {

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
-#include "evaluation/text_file.h"
+#include "files/text_file.h"
 #include "sequences/image_folders.h"
 #include "sequences/kitti_mount.h"
 #include "sequences/layouts.h"

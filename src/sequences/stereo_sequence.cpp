@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "evaluation/image_file.h"
+#include "files/image_file.h"
 #include "inertial/gyro_file.h"
 #include "sequences/calibration_file.h"
 #include "sequences/layouts.h"

@@ -9,7 +9,7 @@
 #include <yaml-cpp/yaml.h>
 #include <opencv2/core.hpp>
 
-#include "common/read_yaml.h"
+#include "files/read_yaml.h"
 
 namespace rotrocc {
 

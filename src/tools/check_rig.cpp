@@ -9,7 +9,7 @@
 
 #include "check/calibration_correction.h"
 #include "check/rig_check.h"
-#include "evaluation/report_directory.h"
+#include "files/report_directory.h"
 #include "tools/draw_report.h"
 #include "tools/input_options.h"
 #include "tools/program.h"

@@ -18,7 +18,7 @@
 #include <opencv2/core.hpp>
 
 #include "common/median.h"
-#include "evaluation/image_file.h"
+#include "files/image_file.h"
 #include "input/message_conversion.h"
 #include "node/base/base_odometry.h"
 #include "node/odometry_messages.h"

@@ -9,8 +9,8 @@
 #include <opencv2/core.hpp>
 
 #include "bags/recording.h"
-#include "common/csv_file.h"
-#include "evaluation/report_directory.h"
+#include "files/csv_file.h"
+#include "files/report_directory.h"
 #include "rotrocc/parameters.h"
 #include "rotrocc/pose_accumulator.h"
 #include "rotrocc/stereo_camera.h"

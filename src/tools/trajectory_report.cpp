@@ -2,9 +2,9 @@
 
 #include <limits>
 
-#include "common/csv_file.h"
 #include "common/to_seconds.h"
-#include "evaluation/report_directory.h"
+#include "files/csv_file.h"
+#include "files/report_directory.h"
 
 namespace rotrocc {
 namespace {

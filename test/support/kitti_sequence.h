@@ -6,8 +6,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "evaluation/image_file.h"
-#include "evaluation/text_file.h"
+#include "files/image_file.h"
+#include "files/text_file.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
 #include "rotrocc/trajectory.h"

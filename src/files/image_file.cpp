@@ -1,4 +1,4 @@
-#include "evaluation/image_file.h"
+#include "files/image_file.h"
 
 #include <cmath>
 #include <filesystem>

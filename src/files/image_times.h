@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "evaluation/text_file.h"
+#include "files/text_file.h"
 
 namespace rotrocc {
 

@@ -1,4 +1,4 @@
-#include "evaluation/image_times.h"
+#include "files/image_times.h"
 
 #include <algorithm>
 #include <cmath>
