@@ -31,9 +31,6 @@ constexpr double kShortStep = 0.02;
 
 // Limits beyond which a motion is degraded. None depends on the size of the image.
 
-/// Share of the keyframe's corners that have a disparity. Those of dirty lenses or misaligned
-/// cameras are few, and chosen by chance.
-constexpr double kMinWithDepth = 0.15;
 /// Share of the feature set that are inliers of the rotation stage. In a short step, features at
 /// rest on the image (of dirt, or of its compression) agree on a standstill.
 constexpr double kMinByRotation = 0.7;
@@ -71,12 +68,6 @@ constexpr double kMissed = 1e-4;
 constexpr double kBehind = 2.0;
 /// The share of kMaxCompetitors that is enough for features behind the others.
 constexpr double kShareBehind = 0.5;
-/// Noise of the flow in any image of a camera. Only what is drawn, or left by compression, is more
-/// exact, and stands still when the camera moves.
-constexpr double kMinNoise_px = 0.005;
-/// A smaller share of inliers is not all features but some mismatches.
-constexpr double kUnanimousShare = 0.95;
-
 /// The samples that find what has a share of all features.
 int samplesFor(double share) {
   const double is_of_it = std::pow(std::min(share, 1.0), 4);
@@ -104,21 +95,6 @@ double shareOf(const FeatureSet& inliers) {
 std::string fewAgree(double share, const char* on_what, double limit) {
   return "a fraction of " + comparedText(share, limit) + " of the features agrees on the " +
          on_what + cv::format(", less than %g", limit);
-}
-
-std::optional<std::string> whyFewHaveDepth(const StageCounts& counts) {
-  if (counts.with_depth >= kMinWithDepth * counts.corners) return std::nullopt;
-  return cv::format("only %d of %d corners have a disparity", counts.with_depth, counts.corners) +
-         cv::format(", a fraction below %g: are the lenses clean, and left and right rows aligned?",
-                    kMinWithDepth);
-}
-
-std::optional<std::string> whyFewSurvive(const Hypothesis& accepted) {
-  const int survivors = inliers(accepted.estimate);
-  const int features = accepted.counts.with_depth;
-  if (survivors >= kMinSurvivors * features) return std::nullopt;
-  return cv::format("the motion rests on %d of %d features", survivors, features) +
-         cv::format(", a fraction below %g", kMinSurvivors);
 }
 
 }  // namespace
@@ -172,12 +148,6 @@ std::optional<std::string> MotionCheck::whyFewAgree(const Hypothesis& accepted) 
   if (!has_prediction && by_rotation < kMinAtStart) {
     return "without a prediction, " + fewAgree(by_rotation, "motion", kMinAtStart);
   }
-  if (!has_prediction && by_rotation < kUnanimousShare && estimate.flow_noise_px < kMinNoise_px) {
-    return cv::format("without a prediction, a fraction of %.3g of the features agrees",
-                      by_rotation) +
-           cv::format(" on the motion, too exactly (%.2g px)", estimate.flow_noise_px) +
-           " for scene features: something drawn or compressed is static";
-  }
   const double by_translation = shareOf(estimate.translation_inliers);
   if (by_translation >= kMinByTranslation) return std::nullopt;
   return fewAgree(by_translation, "translation", kMinByTranslation);
@@ -193,9 +163,7 @@ std::optional<std::string> MotionCheck::whyDegraded(const Hypothesis& accepted,
     return cv::format("the translation stage has fewer than %d inliers: ", kMinInliers) +
            "the motion of the rotation stage is used";
   }
-  std::optional<std::string> why = whyFewHaveDepth(accepted.counts);
-  if (!why) why = whyFewAgree(accepted);
-  if (!why) why = whyFewSurvive(accepted);
+  std::optional<std::string> why = whyFewAgree(accepted);
   if (!why) why = whyAmbiguous(accepted);
   if (!why) why = whyFewDetermine(accepted);
   return why ? why : whyUndetermined(accepted, covariance);
