@@ -18,13 +18,8 @@ constexpr double kTrackedTolerance = 0.7;
 /// tolerates many outliers. None if there are fewer than 4 features, or no three of them give a
 /// motion. The same features always give the same motion. Features agree on a motion if their
 /// reprojection errors are below `tolerance`, in details of the images [camera.detail_px].
-///
-/// `samples`: the most that are tried, of three features each. With half of the features wrong, one
-/// of 35 is expected to be the first without an outlier in 99 % of all cases; depths of far
-/// features are too inexact for most.
 std::optional<Eigen::Isometry3d> consensusMotion(const StereoCamera& camera,
                                                  const Correspondences& features,
-                                                 double tolerance = kTrackedTolerance,
-                                                 int samples = 1000);
+                                                 double tolerance = kTrackedTolerance);
 
 }  // namespace rotrocc

@@ -10,7 +10,6 @@
 
 #include "common/compared_text.h"
 #include "common/median.h"
-#include "motion/consensus_motion.h"
 #include "motion/feature_errors.h"
 #include "rotrocc/rigid_motion.h"
 
@@ -39,8 +38,6 @@ constexpr double kMinAtStart = 0.8;
 /// Share of the feature set that are inliers of the translation stage. Those of far points with
 /// inexact disparities are missing, also if the motion is right.
 constexpr double kMinByTranslation = 0.5;
-/// Share of the feature set that agrees on another motion.
-constexpr double kMaxCompetitors = 0.2;
 /// Share of the keyframe's features with a depth that are inliers. After a wrong prediction, up to
 /// a tenth of the features match somewhere by chance.
 constexpr double kMinSurvivors = 0.1;
@@ -54,27 +51,6 @@ constexpr double kMaxSigma = 0.05;
 
 /// Largest usual change of velocity per second [m/s^2]: that of drones.
 constexpr double kMaxAcceleration_mps2 = 30.0;
-
-/// Features with a larger error, in details of the images, contradict a motion. Those that are only
-/// inexact have a smaller one.
-constexpr double kContradiction = 2.0;
-/// Samples for a competitor, at most: fewer if it must have a large share of those that contradict,
-/// so that four of them, as a sample has, belong to it but for kMissed of all cases. Depths of far
-/// features are too inexact for most samples.
-constexpr int kSamples = 200;
-constexpr int kLeastSamples = 40;
-constexpr double kMissed = 1e-4;
-/// What is this many times as deep is behind.
-constexpr double kBehind = 2.0;
-/// The share of kMaxCompetitors that is enough for features behind the others.
-constexpr double kShareBehind = 0.5;
-/// The samples that find what has a share of all features.
-int samplesFor(double share) {
-  const double is_of_it = std::pow(std::min(share, 1.0), 4);
-  return std::clamp(static_cast<int>(std::ceil(std::log(kMissed) / std::log1p(-is_of_it))),
-                    kLeastSamples,
-                    kSamples);
-}
 
 /// The smallest eigenvalue of part v = lambda whole v.
 double leastShare(const Matrix6d& part, const Matrix6d& whole) {
@@ -164,41 +140,8 @@ std::optional<std::string> MotionCheck::whyDegraded(const Hypothesis& accepted,
            "the motion of the rotation stage is used";
   }
   std::optional<std::string> why = whyFewAgree(accepted);
-  if (!why) why = whyAmbiguous(accepted);
   if (!why) why = whyFewDetermine(accepted);
   return why ? why : whyUndetermined(accepted, covariance);
-}
-
-/// Whether many features agree on another motion. Then it may be that of an object that fills the
-/// image. Fewer are enough if they are behind the inliers, as what an object hides.
-std::optional<std::string> MotionCheck::whyAmbiguous(const Hypothesis& accepted) {
-  const Correspondences& features = accepted.features;
-  const MotionEstimate& estimate = accepted.estimate;
-  reprojectionErrors(accepted.camera, features, estimate.T_keyframe_cur, errors_px_);
-  const double limit_px = kContradiction * accepted.camera.detail_px;
-  others_.clear();
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    if (errors_px_[i] > limit_px) others_.push_back(features[i]);
-  }
-  const double many = kMaxCompetitors * static_cast<double>(features.size());
-  const int min_count = std::max(kMinInliers, static_cast<int>(std::ceil(kShareBehind * many)));
-  if (static_cast<int>(others_.size()) < min_count) return std::nullopt;
-  const double share = static_cast<double>(min_count) / static_cast<double>(others_.size());
-  const auto competitor =
-      consensusMotion(accepted.camera, others_, kTrackedTolerance, samplesFor(share));
-  if (!competitor) return std::nullopt;
-  reprojectionErrors(accepted.camera, others_, *competitor, errors_px_);
-  set_.resize(others_.size());
-  keepBelow(errors_px_, limit_px, set_);
-  const int agree = count(set_);
-  if (agree < min_count) return std::nullopt;
-  const bool are_behind =
-      medianDepth(others_, set_) > kBehind * medianDepth(features, estimate.rotation_inliers);
-  if (!are_behind && agree < many) return std::nullopt;
-  return cv::format("another motion fits %d of %zu features", agree, features.size()) +
-         (are_behind ? ", which are behind the others, a fraction above half of"
-                     : ", a fraction above") +
-         cv::format(" %g: one of the two motions belongs to a large object", kMaxCompetitors);
 }
 
 /// Whether few inliers determine the motion, and other features contradict them. It may be that of

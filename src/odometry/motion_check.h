@@ -88,7 +88,6 @@ class MotionCheck {
   static double inflation(const MotionEstimate& accepted, double common_share);
 
  private:
-  std::optional<std::string> whyAmbiguous(const Hypothesis& accepted);
   std::optional<std::string> whyFewDetermine(const Hypothesis& accepted);
   std::optional<std::string> whyUndetermined(const Hypothesis& accepted,
                                              const Matrix6d& covariance);
@@ -99,9 +98,7 @@ class MotionCheck {
   bool as_published_;
 
   // Buffers, reused.
-  Correspondences others_;
-  FeatureSet set_;
-  std::vector<double> errors_px_, depths_m_, flow_px_, inlier_flow_px_;
+  std::vector<double> depths_m_, flow_px_, inlier_flow_px_;
   ReprojectionProblem problem_;
 };
 
