@@ -38,7 +38,8 @@ void requireOfItsImage(const std::string& matrix,
 /// point, angle of view, shape of the pixels, binning and region of interest; empty if nothing is.
 std::string calibrationWarning(const sensor_msgs::CameraInfo& info, const StereoCamera& camera);
 
-/// Why a baseline may be in another unit; empty if it is usual. That of an endoscope is not.
+/// Why a baseline may be in another unit; empty if its size is usual. An endoscope has an unusual
+/// one.
 std::string baselineWarning(double baseline_m);
 
 }  // namespace rotrocc

@@ -100,7 +100,7 @@ Information collect(const ReprojectionProblem& problem,
   return information;
 }
 
-/// Sets the covariance of a valid motion, which is that of `problem`, in the order of
+/// Sets the covariance of a valid motion, at which `problem` is, in the order of
 /// OdometryResult::covariance, and the noise of the flow, corrected for the dropped features.
 /// Returns false if the features do not determine the motion. Changes the weights of the problem.
 ///

@@ -19,8 +19,8 @@ constexpr double kMinCostChange_px2 = 2e-6;
 /// Steps of the refinement, each with new weights.
 constexpr int kRefinements = 4;
 
-/// Ratio of the standard deviation of an error that neighbors share to that of a flow: 2.4 to 6 on
-/// the rigs of KITTI, Karlsruhe and EuRoC.
+/// Standard deviation of an error that neighbors share, over the flow noise: 2.4 to 6 on the rigs
+/// of KITTI, Karlsruhe and EuRoC.
 constexpr double kSharedRatio = 3.0;
 
 /// TinySolver of Ceres 1.14 has no function_tolerance: there it continues to the other limits.
@@ -72,7 +72,7 @@ struct Condensed {
     Normal normal = problem.normalMatrix(T, ReprojectionProblem::kResidual - kParameters)
                         .template bottomRightCorner<NUM_RESIDUALS, NUM_RESIDUALS>();
     if constexpr (kParameters == 6) {
-      // The derivatives are those by a rotation after that of the parameters.
+      // From derivatives by a rotation that follows to derivatives by the rotation vector.
       const Eigen::Matrix3d by_parameters = leftJacobian(p.template head<3>());
       normal.template topRows<3>() =
           by_parameters.transpose() * normal.template topRows<3>().eval();

@@ -117,9 +117,9 @@ class ReprojectionProblem {
   void squareWeights();
 
   /// Adds an unknown for each cell of SharedErrorGrid, a disparity error that its features share,
-  /// with a standard deviation of `cell_ratio` times that of a flow, and one for each of its
-  /// smoothErrors(), with `smooth_ratio` times that; 0: there are none. The unknowns are eliminated
-  /// (Schur complement) from normalMatrix().
+  /// with a standard deviation of `cell_ratio` times the flow noise, and one for each of its
+  /// smoothErrors(), with `smooth_ratio` times the flow noise; 0: there are none. The unknowns are
+  /// eliminated (Schur complement) from normalMatrix().
   void shareErrors(double cell_ratio, double smooth_ratio);
 
   /// The normal matrix at a motion: columns from `first` on, the others are zero.

@@ -62,7 +62,7 @@ class ImageResampler {
   std::array<Weights, kPhases> weights_ = weightTable();
 };
 
-/// Rectifies the images of a stereo pair, left and right in parallel, without allocating memory.
+/// Rectifies the images of a stereo pair, left and right in parallel, into memory that it reuses.
 class StereoRectifier {
  public:
   /// By the calibration of this pair, whose cameras are valid: the maps are rebuilt when it is
