@@ -141,40 +141,33 @@ class ViewCheck : public PairCheck {
   void countCorners(const CheckedPair& pair) {
     const ImageGrid grid(camera_.width, camera_.height);
     std::vector<cv::Point2f> corners;
-    std::vector<float> disparities_px;
     detector_.detect(pair.images.left, corners);
     const RectifiedImages images = {
         pair.images.left, pair.images.right, camera_, pair.result.row_offset.applied_px};
-    StereoMatcher(config_).match(images, corners, disparities_px);
-    std::vector<cv::Point2f> without;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      Cell& cell = map_[grid.of(corners[i].x, corners[i].y)];
+    const StereoMatcher matcher(config_);
+    for (const cv::Point2f& corner : corners) {
+      Cell& cell = map_[grid.of(corner.x, corner.y)];
       ++cell.corners;
       ++corners_;
-      if (disparities_px[i] == StereoMatcher::kNoDisparity) {
-        without.push_back(corners[i]);
-      } else {
+      if (matcher.match(images, corner)) {
         ++cell.with_depth;
         ++with_depth_;
+      } else {
+        explain(images, corner);
       }
     }
-    explain(images, without);
   }
 
   /// Searches nearer than the odometry does; other rows and what is beyond infinity have findings.
-  void explain(const RectifiedImages& images, const std::vector<cv::Point2f>& corners) {
+  void explain(const RectifiedImages& images, const cv::Point2f& corner) {
     const double nearest_px = camera_.fx / config_.nearest_baselines;
     StereoMatcherConfig near = config_;
     near.nearest_baselines = 0.5 * config_.nearest_baselines;
     near.min_disparity_px = nearest_px;
-    std::vector<float> disparities_px;
-    StereoMatcher(near).match(images, corners, disparities_px);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const bool may_be_outside = corners[i].x - camera_.disparityAtInfinity() < nearest_px;
-      ++(disparities_px[i] != StereoMatcher::kNoDisparity ? missing_.too_near
-         : may_be_outside                                 ? missing_.outside
-                                                          : missing_.ambiguous);
-    }
+    const bool may_be_outside = corner.x - camera_.disparityAtInfinity() < nearest_px;
+    ++(StereoMatcher(near).match(images, corner) ? missing_.too_near
+       : may_be_outside                          ? missing_.outside
+                                                 : missing_.ambiguous);
   }
 
   void addDisparities(RigReport& report) const {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "common/median.h"
 #include "features/base_level.h"
+#include "features/image_pyramid.h"
 
 namespace rotrocc {
 namespace {
@@ -53,8 +53,9 @@ FramePtr CorrespondenceFinder::makeFrame(const StereoPair& pair, int level) {
   right_mask_.assign(pair.right_mask, FeatureDetector::kBorder_px << level);
   frame->left_mask = left_mask_;
   frame->right_mask = right_mask_;
-  tracker_.makePyramid(pair.left, BaseLevel::kLevels, frame->whole_left);
-  tracker_.makePyramid(pair.right, BaseLevel::kLevels, frame->whole_right);
+  const int least_px = 2 * config_.feature_tracker.window_radius_px + 1;
+  buildPyramid(pair.left, BaseLevel::kLevels, least_px, frame->whole_left);
+  buildPyramid(pair.right, BaseLevel::kLevels, least_px, frame->whole_right);
   const int levels = static_cast<int>(frame->whole_left.size());
   frame->setLevel(std::min(level, levels - 1));
   return frame;
@@ -69,54 +70,32 @@ void CorrespondenceFinder::findDepths(const StereoCamera& camera, Keyframe& keyf
   keyframe.left_px.clear();
   keyframe.right_px.clear();
   keyframe.points.clear();
+  const RectifiedImages images = imagesOf(*keyframe.frame, camera, keyframe);
   const auto wanted = static_cast<std::size_t>(config_.feature_detector.max_features);
   std::size_t tried = 0;
-  while (keyframe.points.size() < wanted && tried < keyframe.corners.size()) {
-    const std::size_t missing = wanted - keyframe.points.size();
-    const std::size_t left = keyframe.corners.size() - tried;
-    // Of the next corners, about the same share has a depth; a few too many cost less than another
-    // batch.
-    const std::size_t enough = keyframe.points.empty()
-                                   ? std::max(missing, tried)
-                                   : missing * tried / keyframe.points.size() + missing / 4 + 1;
-    const auto first = keyframe.corners.begin() + static_cast<std::ptrdiff_t>(tried);
-    const std::size_t count = std::min(enough, left);
-    batch_.assign(first, first + static_cast<std::ptrdiff_t>(count));
-    matchBatch(camera, keyframe);
-    tried += addPoints(camera, wanted, keyframe);
+  while (tried < keyframe.corners.size() && keyframe.points.size() < wanted) {
+    addPoint(images, keyframe.corners[tried++], keyframe);
   }
   keyframe.corners.resize(tried);
 }
 
-/// Adds the points of the batch up to the number that is wanted. Returns the number of corners that
-/// it took.
-std::size_t CorrespondenceFinder::addPoints(const StereoCamera& camera,
-                                            std::size_t wanted,
-                                            Keyframe& keyframe) const {
-  const auto lower_px = static_cast<float>(keyframe.row_offset_px);
-  std::size_t i = 0;
-  for (; i < batch_.size() && keyframe.points.size() < wanted; ++i) {
-    const cv::Point2f& corner = batch_[i];
-    const float disparity_px = disparities_px_[i];
-    if (disparity_px == StereoMatcher::kNoDisparity) continue;
-    const double depth_m = camera.depth(disparity_px);
-    if (!isUsableDepth(depth_m)) continue;
-    const cv::Point2f right(corner.x - disparity_px, corner.y + lower_px);
-    if (keyframe.frame->right_mask.excludes(right)) continue;
-    keyframe.left_px.push_back(corner);
-    keyframe.right_px.push_back(right);
-    keyframe.points.push_back(depth_m * camera.ray({corner.x, corner.y}));
+/// Adds the point of a corner if it has a depth. Matches are searched in whole rows first.
+void CorrespondenceFinder::addPoint(const RectifiedImages& images,
+                                    const cv::Point2f& corner,
+                                    Keyframe& keyframe) const {
+  auto match = matcher_.match(images, corner);
+  if (match && keyframe.row_offset_px != 0.0) {
+    match = matcher_.matchNear(images, corner, match->disparity_px);
   }
-  return i;
-}
-
-/// Finds the disparities of the batch. Matches are searched in whole rows first.
-void CorrespondenceFinder::matchBatch(const StereoCamera& camera, const Keyframe& keyframe) {
-  const RectifiedImages images = imagesOf(*keyframe.frame, camera, keyframe);
-  matcher_.match(images, batch_, disparities_px_);
-  if (keyframe.row_offset_px == 0.0) return;
-  std::swap(matched_disparities_px_, disparities_px_);
-  matcher_.matchNear(images, batch_, matched_disparities_px_, disparities_px_);
+  if (!match) return;
+  const double depth_m = images.camera.depth(match->disparity_px);
+  if (!isUsableDepth(depth_m)) return;
+  const cv::Point2f right(corner.x - match->disparity_px,
+                          corner.y + static_cast<float>(keyframe.row_offset_px));
+  if (keyframe.frame->right_mask.excludes(right)) return;
+  keyframe.left_px.push_back(corner);
+  keyframe.right_px.push_back(right);
+  keyframe.points.push_back(depth_m * images.camera.ray({corner.x, corner.y}));
 }
 
 int CorrespondenceFinder::find(const StereoCamera& camera,
@@ -125,87 +104,71 @@ int CorrespondenceFinder::find(const StereoCamera& camera,
                                const Eigen::Isometry3d& T_keyframe_cur,
                                Correspondences& features) {
   tracker_.setDetail(camera.detail_px);
-  predict(camera, keyframe, T_keyframe_cur);
-  track(keyframe, current);
-  checkCircularConsistency(camera, keyframe, current, features);
-  return static_cast<int>(std::count(tracked_.begin(), tracked_.end(), 1));
-}
-
-/// Predicts the positions of the keyframe's points in the current images. Points behind the camera
-/// are not tracked.
-void CorrespondenceFinder::predict(const StereoCamera& camera,
-                                   const Keyframe& keyframe,
-                                   const Eigen::Isometry3d& T_keyframe_cur) {
-  const Eigen::Isometry3d T_cur_keyframe = T_keyframe_cur.inverse();
-  const std::size_t count = keyframe.points.size();
-  cur_left_px_.resize(count);
-  cur_right_px_.resize(count);
-  predicted_disparities_px_.resize(count);
-  scale_changes_.assign(count, 1.0F);
-  tracked_.assign(count, 0);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3d point = T_cur_keyframe * keyframe.points[i];
-    if (point.z() < kMinDepth_m) continue;
-    const Eigen::Vector2d left = camera.project(point);
-    cur_left_px_[i] = {static_cast<float>(left.x()), static_cast<float>(left.y())};
-    predicted_disparities_px_[i] = static_cast<float>(camera.disparity(point.z()));
-    scale_changes_[i] = static_cast<float>(keyframe.points[i].z() / point.z());
-    tracked_[i] = 1;
-  }
-}
-
-void CorrespondenceFinder::track(const Keyframe& keyframe, const StereoFrame& current) {
-  constexpr bool kRoundTrip = true;
-  tracker_.track(keyframe.frame->left,
-                 current.left,
-                 keyframe.left_px,
-                 scale_changes_,
-                 kRoundTrip,
-                 cur_left_px_,
-                 tracked_);
-  // Predict the right position from the tracked left position and the predicted disparity. The
-  // disparity shows whether it is right, so it is not tracked back.
-  const auto lower_px = static_cast<float>(keyframe.row_offset_px);
-  for (std::size_t i = 0; i < cur_left_px_.size(); ++i) {
-    cur_right_px_[i] = cur_left_px_[i] + cv::Point2f(-predicted_disparities_px_[i], lower_px);
-  }
-  tracker_.track(keyframe.frame->right,
-                 current.right,
-                 keyframe.right_px,
-                 scale_changes_,
-                 !kRoundTrip,
-                 cur_right_px_,
-                 tracked_);
-}
-
-void CorrespondenceFinder::checkCircularConsistency(const StereoCamera& camera,
-                                                    const Keyframe& keyframe,
-                                                    const StereoFrame& current,
-                                                    Correspondences& features) {
-  tracked_disparities_px_.assign(cur_left_px_.size(), StereoMatcher::kNoDisparity);
-  for (std::size_t i = 0; i < cur_left_px_.size(); ++i) {
-    if (current.left_mask.excludes(cur_left_px_[i])) continue;
-    if (current.right_mask.excludes(cur_right_px_[i])) continue;
-    const cv::Point2f offset = cur_left_px_[i] - cur_right_px_[i];
-    const double wrong_row_px = std::abs(offset.y + keyframe.row_offset_px);
-    if (tracked_[i] != 0 && wrong_row_px <= camera.detail_px * kMaxVertical_px) {
-      tracked_disparities_px_[i] = offset.x;
-    }
-  }
   const RectifiedImages images = imagesOf(current, camera, keyframe);
-  stereo_gain_ = matcher_.matchNear(images, cur_left_px_, tracked_disparities_px_, disparities_px_);
-
+  const Eigen::Isometry3d T_cur_keyframe = T_keyframe_cur.inverse();
   features.clear();
-  for (std::size_t i = 0; i < cur_left_px_.size(); ++i) {
-    const float disparity_px = disparities_px_[i];
-    if (disparity_px == StereoMatcher::kNoDisparity) continue;
-    const double difference_px = std::abs(disparity_px - tracked_disparities_px_[i]);
-    if (difference_px > camera.detail_px * kMaxDisparityDifference_px) continue;
-    features.push_back({{keyframe.left_px[i].x, keyframe.left_px[i].y},
-                        {cur_left_px_[i].x, cur_left_px_[i].y},
-                        disparity_px});
+  gains_.clear();
+  int count = 0;
+  for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
+    const auto tracked = track(camera, keyframe, current, T_cur_keyframe, i);
+    if (!tracked) continue;
+    ++count;
+    const auto disparity_px = consistentDisparity(images, current, *tracked);
+    if (!disparity_px) continue;
+    const cv::Point2f& left = tracked->left;
+    features.push_back(
+        {{keyframe.left_px[i].x, keyframe.left_px[i].y}, {left.x, left.y}, *disparity_px});
   }
+  stereo_gain_ = gains_.empty() ? 1.0 : median(gains_);
   triangulate(camera, features);
+  return count;
+}
+
+/// Tracks a point of the keyframe from where the motion predicts it. None if it is behind the
+/// camera. The right position is predicted from the tracked left one and the predicted disparity;
+/// the disparity shows whether it is right, so it is not tracked back.
+std::optional<CorrespondenceFinder::Tracked> CorrespondenceFinder::track(
+    const StereoCamera& camera,
+    const Keyframe& keyframe,
+    const StereoFrame& current,
+    const Eigen::Isometry3d& T_cur_keyframe,
+    std::size_t i) {
+  constexpr bool kRoundTrip = true;
+  const Eigen::Vector3d point = T_cur_keyframe * keyframe.points[i];
+  if (point.z() < kMinDepth_m) return std::nullopt;
+  const auto scale = static_cast<float>(keyframe.points[i].z() / point.z());
+  const Eigen::Vector2f predicted = camera.project(point).cast<float>();
+  Tracked cur;
+  cur.left = {predicted.x(), predicted.y()};
+  const StereoFrame& from = *keyframe.frame;
+  if (!tracker_.track(from.left, current.left, keyframe.left_px[i], scale, kRoundTrip, cur.left)) {
+    return std::nullopt;
+  }
+  cur.right = cur.left + cv::Point2f(-static_cast<float>(camera.disparity(point.z())),
+                                     static_cast<float>(keyframe.row_offset_px));
+  const bool found = tracker_.track(
+      from.right, current.right, keyframe.right_px[i], scale, !kRoundTrip, cur.right);
+  return found ? std::optional(cur) : std::nullopt;
+}
+
+/// The disparity at which the tracked positions match each other. None if they do not, or are
+/// masked.
+std::optional<float> CorrespondenceFinder::consistentDisparity(const RectifiedImages& images,
+                                                               const StereoFrame& current,
+                                                               const Tracked& tracked) {
+  if (current.left_mask.excludes(tracked.left) || current.right_mask.excludes(tracked.right)) {
+    return std::nullopt;
+  }
+  const double detail_px = images.camera.detail_px;
+  const cv::Point2f offset = tracked.left - tracked.right;
+  const double wrong_row_px = std::abs(offset.y + images.row_offset_px);
+  if (!(wrong_row_px <= detail_px * kMaxVertical_px)) return std::nullopt;
+  const auto match = matcher_.matchNear(images, tracked.left, offset.x);
+  if (!match) return std::nullopt;
+  gains_.push_back(static_cast<float>(match->gain));
+  const double difference_px = std::abs(match->disparity_px - offset.x);
+  if (difference_px > detail_px * kMaxDisparityDifference_px) return std::nullopt;
+  return match->disparity_px;
 }
 
 double CorrespondenceFinder::medianShift(const StereoCamera& camera,

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -63,16 +65,19 @@ class CorrespondenceFinder {
 
  private:
   std::shared_ptr<StereoFrame> unusedFrame();
-  void matchBatch(const StereoCamera& camera, const Keyframe& keyframe);
-  std::size_t addPoints(const StereoCamera& camera, std::size_t wanted, Keyframe& keyframe) const;
-  void predict(const StereoCamera& camera,
-               const Keyframe& keyframe,
-               const Eigen::Isometry3d& T_keyframe_cur);
-  void track(const Keyframe& keyframe, const StereoFrame& current);
-  void checkCircularConsistency(const StereoCamera& camera,
-                                const Keyframe& keyframe,
-                                const StereoFrame& current,
-                                Correspondences& features);
+  void addPoint(const RectifiedImages& images, const cv::Point2f& corner, Keyframe& keyframe) const;
+
+  struct Tracked {
+    cv::Point2f left, right;  ///< in the current images
+  };
+  std::optional<Tracked> track(const StereoCamera& camera,
+                               const Keyframe& keyframe,
+                               const StereoFrame& current,
+                               const Eigen::Isometry3d& T_cur_keyframe,
+                               std::size_t i);
+  std::optional<float> consistentDisparity(const RectifiedImages& images,
+                                           const StereoFrame& current,
+                                           const Tracked& tracked);
 
   Config config_;
   FeatureDetector detector_;
@@ -81,16 +86,9 @@ class CorrespondenceFinder {
   std::vector<std::shared_ptr<StereoFrame>> frames_;
   FeatureMask left_mask_, right_mask_;  // of the latest frame
 
-  // Buffers for the keyframe's points, reused.
-  std::vector<cv::Point2f> cur_left_px_, cur_right_px_;
-  std::vector<float> predicted_disparities_px_;
-  std::vector<float> scale_changes_;
-  std::vector<char> tracked_;
-  std::vector<cv::Point2f> batch_;  // of corners
-  std::vector<float> matched_disparities_px_, tracked_disparities_px_, disparities_px_;
-  std::vector<double> shifts_px_;
-
-  double stereo_gain_ = 1.0;  // from left to right, at the features found last
+  std::vector<float> gains_;       // of the matches, reused
+  std::vector<double> shifts_px_;  // reused
+  double stereo_gain_ = 1.0;       // from left to right, at the features found last
 };
 
 }  // namespace rotrocc

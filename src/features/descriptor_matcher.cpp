@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include <opencv2/features2d.hpp>
 
 #include "features/image_noise.h"
 
@@ -21,50 +24,44 @@ constexpr double kFastOverNoise = 4.0;
 
 constexpr bool kEachOthersNearest = true;
 
-}  // namespace
+struct Described {
+  std::vector<cv::KeyPoint> keypoints;
+  cv::Mat descriptors;
+};
 
-DescriptorMatcher::DescriptorMatcher(const StereoMatcherConfig& config)
-    : matcher_(config),
-      orb_(cv::ORB::create(kFeatures, kScaleStep, kScales)),
-      nearest_(cv::NORM_HAMMING, kEachOthersNearest) {}
-
-DescriptorMatcher::Described DescriptorMatcher::describe(const cv::Mat& image,
-                                                         const FeatureMask& mask) {
+Described describe(const cv::Mat& image, const FeatureMask& mask) {
   std::vector<int> responses;
   const double sigma = std::sqrt(noiseVariance(image, responses));
-  orb_->setFastThreshold(std::max(1, cvRound(kFastOverNoise * sigma)));
+  const auto orb = cv::ORB::create(kFeatures, kScaleStep, kScales);
+  orb->setFastThreshold(std::max(1, cvRound(kFastOverNoise * sigma)));
   Described described;
-  orb_->detectAndCompute(
+  orb->detectAndCompute(
       image, mask.usable(image.size()), described.keypoints, described.descriptors);
   return described;
 }
 
-Correspondences DescriptorMatcher::match(const StereoCamera& camera,
-                                         const StereoFrame& earlier,
-                                         const StereoFrame& current,
-                                         double row_offset_px) {
-  const cv::Mat& left = current.left.front();
-  const Described in_current = describe(left, current.left_mask);
+}  // namespace
+
+Correspondences matchDescriptors(const StereoCamera& camera,
+                                 const Keyframe& keyframe,
+                                 const StereoFrame& current,
+                                 const StereoMatcher& depths) {
+  const Described in_current = describe(current.left.front(), current.left_mask);
   if (in_current.keypoints.empty()) return {};
-  const Described in_earlier = describe(earlier.left.front(), earlier.left_mask);
+  const Described in_earlier = describe(keyframe.frame->left.front(), keyframe.frame->left_mask);
   if (in_earlier.keypoints.empty()) return {};
   std::vector<cv::DMatch> matches;
-  nearest_.match(in_earlier.descriptors, in_current.descriptors, matches);
-  std::vector<cv::Point2f> pixels;
-  for (const cv::DMatch& match : matches) {
-    const cv::Point2f& px = in_current.keypoints[static_cast<std::size_t>(match.trainIdx)].pt;
-    pixels.emplace_back(std::round(px.x), std::round(px.y));  // depths are found at whole pixels
-  }
-  const RectifiedImages images = {left, current.right.front(), camera, row_offset_px};
-  std::vector<float> disparities_px;
-  matcher_.match(images, pixels, disparities_px);
+  cv::BFMatcher(cv::NORM_HAMMING, kEachOthersNearest)
+      .match(in_earlier.descriptors, in_current.descriptors, matches);
+  const RectifiedImages images = {
+      current.left.front(), current.right.front(), camera, keyframe.row_offset_px};
   Correspondences features;
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    if (disparities_px[i] == StereoMatcher::kNoDisparity) continue;
-    const auto& keyframe_px =
-        in_earlier.keypoints[static_cast<std::size_t>(matches[i].queryIdx)].pt;
-    const auto& cur_px = in_current.keypoints[static_cast<std::size_t>(matches[i].trainIdx)].pt;
-    features.push_back({{keyframe_px.x, keyframe_px.y}, {cur_px.x, cur_px.y}, disparities_px[i]});
+  for (const cv::DMatch& match : matches) {
+    const auto& earlier = in_earlier.keypoints[static_cast<std::size_t>(match.queryIdx)].pt;
+    const auto& cur = in_current.keypoints[static_cast<std::size_t>(match.trainIdx)].pt;
+    const cv::Point2f pixel(std::round(cur.x), std::round(cur.y));  // depths are at whole pixels
+    const auto depth = depths.match(images, pixel);
+    if (depth) features.push_back({{earlier.x, earlier.y}, {cur.x, cur.y}, depth->disparity_px});
   }
   triangulate(camera, features);
   return features;

@@ -55,48 +55,6 @@ float scaleOf(std::size_t level) {
   return 1.0F / static_cast<float>(1 << level);
 }
 
-/// The tracking of single points from one image to another.
-struct Tracking {
-  const FeatureTrackerConfig& config;
-  double detail_px;
-  const ImagePyramid& from;
-  const ImagePyramid& to;
-  bool round_trip;
-
-  bool follow(const cv::Point2f& start,
-              float scale,
-              TrackingWindow& window,
-              cv::Point2f& end) const {
-    cv::Point2f found = end;
-    TrackingWindow::Stop near = kStop;
-    near.max_shift_px = kNear * detail_px * config.window_radius_px;
-    if (!window.take(from[0], start, scale) || !window.find(to[0], near, found)) {
-      for (std::size_t level = std::min(from.size(), to.size()) - 1; level > 0; --level) {
-        const float at_level = scaleOf(level);
-        cv::Point2f scaled = at_level * found;
-        // Features that are not found in a small image are left to the larger ones.
-        if (window.take(from[level], at_level * start, scale) &&
-            window.find(to[level], kRoughly, scaled)) {
-          found = scaled / at_level;
-        }
-      }
-      if (!window.take(from[0], start, scale) || !window.find(to[0], kStop, found)) return false;
-    }
-    end = found;
-    return !round_trip || returns(start, scale, window, end);
-  }
-
-  /// Tracking back starts at the expected result, so one level is enough.
-  bool returns(cv::Point2f start,
-               float scale,
-               TrackingWindow& window,
-               const cv::Point2f& end) const {
-    const TrackingWindow::Stop near = {
-        kStop.max_iterations, detail_px * kRoundTripStep_px, detail_px * kMaxRoundTrip_px};
-    return window.take(to[0], end, 1.0F / scale) && window.find(from[0], near, start);
-  }
-};
-
 }  // namespace
 
 TrackingWindow::TrackingWindow(int radius_px)
@@ -244,22 +202,41 @@ void FeatureTracker::setDetail(double detail_px) {
   window_ = TrackingWindow(radius_px);
 }
 
-void FeatureTracker::makePyramid(const cv::Mat& image, int levels, ImagePyramid& pyramid) const {
-  buildPyramid(image, levels, 2 * config_.window_radius_px + 1, pyramid);
+bool FeatureTracker::track(const ImagePyramid& from,
+                           const ImagePyramid& to,
+                           const cv::Point2f& start,
+                           float scale,
+                           bool round_trip,
+                           cv::Point2f& end) {
+  cv::Point2f found = end;
+  TrackingWindow::Stop near = kStop;
+  near.max_shift_px = kNear * detail_px_ * config_.window_radius_px;
+  if (!window_.take(from[0], start, scale) || !window_.find(to[0], near, found)) {
+    for (std::size_t level = std::min(from.size(), to.size()) - 1; level > 0; --level) {
+      const float at_level = scaleOf(level);
+      cv::Point2f scaled = at_level * found;
+      // Features that are not found in a small image are left to the larger ones.
+      if (window_.take(from[level], at_level * start, scale) &&
+          window_.find(to[level], kRoughly, scaled)) {
+        found = scaled / at_level;
+      }
+    }
+    if (!window_.take(from[0], start, scale) || !window_.find(to[0], kStop, found)) return false;
+  }
+  if (round_trip && !returns(from[0], start, scale, to[0], found)) return false;
+  end = found;
+  return true;
 }
 
-void FeatureTracker::track(const ImagePyramid& keyframe_pyramid,
-                           const ImagePyramid& cur_pyramid,
-                           const std::vector<cv::Point2f>& keyframe_px,
-                           const std::vector<float>& scales,
-                           bool round_trip,
-                           std::vector<cv::Point2f>& cur,
-                           std::vector<char>& tracked) {
-  const Tracking tracking = {config_, detail_px_, keyframe_pyramid, cur_pyramid, round_trip};
-  for (std::size_t i = 0; i < tracked.size(); ++i) {
-    if (tracked[i] == 0) continue;
-    tracked[i] = tracking.follow(keyframe_px[i], scales[i], window_, cur[i]) ? 1 : 0;
-  }
+/// Tracking back starts at the expected result, so one level is enough.
+bool FeatureTracker::returns(const cv::Mat& from,
+                             cv::Point2f start,
+                             float scale,
+                             const cv::Mat& to,
+                             const cv::Point2f& end) {
+  const TrackingWindow::Stop near = {
+      kStop.max_iterations, detail_px_ * kRoundTripStep_px, detail_px_ * kMaxRoundTrip_px};
+  return window_.take(to, end, 1.0F / scale) && window_.find(from, near, start);
 }
 
 bool FeatureTracker::locate(const cv::Mat& from,

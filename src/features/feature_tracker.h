@@ -67,22 +67,17 @@ class FeatureTracker {
   /// multiples.
   void setDetail(double detail_px);
 
-  /// Builds a pyramid of `levels`, or fewer for a small image. Reuses the memory of `pyramid`.
-  void makePyramid(const cv::Mat& image, int levels, ImagePyramid& pyramid) const;
-
-  /// Tracks the points `keyframe_px` from one image to another. `scales` are the expected scale
-  /// changes of the points' windows, above 1 if a point comes nearer. `cur` contains the
-  /// predictions and receives the results. `tracked` becomes 1 for points that are found, otherwise
-  /// 0. Points with `tracked` = 0 on input are skipped. The smaller images of the pyramids are used
-  /// only for points that are not close to their predictions. With `round_trip`, only points that
-  /// return to within 1 px when tracked back count as tracked.
-  void track(const ImagePyramid& keyframe_pyramid,
-             const ImagePyramid& cur_pyramid,
-             const std::vector<cv::Point2f>& keyframe_px,
-             const std::vector<float>& scales,
+  /// Tracks the point `start` from one image to another. `scale` is the expected scale change of
+  /// its window, above 1 if the point comes nearer. `end` is the prediction and becomes the result.
+  /// Returns false, with `end` unchanged, if the point is not found. The smaller images of the
+  /// pyramids are used only for a point that is not close to its prediction. With `round_trip`, the
+  /// point must return to within 1 px when tracked back.
+  bool track(const ImagePyramid& from,
+             const ImagePyramid& to,
+             const cv::Point2f& start,
+             float scale,
              bool round_trip,
-             std::vector<cv::Point2f>& cur,
-             std::vector<char>& tracked);
+             cv::Point2f& end);
 
   /// Moves `point` to the position in `to` that matches the surroundings of `start` in `from`.
   /// Start near the result, and at equal scale: only one level is used, without tracking back.
@@ -90,6 +85,12 @@ class FeatureTracker {
   bool locate(const cv::Mat& from, const cv::Mat& to, const cv::Point2f& start, cv::Point2f& point);
 
  private:
+  bool returns(const cv::Mat& from,
+               cv::Point2f start,
+               float scale,
+               const cv::Mat& to,
+               const cv::Point2f& end);
+
   Config config_;
   double detail_px_ = 1.0;
   TrackingWindow window_;

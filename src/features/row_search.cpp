@@ -56,15 +56,14 @@ std::vector<float> RowSearch::search(const StereoCamera& camera, const Keyframe&
   const cv::Mat& left = keyframe.frame->left.front();
   const cv::Mat& right = keyframe.frame->right.front();
   std::vector<CornerOffset> found(sample_px.size());
-  std::vector<float> disparities_px;
   for (int rows = -kMaxRows; rows <= kMaxRows; ++rows) {
     // Matches that leave their row were found in a wrong one.
     const auto lower_px = static_cast<float>(rows);
     const RectifiedImages images = {left, right, camera, lower_px};
-    matcher_.match(images, sample_px, disparities_px);
     for (std::size_t i = 0; i < sample_px.size(); ++i) {
-      if (disparities_px[i] == StereoMatcher::kNoDisparity) continue;
-      cv::Point2f point = sample_px[i] + cv::Point2f(-disparities_px[i], lower_px);
+      const auto match = matcher_.match(images, sample_px[i]);
+      if (!match) continue;
+      cv::Point2f point = sample_px[i] + cv::Point2f(-match->disparity_px, lower_px);
       if (!tracker_.locate(left, right, sample_px[i], point)) continue;
       found[i].add(point.y - sample_px[i].y, lower_px);
     }

@@ -5,8 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
+#include <vector>
 
-#include "common/median.h"
 #include "features/patch.h"
 #include "kernels/kernels.h"
 
@@ -53,10 +54,8 @@ T* holding(int count, std::vector<T>& buffer) {
 
 /// A match and the contrast of its window relative to that of the left one.
 struct RowMatch {
-  static constexpr float kNoColumn = -1.0F;
-
-  float column = kNoColumn;
-  double gain = 1.0;
+  float column;
+  double gain;
 };
 
 /// Buffers of a search along a row.
@@ -92,13 +91,13 @@ class LeftWindow {
   }
 
   /// Searches a right row for the best of `count` windows, the first of which begins at `pixels`.
-  RowMatch searchRow(const uchar* pixels,
-                     std::ptrdiff_t step,
-                     int count,
-                     RowBuffers& buffers) const;
+  std::optional<RowMatch> searchRow(const uchar* pixels,
+                                    std::ptrdiff_t step,
+                                    int count,
+                                    RowBuffers& buffers) const;
 
   /// As searchRow(), for a few windows and without a test for competitors.
-  RowMatch searchNear(const std::int16_t* strip, int stride, int count) const;
+  std::optional<RowMatch> searchNear(const std::int16_t* strip, int stride, int count) const;
 
  private:
   struct Compared {
@@ -144,10 +143,10 @@ class LeftWindow {
   std::int16_t values_[W::kSide * W::kStride];
 };
 
-RowMatch LeftWindow::searchRow(const uchar* pixels,
-                               std::ptrdiff_t step,
-                               int count,
-                               RowBuffers& buffers) const {
+std::optional<RowMatch> LeftWindow::searchRow(const uchar* pixels,
+                                              std::ptrdiff_t step,
+                                              int count,
+                                              RowBuffers& buffers) const {
   const int stride = count + W::kStride + kMaxShorts;
   std::int16_t* const strip = holding(W::kSide * stride + kMaxShorts, buffers.strip);
   kernels_.widenPartRows(pixels, step, count + W::kSide - 1, strip, stride);
@@ -156,7 +155,7 @@ RowMatch LeftWindow::searchRow(const uchar* pixels,
   constexpr auto kNoise = static_cast<float>(W::kPartPixels * W::kPartPixels * kRounding);
   const float highest =
       kernels_.correlateParts(values_, strip, stride, count, kNoise, scratch, correlations);
-  if (!(highest > 0.0F)) return {};
+  if (!(highest > 0.0F)) return std::nullopt;
   const float max_cost = partLimit(1.0F - std::sqrt(highest));
   const float min_correlation = max_cost < 1.0F ? (1.0F - max_cost) * (1.0F - max_cost) : 0.0F;
   int* const columns = holding(count, buffers.peaks);
@@ -177,7 +176,7 @@ RowMatch LeftWindow::searchRow(const uchar* pixels,
     of_best = compared;
     best = column;
   }
-  if (best < 0) return {};
+  if (best < 0) return std::nullopt;
   Compared before = compareAt(best - 1);
   Compared after = compareAt(best + 1);
   if (before.cost < of_best.cost && before.cost <= after.cost && best >= 2) {
@@ -191,15 +190,17 @@ RowMatch LeftWindow::searchRow(const uchar* pixels,
     of_best = after;
     after = compareAt(best + 1);
   }
-  if (of_best.cost > kMaxCost) return {};
+  if (of_best.cost > kMaxCost) return std::nullopt;
   for (int i = 0; i < peaks; ++i) {
     const bool competes = std::abs(columns[i] - best) > kSlope;
-    if (competes && of_best.cost >= kUniqueness * costs[i]) return {};
+    if (competes && of_best.cost >= kUniqueness * costs[i]) return std::nullopt;
   }
   return refined(best, before, of_best, after);
 }
 
-RowMatch LeftWindow::searchNear(const std::int16_t* strip, int stride, int count) const {
+std::optional<RowMatch> LeftWindow::searchNear(const std::int16_t* strip,
+                                               int stride,
+                                               int count) const {
   constexpr int kMaxCount = 2 * StereoMatcher::kNearRadius_px + 3;
   Compared all[kMaxCount];
   int best = 0;
@@ -207,7 +208,7 @@ RowMatch LeftWindow::searchNear(const std::int16_t* strip, int stride, int count
     all[k] = compare(strip + k, stride);
     if (all[k].cost < all[best].cost) best = k;
   }
-  if (best == 0 || best == count - 1 || all[best].cost > kMaxCost) return {};
+  if (best == 0 || best == count - 1 || all[best].cost > kMaxCost) return std::nullopt;
   return refined(best, all[best - 1], all[best], all[best + 1]);
 }
 
@@ -227,86 +228,64 @@ cv::Range clip(const cv::Mat& image, const cv::Range& columns) {
   return {std::max(columns.start, kHalf), std::min(columns.end, image.cols - W::kStride)};
 }
 
-/// Calls matchOf(i) for each pixel with a window, for its match and the column where its strip
-/// begins, and converts them to disparities of at least `min_px`. `gains`: of these,
-/// null if nobody needs them.
-template <class MatchOf>
-void eachPixel(const RectifiedImages& images,
-               const std::vector<cv::Point2f>& pixels,
-               double min_px,
-               std::vector<float>& disparities_px,
-               std::vector<float>* gains,
-               const MatchOf& matchOf) {
-  if (gains != nullptr) gains->clear();
-  disparities_px.assign(pixels.size(), StereoMatcher::kNoDisparity);
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    if (!windowInside(images.left, pixels[i])) continue;
-    int first = 0;
-    const RowMatch match = matchOf(i, first);
-    if (match.column == RowMatch::kNoColumn) continue;
-    const float disparity_px = pixels[i].x - (match.column + static_cast<float>(first));
-    if (disparity_px < min_px) continue;
-    disparities_px[i] = disparity_px;
-    if (gains != nullptr) gains->push_back(static_cast<float>(match.gain));
-  }
+/// The match of a pixel whose windows begin in column `first`, with a disparity of `min_px` or
+/// more.
+std::optional<StereoMatch> matchOf(const cv::Point2f& pixel,
+                                   const std::optional<RowMatch>& found,
+                                   int first,
+                                   double min_px) {
+  if (!found) return std::nullopt;
+  const float disparity_px = pixel.x - (found->column + static_cast<float>(first));
+  if (disparity_px < min_px) return std::nullopt;
+  return StereoMatch{disparity_px, found->gain};
 }
 
 }  // namespace
 
-void StereoMatcher::match(const RectifiedImages& images,
-                          const std::vector<cv::Point2f>& corners,
-                          std::vector<float>& disparities_px) const {
-  const cv::Mat& right = images.right;
-  const int rows_lower = cvRound(images.row_offset_px);
-  const double infinity_px = images.camera.disparityAtInfinity();
-  const int nearest = cvCeil(images.camera.fx / config_.nearest_baselines + infinity_px);
-  const double min_px = config_.min_disparity_px + infinity_px;
-  const int farthest = cvFloor(min_px);
-  const Kernels& kernels = chooseKernels();
-  thread_local RowBuffers buffers_of_thread;
-  RowBuffers& buffers = buffers_of_thread;  // one look-up
-  const auto matchOf = [&](std::size_t i, int& first) -> RowMatch {
-    const cv::Point pixel(cvRound(corners[i].x), cvRound(corners[i].y));
-    const int right_row = pixel.y + rows_lower;
-    if (!rowInside(right, static_cast<float>(right_row))) return {};
-    const cv::Range columns = clip(right, cv::Range(pixel.x - nearest - 1, pixel.x - farthest + 2));
-    if (columns.size() < 3) return {};
-    first = columns.start;
-    const LeftWindow window(kernels, images.left, pixel);
-    const uchar* pixels = right.ptr<uchar>(right_row - kHalf) + first - kHalf;
-    return window.searchRow(
-        pixels, static_cast<std::ptrdiff_t>(right.step), columns.size(), buffers);
-  };
-  eachPixel(images, corners, min_px, disparities_px, nullptr, matchOf);
+double StereoMatcher::leastDisparity(const StereoCamera& camera) const {
+  return config_.min_disparity_px + camera.disparityAtInfinity();
 }
 
-double StereoMatcher::matchNear(const RectifiedImages& images,
-                                const std::vector<cv::Point2f>& pixels,
-                                const std::vector<float>& expected_px,
-                                std::vector<float>& disparities_px) const {
-  const double min_px = config_.min_disparity_px + images.camera.disparityAtInfinity();
+std::optional<StereoMatch> StereoMatcher::match(const RectifiedImages& images,
+                                                const cv::Point2f& corner) const {
+  const auto& [left, right, camera, row_offset_px] = images;
+  const cv::Point pixel(cvRound(corner.x), cvRound(corner.y));
+  const int row = pixel.y + cvRound(row_offset_px);
+  if (!windowInside(left, corner) || !rowInside(right, static_cast<float>(row))) {
+    return std::nullopt;
+  }
+  const int nearest = cvCeil(camera.fx / config_.nearest_baselines + camera.disparityAtInfinity());
+  const double least_px = leastDisparity(camera);
+  const int farthest = cvFloor(least_px);
+  const cv::Range columns = clip(right, cv::Range(pixel.x - nearest - 1, pixel.x - farthest + 2));
+  if (columns.size() < 3) return std::nullopt;
+  thread_local RowBuffers buffers;
+  const auto found = LeftWindow(chooseKernels(), left, pixel)
+                         .searchRow(right.ptr<uchar>(row - kHalf) + columns.start - kHalf,
+                                    static_cast<std::ptrdiff_t>(right.step),
+                                    columns.size(),
+                                    buffers);
+  return matchOf(corner, found, columns.start, least_px);
+}
+
+std::optional<StereoMatch> StereoMatcher::matchNear(const RectifiedImages& images,
+                                                    const cv::Point2f& pixel,
+                                                    float expected_px) const {
+  const auto& [left, right, camera, row_offset_px] = images;
+  const float row = pixel.y + static_cast<float>(row_offset_px);
+  if (!windowInside(left, pixel) || !rowInside(right, row)) return std::nullopt;
+  const int x = cvRound(pixel.x - expected_px);
+  const cv::Range columns = clip(right, cv::Range(x - kNearRadius_px - 1, x + kNearRadius_px + 2));
+  if (columns.size() < 3) return std::nullopt;
   const Kernels& kernels = chooseKernels();
-  const auto matchOf = [&](std::size_t i, int& first) -> RowMatch {
-    if (expected_px[i] == kNoDisparity) return {};
-    const float right_row = pixels[i].y + static_cast<float>(images.row_offset_px);
-    if (!rowInside(images.right, right_row)) return {};
-    const int x = cvRound(pixels[i].x - expected_px[i]);
-    const cv::Range columns =
-        clip(images.right, cv::Range(x - kNearRadius_px - 1, x + kNearRadius_px + 2));
-    if (columns.size() < 3) return {};
-    first = columns.start;
-    constexpr int kStride = 2 * W::kStride;
-    std::int16_t strip[W::kSide * kStride];
-    kernels.sampleRows(patchAt(images.right, {static_cast<float>(first), right_row}, kHalf),
-                       columns.size() + W::kSide - 1,
-                       strip,
-                       kStride);
-    const LeftWindow window(kernels, images.left, pixels[i]);
-    return window.searchNear(strip, kStride, columns.size());
-  };
-  thread_local std::vector<float> gains;
-  eachPixel(images, pixels, min_px, disparities_px, &gains, matchOf);
-  return gains.empty() ? 1.0 : median(gains);
+  constexpr int kStride = 2 * W::kStride;
+  std::int16_t strip[W::kSide * kStride];
+  kernels.sampleRows(patchAt(right, {static_cast<float>(columns.start), row}, kHalf),
+                     columns.size() + W::kSide - 1,
+                     strip,
+                     kStride);
+  const auto found = LeftWindow(kernels, left, pixel).searchNear(strip, kStride, columns.size());
+  return matchOf(pixel, found, columns.start, leastDisparity(camera));
 }
 
 }  // namespace rotrocc

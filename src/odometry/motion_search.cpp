@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/stage_timer.h"
+#include "features/descriptor_matcher.h"
 #include "motion/consensus_motion.h"
 #include "motion/feature_errors.h"
 
@@ -48,7 +49,7 @@ MotionSearch::MotionSearch(const OdometryConfig& config)
       max_tries_(config.max_tries),
       estimator_(config.motion_estimator),
       check_(config.motion_check, config.motion_estimator.as_published),
-      descriptors_(config.correspondence_finder.stereo_matcher) {}
+      matcher_(config.correspondence_finder.stereo_matcher) {}
 
 bool MotionSearch::find(const Frames& frames, const Start& start, Hypothesis& found) {
   // A window finds what is as far away as it reaches in the smallest image. Without a prediction,
@@ -83,8 +84,8 @@ bool MotionSearch::hasEnoughSupport(const Hypothesis& found) const {
 
 std::optional<MotionSearch::Start> MotionSearch::recognize(const Frames& frames) {
   const StageTimer timer(frames.times.tracking_ms);
-  const Correspondences seen = descriptors_.match(
-      frames.camera, *frames.keyframe.frame, frames.current, frames.keyframe.row_offset_px);
+  const Correspondences seen =
+      matchDescriptors(frames.camera, frames.keyframe, frames.current, matcher_);
   const auto T_keyframe_cur = consensusMotion(frames.camera, seen, kRecognitionTolerance);
   if (!T_keyframe_cur) return std::nullopt;
   return Start{*T_keyframe_cur, false};

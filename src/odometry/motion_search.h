@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 
 #include "features/correspondence_finder.h"
-#include "features/descriptor_matcher.h"
 #include "features/stereo_frame.h"
+#include "features/stereo_matcher.h"
 #include "motion/motion_estimator.h"
 #include "odometry/motion_check.h"
 #include "odometry/rig_estimate.h"
@@ -47,8 +47,8 @@ class MotionSearch {
   /// are added to those of `found`; there are none after max_tries.
   bool find(const Frames& frames, const Start& start, Hypothesis& found);
 
-  /// A start at which the scene of the keyframe is recognized, see DescriptorMatcher. None if it is
-  /// not.
+  /// A start at which the scene of the keyframe is recognized, see matchDescriptors(). None if it
+  /// is not.
   std::optional<Start> recognize(const Frames& frames);
 
   /// Measures the disparity bias at the found motion. If this changes the applied bias, estimates
@@ -72,7 +72,7 @@ class MotionSearch {
   int max_tries_;
   MotionEstimator estimator_;
   MotionCheck check_;
-  DescriptorMatcher descriptors_;
+  StereoMatcher matcher_;
 
   Hypothesis tried_;         // the latest, reused
   Hypothesis recalibrated_;  // buffer of calibrate(), reused

@@ -134,11 +134,11 @@ TEST(CorrespondenceFinderTest, TracksNothingBehindTheCamera) {
 std::vector<cv::Point2f> firstWithDisparity(const StereoPair& pair,
                                             const std::vector<cv::Point2f>& all,
                                             std::size_t most) {
-  std::vector<float> disparities_px;
-  StereoMatcher({}).match({pair.left, pair.right, scene().camera()}, all, disparities_px);
+  const StereoCamera camera = scene().camera();
+  const RectifiedImages images = {pair.left, pair.right, camera};
   std::vector<cv::Point2f> found;
   for (std::size_t i = 0; i < all.size() && found.size() < most; ++i) {
-    if (disparities_px[i] != StereoMatcher::kNoDisparity) found.push_back(all[i]);
+    if (StereoMatcher({}).match(images, all[i])) found.push_back(all[i]);
   }
   return found;
 }

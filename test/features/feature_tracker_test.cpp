@@ -79,8 +79,9 @@ Tracked track(const cv::Mat& first,
   buildPyramid(first, levels, side, a);
   buildPyramid(second, levels, side, b);
   Tracked result = known(predictions);
-  const std::vector<float> same_size(from.size(), 1.0F);
-  tracker.track(a, b, from, same_size, true, result.cur, result.tracked);
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    result.tracked[i] = tracker.track(a, b, from[i], 1.0F, true, result.cur[i]) ? 1 : 0;
+  }
   return result;
 }
 
@@ -137,24 +138,6 @@ TEST(FeatureTrackerTest, UsesSmallImagesWhereAPointIsNotNear) {
   EXPECT_GT(one, 0.8 * static_cast<double>(drive().truth.size()));
   EXPECT_NEAR(one, static_cast<double>(errors(0.5, 3).size()), 0.01 * one);
   EXPECT_GT(errors(12.0, 3).size(), 2 * errors(12.0, 1).size());
-}
-
-TEST(FeatureTrackerTest, LeavesPointsAloneThatAreNotAskedFor) {
-  FeatureTracker tracker({});
-  ImagePyramid a, b;
-  tracker.makePyramid(drive().first, StereoFrame::kLevels, a);
-  tracker.makePyramid(drive().second, StereoFrame::kLevels, b);
-  const Points before = perturbed(drive().truth, 2.0);
-  Points cur = before;
-  std::vector<char> tracked(cur.size());
-  for (std::size_t i = 0; i < tracked.size(); ++i) tracked[i] = i % 2;
-  tracker.track(a, b, drive().corners, std::vector<float>(cur.size(), 1.0F), true, cur, tracked);
-  const Tracked all =
-      track(drive().first, drive().second, drive().corners, before, StereoFrame::kLevels);
-  for (std::size_t i = 0; i < cur.size(); ++i) {
-    EXPECT_EQ(cur[i], i % 2 == 0 ? before[i] : all.cur[i]);
-    EXPECT_EQ(tracked[i], i % 2 == 0 ? 0 : all.tracked[i]);
-  }
 }
 
 TEST(FeatureTrackerTest, TakesImagesOfAnySizeAndPointsOutside) {

@@ -52,10 +52,10 @@ class MatchCounter {
 
   int count(const cv::Mat& left, const cv::Mat& right) {
     detector_.detect(left, corners_);
-    matcher_.match({left, right, camera_}, corners_, disparities_);
+    const RectifiedImages images = {left, right, camera_};
     return static_cast<int>(
-        std::count_if(disparities_.begin(), disparities_.end(), [](float disparity_px) {
-          return disparity_px != StereoMatcher::kNoDisparity;
+        std::count_if(corners_.begin(), corners_.end(), [&](const cv::Point2f& corner) {
+          return matcher_.match(images, corner).has_value();
         }));
   }
 
@@ -67,7 +67,6 @@ class MatchCounter {
   StereoMatcher matcher_;
   StereoCamera camera_;
   std::vector<cv::Point2f> corners_;
-  std::vector<float> disparities_;
 };
 
 /// Whether the features that agree with the last motion stand still in the image.
