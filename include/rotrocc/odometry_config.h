@@ -33,7 +33,7 @@ struct CorrespondenceFinderConfig {
   FeatureTrackerConfig feature_tracker;
 };
 
-/// The criteria that select the features for motion estimation:
+/// The criteria of the paper that select the features for motion estimation:
 ///   "rotrocc"       reprojection error for the rotation, then DNRE for the translation (V-B)
 ///   "reprojection"  stage 1 only
 ///   "rocc"          as rotrocc, but normalized by the coupled flow (Eq. 8)
@@ -41,12 +41,8 @@ struct CorrespondenceFinderConfig {
 ///   "std_based"     one stage, Eq. 31
 const std::vector<std::string>& criterionNames();
 
-/// The two-stage estimator.
 struct MotionEstimatorConfig {
-  std::string criterion = "rotrocc";  ///< one of criterionNames()
-  /// Section V-B as published: plain least squares, without a retry; stage 2 starts from all
-  /// features and the prediction. Set by OdometryConfig::method.
-  bool as_published = false;
+  std::string criterion = "rotrocc";  ///< one of criterionNames(); others only as published
 };
 
 /// Plausibility limits of an estimated motion.
@@ -75,8 +71,8 @@ struct SystematicErrorConfig {
   Matrix6d covarianceOf(const Eigen::Isometry3d& motion) const;
 };
 
-/// "default", and "paper", the method as published: PaperFinder, MotionEstimatorConfig's
-/// as_published, and motions from pair to pair. It sets neither max_tries, which is 1 in the paper,
+/// "default", and "paper", the method as published: PaperFinder, PaperEstimator, and motions from
+/// pair to pair. It sets neither max_tries, which is 1 in the paper,
 /// nor the self-calibration, which the paper does not have.
 const std::vector<std::string>& methodNames();
 
@@ -91,7 +87,10 @@ struct OdometryConfig {
 
   int max_tries = 8;  ///< maximum number of attempts from each earlier frame
 
-  /// Throws std::invalid_argument with the parameter and its value if a name is unknown.
+  bool isPaper() const { return method == "paper"; }
+
+  /// Throws std::invalid_argument with the parameter and its value if a name is unknown, or if the
+  /// method does not have the criterion.
   void check() const;
 };
 

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
-#include <numeric>
 
 #include "common/median.h"
 
@@ -16,24 +15,8 @@ namespace {
 /// sqrt(2 ln 2).
 constexpr double kMedianLength = 1.1774100225154747;
 
-double meanOf(const std::vector<double>& errors) {
-  if (errors.empty()) return std::numeric_limits<double>::infinity();
-  return std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
-}
-
-Eigen::Vector2d finiteProjection(const StereoCamera& camera, Eigen::Vector3d point) {
-  point.z() = std::max(point.z(), kMinDepth_m);
-  return camera.project(point);
-}
-
-/// Sets each value to length(feature).
-template <class Length>
-void measureEach(const Correspondences& features,
-                 std::vector<double>& lengths_px,
-                 const Length& length) {
-  lengths_px.resize(features.size());
-  std::transform(features.begin(), features.end(), lengths_px.begin(), length);
-}
+/// Lower limit of the flow [px], so that normalized errors stay finite without flow.
+constexpr double kMinFlow_px = 1e-6;
 
 }  // namespace
 
@@ -61,18 +44,6 @@ double fixedLimit(double limit, double drop_share, std::vector<double>& errors) 
   return std::max(*highest, limit);
 }
 
-double meanBasedLimit(double factor, const std::vector<double>& errors) {
-  return factor * meanOf(errors);
-}
-
-double deviationBasedLimit(double factor, const std::vector<double>& errors) {
-  const double mean = meanOf(errors);
-  double squares = 0.0;
-  for (const double error : errors) squares += (error - mean) * (error - mean);
-  return mean +
-         factor * std::sqrt(squares / std::max(static_cast<double>(errors.size()) - 1.0, 1.0));
-}
-
 bool keepBelow(const std::vector<double>& errors, double threshold, FeatureSet& set) {
   bool changed = false;
   for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -87,30 +58,31 @@ int count(const FeatureSet& set) {
   return static_cast<int>(std::count(set.begin(), set.end(), static_cast<char>(1)));
 }
 
-void reprojectionErrors(const StereoCamera& camera,
-                        const Correspondences& features,
+void reprojectionErrors(const Measurements& measured,
                         const Eigen::Isometry3d& T_keyframe_cur,
                         std::vector<double>& errors_px) {
-  measureEach(features, errors_px, [&](const Correspondence& feature) {
-    const Eigen::Vector3d point = T_keyframe_cur * feature.point_cur;
-    return (feature.keyframe_px - finiteProjection(camera, point)).norm();
-  });
+  errors_px.clear();
+  for (const Correspondence& feature : measured.features) {
+    Eigen::Vector3d point = T_keyframe_cur * feature.point_cur;
+    point.z() = std::max(point.z(), kMinDepth_m);
+    errors_px.push_back((feature.keyframe_px - measured.camera.project(point)).norm());
+  }
 }
 
-void decoupledFlow(const StereoCamera& camera,
-                   const Correspondences& features,
-                   const Eigen::Matrix3d& R_keyframe_cur,
+void decoupledFlow(const Measurements& measured,
+                   const Eigen::Isometry3d& T_keyframe_cur,
                    std::vector<double>& lengths_px) {
-  measureEach(features, lengths_px, [&](const Correspondence& feature) {
-    const Eigen::Vector3d rotated = R_keyframe_cur * feature.point_cur;       // Eq. 27
-    return (feature.keyframe_px - finiteProjection(camera, rotated)).norm();  // Eq. 28
-  });
+  Eigen::Isometry3d rotation = T_keyframe_cur;
+  rotation.translation().setZero();
+  reprojectionErrors(measured, rotation, lengths_px);
 }
 
-void coupledFlow(const Correspondences& features, std::vector<double>& lengths_px) {
-  measureEach(features, lengths_px, [](const Correspondence& feature) {
-    return (feature.keyframe_px - feature.cur_px).norm();
-  });
+void normalizedErrors(const Measurements& measured,
+                      const Eigen::Isometry3d& T_keyframe_cur,
+                      const std::vector<double>& flow_px,
+                      std::vector<double>& errors) {
+  reprojectionErrors(measured, T_keyframe_cur, errors);
+  for (std::size_t i = 0; i < errors.size(); ++i) errors[i] /= std::max(flow_px[i], kMinFlow_px);
 }
 
 }  // namespace rotrocc

@@ -10,6 +10,13 @@
 
 namespace rotrocc {
 
+/// The measurements of one pair and their noise.
+struct Measurements {
+  const StereoCamera& camera;
+  const Correspondences& features;
+  double noise_ratio;  ///< standard deviation of a disparity over that of a flow
+};
+
 /// Of cauchyWeights(), for motions and the disparity bias.
 constexpr double kCauchyFactor = 1.5;
 
@@ -69,16 +76,10 @@ void select(const std::vector<Entry>& entries,
   }
 }
 
-// The thresholds between inliers and outliers are computed in each iteration, from the errors of
-// the current set. They are infinite if it is empty.
-
-/// Eq. 26 and 30: the larger of a fixed limit and the b-th highest error, where b is `drop_share`
-/// of the set. No iteration drops a larger share. Reorders the errors.
+/// The threshold between inliers and outliers of an iteration, from the errors of the current set
+/// (Eq. 26, 30): the larger of a fixed limit and the b-th highest error, where b is `drop_share` of
+/// the set. No iteration drops a larger share. Infinite if the set is empty. Reorders the errors.
 double fixedLimit(double limit, double drop_share, std::vector<double>& errors);
-/// Eq. 32: `factor` times the mean error.
-double meanBasedLimit(double factor, const std::vector<double>& errors);
-/// Eq. 31: `factor` standard deviations above the mean error.
-double deviationBasedLimit(double factor, const std::vector<double>& errors);
 
 /// Flags in `set` exactly the features with an error below `threshold`. Dropped features may be
 /// added again, as in Eq. 26. Returns whether the set changed.
@@ -88,19 +89,22 @@ bool keepBelow(const std::vector<double>& errors, double threshold, FeatureSet& 
 int count(const FeatureSet& set);
 
 /// Reprojection error |x_keyframe - pi(R X_cur + T)| of each feature [px] (Eq. 2).
-void reprojectionErrors(const StereoCamera& camera,
-                        const Correspondences& features,
+void reprojectionErrors(const Measurements& measured,
                         const Eigen::Isometry3d& T_keyframe_cur,
                         std::vector<double>& errors_px);
 
-/// Length [px] of each feature's flow after removing the rotation (Eq. 27, 28), which is the flow
-/// caused by the translation alone: |x_keyframe - pi(R x_cur)|.
-void decoupledFlow(const StereoCamera& camera,
-                   const Correspondences& features,
-                   const Eigen::Matrix3d& R_keyframe_cur,
+/// Length [px] of each feature's flow after removing the rotation of the motion (Eq. 27, 28), which
+/// is the flow caused by the translation alone: |x_keyframe - pi(R x_cur)|.
+void decoupledFlow(const Measurements& measured,
+                   const Eigen::Isometry3d& T_keyframe_cur,
                    std::vector<double>& lengths_px);
 
-/// Length [px] of each feature's measured flow: |x_keyframe - x_cur|.
-void coupledFlow(const Correspondences& features, std::vector<double>& lengths_px);
+/// Errors of reprojectionErrors() divided by the flow of the features: the DNRE, or NRE (Eq. 8,
+/// 30). Only without whitening, it equals the relative depth error, which is large for far points
+/// with a wrong disparity.
+void normalizedErrors(const Measurements& measured,
+                      const Eigen::Isometry3d& T_keyframe_cur,
+                      const std::vector<double>& flow_px,
+                      std::vector<double>& errors);
 
 }  // namespace rotrocc

@@ -100,35 +100,74 @@ Information collect(const ReprojectionProblem& problem,
   return information;
 }
 
-/// Sets the covariance of a valid motion, at which `problem` is, in the order of
-/// OdometryResult::covariance, and the noise of the flow, corrected for the dropped features.
-/// Returns false if the features do not determine the motion. Changes the weights of the problem.
-///
-/// The covariance of the rotation comes from stage 1, with the translation marginalized. The
-/// covariance of the translation comes from stage 2, plus the effect of the rotation's error dR:
-///   dt = -(Jt^T Jt)^-1 Jt^T Jr dR.
-/// Both follow the sandwich formula for robust weights (Huber's M-estimators). Both are inflated,
-/// because neighboring features share errors.
-///
-/// Stage 1 also drops features that are merely noisy. The remaining errors have only a share g of
-/// the full variance. The covariance of the fit is that of a fit to untruncated errors, divided by
-/// g (the sandwich formula, with both of its parts scaled by g).
-bool estimateCovariance(const MotionEstimatorConfig& config,
-                        const Measurements& measured,
-                        ReprojectionProblem& problem,
-                        MotionEstimate& motion) {
+}  // namespace
+
+const MotionEstimate& MotionEstimator::estimate(
+    const StereoCamera& camera,
+    const Correspondences& features,
+    const Eigen::Isometry3d& initial,
+    double /*dt_s*/,
+    const std::optional<Eigen::Isometry3d>& prediction) {
+  const Measurements measured = {camera, features, kDisparityNoiseRatio};
+  all_.assign(features.size(), 1);
+  estimateFrom(all_, measured, initial, found_);
+  const int agree = found_.valid ? count(found_.rotation_inliers) : 0;
+  if (agree >= kRetryShare * static_cast<double>(features.size())) return found_;
+  if (agree < kMajority * static_cast<double>(features.size())) takeConsensus(measured);
+  if (!prediction) return found_;
+  retryNear(*prediction, measured);
+  const int near = retry_.valid ? count(retry_.rotation_inliers) : 0;
+  const bool is_likelier = near > kLeastShare * static_cast<double>(features.size()) &&
+                           near > kLikelierShare * count(found_.rotation_inliers);
+  return is_likelier ? retry_ : found_;
+}
+
+/// The full set is a mixture of motions: its least squares fit may end at none of them, or at one
+/// of the smaller part. Replaces it by the motion that most features agree on, if more do.
+void MotionEstimator::takeConsensus(const Measurements& measured) {
+  const auto consensus = consensusMotion(measured.camera, measured.features);
+  if (!consensus) return;
+  retryNear(*consensus, measured);
+  if (!retry_.valid) return;
+  const double clearly_more = kMinCountRatio * count(found_.rotation_inliers);
+  if (!found_.valid || count(retry_.rotation_inliers) > clearly_more) std::swap(found_, retry_);
+}
+
+/// Estimates from the features close to a motion.
+void MotionEstimator::retryNear(const Eigen::Isometry3d& motion, const Measurements& measured) {
+  // Without whitening, because the motion of an object along the road looks like a wrong disparity.
+  reprojectionErrors(measured, motion, errors_px_);
+  near_ = all_;
+  keepBelow(errors_px_, measured.camera.detail_px * kRetryAgreement_px, near_);
+  estimateFrom(near_, measured, motion, retry_);
+}
+
+void MotionEstimator::estimateFrom(const FeatureSet& set,
+                                   const Measurements& measured,
+                                   const Eigen::Isometry3d& initial,
+                                   MotionEstimate& estimate) {
+  two_stages_.estimate(measured, set, initial, problem_, estimate);
+  const double limit_px = measured.camera.detail_px * kRotationLimit;
+  estimate.valid = estimateCovariance(measured, limit_px, kCauchyFactor, problem_, estimate);
+}
+
+bool MotionEstimator::estimateCovariance(const Measurements& measured,
+                                         double limit_px,
+                                         double robust_factor,
+                                         ReprojectionProblem& problem,
+                                         MotionEstimate& motion) {
+  motion.covariance.setZero();
+  motion.flow_noise_px = 0.0;
+  if (!motion.valid) return false;
   const auto informationOf = [&](const FeatureSet& set, int estimated_parameters) {
     problem.select(set);
-    if (!config.as_published) problem.weigh(kCauchyFactor);
+    problem.weigh(robust_factor);
     return collect(problem, measured, estimated_parameters);
   };
   const Information one = informationOf(motion.rotation_inliers, 6);
   const Eigen::LDLT<Matrix6d> full(one.matrix);
   if (full.info() != Eigen::Success || !full.isPositive()) return false;
-  const double share =
-      hasFixedLimit(criterionOf(config.criterion))
-          ? shareOfVariance(one.residual_variance, measured.camera.detail_px * kRotationLimit)
-          : 1.0;
+  const double share = shareOfVariance(one.residual_variance, limit_px);
   const double variance = one.residual_variance / share;
   const double correlation_inflation =
       inflation(full.solve(one.scatter).trace() / 6.0, one.residual_variance);
@@ -153,66 +192,6 @@ bool estimateCovariance(const MotionEstimatorConfig& config,
   motion.covariance.topRightCorner<3, 3>() = by_rotation * rotation;
   motion.covariance.bottomLeftCorner<3, 3>() = rotation * by_rotation.transpose();
   return motion.covariance.allFinite();
-}
-
-}  // namespace
-
-MotionEstimator::MotionEstimator(const Config& config) : config_(config), two_stages_(config) {}
-
-const MotionEstimate& MotionEstimator::estimate(
-    const StereoCamera& camera,
-    const Correspondences& features,
-    const Eigen::Isometry3d& initial,
-    double dt_s,
-    const std::optional<Eigen::Isometry3d>& prediction) {
-  const double noise_ratio = config_.as_published ? 0.0 : kDisparityNoiseRatio;
-  const Measurements measured = {camera, features, noise_ratio};
-  all_.assign(features.size(), 1);
-  estimateFrom(all_, measured, initial, dt_s, found_);
-  const int agree = found_.valid ? count(found_.rotation_inliers) : 0;
-  const bool few = agree < kRetryShare * static_cast<double>(features.size());
-  if (!few || config_.as_published) return found_;
-
-  if (agree < kMajority * static_cast<double>(features.size())) takeConsensus(measured, dt_s);
-  if (!prediction) return found_;
-  retryNear(*prediction, measured, dt_s);
-  const int near = retry_.valid ? count(retry_.rotation_inliers) : 0;
-  const bool is_likelier = near > kLeastShare * static_cast<double>(features.size()) &&
-                           near > kLikelierShare * count(found_.rotation_inliers);
-  return is_likelier ? retry_ : found_;
-}
-
-/// The full set is a mixture of motions: its least squares fit may end at none of them, or at one
-/// of the smaller part. Replaces it by the motion that most features agree on, if more do.
-void MotionEstimator::takeConsensus(const Measurements& measured, double dt_s) {
-  const auto consensus = consensusMotion(measured.camera, measured.features);
-  if (!consensus) return;
-  retryNear(*consensus, measured, dt_s);
-  if (!retry_.valid) return;
-  const double clearly_more = kMinCountRatio * count(found_.rotation_inliers);
-  if (!found_.valid || count(retry_.rotation_inliers) > clearly_more) std::swap(found_, retry_);
-}
-
-/// Estimates from the features close to a motion.
-void MotionEstimator::retryNear(const Eigen::Isometry3d& motion,
-                                const Measurements& measured,
-                                double dt_s) {
-  // Without whitening, because the motion of an object along the road looks like a wrong disparity.
-  reprojectionErrors(measured.camera, measured.features, motion, errors_px_);
-  near_ = all_;
-  keepBelow(errors_px_, measured.camera.detail_px * kRetryAgreement_px, near_);
-  estimateFrom(near_, measured, motion, dt_s, retry_);
-}
-
-void MotionEstimator::estimateFrom(const FeatureSet& set,
-                                   const Measurements& measured,
-                                   const Eigen::Isometry3d& initial,
-                                   double dt_s,
-                                   MotionEstimate& estimate) {
-  two_stages_.estimate(measured, set, initial, dt_s, problem_, estimate);
-  estimate.covariance.setZero();
-  estimate.flow_noise_px = 0.0;
-  estimate.valid = estimate.valid && estimateCovariance(config_, measured, problem_, estimate);
 }
 
 }  // namespace rotrocc

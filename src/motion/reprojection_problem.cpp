@@ -5,8 +5,6 @@
 
 #include <Eigen/Cholesky>
 
-#include "motion/feature_errors.h"
-
 namespace rotrocc {
 namespace {
 

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "motion/feature_errors.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/stereo_camera.h"
 
@@ -14,13 +15,6 @@ namespace rotrocc {
 
 /// Standard deviation of a disparity over that of a flow.
 constexpr double kDisparityNoiseRatio = 4.0;
-
-/// The measurements of one pair and their noise.
-struct Measurements {
-  const StereoCamera& camera;
-  const Correspondences& features;
-  double noise_ratio;  ///< standard deviation of a disparity over that of a flow
-};
 
 /// Divides an image into cells of equal size, numbered row by row.
 class ImageGrid {

@@ -164,16 +164,17 @@ LiveParameters::LiveParameters(ros::NodeHandle& private_nh,
 /// Returns all values, whether they have changed or not.
 Config LiveParameters::set(const Config& config) {
   try {
-    const Parameters before = parameters_;
-    applyConfig(config, parameters_);
+    Parameters changed = parameters_;
+    applyConfig(config, changed);
+    on_change_(changed.odometry);  // may reject them, too
     // For the next start and for other nodes.
     for (const auto& entry : config.ints) private_nh_.setParam(entry.name, entry.value);
     for (const auto& entry : config.doubles) private_nh_.setParam(entry.name, entry.value);
     for (const auto& entry : config.bools) private_nh_.setParam(entry.name, entry.value != 0);
     for (const auto& entry : config.strs) private_nh_.setParam(entry.name, entry.value);
-    on_change_(parameters_.odometry);
-    const std::string changed = changes(before, parameters_);
-    if (!changed.empty()) log_.info("parameters changed: " + changed);
+    const std::string what = changes(parameters_, changed);
+    if (!what.empty()) log_.info("parameters changed: " + what);
+    parameters_ = changed;
   } catch (const std::exception& error) {
     log_.warn(std::string("parameters not changed: ") + error.what());
   }

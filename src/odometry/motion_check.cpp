@@ -75,9 +75,10 @@ std::string fewAgree(double share, const char* on_what, double limit) {
 
 }  // namespace
 
-std::optional<std::string> MotionCheck::whyLost(const MotionEstimate& estimate,
+std::optional<std::string> MotionCheck::whyLost(const Hypothesis& found,
                                                 const Eigen::Isometry3d& T_keyframe_last,
                                                 double dt_s) const {
+  const MotionEstimate& estimate = found.estimate;
   const auto features = static_cast<int>(estimate.rotation_inliers.size());
   if (features < kMinInliers) {
     return cv::format("only %d features were matched, fewer than %d", features, kMinInliers);
@@ -102,18 +103,13 @@ std::optional<std::string> MotionCheck::whyLost(const MotionEstimate& estimate,
     return "the estimated turn rate is " + comparedText(turn_rate_rps, config_.max_turn_rate_rps) +
            cv::format(" rad/s, more than max_turn_rate_rps = %g", config_.max_turn_rate_rps);
   }
-  return std::nullopt;
-}
-
-std::optional<std::string> MotionCheck::whyByChance(const StageCounts& counts) const {
-  const int agreeing = counts.rotation_inliers;
-  const bool is_majority = 2 * agreeing >= counts.consistent;
-  if (as_published_ || is_majority || agreeing >= kMinSurvivors * counts.with_depth) {
+  const int by_rotation = found.counts.rotation_inliers;
+  if (as_published_ || 2 * by_rotation >= features ||
+      by_rotation >= kMinSurvivors * found.counts.with_depth) {
     return std::nullopt;
   }
-  return cv::format(
-             "only %d of %d tracked features agree on a motion", agreeing, counts.consistent) +
-         cv::format(", of %d in all: as many may by chance", counts.with_depth);
+  return cv::format("only %d of %d tracked features agree on a motion", by_rotation, features) +
+         cv::format(", of %d in all: as many may by chance", found.counts.with_depth);
 }
 
 std::optional<std::string> MotionCheck::whyFewAgree(const Hypothesis& accepted) const {
@@ -186,19 +182,25 @@ double MotionCheck::informationShare(const Hypothesis& accepted) {
   return leastShare(of_inliers - of_most.transpose() * of_most, of_all);
 }
 
-/// The median depth [m] of the features of a set that is not empty, in the current frame.
-double MotionCheck::medianDepth(const Correspondences& features, const FeatureSet& set) {
-  depths_m_.clear();
+/// The median of value(feature) over the features of a set that is not empty.
+template <class Value>
+double MotionCheck::medianOf(const Correspondences& features,
+                             const FeatureSet& set,
+                             const Value& value) {
+  values_.clear();
   for (std::size_t i = 0; i < features.size(); ++i) {
-    if (set[i] != 0) depths_m_.push_back(features[i].point_cur.z());
+    if (set[i] != 0) values_.push_back(value(features[i]));
   }
-  return median(depths_m_);
+  return median(values_);
 }
 
 std::optional<std::string> MotionCheck::whyUndetermined(const Hypothesis& accepted,
                                                         const Matrix6d& covariance) {
   const MotionEstimate& estimate = accepted.estimate;
-  const double depth_m = medianDepth(accepted.features, estimate.rotation_inliers);
+  const double depth_m =
+      medianOf(accepted.features, estimate.rotation_inliers, [](const Correspondence& feature) {
+        return feature.point_cur.z();
+      });
   const double step_m =
       std::max(estimate.T_keyframe_cur.translation().norm(), kShortStep * depth_m);
   const double sigma_m = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
@@ -220,10 +222,12 @@ bool MotionCheck::hasReserve(const MotionEstimate& accepted) {
 }
 
 bool MotionCheck::isAtRest(const Hypothesis& accepted) {
-  coupledFlow(accepted.features, flow_px_);
-  select(flow_px_, accepted.estimate.rotation_inliers, inlier_flow_px_);
-  return !inlier_flow_px_.empty() &&
-         median(inlier_flow_px_) <= kRest * accepted.estimate.flow_noise_px;
+  const MotionEstimate& estimate = accepted.estimate;
+  const auto flow_px = [](const Correspondence& feature) {
+    return (feature.keyframe_px - feature.cur_px).norm();
+  };
+  return medianOf(accepted.features, estimate.rotation_inliers, flow_px) <=
+         kRest * estimate.flow_noise_px;
 }
 
 std::optional<std::string> MotionCheck::whyJump(const UncertainTransform& motion,

@@ -43,24 +43,21 @@ class MotionCheck {
  public:
   using Config = MotionCheckConfig;
 
-  /// `as_published` is that of MotionEstimatorConfig.
+  /// `as_published`: by the method of the paper.
   explicit MotionCheck(const Config& config, bool as_published = false)
       : config_(config), as_published_(as_published) {}
 
   /// Why the motion is rejected, in one sentence with the value and the limit; none if it is
   /// accepted. The limits of speed and turn rate are for the step since the last frame, which took
-  /// `dt_s` > 0.
-  std::optional<std::string> whyLost(const MotionEstimate& estimate,
+  /// `dt_s` > 0. Features may agree on a motion by chance if they are neither half of the tracked
+  /// ones nor a tenth of the keyframe's.
+  std::optional<std::string> whyLost(const Hypothesis& found,
                                      const Eigen::Isometry3d& T_keyframe_last,
                                      double dt_s) const;
 
   /// Why an accepted motion is less reliable; none if it is not. `covariance` is that of the
   /// motion since the keyframe, including that of the rig's calibration, before inflation().
   std::optional<std::string> whyDegraded(const Hypothesis& accepted, const Matrix6d& covariance);
-
-  /// Why features may agree on a motion by chance: they are neither half of the tracked ones nor a
-  /// tenth of the keyframe's. None if they are more, or as published.
-  std::optional<std::string> whyByChance(const StageCounts& counts) const;
 
   /// Of the reasons of whyDegraded() the one that too few of the tracked features agree: there may
   /// be a better start.
@@ -92,13 +89,14 @@ class MotionCheck {
   std::optional<std::string> whyUndetermined(const Hypothesis& accepted,
                                              const Matrix6d& covariance);
   double informationShare(const Hypothesis& accepted);
-  double medianDepth(const Correspondences& features, const FeatureSet& set);
+  template <class Value>
+  double medianOf(const Correspondences& features, const FeatureSet& set, const Value& value);
 
   Config config_;
   bool as_published_;
 
-  // Buffers, reused.
-  std::vector<double> depths_m_, flow_px_, inlier_flow_px_;
+  // Reused.
+  std::vector<double> values_;
   ReprojectionProblem problem_;
 };
 

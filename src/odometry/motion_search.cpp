@@ -7,6 +7,7 @@
 #include "features/descriptor_matcher.h"
 #include "motion/consensus_motion.h"
 #include "motion/feature_errors.h"
+#include "paper/paper_estimator.h"
 
 namespace rotrocc {
 namespace {
@@ -42,13 +43,19 @@ bool isBetter(const Hypothesis& a, const Hypothesis& b) {
   return a.isAccepted() && a.counts.rotation_inliers > factor * b.counts.rotation_inliers;
 }
 
+std::unique_ptr<MotionEstimator> makeEstimator(const OdometryConfig& config) {
+  config.check();
+  if (config.isPaper()) return std::make_unique<PaperEstimator>(config.motion_estimator);
+  return std::make_unique<MotionEstimator>();
+}
+
 }  // namespace
 
 MotionSearch::MotionSearch(const OdometryConfig& config)
     : window_radius_px_(config.correspondence_finder.feature_tracker.window_radius_px),
       max_tries_(config.max_tries),
-      estimator_(config.motion_estimator),
-      check_(config.motion_check, config.motion_estimator.as_published),
+      estimator_(makeEstimator(config)),
+      check_(config.motion_check, config.isPaper()),
       matcher_(config.correspondence_finder.stereo_matcher) {}
 
 bool MotionSearch::find(const Frames& frames, const Start& start, Hypothesis& found) {
@@ -121,17 +128,16 @@ void MotionSearch::estimate(const Frames& frames,
     estimate.rotation_inliers.assign(hypothesis.features.size(), 0);
     estimate.translation_inliers = estimate.rotation_inliers;
   } else {
-    estimate = estimator_.estimate(hypothesis.camera,
-                                   hypothesis.features,
-                                   initial,
-                                   secondsBetween(*frames.keyframe.frame, frames.current),
-                                   prediction);
+    estimate = estimator_->estimate(hypothesis.camera,
+                                    hypothesis.features,
+                                    initial,
+                                    secondsBetween(*frames.keyframe.frame, frames.current),
+                                    prediction);
   }
   hypothesis.counts.rotation_inliers = count(estimate.rotation_inliers);
   hypothesis.counts.translation_inliers =
       estimate.has_translation_stage ? count(estimate.translation_inliers) : 0;
-  hypothesis.why_lost = check_.whyLost(estimate, frames.keyframe.T_keyframe_last.T, frames.dt_s);
-  if (!hypothesis.why_lost) hypothesis.why_lost = check_.whyByChance(hypothesis.counts);
+  hypothesis.why_lost = check_.whyLost(hypothesis, frames.keyframe.T_keyframe_last.T, frames.dt_s);
 }
 
 void MotionSearch::calibrate(const Frames& frames, RigEstimate& rig, Hypothesis& found) {

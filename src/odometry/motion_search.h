@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include <Eigen/Geometry>
@@ -35,7 +36,7 @@ class MotionSearch {
     bool is_prediction;  ///< of the motion, not only of its rotation
   };
 
-  /// Throws as the constructor of MotionEstimator.
+  /// Throws as OdometryConfig::check().
   explicit MotionSearch(const OdometryConfig& config);
 
   /// Tracks the features from the positions that the start predicts, and estimates the motion. If
@@ -70,7 +71,7 @@ class MotionSearch {
 
   int window_radius_px_;
   int max_tries_;
-  MotionEstimator estimator_;
+  std::unique_ptr<MotionEstimator> estimator_;
   MotionCheck check_;
   StereoMatcher matcher_;
 

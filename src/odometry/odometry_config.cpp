@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "motion/two_stage_estimator.h"
+#include "paper/paper_estimator.h"
 
 namespace rotrocc {
 
@@ -26,9 +26,13 @@ Matrix6d SystematicErrorConfig::covarianceOf(const Eigen::Isometry3d& motion) co
 }
 
 void OdometryConfig::check() const {
-  criterionOf(motion_estimator.criterion);
+  const Criterion criterion = criterionOf(motion_estimator.criterion);
   if (method != "default" && method != "paper") {
     throw std::invalid_argument("method is \"" + method + "\", but must be default or paper");
+  }
+  if (!isPaper() && criterion != Criterion::kRotrocc) {
+    throw std::invalid_argument("criterion is \"" + motion_estimator.criterion +
+                                "\", but must be rotrocc unless method is paper");
   }
 }
 

@@ -35,15 +35,8 @@ constexpr double kPredictable = 5.0;
 /// Weight of the last interval in the period of the pairs.
 constexpr double kNewInterval = 0.1;
 
-/// The config that its method makes of it. Throws as OdometryConfig::check().
-OdometryConfig byMethod(OdometryConfig config) {
-  config.check();
-  config.motion_estimator.as_published = config.method == "paper";
-  return config;
-}
-
 std::unique_ptr<CorrespondenceFinder> makeFinder(const OdometryConfig& config) {
-  if (config.method == "paper") return std::make_unique<PaperFinder>(config.correspondence_finder);
+  if (config.isPaper()) return std::make_unique<PaperFinder>(config.correspondence_finder);
   return std::make_unique<CorrespondenceFinder>(config.correspondence_finder);
 }
 
@@ -147,10 +140,10 @@ class VisualOdometry::Pipeline {
 };
 
 VisualOdometry::Pipeline::Pipeline(const Config& config)
-    : config_(byMethod(config)),
+    : config_(config),
       finder_(makeFinder(config_)),
       search_(config_),
-      check_(config_.motion_check, config_.motion_estimator.as_published),
+      check_(config_.motion_check, config_.isPaper()),
       rig_(config_),
       base_(config_.correspondence_finder.feature_detector) {}
 
@@ -233,16 +226,15 @@ void VisualOdometry::Pipeline::forget() {
 }
 
 void VisualOdometry::Pipeline::configure(const Config& config) {
-  const Config by_method = byMethod(config);
   // First, because they may throw.
-  auto finder = makeFinder(by_method);
-  MotionSearch search(by_method);
-  config_ = by_method;
+  auto finder = makeFinder(config);
+  MotionSearch search(config);
+  config_ = config;
   base_.configure(config_.correspondence_finder.feature_detector);
-  if (config_.method == "paper") base_.reset();
+  if (config_.isPaper()) base_.reset();
   finder_ = std::move(finder);
   search_ = std::move(search);
-  check_ = MotionCheck(config_.motion_check, config_.motion_estimator.as_published);
+  check_ = MotionCheck(config_.motion_check, config_.isPaper());
   rig_.configure(config_);
   keyframe_.frame.reset();  // its corners depend on the old parameters
 }
@@ -294,7 +286,7 @@ void VisualOdometry::Pipeline::advance(const StereoPair& pair,
 
 FramePtr VisualOdometry::Pipeline::makeFrame(const StereoPair& pair) {
   const FramePtr frame = finder_->makeFrame(pair, level_);
-  if (config_.method != "paper") base_.observe(frame->whole_left);
+  if (!config_.isPaper()) base_.observe(frame->whole_left);
   if (base_.level() != level_) useLevel();
   rig_.setLevel(level_, base_.detail_px());
   frame->setLevel(level_);
@@ -443,7 +435,7 @@ void VisualOdometry::Pipeline::accept(const FramePtr& current, OdometryResult& r
   // drift at standstill. In motion each frame is the keyframe of the next one, because the errors
   // of a feature grow with the way that it is tracked.
   const bool serves = result.state == State::kOk && MotionCheck::hasReserve(estimate) &&
-                      config_.method != "paper" && check_.isAtRest(found_);
+                      !config_.isPaper() && check_.isAtRest(found_);
   if (!serves) keyframe_.frame.reset();
 }
 

@@ -101,7 +101,7 @@ void addOdometry(OdometryConfig& c, ParameterTable& table) {
 
   table.beginSection("motion_estimator");
   table.add("criterion", c.motion_estimator.criterion, criterionNames()).description =
-      "criterion that selects the inliers; as published only with method: paper";
+      "criterion that selects the inliers; others than rotrocc only with method: paper";
 
   MotionCheckConfig& check = c.motion_check;
   table.beginSection("motion_check");

@@ -72,11 +72,11 @@ TEST(LiveParametersTest, AppliesWhatIsNamed) {
   Parameters parameters;
   Config config = makeInt("feature_detector/max_features", 500);
   ConfigTools::appendParameter(config, "motion_check/max_speed_mps", 0.1 + 0.2);
-  ConfigTools::appendParameter(config, "motion_estimator/criterion", std::string("reprojection"));
+  ConfigTools::appendParameter(config, "visual_odometry/method", std::string("paper"));
   applyConfig(config, parameters);
   EXPECT_EQ(parameters.odometry.correspondence_finder.feature_detector.max_features, 500);
   EXPECT_EQ(parameters.odometry.motion_check.max_speed_mps, 0.1 + 0.2);
-  EXPECT_EQ(parameters.odometry.motion_estimator.criterion, "reprojection");
+  EXPECT_EQ(parameters.odometry.method, "paper");
   EXPECT_EQ(find(toConfig(parameters).ints, "feature_detector/max_features")->value, 500);
 }
 

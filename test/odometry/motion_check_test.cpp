@@ -73,6 +73,7 @@ Hypothesis hypothesis(const MotionEstimate& estimate) {
   hypothesis.features = featuresAt(
       kDepth_m, estimate.T_keyframe_cur, static_cast<int>(estimate.rotation_inliers.size()));
   hypothesis.counts.with_depth = static_cast<int>(hypothesis.features.size());
+  hypothesis.counts.rotation_inliers = count(estimate.rotation_inliers);
   return hypothesis;
 }
 
@@ -104,9 +105,9 @@ TEST(MotionCheckTest, ReportsWhichMotionsAreLost) {
     estimate.translation_inliers = set(c.by_translation, c.features);
     estimate.T_keyframe_cur = motion({0.0, c.down_m, 0.0}, {0.0, c.turn_rad, 0.0});
     const Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
-    expectSays(defaultCheck().whyLost(estimate, start, c.dt_s), c.value, c.limit);
+    expectSays(defaultCheck().whyLost(hypothesis(estimate), start, c.dt_s), c.value, c.limit);
     estimate.valid = false;
-    EXPECT_NE(defaultCheck().whyLost(estimate, start, c.dt_s), std::nullopt);
+    EXPECT_NE(defaultCheck().whyLost(hypothesis(estimate), start, c.dt_s), std::nullopt);
   }
 }
 
@@ -191,11 +192,11 @@ TEST(MotionCheckTest, CallsAMotionThatOneFeatureDeterminesDegraded) {
 /// After a wrong search, a tenth of the features match somewhere.
 TEST(MotionCheckTest, FewThatMayAgreeByChanceAreNoMotion) {
   const auto why = [](int agreeing, int tracked) {
-    StageCounts counts;
-    counts.rotation_inliers = agreeing;
-    counts.consistent = tracked;
-    counts.with_depth = 400;
-    return defaultCheck().whyByChance(counts);
+    auto estimate = goodEstimate();
+    estimate.rotation_inliers = estimate.translation_inliers = set(agreeing, tracked);
+    Hypothesis found = hypothesis(estimate);
+    found.counts.with_depth = 400;
+    return defaultCheck().whyLost(found, Eigen::Isometry3d::Identity(), 0.1);
   };
   expectSays(why(25, 76), "25 of 76 tracked features", "400 in all");
   EXPECT_EQ(why(38, 76), std::nullopt) << "the majority";

@@ -64,7 +64,7 @@ void show(Correspondences features, const Eigen::Isometry3d& truth, RigEstimate&
                                 }),
                  features.end());
   triangulate(corrected, features);
-  const auto estimate = MotionEstimator({}).estimate(corrected, features, truth, kPeriod_s);
+  const auto estimate = MotionEstimator().estimate(corrected, features, truth, kPeriod_s);
   ASSERT_TRUE(estimate.valid);
   startKeyframe(rig);
   rig.observeBias(hypothesis(corrected, features, estimate.T_keyframe_cur));
