@@ -28,8 +28,7 @@ struct StageCounts {
   int tracked = 0;           ///< tracked to both current images
   int consistent = 0;        ///< passed the circular consistency check: the feature set F
   int rotation_inliers = 0;  ///< left after stage 1
-  /// Left after stage 2. 0 if the criterion has no stage 2, or if it failed or, as published, was
-  /// skipped at low speed.
+  /// Left after stage 2. 0 if it failed or, as published, was skipped.
   int translation_inliers = 0;
   int tries = 0;  ///< number of times the features were tracked and a motion estimated
 };

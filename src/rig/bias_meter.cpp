@@ -1,7 +1,6 @@
 #include "rig/bias_meter.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -98,35 +97,8 @@ double BiasMeter::linearize() {
   return variance.value(kParameters);
 }
 
-/// How much the cells differ, relative to what noise and shared errors explain: the mean square
-/// over the cells, at least 1 (the ratio of Birge 1932). It is large if the model is wrong, as with
-/// a lens that no rectification has removed.
-double BiasMeter::disagreement(double variance_px2) const {
-  struct Cell {
-    double information = 0.0, residual = 0.0;
-  };
-  std::array<Cell, SharedErrorGrid::kCells> cells;
-  const SharedErrorGrid grid(camera_);
-  problem_.visit(T_keyframe_cur_, [&](const Problem::Term& term) {
-    Cell& cell = cells[grid.cell(features_[term.feature].keyframe_px)];
-    cell.information += term.weight * term.by_disparity.squaredNorm();
-    cell.residual += term.weight * term.by_disparity.dot(term.residual_px);
-  });
-  double sum = 0.0;
-  int count = 0;
-  for (const Cell& cell : cells) {
-    if (cell.information == 0.0) continue;
-    const double expected =
-        cell.information * (1.0 + cell.information * kSharedRatio * kSharedRatio);
-    sum += cell.residual * cell.residual / expected;
-    ++count;
-  }
-  return count == 0 ? 1.0 : std::max(1.0, sum / count / variance_px2);
-}
-
 std::optional<BiasMeasurement> BiasMeter::describe() {
-  const double residual_px2 = linearize();
-  const double variance_px2 = residual_px2 * disagreement(residual_px2);
+  const double variance_px2 = linearize();
   // The curvature of reweighted least squares never overshoots. That which the robust cost has on
   // average, from the squared weights (see motion_estimator.cpp), gives the uncertainty.
   problem_.squareWeights();

@@ -35,7 +35,6 @@ class BiasMeter {
  private:
   double linearize();
   void change(const Vector6d& motion, double bias_px);
-  double disagreement(double variance_px2) const;
   std::optional<BiasMeasurement> describe();
 
   // The current step of one measurement, reused.

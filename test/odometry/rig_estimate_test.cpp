@@ -85,7 +85,8 @@ TEST(RigEstimateTest, FindsTheBiasOfARig) {
     // are none.
     EXPECT_LT(rig.bias().sigma_px, 0.08);
     EXPECT_NEAR(rig.bias().estimated_px, bias_px, 2.0 * rig.bias().sigma_px);
-    EXPECT_NEAR(rig.bias().applied_px, rig.bias().estimated_px, 0.01);
+    // Half a pixel is beyond 6 standard deviations, but not far.
+    EXPECT_NEAR(rig.bias().applied_px, rig.bias().estimated_px, rig.bias().sigma_px);
     EXPECT_EQ(rig.correctedCamera().cx_right, kittiCamera().cx_right + rig.bias().applied_px);
   }
 }
