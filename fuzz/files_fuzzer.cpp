@@ -12,6 +12,7 @@
 #include "rotrocc/trajectory.h"
 #include "sequences/calibration_file.h"
 #include "sequences/stereo_sequence.h"
+#include "support/parameter_file.h"
 #include "support/temporary_directory.h"
 
 namespace rotrocc {

@@ -10,11 +10,11 @@
 #include <opencv2/core.hpp>
 
 #include "common/to_seconds.h"
-#include "geometry/kitti_camera.h"
 #include "inertial/gyro_history.h"
 #include "rotrocc/stereo_camera.h"
 #include "rotrocc/stereo_pair.h"
 #include "simulation/drives/scenario.h"
+#include "simulation/kitti_camera.h"
 #include "simulation/rendering/renderer.h"
 #include "simulation/rendering/unrectified_rig.h"
 

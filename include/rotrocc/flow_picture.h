@@ -9,7 +9,7 @@
 
 namespace rotrocc {
 
-/// The odometry's result for one pair. An empty set has no inliers.
+/// The odometry's result for one pair. Both sets have one flag per feature.
 struct FlowScene {
   const StereoPair& pair;  ///< the current one, of which the left image and its mask are drawn
   const StereoCamera& camera;
@@ -29,8 +29,8 @@ struct FlowScene {
 /// estimated motion predicts is drawn in green where it differs from the measured flow.
 ///
 /// `picture` becomes CV_8UC3 in BGR order, as wide as the image and one text line higher. Its
-/// buffer is reused. Throws std::invalid_argument if the image is empty or not CV_8UC1, or if a
-/// non-empty set does not have one flag per feature.
+/// buffer is reused. Throws cv::Exception if the image is empty or not CV_8UC1, or if a set does
+/// not have one flag per feature.
 void drawFlowPicture(const FlowScene& scene, cv::Mat& picture);
 
 }  // namespace rotrocc

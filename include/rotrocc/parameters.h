@@ -54,7 +54,4 @@ ParameterTable makeParameterTable(Parameters& parameters);
 /// out of range.
 void loadYaml(const std::string& path, ParameterTable& table);
 
-/// The table as a YAML file, with unit, range and description of each parameter as a comment.
-std::string toYaml(const ParameterTable& table);
-
 }  // namespace rotrocc

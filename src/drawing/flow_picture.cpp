@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -59,7 +58,7 @@ cv::Scalar colorOfDepth(double depth_m) {
   return kNearColor * (1.0 - far) + kFarColor * far;
 }
 
-/// The text line below a flow picture: labels and colors from left to right, as far as they fit.
+/// The text line below a flow picture: labels and colors from left to right.
 class Legend {
  public:
   static constexpr int kHeight_px = 24;
@@ -73,7 +72,6 @@ class Legend {
     const cv::Scalar color(230, 230, 230);
     int baseline = 0;
     const int width = cv::getTextSize(words, kFont, kFontScale, 1, &baseline).width;
-    if (!reserve(width)) return;
     cv::putText(band_, words, {x_, kHeight_px - 8}, kFont, kFontScale, color, 1, cv::LINE_AA);
     x_ += width + kGap_px;
   }
@@ -81,7 +79,6 @@ class Legend {
   /// A sample of a flow line with its dot and label.
   void sample(const cv::Scalar& color, const std::string& words) {
     constexpr int kSample_px = 18;
-    if (!reserve(kSample_px)) return;
     const int y = kHeight_px / 2;
     cv::line(band_, {x_, y}, {x_ + kSample_px, y}, color, 2, cv::LINE_AA);
     cv::circle(band_, {x_ + kSample_px, y}, 3, color, cv::FILLED, cv::LINE_AA);
@@ -94,7 +91,6 @@ class Legend {
   void depthScale() {
     constexpr int kScale_px = 80;
     text(cv::format("%.0f m", kNear_m));
-    if (!reserve(kScale_px)) return;
     for (int i = 0; i < kScale_px; ++i) {
       const double depth_m = kNear_m * std::pow(kFar_m / kNear_m, i / (kScale_px - 1.0));
       cv::line(band_, {x_ + i, 8}, {x_ + i, kHeight_px - 9}, colorOfDepth(depth_m));
@@ -110,25 +106,9 @@ class Legend {
  private:
   static constexpr int kGap_px = 8;
 
-  /// Once an element does not fit, the following ones are omitted.
-  bool reserve(int width_px) {
-    if (x_ + width_px > band_.cols) x_ = band_.cols;
-    return x_ < band_.cols;
-  }
-
   cv::Mat band_;
   int x_ = kGap_px;
 };
-
-void requireFlags(const FeatureSet& set, const Correspondences& features) {
-  if (set.empty() || set.size() == features.size()) return;
-  throw std::invalid_argument("there are " + std::to_string(features.size()) + " features, but " +
-                              std::to_string(set.size()) + " inlier flags");
-}
-
-bool contains(const FeatureSet& set, std::size_t i) {
-  return !set.empty() && set[i] != 0;
-}
 
 void drawLegend(const FlowScene& scene, Legend legend) {
   legend.text(toString(scene.result.state));
@@ -156,11 +136,11 @@ void drawMotion(const FlowScene& scene, cv::Mat& image) {
   const Correspondences& features = scene.features;
   // Outliers are few; draw them last, on top of the inliers.
   for (std::size_t i = 0; i < features.size(); ++i) {
-    if (!contains(scene.translation_inliers, i)) continue;
+    if (scene.translation_inliers[i] == 0) continue;
     drawFlow(features[i], colorOfDepth(features[i].point_cur.z()), image);
   }
   for (std::size_t i = 0; i < features.size(); ++i) {
-    if (contains(scene.translation_inliers, i)) continue;
+    if (scene.translation_inliers[i] != 0) continue;
     const Eigen::Vector3d moved = scene.result.T_keyframe_cur.T * features[i].point_cur;
     if (scene.result.hasMotion() && moved.z() > 0.0) {
       const Eigen::Vector2d expected_px = scene.camera.project(moved);
@@ -168,7 +148,7 @@ void drawMotion(const FlowScene& scene, cv::Mat& image) {
         drawLine(expected_px, features[i].cur_px, kExpected, image);
       }
     }
-    const bool fits_rotation = contains(scene.rotation_inliers, i);
+    const bool fits_rotation = scene.rotation_inliers[i] != 0;
     drawFlow(features[i], fits_rotation ? kRotationOnly : kOutlier, image);
   }
 }
@@ -178,13 +158,9 @@ void drawMotion(const FlowScene& scene, cv::Mat& image) {
 void drawFlowPicture(const FlowScene& scene, cv::Mat& picture) {
   const cv::Mat& left = scene.pair.left;
   const cv::Mat& mask = scene.pair.left_mask;
-  if (left.empty() || left.type() != CV_8UC1) {
-    throw std::invalid_argument(
-        "a flow picture needs an 8-bit gray image, not one of OpenCV type " +
-        std::to_string(left.type()));
-  }
-  requireFlags(scene.rotation_inliers, scene.features);
-  requireFlags(scene.translation_inliers, scene.features);
+  CV_Assert(left.type() == CV_8UC1);
+  CV_Assert(scene.rotation_inliers.size() == scene.features.size());
+  CV_Assert(scene.translation_inliers.size() == scene.features.size());
   picture.create(left.rows + Legend::kHeight_px, left.cols, CV_8UC3);
   cv::Mat image = picture.rowRange(0, left.rows);
   cv::cvtColor(left, image, cv::COLOR_GRAY2BGR);

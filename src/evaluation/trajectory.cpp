@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <iterator>
 #include <locale>
 #include <stdexcept>
 
@@ -16,33 +17,20 @@ namespace {
 
 constexpr std::int64_t kKittiPeriod_ns = 100'000'000;
 
-/// Columns of a file of poses.
-struct Columns {
-  std::size_t count;
-  bool has_time;
-  std::size_t matrix;       ///< of the first number of a matrix, row by row; 0 with a quaternion
-  const char* description;  ///< for messages
-};
+/// Numbers of a pose: KITTI, a 4x4 matrix, KITTI with a time, ASL, TUM.
+constexpr std::size_t kColumns[] = {12, 16, 13, 17, 8};
 
-constexpr Columns kColumns[] = {{12, false, 0, "KITTI"},
-                                {16, false, 0, "a 4x4 matrix"},
-                                {13, true, 1, "a time and 12"},
-                                {17, true, 0, "ASL"},
-                                {8, true, 0, "TUM"}};
-
-const Columns& columnsOf(const TextLine& line) {
-  for (const Columns& columns : kColumns) {
-    if (line.words.size() == columns.count) return columns;
-  }
+std::size_t columnsOf(const TextLine& line) {
+  const auto* found = std::find(std::begin(kColumns), std::end(kColumns), line.words.size());
+  if (found != std::end(kColumns)) return *found;
   line.fail(
       cv::format("%zu numbers, but a pose has 12 or 16 (KITTI), 13 (with a time), 8 (TUM) or "
                  "17 (ASL)",
                  line.words.size()));
 }
 
-void requireCount(const TextLine& line, std::size_t count) {
-  if (line.words.size() == count) return;
-  line.fail(cv::format("%zu numbers, but %zu were expected", line.words.size(), count));
+bool hasTime(std::size_t columns) {
+  return columns != 12 && columns != 16;
 }
 
 /// The lines without a header.
@@ -70,11 +58,11 @@ Eigen::Isometry3d matrixPose(const TextLine& line, std::size_t first) {
 }
 
 /// Files of ASL have commas and times in nanoseconds, and quaternions begin with w.
-Eigen::Isometry3d poseOf(const TextLine& line, const Columns& columns, std::int64_t unit_ns) {
-  if (columns.count == 8 || columns.count == 17) {
-    return line.quaternionPose(columns.count == 17 || (line.has_commas && unit_ns == 1));
+Eigen::Isometry3d poseOf(const TextLine& line, std::size_t columns, std::int64_t unit_ns) {
+  if (columns == 8 || columns == 17) {
+    return line.quaternionPose(columns == 17 || (line.has_commas && unit_ns == 1));
   }
-  return matrixPose(line, columns.matrix);
+  return matrixPose(line, columns == 13 ? 1 : 0);
 }
 
 }  // namespace
@@ -86,20 +74,22 @@ TrajectoryFormat trajectoryFormat(const std::string& name) {
 }
 
 TrajectoryFormat detectTrajectoryFormat(const std::string& path) {
-  return columnsOf(readPoseLines(path).front()).has_time ? TrajectoryFormat::kTum
-                                                         : TrajectoryFormat::kKitti;
+  const bool has_time = hasTime(columnsOf(readPoseLines(path).front()));
+  return has_time ? TrajectoryFormat::kTum : TrajectoryFormat::kKitti;
 }
 
 Trajectory readTrajectory(const std::string& path) {
   const std::vector<TextLine> lines = readPoseLines(path);
-  const Columns& columns = columnsOf(lines.front());
+  const std::size_t columns = columnsOf(lines.front());
   Trajectory trajectory;
   trajectory.reserve(lines.size());
-  const std::int64_t unit_ns = timeUnit_ns(lines, columns.count == 17 ? 1 : kSecond_ns);
+  const std::int64_t unit_ns = timeUnit_ns(lines, columns == 17 ? 1 : kSecond_ns);
   for (const TextLine& line : lines) {
-    requireCount(line, columns.count);
+    if (line.words.size() != columns) {
+      line.fail(cv::format("%zu numbers, but %zu were expected", line.words.size(), columns));
+    }
     auto stamp_ns = static_cast<std::int64_t>(trajectory.size()) * kKittiPeriod_ns;
-    if (columns.has_time) {
+    if (hasTime(columns)) {
       stamp_ns = line.nanoseconds(0, unit_ns);
       if (!trajectory.empty()) line.requireLater(stamp_ns, trajectory.back().stamp_ns);
     }

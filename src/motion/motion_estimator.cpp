@@ -77,15 +77,16 @@ Information collect(const ReprojectionProblem& problem,
                     int estimated_parameters) {
   Information information;
   WeightedVariance variance;
-  const ImageGrid grid(measured.camera, kScatterColumns, kScatterRows);
+  const StereoCamera& camera = measured.camera;
+  const ImageGrid grid(camera.width, camera.height, kScatterColumns, kScatterRows);
   std::array<Vector6d, kScatterColumns * kScatterRows> gradients;
   gradients.fill(Vector6d::Zero());
   problem.visit(problem.motion(), [&](const ReprojectionProblem::Term& term) {
     Eigen::Matrix<double, 2, 6> J;
     J << term.weight * term.jacobian.rightCols<3>(), term.weight * term.jacobian.leftCols<3>();
     information.matrix += J.transpose() * J;
-    gradients[grid.cell(measured.features[term.feature].cur_px)] +=
-        J.transpose() * term.residual_px;
+    const Eigen::Vector2d& pixel = measured.features[term.feature].cur_px;
+    gradients[grid.cell(pixel.x(), pixel.y())] += J.transpose() * term.residual_px;
     variance.add(term.weight, term.residual_px.squaredNorm());
   });
   information.residual_variance = variance.value(estimated_parameters);

@@ -65,7 +65,7 @@ void ReprojectionProblem::assign(const Measurements& measured,
     block.z[lane] = feature.point_cur.z();
     block.disparity[lane] = feature.disparity_px - camera_.disparityAtInfinity();
     block.weight[lane] = i < count_ ? 1.0 : 0.0;
-    cells_.push_back(grid.cell(feature.keyframe_px));
+    cells_.push_back(grid.cell(feature.keyframe_px.x(), feature.keyframe_px.y()));
   }
   cell_ratio_ = 0.0;
   setMotion(T_keyframe_cur);

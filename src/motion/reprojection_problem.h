@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "common/image_grid.h"
 #include "motion/feature_errors.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/stereo_camera.h"
@@ -15,29 +16,6 @@ namespace rotrocc {
 
 /// Standard deviation of a disparity over that of a flow.
 constexpr double kDisparityNoiseRatio = 4.0;
-
-/// Divides an image into cells of equal size, numbered row by row.
-class ImageGrid {
- public:
-  ImageGrid(const StereoCamera& camera, int columns, int rows)
-      : columns_(columns),
-        rows_(rows),
-        columns_per_px_(static_cast<double>(columns) / camera.width),
-        rows_per_px_(static_cast<double>(rows) / camera.height) {}
-
-  /// The cell of a pixel. Pixels outside the image belong to the nearest cell.
-  std::size_t cell(const Eigen::Vector2d& pixel) const {
-    const int column = std::clamp(static_cast<int>(pixel.x() * columns_per_px_), 0, columns_ - 1);
-    const int row = std::clamp(static_cast<int>(pixel.y() * rows_per_px_), 0, rows_ - 1);
-    return static_cast<std::size_t>(row * columns_ + column);
-  }
-
- private:
-  int columns_;
-  int rows_;
-  double columns_per_px_;
-  double rows_per_px_;
-};
 
 /// Neighboring features share an error of their disparities: what calibration and rectification
 /// leave of the lenses, and texture that their windows have in common. The image is divided into
@@ -49,7 +27,8 @@ struct SharedErrorGrid : ImageGrid {
   static constexpr int kRows = 4;
   static constexpr std::size_t kCells = kColumns * kRows;
 
-  explicit SharedErrorGrid(const StereoCamera& camera) : ImageGrid(camera, kColumns, kRows) {}
+  explicit SharedErrorGrid(const StereoCamera& camera)
+      : ImageGrid(camera.width, camera.height, kColumns, kRows) {}
 
   /// y^2, x^2 and x y of a cell, where x and y are -1 and 1 at the borders of the image. On KITTI
   /// most of the errors are y^2.

@@ -67,8 +67,8 @@ class MotionCheck {
   /// fewer.
   static bool hasReserve(const MotionEstimate& accepted);
 
-  /// Whether the camera rests: the median inlier has moved by less than 10 times the noise of the
-  /// flow. The noise of a motion is then a tenth of it, or more.
+  /// Whether the camera rests at an accepted motion: the median inlier has moved by less than 10
+  /// times the noise of the flow. The noise of a motion is then a tenth of it, or more.
   bool isAtRest(const Hypothesis& accepted);
 
   /// Why a motion during `dt_s` > 0 is an implausible jump; none if it is not. `expected` is the

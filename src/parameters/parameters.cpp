@@ -137,7 +137,7 @@ void addOdometry(OdometryConfig& c, ParameterTable& table) {
 /// Sets every scalar and list below `node`; `prefix` is the name of `node`.
 void setAll(const YAML::Node& node, const std::string& prefix, ParameterTable& table) {
   if (node.IsScalar()) {
-    // Could not be written: yaml-cpp replaces what is not UTF-8.
+    // The parameter server and YAML take nothing else.
     if (YAML::Load(YAML::Dump(YAML::Node(node.Scalar()))).Scalar() != node.Scalar()) {
       throw std::invalid_argument("the value of parameter \"" + prefix + "\" is not UTF-8");
     }
@@ -173,26 +173,6 @@ void loadYaml(const std::string& path, ParameterTable& table) {
   } catch (const std::exception& error) {
     throw std::invalid_argument(path + ": " + error.what());
   }
-}
-
-std::string toYaml(const ParameterTable& table) {
-  constexpr std::size_t kCommentColumn = 34;
-  std::string text;
-  std::string section;
-  for (const ParameterTable::Parameter& p : table.parameters()) {
-    const auto slash = p.name.find('/');
-    const std::string its_section = slash == std::string::npos ? "" : p.name.substr(0, slash);
-    if (its_section != section) text += "\n" + its_section + ":\n";
-    section = its_section;
-    const bool is_text = p.type == ParameterTable::Parameter::Type::kText;
-    const std::string value = is_text ? YAML::Dump(YAML::Node(p.get())) : p.get();
-    std::string line =
-        (section.empty() ? "" : "  ") + p.name.substr(slash + 1) + ": " + value + "  ";
-    if (line.size() < kCommentColumn) line.resize(kCommentColumn, ' ');
-    const std::string unit = p.unit.empty() ? "" : "[" + p.unit + "] ";
-    text += line + "# " + unit + p.description + "; " + p.range + "\n";
-  }
-  return text;
 }
 
 }  // namespace rotrocc

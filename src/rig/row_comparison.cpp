@@ -23,31 +23,20 @@ constexpr double kCertain = 3.0;
 
 }  // namespace
 
-RowComparison::RowComparison() {
-  last_px_.reserve(kFeatures);
+RowComparison::RowComparison() : last_px_(kFeatures) {
   sorted_px_.reserve(kFeatures);
 }
 
 void RowComparison::observe(const std::vector<float>& differences_px) {
-  for (const float difference_px : differences_px) {
-    if (last_px_.size() < kFeatures) {
-      last_px_.push_back(difference_px);
-    } else {
-      last_px_[oldest_] = difference_px;
-      oldest_ = (oldest_ + 1) % kFeatures;
-    }
-  }
-  if (!differences_px.empty()) estimate();
-}
-
-void RowComparison::estimate() {
+  if (differences_px.empty()) return;
+  last_px_.insert(last_px_.end(), differences_px.begin(), differences_px.end());
   const auto medianDistanceFrom = [&](double center_px) {
     std::transform(last_px_.begin(), last_px_.end(), sorted_px_.begin(), [&](float value_px) {
       return std::abs(value_px - static_cast<float>(center_px));
     });
     return median(sorted_px_);
   };
-  sorted_px_ = last_px_;
+  sorted_px_.assign(last_px_.begin(), last_px_.end());
   offset_.median_px = median(sorted_px_);
   const double scatter_px = kDeviationOverMedian * medianDistanceFrom(offset_.median_px);
   offset_.sigma_px = kMedianOverMean * scatter_px / std::sqrt(static_cast<double>(last_px_.size()));
@@ -67,12 +56,7 @@ bool RowComparison::isNear(double offset_px) const {
 }
 
 void RowComparison::searchAgain() {
-  if (isKnown()) discard();
-}
-
-void RowComparison::discard() {
-  last_px_.clear();
-  oldest_ = 0;
+  if (isKnown()) last_px_.clear();
 }
 
 void RowComparison::scale(double factor) {
@@ -85,7 +69,7 @@ void RowComparison::scale(double factor) {
 
 void RowComparison::reset() {
   offset_ = {};
-  discard();
+  last_px_.clear();
 }
 
 }  // namespace rotrocc

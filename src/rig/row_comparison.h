@@ -1,7 +1,8 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
+
+#include <boost/circular_buffer.hpp>
 
 #include "rotrocc/odometry_result.h"
 
@@ -37,12 +38,8 @@ class RowComparison {
   void scale(double factor);
 
  private:
-  void estimate();
-  void discard();
-
   RowOffset offset_;
-  std::vector<float> last_px_;  // the last offsets, a ring buffer once it is full
-  std::size_t oldest_ = 0;      // the entry that is overwritten next
+  boost::circular_buffer<float> last_px_;
   std::vector<float> sorted_px_;
 };
 

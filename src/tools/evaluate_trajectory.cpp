@@ -14,12 +14,12 @@
 
 #include "bags/recorded_trajectory.h"
 #include "common/to_seconds.h"
-#include "evaluation/frame_alignment.h"
 #include "files/report_directory.h"
 #include "files/text_file.h"
 #include "rotrocc/trajectory_error.h"
 #include "sequences/stereo_sequence.h"
 #include "tools/draw_report.h"
+#include "tools/frame_alignment.h"
 #include "tools/program.h"
 #include "tools/trajectory_report.h"
 

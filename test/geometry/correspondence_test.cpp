@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/kitti_camera.h"
+#include "simulation/kitti_camera.h"
 
 namespace rotrocc {
 namespace {

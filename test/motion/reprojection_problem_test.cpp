@@ -176,7 +176,8 @@ Eigen::MatrixXd schurComplement(const ReprojectionProblem& problem,
   const SharedErrorGrid grid(kittiCamera());
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(8 + kErrors, 8 + kErrors);
   problem.visit(problem.motion(), [&](const ReprojectionProblem::Term& term) {
-    const std::size_t cell = grid.cell(features[term.feature].keyframe_px);
+    const std::size_t cell =
+        grid.cell(features[term.feature].keyframe_px.x(), features[term.feature].keyframe_px.y());
     Eigen::MatrixXd row = Eigen::MatrixXd::Zero(2, 8 + kErrors);
     row.col(0) = -term.by_disparity;
     row.middleCols<6>(1) = term.jacobian;

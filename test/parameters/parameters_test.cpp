@@ -11,6 +11,7 @@
 
 #include "support/expect_error.h"
 #include "support/expected_file.h"
+#include "support/parameter_file.h"
 #include "support/read_file.h"
 #include "support/temporary_directory.h"
 

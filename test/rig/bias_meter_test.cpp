@@ -66,7 +66,7 @@ TEST(BiasMeterTest, CoversErrorsThatNeighborsShare) {
     std::array<double, SharedErrorGrid::kCells> errors_px;
     for (double& error_px : errors_px) error_px = error(generator);
     const auto ofCell = [&](const Eigen::Vector2d& pixel) {
-      return errors_px[SharedErrorGrid(kittiCamera()).cell(pixel)];
+      return errors_px[SharedErrorGrid(kittiCamera()).cell(pixel.x(), pixel.y())];
     };
     const BiasMeasurement measurement = measure(features(ahead(), seed, ofCell), ahead());
     squares += measurement.bias_px * measurement.bias_px / variance(measurement) / kPairs;

@@ -7,10 +7,10 @@
 
 #include <Eigen/Geometry>
 
-#include "geometry/kitti_camera.h"
 #include "rotrocc/correspondence.h"
 #include "rotrocc/rigid_motion.h"
 #include "rotrocc/stereo_camera.h"
+#include "simulation/kitti_camera.h"
 
 namespace rotrocc {
 

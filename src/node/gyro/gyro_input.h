@@ -13,9 +13,9 @@
 #include <Eigen/Geometry>
 
 #include "inertial/gyro_predictor.h"
-#include "inertial/vertical.h"
 #include "input/callback_thread.h"
 #include "input/log.h"
+#include "node/gyro/vertical.h"
 #include "node/health/diagnostics.h"
 #include "node/tf/sensor_pose.h"
 #include "node/waiting.h"

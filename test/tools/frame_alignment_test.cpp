@@ -1,4 +1,4 @@
-#include "evaluation/frame_alignment.h"
+#include "tools/frame_alignment.h"
 
 #include <cmath>
 

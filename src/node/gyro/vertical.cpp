@@ -1,4 +1,4 @@
-#include "inertial/vertical.h"
+#include "node/gyro/vertical.h"
 
 #include <cmath>
 #include <cstdlib>

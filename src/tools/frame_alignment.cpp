@@ -1,4 +1,4 @@
-#include "evaluation/frame_alignment.h"
+#include "tools/frame_alignment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ constexpr int kIterations = 20;
 
 struct Motions {
   std::vector<Eigen::Isometry3d> truth, estimate;
-  double mean_m = 0.0;
+  double way_m = 0.0;  // of all
 };
 
 Motions motionsOf(const MatchedTrajectories& matched) {
@@ -39,9 +39,8 @@ Motions motionsOf(const MatchedTrajectories& matched) {
     };
     motions.truth.push_back(between(matched.truth));
     motions.estimate.push_back(between(matched.estimate));
-    motions.mean_m += motions.truth.back().translation().norm();
+    motions.way_m += motions.truth.back().translation().norm();
   }
-  motions.mean_m /= std::max(1.0, static_cast<double>(motions.truth.size()));
   return motions;
 }
 
@@ -77,12 +76,6 @@ Eigen::Matrix3d rotationOfWays(const Motions& motions) {
   return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
 }
 
-Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d matrix;
-  matrix << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return matrix;
-}
-
 /// Where the motions of both bodies agree best, from nearby (Gauss-Newton).
 Eigen::Isometry3d improved(const Motions& motions, const Eigen::Isometry3d& T_estimate_truth) {
   const double of_ways = weightOfWays(motions);
@@ -100,8 +93,8 @@ Eigen::Isometry3d improved(const Motions& motions, const Eigen::Isometry3d& T_es
     const Eigen::Vector3d angle =
         T_estimate_truth.linear() * logRotation(motions.truth[i].linear());
     Eigen::Matrix<double, 3, 6> by_way, by_turn;
-    by_way << crossMatrix(way), turn;
-    by_turn << crossMatrix(angle), Eigen::Matrix3d::Zero();
+    by_way << skew(way), turn;
+    by_turn << skew(angle), Eigen::Matrix3d::Zero();
     const Eigen::Vector3d way_error =
         estimate.translation() + turn * T_estimate_truth.translation() - way;
     const Eigen::Vector3d turn_error = logRotation(estimate.linear()) - angle;
@@ -123,8 +116,7 @@ double differenceOf(const Motions& motions, const Eigen::Isometry3d& T_estimate_
         T_estimate_truth.inverse() * motions.estimate[i] * T_estimate_truth;
     sum_m += (moved.translation() - motions.truth[i].translation()).norm();
   }
-  const double way_m = motions.mean_m * static_cast<double>(motions.truth.size());
-  return way_m > 0.0 ? sum_m / way_m : 0.0;
+  return motions.way_m > 0.0 ? sum_m / motions.way_m : 0.0;
 }
 
 }  // namespace
