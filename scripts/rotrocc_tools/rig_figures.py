@@ -59,9 +59,10 @@ def draw_map(panel, table, values, size, picture, color_map, limits):
     return drawn
 
 
-def maps(parts, size, left_png, path, color_map, limits, label):
+def maps(parts, left_png, path, color_map, limits, label):
     """Maps one above the other, with one color bar: (title, table, values, arrows or None)."""
-    picture = image.imread(str(left_png)) * 255.0 if left_png.is_file() else None
+    picture = image.imread(str(left_png)) * 255.0
+    size = picture.shape[1], picture.shape[0]
     height_in = WIDTH_IN * 0.84 * size[1] / size[0]
     figure, axes = pyplot.subplots(len(parts), 1, figsize=(WIDTH_IN, (height_in + 0.35) * len(parts) + 0.2),
                                    squeeze=False, constrained_layout=True)

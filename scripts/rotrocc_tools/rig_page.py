@@ -82,10 +82,8 @@ class RigPage:
         return columns['time_s'], factor * columns[value], deviation, name, color
 
     def maps(self, name, description, parts, color_map, limits, label):
-        camera = self.tables['image']
-        size = camera['width'][0], camera['height'][0]
         return self.picture(name, description, lambda path: figures.maps(
-            parts, size, self.folder / 'left.png', path, color_map, limits, label))
+            parts, self.folder / 'left.png', path, color_map, limits, label))
 
     def tiles(self):
         verdicts = [finding['verdict'] for finding in self.content['findings']]
@@ -188,17 +186,14 @@ class RigPage:
             return ''
         table = self.tables['view_map']
         with numpy.errstate(divide='ignore', invalid='ignore'):
-            with_depth = 100.0 * table['with_depth'] / table['corners']
             agreeing = 100.0 * table['inliers'] / table['features']
-        parts = [('corners with a disparity', table, with_depth, False),
-                 ('features that agree with the motion', table, agreeing, False)]
+        parts = [('features that agree with the motion', table, agreeing, False)]
         shown = [self.maps('view', 'what is seen', parts, figures.SHARE, (0, 100), 'share [%]')]
         if (self.folder / 'mask.png').is_file():
             shown.append('<p>Proposed mask, the file <code>mask.png</code>:</p>')
             shown.append(self.picture('mask', 'proposed mask', figures.mask, self.folder / 'left.png',
                                       self.folder / 'mask.png'))
-        return page.section('What is seen', 'Where corners have a disparity, and where features agree with the motion '
-                            'of the rest: red is what no other part of the image has, such as the robot itself.', *shown)
+        return page.section('What is seen', 'Where features agree with the motion of the rest: red is what no other part of the image has, such as the robot itself.', *shown)
 
     def write(self):
         page.write_page(self.folder / 'index.html', self.content['title'], page.text(self.content['summary']), STYLE,

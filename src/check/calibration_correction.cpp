@@ -75,7 +75,7 @@ std::optional<CheckedRig> findCorrection(Recording& recording,
     why_not = "the pairs or their rectification are wrong: fix that first";
     return std::nullopt;
   }
-  if (!before.is_constant) {
+  if (!before.rest.is_constant) {
     why_not = "rows or disparities move: no calibration describes a rig that bends";
     return std::nullopt;
   }

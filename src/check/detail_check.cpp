@@ -7,7 +7,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "check/image_grid.h"
+#include "check/cells.h"
 #include "common/median.h"
 #include "input/to_text.h"
 
@@ -19,14 +19,6 @@ constexpr int kStep = 5;
 
 /// Fewer show what one camera sees past an edge, and the other one does not.
 constexpr int kLeastPairs = 5 * kStep;
-
-/// What an image shows in each cell of the grid, as mean differences to its blurred self.
-cv::Mat detailOf(const cv::Mat& image, const ImageGrid& grid) {
-  cv::Mat coarse, fine;
-  cv::blur(image, coarse, {9, 9});
-  cv::absdiff(image, coarse, fine);
-  return cellMeans(fine, grid);
-}
 
 /// 255 where a cell is not saturated.
 cv::Mat exposedOf(const cv::Mat& image, const ImageGrid& grid) {
@@ -56,7 +48,7 @@ class DetailCheck : public PairCheck {
   void observe(const CheckedPair& pair) override {
     if (!pair.has_moved || pairs_++ % kStep != 0) return;
     width_ = pair.images.left.cols;
-    const ImageGrid grid(width_, pair.images.left.rows);
+    const ImageGrid grid = mapOf(width_, pair.images.left.rows);
     const cv::Mat* images[] = {&pair.images.left, &pair.images.right};
     const cv::Mat exposed = exposedOf(*images[0], grid) & exposedOf(*images[1], grid);
     for (int side = 0; side < 2; ++side) {
@@ -79,7 +71,9 @@ class DetailCheck : public PairCheck {
                   "block corners are detected instead of scene corners",
                   "raise the quality of the compression, or record raw images"},
                  {blocks, kStrong, 1.0});
-      if (blocks.value < kStrong && pairs_ >= kLeastPairs) addSmudge(side, report);
+      // What is near and stands still is elsewhere in the other image.
+      const bool is_clear = blocks.value < kStrong && report.mask.empty();
+      if (is_clear && pairs_ >= kLeastPairs) addSmudge(side, report);
     }
   }
 
@@ -91,26 +85,19 @@ class DetailCheck : public PairCheck {
     cv::divide(detail_[side], detail_[1 - side], ratios);
     ratios.setTo(1.0, detail_[1 - side] == 0.0);
     std::vector<float> sorted(ratios.begin<float>(), ratios.end<float>());
-    const cv::Mat blurred = ratios < kLess * median(sorted);
-    cv::Mat labels, statistics, centroids;
-    const int parts = cv::connectedComponentsWithStats(blurred, labels, statistics, centroids, 4);
-    int largest = 0;
-    for (int part = 1; part < parts; ++part) {
-      const auto area = [&](int of) { return statistics.at<int>(of, cv::CC_STAT_AREA); };
-      if (area(part) > 1 && (largest == 0 || area(part) > area(largest))) largest = part;
-    }
-    const int cells = largest == 0 ? 0 : statistics.at<int>(largest, cv::CC_STAT_AREA);
-    const double share = cells / static_cast<double>(ratios.total());
+    const cv::Mat blurred = withoutSmallParts(ratios < kLess * median(sorted), 2);
+    const cv::Moments place = cv::moments(blurred, true);
+    const double share = place.m00 / static_cast<double>(ratios.total());
     const std::string name = side == 0 ? "left" : "right";
     std::string measured = toText(std::lround(100.0 * share)) + " % of the " + name + " image";
-    if (cells > 0) {
+    if (share > 0.0) {
       const double cell_px = static_cast<double>(width_) / ratios.cols;
-      const double x = (centroids.at<double>(largest, 0) + 0.5) * cell_px;
-      const double y = (centroids.at<double>(largest, 1) + 0.5) * cell_px;
+      const double x = (place.m10 / place.m00 + 0.5) * cell_px;
+      const double y = (place.m01 / place.m00 + 0.5) * cell_px;
       measured += ", around x " + toText(std::lround(x)) + ", y " + toText(std::lround(y));
     }
     report.add({"photometry",
-                kLessDetail + name,
+                "parts with less than half of the detail, " + name,
                 measured,
                 "features there have no disparity, or a wrong one",
                 "clean the " + name + " lens, and look for what is in front of it"},

@@ -12,6 +12,7 @@
 
 #include "common/to_seconds.h"
 #include "input/to_text.h"
+#include "rotrocc/rigid_motion.h"
 
 namespace rotrocc {
 namespace {
@@ -46,9 +47,10 @@ class GyroCheck : public PairCheck {
     const OdometryResult& result = pair.result;
     // Over a step of the clock, its turn is not that of the gyroscope.
     if (!result.hasMotion() || result.clock_set_ns != result.prev_clock_set_ns) return;
-    const Eigen::AngleAxisd turn(result.T_prev_cur.linear());
-    turns_.push_back(
-        {pair.time_s, result.prev_stamp_ns, result.stamp_ns, turn.angle() * turn.axis()});
+    turns_.push_back({pair.time_s,
+                      result.prev_stamp_ns,
+                      result.stamp_ns,
+                      logRotation(result.T_prev_cur.linear())});
   }
 
   void report(const Windows& windows, RigReport& report) const override {
@@ -69,8 +71,7 @@ class GyroCheck : public PairCheck {
         if (windows.of(turn.time_s) != w) others.push_back(turn);
       }
       const Fit fit = this->fit(others);
-      const Eigen::AngleAxisd change(fit.R_camera_gyro * all.R_camera_gyro.transpose());
-      const Eigen::Vector3d vector = change.angle() * change.axis();
+      const Eigen::Vector3d vector = logRotation(fit.R_camera_gyro * all.R_camera_gyro.transpose());
       without.push_back({fit.delay_s, vector.x(), vector.y(), vector.z()});
     }
     const std::vector<double> sigmas = jackknifeSigmas(without);

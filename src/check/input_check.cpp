@@ -15,22 +15,11 @@
 namespace rotrocc {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
 constexpr double kGapPeriods = 1.5;
 
 /// Limits of the time between left and right, in periods.
 constexpr double kAcceptablePeriods = 0.05;
 constexpr double kFixPeriods = 0.25;
-
-std::string listOf(const std::map<std::string, int>& counts, bool with_counts = true) {
-  std::string text;
-  for (const auto& [name, count] : counts) {
-    text += (text.empty() ? "" : ", ") + name +
-            (with_counts && counts.size() > 1 ? " (" + std::to_string(count) + ")" : "");
-  }
-  return text;
-}
 
 }  // namespace
 
@@ -42,8 +31,6 @@ void InputCheck::observe(const RecordedMessage& message) {
     const std::int64_t stamp_ns = toNanoseconds(image->header.stamp);
     stream->stamps_ns.push_back(stamp_ns);
     stream->ages_s[stamp_ns] = toSeconds(toNanoseconds(message.time) - stamp_ns);
-    ++stream->encodings[image->encoding];
-    ++stream->sizes[sizeText(image->width, image->height)];
   }
 }
 
@@ -64,7 +51,6 @@ void InputCheck::report(const StereoCamera& camera,
 }
 
 void InputCheck::reportStreams(double max_apart_s, RigReport& report) const {
-  addFormats(report);
   addRates(report);
   addStamps(max_apart_s, report);
 }
@@ -91,20 +77,6 @@ void InputCheck::addCamera(const StereoCamera& camera, bool rectifies, RigReport
                              baseline,
                              Verdict::kAcceptable,
                              0.9});
-}
-
-void InputCheck::addFormats(RigReport& report) const {
-  if (left_.sizes.empty() || right_.sizes.empty()) return;
-  const bool differs = listOf(left_.encodings, false) != listOf(right_.encodings, false) ||
-                       left_.sizes.size() > 1 || left_.encodings.size() > 1;
-  report.findings.push_back({"inputs",
-                             "images",
-                             listOf(left_.encodings) + " left, " + listOf(right_.encodings) +
-                                 " right; " + listOf(left_.sizes),
-                             "images of different formats are of different cameras or settings",
-                             differs ? "give both cameras the same settings" : "",
-                             differs ? Verdict::kAcceptable : Verdict::kGood,
-                             0.3});
 }
 
 void InputCheck::addRates(RigReport& report) const {
@@ -157,8 +129,8 @@ void InputCheck::addStamps(double max_apart_s, RigReport& report) const {
     apart_s.push_back(toSeconds(left_ns[i] - right_ns[j]));
     table.rows.push_back({toSeconds(left_ns[i] - left_ns.front()),
                           1e3 * apart_s.back(),
-                          has_ages ? 1e3 * left_.ages_s.at(left_ns[i]) : kUnknown,
-                          i > 0 ? 1e3 * toSeconds(left_ns[i] - left_ns[i - 1]) : kUnknown});
+                          has_ages ? 1e3 * left_.ages_s.at(left_ns[i]) : NAN,
+                          i > 0 ? 1e3 * toSeconds(left_ns[i] - left_ns[i - 1]) : NAN});
   }
   report.tables.push_back(std::move(table));
   const auto [least, most] = std::minmax_element(apart_s.begin(), apart_s.end());

@@ -13,7 +13,7 @@
 
 namespace rotrocc {
 
-/// Rates, gaps, stamps, encodings and camera_info of the messages of a recording.
+/// Rates, gaps, stamps and camera_info of the messages of a recording.
 class InputCheck {
  public:
   void observe(const RecordedMessage& message);
@@ -31,12 +31,10 @@ class InputCheck {
   struct Stream {
     Stamps stamps_ns;
     std::map<std::int64_t, double> ages_s;  // by stamp
-    std::map<std::string, int> encodings, sizes;
   };
 
   void addRates(RigReport& report) const;
   void addStamps(double max_apart_s, RigReport& report) const;
-  void addFormats(RigReport& report) const;
   void addCamera(const StereoCamera& camera, bool rectifies, RigReport& report) const;
 
   Stream left_, right_;

@@ -4,11 +4,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "check/image_grid.h"
+#include "check/cells.h"
 #include "check/robust_fit.h"
 #include "common/median.h"
 #include "input/to_text.h"
@@ -107,101 +108,69 @@ void addCauses(const StereoCamera& camera, const RigModel& model, RigReport& rep
              {skew_s * 100.0, kAcceptable * kFixRows_px, kFixRows_px});
 }
 
-/// What the samples of a cell have in common.
+/// The samples of a part of the image.
 struct Cell {
   std::vector<double> rows_px;
-  std::vector<std::vector<double>> residuals_px;  // of each window
-  double model_px = 0.0;                          // sum
+  std::vector<TimedValue> left_px;  // by the model
 };
 
-std::vector<Cell> cellsOf(const StereoCamera& camera,
+std::vector<Cell> cellsOf(const ImageGrid& grid,
                           const std::vector<PairSamples>& pairs,
-                          const RigModel& model,
-                          const Windows& windows) {
-  const ImageGrid grid(camera.width, camera.height);
-  const RigDisplacement displacement(camera, model.causes);
-  std::vector<Cell> cells(grid.count(), {{}, std::vector<std::vector<double>>(windows.count())});
+                          const RigDisplacement& displacement) {
+  std::vector<Cell> cells(grid.count());
   for (const PairSamples& pair : pairs) {
     for (const RigSample& sample : pair.samples) {
       if (!std::isfinite(sample.row_px)) continue;
-      Cell& cell = cells[grid.of(sample.left_px.x, sample.left_px.y)];
-      const double model_px = displacement.of(sample).y();
+      Cell& cell = cells[grid.cell(sample.left_px.x, sample.left_px.y)];
       cell.rows_px.push_back(sample.row_px);
-      cell.residuals_px[windows.of(pair.time_s)].push_back(sample.row_px - model_px);
-      cell.model_px += model_px;
+      cell.left_px.push_back({pair.time_s, sample.row_px - displacement.of(sample).y()});
     }
   }
   return cells;
 }
 
-/// The rms over the cells of what is left in each window: of what several windows have in common,
-/// as an error of the rig, and as opposed to those of matches. The mean product of two windows has
-/// no noise of its own.
-Estimate commonOf(const std::vector<Cell>& cells, std::size_t windows) {
-  std::vector<std::vector<double>> without;
-  double all2 = 0.0;
-  bool has_cells = false;
-  for (std::size_t left_out = 0; left_out <= windows; ++left_out) {
-    double products = 0.0;
-    double count = 0.0;
-    for (const Cell& cell : cells) {
-      double sum = 0.0, squares = 0.0, parts = 0.0;
-      for (std::size_t w = 0; w < windows; ++w) {
-        if (w == left_out || cell.residuals_px[w].size() < ImageGrid::kLeast) continue;
-        std::vector<double> residuals_px = cell.residuals_px[w];
-        const double middle_px = median(residuals_px);
-        sum += middle_px;
-        squares += middle_px * middle_px;
-        parts += 1.0;
-      }
-      if (parts < 2.0) continue;
-      products += (sum * sum - squares) / (parts * (parts - 1.0));
-      count += 1.0;
-    }
-    const double mean = count > 0.0 ? products / count : 0.0;
-    if (left_out < windows) {
-      without.push_back({mean});
-    } else {
-      all2 = mean;
-      has_cells = count > 0.0;
-    }
-  }
-  const double rms = std::sqrt(std::max(all2, 0.0));
-  // Of two windows, none has a partner without one of them.
-  if (!has_cells || windows < 3) return {rms, std::numeric_limits<double>::infinity()};
-  const double sigma2 = jackknifeSigmas(without)[0];
-  return {rms, sigma2 / std::max(2.0 * rms, std::sqrt(std::max(sigma2, 1e-12)))};
+double meanSquare(const std::vector<double>& values) {
+  return std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
+         static_cast<double>(values.size());
 }
 
+/// Rows as they are, and what is left of them: of what several windows have in common, as an error
+/// of the rig, and as opposed to those of matches. The square of the mean of a cell, less the
+/// variance of the mean, has no noise of its own.
 void addRows(const StereoCamera& camera,
-             const std::vector<Cell>& cells,
+             const std::vector<PairSamples>& pairs,
+             const RigModel& model,
+             const Windows& windows,
              ModelRest& rest,
              RigReport& report) {
-  const ImageGrid grid(camera.width, camera.height);
-  double squares = 0.0;
-  double count = 0.0;
-  ReportTable table = {"rows_map", "x_px,y_px,count,row_px,sigma_px,model_px", {}};
+  const ImageGrid grid = mapOf(camera.width, camera.height);
+  const auto cells = cellsOf(grid, pairs, RigDisplacement(camera, model.causes));
+  std::vector<double> rows_px, squares_px2;
+  ReportTable table = {"rows_map", "x_px,y_px,row_px,sigma_px,model_px", {}};
   for (std::size_t i = 0; i < grid.count(); ++i) {
-    const auto samples = static_cast<double>(cells[i].rows_px.size());
-    if (samples < ImageGrid::kLeast) continue;
+    if (cells[i].rows_px.size() < kLeastInCell) continue;
     const cv::Point2d center = grid.center(i);
     const Estimate row = medianOf(cells[i].rows_px);
-    table.rows.push_back(
-        {center.x, center.y, samples, row.value, row.sigma, cells[i].model_px / samples});
-    squares += row.value * row.value;
-    count += 1.0;
+    const Estimate left = overWindows(cells[i].left_px, windows);
+    table.rows.push_back({center.x, center.y, row.value, row.sigma, row.value - left.value});
+    rows_px.push_back(row.value);
+    if (std::isfinite(left.sigma)) {
+      squares_px2.push_back(left.value * left.value - left.sigma * left.sigma);
+    }
   }
   report.tables.push_back(std::move(table));
-  if (count == 0.0) return;
-  rest.rows_px = std::sqrt(squares / count);
-  const Estimate& unexplained = rest.unexplained_px;
-  report.add(
-      {"rows",
-       "row differences that none of these explains",
-       toText(unexplained, "px") + " of " + fixedText(rest.rows_px, 2) + " px (rms over the image)",
-       "smooth errors of the lenses",
-       kOtherLens},
-      {unexplained, 2.0 * kAcceptable * kFixRows_px, kFixRows_px});
+  if (rows_px.empty()) return;
+  rest.rows_px = std::sqrt(meanSquare(rows_px));
+  const auto [square_px2, sigma_px2] = meanOf(squares_px2);
+  const double left_px = std::sqrt(std::max(square_px2, 0.0));
+  rest.unexplained_px = {left_px, sigma_px2 / std::max(2.0 * left_px, std::sqrt(sigma_px2))};
+  report.add({"rows",
+              "row differences that none of these explains",
+              toText(rest.unexplained_px, "px") + " of " + fixedText(rest.rows_px, 2) +
+                  " px (rms over the image)",
+              "smooth errors of the lenses",
+              kOtherLens},
+             {rest.unexplained_px, 2.0 * kAcceptable * kFixRows_px, kFixRows_px});
 }
 
 /// What the model leaves in some time: a plane over the image, as a rotation makes it.
@@ -292,7 +261,7 @@ void addCourse(const StereoCamera& camera,
     finding.measured += ", most of it in one step at " + fixedText(step_s, 0) + " s";
   }
   report.add(finding, {{motion_px, lengthOf(sigmas)}, kAcceptable * kFixRows_px, kFixRows_px});
-  rest.rows_are_constant = motion_px < std::max(kAcceptable * kFixRows_px, 0.5 * rest.rows_px);
+  rest.is_constant = motion_px < std::max(kAcceptable * kFixRows_px, 0.5 * rest.rows_px);
 }
 
 /// Returns whether a calibration can describe the bias: not if it moves.
@@ -303,21 +272,16 @@ bool addBias(const StereoCamera& camera,
              RigReport& report) {
   const double typical_px = model.typical_disparity_px;
   const Estimate bias_px = model.value(kBias);
-  const double fB = camera.fx * camera.baseline_m;
-  const auto scaleAt = [&](double depth_m) {
-    return fixedText(100.0 * bias_px.value * depth_m / fB, 1) + " % at " + toText(depth_m) + " m";
-  };
-  report.add(
-      {"disparities",
-       "bias of the disparities",
-       toText(bias_px, "px") + " are missing" + orTurn(camera, model, kBias) +
-           "; depths are wrong by " + scaleAt(5.0) + ", " + scaleAt(10.0) + ", " + scaleAt(20.0),
-       "without a correction " + fixedText(std::abs(100.0 * bias_px.value / typical_px), 1) +
-           " m in 100 m, at the disparity of the mean depth, " + fixedText(typical_px, 1) +
-           " px; the odometry corrects " + fixedText(applied_px, 2) + " px of it",
-       "`rosrun rotrocc check_rig RECORDING --write-camera-info DIR` writes the corrected "
-       "calibration; obstacle maps of the same cameras need it, too"},
-      {bias_px * (1.0 / typical_px), kAcceptable * kFixScale, kFixScale});
+  const double at_10_m = 10.0 * bias_px.value / (camera.fx * camera.baseline_m);
+  report.add({"disparities",
+              "bias of the disparities",
+              toText(bias_px, "px") + " are missing" + orTurn(camera, model, kBias) +
+                  "; depths of 10 m are wrong by " + fixedText(100.0 * at_10_m, 1) + " %",
+              "without a correction " + fixedText(std::abs(100.0 * bias_px.value / typical_px), 1) +
+                  " m in 100 m, at the disparity of the mean depth, " + fixedText(typical_px, 1) +
+                  " px; the odometry corrects " + fixedText(applied_px, 2) + " px of it",
+              kCalibrate},
+             {bias_px * (1.0 / typical_px), kAcceptable * kFixScale, kFixScale});
   const Estimate motion_px = scatterBeyondNoise(model.biases_px);
   report.add({"disparities",
               "bias over time",
@@ -353,11 +317,9 @@ ModelRest checkModel(const StereoCamera& camera,
     return rest;
   }
   addCauses(camera, model, report);
-  const std::vector<Cell> cells = cellsOf(camera, pairs, model, windows);
-  rest.unexplained_px = commonOf(cells, windows.count());
-  addRows(camera, cells, rest, report);
+  addRows(camera, pairs, model, windows, rest, report);
   addCourse(camera, pairs, model, rest, report);
-  rest.bias_is_constant = addBias(camera, model, windows, applied_px, report);
+  if (!addBias(camera, model, windows, applied_px, report)) rest.is_constant = false;
   return rest;
 }
 

@@ -12,7 +12,7 @@ namespace rotrocc {
 struct ModelRest {
   double rows_px = 0.0;     ///< row differences as they are, rms over the image
   Estimate unexplained_px;  ///< of these by no cause: lenses leave some hundredths
-  bool rows_are_constant = true, bias_is_constant = true;  ///< over time
+  bool is_constant = true;  ///< rows and bias, over time
 };
 
 /// The subject of the finding that the rig moves.

@@ -42,10 +42,8 @@ class PairCheck {
 /// photometry.
 std::unique_ptr<PairCheck> makePhotometryCheck();
 
-/// With the side, the subject of the finding that one image lacks detail.
-constexpr char kLessDetail[] = "parts with less than half of the detail, ";
-
-/// What compression or dirt take away from one image: section photometry.
+/// What compression or dirt take away from one image: section photometry. Reports after the view,
+/// whose mask explains a lack of detail.
 std::unique_ptr<PairCheck> makeDetailCheck();
 
 /// Compares the rotations of the cameras with those of a gyroscope: the offset between their
@@ -55,9 +53,8 @@ std::unique_ptr<PairCheck> makeGyroCheck(const GyroRecording& gyroscope);
 /// The subject of the finding that a mask is proposed.
 constexpr char kMasked[] = "parts that stand still while the rest moves";
 
-/// What the cameras see: where there are corners, which of them have a disparity and why others do
-/// not, how far away they are, and where features never agree with the motion. Section view, and a
-/// mask if one is proposed.
-std::unique_ptr<PairCheck> makeViewCheck(const OdometryConfig& config);
+/// What the cameras see: how many corners have a disparity, where there are features, and where
+/// they never agree with the motion. Section view, and a mask if one is proposed.
+std::unique_ptr<PairCheck> makeViewCheck();
 
 }  // namespace rotrocc

@@ -137,8 +137,9 @@ class PhotometryCheck : public PairCheck {
 
  private:
   struct Levels {
-    double mean, contrast, noise;  ///< gray levels; contrast and noise are standard deviations
-    double saturated, dark;        ///< share of the pixels
+    double mean, noise;      ///< gray levels; noise is a standard deviation
+    double noise_share;      ///< of the contrast
+    double saturated, dark;  ///< share of the pixels
   };
   /// Of one pair; nan if not measured.
   struct Row {
@@ -153,9 +154,10 @@ class PhotometryCheck : public PairCheck {
     cv::Scalar mean, deviation;
     cv::meanStdDev(image, mean, deviation);
     std::vector<int> buffer;
+    const double noise = std::sqrt(noiseVariance(image, buffer));
     return {mean[0],
-            deviation[0],
-            std::sqrt(noiseVariance(image, buffer)),
+            noise,
+            noise / std::max(deviation[0], 1e-9),
             cv::countNonZero(image >= kWhite) / pixels,
             cv::countNonZero(image <= kBlack) / pixels};
   }
@@ -253,43 +255,41 @@ class PhotometryCheck : public PairCheck {
   }
 
   void addLevels(const Windows& windows, RigReport& report) const {
-    for (const bool right : {false, true}) {
-      const auto add = [&](const std::string& subject,
-                           const char* unit,
-                           const char* cost,
-                           const char* remedy,
-                           double acceptable,
-                           double (*share_of)(const Levels&)) {
+    struct Property {
+      const char *subject, *unit, *cost, *remedy;
+      double acceptable;
+      double Levels::*share;
+    };
+    constexpr Property kProperties[] = {{"saturated pixels",
+                                         "%",
+                                         "no features there",
+                                         "reduce exposure, or meter on the lower part of the image",
+                                         0.1,
+                                         &Levels::saturated},
+                                        {"black pixels",
+                                         "%",
+                                         "no features there",
+                                         "increase exposure or gain, or light the scene",
+                                         0.1,
+                                         &Levels::dark},
+                                        {"noise",
+                                         "% of the contrast",
+                                         "positions get noisier",
+                                         "more light, or less gain",
+                                         0.15,
+                                         &Levels::noise_share}};
+    for (const auto& [side, levels] : {std::pair(", left", &Row::left), {", right", &Row::right}}) {
+      for (const Property& p : kProperties) {
         std::vector<TimedValue> shares;
-        for (const Row& row : rows_) {
-          shares.push_back({row.time_s, share_of(right ? row.right : row.left)});
-        }
+        for (const Row& row : rows_) shares.push_back({row.time_s, row.*levels.*p.share});
         const Estimate share = overWindows(shares, windows);
         report.add({"photometry",
-                    subject + (right ? ", right" : ", left"),
-                    toText(share * 100.0, unit),
-                    cost,
-                    remedy},
-                   {share, acceptable, 0.3});
-      };
-      add("saturated pixels",
-          "%",
-          "no features there",
-          "reduce exposure, or meter on the lower part of the image",
-          0.1,
-          [](const Levels& levels) { return levels.saturated; });
-      add("black pixels",
-          "%",
-          "no features there",
-          "increase exposure or gain, or light the scene",
-          0.1,
-          [](const Levels& levels) { return levels.dark; });
-      add("noise",
-          "% of the contrast",
-          "positions get noisier",
-          "more light, or less gain",
-          0.15,
-          [](const Levels& levels) { return levels.noise / std::max(levels.contrast, 1e-9); });
+                    p.subject + std::string(side),
+                    toText(share * 100.0, p.unit),
+                    p.cost,
+                    p.remedy},
+                   {share, p.acceptable, 0.3});
+      }
     }
   }
 

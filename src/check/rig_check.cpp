@@ -70,7 +70,7 @@ class PairChecks {
         rectifies_(rectifies),
         inspector_(config, rectifies),
         sampler_(config),
-        view_(makeViewCheck(config)) {
+        view_(makeViewCheck()) {
     if (gyroscope) gyro_ = makeGyroCheck(*gyroscope);
   }
 
@@ -115,7 +115,7 @@ class PairChecks {
   void report(CheckedRig& rig) {
     RigReport& report = rig.report;
     const double length_s = toSeconds(last_ns_ - first_ns_);
-    const Windows windows(0.0, length_s, static_cast<std::size_t>(pairs_));
+    const Windows windows(length_s, static_cast<std::size_t>(pairs_));
     report.summary = toText(pairs_) + " pairs in " + fixedText(length_s, 1) + " s, " +
                      fixedText(path_m_, 1) + " m; " + sizeText(camera_.width, camera_.height) +
                      ", focal length " + fixedText(camera_.fx, 1) + " px, baseline " +
@@ -129,29 +129,19 @@ class PairChecks {
       rig.measures.model = fitRig(camera_, samples, windows);
       const RigModel& model = rig.measures.model;
       photometry_->report(windows, report);
-      detail_->report(windows, report);
-      const ModelRest rest = checkModel(camera_, samples, model, windows, applied_px_, report);
+      rig.measures.rest = checkModel(camera_, samples, model, windows, applied_px_, report);
       if (gyro_) gyro_->report(windows, report);
       view_->report(windows, report);
-      if (!report.mask.empty()) doubtDetail(report);
-      rig.measures.rows_px = rest.rows_px;
-      rig.measures.is_constant = rest.rows_are_constant && rest.bias_is_constant;
+      detail_->report(windows, report);  // after the mask is known
       if (isExplained()) {
         doubt(report);
       } else {
         const bool is_raw = model.exceeds(1.0, kBothLenses);
-        rig.measures.is_known =
-            (is_raw || !addCenter(model, report)) && !addRectification(rest, model, report);
+        rig.measures.is_known = (is_raw || !addCenter(model, report)) &&
+                                !addRectification(rig.measures.rest, model, report);
       }
     }
     if (samples.size() < kLeastMotions) addTooShort(report);
-    report.tables.push_back({"image",
-                             "width,height,fx,cx,cy",
-                             {{static_cast<double>(camera_.width),
-                               static_cast<double>(camera_.height),
-                               camera_.fx,
-                               camera_.cx,
-                               camera_.cy}}});
     report.left = left_;
     report.right = right_;
     rig.measures.pairs_with_motion = with_motion_;
@@ -178,13 +168,11 @@ class PairChecks {
   /// Whether many motions are in doubt because the images are no pairs.
   bool isExplained() const { return is_of_no_pair_ && 4 * (pairs_ - ok_) > pairs_; }
 
-  /// One pair with a motion, of about the middle: later ones replace it ever more rarely.
+  /// The first pair with a motion, or the first one.
   void keepSample(const StereoPair& pair, const OdometryResult& result) {
-    const bool is_better = left_.empty() || (result.hasMotion() && with_motion_ >= next_sample_);
-    if (!is_better) return;
+    if (!left_.empty() && (!result.hasMotion() || with_motion_ != 1)) return;
     left_ = pair.left.clone();
     right_ = pair.right.clone();
-    next_sample_ = 2 * std::max(with_motion_, 1);
   }
 
   /// What is not good in the sections of measurements is unknown.
@@ -196,14 +184,6 @@ class PairChecks {
       finding.verdict = Verdict::kUnknown;
       finding.cost.clear();
       finding.remedy.clear();
-    }
-  }
-
-  /// What is near and stands still is elsewhere in the other image.
-  static void doubtDetail(RigReport& report) {
-    for (Finding& finding : report.findings) {
-      const bool is_of_detail = finding.subject.find(kLessDetail) == 0;
-      if (is_of_detail && finding.verdict != Verdict::kGood) finding.verdict = Verdict::kUnknown;
     }
   }
 
@@ -357,7 +337,7 @@ class PairChecks {
   std::unique_ptr<PairCheck> view_;
   StereoCamera camera_;
   std::int64_t first_ns_ = 0, last_ns_ = 0;
-  int pairs_ = 0, of_other_camera_ = 0, with_motion_ = 0, ok_ = 0, next_sample_ = 1;
+  int pairs_ = 0, of_other_camera_ = 0, with_motion_ = 0, ok_ = 0;
   int repeated_left_ = 0, repeated_right_ = 0;
   double path_m_ = 0.0, applied_px_ = 0.0;
   std::string fault_;
@@ -365,14 +345,6 @@ class PairChecks {
   bool is_of_no_pair_ = false;
   cv::Mat left_, right_;
 };
-
-/// The baseline that P of the first camera_info has, whatever its sign; 0 if it has none.
-double sizeOfBaseline(const Recording& recording) {
-  const RecordedMessage infos = recording.firstInfos();
-  const auto& left = infos.left_info->P;
-  const auto& right = infos.right_info->P;
-  return left[0] > 0.0 ? std::abs(left[3] - right[3]) / left[0] : 0.0;
-}
 
 StereoCalibration calibrationOf(const Recording& recording,
                                 const StereoCamera& camera,
@@ -396,11 +368,9 @@ void addUnusable(const std::string& why, RigReport& report) {
                              1000.0});
 }
 
-/// Returns false, with a finding, if there is no pair that can be used.
-bool checkPairs(Recording& recording, const RigCheckOptions& options, CheckedRig& rig) {
+void checkPairs(Recording& recording, const RigCheckOptions& options, CheckedRig& rig) {
   RecordedPairs pairs(recording, options.parameters.node, options.rectify, options.calibration);
   const double max_apart_s = options.parameters.node.max_stamp_difference_s;
-  const bool is_first = rig.report.findings.empty();
   InputCheck input;
   pairs.onMessage([&](const RecordedMessage& message) { input.observe(message); });
   PairChecks checks(configOf(options), options.gyroscope, pairs.rectifies());
@@ -413,9 +383,8 @@ bool checkPairs(Recording& recording, const RigCheckOptions& options, CheckedRig
     }
   } catch (const std::runtime_error& error) {
     if (checks.pairs() == 0) {
-      if (is_first) input.reportStreams(max_apart_s, rig.report);
-      addUnusable(error.what(), rig.report);
-      return false;
+      input.reportStreams(max_apart_s, rig.report);
+      return addUnusable(error.what(), rig.report);
     }
     rig.report.findings.push_back({"inputs",
                                    "recording",
@@ -426,21 +395,16 @@ bool checkPairs(Recording& recording, const RigCheckOptions& options, CheckedRig
                                    0.9});
   }
   input.report(checks.camera(), pairs.leftOut(), pairs.rectifies(), rig.report);
-  if (is_first) input.reportStreams(max_apart_s, rig.report);
+  input.reportStreams(max_apart_s, rig.report);
   checks.report(rig);
   rig.measures.calibration = calibrationOf(recording, checks.camera(), pairs.rectifies(), options);
-  return true;
 }
 
 }  // namespace
 
 CheckedRig checkRig(Recording& recording, const RigCheckOptions& options) {
   CheckedRig rig;
-  if (!checkPairs(recording, options, rig)) {
-    RigCheckOptions with_baseline = options;
-    with_baseline.parameters.node.baseline_m = sizeOfBaseline(recording);
-    if (with_baseline.parameters.node.baseline_m > 0.0) checkPairs(recording, with_baseline, rig);
-  }
+  checkPairs(recording, options, rig);
   rig.report.title = "Rig check of " + recording.description();
   rig.report.sort();
   return rig;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bags/recording.h"
+#include "check/model_check.h"
 #include "check/rig_model.h"
 #include "check/rig_report.h"
 #include "rectification/stereo_calibration.h"
@@ -30,9 +31,8 @@ constexpr int kLeastMotions = 10;
 struct RigMeasures {
   StereoCalibration calibration;  ///< that the pairs were taken by
   RigModel model;
-  double rows_px = 0.0;     ///< see ModelRest
-  bool is_constant = true;  ///< rows and bias
-  bool is_known = false;    ///< whether pairs and rectification are right, so that the model counts
+  ModelRest rest;
+  bool is_known = false;  ///< whether pairs and rectification are right, so that the model counts
   int pairs_with_motion = 0;
   int moving_pairs = 0;  ///< in which the features had moved
 };
@@ -42,8 +42,8 @@ struct CheckedRig {
   RigMeasures measures;
 };
 
-/// Reads all pairs of a recording, twice if camera_info has no baseline that can be used. Throws
-/// std::runtime_error if it is unreadable. Without a pair that can be used the report says why.
+/// Reads all pairs of a recording. Throws std::runtime_error if it is unreadable. Without a pair
+/// that can be used the report says why.
 CheckedRig checkRig(Recording& recording, const RigCheckOptions& options);
 
 }  // namespace rotrocc

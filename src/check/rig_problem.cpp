@@ -11,9 +11,6 @@
 namespace rotrocc {
 namespace {
 
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-
 constexpr double kStep = 1e-3;  // of derivatives, over kPriorSigmas
 
 constexpr double kLeastNoise_px = 0.02;
@@ -30,14 +27,6 @@ double square(double value) {
 
 double weightOf(double sigmas) {
   return 1.0 / (1.0 + square(sigmas / kRobust));
-}
-
-Estimate sumOf(const std::vector<double>& parts) {
-  const auto count = static_cast<double>(parts.size());
-  double sum = 0.0, squares = 0.0;
-  for (const double part : parts) sum += part;
-  for (const double part : parts) squares += square(part - sum / count);
-  return {sum, std::sqrt(squares * count / std::max(count - 1.0, 1.0))};
 }
 
 }  // namespace
@@ -113,6 +102,7 @@ RigProblem::RigProblem(const StereoCamera& camera,
                        const Windows& windows)
     : camera_(camera),
       pairs_(pairs),
+      regions_grid_(camera.width, camera.height, kRegionColumns, kRegionRows),
       motions_(pairs.size(), Vector6d::Zero()),
       rows_(windows.count()),
       flows_(windows.count()) {
@@ -188,7 +178,8 @@ std::pair<Estimate, Estimate> RigProblem::gains(const RigCauses& corrected) cons
     rows.push_back(rows_[w].gainBy(by_others - now) - rows_[w].gainBy(-now));
     flows.push_back(flows_[w].gainBy(by_others - now) - flows_[w].gainBy(-now));
   }
-  return {sumOf(rows), sumOf(flows)};
+  const auto count = static_cast<double>(rows.size());
+  return {meanOf(rows) * count, meanOf(flows) * count};
 }
 
 RigCauses RigProblem::causesOf(const RigCauses& some_values) const {
@@ -256,7 +247,7 @@ void RigProblem::addRow(std::size_t pair,
   const double weight = weightOf(error_px / row_noise_px_) / square(row_noise_px_);
   const Normal normal = {weight * by_values * by_values.transpose(), weight * error_px * by_values};
   rows_[window_of_[pair]] += normal;
-  rows_of_[regionOf(sample)] += normal;
+  rows_of_[regions_grid_.cell(sample.left_px.x, sample.left_px.y)] += normal;
 }
 
 /// Disparities have the noise of a match, as flows have.
@@ -284,7 +275,7 @@ RigProblem::FlowResidual RigProblem::residualOf(
     residual.by_values.col(Eigen::Index(k)) =
         axes * sample.flow_by_both.col(Eigen::Index(k - kBothLenses));
   }
-  residual.region = regionOf(sample);
+  residual.region = regions_grid_.cell(sample.left_px.x, sample.left_px.y);
   return residual;
 }
 
@@ -305,16 +296,6 @@ void RigProblem::addFlows(std::size_t pair, const std::vector<FlowResidual>& res
     Vector6d motion;
     if (all.without(parts[r]).eliminate(motion, eliminated)) flows_without_[r] += eliminated;
   }
-}
-
-std::size_t RigProblem::regionOf(const RigSample& sample) const {
-  const auto part = [](float at, int size, int parts) {
-    return std::clamp(
-        static_cast<int>(at * static_cast<float>(parts) / static_cast<float>(size)), 0, parts - 1);
-  };
-  const int column = part(sample.left_px.x, camera_.width, kRegionColumns);
-  const int row = part(sample.left_px.y, camera_.height, kRegionRows);
-  return static_cast<std::size_t>(row * kRegionColumns + column);
 }
 
 Normal RigProblem::prior() const {

@@ -9,6 +9,8 @@
 
 #include "check/rig_causes.h"
 #include "check/windows.h"
+#include "common/image_grid.h"
+#include "rotrocc/rigid_motion.h"
 
 namespace rotrocc {
 
@@ -85,7 +87,6 @@ class RigProblem {
                           double displaced_px,
                           const Eigen::Matrix<double, 1, kRigCauses>& by_values) const;
   void addFlows(std::size_t pair, const std::vector<FlowResidual>& residuals);
-  std::size_t regionOf(const RigSample& sample) const;
   double sharedFactor() const;
   Normal prior() const;
   Normal total() const;
@@ -95,9 +96,10 @@ class RigProblem {
 
   const StereoCamera& camera_;
   const std::vector<PairSamples>& pairs_;
+  ImageGrid regions_grid_;
   std::array<bool, kRigCauses> is_left_out_ = {};         // these are zero
   std::vector<std::size_t> window_of_;                    // of a pair
-  std::vector<Eigen::Matrix<double, 6, 1>> motions_;      // errors, for each pair
+  std::vector<Vector6d> motions_;                         // errors, for each pair
   std::vector<Normal> rows_, flows_;                      // for each window
   std::array<Normal, kRegions> rows_of_, flows_without_;  // each part of the image
   double row_noise_px_ = 1.0;

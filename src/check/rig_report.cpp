@@ -1,7 +1,6 @@
 #include "check/rig_report.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <set>
@@ -19,26 +18,11 @@
 namespace rotrocc {
 namespace {
 
-constexpr std::size_t kLineLength = 100;
+/// Of what belongs to a finding.
+const std::string kIndent(12, ' ');
 
 const char* const kNotSeen =
     "Not visible to this check: a wrong baseline, and an error that both focal lengths share.";
-
-/// The text in lines, each after `indent` blanks.
-std::string wrapped(const std::string& text, std::size_t indent) {
-  std::istringstream words(text);
-  std::string lines;
-  std::string line(indent, ' ');
-  std::string word;
-  while (words >> word) {
-    if (line.size() > indent && line.size() + 1 + word.size() > kLineLength) {
-      lines += line + '\n';
-      line = std::string(indent, ' ');
-    }
-    line += (line.size() > indent ? " " : "") + word;
-  }
-  return lines + line + '\n';
-}
 
 const char* toString(Verdict verdict) {
   constexpr const char* kNames[] = {"fix", "acceptable", "unknown", "good"};
@@ -62,11 +46,11 @@ std::string toText(const std::vector<Finding>& findings) {
             ": " + finding.measured + '\n';
     if (finding.verdict == Verdict::kGood || finding.remedy.empty()) continue;
     if (!said.insert(finding.cost + finding.remedy).second) {
-      text += wrapped("-> as above", 12);
+      text += kIndent + "-> as above\n";
       continue;
     }
-    if (!finding.cost.empty()) text += wrapped(finding.cost, 12);
-    text += wrapped("-> " + finding.remedy, 12);
+    if (!finding.cost.empty()) text += kIndent + finding.cost + '\n';
+    text += kIndent + "-> " + finding.remedy + '\n';
   }
   return text;
 }
@@ -137,17 +121,17 @@ void RigReport::sort() {
 }
 
 std::string toText(const RigReport& report) {
-  std::array<int, 4> counts = {};
-  for (const Finding& finding : report.findings)
-    ++counts[static_cast<std::size_t>(finding.verdict)];
   std::ostringstream text;
   text << report.title << '\n' << report.summary << "\n\n";
-  text << wrapped(report.advice(), 0) << '\n' << toText(report.findings) << '\n';
+  text << report.advice() << "\n\n" << toText(report.findings) << '\n';
   text << kNotSeen << '\n';
-  text << counts[static_cast<std::size_t>(Verdict::kFix)] << " to fix, "
-       << counts[static_cast<std::size_t>(Verdict::kAcceptable)] << " acceptable, "
-       << counts[static_cast<std::size_t>(Verdict::kGood)] << " good, "
-       << counts[static_cast<std::size_t>(Verdict::kUnknown)] << " unknown\n";
+  const auto count = [&](Verdict verdict) {
+    return std::count_if(report.findings.begin(),
+                         report.findings.end(),
+                         [=](const Finding& finding) { return finding.verdict == verdict; });
+  };
+  text << count(Verdict::kFix) << " to fix, " << count(Verdict::kAcceptable) << " acceptable, "
+       << count(Verdict::kGood) << " good, " << count(Verdict::kUnknown) << " unknown\n";
   if (report.corrected) {
     text << "\nWith the corrected calibration:\n\n" << toText(*report.corrected);
   }

@@ -43,9 +43,7 @@ void measureFlow(const StereoCamera& camera,
   by_point << camera.fx, 0.0, -camera.fx * point.x() / point.z(), 0.0, camera.fy,
       -camera.fy * point.y() / point.z();
   by_point /= point.z();
-  Eigen::Matrix3d cross;
-  cross << 0.0, point.z(), -point.y(), -point.z(), 0.0, point.x(), point.y(), -point.x(), 0.0;
-  sample.flow_by_motion << by_point, by_point * cross;
+  sample.flow_by_motion << by_point, -by_point * skew(point);
   sample.flow_by_disparity = by_point * (motion.T.linear() * ray) * (-depth_m / from_infinity_px);
   // Both lenses move the feature in the keyframe, its ray, and its disparity.
   const auto moved = [](const Eigen::Vector2d& at) -> Eigen::Vector2d {

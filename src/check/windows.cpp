@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "common/median.h"
 #include "input/to_text.h"
@@ -29,14 +30,22 @@ std::string toText(const Estimate& estimate, const std::string& unit) {
          (unit.empty() ? "" : " " + unit);
 }
 
-Windows::Windows(double first_s, double last_s, std::size_t pairs)
-    : first_s_(first_s), count_(std::clamp(pairs / kPairsPerWindow, kLeastWindows, kMostWindows)) {
-  length_s_ = std::max(last_s - first_s, 1e-9) / static_cast<double>(count_);
-}
+Windows::Windows(double duration_s, std::size_t pairs)
+    : count_(std::clamp(pairs / kPairsPerWindow, kLeastWindows, kMostWindows)),
+      length_s_(std::max(duration_s, 1e-9) / static_cast<double>(count_)) {}
 
 std::size_t Windows::of(double time_s) const {
-  const double window = std::floor((time_s - first_s_) / length_s_);
+  const double window = std::floor(time_s / length_s_);
   return static_cast<std::size_t>(std::clamp(window, 0.0, static_cast<double>(count_ - 1)));
+}
+
+Estimate meanOf(const std::vector<double>& values) {
+  const auto count = static_cast<double>(values.size());
+  if (values.empty()) return {kUnknown, kUnknown};
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+  double squares = 0.0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return {mean, count < 2.0 ? kUnknown : std::sqrt(squares / (count - 1.0) / count)};
 }
 
 Estimate overWindows(const std::vector<TimedValue>& values, const Windows& windows) {
@@ -44,21 +53,11 @@ Estimate overWindows(const std::vector<TimedValue>& values, const Windows& windo
   for (const TimedValue& timed : values) {
     if (std::isfinite(timed.value)) parts[windows.of(timed.time_s)].push_back(timed.value);
   }
-  double sum = 0.0;
-  double squares = 0.0;
-  double count = 0.0;
+  std::vector<double> medians;
   for (std::vector<double>& part : parts) {
-    if (part.empty()) continue;
-    const double middle = median(part);
-    sum += middle;
-    squares += middle * middle;
-    count += 1.0;
+    if (!part.empty()) medians.push_back(median(part));
   }
-  if (count < 1.0) return {kUnknown, kUnknown};
-  const double mean = sum / count;
-  if (count < 2.0) return {mean, kUnknown};
-  const double variance = std::max(squares / count - mean * mean, 0.0) * count / (count - 1.0);
-  return {mean, std::sqrt(variance / count)};
+  return meanOf(medians);
 }
 
 Estimate scatterBeyondNoise(const std::vector<Estimate>& values) {
@@ -83,7 +82,6 @@ Estimate scatterBeyondNoise(const std::vector<Estimate>& values) {
 }
 
 std::vector<double> jackknifeSigmas(const std::vector<std::vector<double>>& without) {
-  if (without.empty()) return {};
   const auto count = static_cast<double>(without.size());
   std::vector<double> sigmas(without.front().size());
   for (std::size_t k = 0; k < sigmas.size(); ++k) {

@@ -27,23 +27,25 @@ struct TimedValue {
   double value = 0.0;
 };
 
-/// The time from `first_s` to `last_s` in equal windows: ten, or fewer if there are less than five
+/// The time of a recording in equal windows: ten, or fewer if there are less than five
 /// pairs for each, but at least two.
 class Windows {
  public:
-  Windows(double first_s, double last_s, std::size_t pairs);
+  Windows(double duration_s, std::size_t pairs);
 
   std::size_t count() const { return count_; }
   std::size_t of(double time_s) const;
   double middle_s(std::size_t window) const {
-    return first_s_ + (static_cast<double>(window) + 0.5) * length_s_;
+    return (static_cast<double>(window) + 0.5) * length_s_;
   }
 
  private:
-  double first_s_;
-  double length_s_;
   std::size_t count_;
+  double length_s_;
 };
+
+/// The mean, with its standard deviation by the scatter of the values; nan if unknown.
+Estimate meanOf(const std::vector<double>& values);
 
 /// The mean of the medians of the windows, with the standard deviation by their scatter, so that
 /// errors that last for a while count. Both are nan without values, the deviation with one window.

@@ -404,9 +404,9 @@ TEST(RigCheckTest, CorrectsTheCalibration) {
   std::string why_not;
   const auto correction = findCorrection(recording, {}, before.measures, why_not);
   ASSERT_TRUE(correction) << why_not;
-  EXPECT_GT(before.measures.rows_px, 0.5);
+  EXPECT_GT(before.measures.rest.rows_px, 0.5);
   const double tolerance_px = 0.05;
-  EXPECT_LT(correction->measures.rows_px, tolerance_px);
+  EXPECT_LT(correction->measures.rest.rows_px, tolerance_px);
   // The yaw is seen by rows once the larger faults are corrected: those in the corners of the image
   // tell as much of it as they are correct. A pitch may be an offset of rows.
   const Eigen::AngleAxisd left(options.faults.rightCamera(options.camera).linear().transpose() *
@@ -502,7 +502,7 @@ TEST(RigCheckTest, CorrectsNeitherAPerfectRigNorOneThatMoves) {
   std::string why_not;
   EXPECT_FALSE(findCorrection(recording, {}, measures, why_not));
   EXPECT_NE(why_not.find("no error to be fixed"), std::string::npos) << why_not;
-  measures.is_constant = false;
+  measures.rest.is_constant = false;
   EXPECT_FALSE(findCorrection(recording, {}, measures, why_not));
   EXPECT_NE(why_not.find("move"), std::string::npos) << why_not;
 }

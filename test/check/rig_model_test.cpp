@@ -91,7 +91,7 @@ RigModel modelOf(const StereoCamera& camera,
     samples.push_back(pairBy(camera, assumed, causes, generator));
     samples.back().time_s = i;
   }
-  return fitRig(assumed, samples, Windows(0.0, pairs, static_cast<std::size_t>(pairs)));
+  return fitRig(assumed, samples, Windows(pairs, static_cast<std::size_t>(pairs)));
 }
 
 /// A bad calibration, in the order of RigCause.
@@ -194,7 +194,7 @@ TEST(RigModelTest, TheRotationIsThatOfTheRightCamera) {
 
 /// What changes slowly has a larger uncertainty than its values show one by one.
 TEST(WindowsTest, CountWhatLasts) {
-  const Windows windows(0.0, 100.0, 1000);
+  const Windows windows(100.0, 1000);
   ASSERT_EQ(windows.count(), 10u);
   std::vector<TimedValue> values;
   for (int i = 0; i < 1000; ++i) {
