@@ -151,7 +151,7 @@ void addRows(const StereoCamera& camera,
     if (cells[i].rows_px.size() < kLeastInCell) continue;
     const cv::Point2d center = grid.center(i);
     const Estimate row = medianOf(cells[i].rows_px);
-    const Estimate left = overWindows(cells[i].left_px, windows);
+    const Estimate left = overWindows(cells[i].left_px, windows, kLeastInCell);
     table.rows.push_back({center.x, center.y, row.value, row.sigma, row.value - left.value});
     rows_px.push_back(row.value);
     if (std::isfinite(left.sigma)) {

@@ -48,14 +48,16 @@ Estimate meanOf(const std::vector<double>& values) {
   return {mean, count < 2.0 ? kUnknown : std::sqrt(squares / (count - 1.0) / count)};
 }
 
-Estimate overWindows(const std::vector<TimedValue>& values, const Windows& windows) {
+Estimate overWindows(const std::vector<TimedValue>& values,
+                     const Windows& windows,
+                     std::size_t least) {
   std::vector<std::vector<double>> parts(windows.count());
   for (const TimedValue& timed : values) {
     if (std::isfinite(timed.value)) parts[windows.of(timed.time_s)].push_back(timed.value);
   }
   std::vector<double> medians;
   for (std::vector<double>& part : parts) {
-    if (!part.empty()) medians.push_back(median(part));
+    if (part.size() >= least) medians.push_back(median(part));
   }
   return meanOf(medians);
 }

@@ -49,7 +49,10 @@ Estimate meanOf(const std::vector<double>& values);
 
 /// The mean of the medians of the windows, with the standard deviation by their scatter, so that
 /// errors that last for a while count. Both are nan without values, the deviation with one window.
-Estimate overWindows(const std::vector<TimedValue>& values, const Windows& windows);
+/// Windows with fewer than `least` values do not count.
+Estimate overWindows(const std::vector<TimedValue>& values,
+                     const Windows& windows,
+                     std::size_t least = 1);
 
 /// The standard deviation of values beyond their own, and its standard deviation; {0, infinity} for
 /// less than two finite ones.

@@ -36,8 +36,6 @@ void RigEstimate::setLevel(int level, double detail_px) {
   if (level == level_) return;
   const double factor = std::ldexp(1.0, level_ - level);
   level_ = level;
-  past_.scale(factor);
-  filter_.scale(factor);
   motion_by_bias_ /= factor;
   rows_.scale(factor);
 }
@@ -55,7 +53,7 @@ StereoCamera RigEstimate::correctedCamera() const {
 }
 
 DisparityBias RigEstimate::bias() const {
-  DisparityBias bias = filter_.bias();
+  DisparityBias bias = filter_.bias(camera_.fx / (1 << level_));
   bias.estimated_px += knownBias();
   bias.applied_px += knownBias();
   return bias;
@@ -87,7 +85,7 @@ void RigEstimate::observeBias(const Hypothesis& found) {
   motion_by_bias_ = measurement->motion_by_bias;
   measurement->bias_px += bias().applied_px - knownBias();
   filter_ = past_;
-  filter_.add(*measurement);
+  filter_.add(*measurement, found.camera.fx);
 }
 
 void RigEstimate::observeRows(const Hypothesis& found,

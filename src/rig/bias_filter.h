@@ -6,7 +6,8 @@
 namespace rotrocc {
 
 /// Follows the disparity bias of a rig over the measurements of single pairs: a Kalman filter of a
-/// random walk, as lenses settle and mounts flex.
+/// random walk, as lenses settle and mounts flex. A rig is off by an angle, so the bias is a share
+/// of the focal length, whatever the size of the images.
 ///
 /// Errors that neighboring features share do not average out over a drive as noise does: those of a
 /// lens stay with the rig, and cannot be separated from a bias. Their variance is added to that of
@@ -16,23 +17,20 @@ namespace rotrocc {
 /// makes the estimate uncertain: either it is wrong, or the rig was hit. The next ones decide.
 class BiasFilter {
  public:
-  /// Standard deviation of the bias of rigs [px]: that of KITTI's drives is up to 1.2 px.
-  static constexpr double kPrior_px = 1.0;
+  /// Standard deviation of the bias of rigs: that of KITTI's drives is up to 1.2 px.
+  static constexpr double kPrior_rad = 1.4e-3;
 
-  /// `measurement` is relative to the known bias.
-  void add(const BiasMeasurement& measurement);
-
-  /// Pixels become so many times as small, as in an enlarged image.
-  void scale(double factor);
+  /// `measurement` is relative to the known bias, of images with the focal length `fx_px`.
+  void add(const BiasMeasurement& measurement, double fx_px);
 
   /// The estimate, relative to the known bias. `applied_px` is weighted by the probability that the
   /// rig is off at all.
-  DisparityBias bias() const;
+  DisparityBias bias(double fx_px) const;
 
  private:
-  double mean_px_ = 0.0;
-  double variance_px2_ = kPrior_px * kPrior_px;  // without shared errors
-  double shared_px_ = 0.0;  // standard deviation of the measurements by shared errors
+  double mean_rad_ = 0.0;
+  double variance_rad2_ = kPrior_rad * kPrior_rad;  // without shared errors
+  double shared_rad_ = 0.0;  // standard deviation of the measurements by shared errors
 };
 
 }  // namespace rotrocc

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kNoise_px = 0.05;
 constexpr double kShared_px = 0.13;
+constexpr double kFx_px = 1.0 / BiasFilter::kPrior_rad;  // the prior is 1 px
 constexpr double kPrior_px = 1.0;
 
 BiasMeasurement measured(double bias_px) {
@@ -22,47 +23,47 @@ BiasMeasurement measured(double bias_px) {
 
 TEST(BiasFilterTest, IsAsUncertainAsItsFirstMeasurement) {
   BiasFilter filter;
-  EXPECT_DOUBLE_EQ(filter.bias().sigma_px, kPrior_px);
-  filter.add(measured(0.1));
+  EXPECT_DOUBLE_EQ(filter.bias(kFx_px).sigma_px, kPrior_px);
+  filter.add(measured(0.1), kFx_px);
   const double variance_px2 = kNoise_px * kNoise_px + kShared_px * kShared_px;
   // The prior takes part, and the moving rig has a wider one.
-  EXPECT_NEAR(filter.bias().sigma_px, std::sqrt(variance_px2 / (1.0 + variance_px2)), 0.002);
+  EXPECT_NEAR(filter.bias(kFx_px).sigma_px, std::sqrt(variance_px2 / (1.0 + variance_px2)), 0.002);
 }
 
 TEST(BiasFilterTest, SharedErrorsDoNotAverageOut) {
   BiasFilter filter;
-  for (int pair = 0; pair < 1000; ++pair) filter.add(measured(0.1));
-  EXPECT_GT(filter.bias().sigma_px, 0.9 * kShared_px) << "noise alone would be 0.0016 px";
+  for (int pair = 0; pair < 1000; ++pair) filter.add(measured(0.1), kFx_px);
+  EXPECT_GT(filter.bias(kFx_px).sigma_px, 0.9 * kShared_px) << "noise alone would be 0.0016 px";
 }
 
 TEST(BiasFilterTest, AppliesWhatIsBeyondDoubt) {
   BiasFilter doubtful;
   BiasFilter certain;
   for (int pair = 0; pair < 10; ++pair) {
-    doubtful.add(measured(0.2));
-    certain.add(measured(1.0));
+    doubtful.add(measured(0.2), kFx_px);
+    certain.add(measured(1.0), kFx_px);
   }
-  EXPECT_NEAR(doubtful.bias().applied_px, 0.0, 0.01);
-  EXPECT_GT(doubtful.bias().estimated_px, 0.1);
-  EXPECT_NEAR(certain.bias().applied_px, 1.0, 0.05);
+  EXPECT_NEAR(doubtful.bias(kFx_px).applied_px, 0.0, 0.01);
+  EXPECT_GT(doubtful.bias(kFx_px).estimated_px, 0.1);
+  EXPECT_NEAR(certain.bias(kFx_px).applied_px, 1.0, 0.05);
 }
 
 TEST(BiasFilterTest, HardlyBelievesASingleOutlier) {
   BiasFilter filter;
-  for (int pair = 0; pair < 30; ++pair) filter.add(measured(0.0));
-  const double before_px = filter.bias().sigma_px;
-  filter.add(measured(0.6));  // 4 standard deviations
-  EXPECT_NEAR(filter.bias().applied_px, 0.0, 0.2);
-  filter.add(measured(0.0));
-  EXPECT_NEAR(filter.bias().estimated_px, 0.0, before_px);
+  for (int pair = 0; pair < 30; ++pair) filter.add(measured(0.0), kFx_px);
+  const double before_px = filter.bias(kFx_px).sigma_px;
+  filter.add(measured(0.6), kFx_px);  // 4 standard deviations
+  EXPECT_NEAR(filter.bias(kFx_px).applied_px, 0.0, 0.2);
+  filter.add(measured(0.0), kFx_px);
+  EXPECT_NEAR(filter.bias(kFx_px).estimated_px, 0.0, before_px);
 }
 
 TEST(BiasFilterTest, FollowsAStepWithinFourPairs) {
   BiasFilter filter;
-  for (int pair = 0; pair < 30; ++pair) filter.add(measured(2.0));
-  for (int pair = 0; pair < 4; ++pair) filter.add(measured(-1.0));
-  EXPECT_NEAR(filter.bias().applied_px, -1.0, 2.0 * filter.bias().sigma_px);
-  EXPECT_LT(filter.bias().sigma_px, 0.3);
+  for (int pair = 0; pair < 30; ++pair) filter.add(measured(2.0), kFx_px);
+  for (int pair = 0; pair < 4; ++pair) filter.add(measured(-1.0), kFx_px);
+  EXPECT_NEAR(filter.bias(kFx_px).applied_px, -1.0, 2.0 * filter.bias(kFx_px).sigma_px);
+  EXPECT_LT(filter.bias(kFx_px).sigma_px, 0.3);
 }
 
 TEST(BiasFilterTest, IsHonestAboutNoise) {
@@ -75,9 +76,9 @@ TEST(BiasFilterTest, IsHonestAboutNoise) {
     const double truth_px = normal(generator);  // as the prior says
     const double lasting_px = kShared_px * normal(generator);
     for (int pair = 0; pair < 20; ++pair) {
-      filter.add(measured(truth_px + lasting_px + kNoise_px * normal(generator)));
+      filter.add(measured(truth_px + lasting_px + kNoise_px * normal(generator)), kFx_px);
     }
-    const double z = (filter.bias().estimated_px - truth_px) / filter.bias().sigma_px;
+    const double z = (filter.bias(kFx_px).estimated_px - truth_px) / filter.bias(kFx_px).sigma_px;
     square += z * z / kDrives;
   }
   // The scatter of a mean square of 200 is 0.1; heavy tails and the moving rig add some doubt.
