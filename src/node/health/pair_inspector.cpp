@@ -137,8 +137,9 @@ std::string whichArePairs(const std::vector<StereoPair>& pairs,
                             bool is_of_one_moment,
                             const std::string& explanation) {
     const Agreement agreement = agreementOf(config, of, earlier, later);
-    // What stands still, as a part of the robot, is of any moment.
-    const bool shows_it = agreement.is_ok && (is_of_one_moment || !agreement.stands_still);
+    // What stands still while the rest moves, as a part of the robot, is of any moment and place.
+    const bool may_stand_still = is_of_one_moment && direct.stands_still;
+    const bool shows_it = agreement.is_ok && (may_stand_still || !agreement.stands_still);
     if (!shows_it || agreement.count <= most) return;
     most = agreement.count;
     text = explanation;
