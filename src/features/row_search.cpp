@@ -75,12 +75,14 @@ std::vector<float> RowSearch::search(const StereoCamera& camera, const Keyframe&
   return offsets_px;
 }
 
-void RowSearch::measure(const StereoFrame& current,
+void RowSearch::measure(const StereoCamera& camera,
+                        const StereoFrame& current,
                         const Correspondences& features,
                         const FeatureSet& set,
                         double row_offset_px,
                         std::vector<float>& offsets_px) {
   offsets_px.clear();
+  tracker_.setDetail(camera.detail_px);
   for (std::size_t i = 0; i < features.size(); i += kFeatureSample) {
     if (set[i] == 0) continue;
     const cv::Point2f left(static_cast<float>(features[i].cur_px.x()),

@@ -23,7 +23,8 @@ class RowSearch {
 
   /// Sets `offsets_px` to those of a sample of the flagged features of `current`, near
   /// `row_offset_px`.
-  void measure(const StereoFrame& current,
+  void measure(const StereoCamera& camera,
+               const StereoFrame& current,
                const Correspondences& features,
                const FeatureSet& set,
                double row_offset_px,

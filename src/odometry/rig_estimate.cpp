@@ -93,7 +93,8 @@ void RigEstimate::observeRows(const Hypothesis& found,
                               const StereoFrame& current) {
   const FeatureSet& inliers = found.estimate.rotation_inliers;
   if (!rows_.isKnown() && !rows_.isNear(keyframe.row_offset_px)) return;
-  row_search_.measure(current, found.features, inliers, keyframe.row_offset_px, row_offsets_px_);
+  row_search_.measure(
+      found.camera, current, found.features, inliers, keyframe.row_offset_px, row_offsets_px_);
   rows_.observe(row_offsets_px_);
 }
 
