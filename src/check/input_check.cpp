@@ -15,8 +15,6 @@
 namespace rotrocc {
 namespace {
 
-constexpr double kGapPeriods = 1.5;
-
 /// Limits of the time between left and right, in periods.
 constexpr double kAcceptablePeriods = 0.05;
 constexpr double kFixPeriods = 0.25;
@@ -85,28 +83,24 @@ void InputCheck::addRates(RigReport& report) const {
     const auto period_ns = periodOf(stamps_ns);
     if (!period_ns) continue;
     const double period_s = toSeconds(*period_ns);
-    double missing = 0.0;
-    int gaps = 0;
-    int duplicates = 0;
-    double longest_s = 0.0;
+    double lost = 0.0, longest_s = 0.0;
     for (std::size_t i = 1; i < stamps_ns.size(); ++i) {
       const double interval_s = toSeconds(stamps_ns[i] - stamps_ns[i - 1]);
-      duplicates += interval_s <= 0.0 ? 1 : 0;
+      // One that is repeated, or goes back, counts as well.
+      lost += std::abs(std::round(std::max(interval_s, 0.0) / period_s) - 1.0);
       longest_s = std::max(longest_s, interval_s);
-      if (interval_s < kGapPeriods * period_s) continue;
-      ++gaps;
-      missing += std::round(interval_s / period_s) - 1.0;
     }
     std::string measured = fixedText(1.0 / period_s, 2) + " Hz";
-    if (gaps > 0)
-      measured += ", " + toText(gaps) + " gaps, the longest of " + fixedText(longest_s, 2) + " s";
-    if (duplicates > 0) measured += ", " + toText(duplicates) + " stamps that do not increase";
+    if (lost > 0.0) {
+      measured += ", " + toText(std::lround(lost)) + " frames are missing or out of order, up to " +
+                  fixedText(longest_s, 2) + " s apart";
+    }
     report.add({"inputs",
                 right ? "right images" : "left images",
                 measured,
                 "motions across gaps are longer, so more of them are lost, most of all in turns",
                 "look for frames lost by the driver, the USB or network link, or the recorder"},
-               {{(missing + duplicates) / static_cast<double>(stamps_ns.size())}, 0.01, 0.1});
+               {{lost / static_cast<double>(stamps_ns.size())}, 0.01, 0.1});
   }
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "check/cells.h"
-#include "check/robust_fit.h"
+#include "check/rig_problem.h"
 #include "common/median.h"
 #include "input/to_text.h"
 
@@ -173,95 +173,49 @@ void addRows(const StereoCamera& camera,
              {rest.unexplained_px, 2.0 * kAcceptable * kFixRows_px, kFixRows_px});
 }
 
-/// What the model leaves in some time: a plane over the image, as a rotation makes it.
-struct Course {
-  double time_s;
-  RobustFit plane;  ///< the middle, then slopes along x and y, each over the half of the image
-};
-
-std::vector<Course> courseOf(const StereoCamera& camera,
-                             const std::vector<PairSamples>& pairs,
-                             const RigModel& model) {
-  const RigDisplacement displacement(camera, model.causes);
-  constexpr std::size_t kPairsAtATime = 5;
-  constexpr std::size_t kLeast = 60;
-  std::vector<Course> course;
-  std::vector<Eigen::Vector3d> places;
-  std::vector<double> residuals_px;
-  double time_s = 0.0;
-  std::size_t taken = 0;
-  for (const PairSamples& pair : pairs) {
-    if (taken++ == 0) time_s = pair.time_s;
-    for (const RigSample& sample : pair.samples) {
-      if (!std::isfinite(sample.row_px)) continue;
-      places.emplace_back(1.0,
-                          sample.x_right * camera.fx / (0.5 * camera.width),
-                          sample.y * camera.fy / (0.5 * camera.height));
-      residuals_px.push_back(sample.row_px - displacement.of(sample).y());
-    }
-    if (taken < kPairsAtATime || residuals_px.size() < kLeast) continue;
-    const RobustFit plane = fitRobustly(places, residuals_px);
-    if (plane.sigmas.allFinite()) course.push_back({0.5 * (time_s + pair.time_s), plane});
-    places.clear();
-    residuals_px.clear();
-    taken = 0;
-  }
-  return course;
-}
-
-/// What the model does not explain at one time: a rig that bends, or that was hit.
+/// What the model does not explain at one time: a rig that bends, or that was hit. A plane over the
+/// image, as a rotation makes it.
 void addCourse(const StereoCamera& camera,
                const std::vector<PairSamples>& pairs,
                const RigModel& model,
+               const Windows& windows,
                ModelRest& rest,
                RigReport& report) {
-  const std::vector<Course> course = courseOf(camera, pairs, model);
-  // Mean square over the image, of which x and y over their halves are between -1 and 1.
-  const Eigen::Vector3d weights(1.0, 1.0 / 3.0, 1.0 / 3.0);
-  const auto lengthOf = [&](const Eigen::Vector3d& plane_px) {
-    return std::sqrt(weights.dot(plane_px.cwiseAbs2()));
-  };
+  constexpr std::size_t kMostWindows = 100;
+  const Windows fine(windows.duration_s(), pairs.size(), kMostWindows);
+  RigProblem problem(camera, pairs, windows);
+  problem.values = model.values;
+  problem.is_of_turn[kOffset] = model.vertical == TurnOrShift::kTurn;
+  problem.is_of_turn[kBias] = model.horizontal == TurnOrShift::kTurn;
+  // The middle, and at half of the image in x and y; there, the mean square is a third of that at
+  // the border.
+  const double border_px[] = {1.0, 0.5 * camera.width, 0.5 * camera.height};
+  const double weights[] = {1.0, 1.0 / 3.0, 1.0 / 3.0};
+  const auto planes = problem.planes(fine);
   ReportTable table = {"rows_time", "time_s,row_px,sigma_px", {}};
-  std::array<std::vector<Estimate>, 3> parameters;
-  Eigen::Vector3d least = Eigen::Vector3d::Constant(1e9), most = -least;
-  double largest_step_px = 0.0, step_s = 0.0;
-  for (std::size_t i = 0; i < course.size(); ++i) {
-    const auto& [time_s, plane] = course[i];
-    table.rows.push_back({time_s, plane.parameters.x(), plane.sigmas.x()});
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto index = static_cast<Eigen::Index>(k);
-      parameters[k].push_back({plane.parameters[index], plane.sigmas[index]});
+  double motion_px2 = 0.0, sigma_px2 = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::vector<Estimate> course_px;
+    for (std::size_t w = 0; w < planes.size(); ++w) {
+      course_px.push_back(planes[w][k] * border_px[k]);
+      const auto& [row_px, sigma_px] = course_px.back();
+      if (k == 0 && std::isfinite(sigma_px)) {
+        table.rows.push_back({fine.middle_s(w), row_px, sigma_px});
+      }
     }
-    least = least.cwiseMin(plane.parameters);
-    most = most.cwiseMax(plane.parameters);
-    const double step_px =
-        i > 0 ? lengthOf(plane.parameters - course[i - 1].plane.parameters) : 0.0;
-    if (step_px <= largest_step_px) continue;
-    largest_step_px = step_px;
-    step_s = time_s;
+    const auto [scatter_px, sigma_px] = scatterBeyondNoise(course_px);
+    motion_px2 += weights[k] * scatter_px * scatter_px;
+    sigma_px2 += weights[k] * sigma_px * sigma_px;
   }
   report.tables.push_back(std::move(table));
-  if (course.size() < 3) return;
-  Eigen::Vector3d scatters, sigmas;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto [scatter, sigma] = scatterBeyondNoise(parameters[k]);
-    scatters[static_cast<Eigen::Index>(k)] = scatter;
-    sigmas[static_cast<Eigen::Index>(k)] = sigma;
-  }
-  const double motion_px = lengthOf(scatters);
-  const double range_px = lengthOf(most - least);
-  constexpr double kJumpShare = 0.8;
-  Finding finding = {
-      "rows",
-      kRowsOverTime,
-      "move by " + fixedText(motion_px, 2) + " px (rms), within " + fixedText(range_px, 2) + " px",
-      "no calibration fits a rig that moves",
-      "mount both cameras on one stiff bar, and fix lenses and connectors"};
-  if (largest_step_px > kJumpShare * range_px) {
-    finding.measured += ", most of it in one step at " + fixedText(step_s, 0) + " s";
-  }
-  report.add(finding, {{motion_px, lengthOf(sigmas)}, kAcceptable * kFixRows_px, kFixRows_px});
-  rest.is_constant = motion_px < std::max(kAcceptable * kFixRows_px, 0.5 * rest.rows_px);
+  const Estimate motion_px = {std::sqrt(motion_px2), std::sqrt(sigma_px2)};
+  report.add({"rows",
+              kRowsOverTime,
+              "move by " + fixedText(motion_px.value, 2) + " px (rms)",
+              "no calibration fits a rig that moves",
+              "mount both cameras on one stiff bar, and fix lenses and connectors"},
+             {motion_px, kAcceptable * kFixRows_px, kFixRows_px});
+  rest.is_constant = motion_px.value < std::max(kAcceptable * kFixRows_px, 0.5 * rest.rows_px);
 }
 
 /// Returns whether a calibration can describe the bias: not if it moves.
@@ -318,7 +272,7 @@ ModelRest checkModel(const StereoCamera& camera,
   }
   addCauses(camera, model, report);
   addRows(camera, pairs, model, windows, rest, report);
-  addCourse(camera, pairs, model, rest, report);
+  addCourse(camera, pairs, model, windows, rest, report);
   if (!addBias(camera, model, windows, applied_px, report)) rest.is_constant = false;
   return rest;
 }

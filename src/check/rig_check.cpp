@@ -66,12 +66,11 @@ class PairChecks {
   PairChecks(const OdometryConfig& config,
              const std::optional<GyroRecording>& gyroscope,
              bool rectifies)
-      : odometry_(config),
-        rectifies_(rectifies),
-        inspector_(config, rectifies),
-        sampler_(config),
-        view_(makeViewCheck()) {
-    if (gyroscope) gyro_ = makeGyroCheck(*gyroscope);
+      : odometry_(config), rectifies_(rectifies), inspector_(config, rectifies), sampler_(config) {
+    checks_.push_back(makePhotometryCheck());
+    checks_.push_back(makeViewCheck());
+    checks_.push_back(makeDetailCheck());  // after the view, whose mask explains a lack of detail
+    if (gyroscope) checks_.push_back(makeGyroCheck(*gyroscope));
   }
 
   void observe(const StereoPair& pair, const StereoCamera& camera) {
@@ -104,11 +103,8 @@ class PairChecks {
     if (result.state == State::kLost) ++lost_[result.reason];
     countRepeated(pair);
     inspect(pair, camera, result);
-    photometry_->observe(checked);
-    detail_->observe(checked);
     sampler_.observe(checked);
-    view_->observe(checked);
-    if (gyro_) gyro_->observe(checked);
+    for (const auto& check : checks_) check->observe(checked);
     keepSample(pair, result);
   }
 
@@ -128,11 +124,8 @@ class PairChecks {
     if (!isMostlyLost()) {
       rig.measures.model = fitRig(camera_, samples, windows);
       const RigModel& model = rig.measures.model;
-      photometry_->report(windows, report);
+      for (const auto& check : checks_) check->report(windows, report);
       rig.measures.rest = checkModel(camera_, samples, model, windows, applied_px_, report);
-      if (gyro_) gyro_->report(windows, report);
-      view_->report(windows, report);
-      detail_->report(windows, report);  // after the mask is known
       if (isExplained()) {
         doubt(report);
       } else {
@@ -329,12 +322,9 @@ class PairChecks {
   VisualOdometry odometry_;
   bool rectifies_;
   RecordingInspector inspector_;
-  std::unique_ptr<PairCheck> photometry_ = makePhotometryCheck();
-  std::unique_ptr<PairCheck> detail_ = makeDetailCheck();
   Movement movement_;
   RigSampler sampler_;
-  std::unique_ptr<PairCheck> gyro_;  // null: without a gyroscope
-  std::unique_ptr<PairCheck> view_;
+  std::vector<std::unique_ptr<PairCheck>> checks_;
   StereoCamera camera_;
   std::int64_t first_ns_ = 0, last_ns_ = 0;
   int pairs_ = 0, of_other_camera_ = 0, with_motion_ = 0, ok_ = 0;

@@ -21,6 +21,8 @@ constexpr double kRobust = 1.5;
 /// From a start of zero, errors of a bad calibration need two.
 constexpr int kIterations = 4;
 
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
+
 double square(double value) {
   return value * value;
 }
@@ -165,6 +167,31 @@ std::vector<Estimate> RigProblem::biases() {
     biases.push_back({values[kBias] + window.g[kBias] / information, sigma_px});
   }
   return biases;
+}
+
+std::vector<std::array<Estimate, 3>> RigProblem::planes(const Windows& windows) const {
+  constexpr RigCause kPlane[] = {kOffset, kRoll, kFocal};
+  constexpr double kKnown = 0.1;  // of the prior
+  std::vector<std::vector<PairSamples>> parts(windows.count());
+  for (const PairSamples& pair : pairs_) parts[windows.of(pair.time_s)].push_back(pair);
+  std::vector<std::array<Estimate, 3>> planes;
+  for (const std::vector<PairSamples>& part : parts) {
+    RigProblem alone(camera_, part, windows);
+    alone.values = values;
+    alone.is_of_turn = is_of_turn;
+    alone.is_left_out_.fill(true);
+    for (const RigCause cause : kPlane) alone.is_left_out_[cause] = false;
+    alone.solve();
+    const CauseMatrix covariance = alone.restricted(alone.total().H).inverse();
+    std::array<Estimate, 3>& plane = planes.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const RigCause cause = kPlane[k];
+      const double sigma = std::sqrt(covariance(cause, cause));
+      const bool is_known = sigma < kKnown * kPriorSigmas[cause];
+      plane[k] = {alone.values[cause], is_known ? sigma : kUnknown};
+    }
+  }
+  return planes;
 }
 
 std::pair<Estimate, Estimate> RigProblem::gains(const RigCauses& corrected) const {

@@ -52,6 +52,10 @@ class RigProblem {
   /// The bias in each window, at the other values; of infinite deviation if it does not show it.
   std::vector<Estimate> biases();
 
+  /// What makes a plane of rows, as a turn of the camera does: kOffset, kRoll and kFocal, by each
+  /// window alone, at the other values; of infinite deviation if it does not show them.
+  std::vector<std::array<Estimate, 3>> planes(const Windows& windows) const;
+
   /// See RigModel: of rows and flows. Values that are zero in `corrected` are not corrected.
   std::pair<Estimate, Estimate> gains(const RigCauses& corrected) const;
 

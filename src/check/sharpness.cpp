@@ -8,87 +8,67 @@
 namespace rotrocc {
 namespace {
 
-/// Energy of the gradients of an image after a Gaussian of a variance, without that of the noise,
-/// relative to that of its large structures: falls with the variance.
-class Sharpness {
- public:
-  explicit Sharpness(const ImagePatches& patches)
-      : noise2_(patches.noise_gray * patches.noise_gray), patches_(patches.areas) {
-    patches.image.convertTo(image_, CV_32F);
-  }
-
-  double after(double variance_px2) const {
-    const cv::Mat kernel = gaussian(variance_px2);
-    double fine = 0.0;
-    double coarse = 0.0;
-    for (const cv::Rect& patch : patches_) {
-      cv::Mat blurred, x, y, large, large_x, large_y;
-      cv::sepFilter2D(image_(patch), blurred, CV_32F, kernel, kernel);
-      cv::Sobel(blurred, x, CV_32F, 1, 0, 1, 0.5);
-      cv::Sobel(blurred, y, CV_32F, 0, 1, 1, 0.5);
-      cv::GaussianBlur(blurred, large, {}, kCoarse_px);
-      cv::Sobel(large, large_x, CV_32F, 1, 0, 1, 0.5);
-      cv::Sobel(large, large_y, CV_32F, 0, 1, 1, 0.5);
-      fine += x.dot(x) + y.dot(y);
-      coarse += large_x.dot(large_x) + large_y.dot(large_y);
-    }
-    const double pixels = static_cast<double>(patches_.size()) * patches_.front().area();
-    fine -= 2.0 * pixels * noise2_ * noiseLeft(kernel);
-    return fine / std::max(coarse, 1e-9);
-  }
-
- private:
-  static constexpr double kCoarse_px = 3.0;
-
-  /// That of a lens, by its transfer function exp(-v w^2 / 2) up to the Nyquist frequency: a
-  /// sampled Gaussian of less than half a pixel hardly blurs.
-  static cv::Mat gaussian(double variance_px2) {
-    constexpr int kFrequencies = 64;
-    const int radius = std::max(8, cvCeil(4.0 * std::sqrt(variance_px2)));
-    cv::Mat kernel = cv::Mat::zeros(2 * radius + 1, 1, CV_32F);
-    for (int k = 0; k < kFrequencies; ++k) {
-      const double frequency = M_PI * (k + 0.5) / kFrequencies;
-      const double share = std::exp(-0.5 * variance_px2 * frequency * frequency) / kFrequencies;
-      for (int i = -radius; i <= radius; ++i) {
-        kernel.at<float>(radius + i) += static_cast<float>(share * std::cos(frequency * i));
-      }
-    }
-    return kernel;
-  }
-
-  /// Variance of the central difference of white noise of variance 1 after the kernel.
-  static double noiseLeft(const cv::Mat& kernel) {
-    cv::Mat padded, slope;
-    cv::copyMakeBorder(kernel, padded, 2, 2, 0, 0, cv::BORDER_CONSTANT);
-    cv::Sobel(padded, slope, CV_32F, 0, 1, 1, 0.5);
-    return slope.dot(slope) * kernel.dot(kernel);
-  }
-
-  cv::Mat image_;
-  double noise2_;
-  const std::vector<cv::Rect>& patches_;
+/// Power of the patches by frequency, windowed, without that of white noise.
+struct Spectrum {
+  cv::Mat_<float> power;
+  double noise;  ///< that was subtracted
 };
 
-/// Variance of the Gaussian that makes `sharp` as blurred as `blurred` is [px^2].
-double blurBetween(const Sharpness& sharp, const Sharpness& blurred) {
-  constexpr double kMost_px2 = 16.0;
-  const double target = blurred.after(0.0);
-  double low = 0.0;
-  double high = kMost_px2;
-  for (int i = 0; i < 12; ++i) {
-    const double middle = 0.5 * (low + high);
-    (sharp.after(middle) > target ? low : high) = middle;
+Spectrum spectrumOf(const ImagePatches& patches) {
+  const cv::Size size = patches.areas.front().size();
+  cv::Mat window;
+  cv::createHanningWindow(window, size, CV_32F);
+  cv::Mat_<float> power = cv::Mat_<float>::zeros(size);
+  for (const cv::Rect& area : patches.areas) {
+    cv::Mat patch, parts[2];
+    patches.image(area).convertTo(patch, CV_32F);
+    cv::dft(window.mul(patch - cv::mean(patch)), patch, cv::DFT_COMPLEX_OUTPUT);
+    cv::split(patch, parts);
+    power += parts[0].mul(parts[0]) + parts[1].mul(parts[1]);
   }
-  return 0.5 * (low + high);
+  const double noise = patches.noise_gray * patches.noise_gray * window.dot(window) *
+                       static_cast<double>(patches.areas.size());
+  return {power - noise, noise};
 }
 
 }  // namespace
 
-double blurOfRight_px2(const ImagePatches& left_patches, const ImagePatches& right_patches) {
-  const Sharpness left(left_patches);
-  const Sharpness right(right_patches);
-  const bool right_is_blurred = left.after(0.0) > right.after(0.0);
-  return right_is_blurred ? blurBetween(left, right) : -blurBetween(right, left);
+double blurOfRight_px2(const ImagePatches& left, const ImagePatches& right) {
+  constexpr double kMost_px2 = 16.0;
+  constexpr double kOverNoise = 3.0;
+  const Spectrum of_left = spectrumOf(left), of_right = spectrumOf(right);
+  const int count = of_left.power.cols;
+  // Sums over rings of about equal frequencies: of both powers, their noise, and w^2.
+  std::vector<cv::Vec4d> rings(static_cast<std::size_t>(count / 2 + 1), cv::Vec4d());
+  for (int row = 0; row < count; ++row) {
+    for (int column = 0; column < count; ++column) {
+      const double w = 2.0 * CV_PI / count *
+                       std::hypot(std::min(row, count - row), std::min(column, count - column));
+      const auto ring = static_cast<std::size_t>(std::lround(w * count / (2.0 * CV_PI)));
+      if (ring >= rings.size()) continue;
+      const double noise = std::max(of_left.noise, of_right.noise);
+      rings[ring] +=
+          cv::Vec4d(of_left.power(row, column), of_right.power(row, column), noise, w * w);
+    }
+  }
+  // A Gaussian of variance v multiplies the power by exp(-v w^2): the slope over w^2. Lower
+  // frequencies are those of the window.
+  constexpr std::size_t kLeast = 2;
+  double sum = 0.0, sum_x = 0.0, sum_y = 0.0, sum_xx = 0.0, sum_xy = 0.0;
+  for (std::size_t ring = kLeast; ring < rings.size(); ++ring) {
+    const auto& [l, r, noise, w2] = rings[ring].val;
+    if (std::min(l, r) < kOverNoise * noise) break;
+    const double bins = noise / std::max(of_left.noise, of_right.noise);
+    const double x = w2 / bins;
+    const double y = std::log(r / l);
+    sum += bins;
+    sum_x += bins * x;
+    sum_y += bins * y;
+    sum_xx += bins * x * x;
+    sum_xy += bins * x * y;
+  }
+  const double slope = (sum * sum_xy - sum_x * sum_y) / (sum * sum_xx - sum_x * sum_x);
+  return std::clamp(-slope, -kMost_px2, kMost_px2);
 }
 
 }  // namespace rotrocc

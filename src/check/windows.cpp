@@ -11,7 +11,6 @@
 namespace rotrocc {
 namespace {
 
-constexpr std::size_t kMostWindows = 10;
 constexpr std::size_t kLeastWindows = 2;
 constexpr std::size_t kPairsPerWindow = 5;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -30,8 +29,8 @@ std::string toText(const Estimate& estimate, const std::string& unit) {
          (unit.empty() ? "" : " " + unit);
 }
 
-Windows::Windows(double duration_s, std::size_t pairs)
-    : count_(std::clamp(pairs / kPairsPerWindow, kLeastWindows, kMostWindows)),
+Windows::Windows(double duration_s, std::size_t pairs, std::size_t wanted)
+    : count_(std::clamp(pairs / kPairsPerWindow, kLeastWindows, wanted)),
       length_s_(std::max(duration_s, 1e-9) / static_cast<double>(count_)) {}
 
 std::size_t Windows::of(double time_s) const {

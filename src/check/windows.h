@@ -27,13 +27,14 @@ struct TimedValue {
   double value = 0.0;
 };
 
-/// The time of a recording in equal windows: ten, or fewer if there are less than five
-/// pairs for each, but at least two.
+/// The time of a recording in equal windows: as many as wanted, or fewer if there are less than
+/// five pairs for each, but at least two.
 class Windows {
  public:
-  Windows(double duration_s, std::size_t pairs);
+  Windows(double duration_s, std::size_t pairs, std::size_t wanted = 10);
 
   std::size_t count() const { return count_; }
+  double duration_s() const { return static_cast<double>(count_) * length_s_; }
   std::size_t of(double time_s) const;
   double middle_s(std::size_t window) const {
     return (static_cast<double>(window) + 0.5) * length_s_;
