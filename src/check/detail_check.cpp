@@ -71,27 +71,31 @@ class DetailCheck : public PairCheck {
                   "block corners are detected instead of scene corners",
                   "raise the quality of the compression, or record raw images"},
                  {blocks, kStrong, 1.0});
-      // What is near and stands still is elsewhere in the other image.
-      const bool is_clear = blocks.value < kStrong && report.mask.empty();
-      if (is_clear && pairs_ >= kLeastPairs) addSmudge(side, report);
+      // What is near is elsewhere in the other image, which has such parts, too.
+      const bool is_near = !report.mask.empty() || cv::countNonZero(blurredParts(1 - side)) > 0;
+      if (blocks.value < kStrong && pairs_ >= kLeastPairs && !is_near) addSmudge(side, report);
     }
   }
 
  private:
   /// Where an image shows less than half of the detail of the other one, over the whole recording.
-  void addSmudge(int side, RigReport& report) const {
+  cv::Mat blurredParts(int side) const {
     constexpr double kLess = 0.5;
     cv::Mat ratios;
     cv::divide(detail_[side], detail_[1 - side], ratios);
     ratios.setTo(1.0, detail_[1 - side] == 0.0);
     std::vector<float> sorted(ratios.begin<float>(), ratios.end<float>());
-    const cv::Mat blurred = withoutSmallParts(ratios < kLess * median(sorted), 2);
+    return withoutSmallParts(ratios < kLess * median(sorted), 2);
+  }
+
+  void addSmudge(int side, RigReport& report) const {
+    const cv::Mat blurred = blurredParts(side);
     const cv::Moments place = cv::moments(blurred, true);
-    const double share = place.m00 / static_cast<double>(ratios.total());
+    const double share = place.m00 / static_cast<double>(blurred.total());
     const std::string name = side == 0 ? "left" : "right";
     std::string measured = toText(std::lround(100.0 * share)) + " % of the " + name + " image";
     if (share > 0.0) {
-      const double cell_px = static_cast<double>(width_) / ratios.cols;
+      const double cell_px = static_cast<double>(width_) / blurred.cols;
       const double x = (place.m10 / place.m00 + 0.5) * cell_px;
       const double y = (place.m01 / place.m00 + 0.5) * cell_px;
       measured += ", around x " + toText(std::lround(x)) + ", y " + toText(std::lround(y));
