@@ -168,7 +168,7 @@ class RigPage:
                            'lower in the right image [px]')]
         if self.has('rows_time'):
             shown.append(self.picture('rows_time', 'row differences over time', figures.courses, [
-                ('left over [px]', [self.course('rows_time', 'row_px', sigma='sigma_px')])]))
+                ('middle of the image [px]', [self.course('rows_time', 'row_px', sigma='sigma_px')])]))
         return page.section('Rows', 'How much lower points are in the right image: zero everywhere for a rectified '
                             'pair. Arrows show the displacement, in the scale of the colors. Changes over time '
                             'mean that the rig bends.', *shown)
