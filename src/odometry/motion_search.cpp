@@ -45,7 +45,7 @@ bool isBetter(const Hypothesis& a, const Hypothesis& b) {
 
 std::unique_ptr<MotionEstimator> makeEstimator(const OdometryConfig& config) {
   config.check();
-  if (config.isPaper()) return std::make_unique<PaperEstimator>(config.motion_estimator);
+  if (config.isPaper()) return std::make_unique<PaperEstimator>(config.motion_estimator.criterion);
   return std::make_unique<MotionEstimator>();
 }
 

@@ -1,10 +1,29 @@
 #include "rotrocc/odometry_config.h"
 
+#include <algorithm>
 #include <stdexcept>
 
-#include "paper/paper_estimator.h"
+#include <boost/algorithm/string/join.hpp>
 
 namespace rotrocc {
+
+namespace {
+
+void requireOneOf(const std::vector<std::string>& names,
+                  const std::string& parameter,
+                  const std::string& value) {
+  if (std::find(names.begin(), names.end(), value) != names.end()) return;
+  throw std::invalid_argument(parameter + " is \"" + value + "\", but must be one of " +
+                              boost::join(names, ", "));
+}
+
+}  // namespace
+
+const std::vector<std::string>& criterionNames() {
+  static const std::vector<std::string> names = {
+      "rotrocc", "reprojection", "rocc", "mean_based", "std_based"};
+  return names;
+}
 
 const std::vector<std::string>& methodNames() {
   static const std::vector<std::string> names = {"default", "paper"};
@@ -26,11 +45,9 @@ Matrix6d SystematicErrorConfig::covarianceOf(const Eigen::Isometry3d& motion) co
 }
 
 void OdometryConfig::check() const {
-  const Criterion criterion = criterionOf(motion_estimator.criterion);
-  if (method != "default" && method != "paper") {
-    throw std::invalid_argument("method is \"" + method + "\", but must be default or paper");
-  }
-  if (!isPaper() && criterion != Criterion::kRotrocc) {
+  requireOneOf(methodNames(), "method", method);
+  requireOneOf(criterionNames(), "criterion", motion_estimator.criterion);
+  if (!isPaper() && motion_estimator.criterion != "rotrocc") {
     throw std::invalid_argument("criterion is \"" + motion_estimator.criterion +
                                 "\", but must be rotrocc unless method is paper");
   }

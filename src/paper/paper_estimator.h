@@ -8,19 +8,13 @@
 
 namespace rotrocc {
 
-/// The criterion that selects inliers, see criterionNames().
-enum class Criterion { kRotrocc, kReprojection, kRocc, kMeanBased, kStdBased };
-
-/// The criterion of that name. Throws std::invalid_argument on any other name.
-Criterion criterionOf(const std::string& name);
-
 /// Section V-B as published: plain least squares, without a retry. Stage 2 starts from all features
 /// and the translation of the prediction. Alternatively one of the criteria that the paper compares
 /// it with.
 class PaperEstimator : public MotionEstimator {
  public:
-  /// Throws std::invalid_argument on an unknown criterion.
-  explicit PaperEstimator(const MotionEstimatorConfig& config);
+  /// `criterion`: one of criterionNames().
+  explicit PaperEstimator(const std::string& criterion) : criterion_(criterion) {}
 
   const MotionEstimate& estimate(const StereoCamera& camera,
                                  const Correspondences& features,
@@ -29,18 +23,12 @@ class PaperEstimator : public MotionEstimator {
                                  const std::optional<Eigen::Isometry3d>& prediction) override;
 
  private:
-  bool hasFixedLimit() const;
-  double rotationThreshold(double limit_px);
-  bool estimateRotation(double limit_px);
   void estimateTranslation(const Measurements& measured);
-  template <class Measure, class Threshold>
-  bool iterate(int max_iterations,
-               Unknowns unknowns,
-               const Measure& measure,
-               const Threshold& threshold,
-               FeatureSet& set);
+  template <class Measure>
+  bool iterate(Unknowns unknowns, double limit, const Measure& measure, FeatureSet& set);
+  double threshold(double limit);
 
-  Criterion criterion_;
+  std::string criterion_;
   MotionEstimate found_;
 
   // Buffers, reused.

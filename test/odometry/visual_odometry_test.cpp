@@ -372,6 +372,8 @@ TEST(VisualOdometryTest, KeepsItsParametersWhenOthersAreWrong) {
   wrong.motion_check.max_speed_mps = 0.1;
   wrong.motion_estimator.criterion = "best";
   expectError<std::invalid_argument>([&] { odometry.configure(wrong); }, "criterion is \"best\"");
+  wrong.motion_estimator.criterion = "rocc";
+  expectError<std::invalid_argument>([&] { odometry.configure(wrong); }, "unless method is paper");
   wrong = {};
   wrong.method = "best";
   expectError<std::invalid_argument>([&] { odometry.configure(wrong); }, "method is \"best\"");
