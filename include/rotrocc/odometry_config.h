@@ -72,8 +72,8 @@ struct SystematicErrorConfig {
 };
 
 /// "default", and "paper", the method as published: PaperFinder, PaperEstimator, and motions from
-/// pair to pair. It sets neither max_tries, which is 1 in the paper,
-/// nor the self-calibration, which the paper does not have.
+/// pair to pair. It sets neither max_tries, which is 1 in the paper, nor the self-calibration,
+/// which the paper does not have.
 const std::vector<std::string>& methodNames();
 
 /// All parameters of the visual odometry, in the order of the data flow.

@@ -135,7 +135,7 @@ double meanSquare(const std::vector<double>& values) {
 }
 
 /// Rows as they are, and what is left of them: of what several windows have in common, as an error
-/// of the rig, and as opposed to those of matches. The square of the mean of a cell, less the
+/// of the rig, and as opposed to those of matches. The square of a cell's mean, minus the
 /// variance of the mean, has no noise of its own.
 void addRows(const StereoCamera& camera,
              const std::vector<PairSamples>& pairs,

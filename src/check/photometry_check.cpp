@@ -6,8 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include <opencv2/imgproc.hpp>
+#include <Eigen/Core>
 
+#include "check/robust_fit.h"
 #include "check/sharpness.h"
 #include "common/median.h"
 #include "features/image_noise.h"
@@ -84,19 +85,18 @@ std::vector<PatchMeans> patchMeans(const CheckedPair& pair) {
   return means;
 }
 
-/// y = slope x + start, of points with errors in both. At edges of depth, images show different
-/// things, so that some are far off.
-struct Line {
-  double slope, start;
-
-  explicit Line(const std::vector<cv::Point2f>& points) {
-    constexpr double kAccuracy = 0.001;
-    cv::Vec4f line;  // the direction, and a point
-    cv::fitLine(points, line, cv::DIST_L1, 0.0, kAccuracy, kAccuracy);
-    slope = line[1] / line[0];
-    start = line[3] - slope * line[2];
+/// to = c0 from + c1 + c2 from r^2. At edges of depth, the images show different things.
+Eigen::Vector3d fitLevels(const std::vector<PatchMeans>& means,
+                          double PatchMeans::*from,
+                          double PatchMeans::*to) {
+  std::vector<Eigen::Vector3d> rows;
+  std::vector<double> values;
+  for (const PatchMeans& mean : means) {
+    rows.emplace_back(mean.*from, 1.0, mean.*from * mean.r2);
+    values.push_back(mean.*to);
   }
-};
+  return fitRobustly(rows, values).parameters;
+}
 
 class PhotometryCheck : public PairCheck {
  public:
@@ -163,20 +163,19 @@ class PhotometryCheck : public PairCheck {
   }
 
   /// Robust means of patches: right = gain left (1 + vignetting r^2) + offset, r = 1 in the
-  /// corners.
+  /// corners. Both sides have errors, so that each is fitted to the other.
   static void compare(const CheckedPair& pair, Row& row) {
     const std::vector<PatchMeans> means = patchMeans(pair);
     if (means.size() < kLeast) return;
-    std::vector<cv::Point2f> levels, ratios;
-    for (const PatchMeans& mean : means) levels.emplace_back(mean.left, mean.right);
-    const Line line(levels);
+    const Eigen::Vector3d of_right = fitLevels(means, &PatchMeans::left, &PatchMeans::right);
+    const Eigen::Vector3d of_left = fitLevels(means, &PatchMeans::right, &PatchMeans::left);
+    row.gain = std::sqrt(of_right[0] / of_left[0]);
+    row.vignetting = 0.5 * (of_right[2] / of_right[0] - of_left[2] / of_left[0]);
+    std::vector<double> offsets;
     for (const PatchMeans& mean : means) {
-      ratios.emplace_back(mean.r2, (mean.right - line.start) / (line.slope * mean.left));
+      offsets.push_back(mean.right - row.gain * mean.left * (1.0 + row.vignetting * mean.r2));
     }
-    const Line over_image(ratios);
-    row.gain = line.slope * over_image.start;
-    row.offset_gray = line.start;
-    row.vignetting = over_image.slope / over_image.start;
+    row.offset_gray = median(offsets);
   }
 
   static void compareSharpness(const CheckedPair& pair, Row& row) {

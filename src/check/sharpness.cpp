@@ -8,7 +8,7 @@
 namespace rotrocc {
 namespace {
 
-/// Power of the patches by frequency, windowed, without that of white noise.
+/// Power spectrum of the windowed patches, minus that of white noise.
 struct Spectrum {
   cv::Mat_<float> power;
   double noise;  ///< that was subtracted
@@ -38,27 +38,26 @@ double blurOfRight_px2(const ImagePatches& left, const ImagePatches& right) {
   constexpr double kOverNoise = 3.0;
   const Spectrum of_left = spectrumOf(left), of_right = spectrumOf(right);
   const int count = of_left.power.cols;
-  // Sums over rings of about equal frequencies: of both powers, their noise, and w^2.
+  // Sums over rings of about equal frequencies: of both powers, of w^2, and the number of bins.
   std::vector<cv::Vec4d> rings(static_cast<std::size_t>(count / 2 + 1), cv::Vec4d());
   for (int row = 0; row < count; ++row) {
     for (int column = 0; column < count; ++column) {
-      const double w = 2.0 * CV_PI / count *
-                       std::hypot(std::min(row, count - row), std::min(column, count - column));
-      const auto ring = static_cast<std::size_t>(std::lround(w * count / (2.0 * CV_PI)));
+      const double radius =
+          std::hypot(std::min(row, count - row), std::min(column, count - column));
+      const auto ring = static_cast<std::size_t>(std::lround(radius));
       if (ring >= rings.size()) continue;
-      const double noise = std::max(of_left.noise, of_right.noise);
-      rings[ring] +=
-          cv::Vec4d(of_left.power(row, column), of_right.power(row, column), noise, w * w);
+      const double w = 2.0 * CV_PI / count * radius;
+      rings[ring] += cv::Vec4d(of_left.power(row, column), of_right.power(row, column), w * w, 1.0);
     }
   }
-  // A Gaussian of variance v multiplies the power by exp(-v w^2): the slope over w^2. Lower
-  // frequencies are those of the window.
+  // A Gaussian of variance v multiplies the power by exp(-v w^2): the slope over w^2. The window
+  // spreads over the lowest frequencies.
   constexpr std::size_t kLeast = 2;
+  const double least = kOverNoise * std::max(of_left.noise, of_right.noise);  // of a bin
   double sum = 0.0, sum_x = 0.0, sum_y = 0.0, sum_xx = 0.0, sum_xy = 0.0;
   for (std::size_t ring = kLeast; ring < rings.size(); ++ring) {
-    const auto& [l, r, noise, w2] = rings[ring].val;
-    if (std::min(l, r) < kOverNoise * noise) break;
-    const double bins = noise / std::max(of_left.noise, of_right.noise);
+    const auto& [l, r, w2, bins] = rings[ring].val;
+    if (std::min(l, r) < least * bins) break;
     const double x = w2 / bins;
     const double y = std::log(r / l);
     sum += bins;

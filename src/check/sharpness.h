@@ -14,8 +14,8 @@ struct ImagePatches {
 };
 
 /// Variance of the Gaussian by which the right image is more blurred than the left one [px^2], up
-/// to 16; negative if the left one is. The patches show the same in both images. Gains and noise of
-/// the images do not matter.
+/// to 16; negative if the left one is, nan if noise hides it. The patches show the same in both
+/// images. Gains and noise of the images do not matter.
 double blurOfRight_px2(const ImagePatches& left, const ImagePatches& right);
 
 }  // namespace rotrocc

@@ -139,7 +139,8 @@ class ViewCheck : public PairCheck {
 
   void addCoverage(RigReport& report) const {
     const auto seen = std::count_if(map_.begin(), map_.end(), [&](const Cell& cell) {
-      return cell.inliers * 80 > pairs_;  // in each 80th pair
+      return cell.inliers * 80 >
+             pairs_;  // in each 80th pair; a cell of other maps is four times as large
     });
     const double empty = 1.0 - static_cast<double>(seen) / static_cast<double>(map_.size());
     report.add({"view",

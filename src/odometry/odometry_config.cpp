@@ -6,7 +6,6 @@
 #include <boost/algorithm/string/join.hpp>
 
 namespace rotrocc {
-
 namespace {
 
 void requireOneOf(const std::vector<std::string>& names,
