@@ -69,6 +69,11 @@ void BaseLevel::observe(const ImagePyramid& image) {
   }
 }
 
+/// Enlarging an image by a factor divides its sharpness by about the square of the factor.
+double BaseLevel::detail_px() const {
+  return is_soft_[level_] ? std::max(1.0, std::exp(-0.5 * log_sharpness_[level_])) : 1.0;
+}
+
 void BaseLevel::observeLevel(const cv::Mat* images) {
   const auto sharpness = sharpnessOf(images, noise_);
   if (!sharpness) return;

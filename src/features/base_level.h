@@ -39,11 +39,9 @@ class BaseLevel {
 
   /// Side of the smallest detail of the images at the level [px], which windows and limits are
   /// multiples of: 1, or more if the level is soft and the next one has no room.
-  double detail_px() const { return is_soft_[level_] ? kSoftDetail_px : 1.0; }
+  double detail_px() const;
 
  private:
-  static constexpr double kSoftDetail_px = 1.5;
-
   void observeLevel(const cv::Mat* images);
   bool isSkipped(const cv::Mat& next) const;
 

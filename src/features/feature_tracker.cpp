@@ -196,10 +196,9 @@ FeatureTracker::FeatureTracker(const Config& config)
     : config_(config), window_(config.window_radius_px) {}
 
 void FeatureTracker::setDetail(double detail_px) {
-  if (detail_px == detail_px_) return;
   detail_px_ = detail_px;
   const int radius_px = std::min(cvRound(detail_px * config_.window_radius_px), kMaxRadius_px);
-  window_ = TrackingWindow(radius_px);
+  if (radius_px != window_.radius()) window_ = TrackingWindow(radius_px);
 }
 
 bool FeatureTracker::track(const ImagePyramid& from,

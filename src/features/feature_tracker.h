@@ -28,6 +28,8 @@ class TrackingWindow {
   /// The window is a square of side 2 radius + 1; the radius is at most 25 px.
   explicit TrackingWindow(int radius_px);
 
+  int radius() const { return radius_; }
+
   /// Stores the window around `center` of `image` (CV_8UC1), with its content enlarged by `scale` >
   /// 0 (a first-order approximation, accurate enough for changes of a tenth). Returns false if the
   /// center is outside the image or the texture is too weak to locate the window.

@@ -65,11 +65,13 @@ TEST(BaseLevelTest, HalvesSharpImagesOnRequestWhereWindowsFit) {
   }
 }
 
-TEST(BaseLevelTest, WithoutRoomWindowsAreLarger) {
-  BaseLevel base({kManyFeatures});
-  observe(enlarged(sharpImage({320, 256}), 2.0), 1.0, base);
-  EXPECT_EQ(base.level(), 0);
-  EXPECT_GT(base.detail_px(), 1.0);
+TEST(BaseLevelTest, WithoutRoomWindowsGrowWithTheImage) {
+  for (const double factor : {1.0, 1.25, 1.5, 2.0}) {
+    BaseLevel base({kManyFeatures});
+    observe(enlarged(sharpImage({320, 256}), factor), 1.0, base);
+    EXPECT_EQ(base.level(), 0) << factor;
+    EXPECT_NEAR(base.detail_px() / factor, 1.0, 0.25);  // that is a pixel of the window's radius
+  }
 }
 
 TEST(BaseLevelTest, OneBlurredImageAmongSharpOnesChangesNothing) {
