@@ -43,6 +43,11 @@ class RecordedPairs {
   /// used.
   bool next(StereoPair& pair, StereoCamera& camera);
 
+  /// Of the pair that next() has returned.
+  StereoCalibration calibration() const {
+    return current_.calibration ? *current_.calibration : rectifiedCalibration(current_.camera);
+  }
+
   /// After the last pair: how many there could have been but are not, and why; empty if none.
   std::string leftOut() const;
 

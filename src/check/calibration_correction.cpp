@@ -18,14 +18,6 @@
 namespace rotrocc {
 namespace {
 
-void writeInfo(const sensor_msgs::CameraInfo& info,
-               const std::string& name,
-               const std::string& path) {
-  std::ofstream out(path);
-  camera_calibration_parsers::writeCalibrationYml(out, name, info);
-  if (!out.flush()) throw std::runtime_error(path + " cannot be written");
-}
-
 /// Whether something needs fixing that a calibration corrects. Smaller errors are not worth it:
 /// lenses have others of that size.
 bool hasErrors(const RigModel& model) {
@@ -43,8 +35,27 @@ bool isBetter(const RigModel& model) {
   return sum.value > 0.0 && sum.certain() > 0.0 && flow.value >= -flow.sigma;
 }
 
-}  // namespace
+/// Why there is no correction; empty if there may be one.
+std::string whyNone(const RigMeasures& measures) {
+  if (measures.moving_pairs < kLeastMotions) {
+    return "features have moved in fewer than " + toText(kLeastMotions) +
+           " pairs: record a minute of motion";
+  }
+  if (!measures.is_known) return "the pairs or their rectification are wrong: fix that first";
+  if (!measures.rest.is_constant)
+    return "rows or disparities move: no calibration describes a rig that bends";
+  if (hasErrors(measures.model)) {
+    if (isBetter(measures.model)) return "";
+    return "it does not improve the fit in parts of the recording that it was not estimated from";
+  }
+  if (!measures.model.exceeds(1.0, kBias)) return "rows and disparities have no error to be fixed";
+  return "the images do not show which of two causes it is, and a correction of the wrong one "
+         "would "
+         "be no better: drive where features fill the image";
+}
 
+/// The calibration that makes rows equal and disparities right. The right camera takes all of it:
+/// what both cameras have in common, as an error of the baseline, is not seen.
 StereoCalibration correct(const RigMeasures& measures) {
   StereoCalibration corrected = measures.calibration;
   RawCamera& right = corrected.right;
@@ -62,36 +73,14 @@ StereoCalibration correct(const RigMeasures& measures) {
   return corrected;
 }
 
+}  // namespace
+
 std::optional<CheckedRig> findCorrection(Recording& recording,
                                          const RigCheckOptions& options,
                                          const RigMeasures& before,
                                          std::string& why_not) {
-  if (before.moving_pairs < kLeastMotions) {
-    why_not = "features have moved in fewer than " + toText(kLeastMotions) +
-              " pairs: record a minute of motion";
-    return std::nullopt;
-  }
-  if (!before.is_known) {
-    why_not = "the pairs or their rectification are wrong: fix that first";
-    return std::nullopt;
-  }
-  if (!before.rest.is_constant) {
-    why_not = "rows or disparities move: no calibration describes a rig that bends";
-    return std::nullopt;
-  }
-  if (!hasErrors(before.model)) {
-    why_not =
-        before.model.exceeds(1.0, kBias)
-            ? "the images do not show which of two causes it is, and a correction of the wrong "
-              "one would be no better: drive where features fill the image"
-            : "rows and disparities have no error to be fixed";
-    return std::nullopt;
-  }
-  if (!isBetter(before.model)) {
-    why_not =
-        "it does not improve the fit in parts of the recording that it was not estimated from";
-    return std::nullopt;
-  }
+  why_not = whyNone(before);
+  if (!why_not.empty()) return std::nullopt;
   // Again by what is left over, because the fit is linear and pairs that were lost come back.
   constexpr int kMostPasses = 4;
   RigCheckOptions corrected = options;
@@ -112,8 +101,12 @@ void writeCalibration(const StereoCalibration& calibration, const std::string& d
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   const auto [left, right] = toCameraInfos(calibration);
-  writeInfo(left, "left", directory + "/left.yaml");
-  writeInfo(right, "right", directory + "/right.yaml");
+  for (const auto& [name, info] : {std::pair("left", left), {"right", right}}) {
+    const std::string path = directory + "/" + name + ".yaml";
+    std::ofstream out(path);
+    camera_calibration_parsers::writeCalibrationYml(out, name, info);
+    if (!out.flush()) throw std::runtime_error(path + " cannot be written");
+  }
 }
 
 }  // namespace rotrocc

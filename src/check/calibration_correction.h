@@ -9,10 +9,6 @@
 
 namespace rotrocc {
 
-/// The calibration that makes rows equal and disparities right. The right camera takes all of it:
-/// what both cameras have in common, as an error of the baseline, is not seen.
-StereoCalibration correct(const RigMeasures& measures);
-
 /// Checks a recording by corrected calibrations, until nothing that they correct must be fixed, at
 /// most four times. The result has the last one in its measures. None, with the reason in
 /// `why_not`, if nothing must be fixed, the images do not show what to correct, pairs or

@@ -22,22 +22,18 @@ constexpr int kLeastPairs = 5 * kStep;
 
 /// 255 where a cell is not saturated.
 cv::Mat exposedOf(const cv::Mat& image, const ImageGrid& grid) {
-  constexpr double kMost = 0.1;
-  return cellMeans(image == 255, grid) < 255.0 * kMost;
+  return cellMeans(image == 255, grid) < 0.1 * 255.0;
 }
 
 /// How much stronger edges between blocks of eight columns are than those elsewhere, as a share.
 double blockEdges(const cv::Mat& image) {
   constexpr int kBlock = 8;
-  cv::Mat edges, sums;
+  cv::Mat edges, columns;
   cv::absdiff(image.colRange(1, image.cols), image.colRange(0, image.cols - 1), edges);
-  cv::reduce(edges, sums, 0, cv::REDUCE_SUM, CV_64F);
-  std::vector<double> phases(kBlock, 0.0);
-  for (int x = 0; x + kBlock <= sums.cols; x += kBlock) {
-    for (int phase = 0; phase < kBlock; ++phase) {
-      phases[static_cast<std::size_t>(phase)] += sums.at<double>(x + phase);
-    }
-  }
+  cv::reduce(edges, columns, 0, cv::REDUCE_SUM, CV_64F);
+  const int blocks = columns.cols / kBlock;
+  std::vector<double> phases;
+  cv::reduce(columns.colRange(0, blocks * kBlock).reshape(0, blocks), phases, 0, cv::REDUCE_SUM);
   const double most = *std::max_element(phases.begin(), phases.end());
   const double typical = median(phases);
   return typical > 0.0 ? most / typical - 1.0 : 0.0;

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -27,19 +26,16 @@ constexpr Eigen::Index kLeastTurns = 20;
 
 class GyroCheck : public PairCheck {
  public:
-  explicit GyroCheck(GyroRecording gyroscope)
-      : samples_(std::move(gyroscope.samples)), R_camera_gyro_(gyroscope.R_camera_gyro) {
-    std::stable_sort(
-        samples_.begin(), samples_.end(), [](const GyroSample& a, const GyroSample& b) {
-          return a.stamp_ns < b.stamp_ns;
-        });
+  explicit GyroCheck(const GyroRecording& gyroscope) : R_camera_gyro_(gyroscope.R_camera_gyro) {
+    std::map<std::int64_t, Eigen::Vector3d> rates_rps;
+    for (const GyroSample& sample : gyroscope.samples) {
+      rates_rps.emplace(sample.stamp_ns, sample.rate_rps);
+    }
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      if (i > 0) {
-        sum += 0.5 * toSeconds(samples_[i].stamp_ns - samples_[i - 1].stamp_ns) *
-               (samples_[i - 1].rate_rps + samples_[i].rate_rps);
-      }
-      sums_rad_.push_back(sum);
+    auto before = rates_rps.begin();
+    for (auto sample = before; sample != rates_rps.end(); before = sample++) {
+      sum += 0.5 * toSeconds(sample->first - before->first) * (before->second + sample->second);
+      sums_rad_.emplace_hint(sums_rad_.end(), sample->first, sum);
     }
   }
 
@@ -54,7 +50,7 @@ class GyroCheck : public PairCheck {
   }
 
   void report(const Windows& windows, RigReport& report) const override {
-    const Fit all = samples_.size() < 2 ? Fit() : fit(turns_);
+    const Fit all = sums_rad_.empty() ? Fit() : fit(turns_);
     if (!std::isfinite(all.rms_rad)) {
       report.findings.push_back({"time",
                                  "cameras against the gyroscope",
@@ -64,17 +60,17 @@ class GyroCheck : public PairCheck {
                                  Verdict::kUnknown});
       return;
     }
-    std::vector<std::vector<double>> without;
+    Eigen::MatrixXd without(4, windows.count());
     for (std::size_t w = 0; w < windows.count(); ++w) {
       std::vector<Turn> others;
       for (const Turn& turn : turns_) {
         if (windows.of(turn.time_s) != w) others.push_back(turn);
       }
       const Fit fit = this->fit(others);
-      const Eigen::Vector3d vector = logRotation(fit.R_camera_gyro * all.R_camera_gyro.transpose());
-      without.push_back({fit.delay_s, vector.x(), vector.y(), vector.z()});
+      without.col(Eigen::Index(w)) << fit.delay_s,
+          logRotation(fit.R_camera_gyro * all.R_camera_gyro.transpose());
     }
-    const std::vector<double> sigmas = jackknifeSigmas(without);
+    const Eigen::VectorXd sigmas = jackknifeSigmas(without);
     report.add({"time",
                 "stamps of the images against the gyroscope",
                 toText(Estimate{1e3 * all.delay_s, 1e3 * sigmas[0]}, "ms") +
@@ -84,8 +80,7 @@ class GyroCheck : public PairCheck {
                 "correct the driver's timestamps, or trigger both from one clock"},
                {{all.delay_s, sigmas[0]}, 0.005, 0.02});
     const double angle = Eigen::AngleAxisd(R_camera_gyro_ * all.R_camera_gyro.transpose()).angle();
-    const double angle_sigma =
-        std::sqrt(sigmas[1] * sigmas[1] + sigmas[2] * sigmas[2] + sigmas[3] * sigmas[3]);
+    const double angle_sigma = sigmas.tail<3>().norm();
     const Eigen::Quaterniond q(all.R_camera_gyro);
     report.add({"time",
                 "axes of the gyroscope against tf",
@@ -117,22 +112,18 @@ class GyroCheck : public PairCheck {
     const auto delay_ns = static_cast<std::int64_t>(std::llround(1e9 * delay_s));
     const std::int64_t from_ns = turn.from_ns + delay_ns;
     const std::int64_t to_ns = turn.to_ns + delay_ns;
-    if (from_ns < samples_.front().stamp_ns || to_ns >= samples_.back().stamp_ns)
+    if (from_ns < sums_rad_.begin()->first || to_ns >= sums_rad_.rbegin()->first)
       return std::nullopt;
     return turnedUpTo(to_ns) - turnedUpTo(from_ns);
   }
 
   /// Linear between the samples.
   Eigen::Vector3d turnedUpTo(std::int64_t stamp_ns) const {
-    const auto next = std::upper_bound(
-        samples_.begin(),
-        samples_.end(),
-        stamp_ns,
-        [](std::int64_t stamp, const GyroSample& sample) { return stamp < sample.stamp_ns; });
-    const auto i = static_cast<std::size_t>(next - samples_.begin());
-    const double share = toSeconds(stamp_ns - samples_[i - 1].stamp_ns) /
-                         std::max(toSeconds(samples_[i].stamp_ns - samples_[i - 1].stamp_ns), 1e-9);
-    return sums_rad_[i - 1] + share * (sums_rad_[i] - sums_rad_[i - 1]);
+    const auto after = sums_rad_.upper_bound(stamp_ns);
+    const auto before = std::prev(after);
+    const double share =
+        toSeconds(stamp_ns - before->first) / toSeconds(after->first - before->first);
+    return before->second + share * (after->second - before->second);
   }
 
   /// The rotation from turn rates, with the bias as a shift (Umeyama 1991).
@@ -175,9 +166,8 @@ class GyroCheck : public PairCheck {
     return fitRotation(best.delay_s + step * kStep_s, turns);
   }
 
-  std::vector<GyroSample> samples_;
-  std::vector<Eigen::Vector3d> sums_rad_;  // integral of the rate up to each sample
-  Eigen::Matrix3d R_camera_gyro_;          // as configured
+  std::map<std::int64_t, Eigen::Vector3d> sums_rad_;  // integral of the rate up to each stamp
+  Eigen::Matrix3d R_camera_gyro_;                     // as configured
   std::vector<Turn> turns_;
 };
 

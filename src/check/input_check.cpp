@@ -23,63 +23,44 @@ constexpr double kFixPeriods = 0.25;
 
 void InputCheck::observe(const RecordedMessage& message) {
   if (message.left_info) left_info_ = message.left_info;
-  for (const auto& [image, stream] :
-       {std::pair(message.left_image, &left_), {message.right_image, &right_}}) {
-    if (!image) continue;
-    const std::int64_t stamp_ns = toNanoseconds(image->header.stamp);
-    stream->stamps_ns.push_back(stamp_ns);
-    stream->ages_s[stamp_ns] = toSeconds(toNanoseconds(message.time) - stamp_ns);
-  }
+  if (message.right_image) right_ns_.push_back(toNanoseconds(message.right_image->header.stamp));
+  if (!message.left_image) return;
+  left_ns_.push_back(toNanoseconds(message.left_image->header.stamp));
+  ages_s_[left_ns_.back()] = toSeconds(toNanoseconds(message.time) - left_ns_.back());
 }
 
 void InputCheck::report(const StereoCamera& camera,
                         const std::string& left_out,
                         bool rectifies,
                         RigReport& report) const {
-  addCamera(camera, rectifies, report);
   if (!left_out.empty()) {
-    report.findings.push_back({"inputs",
-                               "left out",
-                               left_out,
-                               "each is a pair without a motion estimate",
-                               "look at the reasons: the node drops the same pairs",
-                               Verdict::kAcceptable,
-                               0.5});
+    report.add({"inputs",
+                "left out",
+                left_out,
+                "each is a pair without a motion estimate",
+                "look at the reasons: the node drops the same pairs"},
+               kToLookAt);
   }
-}
-
-void InputCheck::reportStreams(double max_apart_s, RigReport& report) const {
-  addRates(report);
-  addStamps(max_apart_s, report);
-}
-
-void InputCheck::addCamera(const StereoCamera& camera, bool rectifies, RigReport& report) const {
   const std::string values = "fx " + fixedText(camera.fx, 2) + " px, baseline " +
                              fixedText(camera.baseline_m, 4) + " m, " +
                              sizeText(camera.width, camera.height) +
                              (rectifies ? ", raw images, rectified here" : ", rectified images");
   const std::string warning = left_info_ ? calibrationWarning(*left_info_, camera) : "";
-  report.findings.push_back({"inputs",
-                             "camera_info",
-                             values,
-                             "",
-                             warning,
-                             warning.empty() ? Verdict::kGood : Verdict::kFix,
-                             1.0});
+  report.add({"inputs", "camera_info", values, "", warning},
+             {{warning.empty() ? 0.0 : 1.1}, 0.0, 1.0});
   const std::string baseline = baselineWarning(camera.baseline_m);
   if (baseline.empty()) return;
-  report.findings.push_back({"inputs",
-                             "baseline",
-                             fixedText(camera.baseline_m, 4) + " m",
-                             "all lengths are as wrong as it is",
-                             baseline,
-                             Verdict::kAcceptable,
-                             0.9});
+  report.add({"inputs",
+              "baseline",
+              fixedText(camera.baseline_m, 4) + " m",
+              "all lengths are as wrong as it is",
+              baseline},
+             kToLookAt);
 }
 
-void InputCheck::addRates(RigReport& report) const {
+void InputCheck::reportStreams(double max_apart_s, RigReport& report) const {
   for (const bool right : {false, true}) {
-    const Stamps& stamps_ns = (right ? right_ : left_).stamps_ns;
+    const Stamps& stamps_ns = right ? right_ns_ : left_ns_;
     const auto period_ns = periodOf(stamps_ns);
     if (!period_ns) continue;
     const double period_s = toSeconds(*period_ns);
@@ -102,18 +83,18 @@ void InputCheck::addRates(RigReport& report) const {
                 "look for frames lost by the driver, the USB or network link, or the recorder"},
                {{lost / static_cast<double>(stamps_ns.size())}, 0.01, 0.1});
   }
+  addStamps(max_apart_s, report);
 }
 
 void InputCheck::addStamps(double max_apart_s, RigReport& report) const {
-  Stamps left_ns = left_.stamps_ns;
-  Stamps right_ns = right_.stamps_ns;
+  Stamps left_ns = left_ns_, right_ns = right_ns_;
   std::sort(left_ns.begin(), left_ns.end());
   std::sort(right_ns.begin(), right_ns.end());
   const auto period_ns = periodOf(left_ns);
   const auto matches = matchStamps(left_ns, right_ns, std::numeric_limits<std::int64_t>::max());
   if (!period_ns || matches.empty()) return;
   std::vector<double> ages_s;
-  for (const auto& [stamp_ns, age_s] : left_.ages_s) ages_s.push_back(age_s);
+  for (const auto& [stamp_ns, age_s] : ages_s_) ages_s.push_back(age_s);
   const double age_s = median(ages_s);
   // Not in folders of images, nor with another clock than that of the recorder.
   const bool has_ages = age_s != 0.0 && std::abs(age_s) < kOtherClock_s;
@@ -123,30 +104,24 @@ void InputCheck::addStamps(double max_apart_s, RigReport& report) const {
     apart_s.push_back(toSeconds(left_ns[i] - right_ns[j]));
     table.rows.push_back({toSeconds(left_ns[i] - left_ns.front()),
                           1e3 * apart_s.back(),
-                          has_ages ? 1e3 * left_.ages_s.at(left_ns[i]) : NAN,
+                          has_ages ? 1e3 * ages_s_.at(left_ns[i]) : NAN,
                           i > 0 ? 1e3 * toSeconds(left_ns[i] - left_ns[i - 1]) : NAN});
   }
   report.tables.push_back(std::move(table));
   const auto [least, most] = std::minmax_element(apart_s.begin(), apart_s.end());
   const double largest_s = std::max(std::abs(*least), std::abs(*most));
   const double typical_s = median(apart_s);
-  if (largest_s == 0.0 && !has_ages) {
-    report.findings.push_back({"inputs",
-                               "stamps of left minus right",
-                               "not recorded: both have one stamp",
-                               "",
-                               "",
-                               Verdict::kUnknown});
-    return;
-  }
+  const bool is_recorded = largest_s != 0.0 || has_ages;
   report.add(
       {"inputs",
        "stamps of left minus right",
-       fixedText(1e3 * typical_s, 2) + " ms, at most " + fixedText(1e3 * largest_s, 2) + " ms",
+       is_recorded
+           ? fixedText(1e3 * typical_s, 2) + " ms, at most " + fixedText(1e3 * largest_s, 2) + " ms"
+           : "not recorded: both have one stamp",
        "images of different times are not a pair: moving objects get wrong depths",
        "trigger both cameras by one signal, and take its time for both stamps; if the images are "
        "of the same time, correct the stamps, or set `max_stamp_difference_s`"},
-      {{typical_s},
+      {{is_recorded ? typical_s : NAN},
        kAcceptablePeriods * toSeconds(*period_ns),
        std::min(kFixPeriods * toSeconds(*period_ns), max_apart_s)});
   if (!has_ages) return;

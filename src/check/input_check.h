@@ -28,16 +28,10 @@ class InputCheck {
   void reportStreams(double max_apart_s, RigReport& report) const;
 
  private:
-  struct Stream {
-    Stamps stamps_ns;
-    std::map<std::int64_t, double> ages_s;  // by stamp
-  };
-
-  void addRates(RigReport& report) const;
   void addStamps(double max_apart_s, RigReport& report) const;
-  void addCamera(const StereoCamera& camera, bool rectifies, RigReport& report) const;
 
-  Stream left_, right_;
+  Stamps left_ns_, right_ns_;
+  std::map<std::int64_t, double> ages_s_;        // of left images, by stamp
   sensor_msgs::CameraInfo::ConstPtr left_info_;  // the last one
 };
 

@@ -1,10 +1,8 @@
 #include "check/model_check.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -108,35 +106,9 @@ void addCauses(const StereoCamera& camera, const RigModel& model, RigReport& rep
              {skew_s * 100.0, kAcceptable * kFixRows_px, kFixRows_px});
 }
 
-/// The samples of a part of the image.
-struct Cell {
-  std::vector<double> rows_px;
-  std::vector<TimedValue> left_px;  // by the model
-};
-
-std::vector<Cell> cellsOf(const ImageGrid& grid,
-                          const std::vector<PairSamples>& pairs,
-                          const RigDisplacement& displacement) {
-  std::vector<Cell> cells(grid.count());
-  for (const PairSamples& pair : pairs) {
-    for (const RigSample& sample : pair.samples) {
-      if (!std::isfinite(sample.row_px)) continue;
-      Cell& cell = cells[grid.cell(sample.left_px.x, sample.left_px.y)];
-      cell.rows_px.push_back(sample.row_px);
-      cell.left_px.push_back({pair.time_s, sample.row_px - displacement.of(sample).y()});
-    }
-  }
-  return cells;
-}
-
-double meanSquare(const std::vector<double>& values) {
-  return std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
-         static_cast<double>(values.size());
-}
-
 /// Rows as they are, and what is left of them: of what several windows have in common, as an error
-/// of the rig, and as opposed to those of matches. The square of a cell's mean, minus the
-/// variance of the mean, has no noise of its own.
+/// of the rig, and as opposed to those of matches. The square of a cell's mean, minus the variance
+/// of the mean, has no noise of its own.
 void addRows(const StereoCamera& camera,
              const std::vector<PairSamples>& pairs,
              const RigModel& model,
@@ -144,14 +116,24 @@ void addRows(const StereoCamera& camera,
              ModelRest& rest,
              RigReport& report) {
   const ImageGrid grid = mapOf(camera.width, camera.height);
-  const auto cells = cellsOf(grid, pairs, RigDisplacement(camera, model.causes));
+  const RigDisplacement displacement(camera, model.causes);
+  std::vector<std::vector<double>> measured_px(grid.count());
+  std::vector<std::vector<TimedValue>> rests_px(grid.count());  // by the model
+  for (const PairSamples& pair : pairs) {
+    for (const RigSample& sample : pair.samples) {
+      if (!std::isfinite(sample.row_px)) continue;
+      const std::size_t cell = grid.cell(sample.left_px.x, sample.left_px.y);
+      measured_px[cell].push_back(sample.row_px);
+      rests_px[cell].push_back({pair.time_s, sample.row_px - displacement.of(sample).y()});
+    }
+  }
   std::vector<double> rows_px, squares_px2;
   ReportTable table = {"rows_map", "x_px,y_px,row_px,sigma_px,model_px", {}};
   for (std::size_t i = 0; i < grid.count(); ++i) {
-    if (cells[i].rows_px.size() < kLeastInCell) continue;
+    if (measured_px[i].size() < kLeastInCell) continue;
     const cv::Point2d center = grid.center(i);
-    const Estimate row = medianOf(cells[i].rows_px);
-    const Estimate left = overWindows(cells[i].left_px, windows, kLeastInCell);
+    const Estimate row = medianOf(measured_px[i]);
+    const Estimate left = overWindows(rests_px[i], windows, kLeastInCell);
     table.rows.push_back({center.x, center.y, row.value, row.sigma, row.value - left.value});
     rows_px.push_back(row.value);
     if (std::isfinite(left.sigma)) {
@@ -160,7 +142,7 @@ void addRows(const StereoCamera& camera,
   }
   report.tables.push_back(std::move(table));
   if (rows_px.empty()) return;
-  rest.rows_px = std::sqrt(meanSquare(rows_px));
+  rest.rows_px = cv::norm(rows_px) / std::sqrt(static_cast<double>(rows_px.size()));
   const auto [square_px2, sigma_px2] = meanOf(squares_px2);
   const double left_px = std::sqrt(std::max(square_px2, 0.0));
   rest.unexplained_px = {left_px, sigma_px2 / std::max(2.0 * left_px, std::sqrt(sigma_px2))};
@@ -173,55 +155,48 @@ void addRows(const StereoCamera& camera,
              {rest.unexplained_px, 2.0 * kAcceptable * kFixRows_px, kFixRows_px});
 }
 
-/// What the model does not explain at one time: a rig that bends, or that was hit. A plane over the
-/// image, as a rotation makes it.
-void addCourse(const StereoCamera& camera,
-               const std::vector<PairSamples>& pairs,
-               const RigModel& model,
+void addCourse(const char* name,
+               const char* columns,
+               const std::vector<Estimate>& course,
                const Windows& windows,
-               ModelRest& rest,
                RigReport& report) {
-  constexpr std::size_t kMostWindows = 100;
-  const Windows fine(windows.duration_s(), pairs.size(), kMostWindows);
-  RigProblem problem(camera, pairs, windows);
-  problem.values = model.values;
-  problem.is_of_turn[kOffset] = model.vertical == TurnOrShift::kTurn;
-  problem.is_of_turn[kBias] = model.horizontal == TurnOrShift::kTurn;
-  // The middle, and at half of the image in x and y; there, the mean square is a third of that at
-  // the border.
-  const double border_px[] = {1.0, 0.5 * camera.width, 0.5 * camera.height};
-  const double weights[] = {1.0, 1.0 / 3.0, 1.0 / 3.0};
-  const auto planes = problem.planes(fine);
-  ReportTable table = {"rows_time", "time_s,row_px,sigma_px", {}};
-  double motion_px2 = 0.0, sigma_px2 = 0.0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    std::vector<Estimate> course_px;
-    for (std::size_t w = 0; w < planes.size(); ++w) {
-      course_px.push_back(planes[w][k] * border_px[k]);
-      const auto& [row_px, sigma_px] = course_px.back();
-      if (k == 0 && std::isfinite(sigma_px)) {
-        table.rows.push_back({fine.middle_s(w), row_px, sigma_px});
-      }
-    }
-    const auto [scatter_px, sigma_px] = scatterBeyondNoise(course_px);
-    motion_px2 += weights[k] * scatter_px * scatter_px;
-    sigma_px2 += weights[k] * sigma_px * sigma_px;
+  ReportTable table = {name, columns, {}};
+  for (std::size_t w = 0; w < course.size(); ++w) {
+    const auto& [value, sigma] = course[w];
+    if (std::isfinite(sigma)) table.rows.push_back({windows.middle_s(w), value, sigma});
   }
   report.tables.push_back(std::move(table));
-  const Estimate motion_px = {std::sqrt(motion_px2), std::sqrt(sigma_px2)};
+}
+
+/// What the model does not explain at one time: a rig that bends, or that was hit. A plane over the
+/// image, as a rotation makes it: kOffset, kRoll and kFocal. Returns whether it is little.
+bool addRowsOverTime(const StereoCamera& camera,
+                     const std::vector<std::vector<Estimate>>& courses,
+                     const Windows& windows,
+                     double rows_px,
+                     RigReport& report) {
+  addCourse("rows_time", "time_s,row_px,sigma_px", courses[0], windows, report);
+  // The middle, and at half of the image in x and y, where the mean square is a
+  // third of that at the border.
+  const double rms_px = 0.5 / std::sqrt(3.0);
+  const Estimate middle = scatterBeyondNoise(courses[0]);
+  const Estimate in_x = scatterBeyondNoise(courses[1]) * (rms_px * camera.width);
+  const Estimate in_y = scatterBeyondNoise(courses[2]) * (rms_px * camera.height);
+  const Estimate motion_px = {std::hypot(middle.value, in_x.value, in_y.value),
+                              std::hypot(middle.sigma, in_x.sigma, in_y.sigma)};
   report.add({"rows",
               kRowsOverTime,
               "move by " + fixedText(motion_px.value, 2) + " px (rms)",
               "no calibration fits a rig that moves",
               "mount both cameras on one stiff bar, and fix lenses and connectors"},
              {motion_px, kAcceptable * kFixRows_px, kFixRows_px});
-  rest.is_constant = motion_px.value < std::max(kAcceptable * kFixRows_px, 0.5 * rest.rows_px);
+  return motion_px.value < std::max(kAcceptable * kFixRows_px, 0.5 * rows_px);
 }
 
 /// Returns whether a calibration can describe the bias: not if it moves.
 bool addBias(const StereoCamera& camera,
              const RigModel& model,
-             const Windows& windows,
+             const std::vector<Estimate>& course_px,
              double applied_px,
              RigReport& report) {
   const double typical_px = model.typical_disparity_px;
@@ -236,19 +211,13 @@ bool addBias(const StereoCamera& camera,
                   " px; the odometry corrects " + fixedText(applied_px, 2) + " px of it",
               kCalibrate},
              {bias_px * (1.0 / typical_px), kAcceptable * kFixScale, kFixScale});
-  const Estimate motion_px = scatterBeyondNoise(model.biases_px);
+  const Estimate motion_px = scatterBeyondNoise(course_px);
   report.add({"disparities",
               "bias over time",
               "moves by " + fixedText(motion_px.value, 2) + " px (rms)",
               "the scale changes while the rig bends",
               "mount both cameras on one stiff bar"},
              {motion_px * (1.0 / typical_px), kAcceptable * kFixScale, kFixScale});
-  ReportTable course = {"bias_time", "time_s,bias_px,sigma_px", {}};
-  for (std::size_t w = 0; w < model.biases_px.size(); ++w) {
-    const auto& [value, sigma] = model.biases_px[w];
-    if (std::isfinite(sigma)) course.rows.push_back({windows.middle_s(w), value, sigma});
-  }
-  report.tables.push_back(std::move(course));
   return motion_px.value < std::max(kFixScale * typical_px, 0.5 * std::abs(bias_px.value));
 }
 
@@ -272,8 +241,19 @@ ModelRest checkModel(const StereoCamera& camera,
   }
   addCauses(camera, model, report);
   addRows(camera, pairs, model, windows, rest, report);
-  addCourse(camera, pairs, model, windows, rest, report);
-  if (!addBias(camera, model, windows, applied_px, report)) rest.is_constant = false;
+  RigProblem problem(camera, pairs, windows);
+  problem.values = model.values;
+  problem.is_of_turn[kOffset] = model.vertical == TurnOrShift::kTurn;
+  problem.is_of_turn[kBias] = model.horizontal == TurnOrShift::kTurn;
+  constexpr std::size_t kMostWindows = 100;
+  const Windows fine(windows.duration_s(), pairs.size(), kMostWindows);
+  const auto planes = problem.courses({kOffset, kRoll, kFocal}, fine);
+  // Of few flows, whose matches repeat themselves, further steps would follow the wrong ones.
+  const auto biases_px = problem.courses({kBias}, windows, 2)[0];
+  addCourse("bias_time", "time_s,bias_px,sigma_px", biases_px, windows, report);
+  const bool rows_last = addRowsOverTime(camera, planes, fine, rest.rows_px, report);
+  const bool bias_lasts = addBias(camera, model, biases_px, applied_px, report);
+  rest.is_constant = rows_last && bias_lasts;
   return rest;
 }
 

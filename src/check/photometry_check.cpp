@@ -6,13 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <opencv2/imgproc.hpp>
 
-#include "check/robust_fit.h"
-#include "check/sharpness.h"
 #include "common/median.h"
 #include "features/image_noise.h"
 #include "input/to_text.h"
+#include "motion/feature_errors.h"
 
 namespace rotrocc {
 namespace {
@@ -64,38 +65,107 @@ std::vector<Patch> patchesOf(const CheckedPair& pair, int radius, std::size_t mo
   return patches;
 }
 
-/// Gray levels of a patch.
-struct PatchMeans {
-  double left, right;
-  double r2;  ///< square of the distance from the middle, 1 in the corners
-};
-
-std::vector<PatchMeans> patchMeans(const CheckedPair& pair) {
+/// Mean gray levels of patches, left and right, and the square of the distance
+/// from the middle, 1 in the corners.
+std::vector<Eigen::Array3d> patchMeans(const CheckedPair& pair) {
   const cv::Point2d corner(0.5 * pair.camera.width, 0.5 * pair.camera.height);
-  std::vector<PatchMeans> means;
+  std::vector<Eigen::Array3d> means;
   for (const Patch& patch : patchesOf(pair, kPatch, kPerPair)) {
     const cv::Mat left = pair.images.left(patch.left);
     const cv::Mat right = pair.images.right(patch.right);
     if (std::max(cv::norm(left, cv::NORM_INF), cv::norm(right, cv::NORM_INF)) >= kWhite) continue;
     const cv::Point2d middle = 0.5 * cv::Point2d(patch.left.tl() + patch.left.br());
     const cv::Point2d from_corner = middle - corner;
-    means.push_back(
-        {cv::mean(left)[0], cv::mean(right)[0], from_corner.dot(from_corner) / corner.dot(corner)});
+    means.emplace_back(
+        cv::mean(left)[0], cv::mean(right)[0], from_corner.dot(from_corner) / corner.dot(corner));
   }
   return means;
 }
 
-/// to = c0 from + c1 + c2 from r^2. At edges of depth, the images show different things.
-Eigen::Vector3d fitLevels(const std::vector<PatchMeans>& means,
-                          double PatchMeans::*from,
-                          double PatchMeans::*to) {
-  std::vector<Eigen::Vector3d> rows;
-  std::vector<double> values;
-  for (const PatchMeans& mean : means) {
-    rows.emplace_back(mean.*from, 1.0, mean.*from * mean.r2);
-    values.push_back(mean.*to);
+/// to = c0 from + c1 + c2 from r^2: least squares with Cauchy weights, because
+/// at edges of depth the images show different things.
+Eigen::Vector3d fitLevels(const Eigen::ArrayXd& from,
+                          const Eigen::ArrayXd& to,
+                          const Eigen::ArrayXd& r2) {
+  // Weights of 2.3 standard deviations, for 95 % efficiency: cauchyWeights()
+  // takes errors for lengths of two-dimensional ones, whose median is longer.
+  constexpr double kRobust = 4.0;
+  constexpr int kIterations = 10;
+  Eigen::MatrixX3d rows(from.size(), 3);
+  rows << from.matrix(), Eigen::VectorXd::Ones(from.size()), (from * r2).matrix();
+  const auto count = static_cast<std::size_t>(from.size());
+  std::vector<double> errors(count), weights(count, 1.0);
+  Eigen::Vector3d levels;
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    const Eigen::MatrixX3d weighted =
+        Eigen::VectorXd::Map(weights.data(), from.size()).asDiagonal() * rows;
+    levels = (weighted.transpose() * rows).ldlt().solve(weighted.transpose() * to.matrix());
+    Eigen::VectorXd::Map(errors.data(), from.size()) = (to.matrix() - rows * levels).cwiseAbs();
+    cauchyWeights(kRobust, errors, weights);
   }
-  return fitRobustly(rows, values).parameters;
+  return levels;
+}
+
+/// Power spectrum of windowed patches, minus that of the white noise of their image.
+struct Spectrum {
+  cv::Mat_<float> power;
+  double noise;  ///< that was subtracted
+};
+
+Spectrum spectrumOf(const cv::Mat& image,
+                    double noise_gray,
+                    const std::vector<Patch>& patches,
+                    cv::Rect Patch::*side) {
+  const cv::Size size = (patches.front().*side).size();
+  cv::Mat window;
+  cv::createHanningWindow(window, size, CV_32F);
+  cv::Mat_<float> power = cv::Mat_<float>::zeros(size);
+  for (const Patch& patch : patches) {
+    cv::Mat grays, parts[2];
+    image(patch.*side).convertTo(grays, CV_32F);
+    cv::dft(window.mul(grays - cv::mean(grays)), grays, cv::DFT_COMPLEX_OUTPUT);
+    cv::split(grays, parts);
+    power += parts[0].mul(parts[0]) + parts[1].mul(parts[1]);
+  }
+  const double noise =
+      noise_gray * noise_gray * window.dot(window) * static_cast<double>(patches.size());
+  return {power - noise, noise};
+}
+
+/// Variance of the Gaussian by which the right image is more blurred than the left one [px^2], up
+/// to 16; negative if the left one is, nan if noise hides it. Gains and noise of the images do not
+/// matter.
+double blurOfRight_px2(const Spectrum& of_left, const Spectrum& of_right) {
+  constexpr double kMost_px2 = 16.0;
+  constexpr double kOverNoise = 3.0;
+  const int count = of_left.power.cols;
+  // Sums over rings of about equal frequencies: of both powers, of w^2, and the number of bins.
+  std::vector<cv::Vec4d> rings(static_cast<std::size_t>(count / 2 + 1), cv::Vec4d());
+  for (int row = 0; row < count; ++row) {
+    for (int column = 0; column < count; ++column) {
+      const double radius =
+          std::hypot(std::min(row, count - row), std::min(column, count - column));
+      const auto ring = static_cast<std::size_t>(std::lround(radius));
+      if (ring >= rings.size()) continue;
+      const double w = 2.0 * CV_PI / count * radius;
+      rings[ring] += cv::Vec4d(of_left.power(row, column), of_right.power(row, column), w * w, 1.0);
+    }
+  }
+  // A Gaussian of variance v multiplies the power by exp(-v w^2): the slope over w^2. The window
+  // spreads over the lowest frequencies.
+  constexpr std::size_t kLeast = 2;
+  const double least = kOverNoise * std::max(of_left.noise, of_right.noise);  // of a bin
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d weighted = Eigen::Vector2d::Zero();
+  for (std::size_t ring = kLeast; ring < rings.size(); ++ring) {
+    const auto& [l, r, w2, bins] = rings[ring].val;
+    if (std::min(l, r) < least * bins) break;
+    const Eigen::Vector2d line(1.0, w2 / bins);
+    information += bins * line * line.transpose();
+    weighted += bins * std::log(r / l) * line;
+  }
+  const double slope = (information.inverse() * weighted)[1];
+  return std::clamp(-slope, -kMost_px2, kMost_px2);
 }
 
 class PhotometryCheck : public PairCheck {
@@ -165,29 +235,29 @@ class PhotometryCheck : public PairCheck {
   /// Robust means of patches: right = gain left (1 + vignetting r^2) + offset, r = 1 in the
   /// corners. Both sides have errors, so that each is fitted to the other.
   static void compare(const CheckedPair& pair, Row& row) {
-    const std::vector<PatchMeans> means = patchMeans(pair);
+    const std::vector<Eigen::Array3d> means = patchMeans(pair);
     if (means.size() < kLeast) return;
-    const Eigen::Vector3d of_right = fitLevels(means, &PatchMeans::left, &PatchMeans::right);
-    const Eigen::Vector3d of_left = fitLevels(means, &PatchMeans::right, &PatchMeans::left);
+    const auto count = static_cast<Eigen::Index>(means.size());
+    const Eigen::Map<const Eigen::Array3Xd> rows(means.front().data(), 3, count);
+    const Eigen::ArrayXd left = rows.row(0), right = rows.row(1), r2 = rows.row(2);
+    const Eigen::Vector3d of_right = fitLevels(left, right, r2);
+    const Eigen::Vector3d of_left = fitLevels(right, left, r2);
     row.gain = std::sqrt(of_right[0] / of_left[0]);
     row.vignetting = 0.5 * (of_right[2] / of_right[0] - of_left[2] / of_left[0]);
-    std::vector<double> offsets;
-    for (const PatchMeans& mean : means) {
-      offsets.push_back(mean.right - row.gain * mean.left * (1.0 + row.vignetting * mean.r2));
-    }
+    std::vector<double> offsets(means.size());
+    Eigen::ArrayXd::Map(offsets.data(), count) =
+        right - row.gain * left * (1.0 + row.vignetting * r2);
     row.offset_gray = median(offsets);
   }
 
   static void compareSharpness(const CheckedPair& pair, Row& row) {
     constexpr std::size_t kPatches = 40;
-    ImagePatches left = {pair.images.left, row.left.noise, {}};
-    ImagePatches right = {pair.images.right, row.right.noise, {}};
-    for (const Patch& patch : patchesOf(pair, kSharpnessPatch, kPatches)) {
-      left.areas.push_back(patch.left);
-      right.areas.push_back(patch.right);
-    }
     constexpr std::size_t kLeastPatches = 5;
-    if (left.areas.size() >= kLeastPatches) row.blur_px2 = blurOfRight_px2(left, right);
+    const std::vector<Patch> patches = patchesOf(pair, kSharpnessPatch, kPatches);
+    if (patches.size() < kLeastPatches) return;
+    row.blur_px2 =
+        blurOfRight_px2(spectrumOf(pair.images.left, row.left.noise, patches, &Patch::left),
+                        spectrumOf(pair.images.right, row.right.noise, patches, &Patch::right));
   }
 
   void addExposure(const Windows& windows, RigReport& report) const {

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
 #include "rotrocc/stereo_camera.h"
@@ -32,14 +33,21 @@ constexpr std::size_t kRigCauses = 12;
 using RigCauses = std::array<double, kRigCauses>;
 
 /// Rotation R_left_right of the right camera that the causes are.
-Eigen::Matrix3d rotationOf(const RigCauses& causes);
+inline Eigen::Matrix3d rotationOf(const RigCauses& causes) {
+  using Eigen::AngleAxisd;
+  using Eigen::Vector3d;
+  return (AngleAxisd(causes[kYaw], Vector3d::UnitY()) *
+          AngleAxisd(causes[kPitch], Vector3d::UnitX()) *
+          AngleAxisd(causes[kRoll], Vector3d::UnitZ()))
+      .toRotationMatrix();
+}
 
 /// A feature that agrees with the motion of its pair.
 struct RigSample {
   cv::Point2f left_px;
   double x_right = 0.0;  ///< normalized coordinate in the right image
   double y = 0.0;        ///< normalized coordinate in the left image
-  double row_px = 0.0;   ///< how much lower the feature is in the right image; nan: not measured
+  double row_px = NAN;   ///< how much lower the feature is in the right image; nan: not measured
   Eigen::Vector2d velocity_pxps = Eigen::Vector2d::Zero();  ///< in the left image
 
   // The errors of its flow, linear in those of its disparity and of the motion:
@@ -64,7 +72,16 @@ class RigDisplacement {
       : camera_(camera), causes_(causes), R_right_left_(rotationOf(causes).transpose()) {}
 
   /// How much further right, and lower, a feature is [px].
-  Eigen::Vector2d of(const RigSample& sample) const;
+  Eigen::Vector2d of(const RigSample& sample) const {
+    const Eigen::Vector2d straight(sample.x_right, sample.y);
+    const Eigen::Vector2d turned = (R_right_left_ * straight.homogeneous()).hnormalized();
+    const double scale = (1.0 + causes_[kFocal]) * (1.0 + causes_[kLens] * turned.squaredNorm());
+    const Eigen::Vector2d moved = scale * turned - straight;
+    const double twisted = causes_[kTwist] * sample.x_right * sample.y;
+    return Eigen::Vector2d(camera_.fx * moved.x() + causes_[kBias],
+                           camera_.fy * (moved.y() - twisted) + causes_[kOffset]) +
+           causes_[kTimeSkew] * sample.velocity_pxps;
+  }
 
  private:
   const StereoCamera& camera_;

@@ -4,16 +4,14 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
-#include <utility>
 
 #include "bags/recorded_pairs.h"
 #include "check/input_check.h"
 #include "check/model_check.h"
 #include "check/rig_sampler.h"
-#include "common/median.h"
 #include "common/to_seconds.h"
-#include "input/camera_calibration.h"
 #include "input/to_text.h"
+#include "motion/feature_errors.h"
 #include "node/health/pair_inspector.h"
 #include "rotrocc/visual_odometry.h"
 
@@ -34,31 +32,6 @@ OdometryConfig configOf(const RigCheckOptions& options) {
   features += features / 2;
   return config;
 }
-
-/// Selects pairs whose features have moved.
-class Movement {
- public:
-  /// `flow_px`: median of the features between the keyframe and this pair, which has a motion. A
-  /// keyframe is kept while features rest, so that noise does not add up to a way.
-  bool isNew(const OdometryResult& result, double flow_px) {
-    // In pixels of detail: matches of the same texture in the same part of a pixel have the same
-    // errors.
-    constexpr double kMoved = 2.0;
-    if (result.keyframe_stamp_ns != keyframe_stamp_ns_) {
-      keyframe_stamp_ns_ = result.keyframe_stamp_ns;
-      keyframe_at_px_ = at_px_;
-    }
-    at_px_ = keyframe_at_px_ + flow_px;
-    if (std::abs(at_px_ - taken_at_px_) < std::ldexp(kMoved, result.halvings)) return false;
-    taken_at_px_ = at_px_;
-    return true;
-  }
-
- private:
-  // How far the features have come, also at the keyframe and at the last pair that was new.
-  double at_px_ = 0.0, keyframe_at_px_ = 0.0, taken_at_px_ = 0.0;
-  std::int64_t keyframe_stamp_ns_ = 0;
-};
 
 /// All checks of the pairs of one recording.
 class PairChecks {
@@ -91,7 +64,9 @@ class PairChecks {
     ok_ += result.state == State::kOk ? 1 : 0;
     if (result.hasMotion()) applied_px_ = result.disparity_bias.applied_px;
     path_m_ += result.T_prev_cur.translation().norm();
-    const double flow_px = result.hasMotion() ? medianFlow_px() : 0.0;
+    const double flow_px =
+        result.hasMotion() ? medianFlow_px(odometry_.correspondences(), odometry_.rotationInliers())
+                           : 0.0;
     const CheckedPair checked = {toSeconds(last_ns_ - first_ns_),
                                  pair,
                                  camera,
@@ -99,13 +74,22 @@ class PairChecks {
                                  odometry_.correspondences(),
                                  odometry_.rotationInliers(),
                                  flow_px,
-                                 result.hasMotion() && movement_.isNew(result, flow_px)};
-    if (result.state == State::kLost) ++lost_[result.reason];
+                                 result.hasMotion() && hasMoved(result, flow_px)};
+    if (result.state == State::kLost) {
+      ++lost_;
+      if (++losses_[result.reason] > losses_[commonest_loss_]) commonest_loss_ = result.reason;
+    }
     countRepeated(pair);
-    inspect(pair, camera, result);
+    if (const auto fault = inspector_.inspect(pair, camera, result); !fault.empty()) {
+      fault_ = fault;
+      is_of_no_pair_ = inspector_.inspector().isOfNoPair();
+    }
     sampler_.observe(checked);
     for (const auto& check : checks_) check->observe(checked);
-    keepSample(pair, result);
+    if (left_.empty() || (result.hasMotion() && with_motion_ == 1)) {  // for the pictures
+      left_ = pair.left.clone();
+      right_ = pair.right.clone();
+    }
   }
 
   void report(CheckedRig& rig) {
@@ -122,8 +106,7 @@ class PairChecks {
     addLost(report);
     const std::vector<PairSamples>& samples = sampler_.pairs();
     if (!isMostlyLost()) {
-      rig.measures.model = fitRig(camera_, samples, windows);
-      const RigModel& model = rig.measures.model;
+      const RigModel& model = rig.measures.model = fitRig(camera_, samples, windows);
       for (const auto& check : checks_) check->report(windows, report);
       rig.measures.rest = checkModel(camera_, samples, model, windows, applied_px_, report);
       if (isExplained()) {
@@ -134,7 +117,17 @@ class PairChecks {
                                 !addRectification(rig.measures.rest, model, report);
       }
     }
-    if (samples.size() < kLeastMotions) addTooShort(report);
+    if (samples.size() < kLeastMotions) {
+      doubt(report);
+      report.findings.push_back(
+          {"inputs",
+           "length of the recording",
+           "features have moved in " + toText(samples.size()) + " of " + toText(pairs_) + " pairs",
+           "each pair has errors of its own, so a few do not determine the rig",
+           "record a minute of motion, with turns",
+           Verdict::kUnknown,
+           100.0});
+    }
     report.left = left_;
     report.right = right_;
     rig.measures.pairs_with_motion = with_motion_;
@@ -145,28 +138,24 @@ class PairChecks {
   int pairs() const { return pairs_; }
 
  private:
-  double medianFlow_px() const {
-    const Correspondences& features = odometry_.correspondences();
-    const FeatureSet& inliers = odometry_.rotationInliers();
-    std::vector<double> flows_px;
-    for (std::size_t i = 0; i < features.size(); ++i) {
-      if (inliers[i] == 0) continue;
-      flows_px.push_back((features[i].cur_px - features[i].keyframe_px).norm());
-    }
-    return flows_px.empty() ? 0.0 : median(flows_px);
+  /// `flow_px`: median of the features between the keyframe and this pair, which has a motion. A
+  /// keyframe is kept while features rest, so that noise does not add up to a way.
+  bool hasMoved(const OdometryResult& result, double flow_px) {
+    // In pixels of detail: matches of the same texture in the same part of a pixel have the same
+    // errors.
+    constexpr double kMoved = 2.0;
+    if (result.keyframe_stamp_ns != keyframe_stamp_ns_) keyframe_at_px_ = at_px_;
+    keyframe_stamp_ns_ = result.keyframe_stamp_ns;
+    at_px_ = keyframe_at_px_ + flow_px;
+    if (std::abs(at_px_ - taken_at_px_) < std::ldexp(kMoved, result.halvings)) return false;
+    taken_at_px_ = at_px_;
+    return true;
   }
 
   bool isMostlyLost() const { return 2 * with_motion_ < pairs_; }
 
   /// Whether many motions are in doubt because the images are no pairs.
   bool isExplained() const { return is_of_no_pair_ && 4 * (pairs_ - ok_) > pairs_; }
-
-  /// The first pair with a motion, or the first one.
-  void keepSample(const StereoPair& pair, const OdometryResult& result) {
-    if (!left_.empty() && (!result.hasMotion() || with_motion_ != 1)) return;
-    left_ = pair.left.clone();
-    right_ = pair.right.clone();
-  }
 
   /// What is not good in the sections of measurements is unknown.
   static void doubt(RigReport& report) {
@@ -180,34 +169,23 @@ class PairChecks {
     }
   }
 
-  void addTooShort(RigReport& report) const {
-    doubt(report);
-    report.findings.push_back({"inputs",
-                               "length of the recording",
-                               "features have moved in " + toText(sampler_.pairs().size()) +
-                                   " of " + toText(pairs_) + " pairs",
-                               "each pair has errors of its own, so a few do not determine the rig",
-                               "record a minute of motion, with turns",
-                               Verdict::kUnknown,
-                               100.0});
-  }
-
   /// Returns whether the principal points of both images are wrong. What follows is not reported
   /// then.
   bool addCenter(const RigModel& model, RigReport& report) const {
     const Estimate x = model.value(kBothX), y = model.value(kBothY);
     if (x.value == 0.0 && y.value == 0.0) return false;
-    const bool is_wrong = model.exceeds(1.0, kBothX) || model.exceeds(1.0, kBothY);
+    const Estimate in_x = model.severity(kBothX), in_y = model.severity(kBothY);
+    const Estimate severity = in_x.certain() > in_y.certain() ? in_x : in_y;
+    const bool is_wrong = severity.certain() > 1.0;
     if (is_wrong) doubt(report);
     const double turned = std::hypot(x.value / camera_.fx, y.value / camera_.fy);
-    const Estimate in_x = model.severity(kBothX), in_y = model.severity(kBothY);
     report.add(
         {"inputs",
          "principal points",
          "wrong in both cameras: by " + toText(x, "px") + " in x, " + toText(y, "px") + " in y",
          "motions are turned by " + fixedText(turned * 180.0 / M_PI, 1) + " deg",
          "calibrate the images as they are: were they cropped after the calibration?"},
-        {in_x.certain() > in_y.certain() ? in_x : in_y, kAcceptable, 1.0});
+        {severity, kAcceptable, 1.0});
     return is_wrong;
   }
 
@@ -229,34 +207,23 @@ class PairChecks {
                : "rows differ by " + fixedText(rest.rows_px, 2) + " px (rms), of which " +
                      toText(rest.unexplained_px, "px") +
                      " are of no shape that a pair of rectified cameras has";
-    report.findings.push_back({"inputs",
-                               "rectification",
-                               measured,
-                               "depths and motions are wrong, however many features agree",
-                               rectifies_ ? kCalibrateAgain : kRectify,
-                               Verdict::kFix,
-                               100.0});
+    report.add({"inputs",
+                "rectification",
+                measured,
+                "depths and motions are wrong, however many features agree",
+                rectifies_ ? kCalibrateAgain : kRectify},
+               kToFix);
     return true;
   }
 
-  std::string commonestLoss() const {
-    const auto most =
-        std::max_element(lost_.begin(), lost_.end(), [](const auto& a, const auto& b) {
-          return a.second < b.second;
-        });
-    return most == lost_.end() ? "" : most->first;
-  }
-
   void addLost(RigReport& report) const {
-    int lost = 0;
-    for (const auto& [reason, count] : lost_) lost += count;
     report.add({"odometry",
                 "lost pairs",
-                toText(lost) + " of " + toText(pairs_) +
-                    (lost > 0 ? ", most often because " + commonestLoss() : ""),
+                toText(lost_) + " of " + toText(pairs_) +
+                    (lost_ > 0 ? ", most often because " + commonest_loss_ : ""),
                 "the distance between them is missing",
                 "see the findings above; light, texture and turning speed matter most"},
-               {{static_cast<double>(lost) / pairs_}, 0.001, 0.03});
+               {{static_cast<double>(lost_) / pairs_}, 0.001, 0.03});
   }
 
   /// Whether a driver sends what it has sent before. Noise alone makes images differ.
@@ -283,120 +250,95 @@ class PairChecks {
                {{most}, 0.0, 0.02});
   }
 
-  void inspect(const StereoPair& pair, const StereoCamera& camera, const OdometryResult& result) {
-    const std::string fault = inspector_.inspect(pair, camera, result);
-    if (fault.empty()) return;
-    fault_ = fault;
-    is_of_no_pair_ = inspector_.inspector().isOfNoPair();
-  }
-
   void addOtherCamera(RigReport& report) const {
     if (of_other_camera_ == 0) return;
-    report.findings.push_back({"inputs",
-                               "calibration",
-                               toText(of_other_camera_) + " of " +
-                                   toText(of_other_camera_ + pairs_) +
-                                   " pairs have another calibration or size than the first",
-                               "they were not checked",
-                               "check each part of the recording by itself",
-                               Verdict::kAcceptable,
-                               0.9});
+    report.add({"inputs",
+                "calibration",
+                toText(of_other_camera_) + " of " + toText(of_other_camera_ + pairs_) +
+                    " pairs have another calibration or size than the first",
+                "they were not checked",
+                "check each part of the recording by itself"},
+               kToLookAt);
   }
 
   void addFault(RigReport& report) {
-    if (fault_.empty() && isMostlyLost()) fault_ = commonestLoss();
+    if (fault_.empty() && isMostlyLost()) fault_ = commonest_loss_;
     if (fault_.empty()) return;
-    const bool matters = isMostlyLost() || isExplained();
     const std::size_t colon = fault_.find(": ");
-    report.findings.push_back({"inputs",
-                               "images of left and right",
-                               fault_.substr(0, colon),
-                               toText(pairs_ - ok_) + " of " + toText(pairs_) +
-                                   " pairs have no motion, or a doubtful one" +
-                                   (isMostlyLost() ? ", so that nothing else can be measured" : ""),
-                               colon == std::string::npos ? "" : fault_.substr(colon + 2),
-                               matters ? Verdict::kFix : Verdict::kAcceptable,
-                               matters ? 100.0 : 0.9});
+    report.add({"inputs",
+                "images of left and right",
+                fault_.substr(0, colon),
+                toText(pairs_ - ok_) + " of " + toText(pairs_) +
+                    " pairs have no motion, or a doubtful one" +
+                    (isMostlyLost() ? ", so that nothing else can be measured" : ""),
+                colon == std::string::npos ? "" : fault_.substr(colon + 2)},
+               isMostlyLost() || isExplained() ? kToFix : kToLookAt);
   }
 
   VisualOdometry odometry_;
   bool rectifies_;
   RecordingInspector inspector_;
-  Movement movement_;
   RigSampler sampler_;
   std::vector<std::unique_ptr<PairCheck>> checks_;
   StereoCamera camera_;
   std::int64_t first_ns_ = 0, last_ns_ = 0;
-  int pairs_ = 0, of_other_camera_ = 0, with_motion_ = 0, ok_ = 0;
-  int repeated_left_ = 0, repeated_right_ = 0;
+  int pairs_ = 0, of_other_camera_ = 0, with_motion_ = 0, ok_ = 0, lost_ = 0, repeated_left_ = 0,
+      repeated_right_ = 0;
   double path_m_ = 0.0, applied_px_ = 0.0;
   std::string fault_;
-  std::map<std::string, int> lost_;  // by reason
+  std::map<std::string, int> losses_;  // by reason
+  std::string commonest_loss_;
   bool is_of_no_pair_ = false;
+  // How far the features have come, also at the keyframe and at the last pair that was new.
+  double at_px_ = 0.0, keyframe_at_px_ = 0.0, taken_at_px_ = 0.0;
+  std::int64_t keyframe_stamp_ns_ = 0;
   cv::Mat left_, right_;
 };
-
-StereoCalibration calibrationOf(const Recording& recording,
-                                const StereoCamera& camera,
-                                bool rectifies,
-                                const RigCheckOptions& options) {
-  if (options.calibration) return *options.calibration;
-  if (!rectifies) return rectifiedCalibration(camera);
-  const RecordedMessage infos = recording.firstInfos();
-  return toStereoCalibration(*infos.left_info, *infos.right_info, camera.baseline_m);
-}
-
-void addUnusable(const std::string& why, RigReport& report) {
-  if (report.needsFix()) return;  // it is known
-  const std::size_t end = why.rfind(": ");
-  report.findings.push_back({"inputs",
-                             "pairs",
-                             why.substr(0, end),
-                             "no pair can be used",
-                             end == std::string::npos ? "" : why.substr(end + 2),
-                             Verdict::kFix,
-                             1000.0});
-}
-
-void checkPairs(Recording& recording, const RigCheckOptions& options, CheckedRig& rig) {
-  RecordedPairs pairs(recording, options.parameters.node, options.rectify, options.calibration);
-  const double max_apart_s = options.parameters.node.max_stamp_difference_s;
-  InputCheck input;
-  pairs.onMessage([&](const RecordedMessage& message) { input.observe(message); });
-  PairChecks checks(configOf(options), options.gyroscope, pairs.rectifies());
-  StereoPair pair;
-  StereoCamera camera;
-  try {
-    while (pairs.next(pair, camera)) {
-      checks.observe(pair, camera);
-      options.on_pair();
-    }
-  } catch (const std::runtime_error& error) {
-    if (checks.pairs() == 0) {
-      input.reportStreams(max_apart_s, rig.report);
-      return addUnusable(error.what(), rig.report);
-    }
-    rig.report.findings.push_back({"inputs",
-                                   "recording",
-                                   error.what(),
-                                   "the rest was not read",
-                                   "repair it, e.g. with `rosbag reindex`",
-                                   Verdict::kAcceptable,
-                                   0.9});
-  }
-  input.report(checks.camera(), pairs.leftOut(), pairs.rectifies(), rig.report);
-  input.reportStreams(max_apart_s, rig.report);
-  checks.report(rig);
-  rig.measures.calibration = calibrationOf(recording, checks.camera(), pairs.rectifies(), options);
-}
 
 }  // namespace
 
 CheckedRig checkRig(Recording& recording, const RigCheckOptions& options) {
+  RecordedPairs pairs(recording, options.parameters.node, options.rectify, options.calibration);
+  InputCheck input;
+  pairs.onMessage([&](const RecordedMessage& message) { input.observe(message); });
+  PairChecks checks(configOf(options), options.gyroscope, pairs.rectifies());
   CheckedRig rig;
-  checkPairs(recording, options, rig);
-  rig.report.title = "Rig check of " + recording.description();
-  rig.report.sort();
+  RigReport& report = rig.report;
+  report.title = "Rig check of " + recording.description();
+  StereoPair pair;
+  StereoCamera camera;
+  std::string failure;
+  try {
+    while (pairs.next(pair, camera)) {
+      if (checks.pairs() == 0) rig.measures.calibration = pairs.calibration();
+      checks.observe(pair, camera);
+      options.on_pair();
+    }
+  } catch (const std::runtime_error& error) {
+    failure = error.what();
+  }
+  input.reportStreams(options.parameters.node.max_stamp_difference_s, report);
+  if (checks.pairs() > 0) {
+    input.report(checks.camera(), pairs.leftOut(), pairs.rectifies(), report);
+    checks.report(rig);
+    if (!failure.empty()) {
+      report.add({"inputs",
+                  "recording",
+                  failure,
+                  "the rest was not read",
+                  "repair it, e.g. with `rosbag reindex`"},
+                 kToLookAt);
+    }
+  } else if (!report.needsFix()) {
+    const std::size_t end = failure.rfind(": ");
+    report.add({"inputs",
+                "pairs",
+                failure.substr(0, end),
+                "no pair can be used",
+                end == std::string::npos ? "" : failure.substr(end + 2)},
+               kToFix);
+  }
+  report.sort();
   return rig;
 }
 

@@ -144,7 +144,6 @@ class RigFit {
     }
     model_.correctable = problem_.causesOf(values);
     std::tie(model_.rows_gain, model_.flow_gain) = problem_.gains(values);
-    model_.biases_px = problem_.biases();
   }
 
  private:

@@ -29,7 +29,6 @@ struct RigModel {
   TurnOrShift vertical = TurnOrShift::kEither;    ///< pitch or offset
   TurnOrShift horizontal = TurnOrShift::kEither;  ///< yaw or bias
   double typical_disparity_px = 0.0;              ///< corrected one of the mean depth
-  std::vector<Estimate> biases_px;                ///< kBias in each window, at the other values
   /// By how much rows and flows fit better in windows that the calibration by the other windows
   /// corrects: sums of squares over noise. What does not repeat itself is worth nothing.
   Estimate rows_gain, flow_gain;

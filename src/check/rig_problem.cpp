@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include "common/median.h"
 
@@ -18,10 +19,7 @@ constexpr double kLeastNoise_px = 0.02;
 /// Residuals of more standard deviations count less: windows at edges, and wrong matches.
 constexpr double kRobust = 1.5;
 
-/// From a start of zero, errors of a bad calibration need two.
-constexpr int kIterations = 4;
-
-constexpr double kUnknown = std::numeric_limits<double>::infinity();
+constexpr auto kCauses = static_cast<int>(kRigCauses);
 
 double square(double value) {
   return value * value;
@@ -31,73 +29,43 @@ double weightOf(double sigmas) {
   return 1.0 / (1.0 + square(sigmas / kRobust));
 }
 
-}  // namespace
-
-Normal& Normal::operator+=(const Normal& other) {
-  H += other.H;
-  g += other.g;
-  return *this;
+Normal sumOf(const std::vector<Normal>& parts) {
+  return std::accumulate(parts.begin(), parts.end(), Normal(Normal::Zero()));
 }
 
-Normal& Normal::operator-=(const Normal& other) {
-  H -= other.H;
-  g -= other.g;
-  return *this;
+/// How much less a sum of squares is after a change of the values.
+double gainBy(const CauseVector& change, const Normal& sum) {
+  return 2.0 * change.dot(sum.topRightCorner<kCauses, 1>()) -
+         change.dot(sum.topLeftCorner<kCauses, kCauses>() * change);
 }
 
-double Normal::gainBy(const CauseVector& change) const {
-  return 2.0 * g.dot(change) - change.dot(H * change);
+/// What a motion leaves of a flow.
+Eigen::Vector2d leftOf(const Eigen::Matrix<double, 2, 6 + kCauses + 1>& flow,
+                       const Vector6d& motion) {
+  return flow.rightCols<1>() - flow.leftCols<6>() * motion;
 }
 
-/// Along and across the change of the flow by the disparity, over their noise.
-struct RigProblem::FlowResidual {
-  Eigen::Vector2d value;
-  Eigen::Matrix<double, 2, 6> by_motion;
-  Jacobian by_values;
-  std::size_t region;
-};
-
-/// Sums over the flows of a pair, which share the error of its motion.
-struct RigProblem::FlowSums {
-  Matrix6d A = Matrix6d::Zero();
-  Eigen::Matrix<double, 6, kRigCauses> B = Eigen::Matrix<double, 6, kRigCauses>::Zero();
-  Vector6d a = Vector6d::Zero();
-  Normal normal;
+/// Sums over the flows of a pair, which share the error of its motion: of J^T J, and their number.
+struct FlowSums {
+  using Matrix = Eigen::Matrix<double, 6 + kCauses + 1, 6 + kCauses + 1>;
+  Matrix matrix = Matrix::Zero();
   int count = 0;
-
-  void add(const FlowResidual& residual, double weight) {
-    A += weight * residual.by_motion.transpose() * residual.by_motion;
-    B += weight * residual.by_motion.transpose() * residual.by_values;
-    a += weight * residual.by_motion.transpose() * residual.value;
-    normal.H += weight * residual.by_values.transpose() * residual.by_values;
-    normal.g += weight * residual.by_values.transpose() * residual.value;
-    ++count;
-  }
-
-  FlowSums without(const FlowSums& part) const {
-    FlowSums rest = *this;
-    rest.A -= part.A;
-    rest.B -= part.B;
-    rest.a -= part.a;
-    rest.normal -= part.normal;
-    rest.count -= part.count;
-    return rest;
-  }
 
   /// Without the error of the motion, which is found. False if too few determine it.
   bool eliminate(Vector6d& motion, Normal& eliminated) const {
     constexpr int kLeast = 12;  // of twice as many residuals, a fourth for the motion
     if (count < kLeast) return false;
-    const Eigen::LDLT<Matrix6d> inverse(A);
-    const Vector6d solved = inverse.solve(a);
+    const Eigen::Matrix<double, 6, kCauses + 1> mixed = matrix.topRightCorner<6, kCauses + 1>();
+    const Eigen::Matrix<double, 6, kCauses + 1> solved =
+        matrix.topLeftCorner<6, 6>().ldlt().solve(mixed);
     if (!solved.allFinite()) return false;
-    motion = solved;
-    eliminated = normal;
-    eliminated.H -= B.transpose() * inverse.solve(B);
-    eliminated.g -= B.transpose() * motion;
+    motion = solved.rightCols<1>();
+    eliminated = matrix.bottomRightCorner<kCauses + 1, kCauses + 1>() - mixed.transpose() * solved;
     return true;
   }
 };
+
+}  // namespace
 
 RigProblem::RigProblem(const StereoCamera& camera,
                        const std::vector<PairSamples>& pairs,
@@ -111,99 +79,73 @@ RigProblem::RigProblem(const StereoCamera& camera,
   for (const PairSamples& pair : pairs) window_of_.push_back(windows.of(pair.time_s));
 }
 
-void RigProblem::solve() {
-  for (int i = 0; i < kIterations; ++i) {
+void RigProblem::solve(int iterations) {
+  for (int i = 0; i < iterations; ++i) {
     linearize();
-    const CauseVector change = changeBy(total());
-    for (std::size_t k = 0; k < kRigCauses; ++k) values[k] += change[Eigen::Index(k)];
+    CauseVector::Map(values.data()) += changeBy(total());
   }
   linearize();
 }
 
 RigCauses RigProblem::sigmas() const {
-  std::vector<std::vector<double>> windows, regions;
-  const auto addTo = [](std::vector<std::vector<double>>& without, const CauseVector& change) {
-    without.emplace_back(change.data(), change.data() + kRigCauses);
-  };
-  for (std::size_t w = 0; w < rows_.size(); ++w) addTo(windows, changeBy(totalWithout(w)));
+  Eigen::MatrixXd windows(kCauses, rows_.size()), regions(kCauses, kRegions);
+  for (std::size_t w = 0; w < rows_.size(); ++w) {
+    windows.col(Eigen::Index(w)) = changeBy(totalWithout(w));
+  }
+  const Normal of_rows = prior() + sumOf(rows_);
   for (std::size_t r = 0; r < kRegions; ++r) {
-    Normal sum = prior();
-    for (const Normal& window : rows_) sum += window;
-    sum -= rows_of_[r];
-    sum += flows_without_[r];
-    addTo(regions, changeBy(sum));
+    regions.col(Eigen::Index(r)) = changeBy(of_rows + without_[r]);
   }
-  const std::vector<double> over_time = jackknifeSigmas(windows);
-  const std::vector<double> over_image = jackknifeSigmas(regions);
-  const CauseMatrix covariance =
-      sharedFactor() * restricted(total().H).ldlt().solve(CauseMatrix::Identity());
-  RigCauses sigmas;
-  for (std::size_t k = 0; k < kRigCauses; ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
-    sigmas[k] = std::max({std::sqrt(covariance(i, i)), over_time[k], over_image[k]});
-  }
-  return sigmas;
-}
-
-/// By which variances of independent errors increase, since what matching leaves is alike in a part
-/// of the image.
-double RigProblem::sharedFactor() const {
+  // What matching leaves is alike in a part of the image, so that independent errors are more.
   constexpr double kMatching_px = 0.01;
   constexpr double kParts = 80.0;
   double count = 0.0;
   for (const PairSamples& pair : pairs_) count += static_cast<double>(pair.samples.size());
-  return 1.0 + count / kParts * square(kMatching_px / row_noise_px_);
+  const double factor = 1.0 + count / kParts * square(kMatching_px / row_noise_px_);
+  const Eigen::MatrixXd independent =
+      factor * restricted(total()).topLeftCorner<kCauses, kCauses>().inverse();
+  RigCauses sigmas;
+  CauseVector::Map(sigmas.data()) = independent.diagonal()
+                                        .cwiseSqrt()
+                                        .cwiseMax(jackknifeSigmas(windows))
+                                        .cwiseMax(jackknifeSigmas(regions));
+  return sigmas;
 }
 
-std::vector<Estimate> RigProblem::biases() {
-  is_left_out_[kBias] = false;
-  linearize();
-  std::vector<Estimate> biases;
-  for (const Normal& window : flows_) {
-    const double information = window.H(kBias, kBias);
-    // Less than a pixel is said by some motion of the features.
-    const double sigma_px =
-        information > 1.0 ? 1.0 / std::sqrt(information) : std::numeric_limits<double>::infinity();
-    biases.push_back({values[kBias] + window.g[kBias] / information, sigma_px});
-  }
-  return biases;
-}
-
-std::vector<std::array<Estimate, 3>> RigProblem::planes(const Windows& windows) const {
-  constexpr RigCause kPlane[] = {kOffset, kRoll, kFocal};
+std::vector<std::vector<Estimate>> RigProblem::courses(const std::vector<RigCause>& causes,
+                                                       const Windows& windows,
+                                                       int iterations) const {
   constexpr double kKnown = 0.1;  // of the prior
   std::vector<std::vector<PairSamples>> parts(windows.count());
   for (const PairSamples& pair : pairs_) parts[windows.of(pair.time_s)].push_back(pair);
-  std::vector<std::array<Estimate, 3>> planes;
+  std::vector<std::vector<Estimate>> courses(causes.size());
   for (const std::vector<PairSamples>& part : parts) {
-    RigProblem alone(camera_, part, windows);
+    RigProblem alone(camera_, part, Windows(windows.duration_s(), part.size(), 1));
     alone.values = values;
     alone.is_of_turn = is_of_turn;
     alone.is_left_out_.fill(true);
-    for (const RigCause cause : kPlane) alone.is_left_out_[cause] = false;
-    alone.solve();
-    const CauseMatrix covariance = alone.restricted(alone.total().H).inverse();
-    std::array<Estimate, 3>& plane = planes.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const RigCause cause = kPlane[k];
-      const double sigma = std::sqrt(covariance(cause, cause));
-      const bool is_known = sigma < kKnown * kPriorSigmas[cause];
-      plane[k] = {alone.values[cause], is_known ? sigma : kUnknown};
+    for (const RigCause cause : causes) alone.is_left_out_[cause] = false;
+    alone.solve(iterations);
+    const RigCauses sigmas = alone.sigmas();
+    for (std::size_t k = 0; k < causes.size(); ++k) {
+      const RigCause cause = causes[k];
+      const bool is_known = sigmas[cause] < kKnown * kPriorSigmas[cause];
+      courses[k].push_back({alone.values[cause], is_known ? sigmas[cause] : INFINITY});
     }
   }
-  return planes;
+  return courses;
 }
 
 std::pair<Estimate, Estimate> RigProblem::gains(const RigCauses& corrected) const {
+  const CauseVector now = CauseVector::Map(values.data());
   std::vector<double> rows, flows;
-  const CauseVector now = Eigen::Map<const CauseVector>(values.data());
   for (std::size_t w = 0; w < rows_.size(); ++w) {
     CauseVector by_others = now + changeBy(totalWithout(w));
     for (std::size_t k = 0; k < kRigCauses; ++k) {
       if (corrected[k] == 0.0) by_others[Eigen::Index(k)] = 0.0;
     }
-    rows.push_back(rows_[w].gainBy(by_others - now) - rows_[w].gainBy(-now));
-    flows.push_back(flows_[w].gainBy(by_others - now) - flows_[w].gainBy(-now));
+    rows.push_back(gainBy(by_others - now, rows_[w]) - gainBy(-now, rows_[w]));
+    flows.push_back(gainBy(by_others - now, flows_[w]) - gainBy(-now, flows_[w]));
   }
   const auto count = static_cast<double>(rows.size());
   return {meanOf(rows) * count, meanOf(flows) * count};
@@ -231,15 +173,16 @@ void RigProblem::linearize() {
     changed[k] += kStep * kPriorSigmas[k];
     steps.emplace_back(Eigen::Index(k), RigDisplacement(camera_, causesOf(changed)));
   }
-  std::fill(rows_.begin(), rows_.end(), Normal());
-  std::fill(flows_.begin(), flows_.end(), Normal());
-  rows_of_.fill({});
-  flows_without_.fill({});
+  for (std::vector<Normal>* windows : {&rows_, &flows_}) {
+    std::fill(windows->begin(), windows->end(), Normal::Zero());
+  }
+  without_.fill(Normal::Zero());
   std::vector<double> row_errors_px, flow_errors;
-  std::vector<FlowResidual> residuals;
+  std::vector<std::pair<FlowResidual, std::size_t>> residuals;
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     residuals.clear();
     for (const RigSample& sample : pairs_[p].samples) {
+      const std::size_t region = regions_grid_.cell(sample.left_px.x, sample.left_px.y);
       const Eigen::Vector2d at = displacement.of(sample);
       Jacobian jacobian = Jacobian::Zero();
       for (const auto& [k, step] : steps) {
@@ -247,15 +190,20 @@ void RigProblem::linearize() {
             (step.of(sample) - at) / (kStep * kPriorSigmas[static_cast<std::size_t>(k)]);
       }
       if (std::isfinite(sample.row_px)) {
-        row_errors_px.push_back(std::abs(sample.row_px - at.y()));
-        addRow(p, sample, sample.row_px - at.y(), jacobian.row(1).transpose());
+        const double error_px = sample.row_px - at.y();
+        row_errors_px.push_back(std::abs(error_px));
+        Eigen::Matrix<double, 1, kCauses + 1> row;
+        row << jacobian.row(1), error_px;
+        row *= std::sqrt(weightOf(error_px / row_noise_px_)) / row_noise_px_;
+        rows_[window_of_[p]] += row.transpose() * row;
+        without_[region] -= row.transpose() * row;
       }
       if (sample.flow_by_disparity.isZero()) continue;
-      residuals.push_back(residualOf(pairs_[p], sample, at.x(), jacobian.row(0)));
+      residuals.emplace_back(residualOf(pairs_[p], sample, at.x(), jacobian.row(0)), region);
     }
     addFlows(p, residuals);
-    for (const FlowResidual& residual : residuals) {
-      flow_errors.push_back(std::abs(residual.value[0] - residual.by_motion.row(0) * motions_[p]));
+    for (const auto& [residual, region] : residuals) {
+      flow_errors.push_back(std::abs(leftOf(residual, motions_[p])[0]));
     }
   }
   if (!row_errors_px.empty()) {
@@ -265,16 +213,6 @@ void RigProblem::linearize() {
     flow_noise_ =
         std::max(flow_noise_ * kDeviationOverMedian * median(flow_errors), kLeastNoise_px);
   }
-}
-
-void RigProblem::addRow(std::size_t pair,
-                        const RigSample& sample,
-                        double error_px,
-                        const CauseVector& by_values) {
-  const double weight = weightOf(error_px / row_noise_px_) / square(row_noise_px_);
-  const Normal normal = {weight * by_values * by_values.transpose(), weight * error_px * by_values};
-  rows_[window_of_[pair]] += normal;
-  rows_of_[regions_grid_.cell(sample.left_px.x, sample.left_px.y)] += normal;
 }
 
 /// Disparities have the noise of a match, as flows have.
@@ -290,83 +228,74 @@ RigProblem::FlowResidual RigProblem::residualOf(
   axes.row(1) << -axes(0, 1), axes(0, 0);
   axes.row(0) /= noise_px * std::sqrt(1.0 + length * length);
   axes.row(1) /= noise_px;
+  Jacobian jacobian = sample.flow_by_disparity * by_values;
+  if (skew_is_of_rows) jacobian.col(kTimeSkew).setZero();
+  for (int k = kBothLenses; k < kCauses; ++k) {
+    if (!isLeftOut(k)) jacobian.col(k) = sample.flow_by_both.col(k - kBothLenses);
+  }
   FlowResidual residual;
-  residual.value =
+  residual << axes * sample.flow_by_motion, axes * jacobian,
       axes * (sample.flow_px - displaced_px * sample.flow_by_disparity -
               sample.flow_by_both * Eigen::Map<const Eigen::Vector3d>(&values[kBothLenses]));
-  residual.by_motion = axes * sample.flow_by_motion;
-  residual.by_values = axes * sample.flow_by_disparity * by_values;
-  if (skew_is_of_rows) residual.by_values.col(kTimeSkew).setZero();
-  for (std::size_t k = kBothLenses; k < kRigCauses; ++k) {
-    if (is_left_out_[k]) continue;
-    residual.by_values.col(Eigen::Index(k)) =
-        axes * sample.flow_by_both.col(Eigen::Index(k - kBothLenses));
-  }
-  residual.region = regions_grid_.cell(sample.left_px.x, sample.left_px.y);
   return residual;
 }
 
 /// Adds those of a pair, also without each part of the image.
-void RigProblem::addFlows(std::size_t pair, const std::vector<FlowResidual>& residuals) {
+void RigProblem::addFlows(std::size_t pair,
+                          const std::vector<std::pair<FlowResidual, std::size_t>>& residuals) {
   FlowSums all;
   std::array<FlowSums, kRegions> parts;
-  for (const FlowResidual& residual : residuals) {
-    const Eigen::Vector2d left = residual.value - residual.by_motion * motions_[pair];
-    const double weight = weightOf(left.norm() / std::sqrt(2.0));
-    all.add(residual, weight);
-    parts[residual.region].add(residual, weight);
+  for (const auto& [residual, region] : residuals) {
+    const double weight = weightOf(leftOf(residual, motions_[pair]).norm() / std::sqrt(2.0));
+    for (FlowSums* sums : {&all, &parts[region]}) {
+      sums->matrix += weight * residual.transpose() * residual;
+      ++sums->count;
+    }
   }
   Normal eliminated;
   if (!all.eliminate(motions_[pair], eliminated)) return;
   flows_[window_of_[pair]] += eliminated;
   for (std::size_t r = 0; r < kRegions; ++r) {
+    const FlowSums rest = {all.matrix - parts[r].matrix, all.count - parts[r].count};
     Vector6d motion;
-    if (all.without(parts[r]).eliminate(motion, eliminated)) flows_without_[r] += eliminated;
+    if (rest.eliminate(motion, eliminated)) without_[r] += eliminated;
   }
 }
 
 Normal RigProblem::prior() const {
-  Normal normal;
+  Normal normal = Normal::Zero();
   for (std::size_t k = 0; k < kRigCauses; ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    normal.H(i, i) = 1.0 / square(kPriorSigmas[k]);
-    normal.g[i] = -values[k] / square(kPriorSigmas[k]);
+    normal(i, i) = 1.0 / square(kPriorSigmas[k]);
+    normal(i, kCauses) = normal(kCauses, i) = -values[k] / square(kPriorSigmas[k]);
   }
   return normal;
 }
 
 Normal RigProblem::total() const {
-  Normal sum = prior();
-  for (const Normal& window : rows_) sum += window;
-  for (const Normal& window : flows_) sum += window;
-  return sum;
+  return prior() + sumOf(rows_) + sumOf(flows_);
 }
 
 Normal RigProblem::totalWithout(std::size_t window) const {
-  Normal sum = total();
-  sum -= rows_[window];
-  sum -= flows_[window];
-  return sum;
+  return total() - rows_[window] - flows_[window];
 }
 
 /// With ones for what is left out.
-CauseMatrix RigProblem::restricted(CauseMatrix H) const {
+Normal RigProblem::restricted(Normal normal) const {
   for (std::size_t k = 0; k < kRigCauses; ++k) {
     if (!is_left_out_[k]) continue;
     const auto i = static_cast<Eigen::Index>(k);
-    H.row(i).setZero();
-    H.col(i).setZero();
-    H(i, i) = 1.0;
+    normal.row(i).setZero();
+    normal.col(i).setZero();
+    normal(i, i) = 1.0;
   }
-  return H;
+  return normal;
 }
 
 /// Of the values, to the least sum of squares.
-CauseVector RigProblem::changeBy(Normal sum) const {
-  for (std::size_t k = 0; k < kRigCauses; ++k) {
-    if (is_left_out_[k]) sum.g[Eigen::Index(k)] = 0.0;
-  }
-  return restricted(sum.H).ldlt().solve(sum.g);
+CauseVector RigProblem::changeBy(const Normal& normal) const {
+  const Normal free = restricted(normal);
+  return free.topLeftCorner<kCauses, kCauses>().ldlt().solve(free.topRightCorner<kCauses, 1>());
 }
 
 }  // namespace rotrocc

@@ -14,24 +14,15 @@
 
 namespace rotrocc {
 
-using CauseVector = Eigen::Matrix<double, kRigCauses, 1>;
-using CauseMatrix = Eigen::Matrix<double, kRigCauses, kRigCauses>;
-
 /// Standard deviations of the values before anything is measured: those of a bad calibration. They
 /// decide only what the images do not.
 constexpr RigCauses kPriorSigmas = {
     0.02, 0.02, 0.02, 0.03, 10.0, 0.1, 0.03, 10.0, 0.02, 0.1, 100.0, 100.0};
 
-/// A sum of squares after a change of the values: c - 2 g^T change + change^T H change.
-struct Normal {
-  CauseMatrix H = CauseMatrix::Zero();
-  CauseVector g = CauseVector::Zero();
+using CauseVector = Eigen::Matrix<double, kRigCauses, 1>;
 
-  Normal& operator+=(const Normal& other);
-  Normal& operator-=(const Normal& other);
-  /// How much less the sum is after a change.
-  double gainBy(const CauseVector& change) const;
-};
+/// Sum of w [J r]^T [J r] over residuals r with the derivatives J by the values, up to the sign.
+using Normal = Eigen::Matrix<double, kRigCauses + 1, kRigCauses + 1>;
 
 /// The least squares of a rig: rows, and flows with the error of each pair's motion eliminated,
 /// with Cauchy weights, by Gauss and Newton.
@@ -41,20 +32,19 @@ class RigProblem {
              const std::vector<PairSamples>& pairs,
              const Windows& windows);
 
-  /// Solves for the values that are not left out.
-  void solve();
+  /// Solves for the values that are not left out; those of a bad calibration need two iterations.
+  void solve(int iterations = 4);
 
   /// Of values, at the solution: the largest ones of independent errors, of the scatter without
   /// each window of time, and without each part of the image, which has errors that the causes do
   /// not describe.
   RigCauses sigmas() const;
 
-  /// The bias in each window, at the other values; of infinite deviation if it does not show it.
-  std::vector<Estimate> biases();
-
-  /// What makes a plane of rows, as a turn of the camera does: kOffset, kRoll and kFocal, by each
-  /// window alone, at the other values; of infinite deviation if it does not show them.
-  std::vector<std::array<Estimate, 3>> planes(const Windows& windows) const;
+  /// Of each of some causes the values by each window alone, at the other values; of infinite
+  /// deviation if it does not show it.
+  std::vector<std::vector<Estimate>> courses(const std::vector<RigCause>& causes,
+                                             const Windows& windows,
+                                             int iterations = 4) const;
 
   /// See RigModel: of rows and flows. Values that are zero in `corrected` are not corrected.
   std::pair<Estimate, Estimate> gains(const RigCauses& corrected) const;
@@ -77,35 +67,32 @@ class RigProblem {
   static constexpr int kRegionRows = 2;
   static constexpr std::size_t kRegions = kRegionColumns * kRegionRows;
 
+  /// Derivatives of a flow by the error of the motion and by the values, and what is left of it;
+  /// along and across the change of the flow by the disparity, over their noise.
+  using FlowResidual = Eigen::Matrix<double, 2, 6 + kRigCauses + 1>;
   using Jacobian = Eigen::Matrix<double, 2, kRigCauses>;
-  struct FlowResidual;
-  struct FlowSums;
 
   void linearize();
-  void addRow(std::size_t pair,
-              const RigSample& sample,
-              double error_px,
-              const CauseVector& by_values);
   FlowResidual residualOf(const PairSamples& pair,
                           const RigSample& sample,
                           double displaced_px,
                           const Eigen::Matrix<double, 1, kRigCauses>& by_values) const;
-  void addFlows(std::size_t pair, const std::vector<FlowResidual>& residuals);
-  double sharedFactor() const;
+  void addFlows(std::size_t pair,
+                const std::vector<std::pair<FlowResidual, std::size_t>>& residuals);
   Normal prior() const;
   Normal total() const;
   Normal totalWithout(std::size_t window) const;
-  CauseMatrix restricted(CauseMatrix H) const;
-  CauseVector changeBy(Normal sum) const;
+  Normal restricted(Normal normal) const;
+  CauseVector changeBy(const Normal& normal) const;
 
   const StereoCamera& camera_;
   const std::vector<PairSamples>& pairs_;
   ImageGrid regions_grid_;
-  std::array<bool, kRigCauses> is_left_out_ = {};         // these are zero
-  std::vector<std::size_t> window_of_;                    // of a pair
-  std::vector<Vector6d> motions_;                         // errors, for each pair
-  std::vector<Normal> rows_, flows_;                      // for each window
-  std::array<Normal, kRegions> rows_of_, flows_without_;  // each part of the image
+  std::array<bool, kRigCauses> is_left_out_ = {};  // these are zero
+  std::vector<std::size_t> window_of_;             // of a pair
+  std::vector<Vector6d> motions_;                  // errors, for each pair
+  std::vector<Normal> rows_, flows_;               // for each window
+  std::array<Normal, kRegions> without_;           // each part of the image: flows, minus its rows
   double row_noise_px_ = 1.0;
   double flow_noise_ = 1.0;  // over that of the odometry
 };

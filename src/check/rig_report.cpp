@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -125,13 +126,10 @@ std::string toText(const RigReport& report) {
   text << report.title << '\n' << report.summary << "\n\n";
   text << report.advice() << "\n\n" << toText(report.findings) << '\n';
   text << kNotSeen << '\n';
-  const auto count = [&](Verdict verdict) {
-    return std::count_if(report.findings.begin(),
-                         report.findings.end(),
-                         [=](const Finding& finding) { return finding.verdict == verdict; });
-  };
-  text << count(Verdict::kFix) << " to fix, " << count(Verdict::kAcceptable) << " acceptable, "
-       << count(Verdict::kGood) << " good, " << count(Verdict::kUnknown) << " unknown\n";
+  std::map<Verdict, int> counts;
+  for (const Finding& finding : report.findings) ++counts[finding.verdict];
+  text << counts[Verdict::kFix] << " to fix, " << counts[Verdict::kAcceptable] << " acceptable, "
+       << counts[Verdict::kGood] << " good, " << counts[Verdict::kUnknown] << " unknown\n";
   if (report.corrected) {
     text << "\nWith the corrected calibration:\n\n" << toText(*report.corrected);
   }

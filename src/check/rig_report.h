@@ -40,6 +40,9 @@ struct Graded {
   double acceptable, fix;
 };
 
+/// What has no size: it is there.
+constexpr Graded kToFix = {{100.0}, 0.0, 1.0}, kToLookAt = {{0.9}, 0.0, 1.0};
+
 struct RigReport {
   std::string title;    ///< what was checked
   std::string summary;  ///< its size, in one line

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "common/to_seconds.h"
 
@@ -75,8 +74,7 @@ void RigSampler::observe(const CheckedPair& pair) {
     if (pair.inliers[i] == 0) continue;
     const Correspondence& feature = pair.features[i];
     RigSample sample;
-    sample.left_px =
-        cv::Point2f(static_cast<float>(feature.cur_px.x()), static_cast<float>(feature.cur_px.y()));
+    sample.left_px = cv::Point2d(feature.cur_px.x(), feature.cur_px.y());
     sample.x_right =
         (feature.cur_px.x() - feature.disparity_px - pair.camera.cx_right) / pair.camera.fx;
     sample.y = (feature.cur_px.y() - pair.camera.cy) / pair.camera.fy;
@@ -93,7 +91,6 @@ void RigSampler::measureRow(const CheckedPair& pair,
   const cv::Point2f left = sample.left_px + shiftOf(samples_++);
   cv::Point2f right = left + cv::Point2f(-static_cast<float>(feature.disparity_px),
                                          static_cast<float>(pair.result.row_offset.applied_px));
-  sample.row_px = std::numeric_limits<double>::quiet_NaN();
   // Again from where it stops, up to 0.04 px before the end.
   constexpr int kSearches = 3;
   for (int i = 0; i < kSearches; ++i) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,7 +37,10 @@ class ViewCheck : public PairCheck {
   void observe(const CheckedPair& pair) override {
     camera_ = pair.camera;
     const ImageGrid grid = mapOf(camera_.width, camera_.height, kColumns);
-    map_.resize(grid.count());
+    if (features_.empty()) {
+      for (cv::Mat_<float>* map : {&features_, &inliers_, &still_})
+        *map = cv::Mat_<float>::zeros(grid.size());
+    }
     ++pairs_;
     corners_ += pair.result.counts.corners;
     with_depth_ += pair.result.counts.with_depth;
@@ -46,9 +48,9 @@ class ViewCheck : public PairCheck {
     if (!pair.result.hasMotion()) return;
     for (std::size_t i = 0; i < pair.features.size(); ++i) {
       const Eigen::Vector2d& pixel = pair.features[i].cur_px;
-      Cell& cell = map_[grid.cell(pixel.x(), pixel.y())];
-      ++cell.features;
-      cell.inliers += pair.inliers[i] != 0 ? 1 : 0;
+      const auto cell = static_cast<int>(grid.cell(pixel.x(), pixel.y()));
+      features_(cell) += 1.0F;
+      if (pair.inliers[i] != 0) inliers_(cell) += 1.0F;
     }
   }
 
@@ -59,11 +61,6 @@ class ViewCheck : public PairCheck {
   }
 
  private:
-  struct Cell {
-    int features = 0, inliers = 0;
-    int still = 0;  ///< pairs in which it stays as it is, while others change
-  };
-
   /// Counts the cells with texture that stay as they are while others change.
   void compareWithLast(const CheckedPair& pair, const ImageGrid& grid) {
     constexpr float kOverNoise = 2.0F;  // a change
@@ -71,32 +68,20 @@ class ViewCheck : public PairCheck {
     constexpr double kChanging = 0.3;   // of the cells with texture
     constexpr double kStill_px = 0.5;
     const cv::Mat& image = pair.images.left;
-    if (last_.size() != image.size()) {
-      last_ = image.clone();
-      return;
-    }
+    const cv::Mat last = std::exchange(last_, image.clone());
+    if (last.empty()) return;
     cv::Mat difference;
-    cv::absdiff(image, last_, difference);
+    cv::absdiff(image, last, difference);
     const cv::Mat_<float> changes = cellMeans(difference, grid);
     const cv::Mat_<float> textures = detailOf(image, grid);
-    image.copyTo(last_);
     const float noise = noiseOf(changes, cellMeans(image, grid));
-    std::vector<std::size_t> still;
-    int changing = 0;
-    for (std::size_t i = 0; i < changes.total(); ++i) {
-      const auto cell = static_cast<int>(i);
-      if (textures(cell) < kTexture * noise) continue;
-      if (changes(cell) < kOverNoise * noise) {
-        still.push_back(i);
-      } else {
-        ++changing;
-      }
-    }
-    const auto textured = static_cast<double>(still.size()) + changing;
-    if (changing == 0 || changing < kChanging * textured) return;
+    const cv::Mat textured = textures >= kTexture * noise;
+    const cv::Mat still = textured & (changes < kOverNoise * noise);
+    const int changing = cv::countNonZero(textured) - cv::countNonZero(still);
+    if (changing == 0 || changing < kChanging * cv::countNonZero(textured)) return;
     ++changing_pairs_;
     if (pair.result.hasMotion() && pair.flow_px < kStill_px) ++resting_pairs_;
-    for (const std::size_t cell : still) ++map_[cell].still;
+    cv::add(still_, 1.0, still_, still);
   }
 
   /// Change of what stands still: of the cells that change least, but for clipped ones, which have
@@ -106,11 +91,8 @@ class ViewCheck : public PairCheck {
     constexpr float kBright = 247.0F;
     constexpr float kLeast = 0.5F;  // of rounding
     std::vector<float> exposed;
-    for (int row = 0; row < changes.rows; ++row) {
-      for (int column = 0; column < changes.cols; ++column) {
-        const float gray = grays(row, column);
-        if (gray > kDark && gray < kBright) exposed.push_back(changes(row, column));
-      }
+    for (int cell = 0; cell < static_cast<int>(changes.total()); ++cell) {
+      if (grays(cell) > kDark && grays(cell) < kBright) exposed.push_back(changes(cell));
     }
     return exposed.empty() ? kLeast : std::max(quantile(exposed, 0.1), kLeast);
   }
@@ -127,22 +109,18 @@ class ViewCheck : public PairCheck {
         {{1.0 - with_depth}, 0.5, 0.8});
     ReportTable table = {"view_map", "x_px,y_px,features,inliers", {}};
     const ImageGrid grid = mapOf(camera_.width, camera_.height, kColumns);
-    for (std::size_t i = 0; i < map_.size(); ++i) {
+    for (std::size_t i = 0; i < grid.count(); ++i) {
       const cv::Point2d center = grid.center(i);
-      table.rows.push_back({center.x,
-                            center.y,
-                            static_cast<double>(map_[i].features),
-                            static_cast<double>(map_[i].inliers)});
+      const auto cell = static_cast<int>(i);
+      table.rows.push_back({center.x, center.y, features_(cell), inliers_(cell)});
     }
     report.tables.push_back(std::move(table));
   }
 
   void addCoverage(RigReport& report) const {
-    const auto seen = std::count_if(map_.begin(), map_.end(), [&](const Cell& cell) {
-      return cell.inliers * 80 >
-             pairs_;  // in each 80th pair; a cell of other maps is four times as large
-    });
-    const double empty = 1.0 - static_cast<double>(seen) / static_cast<double>(map_.size());
+    // In each 80th pair; a cell of other maps is four times as large.
+    const int seen = cv::countNonZero(inliers_ > pairs_ / 80.0);
+    const double empty = 1.0 - share(seen, static_cast<int>(inliers_.total()));
     report.add({"view",
                 "coverage",
                 "features in " + percent(1.0 - empty) + " of the image",
@@ -171,16 +149,11 @@ class ViewCheck : public PairCheck {
   /// Cells that stand still while the rest changes, one pixel each, and whose
   /// features do not agree with the motion, unless that is theirs. Single ones are not the robot.
   cv::Mat standingStill() const {
-    cv::Mat cells = cv::Mat::zeros(mapOf(camera_.width, camera_.height, kColumns).size(), CV_8UC1);
-    if (changing_pairs_ < kLeastPairs) return cells;
+    if (changing_pairs_ < kLeastPairs) return cv::Mat::zeros(still_.size(), CV_8UC1);
+    cv::Mat cells = still_ > 0.5 * changing_pairs_;
     const bool follows_robot =
         2 * resting_pairs_ > changing_pairs_ && resting_pairs_ >= kLeastPairs;
-    for (std::size_t i = 0; i < map_.size(); ++i) {
-      const Cell& cell = map_[i];
-      const bool disagrees = share(cell.inliers, cell.features) < kMostAgreeing;
-      const bool stands_still = share(cell.still, changing_pairs_) > 0.5;
-      if (stands_still && (follows_robot || disagrees)) cells.data[i] = 255;
-    }
+    if (!follows_robot) cells &= inliers_ <= kMostAgreeing * features_;
     const cv::Mat plus = cv::getStructuringElement(cv::MORPH_RECT, {3, 3});
     cv::Mat closed;
     cv::morphologyEx(cells, closed, cv::MORPH_CLOSE, plus, {-1, -1}, 1, cv::BORDER_REPLICATE);
@@ -188,8 +161,9 @@ class ViewCheck : public PairCheck {
   }
 
   StereoCamera camera_;
-  std::vector<Cell> map_;
-  cv::Mat last_;                                // left image
+  cv::Mat_<float> features_, inliers_;  // in each cell
+  cv::Mat_<float> still_;               // pairs in which a cell stays as it is, while others change
+  cv::Mat last_;                        // left image
   int changing_pairs_ = 0, resting_pairs_ = 0;  // whose images change; of these, without a motion
   int pairs_ = 0;
   int corners_ = 0, with_depth_ = 0;

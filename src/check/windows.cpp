@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "common/median.h"
 #include "input/to_text.h"
@@ -13,7 +12,6 @@ namespace {
 
 constexpr std::size_t kLeastWindows = 2;
 constexpr std::size_t kPairsPerWindow = 5;
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -40,11 +38,9 @@ std::size_t Windows::of(double time_s) const {
 
 Estimate meanOf(const std::vector<double>& values) {
   const auto count = static_cast<double>(values.size());
-  if (values.empty()) return {kUnknown, kUnknown};
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
-  double squares = 0.0;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return {mean, count < 2.0 ? kUnknown : std::sqrt(squares / (count - 1.0) / count)};
+  const auto all = Eigen::ArrayXd::Map(values.data(), static_cast<Eigen::Index>(values.size()));
+  const double mean = all.sum() / count;
+  return {mean, std::sqrt((all - mean).square().sum() / (count - 1.0) / count)};
 }
 
 Estimate overWindows(const std::vector<TimedValue>& values,
@@ -62,37 +58,29 @@ Estimate overWindows(const std::vector<TimedValue>& values,
 }
 
 Estimate scatterBeyondNoise(const std::vector<Estimate>& values) {
-  double count = 0.0, mean = 0.0, squares = 0.0, variance = 0.0;
-  for (const Estimate& estimate : values) {
-    if (!std::isfinite(estimate.sigma)) continue;
+  double count = 0.0, sum = 0.0, sum_x = 0.0, sum_xx = 0.0, sum_w2 = 0.0;
+  for (const auto& [x, sigma] : values) {
+    if (!std::isfinite(sigma)) continue;
+    const double w = 1.0 / (sigma * sigma);
     count += 1.0;
-    mean += estimate.value;
-    variance += estimate.sigma * estimate.sigma;
+    sum += w;
+    sum_x += w * x;
+    sum_xx += w * x * x;
+    sum_w2 += w * w;
   }
   if (count < 2.0) return {0.0, std::numeric_limits<double>::infinity()};
-  mean /= count;
-  variance /= count;
-  for (const Estimate& estimate : values) {
-    if (std::isfinite(estimate.sigma))
-      squares += std::pow(estimate.value - mean, 2) / (count - 1.0);
-  }
-  const double scatter = std::sqrt(std::max(squares - variance, 0.0));
-  // That of a variance of normal values.
-  const double sigma2 = variance * std::sqrt(2.0 / (count - 1.0));
-  return {scatter, sigma2 / (2.0 * std::max({scatter, std::sqrt(variance), 1e-12}))};
+  const double squares = sum_xx - sum_x * sum_x / sum;
+  const double scale = sum - sum_w2 / sum;
+  const double scatter = std::sqrt(std::max(squares - (count - 1.0), 0.0) / scale);
+  // That of a sum of squares of normal values.
+  const double sigma2 = std::sqrt(2.0 * (count - 1.0)) / scale;
+  return {scatter, sigma2 / (2.0 * std::max(scatter, std::sqrt(sigma2)))};
 }
 
-std::vector<double> jackknifeSigmas(const std::vector<std::vector<double>>& without) {
-  const auto count = static_cast<double>(without.size());
-  std::vector<double> sigmas(without.front().size());
-  for (std::size_t k = 0; k < sigmas.size(); ++k) {
-    double mean = 0.0;
-    for (const auto& values : without) mean += values[k] / count;
-    double squares = 0.0;
-    for (const auto& values : without) squares += (values[k] - mean) * (values[k] - mean);
-    sigmas[k] = std::sqrt((count - 1.0) / count * squares);
-  }
-  return sigmas;
+Eigen::VectorXd jackknifeSigmas(const Eigen::MatrixXd& without) {
+  const auto count = static_cast<double>(without.cols());
+  const Eigen::MatrixXd deviations = without.colwise() - without.rowwise().mean();
+  return std::sqrt((count - 1.0) / count) * deviations.rowwise().norm();
 }
 
 }  // namespace rotrocc

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace rotrocc {
 
 /// A value and its standard deviation.
@@ -55,12 +57,12 @@ Estimate overWindows(const std::vector<TimedValue>& values,
                      const Windows& windows,
                      std::size_t least = 1);
 
-/// The standard deviation of values beyond their own, and its standard deviation; {0, infinity} for
-/// less than two finite ones.
+/// The standard deviation of values beyond their own (DerSimonian and Laird 1986), and its standard
+/// deviation; {0, infinity} for less than two finite ones.
 Estimate scatterBeyondNoise(const std::vector<Estimate>& values);
 
 /// Standard deviations of several values from estimates that each leave out one window (jackknife,
-/// Quenouille 1956, Tukey 1958). `without[w]` has the values without window w.
-std::vector<double> jackknifeSigmas(const std::vector<std::vector<double>>& without);
+/// Quenouille 1956, Tukey 1958). Column w of `without` has the values without window w.
+Eigen::VectorXd jackknifeSigmas(const Eigen::MatrixXd& without);
 
 }  // namespace rotrocc

@@ -54,6 +54,14 @@ bool keepBelow(const std::vector<double>& errors, double threshold, FeatureSet& 
   return changed;
 }
 
+double medianFlow_px(const Correspondences& features, const FeatureSet& set) {
+  std::vector<double> flows_px;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (set[i] != 0) flows_px.push_back((features[i].cur_px - features[i].keyframe_px).norm());
+  }
+  return flows_px.empty() ? 0.0 : median(flows_px);
+}
+
 int count(const FeatureSet& set) {
   return static_cast<int>(std::count(set.begin(), set.end(), static_cast<char>(1)));
 }

@@ -85,6 +85,9 @@ double fixedLimit(double limit, double drop_share, std::vector<double>& errors);
 /// added again, as in Eq. 26. Returns whether the set changed.
 bool keepBelow(const std::vector<double>& errors, double threshold, FeatureSet& set);
 
+/// Median length of the flow of the features of a set [px]; 0 if there are none.
+double medianFlow_px(const Correspondences& features, const FeatureSet& set);
+
 /// Number of features in a set.
 int count(const FeatureSet& set);
 

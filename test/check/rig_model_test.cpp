@@ -208,11 +208,18 @@ TEST(WindowsTest, CountWhatLasts) {
   EXPECT_TRUE(std::isnan(overWindows({{1.0, 2.0}}, windows).sigma));
 }
 
+TEST(WindowsTest, ScatterIsWhatTheUncertaintyDoesNotExplain) {
+  const std::vector<Estimate> constant = {{0.1, 0.1}, {-0.1, 0.1}, {0.0, 0.1}, {-1.0, 1.0}};
+  EXPECT_LT(scatterBeyondNoise(constant).value, 0.1);
+  const std::vector<Estimate> moving = {{2.0, 0.1}, {-2.0, 0.1}, {2.0, 0.1}, {-2.0, 0.1}};
+  EXPECT_NEAR(scatterBeyondNoise(moving).value, std::sqrt(16.0 / 3.0), 0.01);
+  EXPECT_TRUE(std::isinf(scatterBeyondNoise({{1.0, 0.1}}).sigma));
+}
+
 /// For a mean, the jackknife is the usual formula.
 TEST(WindowsTest, TheJackknifeOfAMeanIsItsStandardError) {
-  const std::vector<double> values = {1.0, 2.0, 4.0, 7.0};
-  std::vector<std::vector<double>> without;
-  for (const double left_out : values) without.push_back({(14.0 - left_out) / 3.0});
+  const Eigen::RowVector4d values(1.0, 2.0, 4.0, 7.0);
+  const Eigen::RowVector4d without = (values.sum() - values.array()) / 3.0;
   EXPECT_NEAR(jackknifeSigmas(without)[0], std::sqrt(21.0 / 3.0 / 4.0), 1e-12);
 }
 

@@ -10,10 +10,10 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "common/median.h"
 #include "features/correspondence_finder.h"
 #include "features/image_noise.h"
 #include "input/to_text.h"
+#include "motion/feature_errors.h"
 
 namespace rotrocc {
 namespace {
@@ -72,14 +72,8 @@ class MatchCounter {
 /// Whether the features that agree with the last motion stand still in the image.
 bool standsStill(const VisualOdometry& odometry, double flow_noise_px) {
   constexpr double kOverNoise = 3.0;
-  const Correspondences& features = odometry.correspondences();
-  const FeatureSet& inliers = odometry.translationInliers();
-  std::vector<double> flows_px;
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    if (inliers[i] == 0) continue;
-    flows_px.push_back((features[i].cur_px - features[i].keyframe_px).norm());
-  }
-  return flows_px.empty() || median(flows_px) < kOverNoise * flow_noise_px;
+  return medianFlow_px(odometry.correspondences(), odometry.translationInliers()) <=
+         kOverNoise * flow_noise_px;
 }
 
 /// The features that agree on the motion from a pair to the next.
