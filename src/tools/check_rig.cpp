@@ -10,6 +10,7 @@
 #include "check/calibration_correction.h"
 #include "check/rig_check.h"
 #include "files/report_directory.h"
+#include "input/to_text.h"
 #include "tools/draw_report.h"
 #include "tools/input_options.h"
 #include "tools/program.h"
@@ -101,7 +102,9 @@ void run(const Options& options) {
   const CheckedRig rig = checkInput(options);
   std::cout << toText(rig.report);
   if (rig.report.corrected) {
-    std::cout << "\nwritten: " << options.camera_info << "/left.yaml and right.yaml\n";
+    const StereoCamera& camera = rig.measures.calibration.rectified;
+    std::cout << "\nwritten: " << options.camera_info << "/left.yaml and right.yaml, for images of "
+              << sizeText(camera.width, camera.height) << ", without binning and roi\n";
   }
   std::cout.flush();
   constexpr int kToFix = 3;  // exit status
