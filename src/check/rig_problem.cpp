@@ -243,15 +243,14 @@ RigProblem::FlowResidual RigProblem::residualOf(
 /// Adds those of a pair, also without each part of the image.
 void RigProblem::addFlows(std::size_t pair,
                           const std::vector<std::pair<FlowResidual, std::size_t>>& residuals) {
-  FlowSums all;
   std::array<FlowSums, kRegions> parts;
   for (const auto& [residual, region] : residuals) {
     const double weight = weightOf(leftOf(residual, motions_[pair]).norm() / std::sqrt(2.0));
-    for (FlowSums* sums : {&all, &parts[region]}) {
-      sums->matrix += weight * residual.transpose() * residual;
-      ++sums->count;
-    }
+    parts[region].matrix += weight * residual.transpose() * residual;
+    ++parts[region].count;
   }
+  FlowSums all;
+  for (const FlowSums& part : parts) all = {all.matrix + part.matrix, all.count + part.count};
   Normal eliminated;
   if (!all.eliminate(motions_[pair], eliminated)) return;
   flows_[window_of_[pair]] += eliminated;
