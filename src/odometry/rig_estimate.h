@@ -57,8 +57,8 @@ class RigEstimate {
   /// used: the inliers of a motion with a wrong bias are those that agree with this bias.
   void observeBias(const Hypothesis& found);
 
-  /// Measures the row offset at a reliable motion, neither lost nor degraded, from the keyframe to
-  /// the current frame.
+  /// Measures the row offset at a motion that enough features support, from the keyframe to the
+  /// current frame.
   void observeRows(const Hypothesis& found, const Keyframe& keyframe, const StereoFrame& current);
 
   /// Stores the estimates, with the corrections of the next pair, in pixels of whole images.
