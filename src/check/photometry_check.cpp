@@ -137,7 +137,7 @@ Spectrum spectrumOf(const cv::Mat& image,
 /// matter.
 double blurOfRight_px2(const Spectrum& of_left, const Spectrum& of_right) {
   constexpr double kMost_px2 = 16.0;
-  constexpr double kOverNoise = 3.0;
+  constexpr double kOverNoise = 10.0;  // the noise is known by some percent
   const int count = of_left.power.cols;
   // Sums over rings of about equal frequencies: of both powers, of w^2, and the number of bins.
   std::vector<cv::Vec4d> rings(static_cast<std::size_t>(count / 2 + 1), cv::Vec4d());
