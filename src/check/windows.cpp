@@ -28,7 +28,7 @@ std::string toText(const Estimate& estimate, const std::string& unit) {
 }
 
 Windows::Windows(double duration_s, std::size_t pairs, std::size_t wanted)
-    : count_(std::clamp(pairs / kPairsPerWindow, kLeastWindows, wanted)),
+    : count_(std::clamp(pairs / kPairsPerWindow, std::min(kLeastWindows, wanted), wanted)),
       length_s_(std::max(duration_s, 1e-9) / static_cast<double>(count_)) {}
 
 std::size_t Windows::of(double time_s) const {

@@ -30,7 +30,7 @@ struct TimedValue {
 };
 
 /// The time of a recording in equal windows: as many as wanted, or fewer if there are less than
-/// five pairs for each, but at least two.
+/// five pairs for each, but at least two, unless one is wanted.
 class Windows {
  public:
   Windows(double duration_s, std::size_t pairs, std::size_t wanted = 10);

@@ -324,8 +324,8 @@ TEST(RigCheckTest, ACropOfBothImagesShowsInTurns) {
   const Finding first = checkRig(recording, {}).report.findings.at(0);
   EXPECT_EQ(first.subject, "principal points") << first.measured;
   EXPECT_EQ(first.verdict, Verdict::kFix);
-  const Estimate estimate = estimateOf(first);
-  EXPECT_NEAR(estimate.value, -kCrop_px, 3.0 * estimate.sigma) << first.measured;
+  // A fit that is linear leaves a part of so large an error to the next one.
+  EXPECT_NEAR(estimateOf(first).value, -kCrop_px, 0.1 * kCrop_px) << first.measured;
   std::cout << "cropped: " << first.measured << '\n';
 }
 
