@@ -50,8 +50,7 @@ std::string whyNone(const RigMeasures& measures) {
   }
   if (!measures.model.exceeds(1.0, kBias)) return "rows and disparities have no error to be fixed";
   return "the images do not show which of two causes it is, and a correction of the wrong one "
-         "would "
-         "be no better: drive where features fill the image";
+         "would be no better: drive where features fill the image";
 }
 
 /// The calibration that makes rows equal and disparities right. The right camera takes all of it:

@@ -176,8 +176,8 @@ bool addRowsOverTime(const StereoCamera& camera,
                      double rows_px,
                      RigReport& report) {
   addCourse("rows_time", "time_s,row_px,sigma_px", courses[0], windows, report);
-  // The middle, and at half of the image in x and y, where the mean square is a
-  // third of that at the border.
+  // The middle, and at half of the image in x and y, where the mean square is a third of that at
+  // the border.
   const double rms_px = 0.5 / std::sqrt(3.0);
   const Estimate middle = scatterBeyondNoise(courses[0]);
   const Estimate in_x = scatterBeyondNoise(courses[1]) * (rms_px * camera.width);
